@@ -1,0 +1,24 @@
+//! Ground springs that let a finite element program follow Housner's theory of rocking.
+//!
+//! The modules stand in the order in which data flows through the program:
+//!
+//! ```text
+//! record ──┐
+//! structure┼─> housner ──────────────┐
+//!          │                         ├─> compare ─> tuning ─> export, figures
+//! spring ──┴─> fem ──────────────────┘      ^
+//!   ^                                       │
+//!   └── response (ARR) <────────────────────┘
+//! ```
+//!
+//! Symbols are those of Ma, Butterworth & Davidson, "Modelling rocking structures using standard
+//! finite elements", NZSEE Conference 2005; numbers in brackets, as (7), are its equations.
+//! Units are SI throughout; angles in radians; theta > 0 leans to the right, u > 0 is to the right.
+
+pub mod scalar;
+
+pub mod structure;
+
+pub mod spring;
+
+pub mod motion;

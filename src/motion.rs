@@ -1,0 +1,73 @@
+//! A motion sampled at the record's instants: what both models answer with, and what is compared.
+
+/// Motion of the centre of mass, relative to the ground, at the record's samples (t = i dt).
+///
+/// The three vectors have one length. It is shorter than the record when the body toppled.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct Motion {
+    /// Horizontal displacement, positive to the right [m].
+    pub u: Vec<f64>,
+    /// Vertical displacement, positive up, from the settled position [m].
+    pub v: Vec<f64>,
+    /// Rotation, positive leaning to the right [rad].
+    pub theta: Vec<f64>,
+}
+
+impl Motion {
+    /// Number of samples.
+    pub fn len(&self) -> usize {
+        self.u.len()
+    }
+
+    /// Whether there is no sample.
+    pub fn is_empty(&self) -> bool {
+        self.u.is_empty()
+    }
+
+    /// A motion with room for n samples.
+    pub fn with_capacity(n: usize) -> Self {
+        Self { u: Vec::with_capacity(n), v: Vec::with_capacity(n), theta: Vec::with_capacity(n) }
+    }
+
+    /// Append one sample.
+    pub fn push(&mut self, u: f64, v: f64, theta: f64) {
+        self.u.push(u);
+        self.v.push(v);
+        self.theta.push(theta);
+    }
+}
+
+/// sqrt( sum (x - x_ref)^2 / sum x_ref^2 ) over the common length; infinite when the reference is
+/// zero and x is not, zero when both are.
+pub fn nrmse(x: &[f64], reference: &[f64]) -> f64 {
+    let (mut above, mut below) = (0.0, 0.0);
+    for (a, b) in x.iter().zip(reference) {
+        above += (a - b) * (a - b);
+        below += b * b;
+    }
+    if above == 0.0 { 0.0 } else { (above / below).sqrt() }
+}
+
+/// The largest |x|, with its sign; zero for an empty slice.
+pub fn peak(x: &[f64]) -> f64 {
+    x.iter().copied().fold(0.0, |best: f64, x| if x.abs() > best.abs() { x } else { best })
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn nrmse_of_a_scaled_copy_is_the_scale_error() {
+        let reference = [1.0, -2.0, 3.0];
+        let scaled: Vec<f64> = reference.iter().map(|x| 1.1 * x).collect();
+        assert!((nrmse(&scaled, &reference) - 0.1).abs() < 1e-15);
+        assert_eq!(nrmse(&reference, &reference), 0.0);
+    }
+
+    #[test]
+    fn peak_keeps_the_sign() {
+        assert_eq!(peak(&[1.0, -3.0, 2.0]), -3.0);
+        assert_eq!(peak(&[]), 0.0);
+    }
+}
