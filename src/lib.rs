@@ -21,4 +21,6 @@ pub mod structure;
 
 pub mod spring;
 
+pub mod response;
+
 pub mod motion;
