@@ -24,3 +24,5 @@ pub mod spring;
 pub mod response;
 
 pub mod motion;
+
+pub mod fem;

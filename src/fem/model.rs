@@ -1,0 +1,274 @@
+//! The discrete model: a plane rigid body on two feet, each foot on a vertical and a horizontal chain.
+//!
+//! ```text
+//!   q = [ X, Z, theta,  ax_L, az_L,  ax_R, az_R ]      body (3), absorber masses of the left and right foot (2 each)
+//!
+//!   foot of side s (-1 left, +1 right), large rotation:
+//!     p_x = X + s b (cos theta - 1) - h sin theta           p_z = Z - s b sin theta + h (1 - cos theta)
+//!   gap, closed while it presses:   N =  k1_v (a_z - p_z)            (> 0: the ground pushes the foot up)
+//!                                   H = -k1_h (p_x - a_x - anchor)   (only while N acts)
+//!   m  X''     = -m ug'' + sum H                m2_h a_x'' = -m2_h ug'' - H - k2_h a_x - c_h a_x'
+//!   m  Z''     = -m g    + sum N                m2_v a_z'' =            - N - k2_v a_z - c_v a_z'
+//!   I  theta'' = sum ( H dp_x/dtheta + N dp_z/dtheta )
+//! ```
+//!
+//! Displacements are relative to the ground; gravity acts on the body only, so an open absorber rests at zero, as in
+//! the engineer's deck, where the weight is a load on the mass.
+
+use crate::{
+    scalar::{GRAVITY, Scalar, real},
+    spring::{Chain, Springs},
+    structure::Body,
+};
+
+/// Number of coordinates.
+pub(crate) const N: usize = 7;
+/// Sides of the two feet: left, right.
+pub(crate) const SIDE: [f64; 2] = [-1.0, 1.0];
+/// Index of the body's horizontal displacement X.
+pub(crate) const X: usize = 0;
+/// Index of the body's vertical displacement Z.
+pub(crate) const Z: usize = 1;
+/// Index of the rotation theta.
+pub(crate) const TH: usize = 2;
+
+/// Index of foot i's horizontal absorber displacement.
+#[inline(always)]
+pub(crate) const fn ax(i: usize) -> usize {
+    3 + 2 * i
+}
+
+/// Index of foot i's vertical absorber displacement.
+#[inline(always)]
+pub(crate) const fn az(i: usize) -> usize {
+    4 + 2 * i
+}
+
+/// A vector of the seven coordinates.
+pub(crate) type Vector<S> = [S; N];
+
+/// Positions and velocities.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct State<S> {
+    pub q: Vector<S>,
+    pub v: Vector<S>,
+}
+
+/// How a foot meets its ground chain.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(crate) enum Contact {
+    /// In the air: no force.
+    Open,
+    /// Pressing, its horizontal spring anchored.
+    Stick,
+}
+
+/// A foot's contact and the horizontal anchor it landed on [m].
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Foot<S> {
+    pub contact: Contact,
+    pub anchor: S,
+}
+
+impl<S> Foot<S> {
+    pub fn closed(&self) -> bool {
+        self.contact != Contact::Open
+    }
+}
+
+/// Body and springs, ready to compute with.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Model<S> {
+    pub body: Body<S>,
+    pub springs: Springs<Chain<S>>,
+}
+
+/// A foot's kinematics and contact forces in one configuration.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct FootForce<S> {
+    /// dp_x/dtheta [m].
+    pub px_th: S,
+    /// dp_z/dtheta [m].
+    pub pz_th: S,
+    /// Horizontal force on the foot [N].
+    pub horizontal: S,
+    /// Vertical force on the foot, positive when pressing [N].
+    pub vertical: S,
+}
+
+impl<S: Scalar> Model<S> {
+    /// Position of foot i relative to where it stood, with the derivatives by theta: (p_x, p_z, dp_x, dp_z).
+    #[inline(always)]
+    fn foot(&self, i: usize, q: &Vector<S>, sin: S, cos: S) -> (S, S, S, S) {
+        let sb = self.body.half_width * SIDE[i];
+        let h = self.body.height;
+        let one_minus_cos = sin * sin / (cos + 1.0);
+        let px = q[X] - sb * one_minus_cos - h * sin;
+        let pz = q[Z] - sb * sin + h * one_minus_cos;
+        (px, pz, -(sb * sin + h * cos), h * sin - sb * cos)
+    }
+
+    /// Compression of foot i's gap, a_z - p_z: positive when the foot presses [m].
+    pub fn compression(&self, i: usize, q: &Vector<S>) -> S {
+        let (sin, cos) = (q[TH].sin(), q[TH].cos());
+        q[az(i)] - self.foot(i, q, sin, cos).1
+    }
+
+    /// Rate of the compression [m/s].
+    pub fn compression_rate(&self, i: usize, state: &State<S>) -> S {
+        let (sin, cos) = (state.q[TH].sin(), state.q[TH].cos());
+        let pz_th = self.foot(i, &state.q, sin, cos).3;
+        state.v[az(i)] - state.v[Z] - pz_th * state.v[TH]
+    }
+
+    /// The anchor that leaves foot i's horizontal spring without force where it stands now [m].
+    pub fn anchor_here(&self, i: usize, q: &Vector<S>) -> S {
+        let (sin, cos) = (q[TH].sin(), q[TH].cos());
+        self.foot(i, q, sin, cos).0 - q[ax(i)]
+    }
+
+    /// Contact forces and kinematics of both feet.
+    #[inline(always)]
+    pub fn contact(&self, q: &Vector<S>, feet: &[Foot<S>; 2]) -> [FootForce<S>; 2] {
+        let (sin, cos) = (q[TH].sin(), q[TH].cos());
+        std::array::from_fn(|i| {
+            let (px, pz, px_th, pz_th) = self.foot(i, q, sin, cos);
+            let (horizontal, vertical) = match feet[i].contact {
+                Contact::Open => (S::zero(), S::zero()),
+                Contact::Stick => (
+                    (q[ax(i)] + feet[i].anchor - px) * self.springs.horizontal.k1,
+                    (q[az(i)] - pz) * self.springs.vertical.k1,
+                ),
+            };
+            FootForce { px_th, pz_th, horizontal, vertical }
+        })
+    }
+
+    /// Forces on the seven coordinates at ground acceleration `ground` [m/s2].
+    #[inline(always)]
+    pub fn forces(&self, q: &Vector<S>, v: &Vector<S>, feet: &[Foot<S>; 2], ground: S) -> Vector<S> {
+        let Springs { vertical, horizontal } = &self.springs;
+        let contact = self.contact(q, feet);
+        let [l, r] = &contact;
+        let m = self.body.mass;
+        let mut f = [S::zero(); N];
+        f[X] = l.horizontal + r.horizontal - m * ground;
+        f[Z] = l.vertical + r.vertical - m * GRAVITY;
+        f[TH] =
+            l.horizontal * l.px_th + l.vertical * l.pz_th + r.horizontal * r.px_th + r.vertical * r.pz_th;
+        for (i, foot) in contact.iter().enumerate() {
+            f[ax(i)] = -(foot.horizontal
+                + horizontal.m2 * ground
+                + horizontal.k2 * q[ax(i)]
+                + horizontal.c * v[ax(i)]);
+            f[az(i)] = -(foot.vertical + vertical.k2 * q[az(i)] + vertical.c * v[az(i)]);
+        }
+        f
+    }
+
+    /// Masses of the seven coordinates [kg; kg m2 for theta].
+    pub fn masses(&self, feet: &[Foot<S>; 2]) -> Vector<S> {
+        let (m, h, v) = (self.body.mass, self.springs.horizontal.m2, self.springs.vertical.m2);
+        [m, m, self.rotational_inertia(feet), h, v, h, v]
+    }
+
+    /// I_cg; in free flight a body without any keeps its rotation rate, as the limit of a small I_cg does (no moment
+    /// acts, so the value does not matter).
+    fn rotational_inertia(&self, feet: &[Foot<S>; 2]) -> S {
+        let body = &self.body;
+        if body.inertia.re() == 0.0 && !feet[0].closed() && !feet[1].closed() {
+            body.mass * body.height * body.height
+        } else {
+            body.inertia
+        }
+    }
+
+    /// Turn a body without rotational inertia to where no moment acts on it. Its rotation follows the contact forces at
+    /// once, so when one is let go it jumps. Returns whether there was anything to do.
+    pub fn turn_to_balance(&self, state: &mut State<S>, feet: &[Foot<S>; 2]) -> bool {
+        if self.body.inertia.re() != 0.0 || !(feet[0].closed() || feet[1].closed()) {
+            return false;
+        }
+        // convex in theta and all but quadratic: Newton needs a few steps, and one more makes derivatives exact
+        for _ in 0..6 {
+            let (mut moment, mut stiffness) = (S::zero(), S::zero());
+            for (foot, f) in feet.iter().zip(&self.contact(&state.q, feet)) {
+                if foot.closed() {
+                    moment += f.horizontal * f.px_th + f.vertical * f.pz_th;
+                    stiffness += self.springs.horizontal.k1 * f.px_th * f.px_th
+                        + self.springs.vertical.k1 * f.pz_th * f.pz_th
+                        + f.vertical * f.px_th
+                        - f.horizontal * f.pz_th;
+                }
+            }
+            state.q[TH] += moment / stiffness;
+        }
+        true
+    }
+
+    /// Kinetic, gravitational and elastic energy [J], gravity from the unstressed position.
+    pub fn energy(&self, state: &State<S>, feet: &[Foot<S>; 2]) -> S {
+        let Springs { vertical, horizontal } = &self.springs;
+        let (q, v) = (&state.q, &state.v);
+        let mut twice = self.body.mass * (v[X] * v[X] + v[Z] * v[Z] + q[Z] * (2.0 * GRAVITY))
+            + self.body.inertia * v[TH] * v[TH];
+        for (i, force) in self.contact(q, feet).iter().enumerate() {
+            twice += horizontal.m2 * v[ax(i)] * v[ax(i)] + vertical.m2 * v[az(i)] * v[az(i)];
+            twice += horizontal.k2 * q[ax(i)] * q[ax(i)] + vertical.k2 * q[az(i)] * q[az(i)];
+            if feet[i].closed() {
+                twice += force.horizontal * force.horizontal / horizontal.k1
+                    + force.vertical * force.vertical / vertical.k1;
+            }
+        }
+        twice * 0.5
+    }
+
+    /// Power of the base excitation in the moving frame, -ug'' (m X' + sum m2_h a_x') [W].
+    #[inline(always)]
+    pub fn input_power(&self, v: &Vector<S>, ground: S) -> S {
+        -(self.body.mass * v[X] + self.springs.horizontal.m2 * (v[ax(0)] + v[ax(1)])) * ground
+    }
+
+    /// Power that the dashpots take [W].
+    #[inline(always)]
+    pub fn dissipation(&self, v: &Vector<S>) -> S {
+        let Springs { vertical, horizontal } = &self.springs;
+        horizontal.c * (v[ax(0)] * v[ax(0)] + v[ax(1)] * v[ax(1)])
+            + vertical.c * (v[az(0)] * v[az(0)] + v[az(1)] * v[az(1)])
+    }
+
+    /// The body standing still on both feet under its weight, each foot on half of it.
+    pub fn settled(&self) -> (State<S>, [Foot<S>; 2]) {
+        let half_weight = self.body.mass * (0.5 * GRAVITY);
+        let absorber = -half_weight / self.springs.vertical.k2;
+        let mut q = [S::zero(); N];
+        q[az(0)] = absorber;
+        q[az(1)] = absorber;
+        q[Z] = absorber - half_weight / self.springs.vertical.k1;
+        let foot = Foot { contact: Contact::Stick, anchor: S::zero() };
+        (State { q, v: [S::zero(); N] }, [foot; 2])
+    }
+
+    /// The body's position when it leans by theta, balanced on one settled foot, the other in the air, at rest: a
+    /// start for free rocking. The pressing foot's absorber carries the whole weight.
+    pub fn leaning(&self, theta: S) -> (State<S>, [Foot<S>; 2]) {
+        let weight = self.body.mass * GRAVITY;
+        let pressing = usize::from(theta.re() > 0.0);
+        let (sin, cos) = (theta.sin(), theta.cos());
+        let mut q = [S::zero(); N];
+        q[TH] = theta;
+        q[az(pressing)] = -weight / self.springs.vertical.k2;
+        let (px, pz, ..) = self.foot(pressing, &q, sin, cos);
+        q[X] = -px;
+        q[Z] = q[az(pressing)] - weight / self.springs.vertical.k1 - pz;
+        let mut feet = [Foot { contact: Contact::Open, anchor: S::zero() }; 2];
+        feet[pressing].contact = Contact::Stick;
+        (State { q, v: [S::zero(); N] }, feet)
+    }
+}
+
+/// A real constant as a scalar vector entry (test helper and initial guesses).
+#[allow(dead_code)]
+pub(crate) fn zeros<S: Scalar>() -> Vector<S> {
+    [real(0.0); N]
+}

@@ -1,0 +1,109 @@
+//! The Newton matrix of a Radau stage, M + s c + s^2 K with s = h lambda, condensed to the body.
+//!
+//! Each absorber touches only its own foot, so it is eliminated by one division; what is left of a chain is its dynamic
+//! stiffness s^2 k1 (m2 + s c + s^2 k2) / (m2 + s c + s^2 (k1 + k2)), equation (5) with s^-1 for i omega. The body's
+//! 3 x 3 matrix is an arrow (X and Z meet only in theta), so it too is solved without a general factorisation.
+
+use std::ops::Neg;
+
+use num_traits::Num;
+
+use super::model::{Foot, Model, N, State, TH, X, Z, ax, az};
+use crate::{
+    scalar::Scalar,
+    spring::Chain,
+};
+
+/// One chain's share of the condensed matrix.
+#[derive(Clone, Copy)]
+struct Condensed<T> {
+    /// 1 / (m2 + s c + s^2 (k1 + k2)); k1 only when closed.
+    pivot: T,
+    /// s^2 k1; zero when open.
+    coupling: T,
+    /// The chain's dynamic stiffness times s^2; zero when open.
+    stiffness: T,
+}
+
+impl<T: Num + Copy> Condensed<T> {
+    fn new<S: Scalar>(chain: &Chain<S>, closed: bool, s: T, lift: &impl Fn(S) -> T) -> Self {
+        let base = lift(chain.m2) + s * (lift(chain.c) + s * lift(chain.k2));
+        if closed {
+            let coupling = s * s * lift(chain.k1);
+            let pivot = T::one() / (base + coupling);
+            Self { pivot, coupling, stiffness: coupling * base * pivot }
+        } else {
+            Self { pivot: T::one() / base, coupling: T::zero(), stiffness: T::zero() }
+        }
+    }
+}
+
+/// The condensed matrix for one eigenvalue, ready to solve with.
+pub(super) struct Newton<T> {
+    chains: [[Condensed<T>; 2]; 2],
+    /// dp_x/dtheta and dp_z/dtheta of each foot.
+    lever: [[T; 2]; 2],
+    x_inv: T,
+    z_inv: T,
+    th_inv: T,
+    x_th: T,
+    z_th: T,
+}
+
+impl<T: Num + Copy + Neg<Output = T>> Newton<T> {
+    /// Factor at `state` for s = h lambda.
+    pub fn new<S: Scalar>(model: &Model<S>, state: &State<S>, feet: &[Foot<S>; 2], s: T, lift: impl Fn(S) -> T) -> Self {
+        let contact = model.contact(&state.q, feet);
+        let masses = model.masses(feet);
+        let (mut xx, mut zz, mut tt) = (lift(masses[X]), lift(masses[Z]), lift(masses[TH]));
+        let (mut x_th, mut z_th) = (T::zero(), T::zero());
+        let mut lever = [[T::zero(); 2]; 2];
+        let chains = std::array::from_fn(|i| {
+            let closed = feet[i].closed();
+            let h = Condensed::new(&model.springs.horizontal, closed, s, &lift);
+            let v = Condensed::new(&model.springs.vertical, closed, s, &lift);
+            let foot = &contact[i];
+            lever[i] = [lift(foot.px_th), lift(foot.pz_th)];
+            if closed {
+                let [px, pz] = lever[i];
+                xx = xx + h.stiffness;
+                zz = zz + v.stiffness;
+                x_th = x_th + h.stiffness * px;
+                z_th = z_th + v.stiffness * pz;
+                // the turning lever arms: d2p_x = dp_z, d2p_z = -dp_x
+                let geometric = lift(foot.vertical * foot.px_th - foot.horizontal * foot.pz_th);
+                tt = tt + h.stiffness * px * px + v.stiffness * pz * pz + s * s * geometric;
+            }
+            [h, v]
+        });
+        let x_inv = T::one() / xx;
+        let z_inv = T::one() / zz;
+        let (x_th, z_th) = (x_th, z_th);
+        let th_inv = T::one() / (tt - x_th * x_th * x_inv - z_th * z_th * z_inv);
+        Self { chains, lever, x_inv, z_inv, th_inv, x_th, z_th }
+    }
+
+    /// Solve for the accelerations' correction.
+    #[inline(always)]
+    pub fn solve(&self, r: &[T; N]) -> [T; N] {
+        let mut d = *r;
+        for i in 0..2 {
+            let [h, v] = &self.chains[i];
+            let (from_x, from_z) = (h.coupling * h.pivot * r[ax(i)], v.coupling * v.pivot * r[az(i)]);
+            let [px, pz] = self.lever[i];
+            d[X] = d[X] + from_x;
+            d[Z] = d[Z] + from_z;
+            d[TH] = d[TH] + from_x * px + from_z * pz;
+        }
+        d[TH] = (d[TH] - self.x_th * self.x_inv * d[X] - self.z_th * self.z_inv * d[Z]) * self.th_inv;
+        d[X] = (d[X] - self.x_th * d[TH]) * self.x_inv;
+        d[Z] = (d[Z] - self.z_th * d[TH]) * self.z_inv;
+        for i in 0..2 {
+            let [h, v] = &self.chains[i];
+            let [px, pz] = self.lever[i];
+            d[ax(i)] = (r[ax(i)] + h.coupling * (d[X] + px * d[TH])) * h.pivot;
+            d[az(i)] = (r[az(i)] + v.coupling * (d[Z] + pz * d[TH])) * v.pivot;
+        }
+        d
+    }
+}
