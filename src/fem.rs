@@ -28,7 +28,7 @@ impl Observer<f64> for Recorder {
 
 /// x
 pub fn simulate<S: Scalar>(body: &Body<S>, springs: &Springs<Chain<S>>, dt: f64, accel: &[f64], scale: S, samples: usize, control: Control, observer: &mut impl Observer<S>) -> (Outcome, Work, f64, Energy<S>) {
-    let model = model::Model { body: *body, springs: *springs };
+    let model = model::Model::new(body, springs);
     let mut run = run::Run::new(&model, model.settled(), control);
     let o = run.follow(dt, accel, scale, samples, observer);
     (o, run.work, run.energy_scale(), *run.energy())

@@ -16,7 +16,7 @@
 //! the engineer's deck, where the weight is a load on the mass.
 
 use crate::{
-    scalar::{GRAVITY, Scalar, real},
+    scalar::{GRAVITY, Scalar},
     spring::{Chain, Springs},
     structure::Body,
 };
@@ -76,11 +76,24 @@ impl<S> Foot<S> {
     }
 }
 
+/// I_cg / (m R^2) below which the rotation counts as massless.
+///
+/// A little rotational inertia on stiff springs makes an undamped oscillator of several kHz (Omega_n R sqrt(m/I_cg)) that
+/// no landing in reality shows: followed exactly it chatters, spins the body and topples it, and every program in use
+/// damps it by the error of its integrator. Its limit is well behaved: the rotation follows the contact forces at once.
+/// The inertia that rocking feels is kept, m R^2 + I_cg, by moving I_cg/R^2 into the inertia of the translation; what is
+/// lost is the share 2 sin^2(alpha) I_cg/(m R^2) of the restitution, less than 1e-3 for any slender body.
+pub(crate) const MASSLESS_ROTATION: f64 = 2e-3;
+
 /// Body and springs, ready to compute with.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Model<S> {
     pub body: Body<S>,
     pub springs: Springs<Chain<S>>,
+    /// Inertia of the translation [kg]: the mass, and I_cg/R^2 when the rotation is massless.
+    translation: S,
+    /// Inertia of the rotation [kg m2]; zero when massless.
+    rotation: S,
 }
 
 /// A foot's kinematics and contact forces in one configuration.
@@ -97,6 +110,22 @@ pub(crate) struct FootForce<S> {
 }
 
 impl<S: Scalar> Model<S> {
+    pub fn new(body: &Body<S>, springs: &Springs<Chain<S>>) -> Self {
+        let r = body.radius();
+        let added = body.inertia / (r * r);
+        let (translation, rotation) = if added.re() < MASSLESS_ROTATION * body.mass.re() {
+            (body.mass + added, S::zero())
+        } else {
+            (body.mass, body.inertia)
+        };
+        Self { body: *body, springs: *springs, translation, rotation }
+    }
+
+    /// Whether the rotation follows the contact forces without inertia.
+    fn massless(&self) -> bool {
+        self.rotation.re() == 0.0
+    }
+
     /// Position of foot i relative to where it stood, with the derivatives by theta: (p_x, p_z, dp_x, dp_z).
     #[inline(always)]
     fn foot(&self, i: usize, q: &Vector<S>, sin: S, cos: S) -> (S, S, S, S) {
@@ -168,25 +197,24 @@ impl<S: Scalar> Model<S> {
 
     /// Masses of the seven coordinates [kg; kg m2 for theta].
     pub fn masses(&self, feet: &[Foot<S>; 2]) -> Vector<S> {
-        let (m, h, v) = (self.body.mass, self.springs.horizontal.m2, self.springs.vertical.m2);
+        let (m, h, v) = (self.translation, self.springs.horizontal.m2, self.springs.vertical.m2);
         [m, m, self.rotational_inertia(feet), h, v, h, v]
     }
 
-    /// I_cg; in free flight a body without any keeps its rotation rate, as the limit of a small I_cg does (no moment
-    /// acts, so the value does not matter).
+    /// In free flight a massless rotation keeps its rate, as the limit of a small I_cg does (no moment acts, so the
+    /// value does not matter).
     fn rotational_inertia(&self, feet: &[Foot<S>; 2]) -> S {
-        let body = &self.body;
-        if body.inertia.re() == 0.0 && !feet[0].closed() && !feet[1].closed() {
-            body.mass * body.height * body.height
+        if self.massless() && !feet[0].closed() && !feet[1].closed() {
+            self.body.mass * self.body.height * self.body.height
         } else {
-            body.inertia
+            self.rotation
         }
     }
 
     /// Turn a body without rotational inertia to where no moment acts on it. Its rotation follows the contact forces at
     /// once, so when one is let go it jumps. Returns whether there was anything to do.
     pub fn turn_to_balance(&self, state: &mut State<S>, feet: &[Foot<S>; 2]) -> bool {
-        if self.body.inertia.re() != 0.0 || !(feet[0].closed() || feet[1].closed()) {
+        if !self.massless() || !(feet[0].closed() || feet[1].closed()) {
             return false;
         }
         // convex in theta and all but quadratic: Newton needs a few steps, and one more makes derivatives exact
@@ -210,8 +238,9 @@ impl<S: Scalar> Model<S> {
     pub fn energy(&self, state: &State<S>, feet: &[Foot<S>; 2]) -> S {
         let Springs { vertical, horizontal } = &self.springs;
         let (q, v) = (&state.q, &state.v);
-        let mut twice = self.body.mass * (v[X] * v[X] + v[Z] * v[Z] + q[Z] * (2.0 * GRAVITY))
-            + self.body.inertia * v[TH] * v[TH];
+        let mut twice = self.translation * (v[X] * v[X] + v[Z] * v[Z])
+            + self.body.mass * q[Z] * (2.0 * GRAVITY)
+            + self.rotation * v[TH] * v[TH];
         for (i, force) in self.contact(q, feet).iter().enumerate() {
             twice += horizontal.m2 * v[ax(i)] * v[ax(i)] + vertical.m2 * v[az(i)] * v[az(i)];
             twice += horizontal.k2 * q[ax(i)] * q[ax(i)] + vertical.k2 * q[az(i)] * q[az(i)];
@@ -265,10 +294,4 @@ impl<S: Scalar> Model<S> {
         feet[pressing].contact = Contact::Stick;
         (State { q, v: [S::zero(); N] }, feet)
     }
-}
-
-/// A real constant as a scalar vector entry (test helper and initial guesses).
-#[allow(dead_code)]
-pub(crate) fn zeros<S: Scalar>() -> Vector<S> {
-    [real(0.0); N]
 }
