@@ -1,35 +1,100 @@
 //! The finite element model in the time domain: a rigid body on two feet and their ground springs.
+//!
+//! | file | what |
+//! |---|---|
+//! | `model` | coordinates, kinematics, contact forces, energies |
+//! | `radau`, `newton`, `step` | one implicit step: tables, condensed matrix, iteration |
+//! | `run` | the time loop: samples, contact events, energy account |
+//! | `history` | what a run leaves behind: motion, landings, forces, energies |
+//!
+//! **Why Radau IIA.** Springs of 300 Hz under a body that rocks at 0.3 Hz are stiff, and a body without rotational
+//! inertia makes the rotation algebraic (a differential-algebraic system of index 1): the method must be L-stable and
+//! stiffly accurate. Order 5 closes the energy account to 1e-6 at a step or two per sample once the transients of a landing
+//! have died. Explicit methods chatter, creep and topple the frame; Newmark, HHT and Gauss leave the unresolved modes
+//! ringing. Its cost stays low because each absorber condenses out of the Newton matrix (`newton`).
+//!
+//! **Why the energy account chooses the step.** The leading error of a Radau step in an oscillation is loss of
+//! amplitude, so the energy that a step fails to account for is its error; it is one number, has a unit, and is what the
+//! user is promised.
+
+mod history;
 mod model;
 mod newton;
 mod radau;
-pub mod run;
+mod run;
 mod step;
 
-pub use run::{Change, Control, Energy, Observer, Outcome, View, Work};
 use std::ops::ControlFlow;
-use crate::{motion::Motion, scalar::Scalar, spring::{Chain, Springs}, structure::Body};
 
-/// records
-#[derive(Default)]
-pub struct Recorder { pub motion: Motion, pub z0: f64, pub events: Vec<(f64, usize, Change)>, pub worst: f64 }
+pub use history::{Forces, History, Landing, Recorder};
+pub use run::{Change, Control, Energy, Observer, Outcome, View, Work};
 
-impl Observer<f64> for Recorder {
-    fn sample(&mut self, index: usize, view: &View<f64>) -> ControlFlow<()> {
-        let q = &view.state.q;
-        if index == 0 { self.z0 = q[1]; }
-        self.motion.push(q[0], q[1] - self.z0, q[2]);
-        self.worst = self.worst.max(view.energy.residual().abs());
-        ControlFlow::Continue(())
-    }
-    fn event(&mut self, foot: usize, change: Change, view: &View<f64>) {
-        self.events.push((view.time, foot, change));
+use crate::{
+    scalar::Scalar,
+    spring::{Chain, Springs},
+    structure::Body,
+};
+
+/// How the body stands at t = 0.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum Start<S> {
+    /// At rest on both feet, settled under its weight.
+    Settled,
+    /// At rest on one settled foot, leaning by theta [rad]: free rocking.
+    Leaning(S),
+}
+
+/// What a run is made of.
+#[derive(Clone, Copy, Debug)]
+pub struct Case<'a, S> {
+    pub body: Body<S>,
+    pub springs: Springs<Chain<S>>,
+    pub start: Start<S>,
+    /// Sampling interval [s].
+    pub dt: f64,
+    /// Ground acceleration at t = i dt [m/s2], linear in between.
+    pub accel: &'a [f64],
+    /// Factor on the ground acceleration.
+    pub scale: S,
+    pub control: Control,
+}
+
+/// How a run ended, what it cost, and its energy account.
+#[derive(Clone, Copy, Debug)]
+pub struct Finish<S> {
+    pub outcome: Outcome,
+    pub work: Work,
+    pub energy: Energy<S>,
+    /// Largest energy of the history, the scale of its residual [J].
+    pub energy_scale: f64,
+}
+
+impl<S: Scalar> Case<'_, S> {
+    /// Run the case, showing every sample and event to `observer`.
+    pub fn observe(&self, observer: &mut impl Observer<S>) -> Finish<S> {
+        let model = model::Model::new(&self.body, &self.springs);
+        let start = match self.start {
+            Start::Settled => model.settled(),
+            Start::Leaning(theta) => model.leaning(theta),
+        };
+        let mut run = run::Run::new(&model, start, self.control);
+        let outcome = run.follow(self.dt, self.accel, self.scale, observer);
+        Finish { outcome, work: run.work, energy: *run.energy(), energy_scale: run.energy_scale() }
     }
 }
 
-/// x
-pub fn simulate<S: Scalar>(body: &Body<S>, springs: &Springs<Chain<S>>, dt: f64, accel: &[f64], scale: S, samples: usize, control: Control, observer: &mut impl Observer<S>) -> (Outcome, Work, f64, Energy<S>) {
-    let model = model::Model::new(body, springs);
-    let mut run = run::Run::new(&model, model.settled(), control);
-    let o = run.follow(dt, accel, scale, samples, observer);
-    (o, run.work, run.energy_scale(), *run.energy())
+impl Case<'_, f64> {
+    /// Run the case and keep its history.
+    pub fn simulate(&self) -> History {
+        let mut recorder = Recorder::new(self.accel.len());
+        let finish = self.observe(&mut recorder);
+        recorder.finish(finish)
+    }
+}
+
+/// Lets a closure serve as an observer of samples.
+impl<S: Scalar, F: FnMut(usize, &View<S>) -> ControlFlow<()>> Observer<S> for F {
+    fn sample(&mut self, index: usize, view: &View<S>) -> ControlFlow<()> {
+        self(index, view)
+    }
 }

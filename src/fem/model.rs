@@ -183,13 +183,9 @@ impl<S: Scalar> Model<S> {
         let mut f = [S::zero(); N];
         f[X] = l.horizontal + r.horizontal - m * ground;
         f[Z] = l.vertical + r.vertical - m * GRAVITY;
-        f[TH] =
-            l.horizontal * l.px_th + l.vertical * l.pz_th + r.horizontal * r.px_th + r.vertical * r.pz_th;
+        f[TH] = l.horizontal * l.px_th + l.vertical * l.pz_th + r.horizontal * r.px_th + r.vertical * r.pz_th;
         for (i, foot) in contact.iter().enumerate() {
-            f[ax(i)] = -(foot.horizontal
-                + horizontal.m2 * ground
-                + horizontal.k2 * q[ax(i)]
-                + horizontal.c * v[ax(i)]);
+            f[ax(i)] = -(foot.horizontal + horizontal.m2 * ground + horizontal.k2 * q[ax(i)] + horizontal.c * v[ax(i)]);
             f[az(i)] = -(foot.vertical + vertical.k2 * q[az(i)] + vertical.c * v[az(i)]);
         }
         f
@@ -234,19 +230,23 @@ impl<S: Scalar> Model<S> {
         true
     }
 
+    /// Kinetic energy of the body [J].
+    pub fn body_kinetic(&self, state: &State<S>) -> S {
+        let v = &state.v;
+        (self.translation * (v[X] * v[X] + v[Z] * v[Z]) + self.rotation * v[TH] * v[TH]) * 0.5
+    }
+
     /// Kinetic, gravitational and elastic energy [J], gravity from the unstressed position.
     pub fn energy(&self, state: &State<S>, feet: &[Foot<S>; 2]) -> S {
         let Springs { vertical, horizontal } = &self.springs;
         let (q, v) = (&state.q, &state.v);
-        let mut twice = self.translation * (v[X] * v[X] + v[Z] * v[Z])
-            + self.body.mass * q[Z] * (2.0 * GRAVITY)
-            + self.rotation * v[TH] * v[TH];
+        let mut twice = self.body_kinetic(state) * 2.0 + self.body.mass * q[Z] * (2.0 * GRAVITY);
         for (i, force) in self.contact(q, feet).iter().enumerate() {
             twice += horizontal.m2 * v[ax(i)] * v[ax(i)] + vertical.m2 * v[az(i)] * v[az(i)];
             twice += horizontal.k2 * q[ax(i)] * q[ax(i)] + vertical.k2 * q[az(i)] * q[az(i)];
             if feet[i].closed() {
-                twice += force.horizontal * force.horizontal / horizontal.k1
-                    + force.vertical * force.vertical / vertical.k1;
+                twice +=
+                    force.horizontal * force.horizontal / horizontal.k1 + force.vertical * force.vertical / vertical.k1;
             }
         }
         twice * 0.5

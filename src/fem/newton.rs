@@ -9,10 +9,7 @@ use std::ops::Neg;
 use num_traits::Num;
 
 use super::model::{Foot, Model, N, State, TH, X, Z, ax, az};
-use crate::{
-    scalar::Scalar,
-    spring::Chain,
-};
+use crate::{scalar::Scalar, spring::Chain};
 
 /// One chain's share of the condensed matrix.
 #[derive(Clone, Copy)]
@@ -52,7 +49,13 @@ pub(super) struct Newton<T> {
 
 impl<T: Num + Copy + Neg<Output = T>> Newton<T> {
     /// Factor at `state` for s = h lambda.
-    pub fn new<S: Scalar>(model: &Model<S>, state: &State<S>, feet: &[Foot<S>; 2], s: T, lift: impl Fn(S) -> T) -> Self {
+    pub fn new<S: Scalar>(
+        model: &Model<S>,
+        state: &State<S>,
+        feet: &[Foot<S>; 2],
+        s: T,
+        lift: impl Fn(S) -> T,
+    ) -> Self {
         let contact = model.contact(&state.q, feet);
         let masses = model.masses(feet);
         let (mut xx, mut zz, mut tt) = (lift(masses[X]), lift(masses[Z]), lift(masses[TH]));

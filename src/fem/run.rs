@@ -3,7 +3,7 @@
 use std::ops::ControlFlow;
 
 use super::{
-    model::{Contact, Foot, Model, State, TH, Vector},
+    model::{Contact, Foot, Model, State, TH, Vector, X, Z},
     step::{Ground, Request, Stages, no_guess, step},
 };
 use crate::scalar::{GRAVITY, Scalar, real};
@@ -77,6 +77,38 @@ pub struct View<'a, S> {
     pub energy: &'a Energy<S>,
 }
 
+impl<S: Scalar> View<'_, S> {
+    /// Horizontal displacement of the centre of mass [m].
+    pub fn x(&self) -> S {
+        self.state.q[X]
+    }
+
+    /// Vertical displacement of the centre of mass from the unstressed position [m].
+    pub fn z(&self) -> S {
+        self.state.q[Z]
+    }
+
+    /// Rotation [rad].
+    pub fn theta(&self) -> S {
+        self.state.q[TH]
+    }
+
+    /// Rotation rate [rad/s].
+    pub fn theta_rate(&self) -> S {
+        self.state.v[TH]
+    }
+
+    /// Whether foot i (0 left, 1 right) presses on the ground.
+    pub fn presses(&self, i: usize) -> bool {
+        self.feet[i].closed()
+    }
+
+    /// Kinetic energy of the body [J].
+    pub fn body_kinetic(&self) -> S {
+        self.model.body_kinetic(self.state)
+    }
+}
+
 /// Receives a run's samples and events; may stop it.
 pub trait Observer<S: Scalar> {
     /// Called at every sample, the first at t = 0.
@@ -129,16 +161,27 @@ impl<'a, S: Scalar> Run<'a, S> {
         let rest = model.energy(&settled.0, &settled.1).re();
         let scale = (stored.re() - rest).abs().max(1e-3 * weight * compression);
         let energy = Energy { initial: stored, stored, ..Energy::default_zero() };
-        Self { model, control, state, feet, energy, scale, compression, guess: no_guess(), h: f64::INFINITY, work: Work::default() }
+        Self {
+            model,
+            control,
+            state,
+            feet,
+            energy,
+            scale,
+            compression,
+            guess: no_guess(),
+            h: f64::INFINITY,
+            work: Work::default(),
+        }
     }
 
     fn view(&self, time: S) -> View<'_, S> {
         View { time, model: self.model, state: &self.state, feet: &self.feet, energy: &self.energy }
     }
 
-    /// Follow the record (m/s2 at steps of dt, times `scale`) for `samples` samples.
-    pub fn follow(&mut self, dt: f64, accel: &[f64], scale: S, samples: usize, observer: &mut impl Observer<S>) -> Outcome {
-        let n = samples.min(accel.len());
+    /// Follow the record (m/s2 at steps of dt, times `scale`).
+    pub fn follow(&mut self, dt: f64, accel: &[f64], scale: S, observer: &mut impl Observer<S>) -> Outcome {
+        let n = accel.len();
         if n == 0 {
             return Outcome::Completed;
         }
@@ -162,7 +205,13 @@ impl<'a, S: Scalar> Run<'a, S> {
     }
 
     /// From one sample to the next; the time when the work bound is met.
-    fn cross_sample(&mut self, t0: f64, dt: f64, ground: &Ground<S>, observer: &mut impl Observer<S>) -> Result<(), f64> {
+    fn cross_sample(
+        &mut self,
+        t0: f64,
+        dt: f64,
+        ground: &Ground<S>,
+        observer: &mut impl Observer<S>,
+    ) -> Result<(), f64> {
         let mut t = S::zero();
         loop {
             let left = -t + dt;

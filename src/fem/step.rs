@@ -121,8 +121,9 @@ pub(super) fn step<S: Scalar>(
                 residual[i][k] -= masses[k] * s.a[i][k];
             }
         }
-        let mode =
-            |row: usize, k: usize| residual[0][k] * T_INV[row][0] + residual[1][k] * T_INV[row][1] + residual[2][k] * T_INV[row][2];
+        let mode = |row: usize, k: usize| {
+            residual[0][k] * T_INV[row][0] + residual[1][k] * T_INV[row][1] + residual[2][k] * T_INV[row][2]
+        };
         let r0: Vector<S> = std::array::from_fn(|k| mode(0, k));
         let r1: [Complex<S>; N] = std::array::from_fn(|k| Complex::new(mode(1, k), -mode(2, k)));
         let (w0, w1) = (real_newton.solve(&r0), pair_newton.solve(&r1));
