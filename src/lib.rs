@@ -17,6 +17,8 @@
 
 pub mod scalar;
 
+pub mod record;
+
 pub mod structure;
 
 pub mod spring;

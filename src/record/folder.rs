@@ -1,0 +1,50 @@
+//! The record files of a folder.
+
+use std::path::{Path, PathBuf};
+
+use super::{ReadOptions, Record, RecordError};
+
+/// Endings of the files that are taken for records, in any case.
+const EXTENSIONS: [&str; 5] = ["at2", "txt", "csv", "dat", "acc"];
+
+impl Record {
+    /// The record files of a folder (endings at2, txt, csv, dat, acc in any case; not of its subfolders), sorted by name.
+    ///
+    /// # Errors
+    /// The folder cannot be listed, or holds no such file.
+    pub fn list_dir(folder: &Path) -> Result<Vec<PathBuf>, RecordError> {
+        let unreadable = |error: std::io::Error| RecordError::Unreadable {
+            file: super::label(folder),
+            reason: super::text::quote(&error.to_string()),
+        };
+        let mut files = Vec::new();
+        for entry in std::fs::read_dir(folder).map_err(unreadable)? {
+            let path = entry.map_err(unreadable)?.path();
+            let ending = path.extension().and_then(|ending| ending.to_str()).unwrap_or("").to_ascii_lowercase();
+            if EXTENSIONS.contains(&ending.as_str()) && !path.is_dir() {
+                files.push(path);
+            }
+        }
+        if files.is_empty() {
+            return Err(RecordError::NoRecords { folder: super::label(folder), extensions: EXTENSIONS.join(", ") });
+        }
+        files.sort();
+        Ok(files)
+    }
+
+    /// The records of a folder, each read when the iterator comes to it, sorted by name; a bad file is an error of its
+    /// own and does not end the iteration.
+    ///
+    /// # Errors
+    /// As [`Record::list_dir`].
+    pub fn read_dir(
+        folder: &Path,
+        options: &ReadOptions,
+    ) -> Result<impl ExactSizeIterator<Item = (PathBuf, Result<Self, RecordError>)> + use<>, RecordError> {
+        let options = *options;
+        Ok(Self::list_dir(folder)?.into_iter().map(move |path| {
+            let record = Self::read(&path, &options);
+            (path, record)
+        }))
+    }
+}

@@ -1,0 +1,245 @@
+use super::*;
+
+fn parse(file: &str, text: &str) -> Result<Record, RecordError> {
+    Record::parse(file, text.as_bytes(), &ReadOptions::default())
+}
+
+/// PEER's own figures for the record: dt 0.01 s, PGA 0.313 g; the file's first and last samples.
+#[test]
+fn el_centro_is_the_peer_record() {
+    let record = Record::el_centro();
+    assert_eq!((record.name.as_str(), record.dt, record.len()), ("IELC180", 0.01, 3995));
+    assert_eq!(format!("{:.3}", record.pga_g()), "0.313");
+    assert_eq!(record.accel[0], -6.40318e-3 * GRAVITY);
+    assert_eq!(record.accel[3994], 1.2536e-4 * GRAVITY);
+    assert!((record.duration() - 39.94).abs() < 1e-12);
+    assert_eq!(record.truncated(20.0).len(), 2001);
+}
+
+#[test]
+fn both_at2_headers_any_columns_and_line_ends_give_the_same_record() {
+    let titles = "PEER STRONG MOTION DATABASE RECORD\nSOMEWHERE\nACCELERATION TIME HISTORY IN UNITS OF G\n";
+    let expected = Record::new("x", 0.01, [0.1, -0.2, 0.3, 0.25].map(|g| g * GRAVITY).to_vec()).unwrap();
+    for header in ["NPTS=  4, DT= .01000 SEC", "  4   0.0100  NPTS, DT", "NPTS=4, DT=.01 SEC,"] {
+        for data in [".1 -.2 .3 .25", "1.0E-01 -.2E+00\n\n  .3D+00   0.25\n", ".1,-.2,.3,.25\n", " .1-.2+.3+.25"] {
+            let text = format!("{titles}{header}\n{data}");
+            for text in [text.replace('\n', "\r\n"), text.replace('\n', "\r"), text] {
+                assert_eq!(parse("folder/x.at2", &text).as_ref(), Ok(&expected), "{text:?}");
+                assert_eq!(parse("x.txt", &text).as_ref(), Ok(&expected), "{text:?}");
+            }
+        }
+    }
+}
+
+#[test]
+fn tables_give_the_same_record_whatever_separates_their_columns() {
+    let expected = Record::new("x", 0.02, [0.0, 0.5, -1.25].to_vec()).unwrap();
+    for text in [
+        "time_s,accel_m_s2\n0.00,0\n0.02,0.5\n0.04,-1.25\n",
+        "# from somewhere\n# t [s]  a [m/s2]\n0 0\n0.02 0.5\n0.04 -1.25",
+        "t;a [cm/s2]\r\n0.02;0\r\n0.04;50\r\n0.06;-125\r\n",
+        "% units: Gal\n0\t0\n\n  2e-2\t50\n// the end is near\n4e-2\t-125\n",
+        "Caf\u{e9}\n\"t\",\"a (m/s^2)\"\n\"0\",\"0.0\",\n\"0.02\",\"0.5\",\n\"0.04\",\"-1.25\",\n",
+        "EVENT_NAME: Umbria\nSAMPLING_INTERVAL_S: 0.020\nUNITS: cm/s^2\nDATA_TYPE: ACCELERATION\n0\n50\n-125\n",
+        "# dt = 0.02 s, acceleration in units of m/s2\n0\n0.5\n-1.25\n",
+    ] {
+        assert_eq!(parse("x.csv", text).as_ref(), Ok(&expected), "{text:?}");
+    }
+}
+
+#[test]
+fn one_column_needs_the_time_step_and_the_unit() {
+    let text = "0.1\n-0.2\n";
+    assert_eq!(parse("x", text), Err(RecordError::NoStep { file: "x".into() }));
+    let options = ReadOptions { dt: Some(0.01), units: None };
+    assert_eq!(Record::parse("x", text.as_bytes(), &options), Err(RecordError::NoUnits { file: "x".into() }));
+    let options = ReadOptions { units: Some(Units::G), ..options };
+    let record = Record::parse("x", text.as_bytes(), &options).unwrap();
+    assert_eq!(record.accel, [0.1 * GRAVITY, -0.2 * GRAVITY]);
+}
+
+#[test]
+fn what_the_file_says_and_the_user_says_must_agree() {
+    let text = "UNITS OF G\nNPTS= 2, DT= .0039 SEC\n.1 .2\n";
+    let read = |dt, units| Record::parse("x.at2", text.as_bytes(), &ReadOptions { dt, units });
+    assert!(matches!(read(Some(0.01), None), Err(RecordError::StepDiffers { .. })));
+    assert!(matches!(read(None, Some(Units::MetrePerSecond2)), Err(RecordError::UnitsDiffer { .. })));
+    // 1/256 s printed with four decimals: the user's is the sharper one
+    assert_eq!(read(Some(0.00390625), Some(Units::G)).unwrap().dt, 0.00390625);
+    assert!(matches!(read(Some(0.0), None), Err(RecordError::BadStep { .. })));
+}
+
+/// Damage of every kind, and the words of the message that say what, where and what to do.
+#[test]
+fn every_damage_is_an_error_of_one_line_with_place_and_remedy() {
+    let at2 = "T\nS\nACCELERATION IN UNITS OF G\nNPTS= 4, DT= .01 SEC\n.1 .2\n.3 .4\n";
+    for (file, text, words) in [
+        (
+            "a.at2",
+            at2.replace(".3 .4", ".3"),
+            "line 6: the file ends after 3 samples but its header (line 4) says NPTS 4",
+        ),
+        ("a.at2", at2.replace(".3 .4", ".3 .4 .5"), "line 6: the file ends after 5 samples"),
+        ("a.at2", at2.replace("NPTS= 4,", "NPTS= 999999999999,"), "says NPTS 999999999999"),
+        ("a.at2", at2.replace("NPTS= 4,", "NPTS= 99999999999999999999999,"), "line 4: cannot read NPTS and DT"),
+        ("a.at2", at2.replace("DT= .01", "DT= -.01"), "line 4: cannot read NPTS and DT"),
+        ("a.at2", at2.replace("DT= .01", "DT= 5."), "between 1e-6 and 1 s"),
+        ("a.at2", at2.replace("NPTS", "SAMPLES"), "no line with NPTS and DT"),
+        ("a.at2", at2.replace(".3", "NaN"), "line 6: 'NaN' is not a finite number"),
+        ("a.at2", at2.replace(".3", "1e999"), "line 6: '1e999' is not a finite number"),
+        ("a.at2", at2.replace(".3", "*******"), "line 6: '*******' is not a number"),
+        ("a.at2", at2.replace("ACCELERATION IN UNITS OF G", "VELOCITY IN UNITS OF CM/S"), "speaks of velocity"),
+        ("a.at2", at2.replace("UNITS OF G", "SOMETHING"), "pass --units"),
+        ("a.at2", at2.replace(".3", "341.7"), "above 50 g; the unit is probably wrong"),
+        ("a.at2", at2.replace('T', "\0"), "not a text file (byte 0 is 0x00)"),
+        ("a.at2", String::new(), "holds no samples"),
+        ("a.csv", " \n \n".into(), "holds no samples"),
+        ("a.csv", "t,a [g]\n".into(), "holds no samples"),
+        (
+            "a.csv",
+            "# units g\n0.00 .1\n0.01 .2\n0.03 .3\n0.04 .3\n".into(),
+            "line 4: the time step is 0.02 s where 0.01 s",
+        ),
+        ("a.csv", "t,a [g]\n0.00,.1\n0.01,nan\n".into(), "line 3: 'nan' is not a finite number"),
+        ("a.csv", "t,a [g]\n0.00,.1\n0.01,x\n".into(), "line 3: 'x' is not a number"),
+        ("a.csv", "t,a [g]\n0.00,x\n0.01,.1\n0.02,.1\n".into(), "line 2: 'x' is not a number"),
+        ("a.csv", "t,a [g]\n0.00,.1\n0.01\n".into(), "line 3: 1 columns where the lines before have 2"),
+        ("a.csv", "t,a [g]\n0.00,.1\n0.01,\n".into(), "line 3: 1 columns"),
+        ("a.csv", "t,a [g],b\n0.00,.1,1\n".into(), "line 2: 3 columns"),
+        ("a.csv", "t;a [g]\n0,00;0,1\n0,01;0,2\n".into(), "line 2: '0,00;0,1' has decimal commas"),
+        ("a.csv", "t a [g]\n0,00 0,1\n".into(), "line 2: '0,00 0,1' has decimal commas"),
+        ("a.csv", "a [g]\n0,01\n0,02\n0,03\n".into(), "line 2: '0,01' has decimal commas"),
+        ("a.csv", "t,a\n0.00,.1\n0.01,.2\n".into(), "pass --units"),
+        ("a.csv", "t [s],v [m/s], velocity\n0.00,.1\n0.01,.2\n".into(), "speaks of velocity"),
+        ("a.csv", "t,a [g]\n0.00,.1\n".into(), "pass --dt"),
+        ("a.csv", "t,a [g]\n0,.1\n2,.1\n4,.1\n".into(), "between 1e-6 and 1 s"),
+        ("a\nb.csv", "t,a\n0.0,\x01".into(), "a?b.csv: not a text file"),
+    ] {
+        let message = parse(file, &text).expect_err(&text).to_string();
+        assert!(message.contains(words), "{text:?}: {message}");
+        assert!(!message.contains('\n') && message.starts_with('a'), "{message}");
+    }
+}
+
+#[test]
+fn records_are_checked_scaled_cut_and_interpolated() {
+    let record = Record::new("r", 0.5, vec![0.0, 1.0, -3.0]).unwrap();
+    assert_eq!((record.pga(), record.duration(), record.len(), record.is_empty()), (3.0, 1.0, 3, false));
+    assert_eq!(record.scaled(-2.0).unwrap().accel, [0.0, -2.0, 6.0]);
+    assert_eq!(record.truncated(0.5).accel, [0.0, 1.0]);
+    assert_eq!(record.truncated(0.0).len(), 1);
+    assert_eq!(record.truncated(f64::NAN).len(), 1);
+    assert_eq!(record.truncated(f64::INFINITY).len(), 3);
+    assert_eq!(
+        [-0.1, 0.0, 0.25, 0.75, 1.0, 1.1, f64::NAN].map(|t| record.at(t)),
+        [0.0, 0.0, 0.5, -1.0, -3.0, 0.0, 0.0]
+    );
+    assert!(matches!(record.scaled(f64::NAN), Err(RecordError::BadSample { index: 0, .. })));
+    assert!(matches!(record.scaled(1000.0), Err(RecordError::HugePeak { .. })));
+    assert!(matches!(Record::new("r", 0.01, vec![]), Err(RecordError::Empty { .. })));
+    for dt in [0.0, -0.01, f64::NAN, f64::INFINITY, 1e-7, 1.1] {
+        assert!(matches!(Record::new("r", dt, vec![0.0]), Err(RecordError::BadStep { .. })));
+    }
+}
+
+#[test]
+fn a_folder_is_read_in_order_and_a_bad_file_does_not_end_it() {
+    let folder = tempfile::tempdir().unwrap();
+    let options = ReadOptions::default();
+    assert!(matches!(Record::list_dir(folder.path()), Err(RecordError::NoRecords { .. })));
+    for (file, text) in [
+        ("c.AT2", "UNITS OF G\nNPTS= 1, DT= .01\n.1"),
+        ("b.txt", "nothing"),
+        ("a.csv", "t,a [g]\n0,.1\n.01,.2\n"),
+        ("README.md", "not a record"),
+    ] {
+        std::fs::write(folder.path().join(file), text).unwrap();
+    }
+    std::fs::create_dir(folder.path().join("sub.csv")).unwrap();
+    let read: Vec<_> = Record::read_dir(folder.path(), &options).unwrap().collect();
+    let names: Vec<_> = read.iter().map(|(path, _)| path.file_name().unwrap().to_str().unwrap()).collect();
+    assert_eq!(names, ["a.csv", "b.txt", "c.AT2"]);
+    assert_eq!(read[0].1.as_ref().unwrap().name, "a");
+    assert!(matches!(read[1].1, Err(RecordError::Empty { .. })));
+    assert_eq!(read[2].1.as_ref().unwrap().len(), 1);
+
+    assert!(matches!(Record::read(folder.path(), &options), Err(RecordError::Folder { .. })));
+    let missing = folder.path().join("missing.at2");
+    assert!(matches!(Record::read(&missing, &options), Err(RecordError::Unreadable { .. })));
+    assert!(matches!(Record::list_dir(&missing), Err(RecordError::Unreadable { .. })));
+}
+
+/// Whatever the bytes, the reader answers: with a record that passes its own checks, or with one line.
+fn answers(file: &str, bytes: &[u8], options: &ReadOptions) {
+    match Record::parse(file, bytes, options) {
+        Ok(record) => assert_eq!(Record::new(record.name.clone(), record.dt, record.accel.clone()), Ok(record)),
+        Err(error) => {
+            let message = error.to_string();
+            assert!(!message.chars().any(char::is_control) && message.len() < 400, "{message}");
+        }
+    }
+}
+
+mod robustness {
+    use super::*;
+    use proptest::prelude::*;
+
+    fn options() -> impl Strategy<Value = ReadOptions> {
+        let units = prop_oneof![Just(Units::G), Just(Units::MetrePerSecond2), Just(Units::CentimetrePerSecond2)];
+        (proptest::option::of(prop_oneof![Just(0.01), any::<f64>()]), proptest::option::of(units))
+            .prop_map(|(dt, units)| ReadOptions { dt, units })
+    }
+
+    fn valid_file() -> impl Strategy<Value = &'static str> {
+        prop_oneof![
+            Just("T\nS\nACCELERATION IN UNITS OF G\nNPTS= 4, DT= .01 SEC\n  .1E-01 -.2D-1\n .3-.4\n"),
+            Just("UNITS OF CM/S/S\r\n 4 0.0100 NPTS, DT\r\n 1 2\r\n 3 4\r\n"),
+            Just("t [s],a [g]\n0.00,0.1\n0.01,-0.2\n0.02,0.3\n0.03,0.1\n"),
+            Just("# dt = 0.01 s\n# units: m/s2\n0.1\n-0.2\n0.3\n"),
+            Just("t;a (cm/s\u{b2})\n1e-2;10\n2e-2;-20\n3e-2;30\n"),
+        ]
+    }
+
+    proptest! {
+        #![proptest_config(ProptestConfig { failure_persistence: None, ..ProptestConfig::with_cases(2000) })]
+
+        #[test]
+        fn arbitrary_bytes_never_panic(bytes in proptest::collection::vec(any::<u8>(), 0..200), options in options()) {
+            for file in ["x.at2", "x.csv", ""] {
+                answers(file, &bytes, &options);
+            }
+        }
+
+        #[test]
+        fn arbitrary_text_of_the_readers_alphabet_never_panics(
+            text in "([-+.,;:=\t\n\r 0-9eEdDgm/s\u{b2}#%\"]|NPTS|DT|UNITS|nan|\u{e9}){0,80}", options in options()
+        ) {
+            for file in ["x.at2", "x.csv"] {
+                answers(file, text.as_bytes(), &options);
+            }
+        }
+
+        #[test]
+        fn mutated_files_never_panic(
+            file in valid_file(),
+            edits in proptest::collection::vec((any::<prop::sample::Index>(), any::<u8>(), 0..4_u8), 1..6),
+            options in options()
+        ) {
+            let mut bytes = file.as_bytes().to_vec();
+            for (at, byte, edit) in edits {
+                if bytes.is_empty() {
+                    break;
+                }
+                let at = at.index(bytes.len());
+                match edit {
+                    0 => bytes[at] = byte,
+                    1 => bytes.insert(at, byte),
+                    2 => bytes.truncate(at),
+                    _ => { bytes.remove(at); }
+                }
+            }
+            answers("x.at2", &bytes, &options);
+            answers("x.csv", &bytes, &options);
+        }
+    }
+}
