@@ -27,4 +27,6 @@ pub mod response;
 
 pub mod motion;
 
+pub mod housner;
+
 pub mod fem;

@@ -1,0 +1,136 @@
+//! Leaving the ground, and coming to rest on it.
+//!
+//! Uplift: a resting body stays down until |u_g| > g tan(alpha), then leans away, s = -sgn(u_g).
+//!
+//! Rest: with restitution e < 1 and |u_g| < g tan(alpha) the body makes infinitely many ever smaller hops in a finite time.
+//! Near the ground w'' = -d with d between bounds, so a hop that starts at rate v lasts at most 2 v/d_min, is at most v^2/(2 d_min) high,
+//! and ends at a rate of at most v sqrt(d_max/d_min). Hence all hops together last at most
+//!
+//! ```text
+//! 2 v / ( d_min [1 - e sqrt(d_max/d_min)] )
+//! ```
+//!
+//! If that is less than what is left of the interval between two samples, in which |u_g| stays below the limit, the body lies still
+//! at the next sample: nothing is neglected but the list of its last impacts.
+
+use crate::scalar::Scalar;
+
+/// Highest hop [in units of alpha] that counts as none when hops do not die out by themselves (e close to 1): rounding of theta.
+const FLOOR: f64 = f64::EPSILON;
+
+/// An excess over the limit this small, relative to it, on the falling side of a peak, is a graze: the hop that
+/// it would make is of the order of its cube.
+const GRAZE: f64 = 4.0 * f64::EPSILON;
+
+/// When and to which side a body resting at fraction x of an interval lifts in what is left of it.
+/// u_g/g is a0 + da x, lift is tan(alpha).
+pub fn uplift<S: Scalar>(x: S, a0: S, da: S, lift: S) -> Option<(S, f64)> {
+    let now = a0.re() + da.re() * x.re();
+    let then = a0.re() + da.re();
+    let limit = lift.re();
+    let excess = now.abs() - limit;
+    let outward = now * da.re() >= 0.0;
+    if excess > 0.0 && (outward || excess > GRAZE * limit) {
+        return Some((x, -now.signum()));
+    }
+    if then.abs() > limit && then * da.re() > 0.0 {
+        let sign = then.signum();
+        // u_g/g = +-tan(alpha); differentiable where it lies inside
+        let at = (lift * sign - a0) / da;
+        let at = if at.re() < x.re() { x } else { at };
+        return Some((at, -sign));
+    }
+    None
+}
+
+/// What becomes of a body just after an impact.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum Fate {
+    /// It hops on.
+    Hops,
+    /// It has no rate left: it rests now.
+    Stops,
+    /// All its hops end before the interval does.
+    DiesOut,
+}
+
+/// A body just after an impact.
+pub struct Hop {
+    /// w' after the impact [rad/s].
+    pub rate: f64,
+    /// Time left in the interval [s].
+    pub left: f64,
+    /// u_g/g now.
+    pub now: f64,
+    /// u_g/g at the end of the interval.
+    pub then: f64,
+    pub e: f64,
+    pub alpha: f64,
+    pub p2: f64,
+}
+
+impl Hop {
+    pub fn fate(&self) -> Fate {
+        let v = self.rate;
+        if v <= 0.0 {
+            return Fate::Stops;
+        }
+        let peak = self.now.abs().max(self.then.abs());
+        let d = |lean: f64, a: f64| {
+            let (sin, cos) = (self.alpha - lean).sin_cos();
+            self.p2 * (sin + a * cos)
+        };
+        let d_ground = d(0.0, -peak);
+        if d_ground > 0.0 {
+            // d falls as the body leans out: twice the height of a hop in the field at the ground as the lean to bound it at
+            let lean = v * v / d_ground;
+            let d_min = d(lean, -peak);
+            if lean < self.alpha && d_min > 0.5 * d_ground {
+                let ratio = |side: f64| {
+                    let (now, then) = (side * self.now, side * self.then);
+                    d(0.0, now.max(then)) / d(lean, now.min(then))
+                };
+                let loss = 1.0 - self.e * ratio(1.0).max(ratio(-1.0)).sqrt();
+                if 2.0 * v < self.left * d_min * loss {
+                    return Fate::DiesOut;
+                }
+            }
+        }
+        let d_now = d(0.0, -self.now.abs());
+        if d_now > 0.0 && v * v < 2.0 * d_now * FLOOR * self.alpha {
+            return Fate::Stops;
+        }
+        Fate::Hops
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn uplift_is_located_where_the_ground_acceleration_passes_the_limit() {
+        assert_eq!(uplift(0.0, 0.0, 0.4, 0.1), Some((0.25, -1.0)));
+        assert_eq!(uplift(0.0, 0.0, -0.4, 0.1), Some((0.25, 1.0)));
+        assert_eq!(uplift(0.0, 0.05, 0.05, 0.1), None);
+        assert_eq!(uplift(0.0, 0.3, -0.6, 0.1), Some((0.0, -1.0)));
+    }
+
+    #[test]
+    fn a_peak_one_ulp_above_the_limit_is_a_graze() {
+        let limit = 0.1_f64;
+        assert_eq!(uplift(0.0, limit.next_up(), -0.05, limit), None);
+        assert_eq!(uplift(0.0, limit.next_up(), 0.0, limit), Some((0.0, -1.0)));
+        assert_eq!(uplift(0.0, limit, 0.0, limit), None);
+    }
+
+    /// Level ground: hops of duration 2 v e^n/d, d = p^2 sin(alpha); their sum is 2 v/(d (1 - e)).
+    #[test]
+    fn on_level_ground_hops_die_out_within_the_closed_form_time() {
+        let (v, e, alpha, p2) = (1e-5_f64, 0.9, 0.2_f64, 3.0);
+        let time = 2.0 * v / (p2 * alpha.sin() * (1.0 - e));
+        let hop = |left| Hop { rate: v, left, now: 0.0, then: 0.0, e, alpha, p2 };
+        assert_eq!(hop(1.0001 * time).fate(), Fate::DiesOut);
+        assert_eq!(hop(0.9999 * time).fate(), Fate::Hops);
+    }
+}

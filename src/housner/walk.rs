@@ -1,0 +1,337 @@
+//! The walk through a record: rest, uplift, Taylor steps, impacts, rest again.
+//!
+//! A plain interval between two samples is one Taylor step. An interval with an event (uplift, impact, rest, passing
+//! alpha) or too fast for one step is walked piece by piece. Control flow is decided on real parts. An event's time is solved
+//! for in real numbers; its derivative comes from the equation it solves (implicit function theorem).
+
+use std::f64::consts::FRAC_PI_2;
+
+use super::rest;
+use super::root::first_root;
+use super::series::{LONG, SHORT, Series, Start};
+use super::{Impact, Outcome, Rocking, Uplift};
+use crate::scalar::{Scalar, real};
+
+/// Sine and cosine are carried from step to step by a rotation, and taken anew after this many steps.
+const REFRESH: u32 = 64;
+
+/// p^2 dt^2 from which on steps take the long series.
+const FAST: f64 = 1e-4;
+
+/// The body and the record as the walk needs them.
+pub struct Setting<'a, S> {
+    pub dt: f64,
+    /// Ground acceleration at the samples [m/s2].
+    pub accel: &'a [f64],
+    /// u_g/g per unit of `accel`.
+    pub unit: S,
+    pub alpha: S,
+    pub sin_alpha: S,
+    pub cos_alpha: S,
+    /// tan alpha: the |u_g|/g at which the body lifts.
+    pub lift: S,
+    pub p2: S,
+    /// Velocity restitution.
+    pub e: S,
+    pub max_work: usize,
+}
+
+/// Where the body is.
+struct State<S> {
+    at: Start<S>,
+    /// s = sgn(theta).
+    side: f64,
+    rocking: bool,
+    /// Steps since sine and cosine were computed.
+    age: u32,
+    /// When |theta| last grew past alpha [s].
+    passed: f64,
+    /// Steps and impacts in intervals with events.
+    work: usize,
+}
+
+/// Walk from the given lean and rate at t = 0 to the last sample.
+pub fn walk<S: Scalar>(set: &Setting<S>, theta: S, rate: S) -> Rocking<S> {
+    let n = set.accel.len();
+    let mut out = Rocking {
+        theta: Vec::with_capacity(n),
+        rate: Vec::with_capacity(n),
+        impacts: Vec::with_capacity(32),
+        uplifts: Vec::new(),
+        outcome: Outcome::Rocked,
+    };
+    let Some(&first) = set.accel.first() else {
+        out.outcome = Outcome::NeverMoved;
+        return out;
+    };
+    let mut state = set.begin(theta, rate);
+    let q = set.p2 * (set.dt * set.dt);
+    let h = real::<S>(set.dt);
+    let fast = q.re() > FAST;
+    // a sample beyond this must be looked at; between two samples below it a resting body stays down
+    let quiet = (set.lift / set.unit).re().abs();
+    let mut a0 = set.unit * first;
+    let mut i = 0;
+    loop {
+        if !(state.at.w.re() < FRAC_PI_2 && state.at.rate.re().is_finite()) {
+            let time = i as f64 * set.dt;
+            let flat = state.at.w.re() >= FRAC_PI_2;
+            out.outcome = if flat { Outcome::Overturned { time: state.passed } } else { Outcome::NotFinite { time } };
+            return out;
+        }
+        out.theta.push(state.at.w * state.side);
+        out.rate.push(state.at.rate * state.side);
+        if i + 1 == n {
+            break;
+        }
+        if !state.rocking {
+            let still = set.accel[i + 1..].iter().take_while(|a| a.abs() <= quiet).count();
+            if still > 0 && (set.accel[i].abs() <= quiet || set.is_grazing(i)) {
+                i += still;
+                out.theta.resize(i + 1, S::zero());
+                out.rate.resize(i + 1, S::zero());
+                if i + 1 == n {
+                    break;
+                }
+            }
+            a0 = set.unit * set.accel[i];
+        }
+        let a1 = set.unit * set.accel[i + 1];
+        let da = a1 - a0;
+        let stepped = state.rocking
+            && if fast {
+                set.step::<LONG>(&mut state, h, q, a0, da)
+            } else {
+                set.step::<SHORT>(&mut state, h, q, a0, da)
+            };
+        let done = stepped || set.interval(&mut state, i, a0, a1, &mut out);
+        if !done {
+            out.outcome = Outcome::WorkBound { time: i as f64 * set.dt };
+            return out;
+        }
+        a0 = a1;
+        i += 1;
+    }
+    if state.rocking && falls(&state.at, set.alpha.re(), set.p2.re()) {
+        out.outcome = Outcome::Overturned { time: state.passed };
+    } else if out.uplifts.is_empty() && theta.re() == 0.0 && rate.re() == 0.0 {
+        out.outcome = Outcome::NeverMoved;
+    }
+    out
+}
+
+/// Whether a body beyond alpha goes on falling when the ground stops: w'^2/2 against p^2 (1 - cos(w - alpha)).
+fn falls<S: Scalar>(at: &Start<S>, alpha: f64, p2: f64) -> bool {
+    let (beyond, rate) = (at.w.re() - alpha, at.rate.re());
+    beyond > 0.0 && (rate >= 0.0 || rate * rate < 4.0 * p2 * (0.5 * beyond).sin().powi(2))
+}
+
+impl<S: Scalar> Setting<'_, S> {
+    fn begin(&self, theta: S, rate: S) -> State<S> {
+        let negative = theta.re() < 0.0 || (theta.re() == 0.0 && rate.re() < 0.0);
+        let side = if negative { -1.0 } else { 1.0 };
+        let w = theta * side;
+        let (sin, cos) = (self.alpha - w).sin_cos();
+        State {
+            at: Start { w, rate: rate * side, sin, cos },
+            side,
+            rocking: theta.re() != 0.0 || rate.re() != 0.0,
+            age: 0,
+            passed: 0.0,
+            work: 0,
+        }
+    }
+
+    /// One Taylor step over a whole interval; false, with nothing changed, if the interval needs more than that.
+    #[inline(always)]
+    fn step<const N: usize>(&self, state: &mut State<S>, h: S, q: S, a0: S, da: S) -> bool {
+        let at = &state.at;
+        let series = Series::<S, N>::new(at, h, a0 * state.side, da * state.side, q);
+        let change = series.change();
+        let w = at.w + change;
+        let alpha = self.alpha.re();
+        let plain = series.is_converged()
+            && at.w.re() > series.swing()
+            && w.re() < FRAC_PI_2
+            && (w.re() < alpha || at.w.re() >= alpha);
+        if plain {
+            state.at.w = w;
+            state.at.rate = series.end_slope() * (1.0 / self.dt);
+            self.turn(state, change);
+        }
+        plain
+    }
+
+    /// Sine and cosine of alpha - w after w has changed.
+    #[inline(always)]
+    fn turn(&self, state: &mut State<S>, change: S) {
+        let at = &mut state.at;
+        state.age += 1;
+        if state.age < REFRESH && change.re().abs() < 0.03 {
+            // the series end below 2e-17
+            let x2 = change * change;
+            let sin = change * (S::one() + x2 * (x2 * (x2 * (-1.0 / 5040.0) + 1.0 / 120.0) - 1.0 / 6.0));
+            let versine = x2 * (x2 * (x2 * (1.0 / 720.0) - 1.0 / 24.0) + 0.5);
+            let (s, c) = (at.sin, at.cos);
+            at.sin = s - (s * versine + c * sin);
+            at.cos = c - (c * versine - s * sin);
+        } else {
+            (at.sin, at.cos) = (self.alpha - at.w).sin_cos();
+            state.age = 0;
+        }
+    }
+
+    /// Interval i, piece by piece; false if the work bound is reached.
+    #[cold]
+    #[inline(never)]
+    fn interval(&self, state: &mut State<S>, i: usize, a0: S, a1: S, out: &mut Rocking<S>) -> bool {
+        let start = i as f64 * self.dt;
+        let da = a1 - a0;
+        // x: the fraction of the interval behind us
+        let mut x = S::zero();
+        let mut lifting = false;
+        while x.re() < 1.0 {
+            if !state.rocking {
+                match rest::uplift(x, a0, da, self.lift) {
+                    Some((at, side)) => {
+                        x = at;
+                        self.ground(state, side, S::zero());
+                        state.rocking = true;
+                        lifting = true;
+                        out.uplifts.push(Uplift { time: x * self.dt + start, side });
+                        if x.re() >= 1.0 {
+                            break;
+                        }
+                    }
+                    None => return true,
+                }
+            }
+            state.work += 1;
+            if state.work > self.max_work {
+                return false;
+            }
+            let left = S::one() - x;
+            let h = left * self.dt;
+            let b = (a0 + da * x) * state.side;
+            let mut series = Series::<S, LONG>::new(&state.at, h, b, da * left * state.side, self.p2 * h * h);
+            let reach = series.reach();
+            if reach < 1.0 {
+                series.shorten(reach);
+            }
+            let mut c = series.re();
+            if lifting {
+                // at the limit w'' = 0, and its rounding error must not press the body into the ground
+                c[2] = c[2].max(0.0);
+                lifting = false;
+            }
+            match first_root(&c) {
+                Some(z) => {
+                    let z = impact_time(&series, z);
+                    let rate = series.at(z).1 / (h * reach);
+                    x += left * z * reach;
+                    if self.land(state, x, rate, a0, a1, start, out) {
+                        return true;
+                    }
+                }
+                None => {
+                    let before = state.at.w.re();
+                    let change = series.change();
+                    state.at.w += change;
+                    state.at.rate = series.end_slope() / (h * reach);
+                    self.turn(state, change);
+                    let alpha = self.alpha.re();
+                    if before < alpha && state.at.w.re() >= alpha {
+                        let passed = (x + left * reach * crossing(&c, alpha)).re();
+                        state.passed = start + passed * self.dt;
+                    }
+                    if state.at.w.re() >= FRAC_PI_2 || state.at.w.re().is_nan() {
+                        return true;
+                    }
+                    if state.at.w.re() == 0.0 && state.at.rate.re() == 0.0 {
+                        state.rocking = false;
+                    }
+                    if reach >= 1.0 {
+                        return true;
+                    }
+                    x += left * reach;
+                }
+            }
+        }
+        // an event exactly at the sample: its time may move with the parameters, the sample does not
+        let late = S::one() - x;
+        let late = (late - late.re()) * self.dt;
+        let force = self.p2 * (state.at.sin + a1 * state.at.cos * state.side);
+        state.at.w += state.at.rate * late;
+        state.at.rate -= force * late;
+        true
+    }
+
+    /// Put the body on the ground, leaning to a side at a rate.
+    fn ground(&self, state: &mut State<S>, side: f64, rate: S) {
+        state.at = Start { w: S::zero(), rate, sin: self.sin_alpha, cos: self.cos_alpha };
+        state.side = side;
+        state.age = 0;
+    }
+
+    /// An impact at fraction x of the interval, w' before it given. True if the body rests until the interval's end.
+    #[allow(clippy::too_many_arguments)]
+    fn land(&self, state: &mut State<S>, x: S, rate: S, a0: S, a1: S, start: f64, out: &mut Rocking<S>) -> bool {
+        // theta' jumps to e theta' and keeps its sign: s, and with it w', turns round
+        let before = rate * state.side;
+        let after = before * self.e; // (2)
+        out.impacts.push(Impact { time: x * self.dt + start, rate_before: before, rate_after: after });
+        self.ground(state, -state.side, -(rate * self.e));
+        let hop = rest::Hop {
+            rate: state.at.rate.re(),
+            left: (1.0 - x.re()) * self.dt,
+            now: (a0 + (a1 - a0) * x).re(),
+            then: a1.re(),
+            e: self.e.re(),
+            alpha: self.alpha.re(),
+            p2: self.p2.re(),
+        };
+        match hop.fate() {
+            rest::Fate::Hops => false,
+            rest::Fate::Stops => {
+                self.ground(state, state.side, S::zero());
+                state.rocking = false;
+                false
+            }
+            rest::Fate::DiesOut => {
+                self.ground(state, state.side, S::zero());
+                state.rocking = false;
+                true
+            }
+        }
+    }
+
+    /// Sample i is above the limit, but `rest::uplift` calls that a graze.
+    fn is_grazing(&self, i: usize) -> bool {
+        let a0 = self.unit * self.accel[i];
+        rest::uplift(S::zero(), a0, self.unit * self.accel[i + 1] - a0, self.lift).is_none()
+    }
+}
+
+/// The root z of the lean as a function of the parameters. Each Newton step doubles the order of exact derivatives.
+fn impact_time<S: Scalar, const N: usize>(series: &Series<S, N>, z: f64) -> S {
+    let mut z: S = real(z);
+    for _ in 0..2 {
+        let (w, slope) = series.at(z);
+        // a graze has no derivative
+        if slope.re() < 0.0 {
+            z -= w / slope;
+        }
+    }
+    z
+}
+
+/// Where the polynomial, below `level` at 0 and above it at 1, passes it; by bisection, once in a history.
+fn crossing(c: &[f64], level: f64) -> f64 {
+    let (mut low, mut high) = (0.0_f64, 1.0_f64);
+    for _ in 0..53 {
+        let middle = 0.5 * (low + high);
+        let w = c.iter().rev().fold(0.0, |sum, c| sum * middle + c);
+        if w < level { low = middle } else { high = middle }
+    }
+    high
+}
