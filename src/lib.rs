@@ -30,3 +30,5 @@ pub mod motion;
 pub mod housner;
 
 pub mod fem;
+
+pub mod tuning;

@@ -1,0 +1,13 @@
+//! Finding springs: the inner fit (f, xi for a mass ratio mu, on the frequency response) and what uses it.
+
+pub mod bounds;
+
+pub mod certificate;
+
+pub mod excess;
+
+pub mod inner;
+
+pub mod minimax;
+
+pub mod smooth;

@@ -1,0 +1,228 @@
+//! By how much a response exceeds the target: one curve over g for each band and side, and the curve's peaks.
+//!
+//! ```text
+//!  psi(g; z) = w [ s ( ln ARR(g; z) - ref ) - ln limit ],   z = (ln K, ln C),   t(z) = max over curves and g of psi
+//! ```
+//!
+//! At a peak inside its band g follows z (d psi/du = 0, u = ln g), and the peak's value phi(z) has by the implicit
+//! function theorem the gradient psi_z and the Hessian psi_zz - psi_zu psi_uz / psi_uu.
+
+use nalgebra::{Matrix2, SVector, Vector2, vector};
+use num_dual::{Dual2SVec64, DualNum, first_derivative, gradient, hessian, second_derivative};
+
+use crate::response::Response;
+use crate::response::target::{Kind, Target};
+use crate::scalar::{Scalar, real};
+
+/// The searched parameters z = (ln K, ln C). At fixed mu, ln f and ln xi are half of the first and the second, plus
+/// constants; K and C keep a size near one for every mu.
+pub type Parameters = Vector2<f64>;
+
+/// The response of mass ratio mu at parameters z.
+pub fn response<S: Scalar>(mu: f64, z: &SVector<S, 2>) -> Response<S> {
+    Response { mu: real(mu), k: z[0].exp(), c: z[1].exp() }
+}
+
+/// One side of one band.
+#[derive(Clone, Copy, Debug)]
+pub struct Curve {
+    /// The band's number, from 0.
+    pub band: usize,
+    kind: Kind,
+    /// +1 where ARR must stay below, -1 where it must stay above.
+    pub side: f64,
+    weight: f64,
+    ln_limit: f64,
+    g_low: f64,
+    g_high: f64,
+}
+
+/// The curve at one g: an end of its band, or a peak inside.
+#[derive(Clone, Copy, Debug)]
+pub struct Point {
+    /// Which curve, from 0.
+    pub curve: usize,
+    /// Frequency ratio; zero and infinity are possible at ends.
+    pub g: f64,
+    /// A peak inside the band, which moves with z; else an end, which does not.
+    pub inside: bool,
+    /// psi.
+    pub value: f64,
+}
+
+/// What a point's value does when z moves: value, gradient and Hessian by z.
+#[derive(Clone, Copy, Debug)]
+pub struct Model {
+    /// psi.
+    pub value: f64,
+    /// d phi/dz.
+    pub slope: Vector2<f64>,
+    /// d2 phi/dz2.
+    pub curvature: Matrix2<f64>,
+}
+
+/// The curves of a target, in the order of its bands, above before below.
+pub fn curves(target: &Target) -> Vec<Curve> {
+    let mut curves = Vec::new();
+    for (index, band) in target.bands.iter().enumerate() {
+        let (sides, ln_limit): (&[f64], _) = match band.kind {
+            Kind::Cap | Kind::RollOff => (&[1.0], band.limit.ln()),
+            Kind::Uniform | Kind::Rigid => (&[1.0, -1.0], band.limit.ln_1p()),
+        };
+        curves.extend(sides.iter().map(|&side| Curve {
+            band: index,
+            kind: band.kind,
+            side,
+            weight: band.weight,
+            ln_limit,
+            g_low: band.g_low,
+            g_high: band.g_high.unwrap_or(f64::INFINITY),
+        }));
+    }
+    curves
+}
+
+impl Curve {
+    /// psi at a finite g of a response.
+    pub fn excess<S: Scalar>(&self, g: S, response: &Response<S>) -> S {
+        let ln_arr = response.arr(g).ln();
+        let above = match self.kind {
+            Kind::Cap => ln_arr,
+            Kind::RollOff => ln_arr + g.ln() * real::<S>(2.0),
+            Kind::Uniform => (ln_arr - response.at_zero().ln()) * real::<S>(self.side),
+            Kind::Rigid => ln_arr * real::<S>(self.side),
+        };
+        (above - real::<S>(self.ln_limit)) * real::<S>(self.weight)
+    }
+
+    /// g held inside the band, with the derivative of where it is held.
+    pub fn clamp<S: Scalar>(&self, g: S) -> S {
+        if g.re() < self.g_low {
+            real(self.g_low)
+        } else if g.re() > self.g_high {
+            real(self.g_high)
+        } else {
+            g
+        }
+    }
+
+    /// psi at an end of the band; where g is infinite ARR g^2 = 1 for every z, and ARR = 0.
+    fn at_end(&self, g: f64, response: &Response<f64>) -> f64 {
+        match (g.is_infinite(), self.kind) {
+            (false, _) => self.excess(g, response),
+            (true, Kind::RollOff) => -self.weight * self.ln_limit,
+            (true, _) => f64::NEG_INFINITY,
+        }
+    }
+
+    /// The ends of the band and every peak inside it, in the order of g, for mass ratio mu at z.
+    ///
+    /// Peaks are bracketed by the sign of d psi/du on a grid that holds the response's own corner frequencies, so a
+    /// resonance however sharp is not stepped over, and found to rounding by Newton's method.
+    fn points(&self, index: usize, mu: f64, z: &Parameters, out: &mut Vec<Point>) {
+        let response = response(mu, z);
+        let end = |g: f64| Point { curve: index, g, inside: false, value: self.at_end(g, &response) };
+        out.push(end(self.g_low));
+        let mut left: Option<f64> = None;
+        for g in self.grid(&response) {
+            let u = g.ln();
+            if self.slope(u, mu, z) > 0.0 {
+                left = Some(u);
+            } else if let Some(from) = left.take() {
+                let g = self.peak(from, u, mu, z).exp();
+                out.push(Point { curve: index, g, inside: true, value: self.excess(g, &response) });
+            }
+        }
+        if self.g_high.is_finite() || self.kind == Kind::RollOff {
+            out.push(end(self.g_high));
+        }
+    }
+
+    fn grid(&self, response: &Response<f64>) -> Vec<f64> {
+        /// Between corner frequencies ARR is smooth on the scale of an octave.
+        const PER_DECADE: f64 = 24.0;
+        /// Steps from one corner to the next.
+        const BETWEEN: usize = 8;
+        let ([p, q], [r, s]) = (response.fixed_points(), response.resonances());
+        // without damping, with any damping, with m2 locked to the ground
+        let mut corners = [p, q, r, s, 1.0];
+        corners.sort_by(f64::total_cmp);
+        let (first, last) = (corners[0], corners[4]);
+        // a thousandth below and above the corners ARR is at its limits to a millionth
+        let low = self.g_low.max(1e-3 * first);
+        let high = self.g_high.min(1e3 * last).max(low);
+        let steps = ((high / low).log10() * PER_DECADE).ceil().max(8.0);
+        let mut grid: Vec<f64> = (0..=steps as usize).map(|i| low * (high / low).powf(i as f64 / steps)).collect();
+        // at large mu the corners, and the peaks among them, crowd around g = 1
+        for pair in corners.windows(2) {
+            grid.extend((0..=BETWEEN).map(|i| pair[0] + (pair[1] - pair[0]) * i as f64 / BETWEEN as f64));
+        }
+        grid.retain(|g| (low..=high).contains(g));
+        grid.sort_by(f64::total_cmp);
+        grid
+    }
+
+    fn slope(&self, u: f64, mu: f64, z: &Parameters) -> f64 {
+        first_derivative(|u| self.excess(u.exp(), &response(mu, &z.map(real))), u).1
+    }
+
+    /// The u between `a` (rising) and `b` (not rising) where d psi/du = 0.
+    fn peak(&self, mut a: f64, mut b: f64, mu: f64, z: &Parameters) -> f64 {
+        let mut u = 0.5 * (a + b);
+        for _ in 0..100 {
+            let (_, first, second) = second_derivative(|u| self.excess(u.exp(), &response(mu, &z.map(real))), u);
+            if first > 0.0 {
+                a = u;
+            } else {
+                b = u;
+            }
+            let newton = u - first / second;
+            let next = if newton > a && newton < b { newton } else { 0.5 * (a + b) };
+            // a step of two roundings of u (of order one) is the end
+            let done = (next - u).abs() <= 4.0 * f64::EPSILON * u.abs().max(1.0);
+            u = next;
+            if done {
+                break;
+            }
+        }
+        u
+    }
+
+    /// The second-order model of a point of this curve.
+    pub fn model(&self, point: &Point, mu: f64, z: &Parameters) -> Model {
+        if point.g.is_infinite() {
+            return Model { value: point.value, slope: Vector2::zeros(), curvature: Matrix2::zeros() };
+        }
+        if !point.inside {
+            let at = |z: SVector<Dual2SVec64<2>, 2>| self.excess(real(point.g), &response(mu, &z));
+            let (_, slope, curvature) = hessian(at, z);
+            return Model { value: point.value, slope, curvature };
+        }
+        let at = |v: SVector<Dual2SVec64<3>, 3>| self.excess(v[2].exp(), &response(mu, &vector![v[0], v[1]]));
+        let (_, slope, second) = hessian(at, &vector![z[0], z[1], point.g.ln()]);
+        let (slope, cross) = (slope.fixed_rows::<2>(0).into_owned(), second.fixed_view::<2, 1>(0, 2).into_owned());
+        // psi_uu < 0 at a peak; one that is about to vanish (psi_uu -> 0) keeps a finite, convex model
+        let bend = second[(2, 2)].min(-1e-9);
+        let curvature = second.fixed_view::<2, 2>(0, 0) - cross * cross.transpose() / bend;
+        Model { value: point.value, slope, curvature }
+    }
+}
+
+/// Every end and peak of every curve.
+pub fn points(curves: &[Curve], mu: f64, z: &Parameters) -> Vec<Point> {
+    let mut out = Vec::new();
+    for (index, curve) in curves.iter().enumerate() {
+        curve.points(index, mu, z, &mut out);
+    }
+    out
+}
+
+/// t(z): the largest excess of these points.
+pub fn largest(points: &[Point]) -> f64 {
+    points.iter().fold(f64::NEG_INFINITY, |t, point| t.max(point.value))
+}
+
+/// psi and its gradient by z at a g that does not move.
+pub fn value_and_slope(curve: &Curve, g: f64, mu: f64, z: &Parameters) -> (f64, Vector2<f64>) {
+    gradient(|z| curve.excess(real(g), &response(mu, &z)), z)
+}

@@ -1,0 +1,183 @@
+//! Stage 2 of the inner fit: the Chebyshev (minimax) refinement by sequential convex steps.
+//!
+//! ```text
+//!  minimise over (d, s)   s + 1/2 d' W d        W = sum lambda_i phi_i'' , its negative part left out
+//!  subject to             phi_i + grad phi_i d <= s   for every end and peak i
+//!                         low <= z + d <= high,  |d| <= Delta
+//! ```
+//!
+//! Each step is a quadratic program for clarabel, whose duals are the lambda of the next; the peaks are found anew
+//! after each step. Two parameters are often held by only two frequencies (both fixed points, or g = 0 and the lower
+//! one): the curvature W of the peaks then fixes the rest, and steps without it (W = 0) would only creep.
+
+use clarabel::algebra::CscMatrix;
+use clarabel::solver::{DefaultSettingsBuilder, DefaultSolver, IPSolver, NonnegativeConeT, SolverStatus};
+use nalgebra::{Matrix2, Vector2};
+
+use super::certificate::{Problem, follow};
+use super::excess::{Model, Parameters, Point, largest};
+
+/// Where the steps ended.
+#[derive(Clone, Debug)]
+pub struct Minimum {
+    pub z: Parameters,
+    /// t: the largest excess.
+    pub excess: f64,
+    pub active: Vec<Point>,
+    pub multipliers: Vec<f64>,
+    /// Convex steps taken.
+    pub iterations: usize,
+    /// Whether the Newton iteration on the optimality conditions confirmed a minimum.
+    pub converged: bool,
+}
+
+/// Steps before giving up; a usual fit takes 5 to 15.
+const ITERATIONS: usize = 100;
+/// A multiplier below this belongs to a frequency that does not hold the fit.
+const ACTIVE: f64 = 1e-5;
+/// Within this distance of the answer (in ln K, ln C) Newton's method is worth a try.
+const NEAR: f64 = 1e-2;
+
+/// The minimum that the steps reach from `start`.
+pub fn minimise(problem: &Problem, start: &Parameters) -> Minimum {
+    let mut z = problem.region.clamp(start);
+    let mut points = problem.points(&z);
+    let mut t = largest(&points);
+    let mut lambda = softmax(&points, t);
+    let mut radius = 0.5;
+    let mut iterations = 0;
+    while iterations < ITERATIONS {
+        iterations += 1;
+        let models: Vec<Model> = points.iter().map(|point| problem.model(point, &z)).collect();
+        let w = models.iter().zip(&lambda).map(|(model, &l)| model.curvature * l).sum();
+        let Some(step) = convex_step(problem, &z, t, &models, &convex(w), radius) else {
+            radius *= 0.25;
+            if radius < 1e-12 {
+                break;
+            }
+            continue;
+        };
+        if step.d.amax() < NEAR {
+            let (active, held) = held(&points, &step.lambda);
+            if let Some((z, active, multipliers)) = problem.polish(&z, &active, &held) {
+                let excess = largest(&problem.points(&z));
+                return Minimum { z, excess, active, multipliers, iterations, converged: true };
+            }
+        }
+        // what the model promises is lost in the rounding of t: there is nothing left to gain
+        if step.gain <= 1e-14 || radius < 1e-12 {
+            lambda = step.lambda;
+            break;
+        }
+        let trial = problem.region.clamp(&(z + step.d));
+        let found = problem.points(&trial);
+        let trial_t = largest(&found);
+        let share = (t - trial_t) / step.gain;
+        if share > 1e-3 {
+            lambda = carried(&points, &step.lambda, &found);
+            (z, points, t) = (trial, found, trial_t);
+        } else {
+            lambda = step.lambda;
+        }
+        radius = match share {
+            share if share > 0.75 => (2.0 * radius).min(2.0),
+            share if share > 0.1 => radius,
+            _ => 0.25 * step.d.amax().min(radius),
+        };
+    }
+    let (active, multipliers) = held(&points, &lambda);
+    Minimum { z, excess: t, active, multipliers, iterations, converged: false }
+}
+
+struct Step {
+    d: Vector2<f64>,
+    /// The model's fall of t.
+    gain: f64,
+    lambda: Vec<f64>,
+}
+
+/// One convex step, or nothing if the solver did not solve it.
+fn convex_step(
+    problem: &Problem,
+    z: &Parameters,
+    t: f64,
+    models: &[Model],
+    w: &Matrix2<f64>,
+    radius: f64,
+) -> Option<Step> {
+    // rows: a d - s <= t - phi, with s counted from t; then the box
+    let mut rows: Vec<[f64; 3]> = Vec::with_capacity(models.len() + 4);
+    let mut right = Vec::with_capacity(models.len() + 4);
+    let mut of_row = Vec::with_capacity(models.len());
+    for (index, model) in models.iter().enumerate().filter(|(_, model)| model.value.is_finite()) {
+        rows.push([model.slope[0], model.slope[1], -1.0]);
+        right.push(t - model.value);
+        of_row.push(index);
+    }
+    let (down, up) = (z - problem.region.low, problem.region.high - z);
+    for j in 0..2 {
+        let mut row = [0.0; 3];
+        row[j] = 1.0;
+        rows.push(row);
+        right.push(up[j].min(radius));
+        rows.push(row.map(|x| -x));
+        right.push(down[j].min(radius));
+    }
+    let quadratic = CscMatrix::from(&[[w[(0, 0)], w[(0, 1)], 0.0], [0.0, w[(1, 1)], 0.0], [0.0, 0.0, 0.0]]);
+    let cones = [NonnegativeConeT(rows.len())];
+    let settings = DefaultSettingsBuilder::default()
+        .verbose(false)
+        .max_threads(1)
+        .tol_gap_abs(1e-12)
+        .tol_gap_rel(1e-12)
+        .tol_feas(1e-12)
+        .build()
+        .ok()?;
+    let mut solver =
+        DefaultSolver::new(&quadratic, &[0.0, 0.0, 1.0], &CscMatrix::from(&rows), &right, &cones, settings).ok()?;
+    solver.solve();
+    // AlmostSolved: short of 1e-12 but within 1e-4; good enough for a step, the polish does the rest
+    if !matches!(solver.solution.status, SolverStatus::Solved | SolverStatus::AlmostSolved) {
+        return None;
+    }
+    let x = &solver.solution.x;
+    let d = Vector2::new(x[0], x[1]);
+    let mut lambda = vec![0.0; models.len()];
+    of_row.iter().zip(&solver.solution.z).for_each(|(&index, &dual)| lambda[index] = dual.max(0.0));
+    Some(Step { d, gain: -(x[2] + 0.5 * d.dot(&(w * d))), lambda })
+}
+
+/// W without its negative part.
+fn convex(w: Matrix2<f64>) -> Matrix2<f64> {
+    let eigen = w.symmetric_eigen();
+    eigen.eigenvectors
+        * Matrix2::from_diagonal(&eigen.eigenvalues.map(|value| value.max(0.0)))
+        * eigen.eigenvectors.transpose()
+}
+
+/// First guess of the multipliers: by how near each point is to the largest.
+fn softmax(points: &[Point], t: f64) -> Vec<f64> {
+    let weights: Vec<f64> = points.iter().map(|point| (30.0 * (point.value - t)).exp()).collect();
+    let sum: f64 = weights.iter().sum();
+    weights.iter().map(|weight| weight / sum).collect()
+}
+
+/// The multipliers handed on to the points after a step.
+fn carried(before: &[Point], lambda: &[f64], now: &[Point]) -> Vec<f64> {
+    let mut out = vec![0.0; now.len()];
+    for (point, &l) in before.iter().zip(lambda) {
+        if let Some(index) = follow(point, now) {
+            out[index] += l;
+        }
+    }
+    out
+}
+
+/// The points that hold the fit, and their multipliers, which sum to 1.
+fn held(points: &[Point], lambda: &[f64]) -> (Vec<Point>, Vec<f64>) {
+    let (active, mut held): (Vec<Point>, Vec<f64>) =
+        points.iter().zip(lambda).filter(|&(_, &l)| l > ACTIVE).map(|(&point, &l)| (point, l)).unzip();
+    let sum: f64 = held.iter().sum();
+    held.iter_mut().for_each(|l| *l /= sum);
+    (active, held)
+}
