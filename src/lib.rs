@@ -19,6 +19,8 @@ pub mod scalar;
 
 pub mod record;
 
+pub mod synthetic;
+
 pub mod structure;
 
 pub mod spring;

@@ -1,6 +1,6 @@
 //! Ground motions: acceleration at even time steps, from files or embedded.
 //!
-//! A record is the ground acceleration u_g''(t) [m/s2], positive to the right, `accel[i]` at t = i dt, linear between
+//! A record is the ground acceleration u_g''(t) in m/s2, positive to the right, `accel[i]` at t = i dt, linear between
 //! samples: the kinks at the samples are part of the motion, and solvers step from one to the next. Numbers in g are
 //! turned into m/s2 with g = 9.81 m/s2 ([`GRAVITY`]).
 //!
@@ -26,7 +26,7 @@ use crate::scalar::GRAVITY;
 
 /// No record file is larger; the rest is not read [bytes].
 const FILE_LIMIT: u64 = 256 << 20;
-/// No earthquake comes near this peak; numbers beyond it are in another unit [g].
+/// No earthquake comes near this peak; numbers beyond it are in another unit (g).
 const PGA_LIMIT_G: f64 = 50.0;
 
 /// A ground motion, linear between its samples.
@@ -34,16 +34,16 @@ const PGA_LIMIT_G: f64 = 50.0;
 pub struct Record {
     /// Name: the file's, without its ending.
     pub name: String,
-    /// Time step [s].
+    /// Time step (s).
     pub dt: f64,
-    /// Ground acceleration at t = i dt, positive to the right [m/s2].
+    /// Ground acceleration at t = i dt, positive to the right (m/s2).
     pub accel: Vec<f64>,
 }
 
 /// What the user says about a file that the file may not say itself.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct ReadOptions {
-    /// Time step [s].
+    /// Time step (s).
     pub dt: Option<f64>,
     /// Unit of the numbers in the file.
     pub units: Option<Units>,
@@ -55,7 +55,7 @@ struct Samples {
     /// Velocity or displacement, if the header says that.
     quantity: Option<&'static str>,
     dt: Option<f64>,
-    /// How far dt may be off by the rounding of printed digits [s].
+    /// How far dt may be off by the rounding of printed digits (s).
     dt_rounding: f64,
     values: Vec<f64>,
 }
@@ -150,17 +150,17 @@ impl Record {
         Self { name: self.name.clone(), dt: self.dt, accel: self.accel[..samples].to_vec() }
     }
 
-    /// Peak ground acceleration [m/s2].
+    /// Peak ground acceleration (m/s2).
     pub fn pga(&self) -> f64 {
         self.accel.iter().fold(0.0, |peak: f64, a| peak.max(a.abs()))
     }
 
-    /// Peak ground acceleration [g].
+    /// Peak ground acceleration (g).
     pub fn pga_g(&self) -> f64 {
         self.pga() / GRAVITY
     }
 
-    /// Time of the last sample, (n - 1) dt [s].
+    /// Time of the last sample, (n - 1) dt (s).
     pub fn duration(&self) -> f64 {
         self.len().saturating_sub(1) as f64 * self.dt
     }
@@ -175,7 +175,7 @@ impl Record {
         self.accel.is_empty()
     }
 
-    /// Ground acceleration at time t [s], linear between samples, zero outside the record [m/s2].
+    /// Ground acceleration at time t (s), linear between samples, zero outside the record (m/s2).
     pub fn at(&self, t: f64) -> f64 {
         let x = t / self.dt;
         if !(x >= 0.0 && x <= self.len().saturating_sub(1) as f64) {

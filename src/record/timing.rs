@@ -50,14 +50,14 @@ impl Times {
         }
     }
 
-    /// One unit of the last printed digit, at the largest time [s].
+    /// One unit of the last printed digit, at the largest time (s).
     fn last_digit(&self) -> f64 {
         let largest = self.times.iter().fold(0.0, |largest: f64, t| largest.max(t.abs()));
         let leading = if largest > 0.0 { largest.log10().floor() as i32 + 1 } else { 0 };
         10_f64.powi(self.finest.max(leading - self.significant))
     }
 
-    /// Slope of the least-squares line through the times: rounding of the first and last time does not tilt it [s].
+    /// Slope of the least-squares line through the times: rounding of the first and last time does not tilt it (s).
     fn slope(&self) -> f64 {
         let middle = (self.times.len() - 1) as f64 / 2.0;
         let (mut above, mut below) = (0.0, 0.0);
@@ -69,7 +69,7 @@ impl Times {
         above / below
     }
 
-    /// Range of t_i - i dt, less what floating point cannot resolve [s].
+    /// Range of t_i - i dt, less what floating point cannot resolve (s).
     fn spread(&self, dt: f64) -> f64 {
         let offsets = self.times.iter().enumerate().map(|(i, t)| t - i as f64 * dt);
         let (low, high) = offsets.fold((f64::INFINITY, f64::NEG_INFINITY), |(low, high), x| (low.min(x), high.max(x)));

@@ -1,0 +1,136 @@
+use super::*;
+use crate::structure::{Body, Structure};
+
+/// The bodies that a suite of records must exercise: A-frames and blocks from 61 m to 0.6 m.
+fn bodies() -> Vec<(&'static str, Body<f64>)> {
+    [
+        ("61 x 12.2 m A-frame", Structure::a_frame(61.0, 12.2, 1e5)),
+        ("20 x 4 m A-frame", Structure::a_frame(20.0, 4.0, 1e5)),
+        ("5 x 1.5 m A-frame", Structure::a_frame(5.0, 1.5, 1e5)),
+        ("2 x 0.5 m block", Structure::block(2.0, 0.5, 1e3)),
+        ("0.6 x 0.2 m block", Structure::block(0.6, 0.2, 100.0)),
+    ]
+    .map(|(name, structure)| (name, structure.unwrap().body()))
+    .to_vec()
+}
+
+/// Largest |theta|/alpha of Housner's rocking by Runge-Kutta steps of dt, impacts to the nearest step: good enough to
+/// count outcomes. More than 1 means toppled.
+fn peak_rocking(body: &Body<f64>, record: &Record) -> f64 {
+    let (p2, alpha, e) = (body.p_squared(), body.alpha(), body.restitution());
+    let (mut theta, mut rate, mut peak) = (0.0_f64, 0.0_f64, 0.0_f64);
+    for pair in record.accel.windows(2) {
+        if theta == 0.0 && rate.abs() < 1e-6 {
+            rate = 0.0;
+            if pair[0].abs() <= GRAVITY * alpha.tan() {
+                continue;
+            }
+        }
+        let s = if theta != 0.0 {
+            theta.signum()
+        } else if rate != 0.0 {
+            rate.signum()
+        } else {
+            -pair[0].signum()
+        };
+        let f = |theta: f64, t: f64| {
+            let a = (pair[0] + (pair[1] - pair[0]) * t) / GRAVITY;
+            -p2 * ((alpha * s - theta).sin() + a * (alpha * s - theta).cos())
+        };
+        let h = record.dt;
+        let k1 = (rate, f(theta, 0.0));
+        let k2 = (rate + h / 2.0 * k1.1, f(theta + h / 2.0 * k1.0, 0.5));
+        let k3 = (rate + h / 2.0 * k2.1, f(theta + h / 2.0 * k2.0, 0.5));
+        let k4 = (rate + h * k3.1, f(theta + h * k3.0, 1.0));
+        theta += h / 6.0 * (k1.0 + 2.0 * k2.0 + 2.0 * k3.0 + k4.0);
+        rate += h / 6.0 * (k1.1 + 2.0 * k2.1 + 2.0 * k3.1 + k4.1);
+        if theta * s < 0.0 {
+            (theta, rate) = (0.0, e * rate);
+        }
+        peak = peak.max(theta.abs() / alpha);
+        if peak > 2.0 {
+            break;
+        }
+    }
+    peak
+}
+
+#[test]
+fn outcomes_are_a_mix_from_hardly_lifting_to_toppling() {
+    for (name, body) in bodies() {
+        let n = 600;
+        let peaks: Vec<f64> =
+            suite(n, 42, body.p_squared().sqrt(), body.alpha()).map(|record| peak_rocking(&body, &record)).collect();
+        let share = |low: f64, high: f64, kind: &[usize]| {
+            let of_kind: Vec<f64> = (0..n).filter(|i| kind.contains(&(i % 3))).map(|i| peaks[i]).collect();
+            of_kind.iter().filter(|peak| (low..high).contains(peak)).count() as f64 / of_kind.len() as f64
+        };
+        let all = [0, 1, 2];
+        let toppled = all.map(|kind| share(1.0, f64::INFINITY, &[kind]));
+        let classes = [(0.0, 0.1), (0.1, 0.4), (0.4, 1.0)].map(|(low, high)| share(low, high, &all));
+        println!("{name}: toppled {toppled:.3?}, peaks below 0.1, 0.4, 1 alpha {classes:.3?}");
+        assert!((0.1..=0.25).contains(&share(1.0, f64::INFINITY, &all)), "{name}");
+        assert!(toppled.iter().all(|share| (0.05..0.4).contains(share)), "{name}: {toppled:?}");
+        assert!(classes.iter().all(|share| *share > 0.1), "{name}: {classes:?}");
+    }
+}
+
+#[test]
+fn every_record_passes_the_checks_of_a_record_and_lifts_the_body() {
+    for (name, body) in bodies() {
+        let uplift = GRAVITY * body.alpha().tan();
+        for record in suite(60, 3, body.p_squared().sqrt(), body.alpha()) {
+            let (low, high) = if record.name.starts_with("noise") { (1.2, 6.0) } else { (1.1, 4.0) };
+            let amplitude = record.pga() / uplift;
+            assert!((low * (1.0 - 1e-12)..=high).contains(&amplitude), "{name} {} {amplitude}", record.name);
+            assert!(record.accel[0].abs() < 1e-6 * uplift && record.accel.last() == Some(&0.0), "{}", record.name);
+            assert_eq!(Record::new(record.name.clone(), record.dt, record.accel.clone()), Ok(record));
+        }
+    }
+}
+
+/// The trapezoidal velocity of a smooth pulse ends within O(dt^2) of zero; the bound is 1e-3 of the peak velocity.
+#[test]
+fn the_ground_comes_to_rest() {
+    for record in suite(300, 11, 1.5, 0.2) {
+        let (mut velocity, mut peak) = (0.0_f64, 0.0_f64);
+        for pair in record.accel.windows(2) {
+            velocity += record.dt * (pair[0] + pair[1]) / 2.0;
+            peak = peak.max(velocity.abs());
+        }
+        assert!(velocity.abs() < 1e-3 * peak, "{} {velocity} {peak}", record.name);
+    }
+}
+
+#[test]
+fn a_record_depends_on_seed_and_index_alone() {
+    let forwards: Vec<Record> = suite(9, 5, 1.0, 0.2).collect();
+    for index in (0..9).rev() {
+        assert_eq!(record(5, index, 1.0, 0.2), forwards[index]);
+        assert_ne!(record(6, index, 1.0, 0.2).accel, forwards[index].accel);
+        assert_ne!(record(5, index + 6, 1.0, 0.2).accel, forwards[index].accel);
+    }
+    let names: Vec<&str> = forwards.iter().map(|record| record.name.as_str()).collect();
+    assert_eq!(names[..4], ["ricker-0000", "mavroeidis-0001", "noise-0002", "ricker-0003"]);
+}
+
+/// Lengths times L, time times sqrt L: pulses keep their shape when 1/(200 p) keeps its digits.
+#[test]
+fn pulses_scale_with_the_structure() {
+    let (small, large) = (record(5, 0, 5.0, 0.2), record(5, 0, 0.5, 0.2));
+    assert_eq!((small.dt, large.dt), (0.001, 0.01));
+    assert_eq!(small.len(), large.len());
+    for (a, b) in small.accel.iter().zip(&large.accel) {
+        assert!((a - b).abs() < 1e-12 * small.pga());
+    }
+}
+
+#[test]
+fn time_steps_are_round() {
+    for (x, step) in [(0.02, 0.02), (0.0126, 0.01), (0.005, 0.005), (4.2e-4, 2e-4), (0.0099, 0.005), (1e-3, 1e-3)] {
+        assert_eq!(round_step(x), step);
+    }
+    for p in [f64::NAN, 0.0, 1e9, f64::INFINITY] {
+        assert!(record(1, 0, p, 0.2).accel.iter().all(|a| a.is_finite()), "{p}");
+    }
+}
