@@ -49,7 +49,7 @@ mod tests {
     #[test]
     fn normal_numbers_have_the_moments_of_the_normal_distribution() {
         let mut random = Random::new(1, 0);
-        let n = 200_000;
+        let n = 200_000_i32;
         let mut moments = [0.0; 4];
         for _ in 0..n {
             let x = random.normal();
@@ -59,7 +59,7 @@ mod tests {
         }
         // four standard errors of each mean: sqrt(1/n), sqrt(2/n), sqrt(15/n), sqrt(96/n)
         for ((moment, exact), variance) in moments.into_iter().zip([0.0, 1.0, 0.0, 3.0]).zip([1.0, 2.0, 15.0, 96.0]) {
-            assert!((moment - exact).abs() < 4.0 * (variance / f64::from(n) as f64).sqrt(), "{moment} {exact}");
+            assert!((moment - exact).abs() < 4.0 * (variance / f64::from(n)).sqrt(), "{moment} {exact}");
         }
     }
 
