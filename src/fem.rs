@@ -20,6 +20,7 @@
 mod history;
 mod model;
 mod newton;
+#[allow(clippy::excessive_precision)] // tables to 18 digits, as computed
 mod radau;
 mod run;
 mod step;

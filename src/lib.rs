@@ -34,3 +34,6 @@ pub mod housner;
 pub mod fem;
 
 pub mod tuning;
+pub mod compare;
+
+pub mod parameters;

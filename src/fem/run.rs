@@ -138,6 +138,8 @@ pub(crate) struct Run<'a, S> {
     scale: f64,
     /// Static compression of k1 under the weight [m], the scale of contact.
     compression: f64,
+    /// sqrt(compression/g) = 1/Omega_n of the vertical chain [s], the scale of time in contact.
+    settling: f64,
     guess: [Vector<S>; 3],
     /// Step size that the energy account asked for [s].
     h: f64,
@@ -169,6 +171,7 @@ impl<'a, S: Scalar> Run<'a, S> {
             energy,
             scale,
             compression,
+            settling: (compression / GRAVITY).sqrt(),
             guess: no_guess(),
             h: f64::INFINITY,
             work: Work::default(),
@@ -218,7 +221,7 @@ impl<'a, S: Scalar> Run<'a, S> {
             if left.re() <= 1e-13 * dt {
                 return Ok(());
             }
-            if self.work.steps + self.work.rejected >= self.control.most_steps {
+            if self.work.steps + self.work.rejected >= self.control.most_steps || self.h < 1e-14 * dt {
                 return Err(t0 + t.re());
             }
             let h = self.next_size(left);
@@ -226,9 +229,6 @@ impl<'a, S: Scalar> Run<'a, S> {
             let Some(stages) = self.attempt(h, &here) else {
                 self.work.rejected += 1;
                 self.h = h.re() * 0.25;
-                if self.h < 1e-14 * dt {
-                    return Err(t0 + t.re());
-                }
                 continue;
             };
             let (stages, crossed) = match self.met(&stages) {
@@ -372,7 +372,9 @@ impl<'a, S: Scalar> Run<'a, S> {
         // a radau step loses energy as h^6
         let factor = 0.9 * (allowed / defect.max(1e-300)).powf(1.0 / 6.0);
         let h = stages.h.re();
-        if !(defect <= allowed) && h > 1e-9 {
+        // at a force discontinuity no step size satisfies the account: the smallest may break it, but not with a NaN
+        let acceptable = defect <= allowed || (h <= 1e-9 * self.settling && defect.is_finite());
+        if !acceptable {
             self.h = h * factor.clamp(0.1, 0.9);
             return false;
         }

@@ -100,11 +100,10 @@ pub(super) fn step<S: Scalar>(
     let (mut last, mut left) = (f64::INFINITY, None);
     loop {
         for i in 0..3 {
-            for k in 0..N {
-                let (a0, a1, a2) = (s.a[0][k], s.a[1][k], s.a[2][k]);
-                s.q[i][k] = base[i][k] + h2 * (a0 * A2[i][0] + a1 * A2[i][1] + a2 * A2[i][2]);
-                s.v[i][k] = start.v[k] + h * (a0 * A[i][0] + a1 * A[i][1] + a2 * A[i][2]);
-            }
+            let [a0, a1, a2] = &s.a;
+            let ([b0, b1, b2], [d0, d1, d2]) = (A2[i], A[i]);
+            s.q[i] = std::array::from_fn(|k| base[i][k] + h2 * (a0[k] * b0 + a1[k] * b1 + a2[k] * b2));
+            s.v[i] = std::array::from_fn(|k| start.v[k] + h * (a0[k] * d0 + a1[k] * d1 + a2[k] * d2));
         }
         if left == Some(0) {
             return Some(s);
@@ -131,9 +130,9 @@ pub(super) fn step<S: Scalar>(
         let mut change: f64 = 0.0;
         for k in 0..N {
             let length = if k == TH { radius } else { 1.0 };
-            for i in 0..3 {
-                let delta = w0[k] * T[i][0] + w1[k].re * T[i][1] - w1[k].im * T[i][2];
-                s.a[i][k] += delta;
+            for (a, [t0, t1, t2]) in s.a.iter_mut().zip(T) {
+                let delta = w0[k] * t0 + w1[k].re * t1 - w1[k].im * t2;
+                a[k] += delta;
                 change = change.max((delta.re() * length).abs());
             }
         }

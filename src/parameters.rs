@@ -1,0 +1,112 @@
+//! `parameters.json`: the tuned springs as the engineer keeps them, and how well they follow Housner.
+
+use std::path::Path;
+
+use serde::{Deserialize, Serialize};
+use thiserror::Error;
+
+use crate::{
+    compare::Match,
+    record::Record,
+    spring::{Chain, ChainRow, Design, Springs},
+    structure::{Structure, StructureError},
+};
+
+/// The record the springs were tuned on.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+pub struct RecordRow {
+    pub name: String,
+    pub dt_s: f64,
+    pub samples: usize,
+    pub pga_g: f64,
+}
+
+impl RecordRow {
+    /// The row of a record.
+    pub fn new(record: &Record) -> Self {
+        Self { name: record.name.clone(), dt_s: record.dt, samples: record.accel.len(), pga_g: record.pga_g() }
+    }
+}
+
+/// Everything in `parameters.json`.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+pub struct Parameters {
+    pub structure: Structure,
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub record: Option<RecordRow>,
+    pub vertical: ChainRow,
+    pub horizontal: ChainRow,
+    #[serde(rename = "match", default, skip_serializing_if = "Option::is_none")]
+    pub matched: Option<Match>,
+}
+
+/// What is wrong with a parameter file, and what to do.
+#[derive(Debug, Error)]
+pub enum ParametersError {
+    #[error("{path}: cannot be read ({source}); give the parameters.json that `tune run` wrote")]
+    Read { path: String, source: std::io::Error },
+    #[error("{path}:{line}: {message}; give a parameters.json as `tune run` writes it")]
+    Parse { path: String, line: usize, message: String },
+    #[error("{path}: {chain}.{name} is {value}; give a finite number{bound}")]
+    Value { path: String, chain: &'static str, name: &'static str, value: f64, bound: &'static str },
+    #[error("{path}: {source}")]
+    Structure { path: String, source: StructureError },
+}
+
+impl Parameters {
+    /// Springs for a structure, with nothing said of a record yet.
+    pub fn new(structure: Structure, springs: &Springs<Design<f64>>) -> Self {
+        let m1 = structure.mass_kg;
+        Self {
+            structure,
+            record: None,
+            vertical: ChainRow::new(&springs.vertical, m1),
+            horizontal: ChainRow::new(&springs.horizontal, m1),
+            matched: None,
+        }
+    }
+
+    /// The springs with units; k1, k2, m2 and c of the file rule.
+    pub fn chains(&self) -> Springs<Chain<f64>> {
+        Springs { vertical: self.vertical.chain(), horizontal: self.horizontal.chain() }
+    }
+
+    /// Read and check a file.
+    pub fn read(path: &Path) -> Result<Self, ParametersError> {
+        let name = path.display().to_string();
+        let text =
+            std::fs::read_to_string(path).map_err(|source| ParametersError::Read { path: name.clone(), source })?;
+        let parameters: Self = serde_json::from_str(&text).map_err(|e| ParametersError::Parse {
+            path: name.clone(),
+            line: e.line(),
+            message: e.to_string().split(" at line").next().unwrap_or_default().to_string(),
+        })?;
+        parameters.checked(&name)
+    }
+
+    fn checked(self, path: &str) -> Result<Self, ParametersError> {
+        self.structure.checked().map_err(|source| ParametersError::Structure { path: path.to_string(), source })?;
+        for (chain, row) in [("vertical", &self.vertical), ("horizontal", &self.horizontal)] {
+            for (name, value, least) in [
+                ("k1_n_per_m", row.k1_n_per_m, f64::MIN_POSITIVE),
+                ("k2_n_per_m", row.k2_n_per_m, f64::MIN_POSITIVE),
+                ("m2_kg", row.m2_kg, f64::MIN_POSITIVE),
+                ("c_ns_per_m", row.c_ns_per_m, 0.0),
+            ] {
+                if !(value.is_finite() && value >= least) {
+                    let bound = if least > 0.0 { " greater than zero" } else { ", zero or greater" };
+                    return Err(ParametersError::Value { path: path.to_string(), chain, name, value, bound });
+                }
+            }
+        }
+        Ok(self)
+    }
+
+    /// The file's text.
+    pub fn to_json(&self) -> String {
+        // plain numbers and strings always serialise
+        let mut text = serde_json::to_string_pretty(self).unwrap_or_default();
+        text.push('\n');
+        text
+    }
+}
