@@ -33,7 +33,8 @@ pub mod housner;
 
 pub mod fem;
 
-pub mod tuning;
 pub mod compare;
 
 pub mod parameters;
+
+pub mod tuning;

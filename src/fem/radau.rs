@@ -100,7 +100,8 @@ mod tests {
         for (i, row) in A2.iter().enumerate() {
             let w = position_weights(C[i]);
             for j in 0..3 {
-                assert!((w[j] - row[j]).abs() < 1e-15);
+                // the polynomials' coefficients reach 7: a few units of rounding
+                assert!((w[j] - row[j]).abs() < 7.0 * f64::EPSILON);
             }
         }
     }
