@@ -50,9 +50,9 @@ const LAGRANGE: [[f64; 3]; 3] = [
     [1.0 / 3.0, -8.0 / 3.0, 10.0 / 3.0],
 ];
 
-/// Weights w_j(tau) such that q(tau) = q + tau h v + h^2 sum w_j a_j, the collocation polynomial at tau in 0..1.
+/// Weights w_j(tau) such that q(tau) = q + h sum w_j V_j, the collocation polynomial at tau in 0..1.
 pub(super) fn position_weights(tau: f64) -> [f64; 3] {
-    LAGRANGE.map(|[p0, p1, p2]| tau * tau * (p0 / 2.0 + tau * (p1 / 6.0 + tau * p2 / 12.0)))
+    LAGRANGE.map(|[p0, p1, p2]| tau * (p0 + tau * (p1 / 2.0 + tau * p2 / 3.0)))
 }
 
 #[cfg(test)]
@@ -97,11 +97,10 @@ mod tests {
 
     #[test]
     fn the_collocation_polynomial_passes_through_the_stages() {
-        for (i, row) in A2.iter().enumerate() {
-            let w = position_weights(C[i]);
-            for j in 0..3 {
+        for (row, c) in A.iter().zip(C) {
+            for (w, a) in position_weights(c).iter().zip(row) {
                 // the polynomials' coefficients reach 7: a few units of rounding
-                assert!((w[j] - row[j]).abs() < 7.0 * f64::EPSILON);
+                assert!((w - a).abs() < 7.0 * f64::EPSILON);
             }
         }
     }

@@ -52,13 +52,9 @@ impl<S: Scalar> Stages<S> {
 
     /// Position on the collocation polynomial at tau in 0..1 of the step that began at `start`.
     pub fn position(&self, start: &State<S>, tau: f64) -> Vector<S> {
-        let w = position_weights(tau);
-        let h = self.h;
-        std::array::from_fn(|k| {
-            start.q[k]
-                + h * start.v[k] * tau
-                + h * h * (self.a[0][k] * w[0] + self.a[1][k] * w[1] + self.a[2][k] * w[2])
-        })
+        let [w0, w1, w2] = position_weights(tau);
+        let [v0, v1, v2] = &self.v;
+        std::array::from_fn(|k| start.q[k] + self.h * (v0[k] * w0 + v1[k] * w1 + v2[k] * w2))
     }
 }
 
