@@ -34,7 +34,7 @@ pub fn suite(n: usize, seed: u64, p: f64, alpha: f64) -> impl ExactSizeIterator<
 /// The time step is the largest of the series 1, 2, 5 that is at most 1/(200 p) and 0.02 s; every motion starts at
 /// rest, and its ground velocity ends at zero.
 pub fn record(seed: u64, index: usize, p: f64, alpha: f64) -> Record {
-    let p = p.max(0.02).min(1e4); // in this order NaN becomes 0.02
+    let p = if p.is_nan() { 0.02 } else { p.clamp(0.02, 1e4) };
     let dt = round_step((1.0 / (200.0 * p)).min(0.02));
     let uplift = GRAVITY * alpha.tan();
     let mut random = Random::new(seed, index as u64);

@@ -9,13 +9,16 @@ pub(super) fn is_comment(line: &str) -> bool {
     line.starts_with(['#', '%', '!']) || line.starts_with("//")
 }
 
-/// Velocity or displacement, when the header names it and does not name acceleration.
+/// Velocity or displacement, when the header says that its numbers are that: no line names acceleration, or a line
+/// about the time series or its unit names the other quantity and none of these names acceleration.
 pub(super) fn other_quantity(header: &[(usize, &str)]) -> Option<&'static str> {
-    let names = |word: &str| header.iter().any(|(_, line)| line.to_ascii_lowercase().contains(word));
-    if names("acc") {
-        return None;
-    }
-    ["velocity", "displacement"].into_iter().find(|word| names(word))
+    let lower: Vec<String> = header.iter().map(|(_, line)| line.to_ascii_lowercase()).collect();
+    let about: Vec<&String> =
+        lower.iter().filter(|line| ["unit", "series", "history"].iter().any(|word| line.contains(word))).collect();
+    ["velocity", "displacement"].into_iter().find(|word| {
+        let only = lower.iter().any(|line| line.contains(word)) && !lower.iter().any(|line| line.contains("acc"));
+        only || about.iter().any(|line| line.contains(word)) && !about.iter().any(|line| line.contains("acc"))
+    })
 }
 
 /// The samples, in the file's own unit; the time step comes from the time column, else from the header.

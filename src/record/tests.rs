@@ -89,6 +89,11 @@ fn every_damage_is_an_error_of_one_line_with_place_and_remedy() {
         ("a.at2", at2.replace(".3", "1e999"), "line 6: '1e999' is not a finite number"),
         ("a.at2", at2.replace(".3", "*******"), "line 6: '*******' is not a number"),
         ("a.at2", at2.replace("ACCELERATION IN UNITS OF G", "VELOCITY IN UNITS OF CM/S"), "speaks of velocity"),
+        (
+            "a.at2",
+            at2.replace("T\n", "ACCELEROGRAPH 7\n").replace("ACCELERATION IN", "DISPLACEMENT TIME SERIES IN"),
+            "speaks of displacement",
+        ),
         ("a.at2", at2.replace("UNITS OF G", "SOMETHING"), "pass --units"),
         ("a.at2", at2.replace(".3", "341.7"), "above 50 g; the unit is probably wrong"),
         ("a.at2", at2.replace('T', "\0"), "not a text file (byte 0 is 0x00)"),
@@ -119,6 +124,25 @@ fn every_damage_is_an_error_of_one_line_with_place_and_remedy() {
         assert!(message.contains(words), "{text:?}: {message}");
         assert!(!message.contains('\n') && message.starts_with('a'), "{message}");
     }
+}
+
+/// Formats that are not supported say so by what is missing or does not fit, and are never half read.
+#[test]
+fn files_of_other_networks_are_refused_clearly() {
+    let knet = "Origin Time       2011/03/11 14:46:00\nStation Code      MYG004\nSampling Freq(Hz) 100Hz\n\
+        Scale Factor      7845(gal)/8223790\nMax. Acc. (gal)   2699.9\nMemo.             \n    \
+        -7420    -7426    -7431    -7445    -7439    -7437    -7441    -7443\n";
+    let cosmos = "Corrected acceleration (Format V01.20 with 64 text lines) Src: 051n09an.smc\n\
+        Rcrd start time: 04:36:41\n  3000 acceleration pts, approx  60 secs, units=cm/sec2 (04), Format=(8F10.5)\n   \
+        .01000    .02000    .03000    .04000    .05000    .06000    .07000    .08000\n";
+    let spreadsheet = "a,b,c\n1,2,3\n";
+    for (file, text) in [("MYG0041103111446.EW", knet), ("CHAN001.V2", cosmos), ("x.csv", spreadsheet)] {
+        let options = ReadOptions { dt: Some(0.01), units: Some(Units::CentimetrePerSecond2) };
+        let error = Record::parse(file, text.as_bytes(), &options).unwrap_err();
+        assert!(matches!(error, RecordError::TooManyColumns { .. }), "{error}");
+    }
+    let utf16: Vec<u8> = "t,a [g]\n0,1\n".encode_utf16().flat_map(u16::to_le_bytes).collect();
+    assert!(matches!(Record::parse("x.csv", &utf16, &ReadOptions::default()), Err(RecordError::Binary { .. })));
 }
 
 #[test]
