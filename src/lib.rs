@@ -38,3 +38,5 @@ pub mod compare;
 pub mod parameters;
 
 pub mod tuning;
+
+pub mod figures;

@@ -1,0 +1,93 @@
+//! Pictures of the results: plain numbers in, a PNG out, no physics.
+//!
+//! Each figure is a module with one input struct of slices and labels and one function `render(&data, path)`. A picture
+//! is 1600 pixels wide and readable at half that size. It is written whole or not at all, and the same numbers give
+//! the same bytes. Figures share nothing, so a program may render them in parallel.
+//!
+//! | module | shows |
+//! |---|---|
+//! | [`history`] | horizontal and vertical displacement against time, finite element against Housner (the paper's Figure 4); with a third history and the differences, the comparison with another program |
+//! | [`arr`] | amplitude response ratio against frequency ratio: target, fits, active points |
+//! | [`candidates`] | error of every sampled candidate against its two Omega_n |
+//! | [`front`] | the least error against the stiffness it costs |
+//! | [`contact`] | forces between feet and ground against time |
+//! | [`energy`] | the energy account against time |
+//! | [`validation`] | two models over many records |
+//! | [`precision`] | run time against error of several tools |
+
+use std::path::PathBuf;
+
+use thiserror::Error;
+
+mod canvas;
+mod glyph;
+mod legend;
+mod mark;
+mod number;
+mod painter;
+mod panel;
+mod raster;
+mod scale;
+mod style;
+
+pub mod arr;
+pub mod candidates;
+pub mod contact;
+pub mod energy;
+pub mod front;
+pub mod history;
+pub mod precision;
+pub mod validation;
+
+#[cfg(test)]
+mod tests;
+
+/// Why a figure was not drawn; nothing has been written then.
+#[derive(Debug, Error)]
+pub enum FigureError {
+    #[error("figure {figure}: {what} is empty; give at least {least} values or leave the figure out")]
+    Empty { figure: &'static str, what: String, least: usize },
+    #[error("figure {figure}: {what}[{index}] is {value}, which cannot be drawn; remove it or mend what computed it")]
+    NotFinite { figure: &'static str, what: String, index: usize, value: f64 },
+    #[error("figure {figure}: {what} has {found} values where {wanted} are wanted; give slices of one length")]
+    Length { figure: &'static str, what: String, found: usize, wanted: usize },
+    #[error("figure: cannot write {path}: {source}; check that the folder exists and may be written to", path = path.display())]
+    Write { path: PathBuf, source: std::io::Error },
+    #[error("figure: cannot encode {path} as PNG: {source}; please report this", path = path.display())]
+    Encode { path: PathBuf, source: image::ImageError },
+    #[error("figure: cannot draw {path}: {reason}; please report this", path = path.display())]
+    Draw { path: PathBuf, reason: String },
+}
+
+/// What is being checked: the figure's name, for the messages.
+struct Check(&'static str);
+
+impl Check {
+    /// At least `least` values.
+    fn least(&self, what: &str, found: usize, least: usize) -> Result<(), FigureError> {
+        if found < least { Err(FigureError::Empty { figure: self.0, what: what.into(), least }) } else { Ok(()) }
+    }
+
+    /// No NaN and no infinity.
+    fn finite(&self, what: &str, values: &[f64]) -> Result<(), FigureError> {
+        self.each(what, values, |x| x.is_finite())
+    }
+
+    /// Every value passes.
+    fn each(&self, what: &str, values: &[f64], passes: impl Fn(f64) -> bool) -> Result<(), FigureError> {
+        match values.iter().position(|&x| !passes(x)) {
+            None => Ok(()),
+            Some(index) => {
+                Err(FigureError::NotFinite { figure: self.0, what: what.into(), index, value: values[index] })
+            }
+        }
+    }
+
+    /// As many values as wanted, all finite.
+    fn column(&self, what: &str, values: &[f64], wanted: usize) -> Result<(), FigureError> {
+        if values.len() != wanted {
+            return Err(FigureError::Length { figure: self.0, what: what.into(), found: values.len(), wanted });
+        }
+        self.finite(what, values)
+    }
+}

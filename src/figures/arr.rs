@@ -1,0 +1,182 @@
+//! Amplitude response ratio against frequency ratio (equation 7 of the paper): target, fits, active points.
+
+use std::path::Path;
+
+use plotters::style::Color;
+use plotters::style::text_anchor::{HPos, VPos};
+
+use super::canvas::{Canvas, Lettering};
+use super::legend::{self, Entry};
+use super::mark::{self, Mark, Shape};
+use super::number::{brief, short};
+use super::panel::{Frame, Panel};
+use super::scale::Scale;
+use super::style::{self, GREY, NUMBER, Pen, SKY, WIDTH};
+use super::{Check, FigureError};
+
+const CHECK: Check = Check("arr");
+
+/// A band of frequencies in which the target bounds the response.
+#[derive(Clone, Copy, Debug)]
+pub struct Band {
+    /// From and to, frequency ratio g.
+    pub g: (f64, f64),
+    /// Least ARR wanted, if any.
+    pub at_least: Option<f64>,
+    /// Largest ARR wanted, if any.
+    pub at_most: Option<f64>,
+}
+
+/// A frequency at which the fit touches its bound.
+#[derive(Clone, Copy, Debug)]
+pub struct Active {
+    pub g: f64,
+    pub arr: f64,
+    /// Its multiplier in the optimality conditions, told beside it; `None` tells nothing.
+    pub multiplier: Option<f64>,
+}
+
+/// One chain's response.
+#[derive(Clone, Copy, Debug)]
+pub struct Curve<'a> {
+    pub label: &'a str,
+    /// Frequency ratios, increasing, greater than zero.
+    pub g: &'a [f64],
+    pub arr: &'a [f64],
+    pub active: &'a [Active],
+}
+
+/// What the figure shows.
+#[derive(Clone, Copy, Debug)]
+pub struct Response<'a> {
+    pub title: &'a str,
+    pub target: &'a [Band],
+    pub curves: &'a [Curve<'a>],
+}
+
+/// Draw the figure.
+///
+/// # Errors
+/// [`FigureError`] for an empty or not finite slice, and when `path` cannot be written.
+pub fn render(data: &Response<'_>, path: &Path) -> Result<(), FigureError> {
+    CHECK.least("curves", data.curves.len(), 1)?;
+    for curve in data.curves {
+        CHECK.least(curve.label, curve.g.len(), 2)?;
+        CHECK.finite(&format!("g of {}", curve.label), curve.g)?;
+        CHECK.column(&format!("ARR of {}", curve.label), curve.arr, curve.g.len())?;
+        let active: Vec<f64> = curve.active.iter().flat_map(|a| [a.g, a.arr]).collect();
+        CHECK.finite(&format!("active points of {}", curve.label), &active)?;
+    }
+    for band in data.target {
+        let bounds = [band.at_least.unwrap_or(0.0), band.at_most.unwrap_or(0.0)];
+        CHECK.finite("target", &[band.g.0, band.g.1, bounds[0], bounds[1]])?;
+    }
+
+    let mut canvas = Canvas::new(WIDTH, 1000);
+    let mut entries: Vec<Entry> = data
+        .curves
+        .iter()
+        .enumerate()
+        .map(|(i, curve)| {
+            let pen = pen(i);
+            if curve.active.is_empty() { Entry::line(curve.label, pen) } else { Entry::both(curve.label, pen, dot(i)) }
+        })
+        .collect();
+    if !data.target.is_empty() {
+        entries.push(Entry::patch("outside the target", SKY.mix(0.22)));
+    }
+    if data.curves.iter().flat_map(|curve| curve.active).any(|active| active.multiplier.is_some()) {
+        let neutral = Mark::new(Shape::Disc, 9.0, GREY);
+        entries.push(Entry::mark("active, with multiplier", neutral));
+    }
+    let (left, right) = (150.0, WIDTH as f64 - 40.0);
+    let top = legend::header(&mut canvas, data.title, &entries, left, right);
+    let panel = Panel { frame: Frame { left, top, right, bottom: 900.0 }, x: g_axis(data), y: arr_axis(data) };
+    for band in data.target {
+        shade(&mut canvas, &panel, band);
+    }
+    panel.axes(&mut canvas, Some("frequency ratio, g = ω/Ωₙ"), "amplitude response ratio, ARR", 105.0);
+    for band in data.target {
+        bound(&mut canvas, &panel, band);
+    }
+    for (i, curve) in data.curves.iter().enumerate() {
+        panel.curve(&mut canvas, curve.g, curve.arr, pen(i));
+    }
+    for (i, curve) in data.curves.iter().enumerate() {
+        touches(&mut canvas, &panel, curve, i);
+    }
+    canvas.save(path)
+}
+
+fn pen(i: usize) -> Pen {
+    let pen = Pen::new(style::series(i), if i == 0 { 4.5 } else { 3.2 });
+    if i == 0 { pen } else { pen.dashed() }
+}
+
+fn dot(i: usize) -> Mark {
+    Mark::new(mark::series(i), 9.0, style::series(i))
+}
+
+fn g_axis(data: &Response<'_>) -> Scale {
+    let all = data.curves.iter().flat_map(|curve| curve.g).copied().filter(|g| *g > 0.0);
+    let (low, high) = all.fold((f64::INFINITY, 0.0_f64), |(low, high), g| (low.min(g), high.max(g)));
+    if high > 0.0 { Scale::log(low, high) } else { Scale::log(0.05, 20.0) }
+}
+
+/// The tails of the curves may fall for ever; four decades below the top are enough to see them go.
+fn arr_axis(data: &Response<'_>) -> Scale {
+    let caps = data.target.iter().filter_map(|band| band.at_most);
+    let all = data.curves.iter().flat_map(|curve| curve.arr).copied().chain(caps).filter(|arr| *arr > 0.0);
+    let (low, high) = all.fold((f64::INFINITY, 0.0_f64), |(low, high), arr| (low.min(arr), high.max(arr)));
+    if high > 0.0 { Scale::log(low.max(high * 1e-4).min(high / 10.0), high * 2.2) } else { Scale::log(0.1, 10.0) }
+}
+
+/// Colour what the target forbids.
+fn shade(canvas: &mut Canvas, panel: &Panel, band: &Band) {
+    let colour = SKY.mix(0.22);
+    if let Some(most) = band.at_most {
+        canvas.block(panel.at_clamped(band.g.0, panel.y.high), panel.at_clamped(band.g.1, most), colour);
+    }
+    if let Some(least) = band.at_least {
+        canvas.block(panel.at_clamped(band.g.0, least), panel.at_clamped(band.g.1, panel.y.low), colour);
+    }
+}
+
+/// The edge of what the target forbids; the cap tells its value.
+fn bound(canvas: &mut Canvas, panel: &Panel, band: &Band) {
+    let pen = Pen::new(GREY, 2.0).dashed();
+    let ends = [panel.x.clamp(band.g.0), panel.x.clamp(band.g.1)];
+    if let Some(least) = band.at_least {
+        panel.curve(canvas, &ends, &[least, least], pen);
+    }
+    let Some(most) = band.at_most else { return };
+    panel.curve(canvas, &ends, &[most, most], pen);
+    let at = panel.at(ends[0], panel.y.high);
+    let how = Lettering::new(NUMBER).at(HPos::Left, VPos::Top);
+    canvas.text((at.0 + 14.0, at.1 + 12.0), &format!("ARR ≤ {}", brief(most, 4)), how);
+}
+
+fn touches(canvas: &mut Canvas, panel: &Panel, curve: &Curve<'_>, i: usize) {
+    for active in curve.active {
+        // A point at g = 0 has no place on this axis: it stands at the left edge.
+        let at = panel.at_clamped(active.g, active.arr);
+        dot(i).draw(canvas, at);
+        let Some(multiplier) = active.multiplier else { continue };
+        // Points close to each other tell their numbers to either side.
+        let near = |other: &Active, side: f64| {
+            let away = side * (panel.at_clamped(other.g, other.arr).0 - at.0);
+            away > 0.0 && away < 100.0
+        };
+        let (across, shift) = if curve.active.iter().any(|other| near(other, 1.0)) {
+            (HPos::Right, 14.0)
+        } else if at.0 < panel.frame.left + 60.0 || curve.active.iter().any(|other| near(other, -1.0)) {
+            (HPos::Left, if at.0 < panel.frame.left + 60.0 { 14.0 } else { -14.0 })
+        } else {
+            (HPos::Center, 0.0)
+        };
+        let how = Lettering::new(NUMBER).colour(style::series(i));
+        // The first curve tells its multipliers above, the others below: both stay readable where they touch together.
+        let (y, along) = if i == 0 { (at.1 - 22.0, VPos::Bottom) } else { (at.1 + 22.0, VPos::Top) };
+        canvas.text((at.0 + shift, y), &short(multiplier, 2), how.at(across, along));
+    }
+}

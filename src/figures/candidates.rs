@@ -1,0 +1,115 @@
+//! Error of every sampled candidate against its two frequencies: how rugged the landscape is, and what was chosen.
+
+use std::path::Path;
+
+use plotters::style::text_anchor::{HPos, VPos};
+
+use super::canvas::{Canvas, Lettering};
+use super::legend::{self, Entry};
+use super::mark::{Mark, Shape};
+use super::number::short;
+use super::panel::{Frame, Panel};
+use super::scale::Scale;
+use super::style::{BLUE, NUMBER, PALE, Pen, VERMILLION, WIDTH};
+use super::{Check, FigureError};
+
+const CHECK: Check = Check("candidates");
+
+/// One pair of springs that was tried.
+#[derive(Clone, Copy, Debug)]
+pub struct Candidate {
+    /// Omega_n of the vertical chain [Hz].
+    pub vertical_hz: f64,
+    /// Omega_n of the horizontal chain [Hz].
+    pub horizontal_hz: f64,
+    /// Its error; for an abandoned one what it had reached then, a lower bound. May be infinite: drawn at the top.
+    pub error: f64,
+    /// Whether its run was ended before the record's end because it could not win any more.
+    pub abandoned: bool,
+}
+
+/// What the figure shows.
+#[derive(Clone, Copy, Debug)]
+pub struct Candidates<'a> {
+    pub title: &'a str,
+    /// What the error is, as "NRMSE of u and v".
+    pub error_label: &'a str,
+    pub candidates: &'a [Candidate],
+    /// Index of the chosen one.
+    pub chosen: Option<usize>,
+}
+
+/// Draw the figure.
+///
+/// # Errors
+/// [`FigureError`] when there is no candidate, for a NaN, for an index beyond the candidates, and when `path` cannot be
+/// written.
+pub fn render(data: &Candidates<'_>, path: &Path) -> Result<(), FigureError> {
+    let all = data.candidates;
+    CHECK.least("candidates", all.len().min(data.chosen.map_or(usize::MAX, |i| all.len().saturating_sub(i))), 1)?;
+    let frequencies: Vec<f64> = all.iter().flat_map(|c| [c.vertical_hz, c.horizontal_hz]).collect();
+    CHECK.finite("frequencies (vertical and horizontal in turn)", &frequencies)?;
+    let errors: Vec<f64> = all.iter().map(|c| c.error).collect();
+    CHECK.each("error", &errors, |x| !x.is_nan())?;
+
+    let mut canvas = Canvas::new(WIDTH, 900);
+    let count = |abandoned: bool| all.iter().filter(|c| c.abandoned == abandoned).count();
+    let mut entries = vec![Entry::mark(format!("run to the end ({})", count(false)), whole())];
+    if count(true) > 0 {
+        entries.push(Entry::mark(format!("abandoned, at its lower bound ({})", count(true)), abandoned()));
+    }
+    if data.chosen.is_some() {
+        entries.push(Entry::mark("chosen", chosen()));
+    }
+    let (left, right, gap) = (150.0, WIDTH as f64 - 40.0, 110.0);
+    let top = legend::header(&mut canvas, data.title, &entries, left, right);
+    let middle = (left + right) / 2.0;
+    let y = Scale::log_around(errors.iter().copied(), 10.0);
+    // Room below all marks for the words about the chosen one.
+    let y = Scale::log(y.low / (y.high / y.low).powf(0.07), y.high);
+    let x = Scale::log_around(frequencies.iter().copied(), 4.0);
+    for (from, to, axis, first) in
+        [(left, middle - gap / 2.0, "vertical Ωₙ [Hz]", true), (middle + gap / 2.0, right, "horizontal Ωₙ [Hz]", false)]
+    {
+        let panel = Panel { frame: Frame { left: from, top, right: to, bottom: 800.0 }, x, y };
+        panel.axes(&mut canvas, Some(axis), if first { data.error_label } else { "" }, 110.0);
+        let hz = |c: &Candidate| if first { c.vertical_hz } else { c.horizontal_hz };
+        let best = data.chosen.map(|i| all[i]);
+        if let Some(best) = best {
+            panel.upright(&mut canvas, hz(&best), Pen::new(VERMILLION, 2.0).dashed());
+        }
+        // The abandoned lie under the others.
+        for (skip, mark) in [(false, abandoned()), (true, whole())] {
+            for candidate in all.iter().filter(|c| c.abandoned != skip) {
+                mark.draw(&mut canvas, panel.at_clamped(hz(candidate), candidate.error));
+            }
+        }
+        if let Some(best) = best {
+            chosen().draw(&mut canvas, panel.at_clamped(hz(&best), best.error));
+            tell(&mut canvas, &panel, hz(&best), best.error);
+        }
+    }
+    canvas.save(path)
+}
+
+fn whole() -> Mark {
+    Mark::new(Shape::Disc, 7.0, BLUE)
+}
+
+fn abandoned() -> Mark {
+    Mark::new(Shape::Disc, 7.0, PALE).hollow()
+}
+
+fn chosen() -> Mark {
+    Mark::new(Shape::Diamond, 12.0, VERMILLION)
+}
+
+/// The chosen one's numbers, at the foot of its line.
+fn tell(canvas: &mut Canvas, panel: &Panel, hz: f64, error: f64) {
+    let at = panel.at(hz, panel.y.low);
+    let text = format!("{} Hz, {}", short(hz, 3), short(error, 2));
+    let how = Lettering::new(NUMBER).bold().colour(VERMILLION);
+    let on_the_left = at.0 + 16.0 + how.length(&text) > panel.frame.right;
+    let (x, across) = if on_the_left { (at.0 - 12.0, HPos::Right) } else { (at.0 + 12.0, HPos::Left) };
+    canvas.text((x, at.1 - 12.0), &text, how.at(across, VPos::Bottom));
+}

@@ -1,0 +1,71 @@
+//! Marks at single points.
+
+use plotters::style::RGBColor;
+
+use super::canvas::Canvas;
+use super::raster::Point;
+use super::style::WHITE;
+
+/// A mark's shape.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Shape {
+    Disc,
+    Square,
+    Diamond,
+    /// Its tip up.
+    Triangle,
+    /// Its tip down.
+    Pennant,
+}
+
+/// A mark: its shape, half its size [pixel], its colour, and whether it is filled.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Mark {
+    pub shape: Shape,
+    pub radius: f64,
+    pub colour: RGBColor,
+    pub hollow: bool,
+}
+
+/// The shape of the i-th series.
+pub fn series(i: usize) -> Shape {
+    [Shape::Disc, Shape::Square, Shape::Diamond, Shape::Triangle, Shape::Pennant][i % 5]
+}
+
+impl Mark {
+    /// A filled mark.
+    pub fn new(shape: Shape, radius: f64, colour: RGBColor) -> Self {
+        Self { shape, radius, colour, hollow: false }
+    }
+
+    /// The same mark, only its rim drawn.
+    pub fn hollow(self) -> Self {
+        Self { hollow: true, ..self }
+    }
+
+    /// Draw it; a thin white seam keeps crowded marks apart.
+    pub fn draw(self, canvas: &mut Canvas, at: Point) {
+        self.paint(canvas, at, self.radius + 1.5, WHITE);
+        self.paint(canvas, at, self.radius, self.colour);
+        if self.hollow {
+            self.paint(canvas, at, self.radius - 2.6, WHITE);
+        }
+    }
+
+    fn paint(self, canvas: &mut Canvas, (x, y): Point, radius: f64, colour: RGBColor) {
+        let corners = |scaled: f64, corners: &[Point]| -> Vec<Point> {
+            corners.iter().map(|(dx, dy)| (x + dx * scaled, y + dy * scaled)).collect()
+        };
+        match self.shape {
+            Shape::Disc => canvas.disc((x, y), radius, colour),
+            Shape::Square => {
+                canvas.fill(&corners(0.88 * radius, &[(-1.0, -1.0), (1.0, -1.0), (1.0, 1.0), (-1.0, 1.0)]), colour);
+            }
+            Shape::Diamond => {
+                canvas.fill(&corners(1.22 * radius, &[(0.0, -1.0), (1.0, 0.0), (0.0, 1.0), (-1.0, 0.0)]), colour);
+            }
+            Shape::Triangle => canvas.fill(&corners(1.3 * radius, &[(0.0, -1.0), (0.87, 0.5), (-0.87, 0.5)]), colour),
+            Shape::Pennant => canvas.fill(&corners(1.3 * radius, &[(0.0, 1.0), (0.87, -0.5), (-0.87, -0.5)]), colour),
+        }
+    }
+}
