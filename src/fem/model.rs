@@ -59,6 +59,8 @@ pub(crate) struct State<S> {
 pub(crate) enum Contact {
     /// In the air: no force.
     Open,
+    /// Pressing too lightly to hold: no horizontal force yet (see `run`).
+    Slide,
     /// Pressing, its horizontal spring anchored.
     Stick,
 }
@@ -71,8 +73,14 @@ pub(crate) struct Foot<S> {
 }
 
 impl<S> Foot<S> {
+    /// Whether the foot presses on the ground.
     pub fn closed(&self) -> bool {
         self.contact != Contact::Open
+    }
+
+    /// Whether its horizontal spring holds.
+    pub fn holds(&self) -> bool {
+        self.contact == Contact::Stick
     }
 }
 
@@ -164,6 +172,7 @@ impl<S: Scalar> Model<S> {
             let (px, pz, px_th, pz_th) = self.foot(i, q, sin, cos);
             let (horizontal, vertical) = match feet[i].contact {
                 Contact::Open => (S::zero(), S::zero()),
+                Contact::Slide => (S::zero(), (q[az(i)] - pz) * self.springs.vertical.k1),
                 Contact::Stick => (
                     (q[ax(i)] + feet[i].anchor - px) * self.springs.horizontal.k1,
                     (q[az(i)] - pz) * self.springs.vertical.k1,
@@ -219,10 +228,11 @@ impl<S: Scalar> Model<S> {
             for (foot, f) in feet.iter().zip(&self.contact(&state.q, feet)) {
                 if foot.closed() {
                     moment += f.horizontal * f.px_th + f.vertical * f.pz_th;
-                    stiffness += self.springs.horizontal.k1 * f.px_th * f.px_th
-                        + self.springs.vertical.k1 * f.pz_th * f.pz_th
-                        + f.vertical * f.px_th
-                        - f.horizontal * f.pz_th;
+                    stiffness +=
+                        self.springs.vertical.k1 * f.pz_th * f.pz_th + f.vertical * f.px_th - f.horizontal * f.pz_th;
+                    if foot.holds() {
+                        stiffness += self.springs.horizontal.k1 * f.px_th * f.px_th;
+                    }
                 }
             }
             state.q[TH] += moment / stiffness;

@@ -4,6 +4,7 @@ use std::ops::ControlFlow;
 
 use super::{
     model::{Contact, Foot, Model, State, TH, Vector, X, Z},
+    radau::C,
     step::{Ground, Request, Stages, no_guess, step},
 };
 use crate::scalar::{GRAVITY, Scalar, real};
@@ -59,6 +60,20 @@ impl<S: Scalar> Energy<S> {
         self.stored - self.initial - self.input + self.dissipated + self.released
     }
 }
+
+/// A foot that closes again this soon after it opened, in units of 1/Omega_n, has hardly left the ground.
+const AT_ONCE: f64 = 0.1;
+
+/// Least step that is tried unless the account has just refused a larger one, in units of 1/Omega_n: a step cut short by
+/// an event says nothing of the next.
+const RESTART: f64 = 0.1;
+
+/// Share of the weight that a foot which hardly left the ground must carry before its horizontal spring holds.
+///
+/// A massless rotation jumps when a lifting foot lets its horizontal spring go, and the jump may press that foot down
+/// again: it would open and close at an accumulating sequence of instants. What it does in the limit is slide under no
+/// weight, and that is what it is let do.
+const HOLDING: f64 = 1e-3;
 
 /// A foot's change of contact.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -141,6 +156,8 @@ pub(crate) struct Run<'a, S> {
     /// sqrt(compression/g) = 1/Omega_n of the vertical chain [s], the scale of time in contact.
     settling: f64,
     guess: [Vector<S>; 3],
+    /// When each foot last opened [s].
+    opened: [f64; 2],
     /// Step size that the energy account asked for [s].
     h: f64,
     pub work: Work,
@@ -149,7 +166,12 @@ pub(crate) struct Run<'a, S> {
 /// What a candidate step met.
 enum Met {
     Nothing,
-    Crossing { foot: usize, tau: f64 },
+    /// The compression of this foot's gap passes `level` [m].
+    Crossing {
+        foot: usize,
+        level: f64,
+        tau: f64,
+    },
 }
 
 impl<'a, S: Scalar> Run<'a, S> {
@@ -173,6 +195,7 @@ impl<'a, S: Scalar> Run<'a, S> {
             compression,
             settling: (compression / GRAVITY).sqrt(),
             guess: no_guess(),
+            opened: [f64::NEG_INFINITY; 2],
             h: f64::INFINITY,
             work: Work::default(),
         }
@@ -221,7 +244,7 @@ impl<'a, S: Scalar> Run<'a, S> {
             if left.re() <= 1e-13 * dt {
                 return Ok(());
             }
-            if self.work.steps + self.work.rejected >= self.control.most_steps || self.h < 1e-14 * dt {
+            if self.work.steps + self.work.rejected >= self.control.most_steps {
                 return Err(t0 + t.re());
             }
             let h = self.next_size(left);
@@ -229,20 +252,28 @@ impl<'a, S: Scalar> Run<'a, S> {
             let Some(stages) = self.attempt(h, &here) else {
                 self.work.rejected += 1;
                 self.h = h.re() * 0.25;
+                if self.h < 1e-14 * dt {
+                    return Err(t0 + t.re());
+                }
                 continue;
             };
             let (stages, crossed) = match self.met(&stages) {
                 Met::Nothing => (stages, None),
-                Met::Crossing { foot, tau } => (self.locate(foot, stages, tau, &here), Some(foot)),
+                Met::Crossing { foot, level, tau } => {
+                    (self.locate(foot, level, stages, tau, &here), Some((foot, level)))
+                }
             };
             let accepted = self.account(&stages, &here);
             if !accepted {
                 self.work.rejected += 1;
+                if self.h < 1e-14 * dt {
+                    return Err(t0 + t.re());
+                }
                 continue;
             }
             t += stages.h;
-            if let Some(foot) = crossed {
-                self.switch(foot, real::<S>(t0) + t, observer);
+            if let Some((foot, level)) = crossed {
+                self.switch(foot, level, real::<S>(t0) + t, observer);
             }
         }
     }
@@ -277,33 +308,45 @@ impl<'a, S: Scalar> Run<'a, S> {
         (1e-9 * self.compression).max(4e-16 * self.model.body.radius().re())
     }
 
-    /// Whether a foot's gap changes sign within the step, and where first.
+    /// Whether a foot's contact changes within the step, and where first.
     fn met(&self, stages: &Stages<S>) -> Met {
         let mut first = Met::Nothing;
         let mut earliest = f64::INFINITY;
         for foot in 0..2 {
-            // positive while the contact is what it is assumed to be
-            let sign = if self.feet[foot].closed() { 1.0 } else { -1.0 };
-            let mut before = (0.0, (self.model.compression(foot, &self.state.q).re() * sign).max(0.0));
-            for (c, q) in super::radau::C.iter().zip(&stages.q) {
-                let d = self.model.compression(foot, q).re() * sign;
-                if d < -self.gap_tolerance() {
-                    let tau = self.first_zero(foot, sign, stages, before, (*c, d));
-                    if tau < earliest {
-                        earliest = tau;
-                        first = Met::Crossing { foot, tau };
-                    }
-                    break;
+            // the contact lasts while sign (compression - level) is positive
+            let limits: &[(f64, f64)] = match self.feet[foot].contact {
+                Contact::Open => &[(-1.0, 0.0)],
+                Contact::Stick => &[(1.0, 0.0)],
+                Contact::Slide => &[(1.0, 0.0), (-1.0, HOLDING * self.compression)],
+            };
+            let compression = |q| self.model.compression(foot, q).re();
+            let values = [&self.state.q, &stages.q[0], &stages.q[1], &stages.q[2]].map(compression);
+            for &(sign, level) in limits {
+                let inside = values.map(|d| sign * (d - level));
+                let Some(k) = (1..4).find(|&k| inside[k] < -self.gap_tolerance()) else { continue };
+                let node = |k: usize| if k == 0 { 0.0 } else { C[k - 1] };
+                let low = (node(k - 1), inside[k - 1].max(0.0));
+                let tau = self.first_zero(foot, sign, level, stages, low, (node(k), inside[k]));
+                if tau < earliest {
+                    earliest = tau;
+                    first = Met::Crossing { foot, level, tau };
                 }
-                before = (*c, d.max(0.0));
             }
         }
         first
     }
 
-    /// Zero of the gap on the collocation polynomial between two bracketing points (Illinois).
-    fn first_zero(&self, foot: usize, sign: f64, stages: &Stages<S>, mut low: (f64, f64), mut high: (f64, f64)) -> f64 {
-        let value = |tau: f64| self.model.compression(foot, &stages.position(&self.state, tau)).re() * sign;
+    /// Where the compression passes `level` on the collocation polynomial, between two bracketing points (Illinois).
+    fn first_zero(
+        &self,
+        foot: usize,
+        sign: f64,
+        level: f64,
+        stages: &Stages<S>,
+        mut low: (f64, f64),
+        mut high: (f64, f64),
+    ) -> f64 {
+        let value = |tau: f64| (self.model.compression(foot, &stages.position(&self.state, tau)).re() - level) * sign;
         let mut side = 0;
         for _ in 0..60 {
             let tau = (low.0 * high.1 - high.0 * low.1) / (high.1 - low.1);
@@ -332,7 +375,7 @@ impl<'a, S: Scalar> Run<'a, S> {
     }
 
     /// Repeat the step so that it ends where the foot's gap is zero.
-    fn locate(&mut self, foot: usize, stages: Stages<S>, tau: f64, ground: &Ground<S>) -> Stages<S> {
+    fn locate(&mut self, foot: usize, level: f64, stages: Stages<S>, tau: f64, ground: &Ground<S>) -> Stages<S> {
         let mut best = stages;
         let mut h = stages.h * tau;
         for _ in 0..6 {
@@ -340,7 +383,7 @@ impl<'a, S: Scalar> Run<'a, S> {
             let Some(next) = self.attempt(h, ground) else { break };
             best = next;
             let end = next.end();
-            let gap = self.model.compression(foot, &end.q);
+            let gap = self.model.compression(foot, &end.q) - level;
             let rate = self.model.compression_rate(foot, &end);
             if gap.re().abs() <= self.gap_tolerance() && self.control.extra_iterations == 0 {
                 break;
@@ -379,7 +422,7 @@ impl<'a, S: Scalar> Run<'a, S> {
             return false;
         }
         self.work.steps += 1;
-        self.h = h * factor.clamp(0.2, 5.0);
+        self.h = (h * factor.clamp(0.2, 5.0)).max(RESTART * self.settling);
         self.state = end;
         self.energy.stored = stored;
         self.energy.input += input;
@@ -389,22 +432,34 @@ impl<'a, S: Scalar> Run<'a, S> {
         true
     }
 
-    /// Open or close a foot.
-    fn switch(&mut self, foot: usize, time: S, observer: &mut impl Observer<S>) {
+    /// Change a foot's contact.
+    fn switch(&mut self, foot: usize, level: f64, time: S, observer: &mut impl Observer<S>) {
         let before = self.energy.stored;
-        let change = if self.feet[foot].closed() {
-            self.feet[foot].contact = Contact::Open;
-            Change::LiftOff
-        } else {
-            self.feet[foot] = Foot { contact: Contact::Stick, anchor: self.model.anchor_here(foot, &self.state.q) };
-            Change::TouchDown
+        let was = self.feet[foot].contact;
+        let anchor = self.model.anchor_here(foot, &self.state.q);
+        self.feet[foot] = match was {
+            Contact::Open => {
+                let at_once = time.re() - self.opened[foot] < AT_ONCE * self.settling;
+                let held = self.model.compression(foot, &self.state.q).re() >= HOLDING * self.compression;
+                let contact = if at_once && !held { Contact::Slide } else { Contact::Stick };
+                Foot { contact, anchor }
+            }
+            Contact::Slide if level > 0.0 => Foot { contact: Contact::Stick, anchor },
+            Contact::Slide | Contact::Stick => {
+                self.opened[foot] = time.re();
+                Foot { contact: Contact::Open, anchor }
+            }
         };
         self.model.turn_to_balance(&mut self.state, &self.feet);
         self.energy.stored = self.model.energy(&self.state, &self.feet);
         self.energy.released += before - self.energy.stored;
         self.guess = no_guess();
         self.work.events += 1;
-        observer.event(foot, change, &self.view(time));
+        match (was, self.feet[foot].contact) {
+            (Contact::Open, _) => observer.event(foot, Change::TouchDown, &self.view(time)),
+            (_, Contact::Open) => observer.event(foot, Change::LiftOff, &self.view(time)),
+            _ => {}
+        }
     }
 
     pub fn energy(&self) -> &Energy<S> {
