@@ -15,6 +15,9 @@
 //! finite elements", NZSEE Conference 2005; numbers in brackets, as (7), are its equations.
 //! Units are SI throughout; angles in radians; theta > 0 leans to the right, u > 0 is to the right.
 
+// units in brackets, as [m], are no links
+#![allow(rustdoc::broken_intra_doc_links)]
+
 pub mod scalar;
 
 pub mod record;
