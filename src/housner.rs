@@ -35,9 +35,9 @@ pub struct Options<S> {
     pub scale: S,
     /// Velocity restitution e, 0 to 1; by equation (2) unless given.
     pub restitution: Option<S>,
-    /// Stop after this time [s]; at the record's end unless given.
+    /// Stop after this time (s); at the record's end unless given.
     pub duration: Option<f64>,
-    /// theta [rad] and theta' [rad/s] at t = 0; at rest unless given.
+    /// theta (rad) and theta' (rad/s) at t = 0; at rest unless given.
     pub initial: Option<(S, S)>,
     /// Bound on steps and impacts in intervals with events, so that no input can hang.
     pub max_work: usize,
@@ -52,18 +52,18 @@ impl<S: Scalar> Default for Options<S> {
 /// theta = 0: the body lands on its other foot.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Impact<S> {
-    /// [s]
+    /// (s)
     pub time: S,
-    /// theta' before the impact [rad/s].
+    /// theta' before the impact (rad/s).
     pub rate_before: S,
-    /// theta' after it, e times that [rad/s].
+    /// theta' after it, e times that (rad/s).
     pub rate_after: S,
 }
 
 /// A resting body leaves the ground.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Uplift<S> {
-    /// [s]
+    /// (s)
     pub time: S,
     /// +1 if it leans to the right, -1 if to the left.
     pub side: f64,
@@ -79,17 +79,17 @@ pub enum Outcome {
     /// It lay flat (|theta| = pi/2) within the history, which is cut there; or the history ends with the body beyond
     /// alpha, and it would go on falling if the ground stopped.
     Overturned {
-        /// When |theta| last grew past alpha [s].
+        /// When |theta| last grew past alpha (s).
         time: f64,
     },
     /// More steps and impacts than `Options::max_work`; the history is cut there.
     WorkBound {
-        /// [s]
+        /// (s)
         time: f64,
     },
     /// The input or the motion is not finite; the history is cut there.
     NotFinite {
-        /// [s]
+        /// (s)
         time: f64,
     },
 }
@@ -97,9 +97,9 @@ pub enum Outcome {
 /// A history of rigid rocking.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Rocking<S> {
-    /// theta at the samples t = i dt [rad]; shorter than the record if the outcome says so.
+    /// theta at the samples t = i dt (rad); shorter than the record if the outcome says so.
     pub theta: Vec<S>,
-    /// theta' at the samples [rad/s].
+    /// theta' at the samples (rad/s).
     pub rate: Vec<S>,
     /// Impacts in order of time; the last of infinitely many before a rest are left out.
     pub impacts: Vec<Impact<S>>,
@@ -109,7 +109,7 @@ pub struct Rocking<S> {
     pub outcome: Outcome,
 }
 
-/// Rock a body on a record: ground accelerations [m/s2] at t = 0, dt, 2 dt ... [s], linear between them.
+/// Rock a body on a record: ground accelerations (m/s2) at t = 0, dt, 2 dt ... (s), linear between them.
 ///
 /// ```
 /// use groundspring::{housner, structure::Structure};

@@ -56,9 +56,9 @@ pub enum Fate {
 
 /// A body just after an impact.
 pub struct Hop {
-    /// w' after the impact [rad/s].
+    /// w' after the impact (rad/s).
     pub rate: f64,
-    /// Time left in the interval [s].
+    /// Time left in the interval (s).
     pub left: f64,
     /// u_g/g now.
     pub now: f64,

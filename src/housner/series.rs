@@ -27,9 +27,9 @@ const TAIL: f64 = 1e-17;
 /// Start of a step.
 #[derive(Clone, Copy)]
 pub struct Start<S> {
-    /// Lean w = |theta| [rad].
+    /// Lean w = |theta| (rad).
     pub w: S,
-    /// w' [rad/s].
+    /// w' (rad/s).
     pub rate: S,
     /// sin(alpha - w).
     pub sin: S,
@@ -40,7 +40,7 @@ pub struct Start<S> {
 /// The lean over one step as a power series of N coefficients in x = (t - t0)/h.
 #[derive(Clone, Copy)]
 pub struct Series<S, const N: usize> {
-    /// c_0 to c_{N-1} [rad].
+    /// c_0 to c_{N-1} (rad).
     pub c: [S; N],
     /// A bound of |c_{k+2}/c_k| for k near N. The equation's part linear in w gives q (1 + |b|)/k^2, its
     /// trigonometric part c_1^2/k^2; one 1/k is kept in reserve.
@@ -48,7 +48,7 @@ pub struct Series<S, const N: usize> {
 }
 
 impl<S: Scalar, const N: usize> Series<S, N> {
-    /// The series of a step of length h [s]; b0 and db are b and its change over the step, q = p^2 h^2.
+    /// The series of a step of length h (s); b0 and db are b and its change over the step, q = p^2 h^2.
     #[inline(always)]
     pub fn new(start: &Start<S>, h: S, b0: S, db: S, q: S) -> Self {
         let mut c = [S::zero(); N];

@@ -21,7 +21,7 @@ const FAST: f64 = 1e-4;
 /// The body and the record as the walk needs them.
 pub struct Setting<'a, S> {
     pub dt: f64,
-    /// Ground acceleration at the samples [m/s2].
+    /// Ground acceleration at the samples (m/s2).
     pub accel: &'a [f64],
     /// u_g/g per unit of `accel`.
     pub unit: S,
@@ -44,7 +44,7 @@ struct State<S> {
     rocking: bool,
     /// Steps since sine and cosine were computed.
     age: u32,
-    /// When |theta| last grew past alpha [s].
+    /// When |theta| last grew past alpha (s).
     passed: f64,
     /// Steps and impacts in intervals with events.
     work: usize,

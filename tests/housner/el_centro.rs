@@ -4,7 +4,11 @@ use groundspring::housner::{Options, Outcome, solve};
 use groundspring::motion::peak;
 use groundspring::structure::Structure;
 
-use super::el_centro;
+use groundspring::record::Record;
+
+fn el_centro() -> Vec<f64> {
+    Record::el_centro().accel
+}
 
 fn twenty_seconds() -> Options<f64> {
     Options { duration: Some(20.0), ..Options::default() }

@@ -1,0 +1,60 @@
+//! The same case mirrored, shifted in time, in other units, scaled by similarity: the same answer.
+
+use groundspring::housner::{Options, solve};
+use groundspring::record::Record;
+use groundspring::structure::Structure;
+
+#[test]
+fn a_mirrored_record_gives_the_mirrored_history_bit_for_bit() {
+    let body = Structure::block(3.0, 0.7, 1.0).unwrap().body::<f64>();
+    let accel = Record::el_centro().accel;
+    let mirrored: Vec<f64> = accel.iter().map(|a| -a).collect();
+    let here = solve(&body, 0.01, &accel, &Options::default());
+    let there = solve(&body, 0.01, &mirrored, &Options::default());
+    assert!(here.impacts.len() > 10);
+    assert_eq!(here.impacts.len(), there.impacts.len());
+    assert!(here.theta.iter().zip(&there.theta).all(|(a, b)| *a == -*b));
+}
+
+#[test]
+fn quiet_samples_before_a_record_only_shift_the_history() {
+    let body = Structure::block(3.0, 0.7, 1.0).unwrap().body::<f64>();
+    let accel = Record::el_centro().accel;
+    let mut shifted = vec![0.0; 137];
+    shifted.extend_from_slice(&accel);
+    let here = solve(&body, 0.01, &accel, &Options::default());
+    let there = solve(&body, 0.01, &shifted, &Options::default());
+    assert_eq!(here.theta[..], there.theta[137..]);
+    assert!(there.theta[..137].iter().all(|theta| *theta == 0.0));
+}
+
+/// Lengths times 4, time times 2: powers of two, so that nothing but the rounding of trigonometry could differ.
+#[test]
+fn a_similar_body_on_a_similar_record_has_the_same_angles() {
+    let accel = Record::el_centro().accel;
+    let small = solve(&Structure::block(3.0, 0.7, 1.0).unwrap().body::<f64>(), 0.01, &accel, &Options::default());
+    let large = solve(&Structure::block(12.0, 2.8, 64.0).unwrap().body::<f64>(), 0.02, &accel, &Options::default());
+    assert_eq!(small.impacts.len(), large.impacts.len());
+    for (a, b) in small.theta.iter().zip(&large.theta) {
+        assert!((a - b).abs() < 1e-13);
+    }
+}
+
+/// Resampling a piecewise linear record changes nothing but where the steps end.
+#[test]
+fn a_record_sampled_four_times_finer_gives_the_same_history() {
+    let body = Structure::block(0.6, 0.12, 1.0).unwrap().body::<f64>();
+    let coarse: Vec<f64> = Record::el_centro().accel.into_iter().take(700).collect();
+    let fine: Vec<f64> = coarse
+        .windows(2)
+        .flat_map(|pair| [0.0, 0.25, 0.5, 0.75].map(|x| pair[0] + (pair[1] - pair[0]) * x))
+        .chain(coarse.last().copied())
+        .collect();
+    // 0.04 s: p dt = 0.2
+    let there = solve(&body, 0.04, &coarse, &Options { scale: 0.8, ..Options::default() });
+    let here = solve(&body, 0.01, &fine, &Options { scale: 0.8, ..Options::default() });
+    assert!(here.impacts.len() > 10);
+    for (a, b) in there.theta.iter().zip(here.theta.iter().step_by(4)) {
+        assert!((a - b).abs() < 1e-12, "{a} {b}");
+    }
+}
