@@ -11,7 +11,7 @@ fn a_mirrored_record_gives_the_mirrored_history_bit_for_bit() {
     let mirrored: Vec<f64> = accel.iter().map(|a| -a).collect();
     let here = solve(&body, 0.01, &accel, &Options::default());
     let there = solve(&body, 0.01, &mirrored, &Options::default());
-    assert!(here.impacts.len() > 10);
+    assert!(here.impacts.len() > 10, "{} {:?}", here.impacts.len(), here.outcome);
     assert_eq!(here.impacts.len(), there.impacts.len());
     assert!(here.theta.iter().zip(&there.theta).all(|(a, b)| *a == -*b));
 }
@@ -51,9 +51,9 @@ fn a_record_sampled_four_times_finer_gives_the_same_history() {
         .chain(coarse.last().copied())
         .collect();
     // 0.04 s: p dt = 0.2
-    let there = solve(&body, 0.04, &coarse, &Options { scale: 0.8, ..Options::default() });
-    let here = solve(&body, 0.01, &fine, &Options { scale: 0.8, ..Options::default() });
-    assert!(here.impacts.len() > 10);
+    let there = solve(&body, 0.04, &coarse, &Options { scale: 0.68, ..Options::default() });
+    let here = solve(&body, 0.01, &fine, &Options { scale: 0.68, ..Options::default() });
+    assert!(here.impacts.len() > 10, "{} {:?}", here.impacts.len(), here.outcome);
     for (a, b) in there.theta.iter().zip(here.theta.iter().step_by(4)) {
         assert!((a - b).abs() < 1e-12, "{a} {b}");
     }
