@@ -226,3 +226,96 @@ pub fn largest(points: &[Point]) -> f64 {
 pub fn value_and_slope(curve: &Curve, g: f64, mu: f64, z: &Parameters) -> (f64, Vector2<f64>) {
     gradient(|z| curve.excess(real(g), &response(mu, &z)), z)
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::response::target::Band;
+
+    fn bands() -> Vec<Curve> {
+        let band = |g_low, g_high, kind| Band { g_low, g_high, kind, limit: 0.5, weight: 2.0 };
+        curves(&Target {
+            bands: vec![
+                band(0.0, None, Kind::Cap),
+                band(0.0, Some(0.9), Kind::Uniform),
+                band(0.1, Some(3.0), Kind::Rigid),
+                band(0.8, None, Kind::RollOff),
+            ],
+        })
+    }
+
+    /// mu, z over the search range: damping from next to nothing to locked.
+    fn designs() -> impl Iterator<Item = (f64, Parameters)> {
+        [1e-3, 0.2, 3.0, 100.0].into_iter().flat_map(|mu| {
+            [-4.0, -0.7, 1.0, 4.6].into_iter().flat_map(move |ln_k| {
+                [-5.0, -1.0, 0.6, 3.0, 7.0].into_iter().map(move |ln_c| (mu, Vector2::new(ln_k, ln_c)))
+            })
+        })
+    }
+
+    /// Peaks of ARR are those roots x = g^2 of N'D - ND' where it falls; here by brute force on a fine grid.
+    #[test]
+    fn nothing_on_a_fine_grid_exceeds_the_points() {
+        for (mu, z) in designs() {
+            let response = response(mu, &z);
+            let found = points(&bands(), mu, &z);
+            for (index, curve) in bands().iter().enumerate() {
+                let top =
+                    found.iter().filter(|point| point.curve == index).fold(f64::MIN, |top, point| top.max(point.value));
+                for i in 0..=20_000 {
+                    let g = 10f64.powf(-4.0 + 4e-4 * f64::from(i));
+                    if (curve.g_low..=curve.g_high).contains(&g) {
+                        let value = curve.excess(g, &response);
+                        assert!(value <= top + 1e-12 * (1.0 + top.abs()), "mu {mu} {z} {curve:?} g {g}: {value} {top}");
+                    }
+                }
+            }
+        }
+    }
+
+    #[test]
+    fn at_a_peak_inside_the_slope_is_zero() {
+        for (mu, z) in designs() {
+            for point in points(&bands(), mu, &z).iter().filter(|point| point.inside) {
+                let curve = bands()[point.curve];
+                let bend = second_derivative(|u| curve.excess(u.exp(), &response(mu, &z.map(real))), point.g.ln()).2;
+                let slope = curve.slope(point.g.ln(), mu, &z);
+                // one rounding of u = ln g moves the slope by the curvature times it
+                assert!(slope.abs() <= 1e-14 * (10.0 + bend.abs()), "mu {mu} {z} {point:?}: {slope} {bend}");
+            }
+        }
+    }
+
+    #[test]
+    fn models_agree_with_differences_of_the_points_themselves() {
+        for (mu, z) in [(0.3, Vector2::new(-0.5, 0.8)), (5.0, Vector2::new(1.4, 1.0)), (1.0, Vector2::new(0.1, -0.5))] {
+            let curves = bands();
+            for point in points(&curves, mu, &z).iter().filter(|point| point.value.is_finite()) {
+                let at = |z: Parameters| {
+                    let now = points(&curves, mu, &z);
+                    let same = now
+                        .iter()
+                        .filter(|other| other.curve == point.curve && other.inside == point.inside)
+                        .min_by(|a, b| (a.g - point.g).abs().total_cmp(&(b.g - point.g).abs()))
+                        .unwrap();
+                    (same.value, curves[same.curve].model(same, mu, &z).slope)
+                };
+                if point.g.is_infinite() {
+                    continue;
+                }
+                let model = curves[point.curve].model(point, mu, &z);
+                let h = 1e-4;
+                for j in 0..2 {
+                    let [(after, slope_after), (before, slope_before)] =
+                        [1.0, -1.0].map(|side| at(z + Vector2::ith(j, side * h)));
+                    // central differences: h^2 = 1e-8 times third derivatives, here up to a few hundred
+                    let scale = 1.0 + model.slope.norm() + model.curvature.norm();
+                    let first = (after - before) / (2.0 * h) - model.slope[j];
+                    let second = (slope_after - slope_before) / (2.0 * h) - model.curvature.column(j);
+                    assert!(first.abs() < 1e-6 * scale, "{point:?} {j}: {first}");
+                    assert!(second.norm() < 1e-5 * scale, "{point:?} {j}: {second}");
+                }
+            }
+        }
+    }
+}
