@@ -51,6 +51,14 @@ pub struct Certificate {
     pub spread: f64,
 }
 
+impl Certificate {
+    /// Whether the conditions of a minimum are met: the gradients balance to 1e-7 of their size, and the active
+    /// frequencies have one excess to 1e-9 of ln ARR.
+    pub fn holds(&self) -> bool {
+        self.residual < 1e-7 && self.spread < 1e-9
+    }
+}
+
 /// The problem at one mu: the curves and the box.
 #[derive(Clone, Copy)]
 pub struct Problem<'a> {
@@ -128,27 +136,34 @@ impl Problem<'_> {
         let t_before = largest(&self.points(z));
         let mut z = self.snapped(z);
         let mut active = self.followed(active, &self.points(&z))?;
+        // Along a flat valley rounding throws the last steps about: the best of them is kept.
+        let (mut best, mut best_residual) = (None, f64::INFINITY);
         for _ in 0..12 {
             let models: Vec<Model> = active.iter().map(|point| self.model(point, &z)).collect();
             let (d, next) = self.newton(&z, &models, &lambda)?;
             if d.norm() > 0.5 {
-                return None;
+                break;
             }
             z = self.region.clamp(&(z + d));
             lambda = next;
-            active = self.followed(&active, &self.points(&z))?;
+            let now = self.points(&z);
+            let Some(followed) = self.followed(&active, &now) else { break };
+            active = followed;
+            let total: f64 = lambda.iter().map(|l| l.max(0.0)).sum();
+            let shares: Vec<f64> = lambda.iter().map(|l| l.max(0.0) / total).collect();
+            let certificate = self.certificate(&z, &active, &shares);
+            let wrong = lambda.iter().any(|&l| l < -1e-9);
+            // 1e-9 of ln ARR: far above rounding (1e-15), far below what a different minimum would differ by
+            let good = !wrong && certificate.holds() && largest(&now) < t_before + 1e-9;
+            if good && certificate.residual < best_residual {
+                best_residual = certificate.residual;
+                best = Some((z, active.clone(), shares));
+            }
             if d.norm() < STEP {
                 break;
             }
         }
-        let total: f64 = lambda.iter().map(|l| l.max(0.0)).sum();
-        let wrong = lambda.iter().any(|&l| l < -1e-9);
-        lambda.iter_mut().for_each(|l| *l = l.max(0.0) / total);
-        let certificate = self.certificate(&z, &active, &lambda);
-        let t = largest(&self.points(&z));
-        // 1e-9 of ln ARR: far above rounding (1e-15), far below what a different minimum would differ by
-        let good = !wrong && certificate.residual < 1e-9 && certificate.spread < 1e-9 && t < t_before + 1e-9;
-        good.then_some((z, active, lambda))
+        best
     }
 
     /// z moved onto a bound that it all but touches.
@@ -171,28 +186,36 @@ impl Problem<'_> {
     /// One Newton step in z, and the new multipliers. Least squares of least norm where points depend on each other.
     fn newton(&self, z: &Parameters, models: &[Model], lambda: &[f64]) -> Option<(Vector2<f64>, Vec<f64>)> {
         let n = models.len();
-        let w: Matrix2<f64> = models.iter().zip(lambda).map(|(model, &l)| model.curvature * l).sum();
+        let top = models.iter().fold(f64::NEG_INFINITY, |top, model| top.max(model.value));
+        // slopes may be 1e-6 (a flat band is flat for any z): in units of the steepest all entries are of order one
+        let steepest = models.iter().map(|model| model.slope.norm()).fold(0.0, f64::max);
+        let unit = if steepest > 0.0 { steepest } else { 1.0 };
+        let w = models.iter().zip(lambda).map(|(model, &l)| model.curvature * (l / unit)).sum::<Matrix2<f64>>();
         let free = [0, 1].map(|j| self.bound(z, j).is_none());
-        // unknowns d_0, d_1, t, lambda_1..n
+        // unknowns d_0, d_1, the rise of t in that unit, lambda_1..n
         let mut matrix = DMatrix::zeros(n + 3, n + 3);
         let mut right = DVector::zeros(n + 3);
         for j in 0..2 {
             if free[j] {
                 (matrix[(j, 0)], matrix[(j, 1)]) = (w[(j, 0)], w[(j, 1)]);
-                models.iter().enumerate().for_each(|(i, model)| matrix[(j, 3 + i)] = model.slope[j]);
+                models.iter().enumerate().for_each(|(i, model)| matrix[(j, 3 + i)] = model.slope[j] / unit);
             } else {
                 matrix[(j, j)] = 1.0;
             }
         }
         for (i, model) in models.iter().enumerate() {
-            matrix[(3 + i, 0)] = model.slope[0];
-            matrix[(3 + i, 1)] = model.slope[1];
+            matrix[(3 + i, 0)] = model.slope[0] / unit;
+            matrix[(3 + i, 1)] = model.slope[1] / unit;
             matrix[(3 + i, 2)] = -1.0;
-            right[3 + i] = -model.value;
+            right[3 + i] = (top - model.value) / unit;
             matrix[(2, 3 + i)] = 1.0;
         }
         right[2] = 1.0;
-        let solution = matrix.svd(true, true).solve(&right, 1e-12).ok()?;
+        // elimination keeps the digits of badly scaled rows, which the singular value decomposition loses
+        let solution = match matrix.clone().full_piv_lu().solve(&right) {
+            Some(solution) => solution,
+            None => matrix.svd(true, true).solve(&right, 1e-12).ok()?,
+        };
         let finite = solution.iter().all(|x| x.is_finite());
         // a bound is held exactly: one rounding off it and it would no longer count as active
         let d = Vector2::from_fn(|j, _| if free[j] { solution[j] } else { 0.0 });

@@ -157,7 +157,9 @@ impl Curve {
         for pair in corners.windows(2) {
             grid.extend((0..=BETWEEN).map(|i| pair[0] + (pair[1] - pair[0]) * i as f64 / BETWEEN as f64));
         }
-        grid.retain(|g| (low..=high).contains(g));
+        // both ends exactly, not a rounding short of them: a peak just inside an end is bracketed by it
+        grid.retain(|&g| g > low && g < high);
+        grid.extend([low, high]);
         grid.sort_by(f64::total_cmp);
         grid
     }
@@ -269,6 +271,19 @@ mod tests {
                         assert!(value <= top + 1e-12 * (1.0 + top.abs()), "mu {mu} {z} {curve:?} g {g}: {value} {top}");
                     }
                 }
+            }
+        }
+    }
+
+    #[test]
+    fn a_peak_just_inside_the_end_of_a_band_is_found() {
+        let z = Vector2::new(0.3, 0.2);
+        let peak = points(&bands()[..1], 1.0, &z).into_iter().find(|point| point.inside).unwrap();
+        for gap in [1e-3, 1e-6, 1e-9] {
+            let band = |g_low, g_high| Band { g_low, g_high, kind: Kind::Cap, limit: 0.5, weight: 2.0 };
+            for band in [band(0.0, Some(peak.g * (1.0 + gap))), band(peak.g * (1.0 - gap), None)] {
+                let found = points(&curves(&Target { bands: vec![band] }), 1.0, &z);
+                assert!(found.iter().any(|point| point.inside && (point.g / peak.g - 1.0).abs() < 1e-14), "{found:?}");
             }
         }
     }

@@ -131,7 +131,8 @@ fn starts(mu: f64) -> Vec<Parameters> {
 
 impl Fit {
     fn new(problem: &Problem, minimum: &Minimum) -> Self {
-        let Minimum { z, excess, active, multipliers, iterations, converged } = minimum;
+        let Minimum { z, excess, active, multipliers, iterations } = minimum;
+        let certificate = problem.certificate(z, active, multipliers);
         let mu = problem.mu;
         let response = response(mu, z);
         let (k, c) = (response.k, response.c);
@@ -148,9 +149,9 @@ impl Fit {
             peak_g,
             arr_at_zero: response.at_zero(),
             excess: *excess,
-            outcome: if *converged { Outcome::Converged } else { Outcome::NotConverged },
+            outcome: if certificate.holds() { Outcome::Converged } else { Outcome::NotConverged },
             iterations: *iterations,
-            certificate: problem.certificate(z, active, multipliers),
+            certificate,
         }
     }
 }

@@ -27,13 +27,11 @@ pub struct Minimum {
     pub multipliers: Vec<f64>,
     /// Convex steps taken.
     pub iterations: usize,
-    /// Whether the Newton iteration on the optimality conditions confirmed a minimum.
-    pub converged: bool,
 }
 
 /// Steps before giving up; a usual fit takes 5 to 15.
 const ITERATIONS: usize = 100;
-/// A multiplier below this belongs to a frequency that does not hold the fit.
+/// A frequency holds the fit if it has more than this share of the multipliers or of the balance of gradients.
 const ACTIVE: f64 = 1e-5;
 /// Within this distance of the answer (in ln K, ln C) Newton's method is worth a try.
 const NEAR: f64 = 1e-2;
@@ -58,10 +56,10 @@ pub fn minimise(problem: &Problem, start: &Parameters) -> Minimum {
             continue;
         };
         if step.d.amax() < NEAR {
-            let (active, held) = held(&points, &step.lambda);
+            let (active, held) = held(&points, &models, &step.lambda);
             if let Some((z, active, multipliers)) = problem.polish(&z, &active, &held) {
                 let excess = largest(&problem.points(&z));
-                return Minimum { z, excess, active, multipliers, iterations, converged: true };
+                return Minimum { z, excess, active, multipliers, iterations };
             }
         }
         // what the model promises is lost in the rounding of t: there is nothing left to gain
@@ -69,13 +67,22 @@ pub fn minimise(problem: &Problem, start: &Parameters) -> Minimum {
             lambda = step.lambda;
             break;
         }
-        let trial = problem.region.clamp(&(z + step.d));
-        let found = problem.points(&trial);
-        let trial_t = largest(&found);
-        let share = (t - trial_t) / step.gain;
+        let mut trial = Trial::at(problem, &z, &step.d);
+        // Along a curved valley between two peaks the straight step is turned down however short (Maratos); a second
+        // step with what the first did to each peak follows the valley.
+        if t - trial.t < 0.75 * step.gain {
+            let bent = corrected(&models, &points, &trial.points, &step.d);
+            if let Some(second) = convex_step(problem, &z, t, &bent, &convex(w), radius) {
+                let second = Trial::at(problem, &z, &second.d);
+                if second.t < trial.t {
+                    trial = second;
+                }
+            }
+        }
+        let share = (t - trial.t) / step.gain;
         if share > 1e-3 {
-            lambda = carried(&points, &step.lambda, &found);
-            (z, points, t) = (trial, found, trial_t);
+            lambda = carried(&points, &step.lambda, &trial.points);
+            (z, points, t) = (trial.z, trial.points, trial.t);
         } else {
             lambda = step.lambda;
         }
@@ -85,8 +92,9 @@ pub fn minimise(problem: &Problem, start: &Parameters) -> Minimum {
             _ => 0.25 * step.d.amax().min(radius),
         };
     }
-    let (active, multipliers) = held(&points, &lambda);
-    Minimum { z, excess: t, active, multipliers, iterations, converged: false }
+    let models: Vec<Model> = points.iter().map(|point| problem.model(point, &z)).collect();
+    let (active, multipliers) = held(&points, &models, &lambda);
+    Minimum { z, excess: t, active, multipliers, iterations }
 }
 
 struct Step {
@@ -94,6 +102,31 @@ struct Step {
     /// The model's fall of t.
     gain: f64,
     lambda: Vec<f64>,
+}
+
+/// Where a step leads.
+struct Trial {
+    z: Parameters,
+    points: Vec<Point>,
+    t: f64,
+}
+
+impl Trial {
+    fn at(problem: &Problem, z: &Parameters, d: &Vector2<f64>) -> Self {
+        let z = problem.region.clamp(&(z + d));
+        let points = problem.points(&z);
+        let t = largest(&points);
+        Self { z, points, t }
+    }
+}
+
+/// The models with, for each value, what the step d showed that its slope had left out.
+fn corrected(models: &[Model], points: &[Point], after: &[Point], d: &Vector2<f64>) -> Vec<Model> {
+    let bent = |(model, point): (&Model, &Point)| match follow(point, after) {
+        Some(index) => Model { value: after[index].value - model.slope.dot(d), ..*model },
+        None => *model,
+    };
+    models.iter().zip(points).map(bent).collect()
 }
 
 /// One convex step, or nothing if the solver did not solve it.
@@ -174,9 +207,16 @@ fn carried(before: &[Point], lambda: &[f64], now: &[Point]) -> Vec<f64> {
 }
 
 /// The points that hold the fit, and their multipliers, which sum to 1.
-fn held(points: &[Point], lambda: &[f64]) -> (Vec<Point>, Vec<f64>) {
-    let (active, mut held): (Vec<Point>, Vec<f64>) =
-        points.iter().zip(lambda).filter(|&(_, &l)| l > ACTIVE).map(|(&point, &l)| (point, l)).unzip();
+fn held(points: &[Point], models: &[Model], lambda: &[f64]) -> (Vec<Point>, Vec<f64>) {
+    let pulls: Vec<f64> = models.iter().zip(lambda).map(|(model, &l)| l * model.slope.norm()).collect();
+    let pull: f64 = pulls.iter().sum();
+    let (active, mut held): (Vec<Point>, Vec<f64>) = points
+        .iter()
+        .zip(lambda)
+        .zip(&pulls)
+        .filter(|&((_, &l), &p)| l > ACTIVE || p > ACTIVE * pull)
+        .map(|((&point, &l), _)| (point, l))
+        .unzip();
     let sum: f64 = held.iter().sum();
     held.iter_mut().for_each(|l| *l /= sum);
     (active, held)
