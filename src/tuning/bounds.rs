@@ -82,50 +82,63 @@ impl Bounds {
     pub fn region(&self, mu: f64) -> Result<Region, BoundsError> {
         // Far beyond any optimum: the minimax has K between 1/2 and about mu, C between 1.8 and about 1.3 sqrt(mu).
         let (least, most) = (1e-4, 1e4 * mu.max(1.0));
-        let mut sides = [(least, SEARCH_RANGE, most, SEARCH_RANGE); 2];
+        let mut sides = [Side { low: least, low_name: SEARCH_RANGE, high: most, high_name: SEARCH_RANGE }; 2];
         let k = |f: f64| mu * f * f;
         let c = |xi: f64| 2.0 * mu * xi;
-        let raise = |side: &mut (f64, &'static str, f64, &'static str), value: f64, name| {
-            if value > side.0 {
-                (side.0, side.1) = (value, name);
-            }
-        };
-        let lower = |side: &mut (f64, &'static str, f64, &'static str), value: f64, name| {
-            if value < side.2 {
-                (side.2, side.3) = (value, name);
-            }
-        };
         let given = |name, value: Option<f64>| match value {
             Some(value) if !(value.is_finite() && value > 0.0) => Err(BoundsError::NotPositive { name, value }),
             other => Ok(other),
         };
         if let Some(f) = given("f_min", self.f_min)? {
-            raise(&mut sides[0], k(f), "f_min");
+            sides[0].raise(k(f), "f_min");
         }
         if let Some(k_min) = given("k_min", self.k_min)? {
-            raise(&mut sides[0], k_min, "k_min");
+            sides[0].raise(k_min, "k_min");
         }
         if let Some(f) = given("f_max", self.f_max)? {
-            lower(&mut sides[0], k(f), "f_max");
+            sides[0].lower(k(f), "f_max");
         }
         if let Some(xi) = given("xi_min", self.xi_min)? {
-            raise(&mut sides[1], c(xi), "xi_min");
+            sides[1].raise(c(xi), "xi_min");
         }
         if let Some(xi) = given("xi_max", self.xi_max)? {
-            lower(&mut sides[1], c(xi), "xi_max");
+            sides[1].lower(c(xi), "xi_max");
         }
-        for ((low, low_name, high, high_name), quantity) in sides.into_iter().zip(["K", "C"]) {
+        for (Side { low, low_name, high, high_name }, quantity) in sides.into_iter().zip(["K", "C"]) {
             if low > high {
                 return Err(BoundsError::Empty { quantity, low_name, low, high_name, high, mu });
             }
         }
-        let [(k0, k0_name, k1, k1_name), (c0, c0_name, c1, c1_name)] = sides;
+        let [k, c] = sides;
         Ok(Region {
-            low: Vector2::new(k0, c0).map(f64::ln),
-            high: Vector2::new(k1, c1).map(f64::ln),
-            low_names: [k0_name, c0_name],
-            high_names: [k1_name, c1_name],
+            low: Vector2::new(k.low, c.low).map(f64::ln),
+            high: Vector2::new(k.high, c.high).map(f64::ln),
+            low_names: [k.low_name, c.low_name],
+            high_names: [k.high_name, c.high_name],
         })
+    }
+}
+
+/// The bounds on one of K and C, and what each is called.
+#[derive(Clone, Copy)]
+struct Side {
+    low: f64,
+    low_name: &'static str,
+    high: f64,
+    high_name: &'static str,
+}
+
+impl Side {
+    fn raise(&mut self, value: f64, name: &'static str) {
+        if value > self.low {
+            (self.low, self.low_name) = (value, name);
+        }
+    }
+
+    fn lower(&mut self, value: f64, name: &'static str) {
+        if value < self.high {
+            (self.high, self.high_name) = (value, name);
+        }
     }
 }
 
