@@ -26,6 +26,7 @@ mod mark;
 mod number;
 mod painter;
 mod panel;
+mod png;
 mod raster;
 mod scale;
 mod style;
@@ -53,8 +54,6 @@ pub enum FigureError {
     Length { figure: &'static str, what: String, found: usize, wanted: usize },
     #[error("figure: cannot write {path}: {source}; check that the folder exists and may be written to", path = path.display())]
     Write { path: PathBuf, source: std::io::Error },
-    #[error("figure: cannot encode {path} as PNG: {source}; please report this", path = path.display())]
-    Encode { path: PathBuf, source: image::ImageError },
     #[error("figure: cannot draw {path}: {reason}; please report this", path = path.display())]
     Draw { path: PathBuf, reason: String },
 }

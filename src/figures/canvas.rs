@@ -6,8 +6,6 @@ use std::io::Write as _;
 use std::path::Path;
 use std::rc::Rc;
 
-use image::codecs::png::{CompressionType, FilterType, PngEncoder};
-use image::{ColorType, ImageEncoder as _};
 use plotters::coord::Shift;
 use plotters::drawing::{DrawingArea, IntoDrawingArea as _};
 use plotters::element::{Circle, PathElement, Polygon, Text};
@@ -17,6 +15,7 @@ use plotters::style::{Color, FontDesc, FontFamily, FontStyle, FontTransform, RGB
 use super::FigureError;
 use super::glyph::{self, Setting};
 use super::painter::{FINE, Painter};
+use super::png;
 use super::raster::{Point, Raster};
 use super::style::{Pen, TEXT};
 
@@ -159,11 +158,10 @@ impl Canvas {
         }
         let raster = self.raster.borrow();
         let (width, height) = raster.size();
-        let mut bytes = Vec::new();
-        PngEncoder::new_with_quality(&mut bytes, CompressionType::Fast, FilterType::Up)
-            .write_image(raster.rgb(), width as u32, height as u32, ColorType::Rgb8)
-            .map_err(|source| FigureError::Encode { path: path.into(), source })?;
-        write(path, &bytes).map_err(|source| FigureError::Write { path: path.into(), source })
+        let write = |bytes: Vec<u8>| write(path, &bytes);
+        png::encode(raster.rgb(), width as u32, height as u32)
+            .and_then(write)
+            .map_err(|source| FigureError::Write { path: path.into(), source })
     }
 }
 

@@ -21,6 +21,8 @@ pub struct Raster {
     rgb: Vec<u8>,
     /// Coverage of the shape being painted; all zero between two shapes.
     mask: Vec<f32>,
+    /// The pixels whose coverage is not zero.
+    touched: Vec<usize>,
 }
 
 /// Rows or columns [from, to) of pixels.
@@ -29,7 +31,7 @@ type Span = (usize, usize);
 impl Raster {
     /// A white picture.
     pub fn new(width: usize, height: usize) -> Self {
-        Self { width, height, rgb: vec![255; width * height * 3], mask: vec![0.0; width * height] }
+        Self { width, height, rgb: vec![255; width * height * 3], mask: vec![0.0; width * height], touched: Vec::new() }
     }
 
     /// Width and height [pixel].
@@ -56,14 +58,13 @@ impl Raster {
         // A line thinner than a pixel is a pale line of one pixel.
         let ink = Ink { alpha: ink.alpha * width.min(1.0), ..ink };
         let reach = width.max(1.0) / 2.0 + 0.5;
-        let mut dirty = Dirty::default();
         for pair in points.windows(2) {
-            self.capsule(pair[0], pair[1], reach, &mut dirty);
+            self.capsule(pair[0], pair[1], reach);
         }
         if let [only] = points {
-            self.capsule(*only, *only, reach, &mut dirty);
+            self.capsule(*only, *only, reach);
         }
-        self.lay(&dirty, ink);
+        self.lay(ink);
     }
 
     /// A filled polygon (even-odd rule), each pixel covered by the area inside of it, to a fifth of a pixel in y.
@@ -75,7 +76,6 @@ impl Raster {
             high = high.max(y);
         }
         let Some((top, bottom)) = span(low, high, self.height) else { return };
-        let mut dirty = Dirty::default();
         let mut crossings: Vec<f64> = Vec::new();
         for row in top..bottom {
             for slice in 0..SLICES {
@@ -90,15 +90,14 @@ impl Raster {
                 crossings.sort_by(f64::total_cmp);
                 for pair in crossings.chunks_exact(2) {
                     let Some((left, right)) = span(pair[0], pair[1], self.width) else { continue };
-                    dirty.add((left, right), (row, row + 1));
                     for x in left..right {
                         let covered = (pair[1].min(x as f64 + 1.0) - pair[0].max(x as f64)).max(0.0);
-                        self.mask[row * self.width + x] += (covered / SLICES as f64) as f32;
+                        self.cover(row * self.width + x, |old| old + (covered / SLICES as f64) as f32);
                     }
                 }
             }
         }
-        self.lay(&dirty, ink);
+        self.lay(ink);
     }
 
     /// A filled circle, or its rim of the given width.
@@ -119,10 +118,9 @@ impl Raster {
     }
 
     /// Add to the mask the pixels within `reach` of the segment from a to b.
-    fn capsule(&mut self, a: Point, b: Point, reach: f64, dirty: &mut Dirty) {
+    fn capsule(&mut self, a: Point, b: Point, reach: f64) {
         let Some((left, right)) = span(a.0.min(b.0) - reach, a.0.max(b.0) + reach, self.width) else { return };
         let Some((top, bottom)) = span(a.1.min(b.1) - reach, a.1.max(b.1) + reach, self.height) else { return };
-        dirty.add((left, right), (top, bottom));
         let (dx, dy) = (b.0 - a.0, b.1 - a.1);
         let length_squared = dx * dx + dy * dy;
         let half_row = if dy == 0.0 { 0.0 } else { reach * length_squared.sqrt() / dy.abs() };
@@ -144,40 +142,26 @@ impl Raster {
                     if length_squared == 0.0 { 0.0 } else { ((x * dx + y * dy) / length_squared).clamp(0.0, 1.0) };
                 let (x, y) = (x - along * dx, y - along * dy);
                 let coverage = (reach - (x * x + y * y).sqrt()).clamp(0.0, 1.0) as f32;
-                let mask = &mut self.mask[row * self.width + column];
-                *mask = mask.max(coverage);
+                self.cover(row * self.width + column, |old| old.max(coverage));
             }
         }
+    }
+
+    /// Change one pixel's coverage.
+    fn cover(&mut self, at: usize, change: impl Fn(f32) -> f32) {
+        let old = self.mask[at];
+        let new = change(old);
+        if old == 0.0 && new > 0.0 {
+            self.touched.push(at);
+        }
+        self.mask[at] = new;
     }
 
     /// Lay ink through the mask and clear it.
-    fn lay(&mut self, dirty: &Dirty, ink: Ink) {
-        for y in dirty.y.0..dirty.y.1 {
-            for x in dirty.x.0..dirty.x.1 {
-                let at = y * self.width + x;
-                let coverage = std::mem::take(&mut self.mask[at]);
-                if coverage > 0.0 {
-                    mix(&mut self.rgb[at * 3..at * 3 + 3], ink, f64::from(coverage.min(1.0)));
-                }
-            }
-        }
-    }
-}
-
-/// The part of the mask in use.
-#[derive(Default)]
-struct Dirty {
-    x: Span,
-    y: Span,
-}
-
-impl Dirty {
-    fn add(&mut self, x: Span, y: Span) {
-        if self.x.1 == 0 {
-            (self.x, self.y) = (x, y);
-        } else {
-            self.x = (self.x.0.min(x.0), self.x.1.max(x.1));
-            self.y = (self.y.0.min(y.0), self.y.1.max(y.1));
+    fn lay(&mut self, ink: Ink) {
+        for at in self.touched.drain(..) {
+            let coverage = std::mem::take(&mut self.mask[at]);
+            mix(&mut self.rgb[at * 3..at * 3 + 3], ink, f64::from(coverage.min(1.0)));
         }
     }
 }
