@@ -53,7 +53,7 @@ pub fn render(data: &Precision<'_>, path: &Path) -> Result<(), FigureError> {
     // The legend's column takes what its longest text needs, but leaves the panel more than half of the sheet.
     let text = super::canvas::Lettering::new(LABEL);
     let longest = data.series.iter().map(|series| text.length(series.label)).fold(0.0, f64::max);
-    let right = (WIDTH as f64 - 40.0 - longest - 64.0 - 36.0).max(850.0);
+    let right = (WIDTH as f64 - 40.0 - longest - 76.0 - 36.0).max(850.0);
     legend::column(&mut canvas, &entries, (right + 36.0, top + 24.0));
 
     let points = || data.series.iter().flat_map(|series| series.points);

@@ -95,7 +95,7 @@ impl Scale {
         let plain = self.low >= 0.9e-4 && self.high <= 1.1e5;
         let told: &[u32] = match most / decades {
             room if room >= 10.0 && decades < 1.0 => &[1, 2, 3, 4, 5, 6, 7, 8],
-            room if room >= 2.4 && (plain || decades < 2.0) => &[1, 2, 5],
+            room if room >= 2.4 && decades < if plain { 4.0 } else { 2.0 } => &[1, 2, 5],
             _ => &[1],
         };
         let mut ticks = Vec::new();
