@@ -34,6 +34,10 @@ pub mod motion;
 
 pub mod housner;
 
+pub mod conditioning;
+
+pub mod regime;
+
 pub mod fem;
 
 pub mod compare;

@@ -3,6 +3,8 @@
 //! Literals are rounded from its 25 digits. Where the body comes to rest between them, that program was given a rule of its own:
 //! rest once the rate after an impact is below 1e-18 rad/s and |u_g| < g tan(alpha).
 
+#![allow(clippy::excessive_precision)] // the digits of the reference as it printed them
+
 use groundspring::housner::{Options, Outcome, Rocking, solve};
 use groundspring::record::Record;
 use groundspring::structure::Body;

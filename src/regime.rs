@@ -1,0 +1,161 @@
+//! What Housner's solution asks of the contact: whether the body would slide, fly, or bounce instead of rocking.
+//!
+//! With phi = alpha s - theta the pivot's forces on the body, horizontal F and vertical N, are
+//!
+//! ```text
+//! F = m ( R [ cos(phi) theta'' + sin(phi) theta'^2 ] + u_g )
+//! N = m ( R [ sin(phi) theta'' - cos(phi) theta'^2 ] + g )
+//! ```
+//!
+//! and at rest F = m u_g, N = m g. Without sliding |F|/N is below the friction coefficient; N <= 0 is free flight.
+//!
+//! A landing is an impulse (P_x, P_y) at the new foot that stops it. Housner's, which leaves the old foot (the pivot until now)
+//! without impulse, asks for P_x/P_y = h (1 - e)/(b (1 + e)) = m h b/(I_cg + m h^2). The pivot must then rise. An impulse with friction mu at the new
+//! foot lifts the pivot if
+//!
+//! ```text
+//! I_cg - m b^2 + mu m h b >= 0
+//! ```
+//!
+//! (the change of the pivot's vertical velocity, P_y/m - b (P_y b - P_x h)/I_cg, times I_cg m/P_y). Without friction that is I_cg >= m b^2:
+//! H/B >= sqrt(2) for a solid block of height H and width B. With the friction of Housner's own impulse it is e > 0, I_cg > m (b^2 - h^2): H/B > 1/sqrt(2). An
+//! A-frame needs mu >= b/h = tan(alpha), which it needs to lift off anyway.
+
+use crate::housner::Rocking;
+use crate::scalar::GRAVITY;
+use crate::structure::Body;
+
+/// A number and when it occurs.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Demand {
+    pub value: f64,
+    /// Time (s).
+    pub time: f64,
+}
+
+/// A geometry that does not land without bouncing.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Stocky {
+    /// Restitution by equation (2); zero or less if no friction lets it land.
+    pub restitution: f64,
+    /// Friction coefficient with which the landing lifts the pivot.
+    pub friction_needed: f64,
+}
+
+/// The regime of a history, under the friction coefficient that is available.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Regime {
+    /// The friction coefficient that is available.
+    pub friction: f64,
+    /// Largest |F|/N while the feet press on the ground, at rest and rocking.
+    pub friction_needed: Demand,
+    /// P_x/P_y of Housner's landing: the friction coefficient needed not to slide in an impact.
+    pub landing_friction: f64,
+    /// First time with N <= 0, and the lowest N/(m g) of the history.
+    pub free_flight: Option<Demand>,
+    /// The geometry, if it is too stocky to land without bouncing.
+    pub too_stocky: Option<Stocky>,
+}
+
+/// Check a history against the record (m/s2) and scale that made it, at the samples and on either side of each impact.
+pub fn check(body: &Body<f64>, dt: f64, accel: &[f64], scale: f64, rocking: &Rocking<f64>, friction: f64) -> Regime {
+    let mut worst = Worst { friction: Demand { value: 0.0, time: 0.0 }, lowest: 1.0, flight: None };
+    let mut impacts = rocking.impacts.iter().peekable();
+    for (i, (&theta, &rate)) in rocking.theta.iter().zip(&rocking.rate).enumerate() {
+        let time = i as f64 * dt;
+        while let Some(impact) = impacts.next_if(|impact| impact.time <= time) {
+            let x = impact.time / dt;
+            let k = (x as usize).min(accel.len().saturating_sub(2));
+            let next = accel.get(k + 1).copied().unwrap_or(accel[k]);
+            let ground = scale * (accel[k] + (next - accel[k]) * (x - k as f64));
+            // the body comes from the side that it moves away from
+            let from = -impact.rate_before.signum();
+            worst.take(impact.time, forces(body, from, 0.0, impact.rate_before, ground));
+            worst.take(impact.time, forces(body, -from, 0.0, impact.rate_after, ground));
+        }
+        let ground = scale * accel[i];
+        if theta == 0.0 && rate == 0.0 {
+            worst.take(time, (ground / GRAVITY, 1.0));
+        } else {
+            let side = if theta == 0.0 { rate.signum() } else { theta.signum() };
+            worst.take(time, forces(body, side, theta, rate, ground));
+        }
+    }
+    Regime {
+        friction,
+        friction_needed: worst.friction,
+        landing_friction: body.mass * body.height * body.half_width / (body.inertia + body.mass * body.height.powi(2)),
+        free_flight: worst.flight.map(|time| Demand { value: worst.lowest, time }),
+        too_stocky: stockiness(body, friction),
+    }
+}
+
+/// The geometry, if it does not land without bouncing under a friction coefficient.
+pub fn stockiness(body: &Body<f64>, friction: f64) -> Option<Stocky> {
+    let restitution = body.restitution();
+    let friction_needed = (body.half_width - body.inertia / (body.mass * body.half_width)) / body.height;
+    (restitution <= 0.0 || friction_needed > friction)
+        .then_some(Stocky { restitution, friction_needed: friction_needed.max(0.0) })
+}
+
+/// F and N of a rocking body over its weight m g.
+fn forces(body: &Body<f64>, side: f64, theta: f64, rate: f64, ground: f64) -> (f64, f64) {
+    let (sin, cos) = (body.alpha() * side - theta).sin_cos();
+    let (r, ground) = (body.radius() / GRAVITY, ground / GRAVITY);
+    let acceleration = -body.p_squared() * (sin + ground * cos); // (1), (3)
+    let horizontal = r * (cos * acceleration + sin * rate * rate) + ground;
+    let vertical = r * (sin * acceleration - cos * rate * rate) + 1.0;
+    (horizontal, vertical)
+}
+
+struct Worst {
+    friction: Demand,
+    lowest: f64,
+    flight: Option<f64>,
+}
+
+impl Worst {
+    fn take(&mut self, time: f64, (horizontal, vertical): (f64, f64)) {
+        self.lowest = self.lowest.min(vertical);
+        if vertical <= 0.0 {
+            self.flight.get_or_insert(time);
+        } else if horizontal.abs() > self.friction.value * vertical {
+            self.friction = Demand { value: horizontal.abs() / vertical, time };
+        }
+    }
+}
+
+impl Regime {
+    /// One line for every assumption of pure rocking that this history breaks, with the number and the time.
+    pub fn warnings(&self) -> Vec<String> {
+        let mut lines = Vec::new();
+        let Demand { value, time } = self.friction_needed;
+        if value > self.friction {
+            lines.push(format!(
+                "sliding: a friction coefficient of {value:.3} is needed at t = {time:.3} s, {:.3} is available; rocking without sliding does not hold",
+                self.friction
+            ));
+        }
+        if self.landing_friction > self.friction {
+            lines.push(format!(
+                "sliding: a landing needs a friction coefficient of {:.3}, {:.3} is available",
+                self.landing_friction, self.friction
+            ));
+        }
+        if let Some(Demand { value, time }) = self.free_flight {
+            lines.push(format!(
+                "free flight: the pivot lifts at t = {time:.3} s (lowest vertical force {value:.3} of the weight); rocking does not hold from there on"
+            ));
+        }
+        if let Some(Stocky { restitution, friction_needed }) = self.too_stocky {
+            lines.push(format!(
+                "too stocky: landing without bouncing needs a friction coefficient of {friction_needed:.3} and a positive restitution (equation 2 gives {restitution:.3}); {:.3} is available",
+                self.friction
+            ));
+        }
+        lines
+    }
+}
+
+#[cfg(test)]
+mod tests;
