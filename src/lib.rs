@@ -46,4 +46,6 @@ pub mod parameters;
 
 pub mod tuning;
 
+pub mod case;
+
 pub mod figures;

@@ -10,4 +10,6 @@ pub mod inner;
 
 pub mod minimax;
 
+pub mod outer;
+
 pub mod smooth;

@@ -20,6 +20,13 @@ pub struct Control {
     pub extra_iterations: usize,
 }
 
+impl Control {
+    /// For comparing many candidates: errors of the history below 1e-4, at half the steps.
+    pub fn search() -> Self {
+        Self { tolerance: 1e-7, most_steps: 200_000, ..Self::default() }
+    }
+}
+
 impl Default for Control {
     fn default() -> Self {
         Self { tolerance: 1e-9, most_steps: 2_000_000, extra_iterations: 0 }

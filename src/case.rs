@@ -1,0 +1,335 @@
+//! Case files: what to tune, on what, within which bounds. TOML; every key has its unit in its name.
+//!
+//! ```toml
+//! [structure]
+//! kind = "aframe"            # or "block"
+//! height_m = 61.0            # of the centre of mass above the feet
+//! width_m = 12.2             # between the feet
+//! mass_kg = 680.1e3
+//!
+//! [record]                   # left out: El Centro 1940 NS
+//! file = "motion.at2"        # relative to the case file
+//! scale = 1.0
+//!
+//! [tuning]
+//! objective = "arr"
+//! max_omega_hz = 160.0
+//! ```
+
+use std::path::{Path, PathBuf};
+
+use serde::Deserialize;
+use thiserror::Error;
+
+use crate::{
+    record::{ReadOptions, Record, RecordError, Units},
+    response::target::Target,
+    structure::{Kind, Structure, StructureError},
+    tuning::bounds::Bounds,
+};
+
+/// I_cg of an A-frame with all mass at its apex, as a share of m R^2: OpenSees and its like need some, and rocking does
+/// not feel so little (1e-5 of p^2).
+pub const LEAST_INERTIA: f64 = 1e-5;
+
+/// What is wrong with a case file, and what to do.
+#[derive(Debug, Error)]
+pub enum CaseError {
+    #[error("{path}: cannot be read ({source}); check the name of the case file")]
+    Read { path: String, source: std::io::Error },
+    #[error("{path}:{line}: {message}")]
+    Parse { path: String, line: usize, message: String },
+    #[error("{path}: {source}")]
+    Structure { path: String, source: StructureError },
+    #[error("{path}: {key} is {value}; {remedy}")]
+    Value { path: String, key: &'static str, value: String, remedy: &'static str },
+    #[error(transparent)]
+    Record(#[from] RecordError),
+}
+
+/// Which error the springs are tuned on.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Deserialize)]
+#[serde(rename_all = "lowercase")]
+pub enum Objective {
+    /// The paper's procedure: the frequency response's shape, then Omega_n on the record.
+    #[default]
+    Arr,
+    /// Landings and uplifts of the structure, without any record.
+    Impact,
+}
+
+#[derive(Clone, Debug, Deserialize)]
+#[serde(deny_unknown_fields)]
+struct StructureSection {
+    kind: Kind,
+    /// Height of the centre of mass [m].
+    height_m: f64,
+    /// Distance between the feet [m].
+    width_m: f64,
+    mass_kg: f64,
+    /// About the centre of mass; by `kind` unless given.
+    rotational_inertia_kgm2: Option<f64>,
+    /// Velocity restitution e; by equation 2 unless given.
+    restitution: Option<f64>,
+    /// Factor on equation 2's e.
+    restitution_ratio: Option<f64>,
+}
+
+#[derive(Clone, Debug, Default, Deserialize)]
+#[serde(deny_unknown_fields, default)]
+struct RecordSection {
+    /// Relative to the case file; the embedded El Centro record unless given.
+    file: Option<PathBuf>,
+    /// Time step [s], where the file does not say.
+    dt_s: Option<f64>,
+    /// "g", "m/s2" or "cm/s2", where the file does not say.
+    units: Option<Units>,
+    /// Factor on the acceleration.
+    scale: Option<f64>,
+    /// Length to compare over [s].
+    duration_s: Option<f64>,
+}
+
+/// The outer loop's settings.
+#[derive(Clone, Debug, Deserialize)]
+#[serde(deny_unknown_fields, default)]
+pub struct Tuning {
+    pub objective: Objective,
+    /// Stiffest springs allowed, Omega_n/2 pi [Hz].
+    pub max_omega_hz: f64,
+    /// Largest settlement of the standing body [m]; it bounds Omega_n from below.
+    pub max_settlement_m: f64,
+    /// Mass ratios mu = m2/m1 tried for the vertical chain.
+    pub mass_ratios_vertical: Vec<f64>,
+    /// Mass ratios mu = m2/m1 tried for the horizontal chain.
+    pub mass_ratios_horizontal: Vec<f64>,
+    /// Candidates sampled before refining.
+    pub candidates: usize,
+}
+
+impl Default for Tuning {
+    fn default() -> Self {
+        Self {
+            objective: Objective::Arr,
+            max_omega_hz: 160.0,
+            max_settlement_m: 0.01,
+            mass_ratios_vertical: vec![0.1, 0.3, 1.0, 2.0, 10.0],
+            mass_ratios_horizontal: vec![0.1, 1.0, 10.0],
+            candidates: 256,
+        }
+    }
+}
+
+#[derive(Clone, Debug, Deserialize)]
+#[serde(deny_unknown_fields)]
+struct CaseFile {
+    structure: StructureSection,
+    #[serde(default)]
+    record: RecordSection,
+    #[serde(default)]
+    tuning: Tuning,
+    target: Option<Target>,
+    #[serde(default)]
+    bounds: Bounds,
+}
+
+/// A checked case, its record read.
+#[derive(Clone, Debug)]
+pub struct Case {
+    pub structure: Structure,
+    /// Velocity restitution e.
+    pub restitution: f64,
+    pub record: Record,
+    /// Length to compare over [s].
+    pub duration_s: f64,
+    pub tuning: Tuning,
+    pub target: Target,
+    pub bounds: Bounds,
+}
+
+/// The length compared unless the user says otherwise [s].
+pub const DURATION_S: f64 = 20.0;
+
+/// The paper's case, embedded.
+pub const PAPER: &str = include_str!("../tuning/paper.toml");
+
+impl Case {
+    /// The paper's case: its A-frame on El Centro.
+    pub fn paper() -> Result<Self, CaseError> {
+        Self::parse("tuning/paper.toml", PAPER)
+    }
+
+    /// Read a case file and the record it names.
+    pub fn read(path: &Path) -> Result<Self, CaseError> {
+        let name = path.display().to_string();
+        let text = std::fs::read_to_string(path).map_err(|source| CaseError::Read { path: name.clone(), source })?;
+        Self::parse(&name, &text)
+    }
+
+    /// Parse a case file's text; `path` names it in messages and is where its record's path starts.
+    pub fn parse(path: &str, text: &str) -> Result<Self, CaseError> {
+        let file: CaseFile = toml::from_str(text).map_err(|e| parse_error(path, text, &e))?;
+        let value = |key, value: f64, remedy| CaseError::Value { path: path.into(), key, value: value.to_string(), remedy };
+
+        let (structure, restitution) = file.structure.checked(path)?;
+        let section = &file.record;
+        let record = match &section.file {
+            Some(name) => {
+                let file = Path::new(path).parent().unwrap_or(Path::new("")).join(name);
+                Record::read(&file, &ReadOptions { dt: section.dt_s, units: section.units })?
+            }
+            None => Record::el_centro(),
+        };
+        let record = match section.scale {
+            Some(scale) => record.scaled(scale)?,
+            None => record,
+        };
+        let duration_s = section.duration_s.unwrap_or(DURATION_S);
+        if !(duration_s.is_finite() && duration_s > 0.0) {
+            return Err(value("record.duration_s", duration_s, "give seconds greater than zero"));
+        }
+        file.tuning.check(path)?;
+        Ok(Self {
+            structure,
+            restitution,
+            record,
+            duration_s,
+            tuning: file.tuning,
+            target: file.target.unwrap_or_default(),
+            bounds: file.bounds,
+        })
+    }
+}
+
+impl StructureSection {
+    fn checked(&self, path: &str) -> Result<(Structure, f64), CaseError> {
+        let wrap = |source| CaseError::Structure { path: path.into(), source };
+        let mut structure = Structure {
+            kind: self.kind,
+            height_m: self.height_m,
+            width_m: self.width_m,
+            mass_kg: self.mass_kg,
+            rotational_inertia_kgm2: 0.0,
+        };
+        let m_r2 = self.mass_kg * (self.height_m.powi(2) + self.width_m.powi(2) / 4.0);
+        structure.rotational_inertia_kgm2 = self.rotational_inertia_kgm2.unwrap_or(match self.kind {
+            Kind::AFrame => LEAST_INERTIA * m_r2,
+            Kind::Block => m_r2 / 3.0,
+        });
+        let structure = structure.checked().map_err(wrap)?;
+        let housner = structure.body::<f64>().restitution();
+        let value = |key, value: f64, remedy| CaseError::Value { path: path.into(), key, value: value.to_string(), remedy };
+        let restitution = match (self.restitution, self.restitution_ratio) {
+            (None, None) => housner,
+            (Some(e), None) => e,
+            (None, Some(ratio)) => ratio * housner,
+            (Some(e), Some(_)) => {
+                return Err(value("structure.restitution", e, "give restitution or restitution_ratio, not both"));
+            }
+        };
+        if !(0.0..=1.0).contains(&restitution) {
+            return Err(value("structure.restitution", restitution, "a velocity ratio lies between 0 and 1"));
+        }
+        Ok((structure, restitution))
+    }
+}
+
+impl Tuning {
+    fn check(&self, path: &str) -> Result<(), CaseError> {
+        let value = |key, value: f64, remedy| CaseError::Value { path: path.into(), key, value: value.to_string(), remedy };
+        if !(0.1..=1e5).contains(&self.max_omega_hz) {
+            return Err(value("tuning.max_omega_hz", self.max_omega_hz, "give a frequency between 0.1 and 1e5 Hz"));
+        }
+        if !(self.max_settlement_m > 0.0) {
+            return Err(value("tuning.max_settlement_m", self.max_settlement_m, "give metres greater than zero"));
+        }
+        if !(1..=1_000_000).contains(&self.candidates) {
+            return Err(value("tuning.candidates", self.candidates as f64, "give a number from 1 to 1000000"));
+        }
+        for (key, list) in [
+            ("tuning.mass_ratios_vertical", &self.mass_ratios_vertical),
+            ("tuning.mass_ratios_horizontal", &self.mass_ratios_horizontal),
+        ] {
+            if list.is_empty() {
+                return Err(value(key, 0.0, "give at least one mass ratio"));
+            }
+            if let Some(&mu) = list.iter().find(|mu| !(1e-3..=1e3).contains(*mu)) {
+                return Err(value(key, mu, "give mass ratios between 0.001 and 1000"));
+            }
+        }
+        Ok(())
+    }
+}
+
+/// The line of the error, and for an unknown key the nearest known one.
+fn parse_error(path: &str, text: &str, error: &toml::de::Error) -> CaseError {
+    let line = error.span().map_or(1, |span| text[..span.start.min(text.len())].matches('\n').count() + 1);
+    let message = error.message().lines().next().unwrap_or_default().to_string();
+    let message = match unknown_key(&message) {
+        Some((key, Some(near))) => format!("unknown key \"{key}\"; did you mean \"{near}\"?"),
+        Some((key, None)) => format!("unknown key \"{key}\"; remove it"),
+        None => format!("{message}; mend this line"),
+    };
+    CaseError::Parse { path: path.into(), line, message }
+}
+
+/// From serde's "unknown field `x`, expected one of `a`, `b`": x and the known key nearest to it.
+fn unknown_key(message: &str) -> Option<(String, Option<String>)> {
+    let rest = message.strip_prefix("unknown field ")?;
+    let mut quoted = rest.split('`').skip(1).step_by(2).map(str::to_string);
+    let key = quoted.next()?;
+    let near = quoted.min_by(|a, b| {
+        let distance = |known: &str| strsim::damerau_levenshtein(&key, known);
+        distance(a).cmp(&distance(b))
+    });
+    Some((key, near))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    const STRUCTURE: &str = "[structure]\nkind = \"block\"\nheight_m = 1.0\nwidth_m = 0.5\nmass_kg = 100.0\n";
+
+    fn message(extra: &str) -> String {
+        Case::parse("case.toml", &format!("{STRUCTURE}{extra}")).unwrap_err().to_string()
+    }
+
+    #[test]
+    fn the_papers_case_is_the_papers_structure_on_el_centro() {
+        let case = Case::paper().unwrap();
+        assert_eq!(case.structure.mass_kg, 680.1e3);
+        assert_eq!((case.structure.height_m, case.structure.width_m), (61.0, 12.2));
+        assert_eq!(case.record.name, "IELC180");
+        assert_eq!(case.duration_s, 20.0);
+    }
+
+    #[test]
+    fn a_block_has_a_third_of_m_r_squared_unless_given() {
+        let case = Case::parse("case.toml", STRUCTURE).unwrap();
+        assert!((case.structure.rotational_inertia_kgm2 - 100.0 * (1.0 + 0.0625) / 3.0).abs() < 1e-12);
+    }
+
+    #[test]
+    fn an_unknown_key_names_its_line_and_the_nearest_known_key() {
+        assert_eq!(
+            message("[tuning]\nmax_omega_hx = 80.0\n"),
+            "case.toml:7: unknown key \"max_omega_hx\"; did you mean \"max_omega_hz\"?"
+        );
+    }
+
+    #[test]
+    fn a_restitution_ratio_multiplies_equation_2() {
+        let case = Case::parse("case.toml", &format!("{STRUCTURE}restitution_ratio = 0.95\n")).unwrap();
+        assert!((case.restitution / case.structure.body::<f64>().restitution() - 0.95).abs() < 1e-15);
+        assert!(message("restitution = 1.2\n").contains("between 0 and 1"));
+        assert!(message("restitution = 0.9\nrestitution_ratio = 0.9\n").contains("not both"));
+    }
+
+    #[test]
+    fn bad_values_are_named() {
+        assert!(message("[tuning]\nmass_ratios_vertical = [-1.0]\n").contains("tuning.mass_ratios_vertical is -1"));
+        assert!(message("[record]\nduration_s = nan\n").contains("record.duration_s is NaN"));
+        assert!(message("[tuning]\nmax_omega_hz = \"stiff\"\n").starts_with("case.toml:7: invalid type"));
+    }
+}

@@ -1,0 +1,111 @@
+//! What the program `tune` does: one file a subcommand, the words of its options included.
+
+use std::{path::Path, process::ExitCode};
+
+use clap::{Parser, Subcommand};
+use thiserror::Error;
+
+use crate::{
+    case::CaseError, figures::FigureError, parameters::ParametersError, record::RecordError, tuning::inner::FitError,
+};
+
+mod common;
+mod housner;
+mod progress;
+mod response;
+mod run;
+mod simulate;
+mod table;
+
+/// Ground springs that let a finite element program follow Housner's theory of rocking.
+#[derive(Debug, Parser)]
+#[command(name = "tune", version, about, disable_help_subcommand = true)]
+pub struct Cli {
+    #[command(subcommand)]
+    command: Command,
+}
+
+#[derive(Debug, Subcommand)]
+enum Command {
+    /// Tune the springs of a case; without arguments the paper's A-frame on El Centro.
+    Run(run::Options),
+    /// Housner's solution as CSV on stdout.
+    Housner(housner::Options),
+    /// Fit f and xi of a mass ratio to the wanted frequency response.
+    Response(response::Options),
+    /// Finite element and Housner histories for given springs; their match as JSON on stdout.
+    Simulate(simulate::Options),
+}
+
+/// Why a command ended without its result.
+#[derive(Debug, Error)]
+pub enum CommandError {
+    #[error(transparent)]
+    Case(#[from] CaseError),
+    #[error(transparent)]
+    Record(#[from] RecordError),
+    #[error(transparent)]
+    Parameters(#[from] ParametersError),
+    #[error(transparent)]
+    Fit(#[from] FitError),
+    #[error(transparent)]
+    Figure(#[from] FigureError),
+    #[error("{path}: cannot be written ({source}); check the folder and its rights")]
+    Write { path: String, source: std::io::Error },
+    #[error("cannot write to stdout: {0}")]
+    Stdout(#[from] std::io::Error),
+    #[error("--{option} is {value}; {remedy}")]
+    Option { option: &'static str, value: String, remedy: &'static str },
+    #[error("{0}")]
+    Result(String),
+}
+
+/// Parse the arguments and run: exit code 0, or 2 with one line on stderr.
+pub fn main() -> ExitCode {
+    let cli = match Cli::try_parse() {
+        Ok(cli) => cli,
+        Err(e) if !e.use_stderr() => {
+            print!("{e}");
+            return ExitCode::SUCCESS;
+        }
+        Err(e) => {
+            let text = e.to_string();
+            let what: Vec<&str> = text.split("\n\n").next().unwrap_or_default().split_whitespace().collect();
+            let what = what.join(" ");
+            eprintln!("{}; see tune --help", what.trim_end_matches('.'));
+            return ExitCode::from(2);
+        }
+    };
+    let result = match cli.command {
+        Command::Run(o) => run::run(&o),
+        Command::Housner(o) => housner::run(&o),
+        Command::Response(o) => response::run(&o),
+        Command::Simulate(o) => simulate::run(&o),
+    };
+    match result {
+        Ok(()) => ExitCode::SUCCESS,
+        // the reader of a pipe went away: nothing is wrong
+        Err(CommandError::Stdout(e)) if e.kind() == std::io::ErrorKind::BrokenPipe => ExitCode::SUCCESS,
+        Err(e) => {
+            eprintln!("error: {}", e.to_string().replace('\n', " "));
+            ExitCode::from(2)
+        }
+    }
+}
+
+/// Write a whole file or nothing: to a temporary file beside it, then rename.
+fn write_file(path: &Path, bytes: &[u8]) -> Result<(), CommandError> {
+    use std::io::Write;
+    let wrap = |source| CommandError::Write { path: path.display().to_string(), source };
+    let folder = path.parent().filter(|p| !p.as_os_str().is_empty()).unwrap_or(Path::new("."));
+    let mut file = tempfile::NamedTempFile::new_in(folder).map_err(wrap)?;
+    file.write_all(bytes).map_err(wrap)?;
+    #[cfg(unix)]
+    {
+        use std::os::unix::fs::PermissionsExt;
+        let mode = std::fs::Permissions::from_mode(0o644);
+        file.as_file().set_permissions(mode).map_err(wrap)?;
+    }
+    file.persist(path).map_err(|e| wrap(e.error))?;
+    Ok(())
+}

@@ -1,0 +1,151 @@
+//! Options that several commands share, and what they stand for.
+
+use std::{fmt::Write, path::PathBuf};
+
+use clap::Args;
+
+use super::CommandError;
+use crate::{
+    compare::Match,
+    fem,
+    housner::{self, Rocking},
+    motion::Motion,
+    record::{ReadOptions, Record, Units},
+    spring::{Chain, Springs},
+    structure::Body,
+};
+
+/// Which record, how scaled, how long.
+#[derive(Clone, Debug, Default, Args)]
+pub struct RecordOptions {
+    /// Ground motion: PEER AT2, or text with one or two columns; the embedded El Centro record unless given
+    #[arg(long, value_name = "FILE")]
+    pub record: Option<PathBuf>,
+    /// Time step, where the file does not say
+    #[arg(long, value_name = "SECONDS")]
+    pub dt: Option<f64>,
+    /// g, m/s2 or cm/s2, where the file does not say
+    #[arg(long)]
+    pub units: Option<Units>,
+    /// Factor on the acceleration
+    #[arg(long, value_name = "FACTOR", allow_negative_numbers = true)]
+    pub scale: Option<f64>,
+    /// Length of the history [default: 20]
+    #[arg(long, value_name = "SECONDS")]
+    pub duration: Option<f64>,
+}
+
+impl RecordOptions {
+    /// The record asked for, or `default`.
+    pub fn record(&self, default: impl FnOnce() -> Record) -> Result<Record, CommandError> {
+        let record = match &self.record {
+            Some(path) => Record::read(path, &ReadOptions { dt: self.dt, units: self.units })?,
+            None if self.dt.is_some() || self.units.is_some() => {
+                return Err(CommandError::Option {
+                    option: "record",
+                    value: "not given".into(),
+                    remedy: "--dt and --units tell of a file: name it with --record",
+                });
+            }
+            None => default(),
+        };
+        Ok(match self.scale {
+            Some(scale) => record.scaled(scale)?,
+            None => record,
+        })
+    }
+
+    /// The length asked for [s], or `default`.
+    pub fn duration(&self, default: f64) -> Result<f64, CommandError> {
+        match self.duration {
+            Some(d) if !(d.is_finite() && d > 0.0) => Err(CommandError::Option {
+                option: "duration",
+                value: d.to_string(),
+                remedy: "give seconds greater than zero",
+            }),
+            Some(d) => Ok(d),
+            None => Ok(default),
+        }
+    }
+}
+
+/// Both models' answers to one record.
+pub struct Both {
+    pub rocking: Rocking<f64>,
+    pub housner: Motion,
+    pub fem: fem::History,
+    pub matched: Match,
+}
+
+/// Run both models over a record.
+pub fn both(body: &Body<f64>, restitution: f64, springs: &Springs<Chain<f64>>, record: &Record) -> Both {
+    let options = housner::Options { restitution: Some(restitution), ..Default::default() };
+    let rocking = housner::solve(body, record.dt, &record.accel, &options);
+    let motion = rocking.motion(body);
+    let fem = fem::Case {
+        body: *body,
+        springs: *springs,
+        start: fem::Start::Settled,
+        dt: record.dt,
+        accel: &record.accel,
+        scale: 1.0,
+        control: fem::Control::default(),
+    }
+    .simulate();
+    let matched = Match::new(record.dt, &motion, rocking.impacts.len(), &fem, restitution);
+    Both { rocking, housner: motion, fem, matched }
+}
+
+/// `history.csv`: both motions at the record's samples, 12 significant digits.
+pub fn history_csv(dt: f64, housner: &Motion, fem: &Motion) -> String {
+    let mut out = String::from("t,u_housner,v_housner,th_housner,u_fem,v_fem,th_fem\n");
+    for i in 0..housner.len().min(fem.len()) {
+        let row = [
+            i as f64 * dt,
+            housner.u[i],
+            housner.v[i],
+            housner.theta[i],
+            fem.u[i],
+            fem.v[i],
+            fem.theta[i],
+        ];
+        csv_row(&mut out, &row);
+    }
+    out
+}
+
+/// One CSV row with 12 significant digits.
+pub fn csv_row(out: &mut String, row: &[f64]) {
+    for (i, x) in row.iter().enumerate() {
+        let comma = if i == 0 { "" } else { "," };
+        // writing to a String cannot fail
+        let _ = write!(out, "{comma}{}", digits_12(*x));
+    }
+    out.push('\n');
+}
+
+/// 12 significant digits, plain where that is short.
+fn digits_12(x: f64) -> String {
+    if x == 0.0 {
+        return "0".into();
+    }
+    let exponent = x.abs().log10().floor() as i32;
+    if (-4..12).contains(&exponent) {
+        format!("{x:.*}", (11 - exponent).max(0) as usize)
+    } else {
+        format!("{x:.11e}")
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn numbers_have_twelve_significant_digits() {
+        assert_eq!(digits_12(0.401181622959), "0.401181622959");
+        assert_eq!(digits_12(-12.5), "-12.5000000000");
+        assert_eq!(digits_12(1.0 / 3.0e6), "3.33333333333e-7");
+        assert_eq!(digits_12(0.0), "0");
+    }
+}

@@ -1,0 +1,96 @@
+//! `tune housner`: Housner's solution as CSV, its impacts on stderr or as CSV.
+
+use std::{io::Write, path::PathBuf};
+
+use clap::Args;
+
+use super::{
+    CommandError,
+    common::{RecordOptions, csv_row},
+    write_file,
+};
+use crate::{
+    case::{Case, DURATION_S},
+    housner::{self, Outcome},
+    motion::peak,
+    record::Record,
+    structure::Structure,
+};
+
+/// Options of `tune housner`.
+#[derive(Debug, Args)]
+pub struct Options {
+    /// Structure and record; the paper's A-frame (all mass at the apex, I_cg = 0) on El Centro unless given
+    case: Option<PathBuf>,
+    #[command(flatten)]
+    record: RecordOptions,
+    /// Velocity restitution; by equation 2 unless given
+    #[arg(long)]
+    restitution: Option<f64>,
+    /// Write the history here instead of to stdout
+    #[arg(long, value_name = "FILE")]
+    out: Option<PathBuf>,
+    /// Print the impacts (time, velocity before and after) instead of the history
+    #[arg(long)]
+    impacts: bool,
+}
+
+pub fn run(o: &Options) -> Result<(), CommandError> {
+    let (structure, e, record, duration) = match &o.case {
+        Some(path) => {
+            let case = Case::read(path)?;
+            let record = o.record.record(|| case.record.clone())?;
+            (case.structure, Some(case.restitution), record, case.duration_s)
+        }
+        None => (Structure::paper(), None, o.record.record(Record::el_centro)?, DURATION_S),
+    };
+    if let Some(e) = o.restitution
+        && !(0.0..=1.0).contains(&e)
+    {
+        return Err(CommandError::Option {
+            option: "restitution",
+            value: e.to_string(),
+            remedy: "a velocity ratio lies between 0 and 1",
+        });
+    }
+    let record = record.truncated(o.record.duration(duration)?);
+    let body = structure.body::<f64>();
+    let options = housner::Options { restitution: o.restitution.or(e), ..Default::default() };
+    let rocking = housner::solve(&body, record.dt, &record.accel, &options);
+    let motion = rocking.motion(&body);
+
+    let mut csv = String::new();
+    if o.impacts {
+        csv.push_str("t,rate_before,rate_after\n");
+        for i in &rocking.impacts {
+            csv_row(&mut csv, &[i.time, i.rate_before, i.rate_after]);
+        }
+    } else {
+        csv.push_str("t,u,v,th\n");
+        for i in 0..motion.len() {
+            csv_row(&mut csv, &[i as f64 * record.dt, motion.u[i], motion.v[i], motion.theta[i]]);
+        }
+    }
+    match &o.out {
+        Some(path) => write_file(path, csv.as_bytes())?,
+        None => std::io::stdout().write_all(csv.as_bytes())?,
+    }
+    let (max, min) = motion.u.iter().fold((0.0_f64, 0.0_f64), |(a, b), &u| (a.max(u), b.min(u)));
+    eprintln!(
+        "{}: PGA {:.4} g, {} samples of {} s; u {:+.9} / {:+.9} mm, v {:.6} mm, {} impacts{}",
+        record.name,
+        record.pga_g(),
+        record.accel.len(),
+        record.dt,
+        max * 1e3,
+        min * 1e3,
+        peak(&motion.v) * 1e3,
+        rocking.impacts.len(),
+        match rocking.outcome {
+            Outcome::Overturned { time } => format!(", overturned at {time:.3} s"),
+            Outcome::NeverMoved => ", never lifted".into(),
+            _ => String::new(),
+        }
+    );
+    Ok(())
+}

@@ -1,0 +1,43 @@
+//! `tune simulate`: both models for given springs.
+
+use std::{io::Write, path::PathBuf};
+
+use clap::Args;
+
+use super::{
+    CommandError,
+    common::{RecordOptions, both, history_csv},
+    write_file,
+};
+use crate::{case::DURATION_S, parameters::Parameters, record::Record};
+
+/// Options of `tune simulate`.
+#[derive(Debug, Args)]
+pub struct Options {
+    /// Springs and structure, as `tune run` writes them
+    #[arg(long, value_name = "parameters.json")]
+    parameters: PathBuf,
+    #[command(flatten)]
+    record: RecordOptions,
+    /// Velocity restitution of Housner's solution; by equation 2 unless given
+    #[arg(long)]
+    restitution: Option<f64>,
+    /// Write both histories here (CSV)
+    #[arg(long, value_name = "FILE")]
+    out: Option<PathBuf>,
+}
+
+pub fn run(o: &Options) -> Result<(), CommandError> {
+    let parameters = Parameters::read(&o.parameters)?;
+    let record = o.record.record(Record::el_centro)?.truncated(o.record.duration(DURATION_S)?);
+    let body = parameters.structure.body::<f64>();
+    let e = o.restitution.unwrap_or_else(|| body.restitution());
+    let both = both(&body, e, &parameters.chains(), &record);
+    if let Some(path) = &o.out {
+        write_file(path, history_csv(record.dt, &both.housner, &both.fem.motion).as_bytes())?;
+    }
+    eprintln!("{}: PGA {:.4} g, {} samples of {} s", record.name, record.pga_g(), record.accel.len(), record.dt);
+    let json = serde_json::to_string_pretty(&both.matched).map_err(|e| CommandError::Result(e.to_string()))?;
+    writeln!(std::io::stdout(), "{json}")?;
+    Ok(())
+}
