@@ -169,7 +169,8 @@ impl Case {
     /// Parse a case file's text; `path` names it in messages and is where its record's path starts.
     pub fn parse(path: &str, text: &str) -> Result<Self, CaseError> {
         let file: CaseFile = toml::from_str(text).map_err(|e| parse_error(path, text, &e))?;
-        let value = |key, value: f64, remedy| CaseError::Value { path: path.into(), key, value: value.to_string(), remedy };
+        let value =
+            |key, value: f64, remedy| CaseError::Value { path: path.into(), key, value: value.to_string(), remedy };
 
         let (structure, restitution) = file.structure.checked(path)?;
         let section = &file.record;
@@ -218,7 +219,8 @@ impl StructureSection {
         });
         let structure = structure.checked().map_err(wrap)?;
         let housner = structure.body::<f64>().restitution();
-        let value = |key, value: f64, remedy| CaseError::Value { path: path.into(), key, value: value.to_string(), remedy };
+        let value =
+            |key, value: f64, remedy| CaseError::Value { path: path.into(), key, value: value.to_string(), remedy };
         let restitution = match (self.restitution, self.restitution_ratio) {
             (None, None) => housner,
             (Some(e), None) => e,
@@ -236,7 +238,8 @@ impl StructureSection {
 
 impl Tuning {
     fn check(&self, path: &str) -> Result<(), CaseError> {
-        let value = |key, value: f64, remedy| CaseError::Value { path: path.into(), key, value: value.to_string(), remedy };
+        let value =
+            |key, value: f64, remedy| CaseError::Value { path: path.into(), key, value: value.to_string(), remedy };
         if !(0.1..=1e5).contains(&self.max_omega_hz) {
             return Err(value("tuning.max_omega_hz", self.max_omega_hz, "give a frequency between 0.1 and 1e5 Hz"));
         }

@@ -48,4 +48,6 @@ pub mod tuning;
 
 pub mod case;
 
+pub mod commands;
+
 pub mod figures;

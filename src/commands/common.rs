@@ -100,15 +100,7 @@ pub fn both(body: &Body<f64>, restitution: f64, springs: &Springs<Chain<f64>>, r
 pub fn history_csv(dt: f64, housner: &Motion, fem: &Motion) -> String {
     let mut out = String::from("t,u_housner,v_housner,th_housner,u_fem,v_fem,th_fem\n");
     for i in 0..housner.len().min(fem.len()) {
-        let row = [
-            i as f64 * dt,
-            housner.u[i],
-            housner.v[i],
-            housner.theta[i],
-            fem.u[i],
-            fem.v[i],
-            fem.theta[i],
-        ];
+        let row = [i as f64 * dt, housner.u[i], housner.v[i], housner.theta[i], fem.u[i], fem.v[i], fem.theta[i]];
         csv_row(&mut out, &row);
     }
     out
@@ -130,11 +122,7 @@ fn digits_12(x: f64) -> String {
         return "0".into();
     }
     let exponent = x.abs().log10().floor() as i32;
-    if (-4..12).contains(&exponent) {
-        format!("{x:.*}", (11 - exponent).max(0) as usize)
-    } else {
-        format!("{x:.11e}")
-    }
+    if (-4..12).contains(&exponent) { format!("{x:.*}", (11 - exponent).max(0) as usize) } else { format!("{x:.11e}") }
 }
 
 #[cfg(test)]

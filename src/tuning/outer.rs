@@ -242,13 +242,11 @@ fn refine(benchmark: &Benchmark, pair: &Pair, x: [f64; 2], start: f64, control: 
     let simplex = vec![vec![x[0], x[1]], vec![step(x[0], 0.06), x[1]], vec![x[0], step(x[1], 0.06)]];
     // an error well above the start's cannot help, but its size still steers the simplex
     let problem = Problem { benchmark, pair, limit: 2.0 * start, control, seen: Default::default() };
-    let run = NelderMead::new(simplex).with_sd_tolerance(1e-7).map(|solver| {
-        Executor::new(problem, solver).configure(|state| state.max_iters(REFINEMENTS)).run()
-    });
+    let run = NelderMead::new(simplex)
+        .with_sd_tolerance(1e-7)
+        .map(|solver| Executor::new(problem, solver).configure(|state| state.max_iters(REFINEMENTS)).run());
     match run {
-        Ok(Ok(mut result)) => {
-            result.problem.take_problem().and_then(|p| p.seen.into_inner().ok()).unwrap_or_default()
-        }
+        Ok(Ok(mut result)) => result.problem.take_problem().and_then(|p| p.seen.into_inner().ok()).unwrap_or_default(),
         _ => Vec::new(),
     }
 }
