@@ -4,7 +4,8 @@
 //! |---|---|
 //! | `model` | coordinates, kinematics, contact forces, energies |
 //! | `radau`, `newton`, `step` | one implicit step: tables, condensed matrix, iteration |
-//! | `run` | the time loop: samples, contact events, energy account |
+//! | `run` | the time loop: samples; in `run/`, contact events and step acceptance |
+//! | `control`, `energy`, `observer` | what a run is told, accounts for and shows |
 //! | `history` | what a run leaves behind: motion, landings, forces, energies |
 //!
 //! **Why Radau IIA.** Springs of 300 Hz under a body that rocks at 0.3 Hz are stiff, and a body without rotational
@@ -17,18 +18,21 @@
 //! amplitude, so the energy that a step fails to account for is its error; it is one number, has a unit, and is what the
 //! user is promised.
 
+mod control;
+mod energy;
 mod history;
 mod model;
 mod newton;
+mod observer;
 #[allow(clippy::excessive_precision)] // tables to 18 digits, as computed
 mod radau;
 mod run;
 mod step;
 
-use std::ops::ControlFlow;
-
+pub use control::{Control, Outcome, Work};
+pub use energy::Energy;
 pub use history::{Forces, History, Landing, Recorder};
-pub use run::{Change, Control, Energy, Observer, Outcome, View, Work};
+pub use observer::{Change, Observer, View};
 
 use crate::{
     scalar::Scalar,
@@ -90,12 +94,5 @@ impl Case<'_, f64> {
         let mut recorder = Recorder::new(self.accel.len());
         let finish = self.observe(&mut recorder);
         recorder.finish(finish)
-    }
-}
-
-/// Lets a closure serve as an observer of samples.
-impl<S: Scalar, F: FnMut(usize, &View<S>) -> ControlFlow<()>> Observer<S> for F {
-    fn sample(&mut self, index: usize, view: &View<S>) -> ControlFlow<()> {
-        self(index, view)
     }
 }

@@ -4,8 +4,9 @@ use std::ops::ControlFlow;
 
 use super::{
     Finish,
+    control::{Outcome, Work},
     model::{TH, X, Z},
-    run::{Change, Observer, Outcome, View, Work},
+    observer::{Change, Observer, View},
 };
 use crate::motion::Motion;
 

@@ -1,0 +1,48 @@
+//! How hard a run works, how it ends, and what it cost.
+
+/// How accurately and how long to work.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Control {
+    /// Energy that one step may lose or gain, relative to the largest energy so far.
+    pub tolerance: f64,
+    /// Steps per history before it is given up.
+    pub most_steps: usize,
+    /// Iterations added after convergence (2 for dual numbers).
+    pub extra_iterations: usize,
+}
+
+impl Control {
+    /// For comparing many candidates: errors of the history below 1e-4, at half the steps.
+    pub fn search() -> Self {
+        Self { tolerance: 1e-7, most_steps: 200_000, ..Self::default() }
+    }
+}
+
+impl Default for Control {
+    fn default() -> Self {
+        Self { tolerance: 1e-9, most_steps: 2_000_000, extra_iterations: 0 }
+    }
+}
+
+/// How a history ended.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum Outcome {
+    /// The record was followed to its end.
+    Completed,
+    /// The body lay flat (|theta| > pi/2) at this time [s].
+    Overturned { time: f64 },
+    /// The observer asked to stop at this time [s].
+    Stopped { time: f64 },
+    /// The bound on steps was reached at this time [s].
+    WorkBound { time: f64 },
+}
+
+/// Work done by a run.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct Work {
+    pub steps: usize,
+    pub rejected: usize,
+    pub located: usize,
+    pub events: usize,
+    pub iterations: usize,
+}

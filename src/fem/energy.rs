@@ -1,0 +1,31 @@
+//! The energy account: what came in, what is stored, what was lost, and what is left unexplained.
+
+use crate::scalar::Scalar;
+
+/// Energy account since the start [J].
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct Energy<S> {
+    /// Stored at the start.
+    pub initial: S,
+    /// Kinetic, gravitational and elastic energy now.
+    pub stored: S,
+    /// Work of the base excitation.
+    pub input: S,
+    /// Taken by the dashpots.
+    pub dissipated: S,
+    /// Elastic energy of horizontal springs let go when their foot left the ground.
+    pub released: S,
+}
+
+impl<S: Scalar> Energy<S> {
+    /// The account of a run that begins with this much stored [J].
+    pub(super) fn new(stored: S) -> Self {
+        let zero = S::zero();
+        Self { initial: stored, stored, input: zero, dissipated: zero, released: zero }
+    }
+
+    /// What the account leaves unexplained: stored - initial - input + dissipated + released [J].
+    pub fn residual(&self) -> S {
+        self.stored - self.initial - self.input + self.dissipated + self.released
+    }
+}

@@ -1,0 +1,73 @@
+//! What a run shows while it goes, and to whom.
+
+use std::ops::ControlFlow;
+
+use super::{
+    energy::Energy,
+    model::{Foot, Model, State, TH, X, Z},
+};
+use crate::scalar::Scalar;
+
+/// A foot's change of contact.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum Change {
+    TouchDown,
+    LiftOff,
+}
+
+/// What a run shows while it goes.
+pub struct View<'a, S> {
+    /// Time [s].
+    pub time: S,
+    pub(crate) model: &'a Model<S>,
+    pub(crate) state: &'a State<S>,
+    pub(crate) feet: &'a [Foot<S>; 2],
+    pub energy: &'a Energy<S>,
+}
+
+impl<S: Scalar> View<'_, S> {
+    /// Horizontal displacement of the centre of mass [m].
+    pub fn x(&self) -> S {
+        self.state.q[X]
+    }
+
+    /// Vertical displacement of the centre of mass from the unstressed position [m].
+    pub fn z(&self) -> S {
+        self.state.q[Z]
+    }
+
+    /// Rotation [rad].
+    pub fn theta(&self) -> S {
+        self.state.q[TH]
+    }
+
+    /// Rotation rate [rad/s].
+    pub fn theta_rate(&self) -> S {
+        self.state.v[TH]
+    }
+
+    /// Whether foot i (0 left, 1 right) presses on the ground.
+    pub fn presses(&self, i: usize) -> bool {
+        self.feet[i].closed()
+    }
+
+    /// Kinetic energy of the body [J].
+    pub fn body_kinetic(&self) -> S {
+        self.model.body_kinetic(self.state)
+    }
+}
+
+/// Receives a run's samples and events; may stop it.
+pub trait Observer<S: Scalar> {
+    /// Called at every sample, the first at t = 0.
+    fn sample(&mut self, index: usize, view: &View<S>) -> ControlFlow<()>;
+    /// Called right after foot `foot` (0 left, 1 right) changed its contact.
+    fn event(&mut self, _foot: usize, _change: Change, _view: &View<S>) {}
+}
+
+/// Lets a closure serve as an observer of samples.
+impl<S: Scalar, F: FnMut(usize, &View<S>) -> ControlFlow<()>> Observer<S> for F {
+    fn sample(&mut self, index: usize, view: &View<S>) -> ControlFlow<()> {
+        self(index, view)
+    }
+}

@@ -1,0 +1,174 @@
+//! Contact events: found on the collocation polynomial, located by repeating the step, then the foot switches.
+
+use super::Run;
+use crate::{
+    fem::{
+        model::{Contact, Foot},
+        observer::{Change, Observer},
+        radau::C,
+        step::{Ground, Stages, no_guess},
+    },
+    scalar::Scalar,
+};
+
+/// A foot that closes again this soon after it opened, in units of 1/Omega_n, has hardly left the ground.
+const AT_ONCE: f64 = 0.1;
+
+/// Share of the weight that a foot which hardly left the ground must carry before its horizontal spring holds.
+///
+/// A massless rotation jumps when a lifting foot lets its horizontal spring go, and the jump may press that foot down
+/// again: it would open and close at an accumulating sequence of instants. What it does in the limit is slide under no
+/// weight, and that is what it is let do.
+const HOLDING: f64 = 1e-3;
+
+/// What a candidate step met.
+pub(super) enum Met {
+    Nothing,
+    /// The compression of this foot's gap passes `level` [m].
+    Crossing {
+        foot: usize,
+        level: f64,
+        tau: f64,
+    },
+}
+
+impl<S: Scalar> Run<'_, S> {
+    /// Contact force scale below which a gap counts as zero [m].
+    fn gap_tolerance(&self) -> f64 {
+        (1e-9 * self.compression).max(4e-16 * self.model.body.radius().re())
+    }
+
+    /// Whether a foot's contact changes within the step, and where first.
+    pub(super) fn met(&self, stages: &Stages<S>) -> Met {
+        let mut first = Met::Nothing;
+        let mut earliest = f64::INFINITY;
+        for foot in 0..2 {
+            // the contact lasts while sign (compression - level) is positive
+            let limits: &[(f64, f64)] = match self.feet[foot].contact {
+                Contact::Open => &[(-1.0, 0.0)],
+                Contact::Stick => &[(1.0, 0.0)],
+                Contact::Slide => &[(1.0, 0.0), (-1.0, HOLDING * self.compression)],
+            };
+            let compression = |q| self.model.compression(foot, q).re();
+            let values = [&self.state.q, &stages.q[0], &stages.q[1], &stages.q[2]].map(compression);
+            for &(sign, level) in limits {
+                let inside = values.map(|d| sign * (d - level));
+                let Some(k) = (1..4).find(|&k| inside[k] < -self.gap_tolerance()) else { continue };
+                let node = |k: usize| if k == 0 { 0.0 } else { C[k - 1] };
+                let low = (node(k - 1), inside[k - 1].max(0.0));
+                let tau = self.first_zero(foot, sign, level, stages, low, (node(k), inside[k]));
+                if tau < earliest {
+                    earliest = tau;
+                    first = Met::Crossing { foot, level, tau };
+                }
+            }
+        }
+        first
+    }
+
+    /// Where the compression passes `level` on the collocation polynomial, between two bracketing points (Illinois).
+    fn first_zero(
+        &self,
+        foot: usize,
+        sign: f64,
+        level: f64,
+        stages: &Stages<S>,
+        mut low: (f64, f64),
+        mut high: (f64, f64),
+    ) -> f64 {
+        let value = |tau: f64| (self.model.compression(foot, &stages.position(&self.state, tau)).re() - level) * sign;
+        let mut side = 0;
+        for _ in 0..60 {
+            let tau = (low.0 * high.1 - high.0 * low.1) / (high.1 - low.1);
+            if !(tau > low.0 && tau < high.0) || high.0 - low.0 < 1e-12 {
+                break;
+            }
+            let d = value(tau);
+            if d.abs() < 0.1 * self.gap_tolerance() {
+                return tau;
+            }
+            if d > 0.0 {
+                low = (tau, d);
+                if side == 1 {
+                    high.1 *= 0.5;
+                }
+                side = 1;
+            } else {
+                high = (tau, d);
+                if side == -1 {
+                    low.1 *= 0.5;
+                }
+                side = -1;
+            }
+        }
+        low.0.max(1e-9)
+    }
+
+    /// Repeat the step so that it ends where the foot's gap is zero.
+    pub(super) fn locate(
+        &mut self,
+        foot: usize,
+        level: f64,
+        stages: Stages<S>,
+        tau: f64,
+        ground: &Ground<S>,
+    ) -> Stages<S> {
+        let mut best = stages;
+        let mut h = stages.h * tau;
+        for _ in 0..6 {
+            self.work.located += 1;
+            let Some(next) = self.attempt(h, ground) else { break };
+            best = next;
+            let end = next.end();
+            let gap = self.model.compression(foot, &end.q) - level;
+            let rate = self.model.compression_rate(foot, &end);
+            if gap.re().abs() <= self.gap_tolerance() && self.control.extra_iterations == 0 {
+                break;
+            }
+            let correction = gap / rate;
+            if !correction.re().is_finite() || correction.re().abs() > 0.5 * h.re() {
+                break;
+            }
+            let done = gap.re().abs() <= self.gap_tolerance();
+            h -= correction;
+            if done {
+                // derivatives of the event's time, by the implicit function theorem
+                if let Some(next) = self.attempt(h, ground) {
+                    best = next;
+                }
+                break;
+            }
+        }
+        best
+    }
+
+    /// Change a foot's contact.
+    pub(super) fn switch(&mut self, foot: usize, level: f64, time: S, observer: &mut impl Observer<S>) {
+        let before = self.energy.stored;
+        let was = self.feet[foot].contact;
+        let anchor = self.model.anchor_here(foot, &self.state.q);
+        self.feet[foot] = match was {
+            Contact::Open => {
+                let at_once = time.re() - self.opened[foot] < AT_ONCE * self.settling;
+                let held = self.model.compression(foot, &self.state.q).re() >= HOLDING * self.compression;
+                let contact = if at_once && !held { Contact::Slide } else { Contact::Stick };
+                Foot { contact, anchor }
+            }
+            Contact::Slide if level > 0.0 => Foot { contact: Contact::Stick, anchor },
+            Contact::Slide | Contact::Stick => {
+                self.opened[foot] = time.re();
+                Foot { contact: Contact::Open, anchor }
+            }
+        };
+        self.model.turn_to_balance(&mut self.state, &self.feet);
+        self.energy.stored = self.model.energy(&self.state, &self.feet);
+        self.energy.released += before - self.energy.stored;
+        self.guess = no_guess();
+        self.work.events += 1;
+        match (was, self.feet[foot].contact) {
+            (Contact::Open, _) => observer.event(foot, Change::TouchDown, &self.view(time)),
+            (_, Contact::Open) => observer.event(foot, Change::LiftOff, &self.view(time)),
+            _ => {}
+        }
+    }
+}
