@@ -37,7 +37,7 @@ pub const LEAST_INERTIA: f64 = 1e-5;
 pub enum CaseError {
     #[error("{path}: cannot be read ({source}); check the name of the case file")]
     Read { path: String, source: std::io::Error },
-    #[error("{path}:{line}: {message}")]
+    #[error("{path}, line {line}: {message}")]
     Parse { path: String, line: usize, message: String },
     #[error("{path}: {source}")]
     Structure { path: String, source: StructureError },
@@ -243,7 +243,7 @@ impl Tuning {
         if !(0.1..=1e5).contains(&self.max_omega_hz) {
             return Err(value("tuning.max_omega_hz", self.max_omega_hz, "give a frequency between 0.1 and 1e5 Hz"));
         }
-        if !(self.max_settlement_m > 0.0) {
+        if self.max_settlement_m.is_nan() || self.max_settlement_m <= 0.0 {
             return Err(value("tuning.max_settlement_m", self.max_settlement_m, "give metres greater than zero"));
         }
         if !(1..=1_000_000).contains(&self.candidates) {
@@ -317,7 +317,7 @@ mod tests {
     fn an_unknown_key_names_its_line_and_the_nearest_known_key() {
         assert_eq!(
             message("[tuning]\nmax_omega_hx = 80.0\n"),
-            "case.toml:7: unknown key \"max_omega_hx\"; did you mean \"max_omega_hz\"?"
+            "case.toml, line 7: unknown key \"max_omega_hx\"; did you mean \"max_omega_hz\"?"
         );
     }
 
@@ -333,6 +333,6 @@ mod tests {
     fn bad_values_are_named() {
         assert!(message("[tuning]\nmass_ratios_vertical = [-1.0]\n").contains("tuning.mass_ratios_vertical is -1"));
         assert!(message("[record]\nduration_s = nan\n").contains("record.duration_s is NaN"));
-        assert!(message("[tuning]\nmax_omega_hz = \"stiff\"\n").starts_with("case.toml:7: invalid type"));
+        assert!(message("[tuning]\nmax_omega_hz = \"stiff\"\n").starts_with("case.toml, line 7: invalid type"));
     }
 }

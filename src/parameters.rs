@@ -45,7 +45,7 @@ pub struct Parameters {
 pub enum ParametersError {
     #[error("{path}: cannot be read ({source}); give the parameters.json that `tune run` wrote")]
     Read { path: String, source: std::io::Error },
-    #[error("{path}:{line}: {message}; give a parameters.json as `tune run` writes it")]
+    #[error("{path}, line {line}: {message}; give a parameters.json as `tune run` writes it")]
     Parse { path: String, line: usize, message: String },
     #[error("{path}: {chain}.{name} is {value}; give a finite number{bound}")]
     Value { path: String, chain: &'static str, name: &'static str, value: f64, bound: &'static str },

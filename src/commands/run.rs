@@ -33,7 +33,7 @@ pub struct Options {
     #[command(flatten)]
     record: RecordOptions,
     /// Stiffest springs allowed, Omega_n / 2 pi [default: 160, or the case's]
-    #[arg(long, value_name = "HZ")]
+    #[arg(long, value_name = "HZ", allow_negative_numbers = true)]
     max_hz: Option<f64>,
     /// Folder for the results
     #[arg(long, value_name = "DIR", default_value = "out")]
@@ -187,7 +187,7 @@ fn draw(
                     .active
                     .iter()
                     .filter(|a| a.g.is_finite())
-                    .map(|a| figures::arr::Active { g: a.g, arr: a.arr, multiplier: Some(a.multiplier) })
+                    .map(|a| figures::arr::Active { g: a.g, arr: a.arr, multiplier: None })
                     .collect();
                 (format!("{name}, mu = {}", fit.mu), arr, active)
             })

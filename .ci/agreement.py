@@ -1,0 +1,61 @@
+#!/usr/bin/env python3
+"""Agreement of `tune simulate` with the same model in OpenSees (../shared/opensees/aframe.py, dt 2e-4, 10 s of El Centro):
+NRMSE of u, v and theta at most 1 %, for the springs of Table 1 as recovered and for the tuned springs.
+
+    agreement.py TUNE AFRAME RECORD TUNED.json
+"""
+import csv, json, math, pathlib, subprocess, sys, tempfile
+
+LIMIT = 0.01
+
+
+def table_1():
+    """Table 1 as far as it survives: both Omega_n, both k1, the vertical k2; mu and c as the frequency response has them."""
+    m, h, b = 680.1e3, 61.0, 6.1
+
+    def chain(hz, mu, k, c):
+        omega = 2 * math.pi * hz
+        k1 = m * omega**2
+        return {"mu": mu, "f": math.sqrt(k / mu), "xi": c / (2 * mu), "omega_n_hz": hz, "k1_n_per_m": k1,
+                "k2_n_per_m": k * k1, "m2_kg": mu * m, "c_ns_per_m": c * m * omega}
+
+    return {"structure": {"kind": "aframe", "height_m": h, "width_m": 2 * b, "mass_kg": m,
+                          "rotational_inertia_kgm2": 1e-5 * m * (h * h + b * b)},
+            "vertical": chain(6.2, 10.2, 9.214, 4.4), "horizontal": chain(10.0, 10.2, 9.214, 4.4)}
+
+
+def columns(path, *names):
+    with open(path, newline="") as f:
+        rows = list(csv.DictReader(f))
+    return [[float(row[name]) for row in rows] for name in names]
+
+
+def nrmse(x, reference):
+    assert len(x) == len(reference), (len(x), len(reference))
+    return math.sqrt(sum((a - b) ** 2 for a, b in zip(x, reference)) / sum(b * b for b in reference))
+
+
+def main():
+    tune, aframe, record, tuned = sys.argv[1:]
+    with tempfile.TemporaryDirectory() as folder:
+        folder = pathlib.Path(folder)
+        table = folder / "table_1.json"
+        table.write_text(json.dumps(table_1()))
+        passed = failed = 0
+        for name, parameters in (("Table 1 as recovered", table), ("tuned springs", tuned)):
+            ours, theirs = folder / "ours.csv", folder / "theirs.csv"
+            subprocess.run([tune, "simulate", "--parameters", parameters, "--duration", "10", "--out", ours],
+                           check=True, stdout=subprocess.DEVNULL)
+            subprocess.run([sys.executable, aframe, "--parameters", parameters, "--record", record, "--duration", "10",
+                            "--dt", "2e-4", "--out", theirs], check=True, capture_output=True)
+            a, b = columns(ours, "u_fem", "v_fem", "th_fem"), columns(theirs, "u", "v", "th")
+            errors = [nrmse(x, y) for x, y in zip(a, b)]
+            ok = all(e <= LIMIT for e in errors)
+            passed, failed = passed + ok, failed + (not ok)
+            print(f"OpenSees agreement, {name}: NRMSE u {errors[0]:.2e}, v {errors[1]:.2e}, theta {errors[2]:.2e}"
+                  f" (limit {LIMIT}): {'ok' if ok else 'FAILED'}")
+    print(f"{passed} passed, {failed} failed")
+    sys.exit(failed > 0)
+
+
+main()

@@ -1,0 +1,188 @@
+//! Bad input of every kind: one clear line on stderr, exit code 2, nothing written.
+
+use std::{fs, path::Path};
+
+use assert_cmd::Command;
+use tempfile::TempDir;
+
+/// Run `tune` in an empty folder with the given files; it must fail cleanly and say each of `words`.
+fn refuses(files: &[(&str, &str)], args: &[&str], words: &[&str]) {
+    let dir = TempDir::new().unwrap();
+    for (name, text) in files {
+        fs::write(dir.path().join(name), text).unwrap();
+    }
+    let output = Command::cargo_bin("tune").unwrap().current_dir(dir.path()).args(args).output().unwrap();
+    let stderr = String::from_utf8(output.stderr).unwrap();
+    assert_eq!(output.status.code(), Some(2), "{args:?}: {stderr}");
+    assert_eq!(stderr.trim_end().lines().count(), 1, "{args:?}: more than one line: {stderr}");
+    for word in words {
+        assert!(stderr.contains(word), "{args:?}: {stderr:?} does not say {word:?}");
+    }
+    assert!(output.stdout.is_empty(), "{args:?} printed a result");
+    let left = entries(dir.path());
+    assert_eq!(left.len(), files.len(), "{args:?} wrote something: {left:?}");
+}
+
+fn entries(dir: &Path) -> Vec<String> {
+    fs::read_dir(dir).unwrap().map(|e| e.unwrap().file_name().into_string().unwrap()).collect()
+}
+
+const STRUCTURE: &str = "[structure]\nkind = \"block\"\nheight_m = 1.0\nwidth_m = 0.5\nmass_kg = 100.0\n";
+const AT2: &str = "PEER\nname\nACCELERATION TIME HISTORY IN UNITS OF G\nNPTS= 4, DT= .01000 SEC\n";
+
+fn run_case(text: &str, words: &[&str]) {
+    refuses(&[("case.toml", text)], &["run", "case.toml", "--quiet", "--out", "results"], words);
+}
+
+fn run_record(name: &str, text: &str, more: &[&str], words: &[&str]) {
+    let mut args = vec!["run", "--quiet", "--out", "results", "--record", name];
+    args.extend(more);
+    refuses(&[(name, text)], &args, words);
+}
+
+#[test]
+fn a_missing_record() {
+    refuses(&[], &["run", "--record", "nowhere.at2"], &["nowhere.at2"]);
+}
+
+#[test]
+fn a_missing_case() {
+    refuses(&[], &["run", "nowhere.toml"], &["nowhere.toml", "check the name"]);
+}
+
+#[test]
+fn a_truncated_record() {
+    run_record("a.at2", &format!("{AT2} 0.1 0.2 0.3\n"), &[], &["a.at2", "4", "3"]);
+}
+
+#[test]
+fn a_record_with_more_samples_than_its_header_says() {
+    run_record("a.at2", &format!("{AT2} 0.1 0.2 0.3 0.2 0.1\n"), &[], &["a.at2", "4", "5"]);
+}
+
+#[test]
+fn an_empty_record() {
+    run_record("a.txt", "", &["--dt", "0.01", "--units", "g"], &["a.txt", "no samples"]);
+}
+
+#[test]
+fn a_nan_in_a_record() {
+    run_record("a.at2", &format!("{AT2} 0.1 0.2\n NaN 0.3\n"), &[], &["a.at2, line 6"]);
+}
+
+#[test]
+fn a_word_in_a_record() {
+    run_record("a.txt", "0.1\n0.2\noops\n", &["--dt", "0.01", "--units", "g"], &["a.txt, line 3", "oops"]);
+}
+
+#[test]
+fn uneven_time_steps() {
+    run_record("a.csv", "0.00,0.1\n0.01,0.2\n0.03,0.1\n0.04,0.0\n", &["--units", "g"], &["a.csv, line 3"]);
+}
+
+#[test]
+fn a_record_without_units() {
+    run_record("a.csv", "0.00,0.1\n0.01,0.2\n0.02,0.1\n", &[], &["a.csv", "--units"]);
+}
+
+#[test]
+fn a_column_without_a_time_step() {
+    run_record("a.txt", "0.1\n0.2\n0.1\n", &["--units", "g"], &["a.txt", "--dt"]);
+}
+
+#[test]
+fn wrong_units_make_an_absurd_acceleration() {
+    run_record("a.txt", "10\n300\n-250\n", &["--dt", "0.01", "--units", "g"], &["units"]);
+}
+
+#[test]
+fn unknown_units() {
+    refuses(&[("a.txt", "0.1\n")], &["run", "--record", "a.txt", "--dt", "0.01", "--units", "furlong"], &["furlong"]);
+}
+
+#[test]
+fn a_negative_mass() {
+    run_case(&STRUCTURE.replace("100.0", "-100.0"), &["case.toml", "mass_kg is -100", "greater than zero"]);
+}
+
+#[test]
+fn a_structure_too_stocky_to_rock() {
+    run_case(&STRUCTURE.replace("0.5", "3.0"), &["case.toml", "alpha"]);
+}
+
+#[test]
+fn a_height_that_is_not_a_number() {
+    run_case(&STRUCTURE.replace("height_m = 1.0", "height_m = nan"), &["case.toml", "height_m is NaN"]);
+}
+
+#[test]
+fn an_unknown_key() {
+    run_case(
+        &format!("{STRUCTURE}[tuning]\nmax_omega = 3.0\n"),
+        &["case.toml, line 7", "did you mean \"max_omega_hz\""],
+    );
+}
+
+#[test]
+fn a_missing_key() {
+    run_case("[structure]\nkind = \"block\"\nheight_m = 1.0\nwidth_m = 0.5\n", &["case.toml", "mass_kg"]);
+}
+
+#[test]
+fn a_case_that_is_not_toml() {
+    run_case("[structure\n", &["case.toml, line 1"]);
+}
+
+#[test]
+fn an_empty_target_band() {
+    let target = "[[target.bands]]\ng_low = 2.0\ng_high = 1.0\nkind = \"cap\"\nlimit = 1.0\n";
+    run_case(&format!("{STRUCTURE}{target}"), &["band 1", "g_low"]);
+}
+
+#[test]
+fn a_record_that_never_lifts_the_structure() {
+    refuses(&[], &["run", "--quiet", "--scale", "0.1", "--out", "results"], &["never lifts", "--scale"]);
+}
+
+#[test]
+fn a_duration_of_zero() {
+    refuses(&[], &["run", "--duration", "0", "--out", "results"], &["--duration is 0"]);
+}
+
+#[test]
+fn a_stiffness_of_nothing() {
+    refuses(&[], &["run", "--max-hz", "-5", "--out", "results"], &["max-hz"]);
+}
+
+#[test]
+fn a_mass_ratio_of_nothing() {
+    refuses(&[], &["response", "--mu", "-1"], &["mu is -1"]);
+}
+
+#[test]
+fn parameters_that_are_not_json() {
+    refuses(&[("p.json", "{")], &["simulate", "--parameters", "p.json"], &["p.json, line 1"]);
+}
+
+#[test]
+fn parameters_with_a_spring_of_no_stiffness() {
+    let row = |k1: f64| {
+        format!(
+            "{{\"mu\":1,\"f\":1,\"xi\":1,\"omega_n_hz\":1,\"k1_n_per_m\":{k1},\"k2_n_per_m\":1e6,\"m2_kg\":10,\"c_ns_per_m\":1e3}}"
+        )
+    };
+    let structure =
+        "{\"kind\":\"block\",\"height_m\":1,\"width_m\":0.5,\"mass_kg\":100,\"rotational_inertia_kgm2\":35}";
+    let text = format!("{{\"structure\":{structure},\"vertical\":{},\"horizontal\":{}}}", row(0.0), row(1e6));
+    refuses(&[("p.json", &text)], &["simulate", "--parameters", "p.json"], &["p.json", "vertical.k1_n_per_m is 0"]);
+}
+
+#[test]
+fn an_unknown_option() {
+    refuses(&[], &["run", "--recrd", "a.at2"], &["--recrd"]);
+}
+
+#[test]
+fn a_folder_that_cannot_be_made() {
+    refuses(&[("results", "a file\n")], &["run", "--quiet", "--out", "results"], &["results"]);
+}
