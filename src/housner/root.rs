@@ -4,6 +4,9 @@
 //! parabola that lies below the lean: with |w''| <= M, w(x + y) >= w + w' y - M y^2/2. So no root is ever passed, and near a
 //! simple root the convergence is that of Newton's method.
 
+use super::series::Series;
+use crate::scalar::{Scalar, real};
+
 /// More steps than a double root needs at a linear rate of 0.6 to reach rounding.
 const MAX_STEPS: usize = 120;
 
@@ -39,6 +42,30 @@ pub fn first_root(c: &[f64]) -> Option<f64> {
         x = next;
     }
     Some(x)
+}
+
+/// The root z of the lean as a function of the parameters. Each Newton step doubles the order of exact derivatives.
+pub fn impact_time<S: Scalar, const N: usize>(series: &Series<S, N>, z: f64) -> S {
+    let mut z: S = real(z);
+    for _ in 0..2 {
+        let (w, slope) = series.at(z);
+        // a graze has no derivative
+        if slope.re() < 0.0 {
+            z -= w / slope;
+        }
+    }
+    z
+}
+
+/// Where the polynomial, below `level` at 0 and above it at 1, passes it; by bisection, once in a history.
+pub fn crossing(c: &[f64], level: f64) -> f64 {
+    let (mut low, mut high) = (0.0_f64, 1.0_f64);
+    for _ in 0..53 {
+        let middle = 0.5 * (low + high);
+        let w = c.iter().rev().fold(0.0, |sum, c| sum * middle + c);
+        if w < level { low = middle } else { high = middle }
+    }
+    high
 }
 
 fn horner(g: &[f64], x: f64) -> (f64, f64) {

@@ -7,12 +7,15 @@
 //! ```
 //!
 //! Time runs as x = (t - t0)/h from 0 to 1 over the step, in which b = b0 + db x (the record is linear between samples).
-//! With S = sin psi, C = cos psi and w = sum c_k x^k, and because psi' = -w':
+//! With w = sum c_k x^k, F = sin psi + b0 cos psi and G = cos psi - b0 sin psi (so that F and G belong to each other as sine and
+//! cosine do), and because psi' = -w':
 //!
 //! ```text
-//! k S_k = -sum_{j=1..k} j c_j C_{k-j},   k C_k = sum_{j=1..k} j c_j S_{k-j}
-//! (k+2)(k+1) c_{k+2} = -p^2 h^2 [ S_k + b0 C_k + db C_{k-1} ]
+//! k F_k = -sum_{j=1..k} j c_j G_{k-j},   k G_k = sum_{j=1..k} j c_j F_{k-j}
+//! (k+2)(k+1) c_{k+2} = -p^2 h^2 [ F_k + db C_{k-1} ],   C = cos psi = (G + b0 F)/(1 + b0^2)
 //! ```
+
+use std::ops::{Add, Div, Mul, Neg, Sub};
 
 use crate::scalar::{Scalar, real};
 
@@ -22,7 +25,34 @@ pub const SHORT: usize = 9;
 pub const LONG: usize = 17;
 
 /// What a truncated term may be, relative to the motion within the step: below the rounding of f64.
-const TAIL: f64 = 1e-17;
+const TAIL: f64 = 3e-17;
+
+/// What the recurrences need of a number: a `Scalar`, or several numbers in lock-step.
+pub trait Field:
+    Copy
+    + Add<Output = Self>
+    + Sub<Output = Self>
+    + Mul<Output = Self>
+    + Div<Output = Self>
+    + Neg<Output = Self>
+    + Add<f64, Output = Self>
+    + Sub<f64, Output = Self>
+    + Mul<f64, Output = Self>
+{
+}
+
+impl<T> Field for T where
+    T: Copy
+        + Add<Output = T>
+        + Sub<Output = T>
+        + Mul<Output = T>
+        + Div<Output = T>
+        + Neg<Output = T>
+        + Add<f64, Output = T>
+        + Sub<f64, Output = T>
+        + Mul<f64, Output = T>
+{
+}
 
 /// Start of a step.
 #[derive(Clone, Copy)]
@@ -37,6 +67,83 @@ pub struct Start<S> {
     pub cos: S,
 }
 
+/// c_0 to c_{N-1} of a step of length h (s); b0 and db are b and its change over the step, q = p^2 h^2.
+///
+/// What the term before has only just given (c_k, F_{k-1}, G_{k-1}) enters each sum last: the terms then follow each other at the
+/// latency of a few operations, not of whole sums.
+#[inline(always)]
+pub fn coefficients<T: Field, const N: usize>(start: &Start<T>, h: T, b0: T, db: T, q: T) -> [T; N] {
+    let minus_q = -q;
+    let dg = db / (b0 * b0 + 1.0);
+    let df = dg * b0;
+    let mut f = [start.sin + b0 * start.cos; N];
+    let mut g = [start.cos - b0 * start.sin; N];
+    let mut c = [start.w; N];
+    c[1] = start.rate * h;
+    c[2] = f[0] * (minus_q * 0.5); // (1), (3)
+    f[1] = -(c[1] * g[0]);
+    g[1] = c[1] * f[0];
+    c[3] = (f[1] + (dg * g[0] + df * f[0])) * (minus_q * (1.0 / 6.0));
+    // jc[j] = j c_j
+    let mut jc = [c[1]; N];
+    jc[2] = c[2] * 2.0;
+    jc[3] = c[3] * 3.0;
+    for k in 2..N - 2 {
+        let reciprocal = 1.0 / k as f64;
+        let first = c[1] * reciprocal;
+        let (mut sum_f, mut sum_g) = (first * g[k - 1], first * f[k - 1]);
+        if k > 2 {
+            let (mut mid_f, mut mid_g) = (jc[2] * g[k - 2], jc[2] * f[k - 2]);
+            // half-open ranges: the compiler does not unroll inclusive ones
+            for j in 3..k {
+                mid_f = mid_f + jc[j] * g[k - j];
+                mid_g = mid_g + jc[j] * f[k - j];
+            }
+            sum_f = mid_f * reciprocal + sum_f;
+            sum_g = mid_g * reciprocal + sum_g;
+        }
+        f[k] = -(c[k] * g[0] + sum_f);
+        g[k] = c[k] * f[0] + sum_g;
+        let force = f[k] + (dg * g[k - 1] + df * f[k - 1]);
+        c[k + 2] = force * (minus_q * (1.0 / ((k + 1) * (k + 2)) as f64)); // (1), (3)
+        jc[k + 2] = c[k + 2] * (k + 2) as f64;
+    }
+    c
+}
+
+/// Sine and cosine of an angle smaller by `change`; to 2e-17 while |change| < [`SMALL`].
+#[inline(always)]
+pub fn turned<T: Field>(sin: T, cos: T, change: T) -> (T, T) {
+    let x2 = change * change;
+    let x4 = x2 * x2;
+    let s = change * ((x2 * (-1.0 / 6.0) + 1.0) + x4 * (x2 * (-1.0 / 5040.0) + 1.0 / 120.0));
+    let versine = x2 * ((x2 * (-1.0 / 24.0) + 0.5) + x4 * (1.0 / 720.0));
+    (sin - (sin * versine + cos * s), cos - (cos * versine - sin * s))
+}
+
+/// The largest change of angle that [`turned`] takes (rad).
+pub const SMALL: f64 = 0.03;
+
+/// c_1 + c_2 + ... at x = 1: the change of w over the whole step.
+#[inline(always)]
+pub fn change<T: Field, const N: usize>(c: &[T; N]) -> T {
+    let mut sum = c[2];
+    for &c in &c[3..] {
+        sum = sum + c;
+    }
+    c[1] + sum
+}
+
+/// dw/dx at x = 1.
+#[inline(always)]
+pub fn end_slope<T: Field, const N: usize>(c: &[T; N]) -> T {
+    let mut sum = c[2] * 2.0;
+    for (k, &c) in c.iter().enumerate().skip(3) {
+        sum = sum + c * k as f64;
+    }
+    c[1] + sum
+}
+
 /// The lean over one step as a power series of N coefficients in x = (t - t0)/h.
 #[derive(Clone, Copy)]
 pub struct Series<S, const N: usize> {
@@ -45,57 +152,31 @@ pub struct Series<S, const N: usize> {
     /// A bound of |c_{k+2}/c_k| for k near N. The equation's part linear in w gives q (1 + |b|)/k^2, its
     /// trigonometric part c_1^2/k^2; one 1/k is kept in reserve.
     growth: f64,
+    /// What truncated terms are measured against: the change of the lean within the step, or where it turns, that within a time
+    /// h at its natural rate p w.
+    size: f64,
 }
 
 impl<S: Scalar, const N: usize> Series<S, N> {
     /// The series of a step of length h (s); b0 and db are b and its change over the step, q = p^2 h^2.
     #[inline(always)]
     pub fn new(start: &Start<S>, h: S, b0: S, db: S, q: S) -> Self {
-        let mut c = [S::zero(); N];
-        // jc[j] = j c_j
-        let mut jc = [S::zero(); N];
-        let (mut sin, mut cos) = ([start.sin; N], [start.cos; N]);
-        c[0] = start.w;
-        c[1] = start.rate * h;
-        jc[1] = c[1];
-        let q = -q;
-        c[2] = q * 0.5 * (sin[0] + b0 * cos[0]);
-        jc[2] = c[2] * 2.0;
-        for k in 1..N - 2 {
-            let (mut s, mut co) = (jc[1] * cos[k - 1], jc[1] * sin[k - 1]);
-            for j in 2..=k {
-                s += jc[j] * cos[k - j];
-                co += jc[j] * sin[k - j];
-            }
-            sin[k] = s * (-1.0 / k as f64);
-            cos[k] = co * (1.0 / k as f64);
-            // (1), (3)
-            let force = q * (sin[k] + b0 * cos[k] + db * cos[k - 1]);
-            jc[k + 2] = force * (1.0 / (k + 1) as f64);
-            c[k + 2] = force * (1.0 / ((k + 1) * (k + 2)) as f64);
-        }
-        let growth = (c[1].re() * c[1].re() - q.re() * (1.0 + b0.re().abs() + db.re().abs())) / N as f64;
-        Self { c, growth }
+        let c = coefficients(start, h, b0, db, q);
+        let growth = (c[1].re() * c[1].re() + q.re() * (1.0 + b0.re().abs() + db.re().abs())) / N as f64;
+        let size = c[1].re().abs() + c[2].re().abs() + c[3].re().abs() + q.re().sqrt() * c[0].re();
+        Self { c, growth, size }
     }
 
-    /// c_1 + c_2 + ...: the change of w over the whole step.
+    /// The change of w over the whole step.
     #[inline(always)]
     pub fn change(&self) -> S {
-        let mut sum = self.c[N - 1];
-        for k in (1..N - 1).rev() {
-            sum += self.c[k];
-        }
-        sum
+        change(&self.c)
     }
 
     /// dw/dx at x = 1.
     #[inline(always)]
     pub fn end_slope(&self) -> S {
-        let mut sum = self.c[N - 1] * (N - 1) as f64;
-        for k in (1..N - 1).rev() {
-            sum += self.c[k] * k as f64;
-        }
-        sum
+        end_slope(&self.c)
     }
 
     /// w and dw/dx at x.
@@ -113,12 +194,12 @@ impl<S: Scalar, const N: usize> Series<S, N> {
     pub fn is_converged(&self) -> bool {
         let c = |k: usize| self.c[k].re().abs();
         // from the last two terms: every second one may vanish by symmetry
-        c(N - 2).max(c(N - 1)) * self.growth * N as f64 <= TAIL * self.size()
+        c(N - 2).max(c(N - 1)) * self.growth * N as f64 <= TAIL * self.size
     }
 
     /// The fraction of the step over which the truncated terms are below rounding; at most 1.
     pub fn reach(&self) -> f64 {
-        let size = TAIL * self.size() / N as f64;
+        let size = TAIL * self.size / N as f64;
         let mut reach = 1.0_f64;
         for k in [N - 2, N - 1] {
             let truncated = self.c[k].re().abs() * self.growth;
@@ -143,17 +224,12 @@ impl<S: Scalar, const N: usize> Series<S, N> {
         self.c.map(|c| c.re())
     }
 
-    fn size(&self) -> f64 {
-        let c = |k: usize| self.c[k].re().abs();
-        c(1) + c(2) + c(3)
-    }
-
-    /// A bound of |c_1| + |c_2| + ...: while w exceeds it the lean cannot vanish within the step.
+    /// How far the lean may sag below the line between its two ends: |w''| <= M gives M/8.
     #[inline(always)]
-    pub fn swing(&self) -> f64 {
+    pub fn sag(&self) -> f64 {
         let mut sum = 0.0;
-        for c in &self.c[1..] {
-            sum += c.re().abs();
+        for k in 2..N {
+            sum += self.c[k].re().abs() * ((k * (k - 1)) as f64 / 8.0);
         }
         sum
     }

@@ -7,8 +7,8 @@
 use std::f64::consts::FRAC_PI_2;
 
 use super::rest;
-use super::root::first_root;
-use super::series::{LONG, SHORT, Series, Start};
+use super::root::{crossing, first_root, impact_time};
+use super::series::{LONG, SHORT, SMALL, Series, Start, turned};
 use super::{Impact, Outcome, Rocking, Uplift};
 use crate::scalar::{Scalar, real};
 
@@ -98,13 +98,13 @@ pub fn walk<S: Scalar>(set: &Setting<S>, theta: S, rate: S) -> Rocking<S> {
         }
         let a1 = set.unit * set.accel[i + 1];
         let da = a1 - a0;
-        let stepped = state.rocking
-            && if fast {
-                set.step::<LONG>(&mut state, h, q, a0, da)
-            } else {
-                set.step::<SHORT>(&mut state, h, q, a0, da)
-            };
-        let done = stepped || set.interval(&mut state, i, a0, a1, &mut out);
+        let done = if fast {
+            (state.rocking && set.step::<LONG>(&mut state, h, q, a0, da))
+                || set.interval::<LONG>(&mut state, i, a0, a1, &mut out)
+        } else {
+            (state.rocking && set.step::<SHORT>(&mut state, h, q, a0, da))
+                || set.interval::<SHORT>(&mut state, i, a0, a1, &mut out)
+        };
         if !done {
             out.outcome = Outcome::WorkBound { time: i as f64 * set.dt };
             return out;
@@ -151,7 +151,7 @@ impl<S: Scalar> Setting<'_, S> {
         let w = at.w + change;
         let alpha = self.alpha.re();
         let plain = series.is_converged()
-            && at.w.re() > series.swing()
+            && at.w.re().min(w.re()) > series.sag()
             && w.re() < FRAC_PI_2
             && (w.re() < alpha || at.w.re() >= alpha);
         if plain {
@@ -167,14 +167,8 @@ impl<S: Scalar> Setting<'_, S> {
     fn turn(&self, state: &mut State<S>, change: S) {
         let at = &mut state.at;
         state.age += 1;
-        if state.age < REFRESH && change.re().abs() < 0.03 {
-            // the series end below 2e-17
-            let x2 = change * change;
-            let sin = change * (S::one() + x2 * (x2 * (x2 * (-1.0 / 5040.0) + 1.0 / 120.0) - 1.0 / 6.0));
-            let versine = x2 * (x2 * (x2 * (1.0 / 720.0) - 1.0 / 24.0) + 0.5);
-            let (s, c) = (at.sin, at.cos);
-            at.sin = s - (s * versine + c * sin);
-            at.cos = c - (c * versine - s * sin);
+        if state.age < REFRESH && change.re().abs() < SMALL {
+            (at.sin, at.cos) = turned(at.sin, at.cos, change);
         } else {
             (at.sin, at.cos) = (self.alpha - at.w).sin_cos();
             state.age = 0;
@@ -184,7 +178,7 @@ impl<S: Scalar> Setting<'_, S> {
     /// Interval i, piece by piece; false if the work bound is reached.
     #[cold]
     #[inline(never)]
-    fn interval(&self, state: &mut State<S>, i: usize, a0: S, a1: S, out: &mut Rocking<S>) -> bool {
+    fn interval<const N: usize>(&self, state: &mut State<S>, i: usize, a0: S, a1: S, out: &mut Rocking<S>) -> bool {
         let start = i as f64 * self.dt;
         let da = a1 - a0;
         // x: the fraction of the interval behind us
@@ -213,7 +207,7 @@ impl<S: Scalar> Setting<'_, S> {
             let left = S::one() - x;
             let h = left * self.dt;
             let b = (a0 + da * x) * state.side;
-            let mut series = Series::<S, LONG>::new(&state.at, h, b, da * left * state.side, self.p2 * h * h);
+            let mut series = Series::<S, N>::new(&state.at, h, b, da * left * state.side, self.p2 * h * h);
             let reach = series.reach();
             if reach < 1.0 {
                 series.shorten(reach);
@@ -310,28 +304,4 @@ impl<S: Scalar> Setting<'_, S> {
         let a0 = self.unit * self.accel[i];
         rest::uplift(S::zero(), a0, self.unit * self.accel[i + 1] - a0, self.lift).is_none()
     }
-}
-
-/// The root z of the lean as a function of the parameters. Each Newton step doubles the order of exact derivatives.
-fn impact_time<S: Scalar, const N: usize>(series: &Series<S, N>, z: f64) -> S {
-    let mut z: S = real(z);
-    for _ in 0..2 {
-        let (w, slope) = series.at(z);
-        // a graze has no derivative
-        if slope.re() < 0.0 {
-            z -= w / slope;
-        }
-    }
-    z
-}
-
-/// Where the polynomial, below `level` at 0 and above it at 1, passes it; by bisection, once in a history.
-fn crossing(c: &[f64], level: f64) -> f64 {
-    let (mut low, mut high) = (0.0_f64, 1.0_f64);
-    for _ in 0..53 {
-        let middle = 0.5 * (low + high);
-        let w = c.iter().rev().fold(0.0, |sum, c| sum * middle + c);
-        if w < level { low = middle } else { high = middle }
-    }
-    high
 }
