@@ -4,7 +4,13 @@ pub mod bounds;
 
 pub mod certificate;
 
+pub mod descent;
+
 pub mod excess;
+
+pub mod impact;
+
+pub mod impulse;
 
 pub mod inner;
 

@@ -1,0 +1,137 @@
+//! Springs tuned on the impact objective: all eight parameters at once, from the ARR families.
+
+use std::f64::consts::TAU;
+
+use num_dual::{Derivative, DualNum, DualSVec64};
+use nalgebra::SVector;
+use rayon::prelude::*;
+
+use super::{
+    descent::{LeastSquares, descend},
+    impact::Impact,
+    inner::Fit,
+    outer::Bracket,
+};
+use crate::{
+    fem::Control,
+    scalar::{GRAVITY, Scalar, real},
+    spring::{Design, Springs},
+    structure::Body,
+};
+
+type Dual = DualSVec64<8>;
+
+/// Least and largest stiffness ratio K, damping number C and mass ratio mu that are tried.
+const K: (f64, f64) = (0.02, 30.0);
+const C: (f64, f64) = (0.005, 40.0);
+const MU: (f64, f64) = (0.005, 40.0);
+/// Least Omega_n tried, as a share of the largest.
+const SOFTEST: f64 = 0.1;
+/// Starts that are followed to the end.
+const FOLLOWED: usize = 2;
+
+/// The springs found, and their error by the impact objective.
+#[derive(Clone, Copy, Debug)]
+pub struct Found {
+    pub springs: Springs<Design<f64>>,
+    /// sqrt of the sum of squares of `Impact`'s residuals: about the NRMSE to expect.
+    pub error: f64,
+    pub iterations: u64,
+}
+
+/// The eight logarithms: Omega_n [Hz], K, C, mu of the vertical and of the horizontal chain.
+fn springs<S: Scalar>(z: &[S]) -> Springs<Design<S>> {
+    let design = |z: &[S]| Design::from_kc(z[3].exp(), z[1].exp(), z[2].exp(), z[0].exp());
+    Springs { vertical: design(&z[..4]), horizontal: design(&z[4..]) }
+}
+
+fn logarithms(s: &Springs<Design<f64>>) -> [f64; 8] {
+    let (v, h) = (&s.vertical, &s.horizontal);
+    [v.omega_n_hz, v.k(), v.c(), v.mu, h.omega_n_hz, h.k(), h.c(), h.mu].map(f64::ln)
+}
+
+/// The impact objective within a bracket.
+pub struct Objective {
+    impact: Impact,
+    bracket: Bracket,
+    control: Control,
+}
+
+impl Objective {
+    pub fn new(body: &Body<f64>, restitution: f64, bracket: Bracket) -> Self {
+        let control = Control { tolerance: 1e-7, most_steps: 8_000, ..Control::default() };
+        Self { impact: Impact::new(body, restitution), bracket, control }
+    }
+
+    /// sqrt of the sum of squares of the residuals.
+    pub fn error(&self, s: &Springs<Design<f64>>) -> f64 {
+        self.residuals(&logarithms(s)).iter().map(|r| r * r).sum::<f64>().sqrt()
+    }
+}
+
+impl LeastSquares for Objective {
+    fn residuals(&self, z: &[f64]) -> Vec<f64> {
+        self.impact.residuals(&springs(z), self.control)
+    }
+
+    fn gradients(&self, z: &[f64]) -> (Vec<f64>, Vec<Vec<f64>>) {
+        let duals: Vec<Dual> =
+            z.iter().enumerate().map(|(i, &z)| Dual::new(z, Derivative::derivative_generic(nalgebra::Const::<8>, nalgebra::U1, i))).collect();
+        let control = Control { extra_iterations: 2, ..self.control };
+        let found = self.impact.residuals(&springs(&duals), control);
+        let rows = found
+            .iter()
+            .map(|r| {
+                let row: SVector<f64, 8> = r.eps.unwrap_generic(nalgebra::Const::<8>, nalgebra::U1);
+                row.iter().copied().collect()
+            })
+            .collect();
+        (found.iter().map(|r| r.re).collect(), rows)
+    }
+
+    fn bounds(&self) -> (Vec<f64>, Vec<f64>) {
+        let hz = (SOFTEST * self.bracket.max_hz, self.bracket.max_hz);
+        let pairs = [hz, K, C, MU, hz, K, C, MU];
+        (pairs.iter().map(|p| p.0.ln()).collect(), pairs.iter().map(|p| p.1.ln()).collect())
+    }
+
+    fn inequality(&self, z: &[f64]) -> Option<(f64, Vec<f64>)> {
+        // ln of g/2 (1 + 1/K) / Omega_n^2 over the largest settlement
+        let settlement = |omega: Dual, k: Dual| {
+            ((k.exp().recip() + 1.0) * (0.5 * GRAVITY) / ((omega.exp() * TAU) * (omega.exp() * TAU))).ln()
+        };
+        let seed = |i: usize, x: f64| Dual::new(x, Derivative::derivative_generic(nalgebra::Const::<8>, nalgebra::U1, i));
+        let value = settlement(seed(0, z[0]), seed(1, z[1])) - real::<Dual>(self.bracket.max_settlement.ln());
+        let row: SVector<f64, 8> = value.eps.unwrap_generic(nalgebra::Const::<8>, nalgebra::U1);
+        Some((value.re, row.iter().copied().collect()))
+    }
+}
+
+/// Tune all eight parameters, from pairs of families at the stiffest springs allowed.
+pub fn tune(objective: &Objective, families: &[Fit], iterations: u64) -> Option<Found> {
+    let hz = objective.bracket.max_hz;
+    let mut starts: Vec<Springs<Design<f64>>> = Vec::new();
+    for vertical in families {
+        for horizontal in families {
+            let design = |fit: &Fit| Design { mu: fit.mu, f: fit.f, xi: fit.xi, omega_n_hz: hz };
+            starts.push(Springs { vertical: design(vertical), horizontal: design(horizontal) });
+        }
+    }
+    // the chain that stops a landing at once: an absorber of half the mass on a soft spring (theory of the impact chain)
+    let plastic = Design::from_kc(0.5, 0.2, 0.92, hz);
+    starts.push(Springs { vertical: plastic, horizontal: plastic });
+    starts.push(Springs { vertical: plastic, horizontal: Design::from_kc(0.05, 20.0, 1.0, hz) });
+
+    let mut ranked: Vec<(f64, usize)> =
+        starts.par_iter().enumerate().map(|(i, s)| (objective.error(s), i)).collect();
+    ranked.sort_by(|a, b| a.0.total_cmp(&b.0).then(a.1.cmp(&b.1)));
+    let ends: Vec<_> = ranked
+        .par_iter()
+        .take(FOLLOWED)
+        .map(|&(_, i)| descend(objective, &logarithms(&starts[i]), 0.3, iterations))
+        .collect();
+    ends.into_iter()
+        .filter(|end| end.error.is_finite())
+        .min_by(|a, b| a.error.total_cmp(&b.error))
+        .map(|end| Found { springs: springs(&end.z), error: end.error, iterations: end.iterations })
+}
