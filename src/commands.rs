@@ -6,10 +6,15 @@ use clap::{Parser, Subcommand};
 use thiserror::Error;
 
 use crate::{
-    case::CaseError, figures::FigureError, parameters::ParametersError, record::RecordError, tuning::inner::FitError,
+    case::CaseError,
+    figures::FigureError,
+    parameters::ParametersError,
+    record::RecordError,
+    tuning::{inner::FitError, job::JobError},
 };
 
 mod common;
+mod draw;
 mod housner;
 mod progress;
 mod response;
@@ -48,6 +53,8 @@ pub enum CommandError {
     Parameters(#[from] ParametersError),
     #[error(transparent)]
     Fit(#[from] FitError),
+    #[error(transparent)]
+    Job(#[from] JobError),
     #[error(transparent)]
     Figure(#[from] FigureError),
     #[error("{path}: cannot be written ({source}); check the folder and its rights")]

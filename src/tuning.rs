@@ -14,6 +14,8 @@ pub mod impulse;
 
 pub mod inner;
 
+pub mod job;
+
 pub mod minimax;
 
 pub mod outer;

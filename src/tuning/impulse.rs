@@ -2,8 +2,8 @@
 
 use std::f64::consts::TAU;
 
-use num_dual::{Derivative, DualNum, DualSVec64};
 use nalgebra::SVector;
+use num_dual::{Derivative, DualNum, DualSVec64};
 use rayon::prelude::*;
 
 use super::{
@@ -75,8 +75,11 @@ impl LeastSquares for Objective {
     }
 
     fn gradients(&self, z: &[f64]) -> (Vec<f64>, Vec<Vec<f64>>) {
-        let duals: Vec<Dual> =
-            z.iter().enumerate().map(|(i, &z)| Dual::new(z, Derivative::derivative_generic(nalgebra::Const::<8>, nalgebra::U1, i))).collect();
+        let duals: Vec<Dual> = z
+            .iter()
+            .enumerate()
+            .map(|(i, &z)| Dual::new(z, Derivative::derivative_generic(nalgebra::Const::<8>, nalgebra::U1, i)))
+            .collect();
         let control = Control { extra_iterations: 2, ..self.control };
         let found = self.impact.residuals(&springs(&duals), control);
         let rows = found
@@ -100,7 +103,8 @@ impl LeastSquares for Objective {
         let settlement = |omega: Dual, k: Dual| {
             ((k.exp().recip() + 1.0) * (0.5 * GRAVITY) / ((omega.exp() * TAU) * (omega.exp() * TAU))).ln()
         };
-        let seed = |i: usize, x: f64| Dual::new(x, Derivative::derivative_generic(nalgebra::Const::<8>, nalgebra::U1, i));
+        let seed =
+            |i: usize, x: f64| Dual::new(x, Derivative::derivative_generic(nalgebra::Const::<8>, nalgebra::U1, i));
         let value = settlement(seed(0, z[0]), seed(1, z[1])) - real::<Dual>(self.bracket.max_settlement.ln());
         let row: SVector<f64, 8> = value.eps.unwrap_generic(nalgebra::Const::<8>, nalgebra::U1);
         Some((value.re, row.iter().copied().collect()))
@@ -122,16 +126,16 @@ pub fn tune(objective: &Objective, families: &[Fit], iterations: u64) -> Option<
     starts.push(Springs { vertical: plastic, horizontal: plastic });
     starts.push(Springs { vertical: plastic, horizontal: Design::from_kc(0.05, 20.0, 1.0, hz) });
 
-    let mut ranked: Vec<(f64, usize)> =
-        starts.par_iter().enumerate().map(|(i, s)| (objective.error(s), i)).collect();
+    let mut ranked: Vec<(f64, usize)> = starts.par_iter().enumerate().map(|(i, s)| (objective.error(s), i)).collect();
     ranked.sort_by(|a, b| a.0.total_cmp(&b.0).then(a.1.cmp(&b.1)));
     let ends: Vec<_> = ranked
         .par_iter()
         .take(FOLLOWED)
         .map(|&(_, i)| descend(objective, &logarithms(&starts[i]), 0.3, iterations))
         .collect();
-    ends.into_iter()
-        .filter(|end| end.error.is_finite())
-        .min_by(|a, b| a.error.total_cmp(&b.error))
-        .map(|end| Found { springs: springs(&end.z), error: end.error, iterations: end.iterations })
+    ends.into_iter().filter(|end| end.error.is_finite()).min_by(|a, b| a.error.total_cmp(&b.error)).map(|end| Found {
+        springs: springs(&end.z),
+        error: end.error,
+        iterations: end.iterations,
+    })
 }

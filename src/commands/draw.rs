@@ -1,0 +1,156 @@
+//! The figures of `tune run`, filled from its results.
+
+use std::path::Path;
+
+use rayon::prelude::*;
+
+use super::{CommandError, common::Both};
+use crate::{
+    case::Case,
+    figures::{self, FigureError},
+    response::{
+        self,
+        target::{Band, Kind},
+    },
+    spring::Design,
+    tuning::{inner::Fit, job::Job},
+};
+
+/// A target band as the figure shows it: caps and flat bands; a cap of 1 or less asks for as little as possible.
+fn wanted(band: &Band, low: f64, high: f64) -> Option<figures::arr::Band> {
+    let g = (band.g_low.max(low), band.g_high.unwrap_or(high).min(high));
+    match band.kind {
+        Kind::Cap => Some(figures::arr::Band { g, at_least: None, at_most: Some(band.limit) }),
+        Kind::Rigid => {
+            Some(figures::arr::Band { g, at_least: Some(1.0 / (1.0 + band.limit)), at_most: Some(1.0 + band.limit) })
+        }
+        Kind::Uniform | Kind::RollOff => None,
+    }
+}
+
+/// All figures, side by side.
+pub fn draw(dir: &Path, case: &Case, job: &Job, both: &Both) -> Result<(), CommandError> {
+    let (housner, fem) = (&both.housner, &both.fem);
+    let (dt, tuned) = (job.record.dt, &job.arr);
+    let n = housner.len().min(fem.motion.len());
+    let t: Vec<f64> = (0..n).map(|i| i as f64 * dt).collect();
+    let title = |what: &str| format!("{what}: {}", case.record.name);
+
+    let history = |path: &Path| {
+        let impacts_housner: Vec<f64> = both.rocking.impacts.iter().map(|i| i.time).collect();
+        let impacts_fem: Vec<f64> = fem.landings.iter().filter(|l| l.impact).map(|l| l.time).collect();
+        figures::history::render(
+            &figures::history::History {
+                title: &title("Apex displacement"),
+                t: &t,
+                reference: figures::history::Trace {
+                    label: "Housner",
+                    u: &housner.u[..n],
+                    v: &housner.v[..n],
+                    impacts: &impacts_housner,
+                },
+                others: &[figures::history::Trace {
+                    label: "finite elements on ground springs",
+                    u: &fem.motion.u[..n],
+                    v: &fem.motion.v[..n],
+                    impacts: &impacts_fem,
+                }],
+                differences: false,
+            },
+            path,
+        )
+    };
+    let arr = |path: &Path| {
+        let g: Vec<f64> = (0..=600).map(|i| 0.02 * f64::powf(1000.0, i as f64 / 600.0)).collect();
+        let chains = [
+            ("vertical", &job.springs.vertical, &job.vertical),
+            ("horizontal", &job.springs.horizontal, &job.horizontal),
+        ];
+        let family =
+            |d: &Design<f64>, fits: &[Fit]| fits.iter().find(|f| (f.mu, f.f, f.xi) == (d.mu, d.f, d.xi)).cloned();
+        let curves: Vec<_> = chains
+            .iter()
+            .map(|(name, d, fits)| {
+                let arr: Vec<f64> = g.iter().map(|&g| response::arr(g, d.mu, d.f, d.xi)).collect();
+                let active: Vec<_> = family(d, fits)
+                    .iter()
+                    .flat_map(|fit| fit.certificate.active.clone())
+                    .filter(|a| a.g.is_finite())
+                    .map(|a| figures::arr::Active { g: a.g, arr: a.arr, multiplier: None })
+                    .collect();
+                (format!("{name}, \u{3bc} = {:.3}", d.mu), arr, active)
+            })
+            .collect();
+        let curves: Vec<_> =
+            curves.iter().map(|(label, arr, active)| figures::arr::Curve { label, g: &g, arr, active }).collect();
+        let target: Vec<_> = case.target.bands.iter().filter_map(|band| wanted(band, g[0], g[g.len() - 1])).collect();
+        figures::arr::render(
+            &figures::arr::Response {
+                title: "Frequency response of the ground springs",
+                target: &target,
+                curves: &curves,
+            },
+            path,
+        )
+    };
+    let candidates = |path: &Path| {
+        let candidates: Vec<_> = tuned
+            .candidates
+            .iter()
+            .map(|c| figures::candidates::Candidate {
+                vertical_hz: c.springs.vertical.omega_n_hz,
+                horizontal_hz: c.springs.horizontal.omega_n_hz,
+                error: c.error,
+                abandoned: c.abandoned,
+            })
+            .collect();
+        figures::candidates::render(
+            &figures::candidates::Candidates {
+                title: &title("Error of every candidate"),
+                error_label: "NRMSE of u and v",
+                candidates: &candidates,
+                chosen: Some(tuned.chosen),
+            },
+            path,
+        )
+    };
+    let contact = |path: &Path| {
+        let f = &fem.forces;
+        figures::contact::render(
+            &figures::contact::Contact {
+                title: &title("Forces on the feet"),
+                t: &t,
+                left_vertical: &f.vertical[0][..n],
+                right_vertical: &f.vertical[1][..n],
+                left_horizontal: &f.horizontal[0][..n],
+                right_horizontal: &f.horizontal[1][..n],
+                weight: Some(case.structure.mass_kg * crate::scalar::GRAVITY),
+            },
+            path,
+        )
+    };
+    let energy = |path: &Path| {
+        let a = &fem.account;
+        figures::energy::render(
+            &figures::energy::Energy {
+                title: &title("Energy account"),
+                t: &t,
+                input: &a.input[..n],
+                stored: &a.stored[..n],
+                dissipated: &a.dissipated[..n],
+                residual: &a.residual[..n],
+            },
+            path,
+        )
+    };
+    type Draw<'a> = (&'a str, &'a (dyn Fn(&Path) -> Result<(), FigureError> + Sync));
+    let all: [Draw; 5] = [
+        ("history.png", &history),
+        ("response.png", &arr),
+        ("candidates.png", &candidates),
+        ("contact.png", &contact),
+        ("energy.png", &energy),
+    ];
+    all.par_iter().map(|(name, draw)| draw(&dir.join(name))).collect::<Result<(), FigureError>>()?;
+    Ok(())
+}

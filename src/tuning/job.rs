@@ -1,0 +1,91 @@
+//! A whole case: the paper's procedure, the impact objective, and the springs that the case asks for.
+
+use thiserror::Error;
+
+use super::{
+    impulse::{self, Found},
+    inner::{Fit, FitError, families, fit},
+    outer::{self, Benchmark, Bracket, Tuned},
+};
+use crate::{
+    case::{Case, Objective},
+    housner::{self, Rocking},
+    motion::Motion,
+    record::Record,
+    spring::{Design, Springs},
+    structure::Body,
+};
+
+/// Mass ratios of the families that the impact objective starts from.
+const FAMILIES: [f64; 3] = [0.1, 0.3, 1.0];
+/// Steps of the impact objective's descent.
+const STEPS: u64 = 15;
+
+/// Why there are no springs.
+#[derive(Debug, Error)]
+pub enum JobError {
+    #[error(transparent)]
+    Fit(#[from] FitError),
+    #[error(
+        "{record}: PGA {pga_g:.4} g never lifts the structure (it takes {limit_g:.4} g), there is nothing to tune on; raise --scale or give another record"
+    )]
+    NeverLifts { record: String, pga_g: f64, limit_g: f64 },
+    #[error("no candidate followed the record to its end; raise --max-hz or shorten --duration")]
+    NoCandidate,
+}
+
+/// A case's springs and all that led to them.
+#[derive(Debug)]
+pub struct Job {
+    pub body: Body<f64>,
+    /// The record over the length compared.
+    pub record: Record,
+    pub rocking: Rocking<f64>,
+    /// Housner's motion.
+    pub housner: Motion,
+    /// The springs that the case's objective chose.
+    pub springs: Springs<Design<f64>>,
+    /// The paper's procedure: families of the inner fit, and the outer loop over Omega_n.
+    pub vertical: Vec<Fit>,
+    pub horizontal: Vec<Fit>,
+    pub arr: Tuned,
+    /// The impact objective's springs, when the case asks for them.
+    pub impact: Option<Found>,
+}
+
+impl Job {
+    /// Tune a case. `progress` gets the evaluations done, planned, and the least error so far.
+    pub fn new(case: &Case, progress: &(dyn Fn(usize, usize, f64) + Sync)) -> Result<Self, JobError> {
+        let record = case.record.truncated(case.duration_s);
+        let body = case.structure.body::<f64>();
+        let options = housner::Options { restitution: Some(case.restitution), ..Default::default() };
+        let rocking = housner::solve(&body, record.dt, &record.accel, &options);
+        if rocking.uplifts.is_empty() {
+            return Err(JobError::NeverLifts {
+                record: record.name.clone(),
+                pga_g: record.pga_g(),
+                limit_g: body.half_width / body.height,
+            });
+        }
+        let housner = rocking.motion(&body);
+        let tuning = &case.tuning;
+        let fits = |mus: &[f64]| -> Result<Vec<Fit>, FitError> {
+            mus.iter().map(|&mu| fit(mu, &case.target, &case.bounds)).collect()
+        };
+        let vertical = fits(&tuning.mass_ratios_vertical)?;
+        let horizontal = fits(&tuning.mass_ratios_horizontal)?;
+        let bracket = Bracket { max_hz: tuning.max_omega_hz, max_settlement: tuning.max_settlement_m };
+        let benchmark = Benchmark { body, dt: record.dt, accel: &record.accel, housner: &housner };
+        let arr = outer::tune(&benchmark, &vertical, &horizontal, bracket, tuning.candidates, progress)
+            .ok_or(JobError::NoCandidate)?;
+        let impact = match tuning.objective {
+            Objective::Arr => None,
+            Objective::Impact => {
+                let objective = impulse::Objective::new(&body, case.restitution, bracket);
+                Some(impulse::tune(&objective, &families(&FAMILIES)?, STEPS).ok_or(JobError::NoCandidate)?)
+            }
+        };
+        let springs = impact.map_or(arr.best.springs, |found| found.springs);
+        Ok(Self { body, record, rocking, housner, springs, vertical, horizontal, arr, impact })
+    }
+}
