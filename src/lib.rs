@@ -46,6 +46,10 @@ pub mod parameters;
 
 pub mod tuning;
 
+pub mod export;
+
+pub mod verify;
+
 pub mod case;
 
 pub mod commands;

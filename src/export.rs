@@ -1,0 +1,184 @@
+//! Decks: the tuned springs in the engineer's own program.
+//!
+//! | format | what it is |
+//! |---|---|
+//! | [`Format::OpenSeesPy`] | one Python file for `openseespy` that builds, runs and checks itself |
+//! | [`Format::OpenSeesTcl`] | the same for OpenSees' Tcl interpreter |
+//! | [`Format::Sap2000`] | .s2k text tables for File > Import > SAP2000 .s2k Text File |
+//! | [`Format::Csv`], [`Format::Markdown`] | k1, k2, m2, c per foot and direction, for everyone else |
+//!
+//! Numbers are written with 17 significant digits, so that a deck holds exactly what was tuned. SI units, except in
+//! SAP2000 where the tables say KN, m.
+
+mod model;
+mod opensees;
+mod plain;
+mod sap2000;
+
+use std::{
+    fs, io,
+    path::{Path, PathBuf},
+};
+
+use thiserror::Error;
+
+use crate::{fem::History, parameters::Parameters, record::Record};
+use model::Model;
+pub use model::{SMALL_INERTIA, steps_per_sample, with_inertia};
+
+/// What to write.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Format {
+    OpenSeesPy,
+    OpenSeesTcl,
+    Sap2000,
+    Csv,
+    Markdown,
+}
+
+impl Format {
+    /// Every format.
+    pub const ALL: [Self; 5] = [Self::OpenSeesPy, Self::OpenSeesTcl, Self::Sap2000, Self::Csv, Self::Markdown];
+
+    /// Its name on the command line.
+    pub fn name(self) -> &'static str {
+        match self {
+            Self::OpenSeesPy => "openseespy",
+            Self::OpenSeesTcl => "opensees-tcl",
+            Self::Sap2000 => "sap2000",
+            Self::Csv => "csv",
+            Self::Markdown => "markdown",
+        }
+    }
+
+    /// The ending of its file, without the dot.
+    pub fn ending(self) -> &'static str {
+        match self {
+            Self::OpenSeesPy => "py",
+            Self::OpenSeesTcl => "tcl",
+            Self::Sap2000 => "s2k",
+            Self::Csv => "csv",
+            Self::Markdown => "md",
+        }
+    }
+}
+
+impl std::str::FromStr for Format {
+    type Err = ExportError;
+
+    fn from_str(name: &str) -> Result<Self, ExportError> {
+        Self::ALL
+            .into_iter()
+            .find(|f| f.name() == name)
+            .ok_or_else(|| ExportError::Format { name: printable(name), known: Self::ALL.map(Self::name).join(", ") })
+    }
+}
+
+/// What the deck must find when it runs: taken from our own history, checked by the deck itself.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Expected {
+    /// Number of samples followed, the one at t = 0 included.
+    pub samples: usize,
+    /// Z of the centre of mass, standing settled (negative: the settlement) [m].
+    pub settled: f64,
+    /// Largest and least u [m].
+    pub u: (f64, f64),
+    /// Largest and least v, from the settled position [m].
+    pub v: (f64, f64),
+}
+
+impl Expected {
+    /// From a history that began settled.
+    pub fn new(history: &History) -> Self {
+        let range = |x: &[f64]| x.iter().fold((0.0, 0.0), |(max, min): (f64, f64), &x| (max.max(x), min.min(x)));
+        Self {
+            samples: history.motion.len(),
+            settled: history.initial_z,
+            u: range(&history.motion.u),
+            v: range(&history.motion.v),
+        }
+    }
+}
+
+/// What is wrong with an export, and what to do.
+#[derive(Debug, Error)]
+pub enum ExportError {
+    #[error("export: format '{name}' is not known; give one of {known}")]
+    Format { name: String, known: String },
+    #[error(
+        "export: {name} is {value}; give a finite number above zero (dampers and inertia may be zero), as `tune run` writes them"
+    )]
+    Number { name: &'static str, value: f64 },
+    #[error(
+        "export: the history to check against has {expected} samples but the record has {record}; use the record that was simulated"
+    )]
+    Samples { expected: usize, record: usize },
+    #[error("{path}: cannot be written ({source}); check the folder and its permissions")]
+    Write { path: String, source: io::Error },
+}
+
+/// One file of a deck.
+#[derive(Clone, Debug, PartialEq)]
+pub struct DeckFile {
+    pub name: String,
+    pub text: String,
+}
+
+/// An exported model: files that belong together.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Deck {
+    pub files: Vec<DeckFile>,
+}
+
+/// Write the model of `parameters` on `record` for another program. `stem` is the file's name without its ending.
+///
+/// # Errors
+/// Numbers that are not finite; a history longer than the record.
+pub fn export(
+    parameters: &Parameters,
+    record: &Record,
+    expected: &Expected,
+    format: Format,
+    stem: &str,
+) -> Result<Deck, ExportError> {
+    let model = Model::new(parameters, record, expected)?;
+    let text = match format {
+        Format::OpenSeesPy => opensees::python(&model),
+        Format::OpenSeesTcl => opensees::tcl(&model),
+        Format::Sap2000 => sap2000::tables(&model),
+        Format::Csv => plain::csv(&model),
+        Format::Markdown => plain::markdown(&model),
+    };
+    Ok(Deck { files: vec![DeckFile { name: format!("{stem}.{}", format.ending()), text }] })
+}
+
+impl Deck {
+    /// Write the files into a folder that exists, each through a temporary file, so that no half file is ever seen.
+    ///
+    /// # Errors
+    /// A file cannot be written.
+    pub fn write(&self, dir: &Path) -> Result<Vec<PathBuf>, ExportError> {
+        self.files.iter().map(|file| file.write(dir)).collect()
+    }
+}
+
+impl DeckFile {
+    fn write(&self, dir: &Path) -> Result<PathBuf, ExportError> {
+        let path = dir.join(&self.name);
+        let part = dir.join(format!(".{}.{}.part", self.name, std::process::id()));
+        fs::write(&part, &self.text).and_then(|()| fs::rename(&part, &path)).map_err(|source| {
+            // the message speaks of the first failure; what is left of the temporary file goes if it can
+            let _ = fs::remove_file(&part);
+            ExportError::Write { path: path.display().to_string(), source }
+        })?;
+        Ok(path)
+    }
+}
+
+/// A name that is harmless inside a comment or a string of any of the programs.
+fn printable(name: &str) -> String {
+    name.chars().map(|c| if c.is_ascii_alphanumeric() || " ._-+".contains(c) { c } else { '_' }).collect()
+}
+
+#[cfg(test)]
+mod tests;

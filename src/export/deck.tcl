@@ -1,0 +1,165 @@
+# @TITLE@
+#
+# Runs as it is:  OpenSees THIS_FILE   (or, with the PyPI package opensees:  python3 -m opensees THIS_FILE)
+# It writes u, v, theta of the mass at every sample of the record to THIS_FILE's name with _history.csv, and compares its
+# peaks with those of `tune simulate`. Exit code: 0 within 1 %, 1 not within 1 %, 2 the analysis stopped.
+#
+# The model: a rigid body on two feet. Under each foot, vertically and horizontally,
+#
+#     foot - gap, k1 - absorber m2 - (k2 parallel with dashpot c) - ground
+#
+# Plane model, SI units (N, m, kg, s). u is positive to the right, v up from the settled position, theta positive
+# leaning to the right.
+
+# ---------------------------------------------------------------- numbers
+set gravity   @GRAVITY@    ;# m/s2
+set height    @HEIGHT@     ;# h, of the centre of mass above the feet, m
+set halfWidth @HALF_WIDTH@ ;# b, half the distance between the feet, m
+set mass      @MASS@       ;# m1, kg
+set inertia   @INERTIA@    ;# about the centre of mass, kg m2: @INERTIA_NOTE@
+
+set k1v @K1_V@ ;# vertical chain: gap spring, N/m
+set k2v @K2_V@ ;# ground spring, N/m
+set cv  @C_V@ ;# dashpot, N s/m
+set m2v @M2_V@ ;# absorber mass, kg
+set k1h @K1_H@ ;# horizontal chain
+set k2h @K2_H@
+set ch  @C_H@
+set m2h @M2_H@
+
+set recordDt       @RECORD_DT@ ;# s
+set stepsPerSample @STEPS@ ;# @STEPS_NOTE@
+set samples        @SAMPLES@ ;# of the record that are followed: @DURATION@ s
+
+# What `tune simulate` found for the same springs and record, m: the check at the end.
+set expected [list settled @SETTLED@ uMax @U_MAX@ uMin @U_MIN@ vMax @V_MAX@ vMin @V_MIN@]
+
+# ---------------------------------------------------------------- model
+wipe
+model basic -ndm 2 -ndf 3
+node 3 0.0 $height
+mass 3 $mass $mass $inertia
+
+# Legs from the centre of mass to the feet, all but rigid: @LEG_NOTE@.
+# Much softer legs change the answer, much stiffer ones lose digits.
+set length [expr {hypot($halfWidth, $height)}]
+set leg @LEG@ ;# EA/L = 3EI/L^3, N/m
+# Corotational: with Linear the weight's moment on the leaning body (P-Delta), which drives rocking, is lost.
+geomTransf Corotational 1
+
+# k2 parallel with c: Elastic takes the dashpot as its third number, eta.
+uniaxialMaterial Elastic 1 $k2h $ch
+uniaxialMaterial Elastic 2 $k2v $cv
+# Gap k1: no tension (ENT), parallel with a trace of tension. The bearing moves a lifted foot's anchor along with the foot
+# only while its axial force is above zero; with exactly zero (ENT alone) the foot would be pulled back to where it stood
+# before, which creates energy.
+uniaxialMaterial ENT 31 $k1v
+uniaxialMaterial Elastic 32 [expr {1e-9 * $k1v}]
+uniaxialMaterial Parallel 3 31 32
+# The bearing asks for a moment spring; this one is too weak to be felt (1e-9 of the weight's own moment).
+uniaxialMaterial Elastic 5 [expr {1e-9 * $mass * $gravity * $length}]
+# Friction so high that a pressing foot never slides: the horizontal spring k1 acts whenever the foot presses, and not at
+# all when it is in the air.
+frictionModel Coulomb 1 1000.0
+
+foreach {foot x} [list 1 [expr {-$halfWidth}] 2 $halfWidth] {
+    set absorber [expr {$foot + 10}]
+    set ground [expr {$foot + 20}]
+    node $foot $x 0.0
+    node $absorber $x 0.0
+    node $ground $x 0.0
+    fix $ground 1 1 1
+    # The bearing's axes turn with its first node: the absorber must not rotate.
+    fix $absorber 0 0 1
+    # One node carries both absorbers: OpenSees takes a mass per direction.
+    mass $absorber $m2h $m2v 0.0
+    element elasticBeamColumn $foot $foot 3 [expr {$leg * $length}] 1.0 [expr {$leg * $length**3 / 3.0}] 1
+    element zeroLength [expr {$foot + 30}] $ground $absorber -mat 1 2 -dir 1 2
+    # Axial direction up (local x = global y); the horizontal k1 is the bearing's shear stiffness.
+    element flatSliderBearing [expr {$foot + 50}] $absorber $foot 1 $k1h -P 3 -Mz 5 -orient 0 1 0 -1 0 0
+}
+
+# ---------------------------------------------------------------- solver
+proc solver {integrator kind} {
+    constraints Plain
+    numberer RCM
+    system UmfPack
+    # By displacement: forces of 1e12 N/m springs never meet a sensible force tolerance.
+    test NormDispIncr @TOLERANCE@ 30 0
+    algorithm Newton
+    eval integrator $integrator
+    analysis $kind
+}
+
+# Advance to a time; where Newton cycles at a contact event the step is split 10, 100, 1000 times.
+proc step {target} {
+    if {[analyze 1 [expr {$target - [getTime]}]] == 0} { return 1 }
+    foreach parts {10 100 1000} {
+        set left [expr {$target - [getTime]}]
+        if {$left <= 0.0 || [analyze $parts [expr {$left / $parts}]] == 0} { return 1 }
+    }
+    return 0
+}
+
+proc stop {reason} {
+    puts stderr "stopped: $reason"
+    exit 2
+}
+
+# ---------------------------------------------------------------- gravity
+# The weight, as a load on the mass (absorbers carry none).
+timeSeries Linear 1
+pattern Plain 1 1 "load 3 0.0 [expr {-$mass * $gravity}] 0.0"
+solver {LoadControl 0.1} Static
+if {[analyze 10] != 0} { stop "gravity did not converge" }
+loadConst -time 0.0
+wipeAnalysis
+set settled [nodeDisp 3 2]
+
+# ---------------------------------------------------------------- ground motion
+# @RECORD_NOTE@
+set record {
+@RECORD@
+}
+# Linear between samples.
+timeSeries Path 2 -dt $recordDt -values $record -factor 1.0
+pattern UniformExcitation 2 1 -accel 2
+# TRBDF2 is L-stable: Newmark (1/2, 1/4) and HHT fail on springs this stiff, Newmark with damping spoils the answer.
+solver TRBDF2 Transient
+
+set out [open "[file rootname [info script]]_history.csv" w]
+puts $out "t,u,v,th"
+puts $out "0,0,0,0"
+array set found [list settled $settled uMax 0.0 uMin 0.0 vMax 0.0 vMin 0.0]
+for {set i 1} {$i < $samples} {incr i} {
+    for {set j 1} {$j <= $stepsPerSample} {incr j} {
+        if {![step [expr {($i - 1 + double($j) / $stepsPerSample) * $recordDt}]]} {
+            stop "no convergence at [getTime] s; raise stepsPerSample"
+        }
+    }
+    set u [nodeDisp 3 1]
+    set v [expr {[nodeDisp 3 2] - $settled}]
+    # OpenSees turns counter-clockwise
+    set th [expr {-[nodeDisp 3 3]}]
+    puts $out [format "%.17g,%.17g,%.17g,%.17g" [expr {$i * $recordDt}] $u $v $th]
+    set found(uMax) [expr {max($found(uMax), $u)}]
+    set found(uMin) [expr {min($found(uMin), $u)}]
+    set found(vMax) [expr {max($found(vMax), $v)}]
+    set found(vMin) [expr {min($found(vMin), $v)}]
+}
+close $out
+
+# ---------------------------------------------------------------- check
+# 1 % of the largest motion in that direction
+array set want $expected
+set scale(s) [expr {abs($want(settled))}]
+set scale(u) [expr {max(abs($want(uMax)), abs($want(uMin)))}]
+set scale(v) [expr {max(abs($want(vMax)), abs($want(vMin)))}]
+set good 1
+foreach {key value} $expected {
+    set kind [string index $key 0]
+    if {abs($found($key) - $value) > 0.01 * $scale($kind)} { set good 0 }
+    puts [format "  %-8s %12.4f mm, expected %12.4f mm" $key [expr {$found($key) * 1e3}] [expr {$value * 1e3}]]
+}
+puts "within 1 %: [expr {$good ? {yes} : {no}}]"
+exit [expr {1 - $good}]

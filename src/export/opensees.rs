@@ -1,0 +1,74 @@
+//! OpenSees decks: the same model in Python and in Tcl, from two templates that explain every choice in comments.
+
+use std::fmt::Write;
+
+use super::model::{Model, digits};
+use crate::scalar::GRAVITY;
+
+/// The deck for openseespy.
+pub(super) fn python(model: &Model) -> String {
+    let rows = rows(model, ",");
+    fill(include_str!("deck.py"), model, &rows)
+}
+
+/// The deck for OpenSees' Tcl interpreter.
+pub(super) fn tcl(model: &Model) -> String {
+    let rows = rows(model, "");
+    fill(include_str!("deck.tcl"), model, &rows)
+}
+
+/// The record, four samples a line.
+fn rows(model: &Model, separator: &str) -> String {
+    let lines = model.record.accel.chunks(4).map(|samples| {
+        samples.iter().fold(String::from("   "), |mut line, &a| {
+            // writing to a String does not fail
+            let _ = write!(line, " {}{separator}", digits(a));
+            line
+        })
+    });
+    lines.collect::<Vec<_>>().join("\n")
+}
+
+/// Put the model's numbers in the place of `@NAME@`.
+fn fill(template: &str, model: &Model, rows: &str) -> String {
+    let body = model.body();
+    let (v, h) = (&model.springs.vertical, &model.springs.horizontal);
+    let e = &model.expected;
+    let values = [
+        ("TITLE", model.title()),
+        ("GRAVITY", digits(GRAVITY)),
+        ("HEIGHT", digits(body.height)),
+        ("HALF_WIDTH", digits(body.half_width)),
+        ("MASS", digits(body.mass)),
+        ("INERTIA", digits(model.inertia)),
+        ("INERTIA_NOTE", model.inertia_note().to_string()),
+        ("K1_V", digits(v.k1)),
+        ("K2_V", digits(v.k2)),
+        ("C_V", digits(v.c)),
+        ("M2_V", digits(v.m2)),
+        ("K1_H", digits(h.k1)),
+        ("K2_H", digits(h.k2)),
+        ("C_H", digits(h.c)),
+        ("M2_H", digits(h.m2)),
+        ("LEG", digits(model.leg)),
+        ("LEG_NOTE", model.leg_note()),
+        ("TOLERANCE", digits(model.tolerance)),
+        ("RECORD_DT", digits(model.record.dt)),
+        ("STEPS", model.steps_per_sample.to_string()),
+        ("STEPS_NOTE", "dt at most 1/(40 Omega_n [Hz]) and 1e-4/p; twice as many must change nothing".to_string()),
+        ("SAMPLES", e.samples.to_string()),
+        ("DURATION", model.duration().to_string()),
+        ("SETTLED", digits(e.settled)),
+        ("U_MAX", digits(e.u.0)),
+        ("U_MIN", digits(e.u.1)),
+        ("V_MAX", digits(e.v.0)),
+        ("V_MIN", digits(e.v.1)),
+        ("RECORD_NOTE", model.record_note()),
+    ];
+    let mut text = template.to_string();
+    for (name, value) in values {
+        text = text.replace(&format!("@{name}@"), &value);
+    }
+    // last and once: it is most of the text
+    text.replacen("@RECORD@", rows, 1)
+}
