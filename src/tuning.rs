@@ -8,6 +8,8 @@ pub mod descent;
 
 pub mod excess;
 
+pub mod front;
+
 pub mod impact;
 
 pub mod impulse;

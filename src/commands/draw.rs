@@ -13,7 +13,11 @@ use crate::{
         target::{Band, Kind},
     },
     spring::Design,
-    tuning::{inner::Fit, job::Job},
+    tuning::{
+        front::{self, Point},
+        inner::Fit,
+        job::Job,
+    },
 };
 
 /// A target band as the figure shows it: caps and flat bands; a cap of 1 or less asks for as little as possible.
@@ -29,7 +33,7 @@ fn wanted(band: &Band, low: f64, high: f64) -> Option<figures::arr::Band> {
 }
 
 /// All figures, side by side.
-pub fn draw(dir: &Path, case: &Case, job: &Job, both: &Both) -> Result<(), CommandError> {
+pub fn draw(dir: &Path, case: &Case, job: &Job, both: &Both, front: &[Point]) -> Result<(), CommandError> {
     let (housner, fem) = (&both.housner, &both.fem);
     let (dt, tuned) = (job.record.dt, &job.arr);
     let n = housner.len().min(fem.motion.len());
@@ -143,13 +147,38 @@ pub fn draw(dir: &Path, case: &Case, job: &Job, both: &Both) -> Result<(), Comma
             path,
         )
     };
+    let front = |path: &Path| {
+        let series = |pick: fn(&Point) -> Option<front::Errors>| {
+            let (mut hz, mut u, mut v) = (Vec::new(), Vec::new(), Vec::new());
+            for (point, e) in front.iter().filter_map(|p| pick(p).map(|e| (p, e))) {
+                if e.nrmse_u.is_finite() && e.nrmse_v.is_finite() {
+                    hz.push(point.max_hz);
+                    u.push(e.nrmse_u);
+                    v.push(e.nrmse_v);
+                }
+            }
+            (hz, u, v)
+        };
+        let (impact, arr) = (series(|p| p.impact), series(|p| p.arr));
+        let all: Vec<_> = [("impact objective", &impact), ("the paper's procedure", &arr)]
+            .into_iter()
+            .filter(|(_, s)| !s.0.is_empty())
+            .map(|(label, s)| figures::front::Series { label, max_hz: &s.0, nrmse_u: &s.1, nrmse_v: &s.2 })
+            .collect();
+        if all.is_empty() {
+            return Ok(());
+        }
+        let front = figures::front::Front { title: &title("Error against stiffness"), series: &all, goals: &[] };
+        figures::front::render(&front, path)
+    };
     type Draw<'a> = (&'a str, &'a (dyn Fn(&Path) -> Result<(), FigureError> + Sync));
-    let all: [Draw; 5] = [
+    let all: [Draw; 6] = [
         ("history.png", &history),
         ("response.png", &arr),
         ("candidates.png", &candidates),
         ("contact.png", &contact),
         ("energy.png", &energy),
+        ("front.png", &front),
     ];
     all.par_iter().map(|(name, draw)| draw(&dir.join(name))).collect::<Result<(), FigureError>>()?;
     Ok(())

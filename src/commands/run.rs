@@ -14,7 +14,7 @@ use super::{
 use crate::{
     case::Case,
     parameters::{Parameters, RecordRow},
-    tuning::job::Job,
+    tuning::{front, job::Job},
 };
 
 /// Options of `tune run`.
@@ -36,6 +36,9 @@ pub struct Options {
     /// No figures
     #[arg(long)]
     no_figures: bool,
+    /// No front of error against stiffness
+    #[arg(long)]
+    no_front: bool,
     /// No progress
     #[arg(long)]
     quiet: bool,
@@ -64,6 +67,14 @@ pub fn run(o: &Options) -> Result<(), CommandError> {
     let job = Job::new(&case, &|done, all, error| progress.tell(done, all, &format!("error {error:.4}")));
     progress.done();
     let job = job?;
+    let front = if o.no_front {
+        Vec::new()
+    } else {
+        let progress = Progress::new("front", o.quiet);
+        let points = front::front(&case, &job, &|done, all| progress.tell(done, all, ""))?;
+        progress.done();
+        points
+    };
 
     let mut parameters = Parameters::new(case.structure, &job.springs);
     let both = both(&job.body, case.restitution, &parameters.chains(), &job.record);
@@ -74,12 +85,12 @@ pub fn run(o: &Options) -> Result<(), CommandError> {
     let write = |e| CommandError::Write { path: o.out.display().to_string(), source: e };
     std::fs::create_dir_all(&o.out).map_err(write)?;
     write_file(&o.out.join("parameters.json"), parameters.to_json().as_bytes())?;
-    write_file(&o.out.join("parameters.md"), table::markdown(&parameters).as_bytes())?;
+    write_file(&o.out.join("parameters.md"), (table::markdown(&parameters) + &table::front(&front)).as_bytes())?;
     write_file(&o.out.join("history.csv"), history_csv(dt, &both.housner, &both.fem.motion).as_bytes())?;
     if !o.no_figures {
-        draw(&o.out, &case, &job, &both)?;
+        draw(&o.out, &case, &job, &both, &front)?;
     }
-    write!(std::io::stdout(), "{}", table::terminal(&parameters))?;
+    write!(std::io::stdout(), "{}{}", table::terminal(&parameters), table::front_terminal(&front))?;
     eprintln!("written to {}", o.out.display());
     Ok(())
 }

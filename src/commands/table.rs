@@ -2,7 +2,10 @@
 
 use comfy_table::{Table, presets};
 
-use crate::parameters::Parameters;
+use crate::{
+    parameters::Parameters,
+    tuning::front::{Errors, Point},
+};
 
 /// Rows of Table 1: name, vertical, horizontal.
 fn rows(p: &Parameters) -> Vec<[String; 3]> {
@@ -88,4 +91,43 @@ pub fn terminal(p: &Parameters) -> String {
         out.push_str(&format!("\n{}\n", table([&head, "Housner", "finite elements"], match_rows(p))));
     }
     out
+}
+
+const FRONT: [&str; 5] = ["springs up to", "impact: NRMSE u", "v", "paper's procedure: NRMSE u", "v"];
+
+fn front_rows(front: &[Point]) -> Vec<[String; 5]> {
+    let pair = |e: Option<Errors>| match e {
+        Some(e) => [format!("{:.4}", e.nrmse_u), format!("{:.4}", e.nrmse_v)],
+        None => ["-".to_string(), "-".to_string()],
+    };
+    front
+        .iter()
+        .map(|p| {
+            let ([iu, iv], [au, av]) = (pair(p.impact), pair(p.arr));
+            [format!("{} Hz", p.max_hz), iu, iv, au, av]
+        })
+        .collect()
+}
+
+/// The front, for `parameters.md`.
+pub fn front(front: &[Point]) -> String {
+    if front.is_empty() {
+        return String::new();
+    }
+    let mut out = format!("\nError against stiffness:\n\n| {} |\n|---|---|---|---|---|\n", FRONT.join(" | "));
+    for row in front_rows(front) {
+        out.push_str(&format!("| {} |\n", row.join(" | ")));
+    }
+    out
+}
+
+/// The front, for a terminal.
+pub fn front_terminal(front: &[Point]) -> String {
+    if front.is_empty() {
+        return String::new();
+    }
+    let mut table = Table::new();
+    table.load_style(presets::ASCII_MARKDOWN).set_header(FRONT);
+    table.add_rows(front_rows(front));
+    format!("\n{table}\n")
 }

@@ -17,7 +17,7 @@ use crate::{
 };
 
 /// Mass ratios of the families that the impact objective starts from.
-const FAMILIES: [f64; 3] = [0.1, 0.3, 1.0];
+pub(super) const FAMILIES: [f64; 3] = [0.1, 0.3, 1.0];
 /// Steps of the impact objective's descent.
 const STEPS: u64 = 15;
 
@@ -82,7 +82,7 @@ impl Job {
             Objective::Arr => None,
             Objective::Impact => {
                 let objective = impulse::Objective::new(&body, case.restitution, bracket);
-                Some(impulse::tune(&objective, &families(&FAMILIES)?, STEPS).ok_or(JobError::NoCandidate)?)
+                Some(impulse::tune(&objective, &families(&FAMILIES)?, None, STEPS).ok_or(JobError::NoCandidate)?)
             }
         };
         let springs = impact.map_or(arr.best.springs, |found| found.springs);

@@ -72,11 +72,9 @@ pub struct Tuned {
 }
 
 impl Benchmark<'_> {
-    /// Mean NRMSE of u and v, sqrt(J/2), abandoned as soon as it exceeds `limit`.
-    pub fn error(&self, springs: &Springs<Design<f64>>, limit: f64, control: Control) -> (f64, bool) {
-        let square = |x: &[f64]| x.iter().map(|x| x * x).sum::<f64>().max(f64::MIN_POSITIVE);
-        let (su, sv) = (square(&self.housner.u), square(&self.housner.v));
-        let case = Case {
+    /// The finite element case of these springs.
+    pub fn case(&self, springs: &Springs<Design<f64>>, control: Control) -> Case<'_, f64> {
+        Case {
             body: self.body,
             springs: springs.chains(self.body.mass),
             start: Start::Settled,
@@ -84,7 +82,14 @@ impl Benchmark<'_> {
             accel: self.accel,
             scale: 1.0,
             control,
-        };
+        }
+    }
+
+    /// Mean NRMSE of u and v, sqrt(J/2), abandoned as soon as it exceeds `limit`.
+    pub fn error(&self, springs: &Springs<Design<f64>>, limit: f64, control: Control) -> (f64, bool) {
+        let square = |x: &[f64]| x.iter().map(|x| x * x).sum::<f64>().max(f64::MIN_POSITIVE);
+        let (su, sv) = (square(&self.housner.u), square(&self.housner.v));
+        let case = self.case(springs, control);
         let (mut sum, mut settled) = (0.0, 0.0);
         let finish: Finish<f64> = case.observe(&mut |i: usize, view: &View<f64>| {
             if i == 0 {
