@@ -19,6 +19,7 @@
 //! the kinks, not a tolerance, decide the accuracy. One Taylor step spans an interval (`series`), impacts are roots of the step's polynomial
 //! (`root`), and all of it is generic in the scalar, so derivatives pass through the events (`walk`).
 
+mod lanes;
 mod rest;
 mod root;
 mod series;
@@ -121,8 +122,38 @@ pub struct Rocking<S> {
 /// assert!(!rocking.impacts.is_empty());
 /// ```
 pub fn solve<S: Scalar>(body: &Body<S>, dt: f64, accel: &[f64], options: &Options<S>) -> Rocking<S> {
+    let (theta, rate) = start(options);
+    walk::walk(setting(body, dt, accel, options), theta, rate)
+}
+
+/// Rock many bodies on one record, or one body on many scales of it, eight at a time in lock-step; each result is, bit for bit, that of
+/// [`solve`]. The longer of the two lists decides how many there are; the shorter one is repeated from its start.
+pub fn solve_lanes(bodies: &[Body<f64>], dt: f64, accel: &[f64], options: &[Options<f64>]) -> Vec<Rocking<f64>> {
+    if bodies.is_empty() || options.is_empty() {
+        return Vec::new();
+    }
+    let cases: Vec<_> = (0..bodies.len().max(options.len()))
+        .map(|i| (&bodies[i % bodies.len()], &options[i % options.len()]))
+        .collect();
+    cases
+        .chunks(lanes::WIDTH)
+        .flat_map(|chunk| {
+            let walks = chunk.iter().map(|(body, options)| {
+                let (theta, rate) = start(options);
+                walk::Walk::new(setting(body, dt, accel, options), theta, rate)
+            });
+            lanes::walk(walks.collect())
+        })
+        .collect()
+}
+
+fn start<S: Scalar>(options: &Options<S>) -> (S, S) {
+    options.initial.unwrap_or((real(0.0), real(0.0)))
+}
+
+fn setting<'a, S: Scalar>(body: &Body<S>, dt: f64, accel: &'a [f64], options: &Options<S>) -> walk::Setting<'a, S> {
     let radius = body.radius();
-    let setting = walk::Setting {
+    walk::Setting {
         dt,
         accel: &accel[..samples(dt, accel.len(), options.duration)],
         unit: options.scale / GRAVITY,
@@ -133,9 +164,7 @@ pub fn solve<S: Scalar>(body: &Body<S>, dt: f64, accel: &[f64], options: &Option
         p2: body.p_squared(),
         e: options.restitution.unwrap_or_else(|| body.restitution()),
         max_work: options.max_work,
-    };
-    let (theta, rate) = options.initial.unwrap_or((real(0.0), real(0.0)));
-    walk::walk(&setting, theta, rate)
+    }
 }
 
 /// Number of samples up to a duration, the one at its end included.

@@ -8,7 +8,7 @@ use std::f64::consts::FRAC_PI_2;
 
 use super::rest;
 use super::root::{crossing, first_root, impact_time};
-use super::series::{LONG, SHORT, SMALL, Series, Start, turned};
+use super::series::{LONG, SHORT, SMALL, Series, Start, change, coefficients, end_slope, is_plain, turned};
 use super::{Impact, Outcome, Rocking, Uplift};
 use crate::scalar::{Scalar, real};
 
@@ -37,87 +37,139 @@ pub struct Setting<'a, S> {
 }
 
 /// Where the body is.
-struct State<S> {
-    at: Start<S>,
+pub struct State<S> {
+    pub at: Start<S>,
     /// s = sgn(theta).
-    side: f64,
-    rocking: bool,
+    pub side: f64,
+    pub rocking: bool,
     /// Steps since sine and cosine were computed.
-    age: u32,
+    pub age: u32,
+    /// It did not start at rest.
+    started: bool,
     /// When |theta| last grew past alpha (s).
     passed: f64,
     /// Steps and impacts in intervals with events.
     work: usize,
 }
 
+/// A walk under way: where the body is, and the history until now.
+pub struct Walk<'a, S> {
+    pub set: Setting<'a, S>,
+    pub state: State<S>,
+    pub out: Rocking<S>,
+    /// p^2 dt^2.
+    pub q: S,
+    /// The motion needs long series.
+    pub fast: bool,
+    /// A sample beyond this must be looked at; between two samples below it a resting body stays down.
+    pub quiet: f64,
+}
+
 /// Walk from the given lean and rate at t = 0 to the last sample.
-pub fn walk<S: Scalar>(set: &Setting<S>, theta: S, rate: S) -> Rocking<S> {
+pub fn walk<S: Scalar>(set: Setting<S>, theta: S, rate: S) -> Rocking<S> {
     let n = set.accel.len();
-    let mut out = Rocking {
-        theta: Vec::with_capacity(n),
-        rate: Vec::with_capacity(n),
-        impacts: Vec::with_capacity(32),
-        uplifts: Vec::new(),
-        outcome: Outcome::Rocked,
-    };
-    let Some(&first) = set.accel.first() else {
-        out.outcome = Outcome::NeverMoved;
-        return out;
-    };
-    let mut state = set.begin(theta, rate);
-    let q = set.p2 * (set.dt * set.dt);
-    let h = real::<S>(set.dt);
-    let fast = q.re() > FAST;
-    // a sample beyond this must be looked at; between two samples below it a resting body stays down
-    let quiet = (set.lift / set.unit).re().abs();
-    let mut a0 = set.unit * first;
+    let mut walk = Walk::new(set, theta, rate);
     let mut i = 0;
-    loop {
-        if !(state.at.w.re() < FRAC_PI_2 && state.at.rate.re().is_finite()) {
-            let time = i as f64 * set.dt;
-            let flat = state.at.w.re() >= FRAC_PI_2;
-            out.outcome = if flat { Outcome::Overturned { time: state.passed } } else { Outcome::NotFinite { time } };
-            return out;
+    let mut a0 = walk.ground(0);
+    while walk.arrive(i) {
+        if !walk.state.rocking {
+            i = walk.lie(i);
+            a0 = walk.ground(i);
         }
-        out.theta.push(state.at.w * state.side);
-        out.rate.push(state.at.rate * state.side);
-        if i + 1 == n {
+        if i + 1 >= n {
             break;
         }
-        if !state.rocking {
-            let still = set.accel[i + 1..].iter().take_while(|a| a.abs() <= quiet).count();
-            if still > 0 && (set.accel[i].abs() <= quiet || set.is_grazing(i)) {
-                i += still;
-                out.theta.resize(i + 1, S::zero());
-                out.rate.resize(i + 1, S::zero());
-                if i + 1 == n {
-                    break;
-                }
-            }
-            a0 = set.unit * set.accel[i];
-        }
-        let a1 = set.unit * set.accel[i + 1];
-        let da = a1 - a0;
-        let done = if fast {
-            (state.rocking && set.step::<LONG>(&mut state, h, q, a0, da))
-                || set.interval::<LONG>(&mut state, i, a0, a1, &mut out)
-        } else {
-            (state.rocking && set.step::<SHORT>(&mut state, h, q, a0, da))
-                || set.interval::<SHORT>(&mut state, i, a0, a1, &mut out)
-        };
-        if !done {
-            out.outcome = Outcome::WorkBound { time: i as f64 * set.dt };
-            return out;
+        let a1 = walk.ground(i + 1);
+        if !walk.advance(i, a0, a1) {
+            break;
         }
         a0 = a1;
         i += 1;
     }
-    if state.rocking && falls(&state.at, set.alpha.re(), set.p2.re()) {
-        out.outcome = Outcome::Overturned { time: state.passed };
-    } else if out.uplifts.is_empty() && theta.re() == 0.0 && rate.re() == 0.0 {
-        out.outcome = Outcome::NeverMoved;
+    walk.end()
+}
+
+impl<'a, S: Scalar> Walk<'a, S> {
+    pub fn new(set: Setting<'a, S>, theta: S, rate: S) -> Self {
+        let n = set.accel.len();
+        let out = Rocking {
+            theta: Vec::with_capacity(n),
+            rate: Vec::with_capacity(n),
+            impacts: Vec::with_capacity(32),
+            uplifts: Vec::new(),
+            outcome: Outcome::NeverMoved,
+        };
+        let q = set.p2 * (set.dt * set.dt);
+        let quiet = (set.lift / set.unit).re().abs();
+        let state = set.begin(theta, rate);
+        Self { set, state, out, q, fast: q.re() > FAST, quiet }
     }
-    out
+
+    /// u_g/g at sample i; zero beyond the record.
+    pub fn ground(&self, i: usize) -> S {
+        self.set.unit * self.set.accel.get(i).copied().unwrap_or(0.0)
+    }
+
+    /// Note the lean at sample i; false if the history ends before it.
+    #[inline(always)]
+    pub fn arrive(&mut self, i: usize) -> bool {
+        let at = &self.state.at;
+        if i >= self.set.accel.len() {
+            return false;
+        }
+        if !(at.w.re() < FRAC_PI_2 && at.rate.re().is_finite()) {
+            let time = i as f64 * self.set.dt;
+            let flat = at.w.re() >= FRAC_PI_2;
+            self.out.outcome =
+                if flat { Outcome::Overturned { time: self.state.passed } } else { Outcome::NotFinite { time } };
+            return false;
+        }
+        // not -0.0 at rest
+        self.out.theta.push(if self.state.rocking { at.w * self.state.side } else { S::zero() });
+        self.out.rate.push(if self.state.rocking { at.rate * self.state.side } else { S::zero() });
+        true
+    }
+
+    /// Lie still at sample i for as long as the record is quiet; the last such sample.
+    fn lie(&mut self, i: usize) -> usize {
+        let accel = self.set.accel;
+        if i + 1 == accel.len() || !(accel[i].abs() <= self.quiet || self.set.is_grazing(i)) {
+            return i;
+        }
+        let still = accel[i + 1..].iter().take_while(|a| a.abs() <= self.quiet).count();
+        self.out.theta.resize(i + still + 1, S::zero());
+        self.out.rate.resize(i + still + 1, S::zero());
+        i + still
+    }
+
+    /// Interval i; false, with the outcome set, if the work bound is reached.
+    #[inline(always)]
+    pub fn advance(&mut self, i: usize, a0: S, a1: S) -> bool {
+        let Self { set, state, out, q, fast, .. } = self;
+        let (h, da) = (real(set.dt), a1 - a0);
+        let done = if *fast {
+            (state.rocking && set.step::<LONG>(state, h, *q, a0, da)) || set.interval::<LONG>(state, i, a0, a1, out)
+        } else {
+            (state.rocking && set.step::<SHORT>(state, h, *q, a0, da)) || set.interval::<SHORT>(state, i, a0, a1, out)
+        };
+        if !done {
+            out.outcome = Outcome::WorkBound { time: i as f64 * set.dt };
+        }
+        done
+    }
+
+    /// The history, its outcome told from its end unless something cut it.
+    pub fn end(mut self) -> Rocking<S> {
+        let Self { set, state, out, .. } = &mut self;
+        if out.outcome == Outcome::NeverMoved {
+            if state.rocking && falls(&state.at, set.alpha.re(), set.p2.re()) {
+                out.outcome = Outcome::Overturned { time: state.passed };
+            } else if state.started || !out.uplifts.is_empty() {
+                out.outcome = Outcome::Rocked;
+            }
+        }
+        self.out
+    }
 }
 
 /// Whether a body beyond alpha goes on falling when the ground stops: w'^2/2 against p^2 (1 - cos(w - alpha)).
@@ -137,6 +189,7 @@ impl<S: Scalar> Setting<'_, S> {
             side,
             rocking: theta.re() != 0.0 || rate.re() != 0.0,
             age: 0,
+            started: theta.re() != 0.0 || rate.re() != 0.0,
             passed: 0.0,
             work: 0,
         }
@@ -146,17 +199,14 @@ impl<S: Scalar> Setting<'_, S> {
     #[inline(always)]
     fn step<const N: usize>(&self, state: &mut State<S>, h: S, q: S, a0: S, da: S) -> bool {
         let at = &state.at;
-        let series = Series::<S, N>::new(at, h, a0 * state.side, da * state.side, q);
-        let change = series.change();
+        let (b0, db) = (a0 * state.side, da * state.side);
+        let c = coefficients::<S, N>(at, h, b0, db, q);
+        let change = change(&c);
         let w = at.w + change;
-        let alpha = self.alpha.re();
-        let plain = series.is_converged()
-            && at.w.re().min(w.re()) > series.sag()
-            && w.re() < FRAC_PI_2
-            && (w.re() < alpha || at.w.re() >= alpha);
+        let plain = is_plain(&c.map(|c| c.re()), b0.re(), db.re(), q.re(), w.re(), self.alpha.re());
         if plain {
             state.at.w = w;
-            state.at.rate = series.end_slope() * (1.0 / self.dt);
+            state.at.rate = end_slope(&c) * (1.0 / self.dt);
             self.turn(state, change);
         }
         plain
@@ -165,10 +215,16 @@ impl<S: Scalar> Setting<'_, S> {
     /// Sine and cosine of alpha - w after w has changed.
     #[inline(always)]
     fn turn(&self, state: &mut State<S>, change: S) {
+        self.turn_to(state, change, turned(state.at.sin, state.at.cos, change));
+    }
+
+    /// The same, given the turned sine and cosine.
+    #[inline(always)]
+    pub fn turn_to(&self, state: &mut State<S>, change: S, turned: (S, S)) {
         let at = &mut state.at;
         state.age += 1;
         if state.age < REFRESH && change.re().abs() < SMALL {
-            (at.sin, at.cos) = turned(at.sin, at.cos, change);
+            (at.sin, at.cos) = turned;
         } else {
             (at.sin, at.cos) = (self.alpha - at.w).sin_cos();
             state.age = 0;

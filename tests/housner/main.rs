@@ -4,6 +4,7 @@ mod derivatives;
 mod edges;
 mod el_centro;
 mod free_rocking;
+mod lanes;
 mod reference;
 mod symmetry;
 
