@@ -221,3 +221,6 @@ fn read_history(path: &Path, samples: usize) -> Result<Motion, VerifyError> {
     }
     Ok(motion)
 }
+
+#[cfg(test)]
+mod tests;

@@ -38,6 +38,8 @@ $     the foot's travel times k1; use it for small rocking only.
 $  2. GeoNonLin of both cases must read 'P-Delta plus Large Displacements': check under Define > Load Cases.
 $  3. The integrator is Hilber-Hughes-Taylor with alpha = -1/3, the most damped SAP2000 offers; halve the step once and compare.
 $  4. The mass source must count added masses only.
+$  5. The words for the isolator (LinkType), large displacements (GeoNonLin) and ground acceleration (LoadType) differ between
+$     versions: if the import log names one, set it in the dialog of links 1 and 2 or of the load cases.
 ";
 
 /// The whole file.
