@@ -1,4 +1,4 @@
-//! The exported decks in OpenSees itself, 20 s of El Centro, against our own histories. Runs with OPENSEES=1 and
+//! The exported decks in OpenSees itself, on El Centro, against our own histories. Runs with OPENSEES=1 and
 //! `pip install openseespy` (Debian: libblas3 liblapack3); the Tcl deck with OPENSEES_TCL naming an interpreter's
 //! command, for example "python3 -m opensees" (`pip install opensees`) or "OpenSees".
 
@@ -34,42 +34,44 @@ fn plastic(hz: f64) -> Springs<Design<f64>> {
     Springs { vertical: chain, horizontal: chain }
 }
 
-fn agrees(structure: Structure, springs: Springs<Design<f64>>) {
+fn agrees(structure: Structure, springs: Springs<Design<f64>>, duration: f64) {
     if wanted("OPENSEES").is_none() {
         return;
     }
     let parameters = Parameters::new(structure, &springs);
-    let result = verify(&parameters, &Record::el_centro(), None, 20.0, None).unwrap();
+    let result = verify(&parameters, &Record::el_centro(), None, duration, None).unwrap();
     let a = result.opensees_against_ours;
     println!("{} steps a sample, {:.1} s: {a:?}", result.steps_per_sample, result.seconds);
-    assert_eq!(result.opensees.len(), 2001);
+    assert_eq!(result.opensees.len(), (duration * 100.0).round() as usize + 1);
     assert!(a.u <= AGREEMENT && a.v <= AGREEMENT && a.theta <= AGREEMENT, "{a:?}");
     assert!(result.within_one_percent, "{}", result.report);
 }
 
 #[test]
 fn the_paper_frame_on_table_1_springs_agrees() {
-    agrees(Structure::paper(), table_1());
+    agrees(Structure::paper(), table_1(), 20.0);
 }
 
 #[test]
 fn the_paper_frame_on_springs_of_40_hz_agrees() {
-    agrees(Structure::paper(), plastic(40.0));
+    agrees(Structure::paper(), plastic(40.0), 20.0);
 }
 
 #[test]
 fn the_paper_frame_on_springs_of_160_hz_agrees() {
-    agrees(Structure::paper(), plastic(160.0));
+    agrees(Structure::paper(), plastic(160.0), 20.0);
 }
 
+/// 15 s: then the frame's motion becomes unpredictable. A change of its width by 1e-5 moves our own history (NRMSE over the
+/// whole) by 4e-5 in 10 s, 2e-4 in 15 s, 7e-3 in 20 s, and OpenSees' difference grows in the same proportion.
 #[test]
 fn a_frame_of_5_by_1_5_m_agrees() {
-    agrees(Structure::a_frame(5.0, 1.5, 1000.0).unwrap(), table_1());
+    agrees(Structure::a_frame(5.0, 1.5, 1000.0).unwrap(), table_1(), 15.0);
 }
 
 #[test]
 fn a_block_of_2_by_0_5_m_agrees() {
-    agrees(Structure::block(2.0, 0.5, 500.0).unwrap(), plastic(40.0));
+    agrees(Structure::block(2.0, 0.5, 500.0).unwrap(), plastic(40.0), 20.0);
 }
 
 #[test]
