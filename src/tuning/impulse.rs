@@ -28,7 +28,7 @@ const MU: (f64, f64) = (0.005, 40.0);
 /// Least Omega_n tried, as a share of the largest.
 const SOFTEST: f64 = 0.1;
 /// Starts that are followed to the end.
-const FOLLOWED: usize = 2;
+const FOLLOWED: usize = 4;
 
 /// The springs found, and their error by the impact objective.
 #[derive(Clone, Copy, Debug)]
@@ -123,10 +123,14 @@ pub fn tune(objective: &Objective, families: &[Fit], near: Option<Found>, iterat
             starts.push(Springs { vertical: design(vertical), horizontal: design(horizontal) });
         }
     }
-    // chains that stop a landing at once: an absorber of half the mass on a soft spring
-    let plastic = Design::from_kc(0.5, 0.2, 0.92, hz);
-    starts.push(Springs { vertical: plastic, horizontal: plastic });
-    starts.push(Springs { vertical: plastic, horizontal: Design::from_kc(0.05, 20.0, 1.0, hz) });
+    // chains that stop a landing at once: an absorber of about half the mass on a soft spring (stiffer with a heavier
+    // one); beside them the same chain horizontally, one matched to a block's transverse mass, or a stiff one
+    for (k, c, mu) in [(0.1, 0.85, 0.6), (0.2, 0.92, 0.5), (0.33, 0.95, 1.2)] {
+        let vertical = Design::from_kc(mu, k, c, hz);
+        for horizontal in [vertical, Design::from_kc(mu / 4.0, k, c / 2.0, hz), Design::from_kc(0.05, 20.0, 1.0, hz)] {
+            starts.push(Springs { vertical, horizontal });
+        }
+    }
     if let Some(Found { springs: Springs { mut vertical, mut horizontal }, .. }) = near {
         let factor = hz / vertical.omega_n_hz.max(horizontal.omega_n_hz);
         vertical.omega_n_hz *= factor;
