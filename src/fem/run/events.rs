@@ -151,7 +151,9 @@ impl<S: Scalar> Run<'_, S> {
             Contact::Open => {
                 let at_once = time.re() - self.opened[foot] < AT_ONCE * self.settling;
                 let held = self.model.compression(foot, &self.state.q).re() >= HOLDING * self.compression;
-                let contact = if at_once && !held { Contact::Slide } else { Contact::Stick };
+                // a body on sliding feet alone has nothing to lean on
+                let leans = self.feet[1 - foot].holds();
+                let contact = if at_once && !held && leans { Contact::Slide } else { Contact::Stick };
                 Foot { contact, anchor }
             }
             Contact::Slide if level > 0.0 => Foot { contact: Contact::Stick, anchor },
@@ -160,6 +162,10 @@ impl<S: Scalar> Run<'_, S> {
                 Foot { contact: Contact::Open, anchor }
             }
         };
+        let other = 1 - foot;
+        if self.feet[other].contact == Contact::Slide && !self.feet[foot].holds() {
+            self.feet[other] = Foot { contact: Contact::Stick, anchor: self.model.anchor_here(other, &self.state.q) };
+        }
         self.model.turn_to_balance(&mut self.state, &self.feet);
         self.energy.stored = self.model.energy(&self.state, &self.feet);
         self.energy.released += before - self.energy.stored;
