@@ -1,0 +1,105 @@
+//! The weight, the ground motion, and the load cases that apply them.
+
+use super::{KILO, Table};
+use crate::{
+    export::model::{Model, digits},
+    scalar::GRAVITY,
+};
+
+pub(super) fn loads(model: &Model) -> Vec<Table> {
+    let weight = digits(-model.body().mass * GRAVITY * KILO);
+    vec![
+        Table::new("LOAD PATTERN DEFINITIONS").row(&[
+            ("LoadPat", &"WEIGHT"),
+            ("DesignType", &"DEAD"),
+            ("SelfWtMult", &0),
+        ]),
+        Table::new("JOINT LOADS - FORCE").row(&[
+            ("Joint", &3),
+            ("LoadPat", &"WEIGHT"),
+            ("CoordSys", &"GLOBAL"),
+            ("F1", &0),
+            ("F2", &0),
+            ("F3", &weight),
+            ("M1", &0),
+            ("M2", &0),
+            ("M3", &0),
+        ]),
+    ]
+}
+
+pub(super) fn cases(model: &Model) -> Vec<Table> {
+    let step = model.record.dt / model.steps_per_sample as f64;
+    let out_steps = (model.expected.samples - 1) * model.steps_per_sample;
+    vec![
+        Table::new("LOAD CASE DEFINITIONS")
+            .row(&[("Case", &"GRAVITY"), ("Type", &"NonStatic"), ("InitialCond", &"Zero"), ("RunCase", &"Yes")])
+            .row(&[("Case", &"QUAKE"), ("Type", &"NonDirHist"), ("InitialCond", &"GRAVITY"), ("RunCase", &"Yes")]),
+        Table::new("CASE - STATIC 1 - LOAD ASSIGNMENTS").row(&[
+            ("Case", &"GRAVITY"),
+            ("LoadType", &"Load pattern"),
+            ("LoadName", &"WEIGHT"),
+            ("LoadSF", &1),
+        ]),
+        Table::new("CASE - STATIC 2 - NONLINEAR LOAD APPLICATION").row(&[
+            ("Case", &"GRAVITY"),
+            ("LoadApp", &"Full Load"),
+            ("MonitorDOF", &"U3"),
+            ("MonitorJt", &3),
+        ]),
+        Table::new("CASE - STATIC 4 - NONLINEAR PARAMETERS").row(&[
+            ("Case", &"GRAVITY"),
+            ("GeoNonLin", &"Large Displ"),
+            ("ResultsSave", &"Final State"),
+        ]),
+        Table::new("CASE - DIRECT HISTORY 1 - GENERAL").row(&[
+            ("Case", &"QUAKE"),
+            ("OutSteps", &out_steps),
+            ("StepSize", &digits(step)),
+        ]),
+        Table::new("CASE - DIRECT HISTORY 2 - LOAD ASSIGNMENTS").row(&[
+            ("Case", &"QUAKE"),
+            ("LoadType", &"Accel"),
+            ("LoadName", &"U1"),
+            ("Function", &"GROUND_MOTION"),
+            ("TransAccSF", &1),
+            ("TimeFactor", &1),
+            ("ArrivalTime", &0),
+            ("CoordSys", &"GLOBAL"),
+            ("Angle", &0),
+        ]),
+        // the dashpots are the only damping
+        Table::new("CASE - DIRECT HISTORY 3 - PROPORTIONAL DAMPING").row(&[
+            ("Case", &"QUAKE"),
+            ("SpecifyType", &"Direct"),
+            ("MassCoeff", &0),
+            ("StiffCoeff", &0),
+        ]),
+        Table::new("CASE - DIRECT HISTORY 4 - INTEGRATION PARAMETERS").row(&[
+            ("Case", &"QUAKE"),
+            ("IntMethod", &"HilberHughesTaylor"),
+            ("Gamma", &digits(5.0 / 6.0)),
+            ("Beta", &digits(4.0 / 9.0)),
+            ("Alpha", &digits(-1.0 / 3.0)),
+        ]),
+        Table::new("CASE - DIRECT HISTORY 5 - NONLINEAR PARAMETERS").row(&[
+            ("Case", &"QUAKE"),
+            ("GeoNonLin", &"Large Displ"),
+            ("DTMax", &0),
+            ("DTMin", &0),
+            ("MaxIterCS", &10),
+            ("MaxIterNR", &40),
+            ("ItConvTol", &"0.0001"),
+            ("UseEvStep", &"No"),
+        ]),
+    ]
+}
+
+pub(super) fn record(model: &Model) -> Vec<Table> {
+    let mut table = Table::new("FUNCTION - TIME HISTORY - USER");
+    for (i, &a) in model.record.accel.iter().enumerate() {
+        let time = i as f64 * model.record.dt;
+        table = table.row(&[("Name", &"GROUND_MOTION"), ("Time", &digits(time)), ("Value", &digits(a))]);
+    }
+    vec![table]
+}
