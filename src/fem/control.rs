@@ -3,7 +3,8 @@
 /// How accurately and how long to work.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Control {
-    /// Energy that one step may lose or gain, relative to the largest energy so far.
+    /// Energy that one step may lose or gain, relative to the largest energy so far. All steps together keep the
+    /// account's residual below 500 times this.
     pub tolerance: f64,
     /// Steps per history before it is given up.
     pub most_steps: usize,

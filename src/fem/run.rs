@@ -28,6 +28,8 @@ pub(crate) struct Run<'a, S> {
     /// sqrt(compression/g) = 1/Omega_n of the vertical chain [s], the scale of time in contact.
     settling: f64,
     guess: [Vector<S>; 3],
+    /// Factor by which an iteration of the next step is expected to reduce the error; 1 if unknown.
+    rate: f64,
     /// When each foot last opened [s].
     opened: [f64; 2],
     /// Step size that the energy account asked for [s].
@@ -55,6 +57,7 @@ impl<'a, S: Scalar> Run<'a, S> {
             compression,
             settling: (compression / GRAVITY).sqrt(),
             guess: no_guess(),
+            rate: 1.0,
             opened: [f64::NEG_INFINITY; 2],
             h: f64::INFINITY,
             work: Work::default(),
@@ -111,6 +114,7 @@ impl<'a, S: Scalar> Run<'a, S> {
             let here = Ground { start: ground.start + ground.slope * t, slope: ground.slope };
             let Some(stages) = self.attempt(h, &here) else {
                 self.work.rejected += 1;
+                self.rate = 1.0;
                 self.h = h.re() * 0.25;
                 if self.h < 1e-14 * dt {
                     return Err(t0 + t.re());
@@ -157,6 +161,7 @@ impl<'a, S: Scalar> Run<'a, S> {
             guess: &self.guess,
             tolerance: 1e-7 * self.compression,
             extra: self.control.extra_iterations,
+            rate: self.rate,
         };
         let stages = step(self.model, &self.state, &self.feet, &request)?;
         self.work.iterations += stages.iterations;

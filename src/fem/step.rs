@@ -30,6 +30,8 @@ pub(super) struct Stages<S> {
     /// Velocities.
     pub v: [Vector<S>; 3],
     pub iterations: usize,
+    /// Factor by which an iteration reduced the error, measured if there were two.
+    pub rate: f64,
 }
 
 impl<S: Scalar> Stages<S> {
@@ -68,6 +70,8 @@ pub(super) struct Request<'a, S> {
     pub tolerance: f64,
     /// Iterations to add after convergence, so that derivatives converge too.
     pub extra: usize,
+    /// The factor by which an iteration is expected to reduce the error, from the step before; 1 if unknown.
+    pub rate: f64,
 }
 
 /// Take the step; `None` when the iteration does not converge.
@@ -77,7 +81,7 @@ pub(super) fn step<S: Scalar>(
     feet: &[Foot<S>; 2],
     request: &Request<S>,
 ) -> Option<Stages<S>> {
-    let &Request { h, ground, guess, tolerance, extra } = request;
+    let &Request { h, ground, guess, tolerance, extra, .. } = request;
     // The matrix is taken half way, where its error over the step is least.
     let mut middle = *start;
     for k in 0..N {
@@ -92,7 +96,7 @@ pub(super) fn step<S: Scalar>(
     let grounds = C.map(|c| ground.start + ground.slope * h * c);
     let h2 = h * h;
     let base: [Vector<S>; 3] = C.map(|c| std::array::from_fn(|k| start.q[k] + h * start.v[k] * c));
-    let mut s = Stages { h, a: *guess, q: base, v: [start.v; 3], iterations: 0 };
+    let mut s = Stages { h, a: *guess, q: base, v: [start.v; 3], iterations: 0, rate: request.rate };
     let (mut last, mut left) = (f64::INFINITY, None);
     loop {
         for i in 0..3 {
@@ -138,8 +142,10 @@ pub(super) fn step<S: Scalar>(
             return None;
         }
         // geometric convergence: what is still missing is change * rate / (1 - rate)
-        let rate = (change / last).min(1.0);
-        let missing = if rate < 1.0 { change * rate / (1.0 - rate) } else { f64::INFINITY };
+        if last.is_finite() {
+            s.rate = (change / last).min(1.0);
+        }
+        let missing = if s.rate < 1.0 { change * s.rate / (1.0 - s.rate) } else { f64::INFINITY };
         last = change;
         left = match left {
             Some(n) => Some(n - 1),

@@ -21,6 +21,10 @@ const AT_ONCE: f64 = 0.1;
 /// weight, and that is what it is let do.
 const HOLDING: f64 = 1e-3;
 
+/// First step tried after an event, in units of 1/Omega_n: the transient that the event began decides the step, not the
+/// step that the event cut short.
+const RESTART: f64 = 0.1;
+
 /// What a candidate step met.
 pub(super) enum Met {
     Nothing,
@@ -170,6 +174,8 @@ impl<S: Scalar> Run<'_, S> {
         self.energy.stored = self.model.energy(&self.state, &self.feet);
         self.energy.released += before - self.energy.stored;
         self.guess = no_guess();
+        self.rate = 1.0;
+        self.h = self.h.min(RESTART * self.settling);
         self.work.events += 1;
         match (was, self.feet[foot].contact) {
             (Contact::Open, _) => observer.event(foot, Change::TouchDown, &self.view(time)),
