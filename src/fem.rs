@@ -6,7 +6,7 @@
 //! | `radau`, `newton`, `step` | one implicit step: tables, condensed matrix, iteration |
 //! | `run` | the time loop: samples; in `run/`, contact events and step acceptance |
 //! | `control`, `energy`, `observer` | what a run is told, accounts for and shows |
-//! | `history` | what a run leaves behind: motion, landings, forces, energies |
+//! | `history`, `landings` | what a run leaves behind: motion, forces, energies; impacts and bounces |
 //!
 //! **Why Radau IIA.** Springs of 300 Hz under a body that rocks at 0.3 Hz are stiff, and a body without rotational
 //! inertia makes the rotation algebraic (a differential-algebraic system of index 1): the method must be L-stable and
@@ -21,6 +21,7 @@
 mod control;
 mod energy;
 mod history;
+mod landings;
 mod model;
 mod newton;
 mod observer;
@@ -31,7 +32,8 @@ mod step;
 
 pub use control::{Control, Outcome, Work};
 pub use energy::Energy;
-pub use history::{Forces, History, Landing, Recorder};
+pub use history::{Account, Forces, History, Recorder};
+pub use landings::Landing;
 pub use observer::{Change, Observer, View};
 
 use crate::{

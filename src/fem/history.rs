@@ -5,32 +5,11 @@ use std::ops::ControlFlow;
 use super::{
     Finish,
     control::{Outcome, Work},
+    landings::{Event, Events, Landing, MOMENT},
     model::{TH, X, Z},
     observer::{Change, Observer, View},
 };
 use crate::motion::Motion;
-
-/// A foot that opens again this soon after its touch-down, the body not having reversed, bounced [s].
-const BOUNCE_WITHIN: f64 = 0.25;
-
-/// One touch-down of a foot and what came of it.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Landing {
-    /// Touch-down [s].
-    pub time: f64,
-    /// 0 left, 1 right.
-    pub foot: usize,
-    /// Kinetic energy of the body at touch-down [J].
-    pub kinetic: f64,
-    /// Energy taken by dashpots and let go by springs from this touch-down to the next landing (or the end) [J].
-    pub lost: f64,
-    /// Whether the foot opened again within 0.25 s while the body had not reversed.
-    pub bounced: bool,
-    /// Whether it is the first touch-down after rocking on the other foot (not the re-landing of a bounce).
-    pub impact: bool,
-    /// Time with both feet in the air since the impact this landing belongs to [s].
-    pub airborne: f64,
-}
 
 /// Contact forces of both feet (left, right) at every sample [N].
 #[derive(Clone, Debug, Default, PartialEq)]
@@ -83,17 +62,13 @@ impl History {
 #[derive(Clone, Debug)]
 pub struct Recorder {
     motion: Motion,
-    landings: Vec<Landing>,
+    events: Events,
     forces: Forces,
     account: Account,
     initial_z: f64,
     residual: f64,
-    /// Energy lost up to the last impact [J].
-    lost_before: f64,
-    /// Sign of the rotation rate at each foot's last touch-down.
-    heading: f64,
-    airborne_since: Option<f64>,
-    airborne: f64,
+    /// Time of the last sample [s].
+    end: f64,
 }
 
 impl Recorder {
@@ -102,40 +77,30 @@ impl Recorder {
         let room = || Vec::with_capacity(n);
         Self {
             motion: Motion::with_capacity(n),
-            landings: Vec::new(),
+            events: Events::default(),
             forces: Forces { vertical: [room(), room()], horizontal: [room(), room()] },
             account: Account { input: room(), stored: room(), dissipated: room(), residual: room() },
             initial_z: 0.0,
             residual: 0.0,
-            lost_before: 0.0,
-            heading: 0.0,
-            airborne_since: None,
-            airborne: 0.0,
+            end: 0.0,
         }
     }
 
     /// The history, once the run is over.
-    pub fn finish(mut self, finish: Finish<f64>) -> History {
+    pub fn finish(self, finish: Finish<f64>) -> History {
         let lost = finish.energy.dissipated + finish.energy.released;
-        self.close_landing(lost);
+        let (landings, airborne) = self.events.landings(self.end, lost);
         History {
             motion: self.motion,
-            landings: self.landings,
+            landings,
             forces: self.forces,
             account: self.account,
             outcome: finish.outcome,
             work: finish.work,
             energy_residual: self.residual / finish.energy_scale,
             initial_z: self.initial_z,
-            airborne: self.airborne,
+            airborne,
         }
-    }
-
-    fn close_landing(&mut self, lost: f64) {
-        if let Some(impact) = self.landings.iter_mut().rev().find(|l| l.impact) {
-            impact.lost = lost - self.lost_before;
-        }
-        self.lost_before = lost;
     }
 }
 
@@ -144,7 +109,10 @@ impl Observer<f64> for Recorder {
         let q = &view.state.q;
         if index == 0 {
             self.initial_z = q[Z];
+            self.events.pressing = [0, 1].map(|i| view.presses(i));
+            self.events.moment = MOMENT / view.model.body.p_squared().sqrt();
         }
+        self.end = view.time;
         self.motion.push(q[X], q[Z] - self.initial_z, q[TH]);
         for (i, f) in view.model.contact(q, view.feet).iter().enumerate() {
             self.forces.vertical[i].push(f.vertical);
@@ -160,45 +128,12 @@ impl Observer<f64> for Recorder {
     }
 
     fn event(&mut self, foot: usize, change: Change, view: &View<f64>) {
-        let time = view.time;
-        let rate = view.state.v[TH];
-        let lost = view.energy.dissipated + view.energy.released;
-        match change {
-            Change::LiftOff => {
-                if let Some(last) = self.landings.iter_mut().rev().find(|l| l.foot == foot)
-                    && time - last.time < BOUNCE_WITHIN
-                    && rate * self.heading > 0.0
-                {
-                    last.bounced = true;
-                }
-                if !view.feet[1 - foot].closed() {
-                    self.airborne_since = Some(time);
-                }
-            }
-            Change::TouchDown => {
-                if let Some(since) = self.airborne_since.take() {
-                    self.airborne += time - since;
-                    if let Some(impact) = self.landings.iter_mut().rev().find(|l| l.impact) {
-                        impact.airborne += time - since;
-                    }
-                }
-                let again = self.landings.iter().rev().find(|l| l.foot == foot).is_some_and(|l| l.bounced && time - l.time < BOUNCE_WITHIN)
-                    // the foot that was left behind, touching again in the same landing
-                    || self.landings.iter().rev().find(|l| l.impact).is_some_and(|l| l.foot != foot && time - l.time < BOUNCE_WITHIN && rate * self.heading > 0.0);
-                if !again {
-                    self.close_landing(lost);
-                    self.heading = rate;
-                }
-                self.landings.push(Landing {
-                    time,
-                    foot,
-                    kinetic: view.model.body_kinetic(view.state),
-                    lost: 0.0,
-                    bounced: false,
-                    impact: !again,
-                    airborne: 0.0,
-                });
-            }
-        }
+        self.events.events.push(Event {
+            time: view.time,
+            foot,
+            change,
+            kinetic: view.body_kinetic(),
+            lost: view.energy.dissipated + view.energy.released,
+        });
     }
 }

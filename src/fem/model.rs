@@ -192,7 +192,8 @@ impl<S: Scalar> Model<S> {
         let mut f = [S::zero(); N];
         f[X] = l.horizontal + r.horizontal - m * ground;
         f[Z] = l.vertical + r.vertical - m * GRAVITY;
-        f[TH] = l.horizontal * l.px_th + l.vertical * l.pz_th + r.horizontal * r.px_th + r.vertical * r.pz_th;
+        // each foot's part by itself, so that a mirrored case gives the mirrored history to the last bit
+        f[TH] = (l.horizontal * l.px_th + l.vertical * l.pz_th) + (r.horizontal * r.px_th + r.vertical * r.pz_th);
         for (i, foot) in contact.iter().enumerate() {
             f[ax(i)] = -(foot.horizontal + horizontal.m2 * ground + horizontal.k2 * q[ax(i)] + horizontal.c * v[ax(i)]);
             f[az(i)] = -(foot.vertical + vertical.k2 * q[az(i)] + vertical.c * v[az(i)]);
@@ -228,11 +229,12 @@ impl<S: Scalar> Model<S> {
             for (foot, f) in feet.iter().zip(&self.contact(&state.q, feet)) {
                 if foot.closed() {
                     moment += f.horizontal * f.px_th + f.vertical * f.pz_th;
-                    stiffness +=
+                    let mut share =
                         self.springs.vertical.k1 * f.pz_th * f.pz_th + f.vertical * f.px_th - f.horizontal * f.pz_th;
                     if foot.holds() {
-                        stiffness += self.springs.horizontal.k1 * f.px_th * f.px_th;
+                        share += self.springs.horizontal.k1 * f.px_th * f.px_th;
                     }
+                    stiffness += share;
                 }
             }
             state.q[TH] += moment / stiffness;
@@ -250,15 +252,17 @@ impl<S: Scalar> Model<S> {
     pub fn energy(&self, state: &State<S>, feet: &[Foot<S>; 2]) -> S {
         let Springs { vertical, horizontal } = &self.springs;
         let (q, v) = (&state.q, &state.v);
-        let mut twice = self.body_kinetic(state) * 2.0 + self.body.mass * q[Z] * (2.0 * GRAVITY);
-        for (i, force) in self.contact(q, feet).iter().enumerate() {
-            twice += horizontal.m2 * v[ax(i)] * v[ax(i)] + vertical.m2 * v[az(i)] * v[az(i)];
+        let contact = self.contact(q, feet);
+        let share = |i: usize| {
+            let mut twice = horizontal.m2 * v[ax(i)] * v[ax(i)] + vertical.m2 * v[az(i)] * v[az(i)];
             twice += horizontal.k2 * q[ax(i)] * q[ax(i)] + vertical.k2 * q[az(i)] * q[az(i)];
             if feet[i].closed() {
-                twice +=
-                    force.horizontal * force.horizontal / horizontal.k1 + force.vertical * force.vertical / vertical.k1;
+                let FootForce { horizontal: h, vertical: n, .. } = contact[i];
+                twice += h * h / horizontal.k1 + n * n / vertical.k1;
             }
-        }
+            twice
+        };
+        let twice = self.body_kinetic(state) * 2.0 + self.body.mass * q[Z] * (2.0 * GRAVITY) + (share(0) + share(1));
         twice * 0.5
     }
 

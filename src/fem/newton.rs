@@ -58,8 +58,8 @@ impl<T: Num + Copy + Neg<Output = T>> Newton<T> {
     ) -> Self {
         let contact = model.contact(&state.q, feet);
         let masses = model.masses(feet);
-        let (mut xx, mut zz, mut tt) = (lift(masses[X]), lift(masses[Z]), lift(masses[TH]));
-        let (mut x_th, mut z_th) = (T::zero(), T::zero());
+        // [xx, zz, tt, x_th, z_th] of both feet
+        let mut shares = [[T::zero(); 5]; 2];
         let mut lever = [[T::zero(); 2]; 2];
         let chains = std::array::from_fn(|i| {
             let closed = feet[i].closed();
@@ -69,20 +69,17 @@ impl<T: Num + Copy + Neg<Output = T>> Newton<T> {
             lever[i] = [lift(foot.px_th), lift(foot.pz_th)];
             if closed {
                 let [px, pz] = lever[i];
-                xx = xx + h.stiffness;
-                zz = zz + v.stiffness;
-                x_th = x_th + h.stiffness * px;
-                z_th = z_th + v.stiffness * pz;
                 // the turning lever arms: d2p_x = dp_z, d2p_z = -dp_x
                 let geometric = lift(foot.vertical * foot.px_th - foot.horizontal * foot.pz_th);
-                tt = tt + h.stiffness * px * px + v.stiffness * pz * pz + s * s * geometric;
+                let tt = h.stiffness * px * px + v.stiffness * pz * pz + s * s * geometric;
+                shares[i] = [h.stiffness, v.stiffness, tt, h.stiffness * px, v.stiffness * pz];
             }
             [h, v]
         });
-        let x_inv = T::one() / xx;
-        let z_inv = T::one() / zz;
-        let (x_th, z_th) = (x_th, z_th);
-        let th_inv = T::one() / (tt - x_th * x_th * x_inv - z_th * z_th * z_inv);
+        let [xx, zz, tt, x_th, z_th] = std::array::from_fn(|k| shares[0][k] + shares[1][k]);
+        let x_inv = T::one() / (lift(masses[X]) + xx);
+        let z_inv = T::one() / (lift(masses[Z]) + zz);
+        let th_inv = T::one() / (lift(masses[TH]) + tt - x_th * x_th * x_inv - z_th * z_th * z_inv);
         Self { chains, lever, x_inv, z_inv, th_inv, x_th, z_th }
     }
 
@@ -90,13 +87,14 @@ impl<T: Num + Copy + Neg<Output = T>> Newton<T> {
     #[inline(always)]
     pub fn solve(&self, r: &[T; N]) -> [T; N] {
         let mut d = *r;
-        for i in 0..2 {
+        let [left, right] = [0, 1].map(|i| {
             let [h, v] = &self.chains[i];
             let (from_x, from_z) = (h.coupling * h.pivot * r[ax(i)], v.coupling * v.pivot * r[az(i)]);
             let [px, pz] = self.lever[i];
-            d[X] = d[X] + from_x;
-            d[Z] = d[Z] + from_z;
-            d[TH] = d[TH] + from_x * px + from_z * pz;
+            [from_x, from_z, from_x * px + from_z * pz]
+        });
+        for k in [X, Z, TH] {
+            d[k] = d[k] + (left[k] + right[k]);
         }
         d[TH] = (d[TH] - self.x_th * self.x_inv * d[X] - self.z_th * self.z_inv * d[Z]) * self.th_inv;
         d[X] = (d[X] - self.x_th * d[TH]) * self.x_inv;
