@@ -105,3 +105,6 @@ pub fn energy_on_one_foot<S: Scalar>(body: &Body<S>, springs: &Springs<Chain<S>>
     let (state, feet) = model.leaning(S::zero());
     model.energy(&state, &feet)
 }
+
+#[cfg(test)]
+mod tests;
