@@ -102,7 +102,7 @@ impl Case<'_, f64> {
 /// Energy of the body at rest on one settled foot, not leaning: what a rocking body's energy counts from [J].
 pub fn energy_on_one_foot<S: Scalar>(body: &Body<S>, springs: &Springs<Chain<S>>) -> S {
     let model = model::Model::new(body, springs);
-    let (state, feet) = model.leaning(S::zero());
+    let (state, feet) = model.on_one_foot(S::zero());
     model.energy(&state, &feet)
 }
 

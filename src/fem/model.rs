@@ -16,7 +16,7 @@
 //! the engineer's deck, where the weight is a load on the mass.
 
 use crate::{
-    scalar::{GRAVITY, Scalar},
+    scalar::{GRAVITY, Scalar, real},
     spring::{Chain, Springs},
     structure::Body,
 };
@@ -292,20 +292,45 @@ impl<S: Scalar> Model<S> {
         (State { q, v: [S::zero(); N] }, [foot; 2])
     }
 
-    /// The body's position when it leans by theta, balanced on one settled foot, the other in the air, at rest: a
-    /// start for free rocking. The pressing foot's absorber carries the whole weight.
-    pub fn leaning(&self, theta: S) -> (State<S>, [Foot<S>; 2]) {
-        let weight = self.body.mass * GRAVITY;
+    /// The body at rest leaning by theta on one foot, whatever the other does. The pressing foot's chains carry what they
+    /// carry while a rigid body falls back from there, so that no vibration is started,
+    ///
+    /// ```text
+    ///   theta'' = -m g R sin(alpha - theta) / I0      H = m X''      N = m (g + Z'')
+    /// ```
+    pub fn on_one_foot(&self, theta: S) -> (State<S>, [Foot<S>; 2]) {
+        let side: S = real(if theta.re() > 0.0 { 1.0 } else { -1.0 });
         let pressing = usize::from(theta.re() > 0.0);
+        let Springs { vertical, horizontal } = &self.springs;
+        let (weight, radius) = (self.body.mass * GRAVITY, self.body.radius());
+        let lean = self.body.alpha() - theta * side;
+        let inertia = self.rotation + self.translation * radius * radius;
+        let thrust = self.translation * radius * weight * radius * lean.sin() / inertia;
+        let (h, n) = (-side * thrust * lean.cos(), weight - thrust * lean.sin());
+
         let (sin, cos) = (theta.sin(), theta.cos());
         let mut q = [S::zero(); N];
         q[TH] = theta;
-        q[az(pressing)] = -weight / self.springs.vertical.k2;
+        q[ax(pressing)] = -h / horizontal.k2;
+        q[az(pressing)] = -n / vertical.k2;
         let (px, pz, ..) = self.foot(pressing, &q, sin, cos);
         q[X] = -px;
-        q[Z] = q[az(pressing)] - weight / self.springs.vertical.k1 - pz;
+        q[Z] = q[az(pressing)] - n / vertical.k1 - pz;
         let mut feet = [Foot { contact: Contact::Open, anchor: S::zero() }; 2];
-        feet[pressing].contact = Contact::Stick;
+        feet[pressing] = Foot { contact: Contact::Stick, anchor: h / horizontal.k1 - q[ax(pressing)] };
         (State { q, v: [S::zero(); N] }, feet)
+    }
+
+    /// A start for free rocking: at rest `on_one_foot`; a lean of less than the settlement leaves the other foot in the
+    /// ground, and then it presses too.
+    pub fn leaning(&self, theta: S) -> (State<S>, [Foot<S>; 2]) {
+        let (mut state, mut feet) = self.on_one_foot(theta);
+        for i in 0..2 {
+            if !feet[i].closed() && self.compression(i, &state.q).re() > 0.0 {
+                feet[i] = Foot { contact: Contact::Stick, anchor: self.anchor_here(i, &state.q) };
+            }
+        }
+        self.turn_to_balance(&mut state, &feet);
+        (state, feet)
     }
 }

@@ -43,10 +43,10 @@ impl<'a, S: Scalar> Run<'a, S> {
         let stored = model.energy(&state, &feet);
         let weight = model.body.mass.re() * GRAVITY;
         let compression = weight / model.springs.vertical.k1.re();
-        // of the standing body: elastic energy at rest, the least energy that means anything
+        // of the standing body: energy at rest, less than a thousandth of which means nothing
         let settled = model.settled();
         let rest = model.energy(&settled.0, &settled.1).re();
-        let scale = (stored.re() - rest).abs().max(1e-3 * weight * compression);
+        let scale = (stored.re() - rest).abs().max(1e-3 * rest.abs());
         Self {
             model,
             control,
@@ -110,29 +110,28 @@ impl<'a, S: Scalar> Run<'a, S> {
             if self.work.steps + self.work.rejected >= self.control.most_steps {
                 return Err(t0 + t.re());
             }
+            if self.h < 1e-14 * dt {
+                return Err(t0 + t.re());
+            }
             let h = self.next_size(left);
             let here = Ground { start: ground.start + ground.slope * t, slope: ground.slope };
             let Some(stages) = self.attempt(h, &here) else {
-                self.work.rejected += 1;
-                self.rate = 1.0;
-                self.h = h.re() * 0.25;
-                if self.h < 1e-14 * dt {
-                    return Err(t0 + t.re());
-                }
+                self.refuse(h.re() * 0.25);
                 continue;
             };
             let (stages, crossed) = match self.met(&stages) {
                 Met::Nothing => (stages, None),
-                Met::Crossing { foot, level, tau } => {
-                    (self.locate(foot, level, stages, tau, &here), Some((foot, level)))
-                }
+                Met::Crossing { foot, level, tau } => match self.locate(foot, level, &stages, tau, &here) {
+                    Some(located) => (located, Some((foot, level))),
+                    None => {
+                        // nearer to the event, the step that ends there is easier
+                        self.refuse(h.re() * tau * 0.5);
+                        continue;
+                    }
+                },
             };
-            let accepted = self.account(&stages, &here);
-            if !accepted {
+            if !self.account(&stages, &here) {
                 self.work.rejected += 1;
-                if self.h < 1e-14 * dt {
-                    return Err(t0 + t.re());
-                }
                 continue;
             }
             t += stages.h;
@@ -140,6 +139,13 @@ impl<'a, S: Scalar> Run<'a, S> {
                 self.switch(foot, level, real::<S>(t0) + t, observer);
             }
         }
+    }
+
+    /// Count a step that did not converge; try again with size h [s].
+    fn refuse(&mut self, h: f64) {
+        self.work.rejected += 1;
+        self.rate = 1.0;
+        self.h = h;
     }
 
     /// The next step: what the account allows, never past the sample, and no sliver left over.

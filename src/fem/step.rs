@@ -138,7 +138,8 @@ pub(super) fn step<S: Scalar>(
         }
         // the largest coefficient of A^2 is 0.32
         change *= 0.32 * h2.re();
-        if !change.is_finite() || (s.iterations > 3 && change > 2.0 * last) {
+        // once converged, what is left is rounding and may well grow
+        if !change.is_finite() || (left.is_none() && s.iterations > 3 && change > 2.0 * last) {
             return None;
         }
         // geometric convergence: what is still missing is change * rate / (1 - rate)

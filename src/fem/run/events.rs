@@ -108,42 +108,38 @@ impl<S: Scalar> Run<'_, S> {
         low.0.max(1e-9)
     }
 
-    /// Repeat the step so that it ends where the foot's gap is zero.
+    /// Repeat the step so that it ends where the foot's compression passes `level`; `None` if that does not succeed.
     pub(super) fn locate(
         &mut self,
         foot: usize,
         level: f64,
-        stages: Stages<S>,
+        stages: &Stages<S>,
         tau: f64,
         ground: &Ground<S>,
-    ) -> Stages<S> {
-        let mut best = stages;
+    ) -> Option<Stages<S>> {
         let mut h = stages.h * tau;
         for _ in 0..6 {
             self.work.located += 1;
-            let Some(next) = self.attempt(h, ground) else { break };
-            best = next;
-            let end = next.end();
+            let here = self.attempt(h, ground)?;
+            let end = here.end();
             let gap = self.model.compression(foot, &end.q) - level;
-            let rate = self.model.compression_rate(foot, &end);
-            if gap.re().abs() <= self.gap_tolerance() && self.control.extra_iterations == 0 {
-                break;
+            let met = gap.re().abs() <= self.gap_tolerance();
+            if met && self.control.extra_iterations == 0 {
+                return Some(here);
             }
-            let correction = gap / rate;
-            if !correction.re().is_finite() || correction.re().abs() > 0.5 * h.re() {
-                break;
-            }
-            let done = gap.re().abs() <= self.gap_tolerance();
-            h -= correction;
-            if done {
+            let correction = gap / self.model.compression_rate(foot, &end);
+            let usable = correction.re().abs() <= 0.5 * h.re();
+            if met {
                 // derivatives of the event's time, by the implicit function theorem
-                if let Some(next) = self.attempt(h, ground) {
-                    best = next;
-                }
-                break;
+                return if usable { self.attempt(h - correction, ground) } else { Some(here) };
             }
+            // a gap that grazes, or steps too small for the clock
+            if !usable || h.re() <= 1e-9 * self.settling {
+                return Some(here);
+            }
+            h -= correction;
         }
-        best
+        self.attempt(h, ground)
     }
 
     /// Change a foot's contact.

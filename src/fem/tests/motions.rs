@@ -33,25 +33,35 @@ fn the_standing_body_stays_where_its_weight_is_carried() {
 }
 
 #[test]
-fn one_foot_carries_the_leaning_body_at_rest() {
-    for theta in [0.05, -0.02] {
-        let model = Model::new(&body(0.0), &springs());
-        let (State { q, v }, feet) = model.leaning(theta);
-        let pressing = usize::from(theta > 0.0);
-        let force = model.contact(&q, &feet);
-        let weight = model.body.mass * GRAVITY;
-        assert!((force[pressing].vertical / weight - 1.0).abs() < 1e-12);
-        assert_eq!((force[1 - pressing].vertical, v), (0.0, [0.0; N]));
-        assert!(force[pressing].horizontal.abs() < 1e-12 * weight);
-        // the other foot is up by 2 b sin |theta|
-        let gap = -model.compression(1 - pressing, &q);
-        let lifted =
-            2.0 * model.body.half_width * theta.abs().sin() + q[az(pressing)] - weight / model.springs.vertical.k1;
-        assert!((gap - lifted).abs() < 1e-12);
-        // but for the moment it has everything it needs to stay
-        let f = model.forces(&q, &v, &feet, 0.0);
-        assert!((0..N).filter(|&k| k != TH).all(|k| f[k].abs() < 1e-9 * weight), "{f:?}");
+fn a_leaning_body_begins_to_fall_back_as_a_rigid_body_does() {
+    for share in [0.0, 1e-3, 0.2] {
+        for theta in [0.05, -0.02] {
+            let model = Model::new(&body(share), &springs());
+            let (State { q, v }, feet) = model.leaning(theta);
+            let pressing = usize::from(theta > 0.0);
+            let (side, weight) = (theta.signum(), model.body.mass * GRAVITY);
+            assert!(!feet[1 - pressing].closed() && model.compression(1 - pressing, &q) < 0.0);
+            assert_eq!(v, [0.0; N]);
+            // theta'' = -p^2 sin(alpha s - theta), the centre of mass turning about the foot; absorbers at rest
+            let f = model.forces(&q, &v, &feet, 0.0);
+            let m = model.masses(&feet);
+            let lean = model.body.alpha() - theta.abs();
+            let thrust = model.body.p_squared() * model.body.radius() * lean.sin();
+            assert!((f[X] / m[X] + side * thrust * lean.cos()).abs() < 1e-11, "{share} {theta}");
+            assert!((f[Z] / m[Z] + thrust * lean.sin()).abs() < 1e-11, "{share} {theta}");
+            let turning = -side * model.body.p_squared() * lean.sin() * m[TH];
+            assert!((f[TH] - turning).abs() < 1e-9 * weight * model.body.half_width, "{share} {theta}");
+            assert!((3..N).all(|k| f[k].abs() < 1e-9 * weight), "{f:?}");
+        }
     }
+}
+
+#[test]
+fn a_lean_of_less_than_the_settlement_presses_both_feet() {
+    let model = Model::new(&body(0.0), &springs());
+    let (state, feet) = model.leaning(1e-5);
+    assert!(feet[0].closed() && feet[1].closed());
+    assert!(model.compression(0, &state.q) > 0.0);
 }
 
 /// Eigenvalues of K x = w^2 M x for the chain m1 - k1 - m2 - k2 under each of two feet, moving together.

@@ -1,0 +1,10 @@
+//! Stories of the finite element model: what a user may rely on, over whole histories.
+
+mod accuracy;
+mod common;
+mod derivatives;
+mod energy;
+mod landings;
+mod rigid_limit;
+mod similarity;
+mod stress;

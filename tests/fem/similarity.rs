@@ -1,0 +1,83 @@
+//! The same case in other units, at another scale, or mirrored is the same case.
+
+use groundspring::{
+    fem::{Case, Control, History, Start},
+    record::Record,
+    spring::{Chain, Springs},
+    structure::Structure,
+};
+
+use crate::common::{el_centro, lively, paper, plastic, settled};
+
+type Make = fn(f64, f64) -> Springs<Chain<f64>>;
+
+#[test]
+fn the_mirrored_record_gives_the_mirrored_history() {
+    let record = el_centro();
+    let mirrored = Record { accel: record.accel.iter().map(|a| -a).collect(), ..record.clone() };
+    for share in [0.0, 1e-2] {
+        let structure = paper(share);
+        for make in [plastic, lively] as [Make; 2] {
+            let springs = make(80.0, structure.mass_kg);
+            let one = settled(&structure, springs, &record, Control::default());
+            let other = settled(&structure, springs, &mirrored, Control::default());
+            assert_eq!(one.impacts(), other.impacts());
+            assert!(one.motion.u.iter().zip(&other.motion.u).all(|(a, b)| *a == -b));
+            assert!(one.motion.v.iter().zip(&other.motion.v).all(|(a, b)| a == b));
+        }
+    }
+}
+
+/// A history with lengths times `length`, times times its root, masses times `mass`.
+fn scaled(structure: &Structure, make: Make, record: &Record, length: f64, mass: f64) -> History {
+    let time = length.sqrt();
+    let structure = Structure {
+        height_m: structure.height_m * length,
+        width_m: structure.width_m * length,
+        mass_kg: structure.mass_kg * mass,
+        rotational_inertia_kgm2: structure.rotational_inertia_kgm2 * mass * length * length,
+        ..*structure
+    };
+    let springs = make(80.0 / time, structure.mass_kg);
+    Case {
+        body: structure.body(),
+        springs,
+        start: Start::Settled,
+        dt: record.dt * time,
+        accel: &record.accel,
+        scale: 1.0,
+        control: Control::default(),
+    }
+    .simulate()
+}
+
+#[test]
+fn similar_structures_have_similar_histories_to_the_last_bit() {
+    // powers of four, so that scaling does not round
+    let record = el_centro();
+    for share in [0.0, 1e-2] {
+        let structure = paper(share);
+        for make in [plastic, lively] as [Make; 2] {
+            let one = scaled(&structure, make, &record, 1.0, 1.0);
+            for (length, mass) in [(1.0 / 1024.0, 1.0 / 65536.0), (4.0, 2.0), (1024.0, 4096.0)] {
+                let other = scaled(&structure, make, &record, length, mass);
+                assert_eq!(one.work, other.work, "lengths times {length}");
+                assert!(one.motion.u.iter().zip(&other.motion.u).all(|(a, b)| a * length == *b));
+                assert!(one.motion.v.iter().zip(&other.motion.v).all(|(a, b)| a * length == *b));
+            }
+        }
+    }
+}
+
+#[test]
+fn other_units_change_a_history_by_rounding_only() {
+    let mut record = el_centro();
+    record.accel.truncate(600);
+    let structure = paper(0.0);
+    let one = scaled(&structure, plastic, &record, 1.0, 1.0);
+    let other = scaled(&structure, plastic, &record, 3.280_839_895, 1.0 / 907.184_74);
+    let largest = one.motion.u.iter().fold(0.0_f64, |m, u| m.max(u.abs()));
+    let worst = one.motion.u.iter().zip(&other.motion.u).map(|(a, b)| (a - b / 3.280_839_895).abs());
+    let worst = worst.fold(0.0, f64::max);
+    assert!(worst < 1e-8 * largest, "{worst:e} of {largest}");
+}
