@@ -325,9 +325,9 @@ impl<S: Scalar> Model<S> {
     /// ground, and then it presses too.
     pub fn leaning(&self, theta: S) -> (State<S>, [Foot<S>; 2]) {
         let (mut state, mut feet) = self.on_one_foot(theta);
-        for i in 0..2 {
-            if !feet[i].closed() && self.compression(i, &state.q).re() > 0.0 {
-                feet[i] = Foot { contact: Contact::Stick, anchor: self.anchor_here(i, &state.q) };
+        for (i, foot) in feet.iter_mut().enumerate() {
+            if !foot.closed() && self.compression(i, &state.q).re() > 0.0 {
+                *foot = Foot { contact: Contact::Stick, anchor: self.anchor_here(i, &state.q) };
             }
         }
         self.turn_to_balance(&mut state, &feet);
