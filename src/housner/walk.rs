@@ -110,14 +110,27 @@ impl<'a, S: Scalar> Walk<'a, S> {
         self.set.unit * self.set.accel.get(i).copied().unwrap_or(0.0)
     }
 
+    /// Whether the body does not lie flat, and its motion is finite.
+    #[inline(always)]
+    pub fn is_up(&self) -> bool {
+        self.state.at.w.re() < FRAC_PI_2 && self.state.at.rate.re().is_finite()
+    }
+
+    /// Add a sample to the history.
+    #[inline(always)]
+    pub fn note(&mut self, theta: S, rate: S) {
+        self.out.theta.push(theta);
+        self.out.rate.push(rate);
+    }
+
     /// Note the lean at sample i; false if the history ends before it.
     #[inline(always)]
     pub fn arrive(&mut self, i: usize) -> bool {
-        let at = &self.state.at;
+        let at = self.state.at;
         if i >= self.set.accel.len() {
             return false;
         }
-        if !(at.w.re() < FRAC_PI_2 && at.rate.re().is_finite()) {
+        if !self.is_up() {
             let time = i as f64 * self.set.dt;
             let flat = at.w.re() >= FRAC_PI_2;
             self.out.outcome =
@@ -125,8 +138,8 @@ impl<'a, S: Scalar> Walk<'a, S> {
             return false;
         }
         // not -0.0 at rest
-        self.out.theta.push(if self.state.rocking { at.w * self.state.side } else { S::zero() });
-        self.out.rate.push(if self.state.rocking { at.rate * self.state.side } else { S::zero() });
+        let side: S = real(if self.state.rocking { self.state.side } else { 0.0 });
+        self.note(at.w * side, at.rate * side);
         true
     }
 
@@ -172,6 +185,12 @@ impl<'a, S: Scalar> Walk<'a, S> {
     }
 }
 
+/// Whether a rotation may carry sine and cosine over a step.
+#[inline(always)]
+pub fn turns_well(age: u32, change: f64) -> bool {
+    age < REFRESH && change.abs() < SMALL
+}
+
 /// Whether a body beyond alpha goes on falling when the ground stops: w'^2/2 against p^2 (1 - cos(w - alpha)).
 fn falls<S: Scalar>(at: &Start<S>, alpha: f64, p2: f64) -> bool {
     let (beyond, rate) = (at.w.re() - alpha, at.rate.re());
@@ -215,16 +234,10 @@ impl<S: Scalar> Setting<'_, S> {
     /// Sine and cosine of alpha - w after w has changed.
     #[inline(always)]
     fn turn(&self, state: &mut State<S>, change: S) {
-        self.turn_to(state, change, turned(state.at.sin, state.at.cos, change));
-    }
-
-    /// The same, given the turned sine and cosine.
-    #[inline(always)]
-    pub fn turn_to(&self, state: &mut State<S>, change: S, turned: (S, S)) {
         let at = &mut state.at;
         state.age += 1;
-        if state.age < REFRESH && change.re().abs() < SMALL {
-            (at.sin, at.cos) = turned;
+        if turns_well(state.age, change.re()) {
+            (at.sin, at.cos) = turned(at.sin, at.cos, change);
         } else {
             (at.sin, at.cos) = (self.alpha - at.w).sin_cos();
             state.age = 0;
