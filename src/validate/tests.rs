@@ -1,0 +1,123 @@
+use super::*;
+use crate::{
+    compare::Match,
+    fem, housner,
+    spring::Design,
+    structure::Structure,
+    synthetic,
+};
+
+/// Springs that absorb a landing along the leg: rebound 0.12 of the landing velocity for the chain alone.
+fn judge(structure: &Structure) -> Judge {
+    let springs = Springs {
+        vertical: Design::from_kc(0.3, 0.1, 0.75, 160.0),
+        horizontal: Design::from_kc(0.3, 0.57, 1.86, 160.0),
+    };
+    let body = structure.body::<f64>();
+    Judge {
+        body,
+        restitution: body.restitution(),
+        springs: springs.chains(structure.mass_kg),
+        duration_s: None,
+        control: Control::default(),
+    }
+}
+
+fn frame() -> Structure {
+    let mut structure = Structure::paper();
+    structure.rotational_inertia_kgm2 = 1e-5 * structure.mass_kg * structure.height_m.powi(2);
+    structure
+}
+
+#[test]
+fn a_row_says_what_the_whole_histories_say() {
+    let judge = Judge { duration_s: Some(10.0), ..judge(&frame()) };
+    let record = Record::el_centro();
+    let row = judge.judge(&record);
+
+    let short = record.truncated(10.0);
+    let rocking = housner::solve(&judge.body, short.dt, &short.accel, &housner::Options::default());
+    let motion = rocking.motion(&judge.body);
+    let history = fem::Case {
+        body: judge.body,
+        springs: judge.springs,
+        start: fem::Start::Settled,
+        dt: short.dt,
+        accel: &short.accel,
+        scale: 1.0,
+        control: judge.control,
+    }
+    .simulate();
+    let found = Match::new(short.dt, &motion, rocking.impacts.len(), &history, judge.restitution);
+    let close = |a: f64, b: f64| (a - b).abs() <= 1e-12 * b.abs();
+    assert!(close(row.nrmse_horizontal.unwrap(), found.nrmse_horizontal), "{row:?} {found:?}");
+    assert!(close(row.nrmse_vertical.unwrap(), found.nrmse_vertical), "{row:?} {found:?}");
+    assert!(close(row.energy_residual, found.energy_residual), "{row:?} {found:?}");
+    assert_eq!((row.duration_s, row.impacts), (found.duration_s, found.impacts_housner));
+    let peak = |theta: &[f64]| theta.iter().fold(0.0, |peak: f64, x| peak.max(x.abs())) / judge.body.alpha();
+    assert!(close(row.peak_ratio_housner, peak(&motion.theta)));
+    assert!(close(row.peak_ratio_fem.unwrap(), peak(&history.motion.theta)));
+    assert!(row.comparable() && row.agrees());
+}
+
+/// A constant push of 0.15 g, held, is more than g tan alpha = 0.1 g: the body topples whatever the springs.
+#[test]
+fn a_body_that_topples_has_the_peak_of_one_that_lies_flat() {
+    let judge = judge(&frame());
+    let flat = std::f64::consts::FRAC_PI_2 / judge.body.alpha();
+    // at 3 s it lies beyond alpha, at 20 s on the ground: it has toppled in both, and to the same peak
+    for duration in [4.0, 20.0] {
+        let record = Record::new("push", 0.01, vec![0.15 * 9.81; (100.0 * duration) as usize]).unwrap();
+        let row = judge.judge(&record);
+        assert!(row.overturned_housner, "{row:?}");
+        assert_eq!((row.outcome, row.overturned_fem, row.peak_ratio_housner), (Outcome::Rocked, Some(true), flat));
+        assert_eq!(row.peak_ratio_fem, Some(flat));
+        assert!(row.agrees() && !row.comparable());
+    }
+}
+
+#[test]
+fn a_record_that_never_lifts_the_body_has_no_peak_and_no_error() {
+    let judge = judge(&frame());
+    let record = Record::new("weak", 0.01, vec![0.02 * 9.81; 300]).unwrap();
+    let row = judge.judge(&record);
+    assert_eq!((row.outcome, row.nrmse_horizontal, row.nrmse_vertical), (Outcome::NeverLifted, None, None));
+    assert_eq!((row.peak_ratio_housner, row.peak_ratio_fem, row.sensitivity), (0.0, Some(0.0), 0.0));
+    assert!(row.agrees() && !row.comparable());
+}
+
+#[test]
+fn a_history_that_meets_its_bound_on_work_is_listed_as_failed() {
+    let mut judge = judge(&frame());
+    judge.control.most_steps = 300;
+    judge.duration_s = Some(5.0);
+    let all = judge.judge_all(1, |_| Ok::<_, ()>(Record::el_centro()), |_| {}).unwrap();
+    let row = &all.records[0];
+    assert_eq!((row.outcome, row.overturned_fem, row.peak_ratio_fem), (Outcome::FemFailed, None, None));
+    assert_eq!((all.failed, all.overturning_agreement, all.ks_distance), (vec!["IELC180".to_string()], 0.0, 1.0));
+}
+
+#[test]
+fn every_record_is_asked_for_once_and_rows_keep_their_order() {
+    let judge = judge(&Structure::block(2.0, 0.5, 1000.0).unwrap());
+    let (p, alpha) = (judge.body.p_squared().sqrt(), judge.body.alpha());
+    let asked: Vec<AtomicUsize> = (0..6).map(|_| AtomicUsize::new(0)).collect();
+    let last = AtomicUsize::new(0);
+    let record = |i: usize| {
+        asked[i].fetch_add(1, Ordering::Relaxed);
+        Ok::<_, ()>(synthetic::record(1, i, p, alpha))
+    };
+    let all = judge.judge_all(6, record, |n| _ = last.fetch_max(n, Ordering::Relaxed)).unwrap();
+    assert!(asked.iter().all(|n| n.load(Ordering::Relaxed) == 1));
+    assert_eq!(last.load(Ordering::Relaxed), 6);
+    for (i, row) in all.records.iter().enumerate() {
+        assert_eq!(*row, judge.judge(&synthetic::record(1, i, p, alpha)));
+    }
+}
+
+#[test]
+fn the_first_of_several_errors_is_reported() {
+    let judge = judge(&frame());
+    let record = |i: usize| if i == 0 { Record::new("one", 0.01, vec![0.0; 10]).map_err(|_| 0) } else { Err(i) };
+    assert_eq!(judge.judge_all(8, record, |_| {}).unwrap_err(), 1);
+}
