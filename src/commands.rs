@@ -17,10 +17,12 @@ mod common;
 mod draw;
 mod housner;
 mod progress;
+mod report;
 mod response;
 mod run;
 mod simulate;
 mod table;
+mod validate;
 
 /// Ground springs that let a finite element program follow Housner's theory of rocking.
 #[derive(Debug, Parser)]
@@ -40,6 +42,8 @@ enum Command {
     Response(response::Options),
     /// Finite element and Housner histories for given springs; their match as JSON on stdout.
     Simulate(simulate::Options),
+    /// Judge given springs over many records: peaks, overturning, histories where they can be compared.
+    Validate(validate::Options),
 }
 
 /// Why a command ended without its result.
@@ -88,6 +92,7 @@ pub fn main() -> ExitCode {
         Command::Housner(o) => housner::run(&o),
         Command::Response(o) => response::run(&o),
         Command::Simulate(o) => simulate::run(&o),
+        Command::Validate(o) => validate::run(&o),
     };
     match result {
         Ok(()) => ExitCode::SUCCESS,

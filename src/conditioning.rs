@@ -17,12 +17,15 @@ use crate::structure::Body;
 /// From this sensitivity on, histories cannot be compared one to one.
 pub const ILL_CONDITIONED: f64 = 10.0;
 
+/// Largest sensitivity that is told; beyond it not one digit of a history in double precision is certain.
+pub const LARGEST: f64 = 1e15;
+
 /// Relative change of the history u per relative change of a parameter.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Sensitivity {
-    /// Per relative change of the width 2b.
+    /// Per relative change of the width 2b; at most [`LARGEST`].
     pub width: f64,
-    /// Per relative change of the record's scale.
+    /// Per relative change of the record's scale; at most [`LARGEST`].
     pub scale: f64,
 }
 
@@ -64,7 +67,8 @@ pub fn sensitivity(body: &Body<f64>, dt: f64, accel: &[f64], options: &Options<f
         above[0] += du[0] * du[0];
         above[1] += du[1] * du[1];
     }
-    let [width, scale] = above.map(|above| if above == 0.0 { 0.0 } else { (above / below).sqrt() });
+    // min takes the number where the derivatives overflowed to a NaN
+    let [width, scale] = above.map(|above| if above == 0.0 { 0.0 } else { (above / below).sqrt().min(LARGEST) });
     Sensitivity { width, scale }
 }
 

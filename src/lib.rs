@@ -46,6 +46,8 @@ pub mod parameters;
 
 pub mod tuning;
 
+pub mod validate;
+
 pub mod export;
 
 pub mod verify;

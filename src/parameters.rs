@@ -7,6 +7,7 @@ use thiserror::Error;
 
 use crate::{
     compare::Match,
+    conditioning::Sensitivity,
     record::Record,
     spring::{Chain, ChainRow, Design, Springs},
     structure::{Structure, StructureError},
@@ -28,6 +29,19 @@ impl RecordRow {
     }
 }
 
+/// How sensitive Housner's history of that record is: relative change of u per relative change (`conditioning`).
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+pub struct Conditioning {
+    pub sensitivity_width: f64,
+    pub sensitivity_scale: f64,
+}
+
+impl From<Sensitivity> for Conditioning {
+    fn from(s: Sensitivity) -> Self {
+        Self { sensitivity_width: s.width, sensitivity_scale: s.scale }
+    }
+}
+
 /// Everything in `parameters.json`.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Parameters {
@@ -38,6 +52,8 @@ pub struct Parameters {
     pub horizontal: ChainRow,
     #[serde(rename = "match", default, skip_serializing_if = "Option::is_none")]
     pub matched: Option<Match>,
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub conditioning: Option<Conditioning>,
 }
 
 /// What is wrong with a parameter file, and what to do.
@@ -63,6 +79,7 @@ impl Parameters {
             vertical: ChainRow::new(&springs.vertical, m1),
             horizontal: ChainRow::new(&springs.horizontal, m1),
             matched: None,
+            conditioning: None,
         }
     }
 

@@ -11,8 +11,9 @@
 //!
 //! - **Peaks.** A standing finite element body sways elastically, a rigid one does not: rotation counts while a foot is up.
 //!   A record that lifts neither model gives 0 in both.
-//! - **Toppled** means the same in both models: |theta| passes pi/2, or the history ends with a body that would topple by
-//!   Housner's equation if the ground stopped. How far it had fallen when the record ended says nothing, so its peak is pi/2.
+//! - **Toppled** means the same in both models: |theta| passes pi/2, or will do so whatever the rest of the record, or the
+//!   history ends with a body that would topple by Housner's equation if the ground stopped. How far it had fallen when
+//!   the record ended says nothing, so its peak is pi/2.
 //! - **Histories** can be compared one to one only where Housner's own answer is well conditioned: the quantiles of NRMSE are
 //!   over the records with a sensitivity below 10 that lift Housner's body and do not topple it. The other records count
 //!   in the distance of the peaks and in the agreement on overturning.

@@ -9,6 +9,7 @@ use super::{
     common::{RecordOptions, both, history_csv},
     draw::draw,
     progress::Progress,
+    report::{Ground, Report},
     table, write_file,
 };
 use crate::{
@@ -24,6 +25,8 @@ pub struct Options {
     case: Option<PathBuf>,
     #[command(flatten)]
     record: RecordOptions,
+    #[command(flatten)]
+    ground: Ground,
     /// Stiffest springs allowed, Omega_n / 2 pi [default: 160, or the case's]
     #[arg(long, value_name = "HZ", allow_negative_numbers = true)]
     max_hz: Option<f64>,
@@ -61,6 +64,7 @@ pub fn run(o: &Options) -> Result<(), CommandError> {
         }
         case.tuning.max_omega_hz = hz;
     }
+    let friction = o.ground.friction()?;
     threads(o.jobs)?;
 
     let progress = Progress::new("tuning Omega_n", o.quiet);
@@ -80,6 +84,8 @@ pub fn run(o: &Options) -> Result<(), CommandError> {
     let both = both(&job.body, case.restitution, &parameters.chains(), &job.record);
     parameters.record = Some(RecordRow::new(&case.record));
     parameters.matched = Some(both.matched);
+    let report = Report::new(&job.body, case.restitution, &job.record, &both.rocking, friction);
+    parameters.conditioning = Some(report.sensitivity.into());
     let dt = job.record.dt;
 
     let write = |e| CommandError::Write { path: o.out.display().to_string(), source: e };
@@ -90,13 +96,14 @@ pub fn run(o: &Options) -> Result<(), CommandError> {
     if !o.no_figures {
         draw(&o.out, &case, &job, &both, &front)?;
     }
-    write!(std::io::stdout(), "{}{}", table::terminal(&parameters), table::front_terminal(&front))?;
+    let (springs, said) = (table::terminal(&parameters), report.lines().join("\n"));
+    write!(std::io::stdout(), "{springs}\n{said}\n{}", table::front_terminal(&front))?;
     eprintln!("written to {}", o.out.display());
     Ok(())
 }
 
 /// Use this many threads, 0 or none: all cores.
-fn threads(jobs: Option<usize>) -> Result<(), CommandError> {
+pub(super) fn threads(jobs: Option<usize>) -> Result<(), CommandError> {
     if let Some(n) = jobs {
         rayon::ThreadPoolBuilder::new()
             .num_threads(n)

@@ -7,6 +7,7 @@ use clap::Args;
 use super::{
     CommandError,
     common::{RecordOptions, both, history_csv},
+    report::{Ground, Report},
     write_file,
 };
 use crate::{case::DURATION_S, parameters::Parameters, record::Record};
@@ -19,6 +20,8 @@ pub struct Options {
     parameters: PathBuf,
     #[command(flatten)]
     record: RecordOptions,
+    #[command(flatten)]
+    ground: Ground,
     /// Velocity restitution of Housner's solution; by equation 2 unless given
     #[arg(long)]
     restitution: Option<f64>,
@@ -32,11 +35,15 @@ pub fn run(o: &Options) -> Result<(), CommandError> {
     let record = o.record.record(Record::el_centro)?.truncated(o.record.duration(DURATION_S)?);
     let body = parameters.structure.body::<f64>();
     let e = o.restitution.unwrap_or_else(|| body.restitution());
+    let friction = o.ground.friction()?;
     let both = both(&body, e, &parameters.chains(), &record);
     if let Some(path) = &o.out {
         write_file(path, history_csv(record.dt, &both.housner, &both.fem.motion).as_bytes())?;
     }
     eprintln!("{}: PGA {:.4} g, {} samples of {} s", record.name, record.pga_g(), record.accel.len(), record.dt);
+    for line in Report::new(&body, e, &record, &both.rocking, friction).lines() {
+        eprintln!("{line}");
+    }
     let json = serde_json::to_string_pretty(&both.matched).map_err(|e| CommandError::Result(e.to_string()))?;
     writeln!(std::io::stdout(), "{json}")?;
     Ok(())

@@ -95,17 +95,13 @@ impl Judge {
             scale: 1.0,
             control: self.control,
         };
-        let mut stream = Stream::new(body, &theta);
+        let mut stream = Stream::new(body, &theta, accel);
         let finish = case.observe(&mut stream);
         let (horizontal, vertical) = (stream.horizontal.value(), stream.vertical.value());
-        let mut samples = theta.len();
         let overturned_fem = match finish.outcome {
-            fem::Outcome::Overturned { time } => {
-                samples = samples.min((time / dt).round() as usize);
-                Some(true)
-            }
+            fem::Outcome::Overturned { .. } | fem::Outcome::Stopped { .. } => Some(true),
             fem::Outcome::Completed => Some(self.topples(stream.last)),
-            fem::Outcome::Stopped { .. } | fem::Outcome::WorkBound { .. } => None,
+            fem::Outcome::WorkBound { .. } => None,
         };
         let finite = !horizontal.is_nan() && !vertical.is_nan() && stream.peak.is_finite();
         let outcome = match end {
@@ -121,7 +117,7 @@ impl Judge {
         Row {
             name: record.name.clone(),
             outcome,
-            duration_s: samples.saturating_sub(1) as f64 * dt,
+            duration_s: theta.len().min(stream.samples).saturating_sub(1) as f64 * dt,
             pga_g: record.pga_g(),
             sensitivity,
             nrmse_horizontal: error(horizontal),

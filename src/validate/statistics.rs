@@ -1,7 +1,5 @@
 //! What many records say together.
 
-use std::f64::consts::FRAC_PI_2;
-
 use serde::Serialize;
 
 use super::Row;

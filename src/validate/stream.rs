@@ -1,9 +1,15 @@
 //! What is kept of a finite element history while it runs: sums and peaks, no samples.
+//!
+//! A body beyond alpha by beta, not coming back, falls whatever the ground still does if tan(beta) > max |u_g|/g of the rest
+//! of the record: by equation (1) theta'' = p^2 [sin(beta) - (u_g/g) cos(beta)] then stays on the side of the fall. The
+//! history is stopped there. To follow the fall any further costs a lot and says nothing: from 48 degrees on an A-frame's
+//! leg would have to pull, and a body without rotational inertia flies and spins.
 
 use std::ops::ControlFlow;
 
 use crate::{
     fem::{Observer, View},
+    scalar::GRAVITY,
     structure::Body,
 };
 
@@ -30,6 +36,9 @@ impl Nrmse {
 pub struct Stream<'a> {
     body: &'a Body<f64>,
     housner: &'a [f64],
+    accel: &'a [f64],
+    /// Index and size of the largest |u_g| of the rest of the record [m/s2].
+    strongest: Option<(usize, f64)>,
     initial_z: f64,
     pub horizontal: Nrmse,
     pub vertical: Nrmse,
@@ -37,22 +46,50 @@ pub struct Stream<'a> {
     pub peak: f64,
     /// theta [rad] and theta' [rad/s] at the last sample.
     pub last: (f64, f64),
+    /// Samples seen.
+    pub samples: usize,
+    /// Whether the body falls whatever the ground still does.
+    pub falls: bool,
     /// Largest |residual| of the energy account [J].
     pub residual: f64,
 }
 
 impl<'a> Stream<'a> {
-    pub fn new(body: &'a Body<f64>, housner: &'a [f64]) -> Self {
+    /// Beside Housner's rotations [rad]; `accel` is the record [m/s2].
+    pub fn new(body: &'a Body<f64>, housner: &'a [f64], accel: &'a [f64]) -> Self {
         Self {
             body,
             housner,
+            accel,
+            strongest: None,
             initial_z: 0.0,
             horizontal: Nrmse::default(),
             vertical: Nrmse::default(),
             peak: 0.0,
             last: (0.0, 0.0),
+            samples: 0,
+            falls: false,
             residual: 0.0,
         }
+    }
+
+    /// The largest |u_g| from a sample to the end [m/s2]; looked for anew only when that sample has passed.
+    fn strongest_from(&mut self, index: usize) -> f64 {
+        match self.strongest {
+            Some((at, size)) if at >= index => size,
+            _ => {
+                let rest = self.accel.iter().map(|a| a.abs()).enumerate().skip(index);
+                let found = rest.fold((index, 0.0), |best, (i, a)| if a >= best.1 { (i, a) } else { best });
+                self.strongest = Some(found);
+                found.1
+            }
+        }
+    }
+
+    fn falls_from(&mut self, index: usize) -> bool {
+        let (theta, rate) = self.last;
+        let beyond = theta.abs() - self.body.alpha();
+        beyond > 0.0 && theta * rate >= 0.0 && beyond.tan() > self.strongest_from(index) / GRAVITY
     }
 }
 
@@ -70,7 +107,9 @@ impl Observer<f64> for Stream<'_> {
             self.peak = self.peak.max(theta.abs());
         }
         self.last = (theta, view.theta_rate());
+        self.samples = index + 1;
         self.residual = self.residual.max(view.energy.residual().abs());
-        ControlFlow::Continue(())
+        self.falls = self.falls_from(index);
+        if self.falls { ControlFlow::Break(()) } else { ControlFlow::Continue(()) }
     }
 }

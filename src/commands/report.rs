@@ -1,0 +1,122 @@
+//! What a reader must know before trusting a comparison: how sensitive Housner's history is, and whether rocking holds.
+
+use clap::Args;
+
+use super::CommandError;
+use crate::{
+    conditioning::{self, Sensitivity},
+    housner::{self, Rocking},
+    record::Record,
+    regime::{self, Regime},
+    structure::Body,
+};
+
+/// What the ground offers.
+#[derive(Clone, Copy, Debug, Args)]
+pub struct Ground {
+    /// Friction coefficient between foot and ground, for the warning of sliding
+    #[arg(long, value_name = "MU", default_value_t = 0.5, allow_negative_numbers = true)]
+    friction: f64,
+}
+
+impl Ground {
+    /// The friction coefficient, checked.
+    pub fn friction(&self) -> Result<f64, CommandError> {
+        if self.friction.is_finite() && self.friction >= 0.0 {
+            return Ok(self.friction);
+        }
+        let remedy = "give a friction coefficient, zero or greater";
+        Err(CommandError::Option { option: "friction", value: self.friction.to_string(), remedy })
+    }
+}
+
+/// Conditioning and regime of Housner's history.
+#[derive(Clone, Copy, Debug)]
+pub struct Report {
+    pub sensitivity: Sensitivity,
+    pub regime: Regime,
+}
+
+impl Report {
+    /// Of a history that `rocking` holds.
+    pub fn new(body: &Body<f64>, restitution: f64, record: &Record, rocking: &Rocking<f64>, friction: f64) -> Self {
+        let options = housner::Options { restitution: Some(restitution), ..Default::default() };
+        Self {
+            sensitivity: conditioning::sensitivity(body, record.dt, &record.accel, &options),
+            regime: regime::check(body, record.dt, &record.accel, 1.0, rocking, friction),
+        }
+    }
+
+    /// One line each.
+    pub fn lines(&self) -> Vec<String> {
+        let s = &self.sensitivity;
+        let mut lines = vec![format!(
+            "conditioning: a change of 1 % in width changes Housner's history by {}, in scale by {}",
+            percent(s.width),
+            percent(s.scale)
+        )];
+        if !s.well_conditioned() {
+            lines.push(
+                "conditioning: ILL-CONDITIONED (10 % and more): a one-to-one comparison of histories means nothing here, \
+                 with these springs or any; judge them over many records (tune validate)"
+                    .to_string(),
+            );
+        }
+        let warnings = self.regime.warnings();
+        if warnings.is_empty() {
+            let need = self.regime.friction_needed;
+            lines.push(format!(
+                "regime: pure rocking holds; friction coefficient needed {:.3} at t = {:.3} s and {:.3} in a landing, {:.3} available",
+                need.value, need.time, self.regime.landing_friction, self.regime.friction
+            ));
+        }
+        lines.extend(warnings.into_iter().map(|warning| format!("regime: WARNING: {warning}")));
+        lines
+    }
+}
+
+/// A sensitivity as the change that 1 % makes; above 100 % the linear figure says only that all is lost.
+fn percent(sensitivity: f64) -> String {
+    if sensitivity < 100.0 { format!("{sensitivity:.1} %") } else { format!("{sensitivity:.1e} %") }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::structure::Structure;
+
+    fn report(accel: Vec<f64>, friction: f64) -> Report {
+        let body = Structure::paper().body::<f64>();
+        let record = Record::new("made-up", 0.01, accel).unwrap();
+        let rocking = housner::solve(&body, record.dt, &record.accel, &housner::Options::default());
+        Report::new(&body, body.restitution(), &record, &rocking, friction)
+    }
+
+    #[test]
+    fn el_centro_is_reported_as_well_conditioned_and_in_the_regime_of_rocking() {
+        let lines = report(Record::el_centro().truncated(20.0).accel, 0.5).lines();
+        assert_eq!(lines.len(), 2, "{lines:?}");
+        assert!(lines[0].starts_with("conditioning: a change of 1 % in width changes Housner's history by "));
+        assert!(lines[1].starts_with("regime: pure rocking holds"), "{lines:?}");
+    }
+
+    #[test]
+    fn a_history_that_hangs_on_a_hair_is_said_to_mean_nothing_one_to_one() {
+        let mut report = report(vec![0.0; 100], 0.5);
+        report.sensitivity = Sensitivity { width: 3.0, scale: 250.0 };
+        let lines = report.lines();
+        assert_eq!(
+            lines[0],
+            "conditioning: a change of 1 % in width changes Housner's history by 3.0 %, in scale by 2.5e2 %"
+        );
+        assert!(lines[1].contains("a one-to-one comparison of histories means nothing here"), "{lines:?}");
+    }
+
+    #[test]
+    fn sliding_is_warned_of_with_its_time_and_number() {
+        // at rest under 0.08 g the body does not lift, and needs a friction coefficient of 0.08
+        let lines = report(vec![0.0, 0.08 * crate::scalar::GRAVITY, 0.0], 0.05).lines();
+        assert!(lines[1].starts_with("regime: WARNING: sliding"), "{lines:?}");
+        assert!(lines[1].contains("0.080 is needed at t = 0.010 s, 0.050 is available"), "{lines:?}");
+    }
+}

@@ -1,0 +1,133 @@
+//! `tune validate` and the conditioning report, through the program.
+
+use std::{fs, path::Path, process::Output};
+
+use assert_cmd::Command;
+use groundspring::{
+    parameters::Parameters,
+    record::Record,
+    spring::{Design, Springs},
+    structure::Structure,
+};
+use serde_json::Value;
+use tempfile::TempDir;
+
+/// A folder with parameters.json (the paper's frame on springs of 160 Hz) and a folder of two records.
+fn folder() -> TempDir {
+    let dir = TempDir::new().unwrap();
+    let mut structure = Structure::paper();
+    structure.rotational_inertia_kgm2 = 1e-5 * structure.mass_kg * structure.height_m.powi(2);
+    let springs = Springs {
+        vertical: Design::from_kc(0.3, 0.1, 0.75, 160.0),
+        horizontal: Design::from_kc(0.3, 0.57, 1.86, 160.0),
+    };
+    fs::write(dir.path().join("parameters.json"), Parameters::new(structure, &springs).to_json()).unwrap();
+    let records = dir.path().join("records");
+    fs::create_dir(&records).unwrap();
+    let accel = Record::el_centro().truncated(6.0).accel;
+    let column: String = accel.iter().map(|a| format!("{}\n", a / 9.81)).collect();
+    fs::write(records.join("centro.txt"), column).unwrap();
+    fs::write(records.join("weak.txt"), "0\n0.01\n-0.02\n0\n").unwrap();
+    dir
+}
+
+fn tune(dir: &Path, args: &[&str]) -> Output {
+    Command::cargo_bin("tune").unwrap().current_dir(dir).args(args).output().unwrap()
+}
+
+fn validate(dir: &Path, more: &[&str]) -> Output {
+    let args = ["validate", "--parameters", "parameters.json", "--quiet"];
+    tune(dir, &[&args, more].concat())
+}
+
+const FILES: [&str; 4] = ["validate.json", "validate.md", "validate.csv", "validation.png"];
+const RECORDS: [&str; 6] = ["--records", "records", "--dt", "0.01", "--units", "g"];
+
+#[test]
+fn the_results_are_the_same_bytes_whatever_the_number_of_threads() {
+    let dir = folder();
+    for jobs in ["1", "2"] {
+        let more = ["--synthetic", "6", "--seed", "3", "--duration", "20", "--jobs", jobs, "--out", jobs];
+        let output = validate(dir.path(), &[&RECORDS[..], &more].concat());
+        assert!(output.status.success(), "{}", String::from_utf8_lossy(&output.stderr));
+    }
+    for file in FILES {
+        let read = |jobs: &str| fs::read(dir.path().join(jobs).join(file)).unwrap();
+        assert!(!read("1").is_empty() && read("1") == read("2"), "{file}");
+    }
+}
+
+#[test]
+fn files_come_first_in_the_order_of_their_names_and_the_fields_are_those_promised() {
+    let dir = folder();
+    let output = validate(dir.path(), &[&RECORDS[..], &["--synthetic", "1", "--no-figures"]].concat());
+    assert!(output.status.success(), "{}", String::from_utf8_lossy(&output.stderr));
+    let stdout = String::from_utf8(output.stdout).unwrap();
+    assert!(stdout.contains("KS distance of the peak rotations"), "{stdout}");
+    assert!(!dir.path().join("out/validation.png").exists());
+
+    let all: Value = serde_json::from_slice(&fs::read(dir.path().join("out/validate.json")).unwrap()).unwrap();
+    let rows = all["records"].as_array().unwrap();
+    let names: Vec<&str> = rows.iter().map(|row| row["name"].as_str().unwrap()).collect();
+    assert_eq!(names, ["centro", "weak", "ricker-0000"]);
+    let (centro, weak) = (&rows[0], &rows[1]);
+    for number in ["pga_g", "sensitivity", "nrmse_horizontal", "nrmse_vertical", "peak_ratio_housner", "peak_ratio_fem"]
+    {
+        assert!(centro[number].as_f64().is_some_and(|x| x > 0.0), "{number}: {centro}");
+    }
+    assert_eq!((&centro["overturned_housner"], &centro["overturned_fem"]), (&false.into(), &false.into()));
+    assert_eq!((&weak["outcome"], &weak["nrmse_horizontal"]), (&"never_lifted".into(), &Value::Null));
+    assert_eq!((&weak["peak_ratio_housner"], &weak["peak_ratio_fem"]), (&0.0.into(), &0.0.into()));
+    assert!(all["ks_distance"].is_f64() && all["overturning_agreement"].is_f64());
+    assert!(all["nrmse_well_conditioned"]["count"].as_u64().is_some_and(|n| n >= 1));
+    assert!(all["nrmse_well_conditioned"]["median"].is_f64() && all["nrmse_well_conditioned"]["p90"].is_f64());
+    let csv = fs::read_to_string(dir.path().join("out/validate.csv")).unwrap();
+    assert!(csv.starts_with("name,outcome,duration_s,pga_g,sensitivity,nrmse_horizontal,"), "{csv}");
+    assert_eq!(csv.lines().count(), 4);
+}
+
+fn refuses(more: &[&str], words: &[&str]) {
+    let dir = folder();
+    fs::write(dir.path().join("records/zz.txt"), "0.1\n0.2\nx\n").unwrap();
+    let output = validate(dir.path(), more);
+    let stderr = String::from_utf8(output.stderr).unwrap();
+    assert_eq!(output.status.code(), Some(2), "{stderr}");
+    assert_eq!(stderr.trim_end().lines().count(), 1, "{stderr}");
+    for word in words {
+        assert!(stderr.contains(word), "{stderr:?} does not say {word:?}");
+    }
+    assert!(output.stdout.is_empty() && !dir.path().join("out").exists());
+}
+
+#[test]
+fn one_bad_file_ends_the_job_before_it_begins() {
+    refuses(&RECORDS, &["zz.txt, line 3", "'x' is not a number"]);
+}
+
+#[test]
+fn bad_options_are_refused_in_one_line() {
+    refuses(&[], &["--records", "--synthetic"]);
+    refuses(&["--records", "nowhere"], &["nowhere"]);
+    refuses(&["--synthetic", "0"], &["--synthetic"]);
+    refuses(&["--synthetic", "3", "--duration", "-1"], &["--duration is -1"]);
+    refuses(&["--synthetic", "3", "--restitution", "2"], &["--restitution is 2"]);
+    refuses(&["--synthetic", "3", "--dt", "0.01"], &["--records"]);
+}
+
+#[test]
+fn simulate_tells_conditioning_and_regime_on_stderr() {
+    let dir = folder();
+    let args = ["simulate", "--parameters", "parameters.json", "--duration", "6", "--friction"];
+    let said = |friction: &str| {
+        let output = tune(dir.path(), &[&args[..], &[friction]].concat());
+        assert!(output.status.success());
+        // stdout stays the match alone
+        assert!(serde_json::from_slice::<Value>(&output.stdout).unwrap()["nrmse_horizontal"].is_f64());
+        String::from_utf8(output.stderr).unwrap()
+    };
+    let stderr = said("0.9");
+    assert!(stderr.contains("conditioning: a change of 1 % in width changes Housner's history by "), "{stderr}");
+    assert!(stderr.contains("regime: pure rocking holds"), "{stderr}");
+    let stderr = said("0.05");
+    assert!(stderr.contains("regime: WARNING: sliding: a friction coefficient of 0."), "{stderr}");
+}
