@@ -48,8 +48,6 @@ pub struct Stream<'a> {
     pub last: (f64, f64),
     /// Samples seen.
     pub samples: usize,
-    /// Whether the body falls whatever the ground still does.
-    pub falls: bool,
     /// Largest |residual| of the energy account [J].
     pub residual: f64,
 }
@@ -68,7 +66,6 @@ impl<'a> Stream<'a> {
             peak: 0.0,
             last: (0.0, 0.0),
             samples: 0,
-            falls: false,
             residual: 0.0,
         }
     }
@@ -86,6 +83,7 @@ impl<'a> Stream<'a> {
         }
     }
 
+    /// Whether the body falls whatever the ground does from this sample on.
     fn falls_from(&mut self, index: usize) -> bool {
         let (theta, rate) = self.last;
         let beyond = theta.abs() - self.body.alpha();
@@ -109,7 +107,6 @@ impl Observer<f64> for Stream<'_> {
         self.last = (theta, view.theta_rate());
         self.samples = index + 1;
         self.residual = self.residual.max(view.energy.residual().abs());
-        self.falls = self.falls_from(index);
-        if self.falls { ControlFlow::Break(()) } else { ControlFlow::Continue(()) }
+        if self.falls_from(index) { ControlFlow::Break(()) } else { ControlFlow::Continue(()) }
     }
 }
