@@ -10,21 +10,25 @@ use crate::{
     figures::{self, FigureError},
     response::{
         self,
-        target::{Band, Kind},
+        target::{Band, Kind, Target},
     },
     spring::Design,
     tuning::{
         front::{self, Point},
-        inner::Fit,
         job::Job,
     },
 };
 
-/// A target band as the figure shows it: caps and flat bands; a cap of 1 or less asks for as little as possible.
+/// Whether the target asks for nothing but the lowest cap there is, by a limit that no chain can meet.
+fn lowest_cap(target: &Target) -> bool {
+    target.bands.iter().all(|band| band.kind == Kind::Cap && band.limit <= 1.0)
+}
+
+/// A target band as the figure shows it: caps that can be met and flat bands.
 fn wanted(band: &Band, low: f64, high: f64) -> Option<figures::arr::Band> {
     let g = (band.g_low.max(low), band.g_high.unwrap_or(high).min(high));
     match band.kind {
-        Kind::Cap => Some(figures::arr::Band { g, at_least: None, at_most: Some(band.limit) }),
+        Kind::Cap => (band.limit > 1.0).then_some(figures::arr::Band { g, at_least: None, at_most: Some(band.limit) }),
         Kind::Rigid => {
             Some(figures::arr::Band { g, at_least: Some(1.0 / (1.0 + band.limit)), at_most: Some(1.0 + band.limit) })
         }
@@ -66,27 +70,31 @@ pub fn draw(dir: &Path, case: &Case, job: &Job, both: &Both, front: &[Point]) ->
     };
     let arr = |path: &Path| {
         let g: Vec<f64> = (0..=600).map(|i| 0.02 * f64::powf(1000.0, i as f64 / 600.0)).collect();
-        let chains = [
-            ("vertical", &job.springs.vertical, &job.vertical),
-            ("horizontal", &job.springs.horizontal, &job.horizontal),
-        ];
-        let family =
-            |d: &Design<f64>, fits: &[Fit]| fits.iter().find(|f| (f.mu, f.f, f.xi) == (d.mu, d.f, d.xi)).cloned();
-        let curves: Vec<_> = chains
+        let arr_of = |d: &Design<f64>| g.iter().map(|&g| response::arr(g, d.mu, d.f, d.xi)).collect::<Vec<_>>();
+        let (best, lowest) = (&job.arr.best.springs, lowest_cap(&case.target));
+        let mut curves = Vec::new();
+        for (name, d, fits) in
+            [("vertical", &best.vertical, &job.vertical), ("horizontal", &best.horizontal, &job.horizontal)]
+        {
+            let fit = fits.iter().find(|fit| (fit.mu, fit.f, fit.xi) == (d.mu, d.f, d.xi));
+            let active: Vec<_> = fit
+                .iter()
+                .flat_map(|fit| &fit.certificate.active)
+                .filter(|a| a.g.is_finite())
+                .map(|a| figures::arr::Active { g: a.g, arr: a.arr, multiplier: None })
+                .collect();
+            let cap = fit.filter(|_| lowest).map(|fit| fit.peak);
+            curves.push((format!("{name}, fit at \u{3bc} = {}", d.mu), arr_of(d), active, cap));
+        }
+        if job.springs != *best {
+            for (name, d) in [("vertical", &job.springs.vertical), ("horizontal", &job.springs.horizontal)] {
+                curves.push((format!("{name}, tuned"), arr_of(d), Vec::new(), None));
+            }
+        }
+        let curves: Vec<_> = curves
             .iter()
-            .map(|(name, d, fits)| {
-                let arr: Vec<f64> = g.iter().map(|&g| response::arr(g, d.mu, d.f, d.xi)).collect();
-                let active: Vec<_> = family(d, fits)
-                    .iter()
-                    .flat_map(|fit| fit.certificate.active.clone())
-                    .filter(|a| a.g.is_finite())
-                    .map(|a| figures::arr::Active { g: a.g, arr: a.arr, multiplier: None })
-                    .collect();
-                (format!("{name}, \u{3bc} = {:.3}", d.mu), arr, active)
-            })
+            .map(|(label, arr, active, cap)| figures::arr::Curve { label, g: &g, arr, active, cap: *cap })
             .collect();
-        let curves: Vec<_> =
-            curves.iter().map(|(label, arr, active)| figures::arr::Curve { label, g: &g, arr, active }).collect();
         let target: Vec<_> = case.target.bands.iter().filter_map(|band| wanted(band, g[0], g[g.len() - 1])).collect();
         figures::arr::render(
             &figures::arr::Response {

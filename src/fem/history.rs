@@ -11,7 +11,8 @@ use super::{
 };
 use crate::motion::Motion;
 
-/// Contact forces of both feet (left, right) at every sample [N].
+/// Contact forces of both feet (left, right) [N]: for every sample the force of largest magnitude since the sample
+/// before, since an impact is over long before the next sample.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Forces {
     pub vertical: [Vec<f64>; 2],
@@ -64,6 +65,8 @@ pub struct Recorder {
     motion: Motion,
     events: Events,
     forces: Forces,
+    /// Largest since the last sample: vertical and horizontal of each foot [N].
+    largest: [[f64; 2]; 2],
     account: Account,
     initial_z: f64,
     residual: f64,
@@ -79,6 +82,7 @@ impl Recorder {
             motion: Motion::with_capacity(n),
             events: Events::default(),
             forces: Forces { vertical: [room(), room()], horizontal: [room(), room()] },
+            largest: [[0.0; 2]; 2],
             account: Account { input: room(), stored: room(), dissipated: room(), residual: room() },
             initial_z: 0.0,
             residual: 0.0,
@@ -114,9 +118,12 @@ impl Observer<f64> for Recorder {
         }
         self.end = view.time;
         self.motion.push(q[X], q[Z] - self.initial_z, q[TH]);
-        for (i, f) in view.model.contact(q, view.feet).iter().enumerate() {
-            self.forces.vertical[i].push(f.vertical);
-            self.forces.horizontal[i].push(f.horizontal);
+        if index == 0 {
+            self.step(view);
+        }
+        for (i, [vertical, horizontal]) in std::mem::take(&mut self.largest).into_iter().enumerate() {
+            self.forces.vertical[i].push(vertical);
+            self.forces.horizontal[i].push(horizontal);
         }
         let e = view.energy;
         self.account.input.push(e.input);
@@ -125,6 +132,16 @@ impl Observer<f64> for Recorder {
         self.account.residual.push(e.residual());
         self.residual = self.residual.max(e.residual().abs());
         ControlFlow::Continue(())
+    }
+
+    fn step(&mut self, view: &View<f64>) {
+        for (largest, f) in self.largest.iter_mut().zip(view.model.contact(&view.state.q, view.feet)) {
+            for (largest, force) in largest.iter_mut().zip([f.vertical, f.horizontal]) {
+                if force.abs() > largest.abs() {
+                    *largest = force;
+                }
+            }
+        }
     }
 
     fn event(&mut self, foot: usize, change: Change, view: &View<f64>) {

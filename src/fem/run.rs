@@ -135,6 +135,7 @@ impl<'a, S: Scalar> Run<'a, S> {
                 continue;
             }
             t += stages.h;
+            observer.step(&self.view(real::<S>(t0) + t));
             if let Some((foot, level)) = crossed {
                 self.switch(foot, level, real::<S>(t0) + t, observer);
             }

@@ -44,6 +44,8 @@ pub struct Curve<'a> {
     pub g: &'a [f64],
     pub arr: &'a [f64],
     pub active: &'a [Active],
+    /// The lowest cap that its kind of chain can keep, if that is what was wanted.
+    pub cap: Option<f64>,
 }
 
 /// What the figure shows.
@@ -66,6 +68,7 @@ pub fn render(data: &Response<'_>, path: &Path) -> Result<(), FigureError> {
         CHECK.column(&format!("ARR of {}", curve.label), curve.arr, curve.g.len())?;
         let active: Vec<f64> = curve.active.iter().flat_map(|a| [a.g, a.arr]).collect();
         CHECK.finite(&format!("active points of {}", curve.label), &active)?;
+        CHECK.finite(&format!("cap of {}", curve.label), curve.cap.as_slice())?;
     }
     for band in data.target {
         let bounds = [band.at_least.unwrap_or(0.0), band.at_most.unwrap_or(0.0)];
@@ -98,6 +101,9 @@ pub fn render(data: &Response<'_>, path: &Path) -> Result<(), FigureError> {
     panel.axes(&mut canvas, Some("frequency ratio, g = ω/Ωₙ"), "amplitude response ratio, ARR", 105.0);
     for band in data.target {
         bound(&mut canvas, &panel, band);
+    }
+    for (i, curve) in data.curves.iter().enumerate() {
+        lowest(&mut canvas, &panel, curve, i);
     }
     for (i, curve) in data.curves.iter().enumerate() {
         panel.curve(&mut canvas, curve.g, curve.arr, pen(i));
@@ -154,6 +160,15 @@ fn bound(canvas: &mut Canvas, panel: &Panel, band: &Band) {
     let at = panel.at(ends[0], panel.y.high);
     let how = Lettering::new(NUMBER).at(HPos::Left, VPos::Top);
     canvas.text((at.0 + 14.0, at.1 + 12.0), &format!("ARR ≤ {}", brief(most, 4)), how);
+}
+
+/// The lowest cap of a curve, its value at the right.
+fn lowest(canvas: &mut Canvas, panel: &Panel, curve: &Curve<'_>, i: usize) {
+    let Some(cap) = curve.cap else { return };
+    panel.curve(canvas, &[panel.x.low, panel.x.high], &[cap, cap], Pen::new(style::series(i), 1.6).dashed());
+    let at = panel.at(panel.x.high, cap);
+    let how = Lettering::new(NUMBER).colour(style::series(i)).at(HPos::Right, VPos::Bottom);
+    canvas.text((at.0 - 14.0, at.1 - 10.0), &format!("lowest cap {}", brief(cap, 4)), how);
 }
 
 fn touches(canvas: &mut Canvas, panel: &Panel, curve: &Curve<'_>, i: usize) {

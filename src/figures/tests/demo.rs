@@ -78,8 +78,8 @@ fn draw_arr(path: &Path) -> Result<(), FigureError> {
             arr::Band { g: (6.0, 20.0), at_least: None, at_most: Some(0.1) },
         ],
         curves: &[
-            arr::Curve { label: "vertical, μ = 10", g: &g, arr: &vertical, active: &active },
-            arr::Curve { label: "horizontal, μ = 0.1", g: &g, arr: &horizontal, active: &one },
+            arr::Curve { label: "vertical, μ = 10", g: &g, arr: &vertical, active: &active, cap: None },
+            arr::Curve { label: "horizontal, μ = 0.1", g: &g, arr: &horizontal, active: &one, cap: Some(2.0) },
         ],
     };
     arr::render(&data, path)
