@@ -7,14 +7,17 @@ use thiserror::Error;
 
 use crate::{
     case::CaseError,
+    export::ExportError,
     figures::FigureError,
     parameters::ParametersError,
     record::RecordError,
     tuning::{inner::FitError, job::JobError},
+    verify::VerifyError,
 };
 
 mod common;
 mod draw;
+mod export;
 mod housner;
 mod progress;
 mod report;
@@ -23,6 +26,7 @@ mod run;
 mod simulate;
 mod table;
 mod validate;
+mod verify;
 
 /// Ground springs that let a finite element program follow Housner's theory of rocking.
 #[derive(Debug, Parser)]
@@ -44,6 +48,10 @@ enum Command {
     Simulate(simulate::Options),
     /// Judge given springs over many records: peaks, overturning, histories where they can be compared.
     Validate(validate::Options),
+    /// Write the springs and their model for OpenSees, SAP2000 or as plain tables.
+    Export(export::Options),
+    /// Run the exported model in OpenSees beside our own history and Housner's.
+    Verify(verify::Options),
 }
 
 /// Why a command ended without its result.
@@ -61,6 +69,10 @@ pub enum CommandError {
     Job(#[from] JobError),
     #[error(transparent)]
     Figure(#[from] FigureError),
+    #[error(transparent)]
+    Export(#[from] ExportError),
+    #[error(transparent)]
+    Verify(#[from] VerifyError),
     #[error("{path}: cannot be written ({source}); check the folder and its rights")]
     Write { path: String, source: std::io::Error },
     #[error("cannot write to stdout: {0}")]
@@ -93,6 +105,8 @@ pub fn main() -> ExitCode {
         Command::Response(o) => response::run(&o),
         Command::Simulate(o) => simulate::run(&o),
         Command::Validate(o) => validate::run(&o),
+        Command::Export(o) => export::run(&o),
+        Command::Verify(o) => verify::run(&o),
     };
     match result {
         Ok(()) => ExitCode::SUCCESS,
