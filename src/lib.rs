@@ -52,6 +52,8 @@ pub mod export;
 
 pub mod verify;
 
+pub mod bench;
+
 pub mod case;
 
 pub mod commands;

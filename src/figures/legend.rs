@@ -67,15 +67,8 @@ impl Entry {
 /// A title, and below it the legend in as many rows as it takes, from `left` to `right`; where the figure may begin
 /// below them [pixel].
 pub fn header(canvas: &mut Canvas, title: &str, entries: &[Entry], left: f64, right: f64) -> f64 {
-    let mut size = TITLE;
-    let mut lettering = Lettering::new(size).bold();
-    // A long title is set smaller rather than cut, but never below the size of the numbers.
-    while lettering.length(title) > right - left && size > super::style::NUMBER {
-        size -= 1.0;
-        lettering = Lettering::new(size).bold();
-    }
-    canvas.text((left, 52.0), title, lettering.at(HPos::Left, VPos::Bottom));
-    let (mut x, mut y) = (left, 92.0);
+    let below = self::title(canvas, title, (left, right), 0.0);
+    let (mut x, mut y) = (left, below + 8.0);
     for entry in entries {
         let length = entry.length();
         if x > left && x + length > right {
@@ -84,7 +77,20 @@ pub fn header(canvas: &mut Canvas, title: &str, entries: &[Entry], left: f64, ri
         entry.draw(canvas, (x, y));
         x += length + 44.0;
     }
-    if entries.is_empty() { 84.0 } else { y + 36.0 }
+    if entries.is_empty() { below } else { y + 36.0 }
+}
+
+/// A title between `left` and `right` in a figure whose upper edge is at `y`; its height [pixel].
+pub fn title(canvas: &mut Canvas, title: &str, (left, right): (f64, f64), y: f64) -> f64 {
+    let mut size = TITLE;
+    let mut lettering = Lettering::new(size).bold();
+    // A long title is set smaller rather than cut, but never below the size of the numbers.
+    while lettering.length(title) > right - left && size > super::style::NUMBER {
+        size -= 1.0;
+        lettering = Lettering::new(size).bold();
+    }
+    canvas.text((left, y + 52.0), title, lettering.at(HPos::Left, VPos::Bottom));
+    84.0
 }
 
 /// The legend in one column; its left end and the middle of its first row at the point.

@@ -31,46 +31,58 @@ pub struct Precision<'a> {
     pub series: &'a [Series<'a>],
 }
 
-/// Draw the figure.
+/// Height of one comparison [pixel].
+const SHEET: f64 = 960.0;
+
+/// Draw comparisons one below the other.
 ///
 /// # Errors
 /// [`FigureError`] when a slice is empty, when a number is not finite or not greater than zero, and when `path` cannot
 /// be written.
-pub fn render(data: &Precision<'_>, path: &Path) -> Result<(), FigureError> {
-    CHECK.least("series", data.series.len(), 1)?;
-    for series in data.series {
-        CHECK.least(series.label, series.points.len(), 1)?;
-        let numbers: Vec<f64> = series.points.iter().flat_map(|point| [point.0, point.1]).collect();
-        let what = format!("{} (error and time in turn)", series.label);
-        CHECK.each(&what, &numbers, |x| x.is_finite() && x > 0.0)?;
+pub fn render(sheets: &[Precision<'_>], path: &Path) -> Result<(), FigureError> {
+    CHECK.least("comparisons", sheets.len(), 1)?;
+    for data in sheets {
+        CHECK.least("series", data.series.len(), 1)?;
+        for series in data.series {
+            CHECK.least(series.label, series.points.len(), 1)?;
+            let numbers: Vec<f64> = series.points.iter().flat_map(|point| [point.0, point.1]).collect();
+            let what = format!("{} (error and time in turn)", series.label);
+            CHECK.each(&what, &numbers, |x| x.is_finite() && x > 0.0)?;
+        }
     }
+    let mut canvas = Canvas::new(WIDTH, SHEET as usize * sheets.len());
+    for (k, data) in sheets.iter().enumerate() {
+        draw(&mut canvas, data, SHEET * k as f64);
+    }
+    canvas.save(path)
+}
 
-    let mut canvas = Canvas::new(WIDTH, 960);
+/// One comparison, its upper edge at `y`.
+fn draw(canvas: &mut Canvas, data: &Precision<'_>, y: f64) {
     let entries: Vec<Entry> =
         data.series.iter().enumerate().map(|(i, series)| Entry::both(series.label, pen(i), dot(i))).collect();
     let left = 150.0;
-    let top = legend::header(&mut canvas, data.title, &[], left, WIDTH as f64 - 40.0);
+    let top = y + legend::title(canvas, data.title, (left, WIDTH as f64 - 40.0), y);
     // The legend's column takes what its longest text needs, but leaves the panel more than half of the sheet.
     let text = super::canvas::Lettering::new(LABEL);
     let longest = data.series.iter().map(|series| text.length(series.label)).fold(0.0, f64::max);
     let right = (WIDTH as f64 - 40.0 - longest - 76.0 - 36.0).max(850.0);
-    legend::column(&mut canvas, &entries, (right + 36.0, top + 24.0));
+    legend::column(canvas, &entries, (right + 36.0, top + 24.0));
 
     let points = || data.series.iter().flat_map(|series| series.points);
     let panel = Panel {
-        frame: Frame { left, top, right, bottom: 860.0 },
+        frame: Frame { left, top, right, bottom: y + 860.0 },
         x: Scale::log_around(points().map(|point| point.0), 10.0),
         y: Scale::log_around(points().map(|point| point.1), 10.0),
     };
-    panel.axes(&mut canvas, Some(data.error_label), data.time_label, 110.0);
+    panel.axes(canvas, Some(data.error_label), data.time_label, 110.0);
     for (i, series) in data.series.iter().enumerate().rev() {
         let (errors, times): (Vec<f64>, Vec<f64>) = series.points.iter().copied().unzip();
-        panel.curve(&mut canvas, &errors, &times, pen(i));
+        panel.curve(canvas, &errors, &times, pen(i));
         for &(error, time) in series.points {
-            dot(i).draw(&mut canvas, panel.at(error, time));
+            dot(i).draw(canvas, panel.at(error, time));
         }
     }
-    canvas.save(path)
 }
 
 fn pen(i: usize) -> Pen {

@@ -101,14 +101,14 @@ fn empty_or_unequal_or_not_finite_numbers_are_errors() {
             &validation::Validation { title: "", rows: &[], ks_distance: 0.0, well_conditioned: 10.0 },
             &path,
         ),
-        precision::render(&precision::Precision { title: "", error_label: "", time_label: "", series: &[] }, &path),
+        precision::render(&[precision::Precision { title: "", error_label: "", time_label: "", series: &[] }], &path),
     ];
     for result in empty {
         assert!(matches!(result, Err(FigureError::Empty { .. })));
     }
     let points = precision::Series { label: "tool", points: &[(1e-3, 0.0)] };
     let data = precision::Precision { title: "", error_label: "", time_label: "", series: &[points] };
-    assert!(matches!(precision::render(&data, &path), Err(FigureError::NotFinite { index: 1, .. })));
+    assert!(matches!(precision::render(&[data], &path), Err(FigureError::NotFinite { index: 1, .. })));
     assert!(!path.exists());
 }
 

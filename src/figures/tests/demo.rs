@@ -208,7 +208,7 @@ fn draw_precision(path: &Path) -> Result<(), FigureError> {
             precision::Series { label: "Octave ode45", points: &ladder(400.0, 5.0, 0.2, 2) },
         ],
     };
-    precision::render(&data, path)
+    precision::render(&[data], path)
 }
 
 pub type Draw = fn(&Path) -> Result<(), FigureError>;

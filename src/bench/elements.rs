@@ -1,0 +1,174 @@
+//! The finite element history: what an error costs, and what stiffness and length cost.
+
+use std::hint::black_box;
+
+use super::{Point, Series, least};
+use crate::{
+    fem::{Case, Control, History, Start},
+    motion::{Motion, nrmse},
+    parameters::Parameters,
+    record::Record,
+    spring::{Design, Springs},
+    structure::Structure,
+};
+
+/// The tolerance of the history that errors are told against; the next tighter one confirms it.
+pub const TIGHT: f64 = 1e-12;
+/// Tolerances of the ladder.
+pub const LADDER: [f64; 8] = [1e-4, 1e-5, 1e-6, 1e-7, 1e-8, 1e-9, 1e-10, 1e-11];
+
+/// The paper's A-frame on springs, on a record.
+#[derive(Clone, Debug)]
+pub struct Scene {
+    pub name: &'static str,
+    pub springs: Springs<Design<f64>>,
+    pub record: Record,
+}
+
+/// The paper's structure, with the little rotational inertia that a deck for OpenSees needs.
+pub fn structure() -> Structure {
+    crate::export::with_inertia(&Structure::paper())
+}
+
+impl Scene {
+    /// 160 Hz springs as the paper's procedure tunes them.
+    pub fn arr() -> Self {
+        let vertical = Design { mu: 1.0, f: 0.862_809_649, xi: 1.023_922_665, omega_n_hz: 160.0 };
+        let horizontal = Design { mu: 10.0, f: 0.948_312_333, xi: 0.197_421_228, omega_n_hz: 160.0 };
+        Self { name: "paper's procedure", springs: Springs { vertical, horizontal }, record: el_centro() }
+    }
+
+    /// 160 Hz springs as the impact objective tunes them: stiff, strongly damped horizontal chains.
+    pub fn impact() -> Self {
+        let vertical = Design { mu: 0.5158, f: 0.6521, xi: 0.8992, omega_n_hz: 160.0 };
+        let horizontal = Design { mu: 0.0272, f: 33.19, xi: 40.06, omega_n_hz: 160.0 };
+        Self { name: "impact objective", springs: Springs { vertical, horizontal }, record: el_centro() }
+    }
+
+    /// The same ratios, which hardly bounce, at any frequency [Hz].
+    pub fn plain(omega_n_hz: f64) -> Self {
+        let chain = Design::from_kc(0.5, 0.2, 0.92, omega_n_hz);
+        let springs = Springs { vertical: chain, horizontal: chain };
+        Self { name: "mu 0.5, K 0.2, C 0.92", springs, record: el_centro() }
+    }
+
+    /// What the engineer's deck is made of.
+    pub fn parameters(&self) -> Parameters {
+        Parameters::new(structure(), &self.springs)
+    }
+
+    /// The history at a tolerance.
+    pub fn simulate(&self, control: Control) -> History {
+        let body = structure().body::<f64>();
+        Case {
+            body,
+            springs: self.springs.chains(body.mass),
+            start: Start::Settled,
+            dt: self.record.dt,
+            accel: &self.record.accel,
+            scale: 1.0,
+            control,
+        }
+        .simulate()
+    }
+
+    /// The history that errors are told against.
+    pub fn tight(&self) -> Motion {
+        self.simulate(at(TIGHT)).motion
+    }
+
+    /// Time, error and work at each tolerance.
+    pub fn ladder(&self, tolerances: &[f64], reference: &Motion, rounds: usize) -> Series {
+        let point = |&tolerance: &f64| {
+            let (seconds, history) = least(rounds, || self.simulate(black_box(at(tolerance))));
+            Point {
+                setting: format!("tolerance {tolerance:.0e}"),
+                seconds,
+                error: error(&history.motion, reference),
+                note: format!("{} steps, energy residual {:.0e}", steps(&history), history.energy_residual),
+            }
+        };
+        Series { tool: format!("groundspring, {}", self.name), points: tolerances.iter().map(point).collect() }
+    }
+}
+
+/// The default control at another tolerance.
+pub fn at(tolerance: f64) -> Control {
+    Control { tolerance, ..Control::default() }
+}
+
+/// The larger NRMSE of u and v; infinite for a history cut short.
+pub fn error(motion: &Motion, reference: &Motion) -> f64 {
+    if motion.len() != reference.len() {
+        return f64::INFINITY;
+    }
+    nrmse(&motion.u, &reference.u).max(nrmse(&motion.v, &reference.v))
+}
+
+/// Steps tried, repeated ones included.
+pub fn steps(history: &History) -> usize {
+    let work = &history.work;
+    work.steps + work.rejected + work.located
+}
+
+/// What one history cost.
+#[derive(Clone, Copy, Debug)]
+pub struct Cost {
+    /// Omega_n [Hz] or length [s].
+    pub at: f64,
+    pub seconds: f64,
+    pub steps: usize,
+    pub impacts: usize,
+    /// Against [`TIGHT`].
+    pub error: f64,
+}
+
+/// Cost against stiffness, 20 s of El Centro.
+pub fn against_stiffness(hz: &[f64], rounds: usize) -> Vec<Cost> {
+    hz.iter().map(|&hz| cost(hz, &Scene::plain(hz), rounds)).collect()
+}
+
+/// Cost against length; the record is El Centro's first 20 s, over and over.
+pub fn against_length(seconds: &[f64], rounds: usize) -> Vec<Cost> {
+    let once = el_centro();
+    let scene = |length: f64| {
+        let samples = (length / once.dt).round() as usize + 1;
+        let accel = once.accel[..once.len() - 1].iter().copied().cycle().take(samples).collect();
+        Scene { record: Record { accel, ..once.clone() }, ..Scene::plain(160.0) }
+    };
+    seconds.iter().map(|&length| cost(length, &scene(length), rounds)).collect()
+}
+
+fn cost(at: f64, scene: &Scene, rounds: usize) -> Cost {
+    let (seconds, history) = least(rounds, || scene.simulate(black_box(Control::default())));
+    let error = error(&history.motion, &scene.tight());
+    Cost { at, seconds, steps: steps(&history), impacts: history.impacts(), error }
+}
+
+fn el_centro() -> Record {
+    Record::el_centro().truncated(super::rigid::SECONDS)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn the_default_history_is_within_its_promise_of_the_tight_one_which_the_next_tighter_confirms() {
+        for scene in [Scene::arr(), Scene::impact()] {
+            let tight = scene.tight();
+            assert!(error(&scene.simulate(at(0.1 * TIGHT)).motion, &tight) < 5e-6);
+            assert!(error(&scene.simulate(Control::default()).motion, &tight) < 5e-4);
+        }
+    }
+
+    #[test]
+    fn a_history_cut_short_has_no_error() {
+        let scene = Scene::plain(20.0);
+        let mut motion = scene.tight();
+        let reference = motion.clone();
+        assert_eq!(error(&motion, &reference), 0.0);
+        motion.u.pop();
+        assert_eq!(error(&motion, &reference), f64::INFINITY);
+    }
+}

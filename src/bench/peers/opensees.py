@@ -1,0 +1,30 @@
+# The exported deck (argv 1) at other time steps: argv 2... are numbers of steps per sample. For each, one line on stdout:
+# steps per sample, seconds of the analysis, name of the history written (none if the analysis stopped).
+import importlib.util
+import os
+import sys
+import time
+
+path = os.path.abspath(sys.argv[1])
+spec = importlib.util.spec_from_file_location("deck", path)
+deck = importlib.util.module_from_spec(spec)
+spec.loader.exec_module(deck)  # exits with 3 when openseespy cannot be loaded
+history = os.path.splitext(path)[0] + "_history.csv"
+for steps in map(int, sys.argv[2:]):
+    deck.STEPS_PER_SAMPLE = steps
+    shown, sys.stdout = sys.stdout, open(os.devnull, "w")
+    began = time.perf_counter()
+    try:
+        deck.main()
+        seconds = time.perf_counter() - began
+        stopped = False
+    except SystemExit:
+        seconds, stopped = time.perf_counter() - began, True
+    finally:
+        sys.stdout = shown
+    if stopped:
+        print(steps, seconds, flush=True)
+        continue
+    kept = f"{os.path.splitext(path)[0]}_{steps}.csv"
+    os.replace(history, kept)
+    print(steps, seconds, kept, flush=True)

@@ -1,0 +1,159 @@
+//! Housner's equation, 20 s of El Centro: ours and its peers against a float128 history.
+
+use std::hint::black_box;
+
+use super::{Point, Series, alternate};
+use crate::{
+    housner::{Options, solve, solve_lanes},
+    record::Record,
+    structure::{Body, Structure},
+};
+
+/// Length of the history [s].
+pub const SECONDS: f64 = 20.0;
+
+/// The history that every tool follows, and its reference.
+#[derive(Clone, Debug)]
+pub struct Problem {
+    pub body: Body<f64>,
+    pub record: Record,
+    /// Sample and theta [rad].
+    reference: Vec<(usize, f64)>,
+}
+
+impl Problem {
+    /// The paper's A-frame on the first 20 s of El Centro.
+    pub fn el_centro() -> Self {
+        let reference = include_str!("el_centro_float128.csv")
+            .lines()
+            .filter_map(|line| line.split_once(','))
+            .filter_map(|(i, theta)| Some((i.parse().ok()?, theta.parse().ok()?)))
+            .collect();
+        Self { body: Structure::paper().body(), record: Record::el_centro().truncated(SECONDS), reference }
+    }
+
+    /// Largest error of u over the samples that the reference tells [m]; infinite if the history is too short.
+    pub fn error(&self, theta: &[f64]) -> f64 {
+        let error = |&(i, reference): &(usize, f64)| {
+            theta.get(i).map_or(f64::INFINITY, |&theta| (self.body.u(theta) - self.body.u(reference)).abs())
+        };
+        // a NaN is no small error
+        self.reference.iter().map(error).fold(0.0, |worst, e| if worst.is_nan() || e <= worst { worst } else { e })
+    }
+
+    /// The same history for diffsol.
+    #[cfg(feature = "diffsol")]
+    pub fn diffsol(&self) -> super::diffsol::Case<'_> {
+        super::diffsol::Case {
+            p2: self.body.p_squared(),
+            alpha: self.body.alpha(),
+            e: self.body.restitution(),
+            g: crate::scalar::GRAVITY,
+            dt: self.record.dt,
+            accel: &self.record.accel,
+        }
+    }
+
+    fn ours(&self) -> Vec<f64> {
+        solve(&self.body, self.record.dt, &self.record.accel, &Options::default()).theta
+    }
+}
+
+/// Tolerances of diffsol's ladder.
+#[cfg(feature = "diffsol")]
+const LADDER: [f64; 2] = [1e-4, 1e-10];
+
+/// Our solver, and beside it diffsol where it is built in.
+pub fn series(problem: &Problem, rounds: usize) -> Vec<Series> {
+    let mut ours = || drop(black_box(problem.ours()));
+    let own = |seconds| Series {
+        tool: "groundspring".into(),
+        points: vec![Point {
+            setting: "one Taylor step a sample".into(),
+            seconds,
+            error: problem.error(&problem.ours()),
+            note: String::new(),
+        }],
+    };
+    #[cfg(not(feature = "diffsol"))]
+    return vec![own(alternate(&mut [&mut ours], rounds)[0])];
+    #[cfg(feature = "diffsol")]
+    {
+        let case = problem.diffsol();
+        let case = &case;
+        let mut peers = LADDER.map(|rtol| move || drop(black_box(case.theta(rtol))));
+        let [a, b] = &mut peers;
+        let times = alternate(&mut [&mut ours, a, b], rounds);
+        let points = LADDER
+            .iter()
+            .zip(&times[1..])
+            .map(|(&rtol, &seconds)| Point {
+                setting: format!("rtol {rtol:.0e}"),
+                seconds,
+                error: case.theta(rtol).map_or(f64::INFINITY, |theta| problem.error(&theta)),
+                note: String::new(),
+            })
+            .collect();
+        let tool = "diffsol Tsit45, stopped at every sample".into();
+        vec![own(times[0]), Series { tool, points }]
+    }
+}
+
+/// Many structures on one record: time of each, one by one and in lock-step.
+#[derive(Clone, Copy, Debug)]
+pub struct Lanes {
+    pub structures: usize,
+    /// [s]
+    pub single: f64,
+    /// [s]
+    pub lanes: f64,
+}
+
+/// Structures of nearly the paper's size: width and height up to a fifth more or less.
+pub fn lanes(problem: &Problem, structures: usize, rounds: usize) -> Lanes {
+    let Record { dt, accel, .. } = &problem.record;
+    let share = |i: usize, step: f64| 0.8 + 0.4 * (i as f64 * step).fract();
+    let bodies: Vec<Body<f64>> = (0..structures)
+        .map(|i| Body {
+            half_width: problem.body.half_width * share(i, 0.618_033_988_75),
+            height: problem.body.height * share(i, 0.754_877_666_25),
+            ..problem.body
+        })
+        .collect();
+    let options = Options::default();
+    let mut together = || drop(black_box(solve_lanes(&bodies, *dt, accel, std::slice::from_ref(&options))));
+    let mut each = || drop(black_box(bodies.iter().map(|body| solve(body, *dt, accel, &options)).collect::<Vec<_>>()));
+    let times = alternate(&mut [&mut together, &mut each], rounds);
+    Lanes { structures, lanes: times[0] / structures as f64, single: times[1] / structures as f64 }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn the_embedded_reference_has_the_peaks_of_the_float128_program() {
+        let problem = Problem::el_centro();
+        assert_eq!(problem.reference.len(), 201);
+        assert_eq!(problem.reference[50], (500, 4.691_153_314_764_106e-3));
+        assert_eq!(problem.reference[200].0, 2000);
+    }
+
+    #[test]
+    fn our_history_is_within_1e_10_m_of_the_reference() {
+        let problem = Problem::el_centro();
+        let theta = problem.ours();
+        assert!(problem.error(&theta) < 1e-10);
+    }
+
+    #[test]
+    fn a_short_or_wrong_history_is_an_error() {
+        let problem = Problem::el_centro();
+        let mut theta = problem.ours();
+        assert_eq!(problem.error(&theta[..1500]), f64::INFINITY);
+        theta[1000] = f64::NAN;
+        assert!(problem.error(&theta).is_nan());
+        theta[1000] = 0.0;
+        assert!(problem.error(&theta) > 1e-3);
+    }
+}
