@@ -12,7 +12,7 @@
 //! scale = 1.0
 //!
 //! [tuning]
-//! objective = "arr"
+//! objective = "impact"
 //! max_omega_hz = 160.0
 //! ```
 
@@ -52,9 +52,9 @@ pub enum CaseError {
 #[serde(rename_all = "lowercase")]
 pub enum Objective {
     /// The paper's procedure: the frequency response's shape, then Omega_n on the record.
-    #[default]
     Arr,
     /// Landings and uplifts of the structure, without any record.
+    #[default]
     Impact,
 }
 
@@ -110,7 +110,7 @@ pub struct Tuning {
 impl Default for Tuning {
     fn default() -> Self {
         Self {
-            objective: Objective::Arr,
+            objective: Objective::Impact,
             max_omega_hz: 160.0,
             max_settlement_m: 0.01,
             mass_ratios_vertical: vec![0.1, 0.3, 1.0, 2.0, 10.0],

@@ -42,6 +42,15 @@ impl From<Sensitivity> for Conditioning {
     }
 }
 
+/// What the paper's procedure (ARR shape, then Omega_n on the record) gives for the same case.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+pub struct PaperProcedure {
+    pub vertical: ChainRow,
+    pub horizontal: ChainRow,
+    #[serde(rename = "match")]
+    pub matched: Match,
+}
+
 /// Everything in `parameters.json`.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Parameters {
@@ -54,6 +63,9 @@ pub struct Parameters {
     pub matched: Option<Match>,
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub conditioning: Option<Conditioning>,
+    /// Beside the springs above, where another objective chose them.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub paper_procedure: Option<PaperProcedure>,
 }
 
 /// What is wrong with a parameter file, and what to do.
@@ -80,6 +92,7 @@ impl Parameters {
             horizontal: ChainRow::new(&springs.horizontal, m1),
             matched: None,
             conditioning: None,
+            paper_procedure: None,
         }
     }
 

@@ -2,6 +2,8 @@
 
 pub mod bounds;
 
+mod catalogue;
+
 pub mod certificate;
 
 pub mod descent;

@@ -6,7 +6,7 @@ use clap::Args;
 
 use super::{
     CommandError,
-    common::{RecordOptions, both, history_csv},
+    common::{self, RecordOptions, history_csv},
     draw::draw,
     progress::Progress,
     report::{Ground, Report},
@@ -14,7 +14,7 @@ use super::{
 };
 use crate::{
     case::Case,
-    parameters::{Parameters, RecordRow},
+    parameters::{PaperProcedure, Parameters, RecordRow},
     tuning::{front, job::Job},
 };
 
@@ -81,9 +81,15 @@ pub fn run(o: &Options) -> Result<(), CommandError> {
     };
 
     let mut parameters = Parameters::new(case.structure, &job.springs);
-    let both = both(&job.body, case.restitution, &parameters.chains(), &job.record);
+    let both = common::both(&job.body, case.restitution, &parameters.chains(), &job.record);
     parameters.record = Some(RecordRow::new(&case.record));
     parameters.matched = Some(both.matched);
+    if job.impact.is_some() {
+        let paper = Parameters::new(case.structure, &job.arr.best.springs);
+        let matched = common::both(&job.body, case.restitution, &paper.chains(), &job.record).matched;
+        parameters.paper_procedure =
+            Some(PaperProcedure { vertical: paper.vertical, horizontal: paper.horizontal, matched });
+    }
     let report = Report::new(&job.body, case.restitution, &job.record, &both.rocking, friction);
     parameters.conditioning = Some(report.sensitivity.into());
     let dt = job.record.dt;

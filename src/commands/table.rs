@@ -3,6 +3,7 @@
 use comfy_table::{Table, presets};
 
 use crate::{
+    compare::Match,
     parameters::Parameters,
     tuning::front::{Errors, Point},
 };
@@ -25,22 +26,35 @@ fn rows(p: &Parameters) -> Vec<[String; 3]> {
     ]
 }
 
-/// Rows of the match: name, Housner, finite elements.
-fn match_rows(p: &Parameters) -> Vec<[String; 3]> {
+/// Rows of the match: name, Housner, finite elements, and these on the springs of the paper's procedure if they differ.
+fn match_rows(p: &Parameters) -> Vec<Vec<String>> {
     let Some(m) = &p.matched else { return Vec::new() };
+    let paper = p.paper_procedure.map(|paper| paper.matched);
+    let row = |name: &str, housner: String, value: &dyn Fn(&Match) -> String| {
+        let mut row = vec![name.to_string(), housner, value(m)];
+        row.extend(paper.iter().map(value));
+        row
+    };
     let mm = |x: f64| format!("{:.2} mm", x * 1e3);
-    let row = |name: &str, a: String, b: String| [name.to_string(), a, b];
+    let none = String::new;
     vec![
-        row("peak horizontal displacement", mm(m.peak_horizontal_housner_m), mm(m.peak_horizontal_fem_m)),
-        row("peak vertical displacement", mm(m.peak_vertical_housner_m), mm(m.peak_vertical_fem_m)),
-        row("impacts", m.impacts_housner.to_string(), m.impacts_fem.to_string()),
-        row("NRMSE horizontal", String::new(), format!("{:.4}", m.nrmse_horizontal)),
-        row("NRMSE vertical", String::new(), format!("{:.4}", m.nrmse_vertical)),
-        row("largest error of restitution", String::new(), format!("{:.3} %", m.restitution_error_max * 100.0)),
-        row("bounces", String::new(), m.bounces.to_string()),
-        row("settlement", String::new(), format!("{:.3} mm", m.settlement_m * 1e3)),
-        row("energy residual", String::new(), format!("{:.1e}", m.energy_residual)),
+        row("peak horizontal displacement", mm(m.peak_horizontal_housner_m), &|m| mm(m.peak_horizontal_fem_m)),
+        row("peak vertical displacement", mm(m.peak_vertical_housner_m), &|m| mm(m.peak_vertical_fem_m)),
+        row("impacts", m.impacts_housner.to_string(), &|m| m.impacts_fem.to_string()),
+        row("NRMSE horizontal", none(), &|m| format!("{:.4}", m.nrmse_horizontal)),
+        row("NRMSE vertical", none(), &|m| format!("{:.4}", m.nrmse_vertical)),
+        row("largest error of restitution", none(), &|m| format!("{:.3} %", m.restitution_error_max * 100.0)),
+        row("bounces", none(), &|m| m.bounces.to_string()),
+        row("settlement", none(), &|m| format!("{:.3} mm", m.settlement_m * 1e3)),
+        row("energy residual", none(), &|m| format!("{:.1e}", m.energy_residual)),
     ]
+}
+
+/// Heading of these rows.
+fn match_head(first: &str, p: &Parameters) -> Vec<String> {
+    let mut head = vec![first.to_string(), "Housner".to_string(), "finite elements".to_string()];
+    head.extend(p.paper_procedure.map(|_| "by the paper's procedure".to_string()));
+    head
 }
 
 fn heading(p: &Parameters) -> String {
@@ -60,35 +74,45 @@ fn heading(p: &Parameters) -> String {
     )
 }
 
+/// A Markdown table.
+fn markdown_table<T: AsRef<[String]>>(head: &[String], rows: impl IntoIterator<Item = T>) -> String {
+    let mut out = format!("| {} |\n|{}\n", head.join(" | "), "---|".repeat(head.len()));
+    for row in rows {
+        out.push_str(&format!("| {} |\n", row.as_ref().join(" | ")));
+    }
+    out
+}
+
+/// The same for a terminal.
+fn terminal_table<T: AsRef<[String]>>(head: &[String], rows: impl IntoIterator<Item = T>) -> String {
+    let mut table = Table::new();
+    table.load_style(presets::ASCII_MARKDOWN).set_header(head);
+    table.add_rows(rows.into_iter().map(|row| row.as_ref().to_vec()));
+    table.to_string()
+}
+
+fn strings(head: &[&str]) -> Vec<String> {
+    head.iter().map(|s| s.to_string()).collect()
+}
+
+const PER_FOOT: [&str; 3] = ["per foot", "vertical", "horizontal"];
+
 /// `parameters.md`.
 pub fn markdown(p: &Parameters) -> String {
-    let mut out = format!("{}.\n\n", heading(p));
-    let table = |out: &mut String, head: [&str; 3], rows: Vec<[String; 3]>| {
-        out.push_str(&format!("| {} |\n|---|---|---|\n", head.join(" | ")));
-        for row in rows {
-            out.push_str(&format!("| {} |\n", row.join(" | ")));
-        }
-    };
-    table(&mut out, ["per foot", "vertical", "horizontal"], rows(p));
+    let mut out = format!("{}.\n\n{}", heading(p), markdown_table(&strings(&PER_FOOT), rows(p)));
     if let Some(m) = &p.matched {
         out.push_str(&format!("\nMatch over the first {:.2} s:\n\n", m.duration_s));
-        table(&mut out, ["", "Housner", "finite elements"], match_rows(p));
+        out.push_str(&markdown_table(&match_head("", p), match_rows(p)));
     }
     out
 }
 
 /// The same for a terminal.
 pub fn terminal(p: &Parameters) -> String {
-    let table = |head: [&str; 3], rows: Vec<[String; 3]>| {
-        let mut table = Table::new();
-        table.load_style(presets::ASCII_MARKDOWN).set_header(head);
-        table.add_rows(rows);
-        table.to_string()
-    };
-    let mut out = format!("{}\n\n{}\n", heading(p), table(["per foot", "vertical", "horizontal"], rows(p)));
+    let mut out = format!("{}\n\n{}\n", heading(p), terminal_table(&strings(&PER_FOOT), rows(p)));
     if let Some(m) = &p.matched {
-        let head = format!("first {:.2} s", m.duration_s);
-        out.push_str(&format!("\n{}\n", table([&head, "Housner", "finite elements"], match_rows(p))));
+        let head = match_head(&format!("first {:.2} s", m.duration_s), p);
+        out.push_str(&format!("\n{}\n", terminal_table(&head, match_rows(p))));
     }
     out
 }
@@ -114,11 +138,7 @@ pub fn front(front: &[Point]) -> String {
     if front.is_empty() {
         return String::new();
     }
-    let mut out = format!("\nError against stiffness:\n\n| {} |\n|---|---|---|---|---|\n", FRONT.join(" | "));
-    for row in front_rows(front) {
-        out.push_str(&format!("| {} |\n", row.join(" | ")));
-    }
-    out
+    format!("\nError against stiffness:\n\n{}", markdown_table(&strings(&FRONT), front_rows(front)))
 }
 
 /// The front, for a terminal.
@@ -126,8 +146,5 @@ pub fn front_terminal(front: &[Point]) -> String {
     if front.is_empty() {
         return String::new();
     }
-    let mut table = Table::new();
-    table.load_style(presets::ASCII_MARKDOWN).set_header(FRONT);
-    table.add_rows(front_rows(front));
-    format!("\n{table}\n")
+    format!("\n{}\n", terminal_table(&strings(&FRONT), front_rows(front)))
 }

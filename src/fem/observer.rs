@@ -51,6 +51,11 @@ impl<S: Scalar> View<'_, S> {
         self.feet[i].closed()
     }
 
+    /// Speed at which foot i comes down on its absorber [m/s].
+    pub fn gap_speed(&self, i: usize) -> S {
+        self.model.compression_rate(i, self.state)
+    }
+
     /// Kinetic energy of the body [J].
     pub fn body_kinetic(&self) -> S {
         self.model.body_kinetic(self.state)

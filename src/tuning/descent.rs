@@ -5,7 +5,8 @@
 //! ```
 //!
 //! argmin keeps the iteration and its best point; clarabel solves the programme; J comes from dual numbers, through the
-//! integrator and its events.
+//! integrator and its events. It costs as much as twenty values, so after a step it is kept and told what the step showed
+//! (Broyden, Mathematics of Computation 19, 1965): J += (dr - J d) d' / d'd. It is taken anew when that no longer gains.
 
 use argmin::core::{
     CostFunction, Error, Executor, IterState, Jacobian, KV, Problem, Solver, State, TerminationReason,
@@ -59,16 +60,39 @@ fn sum_of_squares(r: &[f64]) -> f64 {
     r.iter().map(|r| r * r).sum()
 }
 
+/// Residuals, and a matrix that may be a few steps old.
+struct Model {
+    r: Vec<f64>,
+    j: Vec<Vec<f64>>,
+    fresh: bool,
+}
+
+impl Model {
+    /// Learn from residuals `r` found a step d away.
+    fn moved(&mut self, d: &[f64], r: Vec<f64>) {
+        let square = sum_of_squares(d);
+        for (row, (new, old)) in self.j.iter_mut().zip(r.iter().zip(&self.r)) {
+            let expected: f64 = row.iter().zip(d).map(|(j, d)| j * d).sum();
+            let missed = (new - old - expected) / square;
+            if missed.is_finite() {
+                row.iter_mut().zip(d).for_each(|(j, d)| *j += missed * d);
+            }
+        }
+        (self.r, self.fresh) = (r, false);
+    }
+}
+
 /// The trust-region iteration, as an argmin solver.
 struct TrustRegion<'a, P> {
     problem: &'a P,
     radius: f64,
+    model: Option<Model>,
 }
 
 /// Smallest trust region worth another step (logarithms of the parameters).
-const SMALLEST: f64 = 2e-3;
-/// Relative gain below which a step counts as none.
-const GAIN: f64 = 1e-3;
+const SMALLEST: f64 = 4e-3;
+/// Relative gain of a step (sum of squares) below which it counts as none.
+const GAIN: f64 = 2e-3;
 
 type Iterate = IterState<Vec<f64>, (), (), (), (), f64>;
 
@@ -83,29 +107,44 @@ impl<P: LeastSquares> Solver<Adapter<'_, P>, Iterate> for TrustRegion<'_, P> {
         state: Iterate,
     ) -> Result<(Iterate, Option<KV>), Error> {
         let z = state.get_param().cloned().unwrap_or_default();
-        let (r, j) = problem.jacobian(&z)?;
-        let now = sum_of_squares(&r);
+        let mut model = match self.model.take() {
+            Some(model) => model,
+            None => {
+                let (r, j) = problem.jacobian(&z)?;
+                Model { r, j, fresh: true }
+            }
+        };
+        let now = sum_of_squares(&model.r);
         let mut best = (now, z.clone());
-        // the matrix is dear, another step of it cheap: shrink until a step gains
-        for _ in 0..4 {
-            let Some(d) = programme(self.problem, &z, &r, &j, self.radius) else {
+        // a fresh matrix is dear, another step of it cheap: shrink until a step gains
+        for _ in 0..if model.fresh { 4 } else { 1 } {
+            let Some(d) = programme(self.problem, &z, &model.r, &model.j, self.radius) else {
                 self.radius *= 0.25;
                 continue;
             };
             let trial: Vec<f64> = z.iter().zip(&d).map(|(z, d)| z + d).collect();
-            let cost = problem.cost(&trial)?;
+            let r = problem.problem("cost_count", |p| Ok(p.0.residuals(&trial)))?;
+            let cost = sum_of_squares(&r);
             let length = d.iter().fold(0.0, |m: f64, d| m.max(d.abs()));
             if cost < best.0 {
                 if cost < (1.0 - GAIN) * now && length > 0.9 * self.radius {
                     self.radius = (2.0 * self.radius).min(1.0);
                 }
                 best = (cost, trial);
+                model.moved(&d, r);
                 break;
             }
-            self.radius = 0.3 * length.min(self.radius);
+            if model.fresh {
+                self.radius = 0.3 * length.min(self.radius);
+            }
         }
         if best.0 > (1.0 - GAIN) * now {
-            self.radius *= 0.5;
+            // no gain to speak of: an old matrix is at fault, or else the region
+            if model.fresh || best.0 < now {
+                self.radius *= 0.5;
+            }
+        } else {
+            self.model = Some(model);
         }
         Ok((state.param(best.1).cost(best.0), None))
     }
@@ -127,7 +166,7 @@ pub fn descend<P: LeastSquares>(problem: &P, z: &[f64], radius: f64, iterations:
         let error = sum_of_squares(&problem.residuals(&z)).sqrt();
         Descent { z, error, iterations: 0 }
     };
-    let solver = TrustRegion { problem, radius };
+    let solver = TrustRegion { problem, radius, model: None };
     let run = Executor::new(Adapter(problem), solver)
         .configure(|state: Iterate| state.param(start.clone()).max_iters(iterations))
         .run();

@@ -1,7 +1,11 @@
 //! The front: the least error for each stiffness. Accuracy costs stiffness, and with it the engineer's time step.
 
+use std::sync::atomic::{AtomicUsize, Ordering};
+
+use rayon::prelude::*;
+
 use super::{
-    impulse::{self, Found},
+    impulse,
     inner::{FitError, families},
     job::Job,
     outer::{self, Benchmark, Bracket},
@@ -15,10 +19,8 @@ use crate::{
 
 /// Stiffest springs of the front's points [Hz]; the case's own limit is added.
 const LADDER_HZ: [f64; 6] = [40.0, 80.0, 160.0, 320.0, 640.0, 1280.0];
-/// Samples of the paper's procedure at each point.
-const SAMPLES: usize = 48;
 /// Steps of the impact objective's descent at each point.
-const STEPS: u64 = 8;
+const STEPS: u64 = 4;
 
 /// Springs of one point and their errors on the case's record.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -48,26 +50,34 @@ pub fn front(case: &Case, job: &Job, progress: &(dyn Fn(usize, usize) + Sync)) -
         ladder.sort_by(f64::total_cmp);
     }
     let benchmark = Benchmark { body: job.body, dt: job.record.dt, accel: &job.record.accel, housner: &job.housner };
-    let mut near: Option<Found> = None;
-    let mut points = Vec::with_capacity(ladder.len());
-    for &max_hz in &ladder {
-        progress(points.len(), ladder.len());
-        let bracket = Bracket { max_hz, max_settlement: case.tuning.max_settlement_m };
-        let known = |found: Option<Springs<Design<f64>>>| {
-            found.filter(|_| max_hz == case.tuning.max_omega_hz).map(|s| errors(&benchmark, &s))
-        };
-        let arr = known(Some(job.arr.best.springs)).or_else(|| {
-            outer::tune(&benchmark, &job.vertical, &job.horizontal, bracket, SAMPLES, &|_, _, _| {})
-                .map(|tuned| errors(&benchmark, &tuned.best.springs))
-        });
-        let impact = known(job.impact.map(|f| f.springs)).or_else(|| {
-            let objective = impulse::Objective::new(&job.body, case.restitution, bracket);
-            near = impulse::tune(&objective, &families, near, STEPS);
-            near.map(|found| errors(&benchmark, &found.springs))
-        });
-        points.push(Point { max_hz, impact, arr });
-    }
-    progress(ladder.len(), ladder.len());
+    let done = AtomicUsize::new(0);
+    progress(0, ladder.len());
+    let points = ladder
+        .par_iter()
+        .with_max_len(1)
+        .map(|&max_hz| {
+            let bracket = Bracket { max_hz, max_settlement: case.tuning.max_settlement_m };
+            let known = |found: Option<Springs<Design<f64>>>| found.filter(|_| max_hz == case.tuning.max_omega_hz);
+            let paper = || {
+                known(Some(job.arr.best.springs)).or_else(|| {
+                    let from = case.tuning.max_omega_hz;
+                    outer::follow(&benchmark, &job.vertical, &job.horizontal, bracket, &job.arr, from)
+                        .map(|best| best.springs)
+                })
+            };
+            let ours = || {
+                known(job.impact.map(|f| f.springs)).or_else(|| {
+                    let objective = impulse::Objective::new(&job.body, case.restitution, bracket);
+                    impulse::tune(&objective, &families, 1, STEPS).map(|found| found.springs)
+                })
+            };
+            let (arr, impact) = rayon::join(paper, ours);
+            let judge = |found: Option<Springs<Design<f64>>>| found.map(|s| errors(&benchmark, &s));
+            let point = Point { max_hz, impact: judge(impact), arr: judge(arr) };
+            progress(done.fetch_add(1, Ordering::Relaxed) + 1, ladder.len());
+            point
+        })
+        .collect();
     Ok(points)
 }
 

@@ -7,6 +7,7 @@ use num_dual::{Derivative, DualNum, DualSVec64};
 use rayon::prelude::*;
 
 use super::{
+    catalogue,
     descent::{LeastSquares, descend},
     impact::Impact,
     inner::Fit,
@@ -27,8 +28,6 @@ const C: (f64, f64) = (0.005, 40.0);
 const MU: (f64, f64) = (0.005, 40.0);
 /// Least Omega_n tried, as a share of the largest.
 const SOFTEST: f64 = 0.1;
-/// Starts that are followed to the end.
-const FOLLOWED: usize = 4;
 
 /// The springs found, and their error by the impact objective.
 #[derive(Clone, Copy, Debug)]
@@ -53,6 +52,7 @@ fn logarithms(s: &Springs<Design<f64>>) -> [f64; 8] {
 /// The impact objective within a bracket.
 pub struct Objective {
     impact: Impact,
+    p: f64,
     bracket: Bracket,
     control: Control,
 }
@@ -60,7 +60,7 @@ pub struct Objective {
 impl Objective {
     pub fn new(body: &Body<f64>, restitution: f64, bracket: Bracket) -> Self {
         let control = Control { tolerance: 1e-7, most_steps: 8_000, ..Control::default() };
-        Self { impact: Impact::new(body, restitution), bracket, control }
+        Self { impact: Impact::new(body, restitution), p: body.p_squared().sqrt(), bracket, control }
     }
 
     /// sqrt of the sum of squares of the residuals.
@@ -81,7 +81,7 @@ impl LeastSquares for Objective {
             .map(|(i, &z)| Dual::new(z, Derivative::derivative_generic(nalgebra::Const::<8>, nalgebra::U1, i)))
             .collect();
         // one iteration more leaves the gradients good to the square of the iteration's rate, about 1e-4: enough for a step
-        let control = Control { extra_iterations: 1, ..self.control };
+        let control = Control { extra_iterations: 1, tolerance: 1e-6, ..self.control };
         let found = self.impact.residuals(&springs(&duals), control);
         let rows = found
             .iter()
@@ -112,37 +112,20 @@ impl LeastSquares for Objective {
     }
 }
 
-/// Tune all eight parameters, from pairs of families at the stiffest springs allowed, and from `near` where springs of
-/// another stiffness are known already.
-pub fn tune(objective: &Objective, families: &[Fit], near: Option<Found>, iterations: u64) -> Option<Found> {
+/// Tune all eight parameters, from pairs of families at the stiffest springs allowed and from springs found before for
+/// structures of like Omega_n/p; the best few starts are followed.
+pub fn tune(objective: &Objective, families: &[Fit], followed: usize, iterations: u64) -> Option<Found> {
     let hz = objective.bracket.max_hz;
-    let mut starts: Vec<Springs<Design<f64>>> = Vec::new();
-    for vertical in families {
-        for horizontal in families {
-            let design = |fit: &Fit| Design { mu: fit.mu, f: fit.f, xi: fit.xi, omega_n_hz: hz };
-            starts.push(Springs { vertical: design(vertical), horizontal: design(horizontal) });
-        }
+    let mut starts: Vec<Springs<Design<f64>>> = catalogue::near(TAU * hz / objective.p, hz);
+    for fit in families {
+        let design = Design { mu: fit.mu, f: fit.f, xi: fit.xi, omega_n_hz: hz };
+        starts.push(Springs { vertical: design, horizontal: design });
     }
-    // chains that stop a landing at once: an absorber of about half the mass on a soft spring (stiffer with a heavier
-    // one); beside them the same chain horizontally, one matched to a block's transverse mass, or a stiff one
-    for (k, c, mu) in [(0.1, 0.85, 0.6), (0.2, 0.92, 0.5), (0.33, 0.95, 1.2)] {
-        let vertical = Design::from_kc(mu, k, c, hz);
-        for horizontal in [vertical, Design::from_kc(mu / 4.0, k, c / 2.0, hz), Design::from_kc(0.05, 20.0, 1.0, hz)] {
-            starts.push(Springs { vertical, horizontal });
-        }
-    }
-    if let Some(Found { springs: Springs { mut vertical, mut horizontal }, .. }) = near {
-        let factor = hz / vertical.omega_n_hz.max(horizontal.omega_n_hz);
-        vertical.omega_n_hz *= factor;
-        horizontal.omega_n_hz *= factor;
-        starts.push(Springs { vertical, horizontal });
-    }
-
     let mut ranked: Vec<(f64, usize)> = starts.par_iter().enumerate().map(|(i, s)| (objective.error(s), i)).collect();
     ranked.sort_by(|a, b| a.0.total_cmp(&b.0).then(a.1.cmp(&b.1)));
     let ends: Vec<_> = ranked
         .par_iter()
-        .take(FOLLOWED)
+        .take(followed)
         .map(|&(_, i)| descend(objective, &logarithms(&starts[i]), 0.3, iterations))
         .collect();
     ends.into_iter().filter(|end| end.error.is_finite()).min_by(|a, b| a.error.total_cmp(&b.error)).map(|end| Found {

@@ -1,4 +1,9 @@
 //! A whole case: the paper's procedure, the impact objective, and the springs that the case asks for.
+//!
+//! Unless the case says otherwise these are the impact objective's. The paper's procedure has a small edge on the record it
+//! was tuned on (El Centro, springs up to 160 Hz: NRMSE 0.029 against 0.034), because it lets the feet bounce: both are in
+//! the air for up to 0.1 s a landing against 8 ms, and the restitution is off by 0.2 % against 0.1 %. On 200 other motions
+//! the median error is 0.03 against 0.01, and on those of a 2 x 0.5 m block 0.3 against 0.06. Both are always reported.
 
 use thiserror::Error;
 
@@ -20,6 +25,8 @@ use crate::{
 pub(super) const FAMILIES: [f64; 3] = [0.1, 0.3, 1.0];
 /// Steps of the impact objective's descent.
 const STEPS: u64 = 15;
+/// Starts that it follows.
+const FOLLOWED: usize = 2;
 
 /// Why there are no springs.
 #[derive(Debug, Error)]
@@ -82,7 +89,7 @@ impl Job {
             Objective::Arr => None,
             Objective::Impact => {
                 let objective = impulse::Objective::new(&body, case.restitution, bracket);
-                Some(impulse::tune(&objective, &families(&FAMILIES)?, None, STEPS).ok_or(JobError::NoCandidate)?)
+                Some(impulse::tune(&objective, &families(&FAMILIES)?, FOLLOWED, STEPS).ok_or(JobError::NoCandidate)?)
             }
         };
         let springs = impact.map_or(arr.best.springs, |found| found.springs);

@@ -25,12 +25,18 @@ use crate::{
     structure::Body,
 };
 
-/// Candidates judged against one threshold: more would abandon later, fewer would idle threads.
+/// Candidates judged against one threshold: more would abandon later, fewer would idle threads. The first batches, which
+/// know no good threshold yet, are smaller.
 const BATCH: usize = 16;
+const FIRST_BATCH: usize = 2;
 /// Samples that are refined.
 const REFINED: usize = 2;
 /// Evaluations of one refinement.
 const REFINEMENTS: u64 = 24;
+
+/// Candidates of another stiffness that `follow` starts from, and evaluations of its refinement.
+const FOLLOWED: usize = 8;
+const FOLLOWING: u64 = 16;
 
 /// What the histories are compared with.
 #[derive(Clone, Copy, Debug)]
@@ -125,27 +131,41 @@ impl Bracket {
     }
 }
 
-/// The design of a fit at a frequency.
-fn design(fit: &Fit, omega_n_hz: f64) -> Design<f64> {
-    Design { mu: fit.mu, f: fit.f, xi: fit.xi, omega_n_hz }
-}
-
 /// A pair of families, with frequencies given as fractions 0..1 of their brackets (logarithmic).
 #[derive(Clone, Copy)]
-struct Pair<'a> {
-    vertical: &'a Fit,
-    horizontal: &'a Fit,
+struct Pair {
+    vertical: Design<f64>,
+    horizontal: Design<f64>,
     bracket: Bracket,
 }
 
-impl Pair<'_> {
+impl Pair {
     fn springs(&self, x: [f64; 2]) -> Springs<Design<f64>> {
         let at = |(low, high): (f64, f64), x: f64| low * (high / low).powf(x.clamp(0.0, 1.0));
+        let (vertical, horizontal) =
+            (at(self.bracket.vertical(self.vertical.k()), x[0]), at(self.bracket.horizontal(), x[1]));
         Springs {
-            vertical: design(self.vertical, at(self.bracket.vertical(self.vertical.k), x[0])),
-            horizontal: design(self.horizontal, at(self.bracket.horizontal(), x[1])),
+            vertical: Design { omega_n_hz: vertical, ..self.vertical },
+            horizontal: Design { omega_n_hz: horizontal, ..self.horizontal },
         }
     }
+
+    /// The pair of these springs, and their fractions.
+    fn of(springs: &Springs<Design<f64>>, bracket: Bracket) -> (Self, [f64; 2]) {
+        let pair = Self { vertical: springs.vertical, horizontal: springs.horizontal, bracket };
+        let at = |(low, high): (f64, f64), hz: f64| {
+            if high > low { ((hz / low).ln() / (high / low).ln()).clamp(0.0, 1.0) } else { 1.0 }
+        };
+        let vertical = at(bracket.vertical(pair.vertical.k()), pair.vertical.omega_n_hz);
+        (pair, [vertical, at(bracket.horizontal(), pair.horizontal.omega_n_hz)])
+    }
+}
+
+/// All pairs of families.
+fn pairs(vertical: &[Fit], horizontal: &[Fit], bracket: Bracket) -> Vec<Pair> {
+    let design = |fit: &Fit| Design { mu: fit.mu, f: fit.f, xi: fit.xi, omega_n_hz: bracket.max_hz };
+    let pair = |v: &Fit, h: &Fit| Pair { vertical: design(v), horizontal: design(h), bracket };
+    vertical.iter().flat_map(|v| horizontal.iter().map(move |h| pair(v, h))).collect()
 }
 
 /// Radical inverse of i in a base: a van der Corput sequence.
@@ -170,11 +190,7 @@ pub fn tune(
     samples: usize,
     progress: &(dyn Fn(usize, usize, f64) + Sync),
 ) -> Option<Tuned> {
-    let control = Control::search();
-    let pairs: Vec<Pair> = vertical
-        .iter()
-        .flat_map(|vertical| horizontal.iter().map(move |horizontal| Pair { vertical, horizontal, bracket }))
-        .collect();
+    let pairs = pairs(vertical, horizontal, bracket);
     if pairs.is_empty() {
         return None;
     }
@@ -187,14 +203,56 @@ pub fn tune(
         })
         .collect();
     let total = plan.len() + REFINED * REFINEMENTS as usize;
+    let plan: Vec<(Pair, [f64; 2])> = plan.into_iter().map(|(pair, x)| (pairs[pair], x)).collect();
+    let candidates = sample(benchmark, &plan, total, progress);
+    let tuned = best_of(benchmark, &plan, candidates, REFINED, REFINEMENTS)?;
+    progress(tuned.candidates.len(), tuned.candidates.len(), tuned.best.error);
+    Some(tuned)
+}
+
+/// Follow springs found for another stiffness (`from_hz`) to this bracket's: from the best of them, scaled, and of all pairs
+/// of families at their stiffest.
+pub fn follow(
+    benchmark: &Benchmark,
+    vertical: &[Fit],
+    horizontal: &[Fit],
+    bracket: Bracket,
+    found: &Tuned,
+    from_hz: f64,
+) -> Option<Candidate> {
+    let mut near: Vec<&Candidate> = found.candidates.iter().filter(|c| !c.abandoned && c.error.is_finite()).collect();
+    near.sort_by(|a, b| a.error.total_cmp(&b.error));
+    let scale = |c: &&Candidate| {
+        let mut springs = c.springs;
+        springs.vertical.omega_n_hz *= bracket.max_hz / from_hz;
+        springs.horizontal.omega_n_hz *= bracket.max_hz / from_hz;
+        Pair::of(&springs, bracket)
+    };
+    let mut plan: Vec<(Pair, [f64; 2])> = near.iter().take(FOLLOWED).map(scale).collect();
+    plan.extend(pairs(vertical, horizontal, bracket).into_iter().map(|pair| (pair, [1.0; 2])));
+    let candidates = sample(benchmark, &plan, plan.len(), &|_, _, _| {});
+    best_of(benchmark, &plan, candidates, 1, FOLLOWING).map(|tuned| tuned.best)
+}
+
+/// Evaluate a plan, batch by batch.
+fn sample(
+    benchmark: &Benchmark,
+    plan: &[(Pair, [f64; 2])],
+    total: usize,
+    progress: &(dyn Fn(usize, usize, f64) + Sync),
+) -> Vec<Candidate> {
     let mut candidates: Vec<Candidate> = Vec::with_capacity(total);
     let mut best = f64::INFINITY;
-    for batch in plan.chunks(BATCH) {
+    let (mut rest, mut size) = (plan, FIRST_BATCH);
+    while !rest.is_empty() {
+        let (batch, after) = rest.split_at(size.min(rest.len()));
+        (rest, size) = (after, (2 * size).min(BATCH));
         let found: Vec<Candidate> = batch
             .par_iter()
-            .map(|&(pair, x)| {
-                let springs = pairs[pair].springs(x);
-                let (error, abandoned) = benchmark.error(&springs, best, control);
+            .with_max_len(1)
+            .map(|(pair, x)| {
+                let springs = pair.springs(*x);
+                let (error, abandoned) = benchmark.error(&springs, best, Control::search());
                 Candidate { springs, error, abandoned }
             })
             .collect();
@@ -202,32 +260,37 @@ pub fn tune(
         best = candidates.iter().filter(|c| !c.abandoned).map(|c| c.error).fold(f64::INFINITY, f64::min);
         progress(candidates.len(), total, best);
     }
+    candidates
+}
 
+/// Refine the best few candidates of a plan; the best of all.
+fn best_of(
+    benchmark: &Benchmark,
+    plan: &[(Pair, [f64; 2])],
+    mut candidates: Vec<Candidate>,
+    refined: usize,
+    refinements: u64,
+) -> Option<Tuned> {
     let mut order: Vec<usize> = (0..candidates.len()).filter(|&i| !candidates[i].abandoned).collect();
     order.sort_by(|&a, &b| candidates[a].error.total_cmp(&candidates[b].error).then(a.cmp(&b)));
     let refined: Vec<Vec<Candidate>> = order
         .par_iter()
-        .take(REFINED)
-        .map(|&i| {
-            let (pair, x) = plan[i];
-            refine(benchmark, &pairs[pair], x, candidates[i].error, control)
-        })
+        .take(refined)
+        .map(|&i| refine(benchmark, &plan[i].0, plan[i].1, candidates[i].error, refinements))
         .collect();
     candidates.extend(refined.into_iter().flatten());
     let chosen = (0..candidates.len())
         .filter(|&i| !candidates[i].abandoned)
         .min_by(|&a, &b| candidates[a].error.total_cmp(&candidates[b].error).then(a.cmp(&b)))?;
-    progress(candidates.len(), candidates.len(), candidates[chosen].error);
     Some(Tuned { best: candidates[chosen], chosen, candidates })
 }
 
 /// Nelder-Mead from one sample; every evaluation is kept.
-fn refine(benchmark: &Benchmark, pair: &Pair, x: [f64; 2], start: f64, control: Control) -> Vec<Candidate> {
+fn refine(benchmark: &Benchmark, pair: &Pair, x: [f64; 2], start: f64, refinements: u64) -> Vec<Candidate> {
     struct Problem<'a> {
         benchmark: &'a Benchmark<'a>,
-        pair: &'a Pair<'a>,
+        pair: &'a Pair,
         limit: f64,
-        control: Control,
         seen: std::sync::Mutex<Vec<Candidate>>,
     }
     impl CostFunction for Problem<'_> {
@@ -236,7 +299,7 @@ fn refine(benchmark: &Benchmark, pair: &Pair, x: [f64; 2], start: f64, control: 
         fn cost(&self, x: &Vec<f64>) -> Result<f64, Error> {
             let outside: f64 = x.iter().map(|x| (x - x.clamp(0.0, 1.0)).abs()).sum();
             let springs = self.pair.springs([x[0], x[1]]);
-            let (error, abandoned) = self.benchmark.error(&springs, self.limit, self.control);
+            let (error, abandoned) = self.benchmark.error(&springs, self.limit, Control::search());
             if let Ok(mut seen) = self.seen.lock() {
                 seen.push(Candidate { springs, error, abandoned });
             }
@@ -246,10 +309,10 @@ fn refine(benchmark: &Benchmark, pair: &Pair, x: [f64; 2], start: f64, control: 
     let step = |x: f64, d: f64| if x + d > 1.0 { x - d } else { x + d };
     let simplex = vec![vec![x[0], x[1]], vec![step(x[0], 0.06), x[1]], vec![x[0], step(x[1], 0.06)]];
     // an error well above the start's cannot help, but its size still steers the simplex
-    let problem = Problem { benchmark, pair, limit: 2.0 * start, control, seen: Default::default() };
+    let problem = Problem { benchmark, pair, limit: 2.0 * start, seen: Default::default() };
     let run = NelderMead::new(simplex)
         .with_sd_tolerance(1e-7)
-        .map(|solver| Executor::new(problem, solver).configure(|state| state.max_iters(REFINEMENTS)).run());
+        .map(|solver| Executor::new(problem, solver).configure(|state| state.max_iters(refinements)).run());
     match run {
         Ok(Ok(mut result)) => result.problem.take_problem().and_then(|p| p.seen.into_inner().ok()).unwrap_or_default(),
         _ => Vec::new(),
