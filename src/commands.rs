@@ -7,15 +7,18 @@ use thiserror::Error;
 
 use crate::{
     case::CaseError,
+    export::ExportError,
     figures::FigureError,
     parameters::ParametersError,
     record::RecordError,
     tuning::{inner::FitError, job::JobError},
+    verify::VerifyError,
 };
 
 mod bench;
 mod common;
 mod draw;
+mod export;
 mod housner;
 mod progress;
 mod report;
@@ -24,6 +27,7 @@ mod run;
 mod simulate;
 mod table;
 mod validate;
+mod verify;
 
 /// Ground springs that let a finite element program follow Housner's theory of rocking.
 #[derive(Debug, Parser)]
@@ -45,6 +49,10 @@ enum Command {
     Simulate(simulate::Options),
     /// Judge given springs over many records: peaks, overturning, histories where they can be compared.
     Validate(validate::Options),
+    /// Write the springs and their model for OpenSees, SAP2000 or as plain tables.
+    Export(export::Options),
+    /// Run the exported model in OpenSees beside our own history and Housner's.
+    Verify(verify::Options),
     /// Run time against error, beside other tools; a table on stdout, table and figure into a folder.
     Bench(bench::Options),
 }
@@ -64,6 +72,10 @@ pub enum CommandError {
     Job(#[from] JobError),
     #[error(transparent)]
     Figure(#[from] FigureError),
+    #[error(transparent)]
+    Export(#[from] ExportError),
+    #[error(transparent)]
+    Verify(#[from] VerifyError),
     #[error("{path}: cannot be written ({source}); check the folder and its rights")]
     Write { path: String, source: std::io::Error },
     #[error("cannot write to stdout: {0}")]
@@ -96,6 +108,8 @@ pub fn main() -> ExitCode {
         Command::Response(o) => response::run(&o),
         Command::Simulate(o) => simulate::run(&o),
         Command::Validate(o) => validate::run(&o),
+        Command::Export(o) => export::run(&o),
+        Command::Verify(o) => verify::run(&o),
         Command::Bench(o) => bench::run(&o),
     };
     match result {

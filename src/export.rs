@@ -15,11 +15,6 @@ mod opensees;
 mod plain;
 mod sap2000;
 
-use std::{
-    fs, io,
-    path::{Path, PathBuf},
-};
-
 use thiserror::Error;
 
 use crate::{fem::History, parameters::Parameters, record::Record};
@@ -113,24 +108,9 @@ pub enum ExportError {
         "export: the history to check against has {expected} samples but the record has {record}; use the record that was simulated"
     )]
     Samples { expected: usize, record: usize },
-    #[error("{path}: cannot be written ({source}); check the folder and its permissions")]
-    Write { path: String, source: io::Error },
 }
 
-/// One file of a deck.
-#[derive(Clone, Debug, PartialEq)]
-pub struct DeckFile {
-    pub name: String,
-    pub text: String,
-}
-
-/// An exported model: files that belong together.
-#[derive(Clone, Debug, PartialEq)]
-pub struct Deck {
-    pub files: Vec<DeckFile>,
-}
-
-/// Write the model of `parameters` on `record` for another program. `stem` is the file's name without its ending.
+/// The text of a deck: the model of `parameters` on `record` for another program.
 ///
 /// # Errors
 /// Numbers that are not finite; a history longer than the record.
@@ -139,40 +119,15 @@ pub fn export(
     record: &Record,
     expected: &Expected,
     format: Format,
-    stem: &str,
-) -> Result<Deck, ExportError> {
+) -> Result<String, ExportError> {
     let model = Model::new(parameters, record, expected)?;
-    let text = match format {
+    Ok(match format {
         Format::OpenSeesPy => opensees::python(&model),
         Format::OpenSeesTcl => opensees::tcl(&model),
         Format::Sap2000 => sap2000::tables(&model),
         Format::Csv => plain::csv(&model),
         Format::Markdown => plain::markdown(&model),
-    };
-    Ok(Deck { files: vec![DeckFile { name: format!("{stem}.{}", format.ending()), text }] })
-}
-
-impl Deck {
-    /// Write the files into a folder that exists, each through a temporary file, so that no half file is ever seen.
-    ///
-    /// # Errors
-    /// A file cannot be written.
-    pub fn write(&self, dir: &Path) -> Result<Vec<PathBuf>, ExportError> {
-        self.files.iter().map(|file| file.write(dir)).collect()
-    }
-}
-
-impl DeckFile {
-    fn write(&self, dir: &Path) -> Result<PathBuf, ExportError> {
-        let path = dir.join(&self.name);
-        let part = dir.join(format!(".{}.{}.part", self.name, std::process::id()));
-        fs::write(&part, &self.text).and_then(|()| fs::rename(&part, &path)).map_err(|source| {
-            // the message speaks of the first failure; what is left of the temporary file goes if it can
-            let _ = fs::remove_file(&part);
-            ExportError::Write { path: path.display().to_string(), source }
-        })?;
-        Ok(path)
-    }
+    })
 }
 
 /// A name that is harmless inside a comment or a string of any of the programs.

@@ -164,8 +164,8 @@ fn parameters_that_are_not_json() {
     refuses(&[("p.json", "{")], &["simulate", "--parameters", "p.json"], &["p.json, line 1"]);
 }
 
-#[test]
-fn parameters_with_a_spring_of_no_stiffness() {
+/// A parameter file whose vertical chain has this k1.
+fn parameters(k1: f64) -> String {
     let row = |k1: f64| {
         format!(
             "{{\"mu\":1,\"f\":1,\"xi\":1,\"omega_n_hz\":1,\"k1_n_per_m\":{k1},\"k2_n_per_m\":1e6,\"m2_kg\":10,\"c_ns_per_m\":1e3}}"
@@ -173,8 +173,68 @@ fn parameters_with_a_spring_of_no_stiffness() {
     };
     let structure =
         "{\"kind\":\"block\",\"height_m\":1,\"width_m\":0.5,\"mass_kg\":100,\"rotational_inertia_kgm2\":35}";
-    let text = format!("{{\"structure\":{structure},\"vertical\":{},\"horizontal\":{}}}", row(0.0), row(1e6));
-    refuses(&[("p.json", &text)], &["simulate", "--parameters", "p.json"], &["p.json", "vertical.k1_n_per_m is 0"]);
+    format!("{{\"structure\":{structure},\"vertical\":{},\"horizontal\":{}}}", row(k1), row(1e6))
+}
+
+#[test]
+fn parameters_with_a_spring_of_no_stiffness() {
+    for command in [&["simulate"][..], &["verify"], &["export", "--format", "csv", "--out", "springs.csv"]] {
+        let args = [command, &["--parameters", "p.json"]].concat();
+        refuses(&[("p.json", &parameters(0.0))], &args, &["p.json", "vertical.k1_n_per_m is 0"]);
+    }
+}
+
+fn export(more: &[&str], words: &[&str]) {
+    let args = [&["export", "--parameters", "p.json"], more].concat();
+    refuses(&[("p.json", &parameters(1e6))], &args, words);
+}
+
+#[test]
+fn a_deck_for_an_unknown_program() {
+    export(&["--format", "nastran", "--out", "deck"], &["nastran", "openseespy, opensees-tcl, sap2000, csv, markdown"]);
+}
+
+#[test]
+fn a_deck_without_a_format() {
+    export(&["--out", "deck"], &["--format"]);
+}
+
+#[test]
+fn a_deck_in_a_folder_that_is_not_there() {
+    export(&["--format", "csv", "--out", "nowhere/deck.csv"], &["nowhere/deck.csv", "cannot be written"]);
+}
+
+#[test]
+fn a_deck_of_no_duration() {
+    export(&["--format", "csv", "--out", "deck.csv", "--duration", "-1"], &["--duration is -1"]);
+}
+
+#[test]
+fn a_deck_of_a_record_that_is_missing() {
+    export(&["--format", "csv", "--out", "deck.csv", "--record", "nowhere.at2"], &["nowhere.at2"]);
+}
+
+fn verify(more: &[&str], words: &[&str]) {
+    let args = [&["verify", "--parameters", "p.json", "--duration", "0.5"], more].concat();
+    refuses(&[("p.json", &parameters(1e6))], &args, words);
+}
+
+#[test]
+fn a_python_that_is_missing() {
+    verify(&["--python", "/nowhere/python3"], &["/nowhere/python3", "--python"]);
+}
+
+/// `false` stands for a Python that ends at once, `env` for a command that is not OpenSees.
+#[cfg(unix)]
+#[test]
+fn an_interpreter_that_runs_no_deck() {
+    verify(&["--python", "false"], &["OpenSees stopped", "no message"]);
+    verify(&["--tcl", ""], &["cannot be started", "--tcl"]);
+}
+
+#[test]
+fn both_interpreters() {
+    verify(&["--python", "python3", "--tcl", "OpenSees"], &["--tcl", "--python"]);
 }
 
 #[test]

@@ -102,11 +102,11 @@ pub fn opensees(scene: &elements::Scene, tight: &Motion, python: &Path, steps: &
     let history = scene.simulate(Default::default());
     let expected = Expected::new(&history);
     let folder = tempfile::tempdir().map_err(|e| format!("OpenSees: no temporary folder ({e})"))?;
-    let deck = export(&scene.parameters(), &scene.record, &expected, Format::OpenSeesPy, "deck")
-        .and_then(|deck| deck.write(folder.path()))
-        .map_err(|e| e.to_string())?;
+    let text = export(&scene.parameters(), &scene.record, &expected, Format::OpenSeesPy).map_err(|e| e.to_string())?;
+    let deck = folder.path().join("deck.py");
+    std::fs::write(&deck, text).map_err(|e| format!("OpenSees: {e}"))?;
     let mut command = Command::new(python);
-    command.args(["-c", include_str!("peers/opensees.py")]).args(&deck).args(steps.iter().map(usize::to_string));
+    command.args(["-c", include_str!("peers/opensees.py")]).arg(&deck).args(steps.iter().map(usize::to_string));
     let stdout = run("OpenSees", &mut command, &[])?;
     let runs: Vec<(usize, f64, Motion)> = String::from_utf8_lossy(&stdout).lines().filter_map(read_run).collect();
     let Some((_, _, finest)) = runs.last().filter(|run| !run.2.is_empty()) else {

@@ -8,14 +8,19 @@ use super::{
     CommandError,
     common::{self, RecordOptions, history_csv},
     draw::draw,
+    export,
     progress::Progress,
     report::{Ground, Report},
     table, write_file,
 };
 use crate::{
     case::Case,
+    export::{Expected, with_inertia},
+    fem::History,
     parameters::{PaperProcedure, Parameters, RecordRow},
+    record::Record,
     tuning::{front, job::Job},
+    verify::simulate,
 };
 
 /// Options of `tune run`.
@@ -99,6 +104,7 @@ pub fn run(o: &Options) -> Result<(), CommandError> {
     write_file(&o.out.join("parameters.json"), parameters.to_json().as_bytes())?;
     write_file(&o.out.join("parameters.md"), (table::markdown(&parameters) + &table::front(&front)).as_bytes())?;
     write_file(&o.out.join("history.csv"), history_csv(dt, &both.housner, &both.fem.motion).as_bytes())?;
+    decks(o, &parameters, &job.record, &both.fem)?;
     if !o.no_figures {
         draw(&o.out, &case, &job, &both, &front)?;
     }
@@ -106,6 +112,17 @@ pub fn run(o: &Options) -> Result<(), CommandError> {
     write!(std::io::stdout(), "{springs}\n{said}\n{}", table::front_terminal(&front))?;
     eprintln!("written to {}", o.out.display());
     Ok(())
+}
+
+/// The model for other programs. A body without rotational inertia gets some there, and its own history to check against.
+fn decks(o: &Options, parameters: &Parameters, record: &Record, history: &History) -> Result<(), CommandError> {
+    let folder = o.out.join("decks");
+    let structure = with_inertia(&parameters.structure);
+    if structure == parameters.structure {
+        return export::write_all(&folder, parameters, record, &Expected::new(history));
+    }
+    let parameters = Parameters { structure, ..parameters.clone() };
+    export::write_all(&folder, &parameters, record, &Expected::new(&simulate(&parameters, record)))
 }
 
 /// Use this many threads, 0 or none: all cores.

@@ -1,5 +1,7 @@
 //! What happens around OpenSees, with stand-ins for Python: the runs with OpenSees itself are in tests/opensees.rs.
 
+use std::path::PathBuf;
+
 use super::*;
 use crate::{
     spring::{Design, Springs},
@@ -11,12 +13,16 @@ fn parameters() -> Parameters {
     Parameters::new(Structure::paper(), &Springs { vertical: chain, horizontal: chain })
 }
 
+fn half_a_second() -> Record {
+    Record::el_centro().truncated(0.5)
+}
+
 /// Verify half a second of El Centro with a shell script in the place of Python; $1 is the deck.
 #[cfg(unix)]
 fn with_stand_in(script: &str) -> Result<Verification, VerifyError> {
     let folder = tempfile::tempdir().unwrap();
     let python = stand_in(folder.path(), script);
-    verify(&parameters(), &Record::el_centro(), Some(&python), 0.5, Some(folder.path()))
+    verify(&parameters(), &half_a_second(), &Program::Python(python))
 }
 
 #[cfg(unix)]
@@ -33,11 +39,12 @@ fn stand_in(folder: &Path, script: &str) -> PathBuf {
 
 #[test]
 fn a_python_that_is_not_there_is_named_in_one_line() {
-    let nowhere = Path::new("/nowhere/python3");
-    let error = verify(&parameters(), &Record::el_centro(), Some(nowhere), 0.5, None).unwrap_err();
-    let said = error.to_string();
-    assert!(matches!(error, VerifyError::NoPython { .. }));
-    assert!(said.contains("/nowhere/python3") && !said.contains('\n'), "{said}");
+    for program in [Program::Python("/nowhere/python3".into()), Program::Tcl(vec!["/nowhere/python3".into()])] {
+        let error = verify(&parameters(), &half_a_second(), &program).unwrap_err();
+        let said = error.to_string();
+        assert!(matches!(error, VerifyError::NoProgram { .. }));
+        assert!(said.contains("/nowhere/python3") && !said.contains('\n'), "{said}");
+    }
 }
 
 #[cfg(unix)]
@@ -48,6 +55,16 @@ fn without_openseespy_one_line_says_how_to_install_it() {
     assert!(matches!(error, VerifyError::NoOpenSees { .. }));
     assert!(said.contains("pip install openseespy") && said.contains("libblas3 liblapack3"), "{said}");
     assert!(!said.contains('\n'), "{said}");
+}
+
+#[cfg(unix)]
+#[test]
+fn without_the_package_opensees_one_line_says_how_to_install_it() {
+    let folder = tempfile::tempdir().unwrap();
+    let python = stand_in(folder.path(), "echo 'python3: No module named opensees' >&2; exit 1");
+    let program = Program::Tcl(vec![python.display().to_string(), "-m".into(), "opensees".into()]);
+    let said = verify(&parameters(), &half_a_second(), &program).unwrap_err().to_string();
+    assert!(said.contains("pip install opensees") && !said.contains('\n'), "{said}");
 }
 
 #[cfg(unix)]
@@ -92,7 +109,7 @@ fn a_run_that_hangs_is_stopped() {
     let folder = tempfile::tempdir().unwrap();
     let python = stand_in(folder.path(), "exec sleep 60");
     let began = Instant::now();
-    let error = run(&python, &folder.path().join("deck.py"), Duration::from_millis(100)).err().unwrap();
+    let error = Program::Python(python).run(&folder.path().join("deck.py"), Duration::from_millis(100)).err().unwrap();
     assert!(matches!(error, VerifyError::Hung { .. }));
     assert!(began.elapsed() < Duration::from_secs(30));
 }

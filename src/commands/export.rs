@@ -1,0 +1,80 @@
+//! `tune export`: the springs and their model for another program.
+
+use std::path::{Path, PathBuf};
+
+use clap::Args;
+
+use super::{CommandError, common::RecordOptions, write_file};
+use crate::{
+    case::DURATION_S,
+    export::{Expected, Format, export, with_inertia},
+    parameters::Parameters,
+    record::Record,
+    verify::simulate,
+};
+
+/// Options of `tune export`.
+#[derive(Debug, Args)]
+pub struct Options {
+    /// Springs and structure, as `tune run` writes them
+    #[arg(long, value_name = "parameters.json")]
+    parameters: PathBuf,
+    /// openseespy, opensees-tcl, sap2000, csv or markdown
+    #[arg(long)]
+    format: Format,
+    /// The deck's file
+    #[arg(long, value_name = "FILE")]
+    out: PathBuf,
+    #[command(flatten)]
+    record: RecordOptions,
+}
+
+pub fn run(o: &Options) -> Result<(), CommandError> {
+    let (parameters, record) = read(&o.parameters, &o.record)?;
+    let history = simulate(&parameters, &record);
+    let deck = export(&parameters, &record, &Expected::new(&history), o.format)?;
+    write_file(&o.out, deck.as_bytes())?;
+    eprintln!("written to {}", o.out.display());
+    Ok(())
+}
+
+/// The model that decks hold, and its record over the length asked for: the length of the file's match unless given.
+pub(super) fn read(file: &Path, options: &RecordOptions) -> Result<(Parameters, Record), CommandError> {
+    let mut parameters = Parameters::read(file)?;
+    parameters.structure = with_inertia(&parameters.structure);
+    let matched = parameters.matched.map_or(DURATION_S, |m| m.duration_s);
+    let record = options.record(Record::el_centro)?.truncated(options.duration(matched)?);
+    if let Some(tuned) = &parameters.record
+        && options.record.is_none()
+        && tuned.name != record.name
+    {
+        eprintln!(
+            "the springs were tuned on {}; the deck holds {}: name another with --record",
+            tuned.name, record.name
+        );
+    }
+    Ok((parameters, record))
+}
+
+/// The decks of `tune run`: name in the folder, format.
+const DECKS: [(&str, Format); 5] = [
+    ("model_openseespy.py", Format::OpenSeesPy),
+    ("model_opensees.tcl", Format::OpenSeesTcl),
+    ("model_sap2000.s2k", Format::Sap2000),
+    ("springs.csv", Format::Csv),
+    ("springs.md", Format::Markdown),
+];
+
+/// Write every deck into a folder, which is made.
+pub(super) fn write_all(
+    dir: &Path,
+    parameters: &Parameters,
+    record: &Record,
+    expected: &Expected,
+) -> Result<(), CommandError> {
+    std::fs::create_dir_all(dir).map_err(|source| CommandError::Write { path: dir.display().to_string(), source })?;
+    for (name, format) in DECKS {
+        write_file(&dir.join(name), export(parameters, record, expected, format)?.as_bytes())?;
+    }
+    Ok(())
+}

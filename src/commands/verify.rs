@@ -1,0 +1,130 @@
+//! `tune verify`: the deck run in OpenSees, beside our own history and Housner's.
+
+use std::{fmt::Write as _, io::Write, path::PathBuf};
+
+use clap::Args;
+use comfy_table::{Table, presets};
+
+use super::{
+    CommandError,
+    common::{RecordOptions, csv_row},
+    export::read,
+    write_file,
+};
+use crate::{
+    figures::history::{self, History, Trace},
+    motion::{Motion, peak},
+    record::Record,
+    verify::{Program, Verification, verify},
+};
+
+/// Options of `tune verify`.
+#[derive(Debug, Args)]
+pub struct Options {
+    /// Springs and structure, as `tune run` writes them
+    #[arg(long, value_name = "parameters.json")]
+    parameters: PathBuf,
+    /// Python interpreter that has openseespy
+    #[arg(long, value_name = "PATH", default_value = "python3")]
+    python: PathBuf,
+    /// Run the Tcl deck instead, with this command, for example "OpenSees" or "python3 -m opensees"
+    #[arg(long, value_name = "COMMAND", conflicts_with = "python")]
+    tcl: Option<String>,
+    #[command(flatten)]
+    record: RecordOptions,
+    /// Folder for verify.png and verify.csv
+    #[arg(long, value_name = "DIR", default_value = "out")]
+    out: PathBuf,
+}
+
+pub fn run(o: &Options) -> Result<(), CommandError> {
+    let program = match &o.tcl {
+        Some(command) => Program::Tcl(command.split_whitespace().map(str::to_string).collect()),
+        None => Program::Python(o.python.clone()),
+    };
+    let (parameters, record) = read(&o.parameters, &o.record)?;
+    let result = verify(&parameters, &record, &program)?;
+
+    std::fs::create_dir_all(&o.out)
+        .map_err(|source| CommandError::Write { path: o.out.display().to_string(), source })?;
+    write_file(&o.out.join("verify.csv"), csv(&result).as_bytes())?;
+    draw(o, &record, &result)?;
+    write!(std::io::stdout(), "{}", said(&record, &result))?;
+    eprintln!("written to {}", o.out.display());
+    Ok(())
+}
+
+/// Peaks and errors, for a terminal.
+fn said(record: &Record, result: &Verification) -> String {
+    let mut table = Table::new();
+    let last = (result.ours.len() - 1) as f64 * result.dt;
+    table.load_style(presets::ASCII_MARKDOWN).set_header([
+        format!("{}, {last:.2} s", record.name).as_str(),
+        "OpenSees",
+        "tune simulate",
+        "Housner",
+    ]);
+    let all = [&result.opensees, &result.ours, &result.housner];
+    let mut row = |name: &str, of: fn(&Motion) -> &[f64], unit: f64| {
+        let mut cells = vec![name.to_string()];
+        cells.extend(all.map(|motion| format!("{:.3}", peak(of(motion)) * unit)));
+        table.add_row(cells);
+    };
+    row("peak u [mm]", |m| &m.u, 1e3);
+    row("peak v [mm]", |m| &m.v, 1e3);
+    row("peak theta [mrad]", |m| &m.theta, 1e3);
+    let mut errors = Table::new();
+    errors.load_style(presets::ASCII_MARKDOWN).set_header(["NRMSE", "u", "v", "theta"]);
+    for (name, a) in [
+        ("OpenSees against tune simulate", result.opensees_against_ours),
+        ("OpenSees against Housner", result.opensees_against_housner),
+        ("tune simulate against Housner", result.ours_against_housner),
+    ] {
+        errors.add_row([name.to_string(), format!("{:.5}", a.u), format!("{:.5}", a.v), format!("{:.5}", a.theta)]);
+    }
+    let mut out = format!("{table}\n\n{errors}\n\n");
+    // writing to a String does not fail
+    let _ = writeln!(
+        out,
+        "OpenSees took {:.1} s with {} steps a sample (dt {:.3e} s); its peaks are within 1 % of tune simulate's: {}",
+        result.seconds,
+        result.steps_per_sample,
+        result.dt / result.steps_per_sample as f64,
+        if result.within_one_percent { "yes" } else { "no" }
+    );
+    out
+}
+
+/// All three histories, 12 significant digits; over the length that all have.
+fn csv(result: &Verification) -> String {
+    let all = [&result.housner, &result.ours, &result.opensees];
+    let mut out =
+        String::from("t,u_housner,v_housner,th_housner,u_fem,v_fem,th_fem,u_opensees,v_opensees,th_opensees\n");
+    for i in 0..all.iter().map(|m| m.len()).min().unwrap_or(0) {
+        let mut row = vec![i as f64 * result.dt];
+        row.extend(all.iter().flat_map(|m| [m.u[i], m.v[i], m.theta[i]]));
+        csv_row(&mut out, &row);
+    }
+    out
+}
+
+fn draw(o: &Options, record: &Record, result: &Verification) -> Result<(), CommandError> {
+    fn trace<'a>(label: &'a str, motion: &'a Motion) -> Trace<'a> {
+        Trace { label, u: &motion.u, v: &motion.v, impacts: &[] }
+    }
+    let n = result.housner.len().max(result.ours.len());
+    let t: Vec<f64> = (0..n).map(|i| i as f64 * result.dt).collect();
+    let others = [trace("tune simulate", &result.ours), trace("OpenSees", &result.opensees)];
+    let title = format!("The exported model in OpenSees: {}", record.name);
+    history::render(
+        &History {
+            title: &title,
+            t: &t,
+            reference: trace("Housner", &result.housner),
+            others: &others,
+            differences: true,
+        },
+        &o.out.join("verify.png"),
+    )?;
+    Ok(())
+}
