@@ -7,6 +7,10 @@
 //! width_m = 12.2             # between the feet
 //! mass_kg = 680.1e3
 //!
+//! [legs]                     # elastic legs; also [damper] c_ns_per_m, [tendon] stiffness_n_per_m, pretension_n
+//! ea_n = 6.7e9
+//! ei_nm2 = 1.0e10
+//!
 //! [record]                   # left out: El Centro 1940 NS
 //! file = "motion.at2"        # relative to the case file
 //! scale = 1.0
@@ -22,6 +26,7 @@ use serde::Deserialize;
 use thiserror::Error;
 
 use crate::{
+    members::{Damper, Legs, Members, MembersError, Tendon},
     record::{ReadOptions, Record, RecordError, Units},
     response::target::Target,
     structure::{Kind, Structure, StructureError},
@@ -41,6 +46,8 @@ pub enum CaseError {
     Parse { path: String, line: usize, message: String },
     #[error("{path}: {source}")]
     Structure { path: String, source: StructureError },
+    #[error("{path}: {source}")]
+    Members { path: String, source: MembersError },
     #[error("{path}: {key} is {value}; {remedy}")]
     Value { path: String, key: &'static str, value: String, remedy: &'static str },
     #[error(transparent)]
@@ -124,6 +131,10 @@ impl Default for Tuning {
 #[serde(deny_unknown_fields)]
 struct CaseFile {
     structure: StructureSection,
+    /// Members that are simulated after tuning, with the springs of the rigid body.
+    legs: Option<Legs<f64>>,
+    damper: Option<Damper<f64>>,
+    tendon: Option<Tendon<f64>>,
     #[serde(default)]
     record: RecordSection,
     #[serde(default)]
@@ -139,6 +150,8 @@ pub struct Case {
     pub structure: Structure,
     /// Velocity restitution e.
     pub restitution: f64,
+    /// Elastic legs, dampers, a tendon: not tuned for, but simulated with the tuned springs.
+    pub members: Members<f64>,
     pub record: Record,
     /// Length to compare over [s].
     pub duration_s: f64,
@@ -173,6 +186,9 @@ impl Case {
             |key, value: f64, remedy| CaseError::Value { path: path.into(), key, value: value.to_string(), remedy };
 
         let (structure, restitution) = file.structure.checked(path)?;
+        let members = Members { legs: file.legs, damper: file.damper, tendon: file.tendon }
+            .checked(&structure.body())
+            .map_err(|source| CaseError::Members { path: path.into(), source })?;
         let section = &file.record;
         let record = match &section.file {
             Some(name) => {
@@ -193,6 +209,7 @@ impl Case {
         Ok(Self {
             structure,
             restitution,
+            members,
             record,
             duration_s,
             tuning: file.tuning,
@@ -327,6 +344,20 @@ mod tests {
         assert!((case.restitution / case.structure.body::<f64>().restitution() - 0.95).abs() < 1e-15);
         assert!(message("restitution = 1.2\n").contains("between 0 and 1"));
         assert!(message("restitution = 0.9\nrestitution_ratio = 0.9\n").contains("not both"));
+    }
+
+    #[test]
+    fn members_are_read_and_checked() {
+        let text = "[legs]\nea_n = 1e9\nei_nm2 = 2e9\n[damper]\nc_ns_per_m = 3e5\n[tendon]\nstiffness_n_per_m = 4e5\npretension_n = 5e4\n";
+        let members = Case::parse("case.toml", &format!("{STRUCTURE}{text}")).unwrap().members;
+        assert_eq!(members.legs, Some(Legs { ea: 1e9, ei: 2e9 }));
+        assert_eq!(members.damper, Some(Damper { c: 3e5 }));
+        assert_eq!(members.tendon, Some(Tendon { stiffness: 4e5, pretension: 5e4 }));
+        assert_eq!(
+            message("[legs]\nea_n = 0.0\nei_nm2 = 2e9\n"),
+            "case.toml: legs.ea_n is 0; give a finite number greater than zero"
+        );
+        assert!(message("[damper]\nc = 1.0\n").contains("did you mean \"c_ns_per_m\"?"));
     }
 
     #[test]

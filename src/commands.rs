@@ -20,6 +20,7 @@ mod common;
 mod draw;
 mod export;
 mod housner;
+mod members;
 mod progress;
 mod report;
 mod response;

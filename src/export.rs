@@ -104,6 +104,8 @@ pub enum ExportError {
         "export: {name} is {value}; give a finite number above zero (dampers and inertia may be zero), as `tune run` writes them"
     )]
     Number { name: &'static str, value: f64 },
+    #[error("export: {name} cannot be written to a deck; remove it from parameters.json to export the rigid body")]
+    Member { name: &'static str },
     #[error(
         "export: the history to check against has {expected} samples but the record has {record}; use the record that was simulated"
     )]

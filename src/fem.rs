@@ -6,6 +6,8 @@
 //! | `radau`, `newton`, `step` | one implicit step: tables, condensed matrix, iteration |
 //! | `run` | the time loop: samples; in `run/`, contact events and step acceptance |
 //! | `control`, `energy`, `observer` | what a run is told, accounts for and shows |
+//! | `frame`, `leg`, `coupled` | elastic legs, dampers, tendon: condensed into the contact law; their Newton matrix |
+//! | `demands` | forces in legs, tendon, dampers; base shear |
 //! | `history`, `landings` | what a run leaves behind: motion, forces, energies; impacts and bounces |
 //!
 //! **Why Radau IIA.** Springs of 300 Hz under a body that rocks at 0.3 Hz are stiff, and a body without rotational
@@ -19,9 +21,13 @@
 //! user is promised.
 
 mod control;
+mod coupled;
+mod demands;
 mod energy;
+mod frame;
 mod history;
 mod landings;
+mod leg;
 mod model;
 mod newton;
 mod observer;
@@ -31,12 +37,16 @@ mod run;
 mod step;
 
 pub use control::{Control, Outcome, Work};
+pub use demands::{Demands, Peak, QUANTITIES, Row};
 pub use energy::Energy;
 pub use history::{Account, Forces, History, Recorder};
 pub use landings::Landing;
 pub use observer::{Change, Observer, View};
 
+use std::ops::ControlFlow;
+
 use crate::{
+    members::Members,
     scalar::Scalar,
     spring::{Chain, Springs},
     structure::Body,
@@ -79,12 +89,20 @@ pub struct Finish<S> {
 impl<S: Scalar> Case<'_, S> {
     /// Run the case, showing every sample and event to `observer`.
     pub fn observe(&self, observer: &mut impl Observer<S>) -> Finish<S> {
-        let model = model::Model::new(&self.body, &self.springs);
+        self.follow(&model::Model::new(&self.body, &self.springs), observer)
+    }
+
+    /// The same with elastic legs, dampers or a tendon.
+    pub fn observe_with(&self, members: &Members<S>, observer: &mut impl Observer<S>) -> Finish<S> {
+        self.follow(&model::Model::with_members(&self.body, &self.springs, members), observer)
+    }
+
+    fn follow(&self, model: &model::Model<S>, observer: &mut impl Observer<S>) -> Finish<S> {
         let start = match self.start {
             Start::Settled => model.settled(),
             Start::Leaning(theta) => model.leaning(theta),
         };
-        let mut run = run::Run::new(&model, start, self.control);
+        let mut run = run::Run::new(model, start, self.control);
         let outcome = run.follow(self.dt, self.accel, self.scale, observer);
         Finish { outcome, work: run.work, energy: *run.energy(), energy_scale: run.energy_scale() }
     }
@@ -96,6 +114,35 @@ impl Case<'_, f64> {
         let mut recorder = Recorder::new(self.accel.len());
         let finish = self.observe(&mut recorder);
         recorder.finish(finish)
+    }
+
+    /// The same with elastic legs, dampers or a tendon, or none of them; and the forces in them.
+    pub fn simulate_with(&self, members: &Members<f64>) -> (History, Demands) {
+        let mut both = Both { recorder: Recorder::new(self.accel.len()), demands: Demands::default() };
+        let finish = self.observe_with(members, &mut both);
+        (both.recorder.finish(finish), both.demands)
+    }
+}
+
+/// Keeps the history and the forces.
+struct Both {
+    recorder: Recorder,
+    demands: Demands,
+}
+
+impl Observer<f64> for Both {
+    fn sample(&mut self, index: usize, view: &View<f64>) -> ControlFlow<()> {
+        let _ = self.demands.sample(index, view);
+        self.recorder.sample(index, view)
+    }
+
+    fn step(&mut self, view: &View<f64>) {
+        self.demands.step(view);
+        self.recorder.step(view);
+    }
+
+    fn event(&mut self, foot: usize, change: Change, view: &View<f64>) {
+        self.recorder.event(foot, change, view);
     }
 }
 

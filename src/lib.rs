@@ -28,6 +28,8 @@ pub mod structure;
 
 pub mod spring;
 
+pub mod members;
+
 pub mod response;
 
 pub mod motion;

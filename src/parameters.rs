@@ -8,6 +8,7 @@ use thiserror::Error;
 use crate::{
     compare::Match,
     conditioning::Sensitivity,
+    members::{Damper, Legs, Members, MembersError, Tendon},
     record::Record,
     spring::{Chain, ChainRow, Design, Springs},
     structure::{Structure, StructureError},
@@ -59,10 +60,21 @@ pub struct Parameters {
     pub record: Option<RecordRow>,
     pub vertical: ChainRow,
     pub horizontal: ChainRow,
+    /// Elastic legs, dampers across the interface, a tendon, where the structure has them; the springs are tuned for the
+    /// rigid body.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub legs: Option<Legs<f64>>,
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub damper: Option<Damper<f64>>,
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub tendon: Option<Tendon<f64>>,
     #[serde(rename = "match", default, skip_serializing_if = "Option::is_none")]
     pub matched: Option<Match>,
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub conditioning: Option<Conditioning>,
+    /// The match of the structure with its members, on the same springs.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub match_with_members: Option<Match>,
     /// Beside the springs above, where another objective chose them.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub paper_procedure: Option<PaperProcedure>,
@@ -79,6 +91,8 @@ pub enum ParametersError {
     Value { path: String, chain: &'static str, name: &'static str, value: f64, bound: &'static str },
     #[error("{path}: {source}")]
     Structure { path: String, source: StructureError },
+    #[error("{path}: {source}")]
+    Members { path: String, source: MembersError },
 }
 
 impl Parameters {
@@ -90,8 +104,12 @@ impl Parameters {
             record: None,
             vertical: ChainRow::new(&springs.vertical, m1),
             horizontal: ChainRow::new(&springs.horizontal, m1),
+            legs: None,
+            damper: None,
+            tendon: None,
             matched: None,
             conditioning: None,
+            match_with_members: None,
             paper_procedure: None,
         }
     }
@@ -99,6 +117,16 @@ impl Parameters {
     /// The springs with units; k1, k2, m2 and c of the file rule.
     pub fn chains(&self) -> Springs<Chain<f64>> {
         Springs { vertical: self.vertical.chain(), horizontal: self.horizontal.chain() }
+    }
+
+    /// What the structure has besides the rigid body.
+    pub fn members(&self) -> Members<f64> {
+        Members { legs: self.legs, damper: self.damper, tendon: self.tendon }
+    }
+
+    /// The same with these members.
+    pub fn with_members(self, members: Members<f64>) -> Self {
+        Self { legs: members.legs, damper: members.damper, tendon: members.tendon, ..self }
     }
 
     /// Read and check a file.
@@ -129,6 +157,8 @@ impl Parameters {
                 }
             }
         }
+        let members = self.members().checked(&self.structure.body());
+        members.map_err(|source| ParametersError::Members { path: path.to_string(), source })?;
         Ok(self)
     }
 

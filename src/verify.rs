@@ -146,7 +146,8 @@ pub fn simulate(parameters: &Parameters, record: &Record) -> History {
         scale: 1.0,
         control: Control::default(),
     }
-    .simulate()
+    .simulate_with(&parameters.members())
+    .0
 }
 
 /// Read the deck's history: t, u, v, th.

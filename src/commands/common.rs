@@ -4,11 +4,12 @@ use std::{fmt::Write, path::PathBuf};
 
 use clap::Args;
 
-use super::CommandError;
+use super::{CommandError, members::WithMembers};
 use crate::{
     compare::Match,
     fem,
     housner::{self, Rocking},
+    members::Members,
     motion::Motion,
     record::{ReadOptions, Record, Units},
     spring::{Chain, Springs},
@@ -75,14 +76,24 @@ pub struct Both {
     pub housner: Motion,
     pub fem: fem::History,
     pub matched: Match,
+    /// Forces in the rigid body's history.
+    pub demands: fem::Demands,
+    /// The same with members, if there are any.
+    pub with: Option<WithMembers>,
 }
 
-/// Run both models over a record.
-pub fn both(body: &Body<f64>, restitution: f64, springs: &Springs<Chain<f64>>, record: &Record) -> Both {
+/// Run both models over a record; with members, the finite elements once more with them.
+pub fn both(
+    body: &Body<f64>,
+    restitution: f64,
+    springs: &Springs<Chain<f64>>,
+    members: &Members<f64>,
+    record: &Record,
+) -> Both {
     let options = housner::Options { restitution: Some(restitution), ..Default::default() };
     let rocking = housner::solve(body, record.dt, &record.accel, &options);
     let motion = rocking.motion(body);
-    let fem = fem::Case {
+    let case = fem::Case {
         body: *body,
         springs: *springs,
         start: fem::Start::Settled,
@@ -90,17 +101,31 @@ pub fn both(body: &Body<f64>, restitution: f64, springs: &Springs<Chain<f64>>, r
         accel: &record.accel,
         scale: 1.0,
         control: fem::Control::default(),
-    }
-    .simulate();
-    let matched = Match::new(record.dt, &motion, rocking.impacts.len(), &fem, restitution);
-    Both { rocking, housner: motion, fem, matched }
+    };
+    let matched = |history: &fem::History| Match::new(record.dt, &motion, rocking.impacts.len(), history, restitution);
+    let (fem, demands) = case.simulate_with(&Members::default());
+    let rigid = matched(&fem);
+    let with = (!members.is_none()).then(|| {
+        let (history, demands) = case.simulate_with(members);
+        let matched = matched(&history);
+        WithMembers { members: *members, history, demands, matched }
+    });
+    Both { rocking, housner: motion, fem, matched: rigid, demands, with }
 }
 
-/// `history.csv`: both motions at the record's samples, 12 significant digits.
-pub fn history_csv(dt: f64, housner: &Motion, fem: &Motion) -> String {
-    let mut out = String::from("t,u_housner,v_housner,th_housner,u_fem,v_fem,th_fem\n");
-    for i in 0..housner.len().min(fem.len()) {
-        let row = [i as f64 * dt, housner.u[i], housner.v[i], housner.theta[i], fem.u[i], fem.v[i], fem.theta[i]];
+/// `history.csv`: the motions at the record's samples, 12 significant digits; with members three columns more.
+pub fn history_csv(dt: f64, both: &Both) -> String {
+    let mut motions = vec![("housner", &both.housner), ("fem", &both.fem.motion)];
+    motions.extend(both.with.as_ref().map(|with| ("members", &with.history.motion)));
+    let mut out = String::from("t");
+    for (name, _) in &motions {
+        // writing to a String cannot fail
+        let _ = write!(out, ",u_{name},v_{name},th_{name}");
+    }
+    out.push('\n');
+    for i in 0..motions.iter().map(|(_, motion)| motion.len()).min().unwrap_or(0) {
+        let mut row = vec![i as f64 * dt];
+        row.extend(motions.iter().flat_map(|(_, motion)| [motion.u[i], motion.v[i], motion.theta[i]]));
         csv_row(&mut out, &row);
     }
     out

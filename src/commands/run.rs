@@ -6,9 +6,9 @@ use clap::Args;
 
 use super::{
     CommandError,
-    common::{self, RecordOptions, history_csv},
+    common::{self, Both, RecordOptions, history_csv},
     draw::draw,
-    export,
+    export, members,
     progress::Progress,
     report::{Ground, Report},
     table, write_file,
@@ -16,7 +16,7 @@ use super::{
 use crate::{
     case::Case,
     export::{Expected, with_inertia},
-    fem::History,
+    members::Members,
     parameters::{PaperProcedure, Parameters, RecordRow},
     record::Record,
     tuning::{front, job::Job},
@@ -85,13 +85,15 @@ pub fn run(o: &Options) -> Result<(), CommandError> {
         points
     };
 
-    let mut parameters = Parameters::new(case.structure, &job.springs);
-    let both = common::both(&job.body, case.restitution, &parameters.chains(), &job.record);
+    let mut parameters = Parameters::new(case.structure, &job.springs).with_members(case.members);
+    let both = common::both(&job.body, case.restitution, &parameters.chains(), &case.members, &job.record);
     parameters.record = Some(RecordRow::new(&case.record));
     parameters.matched = Some(both.matched);
+    parameters.match_with_members = both.with.as_ref().map(|with| with.matched);
     if job.impact.is_some() {
         let paper = Parameters::new(case.structure, &job.arr.best.springs);
-        let matched = common::both(&job.body, case.restitution, &paper.chains(), &job.record).matched;
+        let none = Members::default();
+        let matched = common::both(&job.body, case.restitution, &paper.chains(), &none, &job.record).matched;
         parameters.paper_procedure =
             Some(PaperProcedure { vertical: paper.vertical, horizontal: paper.horizontal, matched });
     }
@@ -102,20 +104,27 @@ pub fn run(o: &Options) -> Result<(), CommandError> {
     let write = |e| CommandError::Write { path: o.out.display().to_string(), source: e };
     std::fs::create_dir_all(&o.out).map_err(write)?;
     write_file(&o.out.join("parameters.json"), parameters.to_json().as_bytes())?;
-    write_file(&o.out.join("parameters.md"), (table::markdown(&parameters) + &table::front(&front)).as_bytes())?;
-    write_file(&o.out.join("history.csv"), history_csv(dt, &both.housner, &both.fem.motion).as_bytes())?;
-    decks(o, &parameters, &job.record, &both.fem)?;
+    let forces = members::markdown(&both.demands, both.with.as_ref());
+    let tables = table::markdown(&parameters) + &forces + &table::front(&front);
+    write_file(&o.out.join("parameters.md"), tables.as_bytes())?;
+    write_file(&o.out.join("history.csv"), history_csv(dt, &both).as_bytes())?;
+    let demands = both.with.as_ref().map_or(&both.demands, |with| &with.demands);
+    write_file(&o.out.join("members.csv"), members::csv(dt, demands).as_bytes())?;
+    decks(o, &parameters, &job.record, &both)?;
     if !o.no_figures {
         draw(&o.out, &case, &job, &both, &front)?;
     }
     let (springs, said) = (table::terminal(&parameters), report.lines().join("\n"));
-    write!(std::io::stdout(), "{springs}\n{said}\n{}", table::front_terminal(&front))?;
+    write!(std::io::stdout(), "{springs}\n{said}\n{forces}{}", table::front_terminal(&front))?;
     eprintln!("written to {}", o.out.display());
     Ok(())
 }
 
 /// The model for other programs. A body without rotational inertia gets some there, and its own history to check against.
-fn decks(o: &Options, parameters: &Parameters, record: &Record, history: &History) -> Result<(), CommandError> {
+fn decks(o: &Options, parameters: &Parameters, record: &Record, both: &Both) -> Result<(), CommandError> {
+    // of the rigid body
+    let parameters = &parameters.clone().with_members(Members::default());
+    let history = &both.fem;
     let folder = o.out.join("decks");
     let structure = with_inertia(&parameters.structure);
     if structure == parameters.structure {

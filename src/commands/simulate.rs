@@ -7,6 +7,7 @@ use clap::Args;
 use super::{
     CommandError,
     common::{RecordOptions, both, history_csv},
+    members,
     report::{Ground, Report},
     write_file,
 };
@@ -25,9 +26,12 @@ pub struct Options {
     /// Velocity restitution of Housner's solution; by equation 2 unless given
     #[arg(long)]
     restitution: Option<f64>,
-    /// Write both histories here (CSV)
+    /// Write the histories here (CSV)
     #[arg(long, value_name = "FILE")]
     out: Option<PathBuf>,
+    /// Write base shear and the forces in legs, tendon and dampers here (CSV)
+    #[arg(long, value_name = "FILE")]
+    forces: Option<PathBuf>,
 }
 
 pub fn run(o: &Options) -> Result<(), CommandError> {
@@ -36,15 +40,20 @@ pub fn run(o: &Options) -> Result<(), CommandError> {
     let body = parameters.structure.body::<f64>();
     let e = o.restitution.unwrap_or_else(|| body.restitution());
     let friction = o.ground.friction()?;
-    let both = both(&body, e, &parameters.chains(), &record);
+    let both = both(&body, e, &parameters.chains(), &parameters.members(), &record);
     if let Some(path) = &o.out {
-        write_file(path, history_csv(record.dt, &both.housner, &both.fem.motion).as_bytes())?;
+        write_file(path, history_csv(record.dt, &both).as_bytes())?;
+    }
+    if let Some(path) = &o.forces {
+        let demands = both.with.as_ref().map_or(&both.demands, |with| &with.demands);
+        write_file(path, members::csv(record.dt, demands).as_bytes())?;
     }
     eprintln!("{}: PGA {:.4} g, {} samples of {} s", record.name, record.pga_g(), record.accel.len(), record.dt);
     for line in Report::new(&body, e, &record, &both.rocking, friction).lines() {
         eprintln!("{line}");
     }
-    let json = serde_json::to_string_pretty(&both.matched).map_err(|e| CommandError::Result(e.to_string()))?;
+    let report = members::Report::new(&both.matched, &both.demands, both.with.as_ref());
+    let json = serde_json::to_string_pretty(&report).map_err(|e| CommandError::Result(e.to_string()))?;
     writeln!(std::io::stdout(), "{json}")?;
     Ok(())
 }

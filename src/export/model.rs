@@ -74,6 +74,16 @@ pub(super) struct Model<'a> {
 
 impl<'a> Model<'a> {
     pub fn new(parameters: &Parameters, record: &'a Record, expected: &Expected) -> Result<Self, ExportError> {
+        let members = parameters.members();
+        for (name, there) in [
+            ("legs", members.legs.is_some()),
+            ("damper", members.damper.is_some()),
+            ("tendon", members.tendon.is_some()),
+        ] {
+            if there {
+                return Err(ExportError::Member { name });
+            }
+        }
         let structure = parameters.structure;
         let springs = parameters.chains();
         let Springs { vertical: v, horizontal: h } = springs;

@@ -15,6 +15,7 @@
 //! Displacements are relative to the ground; gravity acts on the body only, so an open absorber rests at zero, as in
 //! the engineer's deck, where the weight is a load on the mass.
 
+use super::frame::Frame;
 use crate::{
     scalar::{GRAVITY, Scalar, real},
     spring::{Chain, Springs},
@@ -99,9 +100,11 @@ pub(crate) struct Model<S> {
     pub body: Body<S>,
     pub springs: Springs<Chain<S>>,
     /// Inertia of the translation [kg]: the mass, and I_cg/R^2 when the rotation is massless.
-    translation: S,
+    pub translation: S,
     /// Inertia of the rotation [kg m2]; zero when massless.
-    rotation: S,
+    pub rotation: S,
+    /// Legs, dampers, tendon; none under a rigid body.
+    pub frame: Option<Frame<S>>,
 }
 
 /// A foot's kinematics and contact forces in one configuration.
@@ -126,7 +129,7 @@ impl<S: Scalar> Model<S> {
         } else {
             (body.mass, body.inertia)
         };
-        Self { body: *body, springs: *springs, translation, rotation }
+        Self { body: *body, springs: *springs, translation, rotation, frame: None }
     }
 
     /// Whether the rotation follows the contact forces without inertia.
@@ -136,7 +139,7 @@ impl<S: Scalar> Model<S> {
 
     /// Position of foot i relative to where it stood, with the derivatives by theta: (p_x, p_z, dp_x, dp_z).
     #[inline(always)]
-    fn foot(&self, i: usize, q: &Vector<S>, sin: S, cos: S) -> (S, S, S, S) {
+    pub fn foot(&self, i: usize, q: &Vector<S>, sin: S, cos: S) -> (S, S, S, S) {
         let sb = self.body.half_width * SIDE[i];
         let h = self.body.height;
         let one_minus_cos = sin * sin / (cos + 1.0);
@@ -146,20 +149,30 @@ impl<S: Scalar> Model<S> {
     }
 
     /// Compression of foot i's gap, a_z - p_z: positive when the foot presses [m].
-    pub fn compression(&self, i: usize, q: &Vector<S>) -> S {
+    pub fn compression(&self, i: usize, q: &Vector<S>, foot: &Foot<S>) -> S {
+        if let Some(frame) = &self.frame {
+            return q[az(i)] - self.poised(frame, i, q, foot).place[1];
+        }
         let (sin, cos) = (q[TH].sin(), q[TH].cos());
         q[az(i)] - self.foot(i, q, sin, cos).1
     }
 
     /// Rate of the compression [m/s].
-    pub fn compression_rate(&self, i: usize, state: &State<S>) -> S {
+    pub fn compression_rate(&self, i: usize, state: &State<S>, foot: &Foot<S>) -> S {
+        if let (Some(frame), true) = (&self.frame, foot.closed()) {
+            let poised = self.poised(frame, i, &state.q, foot);
+            return poised.tangent().change(&poised.force, i, &state.v)[1] / self.springs.vertical.k1;
+        }
         let (sin, cos) = (state.q[TH].sin(), state.q[TH].cos());
         let pz_th = self.foot(i, &state.q, sin, cos).3;
         state.v[az(i)] - state.v[Z] - pz_th * state.v[TH]
     }
 
     /// The anchor that leaves foot i's horizontal spring without force where it stands now [m].
-    pub fn anchor_here(&self, i: usize, q: &Vector<S>) -> S {
+    pub fn anchor_here(&self, i: usize, q: &Vector<S>, foot: &Foot<S>) -> S {
+        if let Some(frame) = &self.frame {
+            return self.poised(frame, i, q, foot).place[0] - q[ax(i)];
+        }
         let (sin, cos) = (q[TH].sin(), q[TH].cos());
         self.foot(i, q, sin, cos).0 - q[ax(i)]
     }
@@ -167,6 +180,9 @@ impl<S: Scalar> Model<S> {
     /// Contact forces and kinematics of both feet.
     #[inline(always)]
     pub fn contact(&self, q: &Vector<S>, feet: &[Foot<S>; 2]) -> [FootForce<S>; 2] {
+        if let Some(frame) = &self.frame {
+            return self.frame_contact(frame, q, feet);
+        }
         let (sin, cos) = (q[TH].sin(), q[TH].cos());
         std::array::from_fn(|i| {
             let (px, pz, px_th, pz_th) = self.foot(i, q, sin, cos);
@@ -198,6 +214,9 @@ impl<S: Scalar> Model<S> {
             f[ax(i)] = -(foot.horizontal + horizontal.m2 * ground + horizontal.k2 * q[ax(i)] + horizontal.c * v[ax(i)]);
             f[az(i)] = -(foot.vertical + vertical.k2 * q[az(i)] + vertical.c * v[az(i)]);
         }
+        if let Some(frame) = &self.frame {
+            self.add_members(frame, q, v, &mut f);
+        }
         f
     }
 
@@ -210,7 +229,9 @@ impl<S: Scalar> Model<S> {
     /// In free flight a massless rotation keeps its rate, as the limit of a small I_cg does (no moment acts, so the
     /// value does not matter).
     fn rotational_inertia(&self, feet: &[Foot<S>; 2]) -> S {
-        if self.massless() && !feet[0].closed() && !feet[1].closed() {
+        // dampers do turn it in flight
+        let free = self.frame.is_none_or(|frame| frame.damper.re() == 0.0);
+        if self.massless() && free && !feet[0].closed() && !feet[1].closed() {
             self.body.mass * self.body.height * self.body.height
         } else {
             self.rotation
@@ -222,6 +243,9 @@ impl<S: Scalar> Model<S> {
     pub fn turn_to_balance(&self, state: &mut State<S>, feet: &[Foot<S>; 2]) -> bool {
         if !self.massless() || !(feet[0].closed() || feet[1].closed()) {
             return false;
+        }
+        if let Some(frame) = &self.frame {
+            return self.turn_frame_to_balance(frame, state, feet);
         }
         // convex in theta and all but quadratic: Newton needs a few steps, and one more makes derivatives exact
         for _ in 0..6 {
@@ -262,8 +286,9 @@ impl<S: Scalar> Model<S> {
             }
             twice
         };
+        let members = self.frame.as_ref().map(|frame| self.members_energy(frame, q, feet));
         let twice = self.body_kinetic(state) * 2.0 + self.body.mass * q[Z] * (2.0 * GRAVITY) + (share(0) + share(1));
-        twice * 0.5
+        members.map_or(twice * 0.5, |members| twice * 0.5 + members)
     }
 
     /// Power of the base excitation in the moving frame, -ug'' (m X' + sum m2_h a_x') [W].
@@ -274,15 +299,24 @@ impl<S: Scalar> Model<S> {
 
     /// Power that the dashpots take [W].
     #[inline(always)]
-    pub fn dissipation(&self, v: &Vector<S>) -> S {
+    pub fn dissipation(&self, q: &Vector<S>, v: &Vector<S>) -> S {
         let Springs { vertical, horizontal } = &self.springs;
-        horizontal.c * (v[ax(0)] * v[ax(0)] + v[ax(1)] * v[ax(1)])
-            + vertical.c * (v[az(0)] * v[az(0)] + v[az(1)] * v[az(1)])
+        let springs = horizontal.c * (v[ax(0)] * v[ax(0)] + v[ax(1)] * v[ax(1)])
+            + vertical.c * (v[az(0)] * v[az(0)] + v[az(1)] * v[az(1)]);
+        self.frame.as_ref().map_or(springs, |frame| springs + self.members_dissipation(frame, q, v))
     }
 
     /// The body standing still on both feet under its weight, each foot on half of it.
     pub fn settled(&self) -> (State<S>, [Foot<S>; 2]) {
-        let half_weight = self.body.mass * (0.5 * GRAVITY);
+        match self.frame {
+            None => self.stand_rigid(self.body.mass * GRAVITY),
+            Some(_) => self.stand(S::zero()),
+        }
+    }
+
+    /// The rigid body standing still under a load on its mass [N], downwards.
+    pub fn stand_rigid(&self, load: S) -> (State<S>, [Foot<S>; 2]) {
+        let half_weight = load * 0.5;
         let absorber = -half_weight / self.springs.vertical.k2;
         let mut q = [S::zero(); N];
         q[az(0)] = absorber;
@@ -299,6 +333,9 @@ impl<S: Scalar> Model<S> {
     ///   theta'' = -m g R sin(alpha - theta) / I0      H = m X''      N = m (g + Z'')
     /// ```
     pub fn on_one_foot(&self, theta: S) -> (State<S>, [Foot<S>; 2]) {
+        if let Some(frame) = &self.frame {
+            return self.lean_on_leg(frame, theta);
+        }
         let side: S = real(if theta.re() > 0.0 { 1.0 } else { -1.0 });
         let pressing = usize::from(theta.re() > 0.0);
         let Springs { vertical, horizontal } = &self.springs;
@@ -326,8 +363,8 @@ impl<S: Scalar> Model<S> {
     pub fn leaning(&self, theta: S) -> (State<S>, [Foot<S>; 2]) {
         let (mut state, mut feet) = self.on_one_foot(theta);
         for (i, foot) in feet.iter_mut().enumerate() {
-            if !foot.closed() && self.compression(i, &state.q).re() > 0.0 {
-                *foot = Foot { contact: Contact::Stick, anchor: self.anchor_here(i, &state.q) };
+            if !foot.closed() && self.compression(i, &state.q, foot).re() > 0.0 {
+                *foot = Foot { contact: Contact::Stick, anchor: self.anchor_here(i, &state.q, foot) };
             }
         }
         self.turn_to_balance(&mut state, &feet);

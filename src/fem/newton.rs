@@ -8,6 +8,7 @@ use std::ops::Neg;
 
 use num_traits::Num;
 
+use super::coupled::Coupled;
 use super::model::{Foot, Model, N, State, TH, X, Z, ax, az};
 use crate::{scalar::Scalar, spring::Chain};
 
@@ -45,6 +46,8 @@ pub(super) struct Newton<T> {
     th_inv: T,
     x_th: T,
     z_th: T,
+    /// The matrix of a body with members, in place of all the rest.
+    coupled: Option<Coupled<T>>,
 }
 
 impl<T: Num + Copy + Neg<Output = T>> Newton<T> {
@@ -56,6 +59,9 @@ impl<T: Num + Copy + Neg<Output = T>> Newton<T> {
         s: T,
         lift: impl Fn(S) -> T,
     ) -> Self {
+        if let Some(frame) = &model.frame {
+            return Self::coupled(Coupled::new(model, frame, state, feet, s, &lift));
+        }
         let contact = model.contact(&state.q, feet);
         let masses = model.masses(feet);
         // [xx, zz, tt, x_th, z_th] of both feet
@@ -80,12 +86,30 @@ impl<T: Num + Copy + Neg<Output = T>> Newton<T> {
         let x_inv = T::one() / (lift(masses[X]) + xx);
         let z_inv = T::one() / (lift(masses[Z]) + zz);
         let th_inv = T::one() / (lift(masses[TH]) + tt - x_th * x_th * x_inv - z_th * z_th * z_inv);
-        Self { chains, lever, x_inv, z_inv, th_inv, x_th, z_th }
+        Self { chains, lever, x_inv, z_inv, th_inv, x_th, z_th, coupled: None }
+    }
+
+    fn coupled(coupled: Coupled<T>) -> Self {
+        let zero = T::zero();
+        let none = Condensed { pivot: zero, coupling: zero, stiffness: zero };
+        Self {
+            chains: [[none; 2]; 2],
+            lever: [[zero; 2]; 2],
+            x_inv: zero,
+            z_inv: zero,
+            th_inv: zero,
+            x_th: zero,
+            z_th: zero,
+            coupled: Some(coupled),
+        }
     }
 
     /// Solve for the accelerations' correction.
     #[inline(always)]
     pub fn solve(&self, r: &[T; N]) -> [T; N] {
+        if let Some(coupled) = &self.coupled {
+            return coupled.solve(r);
+        }
         let mut d = *r;
         let [left, right] = [0, 1].map(|i| {
             let [h, v] = &self.chains[i];

@@ -47,7 +47,7 @@ impl<S: Scalar> Stages<S> {
             let weight = self.h * A[2][j];
             let acceleration = ground.start + ground.slope * self.h * C[j];
             input += model.input_power(&self.v[j], acceleration) * weight;
-            dissipated += model.dissipation(&self.v[j]) * weight;
+            dissipated += model.dissipation(&self.q[j], &self.v[j]) * weight;
         }
         (input, dissipated)
     }

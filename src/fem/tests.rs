@@ -2,7 +2,9 @@
 
 mod forces;
 mod integrator;
+mod members;
 mod motions;
+mod statics;
 
 use std::f64::consts::TAU;
 

@@ -5,6 +5,7 @@ mod common;
 mod derivatives;
 mod energy;
 mod landings;
+mod members;
 mod rigid_limit;
 mod similarity;
 mod stress;

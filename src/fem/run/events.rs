@@ -53,7 +53,7 @@ impl<S: Scalar> Run<'_, S> {
                 Contact::Stick => &[(1.0, 0.0)],
                 Contact::Slide => &[(1.0, 0.0), (-1.0, HOLDING * self.compression)],
             };
-            let compression = |q| self.model.compression(foot, q).re();
+            let compression = |q| self.model.compression(foot, q, &self.feet[foot]).re();
             let values = [&self.state.q, &stages.q[0], &stages.q[1], &stages.q[2]].map(compression);
             for &(sign, level) in limits {
                 let inside = values.map(|d| sign * (d - level));
@@ -80,7 +80,10 @@ impl<S: Scalar> Run<'_, S> {
         mut low: (f64, f64),
         mut high: (f64, f64),
     ) -> f64 {
-        let value = |tau: f64| (self.model.compression(foot, &stages.position(&self.state, tau)).re() - level) * sign;
+        let value = |tau: f64| {
+            let q = stages.position(&self.state, tau);
+            (self.model.compression(foot, &q, &self.feet[foot]).re() - level) * sign
+        };
         let mut side = 0;
         for _ in 0..60 {
             let tau = (low.0 * high.1 - high.0 * low.1) / (high.1 - low.1);
@@ -122,12 +125,12 @@ impl<S: Scalar> Run<'_, S> {
             self.work.located += 1;
             let here = self.attempt(h, ground)?;
             let end = here.end();
-            let gap = self.model.compression(foot, &end.q) - level;
+            let gap = self.model.compression(foot, &end.q, &self.feet[foot]) - level;
             let met = gap.re().abs() <= self.gap_tolerance();
             if met && self.control.extra_iterations == 0 {
                 return Some(here);
             }
-            let correction = gap / self.model.compression_rate(foot, &end);
+            let correction = gap / self.model.compression_rate(foot, &end, &self.feet[foot]);
             let usable = correction.re().abs() <= 0.5 * h.re();
             if met {
                 // derivatives of the event's time, by the implicit function theorem
@@ -142,15 +145,31 @@ impl<S: Scalar> Run<'_, S> {
         self.attempt(h, ground)
     }
 
+    /// A foot on an elastic leg springs sideways, and maybe down, when its horizontal force is let go: it opens only if it
+    /// would not press without that force. Letting go before opening, it can only lose energy.
+    fn slide_first(&mut self, foot: usize) {
+        let on_leg = self.model.frame.is_some_and(|frame| frame.leg.is_some());
+        if !on_leg || self.feet[foot].closed() || !self.feet[1 - foot].holds() {
+            return;
+        }
+        let open = (self.state, self.feet[foot]);
+        self.feet[foot].contact = Contact::Slide;
+        self.model.turn_to_balance(&mut self.state, &self.feet);
+        if self.model.compression(foot, &self.state.q, &self.feet[foot]).re() <= self.gap_tolerance() {
+            (self.state, self.feet[foot]) = open;
+        }
+    }
+
     /// Change a foot's contact.
     pub(super) fn switch(&mut self, foot: usize, level: f64, time: S, observer: &mut impl Observer<S>) {
         let before = self.energy.stored;
         let was = self.feet[foot].contact;
-        let anchor = self.model.anchor_here(foot, &self.state.q);
+        let anchor = self.model.anchor_here(foot, &self.state.q, &self.feet[foot]);
         self.feet[foot] = match was {
             Contact::Open => {
                 let at_once = time.re() - self.opened[foot] < AT_ONCE * self.settling;
-                let held = self.model.compression(foot, &self.state.q).re() >= HOLDING * self.compression;
+                let held =
+                    self.model.compression(foot, &self.state.q, &self.feet[foot]).re() >= HOLDING * self.compression;
                 // a body on sliding feet alone has nothing to lean on
                 let leans = self.feet[1 - foot].holds();
                 let contact = if at_once && !held && leans { Contact::Slide } else { Contact::Stick };
@@ -164,9 +183,13 @@ impl<S: Scalar> Run<'_, S> {
         };
         let other = 1 - foot;
         if self.feet[other].contact == Contact::Slide && !self.feet[foot].holds() {
-            self.feet[other] = Foot { contact: Contact::Stick, anchor: self.model.anchor_here(other, &self.state.q) };
+            let anchor = self.model.anchor_here(other, &self.state.q, &self.feet[other]);
+            self.feet[other] = Foot { contact: Contact::Stick, anchor };
         }
         self.model.turn_to_balance(&mut self.state, &self.feet);
+        if was == Contact::Stick {
+            self.slide_first(foot);
+        }
         self.energy.stored = self.model.energy(&self.state, &self.feet);
         self.energy.released += before - self.energy.stored;
         self.guess = no_guess();

@@ -1,0 +1,91 @@
+//! What the designer needs of a history: forces in the legs, tendon and dampers, and base shear.
+//!
+//! ```text
+//!   leg      F = (H, N) the ground's force on the foot, D from the mass to the foot:
+//!            axial -F D/|D| (compression positive)    moment at the mass H D_z - N D_x    shear moment/|D|
+//!   base shear    sum H plus the tendon's horizontal force at its anchor: what the ground gives the body, m (X'' + ug'')
+//! ```
+//!
+//! The legs of a rigid body carry the same forces, rigid or not; those of a solid block mean little.
+
+use std::ops::ControlFlow;
+
+use super::observer::{Observer, View};
+
+/// The forces, in the order of their columns: names with units.
+pub const QUANTITIES: [&str; 10] = [
+    "base_shear_n",
+    "axial_left_n",
+    "shear_left_n",
+    "moment_left_nm",
+    "axial_right_n",
+    "shear_right_n",
+    "moment_right_nm",
+    "tendon_n",
+    "damper_left_n",
+    "damper_right_n",
+];
+
+/// One value of each of `QUANTITIES`.
+pub type Row = [f64; QUANTITIES.len()];
+
+/// A largest value, with its sign, and when it came.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct Peak {
+    /// As `QUANTITIES` says.
+    pub value: f64,
+    /// [s].
+    pub time: f64,
+}
+
+/// The forces of a history.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct Demands {
+    /// For every sample the values of largest magnitude since the sample before.
+    pub rows: Vec<Row>,
+    /// Largest magnitude of each, over all steps.
+    pub peaks: [Peak; QUANTITIES.len()],
+    largest: Row,
+}
+
+/// The forces at one instant.
+pub(super) fn demand(view: &View<f64>) -> Row {
+    let (model, q, v) = (view.model, &view.state.q, &view.state.v);
+    let feet = model.contact(q, view.feet);
+    let [left, right] = feet.map(|f| {
+        let (h, n) = (f.horizontal, f.vertical);
+        // D = (-dp_z/dtheta, dp_x/dtheta)
+        let length = f.px_th.hypot(f.pz_th);
+        let moment = h * f.px_th + n * f.pz_th;
+        [(h * f.pz_th - n * f.px_th) / length, moment / length, moment]
+    });
+    let (mut shear, mut tension, mut dampers) = (feet[0].horizontal + feet[1].horizontal, 0.0, [0.0; 2]);
+    if let Some(frame) = &model.frame {
+        let pull = frame.pull(q, model.body.height);
+        shear += pull.force[0];
+        tension = pull.tension;
+        dampers = model.damping(frame, q, v).map(|(force, _)| force);
+    }
+    [shear, left[0], left[1], left[2], right[0], right[1], right[2], tension, dampers[0], dampers[1]]
+}
+
+impl Observer<f64> for Demands {
+    fn sample(&mut self, index: usize, view: &View<f64>) -> ControlFlow<()> {
+        if index == 0 {
+            self.step(view);
+        }
+        self.rows.push(std::mem::take(&mut self.largest));
+        ControlFlow::Continue(())
+    }
+
+    fn step(&mut self, view: &View<f64>) {
+        for (k, value) in demand(view).into_iter().enumerate() {
+            if value.abs() > self.largest[k].abs() {
+                self.largest[k] = value;
+            }
+            if value.abs() > self.peaks[k].value.abs() {
+                self.peaks[k] = Peak { value, time: view.time };
+            }
+        }
+    }
+}

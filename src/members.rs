@@ -1,0 +1,155 @@
+//! What a structure may have besides a rigid body on ground springs: elastic legs, dampers, a tendon.
+//!
+//! ```text
+//!            mass m, I_cg                 legs     massless elastic beams from the mass to the feet, clamped to the mass,
+//!              /|\                                 hinged at the foot: EA [N], EI [N m2]
+//!             / | \                       damper   a dashpot c [N s/m] between the ground and each lower corner of the
+//!       legs /  |  \                               body, vertical, acting both ways. Its arm is fixed to the mass and
+//!           /   |   \                              stiff: it does not load the legs
+//!          /    |    \                    tendon   from the mass to the ground midway between the feet: stiffness [N/m],
+//!    [c]  /  tendon   \  [c]                       tension of the standing, settled structure [N]; slack it carries nothing
+//!   springs     |    springs
+//! ```
+//!
+//! The springs under the feet stay those of the rigid body.
+
+use serde::{Deserialize, Serialize};
+use thiserror::Error;
+
+use crate::{
+    scalar::{Scalar, real},
+    structure::Body,
+};
+
+/// Elastic legs.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct Legs<S> {
+    /// EA, axial stiffness times length [N].
+    #[serde(rename = "ea_n")]
+    pub ea: S,
+    /// EI, bending stiffness [N m2].
+    #[serde(rename = "ei_nm2")]
+    pub ei: S,
+}
+
+/// Dashpots across the rocking interface, one at each foot.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct Damper<S> {
+    /// Force over velocity [N s/m].
+    #[serde(rename = "c_ns_per_m")]
+    pub c: S,
+}
+
+/// A post-tensioned tendon from the mass to the ground midway between the feet.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct Tendon<S> {
+    /// Force over elongation [N/m].
+    #[serde(rename = "stiffness_n_per_m")]
+    pub stiffness: S,
+    /// Tension in the standing, settled structure [N].
+    #[serde(rename = "pretension_n")]
+    pub pretension: S,
+}
+
+/// Everything besides the rigid body; by default nothing.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Members<S> {
+    pub legs: Option<Legs<S>>,
+    pub damper: Option<Damper<S>>,
+    pub tendon: Option<Tendon<S>>,
+}
+
+impl<S> Default for Members<S> {
+    fn default() -> Self {
+        Self { legs: None, damper: None, tendon: None }
+    }
+}
+
+impl<S> Members<S> {
+    /// Whether there is only the rigid body.
+    pub fn is_none(&self) -> bool {
+        self.legs.is_none() && self.damper.is_none() && self.tendon.is_none()
+    }
+}
+
+/// What is wrong with a member, and what to do.
+#[derive(Clone, Debug, PartialEq, Error)]
+pub enum MembersError {
+    #[error("{name} is {value}; give a finite number{bound}")]
+    Value { name: &'static str, value: f64, bound: &'static str },
+    #[error(
+        "tendon.pretension_n is {pretension}, more than stiffness_n_per_m can hold in {height} m; give less than {most:.4e} N"
+    )]
+    Elongation { pretension: f64, height: f64, most: f64 },
+}
+
+impl Members<f64> {
+    /// The members themselves if their numbers make sense under a body.
+    ///
+    /// # Errors
+    /// A number that is not finite, or not positive where it must be; a tendon stretched to more than twice its length.
+    pub fn checked(self, body: &Body<f64>) -> Result<Self, MembersError> {
+        let positive = |name, value: f64| (name, value, value > 0.0, " greater than zero");
+        let not_negative = |name, value: f64| (name, value, value >= 0.0, ", zero or greater");
+        let legs = self.legs.map(|l| [positive("legs.ea_n", l.ea), positive("legs.ei_nm2", l.ei)]);
+        let damper = self.damper.map(|d| not_negative("damper.c_ns_per_m", d.c));
+        let tendon = self.tendon.map(|t| {
+            [positive("tendon.stiffness_n_per_m", t.stiffness), not_negative("tendon.pretension_n", t.pretension)]
+        });
+        let all = legs.into_iter().flatten().chain(damper).chain(tendon.into_iter().flatten());
+        for (name, value, good, bound) in all {
+            if !(good && value.is_finite()) {
+                return Err(MembersError::Value { name, value, bound });
+            }
+        }
+        if let Some(t) = self.tendon {
+            let most = 0.5 * t.stiffness * body.height;
+            if t.pretension > most {
+                return Err(MembersError::Elongation { pretension: t.pretension, height: body.height, most });
+            }
+        }
+        Ok(self)
+    }
+
+    /// The same as scalars, to compute or to differentiate with.
+    pub fn lift<S: Scalar>(&self) -> Members<S> {
+        Members {
+            legs: self.legs.map(|l| Legs { ea: real(l.ea), ei: real(l.ei) }),
+            damper: self.damper.map(|d| Damper { c: real(d.c) }),
+            tendon: self.tendon.map(|t| Tendon { stiffness: real(t.stiffness), pretension: real(t.pretension) }),
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::structure::Structure;
+
+    fn message(members: Members<f64>) -> String {
+        members.checked(&Structure::paper().body()).unwrap_err().to_string()
+    }
+
+    #[test]
+    fn bad_members_are_named_with_what_to_do() {
+        let legs = |ea, ei| Members { legs: Some(Legs { ea, ei }), ..Members::default() };
+        assert_eq!(message(legs(-1.0, 1e9)), "legs.ea_n is -1; give a finite number greater than zero");
+        assert_eq!(message(legs(1e9, f64::NAN)), "legs.ei_nm2 is NaN; give a finite number greater than zero");
+        let damper = Members { damper: Some(Damper { c: f64::INFINITY }), ..Members::default() };
+        assert_eq!(message(damper), "damper.c_ns_per_m is inf; give a finite number, zero or greater");
+        let tendon =
+            |stiffness, pretension| Members { tendon: Some(Tendon { stiffness, pretension }), ..Members::default() };
+        assert!(message(tendon(0.0, 1.0)).starts_with("tendon.stiffness_n_per_m is 0;"));
+        assert!(message(tendon(1e5, 1e7)).ends_with("give less than 3.0500e6 N"));
+        assert!(tendon(1e6, 0.0).checked(&Structure::paper().body()).is_ok());
+    }
+
+    #[test]
+    fn nothing_is_the_default() {
+        assert!(Members::<f64>::default().is_none());
+        assert!(Members::default().checked(&Structure::paper().body()).is_ok());
+    }
+}
