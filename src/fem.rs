@@ -34,6 +34,7 @@ mod observer;
 #[allow(clippy::excessive_precision)] // tables to 18 digits, as computed
 mod radau;
 mod run;
+mod slipping;
 mod step;
 
 pub use control::{Control, Outcome, Work};

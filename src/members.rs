@@ -54,24 +54,38 @@ pub struct Tendon<S> {
     pub pretension: S,
 }
 
+/// Coulomb friction between feet and ground; without it a pressing foot holds at any force.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct Friction<S> {
+    /// Horizontal over vertical force at which a foot slips.
+    pub coefficient: S,
+}
+
 /// Everything besides the rigid body; by default nothing.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Members<S> {
     pub legs: Option<Legs<S>>,
     pub damper: Option<Damper<S>>,
     pub tendon: Option<Tendon<S>>,
+    /// Of a body without other members.
+    pub friction: Option<Friction<S>>,
 }
 
 impl<S> Default for Members<S> {
     fn default() -> Self {
-        Self { legs: None, damper: None, tendon: None }
+        Self { legs: None, damper: None, tendon: None, friction: None }
     }
 }
 
 impl<S> Members<S> {
     /// Whether there is only the rigid body.
     pub fn is_none(&self) -> bool {
-        self.legs.is_none() && self.damper.is_none() && self.tendon.is_none()
+        !self.any() && self.friction.is_none()
+    }
+
+    fn any(&self) -> bool {
+        self.legs.is_some() || self.damper.is_some() || self.tendon.is_some()
     }
 }
 
@@ -80,6 +94,14 @@ impl<S> Members<S> {
 pub enum MembersError {
     #[error("{name} is {value}; give a finite number{bound}")]
     Value { name: &'static str, value: f64, bound: &'static str },
+    #[error(
+        "friction.coefficient is given together with legs, damper or tendon; slipping is followed for a rigid body only, leave one out"
+    )]
+    Slipping,
+    #[error(
+        "friction.coefficient is given for a body without rotational inertia, whose slipping feet could spin it; give structure.rotational_inertia_kgm2"
+    )]
+    Spinning,
     #[error(
         "tendon.pretension_n is {pretension}, more than stiffness_n_per_m can hold in {height} m; give less than {most:.4e} N"
     )]
@@ -99,7 +121,15 @@ impl Members<f64> {
         let tendon = self.tendon.map(|t| {
             [positive("tendon.stiffness_n_per_m", t.stiffness), not_negative("tendon.pretension_n", t.pretension)]
         });
-        let all = legs.into_iter().flatten().chain(damper).chain(tendon.into_iter().flatten());
+        let friction = self.friction.map(|f| positive("friction.coefficient", f.coefficient));
+        if friction.is_some() && self.any() {
+            return Err(MembersError::Slipping);
+        }
+        if friction.is_some() && body.inertia <= 0.0 {
+            return Err(MembersError::Spinning);
+        }
+        let all =
+            friction.into_iter().chain(legs.into_iter().flatten()).chain(damper).chain(tendon.into_iter().flatten());
         for (name, value, good, bound) in all {
             if !(good && value.is_finite()) {
                 return Err(MembersError::Value { name, value, bound });
@@ -120,6 +150,7 @@ impl Members<f64> {
             legs: self.legs.map(|l| Legs { ea: real(l.ea), ei: real(l.ei) }),
             damper: self.damper.map(|d| Damper { c: real(d.c) }),
             tendon: self.tendon.map(|t| Tendon { stiffness: real(t.stiffness), pretension: real(t.pretension) }),
+            friction: self.friction.map(|f| Friction { coefficient: real(f.coefficient) }),
         }
     }
 }

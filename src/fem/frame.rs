@@ -122,7 +122,8 @@ impl<S: Scalar> Model<S> {
         let (kh, kv) = match foot.contact {
             Contact::Open => (S::zero(), S::zero()),
             Contact::Slide => (S::zero(), self.springs.vertical.k1),
-            Contact::Stick => (self.springs.horizontal.k1, self.springs.vertical.k1),
+            // friction is not followed on legs (`members`)
+            Contact::Stick | Contact::Slip(_) => (self.springs.horizontal.k1, self.springs.vertical.k1),
         };
         let ground = [q[ax(i)] + foot.anchor, q[az(i)]];
         let push = |p: [S; 2]| [(ground[0] - p[0]) * kh, (ground[1] - p[1]) * kv];

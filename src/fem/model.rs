@@ -64,6 +64,8 @@ pub(crate) enum Contact {
     Slide,
     /// Pressing, its horizontal spring anchored.
     Stick,
+    /// Slipping against friction, to the right (+1) or to the left (-1).
+    Slip(f64),
 }
 
 /// A foot's contact and the horizontal anchor it landed on [m].
@@ -105,6 +107,8 @@ pub(crate) struct Model<S> {
     pub rotation: S,
     /// Legs, dampers, tendon; none under a rigid body.
     pub frame: Option<Frame<S>>,
+    /// Coefficient of friction between foot and ground; none holds at any force.
+    pub friction: Option<S>,
 }
 
 /// A foot's kinematics and contact forces in one configuration.
@@ -129,7 +133,7 @@ impl<S: Scalar> Model<S> {
         } else {
             (body.mass, body.inertia)
         };
-        Self { body: *body, springs: *springs, translation, rotation, frame: None }
+        Self { body: *body, springs: *springs, translation, rotation, frame: None, friction: None }
     }
 
     /// Whether the rotation follows the contact forces without inertia.
@@ -168,6 +172,30 @@ impl<S: Scalar> Model<S> {
         state.v[az(i)] - state.v[Z] - pz_th * state.v[TH]
     }
 
+    /// The coefficient of friction; zero if there is none.
+    pub fn grip(&self) -> S {
+        self.friction.unwrap_or(S::zero())
+    }
+
+    /// Velocity at which foot i slips over the ground while it does so to this side [m/s].
+    pub fn slip_rate(&self, i: usize, q: &Vector<S>, v: &Vector<S>, side: f64) -> S {
+        let (_, _, px_th, pz_th) = self.foot(i, q, q[TH].sin(), q[TH].cos());
+        let Springs { vertical, horizontal } = &self.springs;
+        let compression_rate = v[az(i)] - v[Z] - pz_th * v[TH];
+        let stretch_rate = compression_rate * self.grip() * vertical.k1 / horizontal.k1 * side;
+        v[X] + px_th * v[TH] - v[ax(i)] - stretch_rate
+    }
+
+    /// Power that friction takes [W].
+    fn friction_loss(&self, q: &Vector<S>, v: &Vector<S>, feet: &[Foot<S>; 2]) -> S {
+        let contact = self.contact(q, feet);
+        let loss = |i: usize| match feet[i].contact {
+            Contact::Slip(side) => -contact[i].horizontal * self.slip_rate(i, q, v, side),
+            _ => S::zero(),
+        };
+        loss(0) + loss(1)
+    }
+
     /// The anchor that leaves foot i's horizontal spring without force where it stands now [m].
     pub fn anchor_here(&self, i: usize, q: &Vector<S>, foot: &Foot<S>) -> S {
         if let Some(frame) = &self.frame {
@@ -193,6 +221,10 @@ impl<S: Scalar> Model<S> {
                     (q[ax(i)] + feet[i].anchor - px) * self.springs.horizontal.k1,
                     (q[az(i)] - pz) * self.springs.vertical.k1,
                 ),
+                Contact::Slip(side) => {
+                    let vertical = (q[az(i)] - pz) * self.springs.vertical.k1;
+                    (-vertical * self.grip() * side, vertical)
+                }
             };
             FootForce { px_th, pz_th, horizontal, vertical }
         })
@@ -297,12 +329,13 @@ impl<S: Scalar> Model<S> {
         -(self.body.mass * v[X] + self.springs.horizontal.m2 * (v[ax(0)] + v[ax(1)])) * ground
     }
 
-    /// Power that the dashpots take [W].
+    /// Power that the dashpots take, and friction [W].
     #[inline(always)]
-    pub fn dissipation(&self, q: &Vector<S>, v: &Vector<S>) -> S {
+    pub fn dissipation(&self, q: &Vector<S>, v: &Vector<S>, feet: &[Foot<S>; 2]) -> S {
         let Springs { vertical, horizontal } = &self.springs;
         let springs = horizontal.c * (v[ax(0)] * v[ax(0)] + v[ax(1)] * v[ax(1)])
             + vertical.c * (v[az(0)] * v[az(0)] + v[az(1)] * v[az(1)]);
+        let springs = if self.friction.is_some() { springs + self.friction_loss(q, v, feet) } else { springs };
         self.frame.as_ref().map_or(springs, |frame| springs + self.members_dissipation(frame, q, v))
     }
 

@@ -8,8 +8,8 @@ use std::ops::Neg;
 
 use num_traits::Num;
 
-use super::coupled::Coupled;
-use super::model::{Foot, Model, N, State, TH, X, Z, ax, az};
+use super::model::{Contact, Foot, Model, N, State, TH, X, Z, ax, az};
+use super::{coupled::Coupled, slipping::Slipping};
 use crate::{scalar::Scalar, spring::Chain};
 
 /// One chain's share of the condensed matrix.
@@ -48,6 +48,8 @@ pub(super) struct Newton<T> {
     z_th: T,
     /// The matrix of a body with members, in place of all the rest.
     coupled: Option<Coupled<T>>,
+    /// The same while a foot slips.
+    slipping: Option<Box<Slipping<T>>>,
 }
 
 impl<T: Num + Copy + Neg<Output = T>> Newton<T> {
@@ -60,7 +62,10 @@ impl<T: Num + Copy + Neg<Output = T>> Newton<T> {
         lift: impl Fn(S) -> T,
     ) -> Self {
         if let Some(frame) = &model.frame {
-            return Self::coupled(Coupled::new(model, frame, state, feet, s, &lift));
+            return Self { coupled: Some(Coupled::new(model, frame, state, feet, s, &lift)), ..Self::none() };
+        }
+        if feet.iter().any(|foot| matches!(foot.contact, Contact::Slip(_))) {
+            return Self { slipping: Some(Box::new(Slipping::new(model, state, feet, s, &lift))), ..Self::none() };
         }
         let contact = model.contact(&state.q, feet);
         let masses = model.masses(feet);
@@ -86,10 +91,10 @@ impl<T: Num + Copy + Neg<Output = T>> Newton<T> {
         let x_inv = T::one() / (lift(masses[X]) + xx);
         let z_inv = T::one() / (lift(masses[Z]) + zz);
         let th_inv = T::one() / (lift(masses[TH]) + tt - x_th * x_th * x_inv - z_th * z_th * z_inv);
-        Self { chains, lever, x_inv, z_inv, th_inv, x_th, z_th, coupled: None }
+        Self { chains, lever, x_inv, z_inv, th_inv, x_th, z_th, coupled: None, slipping: None }
     }
 
-    fn coupled(coupled: Coupled<T>) -> Self {
+    fn none() -> Self {
         let zero = T::zero();
         let none = Condensed { pivot: zero, coupling: zero, stiffness: zero };
         Self {
@@ -100,7 +105,8 @@ impl<T: Num + Copy + Neg<Output = T>> Newton<T> {
             th_inv: zero,
             x_th: zero,
             z_th: zero,
-            coupled: Some(coupled),
+            coupled: None,
+            slipping: None,
         }
     }
 
@@ -109,6 +115,9 @@ impl<T: Num + Copy + Neg<Output = T>> Newton<T> {
     pub fn solve(&self, r: &[T; N]) -> [T; N] {
         if let Some(coupled) = &self.coupled {
             return coupled.solve(r);
+        }
+        if let Some(slipping) = &self.slipping {
+            return slipping.solve(r);
         }
         let mut d = *r;
         let [left, right] = [0, 1].map(|i| {

@@ -3,6 +3,7 @@
 
 mod account;
 mod events;
+mod grip;
 
 use super::{
     control::{Control, Outcome, Work},
@@ -119,16 +120,16 @@ impl<'a, S: Scalar> Run<'a, S> {
                 self.refuse(h.re() * 0.25);
                 continue;
             };
-            let (stages, crossed) = match self.met(&stages) {
-                Met::Nothing => (stages, None),
-                Met::Crossing { foot, level, tau } => match self.locate(foot, level, &stages, tau, &here) {
-                    Some(located) => (located, Some((foot, level))),
-                    None => {
-                        // nearer to the event, the step that ends there is easier
-                        self.refuse(h.re() * tau * 0.5);
-                        continue;
-                    }
-                },
+            let met = self.met(&stages);
+            let (located, tau) = match met {
+                Met::Nothing => (Some(stages), 1.0),
+                Met::Crossing { foot, level, tau } => (self.locate(foot, level, &stages, tau, &here), tau),
+                Met::Grip { foot, tau } => (self.locate_grip(foot, tau, stages.h, &here), tau),
+            };
+            let Some(stages) = located else {
+                // nearer to the event, the step that ends there is easier
+                self.refuse(h.re() * tau * 0.5);
+                continue;
             };
             if !self.account(&stages, &here) {
                 self.work.rejected += 1;
@@ -136,8 +137,10 @@ impl<'a, S: Scalar> Run<'a, S> {
             }
             t += stages.h;
             observer.step(&self.view(real::<S>(t0) + t));
-            if let Some((foot, level)) = crossed {
-                self.switch(foot, level, real::<S>(t0) + t, observer);
+            match met {
+                Met::Nothing => {}
+                Met::Crossing { foot, level, .. } => self.switch(foot, level, real::<S>(t0) + t, observer),
+                Met::Grip { foot, .. } => self.change_grip(foot),
             }
         }
     }

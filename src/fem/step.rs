@@ -41,13 +41,13 @@ impl<S: Scalar> Stages<S> {
     }
 
     /// Work of the base excitation and dissipation in the dashpots over the step, by the step's own quadrature [J].
-    pub fn work(&self, model: &Model<S>, ground: &Ground<S>) -> (S, S) {
+    pub fn work(&self, model: &Model<S>, feet: &[Foot<S>; 2], ground: &Ground<S>) -> (S, S) {
         let (mut input, mut dissipated) = (S::zero(), S::zero());
         for j in 0..3 {
             let weight = self.h * A[2][j];
             let acceleration = ground.start + ground.slope * self.h * C[j];
             input += model.input_power(&self.v[j], acceleration) * weight;
-            dissipated += model.dissipation(&self.q[j], &self.v[j]) * weight;
+            dissipated += model.dissipation(&self.q[j], &self.v[j], feet) * weight;
         }
         (input, dissipated)
     }

@@ -1,6 +1,7 @@
 //! Tests of the finite element model against closed forms, limits, dual numbers and dense linear algebra.
 
 mod forces;
+mod friction;
 mod integrator;
 mod members;
 mod motions;

@@ -25,6 +25,12 @@ impl<S: Scalar> Model<S> {
         if members.is_none() {
             return model;
         }
+        if let Some(friction) = members.friction {
+            // while feet slip, nothing but its own inertia holds the rotation
+            (model.translation, model.rotation) = (body.mass, body.inertia);
+            model.friction = Some(friction.coefficient);
+            return model;
+        }
         let mut frame = Frame::new(members, body.radius());
         model.frame = Some(frame);
         if let Some(tendon) = members.tendon {

@@ -14,7 +14,7 @@ impl<S: Scalar> Run<'_, S> {
     pub(super) fn account(&mut self, stages: &Stages<S>, ground: &Ground<S>) -> bool {
         let end = stages.end();
         let stored = self.model.energy(&end, &self.feet);
-        let (input, dissipated) = stages.work(self.model, ground);
+        let (input, dissipated) = stages.work(self.model, &self.feet, ground);
         let defect = (stored - self.energy.stored - input + dissipated).re().abs();
         let allowed = self.allowed(stored);
         // a radau step loses energy as h^6

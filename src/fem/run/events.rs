@@ -23,7 +23,7 @@ const HOLDING: f64 = 1e-3;
 
 /// First step tried after an event, in units of 1/Omega_n: the transient that the event began decides the step, not the
 /// step that the event cut short.
-const RESTART: f64 = 0.1;
+pub(super) const RESTART: f64 = 0.1;
 
 /// What a candidate step met.
 pub(super) enum Met {
@@ -32,6 +32,11 @@ pub(super) enum Met {
     Crossing {
         foot: usize,
         level: f64,
+        tau: f64,
+    },
+    /// This foot begins to slip, or to hold.
+    Grip {
+        foot: usize,
         tau: f64,
     },
 }
@@ -50,7 +55,7 @@ impl<S: Scalar> Run<'_, S> {
             // the contact lasts while sign (compression - level) is positive
             let limits: &[(f64, f64)] = match self.feet[foot].contact {
                 Contact::Open => &[(-1.0, 0.0)],
-                Contact::Stick => &[(1.0, 0.0)],
+                Contact::Stick | Contact::Slip(_) => &[(1.0, 0.0)],
                 Contact::Slide => &[(1.0, 0.0), (-1.0, HOLDING * self.compression)],
             };
             let compression = |q| self.model.compression(foot, q, &self.feet[foot]).re();
@@ -67,7 +72,10 @@ impl<S: Scalar> Run<'_, S> {
                 }
             }
         }
-        first
+        match self.loses_grip(stages) {
+            Some((foot, tau)) if tau < earliest => Met::Grip { foot, tau },
+            _ => first,
+        }
     }
 
     /// Where the compression passes `level` on the collocation polynomial, between two bracketing points (Illinois).
@@ -172,11 +180,13 @@ impl<S: Scalar> Run<'_, S> {
                     self.model.compression(foot, &self.state.q, &self.feet[foot]).re() >= HOLDING * self.compression;
                 // a body on sliding feet alone has nothing to lean on
                 let leans = self.feet[1 - foot].holds();
-                let contact = if at_once && !held && leans { Contact::Slide } else { Contact::Stick };
+                // with friction the force has gone before the foot opens, and nothing jumps
+                let jumps = self.model.friction.is_none();
+                let contact = if at_once && !held && leans && jumps { Contact::Slide } else { Contact::Stick };
                 Foot { contact, anchor }
             }
             Contact::Slide if level > 0.0 => Foot { contact: Contact::Stick, anchor },
-            Contact::Slide | Contact::Stick => {
+            Contact::Slide | Contact::Stick | Contact::Slip(_) => {
                 self.opened[foot] = time.re();
                 Foot { contact: Contact::Open, anchor }
             }
