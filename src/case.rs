@@ -7,8 +7,8 @@
 //! width_m = 12.2             # between the feet
 //! mass_kg = 680.1e3
 //!
-//! [legs]                     # elastic legs; also [damper] c_ns_per_m, [tendon] stiffness_n_per_m, pretension_n
-//! ea_n = 6.7e9
+//! [legs]                     # elastic legs; also [damper] c_ns_per_m; [tendon] stiffness_n_per_m,
+//! ea_n = 6.7e9               # pretension_n; [friction] coefficient
 //! ei_nm2 = 1.0e10
 //!
 //! [record]                   # left out: El Centro 1940 NS
@@ -26,7 +26,7 @@ use serde::Deserialize;
 use thiserror::Error;
 
 use crate::{
-    members::{Damper, Legs, Members, MembersError, Tendon},
+    members::{Damper, Friction, Legs, Members, MembersError, Tendon},
     record::{ReadOptions, Record, RecordError, Units},
     response::target::Target,
     structure::{Kind, Structure, StructureError},
@@ -135,6 +135,7 @@ struct CaseFile {
     legs: Option<Legs<f64>>,
     damper: Option<Damper<f64>>,
     tendon: Option<Tendon<f64>>,
+    friction: Option<Friction<f64>>,
     #[serde(default)]
     record: RecordSection,
     #[serde(default)]
@@ -150,7 +151,7 @@ pub struct Case {
     pub structure: Structure,
     /// Velocity restitution e.
     pub restitution: f64,
-    /// Elastic legs, dampers, a tendon: not tuned for, but simulated with the tuned springs.
+    /// Elastic legs, dampers, a tendon, friction: not tuned for, but simulated with the tuned springs.
     pub members: Members<f64>,
     pub record: Record,
     /// Length to compare over [s].
@@ -186,7 +187,7 @@ impl Case {
             |key, value: f64, remedy| CaseError::Value { path: path.into(), key, value: value.to_string(), remedy };
 
         let (structure, restitution) = file.structure.checked(path)?;
-        let members = Members { legs: file.legs, damper: file.damper, tendon: file.tendon }
+        let members = Members { legs: file.legs, damper: file.damper, tendon: file.tendon, friction: file.friction }
             .checked(&structure.body())
             .map_err(|source| CaseError::Members { path: path.into(), source })?;
         let section = &file.record;
@@ -344,6 +345,14 @@ mod tests {
         assert!((case.restitution / case.structure.body::<f64>().restitution() - 0.95).abs() < 1e-15);
         assert!(message("restitution = 1.2\n").contains("between 0 and 1"));
         assert!(message("restitution = 0.9\nrestitution_ratio = 0.9\n").contains("not both"));
+    }
+
+    #[test]
+    fn friction_is_read_and_goes_alone() {
+        let members = Case::parse("case.toml", &format!("{STRUCTURE}[friction]\ncoefficient = 0.4\n")).unwrap().members;
+        assert_eq!(members.friction, Some(Friction { coefficient: 0.4 }));
+        let both = message("[friction]\ncoefficient = 0.4\n[damper]\nc_ns_per_m = 1.0\n");
+        assert!(both.starts_with("case.toml: friction.coefficient is given together"), "{both}");
     }
 
     #[test]

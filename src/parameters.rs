@@ -8,7 +8,7 @@ use thiserror::Error;
 use crate::{
     compare::Match,
     conditioning::Sensitivity,
-    members::{Damper, Legs, Members, MembersError, Tendon},
+    members::{Damper, Friction, Legs, Members, MembersError, Tendon},
     record::Record,
     spring::{Chain, ChainRow, Design, Springs},
     structure::{Structure, StructureError},
@@ -68,6 +68,9 @@ pub struct Parameters {
     pub damper: Option<Damper<f64>>,
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub tendon: Option<Tendon<f64>>,
+    /// Between feet and ground; without it a pressing foot holds at any force.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub friction: Option<Friction<f64>>,
     #[serde(rename = "match", default, skip_serializing_if = "Option::is_none")]
     pub matched: Option<Match>,
     #[serde(default, skip_serializing_if = "Option::is_none")]
@@ -107,6 +110,7 @@ impl Parameters {
             legs: None,
             damper: None,
             tendon: None,
+            friction: None,
             matched: None,
             conditioning: None,
             match_with_members: None,
@@ -121,12 +125,13 @@ impl Parameters {
 
     /// What the structure has besides the rigid body.
     pub fn members(&self) -> Members<f64> {
-        Members { legs: self.legs, damper: self.damper, tendon: self.tendon }
+        Members { legs: self.legs, damper: self.damper, tendon: self.tendon, friction: self.friction }
     }
 
     /// The same with these members.
     pub fn with_members(self, members: Members<f64>) -> Self {
-        Self { legs: members.legs, damper: members.damper, tendon: members.tendon, ..self }
+        let Members { legs, damper, tendon, friction } = members;
+        Self { legs, damper, tendon, friction, ..self }
     }
 
     /// Read and check a file.

@@ -75,6 +75,9 @@ fn names(members: &Members<f64>) -> String {
     if let Some(t) = members.tendon {
         out.push(format!("a tendon of {:.4e} N/m, stressed to {:.4e} N", t.stiffness, t.pretension));
     }
+    if let Some(f) = members.friction {
+        out.push(format!("a friction coefficient of {} at the feet", f.coefficient));
+    }
     out.join(", ")
 }
 

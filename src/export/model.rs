@@ -79,6 +79,7 @@ impl<'a> Model<'a> {
             ("legs", members.legs.is_some()),
             ("damper", members.damper.is_some()),
             ("tendon", members.tendon.is_some()),
+            ("friction", members.friction.is_some()),
         ] {
             if there {
                 return Err(ExportError::Member { name });

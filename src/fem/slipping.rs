@@ -56,11 +56,12 @@ impl<T: Num + Copy> Slipping<T> {
         }
         let mut lu: [[T; N]; N] = std::array::from_fn(|i| std::array::from_fn(|j| matrix[ORDER[i]][ORDER[j]]));
         for k in 0..N {
-            for i in k + 1..N {
-                let factor = lu[i][k] / lu[k][k];
-                lu[i][k] = factor;
-                for j in k + 1..N {
-                    lu[i][j] = lu[i][j] - factor * lu[k][j];
+            let pivot = lu[k];
+            for row in &mut lu[k + 1..] {
+                let factor = row[k] / pivot[k];
+                row[k] = factor;
+                for (a, p) in row[k + 1..].iter_mut().zip(&pivot[k + 1..]) {
+                    *a = *a - factor * *p;
                 }
             }
         }

@@ -41,7 +41,7 @@ fn kinds(structure: &Structure) -> Vec<Members<f64>> {
         Members { legs: legs(1e-3), ..Members::default() },
         Members { damper, ..Members::default() },
         Members { tendon, ..Members::default() },
-        Members { legs: legs(0.1), damper, tendon },
+        Members { legs: legs(0.1), damper, tendon, friction: None },
     ]
 }
 

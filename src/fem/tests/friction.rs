@@ -58,6 +58,7 @@ fn run(body: Body<f64>, coefficient: f64, dt: f64, accel: &[f64]) -> History {
     let springs = springs().chains(body.mass);
     Case { body, springs, start: Start::Settled, dt, accel, scale: 1.0, control: Control::default() }
         .simulate_with(&members(coefficient))
+        .0
 }
 
 /// A solid block, its centre of mass at `height`.
@@ -115,7 +116,7 @@ fn a_flat_block_slips_as_far_as_newton_says() {
     let springs = springs_of(2000.0).chains(1000.0);
     let control = Control::default();
     let case = Case { body: flat(), springs, start: Start::Settled, dt, accel: &accel, scale: 1.0, control };
-    let history = case.simulate_with(&members(MU));
+    let history = case.simulate_with(&members(MU)).0;
     // the last interval of the pulse is a ramp down to zero: speed of the ground by the trapezoidal rule
     let (pull, hold) = (a - MU * GRAVITY, MU * GRAVITY);
     let t = n as f64 * dt;
@@ -187,7 +188,7 @@ fn feet_that_never_slip_give_the_history_without_friction() {
         scale: 1.0,
         control: Control::default(),
     };
-    let (free, bound) = (case.simulate(), case.simulate_with(&members(50.0)));
+    let (free, bound) = (case.simulate(), case.simulate_with(&members(50.0)).0);
     let worst = free.motion.u.iter().zip(&bound.motion.u).map(|(a, b)| (a - b).abs()).fold(0.0, f64::max);
     let largest = free.motion.u.iter().fold(0.0_f64, |m, u| m.max(u.abs()));
     assert!(worst < 1e-3 * largest, "{worst} {largest}");

@@ -167,7 +167,8 @@ fn a_tendon_adds_its_moment_to_the_leaning_body_s() {
 fn the_settled_tendon_has_its_pretension() {
     for legs in [None, Some(Legs { ea: 6e9, ei: 1e10 })] {
         let tendon = Some(Tendon { stiffness: 4e6, pretension: 1.5e6 });
-        let model = Model::with_members(&super::body(0.0), &super::springs(), &Members { legs, damper: None, tendon });
+        let model =
+            Model::with_members(&super::body(0.0), &super::springs(), &Members { legs, tendon, ..Members::default() });
         let (state, feet) = model.settled();
         let pull = model.frame.unwrap().pull(&state.q, model.body.height);
         assert!((pull.tension / 1.5e6 - 1.0).abs() < 1e-9, "{}", pull.tension);
