@@ -126,25 +126,32 @@ pub fn solve<S: Scalar>(body: &Body<S>, dt: f64, accel: &[f64], options: &Option
     walk::walk(setting(body, dt, accel, options), theta, rate)
 }
 
-/// Rock many bodies on one record, or one body on many scales of it, eight at a time in lock-step; each result is, bit for bit, that of
+/// Rock many bodies on one record, or one body on many scales of it, sixteen at a time in lock-step; each result is, bit for bit, that of
 /// [`solve`]. The longer of the two lists decides how many there are; the shorter one is repeated from its start.
 pub fn solve_lanes(bodies: &[Body<f64>], dt: f64, accel: &[f64], options: &[Options<f64>]) -> Vec<Rocking<f64>> {
     if bodies.is_empty() || options.is_empty() {
         return Vec::new();
     }
-    let cases: Vec<_> = (0..bodies.len().max(options.len()))
-        .map(|i| (&bodies[i % bodies.len()], &options[i % options.len()]))
-        .collect();
-    cases
-        .chunks(lanes::WIDTH)
-        .flat_map(|chunk| {
-            let walks = chunk.iter().map(|(body, options)| {
-                let (theta, rate) = start(options);
-                walk::Walk::new(setting(body, dt, accel, options), theta, rate)
-            });
-            lanes::walk(walks.collect())
+    let mut walks: Vec<_> = (0..bodies.len().max(options.len()))
+        .map(|i| {
+            let options = &options[i % options.len()];
+            let (theta, rate) = start(options);
+            (i, walk::Walk::new(setting(&bodies[i % bodies.len()], dt, accel, options), theta, rate))
         })
-        .collect()
+        .collect();
+    // those that take the same steps side by side
+    walks.sort_by_key(|(_, walk)| walk.pace);
+    let mut order = Vec::with_capacity(walks.len());
+    let mut found = Vec::with_capacity(walks.len());
+    while !walks.is_empty() {
+        let chunk = walks.drain(..walks.len().min(lanes::WIDTH));
+        let (places, together): (Vec<_>, Vec<_>) = chunk.unzip();
+        order.extend(places);
+        found.extend(lanes::walk(together));
+    }
+    let mut placed: Vec<_> = order.into_iter().zip(found).collect();
+    placed.sort_by_key(|(i, _)| *i);
+    placed.into_iter().map(|(_, rocking)| rocking).collect()
 }
 
 fn start<S: Scalar>(options: &Options<S>) -> (S, S) {

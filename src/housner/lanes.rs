@@ -1,4 +1,4 @@
-//! Eight structures in lock-step on one record.
+//! Many structures in lock-step on one record.
 //!
 //! A plain step is the same operations for every lane, so that they run side by side in vector registers; a lane whose interval holds
 //! an event, or that rests, takes that interval by itself. No operation is contracted or reordered, so a lane's result is that of the single
@@ -9,8 +9,8 @@
 use std::array;
 
 use super::Rocking;
-use super::series::{SHORT, Start, change, coefficients, end_slope, is_plain, turned};
-use super::walk::{Walk, turns_well};
+use super::series::{LEAST, SHORT, Start, change, coefficients, end_slope, is_plain, turned};
+use super::walk::{Pace, Walk, turns_well};
 
 /// Structures in lock-step.
 pub const WIDTH: usize = 16;
@@ -31,23 +31,32 @@ pub fn walk(walks: Vec<Walk<f64>>) -> Vec<Rocking<f64>> {
             return unsafe { walk_avx2(walks) };
         }
     }
-    lock_step(walks)
+    at_pace(walks)
 }
 
 #[cfg(target_arch = "x86_64")]
 #[target_feature(enable = "avx512f,avx512dq,avx512vl")]
 fn walk_avx512(walks: Vec<Walk<f64>>) -> Vec<Rocking<f64>> {
-    lock_step(walks)
+    at_pace(walks)
 }
 
 #[cfg(target_arch = "x86_64")]
 #[target_feature(enable = "avx2")]
 fn walk_avx2(walks: Vec<Walk<f64>>) -> Vec<Rocking<f64>> {
-    lock_step(walks)
+    at_pace(walks)
 }
 
 #[inline(always)]
-fn lock_step(mut walks: Vec<Walk<f64>>) -> Vec<Rocking<f64>> {
+fn at_pace(walks: Vec<Walk<f64>>) -> Vec<Rocking<f64>> {
+    match walks.first().map(|walk| walk.pace) {
+        Some(Pace::Slow) => lock_step::<LEAST>(Pace::Slow, walks),
+        _ => lock_step::<SHORT>(Pace::Walk, walks),
+    }
+}
+
+/// Lanes of another pace go by themselves.
+#[inline(always)]
+fn lock_step<const N: usize>(pace: Pace, mut walks: Vec<Walk<f64>>) -> Vec<Rocking<f64>> {
     let Some(longest) = walks.iter().max_by_key(|walk| walk.set.accel.len()) else { return Vec::new() };
     let (accel, dt) = (longest.set.accel, longest.set.dt);
     let fixed = Fixed {
@@ -58,7 +67,8 @@ fn lock_step(mut walks: Vec<Walk<f64>>) -> Vec<Rocking<f64>> {
     };
     let mut at = Joined { side: [1.0; WIDTH], ..Joined::default() };
     let mut to = Step::default();
-    // the lane's state stands in `at`, not in its walk
+    let mut kept = Kept::default();
+    // the lane's state stands in `at`, its last samples in `kept`, not in its walk
     let mut joined = [false; WIDTH];
     let mut running = [false; WIDTH];
     running[..walks.len()].fill(true);
@@ -66,27 +76,38 @@ fn lock_step(mut walks: Vec<Walk<f64>>) -> Vec<Rocking<f64>> {
     let shortest = walks.iter().map(|walk| walk.set.accel.len()).min().unwrap_or(0);
     for (i, &now) in accel.iter().enumerate() {
         let next = accel.get(i + 1).copied().unwrap_or(0.0);
-        let (theta, rate) = (times(&at.w, &at.side), times(&at.rate, &at.side));
-        if joined != [false; WIDTH] {
-            step(&fixed, &at, now, next, &mut to);
-        }
-        if joined == full && i + 1 < shortest && at.all_take(&to) {
-            for (l, walk) in walks.iter_mut().enumerate() {
-                walk.note(theta[l], rate[l]);
+        if i.is_multiple_of(KEPT) {
+            for l in (0..walks.len()).filter(|&l| joined[l]) {
+                kept.hand_over(l, &mut walks[l], i);
             }
+        }
+        if joined != [false; WIDTH] {
+            kept.theta[i % KEPT] = times(&at.w, &at.side);
+            kept.rate[i % KEPT] = times(&at.rate, &at.side);
+            step::<N>(&fixed, &at, now, next, &mut to);
+        }
+        let easy = at.easy(&to);
+        if joined == full && i + 1 < shortest && easy == [true; WIDTH] {
+            at.all_take(&to);
             continue;
         }
+        let mut who: [bool; WIDTH] = array::from_fn(|l| easy[l] & joined[l]);
+        for l in (0..walks.len()).filter(|&l| i + 1 >= walks[l].set.accel.len()) {
+            who[l] = false;
+        }
+        at.some_take(&to, &who);
         for (l, walk) in walks.iter_mut().enumerate() {
-            if !running[l] {
+            let last = i + 1 >= walk.set.accel.len();
+            if !running[l] || who[l] {
                 continue;
             }
-            let last = i + 1 >= walk.set.accel.len();
-            if joined[l] {
-                walk.note(theta[l], rate[l]);
+            let tried = joined[l];
+            if tried {
                 if to.plain[l] != 0.0 && !last {
-                    at.take(l, &to, fixed.alpha[l]);
+                    at.turn(l, &to, fixed.alpha[l]);
                     continue;
                 }
+                kept.hand_over(l, walk, i + 1);
                 at.leave(l, walk);
                 joined[l] = false;
             } else {
@@ -96,10 +117,11 @@ fn lock_step(mut walks: Vec<Walk<f64>>) -> Vec<Rocking<f64>> {
             running[l] &= !last;
             let lies = !walk.state.rocking && now.abs() <= walk.quiet && next.abs() <= walk.quiet;
             if running[l] && !lies {
-                running[l] = walk.advance(i, fixed.unit[l] * now, fixed.unit[l] * next);
-                joined[l] = running[l] && walk.state.rocking && !walk.fast && walk.is_up();
+                running[l] = walk.advance(i, fixed.unit[l] * now, fixed.unit[l] * next, tried);
+                joined[l] = running[l] && walk.state.rocking && walk.pace == pace && walk.is_up();
                 if joined[l] {
                     at.join(l, walk);
+                    kept.since[l] = i + 1;
                 }
             }
         }
@@ -108,6 +130,28 @@ fn lock_step(mut walks: Vec<Walk<f64>>) -> Vec<Rocking<f64>> {
         }
     }
     walks.into_iter().map(Walk::end).collect()
+}
+
+/// Samples of the joined lanes that are kept until handed over to their walks together.
+const KEPT: usize = 32;
+
+#[derive(Default)]
+struct Kept {
+    theta: [Lanes; KEPT],
+    rate: [Lanes; KEPT],
+    /// The first sample kept of each lane.
+    since: [usize; WIDTH],
+}
+
+impl Kept {
+    /// Lane l's samples before `until`.
+    #[inline(always)]
+    fn hand_over(&mut self, l: usize, walk: &mut Walk<f64>, until: usize) {
+        let kept = self.since[l]..until;
+        walk.out.theta.extend(kept.clone().map(|i| self.theta[i % KEPT][l]));
+        walk.out.rate.extend(kept.map(|i| self.rate[i % KEPT][l]));
+        self.since[l] = until;
+    }
 }
 
 /// What does not change along the walk.
@@ -144,13 +188,13 @@ struct Step {
 
 /// One interval of the record for all lanes.
 #[inline(always)]
-fn step(fixed: &Fixed, at: &Joined, now: f64, next: f64, to: &mut Step) {
+fn step<const N: usize>(fixed: &Fixed, at: &Joined, now: f64, next: f64, to: &mut Step) {
     // one loop of straight arithmetic, which the compiler turns into vector operations
     for l in 0..WIDTH {
         let start = Start { w: at.w[l], rate: at.rate[l], sin: at.sin[l], cos: at.cos[l] };
         let (a0, a1) = (fixed.unit[l] * now, fixed.unit[l] * next);
         let (b0, db) = (a0 * at.side[l], (a1 - a0) * at.side[l]);
-        let c: [f64; SHORT] = coefficients(&start, fixed.dt, b0, db, fixed.q[l]);
+        let c: [f64; N] = coefficients(&start, fixed.dt, b0, db, fixed.q[l]);
         let change = change(&c);
         let w = start.w + change;
         let (sin, cos) = turned(start.sin, start.cos, change);
@@ -164,34 +208,36 @@ fn step(fixed: &Fixed, at: &Joined, now: f64, next: f64, to: &mut Step) {
 }
 
 impl Joined {
-    /// All lanes make the step, if it is plain for all and none needs new sines.
+    /// Whose step is plain and needs no new sines.
     #[inline(always)]
-    fn all_take(&mut self, to: &Step) -> bool {
-        let mut easy = 0.0;
-        for l in 0..WIDTH {
-            easy += if turns_well(self.age[l] + 1, to.change[l]) { to.plain[l] } else { 0.0 };
-        }
-        if easy < WIDTH as f64 {
-            return false;
-        }
-        (self.w, self.rate, self.sin, self.cos) = (to.w, to.rate, to.sin, to.cos);
-        self.age = self.age.map(|age| age + 1);
-        true
+    fn easy(&self, to: &Step) -> [bool; WIDTH] {
+        array::from_fn(|l| turns_well(self.age[l] + 1, to.change[l]) & (to.plain[l] != 0.0))
     }
 
-    /// Lane l makes the step.
+    /// All lanes make the step.
     #[inline(always)]
-    fn take(&mut self, l: usize, to: &Step, alpha: f64) {
-        self.w[l] = to.w[l];
-        self.rate[l] = to.rate[l];
-        self.age[l] += 1;
-        if turns_well(self.age[l], to.change[l]) {
-            self.sin[l] = to.sin[l];
-            self.cos[l] = to.cos[l];
-        } else {
-            (self.sin[l], self.cos[l]) = (alpha - to.w[l]).sin_cos();
-            self.age[l] = 0;
-        }
+    fn all_take(&mut self, to: &Step) {
+        (self.w, self.rate, self.sin, self.cos) = (to.w, to.rate, to.sin, to.cos);
+        self.age = self.age.map(|age| age + 1);
+    }
+
+    /// Some lanes make the step.
+    #[inline(always)]
+    fn some_take(&mut self, to: &Step, who: &[bool; WIDTH]) {
+        let select = |new: &Lanes, old: &Lanes| array::from_fn(|l| if who[l] { new[l] } else { old[l] });
+        self.w = select(&to.w, &self.w);
+        self.rate = select(&to.rate, &self.rate);
+        self.sin = select(&to.sin, &self.sin);
+        self.cos = select(&to.cos, &self.cos);
+        self.age = array::from_fn(|l| self.age[l] + u32::from(who[l]));
+    }
+
+    /// Lane l makes the step and takes new sines.
+    #[inline(always)]
+    fn turn(&mut self, l: usize, to: &Step, alpha: f64) {
+        (self.w[l], self.rate[l]) = (to.w[l], to.rate[l]);
+        (self.sin[l], self.cos[l]) = (alpha - to.w[l]).sin_cos();
+        self.age[l] = 0;
     }
 
     fn join(&mut self, l: usize, walk: &Walk<f64>) {

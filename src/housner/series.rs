@@ -22,6 +22,8 @@ use std::ops::{Add, Div, Mul, Neg, Sub};
 
 use crate::scalar::{Scalar, real};
 
+/// Coefficients of a step in a very slow motion, as of a tower at a fine time step.
+pub const LEAST: usize = 8;
 /// Coefficients of a step in a slow motion, as of a tall body at a fine time step.
 pub const SHORT: usize = 9;
 /// Coefficients of a step in a fast motion, and of every step with an event.
@@ -173,12 +175,14 @@ fn size<const N: usize>(c: &[f64; N], q: f64) -> f64 {
 }
 
 /// Whether one step takes the whole interval: the truncated terms are below rounding, the lean does not vanish, and passes neither
-/// alpha nor the flat ground at its end w.
+/// alpha nor the flat ground at its end w. With the least number of coefficients a motion smaller than a hundredth of alpha counts as
+/// one of that size.
 #[inline(always)]
 pub fn is_plain<const N: usize>(c: &[f64; N], b0: f64, db: f64, q: f64, w: f64, alpha: f64) -> bool {
     // from the last two terms: every second one may vanish by symmetry
     let last = c[N - 2].abs().max(c[N - 1].abs());
-    let converged = last * growth(c, b0, db, q) * N as f64 <= TAIL * size(c, q);
+    let least = if N == LEAST { 0.01 * alpha } else { 0.0 };
+    let converged = last * growth(c, b0, db, q) * N as f64 <= TAIL * (size(c, q) + least);
     // |w''| <= M lets the lean sag by M/8 below the line between its two ends
     let mut sag = 0.0;
     for k in 2..N {

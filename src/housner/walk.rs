@@ -8,15 +8,38 @@ use std::f64::consts::FRAC_PI_2;
 
 use super::rest;
 use super::root::{crossing, first_root, impact_time};
-use super::series::{LONG, SHORT, SMALL, Series, Start, change, coefficients, end_slope, is_plain, turned};
+use super::series::{LEAST, LONG, SHORT, SMALL, Series, Start, change, coefficients, end_slope, is_plain, turned};
 use super::{Impact, Outcome, Rocking, Uplift};
 use crate::scalar::{Scalar, real};
 
 /// Sine and cosine are carried from step to step by a rotation, and taken anew after this many steps.
-const REFRESH: u32 = 64;
+const REFRESH: u32 = 256;
 
-/// p^2 dt^2 from which on steps take the long series.
+/// p^2 dt^2 from which on steps take the short series, and the long one.
+const SLOW: f64 = 3e-5;
 const FAST: f64 = 1e-4;
+
+/// The series that the steps of a walk begin with.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
+pub enum Pace {
+    /// [`LEAST`] coefficients, [`SHORT`] where these do not suffice.
+    Slow,
+    /// [`SHORT`] coefficients.
+    Walk,
+    /// [`LONG`] coefficients.
+    Fast,
+}
+
+impl Pace {
+    fn of(q: f64) -> Self {
+        match q {
+            q if q <= SLOW => Self::Slow,
+            q if q <= FAST => Self::Walk,
+            // also what is not a number
+            _ => Self::Fast,
+        }
+    }
+}
 
 /// The body and the record as the walk needs them.
 pub struct Setting<'a, S> {
@@ -59,8 +82,7 @@ pub struct Walk<'a, S> {
     pub out: Rocking<S>,
     /// p^2 dt^2.
     pub q: S,
-    /// The motion needs long series.
-    pub fast: bool,
+    pub pace: Pace,
     /// A sample beyond this must be looked at; between two samples below it a resting body stays down.
     pub quiet: f64,
 }
@@ -80,7 +102,7 @@ pub fn walk<S: Scalar>(set: Setting<S>, theta: S, rate: S) -> Rocking<S> {
             break;
         }
         let a1 = walk.ground(i + 1);
-        if !walk.advance(i, a0, a1) {
+        if !walk.advance(i, a0, a1, false) {
             break;
         }
         a0 = a1;
@@ -102,7 +124,7 @@ impl<'a, S: Scalar> Walk<'a, S> {
         let q = set.p2 * (set.dt * set.dt);
         let quiet = (set.lift / set.unit).re().abs();
         let state = set.begin(theta, rate);
-        Self { set, state, out, q, fast: q.re() > FAST, quiet }
+        Self { set, state, out, q, pace: Pace::of(q.re()), quiet }
     }
 
     /// u_g/g at sample i; zero beyond the record.
@@ -155,15 +177,24 @@ impl<'a, S: Scalar> Walk<'a, S> {
         i + still
     }
 
-    /// Interval i; false, with the outcome set, if the work bound is reached.
+    /// Interval i; false, with the outcome set, if the work bound is reached. `tried`: a step at the walk's pace does not take it.
     #[inline(always)]
-    pub fn advance(&mut self, i: usize, a0: S, a1: S) -> bool {
-        let Self { set, state, out, q, fast, .. } = self;
+    pub fn advance(&mut self, i: usize, a0: S, a1: S, tried: bool) -> bool {
+        let Self { set, state, out, q, pace, .. } = self;
         let (h, da) = (real(set.dt), a1 - a0);
-        let done = if *fast {
-            (state.rocking && set.step::<LONG>(state, h, *q, a0, da)) || set.interval::<LONG>(state, i, a0, a1, out)
-        } else {
-            (state.rocking && set.step::<SHORT>(state, h, *q, a0, da)) || set.interval::<SHORT>(state, i, a0, a1, out)
+        let steps = state.rocking && !tried;
+        let done = match *pace {
+            Pace::Slow => {
+                (steps && set.step::<LEAST>(state, h, *q, a0, da))
+                    || (state.rocking && set.step::<SHORT>(state, h, *q, a0, da))
+                    || set.interval::<SHORT>(state, i, a0, a1, out)
+            }
+            Pace::Walk => {
+                (steps && set.step::<SHORT>(state, h, *q, a0, da)) || set.interval::<SHORT>(state, i, a0, a1, out)
+            }
+            Pace::Fast => {
+                (steps && set.step::<LONG>(state, h, *q, a0, da)) || set.interval::<LONG>(state, i, a0, a1, out)
+            }
         };
         if !done {
             out.outcome = Outcome::WorkBound { time: i as f64 * set.dt };
