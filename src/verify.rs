@@ -1,5 +1,6 @@
 //! The exported deck, run in OpenSees, beside our own history and Housner's.
 
+mod predictability;
 mod program;
 
 use std::{
@@ -18,6 +19,7 @@ use crate::{
     parameters::Parameters,
     record::Record,
 };
+pub use predictability::Predictability;
 pub use program::Program;
 
 /// Wall time a run may take before it counts as hung: this, and a time per step [s].
@@ -59,6 +61,8 @@ pub struct Verification {
     pub within_one_percent: bool,
     /// What the deck printed.
     pub report: String,
+    /// Over how much of the history agreement can be asked for.
+    pub predictability: Predictability,
     /// Time OpenSees took [s].
     pub seconds: f64,
     /// Time steps of OpenSees per sample.
@@ -120,6 +124,7 @@ pub fn verify(parameters: &Parameters, record: &Record, program: &Program) -> Re
     let seconds = began.elapsed().as_secs_f64();
     let opensees = read_history(&folder.path().join("deck_history.csv"), history.motion.len())?;
     let ours = history.motion;
+    let predictability = Predictability::of(&ours, parameters, record);
     Ok(Verification {
         dt: record.dt,
         opensees_against_ours: Agreement::new(&opensees, &ours),
@@ -130,6 +135,7 @@ pub fn verify(parameters: &Parameters, record: &Record, program: &Program) -> Re
         housner,
         within_one_percent: run.good,
         report: run.report,
+        predictability,
         seconds,
         steps_per_sample,
     })

@@ -92,6 +92,16 @@ fn said(record: &Record, result: &Verification) -> String {
         result.dt / result.steps_per_sample as f64,
         if result.within_one_percent { "yes" } else { "no" }
     );
+    let known = result.predictability;
+    if known.samples < result.ours.len() {
+        let _ = writeln!(
+            out,
+            "a change of the width by 1e-5 moves this history by {:.2e} (NRMSE): no two programs agree on all of it; compare \
+             the first {:.1} s (--duration)",
+            known.change,
+            known.samples.saturating_sub(1) as f64 * result.dt
+        );
+    }
     out
 }
 
