@@ -52,7 +52,7 @@ fn tuned(structure: Structure, objective: Objective, max_hz: f64) -> Springs<Des
     Job::new(&case, &|_, _, _| ()).unwrap().springs
 }
 
-/// Both decks against our own history, over its first 20 s or for as long as it is predictable; at least `least` seconds.
+/// Both decks against our own history, over its first 20 s or for as long as it is predictable: at least `least` seconds.
 fn agrees(programs: &[Program], structure: Structure, springs: Springs<Design<f64>>, least: f64) {
     let parameters = Parameters::new(with_inertia(&structure), &springs);
     let record = Record::el_centro().truncated(20.0);
@@ -78,31 +78,6 @@ fn tuned_agrees(structure: Structure, objective: Objective, max_hz: f64, least: 
     }
 }
 
-#[test]
-fn the_paper_frame_on_table_1_springs_agrees() {
-    agrees(&programs(), Structure::paper(), table_1(), 20.0);
-}
-
-#[test]
-fn the_paper_frame_on_its_springs_of_40_hz_agrees() {
-    tuned_agrees(Structure::paper(), Objective::Arr, 40.0, 20.0);
-}
-
-#[test]
-fn the_paper_frame_on_its_springs_of_160_hz_agrees() {
-    tuned_agrees(Structure::paper(), Objective::Arr, 160.0, 20.0);
-}
-
-#[test]
-fn the_paper_frame_on_springs_tuned_on_impacts_to_40_hz_agrees() {
-    tuned_agrees(Structure::paper(), Objective::Impact, 40.0, 20.0);
-}
-
-#[test]
-fn the_paper_frame_on_springs_tuned_on_impacts_to_160_hz_agrees() {
-    tuned_agrees(Structure::paper(), Objective::Impact, 160.0, 20.0);
-}
-
 fn frame_of_5_m() -> Structure {
     Structure::a_frame(5.0, 1.5, 1000.0).unwrap()
 }
@@ -111,10 +86,54 @@ fn block_of_2_m() -> Structure {
     Structure::block(2.0, 0.5, 500.0).unwrap()
 }
 
-macro_rules! scan { ($($n:ident $s:ident $o:ident $hz:literal),*) => { $(#[test] fn $n() { tuned_agrees($s(), Objective::$o, $hz, 1.0); })* } }
-scan!(f5_arr_40 frame_of_5_m Arr 40.0, f5_arr_160 frame_of_5_m Arr 160.0, f5_imp_40 frame_of_5_m Impact 40.0, f5_imp_160 frame_of_5_m Impact 160.0,
- b2_arr_40 block_of_2_m Arr 40.0, b2_arr_160 block_of_2_m Arr 160.0, b2_imp_40 block_of_2_m Impact 40.0, b2_imp_160 block_of_2_m Impact 160.0);
 #[test]
-fn f5_table() { agrees(&programs(), frame_of_5_m(), table_1(), 1.0); }
+fn the_paper_frame_on_table_1_springs_agrees() {
+    agrees(&programs(), Structure::paper(), table_1(), 20.0);
+}
+
 #[test]
-fn b2_table() { agrees(&programs(), block_of_2_m(), table_1(), 1.0); }
+fn the_paper_frame_on_its_springs_of_40_hz_agrees() {
+    tuned_agrees(Structure::paper(), Objective::Impact, 40.0, 20.0);
+}
+
+#[test]
+fn the_paper_frame_on_its_springs_of_160_hz_agrees() {
+    tuned_agrees(Structure::paper(), Objective::Impact, 160.0, 20.0);
+}
+
+#[test]
+fn the_paper_frame_on_springs_of_40_hz_by_the_papers_procedure_agrees() {
+    tuned_agrees(Structure::paper(), Objective::Arr, 40.0, 20.0);
+}
+
+#[test]
+fn the_paper_frame_on_springs_of_160_hz_by_the_papers_procedure_agrees() {
+    tuned_agrees(Structure::paper(), Objective::Arr, 160.0, 20.0);
+}
+
+#[test]
+fn a_frame_of_5_by_1_5_m_on_table_1_springs_agrees() {
+    agrees(&programs(), frame_of_5_m(), table_1(), 20.0);
+}
+
+/// A change of its width by 1e-5 moves 20 s by 7e-3.
+#[test]
+fn a_frame_of_5_by_1_5_m_on_its_springs_of_40_hz_agrees() {
+    tuned_agrees(frame_of_5_m(), Objective::Impact, 40.0, 5.0);
+}
+
+/// A change of its width by 1e-5 moves 20 s by 2e-3, other springs of 160 Hz by 0.2 and more.
+#[test]
+fn a_frame_of_5_by_1_5_m_on_its_springs_of_160_hz_agrees() {
+    tuned_agrees(frame_of_5_m(), Objective::Impact, 160.0, 5.0);
+}
+
+#[test]
+fn a_block_of_2_by_0_5_m_on_its_springs_of_40_hz_agrees() {
+    tuned_agrees(block_of_2_m(), Objective::Impact, 40.0, 10.0);
+}
+
+#[test]
+fn a_block_of_2_by_0_5_m_on_its_springs_of_160_hz_agrees() {
+    tuned_agrees(block_of_2_m(), Objective::Impact, 160.0, 10.0);
+}
