@@ -111,18 +111,19 @@ fn the_paper_frame_on_springs_of_160_hz_by_the_papers_procedure_agrees() {
     tuned_agrees(Structure::paper(), Objective::Arr, 160.0, 20.0);
 }
 
+/// A change of its width by 1e-5 moves 20 s by 7e-3, 16 s by 5e-4.
 #[test]
 fn a_frame_of_5_by_1_5_m_on_table_1_springs_agrees() {
-    agrees(&programs(), frame_of_5_m(), table_1(), 20.0);
+    agrees(&programs(), frame_of_5_m(), table_1(), 15.0);
 }
 
-/// A change of its width by 1e-5 moves 20 s by 7e-3.
+/// A change of its width by 1e-5 moves 20 s by 5e-4.
 #[test]
 fn a_frame_of_5_by_1_5_m_on_its_springs_of_40_hz_agrees() {
     tuned_agrees(frame_of_5_m(), Objective::Impact, 40.0, 5.0);
 }
 
-/// A change of its width by 1e-5 moves 20 s by 2e-3, other springs of 160 Hz by 0.2 and more.
+/// A change of its width by 1e-5 moves 20 s by 2e-3, 8 s by 5e-4.
 #[test]
 fn a_frame_of_5_by_1_5_m_on_its_springs_of_160_hz_agrees() {
     tuned_agrees(frame_of_5_m(), Objective::Impact, 160.0, 5.0);
