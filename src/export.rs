@@ -104,8 +104,10 @@ pub enum ExportError {
         "export: {name} is {value}; give a finite number above zero (dampers and inertia may be zero), as `tune run` writes them"
     )]
     Number { name: &'static str, value: f64 },
-    #[error("export: {name} cannot be written to a deck; remove it from parameters.json to export the rigid body")]
-    Member { name: &'static str },
+    #[error(
+        "export: {name} is not written for {format}; remove it from parameters.json, or take another --format (SAP2000 tables leave damper and tendon out, no deck holds friction)"
+    )]
+    Member { name: &'static str, format: &'static str },
     #[error(
         "export: the history to check against has {expected} samples but the record has {record}; use the record that was simulated"
     )]
@@ -123,6 +125,17 @@ pub fn export(
     format: Format,
 ) -> Result<String, ExportError> {
     let model = Model::new(parameters, record, expected)?;
+    let (members, sap2000) = (&model.members, format == Format::Sap2000);
+    let springs_only = matches!(format, Format::Csv | Format::Markdown);
+    for (name, left_out) in [
+        ("friction", members.friction.is_some() && !springs_only),
+        ("damper", members.damper.is_some() && sap2000),
+        ("tendon", members.tendon.is_some() && sap2000),
+    ] {
+        if left_out {
+            return Err(ExportError::Member { name, format: format.name() });
+        }
+    }
     Ok(match format {
         Format::OpenSeesPy => opensees::python(&model),
         Format::OpenSeesTcl => opensees::tcl(&model),

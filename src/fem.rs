@@ -42,6 +42,7 @@ pub use demands::{Demands, Peak, QUANTITIES, Row};
 pub use energy::Energy;
 pub use history::{Account, Forces, History, Recorder};
 pub use landings::Landing;
+pub(crate) use model::MASSLESS_ROTATION;
 pub use observer::{Change, Observer, View};
 
 use std::ops::ControlFlow;

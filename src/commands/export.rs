@@ -7,7 +7,7 @@ use clap::Args;
 use super::{CommandError, common::RecordOptions, write_file};
 use crate::{
     case::DURATION_S,
-    export::{Expected, Format, export, with_inertia},
+    export::{Expected, ExportError, Format, export, with_inertia},
     parameters::Parameters,
     record::Record,
     verify::simulate,
@@ -74,7 +74,11 @@ pub(super) fn write_all(
 ) -> Result<(), CommandError> {
     std::fs::create_dir_all(dir).map_err(|source| CommandError::Write { path: dir.display().to_string(), source })?;
     for (name, format) in DECKS {
-        write_file(&dir.join(name), export(parameters, record, expected, format)?.as_bytes())?;
+        match export(parameters, record, expected, format) {
+            // said, not fatal: the other decks are of use
+            Err(e @ ExportError::Member { .. }) => eprintln!("{name} is left out: {e}"),
+            deck => write_file(&dir.join(name), deck?.as_bytes())?,
+        }
     }
     Ok(())
 }

@@ -122,9 +122,7 @@ pub fn run(o: &Options) -> Result<(), CommandError> {
 
 /// The model for other programs. A body without rotational inertia gets some there, and its own history to check against.
 fn decks(o: &Options, parameters: &Parameters, record: &Record, both: &Both) -> Result<(), CommandError> {
-    // of the rigid body
-    let parameters = &parameters.clone().with_members(Members::default());
-    let history = &both.fem;
+    let history = both.with.as_ref().map_or(&both.fem, |with| &with.history);
     let folder = o.out.join("decks");
     let structure = with_inertia(&parameters.structure);
     if structure == parameters.structure {

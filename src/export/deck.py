@@ -31,6 +31,8 @@ HEIGHT = @HEIGHT@              # h, of the centre of mass above the feet, m
 HALF_WIDTH = @HALF_WIDTH@      # b, half the distance between the feet, m
 MASS = @MASS@                  # m1, kg
 INERTIA = @INERTIA@            # about the centre of mass, kg m2: @INERTIA_NOTE@
+EA = @EA@                      # of a leg, N: @LEG_NOTE@
+EI = @EI@                      # N m2
 
 K1_V = @K1_V@                  # vertical chain: gap spring, N/m
 K2_V = @K2_V@                  # ground spring, N/m
@@ -40,6 +42,14 @@ K1_H = @K1_H@                  # horizontal chain
 K2_H = @K2_H@
 C_H = @C_H@
 M2_H = @M2_H@
+
+# Elastic legs only, else zero. A foot that opens lets go at once what its leg was bent by, and without a little mass
+# Newton's iteration does not find where it goes; the dashpot, to the side, ends its swing within a few steps.
+FOOT_MASS = @FOOT_MASS@        # kg
+FOOT_C = @FOOT_C@              # N s/m
+DAMPER_C = @DAMPER_C@          # dashpot between the ground and each corner of the body, N s/m; 0: none
+TENDON_K = @TENDON_K@          # from the mass to the ground between the feet, N/m; 0: none
+TENDON_SLACK = @TENDON_SLACK@  # its length without tension, m
 
 RECORD_DT = @RECORD_DT@        # s
 STEPS_PER_SAMPLE = @STEPS@     # @STEPS_NOTE@
@@ -67,10 +77,10 @@ def build():
     ops.node(APEX, 0.0, HEIGHT)
     ops.mass(APEX, MASS, MASS, INERTIA)
 
-    # Legs from the centre of mass to the feet, all but rigid: @LEG_NOTE@.
-    # Much softer legs change the answer, much stiffer ones lose digits.
+    # Legs from the centre of mass to the feet. Where they stand for a rigid body, much softer ones change the answer,
+    # much stiffer ones lose digits.
     length = math.hypot(HALF_WIDTH, HEIGHT)
-    leg = @LEG@  # EA/L = 3EI/L^3, N/m
+    rigid = @LEG@  # EA/L = 3EI/L^3 of a leg that is all but rigid, N/m
     # Corotational: with Linear the weight's moment on the leaning body (P-Delta), which drives rocking, is lost.
     ops.geomTransf("Corotational", 1)
 
@@ -98,11 +108,30 @@ def build():
         ops.fix(absorber, 0, 0, 1)
         # One node carries both absorbers: OpenSees takes a mass per direction.
         ops.mass(absorber, M2_H, M2_V, 0.0)
-        ops.element("elasticBeamColumn", foot, foot, APEX, leg * length, 1.0, leg * length**3 / 3.0, 1)
+        ops.element("elasticBeamColumn", foot, foot, APEX, EA, 1.0, EI, 1)
         ops.element("zeroLength", 30 + foot, ground, absorber, "-mat", 1, 2, "-dir", 1, 2)
         # Axial direction up (local x = global y); the horizontal k1 is the bearing's shear stiffness.
         ops.element("flatSliderBearing", 50 + foot, absorber, foot, 1, K1_H,
                     "-P", 3, "-Mz", 5, "-orient", 0, 1, 0, -1, 0, 0)
+        if FOOT_MASS > 0.0:
+            ops.mass(foot, FOOT_MASS, FOOT_MASS, 0.0)
+            ops.uniaxialMaterial("Elastic", 60 + foot, 0.0, FOOT_C)
+            ops.element("zeroLength", 60 + foot, ground, foot, "-mat", 60 + foot, "-dir", 1)
+        if DAMPER_C > 0.0:
+            # on a rigid arm of its own: it does not load the leg
+            arm = foot + 40
+            ops.node(arm, x, 0.0)
+            ops.element("elasticBeamColumn", arm, arm, APEX, rigid * length, 1.0, rigid * length**3 / 3.0, 1)
+            ops.uniaxialMaterial("Elastic", 70 + foot, 0.0, DAMPER_C)
+            ops.element("zeroLength", 70 + foot, ground, arm, "-mat", 70 + foot, "-dir", 2)
+
+    if TENDON_K > 0.0:
+        ops.node(4, 0.0, 0.0)
+        ops.fix(4, 1, 1, 1)
+        # no compression: the third stiffness; stressed: a strain from the slack length
+        ops.uniaxialMaterial("Elastic", 81, TENDON_K * HEIGHT, 0.0, 0.0)
+        ops.uniaxialMaterial("InitStrainMaterial", 82, 81, (HEIGHT - TENDON_SLACK) / HEIGHT)
+        ops.element("corotTruss", 80, 4, APEX, 1.0, 82)
 
 
 def analysis(*integrator, static=False):

@@ -18,6 +18,9 @@ set halfWidth @HALF_WIDTH@ ;# b, half the distance between the feet, m
 set mass      @MASS@       ;# m1, kg
 set inertia   @INERTIA@    ;# about the centre of mass, kg m2: @INERTIA_NOTE@
 
+set ea @EA@ ;# of a leg, N: @LEG_NOTE@
+set ei @EI@ ;# N m2
+
 set k1v @K1_V@ ;# vertical chain: gap spring, N/m
 set k2v @K2_V@ ;# ground spring, N/m
 set cv  @C_V@ ;# dashpot, N s/m
@@ -26,6 +29,14 @@ set k1h @K1_H@ ;# horizontal chain
 set k2h @K2_H@
 set ch  @C_H@
 set m2h @M2_H@
+
+# Elastic legs only, else zero. A foot that opens lets go at once what its leg was bent by, and without a little mass
+# Newton's iteration does not find where it goes; the dashpot, to the side, ends its swing within a few steps.
+set footMass @FOOT_MASS@ ;# kg
+set footC @FOOT_C@ ;# N s/m
+set damperC @DAMPER_C@ ;# dashpot between the ground and each corner of the body, N s/m; 0: none
+set tendonK @TENDON_K@ ;# from the mass to the ground between the feet, N/m; 0: none
+set tendonSlack @TENDON_SLACK@ ;# its length without tension, m
 
 set recordDt       @RECORD_DT@ ;# s
 set stepsPerSample @STEPS@ ;# @STEPS_NOTE@
@@ -40,10 +51,10 @@ model basic -ndm 2 -ndf 3
 node 3 0.0 $height
 mass 3 $mass $mass $inertia
 
-# Legs from the centre of mass to the feet, all but rigid: @LEG_NOTE@.
-# Much softer legs change the answer, much stiffer ones lose digits.
+# Legs from the centre of mass to the feet. Where they stand for a rigid body, much softer ones change the answer, much
+# stiffer ones lose digits.
 set length [expr {hypot($halfWidth, $height)}]
-set leg @LEG@ ;# EA/L = 3EI/L^3, N/m
+set rigid @LEG@ ;# EA/L = 3EI/L^3 of a leg that is all but rigid, N/m
 # Corotational: with Linear the weight's moment on the leaning body (P-Delta), which drives rocking, is lost.
 geomTransf Corotational 1
 
@@ -73,10 +84,31 @@ foreach {foot x} [list 1 [expr {-$halfWidth}] 2 $halfWidth] {
     fix $absorber 0 0 1
     # One node carries both absorbers: OpenSees takes a mass per direction.
     mass $absorber $m2h $m2v 0.0
-    element elasticBeamColumn $foot $foot 3 [expr {$leg * $length}] 1.0 [expr {$leg * $length**3 / 3.0}] 1
+    element elasticBeamColumn $foot $foot 3 $ea 1.0 $ei 1
     element zeroLength [expr {$foot + 30}] $ground $absorber -mat 1 2 -dir 1 2
     # Axial direction up (local x = global y); the horizontal k1 is the bearing's shear stiffness.
     element flatSliderBearing [expr {$foot + 50}] $absorber $foot 1 $k1h -P 3 -Mz 5 -orient 0 1 0 -1 0 0
+    if {$footMass > 0.0} {
+        mass $foot $footMass $footMass 0.0
+        uniaxialMaterial Elastic [expr {$foot + 60}] 0.0 $footC
+        element zeroLength [expr {$foot + 60}] $ground $foot -mat [expr {$foot + 60}] -dir 1
+    }
+    if {$damperC > 0.0} {
+        # on a rigid arm of its own: it does not load the leg
+        set arm [expr {$foot + 40}]
+        node $arm $x 0.0
+        element elasticBeamColumn $arm $arm 3 [expr {$rigid * $length}] 1.0 [expr {$rigid * $length**3 / 3.0}] 1
+        uniaxialMaterial Elastic [expr {$foot + 70}] 0.0 $damperC
+        element zeroLength [expr {$foot + 70}] $ground $arm -mat [expr {$foot + 70}] -dir 2
+    }
+}
+if {$tendonK > 0.0} {
+    node 4 0.0 0.0
+    fix 4 1 1 1
+    # no compression: the third stiffness; stressed: a strain from the slack length
+    uniaxialMaterial Elastic 81 [expr {$tendonK * $height}] 0.0 0.0
+    uniaxialMaterial InitStrainMaterial 82 81 [expr {($height - $tendonSlack) / $height}]
+    element corotTruss 80 4 3 1.0 82
 }
 
 # ---------------------------------------------------------------- solver

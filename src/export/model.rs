@@ -2,6 +2,8 @@
 
 use super::{Expected, ExportError, printable};
 use crate::{
+    fem::MASSLESS_ROTATION,
+    members::{Legs, Members},
     parameters::Parameters,
     record::Record,
     spring::{Chain, Springs},
@@ -16,6 +18,24 @@ pub const SMALL_INERTIA: f64 = 1e-5;
 /// Stiffness of the legs over the stiffest spring (k1 or k2, either direction). At 100 the history is off by 1e-2, from
 /// 1e3 on by less than the integrator's own error.
 const LEG_STIFFNESS: f64 = 1e4;
+
+/// Mass of a foot on an elastic leg, over 3EI/L^3 dt^2, in an OpenSees deck. A foot that opens lets go what its leg was
+/// bent by, at once if it has no mass; without a little mass Newton's iteration does not find where it goes, with ten times
+/// more the foot goes on swinging, and what it keeps of the energy changes the history by 1e-2 and more.
+const FOOT_MASS: f64 = 0.05;
+/// Dashpot of such a foot, to the side, over 3EI/L^3 dt: the swing ends within a few steps.
+const FOOT_DASHPOT: f64 = 4.0;
+
+/// What OpenSees needs to carry massless legs.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Regularised {
+    /// Of a foot [kg].
+    pub mass: f64,
+    /// Of a foot, to the side [N s/m].
+    pub dashpot: f64,
+    /// I_cg: where our model takes the rotation as massless, as small as the feet's [kg m2].
+    pub inertia: f64,
+}
 
 /// Time steps per period of the stiffest Omega_n (see [`steps_per_sample`]).
 const STEPS_PER_PERIOD: f64 = 40.0;
@@ -61,8 +81,11 @@ pub(super) struct Model<'a> {
     /// I_cg as written [kg m2].
     pub inertia: f64,
     pub springs: Springs<Chain<f64>>,
-    /// EA/L and 3EI/L^3 of a leg [N/m].
+    pub members: Members<f64>,
+    /// EA/L and 3EI/L^3 of a leg that is all but rigid [N/m].
     pub leg: f64,
+    /// EA and EI of the legs: given, or all but rigid.
+    pub legs: Legs<f64>,
     /// Newton's displacement tolerance [m].
     pub tolerance: f64,
     pub steps_per_sample: usize,
@@ -75,16 +98,6 @@ pub(super) struct Model<'a> {
 impl<'a> Model<'a> {
     pub fn new(parameters: &Parameters, record: &'a Record, expected: &Expected) -> Result<Self, ExportError> {
         let members = parameters.members();
-        for (name, there) in [
-            ("legs", members.legs.is_some()),
-            ("damper", members.damper.is_some()),
-            ("tendon", members.tendon.is_some()),
-            ("friction", members.friction.is_some()),
-        ] {
-            if there {
-                return Err(ExportError::Member { name });
-            }
-        }
         let structure = parameters.structure;
         let springs = parameters.chains();
         let Springs { vertical: v, horizontal: h } = springs;
@@ -101,6 +114,11 @@ impl<'a> Model<'a> {
             ("horizontal.k2_n_per_m", h.k2, false),
             ("horizontal.m2_kg", h.m2, false),
             ("horizontal.c_ns_per_m", h.c, true),
+            ("legs.ea_n", members.legs.map_or(1.0, |l| l.ea), false),
+            ("legs.ei_nm2", members.legs.map_or(1.0, |l| l.ei), false),
+            ("damper.c_ns_per_m", members.damper.map_or(0.0, |d| d.c), true),
+            ("tendon.stiffness_n_per_m", members.tendon.map_or(1.0, |t| t.stiffness), false),
+            ("tendon.pretension_n", members.tendon.map_or(0.0, |t| t.pretension), true),
         ] {
             if !(value.is_finite() && (value > 0.0 || may_be_zero && value == 0.0)) {
                 return Err(ExportError::Number { name, value });
@@ -109,11 +127,16 @@ impl<'a> Model<'a> {
         if expected.samples == 0 || expected.samples > record.len() {
             return Err(ExportError::Samples { expected: expected.samples, record: record.len() });
         }
+        let leg = LEG_STIFFNESS * v.k1.max(v.k2).max(h.k1).max(h.k2);
+        let length = structure.body::<f64>().radius();
+        let rigid = Legs { ea: leg * length, ei: leg * length.powi(3) / 3.0 };
         Ok(Self {
             structure,
             inertia: with_inertia(&structure).rotational_inertia_kgm2,
             springs,
-            leg: LEG_STIFFNESS * v.k1.max(v.k2).max(h.k1).max(h.k2),
+            members,
+            leg,
+            legs: members.legs.unwrap_or(rigid),
             tolerance: TOLERANCE * structure.body::<f64>().radius(),
             steps_per_sample: steps_per_sample(parameters, record.dt),
             record,
@@ -139,7 +162,30 @@ impl<'a> Model<'a> {
         }
     }
 
+    /// How OpenSees holds legs that have no mass, where they are given; else zero.
+    pub fn regularised(&self) -> Regularised {
+        if self.members.legs.is_none() {
+            return Regularised { mass: 0.0, dashpot: 0.0, inertia: self.inertia };
+        }
+        let dt = self.record.dt / self.steps_per_sample as f64;
+        let radius = self.body().radius();
+        let bending = 3.0 * self.legs.ei / radius.powi(3);
+        let mass = FOOT_MASS * bending * dt * dt;
+        let massless = self.inertia < MASSLESS_ROTATION * self.structure.mass_kg * radius * radius;
+        let inertia = if massless { mass * radius * radius } else { self.inertia };
+        Regularised { mass, dashpot: FOOT_DASHPOT * bending * dt, inertia }
+    }
+
+    /// Length at which the tendon begins to pull [m]; zero without one.
+    pub fn slack(&self) -> f64 {
+        let length = self.structure.height_m + self.expected.settled;
+        self.members.tendon.map_or(0.0, |t| length - t.pretension / t.stiffness)
+    }
+
     pub fn leg_note(&self) -> String {
+        if self.members.legs.is_some() {
+            return "as given".to_string();
+        }
         format!("{LEG_STIFFNESS:e} times the stiffest spring")
     }
 

@@ -17,6 +17,9 @@ pub(super) fn tcl(model: &Model) -> String {
     fill(include_str!("deck.tcl"), model, &rows)
 }
 
+/// A rotation without inertia of its own, on elastic legs.
+const TURNS: &str = "as little as its foot masses, so that the rotation follows the legs at once";
+
 /// The record, four samples a line.
 fn rows(model: &Model, separator: &str) -> String {
     let lines = model.record.accel.chunks(4).map(|samples| {
@@ -34,14 +37,15 @@ fn fill(template: &str, model: &Model, rows: &str) -> String {
     let body = model.body();
     let (v, h) = (&model.springs.vertical, &model.springs.horizontal);
     let e = &model.expected;
+    let regularised = model.regularised();
     let values = [
         ("TITLE", model.title()),
         ("GRAVITY", digits(GRAVITY)),
         ("HEIGHT", digits(body.height)),
         ("HALF_WIDTH", digits(body.half_width)),
         ("MASS", digits(body.mass)),
-        ("INERTIA", digits(model.inertia)),
-        ("INERTIA_NOTE", model.inertia_note().to_string()),
+        ("INERTIA", digits(regularised.inertia)),
+        ("INERTIA_NOTE", if regularised.inertia == model.inertia { model.inertia_note() } else { TURNS }.to_string()),
         ("K1_V", digits(v.k1)),
         ("K2_V", digits(v.k2)),
         ("C_V", digits(v.c)),
@@ -51,6 +55,13 @@ fn fill(template: &str, model: &Model, rows: &str) -> String {
         ("C_H", digits(h.c)),
         ("M2_H", digits(h.m2)),
         ("LEG", digits(model.leg)),
+        ("EA", digits(model.legs.ea)),
+        ("EI", digits(model.legs.ei)),
+        ("FOOT_MASS", digits(regularised.mass)),
+        ("FOOT_C", digits(regularised.dashpot)),
+        ("DAMPER_C", digits(model.members.damper.map_or(0.0, |d| d.c))),
+        ("TENDON_K", digits(model.members.tendon.map_or(0.0, |t| t.stiffness))),
+        ("TENDON_SLACK", digits(model.slack())),
         ("LEG_NOTE", model.leg_note()),
         ("TOLERANCE", digits(model.tolerance)),
         ("RECORD_DT", digits(model.record.dt)),

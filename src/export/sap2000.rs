@@ -123,10 +123,8 @@ fn control() -> Vec<Table> {
 fn geometry(model: &Model) -> Vec<Table> {
     let body = model.body();
     let (b, h) = (body.half_width, body.height);
-    let length = body.radius();
-    let leg = model.leg * KILO;
-    let area = digits(leg * length / LEG_E);
-    let inertia = digits(leg * length.powi(3) / (3.0 * LEG_E));
+    let area = digits(model.legs.ea * KILO / LEG_E);
+    let inertia = digits(model.legs.ei * KILO / LEG_E);
     let link = LINK_LENGTH * h;
 
     let mut joints = Table::new("JOINT COORDINATES");
