@@ -144,15 +144,15 @@ fn a_block_of_2_by_0_5_m_on_its_springs_of_160_hz_agrees() {
 /// Largest NRMSE with elastic legs, dampers or a tendon.
 const AGREEMENT_WITH_MEMBERS: f64 = 0.01;
 
-fn agrees_with(members: Members<f64>) {
+fn agrees_with(members: Members<f64>, duration: f64) {
     let chain = Design::from_kc(0.5, 0.2, 0.92, 40.0);
     let springs = Springs { vertical: chain, horizontal: chain };
     let parameters = Parameters::new(Structure::paper(), &springs).with_members(members);
     for program in programs() {
-        let result = verify(&parameters, &Record::el_centro().truncated(20.0), &program).unwrap();
+        let result = verify(&parameters, &Record::el_centro().truncated(duration), &program).unwrap();
         let a = result.opensees_against_ours;
         println!("{members:?}: {} steps a sample, {:.1} s: {a:?}", result.steps_per_sample, result.seconds);
-        assert_eq!(result.opensees.len(), 2001);
+        assert_eq!(result.opensees.len(), (duration * 100.0).round() as usize + 1);
         let worst = a.u.max(a.v).max(a.theta);
         assert!(worst <= AGREEMENT_WITH_MEMBERS, "{a:?}\n{}", result.report);
         assert!(result.within_one_percent, "{}", result.report);
@@ -168,37 +168,38 @@ fn legs(s: f64) -> Option<Legs<f64>> {
 
 #[test]
 fn elastic_legs_that_shorten_by_a_millionth_agree() {
-    agrees_with(Members { legs: legs(1e-3), ..Members::default() });
+    agrees_with(Members { legs: legs(1e-3), ..Members::default() }, 20.0);
 }
 
 #[test]
 fn elastic_legs_that_shorten_by_a_hundred_thousandth_agree() {
-    agrees_with(Members { legs: legs(1e-2), ..Members::default() });
+    agrees_with(Members { legs: legs(1e-2), ..Members::default() }, 20.0);
 }
 
 #[test]
 fn elastic_legs_that_shorten_by_a_ten_thousandth_agree() {
-    agrees_with(Members { legs: legs(0.1), ..Members::default() });
+    agrees_with(Members { legs: legs(0.1), ..Members::default() }, 20.0);
 }
 
 #[test]
 fn elastic_legs_that_shorten_by_a_thousandth_agree() {
-    agrees_with(Members { legs: legs(1.0), ..Members::default() });
+    agrees_with(Members { legs: legs(1.0), ..Members::default() }, 20.0);
 }
 
 #[test]
 fn dampers_across_the_interface_agree() {
-    agrees_with(Members { damper: Some(Damper { c: 1e6 }), ..Members::default() });
+    agrees_with(Members { damper: Some(Damper { c: 1e6 }), ..Members::default() }, 20.0);
 }
 
 #[test]
 fn a_post_tensioned_tendon_agrees() {
     let tendon = Some(Tendon { stiffness: 2e6, pretension: 5e5 });
-    agrees_with(Members { tendon, ..Members::default() });
+    agrees_with(Members { tendon, ..Members::default() }, 20.0);
 }
 
 #[test]
 fn elastic_legs_with_dampers_and_a_tendon_agree() {
     let tendon = Some(Tendon { stiffness: 2e6, pretension: 5e5 });
-    agrees_with(Members { legs: legs(0.1), damper: Some(Damper { c: 1e6 }), tendon });
+    // 8 s: OpenSees takes long over the three together
+    agrees_with(Members { legs: legs(0.1), damper: Some(Damper { c: 1e6 }), tendon }, 8.0);
 }
