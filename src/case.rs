@@ -182,6 +182,15 @@ impl Case {
 
     /// Parse a case file's text; `path` names it in messages and is where its record's path starts.
     pub fn parse(path: &str, text: &str) -> Result<Self, CaseError> {
+        Self::parse_with(path, text, Record::read)
+    }
+
+    /// The same, the record it names read by `read`.
+    pub fn parse_with(
+        path: &str,
+        text: &str,
+        read: impl FnOnce(&Path, &ReadOptions) -> Result<Record, RecordError>,
+    ) -> Result<Self, CaseError> {
         let file: CaseFile = toml::from_str(text).map_err(|e| parse_error(path, text, &e))?;
         let value =
             |key, value: f64, remedy| CaseError::Value { path: path.into(), key, value: value.to_string(), remedy };
@@ -194,7 +203,7 @@ impl Case {
         let record = match &section.file {
             Some(name) => {
                 let file = Path::new(path).parent().unwrap_or(Path::new("")).join(name);
-                Record::read(&file, &ReadOptions { dt: section.dt_s, units: section.units })?
+                read(&file, &ReadOptions { dt: section.dt_s, units: section.units })?
             }
             None => Record::el_centro(),
         };

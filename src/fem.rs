@@ -2,7 +2,7 @@
 //!
 //! | file | what |
 //! |---|---|
-//! | `model` | coordinates, kinematics, contact forces, energies |
+//! | `model`, `balance` | coordinates, kinematics, contact forces, energies; the rotation that has no inertia |
 //! | `radau`, `newton`, `step` | one implicit step: tables, condensed matrix, iteration |
 //! | `run` | the time loop: samples; in `run/`, contact events and step acceptance |
 //! | `control`, `energy`, `observer` | what a run is told, accounts for and shows |
@@ -20,6 +20,7 @@
 //! amplitude, so the energy that a step fails to account for is its error; it is one number, has a unit, and is what the
 //! user is promised.
 
+mod balance;
 mod control;
 mod coupled;
 mod demands;

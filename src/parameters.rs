@@ -139,12 +139,20 @@ impl Parameters {
         let name = path.display().to_string();
         let text =
             std::fs::read_to_string(path).map_err(|source| ParametersError::Read { path: name.clone(), source })?;
-        let parameters: Self = serde_json::from_str(&text).map_err(|e| ParametersError::Parse {
-            path: name.clone(),
+        Self::parse(&name, &text)
+    }
+
+    /// Parse and check a file's text; `path` names it in messages.
+    ///
+    /// # Errors
+    /// No JSON, a key missing or not known, a number that cannot be.
+    pub fn parse(path: &str, text: &str) -> Result<Self, ParametersError> {
+        let parameters: Self = serde_json::from_str(text).map_err(|e| ParametersError::Parse {
+            path: path.to_string(),
             line: e.line(),
             message: e.to_string().split(" at line").next().unwrap_or_default().to_string(),
         })?;
-        parameters.checked(&name)
+        parameters.checked(path)
     }
 
     fn checked(self, path: &str) -> Result<Self, ParametersError> {

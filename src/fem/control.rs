@@ -36,6 +36,9 @@ pub enum Outcome {
     Stopped { time: f64 },
     /// The bound on steps was reached at this time [s].
     WorkBound { time: f64 },
+    /// The rotation of a body without rotational inertia lost its balance at this time [s]: soft springs buckle under the
+    /// body, or it leans so far that its foot would have to pull. No motion follows from the model after that.
+    Unstable { time: f64 },
 }
 
 /// Work done by a run.

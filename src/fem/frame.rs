@@ -204,9 +204,9 @@ impl<S: Scalar> Model<S> {
 
     /// `turn_to_balance` on legs. With dampers the rotation cannot jump.
     #[inline(never)]
-    pub(super) fn turn_frame_to_balance(&self, frame: &Frame<S>, state: &mut State<S>, feet: &[Foot<S>; 2]) -> bool {
+    pub(super) fn turn_frame_to_balance(&self, frame: &Frame<S>, state: &mut State<S>, feet: &[Foot<S>; 2]) {
         if frame.damper.re() > 0.0 {
-            return false;
+            return;
         }
         let mut done = 0;
         for _ in 0..MOST_ITERATIONS {
@@ -226,7 +226,6 @@ impl<S: Scalar> Model<S> {
                 break;
             }
         }
-        true
     }
 
     /// Power that the dampers take [W].

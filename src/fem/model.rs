@@ -137,7 +137,7 @@ impl<S: Scalar> Model<S> {
     }
 
     /// Whether the rotation follows the contact forces without inertia.
-    fn massless(&self) -> bool {
+    pub(super) fn massless(&self) -> bool {
         self.rotation.re() == 0.0
     }
 
@@ -159,6 +159,13 @@ impl<S: Scalar> Model<S> {
         }
         let (sin, cos) = (q[TH].sin(), q[TH].cos());
         q[az(i)] - self.foot(i, q, sin, cos).1
+    }
+
+    /// The compression [m] and its derivative by theta [m].
+    pub fn compression_and_slope(&self, i: usize, q: &Vector<S>) -> (S, S) {
+        let (sin, cos) = (q[TH].sin(), q[TH].cos());
+        let (_, pz, _, pz_th) = self.foot(i, q, sin, cos);
+        (q[az(i)] - pz, -pz_th)
     }
 
     /// Rate of the compression [m/s].
@@ -270,34 +277,6 @@ impl<S: Scalar> Model<S> {
         }
     }
 
-    /// Turn a body without rotational inertia to where no moment acts on it. Its rotation follows the contact forces at
-    /// once, so when one is let go it jumps. Returns whether there was anything to do.
-    pub fn turn_to_balance(&self, state: &mut State<S>, feet: &[Foot<S>; 2]) -> bool {
-        if !self.massless() || !(feet[0].closed() || feet[1].closed()) {
-            return false;
-        }
-        if let Some(frame) = &self.frame {
-            return self.turn_frame_to_balance(frame, state, feet);
-        }
-        // convex in theta and all but quadratic: Newton needs a few steps, and one more makes derivatives exact
-        for _ in 0..6 {
-            let (mut moment, mut stiffness) = (S::zero(), S::zero());
-            for (foot, f) in feet.iter().zip(&self.contact(&state.q, feet)) {
-                if foot.closed() {
-                    moment += f.horizontal * f.px_th + f.vertical * f.pz_th;
-                    let mut share =
-                        self.springs.vertical.k1 * f.pz_th * f.pz_th + f.vertical * f.px_th - f.horizontal * f.pz_th;
-                    if foot.holds() {
-                        share += self.springs.horizontal.k1 * f.px_th * f.px_th;
-                    }
-                    stiffness += share;
-                }
-            }
-            state.q[TH] += moment / stiffness;
-        }
-        true
-    }
-
     /// Kinetic energy of the body [J].
     pub fn body_kinetic(&self, state: &State<S>) -> S {
         let v = &state.v;
@@ -400,7 +379,8 @@ impl<S: Scalar> Model<S> {
                 *foot = Foot { contact: Contact::Stick, anchor: self.anchor_here(i, &state.q, foot) };
             }
         }
-        self.turn_to_balance(&mut state, &feet);
+        // a body that finds no balance is told by the run (`in_balance`)
+        let _ = self.turn_to_balance(&mut state, &feet);
         (state, feet)
     }
 }

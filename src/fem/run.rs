@@ -5,6 +5,8 @@ mod account;
 mod events;
 mod grip;
 
+use std::f64::consts::FRAC_PI_2;
+
 use super::{
     control::{Control, Outcome, Work},
     energy::Energy,
@@ -35,6 +37,10 @@ pub(crate) struct Run<'a, S> {
     opened: [f64; 2],
     /// Step size that the energy account asked for [s].
     h: f64,
+    /// Whether a rotation without inertia is in balance.
+    balanced: bool,
+    /// How often it turned in the event under way.
+    turns: usize,
     pub work: Work,
 }
 
@@ -61,6 +67,8 @@ impl<'a, S: Scalar> Run<'a, S> {
             rate: 1.0,
             opened: [f64::NEG_INFINITY; 2],
             h: f64::INFINITY,
+            balanced: model.in_balance(&state, &feet),
+            turns: 0,
             work: Work::default(),
         }
     }
@@ -81,11 +89,8 @@ impl<'a, S: Scalar> Run<'a, S> {
         for i in 0..n - 1 {
             let t0 = i as f64 * dt;
             let ground = Ground { start: scale * accel[i], slope: scale * ((accel[i + 1] - accel[i]) / dt) };
-            if let Err(time) = self.cross_sample(t0, dt, &ground, observer) {
-                return Outcome::WorkBound { time };
-            }
-            if self.state.q[TH].re().abs() > std::f64::consts::FRAC_PI_2 {
-                return Outcome::Overturned { time: t0 + dt };
+            if let Err(outcome) = self.cross_sample(t0, dt, &ground, observer) {
+                return outcome;
             }
             if observer.sample(i + 1, &self.view(real(t0 + dt))).is_break() {
                 return Outcome::Stopped { time: t0 + dt };
@@ -94,25 +99,27 @@ impl<'a, S: Scalar> Run<'a, S> {
         Outcome::Completed
     }
 
-    /// From one sample to the next; the time when the work bound is met.
+    /// From one sample to the next; the outcome if the history ends in between.
     fn cross_sample(
         &mut self,
         t0: f64,
         dt: f64,
         ground: &Ground<S>,
         observer: &mut impl Observer<S>,
-    ) -> Result<(), f64> {
+    ) -> Result<(), Outcome> {
         let mut t = S::zero();
         loop {
             let left = -t + dt;
             if left.re() <= 1e-13 * dt {
                 return Ok(());
             }
+            let time = t0 + t.re();
             if self.work.steps + self.work.rejected >= self.control.most_steps {
-                return Err(t0 + t.re());
+                return Err(Outcome::WorkBound { time });
             }
-            if self.h < 1e-14 * dt {
-                return Err(t0 + t.re());
+            // no step is short enough: where a massless rotation is about to snap its rate has no bound
+            if !self.balanced || self.h < 1e-14 * dt {
+                return Err(Outcome::Unstable { time });
             }
             let h = self.next_size(left);
             let here = Ground { start: ground.start + ground.slope * t, slope: ground.slope };
@@ -122,11 +129,11 @@ impl<'a, S: Scalar> Run<'a, S> {
             };
             let met = self.met(&stages);
             let (located, tau) = match met {
-                Met::Nothing => (Some(stages), 1.0),
+                Met::Nothing => (Some((stages, false)), 1.0),
                 Met::Crossing { foot, level, tau } => (self.locate(foot, level, &stages, tau, &here), tau),
-                Met::Grip { foot, tau } => (self.locate_grip(foot, tau, stages.h, &here), tau),
+                Met::Grip { foot, tau } => (self.locate_grip(foot, tau, stages.h, &here).map(|s| (s, true)), tau),
             };
-            let Some(stages) = located else {
+            let Some((stages, changes)) = located else {
                 // nearer to the event, the step that ends there is easier
                 self.refuse(h.re() * tau * 0.5);
                 continue;
@@ -136,11 +143,17 @@ impl<'a, S: Scalar> Run<'a, S> {
                 continue;
             }
             t += stages.h;
+            if self.state.q[TH].re().abs() > FRAC_PI_2 {
+                return Err(Outcome::Overturned { time: t0 + t.re() });
+            }
             observer.step(&self.view(real::<S>(t0) + t));
             match met {
-                Met::Nothing => {}
-                Met::Crossing { foot, level, .. } => self.switch(foot, level, real::<S>(t0) + t, observer),
-                Met::Grip { foot, .. } => self.change_grip(foot),
+                Met::Crossing { foot, level, .. } if changes => {
+                    self.turns = 0;
+                    self.switch(foot, level, real::<S>(t0) + t, observer);
+                }
+                Met::Grip { foot, .. } if changes => self.change_grip(foot),
+                _ => {}
             }
         }
     }
@@ -169,7 +182,8 @@ impl<'a, S: Scalar> Run<'a, S> {
             h,
             ground: *ground,
             guess: &self.guess,
-            tolerance: 1e-7 * self.compression,
+            // never below the rounding of positions
+            tolerance: (1e-7 * self.compression).max(8.0 * f64::EPSILON * self.model.body.radius().re()),
             extra: self.control.extra_iterations,
             rate: self.rate,
         };

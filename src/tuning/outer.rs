@@ -111,8 +111,8 @@ impl Benchmark<'_> {
         let error = (0.5 * sum).sqrt();
         match finish.outcome {
             Outcome::Completed => (error, false),
-            // toppled or out of work: it has not followed to the end
-            Outcome::Overturned { .. } | Outcome::WorkBound { .. } => (f64::INFINITY, false),
+            // toppled, out of work or out of balance: it has not followed to the end
+            Outcome::Overturned { .. } | Outcome::WorkBound { .. } | Outcome::Unstable { .. } => (f64::INFINITY, false),
             Outcome::Stopped { .. } => (error, error > limit),
         }
     }

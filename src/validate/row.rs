@@ -101,7 +101,7 @@ impl Judge {
         let overturned_fem = match finish.outcome {
             fem::Outcome::Overturned { .. } | fem::Outcome::Stopped { .. } => Some(true),
             fem::Outcome::Completed => Some(self.topples(stream.last)),
-            fem::Outcome::WorkBound { .. } => None,
+            fem::Outcome::WorkBound { .. } | fem::Outcome::Unstable { .. } => None,
         };
         let finite = !horizontal.is_nan() && !vertical.is_nan() && stream.peak.is_finite();
         let outcome = match end {

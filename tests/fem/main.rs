@@ -8,4 +8,3 @@ mod landings;
 mod members;
 mod rigid_limit;
 mod similarity;
-mod stress;

@@ -3,12 +3,12 @@
 use super::Run;
 use crate::{
     fem::{
-        model::{Contact, Foot},
+        model::{Contact, Foot, TH},
         observer::{Change, Observer},
         radau::C,
         step::{Ground, Stages, no_guess},
     },
-    scalar::Scalar,
+    scalar::{Scalar, real},
 };
 
 /// A foot that closes again this soon after it opened, in units of 1/Omega_n, has hardly left the ground.
@@ -20,6 +20,16 @@ const AT_ONCE: f64 = 0.1;
 /// again: it would open and close at an accumulating sequence of instants. What it does in the limit is slide under no
 /// weight, and that is what it is let do.
 const HOLDING: f64 = 1e-3;
+
+/// Steps that locate one event: Newton's method needs two or three, bisection where the gap all but grazes many more.
+const MOST_LOCATED: usize = 40;
+
+/// Touches and lift-offs of one jump of a massless rotation before it counts as having lost its balance.
+const MOST_TURNS: usize = 50;
+
+/// Radians within 1/Omega_n: a massless rotation that is let go faster than that was about to snap, and keeps no rate that
+/// means anything.
+const WHIRL: f64 = 100.0;
 
 /// First step tried after an event, in units of 1/Omega_n: the transient that the event began decides the step, not the
 /// step that the event cut short.
@@ -119,7 +129,8 @@ impl<S: Scalar> Run<'_, S> {
         low.0.max(1e-9)
     }
 
-    /// Repeat the step so that it ends where the foot's compression passes `level`; `None` if that does not succeed.
+    /// Repeat the step so that it ends where the foot's compression passes `level`. The step, and whether it passes there:
+    /// if the polynomial saw a graze that the step itself does not make, it does not. `None` if no step converges.
     pub(super) fn locate(
         &mut self,
         foot: usize,
@@ -127,30 +138,45 @@ impl<S: Scalar> Run<'_, S> {
         stages: &Stages<S>,
         tau: f64,
         ground: &Ground<S>,
-    ) -> Option<Stages<S>> {
+    ) -> Option<(Stages<S>, bool)> {
+        // the contact lasts while sign (compression - level) is positive
+        let sign = if self.feet[foot].closed() && level == 0.0 { 1.0 } else { -1.0 };
+        let (mut low, mut high) = (0.0, f64::INFINITY);
         let mut h = stages.h * tau;
-        for _ in 0..6 {
+        for _ in 0..MOST_LOCATED {
             self.work.located += 1;
             let here = self.attempt(h, ground)?;
             let end = here.end();
             let gap = self.model.compression(foot, &end.q, &self.feet[foot]) - level;
             let met = gap.re().abs() <= self.gap_tolerance();
             if met && self.control.extra_iterations == 0 {
-                return Some(here);
+                return Some((here, true));
             }
             let correction = gap / self.model.compression_rate(foot, &end, &self.feet[foot]);
             let usable = correction.re().abs() <= 0.5 * h.re();
             if met {
                 // derivatives of the event's time, by the implicit function theorem
-                return if usable { self.attempt(h - correction, ground) } else { Some(here) };
+                return if usable { Some((self.attempt(h - correction, ground)?, true)) } else { Some((here, true)) };
             }
-            // a gap that grazes, or steps too small for the clock
-            if !usable || h.re() <= 1e-9 * self.settling {
-                return Some(here);
+            // steps too small for the clock
+            if h.re() <= 1e-9 * self.settling {
+                return Some((here, true));
             }
-            h -= correction;
+            if sign * gap.re() > 0.0 {
+                low = h.re();
+            } else {
+                high = h.re();
+            }
+            let next = h - correction;
+            h = if usable && next.re() > low && next.re() < high {
+                next
+            } else if high.is_finite() {
+                real(0.5 * (low + high))
+            } else {
+                return Some((here, false));
+            };
         }
-        self.attempt(h, ground)
+        Some((self.attempt(h, ground)?, true))
     }
 
     /// A foot on an elastic leg springs sideways, and maybe down, when its horizontal force is let go: it opens only if it
@@ -162,7 +188,7 @@ impl<S: Scalar> Run<'_, S> {
         }
         let open = (self.state, self.feet[foot]);
         self.feet[foot].contact = Contact::Slide;
-        self.model.turn_to_balance(&mut self.state, &self.feet);
+        self.balanced = self.model.turn_to_balance(&mut self.state, &self.feet);
         if self.model.compression(foot, &self.state.q, &self.feet[foot]).re() <= self.gap_tolerance() {
             (self.state, self.feet[foot]) = open;
         }
@@ -196,7 +222,7 @@ impl<S: Scalar> Run<'_, S> {
             let anchor = self.model.anchor_here(other, &self.state.q, &self.feet[other]);
             self.feet[other] = Foot { contact: Contact::Stick, anchor };
         }
-        self.model.turn_to_balance(&mut self.state, &self.feet);
+        let met = self.turn();
         if was == Contact::Stick {
             self.slide_first(foot);
         }
@@ -211,5 +237,58 @@ impl<S: Scalar> Run<'_, S> {
             (_, Contact::Open) => observer.event(foot, Change::LiftOff, &self.view(time)),
             _ => {}
         }
+        if let Some(foot) = met {
+            self.switch(foot, 0.0, time, observer);
+        }
+    }
+
+    /// Turn a massless rotation to its balance, but no further than to where a foot touches or leaves the ground: that foot.
+    fn turn(&mut self) -> Option<usize> {
+        let start = self.state.q[TH];
+        self.turns += 1;
+        let whirls = self.state.v[TH].re().abs() * self.settling > WHIRL;
+        let flies = !self.feet[0].closed() && !self.feet[1].closed();
+        self.balanced = self.turns < MOST_TURNS
+            && !(whirls && flies && self.model.massless())
+            && self.model.turn_to_balance(&mut self.state, &self.feet);
+        let end = self.state.q[TH];
+        // feet on elastic legs, and feet that may slip, are met by the steps that follow
+        let simple = self.model.frame.is_none() && self.model.friction.is_none();
+        if !self.balanced || end.re() == start.re() || !simple {
+            return None;
+        }
+        let passed = |foot: usize| {
+            let sign = if self.feet[foot].closed() { 1.0 } else { -1.0 };
+            let inside = |theta: S| {
+                let mut q = self.state.q;
+                q[TH] = theta;
+                sign * self.model.compression(foot, &q, &self.feet[foot]).re()
+            };
+            if inside(end) >= -self.gap_tolerance() {
+                return None;
+            }
+            let (mut low, mut high) = (0.0, 1.0);
+            for _ in 0..60 {
+                let middle = 0.5 * (low + high);
+                if inside(start + (end - start) * middle) >= 0.0 {
+                    low = middle;
+                } else {
+                    high = middle;
+                }
+            }
+            Some((low, foot))
+        };
+        let (share, foot) = match (passed(0), passed(1)) {
+            (Some(a), Some(b)) => {
+                if a.0 <= b.0 {
+                    a
+                } else {
+                    b
+                }
+            }
+            (a, b) => a.or(b)?,
+        };
+        self.state.q[TH] = self.model.where_it_touches(foot, &self.state.q, start + (end - start) * share);
+        Some(foot)
     }
 }
