@@ -27,6 +27,7 @@ use thiserror::Error;
 
 use crate::{
     members::{Damper, Friction, Legs, Members, MembersError, Tendon},
+    message::one_line,
     record::{ReadOptions, Record, RecordError, Units},
     response::target::Target,
     structure::{Kind, Structure, StructureError},
@@ -193,7 +194,7 @@ impl Case {
     ) -> Result<Self, CaseError> {
         let file: CaseFile = toml::from_str(text).map_err(|e| parse_error(path, text, &e))?;
         let value =
-            |key, value: f64, remedy| CaseError::Value { path: path.into(), key, value: value.to_string(), remedy };
+            |key, value: f64, remedy| CaseError::Value { path: path.into(), key, value: format!("{value:?}"), remedy };
 
         let (structure, restitution) = file.structure.checked(path)?;
         let members = Members { legs: file.legs, damper: file.damper, tendon: file.tendon, friction: file.friction }
@@ -247,7 +248,7 @@ impl StructureSection {
         let structure = structure.checked().map_err(wrap)?;
         let housner = structure.body::<f64>().restitution();
         let value =
-            |key, value: f64, remedy| CaseError::Value { path: path.into(), key, value: value.to_string(), remedy };
+            |key, value: f64, remedy| CaseError::Value { path: path.into(), key, value: format!("{value:?}"), remedy };
         let restitution = match (self.restitution, self.restitution_ratio) {
             (None, None) => housner,
             (Some(e), None) => e,
@@ -266,7 +267,7 @@ impl StructureSection {
 impl Tuning {
     fn check(&self, path: &str) -> Result<(), CaseError> {
         let value =
-            |key, value: f64, remedy| CaseError::Value { path: path.into(), key, value: value.to_string(), remedy };
+            |key, value: f64, remedy| CaseError::Value { path: path.into(), key, value: format!("{value:?}"), remedy };
         if !(0.1..=1e5).contains(&self.max_omega_hz) {
             return Err(value("tuning.max_omega_hz", self.max_omega_hz, "give a frequency between 0.1 and 1e5 Hz"));
         }
@@ -294,7 +295,7 @@ impl Tuning {
 /// The line of the error, and for an unknown key the nearest known one.
 fn parse_error(path: &str, text: &str, error: &toml::de::Error) -> CaseError {
     let line = error.span().map_or(1, |span| text[..span.start.min(text.len())].matches('\n').count() + 1);
-    let message = error.message().lines().next().unwrap_or_default().to_string();
+    let message = one_line(error.message().lines().next().unwrap_or_default());
     let message = match unknown_key(&message) {
         Some((key, Some(near))) => format!("unknown key \"{key}\"; did you mean \"{near}\"?"),
         Some((key, None)) => format!("unknown key \"{key}\"; remove it"),

@@ -21,6 +21,7 @@ mod draw;
 mod export;
 mod housner;
 mod members;
+mod output;
 mod progress;
 mod report;
 mod response;
@@ -79,6 +80,12 @@ pub enum CommandError {
     Verify(#[from] VerifyError),
     #[error("{path}: cannot be written ({source}); check the folder and its rights")]
     Write { path: String, source: std::io::Error },
+    #[error("{path}: is a file where a folder is needed; name another with --out")]
+    NotAFolder { path: String },
+    #[error("{path}: is a folder; name a file with --out")]
+    NotAFile { path: String },
+    #[error("{path}: there is no folder {folder}; make it first, or name another with --out")]
+    NoFolder { path: String, folder: String },
     #[error("cannot write to stdout: {0}")]
     Stdout(#[from] std::io::Error),
     #[error("--{option} is {value}; {remedy}")]
@@ -118,7 +125,8 @@ pub fn main() -> ExitCode {
         // the reader of a pipe went away: nothing is wrong
         Err(CommandError::Stdout(e)) if e.kind() == std::io::ErrorKind::BrokenPipe => ExitCode::SUCCESS,
         Err(e) => {
-            eprintln!("error: {}", e.to_string().replace('\n', " "));
+            let text: String = e.to_string().chars().map(|c| if c.is_control() { ' ' } else { c }).collect();
+            eprintln!("error: {text}");
             ExitCode::from(2)
         }
     }

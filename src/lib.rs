@@ -18,6 +18,8 @@
 // units in brackets, as [m], are no links
 #![allow(rustdoc::broken_intra_doc_links)]
 
+mod message;
+
 pub mod scalar;
 
 pub mod record;

@@ -9,6 +9,7 @@ use crate::{
     compare::Match,
     conditioning::Sensitivity,
     members::{Damper, Friction, Legs, Members, MembersError, Tendon},
+    message::one_line,
     record::Record,
     spring::{Chain, ChainRow, Design, Springs},
     structure::{Structure, StructureError},
@@ -54,6 +55,7 @@ pub struct PaperProcedure {
 
 /// Everything in `parameters.json`.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
 pub struct Parameters {
     pub structure: Structure,
     #[serde(default, skip_serializing_if = "Option::is_none")]
@@ -90,7 +92,7 @@ pub enum ParametersError {
     Read { path: String, source: std::io::Error },
     #[error("{path}, line {line}: {message}; give a parameters.json as `tune run` writes it")]
     Parse { path: String, line: usize, message: String },
-    #[error("{path}: {chain}.{name} is {value}; give a finite number{bound}")]
+    #[error("{path}: {chain}.{name} is {value:?}; give a finite number{bound}")]
     Value { path: String, chain: &'static str, name: &'static str, value: f64, bound: &'static str },
     #[error("{path}: {source}")]
     Structure { path: String, source: StructureError },
@@ -150,7 +152,7 @@ impl Parameters {
         let parameters: Self = serde_json::from_str(text).map_err(|e| ParametersError::Parse {
             path: path.to_string(),
             line: e.line(),
-            message: e.to_string().split(" at line").next().unwrap_or_default().to_string(),
+            message: one_line(e.to_string().split(" at line").next().unwrap_or_default()),
         })?;
         parameters.checked(path)
     }

@@ -100,6 +100,7 @@ impl<S: Scalar> Springs<Design<S>> {
 
 /// A chain as it stands in `parameters.json`.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
 pub struct ChainRow {
     pub mu: f64,
     pub f: f64,

@@ -33,9 +33,9 @@ pub struct Structure {
 /// What is wrong with a structure, and what to do.
 #[derive(Clone, Debug, PartialEq, Error)]
 pub enum StructureError {
-    #[error("structure: {name} is {value}; give a finite number greater than zero")]
+    #[error("structure: {name} is {value:?}; give a finite number greater than zero")]
     NotPositive { name: &'static str, value: f64 },
-    #[error("structure: rotational_inertia_kgm2 is {value}; give a finite number, zero or greater")]
+    #[error("structure: rotational_inertia_kgm2 is {value:?}; give a finite number, zero or greater")]
     Inertia { value: f64 },
     #[error(
         "structure: slenderness alpha = atan(width/(2 height)) is {alpha:.4} rad; rocking needs a body between 0.005 and 0.9 rad: check height_m (of the centre of mass) and width_m"

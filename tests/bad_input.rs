@@ -246,3 +246,113 @@ fn an_unknown_option() {
 fn a_folder_that_cannot_be_made() {
     refuses(&[("results", "a file\n")], &["run", "--quiet", "--out", "results"], &["results"]);
 }
+
+#[test]
+fn results_that_cannot_be_written_are_refused_before_the_work() {
+    let file = [("results", "a file\n")];
+    for args in [
+        &["run", "--quiet", "--out", "results"][..],
+        &["run", "--quiet", "--out", "results/below"],
+        &["bench", "--quick", "--out", "results"],
+    ] {
+        refuses(&file, args, &["results: is a file where a folder is needed"]);
+    }
+    refuses(&[], &["housner", "--out", "."], &["is a folder; name a file"]);
+    refuses(&[], &["housner", "--out", "nowhere/h.csv"], &["there is no folder nowhere"]);
+    let parameters = ("p.json", PARAMETERS);
+    let validate = ["validate", "--parameters", "p.json", "--synthetic", "3", "--out", "results"];
+    refuses(&[parameters, file[0]], &validate, &["results: is a file"]);
+    refuses(&[parameters, file[0]], &["verify", "--parameters", "p.json", "--out", "results"], &["results: is a file"]);
+    refuses(&[parameters], &["simulate", "--parameters", "p.json", "--out", "x/h.csv"], &["there is no folder x"]);
+    let export = ["export", "--parameters", "p.json", "--format", "csv", "--out", "."];
+    refuses(&[parameters], &export, &["is a folder; name a file"]);
+}
+
+const PARAMETERS: &str = include_str!("../fuzz/corpus/parameters/paper");
+
+#[test]
+fn options_that_are_no_numbers_or_out_of_range() {
+    for (args, word) in [
+        (&["run", "--scale", "nan"][..], "NaN"),
+        (&["run", "--scale", "1e300"], "above 50 g"),
+        (&["run", "--duration", "nan"], "--duration is NaN"),
+        (&["run", "--duration", "inf"], "--duration is inf"),
+        (&["run", "--max-hz", "nan"], "--max-hz is NaN"),
+        (&["run", "--friction", "-1"], "--friction is -1"),
+        (&["run", "--jobs", "-1"], "--jobs"),
+        (&["run", "--jobs", "99999999"], "--jobs is 99999999"),
+        (&["run", "--dt", "0.01"], "name it with --record"),
+        (&["housner", "--restitution", "nan"], "--restitution is NaN"),
+        (&["housner", "--restitution", "-1"], "--restitution is -1"),
+        (&["response", "--mu", "nan"], "mu is NaN"),
+        (&["response", "--mu", "1e308"], "mu"),
+        (&[], "tune --help"),
+        (&["tune"], "tune --help"),
+    ] {
+        refuses(&[], args, &[word]);
+    }
+}
+
+#[test]
+fn time_steps_that_cannot_be() {
+    for dt in ["0", "-0.01", "nan", "1e9"] {
+        refuses(&[("a.txt", "0.1\n0.2\n")], &["run", "--record", "a.txt", "--units", "g", "--dt", dt], &["time step"]);
+    }
+}
+
+#[test]
+fn files_as_other_systems_write_them() {
+    let units = ["--units", "g", "--dt", "0.01"];
+    run_record("bom.txt", "\u{feff}0.1\r\n0.2\r\nx\r\n", &units, &["bom.txt, line 3", "'x'"]);
+    run_record("german.csv", "Zeit;a [g]\n0,00;0,1\n0,01;0,2\n", &[], &["german.csv, line 2", "decimal commas"]);
+    run_record("wide.txt", "\u{0}1\u{0}", &units, &["not a text file"]);
+    run_record("huge.txt", "1e308\n1e308\n", &units, &["above 50 g"]);
+    run_record("npts.at2", "x\nIN UNITS OF G\nNPTS= 999999999999, DT= .01\n0.1\n", &[], &["NPTS 999999999999"]);
+}
+
+fn with(path: &str, value: serde_json::Value) -> String {
+    let mut all: serde_json::Value = serde_json::from_str(PARAMETERS).unwrap();
+    let (section, key) = path.split_once('.').unwrap();
+    all[section][key] = value;
+    all.to_string()
+}
+
+#[test]
+fn parameters_missing_extra_or_impossible() {
+    let refuse = |text: &str, words: &[&str]| {
+        refuses(&[("p.json", text)], &["simulate", "--parameters", "p.json"], words);
+    };
+    for (path, value, word) in [
+        ("structure.mass_kg", 0.0.into(), "mass_kg is 0"),
+        ("structure.height_m", (-3.0).into(), "height_m is -3"),
+        ("structure.width_m", 1e9.into(), "slenderness"),
+        ("structure.kind", "tower".into(), "tower"),
+        ("structure.colour", 1.into(), "unknown field `colour`"),
+        ("vertical.k1_n_per_m", (-1.0).into(), "vertical.k1_n_per_m is -1"),
+        ("vertical.k2_n_per_m", "stiff".into(), "expected f64"),
+        ("horizontal.m2_kg", 0.0.into(), "horizontal.m2_kg is 0"),
+        ("horizontal.c_ns_per_m", (-1.0).into(), "horizontal.c_ns_per_m is -1"),
+        ("horizontal.c", 1.0.into(), "unknown field `c`"),
+    ] {
+        refuse(&with(path, value), &["p.json", word]);
+    }
+    refuse("{}", &["missing field `structure`"]);
+    refuse("[1]", &["p.json, line 1"]);
+    refuse("\u{feff}{}", &["p.json, line 1"]);
+}
+
+#[test]
+fn case_values_that_cannot_be() {
+    for (extra, word) in [
+        ("restitution = -1.0\n", "restitution is -1"),
+        ("[record]\nfile = \"nowhere.at2\"\n", "nowhere.at2"),
+        ("[record]\nscale = nan\n", "NaN"),
+        ("[tuning]\ncandidates = 0\n", "candidates is 0"),
+        ("[tuning]\nmass_ratios_vertical = []\n", "at least one mass ratio"),
+        ("[bounds]\nf_min = -1.0\n", "f_min is -1"),
+        ("[[target.bands]]\nkind = \"cap\"\nlimit = nan\n", "limit"),
+        ("[damper]\nc_ns_per_m = nan\n", "c_ns_per_m is NaN"),
+    ] {
+        run_case(&format!("{STRUCTURE}{extra}"), &["case.toml", word]);
+    }
+}

@@ -4,7 +4,7 @@ use std::{io::Write, path::PathBuf};
 
 use clap::Args;
 
-use super::{CommandError, write_file};
+use super::{CommandError, output::check_folder, write_file};
 use crate::{
     bench::{self, Series, report::Measured},
     figures::precision::{self, Precision},
@@ -25,6 +25,7 @@ pub struct Options {
 }
 
 pub fn run(o: &Options) -> Result<(), CommandError> {
+    check_folder(&o.out)?;
     let program = std::env::current_exe().map_err(|e| CommandError::Result(format!("bench: {e}")))?;
     let effort = if o.quick { bench::Effort::quick() } else { bench::Effort::full() };
     let measured = bench::measure(&effort, &o.python, &program, &|what| eprintln!("{what}"))?;

@@ -23,7 +23,7 @@ pub struct RecordOptions {
     #[arg(long, value_name = "FILE")]
     pub record: Option<PathBuf>,
     /// Time step, where the file does not say
-    #[arg(long, value_name = "SECONDS")]
+    #[arg(long, value_name = "SECONDS", allow_negative_numbers = true)]
     pub dt: Option<f64>,
     /// g, m/s2 or cm/s2, where the file does not say
     #[arg(long)]
@@ -61,7 +61,7 @@ impl RecordOptions {
         match self.duration {
             Some(d) if !(d.is_finite() && d > 0.0) => Err(CommandError::Option {
                 option: "duration",
-                value: d.to_string(),
+                value: format!("{d:?}"),
                 remedy: "give seconds greater than zero",
             }),
             Some(d) => Ok(d),
@@ -111,6 +111,41 @@ pub fn both(
         WithMembers { members: *members, history, demands, matched }
     });
     Both { rocking, housner: motion, fem, matched: rigid, demands, with }
+}
+
+impl Both {
+    /// What to say of finite element histories that ended before the record did.
+    pub fn early(&self) -> Vec<String> {
+        let said = |name: &str, history: &fem::History| {
+            let (time, why) = match history.outcome {
+                fem::Outcome::Completed | fem::Outcome::Stopped { .. } => return None,
+                fem::Outcome::Overturned { time } => (time, "the body lies flat"),
+                fem::Outcome::WorkBound { time } => {
+                    (time, "given up at the bound on steps; use softer or damped springs")
+                }
+                fem::Outcome::Unstable { time } => (
+                    time,
+                    "the rotation lost its balance: springs too soft for a body with so little rotational inertia, or a lean \
+                     at which a leg would pull; use stiffer springs, or a rotational_inertia_kgm2 above 0.002 m R^2",
+                ),
+            };
+            Some(format!("{name} ends at t = {time:.3} s: {why}; both are compared up to there"))
+        };
+        let with = self.with.as_ref().and_then(|with| said("finite element history with members", &with.history));
+        said("finite element history", &self.fem).into_iter().chain(with).collect()
+    }
+}
+
+/// A velocity restitution from the command line, checked.
+pub fn restitution(given: Option<f64>) -> Result<Option<f64>, CommandError> {
+    match given {
+        Some(e) if !(0.0..=1.0).contains(&e) => Err(CommandError::Option {
+            option: "restitution",
+            value: format!("{e:?}"),
+            remedy: "a velocity ratio lies between 0 and 1",
+        }),
+        given => Ok(given),
+    }
 }
 
 /// `history.csv`: the motions at the record's samples, 12 significant digits; with members three columns more.

@@ -4,7 +4,7 @@ use std::path::{Path, PathBuf};
 
 use clap::Args;
 
-use super::{CommandError, common::RecordOptions, write_file};
+use super::{CommandError, common::RecordOptions, output::check_file, write_file};
 use crate::{
     case::DURATION_S,
     export::{Expected, ExportError, Format, export, with_inertia},
@@ -30,6 +30,7 @@ pub struct Options {
 }
 
 pub fn run(o: &Options) -> Result<(), CommandError> {
+    check_file(&o.out)?;
     let (parameters, record) = read(&o.parameters, &o.record)?;
     let history = simulate(&parameters, &record);
     let deck = export(&parameters, &record, &Expected::new(&history), o.format)?;

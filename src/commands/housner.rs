@@ -6,7 +6,8 @@ use clap::Args;
 
 use super::{
     CommandError,
-    common::{RecordOptions, csv_row},
+    common::{RecordOptions, csv_row, restitution},
+    output::check_file,
     write_file,
 };
 use crate::{
@@ -25,7 +26,7 @@ pub struct Options {
     #[command(flatten)]
     record: RecordOptions,
     /// Velocity restitution; by equation 2 unless given
-    #[arg(long)]
+    #[arg(long, allow_negative_numbers = true)]
     restitution: Option<f64>,
     /// Write the history here instead of to stdout
     #[arg(long, value_name = "FILE")]
@@ -44,18 +45,12 @@ pub fn run(o: &Options) -> Result<(), CommandError> {
         }
         None => (Structure::paper(), None, o.record.record(Record::el_centro)?, DURATION_S),
     };
-    if let Some(e) = o.restitution
-        && !(0.0..=1.0).contains(&e)
-    {
-        return Err(CommandError::Option {
-            option: "restitution",
-            value: e.to_string(),
-            remedy: "a velocity ratio lies between 0 and 1",
-        });
+    if let Some(path) = &o.out {
+        check_file(path)?;
     }
     let record = record.truncated(o.record.duration(duration)?);
     let body = structure.body::<f64>();
-    let options = housner::Options { restitution: o.restitution.or(e), ..Default::default() };
+    let options = housner::Options { restitution: restitution(o.restitution)?.or(e), ..Default::default() };
     let rocking = housner::solve(&body, record.dt, &record.accel, &options);
     let motion = rocking.motion(&body);
 

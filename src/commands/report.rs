@@ -26,7 +26,7 @@ impl Ground {
             return Ok(self.friction);
         }
         let remedy = "give a friction coefficient, zero or greater";
-        Err(CommandError::Option { option: "friction", value: self.friction.to_string(), remedy })
+        Err(CommandError::Option { option: "friction", value: format!("{:?}", self.friction), remedy })
     }
 }
 

@@ -9,6 +9,7 @@ use super::{
     common::{self, Both, RecordOptions, history_csv},
     draw::draw,
     export, members,
+    output::check_folder,
     progress::Progress,
     report::{Ground, Report},
     table, write_file,
@@ -63,13 +64,14 @@ pub fn run(o: &Options) -> Result<(), CommandError> {
         if !(0.1..=1e5).contains(&hz) {
             return Err(CommandError::Option {
                 option: "max-hz",
-                value: hz.to_string(),
+                value: format!("{hz:?}"),
                 remedy: "give a frequency between 0.1 and 1e5 Hz",
             });
         }
         case.tuning.max_omega_hz = hz;
     }
     let friction = o.ground.friction()?;
+    check_folder(&o.out)?;
     threads(o.jobs)?;
 
     let progress = Progress::new("tuning Omega_n", o.quiet);
@@ -114,7 +116,8 @@ pub fn run(o: &Options) -> Result<(), CommandError> {
     if !o.no_figures {
         draw(&o.out, &case, &job, &both, &front)?;
     }
-    let (springs, said) = (table::terminal(&parameters), report.lines().join("\n"));
+    let said: Vec<String> = report.lines().into_iter().chain(both.early()).collect();
+    let (springs, said) = (table::terminal(&parameters), said.join("\n"));
     write!(std::io::stdout(), "{springs}\n{said}\n{forces}{}", table::front_terminal(&front))?;
     eprintln!("written to {}", o.out.display());
     Ok(())
@@ -132,9 +135,16 @@ fn decks(o: &Options, parameters: &Parameters, record: &Record, both: &Both) -> 
     export::write_all(&folder, &parameters, record, &Expected::new(&simulate(&parameters, record)))
 }
 
+/// Threads beyond which a machine only starves.
+const MOST_THREADS: usize = 1024;
+
 /// Use this many threads, 0 or none: all cores.
 pub(super) fn threads(jobs: Option<usize>) -> Result<(), CommandError> {
     if let Some(n) = jobs {
+        if n > MOST_THREADS {
+            let remedy = "give at most 1024 threads, or 0 for one a core";
+            return Err(CommandError::Option { option: "jobs", value: n.to_string(), remedy });
+        }
         rayon::ThreadPoolBuilder::new()
             .num_threads(n)
             .build_global()

@@ -6,8 +6,9 @@ use clap::Args;
 
 use super::{
     CommandError,
-    common::{RecordOptions, both, history_csv},
+    common::{RecordOptions, both, history_csv, restitution},
     members,
+    output::check_file,
     report::{Ground, Report},
     write_file,
 };
@@ -24,7 +25,7 @@ pub struct Options {
     #[command(flatten)]
     ground: Ground,
     /// Velocity restitution of Housner's solution; by equation 2 unless given
-    #[arg(long)]
+    #[arg(long, allow_negative_numbers = true)]
     restitution: Option<f64>,
     /// Write the histories here (CSV)
     #[arg(long, value_name = "FILE")]
@@ -38,7 +39,10 @@ pub fn run(o: &Options) -> Result<(), CommandError> {
     let parameters = Parameters::read(&o.parameters)?;
     let record = o.record.record(Record::el_centro)?.truncated(o.record.duration(DURATION_S)?);
     let body = parameters.structure.body::<f64>();
-    let e = o.restitution.unwrap_or_else(|| body.restitution());
+    let e = restitution(o.restitution)?.unwrap_or_else(|| body.restitution());
+    for path in o.out.iter().chain(&o.forces) {
+        check_file(path)?;
+    }
     let friction = o.ground.friction()?;
     let both = both(&body, e, &parameters.chains(), &parameters.members(), &record);
     if let Some(path) = &o.out {
@@ -50,6 +54,9 @@ pub fn run(o: &Options) -> Result<(), CommandError> {
     }
     eprintln!("{}: PGA {:.4} g, {} samples of {} s", record.name, record.pga_g(), record.accel.len(), record.dt);
     for line in Report::new(&body, e, &record, &both.rocking, friction).lines() {
+        eprintln!("{line}");
+    }
+    for line in both.early() {
         eprintln!("{line}");
     }
     let report = members::Report::new(&both.matched, &both.demands, both.with.as_ref());

@@ -8,7 +8,7 @@ use clap::Args;
 use rayon::prelude::*;
 use serde::Serialize;
 
-use super::{CommandError, progress::Progress, run::threads, write_file};
+use super::{CommandError, output::check_folder, progress::Progress, run::threads, write_file};
 use crate::{
     conditioning::ILL_CONDITIONED,
     fem, figures,
@@ -128,14 +128,15 @@ pub fn run(o: &Options) -> Result<(), CommandError> {
     let restitution = o.restitution.unwrap_or_else(|| body.restitution());
     if !(0.0..=1.0).contains(&restitution) {
         let remedy = "a velocity ratio lies between 0 and 1";
-        return Err(CommandError::Option { option: "restitution", value: restitution.to_string(), remedy });
+        return Err(CommandError::Option { option: "restitution", value: format!("{restitution:?}"), remedy });
     }
     if let Some(duration) = o.duration
         && !(duration.is_finite() && duration > 0.0)
     {
         let remedy = "give seconds greater than zero";
-        return Err(CommandError::Option { option: "duration", value: duration.to_string(), remedy });
+        return Err(CommandError::Option { option: "duration", value: format!("{duration:?}"), remedy });
     }
+    check_folder(&o.out)?;
     threads(o.jobs)?;
     let source = Source {
         files: o.records.as_deref().map_or(Ok(Vec::new()), Record::list_dir)?,
@@ -147,9 +148,6 @@ pub fn run(o: &Options) -> Result<(), CommandError> {
         alpha: body.alpha(),
     };
     source.check()?;
-    std::fs::create_dir_all(&o.out)
-        .map_err(|source| CommandError::Write { path: o.out.display().to_string(), source })?;
-
     let judge = Judge {
         body,
         restitution,
@@ -171,6 +169,8 @@ pub fn run(o: &Options) -> Result<(), CommandError> {
     };
     let mut json = serde_json::to_string_pretty(&report).map_err(|e| CommandError::Result(e.to_string()))?;
     json.push('\n');
+    std::fs::create_dir_all(&o.out)
+        .map_err(|source| CommandError::Write { path: o.out.display().to_string(), source })?;
     write_file(&o.out.join("validate.json"), json.as_bytes())?;
     write_file(&o.out.join("validate.md"), tables::markdown(&validation).as_bytes())?;
     write_file(&o.out.join("validate.csv"), &tables::csv(&validation)?)?;

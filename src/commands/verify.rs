@@ -9,6 +9,7 @@ use super::{
     CommandError,
     common::{RecordOptions, csv_row},
     export::read,
+    output::check_folder,
     write_file,
 };
 use crate::{
@@ -43,6 +44,7 @@ pub fn run(o: &Options) -> Result<(), CommandError> {
         None => Program::Python(o.python.clone()),
     };
     let (parameters, record) = read(&o.parameters, &o.record)?;
+    check_folder(&o.out)?;
     let result = verify(&parameters, &record, &program)?;
 
     std::fs::create_dir_all(&o.out)

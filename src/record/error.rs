@@ -34,7 +34,7 @@ pub enum RecordError {
     )]
     Ragged { file: String, line: usize, found: usize, expected: usize },
     #[error(
-        "{file}, line {line}: the time step is {step} s where {expected} s is expected; resample evenly, or if the times are only printed coarsely pass --dt"
+        "{file}, line {line}: the time step is {step:?} s where {expected:?} s is expected; resample evenly, or if the times are only printed coarsely pass --dt"
     )]
     Uneven { file: String, line: usize, step: f64, expected: f64 },
     #[error(
@@ -47,7 +47,7 @@ pub enum RecordError {
         "{file}, line {line}: the file ends after {found} samples but its header (line {header_line}) says NPTS {npts}; the file is cut or damaged: fetch it again or correct NPTS"
     )]
     Count { file: String, line: usize, found: usize, header_line: usize, npts: u64 },
-    #[error("{file}: the file's time step is {file_dt} s but --dt is {given} s; drop --dt or correct one of them")]
+    #[error("{file}: the file's time step is {file_dt:?} s but --dt is {given:?} s; drop --dt or correct one of them")]
     StepDiffers { file: String, file_dt: f64, given: f64 },
     #[error(
         "{file}: the file says its unit is {file_units} but --units is {given}; drop --units or correct one of them"
@@ -59,12 +59,13 @@ pub enum RecordError {
     NoUnits { file: String },
     #[error("{file}: the header speaks of {quantity}, not of acceleration; give the acceleration record")]
     NotAcceleration { file: String, quantity: &'static str },
-    #[error("{record}: the time step is {dt} s; it must be between 1e-6 and 1 s")]
+    #[error("{record}: the time step is {dt:?} s; it must be between 1e-6 and 1 s")]
     BadStep { record: String, dt: f64 },
-    #[error("{record}: sample {index} (counted from 0) is {value}; every sample must be a finite number")]
+    #[error("{record}: sample {index} (counted from 0) is {value:?}; every sample must be a finite number")]
     BadSample { record: String, index: usize, value: f64 },
     #[error(
-        "{record}: the peak is {pga_g:.4} g, above 50 g; the unit is probably wrong: numbers in cm/s2 need --units cm/s2, in m/s2 --units m/s2"
+        "{record}: the peak is {shown:.4} g, above 50 g; the unit is probably wrong: numbers in cm/s2 need --units cm/s2, in m/s2 --units m/s2",
+        shown = .pga_g.min(1e9)
     )]
     HugePeak { record: String, pga_g: f64 },
 }

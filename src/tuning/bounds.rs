@@ -36,7 +36,7 @@ pub struct Bounds {
 /// What is wrong with bounds, and what to do.
 #[derive(Clone, Debug, PartialEq, Error)]
 pub enum BoundsError {
-    #[error("bounds: {name} is {value}; give a finite number greater than zero, or leave it out")]
+    #[error("bounds: {name} is {value:?}; give a finite number greater than zero, or leave it out")]
     NotPositive { name: &'static str, value: f64 },
     #[error(
         "bounds: nothing lies between {low_name} ({quantity} >= {low:.6}) and {high_name} ({quantity} <= {high:.6}) for mu = {mu}; loosen one of them"

@@ -1,0 +1,34 @@
+//! Where results go: looked at before the work, so that no work is lost and nothing is half written.
+
+use std::path::Path;
+
+use super::CommandError;
+
+/// Whether a folder for results can be made or written into.
+pub(super) fn check_folder(path: &Path) -> Result<(), CommandError> {
+    let name = || path.display().to_string();
+    let there = path.ancestors().find(|p| p.as_os_str().is_empty() || p.symlink_metadata().is_ok());
+    let there = there.filter(|p| !p.as_os_str().is_empty()).unwrap_or(Path::new("."));
+    if !there.is_dir() {
+        return Err(CommandError::NotAFolder { path: there.display().to_string() });
+    }
+    probe(there).map_err(|source| CommandError::Write { path: name(), source })
+}
+
+/// Whether a file for results can be written.
+pub(super) fn check_file(path: &Path) -> Result<(), CommandError> {
+    let name = || path.display().to_string();
+    if path.is_dir() || path.file_name().is_none() {
+        return Err(CommandError::NotAFile { path: name() });
+    }
+    let folder = path.parent().filter(|p| !p.as_os_str().is_empty()).unwrap_or(Path::new("."));
+    if !folder.is_dir() {
+        return Err(CommandError::NoFolder { path: name(), folder: folder.display().to_string() });
+    }
+    probe(folder).map_err(|source| CommandError::Write { path: name(), source })
+}
+
+/// A file without a name, gone at once.
+fn probe(folder: &Path) -> std::io::Result<()> {
+    tempfile::tempfile_in(folder).map(drop)
+}
