@@ -33,7 +33,7 @@ use uplift::Uplift;
 /// Leans from which landings are judged, shares of alpha.
 pub const LEANS: [f64; 8] = [0.9, 0.6, 0.4, 0.25, 0.15, 0.1, 0.05, 0.02];
 /// History error per relative error of restitution.
-const WEIGHT_RESTITUTION: f64 = 20.0;
+const WEIGHT_RESTITUTION: f64 = 40.0;
 /// History error per second in the air beyond what is allowed.
 const WEIGHT_AIR: f64 = 5.0;
 /// Time in the air that a landing may take [s].
