@@ -13,6 +13,7 @@ use crate::{
     record::Record,
     spring::{Chain, ChainRow, Design, Springs},
     structure::{Structure, StructureError},
+    tuning::impact::report::LandingRow,
 };
 
 /// The record the springs were tuned on.
@@ -58,6 +59,9 @@ pub struct PaperProcedure {
 #[serde(deny_unknown_fields)]
 pub struct Parameters {
     pub structure: Structure,
+    /// Velocity restitution e that the springs are to have; by equation 2 unless given.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub restitution: Option<f64>,
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub record: Option<RecordRow>,
     pub vertical: ChainRow,
@@ -80,6 +84,9 @@ pub struct Parameters {
     /// The match of the structure with its members, on the same springs.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub match_with_members: Option<Match>,
+    /// Landings from large leans to small, without any record.
+    #[serde(default, skip_serializing_if = "Vec::is_empty")]
+    pub landings: Vec<LandingRow>,
     /// Beside the springs above, where another objective chose them.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub paper_procedure: Option<PaperProcedure>,
@@ -94,6 +101,8 @@ pub enum ParametersError {
     Parse { path: String, line: usize, message: String },
     #[error("{path}: {chain}.{name} is {value:?}; give a finite number{bound}")]
     Value { path: String, chain: &'static str, name: &'static str, value: f64, bound: &'static str },
+    #[error("{path}: restitution is {value}; a velocity ratio lies between 0 and 1")]
+    Restitution { path: String, value: f64 },
     #[error("{path}: {source}")]
     Structure { path: String, source: StructureError },
     #[error("{path}: {source}")]
@@ -106,6 +115,7 @@ impl Parameters {
         let m1 = structure.mass_kg;
         Self {
             structure,
+            restitution: None,
             record: None,
             vertical: ChainRow::new(&springs.vertical, m1),
             horizontal: ChainRow::new(&springs.horizontal, m1),
@@ -116,6 +126,7 @@ impl Parameters {
             matched: None,
             conditioning: None,
             match_with_members: None,
+            landings: Vec::new(),
             paper_procedure: None,
         }
     }
@@ -134,6 +145,11 @@ impl Parameters {
     pub fn with_members(self, members: Members<f64>) -> Self {
         let Members { legs, damper, tendon, friction } = members;
         Self { legs, damper, tendon, friction, ..self }
+    }
+
+    /// Velocity restitution e of Housner's body beside these springs.
+    pub fn restitution(&self) -> f64 {
+        self.restitution.unwrap_or_else(|| self.structure.body::<f64>().restitution())
     }
 
     /// Read and check a file.
@@ -159,6 +175,9 @@ impl Parameters {
 
     fn checked(self, path: &str) -> Result<Self, ParametersError> {
         self.structure.checked().map_err(|source| ParametersError::Structure { path: path.to_string(), source })?;
+        if let Some(value) = self.restitution.filter(|e| !(0.0..=1.0).contains(e)) {
+            return Err(ParametersError::Restitution { path: path.to_string(), value });
+        }
         for (chain, row) in [("vertical", &self.vertical), ("horizontal", &self.horizontal)] {
             for (name, value, least) in [
                 ("k1_n_per_m", row.k1_n_per_m, f64::MIN_POSITIVE),

@@ -20,7 +20,7 @@ use crate::{
     members::Members,
     parameters::{PaperProcedure, Parameters, RecordRow},
     record::Record,
-    tuning::{front, job::Job},
+    tuning::{front, impact::report::landings, impulse::Found, job::Job},
     verify::simulate,
 };
 
@@ -89,6 +89,10 @@ pub fn run(o: &Options) -> Result<(), CommandError> {
 
     let mut parameters = Parameters::new(case.structure, &job.springs).with_members(case.members);
     let both = common::both(&job.body, case.restitution, &parameters.chains(), &case.members, &job.record);
+    if case.restitution != job.body.restitution() {
+        parameters.restitution = Some(case.restitution);
+    }
+    parameters.landings = landings(&job.body, &parameters.chains(), case.restitution);
     parameters.record = Some(RecordRow::new(&case.record));
     parameters.matched = Some(both.matched);
     parameters.match_with_members = both.with.as_ref().map(|with| with.matched);
@@ -116,11 +120,45 @@ pub fn run(o: &Options) -> Result<(), CommandError> {
     if !o.no_figures {
         draw(&o.out, &case, &job, &both, &front)?;
     }
-    let said: Vec<String> = report.lines().into_iter().chain(both.early()).collect();
+    let mut said: Vec<String> = report.lines().into_iter().chain(both.early()).collect();
+    said.extend(springs_said(&parameters, job.impact.as_ref(), case.tuning.max_omega_hz));
     let (springs, said) = (table::terminal(&parameters), said.join("\n"));
     write!(std::io::stdout(), "{springs}\n{said}\n{forces}{}", table::front_terminal(&front))?;
     eprintln!("written to {}", o.out.display());
     Ok(())
+}
+
+/// Error of a history that is good enough not to ask for stiffer springs.
+const GOOD: f64 = 0.03;
+
+/// Error of restitution that is worth a warning.
+const RESTITUTION_MISSED: f64 = 0.005;
+
+/// One line each on what these springs promise for other records, and what they cannot do.
+fn springs_said(parameters: &Parameters, impact: Option<&Found>, max_hz: f64) -> Vec<String> {
+    let mut lines = Vec::new();
+    // another restitution than equation 2's weighs otherwise
+    if let Some(found) = impact.filter(|_| parameters.restitution.is_none()) {
+        let mut line = format!("springs: impact objective {:.3}, about the error to expect on any record", found.error);
+        if found.error > GOOD {
+            // the error falls as 1/Omega_n
+            let hz = 10.0 * (max_hz * found.error / GOOD / 10.0).ceil();
+            line += &format!("; springs up to {hz:.0} Hz would bring it to {GOOD} (--max-hz {hz:.0})");
+        }
+        lines.push(line);
+    }
+    let errors = || parameters.landings.iter().map(|l| l.restitution_error);
+    if errors().any(|e| e.abs() > RESTITUTION_MISSED) {
+        let e = parameters.restitution();
+        let (low, high) = errors().fold((f64::INFINITY, f64::NEG_INFINITY), |(low, high), x| (low.min(x), high.max(x)));
+        lines.push(format!(
+            "springs: WARNING: restitution {e:.4} was asked for, landings have {:.4} to {:.4}; ask for \
+             one nearer to equation 2's, or allow stiffer springs",
+            e * (1.0 + low),
+            e * (1.0 + high)
+        ));
+    }
+    lines
 }
 
 /// The model for other programs. A body without rotational inertia gets some there, and its own history to check against.

@@ -24,7 +24,7 @@ pub struct Options {
     record: RecordOptions,
     #[command(flatten)]
     ground: Ground,
-    /// Velocity restitution of Housner's solution; by equation 2 unless given
+    /// Velocity restitution of Housner's solution; that of the parameters, or by equation 2, unless given
     #[arg(long, allow_negative_numbers = true)]
     restitution: Option<f64>,
     /// Write the histories here (CSV)
@@ -39,7 +39,7 @@ pub fn run(o: &Options) -> Result<(), CommandError> {
     let parameters = Parameters::read(&o.parameters)?;
     let record = o.record.record(Record::el_centro)?.truncated(o.record.duration(DURATION_S)?);
     let body = parameters.structure.body::<f64>();
-    let e = restitution(o.restitution)?.unwrap_or_else(|| body.restitution());
+    let e = restitution(o.restitution)?.unwrap_or_else(|| parameters.restitution());
     for path in o.out.iter().chain(&o.forces) {
         check_file(path)?;
     }

@@ -5,7 +5,10 @@ use comfy_table::{Table, presets};
 use crate::{
     compare::Match,
     parameters::Parameters,
-    tuning::front::{Errors, Point},
+    tuning::{
+        front::{Errors, Point},
+        impact::report::LandingRow,
+    },
 };
 
 /// Rows of Table 1: name, vertical, horizontal.
@@ -95,6 +98,26 @@ fn strings(head: &[&str]) -> Vec<String> {
     head.iter().map(|s| s.to_string()).collect()
 }
 
+const LANDINGS: [&str; 8] =
+    ["landing from", "restitution e", "error of e", "in the air", "rebound", "touch-downs", "ringing", "settlement"];
+
+/// Rows of the landings.
+fn landing_rows(p: &Parameters) -> Vec<[String; 8]> {
+    let row = |l: &LandingRow| {
+        [
+            format!("{} alpha", l.lean),
+            format!("{:.5}", l.restitution),
+            format!("{:+.3} %", l.restitution_error * 100.0),
+            format!("{:.1} ms", l.air_s * 1e3),
+            format!("{:.2}", l.rebound),
+            l.touch_downs.to_string(),
+            format!("{:.1e}", l.ringing),
+            format!("{:.3} mm", l.settlement_m * 1e3),
+        ]
+    };
+    p.landings.iter().map(row).collect()
+}
+
 const PER_FOOT: [&str; 3] = ["per foot", "vertical", "horizontal"];
 
 /// `parameters.md`.
@@ -103,6 +126,14 @@ pub fn markdown(p: &Parameters) -> String {
     if let Some(m) = &p.matched {
         out.push_str(&format!("\nMatch over the first {:.2} s:\n\n", m.duration_s));
         out.push_str(&markdown_table(&match_head("", p), match_rows(p)));
+    }
+    if !p.landings.is_empty() {
+        out.push_str(&format!(
+            "\nLandings without a record: released at rest, landed once, up to the next impact; restitution asked for \
+             {:.5}, ringing as a share of the weight.\n\n",
+            p.restitution()
+        ));
+        out.push_str(&markdown_table(&strings(&LANDINGS), landing_rows(p)));
     }
     out
 }

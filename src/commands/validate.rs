@@ -48,7 +48,7 @@ pub struct Options {
     /// Length of each history [default: the whole record]
     #[arg(long, value_name = "SECONDS", allow_negative_numbers = true)]
     duration: Option<f64>,
-    /// Velocity restitution of Housner's solution; by equation 2 unless given
+    /// Velocity restitution of Housner's solution; that of the parameters, or by equation 2, unless given
     #[arg(long, allow_negative_numbers = true)]
     restitution: Option<f64>,
     /// Folder for the results
@@ -125,7 +125,7 @@ struct Report<'a> {
 pub fn run(o: &Options) -> Result<(), CommandError> {
     let parameters = Parameters::read(&o.parameters)?;
     let body = parameters.structure.body::<f64>();
-    let restitution = o.restitution.unwrap_or_else(|| body.restitution());
+    let restitution = o.restitution.unwrap_or_else(|| parameters.restitution());
     if !(0.0..=1.0).contains(&restitution) {
         let remedy = "a velocity ratio lies between 0 and 1";
         return Err(CommandError::Option { option: "restitution", value: format!("{restitution:?}"), remedy });

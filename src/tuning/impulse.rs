@@ -53,6 +53,9 @@ fn logarithms(s: &Springs<Design<f64>>) -> [f64; 8] {
 pub struct Objective {
     impact: Impact,
     p: f64,
+    mass_share: f64,
+    /// Restitution asked for over that of equation 2.
+    ratio: f64,
     bracket: Bracket,
     control: Control,
 }
@@ -60,7 +63,14 @@ pub struct Objective {
 impl Objective {
     pub fn new(body: &Body<f64>, restitution: f64, bracket: Bracket) -> Self {
         let control = Control { tolerance: 1e-7, most_steps: 8_000, ..Control::default() };
-        Self { impact: Impact::new(body, restitution), p: body.p_squared().sqrt(), bracket, control }
+        Self {
+            impact: Impact::new(body, restitution),
+            p: body.p_squared().sqrt(),
+            mass_share: body.mass_share(),
+            ratio: restitution / body.restitution(),
+            bracket,
+            control,
+        }
     }
 
     /// sqrt of the sum of squares of the residuals.
@@ -116,7 +126,8 @@ impl LeastSquares for Objective {
 /// structures of like Omega_n/p; the best few starts are followed.
 pub fn tune(objective: &Objective, families: &[Fit], followed: usize, iterations: u64) -> Option<Found> {
     let hz = objective.bracket.max_hz;
-    let mut starts: Vec<Springs<Design<f64>>> = catalogue::near(TAU * hz / objective.p, hz);
+    let mut starts: Vec<Springs<Design<f64>>> =
+        catalogue::near(TAU * hz / objective.p, objective.mass_share, objective.ratio, hz);
     for fit in families {
         let design = Design { mu: fit.mu, f: fit.f, xi: fit.xi, omega_n_hz: hz };
         starts.push(Springs { vertical: design, horizontal: design });
