@@ -105,7 +105,7 @@ pub enum ExportError {
     )]
     Number { name: &'static str, value: f64 },
     #[error(
-        "export: {name} is not written for {format}; remove it from parameters.json, or take another --format (SAP2000 tables leave damper and tendon out, no deck holds friction)"
+        "export: {name} is not written for {format}; remove it from parameters.json, or take another --format (SAP2000 tables leave damper, tendon and friction out)"
     )]
     Member { name: &'static str, format: &'static str },
     #[error(
@@ -126,9 +126,8 @@ pub fn export(
 ) -> Result<String, ExportError> {
     let model = Model::new(parameters, record, expected)?;
     let (members, sap2000) = (&model.members, format == Format::Sap2000);
-    let springs_only = matches!(format, Format::Csv | Format::Markdown);
     for (name, left_out) in [
-        ("friction", members.friction.is_some() && !springs_only),
+        ("friction", members.friction.is_some() && sap2000),
         ("damper", members.damper.is_some() && sap2000),
         ("tendon", members.tendon.is_some() && sap2000),
     ] {

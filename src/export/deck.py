@@ -95,9 +95,9 @@ def build():
     ops.uniaxialMaterial("Parallel", 3, 31, 32)
     # The bearing asks for a moment spring; this one is too weak to be felt (1e-9 of the weight's own moment).
     ops.uniaxialMaterial("Elastic", 5, 1e-9 * MASS * GRAVITY * length)
-    # Friction so high that a pressing foot never slides: the horizontal spring k1 acts whenever the foot presses,
+    # Friction, unless one is asked for, so high that a pressing foot never slides: the horizontal spring k1 acts whenever the foot presses,
     # and not at all when it is in the air.
-    ops.frictionModel("Coulomb", 1, 1000.0)
+    ops.frictionModel("Coulomb", 1, @FRICTION@)
 
     for foot, x in FEET:
         absorber, ground = foot + ABSORBER, foot + GROUND

@@ -71,7 +71,7 @@ uniaxialMaterial Parallel 3 31 32
 uniaxialMaterial Elastic 5 [expr {1e-9 * $mass * $gravity * $length}]
 # Friction so high that a pressing foot never slides: the horizontal spring k1 acts whenever the foot presses, and not at
 # all when it is in the air.
-frictionModel Coulomb 1 1000.0
+frictionModel Coulomb 1 @FRICTION@
 
 foreach {foot x} [list 1 [expr {-$halfWidth}] 2 $halfWidth] {
     set absorber [expr {$foot + 10}]

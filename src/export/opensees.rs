@@ -17,6 +17,9 @@ pub(super) fn tcl(model: &Model) -> String {
     fill(include_str!("deck.tcl"), model, &rows)
 }
 
+/// A coefficient of friction at which no pressing foot ever slips.
+const HOLDS: f64 = 1000.0;
+
 /// A rotation without inertia of its own, on elastic legs.
 const TURNS: &str = "as little as its foot masses, so that the rotation follows the legs at once";
 
@@ -60,6 +63,7 @@ fn fill(template: &str, model: &Model, rows: &str) -> String {
         ("FOOT_MASS", digits(regularised.mass)),
         ("FOOT_C", digits(regularised.dashpot)),
         ("DAMPER_C", digits(model.members.damper.map_or(0.0, |d| d.c))),
+        ("FRICTION", digits(model.members.friction.map_or(HOLDS, |f| f.coefficient))),
         ("TENDON_K", digits(model.members.tendon.map_or(0.0, |t| t.stiffness))),
         ("TENDON_SLACK", digits(model.slack())),
         ("LEG_NOTE", model.leg_note()),
