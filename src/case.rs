@@ -336,6 +336,18 @@ mod tests {
     }
 
     #[test]
+    fn every_case_in_the_folder_can_be_read() {
+        let folder = Path::new(env!("CARGO_MANIFEST_DIR")).join("tuning");
+        let files = std::fs::read_dir(folder).unwrap().map(|entry| entry.unwrap().path());
+        let cases: Vec<PathBuf> = files.filter(|path| path.extension().is_some_and(|e| e == "toml")).collect();
+        assert!(cases.len() >= 5, "{cases:?}");
+        for path in cases {
+            let case = Case::read(&path).unwrap();
+            assert_eq!(case.tuning.objective, Objective::Impact, "{path:?}");
+        }
+    }
+
+    #[test]
     fn a_block_has_a_third_of_m_r_squared_unless_given() {
         let case = Case::parse("case.toml", STRUCTURE).unwrap();
         assert!((case.structure.rotational_inertia_kgm2 - 100.0 * (1.0 + 0.0625) / 3.0).abs() < 1e-12);
