@@ -152,6 +152,13 @@ impl<S: Scalar> Model<S> {
             let place = [px + away[0], pz + away[1]];
             let f = push(place);
             if done || iterations == MOST_ITERATIONS {
+                // along and across the leg, the force of the softer of leg and contact: it rounds least
+                let of_leg = |k: usize| law.stiffness[2 * k].re() < local[2 * k].re();
+                let axes = [t, m];
+                let [ft, fm] =
+                    [0, 1].map(|k| if of_leg(k) { law.force[k] } else { f[0] * axes[k][0] + f[1] * axes[k][1] });
+                let holds = foot.holds();
+                let f = [if holds { t[0] * ft + m[0] * fm } else { f[0] }, t[1] * ft + m[1] * fm];
                 poised.force.px_th = px_th + away[1];
                 poised.force.pz_th = pz_th - away[0];
                 break (law, place, f);

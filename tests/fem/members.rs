@@ -61,7 +61,8 @@ fn the_energy_account_closes_with_every_member() {
     for share in [1e-5, 1e-2] {
         let structure = paper(share);
         for members in kinds(&structure) {
-            for springs in [plastic(40.0, structure.mass_kg), lively(80.0, structure.mass_kg)] {
+            let mass = structure.mass_kg;
+            for springs in [plastic(40.0, mass), plastic(160.0, mass), lively(80.0, mass)] {
                 let (history, _) = run(&structure, springs, &record, &members);
                 assert_eq!(history.motion.len(), record.accel.len(), "{members:?} {:?}", history.outcome);
                 assert!(history.energy_residual < 1e-6, "{members:?} {:e}", history.energy_residual);
