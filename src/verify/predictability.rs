@@ -1,8 +1,8 @@
 //! How far a history can be foretold at all: what a hair of width does to our own.
 //!
-//! Some histories of rocking hang on so little that no two programs agree on them. A deck differs from our model by what
-//! acts like a relative change of width by 2e-5 to 6e-5, whatever the time step: by its legs, which are all but rigid, and
-//! by the instant at which a lifting foot lets its horizontal force go (friction there, none here).
+//! Some histories of rocking hang on so little that no two programs agree on them. A deck mostly differs from our model by
+//! what acts like a relative change of width by 2e-5 to 6e-5, whatever the time step. The difference arises where a foot
+//! lifts for the first time and lets its horizontal force go; feet that bounce a lot there make it larger.
 
 use super::simulate;
 use crate::{
@@ -14,7 +14,7 @@ use crate::{
 
 /// Relative change of the width.
 const CHANGE: f64 = 1e-5;
-/// NRMSE of u up to which such a change leaves a history comparable: OpenSees then agrees within 0.005.
+/// NRMSE of u up to which such a change leaves a history comparable: as a rule OpenSees then agrees within 0.005.
 const COMPARABLE: f64 = 5e-4;
 
 /// What a relative change of the width by 1e-5 does to our own history.
