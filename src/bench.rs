@@ -7,6 +7,7 @@
 //! | [`elements`] | the finite element history: tolerance, stiffness, length |
 //! | [`peers`] | SciPy, Octave, OpenSees, each in a process of its own |
 //! | [`program`] | inner fit, `tune run`, `tune validate` |
+//! | [`skips`] | what a case does not need, with and without |
 //! | [`report`], `targets` | tables; targets and whether they are met |
 //!
 //! Times are the least of several rounds in which the contenders take turns: other work on the machine only ever adds.
@@ -17,6 +18,7 @@ pub mod peers;
 pub mod program;
 pub mod report;
 pub mod rigid;
+pub mod skips;
 mod targets;
 
 #[cfg(feature = "diffsol")]
@@ -111,6 +113,7 @@ pub fn measure(effort: &Effort, python: &Path, program: &Path, tell: &dyn Fn(&st
     m.own = m.elements.len();
     m.stiffness = elements::against_stiffness(&[20.0, 80.0, 320.0, 1280.0], few);
     m.length = elements::against_length(&[5.0, 10.0, 20.0, 40.0], few);
+    m.skips = skips::all(few.max(10));
     m.fits = program::fits(few)?;
     if effort.programs {
         for (tight, scene) in &scenes {

@@ -32,6 +32,7 @@ use rayon::prelude::*;
 
 pub use row::{Outcome, Row};
 pub use statistics::{Confusion, Quantiles, Validation, ks_distance};
+pub(crate) use stream::Stream;
 
 use crate::{
     fem::Control,

@@ -9,6 +9,7 @@ use super::{
     elements::Cost,
     program::Run,
     rigid::{self, Lanes},
+    skips::Skip,
 };
 
 /// Everything that was measured.
@@ -23,6 +24,7 @@ pub struct Measured {
     pub own: usize,
     pub stiffness: Vec<Cost>,
     pub length: Vec<Cost>,
+    pub skips: Vec<Skip>,
     /// (mu, seconds)
     pub fits: Vec<(f64, f64)>,
     pub runs: Vec<Run>,
@@ -57,6 +59,7 @@ impl Measured {
         section(errors, work_precision(&self.elements, "", self.own));
         section("Cost against stiffness (default tolerance)", costs(&self.stiffness, "Omega_n", "Hz"));
         section("Cost against length (160 Hz, the same 20 s over and over)", costs(&self.length, "length", "s"));
+        section("Skipped", skips(&self.skips));
         section("Inner fit with certificate", fits(&self.fits));
         section("The program", runs(&self.runs));
         section("Targets", super::targets::table_of(self));
@@ -129,6 +132,14 @@ fn costs(costs: &[Cost], what: &str, unit: &str) -> String {
         ]
     });
     table([what, "impacts", "steps", "time", "error"], rows.collect())
+}
+
+fn skips(skips: &[Skip]) -> String {
+    let rows = skips.iter().map(|s| {
+        let saved = format!("{:.0} %", 100.0 * (1.0 - s.with / s.without));
+        [s.what.to_string(), time(s.without), time(s.with), saved, s.same.clone()]
+    });
+    table(["skipped", "time without the skip", "with it", "saved", "both ways"], rows.collect())
 }
 
 fn fits(fits: &[(f64, f64)]) -> String {

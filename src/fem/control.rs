@@ -10,6 +10,8 @@ pub struct Control {
     pub most_steps: usize,
     /// Iterations added after convergence (2 for dual numbers).
     pub extra_iterations: usize,
+    /// Take no steps while the body rests on still ground.
+    pub skip_rest: bool,
 }
 
 impl Control {
@@ -21,7 +23,7 @@ impl Control {
 
 impl Default for Control {
     fn default() -> Self {
-        Self { tolerance: 1e-9, most_steps: 2_000_000, extra_iterations: 0 }
+        Self { tolerance: 1e-9, most_steps: 2_000_000, extra_iterations: 0, skip_rest: true }
     }
 }
 

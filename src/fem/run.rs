@@ -4,6 +4,7 @@
 mod account;
 mod events;
 mod grip;
+mod rest;
 
 use std::f64::consts::FRAC_PI_2;
 
@@ -41,6 +42,8 @@ pub(crate) struct Run<'a, S> {
     balanced: bool,
     /// How often it turned in the event under way.
     turns: usize,
+    /// The body rests on still ground.
+    resting: bool,
     pub work: Work,
 }
 
@@ -69,6 +72,7 @@ impl<'a, S: Scalar> Run<'a, S> {
             h: f64::INFINITY,
             balanced: model.in_balance(&state, &feet),
             turns: 0,
+            resting: false,
             work: Work::default(),
         }
     }
@@ -89,7 +93,9 @@ impl<'a, S: Scalar> Run<'a, S> {
         for i in 0..n - 1 {
             let t0 = i as f64 * dt;
             let ground = Ground { start: scale * accel[i], slope: scale * ((accel[i + 1] - accel[i]) / dt) };
-            if let Err(outcome) = self.cross_sample(t0, dt, &ground, observer) {
+            if self.rests(&ground) {
+                observer.step(&self.view(real(t0 + dt)));
+            } else if let Err(outcome) = self.cross_sample(t0, dt, &ground, observer) {
                 return outcome;
             }
             if observer.sample(i + 1, &self.view(real(t0 + dt))).is_break() {

@@ -1,0 +1,204 @@
+//! What a case does not need is skipped: time with and without each skip, and what the skip changes.
+
+use std::{hint::black_box, ops::ControlFlow};
+
+use super::{
+    alternate,
+    elements::{Scene, at, structure},
+};
+use crate::{
+    fem::{Case, Control, Observer, Recorder, Start, View},
+    housner,
+    motion::nrmse,
+    spring::{Design, Springs},
+    tuning::outer::Benchmark,
+    validate::Stream,
+};
+
+/// One thing that is skipped.
+#[derive(Clone, Debug)]
+pub struct Skip {
+    pub what: &'static str,
+    /// Time with the skip, and without it [s].
+    pub with: f64,
+    pub without: f64,
+    /// What both ways agree in.
+    pub same: String,
+}
+
+/// All skips that have a switch.
+pub fn all(rounds: usize) -> Vec<Skip> {
+    vec![
+        rest("still ground before the record (10 s)", &silent(10.0, 1.0, 0.0), rounds),
+        rest("body at rest in the silent tail (40 s; El Centro times 0.25)", &silent(0.0, 0.25, 40.0), rounds),
+        toppled(rounds),
+        candidates(rounds.div_ceil(8)),
+        history(rounds),
+    ]
+}
+
+/// The impact springs on El Centro, times a factor, with silence around it [s].
+fn silent(before: f64, factor: f64, after: f64) -> Scene {
+    let mut scene = Scene::impact();
+    let zeros = |seconds: f64| vec![0.0; (seconds / scene.record.dt).round() as usize];
+    let shaking: Vec<f64> = scene.record.accel.iter().map(|a| factor * a).collect();
+    scene.record.accel = [zeros(before), shaking, zeros(after)].concat();
+    scene
+}
+
+fn rest(what: &'static str, scene: &Scene, rounds: usize) -> Skip {
+    let [skip, step] = [true, false].map(|skip_rest| Control { skip_rest, ..Control::default() });
+    let mut with = || drop(black_box(scene.simulate(skip)));
+    let mut without = || drop(black_box(scene.simulate(step)));
+    let times = alternate(&mut [&mut with, &mut without], rounds);
+    let (a, b) = (scene.simulate(skip), scene.simulate(step));
+    let same = format!("u to {:.0e} (NRMSE), {} impacts", nrmse(&a.motion.u, &b.motion.u), a.impacts());
+    Skip { what, with: times[0], without: times[1], same }
+}
+
+/// Watches like another observer, but never stops the run.
+struct Deaf<'a>(Stream<'a>);
+
+impl Observer<f64> for Deaf<'_> {
+    fn sample(&mut self, index: usize, view: &View<f64>) -> ControlFlow<()> {
+        let _ = self.0.sample(index, view);
+        ControlFlow::Continue(())
+    }
+}
+
+/// A push that topples the body, and then half a minute of silence: followed until the fall is certain, or until the body lies flat.
+fn toppled(rounds: usize) -> Skip {
+    let scene = Scene::impact();
+    let body = structure().body::<f64>();
+    let dt = scene.record.dt;
+    let mut accel = vec![4.0; (3.0 / dt) as usize];
+    accel.resize((33.0 / dt) as usize, 0.0);
+    let theta = housner::solve(&body, dt, &accel, &housner::Options::default()).theta;
+    let case = Case {
+        body,
+        springs: scene.springs.chains(body.mass),
+        start: Start::Settled,
+        dt,
+        accel: &accel,
+        scale: 1.0,
+        control: Control::default(),
+    };
+    let watch = || Stream::new(&body, &theta, &accel);
+    let fallen = |last: (f64, f64)| last.0.abs() > body.alpha();
+    let mut with = || {
+        black_box(case.observe(&mut watch()));
+    };
+    let mut without = || {
+        black_box(case.observe(&mut Deaf(watch())));
+    };
+    let times = alternate(&mut [&mut with, &mut without], rounds);
+    let (mut stopped, mut deaf) = (watch(), Deaf(watch()));
+    case.observe(&mut stopped);
+    case.observe(&mut deaf);
+    let word = |fallen| if fallen { "topples" } else { "stands" };
+    let same = format!("{}, {}", word(fallen(stopped.last)), word(fallen(deaf.0.last)));
+    Skip { what: "toppled body (0.4 g for 3 s, then silence)", with: times[0], without: times[1], same }
+}
+
+/// Springs from stiff to soft, judged against Housner: abandoned when their running error exceeds the best, or followed.
+fn candidates(rounds: usize) -> Skip {
+    let sets = [Scene::arr().springs, Scene::impact().springs, Scene::plain(160.0).springs];
+    let scaled = |chain: Design<f64>, hz: f64| Design { omega_n_hz: hz, ..chain };
+    let springs: Vec<Springs<Design<f64>>> = [160.0, 120.0, 80.0, 60.0, 40.0, 30.0]
+        .into_iter()
+        .flat_map(|hz| sets.map(|s| Springs { vertical: scaled(s.vertical, hz), horizontal: scaled(s.horizontal, hz) }))
+        .collect();
+    let (body, record) = (structure().body::<f64>(), Scene::arr().record);
+    let rocking = housner::solve(&body, record.dt, &record.accel, &housner::Options::default());
+    let motion = rocking.motion(&body);
+    let benchmark = Benchmark { body, dt: record.dt, accel: &record.accel, housner: &motion };
+    let best = |abandon: bool| {
+        let mut best = (f64::INFINITY, 0);
+        for (i, springs) in springs.iter().enumerate() {
+            let limit = if abandon { best.0 } else { f64::INFINITY };
+            let (error, abandoned) = benchmark.error(springs, limit, Control::search());
+            if !abandoned && error < best.0 {
+                best = (error, i);
+            }
+        }
+        best
+    };
+    let mut with = || {
+        black_box(best(true));
+    };
+    let mut without = || {
+        black_box(best(false));
+    };
+    let times = alternate(&mut [&mut with, &mut without], rounds);
+    let ((a, i), (b, j)) = (best(true), best(false));
+    let same = format!("candidates {i} and {j} win with {a:.6} and {b:.6}");
+    Skip { what: "candidates that cannot win (18 springs)", with: times[0], without: times[1], same }
+}
+
+/// A search needs the motion at the samples only, not forces, energies and events.
+fn history(rounds: usize) -> Skip {
+    let scene = Scene::impact();
+    let body = structure().body::<f64>();
+    let case = Case {
+        body,
+        springs: scene.springs.chains(body.mass),
+        start: Start::Settled,
+        dt: scene.record.dt,
+        accel: &scene.record.accel,
+        scale: 1.0,
+        control: at(1e-7),
+    };
+    let watched = || {
+        let mut last = 0.0;
+        case.observe(&mut |_: usize, view: &View<f64>| {
+            last = view.x();
+            ControlFlow::Continue(())
+        });
+        last
+    };
+    let kept = || {
+        let mut recorder = Recorder::new(case.accel.len());
+        let finish = case.observe(&mut recorder);
+        recorder.finish(finish)
+    };
+    let mut with = || {
+        black_box(watched());
+    };
+    let mut without = || drop(black_box(kept()));
+    let times = alternate(&mut [&mut with, &mut without], rounds);
+    let end = kept().motion.u.last().copied().unwrap_or_default();
+    let same = format!("last u differs by {:e} m", (watched() - end).abs());
+    Skip { what: "histories nobody asked for", with: times[0], without: times[1], same }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_resting_body_that_is_skipped_has_the_history_of_one_that_is_followed() {
+        for (scene, saved) in [(silent(3.0, 1.0, 0.0), 250), (silent(0.0, 0.25, 20.0), 1000)] {
+            let [a, b] = [true, false].map(|skip_rest| scene.simulate(Control { skip_rest, ..Control::default() }));
+            assert_eq!((a.motion.len(), a.impacts(), a.bounces()), (b.motion.len(), b.impacts(), b.bounces()));
+            assert!(a.work.steps + saved < b.work.steps, "{:?} {:?}", a.work, b.work);
+            assert!(nrmse(&a.motion.u, &b.motion.u) < 1e-7, "{:e}", nrmse(&a.motion.u, &b.motion.u));
+            assert!(nrmse(&a.motion.v, &b.motion.v) < 1e-7);
+            let weight = structure().mass_kg * crate::scalar::GRAVITY;
+            let tail = a.motion.len() - 1;
+            for foot in 0..2 {
+                let [x, y] = [&a, &b].map(|h| h.forces.vertical[foot][tail]);
+                assert!((x - y).abs() < 1e-6 * weight, "{x} {y}");
+            }
+        }
+    }
+
+    #[test]
+    fn no_skip_changes_its_result() {
+        let skips = all(1);
+        assert_eq!(toppled(1).same, "topples, topples");
+        let history = skips.last().unwrap();
+        assert_eq!(history.same, "last u differs by 0e0 m");
+        let words: Vec<&str> = skips[3].same.split(' ').collect();
+        assert_eq!((words[1], words[6]), (words[3], words[8]), "{}", skips[3].same);
+    }
+}
