@@ -92,7 +92,7 @@ impl<S> Members<S> {
 /// What is wrong with a member, and what to do.
 #[derive(Clone, Debug, PartialEq, Error)]
 pub enum MembersError {
-    #[error("{name} is {value:?}; give a finite number{bound}")]
+    #[error("{name} is {value}; give a finite number{bound}")]
     Value { name: &'static str, value: f64, bound: &'static str },
     #[error(
         "friction.coefficient is given together with legs, damper or tendon; slipping is followed for a rigid body only, leave one out"
