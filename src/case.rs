@@ -386,7 +386,7 @@ mod tests {
         assert_eq!(members.tendon, Some(Tendon { stiffness: 4e5, pretension: 5e4 }));
         assert_eq!(
             message("[legs]\nea_n = 0.0\nei_nm2 = 2e9\n"),
-            "case.toml: legs.ea_n is 0.0; give a finite number greater than zero"
+            "case.toml: legs.ea_n is 0; give a finite number greater than zero"
         );
         assert!(message("[damper]\nc = 1.0\n").contains("did you mean \"c_ns_per_m\"?"));
     }

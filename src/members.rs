@@ -167,7 +167,7 @@ mod tests {
     #[test]
     fn bad_members_are_named_with_what_to_do() {
         let legs = |ea, ei| Members { legs: Some(Legs { ea, ei }), ..Members::default() };
-        assert_eq!(message(legs(-1.0, 1e9)), "legs.ea_n is -1.0; give a finite number greater than zero");
+        assert_eq!(message(legs(-1.0, 1e9)), "legs.ea_n is -1; give a finite number greater than zero");
         assert_eq!(message(legs(1e9, f64::NAN)), "legs.ei_nm2 is NaN; give a finite number greater than zero");
         let damper = Members { damper: Some(Damper { c: f64::INFINITY }), ..Members::default() };
         assert_eq!(message(damper), "damper.c_ns_per_m is inf; give a finite number, zero or greater");
