@@ -32,6 +32,10 @@ impl<S: Scalar> Model<S> {
             return model;
         }
         let mut frame = Frame::new(members, body.radius());
+        if frame.damper.re() > 0.0 && body.inertia.re() > 0.0 {
+            // dampers let a rotation without inertia neither follow the contact forces at once nor keep its rate
+            (model.translation, model.rotation) = (body.mass, body.inertia);
+        }
         model.frame = Some(frame);
         if let Some(tendon) = members.tendon {
             let (state, _) = model.stand(tendon.pretension);
