@@ -118,7 +118,7 @@ pub fn draw(dir: &Path, case: &Case, job: &Job, both: &Both, front: &[Point]) ->
             .collect();
         figures::candidates::render(
             &figures::candidates::Candidates {
-                title: &title("Error of every candidate"),
+                title: &title("Every candidate of the paper's procedure"),
                 error_label: "NRMSE of u and v",
                 candidates: &candidates,
                 chosen: Some(tuned.chosen),
