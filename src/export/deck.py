@@ -129,11 +129,15 @@ def build():
 
     if TENDON_K > 0.0:
         ops.node(4, 0.0, 0.0)
-        ops.fix(4, 1, 1, 1)
+        # A beam that can hardly bend: a corotTruss does not turn with the body in every build of OpenSees.
+        ops.fix(4, 1, 1, 0)
         # no compression: the third stiffness; stressed: a strain from the slack length
         ops.uniaxialMaterial("Elastic", 81, TENDON_K * HEIGHT, 0.0, 0.0)
         ops.uniaxialMaterial("InitStrainMaterial", 82, 81, (HEIGHT - TENDON_SLACK) / HEIGHT)
-        ops.element("corotTruss", 80, 4, APEX, 1.0, 82)
+        ops.uniaxialMaterial("Elastic", 83, 1e-9 * MASS * GRAVITY * HEIGHT**2)
+        ops.section("Aggregator", 80, 82, "P", 83, "Mz")
+        ops.beamIntegration("Legendre", 80, 80, 2)
+        ops.element("dispBeamColumn", 80, 4, APEX, 1, 80)
 
 
 def analysis(*integrator, static=False):

@@ -104,11 +104,14 @@ foreach {foot x} [list 1 [expr {-$halfWidth}] 2 $halfWidth] {
 }
 if {$tendonK > 0.0} {
     node 4 0.0 0.0
-    fix 4 1 1 1
+    # A beam that can hardly bend: a corotTruss does not turn with the body in every build of OpenSees.
+    fix 4 1 1 0
     # no compression: the third stiffness; stressed: a strain from the slack length
     uniaxialMaterial Elastic 81 [expr {$tendonK * $height}] 0.0 0.0
     uniaxialMaterial InitStrainMaterial 82 81 [expr {($height - $tendonSlack) / $height}]
-    element corotTruss 80 4 3 1.0 82
+    uniaxialMaterial Elastic 83 [expr {1e-9 * $mass * $gravity * $height**2}]
+    section Aggregator 80 82 P 83 Mz
+    element dispBeamColumn 80 4 3 2 80 1
 }
 
 # ---------------------------------------------------------------- solver
