@@ -7,7 +7,7 @@
 //!
 //! and when a foot lands or lifts it jumps to the least that is nearest downhill.
 
-use super::model::{Foot, FootForce, Model, State, TH, Vector};
+use super::model::{Contact, Foot, FootForce, Model, State, TH, Vector, X, Z, ax, az};
 use crate::scalar::{GRAVITY, Scalar, real};
 
 /// Newton steps from anywhere: V is all but quadratic, so that a few do; the last make derivatives exact.
@@ -73,6 +73,37 @@ impl<S: Scalar> Model<S> {
             at[TH] -= step;
         }
         at[TH]
+    }
+
+    /// Give a rotation without inertia the rate at which it stays in balance while body and absorbers move on,
+    ///
+    /// ```text
+    ///   theta' = sum ( H' dp_x/dtheta + N' dp_z/dtheta at theta' = 0 ) / V''
+    /// ```
+    ///
+    /// A step too short to tell would leave it any rate, and a body that then leaves the ground keeps what it has.
+    pub fn rotate_in_balance(&self, state: &mut State<S>, feet: &[Foot<S>; 2]) {
+        let leans = feet[0].closed() || feet[1].closed();
+        if !self.massless() || self.frame.is_some() || self.friction.is_some() || !leans {
+            return;
+        }
+        let (_, _, stiffness) = self.potential(state, feet);
+        if stiffness.re() <= 0.0 {
+            return;
+        }
+        let contact = self.contact(&state.q, feet);
+        let v = &state.v;
+        let moment = |i: usize| {
+            let FootForce { px_th, pz_th, .. } = contact[i];
+            let down = (v[az(i)] - v[Z]) * self.springs.vertical.k1 * pz_th;
+            let along = (v[ax(i)] - v[X]) * self.springs.horizontal.k1 * px_th;
+            match feet[i].contact {
+                Contact::Open => S::zero(),
+                Contact::Slide | Contact::Slip(_) => down,
+                Contact::Stick => down + along,
+            }
+        };
+        state.v[TH] = (moment(0) + moment(1)) / stiffness;
     }
 
     /// Newton's method from where the body stands; whether it ends at a least of V below `before`.

@@ -36,6 +36,8 @@ pub(crate) struct Run<'a, S> {
     rate: f64,
     /// When each foot last opened [s].
     opened: [f64; 2],
+    /// Horizontal force that each foot let go when it last opened, over the weight.
+    let_go: [f64; 2],
     /// Step size that the energy account asked for [s].
     h: f64,
     /// Whether a rotation without inertia is in balance.
@@ -69,6 +71,7 @@ impl<'a, S: Scalar> Run<'a, S> {
             guess: no_guess(),
             rate: 1.0,
             opened: [f64::NEG_INFINITY; 2],
+            let_go: [0.0; 2],
             h: f64::INFINITY,
             balanced: model.in_balance(&state, &feet),
             turns: 0,

@@ -1,8 +1,8 @@
 //! How far a history can be foretold at all: what a hair of width does to our own.
 //!
 //! Some histories of rocking hang on so little that no two programs agree on them. A deck mostly differs from our model by
-//! what acts like a relative change of width by 2e-5 to 6e-5, whatever the time step. The difference arises where a foot
-//! lifts for the first time and lets its horizontal force go; feet that bounce a lot there make it larger.
+//! what acts like a relative change of width by up to 6e-5. The difference arises where a foot lifts and lets its horizontal
+//! force go, in a fast sequence of lift-offs and touch-downs that OpenSees follows to the first order of its time step.
 
 use super::simulate;
 use crate::{

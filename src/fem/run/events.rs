@@ -8,17 +8,22 @@ use crate::{
         radau::C,
         step::{Ground, Stages, no_guess},
     },
-    scalar::{Scalar, real},
+    scalar::{GRAVITY, Scalar, real},
 };
 
 /// A foot that closes again this soon after it opened, in units of 1/Omega_n, has hardly left the ground.
 const AT_ONCE: f64 = 0.1;
 
-/// Share of the weight that a foot which hardly left the ground must carry before its horizontal spring holds.
+/// Share of the weight: a lifting foot that lets go of less than this, once it closes again at once, does not hold.
 ///
-/// A massless rotation jumps when a lifting foot lets its horizontal spring go, and the jump may press that foot down
-/// again: it would open and close at an accumulating sequence of instants. What it does in the limit is slide under no
-/// weight, and that is what it is let do.
+/// A foot lifts while its horizontal spring is still loaded. It lets that force go; a body without rotational inertia
+/// turns at once and presses the foot down again, where it holds and takes part of the force back (about a half); soon it
+/// lifts again, and so on, each time with less to let go, at an accumulating sequence of instants. OpenSees goes through
+/// the same sequence as finely as its steps are, and converges to it as they get finer. Once little is let go the foot
+/// slides without a horizontal force until it lifts for good or carries weight.
+const LET_GO: f64 = 1e-2;
+
+/// Share of the weight that such a sliding foot must carry before it holds.
 const HOLDING: f64 = 1e-3;
 
 /// Steps that locate one event: Newton's method needs two or three, bisection where the gap all but grazes many more.
@@ -180,14 +185,15 @@ impl<S: Scalar> Run<'_, S> {
     }
 
     /// A foot on an elastic leg springs sideways, and maybe down, when its horizontal force is let go: it opens only if it
-    /// would not press without that force. Letting go before opening, it can only lose energy.
-    fn slide_first(&mut self, foot: usize) {
+    /// would not press without that force. If it would, it holds where it then is, anchored at `relaxed` [m].
+    fn catch(&mut self, foot: usize, relaxed: S) {
         let on_leg = self.model.frame.is_some_and(|frame| frame.leg.is_some());
         if !on_leg || self.feet[foot].closed() || !self.feet[1 - foot].holds() {
             return;
         }
         let open = (self.state, self.feet[foot]);
-        self.feet[foot].contact = Contact::Slide;
+        let contact = if self.let_go[foot] > LET_GO { Contact::Stick } else { Contact::Slide };
+        self.feet[foot] = Foot { contact, anchor: relaxed };
         self.balanced = self.model.turn_to_balance(&mut self.state, &self.feet);
         if self.model.compression(foot, &self.state.q, &self.feet[foot]).re() <= self.gap_tolerance() {
             (self.state, self.feet[foot]) = open;
@@ -198,12 +204,13 @@ impl<S: Scalar> Run<'_, S> {
     pub(super) fn switch(&mut self, foot: usize, level: f64, time: S, observer: &mut impl Observer<S>) {
         let before = self.energy.stored;
         let was = self.feet[foot].contact;
+        self.model.rotate_in_balance(&mut self.state, &self.feet);
         let anchor = self.model.anchor_here(foot, &self.state.q, &self.feet[foot]);
         self.feet[foot] = match was {
             Contact::Open => {
                 let at_once = time.re() - self.opened[foot] < AT_ONCE * self.settling;
-                let held =
-                    self.model.compression(foot, &self.state.q, &self.feet[foot]).re() >= HOLDING * self.compression;
+                let held = self.let_go[foot] > LET_GO
+                    || self.model.compression(foot, &self.state.q, &self.feet[foot]).re() >= HOLDING * self.compression;
                 // a body on sliding feet alone has nothing to lean on
                 let leans = self.feet[1 - foot].holds();
                 // with friction the force has gone before the foot opens, and nothing jumps
@@ -214,6 +221,8 @@ impl<S: Scalar> Run<'_, S> {
             Contact::Slide if level > 0.0 => Foot { contact: Contact::Stick, anchor },
             Contact::Slide | Contact::Stick | Contact::Slip(_) => {
                 self.opened[foot] = time.re();
+                let force = self.model.contact(&self.state.q, &self.feet)[foot].horizontal.re().abs();
+                self.let_go[foot] = force / (self.model.body.mass.re() * GRAVITY);
                 Foot { contact: Contact::Open, anchor }
             }
         };
@@ -222,10 +231,13 @@ impl<S: Scalar> Run<'_, S> {
             let anchor = self.model.anchor_here(other, &self.state.q, &self.feet[other]);
             self.feet[other] = Foot { contact: Contact::Stick, anchor };
         }
+        // a leg that lets its force go carries the foot to where it would be without
+        let relaxed = self.model.anchor_here(foot, &self.state.q, &self.feet[foot]);
         let met = self.turn();
         if was == Contact::Stick {
-            self.slide_first(foot);
+            self.catch(foot, relaxed);
         }
+        self.model.rotate_in_balance(&mut self.state, &self.feet);
         self.energy.stored = self.model.energy(&self.state, &self.feet);
         self.energy.released += before - self.energy.stored;
         self.guess = no_guess();
