@@ -10,13 +10,13 @@
 //! written so that nothing cancels where springs are stiff. Dampers and tendon touch the body only; the dampers' turning
 //! levers make the body's 3 x 3 matrix unsymmetric.
 
-use std::ops::Neg;
+use std::ops::{Add, Neg, Sub};
 
 use num_traits::Num;
 
 use super::{
     frame::Frame,
-    model::{Foot, Model, N, State, TH, X, Z, ax, az},
+    model::{Foot, Model, N, Pose, State, TH, X, Z, ax, az},
 };
 use crate::scalar::Scalar;
 
@@ -72,7 +72,7 @@ impl<T: Num + Copy + Neg<Output = T>> Coupled<T> {
         body[Z][Z] = body[Z][Z] + zz;
 
         let (c, rate) = (frame.damper, state.v[TH]);
-        let (sin, cos) = (state.q[TH].sin(), state.q[TH].cos());
+        let Pose { sin, cos } = Pose::of(&state.q);
         let damper = |i: usize| {
             let (force, arm) = model.damping(frame, &state.q, &state.v)[i];
             // d arm/dtheta = -dp_x/dtheta
@@ -100,26 +100,31 @@ impl<T: Num + Copy + Neg<Output = T>> Coupled<T> {
         Self { feet: [left, right], body }
     }
 
-    /// Solve for the accelerations' correction.
-    pub fn solve(&self, r: &[T; N]) -> [T; N] {
+    /// Solve for the accelerations' correction; `times` multiplies an entry of the right side by one of the matrix.
+    pub fn solve<V>(&self, r: &[V; N], times: impl Fn(V, T) -> V) -> [V; N]
+    where
+        V: Copy + Add<Output = V> + Sub<Output = V>,
+    {
         let mut d = *r;
+        let dot = |row: [T; 2], x: [V; 2]| times(x[0], row[0]) + times(x[1], row[1]);
         let [left, right] = [0, 1].map(|i| {
             let Absorbers { pivot, coupling } = &self.feet[i];
             let a = pivot.map(|row| dot(row, [r[ax(i)], r[az(i)]]));
-            [0, 1, 2].map(|k| coupling[0][k] * a[0] + coupling[1][k] * a[1])
+            [0, 1, 2].map(|k| times(a[0], coupling[0][k]) + times(a[1], coupling[1][k]))
         });
         for k in [X, Z, TH] {
             d[k] = d[k] + (left[k] + right[k]);
         }
         let u = &self.body;
-        d[Z] = d[Z] - u[Z][X] * d[X];
-        d[TH] = d[TH] - u[TH][X] * d[X] - u[TH][Z] * d[Z];
-        d[TH] = d[TH] / u[TH][TH];
-        d[Z] = (d[Z] - u[Z][TH] * d[TH]) / u[Z][Z];
-        d[X] = (d[X] - u[X][Z] * d[Z] - u[X][TH] * d[TH]) / u[X][X];
+        let over = |x: V, pivot: T| times(x, T::one() / pivot);
+        d[Z] = d[Z] - times(d[X], u[Z][X]);
+        d[TH] = d[TH] - times(d[X], u[TH][X]) - times(d[Z], u[TH][Z]);
+        d[TH] = over(d[TH], u[TH][TH]);
+        d[Z] = over(d[Z] - times(d[TH], u[Z][TH]), u[Z][Z]);
+        d[X] = over(d[X] - times(d[Z], u[X][Z]) - times(d[TH], u[X][TH]), u[X][X]);
         for i in 0..2 {
             let Absorbers { pivot, coupling } = &self.feet[i];
-            let pull = coupling.map(|row| row[X] * d[X] + row[Z] * d[Z] + row[TH] * d[TH]);
+            let pull = coupling.map(|row| times(d[X], row[X]) + times(d[Z], row[Z]) + times(d[TH], row[TH]));
             let right_side = [r[ax(i)] + pull[0], r[az(i)] + pull[1]];
             [d[ax(i)], d[az(i)]] = pivot.map(|row| dot(row, right_side));
         }

@@ -22,7 +22,7 @@ mod stance;
 
 use super::{
     leg::{Law, Leg},
-    model::{Contact, Foot, FootForce, Model, SIDE, State, TH, Vector, X, Z, ax, az},
+    model::{Contact, Foot, FootForce, Model, Pose, SIDE, State, TH, Vector, X, Z, ax, az},
 };
 use crate::{members::Members, scalar::Scalar};
 
@@ -91,6 +91,15 @@ impl<S: Scalar> Frame<S> {
         Self { leg, damper: members.damper.map_or(S::zero(), |d| d.c), cable: None }
     }
 
+    /// The members without derivatives.
+    pub fn real(&self) -> Frame<f64> {
+        Frame {
+            leg: self.leg.map(|l| Leg { length: l.length.re(), axial: l.axial.re(), bending: l.bending.re() }),
+            damper: self.damper.re(),
+            cable: self.cable.map(|c| Cable { stiffness: c.stiffness.re(), slack: c.slack.re() }),
+        }
+    }
+
     /// The tendon's pull, nothing without one.
     pub fn pull(&self, q: &Vector<S>, height: S) -> Pull<S> {
         let zero = S::zero();
@@ -117,7 +126,7 @@ impl<S: Scalar> Frame<S> {
 impl<S: Scalar> Model<S> {
     /// Foot i in balance in its contact.
     pub(crate) fn poised(&self, frame: &Frame<S>, i: usize, q: &Vector<S>, foot: &Foot<S>) -> Poised<S> {
-        let (sin, cos) = (q[TH].sin(), q[TH].cos());
+        let Pose { sin, cos } = Pose::of(q);
         let (px, pz, px_th, pz_th) = self.foot(i, q, sin, cos);
         let (kh, kv) = match foot.contact {
             Contact::Open => (S::zero(), S::zero()),
@@ -196,7 +205,7 @@ impl<S: Scalar> Model<S> {
 
     /// Each damper's force on the body [N], and its arm dp_z/dtheta [m].
     pub(super) fn damping(&self, frame: &Frame<S>, q: &Vector<S>, v: &Vector<S>) -> [(S, S); 2] {
-        let (sin, cos) = (q[TH].sin(), q[TH].cos());
+        let Pose { sin, cos } = Pose::of(q);
         std::array::from_fn(|i| {
             let arm = self.body.height * sin - self.body.half_width * SIDE[i] * cos;
             (-frame.damper * (v[Z] + arm * v[TH]), arm)

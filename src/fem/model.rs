@@ -17,7 +17,7 @@
 
 use super::frame::Frame;
 use crate::{
-    scalar::{GRAVITY, Scalar, real},
+    scalar::{GRAVITY, Scalar, real, sin_cos},
     spring::{Chain, Springs},
     structure::Body,
 };
@@ -53,6 +53,22 @@ pub(crate) type Vector<S> = [S; N];
 pub(crate) struct State<S> {
     pub q: Vector<S>,
     pub v: Vector<S>,
+}
+
+/// Sine and cosine of the rotation.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Pose<S> {
+    pub sin: S,
+    pub cos: S,
+}
+
+impl<S: Scalar> Pose<S> {
+    /// Of the rotation in these coordinates.
+    #[inline(always)]
+    pub fn of(q: &Vector<S>) -> Self {
+        let (sin, cos) = sin_cos(q[TH]);
+        Self { sin, cos }
+    }
 }
 
 /// How a foot meets its ground chain.
@@ -141,6 +157,20 @@ impl<S: Scalar> Model<S> {
         self.rotation.re() == 0.0
     }
 
+    /// The model without derivatives.
+    pub fn real(&self) -> Model<f64> {
+        let chain = |c: &Chain<S>| Chain { k1: c.k1.re(), k2: c.k2.re(), m2: c.m2.re(), c: c.c.re() };
+        let Body { mass, half_width, height, inertia } = self.body;
+        Model {
+            body: Body { mass: mass.re(), half_width: half_width.re(), height: height.re(), inertia: inertia.re() },
+            springs: Springs { vertical: chain(&self.springs.vertical), horizontal: chain(&self.springs.horizontal) },
+            translation: self.translation.re(),
+            rotation: self.rotation.re(),
+            frame: self.frame.as_ref().map(Frame::real),
+            friction: self.friction.map(|friction| friction.re()),
+        }
+    }
+
     /// Position of foot i relative to where it stood, with the derivatives by theta: (p_x, p_z, dp_x, dp_z).
     #[inline(always)]
     pub fn foot(&self, i: usize, q: &Vector<S>, sin: S, cos: S) -> (S, S, S, S) {
@@ -154,16 +184,21 @@ impl<S: Scalar> Model<S> {
 
     /// Compression of foot i's gap, a_z - p_z: positive when the foot presses [m].
     pub fn compression(&self, i: usize, q: &Vector<S>, foot: &Foot<S>) -> S {
+        self.compression_at(&Pose::of(q), i, q, foot)
+    }
+
+    /// The same where the rotation's sine and cosine are known.
+    #[inline(always)]
+    pub fn compression_at(&self, pose: &Pose<S>, i: usize, q: &Vector<S>, foot: &Foot<S>) -> S {
         if let Some(frame) = &self.frame {
             return q[az(i)] - self.poised(frame, i, q, foot).place[1];
         }
-        let (sin, cos) = (q[TH].sin(), q[TH].cos());
-        q[az(i)] - self.foot(i, q, sin, cos).1
+        q[az(i)] - self.foot(i, q, pose.sin, pose.cos).1
     }
 
     /// The compression [m] and its derivative by theta [m].
     pub fn compression_and_slope(&self, i: usize, q: &Vector<S>) -> (S, S) {
-        let (sin, cos) = (q[TH].sin(), q[TH].cos());
+        let Pose { sin, cos } = Pose::of(q);
         let (_, pz, _, pz_th) = self.foot(i, q, sin, cos);
         (q[az(i)] - pz, -pz_th)
     }
@@ -174,7 +209,7 @@ impl<S: Scalar> Model<S> {
             let poised = self.poised(frame, i, &state.q, foot);
             return poised.tangent().change(&poised.force, i, &state.v)[1] / self.springs.vertical.k1;
         }
-        let (sin, cos) = (state.q[TH].sin(), state.q[TH].cos());
+        let Pose { sin, cos } = Pose::of(&state.q);
         let pz_th = self.foot(i, &state.q, sin, cos).3;
         state.v[az(i)] - state.v[Z] - pz_th * state.v[TH]
     }
@@ -186,7 +221,8 @@ impl<S: Scalar> Model<S> {
 
     /// Velocity at which foot i slips over the ground while it does so to this side [m/s].
     pub fn slip_rate(&self, i: usize, q: &Vector<S>, v: &Vector<S>, side: f64) -> S {
-        let (_, _, px_th, pz_th) = self.foot(i, q, q[TH].sin(), q[TH].cos());
+        let Pose { sin, cos } = Pose::of(q);
+        let (_, _, px_th, pz_th) = self.foot(i, q, sin, cos);
         let Springs { vertical, horizontal } = &self.springs;
         let compression_rate = v[az(i)] - v[Z] - pz_th * v[TH];
         let stretch_rate = compression_rate * self.grip() * vertical.k1 / horizontal.k1 * side;
@@ -208,40 +244,43 @@ impl<S: Scalar> Model<S> {
         if let Some(frame) = &self.frame {
             return self.poised(frame, i, q, foot).place[0] - q[ax(i)];
         }
-        let (sin, cos) = (q[TH].sin(), q[TH].cos());
+        let Pose { sin, cos } = Pose::of(q);
         self.foot(i, q, sin, cos).0 - q[ax(i)]
     }
 
     /// Contact forces and kinematics of both feet.
     #[inline(always)]
     pub fn contact(&self, q: &Vector<S>, feet: &[Foot<S>; 2]) -> [FootForce<S>; 2] {
+        self.contact_at(&Pose::of(q), q, feet)
+    }
+
+    /// The same where the rotation's sine and cosine are known.
+    #[inline(always)]
+    pub fn contact_at(&self, pose: &Pose<S>, q: &Vector<S>, feet: &[Foot<S>; 2]) -> [FootForce<S>; 2] {
         if let Some(frame) = &self.frame {
             return self.frame_contact(frame, q, feet);
         }
-        let (sin, cos) = (q[TH].sin(), q[TH].cos());
-        std::array::from_fn(|i| {
-            let (px, pz, px_th, pz_th) = self.foot(i, q, sin, cos);
-            let (horizontal, vertical) = match feet[i].contact {
-                Contact::Open => (S::zero(), S::zero()),
-                Contact::Slide => (S::zero(), (q[az(i)] - pz) * self.springs.vertical.k1),
-                Contact::Stick => (
-                    (q[ax(i)] + feet[i].anchor - px) * self.springs.horizontal.k1,
-                    (q[az(i)] - pz) * self.springs.vertical.k1,
-                ),
-                Contact::Slip(side) => {
-                    let vertical = (q[az(i)] - pz) * self.springs.vertical.k1;
-                    (-vertical * self.grip() * side, vertical)
-                }
-            };
-            FootForce { px_th, pz_th, horizontal, vertical }
-        })
+        [self.foot_force(pose, 0, q, &feet[0]), self.foot_force(pose, 1, q, &feet[1])]
+    }
+
+    #[inline(always)]
+    fn foot_force(&self, pose: &Pose<S>, i: usize, q: &Vector<S>, foot: &Foot<S>) -> FootForce<S> {
+        let (px, pz, px_th, pz_th) = self.foot(i, q, pose.sin, pose.cos);
+        let press = || (q[az(i)] - pz) * self.springs.vertical.k1;
+        let (horizontal, vertical) = match foot.contact {
+            Contact::Open => (S::zero(), S::zero()),
+            Contact::Slide => (S::zero(), press()),
+            Contact::Stick => ((q[ax(i)] + foot.anchor - px) * self.springs.horizontal.k1, press()),
+            Contact::Slip(side) => (-press() * self.grip() * side, press()),
+        };
+        FootForce { px_th, pz_th, horizontal, vertical }
     }
 
     /// Forces on the seven coordinates at ground acceleration `ground` [m/s2].
     #[inline(always)]
     pub fn forces(&self, q: &Vector<S>, v: &Vector<S>, feet: &[Foot<S>; 2], ground: S) -> Vector<S> {
         let Springs { vertical, horizontal } = &self.springs;
-        let contact = self.contact(q, feet);
+        let contact = self.contact_at(&Pose::of(q), q, feet);
         let [l, r] = &contact;
         let m = self.body.mass;
         let mut f = [S::zero(); N];
@@ -285,9 +324,15 @@ impl<S: Scalar> Model<S> {
 
     /// Kinetic, gravitational and elastic energy [J], gravity from the unstressed position.
     pub fn energy(&self, state: &State<S>, feet: &[Foot<S>; 2]) -> S {
+        self.energy_at(&Pose::of(&state.q), state, feet)
+    }
+
+    /// The same where the rotation's sine and cosine are known.
+    #[inline(always)]
+    pub fn energy_at(&self, pose: &Pose<S>, state: &State<S>, feet: &[Foot<S>; 2]) -> S {
         let Springs { vertical, horizontal } = &self.springs;
         let (q, v) = (&state.q, &state.v);
-        let contact = self.contact(q, feet);
+        let contact = self.contact_at(pose, q, feet);
         let share = |i: usize| {
             let mut twice = horizontal.m2 * v[ax(i)] * v[ax(i)] + vertical.m2 * v[az(i)] * v[az(i)];
             twice += horizontal.k2 * q[ax(i)] * q[ax(i)] + vertical.k2 * q[az(i)] * q[az(i)];
@@ -357,7 +402,7 @@ impl<S: Scalar> Model<S> {
         let thrust = self.translation * radius * weight * radius * lean.sin() / inertia;
         let (h, n) = (-side * thrust * lean.cos(), weight - thrust * lean.sin());
 
-        let (sin, cos) = (theta.sin(), theta.cos());
+        let (sin, cos) = sin_cos(theta);
         let mut q = [S::zero(); N];
         q[TH] = theta;
         q[ax(pressing)] = -h / horizontal.k2;

@@ -4,7 +4,7 @@
 //! stiffness s^2 k1 (m2 + s c + s^2 k2) / (m2 + s c + s^2 (k1 + k2)), equation (5) with s^-1 for i omega. The body's
 //! 3 x 3 matrix is an arrow (X and Z meet only in theta), so it too is solved without a general factorisation.
 
-use std::ops::Neg;
+use std::ops::{Add, Neg, Sub};
 
 use num_traits::Num;
 
@@ -36,20 +36,24 @@ impl<T: Num + Copy> Condensed<T> {
     }
 }
 
-/// The condensed matrix for one eigenvalue, ready to solve with.
+/// Both feet's chains, horizontal and vertical. They depend on the step's size and on what holds, on nothing else.
+#[derive(Clone, Copy)]
+pub(super) struct Chains<T>([[Condensed<T>; 2]; 2]);
+
+impl<T: Num + Copy> Chains<T> {
+    pub fn new<S: Scalar>(model: &Model<S>, feet: &[Foot<S>; 2], s: T, lift: &impl Fn(S) -> T) -> Self {
+        Self([0, 1].map(|i| {
+            let h = Condensed::new(&model.springs.horizontal, feet[i].holds(), s, lift);
+            let v = Condensed::new(&model.springs.vertical, feet[i].closed(), s, lift);
+            [h, v]
+        }))
+    }
+}
+
+/// The matrix for one eigenvalue, ready to solve with.
 pub(super) struct Newton<T> {
-    chains: [[Condensed<T>; 2]; 2],
-    /// dp_x/dtheta and dp_z/dtheta of each foot.
-    lever: [[T; 2]; 2],
-    x_inv: T,
-    z_inv: T,
-    th_inv: T,
-    x_th: T,
-    z_th: T,
-    /// The matrix of a body with members, in place of all the rest.
-    coupled: Option<Coupled<T>>,
-    /// The same while a foot slips.
-    slipping: Option<Box<Slipping<T>>>,
+    chains: Chains<T>,
+    matrix: Matrix<T>,
 }
 
 impl<T: Num + Copy + Neg<Output = T>> Newton<T> {
@@ -61,44 +65,78 @@ impl<T: Num + Copy + Neg<Output = T>> Newton<T> {
         s: T,
         lift: impl Fn(S) -> T,
     ) -> Self {
+        let chains = Chains::new(model, feet, s, &lift);
+        let matrix = Matrix::new(&chains, model, state, feet, s, lift);
+        Self { chains, matrix }
+    }
+
+    /// Solve for the accelerations' correction.
+    pub fn solve(&self, r: &[T; N]) -> [T; N] {
+        self.matrix.solve(&self.chains, r, |x, t| x * t)
+    }
+}
+
+/// What is left of the matrix once the chains are condensed.
+pub(super) struct Matrix<T> {
+    /// dp_x/dtheta and dp_z/dtheta of each foot.
+    lever: [[T; 2]; 2],
+    x_inv: T,
+    z_inv: T,
+    th_inv: T,
+    x_th: T,
+    z_th: T,
+    /// The matrix of a body with members, in place of all the rest.
+    coupled: Option<Box<Coupled<T>>>,
+    /// The same while a foot slips.
+    slipping: Option<Box<Slipping<T>>>,
+}
+
+impl<T: Num + Copy + Neg<Output = T>> Matrix<T> {
+    /// Factor at `state` for s = h lambda.
+    #[inline(always)]
+    pub fn new<S: Scalar>(
+        chains: &Chains<T>,
+        model: &Model<S>,
+        state: &State<S>,
+        feet: &[Foot<S>; 2],
+        s: T,
+        lift: impl Fn(S) -> T,
+    ) -> Self {
         if let Some(frame) = &model.frame {
-            return Self { coupled: Some(Coupled::new(model, frame, state, feet, s, &lift)), ..Self::none() };
+            let coupled = Some(Box::new(Coupled::new(model, frame, state, feet, s, &lift)));
+            return Self { coupled, ..Self::none() };
         }
         if feet.iter().any(|foot| matches!(foot.contact, Contact::Slip(_))) {
-            return Self { slipping: Some(Box::new(Slipping::new(model, state, feet, s, &lift))), ..Self::none() };
+            let slipping = Some(Box::new(Slipping::new(model, state, feet, s, &lift)));
+            return Self { slipping, ..Self::none() };
         }
         let contact = model.contact(&state.q, feet);
         let masses = model.masses(feet);
         // [xx, zz, tt, x_th, z_th] of both feet
         let mut shares = [[T::zero(); 5]; 2];
         let mut lever = [[T::zero(); 2]; 2];
-        let chains = std::array::from_fn(|i| {
-            let closed = feet[i].closed();
-            let h = Condensed::new(&model.springs.horizontal, feet[i].holds(), s, &lift);
-            let v = Condensed::new(&model.springs.vertical, closed, s, &lift);
-            let foot = &contact[i];
+        for i in 0..2 {
+            let ([h, v], foot) = (&chains.0[i], &contact[i]);
             lever[i] = [lift(foot.px_th), lift(foot.pz_th)];
-            if closed {
+            if feet[i].closed() {
                 let [px, pz] = lever[i];
                 // the turning lever arms: d2p_x = dp_z, d2p_z = -dp_x
                 let geometric = lift(foot.vertical * foot.px_th - foot.horizontal * foot.pz_th);
                 let tt = h.stiffness * px * px + v.stiffness * pz * pz + s * s * geometric;
                 shares[i] = [h.stiffness, v.stiffness, tt, h.stiffness * px, v.stiffness * pz];
             }
-            [h, v]
-        });
-        let [xx, zz, tt, x_th, z_th] = std::array::from_fn(|k| shares[0][k] + shares[1][k]);
+        }
+        let sum = |k: usize| shares[0][k] + shares[1][k];
+        let (xx, zz, tt, x_th, z_th) = (sum(0), sum(1), sum(2), sum(3), sum(4));
         let x_inv = T::one() / (lift(masses[X]) + xx);
         let z_inv = T::one() / (lift(masses[Z]) + zz);
         let th_inv = T::one() / (lift(masses[TH]) + tt - x_th * x_th * x_inv - z_th * z_th * z_inv);
-        Self { chains, lever, x_inv, z_inv, th_inv, x_th, z_th, coupled: None, slipping: None }
+        Self { lever, x_inv, z_inv, th_inv, x_th, z_th, coupled: None, slipping: None }
     }
 
     fn none() -> Self {
         let zero = T::zero();
-        let none = Condensed { pivot: zero, coupling: zero, stiffness: zero };
         Self {
-            chains: [[none; 2]; 2],
             lever: [[zero; 2]; 2],
             x_inv: zero,
             z_inv: zero,
@@ -110,33 +148,39 @@ impl<T: Num + Copy + Neg<Output = T>> Newton<T> {
         }
     }
 
-    /// Solve for the accelerations' correction.
+    /// Solve for the accelerations' correction; `times` multiplies an entry of the right side by one of the matrix.
     #[inline(always)]
-    pub fn solve(&self, r: &[T; N]) -> [T; N] {
+    pub fn solve<V>(&self, chains: &Chains<T>, r: &[V; N], times: impl Fn(V, T) -> V + Copy) -> [V; N]
+    where
+        V: Copy + Add<Output = V> + Sub<Output = V>,
+    {
         if let Some(coupled) = &self.coupled {
-            return coupled.solve(r);
+            return coupled.solve(r, times);
         }
         if let Some(slipping) = &self.slipping {
-            return slipping.solve(r);
+            return slipping.solve(r, times);
         }
+        let chains = &chains.0;
         let mut d = *r;
-        let [left, right] = [0, 1].map(|i| {
-            let [h, v] = &self.chains[i];
-            let (from_x, from_z) = (h.coupling * h.pivot * r[ax(i)], v.coupling * v.pivot * r[az(i)]);
+        let from = |i: usize| {
+            let [h, v] = &chains[i];
+            let (from_x, from_z) = (times(r[ax(i)], h.coupling * h.pivot), times(r[az(i)], v.coupling * v.pivot));
             let [px, pz] = self.lever[i];
-            [from_x, from_z, from_x * px + from_z * pz]
-        });
+            [from_x, from_z, times(from_x, px) + times(from_z, pz)]
+        };
+        let (left, right) = (from(0), from(1));
         for k in [X, Z, TH] {
             d[k] = d[k] + (left[k] + right[k]);
         }
-        d[TH] = (d[TH] - self.x_th * self.x_inv * d[X] - self.z_th * self.z_inv * d[Z]) * self.th_inv;
-        d[X] = (d[X] - self.x_th * d[TH]) * self.x_inv;
-        d[Z] = (d[Z] - self.z_th * d[TH]) * self.z_inv;
+        let turned = times(d[X], self.x_th * self.x_inv) + times(d[Z], self.z_th * self.z_inv);
+        d[TH] = times(d[TH] - turned, self.th_inv);
+        d[X] = times(d[X] - times(d[TH], self.x_th), self.x_inv);
+        d[Z] = times(d[Z] - times(d[TH], self.z_th), self.z_inv);
         for i in 0..2 {
-            let [h, v] = &self.chains[i];
+            let [h, v] = &chains[i];
             let [px, pz] = self.lever[i];
-            d[ax(i)] = (r[ax(i)] + h.coupling * (d[X] + px * d[TH])) * h.pivot;
-            d[az(i)] = (r[az(i)] + v.coupling * (d[Z] + pz * d[TH])) * v.pivot;
+            d[ax(i)] = times(r[ax(i)] + times(d[X] + times(d[TH], px), h.coupling), h.pivot);
+            d[az(i)] = times(r[az(i)] + times(d[Z] + times(d[TH], pz), v.coupling), v.pivot);
         }
         d
     }

@@ -13,7 +13,7 @@ use super::{
     energy::Energy,
     model::{Foot, Model, State, TH, Vector},
     observer::{Observer, View},
-    step::{Ground, Request, Stages, no_guess, step},
+    step::{Ground, Request, Stages, Stepper, no_guess},
 };
 use crate::scalar::{GRAVITY, Scalar, real};
 use events::Met;
@@ -21,6 +21,7 @@ use events::Met;
 /// A history in the making.
 pub(crate) struct Run<'a, S> {
     model: &'a Model<S>,
+    stepper: Stepper<'a, S>,
     control: Control,
     state: State<S>,
     feet: [Foot<S>; 2],
@@ -61,6 +62,7 @@ impl<'a, S: Scalar> Run<'a, S> {
         let scale = (stored.re() - rest).abs().max(1e-3 * rest.abs());
         Self {
             model,
+            stepper: Stepper::new(model),
             control,
             state,
             feet,
@@ -93,12 +95,13 @@ impl<'a, S: Scalar> Run<'a, S> {
         if observer.sample(0, &self.view(S::zero())).is_break() {
             return Outcome::Stopped { time: 0.0 };
         }
+        let mut stages = Stages::none();
         for i in 0..n - 1 {
             let t0 = i as f64 * dt;
             let ground = Ground { start: scale * accel[i], slope: scale * ((accel[i + 1] - accel[i]) / dt) };
             if self.rests(&ground) {
                 observer.step(&self.view(real(t0 + dt)));
-            } else if let Err(outcome) = self.cross_sample(t0, dt, &ground, observer) {
+            } else if let Err(outcome) = self.cross_sample(t0, dt, &ground, &mut stages, observer) {
                 return outcome;
             }
             if observer.sample(i + 1, &self.view(real(t0 + dt))).is_break() {
@@ -114,6 +117,7 @@ impl<'a, S: Scalar> Run<'a, S> {
         t0: f64,
         dt: f64,
         ground: &Ground<S>,
+        stages: &mut Stages<S>,
         observer: &mut impl Observer<S>,
     ) -> Result<(), Outcome> {
         let mut t = S::zero();
@@ -132,22 +136,22 @@ impl<'a, S: Scalar> Run<'a, S> {
             }
             let h = self.next_size(left);
             let here = Ground { start: ground.start + ground.slope * t, slope: ground.slope };
-            let Some(stages) = self.attempt(h, &here) else {
+            if !self.attempt(h, &here, stages) {
                 self.refuse(h.re() * 0.25);
                 continue;
-            };
-            let met = self.met(&stages);
+            }
+            let met = self.met(stages);
             let (located, tau) = match met {
-                Met::Nothing => (Some((stages, false)), 1.0),
-                Met::Crossing { foot, level, tau } => (self.locate(foot, level, &stages, tau, &here), tau),
-                Met::Grip { foot, tau } => (self.locate_grip(foot, tau, stages.h, &here).map(|s| (s, true)), tau),
+                Met::Nothing => (Some(false), 1.0),
+                Met::Crossing { foot, level, tau } => (self.locate(foot, level, stages, tau, &here), tau),
+                Met::Grip { foot, tau } => (self.locate_grip(foot, tau, stages, &here).then_some(true), tau),
             };
-            let Some((stages, changes)) = located else {
+            let Some(changes) = located else {
                 // nearer to the event, the step that ends there is easier
                 self.refuse(h.re() * tau * 0.5);
                 continue;
             };
-            if !self.account(&stages, &here) {
+            if !self.account(stages, &here) {
                 self.work.rejected += 1;
                 continue;
             }
@@ -186,19 +190,23 @@ impl<'a, S: Scalar> Run<'a, S> {
         }
     }
 
-    fn attempt(&mut self, h: S, ground: &Ground<S>) -> Option<Stages<S>> {
+    /// Take a step of size h into `stages`; whether it converges.
+    fn attempt(&mut self, h: S, ground: &Ground<S>, stages: &mut Stages<S>) -> bool {
+        // a share of what presses the feet that the energy account would not notice, never below the rounding of positions
+        let share = (1e3 * self.control.tolerance).clamp(1e-7, 1e-3);
         let request = Request {
             h,
             ground: *ground,
             guess: &self.guess,
-            // never below the rounding of positions
-            tolerance: (1e-7 * self.compression).max(8.0 * f64::EPSILON * self.model.body.radius().re()),
+            tolerance: (share * self.compression).max(8.0 * f64::EPSILON * self.model.body.radius().re()),
             extra: self.control.extra_iterations,
             rate: self.rate,
         };
-        let stages = step(self.model, &self.state, &self.feet, &request)?;
-        self.work.iterations += stages.iterations;
-        Some(stages)
+        let converged = self.stepper.step(&self.state, &self.feet, &request, stages);
+        if converged {
+            self.work.iterations += stages.iterations;
+        }
+        converged
     }
 
     pub fn energy(&self) -> &Energy<S> {

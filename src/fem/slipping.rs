@@ -3,6 +3,8 @@
 //! A slipping foot's horizontal force follows its vertical one, H = -+ mu N, which makes the matrix unsymmetric and ties
 //! each of the foot's absorbers to both of its motions. It is factored whole: slipping is rare and short.
 
+use std::ops::Sub;
+
 use num_traits::Num;
 
 use super::model::{Contact, Foot, Model, N, State, TH, X, Z, ax, az};
@@ -68,20 +70,20 @@ impl<T: Num + Copy> Slipping<T> {
         Self(lu)
     }
 
-    /// Solve for the accelerations' correction.
-    pub fn solve(&self, r: &[T; N]) -> [T; N] {
+    /// Solve for the accelerations' correction; `times` multiplies an entry of the right side by one of the matrix.
+    pub fn solve<V: Copy + Sub<Output = V>>(&self, r: &[V; N], times: impl Fn(V, T) -> V) -> [V; N] {
         let lu = &self.0;
         let mut d = ORDER.map(|k| r[k]);
         for i in 0..N {
             for j in 0..i {
-                d[i] = d[i] - lu[i][j] * d[j];
+                d[i] = d[i] - times(d[j], lu[i][j]);
             }
         }
         for i in (0..N).rev() {
             for j in i + 1..N {
-                d[i] = d[i] - lu[i][j] * d[j];
+                d[i] = d[i] - times(d[j], lu[i][j]);
             }
-            d[i] = d[i] / lu[i][i];
+            d[i] = times(d[i], T::one() / lu[i][i]);
         }
         let mut out = *r;
         for (k, d) in ORDER.into_iter().zip(d) {

@@ -3,8 +3,8 @@
 use num_complex::Complex;
 
 use super::{
-    model::{Foot, Model, N, State, TH, Vector},
-    newton::Newton,
+    model::{Contact, Foot, Model, N, State, TH, Vector},
+    newton::{Chains, Matrix},
     radau::{A, A2, ALPHA, BETA, C, GAMMA, T, T_INV, position_weights},
 };
 use crate::scalar::{Scalar, real};
@@ -35,6 +35,12 @@ pub(super) struct Stages<S> {
 }
 
 impl<S: Scalar> Stages<S> {
+    /// Of no step yet.
+    pub fn none() -> Self {
+        let none = [[S::zero(); N]; 3];
+        Self { h: S::zero(), a: none, q: none, v: none, iterations: 0, rate: 1.0 }
+    }
+
     /// State at the end of the step.
     pub fn end(&self) -> State<S> {
         State { q: self.q[2], v: self.v[2] }
@@ -74,86 +80,140 @@ pub(super) struct Request<'a, S> {
     pub rate: f64,
 }
 
-/// Take the step; `None` when the iteration does not converge.
-pub(super) fn step<S: Scalar>(
-    model: &Model<S>,
-    start: &State<S>,
-    feet: &[Foot<S>; 2],
-    request: &Request<S>,
-) -> Option<Stages<S>> {
-    let &Request { h, ground, guess, tolerance, extra, .. } = request;
-    // The matrix is taken half way, where its error over the step is least.
-    let mut middle = *start;
-    for k in 0..N {
-        middle.q[k] += h * start.v[k] * 0.5;
+/// Takes steps of a model.
+///
+/// The Newton matrix is one of real numbers whatever the scalar is: the iteration makes derivatives converge as it does values,
+/// by the same factor, and a matrix times a dual number is cheap where two dual numbers are not.
+pub(super) struct Stepper<'a, S> {
+    model: &'a Model<S>,
+    real: Model<f64>,
+    chains: Option<Shared>,
+}
+
+/// What steps of one size under one contact share.
+#[derive(Clone, Copy)]
+struct Shared {
+    h: f64,
+    contact: [Contact; 2],
+    real: Chains<f64>,
+    pair: Chains<Complex<f64>>,
+}
+
+impl<'a, S: Scalar> Stepper<'a, S> {
+    pub fn new(model: &'a Model<S>) -> Self {
+        Self { model, real: model.real(), chains: None }
     }
-    let real_newton = Newton::new(model, &middle, feet, h * GAMMA, |x: S| x);
-    let pair = Complex::new(h * ALPHA, h * BETA);
-    let pair_newton = Newton::new(model, &middle, feet, pair, |x: S| Complex::new(x, S::zero()));
 
-    let masses = model.masses(feet);
-    let radius = model.body.radius().re();
-    let grounds = C.map(|c| ground.start + ground.slope * h * c);
-    let h2 = h * h;
-    let base: [Vector<S>; 3] = C.map(|c| std::array::from_fn(|k| start.q[k] + h * start.v[k] * c));
-    let mut s = Stages { h, a: *guess, q: base, v: [start.v; 3], iterations: 0, rate: request.rate };
-    let (mut last, mut left) = (f64::INFINITY, None);
-    loop {
-        for i in 0..3 {
-            let [a0, a1, a2] = &s.a;
-            let ([b0, b1, b2], [d0, d1, d2]) = (A2[i], A[i]);
-            s.q[i] = std::array::from_fn(|k| base[i][k] + h2 * (a0[k] * b0 + a1[k] * b1 + a2[k] * b2));
-            s.v[i] = std::array::from_fn(|k| start.v[k] + h * (a0[k] * d0 + a1[k] * d1 + a2[k] * d2));
+    /// Condense the chains for this size and contact, unless the last step has.
+    fn condense(&mut self, h: f64, feet: &[Foot<f64>; 2]) {
+        let contact = feet.map(|foot| foot.contact);
+        if !self.chains.as_ref().is_some_and(|shared| shared.h == h && shared.contact == contact) {
+            let real = Chains::new(&self.real, feet, h * GAMMA, &|x| x);
+            let pair = Chains::new(&self.real, feet, h * EIGENVALUE, &complex);
+            self.chains = Some(Shared { h, contact, real, pair });
         }
-        if left == Some(0) {
-            return Some(s);
-        }
-        if s.iterations == MOST_ITERATIONS {
-            return None;
-        }
-        s.iterations += 1;
+    }
 
-        let mut residual = [[S::zero(); N]; 3];
-        for i in 0..3 {
-            residual[i] = model.forces(&s.q[i], &s.v[i], feet, grounds[i]);
-            for k in 0..N {
-                residual[i][k] -= masses[k] * s.a[i][k];
-            }
-        }
-        let mode = |row: usize, k: usize| {
-            residual[0][k] * T_INV[row][0] + residual[1][k] * T_INV[row][1] + residual[2][k] * T_INV[row][2]
-        };
-        let r0: Vector<S> = std::array::from_fn(|k| mode(0, k));
-        let r1: [Complex<S>; N] = std::array::from_fn(|k| Complex::new(mode(1, k), -mode(2, k)));
-        let (w0, w1) = (real_newton.solve(&r0), pair_newton.solve(&r1));
-
-        let mut change: f64 = 0.0;
+    /// Take the step into `s`; whether the iteration converges.
+    pub fn step(&mut self, start: &State<S>, feet: &[Foot<S>; 2], request: &Request<S>, s: &mut Stages<S>) -> bool {
+        let &Request { h, ground, guess, tolerance, extra, .. } = request;
+        // The matrix is taken half way, where its error over the step is least.
+        let hr = h.re();
+        let mut middle = State { q: [0.0; N], v: [0.0; N] };
         for k in 0..N {
-            let length = if k == TH { radius } else { 1.0 };
-            for (a, [t0, t1, t2]) in s.a.iter_mut().zip(T) {
-                let delta = w0[k] * t0 + w1[k].re * t1 - w1[k].im * t2;
-                a[k] += delta;
-                change = change.max((delta.re() * length).abs());
+            middle.v[k] = start.v[k].re();
+            middle.q[k] = start.q[k].re() + hr * middle.v[k] * 0.5;
+        }
+        let real_feet = feet.map(|foot| Foot { contact: foot.contact, anchor: foot.anchor.re() });
+        self.condense(hr, &real_feet);
+        let Some(shared) = &self.chains else { return false };
+        let real_matrix = Matrix::new(&shared.real, &self.real, &middle, &real_feet, hr * GAMMA, |x| x);
+        let pair_matrix = Matrix::new(&shared.pair, &self.real, &middle, &real_feet, hr * EIGENVALUE, complex);
+
+        let model = self.model;
+        let masses = model.masses(feet);
+        let radius = self.real.body.radius();
+        let grounds = C.map(|c| ground.start + ground.slope * h * c);
+        let h2 = h * h;
+        (s.h, s.a, s.iterations, s.rate) = (h, *guess, 0, request.rate);
+        let (mut last, mut left) = (f64::INFINITY, None);
+        loop {
+            for i in 0..3 {
+                let ([b0, b1, b2], [d0, d1, d2]) = (A2[i], A[i]);
+                let hc = h * C[i];
+                for k in 0..N {
+                    let (a0, a1, a2) = (s.a[0][k], s.a[1][k], s.a[2][k]);
+                    s.q[i][k] = start.q[k] + (start.v[k] * hc + (a0 * b0 + a1 * b1 + a2 * b2) * h2);
+                    s.v[i][k] = start.v[k] + (a0 * d0 + a1 * d1 + a2 * d2) * h;
+                }
             }
+            if left == Some(0) {
+                return true;
+            }
+            if s.iterations == MOST_ITERATIONS {
+                return false;
+            }
+            s.iterations += 1;
+
+            let mut residual = [[S::zero(); N]; 3];
+            for i in 0..3 {
+                residual[i] = model.forces(&s.q[i], &s.v[i], feet, grounds[i]);
+                for k in 0..N {
+                    residual[i][k] -= masses[k] * s.a[i][k];
+                }
+            }
+            let mut r0 = [S::zero(); N];
+            let mut r1 = [Complex::new(S::zero(), S::zero()); N];
+            for k in 0..N {
+                let (a, b, c) = (residual[0][k], residual[1][k], residual[2][k]);
+                let mode = |row: usize| a * T_INV[row][0] + b * T_INV[row][1] + c * T_INV[row][2];
+                r0[k] = mode(0);
+                r1[k] = Complex::new(mode(1), -mode(2));
+            }
+            let w0 = real_matrix.solve(&shared.real, &r0, |x, t| x * t);
+            let w1 = pair_matrix.solve(&shared.pair, &r1, times);
+
+            let mut change: f64 = 0.0;
+            for k in 0..N {
+                let length = if k == TH { radius } else { 1.0 };
+                for (a, [t0, t1, t2]) in s.a.iter_mut().zip(T) {
+                    let delta = w0[k] * t0 + w1[k].re * t1 - w1[k].im * t2;
+                    a[k] += delta;
+                    change = change.max((delta.re() * length).abs());
+                }
+            }
+            // the largest coefficient of A^2 is 0.32
+            change *= 0.32 * h2.re();
+            // once converged, what is left is rounding and may well grow
+            if !change.is_finite() || (left.is_none() && s.iterations > 3 && change > 2.0 * last) {
+                return false;
+            }
+            // geometric convergence: what is still missing is change * rate / (1 - rate)
+            if last.is_finite() {
+                s.rate = (change / last).min(1.0);
+            }
+            let missing = if s.rate < 1.0 { change * s.rate / (1.0 - s.rate) } else { f64::INFINITY };
+            last = change;
+            left = match left {
+                Some(n) => Some(n - 1),
+                None if change <= tolerance || missing <= tolerance => Some(extra),
+                None => None,
+            };
         }
-        // the largest coefficient of A^2 is 0.32
-        change *= 0.32 * h2.re();
-        // once converged, what is left is rounding and may well grow
-        if !change.is_finite() || (left.is_none() && s.iterations > 3 && change > 2.0 * last) {
-            return None;
-        }
-        // geometric convergence: what is still missing is change * rate / (1 - rate)
-        if last.is_finite() {
-            s.rate = (change / last).min(1.0);
-        }
-        let missing = if s.rate < 1.0 { change * s.rate / (1.0 - s.rate) } else { f64::INFINITY };
-        last = change;
-        left = match left {
-            Some(n) => Some(n - 1),
-            None if change <= tolerance || missing <= tolerance => Some(extra),
-            None => None,
-        };
     }
+}
+
+/// ALPHA + i BETA.
+const EIGENVALUE: Complex<f64> = Complex::new(ALPHA, BETA);
+
+fn complex(x: f64) -> Complex<f64> {
+    Complex::new(x, 0.0)
+}
+
+/// A complex number of any scalar times a real one's.
+#[inline(always)]
+fn times<S: Scalar>(x: Complex<S>, t: Complex<f64>) -> Complex<S> {
+    Complex::new(x.re * t.re - x.im * t.im, x.re * t.im + x.im * t.re)
 }
 
 /// The acceleration everywhere zero: the guess after an event, when the old accelerations tell nothing.

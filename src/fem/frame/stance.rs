@@ -3,7 +3,7 @@
 use super::{Cable, Frame};
 use crate::{
     fem::{
-        model::{Contact, Foot, Model, N, State, TH, X, Z, ax, az},
+        model::{Contact, Foot, Model, N, Pose, State, TH, X, Z, ax, az},
         newton::Newton,
     },
     members::Members,
@@ -99,7 +99,8 @@ impl<S: Scalar> Model<S> {
     fn falling_back(&self, frame: &Frame<S>, q: &[S; N], pressing: usize) -> (S, S) {
         let pull = frame.pull(q, self.body.height).force;
         let (gx, gz) = (pull[0], pull[1] - self.body.mass * GRAVITY);
-        let (_, _, dz, minus_dx) = self.foot(pressing, q, q[TH].sin(), q[TH].cos());
+        let Pose { sin, cos } = Pose::of(q);
+        let (_, _, dz, minus_dx) = self.foot(pressing, q, sin, cos);
         let (tx, tz) = (-minus_dx / self.body.radius(), dz / self.body.radius());
         // the part of the load across the leg accelerates the body about its foot
         let across = gz * tx - gx * tz;

@@ -18,7 +18,7 @@ impl<S: Scalar> Run<'_, S> {
         let defect = (stored - self.energy.stored - input + dissipated).re().abs();
         let allowed = self.allowed(stored);
         // a radau step loses energy as h^6
-        let factor = 0.9 * (allowed / defect.max(1e-300)).powf(1.0 / 6.0);
+        let factor = 0.9 * (allowed / defect.max(1e-300)).sqrt().cbrt();
         let h = stages.h.re();
         // at a force discontinuity no step size satisfies the account: the smallest may break it, but not with a NaN
         let acceptable = defect <= allowed || (h <= 1e-9 * self.settling && defect.is_finite());
@@ -36,7 +36,9 @@ impl<S: Scalar> Run<'_, S> {
         self.energy.dissipated += dissipated;
         self.scale = self.scale.max(self.energy.input.re().abs()).max((stored - self.energy.initial).re().abs());
         self.guess = [stages.a[2]; 3];
-        self.rate = stages.rate.max(f64::EPSILON).powf(0.8);
+        let root = stages.rate.max(f64::EPSILON).sqrt();
+        // with some caution: to the power 3/4
+        self.rate = root * root.sqrt();
         true
     }
 

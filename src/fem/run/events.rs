@@ -3,7 +3,7 @@
 use super::Run;
 use crate::{
     fem::{
-        model::{Contact, Foot, TH},
+        model::{Contact, Foot, Pose, TH},
         observer::{Change, Observer},
         radau::C,
         step::{Ground, Stages, no_guess},
@@ -66,6 +66,8 @@ impl<S: Scalar> Run<'_, S> {
     pub(super) fn met(&self, stages: &Stages<S>) -> Met {
         let mut first = Met::Nothing;
         let mut earliest = f64::INFINITY;
+        let nodes = [&self.state.q, &stages.q[0], &stages.q[1], &stages.q[2]];
+        let poses = [Pose::of(nodes[0]), Pose::of(nodes[1]), Pose::of(nodes[2]), Pose::of(nodes[3])];
         for foot in 0..2 {
             // the contact lasts while sign (compression - level) is positive
             let limits: &[(f64, f64)] = match self.feet[foot].contact {
@@ -73,8 +75,8 @@ impl<S: Scalar> Run<'_, S> {
                 Contact::Stick | Contact::Slip(_) => &[(1.0, 0.0)],
                 Contact::Slide => &[(1.0, 0.0), (-1.0, HOLDING * self.compression)],
             };
-            let compression = |q| self.model.compression(foot, q, &self.feet[foot]).re();
-            let values = [&self.state.q, &stages.q[0], &stages.q[1], &stages.q[2]].map(compression);
+            let at = |k: usize| self.model.compression_at(&poses[k], foot, nodes[k], &self.feet[foot]).re();
+            let values: [f64; 4] = [at(0), at(1), at(2), at(3)];
             for &(sign, level) in limits {
                 let inside = values.map(|d| sign * (d - level));
                 let Some(k) = (1..4).find(|&k| inside[k] < -self.gap_tolerance()) else { continue };
@@ -134,38 +136,40 @@ impl<S: Scalar> Run<'_, S> {
         low.0.max(1e-9)
     }
 
-    /// Repeat the step so that it ends where the foot's compression passes `level`. The step, and whether it passes there:
-    /// if the polynomial saw a graze that the step itself does not make, it does not. `None` if no step converges.
+    /// Repeat the step so that it ends where the foot's compression passes `level`. Whether it passes there: if the polynomial
+    /// saw a graze that the step itself does not make, it does not. `None` if no step converges.
     pub(super) fn locate(
         &mut self,
         foot: usize,
         level: f64,
-        stages: &Stages<S>,
+        stages: &mut Stages<S>,
         tau: f64,
         ground: &Ground<S>,
-    ) -> Option<(Stages<S>, bool)> {
+    ) -> Option<bool> {
         // the contact lasts while sign (compression - level) is positive
         let sign = if self.feet[foot].closed() && level == 0.0 { 1.0 } else { -1.0 };
         let (mut low, mut high) = (0.0, f64::INFINITY);
         let mut h = stages.h * tau;
         for _ in 0..MOST_LOCATED {
             self.work.located += 1;
-            let here = self.attempt(h, ground)?;
-            let end = here.end();
+            if !self.attempt(h, ground, stages) {
+                return None;
+            }
+            let end = stages.end();
             let gap = self.model.compression(foot, &end.q, &self.feet[foot]) - level;
             let met = gap.re().abs() <= self.gap_tolerance();
             if met && self.control.extra_iterations == 0 {
-                return Some((here, true));
+                return Some(true);
             }
             let correction = gap / self.model.compression_rate(foot, &end, &self.feet[foot]);
             let usable = correction.re().abs() <= 0.5 * h.re();
             if met {
                 // derivatives of the event's time, by the implicit function theorem
-                return if usable { Some((self.attempt(h - correction, ground)?, true)) } else { Some((here, true)) };
+                return if usable && !self.attempt(h - correction, ground, stages) { None } else { Some(true) };
             }
             // steps too small for the clock
             if h.re() <= 1e-9 * self.settling {
-                return Some((here, true));
+                return Some(true);
             }
             if sign * gap.re() > 0.0 {
                 low = h.re();
@@ -178,10 +182,10 @@ impl<S: Scalar> Run<'_, S> {
             } else if high.is_finite() {
                 real(0.5 * (low + high))
             } else {
-                return Some((here, false));
+                return Some(false);
             };
         }
-        Some((self.attempt(h, ground)?, true))
+        self.attempt(h, ground, stages).then_some(true)
     }
 
     /// A foot on an elastic leg springs sideways, and maybe down, when its horizontal force is let go: it opens only if it

@@ -59,17 +59,19 @@ impl<S: Scalar> Run<'_, S> {
         changes.min_by(|a, b| a.1.total_cmp(&b.1))
     }
 
-    /// Repeat the step so that it ends where the foot's grip changes (false position); `None` if that does not succeed.
-    pub(super) fn locate_grip(&mut self, foot: usize, tau: f64, whole: S, ground: &Ground<S>) -> Option<Stages<S>> {
+    /// Repeat the step so that it ends where the foot's grip changes (false position); whether that succeeds.
+    pub(super) fn locate_grip(&mut self, foot: usize, tau: f64, stages: &mut Stages<S>, ground: &Ground<S>) -> bool {
         let (mut low, mut high) = (0.0, f64::INFINITY);
-        let mut at = tau;
+        let (whole, mut at) = (stages.h, tau);
         for trial in 0..MOST_TRIALS {
             self.work.located += 1;
-            let here = self.attempt(whole * at, ground)?;
-            let value = self.grip(foot, &here.end())?;
+            if !self.attempt(whole * at, ground, stages) {
+                return false;
+            }
+            let Some(value) = self.grip(foot, &stages.end()) else { return false };
             // at the edge, or as near to it as the clock can tell
             if (-1.0..=0.0).contains(&value) || whole.re() * at <= 1e-9 * self.settling {
-                return Some(here);
+                return true;
             }
             if value > 0.0 {
                 low = at;
@@ -78,10 +80,10 @@ impl<S: Scalar> Run<'_, S> {
             }
             at = if high.is_finite() { 0.5 * (low + high) } else { (1.5 * at).min(1.0) };
             if high.is_finite() && high - low < 1e-12 || trial + 1 == MOST_TRIALS {
-                return Some(here);
+                return true;
             }
         }
-        None
+        false
     }
 
     /// A holding foot begins to slip, or a slipping one holds. Its horizontal force stays what it is.

@@ -4,18 +4,19 @@ use super::{omega, undamped};
 use crate::{
     fem::{
         model::{Contact, Foot, Model, State, X, Z, ax},
-        step::{Ground, Request, no_guess, step},
+        step::{Ground, Request, Stages, Stepper, no_guess},
     },
     scalar::GRAVITY,
 };
 
 /// n steps of size h with frozen contact, without any control.
 fn march(model: &Model<f64>, start: State<f64>, feet: &[Foot<f64>; 2], h: f64, n: usize, slope: f64) -> State<f64> {
-    let mut state = start;
+    let (mut state, mut stepper, mut stages) = (start, Stepper::new(model), Stages::none());
     for i in 0..n {
         let ground = Ground { start: slope * h * i as f64, slope };
         let request = Request { h, ground, guess: &no_guess(), tolerance: 1e-15, extra: 1, rate: 1.0 };
-        state = step(model, &state, feet, &request).expect("a linear step converges").end();
+        assert!(stepper.step(&state, feet, &request, &mut stages), "a linear step converges");
+        state = stages.end();
     }
     state
 }
