@@ -15,9 +15,10 @@ pub struct Control {
 }
 
 impl Control {
-    /// For comparing many candidates: errors of the history below 1e-4, at half the steps.
+    /// For comparing many candidates: errors of the history below 1e-4 (of those worth refining, on El Centro: most below
+    /// 3e-6, the worst 2e-5), in two thirds of the time.
     pub fn search() -> Self {
-        Self { tolerance: 1e-7, most_steps: 200_000, ..Self::default() }
+        Self { tolerance: 1e-6, most_steps: 200_000, ..Self::default() }
     }
 }
 

@@ -62,7 +62,7 @@ pub struct Objective {
 
 impl Objective {
     pub fn new(body: &Body<f64>, restitution: f64, bracket: Bracket) -> Self {
-        let control = Control { tolerance: 1e-7, most_steps: 8_000, ..Control::default() };
+        let control = Control { tolerance: 1e-6, most_steps: 8_000, ..Control::default() };
         Self {
             impact: Impact::new(body, restitution),
             p: body.p_squared().sqrt(),
@@ -91,7 +91,7 @@ impl LeastSquares for Objective {
             .map(|(i, &z)| Dual::new(z, Derivative::derivative_generic(nalgebra::Const::<8>, nalgebra::U1, i)))
             .collect();
         // one iteration more leaves the gradients good to the square of the iteration's rate, about 1e-4: enough for a step
-        let control = Control { extra_iterations: 1, tolerance: 1e-6, ..self.control };
+        let control = Control { extra_iterations: 1, tolerance: 1e-5, ..self.control };
         let found = self.impact.residuals(&springs(&duals), control);
         let rows = found
             .iter()
