@@ -116,10 +116,12 @@ pub fn run(o: &Options) -> Result<(), CommandError> {
     write_file(&o.out.join("history.csv"), history_csv(dt, &both).as_bytes())?;
     let demands = both.with.as_ref().map_or(&both.demands, |with| &with.demands);
     write_file(&o.out.join("members.csv"), members::csv(dt, demands).as_bytes())?;
-    decks(o, &parameters, &job.record, &both)?;
-    if !o.no_figures {
-        draw(&o.out, &case, &job, &both, &front)?;
-    }
+    let (decks, figures) = rayon::join(
+        || decks(o, &parameters, &job.record, &both),
+        || if o.no_figures { Ok(()) } else { draw(&o.out, &case, &job, &both, &front) },
+    );
+    decks?;
+    figures?;
     let mut said: Vec<String> = report.lines().into_iter().chain(both.early()).collect();
     said.extend(springs_said(&parameters, job.impact.as_ref(), case.tuning.max_omega_hz));
     let (springs, said) = (table::terminal(&parameters), said.join("\n"));

@@ -12,6 +12,7 @@
 //!
 //! Both are always reported.
 
+use rayon::prelude::*;
 use thiserror::Error;
 
 use super::{
@@ -84,21 +85,29 @@ impl Job {
         let housner = rocking.motion(&body);
         let tuning = &case.tuning;
         let fits = |mus: &[f64]| -> Result<Vec<Fit>, FitError> {
-            mus.iter().map(|&mu| fit(mu, &case.target, &case.bounds)).collect()
+            let found: Vec<_> = mus.par_iter().map(|&mu| fit(mu, &case.target, &case.bounds)).collect();
+            found.into_iter().collect()
         };
-        let vertical = fits(&tuning.mass_ratios_vertical)?;
-        let horizontal = fits(&tuning.mass_ratios_horizontal)?;
         let bracket = Bracket { max_hz: tuning.max_omega_hz, max_settlement: tuning.max_settlement_m };
         let benchmark = Benchmark { body, dt: record.dt, accel: &record.accel, housner: &housner };
-        let arr = outer::tune(&benchmark, &vertical, &horizontal, bracket, tuning.candidates, progress)
-            .ok_or(JobError::NoCandidate)?;
-        let impact = match tuning.objective {
-            Objective::Arr => None,
+        let paper = || {
+            let vertical = fits(&tuning.mass_ratios_vertical)?;
+            let horizontal = fits(&tuning.mass_ratios_horizontal)?;
+            let arr = outer::tune(&benchmark, &vertical, &horizontal, bracket, tuning.candidates, progress)
+                .ok_or(JobError::NoCandidate)?;
+            Ok::<_, JobError>((vertical, horizontal, arr))
+        };
+        let ours = || match tuning.objective {
+            Objective::Arr => Ok(None),
             Objective::Impact => {
                 let objective = impulse::Objective::new(&body, case.restitution, bracket);
-                Some(impulse::tune(&objective, &families(&FAMILIES)?, FOLLOWED, STEPS).ok_or(JobError::NoCandidate)?)
+                let found = impulse::tune(&objective, &families(&FAMILIES)?, FOLLOWED, STEPS);
+                Ok::<_, JobError>(Some(found.ok_or(JobError::NoCandidate)?))
             }
         };
+        // neither knows of the other, and one fills the pauses of the other's batches
+        let (paper, ours) = rayon::join(paper, ours);
+        let ((vertical, horizontal, arr), impact) = (paper?, ours?);
         let springs = impact.map_or(arr.best.springs, |found| found.springs);
         Ok(Self { body, record, rocking, housner, springs, vertical, horizontal, arr, impact })
     }
