@@ -3,6 +3,7 @@
 mod accuracy;
 mod common;
 mod derivatives;
+mod edges;
 mod energy;
 mod landings;
 mod members;

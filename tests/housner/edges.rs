@@ -175,9 +175,27 @@ fn overturning_follows_the_energy_barrier() {
     assert!(matches!(cut.outcome, Outcome::Overturned { .. }));
 }
 
+/// Uplift under a steady push, run backwards in time: the body comes down to theta = 0 and theta' = 0 at one instant, and the push
+/// lifts it as it did.
 #[test]
-fn an_exact_zero_rate_touch_down_is_survived() {
-    // a hop thrown so that w = w' = 0 together is fed in as a start from the ground with no rate but a push on it
+fn a_touch_down_at_zero_velocity_is_followed_by_the_same_uplift() {
+    let body = block();
+    for push in [2.0 * LIMIT, -2.0 * LIMIT] {
+        let up = solve(&body, 0.01, &[push; 51], &Options::default());
+        let back = Options { initial: Some((up.theta[50], -up.rate[50])), ..Options::default() };
+        let there_and_back = solve(&body, 0.01, &[push; 101], &back);
+        assert_eq!(there_and_back.outcome, Outcome::Rocked);
+        for k in 0..=50 {
+            let scale = up.theta[50].abs();
+            assert!((there_and_back.theta[50 - k] - up.theta[k]).abs() < 1e-14 * scale, "{k} before");
+            assert!((there_and_back.theta[50 + k] - up.theta[k]).abs() < 1e-13 * scale, "{k} after");
+        }
+        assert!(there_and_back.impacts.iter().all(|impact| impact.rate_before.abs() < 1e-7));
+    }
+}
+
+#[test]
+fn a_start_at_the_ground_without_a_rate_moves_only_if_pushed() {
     let body = block();
     let options = Options { initial: Some((1e-300, 0.0)), ..Options::default() };
     for accel in [[0.0; 50], [-1.2 * LIMIT; 50], [1.2 * LIMIT; 50]] {
