@@ -2,7 +2,7 @@
 
 use groundspring::{
     fem::{Case, Control, History, Start},
-    record::Record,
+    record::{ReadOptions, Record},
     spring::{Chain, Springs},
     structure::Structure,
 };
@@ -75,9 +75,61 @@ fn other_units_change_a_history_by_rounding_only() {
     record.accel.truncate(600);
     let structure = paper(0.0);
     let one = scaled(&structure, plastic, &record, 1.0, 1.0);
-    let other = scaled(&structure, plastic, &record, 3.280_839_895, 1.0 / 907.184_74);
-    let largest = one.motion.u.iter().fold(0.0_f64, |m, u| m.max(u.abs()));
-    let worst = one.motion.u.iter().zip(&other.motion.u).map(|(a, b)| (a - b / 3.280_839_895).abs());
-    let worst = worst.fold(0.0, f64::max);
-    assert!(worst < 1e-8 * largest, "{worst:e} of {largest}");
+    // feet and short tons, tonnes, pounds
+    for (length, mass) in [(3.280_839_895, 1.0 / 907.184_74), (1.0, 1e-3), (1.0, 1.0 / 0.453_592_37)] {
+        let other = scaled(&structure, plastic, &record, length, mass);
+        assert_same(&one, &other, length);
+    }
+}
+
+#[test]
+fn a_record_file_in_g_or_centimetres_gives_the_same_history() {
+    let mut record = el_centro();
+    record.accel.truncate(600);
+    let structure = paper(1e-5);
+    let springs = plastic(80.0, structure.mass_kg);
+    let one = settled(&structure, springs, &record, Control::default());
+    for (header, unit) in [("UNITS OF G", 9.81), ("UNITS OF M/S/S", 1.0), ("UNITS OF CM/S/S", 0.01)] {
+        let numbers: Vec<String> = record.accel.iter().map(|a| format!("{:e}", a / unit)).collect();
+        let text = format!("a\nb\nACCELERATION IN {header}\nNPTS= 600, DT= .01 SEC\n{}\n", numbers.join(" "));
+        let read = Record::parse("a.at2", text.as_bytes(), &ReadOptions::default()).unwrap();
+        assert_same(&one, &settled(&structure, springs, &read, Control::default()), 1.0);
+    }
+}
+
+/// The body rests through the quiet, whether or not steps are taken there.
+#[test]
+fn quiet_before_a_record_only_shifts_the_history() {
+    let mut record = el_centro();
+    record.accel.truncate(1000);
+    // the quiet must not become a ramp
+    record.accel[0] = 0.0;
+    let shifted = Record { accel: [vec![0.0; 137], record.accel.clone()].concat(), ..record.clone() };
+    for share in [0.0, 1e-2] {
+        let structure = paper(share);
+        for make in [plastic, lively] as [Make; 2] {
+            let springs = make(80.0, structure.mass_kg);
+            let one = settled(&structure, springs, &record, Control::default());
+            for skip_rest in [true, false] {
+                let control = Control { skip_rest, ..Control::default() };
+                let mut other = settled(&structure, springs, &shifted, control);
+                for x in [&mut other.motion.u, &mut other.motion.v] {
+                    assert!(x.drain(..137).all(|x| x.abs() < 1e-12));
+                }
+                assert_eq!(one.impacts(), other.impacts());
+                assert_same(&one, &other, 1.0);
+            }
+        }
+    }
+}
+
+/// u and v of `other` are those of `one` times `length`, but for what rounding does to the steps: 1e-8 of the peak.
+fn assert_same(one: &History, other: &History, length: f64) {
+    let (one, other) = (&one.motion, &other.motion);
+    let largest = one.u.iter().fold(0.0_f64, |m, u| m.max(u.abs()));
+    for (a, b) in [(&one.u, &other.u), (&one.v, &other.v)] {
+        assert_eq!(a.len(), b.len());
+        let worst = a.iter().zip(b).map(|(a, b)| (a - b / length).abs()).fold(0.0, f64::max);
+        assert!(worst < 1e-8 * largest, "{worst:e} of {largest}");
+    }
 }

@@ -1,7 +1,7 @@
 //! The same case mirrored, shifted in time, in other units, scaled by similarity: the same answer.
 
 use groundspring::housner::{Options, solve};
-use groundspring::record::Record;
+use groundspring::record::{ReadOptions, Record};
 use groundspring::structure::Structure;
 
 #[test]
@@ -38,6 +38,31 @@ fn a_similar_body_on_a_similar_record_has_the_same_angles() {
     for (a, b) in small.theta.iter().zip(&large.theta) {
         assert!((a - b).abs() < 1e-13);
     }
+}
+
+#[test]
+fn a_record_file_in_g_or_centimetres_gives_the_same_history() {
+    let body = Structure::block(3.0, 0.7, 1.0).unwrap().body::<f64>();
+    let record = Record::el_centro();
+    let one = solve(&body, record.dt, &record.accel, &Options::default());
+    for (header, unit) in [("g", 9.81), ("m/s2", 1.0), ("cm/s2", 0.01)] {
+        let numbers: Vec<String> = record.accel.iter().map(|a| format!("{:e}", a / unit)).collect();
+        let text = format!("# acceleration ({header}), dt = 0.01 s\n{}\n", numbers.join("\n"));
+        let read = Record::parse("a.txt", text.as_bytes(), &ReadOptions::default()).unwrap();
+        let other = solve(&body, read.dt, &read.accel, &Options::default());
+        assert_eq!(one.impacts.len(), other.impacts.len());
+        assert!(one.theta.iter().zip(&other.theta).all(|(a, b)| (a - b).abs() < 1e-12));
+    }
+}
+
+/// Mass and inertia only enter as their ratio.
+#[test]
+fn a_mass_in_tonnes_gives_the_same_history() {
+    let accel = Record::el_centro().accel;
+    let run = |mass| solve(&Structure::block(3.0, 0.7, mass).unwrap().body::<f64>(), 0.01, &accel, &Options::default());
+    let (kilograms, tonnes) = (run(2500.0), run(2.5));
+    assert_eq!(kilograms.impacts.len(), tonnes.impacts.len());
+    assert!(kilograms.theta.iter().zip(&tonnes.theta).all(|(a, b)| (a - b).abs() < 1e-12));
 }
 
 /// Resampling a piecewise linear record changes nothing but where the steps end.
