@@ -49,6 +49,11 @@ fn logarithms(s: &Springs<Design<f64>>) -> [f64; 8] {
     [v.omega_n_hz, v.k(), v.c(), v.mu, h.omega_n_hz, h.k(), h.c(), h.mu].map(f64::ln)
 }
 
+/// x to 40 bits (1e-12): bounces make the objective rugged, and a search over it takes the rounding of its input for news.
+fn rounded(x: f64) -> f64 {
+    f64::from_bits((x.to_bits() + (1 << 11)) & !((1 << 12) - 1))
+}
+
 /// The impact objective within a bracket.
 pub struct Objective {
     impact: Impact,
@@ -61,8 +66,12 @@ pub struct Objective {
 }
 
 impl Objective {
+    /// The objective depends on the mass only through I_cg/m, so it is that of a body of 1 kg: in whatever unit a mass is
+    /// given, the same springs are found.
     pub fn new(body: &Body<f64>, restitution: f64, bracket: Bracket) -> Self {
         let control = Control { tolerance: 1e-6, most_steps: 8_000, ..Control::default() };
+        let body = &Body { mass: 1.0, inertia: rounded(body.inertia / body.mass), ..*body };
+        let restitution = rounded(restitution);
         Self {
             impact: Impact::new(body, restitution),
             p: body.p_squared().sqrt(),
