@@ -76,6 +76,21 @@ fn a_block_can_be_given_another_restitution() {
     }
 }
 
+/// Springs of 160 Hz settle by 4.85e-6 m (1 + 1/K), K at most 30.
+#[test]
+fn a_small_settlement_is_honoured_and_one_too_small_is_refused() {
+    let body = Structure::block(2.0, 0.5, 1e3).unwrap().body::<f64>();
+    let tune = |max_settlement: f64| {
+        let objective = Objective::new(&body, body.restitution(), Bracket { max_hz: 160.0, max_settlement });
+        impulse::tune(&objective, &families(&[0.1, 1.0]).unwrap(), 2, 15)
+    };
+    for limit in [1e-3, 1e-5, 6e-6, 5.1e-6] {
+        let settlement = tune(limit).unwrap().springs.settlement(body.mass);
+        assert!(settlement < limit * (1.0 + 1e-12), "{settlement:e} {limit:e}");
+    }
+    assert!(tune(5.0e-6).is_none());
+}
+
 /// At the price of bounces: up to 0.4 s in the air a landing. Ratios 0.9 and 1.02 (e = 0.9998) are not reached within
 /// 0.5 % at every lean on this frame; the program says so when it is asked for them.
 #[test]

@@ -82,6 +82,27 @@ impl Objective {
         }
     }
 
+    /// Least settlement that these springs can have [m].
+    pub fn least_settlement(bracket: &Bracket) -> f64 {
+        bracket.least_settlement(K.1)
+    }
+
+    /// z with K of the vertical chain, and then its Omega_n, raised to what the largest settlement asks for.
+    fn settled(&self, mut z: [f64; 8]) -> [f64; 8] {
+        let Bracket { max_hz, max_settlement } = self.bracket;
+        // (1 + 1/K) / Omega_n^2 at the limit
+        let at = |hz: f64| max_settlement / (0.5 * GRAVITY) * (TAU * hz).powi(2);
+        let most = K.1.ln();
+        let needed = |hz: f64| if at(hz) > 1.0 { -(at(hz) - 1.0).ln() } else { f64::INFINITY };
+        if needed(z[0].exp()) > most {
+            let hz = max_hz * (self.bracket.least_settlement(K.1) / max_settlement).sqrt();
+            (z[0], z[1]) = (z[0].max(hz.ln()), most);
+        } else {
+            z[1] = z[1].max(needed(z[0].exp()));
+        }
+        z
+    }
+
     /// sqrt of the sum of squares of the residuals.
     pub fn error(&self, s: &Springs<Design<f64>>) -> f64 {
         self.residuals(&logarithms(s)).iter().map(|r| r * r).sum::<f64>().sqrt()
@@ -132,25 +153,39 @@ impl LeastSquares for Objective {
 }
 
 /// Tune all eight parameters, from pairs of families at the stiffest springs allowed and from springs found before for
-/// structures of like Omega_n/p; the best few starts are followed.
+/// structures of like Omega_n/p; the best few starts are followed. `None` if no start finishes its runs, or all settle by
+/// more than is allowed.
 pub fn tune(objective: &Objective, families: &[Fit], followed: usize, iterations: u64) -> Option<Found> {
-    let hz = objective.bracket.max_hz;
+    let Bracket { max_hz: hz, max_settlement } = objective.bracket;
+    if Objective::least_settlement(&objective.bracket) > max_settlement {
+        return None;
+    }
     let mut starts: Vec<Springs<Design<f64>>> =
         catalogue::near(TAU * hz / objective.p, objective.mass_share, objective.ratio, hz);
     for fit in families {
         let design = Design { mu: fit.mu, f: fit.f, xi: fit.xi, omega_n_hz: hz };
         starts.push(Springs { vertical: design, horizontal: design });
     }
+    for start in starts.iter_mut().filter(|start| start.settlement(1.0) > max_settlement) {
+        *start = springs(&objective.settled(logarithms(start)));
+    }
     let mut ranked: Vec<(f64, usize)> = starts.par_iter().enumerate().map(|(i, s)| (objective.error(s), i)).collect();
     ranked.sort_by(|a, b| a.0.total_cmp(&b.0).then(a.1.cmp(&b.1)));
-    let ends: Vec<_> = ranked
+    let ends: Vec<Found> = ranked
         .par_iter()
         .take(followed)
-        .map(|&(_, i)| descend(objective, &logarithms(&starts[i]), 0.3, iterations))
+        .map(|&(_, i)| {
+            let end = descend(objective, &logarithms(&starts[i]), 0.3, iterations);
+            let found = Found { springs: springs(&end.z), error: end.error, iterations: end.iterations };
+            // the descent sees the limit as a plane
+            match found.springs.settlement(1.0) > max_settlement {
+                true => {
+                    let springs = springs(&objective.settled(logarithms(&found.springs)));
+                    Found { springs, error: objective.error(&springs), ..found }
+                }
+                false => found,
+            }
+        })
         .collect();
-    ends.into_iter().filter(|end| end.error.is_finite()).min_by(|a, b| a.error.total_cmp(&b.error)).map(|end| Found {
-        springs: springs(&end.z),
-        error: end.error,
-        iterations: end.iterations,
-    })
+    ends.into_iter().filter(|end| end.error.is_finite()).min_by(|a, b| a.error.total_cmp(&b.error))
 }

@@ -45,6 +45,10 @@ pub enum JobError {
         "{record}: PGA {pga_g:.4} g never lifts the structure (it takes {limit_g:.4} g), there is nothing to tune on; raise --scale or give another record"
     )]
     NeverLifts { record: String, pga_g: f64, limit_g: f64 },
+    #[error(
+        "tuning.max_settlement_m is {asked_m:?}, but on springs of {max_hz} Hz the body settles by {least_m:.3e} m at least; allow that, or raise --max-hz"
+    )]
+    Settlement { asked_m: f64, max_hz: f64, least_m: f64 },
     #[error("no candidate followed the record to its end; raise --max-hz or shorten --duration")]
     NoCandidate,
 }
@@ -88,14 +92,23 @@ impl Job {
             let found: Vec<_> = mus.par_iter().map(|&mu| fit(mu, &case.target, &case.bounds)).collect();
             found.into_iter().collect()
         };
+        let vertical = fits(&tuning.mass_ratios_vertical)?;
+        let horizontal = fits(&tuning.mass_ratios_horizontal)?;
         let bracket = Bracket { max_hz: tuning.max_omega_hz, max_settlement: tuning.max_settlement_m };
+        let of_families = vertical.iter().map(|fit| bracket.least_settlement(fit.k)).fold(f64::INFINITY, f64::min);
+        let least_m = match tuning.objective {
+            Objective::Arr => of_families,
+            Objective::Impact => impulse::Objective::least_settlement(&bracket),
+        };
+        if least_m > bracket.max_settlement {
+            return Err(JobError::Settlement { asked_m: bracket.max_settlement, max_hz: bracket.max_hz, least_m });
+        }
         let benchmark = Benchmark { body, dt: record.dt, accel: &record.accel, housner: &housner };
+        // where only the impact objective's springs can settle so little, the paper's stand beside them as stiff as they get
+        let beside = Bracket { max_settlement: bracket.max_settlement.max(of_families), ..bracket };
         let paper = || {
-            let vertical = fits(&tuning.mass_ratios_vertical)?;
-            let horizontal = fits(&tuning.mass_ratios_horizontal)?;
-            let arr = outer::tune(&benchmark, &vertical, &horizontal, bracket, tuning.candidates, progress)
-                .ok_or(JobError::NoCandidate)?;
-            Ok::<_, JobError>((vertical, horizontal, arr))
+            outer::tune(&benchmark, &vertical, &horizontal, beside, tuning.candidates, progress)
+                .ok_or(JobError::NoCandidate)
         };
         let ours = || match tuning.objective {
             Objective::Arr => Ok(None),
@@ -107,7 +120,7 @@ impl Job {
         };
         // neither knows of the other, and one fills the pauses of the other's batches
         let (paper, ours) = rayon::join(paper, ours);
-        let ((vertical, horizontal, arr), impact) = (paper?, ours?);
+        let (arr, impact) = (paper?, ours?);
         let springs = impact.map_or(arr.best.springs, |found| found.springs);
         Ok(Self { body, record, rocking, housner, springs, vertical, horizontal, arr, impact })
     }

@@ -119,6 +119,16 @@ impl Benchmark<'_> {
 }
 
 impl Bracket {
+    /// Least settlement of a body whose vertical chain has the stiffness ratio K = k2/k1: on the stiffest springs [m].
+    pub fn least_settlement(&self, k: f64) -> f64 {
+        0.5 * GRAVITY * (1.0 + 1.0 / k) / (std::f64::consts::TAU * self.max_hz).powi(2)
+    }
+
+    /// Whether a vertical chain of this K can be stiff enough.
+    fn allows(&self, k: f64) -> bool {
+        self.least_settlement(k) <= self.max_settlement
+    }
+
     /// Lowest and highest Omega_n [Hz] of a vertical chain of stiffness ratio K = k2/k1.
     fn vertical(&self, k: f64) -> (f64, f64) {
         // settlement = g/2 (1 + 1/K) / Omega_n^2
@@ -161,11 +171,12 @@ impl Pair {
     }
 }
 
-/// All pairs of families.
+/// All pairs of families that can be stiff enough.
 fn pairs(vertical: &[Fit], horizontal: &[Fit], bracket: Bracket) -> Vec<Pair> {
     let design = |fit: &Fit| Design { mu: fit.mu, f: fit.f, xi: fit.xi, omega_n_hz: bracket.max_hz };
     let pair = |v: &Fit, h: &Fit| Pair { vertical: design(v), horizontal: design(h), bracket };
-    vertical.iter().flat_map(|v| horizontal.iter().map(move |h| pair(v, h))).collect()
+    let stiff = vertical.iter().filter(|v| bracket.allows(v.k));
+    stiff.flat_map(|v| horizontal.iter().map(move |h| pair(v, h))).collect()
 }
 
 /// Radical inverse of i in a base: a van der Corput sequence.
@@ -228,7 +239,8 @@ pub fn follow(
         springs.horizontal.omega_n_hz *= bracket.max_hz / from_hz;
         Pair::of(&springs, bracket)
     };
-    let mut plan: Vec<(Pair, [f64; 2])> = near.iter().take(FOLLOWED).map(scale).collect();
+    let stiff = |c: &&&Candidate| bracket.allows(c.springs.vertical.k());
+    let mut plan: Vec<(Pair, [f64; 2])> = near.iter().filter(stiff).take(FOLLOWED).map(scale).collect();
     plan.extend(pairs(vertical, horizontal, bracket).into_iter().map(|pair| (pair, [1.0; 2])));
     let candidates = sample(benchmark, &plan, plan.len(), &|_, _, _| {});
     best_of(benchmark, &plan, candidates, 1, FOLLOWING).map(|tuned| tuned.best)
