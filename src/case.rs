@@ -51,6 +51,10 @@ pub enum CaseError {
     Members { path: String, source: MembersError },
     #[error("{path}: {key} is {value}; {remedy}")]
     Value { path: String, key: &'static str, value: String, remedy: &'static str },
+    #[error(
+        "{path}: record.file is not given; record.dt_s and record.units tell of a file: name it, or leave them out"
+    )]
+    NoFile { path: String },
     #[error(transparent)]
     Record(#[from] RecordError),
 }
@@ -165,6 +169,9 @@ pub struct Case {
 /// The length compared unless the user says otherwise [s].
 pub const DURATION_S: f64 = 20.0;
 
+/// No record is longer [s].
+pub const LONGEST_S: f64 = 1e6;
+
 /// The paper's case, embedded.
 pub const PAPER: &str = include_str!("../tuning/paper.toml");
 
@@ -206,6 +213,9 @@ impl Case {
                 let file = Path::new(path).parent().unwrap_or(Path::new("")).join(name);
                 read(&file, &ReadOptions { dt: section.dt_s, units: section.units })?
             }
+            None if section.dt_s.is_some() || section.units.is_some() => {
+                return Err(CaseError::NoFile { path: path.into() });
+            }
             None => Record::el_centro(),
         };
         let record = match section.scale {
@@ -213,8 +223,8 @@ impl Case {
             None => record,
         };
         let duration_s = section.duration_s.unwrap_or(DURATION_S);
-        if !(duration_s.is_finite() && duration_s > 0.0) {
-            return Err(value("record.duration_s", duration_s, "give seconds greater than zero"));
+        if !(duration_s > 0.0 && duration_s <= LONGEST_S) {
+            return Err(value("record.duration_s", duration_s, "give seconds greater than zero, at most 1e6"));
         }
         file.tuning.check(path)?;
         Ok(Self {

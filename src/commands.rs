@@ -84,6 +84,8 @@ pub enum CommandError {
     NotAFolder { path: String },
     #[error("{path}: is a folder; name a file with --out")]
     NotAFile { path: String },
+    #[error("{path}: is a device or a pipe, which a file would replace; name a file with --out")]
+    NotRegular { path: String },
     #[error("{path}: there is no folder {folder}; make it first, or name another with --out")]
     NoFolder { path: String, folder: String },
     #[error("cannot write to stdout: {0}")]

@@ -17,7 +17,7 @@ use serde::{Deserialize, Serialize};
 use thiserror::Error;
 
 use crate::{
-    scalar::{Scalar, real},
+    scalar::{GRAVITY, Scalar, real},
     structure::Body,
 };
 
@@ -89,11 +89,16 @@ impl<S> Members<S> {
     }
 }
 
+/// What a member's stiffness, damping or friction may be, in units of the structure's own.
+const RATIO: (f64, f64) = (1e-9, 1e15);
+
 /// What is wrong with a member, and what to do.
 #[derive(Clone, Debug, PartialEq, Error)]
 pub enum MembersError {
     #[error("{name} is {value}; give a finite number{bound}")]
     Value { name: &'static str, value: f64, bound: &'static str },
+    #[error("{name} is {value:?}, {times:.1e} times {unit}; nothing computed from that means anything, check the unit")]
+    Absurd { name: &'static str, value: f64, times: f64, unit: &'static str },
     #[error(
         "friction.coefficient is given together with legs, damper or tendon; slipping is followed for a rigid body only, leave one out"
     )]
@@ -135,6 +140,7 @@ impl Members<f64> {
                 return Err(MembersError::Value { name, value, bound });
             }
         }
+        self.meaningful(body)?;
         if let Some(t) = self.tendon {
             let most = 0.5 * t.stiffness * body.height;
             if t.pretension > most {
@@ -142,6 +148,32 @@ impl Members<f64> {
             }
         }
         Ok(self)
+    }
+
+    /// Members whose numbers, in units of the structure's own, are within what 16 digits can follow.
+    fn meaningful(&self, body: &Body<f64>) -> Result<(), MembersError> {
+        let (weight, length) = (body.mass * GRAVITY, body.radius());
+        let legs = self.legs.map(|l| {
+            [
+                ("legs.ea_n", l.ea, weight, "the weight"),
+                ("legs.ei_nm2", l.ei, weight * length * length, "the weight times the leg's length squared"),
+            ]
+        });
+        let damper = self.damper.filter(|d| d.c > 0.0).map(|d| {
+            let unit = body.mass * (GRAVITY / length).sqrt();
+            ("damper.c_ns_per_m", d.c, unit, "the mass times sqrt(g/leg's length)")
+        });
+        let tendon = self
+            .tendon
+            .map(|t| ("tendon.stiffness_n_per_m", t.stiffness, weight / length, "the weight over the leg's length"));
+        let friction = self.friction.map(|f| ("friction.coefficient", f.coefficient, 1.0, "the weight"));
+        for (name, value, unit, word) in legs.into_iter().flatten().chain(damper).chain(tendon).chain(friction) {
+            let times = value / unit;
+            if !(RATIO.0..=RATIO.1).contains(&times) {
+                return Err(MembersError::Absurd { name, value, times, unit: word });
+            }
+        }
+        Ok(())
     }
 
     /// The same as scalars, to compute or to differentiate with.

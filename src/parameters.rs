@@ -11,6 +11,7 @@ use crate::{
     members::{Damper, Friction, Legs, Members, MembersError, Tendon},
     message::one_line,
     record::Record,
+    scalar::GRAVITY,
     spring::{Chain, ChainRow, Design, Springs},
     structure::{Structure, StructureError},
     tuning::impact::report::LandingRow,
@@ -53,6 +54,14 @@ pub struct PaperProcedure {
     #[serde(rename = "match")]
     pub matched: Match,
 }
+
+/// Stiffness that a spring may have, in units of the weight over the height: softer ones let the body sink in by
+/// a thousand times its height, stiffer ones are compressed by less than the rounding of it.
+const STIFFNESS: (f64, f64) = (1e-3, 1e15);
+/// Absorber's mass, in units of the structure's.
+const MASS: (f64, f64) = (1e-9, 1e9);
+/// Damping, in units of the mass times sqrt(g/height).
+const DAMPING: (f64, f64) = (0.0, 1e15);
 
 /// Everything in `parameters.json`.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
@@ -101,6 +110,10 @@ pub enum ParametersError {
     Parse { path: String, line: usize, message: String },
     #[error("{path}: {chain}.{name} is {value:?}; give a finite number{bound}")]
     Value { path: String, chain: &'static str, name: &'static str, value: f64, bound: &'static str },
+    #[error(
+        "{path}: {chain}.{name} is {value:?}, {times:.1e} times {scale}; nothing computed from that means anything, give k1, k2 in N/m, m2 in kg, c in N s/m"
+    )]
+    Absurd { path: String, chain: &'static str, name: &'static str, value: f64, times: f64, scale: &'static str },
     #[error("{path}: restitution is {value}; a velocity ratio lies between 0 and 1")]
     Restitution { path: String, value: f64 },
     #[error("{path}: {source}")]
@@ -190,10 +203,31 @@ impl Parameters {
                     return Err(ParametersError::Value { path: path.to_string(), chain, name, value, bound });
                 }
             }
+            self.meaningful(path, chain, row)?;
         }
         let members = self.members().checked(&self.structure.body());
         members.map_err(|source| ParametersError::Members { path: path.to_string(), source })?;
         Ok(self)
+    }
+
+    /// Springs whose numbers, in units of the structure's own, are within what 16 digits can follow.
+    fn meaningful(&self, path: &str, chain: &'static str, row: &ChainRow) -> Result<(), ParametersError> {
+        let Structure { mass_kg, height_m, .. } = self.structure;
+        // a spring that the weight compresses by the height
+        let k = mass_kg * GRAVITY / height_m;
+        let c = (k * mass_kg).sqrt();
+        for (name, value, unit, scale, (least, most)) in [
+            ("k1_n_per_m", row.k1_n_per_m, k, "the weight over the height", STIFFNESS),
+            ("k2_n_per_m", row.k2_n_per_m, k, "the weight over the height", STIFFNESS),
+            ("m2_kg", row.m2_kg, mass_kg, "the structure's mass", MASS),
+            ("c_ns_per_m", row.c_ns_per_m, c, "the mass times sqrt(g/height)", DAMPING),
+        ] {
+            let times = value / unit;
+            if !(least..=most).contains(&times) {
+                return Err(ParametersError::Absurd { path: path.to_string(), chain, name, value, times, scale });
+            }
+        }
+        Ok(())
     }
 
     /// The file's text.

@@ -30,11 +30,18 @@ pub struct Structure {
     pub rotational_inertia_kgm2: f64,
 }
 
+/// Lengths that a structure may have, a grain of sand to beyond any tower [m].
+const LENGTH_M: (f64, f64) = (1e-4, 1e5);
+/// Masses that it may have [kg].
+const MASS_KG: (f64, f64) = (1e-9, 1e15);
+
 /// What is wrong with a structure, and what to do.
 #[derive(Clone, Debug, PartialEq, Error)]
 pub enum StructureError {
     #[error("structure: {name} is {value:?}; give a finite number greater than zero")]
     NotPositive { name: &'static str, value: f64 },
+    #[error("structure: {name} is {value:?}; give one between {least:e} and {most:e} (in m, kg)")]
+    Absurd { name: &'static str, value: f64, least: f64, most: f64 },
     #[error("structure: rotational_inertia_kgm2 is {value:?}; give a finite number, zero or greater")]
     Inertia { value: f64 },
     #[error(
@@ -72,9 +79,16 @@ impl Structure {
 
     /// The structure itself if its numbers can rock.
     pub fn checked(self) -> Result<Self, StructureError> {
-        for (name, value) in [("height_m", self.height_m), ("width_m", self.width_m), ("mass_kg", self.mass_kg)] {
+        for (name, value, (least, most)) in [
+            ("height_m", self.height_m, LENGTH_M),
+            ("width_m", self.width_m, LENGTH_M),
+            ("mass_kg", self.mass_kg, MASS_KG),
+        ] {
             if !(value.is_finite() && value > 0.0) {
                 return Err(StructureError::NotPositive { name, value });
+            }
+            if !(least..=most).contains(&value) {
+                return Err(StructureError::Absurd { name, value, least, most });
             }
         }
         let value = self.rotational_inertia_kgm2;

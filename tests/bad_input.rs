@@ -7,20 +7,33 @@ use tempfile::TempDir;
 
 /// Run `tune` in an empty folder with the given files; it must fail cleanly and say each of `words`.
 fn refuses(files: &[(&str, &str)], args: &[&str], words: &[&str]) {
+    let files: Vec<(&str, &[u8])> = files.iter().map(|(name, text)| (*name, text.as_bytes())).collect();
+    refuses_bytes(&files, args, words);
+}
+
+/// The same with files of any bytes; a name that ends in / is a folder.
+fn refuses_bytes(files: &[(&str, &[u8])], args: &[&str], words: &[&str]) {
     let dir = TempDir::new().unwrap();
-    for (name, text) in files {
-        fs::write(dir.path().join(name), text).unwrap();
+    for (name, bytes) in files {
+        let path = dir.path().join(name);
+        if name.ends_with('/') { fs::create_dir(path).unwrap() } else { fs::write(path, bytes).unwrap() }
     }
-    let output = Command::cargo_bin("tune").unwrap().current_dir(dir.path()).args(args).output().unwrap();
+    refuses_in(dir.path(), args, words);
+}
+
+fn refuses_in(dir: &Path, args: &[&str], words: &[&str]) {
+    let before = entries(dir);
+    let output = Command::cargo_bin("tune").unwrap().current_dir(dir).args(args).output().unwrap();
     let stderr = String::from_utf8(output.stderr).unwrap();
     assert_eq!(output.status.code(), Some(2), "{args:?}: {stderr}");
     assert_eq!(stderr.trim_end().lines().count(), 1, "{args:?}: more than one line: {stderr}");
+    assert!(stderr.chars().count() < 400, "{args:?}: {stderr}");
     for word in words {
         assert!(stderr.contains(word), "{args:?}: {stderr:?} does not say {word:?}");
     }
     assert!(output.stdout.is_empty(), "{args:?} printed a result");
-    let left = entries(dir.path());
-    assert_eq!(left.len(), files.len(), "{args:?} wrote something: {left:?}");
+    let left = entries(dir);
+    assert_eq!(left.len(), before.len(), "{args:?} wrote something: {left:?}");
 }
 
 fn entries(dir: &Path) -> Vec<String> {
@@ -326,7 +339,8 @@ fn parameters_missing_extra_or_impossible() {
     for (path, value, word) in [
         ("structure.mass_kg", 0.0.into(), "mass_kg is 0"),
         ("structure.height_m", (-3.0).into(), "height_m is -3"),
-        ("structure.width_m", 1e9.into(), "slenderness"),
+        ("structure.width_m", 1e4.into(), "slenderness"),
+        ("structure.width_m", 1e9.into(), "width_m is 1000000000.0"),
         ("structure.kind", "tower".into(), "tower"),
         ("structure.colour", 1.into(), "unknown field `colour`"),
         ("vertical.k1_n_per_m", (-1.0).into(), "vertical.k1_n_per_m is -1"),
@@ -355,5 +369,193 @@ fn case_values_that_cannot_be() {
         ("[damper]\nc_ns_per_m = nan\n", "c_ns_per_m is NaN"),
     ] {
         run_case(&format!("{STRUCTURE}{extra}"), &[word]);
+    }
+}
+
+#[test]
+fn a_settlement_that_no_springs_can_keep() {
+    let small = format!("{STRUCTURE}[record]\nscale = 2.0\n[tuning]\nmax_settlement_m = 1e-12\n");
+    run_case(&small, &["max_settlement_m is 1e-12", "5.015e-6 m at least", "--max-hz"]);
+    let paper = format!("{small}objective = \"arr\"\n");
+    run_case(&paper, &["max_settlement_m is 1e-12", "5.393e-6 m at least"]);
+}
+
+#[test]
+fn springs_and_members_beyond_all_measure() {
+    for (path, value, words) in [
+        ("vertical.k1_n_per_m", 1e308, ["vertical.k1_n_per_m is 1e308", "times the weight over the height"]),
+        ("horizontal.k2_n_per_m", 1e-300, ["horizontal.k2_n_per_m is 1e-300", "in N/m"]),
+        ("vertical.m2_kg", 1e300, ["vertical.m2_kg is 1e300", "times the structure's mass"]),
+        ("horizontal.c_ns_per_m", 1e300, ["horizontal.c_ns_per_m is 1e300", "sqrt(g/height)"]),
+        ("structure.mass_kg", 1e300, ["mass_kg is 1e300", "between 1e-9 and 1e15"]),
+        ("structure.height_m", 1e-200, ["height_m is 1e-200", "between 1e-4 and 1e5"]),
+    ] {
+        for command in [&["simulate"][..], &["export", "--format", "csv", "--out", "springs.csv"]] {
+            let args = [command, &["--parameters", "p.json"]].concat();
+            refuses(&[("p.json", &with(path, value.into()))], &args, &words);
+        }
+    }
+    for (members, word) in [
+        ("[legs]\nea_n = 1e300\nei_nm2 = 1e9\n", "legs.ea_n is 1e300, 1.0e297 times the weight"),
+        ("[legs]\nea_n = 1e9\nei_nm2 = 1e-300\n", "legs.ei_nm2 is 1e-300"),
+        ("[damper]\nc_ns_per_m = 1e300\n", "damper.c_ns_per_m is 1e300"),
+        ("[tendon]\nstiffness_n_per_m = 1e300\npretension_n = 1.0\n", "tendon.stiffness_n_per_m is 1e300"),
+        ("[friction]\ncoefficient = 1e300\n", "friction.coefficient is 1e300"),
+    ] {
+        run_case(&format!("{STRUCTURE}{members}"), &[word]);
+    }
+}
+
+#[test]
+fn folders_where_files_belong_and_files_where_folders_do() {
+    let folder: [(&str, &[u8]); 1] = [("d/", b"")];
+    refuses_bytes(&folder, &["run", "--quiet", "--record", "d"], &["d: is a folder"]);
+    refuses_bytes(&folder, &["run", "d", "--quiet"], &["d: cannot be read"]);
+    refuses_bytes(&folder, &["simulate", "--parameters", "d"], &["d: cannot be read"]);
+    let both: [(&str, &[u8]); 3] = [("d/", b""), ("f", b"x"), ("p.json", PARAMETERS.as_bytes())];
+    let validate = |records| ["validate", "--parameters", "p.json", "--out", "o", "--records", records];
+    refuses_bytes(&both, &validate("f"), &["f: cannot be read"]);
+    refuses_bytes(&both, &validate("d"), &["d: no record files"]);
+    refuses_bytes(&both, &validate("nowhere"), &["nowhere: cannot be read"]);
+}
+
+/// A file renamed into place would take the device's.
+#[cfg(unix)]
+#[test]
+fn a_device_is_not_replaced_by_results() {
+    let dir = TempDir::new().unwrap();
+    let sink = dir.path().join("sink");
+    std::os::unix::fs::symlink("/dev/null", &sink).unwrap();
+    fs::write(dir.path().join("p.json"), PARAMETERS).unwrap();
+    for args in [
+        &["housner", "--out", "sink"][..],
+        &["simulate", "--parameters", "p.json", "--out", "sink"],
+        &["export", "--parameters", "p.json", "--format", "csv", "--out", "sink"],
+    ] {
+        refuses_in(dir.path(), args, &["sink: is a device or a pipe"]);
+    }
+    assert!(fs::symlink_metadata(&sink).unwrap().is_symlink());
+}
+
+#[test]
+fn cases_and_parameters_in_other_encodings_or_none() {
+    let utf16 =
+        |text: &str| [0xfeff].into_iter().chain(text.encode_utf16()).flat_map(u16::to_le_bytes).collect::<Vec<u8>>();
+    let latin1 = [STRUCTURE.as_bytes(), b"# H\xf6he\n"].concat();
+    for bytes in [&utf16(STRUCTURE), &latin1] {
+        refuses_bytes(&[("c.toml", bytes)], &["run", "c.toml", "--out", "o"], &["c.toml: cannot be read", "UTF-8"]);
+    }
+    let simulate = ["simulate", "--parameters", "p.json"];
+    refuses_bytes(&[("p.json", &utf16(PARAMETERS))], &simulate, &["p.json: cannot be read", "UTF-8"]);
+    for (text, word) in [
+        (format!("{STRUCTURE}\0"), "c.toml, line 6"),
+        (format!("\u{feff}{STRUCTURE}x = 1\n"), "c.toml, line 6: unknown key \"x\""),
+        (STRUCTURE.replace('\n', "\r"), "c.toml, line 1"),
+        (String::new(), "missing field `structure`"),
+    ] {
+        refuses(&[("c.toml", &text)], &["run", "c.toml", "--out", "o"], &[word]);
+    }
+    let doubled = PARAMETERS.trim_end().strip_suffix('}').unwrap().to_owned() + ",\"structure\":{}}";
+    for (text, word) in [
+        (format!("{PARAMETERS}\0"), "trailing characters"),
+        (format!("{PARAMETERS}{{}}"), "trailing characters"),
+        (doubled, "duplicate field `structure`"),
+        ("[".repeat(100_000), "p.json, line 1"),
+        ("null".into(), "p.json, line 1"),
+        (String::new(), "p.json, line 1"),
+    ] {
+        refuses(&[("p.json", &text)], &simulate, &[word]);
+    }
+}
+
+#[test]
+fn headers_that_cannot_be() {
+    for (from, to, word) in [
+        ("NPTS= 4", "NPTS= 0", "cannot read NPTS"),
+        ("NPTS= 4", "NPTS= -4", "cannot read NPTS"),
+        (".01000", "0.0", "cannot read NPTS and DT"),
+        (".01000", "-.01", "cannot read NPTS and DT"),
+        (".01000", "1e300", "time step is 1e300 s"),
+        (", DT= .01000 SEC", "", "cannot read NPTS and DT"),
+        ("ACCELERATION", "VELOCITY", "velocity"),
+    ] {
+        run_record("a.at2", &format!("{}0.1 0.2 0.1 0.1\n", AT2.replace(from, to)), &[], &["a.at2", word]);
+    }
+    let whole = format!("{AT2}0.1 0.2 0.1 0.1\n");
+    run_record("a.at2", &whole, &["--units", "cm/s2"], &["its unit is g but --units is cm/s2"]);
+    run_record("a.at2", &whole, &["--dt", "0.02"], &["0.01 s but --dt is 0.02 s"]);
+    run_record("a.txt", "# unit: g\n# unit: cm/s2\n0.1\n0.2\n", &["--dt", "0.01"], &["--units"]);
+}
+
+#[test]
+fn columns_that_are_no_record() {
+    let units = ["--units", "g", "--dt", "0.01"];
+    run_record("one.txt", "0.9\n", &units, &["never lifts"]);
+    run_record("zeros.txt", "0\n0\n0\n", &units, &["never lifts"]);
+    run_record("inf.txt", "0.1\ninf\n", &units, &["inf.txt, line 2"]);
+    run_record("line.txt", &"1".repeat(1_000_000), &units, &["line.txt, line 1"]);
+    run_record("a.json", "{\"a\":[1,2]}", &units, &["holds no samples"]);
+    for (text, word) in [
+        ("0.02,0.1\n0.01,0.2\n0.0,0.1\n", "line 2: the time step is -0.01 s"),
+        ("0,0.1\n0,0.2\n0,0.1\n", "line 2: the time step is 0.0 s"),
+        ("nan,0.1\nnan,0.2\n", "line 1: 'nan'"),
+        ("0,0.1,3\n0.01,0.2,3\n0.02,1,3\n", "3 columns"),
+        ("0,0.1\n0.01\n0.02,1\n", "line 2: 1 columns"),
+    ] {
+        run_record("a.csv", text, &["--units", "g"], &[word]);
+    }
+}
+
+#[test]
+fn values_of_the_wrong_type() {
+    for (from, to, word) in [
+        ("1.0", "\"1.0\"", "line 3: invalid type: string"),
+        ("1.0", "[1.0]", "line 3: invalid type: sequence"),
+        ("1.0", "2020-01-01", "line 3: invalid type"),
+        ("100.0", "99999999999999999999999", "line 5: invalid type"),
+        ("\"block\"", "\"tower\"", "unknown variant `tower`"),
+        ("mass_kg = 100.0", "mass_kg = 1.0\nmass_kg = 2.0", "line 6: duplicate key"),
+    ] {
+        run_case(&STRUCTURE.replace(from, to), &[word]);
+    }
+    for (extra, word) in [
+        ("[structure]\n", "line 6: duplicate key"),
+        ("[tuning]\ncandidates = -1\n", "line 7: invalid value"),
+        ("[tuning]\ncandidates = 1.5\n", "line 7: invalid type"),
+        ("[tuning]\nobjective = \"best\"\n", "unknown variant `best`"),
+        ("[tuning]\nmax_omega_hz = 0.0\n", "max_omega_hz is 0.0"),
+        ("[tuning]\nmax_settlement_m = -1.0\n", "max_settlement_m is -1.0"),
+        ("[tuning]\nmass_ratios_horizontal = [1e9]\n", "between 0.001 and 1000"),
+        ("[record]\nduration_s = 1e9\n", "duration_s is 1000000000.0"),
+        ("[record]\ndt_s = 0.01\n", "record.file is not given"),
+        ("[record]\nunits = \"g\"\n", "record.file is not given"),
+        ("[record]\nunits = \"ft\"\n", "unknown variant `ft`"),
+        ("[record]\nfile = \".\"\n", "is a folder"),
+        ("restitution = 0.5\nrestitution_ratio = 0.5\n", "not both"),
+        ("[bounds]\nf_min = 2.0\nf_max = 1.0\n", "nothing lies between f_min"),
+    ] {
+        run_case(&format!("{STRUCTURE}{extra}"), &[word]);
+    }
+}
+
+#[test]
+fn options_beyond_all_measure_or_given_twice() {
+    for (args, word) in [
+        (&["run", "--duration", "1e9"][..], "--duration is 1000000000.0"),
+        (&["run", "--duration", "-1"], "--duration is -1"),
+        (&["run", "--duration", "1", "--duration", "2"], "multiple times"),
+        (&["run", "--max-hz", "0"], "--max-hz is 0.0"),
+        (&["run", "--max-hz", "1e300"], "--max-hz is 1e300"),
+        (&["run", "--scale", "0"], "never lifts"),
+        (&["run", "--jobs", "1.5"], "--jobs"),
+        (&["run", "--friction", "nan"], "--friction is NaN"),
+        (&["run", "--out", ""], "--out"),
+        (&["run", "--out", "/dev/null"], "/dev/null: is a file where a folder is needed"),
+        (&["housner", "a", "b"], "'b'"),
+        (&["response", "--mu", "1e-300"], "mu is 1e-300"),
+        (&["simulate"], "--parameters"),
+        (&["frobnicate"], "frobnicate"),
+    ] {
+        refuses(&[], args, &[word]);
     }
 }

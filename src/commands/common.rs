@@ -6,6 +6,7 @@ use clap::Args;
 
 use super::{CommandError, members::WithMembers};
 use crate::{
+    case::LONGEST_S,
     compare::Match,
     fem,
     housner::{self, Rocking},
@@ -59,10 +60,10 @@ impl RecordOptions {
     /// The length asked for [s], or `default`.
     pub fn duration(&self, default: f64) -> Result<f64, CommandError> {
         match self.duration {
-            Some(d) if !(d.is_finite() && d > 0.0) => Err(CommandError::Option {
+            Some(d) if !(d > 0.0 && d <= LONGEST_S) => Err(CommandError::Option {
                 option: "duration",
                 value: format!("{d:?}"),
-                remedy: "give seconds greater than zero",
+                remedy: "give seconds greater than zero, at most 1e6",
             }),
             Some(d) => Ok(d),
             None => Ok(default),

@@ -21,6 +21,10 @@ pub(super) fn check_file(path: &Path) -> Result<(), CommandError> {
     if path.is_dir() || path.file_name().is_none() {
         return Err(CommandError::NotAFile { path: name() });
     }
+    // results are renamed into place: that would take the place of /dev/full itself
+    if path.metadata().is_ok_and(|there| !there.is_file()) {
+        return Err(CommandError::NotRegular { path: name() });
+    }
     let folder = path.parent().filter(|p| !p.as_os_str().is_empty()).unwrap_or(Path::new("."));
     if !folder.is_dir() {
         return Err(CommandError::NoFolder { path: name(), folder: folder.display().to_string() });

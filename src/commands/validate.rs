@@ -10,6 +10,7 @@ use serde::Serialize;
 
 use super::{CommandError, output::check_folder, progress::Progress, run::threads, write_file};
 use crate::{
+    case::LONGEST_S,
     conditioning::ILL_CONDITIONED,
     fem, figures,
     parameters::Parameters,
@@ -131,9 +132,9 @@ pub fn run(o: &Options) -> Result<(), CommandError> {
         return Err(CommandError::Option { option: "restitution", value: format!("{restitution:?}"), remedy });
     }
     if let Some(duration) = o.duration
-        && !(duration.is_finite() && duration > 0.0)
+        && !(duration > 0.0 && duration <= LONGEST_S)
     {
-        let remedy = "give seconds greater than zero";
+        let remedy = "give seconds greater than zero, at most 1e6";
         return Err(CommandError::Option { option: "duration", value: format!("{duration:?}"), remedy });
     }
     check_folder(&o.out)?;

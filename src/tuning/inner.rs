@@ -59,7 +59,7 @@ pub struct Fit {
 /// Why there is no fit.
 #[derive(Clone, Debug, PartialEq, Error)]
 pub enum FitError {
-    #[error("fit: mu is {mu}; give a mass ratio between 1e-6 and 1e6")]
+    #[error("fit: mu is {mu:?}; give a mass ratio between 1e-6 and 1e6")]
     Mu { mu: f64 },
     #[error(transparent)]
     Target(#[from] TargetError),
