@@ -15,7 +15,7 @@ fn paper() -> Case {
     case.record.accel[0] = 0.0;
     case.duration_s = case.record.duration();
     case.tuning.objective = Objective::Impact;
-    case.tuning.candidates = 64;
+    case.tuning.candidates = 16;
     case
 }
 
