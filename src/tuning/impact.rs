@@ -44,7 +44,7 @@ const WEIGHT_ASKED: f64 = 400.0;
 /// Relative difference from equation 2 that counts as another.
 const ANOTHER: f64 = 1e-3;
 /// History error per second in the air beyond what is allowed.
-const WEIGHT_AIR: f64 = 10.0;
+const WEIGHT_AIR: f64 = 15.0;
 /// Time in the air that a landing may take [s].
 const AIR_S: f64 = 0.0085;
 

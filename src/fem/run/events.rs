@@ -29,6 +29,9 @@ const HOLDING: f64 = 1e-3;
 /// Steps that locate one event: Newton's method needs two or three, bisection where the gap all but grazes many more.
 const MOST_LOCATED: usize = 40;
 
+/// Halvings of a step in the search for a place where a foot is clear of the edge.
+const MOST_HALVED: i32 = 30;
+
 /// Touches and lift-offs of one jump of a massless rotation before it counts as having lost its balance.
 const MOST_TURNS: usize = 50;
 
@@ -109,6 +112,13 @@ impl<S: Scalar> Run<'_, S> {
             let q = stages.position(&self.state, tau);
             (self.model.compression(foot, &q, &self.feet[foot]).re() - level) * sign
         };
+        // a foot at the edge that moves off it first must come back before it crosses
+        let edge = 0.1 * self.gap_tolerance();
+        if low.1 <= edge {
+            let inner =
+                (1..MOST_HALVED).map(|k| low.0 + (high.0 - low.0) * 0.5_f64.powi(k)).find(|&tau| value(tau) > edge);
+            low = inner.map_or(low, |tau| (tau, value(tau)));
+        }
         let mut side = 0;
         for _ in 0..60 {
             let tau = (low.0 * high.1 - high.0 * low.1) / (high.1 - low.1);
@@ -116,7 +126,7 @@ impl<S: Scalar> Run<'_, S> {
                 break;
             }
             let d = value(tau);
-            if d.abs() < 0.1 * self.gap_tolerance() {
+            if d.abs() < edge {
                 return tau;
             }
             if d > 0.0 {
