@@ -123,7 +123,10 @@ pub fn measure(effort: &Effort, python: &Path, program: &Path, tell: &dyn Fn(&st
         }
         tell("tune run, tune validate");
         match program::jobs(program, effort.records, 3) {
-            Ok(runs) => m.runs = runs,
+            Ok(jobs) => {
+                m.runs = jobs.runs;
+                m.skips.extend(jobs.skips);
+            }
             Err(reason) => m.left_out.push(reason),
         }
     }

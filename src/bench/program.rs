@@ -7,7 +7,7 @@ use std::{
     time::{Duration, Instant},
 };
 
-use super::least;
+use super::{least, skips::Skip};
 use crate::{
     response::target::Target,
     tuning::{
@@ -39,29 +39,47 @@ pub fn fits(rounds: usize) -> Result<Vec<(f64, f64)>, FitError> {
     [0.1, 0.3, 1.0, 2.0, 10.0].into_iter().map(one).collect()
 }
 
+/// What the program took, and what it saves by leaving out what not everyone wants.
+#[derive(Clone, Debug, Default)]
+pub struct Jobs {
+    pub runs: Vec<Run>,
+    pub skips: Vec<Skip>,
+}
+
 /// The whole job, with and without what not everyone wants, then its springs judged over ever more records.
 ///
 /// # Errors
 /// The program fails; one line says where.
-pub fn jobs(program: &Path, records: &[usize], rounds: usize) -> Result<Vec<Run>, String> {
+pub fn jobs(program: &Path, records: &[usize], rounds: usize) -> Result<Jobs, String> {
     let folder = tempfile::tempdir().map_err(|e| format!("tune: no temporary folder ({e})"))?;
     let out = folder.path();
-    let mut runs = Vec::new();
-    for what in ["run", "run --no-front", "run --no-front --no-figures"] {
-        runs.push(fastest(rounds, || run(program, what, &[], out))?);
-    }
     let parameters = out.join("parameters.json");
+    let mut jobs = Jobs::default();
+    let mut springs = Vec::new();
+    for what in ["run", "run --no-figures", "run --no-front", "run --no-front --no-figures"] {
+        jobs.runs.push(fastest(rounds, || run(program, what, &[], out))?);
+        springs.push(std::fs::read(&parameters).map_err(|e| format!("tune {what}: {}: {e}", parameters.display()))?);
+    }
+    for (what, without, with) in [("figures (tune run --no-figures)", 0, 1), ("front (tune run --no-front)", 0, 2)] {
+        let same = if springs[without] == springs[with] { "the same bytes" } else { "DIFFERENT bytes" };
+        jobs.skips.push(Skip {
+            what,
+            with: jobs.runs[with].seconds,
+            without: jobs.runs[without].seconds,
+            same: format!("{same} in parameters.json"),
+        });
+    }
     let given = [OsStr::new("--parameters"), parameters.as_os_str()];
     let most = records.last().copied().unwrap_or_default();
-    let mut judge = |records: usize, jobs: usize| {
-        let what = format!("validate --synthetic {records} --no-figures --jobs {jobs}");
-        run(program, &what, &given, out).map(|run| runs.push(run))
+    let mut judge = |records: usize, threads: usize| {
+        let what = format!("validate --synthetic {records} --no-figures --jobs {threads}");
+        run(program, &what, &given, out).map(|run| jobs.runs.push(run))
     };
     for &records in records {
         judge(records, 2)?;
     }
     judge(most, 1)?;
-    Ok(runs)
+    Ok(jobs)
 }
 
 fn fastest(rounds: usize, run: impl Fn() -> Result<Run, String>) -> Result<Run, String> {
