@@ -6,7 +6,7 @@
 
 use std::ops::{Add, Neg, Sub};
 
-use num_traits::Num;
+use num_traits::{Num, Zero};
 
 use super::model::{Contact, Foot, Model, N, State, TH, X, Z, ax, az};
 use super::{coupled::Coupled, slipping::Slipping};
@@ -19,6 +19,8 @@ struct Condensed<T> {
     pivot: T,
     /// s^2 k1; zero when open.
     coupling: T,
+    /// coupling pivot: the share of a force on the absorber that reaches the body.
+    share: T,
     /// The chain's dynamic stiffness times s^2; zero when open.
     stiffness: T,
 }
@@ -29,9 +31,9 @@ impl<T: Num + Copy> Condensed<T> {
         if closed {
             let coupling = s * s * lift(chain.k1);
             let pivot = T::one() / (base + coupling);
-            Self { pivot, coupling, stiffness: coupling * base * pivot }
+            Self { pivot, coupling, share: coupling * pivot, stiffness: coupling * base * pivot }
         } else {
-            Self { pivot: T::one() / base, coupling: T::zero(), stiffness: T::zero() }
+            Self { pivot: T::one() / base, coupling: T::zero(), share: T::zero(), stiffness: T::zero() }
         }
     }
 }
@@ -78,6 +80,8 @@ impl<T: Num + Copy + Neg<Output = T>> Newton<T> {
 
 /// What is left of the matrix once the chains are condensed.
 pub(super) struct Matrix<T> {
+    /// Which feet press: an open foot's absorbers move by themselves.
+    closed: [bool; 2],
     /// dp_x/dtheta and dp_z/dtheta of each foot.
     lever: [[T; 2]; 2],
     x_inv: T,
@@ -115,10 +119,11 @@ impl<T: Num + Copy + Neg<Output = T>> Matrix<T> {
         // [xx, zz, tt, x_th, z_th] of both feet
         let mut shares = [[T::zero(); 5]; 2];
         let mut lever = [[T::zero(); 2]; 2];
+        let closed = feet.map(|foot| foot.closed());
         for i in 0..2 {
             let ([h, v], foot) = (&chains.0[i], &contact[i]);
-            lever[i] = [lift(foot.px_th), lift(foot.pz_th)];
-            if feet[i].closed() {
+            if closed[i] {
+                lever[i] = [lift(foot.px_th), lift(foot.pz_th)];
                 let [px, pz] = lever[i];
                 // the turning lever arms: d2p_x = dp_z, d2p_z = -dp_x
                 let geometric = lift(foot.vertical * foot.px_th - foot.horizontal * foot.pz_th);
@@ -131,12 +136,13 @@ impl<T: Num + Copy + Neg<Output = T>> Matrix<T> {
         let x_inv = T::one() / (lift(masses[X]) + xx);
         let z_inv = T::one() / (lift(masses[Z]) + zz);
         let th_inv = T::one() / (lift(masses[TH]) + tt - x_th * x_th * x_inv - z_th * z_th * z_inv);
-        Self { lever, x_inv, z_inv, th_inv, x_th, z_th, coupled: None, slipping: None }
+        Self { closed, lever, x_inv, z_inv, th_inv, x_th, z_th, coupled: None, slipping: None }
     }
 
     fn none() -> Self {
         let zero = T::zero();
         Self {
+            closed: [false; 2],
             lever: [[zero; 2]; 2],
             x_inv: zero,
             z_inv: zero,
@@ -152,7 +158,7 @@ impl<T: Num + Copy + Neg<Output = T>> Matrix<T> {
     #[inline(always)]
     pub fn solve<V>(&self, chains: &Chains<T>, r: &[V; N], times: impl Fn(V, T) -> V + Copy) -> [V; N]
     where
-        V: Copy + Add<Output = V> + Sub<Output = V>,
+        V: Copy + Add<Output = V> + Sub<Output = V> + Zero,
     {
         if let Some(coupled) = &self.coupled {
             return coupled.solve(r, times);
@@ -162,15 +168,17 @@ impl<T: Num + Copy + Neg<Output = T>> Matrix<T> {
         }
         let chains = &chains.0;
         let mut d = *r;
-        let from = |i: usize| {
-            let [h, v] = &chains[i];
-            let (from_x, from_z) = (times(r[ax(i)], h.coupling * h.pivot), times(r[az(i)], v.coupling * v.pivot));
-            let [px, pz] = self.lever[i];
-            [from_x, from_z, times(from_x, px) + times(from_z, pz)]
-        };
-        let (left, right) = (from(0), from(1));
+        let mut reaching = [[V::zero(); 3]; 2];
+        for i in 0..2 {
+            if self.closed[i] {
+                let ([h, v], [px, pz]) = (&chains[i], self.lever[i]);
+                let (from_x, from_z) = (times(r[ax(i)], h.share), times(r[az(i)], v.share));
+                reaching[i] = [from_x, from_z, times(from_x, px) + times(from_z, pz)];
+            }
+        }
+        // one sum of both feet first, so that a mirrored case gives the mirrored history to the last bit
         for k in [X, Z, TH] {
-            d[k] = d[k] + (left[k] + right[k]);
+            d[k] = d[k] + (reaching[0][k] + reaching[1][k]);
         }
         let turned = times(d[X], self.x_th * self.x_inv) + times(d[Z], self.z_th * self.z_inv);
         d[TH] = times(d[TH] - turned, self.th_inv);
@@ -179,8 +187,12 @@ impl<T: Num + Copy + Neg<Output = T>> Matrix<T> {
         for i in 0..2 {
             let [h, v] = &chains[i];
             let [px, pz] = self.lever[i];
-            d[ax(i)] = times(r[ax(i)] + times(d[X] + times(d[TH], px), h.coupling), h.pivot);
-            d[az(i)] = times(r[az(i)] + times(d[Z] + times(d[TH], pz), v.coupling), v.pivot);
+            if self.closed[i] {
+                d[ax(i)] = times(r[ax(i)] + times(d[X] + times(d[TH], px), h.coupling), h.pivot);
+                d[az(i)] = times(r[az(i)] + times(d[Z] + times(d[TH], pz), v.coupling), v.pivot);
+            } else {
+                (d[ax(i)], d[az(i)]) = (times(r[ax(i)], h.pivot), times(r[az(i)], v.pivot));
+            }
         }
         d
     }
