@@ -18,8 +18,8 @@ pub fn real<S: Scalar>(x: f64) -> S {
     S::from(x)
 }
 
-/// Sine and cosine. Of a real number within pi/4 by polynomials in line, good to the last bit or the one before: four times
-/// as fast as the system's, and the same on every machine.
+/// Sine and cosine. Of a real number within pi/4 by polynomials in line, good to the last bit or the one before: without a
+/// call, and the same on every machine.
 #[inline(always)]
 pub fn sin_cos<S: Scalar>(x: S) -> (S, S) {
     match (&x as &dyn Any).downcast_ref::<f64>() {

@@ -15,8 +15,8 @@ pub struct Control {
 }
 
 impl Control {
-    /// For comparing many candidates: errors of the history below 1e-4 (of those worth refining, on El Centro: most below
-    /// 3e-6, the worst 2e-5), in two thirds of the time.
+    /// For comparing many candidates. Against tolerance 1e-10 on El Centro, springs up to 160 Hz with an error below 0.3: nine
+    /// in ten of 153 errors within 3e-6, the worst within 2e-5; in 0.3 to 0.6 of the default's time (`tune bench`).
     pub fn search() -> Self {
         Self { tolerance: 1e-6, most_steps: 200_000, ..Self::default() }
     }
