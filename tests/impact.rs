@@ -91,13 +91,22 @@ fn a_small_settlement_is_honoured_and_one_too_small_is_refused() {
     assert!(tune(5.0e-6).is_none());
 }
 
-/// At the price of bounces: up to 0.4 s in the air a landing. Ratios 0.9 and 1.02 (e = 0.9998) are not reached within
-/// 0.5 % at every lean on this frame; the program says so when it is asked for them.
+/// At the price of bounces: up to 0.2 s in the air a landing. The ratio 0.9 is not reached within 0.5 % at every lean on these;
+/// the program says so when it is asked for it.
 #[test]
-fn the_papers_frame_can_be_given_a_lower_restitution() {
-    let body = with_inertia(Structure::paper());
-    for row in rows(&body, 0.95, &tune(&body, 0.95, 160.0)) {
-        assert!(row.restitution_error.abs() < 5e-3, "{row:?}");
+fn frames_and_small_blocks_can_be_given_a_restitution_near_equation_2() {
+    for structure in [
+        Structure::paper(),
+        Structure::a_frame(20.0, 4.0, 1e5).unwrap(),
+        Structure::a_frame(5.0, 1.5, 1e4).unwrap(),
+        Structure::block(0.6, 0.2, 100.0).unwrap(),
+    ] {
+        let body = with_inertia(structure);
+        for ratio in [0.95, 1.02] {
+            for row in rows(&body, ratio, &tune(&body, ratio, 160.0)) {
+                assert!(row.restitution_error.abs() < 5e-3, "{structure:?} {ratio}: {row:?}");
+            }
+        }
     }
 }
 

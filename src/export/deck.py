@@ -53,6 +53,8 @@ TENDON_SLACK = @TENDON_SLACK@  # its length without tension, m
 
 RECORD_DT = @RECORD_DT@        # s
 STEPS_PER_SAMPLE = @STEPS@     # @STEPS_NOTE@
+FINE = @FINE@                      # parts of a step in which a foot may touch or lift: it lands, anchors and lets go up to one step late
+CALM = @CALM@                  # how long the parts stay fine after that, s
 SAMPLES = @SAMPLES@            # of the record that are followed: @DURATION@ s
 
 # What `tune simulate` found for the same springs and record, m: the check at the end.
@@ -178,6 +180,28 @@ def step(target):
     return False
 
 
+def compressions():
+    """Of both gaps, positive while the foot presses, m."""
+    return [ops.nodeDisp(foot + ABSORBER, 2) - ops.nodeDisp(foot, 2) for foot, _ in FEET]
+
+
+gaps, fine_until = None, 0.0
+
+
+def watched_step(target):
+    """Advance to time `target`; in fine parts where a foot may touch or lift soon, or has within CALM."""
+    global gaps, fine_until
+    before, gaps = gaps, compressions()
+    before = before or gaps
+    soon = any(new * (new + 2.0 * (new - old)) <= 0.0 for new, old in zip(gaps, before))
+    changed = any((new > 0.0) != (old > 0.0) for new, old in zip(gaps, before))
+    start = ops.getTime()
+    if changed:
+        fine_until = start + CALM
+    parts = FINE if soon or start < fine_until else 1
+    return all(step(start + (target - start) * part / parts) for part in range(1, parts + 1))
+
+
 def stop(reason):
     print(f"stopped: {reason}", file=sys.stderr)
     sys.exit(2)
@@ -195,7 +219,7 @@ def main():
     rows = [(0.0, 0.0, 0.0, 0.0)]
     for i in range(1, SAMPLES):
         for j in range(1, STEPS_PER_SAMPLE + 1):
-            if not step((i - 1 + j / STEPS_PER_SAMPLE) * RECORD_DT):
+            if not watched_step((i - 1 + j / STEPS_PER_SAMPLE) * RECORD_DT):
                 stop(f"no convergence at {ops.getTime():.5f} s; raise STEPS_PER_SAMPLE")
         u, v, turn = (ops.nodeDisp(APEX, k) for k in (1, 2, 3))
         rows.append((i * RECORD_DT, u, v - settled, -turn))  # OpenSees turns counter-clockwise

@@ -40,6 +40,8 @@ set tendonSlack @TENDON_SLACK@ ;# its length without tension, m
 
 set recordDt       @RECORD_DT@ ;# s
 set stepsPerSample @STEPS@ ;# @STEPS_NOTE@
+set fine @FINE@ ;# parts of a step in which a foot may touch or lift: it lands, anchors and lets go up to one step late
+set calm @CALM@ ;# how long the parts stay fine after that, s
 set samples        @SAMPLES@ ;# of the record that are followed: @DURATION@ s
 
 # What `tune simulate` found for the same springs and record, m: the check at the end.
@@ -139,6 +141,36 @@ proc step {target} {
     return 0
 }
 
+# Of both gaps, positive while the foot presses, m.
+proc compressions {} {
+    set result {}
+    foreach foot {1 2} {
+        lappend result [expr {[nodeDisp [expr {$foot + 10}] 2] - [nodeDisp $foot 2]}]
+    }
+    return $result
+}
+
+# Advance to a time; in fine parts where a foot may touch or lift soon, or has within `calm`.
+set gaps {}
+set fineUntil 0.0
+proc watchedStep {target} {
+    global gaps fineUntil fine calm
+    set now [compressions]
+    if {$gaps eq {}} { set gaps $now }
+    set start [getTime]
+    set soon 0
+    foreach new $now old $gaps {
+        if {$new * ($new + 2.0 * ($new - $old)) <= 0.0} { set soon 1 }
+        if {($new > 0.0) != ($old > 0.0)} { set fineUntil [expr {$start + $calm}] }
+    }
+    set gaps $now
+    set parts [expr {$soon || $start < $fineUntil ? $fine : 1}]
+    for {set part 1} {$part <= $parts} {incr part} {
+        if {![step [expr {$start + ($target - $start) * $part / $parts}]]} { return 0 }
+    }
+    return 1
+}
+
 proc stop {reason} {
     puts stderr "stopped: $reason"
     exit 2
@@ -171,7 +203,7 @@ puts $out "0,0,0,0"
 array set found [list settled $settled uMax 0.0 uMin 0.0 vMax 0.0 vMin 0.0]
 for {set i 1} {$i < $samples} {incr i} {
     for {set j 1} {$j <= $stepsPerSample} {incr j} {
-        if {![step [expr {($i - 1 + double($j) / $stepsPerSample) * $recordDt}]]} {
+        if {![watchedStep [expr {($i - 1 + double($j) / $stepsPerSample) * $recordDt}]]} {
             stop "no convergence at [getTime] s; raise stepsPerSample"
         }
     }

@@ -23,6 +23,9 @@ const HOLDS: f64 = 1000.0;
 /// A rotation without inertia of its own, on elastic legs.
 const TURNS: &str = "as little as its foot masses, so that the rotation follows the legs at once";
 
+/// A rotation without inertia to speak of.
+const QUICK: &str = "so little that its vibration on the springs dies within a step";
+
 /// The record, four samples a line.
 fn rows(model: &Model, separator: &str) -> String {
     let lines = model.record.accel.chunks(4).map(|samples| {
@@ -41,6 +44,11 @@ fn fill(template: &str, model: &Model, rows: &str) -> String {
     let (v, h) = (&model.springs.vertical, &model.springs.horizontal);
     let e = &model.expected;
     let regularised = model.regularised();
+    let inertia_note = match (regularised.inertia == model.inertia, model.members.legs) {
+        (true, _) => model.inertia_note(),
+        (false, None) => QUICK,
+        (false, Some(_)) => TURNS,
+    };
     let values = [
         ("TITLE", model.title()),
         ("GRAVITY", digits(GRAVITY)),
@@ -48,7 +56,7 @@ fn fill(template: &str, model: &Model, rows: &str) -> String {
         ("HALF_WIDTH", digits(body.half_width)),
         ("MASS", digits(body.mass)),
         ("INERTIA", digits(regularised.inertia)),
-        ("INERTIA_NOTE", if regularised.inertia == model.inertia { model.inertia_note() } else { TURNS }.to_string()),
+        ("INERTIA_NOTE", inertia_note.to_string()),
         ("K1_V", digits(v.k1)),
         ("K2_V", digits(v.k2)),
         ("C_V", digits(v.c)),
@@ -70,7 +78,12 @@ fn fill(template: &str, model: &Model, rows: &str) -> String {
         ("TOLERANCE", digits(model.tolerance)),
         ("RECORD_DT", digits(model.record.dt)),
         ("STEPS", model.steps_per_sample.to_string()),
-        ("STEPS_NOTE", "dt at most 1/(40 Omega_n [Hz]) and 1e-4/p; twice as many must change nothing".to_string()),
+        (
+            "STEPS_NOTE",
+            format!("dt at most 1/(40 Omega_n [Hz]) and {}/p; twice as many must change nothing", model.by_rocking()),
+        ),
+        ("FINE", model.fine.to_string()),
+        ("CALM", digits(model.calm)),
         ("SAMPLES", e.samples.to_string()),
         ("DURATION", model.duration().to_string()),
         ("SETTLED", digits(e.settled)),

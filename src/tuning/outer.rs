@@ -35,8 +35,8 @@ const REFINED: usize = 2;
 const REFINEMENTS: u64 = 24;
 
 /// Candidates of another stiffness that `follow` starts from, and evaluations of its refinement.
-const FOLLOWED: usize = 8;
-const FOLLOWING: u64 = 16;
+const FOLLOWED: usize = 4;
+const FOLLOWING: u64 = 10;
 
 /// What the histories are compared with.
 #[derive(Clone, Copy, Debug)]

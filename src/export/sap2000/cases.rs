@@ -29,8 +29,8 @@ pub(super) fn loads(model: &Model) -> Vec<Table> {
 }
 
 pub(super) fn cases(model: &Model) -> Vec<Table> {
-    let step = model.record.dt / model.steps_per_sample as f64;
-    let out_steps = (model.expected.samples - 1) * model.steps_per_sample;
+    let step = model.record.dt / model.even_steps as f64;
+    let out_steps = (model.expected.samples - 1) * model.even_steps;
     vec![
         Table::new("LOAD CASE DEFINITIONS")
             .row(&[("Case", &"GRAVITY"), ("Type", &"NonStatic"), ("InitialCond", &"Zero"), ("RunCase", &"Yes")])
