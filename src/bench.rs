@@ -28,6 +28,7 @@ use std::{path::Path, time::Instant};
 
 pub use targets::Target;
 
+use self::peers::Stepping;
 use crate::tuning::inner::FitError;
 use report::Measured;
 
@@ -118,8 +119,10 @@ pub fn measure(effort: &Effort, python: &Path, program: &Path, tell: &dyn Fn(&st
     if effort.programs {
         for (tight, scene) in &scenes {
             tell(&format!("OpenSees, {}", scene.name));
-            let peer = peers::opensees(scene, tight, python, effort.opensees);
-            Measured::add(&mut m.left_out, &mut m.elements, peer);
+            for stepping in [Stepping::Even, Stepping::Watched] {
+                let peer = peers::opensees(scene, tight, python, stepping, effort.opensees);
+                Measured::add(&mut m.left_out, &mut m.elements, peer);
+            }
         }
         tell("tune run, tune validate");
         match program::jobs(program, effort.records, 3) {

@@ -96,9 +96,22 @@ fn point(problem: &rigid::Problem, rtol: f64, seconds: f64, theta: &[f64]) -> Po
     Point { setting: format!("rtol {rtol:.0e}"), seconds, error: problem.error(theta), note: String::new() }
 }
 
+/// How OpenSees steps.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum Stepping {
+    /// All steps alike, as an engineer's own deck would.
+    Even,
+    /// As the exported deck does: fine ones where a foot touches or lifts.
+    Watched,
+}
+
 /// OpenSees' TRBDF2 on the exported deck, at `steps` per sample. Errors are told against our own tight solution and, in
 /// the note, against OpenSees' own last run, which is to be the finest.
-pub fn opensees(scene: &elements::Scene, tight: &Motion, python: &Path, steps: &[usize]) -> Peer {
+pub fn opensees(scene: &elements::Scene, tight: &Motion, python: &Path, stepping: Stepping, steps: &[usize]) -> Peer {
+    let (word, told) = match stepping {
+        Stepping::Even => ("even", "even steps"),
+        Stepping::Watched => ("watched", "the exported deck"),
+    };
     let history = scene.simulate(Default::default());
     let expected = Expected::new(&history);
     let folder = tempfile::tempdir().map_err(|e| format!("OpenSees: no temporary folder ({e})"))?;
@@ -106,7 +119,11 @@ pub fn opensees(scene: &elements::Scene, tight: &Motion, python: &Path, steps: &
     let deck = folder.path().join("deck.py");
     std::fs::write(&deck, text).map_err(|e| format!("OpenSees: {e}"))?;
     let mut command = Command::new(python);
-    command.args(["-c", include_str!("peers/opensees.py")]).arg(&deck).args(steps.iter().map(usize::to_string));
+    command
+        .args(["-c", include_str!("peers/opensees.py")])
+        .arg(&deck)
+        .arg(word)
+        .args(steps.iter().map(usize::to_string));
     let stdout = run("OpenSees", &mut command, &[])?;
     let runs: Vec<(usize, f64, Motion)> = String::from_utf8_lossy(&stdout).lines().filter_map(read_run).collect();
     let Some((_, _, finest)) = runs.last().filter(|run| !run.2.is_empty()) else {
@@ -122,7 +139,7 @@ pub fn opensees(scene: &elements::Scene, tight: &Motion, python: &Path, steps: &
             _ => format!("against its own finest {:.0e}", elements::error(motion, finest)),
         },
     };
-    Ok(Series { tool: format!("OpenSees TRBDF2, {}", scene.name), points: runs.iter().map(point).collect() })
+    Ok(Series { tool: format!("OpenSees TRBDF2, {told}, {}", scene.name), points: runs.iter().map(point).collect() })
 }
 
 /// "steps seconds file" and the history in the file; "steps seconds" and none if the analysis stopped.
@@ -176,7 +193,7 @@ mod tests {
         let [Err(reason)] = &scipy(&rigid::Problem::el_centro(), nothing, &[1e-6], 1)[..] else { panic!() };
         assert!(reason.starts_with("SciPy: no-such-interpreter cannot be run") && reason.lines().count() == 1);
         let scene = elements::Scene::plain(20.0);
-        let reason = opensees(&scene, &Motion::default(), nothing, &[1]).unwrap_err();
+        let reason = opensees(&scene, &Motion::default(), nothing, Stepping::Even, &[1]).unwrap_err();
         assert!(reason.starts_with("OpenSees: no-such-interpreter cannot be run"), "{reason}");
         let failed = run("false", &mut Command::new("false"), &[]);
         assert_eq!(failed, Err("false: stopped without a word".into()));

@@ -1,4 +1,5 @@
-# The exported deck (argv 1) at other time steps: argv 2... are numbers of steps per sample. For each, one line on stdout:
+# The exported deck (argv 1), in even steps if argv 2 is "even", at other time steps: argv 3... are numbers of steps per
+# sample. For each, one line on stdout:
 # steps per sample, seconds of the analysis, name of the history written (none if the analysis stopped).
 import importlib.util
 import os
@@ -10,7 +11,9 @@ spec = importlib.util.spec_from_file_location("deck", path)
 deck = importlib.util.module_from_spec(spec)
 spec.loader.exec_module(deck)  # exits with 3 when openseespy cannot be loaded
 history = os.path.splitext(path)[0] + "_history.csv"
-for steps in map(int, sys.argv[2:]):
+if sys.argv[2] == "even":
+    deck.FINE = 1
+for steps in map(int, sys.argv[3:]):
     deck.STEPS_PER_SAMPLE = steps
     shown, sys.stdout = sys.stdout, open(os.devnull, "w")
     began = time.perf_counter()
