@@ -101,6 +101,7 @@ impl<S: Scalar> Case<'_, S> {
     }
 
     fn follow(&self, model: &model::Model<S>, observer: &mut impl Observer<S>) -> Finish<S> {
+        let model = &model::Model { skip_open: self.control.skip_open, ..*model };
         let start = match self.start {
             Start::Settled => model.settled(),
             Start::Leaning(theta) => model.leaning(theta),

@@ -12,6 +12,8 @@ pub struct Control {
     pub extra_iterations: usize,
     /// Take no steps while the body rests on still ground.
     pub skip_rest: bool,
+    /// Solve nothing for an open foot's contact.
+    pub skip_open: bool,
 }
 
 impl Control {
@@ -24,7 +26,7 @@ impl Control {
 
 impl Default for Control {
     fn default() -> Self {
-        Self { tolerance: 1e-9, most_steps: 2_000_000, extra_iterations: 0, skip_rest: true }
+        Self { tolerance: 1e-9, most_steps: 2_000_000, extra_iterations: 0, skip_rest: true, skip_open: true }
     }
 }
 

@@ -125,6 +125,8 @@ pub(crate) struct Model<S> {
     pub frame: Option<Frame<S>>,
     /// Coefficient of friction between foot and ground; none holds at any force.
     pub friction: Option<S>,
+    /// Solve nothing for an open foot's contact (`Control::skip_open`).
+    pub skip_open: bool,
 }
 
 /// A foot's kinematics and contact forces in one configuration.
@@ -149,7 +151,7 @@ impl<S: Scalar> Model<S> {
         } else {
             (body.mass, body.inertia)
         };
-        Self { body: *body, springs: *springs, translation, rotation, frame: None, friction: None }
+        Self { body: *body, springs: *springs, translation, rotation, frame: None, friction: None, skip_open: true }
     }
 
     /// Whether the rotation follows the contact forces without inertia.
@@ -168,6 +170,7 @@ impl<S: Scalar> Model<S> {
             rotation: self.rotation.re(),
             frame: self.frame.as_ref().map(Frame::real),
             friction: self.friction.map(|friction| friction.re()),
+            skip_open: self.skip_open,
         }
     }
 

@@ -80,7 +80,7 @@ impl<T: Num + Copy + Neg<Output = T>> Newton<T> {
 
 /// What is left of the matrix once the chains are condensed.
 pub(super) struct Matrix<T> {
-    /// Which feet press: an open foot's absorbers move by themselves.
+    /// Which feet are solved for: an open foot's absorbers move by themselves.
     closed: [bool; 2],
     /// dp_x/dtheta and dp_z/dtheta of each foot.
     lever: [[T; 2]; 2],
@@ -119,7 +119,7 @@ impl<T: Num + Copy + Neg<Output = T>> Matrix<T> {
         // [xx, zz, tt, x_th, z_th] of both feet
         let mut shares = [[T::zero(); 5]; 2];
         let mut lever = [[T::zero(); 2]; 2];
-        let closed = feet.map(|foot| foot.closed());
+        let closed = feet.map(|foot| foot.closed() || !model.skip_open);
         for i in 0..2 {
             let ([h, v], foot) = (&chains.0[i], &contact[i]);
             if closed[i] {
