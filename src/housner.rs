@@ -28,6 +28,7 @@ mod walk;
 use crate::motion::Motion;
 use crate::scalar::{GRAVITY, Scalar, real};
 use crate::structure::Body;
+use rayon::prelude::*;
 
 /// How to solve.
 #[derive(Clone, Debug)]
@@ -126,8 +127,8 @@ pub fn solve<S: Scalar>(body: &Body<S>, dt: f64, accel: &[f64], options: &Option
     walk::walk(setting(body, dt, accel, options), theta, rate)
 }
 
-/// Rock many bodies on one record, or one body on many scales of it, sixteen at a time in lock-step; each result is, bit for bit, that of
-/// [`solve`]. The longer of the two lists decides how many there are; the shorter one is repeated from its start.
+/// Rock many bodies on one record, or one body on many scales of it, sixteen at a time in lock-step, on every
+/// thread; each result is, bit for bit, that of [`solve`]. The longer of the two lists decides how many there are; the shorter one is repeated from its start.
 pub fn solve_lanes(bodies: &[Body<f64>], dt: f64, accel: &[f64], options: &[Options<f64>]) -> Vec<Rocking<f64>> {
     if bodies.is_empty() || options.is_empty() {
         return Vec::new();
@@ -141,15 +142,19 @@ pub fn solve_lanes(bodies: &[Body<f64>], dt: f64, accel: &[f64], options: &[Opti
         .collect();
     // those that take the same steps side by side
     walks.sort_by_key(|(_, walk)| walk.pace);
-    let mut order = Vec::with_capacity(walks.len());
-    let mut found = Vec::with_capacity(walks.len());
+    let mut chunks = Vec::with_capacity(walks.len().div_ceil(lanes::WIDTH));
     while !walks.is_empty() {
-        let chunk = walks.drain(..walks.len().min(lanes::WIDTH));
-        let (places, together): (Vec<_>, Vec<_>) = chunk.unzip();
-        order.extend(places);
-        found.extend(lanes::walk(together));
+        chunks.push(walks.drain(..walks.len().min(lanes::WIDTH)).collect::<Vec<_>>());
     }
-    let mut placed: Vec<_> = order.into_iter().zip(found).collect();
+    let placed: Vec<Vec<_>> = chunks
+        .into_par_iter()
+        .with_max_len(1)
+        .map(|chunk| {
+            let (places, together): (Vec<_>, Vec<_>) = chunk.into_iter().unzip();
+            places.into_iter().zip(lanes::walk(together)).collect()
+        })
+        .collect();
+    let mut placed: Vec<_> = placed.into_iter().flatten().collect();
     placed.sort_by_key(|(i, _)| *i);
     placed.into_iter().map(|(_, rocking)| rocking).collect()
 }

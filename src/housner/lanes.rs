@@ -86,27 +86,30 @@ fn lock_step<const N: usize>(pace: Pace, mut walks: Vec<Walk<f64>>) -> Vec<Rocki
             kept.rate[i % KEPT] = times(&at.rate, &at.side);
             step::<N>(&fixed, &at, now, next, &mut to);
         }
-        let easy = at.easy(&to);
-        if joined == full && i + 1 < shortest && easy == [true; WIDTH] {
+        let plain = to.plain.map(|plain| plain != 0.0);
+        let well = at.turns_well(&to);
+        if joined == full && i + 1 < shortest && plain == [true; WIDTH] {
             at.all_take(&to);
+            for l in chosen(well.map(|well| !well)) {
+                at.turn(l, &to, fixed.alpha[l]);
+            }
             continue;
         }
-        let mut who: [bool; WIDTH] = array::from_fn(|l| easy[l] & joined[l]);
-        for l in (0..walks.len()).filter(|&l| i + 1 >= walks[l].set.accel.len()) {
-            who[l] = false;
+        let mut who: [bool; WIDTH] = array::from_fn(|l| plain[l] & joined[l]);
+        if i + 1 >= shortest {
+            for l in (0..walks.len()).filter(|&l| i + 1 >= walks[l].set.accel.len()) {
+                who[l] = false;
+            }
         }
         at.some_take(&to, &who);
-        for (l, walk) in walks.iter_mut().enumerate() {
+        for l in chosen(array::from_fn(|l| who[l] & !well[l])) {
+            at.turn(l, &to, fixed.alpha[l]);
+        }
+        for l in chosen(array::from_fn(|l| running[l] & !who[l])) {
+            let walk = &mut walks[l];
             let last = i + 1 >= walk.set.accel.len();
-            if !running[l] || who[l] {
-                continue;
-            }
             let tried = joined[l];
             if tried {
-                if to.plain[l] != 0.0 && !last {
-                    at.turn(l, &to, fixed.alpha[l]);
-                    continue;
-                }
                 kept.hand_over(l, walk, i + 1);
                 at.leave(l, walk);
                 joined[l] = false;
@@ -208,10 +211,10 @@ fn step<const N: usize>(fixed: &Fixed, at: &Joined, now: f64, next: f64, to: &mu
 }
 
 impl Joined {
-    /// Whose step is plain and needs no new sines.
+    /// Whose step needs no new sines.
     #[inline(always)]
-    fn easy(&self, to: &Step) -> [bool; WIDTH] {
-        array::from_fn(|l| turns_well(self.age[l] + 1, to.change[l]) & (to.plain[l] != 0.0))
+    fn turns_well(&self, to: &Step) -> [bool; WIDTH] {
+        array::from_fn(|l| turns_well(self.age[l] + 1, to.change[l]))
     }
 
     /// All lanes make the step.
@@ -232,10 +235,9 @@ impl Joined {
         self.age = array::from_fn(|l| self.age[l] + u32::from(who[l]));
     }
 
-    /// Lane l makes the step and takes new sines.
+    /// Lane l, which made the step, takes new sines.
     #[inline(always)]
     fn turn(&mut self, l: usize, to: &Step, alpha: f64) {
-        (self.w[l], self.rate[l]) = (to.w[l], to.rate[l]);
         (self.sin[l], self.cos[l]) = (alpha - to.w[l]).sin_cos();
         self.age[l] = 0;
     }
@@ -252,6 +254,17 @@ impl Joined {
         state.at = Start { w: self.w[l], rate: self.rate[l], sin: self.sin[l], cos: self.cos[l] };
         (state.side, state.age) = (self.side[l], self.age[l]);
     }
+}
+
+/// The lanes of which it is true, one after the other.
+#[inline(always)]
+fn chosen(which: [bool; WIDTH]) -> impl Iterator<Item = usize> {
+    let mut left = (0..WIDTH).fold(0_u32, |bits, l| bits | (u32::from(which[l]) << l));
+    std::iter::from_fn(move || {
+        let l = left.trailing_zeros();
+        left &= left.wrapping_sub(1);
+        (l < WIDTH as u32).then_some(l as usize)
+    })
 }
 
 #[inline(always)]
