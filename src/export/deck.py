@@ -168,15 +168,18 @@ def gravity():
 
 
 def step(target):
-    """Advance to time `target`; where Newton cycles at a contact event the step is split 10, 100, 1000 times."""
+    """Advance to time `target`; where Newton cycles at a contact event in 10, 100, 1000 parts, at last by another iteration."""
     global repeated
     if ops.analyze(1, target - ops.getTime()) == 0:
         return True
     repeated += 1
-    for parts in (10, 100, 1000):
-        left = target - ops.getTime()
-        if left <= 0.0 or ops.analyze(parts, left / parts) == 0:
-            return True
+    for algorithm in ("Newton", "KrylovNewton", "ModifiedNewton"):
+        ops.algorithm(algorithm)
+        for parts in (10, 100, 1000):
+            left = target - ops.getTime()
+            if left <= 0.0 or ops.analyze(parts, left / parts) == 0:
+                ops.algorithm("Newton")
+                return True
     return False
 
 
