@@ -110,7 +110,7 @@ pub enum Stepping {
 pub fn opensees(scene: &elements::Scene, tight: &Motion, python: &Path, stepping: Stepping, steps: &[usize]) -> Peer {
     let (word, told) = match stepping {
         Stepping::Even => ("even", "even steps"),
-        Stepping::Watched => ("watched", "the exported deck"),
+        Stepping::Watched => ("watched", "our deck"),
     };
     let history = scene.simulate(Default::default());
     let expected = Expected::new(&history);
@@ -139,7 +139,7 @@ pub fn opensees(scene: &elements::Scene, tight: &Motion, python: &Path, stepping
             _ => format!("against its own finest {:.0e}", elements::error(motion, finest)),
         },
     };
-    Ok(Series { tool: format!("OpenSees TRBDF2, {told}, {}", scene.name), points: runs.iter().map(point).collect() })
+    Ok(Series { tool: format!("OpenSees, {told}, {}", scene.name), points: runs.iter().map(point).collect() })
 }
 
 /// "steps seconds file" and the history in the file; "steps seconds" and none if the analysis stopped.
