@@ -66,6 +66,8 @@ pub struct Hop {
     pub then: f64,
     pub e: f64,
     pub alpha: f64,
+    /// Sine and cosine of alpha.
+    pub ground: (f64, f64),
     pub p2: f64,
 }
 
@@ -76,19 +78,18 @@ impl Hop {
             return Fate::Stops;
         }
         let peak = self.now.abs().max(self.then.abs());
-        let d = |lean: f64, a: f64| {
-            let (sin, cos) = (self.alpha - lean).sin_cos();
-            self.p2 * (sin + a * cos)
-        };
-        let d_ground = d(0.0, -peak);
-        if d_ground > 0.0 {
-            // d falls as the body leans out: twice the height of a hop in the field at the ground as the lean to bound it at
+        let d = |(sin, cos): (f64, f64), a: f64| self.p2 * (sin + a * cos);
+        let d_ground = d(self.ground, -peak);
+        // d falls as the body leans out, so that d_min <= d_ground and the ratios below are 1 at least
+        if d_ground > 0.0 && 2.0 * v < self.left * d_ground * (1.0 - self.e) {
+            // twice the height of a hop in the field at the ground as the lean to bound d at
             let lean = v * v / d_ground;
-            let d_min = d(lean, -peak);
+            let out = (self.alpha - lean).sin_cos();
+            let d_min = d(out, -peak);
             if lean < self.alpha && d_min > 0.5 * d_ground {
                 let ratio = |side: f64| {
                     let (now, then) = (side * self.now, side * self.then);
-                    d(0.0, now.max(then)) / d(lean, now.min(then))
+                    d(self.ground, now.max(then)) / d(out, now.min(then))
                 };
                 let loss = 1.0 - self.e * ratio(1.0).max(ratio(-1.0)).sqrt();
                 if 2.0 * v < self.left * d_min * loss {
@@ -96,7 +97,7 @@ impl Hop {
                 }
             }
         }
-        let d_now = d(0.0, -self.now.abs());
+        let d_now = d(self.ground, -self.now.abs());
         if d_now > 0.0 && v * v < 2.0 * d_now * FLOOR * self.alpha {
             return Fate::Stops;
         }
@@ -129,7 +130,7 @@ mod tests {
     fn on_level_ground_hops_die_out_within_the_closed_form_time() {
         let (v, e, alpha, p2) = (1e-5_f64, 0.9, 0.2_f64, 3.0);
         let time = 2.0 * v / (p2 * alpha.sin() * (1.0 - e));
-        let hop = |left| Hop { rate: v, left, now: 0.0, then: 0.0, e, alpha, p2 };
+        let hop = |left| Hop { rate: v, left, now: 0.0, then: 0.0, e, alpha, ground: alpha.sin_cos(), p2 };
         assert_eq!(hop(1.0001 * time).fate(), Fate::DiesOut);
         assert_eq!(hop(0.9999 * time).fate(), Fate::Hops);
     }

@@ -2,30 +2,77 @@
 //!
 //! Newton's method may step over a short hop: it finds a root, not the first one. Here every step is the root of a
 //! parabola that lies below the lean: with |w''| <= M, w(x + y) >= w + w' y - M y^2/2. So no root is ever passed, and near a
-//! simple root the convergence is that of Newton's method.
+//! simple root the convergence is that of Newton's method. Mostly the coefficients tell that there is no root, or only one, which any
+//! method finds.
 
-use super::series::Series;
+use super::series::{Series, value_and_slope};
 use crate::scalar::{Scalar, real};
 
 /// More steps than a double root needs at a linear rate of 0.6 to reach rounding.
 const MAX_STEPS: usize = 120;
 
-/// The smallest x in [0, 1] at which sum c_k x^k leaves the positive numbers, if there is one.
+/// What [`impact_time`] may be given as an error of a root, relative to it: two steps on it is below rounding.
+const CLOSE: f64 = 1e-9;
+
+/// The smallest x in [0, 1] at which sum c_k x^k leaves the positive numbers, if there is one; to [`CLOSE`].
 ///
 /// Roots at x = 0 are set aside: a lean that starts from zero and grows has left the ground. One that starts
 /// from zero and shrinks returns 0.
-pub fn first_root(c: &[f64]) -> Option<f64> {
+pub fn first_root<const N: usize>(c: &[f64; N]) -> Option<f64> {
     // w = x^zeros g: the roots of g are the wanted ones
     let zeros = c.iter().position(|&c| c != 0.0)?;
-    let g = &c[zeros..];
+    let mut g = [0.0; N];
+    g[..N - zeros].copy_from_slice(&c[zeros..]);
     if g[0] < 0.0 {
         return Some(0.0);
     }
-    // not `sum`: the empty sum of f64 is -0.0
-    let bound = g.iter().enumerate().skip(2).fold(0.0, |sum, (k, c)| sum + (k * (k - 1)) as f64 * c.abs());
+    // bounds over [0, 1]: of g from below, of its first two derivatives from above, and of |g''|
+    let (mut least, mut slope, mut bend, mut bound) = (g[0], g[1], 0.0, 0.0);
+    for k in 1..N {
+        least += g[k].min(0.0);
+        if k >= 2 {
+            let second = (k * (k - 1)) as f64 * g[k];
+            slope += k as f64 * g[k].max(0.0);
+            bend += if k == 2 { second } else { second.max(0.0) };
+            bound += second.abs();
+        }
+    }
+    if least > 0.0 {
+        return None;
+    }
+    // g > 0 at first, and falls, or bends down, throughout: there is one root or none
+    if slope < 0.0 || bend < 0.0 {
+        if g.iter().sum::<f64>() > 0.0 {
+            return None;
+        }
+        if let Some(root) = only_root(&g, bound) {
+            return Some(root);
+        }
+    }
+    root_by_parabolas(&g, bound)
+}
+
+/// The only root of g in [0, 1], where |g''| <= bound, by Newton's method from the root of its first three terms.
+fn only_root<const N: usize>(g: &[f64; N], bound: f64) -> Option<f64> {
+    let root = (g[1] * g[1] - 4.0 * g[0] * g[2]).max(0.0).sqrt();
+    let mut x = (2.0 * g[0] / (root - g[1])).clamp(0.0, 1.0);
+    for _ in 0..8 {
+        let (value, slope) = value_and_slope(g, x);
+        let step = value / slope;
+        x = (x - step).clamp(0.0, 1.0);
+        // the error is now at most bound/(2 |slope|) step^2, to first order
+        if bound * step * step <= CLOSE * slope.abs() * x {
+            return Some(x);
+        }
+    }
+    None
+}
+
+/// The first root of g in [0, 1], where |g''| <= bound.
+fn root_by_parabolas<const N: usize>(g: &[f64; N], bound: f64) -> Option<f64> {
     let mut x = 0.0_f64;
     for _ in 0..MAX_STEPS {
-        let (value, slope) = horner(g, x);
+        let (value, slope) = value_and_slope(g, x);
         if value <= 0.0 {
             return Some(x);
         }
@@ -44,10 +91,11 @@ pub fn first_root(c: &[f64]) -> Option<f64> {
     Some(x)
 }
 
-/// The root z of the lean as a function of the parameters. Each Newton step doubles the order of exact derivatives.
+/// The root z of the lean as a function of the parameters. The first Newton step takes the root to rounding, and each one
+/// after it doubles the order of exact derivatives.
 pub fn impact_time<S: Scalar, const N: usize>(series: &Series<S, N>, z: f64) -> S {
     let mut z: S = real(z);
-    for _ in 0..2 {
+    for _ in 0..=(S::NDERIV + 1).next_power_of_two().ilog2() {
         let (w, slope) = series.at(z);
         // a graze has no derivative
         if slope.re() < 0.0 {
@@ -66,15 +114,6 @@ pub fn crossing(c: &[f64], level: f64) -> f64 {
         if w < level { low = middle } else { high = middle }
     }
     high
-}
-
-fn horner(g: &[f64], x: f64) -> (f64, f64) {
-    let (mut value, mut slope) = (0.0, 0.0);
-    for &c in g.iter().rev() {
-        slope = slope * x + value;
-        value = value * x + c;
-    }
-    (value, slope)
 }
 
 #[cfg(test)]

@@ -151,6 +151,32 @@ pub fn end_slope<T: Field, const N: usize>(c: &[T; N]) -> T {
     c[1] + sum
 }
 
+/// sum c_k x^k and its derivative. Even and odd powers go apart, so that half as many operations wait for each other.
+#[inline(always)]
+pub fn value_and_slope<S: Scalar, const N: usize>(c: &[S; N], x: S) -> (S, S) {
+    let x2 = x * x;
+    let mut value = [S::zero(); 2];
+    let mut slope = [S::zero(); 2];
+    for k in (0..N).rev() {
+        value[k % 2] = value[k % 2] * x2 + c[k];
+        if k > 0 {
+            slope[(k - 1) % 2] = slope[(k - 1) % 2] * x2 + c[k] * k as f64;
+        }
+    }
+    (value[0] + value[1] * x, slope[0] + slope[1] * x)
+}
+
+/// Real parts of the coefficients.
+#[inline(always)]
+fn real_parts<S: Scalar, const N: usize>(c: &[S; N]) -> [f64; N] {
+    // not `map`, which is a call of its own for many coefficients
+    let mut re = [0.0; N];
+    for k in 0..N {
+        re[k] = c[k].re();
+    }
+    re
+}
+
 /// The lean over one step as a power series of N coefficients in x = (t - t0)/h.
 #[derive(Clone, Copy)]
 pub struct Series<S, const N: usize> {
@@ -197,7 +223,7 @@ impl<S: Scalar, const N: usize> Series<S, N> {
     #[inline(always)]
     pub fn new(start: &Start<S>, h: S, b0: S, db: S, q: S) -> Self {
         let c = coefficients(start, h, b0, db, q);
-        let re = c.map(|c| c.re());
+        let re = real_parts(&c);
         let (growth, size) = (growth(&re, b0.re(), db.re(), q.re()), size(&re, q.re()));
         Self { c, growth, size }
     }
@@ -216,12 +242,7 @@ impl<S: Scalar, const N: usize> Series<S, N> {
 
     /// w and dw/dx at x.
     pub fn at(&self, x: S) -> (S, S) {
-        let (mut w, mut slope) = (self.c[N - 1], S::zero());
-        for k in (0..N - 1).rev() {
-            slope = slope * x + w;
-            w = w * x + self.c[k];
-        }
-        (w, slope)
+        value_and_slope(&self.c, x)
     }
 
     /// The fraction of the step over which the truncated terms are below rounding; at most 1.
@@ -248,7 +269,7 @@ impl<S: Scalar, const N: usize> Series<S, N> {
 
     /// Real parts of the coefficients.
     pub fn re(&self) -> [f64; N] {
-        self.c.map(|c| c.re())
+        real_parts(&self.c)
     }
 }
 

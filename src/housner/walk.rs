@@ -382,6 +382,7 @@ impl<S: Scalar> Setting<'_, S> {
             then: a1.re(),
             e: self.e.re(),
             alpha: self.alpha.re(),
+            ground: (self.sin_alpha.re(), self.cos_alpha.re()),
             p2: self.p2.re(),
         };
         match hop.fate() {
