@@ -6,7 +6,7 @@
 
 #![allow(clippy::needless_range_loop)] // one index over many arrays
 
-use std::array;
+use std::{array, mem::swap};
 
 use super::Rocking;
 use super::series::{LEAST, SHORT, Start, change, coefficients, end_slope, is_plain, turned};
@@ -17,6 +17,9 @@ pub const WIDTH: usize = 16;
 
 /// A number for each lane.
 type Lanes = [f64; WIDTH];
+
+/// A bit for each lane, as wide as a number.
+type Mask = u64;
 
 /// The walks of at most [`WIDTH`] structures on one record, to their ends.
 pub fn walk(walks: Vec<Walk<f64>>) -> Vec<Rocking<f64>> {
@@ -59,78 +62,71 @@ fn at_pace(walks: Vec<Walk<f64>>) -> Vec<Rocking<f64>> {
 fn lock_step<const N: usize>(pace: Pace, mut walks: Vec<Walk<f64>>) -> Vec<Rocking<f64>> {
     let Some(longest) = walks.iter().max_by_key(|walk| walk.set.accel.len()) else { return Vec::new() };
     let (accel, dt) = (longest.set.accel, longest.set.dt);
+    let shortest = walks.iter().map(|walk| walk.set.accel.len()).min().unwrap_or(0);
     let fixed = Fixed {
         dt,
         unit: gather(&walks, |walk| walk.set.unit),
         alpha: gather(&walks, |walk| walk.set.alpha),
         q: gather(&walks, |walk| walk.q),
     };
-    let mut at = Joined { side: [1.0; WIDTH], ..Joined::default() };
-    let mut to = Step::default();
+    let (mut at, mut to) = (&mut Places::default(), &mut Places::default());
     let mut kept = Kept::default();
+    let mut running = (1 << walks.len()) - 1;
     // the lane's state stands in `at`, its last samples in `kept`, not in its walk
-    let mut joined = [false; WIDTH];
-    let mut running = [false; WIDTH];
-    running[..walks.len()].fill(true);
-    let full = running;
-    let shortest = walks.iter().map(|walk| walk.set.accel.len()).min().unwrap_or(0);
+    let mut joined = 0;
     for (i, &now) in accel.iter().enumerate() {
         let next = accel.get(i + 1).copied().unwrap_or(0.0);
         if i.is_multiple_of(KEPT) {
-            for l in (0..walks.len()).filter(|&l| joined[l]) {
+            for l in lanes(joined) {
                 kept.hand_over(l, &mut walks[l], i);
             }
         }
-        if joined != [false; WIDTH] {
+        let mut plain = 0;
+        if joined != 0 {
             kept.theta[i % KEPT] = times(&at.w, &at.side);
             kept.rate[i % KEPT] = times(&at.rate, &at.side);
-            step::<N>(&fixed, &at, now, next, &mut to);
-        }
-        let plain = to.plain.map(|plain| plain != 0.0);
-        let well = at.turns_well(&to);
-        if joined == full && i + 1 < shortest && plain == [true; WIDTH] {
-            at.all_take(&to);
-            for l in chosen(well.map(|well| !well)) {
-                at.turn(l, &to, fixed.alpha[l]);
+            let (steps, ages) = step::<N>(&fixed, at, now, next, to);
+            plain = steps & joined;
+            if i + 1 >= shortest {
+                plain &= !ended(&walks, i + 1);
             }
-            continue;
-        }
-        let mut who: [bool; WIDTH] = array::from_fn(|l| plain[l] & joined[l]);
-        if i + 1 >= shortest {
-            for l in (0..walks.len()).filter(|&l| i + 1 >= walks[l].set.accel.len()) {
-                who[l] = false;
+            for l in lanes(ages & plain) {
+                to.turn(l, fixed.alpha[l]);
             }
         }
-        at.some_take(&to, &who);
-        for l in chosen(array::from_fn(|l| who[l] & !well[l])) {
-            at.turn(l, &to, fixed.alpha[l]);
-        }
-        for l in chosen(array::from_fn(|l| running[l] & !who[l])) {
-            let walk = &mut walks[l];
+        for l in lanes(running & !plain) {
+            let (walk, lane) = (&mut walks[l], 1 << l);
             let last = i + 1 >= walk.set.accel.len();
-            let tried = joined[l];
+            let tried = joined & lane != 0;
+            let mut runs = !last;
             if tried {
-                kept.hand_over(l, walk, i + 1);
                 at.leave(l, walk);
-                joined[l] = false;
             } else {
-                running[l] = walk.arrive(i);
+                runs &= walk.arrive(i);
             }
             // what does not step with the others goes on by itself
-            running[l] &= !last;
             let lies = !walk.state.rocking && now.abs() <= walk.quiet && next.abs() <= walk.quiet;
-            if running[l] && !lies {
-                running[l] = walk.advance(i, fixed.unit[l] * now, fixed.unit[l] * next, tried);
-                joined[l] = running[l] && walk.state.rocking && walk.pace == pace && walk.is_up();
-                if joined[l] {
-                    at.join(l, walk);
+            runs = runs && (lies || walk.advance(i, fixed.unit[l] * now, fixed.unit[l] * next, tried));
+            if runs && walk.state.rocking && walk.pace == pace && walk.is_up() {
+                to.join(l, walk);
+                if !tried {
                     kept.since[l] = i + 1;
                 }
+                joined |= lane;
+            } else {
+                if tried {
+                    kept.hand_over(l, walk, i + 1);
+                }
+                joined &= !lane;
+            }
+            if !runs {
+                running &= !lane;
             }
         }
-        if running == [false; WIDTH] {
+        if running == 0 {
             break;
         }
+        swap(&mut at, &mut to);
     }
     walks.into_iter().map(Walk::end).collect()
 }
@@ -147,12 +143,13 @@ struct Kept {
 }
 
 impl Kept {
-    /// Lane l's samples before `until`.
+    /// Lane l's samples before `until`, none of them handed over before.
     #[inline(always)]
     fn hand_over(&mut self, l: usize, walk: &mut Walk<f64>, until: usize) {
-        let kept = self.since[l]..until;
-        walk.out.theta.extend(kept.clone().map(|i| self.theta[i % KEPT][l]));
-        walk.out.rate.extend(kept.map(|i| self.rate[i % KEPT][l]));
+        let first = self.since[l] % KEPT;
+        let kept = first..first + (until - self.since[l]);
+        walk.out.theta.extend(self.theta[kept.clone()].iter().map(|lanes| lanes[l]));
+        walk.out.rate.extend(self.rate[kept].iter().map(|lanes| lanes[l]));
         self.since[l] = until;
     }
 }
@@ -165,33 +162,21 @@ struct Fixed {
     q: Lanes,
 }
 
-/// Where the joined lanes are.
+/// Where the joined lanes are; what the others have here is of no effect.
 #[derive(Default)]
-struct Joined {
+struct Places {
     w: Lanes,
     rate: Lanes,
     sin: Lanes,
     cos: Lanes,
     side: Lanes,
-    age: [u32; WIDTH],
+    age: [u64; WIDTH],
 }
 
-/// Where a step takes them.
-#[derive(Default)]
-struct Step {
-    w: Lanes,
-    rate: Lanes,
-    sin: Lanes,
-    cos: Lanes,
-    /// Change of the lean.
-    change: Lanes,
-    /// Not zero if one step takes the whole interval.
-    plain: Lanes,
-}
-
-/// One interval of the record for all lanes.
+/// One interval of the record for all lanes: those of which one step takes the whole interval, and those that need new sines after it.
 #[inline(always)]
-fn step<const N: usize>(fixed: &Fixed, at: &Joined, now: f64, next: f64, to: &mut Step) {
+fn step<const N: usize>(fixed: &Fixed, at: &Places, now: f64, next: f64, to: &mut Places) -> (Mask, Mask) {
+    let (mut plain, mut old) = ([0; WIDTH], [0; WIDTH]);
     // one loop of straight arithmetic, which the compiler turns into vector operations
     for l in 0..WIDTH {
         let start = Start { w: at.w[l], rate: at.rate[l], sin: at.sin[l], cos: at.cos[l] };
@@ -205,40 +190,20 @@ fn step<const N: usize>(fixed: &Fixed, at: &Joined, now: f64, next: f64, to: &mu
         to.rate[l] = end_slope(&c) * (1.0 / fixed.dt);
         to.sin[l] = sin;
         to.cos[l] = cos;
-        to.change[l] = change;
-        to.plain[l] = if is_plain(&c, b0, db, fixed.q[l], w, fixed.alpha[l]) { 1.0 } else { 0.0 };
+        to.side[l] = at.side[l];
+        to.age[l] = at.age[l] + 1;
+        plain[l] = if is_plain(&c, b0, db, fixed.q[l], w, fixed.alpha[l]) { 1 << l } else { 0 };
+        old[l] = if turns_well(to.age[l], change) { 0 } else { 1 << l };
     }
+    let together = |bits: [Mask; WIDTH]| bits.iter().fold(0, |all, bit| all | bit);
+    (together(plain), together(old))
 }
 
-impl Joined {
-    /// Whose step needs no new sines.
+impl Places {
+    /// Lane l takes new sines.
     #[inline(always)]
-    fn turns_well(&self, to: &Step) -> [bool; WIDTH] {
-        array::from_fn(|l| turns_well(self.age[l] + 1, to.change[l]))
-    }
-
-    /// All lanes make the step.
-    #[inline(always)]
-    fn all_take(&mut self, to: &Step) {
-        (self.w, self.rate, self.sin, self.cos) = (to.w, to.rate, to.sin, to.cos);
-        self.age = self.age.map(|age| age + 1);
-    }
-
-    /// Some lanes make the step.
-    #[inline(always)]
-    fn some_take(&mut self, to: &Step, who: &[bool; WIDTH]) {
-        let select = |new: &Lanes, old: &Lanes| array::from_fn(|l| if who[l] { new[l] } else { old[l] });
-        self.w = select(&to.w, &self.w);
-        self.rate = select(&to.rate, &self.rate);
-        self.sin = select(&to.sin, &self.sin);
-        self.cos = select(&to.cos, &self.cos);
-        self.age = array::from_fn(|l| self.age[l] + u32::from(who[l]));
-    }
-
-    /// Lane l, which made the step, takes new sines.
-    #[inline(always)]
-    fn turn(&mut self, l: usize, to: &Step, alpha: f64) {
-        (self.sin[l], self.cos[l]) = (alpha - to.w[l]).sin_cos();
+    fn turn(&mut self, l: usize, alpha: f64) {
+        (self.sin[l], self.cos[l]) = (alpha - self.w[l]).sin_cos();
         self.age[l] = 0;
     }
 
@@ -256,15 +221,19 @@ impl Joined {
     }
 }
 
-/// The lanes of which it is true, one after the other.
+/// The lanes of a mask, one after the other.
 #[inline(always)]
-fn chosen(which: [bool; WIDTH]) -> impl Iterator<Item = usize> {
-    let mut left = (0..WIDTH).fold(0_u32, |bits, l| bits | (u32::from(which[l]) << l));
+fn lanes(mut mask: Mask) -> impl Iterator<Item = usize> {
     std::iter::from_fn(move || {
-        let l = left.trailing_zeros();
-        left &= left.wrapping_sub(1);
-        (l < WIDTH as u32).then_some(l as usize)
+        let l = mask.trailing_zeros() as usize;
+        mask &= mask.wrapping_sub(1);
+        (l < WIDTH).then_some(l)
     })
+}
+
+/// The lanes whose records end before sample i.
+fn ended(walks: &[Walk<f64>], i: usize) -> Mask {
+    (0..).zip(walks).fold(0, |mask, (l, walk)| mask | Mask::from(i >= walk.set.accel.len()) << l)
 }
 
 #[inline(always)]

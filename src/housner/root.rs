@@ -21,8 +21,11 @@ const CLOSE: f64 = 1e-9;
 pub fn first_root<const N: usize>(c: &[f64; N]) -> Option<f64> {
     // w = x^zeros g: the roots of g are the wanted ones
     let zeros = c.iter().position(|&c| c != 0.0)?;
-    let mut g = [0.0; N];
-    g[..N - zeros].copy_from_slice(&c[zeros..]);
+    let mut g = *c;
+    for _ in 0..zeros {
+        g.copy_within(1.., 0);
+        g[N - 1] = 0.0;
+    }
     if g[0] < 0.0 {
         return Some(0.0);
     }

@@ -168,7 +168,7 @@ pub fn value_and_slope<S: Scalar, const N: usize>(c: &[S; N], x: S) -> (S, S) {
 
 /// Real parts of the coefficients.
 #[inline(always)]
-fn real_parts<S: Scalar, const N: usize>(c: &[S; N]) -> [f64; N] {
+pub fn real_parts<S: Scalar, const N: usize>(c: &[S; N]) -> [f64; N] {
     // not `map`, which is a call of its own for many coefficients
     let mut re = [0.0; N];
     for k in 0..N {

@@ -8,12 +8,14 @@ use std::f64::consts::FRAC_PI_2;
 
 use super::rest;
 use super::root::{crossing, first_root, impact_time};
-use super::series::{LEAST, LONG, SHORT, SMALL, Series, Start, change, coefficients, end_slope, is_plain, turned};
+use super::series::{
+    LEAST, LONG, SHORT, SMALL, Series, Start, change, coefficients, end_slope, is_plain, real_parts, turned,
+};
 use super::{Impact, Outcome, Rocking, Uplift};
 use crate::scalar::{Scalar, real};
 
 /// Sine and cosine are carried from step to step by a rotation, and taken anew after this many steps.
-const REFRESH: u32 = 256;
+const REFRESH: u64 = 256;
 
 /// p^2 dt^2 from which on steps take the short series, and the long one.
 const SLOW: f64 = 3e-5;
@@ -66,7 +68,7 @@ pub struct State<S> {
     pub side: f64,
     pub rocking: bool,
     /// Steps since sine and cosine were computed.
-    pub age: u32,
+    pub age: u64,
     /// It did not start at rest.
     started: bool,
     /// When |theta| last grew past alpha (s).
@@ -218,7 +220,7 @@ impl<'a, S: Scalar> Walk<'a, S> {
 
 /// Whether a rotation may carry sine and cosine over a step.
 #[inline(always)]
-pub fn turns_well(age: u32, change: f64) -> bool {
+pub fn turns_well(age: u64, change: f64) -> bool {
     age < REFRESH && change.abs() < SMALL
 }
 
@@ -253,7 +255,7 @@ impl<S: Scalar> Setting<'_, S> {
         let c = coefficients::<S, N>(at, h, b0, db, q);
         let change = change(&c);
         let w = at.w + change;
-        let plain = is_plain(&c.map(|c| c.re()), b0.re(), db.re(), q.re(), w.re(), self.alpha.re());
+        let plain = is_plain(&real_parts(&c), b0.re(), db.re(), q.re(), w.re(), self.alpha.re());
         if plain {
             state.at.w = w;
             state.at.rate = end_slope(&c) * (1.0 / self.dt);
