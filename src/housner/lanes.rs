@@ -9,7 +9,7 @@
 use std::{array, mem::swap};
 
 use super::Rocking;
-use super::series::{LEAST, SHORT, Start, change, coefficients, end_slope, is_plain, turned};
+use super::series::{LEAST, SHORT, Start, change, coefficients, end_slope, is_plain, pulls, turned};
 use super::walk::{Pace, Walk, turns_well};
 
 /// Structures in lock-step.
@@ -63,11 +63,13 @@ fn lock_step<const N: usize>(pace: Pace, mut walks: Vec<Walk<f64>>) -> Vec<Rocki
     let Some(longest) = walks.iter().max_by_key(|walk| walk.set.accel.len()) else { return Vec::new() };
     let (accel, dt) = (longest.set.accel, longest.set.dt);
     let shortest = walks.iter().map(|walk| walk.set.accel.len()).min().unwrap_or(0);
-    let fixed = Fixed {
+    let fixed = Fixed::<N> {
         dt,
         unit: gather(&walks, |walk| walk.set.unit),
         alpha: gather(&walks, |walk| walk.set.alpha),
         q: gather(&walks, |walk| walk.q),
+        root: gather(&walks, |walk| walk.q.sqrt()),
+        pulls: array::from_fn(|k| gather(&walks, |walk| pulls::<_, N>(walk.q)[k])),
     };
     let (mut at, mut to) = (&mut Places::default(), &mut Places::default());
     let mut kept = Kept::default();
@@ -155,11 +157,14 @@ impl Kept {
 }
 
 /// What does not change along the walk.
-struct Fixed {
+struct Fixed<const N: usize> {
     dt: f64,
     unit: Lanes,
     alpha: Lanes,
     q: Lanes,
+    /// p dt.
+    root: Lanes,
+    pulls: [Lanes; N],
 }
 
 /// Where the joined lanes are; what the others have here is of no effect.
@@ -175,14 +180,14 @@ struct Places {
 
 /// One interval of the record for all lanes: those of which one step takes the whole interval, and those that need new sines after it.
 #[inline(always)]
-fn step<const N: usize>(fixed: &Fixed, at: &Places, now: f64, next: f64, to: &mut Places) -> (Mask, Mask) {
+fn step<const N: usize>(fixed: &Fixed<N>, at: &Places, now: f64, next: f64, to: &mut Places) -> (Mask, Mask) {
     let (mut plain, mut old) = ([0; WIDTH], [0; WIDTH]);
     // one loop of straight arithmetic, which the compiler turns into vector operations
     for l in 0..WIDTH {
         let start = Start { w: at.w[l], rate: at.rate[l], sin: at.sin[l], cos: at.cos[l] };
         let (a0, a1) = (fixed.unit[l] * now, fixed.unit[l] * next);
         let (b0, db) = (a0 * at.side[l], (a1 - a0) * at.side[l]);
-        let c: [f64; N] = coefficients(&start, fixed.dt, b0, db, fixed.q[l]);
+        let c: [f64; N] = coefficients(&start, fixed.dt, b0, db, &array::from_fn(|k| fixed.pulls[k][l]));
         let change = change(&c);
         let w = start.w + change;
         let (sin, cos) = turned(start.sin, start.cos, change);
@@ -192,7 +197,7 @@ fn step<const N: usize>(fixed: &Fixed, at: &Places, now: f64, next: f64, to: &mu
         to.cos[l] = cos;
         to.side[l] = at.side[l];
         to.age[l] = at.age[l] + 1;
-        plain[l] = if is_plain(&c, b0, db, fixed.q[l], w, fixed.alpha[l]) { 1 << l } else { 0 };
+        plain[l] = if is_plain(&c, b0, db, fixed.q[l], fixed.root[l], w, fixed.alpha[l]) { 1 << l } else { 0 };
         old[l] = if turns_well(to.age[l], change) { 0 } else { 1 << l };
     }
     let together = |bits: [Mask; WIDTH]| bits.iter().fold(0, |all, bit| all | bit);

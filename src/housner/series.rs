@@ -72,23 +72,33 @@ pub struct Start<S> {
     pub cos: S,
 }
 
-/// c_0 to c_{N-1} of a step of length h (s); b0 and db are b and its change over the step, q = p^2 h^2.
+/// What the force at order k - 2 is multiplied by to give c_k: -q/(k (k - 1)), q = p^2 h^2.
+#[inline(always)]
+pub fn pulls<T: Field, const N: usize>(q: T) -> [T; N] {
+    let minus_q = -q;
+    let mut pulls = [minus_q; N];
+    for k in 2..N {
+        pulls[k] = minus_q * (1.0 / (k * (k - 1)) as f64);
+    }
+    pulls
+}
+
+/// c_0 to c_{N-1} of a step of length h (s); b0 and db are b and its change over the step, `pulls` those of its q.
 ///
 /// What the term before has only just given (c_k, F_{k-1}, G_{k-1}) enters each sum last: the terms then follow each other at the
 /// latency of a few operations, not of whole sums.
 #[inline(always)]
-pub fn coefficients<T: Field, const N: usize>(start: &Start<T>, h: T, b0: T, db: T, q: T) -> [T; N] {
-    let minus_q = -q;
+pub fn coefficients<T: Field, const N: usize>(start: &Start<T>, h: T, b0: T, db: T, pulls: &[T; N]) -> [T; N] {
     let dg = db / (b0 * b0 + 1.0);
     let df = dg * b0;
     let mut f = [start.sin + b0 * start.cos; N];
     let mut g = [start.cos - b0 * start.sin; N];
     let mut c = [start.w; N];
     c[1] = start.rate * h;
-    c[2] = f[0] * (minus_q * 0.5); // (1), (3)
+    c[2] = f[0] * pulls[2]; // (1), (3)
     f[1] = -(c[1] * g[0]);
     g[1] = c[1] * f[0];
-    c[3] = (f[1] + (dg * g[0] + df * f[0])) * (minus_q * (1.0 / 6.0));
+    c[3] = (f[1] + db * start.cos) * pulls[3];
     // jc[j] = j c_j
     let mut jc = [c[1]; N];
     jc[2] = c[2] * 2.0;
@@ -112,7 +122,7 @@ pub fn coefficients<T: Field, const N: usize>(start: &Start<T>, h: T, b0: T, db:
         f[k] = -(c[k] * g[0] + sum_f);
         g[k] = c[k] * f[0] + sum_g;
         let force = f[k] + (dg * g[k - 1] + df * f[k - 1]);
-        c[k + 2] = force * (minus_q * (1.0 / ((k + 1) * (k + 2)) as f64)); // (1), (3)
+        c[k + 2] = force * pulls[k + 2]; // (1), (3)
         jc[k + 2] = c[k + 2] * (k + 2) as f64;
     }
     c
@@ -186,45 +196,47 @@ pub struct Series<S, const N: usize> {
     size: f64,
 }
 
-/// A bound of |c_{k+2}/c_k| for k near N. The equation's part linear in w gives q (1 + |b|)/k^2, its trigonometric part
+/// A bound of k |c_{k+2}/c_k| for k near N. The equation's part linear in w gives q (1 + |b|)/k^2, its trigonometric part
 /// c_1^2/k^2; one 1/k is kept in reserve.
 #[inline(always)]
 fn growth<const N: usize>(c: &[f64; N], b0: f64, db: f64, q: f64) -> f64 {
-    (c[1] * c[1] + q * (1.0 + b0.abs() + db.abs())) * (1.0 / N as f64)
+    c[1] * c[1] + q * (1.0 + b0.abs() + db.abs())
 }
 
 /// What truncated terms are measured against: the change of the lean within the step, or where it turns, that within a time
-/// h at its natural rate p w.
+/// h at its natural rate p w; root = p h.
 #[inline(always)]
-fn size<const N: usize>(c: &[f64; N], q: f64) -> f64 {
-    c[1].abs() + c[2].abs() + c[3].abs() + q.sqrt() * c[0].abs()
+fn size<const N: usize>(c: &[f64; N], root: f64) -> f64 {
+    c[1].abs() + c[2].abs() + c[3].abs() + root * c[0].abs()
 }
 
 /// Whether one step takes the whole interval: the truncated terms are below rounding, the lean does not vanish, and passes neither
 /// alpha nor the flat ground at its end w. With the least number of coefficients a motion smaller than a hundredth of alpha counts as
-/// one of that size.
+/// one of that size. root = p h, q = root^2.
 #[inline(always)]
-pub fn is_plain<const N: usize>(c: &[f64; N], b0: f64, db: f64, q: f64, w: f64, alpha: f64) -> bool {
+pub fn is_plain<const N: usize>(c: &[f64; N], b0: f64, db: f64, q: f64, root: f64, w: f64, alpha: f64) -> bool {
+    // plain comparisons: a NaN among the coefficients is one in w, too
+    let larger = |a: f64, b: f64| if a > b { a } else { b };
     // from the last two terms: every second one may vanish by symmetry
-    let last = c[N - 2].abs().max(c[N - 1].abs());
+    let last = larger(c[N - 2].abs(), c[N - 1].abs());
     let least = if N == LEAST { 0.01 * alpha } else { 0.0 };
-    let converged = last * growth(c, b0, db, q) * N as f64 <= TAIL * (size(c, q) + least);
+    let converged = last * growth(c, b0, db, q) <= TAIL * (size(c, root) + least);
     // |w''| <= M lets the lean sag by M/8 below the line between its two ends
     let mut sag = 0.0;
     for k in 2..N {
         sag += c[k].abs() * ((k * (k - 1)) as f64 / 8.0);
     }
     // `&`, not `&&`: lanes are checked side by side
-    converged & (c[0].min(w) > sag) & (w < FRAC_PI_2) & ((w < alpha) | (c[0] >= alpha))
+    converged & (c[0] > sag) & (w > sag) & (w < FRAC_PI_2) & ((w < alpha) | (c[0] >= alpha))
 }
 
 impl<S: Scalar, const N: usize> Series<S, N> {
     /// The series of a step of length h (s); b0 and db are b and its change over the step, q = p^2 h^2.
     #[inline(always)]
     pub fn new(start: &Start<S>, h: S, b0: S, db: S, q: S) -> Self {
-        let c = coefficients(start, h, b0, db, q);
+        let c = coefficients(start, h, b0, db, &pulls(q));
         let re = real_parts(&c);
-        let (growth, size) = (growth(&re, b0.re(), db.re(), q.re()), size(&re, q.re()));
+        let (growth, size) = (growth(&re, b0.re(), db.re(), q.re()), size(&re, q.re().sqrt()));
         Self { c, growth, size }
     }
 
@@ -247,7 +259,7 @@ impl<S: Scalar, const N: usize> Series<S, N> {
 
     /// The fraction of the step over which the truncated terms are below rounding; at most 1.
     pub fn reach(&self) -> f64 {
-        let size = TAIL * self.size / N as f64;
+        let size = TAIL * self.size;
         let mut reach = 1.0_f64;
         for k in [N - 2, N - 1] {
             let truncated = self.c[k].re().abs() * self.growth;

@@ -9,7 +9,7 @@ use std::f64::consts::FRAC_PI_2;
 use super::rest;
 use super::root::{crossing, first_root, impact_time};
 use super::series::{
-    LEAST, LONG, SHORT, SMALL, Series, Start, change, coefficients, end_slope, is_plain, real_parts, turned,
+    LEAST, LONG, SHORT, SMALL, Series, Start, change, coefficients, end_slope, is_plain, pulls, real_parts, turned,
 };
 use super::{Impact, Outcome, Rocking, Uplift};
 use crate::scalar::{Scalar, real};
@@ -252,10 +252,11 @@ impl<S: Scalar> Setting<'_, S> {
     fn step<const N: usize>(&self, state: &mut State<S>, h: S, q: S, a0: S, da: S) -> bool {
         let at = &state.at;
         let (b0, db) = (a0 * state.side, da * state.side);
-        let c = coefficients::<S, N>(at, h, b0, db, q);
+        let c = coefficients::<S, N>(at, h, b0, db, &pulls(q));
         let change = change(&c);
         let w = at.w + change;
-        let plain = is_plain(&real_parts(&c), b0.re(), db.re(), q.re(), w.re(), self.alpha.re());
+        let (q, root) = (q.re(), q.re().sqrt());
+        let plain = is_plain(&real_parts(&c), b0.re(), db.re(), q, root, w.re(), self.alpha.re());
         if plain {
             state.at.w = w;
             state.at.rate = end_slope(&c) * (1.0 / self.dt);
