@@ -145,8 +145,9 @@ struct Kept {
 }
 
 impl Kept {
-    /// Lane l's samples before `until`, none of them handed over before.
-    #[inline(always)]
+    /// Lane l's samples before `until`, none of them handed over before. Not in line: as vector code it would gather
+    /// numbers from far apart, which is slower than one load after the other.
+    #[inline(never)]
     fn hand_over(&mut self, l: usize, walk: &mut Walk<f64>, until: usize) {
         let first = self.since[l] % KEPT;
         let kept = first..first + (until - self.since[l]);
