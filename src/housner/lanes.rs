@@ -85,8 +85,8 @@ fn lock_step<const N: usize>(pace: Pace, mut walks: Vec<Walk<f64>>) -> Vec<Rocki
         }
         let mut plain = 0;
         if joined != 0 {
-            kept.theta[i % KEPT] = times(&at.w, &at.side);
-            kept.rate[i % KEPT] = times(&at.rate, &at.side);
+            kept.theta[i % KEPT] = array::from_fn(|l| turned_by(at.w[l], at.sign[l]));
+            kept.rate[i % KEPT] = array::from_fn(|l| turned_by(at.rate[l], at.sign[l]));
             let (steps, ages) = step::<N>(&fixed, at, now, next, to);
             plain = steps & joined;
             if i + 1 >= shortest {
@@ -98,17 +98,24 @@ fn lock_step<const N: usize>(pace: Pace, mut walks: Vec<Walk<f64>>) -> Vec<Rocki
         }
         for l in lanes(running & !plain) {
             let (walk, lane) = (&mut walks[l], 1 << l);
-            let last = i + 1 >= walk.set.accel.len();
             let tried = joined & lane != 0;
-            let mut runs = !last;
+            let mut runs = true;
             if tried {
                 at.leave(l, walk);
-            } else {
-                runs &= walk.arrive(i);
+            } else if walk.out.theta.len() <= i {
+                runs = walk.arrive(i);
+                if runs && !walk.state.rocking {
+                    walk.lie(i);
+                }
+            }
+            // its history goes on: it lies
+            if walk.out.theta.len() > i + 1 {
+                continue;
             }
             // what does not step with the others goes on by itself
-            let lies = !walk.state.rocking && now.abs() <= walk.quiet && next.abs() <= walk.quiet;
-            runs = runs && (lies || walk.advance(i, fixed.unit[l] * now, fixed.unit[l] * next, tried));
+            runs = runs
+                && i + 1 < walk.set.accel.len()
+                && walk.advance(i, fixed.unit[l] * now, fixed.unit[l] * next, tried);
             if runs && walk.state.rocking && walk.pace == pace && walk.is_up() {
                 to.join(l, walk);
                 if !tried {
@@ -175,19 +182,20 @@ struct Places {
     rate: Lanes,
     sin: Lanes,
     cos: Lanes,
-    side: Lanes,
+    /// The sign bit of the side.
+    sign: [u64; WIDTH],
     age: [u64; WIDTH],
 }
 
 /// One interval of the record for all lanes: those of which one step takes the whole interval, and those that need new sines after it.
 #[inline(always)]
 fn step<const N: usize>(fixed: &Fixed<N>, at: &Places, now: f64, next: f64, to: &mut Places) -> (Mask, Mask) {
-    let (mut plain, mut old) = ([0; WIDTH], [0; WIDTH]);
+    let mut bits = [0; WIDTH];
     // one loop of straight arithmetic, which the compiler turns into vector operations
     for l in 0..WIDTH {
         let start = Start { w: at.w[l], rate: at.rate[l], sin: at.sin[l], cos: at.cos[l] };
         let (a0, a1) = (fixed.unit[l] * now, fixed.unit[l] * next);
-        let (b0, db) = (a0 * at.side[l], (a1 - a0) * at.side[l]);
+        let (b0, db) = (turned_by(a0, at.sign[l]), turned_by(a1 - a0, at.sign[l]));
         let c: [f64; N] = coefficients(&start, fixed.dt, b0, db, &array::from_fn(|k| fixed.pulls[k][l]));
         let change = change(&c);
         let w = start.w + change;
@@ -196,13 +204,14 @@ fn step<const N: usize>(fixed: &Fixed<N>, at: &Places, now: f64, next: f64, to: 
         to.rate[l] = end_slope(&c) * (1.0 / fixed.dt);
         to.sin[l] = sin;
         to.cos[l] = cos;
-        to.side[l] = at.side[l];
+        to.sign[l] = at.sign[l];
         to.age[l] = at.age[l] + 1;
-        plain[l] = if is_plain(&c, b0, db, fixed.q[l], fixed.root[l], w, fixed.alpha[l]) { 1 << l } else { 0 };
-        old[l] = if turns_well(to.age[l], change) { 0 } else { 1 << l };
+        let plain = is_plain(&c, b0, db, fixed.q[l], fixed.root[l], w, fixed.alpha[l]);
+        let old = !turns_well(to.age[l], change);
+        bits[l] = if plain { 1 << l } else { 0 } | if old { 1 << (l + WIDTH) } else { 0 };
     }
-    let together = |bits: [Mask; WIDTH]| bits.iter().fold(0, |all, bit| all | bit);
-    (together(plain), together(old))
+    let all = bits.iter().fold(0, |all, bits| all | bits);
+    (all & ((1 << WIDTH) - 1), all >> WIDTH)
 }
 
 impl Places {
@@ -217,13 +226,13 @@ impl Places {
         let state = &walk.state;
         (self.w[l], self.rate[l]) = (state.at.w, state.at.rate);
         (self.sin[l], self.cos[l]) = (state.at.sin, state.at.cos);
-        (self.side[l], self.age[l]) = (state.side, state.age);
+        (self.sign[l], self.age[l]) = (state.side.to_bits() & SIGN, state.age);
     }
 
     fn leave(&self, l: usize, walk: &mut Walk<f64>) {
         let state = &mut walk.state;
         state.at = Start { w: self.w[l], rate: self.rate[l], sin: self.sin[l], cos: self.cos[l] };
-        (state.side, state.age) = (self.side[l], self.age[l]);
+        state.age = self.age[l];
     }
 }
 
@@ -242,9 +251,12 @@ fn ended(walks: &[Walk<f64>], i: usize) -> Mask {
     (0..).zip(walks).fold(0, |mask, (l, walk)| mask | Mask::from(i >= walk.set.accel.len()) << l)
 }
 
+const SIGN: u64 = 1 << 63;
+
+/// x times the side of which that is the sign bit: what a multiplication gives, for less.
 #[inline(always)]
-fn times(x: &Lanes, y: &Lanes) -> Lanes {
-    array::from_fn(|l| x[l] * y[l])
+fn turned_by(x: f64, sign: u64) -> f64 {
+    f64::from_bits(x.to_bits() ^ sign)
 }
 
 /// A number of each walk; an empty lane computes what the last walk computes, to no effect.

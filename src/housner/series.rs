@@ -221,11 +221,12 @@ pub fn is_plain<const N: usize>(c: &[f64; N], b0: f64, db: f64, q: f64, root: f6
     let last = larger(c[N - 2].abs(), c[N - 1].abs());
     let least = if N == LEAST { 0.01 * alpha } else { 0.0 };
     let converged = last * growth(c, b0, db, q) <= TAIL * (size(c, root) + least);
-    // |w''| <= M lets the lean sag by M/8 below the line between its two ends
-    let mut sag = 0.0;
-    for k in 2..N {
-        sag += c[k].abs() * ((k * (k - 1)) as f64 / 8.0);
+    // |w''| <= M lets the lean sag by M/8 below the line between its two ends; the small terms count as the last one does
+    let mut small = 0.0;
+    for k in 4..N {
+        small += c[k].abs();
     }
+    let sag = c[2].abs() * 0.25 + c[3].abs() * 0.75 + small * (((N - 1) * (N - 2)) as f64 / 8.0);
     // `&`, not `&&`: lanes are checked side by side
     converged & (c[0] > sag) & (w > sag) & (w < FRAC_PI_2) & ((w < alpha) | (c[0] >= alpha))
 }

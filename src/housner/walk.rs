@@ -168,7 +168,7 @@ impl<'a, S: Scalar> Walk<'a, S> {
     }
 
     /// Lie still at sample i for as long as the record is quiet; the last such sample.
-    fn lie(&mut self, i: usize) -> usize {
+    pub fn lie(&mut self, i: usize) -> usize {
         let accel = self.set.accel;
         if i + 1 == accel.len() || !(accel[i].abs() <= self.quiet || self.set.is_grazing(i)) {
             return i;
