@@ -31,11 +31,11 @@ pub fn first_root<const N: usize>(c: &[f64; N]) -> Option<f64> {
     }
     // bounds over [0, 1]: of g from below, of its first two derivatives from above, and of |g''|
     let (mut least, mut slope, mut bend, mut bound) = (g[0], g[1], 0.0, 0.0);
-    for k in 1..N {
-        least += g[k].min(0.0);
+    for (k, &c) in g.iter().enumerate().skip(1) {
+        least += c.min(0.0);
         if k >= 2 {
-            let second = (k * (k - 1)) as f64 * g[k];
-            slope += k as f64 * g[k].max(0.0);
+            let second = (k * (k - 1)) as f64 * c;
+            slope += k as f64 * c.max(0.0);
             bend += if k == 2 { second } else { second.max(0.0) };
             bound += second.abs();
         }
