@@ -123,7 +123,9 @@ pub fn lanes(problem: &Problem, structures: usize, rounds: usize) -> Lanes {
     let options = Options::default();
     let mut together = || drop(black_box(solve_lanes(&bodies, *dt, accel, std::slice::from_ref(&options))));
     let mut each = || drop(black_box(bodies.iter().map(|body| solve(body, *dt, accel, &options)).collect::<Vec<_>>()));
-    let times = alternate(&mut [&mut together, &mut each], rounds);
+    // from within the pool, as a program at work calls it; a call from outside wakes two threads at once, which Linux often
+    // puts on the same core for some milliseconds
+    let times = rayon::scope(|_| alternate(&mut [&mut together, &mut each], rounds));
     Lanes { structures, lanes: times[0] / structures as f64, single: times[1] / structures as f64 }
 }
 
