@@ -93,8 +93,8 @@ fn a_small_settlement_is_honoured_and_one_too_small_is_refused() {
     assert!(tune(5.0e-6).is_none());
 }
 
-/// At the price of bounces: up to 0.2 s in the air a landing. The ratio 0.9 is not reached within 0.5 % at every lean on these;
-/// the program says so when it is asked for it.
+/// At the price of bounces: up to 0.2 s in the air a landing. The ratio 0.9 is not reached within 0.5 % at every lean on these,
+/// whose mass is all in one point; the program says so when it is asked for it.
 #[test]
 fn frames_can_be_given_a_restitution_near_equation_2() {
     for structure in

@@ -17,8 +17,8 @@
 //! **Another restitution than equation 2's.** While a foot lands fast, all forces pass through it, so that the body keeps its
 //! angular momentum about that foot whatever the springs: that is equation 2, and why springs that do not bounce have it.
 //! To have another they must bounce: what they give back adds to the body's energy, and what the horizontal springs hold
-//! when a foot lifts is lost each time. Housner's e times 0.95 to 1.02 can be had so, at the price of 0.1 to 0.4 s in the
-//! air a landing; for blocks, which have inertia of their own, 0.9 too.
+//! when a foot lifts is lost each time. Housner's e times 0.95 to 1.02 can be had so, at the price of up to
+//! 0.17 s in the air a landing; for blocks, which have inertia of their own, 0.9 too.
 
 mod landing;
 pub mod report;
