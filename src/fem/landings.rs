@@ -85,8 +85,9 @@ impl Events {
         for (i, lean) in leans.iter().enumerate() {
             let next = leans.get(i + 1).map_or(f64::INFINITY, |next| next.start);
             let since = lean.start.max(lean.end - self.moment);
-            let ends_it = |l: &&mut Landing| l.foot != lean.foot && l.time > since && l.time <= next;
-            if let Some(landing) = landings.iter_mut().find(ends_it) {
+            let first = landings.partition_point(|l| l.time <= since);
+            let mut near = landings[first..].iter_mut().take_while(|l| l.time <= next);
+            if let Some(landing) = near.find(|l| l.foot != lean.foot) {
                 landing.impact = true;
             }
         }
@@ -99,7 +100,8 @@ impl Events {
         let mut airborne = 0.0;
         for ((from, to), _) in flights {
             airborne += to - from;
-            if let Some(&i) = impacts.iter().rev().find(|&&i| landings[i].time <= from) {
+            let before = impacts.partition_point(|&i| landings[i].time <= from);
+            if let Some(&i) = impacts[..before].last() {
                 landings[i].airborne += to - from;
             }
         }
@@ -136,10 +138,20 @@ impl Events {
 
     /// Mark the touch-downs of the foot leaned on that opened again within a moment.
     fn mark_bounces(&self, landings: &mut [Landing]) {
-        let opened = |foot: usize, time: f64| {
-            let after = self.events.iter().find(|e| e.foot == foot && e.change == Change::LiftOff && e.time >= time);
-            after.map(|e| e.time)
+        let lift_offs = |foot: usize| -> Vec<f64> {
+            let of_foot = self.events.iter().filter(|e| e.foot == foot && e.change == Change::LiftOff);
+            of_foot.map(|e| e.time).collect()
         };
+        let lift_offs = [lift_offs(0), lift_offs(1)];
+        let opened = |foot: usize, time: f64| {
+            let times: &[f64] = &lift_offs[foot];
+            times.get(times.partition_point(|&t| t < time)).copied()
+        };
+        // of each landing, the next impact after it
+        let mut next_impact = vec![f64::INFINITY; landings.len()];
+        for i in (1..landings.len()).rev() {
+            next_impact[i - 1] = if landings[i].impact { landings[i].time } else { next_impact[i] };
+        }
         let mut on = None;
         for i in 0..landings.len() {
             if landings[i].impact {
@@ -147,8 +159,7 @@ impl Events {
             }
             let Landing { foot, time, .. } = landings[i];
             let Some(opens) = opened(foot, time).filter(|opens| opens - time < self.moment) else { continue };
-            let handed_over = landings[i + 1..].iter().any(|l| l.impact && l.time <= opens);
-            landings[i].bounced = on == Some(foot) && !handed_over;
+            landings[i].bounced = on == Some(foot) && next_impact[i] > opens;
         }
     }
 }
