@@ -4,6 +4,8 @@ pub mod bounds;
 
 mod catalogue;
 
+pub mod choice;
+
 pub mod certificate;
 
 pub mod descent;

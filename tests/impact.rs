@@ -8,16 +8,18 @@ use groundspring::{
     tuning::{
         descent::LeastSquares,
         impact::report::{LandingRow, landings},
-        impulse::{self, Objective},
+        impulse::{self, Effort, Objective},
         inner::families,
         outer::Bracket,
     },
 };
 
+const EFFORT: Effort = Effort { followed: 2, iterations: 15, content: false };
+
 fn tune(body: &Body<f64>, ratio: f64, max_hz: f64) -> Springs<Design<f64>> {
     let bracket = Bracket { max_hz, max_settlement: 0.01 };
     let objective = Objective::new(body, ratio * body.restitution(), bracket);
-    impulse::tune(&objective, &families(&[0.1, 1.0]).unwrap(), 2, 15).unwrap().springs
+    impulse::tune(&objective, &families(&[0.1, 1.0]).unwrap(), EFFORT).unwrap().springs
 }
 
 fn rows(body: &Body<f64>, ratio: f64, springs: &Springs<Design<f64>>) -> Vec<LandingRow> {
@@ -84,7 +86,7 @@ fn a_small_settlement_is_honoured_and_one_too_small_is_refused() {
     let body = Structure::block(2.0, 0.5, 1e3).unwrap().body::<f64>();
     let tune = |max_settlement: f64| {
         let objective = Objective::new(&body, body.restitution(), Bracket { max_hz: 160.0, max_settlement });
-        impulse::tune(&objective, &families(&[0.1, 1.0]).unwrap(), 2, 15)
+        impulse::tune(&objective, &families(&[0.1, 1.0]).unwrap(), EFFORT)
     };
     for limit in [1e-3, 1e-5, 6e-6, 5.1e-6] {
         let settlement = tune(limit).unwrap().springs.settlement(body.mass);

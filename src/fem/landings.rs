@@ -215,6 +215,18 @@ mod tests {
     }
 
     #[test]
+    fn a_foot_that_chatters_a_hundred_thousand_times_is_read_in_a_moment() {
+        let mut changes = ROCKING.to_vec();
+        let chatter = (0..100_000).flat_map(|i| {
+            let time = 2.02 + 1e-6 * f64::from(i);
+            [(time, RIGHT, false), (time + 5e-7, RIGHT, true)]
+        });
+        changes.splice(3..3, chatter);
+        assert_eq!(impacts(&changes, 9.0), [(2.0, RIGHT), (3.0, LEFT)]);
+        assert_eq!(read(&changes, 9.0).0.iter().filter(|l| l.bounced).count(), 100_000);
+    }
+
+    #[test]
     fn a_bouncing_foot_lands_once() {
         let mut changes = ROCKING.to_vec();
         changes.splice(3..3, [(2.02, RIGHT, false), (2.05, RIGHT, true), (2.06, RIGHT, false), (2.07, RIGHT, true)]);

@@ -5,7 +5,7 @@ use std::sync::atomic::{AtomicUsize, Ordering};
 use rayon::prelude::*;
 
 use super::{
-    impulse,
+    impulse::{self, Effort},
     inner::{FitError, families},
     job::Job,
     outer::{self, Benchmark, Bracket},
@@ -19,8 +19,8 @@ use crate::{
 
 /// Stiffest springs of the front's points [Hz]; the case's own limit is added.
 const LADDER_HZ: [f64; 6] = [40.0, 80.0, 160.0, 320.0, 640.0, 1280.0];
-/// Steps of the impact objective's descent at each point.
-const STEPS: u64 = 4;
+/// Of the impact objective, at each point.
+const EFFORT: Effort = Effort { followed: 1, iterations: 4, content: true };
 
 /// Springs of one point and their errors on the case's record.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -68,7 +68,13 @@ pub fn front(case: &Case, job: &Job, progress: &(dyn Fn(usize, usize) + Sync)) -
             let ours = || {
                 known(job.impact.map(|f| f.springs)).or_else(|| {
                     let objective = impulse::Objective::new(&job.body, case.restitution, bracket);
-                    impulse::tune(&objective, &families, 1, STEPS).map(|found| found.springs)
+                    let proposals = impulse::proposals(&objective, &families, EFFORT);
+                    // where the record does not decide, its front says little, and many histories a point are dear
+                    let found = match job.choice.by_record() {
+                        true => job.choice.of(&proposals),
+                        false => impulse::in_best_order(&proposals).next().copied(),
+                    };
+                    found.map(|found| found.springs)
                 })
             };
             let (arr, impact) = rayon::join(paper, ours);

@@ -9,7 +9,7 @@ use rayon::prelude::*;
 use super::{
     catalogue,
     descent::{LeastSquares, descend},
-    impact::Impact,
+    impact::{Impact, order::Order},
     inner::Fit,
     outer::Bracket,
 };
@@ -23,9 +23,9 @@ use crate::{
 type Dual = DualSVec64<8>;
 
 /// Least and largest stiffness ratio K, damping number C and mass ratio mu that are tried.
-const K: (f64, f64) = (0.02, 30.0);
+const K: (f64, f64) = (0.001, 30.0);
 const C: (f64, f64) = (0.005, 40.0);
-const MU: (f64, f64) = (0.005, 40.0);
+const MU: (f64, f64) = (0.0025, 40.0);
 /// Least Omega_n tried, as a share of the largest.
 const SOFTEST: f64 = 0.1;
 
@@ -35,7 +35,8 @@ pub struct Found {
     pub springs: Springs<Design<f64>>,
     /// sqrt of the sum of squares of `Impact`'s residuals: about the NRMSE to expect.
     pub error: f64,
-    pub iterations: u64,
+    /// Of the landings, from all leans.
+    pub order: Order,
 }
 
 /// The eight logarithms: Omega_n [Hz], K, C, mu of the vertical and of the horizontal chain.
@@ -73,7 +74,7 @@ impl Objective {
         let body = &Body { mass: 1.0, inertia: rounded(body.inertia / body.mass), ..*body };
         let restitution = rounded(restitution);
         Self {
-            impact: Impact::new(body, restitution),
+            impact: Impact::new(body, restitution, bracket.max_hz),
             p: body.p_squared().sqrt(),
             mass_share: body.mass_share(),
             ratio: restitution / body.restitution(),
@@ -101,6 +102,23 @@ impl Objective {
             z[1] = z[1].max(needed(z[0].exp()));
         }
         z
+    }
+
+    /// These springs, stiffened if they settle by more than is allowed, and their error; not yet their landings' order.
+    fn found(&self, s: &Springs<Design<f64>>) -> Found {
+        let springs = match s.settlement(1.0) > self.bracket.max_settlement {
+            true => springs(&self.settled(logarithms(s))),
+            false => *s,
+        };
+        Found { springs, error: self.error(&springs), order: Order::Missed }
+    }
+
+    fn ordered(&self, found: &Found) -> Found {
+        // for another restitution the feet must bounce: no order to look for
+        if self.impact.another() {
+            return *found;
+        }
+        Found { order: Order::of(&self.impact, &found.springs, self.control), ..*found }
     }
 
     /// sqrt of the sum of squares of the residuals.
@@ -152,13 +170,38 @@ impl LeastSquares for Objective {
     }
 }
 
-/// Tune all eight parameters, from pairs of families at the stiffest springs allowed and from springs found before for
-/// structures of like Omega_n/p; the best few starts are followed. `None` if no start finishes its runs, or all settle by
-/// more than is allowed.
-pub fn tune(objective: &Objective, families: &[Fit], followed: usize, iterations: u64) -> Option<Found> {
+/// Springs that are this much worse than the best by the impact objective may still be the better ones for a record.
+const PASSABLE: f64 = 1.5;
+
+/// How hard to search.
+#[derive(Clone, Copy, Debug)]
+pub struct Effort {
+    /// Starts that are followed if the landings of none are in order as it is; else it is the best of those.
+    pub followed: usize,
+    /// Steps of each.
+    pub iterations: u64,
+    /// Then follow none.
+    pub content: bool,
+}
+
+/// Tune all eight parameters: the best of [`proposals`] by the impact objective among those whose landings are in best order.
+pub fn tune(objective: &Objective, families: &[Fit], effort: Effort) -> Option<Found> {
+    in_best_order(&proposals(objective, families, effort)).next().copied()
+}
+
+/// Those of proposals whose landings are in the best order that any has.
+pub fn in_best_order(proposals: &[Found]) -> impl Iterator<Item = &Found> {
+    let order = proposals.iter().map(|found| found.order).max();
+    proposals.iter().filter(move |found| Some(found.order) == order)
+}
+
+/// Springs that are good for any record, the best first, and none much worse than it: from pairs of families at the stiffest
+/// springs allowed and from springs found before for structures of like Omega_n/p, of which the best few are followed
+/// down all eight parameters. Empty if no start finishes its runs, or all settle by more than is allowed.
+pub fn proposals(objective: &Objective, families: &[Fit], effort: Effort) -> Vec<Found> {
     let Bracket { max_hz: hz, max_settlement } = objective.bracket;
     if Objective::least_settlement(&objective.bracket) > max_settlement {
-        return None;
+        return Vec::new();
     }
     let mut starts: Vec<Springs<Design<f64>>> =
         catalogue::near(TAU * hz / objective.p, objective.mass_share, objective.ratio, hz);
@@ -166,26 +209,34 @@ pub fn tune(objective: &Objective, families: &[Fit], followed: usize, iterations
         let design = Design { mu: fit.mu, f: fit.f, xi: fit.xi, omega_n_hz: hz };
         starts.push(Springs { vertical: design, horizontal: design });
     }
-    for start in starts.iter_mut().filter(|start| start.settlement(1.0) > max_settlement) {
-        *start = springs(&objective.settled(logarithms(start)));
-    }
-    let mut ranked: Vec<(f64, usize)> = starts.par_iter().enumerate().map(|(i, s)| (objective.error(s), i)).collect();
-    ranked.sort_by(|a, b| a.0.total_cmp(&b.0).then(a.1.cmp(&b.1)));
-    let ends: Vec<Found> = ranked
+    let best_first = |mut found: Vec<Found>| {
+        found.sort_by(|a, b| a.error.total_cmp(&b.error));
+        found
+    };
+    let passable = |found: &[Found]| {
+        let most = PASSABLE * found.first().map_or(f64::INFINITY, |best| best.error);
+        found.iter().take_while(|found| found.error.is_finite() && found.error <= most).count()
+    };
+    let mut starts: Vec<Found> = best_first(starts.par_iter().map(|start| objective.found(start)).collect());
+    let good = passable(&starts);
+    starts[..good].par_iter_mut().for_each(|start| *start = objective.ordered(start));
+    let in_order = starts.iter().any(|start| start.order > Order::Missed);
+    let followed = match (in_order, effort.content) {
+        (true, true) => 0,
+        // one that is in order needs no rival
+        (true, false) => 1,
+        (false, _) => effort.followed,
+    };
+    let follow: Vec<&Found> = in_best_order(&starts).take(followed).collect();
+    let ends: Vec<Found> = follow
         .par_iter()
-        .take(followed)
-        .map(|&(_, i)| {
-            let end = descend(objective, &logarithms(&starts[i]), 0.3, iterations);
-            let found = Found { springs: springs(&end.z), error: end.error, iterations: end.iterations };
-            // the descent sees the limit as a plane
-            match found.springs.settlement(1.0) > max_settlement {
-                true => {
-                    let springs = springs(&objective.settled(logarithms(&found.springs)));
-                    Found { springs, error: objective.error(&springs), ..found }
-                }
-                false => found,
-            }
+        .map(|start| {
+            let end = descend(objective, &logarithms(&start.springs), 0.3, effort.iterations);
+            // the descent sees the limit of the settlement as a plane
+            objective.ordered(&objective.found(&springs(&end.z)))
         })
         .collect();
-    ends.into_iter().filter(|end| end.error.is_finite()).min_by(|a, b| a.error.total_cmp(&b.error))
+    let mut found = best_first([ends, starts].concat());
+    found.truncate(passable(&found));
+    found
 }
