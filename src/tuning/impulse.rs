@@ -172,6 +172,8 @@ impl LeastSquares for Objective {
 
 /// Springs that are this much worse than the best by the impact objective may still be the better ones for a record.
 const PASSABLE: f64 = 1.5;
+/// Steps from a start whose landings are in order as it is.
+const NEARLY_THERE: u64 = 2;
 
 /// How hard to search.
 #[derive(Clone, Copy, Debug)]
@@ -221,17 +223,17 @@ pub fn proposals(objective: &Objective, families: &[Fit], effort: Effort) -> Vec
     let good = passable(&starts);
     starts[..good].par_iter_mut().for_each(|start| *start = objective.ordered(start));
     let in_order = starts.iter().any(|start| start.order > Order::Missed);
-    let followed = match (in_order, effort.content) {
-        (true, true) => 0,
-        // one that is in order needs no rival
-        (true, false) => 1,
-        (false, _) => effort.followed,
+    let (followed, iterations) = match (in_order, effort.content) {
+        (true, true) => (0, 0),
+        // one that is in order needs no rival, and is nearly there
+        (true, false) => (1, effort.iterations.min(NEARLY_THERE)),
+        (false, _) => (effort.followed, effort.iterations),
     };
     let follow: Vec<&Found> = in_best_order(&starts).take(followed).collect();
     let ends: Vec<Found> = follow
         .par_iter()
         .map(|start| {
-            let end = descend(objective, &logarithms(&start.springs), 0.3, effort.iterations);
+            let end = descend(objective, &logarithms(&start.springs), 0.3, iterations);
             // the descent sees the limit of the settlement as a plane
             objective.ordered(&objective.found(&springs(&end.z)))
         })
