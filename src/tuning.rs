@@ -24,6 +24,8 @@ pub mod job;
 
 pub mod minimax;
 
+mod off;
+
 pub mod outer;
 
 pub mod smooth;

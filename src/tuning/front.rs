@@ -72,7 +72,7 @@ pub fn front(case: &Case, job: &Job, progress: &(dyn Fn(usize, usize) + Sync)) -
                     // where the record does not decide, its front says little, and many histories a point are dear
                     let found = match job.choice.by_record() {
                         true => job.choice.of(&proposals),
-                        false => impulse::in_best_order(&proposals).next().copied(),
+                        false => impulse::in_order_first(&proposals).next().copied(),
                     };
                     found.map(|found| found.springs)
                 })

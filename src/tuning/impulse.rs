@@ -9,7 +9,7 @@ use rayon::prelude::*;
 use super::{
     catalogue,
     descent::{LeastSquares, descend},
-    impact::{Impact, order::Order},
+    impact::Impact,
     inner::Fit,
     outer::Bracket,
 };
@@ -35,8 +35,8 @@ pub struct Found {
     pub springs: Springs<Design<f64>>,
     /// sqrt of the sum of squares of `Impact`'s residuals: about the NRMSE to expect.
     pub error: f64,
-    /// Of the landings, from all leans.
-    pub order: Order,
+    /// Whether its landings are in order, from all leans.
+    pub in_order: bool,
 }
 
 /// The eight logarithms: Omega_n [Hz], K, C, mu of the vertical and of the horizontal chain.
@@ -48,6 +48,10 @@ fn springs<S: Scalar>(z: &[S]) -> Springs<Design<S>> {
 fn logarithms(s: &Springs<Design<f64>>) -> [f64; 8] {
     let (v, h) = (&s.vertical, &s.horizontal);
     [v.omega_n_hz, v.k(), v.c(), v.mu, h.omega_n_hz, h.k(), h.c(), h.mu].map(f64::ln)
+}
+
+fn norm(residuals: &[f64]) -> f64 {
+    residuals.iter().map(|r| r * r).sum::<f64>().sqrt()
 }
 
 /// x to 40 bits (1e-12): bounces make the objective rugged, and a search over it takes the rounding of its input for news.
@@ -104,26 +108,21 @@ impl Objective {
         z
     }
 
-    /// These springs, stiffened if they settle by more than is allowed, and their error; not yet their landings' order.
+    /// These springs, stiffened if they settle by more than is allowed, and what the impact objective says of them.
     fn found(&self, s: &Springs<Design<f64>>) -> Found {
         let springs = match s.settlement(1.0) > self.bracket.max_settlement {
             true => springs(&self.settled(logarithms(s))),
             false => *s,
         };
-        Found { springs, error: self.error(&springs), order: Order::Missed }
-    }
-
-    fn ordered(&self, found: &Found) -> Found {
+        let residuals = self.residuals(&logarithms(&springs));
         // for another restitution the feet must bounce: no order to look for
-        if self.impact.another() {
-            return *found;
-        }
-        Found { order: Order::of(&self.impact, &found.springs, self.control), ..*found }
+        let in_order = !self.impact.another() && self.impact.in_order(&residuals);
+        Found { springs, error: norm(&residuals), in_order }
     }
 
     /// sqrt of the sum of squares of the residuals.
     pub fn error(&self, s: &Springs<Design<f64>>) -> f64 {
-        self.residuals(&logarithms(s)).iter().map(|r| r * r).sum::<f64>().sqrt()
+        norm(&self.residuals(&logarithms(s)))
     }
 }
 
@@ -171,7 +170,7 @@ impl LeastSquares for Objective {
 }
 
 /// Springs that are this much worse than the best by the impact objective may still be the better ones for a record.
-const PASSABLE: f64 = 1.5;
+const PASSABLE: f64 = 2.0;
 /// Steps from a start whose landings are in order as it is.
 const NEARLY_THERE: u64 = 2;
 
@@ -186,30 +185,24 @@ pub struct Effort {
     pub content: bool,
 }
 
-/// Tune all eight parameters: the best of [`proposals`] by the impact objective among those whose landings are in best order.
+/// Tune all eight parameters: the best of [`proposals`] by the impact objective among those whose landings are in order.
 pub fn tune(objective: &Objective, families: &[Fit], effort: Effort) -> Option<Found> {
-    in_best_order(&proposals(objective, families, effort)).next().copied()
+    in_order_first(&proposals(objective, families, effort)).next().copied()
 }
 
-/// Those of proposals whose landings are in the best order that any has.
-pub fn in_best_order(proposals: &[Found]) -> impl Iterator<Item = &Found> {
-    let order = proposals.iter().map(|found| found.order).max();
-    proposals.iter().filter(move |found| Some(found.order) == order)
+/// Those of proposals whose landings are in order; all, if those of none are.
+pub fn in_order_first(proposals: &[Found]) -> impl Iterator<Item = &Found> {
+    let any = proposals.iter().any(|found| found.in_order);
+    proposals.iter().filter(move |found| found.in_order || !any)
 }
 
-/// Springs that are good for any record, the best first, and none much worse than it: from pairs of families at the stiffest
-/// springs allowed and from springs found before for structures of like Omega_n/p, of which the best few are followed
-/// down all eight parameters. Empty if no start finishes its runs, or all settle by more than is allowed.
+/// Springs that are good for any record, the best first, and none much worse than it: from springs found before for structures
+/// of like Omega_n/p and, where none of these has its landings in order, from pairs of families at the stiffest springs allowed.
+/// The best few are followed down all eight parameters. Empty if no start finishes its runs, or all settle by more than is allowed.
 pub fn proposals(objective: &Objective, families: &[Fit], effort: Effort) -> Vec<Found> {
     let Bracket { max_hz: hz, max_settlement } = objective.bracket;
     if Objective::least_settlement(&objective.bracket) > max_settlement {
         return Vec::new();
-    }
-    let mut starts: Vec<Springs<Design<f64>>> =
-        catalogue::near(TAU * hz / objective.p, objective.mass_share, objective.ratio, hz);
-    for fit in families {
-        let design = Design { mu: fit.mu, f: fit.f, xi: fit.xi, omega_n_hz: hz };
-        starts.push(Springs { vertical: design, horizontal: design });
     }
     let best_first = |mut found: Vec<Found>| {
         found.sort_by(|a, b| a.error.total_cmp(&b.error));
@@ -219,23 +212,33 @@ pub fn proposals(objective: &Objective, families: &[Fit], effort: Effort) -> Vec
         let most = PASSABLE * found.first().map_or(f64::INFINITY, |best| best.error);
         found.iter().take_while(|found| found.error.is_finite() && found.error <= most).count()
     };
-    let mut starts: Vec<Found> = best_first(starts.par_iter().map(|start| objective.found(start)).collect());
-    let good = passable(&starts);
-    starts[..good].par_iter_mut().for_each(|start| *start = objective.ordered(start));
-    let in_order = starts.iter().any(|start| start.order > Order::Missed);
+    let judged = |starts: &[Springs<Design<f64>>]| -> Vec<Found> {
+        starts.par_iter().with_max_len(1).map(|start| objective.found(start)).collect()
+    };
+    let any_in_order = |found: &[Found]| found[..passable(found)].iter().any(|found| found.in_order);
+    let mut starts =
+        best_first(judged(&catalogue::near(TAU * hz / objective.p, objective.mass_share, objective.ratio, hz)));
+    if !any_in_order(&starts) {
+        let pairs = families.iter().map(|fit| {
+            let design = Design { mu: fit.mu, f: fit.f, xi: fit.xi, omega_n_hz: hz };
+            Springs { vertical: design, horizontal: design }
+        });
+        starts = best_first([starts, judged(&pairs.collect::<Vec<_>>())].concat());
+    }
+    let in_order = any_in_order(&starts);
     let (followed, iterations) = match (in_order, effort.content) {
         (true, true) => (0, 0),
         // one that is in order needs no rival, and is nearly there
         (true, false) => (1, effort.iterations.min(NEARLY_THERE)),
         (false, _) => (effort.followed, effort.iterations),
     };
-    let follow: Vec<&Found> = in_best_order(&starts).take(followed).collect();
+    let follow: Vec<&Found> = in_order_first(&starts[..passable(&starts)]).take(followed).collect();
     let ends: Vec<Found> = follow
         .par_iter()
         .map(|start| {
             let end = descend(objective, &logarithms(&start.springs), 0.3, iterations);
             // the descent sees the limit of the settlement as a plane
-            objective.ordered(&objective.found(&springs(&end.z)))
+            objective.found(&springs(&end.z))
         })
         .collect();
     let mut found = best_first([ends, starts].concat());

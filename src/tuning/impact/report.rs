@@ -12,16 +12,16 @@ use std::ops::ControlFlow;
 use rayon::prelude::*;
 use serde::{Deserialize, Serialize};
 
-use super::landing::{Drop, next_peak, quarter};
+use super::{
+    LEANS,
+    landing::{Drop, next_peak, quarter},
+};
 use crate::{
     fem::{Case, Change, Control, Observer, Start, View},
     scalar::GRAVITY,
     spring::{Chain, Springs},
     structure::Body,
 };
-
-/// Leans that are reported, shares of alpha.
-pub const LEANS: [f64; 8] = [0.9, 0.7, 0.5, 0.3, 0.2, 0.1, 0.05, 0.02];
 
 /// What one landing does.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]

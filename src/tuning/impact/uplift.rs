@@ -19,7 +19,7 @@ use crate::{
 };
 
 /// Durations t_r [s].
-const RAMPS_S: [f64; 5] = [0.03, 0.045, 0.065, 0.095, 0.14];
+const RAMPS_S: [f64; 5] = [0.045, 0.065, 0.095, 0.14, 0.2];
 /// Durations t_r, in 1/p.
 const RAMPS_P: [f64; 3] = [0.06, 0.12, 0.24];
 /// Ground acceleration before and after, in g tan alpha.
