@@ -95,16 +95,21 @@ fn a_small_settlement_is_honoured_and_one_too_small_is_refused() {
     assert!(tune(5.0e-6).is_none());
 }
 
-/// At the price of bounces: up to 0.2 s in the air a landing. The ratio 0.9 is not reached within 0.5 % at every lean on these,
-/// whose mass is all in one point; the program says so when it is asked for it.
+/// At the price of bounces, for their mass is all in one point: up to 0.5 s in the air a landing.
 #[test]
-fn frames_can_be_given_a_restitution_near_equation_2() {
+fn frames_can_be_given_another_restitution() {
     for structure in
         [Structure::paper(), Structure::a_frame(20.0, 4.0, 1e5).unwrap(), Structure::a_frame(5.0, 1.5, 1e4).unwrap()]
     {
         let body = with_inertia(structure);
-        for ratio in [0.95, 1.02] {
+        for ratio in [0.9, 0.95, 1.02] {
             for row in rows(&body, ratio, &tune(&body, ratio, 160.0)) {
+                println!(
+                    "{} m, {ratio}: {:+.2e}, {:.0} ms",
+                    structure.height_m,
+                    row.restitution_error,
+                    1e3 * row.air_s
+                );
                 assert!(row.restitution_error.abs() < 5e-3, "{structure:?} {ratio}: {row:?}");
             }
         }
