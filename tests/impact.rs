@@ -133,7 +133,7 @@ fn gradients_of_the_objective_agree_with_finite_differences() {
         let (up, down) = (at(0.01), at(-0.01));
         for (k, row) in exact.iter().enumerate() {
             let slope = (up[k] - down[k]) / 0.02;
-            // the search's step control leaves 1e-4 of an error of restitution, 40 times that in a residual
+            // the search's step control leaves 1e-4 of an error of restitution, several times that in a residual
             assert!((slope - row[i]).abs() < 0.05 * scale, "residual {k}, parameter {i}: {slope} {}", row[i]);
         }
     }

@@ -9,6 +9,7 @@
 use rayon::prelude::*;
 
 use super::{
+    impact::is_another,
     impulse::{Found, in_order_first},
     off,
     outer::Benchmark,
@@ -23,9 +24,6 @@ use crate::{
     structure::Body,
     synthetic,
 };
-
-/// Relative difference from equation 2's restitution that counts as another.
-const ANOTHER: f64 = 1e-3;
 
 /// Synthetic motions that decide, and the suite in which those that are well conditioned are looked for.
 const MOTIONS: usize = 30;
@@ -73,7 +71,7 @@ impl Choice {
     /// Of a body that shall land with velocity restitution `restitution`, on this record. Nobody decides over springs for
     /// another restitution than equation 2's: then that goes first, and the impact objective alone knows.
     pub fn new(body: &Body<f64>, restitution: f64, record: &Record) -> Self {
-        if (restitution / body.restitution() - 1.0).abs() > ANOTHER {
+        if is_another(body, restitution) {
             return Self { body: *body, trials: Vec::new() };
         }
         let trials = match Trial::new(body, record) {

@@ -11,8 +11,8 @@
 //! E is the energy above that of the body balanced on one foot at theta = 0. An elastic stance sways before it lifts, and
 //! this head start (the lead) and the error of restitution are all that sets the two models apart to first order. The
 //! lead is counted by the growing part of what it becomes, for the body on one foot is an inverted pendulum: u' + p u.
-//! Both are in units of the error of a history (a share 1e-3 of e is worth 1 to 2 %, and more the more impacts). Every residual is generic in the
-//! scalar, so its gradient by the springs is exact, through the integrator and its events.
+//! Both are in units of the error of a history (a share 1e-3 of e is worth 1 to 2 %, and more the more impacts). Every
+//! residual is generic in the scalar, so its gradient by the springs is exact, through the integrator and its events.
 //!
 //! **Another restitution than equation 2's.** While a foot lands fast, all forces pass through it, so that the body keeps its
 //! angular momentum about that foot whatever the springs: that is equation 2, and why springs that do not bounce have it.
@@ -56,6 +56,11 @@ const AIR_FREE: f64 = 0.85;
 /// Largest relative error of restitution of a landing that is in order.
 const RESTITUTION_ERROR: f64 = 2e-3;
 
+/// Whether this velocity restitution is another than equation 2's.
+pub(super) fn is_another(body: &Body<f64>, restitution: f64) -> bool {
+    (restitution / body.restitution() - 1.0).abs() > ANOTHER
+}
+
 /// All scenarios of a structure.
 #[derive(Clone, Debug)]
 pub struct Impact {
@@ -74,7 +79,7 @@ pub struct Impact {
 impl Impact {
     /// Scenarios of a body that is to land with velocity restitution `restitution` on springs of Omega_n up to `max_hz` [Hz].
     pub fn new(body: &Body<f64>, restitution: f64, max_hz: f64) -> Self {
-        let another = (restitution / body.restitution() - 1.0).abs() > ANOTHER;
+        let another = is_another(body, restitution);
         Self {
             another,
             body: *body,
