@@ -80,17 +80,20 @@ pub struct Expected {
     pub u: (f64, f64),
     /// Largest and least v, from the settled position [m].
     pub v: (f64, f64),
+    /// NRMSE of u that a relative change of the width by 1e-5 makes in the history: the more, the finer are a deck's steps.
+    pub hair: f64,
 }
 
 impl Expected {
-    /// From a history that began settled.
-    pub fn new(history: &History) -> Self {
+    /// From a history that began settled, and what a hair of width does to it.
+    pub fn new(history: &History, hair: f64) -> Self {
         let range = |x: &[f64]| x.iter().fold((0.0, 0.0), |(max, min): (f64, f64), &x| (max.max(x), min.min(x)));
         Self {
             samples: history.motion.len(),
             settled: history.initial_z,
             u: range(&history.motion.u),
             v: range(&history.motion.v),
+            hair,
         }
     }
 }

@@ -52,6 +52,8 @@ pub mod tuning;
 
 pub mod validate;
 
+pub mod predictability;
+
 pub mod export;
 
 pub mod verify;

@@ -1,6 +1,5 @@
 //! The exported deck, run in OpenSees, beside our own history and Housner's.
 
-mod predictability;
 mod program;
 
 use std::{
@@ -13,13 +12,12 @@ use thiserror::Error;
 
 use crate::{
     export::{Expected, ExportError, export, steps_per_sample, with_inertia},
-    fem::{Case, Control, History, Start},
     housner,
     motion::{Motion, nrmse},
     parameters::Parameters,
+    predictability::{moved_by_a_hair, simulate},
     record::Record,
 };
-pub use predictability::Predictability;
 pub use program::Program;
 
 /// Wall time a run may take before it counts as hung: this, and a time per step [s].
@@ -61,8 +59,8 @@ pub struct Verification {
     pub within_one_percent: bool,
     /// What the deck printed.
     pub report: String,
-    /// Over how much of the history agreement can be asked for.
-    pub predictability: Predictability,
+    /// NRMSE of u that a relative change of the width by 1e-5 makes in our own history.
+    pub hair: f64,
     /// Time OpenSees took [s].
     pub seconds: f64,
     /// Time steps of OpenSees per sample.
@@ -109,7 +107,9 @@ pub fn verify(parameters: &Parameters, record: &Record, program: &Program) -> Re
     let rocking = housner::solve(&body, record.dt, &record.accel, &housner::Options::default());
     let housner = rocking.motion(&body);
 
-    let deck = export(parameters, record, &Expected::new(&history), program.format())?;
+    let hair = moved_by_a_hair(&history.motion, parameters, record);
+    let expected = Expected::new(&history, hair);
+    let deck = export(parameters, record, &expected, program.format())?;
     let wrap = |path: &Path| {
         let path = path.display().to_string();
         move |source| VerifyError::Folder { path, source }
@@ -117,14 +117,13 @@ pub fn verify(parameters: &Parameters, record: &Record, program: &Program) -> Re
     let folder = tempfile::tempdir().map_err(wrap(&std::env::temp_dir()))?;
     let path = folder.path().join("deck").with_extension(program.format().ending());
     fs::write(&path, deck).map_err(wrap(&path))?;
-    let steps_per_sample = steps_per_sample(parameters, record.dt);
+    let steps_per_sample = steps_per_sample(parameters, record.dt, hair);
     let steps = (history.motion.len() * steps_per_sample) as f64;
     let began = Instant::now();
     let run = program.run(&path, Duration::from_secs_f64(PATIENCE + PATIENCE_PER_STEP * steps))?;
     let seconds = began.elapsed().as_secs_f64();
     let opensees = read_history(&folder.path().join("deck_history.csv"), history.motion.len())?;
     let ours = history.motion;
-    let predictability = Predictability::of(&ours, parameters, record);
     Ok(Verification {
         dt: record.dt,
         opensees_against_ours: Agreement::new(&opensees, &ours),
@@ -135,25 +134,10 @@ pub fn verify(parameters: &Parameters, record: &Record, program: &Program) -> Re
         housner,
         within_one_percent: run.good,
         report: run.report,
-        predictability,
+        hair,
         seconds,
         steps_per_sample,
     })
-}
-
-/// Our own history of a deck's model; `parameters` with inertia.
-pub fn simulate(parameters: &Parameters, record: &Record) -> History {
-    Case {
-        body: parameters.structure.body::<f64>(),
-        springs: parameters.chains(),
-        start: Start::Settled,
-        dt: record.dt,
-        accel: &record.accel,
-        scale: 1.0,
-        control: Control::default(),
-    }
-    .simulate_with(&parameters.members())
-    .0
 }
 
 /// Read the deck's history: t, u, v, th.

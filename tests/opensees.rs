@@ -14,7 +14,7 @@ use groundspring::{
     spring::{Design, Springs},
     structure::Structure,
     tuning::job::Job,
-    verify::{Predictability, Program, verify},
+    verify::{Program, verify},
 };
 
 /// Largest NRMSE of u, v and theta against our own history.
@@ -54,29 +54,26 @@ fn tuned(structure: Structure, objective: Objective, max_hz: f64) -> Springs<Des
     Job::new(&case, &|_, _, _| ()).unwrap().springs
 }
 
-/// Both decks against our own history, over its first 20 s or for as long as it is predictable: at least `least` seconds.
-fn agrees(programs: &[Program], structure: Structure, springs: Springs<Design<f64>>, least: f64) {
+/// Both decks against our own history.
+fn agrees(programs: &[Program], structure: Structure, springs: Springs<Design<f64>>) {
     let parameters = Parameters::new(with_inertia(&structure), &springs);
     let record = Record::el_centro().truncated(20.0);
-    let known = Predictability::new(&parameters, &record);
-    let duration = (known.samples - 1) as f64 * record.dt;
-    println!("a change of 1e-5 in width moves 20 s by {:.1e}: compared over {duration:.2} s", known.change);
-    assert!(duration >= least, "predictable for {duration} s only");
     for program in programs {
-        let result = verify(&parameters, &record.truncated(duration), program).unwrap();
+        let result = verify(&parameters, &record, program).unwrap();
         let a = result.opensees_against_ours;
         println!("{program:?}: {} steps a sample, {:.1} s: {a:?}", result.steps_per_sample, result.seconds);
-        assert_eq!(result.opensees.len(), known.samples);
+        println!("a change of 1e-5 in width moves it by {:.1e}", result.hair);
+        assert_eq!(result.opensees.len(), result.ours.len());
         assert!(a.u <= AGREEMENT && a.v <= AGREEMENT && a.theta <= AGREEMENT, "{a:?}");
         assert!(result.within_one_percent, "{}", result.report);
     }
 }
 
 /// The same for the springs that the program finds for the structure.
-fn tuned_agrees(structure: Structure, objective: Objective, max_hz: f64, least: f64) {
+fn tuned_agrees(structure: Structure, objective: Objective, max_hz: f64) {
     let programs = programs();
     if !programs.is_empty() {
-        agrees(&programs, structure, tuned(structure, objective, max_hz), least);
+        agrees(&programs, structure, tuned(structure, objective, max_hz));
     }
 }
 
@@ -90,57 +87,62 @@ fn block_of_2_m() -> Structure {
 
 #[test]
 fn the_paper_frame_on_table_1_springs_agrees() {
-    agrees(&programs(), Structure::paper(), table_1(), 20.0);
+    agrees(&programs(), Structure::paper(), table_1());
 }
 
 #[test]
 fn the_paper_frame_on_its_springs_of_40_hz_agrees() {
-    tuned_agrees(Structure::paper(), Objective::Impact, 40.0, 20.0);
+    tuned_agrees(Structure::paper(), Objective::Impact, 40.0);
 }
 
 #[test]
 fn the_paper_frame_on_its_springs_of_160_hz_agrees() {
-    tuned_agrees(Structure::paper(), Objective::Impact, 160.0, 20.0);
+    tuned_agrees(Structure::paper(), Objective::Impact, 160.0);
 }
 
 #[test]
 fn the_paper_frame_on_springs_of_40_hz_by_the_papers_procedure_agrees() {
-    tuned_agrees(Structure::paper(), Objective::Arr, 40.0, 20.0);
+    tuned_agrees(Structure::paper(), Objective::Arr, 40.0);
 }
 
 #[test]
 fn the_paper_frame_on_springs_of_160_hz_by_the_papers_procedure_agrees() {
-    tuned_agrees(Structure::paper(), Objective::Arr, 160.0, 20.0);
+    tuned_agrees(Structure::paper(), Objective::Arr, 160.0);
 }
 
-/// A change of its width by 1e-5 moves 20 s by 7e-3, 16 s by 5e-4.
 #[test]
 fn a_frame_of_5_by_1_5_m_on_table_1_springs_agrees() {
-    agrees(&programs(), frame_of_5_m(), table_1(), 15.0);
+    agrees(&programs(), frame_of_5_m(), table_1());
 }
 
-/// A change of its width by 1e-5 moves 20 s by 5e-4.
 #[test]
 fn a_frame_of_5_by_1_5_m_on_its_springs_of_40_hz_agrees() {
-    tuned_agrees(frame_of_5_m(), Objective::Impact, 40.0, 5.0);
+    tuned_agrees(frame_of_5_m(), Objective::Impact, 40.0);
 }
 
-// The 5 m frame on its own springs of 160 Hz is left out: a change of its width by 1e-5 moves its history by 5e-4 within 3 s
-// and by 0.2 within 20 s (Housner's own as well), and within those 3 s OpenSees is off by 0.0075.
+#[test]
+fn a_frame_of_5_by_1_5_m_on_its_springs_of_160_hz_agrees() {
+    tuned_agrees(frame_of_5_m(), Objective::Impact, 160.0);
+}
+
+#[test]
+fn a_block_of_2_by_0_5_m_on_table_1_springs_agrees() {
+    agrees(&programs(), block_of_2_m(), table_1());
+}
 
 #[test]
 fn a_block_of_2_by_0_5_m_on_its_springs_of_40_hz_agrees() {
-    tuned_agrees(block_of_2_m(), Objective::Impact, 40.0, 10.0);
+    tuned_agrees(block_of_2_m(), Objective::Impact, 40.0);
 }
 
 #[test]
 fn a_block_of_2_by_0_5_m_on_its_springs_of_160_hz_agrees() {
-    tuned_agrees(block_of_2_m(), Objective::Impact, 160.0, 5.0);
+    tuned_agrees(block_of_2_m(), Objective::Impact, 160.0);
 }
 
 #[test]
 fn a_block_of_2_by_0_5_m_on_springs_of_the_papers_procedure_agrees() {
-    tuned_agrees(block_of_2_m(), Objective::Arr, 160.0, 10.0);
+    tuned_agrees(block_of_2_m(), Objective::Arr, 160.0);
 }
 
 /// Largest NRMSE with elastic legs, dampers or a tendon.

@@ -13,6 +13,7 @@ use super::{Peer, Point, Series, elements, rigid};
 use crate::{
     export::{Expected, Format, export},
     motion::Motion,
+    predictability::moved_by_a_hair,
 };
 
 /// What housner.py reads.
@@ -113,7 +114,8 @@ pub fn opensees(scene: &elements::Scene, tight: &Motion, python: &Path, stepping
         Stepping::Watched => ("watched", "our deck"),
     };
     let history = scene.simulate(Default::default());
-    let expected = Expected::new(&history);
+    let hair = moved_by_a_hair(&history.motion, &scene.parameters(), &scene.record);
+    let expected = Expected::new(&history, hair);
     let folder = tempfile::tempdir().map_err(|e| format!("OpenSees: no temporary folder ({e})"))?;
     let text = export(&scene.parameters(), &scene.record, &expected, Format::OpenSeesPy).map_err(|e| e.to_string())?;
     let deck = folder.path().join("deck.py");

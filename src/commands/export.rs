@@ -9,8 +9,8 @@ use crate::{
     case::DURATION_S,
     export::{Expected, ExportError, Format, export, with_inertia},
     parameters::Parameters,
+    predictability::{moved_by_a_hair, simulate},
     record::Record,
-    verify::simulate,
 };
 
 /// Options of `tune export`.
@@ -33,7 +33,8 @@ pub fn run(o: &Options) -> Result<(), CommandError> {
     check_file(&o.out)?;
     let (parameters, record) = read(&o.parameters, &o.record)?;
     let history = simulate(&parameters, &record);
-    let deck = export(&parameters, &record, &Expected::new(&history), o.format)?;
+    let hair = moved_by_a_hair(&history.motion, &parameters, &record);
+    let deck = export(&parameters, &record, &Expected::new(&history, hair), o.format)?;
     write_file(&o.out, deck.as_bytes())?;
     eprintln!("written to {}", o.out.display());
     Ok(())

@@ -19,9 +19,9 @@ use crate::{
     export::{Expected, with_inertia},
     members::Members,
     parameters::{PaperProcedure, Parameters, RecordRow},
+    predictability::{moved_by_a_hair, simulate},
     record::Record,
     tuning::{front, impact::report::landings, impulse::Found, job::Job},
-    verify::simulate,
 };
 
 /// Options of `tune run`.
@@ -165,14 +165,14 @@ fn springs_said(parameters: &Parameters, impact: Option<&Found>, max_hz: f64) ->
 
 /// The model for other programs. A body without rotational inertia gets some there, and its own history to check against.
 fn decks(o: &Options, parameters: &Parameters, record: &Record, both: &Both) -> Result<(), CommandError> {
-    let history = both.with.as_ref().map_or(&both.fem, |with| &with.history);
     let folder = o.out.join("decks");
     let structure = with_inertia(&parameters.structure);
-    if structure == parameters.structure {
-        return export::write_all(&folder, parameters, record, &Expected::new(history));
-    }
+    let given = structure == parameters.structure;
     let parameters = Parameters { structure, ..parameters.clone() };
-    export::write_all(&folder, &parameters, record, &Expected::new(&simulate(&parameters, record)))
+    let ours = both.with.as_ref().map_or(&both.fem, |with| &with.history);
+    let history = if given { ours.clone() } else { simulate(&parameters, record) };
+    let hair = moved_by_a_hair(&history.motion, &parameters, record);
+    export::write_all(&folder, &parameters, record, &Expected::new(&history, hair))
 }
 
 /// Threads beyond which a machine only starves.

@@ -16,13 +16,14 @@ use crate::{
 pub const SMALL_INERTIA: f64 = 1e-5;
 
 /// Rotational inertia, as a share of m R^2, of a body that our model takes as massless in rotation, in an OpenSees deck: so
-/// little that its vibration on the springs, of sqrt(m R^2/I_cg) Omega_n, dies in every step, the fine ones too. Where steps
-/// resolve it, it goes on ringing and spoils the history; with 1e-8 Newton's iteration fails.
-const QUICK_INERTIA: f64 = 1e-7;
+/// little that its vibration on the springs, of sqrt(m R^2/I_cg) Omega_n, dies in every step, the shortest too. Where steps
+/// resolve it, it goes on ringing and spoils the history: with 1e-5 a 5 m frame is off by 0.2 after 3 s. What rocking feels of
+/// it is in the mass of the translation ([`Regularised::moved`]).
+const QUICK_INERTIA: f64 = 1e-11;
 
-/// Stiffness of the legs over the stiffest spring (k1 or k2, either direction). At 100 the history is off by 1e-2, from
-/// 1e3 on by less than the integrator's own error.
-const LEG_STIFFNESS: f64 = 1e4;
+/// Stiffness of the legs over the stiffest spring (k1 or k2, either direction), the same along and across; the stiffer, the
+/// more digits get lost. OpenSees decks take their compliance off that of k1, so that both in series are k1.
+const LEG_STIFFNESS: f64 = 1e3;
 
 /// Mass of a foot on an elastic leg, over 3EI/L^3 dt^2, in an OpenSees deck. A foot that opens lets go what its leg was
 /// bent by, at once if it has no mass; without a little mass Newton's iteration does not find where it goes, with ten times
@@ -40,40 +41,48 @@ pub(super) struct Regularised {
     pub dashpot: f64,
     /// I_cg: where our model takes the rotation as massless, as small as the feet's [kg m2].
     pub inertia: f64,
+    /// Mass of the translation: there with I_cg/R^2 added, as in our model [kg].
+    pub moved: f64,
 }
 
 /// Time steps per period of the stiffest Omega_n (see [`steps_per_sample`]).
 const STEPS_PER_PERIOD: f64 = 40.0;
-/// p times the time step, at most: where events are followed in fine parts, and where they are not.
+/// p times the time step, at most: where steps get shorter towards touches and lifts, and where they do not.
 const STEP_BY_ROCKING: [f64; 2] = [2e-4, 1e-4];
 /// Newton's displacement tolerance over R.
 const TOLERANCE: f64 = 2e-11;
 
-/// Parts of an OpenSees step in which a foot may touch or lift, or has just done so.
-const FINE: usize = 16;
-/// How long after a touch or a lift the steps stay fine, in units of 1/Omega_n: the releases of a lifting foot, one after
-/// the other, are over in half that time.
-const CALM: f64 = 2.0;
+/// Length of the shortest step, where a foot touches or lifts, over that of the longest.
+const SHORTEST: f64 = 1.0 / 256.0;
+
+/// Steps get finer with the root of what a change of the width by 1e-5 does to the history (from 1.3e-3 on), since their
+/// error is of second order; so many times at most.
+const FINER: f64 = 750.0;
+const FINEST: f64 = 16.0;
 
 /// Time steps of OpenSees (TRBDF2) per sample of the record: dt = min( 1/(40 Omega_n [Hz]), 2e-4/p ), rounded so that
-/// every sample is met. Steps in which a foot may touch or lift are taken in 16 parts: a foot lands, is anchored and lets go
-/// up to one step late, an error of first order that is all there is to gain.
+/// every sample is met; up to 16 times finer where a hair of width moves the history, by `hair` (NRMSE of u per relative
+/// change of the width by 1e-5). Around touches and lifts the deck itself takes shorter ones.
 ///
-/// | 2 m block, 160 Hz, 5 s of El Centro | dt 3.7e-5 | 9.3e-6 | 1.6e-4 with fine parts |
+/// | 160 Hz, 20 s of El Centro | `hair` | finer | NRMSE of u against our own history |
 /// |---|---|---|---|
-/// | NRMSE of u against our own history | 2.4e-3 | 7.6e-4 | 2.7e-4 |
+/// | 61 m frame | 1.5e-5 | 1 | 2.8e-5 |
+/// | 2 m block | 0.059 | 7 | 7.8e-4 |
+/// | 5 m frame | 0.20 | 13 (8) | 1.3e-3 (4.6e-3) |
 ///
-/// Elastic legs are followed without fine parts, at 1e-4/p: the mass that their feet need suits one step only.
-pub fn steps_per_sample(parameters: &Parameters, dt: f64) -> usize {
-    steps(parameters, dt, parameters.legs.is_none())
+/// Elastic legs are followed in even steps, 1e-4/p: the mass that their feet need suits one step only.
+pub fn steps_per_sample(parameters: &Parameters, dt: f64, hair: f64) -> usize {
+    let even = parameters.legs.is_some();
+    let finer = if even { 1.0 } else { (FINER * hair).sqrt().ceil().clamp(1.0, FINEST) };
+    steps(parameters, dt, even) * finer as usize
 }
 
-/// The same for a program that takes all its steps alike, or not.
-pub(super) fn steps(parameters: &Parameters, dt: f64, watched: bool) -> usize {
+/// For a program that takes all its steps alike, or not.
+fn steps(parameters: &Parameters, dt: f64, even: bool) -> usize {
     let body = parameters.structure.body::<f64>();
     let chains = parameters.chains();
     let omega = (chains.vertical.k1.max(chains.horizontal.k1) / body.mass).sqrt();
-    let by_rocking = STEP_BY_ROCKING[usize::from(!watched)] / body.p_squared().sqrt();
+    let by_rocking = STEP_BY_ROCKING[usize::from(even)] / body.p_squared().sqrt();
     let most = (std::f64::consts::TAU / (STEPS_PER_PERIOD * omega)).min(by_rocking);
     // a hair less, so that a ratio that is whole but for rounding stays it
     ((dt / most - 1e-9).ceil() as usize).max(1)
@@ -101,12 +110,10 @@ pub(super) struct Model<'a> {
     /// Newton's displacement tolerance [m].
     pub tolerance: f64,
     pub steps_per_sample: usize,
-    /// The same where events are not followed in fine parts.
+    /// The same for a program that takes all its steps alike.
     pub even_steps: usize,
-    /// Parts of a step in which a foot may touch or lift.
-    pub fine: usize,
-    /// How long the steps stay fine after that [s].
-    pub calm: f64,
+    /// Length of the shortest step, where a foot touches or lifts, over that of the longest.
+    pub shortest: f64,
     pub record: &'a Record,
     pub expected: Expected,
     /// The record's name, harmless in comments.
@@ -156,10 +163,9 @@ impl<'a> Model<'a> {
             leg,
             legs: members.legs.unwrap_or(rigid),
             tolerance: TOLERANCE * structure.body::<f64>().radius(),
-            steps_per_sample: steps_per_sample(parameters, record.dt),
-            even_steps: steps(parameters, record.dt, false),
-            fine: if members.legs.is_none() { FINE } else { 1 },
-            calm: CALM * (structure.mass_kg / v.k1.max(h.k1)).sqrt(),
+            steps_per_sample: steps_per_sample(parameters, record.dt, expected.hair),
+            even_steps: steps(parameters, record.dt, true),
+            shortest: if members.legs.is_none() { SHORTEST } else { 1.0 },
             record,
             expected: *expected,
             record_name: printable(&record.name),
@@ -172,7 +178,7 @@ impl<'a> Model<'a> {
 
     /// p times the time step of OpenSees, at most.
     pub fn by_rocking(&self) -> f64 {
-        STEP_BY_ROCKING[usize::from(self.fine == 1)]
+        STEP_BY_ROCKING[usize::from(self.members.legs.is_some())]
     }
 
     /// Time of the last sample followed [s].
@@ -193,15 +199,16 @@ impl<'a> Model<'a> {
         let radius = self.body().radius();
         let point_mass = self.structure.mass_kg * radius * radius;
         let massless = self.inertia < MASSLESS_ROTATION * point_mass;
+        let moved = self.structure.mass_kg + if massless { self.inertia / (radius * radius) } else { 0.0 };
         if self.members.legs.is_none() {
             let inertia = if massless { self.inertia.min(QUICK_INERTIA * point_mass) } else { self.inertia };
-            return Regularised { mass: 0.0, dashpot: 0.0, inertia };
+            return Regularised { mass: 0.0, dashpot: 0.0, inertia, moved };
         }
         let dt = self.record.dt / self.steps_per_sample as f64;
         let bending = 3.0 * self.legs.ei / radius.powi(3);
         let mass = FOOT_MASS * bending * dt * dt;
         let inertia = if massless { mass * radius * radius } else { self.inertia };
-        Regularised { mass, dashpot: FOOT_DASHPOT * bending * dt, inertia }
+        Regularised { mass, dashpot: FOOT_DASHPOT * bending * dt, inertia, moved }
     }
 
     /// Length at which the tendon begins to pull [m]; zero without one.

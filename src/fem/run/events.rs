@@ -14,17 +14,18 @@ use crate::{
 /// A foot that closes again this soon after it opened, in units of 1/Omega_n, has hardly left the ground.
 const AT_ONCE: f64 = 0.1;
 
-/// Share of the weight: a lifting foot that lets go of less than this, once it closes again at once, does not hold.
+/// Share of the weight: a lifting foot that lets go of less than this, once it closes again at once, does not hold. The least
+/// where histories are exact, the most where candidates are compared, and on elastic legs, whose feet swing as they let go.
 ///
 /// A foot lifts while its horizontal spring is still loaded. It lets that force go; a body without rotational inertia
 /// turns at once and presses the foot down again, where it holds and takes part of the force back (about a half); soon it
 /// lifts again, and so on, each time with less to let go, at an accumulating sequence of instants. OpenSees goes through
 /// the same sequence as finely as its steps are, and converges to it as they get finer. Once little is let go the foot
 /// slides without a horizontal force until it lifts for good or carries weight.
-const LET_GO: f64 = 1e-2;
+const LET_GO: (f64, f64) = (1e-4, 1e-2);
 
-/// Share of the weight that such a sliding foot must carry before it holds.
-const HOLDING: f64 = 1e-3;
+/// What such a sliding foot must carry before it holds, over that share.
+const HOLDING: f64 = 0.1;
 
 /// Steps that locate one event: Newton's method needs two or three, bisection where the gap all but grazes many more.
 const MOST_LOCATED: usize = 40;
@@ -65,6 +66,20 @@ impl<S: Scalar> Run<'_, S> {
         (1e-9 * self.compression).max(4e-16 * self.model.body.radius().re())
     }
 
+    /// [`LET_GO`], at the tolerance asked for.
+    fn let_go_share(&self) -> f64 {
+        if self.on_legs() { LET_GO.1 } else { (1e5 * self.control.tolerance).clamp(LET_GO.0, LET_GO.1) }
+    }
+
+    fn on_legs(&self) -> bool {
+        self.model.frame.is_some_and(|frame| frame.leg.is_some())
+    }
+
+    /// Compression of k1 from which a sliding foot holds [m].
+    fn holding(&self) -> f64 {
+        HOLDING * self.let_go_share() * self.compression
+    }
+
     /// Whether a foot's contact changes within the step, and where first.
     pub(super) fn met(&self, stages: &Stages<S>) -> Met {
         let mut first = Met::Nothing;
@@ -76,7 +91,7 @@ impl<S: Scalar> Run<'_, S> {
             let limits: &[(f64, f64)] = match self.feet[foot].contact {
                 Contact::Open => &[(-1.0, 0.0)],
                 Contact::Stick | Contact::Slip(_) => &[(1.0, 0.0)],
-                Contact::Slide => &[(1.0, 0.0), (-1.0, HOLDING * self.compression)],
+                Contact::Slide => &[(1.0, 0.0), (-1.0, self.holding())],
             };
             let at = |k: usize| self.model.compression_at(&poses[k], foot, nodes[k], &self.feet[foot]).re();
             let values: [f64; 4] = [at(0), at(1), at(2), at(3)];
@@ -201,12 +216,11 @@ impl<S: Scalar> Run<'_, S> {
     /// A foot on an elastic leg springs sideways, and maybe down, when its horizontal force is let go: it opens only if it
     /// would not press without that force. If it would, it holds where it then is, anchored at `relaxed` [m].
     fn catch(&mut self, foot: usize, relaxed: S) {
-        let on_leg = self.model.frame.is_some_and(|frame| frame.leg.is_some());
-        if !on_leg || self.feet[foot].closed() || !self.feet[1 - foot].holds() {
+        if !self.on_legs() || self.feet[foot].closed() || !self.feet[1 - foot].holds() {
             return;
         }
         let open = (self.state, self.feet[foot]);
-        let contact = if self.let_go[foot] > LET_GO { Contact::Stick } else { Contact::Slide };
+        let contact = if self.let_go[foot] > self.let_go_share() { Contact::Stick } else { Contact::Slide };
         self.feet[foot] = Foot { contact, anchor: relaxed };
         self.balanced = self.model.turn_to_balance(&mut self.state, &self.feet);
         if self.model.compression(foot, &self.state.q, &self.feet[foot]).re() <= self.gap_tolerance() {
@@ -223,8 +237,8 @@ impl<S: Scalar> Run<'_, S> {
         self.feet[foot] = match was {
             Contact::Open => {
                 let at_once = time.re() - self.opened[foot] < AT_ONCE * self.settling;
-                let held = self.let_go[foot] > LET_GO
-                    || self.model.compression(foot, &self.state.q, &self.feet[foot]).re() >= HOLDING * self.compression;
+                let held = self.let_go[foot] > self.let_go_share()
+                    || self.model.compression(foot, &self.state.q, &self.feet[foot]).re() >= self.holding();
                 // a body on sliding feet alone has nothing to lean on
                 let leans = self.feet[1 - foot].holds();
                 // with friction the force has gone before the foot opens, and nothing jumps
