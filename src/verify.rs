@@ -95,11 +95,16 @@ pub enum VerifyError {
 }
 
 /// Run the deck of `parameters` on `record` in `program` and compare. All that the
-/// deck writes goes to a temporary folder that is removed.
+/// deck writes goes to a temporary folder that is removed. `progress` is told how many seconds of how many OpenSees has done.
 ///
 /// # Errors
 /// No such program, no OpenSees in it, an analysis that stops or hangs, no temporary folder.
-pub fn verify(parameters: &Parameters, record: &Record, program: &Program) -> Result<Verification, VerifyError> {
+pub fn verify(
+    parameters: &Parameters,
+    record: &Record,
+    program: &Program,
+    progress: &dyn Fn(usize, usize),
+) -> Result<Verification, VerifyError> {
     // the same body in all three models
     let parameters = &Parameters { structure: with_inertia(&parameters.structure), ..parameters.clone() };
     let body = parameters.structure.body::<f64>();
@@ -120,7 +125,9 @@ pub fn verify(parameters: &Parameters, record: &Record, program: &Program) -> Re
     let steps_per_sample = steps_per_sample(parameters, record.dt, hair);
     let steps = (history.motion.len() * steps_per_sample) as f64;
     let began = Instant::now();
-    let run = program.run(&path, Duration::from_secs_f64(PATIENCE + PATIENCE_PER_STEP * steps))?;
+    let all = (history.motion.len().saturating_sub(1) as f64 * record.dt) as usize;
+    let patience = Duration::from_secs_f64(PATIENCE + PATIENCE_PER_STEP * steps);
+    let run = program.run(&path, patience, &|done| progress(done, all))?;
     let seconds = began.elapsed().as_secs_f64();
     let opensees = read_history(&folder.path().join("deck_history.csv"), history.motion.len())?;
     let ours = history.motion;

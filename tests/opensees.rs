@@ -59,7 +59,7 @@ fn agrees(programs: &[Program], structure: Structure, springs: Springs<Design<f6
     let parameters = Parameters::new(with_inertia(&structure), &springs);
     let record = Record::el_centro().truncated(20.0);
     for program in programs {
-        let result = verify(&parameters, &record, program).unwrap();
+        let result = verify(&parameters, &record, program, &|_, _| ()).unwrap();
         let a = result.opensees_against_ours;
         println!("{program:?}: {} steps a sample, {:.1} s: {a:?}", result.steps_per_sample, result.seconds);
         println!("a change of 1e-5 in width moves it by {:.1e}", result.hair);
@@ -153,7 +153,7 @@ fn agrees_with(members: Members<f64>, duration: f64) {
     let springs = Springs { vertical: chain, horizontal: chain };
     let parameters = Parameters::new(Structure::paper(), &springs).with_members(members);
     for program in programs() {
-        let result = verify(&parameters, &Record::el_centro().truncated(duration), &program).unwrap();
+        let result = verify(&parameters, &Record::el_centro().truncated(duration), &program, &|_, _| ()).unwrap();
         let a = result.opensees_against_ours;
         println!("{members:?}: {} steps a sample, {:.1} s: {a:?}", result.steps_per_sample, result.seconds);
         assert_eq!(result.opensees.len(), (duration * 100.0).round() as usize + 1);

@@ -10,6 +10,7 @@ use super::{
     common::{RecordOptions, csv_row},
     export::read,
     output::check_folder,
+    progress::Progress,
     write_file,
 };
 use crate::{
@@ -39,6 +40,9 @@ pub struct Options {
     /// Folder for verify.png and verify.csv
     #[arg(long, value_name = "DIR", default_value = "out")]
     out: PathBuf,
+    /// No progress
+    #[arg(long)]
+    quiet: bool,
 }
 
 pub fn run(o: &Options) -> Result<(), CommandError> {
@@ -48,7 +52,10 @@ pub fn run(o: &Options) -> Result<(), CommandError> {
     };
     let (parameters, record) = read(&o.parameters, &o.record)?;
     check_folder(&o.out)?;
-    let result = verify(&parameters, &record, &program)?;
+    let progress = Progress::new("OpenSees [s]", o.quiet);
+    let result = verify(&parameters, &record, &program, &|done, all| progress.tell(done, all, ""));
+    progress.done();
+    let result = result?;
 
     std::fs::create_dir_all(&o.out)
         .map_err(|source| CommandError::Write { path: o.out.display().to_string(), source })?;
@@ -85,7 +92,7 @@ fn said(record: &Record, result: &Verification) -> String {
         ("OpenSees against Housner", result.opensees_against_housner),
         ("tune simulate against Housner", result.ours_against_housner),
     ] {
-        errors.add_row([name.to_string(), format!("{:.5}", a.u), format!("{:.5}", a.v), format!("{:.5}", a.theta)]);
+        errors.add_row([name.to_string(), format!("{:.2e}", a.u), format!("{:.2e}", a.v), format!("{:.2e}", a.theta)]);
     }
     let mut out = format!("{table}\n\n{errors}\n\n");
     // writing to a String does not fail

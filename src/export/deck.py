@@ -231,6 +231,8 @@ def main():
             stop(f"no convergence at {ops.getTime():.5f} s; raise STEPS_PER_SAMPLE")
         u, v, turn = (ops.nodeDisp(APEX, k) for k in (1, 2, 3))
         rows.append((i * RECORD_DT, u, v - settled, -turn))  # OpenSees turns counter-clockwise
+        if math.floor(i * RECORD_DT) > math.floor((i - 1) * RECORD_DT):
+            print(f"{i * RECORD_DT:.0f} s of {(SAMPLES - 1) * RECORD_DT:g} s", file=sys.stderr, flush=True)
 
     out = os.path.splitext(os.path.abspath(__file__))[0] + "_history.csv"
     with open(out, "w", newline="") as file:

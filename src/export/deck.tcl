@@ -208,6 +208,9 @@ for {set i 1} {$i < $samples} {incr i} {
     # OpenSees turns counter-clockwise
     set th [expr {-[nodeDisp 3 3]}]
     puts $out [format "%.17g,%.17g,%.17g,%.17g" [expr {$i * $recordDt}] $u $v $th]
+    if {floor($i * $recordDt) > floor(($i - 1) * $recordDt)} {
+        puts stderr [format "%.0f s of %g s" [expr {$i * $recordDt}] [expr {($samples - 1) * $recordDt}]]
+    }
     set found(uMax) [expr {max($found(uMax), $u)}]
     set found(uMin) [expr {min($found(uMin), $u)}]
     set found(vMax) [expr {max($found(vMax), $v)}]

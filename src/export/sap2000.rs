@@ -27,6 +27,8 @@ const KILO: f64 = 1e-3;
 const LEG_E: f64 = 2e8;
 /// Length of a link over h: long enough that importing merges no joints. The absorbers do not rotate, so it does not matter.
 const LINK_LENGTH: f64 = 0.01;
+/// Legs that stand for a rigid body are stiffer than in OpenSees decks: nothing takes their compliance off k1 here.
+const STIFFER: f64 = 10.0;
 /// Friction coefficient: a pressing foot never slides.
 const FRICTION: f64 = 1000.0;
 
@@ -123,8 +125,9 @@ fn control() -> Vec<Table> {
 fn geometry(model: &Model) -> Vec<Table> {
     let body = model.body();
     let (b, h) = (body.half_width, body.height);
-    let area = digits(model.legs.ea * KILO / LEG_E);
-    let inertia = digits(model.legs.ei * KILO / LEG_E);
+    let stiffer = if model.members.legs.is_some() { 1.0 } else { STIFFER };
+    let area = digits(stiffer * model.legs.ea * KILO / LEG_E);
+    let inertia = digits(stiffer * model.legs.ei * KILO / LEG_E);
     let link = LINK_LENGTH * h;
 
     let mut joints = Table::new("JOINT COORDINATES");

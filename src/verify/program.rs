@@ -13,6 +13,14 @@ use crate::export::Format;
 /// The deck's exit code when openseespy cannot be loaded.
 const NO_OPENSEES: i32 = 3;
 
+/// How often progress is looked for.
+const TELL: Duration = Duration::from_millis(500);
+
+/// The last line like "12 s of 20 s" in what the deck said: 12.
+fn followed(said: &[u8]) -> Option<usize> {
+    String::from_utf8_lossy(said).lines().rev().find_map(|line| line.split_once(" s of ")?.0.parse().ok())
+}
+
 /// What runs the deck.
 #[derive(Clone, Debug, PartialEq)]
 pub enum Program {
@@ -57,8 +65,9 @@ impl Program {
         }
     }
 
-    /// Run a deck; its output goes through files, so that no pipe can fill up.
-    pub(super) fn run(&self, deck: &Path, patience: Duration) -> Result<Ran, VerifyError> {
+    /// Run a deck; its output goes through files, so that no pipe can fill up. `progress` is told how many seconds of the
+    /// record the deck says it has followed.
+    pub(super) fn run(&self, deck: &Path, patience: Duration, progress: &dyn Fn(usize)) -> Result<Ran, VerifyError> {
         let logs = [deck.with_extension("out"), deck.with_extension("err")];
         let folder = |path: &Path| {
             let path = path.display().to_string();
@@ -74,10 +83,17 @@ impl Program {
             .spawn()
             .map_err(|source| VerifyError::NoProgram { program: self.name(), source })?;
         let began = Instant::now();
+        let mut told = began;
         let status = loop {
             match child.try_wait() {
                 Ok(Some(status)) => break status,
-                Ok(None) if began.elapsed() < patience => std::thread::sleep(Duration::from_millis(20)),
+                Ok(None) if began.elapsed() < patience => {
+                    if told.elapsed() > TELL {
+                        told = Instant::now();
+                        fs::read(&logs[1]).ok().and_then(|bytes| followed(&bytes)).into_iter().for_each(progress);
+                    }
+                    std::thread::sleep(Duration::from_millis(20));
+                }
                 Ok(None) | Err(_) => {
                     // it may have ended in between: nothing is lost
                     let _ = child.kill();
@@ -105,5 +121,16 @@ impl Program {
                 Err(VerifyError::Stopped { reason: reason.chars().take(200).collect() })
             }
         }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::followed;
+
+    #[test]
+    fn the_last_second_that_the_deck_names_is_told() {
+        assert_eq!(followed(b"WARNING: failed of 3 s\n1 s of 20 s\n2 s of 20 s\nNewton cycles\n"), Some(2));
+        assert_eq!(followed(b"WARNING\n"), None);
     }
 }
