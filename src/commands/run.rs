@@ -169,10 +169,10 @@ fn decks(o: &Options, parameters: &Parameters, record: &Record, both: &Both) -> 
     let structure = with_inertia(&parameters.structure);
     let given = structure == parameters.structure;
     let parameters = Parameters { structure, ..parameters.clone() };
-    let ours = both.with.as_ref().map_or(&both.fem, |with| &with.history);
-    let history = if given { ours.clone() } else { simulate(&parameters, record) };
+    let own = (!given).then(|| simulate(&parameters, record));
+    let history = own.as_ref().unwrap_or_else(|| both.with.as_ref().map_or(&both.fem, |with| &with.history));
     let hair = moved_by_a_hair(&history.motion, &parameters, record);
-    export::write_all(&folder, &parameters, record, &Expected::new(&history, hair))
+    export::write_all(&folder, &parameters, record, &Expected::new(history, hair))
 }
 
 /// Threads beyond which a machine only starves.

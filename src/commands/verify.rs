@@ -107,8 +107,8 @@ fn said(record: &Record, result: &Verification) -> String {
     if result.hair > UNPREDICTABLE {
         let _ = writeln!(
             out,
-            "a change of the width by 1e-5 moves this history by {:.2e} (NRMSE): OpenSees follows it in finer steps; a model \
-             of your own, at steps that are good elsewhere, may not",
+            "a change of the width by 1e-5 moves this history by {:.2e} (NRMSE): another program follows it only in steps \
+             about as fine as these",
             result.hair
         );
     }

@@ -2,7 +2,8 @@
 //!
 //! Unless the case says otherwise these are the impact objective's. The paper's procedure is as good on the record it was tuned
 //! on (El Centro, springs up to 160 Hz: NRMSE 0.029 against 0.028), because it lets the feet bounce: both are in the air for
-//! up to 0.1 s a landing against 8 ms, and the restitution is off by 0.2 % against 0.1 %. On other motions it loses: medians over the well-conditioned of 200 (`tune validate --synthetic 200`), on springs up to 160 Hz,
+//! up to 0.1 s a landing against 8 ms, and the restitution is off by 0.2 % against 0.1 %. On other motions it loses: medians
+//! over the well-conditioned of 200 (`tune validate --synthetic 200`), on springs up to 160 Hz,
 //!
 //! | | A-frame 61 m | 20 m | 5 m | block 2 m | 0.6 m |
 //! |---|---|---|---|---|---|
