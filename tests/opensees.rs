@@ -63,8 +63,9 @@ fn agrees(programs: &[Program], structure: Structure, springs: Springs<Design<f6
         let a = result.opensees_against_ours;
         println!("{program:?}: {} steps a sample, {:.1} s: {a:?}", result.steps_per_sample, result.seconds);
         println!("a change of 1e-5 in width moves it by {:.1e}", result.hair);
-        // both to the end of the record
-        assert_eq!(result.opensees.len(), record.len());
+        // to the end of the record, or to where the body falls flat
+        let flat = result.ours.theta.last().is_some_and(|theta| theta.abs() > 1.0);
+        assert!(result.opensees.len() == record.len() || flat, "{} samples", result.opensees.len());
         assert!(a.u <= AGREEMENT && a.v <= AGREEMENT && a.theta <= AGREEMENT, "{a:?}");
         assert!(result.within_one_percent, "{}", result.report);
     }
@@ -126,6 +127,7 @@ fn a_frame_of_5_by_1_5_m_on_its_springs_of_160_hz_agrees() {
     tuned_agrees(frame_of_5_m(), Objective::Impact, 160.0);
 }
 
+/// It topples at 6.4 s.
 #[test]
 fn a_block_of_2_by_0_5_m_on_table_1_springs_agrees() {
     agrees(&programs(), block_of_2_m(), table_1());
