@@ -117,6 +117,8 @@ pub struct Tuning {
     pub mass_ratios_horizontal: Vec<f64>,
     /// Candidates sampled before refining.
     pub candidates: usize,
+    /// Evaluations of the impact objective spent on a search for springs beside those found before; 0: none.
+    pub search_evaluations: usize,
 }
 
 impl Default for Tuning {
@@ -128,6 +130,7 @@ impl Default for Tuning {
             mass_ratios_vertical: vec![0.1, 0.3, 1.0, 2.0, 10.0],
             mass_ratios_horizontal: vec![0.1, 1.0, 10.0],
             candidates: 256,
+            search_evaluations: 0,
         }
     }
 }
@@ -171,6 +174,9 @@ pub const DURATION_S: f64 = 20.0;
 
 /// No record is longer [s].
 pub const LONGEST_S: f64 = 1e6;
+
+/// No search is longer.
+pub const MOST_EVALUATIONS: usize = 10_000_000;
 
 /// The paper's case, embedded.
 pub const PAPER: &str = include_str!("../tuning/paper.toml");
@@ -283,6 +289,15 @@ impl Tuning {
         }
         if self.max_settlement_m.is_nan() || self.max_settlement_m <= 0.0 {
             return Err(value("tuning.max_settlement_m", self.max_settlement_m, "give metres greater than zero"));
+        }
+        if self.search_evaluations > MOST_EVALUATIONS {
+            let evaluations = self.search_evaluations as f64;
+            return Err(value("tuning.search_evaluations", evaluations, "give a number from 0 to 10000000"));
+        }
+        if self.search_evaluations > 0 && self.objective == Objective::Arr {
+            let evaluations = self.search_evaluations as f64;
+            let remedy = "the paper's procedure has no search: leave it out, or set objective to \"impact\"";
+            return Err(value("tuning.search_evaluations", evaluations, remedy));
         }
         if !(1..=1_000_000).contains(&self.candidates) {
             return Err(value("tuning.candidates", self.candidates as f64, "give a number from 1 to 1000000"));

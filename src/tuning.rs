@@ -14,6 +14,8 @@ pub mod excess;
 
 pub mod front;
 
+mod global;
+
 pub mod impact;
 
 pub mod impulse;

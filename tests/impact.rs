@@ -52,6 +52,30 @@ fn landings_from_large_to_small_leans_have_housners_restitution_and_hardly_leave
     }
 }
 
+/// Sizes and slendernesses between those that springs were searched for.
+#[test]
+fn landings_are_in_order_for_frames_and_blocks_of_any_slenderness() {
+    println!("half-slenderness alpha, height of the mass: largest error of e, longest time in the air");
+    for kind in ["aframe", "block"] {
+        for height in [5.0, 20.0, 60.0] {
+            for alpha in [0.06, 0.1, 0.14, 0.2, 0.28, 0.36f64] {
+                let width = 2.0 * height * alpha.tan();
+                let structure = match kind {
+                    "aframe" => Structure::a_frame(height, width, 1e4).unwrap(),
+                    _ => Structure::block(2.0 * height, width, 1e4).unwrap(),
+                };
+                let body = with_inertia(structure);
+                let rows = rows(&body, 1.0, &tune(&body, 1.0, 160.0));
+                assert_eq!(rows.len(), 8);
+                let error = rows.iter().map(|row| row.restitution_error.abs()).fold(0.0, f64::max);
+                let air_s = rows.iter().map(|row| row.air_s).fold(0.0, f64::max);
+                println!("{kind} alpha {alpha}, {height} m: {:.3} %, {:.1} ms", 100.0 * error, 1e3 * air_s);
+                assert!(error < 2e-3 && air_s < 0.010, "{structure:?} {error} {air_s}");
+            }
+        }
+    }
+}
+
 #[test]
 fn free_rocking_on_tuned_springs_never_creates_energy() {
     let body = with_inertia(Structure::paper());

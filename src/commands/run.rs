@@ -15,7 +15,7 @@ use super::{
     table, write_file,
 };
 use crate::{
-    case::Case,
+    case::{Case, MOST_EVALUATIONS, Objective},
     export::{Expected, with_inertia},
     members::Members,
     parameters::{PaperProcedure, Parameters, RecordRow},
@@ -36,6 +36,9 @@ pub struct Options {
     /// Stiffest springs allowed, Omega_n / 2 pi [default: 160, or the case's]
     #[arg(long, value_name = "HZ", allow_negative_numbers = true)]
     max_hz: Option<f64>,
+    /// Evaluations to spend on a search for springs beside those found before; 2000 take a minute [default: 0, or the case's]
+    #[arg(long, value_name = "N")]
+    search: Option<usize>,
     /// Folder for the results
     #[arg(long, value_name = "DIR", default_value = "out")]
     out: PathBuf,
@@ -70,11 +73,24 @@ pub fn run(o: &Options) -> Result<(), CommandError> {
         }
         case.tuning.max_omega_hz = hz;
     }
+    if let Some(evaluations) = o.search {
+        let refused = |remedy| CommandError::Option { option: "search", value: evaluations.to_string(), remedy };
+        if evaluations > MOST_EVALUATIONS {
+            return Err(refused("give a number from 0 to 10000000"));
+        }
+        if evaluations > 0 && case.tuning.objective == Objective::Arr {
+            return Err(refused(
+                "the paper's procedure has no search: leave it out, or set the case's objective to \"impact\"",
+            ));
+        }
+        case.tuning.search_evaluations = evaluations;
+    }
     let friction = o.ground.friction()?;
     check_folder(&o.out)?;
     threads(o.jobs)?;
 
-    let progress = Progress::new("tuning Omega_n", o.quiet);
+    let what = if case.tuning.search_evaluations > 0 { "searching springs" } else { "tuning Omega_n" };
+    let progress = Progress::new(what, o.quiet);
     let job = Job::new(&case, &|done, all, error| progress.tell(done, all, &format!("error {error:.4}")));
     progress.done();
     let job = job?;

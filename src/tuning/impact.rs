@@ -129,10 +129,20 @@ impl Impact {
     /// Whether the landings from all leans are in order by the residuals of springs: none misses the restitution wanted by
     /// more than 0.2 %, none keeps both feet in the air for longer than 10 ms and a period of the stiffest spring allowed.
     pub fn in_order(&self, residuals: &[f64]) -> bool {
-        let most_error = RESTITUTION_ERROR * self.weight_restitution();
-        let most_air = (1.0 - AIR_FREE) * self.air_s * self.weight_air;
-        let mut landings = residuals[..2 * self.drops.len()].chunks_exact(2);
-        landings.all(|r| r[0].abs() <= most_error && r[1] <= most_air)
+        self.disorder(residuals, 1.0) <= 0.0
+    }
+
+    /// By how much the landings are out of order, were only this share (0.85 to 1) of either limit allowed: the sum over
+    /// leans of what goes beyond, in limits. Zero if none is.
+    pub fn disorder(&self, residuals: &[f64], share: f64) -> f64 {
+        let most_error = share * RESTITUTION_ERROR * self.weight_restitution();
+        // residuals count the time in the air from `AIR_FREE` of what is allowed on
+        let (most_air, free) = (share * self.air_s * self.weight_air, AIR_FREE * self.air_s * self.weight_air);
+        let landings = residuals[..2 * self.drops.len()].chunks_exact(2);
+        let beyond = |x: f64, most: f64| (x - most).max(0.0) / most;
+        landings
+            .map(|r| beyond(r[0].abs(), most_error) + beyond(r[1], most_air - free) * (most_air - free) / most_air)
+            .sum()
     }
 
     /// Weight of a landing's relative error of restitution.
@@ -159,5 +169,30 @@ mod tests {
         assert!(in_order([160.0, 0.20539, 36.9068, 1.10888], [77.9056, 0.01895, 0.01102, 0.00566]));
         assert!(in_order([160.0, 0.13868, 0.85004, 0.50195], [160.0, 21.2428, 0.74129, 0.054]));
         assert!(!in_order([160.0, 9.214, 4.4, 10.2], [160.0, 9.214, 4.4, 10.2]));
+    }
+
+    /// Landings that miss both limits by known factors.
+    #[test]
+    fn disorder_is_what_goes_beyond_the_limits_in_limits() {
+        let body = Structure::paper().body::<f64>();
+        let impact = Impact::new(&body, body.restitution(), 160.0);
+        let residuals = |error: f64, air: f64| {
+            let mut residuals = vec![0.0; 2 * LEANS.len() + impact.uplifts.len()];
+            residuals[4] = -error * WEIGHT_RESTITUTION / (LEANS.len() as f64).sqrt();
+            residuals[7] = ((air - 0.0085) * WEIGHT_AIR).max(0.0);
+            residuals
+        };
+        for (error, air, share, expected) in [
+            (0.0, 0.0, 1.0, 0.0),
+            (0.0019, 0.0099, 1.0, 0.0),
+            (0.0019, 0.0099, 0.9, 0.0019 / 0.0018 - 1.0 + 0.1),
+            (0.005, 0.0, 1.0, 1.5),
+            (0.0, 0.025, 1.0, 1.5),
+            (0.004, 0.02, 1.0, 2.0),
+        ] {
+            let residuals = residuals(error, air);
+            assert!((impact.disorder(&residuals, share) - expected).abs() < 1e-12, "{error} {air} {share}");
+            assert_eq!(impact.in_order(&residuals), expected == 0.0 || share < 1.0);
+        }
     }
 }

@@ -7,7 +7,7 @@ use num_dual::{Derivative, DualNum, DualSVec64};
 use rayon::prelude::*;
 
 use super::{
-    catalogue,
+    catalogue::{self, Wanted},
     descent::{LeastSquares, descend},
     impact::Impact,
     inner::Fit,
@@ -29,6 +29,13 @@ const MU: (f64, f64) = (0.0025, 40.0);
 /// Least Omega_n tried, as a share of the largest.
 const SOFTEST: f64 = 0.1;
 
+/// Error that landings out of order count as, for every factor e of one and what they are beyond their limits.
+const DISORDER: f64 = 0.1;
+/// The share of those limits that a search keeps to: other tolerances and rounded parameters take the rest.
+const STRICT: f64 = 0.97;
+/// Cost of springs on which a run did not finish.
+const UNFINISHED: f64 = 10.0;
+
 /// The springs found, and their error by the impact objective.
 #[derive(Clone, Copy, Debug)]
 pub struct Found {
@@ -45,7 +52,7 @@ fn springs<S: Scalar>(z: &[S]) -> Springs<Design<S>> {
     Springs { vertical: design(&z[..4]), horizontal: design(&z[4..]) }
 }
 
-fn logarithms(s: &Springs<Design<f64>>) -> [f64; 8] {
+pub(super) fn logarithms(s: &Springs<Design<f64>>) -> [f64; 8] {
     let (v, h) = (&s.vertical, &s.horizontal);
     [v.omega_n_hz, v.k(), v.c(), v.mu, h.omega_n_hz, h.k(), h.c(), h.mu].map(f64::ln)
 }
@@ -62,10 +69,8 @@ fn rounded(x: f64) -> f64 {
 /// The impact objective within a bracket.
 pub struct Objective {
     impact: Impact,
-    p: f64,
-    mass_share: f64,
-    /// Restitution asked for over that of equation 2.
-    ratio: f64,
+    /// What the catalogue is asked for.
+    wanted: Wanted,
     bracket: Bracket,
     control: Control,
 }
@@ -79,9 +84,12 @@ impl Objective {
         let restitution = rounded(restitution);
         Self {
             impact: Impact::new(body, restitution, bracket.max_hz),
-            p: body.p_squared().sqrt(),
-            mass_share: body.mass_share(),
-            ratio: restitution / body.restitution(),
+            wanted: Wanted {
+                omega_over_p: TAU * bracket.max_hz / body.p_squared().sqrt(),
+                alpha: body.alpha(),
+                mass_share: body.mass_share(),
+                ratio: restitution / body.restitution(),
+            },
             bracket,
             control,
         }
@@ -118,6 +126,34 @@ impl Objective {
         // for another restitution the feet must bounce: no order to look for
         let in_order = !self.impact.another() && self.impact.in_order(&residuals);
         Found { springs, error: norm(&residuals), in_order }
+    }
+
+    /// What a search over the logarithms `z` minimises: the error, what the landings lack to be in order, and the square of
+    /// the distance from the bounds.
+    pub(super) fn cost(&self, z: &[f64]) -> f64 {
+        let (within, outside) = self.within(z);
+        let residuals = self.residuals(&within);
+        // where another restitution is asked for there is no order to look for
+        let disorder = if self.impact.another() { 0.0 } else { self.impact.disorder(&residuals, STRICT) };
+        let cost = norm(&residuals) + DISORDER * disorder.ln_1p();
+        // a run that did not finish is worse than any other
+        if cost.is_finite() { cost + outside } else { UNFINISHED + outside }
+    }
+
+    /// The springs of logarithms `z`, held within the bounds.
+    pub(super) fn at(&self, z: &[f64]) -> Found {
+        self.found(&springs(&self.within(z).0))
+    }
+
+    /// `z` held within the bounds and the largest settlement, and the square of how far it was moved.
+    fn within(&self, z: &[f64]) -> ([f64; 8], f64) {
+        let (low, high) = self.bounds();
+        let held = std::array::from_fn(|i| z[i].clamp(low[i], high[i]));
+        let within = match springs(&held).settlement(1.0) > self.bracket.max_settlement {
+            true => self.settled(held),
+            false => held,
+        };
+        (within, within.iter().zip(z).map(|(a, b)| (a - b).powi(2)).sum())
     }
 
     /// sqrt of the sum of squares of the residuals.
@@ -171,6 +207,8 @@ impl LeastSquares for Objective {
 
 /// Springs that are this much worse than the best by the impact objective may still be the better ones for a record.
 const PASSABLE: f64 = 2.0;
+/// So may any whose error by it is this small: single landings tell no more.
+const SLIGHT: f64 = 0.02;
 /// Steps from a start whose landings are in order as it is.
 const NEARLY_THERE: u64 = 2;
 
@@ -204,20 +242,11 @@ pub fn proposals(objective: &Objective, families: &[Fit], effort: Effort) -> Vec
     if Objective::least_settlement(&objective.bracket) > max_settlement {
         return Vec::new();
     }
-    let best_first = |mut found: Vec<Found>| {
-        found.sort_by(|a, b| a.error.total_cmp(&b.error));
-        found
-    };
-    let passable = |found: &[Found]| {
-        let most = PASSABLE * found.first().map_or(f64::INFINITY, |best| best.error);
-        found.iter().take_while(|found| found.error.is_finite() && found.error <= most).count()
-    };
     let judged = |starts: &[Springs<Design<f64>>]| -> Vec<Found> {
         starts.par_iter().with_max_len(1).map(|start| objective.found(start)).collect()
     };
     let any_in_order = |found: &[Found]| found[..passable(found)].iter().any(|found| found.in_order);
-    let mut starts =
-        best_first(judged(&catalogue::near(TAU * hz / objective.p, objective.mass_share, objective.ratio, hz)));
+    let mut starts = best_first(judged(&catalogue::near(&objective.wanted, hz)));
     if !any_in_order(&starts) {
         let pairs = families.iter().map(|fit| {
             let design = Design { mu: fit.mu, f: fit.f, xi: fit.xi, omega_n_hz: hz };
@@ -241,7 +270,23 @@ pub fn proposals(objective: &Objective, families: &[Fit], effort: Effort) -> Vec
             objective.found(&springs(&end.z))
         })
         .collect();
-    let mut found = best_first([ends, starts].concat());
+    ranked([ends, starts].concat())
+}
+
+fn best_first(mut found: Vec<Found>) -> Vec<Found> {
+    found.sort_by(|a, b| a.error.total_cmp(&b.error));
+    found
+}
+
+/// How many of springs, the best first, are not much worse than it.
+fn passable(found: &[Found]) -> usize {
+    let most = found.first().map_or(f64::INFINITY, |best| (PASSABLE * best.error).max(SLIGHT));
+    found.iter().take_while(|found| found.error.is_finite() && found.error <= most).count()
+}
+
+/// The best first, and none much worse than it.
+pub(super) fn ranked(found: Vec<Found>) -> Vec<Found> {
+    let mut found = best_first(found);
     found.truncate(passable(&found));
     found
 }

@@ -17,6 +17,7 @@ use thiserror::Error;
 
 use super::{
     choice::Choice,
+    global,
     impulse::{self, Effort, Found},
     inner::{Fit, FitError, families, fit},
     outer::{self, Benchmark, Bracket, Tuned},
@@ -74,7 +75,8 @@ pub struct Job {
 }
 
 impl Job {
-    /// Tune a case. `progress` gets the evaluations done, planned, and the least error so far.
+    /// Tune a case. `progress` gets the evaluations done, planned, and the least error so far: of the search, if the case asks
+    /// for one, and else of the paper's procedure.
     pub fn new(case: &Case, progress: &(dyn Fn(usize, usize, f64) + Sync)) -> Result<Self, JobError> {
         let record = case.record.truncated(case.duration_s);
         let body = case.structure.body::<f64>();
@@ -109,6 +111,9 @@ impl Job {
         // where only the impact objective's springs can settle so little, the paper's stand beside them as stiff as they get
         let beside = Bracket { max_settlement: bracket.max_settlement.max(of_families), ..bracket };
         let paper = || {
+            // one progress at a time: that of a search, which takes longer
+            let silent = |_, _, _| ();
+            let progress = if tuning.search_evaluations > 0 { &silent } else { progress };
             outer::tune(&benchmark, &vertical, &horizontal, beside, tuning.candidates, progress)
                 .ok_or(JobError::NoCandidate)
         };
@@ -116,7 +121,11 @@ impl Job {
             Objective::Arr => Ok(None),
             Objective::Impact => {
                 let objective = impulse::Objective::new(&body, case.restitution, bracket);
-                let proposals = impulse::proposals(&objective, &families(&FAMILIES)?, EFFORT);
+                let mut proposals = impulse::proposals(&objective, &families(&FAMILIES)?, EFFORT);
+                if tuning.search_evaluations > 0 {
+                    let ends = global::search(&objective, proposals.first(), tuning.search_evaluations, progress);
+                    proposals = impulse::ranked([proposals, ends].concat());
+                }
                 Ok::<_, JobError>(Some(choice.of(&proposals).ok_or(JobError::NoCandidate)?))
             }
         };
