@@ -117,8 +117,9 @@ pub struct Tuning {
     pub mass_ratios_horizontal: Vec<f64>,
     /// Candidates sampled before refining.
     pub candidates: usize,
-    /// Evaluations of the impact objective spent on a search for springs beside those found before; 0: none.
-    pub search_evaluations: usize,
+    /// Evaluations of the impact objective spent on a search for springs; unless given, some where none of those found before
+    /// have their landings in order.
+    pub search_evaluations: Option<usize>,
 }
 
 impl Default for Tuning {
@@ -130,7 +131,7 @@ impl Default for Tuning {
             mass_ratios_vertical: vec![0.1, 0.3, 1.0, 2.0, 10.0],
             mass_ratios_horizontal: vec![0.1, 1.0, 10.0],
             candidates: 256,
-            search_evaluations: 0,
+            search_evaluations: None,
         }
     }
 }
@@ -290,14 +291,14 @@ impl Tuning {
         if self.max_settlement_m.is_nan() || self.max_settlement_m <= 0.0 {
             return Err(value("tuning.max_settlement_m", self.max_settlement_m, "give metres greater than zero"));
         }
-        if self.search_evaluations > MOST_EVALUATIONS {
-            let evaluations = self.search_evaluations as f64;
-            return Err(value("tuning.search_evaluations", evaluations, "give a number from 0 to 10000000"));
-        }
-        if self.search_evaluations > 0 && self.objective == Objective::Arr {
-            let evaluations = self.search_evaluations as f64;
-            let remedy = "the paper's procedure has no search: leave it out, or set objective to \"impact\"";
-            return Err(value("tuning.search_evaluations", evaluations, remedy));
+        if let Some(evaluations) = self.search_evaluations {
+            let refused = |remedy| Err(value("tuning.search_evaluations", evaluations as f64, remedy));
+            if evaluations > MOST_EVALUATIONS {
+                return refused("give a number from 0 to 10000000");
+            }
+            if evaluations > 0 && self.objective == Objective::Arr {
+                return refused("the paper's procedure has no search: leave it out, or set objective to \"impact\"");
+            }
         }
         if !(1..=1_000_000).contains(&self.candidates) {
             return Err(value("tuning.candidates", self.candidates as f64, "give a number from 1 to 1000000"));

@@ -21,7 +21,7 @@ use crate::{
     parameters::{PaperProcedure, Parameters, RecordRow},
     predictability::{moved_by_a_hair, simulate},
     record::Record,
-    tuning::{front, impact::report::landings, impulse::Found, job::Job},
+    tuning::{choice::GOOD, front, impact::report::landings, impulse::Found, job::Job},
 };
 
 /// Options of `tune run`.
@@ -36,7 +36,8 @@ pub struct Options {
     /// Stiffest springs allowed, Omega_n / 2 pi [default: 160, or the case's]
     #[arg(long, value_name = "HZ", allow_negative_numbers = true)]
     max_hz: Option<f64>,
-    /// Evaluations to spend on a search for springs beside those found before; 2000 take a minute [default: 0, or the case's]
+    /// Evaluations to spend on a search for springs, some 300 a second [default: 1000 where no springs known have their
+    /// landings in order, or the case's]
     #[arg(long, value_name = "N")]
     search: Option<usize>,
     /// Folder for the results
@@ -83,14 +84,13 @@ pub fn run(o: &Options) -> Result<(), CommandError> {
                 "the paper's procedure has no search: leave it out, or set the case's objective to \"impact\"",
             ));
         }
-        case.tuning.search_evaluations = evaluations;
+        case.tuning.search_evaluations = Some(evaluations);
     }
     let friction = o.ground.friction()?;
     check_folder(&o.out)?;
     threads(o.jobs)?;
 
-    let what = if case.tuning.search_evaluations > 0 { "searching springs" } else { "tuning Omega_n" };
-    let progress = Progress::new(what, o.quiet);
+    let progress = Progress::new("tuning", o.quiet);
     let job = Job::new(&case, &|done, all, error| progress.tell(done, all, &format!("error {error:.4}")));
     progress.done();
     let job = job?;
@@ -145,9 +145,6 @@ pub fn run(o: &Options) -> Result<(), CommandError> {
     eprintln!("written to {}", o.out.display());
     Ok(())
 }
-
-/// Error of a history that is good enough not to ask for stiffer springs.
-const GOOD: f64 = 0.03;
 
 /// Error of restitution that is worth a warning.
 const RESTITUTION_MISSED: f64 = 0.005;

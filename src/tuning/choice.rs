@@ -4,7 +4,10 @@
 //! history to say, and more of it comes together there than in single landings and uplifts: on blocks a landing that keeps
 //! a thousandth too much makes good for the elastic stance that lifts late. Where Housner's answer to the record at hand is
 //! well conditioned, that record decides, and else synthetic motions made for the structure, on which it is. They decide among
-//! springs with landings in order, and among nothing else; and they look at springs that are a little off, too.
+//! springs with landings in order, and among nothing else; and they look at springs that are a little off, too. One record can
+//! be followed by luck: its favourite must be good on the synthetic motions, too, or no worse than the impact objective's.
+
+use std::sync::OnceLock;
 
 use rayon::prelude::*;
 
@@ -22,7 +25,7 @@ use crate::{
     record::Record,
     spring::{Design, Springs},
     structure::Body,
-    synthetic,
+    synthetic::suite,
 };
 
 /// Synthetic motions that decide, and the suite in which those that are well conditioned are looked for.
@@ -32,6 +35,9 @@ const SEED: u64 = 1940;
 
 /// Errors less apart than by this factor are chance: thirty motions tell little more, and one record less.
 const CLEARLY: f64 = 0.95;
+
+/// Error of a history that is good enough: not to ask for stiffer springs, and on synthetic motions for a record's favourite.
+pub const GOOD: f64 = 0.03;
 
 /// A motion and Housner's answer.
 #[derive(Debug)]
@@ -45,7 +51,10 @@ struct Trial {
 #[derive(Debug)]
 pub struct Choice {
     body: Body<f64>,
+    /// The record, or synthetic motions.
     trials: Vec<Trial>,
+    /// Synthetic motions beside the record, made when they are asked.
+    others: OnceLock<Vec<Trial>>,
 }
 
 impl Trial {
@@ -67,21 +76,24 @@ impl Trial {
     }
 }
 
+/// The first synthetic motions of the suite on which the body is well conditioned.
+fn synthetic(body: &Body<f64>) -> Vec<Trial> {
+    let suite: Vec<Record> = suite(SUITE, SEED, body.p_squared().sqrt(), body.alpha()).collect();
+    let mut trials: Vec<Trial> = suite.par_iter().filter_map(|record| Trial::new(body, record)).collect();
+    trials.truncate(MOTIONS);
+    trials
+}
+
 impl Choice {
     /// Of a body that shall land with velocity restitution `restitution`, on this record. Nobody decides over springs for
     /// another restitution than equation 2's: then that goes first, and the impact objective alone knows.
     pub fn new(body: &Body<f64>, restitution: f64, record: &Record) -> Self {
-        if is_another(body, restitution) {
-            return Self { body: *body, trials: Vec::new() };
-        }
         let trials = match Trial::new(body, record) {
+            _ if is_another(body, restitution) => Vec::new(),
             Some(trial) => vec![trial],
-            None => {
-                let suite = synthetic::suite(SUITE, SEED, body.p_squared().sqrt(), body.alpha());
-                suite.filter_map(|record| Trial::new(body, &record)).take(MOTIONS).collect()
-            }
+            None => synthetic(body),
         };
-        Self { body: *body, trials }
+        Self { body: *body, trials, others: OnceLock::new() }
     }
 
     /// Whether the record at hand decides, which is one history, or many synthetic ones do.
@@ -90,11 +102,27 @@ impl Choice {
     }
 
     /// Of proposals, the best by the impact objective first: the first among those whose landings are in order, unless another
-    /// of these follows clearly better.
+    /// of these follows clearly better, and where that is a record's favourite, is good on synthetic motions or no worse than
+    /// the first.
     pub fn of(&self, proposals: &[Found]) -> Option<Found> {
+        self.first(proposals, |found, first| {
+            !self.by_record()
+                || self.elsewhere(&found.springs) <= GOOD.ln()
+                || self.elsewhere(&found.springs) <= self.elsewhere(&first.springs)
+        })
+    }
+
+    /// The same, whatever synthetic motions say of a record's favourite.
+    pub fn of_history(&self, proposals: &[Found]) -> Option<Found> {
+        self.first(proposals, |_, _| true)
+    }
+
+    /// The best follower that stands up beside the first of those in order.
+    fn first(&self, proposals: &[Found], stands: impl Fn(&Found, &Found) -> bool) -> Option<Found> {
         let kept: Vec<&Found> = in_order_first(proposals).collect();
+        let first = **kept.first()?;
         if self.trials.is_empty() {
-            return kept.first().map(|&&found| found);
+            return Some(first);
         }
         // the record looks at every variant of the springs, of many motions each at one
         let error = |found: &&Found| -> f64 {
@@ -103,13 +131,24 @@ impl Choice {
                 [record] => variants.iter().map(|variant| (record, variant)).collect(),
                 many => many.iter().zip(variants.iter().cycle()).collect(),
             };
-            let each: Vec<f64> = looks.par_iter().map(|(trial, springs)| trial.error(&self.body, springs)).collect();
-            each.iter().sum::<f64>() / each.len() as f64
+            self.error(&looks)
         };
         let errors: Vec<f64> = kept.par_iter().map(error).collect();
-        let best = (0..kept.len()).min_by(|&a, &b| errors[a].total_cmp(&errors[b]).then(a.cmp(&b)))?;
-        let best = if errors[best] < errors[0] + CLEARLY.ln() { best } else { 0 };
-        Some(*kept[best])
+        let mut better: Vec<usize> = (0..kept.len()).filter(|&i| errors[i] < errors[0] + CLEARLY.ln()).collect();
+        better.sort_by(|&a, &b| errors[a].total_cmp(&errors[b]).then(a.cmp(&b)));
+        Some(better.into_iter().map(|i| *kept[i]).find(|found| stands(found, &first)).unwrap_or(first))
+    }
+
+    /// Mean of ln of the errors on synthetic motions.
+    fn elsewhere(&self, springs: &Springs<Design<f64>>) -> f64 {
+        let others = self.others.get_or_init(|| synthetic(&self.body));
+        self.error(&others.iter().map(|other| (other, springs)).collect::<Vec<_>>())
+    }
+
+    /// Mean of ln of the errors.
+    fn error(&self, looks: &[(&Trial, &Springs<Design<f64>>)]) -> f64 {
+        let each: Vec<f64> = looks.par_iter().map(|(trial, springs)| trial.error(&self.body, springs)).collect();
+        each.iter().sum::<f64>() / each.len() as f64
     }
 }
 
@@ -152,6 +191,21 @@ mod tests {
         let [soft, ..] = proposals(true);
         let [_, stiff, _] = proposals(false);
         assert_eq!(choice.of(&[stiff, soft]).unwrap().springs, soft.springs);
+    }
+
+    /// Soft springs that follow El Centro by luck: their dashpots hardly damp, and on other motions they swing on.
+    #[test]
+    fn a_records_favourite_must_be_good_on_other_motions_too() {
+        let body = Structure::a_frame(20.0, 4.0, 1e5).unwrap().body::<f64>();
+        let choice = Choice::new(&body, body.restitution(), &el_centro());
+        let plain = found([160.0, 0.6598, 0.718, 2.289], [160.0, 0.02, 0.0127, 0.019], true);
+        let lucky = found([160.0, 0.2697, 10.63623, 2.30774], [155.6, 0.00584, 0.00732, 0.00726], true);
+        let on_record = |found: Found| choice.error(&[(&choice.trials[0], &found.springs)]).exp();
+        let elsewhere = |found: Found| choice.elsewhere(&found.springs).exp();
+        assert!(on_record(lucky) < CLEARLY * on_record(plain));
+        assert!(elsewhere(lucky) > elsewhere(plain).max(GOOD));
+        assert_eq!(choice.of_history(&[plain, lucky]).unwrap().springs, lucky.springs);
+        assert_eq!(choice.of(&[plain, lucky]).unwrap().springs, plain.springs);
     }
 
     #[test]

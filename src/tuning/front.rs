@@ -71,7 +71,7 @@ pub fn front(case: &Case, job: &Job, progress: &(dyn Fn(usize, usize) + Sync)) -
                     let proposals = impulse::proposals(&objective, &families, EFFORT);
                     // where the record does not decide, its front says little, and many histories a point are dear
                     let found = match job.choice.by_record() {
-                        true => job.choice.of(&proposals),
+                        true => job.choice.of_history(&proposals),
                         false => impulse::in_order_first(&proposals).next().copied(),
                     };
                     found.map(|found| found.springs)

@@ -5,7 +5,7 @@
 //! crosses such ground. It sets out from the best springs known, and then again and again from the best of random ones, until its
 //! evaluations are spent. The entries of the catalogue were found so.
 
-use std::sync::atomic::{AtomicUsize, Ordering};
+use std::sync::atomic::{AtomicU64, AtomicUsize, Ordering};
 
 use cmaes::{CMAESOptions, DVector};
 use rand::{Rng, SeedableRng};
@@ -40,16 +40,17 @@ pub(super) fn search(
     let (low, high) = objective.bounds();
     let mut random = ChaCha8Rng::seed_from_u64(SEED);
     let mut start = known.map(|found| (logarithms(&found.springs).to_vec(), STEP.0));
-    let mut ends: Vec<(f64, Found)> = Vec::new();
+    let mut ends = Vec::new();
     let done = AtomicUsize::new(0);
-    let best = |ends: &[(f64, Found)]| ends.iter().map(|end| end.0).fold(f64::INFINITY, f64::min);
+    // costs are not negative, and the bits of such numbers are in their order
+    let least = AtomicU64::new(f64::INFINITY.to_bits());
+    let cost = |z: &[f64]| {
+        let cost = objective.cost(z);
+        let least = f64::from_bits(least.fetch_min(cost.to_bits(), Ordering::Relaxed)).min(cost);
+        progress((done.fetch_add(1, Ordering::Relaxed) + 1).min(evaluations), evaluations, least);
+        cost
+    };
     while done.load(Ordering::Relaxed) < evaluations {
-        let so_far = best(&ends);
-        let cost = |z: &[f64]| {
-            let cost = objective.cost(z);
-            progress((done.fetch_add(1, Ordering::Relaxed) + 1).min(evaluations), evaluations, so_far.min(cost));
-            cost
-        };
         let (from, step) = start.take().unwrap_or_else(|| {
             let scattered: Vec<Vec<f64>> = (0..SCATTERED)
                 .map(|_| low.iter().zip(&high).map(|(&low, &high)| random.random_range(low..=high)).collect())
@@ -68,9 +69,9 @@ pub(super) fn search(
             .build(|z: &DVector<f64>| cost(z.as_slice()));
         // the options are constants that are in order
         let Some(end) = walk.ok().and_then(|mut walk| walk.run_parallel().overall_best) else { break };
-        ends.push((end.value, objective.at(end.point.as_slice())));
+        ends.push(objective.at(end.point.as_slice()));
     }
-    ends.into_iter().map(|(_, found)| found).collect()
+    ends
 }
 
 #[cfg(test)]

@@ -53,6 +53,8 @@ const AIR_S: f64 = 0.010;
 const AIR_PERIODS: f64 = 1.0;
 /// The share of it from which on it counts.
 const AIR_FREE: f64 = 0.85;
+/// Leans from which the ringing is judged: it is much the same from all between 0.7 and 0.2.
+const RINGING_LEANS: [f64; 2] = [0.5, 0.2];
 /// Largest relative error of restitution of a landing that is in order.
 const RESTITUTION_ERROR: f64 = 2e-3;
 
@@ -143,6 +145,18 @@ impl Impact {
         landings
             .map(|r| beyond(r[0].abs(), most_error) + beyond(r[1], most_air - free) * (most_air - free) / most_air)
             .sum()
+    }
+
+    /// Ripple of the vertical force that landings on springs leave to the next impact, share of the weight.
+    pub fn ringing(&self, springs: &Springs<Design<f64>>) -> f64 {
+        // what hardly damps rings on at a fine tolerance only
+        let control = Control::default();
+        let chains = springs.chains(self.body.mass);
+        let each: Vec<f64> = RINGING_LEANS
+            .par_iter()
+            .map(|&lean| report::ringing(&self.body, &chains, self.restitution, lean, control))
+            .collect();
+        each.into_iter().fold(0.0, f64::max)
     }
 
     /// Weight of a landing's relative error of restitution.

@@ -33,6 +33,9 @@ const SOFTEST: f64 = 0.1;
 const DISORDER: f64 = 0.1;
 /// The share of those limits that a search keeps to: other tolerances and rounded parameters take the rest.
 const STRICT: f64 = 0.97;
+/// Ripple of the vertical force that a landing may leave to the next impact, share of the weight. Springs that ring more have
+/// landings in order one by one and fail where they follow each other.
+const RINGING: f64 = 0.1;
 /// Cost of springs on which a run did not finish.
 const UNFINISHED: f64 = 10.0;
 
@@ -40,7 +43,7 @@ const UNFINISHED: f64 = 10.0;
 #[derive(Clone, Copy, Debug)]
 pub struct Found {
     pub springs: Springs<Design<f64>>,
-    /// sqrt of the sum of squares of `Impact`'s residuals: about the NRMSE to expect.
+    /// sqrt of the sum of squares of `Impact`'s residuals: about the NRMSE to expect; more where landings ring on.
     pub error: f64,
     /// Whether its landings are in order, from all leans.
     pub in_order: bool,
@@ -123,9 +126,14 @@ impl Objective {
             false => *s,
         };
         let residuals = self.residuals(&logarithms(&springs));
-        // for another restitution the feet must bounce: no order to look for
-        let in_order = !self.impact.another() && self.impact.in_order(&residuals);
-        Found { springs, error: norm(&residuals), in_order }
+        let landings = self.knows_order() && self.impact.in_order(&residuals);
+        let excess = if landings { self.rings(&springs) } else { 0.0 };
+        Found { springs, error: norm(&residuals) + DISORDER * excess.ln_1p(), in_order: landings && excess <= 0.0 }
+    }
+
+    /// Whether landings can be in order: for another restitution than equation 2's the feet must bounce.
+    pub(super) fn knows_order(&self) -> bool {
+        !self.impact.another()
     }
 
     /// What a search over the logarithms `z` minimises: the error, what the landings lack to be in order, and the square of
@@ -133,11 +141,21 @@ impl Objective {
     pub(super) fn cost(&self, z: &[f64]) -> f64 {
         let (within, outside) = self.within(z);
         let residuals = self.residuals(&within);
-        // where another restitution is asked for there is no order to look for
-        let disorder = if self.impact.another() { 0.0 } else { self.impact.disorder(&residuals, STRICT) };
+        let disorder = match self.knows_order() {
+            true => match self.impact.disorder(&residuals, STRICT) {
+                0.0 => self.rings(&springs(&within)),
+                some => some,
+            },
+            false => 0.0,
+        };
         let cost = norm(&residuals) + DISORDER * disorder.ln_1p();
         // a run that did not finish is worse than any other
         if cost.is_finite() { cost + outside } else { UNFINISHED + outside }
+    }
+
+    /// By how much springs ring beyond the limit, in limits: single landings say nothing of an absorber that swings on.
+    fn rings(&self, springs: &Springs<Design<f64>>) -> f64 {
+        (self.impact.ringing(springs) / RINGING - 1.0).max(0.0)
     }
 
     /// The springs of logarithms `z`, held within the bounds.

@@ -36,6 +36,9 @@ pub(super) const FAMILIES: [f64; 3] = [0.1, 0.3, 1.0];
 /// Of the impact objective.
 const EFFORT: Effort = Effort { followed: 2, iterations: 15, content: false };
 
+/// Evaluations of a search where no springs known have their landings in order.
+const SEARCH: usize = 1000;
+
 /// Why there are no springs.
 #[derive(Debug, Error)]
 pub enum JobError {
@@ -75,8 +78,8 @@ pub struct Job {
 }
 
 impl Job {
-    /// Tune a case. `progress` gets the evaluations done, planned, and the least error so far: of the search, if the case asks
-    /// for one, and else of the paper's procedure.
+    /// Tune a case. `progress` gets the evaluations done, planned, and the least error so far: of the paper's procedure, and
+    /// then of a search for springs, if there is one.
     pub fn new(case: &Case, progress: &(dyn Fn(usize, usize, f64) + Sync)) -> Result<Self, JobError> {
         let record = case.record.truncated(case.duration_s);
         let body = case.structure.body::<f64>();
@@ -111,27 +114,27 @@ impl Job {
         // where only the impact objective's springs can settle so little, the paper's stand beside them as stiff as they get
         let beside = Bracket { max_settlement: bracket.max_settlement.max(of_families), ..bracket };
         let paper = || {
-            // one progress at a time: that of a search, which takes longer
-            let silent = |_, _, _| ();
-            let progress = if tuning.search_evaluations > 0 { &silent } else { progress };
             outer::tune(&benchmark, &vertical, &horizontal, beside, tuning.candidates, progress)
                 .ok_or(JobError::NoCandidate)
         };
+        let objective = impulse::Objective::new(&body, case.restitution, bracket);
         let ours = || match tuning.objective {
-            Objective::Arr => Ok(None),
-            Objective::Impact => {
-                let objective = impulse::Objective::new(&body, case.restitution, bracket);
-                let mut proposals = impulse::proposals(&objective, &families(&FAMILIES)?, EFFORT);
-                if tuning.search_evaluations > 0 {
-                    let ends = global::search(&objective, proposals.first(), tuning.search_evaluations, progress);
-                    proposals = impulse::ranked([proposals, ends].concat());
-                }
-                Ok::<_, JobError>(Some(choice.of(&proposals).ok_or(JobError::NoCandidate)?))
-            }
+            Objective::Arr => Ok(Vec::new()),
+            Objective::Impact => Ok::<_, JobError>(impulse::proposals(&objective, &families(&FAMILIES)?, EFFORT)),
         };
         // neither knows of the other, and one fills the pauses of the other's batches
         let (paper, ours) = rayon::join(paper, ours);
-        let (arr, impact) = (paper?, ours?);
+        let (arr, proposals) = (paper?, ours?);
+        let impact = match tuning.objective {
+            Objective::Arr => None,
+            Objective::Impact => {
+                let lacking = objective.knows_order() && !proposals.iter().any(|found| found.in_order);
+                let evaluations = tuning.search_evaluations.unwrap_or(if lacking { SEARCH } else { 0 });
+                let ends = global::search(&objective, proposals.first(), evaluations, progress);
+                let all = impulse::ranked([proposals, ends].concat());
+                Some(choice.of(&all).ok_or(JobError::NoCandidate)?)
+            }
+        };
         let springs = impact.map_or(arr.best.springs, |found| found.springs);
         Ok(Self { body, record, rocking, housner, springs, vertical, horizontal, arr, impact, choice })
     }

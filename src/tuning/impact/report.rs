@@ -55,32 +55,10 @@ fn landing(body: &Body<f64>, chains: &Springs<Chain<f64>>, restitution: f64, lea
     let drop = Drop::new(body, restitution, lean);
     let (kept, air_s) = drop.run(body, chains, control)?;
     let effective = kept.max(0.0).sqrt();
-    // on to just before the next impact
-    let p = body.p_squared().sqrt();
-    let next = next_peak(lean, restitution);
-    let time = quarter(lean, p) + 1.9 * quarter(next, p);
-    let dt = (time / 400.0).min(0.01);
-    let quiet = vec![0.0; (time / dt) as usize + 1];
-    let case = Case {
-        body: *body,
-        springs: *chains,
-        start: Start::Leaning(lean * body.alpha()),
-        dt,
-        accel: &quiet,
-        scale: 1.0,
-        control,
-    };
     let mut speeds = Speeds::default();
-    case.observe(&mut speeds);
-    let history = case.simulate();
-    let f = &history.forces.vertical;
+    with_next(body, chains, restitution, lean, control, |case| case.observe(&mut speeds));
+    let ringing = ringing(body, chains, restitution, lean, control);
     let weight = body.mass * GRAVITY;
-    let n = history.motion.len();
-    let ripple = |i: usize| {
-        let at = |i: usize| f[0][i] + f[1][i];
-        (at(i + 1) - 2.0 * at(i) + at(i - 1)).abs() / (4.0 * weight)
-    };
-    let ringing = (n.saturating_sub(12).max(1)..n.saturating_sub(1)).map(ripple).fold(0.0, f64::max);
     Some(LandingRow {
         lean,
         restitution: effective,
@@ -92,6 +70,48 @@ fn landing(body: &Body<f64>, chains: &Springs<Chain<f64>>, restitution: f64, lea
         // on one foot: the whole weight on k1 and k2 in series
         settlement_m: weight * (chains.vertical.k1.recip() + chains.vertical.k2.recip()),
     })
+}
+
+/// A landing and the swing after it, up to just before the next impact.
+fn with_next<T>(
+    body: &Body<f64>,
+    chains: &Springs<Chain<f64>>,
+    restitution: f64,
+    lean: f64,
+    control: Control,
+    run: impl FnOnce(&Case<f64>) -> T,
+) -> T {
+    let p = body.p_squared().sqrt();
+    let next = next_peak(lean, restitution);
+    let time = quarter(lean, p) + 1.9 * quarter(next, p);
+    let dt = (time / 400.0).min(0.01);
+    let quiet = vec![0.0; (time / dt) as usize + 1];
+    run(&Case {
+        body: *body,
+        springs: *chains,
+        start: Start::Leaning(lean * body.alpha()),
+        dt,
+        accel: &quiet,
+        scale: 1.0,
+        control,
+    })
+}
+
+/// Ripple of the vertical force just before the impact after the one that follows a release from `lean`, share of the weight.
+pub(super) fn ringing(
+    body: &Body<f64>,
+    chains: &Springs<Chain<f64>>,
+    restitution: f64,
+    lean: f64,
+    control: Control,
+) -> f64 {
+    let history = with_next(body, chains, restitution, lean, control, |case| case.simulate());
+    let (f, n) = (&history.forces.vertical, history.motion.len());
+    let ripple = |i: usize| {
+        let at = |i: usize| f[0][i] + f[1][i];
+        (at(i + 1) - 2.0 * at(i) + at(i - 1)).abs() / (4.0 * body.mass * GRAVITY)
+    };
+    (n.saturating_sub(12).max(1)..n.saturating_sub(1)).map(ripple).fold(0.0, f64::max)
 }
 
 /// Speeds at which the landing foot comes and goes.
