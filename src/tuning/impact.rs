@@ -8,6 +8,9 @@
 //!               r = ( du' + p du ) / ( p R alpha / 4 ),  du = u - u_H    uplift begins when, and as fast as, it should
 //! ```
 //!
+//! Springs are in order if no landing misses e by more than 0.2 % or takes longer than t_a in the air, and if the vertical
+//! force has come to rest before the next impact: an absorber that swings on spoils landings that follow each other.
+//!
 //! E is the energy above that of the body balanced on one foot at theta = 0. An elastic stance sways before it lifts, and
 //! this head start (the lead) and the error of restitution are all that sets the two models apart to first order. The
 //! lead is counted by the growing part of what it becomes, for the body on one foot is an inverted pendulum: u' + p u.

@@ -9,6 +9,7 @@ use rayon::prelude::*;
 use super::{
     catalogue::{self, Wanted},
     descent::{LeastSquares, descend},
+    global,
     impact::Impact,
     inner::Fit,
     outer::Bracket,
@@ -103,6 +104,11 @@ impl Objective {
         bracket.least_settlement(K.1)
     }
 
+    /// Whether any springs settle as little as is asked for.
+    fn can_settle(&self) -> bool {
+        Self::least_settlement(&self.bracket) <= self.bracket.max_settlement
+    }
+
     /// z with K of the vertical chain, and then its Omega_n, raised to what the largest settlement asks for.
     fn settled(&self, mut z: [f64; 8]) -> [f64; 8] {
         let Bracket { max_hz, max_settlement } = self.bracket;
@@ -132,7 +138,7 @@ impl Objective {
     }
 
     /// Whether landings can be in order: for another restitution than equation 2's the feet must bounce.
-    pub(super) fn knows_order(&self) -> bool {
+    fn knows_order(&self) -> bool {
         !self.impact.another()
     }
 
@@ -241,9 +247,34 @@ pub struct Effort {
     pub content: bool,
 }
 
-/// Tune all eight parameters: the best of [`proposals`] by the impact objective among those whose landings are in order.
+/// Evaluations of a search where no springs known have their landings in order.
+const SEARCH: usize = 1000;
+
+/// Tune all eight parameters: the best of [`proposals`], [`searched`], by the impact objective among those whose landings are in
+/// order.
 pub fn tune(objective: &Objective, families: &[Fit], effort: Effort) -> Option<Found> {
-    in_order_first(&proposals(objective, families, effort)).next().copied()
+    let proposals = searched(objective, proposals(objective, families, effort), None, &|_, _, _| ());
+    in_order_first(&proposals).next().copied()
+}
+
+/// Proposals and what a search of so many `evaluations` adds; unless given, there is one where the landings of none are in order
+/// and those of others might be. `progress` gets the evaluations done, planned, and the least cost so far.
+pub fn searched(
+    objective: &Objective,
+    proposals: Vec<Found>,
+    evaluations: Option<usize>,
+    progress: &(dyn Fn(usize, usize, f64) + Sync),
+) -> Vec<Found> {
+    let lacking = objective.knows_order() && !proposals.iter().any(|found| found.in_order);
+    match evaluations.unwrap_or(if lacking { SEARCH } else { 0 }) {
+        // none settle as little as is asked for
+        _ if !objective.can_settle() => proposals,
+        0 => proposals,
+        evaluations => {
+            let ends = global::search(objective, proposals.first(), evaluations, progress);
+            ranked([proposals, ends].concat())
+        }
+    }
 }
 
 /// Those of proposals whose landings are in order; all, if those of none are.
@@ -256,8 +287,8 @@ pub fn in_order_first(proposals: &[Found]) -> impl Iterator<Item = &Found> {
 /// of like Omega_n/p and, where none of these has its landings in order, from pairs of families at the stiffest springs allowed.
 /// The best few are followed down all eight parameters. Empty if no start finishes its runs, or all settle by more than is allowed.
 pub fn proposals(objective: &Objective, families: &[Fit], effort: Effort) -> Vec<Found> {
-    let Bracket { max_hz: hz, max_settlement } = objective.bracket;
-    if Objective::least_settlement(&objective.bracket) > max_settlement {
+    let hz = objective.bracket.max_hz;
+    if !objective.can_settle() {
         return Vec::new();
     }
     let judged = |starts: &[Springs<Design<f64>>]| -> Vec<Found> {
@@ -303,7 +334,7 @@ fn passable(found: &[Found]) -> usize {
 }
 
 /// The best first, and none much worse than it.
-pub(super) fn ranked(found: Vec<Found>) -> Vec<Found> {
+fn ranked(found: Vec<Found>) -> Vec<Found> {
     let mut found = best_first(found);
     found.truncate(passable(&found));
     found

@@ -17,7 +17,6 @@ use thiserror::Error;
 
 use super::{
     choice::Choice,
-    global,
     impulse::{self, Effort, Found},
     inner::{Fit, FitError, families, fit},
     outer::{self, Benchmark, Bracket, Tuned},
@@ -35,9 +34,6 @@ use crate::{
 pub(super) const FAMILIES: [f64; 3] = [0.1, 0.3, 1.0];
 /// Of the impact objective.
 const EFFORT: Effort = Effort { followed: 2, iterations: 15, content: false };
-
-/// Evaluations of a search where no springs known have their landings in order.
-const SEARCH: usize = 1000;
 
 /// Why there are no springs.
 #[derive(Debug, Error)]
@@ -128,10 +124,7 @@ impl Job {
         let impact = match tuning.objective {
             Objective::Arr => None,
             Objective::Impact => {
-                let lacking = objective.knows_order() && !proposals.iter().any(|found| found.in_order);
-                let evaluations = tuning.search_evaluations.unwrap_or(if lacking { SEARCH } else { 0 });
-                let ends = global::search(&objective, proposals.first(), evaluations, progress);
-                let all = impulse::ranked([proposals, ends].concat());
+                let all = impulse::searched(&objective, proposals, tuning.search_evaluations, progress);
                 Some(choice.of(&all).ok_or(JobError::NoCandidate)?)
             }
         };
