@@ -3,7 +3,7 @@
 //! A foot bounces once more or it does not, so the impact objective is rugged, and a descent ends in the valley that it starts
 //! in: the springs to start from decide. CMA-ES (Hansen and Ostermeier, Evolutionary Computation 9, 2001; the crate `cmaes`)
 //! crosses such ground. It sets out from the best springs known, and then again and again from the best of random ones, until its
-//! evaluations are spent. The entries of the catalogue were found so.
+//! evaluations are spent. Most entries of the catalogue were found so.
 
 use std::sync::atomic::{AtomicU64, AtomicUsize, Ordering};
 
