@@ -88,10 +88,10 @@ impl Choice {
     /// Of a body that shall land with velocity restitution `restitution`, on this record. Nobody decides over springs for
     /// another restitution than equation 2's: then that goes first, and the impact objective alone knows.
     pub fn new(body: &Body<f64>, restitution: f64, record: &Record) -> Self {
-        let trials = match Trial::new(body, record) {
-            _ if is_another(body, restitution) => Vec::new(),
-            Some(trial) => vec![trial],
-            None => synthetic(body),
+        let trials = if is_another(body, restitution) {
+            Vec::new()
+        } else {
+            Trial::new(body, record).map_or_else(|| synthetic(body), |trial| vec![trial])
         };
         Self { body: *body, trials, others: OnceLock::new() }
     }
@@ -106,9 +106,10 @@ impl Choice {
     /// the first.
     pub fn of(&self, proposals: &[Found]) -> Option<Found> {
         self.first(proposals, |found, first| {
-            !self.by_record()
-                || self.elsewhere(&found.springs) <= GOOD.ln()
-                || self.elsewhere(&found.springs) <= self.elsewhere(&first.springs)
+            !self.by_record() || {
+                let error = self.elsewhere(&found.springs);
+                error <= GOOD.ln() || error <= self.elsewhere(&first.springs)
+            }
         })
     }
 

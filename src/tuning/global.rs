@@ -79,12 +79,15 @@ mod tests {
     use super::*;
     use crate::{structure::Structure, tuning::outer::Bracket};
 
-    /// A wide frame, and the springs that a search of so many evaluations finds on so many threads.
-    fn found(evaluations: usize, threads: usize, known: Option<&Found>) -> Vec<Found> {
+    fn wide_frame() -> Objective {
         let body = Structure::a_frame(4.0, 3.2, 1e4).unwrap().body::<f64>();
-        let objective = Objective::new(&body, body.restitution(), Bracket { max_hz: 160.0, max_settlement: 0.01 });
+        Objective::new(&body, body.restitution(), Bracket { max_hz: 160.0, max_settlement: 0.01 })
+    }
+
+    /// The springs that a search of so many evaluations finds on so many threads.
+    fn found(evaluations: usize, threads: usize, known: Option<&Found>) -> Vec<Found> {
         let pool = rayon::ThreadPoolBuilder::new().num_threads(threads).build().unwrap();
-        pool.install(|| search(&objective, known, evaluations, &|done, all, _| assert!(done <= all)))
+        pool.install(|| search(&wide_frame(), known, evaluations, &|done, all, _| assert!(done <= all)))
     }
 
     fn best(found: &[Found]) -> Found {
@@ -105,9 +108,7 @@ mod tests {
         let better = best(&found(300, 2, Some(&start)));
         assert!(better.error < 0.8 * start.error, "{} {}", better.error, start.error);
         let spent = AtomicUsize::new(0);
-        let body = Structure::a_frame(4.0, 3.2, 1e4).unwrap().body::<f64>();
-        let objective = Objective::new(&body, body.restitution(), Bracket { max_hz: 160.0, max_settlement: 0.01 });
-        search(&objective, Some(&start), 20, &|_, _, _| {
+        search(&wide_frame(), Some(&start), 20, &|_, _, _| {
             spent.fetch_add(1, Ordering::Relaxed);
         });
         assert!((20..20 + GENERATION).contains(&spent.into_inner()));

@@ -141,13 +141,13 @@ impl Impact {
     /// leans of what goes beyond, in limits. Zero if none is.
     pub fn disorder(&self, residuals: &[f64], share: f64) -> f64 {
         let most_error = share * RESTITUTION_ERROR * self.weight_restitution();
-        // residuals count the time in the air from `AIR_FREE` of what is allowed on
-        let (most_air, free) = (share * self.air_s * self.weight_air, AIR_FREE * self.air_s * self.weight_air);
+        let most_air = share * self.air_s * self.weight_air;
+        // residuals count the time in the air from this on
+        let free = AIR_FREE * self.air_s * self.weight_air;
         let landings = residuals[..2 * self.drops.len()].chunks_exact(2);
-        let beyond = |x: f64, most: f64| (x - most).max(0.0) / most;
-        landings
-            .map(|r| beyond(r[0].abs(), most_error) + beyond(r[1], most_air - free) * (most_air - free) / most_air)
-            .sum()
+        let error = |r: &[f64]| (r[0].abs() - most_error).max(0.0) / most_error;
+        let air = |r: &[f64]| (r[1] - (most_air - free)).max(0.0) / most_air;
+        landings.map(|r| error(r) + air(r)).sum()
     }
 
     /// Ripple of the vertical force that landings on springs leave to the next impact, share of the weight.

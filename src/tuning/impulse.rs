@@ -266,15 +266,12 @@ pub fn searched(
     progress: &(dyn Fn(usize, usize, f64) + Sync),
 ) -> Vec<Found> {
     let lacking = objective.knows_order() && !proposals.iter().any(|found| found.in_order);
-    match evaluations.unwrap_or(if lacking { SEARCH } else { 0 }) {
-        // none settle as little as is asked for
-        _ if !objective.can_settle() => proposals,
-        0 => proposals,
-        evaluations => {
-            let ends = global::search(objective, proposals.first(), evaluations, progress);
-            ranked([proposals, ends].concat())
-        }
+    let evaluations = evaluations.unwrap_or(if lacking { SEARCH } else { 0 });
+    if evaluations == 0 || !objective.can_settle() {
+        return proposals;
     }
+    let ends = global::search(objective, proposals.first(), evaluations, progress);
+    ranked([proposals, ends].concat())
 }
 
 /// Those of proposals whose landings are in order; all, if those of none are.
