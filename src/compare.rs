@@ -5,6 +5,7 @@ use serde::{Deserialize, Serialize};
 use crate::{
     fem::History,
     motion::{Motion, nrmse, peak},
+    structure::Body,
 };
 
 /// How a finite element history matches Housner's over the same samples.
@@ -29,16 +30,25 @@ pub struct Match {
     pub bounces: usize,
     /// Settlement of the standing body under its weight [m].
     pub settlement_m: f64,
-    /// Largest |e_effective/e - 1| over the landings that matter (`effective_restitution`).
+    /// Largest |e_effective/e - 1| over the landings with more than 1 % of the largest kinetic energy; the last is left out, for
+    /// its losses may not be complete.
     pub restitution_error_max: f64,
+    /// The same over the firm ones, as hard as a fall from 0.02 of alpha or harder, for which springs are tuned: gentler ones
+    /// are partly taken by the elastic stance. None if there are none.
+    #[serde(default)]
+    pub restitution_error_firm: Option<f64>,
     /// Largest |residual| of the energy account over the largest energy.
     pub energy_residual: f64,
 }
 
 impl Match {
-    /// Compare a history with Housner's motion, both sampled at dt.
-    pub fn new(dt: f64, housner: &Motion, impacts_housner: usize, fem: &History, restitution: f64) -> Self {
+    /// Compare a history with Housner's motion, both sampled at dt, and the number of his impacts.
+    pub fn new(body: &Body<f64>, dt: f64, rocking: (&Motion, usize), fem: &History, restitution: f64) -> Self {
+        let (housner, impacts_housner) = rocking;
         let n = housner.len().min(fem.motion.len());
+        let landings = effective_restitution(fem);
+        let largest = fem.landings.iter().filter(|l| l.impact).map(|l| l.kinetic).fold(0.0, f64::max);
+        let error = |least: f64| error_above(&landings, restitution, least);
         Self {
             duration_s: n.saturating_sub(1) as f64 * dt,
             nrmse_horizontal: nrmse(&fem.motion.u[..n], &housner.u[..n]),
@@ -51,29 +61,34 @@ impl Match {
             impacts_fem: fem.impacts(),
             bounces: fem.bounces(),
             settlement_m: -fem.initial_z,
-            restitution_error_max: restitution_error(fem, restitution),
+            restitution_error_max: error(LANDINGS_THAT_MATTER * largest).unwrap_or(0.0),
+            restitution_error_firm: error(body.fall(LEAST_LEAN * body.alpha())),
             energy_residual: fem.energy_residual,
         }
     }
 }
 
-/// Landings of less than this share of the largest kinetic energy do not count in `restitution_error`.
+/// The least lean from which springs are judged, share of alpha.
+pub const LEAST_LEAN: f64 = 0.02;
+
+/// Landings of less than this share of the largest kinetic energy do not count in `restitution_error_max`.
 const LANDINGS_THAT_MATTER: f64 = 0.01;
 
-/// sqrt(1 - lost/kinetic) of each impact: the velocity ratio that loses what the landing lost, up to the next landing.
-pub fn effective_restitution(fem: &History) -> Vec<(f64, f64)> {
-    let impacts = || fem.landings.iter().filter(|l| l.impact);
-    let largest = impacts().map(|l| l.kinetic).fold(0.0, f64::max);
-    impacts()
-        .filter(|l| l.kinetic > LANDINGS_THAT_MATTER * largest)
-        .map(|l| (l.time, (1.0 - l.lost / l.kinetic).max(0.0).sqrt()))
-        .collect()
+/// Kinetic energy of each impact [J], and sqrt(1 - lost/kinetic): the velocity ratio that loses what the landing lost, up to
+/// the next landing. The last is left out, for its losses may not be complete.
+fn effective_restitution(fem: &History) -> Vec<(f64, f64)> {
+    let mut all: Vec<(f64, f64)> = fem
+        .landings
+        .iter()
+        .filter(|l| l.impact)
+        .map(|l| (l.kinetic, (1.0 - l.lost / l.kinetic).max(0.0).sqrt()))
+        .collect();
+    all.pop();
+    all
 }
 
-/// Largest |e_effective/e - 1| over the landings with more than 1 % of the largest kinetic energy; the last one is left
-/// out, for its losses may not be complete.
-pub fn restitution_error(fem: &History, restitution: f64) -> f64 {
-    let all = effective_restitution(fem);
-    let complete = &all[..all.len().saturating_sub(1)];
-    complete.iter().map(|(_, e)| (e / restitution - 1.0).abs()).fold(0.0, f64::max)
+/// Largest |e_effective/e - 1| of the landings with at least this kinetic energy [J].
+fn error_above(landings: &[(f64, f64)], restitution: f64, least: f64) -> Option<f64> {
+    let those = landings.iter().filter(|(kinetic, _)| *kinetic >= least);
+    those.map(|(_, e)| (e / restitution - 1.0).abs()).reduce(f64::max)
 }

@@ -175,6 +175,11 @@ impl<S: Scalar> Body<S> {
         let half = theta * real::<S>(0.5);
         self.half_width * s * theta.sin() - self.height * real::<S>(2.0) * half.sin() * half.sin()
     }
+
+    /// Kinetic energy with which the body lands that fell from rest at theta, m g v [J].
+    pub fn fall(&self, theta: S) -> S {
+        self.mass * self.v(theta) * real::<S>(GRAVITY)
+    }
 }
 
 #[cfg(test)]
@@ -203,6 +208,9 @@ mod tests {
             let s = if theta < 0.0 { -1.0 } else { 1.0 };
             assert_relative_eq!(body.u(theta), r * (a.sin() * s - (a * s - theta).sin()), epsilon = 1e-12);
             assert_relative_eq!(body.v(theta), r * ((a * s - theta).cos() - a.cos()), epsilon = 1e-12);
+            // E = m g R (cos(alpha - |theta|) - cos(alpha)): what equation 1's free motion keeps
+            let energy = body.mass * GRAVITY * r * ((a - theta.abs()).cos() - a.cos());
+            assert_relative_eq!(body.fall(theta), energy, max_relative = 1e-9, epsilon = 1e-3);
         }
     }
 }

@@ -34,7 +34,7 @@ static TUNED: LazyLock<Tuned> = LazyLock::new(|| {
     }
     .simulate();
     let impacts = job.rocking.impacts.len();
-    let matched = Match::new(job.record.dt, &job.housner, impacts, &fem, case.restitution);
+    let matched = Match::new(&job.body, job.record.dt, (&job.housner, impacts), &fem, case.restitution);
     Tuned { job, fem, matched }
 });
 

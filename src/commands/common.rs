@@ -103,7 +103,8 @@ pub fn both(
         scale: 1.0,
         control: fem::Control::default(),
     };
-    let matched = |history: &fem::History| Match::new(record.dt, &motion, rocking.impacts.len(), history, restitution);
+    let matched =
+        |history: &fem::History| Match::new(body, record.dt, (&motion, rocking.impacts.len()), history, restitution);
     let (fem, demands) = case.simulate_with(&Members::default());
     let rigid = matched(&fem);
     let with = (!members.is_none()).then(|| {

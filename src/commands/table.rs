@@ -39,6 +39,7 @@ fn match_rows(p: &Parameters) -> Vec<Vec<String>> {
         row
     };
     let mm = |x: f64| format!("{:.2} mm", x * 1e3);
+    let percent = |x: f64| format!("{:.3} %", x * 100.0);
     let none = String::new;
     vec![
         row("peak horizontal displacement", mm(m.peak_horizontal_housner_m), &|m| mm(m.peak_horizontal_fem_m)),
@@ -46,7 +47,10 @@ fn match_rows(p: &Parameters) -> Vec<Vec<String>> {
         row("impacts", m.impacts_housner.to_string(), &|m| m.impacts_fem.to_string()),
         row("NRMSE horizontal", none(), &|m| format!("{:.4}", m.nrmse_horizontal)),
         row("NRMSE vertical", none(), &|m| format!("{:.4}", m.nrmse_vertical)),
-        row("largest error of restitution", none(), &|m| format!("{:.3} %", m.restitution_error_max * 100.0)),
+        row("largest error of restitution", none(), &|m| percent(m.restitution_error_max)),
+        row("the same, landings as hard as a fall from 0.02 alpha", none(), &|m| {
+            m.restitution_error_firm.map_or(none(), percent)
+        }),
         row("bounces", none(), &|m| m.bounces.to_string()),
         row("settlement", none(), &|m| format!("{:.3} mm", m.settlement_m * 1e3)),
         row("energy residual", none(), &|m| format!("{:.1e}", m.energy_residual)),

@@ -5,7 +5,7 @@ use std::ops::ControlFlow;
 use super::{
     Finish,
     control::{Outcome, Work},
-    landings::{Event, Events, Landing, MOMENT},
+    landings::{Event, Events, Landing, MOMENT, SLIGHT},
     model::{TH, X, Z},
     observer::{Change, Observer, View},
 };
@@ -114,7 +114,9 @@ impl Observer<f64> for Recorder {
         if index == 0 {
             self.initial_z = q[Z];
             self.events.pressing = [0, 1].map(|i| view.presses(i));
-            self.events.moment = MOMENT / view.model.body.p_squared().sqrt();
+            let body = &view.model.body;
+            self.events.moment = MOMENT / body.p_squared().sqrt();
+            self.events.slight = body.fall(SLIGHT * body.alpha());
         }
         self.end = view.time;
         self.motion.push(q[X], q[Z] - self.initial_z, q[TH]);
@@ -150,6 +152,7 @@ impl Observer<f64> for Recorder {
             foot,
             change,
             kinetic: view.body_kinetic(),
+            speed: view.speed(),
             lost: view.energy.dissipated + view.energy.released,
         });
     }

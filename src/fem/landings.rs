@@ -5,14 +5,18 @@
 //!
 //! - a *lean* on a foot is the time in which that foot, and for no longer than a moment the other, carries the body
 //!   alone; a moment is 0.1/p (0.25 s for the paper's structure), the time in which a rigid body rocks from and to
-//!   0.1 % of alpha. Shorter leans, and touches of the other foot within a lean, are chatter;
-//! - an *impact* ends a lean: the first touch-down of the other foot, whether the body goes on leaning on that or rests;
+//!   0.1 % of alpha. Shorter leans, and touches of the other foot within a lean, are chatter, unless the body turns back in
+//!   them and falls with more energy than from 0.1 % of alpha: shaken hard, it rocks that fast;
+//! - an *impact* ends a lean: the first touch-down of the other foot, whether the body goes on leaning on that or rests.
+//!   A lean that the history's end cuts short has none;
 //! - a *bounce* is a touch-down of the foot leaned on (or landed on) that opens again within a moment.
 
 use super::observer::Change;
 
 /// A moment, in units of 1/p.
 pub(super) const MOMENT: f64 = 0.1;
+/// The lean from and to which a rigid body rocks in a moment, share of alpha.
+pub(super) const SLIGHT: f64 = 1e-3;
 
 /// One touch-down of a foot and what came of it.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -41,6 +45,8 @@ pub(super) struct Event {
     pub change: Change,
     /// Kinetic energy of the body [J].
     pub kinetic: f64,
+    /// Horizontal velocity of its centre of mass [m/s].
+    pub speed: f64,
     /// Energy lost since the start [J].
     pub lost: f64,
 }
@@ -53,14 +59,43 @@ pub(super) struct Events {
     pub pressing: [bool; 2],
     /// A moment [s].
     pub moment: f64,
+    /// Energy of a fall from and to what a rigid body rocks in a moment [J].
+    pub slight: f64,
+}
+
+/// The body when a contact changes.
+#[derive(Clone, Copy, Debug)]
+struct Instant {
+    time: f64,
+    speed: f64,
+    kinetic: f64,
+}
+
+/// A time of unchanged contact.
+#[derive(Clone, Copy, Debug)]
+struct Span {
+    from: Instant,
+    to: Instant,
+    pressing: [bool; 2],
 }
 
 /// A time in which one foot carries the body alone.
 #[derive(Clone, Copy, Debug)]
 struct Lean {
     foot: usize,
-    start: f64,
-    end: f64,
+    from: Instant,
+    to: Instant,
+}
+
+impl Lean {
+    /// Whether the body turned back and fell with more energy than this [J].
+    fn falls(&self, energy: f64) -> bool {
+        turned(self.from, self.to) && self.to.kinetic > energy
+    }
+}
+
+fn turned(before: Instant, after: Instant) -> bool {
+    before.speed * after.speed < 0.0
 }
 
 impl Events {
@@ -82,9 +117,9 @@ impl Events {
         let lost_at: Vec<f64> = touch_downs().map(|e| e.lost).collect();
 
         let leans = self.leans(end);
-        for (i, lean) in leans.iter().enumerate() {
-            let next = leans.get(i + 1).map_or(f64::INFINITY, |next| next.start);
-            let since = lean.start.max(lean.end - self.moment);
+        for (i, lean) in leans.iter().enumerate().filter(|(_, lean)| lean.to.time < end) {
+            let next = leans.get(i + 1).map_or(f64::INFINITY, |next| next.from.time);
+            let since = lean.from.time.max(lean.to.time - self.moment);
             let first = landings.partition_point(|l| l.time <= since);
             let mut near = landings[first..].iter_mut().take_while(|l| l.time <= next);
             if let Some(landing) = near.find(|l| l.foot != lean.foot) {
@@ -96,9 +131,9 @@ impl Events {
         for (k, &i) in impacts.iter().enumerate() {
             landings[i].lost = impacts.get(k + 1).map_or(lost, |&next| lost_at[next]) - lost_at[i];
         }
-        let flights = self.spans(end).filter(|(_, pressing)| *pressing == [false; 2]);
         let mut airborne = 0.0;
-        for ((from, to), _) in flights {
+        for flight in self.spans(end).filter(|span| span.pressing == [false; 2]) {
+            let (from, to) = (flight.from.time, flight.to.time);
             airborne += to - from;
             let before = impacts.partition_point(|&i| landings[i].time <= from);
             if let Some(&i) = impacts[..before].last() {
@@ -110,12 +145,14 @@ impl Events {
     }
 
     /// Spans of unchanged contact.
-    fn spans(&self, end: f64) -> impl Iterator<Item = ((f64, f64), [bool; 2])> {
+    fn spans(&self, end: f64) -> impl Iterator<Item = Span> {
         let mut pressing = self.pressing;
-        let mut from = 0.0;
-        let changes = self.events.iter().map(|e| (e.time, Some(e))).chain([(end, None)]);
+        let still = |time: f64| Instant { time, speed: 0.0, kinetic: 0.0 };
+        let mut from = still(0.0);
+        let at = |e: &Event| Instant { time: e.time, speed: e.speed, kinetic: e.kinetic };
+        let changes = self.events.iter().map(move |e| (at(e), Some(e))).chain([(still(end), None)]);
         changes.map(move |(to, event)| {
-            let span = ((from, to), pressing);
+            let span = Span { from, to, pressing };
             from = to;
             if let Some(e) = event {
                 pressing[e.foot] = e.change == Change::TouchDown;
@@ -126,14 +163,33 @@ impl Events {
 
     /// The leans in order of time, chatter removed.
     fn leans(&self, end: f64) -> Vec<Lean> {
-        let alone = self.spans(end).filter_map(|((start, end), pressing)| {
-            (pressing[0] != pressing[1]).then_some(Lean { foot: usize::from(pressing[1]), start, end })
+        let alone = self.spans(end).filter_map(|Span { from, to, pressing }| {
+            (pressing[0] != pressing[1]).then_some(Lean { foot: usize::from(pressing[1]), from, to })
         });
         // interruptions of a lean that the other foot did not take over
-        let leans = join(alone, self.moment);
+        let leans = self.joined(alone);
         // a lean that the record's end cut short may still have become one
-        let lasting = leans.into_iter().filter(|l| l.end - l.start >= self.moment || l.end == end);
-        join(lasting, self.moment)
+        let lasting = leans
+            .into_iter()
+            .filter(|l| l.to.time - l.from.time >= self.moment || l.to.time == end || l.falls(self.slight));
+        self.joined(lasting)
+    }
+
+    /// Leans on the same foot that follow each other within a moment joined, unless the other foot stopped a fall between them.
+    fn joined(&self, leans: impl Iterator<Item = Lean>) -> Vec<Lean> {
+        let mut joined: Vec<Lean> = Vec::new();
+        for lean in leans {
+            let same = |last: &Lean| {
+                last.foot == lean.foot
+                    && lean.from.time - last.to.time < self.moment
+                    && !(last.falls(self.slight) && turned(last.to, lean.from))
+            };
+            match joined.last_mut().filter(|last| same(last)) {
+                Some(last) => last.to = lean.to,
+                None => joined.push(lean),
+            }
+        }
+        joined
     }
 
     /// Mark the touch-downs of the foot leaned on that opened again within a moment.
@@ -164,18 +220,6 @@ impl Events {
     }
 }
 
-/// Join leans on the same foot that follow each other within `moment` [s].
-fn join(leans: impl Iterator<Item = Lean>, moment: f64) -> Vec<Lean> {
-    let mut joined: Vec<Lean> = Vec::new();
-    for lean in leans {
-        match joined.last_mut() {
-            Some(last) if last.foot == lean.foot && lean.start - last.end < moment => last.end = lean.end,
-            _ => joined.push(lean),
-        }
-    }
-    joined
-}
-
 #[cfg(test)]
 mod tests {
     use super::*;
@@ -185,15 +229,65 @@ mod tests {
 
     /// Events from (time, foot, down), a moment of 0.25 s, both feet pressing at first; 1 J is lost every second.
     fn read(changes: &[(f64, usize, bool)], end: f64) -> (Vec<Landing>, f64) {
+        at_speeds(changes, |_| 0.0).landings(end, end)
+    }
+
+    /// The same of a body with this speed at a time.
+    fn at_speeds(changes: &[(f64, usize, bool)], speed: impl Fn(f64) -> f64) -> Events {
         let event = |&(time, foot, down): &(f64, usize, bool)| Event {
             time,
             foot,
             change: if down { Change::TouchDown } else { Change::LiftOff },
             kinetic: 100.0 - time,
+            speed: speed(time),
             lost: time,
         };
         let events = changes.iter().map(event).collect();
-        Events { events, pressing: [true; 2], moment: 0.25 }.landings(end, end)
+        Events { events, pressing: [true; 2], moment: 0.25, slight: 50.0 }
+    }
+
+    fn impacts_of(events: &Events, end: f64) -> Vec<(f64, usize)> {
+        events.landings(end, end).0.iter().filter(|l| l.impact).map(|l| (l.time, l.foot)).collect()
+    }
+
+    /// Speed of a body that leans on its left foot to 2.02 s, on the right one to 2.12 s, and then on the left.
+    fn shaken(time: f64) -> f64 {
+        if (1.5..2.06).contains(&time) || time > 2.5 { 1.0 } else { -1.0 }
+    }
+
+    /// A lean of 0.1 s on the right foot between two long ones on the left.
+    const SHAKEN: [(f64, usize, bool); 6] = [
+        (1.0, RIGHT, false),
+        (2.0, RIGHT, true),
+        (2.02, LEFT, false),
+        (2.12, LEFT, true),
+        (2.13, RIGHT, false),
+        (3.0, RIGHT, true),
+    ];
+
+    #[test]
+    fn a_body_shaken_hard_leans_for_less_than_a_moment() {
+        let events = at_speeds(&SHAKEN, shaken);
+        assert_eq!(impacts_of(&events, 9.0), [(2.0, RIGHT), (2.12, LEFT), (3.0, RIGHT)]);
+        // it has not turned back, or falls slightly: chatter
+        assert_eq!(impacts(&SHAKEN, 9.0), [(3.0, RIGHT)]);
+        let slight = Events { slight: 99.0, ..events };
+        assert_eq!(impacts_of(&slight, 9.0), [(3.0, RIGHT)]);
+    }
+
+    #[test]
+    fn a_foot_that_stops_a_fall_and_opens_again_has_landed() {
+        let changes = [(1.0, RIGHT, false), (2.0, RIGHT, true), (2.1, RIGHT, false), (3.0, RIGHT, true)];
+        assert_eq!(impacts_of(&at_speeds(&changes, shaken), 9.0), [(2.0, RIGHT), (3.0, RIGHT)]);
+        assert_eq!(impacts(&changes, 9.0), [(3.0, RIGHT)]);
+    }
+
+    #[test]
+    fn the_history_s_end_is_no_impact_of_the_lean_it_cuts_short() {
+        let mut changes = ROCKING.to_vec();
+        changes.splice(3.., [(2.03, LEFT, true), (2.04, LEFT, false)]);
+        assert_eq!(impacts(&changes, 2.1), [(2.0, RIGHT)]);
+        assert_eq!(impacts(&changes, 2.5), [(2.0, RIGHT)]);
     }
 
     fn impacts(changes: &[(f64, usize, bool)], end: f64) -> Vec<(f64, usize)> {

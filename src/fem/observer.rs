@@ -31,6 +31,11 @@ impl<S: Scalar> View<'_, S> {
         self.state.q[X]
     }
 
+    /// Horizontal velocity of the centre of mass [m/s].
+    pub fn speed(&self) -> S {
+        self.state.v[X]
+    }
+
     /// Vertical displacement of the centre of mass from the unstressed position [m].
     pub fn z(&self) -> S {
         self.state.q[Z]

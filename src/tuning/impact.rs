@@ -30,6 +30,7 @@ mod uplift;
 use rayon::prelude::*;
 
 use crate::{
+    compare::LEAST_LEAN,
     fem::Control,
     scalar::{Scalar, real},
     spring::{Design, Springs},
@@ -39,7 +40,7 @@ use landing::Drop;
 use uplift::Uplift;
 
 /// Leans from which landings are judged and reported, shares of alpha.
-pub const LEANS: [f64; 8] = [0.9, 0.7, 0.5, 0.3, 0.2, 0.1, 0.05, 0.02];
+pub const LEANS: [f64; 8] = [0.9, 0.7, 0.5, 0.3, 0.2, 0.1, 0.05, LEAST_LEAN];
 /// History error per relative error of restitution.
 const WEIGHT_RESTITUTION: f64 = 15.0;
 /// The same where another restitution than equation 2's is asked for: then that goes first, and the feet may bounce for it.
