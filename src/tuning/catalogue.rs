@@ -170,6 +170,8 @@ const PLAIN: [f64; 7] = [0.2, 0.92, 0.5, 1.0, 20.0, 1.0, 0.05];
 
 /// Entries of the catalogue that are tried.
 const TRIED: usize = 6;
+/// Distance within which a structure is known.
+const ALIKE: f64 = 0.3;
 
 /// A structure that springs are wanted for.
 #[derive(Clone, Copy, Debug)]
@@ -184,17 +186,26 @@ pub(super) struct Wanted {
     pub ratio: f64,
 }
 
+impl Wanted {
+    /// How unlike an entry is: a factor 1.6 of alpha, a quarter of I0, and 3 % of restitution, count as much as a factor e of
+    /// Omega_n/p.
+    fn distance(&self, [omega_over_p, alpha, mass_share, ratio, ..]: &[f64; 11]) -> f64 {
+        (omega_over_p / self.omega_over_p).ln().abs()
+            + 2.0 * (alpha / self.alpha).ln().abs()
+            + 4.0 * (mass_share - self.mass_share).abs()
+            + 30.0 * (ratio - self.ratio).abs()
+    }
+
+    /// Whether springs were found for a structure so like it that a few steps from them find no better ones.
+    pub fn is_known(&self) -> bool {
+        FOUND.iter().any(|entry| self.distance(entry) < ALIKE)
+    }
+}
+
 /// Springs of structures like the one wanted, the vertical chain at `hz`; the nearest first, and plain ones.
 pub(super) fn near(wanted: &Wanted, hz: f64) -> Vec<Springs<Design<f64>>> {
-    // a factor 1.6 of alpha, a quarter of I0, and 3 % of restitution, count as much as a factor e of Omega_n/p
-    let distance = |[omega_over_p, alpha, mass_share, ratio, ..]: &[f64; 11]| {
-        (omega_over_p / wanted.omega_over_p).ln().abs()
-            + 2.0 * (alpha / wanted.alpha).ln().abs()
-            + 4.0 * (mass_share - wanted.mass_share).abs()
-            + 30.0 * (ratio - wanted.ratio).abs()
-    };
     let mut order: Vec<&[f64; 11]> = FOUND.iter().collect();
-    order.sort_by(|a, b| distance(a).total_cmp(&distance(b)));
+    order.sort_by(|a, b| wanted.distance(a).total_cmp(&wanted.distance(b)));
     let found = order.iter().take(TRIED).map(|entry| {
         // stiffer springs follow Housner better, but lose less than he does only as stiff as they were found
         let share = if entry[3] == 1.0 { 1.0 } else { (entry[0] / wanted.omega_over_p).min(1.0) };
@@ -221,6 +232,10 @@ mod tests {
         let Springs { vertical, horizontal } = found[0];
         assert_eq!((vertical.omega_n_hz, horizontal.omega_n_hz), (160.0, 160.0 * 0.55147));
         assert!((vertical.k() - 0.17409).abs() < 1e-12 && (vertical.c() - 22.28088).abs() < 1e-12);
+        // 8 % of Omega_n/p and of alpha is no other structure, a quarter is, and so is another restitution
+        assert!(frame.is_known() && Wanted { omega_over_p: 2700.0, alpha: 0.108, ..frame }.is_known());
+        assert!(!Wanted { omega_over_p: 7000.0, alpha: 0.06, ..frame }.is_known());
+        assert!(!Wanted { ratio: 0.97, ..frame }.is_known());
         // a block's springs for a block, and for one as slender
         let block = Wanted { omega_over_p: 380.0, alpha: 0.245, mass_share: 0.75, ratio: 1.0 };
         assert!((near(&block, 160.0)[0].vertical.k() - 0.395).abs() < 1e-12);

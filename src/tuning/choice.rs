@@ -25,12 +25,15 @@ use crate::{
     record::Record,
     spring::{Design, Springs},
     structure::Body,
-    synthetic::suite,
+    synthetic::record,
 };
 
-/// Synthetic motions that decide, and the suite in which those that are well conditioned are looked for.
+/// Synthetic motions that decide, those that look at a record's favourite, and the suite in which well-conditioned ones are
+/// looked for, so many at a time.
 const MOTIONS: usize = 30;
+const OTHERS: usize = 12;
 const SUITE: usize = 150;
+const AT_A_TIME: usize = 30;
 const SEED: u64 = 1940;
 
 /// Errors less apart than by this factor are chance: thirty motions tell little more, and one record less.
@@ -76,11 +79,18 @@ impl Trial {
     }
 }
 
-/// The first synthetic motions of the suite on which the body is well conditioned.
-fn synthetic(body: &Body<f64>) -> Vec<Trial> {
-    let suite: Vec<Record> = suite(SUITE, SEED, body.p_squared().sqrt(), body.alpha()).collect();
-    let mut trials: Vec<Trial> = suite.par_iter().filter_map(|record| Trial::new(body, record)).collect();
-    trials.truncate(MOTIONS);
+/// The first `count` synthetic motions of the suite on which the body is well conditioned; fewer if it has no more.
+fn synthetic(body: &Body<f64>, count: usize) -> Vec<Trial> {
+    let (p, alpha) = (body.p_squared().sqrt(), body.alpha());
+    let mut trials: Vec<Trial> = Vec::new();
+    for first in (0..SUITE).step_by(AT_A_TIME) {
+        let some = (first..first + AT_A_TIME).into_par_iter();
+        trials.par_extend(some.filter_map(|i| Trial::new(body, &record(SEED, i, p, alpha))));
+        if trials.len() >= count {
+            break;
+        }
+    }
+    trials.truncate(count);
     trials
 }
 
@@ -91,7 +101,7 @@ impl Choice {
         let trials = if is_another(body, restitution) {
             Vec::new()
         } else {
-            Trial::new(body, record).map_or_else(|| synthetic(body), |trial| vec![trial])
+            Trial::new(body, record).map_or_else(|| synthetic(body, MOTIONS), |trial| vec![trial])
         };
         Self { body: *body, trials, others: OnceLock::new() }
     }
@@ -142,7 +152,7 @@ impl Choice {
 
     /// Mean of ln of the errors on synthetic motions.
     fn elsewhere(&self, springs: &Springs<Design<f64>>) -> f64 {
-        let others = self.others.get_or_init(|| synthetic(&self.body));
+        let others = self.others.get_or_init(|| synthetic(&self.body, OTHERS));
         self.error(&others.iter().map(|other| (other, springs)).collect::<Vec<_>>())
     }
 

@@ -243,7 +243,7 @@ pub struct Effort {
     pub followed: usize,
     /// Steps of each.
     pub iterations: u64,
-    /// Then follow none.
+    /// Then follow none; so it is where springs of a structure so like it are known, too.
     pub content: bool,
 }
 
@@ -301,7 +301,7 @@ pub fn proposals(objective: &Objective, families: &[Fit], effort: Effort) -> Vec
         starts = best_first([starts, judged(&pairs.collect::<Vec<_>>())].concat());
     }
     let in_order = any_in_order(&starts);
-    let (followed, iterations) = match (in_order, effort.content) {
+    let (followed, iterations) = match (in_order, effort.content || objective.wanted.is_known()) {
         (true, true) => (0, 0),
         // one that is in order needs no rival, and is nearly there
         (true, false) => (1, effort.iterations.min(NEARLY_THERE)),
