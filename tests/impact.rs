@@ -14,7 +14,7 @@ use groundspring::{
     },
 };
 
-const EFFORT: Effort = Effort { followed: 2, iterations: 15, content: false };
+const EFFORT: Effort = Effort { tried: 6, followed: 2, iterations: 15, content: false };
 
 fn tune(body: &Body<f64>, ratio: f64, max_hz: f64) -> Springs<Design<f64>> {
     let bracket = Bracket { max_hz, max_settlement: 0.01 };

@@ -20,7 +20,7 @@ use crate::{
 /// Stiffest springs of the front's points [Hz]; the case's own limit is added.
 const LADDER_HZ: [f64; 6] = [40.0, 80.0, 160.0, 320.0, 640.0, 1280.0];
 /// Of the impact objective, at each point.
-const EFFORT: Effort = Effort { followed: 1, iterations: 4, content: true };
+const EFFORT: Effort = Effort { tried: 4, followed: 1, iterations: 4, content: true };
 
 /// Springs of one point and their errors on the case's record.
 #[derive(Clone, Copy, Debug, PartialEq)]

@@ -239,6 +239,8 @@ const NEARLY_THERE: u64 = 2;
 /// How hard to search.
 #[derive(Clone, Copy, Debug)]
 pub struct Effort {
+    /// Springs known that are tried, of the structures most like it.
+    pub tried: usize,
     /// Starts that are followed if the landings of none are in order as it is; else it is the best of those.
     pub followed: usize,
     /// Steps of each.
@@ -292,7 +294,7 @@ pub fn proposals(objective: &Objective, families: &[Fit], effort: Effort) -> Vec
         starts.par_iter().with_max_len(1).map(|start| objective.found(start)).collect()
     };
     let any_in_order = |found: &[Found]| found[..passable(found)].iter().any(|found| found.in_order);
-    let mut starts = best_first(judged(&catalogue::near(&objective.wanted, hz)));
+    let mut starts = best_first(judged(&catalogue::near(&objective.wanted, hz, effort.tried)));
     if !any_in_order(&starts) {
         let pairs = families.iter().map(|fit| {
             let design = Design { mu: fit.mu, f: fit.f, xi: fit.xi, omega_n_hz: hz };

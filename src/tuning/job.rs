@@ -33,7 +33,7 @@ use crate::{
 /// Mass ratios of the families that the impact objective starts from.
 pub(super) const FAMILIES: [f64; 3] = [0.1, 0.3, 1.0];
 /// Of the impact objective.
-const EFFORT: Effort = Effort { followed: 2, iterations: 15, content: false };
+const EFFORT: Effort = Effort { tried: 6, followed: 2, iterations: 15, content: false };
 
 /// Why there are no springs.
 #[derive(Debug, Error)]
