@@ -87,8 +87,8 @@ fn effective_restitution(fem: &History) -> Vec<(f64, f64)> {
     all
 }
 
-/// Largest |e_effective/e - 1| of the landings with at least this kinetic energy [J].
+/// Largest |e_effective/e - 1| of the landings with more kinetic energy than this [J].
 fn error_above(landings: &[(f64, f64)], restitution: f64, least: f64) -> Option<f64> {
-    let those = landings.iter().filter(|(kinetic, _)| *kinetic >= least);
+    let those = landings.iter().filter(|(kinetic, _)| *kinetic > least);
     those.map(|(_, e)| (e / restitution - 1.0).abs()).reduce(f64::max)
 }
