@@ -29,7 +29,7 @@ use std::{path::Path, time::Instant};
 pub use targets::Target;
 
 use self::peers::Stepping;
-use crate::tuning::inner::FitError;
+use crate::tuning::arr::inner::FitError;
 use report::Measured;
 
 /// One run of a tool: a setting, what it cost and how far off it was.

@@ -31,7 +31,7 @@ use crate::{
     record::{ReadOptions, Record, RecordError, Units},
     response::target::Target,
     structure::{Kind, Structure, StructureError},
-    tuning::bounds::Bounds,
+    tuning::arr::bounds::Bounds,
 };
 
 /// I_cg of an A-frame with all mass at its apex, as a share of m R^2: OpenSees and its like need some, and rocking does

@@ -11,7 +11,7 @@ use crate::{
     figures::FigureError,
     parameters::ParametersError,
     record::RecordError,
-    tuning::{inner::FitError, job::JobError},
+    tuning::{arr::inner::FitError, job::JobError},
     verify::VerifyError,
 };
 

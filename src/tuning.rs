@@ -1,16 +1,13 @@
-//! Finding springs: the inner fit (f, xi for a mass ratio mu, on the frequency response) and what uses it.
+//! Finding springs: the inner design (mu, f, xi), by the paper's frequency response or from the geometry; Omega_n; and what
+//! uses them.
 
-pub mod bounds;
+pub mod arr;
 
 mod catalogue;
 
 pub mod choice;
 
-pub mod certificate;
-
 pub mod descent;
-
-pub mod excess;
 
 pub mod front;
 
@@ -20,14 +17,10 @@ pub mod impact;
 
 pub mod impulse;
 
-pub mod inner;
-
 pub mod job;
 
-pub mod minimax;
+pub mod landing;
 
 mod off;
 
 pub mod outer;
-
-pub mod smooth;

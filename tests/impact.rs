@@ -9,7 +9,7 @@ use groundspring::{
         descent::LeastSquares,
         impact::report::{LandingRow, landings},
         impulse::{self, Effort, Objective},
-        inner::families,
+        arr::inner::families,
         outer::Bracket,
     },
 };

@@ -7,8 +7,8 @@
 
 use groundspring::response::Response;
 use groundspring::response::target::{Band, Kind, Target};
-use groundspring::tuning::bounds::{Bounds, k_min_for_settlement};
-use groundspring::tuning::inner::{Fit, FitError, Outcome, families, fit};
+use groundspring::tuning::arr::bounds::{Bounds, k_min_for_settlement};
+use groundspring::tuning::arr::inner::{Fit, FitError, Outcome, families, fit};
 
 fn minimax(mu: f64) -> Fit {
     fit(mu, &Target::default(), &Bounds::default()).unwrap()

@@ -11,8 +11,8 @@ use super::{least, skips::Skip};
 use crate::{
     response::target::Target,
     tuning::{
-        bounds::Bounds,
-        inner::{FitError, fit},
+        arr::bounds::Bounds,
+        arr::inner::{FitError, fit},
     },
 };
 

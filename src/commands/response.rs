@@ -8,7 +8,7 @@ use super::CommandError;
 use crate::{
     case::Case,
     response::target::Target,
-    tuning::{bounds::Bounds, inner::fit},
+    tuning::arr::{bounds::Bounds, inner::fit},
 };
 
 /// Options of `tune response`.

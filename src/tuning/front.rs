@@ -6,7 +6,7 @@ use rayon::prelude::*;
 
 use super::{
     impulse::{self, Effort},
-    inner::{FitError, families},
+    arr::inner::{FitError, families},
     job::Job,
     outer::{self, Benchmark, Bracket},
 };

@@ -11,7 +11,7 @@ use super::{
     descent::{LeastSquares, descend},
     global,
     impact::Impact,
-    inner::Fit,
+    arr::inner::Fit,
     outer::Bracket,
 };
 use crate::{

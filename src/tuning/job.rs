@@ -18,7 +18,7 @@ use thiserror::Error;
 use super::{
     choice::Choice,
     impulse::{self, Effort, Found},
-    inner::{Fit, FitError, families, fit},
+    arr::inner::{Fit, FitError, families, fit},
     outer::{self, Benchmark, Bracket, Tuned},
 };
 use crate::{

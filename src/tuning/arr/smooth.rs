@@ -112,8 +112,8 @@ impl Gradient for Problem<'_> {
 mod tests {
     use super::*;
     use crate::response::target::Target;
-    use crate::tuning::bounds::Bounds;
-    use crate::tuning::excess::{curves, largest, points};
+    use crate::tuning::arr::bounds::Bounds;
+    use crate::tuning::arr::excess::{curves, largest, points};
 
     #[test]
     fn the_smooth_objective_lies_just_above_the_largest_excess() {

@@ -1,0 +1,9 @@
+//! Springs from the geometry: the landing in the stiff limit as a small problem of its own.
+
+pub mod chain;
+
+mod linear;
+
+pub mod plane;
+
+pub mod design;

@@ -1,0 +1,240 @@
+//! The design of the springs as a function of the geometry: alpha, m R^2/I0 and, through K, Omega_n/p.
+//!
+//! Horizontal units so stiff that they do not lag leave one vertical chain (`chain`), scaled by the effective mass under the
+//! landing foot, the Schur complement of its vertical motion while the body may turn about it:
+//!
+//! ```text
+//!   M = 1 - (m R^2/I0) sin^2 alpha          mu = mu_u(K) M,   C = C_u(K) sqrt(M)
+//!   mu_u, C_u: least rebound of the chain whose absorber does not come back to touch
+//! ```
+//!
+//! **K** trades the landing against the stance. A rebound of v_r costs a history about A alpha^3 (v_r/v_n)^2, with v_r/v_n
+//! about 0.8 K; the give of the stance costs B/(alpha^3 (Omega_n/p)^2 K), since the standing body has leant by
+//! (p/Omega_n)^2 (1 + K)/(2 alpha^2 K) of alpha when it lifts. The least sum of both has
+//!
+//! ```text
+//!   K_0 = K_SCALE (alpha^3 Omega_n/p)^(-2/3),     K = K_0/(1 + K_0/K_LARGEST)
+//! ```
+//!
+//! the second for soft springs, where landings on a larger K bounce. `cargo run --release --example stance` finds both numbers
+//! again, on synthetic motions of seed 5.
+
+use argmin::{
+    core::{CostFunction, Error, Executor},
+    solver::brent::BrentOpt,
+};
+use num_dual::Dual64;
+use thiserror::Error;
+
+use super::chain;
+use crate::{
+    spring::{Design, Springs},
+    structure::Body,
+};
+
+/// K_0 at alpha^3 Omega_n/p = 1.
+const K_SCALE: f64 = 0.9;
+/// The K that ever softer springs tend to.
+const K_LARGEST: f64 = 0.5;
+/// Least K for which mu_u is sought: below it the rebound vanishes along a line of mu and C, and mu_u stays what it is here.
+const K_FLAT: f64 = 0.02;
+/// Where mu_u and C_u may lie.
+const MU: (f64, f64) = (0.45, 1.1);
+const C: (f64, f64) = (0.1, 2.0);
+
+/// Slenderness, mass share and relative stiffness: all that the design depends on, each rounded to nine digits.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Geometry {
+    alpha: f64,
+    mass_share: f64,
+    stiffness: f64,
+}
+
+/// What no design can be made for.
+#[derive(Clone, Copy, Debug, PartialEq, Error)]
+pub enum GeometryError {
+    #[error("design: alpha is {0:?}; give a slenderness between 0.005 and 0.9 rad")]
+    Alpha(f64),
+    #[error("design: m R^2/I0 is {0:?}; give a number above 0, at most 1")]
+    MassShare(f64),
+    #[error("design: Omega_n/p is {0:?}; give a number between 1 and 1e9")]
+    Stiffness(f64),
+}
+
+impl Geometry {
+    /// alpha [rad], m R^2/I0 and Omega_n/p.
+    ///
+    /// # Errors
+    /// Numbers outside 0.005 to 0.9 rad, 0 to 1, 1 to 1e9.
+    pub fn new(alpha: f64, mass_share: f64, stiffness: f64) -> Result<Self, GeometryError> {
+        if !(0.005..=0.9).contains(&alpha) {
+            return Err(GeometryError::Alpha(alpha));
+        }
+        if !(mass_share > 0.0 && mass_share <= 1.0) {
+            return Err(GeometryError::MassShare(mass_share));
+        }
+        if !(1.0..=1e9).contains(&stiffness) {
+            return Err(GeometryError::Stiffness(stiffness));
+        }
+        Ok(Self { alpha: nine_digits(alpha), mass_share: nine_digits(mass_share), stiffness: nine_digits(stiffness) })
+    }
+
+    /// Of a body, at this Omega_n/p.
+    ///
+    /// # Errors
+    /// As [`Geometry::new`].
+    pub fn of(body: &Body<f64>, stiffness: f64) -> Result<Self, GeometryError> {
+        Self::new(body.alpha(), body.mass_share(), stiffness)
+    }
+
+    /// Slenderness [rad].
+    pub fn alpha(&self) -> f64 {
+        self.alpha
+    }
+
+    /// m R^2/I0.
+    pub fn mass_share(&self) -> f64 {
+        self.mass_share
+    }
+
+    /// Omega_n/p.
+    pub fn stiffness(&self) -> f64 {
+        self.stiffness
+    }
+
+    /// Effective mass under the landing foot, over m.
+    pub fn effective_mass(&self) -> f64 {
+        1.0 - self.mass_share * self.alpha.sin().powi(2)
+    }
+
+    /// Stiffness ratio K = k2/k1 of the vertical units.
+    pub fn k(&self) -> f64 {
+        let k = K_SCALE * (self.alpha.powi(3) * self.stiffness).powf(-2.0 / 3.0);
+        k / (1.0 + k / K_LARGEST)
+    }
+
+    /// The springs, their frequencies relative to the vertical Omega_n.
+    pub fn springs(&self) -> Springs<Design<f64>> {
+        let Universal { k, c, mu, .. } = universal(self.k());
+        let m = self.effective_mass();
+        Springs {
+            vertical: Design::from_kc(mu * m, k, c * m.sqrt(), 1.0),
+            horizontal: Design::from_kc(HORIZONTAL.mu, HORIZONTAL.k, HORIZONTAL.c, HORIZONTAL.ratio),
+        }
+    }
+}
+
+/// The horizontal units: what they are hardly matters for the landing, as long as they do not lag.
+struct Horizontal {
+    k: f64,
+    c: f64,
+    mu: f64,
+    ratio: f64,
+}
+
+const HORIZONTAL: Horizontal = Horizontal { k: 1.0, c: 2.0, mu: 0.3, ratio: 4.0 };
+
+/// x to nine significant digits: structures that share them have the same springs to the last bit.
+fn nine_digits(x: f64) -> f64 {
+    // a number that was printed can be read
+    format!("{x:.8e}").parse().unwrap_or(x)
+}
+
+/// The one-dimensional chain of a K.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Universal {
+    pub k: f64,
+    /// C_u.
+    pub c: f64,
+    /// mu_u.
+    pub mu: f64,
+    /// Speed with which the mass leaves, over the landing speed.
+    pub rebound: f64,
+}
+
+/// C_u(K) and mu_u(K): least rebound among the chains whose absorber does not come back to touch.
+pub fn universal(k: f64) -> Universal {
+    struct Rebound(f64);
+    impl CostFunction for Rebound {
+        type Param = f64;
+        type Output = f64;
+        fn cost(&self, mu: &f64) -> Result<f64, Error> {
+            Ok(grazing(self.0, *mu).rebound)
+        }
+    }
+    let run = Executor::new(Rebound(k.max(K_FLAT)), BrentOpt::new(MU.0, MU.1).set_tolerance(1e-5, 1e-7))
+        .configure(|state| state.max_iters(60))
+        .run();
+    let mu = run.ok().and_then(|result| result.state.best_param).unwrap_or(0.5 * (MU.0 + MU.1));
+    grazing(k, mu)
+}
+
+/// The least damping with which the absorber of this K and mu does not come back: it just grazes (Newton's method with the
+/// derivative of the least distance, within a bracket).
+fn grazing(k: f64, mu: f64) -> Universal {
+    let (mut low, mut high) = C;
+    let mut c = 0.6;
+    let mut rebound = 1.0;
+    for _ in 0..60 {
+        let landing = chain::land(Dual64::from_re(k), Dual64::from_re(c).derivative(), Dual64::from_re(mu));
+        let Some(landing) = landing else {
+            // it stays on the ground: too much of a dashpot it is not
+            low = c;
+            c = 0.5 * (low + high);
+            continue;
+        };
+        rebound = landing.rebound.re;
+        let clearance = landing.clearance;
+        if clearance.re >= 0.0 {
+            high = c;
+        } else {
+            low = c;
+        }
+        let newton = c - clearance.re / clearance.eps;
+        let next = if newton > low && newton < high { newton } else { 0.5 * (low + high) };
+        let arrived = (next - c).abs() < 1e-13;
+        c = next;
+        if arrived {
+            break;
+        }
+    }
+    Universal { k, c, mu, rebound }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// Table of an independent prototype: C_u and mu_u at a flat optimum, and the rebound.
+    #[test]
+    fn the_universal_chain_is_that_of_the_prototype() {
+        for (k, c, mu, rebound) in
+            [(0.02, 0.55, 0.665, 0.018), (0.05, 0.60, 0.66, 0.043), (0.1, 0.643, 0.675, 0.080), (0.2, 0.647, 0.77, 0.140)]
+        {
+            let found = universal(k);
+            println!("{found:?}");
+            // the optimum is flat along a valley of mu and C: C mu^(2/3) hardly changes there
+            assert!(found.rebound <= rebound + 0.001, "{found:?}");
+            assert!((found.mu / mu - 1.0).abs() < 0.15 && (found.c / c - 1.0).abs() < 0.2, "{found:?}");
+        }
+    }
+
+    #[test]
+    fn the_absorber_grazes_and_no_more() {
+        for k in [0.003, 0.01, 0.04, 0.15, 0.4] {
+            let Universal { c, mu, .. } = universal(k);
+            let clearance = |c: f64| chain::land(k, c, mu).unwrap().clearance;
+            println!("{k} {c} {mu} {}", clearance(c));
+            assert!(clearance(c).abs() < 1e-9 && clearance(1.02 * c) > 0.0 && clearance(0.98 * c) < 0.0);
+        }
+    }
+
+    #[test]
+    fn equal_geometries_have_equal_springs_and_bad_ones_are_refused() {
+        let at = |alpha| Geometry::new(alpha, 0.75, 2e4).unwrap().springs();
+        assert_eq!(at(0.2), at(0.2 + 1e-11));
+        assert_ne!(at(0.2), at(0.2 + 1e-8));
+        assert_eq!(Geometry::new(1.0, 0.75, 2e4), Err(GeometryError::Alpha(1.0)));
+        assert!(Geometry::new(0.2, 0.0, 2e4).is_err() && Geometry::new(0.2, 0.75, f64::NAN).is_err());
+    }
+}

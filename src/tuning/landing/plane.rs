@@ -1,0 +1,317 @@
+//! The landing of a plane structure on two feet, in the stiff limit.
+//!
+//! ```text
+//!   p'' = W F           p: displacement of the four corner directions (old foot x, z; new foot x, z)
+//!   W = G M^-1 G'       what a unit force at one corner does to the others: all of the structure that a landing feels
+//!   N = k1 (a_z - p_z),  H = k1_h (a_x - p_x)   while the foot presses, else 0 (a foot that lands again is anchored there)
+//!   m2 a'' = -F - k2 a - c a'                   each direction's absorber
+//! ```
+//!
+//! No gravity, no large rotation; mass in units of the structure's, time in 1/Omega_n of the vertical units, the speed at
+//! which the new foot comes down is 1. The problem is positively homogeneous: twice the speed, twice the motion, so that its
+//! outcome holds for every landing in the limit Omega_n v_n >> g. Between changes of contact it is linear and followed
+//! exactly (`linear`); changes are located by Newton's method in the scalar, so that derivatives go through them.
+//!
+//! Angular momentum about the new foot changes only by the old foot's impulse, H_new = H_before + 2b J_old: equation 2 holds
+//! exactly if and only if J_old = 0.
+
+use super::{
+    chain::FOLLOWED,
+    linear::{Matrix, exponential, times},
+};
+use crate::{
+    scalar::{Scalar, real},
+    spring::{Design, Springs},
+    structure::Body,
+};
+
+/// Corner directions: old foot x, z, new foot x, z.
+const DIRECTIONS: usize = 4;
+/// p, a, p', a', and the impulses through the corners.
+const N: usize = 5 * DIRECTIONS;
+const A: usize = DIRECTIONS;
+const RATE: usize = 2 * DIRECTIONS;
+const A_RATE: usize = 3 * DIRECTIONS;
+const IMPULSE: usize = 4 * DIRECTIONS;
+
+/// Least I_cg/(m R^2): the limit of a massless rotation. The smaller it is the faster the body turns on its springs, at
+/// Omega_h/sqrt(I_cg/m R^2), without a change of the outcome.
+const LEAST_INERTIA: f64 = 1e-3;
+/// Steps over the shortest time scale, 1/sqrt(largest stiffness over mass).
+const STEP: f64 = 0.25;
+/// Newton steps at an event.
+const NEWTON: usize = 8;
+/// Changes of contact after which the feet count as chattering without end.
+const MOST_CHANGES: usize = 400;
+/// A foot that carries less than this is at the edge of lifting, in units of m v_n Omega_n.
+const EDGE: f64 = 1e-13;
+
+/// The structure as its corners feel it.
+#[derive(Clone, Copy, Debug)]
+pub struct Corners<S> {
+    /// W = G M^-1 G', over 1/m; rows and columns old foot x, z, new foot x, z.
+    pub w: [[S; DIRECTIONS]; DIRECTIONS],
+    /// 2b, between the feet [R].
+    pub width: S,
+    /// Angular momentum about the new foot before the landing, while the body turns about the old foot and the new foot comes
+    /// down with speed 1 [m R v_n].
+    pub momentum: S,
+    /// Rate at which the body turns about the new foot after a landing without impulse at the old one [v_n/R].
+    pub rate: S,
+}
+
+impl<S: Scalar> Corners<S> {
+    /// Of a rigid body of slenderness alpha and mass share m R^2/I0; one whose mass is all in one point, m R^2/I0 = 1, as the
+    /// limit of little rotational inertia.
+    pub fn rigid(alpha: S, mass_share: S) -> Self {
+        let inertia = mass_share.recip() - 1.0;
+        let inertia = if inertia.re() < LEAST_INERTIA { real(LEAST_INERTIA) } else { inertia };
+        let (sin, cos) = (alpha.sin(), alpha.cos());
+        let (zero, one) = (S::zero(), S::one());
+        // G: (u, v, theta) of the centre of mass to x, z of the old foot (-b, -h) and the new one (b, -h)
+        let g = [[one, zero, -cos], [zero, one, sin], [one, zero, -cos], [zero, one, -sin]];
+        let w = std::array::from_fn(|i| {
+            std::array::from_fn(|j| g[i][0] * g[j][0] + g[i][1] * g[j][1] + g[i][2] * g[j][2] / inertia)
+        });
+        let width = sin * 2.0;
+        let i0 = inertia + 1.0;
+        let momentum = (i0 - sin * sin * 2.0) / width;
+        Self { w, width, momentum, rate: momentum / i0 }
+    }
+}
+
+/// What a landing does.
+#[derive(Clone, Copy, Debug)]
+pub struct Landing<S> {
+    /// Angular momentum about the new foot over that before: 1 is Housner's, equation 2.
+    pub momentum: S,
+    /// Vertical impulse through the old foot, J_old [m v_n]; never negative.
+    pub old_impulse: S,
+    /// Fastest speed with which the new foot leaves the ground [v_n].
+    pub rebound: S,
+    /// Kinetic and elastic energy left in the spring-absorber units [m v_n^2].
+    pub left: S,
+    /// Time by which the body is ahead of one that landed by equation 2 at once; negative: behind [1/Omega_n].
+    pub offset: S,
+    /// Time with both feet in the air [1/Omega_n].
+    pub air: S,
+    /// Touches and lifts of the new foot and of the old foot.
+    pub changes: [usize; 2],
+    /// Whether the landing was followed to its stated end: not if the feet chatter.
+    pub complete: bool,
+}
+
+/// Land the structure on units of these designs, whose frequencies count relative to the vertical one's; followed to
+/// [`FOLLOWED`].
+pub fn land<S: Scalar>(corners: &Corners<S>, springs: &Springs<Design<S>>) -> Landing<S> {
+    let mut run = Run::new(corners, springs);
+    while run.time.re() < FOLLOWED && run.changes[0] + run.changes[1] < MOST_CHANGES {
+        run.advance();
+    }
+    run.finish(corners)
+}
+
+/// One landing under way.
+struct Run<S> {
+    w: [[S; DIRECTIONS]; DIRECTIONS],
+    /// k1, k2, m2, c of x and z.
+    units: [[S; 4]; 2],
+    y: [S; N],
+    /// Which feet press: old, new.
+    closed: [bool; 2],
+    time: S,
+    step: f64,
+    /// A y and exp(A step) of the present contact.
+    motion: (Matrix<S, N>, Matrix<S, N>),
+    rebound: S,
+    air: S,
+    changes: [usize; 2],
+}
+
+impl<S: Scalar> Run<S> {
+    fn new(corners: &Corners<S>, springs: &Springs<Design<S>>) -> Self {
+        let ratio = springs.horizontal.omega_n_hz / springs.vertical.omega_n_hz;
+        let unit = |d: &Design<S>, omega: S| {
+            let k1 = omega * omega;
+            [k1, d.k() * k1, d.mu, d.c() * omega]
+        };
+        let units = [unit(&springs.horizontal, ratio), unit(&springs.vertical, S::one())];
+        let fastest = (0..DIRECTIONS)
+            .map(|i| {
+                let [k1, k2, m2, c] = units[i % 2].map(|x| x.re());
+                let of_absorber = (k1 + k2) / m2 + (c / m2).powi(2);
+                (corners.w[i][i].re() * k1).max(of_absorber)
+            })
+            .fold(1.0, f64::max);
+        let mut y = [S::zero(); N];
+        y[RATE + 3] = -S::one();
+        let mut run = Self {
+            w: corners.w,
+            units,
+            y,
+            closed: [true; 2],
+            time: S::zero(),
+            step: STEP / fastest.sqrt(),
+            motion: ([[S::zero(); N]; N], [[S::zero(); N]; N]),
+            rebound: S::zero(),
+            air: S::zero(),
+            changes: [0, 1],
+        };
+        run.take_contact();
+        run
+    }
+
+    /// The motion of the present contact.
+    fn take_contact(&mut self) {
+        let mut a = [[S::zero(); N]; N];
+        for i in 0..DIRECTIONS {
+            let [k1, k2, m2, c] = self.units[i % 2];
+            a[i][RATE + i] = S::one();
+            a[A + i][A_RATE + i] = S::one();
+            a[A_RATE + i][A + i] -= k2 / m2;
+            a[A_RATE + i][A_RATE + i] -= c / m2;
+            if self.closed[i / 2] {
+                // F = k1 (a - p)
+                a[A_RATE + i][A + i] -= k1 / m2;
+                a[A_RATE + i][i] += k1 / m2;
+                a[IMPULSE + i][A + i] = k1;
+                a[IMPULSE + i][i] = -k1;
+                for j in 0..DIRECTIONS {
+                    a[RATE + j][A + i] += self.w[j][i] * k1;
+                    a[RATE + j][i] -= self.w[j][i] * k1;
+                }
+            }
+        }
+        self.motion = (a, exponential(&a, real(self.step)));
+    }
+
+    /// What must stay positive while a foot's contact lasts: its force, or its distance from the absorber.
+    fn lasts(&self, foot: usize, y: &[S; N]) -> (S, S) {
+        let z = 2 * foot + 1;
+        let sign = if self.closed[foot] { 1.0 } else { -1.0 };
+        ((y[A + z] - y[z]) * sign, (y[A_RATE + z] - y[RATE + z]) * sign)
+    }
+
+    /// One step, or up to the next change of contact.
+    fn advance(&mut self) {
+        let left = real::<S>(FOLLOWED) - self.time;
+        let whole = left.re() > self.step;
+        let next = if whole { times(&self.motion.1, &self.y) } else { times(&exponential(&self.motion.0, left), &self.y) };
+        let mut first: Option<(S, [S; N], usize)> = None;
+        for foot in 0..2 {
+            if self.lasts(foot, &next).0.re() >= -EDGE {
+                continue;
+            }
+            let (tau, y) = self.locate(foot, if whole { self.step } else { left.re() });
+            if first.as_ref().is_none_or(|(earliest, ..)| tau.re() < earliest.re()) {
+                first = Some((tau, y, foot));
+            }
+        }
+        let (tau, y, changed) = match first {
+            Some((tau, y, foot)) => (tau, y, Some(foot)),
+            None => (if whole { real(self.step) } else { left }, next, None),
+        };
+        if !self.closed[0] && !self.closed[1] {
+            self.air += tau;
+        }
+        self.time += tau;
+        self.y = y;
+        if let Some(foot) = changed {
+            self.change(foot);
+        }
+    }
+
+    /// When within the step the foot's contact changes, and the state there.
+    fn locate(&self, foot: usize, step: f64) -> (S, [S; N]) {
+        // a foot at the edge that goes the wrong way changes at once
+        if self.lasts(foot, &self.y).0.re() <= EDGE {
+            return (S::zero(), self.y);
+        }
+        let at = |tau: S| times(&exponential(&self.motion.0, tau), &self.y);
+        let (mut low, mut high) = (0.0, step);
+        let mut tau: S = real(0.5 * step);
+        for _ in 0..NEWTON {
+            let (value, rate) = self.lasts(foot, &at(tau));
+            if value.re() > 0.0 {
+                low = tau.re();
+            } else {
+                high = tau.re();
+            }
+            let newton = tau - value / rate;
+            tau = if newton.re() >= low && newton.re() <= high { newton } else { real(0.5 * (low + high)) };
+        }
+        (tau, at(tau))
+    }
+
+    fn change(&mut self, foot: usize) {
+        self.closed[foot] = !self.closed[foot];
+        self.changes[1 - foot] += 1;
+        let (x, z) = (2 * foot, 2 * foot + 1);
+        if self.closed[foot] {
+            // anchored where it lands: only differences of x count
+            self.y[x] = self.y[A + x];
+        } else if foot == 1 && self.y[RATE + z].re() > self.rebound.re() {
+            self.rebound = self.y[RATE + z];
+        }
+        self.take_contact();
+    }
+
+    fn finish(&self, corners: &Corners<S>) -> Landing<S> {
+        let old_impulse = self.y[IMPULSE + 1];
+        let mut left = S::zero();
+        for i in 0..DIRECTIONS {
+            let [k1, k2, m2, _] = self.units[i % 2];
+            let (a, rate, gap) = (self.y[A + i], self.y[A_RATE + i], self.y[A + i] - self.y[i]);
+            left += (k2 * a * a + m2 * rate * rate) * 0.5;
+            if self.closed[i / 2] {
+                left += k1 * gap * gap * 0.5;
+            }
+        }
+        // the angle that the body has turned about the new foot, against what it would have turned at the ideal rate
+        let turned = (self.y[1] - self.y[3]) / corners.width;
+        Landing {
+            momentum: old_impulse * corners.width / corners.momentum + 1.0,
+            old_impulse,
+            rebound: self.rebound,
+            left,
+            offset: turned / corners.rate - self.time,
+            air: self.air,
+            changes: [self.changes[0], self.changes[1]],
+            complete: self.time.re() >= FOLLOWED * (1.0 - 1e-12),
+        }
+    }
+}
+
+/// The corners of a body with units.
+pub fn corners_of(body: &Body<f64>) -> Corners<f64> {
+    Corners::rigid(body.alpha(), body.mass_share())
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::tuning::landing::design::Geometry;
+
+    fn designed(alpha: f64, share: f64, ratio: f64, stiffness: f64) -> Springs<Design<f64>> {
+        let mut springs = Geometry::new(alpha, share, stiffness).unwrap().springs();
+        springs.horizontal.omega_n_hz = ratio;
+        springs
+    }
+
+    #[test]
+    fn scan() {
+        for share in [1.0, 0.75] {
+            for alpha in [0.05, 0.1, 0.2, 0.3, 0.4, 0.5, 0.6] {
+                for ratio in [2.0, 4.0, 8.0, 20.0] {
+                    let begin = std::time::Instant::now();
+                    let s = designed(alpha, share, ratio, 2e4);
+                    let l = land(&Corners::rigid(alpha, share), &s);
+                    println!(
+                        "share {share} alpha {alpha} rho {ratio} K {:.3}: H-1 {:.2e} (law {:.2e}) J {:.1e} reb {:.4} left {:.1e} off {:.2} air {:.2} ch {:?} {} {:?}",
+                        s.vertical.k(), l.momentum - 1.0, 4.0 * alpha.tan().powf(6.5) / ratio.powi(4), l.old_impulse, l.rebound, l.left, l.offset, l.air, l.changes, l.complete, begin.elapsed()
+                    );
+                }
+            }
+        }
+    }
+}
