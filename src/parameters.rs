@@ -14,7 +14,7 @@ use crate::{
     scalar::GRAVITY,
     spring::{Chain, ChainRow, Design, Springs},
     structure::{Structure, StructureError},
-    tuning::impact::report::LandingRow,
+    tuning::whole_model::report::LandingRow,
 };
 
 /// The record the springs were tuned on.

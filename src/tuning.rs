@@ -3,24 +3,18 @@
 
 pub mod arr;
 
-mod catalogue;
-
-pub mod choice;
-
 pub mod descent;
 
+pub mod follow;
+
 pub mod front;
-
-mod global;
-
-pub mod impact;
-
-pub mod impulse;
 
 pub mod job;
 
 pub mod landing;
 
-mod off;
+pub mod omega;
 
-pub mod outer;
+pub mod suite;
+
+pub mod whole_model;

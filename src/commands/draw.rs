@@ -13,10 +13,7 @@ use crate::{
         target::{Band, Kind, Target},
     },
     spring::Design,
-    tuning::{
-        front::{self, Point},
-        job::Job,
-    },
+    tuning::{front::Point, job::Job},
 };
 
 /// Whether the target asks for nothing but the lowest cap there is, by a limit that no chain can meet.
@@ -39,7 +36,7 @@ fn wanted(band: &Band, low: f64, high: f64) -> Option<figures::arr::Band> {
 /// All figures, side by side.
 pub fn draw(dir: &Path, case: &Case, job: &Job, both: &Both, front: &[Point]) -> Result<(), CommandError> {
     let (housner, fem) = (&both.housner, &both.fem);
-    let (dt, tuned) = (job.record.dt, &job.arr);
+    let dt = job.record.dt;
     let n = housner.len().min(fem.motion.len());
     let t: Vec<f64> = (0..n).map(|i| i as f64 * dt).collect();
     let title = |what: &str| format!("{what}: {}", case.record.name);
@@ -71,11 +68,13 @@ pub fn draw(dir: &Path, case: &Case, job: &Job, both: &Both, front: &[Point]) ->
     let arr = |path: &Path| {
         let g: Vec<f64> = (0..=600).map(|i| 0.02 * f64::powf(1000.0, i as f64 / 600.0)).collect();
         let arr_of = |d: &Design<f64>| g.iter().map(|&g| response::arr(g, d.mu, d.f, d.xi)).collect::<Vec<_>>();
-        let (best, lowest) = (&job.arr.best.springs, lowest_cap(&case.target));
+        let lowest = lowest_cap(&case.target);
         let mut curves = Vec::new();
-        for (name, d, fits) in
-            [("vertical", &best.vertical, &job.vertical), ("horizontal", &best.horizontal, &job.horizontal)]
-        {
+        let fitted = job.paper.iter().flat_map(|paper| {
+            let best = &paper.tuned.best.springs;
+            [("vertical", best.vertical, &paper.vertical), ("horizontal", best.horizontal, &paper.horizontal)]
+        });
+        for (name, d, fits) in fitted {
             let fit = fits.iter().find(|fit| (fit.mu, fit.f, fit.xi) == (d.mu, d.f, d.xi));
             let active: Vec<_> = fit
                 .iter()
@@ -84,9 +83,9 @@ pub fn draw(dir: &Path, case: &Case, job: &Job, both: &Both, front: &[Point]) ->
                 .map(|a| figures::arr::Active { g: a.g, arr: a.arr, multiplier: None })
                 .collect();
             let cap = fit.filter(|_| lowest).map(|fit| fit.peak);
-            curves.push((format!("{name}, fit at \u{3bc} = {}", d.mu), arr_of(d), active, cap));
+            curves.push((format!("{name}, fit at \u{3bc} = {}", d.mu), arr_of(&d), active, cap));
         }
-        if job.springs != *best {
+        if job.paper.as_ref().is_none_or(|paper| job.springs != paper.tuned.best.springs) {
             for (name, d) in [("vertical", &job.springs.vertical), ("horizontal", &job.springs.horizontal)] {
                 curves.push((format!("{name}, tuned"), arr_of(d), Vec::new(), None));
             }
@@ -106,6 +105,8 @@ pub fn draw(dir: &Path, case: &Case, job: &Job, both: &Both, front: &[Point]) ->
         )
     };
     let candidates = |path: &Path| {
+        let Some(paper) = &job.paper else { return Ok(()) };
+        let tuned = &paper.tuned;
         let candidates: Vec<_> = tuned
             .candidates
             .iter()
@@ -156,22 +157,14 @@ pub fn draw(dir: &Path, case: &Case, job: &Job, both: &Both, front: &[Point]) ->
         )
     };
     let front = |path: &Path| {
-        let series = |pick: fn(&Point) -> Option<front::Errors>| {
-            let (mut hz, mut u, mut v) = (Vec::new(), Vec::new(), Vec::new());
-            for (point, e) in front.iter().filter_map(|p| pick(p).map(|e| (p, e))) {
-                if e.nrmse_u.is_finite() && e.nrmse_v.is_finite() {
-                    hz.push(point.max_hz);
-                    u.push(e.nrmse_u);
-                    v.push(e.nrmse_v);
-                }
-            }
-            (hz, u, v)
+        let series = |pick: fn(&Point) -> Option<f64>| -> (Vec<f64>, Vec<f64>) {
+            front.iter().filter_map(|p| pick(p).map(|e| (p.omega_n_hz, e))).unzip()
         };
-        let (impact, arr) = (series(|p| p.impact), series(|p| p.arr));
-        let all: Vec<_> = [("impact objective", &impact), ("the paper's procedure", &arr)]
+        let (landing, arr) = (series(|p| p.landing), series(|p| p.arr));
+        let all: Vec<_> = [("design from the geometry", &landing), ("the paper's procedure", &arr)]
             .into_iter()
             .filter(|(_, s)| !s.0.is_empty())
-            .map(|(label, s)| figures::front::Series { label, max_hz: &s.0, nrmse_u: &s.1, nrmse_v: &s.2 })
+            .map(|(label, s)| figures::front::Series { label, max_hz: &s.0, nrmse_u: &s.1, nrmse_v: &s.1 })
             .collect();
         if all.is_empty() {
             return Ok(());

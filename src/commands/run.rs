@@ -15,13 +15,13 @@ use super::{
     table, write_file,
 };
 use crate::{
-    case::{Case, MOST_EVALUATIONS, Objective},
+    case::{ACCURACY, Case, Objective},
     export::{Expected, with_inertia},
     members::Members,
     parameters::{PaperProcedure, Parameters, RecordRow},
     predictability::{moved_by_a_hair, simulate},
     record::Record,
-    tuning::{choice::GOOD, front, impact::report::landings, impulse::Found, job::Job},
+    tuning::{front, job::Job, whole_model::report::landings},
 };
 
 /// Options of `tune run`.
@@ -33,13 +33,12 @@ pub struct Options {
     record: RecordOptions,
     #[command(flatten)]
     ground: Ground,
-    /// Stiffest springs allowed, Omega_n / 2 pi [default: 160, or the case's]
+    /// Stiffest springs allowed, Omega_n / 2 pi, for programs with fixed time steps [default: none, or the case's]
     #[arg(long, value_name = "HZ", allow_negative_numbers = true)]
     max_hz: Option<f64>,
-    /// Evaluations to spend on a search for springs, some 300 a second [default: 1000 where no springs known have their
-    /// landings in order, or the case's]
-    #[arg(long, value_name = "N")]
-    search: Option<usize>,
+    /// Error of the history against Housner's that Omega_n is chosen for, NRMSE [default: 0.002, or the case's]
+    #[arg(long, value_name = "ERROR", allow_negative_numbers = true)]
+    accuracy: Option<f64>,
     /// Folder for the results
     #[arg(long, value_name = "DIR", default_value = "out")]
     out: PathBuf,
@@ -65,40 +64,35 @@ pub fn run(o: &Options) -> Result<(), CommandError> {
     case.record = o.record.record(|| case.record.clone())?;
     case.duration_s = o.record.duration(case.duration_s)?;
     if let Some(hz) = o.max_hz {
-        if !(0.1..=1e5).contains(&hz) {
+        if !(0.1..=1e6).contains(&hz) {
             return Err(CommandError::Option {
                 option: "max-hz",
                 value: format!("{hz:?}"),
-                remedy: "give a frequency between 0.1 and 1e5 Hz",
+                remedy: "give a frequency between 0.1 and 1e6 Hz",
             });
         }
-        case.tuning.max_omega_hz = hz;
+        case.tuning.max_omega_hz = Some(hz);
     }
-    if let Some(evaluations) = o.search {
-        let refused = |remedy| CommandError::Option { option: "search", value: evaluations.to_string(), remedy };
-        if evaluations > MOST_EVALUATIONS {
-            return Err(refused("give a number from 0 to 10000000"));
+    if let Some(accuracy) = o.accuracy {
+        if !(ACCURACY.0..=ACCURACY.1).contains(&accuracy) {
+            let remedy = "give an error between 1e-5 and 1, as 0.002";
+            return Err(CommandError::Option { option: "accuracy", value: format!("{accuracy:?}"), remedy });
         }
-        if evaluations > 0 && case.tuning.objective == Objective::Arr {
-            return Err(refused(
-                "the paper's procedure has no search: leave it out, or set the case's objective to \"impact\"",
-            ));
-        }
-        case.tuning.search_evaluations = Some(evaluations);
+        case.tuning.accuracy = accuracy;
     }
     let friction = o.ground.friction()?;
     check_folder(&o.out)?;
     threads(o.jobs)?;
 
     let progress = Progress::new("tuning", o.quiet);
-    let job = Job::new(&case, &|done, all, error| progress.tell(done, all, &format!("error {error:.4}")));
+    let job = Job::new(&case, &|done, all, error| progress.tell(done, all, &format!("error {error:.2e}")));
     progress.done();
     let job = job?;
     let front = if o.no_front {
         Vec::new()
     } else {
         let progress = Progress::new("front", o.quiet);
-        let points = front::front(&case, &job, &|done, all| progress.tell(done, all, ""))?;
+        let points = front::front(&job, &|done, all| progress.tell(done, all, ""));
         progress.done();
         points
     };
@@ -112,8 +106,8 @@ pub fn run(o: &Options) -> Result<(), CommandError> {
     parameters.record = Some(RecordRow::new(&case.record));
     parameters.matched = Some(both.matched);
     parameters.match_with_members = both.with.as_ref().map(|with| with.matched);
-    if job.impact.is_some() {
-        let paper = Parameters::new(case.structure, &job.arr.best.springs);
+    if let Some(paper) = job.paper.as_ref().filter(|_| case.tuning.objective == Objective::Landing) {
+        let paper = Parameters::new(case.structure, &paper.tuned.best.springs);
         let none = Members::default();
         let matched = common::both(&job.body, case.restitution, &paper.chains(), &none, &job.record).matched;
         parameters.paper_procedure =
@@ -138,8 +132,10 @@ pub fn run(o: &Options) -> Result<(), CommandError> {
     );
     decks?;
     figures?;
+    eprintln!("{:?} {:?} {:?}", job.tuned.best, job.tuned.reached, job.capped);
+    for r in &job.tuned.rungs { eprintln!("{:.0} {:.0} Hz {:?} {:.3}", r.stiffness, r.springs.vertical.omega_n_hz, r.accuracy, r.accuracy.over(0.7*case.tuning.accuracy)); }
     let mut said: Vec<String> = report.lines().into_iter().chain(both.early()).collect();
-    said.extend(springs_said(&parameters, job.impact.as_ref(), case.tuning.max_omega_hz));
+    said.extend(springs_said(&parameters));
     let (springs, said) = (table::terminal(&parameters), said.join("\n"));
     write!(std::io::stdout(), "{springs}\n{said}\n{forces}{}", table::front_terminal(&front))?;
     eprintln!("written to {}", o.out.display());
@@ -149,19 +145,9 @@ pub fn run(o: &Options) -> Result<(), CommandError> {
 /// Error of restitution that is worth a warning.
 const RESTITUTION_MISSED: f64 = 0.005;
 
-/// One line each on what these springs promise for other records, and what they cannot do.
-fn springs_said(parameters: &Parameters, impact: Option<&Found>, max_hz: f64) -> Vec<String> {
+/// What these springs cannot do.
+fn springs_said(parameters: &Parameters) -> Vec<String> {
     let mut lines = Vec::new();
-    // another restitution than equation 2's weighs otherwise
-    if let Some(found) = impact.filter(|_| parameters.restitution.is_none()) {
-        let mut line = format!("springs: impact objective {:.3}, about the error to expect on any record", found.error);
-        if found.error > GOOD {
-            // the error falls as 1/Omega_n
-            let hz = 10.0 * (max_hz * found.error / GOOD / 10.0).ceil();
-            line += &format!("; springs up to {hz:.0} Hz would bring it to {GOOD} (--max-hz {hz:.0})");
-        }
-        lines.push(line);
-    }
     let errors = || parameters.landings.iter().map(|l| l.restitution_error);
     if errors().any(|e| e.abs() > RESTITUTION_MISSED) {
         let e = parameters.restitution();

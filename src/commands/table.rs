@@ -6,8 +6,8 @@ use crate::{
     compare::Match,
     parameters::Parameters,
     tuning::{
-        front::{Errors, Point},
-        impact::report::LandingRow,
+        front::Point,
+        whole_model::report::LandingRow,
     },
 };
 
@@ -152,20 +152,28 @@ pub fn terminal(p: &Parameters) -> String {
     out
 }
 
-const FRONT: [&str; 5] = ["springs up to", "impact: NRMSE u", "v", "paper's procedure: NRMSE u", "v"];
+const FRONT: [&str; 6] = [
+    "Omega_n [Hz]",
+    "NRMSE of u, landing",
+    "paper's procedure",
+    "largest foot force [weights]",
+    "contact changes",
+    "",
+];
 
-fn front_rows(front: &[Point]) -> Vec<[String; 5]> {
-    let pair = |e: Option<Errors>| match e {
-        Some(e) => [format!("{:.4}", e.nrmse_u), format!("{:.4}", e.nrmse_v)],
-        None => ["-".to_string(), "-".to_string()],
+fn front_rows(front: &[Point]) -> Vec<[String; 6]> {
+    let error = |e: Option<f64>| e.map_or("-".to_string(), |e| format!("{e:.2e}"));
+    let row = |p: &Point| {
+        [
+            format!("{:.0}", p.omega_n_hz),
+            error(p.landing),
+            error(p.arr),
+            format!("{:.0}", p.foot_force_weights),
+            p.contact_changes.to_string(),
+            if p.chosen { "chosen".to_string() } else { String::new() },
+        ]
     };
-    front
-        .iter()
-        .map(|p| {
-            let ([iu, iv], [au, av]) = (pair(p.impact), pair(p.arr));
-            [format!("{} Hz", p.max_hz), iu, iv, au, av]
-        })
-        .collect()
+    front.iter().map(row).collect()
 }
 
 /// The front, for `parameters.md`.

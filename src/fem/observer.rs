@@ -56,6 +56,11 @@ impl<S: Scalar> View<'_, S> {
         self.feet[i].closed()
     }
 
+    /// Vertical force on foot i, positive while it presses [N].
+    pub fn vertical_force(&self, i: usize) -> S {
+        self.model.contact(&self.state.q, self.feet)[i].vertical
+    }
+
     /// Speed at which foot i comes down on its absorber [m/s].
     pub fn gap_speed(&self, i: usize) -> S {
         self.model.compression_rate(i, self.state, &self.feet[i])

@@ -11,3 +11,4 @@ pub mod inner;
 pub mod minimax;
 
 pub mod smooth;
+pub mod outer;

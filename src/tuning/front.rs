@@ -1,99 +1,110 @@
-//! The front: the least error for each stiffness. Accuracy costs stiffness, and with it the engineer's time step.
+//! The front: error against Omega_n, of the design from the geometry and of the paper's procedure; and what stiffness costs.
 
-use std::sync::atomic::{AtomicUsize, Ordering};
+use std::{
+    f64::consts::TAU,
+    ops::ControlFlow,
+    sync::atomic::{AtomicUsize, Ordering},
+};
 
 use rayon::prelude::*;
+use serde::{Deserialize, Serialize};
 
 use super::{
-    impulse::{self, Effort},
-    arr::inner::{FitError, families},
-    job::Job,
-    outer::{self, Benchmark, Bracket},
+    arr::outer::{self, Benchmark, Bracket},
+    job::{Job, Paper, at},
 };
 use crate::{
-    case::Case,
-    fem::Control,
-    motion::nrmse,
+    fem::{Case, Control, Observer, Start, View},
+    scalar::GRAVITY,
     spring::{Design, Springs},
 };
 
-/// Stiffest springs of the front's points [Hz]; the case's own limit is added.
-const LADDER_HZ: [f64; 6] = [40.0, 80.0, 160.0, 320.0, 640.0, 1280.0];
-/// Of the impact objective, at each point.
-const EFFORT: Effort = Effort { tried: 4, followed: 1, iterations: 4, content: true };
-
-/// Springs of one point and their errors on the case's record.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Errors {
-    pub springs: Springs<Design<f64>>,
-    pub nrmse_u: f64,
-    pub nrmse_v: f64,
-}
+/// Omega_n of the front's points [Hz]; the one that was chosen is added.
+const LADDER_HZ: [f64; 8] = [160.0, 320.0, 640.0, 1280.0, 2560.0, 5120.0, 10240.0, 20480.0];
 
 /// One point of the front.
-#[derive(Clone, Copy, Debug, PartialEq)]
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Point {
-    /// Stiffest springs allowed [Hz].
-    pub max_hz: f64,
-    /// The impact objective's springs.
-    pub impact: Option<Errors>,
-    /// The paper's procedure.
-    pub arr: Option<Errors>,
+    /// Omega_n of the vertical units [Hz].
+    pub omega_n_hz: f64,
+    /// Whether these springs were chosen.
+    pub chosen: bool,
+    /// NRMSE of u on the springs of the landing: on the record, or the median of the synthetic motions where the record cannot be
+    /// followed one to one.
+    pub landing: Option<f64>,
+    /// The same of the paper's procedure, springs up to this Omega_n.
+    pub arr: Option<f64>,
+    /// Largest vertical foot force on the record, in weights: the springs' force in a landing, not the structure's.
+    pub foot_force_weights: f64,
+    /// Touches and lifts on the record, for which time steps get shorter.
+    pub contact_changes: usize,
 }
 
-/// The front of a job's case.
-pub fn front(case: &Case, job: &Job, progress: &(dyn Fn(usize, usize) + Sync)) -> Result<Vec<Point>, FitError> {
-    let families = families(&super::job::FAMILIES)?;
-    let mut ladder = LADDER_HZ.to_vec();
-    if !ladder.contains(&case.tuning.max_omega_hz) {
-        ladder.push(case.tuning.max_omega_hz);
-        ladder.sort_by(f64::total_cmp);
-    }
-    let benchmark = Benchmark { body: job.body, dt: job.record.dt, accel: &job.record.accel, housner: &job.housner };
+/// The front of a job.
+pub fn front(job: &Job, progress: &(dyn Fn(usize, usize) + Sync)) -> Vec<Point> {
+    let chosen = job.springs.vertical.omega_n_hz;
+    let mut ladder: Vec<f64> = LADDER_HZ.into_iter().filter(|hz| (hz / chosen).ln().abs() > 0.05).collect();
+    ladder.push(chosen);
+    ladder.sort_by(f64::total_cmp);
     let done = AtomicUsize::new(0);
     progress(0, ladder.len());
-    let points = ladder
+    ladder
         .par_iter()
         .with_max_len(1)
-        .map(|&max_hz| {
-            let bracket = Bracket { max_hz, max_settlement: case.tuning.max_settlement_m };
-            let known = |found: Option<Springs<Design<f64>>>| found.filter(|_| max_hz == case.tuning.max_omega_hz);
-            let paper = || {
-                known(Some(job.arr.best.springs)).or_else(|| {
-                    let from = case.tuning.max_omega_hz;
-                    outer::follow(&benchmark, &job.vertical, &job.horizontal, bracket, &job.arr, from)
-                        .map(|best| best.springs)
-                })
-            };
-            let ours = || {
-                known(job.impact.map(|f| f.springs)).or_else(|| {
-                    let objective = impulse::Objective::new(&job.body, case.restitution, bracket);
-                    let proposals = impulse::proposals(&objective, &families, EFFORT);
-                    // where the record does not decide, its front says little, and many histories a point are dear
-                    let found = match job.choice.by_record() {
-                        true => job.choice.of_history(&proposals),
-                        false => impulse::in_order_first(&proposals).next().copied(),
-                    };
-                    found.map(|found| found.springs)
-                })
-            };
-            let (arr, impact) = rayon::join(paper, ours);
-            let judge = |found: Option<Springs<Design<f64>>>| found.map(|s| errors(&benchmark, &s));
-            let point = Point { max_hz, impact: judge(impact), arr: judge(arr) };
+        .filter_map(|&hz| {
+            let springs = if hz == chosen { Some(job.springs) } else { at(&job.body, TAU * hz / job.body.p_squared().sqrt()) };
+            let arr = || job.paper.as_ref().and_then(|paper| paper_error(job, paper, hz));
+            let ours = || springs.map(|springs| (error(job, &springs), cost(job, &springs)));
+            let (arr, ours) = rayon::join(arr, ours);
             progress(done.fetch_add(1, Ordering::Relaxed) + 1, ladder.len());
-            point
+            let (landing, (foot_force_weights, contact_changes)) = ours?;
+            Some(Point { omega_n_hz: hz, chosen: hz == chosen, landing, arr, foot_force_weights, contact_changes })
         })
-        .collect();
-    Ok(points)
+        .collect()
 }
 
-fn errors(benchmark: &Benchmark, springs: &Springs<Design<f64>>) -> Errors {
-    let fem = benchmark.case(springs, Control::search()).simulate();
-    let whole = fem.motion.len() >= benchmark.housner.len();
-    let error = |x: &[f64], reference: &[f64]| if whole { nrmse(x, reference) } else { f64::INFINITY };
-    Errors {
-        springs: *springs,
-        nrmse_u: error(&fem.motion.u, &benchmark.housner.u),
-        nrmse_v: error(&fem.motion.v, &benchmark.housner.v),
+fn error(job: &Job, springs: &Springs<Design<f64>>) -> Option<f64> {
+    job.suites.error(&springs.chains(job.body.mass), Control::search()).filter(|error| error.is_finite())
+}
+
+fn paper_error(job: &Job, paper: &Paper, hz: f64) -> Option<f64> {
+    let Paper { vertical, horizontal, tuned } = paper;
+    let benchmark = Benchmark { body: job.body, dt: job.record.dt, accel: &job.record.accel, housner: &job.housner };
+    let bracket = Bracket { max_hz: hz, max_settlement: f64::INFINITY };
+    let from = job.springs.vertical.omega_n_hz;
+    let springs = if hz == from {
+        tuned.best.springs
+    } else {
+        outer::follow(&benchmark, vertical, horizontal, bracket, tuned, from)?.springs
+    };
+    error(job, &springs)
+}
+
+/// Keeps the largest vertical force of either foot [N].
+struct LargestForce(f64);
+
+impl Observer<f64> for LargestForce {
+    fn sample(&mut self, _: usize, _: &View<f64>) -> ControlFlow<()> {
+        ControlFlow::Continue(())
     }
+
+    fn step(&mut self, view: &View<f64>) {
+        self.0 = self.0.max(view.vertical_force(0)).max(view.vertical_force(1));
+    }
+}
+
+/// Largest vertical foot force in weights, and contact changes, on the record.
+fn cost(job: &Job, springs: &Springs<Design<f64>>) -> (f64, usize) {
+    let case = Case {
+        body: job.body,
+        springs: springs.chains(job.body.mass),
+        start: Start::Settled,
+        dt: job.record.dt,
+        accel: &job.record.accel,
+        scale: 1.0,
+        control: Control::search(),
+    };
+    let mut largest = LargestForce(0.0);
+    let finish = case.observe(&mut largest);
+    (largest.0 / (job.body.mass * GRAVITY), finish.work.events)
 }

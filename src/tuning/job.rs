@@ -1,28 +1,25 @@
-//! A whole case: the paper's procedure, the impact objective, and the springs that the case asks for.
-//!
-//! Unless the case says otherwise these are the impact objective's. The paper's procedure is as good on the record it was tuned
-//! on (El Centro, springs up to 160 Hz: NRMSE 0.029 against 0.028), because it lets the feet bounce: both are in the air for
-//! up to 0.1 s a landing against 8 ms, and the restitution is off by 0.2 % against 0.1 %. On other motions it loses: medians
-//! over the well-conditioned of 200 (`tune validate --synthetic 200`), on springs up to 160 Hz,
-//!
-//! | | A-frame 61 m | 20 m | 5 m | block 2 m | 0.6 m |
-//! |---|---|---|---|---|---|
-//! | impact | 0.017 | 0.017 | 0.023 | 0.039 | 0.082 |
-//! | paper's procedure | 0.030 | 0.065 | 0.17 | 0.28 | 0.76 |
-//!
-//! Both are always reported.
+//! A whole case: the inner design by the case's objective, Omega_n by the accuracy asked for, and the paper's procedure at the
+//! same Omega_n beside it.
+
+use std::f64::consts::TAU;
 
 use rayon::prelude::*;
 use thiserror::Error;
 
 use super::{
-    choice::Choice,
-    impulse::{self, Effort, Found},
-    arr::inner::{Fit, FitError, families, fit},
-    outer::{self, Benchmark, Bracket, Tuned},
+    arr::{
+        inner::{Fit, FitError, fit},
+        outer::{self, Benchmark, Bracket},
+    },
+    follow,
+    landing::design::Geometry,
+    omega::{self, Rung, Tuned},
+    suite::Suites,
+    whole_model,
 };
 use crate::{
     case::{Case, Objective},
+    fem::Control,
     housner::{self, Rocking},
     motion::Motion,
     record::Record,
@@ -30,10 +27,11 @@ use crate::{
     structure::Body,
 };
 
-/// Mass ratios of the families that the impact objective starts from.
-pub(super) const FAMILIES: [f64; 3] = [0.1, 0.3, 1.0];
-/// Of the impact objective.
-const EFFORT: Effort = Effort { tried: 6, followed: 2, iterations: 15, content: false };
+/// Stiffest springs that are tried where no cap is given [Hz].
+pub const CEILING_HZ: f64 = 2e5;
+/// Omega_n of springs that are to have another restitution than equation 2's, where no cap is given [Hz]: they must bounce,
+/// and gravity bring them back.
+const BOUNCING_HZ: f64 = 160.0;
 
 /// Why there are no springs.
 #[derive(Debug, Error)]
@@ -41,7 +39,7 @@ pub enum JobError {
     #[error(transparent)]
     Fit(#[from] FitError),
     #[error(
-        "{record}: PGA {pga_g:.4} g never lifts the structure (it takes {limit_g:.4} g), there is nothing to tune on; raise --scale or give another record"
+        "{record}: PGA {pga_g:.4} g never lifts the structure (it takes {limit_g:.4} g), and the paper's procedure tunes on a record; raise --scale, give another record, or leave objective = \"arr\" out"
     )]
     NeverLifts { record: String, pga_g: f64, limit_g: f64 },
     #[error(
@@ -50,6 +48,14 @@ pub enum JobError {
     Settlement { asked_m: f64, max_hz: f64, least_m: f64 },
     #[error("no candidate followed the record to its end; raise --max-hz or shorten --duration")]
     NoCandidate,
+}
+
+/// What the paper's procedure gives: families of the inner fit, and the outer loop over Omega_n on the record.
+#[derive(Debug)]
+pub struct Paper {
+    pub vertical: Vec<Fit>,
+    pub horizontal: Vec<Fit>,
+    pub tuned: outer::Tuned,
 }
 
 /// A case's springs and all that led to them.
@@ -61,74 +67,192 @@ pub struct Job {
     pub rocking: Rocking<f64>,
     /// Housner's motion.
     pub housner: Motion,
-    /// The springs that the case's objective chose.
     pub springs: Springs<Design<f64>>,
-    /// The paper's procedure: families of the inner fit, and the outer loop over Omega_n.
-    pub vertical: Vec<Fit>,
-    pub horizontal: Vec<Fit>,
-    pub arr: Tuned,
-    /// The impact objective's springs, when the case asks for them.
-    pub impact: Option<Found>,
-    /// Who decides among springs that the impact objective calls as good.
-    pub choice: Choice,
+    /// The outer loop; its best rung has the springs.
+    pub tuned: Tuned,
+    pub suites: Suites,
+    /// Whether a cap on Omega_n decided.
+    pub capped: bool,
+    /// None where the record does not lift the structure.
+    pub paper: Option<Paper>,
 }
 
 impl Job {
-    /// Tune a case. `progress` gets the evaluations done, planned, and the least error so far: of the paper's procedure, and
-    /// then of a search for springs, if there is one.
+    /// Tune a case. `progress` gets a count, the planned number (0 if unknown), and the least error so far.
+    ///
+    /// # Errors
+    /// No springs that settle as little as asked for; for the paper's procedure, a record that does not lift the structure.
     pub fn new(case: &Case, progress: &(dyn Fn(usize, usize, f64) + Sync)) -> Result<Self, JobError> {
         let record = case.record.truncated(case.duration_s);
         let body = case.structure.body::<f64>();
         let options = housner::Options { restitution: Some(case.restitution), ..Default::default() };
         let rocking = housner::solve(&body, record.dt, &record.accel, &options);
-        if rocking.uplifts.is_empty() {
-            return Err(JobError::NeverLifts {
-                record: record.name.clone(),
-                pga_g: record.pga_g(),
-                limit_g: body.half_width / body.height,
-            });
-        }
         let housner = rocking.motion(&body);
-        let tuning = &case.tuning;
+        let suites = Suites::new(&body, case.restitution, Some(&record));
+        let lifted = !rocking.uplifts.is_empty();
+        let benchmark = Benchmark { body, dt: record.dt, accel: &record.accel, housner: &housner };
+        let procedure = Procedure::new(case, &benchmark)?;
+
+        let (tuned, capped, paper) = match case.tuning.objective {
+            Objective::Landing => {
+                let design = Landing { case, body, suites: &suites };
+                let (tuned, capped) = design.tune(progress)?;
+                let hz = tuned.best.springs.vertical.omega_n_hz;
+                let paper = if lifted { procedure.at(hz, progress) } else { None };
+                (tuned, capped, paper)
+            }
+            Objective::Arr if !lifted => {
+                return Err(JobError::NeverLifts {
+                    record: record.name.clone(),
+                    pga_g: record.pga_g(),
+                    limit_g: body.half_width / body.height,
+                });
+            }
+            Objective::Arr => procedure.tune(&suites, progress)?,
+        };
+        let paper = paper.map(|tuned| Paper { vertical: procedure.vertical, horizontal: procedure.horizontal, tuned });
+        let springs = tuned.best.springs;
+        Ok(Self { body, record, rocking, housner, springs, tuned, suites, capped, paper })
+    }
+}
+
+/// The design from the geometry, and Omega_n.
+struct Landing<'a> {
+    case: &'a Case,
+    body: Body<f64>,
+    suites: &'a Suites,
+}
+
+impl Landing<'_> {
+    /// The outer loop, and whether a cap decided.
+    fn tune(&self, progress: &(dyn Fn(usize, usize, f64) + Sync)) -> Result<(Tuned, bool), JobError> {
+        let tuning = &self.case.tuning;
+        if whole_model::is_another(&self.body, self.case.restitution) {
+            let hz = tuning.max_omega_hz.unwrap_or(BOUNCING_HZ);
+            return Ok((self.alone(self.followed(hz)?), tuning.max_omega_hz.is_some()));
+        }
+        let p = self.body.p_squared().sqrt();
+        let springs = |stiffness: f64| at(&self.body, stiffness);
+        let said = |rungs: usize, over: f64| progress(rungs, 0, over * omega::MARGIN * tuning.accuracy);
+        let stiffest = TAU * CEILING_HZ / p;
+        let Some(cap) = tuning.max_omega_hz else {
+            let tuned = omega::tune(self.suites, self.body.mass, tuning.accuracy, stiffest, &springs, &said);
+            return tuned.map(|tuned| (tuned, false)).ok_or(JobError::NoCandidate);
+        };
+        // a cap holds for the stiffest of the springs
+        let highest = TAU * cap / p;
+        let clipped = |stiffness: f64| {
+            springs(stiffness).map(|mut springs| {
+                springs.horizontal.omega_n_hz = springs.horizontal.omega_n_hz.min(cap);
+                springs
+            })
+        };
+        let settles = |tuned: &Tuned| tuned.best.springs.settlement(self.body.mass) <= tuning.max_settlement_m;
+        let tuned = omega::tune(self.suites, self.body.mass, tuning.accuracy, highest, &clipped, &said);
+        if let Some(tuned) = tuned.as_ref().filter(|tuned| tuned.reached && settles(tuned)) {
+            return Ok((tuned.clone(), false));
+        }
+        let stiff = Geometry::of(&self.body, highest).is_ok_and(|geometry| geometry.in_stiff_limit());
+        if let Some(tuned) = tuned.as_ref().filter(|tuned| stiff && settles(tuned)) {
+            return Ok((tuned.clone(), true));
+        }
+        let followed = self.alone(self.followed(cap)?);
+        let over = |tuned: &Tuned| tuned.best.accuracy.over(tuning.accuracy);
+        let best = tuned.into_iter().filter(settles).chain([followed]).min_by(|a, b| over(a).total_cmp(&over(b)));
+        Ok((best.ok_or(JobError::NoCandidate)?, true))
+    }
+
+    /// The best springs within a cap [Hz].
+    fn followed(&self, cap: f64) -> Result<Springs<Design<f64>>, JobError> {
+        let max_settlement = self.case.tuning.max_settlement_m;
+        let bracket = Bracket { max_hz: cap, max_settlement };
+        let least_m = bracket.least_settlement(follow::LARGEST_K);
+        if least_m > max_settlement {
+            return Err(JobError::Settlement { asked_m: max_settlement, max_hz: cap, least_m });
+        }
+        let found = follow::follow(&self.body, self.case.restitution, bracket).ok_or(JobError::NoCandidate)?;
+        Ok(found.springs)
+    }
+
+    /// Springs that are not the outer loop's.
+    fn alone(&self, springs: Springs<Design<f64>>) -> Tuned {
+        alone(self.suites, &self.body, self.case.tuning.accuracy, springs)
+    }
+}
+
+fn alone(suites: &Suites, body: &Body<f64>, accuracy: f64, springs: Springs<Design<f64>>) -> Tuned {
+    let found = suites.accuracy(&springs.chains(body.mass), Control::search());
+    let stiffness = TAU * springs.vertical.omega_n_hz / body.p_squared().sqrt();
+    let best = Rung { stiffness, springs, accuracy: found };
+    Tuned { rungs: vec![best], best, reached: found.over(accuracy) <= 1.0 }
+}
+
+/// The springs that the geometry of a body gives at an Omega_n/p.
+pub fn at(body: &Body<f64>, stiffness: f64) -> Option<Springs<Design<f64>>> {
+    let mut springs = Geometry::of(body, stiffness).ok()?.springs();
+    let hz = stiffness * body.p_squared().sqrt() / TAU;
+    springs.vertical.omega_n_hz *= hz;
+    springs.horizontal.omega_n_hz *= hz;
+    Some(springs)
+}
+
+/// The paper's procedure on one record.
+struct Procedure<'a> {
+    case: &'a Case,
+    benchmark: &'a Benchmark<'a>,
+    vertical: Vec<Fit>,
+    horizontal: Vec<Fit>,
+}
+
+impl<'a> Procedure<'a> {
+    fn new(case: &'a Case, benchmark: &'a Benchmark<'a>) -> Result<Self, JobError> {
         let fits = |mus: &[f64]| -> Result<Vec<Fit>, FitError> {
             let found: Vec<_> = mus.par_iter().map(|&mu| fit(mu, &case.target, &case.bounds)).collect();
             found.into_iter().collect()
         };
-        let vertical = fits(&tuning.mass_ratios_vertical)?;
-        let horizontal = fits(&tuning.mass_ratios_horizontal)?;
-        let bracket = Bracket { max_hz: tuning.max_omega_hz, max_settlement: tuning.max_settlement_m };
-        let of_families = vertical.iter().map(|fit| bracket.least_settlement(fit.k)).fold(f64::INFINITY, f64::min);
-        let least_m = match tuning.objective {
-            Objective::Arr => of_families,
-            Objective::Impact => impulse::Objective::least_settlement(&bracket),
-        };
-        if least_m > bracket.max_settlement {
-            return Err(JobError::Settlement { asked_m: bracket.max_settlement, max_hz: bracket.max_hz, least_m });
-        }
-        let benchmark = Benchmark { body, dt: record.dt, accel: &record.accel, housner: &housner };
-        let choice = Choice::new(&body, case.restitution, &record);
-        // where only the impact objective's springs can settle so little, the paper's stand beside them as stiff as they get
-        let beside = Bracket { max_settlement: bracket.max_settlement.max(of_families), ..bracket };
-        let paper = || {
-            outer::tune(&benchmark, &vertical, &horizontal, beside, tuning.candidates, progress)
-                .ok_or(JobError::NoCandidate)
-        };
-        let objective = impulse::Objective::new(&body, case.restitution, bracket);
-        let ours = || match tuning.objective {
-            Objective::Arr => Ok(Vec::new()),
-            Objective::Impact => Ok::<_, JobError>(impulse::proposals(&objective, &families(&FAMILIES)?, EFFORT)),
-        };
-        // neither knows of the other, and one fills the pauses of the other's batches
-        let (paper, ours) = rayon::join(paper, ours);
-        let (arr, proposals) = (paper?, ours?);
-        let impact = match tuning.objective {
-            Objective::Arr => None,
-            Objective::Impact => {
-                let all = impulse::searched(&objective, proposals, tuning.search_evaluations, progress);
-                Some(choice.of(&all).ok_or(JobError::NoCandidate)?)
+        let vertical = fits(&case.tuning.mass_ratios_vertical)?;
+        let horizontal = fits(&case.tuning.mass_ratios_horizontal)?;
+        Ok(Self { case, benchmark, vertical, horizontal })
+    }
+
+    /// Springs up to this Omega_n [Hz], whatever they settle.
+    fn at(&self, max_hz: f64, progress: &(dyn Fn(usize, usize, f64) + Sync)) -> Option<outer::Tuned> {
+        let bracket = Bracket { max_hz, max_settlement: self.case.tuning.max_settlement_m };
+        let least = self.least_settlement(&bracket);
+        let bracket = Bracket { max_settlement: bracket.max_settlement.max(least), ..bracket };
+        outer::tune(self.benchmark, &self.vertical, &self.horizontal, bracket, self.case.tuning.candidates, progress)
+    }
+
+    fn least_settlement(&self, bracket: &Bracket) -> f64 {
+        self.vertical.iter().map(|fit| bracket.least_settlement(fit.k)).fold(f64::INFINITY, f64::min)
+    }
+
+    /// Within the case's cap as the paper has it; without one, Omega_n by the accuracy asked for.
+    fn tune(
+        &self,
+        suites: &Suites,
+        progress: &(dyn Fn(usize, usize, f64) + Sync),
+    ) -> Result<(Tuned, bool, Option<outer::Tuned>), JobError> {
+        let (tuning, body) = (&self.case.tuning, &self.benchmark.body);
+        if let Some(max_hz) = tuning.max_omega_hz {
+            let bracket = Bracket { max_hz, max_settlement: tuning.max_settlement_m };
+            let least_m = self.least_settlement(&bracket);
+            if least_m > bracket.max_settlement {
+                return Err(JobError::Settlement { asked_m: bracket.max_settlement, max_hz, least_m });
             }
+            let found = self.at(max_hz, progress).ok_or(JobError::NoCandidate)?;
+            return Ok((alone(suites, body, tuning.accuracy, found.best.springs), true, Some(found)));
+        }
+        let p = body.p_squared().sqrt();
+        let begin = omega::begin(tuning.accuracy) * p / TAU;
+        let found = self.at(begin, progress).ok_or(JobError::NoCandidate)?;
+        let springs = |stiffness: f64| {
+            let bracket = Bracket { max_hz: stiffness * p / TAU, max_settlement: f64::INFINITY };
+            let near = outer::follow(self.benchmark, &self.vertical, &self.horizontal, bracket, &found, begin);
+            near.map(|candidate| candidate.springs)
         };
-        let springs = impact.map_or(arr.best.springs, |found| found.springs);
-        Ok(Self { body, record, rocking, housner, springs, vertical, horizontal, arr, impact, choice })
+        let said = |rungs: usize, over: f64| progress(rungs, 0, over * omega::MARGIN * tuning.accuracy);
+        let tuned = omega::tune(suites, body.mass, tuning.accuracy, TAU * CEILING_HZ / p, &springs, &said);
+        Ok((tuned.ok_or(JobError::NoCandidate)?, false, Some(found)))
     }
 }

@@ -63,13 +63,13 @@ const RINGING_LEANS: [f64; 2] = [0.5, 0.2];
 const RESTITUTION_ERROR: f64 = 2e-3;
 
 /// Whether this velocity restitution is another than equation 2's.
-pub(super) fn is_another(body: &Body<f64>, restitution: f64) -> bool {
+pub fn is_another(body: &Body<f64>, restitution: f64) -> bool {
     (restitution / body.restitution() - 1.0).abs() > ANOTHER
 }
 
 /// All scenarios of a structure.
 #[derive(Clone, Debug)]
-pub struct Impact {
+pub struct WholeModel {
     body: Body<f64>,
     restitution: f64,
     /// History error per relative error of restitution, and per second in the air.
@@ -82,7 +82,7 @@ pub struct Impact {
     another: bool,
 }
 
-impl Impact {
+impl WholeModel {
     /// Scenarios of a body that is to land with velocity restitution `restitution` on springs of Omega_n up to `max_hz` [Hz].
     pub fn new(body: &Body<f64>, restitution: f64, max_hz: f64) -> Self {
         let another = is_another(body, restitution);
@@ -178,7 +178,7 @@ mod tests {
     #[test]
     fn landings_on_plastic_chains_are_in_order_and_on_table_1_they_are_not() {
         let body = Structure::paper().body::<f64>();
-        let impact = Impact::new(&body, body.restitution(), 160.0);
+        let impact = WholeModel::new(&body, body.restitution(), 160.0);
         let in_order = |v: [f64; 4], h: [f64; 4]| {
             let chain = |[hz, k, c, mu]: [f64; 4]| Design::from_kc(mu, k, c, hz);
             let springs = Springs { vertical: chain(v), horizontal: chain(h) };
@@ -193,7 +193,7 @@ mod tests {
     #[test]
     fn disorder_is_what_goes_beyond_the_limits_in_limits() {
         let body = Structure::paper().body::<f64>();
-        let impact = Impact::new(&body, body.restitution(), 160.0);
+        let impact = WholeModel::new(&body, body.restitution(), 160.0);
         let residuals = |error: f64, air: f64| {
             let mut residuals = vec![0.0; 2 * LEANS.len() + impact.uplifts.len()];
             residuals[4] = -error * WEIGHT_RESTITUTION / (LEANS.len() as f64).sqrt();

@@ -16,7 +16,7 @@ use argmin::{
 };
 use rayon::prelude::*;
 
-use super::arr::inner::Fit;
+use super::inner::Fit;
 use crate::{
     fem::{Case, Control, Finish, Outcome, Start, View},
     motion::Motion,

@@ -1,0 +1,216 @@
+//! What springs are judged on: the record at hand where it can be followed, synthetic motions made for the structure, and
+//! earthquake-like motions of real frequencies.
+//!
+//! Housner's answers are found once; the springs of every Omega_n are judged against them.
+
+use rayon::prelude::*;
+use serde::{Deserialize, Serialize};
+
+use crate::{
+    conditioning::Conditioning,
+    fem::{Case, Control, Outcome, Start},
+    housner::{self, Options},
+    record::Record,
+    spring::{Chain, Springs},
+    structure::Body,
+    synthetic,
+    validate::Stream,
+};
+
+/// Motions of each suite that are followed.
+const SYNTHETIC: usize = 30;
+const EARTHQUAKES: usize = 20;
+/// Motions of each suite that are looked at for them, so many at a time.
+const LOOKED_AT: usize = 240;
+const AT_A_TIME: usize = 40;
+/// Seed of both: not one that `tune validate` takes by itself.
+const SEED: u64 = 1940;
+/// Sensitivity of Housner's answer below which earthquake-like motions count in their geometric mean.
+pub const PREDICTABLE: f64 = 150.0;
+
+/// A motion and Housner's answer to it.
+#[derive(Clone, Debug)]
+pub struct Trial {
+    dt: f64,
+    accel: Vec<f64>,
+    /// Housner's rotations at the samples [rad].
+    theta: Vec<f64>,
+}
+
+impl Trial {
+    /// The motion, if Housner's body rocks on it without overturning, and how well conditioned that is.
+    fn new(body: &Body<f64>, restitution: f64, record: Record) -> Option<(Self, Conditioning)> {
+        let options = Options { restitution: Some(restitution), ..Options::default() };
+        let Record { dt, accel, .. } = record;
+        let rocking = housner::solve(body, dt, &accel, &options);
+        let rocks = rocking.outcome == housner::Outcome::Rocked && !rocking.impacts.is_empty();
+        rocks.then(|| {
+            let conditioning = Conditioning::new(body, dt, &accel, &options);
+            (Self { dt, accel, theta: rocking.theta }, conditioning)
+        })
+    }
+
+    /// NRMSE of u and of v on these springs; infinite if the history does not get to the record's end.
+    pub fn errors(&self, body: &Body<f64>, springs: &Springs<Chain<f64>>, control: Control) -> (f64, f64) {
+        let mut stream = Stream::new(body, &self.theta, &self.accel);
+        let case =
+            Case { body: *body, springs: *springs, start: Start::Settled, dt: self.dt, accel: &self.accel, scale: 1.0, control };
+        match case.observe(&mut stream).outcome {
+            Outcome::Completed => (stream.horizontal.value(), stream.vertical.value()),
+            _ => (f64::INFINITY, f64::INFINITY),
+        }
+    }
+}
+
+/// A statistic of errors (NRMSE of u), and over how many motions.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+pub struct Statistic {
+    pub value: f64,
+    pub count: usize,
+}
+
+/// The error of springs against Housner, measured; `None` where there is no motion to measure it on.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]
+pub struct Accuracy {
+    /// NRMSE of u or v, the larger, on the record at hand, if Housner's answer to it is well conditioned.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub record: Option<f64>,
+    /// Median over the well-conditioned of the synthetic motions made for the structure.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub synthetic_median: Option<Statistic>,
+    /// 90 % of these are below it.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub synthetic_p90: Option<Statistic>,
+    /// Geometric mean over the earthquake-like motions on which Housner's sensitivity is below 150.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub earthquakes_mean: Option<Statistic>,
+}
+
+/// How much more the 90 % quantile and the earthquake-like motions may have than the accuracy asked for.
+const LOOSER: f64 = 5.0;
+
+impl Accuracy {
+    /// The largest error, in units of what an accuracy allows: at most 1 if it is reached; 0 if nothing was measured.
+    pub fn over(&self, accuracy: f64) -> f64 {
+        let all = [
+            self.record.map(|x| x / accuracy),
+            self.synthetic_median.map(|s| s.value / accuracy),
+            self.synthetic_p90.map(|s| s.value / (LOOSER * accuracy)),
+            self.earthquakes_mean.map(|s| s.value / (LOOSER * accuracy)),
+        ];
+        all.into_iter().flatten().fold(0.0, f64::max)
+    }
+}
+
+/// All motions that springs of a body are judged on.
+#[derive(Clone, Debug)]
+pub struct Suites {
+    body: Body<f64>,
+    record: Option<Trial>,
+    synthetic: Vec<Trial>,
+    earthquakes: Vec<Trial>,
+}
+
+impl Suites {
+    /// Of a body that lands with velocity restitution `restitution`, with this record if there is one.
+    pub fn new(body: &Body<f64>, restitution: f64, record: Option<&Record>) -> Self {
+        let (p, alpha) = (body.p_squared().sqrt(), body.alpha());
+        let trial = |record| Trial::new(body, restitution, record);
+        let well = |record| trial(record).filter(|(_, c)| c.well_conditioned()).map(|(trial, _)| trial);
+        let predictable = |record| {
+            trial(record).filter(|(_, c)| c.sensitivity.worst() < PREDICTABLE).map(|(trial, _)| trial)
+        };
+        Self {
+            body: *body,
+            record: record.and_then(|record| well(record.clone())),
+            synthetic: first(SYNTHETIC, |i| well(synthetic::record(SEED, i, p, alpha))),
+            earthquakes: first(EARTHQUAKES, |i| predictable(synthetic::earthquake(SEED, i, p))),
+        }
+    }
+
+    /// Whether the record is one of the motions judged on.
+    pub fn has_record(&self) -> bool {
+        self.record.is_some()
+    }
+
+    /// The error of springs on every suite.
+    pub fn accuracy(&self, springs: &Springs<Chain<f64>>, control: Control) -> Accuracy {
+        let all: Vec<&Trial> = self.record.iter().chain(&self.synthetic).chain(&self.earthquakes).collect();
+        let errors: Vec<(f64, f64)> =
+            all.par_iter().with_max_len(1).map(|trial| trial.errors(&self.body, springs, control)).collect();
+        let (record, rest) = errors.split_at(usize::from(self.record.is_some()));
+        let (synthetic, earthquakes) = rest.split_at(self.synthetic.len());
+        let mut sorted: Vec<f64> = synthetic.iter().map(|e| e.0).collect();
+        sorted.sort_by(f64::total_cmp);
+        let statistic = |value: Option<f64>, count| value.map(|value| Statistic { value, count });
+        Accuracy {
+            record: record.first().map(|(u, v)| u.max(*v)),
+            synthetic_median: statistic(quantile(&sorted, 0.5), sorted.len()),
+            synthetic_p90: statistic(quantile(&sorted, 0.9), sorted.len()),
+            earthquakes_mean: statistic(geometric_mean(earthquakes.iter().map(|e| e.0)), earthquakes.len()),
+        }
+    }
+
+    /// The error on the record, or the median of the synthetic motions where it cannot be followed: one number for a figure.
+    pub fn error(&self, springs: &Springs<Chain<f64>>, control: Control) -> Option<f64> {
+        if let Some(record) = &self.record {
+            return Some(record.errors(&self.body, springs, control).0);
+        }
+        let found = self.synthetic.par_iter().with_max_len(1).map(|trial| trial.errors(&self.body, springs, control).0);
+        let mut errors: Vec<f64> = found.collect();
+        errors.sort_by(f64::total_cmp);
+        quantile(&errors, 0.5)
+    }
+}
+
+/// The q-quantile of sorted numbers, linear between the two nearest ranks; infinite if it falls on an infinite one.
+fn quantile(sorted: &[f64], q: f64) -> Option<f64> {
+    let rank = q * sorted.len().checked_sub(1)? as f64;
+    let (low, share) = (rank.floor() as usize, rank.fract());
+    Some(if share == 0.0 { sorted[low] } else { sorted[low] * (1.0 - share) + sorted[low + 1] * share })
+}
+
+/// Geometric mean; a history that lost the motion altogether counts as one that stands still, lest one decide for all.
+fn geometric_mean(errors: impl ExactSizeIterator<Item = f64>) -> Option<f64> {
+    let n = errors.len();
+    (n > 0).then(|| (errors.map(|e| e.clamp(1e-12, 1.0).ln()).sum::<f64>() / n as f64).exp())
+}
+
+/// The first `count` motions of a suite that `pick` finds fit; fewer if the suite has no more.
+fn first(count: usize, pick: impl Fn(usize) -> Option<Trial> + Sync) -> Vec<Trial> {
+    let mut trials: Vec<Trial> = Vec::new();
+    for begin in (0..LOOKED_AT).step_by(AT_A_TIME) {
+        trials.par_extend((begin..begin + AT_A_TIME).into_par_iter().filter_map(&pick));
+        if trials.len() >= count {
+            break;
+        }
+    }
+    trials.truncate(count);
+    trials
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn what_an_accuracy_allows() {
+        let statistic = |value| Some(Statistic { value, count: 30 });
+        let accuracy = Accuracy {
+            record: Some(1e-3),
+            synthetic_median: statistic(1.5e-3),
+            synthetic_p90: statistic(4e-3),
+            earthquakes_mean: statistic(1.2e-2),
+        };
+        assert!((accuracy.over(2e-3) - 1.2).abs() < 1e-12);
+        assert_eq!(Accuracy::default().over(2e-3), 0.0);
+    }
+
+    #[test]
+    fn quantiles_and_means_are_those_worked_by_hand() {
+        assert_eq!(quantile(&[1.0, 2.0, 3.0, 5.0], 0.5), Some(2.5));
+        assert_eq!(quantile(&[1.0, f64::INFINITY], 0.9), Some(f64::INFINITY));
+        assert!((geometric_mean([1e-4, 1e-2, 1e-3].into_iter()).unwrap() - 1e-3).abs() < 1e-15);
+        assert_eq!((quantile(&[], 0.5), geometric_mean([].into_iter())), (None, None));
+    }
+}
