@@ -15,6 +15,8 @@ pub mod landing;
 
 pub mod omega;
 
+mod search;
+
 pub mod suite;
 
 pub mod whole_model;

@@ -12,7 +12,7 @@ use crate::{
     members::{Legs, Members},
     motion::nrmse,
     spring::{Design, Springs},
-    tuning::outer::Benchmark,
+    tuning::arr::outer::Benchmark,
     validate::Stream,
 };
 

@@ -129,7 +129,10 @@ impl Landing<'_> {
         let tuning = &self.case.tuning;
         if whole_model::is_another(&self.body, self.case.restitution) {
             let hz = tuning.max_omega_hz.unwrap_or(BOUNCING_HZ);
-            return Ok((self.alone(self.followed(hz)?), tuning.max_omega_hz.is_some()));
+            let bracket = self.bracket(hz)?;
+            let springs = follow::with_restitution(&self.body, self.case.restitution, bracket, progress);
+            let springs = springs.ok_or(JobError::NoCandidate)?;
+            return Ok((alone(self.suites, &self.body, tuning.accuracy, springs), tuning.max_omega_hz.is_some()));
         }
         let p = self.body.p_squared().sqrt();
         let springs = |stiffness: f64| at(&self.body, stiffness);
@@ -156,30 +159,33 @@ impl Landing<'_> {
         if let Some(tuned) = tuned.as_ref().filter(|tuned| stiff && settles(tuned)) {
             return Ok((tuned.clone(), true));
         }
-        let followed = self.alone(self.followed(cap)?);
+        let followed = self.followed(cap)?;
         let over = |tuned: &Tuned| tuned.best.accuracy.over(tuning.accuracy);
         let best = tuned.into_iter().filter(settles).chain([followed]).min_by(|a, b| over(a).total_cmp(&over(b)));
         Ok((best.ok_or(JobError::NoCandidate)?, true))
     }
 
-    /// The best springs within a cap [Hz].
-    fn followed(&self, cap: f64) -> Result<Springs<Design<f64>>, JobError> {
-        let max_settlement = self.case.tuning.max_settlement_m;
-        let bracket = Bracket { max_hz: cap, max_settlement };
-        let least_m = bracket.least_settlement(follow::LARGEST_K);
-        if least_m > max_settlement {
-            return Err(JobError::Settlement { asked_m: max_settlement, max_hz: cap, least_m });
-        }
-        let found = follow::follow(&self.body, self.case.restitution, bracket).ok_or(JobError::NoCandidate)?;
-        Ok(found.springs)
+    /// The springs within a cap [Hz] that follow the suites best, of those followed down from the stiff limit.
+    fn followed(&self, cap: f64) -> Result<Tuned, JobError> {
+        let accuracy = self.case.tuning.accuracy;
+        let found = follow::follow(&self.body, self.case.restitution, self.bracket(cap)?);
+        let judged = found.into_iter().map(|springs| alone(self.suites, &self.body, accuracy, springs));
+        let over = |tuned: &Tuned| tuned.best.accuracy.over(accuracy);
+        judged.min_by(|a, b| over(a).total_cmp(&over(b))).ok_or(JobError::NoCandidate)
     }
 
-    /// Springs that are not the outer loop's.
-    fn alone(&self, springs: Springs<Design<f64>>) -> Tuned {
-        alone(self.suites, &self.body, self.case.tuning.accuracy, springs)
+    /// A cap [Hz] and the settlement allowed.
+    fn bracket(&self, cap: f64) -> Result<Bracket, JobError> {
+        let bracket = Bracket { max_hz: cap, max_settlement: self.case.tuning.max_settlement_m };
+        let least_m = bracket.least_settlement(follow::LARGEST_K);
+        if least_m > bracket.max_settlement {
+            return Err(JobError::Settlement { asked_m: bracket.max_settlement, max_hz: cap, least_m });
+        }
+        Ok(bracket)
     }
 }
 
+/// Springs that are not the outer loop's.
 fn alone(suites: &Suites, body: &Body<f64>, accuracy: f64, springs: Springs<Design<f64>>) -> Tuned {
     let found = suites.accuracy(&springs.chains(body.mass), Control::search());
     let stiffness = TAU * springs.vertical.omega_n_hz / body.p_squared().sqrt();

@@ -99,7 +99,7 @@ struct Found {
 /// gives the error of a rung over what is allowed.
 fn seek(first: i64, last: i64, guess: i64, judge: &mut dyn FnMut(i64) -> Option<f64>) -> Option<Found> {
     // everything up to `fails` counts as failing, `holds` holds
-    let (mut fails, mut holds) = (first - 1, None);
+    let (mut fails, mut holds): (i64, Option<i64>) = (first - 1, None);
     let mut best: Option<(f64, i64)> = None;
     let mut next = guess.clamp(first, last);
     for _ in 0..MOST_RUNGS {

@@ -14,7 +14,7 @@ use serde::{Deserialize, Serialize};
 
 use super::{
     LEANS,
-    landing::{Drop, next_peak, quarter},
+    landing::{Left, Release, next_peak, quarter},
 };
 use crate::{
     fem::{Case, Change, Control, Observer, Start, View},
@@ -52,8 +52,7 @@ pub fn landings(body: &Body<f64>, chains: &Springs<Chain<f64>>, restitution: f64
 
 fn landing(body: &Body<f64>, chains: &Springs<Chain<f64>>, restitution: f64, lean: f64) -> Option<LandingRow> {
     let control = Control::default();
-    let drop = Drop::new(body, restitution, lean);
-    let (kept, air_s) = drop.run(body, chains, control)?;
+    let Left { kept, air: air_s, .. } = Release::new(body, restitution, lean).run(body, chains, control)?;
     let effective = kept.max(0.0).sqrt();
     let mut speeds = Speeds::default();
     with_next(body, chains, restitution, lean, control, |case| case.observe(&mut speeds));
