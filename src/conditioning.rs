@@ -41,14 +41,6 @@ impl Sensitivity {
     }
 }
 
-pub struct Conditioning { pub sensitivity: Sensitivity }
-impl Conditioning {
-    pub fn new(body: &Body<f64>, dt: f64, accel: &[f64], options: &Options<f64>) -> Self {
-        Self { sensitivity: sensitivity(body, dt, accel, options) }
-    }
-    pub fn well_conditioned(&self) -> bool { self.sensitivity.worst() < ILL_CONDITIONED }
-}
-
 /// The sensitivity of a history: record and options as in [`solve`]. A body that never moves has none: zero.
 pub fn sensitivity(body: &Body<f64>, dt: f64, accel: &[f64], options: &Options<f64>) -> Sensitivity {
     type Dual = DualSVec64<2>;

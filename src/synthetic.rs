@@ -72,26 +72,6 @@ pub fn record(seed: u64, index: usize, p: f64, alpha: f64) -> Record {
     Record { name: format!("{kind}-{index:04}"), dt, accel }
 }
 
-const EARTHQUAKES: u64 = 1 << 63;
-pub fn earthquake(seed: u64, index: usize, p: f64) -> Record {
-    let mut random = Random::new(seed, EARTHQUAKES | index as u64);
-    let dt = if random.sign() > 0.0 { 0.005 } else { 0.01 };
-    let pga = GRAVITY * random.between(0.2, 0.9);
-    let motion = noise::Noise {
-        omega_g: random.log_between(9.0, 36.0),
-        zeta_g: random.between(0.2, 0.6),
-        duration: random.between(20.0, 60.0),
-    };
-    let mut accel = motion.sampled(dt, &mut random);
-    let peak = accel.iter().fold(0.0, |peak: f64, a| peak.max(a.abs()));
-    for a in &mut accel {
-        *a *= pga / peak;
-    }
-    let silence = (8.0 / p).min(60.0).max(2.0);
-    accel.resize(accel.len() + (silence / dt).ceil() as usize, 0.0);
-    Record { name: format!("earthquake-{index:04}"), dt, accel }
-}
-
 /// The largest of 1, 2, 5 times a power of ten that is at most x.
 fn round_step(x: f64) -> f64 {
     let decade = x.log10().floor() as i32;
