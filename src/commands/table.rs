@@ -4,6 +4,7 @@ use comfy_table::{Table, presets};
 
 use crate::{
     compare::Match,
+    motion::shown,
     parameters::Parameters,
     tuning::{
         front::{Errors, Point},
@@ -45,8 +46,8 @@ fn match_rows(p: &Parameters) -> Vec<Vec<String>> {
         row("peak horizontal displacement", mm(m.peak_horizontal_housner_m), &|m| mm(m.peak_horizontal_fem_m)),
         row("peak vertical displacement", mm(m.peak_vertical_housner_m), &|m| mm(m.peak_vertical_fem_m)),
         row("impacts", m.impacts_housner.to_string(), &|m| m.impacts_fem.to_string()),
-        row("NRMSE horizontal", none(), &|m| format!("{:.4}", m.nrmse_horizontal)),
-        row("NRMSE vertical", none(), &|m| format!("{:.4}", m.nrmse_vertical)),
+        row("NRMSE horizontal", none(), &|m| shown(m.nrmse_horizontal)),
+        row("NRMSE vertical", none(), &|m| shown(m.nrmse_vertical)),
         row("largest error of restitution", none(), &|m| percent(m.restitution_error_max)),
         row("the same, landings as hard as a fall from 0.02 alpha", none(), &|m| {
             m.restitution_error_firm.map_or(none(), percent)
@@ -156,7 +157,7 @@ const FRONT: [&str; 5] = ["springs up to", "impact: NRMSE u", "v", "paper's proc
 
 fn front_rows(front: &[Point]) -> Vec<[String; 5]> {
     let pair = |e: Option<Errors>| match e {
-        Some(e) => [format!("{:.4}", e.nrmse_u), format!("{:.4}", e.nrmse_v)],
+        Some(e) => [shown(e.nrmse_u), shown(e.nrmse_v)],
         None => ["-".to_string(), "-".to_string()],
     };
     front
