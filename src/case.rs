@@ -14,6 +14,7 @@
 //! [record]                   # left out: El Centro 1940 NS
 //! file = "motion.at2"        # relative to the case file
 //! scale = 1.0
+//! duration_s = 20.0          # left out: all of it
 //!
 //! [tuning]
 //! objective = "landing"      # or "arr", the paper's
@@ -26,6 +27,7 @@ use serde::{Deserialize, Serialize};
 use thiserror::Error;
 
 use crate::{
+    excitation::Excitation,
     members::{Damper, Friction, Legs, Members, MembersError, Tendon},
     message::one_line,
     record::{ReadOptions, Record, RecordError, Units},
@@ -96,9 +98,9 @@ struct RecordSection {
     dt_s: Option<f64>,
     /// "g", "m/s2" or "cm/s2", where the file does not say.
     units: Option<Units>,
-    /// Factor on the acceleration.
+    /// Factor on the acceleration; 1 unless given.
     scale: Option<f64>,
-    /// Length to compare over [s].
+    /// Length to compare over [s]; the whole record unless given.
     duration_s: Option<f64>,
 }
 
@@ -164,6 +166,9 @@ pub struct Case {
     pub restitution: f64,
     /// Elastic legs, dampers, a tendon, friction: not tuned for, but simulated with the tuned springs.
     pub members: Members<f64>,
+    /// The record as read, its scale, the length asked for: what `record` and `duration_s` come from.
+    pub excitation: Excitation,
+    /// The whole record, scaled.
     pub record: Record,
     /// Length to compare over [s].
     pub duration_s: f64,
@@ -171,9 +176,6 @@ pub struct Case {
     pub target: Target,
     pub bounds: Bounds,
 }
-
-/// The length compared unless the user says otherwise [s].
-pub const DURATION_S: f64 = 20.0;
 
 /// No record is longer [s].
 pub const LONGEST_S: f64 = 1e6;
@@ -224,25 +226,35 @@ impl Case {
             }
             None => Record::el_centro(),
         };
-        let record = match section.scale {
-            Some(scale) => record.scaled(scale)?,
-            None => record,
-        };
-        let duration_s = section.duration_s.unwrap_or(DURATION_S);
-        if !(duration_s > 0.0 && duration_s <= LONGEST_S) {
-            return Err(value("record.duration_s", duration_s, "give seconds greater than zero, at most 1e6"));
+        if let Some(asked) = section.duration_s.filter(|asked| !(*asked > 0.0 && *asked <= LONGEST_S)) {
+            return Err(value("record.duration_s", asked, "give seconds greater than zero, at most 1e6"));
         }
+        let excitation = Excitation { record, scale: section.scale.unwrap_or(1.0), duration_s: section.duration_s };
         file.tuning.check(path)?;
         Ok(Self {
             structure,
             restitution,
             members,
-            record,
-            duration_s,
+            record: excitation.scaled()?,
+            duration_s: excitation.duration(),
+            excitation,
             tuning: file.tuning,
             target: file.target.unwrap_or_default(),
             bounds: file.bounds,
         })
+    }
+}
+
+impl Case {
+    /// The case under another ground motion.
+    ///
+    /// # Errors
+    /// A scale that is not finite, or takes the peak above 50 g.
+    pub fn set_excitation(&mut self, excitation: Excitation) -> Result<(), RecordError> {
+        self.record = excitation.scaled()?;
+        self.duration_s = excitation.duration();
+        self.excitation = excitation;
+        Ok(())
     }
 }
 
@@ -340,84 +352,4 @@ fn unknown_key(message: &str) -> Option<(String, Option<String>)> {
 }
 
 #[cfg(test)]
-mod tests {
-    use super::*;
-
-    const STRUCTURE: &str = "[structure]\nkind = \"block\"\nheight_m = 1.0\nwidth_m = 0.5\nmass_kg = 100.0\n";
-
-    fn message(extra: &str) -> String {
-        Case::parse("case.toml", &format!("{STRUCTURE}{extra}")).unwrap_err().to_string()
-    }
-
-    #[test]
-    fn the_papers_case_is_the_papers_structure_on_el_centro() {
-        let case = Case::paper().unwrap();
-        assert_eq!(case.structure.mass_kg, 680.1e3);
-        assert_eq!((case.structure.height_m, case.structure.width_m), (61.0, 12.2));
-        assert_eq!(case.record.name, "IELC180");
-        assert_eq!(case.duration_s, 20.0);
-    }
-
-    #[test]
-    fn every_case_in_the_folder_can_be_read() {
-        let folder = Path::new(env!("CARGO_MANIFEST_DIR")).join("tuning");
-        let files = std::fs::read_dir(folder).unwrap().map(|entry| entry.unwrap().path());
-        let cases: Vec<PathBuf> = files.filter(|path| path.extension().is_some_and(|e| e == "toml")).collect();
-        assert!(cases.len() >= 5, "{cases:?}");
-        for path in cases {
-            let case = Case::read(&path).unwrap();
-            assert_eq!(case.tuning.objective, Objective::Landing, "{path:?}");
-        }
-    }
-
-    #[test]
-    fn a_block_has_a_third_of_m_r_squared_unless_given() {
-        let case = Case::parse("case.toml", STRUCTURE).unwrap();
-        assert!((case.structure.rotational_inertia_kgm2 - 100.0 * (1.0 + 0.0625) / 3.0).abs() < 1e-12);
-    }
-
-    #[test]
-    fn an_unknown_key_names_its_line_and_the_nearest_known_key() {
-        assert_eq!(
-            message("[tuning]\nmax_omega_hx = 80.0\n"),
-            "case.toml, line 7: unknown key \"max_omega_hx\"; did you mean \"max_omega_hz\"?"
-        );
-    }
-
-    #[test]
-    fn a_restitution_ratio_multiplies_equation_2() {
-        let case = Case::parse("case.toml", &format!("{STRUCTURE}restitution_ratio = 0.95\n")).unwrap();
-        assert!((case.restitution / case.structure.body::<f64>().restitution() - 0.95).abs() < 1e-15);
-        assert!(message("restitution = 1.2\n").contains("between 0 and 1"));
-        assert!(message("restitution = 0.9\nrestitution_ratio = 0.9\n").contains("not both"));
-    }
-
-    #[test]
-    fn friction_is_read_and_goes_alone() {
-        let members = Case::parse("case.toml", &format!("{STRUCTURE}[friction]\ncoefficient = 0.4\n")).unwrap().members;
-        assert_eq!(members.friction, Some(Friction { coefficient: 0.4 }));
-        let both = message("[friction]\ncoefficient = 0.4\n[damper]\nc_ns_per_m = 1.0\n");
-        assert!(both.starts_with("case.toml: friction.coefficient is given together"), "{both}");
-    }
-
-    #[test]
-    fn members_are_read_and_checked() {
-        let text = "[legs]\nea_n = 1e9\nei_nm2 = 2e9\n[damper]\nc_ns_per_m = 3e5\n[tendon]\nstiffness_n_per_m = 4e5\npretension_n = 5e4\n";
-        let members = Case::parse("case.toml", &format!("{STRUCTURE}{text}")).unwrap().members;
-        assert_eq!(members.legs, Some(Legs { ea: 1e9, ei: 2e9 }));
-        assert_eq!(members.damper, Some(Damper { c: 3e5 }));
-        assert_eq!(members.tendon, Some(Tendon { stiffness: 4e5, pretension: 5e4 }));
-        assert_eq!(
-            message("[legs]\nea_n = 0.0\nei_nm2 = 2e9\n"),
-            "case.toml: legs.ea_n is 0; give a finite number greater than zero"
-        );
-        assert!(message("[damper]\nc = 1.0\n").contains("did you mean \"c_ns_per_m\"?"));
-    }
-
-    #[test]
-    fn bad_values_are_named() {
-        assert!(message("[tuning]\nmass_ratios_vertical = [-1.0]\n").contains("tuning.mass_ratios_vertical is -1"));
-        assert!(message("[record]\nduration_s = nan\n").contains("record.duration_s is NaN"));
-        assert!(message("[tuning]\nmax_omega_hz = \"stiff\"\n").starts_with("case.toml, line 7: invalid type"));
-    }
-}
+mod tests;

@@ -9,7 +9,7 @@ use crate::{
     case::CaseError,
     export::ExportError,
     figures::FigureError,
-    parameters::ParametersError,
+    parameters::{ParametersError, RememberedError},
     record::RecordError,
     tuning::{arr::inner::FitError, job::JobError},
     verify::VerifyError,
@@ -68,6 +68,8 @@ pub enum CommandError {
     Record(#[from] RecordError),
     #[error(transparent)]
     Parameters(#[from] ParametersError),
+    #[error(transparent)]
+    Remembered(#[from] RememberedError),
     #[error(transparent)]
     Fit(#[from] FitError),
     #[error(transparent)]

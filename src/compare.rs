@@ -1,21 +1,30 @@
 //! The finite element history beside Housner's: one set of numbers that says how well springs do.
 
-use serde::{Deserialize, Serialize};
+use serde::{Deserialize, Deserializer, Serialize};
 
 use crate::{
-    fem::History,
+    fem::{History, Landing},
     motion::{Motion, nrmse, peak},
+    overturning::{overturned, samples_until},
     structure::Body,
 };
 
-/// How a finite element history matches Housner's over the same samples.
+/// How a finite element history matches Housner's over the same samples, up to the first overturning of the two: after it there is
+/// nothing to compare. A number that is not finite (an NRMSE of a body that Housner's equation never lifts) is `null` in JSON.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Match {
     /// Length compared [s].
     pub duration_s: f64,
+    /// When each body overturned, that is |theta| last grew past alpha [s].
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub overturned_housner_s: Option<f64>,
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub overturned_fem_s: Option<f64>,
     /// sqrt( sum (u - u_H)^2 / sum u_H^2 ).
+    #[serde(deserialize_with = "number")]
     pub nrmse_horizontal: f64,
     /// The same for v, from the settled position.
+    #[serde(deserialize_with = "number")]
     pub nrmse_vertical: f64,
     /// Largest |u| with its sign [m].
     pub peak_horizontal_housner_m: f64,
@@ -32,6 +41,7 @@ pub struct Match {
     pub settlement_m: f64,
     /// Largest |e_effective/e - 1| over the landings with more than 1 % of the largest kinetic energy; the last is left out, for
     /// its losses may not be complete.
+    #[serde(deserialize_with = "number")]
     pub restitution_error_max: f64,
     /// The same over the firm ones, as hard as a fall from 0.02 of alpha or harder, for which springs are tuned: gentler ones
     /// are partly taken by the elastic stance. None if there are none.
@@ -45,12 +55,18 @@ impl Match {
     /// Compare a history with Housner's motion, both sampled at dt, and the number of his impacts.
     pub fn new(body: &Body<f64>, dt: f64, rocking: (&Motion, usize), fem: &History, restitution: f64) -> Self {
         let (housner, impacts_housner) = rocking;
-        let n = housner.len().min(fem.motion.len());
-        let landings = effective_restitution(fem);
-        let largest = fem.landings.iter().filter(|l| l.impact).map(|l| l.kinetic).fold(0.0, f64::max);
+        let times = [housner, &fem.motion].map(|motion| overturned(body, dt, &motion.theta));
+        let until = times.into_iter().flatten().reduce(f64::min);
+        let n = housner.len().min(fem.motion.len()).min(samples_until(until, dt));
+        let upright = |l: &&Landing| until.is_none_or(|until| l.time <= until);
+        let before = || fem.landings.iter().filter(upright);
+        let landings = effective_restitution(before());
+        let largest = before().filter(|l| l.impact).map(|l| l.kinetic).fold(0.0, f64::max);
         let error = |least: f64| error_above(&landings, restitution, least);
         Self {
             duration_s: n.saturating_sub(1) as f64 * dt,
+            overturned_housner_s: times[0],
+            overturned_fem_s: times[1],
             nrmse_horizontal: nrmse(&fem.motion.u[..n], &housner.u[..n]),
             nrmse_vertical: nrmse(&fem.motion.v[..n], &housner.v[..n]),
             peak_horizontal_housner_m: peak(&housner.u[..n]),
@@ -58,14 +74,19 @@ impl Match {
             peak_vertical_housner_m: peak(&housner.v[..n]),
             peak_vertical_fem_m: peak(&fem.motion.v[..n]),
             impacts_housner,
-            impacts_fem: fem.impacts(),
-            bounces: fem.bounces(),
+            impacts_fem: before().filter(|l| l.impact).count(),
+            bounces: before().filter(|l| l.bounced).count(),
             settlement_m: -fem.initial_z,
             restitution_error_max: error(LANDINGS_THAT_MATTER * largest).unwrap_or(0.0),
             restitution_error_firm: error(body.fall(LEAST_LEAN * body.alpha())),
             energy_residual: fem.energy_residual,
         }
     }
+}
+
+/// A number, or infinity where JSON has none.
+fn number<'de, D: Deserializer<'de>>(from: D) -> Result<f64, D::Error> {
+    Ok(Option::deserialize(from)?.unwrap_or(f64::INFINITY))
 }
 
 /// The least lean from which springs are judged, share of alpha.
@@ -76,13 +97,9 @@ const LANDINGS_THAT_MATTER: f64 = 0.01;
 
 /// Kinetic energy of each impact [J], and sqrt(1 - lost/kinetic): the velocity ratio that loses what the landing lost, up to
 /// the next landing. The last is left out, for its losses may not be complete.
-fn effective_restitution(fem: &History) -> Vec<(f64, f64)> {
-    let mut all: Vec<(f64, f64)> = fem
-        .landings
-        .iter()
-        .filter(|l| l.impact)
-        .map(|l| (l.kinetic, (1.0 - l.lost / l.kinetic).max(0.0).sqrt()))
-        .collect();
+fn effective_restitution<'a>(landings: impl Iterator<Item = &'a Landing>) -> Vec<(f64, f64)> {
+    let mut all: Vec<(f64, f64)> =
+        landings.filter(|l| l.impact).map(|l| (l.kinetic, (1.0 - l.lost / l.kinetic).max(0.0).sqrt())).collect();
     all.pop();
     all
 }

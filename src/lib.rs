@@ -26,6 +26,8 @@ pub mod record;
 
 pub mod synthetic;
 
+pub mod excitation;
+
 pub mod structure;
 
 pub mod spring;
@@ -44,7 +46,11 @@ pub mod regime;
 
 pub mod fem;
 
+pub mod overturning;
+
 pub mod compare;
+
+pub mod verdict;
 
 pub mod parameters;
 

@@ -48,6 +48,15 @@ pub fn nrmse(x: &[f64], reference: &[f64]) -> f64 {
     if above == 0.0 { 0.0 } else { (above / below).sqrt() }
 }
 
+/// An NRMSE with four decimals, or two significant digits where it is smaller; a dash where there is nothing to compare with.
+pub fn shown(nrmse: f64) -> String {
+    if !nrmse.is_finite() {
+        return "-".into();
+    }
+    let decimals = if nrmse > 0.0 { (1.0 - nrmse.log10().floor()).clamp(4.0, 9.0) as usize } else { 4 };
+    format!("{nrmse:.decimals$}")
+}
+
 /// The largest |x|, with its sign; zero for an empty slice.
 pub fn peak(x: &[f64]) -> f64 {
     x.iter().copied().fold(0.0, |best: f64, x| if x.abs() > best.abs() { x } else { best })
@@ -63,6 +72,7 @@ mod tests {
         let scaled: Vec<f64> = reference.iter().map(|x| 1.1 * x).collect();
         assert!((nrmse(&scaled, &reference) - 0.1).abs() < 1e-15);
         assert_eq!(nrmse(&reference, &reference), 0.0);
+        assert_eq!((shown(0.1), shown(nrmse(&reference, &[0.0; 3]))), ("0.1000".into(), "-".into()));
     }
 
     #[test]

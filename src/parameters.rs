@@ -1,5 +1,7 @@
 //! `parameters.json`: the tuned springs as the engineer keeps them, and how well they follow Housner.
 
+mod record;
+
 use std::path::Path;
 
 use serde::{Deserialize, Serialize};
@@ -7,42 +9,50 @@ use thiserror::Error;
 
 use crate::{
     compare::Match,
-    conditioning::Sensitivity,
+    conditioning::Conditioning,
     members::{Damper, Friction, Legs, Members, MembersError, Tendon},
     message::one_line,
-    record::Record,
     scalar::GRAVITY,
     spring::{Chain, ChainRow, Design, Springs},
     structure::{Structure, StructureError},
     tuning::whole_model::report::LandingRow,
+    verdict::Verdict,
 };
+pub use record::{RecordRow, RememberedError, SourceRow};
 
-/// The record the springs were tuned on.
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
-pub struct RecordRow {
-    pub name: String,
-    pub dt_s: f64,
-    pub samples: usize,
-    pub pga_g: f64,
-}
-
-impl RecordRow {
-    /// The row of a record.
-    pub fn new(record: &Record) -> Self {
-        Self { name: record.name.clone(), dt_s: record.dt, samples: record.accel.len(), pga_g: record.pga_g() }
-    }
-}
+/// Version of the keys of parameters.json that this program writes. Version 1 had no number, and remembered of the record only what it was called.
+pub const SCHEMA: u32 = 2;
 
 /// How sensitive Housner's history of that record is: relative change of u per relative change (`conditioning`).
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
-pub struct Conditioning {
+pub struct ConditioningRow {
     pub sensitivity_width: f64,
     pub sensitivity_scale: f64,
+    /// How far finite changes move u, relative to it: each by +-0.1 % and by +-1 %, the larger of both signs.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub moved_by_width: Option<[f64; 2]>,
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub moved_by_scale: Option<[f64; 2]>,
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub moved_by_restitution: Option<[f64; 2]>,
+    /// Whether one of these changes overturns a body that stands otherwise, or the other way round.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub overturning_changes: Option<bool>,
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub well_conditioned: Option<bool>,
 }
 
-impl From<Sensitivity> for Conditioning {
-    fn from(s: Sensitivity) -> Self {
-        Self { sensitivity_width: s.width, sensitivity_scale: s.scale }
+impl From<Conditioning> for ConditioningRow {
+    fn from(c: Conditioning) -> Self {
+        Self {
+            sensitivity_width: c.sensitivity.width,
+            sensitivity_scale: c.sensitivity.scale,
+            moved_by_width: Some(c.changes.width),
+            moved_by_scale: Some(c.changes.scale),
+            moved_by_restitution: Some(c.changes.restitution),
+            overturning_changes: Some(c.changes.overturning),
+            well_conditioned: Some(c.well_conditioned()),
+        }
     }
 }
 
@@ -67,12 +77,21 @@ const DAMPING: (f64, f64) = (0.0, 1e15);
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct Parameters {
+    /// Version of the keys; [`SCHEMA`] in what this program writes.
+    #[serde(default = "first")]
+    pub schema: u32,
     pub structure: Structure,
     /// Velocity restitution e that the springs are to have; by equation 2 unless given.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub restitution: Option<f64>,
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub record: Option<RecordRow>,
+    /// What the springs were tuned for, by its name in the case file.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub objective: Option<String>,
+    /// The error against Housner that was asked for, as an NRMSE of u.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub accuracy: Option<f64>,
     pub vertical: ChainRow,
     pub horizontal: ChainRow,
     /// Elastic legs, dampers across the interface, a tendon, where the structure has them; the springs are tuned for the
@@ -89,7 +108,7 @@ pub struct Parameters {
     #[serde(rename = "match", default, skip_serializing_if = "Option::is_none")]
     pub matched: Option<Match>,
     #[serde(default, skip_serializing_if = "Option::is_none")]
-    pub conditioning: Option<Conditioning>,
+    pub conditioning: Option<ConditioningRow>,
     /// The match of the structure with its members, on the same springs.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub match_with_members: Option<Match>,
@@ -99,6 +118,21 @@ pub struct Parameters {
     /// Beside the springs above, where another objective chose them.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub paper_procedure: Option<PaperProcedure>,
+    /// What the run found, for the file.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub verdict: Option<Verdict>,
+}
+
+/// The one key that is read of a newer file.
+#[derive(Deserialize)]
+struct Version {
+    #[serde(default = "first")]
+    schema: u32,
+}
+
+/// The schema of files that do not say.
+fn first() -> u32 {
+    1
 }
 
 /// What is wrong with a parameter file, and what to do.
@@ -114,6 +148,10 @@ pub enum ParametersError {
         "{path}: {chain}.{name} is {value:?}, {times:.1e} times {scale}; nothing computed from that means anything, give k1, k2 in N/m, m2 in kg, c in N s/m"
     )]
     Absurd { path: String, chain: &'static str, name: &'static str, value: f64, times: f64, scale: &'static str },
+    #[error("{path}: its schema is {schema}, this program reads up to {SCHEMA}; take a newer tune, or tune again")]
+    Schema { path: String, schema: u32 },
+    #[error("{path}: record.{name} is {value:?}; give a finite number greater than zero")]
+    Record { path: String, name: &'static str, value: f64 },
     #[error("{path}: restitution is {value}; a velocity ratio lies between 0 and 1")]
     Restitution { path: String, value: f64 },
     #[error("{path}: {source}")]
@@ -127,9 +165,12 @@ impl Parameters {
     pub fn new(structure: Structure, springs: &Springs<Design<f64>>) -> Self {
         let m1 = structure.mass_kg;
         Self {
+            schema: SCHEMA,
             structure,
             restitution: None,
             record: None,
+            objective: None,
+            accuracy: None,
             vertical: ChainRow::new(&springs.vertical, m1),
             horizontal: ChainRow::new(&springs.horizontal, m1),
             legs: None,
@@ -141,6 +182,7 @@ impl Parameters {
             match_with_members: None,
             landings: Vec::new(),
             paper_procedure: None,
+            verdict: None,
         }
     }
 
@@ -178,6 +220,12 @@ impl Parameters {
     /// # Errors
     /// No JSON, a key missing or not known, a number that cannot be.
     pub fn parse(path: &str, text: &str) -> Result<Self, ParametersError> {
+        // a newer file may have keys that this program does not know
+        if let Ok(Version { schema }) = serde_json::from_str(text)
+            && schema > SCHEMA
+        {
+            return Err(ParametersError::Schema { path: path.to_string(), schema });
+        }
         let parameters: Self = serde_json::from_str(text).map_err(|e| ParametersError::Parse {
             path: path.to_string(),
             line: e.line(),
@@ -187,6 +235,11 @@ impl Parameters {
     }
 
     fn checked(self, path: &str) -> Result<Self, ParametersError> {
+        if let Some(row) = &self.record
+            && let Some(value) = row.duration_s.filter(|d| !(*d > 0.0))
+        {
+            return Err(ParametersError::Record { path: path.to_string(), name: "duration_s", value });
+        }
         self.structure.checked().map_err(|source| ParametersError::Structure { path: path.to_string(), source })?;
         if let Some(value) = self.restitution.filter(|e| !(0.0..=1.0).contains(e)) {
             return Err(ParametersError::Restitution { path: path.to_string(), value });

@@ -10,6 +10,7 @@
 mod at2;
 mod error;
 mod folder;
+mod source;
 mod table;
 mod text;
 mod timing;
@@ -20,6 +21,7 @@ use std::io::Read;
 use std::path::Path;
 
 pub use error::RecordError;
+pub use source::Source;
 pub use units::{Units, UnitsError};
 
 use crate::scalar::GRAVITY;
@@ -29,8 +31,8 @@ const FILE_LIMIT: u64 = 256 << 20;
 /// No earthquake comes near this peak; numbers beyond it are in another unit (g).
 const PGA_LIMIT_G: f64 = 50.0;
 
-/// A ground motion, linear between its samples.
-#[derive(Clone, Debug, PartialEq)]
+/// A ground motion, linear between its samples. Two are equal if their names and numbers are, wherever they come from.
+#[derive(Clone, Debug)]
 pub struct Record {
     /// Name: the file's, without its ending.
     pub name: String,
@@ -38,6 +40,14 @@ pub struct Record {
     pub dt: f64,
     /// Ground acceleration at t = i dt, positive to the right (m/s2).
     pub accel: Vec<f64>,
+    /// Where it comes from, which scaling and cutting do not change.
+    pub source: Source,
+}
+
+impl PartialEq for Record {
+    fn eq(&self, other: &Self) -> bool {
+        (&self.name, self.dt, &self.accel) == (&other.name, other.dt, &other.accel)
+    }
 }
 
 /// What the user says about a file that the file may not say itself.
@@ -66,7 +76,7 @@ impl Record {
     /// # Errors
     /// dt not between 1e-6 and 1 s, no sample, a sample that is not finite, a peak above 50 g.
     pub fn new(name: impl Into<String>, dt: f64, accel: Vec<f64>) -> Result<Self, RecordError> {
-        let record = Self { name: name.into(), dt, accel };
+        let record = Self { name: name.into(), dt, accel, source: Source::Numbers };
         let name = || text::quote(&record.name);
         check_step(&record.name, dt)?;
         if record.accel.is_empty() {
@@ -86,7 +96,8 @@ impl Record {
     pub fn el_centro() -> Self {
         let bytes = include_bytes!("../tuning/records/IELC180.AT2");
         // The file is part of the program and a test reads it: the error cannot occur.
-        Self::parse("IELC180.AT2", bytes, &ReadOptions::default()).unwrap_or_else(|error| unreachable!("{error}"))
+        let record = Self::parse("IELC180.AT2", bytes, &ReadOptions::default());
+        Self { source: Source::Embedded, ..record.unwrap_or_else(|error| unreachable!("{error}")) }
     }
 
     /// The record in a file of any supported format; its name is the file's without the ending.
@@ -107,7 +118,11 @@ impl Record {
         if bytes.len() as u64 > FILE_LIMIT {
             return Err(RecordError::TooLarge { file, limit_mb: FILE_LIMIT >> 20 });
         }
-        Self::parse(&file, &bytes, options)
+        let mut record = Self::parse(&file, &bytes, options)?;
+        if let Source::File { path: named, .. } = &mut record.source {
+            path.clone_into(named);
+        }
+        Ok(record)
     }
 
     /// The record in the bytes of a file; `file` is the file's path, for the record's name and for messages.
@@ -139,7 +154,8 @@ impl Record {
     /// # Errors
     /// The factor is not finite, or takes the peak above 50 g.
     pub fn scaled(&self, factor: f64) -> Result<Self, RecordError> {
-        Self::new(self.name.clone(), self.dt, self.accel.iter().map(|a| a * factor).collect())
+        let scaled = Self::new(self.name.clone(), self.dt, self.accel.iter().map(|a| a * factor).collect())?;
+        Ok(Self { source: self.source.clone(), ..scaled })
     }
 
     /// The first `duration_s` seconds: the samples up to that time, at least the first.
@@ -147,12 +163,19 @@ impl Record {
         // 1e-6 of a step: 20 s at dt = 0.01 s is 2001 samples although 20/0.01 may round to below 2000
         let steps = (duration_s / self.dt + 1e-6).floor();
         let samples = (steps as usize).saturating_add(1).min(self.accel.len());
-        Self { name: self.name.clone(), dt: self.dt, accel: self.accel[..samples].to_vec() }
+        let (name, source) = (self.name.clone(), self.source.clone());
+        Self { name, dt: self.dt, accel: self.accel[..samples].to_vec(), source }
     }
 
     /// Peak ground acceleration (m/s2).
     pub fn pga(&self) -> f64 {
         self.accel.iter().fold(0.0, |peak: f64, a| peak.max(a.abs()))
+    }
+
+    /// Time of the peak ground acceleration, the first if there are several (s).
+    pub fn pga_time(&self) -> f64 {
+        let pga = self.pga();
+        self.accel.iter().position(|a| a.abs() == pga).unwrap_or(0) as f64 * self.dt
     }
 
     /// Peak ground acceleration (g).
@@ -215,7 +238,8 @@ impl Samples {
             (None, None) => return Err(RecordError::NoUnits { file: file() }),
         };
         let factor = units.metres_per_second2();
-        Record::new(file(), dt, self.values.into_iter().map(|value| value * factor).collect())
+        let record = Record::new(file(), dt, self.values.into_iter().map(|value| value * factor).collect())?;
+        Ok(Record { source: Source::File { path: file().into(), units }, ..record })
     }
 }
 

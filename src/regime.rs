@@ -22,6 +22,7 @@
 //! A-frame needs mu >= b/h = tan(alpha), which it needs to lift off anyway.
 
 use crate::housner::Rocking;
+use crate::overturning::samples_until;
 use crate::scalar::GRAVITY;
 use crate::structure::Body;
 
@@ -57,11 +58,13 @@ pub struct Regime {
     pub too_stocky: Option<Stocky>,
 }
 
-/// Check a history against the record (m/s2) and scale that made it, at the samples and on either side of each impact.
+/// Check a history against the record (m/s2) and scale that made it, at the samples and on either side of each impact, up to its
+/// overturning: what a body asks of the ground while it falls is no question of rocking.
 pub fn check(body: &Body<f64>, dt: f64, accel: &[f64], scale: f64, rocking: &Rocking<f64>, friction: f64) -> Regime {
     let mut worst = Worst { friction: Demand { value: 0.0, time: 0.0 }, lowest: 1.0, flight: None };
     let mut impacts = rocking.impacts.iter().peekable();
-    for (i, (&theta, &rate)) in rocking.theta.iter().zip(&rocking.rate).enumerate() {
+    let upright = samples_until(rocking.overturned(), dt);
+    for (i, (&theta, &rate)) in rocking.theta.iter().zip(&rocking.rate).enumerate().take(upright) {
         let time = i as f64 * dt;
         while let Some(impact) = impacts.next_if(|impact| impact.time <= time) {
             let x = impact.time / dt;

@@ -12,6 +12,13 @@
 //! because a body first lifts at g tan(alpha) and topples more easily the longer the motion pushes one way, measured in
 //! 1/p: so some records hardly lift it and some, one in ten to one in four, topple it. Frequencies are spread evenly in
 //! their logarithm, amplitudes evenly. A silence of 8/p follows each motion, for the body to topple or to come back in.
+//!
+//! A second suite ([`earthquake`]) knows nothing of the structure: filtered noise of the frequencies, amplitudes and lengths of real
+//! earthquakes, on which tall structures sway before they lift, and small ones are hardly lifted or toppled at once.
+//!
+//! ```text
+//! omega_g = 9 to 36 rad/s    zeta_g = 0.2 to 0.6    PGA = 0.2 to 0.9 g    20 to 60 s    dt = 0.005 or 0.01 s
+//! ```
 
 mod noise;
 mod pulse;
@@ -19,7 +26,7 @@ mod random;
 
 pub use pulse::Pulse;
 
-use crate::record::Record;
+use crate::record::{Record, Source};
 use crate::scalar::GRAVITY;
 use random::Random;
 
@@ -63,13 +70,40 @@ pub fn record(seed: u64, index: usize, p: f64, alpha: f64) -> Record {
             ("noise", motion.sampled(dt, &mut random), pga)
         }
     };
-    let peak = accel.iter().fold(0.0, |peak: f64, a| peak.max(a.abs()));
-    for a in &mut accel {
-        *a *= pga / peak;
-    }
+    scale_to(pga, &mut accel);
     let silence = (8.0 / (p * dt)).ceil() as usize;
     accel.resize(accel.len() + silence, 0.0);
-    Record { name: format!("{kind}-{index:04}"), dt, accel }
+    Record { name: format!("{kind}-{index:04}"), dt, accel, source: Source::Synthetic }
+}
+
+/// Numbers of this suite are drawn from streams that [`record`] does not use.
+const EARTHQUAKES: u64 = 1 << 63;
+
+/// Motion `index` of the suite of earthquakes of a seed. It depends on the seed and on the index alone; only the silence at its end is
+/// as long as the structure needs to topple or to come to rest: 8/p, p in 1/s, at least 2 s and at most 60 s.
+pub fn earthquake(seed: u64, index: usize, p: f64) -> Record {
+    let mut random = Random::new(seed, EARTHQUAKES | index as u64);
+    let dt = if random.sign() > 0.0 { 0.005 } else { 0.01 };
+    let pga = GRAVITY * random.between(0.2, 0.9);
+    let motion = noise::Noise {
+        omega_g: random.log_between(9.0, 36.0),
+        zeta_g: random.between(0.2, 0.6),
+        duration: random.between(20.0, 60.0),
+    };
+    let mut accel = motion.sampled(dt, &mut random);
+    scale_to(pga, &mut accel);
+    let p = if p.is_nan() { 0.0 } else { p.max(0.0) };
+    let silence = (8.0 / p).clamp(2.0, 60.0);
+    accel.resize(accel.len() + (silence / dt).ceil() as usize, 0.0);
+    Record { name: format!("earthquake-{index:04}"), dt, accel, source: Source::Earthquake }
+}
+
+/// Scale to a peak.
+fn scale_to(pga: f64, accel: &mut [f64]) {
+    let peak = accel.iter().fold(0.0, |peak: f64, a| peak.max(a.abs()));
+    for a in accel {
+        *a *= pga / peak;
+    }
 }
 
 /// The largest of 1, 2, 5 times a power of ten that is at most x.

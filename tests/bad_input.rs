@@ -563,3 +563,89 @@ fn options_beyond_all_measure_or_given_twice() {
         refuses(&[], args, &[word]);
     }
 }
+
+/// The parameters of `PARAMETERS` with this record.
+fn remembering(record: serde_json::Value) -> String {
+    let mut all: serde_json::Value = serde_json::from_str(PARAMETERS).unwrap();
+    all["record"] = record;
+    all.to_string()
+}
+
+fn record_row(source: serde_json::Value) -> serde_json::Value {
+    serde_json::json!({
+        "name": "a", "dt_s": 0.01, "samples": 3, "pga_g": 0.3, "scale": 1.0, "duration_s": 0.02,
+        "fnv1a_64": "0123456789abcdef", "source": source,
+    })
+}
+
+/// Each command that uses the record a parameters.json remembers.
+const USERS: [&[&str]; 3] = [
+    &["simulate", "--parameters", "p.json"],
+    &["verify", "--parameters", "p.json"],
+    &["export", "--parameters", "p.json", "--format", "csv", "--out", "springs.csv"],
+];
+
+#[test]
+fn a_remembered_record_that_is_missing_or_has_changed() {
+    let file = |path: &str| record_row(serde_json::json!({"kind": "file", "file": path, "path": path, "units": "g"}));
+    let (there, missing) = (remembering(file("a.txt")), remembering(file("b.txt")));
+    let numbers = remembering(record_row(serde_json::json!({"kind": "numbers"})));
+    let embedded = remembering(record_row(serde_json::json!({"kind": "embedded"})));
+    for args in USERS {
+        let refuse =
+            |text: &str, words: &[&str]| refuses(&[("p.json", text), ("a.txt", "0.1\n0.3\n-0.2\n")], args, words);
+        refuse(&there, &["p.json: its record a.txt has changed", "not 0123456789abcdef", "--record"]);
+        refuse(&missing, &["p.json: its record b.txt is not there", "--record"]);
+        refuse(&numbers, &["p.json: its record a was made by a program", "--record"]);
+        refuse(&embedded, &["its record the embedded El Centro has changed"]);
+    }
+    for text in ["0.1\nx\n", ""] {
+        refuses(&[("p.json", &there), ("a.txt", text)], USERS[0], &["a.txt"]);
+    }
+}
+
+#[test]
+fn a_remembered_record_that_cannot_be() {
+    let refuse = |text: &str, words: &[&str]| refuses(&[("p.json", text)], USERS[0], words);
+    let embedded = || record_row(serde_json::json!({"kind": "embedded"}));
+    let mut short = embedded();
+    short["duration_s"] = (-1.0).into();
+    refuse(&remembering(short), &["p.json: record.duration_s is -1"]);
+    let mut typed = embedded();
+    typed["scale"] = "one".into();
+    refuse(&remembering(typed), &["p.json", "expected f64"]);
+    refuse(&remembering(record_row(serde_json::json!({"kind": "cloud"}))), &["unknown variant `cloud`"]);
+    let huge = "{\"kind\": \"embedded\"}";
+    let text = remembering(serde_json::json!({
+        "name": "a", "dt_s": 0.01, "samples": 3, "pga_g": 0.3, "scale": 1e300,
+        "source": serde_json::from_str::<serde_json::Value>(huge).unwrap(),
+    }));
+    refuse(&text, &["above 50 g"]);
+}
+
+#[test]
+fn parameters_of_a_newer_program() {
+    let mut all: serde_json::Value = serde_json::from_str(PARAMETERS).unwrap();
+    all["schema"] = 99.into();
+    all["of_the_future"] = true.into();
+    refuses(&[("p.json", &all.to_string())], USERS[0], &["p.json: its schema is 99", "reads up to 2"]);
+}
+
+#[test]
+fn a_scale_for_a_remembered_record_that_cannot_be() {
+    let file = [("p.json", PARAMETERS)];
+    let with = |more: &[&'static str]| [USERS[0], more].concat();
+    refuses(&file, &with(&["--scale", "nan"]), &["NaN"]);
+    refuses(&file, &with(&["--scale", "1e300"]), &["above 50 g"]);
+    refuses(&file, &with(&["--duration", "0"]), &["--duration is 0"]);
+    refuses(&file, &with(&["--units", "g"]), &["name it with --record"]);
+}
+
+#[test]
+fn earthquakes_of_no_number() {
+    let validate = |more: &[&'static str]| [&["validate", "--parameters", "p.json"][..], more].concat();
+    let file = [("p.json", PARAMETERS)];
+    refuses(&file, &validate(&["--earthquakes", "0"]), &["--earthquakes"]);
+    refuses(&file, &validate(&["--earthquakes", "many"]), &["many"]);
+    refuses(&file, &validate(&["--seed", "3"]), &["--earthquakes"]);
+}

@@ -115,6 +115,39 @@ fn bad_options_are_refused_in_one_line() {
 }
 
 #[test]
+fn suites_are_judged_apart_and_the_motions_of_one_do_not_depend_on_the_others() {
+    let dir = folder();
+    let suites = ["--synthetic", "2", "--earthquakes", "2", "--seed", "4", "--out"];
+    for (more, out) in [(&RECORDS[..], "all"), (&[], "made")] {
+        let output = validate(dir.path(), &[more, &suites, &[out, "--no-figures"]].concat());
+        assert!(output.status.success(), "{}", String::from_utf8_lossy(&output.stderr));
+        let stdout = String::from_utf8(output.stdout).unwrap();
+        for word in ["| synthetic ", "| earthquakes ", "geometric mean, sensitivity below 150", "e changed by 1e-5"] {
+            assert!(stdout.contains(word), "{word}: {stdout}");
+        }
+    }
+    let read = |out: &str| -> Value {
+        serde_json::from_slice(&fs::read(dir.path().join(out).join("validate.json")).unwrap()).unwrap()
+    };
+    let (all, made) = (read("all"), read("made"));
+    let names = |all: &Value, key: &str| -> Vec<String> {
+        all["records"].as_array().unwrap().iter().map(|row| row[key].as_str().unwrap().to_string()).collect()
+    };
+    let last = ["ricker-0000", "mavroeidis-0001", "earthquake-0000", "earthquake-0001"];
+    assert_eq!(names(&all, "name")[2..], last);
+    assert_eq!(names(&all, "suite"), ["files", "files", "synthetic", "synthetic", "earthquakes", "earthquakes"]);
+    assert_eq!(all["records"].as_array().unwrap()[2..], made["records"].as_array().unwrap()[..]);
+    for suite in ["synthetic", "earthquakes"] {
+        assert_eq!((&all[suite]["count"], &all[suite]["seed"]), (&2.into(), &4.into()));
+        assert_eq!(all["suites"][suite]["count"], 2);
+        assert_eq!(all["suites"][suite], made["suites"][suite]);
+        assert!(all["suites"][suite]["ks_distance_of_housner_changed"].is_f64());
+    }
+    assert!(all["suites"]["files"]["nrmse_geometric_mean"]["mean"].is_f64() && made["suites"]["files"].is_null());
+    assert_eq!(all["count"], 6);
+}
+
+#[test]
 fn simulate_tells_conditioning_and_regime_on_stderr() {
     let dir = folder();
     let args = ["simulate", "--parameters", "parameters.json", "--duration", "6", "--friction"];
@@ -128,6 +161,11 @@ fn simulate_tells_conditioning_and_regime_on_stderr() {
     let stderr = said("0.9");
     assert!(stderr.contains("conditioning: a change of 1 % in width changes Housner's history by "), "{stderr}");
     assert!(stderr.contains("regime: pure rocking holds"), "{stderr}");
+    assert!(stderr.contains("conditioning: changes of 0.1 / 1 % move it by "), "{stderr}");
+    let used =
+        "record IELC180 (embedded), scale 1, first 6 s of 39.94 s used: 601 samples of 0.01 s, PGA 0.3129 g at 2.";
+    assert!(stderr.contains(used), "{stderr}");
+    assert!(stderr.contains("verdict: Housner's body rocked, peak theta/alpha 0."), "{stderr}");
     let stderr = said("0.05");
     assert!(stderr.contains("regime: WARNING: sliding: a friction coefficient of 0."), "{stderr}");
 }

@@ -4,10 +4,15 @@ use std::{fmt::Write, path::PathBuf};
 
 use clap::Args;
 
-use super::{CommandError, members::WithMembers};
+use super::{
+    CommandError,
+    members::{WithMembers, peaks_until},
+};
 use crate::{
     case::LONGEST_S,
     compare::Match,
+    conditioning::Conditioning,
+    excitation::Excitation,
     fem,
     housner::{self, Rocking},
     members::Members,
@@ -15,12 +20,13 @@ use crate::{
     record::{ReadOptions, Record, Units},
     spring::{Chain, Springs},
     structure::Body,
+    verdict::Verdict,
 };
 
 /// Which record, how scaled, how long.
 #[derive(Clone, Debug, Default, Args)]
 pub struct RecordOptions {
-    /// Ground motion: PEER AT2, or text with one or two columns; the embedded El Centro record unless given
+    /// Ground motion: PEER AT2, or text with one or two columns; that of the case or of the parameters unless given
     #[arg(long, value_name = "FILE")]
     pub record: Option<PathBuf>,
     /// Time step, where the file does not say
@@ -29,19 +35,30 @@ pub struct RecordOptions {
     /// g, m/s2 or cm/s2, where the file does not say
     #[arg(long)]
     pub units: Option<Units>,
-    /// Factor on the acceleration
+    /// Factor on the record's acceleration, in place of the case's or the parameters' [default: theirs; 1 with --record]
     #[arg(long, value_name = "FACTOR", allow_negative_numbers = true)]
     pub scale: Option<f64>,
-    /// Length of the history [default: 20]
+    /// Length of the history [default: the case's or the parameters'; the whole record with --record]
     #[arg(long, value_name = "SECONDS", allow_negative_numbers = true)]
     pub duration: Option<f64>,
 }
 
 impl RecordOptions {
-    /// The record asked for, or `default`.
-    pub fn record(&self, default: impl FnOnce() -> Record) -> Result<Record, CommandError> {
-        let record = match &self.record {
-            Some(path) => Record::read(path, &ReadOptions { dt: self.dt, units: self.units })?,
+    /// The ground motion asked for: `default`, of which a scale or a length given replaces its own; or another record,
+    /// whole and unscaled unless something is given.
+    pub fn excitation<E: Into<CommandError>>(
+        &self,
+        default: impl FnOnce() -> Result<Excitation, E>,
+    ) -> Result<Excitation, CommandError> {
+        if let Some(d) = self.duration.filter(|d| !(*d > 0.0 && *d <= LONGEST_S)) {
+            return Err(CommandError::Option {
+                option: "duration",
+                value: format!("{d:?}"),
+                remedy: "give seconds greater than zero, at most 1e6",
+            });
+        }
+        let asked = match &self.record {
+            Some(path) => Excitation::whole(Record::read(path, &ReadOptions { dt: self.dt, units: self.units })?),
             None if self.dt.is_some() || self.units.is_some() => {
                 return Err(CommandError::Option {
                     option: "record",
@@ -49,25 +66,13 @@ impl RecordOptions {
                     remedy: "--dt and --units tell of a file: name it with --record",
                 });
             }
-            None => default(),
+            None => default().map_err(Into::into)?,
         };
-        Ok(match self.scale {
-            Some(scale) => record.scaled(scale)?,
-            None => record,
+        Ok(Excitation {
+            scale: self.scale.unwrap_or(asked.scale),
+            duration_s: self.duration.or(asked.duration_s),
+            ..asked
         })
-    }
-
-    /// The length asked for [s], or `default`.
-    pub fn duration(&self, default: f64) -> Result<f64, CommandError> {
-        match self.duration {
-            Some(d) if !(d > 0.0 && d <= LONGEST_S) => Err(CommandError::Option {
-                option: "duration",
-                value: format!("{d:?}"),
-                remedy: "give seconds greater than zero, at most 1e6",
-            }),
-            Some(d) => Ok(d),
-            None => Ok(default),
-        }
     }
 }
 
@@ -105,23 +110,45 @@ pub fn both(
     };
     let matched =
         |history: &fem::History| Match::new(body, record.dt, (&motion, rocking.impacts.len()), history, restitution);
-    let (fem, demands) = case.simulate_with(&Members::default());
+    let (fem, mut demands) = case.simulate_with(&Members::default());
     let rigid = matched(&fem);
+    peaks_until(&mut demands, record.dt, rigid.overturned_fem_s);
     let with = (!members.is_none()).then(|| {
-        let (history, demands) = case.simulate_with(members);
+        let (history, mut demands) = case.simulate_with(members);
         let matched = matched(&history);
+        peaks_until(&mut demands, record.dt, matched.overturned_fem_s);
         WithMembers { members: *members, history, demands, matched }
     });
     Both { rocking, housner: motion, fem, matched: rigid, demands, with }
 }
 
 impl Both {
-    /// What to say of finite element histories that ended before the record did.
+    /// What the histories say together; `dt` in s.
+    pub fn verdict(&self, body: &Body<f64>, dt: f64, conditioning: &Conditioning) -> Verdict {
+        Verdict::new(body, dt, (&self.rocking, &self.fem), &self.matched, conditioning)
+    }
+
+    /// That a body overturned, and up to when the histories are compared.
+    fn overturned(&self) -> Option<String> {
+        let m = &self.matched;
+        let words = |time: Option<f64>| time.map_or("stands".into(), |time| format!("overturns at t = {time:.3} s"));
+        (m.overturned_housner_s.or(m.overturned_fem_s)).map(|_| {
+            format!(
+                "Housner's body {}, the body on its springs {}: compared up to t = {:.3} s only",
+                words(m.overturned_housner_s),
+                words(m.overturned_fem_s),
+                m.duration_s
+            )
+        })
+    }
+
+    /// What to say of histories that overturned, or ended before the record did.
     pub fn early(&self) -> Vec<String> {
         let said = |name: &str, history: &fem::History| {
             let (time, why) = match history.outcome {
-                fem::Outcome::Completed | fem::Outcome::Stopped { .. } => return None,
-                fem::Outcome::Overturned { time } => (time, "the body lies flat"),
+                fem::Outcome::Completed | fem::Outcome::Stopped { .. } | fem::Outcome::Overturned { .. } => {
+                    return None;
+                }
                 fem::Outcome::WorkBound { time } => {
                     (time, "given up at the bound on steps; use softer or damped springs")
                 }
@@ -133,8 +160,9 @@ impl Both {
             };
             Some(format!("{name} ends at t = {time:.3} s: {why}; both are compared up to there"))
         };
+        let overturned = self.overturned();
         let with = self.with.as_ref().and_then(|with| said("finite element history with members", &with.history));
-        said("finite element history", &self.fem).into_iter().chain(with).collect()
+        overturned.into_iter().chain(said("finite element history", &self.fem)).chain(with).collect()
     }
 }
 

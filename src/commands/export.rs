@@ -6,7 +6,6 @@ use clap::Args;
 
 use super::{CommandError, common::RecordOptions, output::check_file, write_file};
 use crate::{
-    case::DURATION_S,
     export::{Expected, ExportError, Format, export, with_inertia},
     parameters::Parameters,
     predictability::{moved_by_a_hair, simulate},
@@ -31,31 +30,21 @@ pub struct Options {
 
 pub fn run(o: &Options) -> Result<(), CommandError> {
     check_file(&o.out)?;
-    let (parameters, record) = read(&o.parameters, &o.record)?;
+    let (parameters, record, line) = read(&o.parameters, &o.record)?;
     let history = simulate(&parameters, &record);
     let hair = moved_by_a_hair(&history.motion, &parameters, &record);
     let deck = export(&parameters, &record, &Expected::new(&history, hair), o.format)?;
     write_file(&o.out, deck.as_bytes())?;
-    eprintln!("written to {}", o.out.display());
+    eprintln!("{line}\nwritten to {}", o.out.display());
     Ok(())
 }
 
-/// The model that decks hold, and its record over the length asked for: the length of the file's match unless given.
-pub(super) fn read(file: &Path, options: &RecordOptions) -> Result<(Parameters, Record), CommandError> {
+/// The model that decks hold, the part of its record that is used, and a line that says which: that of the file unless given.
+pub(super) fn read(file: &Path, options: &RecordOptions) -> Result<(Parameters, Record, String), CommandError> {
     let mut parameters = Parameters::read(file)?;
     parameters.structure = with_inertia(&parameters.structure);
-    let matched = parameters.matched.map_or(DURATION_S, |m| m.duration_s);
-    let record = options.record(Record::el_centro)?.truncated(options.duration(matched)?);
-    if let Some(tuned) = &parameters.record
-        && options.record.is_none()
-        && tuned.name != record.name
-    {
-        eprintln!(
-            "the springs were tuned on {}; the deck holds {}: name another with --record",
-            tuned.name, record.name
-        );
-    }
-    Ok((parameters, record))
+    let excitation = options.excitation(|| parameters.excitation(file))?;
+    Ok((parameters, excitation.used()?, excitation.line()))
 }
 
 /// The decks of `tune run`: name in the folder, format.

@@ -11,10 +11,10 @@ use super::{
     write_file,
 };
 use crate::{
-    case::{Case, DURATION_S},
+    case::Case,
     housner::{self, Outcome},
     motion::peak,
-    record::Record,
+    overturning::samples_until,
     structure::Structure,
 };
 
@@ -37,18 +37,18 @@ pub struct Options {
 }
 
 pub fn run(o: &Options) -> Result<(), CommandError> {
-    let (structure, e, record, duration) = match &o.case {
+    let (structure, e, default) = match &o.case {
         Some(path) => {
             let case = Case::read(path)?;
-            let record = o.record.record(|| case.record.clone())?;
-            (case.structure, Some(case.restitution), record, case.duration_s)
+            (case.structure, Some(case.restitution), case.excitation)
         }
-        None => (Structure::paper(), None, o.record.record(Record::el_centro)?, DURATION_S),
+        None => (Structure::paper(), None, Case::paper()?.excitation),
     };
+    let excitation = o.record.excitation(|| Ok::<_, CommandError>(default))?;
     if let Some(path) = &o.out {
         check_file(path)?;
     }
-    let record = record.truncated(o.record.duration(duration)?);
+    let record = excitation.used()?;
     let body = structure.body::<f64>();
     let options = housner::Options { restitution: restitution(o.restitution)?.or(e), ..Default::default() };
     let rocking = housner::solve(&body, record.dt, &record.accel, &options);
@@ -70,19 +70,17 @@ pub fn run(o: &Options) -> Result<(), CommandError> {
         Some(path) => write_file(path, csv.as_bytes())?,
         None => std::io::stdout().write_all(csv.as_bytes())?,
     }
-    let (max, min) = motion.u.iter().fold((0.0_f64, 0.0_f64), |(a, b), &u| (a.max(u), b.min(u)));
+    let upright = samples_until(rocking.overturned(), record.dt).min(motion.len());
+    let (max, min) = motion.u[..upright].iter().fold((0.0_f64, 0.0_f64), |(a, b), &u| (a.max(u), b.min(u)));
     eprintln!(
-        "{}: PGA {:.4} g, {} samples of {} s; u {:+.9} / {:+.9} mm, v {:.6} mm, {} impacts{}",
-        record.name,
-        record.pga_g(),
-        record.accel.len(),
-        record.dt,
+        "{}\nu {:+.9} / {:+.9} mm, v {:.6} mm, {} impacts{}",
+        excitation.line(),
         max * 1e3,
         min * 1e3,
-        peak(&motion.v) * 1e3,
+        peak(&motion.v[..upright]) * 1e3,
         rocking.impacts.len(),
         match rocking.outcome {
-            Outcome::Overturned { time } => format!(", overturned at {time:.3} s"),
+            Outcome::Overturned { time } => format!(", overturned at {time:.3} s (peaks until then)"),
             Outcome::NeverMoved => ", never lifted".into(),
             _ => String::new(),
         }

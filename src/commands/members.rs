@@ -8,8 +8,10 @@ use serde_json::{Map, Value, json};
 use super::common::csv_row;
 use crate::{
     compare::Match,
-    fem::{Demands, History, QUANTITIES},
+    fem::{Demands, History, Peak, QUANTITIES},
     members::Members,
+    motion::shown,
+    overturning::samples_until,
 };
 
 /// A history with members, and what it says.
@@ -30,6 +32,20 @@ pub fn csv(dt: f64, demands: &Demands) -> String {
         csv_row(&mut out, &all);
     }
     out
+}
+
+/// Count the largest forces up to an overturning only, if there is one: those of the fall and of the body on the ground are no
+/// demand of rocking. Times are then those of the samples.
+pub fn peaks_until(demands: &mut Demands, dt: f64, overturned: Option<f64>) {
+    let Some(_) = overturned else { return };
+    demands.peaks = Default::default();
+    for (i, row) in demands.rows.iter().enumerate().take(samples_until(overturned, dt)) {
+        for (peak, &value) in demands.peaks.iter_mut().zip(row) {
+            if value.abs() > peak.value.abs() {
+                *peak = Peak { value, time: i as f64 * dt };
+            }
+        }
+    }
 }
 
 /// Largest forces and their times, as JSON.
@@ -89,11 +105,11 @@ pub fn markdown(rigid: &Demands, with: Option<&WithMembers>) -> String {
         // writing to a String cannot fail
         let _ = writeln!(
             out,
-            "\nWith {} (springs as tuned for the rigid body): NRMSE against Housner {:.4} horizontal, {:.4} vertical, peaks \
+            "\nWith {} (springs as tuned for the rigid body): NRMSE against Housner {} horizontal, {} vertical, peaks \
              {:.2} mm and {:.2} mm, {} impacts, {} bounces, settlement {:.3} mm.",
             names(&w.members),
-            m.nrmse_horizontal,
-            m.nrmse_vertical,
+            shown(m.nrmse_horizontal),
+            shown(m.nrmse_vertical),
             m.peak_horizontal_fem_m * 1e3,
             m.peak_vertical_fem_m * 1e3,
             m.impacts_fem,
@@ -123,7 +139,18 @@ pub fn markdown(rigid: &Demands, with: Option<&WithMembers>) -> String {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::fem::Peak;
+
+    #[test]
+    fn the_largest_forces_are_those_before_the_fall() {
+        let mut demands = Demands::default();
+        demands.rows = [1.0, -3.0, 2.0, 50.0].map(|x| [x; QUANTITIES.len()]).to_vec();
+        demands.peaks = [Peak { value: 50.0, time: 0.033 }; QUANTITIES.len()];
+        let whole = demands.clone();
+        peaks_until(&mut demands, 0.01, None);
+        assert_eq!(demands, whole);
+        peaks_until(&mut demands, 0.01, Some(0.025));
+        assert_eq!(demands.peaks[0], Peak { value: -3.0, time: 0.01 });
+    }
 
     #[test]
     fn forces_stand_in_named_columns_with_their_times() {

@@ -4,7 +4,7 @@ use clap::Args;
 
 use super::CommandError;
 use crate::{
-    conditioning::{self, Sensitivity},
+    conditioning::{Changes, Conditioning},
     housner::{self, Rocking},
     record::Record,
     regime::{self, Regime},
@@ -33,8 +33,10 @@ impl Ground {
 /// Conditioning and regime of Housner's history.
 #[derive(Clone, Copy, Debug)]
 pub struct Report {
-    pub sensitivity: Sensitivity,
+    pub conditioning: Conditioning,
     pub regime: Regime,
+    /// When Housner's body overturned [s].
+    pub overturned_s: Option<f64>,
 }
 
 impl Report {
@@ -42,25 +44,31 @@ impl Report {
     pub fn new(body: &Body<f64>, restitution: f64, record: &Record, rocking: &Rocking<f64>, friction: f64) -> Self {
         let options = housner::Options { restitution: Some(restitution), ..Default::default() };
         Self {
-            sensitivity: conditioning::sensitivity(body, record.dt, &record.accel, &options),
+            conditioning: Conditioning::new(body, record.dt, &record.accel, &options),
             regime: regime::check(body, record.dt, &record.accel, 1.0, rocking, friction),
+            overturned_s: rocking.overturned(),
         }
     }
 
     /// One line each.
     pub fn lines(&self) -> Vec<String> {
-        let s = &self.sensitivity;
+        let s = &self.conditioning.sensitivity;
         let mut lines = vec![format!(
             "conditioning: a change of 1 % in width changes Housner's history by {}, in scale by {}",
             percent(s.width),
             percent(s.scale)
         )];
-        if !s.well_conditioned() {
+        lines.push(finite(&self.conditioning.changes));
+        if !self.conditioning.well_conditioned() {
             lines.push(
-                "conditioning: ILL-CONDITIONED (10 % and more): a one-to-one comparison of histories means nothing here, \
-                 with these springs or any; judge them over many records (tune validate)"
+                "conditioning: ILL-CONDITIONED (by more than ten times a change of width or scale, by 0.1 or more from 0.1 % of \
+                 the restitution, or in its overturning): a one-to-one comparison of histories means nothing here, with these springs \
+                 or any; judge them over many records (tune validate)"
                     .to_string(),
             );
+        }
+        if let Some(time) = self.overturned_s {
+            lines.push(format!("regime: Housner's body overturns at t = {time:.3} s; what follows counts up to then"));
         }
         let warnings = self.regime.warnings();
         if warnings.is_empty() {
@@ -75,6 +83,18 @@ impl Report {
     }
 }
 
+/// What finite changes do to the history.
+fn finite(c: &Changes) -> String {
+    let pair = |[small, large]: [f64; 2]| format!("{small:.4} / {large:.4}");
+    format!(
+        "conditioning: changes of 0.1 / 1 % move it by {} (NRMSE of u) in width, {} in scale, {} in restitution; {}",
+        pair(c.width),
+        pair(c.scale),
+        pair(c.restitution),
+        if c.overturning { "some of them decide on OVERTURNING" } else { "none of them decides on overturning" }
+    )
+}
+
 /// A sensitivity as the change that 1 % makes; above 100 % the linear figure says only that all is lost.
 fn percent(sensitivity: f64) -> String {
     if sensitivity < 100.0 { format!("{sensitivity:.1} %") } else { format!("{sensitivity:.1e} %") }
@@ -83,6 +103,7 @@ fn percent(sensitivity: f64) -> String {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::conditioning::Sensitivity;
     use crate::structure::Structure;
 
     fn report(accel: Vec<f64>, friction: f64) -> Report {
@@ -95,28 +116,35 @@ mod tests {
     #[test]
     fn el_centro_is_reported_as_well_conditioned_and_in_the_regime_of_rocking() {
         let lines = report(Record::el_centro().truncated(20.0).accel, 0.5).lines();
-        assert_eq!(lines.len(), 2, "{lines:?}");
+        assert_eq!(lines.len(), 3, "{lines:?}");
         assert!(lines[0].starts_with("conditioning: a change of 1 % in width changes Housner's history by "));
-        assert!(lines[1].starts_with("regime: pure rocking holds"), "{lines:?}");
+        assert!(lines[1].starts_with("conditioning: changes of 0.1 / 1 % move it by 0.0022 / 0.02"), "{lines:?}");
+        assert!(lines[1].ends_with("none of them decides on overturning"), "{lines:?}");
+        assert!(lines[2].starts_with("regime: pure rocking holds"), "{lines:?}");
     }
 
     #[test]
     fn a_history_that_hangs_on_a_hair_is_said_to_mean_nothing_one_to_one() {
         let mut report = report(vec![0.0; 100], 0.5);
-        report.sensitivity = Sensitivity { width: 3.0, scale: 250.0 };
+        report.conditioning.sensitivity = Sensitivity { width: 3.0, scale: 250.0 };
         let lines = report.lines();
         assert_eq!(
             lines[0],
             "conditioning: a change of 1 % in width changes Housner's history by 3.0 %, in scale by 2.5e2 %"
         );
-        assert!(lines[1].contains("a one-to-one comparison of histories means nothing here"), "{lines:?}");
+        assert!(lines[2].contains("a one-to-one comparison of histories means nothing here"), "{lines:?}");
+        report.conditioning.sensitivity.scale = 2.0;
+        assert!(!report.lines()[2].contains("ILL-CONDITIONED"));
+        report.conditioning.changes.overturning = true;
+        assert!(report.lines()[1].ends_with("some of them decide on OVERTURNING"));
+        assert!(report.lines()[2].contains("ILL-CONDITIONED"));
     }
 
     #[test]
     fn sliding_is_warned_of_with_its_time_and_number() {
         // at rest under 0.08 g the body does not lift, and needs a friction coefficient of 0.08
         let lines = report(vec![0.0, 0.08 * crate::scalar::GRAVITY, 0.0], 0.05).lines();
-        assert!(lines[1].starts_with("regime: WARNING: sliding"), "{lines:?}");
-        assert!(lines[1].contains("0.080 is needed at t = 0.010 s, 0.050 is available"), "{lines:?}");
+        assert!(lines[2].starts_with("regime: WARNING: sliding"), "{lines:?}");
+        assert!(lines[2].contains("0.080 is needed at t = 0.010 s, 0.050 is available"), "{lines:?}");
     }
 }

@@ -61,8 +61,7 @@ pub fn run(o: &Options) -> Result<(), CommandError> {
         Some(path) => Case::read(path)?,
         None => Case::paper()?,
     };
-    case.record = o.record.record(|| case.record.clone())?;
-    case.duration_s = o.record.duration(case.duration_s)?;
+    case.set_excitation(o.record.excitation(|| Ok::<_, CommandError>(case.excitation.clone()))?)?;
     if let Some(hz) = o.max_hz {
         if !(0.1..=1e6).contains(&hz) {
             return Err(CommandError::Option {
@@ -103,7 +102,7 @@ pub fn run(o: &Options) -> Result<(), CommandError> {
         parameters.restitution = Some(case.restitution);
     }
     parameters.landings = landings(&job.body, &parameters.chains(), case.restitution);
-    parameters.record = Some(RecordRow::new(&case.record));
+    parameters.record = Some(RecordRow::new(&case.excitation, &job.record, &o.out));
     parameters.matched = Some(both.matched);
     parameters.match_with_members = both.with.as_ref().map(|with| with.matched);
     if let Some(paper) = job.paper.as_ref().filter(|_| case.tuning.objective == Objective::Landing) {
@@ -114,7 +113,7 @@ pub fn run(o: &Options) -> Result<(), CommandError> {
             Some(PaperProcedure { vertical: paper.vertical, horizontal: paper.horizontal, matched });
     }
     let report = Report::new(&job.body, case.restitution, &job.record, &both.rocking, friction);
-    parameters.conditioning = Some(report.sensitivity.into());
+    parameters.conditioning = Some(report.conditioning.into());
     let dt = job.record.dt;
 
     let write = |e| CommandError::Write { path: o.out.display().to_string(), source: e };
@@ -138,7 +137,7 @@ pub fn run(o: &Options) -> Result<(), CommandError> {
     said.extend(springs_said(&parameters));
     let (springs, said) = (table::terminal(&parameters), said.join("\n"));
     write!(std::io::stdout(), "{springs}\n{said}\n{forces}{}", table::front_terminal(&front))?;
-    eprintln!("written to {}", o.out.display());
+    eprintln!("{}\nwritten to {}", case.excitation.line(), o.out.display());
     Ok(())
 }
 

@@ -12,7 +12,7 @@ use super::{
     report::{Ground, Report},
     write_file,
 };
-use crate::{case::DURATION_S, parameters::Parameters, record::Record};
+use crate::parameters::Parameters;
 
 /// Options of `tune simulate`.
 #[derive(Debug, Args)]
@@ -37,7 +37,8 @@ pub struct Options {
 
 pub fn run(o: &Options) -> Result<(), CommandError> {
     let parameters = Parameters::read(&o.parameters)?;
-    let record = o.record.record(Record::el_centro)?.truncated(o.record.duration(DURATION_S)?);
+    let excitation = o.record.excitation(|| parameters.excitation(&o.parameters))?;
+    let record = excitation.used()?;
     let body = parameters.structure.body::<f64>();
     let e = restitution(o.restitution)?.unwrap_or_else(|| parameters.restitution());
     for path in o.out.iter().chain(&o.forces) {
@@ -52,11 +53,11 @@ pub fn run(o: &Options) -> Result<(), CommandError> {
         let demands = both.with.as_ref().map_or(&both.demands, |with| &with.demands);
         write_file(path, members::csv(record.dt, demands).as_bytes())?;
     }
-    eprintln!("{}: PGA {:.4} g, {} samples of {} s", record.name, record.pga_g(), record.accel.len(), record.dt);
-    for line in Report::new(&body, e, &record, &both.rocking, friction).lines() {
-        eprintln!("{line}");
-    }
-    for line in both.early() {
+    eprintln!("{}", excitation.line());
+    let said = Report::new(&body, e, &record, &both.rocking, friction);
+    let verdict = both.verdict(&body, record.dt, &said.conditioning).lines();
+    let verdict = verdict.into_iter().map(|line| format!("verdict: {line}"));
+    for line in said.lines().into_iter().chain(both.early()).chain(verdict) {
         eprintln!("{line}");
     }
     let report = members::Report::new(&both.matched, &both.demands, both.with.as_ref());

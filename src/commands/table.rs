@@ -4,6 +4,7 @@ use comfy_table::{Table, presets};
 
 use crate::{
     compare::Match,
+    motion::shown,
     parameters::Parameters,
     tuning::{
         front::Point,
@@ -45,8 +46,8 @@ fn match_rows(p: &Parameters) -> Vec<Vec<String>> {
         row("peak horizontal displacement", mm(m.peak_horizontal_housner_m), &|m| mm(m.peak_horizontal_fem_m)),
         row("peak vertical displacement", mm(m.peak_vertical_housner_m), &|m| mm(m.peak_vertical_fem_m)),
         row("impacts", m.impacts_housner.to_string(), &|m| m.impacts_fem.to_string()),
-        row("NRMSE horizontal", none(), &|m| format!("{:.4}", m.nrmse_horizontal)),
-        row("NRMSE vertical", none(), &|m| format!("{:.4}", m.nrmse_vertical)),
+        row("NRMSE horizontal", none(), &|m| shown(m.nrmse_horizontal)),
+        row("NRMSE vertical", none(), &|m| shown(m.nrmse_vertical)),
         row("largest error of restitution", none(), &|m| percent(m.restitution_error_max)),
         row("the same, landings as hard as a fall from 0.02 alpha", none(), &|m| {
             m.restitution_error_firm.map_or(none(), percent)
@@ -162,7 +163,7 @@ const FRONT: [&str; 6] = [
 ];
 
 fn front_rows(front: &[Point]) -> Vec<[String; 6]> {
-    let error = |e: Option<f64>| e.map_or("-".to_string(), |e| format!("{e:.2e}"));
+    let error = |e: Option<f64>| e.map_or("-".to_string(), shown);
     let row = |p: &Point| {
         [
             format!("{:.0}", p.omega_n_hz),

@@ -23,7 +23,8 @@ use crate::{
 
 /// Options of `tune validate`.
 #[derive(Debug, Args)]
-#[command(group = clap::ArgGroup::new("source").required(true).multiple(true).args(["records", "synthetic"]))]
+#[command(group = clap::ArgGroup::new("source").required(true).multiple(true).args(["records", "synthetic", "earthquakes"]))]
+#[command(group = clap::ArgGroup::new("made").multiple(true).args(["synthetic", "earthquakes"]))]
 pub struct Options {
     /// Springs and structure, as `tune run` writes them
     #[arg(long, value_name = "parameters.json")]
@@ -43,8 +44,11 @@ pub struct Options {
     /// This many records made for the structure: Ricker and Mavroeidis-Papageorgiou pulses, filtered noise
     #[arg(long, value_name = "N", value_parser = clap::value_parser!(u32).range(1..=1_000_000))]
     synthetic: Option<u32>,
+    /// This many records like earthquakes, whatever the structure: filtered noise of soils of 9 to 36 rad/s, 0.2 to 0.9 g, 20 to 60 s
+    #[arg(long, value_name = "N", value_parser = clap::value_parser!(u32).range(1..=1_000_000))]
+    earthquakes: Option<u32>,
     /// Seed of the records made
-    #[arg(long, requires = "synthetic", default_value_t = 1)]
+    #[arg(long, requires = "made", default_value_t = 1)]
     seed: u64,
     /// Length of each history [default: the whole record]
     #[arg(long, value_name = "SECONDS", allow_negative_numbers = true)]
@@ -66,12 +70,13 @@ pub struct Options {
     quiet: bool,
 }
 
-/// Where the records come from: files first, in the order of their names, then those made from the seed.
+/// Where the records come from: files first, in the order of their names, then those made from the seed, earthquakes last.
 struct Source {
     files: Vec<PathBuf>,
     read: ReadOptions,
     scale: Option<f64>,
-    made: usize,
+    synthetic: usize,
+    earthquakes: usize,
     seed: u64,
     /// sqrt(m g R/I0) of the structure [1/s].
     p: f64,
@@ -81,12 +86,16 @@ struct Source {
 
 impl Source {
     fn len(&self) -> usize {
-        self.files.len() + self.made
+        self.files.len() + self.synthetic + self.earthquakes
     }
 
     fn record(&self, i: usize) -> Result<Record, RecordError> {
         let Some(file) = self.files.get(i) else {
-            return Ok(synthetic::record(self.seed, i - self.files.len(), self.p, self.alpha));
+            let i = i - self.files.len();
+            return Ok(match i.checked_sub(self.synthetic) {
+                None => synthetic::record(self.seed, i, self.p, self.alpha),
+                Some(i) => synthetic::earthquake(self.seed, i, self.p),
+            });
         };
         let record = Record::read(file, &self.read)?;
         match self.scale {
@@ -119,6 +128,8 @@ struct Report<'a> {
     horizontal: ChainRow,
     #[serde(skip_serializing_if = "Option::is_none")]
     synthetic: Option<Made>,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    earthquakes: Option<Made>,
     #[serde(flatten)]
     validation: &'a Validation,
 }
@@ -143,7 +154,8 @@ pub fn run(o: &Options) -> Result<(), CommandError> {
         files: o.records.as_deref().map_or(Ok(Vec::new()), Record::list_dir)?,
         read: ReadOptions { dt: o.dt, units: o.units },
         scale: o.scale,
-        made: o.synthetic.unwrap_or(0) as usize,
+        synthetic: o.synthetic.unwrap_or(0) as usize,
+        earthquakes: o.earthquakes.unwrap_or(0) as usize,
         seed: o.seed,
         p: body.p_squared().sqrt(),
         alpha: body.alpha(),
@@ -165,7 +177,8 @@ pub fn run(o: &Options) -> Result<(), CommandError> {
         restitution,
         vertical: parameters.vertical,
         horizontal: parameters.horizontal,
-        synthetic: o.synthetic.map(|_| Made { count: source.made, seed: source.seed }),
+        synthetic: o.synthetic.map(|_| Made { count: source.synthetic, seed: source.seed }),
+        earthquakes: o.earthquakes.map(|_| Made { count: source.earthquakes, seed: source.seed }),
         validation: &validation,
     };
     let mut json = serde_json::to_string_pretty(&report).map_err(|e| CommandError::Result(e.to_string()))?;
@@ -179,7 +192,7 @@ pub fn run(o: &Options) -> Result<(), CommandError> {
         draw(o, &validation)?;
     }
     writeln!(std::io::stdout(), "{}", tables::terminal(&validation))?;
-    for name in &validation.failed {
+    for name in &validation.all.failed {
         eprintln!("failed: {name}; see its outcome in {}", o.out.join("validate.csv").display());
     }
     eprintln!("written to {}", o.out.display());
@@ -204,7 +217,7 @@ fn draw(o: &Options, validation: &Validation) -> Result<(), CommandError> {
         &figures::validation::Validation {
             title: &format!("Finite elements on ground springs against Housner, {} records", rows.len()),
             rows: &rows,
-            ks_distance: validation.ks_distance,
+            ks_distance: validation.all.ks_distance,
             well_conditioned: ILL_CONDITIONED,
         },
         &o.out.join("validation.png"),

@@ -50,7 +50,7 @@ pub fn run(o: &Options) -> Result<(), CommandError> {
         Some(command) => Program::Tcl(command.split_whitespace().map(str::to_string).collect()),
         None => Program::Python(o.python.clone()),
     };
-    let (parameters, record) = read(&o.parameters, &o.record)?;
+    let (parameters, record, line) = read(&o.parameters, &o.record)?;
     check_folder(&o.out)?;
     let progress = Progress::new("OpenSees [s]", o.quiet);
     let result = verify(&parameters, &record, &program, &|done, all| progress.tell(done, all, ""));
@@ -62,7 +62,7 @@ pub fn run(o: &Options) -> Result<(), CommandError> {
     write_file(&o.out.join("verify.csv"), csv(&result).as_bytes())?;
     draw(o, &record, &result)?;
     write!(std::io::stdout(), "{}", said(&record, &result))?;
-    eprintln!("written to {}", o.out.display());
+    eprintln!("{line}\nwritten to {}", o.out.display());
     Ok(())
 }
 

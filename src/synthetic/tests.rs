@@ -142,3 +142,40 @@ fn time_steps_are_round() {
         assert!(record(1, 0, p, 0.2).accel.iter().all(|a| a.is_finite()), "{p}");
     }
 }
+
+#[test]
+fn earthquakes_have_the_amplitudes_and_lengths_of_real_ones_whatever_the_structure() {
+    let all: Vec<Record> = (0..200).map(|index| earthquake(3, index, 1.7)).collect();
+    for record in &all {
+        assert!((0.2 * (1.0 - 1e-12)..0.9).contains(&record.pga_g()), "{} {}", record.name, record.pga_g());
+        assert!([0.005, 0.01].contains(&record.dt) && record.source == Source::Earthquake);
+        let silence = record.accel.iter().rev().take_while(|a| **a == 0.0).count() as f64 * record.dt;
+        assert!((8.0 / 1.7..8.0 / 1.7 + 0.03).contains(&silence), "{silence}");
+        assert!((20.0..60.1).contains(&(record.duration() - silence)), "{}", record.duration());
+        assert_eq!(Record::new(record.name.clone(), record.dt, record.accel.clone()).as_ref(), Ok(record));
+    }
+    let mean = all.iter().map(Record::pga_g).sum::<f64>() / 200.0;
+    // four standard errors: 0.7/sqrt(12)/sqrt(200)
+    assert!((mean - 0.55).abs() < 0.06, "{mean}");
+    // another structure has the same motion, and another silence: at least 2 s, at most 60
+    for (p, silence) in [(100.0, 2.0), (1e-3, 60.0), (f64::NAN, 60.0)] {
+        let other = earthquake(3, 7, p);
+        let motion = all[7].len() - (8.0 / 1.7 / all[7].dt).ceil() as usize;
+        assert_eq!(other.accel[..motion], all[7].accel[..motion]);
+        assert_eq!(other.len() - motion, (silence / other.dt).ceil() as usize);
+    }
+}
+
+/// The zero crossings of a narrow band come at its frequency: those of Kanai-Tajimi noise lie about omega_g/pi, 3 to 11 a second.
+#[test]
+fn earthquakes_have_real_frequencies_and_are_drawn_apart_from_the_other_suite() {
+    for index in 0..20 {
+        let record = earthquake(5, index, 1.0);
+        let crossings = record.accel.windows(2).filter(|pair| pair[0] * pair[1] < 0.0).count() as f64;
+        let rate = crossings / (record.duration() - 8.0);
+        assert!((2.0..16.0).contains(&rate), "{rate}");
+        assert_ne!(earthquake(6, index, 1.0).accel, record.accel);
+    }
+    assert_eq!(earthquake(5, 3, 1.0), earthquake(5, 3, 1.0));
+    assert_ne!(Random::new(5, EARTHQUAKES | 2).normal(), Random::new(5, 2).normal());
+}

@@ -56,7 +56,7 @@ impl Trial {
         let case =
             Case { body: *body, springs: *springs, start: Start::Settled, dt: self.dt, accel: &self.accel, scale: 1.0, control };
         match case.observe(&mut stream).outcome {
-            Outcome::Completed => (stream.horizontal.value(), stream.vertical.value()),
+            Outcome::Completed => (stream.errors.horizontal.value(), stream.errors.vertical.value()),
             _ => (f64::INFINITY, f64::INFINITY),
         }
     }

@@ -6,10 +6,9 @@ use serde::Serialize;
 
 use super::{Judge, stream::Stream};
 use crate::{
-    conditioning::{ILL_CONDITIONED, sensitivity},
-    fem,
-    housner::{self, Rocking},
-    record::Record,
+    conditioning::Conditioning,
+    fem, housner,
+    record::{Record, Source},
 };
 
 /// Whether the two models could be compared.
@@ -26,18 +25,43 @@ pub enum Outcome {
     FemFailed,
 }
 
+/// Which set of records a record belongs to.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Serialize)]
+#[serde(rename_all = "snake_case")]
+pub enum Suite {
+    /// Of files, or of numbers from elsewhere.
+    Files,
+    /// Made for the structure.
+    Synthetic,
+    /// Made with the frequencies of earthquakes.
+    Earthquakes,
+}
+
+impl From<&Source> for Suite {
+    fn from(source: &Source) -> Self {
+        match source {
+            Source::Numbers | Source::Embedded | Source::File { .. } => Self::Files,
+            Source::Synthetic => Self::Synthetic,
+            Source::Earthquake => Self::Earthquakes,
+        }
+    }
+}
+
+/// Relative change of the restitution that shows how far Housner's statistics depend on nothing.
+const CHANGE: f64 = 1e-5;
+
 /// What is kept of a record. Options are empty (`null` in JSON) where there is no such number.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct Row {
     pub name: String,
     pub outcome: Outcome,
-    /// Length compared: up to the end of the shorter history [s].
+    /// Length compared: up to the end of the shorter history, and to the first overturning [s].
     pub duration_s: f64,
     /// Peak ground acceleration, scaled as compared [g].
     pub pga_g: f64,
     /// Relative change of Housner's u per relative change of width or record scale, whichever is worse.
     pub sensitivity: f64,
-    /// sqrt( sum (u - u_H)^2 / sum u_H^2 ); none if the record never lifts the body or a model failed.
+    /// sqrt( sum (u - u_H)^2 / sum u_H^2 ), up to the first overturning; none if the record never lifts the body or a model failed.
     pub nrmse_horizontal: Option<f64>,
     /// The same for v, from the settled position.
     pub nrmse_vertical: Option<f64>,
@@ -52,6 +76,16 @@ pub struct Row {
     pub impacts: usize,
     /// Largest |residual| of the finite element model's energy account over the largest energy of the history.
     pub energy_residual: f64,
+    pub suite: Suite,
+    /// By the derivative and by finite changes; false if the record never lifts Housner's body.
+    pub well_conditioned: bool,
+    /// How far a change of 0.1 % and of 1 % in width or scale, whichever is worse, moves Housner's u.
+    pub moved_by_0_1_percent: f64,
+    pub moved_by_1_percent: f64,
+    /// How far a change of 0.1 % in restitution moves it.
+    pub moved_by_0_1_percent_of_restitution: f64,
+    /// As `peak_ratio_housner`, with a restitution smaller by 1e-5 of it.
+    pub peak_ratio_housner_changed: f64,
 }
 
 impl Row {
@@ -60,11 +94,19 @@ impl Row {
         matches!(self.outcome, Outcome::HousnerFailed | Outcome::FemFailed)
     }
 
-    /// Whether Housner's body rocked without toppling and its history is well conditioned: NRMSE means something.
+    /// Whether Housner's body rocked without toppling and its history is well conditioned: NRMSE means something one to one.
     pub fn comparable(&self) -> bool {
-        matches!(self.outcome, Outcome::Rocked | Outcome::FemFailed)
-            && !self.overturned_housner
-            && self.sensitivity < ILL_CONDITIONED
+        self.rocked() && self.well_conditioned
+    }
+
+    /// Whether Housner's body rocked without toppling.
+    pub fn rocked(&self) -> bool {
+        matches!(self.outcome, Outcome::Rocked | Outcome::FemFailed) && !self.overturned_housner
+    }
+
+    /// The NRMSE of a row: at least 1 where one body topples and the other does not, however long they went together.
+    pub fn error(&self, nrmse: Option<f64>) -> Option<f64> {
+        if self.agrees() { nrmse } else { nrmse.map(|x| x.max(1.0)) }
     }
 
     /// Whether both models say the same of overturning.
@@ -82,9 +124,11 @@ impl Judge {
         let record = short.as_ref().unwrap_or(record);
         let (dt, accel) = (record.dt, &record.accel[..]);
         let options = housner::Options { restitution: Some(self.restitution), ..Default::default() };
-        let Rocking { theta, impacts, outcome: end, .. } = housner::solve(body, dt, accel, &options);
-        let lifted = end != housner::Outcome::NeverMoved;
-        let sensitivity = if lifted { sensitivity(body, dt, accel, &options).worst() } else { 0.0 };
+        let rocking = housner::solve(body, dt, accel, &options);
+        let lifted = rocking.outcome != housner::Outcome::NeverMoved;
+        let conditioning = lifted.then(|| Conditioning::new(body, dt, accel, &options));
+        let standing = rocking.overturned().map_or(rocking.theta.len(), |time| (time / dt) as usize + 1);
+        let standing = &rocking.theta[..standing.min(rocking.theta.len())];
 
         let case = fem::Case {
             body: *body,
@@ -95,46 +139,53 @@ impl Judge {
             scale: 1.0,
             control: self.control,
         };
-        let mut stream = Stream::new(body, &theta, accel);
+        let mut stream = Stream::new(body, standing, accel);
         let finish = case.observe(&mut stream);
-        let (horizontal, vertical) = (stream.horizontal.value(), stream.vertical.value());
         let overturned_fem = match finish.outcome {
             fem::Outcome::Overturned { .. } | fem::Outcome::Stopped { .. } => Some(true),
-            fem::Outcome::Completed => Some(self.topples(stream.last)),
+            fem::Outcome::Completed => Some(housner::topples(body, stream.last.0, stream.last.1)),
             fem::Outcome::WorkBound { .. } | fem::Outcome::Unstable { .. } => None,
         };
+        let errors = if overturned_fem == Some(true) { stream.upright } else { stream.errors };
+        let (horizontal, vertical) = (errors.horizontal.value(), errors.vertical.value());
         let finite = !horizontal.is_nan() && !vertical.is_nan() && stream.peak.is_finite();
-        let outcome = match end {
+        let outcome = match rocking.outcome {
             housner::Outcome::WorkBound { .. } | housner::Outcome::NotFinite { .. } => Outcome::HousnerFailed,
             _ if overturned_fem.is_none() || !finite => Outcome::FemFailed,
             housner::Outcome::NeverMoved => Outcome::NeverLifted,
             _ => Outcome::Rocked,
         };
-        let overturned_housner = matches!(end, housner::Outcome::Overturned { .. });
+        let overturned_housner = rocking.overturned().is_some();
         let overturned_fem = overturned_fem.filter(|_| outcome != Outcome::FemFailed);
         let ratio = |peak: f64, overturned| if overturned { FRAC_PI_2 } else { peak } / body.alpha();
+        let peak_of = |rocking: &housner::Rocking<f64>| {
+            let peak = rocking.theta.iter().fold(0.0, |peak: f64, x| peak.max(x.abs()));
+            ratio(peak, rocking.overturned().is_some())
+        };
+        let changed = housner::Options { restitution: Some(self.restitution * (1.0 - CHANGE)), ..options };
+        let changes = conditioning.map(|c| c.changes).unwrap_or_default();
+        let moved = |k: usize| changes.width[k].max(changes.scale[k]);
         let error = |x: f64| (outcome == Outcome::Rocked && x.is_finite()).then_some(x);
         Row {
             name: record.name.clone(),
             outcome,
-            duration_s: theta.len().min(stream.samples).saturating_sub(1) as f64 * dt,
+            duration_s: errors.samples.saturating_sub(1) as f64 * dt,
             pga_g: record.pga_g(),
-            sensitivity,
+            sensitivity: conditioning.map_or(0.0, |c| c.sensitivity.worst()),
             nrmse_horizontal: error(horizontal),
             nrmse_vertical: error(vertical),
-            peak_ratio_housner: ratio(theta.iter().fold(0.0, |peak, x| x.abs().max(peak)), overturned_housner),
+            peak_ratio_housner: peak_of(&rocking),
             peak_ratio_fem: overturned_fem.map(|overturned| ratio(stream.peak, overturned)),
             overturned_housner,
             overturned_fem,
-            impacts: impacts.len(),
+            impacts: rocking.impacts.len(),
             energy_residual: (stream.residual / finish.energy_scale).min(f64::MAX),
+            suite: (&record.source).into(),
+            well_conditioned: conditioning.is_some_and(|c| c.well_conditioned()),
+            moved_by_0_1_percent: moved(0),
+            moved_by_1_percent: moved(1),
+            moved_by_0_1_percent_of_restitution: changes.restitution[0],
+            peak_ratio_housner_changed: peak_of(&housner::solve(body, dt, accel, &changed)),
         }
-    }
-
-    /// Whether a body left alone with this theta [rad] and theta' [rad/s] topples by Housner's equation.
-    fn topples(&self, (theta, rate): (f64, f64)) -> bool {
-        let options = housner::Options { initial: Some((theta, rate)), ..Default::default() };
-        let end = housner::solve(&self.body, 1.0, &[0.0], &options).outcome;
-        matches!(end, housner::Outcome::Overturned { .. })
     }
 }

@@ -1,8 +1,10 @@
 //! What many records say together.
 
+use std::collections::BTreeMap;
+
 use serde::Serialize;
 
-use super::Row;
+use super::{Row, Suite};
 
 /// Overturning in both models, in records.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize)]
@@ -16,7 +18,7 @@ pub struct Confusion {
 }
 
 impl Confusion {
-    fn new(rows: &[Row]) -> Self {
+    fn new(rows: &[&Row]) -> Self {
         let mut table = Self::default();
         for row in rows {
             *match (row.overturned_housner, row.overturned_fem) {
@@ -44,9 +46,9 @@ pub struct Quantiles {
 
 impl Quantiles {
     /// Of all comparable rows; a missing error counts as infinite.
-    fn new(rows: &[Row], error: fn(&Row) -> Option<f64>) -> Self {
+    fn new(rows: &[&Row], nrmse: fn(&Row) -> Option<f64>) -> Self {
         let comparable = rows.iter().filter(|row| row.comparable());
-        let mut errors: Vec<f64> = comparable.map(|row| error(row).unwrap_or(f64::INFINITY)).collect();
+        let mut errors: Vec<f64> = comparable.map(|row| row.error(nrmse(row)).unwrap_or(f64::INFINITY)).collect();
         errors.sort_by(f64::total_cmp);
         Self { count: errors.len(), median: quantile(&errors, 0.5), p90: quantile(&errors, 0.9) }
     }
@@ -82,11 +84,44 @@ pub fn ks_distance(a: &[f64], b: &[f64]) -> f64 {
     widest
 }
 
-/// All records, and what they say together.
+/// Below this sensitivity histories are alike or not, though not one to one: what a geometric mean is taken over.
+pub const PREDICTABLE: f64 = 150.0;
+
+/// The geometric mean of the NRMSE of u over records with a sensitivity below [`PREDICTABLE`] that lift Housner's body and do not
+/// topple it.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize)]
+pub struct GeometricMean {
+    /// How many such records the mean is over.
+    pub count: usize,
+    /// None if there are none. A body that topples on its springs alone counts with 1 at least.
+    pub mean: Option<f64>,
+    /// How many more there are in which a history failed.
+    pub failed: usize,
+}
+
+impl GeometricMean {
+    /// Of all such rows.
+    pub fn new<'a>(rows: impl IntoIterator<Item = &'a Row>) -> Self {
+        let errors: Vec<_> = rows
+            .into_iter()
+            .filter(|row| row.rocked() && row.sensitivity < PREDICTABLE)
+            .map(|row| row.error(row.nrmse_horizontal))
+            .collect();
+        let found: Vec<f64> = errors.iter().flatten().map(|error| error.max(f64::MIN_POSITIVE).ln()).collect();
+        let mean = (!found.is_empty()).then(|| (found.iter().sum::<f64>() / found.len() as f64).exp());
+        Self { count: found.len(), mean, failed: errors.len() - found.len() }
+    }
+}
+
+/// What a set of records says together.
 #[derive(Clone, Debug, PartialEq, Serialize)]
-pub struct Validation {
+pub struct Summary {
+    /// Records in the set.
+    pub count: usize,
     /// Kolmogorov-Smirnov distance of the peak ratios, all records.
     pub ks_distance: f64,
+    /// The same of Housner's peak ratios from his own with a restitution smaller by 1e-5: less than this no model can show.
+    pub ks_distance_of_housner_changed: f64,
     /// Share of the records on whose overturning both models agree; a failure is a disagreement.
     pub overturning_agreement: f64,
     pub overturning: Confusion,
@@ -94,35 +129,61 @@ pub struct Validation {
     pub nrmse_well_conditioned: Quantiles,
     /// NRMSE of v over the same records.
     pub nrmse_vertical_well_conditioned: Quantiles,
+    /// NRMSE of u over all records that are not hopeless.
+    pub nrmse_geometric_mean: GeometricMean,
     /// Records that never lift Housner's body.
     pub never_lifted: usize,
-    /// Records whose histories cannot be compared: toppled, or with a sensitivity of 10 and more.
+    /// Records whose histories cannot be compared one to one: toppled, or not well conditioned.
     pub not_comparable: usize,
     /// Names of the records in which a model failed.
     pub failed: Vec<String>,
     /// Largest energy residual of all finite element histories.
     pub energy_residual_max: f64,
+}
+
+/// All records, what they say together, and what each suite says.
+#[derive(Clone, Debug, PartialEq, Serialize)]
+pub struct Validation {
+    #[serde(flatten)]
+    pub all: Summary,
+    /// Of the suites that are there.
+    pub suites: BTreeMap<Suite, Summary>,
     pub records: Vec<Row>,
 }
 
 impl Validation {
     /// From the rows of all records.
     pub fn new(records: Vec<Row>) -> Self {
-        let (housner, fem): (Vec<f64>, Vec<f64>) = records.iter().map(peaks).unzip();
+        let mut suites = BTreeMap::<Suite, Vec<&Row>>::new();
+        for row in &records {
+            suites.entry(row.suite).or_default().push(row);
+        }
+        let suites = suites.into_iter().map(|(suite, rows)| (suite, Summary::new(&rows))).collect();
+        Self { all: Summary::new(&records.iter().collect::<Vec<_>>()), suites, records }
+    }
+}
+
+impl Summary {
+    /// From the rows of a set.
+    pub fn new(records: &[&Row]) -> Self {
+        let (housner, fem): (Vec<f64>, Vec<f64>) = records.iter().map(|row| peaks(row)).unzip();
+        let changed: Vec<f64> = records.iter().map(|row| row.peak_ratio_housner_changed).collect();
         let never_lifted = records.iter().filter(|row| row.outcome == super::Outcome::NeverLifted).count();
         let comparable = records.iter().filter(|row| row.comparable()).count();
         let agreeing = records.iter().filter(|row| row.agrees()).count();
         Self {
+            count: records.len(),
             ks_distance: ks_distance(&housner, &fem),
+            ks_distance_of_housner_changed: ks_distance(&housner, &changed),
             overturning_agreement: agreeing as f64 / records.len().max(1) as f64,
-            overturning: Confusion::new(&records),
-            nrmse_well_conditioned: Quantiles::new(&records, |row| row.nrmse_horizontal),
-            nrmse_vertical_well_conditioned: Quantiles::new(&records, |row| row.nrmse_vertical),
+            overturning: Confusion::new(records),
+            nrmse_well_conditioned: Quantiles::new(records, |row| row.nrmse_horizontal),
+            nrmse_vertical_well_conditioned: Quantiles::new(records, |row| row.nrmse_vertical),
+            nrmse_geometric_mean: GeometricMean::new(records.iter().copied()),
             never_lifted,
             not_comparable: records.len() - comparable - never_lifted,
             failed: records.iter().filter(|row| row.failed()).map(|row| row.name.clone()).collect(),
             energy_residual_max: records.iter().map(|row| row.energy_residual).fold(0.0, f64::max),
-            records,
         }
     }
 }
@@ -136,95 +197,4 @@ fn peaks(row: &Row) -> (f64, f64) {
 }
 
 #[cfg(test)]
-mod tests {
-    use super::*;
-    use crate::validate::Outcome;
-
-    fn row(peaks: (f64, Option<f64>), overturned: (bool, Option<bool>), sensitivity: f64, error: Option<f64>) -> Row {
-        Row {
-            name: "made-up".into(),
-            outcome: if peaks.1.is_none() { Outcome::FemFailed } else { Outcome::Rocked },
-            duration_s: 20.0,
-            pga_g: 0.3,
-            sensitivity,
-            nrmse_horizontal: error,
-            nrmse_vertical: error,
-            peak_ratio_housner: peaks.0,
-            peak_ratio_fem: peaks.1,
-            overturned_housner: overturned.0,
-            overturned_fem: overturned.1,
-            impacts: 3,
-            energy_residual: 1e-7,
-        }
-    }
-
-    fn rocked(sensitivity: f64, error: f64) -> Row {
-        row((0.5, Some(0.5)), (false, Some(false)), sensitivity, Some(error))
-    }
-
-    /// F_a steps by 1/4 at 1, 2, 3, 4; F_b by 1/5 at 2.5, 3.5, 3.6, 3.7, 5. At x = 2: 2/4 - 0 = 0.5; at 3: 3/4 - 1/5 = 0.55;
-    /// at 3.7: 3/4 - 4/5; at 4: 1 - 4/5.
-    #[test]
-    fn the_ks_distance_is_that_of_a_case_worked_by_hand() {
-        let (a, b) = ([3.0, 1.0, 4.0, 2.0], [5.0, 3.7, 2.5, 3.5, 3.6]);
-        assert!((ks_distance(&a, &b) - 0.55).abs() < 1e-15);
-        assert_eq!(ks_distance(&a, &b), ks_distance(&b, &a));
-    }
-
-    #[test]
-    fn the_ks_distance_of_equal_samples_is_zero_and_of_separate_ones_one() {
-        let toppled = f64::INFINITY;
-        assert_eq!(ks_distance(&[0.2, 0.2, toppled], &[toppled, 0.2, 0.2]), 0.0);
-        assert_eq!(ks_distance(&[0.1, 0.2], &[0.3, toppled]), 1.0);
-        // one tie moved: a third
-        assert!((ks_distance(&[0.2, 0.2, 0.9], &[0.2, 0.9, 0.9]) - 1.0 / 3.0).abs() < 1e-15);
-    }
-
-    #[test]
-    fn overturning_is_counted_in_two_by_two_and_failures_apart() {
-        let flat = 8.0;
-        let rows = vec![
-            row((flat, Some(flat)), (true, Some(true)), 50.0, Some(0.1)),
-            row((flat, Some(0.9)), (true, Some(false)), 50.0, Some(0.9)),
-            row((0.9, Some(flat)), (false, Some(true)), 50.0, Some(0.9)),
-            rocked(2.0, 0.01),
-            row((0.5, None), (false, None), 2.0, None),
-        ];
-        let all = Validation::new(rows);
-        assert_eq!(all.overturning, Confusion { both: 1, housner_only: 1, fem_only: 1, neither: 1, failed: 1 });
-        assert_eq!(all.overturning_agreement, 2.0 / 5.0);
-        assert_eq!(all.failed, ["made-up"]);
-        // Housner 0.5 0.5 0.9 8 8 against 0.5 0.9 8 8 and the failure beyond: at 0.5 and at 0.9 one in five apart, at 8 too
-        assert!((all.ks_distance - 0.2).abs() < 1e-15);
-    }
-
-    #[test]
-    fn only_well_conditioned_records_that_do_not_topple_enter_the_quantiles() {
-        let mut never = rocked(0.0, 0.0);
-        (never.outcome, never.nrmse_horizontal) = (Outcome::NeverLifted, None);
-        let rows = vec![
-            rocked(2.0, 0.04),
-            rocked(9.9, 0.01),
-            rocked(1.0, 0.02),
-            rocked(3.0, 0.03),
-            rocked(10.0, 1.0),
-            row((8.0, Some(8.0)), (true, Some(true)), 2.0, Some(1.0)),
-            never,
-        ];
-        let all = Validation::new(rows);
-        let found = all.nrmse_well_conditioned;
-        // numpy.quantile([0.01, 0.02, 0.03, 0.04], [0.5, 0.9]) = 0.025, 0.037
-        assert_eq!((found.count, all.never_lifted, all.not_comparable), (4, 1, 2));
-        assert!((found.median.unwrap() - 0.025).abs() < 1e-16 && (found.p90.unwrap() - 0.037).abs() < 1e-16);
-    }
-
-    #[test]
-    fn a_history_that_failed_is_an_infinite_error_and_no_number() {
-        let failed = || row((0.5, None), (false, None), 2.0, None);
-        let all = Validation::new(vec![rocked(1.0, 0.01), rocked(1.0, 0.02), failed()]);
-        let found = all.nrmse_well_conditioned;
-        assert_eq!((found.count, found.median, found.p90), (3, Some(0.02), None));
-        let none = Validation::new(vec![]);
-        assert_eq!(none.nrmse_well_conditioned, Quantiles { count: 0, median: None, p90: None });
-    }
-}
+mod tests;

@@ -32,6 +32,14 @@ impl Nrmse {
     }
 }
 
+/// Errors over the samples that both histories have.
+#[derive(Clone, Copy, Debug, Default)]
+pub struct Errors {
+    pub horizontal: Nrmse,
+    pub vertical: Nrmse,
+    pub samples: usize,
+}
+
 /// Watches a finite element history beside Housner's rotations at the same samples.
 pub struct Stream<'a> {
     body: &'a Body<f64>,
@@ -40,8 +48,9 @@ pub struct Stream<'a> {
     /// Index and size of the largest |u_g| of the rest of the record [m/s2].
     strongest: Option<(usize, f64)>,
     initial_z: f64,
-    pub horizontal: Nrmse,
-    pub vertical: Nrmse,
+    pub errors: Errors,
+    /// The same up to the last sample at which the body leaned by alpha or less: what a body that topples is judged by.
+    pub upright: Errors,
     /// Largest |theta| while a foot is off the ground [rad].
     pub peak: f64,
     /// theta [rad] and theta' [rad/s] at the last sample.
@@ -53,7 +62,7 @@ pub struct Stream<'a> {
 }
 
 impl<'a> Stream<'a> {
-    /// Beside Housner's rotations [rad]; `accel` is the record [m/s2].
+    /// Beside Housner's rotations [rad], as far as they shall be compared; `accel` is the record [m/s2].
     pub fn new(body: &'a Body<f64>, housner: &'a [f64], accel: &'a [f64]) -> Self {
         Self {
             body,
@@ -61,8 +70,8 @@ impl<'a> Stream<'a> {
             accel,
             strongest: None,
             initial_z: 0.0,
-            horizontal: Nrmse::default(),
-            vertical: Nrmse::default(),
+            errors: Errors::default(),
+            upright: Errors::default(),
             peak: 0.0,
             last: (0.0, 0.0),
             samples: 0,
@@ -97,10 +106,14 @@ impl Observer<f64> for Stream<'_> {
             self.initial_z = view.z();
         }
         if let Some(&theta) = self.housner.get(index) {
-            self.horizontal.push(view.x(), self.body.u(theta));
-            self.vertical.push(view.z() - self.initial_z, self.body.v(theta));
+            self.errors.horizontal.push(view.x(), self.body.u(theta));
+            self.errors.vertical.push(view.z() - self.initial_z, self.body.v(theta));
+            self.errors.samples = index + 1;
         }
         let theta = view.theta();
+        if theta.abs() <= self.body.alpha() {
+            self.upright = self.errors;
+        }
         if !(view.presses(0) && view.presses(1)) {
             self.peak = self.peak.max(theta.abs());
         }

@@ -85,9 +85,10 @@ fn a_history_that_meets_its_bound_on_work_is_listed_as_failed() {
     let mut judge = judge(&frame());
     judge.control.most_steps = 300;
     judge.duration_s = Some(5.0);
-    let all = judge.judge_all(1, |_| Ok::<_, ()>(Record::el_centro()), |_| {}).unwrap();
-    let row = &all.records[0];
+    let found = judge.judge_all(1, |_| Ok::<_, ()>(Record::el_centro()), |_| {}).unwrap();
+    let row = &found.records[0];
     assert_eq!((row.outcome, row.overturned_fem, row.peak_ratio_fem), (Outcome::FemFailed, None, None));
+    let all = found.all;
     assert_eq!((all.failed, all.overturning_agreement, all.ks_distance), (vec!["IELC180".to_string()], 0.0, 1.0));
 }
 

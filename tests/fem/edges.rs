@@ -7,7 +7,7 @@ use groundspring::{
     fem::{Case, Control, Finish, History, Outcome, Start, View},
     housner::{self, Options},
     motion::nrmse,
-    record::Record,
+    record::{Record, Source},
     scalar::GRAVITY,
     spring::{Chain, Design, Springs},
     structure::{Body, Structure},
@@ -25,7 +25,7 @@ const LIMIT: f64 = 0.25 * GRAVITY;
 
 /// The block from rest on plastic springs.
 fn shaken(hz: f64, dt: f64, accel: &[f64]) -> History {
-    let record = Record { name: "made up".into(), dt, accel: accel.to_vec() };
+    let record = Record { name: "made up".into(), dt, accel: accel.to_vec(), source: Source::Numbers };
     settled(&block(), plastic(hz, block().mass_kg), &record, Control::default())
 }
 

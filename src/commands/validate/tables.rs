@@ -5,39 +5,67 @@ use std::fmt::Write;
 use comfy_table::{Table, presets};
 
 use super::CommandError;
-use crate::{
-    conditioning::ILL_CONDITIONED,
-    validate::{Outcome, Quantiles, Row, Validation},
-};
+use crate::validate::{Confusion, GeometricMean, Outcome, PREDICTABLE, Quantiles, Row, Suite, Summary, Validation};
 
-/// What the records say together: name, value.
-fn summary(v: &Validation) -> Vec<[String; 2]> {
-    let c = &v.overturning;
+/// A line of the summary: what it says of each set of records.
+type Line<'a> = (String, &'a dyn Fn(&Summary) -> String);
+
+/// What the records say together, and each suite of several: head, then name and a value for each set.
+fn summary(v: &Validation) -> (Vec<String>, Vec<Vec<String>>) {
+    let mut sets = vec![("all records", &v.all)];
+    if v.suites.len() > 1 {
+        sets.extend(v.suites.iter().map(|(suite, summary)| (name(*suite), summary)));
+    } else {
+        sets[0].0 = v.suites.keys().next().map_or("no records", |suite| name(*suite));
+    }
     let number = |x: Option<f64>| x.map_or("-".to_string(), |x| format!("{x:.4}"));
     let quantiles = |q: &Quantiles| format!("{} / {}", number(q.median), number(q.p90));
-    let row = |name: &str, value: String| [name.to_string(), value];
-    vec![
-        row("records", v.records.len().to_string()),
-        row("KS distance of the peak rotations", format!("{:.4}", v.ks_distance)),
-        row("agreement on overturning", format!("{:.2} %", 100.0 * v.overturning_agreement)),
-        row(
-            "overturned in both / Housner only / finite elements only / neither",
-            format!("{} / {} / {} / {}", c.both, c.housner_only, c.fem_only, c.neither),
-        ),
-        row("well-conditioned histories compared", v.nrmse_well_conditioned.count.to_string()),
-        row("NRMSE horizontal: median / 90 %", quantiles(&v.nrmse_well_conditioned)),
-        row("NRMSE vertical: median / 90 %", quantiles(&v.nrmse_vertical_well_conditioned)),
-        row(&format!("not compared: toppled, or sensitivity {ILL_CONDITIONED} and more"), v.not_comparable.to_string()),
-        row("never lifted", v.never_lifted.to_string()),
-        row("failed", v.failed.len().to_string()),
-        row("largest energy residual", format!("{:.1e}", v.energy_residual_max)),
-    ]
+    let overturned = |c: &Confusion| format!("{} / {} / {} / {}", c.both, c.housner_only, c.fem_only, c.neither);
+    let mean = |m: &GeometricMean| match m.failed {
+        0 => format!("{} of {}", number(m.mean), m.count),
+        failed => format!("{} of {}, {failed} failed", number(m.mean), m.count),
+    };
+    let lines: [Line; 13] = [
+        ("records".into(), &|s| s.count.to_string()),
+        ("KS distance of the peak rotations".into(), &|s| format!("{:.4}", s.ks_distance)),
+        ("the same, Housner from himself with e changed by 1e-5".into(), &|s| {
+            format!("{:.4}", s.ks_distance_of_housner_changed)
+        }),
+        ("agreement on overturning".into(), &|s| format!("{:.2} %", 100.0 * s.overturning_agreement)),
+        ("overturned in both / Housner only / finite elements only / neither".into(), &|s| overturned(&s.overturning)),
+        ("well-conditioned histories compared".into(), &|s| s.nrmse_well_conditioned.count.to_string()),
+        ("NRMSE horizontal: median / 90 %".into(), &|s| quantiles(&s.nrmse_well_conditioned)),
+        ("NRMSE vertical: median / 90 %".into(), &|s| quantiles(&s.nrmse_vertical_well_conditioned)),
+        (format!("NRMSE horizontal: geometric mean, sensitivity below {PREDICTABLE}"), &|s| {
+            mean(&s.nrmse_geometric_mean)
+        }),
+        ("not compared one to one: toppled, or ill-conditioned".into(), &|s| s.not_comparable.to_string()),
+        ("never lifted".into(), &|s| s.never_lifted.to_string()),
+        ("failed".into(), &|s| s.failed.len().to_string()),
+        ("largest energy residual".into(), &|s| format!("{:.1e}", s.energy_residual_max)),
+    ];
+    let head = [""].into_iter().chain(sets.iter().map(|(name, _)| *name)).map(str::to_string).collect();
+    let rows = lines.iter().map(|(name, value)| {
+        let values = sets.iter().map(|(_, summary)| value(summary));
+        [name.clone()].into_iter().chain(values).collect()
+    });
+    (head, rows.collect())
 }
 
-const HEAD: [&str; 10] = [
+fn name(suite: Suite) -> &'static str {
+    match suite {
+        Suite::Files => "files",
+        Suite::Synthetic => "synthetic",
+        Suite::Earthquakes => "earthquakes",
+    }
+}
+
+const HEAD: [&str; 12] = [
     "record",
     "PGA [g]",
     "sensitivity",
+    "u moved by 0.1 / 1 %",
+    "well conditioned",
     "NRMSE u",
     "NRMSE v",
     "peak |theta|/alpha, Housner",
@@ -47,7 +75,7 @@ const HEAD: [&str; 10] = [
     "impacts",
 ];
 
-fn cells(row: &Row) -> [String; 10] {
+fn cells(row: &Row) -> [String; 12] {
     let number = |x: Option<f64>, none: &str| x.map_or(none.to_string(), |x| format!("{x:.4}"));
     let yes = |x: bool| if x { "yes" } else { "no" }.to_string();
     let missing = match row.outcome {
@@ -61,6 +89,8 @@ fn cells(row: &Row) -> [String; 10] {
         row.name.replace('|', "\\|"),
         format!("{:.4}", row.pga_g),
         if row.sensitivity < 1e4 { format!("{:.2}", row.sensitivity) } else { format!("{:.1e}", row.sensitivity) },
+        format!("{:.4} / {:.4}", row.moved_by_0_1_percent, row.moved_by_1_percent),
+        yes(row.well_conditioned),
         number(row.nrmse_horizontal, missing),
         number(row.nrmse_vertical, missing),
         number(Some(row.peak_ratio_housner), missing),
@@ -73,10 +103,15 @@ fn cells(row: &Row) -> [String; 10] {
 
 /// `validate.md`: the summary, then a row a record.
 pub fn markdown(v: &Validation) -> String {
-    let mut out = String::from("Finite elements on ground springs against Housner.\n\n| all records | |\n|---|---|\n");
-    for [name, value] in summary(v) {
+    let (head, lines) = summary(v);
+    let mut out = format!(
+        "Finite elements on ground springs against Housner.\n\n| {} |\n{}|\n",
+        head.join(" | "),
+        "|---".repeat(head.len())
+    );
+    for line in lines {
         // writing to a String cannot fail
-        let _ = writeln!(out, "| {name} | {value} |");
+        let _ = writeln!(out, "| {} |", line.join(" | "));
     }
     let _ = write!(out, "\n| {} |\n{}|\n", HEAD.map(|h| h.replace('|', "\\|")).join(" | "), "|---".repeat(HEAD.len()));
     for row in &v.records {
@@ -98,7 +133,8 @@ pub fn csv(v: &Validation) -> Result<Vec<u8>, CommandError> {
 /// The summary for a terminal.
 pub fn terminal(v: &Validation) -> String {
     let mut table = Table::new();
-    table.load_style(presets::ASCII_MARKDOWN).set_header(["all records", ""]);
-    table.add_rows(summary(v));
+    let (head, lines) = summary(v);
+    table.load_style(presets::ASCII_MARKDOWN).set_header(head);
+    table.add_rows(lines);
     table.to_string()
 }

@@ -1,0 +1,150 @@
+//! What a run found, in a form that can be filed: what the body did in both models, and whether the two can be compared.
+
+use serde::{Deserialize, Serialize};
+
+use crate::{
+    compare::Match,
+    conditioning::Conditioning,
+    fem::{self, History},
+    housner::{self, Rocking},
+    overturning::{overturned, samples_until},
+    structure::Body,
+};
+
+/// What a body did on a record.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(rename_all = "snake_case")]
+pub enum Fate {
+    /// No foot left the ground.
+    NeverLifted,
+    /// It rocked and stood at the end.
+    Rocked,
+    Overturned,
+    /// The history ended before the record did, without having overturned.
+    Failed,
+}
+
+/// One model's answer.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+pub struct Answer {
+    pub fate: Fate,
+    /// When |theta| last grew past alpha [s].
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub overturned_s: Option<f64>,
+    /// Largest |theta|/alpha, of a body that overturned up to then; zero if it never lifted.
+    pub peak_ratio: f64,
+}
+
+/// Both models' answers to one record, and what their comparison is worth.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+pub struct Verdict {
+    pub housner: Answer,
+    pub finite_elements: Answer,
+    /// Whether Housner's history is well conditioned: whether the two can be compared one to one.
+    pub well_conditioned: bool,
+    /// NRMSE of u and v over the length compared; none where there is nothing to compare.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub nrmse_horizontal: Option<f64>,
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub nrmse_vertical: Option<f64>,
+    /// Length compared: up to the first overturning [s].
+    pub compared_s: f64,
+}
+
+impl Answer {
+    fn of_housner(body: &Body<f64>, dt: f64, rocking: &Rocking<f64>) -> Self {
+        let fate = match rocking.outcome {
+            housner::Outcome::NeverMoved => Fate::NeverLifted,
+            housner::Outcome::Rocked => Fate::Rocked,
+            housner::Outcome::Overturned { .. } => Fate::Overturned,
+            housner::Outcome::WorkBound { .. } | housner::Outcome::NotFinite { .. } => Fate::Failed,
+        };
+        Self::new(body, dt, fate, rocking.overturned(), &rocking.theta)
+    }
+
+    fn of_history(body: &Body<f64>, dt: f64, history: &History) -> Self {
+        let theta = &history.motion.theta;
+        let time = overturned(body, dt, theta);
+        let fate = match history.outcome {
+            _ if time.is_some() => Fate::Overturned,
+            fem::Outcome::WorkBound { .. } | fem::Outcome::Unstable { .. } => Fate::Failed,
+            _ if history.landings.is_empty() && history.airborne == 0.0 => Fate::NeverLifted,
+            _ => Fate::Rocked,
+        };
+        Self::new(body, dt, fate, time, theta)
+    }
+
+    fn new(body: &Body<f64>, dt: f64, fate: Fate, overturned_s: Option<f64>, theta: &[f64]) -> Self {
+        let standing = samples_until(overturned_s, dt).min(theta.len());
+        let peak = theta[..standing].iter().fold(0.0, |peak: f64, x| peak.max(x.abs())) / body.alpha();
+        // a standing finite element body sways without lifting
+        Self { fate, overturned_s, peak_ratio: if fate == Fate::NeverLifted { 0.0 } else { peak } }
+    }
+
+    fn words(&self) -> String {
+        let peak = format!("peak theta/alpha {:.3}", self.peak_ratio);
+        match (self.fate, self.overturned_s) {
+            (Fate::NeverLifted, _) => "never lifted".into(),
+            (Fate::Rocked, _) => format!("rocked, {peak}"),
+            (Fate::Overturned, Some(time)) => format!("OVERTURNED at t = {time:.2} s, {peak} until then"),
+            (Fate::Overturned, None) => "OVERTURNED".into(),
+            (Fate::Failed, _) => format!("has no answer: its history ended early, {peak} until then"),
+        }
+    }
+}
+
+impl Verdict {
+    /// From both histories at the same samples, their match, and the conditioning of Housner's.
+    pub fn new(
+        body: &Body<f64>,
+        dt: f64,
+        (rocking, history): (&Rocking<f64>, &History),
+        matched: &Match,
+        conditioning: &Conditioning,
+    ) -> Self {
+        let housner = Answer::of_housner(body, dt, rocking);
+        let comparable = !matches!(housner.fate, Fate::NeverLifted | Fate::Failed);
+        let number = |x: f64| Some(x).filter(|x| comparable && x.is_finite());
+        Self {
+            housner,
+            finite_elements: Answer::of_history(body, dt, history),
+            well_conditioned: conditioning.well_conditioned(),
+            nrmse_horizontal: number(matched.nrmse_horizontal),
+            nrmse_vertical: number(matched.nrmse_vertical),
+            compared_s: matched.duration_s,
+        }
+    }
+
+    /// Whether both models say the same: overturned, rocked, or stayed down.
+    pub fn agrees(&self) -> bool {
+        self.housner.fate == self.finite_elements.fate && self.housner.fate != Fate::Failed
+    }
+
+    /// A few plain lines for the file.
+    pub fn lines(&self) -> Vec<String> {
+        let mut lines = vec![
+            format!("Housner's body {}", self.housner.words()),
+            format!("the body on its springs {}", self.finite_elements.words()),
+        ];
+        if !self.agrees() {
+            lines.push("WARNING: the two models disagree on what the body does".into());
+        }
+        let errors = self.nrmse_horizontal.zip(self.nrmse_vertical);
+        match errors {
+            None => {}
+            Some((u, v)) if self.well_conditioned => lines.push(format!(
+                "the motion is well conditioned: over {:.2} s the histories differ by {u:.4} in u and {v:.4} in v (NRMSE)",
+                self.compared_s
+            )),
+            Some(_) => lines.push(
+                "the motion is ILL-CONDITIONED: whatever the springs, histories cannot be compared one to one; judge \
+                 them over many motions (tune validate)"
+                    .into(),
+            ),
+        }
+        lines
+    }
+}
+
+#[cfg(test)]
+mod tests;

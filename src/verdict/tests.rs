@@ -1,0 +1,91 @@
+use super::*;
+use crate::{
+    fem::{Case, Control, Start},
+    record::Record,
+    spring::{Design, Springs},
+    structure::Structure,
+};
+
+/// Both models of the paper's frame on plain springs of 640 Hz.
+fn verdict(record: &Record) -> Verdict {
+    let mut structure = Structure::paper();
+    structure.rotational_inertia_kgm2 = 1e-5 * structure.mass_kg * structure.height_m.powi(2);
+    let springs = Springs {
+        vertical: Design::from_kc(0.3, 0.1, 0.75, 640.0),
+        horizontal: Design::from_kc(0.3, 0.57, 1.86, 640.0),
+    };
+    let body = structure.body::<f64>();
+    let (dt, accel, options) = (record.dt, &record.accel[..], housner::Options::default());
+    let rocking = housner::solve(&body, dt, accel, &options);
+    let springs = springs.chains(structure.mass_kg);
+    let (start, control) = (Start::Settled, Control::default());
+    let history = Case { body, springs, start, dt, accel, scale: 1.0, control }.simulate();
+    let motion = rocking.motion(&body);
+    let matched = Match::new(&body, dt, (&motion, rocking.impacts.len()), &history, body.restitution());
+    let conditioning = Conditioning::new(&body, dt, accel, &options);
+    Verdict::new(&body, dt, (&rocking, &history), &matched, &conditioning)
+}
+
+#[test]
+fn el_centro_rocks_the_papers_frame_in_both_models() {
+    let found = verdict(&Record::el_centro().truncated(20.0));
+    assert_eq!((found.housner.fate, found.finite_elements.fate), (Fate::Rocked, Fate::Rocked));
+    // 401.18 mm at the apex (theory: the Taylor reference), u = h sin(theta) + b (1 - cos(theta))
+    assert!((found.housner.peak_ratio * 0.0996687 * 61.0 - 0.40118).abs() < 2e-3, "{found:?}");
+    assert!((found.finite_elements.peak_ratio / found.housner.peak_ratio - 1.0).abs() < 0.01, "{found:?}");
+    assert!(found.well_conditioned && found.agrees());
+    let lines = found.lines();
+    assert!(lines[0].starts_with("Housner's body rocked, peak theta/alpha 0.06"), "{lines:?}");
+    assert!(lines[1].starts_with("the body on its springs rocked, peak theta/alpha 0.06"), "{lines:?}");
+    assert!(
+        lines[2].starts_with("the motion is well conditioned: over 20.00 s the histories differ by 0.0"),
+        "{lines:?}"
+    );
+    assert_eq!(lines.len(), 3);
+}
+
+/// A steady push of 0.15 g: the body passes alpha at acosh(3)/p = 4.4 s (small angles).
+#[test]
+fn a_steady_push_overturns_both_and_numbers_end_there() {
+    let record = Record::new("push", 0.01, vec![0.15 * 9.81; 2000]).unwrap();
+    let found = verdict(&record);
+    for answer in [found.housner, found.finite_elements] {
+        assert_eq!(answer.fate, Fate::Overturned);
+        assert!((answer.overturned_s.unwrap() - 4.4).abs() < 0.1, "{found:?}");
+        assert!((0.98..=1.0).contains(&answer.peak_ratio), "{found:?}");
+    }
+    assert!(found.agrees() && (4.3..4.5).contains(&found.compared_s));
+    assert!(found.nrmse_horizontal.is_some_and(|x| x < 0.05), "{found:?}");
+    assert!(found.lines()[0].starts_with("Housner's body OVERTURNED at t = 4."), "{:?}", found.lines());
+}
+
+#[test]
+fn a_weak_record_lifts_neither_and_leaves_nothing_to_compare() {
+    let found = verdict(&Record::new("weak", 0.01, vec![0.02 * 9.81; 300]).unwrap());
+    assert_eq!((found.housner.fate, found.housner.peak_ratio), (Fate::NeverLifted, 0.0));
+    assert_eq!((found.finite_elements.fate, found.finite_elements.peak_ratio), (Fate::NeverLifted, 0.0));
+    assert_eq!((found.nrmse_horizontal, found.agrees()), (None, true));
+    assert_eq!(found.lines(), ["Housner's body never lifted", "the body on its springs never lifted"]);
+}
+
+#[test]
+fn disagreement_and_ill_conditioning_are_said() {
+    let answer = |fate| Answer { fate, overturned_s: None, peak_ratio: 0.9 };
+    let mut verdict = Verdict {
+        housner: answer(Fate::Rocked),
+        finite_elements: Answer { overturned_s: Some(3.456), ..answer(Fate::Overturned) },
+        well_conditioned: false,
+        nrmse_horizontal: Some(0.3),
+        nrmse_vertical: Some(0.3),
+        compared_s: 3.45,
+    };
+    let lines = verdict.lines();
+    assert_eq!(lines[1], "the body on its springs OVERTURNED at t = 3.46 s, peak theta/alpha 0.900 until then");
+    assert!(lines[2].starts_with("WARNING: the two models disagree"), "{lines:?}");
+    assert!(lines[3].contains("ILL-CONDITIONED"), "{lines:?}");
+    verdict.finite_elements = answer(Fate::Failed);
+    assert!(!verdict.agrees());
+    let json = serde_json::to_string(&verdict).unwrap();
+    assert!(json.contains("\"finite_elements\":{\"fate\":\"failed\",\"peak_ratio\":0.9}"), "{json}");
+    assert_eq!(serde_json::from_str::<Verdict>(&json).unwrap(), verdict);
+}

@@ -1,0 +1,117 @@
+//! What `tune run` used is what later commands use, and what they say they use.
+
+use std::{fs, path::Path, process::Output};
+
+use assert_cmd::Command;
+use groundspring::record::Record;
+use serde_json::Value;
+use tempfile::TempDir;
+
+fn tune(dir: &Path, args: &[&str]) -> Output {
+    let output = Command::cargo_bin("tune").unwrap().current_dir(dir).args(args).output().unwrap();
+    assert!(output.status.success(), "{args:?}: {}", String::from_utf8_lossy(&output.stderr));
+    output
+}
+
+fn json(bytes: &[u8]) -> Value {
+    serde_json::from_slice(bytes).unwrap()
+}
+
+fn stderr(output: &Output) -> String {
+    String::from_utf8(output.stderr.clone()).unwrap()
+}
+
+/// A folder with a case beside a record in cm/s2: El Centro, 12 s of it.
+fn folder() -> TempDir {
+    let dir = TempDir::new().unwrap();
+    let accel = Record::el_centro().truncated(12.0).accel;
+    let column: String = accel.iter().map(|a| format!("{:e}\n", a * 100.0)).collect();
+    fs::create_dir(dir.path().join("motions")).unwrap();
+    fs::write(dir.path().join("motions/centro.txt"), format!("# units: cm/s2\n{column}")).unwrap();
+    let case = "[structure]\nkind = \"aframe\"\nheight_m = 61.0\nwidth_m = 12.2\nmass_kg = 680.1e3\n\
+                [record]\nfile = \"motions/centro.txt\"\ndt_s = 0.01\nscale = 1.5\nduration_s = 8.0\n\
+                [tuning]\nobjective = \"arr\"\nmax_omega_hz = 40.0\ncandidates = 2\n";
+    fs::write(dir.path().join("case.toml"), case).unwrap();
+    dir
+}
+
+const RUN: [&str; 6] = ["run", "case.toml", "--quiet", "--no-figures", "--no-front", "--out"];
+
+#[test]
+fn record_scale_and_duration_are_remembered_until_told_otherwise() {
+    let dir = folder();
+    let run = tune(dir.path(), &[&RUN[..], &["out"]].concat());
+    let used = "scale 1.5, first 8 s of 12 s used: 801 samples of 0.01 s, PGA 0.46";
+    assert!(stderr(&run).contains(used), "{}", stderr(&run));
+    let parameters = json(&fs::read(dir.path().join("out/parameters.json")).unwrap());
+    let row = &parameters["record"];
+    assert_eq!((&parameters["schema"], &row["scale"], &row["duration_s"]), (&2.into(), &1.5.into(), &8.0.into()));
+    assert_eq!((&row["source"]["path"], &row["source"]["units"]), (&"../motions/centro.txt".into(), &"cm/s2".into()));
+    assert!(parameters["conditioning"]["well_conditioned"].is_boolean());
+
+    // from elsewhere, with nothing said
+    let elsewhere = dir.path().join("elsewhere");
+    fs::create_dir(&elsewhere).unwrap();
+    let simulate = ["simulate", "--parameters", "../out/parameters.json"];
+    let output = tune(&elsewhere, &simulate);
+    assert!(stderr(&output).contains(used), "{}", stderr(&output));
+    let found = json(&output.stdout);
+    for key in ["duration_s", "nrmse_horizontal", "nrmse_vertical", "impacts_fem", "peak_horizontal_fem_m"] {
+        assert_eq!(found[key], parameters["match"][key], "{key}");
+    }
+    let export = ["export", "--parameters", "../out/parameters.json", "--format", "markdown", "--out", "springs.md"];
+    assert!(stderr(&tune(&elsewhere, &export)).contains(used));
+
+    // a scale replaces the remembered one, and another record comes whole and unscaled
+    let again = stderr(&tune(&elsewhere, &[&simulate[..], &["--scale", "1", "--duration", "6"]].concat()));
+    assert!(again.contains("centro.txt, in cm/s2), scale 1, first 6 s of 12 s used: 601 samples"), "{again}");
+    let other = ["--record", "../motions/centro.txt", "--dt", "0.01"];
+    let other = stderr(&tune(&elsewhere, &[&simulate[..], &other].concat()));
+    assert!(other.contains("scale 1, all 12 s used: 1201 samples"), "{other}");
+}
+
+#[test]
+fn a_scale_on_the_command_line_replaces_the_cases() {
+    let dir = folder();
+    let run = tune(dir.path(), &[&RUN[..], &["out", "--scale", "1.5"]].concat());
+    assert!(stderr(&run).contains("scale 1.5, first 8 s of 12 s used"), "{}", stderr(&run));
+    let plain = tune(dir.path(), &[&RUN[..], &["plain"]].concat());
+    assert_eq!(run.stdout, plain.stdout);
+    let doubled = stderr(&tune(dir.path(), &["housner", "case.toml", "--scale", "2", "--out", "h.csv"]));
+    assert!(doubled.contains("scale 2, first 8 s of 12 s used"), "{doubled}");
+}
+
+#[test]
+fn the_paper_case_keeps_its_20_s_and_any_other_record_is_used_whole() {
+    let dir = folder();
+    let paper = stderr(&tune(dir.path(), &["housner", "--out", "h.csv"]));
+    let used =
+        "record IELC180 (embedded), scale 1, first 20 s of 39.94 s used: 2001 samples of 0.01 s, PGA 0.3129 g at ";
+    assert!(paper.contains(used), "{paper}");
+    let other = ["housner", "--record", "motions/centro.txt", "--dt", "0.01", "--out", "h.csv"];
+    let other = stderr(&tune(dir.path(), &other));
+    assert!(other.contains("centro.txt, in cm/s2), scale 1, all 12 s used: 1201 samples"), "{other}");
+}
+
+/// A steady push of 0.15 g topples the frame, which passes alpha after acosh(3)/p = 4.4 s and lies flat after some 11 s: nothing after
+/// the first is counted, and no number printed is without meaning.
+#[test]
+fn a_body_that_overturns_is_compared_up_to_there() {
+    let dir = folder();
+    tune(dir.path(), &[&RUN[..], &["out"]].concat());
+    fs::write(dir.path().join("push.txt"), "1.4715\n".repeat(2000)).unwrap();
+    let push = ["--record", "push.txt", "--dt", "0.01", "--units", "m/s2"];
+    let output = tune(dir.path(), &[&["simulate", "--parameters", "out/parameters.json"][..], &push].concat());
+    let (found, said) = (json(&output.stdout), stderr(&output));
+    let time = found["overturned_housner_s"].as_f64().unwrap();
+    assert!((time - 4.4).abs() < 0.1 && found["duration_s"].as_f64().unwrap() <= time, "{found}");
+    // from rest to alpha: h sin(alpha) + b (1 - cos(alpha)) = 6.1 m is the most that counts
+    assert!(found["peak_horizontal_housner_m"].as_f64().unwrap().abs() < 6.1, "{found}");
+    assert!(found["nrmse_horizontal"].as_f64().unwrap() < 2.0, "{found}");
+    assert!(said.contains("verdict: Housner's body OVERTURNED at t = "), "{said}");
+    assert!(
+        said.contains(": compared up to t = ") && said.contains("regime: Housner's body overturns at t = "),
+        "{said}"
+    );
+    assert!(!said.contains("inf") && !said.contains("NaN"), "{said}");
+}
