@@ -96,9 +96,12 @@ pub enum CommandError {
     Option { option: &'static str, value: String, remedy: &'static str },
     #[error("{0}")]
     Result(String),
+    /// What was checked is not so: exit code 1.
+    #[error("{0}")]
+    Failed(String),
 }
 
-/// Parse the arguments and run: exit code 0, or 2 with one line on stderr.
+/// Parse the arguments and run: exit code 0, or with one line on stderr 2, or 1 where a check failed.
 pub fn main() -> ExitCode {
     let cli = match Cli::try_parse() {
         Ok(cli) => cli,
@@ -131,7 +134,7 @@ pub fn main() -> ExitCode {
         Err(e) => {
             let text: String = e.to_string().chars().map(|c| if c.is_control() { ' ' } else { c }).collect();
             eprintln!("error: {text}");
-            ExitCode::from(2)
+            ExitCode::from(if matches!(e, CommandError::Failed(_)) { 1 } else { 2 })
         }
     }
 }

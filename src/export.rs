@@ -19,7 +19,7 @@ use thiserror::Error;
 
 use crate::{fem::History, parameters::Parameters, record::Record};
 use model::Model;
-pub use model::{SMALL_INERTIA, steps_per_sample, with_inertia};
+pub use model::{ACCURACY, SMALL_INERTIA, with_inertia};
 
 /// What to write.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -82,10 +82,12 @@ pub struct Expected {
     pub v: (f64, f64),
     /// NRMSE of u that a relative change of the width by 1e-5 makes in the history: the more, the finer are a deck's steps.
     pub hair: f64,
+    /// Accuracy asked of the deck, as a normalised error of its history: its steps follow from it.
+    pub accuracy: f64,
 }
 
 impl Expected {
-    /// From a history that began settled, and what a hair of width does to it.
+    /// From a history that began settled, and what a hair of width does to it; at the accuracy [`ACCURACY`].
     pub fn new(history: &History, hair: f64) -> Self {
         let range = |x: &[f64]| x.iter().fold((0.0, 0.0), |(max, min): (f64, f64), &x| (max.max(x), min.min(x)));
         Self {
@@ -94,7 +96,13 @@ impl Expected {
             u: range(&history.motion.u),
             v: range(&history.motion.v),
             hair,
+            accuracy: ACCURACY,
         }
+    }
+
+    /// The same at another accuracy.
+    pub fn with_accuracy(self, accuracy: f64) -> Self {
+        Self { accuracy, ..self }
     }
 }
 

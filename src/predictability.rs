@@ -5,7 +5,7 @@
 
 use crate::{
     fem::{Case, Control, History, Start},
-    motion::{Motion, nrmse},
+    motion::{Motion, nrmse, peak},
     parameters::Parameters,
     record::Record,
     structure::Structure,
@@ -14,12 +14,32 @@ use crate::{
 /// Relative change of the width.
 const CHANGE: f64 = 1e-5;
 
+/// Share of the largest u that the same change moves a history by where it can no longer be foretold: a deck's own error is
+/// some ten times as much there, and grows as fast.
+const HANGS: f64 = 1e-4;
+
+/// NRMSE of u by a relative change of the width by 1e-5 up to which a history can be foretold to its end.
+const FORETOLD: f64 = 5e-4;
+
 /// NRMSE of u that a relative change of the width by 1e-5 makes, over the whole of `motion`, the history of the model on
 /// `record`.
 pub fn moved_by_a_hair(motion: &Motion, parameters: &Parameters, record: &Record) -> f64 {
+    nrmse(&changed_by_a_hair(parameters, record).u, &motion.u)
+}
+
+/// The history of the model with that change of the width.
+pub fn changed_by_a_hair(parameters: &Parameters, record: &Record) -> Motion {
     let structure = Structure { width_m: parameters.structure.width_m * (1.0 + CHANGE), ..parameters.structure };
-    let changed = simulate(&Parameters { structure, ..parameters.clone() }, record).motion;
-    nrmse(&changed.u, &motion.u)
+    simulate(&Parameters { structure, ..parameters.clone() }, record).motion
+}
+
+/// How many samples of a history can be foretold, from what a hair of width `changed`; `None` if all can.
+pub fn foretold_until(motion: &Motion, changed: &Motion) -> Option<usize> {
+    if nrmse(&changed.u, &motion.u) <= FORETOLD {
+        return None;
+    }
+    let far = HANGS * peak(&motion.u).abs();
+    motion.u.iter().zip(&changed.u).position(|(a, b)| (a - b).abs() > far)
 }
 
 /// Our own history of a deck's model; `parameters` with inertia.

@@ -1,6 +1,7 @@
 //! The exported deck, run in OpenSees, beside our own history and Housner's.
 
 mod program;
+mod verdict;
 
 use std::{
     fs, io,
@@ -11,19 +12,22 @@ use std::{
 use thiserror::Error;
 
 use crate::{
-    export::{Expected, ExportError, export, steps_per_sample, with_inertia},
+    export::{Expected, ExportError, export, with_inertia},
     housner,
     motion::{Motion, nrmse},
     parameters::Parameters,
-    predictability::{moved_by_a_hair, simulate},
+    predictability::{changed_by_a_hair, foretold_until, simulate},
     record::Record,
 };
 pub use program::Program;
+pub use verdict::{LIMIT, Verdict};
 
-/// Wall time a run may take before it counts as hung: this, and a time per step [s].
+/// Wall time a run may take before it counts as hung: this, and a time per sample of the record [s].
 const PATIENCE: f64 = 120.0;
-/// Some 50 times what a step takes.
-const PATIENCE_PER_STEP: f64 = 5e-3;
+/// Some hundred times what a sample takes.
+const PATIENCE_PER_SAMPLE: f64 = 0.5;
+/// Where OpenSees is off, it is asked once more at this share of the accuracy: does it agree with itself?
+const FINER: f64 = 1.0 / 16.0;
 
 /// Normalised errors of a motion against another, as [`nrmse`].
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -57,14 +61,20 @@ pub struct Verification {
     pub ours_against_housner: Agreement,
     /// Whether the deck found its peaks within 1 % of ours.
     pub within_one_percent: bool,
+    /// Whether OpenSees is within its limit, and how it was judged.
+    pub verdict: Verdict,
+    /// NRMSE of u between OpenSees in these steps and in finer ones, asked where it is not within its limit.
+    pub opensees_against_itself: Option<f64>,
     /// What the deck printed.
     pub report: String,
     /// NRMSE of u that a relative change of the width by 1e-5 makes in our own history.
     pub hair: f64,
     /// Time OpenSees took [s].
     pub seconds: f64,
-    /// Time steps of OpenSees per sample.
-    pub steps_per_sample: usize,
+    /// Steps that OpenSees took.
+    pub steps: usize,
+    /// Touches and lifts of a foot that a step met that was too long for them: above zero, OpenSees' history is in doubt.
+    pub late: usize,
 }
 
 /// Why a deck could not be verified, and what to do.
@@ -94,14 +104,15 @@ pub enum VerifyError {
     Export(#[from] ExportError),
 }
 
-/// Run the deck of `parameters` on `record` in `program` and compare. All that the
-/// deck writes goes to a temporary folder that is removed. `progress` is told how many seconds of how many OpenSees has done.
+/// Run the deck of `parameters` on `record` in `program` and compare; its steps follow from `accuracy`, a normalised error. All
+/// that the deck writes goes to a temporary folder that is removed. `progress` is told how many seconds of how many OpenSees has done.
 ///
 /// # Errors
 /// No such program, no OpenSees in it, an analysis that stops or hangs, no temporary folder.
 pub fn verify(
     parameters: &Parameters,
     record: &Record,
+    accuracy: f64,
     program: &Program,
     progress: &dyn Fn(usize, usize),
 ) -> Result<Verification, VerifyError> {
@@ -112,39 +123,77 @@ pub fn verify(
     let rocking = housner::solve(&body, record.dt, &record.accel, &housner::Options::default());
     let housner = rocking.motion(&body);
 
-    let hair = moved_by_a_hair(&history.motion, parameters, record);
+    let changed = changed_by_a_hair(parameters, record);
+    let hair = nrmse(&changed.u, &history.motion.u);
+    let until = foretold_until(&history.motion, &changed);
+    let deck = Deck { parameters, record, program, progress };
     let expected = Expected::new(&history, hair);
-    let deck = export(parameters, record, &expected, program.format())?;
-    let wrap = |path: &Path| {
-        let path = path.display().to_string();
-        move |source| VerifyError::Folder { path, source }
-    };
-    let folder = tempfile::tempdir().map_err(wrap(&std::env::temp_dir()))?;
-    let path = folder.path().join("deck").with_extension(program.format().ending());
-    fs::write(&path, deck).map_err(wrap(&path))?;
-    let steps_per_sample = steps_per_sample(parameters, record.dt, hair);
-    let steps = (history.motion.len() * steps_per_sample) as f64;
-    let began = Instant::now();
-    let all = (history.motion.len().saturating_sub(1) as f64 * record.dt) as usize;
-    let patience = Duration::from_secs_f64(PATIENCE + PATIENCE_PER_STEP * steps);
-    let run = program.run(&path, patience, &|done| progress(done, all))?;
-    let seconds = began.elapsed().as_secs_f64();
-    let opensees = read_history(&folder.path().join("deck_history.csv"), history.motion.len())?;
+    let run = deck.run(&expected.with_accuracy(accuracy))?;
     let ours = history.motion;
+    let verdict = Verdict::new(&run.motion, &ours, &body, record.dt, until);
+    let finer = match verdict.within {
+        true => None,
+        false => Some(deck.run(&expected.with_accuracy(accuracy * FINER))?.motion),
+    };
     Ok(Verification {
         dt: record.dt,
-        opensees_against_ours: Agreement::new(&opensees, &ours),
-        opensees_against_housner: Agreement::new(&opensees, &housner),
+        opensees_against_ours: Agreement::new(&run.motion, &ours),
+        opensees_against_housner: Agreement::new(&run.motion, &housner),
         ours_against_housner: Agreement::new(&ours, &housner),
-        opensees,
+        opensees_against_itself: finer.map(|finer| nrmse(&run.motion.u[..verdict.samples], &finer.u)),
+        opensees: run.motion,
         ours,
         housner,
         within_one_percent: run.good,
+        verdict,
+        steps: number_before(&run.report, " steps"),
+        late: number_before(&run.report, " touches or lifts"),
         report: run.report,
         hair,
-        seconds,
-        steps_per_sample,
+        seconds: run.seconds,
     })
+}
+
+/// The whole number before these words, zero if they are not there.
+fn number_before(report: &str, words: &str) -> usize {
+    let before = report.split(words).next().filter(|before| before.len() < report.len());
+    before.and_then(|before| before.rsplit(' ').next()?.parse().ok()).unwrap_or(0)
+}
+
+/// What a deck is made of, and what runs it.
+struct Deck<'a> {
+    parameters: &'a Parameters,
+    record: &'a Record,
+    program: &'a Program,
+    progress: &'a dyn Fn(usize, usize),
+}
+
+/// A deck's run: its history and what it printed.
+struct Run {
+    motion: Motion,
+    good: bool,
+    report: String,
+    seconds: f64,
+}
+
+impl Deck<'_> {
+    fn run(&self, expected: &Expected) -> Result<Run, VerifyError> {
+        let text = export(self.parameters, self.record, expected, self.program.format())?;
+        let wrap = |path: &Path| {
+            let path = path.display().to_string();
+            move |source| VerifyError::Folder { path, source }
+        };
+        let folder = tempfile::tempdir().map_err(wrap(&std::env::temp_dir()))?;
+        let path = folder.path().join("deck").with_extension(self.program.format().ending());
+        fs::write(&path, text).map_err(wrap(&path))?;
+        let began = Instant::now();
+        let all = (expected.samples.saturating_sub(1) as f64 * self.record.dt) as usize;
+        let patience = Duration::from_secs_f64(PATIENCE + PATIENCE_PER_SAMPLE * expected.samples as f64);
+        let ran = self.program.run(&path, patience, &|done| (self.progress)(done, all))?;
+        let seconds = began.elapsed().as_secs_f64();
+        let motion = read_history(&folder.path().join("deck_history.csv"), expected.samples)?;
+        Ok(Run { motion, good: ran.good, report: ran.report, seconds })
+    }
 }
 
 /// Read the deck's history: t, u, v, th.

@@ -6,7 +6,7 @@ use clap::Args;
 
 use super::{CommandError, common::RecordOptions, output::check_file, write_file};
 use crate::{
-    export::{Expected, ExportError, Format, export, with_inertia},
+    export::{ACCURACY, Expected, ExportError, Format, export, with_inertia},
     parameters::Parameters,
     predictability::{moved_by_a_hair, simulate},
     record::Record,
@@ -24,19 +24,32 @@ pub struct Options {
     /// The deck's file
     #[arg(long, value_name = "FILE")]
     out: PathBuf,
+    /// Accuracy of the history (normalised error) that the steps of an OpenSees deck are to have
+    #[arg(long, default_value_t = ACCURACY)]
+    accuracy: f64,
     #[command(flatten)]
     record: RecordOptions,
 }
 
 pub fn run(o: &Options) -> Result<(), CommandError> {
     check_file(&o.out)?;
+    check_accuracy(o.accuracy)?;
     let (parameters, record, line) = read(&o.parameters, &o.record)?;
     let history = simulate(&parameters, &record);
     let hair = moved_by_a_hair(&history.motion, &parameters, &record);
-    let deck = export(&parameters, &record, &Expected::new(&history, hair), o.format)?;
+    let deck = export(&parameters, &record, &Expected::new(&history, hair).with_accuracy(o.accuracy), o.format)?;
     write_file(&o.out, deck.as_bytes())?;
     eprintln!("{line}\nwritten to {}", o.out.display());
     Ok(())
+}
+
+/// Between what double precision and what a landing allow.
+pub(super) fn check_accuracy(accuracy: f64) -> Result<(), CommandError> {
+    if (1e-6..=0.1).contains(&accuracy) {
+        return Ok(());
+    }
+    let remedy = "give a normalised error from 1e-6 to 0.1";
+    Err(CommandError::Option { option: "accuracy", value: accuracy.to_string(), remedy })
 }
 
 /// The model that decks hold, the part of its record that is used, and a line that says which: that of the file unless given.

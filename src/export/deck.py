@@ -53,8 +53,9 @@ TENDON_K = @TENDON_K@          # from the mass to the ground between the feet, N
 TENDON_SLACK = @TENDON_SLACK@  # its length without tension, m
 
 RECORD_DT = @RECORD_DT@        # s
-STEPS_PER_SAMPLE = @STEPS@     # @STEPS_NOTE@
-SHORTEST = @SHORTEST@            # of such a step: as short as steps get where a foot touches or lifts, which it does up to one step late
+ACCURACY = @ACCURACY@          # of the history, as a normalised error: @ACCURACY_NOTE@
+LANDING = @LANDING@            # @LANDING_NOTE@
+STEPS_PER_SAMPLE = @STEPS@     # at least: @STEPS_NOTE@
 SAMPLES = @SAMPLES@            # of the record that are followed: @DURATION@ s
 
 # What `tune simulate` found for the same springs and record, m: the check at the end.
@@ -71,11 +72,6 @@ APEX = 3
 FEET = ((1, -HALF_WIDTH), (2, HALF_WIDTH))   # node of the foot, x
 ABSORBER, GROUND = 10, 20                    # added to the foot's tag
 
-# Both in units of RECORD_DT / STEPS_PER_SAMPLE.
-FIRST = 1e-6   # step: OpenSees starts without acceleration, whatever the record's first sample
-longest = FIRST  # that the next step may be
-repeated = 0  # pairs of steps that had to be shortened
-
 
 def build():
     """Nodes, masses, legs, springs."""
@@ -84,10 +80,10 @@ def build():
     ops.node(APEX, 0.0, HEIGHT)
     ops.mass(APEX, MOVED, MOVED, INERTIA)
 
-    # Legs from the centre of mass to the feet. Where they stand for a rigid body, much softer ones change the answer,
-    # much stiffer ones lose digits.
+    # Legs from the centre of mass to the feet. Where they stand for a rigid body they need not be stiff, since what they
+    # give is taken off the gap's k1; stiffer ones lose digits of its force.
     length = math.hypot(HALF_WIDTH, HEIGHT)
-    rigid = @LEG@  # EA/L = 3EI/L^3 of a leg that is all but rigid, N/m
+    rigid = @LEG@  # EA/L = 3EI/L^3 of such a leg, N/m
     # What such a leg gives is the same in every direction: taken off the gap's, both in series are k1.
     give = @GIVE@  # m/N
     gap_v, gap_h = (k1 / (1.0 - k1 * give) for k1 in (K1_V, K1_H))
@@ -173,36 +169,7 @@ def gravity():
     return ops.nodeDisp(APEX, 2)
 
 
-def closing():
-    """How long until a foot touches or lifts, s: distance over speed."""
-    soonest = math.inf
-    for foot, _ in FEET:
-        gap, speed = (of(foot, 2) - of(foot + ABSORBER, 2) for of in (ops.nodeDisp, ops.nodeVel))
-        if gap * speed < 0.0:
-            soonest = min(soonest, -gap / speed)
-    return soonest
-
-
-def advance(end):
-    """To time `end`: pairs of equal steps, each a tenth of the way to the next touch or lift, then by 3 % longer, pair by pair.
-
-    In pairs, since OpenSees' TRBDF2 takes a step by BDF2 only if it is as long as the one before, to the last digit.
-    """
-    global longest, repeated
-    step = RECORD_DT / STEPS_PER_SAMPLE
-    while end - ops.getTime() > 1e-9 * step:
-        left = end - ops.getTime()
-        size = min(1.0, longest, max(SHORTEST, 0.05 * closing() / step))
-        pairs = max(1, math.ceil(left / (2.0 * size * step) - 1e-6))
-        if ops.analyze(2, left / (2.0 * pairs)) == 0:
-            longest = 1.03 * size
-        else:
-            # Newton's iteration cycles where a foot lets go and lands again within a step
-            repeated += 1
-            longest = 0.25 * size
-            if longest < 1e-9:
-                return False
-    return True
+@ROUTINE@
 
 
 def stop(reason):
@@ -210,9 +177,8 @@ def stop(reason):
     sys.exit(2)
 
 
-def main():
-    global longest, repeated
-    longest, repeated = FIRST, 0
+def run(accuracy):
+    """The whole history: rows of t, u, v, theta; the settled position; the steps."""
     build()
     settled = gravity()
     # Ground acceleration, m/s2, positive to the right, linear between samples: as loads -mass times it, since
@@ -225,14 +191,25 @@ def main():
     # TRBDF2 is L-stable: Newmark (1/2, 1/4) and HHT fail on springs this stiff, Newmark with damping spoils the answer.
     analysis("TRBDF2")
 
+    feet = [(foot, foot + ABSORBER) for foot, _ in FEET]
+    steps = Steps(feet, LANDING, RECORD_DT / STEPS_PER_SAMPLE, accuracy)
     rows = [(0.0, 0.0, 0.0, 0.0)]
     for i in range(1, SAMPLES):
-        if not advance(i * RECORD_DT):
-            stop(f"no convergence at {ops.getTime():.5f} s; raise STEPS_PER_SAMPLE")
+        if not steps.advance(i * RECORD_DT):
+            stop(f"no convergence at {ops.getTime():.5f} s, in steps of {steps.allowed:.1e} s: {steps.report()}")
         u, v, turn = (ops.nodeDisp(APEX, k) for k in (1, 2, 3))
         rows.append((i * RECORD_DT, u, v - settled, -turn))  # OpenSees turns counter-clockwise
         if math.floor(i * RECORD_DT) > math.floor((i - 1) * RECORD_DT):
             print(f"{i * RECORD_DT:.0f} s of {(SAMPLES - 1) * RECORD_DT:g} s", file=sys.stderr, flush=True)
+    return rows, settled, steps
+
+
+def main():
+    for accuracy in (ACCURACY, ACCURACY / 4.0, ACCURACY / 16.0):
+        rows, settled, steps = run(accuracy)
+        if steps.late == 0:
+            break
+        print(f"accuracy {accuracy:g}: {steps.report()}", file=sys.stderr)
 
     out = os.path.splitext(os.path.abspath(__file__))[0] + "_history.csv"
     with open(out, "w", newline="") as file:
@@ -247,9 +224,9 @@ def main():
              "u": max(abs(EXPECTED["u max"]), abs(EXPECTED["u min"])),
              "v": max(abs(EXPECTED["v max"]), abs(EXPECTED["v min"]))}
     good = all(abs(found[key] - value) <= 0.01 * scale[key[0]] for key, value in EXPECTED.items())
-    print(f"OpenSees {ops.version()}, {(SAMPLES - 1) * RECORD_DT:g} s at dt {RECORD_DT / STEPS_PER_SAMPLE:g} s; wrote {out}")
-    if repeated:
-        print(f"  {repeated} pairs of steps were shortened: OpenSees' messages of failed convergence are theirs")
+    print(f"OpenSees {ops.version()}, {(SAMPLES - 1) * RECORD_DT:g} s: {steps.report()}; wrote {out}")
+    if steps.refused:
+        print("  OpenSees' messages of failed convergence are those of the pairs repeated")
     for key, value in EXPECTED.items():
         print(f"  {key:8s} {found[key] * 1e3:12.4f} mm, expected {value * 1e3:12.4f} mm")
     print(f"within 1 %: {'yes' if good else 'no'}")

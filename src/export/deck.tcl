@@ -40,84 +40,89 @@ set tendonK @TENDON_K@ ;# from the mass to the ground between the feet, N/m; 0: 
 set tendonSlack @TENDON_SLACK@ ;# its length without tension, m
 
 set recordDt       @RECORD_DT@ ;# s
-set stepsPerSample @STEPS@ ;# @STEPS_NOTE@
-set shortest @SHORTEST@ ;# of such a step: as short as steps get where a foot touches or lifts, which it does up to one step late
+set accuracy @ACCURACY@ ;# of the history, as a normalised error: @ACCURACY_NOTE@
+set landing  @LANDING@ ;# @LANDING_NOTE@
+set stepsPerSample @STEPS@ ;# at least: @STEPS_NOTE@
 set samples        @SAMPLES@ ;# of the record that are followed: @DURATION@ s
 
 # What `tune simulate` found for the same springs and record, m: the check at the end.
 set expected [list settled @SETTLED@ uMax @U_MAX@ uMin @U_MIN@ vMax @V_MAX@ vMin @V_MIN@]
 
 # ---------------------------------------------------------------- model
-wipe
-model basic -ndm 2 -ndf 3
-node 3 0.0 $height
-mass 3 $moved $moved $inertia
+proc build {} {
+    uplevel #0 {
+        wipe
+        model basic -ndm 2 -ndf 3
+        node 3 0.0 $height
+        mass 3 $moved $moved $inertia
 
-# Legs from the centre of mass to the feet. Where they stand for a rigid body, much softer ones change the answer, much
-# stiffer ones lose digits.
-set length [expr {hypot($halfWidth, $height)}]
-set rigid @LEG@ ;# EA/L = 3EI/L^3 of a leg that is all but rigid, N/m
-# What such a leg gives is the same in every direction: taken off the gap's, both in series are k1.
-set give @GIVE@ ;# m/N
-set gapV [expr {$k1v / (1.0 - $k1v * $give)}]
-set gapH [expr {$k1h / (1.0 - $k1h * $give)}]
-# Corotational: with Linear the weight's moment on the leaning body (P-Delta), which drives rocking, is lost.
-geomTransf Corotational 1
+        # Legs from the centre of mass to the feet. Where they stand for a rigid body they need not be stiff, since what they
+        # give is taken off the gap's k1; stiffer ones lose digits of its force.
+        set length [expr {hypot($halfWidth, $height)}]
+        set rigid @LEG@ ;# EA/L = 3EI/L^3 of such a leg, N/m
+        # What such a leg gives is the same in every direction: taken off the gap's, both in series are k1.
+        set give @GIVE@ ;# m/N
+        set gapV [expr {$k1v / (1.0 - $k1v * $give)}]
+        set gapH [expr {$k1h / (1.0 - $k1h * $give)}]
+        # Corotational: with Linear the weight's moment on the leaning body (P-Delta), which drives rocking, is lost.
+        geomTransf Corotational 1
 
-# k2 parallel with c: Elastic takes the dashpot as its third number, eta.
-uniaxialMaterial Elastic 1 $k2h $ch
-uniaxialMaterial Elastic 2 $k2v $cv
-# Gap k1: no tension (ENT), parallel with a trace of tension. The bearing moves a lifted foot's anchor along with the foot
-# only while its axial force is above zero; with exactly zero (ENT alone) the foot would be pulled back to where it stood
-# before, which creates energy.
-uniaxialMaterial ENT 31 $gapV
-uniaxialMaterial Elastic 32 [expr {1e-9 * $gapV}]
-uniaxialMaterial Parallel 3 31 32
-# The bearing asks for a moment spring; this one is too weak to be felt (1e-9 of the weight's own moment).
-uniaxialMaterial Elastic 5 [expr {1e-9 * $mass * $gravity * $length}]
-# Friction so high that a pressing foot never slides: the horizontal spring k1 acts whenever the foot presses, and not at
-# all when it is in the air.
-frictionModel Coulomb 1 @FRICTION@
+        # k2 parallel with c: Elastic takes the dashpot as its third number, eta.
+        uniaxialMaterial Elastic 1 $k2h $ch
+        uniaxialMaterial Elastic 2 $k2v $cv
+        # Gap k1: no tension (ENT), parallel with a trace of tension. The bearing moves a lifted foot's anchor along with the foot
+        # only while its axial force is above zero; with exactly zero (ENT alone) the foot would be pulled back to where it stood
+        # before, which creates energy.
+        uniaxialMaterial ENT 31 $gapV
+        uniaxialMaterial Elastic 32 [expr {1e-9 * $gapV}]
+        uniaxialMaterial Parallel 3 31 32
+        # The bearing asks for a moment spring; this one is too weak to be felt (1e-9 of the weight's own moment).
+        uniaxialMaterial Elastic 5 [expr {1e-9 * $mass * $gravity * $length}]
+        # Friction so high that a pressing foot never slides: the horizontal spring k1 acts whenever the foot presses, and not at
+        # all when it is in the air.
+        frictionModel Coulomb 1 @FRICTION@
 
-foreach {foot x} [list 1 [expr {-$halfWidth}] 2 $halfWidth] {
-    set absorber [expr {$foot + 10}]
-    set ground [expr {$foot + 20}]
-    node $foot $x 0.0
-    node $absorber $x 0.0
-    node $ground $x 0.0
-    fix $ground 1 1 1
-    # The bearing's axes turn with its first node: the absorber must not rotate.
-    fix $absorber 0 0 1
-    # One node carries both absorbers: OpenSees takes a mass per direction.
-    mass $absorber $m2h $m2v 0.0
-    element elasticBeamColumn $foot $foot 3 $ea 1.0 $ei 1
-    element zeroLength [expr {$foot + 30}] $ground $absorber -mat 1 2 -dir 1 2
-    # Axial direction up (local x = global y); the horizontal k1 is the bearing's shear stiffness.
-    element flatSliderBearing [expr {$foot + 50}] $absorber $foot 1 $gapH -P 3 -Mz 5 -orient 0 1 0 -1 0 0
-    if {$footMass > 0.0} {
-        mass $foot $footMass $footMass 0.0
-        uniaxialMaterial Elastic [expr {$foot + 60}] 0.0 $footC
-        element zeroLength [expr {$foot + 60}] $ground $foot -mat [expr {$foot + 60}] -dir 1
+        foreach {foot x} [list 1 [expr {-$halfWidth}] 2 $halfWidth] {
+            set absorber [expr {$foot + 10}]
+            set ground [expr {$foot + 20}]
+            node $foot $x 0.0
+            node $absorber $x 0.0
+            node $ground $x 0.0
+            fix $ground 1 1 1
+            # The bearing's axes turn with its first node: the absorber must not rotate.
+            fix $absorber 0 0 1
+            # One node carries both absorbers: OpenSees takes a mass per direction.
+            mass $absorber $m2h $m2v 0.0
+            element elasticBeamColumn $foot $foot 3 $ea 1.0 $ei 1
+            element zeroLength [expr {$foot + 30}] $ground $absorber -mat 1 2 -dir 1 2
+            # Axial direction up (local x = global y); the horizontal k1 is the bearing's shear stiffness.
+            element flatSliderBearing [expr {$foot + 50}] $absorber $foot 1 $gapH -P 3 -Mz 5 -orient 0 1 0 -1 0 0
+            if {$footMass > 0.0} {
+                mass $foot $footMass $footMass 0.0
+                uniaxialMaterial Elastic [expr {$foot + 60}] 0.0 $footC
+                element zeroLength [expr {$foot + 60}] $ground $foot -mat [expr {$foot + 60}] -dir 1
+            }
+            if {$damperC > 0.0} {
+                # on a rigid arm of its own: it does not load the leg
+                set arm [expr {$foot + 40}]
+                node $arm $x 0.0
+                element elasticBeamColumn $arm $arm 3 [expr {$rigid * $length}] 1.0 [expr {$rigid * $length**3 / 3.0}] 1
+                uniaxialMaterial Elastic [expr {$foot + 70}] 0.0 $damperC
+                element zeroLength [expr {$foot + 70}] $ground $arm -mat [expr {$foot + 70}] -dir 2
+            }
+        }
+        if {$tendonK > 0.0} {
+            node 4 0.0 0.0
+            # A beam that can hardly bend: a corotTruss does not turn with the body in every build of OpenSees.
+            fix 4 1 1 0
+            # no compression: the third stiffness; stressed: a strain from the slack length
+            uniaxialMaterial Elastic 81 [expr {$tendonK * $height}] 0.0 0.0
+            uniaxialMaterial InitStrainMaterial 82 81 [expr {($height - $tendonSlack) / $height}]
+            uniaxialMaterial Elastic 83 [expr {1e-9 * $mass * $gravity * $height**2}]
+            section Aggregator 80 82 P 83 Mz
+            element dispBeamColumn 80 4 3 2 80 1
+        }
     }
-    if {$damperC > 0.0} {
-        # on a rigid arm of its own: it does not load the leg
-        set arm [expr {$foot + 40}]
-        node $arm $x 0.0
-        element elasticBeamColumn $arm $arm 3 [expr {$rigid * $length}] 1.0 [expr {$rigid * $length**3 / 3.0}] 1
-        uniaxialMaterial Elastic [expr {$foot + 70}] 0.0 $damperC
-        element zeroLength [expr {$foot + 70}] $ground $arm -mat [expr {$foot + 70}] -dir 2
-    }
-}
-if {$tendonK > 0.0} {
-    node 4 0.0 0.0
-    # A beam that can hardly bend: a corotTruss does not turn with the body in every build of OpenSees.
-    fix 4 1 1 0
-    # no compression: the third stiffness; stressed: a strain from the slack length
-    uniaxialMaterial Elastic 81 [expr {$tendonK * $height}] 0.0 0.0
-    uniaxialMaterial InitStrainMaterial 82 81 [expr {($height - $tendonSlack) / $height}]
-    uniaxialMaterial Elastic 83 [expr {1e-9 * $mass * $gravity * $height**2}]
-    section Aggregator 80 82 P 83 Mz
-    element dispBeamColumn 80 4 3 2 80 1
 }
 
 # ---------------------------------------------------------------- solver
@@ -132,42 +137,8 @@ proc solver {integrator kind} {
     analysis $kind
 }
 
-# How long until a foot touches or lifts, s: distance over speed.
-proc closing {} {
-    set soonest 1e9
-    foreach foot {1 2} {
-        set absorber [expr {$foot + 10}]
-        set gap [expr {[nodeDisp $foot 2] - [nodeDisp $absorber 2]}]
-        set speed [expr {[nodeVel $foot 2] - [nodeVel $absorber 2]}]
-        if {$gap * $speed < 0.0} { set soonest [expr {min($soonest, -$gap / $speed)}] }
-    }
-    return $soonest
-}
-
-# Advance to a time: pairs of equal steps, each a tenth of the way to the next touch or lift, then by 3 % longer, pair by
-# pair. In pairs, since OpenSees' TRBDF2 takes a step by BDF2 only if it is as long as the one before, to the last digit.
-set repeated 0 ;# pairs of steps that had to be shortened
-# That the next step may be, in units of recordDt / stepsPerSample. The first is tiny: OpenSees starts without acceleration,
-# whatever the record's first sample.
-set longest 1e-6
-proc advance {end} {
-    global recordDt stepsPerSample shortest longest repeated
-    set step [expr {$recordDt / $stepsPerSample}]
-    while {$end - [getTime] > 1e-9 * $step} {
-        set left [expr {$end - [getTime]}]
-        set size [expr {min(1.0, $longest, max($shortest, 0.05 * [closing] / $step))}]
-        set pairs [expr {max(1.0, ceil($left / (2.0 * $size * $step) - 1e-6))}]
-        if {[analyze 2 [expr {$left / (2.0 * $pairs)}]] == 0} {
-            set longest [expr {1.03 * $size}]
-        } else {
-            # Newton's iteration cycles where a foot lets go and lands again within a step
-            incr repeated
-            set longest [expr {0.25 * $size}]
-            if {$longest < 1e-9} { return 0 }
-        }
-    }
-    return 1
-}
+# ---------------------------------------------------------------- steps
+@ROUTINE@
 
 proc stop {reason} {
     puts stderr "stopped: $reason"
@@ -175,42 +146,63 @@ proc stop {reason} {
 }
 
 # ---------------------------------------------------------------- gravity
-# The weight, as a load on the mass (absorbers carry none).
-timeSeries Linear 1
-pattern Plain 1 1 "load 3 0.0 [expr {-$mass * $gravity}] 0.0"
-solver {LoadControl 0.1} Static
-if {[analyze 10] != 0} { stop "gravity did not converge" }
-loadConst -time 0.0
-wipeAnalysis
-set settled [nodeDisp 3 2]
+# Settled, m.
+proc gravity {} {
+    global mass gravity
+    # The weight, as a load on the mass (absorbers carry none).
+    timeSeries Linear 1
+    pattern Plain 1 1 "load 3 0.0 [expr {-$mass * $gravity}] 0.0"
+    solver {LoadControl 0.1} Static
+    if {[analyze 10] != 0} { stop "gravity did not converge" }
+    loadConst -time 0.0
+    wipeAnalysis
+    return [nodeDisp 3 2]
+}
 
 # ---------------------------------------------------------------- ground motion
 # @RECORD_NOTE@
 set record {
 @RECORD@
 }
-# Linear between samples: as loads -mass times it, since UniformExcitation would shake `moved` instead of `mass`.
-timeSeries Path 2 -dt $recordDt -values $record -factor 1.0
-pattern Plain 2 2 "load 3 [expr {-$mass}] 0.0 0.0; load 11 [expr {-$m2h}] 0.0 0.0; load 12 [expr {-$m2h}] 0.0 0.0"
-# TRBDF2 is L-stable: Newmark (1/2, 1/4) and HHT fail on springs this stiff, Newmark with damping spoils the answer.
-solver TRBDF2 Transient
+
+# ---------------------------------------------------------------- history
+# The whole history: rows of t, u, v, theta.
+proc run {accuracy} {
+    global mass m2h record recordDt stepsPerSample landing samples settled
+    build
+    set settled [gravity]
+    # Linear between samples: as loads -mass times it, since UniformExcitation would shake `moved` instead of `mass`.
+    timeSeries Path 2 -dt $recordDt -values $record -factor 1.0
+    pattern Plain 2 2 "load 3 [expr {-$mass}] 0.0 0.0; load 11 [expr {-$m2h}] 0.0 0.0; load 12 [expr {-$m2h}] 0.0 0.0"
+    # TRBDF2 is L-stable: Newmark (1/2, 1/4) and HHT fail on springs this stiff, Newmark with damping spoils the answer.
+    solver TRBDF2 Transient
+    steps::start {1 11 2 12} $landing [expr {$recordDt / $stepsPerSample}] $accuracy
+    set rows {{0.0 0.0 0.0 0.0}}
+    for {set i 1} {$i < $samples} {incr i} {
+        if {![steps::advance [expr {$i * $recordDt}]]} {
+            stop "no convergence at [getTime] s, in steps of $steps::allowed s: [steps::report]"
+        }
+        # OpenSees turns counter-clockwise
+        lappend rows [list [expr {$i * $recordDt}] [nodeDisp 3 1] [expr {[nodeDisp 3 2] - $settled}] [expr {-[nodeDisp 3 3]}]]
+        if {floor($i * $recordDt) > floor(($i - 1) * $recordDt)} {
+            puts stderr [format "%.0f s of %g s" [expr {$i * $recordDt}] [expr {($samples - 1) * $recordDt}]]
+        }
+    }
+    return $rows
+}
+
+foreach finer {1.0 4.0 16.0} {
+    set rows [run [expr {$accuracy / $finer}]]
+    if {$steps::late == 0} { break }
+    puts stderr "accuracy [expr {$accuracy / $finer}]: [steps::report]"
+}
 
 set out [open "[file rootname [info script]]_history.csv" w]
 puts $out "t,u,v,th"
-puts $out "0,0,0,0"
 array set found [list settled $settled uMax 0.0 uMin 0.0 vMax 0.0 vMin 0.0]
-for {set i 1} {$i < $samples} {incr i} {
-    if {![advance [expr {$i * $recordDt}]]} {
-        stop "no convergence at [getTime] s; raise stepsPerSample"
-    }
-    set u [nodeDisp 3 1]
-    set v [expr {[nodeDisp 3 2] - $settled}]
-    # OpenSees turns counter-clockwise
-    set th [expr {-[nodeDisp 3 3]}]
-    puts $out [format "%.17g,%.17g,%.17g,%.17g" [expr {$i * $recordDt}] $u $v $th]
-    if {floor($i * $recordDt) > floor(($i - 1) * $recordDt)} {
-        puts stderr [format "%.0f s of %g s" [expr {$i * $recordDt}] [expr {($samples - 1) * $recordDt}]]
-    }
+foreach row $rows {
+    foreach {t u v th} $row {}
+    puts $out [format "%.17g,%.17g,%.17g,%.17g" $t $u $v $th]
     set found(uMax) [expr {max($found(uMax), $u)}]
     set found(uMin) [expr {min($found(uMin), $u)}]
     set found(vMax) [expr {max($found(vMax), $v)}]
@@ -225,9 +217,8 @@ set scale(s) [expr {abs($want(settled))}]
 set scale(u) [expr {max(abs($want(uMax)), abs($want(uMin)))}]
 set scale(v) [expr {max(abs($want(vMax)), abs($want(vMin)))}]
 set good 1
-if {$repeated > 0} {
-    puts "  $repeated pairs of steps were shortened: OpenSees' messages of failed convergence are theirs"
-}
+puts [format "OpenSees, %g s: %s" [expr {($samples - 1) * $recordDt}] [steps::report]]
+if {$steps::refused > 0} { puts "  OpenSees' messages of failed convergence are those of the pairs repeated" }
 foreach {key value} $expected {
     set kind [string index $key 0]
     if {abs($found($key) - $value) > 0.01 * $scale($kind)} { set good 0 }

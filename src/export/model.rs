@@ -6,6 +6,7 @@ use crate::{
     members::{Legs, Members},
     parameters::Parameters,
     record::Record,
+    scalar::GRAVITY,
     spring::{Chain, Springs},
     structure::{Body, Structure},
 };
@@ -15,15 +16,10 @@ use crate::{
 /// changes 20 s of a 5 m frame by 2e-3 (NRMSE).
 pub const SMALL_INERTIA: f64 = 1e-5;
 
-/// Rotational inertia, as a share of m R^2, of a body that our model takes as massless in rotation, in an OpenSees deck: so
-/// little that its vibration on the springs, of sqrt(m R^2/I_cg) Omega_n, dies in every step, the shortest too. Where steps
-/// resolve it, it goes on ringing and spoils the history: with 1e-5 a 5 m frame is off by 0.2 after 3 s. What rocking feels of
-/// it is in the mass of the translation ([`Regularised::moved`]).
-const QUICK_INERTIA: f64 = 1e-11;
-
-/// Stiffness of the legs over the stiffest spring (k1 or k2, either direction), the same along and across; the stiffer, the
-/// more digits get lost. OpenSees decks take their compliance off that of k1, so that both in series are k1.
-const LEG_STIFFNESS: f64 = 1e3;
+/// Stiffness of the legs that stand for a rigid body, over the stiffest gap spring k1, the same along and across. OpenSees
+/// decks take their compliance off that of k1, so that both in series are k1, however soft the legs; a leg a thousand times
+/// stiffer than k1 costs three digits of k1's force, and on springs of 10 kHz Newton's iteration ends in its rounding.
+const LEG_STIFFNESS: f64 = 4.0;
 
 /// Mass of a foot on an elastic leg, over 3EI/L^3 dt^2, in an OpenSees deck. A foot that opens lets go what its leg was
 /// bent by, at once if it has no mass; without a little mass Newton's iteration does not find where it goes, with ten times
@@ -45,47 +41,50 @@ pub(super) struct Regularised {
     pub moved: f64,
 }
 
-/// Time steps per period of the stiffest Omega_n (see [`steps_per_sample`]).
-const STEPS_PER_PERIOD: f64 = 40.0;
-/// p times the time step, at most: where steps get shorter towards touches and lifts, and where they do not.
-const STEP_BY_ROCKING: [f64; 2] = [2e-4, 1e-4];
-/// Newton's displacement tolerance over R.
-const TOLERANCE: f64 = 2e-11;
+/// What a history's error is to be, unless one asks otherwise.
+pub const ACCURACY: f64 = 0.002;
 
-/// Length of the shortest step, where a foot touches or lifts, over that of the longest.
-const SHORTEST: f64 = 1.0 / 256.0;
+/// For a program that takes all its steps alike: per period of the stiffest Omega_n.
+const STEPS_PER_PERIOD: f64 = 40.0;
+/// p times the time step, at most, where all steps are alike.
+const STEP_BY_ROCKING: f64 = 1e-4;
+
+/// Newton's displacement tolerance over R: some twenty times what rounding leaves of it with legs of [`LEG_STIFFNESS`].
+const TOLERANCE: f64 = 2e-14;
+/// The same on elastic legs as given.
+const TOLERANCE_ON_LEGS: f64 = 2e-11;
 
 /// Steps get finer with the root of what a change of the width by 1e-5 does to the history (from 1.3e-3 on), since their
 /// error is of second order; so many times at most.
 const FINER: f64 = 750.0;
 const FINEST: f64 = 16.0;
 
-/// Time steps of OpenSees (TRBDF2) per sample of the record: dt = min( 1/(40 Omega_n [Hz]), 2e-4/p ), rounded so that
-/// every sample is met; up to 16 times finer where a hair of width moves the history, by `hair` (NRMSE of u per relative
-/// change of the width by 1e-5). Around touches and lifts the deck itself takes shorter ones.
-///
-/// | 160 Hz, 20 s of El Centro | `hair` | finer | NRMSE of u against our own history |
-/// |---|---|---|---|
-/// | 61 m frame | 1.5e-5 | 1 | 2.8e-5 |
-/// | 2 m block | 0.059 | 7 | 7.8e-4 |
-/// | 5 m frame | 0.20 | 13 (8) | 1.3e-3 (4.6e-3) |
-///
-/// Elastic legs are followed in even steps, 1e-4/p: the mass that their feet need suits one step only.
-pub fn steps_per_sample(parameters: &Parameters, dt: f64, hair: f64) -> usize {
-    let even = parameters.legs.is_some();
-    let finer = if even { 1.0 } else { (FINER * hair).sqrt().ceil().clamp(1.0, FINEST) };
-    steps(parameters, dt, even) * finer as usize
-}
+/// Share of a position that a step may miss, over the accuracy of the history (the same in the decks' stepping routine).
+const STEP_ERROR: f64 = 1.0 / 40.0;
+/// A small motion: share of the way to toppling.
+const SMALL_MOTION: f64 = 0.1;
 
-/// For a program that takes all its steps alike, or not.
-fn steps(parameters: &Parameters, dt: f64, even: bool) -> usize {
+/// For a program that takes all its steps alike, 1/(40 Omega_n [Hz]) and 1e-4/p.
+fn even_steps(parameters: &Parameters, dt: f64) -> usize {
     let body = parameters.structure.body::<f64>();
     let chains = parameters.chains();
     let omega = (chains.vertical.k1.max(chains.horizontal.k1) / body.mass).sqrt();
-    let by_rocking = STEP_BY_ROCKING[usize::from(even)] / body.p_squared().sqrt();
-    let most = (std::f64::consts::TAU / (STEPS_PER_PERIOD * omega)).min(by_rocking);
-    // a hair less, so that a ratio that is whole but for rounding stays it
-    ((dt / most - 1e-9).ceil() as usize).max(1)
+    whole(dt / (std::f64::consts::TAU / (STEPS_PER_PERIOD * omega)).min(STEP_BY_ROCKING / body.p_squared().sqrt()))
+}
+
+/// Steps per sample at least, where steps follow events: two, a pair. Soft springs go on swinging, and where what the weight
+/// compresses them by is more than a step may miss of a small motion, steps are to resolve that too: h^2/12 g is not more.
+fn least_steps(parameters: &Parameters, dt: f64, accuracy: f64) -> usize {
+    let body = parameters.structure.body::<f64>();
+    let top = 2.0 * body.half_width * (body.half_width / body.height).atan();
+    let missed = STEP_ERROR * accuracy * SMALL_MOTION * top;
+    let compressed = body.mass * GRAVITY / parameters.chains().vertical.k1;
+    if compressed <= missed { 2 } else { whole(dt / (12.0 * missed / GRAVITY).sqrt()).max(2) }
+}
+
+/// Rounded up, but a ratio that is whole but for rounding stays it.
+fn whole(ratio: f64) -> usize {
+    ((ratio - 1e-9).ceil() as usize).max(1)
 }
 
 /// The structure as decks hold it: a body without rotational inertia gets [`SMALL_INERTIA`]. Simulate this one to compare.
@@ -103,17 +102,20 @@ pub(super) struct Model<'a> {
     pub inertia: f64,
     pub springs: Springs<Chain<f64>>,
     pub members: Members<f64>,
-    /// EA/L and 3EI/L^3 of a leg that is all but rigid [N/m].
+    /// EA/L and 3EI/L^3 of a leg that stands for a rigid body [N/m].
     pub leg: f64,
-    /// EA and EI of the legs: given, or all but rigid.
+    /// EA and EI of the legs: given, or of such legs.
     pub legs: Legs<f64>,
     /// Newton's displacement tolerance [m].
     pub tolerance: f64,
+    /// Accuracy that the steps are to have.
+    pub accuracy: f64,
+    /// 1/Omega_n of the vertical k1 [s]; 0 on elastic legs, where all steps are alike.
+    pub landing: f64,
+    /// Steps per sample, at least.
     pub steps_per_sample: usize,
     /// The same for a program that takes all its steps alike.
     pub even_steps: usize,
-    /// Length of the shortest step, where a foot touches or lifts, over that of the longest.
-    pub shortest: f64,
     pub record: &'a Record,
     pub expected: Expected,
     /// The record's name, harmless in comments.
@@ -152,20 +154,27 @@ impl<'a> Model<'a> {
         if expected.samples == 0 || expected.samples > record.len() {
             return Err(ExportError::Samples { expected: expected.samples, record: record.len() });
         }
-        let leg = LEG_STIFFNESS * v.k1.max(v.k2).max(h.k1).max(h.k2);
-        let length = structure.body::<f64>().radius();
-        let rigid = Legs { ea: leg * length, ei: leg * length.powi(3) / 3.0 };
+        let leg = LEG_STIFFNESS * v.k1.max(h.k1);
+        let body = structure.body::<f64>();
+        let accuracy = expected.accuracy / (FINER * expected.hair).clamp(1.0, FINEST * FINEST);
+        let even_steps = even_steps(parameters, record.dt);
+        let (landing, steps_per_sample, tolerance) = if members.legs.is_some() {
+            (0.0, even_steps, TOLERANCE_ON_LEGS)
+        } else {
+            ((body.mass / v.k1).sqrt(), least_steps(parameters, record.dt, accuracy), TOLERANCE)
+        };
         Ok(Self {
             structure,
             inertia: with_inertia(&structure).rotational_inertia_kgm2,
             springs,
             members,
             leg,
-            legs: members.legs.unwrap_or(rigid),
-            tolerance: TOLERANCE * structure.body::<f64>().radius(),
-            steps_per_sample: steps_per_sample(parameters, record.dt, expected.hair),
-            even_steps: steps(parameters, record.dt, true),
-            shortest: if members.legs.is_none() { SHORTEST } else { 1.0 },
+            legs: members.legs.unwrap_or(legs_of(leg, &body)),
+            tolerance: tolerance * body.radius(),
+            accuracy,
+            landing,
+            steps_per_sample,
+            even_steps,
             record,
             expected: *expected,
             record_name: printable(&record.name),
@@ -174,11 +183,6 @@ impl<'a> Model<'a> {
 
     pub fn body(&self) -> Body<f64> {
         self.structure.body()
-    }
-
-    /// p times the time step of OpenSees, at most.
-    pub fn by_rocking(&self) -> f64 {
-        STEP_BY_ROCKING[usize::from(self.members.legs.is_some())]
     }
 
     /// Time of the last sample followed [s].
@@ -195,20 +199,26 @@ impl<'a> Model<'a> {
     }
 
     /// How OpenSees holds legs that have no mass, where they are given; else zero.
+    ///
+    /// On all but rigid legs the rotation keeps its inertia, however little: its vibration on the springs, of
+    /// sqrt(m R^2/I_cg) Omega_n, dies in the steps. With much less a foot that lifts while its horizontal spring is loaded has
+    /// no state at all: held, it would pull; let go, the body turns at once and presses it down.
     pub fn regularised(&self) -> Regularised {
-        let radius = self.body().radius();
-        let point_mass = self.structure.mass_kg * radius * radius;
-        let massless = self.inertia < MASSLESS_ROTATION * point_mass;
-        let moved = self.structure.mass_kg + if massless { self.inertia / (radius * radius) } else { 0.0 };
+        let (mass, radius) = (self.structure.mass_kg, self.body().radius());
+        let massless = self.inertia < MASSLESS_ROTATION * mass * radius * radius;
         if self.members.legs.is_none() {
-            let inertia = if massless { self.inertia.min(QUICK_INERTIA * point_mass) } else { self.inertia };
-            return Regularised { mass: 0.0, dashpot: 0.0, inertia, moved };
+            return Regularised { mass: 0.0, dashpot: 0.0, inertia: self.inertia, moved: mass };
         }
         let dt = self.record.dt / self.steps_per_sample as f64;
         let bending = 3.0 * self.legs.ei / radius.powi(3);
-        let mass = FOOT_MASS * bending * dt * dt;
-        let inertia = if massless { mass * radius * radius } else { self.inertia };
-        Regularised { mass, dashpot: FOOT_DASHPOT * bending * dt, inertia, moved }
+        let foot = FOOT_MASS * bending * dt * dt;
+        // what rocking feels of a rotation that is taken as massless is in the mass of the translation
+        let (inertia, moved) = if massless {
+            (foot * radius * radius, mass + self.inertia / (radius * radius))
+        } else {
+            (self.inertia, mass)
+        };
+        Regularised { mass: foot, dashpot: FOOT_DASHPOT * bending * dt, inertia, moved }
     }
 
     /// Length at which the tendon begins to pull [m]; zero without one.
@@ -221,7 +231,7 @@ impl<'a> Model<'a> {
         if self.members.legs.is_some() {
             return "as given".to_string();
         }
-        format!("{LEG_STIFFNESS:e} times the stiffest spring")
+        format!("{LEG_STIFFNESS} times the stiffest k1, whose compliance is less by the leg's")
     }
 
     pub fn title(&self) -> String {
@@ -240,6 +250,12 @@ impl<'a> Model<'a> {
             self.record.pga_g()
         )
     }
+}
+
+/// Legs of this stiffness, along and across [N/m].
+pub(super) fn legs_of(stiffness: f64, body: &Body<f64>) -> Legs<f64> {
+    let length = body.radius();
+    Legs { ea: stiffness * length, ei: stiffness * length.powi(3) / 3.0 }
 }
 
 /// 17 significant digits: reads back to the same number.

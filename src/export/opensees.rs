@@ -8,13 +8,13 @@ use crate::scalar::GRAVITY;
 /// The deck for openseespy.
 pub(super) fn python(model: &Model) -> String {
     let rows = rows(model, ",");
-    fill(include_str!("deck.py"), model, &rows)
+    fill(include_str!("deck.py"), include_str!("steps.py"), model, &rows)
 }
 
 /// The deck for OpenSees' Tcl interpreter.
 pub(super) fn tcl(model: &Model) -> String {
     let rows = rows(model, "");
-    fill(include_str!("deck.tcl"), model, &rows)
+    fill(include_str!("deck.tcl"), include_str!("steps.tcl"), model, &rows)
 }
 
 /// A coefficient of friction at which no pressing foot ever slips, not even in the last microsecond before it lifts: with 1000
@@ -26,9 +26,6 @@ const TURNS: &str = "as little as its foot masses, so that the rotation follows 
 
 /// The inertia that rocking feels, m R^2 + I_cg, is kept.
 const MOVED: &str = "m1 + I_cg/R^2, which is all of I_cg that rocking feels";
-
-/// A rotation without inertia to speak of.
-const QUICK: &str = "so little that its vibration on the springs dies within a step";
 
 /// The record, four samples a line.
 fn rows(model: &Model, separator: &str) -> String {
@@ -42,17 +39,39 @@ fn rows(model: &Model, separator: &str) -> String {
     lines.collect::<Vec<_>>().join("\n")
 }
 
-/// Put the model's numbers in the place of `@NAME@`.
-fn fill(template: &str, model: &Model, rows: &str) -> String {
+fn accuracy_note(model: &Model) -> String {
+    if model.accuracy < model.expected.accuracy {
+        format!("{} was asked for, and small errors grow in this history", model.expected.accuracy)
+    } else {
+        "the steps follow from it".to_string()
+    }
+}
+
+fn landing_note(model: &Model) -> &'static str {
+    if model.landing > 0.0 {
+        "1/Omega_n of the vertical k1, s"
+    } else {
+        "0: all steps alike, as the feet's mass is for one step only"
+    }
+}
+
+fn steps_note(model: &Model) -> &'static str {
+    if model.landing == 0.0 {
+        "dt at most 1/(40 Omega_n [Hz]) and 1e-4/p"
+    } else if model.steps_per_sample > 2 {
+        "springs as soft as these go on swinging"
+    } else {
+        "more change nothing"
+    }
+}
+
+/// Put the stepping routine and the model's numbers in the place of `@NAME@`.
+fn fill(template: &str, routine: &str, model: &Model, rows: &str) -> String {
     let body = model.body();
     let (v, h) = (&model.springs.vertical, &model.springs.horizontal);
     let e = &model.expected;
     let regularised = model.regularised();
-    let inertia_note = match (regularised.inertia == model.inertia, model.members.legs) {
-        (true, _) => model.inertia_note(),
-        (false, None) => QUICK,
-        (false, Some(_)) => TURNS,
-    };
+    let inertia_note = if regularised.inertia == model.inertia { model.inertia_note() } else { TURNS };
     let moved_note = if regularised.moved > body.mass { MOVED } else { "m1" };
     let values = [
         ("TITLE", model.title()),
@@ -85,15 +104,12 @@ fn fill(template: &str, model: &Model, rows: &str) -> String {
         ("LEG_NOTE", model.leg_note()),
         ("TOLERANCE", digits(model.tolerance)),
         ("RECORD_DT", digits(model.record.dt)),
+        ("ACCURACY", digits(model.accuracy)),
+        ("ACCURACY_NOTE", accuracy_note(model)),
+        ("LANDING", digits(model.landing)),
+        ("LANDING_NOTE", landing_note(model).to_string()),
         ("STEPS", model.steps_per_sample.to_string()),
-        (
-            "STEPS_NOTE",
-            format!(
-                "dt at most 1/(40 Omega_n [Hz]) and {}/p, finer where a hair of width moves the history; twice as many must change nothing",
-                model.by_rocking()
-            ),
-        ),
-        ("SHORTEST", digits(model.shortest)),
+        ("STEPS_NOTE", steps_note(model).to_string()),
         ("SAMPLES", e.samples.to_string()),
         ("DURATION", model.duration().to_string()),
         ("SETTLED", digits(e.settled)),
@@ -107,6 +123,7 @@ fn fill(template: &str, model: &Model, rows: &str) -> String {
     for (name, value) in values {
         text = text.replace(&format!("@{name}@"), &value);
     }
+    text = text.replace("@ROUTINE@", routine.trim_end());
     // last and once: it is most of the text
     text.replacen("@RECORD@", rows, 1)
 }

@@ -17,7 +17,7 @@ mod links;
 
 use std::fmt::{Display, Write};
 
-use super::model::{Model, digits};
+use super::model::{Model, digits, legs_of};
 use cases::{cases, loads, record};
 use links::links;
 
@@ -27,8 +27,8 @@ const KILO: f64 = 1e-3;
 const LEG_E: f64 = 2e8;
 /// Length of a link over h: long enough that importing merges no joints. The absorbers do not rotate, so it does not matter.
 const LINK_LENGTH: f64 = 0.01;
-/// Legs that stand for a rigid body are stiffer than in OpenSees decks: nothing takes their compliance off k1 here.
-const STIFFER: f64 = 10.0;
+/// Stiffness of legs that stand for a rigid body, over the stiffest spring: nothing takes their compliance off k1 here.
+const LEG_STIFFNESS: f64 = 1e4;
 /// Friction coefficient: a pressing foot never slides.
 const FRICTION: f64 = 1000.0;
 
@@ -125,9 +125,11 @@ fn control() -> Vec<Table> {
 fn geometry(model: &Model) -> Vec<Table> {
     let body = model.body();
     let (b, h) = (body.half_width, body.height);
-    let stiffer = if model.members.legs.is_some() { 1.0 } else { STIFFER };
-    let area = digits(stiffer * model.legs.ea * KILO / LEG_E);
-    let inertia = digits(stiffer * model.legs.ei * KILO / LEG_E);
+    let (v, hz) = (&model.springs.vertical, &model.springs.horizontal);
+    let stiffest = v.k1.max(v.k2).max(hz.k1).max(hz.k2);
+    let legs = model.members.legs.unwrap_or(legs_of(LEG_STIFFNESS * stiffest, &body));
+    let area = digits(legs.ea * KILO / LEG_E);
+    let inertia = digits(legs.ei * KILO / LEG_E);
     let link = LINK_LENGTH * h;
 
     let mut joints = Table::new("JOINT COORDINATES");

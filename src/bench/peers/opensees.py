@@ -12,7 +12,7 @@ deck = importlib.util.module_from_spec(spec)
 spec.loader.exec_module(deck)  # exits with 3 when openseespy cannot be loaded
 history = os.path.splitext(path)[0] + "_history.csv"
 if sys.argv[2] == "even":
-    deck.SHORTEST = 1.0
+    deck.LANDING = 0.0
 for steps in map(int, sys.argv[3:]):
     deck.STEPS_PER_SAMPLE = steps
     shown, sys.stdout = sys.stdout, open(os.devnull, "w")

@@ -1,0 +1,90 @@
+//! Whether OpenSees is within its limit of our own history.
+
+use crate::{
+    motion::{Motion, nrmse, peak},
+    structure::Body,
+};
+
+/// Largest NRMSE of u between OpenSees and our own history.
+pub const LIMIT: f64 = 0.001;
+
+/// Share of the half width below which a motion counts as standing: the error is told against at least that.
+const STANDING: f64 = 1e-3;
+
+/// Share of the largest u by which histories that have parted differ.
+const PARTED: f64 = 0.01;
+
+/// OpenSees against our own history, up to where that can be foretold.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Verdict {
+    /// NRMSE of u over what is judged.
+    pub error: f64,
+    /// Whether it is at most [`LIMIT`].
+    pub within: bool,
+    /// Samples judged: all, or those before the history hangs on the width's fifth digit.
+    pub samples: usize,
+    /// Time from which on it does [s].
+    pub until: Option<f64>,
+    /// When OpenSees first is off by one hundredth of the largest u [s].
+    pub parted: Option<f64>,
+}
+
+impl Verdict {
+    /// `until`: samples that can be foretold, `None` for all.
+    pub fn new(opensees: &Motion, ours: &Motion, body: &Body<f64>, dt: f64, until: Option<usize>) -> Self {
+        let samples = until.unwrap_or(ours.len()).min(ours.len()).min(opensees.len());
+        let (a, b) = (&opensees.u[..samples], &ours.u[..samples]);
+        let rms = |x: &[f64]| (x.iter().map(|x| x * x).sum::<f64>() / samples.max(1) as f64).sqrt();
+        let least = STANDING * body.half_width;
+        let error = nrmse(a, b) * if rms(b) < least { rms(b) / least } else { 1.0 };
+        let far = PARTED * peak(&ours.u).abs().max(least);
+        let parted = opensees.u.iter().zip(&ours.u).position(|(a, b)| (a - b).abs() > far);
+        let time = |sample: usize| sample as f64 * dt;
+        Self { error, within: error <= LIMIT, samples, until: until.map(time), parted: parted.map(time) }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::structure::Structure;
+
+    /// A history of 1 m and one that leaves it by the given share from the given sample on.
+    fn pair(share: f64, from: usize) -> [Motion; 2] {
+        let u: Vec<f64> = (0..100).map(|i| if i % 2 == 0 { 1.0 } else { -1.0 }).collect();
+        let off = u.iter().enumerate().map(|(i, u)| if i < from { *u } else { u * (1.0 + share) }).collect();
+        [off, u].map(|u| Motion { v: u.clone(), theta: u.clone(), u })
+    }
+
+    fn judged(share: f64, from: usize, until: Option<usize>) -> Verdict {
+        let [off, ours] = pair(share, from);
+        Verdict::new(&off, &ours, &Structure::paper().body(), 0.01, until)
+    }
+
+    #[test]
+    fn a_history_off_by_its_limit_passes_and_one_further_off_does_not() {
+        assert!(judged(0.9 * LIMIT, 0, None).within);
+        let far = judged(1.1 * LIMIT, 0, None);
+        assert!(!far.within && (far.error / (1.1 * LIMIT) - 1.0).abs() < 1e-9, "{far:?}");
+        assert_eq!(far.parted, None);
+    }
+
+    #[test]
+    fn what_cannot_be_foretold_is_not_judged_but_the_time_of_parting_is_told() {
+        let verdict = judged(0.5, 60, Some(50));
+        assert!(verdict.within && verdict.samples == 50);
+        assert_eq!((verdict.until, verdict.parted), (Some(0.5), Some(0.6)));
+        assert!(!judged(0.5, 40, Some(50)).within);
+    }
+
+    /// A millimetre of a frame 6.1 m wide to each side is standing: an error of a tenth of that is within 0.001 of a thousandth of the width.
+    #[test]
+    fn a_body_that_stands_is_judged_by_its_width() {
+        let [off, ours] = pair(0.1, 0).map(|m| {
+            let u: Vec<f64> = m.u.iter().map(|u| u * 1e-5).collect();
+            Motion { v: u.clone(), theta: u.clone(), u }
+        });
+        let verdict = Verdict::new(&off, &ours, &Structure::paper().body(), 0.01, None);
+        assert!(verdict.within && verdict.error > 0.0, "{verdict:?}");
+    }
+}
