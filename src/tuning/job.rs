@@ -73,7 +73,7 @@ pub struct Job {
     pub suites: Suites,
     /// Whether a cap on Omega_n decided.
     pub capped: bool,
-    /// None where the record does not lift the structure.
+    /// None where the record cannot be tuned on: it does not lift the structure, or Housner's answer is ill-conditioned.
     pub paper: Option<Paper>,
 }
 
@@ -98,7 +98,8 @@ impl Job {
                 let design = Landing { case, body, suites: &suites };
                 let (tuned, capped) = design.tune(progress)?;
                 let hz = tuned.best.springs.vertical.omega_n_hz;
-                let paper = if lifted { procedure.at(hz, progress) } else { None };
+                // on an ill-conditioned record it would tune to noise
+                let paper = if suites.has_record() { procedure.at(hz, progress) } else { None };
                 (tuned, capped, paper)
             }
             Objective::Arr if !lifted => {

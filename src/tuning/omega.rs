@@ -19,8 +19,9 @@ pub const MARGIN: f64 = 0.7;
 const DECADE: f64 = 10.0;
 /// The softest rung tried, Omega_n/p.
 const SOFTEST: f64 = 100.0;
-/// Omega_n/p times the accuracy asked for where the search begins: errors fall about as 20/(Omega_n/p).
-const BEGIN: f64 = 20.0;
+/// Omega_n/p times the accuracy asked for where the search begins: errors of synthetic motions fall about as 20/(Omega_n/p),
+/// those of earthquake-like ones about as five times what is allowed at 160/(Omega_n/p).
+const BEGIN: f64 = 160.0;
 /// Rungs judged before the stiffest good one is taken as it is.
 const MOST_RUNGS: usize = 12;
 

@@ -7,7 +7,7 @@ use rayon::prelude::*;
 use serde::{Deserialize, Serialize};
 
 use crate::{
-    conditioning::Conditioning,
+    conditioning::{ILL_CONDITIONED, Sensitivity, changes, sensitivity},
     fem::{Case, Control, Outcome, Start},
     housner::{self, Options},
     record::Record,
@@ -18,11 +18,11 @@ use crate::{
 };
 
 /// Motions of each suite that are followed.
-const SYNTHETIC: usize = 30;
-const EARTHQUAKES: usize = 20;
+const SYNTHETIC: usize = 24;
+const EARTHQUAKES: usize = 16;
 /// Motions of each suite that are looked at for them, so many at a time.
-const LOOKED_AT: usize = 240;
-const AT_A_TIME: usize = 40;
+const LOOKED_AT: usize = 160;
+const AT_A_TIME: usize = 16;
 /// Seed of both: not one that `tune validate` takes by itself.
 const SEED: u64 = 1940;
 /// Sensitivity of Housner's answer below which earthquake-like motions count in their geometric mean.
@@ -38,16 +38,23 @@ pub struct Trial {
 }
 
 impl Trial {
-    /// The motion, if Housner's body rocks on it without overturning, and how well conditioned that is.
-    fn new(body: &Body<f64>, restitution: f64, record: Record) -> Option<(Self, Conditioning)> {
+    /// The motion, if Housner's body rocks on it without overturning and `pick` likes how sensitive its history is; and if
+    /// finite changes confirm that, where they shall.
+    fn new(
+        body: &Body<f64>,
+        restitution: f64,
+        record: Record,
+        pick: impl Fn(&Sensitivity) -> bool,
+        confirmed: bool,
+    ) -> Option<Self> {
         let options = Options { restitution: Some(restitution), ..Options::default() };
         let Record { dt, accel, .. } = record;
         let rocking = housner::solve(body, dt, &accel, &options);
         let rocks = rocking.outcome == housner::Outcome::Rocked && !rocking.impacts.is_empty();
-        rocks.then(|| {
-            let conditioning = Conditioning::new(body, dt, &accel, &options);
-            (Self { dt, accel, theta: rocking.theta }, conditioning)
-        })
+        let fit = rocks
+            && pick(&sensitivity(body, dt, &accel, &options))
+            && (!confirmed || changes(body, dt, &accel, &options).proportionate());
+        fit.then_some(Self { dt, accel, theta: rocking.theta })
     }
 
     /// NRMSE of u and of v on these springs; infinite if the history does not get to the record's end.
@@ -115,11 +122,10 @@ impl Suites {
     /// Of a body that lands with velocity restitution `restitution`, with this record if there is one.
     pub fn new(body: &Body<f64>, restitution: f64, record: Option<&Record>) -> Self {
         let (p, alpha) = (body.p_squared().sqrt(), body.alpha());
-        let trial = |record| Trial::new(body, restitution, record);
-        let well = |record| trial(record).filter(|(_, c)| c.well_conditioned()).map(|(trial, _)| trial);
-        let predictable = |record| {
-            trial(record).filter(|(_, c)| c.sensitivity.worst() < PREDICTABLE).map(|(trial, _)| trial)
+        let well = |record| {
+            Trial::new(body, restitution, record, |s: &Sensitivity| s.worst() < ILL_CONDITIONED, true)
         };
+        let predictable = |record| Trial::new(body, restitution, record, |s: &Sensitivity| s.worst() < PREDICTABLE, false);
         Self {
             body: *body,
             record: record.and_then(|record| well(record.clone())),
