@@ -13,6 +13,7 @@ use num_dual::DualSVec64;
 
 use crate::housner::{Options, Outcome, Rocking, solve, solve_lanes};
 use crate::motion::nrmse;
+use crate::overturning::samples_until;
 use crate::structure::Body;
 
 /// From this sensitivity on, by the derivative or by finite changes, histories cannot be compared one to one.
@@ -100,9 +101,8 @@ pub fn changes(body: &Body<f64>, dt: f64, accel: &[f64], options: &Options<f64>)
     let displacements = |i: usize| histories[i].motion(&bodies[i]).u;
     let u = displacements(0);
     let moved = |i: usize| {
-        let until =
-            [&histories[0], &histories[i]].into_iter().filter_map(Rocking::overturned).fold(f64::INFINITY, f64::min);
-        let samples = ((until / dt) as usize).min(u.len() - 1) + 1;
+        let until = [&histories[0], &histories[i]].into_iter().filter_map(Rocking::overturned).reduce(f64::min);
+        let samples = samples_until(until, dt).min(u.len());
         // a body that only the change lifts: all of its motion is moved
         Some(nrmse(&displacements(i), &u[..samples])).filter(|x| x.is_finite()).unwrap_or(1.0)
     };
@@ -117,7 +117,7 @@ pub fn changes(body: &Body<f64>, dt: f64, accel: &[f64], options: &Options<f64>)
     }
 }
 
-/// The sensitivity of a history: record and options as in [`solve`]. A body that never moves has none: zero.
+/// The sensitivity of a history up to its overturning, if it does: record and options as in [`solve`]. A body that never moves has none: zero.
 pub fn sensitivity(body: &Body<f64>, dt: f64, accel: &[f64], options: &Options<f64>) -> Sensitivity {
     type Dual = DualSVec64<2>;
     let real = Dual::from_re;
@@ -136,7 +136,7 @@ pub fn sensitivity(body: &Body<f64>, dt: f64, accel: &[f64], options: &Options<f
     };
     let rocking = solve(&dual_body, dt, accel, &dual_options);
     let (mut below, mut above) = (0.0, [0.0; 2]);
-    for &theta in &rocking.theta {
+    for &theta in rocking.theta.iter().take(samples_until(rocking.overturned(), dt)) {
         let u = dual_body.u(theta);
         below += u.re * u.re;
         let du = u.eps.unwrap_generic(Const::<2>, Const::<1>);

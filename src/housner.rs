@@ -195,7 +195,7 @@ fn samples(dt: f64, len: usize, duration: Option<f64>) -> usize {
     }
 }
 
-impl Rocking<f64> {
+impl<S> Rocking<S> {
     /// When |theta| last grew past alpha, if the body overturned [s].
     pub fn overturned(&self) -> Option<f64> {
         match self.outcome {
@@ -203,7 +203,9 @@ impl Rocking<f64> {
             _ => None,
         }
     }
+}
 
+impl Rocking<f64> {
     /// The motion of the centre of mass.
     pub fn motion(&self, body: &Body<f64>) -> Motion {
         Motion {

@@ -236,7 +236,7 @@ impl Parameters {
 
     fn checked(self, path: &str) -> Result<Self, ParametersError> {
         if let Some(row) = &self.record
-            && let Some(value) = row.duration_s.filter(|d| !(*d > 0.0))
+            && let Some(value) = row.duration_s.filter(|d| *d <= 0.0)
         {
             return Err(ParametersError::Record { path: path.to_string(), name: "duration_s", value });
         }
