@@ -9,8 +9,9 @@ use crate::{
     structure::Body,
 };
 
-/// How a finite element history matches Housner's over the same samples, up to the first overturning of the two: after it there is
-/// nothing to compare. A number that is not finite (an NRMSE of a body that Housner's equation never lifts) is `null` in JSON.
+/// How a finite element history matches Housner's over the same samples, up to the first overturning of the two: after it
+/// there is nothing to compare. A number that is not finite (an NRMSE of a body that Housner's equation never lifts) is
+/// `null` in JSON.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Match {
     /// Length compared [s].

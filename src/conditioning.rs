@@ -41,12 +41,13 @@ impl Sensitivity {
 /// Relative changes of the width, the scale and the restitution.
 pub const CHANGES: [f64; 2] = [1e-3, 1e-2];
 
-/// From this much moved by 0.1 % of the restitution on, histories cannot be compared one to one. The restitution acts anew at every impact, ten
-/// to a hundred times in a history, so it moves a good history more than the width does; springs hold it to some 0.01 %.
+/// From this much moved by 0.1 % of the restitution on, histories cannot be compared one to one. The restitution acts
+/// anew at every impact, ten to a hundred times in a history, so it moves a good history more than the width does;
+/// springs miss it by 0.1 % (160 Hz) or less.
 pub const MOVED_BY_RESTITUTION: f64 = 0.1;
 
-/// How far finite changes move a history: || u(x (1 + d)) - u(x) || / || u || for |d| = 0.1 % and 1 %, the larger of both signs, up to the first
-/// overturning of the two.
+/// How far finite changes move a history: || u(x (1 + d)) - u(x) || / || u || for |d| = 0.1 % and 1 %, the larger of both
+/// signs, up to the first overturning of the two.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct Changes {
     /// By the width 2b.
@@ -60,8 +61,9 @@ pub struct Changes {
 }
 
 impl Changes {
-    /// Whether all is as the derivatives of a well-conditioned history promise: changes of width and scale move it by less than
-    /// [`ILL_CONDITIONED`] times as much, 0.1 % of the restitution by less than [`MOVED_BY_RESTITUTION`], and nothing decides on overturning.
+    /// Whether all is as the derivatives of a well-conditioned history promise: changes of width and scale move it by
+    /// less than [`ILL_CONDITIONED`] times as much, 0.1 % of the restitution by less than [`MOVED_BY_RESTITUTION`], and
+    /// nothing decides on overturning.
     pub fn proportionate(&self) -> bool {
         let within =
             |moved: [f64; 2]| moved.iter().zip(CHANGES).all(|(moved, change)| *moved < ILL_CONDITIONED * change);
@@ -117,7 +119,8 @@ pub fn changes(body: &Body<f64>, dt: f64, accel: &[f64], options: &Options<f64>)
     }
 }
 
-/// The sensitivity of a history up to its overturning, if it does: record and options as in [`solve`]. A body that never moves has none: zero.
+/// The sensitivity of a history up to its overturning, if it does: record and options as in [`solve`]. A body that never
+/// moves has none: zero.
 pub fn sensitivity(body: &Body<f64>, dt: f64, accel: &[f64], options: &Options<f64>) -> Sensitivity {
     type Dual = DualSVec64<2>;
     let real = Dual::from_re;
@@ -216,8 +219,8 @@ mod tests {
         assert!(found.well_conditioned() && !found.changes.overturning);
     }
 
-    /// A block of restitution 0.6 rocks freely until it rests; then the ground pushes it for 3 s with 0.9995 of what lifts it. The derivative sees the free rocking
-    /// alone. 0.1 % more scale, or less width, and it rocks again.
+    /// A block of restitution 0.6 rocks freely until it rests; then the ground pushes it for 3 s with 0.9995 of what
+    /// lifts it. The derivative sees the free rocking alone. 0.1 % more scale, or less width, and it rocks again.
     #[test]
     fn a_push_that_all_but_lifts_is_seen_by_finite_changes_alone() {
         let body = Structure::block(2.0, 0.5, 1e3).unwrap().body::<f64>();

@@ -20,7 +20,8 @@ use crate::{
 };
 pub use record::{RecordRow, RememberedError, SourceRow};
 
-/// Version of the keys of parameters.json that this program writes. Version 1 had no number, and remembered of the record only what it was called.
+/// Version of the keys of parameters.json that this program writes. Version 1 had no number, and remembered of the record
+/// only what it was called.
 pub const SCHEMA: u32 = 2;
 
 /// How sensitive Housner's history of that record is: relative change of u per relative change (`conditioning`).
