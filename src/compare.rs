@@ -9,8 +9,9 @@ use crate::{
     structure::Body,
 };
 
-/// How a finite element history matches Housner's over the same samples, up to the first overturning of the two: after it there is
-/// nothing to compare. A number that is not finite (an NRMSE of a body that Housner's equation never lifts) is `null` in JSON.
+/// How a finite element history matches Housner's over the same samples, up to the first overturning of the two: after it
+/// there is nothing to compare. A number that is not finite (an NRMSE of a body that Housner's equation never lifts) is
+/// `null` in JSON.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Match {
     /// Length compared [s].
@@ -108,4 +109,53 @@ fn effective_restitution<'a>(landings: impl Iterator<Item = &'a Landing>) -> Vec
 fn error_above(landings: &[(f64, f64)], restitution: f64, least: f64) -> Option<f64> {
     let those = landings.iter().filter(|(kinetic, _)| *kinetic > least);
     those.map(|(_, e)| (e / restitution - 1.0).abs()).reduce(f64::max)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::{
+        fem::{Case, Control, Start},
+        housner::{Options, solve},
+        spring::{Design, Springs},
+        structure::Structure,
+    };
+
+    /// Both models of a solid block on plain springs under a steady push.
+    fn pushed(share_of_limit: f64) -> (Body<f64>, Match, f64) {
+        let body = Structure::block(2.0, 0.5, 1e3).unwrap().body::<f64>();
+        let design = Design::from_kc(0.3, 0.1, 0.75, 400.0);
+        let springs = Springs { vertical: design, horizontal: design }.chains(body.mass);
+        let dt = 0.01;
+        let accel = vec![share_of_limit * 9.81 * body.half_width / body.height; 1000];
+        let rocking = solve(&body, dt, &accel, &Options::default());
+        let (start, control) = (Start::Settled, Control::default());
+        let history = Case { body, springs, start, dt, accel: &accel, scale: 1.0, control }.simulate();
+        let housner = (&rocking.motion(&body), rocking.impacts.len());
+        (body, Match::new(&body, dt, housner, &history, body.restitution()), rocking.overturned().unwrap_or(f64::NAN))
+    }
+
+    /// alpha is passed at acosh(1 + 1/(x - 1))/p, small angles, x the push over its limit: 1.3170/p for x = 2.
+    #[test]
+    fn nothing_counts_after_the_first_overturning() {
+        let (body, found, time) = pushed(2.0);
+        assert!((time * body.p_squared().sqrt() / 1.3170 - 1.0).abs() < 0.03, "{time}");
+        assert!((found.overturned_housner_s.unwrap() - time).abs() < 1e-3, "{found:?}");
+        assert!((found.overturned_fem_s.unwrap() - time).abs() < 0.02, "{found:?}");
+        assert!(found.duration_s <= time && found.nrmse_horizontal < 0.05, "{found:?}");
+        let balance = body.u(body.alpha());
+        for peak in [found.peak_horizontal_housner_m, found.peak_horizontal_fem_m] {
+            assert!((0.9..=1.001).contains(&(peak.abs() / balance)), "{found:?}");
+        }
+        assert_eq!((found.impacts_housner, found.impacts_fem), (0, 0));
+    }
+
+    #[test]
+    fn an_error_against_a_body_that_never_lifts_is_null_in_json_and_read_back() {
+        let (_, found, _) = pushed(0.5);
+        assert_eq!(found.nrmse_horizontal, f64::INFINITY);
+        let json = serde_json::to_string(&found).unwrap();
+        assert!(json.contains("\"nrmse_horizontal\":null") && !json.contains("overturned"), "{json}");
+        assert_eq!(serde_json::from_str::<Match>(&json).unwrap(), found);
+    }
 }

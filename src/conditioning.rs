@@ -13,6 +13,7 @@ use num_dual::DualSVec64;
 
 use crate::housner::{Options, Outcome, Rocking, solve, solve_lanes};
 use crate::motion::nrmse;
+use crate::overturning::samples_until;
 use crate::structure::Body;
 
 /// From this sensitivity on, by the derivative or by finite changes, histories cannot be compared one to one.
@@ -40,12 +41,13 @@ impl Sensitivity {
 /// Relative changes of the width, the scale and the restitution.
 pub const CHANGES: [f64; 2] = [1e-3, 1e-2];
 
-/// From this much moved by 0.1 % of the restitution on, histories cannot be compared one to one. The restitution acts anew at every impact, ten
-/// to a hundred times in a history, so it moves a good history more than the width does; springs hold it to some 0.01 %.
+/// From this much moved by 0.1 % of the restitution on, histories cannot be compared one to one. The restitution acts
+/// anew at every impact, ten to a hundred times in a history, so it moves a good history more than the width does;
+/// springs miss it by 0.1 % (160 Hz) or less.
 pub const MOVED_BY_RESTITUTION: f64 = 0.1;
 
-/// How far finite changes move a history: || u(x (1 + d)) - u(x) || / || u || for |d| = 0.1 % and 1 %, the larger of both signs, up to the first
-/// overturning of the two.
+/// How far finite changes move a history: || u(x (1 + d)) - u(x) || / || u || for |d| = 0.1 % and 1 %, the larger of both
+/// signs, up to the first overturning of the two.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct Changes {
     /// By the width 2b.
@@ -59,8 +61,9 @@ pub struct Changes {
 }
 
 impl Changes {
-    /// Whether all is as the derivatives of a well-conditioned history promise: changes of width and scale move it by less than
-    /// [`ILL_CONDITIONED`] times as much, 0.1 % of the restitution by less than [`MOVED_BY_RESTITUTION`], and nothing decides on overturning.
+    /// Whether all is as the derivatives of a well-conditioned history promise: changes of width and scale move it by
+    /// less than [`ILL_CONDITIONED`] times as much, 0.1 % of the restitution by less than [`MOVED_BY_RESTITUTION`], and
+    /// nothing decides on overturning.
     pub fn proportionate(&self) -> bool {
         let within =
             |moved: [f64; 2]| moved.iter().zip(CHANGES).all(|(moved, change)| *moved < ILL_CONDITIONED * change);
@@ -100,9 +103,8 @@ pub fn changes(body: &Body<f64>, dt: f64, accel: &[f64], options: &Options<f64>)
     let displacements = |i: usize| histories[i].motion(&bodies[i]).u;
     let u = displacements(0);
     let moved = |i: usize| {
-        let until =
-            [&histories[0], &histories[i]].into_iter().filter_map(Rocking::overturned).fold(f64::INFINITY, f64::min);
-        let samples = ((until / dt) as usize).min(u.len() - 1) + 1;
+        let until = [&histories[0], &histories[i]].into_iter().filter_map(Rocking::overturned).reduce(f64::min);
+        let samples = samples_until(until, dt).min(u.len());
         // a body that only the change lifts: all of its motion is moved
         Some(nrmse(&displacements(i), &u[..samples])).filter(|x| x.is_finite()).unwrap_or(1.0)
     };
@@ -117,7 +119,8 @@ pub fn changes(body: &Body<f64>, dt: f64, accel: &[f64], options: &Options<f64>)
     }
 }
 
-/// The sensitivity of a history: record and options as in [`solve`]. A body that never moves has none: zero.
+/// The sensitivity of a history up to its overturning, if it does: record and options as in [`solve`]. A body that never
+/// moves has none: zero.
 pub fn sensitivity(body: &Body<f64>, dt: f64, accel: &[f64], options: &Options<f64>) -> Sensitivity {
     type Dual = DualSVec64<2>;
     let real = Dual::from_re;
@@ -136,7 +139,7 @@ pub fn sensitivity(body: &Body<f64>, dt: f64, accel: &[f64], options: &Options<f
     };
     let rocking = solve(&dual_body, dt, accel, &dual_options);
     let (mut below, mut above) = (0.0, [0.0; 2]);
-    for &theta in &rocking.theta {
+    for &theta in rocking.theta.iter().take(samples_until(rocking.overturned(), dt)) {
         let u = dual_body.u(theta);
         below += u.re * u.re;
         let du = u.eps.unwrap_generic(Const::<2>, Const::<1>);
@@ -216,8 +219,8 @@ mod tests {
         assert!(found.well_conditioned() && !found.changes.overturning);
     }
 
-    /// A block of restitution 0.6 rocks freely until it rests; then the ground pushes it for 3 s with 0.9995 of what lifts it. The derivative sees the free rocking
-    /// alone. 0.1 % more scale, or less width, and it rocks again.
+    /// A block of restitution 0.6 rocks freely until it rests; then the ground pushes it for 3 s with 0.9995 of what
+    /// lifts it. The derivative sees the free rocking alone. 0.1 % more scale, or less width, and it rocks again.
     #[test]
     fn a_push_that_all_but_lifts_is_seen_by_finite_changes_alone() {
         let body = Structure::block(2.0, 0.5, 1e3).unwrap().body::<f64>();

@@ -179,8 +179,8 @@ fn setting<'a, S: Scalar>(body: &Body<S>, dt: f64, accel: &'a [f64], options: &O
     }
 }
 
-/// Whether a body left alone on still ground with this theta (rad) and theta' (rad/s) falls: it is beyond alpha, and what brings it
-/// back is too slow to reach alpha.
+/// Whether a body left alone on still ground with this theta (rad) and theta' (rad/s) falls: it is beyond alpha, and what
+/// brings it back is too slow to reach alpha.
 pub fn topples(body: &Body<f64>, theta: f64, rate: f64) -> bool {
     let options = Options { initial: Some((theta, rate)), ..Options::default() };
     solve(body, 1.0, &[0.0], &options).overturned().is_some()
@@ -195,7 +195,7 @@ fn samples(dt: f64, len: usize, duration: Option<f64>) -> usize {
     }
 }
 
-impl Rocking<f64> {
+impl<S> Rocking<S> {
     /// When |theta| last grew past alpha, if the body overturned [s].
     pub fn overturned(&self) -> Option<f64> {
         match self.outcome {
@@ -203,7 +203,9 @@ impl Rocking<f64> {
             _ => None,
         }
     }
+}
 
+impl Rocking<f64> {
     /// The motion of the centre of mass.
     pub fn motion(&self, body: &Body<f64>) -> Motion {
         Motion {

@@ -20,7 +20,8 @@ use crate::{
 };
 pub use record::{RecordRow, RememberedError, SourceRow};
 
-/// Version of the keys of parameters.json that this program writes. Version 1 had no number, and remembered of the record only what it was called.
+/// Version of the keys of parameters.json that this program writes. Version 1 had no number, and remembered of the record
+/// only what it was called.
 pub const SCHEMA: u32 = 2;
 
 /// How sensitive Housner's history of that record is: relative change of u per relative change (`conditioning`).
@@ -236,7 +237,7 @@ impl Parameters {
 
     fn checked(self, path: &str) -> Result<Self, ParametersError> {
         if let Some(row) = &self.record
-            && let Some(value) = row.duration_s.filter(|d| !(*d > 0.0))
+            && let Some(value) = row.duration_s.filter(|d| *d <= 0.0)
         {
             return Err(ParametersError::Record { path: path.to_string(), name: "duration_s", value });
         }

@@ -58,8 +58,8 @@ pub struct Regime {
     pub too_stocky: Option<Stocky>,
 }
 
-/// Check a history against the record (m/s2) and scale that made it, at the samples and on either side of each impact, up to its
-/// overturning: what a body asks of the ground while it falls is no question of rocking.
+/// Check a history against the record (m/s2) and scale that made it, at the samples and on either side of each impact, up
+/// to its overturning: what a body asks of the ground while it falls is no question of rocking.
 pub fn check(body: &Body<f64>, dt: f64, accel: &[f64], scale: f64, rocking: &Rocking<f64>, friction: f64) -> Regime {
     let mut worst = Worst { friction: Demand { value: 0.0, time: 0.0 }, lowest: 1.0, flight: None };
     let mut impacts = rocking.impacts.iter().peekable();

@@ -13,8 +13,9 @@
 //! 1/p: so some records hardly lift it and some, one in ten to one in four, topple it. Frequencies are spread evenly in
 //! their logarithm, amplitudes evenly. A silence of 8/p follows each motion, for the body to topple or to come back in.
 //!
-//! A second suite ([`earthquake`]) knows nothing of the structure: filtered noise of the frequencies, amplitudes and lengths of real
-//! earthquakes, on which tall structures sway before they lift, and small ones are hardly lifted or toppled at once.
+//! A second suite ([`earthquake`]) knows nothing of the structure: filtered noise of the frequencies, amplitudes and
+//! lengths of real earthquakes, on which tall structures sway before they lift, and small ones are hardly lifted or
+//! toppled at once.
 //!
 //! ```text
 //! omega_g = 9 to 36 rad/s    zeta_g = 0.2 to 0.6    PGA = 0.2 to 0.9 g    20 to 60 s    dt = 0.005 or 0.01 s
@@ -79,8 +80,9 @@ pub fn record(seed: u64, index: usize, p: f64, alpha: f64) -> Record {
 /// Numbers of this suite are drawn from streams that [`record`] does not use.
 const EARTHQUAKES: u64 = 1 << 63;
 
-/// Motion `index` of the suite of earthquakes of a seed. It depends on the seed and on the index alone; only the silence at its end is
-/// as long as the structure needs to topple or to come to rest: 8/p, p in 1/s, at least 2 s and at most 60 s.
+/// Motion `index` of the suite of earthquakes of a seed. It depends on the seed and on the index alone; only the silence
+/// at its end is as long as the structure needs to topple or to come to rest: 8/p, p in 1/s, at least 2 s and at most 60
+/// s.
 pub fn earthquake(seed: u64, index: usize, p: f64) -> Record {
     let mut random = Random::new(seed, EARTHQUAKES | index as u64);
     let dt = if random.sign() > 0.0 { 0.005 } else { 0.01 };

@@ -52,7 +52,8 @@ pub(super) fn check_accuracy(accuracy: f64) -> Result<(), CommandError> {
     Err(CommandError::Option { option: "accuracy", value: accuracy.to_string(), remedy })
 }
 
-/// The model that decks hold, the part of its record that is used, and a line that says which: that of the file unless given.
+/// The model that decks hold, the part of its record that is used, and a line that says which: that of the file unless
+/// given.
 pub(super) fn read(file: &Path, options: &RecordOptions) -> Result<(Parameters, Record, String), CommandError> {
     let mut parameters = Parameters::read(file)?;
     parameters.structure = with_inertia(&parameters.structure);

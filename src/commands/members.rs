@@ -34,8 +34,8 @@ pub fn csv(dt: f64, demands: &Demands) -> String {
     out
 }
 
-/// Count the largest forces up to an overturning only, if there is one: those of the fall and of the body on the ground are no
-/// demand of rocking. Times are then those of the samples.
+/// Count the largest forces up to an overturning only, if there is one: those of the fall and of the body on the ground
+/// are no demand of rocking. Times are then those of the samples.
 pub fn peaks_until(demands: &mut Demands, dt: f64, overturned: Option<f64>) {
     let Some(_) = overturned else { return };
     demands.peaks = Default::default();

@@ -44,7 +44,8 @@ pub struct Options {
     /// This many records made for the structure: Ricker and Mavroeidis-Papageorgiou pulses, filtered noise
     #[arg(long, value_name = "N", value_parser = clap::value_parser!(u32).range(1..=1_000_000))]
     synthetic: Option<u32>,
-    /// This many records like earthquakes, whatever the structure: filtered noise of soils of 9 to 36 rad/s, 0.2 to 0.9 g, 20 to 60 s
+    /// This many records like earthquakes, whatever the structure: filtered noise of soils of 9 to 36 rad/s, 0.2 to 0.9
+    /// g, 20 to 60 s
     #[arg(long, value_name = "N", value_parser = clap::value_parser!(u32).range(1..=1_000_000))]
     earthquakes: Option<u32>,
     /// Seed of the records made

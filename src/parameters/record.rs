@@ -169,7 +169,8 @@ fn real(path: &Path) -> PathBuf {
     absolute
 }
 
-/// The way from a folder to a file, both as [`real`] has them; the file's own path where nothing but the root is common to both.
+/// The way from a folder to a file, both as [`real`] has them; the file's own path where nothing but the root is common
+/// to both.
 fn way(folder: &Path, file: &Path) -> PathBuf {
     let common = folder.components().zip(file.components()).take_while(|(a, b)| a == b).count();
     if folder.components().take(common).all(|part| !matches!(part, Component::Normal(_))) {

@@ -21,8 +21,9 @@ pub enum Source {
 }
 
 impl Record {
-    /// FNV-1a (64 bit, G. Fowler, L. C. Noll, K.-P. Vo) of dt and the samples, each as the eight bytes of its IEEE 754 number, least
-    /// significant first: the same for the same numbers on every machine. It finds a file that was replaced, not one that was forged.
+    /// FNV-1a (64 bit, G. Fowler, L. C. Noll, K.-P. Vo) of dt and the samples, each as the eight bytes of its IEEE 754
+    /// number, least significant first: the same for the same numbers on every machine. It finds a file that was
+    /// replaced, not one that was forged.
     pub fn fingerprint(&self) -> u64 {
         let numbers = std::iter::once(&self.dt).chain(&self.accel);
         fnv1a(numbers.flat_map(|x| x.to_bits().to_le_bytes()))

@@ -116,3 +116,21 @@ fn landing_friction_is_the_ratio_of_housners_impulses() {
         assert!((regime.landing_friction / expected - 1.0).abs() < 1e-14);
     }
 }
+
+/// A push of twice the limit topples the block; lying down it would ask for any friction.
+#[test]
+fn what_a_falling_body_asks_of_the_ground_does_not_count() {
+    let body = block(2.0, 0.5);
+    let limit = GRAVITY * body.half_width / body.height;
+    let accel = vec![2.0 * limit; 1000];
+    let rocking = solve(&body, 0.01, &accel, &Options::default());
+    let time = rocking.overturned().unwrap();
+    let regime = check(&body, 0.01, &accel, 1.0, &rocking, 0.5);
+    assert!(regime.friction_needed.time <= time, "{regime:?}");
+    // it stands under twice tan(alpha) for the first sample, and needs less once it leans: see equation 1
+    assert!((regime.friction_needed.value - 2.0 * body.half_width / body.height).abs() < 1e-12, "{regime:?}");
+    assert_eq!(regime.free_flight, None);
+    // uncut, the same samples need more
+    let uncut = Rocking { outcome: Outcome::Rocked, ..rocking };
+    assert!(check(&body, 0.01, &accel, 1.0, &uncut, 0.5).friction_needed.value > 1.5 * regime.friction_needed.value);
+}

@@ -166,7 +166,8 @@ fn earthquakes_have_the_amplitudes_and_lengths_of_real_ones_whatever_the_structu
     }
 }
 
-/// The zero crossings of a narrow band come at its frequency: those of Kanai-Tajimi noise lie about omega_g/pi, 3 to 11 a second.
+/// The zero crossings of a narrow band come at its frequency: those of Kanai-Tajimi noise lie about omega_g/pi, 3 to 11 a
+/// second.
 #[test]
 fn earthquakes_have_real_frequencies_and_are_drawn_apart_from_the_other_suite() {
     for index in 0..20 {

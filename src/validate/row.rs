@@ -61,7 +61,8 @@ pub struct Row {
     pub pga_g: f64,
     /// Relative change of Housner's u per relative change of width or record scale, whichever is worse.
     pub sensitivity: f64,
-    /// sqrt( sum (u - u_H)^2 / sum u_H^2 ), up to the first overturning; none if the record never lifts the body or a model failed.
+    /// sqrt( sum (u - u_H)^2 / sum u_H^2 ), up to the first overturning; none if the record never lifts the body or a
+    /// model failed.
     pub nrmse_horizontal: Option<f64>,
     /// The same for v, from the settled position.
     pub nrmse_vertical: Option<f64>,

@@ -87,8 +87,8 @@ pub fn ks_distance(a: &[f64], b: &[f64]) -> f64 {
 /// Below this sensitivity histories are alike or not, though not one to one: what a geometric mean is taken over.
 pub const PREDICTABLE: f64 = 150.0;
 
-/// The geometric mean of the NRMSE of u over records with a sensitivity below [`PREDICTABLE`] that lift Housner's body and do not
-/// topple it.
+/// The geometric mean of the NRMSE of u over records with a sensitivity below [`PREDICTABLE`] that lift Housner's body
+/// and do not topple it.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize)]
 pub struct GeometricMean {
     /// How many such records the mean is over.
