@@ -58,6 +58,8 @@ const TOLERANCE_ON_LEGS: f64 = 2e-11;
 /// error is of second order; so many times at most.
 const FINER: f64 = 750.0;
 const FINEST: f64 = 16.0;
+/// From here on no steps help: the history is not to be foretold to its end.
+const HOPELESS: f64 = 0.5;
 
 /// Share of a position that a step may miss, over the accuracy of the history (the same in the decks' stepping routine).
 const STEP_ERROR: f64 = 1.0 / 40.0;
@@ -156,7 +158,8 @@ impl<'a> Model<'a> {
         }
         let leg = LEG_STIFFNESS * v.k1.max(h.k1);
         let body = structure.body::<f64>();
-        let accuracy = expected.accuracy / (FINER * expected.hair).clamp(1.0, FINEST * FINEST);
+        let finer = if expected.hair > HOPELESS { 1.0 } else { (FINER * expected.hair).clamp(1.0, FINEST * FINEST) };
+        let accuracy = expected.accuracy / finer;
         let even_steps = even_steps(parameters, record.dt);
         let (landing, steps_per_sample, tolerance) = if members.legs.is_some() {
             (0.0, even_steps, TOLERANCE_ON_LEGS)

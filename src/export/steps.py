@@ -75,15 +75,15 @@ class Steps:
                 if self.strongest > 0.0:
                     self.highest = max(self.highest, opening + 0.5 * rate * rate / self.strongest)
 
-    def pair(self, h):
-        """Two steps of h: TRBDF2 takes one by BDF2 only if it is as long as the one before, to the last digit."""
+    def pair(self, h, size):
+        """Two steps of h, at most `size`: TRBDF2 takes one by BDF2 only if it is as long as the one before, to the last digit."""
         before, met = self.gaps, 0
         for _ in range(2):
             closed = [gap[0] <= 0.0 for gap in self.gaps]
             if ops.analyze(1, h) != 0:
                 # A foot lets go and lands again within the step: Newton's iteration cycles, OpenSees takes the step back.
                 self.refused += 1
-                self.allowed = 0.25 * h
+                self.allowed = self.shortest if h > self.shortest else 0.25 * h
                 self.gaps = self.measure()
                 return self.allowed > 1e-6 * self.shortest
             self.taken += 1
@@ -95,7 +95,7 @@ class Steps:
             if h > 1.5 * self.shortest:
                 self.late += met
         else:
-            self.allowed = (self.growth if h < self.landing else 1.5) * h
+            self.allowed = (self.growth if size < self.landing else 1.5) * size
             self.learn(before, h)
         return True
 
@@ -103,8 +103,9 @@ class Steps:
         """To time `end`, s. False if Newton's iteration gives up however short the step."""
         while end - ops.getTime() > 1e-9 * self.longest:
             left = end - ops.getTime()
-            pairs = max(1, math.ceil(left / (2.0 * self.size()) - 1e-6))
-            if not self.pair(left / (2.0 * pairs)):
+            size = self.size()
+            pairs = max(1, math.ceil(left / (2.0 * size) - 1e-6))
+            if not self.pair(left / (2.0 * pairs), size):
                 return False
         return True
 

@@ -98,8 +98,8 @@ namespace eval steps {
         }
     }
 
-    # Two steps of h: TRBDF2 takes one by BDF2 only if it is as long as the one before, to the last digit.
-    proc pair {h} {
+    # Two steps of h, at most `size`: TRBDF2 takes one by BDF2 only if it is as long as the one before, to the last digit.
+    proc pair {h size} {
         foreach name {gaps refused allowed shortest taken smallest late growth landing} { variable $name }
         set before $gaps
         set met 0
@@ -108,7 +108,7 @@ namespace eval steps {
             if {[analyze 1 $h] != 0} {
                 # A foot lets go and lands again within the step: Newton's iteration cycles, OpenSees takes the step back.
                 incr refused
-                set allowed [expr {0.25 * $h}]
+                set allowed [expr {$h > $shortest ? $shortest : 0.25 * $h}]
                 set gaps [measure]
                 return [expr {$allowed > 1e-6 * $shortest}]
             }
@@ -121,7 +121,7 @@ namespace eval steps {
             set allowed $shortest
             if {$h > 1.5 * $shortest} { incr late $met }
         } else {
-            set allowed [expr {($h < $landing ? $growth : 1.5) * $h}]
+            set allowed [expr {($size < $landing ? $growth : 1.5) * $size}]
             learn $before $h
         }
         return 1
@@ -132,8 +132,9 @@ namespace eval steps {
         variable longest
         while {$end - [getTime] > 1e-9 * $longest} {
             set left [expr {$end - [getTime]}]
-            set pairs [expr {max(1.0, ceil($left / (2.0 * [size]) - 1e-6))}]
-            if {![pair [expr {$left / (2.0 * $pairs)}]]} { return 0 }
+            set size [size]
+            set pairs [expr {max(1.0, ceil($left / (2.0 * $size) - 1e-6))}]
+            if {![pair [expr {$left / (2.0 * $pairs)}] $size]} { return 0 }
         }
         return 1
     }
