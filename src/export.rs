@@ -14,10 +14,12 @@ mod model;
 mod opensees;
 mod plain;
 mod sap2000;
+mod step_count;
 
 use thiserror::Error;
 
 use crate::{fem::History, parameters::Parameters, record::Record};
+pub use step_count::deck_steps;
 use model::Model;
 pub use model::{ACCURACY, SMALL_INERTIA, with_inertia};
 

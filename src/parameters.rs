@@ -15,7 +15,7 @@ use crate::{
     scalar::GRAVITY,
     spring::{Chain, ChainRow, Design, Springs},
     structure::{Structure, StructureError},
-    tuning::whole_model::report::LandingRow,
+    tuning::{assessment::Assessment, whole_model::report::LandingRow},
     verdict::Verdict,
 };
 pub use record::{RecordRow, RememberedError, SourceRow};
@@ -57,7 +57,8 @@ impl From<Conditioning> for ConditioningRow {
     }
 }
 
-/// What the paper's procedure (ARR shape, then Omega_n on the record) gives for the same case.
+/// Other springs for the same case and their match: what the paper's procedure (ARR shape, then Omega_n on the record) gives,
+/// or its Table 1.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 pub struct PaperProcedure {
     pub vertical: ChainRow,
@@ -87,12 +88,9 @@ pub struct Parameters {
     pub restitution: Option<f64>,
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub record: Option<RecordRow>,
-    /// What the springs were tuned for, by its name in the case file.
+    /// What the springs were tuned for, and how accurate they are.
     #[serde(default, skip_serializing_if = "Option::is_none")]
-    pub objective: Option<String>,
-    /// The error against Housner that was asked for, as an NRMSE of u.
-    #[serde(default, skip_serializing_if = "Option::is_none")]
-    pub accuracy: Option<f64>,
+    pub assessment: Option<Assessment>,
     pub vertical: ChainRow,
     pub horizontal: ChainRow,
     /// Elastic legs, dampers across the interface, a tendon, where the structure has them; the springs are tuned for the
@@ -119,6 +117,9 @@ pub struct Parameters {
     /// Beside the springs above, where another objective chose them.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub paper_procedure: Option<PaperProcedure>,
+    /// Table 1 as recovered, beside the paper's own structure.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub table_1: Option<PaperProcedure>,
     /// What the run found, for the file.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub verdict: Option<Verdict>,
@@ -170,8 +171,7 @@ impl Parameters {
             structure,
             restitution: None,
             record: None,
-            objective: None,
-            accuracy: None,
+            assessment: None,
             vertical: ChainRow::new(&springs.vertical, m1),
             horizontal: ChainRow::new(&springs.horizontal, m1),
             legs: None,
@@ -183,6 +183,7 @@ impl Parameters {
             match_with_members: None,
             landings: Vec::new(),
             paper_procedure: None,
+            table_1: None,
             verdict: None,
         }
     }

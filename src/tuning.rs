@@ -3,6 +3,8 @@
 
 pub mod arr;
 
+pub mod assessment;
+
 pub mod descent;
 
 pub mod follow;

@@ -21,7 +21,7 @@ use crate::{
     parameters::{PaperProcedure, Parameters, RecordRow},
     predictability::{moved_by_a_hair, simulate},
     record::Record,
-    tuning::{front, job::Job, whole_model::report::landings},
+    tuning::{arr::table_1, assessment::Assessment, front, job::Job, whole_model::report::landings},
 };
 
 /// Options of `tune run`.
@@ -112,8 +112,17 @@ pub fn run(o: &Options) -> Result<(), CommandError> {
         parameters.paper_procedure =
             Some(PaperProcedure { vertical: paper.vertical, horizontal: paper.horizontal, matched });
     }
+    if let Some(springs) = table_1::of(&case.structure).filter(|_| job.paper.is_some()) {
+        let recovered = Parameters::new(case.structure, &springs);
+        let none = Members::default();
+        let matched = common::both(&job.body, case.restitution, &recovered.chains(), &none, &job.record).matched;
+        parameters.table_1 =
+            Some(PaperProcedure { vertical: recovered.vertical, horizontal: recovered.horizontal, matched });
+    }
     let report = Report::new(&job.body, case.restitution, &job.record, &both.rocking, friction);
     parameters.conditioning = Some(report.conditioning.into());
+    parameters.verdict = Some(both.verdict(&job.body, job.record.dt, &report.conditioning));
+    parameters.assessment = Some(Assessment::new(&job, case.tuning.objective, case.tuning.accuracy));
     let dt = job.record.dt;
 
     let write = |e| CommandError::Write { path: o.out.display().to_string(), source: e };
@@ -131,12 +140,11 @@ pub fn run(o: &Options) -> Result<(), CommandError> {
     );
     decks?;
     figures?;
-    eprintln!("{:?} {:?} {:?}", job.tuned.best, job.tuned.reached, job.capped);
-    for r in &job.tuned.rungs { eprintln!("{:.0} {:.0} Hz {:?} {:.3}", r.stiffness, r.springs.vertical.omega_n_hz, r.accuracy, r.accuracy.over(0.7*case.tuning.accuracy)); }
-    let mut said: Vec<String> = report.lines().into_iter().chain(both.early()).collect();
+    let mut said = table::said(&parameters);
+    said.extend(report.lines().into_iter().chain(both.early()));
     said.extend(springs_said(&parameters));
-    let (springs, said) = (table::terminal(&parameters), said.join("\n"));
-    write!(std::io::stdout(), "{springs}\n{said}\n{forces}{}", table::front_terminal(&front))?;
+    let springs = table::terminal(&parameters);
+    write!(std::io::stdout(), "{springs}\n{forces}{}\n{}\n", table::front_terminal(&front), said.join("\n"))?;
     eprintln!("{}\nwritten to {}", case.excitation.line(), o.out.display());
     Ok(())
 }

@@ -5,44 +5,82 @@ use comfy_table::{Table, presets};
 use crate::{
     compare::Match,
     motion::shown,
-    parameters::Parameters,
+    parameters::{PaperProcedure, Parameters},
+    spring::ChainRow,
     tuning::{
         front::Point,
         whole_model::report::LandingRow,
     },
 };
 
-/// Rows of Table 1: name, vertical, horizontal.
-fn rows(p: &Parameters) -> Vec<[String; 3]> {
-    let (v, h) = (&p.vertical, &p.horizontal);
-    let row = |name: &str, v: String, h: String| [name.to_string(), v, h];
-    let plain = |x: f64| format!("{x:.4}");
-    let power = |x: f64| format!("{x:.4e}");
-    vec![
-        row("mass ratio mu = m2/m1", plain(v.mu), plain(h.mu)),
-        row("frequency ratio f", plain(v.f), plain(h.f)),
-        row("damping ratio xi", plain(v.xi), plain(h.xi)),
-        row("Omega_n / 2 pi [Hz]", plain(v.omega_n_hz), plain(h.omega_n_hz)),
-        row("k1 [N/m]", power(v.k1_n_per_m), power(h.k1_n_per_m)),
-        row("k2 [N/m]", power(v.k2_n_per_m), power(h.k2_n_per_m)),
-        row("m2 [kg]", power(v.m2_kg), power(h.m2_kg)),
-        row("c [N s/m]", power(v.c_ns_per_m), power(h.c_ns_per_m)),
-    ]
+/// Springs and their match under a heading.
+struct Column<'a> {
+    heading: &'static str,
+    vertical: &'a ChainRow,
+    horizontal: &'a ChainRow,
+    matched: Option<&'a Match>,
 }
 
-/// Rows of the match: name, Housner, finite elements, and these on the springs of the paper's procedure if they differ.
-fn match_rows(p: &Parameters) -> Vec<Vec<String>> {
-    let Some(m) = &p.matched else { return Vec::new() };
-    let paper = p.paper_procedure.map(|paper| paper.matched);
+/// The springs of a file, and those beside them.
+fn columns(p: &Parameters) -> Vec<Column<'_>> {
+    let own =
+        Column { heading: "finite elements", vertical: &p.vertical, horizontal: &p.horizontal, matched: p.matched.as_ref() };
+    let others = [("paper's procedure, same Omega_n", &p.paper_procedure), ("Table 1 as recovered", &p.table_1)];
+    let others = others.into_iter().filter_map(|(heading, other)| Some(Column::beside(heading, other.as_ref()?)));
+    std::iter::once(own).chain(others).collect()
+}
+
+impl<'a> Column<'a> {
+    fn beside(heading: &'static str, other: &'a PaperProcedure) -> Self {
+        let PaperProcedure { vertical, horizontal, matched } = other;
+        Self { heading, vertical, horizontal, matched: Some(matched) }
+    }
+}
+
+/// Heading and rows of Table 1: name, vertical and horizontal of each springs.
+fn spring_rows(p: &Parameters) -> (Vec<String>, Vec<Vec<String>>) {
+    let all = columns(p);
+    let mut head = vec!["per foot".to_string()];
+    for (i, column) in all.iter().enumerate() {
+        let of = if i == 0 { String::new() } else { format!("{}: ", column.heading) };
+        head.extend([format!("{of}vertical"), "horizontal".to_string()]);
+    }
+    let plain = |x: f64| format!("{x:.4}");
+    let power = |x: f64| format!("{x:.4e}");
+    type Cell<'a> = (&'static str, &'a dyn Fn(&ChainRow) -> String);
+    let cells: [Cell; 8] = [
+        ("mass ratio mu = m2/m1", &|c| plain(c.mu)),
+        ("frequency ratio f", &|c| plain(c.f)),
+        ("damping ratio xi", &|c| plain(c.xi)),
+        ("Omega_n / 2 pi [Hz]", &|c| plain(c.omega_n_hz)),
+        ("k1 [N/m]", &|c| power(c.k1_n_per_m)),
+        ("k2 [N/m]", &|c| power(c.k2_n_per_m)),
+        ("m2 [kg]", &|c| power(c.m2_kg)),
+        ("c [N s/m]", &|c| power(c.c_ns_per_m)),
+    ];
+    let row = |(name, cell): Cell| {
+        let mut row = vec![name.to_string()];
+        row.extend(all.iter().flat_map(|column| [cell(column.vertical), cell(column.horizontal)]));
+        row
+    };
+    (head, cells.map(row).into())
+}
+
+/// Heading and rows of the match: name, Housner, and each springs.
+fn match_rows(first: &str, p: &Parameters) -> (Vec<String>, Vec<Vec<String>>) {
+    let all = columns(p);
+    let mut head = vec![first.to_string(), "Housner".to_string()];
+    head.extend(all.iter().map(|column| column.heading.to_string()));
+    let Some(m) = &p.matched else { return (head, Vec::new()) };
     let row = |name: &str, housner: String, value: &dyn Fn(&Match) -> String| {
-        let mut row = vec![name.to_string(), housner, value(m)];
-        row.extend(paper.iter().map(value));
+        let mut row = vec![name.to_string(), housner];
+        row.extend(all.iter().map(|column| column.matched.map_or(String::new(), value)));
         row
     };
     let mm = |x: f64| format!("{:.2} mm", x * 1e3);
     let percent = |x: f64| format!("{:.3} %", x * 100.0);
     let none = String::new;
-    vec![
+    let rows = vec![
         row("peak horizontal displacement", mm(m.peak_horizontal_housner_m), &|m| mm(m.peak_horizontal_fem_m)),
         row("peak vertical displacement", mm(m.peak_vertical_housner_m), &|m| mm(m.peak_vertical_fem_m)),
         row("impacts", m.impacts_housner.to_string(), &|m| m.impacts_fem.to_string()),
@@ -53,16 +91,10 @@ fn match_rows(p: &Parameters) -> Vec<Vec<String>> {
             m.restitution_error_firm.map_or(none(), percent)
         }),
         row("bounces", none(), &|m| m.bounces.to_string()),
-        row("settlement", none(), &|m| format!("{:.3} mm", m.settlement_m * 1e3)),
+        row("settlement", none(), &|m| format!("{:.5} mm", m.settlement_m * 1e3)),
         row("energy residual", none(), &|m| format!("{:.1e}", m.energy_residual)),
-    ]
-}
-
-/// Heading of these rows.
-fn match_head(first: &str, p: &Parameters) -> Vec<String> {
-    let mut head = vec![first.to_string(), "Housner".to_string(), "finite elements".to_string()];
-    head.extend(p.paper_procedure.map(|_| "by the paper's procedure".to_string()));
-    head
+    ];
+    (head, rows)
 }
 
 fn heading(p: &Parameters) -> String {
@@ -123,14 +155,24 @@ fn landing_rows(p: &Parameters) -> Vec<[String; 8]> {
     p.landings.iter().map(row).collect()
 }
 
-const PER_FOOT: [&str; 3] = ["per foot", "vertical", "horizontal"];
+/// What the run found: what the body did, the accuracy reached and on what, which springs.
+pub fn said(p: &Parameters) -> Vec<String> {
+    let verdict = p.verdict.iter().flat_map(|verdict| verdict.lines());
+    verdict.chain(p.assessment.iter().flat_map(|assessment| assessment.lines())).collect()
+}
 
 /// `parameters.md`.
 pub fn markdown(p: &Parameters) -> String {
-    let mut out = format!("{}.\n\n{}", heading(p), markdown_table(&strings(&PER_FOOT), rows(p)));
+    let (head, rows) = spring_rows(p);
+    let mut out = format!("{}.\n\n{}", heading(p), markdown_table(&head, rows));
+    let said = said(p);
+    if !said.is_empty() {
+        out.push_str(&format!("\n- {}\n", said.join("\n- ")));
+    }
     if let Some(m) = &p.matched {
         out.push_str(&format!("\nMatch over the first {:.2} s:\n\n", m.duration_s));
-        out.push_str(&markdown_table(&match_head("", p), match_rows(p)));
+        let (head, rows) = match_rows("", p);
+        out.push_str(&markdown_table(&head, rows));
     }
     if !p.landings.is_empty() {
         out.push_str(&format!(
@@ -145,22 +187,26 @@ pub fn markdown(p: &Parameters) -> String {
 
 /// The same for a terminal.
 pub fn terminal(p: &Parameters) -> String {
-    let mut out = format!("{}\n\n{}\n", heading(p), terminal_table(&strings(&PER_FOOT), rows(p)));
+    let (head, rows) = spring_rows(p);
+    let mut out = format!("{}\n\n{}\n", heading(p), terminal_table(&head, rows));
     if let Some(m) = &p.matched {
-        let head = match_head(&format!("first {:.2} s", m.duration_s), p);
-        out.push_str(&format!("\n{}\n", terminal_table(&head, match_rows(p))));
+        let (head, rows) = match_rows(&format!("first {:.2} s", m.duration_s), p);
+        out.push_str(&format!("\n{}\n", terminal_table(&head, rows)));
     }
     out
 }
 
 const FRONT: [&str; 6] = [
     "Omega_n [Hz]",
-    "NRMSE of u, landing",
+    "NRMSE of u, design from the geometry",
     "paper's procedure",
     "largest foot force [weights]",
-    "contact changes",
+    "steps of a deck",
     "",
 ];
+
+/// What the front's forces are.
+const FORCES: &str = "Foot forces are those of the springs in a landing, not of the structure: they grow with Omega_n.";
 
 fn front_rows(front: &[Point]) -> Vec<[String; 6]> {
     let error = |e: Option<f64>| e.map_or("-".to_string(), shown);
@@ -170,7 +216,7 @@ fn front_rows(front: &[Point]) -> Vec<[String; 6]> {
             error(p.landing),
             error(p.arr),
             format!("{:.0}", p.foot_force_weights),
-            p.contact_changes.to_string(),
+            p.deck_steps.to_string(),
             if p.chosen { "chosen".to_string() } else { String::new() },
         ]
     };
@@ -182,7 +228,7 @@ pub fn front(front: &[Point]) -> String {
     if front.is_empty() {
         return String::new();
     }
-    format!("\nError against stiffness:\n\n{}", markdown_table(&strings(&FRONT), front_rows(front)))
+    format!("\nError against Omega_n. {FORCES}\n\n{}", markdown_table(&strings(&FRONT), front_rows(front)))
 }
 
 /// The front, for a terminal.
@@ -190,5 +236,5 @@ pub fn front_terminal(front: &[Point]) -> String {
     if front.is_empty() {
         return String::new();
     }
-    format!("\n{}\n", terminal_table(&strings(&FRONT), front_rows(front)))
+    format!("\n{}\n{FORCES}\n", terminal_table(&strings(&FRONT), front_rows(front)))
 }

@@ -10,5 +10,9 @@ pub mod inner;
 
 pub mod minimax;
 
-pub mod smooth;
 pub mod outer;
+
+pub mod smooth;
+
+pub mod table_1;
+

@@ -14,7 +14,8 @@ use super::{
     job::{Job, Paper, at},
 };
 use crate::{
-    fem::{Case, Control, Observer, Start, View},
+    export::deck_steps,
+    fem::{Case, Change, Control, Observer, Start, View},
     scalar::GRAVITY,
     spring::{Design, Springs},
 };
@@ -36,8 +37,8 @@ pub struct Point {
     pub arr: Option<f64>,
     /// Largest vertical foot force on the record, in weights: the springs' force in a landing, not the structure's.
     pub foot_force_weights: f64,
-    /// Touches and lifts on the record, for which time steps get shorter.
-    pub contact_changes: usize,
+    /// Steps that an exported deck takes on the record, by its own rule along our history.
+    pub deck_steps: usize,
 }
 
 /// The front of a job.
@@ -57,8 +58,8 @@ pub fn front(job: &Job, progress: &(dyn Fn(usize, usize) + Sync)) -> Vec<Point> 
             let ours = || springs.map(|springs| (error(job, &springs), cost(job, &springs)));
             let (arr, ours) = rayon::join(arr, ours);
             progress(done.fetch_add(1, Ordering::Relaxed) + 1, ladder.len());
-            let (landing, (foot_force_weights, contact_changes)) = ours?;
-            Some(Point { omega_n_hz: hz, chosen: hz == chosen, landing, arr, foot_force_weights, contact_changes })
+            let (landing, (foot_force_weights, deck_steps)) = ours?;
+            Some(Point { omega_n_hz: hz, chosen: hz == chosen, landing, arr, foot_force_weights, deck_steps })
         })
         .collect()
 }
@@ -80,20 +81,27 @@ fn paper_error(job: &Job, paper: &Paper, hz: f64) -> Option<f64> {
     error(job, &springs)
 }
 
-/// Keeps the largest vertical force of either foot [N].
-struct LargestForce(f64);
+/// Keeps the largest vertical force of either foot [N], and when contact changed [s].
+struct Watch {
+    largest: f64,
+    changes: Vec<f64>,
+}
 
-impl Observer<f64> for LargestForce {
+impl Observer<f64> for Watch {
     fn sample(&mut self, _: usize, _: &View<f64>) -> ControlFlow<()> {
         ControlFlow::Continue(())
     }
 
     fn step(&mut self, view: &View<f64>) {
-        self.0 = self.0.max(view.vertical_force(0)).max(view.vertical_force(1));
+        self.largest = self.largest.max(view.vertical_force(0)).max(view.vertical_force(1));
+    }
+
+    fn event(&mut self, _: usize, _: Change, view: &View<f64>) {
+        self.changes.push(view.time);
     }
 }
 
-/// Largest vertical foot force in weights, and contact changes, on the record.
+/// Largest vertical foot force in weights, and a deck's steps, on the record.
 fn cost(job: &Job, springs: &Springs<Design<f64>>) -> (f64, usize) {
     let case = Case {
         body: job.body,
@@ -104,7 +112,10 @@ fn cost(job: &Job, springs: &Springs<Design<f64>>) -> (f64, usize) {
         scale: 1.0,
         control: Control::search(),
     };
-    let mut largest = LargestForce(0.0);
-    let finish = case.observe(&mut largest);
-    (largest.0 / (job.body.mass * GRAVITY), finish.work.events)
+    let mut watch = Watch { largest: 0.0, changes: Vec::new() };
+    case.observe(&mut watch);
+    let duration = job.record.len().saturating_sub(1) as f64 * job.record.dt;
+    let landing = (TAU * springs.vertical.omega_n_hz).recip();
+    let steps = deck_steps(&watch.changes, duration, job.record.dt, landing);
+    (watch.largest / (job.body.mass * GRAVITY), steps)
 }

@@ -94,7 +94,7 @@ pub struct Accuracy {
 }
 
 /// How much more the 90 % quantile and the earthquake-like motions may have than the accuracy asked for.
-const LOOSER: f64 = 5.0;
+pub const LOOSER: f64 = 5.0;
 
 impl Accuracy {
     /// The largest error, in units of what an accuracy allows: at most 1 if it is reached; 0 if nothing was measured.

@@ -1,0 +1,52 @@
+//! How many steps a deck takes, by its own rule (`steps.py`) along our history: pairs of steps at most half a sample long,
+//! restarted at a tenth of 1/Omega_n by every touch and lift, grown by a fifth from pair to pair while a landing lasts and by
+//! half after that, shortened to a fifth of the way to the next.
+
+/// Of 1/Omega_n: the shortest step. Growth while a landing lasts, and after. Share of the way to the next event.
+const SHORTEST: f64 = 0.1;
+const GROWTH: (f64, f64) = (1.2, 1.5);
+const SHARE: f64 = 0.2;
+
+/// Steps to `duration` [s] of a history whose contact changes at these times [s], at sampling interval dt [s] and 1/Omega_n =
+/// `landing` [s]. What Newton's iteration refuses and repeats comes on top.
+pub fn deck_steps(changes: &[f64], duration: f64, dt: f64, landing: f64) -> usize {
+    let (shortest, longest) = ((SHORTEST * landing).min(0.5 * dt), 0.5 * dt);
+    let mut changes = changes.iter().copied().peekable();
+    let (mut t, mut allowed, mut pairs) = (0.0, shortest, 0);
+    while t < duration {
+        let mut met = false;
+        while changes.next_if(|change| *change <= t).is_some() {
+            met = true;
+        }
+        if met {
+            allowed = shortest;
+        }
+        let next = changes.peek().copied().unwrap_or(f64::INFINITY);
+        let sample = ((t / dt).floor() + 1.0) * dt;
+        let h = longest.min(allowed).min(SHARE * (next - t)).max(shortest).min(0.5 * (sample - t)).max(1e-3 * shortest);
+        allowed = if h < landing { GROWTH.0 * h } else { GROWTH.1 * h };
+        t += 2.0 * h;
+        pairs += 1;
+    }
+    2 * pairs
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// 1 s at 0.01 s, nothing happens: one pair a sample, and the growth at the start: 0.1 ms to 5 ms by 1.2 up to 1 ms, by 1.5
+    /// after, that is 13 + 4 pairs.
+    #[test]
+    fn without_events_it_is_a_pair_a_sample() {
+        let steps = deck_steps(&[], 1.0, 0.01, 1e-3);
+        assert!((200..240).contains(&steps), "{steps}");
+    }
+
+    /// Between two events far apart: as many pairs down as a fifth of the way each takes, as many up as the growth.
+    #[test]
+    fn an_event_costs_some_fifty_steps() {
+        let steps = deck_steps(&[0.5], 1.0, 0.01, 1e-3) as i64 - deck_steps(&[], 1.0, 0.01, 1e-3) as i64;
+        assert!((30..70).contains(&steps), "{steps}");
+    }
+}

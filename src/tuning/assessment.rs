@@ -1,0 +1,111 @@
+//! What a run says of its springs, all of it measured in that run: for the file and in plain lines.
+
+use serde::{Deserialize, Serialize};
+
+use super::{
+    job::Job,
+    landing::{
+        design::Geometry,
+        plane::{Corners, land},
+    },
+    suite::{Accuracy, LOOSER, PREDICTABLE},
+};
+use crate::{case::Objective, motion::shown};
+
+/// The landing of the springs in the stiff limit, where they follow from the geometry.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+pub struct LimitRow {
+    /// Slenderness [rad], m R^2/I0 and Omega_n/p: all that the design depends on, rounded to nine digits.
+    pub alpha: f64,
+    pub mass_share: f64,
+    pub omega_n_over_p: f64,
+    /// Omega_h/Omega_v.
+    pub frequency_ratio: f64,
+    /// Error of the angular momentum about the new foot.
+    pub momentum_error: f64,
+    /// Impulse through the old foot [m v_n].
+    pub old_impulse: f64,
+    /// Fastest speed with which the new foot leaves the ground [v_n].
+    pub rebound: f64,
+    /// Time with both feet in the air, without gravity to end it, of 30 [1/Omega_n].
+    pub air: f64,
+    /// Touches and lifts of the new foot and of the old foot.
+    pub contact_changes: [usize; 2],
+    /// Whether Omega_n v_n/g is so large that landings are those of the stiff limit.
+    pub in_stiff_limit: bool,
+}
+
+/// The springs' accuracy.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+pub struct Assessment {
+    pub objective: Objective,
+    /// NRMSE asked for.
+    pub accuracy: f64,
+    /// Whether what was measured is within it.
+    pub reached: bool,
+    /// Whether a cap on Omega_n decided.
+    pub capped: bool,
+    /// What was measured.
+    pub measured: Accuracy,
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub landing: Option<LimitRow>,
+}
+
+impl Assessment {
+    /// Of a job's springs, tuned for this accuracy.
+    pub fn new(job: &Job, objective: Objective, accuracy: f64) -> Self {
+        let measured = job.tuned.best.accuracy;
+        let landing = (objective == Objective::Landing && !job.capped).then(|| limit(job)).flatten();
+        Self { objective, accuracy, reached: measured.over(accuracy) <= 1.0, capped: job.capped, measured, landing }
+    }
+
+    /// What to file: accuracy reached, on what, with counts; which springs; what to do if it is not enough.
+    pub fn lines(&self) -> Vec<String> {
+        let m = &self.measured;
+        let mut on = Vec::new();
+        on.extend(m.record.map(|e| format!("{} on the record (u or v, the larger)", shown(e))));
+        on.extend(m.synthetic_median.zip(m.synthetic_p90).map(|(median, p90)| {
+            format!("{} in the median and {} for 90 % of {} synthetic motions", shown(median.value), shown(p90.value), median.count)
+        }));
+        on.extend(m.earthquakes_mean.map(|e| {
+            format!("{} in the geometric mean of {} earthquake-like motions of sensitivity below {PREDICTABLE}", shown(e.value), e.count)
+        }));
+        let measured = if on.is_empty() {
+            "nothing that it could be measured on: no motion rocks this body and can be followed one to one".to_string()
+        } else {
+            on.join("; ")
+        };
+        let asked = format!("accuracy: {} was asked for ({LOOSER} times that of 90 % and of earthquakes)", self.accuracy);
+        let mut lines = vec![format!("{asked}; measured as NRMSE against Housner: {measured}")];
+        if !self.reached {
+            let remedy = if self.capped { "raise or drop --max-hz" } else { "ask for less, or judge by tune validate" };
+            lines.push(format!("accuracy: WARNING: not reached; these are the best springs found; {remedy}"));
+        }
+        if let Some(l) = &self.landing {
+            lines.push(format!(
+                "springs: by the landing of a body of alpha {:.5} and m R^2/I0 {:.5} at Omega_n/p {:.0}: error of the momentum {:.0e}, \
+                 rebound {:.3} of the landing speed, {} touches and lifts of the landing foot",
+                l.alpha, l.mass_share, l.omega_n_over_p, l.momentum_error, l.rebound, l.contact_changes[0]
+            ));
+        }
+        lines
+    }
+}
+
+fn limit(job: &Job) -> Option<LimitRow> {
+    let springs = &job.springs;
+    let geometry = Geometry::of(&job.body, job.tuned.best.stiffness).ok()?;
+    let landing = land(&Corners::rigid(geometry.alpha(), geometry.mass_share()), springs);
+    Some(LimitRow {
+        alpha: geometry.alpha(),
+        mass_share: geometry.mass_share(),
+        omega_n_over_p: geometry.stiffness(),
+        frequency_ratio: springs.horizontal.omega_n_hz / springs.vertical.omega_n_hz,
+        momentum_error: landing.momentum - 1.0,
+        old_impulse: landing.old_impulse,
+        rebound: landing.rebound,
+        air: landing.air,
+        contact_changes: landing.changes,
+        in_stiff_limit: geometry.in_stiff_limit(),
+    })
+}
