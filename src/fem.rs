@@ -37,6 +37,7 @@ mod radau;
 mod run;
 mod slipping;
 mod step;
+mod strut;
 
 pub use control::{Control, Outcome, Work};
 pub use demands::{Demands, Peak, QUANTITIES, Row};

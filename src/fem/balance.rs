@@ -99,7 +99,7 @@ impl<S: Scalar> Model<S> {
             let along = (v[ax(i)] - v[X]) * self.springs.horizontal.k1 * px_th;
             match feet[i].contact {
                 Contact::Open => S::zero(),
-                Contact::Slide | Contact::Slip(_) => down,
+                Contact::Slide | Contact::Trail | Contact::Slip(_) => down,
                 Contact::Stick => down + along,
             }
         };
@@ -116,11 +116,16 @@ impl<S: Scalar> Model<S> {
             state.q[TH] += step;
         }
         let (after, _, stiffness) = self.potential(state, feet);
-        let converged = last.abs() < CLOSE;
-        // a billionth of what the standing body stores: rounding, where a foot has just touched
+        last.abs() < CLOSE && stiffness.re() > 0.0 && after.re() <= before.re() + self.rounding(before.re())
+    }
+
+    /// By how much rounding may change V where it is `stored` [J]: on stiff springs that of the feet's places, a few units in
+    /// the last digit of R times the force; and a billionth of what the standing body stores, where a foot has just touched.
+    fn rounding(&self, stored: f64) -> f64 {
+        let (k_v, k_h) = (self.springs.vertical.k1.re(), self.springs.horizontal.k1.re());
         let weight = self.body.mass.re() * GRAVITY;
-        let rounding = 1e-9 * weight * weight / self.springs.vertical.k1.re();
-        converged && stiffness.re() > 0.0 && after.re() <= before.re() * (1.0 + 1e-12) + rounding
+        let force = (2.0 * stored * k_v.max(k_h)).sqrt();
+        32.0 * f64::EPSILON * self.body.radius().re() * force + 1e-9 * weight * weight / k_v
     }
 
     /// Go downhill, never up; whether it ends where V curves upwards.

@@ -130,7 +130,7 @@ impl<S: Scalar> Model<S> {
         let (px, pz, px_th, pz_th) = self.foot(i, q, sin, cos);
         let (kh, kv) = match foot.contact {
             Contact::Open => (S::zero(), S::zero()),
-            Contact::Slide => (S::zero(), self.springs.vertical.k1),
+            Contact::Slide | Contact::Trail => (S::zero(), self.springs.vertical.k1),
             // friction is not followed on legs (`members`)
             Contact::Stick | Contact::Slip(_) => (self.springs.horizontal.k1, self.springs.vertical.k1),
         };

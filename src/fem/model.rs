@@ -78,6 +78,8 @@ pub(crate) enum Contact {
     Open,
     /// Pressing too lightly to hold: no horizontal force yet (see `run`).
     Slide,
+    /// Following the ground without any force: the only foot near it, of a body without rotational inertia (see `strut`).
+    Trail,
     /// Pressing, its horizontal spring anchored.
     Stick,
     /// Slipping against friction, to the right (+1) or to the left (-1).
@@ -92,9 +94,14 @@ pub(crate) struct Foot<S> {
 }
 
 impl<S> Foot<S> {
-    /// Whether the foot presses on the ground.
+    /// Whether the foot is on the ground.
     pub fn closed(&self) -> bool {
         self.contact != Contact::Open
+    }
+
+    /// Whether it presses: a trailing foot touches the ground and takes no force.
+    pub fn presses(&self) -> bool {
+        self.closed() && self.contact != Contact::Trail
     }
 
     /// Whether its horizontal spring holds.
@@ -272,7 +279,7 @@ impl<S: Scalar> Model<S> {
         let press = || (q[az(i)] - pz) * self.springs.vertical.k1;
         let (horizontal, vertical) = match foot.contact {
             Contact::Open => (S::zero(), S::zero()),
-            Contact::Slide => (S::zero(), press()),
+            Contact::Slide | Contact::Trail => (S::zero(), press()),
             Contact::Stick => ((q[ax(i)] + foot.anchor - px) * self.springs.horizontal.k1, press()),
             Contact::Slip(side) => (-press() * self.grip() * side, press()),
         };

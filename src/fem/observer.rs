@@ -53,7 +53,7 @@ impl<S: Scalar> View<'_, S> {
 
     /// Whether foot i (0 left, 1 right) presses on the ground.
     pub fn presses(&self, i: usize) -> bool {
-        self.feet[i].closed()
+        self.feet[i].presses()
     }
 
     /// Vertical force on foot i, positive while it presses [N].

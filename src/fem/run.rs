@@ -37,8 +37,10 @@ pub(crate) struct Run<'a, S> {
     rate: f64,
     /// When each foot last opened [s].
     opened: [f64; 2],
-    /// Horizontal force that each foot let go when it last opened, over the weight.
+    /// Horizontal force that each foot let go when it last opened, over what it then leant on.
     let_go: [f64; 2],
+    /// What the other foot carried when each foot last opened [N].
+    leant_on: [f64; 2],
     /// Step size that the energy account asked for [s].
     h: f64,
     /// Whether a rotation without inertia is in balance.
@@ -74,6 +76,7 @@ impl<'a, S: Scalar> Run<'a, S> {
             rate: 1.0,
             opened: [f64::NEG_INFINITY; 2],
             let_go: [0.0; 2],
+            leant_on: [0.0; 2],
             h: f64::INFINITY,
             balanced: model.in_balance(&state, &feet),
             turns: 0,
@@ -165,7 +168,7 @@ impl<'a, S: Scalar> Run<'a, S> {
                     self.turns = 0;
                     self.switch(foot, level, real::<S>(t0) + t, observer);
                 }
-                Met::Grip { foot, .. } if changes => self.change_grip(foot),
+                Met::Grip { foot, .. } if changes => self.change_grip(foot, real::<S>(t0) + t, observer),
                 _ => {}
             }
         }

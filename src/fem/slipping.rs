@@ -45,7 +45,7 @@ impl<T: Num + Copy> Slipping<T> {
             match feet[i].contact {
                 Contact::Stick => (of_h[X], of_h[TH], of_h[ax(i)]) = (kh, kh * f.px_th, -kh),
                 Contact::Slip(side) => of_h = of_n.map(|n| n * model.grip() * -side),
-                Contact::Open | Contact::Slide => {}
+                Contact::Open | Contact::Slide | Contact::Trail => {}
             }
             for k in 0..N {
                 let turn = of_h[k] * f.px_th + of_n[k] * f.pz_th;

@@ -99,8 +99,7 @@ fn stiff_legs_give_the_rigid_body_s_history_at_first_order() {
     let mut record = el_centro();
     record.accel.truncate(1001);
     let springs = plastic(40.0, structure.mass_kg);
-    // lifting feet let go as coarsely as those on legs do
-    let rigid = settled(&structure, springs, &record, Control { tolerance: 1e-7, ..Control::default() });
+    let rigid = settled(&structure, springs, &record, Control::default());
     let length = structure.body::<f64>().radius();
     // stiffness of the hinged end along and across the leg, over the springs'
     let error = |ratio: f64| {

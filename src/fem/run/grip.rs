@@ -10,7 +10,9 @@ use super::Run;
 use crate::{
     fem::{
         model::{Contact, Foot, State},
+        observer::Observer,
         step::{Ground, Stages, no_guess},
+        strut::Strut,
     },
     scalar::{GRAVITY, Scalar},
 };
@@ -25,9 +27,13 @@ impl<S: Scalar> Run<'_, S> {
     /// What must stay positive while foot i holds or slips as it does, in units of the hesitation; `None` without friction
     /// or in the air.
     fn grip(&self, foot: usize, state: &State<S>) -> Option<f64> {
-        self.model.friction?;
         let mu = self.model.grip().re();
         match self.feet[foot].contact {
+            Contact::Trail => {
+                let Strut { press, lift } = self.model.strut(foot, state);
+                Some(-(press / self.settling).max(lift) / (HESITATION * GRAVITY))
+            }
+            _ if self.model.friction.is_none() => None,
             Contact::Open | Contact::Slide => None,
             Contact::Stick => {
                 let f = &self.model.contact(&state.q, &self.feet)[foot];
@@ -43,7 +49,6 @@ impl<S: Scalar> Run<'_, S> {
 
     /// Where in the step (0 to 1) a foot first changes between holding and slipping, roughly.
     pub(super) fn loses_grip(&self, stages: &Stages<S>) -> Option<(usize, f64)> {
-        self.model.friction?;
         let changes = (0..2).filter_map(|foot| {
             let mut last = (0.0, self.grip(foot, &self.state)?);
             for (tau, (q, v)) in crate::fem::radau::C.into_iter().zip(stages.q.iter().zip(&stages.v)) {
@@ -86,8 +91,13 @@ impl<S: Scalar> Run<'_, S> {
         false
     }
 
-    /// A holding foot begins to slip, or a slipping one holds. Its horizontal force stays what it is.
-    pub(super) fn change_grip(&mut self, foot: usize) {
+    /// A holding foot begins to slip, or a slipping one holds; its horizontal force stays what it is. Or a trailing one presses
+    /// or lifts.
+    pub(super) fn change_grip(&mut self, foot: usize, time: S, observer: &mut impl Observer<S>) {
+        if self.feet[foot].contact == Contact::Trail {
+            self.turns = 0;
+            return self.switch(foot, 0.0, time, observer);
+        }
         let before = self.energy.stored;
         let force = self.model.contact(&self.state.q, &self.feet)[foot].horizontal;
         self.feet[foot] = match self.feet[foot].contact {
