@@ -1,6 +1,7 @@
 //! How many steps a deck takes, by its own rule (`steps.py`) along our history: pairs of steps at most half a sample long,
 //! restarted at a tenth of 1/Omega_n by every touch and lift, grown by a fifth from pair to pair while a landing lasts and by
-//! half after that, shortened to a fifth of the way to the next.
+//! half after that, shortened to a fifth of the way to the next. A change within 1/Omega_n of one that counted belongs to it:
+//! chatter that short is no longer than a few of these steps.
 
 /// Of 1/Omega_n: the shortest step. Growth while a landing lasts, and after. Share of the way to the next event.
 const SHORTEST: f64 = 0.1;
@@ -11,7 +12,14 @@ const SHARE: f64 = 0.2;
 /// `landing` [s]. What Newton's iteration refuses and repeats comes on top.
 pub fn deck_steps(changes: &[f64], duration: f64, dt: f64, landing: f64) -> usize {
     let (shortest, longest) = ((SHORTEST * landing).min(0.5 * dt), 0.5 * dt);
-    let mut changes = changes.iter().copied().peekable();
+    let mut last = f64::NEG_INFINITY;
+    let apart = |change: &&f64| {
+        let counts = **change - last > landing;
+        last = if counts { **change } else { last };
+        counts
+    };
+    let changes: Vec<f64> = changes.iter().filter(apart).copied().collect();
+    let mut changes = changes.into_iter().peekable();
     let (mut t, mut allowed, mut pairs) = (0.0, shortest, 0);
     while t < duration {
         let mut met = false;
@@ -22,8 +30,10 @@ pub fn deck_steps(changes: &[f64], duration: f64, dt: f64, landing: f64) -> usiz
             allowed = shortest;
         }
         let next = changes.peek().copied().unwrap_or(f64::INFINITY);
-        let sample = ((t / dt).floor() + 1.0) * dt;
-        let h = longest.min(allowed).min(SHARE * (next - t)).max(shortest).min(0.5 * (sample - t)).max(1e-3 * shortest);
+        // equal pairs to the next sample
+        let left = ((t / dt + 1e-9).floor() + 1.0) * dt - t;
+        let size = longest.min(allowed).min(SHARE * (next - t)).max(shortest);
+        let h = 0.5 * left / (0.5 * left / size - 1e-6).ceil().max(1.0);
         allowed = if h < landing { GROWTH.0 * h } else { GROWTH.1 * h };
         t += 2.0 * h;
         pairs += 1;
