@@ -156,7 +156,8 @@ fn agrees_with(members: Members<f64>, duration: f64) {
     let springs = Springs { vertical: chain, horizontal: chain };
     let parameters = Parameters::new(Structure::paper(), &springs).with_members(members);
     for program in programs() {
-        let result = verify(&parameters, &Record::el_centro().truncated(duration), &program, &|_, _| ()).unwrap();
+        let result =
+            verify(&parameters, &Record::el_centro().truncated(duration), ACCURACY, &program, &|_, _| ()).unwrap();
         let a = result.opensees_against_ours;
         println!("{members:?}: {} steps, {:.1} s: {a:?}", result.steps, result.seconds);
         assert_eq!(result.opensees.len(), (duration * 100.0).round() as usize + 1);

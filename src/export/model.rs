@@ -54,17 +54,17 @@ const TOLERANCE: f64 = 2e-14;
 /// The same on elastic legs as given.
 const TOLERANCE_ON_LEGS: f64 = 2e-11;
 
-/// Steps get finer with the root of what a change of the width by 1e-5 does to the history (from 1.3e-3 on), since their
-/// error is of second order; so many times at most.
-const FINER: f64 = 750.0;
-const FINEST: f64 = 16.0;
+/// The accuracy asked is tightened with what a change of the width by 1e-5 does to the history (from 1.3e-3 on), since the
+/// steps' error grows as that does; so many times at most: steps a quarter as long.
+const TIGHTER: f64 = 750.0;
+const TIGHTEST: f64 = 16.0;
 /// From here on no steps help: the history is not to be foretold to its end.
 const HOPELESS: f64 = 0.5;
 
 /// Share of a position that a step may miss, over the accuracy of the history (the same in the decks' stepping routine).
 const STEP_ERROR: f64 = 1.0 / 40.0;
 /// A small motion: share of the way to toppling.
-const SMALL_MOTION: f64 = 0.1;
+const SMALL_MOTION: f64 = 0.01;
 
 /// For a program that takes all its steps alike, 1/(40 Omega_n [Hz]) and 1e-4/p.
 fn even_steps(parameters: &Parameters, dt: f64) -> usize {
@@ -74,14 +74,15 @@ fn even_steps(parameters: &Parameters, dt: f64) -> usize {
     whole(dt / (std::f64::consts::TAU / (STEPS_PER_PERIOD * omega)).min(STEP_BY_ROCKING / body.p_squared().sqrt()))
 }
 
-/// Steps per sample at least, where steps follow events: two, a pair. Soft springs go on swinging, and where what the weight
-/// compresses them by is more than a step may miss of a small motion, steps are to resolve that too: h^2/12 g is not more.
+/// Steps per sample at least, where steps follow events: two, a pair. Soft springs go on swinging: where what the weight
+/// compresses them by is more than a step may miss of a small motion, steps shorten, until h^2/12 g is not more.
 fn least_steps(parameters: &Parameters, dt: f64, accuracy: f64) -> usize {
     let body = parameters.structure.body::<f64>();
     let top = 2.0 * body.half_width * (body.half_width / body.height).atan();
     let missed = STEP_ERROR * accuracy * SMALL_MOTION * top;
     let compressed = body.mass * GRAVITY / parameters.chains().vertical.k1;
-    if compressed <= missed { 2 } else { whole(dt / (12.0 * missed / GRAVITY).sqrt()).max(2) }
+    let resolved = dt / (12.0 * missed / GRAVITY).sqrt();
+    whole((2.0 * (compressed / missed).sqrt()).min(resolved)).max(2)
 }
 
 /// Rounded up, but a ratio that is whole but for rounding stays it.
@@ -158,8 +159,8 @@ impl<'a> Model<'a> {
         }
         let leg = LEG_STIFFNESS * v.k1.max(h.k1);
         let body = structure.body::<f64>();
-        let finer = if expected.hair > HOPELESS { 1.0 } else { (FINER * expected.hair).clamp(1.0, FINEST * FINEST) };
-        let accuracy = expected.accuracy / finer;
+        let tighter = if expected.hair > HOPELESS { 1.0 } else { (TIGHTER * expected.hair).clamp(1.0, TIGHTEST) };
+        let accuracy = expected.accuracy / tighter;
         let even_steps = even_steps(parameters, record.dt);
         let (landing, steps_per_sample, tolerance) = if members.legs.is_some() {
             (0.0, even_steps, TOLERANCE_ON_LEGS)
