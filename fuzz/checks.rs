@@ -39,7 +39,7 @@ pub fn record(bytes: &[u8]) {
             (Some(0.02), None),
             (Some(1e-6), Some(Units::CentimetrePerSecond2)),
         ] {
-            match Record::parse(name, bytes, &ReadOptions { dt, units }) {
+            match Record::parse(name, bytes, &ReadOptions { dt, units, ..ReadOptions::default() }) {
                 Ok(record) => {
                     checked(&record);
                     read_again(&record);

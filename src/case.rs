@@ -218,7 +218,7 @@ impl Case {
         let record = match &section.file {
             Some(name) => {
                 let file = Path::new(path).parent().unwrap_or(Path::new("")).join(name);
-                read(&file, &ReadOptions { dt: section.dt_s, units: section.units })?
+                read(&file, &ReadOptions { dt: section.dt_s, units: section.units, ..ReadOptions::default() })?
             }
             None if section.dt_s.is_some() || section.units.is_some() => {
                 return Err(CaseError::NoFile { path: path.into() });

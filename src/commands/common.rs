@@ -41,7 +41,7 @@ impl RecordOptions {
     /// The record asked for, or `default`.
     pub fn record(&self, default: impl FnOnce() -> Record) -> Result<Record, CommandError> {
         let record = match &self.record {
-            Some(path) => Record::read(path, &ReadOptions { dt: self.dt, units: self.units })?,
+            Some(path) => Record::read(path, &ReadOptions { dt: self.dt, units: self.units, ..ReadOptions::default() })?,
             None if self.dt.is_some() || self.units.is_some() => {
                 return Err(CommandError::Option {
                     option: "record",

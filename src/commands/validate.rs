@@ -141,7 +141,7 @@ pub fn run(o: &Options) -> Result<(), CommandError> {
     threads(o.jobs)?;
     let source = Source {
         files: o.records.as_deref().map_or(Ok(Vec::new()), Record::list_dir)?,
-        read: ReadOptions { dt: o.dt, units: o.units },
+        read: ReadOptions { dt: o.dt, units: o.units, ..ReadOptions::default() },
         scale: o.scale,
         made: o.synthetic.unwrap_or(0) as usize,
         seed: o.seed,
