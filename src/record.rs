@@ -181,10 +181,8 @@ fn bytes(path: &Path) -> Result<Vec<u8>, RecordError> {
     if path.is_dir() {
         return Err(RecordError::Folder { file });
     }
-    let unreadable = |error: std::io::Error| RecordError::Unreadable {
-        file: file.clone(),
-        reason: text::quote(&error.to_string()),
-    };
+    let unreadable =
+        |error: std::io::Error| RecordError::Unreadable { file: file.clone(), reason: text::quote(&error.to_string()) };
     let mut bytes = Vec::new();
     File::open(path).and_then(|f| f.take(FILE_LIMIT + 1).read_to_end(&mut bytes)).map_err(unreadable)?;
     if bytes.len() as u64 > FILE_LIMIT {

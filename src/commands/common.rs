@@ -6,13 +6,13 @@ use clap::Args;
 
 use super::{CommandError, members::WithMembers};
 use crate::{
-    case::LONGEST_S,
+    case::{Case, LONGEST_S},
     compare::Match,
     fem,
     housner::{self, Rocking},
     members::Members,
     motion::Motion,
-    record::{ReadOptions, Record, Units},
+    record::{ReadOptions, Record, Recording, Units},
     spring::{Chain, Springs},
     structure::Body,
 };
@@ -20,15 +20,21 @@ use crate::{
 /// Which record, how scaled, how long.
 #[derive(Clone, Debug, Default, Args)]
 pub struct RecordOptions {
-    /// Ground motion: PEER AT2, or text with one or two columns; the embedded El Centro record unless given
+    /// Ground motion: PEER AT2, GeoNet, COSMOS, CSMIP, K-NET, ESM or columns; the embedded El Centro record unless given
     #[arg(long, value_name = "FILE")]
     pub record: Option<PathBuf>,
     /// Time step, where the file does not say
     #[arg(long, value_name = "SECONDS", allow_negative_numbers = true)]
     pub dt: Option<f64>,
-    /// g, m/s2 or cm/s2, where the file does not say
+    /// g, m/s2, cm/s2 or mm/s2, where the file does not say
     #[arg(long)]
     pub units: Option<Units>,
+    /// Component, by name or by azimuth in degrees, of a file with several [default: the stronger horizontal one]
+    #[arg(long, value_name = "NAME", allow_hyphen_values = true)]
+    pub component: Option<String>,
+    /// Subtract the mean of the samples
+    #[arg(long)]
+    pub baseline: bool,
     /// Factor on the acceleration
     #[arg(long, value_name = "FACTOR", allow_negative_numbers = true)]
     pub scale: Option<f64>,
@@ -38,15 +44,21 @@ pub struct RecordOptions {
 }
 
 impl RecordOptions {
-    /// The record asked for, or `default`.
+    /// The record asked for, or `default`; what its reader says goes to stderr.
     pub fn record(&self, default: impl FnOnce() -> Record) -> Result<Record, CommandError> {
         let record = match &self.record {
-            Some(path) => Record::read(path, &ReadOptions { dt: self.dt, units: self.units, ..ReadOptions::default() })?,
-            None if self.dt.is_some() || self.units.is_some() => {
+            Some(path) => {
+                let (component, baseline) = (self.component.clone(), self.baseline);
+                let options = ReadOptions { dt: self.dt, units: self.units, component, baseline };
+                let recording = Recording::read(path, &options)?;
+                recording.notices().iter().for_each(|notice| eprintln!("{notice}"));
+                recording.into_record()
+            }
+            None if self.dt.is_some() || self.units.is_some() || self.component.is_some() || self.baseline => {
                 return Err(CommandError::Option {
                     option: "record",
                     value: "not given".into(),
-                    remedy: "--dt and --units tell of a file: name it with --record",
+                    remedy: "--dt, --units, --component and --baseline tell of a file: name it with --record",
                 });
             }
             None => default(),
@@ -69,6 +81,12 @@ impl RecordOptions {
             None => Ok(default),
         }
     }
+}
+
+/// The record of a case; what its reader said goes to stderr.
+pub fn of_case(case: &Case) -> Record {
+    case.notices.iter().for_each(|notice| eprintln!("{notice}"));
+    case.record.clone()
 }
 
 /// Both models' answers to one record.

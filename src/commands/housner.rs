@@ -6,7 +6,7 @@ use clap::Args;
 
 use super::{
     CommandError,
-    common::{RecordOptions, csv_row, restitution},
+    common::{RecordOptions, csv_row, of_case, restitution},
     output::check_file,
     write_file,
 };
@@ -40,7 +40,7 @@ pub fn run(o: &Options) -> Result<(), CommandError> {
     let (structure, e, record, duration) = match &o.case {
         Some(path) => {
             let case = Case::read(path)?;
-            let record = o.record.record(|| case.record.clone())?;
+            let record = o.record.record(|| of_case(&case))?;
             (case.structure, Some(case.restitution), record, case.duration_s)
         }
         None => (Structure::paper(), None, o.record.record(Record::el_centro)?, DURATION_S),

@@ -62,7 +62,7 @@ pub fn run(o: &Options) -> Result<(), CommandError> {
         Some(path) => Case::read(path)?,
         None => Case::paper()?,
     };
-    case.record = o.record.record(|| case.record.clone())?;
+    case.record = o.record.record(|| common::of_case(&case))?;
     case.duration_s = o.record.duration(case.duration_s)?;
     if let Some(hz) = o.max_hz {
         if !(0.1..=1e5).contains(&hz) {

@@ -97,7 +97,8 @@ impl<'a> Header<'a> {
             words.split('.').nth(1)
         });
         let unknown = text.iter().find(|line| line.contains("unknown/unspecified"));
-        let unknown = unknown.and_then(|line| number(line.split_once(':')?.1.split([' ', ',']).find(|w| !w.is_empty())?));
+        let unknown =
+            unknown.and_then(|line| number(line.split_once(':')?.1.split([' ', ',']).find(|w| !w.is_empty())?));
         let unknown = unknown.unwrap_or(-999.0);
         Ok(Self { text, integers, integers_line, numbers, numbers_line, code, unknown })
     }
@@ -222,7 +223,8 @@ impl<'a> Series<'a> {
             let time = header.real(65).map(|(_, time)| time);
             Stated { line, of: "acceleration", value, time, signed: true }
         });
-        let pga: Option<Peak> = pga.map(|stated| stated.check(cursor.file, Clock::from_first(dt), &block)).transpose()?;
+        let pga: Option<Peak> =
+            pga.map(|stated| stated.check(cursor.file, Clock::from_first(dt), &block)).transpose()?;
         if header.integer(54).is_some_and(|code| !(0..=3000).contains(&code)) {
             return Err(cursor.not(header.integers_line + 6, "an azimuth or a code of direction as integer 54"));
         }

@@ -52,16 +52,21 @@ pub(super) fn parse(file: &str, text: &str) -> Result<Parsed, RecordError> {
     if cursor.skip_blank() {
         return Err(cursor.not(end, "the end of the file, after the samples that NDATA announces,"));
     }
-    let stated = header.value("PGA_CM/S^2").filter(|(_, value)| number(value).is_some());
-    let stated = stated.filter(|_| units == Units::CentimetrePerSecond2).map(|(line, value)| Stated {
-        line,
-        of: "acceleration",
-        value,
-        time: header.value("TIME_PGA_S").map(|(_, time)| time).filter(|time| number(time).is_some()),
-        // some give the size alone; a minus is meant
-        signed: value.starts_with('-'),
-    });
-    let pga = stated.map(|stated| stated.check(file, Clock::from_first(dt), &block)).transpose()?;
+    let pga = match header.value("PGA_CM/S^2").filter(|_| units == Units::CentimetrePerSecond2) {
+        Some((line, value)) => {
+            let time = header.value("TIME_PGA_S");
+            if let Some((line, _)) =
+                [Some((line, value)), time].into_iter().flatten().find(|(_, x)| number(x).is_none())
+            {
+                return Err(cursor.not(line, "a number, or nothing"));
+            }
+            // some give the size alone; a minus is meant
+            let signed = value.starts_with('-');
+            let stated = Stated { line, of: "acceleration", value, time: time.map(|(_, time)| time), signed };
+            Some(stated.check(file, Clock::from_first(dt), &block)?)
+        }
+        None => None,
+    };
     let component = header.value("STREAM").or_else(|| header.value("COMPONENT")).map_or("", |(_, name)| name);
     let samples = Samples {
         units: Some(units),

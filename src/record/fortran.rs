@@ -121,7 +121,8 @@ impl<'a> Cursor<'a> {
     /// Something else stands on a line (from 1) where `wanted` should be.
     pub(super) fn not(&self, line: usize, wanted: &'static str) -> RecordError {
         let found = self.lines.get(line.saturating_sub(1)).map_or("", |line| line.trim());
-        let found = if found.is_empty() { "an empty line or the end".to_owned() } else { format!("'{}'", quote(found)) };
+        let found =
+            if found.is_empty() { "an empty line or the end".to_owned() } else { format!("'{}'", quote(found)) };
         RecordError::Layout { file: self.file.to_owned(), line, format: self.format, wanted, found }
     }
 

@@ -26,9 +26,10 @@ pub(super) fn is_it(head: &[&str]) -> bool {
     let first = head.iter().find(|line| !line.is_empty()).map_or(String::new(), |line| line.to_ascii_lowercase());
     first.contains("corrected accelerogram")
         && (first.contains("gns science")
-            || head.iter().take(TEXT_LINES + 1).any(|line| {
-                line.starts_with("Component ") || line.starts_with("Site ") || line.contains("mm/s/s")
-            }))
+            || head
+                .iter()
+                .take(TEXT_LINES + 1)
+                .any(|line| line.starts_with("Component ") || line.starts_with("Site ") || line.contains("mm/s/s")))
 }
 
 /// All components.
@@ -138,8 +139,7 @@ impl<'a> Header<'a> {
     /// One series, with the peak that the text gives.
     fn series(&self, cursor: &mut Cursor<'a>, i: usize) -> Result<(Block<'a>, Option<Peak>), RecordError> {
         let (what, of, name) = SERIES[i];
-        let block =
-            cursor.block(Promise { what, count: self.counts[i], layout: NUMBERS, line: self.counts_line })?;
+        let block = cursor.block(Promise { what, count: self.counts[i], layout: NUMBERS, line: self.counts_line })?;
         let line = self.text.iter().position(|line| line.starts_with(name));
         let stated = line.and_then(|at| Stated::find(self.line + at, of, self.text[at], "peak"));
         match stated {

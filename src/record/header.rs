@@ -37,7 +37,11 @@ fn by_names(names: &[&str]) -> Option<&'static str> {
 }
 
 fn first_word(name: &str) -> String {
-    name.to_ascii_lowercase().split(|c: char| !c.is_ascii_alphanumeric()).find(|w| !w.is_empty()).unwrap_or("").to_owned()
+    name.to_ascii_lowercase()
+        .split(|c: char| !c.is_ascii_alphanumeric())
+        .find(|w| !w.is_empty())
+        .unwrap_or("")
+        .to_owned()
 }
 
 fn is_abscissa_of_spectrum(name: &str) -> bool {

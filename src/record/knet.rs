@@ -18,8 +18,7 @@ use super::text::{number, quote};
 use super::{Direction, Format, RecordError, Units};
 
 /// Words that lines of the header begin with.
-const KEYS: [&str; 6] =
-    ["Sampling Freq", "Scale Factor", "Max. Acc.", "Max Acc.", "Station Code", "Last Correction"];
+const KEYS: [&str; 6] = ["Sampling Freq", "Scale Factor", "Max. Acc.", "Max Acc.", "Station Code", "Last Correction"];
 /// Numbers to a line.
 const PER_LINE: usize = 8;
 /// How far down the header may reach.
@@ -52,8 +51,7 @@ pub(super) fn parse(file: &str, text: &str) -> Result<Parsed, RecordError> {
     };
     let (name, direction) = header.component();
     let station = header.value("Station Code").map(|(_, code)| code.to_owned());
-    let samples =
-        Samples { units: Some(Units::CentimetrePerSecond2), dt: Some(dt), values, ..Samples::default() };
+    let samples = Samples { units: Some(Units::CentimetrePerSecond2), dt: Some(dt), values, ..Samples::default() };
     let channel = Channel { name, direction, samples, pga, pgv: None };
     Ok(Parsed { station, channels: vec![channel] })
 }
@@ -104,9 +102,9 @@ impl<'a> Header<'a> {
     fn scale(&self, cursor: &Cursor) -> Result<f64, RecordError> {
         let wanted = "'Scale Factor' as in 3920(gal)/6182761";
         let (line, value) = self.value("Scale Factor").ok_or_else(|| cursor.not(self.end, wanted))?;
-        let parts = value.split_once("(gal)").and_then(|(gal, counts)| {
-            Some(positive(gal)? / positive(counts.trim().strip_prefix('/')?)?)
-        });
+        let parts = value
+            .split_once("(gal)")
+            .and_then(|(gal, counts)| Some(positive(gal)? / positive(counts.trim().strip_prefix('/')?)?));
         parts.filter(|scale| scale.is_finite()).ok_or_else(|| cursor.not(line, wanted))
     }
 
@@ -175,4 +173,3 @@ fn counts(cursor: &mut Cursor) -> Result<Vec<f64>, RecordError> {
     }
     Ok(counts)
 }
-

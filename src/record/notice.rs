@@ -26,6 +26,11 @@ impl Notice {
     pub const WEAK_G: f64 = 1e-4;
 }
 
+/// "component N28W", or the record where its file names none.
+fn who(component: &str) -> String {
+    if component.is_empty() { "the record".to_owned() } else { format!("component {component}") }
+}
+
 impl fmt::Display for Notice {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         match self {
@@ -35,18 +40,22 @@ impl fmt::Display for Notice {
                  choose with --component"
             ),
             Self::OnlyVertical { file, component } => {
-                write!(f, "{file}: component {component} is taken as the horizontal motion; the file has no horizontal one")
+                write!(
+                    f,
+                    "{file}: component {component} is taken as the horizontal motion; the file has no horizontal one"
+                )
             }
             Self::Offset { file, component, share } => write!(
                 f,
-                "{file}: component {component} has an offset of {:.0} % of its peak; --baseline removes it",
+                "{file}: {} has an offset of {:.0} % of its peak; --baseline removes it",
+                who(component),
                 share * 100.0
             ),
             Self::Strong { file, component, pga_g } => {
-                write!(f, "{file}: component {component} has a peak of {pga_g:.3} g, above 5 g; check the unit")
+                write!(f, "{file}: {} has a peak of {pga_g:.3} g, above 5 g; check the unit", who(component))
             }
             Self::Weak { file, component, pga_g } => {
-                write!(f, "{file}: component {component} has a peak of {pga_g:.2e} g, below 1e-4 g; check the unit")
+                write!(f, "{file}: {} has a peak of {pga_g:.2e} g, below 1e-4 g; check the unit", who(component))
             }
         }
     }

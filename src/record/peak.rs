@@ -153,6 +153,9 @@ mod tests {
             assert!(check(&stated(value, time, true), &values).is_err(), "{value} {time:?}");
         }
         let message = check(&stated("3.5", Some("0.04"), true), &values).unwrap_err().to_string();
-        assert!(message.contains("line 3") && message.contains("3.5 at 0.0400 s") && message.contains("-2.04"), "{message}");
+        assert!(
+            message.contains("line 3") && message.contains("3.5 at 0.0400 s") && message.contains("-2.04"),
+            "{message}"
+        );
     }
 }

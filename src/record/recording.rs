@@ -170,12 +170,12 @@ fn shorten(list: String) -> String {
 }
 
 impl Component {
-    /// Name and direction, for messages and tables.
+    /// Name and direction, for messages and tables; empty where the file gives neither.
     pub fn label(&self) -> String {
         match (&self.name, self.direction) {
             (Some(name), Direction::Unknown) => quote(name),
             (Some(name), direction) => format!("{} ({direction})", quote(name)),
-            (None, Direction::Unknown) => "unnamed".to_owned(),
+            (None, Direction::Unknown) => String::new(),
             (None, direction) => direction.to_string(),
         }
     }

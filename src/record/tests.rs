@@ -61,7 +61,8 @@ fn one_column_needs_the_time_step_and_the_unit() {
 #[test]
 fn what_the_file_says_and_the_user_says_must_agree() {
     let text = "UNITS OF G\nNPTS= 2, DT= .0039 SEC\n.1 .2\n";
-    let read = |dt, units| Record::parse("x.at2", text.as_bytes(), &ReadOptions { dt, units, ..ReadOptions::default() });
+    let read =
+        |dt, units| Record::parse("x.at2", text.as_bytes(), &ReadOptions { dt, units, ..ReadOptions::default() });
     assert!(matches!(read(Some(0.01), None), Err(RecordError::StepDiffers { .. })));
     assert!(matches!(read(None, Some(Units::MetrePerSecond2)), Err(RecordError::UnitsDiffer { .. })));
     // 1/256 s printed with four decimals: the user's is the sharper one
@@ -141,7 +142,10 @@ fn misreadings_are_refused() {
         (rows(&|i| format!("{:.4},{:.3}\n", 0.01 * 1.2_f64.powi(i as i32), 2.0 + wave(i))), "never changes its sign"),
         (format!("Period (s),Sa (g)\n{}", rows(&|i| format!("{:.2},{:.3}\n", 0.01 * i as f64, wave(i)))), "a spectrum"),
         (format!("t,v [m/s]\n{}", rows(&|i| format!("{:.2},{:.3}\n", 0.01 * i as f64, wave(i)))), "speaks of velocity"),
-        (format!("t,d [cm]\n{}", rows(&|i| format!("{:.2},{:.3}\n", 0.01 * i as f64, wave(i)))), "speaks of displacement"),
+        (
+            format!("t,d [cm]\n{}", rows(&|i| format!("{:.2},{:.3}\n", 0.01 * i as f64, wave(i)))),
+            "speaks of displacement",
+        ),
         (format!("# units: cm/s\n{}", rows(&|i| format!("{:.3}\n", wave(i)))), "speaks of velocity"),
         (rows(&|i| format!("{} {} {}\n", 8000 + i % 7, 8000 + i % 5, 8000 - i % 3)), "counts of a digitiser"),
         (format!("# unit: counts\n{}", rows(&|i| format!("{:.3}\n", wave(i)))), "counts of a digitiser"),

@@ -88,9 +88,7 @@ pub(super) fn declared(header: &[(usize, &str)], column_names: Option<&str>) -> 
 fn mentioned(lines: impl Iterator<Item = String>) -> Vec<Units> {
     let mut found = Vec::new();
     for line in lines {
-        for units in
-            [Units::G, Units::MetrePerSecond2, Units::CentimetrePerSecond2, Units::MillimetrePerSecond2]
-        {
+        for units in [Units::G, Units::MetrePerSecond2, Units::CentimetrePerSecond2, Units::MillimetrePerSecond2] {
             if mentions(&line, units) && !found.contains(&units) {
                 found.push(units);
             }

@@ -49,7 +49,8 @@ fn a_component_is_chosen_by_name_or_azimuth() {
         let options = ReadOptions { component: Some(wanted.into()), ..ReadOptions::default() };
         Recording::parse("x.V2A", text.as_bytes(), &options)
     };
-    for (wanted, taken) in [("N28W", 0), ("n28w", 0), ("332", 0), ("-28", 0), ("242.2", 1), ("up", 2), ("vertical", 2)] {
+    for (wanted, taken) in [("N28W", 0), ("n28w", 0), ("332", 0), ("-28", 0), ("242.2", 1), ("up", 2), ("vertical", 2)]
+    {
         let recording = choose(wanted).unwrap();
         assert_eq!((recording.taken, recording.notices()), (taken, vec![]), "{wanted}");
     }

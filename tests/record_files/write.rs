@@ -46,8 +46,13 @@ pub fn geonet(components: &[(&str, f64)], raw: bool) -> String {
         let series = [rounded(&series[0], 1), rounded(&series[1], 1), rounded(&series[2], 1)];
         let (kind, n) = (if raw { "Uncorrected" } else { "Corrected" }, SAMPLES);
         let counts = if raw { [n, 0, 0] } else { [n; 3] };
-        writeln!(out, "{kind} accelerogram 20990101_000000_TEST_20 GNS Science\nSite TEST      42 37 10S  173 03 13E").unwrap();
-        writeln!(out, "Made up Farm\nInstrument None_1\nResolution: 18-bit\nAccelerogram TEST\nnowhere\n2099 January 01").unwrap();
+        writeln!(out, "{kind} accelerogram 20990101_000000_TEST_20 GNS Science\nSite TEST      42 37 10S  173 03 13E")
+            .unwrap();
+        writeln!(
+            out,
+            "Made up Farm\nInstrument None_1\nResolution: 18-bit\nAccelerogram TEST\nnowhere\n2099 January 01"
+        )
+        .unwrap();
         writeln!(out, "Epicentre  42 41 33S\nNumber of points  {n}    Duration {:.2} sec", n as f64 * DT).unwrap();
         match raw {
             true => writeln!(out, "Raw readings in units of 1.00 mm/s/s  at intervals of 0.020 s").unwrap(),
@@ -96,8 +101,10 @@ pub fn cosmos(channels: &[(i64, f64)], (unit, code): (&str, u32)) -> String {
         let (value, time) = peak(&values);
         writeln!(out, "Corrected acceleration    (Format v01.20 with 13 text lines) Src: made up").unwrap();
         writeln!(out, "Record of nothing\nHypocenter:\nOrigin:\nStatn No: 01-1  Code:XX-TEST  Test   Place").unwrap();
-        writeln!(out, "Coords:\nRecorder:\nRcrd start time:\nSta Chan  {}: ? (Rcrdr Chan 1)\nRaw\nProcessed", i + 1).unwrap();
-        writeln!(out, "Filtered\nValues used when parameter or data value is unknown/unspecified:   -999, -999.00").unwrap();
+        writeln!(out, "Coords:\nRecorder:\nRcrd start time:\nSta Chan  {}: ? (Rcrdr Chan 1)\nRaw\nProcessed", i + 1)
+            .unwrap();
+        writeln!(out, "Filtered\nValues used when parameter or data value is unknown/unspecified:   -999, -999.00")
+            .unwrap();
         writeln!(out, " 100 Integer-header values follow on  10 lines, Format= (10I8)").unwrap();
         for line in 0..10 {
             for j in 0..10 {
@@ -112,7 +119,8 @@ pub fn cosmos(channels: &[(i64, f64)], (unit, code): (&str, u32)) -> String {
         (numbers[63], numbers[64]) = (value, time);
         rows(&mut out, &numbers, 5, 15, 6);
         writeln!(out, "   2 Comment line(s) follow, each starting with a \"|\":\n| one\n| two").unwrap();
-        writeln!(out, "     {SAMPLES} acceleration pts, approx    4 secs, units={unit}({code:02}),Format=(8F10.5)").unwrap();
+        writeln!(out, "     {SAMPLES} acceleration pts, approx    4 secs, units={unit}({code:02}),Format=(8F10.5)")
+            .unwrap();
         rows(&mut out, &values, 8, 10, 5);
         writeln!(out, "End-of-data for Chan {} acceleration", i + 1).unwrap();
     }
@@ -126,8 +134,13 @@ pub fn csmip(channels: &[(&str, f64)]) -> String {
         let chan = i + 1;
         let series = [wave(*scale, 0.3), wave(scale / 10.0, 0.9), wave(scale / 100.0, 1.4)];
         let series = series.map(|values| rounded(&values, 4));
-        writeln!(out, "Corrected accelerogram   12345                      Chan  {chan}: {direction}     from   ").unwrap();
-        writeln!(out, "Uncorrected Accelerogram Data             Processed: 01/01/99\nRecord of nothing\n(Origin)\n12345").unwrap();
+        writeln!(out, "Corrected accelerogram   12345                      Chan  {chan}: {direction}     from   ")
+            .unwrap();
+        writeln!(
+            out,
+            "Uncorrected Accelerogram Data             Processed: 01/01/99\nRecord of nothing\n(Origin)\n12345"
+        )
+        .unwrap();
         writeln!(out, "Station No. 12345   34.009N, 117.951W\nTest Place                               CGS").unwrap();
         writeln!(out, "Chan  {chan}: {direction}").unwrap();
         out.push_str(&"text\n".repeat(9));
@@ -144,8 +157,11 @@ pub fn csmip(channels: &[(&str, f64)]) -> String {
             let numbers: Vec<f64> = (0..8).map(|j| if (line, j) == (6, 4) { DT } else { 0.5 }).collect();
             rows(&mut out, &numbers[..if line == 12 { 4 } else { 8 }], 8, 10, 7);
         }
-        for ((what, unit), values) in [("accel", "cm/sec2."), ("veloc", "cm/sec."), ("displ", "cm.")].into_iter().zip(&series) {
-            writeln!(out, "   {SAMPLES} points of {what} data equally spaced at  .020 sec, in {unit} (8f10.4)    ").unwrap();
+        for ((what, unit), values) in
+            [("accel", "cm/sec2."), ("veloc", "cm/sec."), ("displ", "cm.")].into_iter().zip(&series)
+        {
+            writeln!(out, "   {SAMPLES} points of {what} data equally spaced at  .020 sec, in {unit} (8f10.4)    ")
+                .unwrap();
             rows(&mut out, values, 8, 10, 4);
         }
         writeln!(out, "/&  ----------  End of data for channel  {chan}  ----------").unwrap();
@@ -167,7 +183,8 @@ pub fn knet_counts() -> (Vec<i64>, Vec<f64>) {
 pub fn knet(direction: &str) -> String {
     let (counts, gal) = knet_counts();
     let (value, _) = peak(&gal);
-    let mut out = String::from("Origin Time       2099/01/01 00:00:00\nLat.              38.103\nLong.             142.860\n");
+    let mut out =
+        String::from("Origin Time       2099/01/01 00:00:00\nLat.              38.103\nLong.             142.860\n");
     out.push_str("Depth. (km)       24\nMag.              7.0\nStation Code      TST001\nStation Lat.      38.7\n");
     out.push_str("Station Long.     141.0\nStation Height(m) 40\nRecord Time       2099/01/01 00:00:30\n");
     out.push_str("Sampling Freq(Hz) 100Hz\nDuration Time(s)  2\n");
@@ -185,7 +202,8 @@ pub fn knet(direction: &str) -> String {
 pub fn dyna(stream: &str, scale: f64) -> String {
     let values = rounded(&wave(scale, 0.3), 6);
     let (value, time) = peak(&values);
-    let mut out = String::from("EVENT_NAME: nothing\nEVENT_ID: 1\nEVENT_TIME_HHMMSS: 23:08:25\nNETWORK: XX\nSTATION_CODE: TST\n");
+    let mut out =
+        String::from("EVENT_NAME: nothing\nEVENT_ID: 1\nEVENT_TIME_HHMMSS: 23:08:25\nNETWORK: XX\nSTATION_CODE: TST\n");
     writeln!(out, "STATION_NAME: Test Place\nVS30_M/S: \nSAMPLING_INTERVAL_S: {DT:.6}\nNDATA: {SAMPLES}").unwrap();
     writeln!(out, "STREAM: {stream}\nUNITS: cm/s^2\nPGA_CM/S^2: {value:.6}\nTIME_PGA_S: {time:.6}").unwrap();
     out.push_str("HEADER_FORMAT: DYNA 1.2\nDATA_TYPE: ACCELERATION\nUSER5: \n");
