@@ -140,12 +140,10 @@ impl<'a> Header<'a> {
 
     /// Name and direction: the azimuth or the code of integer 54, else the words of the text, else the channel code.
     fn component(&self) -> (Option<String>, Direction) {
-        let words = self.text.iter().find(|line| line.trim_start().starts_with("Sta Cha"));
-        let words = words.and_then(|line| line.split_once(':')).map_or("", |(_, words)| words);
-        let (channel, words) = match words.trim().split_once(':') {
-            Some((channel, words)) => (channel.trim(), words),
-            None => ("", words),
-        };
+        // `Sta Chan   1: 340 deg (Rcrdr Chan  1) Location:`; some write `Sta Cha:  1: 340 deg`
+        let words = self.text.iter().find_map(|line| line.trim_start().strip_prefix("Sta Cha"));
+        let words = words.map_or("", |words| words.trim_start_matches(['n', ':']));
+        let (channel, words) = words.split_once(':').unwrap_or(("", ""));
         let by_code = self.code.map_or(Direction::Unknown, Direction::of);
         let direction = match self.integer(54) {
             Some(degrees @ 1..=360) => Direction::azimuth(degrees as f64),
@@ -156,7 +154,7 @@ impl<'a> Header<'a> {
                 said => said,
             },
         };
-        let number = channel.split_whitespace().last().filter(|n| n.parse::<u32>().is_ok());
+        let number = Some(channel.trim()).filter(|n| n.parse::<u32>().is_ok());
         let name = self.code.map(str::to_owned).or_else(|| number.map(|n| format!("Chan {n}")));
         (name, direction)
     }

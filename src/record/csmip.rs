@@ -53,7 +53,7 @@ fn read_channel(cursor: &mut Cursor) -> Result<(Option<String>, Channel), Record
     for (quantity, of) in [("veloc", "velocity"), ("displ", "displacement")] {
         if cursor.peek().is_some_and(|line| is_data_line(line, quantity)) {
             let announced = Series::announced(cursor, quantity, "'... points of ... data equally spaced at ...'")?;
-            let cm = announced.unit.contains("cm");
+            let cm = announced.unit.to_ascii_lowercase().contains("cm");
             let (_, peak) = announced.read(cursor, step.0, header.peak(of))?;
             if of == "velocity" && cm {
                 pgv = peak.map(|peak| peak.times(0.01));
@@ -118,7 +118,7 @@ impl<'a> Header<'a> {
     /// `Chan  1:  90 Deg`: name and direction.
     fn component(&self) -> (Option<String>, Direction) {
         let channel = self.lines.iter().find_map(|line| {
-            let words = &line[line.find("Chan ")? + 5..];
+            let words = &line[line.to_ascii_lowercase().find("chan ")? + 5..];
             let (number, direction) = words.split_once(':')?;
             Some((number.trim(), direction))
         });
@@ -129,7 +129,8 @@ impl<'a> Header<'a> {
 
     /// The words after `Station No.` or `Station Id.`, and the line below them.
     fn station(&self) -> Option<String> {
-        let at = self.lines.iter().position(|line| line.trim_start().starts_with("Station "))?;
+        let is_station = |line: &str| line.trim_start().to_ascii_lowercase().starts_with("station ");
+        let at = self.lines.iter().position(|line| is_station(line))?;
         let code = self.lines[at].split_whitespace().nth(2)?;
         let name = self.lines.get(at + 1).map_or("", |line| line.get(..40).unwrap_or(line).trim());
         Some(format!("{code} {name}").trim_end().to_owned())
@@ -159,10 +160,13 @@ impl<'a> Series<'a> {
         };
         let count = text.split_whitespace().next().and_then(|n| n.parse().ok()).filter(|n| *n > 0).ok_or_else(bad)?;
         let layout = Layout::parse(text).ok_or_else(bad)?;
-        let (_, after) = text.split_once(" at ").ok_or_else(bad)?;
+        // older files write in capitals
+        let at = text.to_ascii_lowercase().find(" at ").ok_or_else(bad)?;
+        let after = &text[at + 4..];
         let printed = after.split_whitespace().next().unwrap_or("");
         let step = number(printed).filter(|dt| dt.is_finite() && *dt > 0.0).ok_or_else(bad)?;
-        let unit = after.split_once(" in ").map_or("", |(_, unit)| unit.split_whitespace().next().unwrap_or(""));
+        let unit = after.to_ascii_lowercase().find(" in ").map_or("", |at| &after[at + 4..]);
+        let unit = unit.split_whitespace().next().unwrap_or("");
         let unit = unit.trim_end_matches(['.', ',']);
         if quantity == "accel" && unit.parse() != Ok(Units::CentimetrePerSecond2) {
             return Err(RecordError::ForeignUnit { file: cursor.file.to_owned(), line, unit: quote(unit) });

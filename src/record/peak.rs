@@ -93,14 +93,18 @@ impl<'a> Stated<'a> {
     ) -> Result<Peak, RecordError> {
         let value = number(self.value).unwrap_or(f64::NAN);
         let time = self.time.and_then(number);
-        let tolerance = |i: usize| half_digit(self.value) + half_digit_of(i) + SINGLE * value.abs();
+        let tolerance = |i: usize| half_digit(significant(self.value)) + half_digit_of(i) + SINGLE * value.abs();
         let same_size = |i: usize| (values[i].abs() - value.abs()).abs() <= tolerance(i);
         let same = |i: usize| same_size(i) && (!self.signed || values[i] * value >= 0.0);
         let found = Peak::of(values, dt);
         let largest = (found.time.unwrap_or(0.0) / dt).round() as usize;
         // the peak may be reached more than once; the header names one of these
         let near = |i: usize| time.is_none_or(|t| (start + i as f64 * dt - t).abs() <= self.time_tolerance(dt));
-        if largest < values.len() && same_size(largest) && (0..values.len()).any(|i| near(i) && same(i)) {
+        if value.is_finite()
+            && largest < values.len()
+            && same_size(largest)
+            && (0..values.len()).any(|i| near(i) && same(i))
+        {
             return Ok(Peak { value, time });
         }
         let at = |time: Option<f64>| time.map_or(String::new(), |t| format!(" at {t:.4} s"));
@@ -119,9 +123,35 @@ impl<'a> Stated<'a> {
     }
 }
 
+/// A printed number without the zeros that fill its field: `-161.962000` was written where three decimals were known.
+fn significant(printed: &str) -> &str {
+    match printed.find('.') {
+        Some(point) if printed[point + 1..].bytes().all(|b| b.is_ascii_digit()) => {
+            let least = (point + 4).min(printed.len());
+            &printed[..printed.trim_end_matches('0').len().max(least)]
+        }
+        _ => printed,
+    }
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;
+
+    #[test]
+    fn zeros_that_fill_a_field_are_no_digits() {
+        for (printed, digits) in [
+            ("-161.962000", "-161.962"),
+            ("-6.851512", "-6.851512"),
+            ("82.500", "82.500"),
+            ("7.000000", "7.000"),
+            ("1.5", "1.5"),
+            ("-11026", "-11026"),
+            ("1.50000E+00", "1.50000E+00"),
+        ] {
+            assert_eq!(significant(printed), digits);
+        }
+    }
 
     fn check(stated: &Stated, values: &[f64]) -> Result<Peak, RecordError> {
         stated.check_values("x", Clock::from_first(0.02), values, |_| 0.0)

@@ -186,13 +186,14 @@ impl Component {
         let (file, component) = (file.to_owned(), self.label());
         let (pga, pga_g) = (self.record.pga(), self.record.pga_g());
         let still = super::parsed::mean(&self.record.accel);
-        if still.abs() > Notice::OFFSET_SHARE * pga {
+        // one sample is its own mean
+        if self.record.len() > 1 && still.abs() > Notice::OFFSET_SHARE * pga {
             let share = still.abs() / pga;
             notices.push(Notice::Offset { file: file.clone(), component: component.clone(), share });
         }
         if pga_g > Notice::STRONG_G {
             notices.push(Notice::Strong { file, component, pga_g });
-        } else if pga_g < Notice::WEAK_G {
+        } else if pga_g > 0.0 && pga_g < Notice::WEAK_G {
             notices.push(Notice::Weak { file, component, pga_g });
         }
         notices

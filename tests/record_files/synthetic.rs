@@ -79,12 +79,20 @@ fn cosmos_channels_have_the_step_of_the_data_not_of_the_raw_record() {
         }
         assert_eq!(recording.taken, 0);
     }
+    // without a code the words tell the azimuth, in both spellings
+    let text = write::cosmos(&[(-999, 3.0)], ("cm/sec2", 4));
+    assert_eq!(read("x", &text).component().label(), "Chan 1 (azimuth 45)");
+    assert_eq!(read("x", &text.replace("Sta Chan ", "Sta Cha: ")).component().label(), "Chan 1 (azimuth 45)");
+    // a peak known to three decimals, its field filled with zeros
+    let (value, _) = peak(&rounded(&wave(3.0, 0.3), 5));
+    let coarse = text.replace(&format!("{value:15.6}"), &format!("{value:12.3}000"));
+    assert!(coarse != text && read("x", &coarse).component().header_pga.is_some());
 }
 
 #[test]
 fn csmip_channels_are_read_by_their_announced_formats() {
     let text = write::csmip(&[("90 Deg", 60.0), ("360 Deg", 80.0), (" Up", 70.0)]);
-    for text in [text.replace("\r\n", "\n"), text] {
+    for text in [text.replace("\r\n", "\n"), text.clone()] {
         let recording = read("x", &text);
         assert_eq!((recording.format, recording.station.as_deref()), (Format::Csmip, Some("12345 Test Place")));
         let labels: Vec<String> = recording.components.iter().map(|c| c.label()).collect();
@@ -95,6 +103,8 @@ fn csmip_channels_are_read_by_their_announced_formats() {
         }
         assert_eq!(recording.taken, 1);
     }
+    let capitals = read("x", &text.to_uppercase());
+    assert_eq!((capitals.component().label().as_str(), capitals.taken), ("Chan 2 (azimuth 0)", 1));
 }
 
 #[test]

@@ -101,8 +101,12 @@ pub fn cosmos(channels: &[(i64, f64)], (unit, code): (&str, u32)) -> String {
         let (value, time) = peak(&values);
         writeln!(out, "Corrected acceleration    (Format v01.20 with 13 text lines) Src: made up").unwrap();
         writeln!(out, "Record of nothing\nHypocenter:\nOrigin:\nStatn No: 01-1  Code:XX-TEST  Test   Place").unwrap();
-        writeln!(out, "Coords:\nRecorder:\nRcrd start time:\nSta Chan  {}: ? (Rcrdr Chan 1)\nRaw\nProcessed", i + 1)
-            .unwrap();
+        writeln!(
+            out,
+            "Coords:\nRecorder:\nRcrd start time:\nSta Chan  {}: 45 deg (Rcrdr Chan  1) Location: roof\nRaw\nProcessed",
+            i + 1
+        )
+        .unwrap();
         writeln!(out, "Filtered\nValues used when parameter or data value is unknown/unspecified:   -999, -999.00")
             .unwrap();
         writeln!(out, " 100 Integer-header values follow on  10 lines, Format= (10I8)").unwrap();
