@@ -47,6 +47,9 @@ impl Serialize for Format {
     }
 }
 
+/// Whether the first lines of a file, without blanks around them, are those of a format.
+type Test = fn(&[&str]) -> bool;
+
 /// How far down a file says what it is.
 const HEAD_LINES: usize = 100;
 
@@ -54,7 +57,7 @@ impl Format {
     /// The format that the first lines speak; columns if none.
     pub(super) fn of(text: &str) -> Self {
         let head: Vec<&str> = lines(text).take(HEAD_LINES).map(|(_, line)| line).collect();
-        let is: [(Self, fn(&[&str]) -> bool); 5] = [
+        let is: [(Self, Test); 5] = [
             (Self::Cosmos, cosmos::is_it),
             (Self::GeoNet, geonet::is_it),
             (Self::Csmip, csmip::is_it),
