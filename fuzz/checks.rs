@@ -11,7 +11,7 @@ use groundspring::{
     fem,
     housner::{self, Options},
     parameters::Parameters,
-    record::{ReadOptions, Record, Units},
+    record::{ReadOptions, Record, Recording, Units},
 };
 
 /// An error's message is one line a user can read.
@@ -39,13 +39,30 @@ pub fn record(bytes: &[u8]) {
             (Some(0.02), None),
             (Some(1e-6), Some(Units::CentimetrePerSecond2)),
         ] {
-            match Record::parse(name, bytes, &ReadOptions { dt, units }) {
-                Ok(record) => {
-                    checked(&record);
-                    read_again(&record);
+            match Recording::parse(name, bytes, &ReadOptions { dt, units, ..ReadOptions::default() }) {
+                Ok(recording) => {
+                    whole(&recording, bytes);
+                    read_again(&recording.into_record());
                 }
                 Err(error) => clear(&error),
             }
+        }
+    }
+}
+
+/// Every component is a record, and can be asked for where its name is its own.
+fn whole(recording: &Recording, bytes: &[u8]) {
+    for notice in recording.notices() {
+        let notice = notice.to_string();
+        assert!(!notice.is_empty() && !notice.chars().any(char::is_control), "{notice:?}");
+    }
+    for component in &recording.components {
+        checked(&component.record);
+        let m = component.record.measures();
+        assert!([m.pga.value, m.pgv.value, m.arias_m_per_s, m.duration_5_95_s].iter().all(|x| x.is_finite()), "{m:?}");
+        let options = ReadOptions { component: component.name.clone(), baseline: true, ..ReadOptions::default() };
+        if let Err(error) = Recording::parse("a.txt", bytes, &options) {
+            clear(&error);
         }
     }
 }

@@ -30,7 +30,7 @@ use crate::{
     excitation::Excitation,
     members::{Damper, Friction, Legs, Members, MembersError, Tendon},
     message::one_line,
-    record::{ReadOptions, Record, RecordError, Units},
+    record::{Notice, ReadOptions, Record, RecordError, Recording, Units},
     response::target::Target,
     structure::{Kind, Structure, StructureError},
     tuning::arr::bounds::Bounds,
@@ -54,7 +54,7 @@ pub enum CaseError {
     #[error("{path}: {key} is {value}; {remedy}")]
     Value { path: String, key: &'static str, value: String, remedy: &'static str },
     #[error(
-        "{path}: record.file is not given; record.dt_s and record.units tell of a file: name it, or leave them out"
+        "{path}: record.file is not given; record.dt_s, units, component and baseline tell of a file: name it, or leave them out"
     )]
     NoFile { path: String },
     #[error(transparent)]
@@ -96,8 +96,12 @@ struct RecordSection {
     file: Option<PathBuf>,
     /// Time step [s], where the file does not say.
     dt_s: Option<f64>,
-    /// "g", "m/s2" or "cm/s2", where the file does not say.
+    /// "g", "m/s2", "cm/s2" or "mm/s2", where the file does not say.
     units: Option<Units>,
+    /// Component by name or azimuth, where the file has several; the stronger horizontal one unless given.
+    component: Option<String>,
+    /// Subtract the mean of the samples.
+    baseline: bool,
     /// Factor on the acceleration; 1 unless given.
     scale: Option<f64>,
     /// Length to compare over [s]; the whole record unless given.
@@ -170,6 +174,8 @@ pub struct Case {
     pub excitation: Excitation,
     /// The whole record, scaled.
     pub record: Record,
+    /// What the reader of the record says of it.
+    pub notices: Vec<Notice>,
     /// Length to compare over [s].
     pub duration_s: f64,
     pub tuning: Tuning,
@@ -198,7 +204,13 @@ impl Case {
 
     /// Parse a case file's text; `path` names it in messages and is where its record's path starts.
     pub fn parse(path: &str, text: &str) -> Result<Self, CaseError> {
-        Self::parse_with(path, text, Record::read)
+        let mut notices = Vec::new();
+        let case = Self::parse_with(path, text, |file, options| {
+            let recording = Recording::read(file, options)?;
+            notices = recording.notices();
+            Ok(recording.into_record())
+        })?;
+        Ok(Self { notices, ..case })
     }
 
     /// The same, the record it names read by `read`.
@@ -219,9 +231,10 @@ impl Case {
         let record = match &section.file {
             Some(name) => {
                 let file = Path::new(path).parent().unwrap_or(Path::new("")).join(name);
-                read(&file, &ReadOptions { dt: section.dt_s, units: section.units })?
+                let (component, baseline) = (section.component.clone(), section.baseline);
+                read(&file, &ReadOptions { dt: section.dt_s, units: section.units, component, baseline })?
             }
-            None if section.dt_s.is_some() || section.units.is_some() => {
+            None if section.tells_of_a_file() => {
                 return Err(CaseError::NoFile { path: path.into() });
             }
             None => Record::el_centro(),
@@ -236,6 +249,7 @@ impl Case {
             restitution,
             members,
             record: excitation.scaled()?,
+            notices: Vec::new(),
             duration_s: excitation.duration(),
             excitation,
             tuning: file.tuning,
@@ -255,6 +269,12 @@ impl Case {
         self.duration_s = excitation.duration();
         self.excitation = excitation;
         Ok(())
+    }
+}
+
+impl RecordSection {
+    fn tells_of_a_file(&self) -> bool {
+        self.dt_s.is_some() || self.units.is_some() || self.component.is_some() || self.baseline
     }
 }
 

@@ -23,6 +23,7 @@ mod housner;
 mod members;
 mod output;
 mod progress;
+mod record;
 mod report;
 mod response;
 mod run;
@@ -53,6 +54,8 @@ enum Command {
     Validate(validate::Options),
     /// Write the springs and their model for OpenSees, SAP2000 or as plain tables.
     Export(export::Options),
+    /// What is in record files of any format, and what a run would take of them.
+    Record(record::Options),
     /// Run the exported model in OpenSees beside our own history and Housner's.
     Verify(verify::Options),
     /// Run time against error, beside other tools; a table on stdout, table and figure into a folder.
@@ -124,6 +127,7 @@ pub fn main() -> ExitCode {
         Command::Simulate(o) => simulate::run(&o),
         Command::Validate(o) => validate::run(&o),
         Command::Export(o) => export::run(&o),
+        Command::Record(o) => record::run(&o),
         Command::Verify(o) => verify::run(&o),
         Command::Bench(o) => bench::run(&o),
     };

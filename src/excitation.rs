@@ -46,7 +46,7 @@ impl Excitation {
         let whole = &self.record;
         let used = whole.truncated(self.duration());
         let from = match &whole.source {
-            Source::File { path, units } => format!("{}, in {units}", path.display()),
+            Source::File { path, units, .. } => format!("{}, in {units}", path.display()),
             Source::Embedded => "embedded".into(),
             Source::Numbers | Source::Synthetic | Source::Earthquake => "from no file".into(),
         };

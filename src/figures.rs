@@ -13,6 +13,7 @@
 //! | [`contact`] | forces between feet and ground against time |
 //! | [`energy`] | the energy account against time |
 //! | [`validation`] | two models over many records |
+//! | [`record`] | acceleration and velocity of a ground motion, and the level that lifts a structure |
 //! | [`precision`] | run time against error of several tools |
 
 use std::path::PathBuf;
@@ -38,6 +39,7 @@ pub mod energy;
 pub mod front;
 pub mod history;
 pub mod precision;
+pub mod record;
 pub mod validation;
 
 #[cfg(test)]

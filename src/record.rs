@@ -4,14 +4,30 @@
 //! samples: the kinks at the samples are part of the motion, and solvers step from one to the next. Numbers in g are
 //! turned into m/s2 with g = 9.81 m/s2 ([`GRAVITY`]).
 //!
-//! Files: PEER AT2 in both header forms, and text columns (time, acceleration) or acceleration alone. What a file does
-//! not say (unit, time step) must be given; what it says and the user says must agree.
+//! Files: PEER AT2, GeoNet V1A and V2A, COSMOS V1 and V2c, CSMIP .V2, K-NET and KiK-net, ESM/ITACA/AFAD, and text columns,
+//! recognised by what they say and not by their names ([`Format`]). What a file does not say (unit, time step) must be
+//! given; what it says and the user says must agree, and the samples must have the peak that a header gives. A file may
+//! have several components ([`Recording`]): a record is the one asked for, else the stronger horizontal one.
 
 mod at2;
+mod columns;
+mod cosmos;
+mod csmip;
+mod direction;
+mod dyna;
 mod error;
 mod folder;
+mod format;
+mod fortran;
+mod geonet;
+mod header;
+mod knet;
+mod measures;
+mod notice;
+mod parsed;
+mod peak;
+mod recording;
 mod source;
-mod table;
 mod text;
 mod timing;
 mod units;
@@ -20,7 +36,13 @@ use std::fs::File;
 use std::io::Read;
 use std::path::Path;
 
+pub use direction::Direction;
 pub use error::RecordError;
+pub use format::Format;
+pub use measures::Measures;
+pub use notice::Notice;
+pub use peak::Peak;
+pub use recording::{Component, Recording};
 pub use source::Source;
 pub use units::{Units, UnitsError};
 
@@ -50,24 +72,17 @@ impl PartialEq for Record {
     }
 }
 
-/// What the user says about a file that the file may not say itself.
-#[derive(Clone, Copy, Debug, Default, PartialEq)]
+/// What the user says about a file that the file may not say itself, and what to take of it.
+#[derive(Clone, Debug, Default, PartialEq)]
 pub struct ReadOptions {
     /// Time step (s).
     pub dt: Option<f64>,
     /// Unit of the numbers in the file.
     pub units: Option<Units>,
-}
-
-/// What a reader found in a file, in the file's own unit.
-struct Samples {
-    units: Option<Units>,
-    /// Velocity or displacement, if the header says that.
-    quantity: Option<&'static str>,
-    dt: Option<f64>,
-    /// How far dt may be off by the rounding of printed digits (s).
-    dt_rounding: f64,
-    values: Vec<f64>,
+    /// Component to take, by name or by azimuth (degrees clockwise from north); the stronger horizontal one unless given.
+    pub component: Option<String>,
+    /// Subtract the mean of the samples.
+    pub baseline: bool,
 }
 
 impl Record {
@@ -100,29 +115,13 @@ impl Record {
         Self { source: Source::Embedded, ..record.unwrap_or_else(|error| unreachable!("{error}")) }
     }
 
-    /// The record in a file of any supported format; its name is the file's without the ending.
+    /// The record in a file of any supported format; its name is the file's without the ending, and the component's where
+    /// the file has several. [`Recording::read`] gives all components and what the user should know of them.
     ///
     /// # Errors
     /// The file cannot be read, is no record, is damaged, or does not agree with the options: see [`RecordError`].
     pub fn read(path: &Path, options: &ReadOptions) -> Result<Self, RecordError> {
-        let file = label(path);
-        let unreadable = |error: std::io::Error| RecordError::Unreadable {
-            file: file.clone(),
-            reason: text::quote(&error.to_string()),
-        };
-        if path.is_dir() {
-            return Err(RecordError::Folder { file });
-        }
-        let mut bytes = Vec::new();
-        File::open(path).and_then(|f| f.take(FILE_LIMIT + 1).read_to_end(&mut bytes)).map_err(unreadable)?;
-        if bytes.len() as u64 > FILE_LIMIT {
-            return Err(RecordError::TooLarge { file, limit_mb: FILE_LIMIT >> 20 });
-        }
-        let mut record = Self::parse(&file, &bytes, options)?;
-        if let Source::File { path: named, .. } = &mut record.source {
-            path.clone_into(named);
-        }
-        Ok(record)
+        Recording::read(path, options).map(Recording::into_record)
     }
 
     /// The record in the bytes of a file; `file` is the file's path, for the record's name and for messages.
@@ -130,23 +129,7 @@ impl Record {
     /// # Errors
     /// As [`Record::read`], but for reading the file.
     pub fn parse(file: &str, bytes: &[u8], options: &ReadOptions) -> Result<Self, RecordError> {
-        let path = Path::new(file);
-        let file = &label(path);
-        if let Some(dt) = options.dt {
-            check_step(file, dt)?;
-        }
-        let text = text::decode(file, bytes)?;
-        let is_at2 = path.extension().is_some_and(|ending| ending.eq_ignore_ascii_case("at2"));
-        let samples = match at2::header_line(&text) {
-            Some(header) => at2::parse(file, &text, header)?,
-            None if text.trim().is_empty() => return Err(RecordError::Empty { file: file.clone() }),
-            None if is_at2 => return Err(RecordError::NoHeader { file: file.clone() }),
-            None => table::parse(file, &text, options.dt)?,
-        };
-        let name = path.file_stem().map_or_else(|| file.clone(), |stem| label(Path::new(stem)));
-        let mut record = samples.into_record(file, options)?;
-        record.name = name;
-        Ok(record)
+        Recording::parse(file, bytes, options).map(Recording::into_record)
     }
 
     /// The record with every acceleration multiplied by a factor.
@@ -211,36 +194,20 @@ impl Record {
     }
 }
 
-impl Samples {
-    /// The record in SI units, what the file says and what the user says agreeing.
-    fn into_record(self, file: &str, options: &ReadOptions) -> Result<Record, RecordError> {
-        let file = || file.to_owned();
-        if let Some(quantity) = self.quantity {
-            return Err(RecordError::NotAcceleration { file: file(), quantity });
-        }
-        if self.values.is_empty() {
-            return Err(RecordError::Empty { file: file() });
-        }
-        let dt = match (self.dt, options.dt) {
-            (Some(file_dt), Some(given)) if (file_dt - given).abs() > self.dt_rounding + 1e-9 * file_dt => {
-                return Err(RecordError::StepDiffers { file: file(), file_dt, given });
-            }
-            // within the rounding of the file's digits the user's step is the sharper one
-            (_, Some(given)) => given,
-            (Some(file_dt), None) => file_dt,
-            (None, None) => return Err(RecordError::NoStep { file: file() }),
-        };
-        let units = match (self.units, options.units) {
-            (Some(file_units), Some(given)) if file_units != given => {
-                return Err(RecordError::UnitsDiffer { file: file(), file_units, given });
-            }
-            (Some(units), _) | (None, Some(units)) => units,
-            (None, None) => return Err(RecordError::NoUnits { file: file() }),
-        };
-        let factor = units.metres_per_second2();
-        let record = Record::new(file(), dt, self.values.into_iter().map(|value| value * factor).collect())?;
-        Ok(Record { source: Source::File { path: file().into(), units }, ..record })
+/// The bytes of a record file.
+fn bytes(path: &Path) -> Result<Vec<u8>, RecordError> {
+    let file = label(path);
+    if path.is_dir() {
+        return Err(RecordError::Folder { file });
     }
+    let unreadable =
+        |error: std::io::Error| RecordError::Unreadable { file: file.clone(), reason: text::quote(&error.to_string()) };
+    let mut bytes = Vec::new();
+    File::open(path).and_then(|f| f.take(FILE_LIMIT + 1).read_to_end(&mut bytes)).map_err(unreadable)?;
+    if bytes.len() as u64 > FILE_LIMIT {
+        return Err(RecordError::TooLarge { file, limit_mb: FILE_LIMIT >> 20 });
+    }
+    Ok(bytes)
 }
 
 fn check_step(record: &str, dt: f64) -> Result<(), RecordError> {

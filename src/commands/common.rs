@@ -9,7 +9,7 @@ use super::{
     members::{WithMembers, peaks_until},
 };
 use crate::{
-    case::LONGEST_S,
+    case::{Case, LONGEST_S},
     compare::Match,
     conditioning::Conditioning,
     excitation::Excitation,
@@ -17,7 +17,7 @@ use crate::{
     housner::{self, Rocking},
     members::Members,
     motion::Motion,
-    record::{ReadOptions, Record, Units},
+    record::{ReadOptions, Record, Recording, Units},
     spring::{Chain, Springs},
     structure::Body,
     verdict::Verdict,
@@ -26,15 +26,21 @@ use crate::{
 /// Which record, how scaled, how long.
 #[derive(Clone, Debug, Default, Args)]
 pub struct RecordOptions {
-    /// Ground motion: PEER AT2, or text with one or two columns; that of the case or of the parameters unless given
+    /// Ground motion: PEER AT2, GeoNet, COSMOS, CSMIP, K-NET, ESM or columns; that of the case or of the parameters unless given
     #[arg(long, value_name = "FILE")]
     pub record: Option<PathBuf>,
     /// Time step, where the file does not say
     #[arg(long, value_name = "SECONDS", allow_negative_numbers = true)]
     pub dt: Option<f64>,
-    /// g, m/s2 or cm/s2, where the file does not say
+    /// g, m/s2, cm/s2 or mm/s2, where the file does not say
     #[arg(long)]
     pub units: Option<Units>,
+    /// Component, by name or by azimuth in degrees, of a file with several [default: the stronger horizontal one]
+    #[arg(long, value_name = "NAME", allow_hyphen_values = true)]
+    pub component: Option<String>,
+    /// Subtract the mean of the samples
+    #[arg(long)]
+    pub baseline: bool,
     /// Factor on the record's acceleration, in place of the case's or the parameters' [default: theirs; 1 with --record]
     #[arg(long, value_name = "FACTOR", allow_negative_numbers = true)]
     pub scale: Option<f64>,
@@ -45,7 +51,7 @@ pub struct RecordOptions {
 
 impl RecordOptions {
     /// The ground motion asked for: `default`, of which a scale or a length given replaces its own; or another record,
-    /// whole and unscaled unless something is given.
+    /// whole and unscaled unless something is given. What its reader says goes to stderr.
     pub fn excitation<E: Into<CommandError>>(
         &self,
         default: impl FnOnce() -> Result<Excitation, E>,
@@ -58,12 +64,18 @@ impl RecordOptions {
             });
         }
         let asked = match &self.record {
-            Some(path) => Excitation::whole(Record::read(path, &ReadOptions { dt: self.dt, units: self.units })?),
-            None if self.dt.is_some() || self.units.is_some() => {
+            Some(path) => {
+                let (component, baseline) = (self.component.clone(), self.baseline);
+                let options = ReadOptions { dt: self.dt, units: self.units, component, baseline };
+                let recording = Recording::read(path, &options)?;
+                recording.notices().iter().for_each(|notice| eprintln!("{notice}"));
+                Excitation::whole(recording.into_record())
+            }
+            None if self.dt.is_some() || self.units.is_some() || self.component.is_some() || self.baseline => {
                 return Err(CommandError::Option {
                     option: "record",
                     value: "not given".into(),
-                    remedy: "--dt and --units tell of a file: name it with --record",
+                    remedy: "--dt, --units, --component and --baseline tell of a file: name it with --record",
                 });
             }
             None => default().map_err(Into::into)?,
@@ -74,6 +86,12 @@ impl RecordOptions {
             ..asked
         })
     }
+}
+
+/// The ground motion of a case; what its reader said goes to stderr.
+pub fn of_case(case: &Case) -> Result<Excitation, CommandError> {
+    case.notices.iter().for_each(|notice| eprintln!("{notice}"));
+    Ok(case.excitation.clone())
 }
 
 /// Both models' answers to one record.

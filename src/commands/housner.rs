@@ -6,7 +6,7 @@ use clap::Args;
 
 use super::{
     CommandError,
-    common::{RecordOptions, csv_row, restitution},
+    common::{RecordOptions, csv_row, of_case, restitution},
     output::check_file,
     write_file,
 };
@@ -40,11 +40,11 @@ pub fn run(o: &Options) -> Result<(), CommandError> {
     let (structure, e, default) = match &o.case {
         Some(path) => {
             let case = Case::read(path)?;
-            (case.structure, Some(case.restitution), case.excitation)
+            (case.structure, Some(case.restitution), case)
         }
-        None => (Structure::paper(), None, Case::paper()?.excitation),
+        None => (Structure::paper(), None, Case::paper()?),
     };
-    let excitation = o.record.excitation(|| Ok::<_, CommandError>(default))?;
+    let excitation = o.record.excitation(|| of_case(&default))?;
     if let Some(path) = &o.out {
         check_file(path)?;
     }

@@ -61,7 +61,7 @@ pub fn run(o: &Options) -> Result<(), CommandError> {
         Some(path) => Case::read(path)?,
         None => Case::paper()?,
     };
-    case.set_excitation(o.record.excitation(|| Ok::<_, CommandError>(case.excitation.clone()))?)?;
+    case.set_excitation(o.record.excitation(|| common::of_case(&case))?)?;
     if let Some(hz) = o.max_hz {
         if !(0.1..=1e6).contains(&hz) {
             return Err(CommandError::Option {

@@ -14,7 +14,7 @@ use crate::{
     conditioning::ILL_CONDITIONED,
     fem, figures,
     parameters::Parameters,
-    record::{ReadOptions, Record, RecordError, Units},
+    record::{Notice, ReadOptions, Record, RecordError, Recording, Units},
     spring::ChainRow,
     structure::Structure,
     synthetic,
@@ -29,13 +29,13 @@ pub struct Options {
     /// Springs and structure, as `tune run` writes them
     #[arg(long, value_name = "parameters.json")]
     parameters: PathBuf,
-    /// Folder of records: any mix of PEER AT2 files and text with one or two columns
+    /// Folder of records: any mix of formats, see tune record
     #[arg(long, value_name = "DIR")]
     records: Option<PathBuf>,
     /// Time step, where the files do not say
     #[arg(long, value_name = "SECONDS", requires = "records", allow_negative_numbers = true)]
     dt: Option<f64>,
-    /// g, m/s2 or cm/s2, where the files do not say
+    /// g, m/s2, cm/s2 or mm/s2, where the files do not say
     #[arg(long, requires = "records")]
     units: Option<Units>,
     /// Factor on the acceleration of the files
@@ -105,11 +105,18 @@ impl Source {
         }
     }
 
-    /// Read every file, keep none: a bad one ends the job before it begins.
-    fn check(&self) -> Result<(), RecordError> {
-        let errors: Vec<Option<RecordError>> =
-            (0..self.files.len()).into_par_iter().map(|i| self.record(i).err()).collect();
-        errors.into_iter().flatten().next().map_or(Ok(()), Err)
+    /// Read every file, keep none: a bad one ends the job before it begins. What the readers say of the others.
+    fn check(&self) -> Result<Vec<Notice>, RecordError> {
+        let read = |file: &PathBuf| {
+            let recording = Recording::read(file, &self.read)?;
+            let notices = recording.notices();
+            if let Some(scale) = self.scale {
+                recording.into_record().scaled(scale)?;
+            }
+            Ok(notices)
+        };
+        let notices: Vec<Result<Vec<Notice>, RecordError>> = self.files.par_iter().map(read).collect();
+        Ok(notices.into_iter().collect::<Result<Vec<_>, _>>()?.into_iter().flatten().collect())
     }
 }
 
@@ -153,7 +160,7 @@ pub fn run(o: &Options) -> Result<(), CommandError> {
     threads(o.jobs)?;
     let source = Source {
         files: o.records.as_deref().map_or(Ok(Vec::new()), Record::list_dir)?,
-        read: ReadOptions { dt: o.dt, units: o.units },
+        read: ReadOptions { dt: o.dt, units: o.units, ..ReadOptions::default() },
         scale: o.scale,
         synthetic: o.synthetic.unwrap_or(0) as usize,
         earthquakes: o.earthquakes.unwrap_or(0) as usize,
@@ -161,7 +168,7 @@ pub fn run(o: &Options) -> Result<(), CommandError> {
         p: body.p_squared().sqrt(),
         alpha: body.alpha(),
     };
-    source.check()?;
+    source.check()?.iter().for_each(|notice| eprintln!("{notice}"));
     let judge = Judge {
         body,
         restitution,

@@ -53,6 +53,12 @@ pub enum SourceRow {
         path: String,
         /// Of the file's numbers, found in it or given.
         units: Units,
+        /// Which component, where the file has several.
+        #[serde(default, skip_serializing_if = "Option::is_none")]
+        component: Option<String>,
+        /// Whether the mean was taken off.
+        #[serde(default, skip_serializing_if = "std::ops::Not::not")]
+        baseline: bool,
     },
     /// Nowhere: the numbers were made by a program.
     Numbers,
@@ -81,9 +87,13 @@ impl RecordRow {
         let record = &excitation.record;
         let source = match &record.source {
             Source::Embedded => SourceRow::Embedded,
-            Source::File { path, units } => {
-                SourceRow::File { file: slashes(path), path: slashes(&way(&real(folder), &real(path))), units: *units }
-            }
+            Source::File { path, units, component, baseline } => SourceRow::File {
+                file: slashes(path),
+                path: slashes(&way(&real(folder), &real(path))),
+                units: *units,
+                component: component.clone(),
+                baseline: *baseline,
+            },
             Source::Numbers | Source::Synthetic | Source::Earthquake => SourceRow::Numbers,
         };
         Self {
@@ -107,8 +117,9 @@ impl RecordRow {
             Some(SourceRow::Numbers) => {
                 return Err(RememberedError::NoFile { parameters: name(), name: one_line(&self.name) });
             }
-            Some(SourceRow::File { file, path, units }) => {
-                let options = ReadOptions { dt: Some(self.dt_s), units: Some(*units) };
+            Some(SourceRow::File { file, path, units, component, baseline }) => {
+                let (component, baseline) = (component.clone(), *baseline);
+                let options = ReadOptions { dt: Some(self.dt_s), units: Some(*units), component, baseline };
                 let here = parameters.parent().unwrap_or(Path::new("")).join(path);
                 let there = [here.as_path(), Path::new(file)].into_iter().find(|p| p.exists());
                 let missing =
@@ -216,7 +227,7 @@ mod tests {
         }
         let file = dir.path().join("old/motions/a.txt");
         std::fs::write(&file, "0.1\n0.3\n-0.2\n").unwrap();
-        let options = ReadOptions { dt: Some(0.02), units: Some(Units::G) };
+        let options = ReadOptions { dt: Some(0.02), units: Some(Units::G), ..Default::default() };
         let record = Record::read(&file, &options).unwrap();
         let excitation = Excitation { record, scale: 1.5, duration_s: Some(0.02) };
         // a folder that is made only later

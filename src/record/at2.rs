@@ -6,8 +6,9 @@
 //!  -6.4031800E-03 -6.0287100E-03  5.3042000E-04
 //! ```
 
+use super::parsed::{Parsed, Samples};
 use super::text::{lines, number, precision, quote, touching};
-use super::{RecordError, Samples, units};
+use super::{RecordError, header, units};
 
 /// How far down the line with NPTS may stand.
 const HEADER_LINES: usize = 50;
@@ -17,12 +18,13 @@ pub(super) fn header_line(text: &str) -> Option<(usize, &str)> {
     lines(text)
         .take(HEADER_LINES)
         .find(|(_, line)| line.split(|c: char| !c.is_alphanumeric()).any(|word| word.eq_ignore_ascii_case("NPTS")))
-        .filter(|(_, line)| !super::table::is_comment(line))
+        .filter(|(_, line)| !header::is_comment(line))
 }
 
 /// The samples below the header line, in the file's own unit.
-pub(super) fn parse(file: &str, text: &str, (at, header): (usize, &str)) -> Result<Samples, RecordError> {
+pub(super) fn parse(file: &str, text: &str) -> Result<Parsed, RecordError> {
     let file = || file.to_owned();
+    let (at, header) = header_line(text).ok_or_else(|| RecordError::NoHeader { file: file() })?;
     let bad_header = || RecordError::BadHeader { file: file(), line: at, text: quote(header) };
     let (npts, dt) = npts_and_dt(header).ok_or_else(bad_header)?;
     let step = number(dt).filter(|dt| *dt > 0.0 && dt.is_finite()).ok_or_else(bad_header)?;
@@ -50,13 +52,15 @@ pub(super) fn parse(file: &str, text: &str, (at, header): (usize, &str)) -> Resu
     if values.len() as u64 != npts {
         return Err(RecordError::Count { file: file(), line: last, found: values.len(), header_line: at, npts });
     }
-    Ok(Samples {
+    let samples = Samples {
         units: units::declared(&titles, None),
-        quantity: super::table::other_quantity(&titles),
+        quantity: header::quantity(&titles, &[]),
         dt: Some(step),
         dt_rounding: 0.5 * 10_f64.powi(precision(dt).0),
         values,
-    })
+        ..Samples::default()
+    };
+    Ok(Parsed::bare(samples))
 }
 
 /// NPTS and the printed DT: each number after its name, or else the first two numbers of the line.

@@ -1,6 +1,6 @@
 use thiserror::Error;
 
-use super::Units;
+use super::{Format, Units};
 
 /// What is wrong with a ground motion file or with the numbers of a record, where, and what to do.
 #[derive(Clone, Debug, PartialEq, Error)]
@@ -17,7 +17,7 @@ pub enum RecordError {
     TooLarge { file: String, limit_mb: u64 },
     #[error("{file}: not a text file (byte {byte} is 0x{value:02x}); export the record as plain UTF-8 text")]
     Binary { file: String, byte: usize, value: u8 },
-    #[error("{file}: holds no samples; give a PEER AT2 file, or columns of time and acceleration, or of acceleration")]
+    #[error("{file}: holds no samples; give an accelerogram: PEER AT2, GeoNet, COSMOS, CSMIP, K-NET, ESM, or columns")]
     Empty { file: String },
     #[error("{file}, line {line}: '{text}' is not a number; correct it, or start a comment line with #")]
     NotANumber { file: String, line: usize, text: String },
@@ -26,7 +26,7 @@ pub enum RecordError {
     #[error("{file}, line {line}: '{text}' has decimal commas; write decimal points instead")]
     DecimalComma { file: String, line: usize, text: String },
     #[error(
-        "{file}, line {line}: {found} columns; give one column (acceleration, with --dt) or two (time, acceleration), or PEER AT2"
+        "{file}, line {line}: {found} columns; give time and acceleration, or acceleration alone with --dt; bare values in several columns are read row by row with --dt and --units"
     )]
     TooManyColumns { file: String, line: usize, found: usize },
     #[error(
@@ -57,7 +57,7 @@ pub enum RecordError {
     NoStep { file: String },
     #[error("{file}: the unit of acceleration is not in the file; pass --units g, m/s2 or cm/s2")]
     NoUnits { file: String },
-    #[error("{file}: the header speaks of {quantity}, not of acceleration; give the acceleration record")]
+    #[error("{file}: the header speaks of {quantity}, not of acceleration; give the accelerogram")]
     NotAcceleration { file: String, quantity: &'static str },
     #[error("{record}: the time step is {dt:?} s; it must be between 1e-6 and 1 s")]
     BadStep { record: String, dt: f64 },
@@ -68,4 +68,43 @@ pub enum RecordError {
         shown = .pga_g.min(1e9)
     )]
     HugePeak { record: String, pga_g: f64 },
+    #[error(
+        "{file}, line {line}: {wanted} should stand here, not {found}; the {format} file is cut or damaged: fetch it again"
+    )]
+    Layout { file: String, line: usize, format: Format, wanted: &'static str, found: String },
+    #[error(
+        "{file}, line {line}: the {what} end after {found} values where line {header_line} announces {said}; the file is cut or damaged: fetch it again"
+    )]
+    Short { file: String, line: usize, what: &'static str, found: usize, said: u64, header_line: usize },
+    #[error("{file}, line {line}: an uncorrected CSMIP file (.V1); fetch the corrected one (.V2) of the same record")]
+    Uncorrected { file: String, line: usize },
+    #[error(
+        "{file}, line {line}: {found} numbers where {expected} are expected; the line is cut or merged: fetch the file again"
+    )]
+    Fields { file: String, line: usize, found: usize, expected: usize },
+    #[error(
+        "{file}, line {line}: the header gives the peak {of} as {said}, the samples have {found}; the file is damaged or was edited: fetch it again"
+    )]
+    Peak { file: String, line: usize, of: &'static str, said: String, found: String },
+    #[error(
+        "{file}, line {line}: the unit '{unit}' is no acceleration that is known; give g, m/s2, cm/s2 (gal) or mm/s2"
+    )]
+    ForeignUnit { file: String, line: usize, unit: String },
+    #[error(
+        "{file}: {} component {wanted}; it has {available}: pass another --component, a name or an azimuth",
+        if *.several { "there is more than one" } else { "there is no" }
+    )]
+    NoComponent { file: String, wanted: String, several: bool, available: String },
+    #[error(
+        "{file}, line {line}: the first column counts rows (step 1) and is no time; remove it and pass --dt, or write the times"
+    )]
+    RowIndex { file: String, line: usize },
+    #[error(
+        "{file}: the second column never changes its sign, as a spectrum over its periods and unlike an accelerogram; if it is one, name the columns 'time, acceleration' or pass --baseline"
+    )]
+    OneSign { file: String },
+    #[error(
+        "{file}: the numbers are counts of a digitiser without a scale; convert them to acceleration, or fetch the corrected file"
+    )]
+    Counts { file: String },
 }

@@ -4,11 +4,13 @@ use std::path::{Path, PathBuf};
 
 use super::{ReadOptions, Record, RecordError};
 
-/// Endings of the files that are taken for records, in any case.
-const EXTENSIONS: [&str; 5] = ["at2", "txt", "csv", "dat", "acc"];
+/// Endings of the files that are taken for records, in any case; of K-NET's and
+/// KiK-net's, which have one component each, the horizontal ones at the surface.
+const EXTENSIONS: [&str; 16] =
+    ["at2", "txt", "csv", "dat", "acc", "asc", "v1", "v2", "v1a", "v2a", "v1c", "v2c", "ns", "ew", "ns2", "ew2"];
 
 impl Record {
-    /// The record files of a folder (endings at2, txt, csv, dat, acc in any case; not of its subfolders), sorted by name.
+    /// The record files of a folder (by their endings, in any case; not of its subfolders), sorted by name.
     ///
     /// # Errors
     /// The folder cannot be listed, or holds no such file.
@@ -41,7 +43,7 @@ impl Record {
         folder: &Path,
         options: &ReadOptions,
     ) -> Result<impl ExactSizeIterator<Item = (PathBuf, Result<Self, RecordError>)> + use<>, RecordError> {
-        let options = *options;
+        let options = options.clone();
         Ok(Self::list_dir(folder)?.into_iter().map(move |path| {
             let record = Self::read(&path, &options);
             (path, record)

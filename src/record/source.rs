@@ -12,8 +12,9 @@ pub enum Source {
     Numbers,
     /// Part of the program: El Centro.
     Embedded,
-    /// A file, as it was named, and the unit of its numbers.
-    File { path: PathBuf, units: Units },
+    /// A file, as it was named, the unit of its numbers, which of its components it is where it has several, and whether its
+    /// mean was taken off.
+    File { path: PathBuf, units: Units, component: Option<String>, baseline: bool },
     /// Made from a seed for a structure (`synthetic::record`).
     Synthetic,
     /// Made from a seed, with the frequencies of earthquakes (`synthetic::earthquake`).

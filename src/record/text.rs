@@ -18,8 +18,13 @@ pub(super) fn decode<'a>(file: &str, bytes: &'a [u8]) -> Result<Cow<'a, str>, Re
 
 /// Lines with their numbers from 1, without blanks around them; LF, CRLF or CR alone ends a line.
 pub(super) fn lines(text: &str) -> impl Iterator<Item = (usize, &str)> {
+    raw_lines(text).enumerate().map(|(i, line)| (i + 1, line.trim()))
+}
+
+/// Lines without blanks at their ends: where numbers stand in columns, blanks before them count.
+pub(super) fn raw_lines(text: &str) -> impl Iterator<Item = &str> {
     let end = if text.contains('\n') { '\n' } else { '\r' };
-    text.split(end).enumerate().map(|(i, line)| (i + 1, line.trim()))
+    text.split(end).map(str::trim_end)
 }
 
 /// A number as C, Fortran (`.1E-02`, `1.0D-3`, `1.0-103`) or a spreadsheet prints it; NaN and infinities pass.

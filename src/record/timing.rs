@@ -50,6 +50,23 @@ impl Times {
         }
     }
 
+    /// Every one is larger than the one before; at least three of them.
+    pub(super) fn run_upwards(&self) -> bool {
+        self.times.len() > 2 && self.times.windows(2).all(|pair| pair[1] > pair[0])
+    }
+
+    /// They go down often and cross zero, as accelerations do and damaged times do not; at least four of them.
+    pub(super) fn run_to_and_fro(&self) -> bool {
+        let falls = self.times.windows(2).filter(|pair| pair[1] < pair[0]).count();
+        let both = |sign: f64| self.times.iter().any(|t| t * sign > 0.0);
+        self.times.len() > 3 && 4 * falls > self.times.len() && both(1.0) && both(-1.0)
+    }
+
+    /// They are 0, 1, 2 or 1, 2, 3 and on: numbers of rows, no seconds.
+    pub(super) fn count_rows(&self) -> bool {
+        self.times.len() > 1 && self.times.windows(2).all(|pair| pair[1] - pair[0] == 1.0)
+    }
+
     /// One unit of the last printed digit, at the largest time (s).
     fn last_digit(&self) -> f64 {
         let largest = self.times.iter().fold(0.0, |largest: f64, t| largest.max(t.abs()));

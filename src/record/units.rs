@@ -19,11 +19,14 @@ pub enum Units {
     /// cm/s2, the gal.
     #[serde(rename = "cm/s2", alias = "gal")]
     CentimetrePerSecond2,
+    /// mm/s2.
+    #[serde(rename = "mm/s2")]
+    MillimetrePerSecond2,
 }
 
 /// A unit that is not known.
 #[derive(Clone, Debug, PartialEq, Eq, Error)]
-#[error("unit '{text}' is not known; use g, m/s2 or cm/s2 (gal)")]
+#[error("unit '{text}' is not known; use g, m/s2, cm/s2 (gal) or mm/s2")]
 pub struct UnitsError {
     text: String,
 }
@@ -35,6 +38,7 @@ impl Units {
             Self::G => GRAVITY,
             Self::MetrePerSecond2 => 1.0,
             Self::CentimetrePerSecond2 => 0.01,
+            Self::MillimetrePerSecond2 => 0.001,
         }
     }
 }
@@ -45,6 +49,7 @@ impl fmt::Display for Units {
             Self::G => "g",
             Self::MetrePerSecond2 => "m/s2",
             Self::CentimetrePerSecond2 => "cm/s2",
+            Self::MillimetrePerSecond2 => "mm/s2",
         })
     }
 }
@@ -57,6 +62,7 @@ impl FromStr for Units {
             "g" => Ok(Self::G),
             "m/s2" | "m/s/s" => Ok(Self::MetrePerSecond2),
             "cm/s2" | "cm/s/s" | "gal" => Ok(Self::CentimetrePerSecond2),
+            "mm/s2" | "mm/s/s" => Ok(Self::MillimetrePerSecond2),
             _ => Err(UnitsError { text: super::text::quote(text) }),
         }
     }
@@ -82,7 +88,7 @@ pub(super) fn declared(header: &[(usize, &str)], column_names: Option<&str>) -> 
 fn mentioned(lines: impl Iterator<Item = String>) -> Vec<Units> {
     let mut found = Vec::new();
     for line in lines {
-        for units in [Units::G, Units::MetrePerSecond2, Units::CentimetrePerSecond2] {
+        for units in [Units::G, Units::MetrePerSecond2, Units::CentimetrePerSecond2, Units::MillimetrePerSecond2] {
             if mentions(&line, units) && !found.contains(&units) {
                 found.push(units);
             }
@@ -92,7 +98,7 @@ fn mentioned(lines: impl Iterator<Item = String>) -> Vec<Units> {
 }
 
 /// One spelling for all: lower case, "sec" as "s", no power signs, "_" as "/" (as in accel_m_s2).
-fn normalised(text: &str) -> String {
+pub(super) fn normalised(text: &str) -> String {
     text.to_lowercase().replace("sec", "s").replace("**", "").replace('^', "").replace('²', "2").replace('_', "/")
 }
 
@@ -106,6 +112,7 @@ fn mentions(line: &str, units: Units) -> bool {
                 || is_unit(line, "gals")
                 || metric.iter().any(|name| is_unit(line, &format!("c{name}")))
         }
+        Units::MillimetrePerSecond2 => metric.iter().any(|name| is_unit(line, &format!("m{name}"))),
     }
 }
 
@@ -127,7 +134,7 @@ fn g_is_a_unit(before: &str, after: &str) -> bool {
 }
 
 /// Every place where the name stands between characters that are no letters or digits: the text before and after it.
-fn occurrences<'a>(line: &'a str, name: &'a str) -> impl Iterator<Item = (&'a str, &'a str)> {
+pub(super) fn occurrences<'a>(line: &'a str, name: &'a str) -> impl Iterator<Item = (&'a str, &'a str)> {
     line.match_indices(name)
         .map(move |(at, _)| (&line[..at], &line[at + name.len()..]))
         .filter(|(before, after)| !before.ends_with(char::is_alphanumeric) && !after.starts_with(char::is_alphanumeric))
@@ -136,7 +143,7 @@ fn occurrences<'a>(line: &'a str, name: &'a str) -> impl Iterator<Item = (&'a st
 #[cfg(test)]
 mod tests {
     use super::*;
-    use Units::{CentimetrePerSecond2 as Cm, G, MetrePerSecond2 as M};
+    use Units::{CentimetrePerSecond2 as Cm, G, MetrePerSecond2 as M, MillimetrePerSecond2 as Mm};
 
     fn of_header(line: &str) -> Option<Units> {
         declared(&[(1, line)], None)
@@ -165,7 +172,7 @@ mod tests {
             ("t\tacc [m/s^2]", Some(M)),
             ("time,acceleration", None),
             ("t [s],a [%g]", None),
-            ("t [s],a [mm/s2]", None),
+            ("t [s],a [mm/s2]", Some(Mm)),
             ("t [s],v [m/s]", None),
         ] {
             assert_eq!(declared(&[], Some(names)), units, "{names}");
@@ -186,7 +193,7 @@ mod tests {
 
     #[test]
     fn units_are_parsed_and_printed_alike() {
-        for units in [G, M, Cm] {
+        for units in [G, M, Cm, Mm] {
             assert_eq!(units.to_string().parse(), Ok(units));
             assert_eq!(serde_json::to_string(&units).unwrap(), format!("\"{units}\""));
         }

@@ -213,14 +213,28 @@ fn draw_precision(path: &Path) -> Result<(), FigureError> {
 
 pub type Draw = fn(&Path) -> Result<(), FigureError>;
 
+fn draw_record(path: &Path) -> Result<(), FigureError> {
+    let t = times(2001);
+    let envelope = |t: f64| (-(t - 6.0).powi(2) / 9.0).exp();
+    let accel: Vec<f64> = t.iter().map(|t| 0.4 * envelope(*t) * (9.0 * t).sin()).collect();
+    let velocity: Vec<f64> = t.iter().map(|t| -0.45 * envelope(*t) * (9.0 * t).cos()).collect();
+    let notes = ["PGA 0.4 g, PGV 0.45 m/s, pulse period 0.7 s".to_owned(), "a second line".to_owned()];
+    let (title, uplift_g) = ("A burst", Some(0.2));
+    record::render(
+        &record::Record { title, t: &t, accel_g: &accel, velocity: &velocity, uplift_g, notes: &notes },
+        path,
+    )
+}
+
 /// Every figure: its name, how to draw it, its height [pixel].
-pub const FIGURES: [(&str, Draw, u32); 9] = [
+pub const FIGURES: [(&str, Draw, u32); 10] = [
     ("history", |path| draw_history(path, false), 1130),
     ("arr", draw_arr, 1000),
     ("candidates", draw_candidates, 900),
     ("front", draw_front, 1000),
     ("contact", draw_contact, 1060),
     ("energy", draw_energy, 1060),
+    ("record", draw_record, 1140),
     ("validation", draw_validation, 1480),
     ("precision", draw_precision, 960),
     ("three", |path| draw_history(path, true), 1460),

@@ -1,0 +1,212 @@
+//! `tune record`: what is in record files, and what a run would take of them.
+
+mod row;
+
+use std::{
+    io::Write,
+    path::{Path, PathBuf},
+};
+
+use clap::Args;
+use comfy_table::{Table, presets};
+use serde::Serialize;
+
+use super::{CommandError, output::check_folder};
+use crate::{
+    case::{Case, LONGEST_S},
+    figures,
+    record::{Format, ReadOptions, Recording, Units},
+    scalar::GRAVITY,
+    structure::Body,
+};
+use row::Row;
+
+/// Options of `tune record`.
+#[derive(Debug, Args)]
+pub struct Options {
+    /// Record files of any format
+    #[arg(required = true, value_name = "FILE")]
+    files: Vec<PathBuf>,
+    /// Time step, where the files do not say
+    #[arg(long, value_name = "SECONDS", allow_negative_numbers = true)]
+    dt: Option<f64>,
+    /// g, m/s2, cm/s2 or mm/s2, where the files do not say
+    #[arg(long)]
+    units: Option<Units>,
+    /// Component to take, by name or by azimuth in degrees [default: the stronger horizontal one]
+    #[arg(long, value_name = "NAME", allow_hyphen_values = true)]
+    component: Option<String>,
+    /// Subtract the mean of the samples
+    #[arg(long)]
+    baseline: bool,
+    /// Structure to measure the records on
+    #[arg(long, value_name = "case.toml")]
+    case: Option<PathBuf>,
+    /// JSON on stdout instead of tables
+    #[arg(long)]
+    json: bool,
+    /// Folder for a figure of each record: acceleration and velocity
+    #[arg(long, value_name = "DIR")]
+    out: Option<PathBuf>,
+}
+
+/// One file.
+#[derive(Serialize)]
+struct Report {
+    file: String,
+    format: Format,
+    station: Option<String>,
+    components: Vec<Row>,
+    run: Run,
+    notices: Vec<String>,
+}
+
+/// What `tune run` would take.
+#[derive(Serialize)]
+struct Run {
+    /// Name of the record.
+    record: String,
+    /// Length compared unless another is asked for.
+    duration_s: f64,
+    /// Peak acceleration within that length.
+    pga_g: f64,
+    /// Time of the record's peak from its first sample, as histories count it.
+    pga_time_s: f64,
+}
+
+pub fn run(o: &Options) -> Result<(), CommandError> {
+    let case = o.case.as_deref().map(Case::read).transpose()?;
+    let body = case.as_ref().map(|case| case.structure.body::<f64>());
+    let duration = case.as_ref().map_or(LONGEST_S, |case| case.excitation.duration_s.unwrap_or(LONGEST_S));
+    if let Some(folder) = &o.out {
+        check_folder(folder)?;
+    }
+    let options = ReadOptions { dt: o.dt, units: o.units, component: o.component.clone(), baseline: o.baseline };
+    let (mut reports, mut bad) = (Vec::new(), Vec::new());
+    for file in &o.files {
+        match Recording::read(file, &options) {
+            Ok(recording) => {
+                if let Some(folder) = &o.out {
+                    draw(folder, file, &recording, body.as_ref())?;
+                }
+                reports.push(Report::new(file, &recording, body.as_ref(), duration));
+            }
+            Err(error) => bad.push(error),
+        }
+    }
+    if let ([only], []) = (&bad[..], &reports[..]) {
+        return Err(only.clone().into());
+    }
+    let mut out = std::io::stdout();
+    if o.json {
+        let json = serde_json::to_string_pretty(&reports).map_err(|e| CommandError::Result(e.to_string()))?;
+        writeln!(out, "{json}")?;
+    } else {
+        let texts: Vec<String> = reports.iter().map(Report::text).collect();
+        write!(out, "{}", texts.join("\n"))?;
+    }
+    for notice in reports.iter().flat_map(|report| &report.notices) {
+        eprintln!("{notice}");
+    }
+    for error in &bad {
+        eprintln!("error: {error}");
+    }
+    match bad.len() {
+        0 => Ok(()),
+        n => Err(CommandError::Result(format!("{n} of {} files could not be read", o.files.len()))),
+    }
+}
+
+impl Report {
+    fn new(file: &Path, recording: &Recording, body: Option<&Body<f64>>, duration_s: f64) -> Self {
+        let taken = recording.component();
+        let peak = taken.record.measures().pga;
+        // what is said of the other components belongs here, too
+        let mut notices = recording.notices();
+        for (i, component) in recording.components.iter().enumerate() {
+            if i != recording.taken {
+                notices.extend(component.notices(&file.display().to_string()));
+            }
+        }
+        Self {
+            file: file.display().to_string(),
+            format: recording.format,
+            station: recording.station.clone(),
+            components: (0..recording.components.len()).map(|i| Row::new(recording, i, body)).collect(),
+            run: Run {
+                record: taken.record.name.clone(),
+                duration_s,
+                pga_g: taken.record.truncated(duration_s).pga_g(),
+                pga_time_s: peak.time.unwrap_or(0.0),
+            },
+            notices: notices.iter().map(ToString::to_string).collect(),
+        }
+    }
+
+    /// A heading, a row a component, what a run takes.
+    fn text(&self) -> String {
+        let station = self.station.as_ref().map_or(String::new(), |station| format!(", {station}"));
+        let mut table = Table::new();
+        let on_structure = self.components.iter().any(|row| row.structure.is_some());
+        table.load_style(presets::ASCII_MARKDOWN).set_header(row::head(on_structure));
+        table.add_rows(self.components.iter().map(Row::cells));
+        let run = &self.run;
+        let mut text = format!(
+            "{}: {}{station}\n\n{table}\n\ntune run takes {}, its first {} s unless --duration says otherwise: ",
+            self.file, self.format, run.record, run.duration_s
+        );
+        let whole = self.components.iter().find(|row| row.taken).map_or(0.0, |row| row.pga_g.abs());
+        if run.pga_g < whole {
+            text.push_str(&format!(
+                "the peak comes later, {:.2} s after the first sample ({:.4} g before): give a longer one\n",
+                run.pga_time_s, run.pga_g
+            ));
+        } else {
+            text.push_str(&format!("the peak comes {:.2} s after the first sample\n", run.pga_time_s));
+        }
+        if let Some(row) = self.components.iter().find(|row| row.start_s != 0.0) {
+            let start = row.start_s;
+            text.push_str(&format!(
+                "times are those of the file's header, on which the first sample is at {start} s\n"
+            ));
+        }
+        text
+    }
+}
+
+/// The figure of the component that a run takes.
+fn draw(folder: &Path, file: &Path, recording: &Recording, body: Option<&Body<f64>>) -> Result<(), CommandError> {
+    let row = Row::new(recording, recording.taken, body);
+    let record = &recording.component().record;
+    let t: Vec<f64> = (0..record.len()).map(|i| i as f64 * record.dt).collect();
+    let accel: Vec<f64> = record.accel.iter().map(|a| a / GRAVITY).collect();
+    let mut notes = vec![format!(
+        "PGA {:.3} g, PGV {:.3} m/s, pulse period {:.2} s",
+        row.pga_g.abs(),
+        row.pgv_m_per_s.abs(),
+        row.pulse_period_s
+    )];
+    if let Some(on) = &row.structure {
+        notes.push(format!(
+            "PGA/(g tan α) = {:.2}, p PGV/(g tan α) = {:.3}, ω/p of the pulse {:.2}",
+            on.pga_over_g_tan_alpha, on.p_pgv_over_g_tan_alpha, on.pulse_omega_over_p
+        ));
+    }
+    std::fs::create_dir_all(folder)
+        .map_err(|source| CommandError::Write { path: folder.display().to_string(), source })?;
+    let stem = file.file_stem().unwrap_or(file.as_os_str());
+    let mut name = stem.to_os_string();
+    name.push(".png");
+    figures::record::render(
+        &figures::record::Record {
+            title: &record.name,
+            t: &t,
+            accel_g: &accel,
+            velocity: &record.velocity(),
+            uplift_g: body.map(|body| body.alpha().tan()),
+            notes: &notes,
+        },
+        &folder.join(name),
+    )?;
+    Ok(())
+}

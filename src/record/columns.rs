@@ -1,0 +1,246 @@
+//! Columns of text: (time, acceleration), acceleration alone, or bare values in several columns, read row by row. They are
+//! separated by commas, semicolons, tabs or blanks, below any number of header lines; lines that start with #, % or // are
+//! comments.
+
+use super::header::{self, is_comment, step_in};
+use super::parsed::{Parsed, Samples, mean};
+use super::text::{lines, number, precision, quote};
+use super::timing::Times;
+use super::{ReadOptions, RecordError, Units, units};
+
+/// From so many rows on, values of one sign are no accelerogram.
+const ONE_SIGN_ROWS: usize = 20;
+/// Whole numbers beyond this are counts: in cm/s2 it is 5 g.
+const LARGEST_WHOLE: f64 = 5000.0;
+
+/// The samples, in the file's own unit; the time step comes from the time column, else from the header.
+pub(super) fn parse(file: &str, text: &str, options: &ReadOptions) -> Result<Parsed, RecordError> {
+    let table = Table::read(file, text)?;
+    let names = table.names();
+    let units = units::declared(&table.header, table.header.last().map(|(_, line)| *line));
+    let quantity = header::quantity(&table.header, &names);
+    if quantity == Some(header::COUNTS) || table.holds_counts(units.or(options.units)) {
+        return Err(RecordError::Counts { file: file.to_owned() });
+    }
+    let said = || table.header.iter().find_map(|(_, line)| step_in(line));
+    let said = || said().map_or((None, 0.0), |(dt, rounding)| (Some(dt), rounding));
+    let ((dt, dt_rounding), values) = match table.columns {
+        0 | 1 => (said(), table.values),
+        _ if table.is_bare(file, options, &names)? => (said(), table.values),
+        _ => {
+            table.check_times(file, options, quantity)?;
+            let step = match table.lines {
+                0 | 1 => said(),
+                _ => table.times.step(file, options.dt).map(|(dt, rounding)| (Some(dt), rounding))?,
+            };
+            (step, table.values.chunks(2).filter_map(|row| row.get(1).copied()).collect())
+        }
+    };
+    Ok(Parsed::bare(Samples { units, quantity, dt, dt_rounding, values, ..Samples::default() }))
+}
+
+/// The numbers of a file, as they stand.
+#[derive(Default)]
+struct Table<'a> {
+    header: Vec<(usize, &'a str)>,
+    columns: usize,
+    /// Lines with numbers, and the first of them.
+    lines: usize,
+    first_line: usize,
+    /// Every number, row by row.
+    values: Vec<f64>,
+    /// The first of several columns.
+    times: Times,
+    /// The last row, where it has fewer columns: its line and how many.
+    short: Option<(usize, usize)>,
+    /// No number has a decimal point.
+    whole: bool,
+}
+
+impl<'a> Table<'a> {
+    fn read(file: &str, text: &'a str) -> Result<Self, RecordError> {
+        let file_name = || file.to_owned();
+        let mut table = Self { whole: true, ..Self::default() };
+        // Where the first line with a comma and no point stands: evidence of decimal commas if no line ever has a point.
+        let mut comma: Option<(usize, &str)> = None;
+        for (line, content) in lines(text).filter(|(_, content)| !content.is_empty()) {
+            if is_comment(content) {
+                if table.columns == 0 {
+                    table.header.push((line, content));
+                }
+                continue;
+            }
+            let fields = fields(content);
+            if let Some(bad) = fields.iter().find(|field| number(field).is_none()) {
+                if has_decimal_commas(content) {
+                    return Err(RecordError::DecimalComma { file: file_name(), line, text: quote(content) });
+                }
+                if table.columns == 0 {
+                    table.header.push((line, content));
+                    continue;
+                }
+                return Err(RecordError::NotANumber { file: file_name(), line, text: quote(bad) });
+            }
+            if table.columns == 0 {
+                damaged_first_line(file, table.header.last(), fields.len())?;
+                (table.columns, table.first_line) = (fields.len(), line);
+            }
+            table.push(file, line, &fields)?;
+            table.whole &= !content.contains(['.', 'e', 'E']);
+            if content.contains(',') && comma.is_none() {
+                comma = Some((line, content));
+            }
+        }
+        let semicolons = || lines(text).any(|(_, content)| content.contains(';'));
+        match comma {
+            Some((line, content)) if table.whole && table.columns == 2 && !semicolons() => {
+                Err(RecordError::DecimalComma { file: file_name(), line, text: quote(content) })
+            }
+            _ => Ok(table),
+        }
+    }
+
+    /// One row of numbers.
+    fn push(&mut self, file: &str, line: usize, fields: &[&str]) -> Result<(), RecordError> {
+        let file = || file.to_owned();
+        let ragged = |line, found| RecordError::Ragged { file: file(), line, found, expected: self.columns };
+        if let Some((line, found)) = self.short {
+            return Err(ragged(line, found));
+        }
+        if fields.len() > self.columns {
+            return Err(ragged(line, fields.len()));
+        }
+        self.short = (fields.len() < self.columns).then_some((line, fields.len()));
+        for field in fields {
+            match number(field).filter(|value| value.is_finite()) {
+                Some(value) => self.values.push(value),
+                None => return Err(RecordError::NotFinite { file: file(), line, text: quote(field) }),
+            }
+        }
+        if let [time, _, ..] = fields {
+            self.times.push(line, number(time).unwrap_or(f64::NAN), precision(time));
+        }
+        self.lines += 1;
+        Ok(())
+    }
+
+    /// The names of the columns, if the last header line has as many fields.
+    fn names(&self) -> Vec<&'a str> {
+        let Some((_, line)) = self.header.last() else { return Vec::new() };
+        let names = fields(line.trim_start_matches(['#', '%', '!', '/']).trim());
+        if names.len() == self.columns { names } else { Vec::new() }
+    }
+
+    /// Whether the numbers of several columns are one series, row by row: a time step is given, and the first column is no
+    /// time.
+    fn is_bare(&self, file: &str, options: &ReadOptions, names: &[&str]) -> Result<bool, RecordError> {
+        let bare = options.dt.is_some() && names.is_empty() && !self.times.run_upwards();
+        if self.columns == 2 && !(bare && self.times.run_to_and_fro()) {
+            return match self.short {
+                Some((line, found)) => {
+                    Err(RecordError::Ragged { file: file.to_owned(), line, found, expected: self.columns })
+                }
+                None => Ok(false),
+            };
+        }
+        if bare {
+            return Ok(true);
+        }
+        Err(RecordError::TooManyColumns { file: file.to_owned(), line: self.first_line, found: self.columns })
+    }
+
+    /// Refuse a first column of two that is no time.
+    fn check_times(
+        &self,
+        file: &str,
+        options: &ReadOptions,
+        quantity: Option<&'static str>,
+    ) -> Result<(), RecordError> {
+        let file = || file.to_owned();
+        if let Some(quantity) = quantity {
+            return Err(RecordError::NotAcceleration { file: file(), quantity });
+        }
+        if self.times.count_rows() {
+            return Err(RecordError::RowIndex { file: file(), line: self.first_line });
+        }
+        let mut second = self.values.chunks(2).filter_map(|row| row.get(1));
+        let positive = second.clone().all(|value| *value > 0.0);
+        let negative = second.all(|value| *value < 0.0);
+        let named = self.header.iter().any(|(_, line)| line.to_ascii_lowercase().contains("acc"));
+        if (positive || negative) && self.lines >= ONE_SIGN_ROWS && !named && !options.baseline {
+            return Err(RecordError::OneSign { file: file() });
+        }
+        Ok(())
+    }
+
+    /// Whole numbers that are too large for an acceleration, or far off zero.
+    fn holds_counts(&self, units: Option<Units>) -> bool {
+        if !self.whole || self.columns == 2 || self.values.len() < 3 || units == Some(Units::MillimetrePerSecond2) {
+            return false;
+        }
+        let peak = self.values.iter().fold(0.0, |peak: f64, value| peak.max(value.abs()));
+        peak > LARGEST_WHOLE || self.values.len() >= ONE_SIGN_ROWS && mean(&self.values).abs() > 0.5 * peak
+    }
+}
+
+/// The fields of a line: between semicolons if it has any, else between commas, else between blanks.
+fn fields(content: &str) -> Vec<&str> {
+    let clean = |field: &'_ str| field.trim().trim_matches('"').trim().len();
+    let separator = [';', ','].into_iter().find(|&c| content.contains(c));
+    let mut fields: Vec<&str> = match separator {
+        Some(separator) => content.split(separator).map(|field| field.trim().trim_matches('"').trim()).collect(),
+        None => content.split_whitespace().map(|field| field.trim_matches('"')).collect(),
+    };
+    // a separator at the end of the line opens no column
+    if fields.len() > 1 && fields.last().is_some_and(|field| clean(field) == 0) {
+        fields.pop();
+    }
+    fields
+}
+
+/// Several tokens (between semicolons or blanks), all of them like `0,01`.
+fn has_decimal_commas(content: &str) -> bool {
+    let mut tokens = content.split(|c: char| c == ';' || c.is_whitespace()).filter(|token| !token.is_empty());
+    let decimal = |token: &str| token.matches(',').count() == 1 && number(&token.replace(',', ".")).is_some();
+    let plain = |token: &str| number(token).is_some();
+    let mut commas = 0;
+    tokens.all(|token| {
+        commas += usize::from(decimal(token));
+        decimal(token) && !token.starts_with(',') && !token.ends_with(',') || plain(token)
+    }) && commas > 0
+}
+
+/// A line right above the data that begins with a number and has as many fields is data gone wrong, not a header.
+fn damaged_first_line(file: &str, above: Option<&(usize, &str)>, columns: usize) -> Result<(), RecordError> {
+    let Some((line, content)) = above.filter(|(_, content)| !is_comment(content)) else { return Ok(()) };
+    let fields = fields(content);
+    match fields.iter().find(|field| number(field).is_none()) {
+        Some(bad) if fields.len() == columns && number(fields[0]).is_some() => {
+            Err(RecordError::NotANumber { file: file.to_owned(), line: *line, text: quote(bad) })
+        }
+        _ => Ok(()),
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn separators_may_be_mixed_with_blanks_and_trail() {
+        assert_eq!(fields("0.01, 0.5"), ["0.01", "0.5"]);
+        assert_eq!(fields("0.01;0.5;"), ["0.01", "0.5"]);
+        assert_eq!(fields("0.01\t 0.5"), ["0.01", "0.5"]);
+        assert_eq!(fields("\"0.01\",\"0.5\""), ["0.01", "0.5"]);
+        assert_eq!(fields("0.01,,0.5"), ["0.01", "", "0.5"]);
+    }
+
+    #[test]
+    fn decimal_commas_are_seen() {
+        assert!(has_decimal_commas("0,01;0,002"));
+        assert!(has_decimal_commas("0,01 -0,002e-3"));
+        assert!(has_decimal_commas("0;0,002"));
+        assert!(!has_decimal_commas("0.01, 0.002"));
+        assert!(!has_decimal_commas("time, acc"));
+    }
+}

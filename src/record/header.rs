@@ -1,0 +1,163 @@
+//! What the words of a free header say of the numbers below them: a quantity that is not acceleration, a time step.
+
+use super::text::{number, precision};
+use super::units::{self, normalised, occurrences};
+
+/// Samples of a digitiser, no acceleration.
+pub(super) const COUNTS: &str = "counts";
+const SPECTRUM: &str = "a spectrum";
+const VELOCITY: &str = "velocity";
+const DISPLACEMENT: &str = "displacement";
+
+pub(super) fn is_comment(line: &str) -> bool {
+    line.starts_with(['#', '%', '!']) || line.starts_with("//")
+}
+
+/// What a header speaks of, when that is not acceleration: by the names of its columns, its lines about the time series or
+/// its unit, or any line where none names acceleration.
+pub(super) fn quantity(header: &[(usize, &str)], names: &[&str]) -> Option<&'static str> {
+    by_names(names).or_else(|| by_words(header))
+}
+
+fn by_names(names: &[&str]) -> Option<&'static str> {
+    let (first, last) = (names.first()?, names.last()?);
+    if units::declared(&[], Some(last)).is_some() {
+        // PSA [g] over a period is in the unit of an acceleration
+        return (names.len() > 1 && is_abscissa_of_spectrum(first) || is_ordinate(last)).then_some(SPECTRUM);
+    }
+    let word = first_word(last);
+    match () {
+        () if names.len() > 1 && is_abscissa_of_spectrum(first) || is_ordinate(last) => Some(SPECTRUM),
+        () if word.starts_with("count") => Some(COUNTS),
+        () if word.starts_with("acc") => None,
+        () if word.starts_with("vel") || word == "v" || has_unit(last, &VELOCITY_UNITS) => Some(VELOCITY),
+        () if word.starts_with("dis") || in_brackets(last, &["m", "cm", "mm", "in"]) => Some(DISPLACEMENT),
+        () => None,
+    }
+}
+
+fn first_word(name: &str) -> String {
+    name.to_ascii_lowercase()
+        .split(|c: char| !c.is_ascii_alphanumeric())
+        .find(|w| !w.is_empty())
+        .unwrap_or("")
+        .to_owned()
+}
+
+fn is_abscissa_of_spectrum(name: &str) -> bool {
+    let word = first_word(name);
+    word.starts_with("period") || word.starts_with("freq") || word == "f" || name.to_ascii_lowercase().contains("hz")
+}
+
+fn is_ordinate(name: &str) -> bool {
+    ["sa", "psa", "sv", "psv", "sd", "spectral", "fas", "fourier"].contains(&first_word(name).as_str())
+}
+
+const VELOCITY_UNITS: [&str; 6] = ["m/s", "cm/s", "mm/s", "in/s", "ft/s", "km/h"];
+
+/// Whether a text names one of the units, and not that unit by second.
+fn has_unit(text: &str, names: &[&str]) -> bool {
+    let text = normalised(text);
+    names.iter().any(|name| occurrences(&text, name).any(|(_, after)| !after.starts_with('/')))
+}
+
+fn in_brackets(name: &str, names: &[&str]) -> bool {
+    let inside = name.split_once(['[', '(']).and_then(|(_, rest)| rest.split_once([']', ')'])).map(|(unit, _)| unit);
+    inside.is_some_and(|unit| names.contains(&unit.trim().to_ascii_lowercase().as_str()))
+}
+
+fn by_words(header: &[(usize, &str)]) -> Option<&'static str> {
+    let lower: Vec<String> = header.iter().map(|(_, line)| line.to_ascii_lowercase()).collect();
+    let any = |words: &[&str]| lower.iter().any(|line| words.iter().any(|word| line.contains(word)));
+    if any(&["response spectrum", "spectral accel", "fourier spectrum", "fourier ampl"])
+        && !any(&["match", "compatible", "accelerogram", "time history", "time series"])
+    {
+        return Some(SPECTRUM);
+    }
+    let about = |line: &&String| ["unit", "series", "history"].iter().any(|word| line.contains(word));
+    let about: Vec<&String> = lower.iter().filter(about).collect();
+    let said = [VELOCITY, DISPLACEMENT].into_iter().find(|word| {
+        let only = lower.iter().any(|line| line.contains(word)) && !any(&["acc"]);
+        only || about.iter().any(|line| line.contains(word)) && !about.iter().any(|line| line.contains("acc"))
+    });
+    // "units: cm/s" and no word of what it is the unit of
+    let unit_lines = || lower.iter().filter(|line| line.contains("unit"));
+    said.or_else(|| unit_lines().any(|line| has_unit(line, &VELOCITY_UNITS)).then_some(VELOCITY)).or_else(|| {
+        let counts = unit_lines().any(|line| line.contains("count")) && units::declared(header, None).is_none();
+        counts.then_some(COUNTS)
+    })
+}
+
+/// The time step in a header line such as `# dt = 0.01 s`, `SAMPLING_INTERVAL_S: 0.005`, and half its last digit.
+pub(super) fn step_in(line: &str) -> Option<(f64, f64)> {
+    let lower = line.to_ascii_lowercase();
+    let is_word = |at: usize, name: &str| {
+        !lower[..at].ends_with(|c: char| c.is_alphanumeric())
+            && !lower[at + name.len()..].starts_with(|c: char| c.is_alphanumeric())
+    };
+    let after = ["dt", "delta_t", "sampling_interval_s", "sampling interval", "time step", "timestep"]
+        .into_iter()
+        .find_map(|name| {
+            lower.match_indices(name).find(|&(at, _)| is_word(at, name)).map(|(at, _)| &lower[at + name.len()..])
+        })?;
+    let token = after
+        .split(|c: char| c.is_whitespace() || matches!(c, '=' | ':' | ',' | ';' | '(' | ')' | '[' | ']'))
+        .map(|token| token.trim_end_matches("sec").trim_end_matches('s'))
+        .find(|token| !token.is_empty())?;
+    let dt = number(token).filter(|dt| dt.is_finite() && *dt > 0.0)?;
+    Some((dt, 0.5 * 10_f64.powi(precision(token).0)))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn names_of_columns_tell_what_is_no_acceleration() {
+        for (names, expected) in [
+            ("t [s],a [g]", None),
+            ("time,acceleration", None),
+            ("t,acc", None),
+            ("t [s],v [m/s]", Some(VELOCITY)),
+            ("time,velocity", Some(VELOCITY)),
+            ("t,x [cm/s]", Some(VELOCITY)),
+            ("t,x [cm/s/s]", None),
+            ("t,x [cm/sec**2]", None),
+            ("t [s],d [cm]", Some(DISPLACEMENT)),
+            ("t,displ", Some(DISPLACEMENT)),
+            ("Period (s),PSA (g)", Some(SPECTRUM)),
+            ("T (s),Sa (g)", Some(SPECTRUM)),
+            ("Frequency [Hz],amplitude", Some(SPECTRUM)),
+            ("t,counts", Some(COUNTS)),
+        ] {
+            let names: Vec<&str> = names.split(',').collect();
+            assert_eq!(by_names(&names), expected, "{names:?}");
+        }
+    }
+
+    #[test]
+    fn lines_of_words_tell_it_too() {
+        for (line, expected) in [
+            ("units: cm/s", Some(VELOCITY)),
+            ("units: cm/s^2", None),
+            ("units: cm/sec/sec", None),
+            ("VELOCITY TIME SERIES IN UNITS OF CM/S", Some(VELOCITY)),
+            ("Displacement in cm", Some(DISPLACEMENT)),
+            ("5 % damped response spectrum", Some(SPECTRUM)),
+            ("accelerogram compatible with the response spectrum of EC8", None),
+            ("unit: counts", Some(COUNTS)),
+            ("counts converted to units of m/s2", None),
+        ] {
+            assert_eq!(quantity(&[(1, line)], &[]), expected, "{line}");
+        }
+    }
+
+    #[test]
+    fn time_steps_are_found_in_header_lines() {
+        assert_eq!(step_in("# dt = 0.01 s"), Some((0.01, 0.005)));
+        assert_eq!(step_in("SAMPLING_INTERVAL_S: 0.005000"), Some((0.005, 0.5e-6)));
+        assert_eq!(step_in("# width 3, dt=.02sec"), Some((0.02, 0.005)));
+        assert_eq!(step_in("# t, a"), None);
+        assert_eq!(step_in("# dt unknown"), None);
+    }
+}

@@ -1,0 +1,211 @@
+//! A whole record file: its components, and which of them a run takes.
+
+use std::path::Path;
+
+use super::parsed::Channel;
+use super::text::{self, quote};
+use super::{Direction, Format, Notice, Peak, ReadOptions, Record, RecordError, Source, Units};
+
+/// One component of a file, in SI units.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Component {
+    /// What the file calls it.
+    pub name: Option<String>,
+    pub direction: Direction,
+    /// Unit of the numbers in the file, as it says or as was given.
+    pub units: Units,
+    /// Time of the first sample on the clock of the header (s): GeoNet's corrected records begin before zero. Times of the
+    /// header's peaks are on this clock.
+    pub start: f64,
+    /// Mean of the samples as read (m/s2); the record still has it unless `baseline` was asked for.
+    pub offset: f64,
+    /// The header's peak acceleration (m/s2): the samples have it.
+    pub header_pga: Option<Peak>,
+    /// The header's peak velocity (m/s).
+    pub header_pgv: Option<Peak>,
+    pub record: Record,
+}
+
+/// A record file with all its components.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Recording {
+    pub format: Format,
+    /// Station or site, as the file names it.
+    pub station: Option<String>,
+    /// At least one.
+    pub components: Vec<Component>,
+    /// Index of the component that a run takes: the one asked for, else the stronger horizontal one.
+    pub taken: usize,
+    /// Whether the component was asked for.
+    asked: bool,
+    file: String,
+}
+
+impl Recording {
+    /// The components in a file of any supported format.
+    ///
+    /// # Errors
+    /// The file cannot be read, is no record, is damaged, does not have the peak that its header gives, or does not agree
+    /// with the options: see [`RecordError`].
+    pub fn read(path: &Path, options: &ReadOptions) -> Result<Self, RecordError> {
+        let bytes = super::bytes(path)?;
+        let mut recording = Self::parse(&super::label(path), &bytes, options)?;
+        let several = recording.components.len() > 1;
+        for component in &mut recording.components {
+            component.record.source = Source::File {
+                path: path.into(),
+                units: component.units,
+                component: component.name.clone().filter(|_| several),
+                baseline: options.baseline,
+            };
+        }
+        Ok(recording)
+    }
+
+    /// The same from the bytes of a file; `file` is the file's path, for names and messages.
+    ///
+    /// # Errors
+    /// As [`Recording::read`], but for reading the file.
+    pub fn parse(file: &str, bytes: &[u8], options: &ReadOptions) -> Result<Self, RecordError> {
+        let path = Path::new(file);
+        let file = &super::label(path);
+        if let Some(dt) = options.dt {
+            super::check_step(file, dt)?;
+        }
+        let text = text::decode(file, bytes)?;
+        if text.trim().is_empty() {
+            return Err(RecordError::Empty { file: file.clone() });
+        }
+        let format = Format::of(&text);
+        let is_at2 = path.extension().is_some_and(|ending| ending.eq_ignore_ascii_case("at2"));
+        if is_at2 && format == Format::Columns {
+            return Err(RecordError::NoHeader { file: file.clone() });
+        }
+        let parsed = format.parse(file, &text, options)?;
+
+        let stem = path.file_stem().map_or_else(|| file.clone(), |stem| super::label(Path::new(stem)));
+        let several = parsed.channels.len() > 1;
+        let component = |(i, channel): (usize, Channel)| {
+            let name = match (&channel.name, several) {
+                (Some(name), true) => format!("{stem} {name}"),
+                (None, true) => format!("{stem} {}", i + 1),
+                (_, false) => stem.clone(),
+            };
+            channel.into_component(file, &name, options)
+        };
+        let components = parsed.channels.into_iter().enumerate().map(component).collect::<Result<Vec<_>, _>>()?;
+        if components.is_empty() {
+            return Err(RecordError::Empty { file: file.clone() });
+        }
+        let (station, asked) = (parsed.station, options.component.is_some());
+        let mut recording = Self { format, station, components, taken: 0, asked, file: file.clone() };
+        recording.taken = match &options.component {
+            Some(wanted) => recording.find(wanted)?,
+            None => recording.strongest_horizontal(),
+        };
+        Ok(recording)
+    }
+
+    /// The component that a run takes.
+    pub fn component(&self) -> &Component {
+        &self.components[self.taken]
+    }
+
+    /// The record that a run takes.
+    pub fn into_record(mut self) -> Record {
+        self.components.swap_remove(self.taken).record
+    }
+
+    /// What the user should know of the record that a run takes.
+    pub fn notices(&self) -> Vec<Notice> {
+        let taken = self.component();
+        let file = || self.file.clone();
+        let mut notices = Vec::new();
+        if !self.asked && self.components.len() > 1 {
+            let others = self.components.iter().enumerate().filter(|(i, _)| *i != self.taken);
+            let others: Vec<String> = others.map(|(_, component)| component.label()).collect();
+            notices.push(Notice::Taken {
+                file: file(),
+                taken: taken.label(),
+                pga_g: taken.record.pga_g(),
+                others: others.join(", "),
+            });
+        }
+        if !self.asked && taken.direction == Direction::Vertical {
+            notices.push(Notice::OnlyVertical { file: file(), component: taken.label() });
+        }
+        notices.extend(taken.notices(&self.file));
+        notices
+    }
+
+    /// The strongest of the components that are not vertical, else the strongest.
+    fn strongest_horizontal(&self) -> usize {
+        let rank = |component: &Component| (component.direction != Direction::Vertical, component.record.pga());
+        let mut best = 0;
+        for (i, component) in self.components.iter().enumerate() {
+            if rank(component) > rank(&self.components[best]) {
+                best = i;
+            }
+        }
+        best
+    }
+
+    /// The component of a name or an azimuth.
+    fn find(&self, wanted: &str) -> Result<usize, RecordError> {
+        let by = |test: &dyn Fn(&Component) -> bool| -> Vec<usize> {
+            (0..self.components.len()).filter(|&i| test(&self.components[i])).collect()
+        };
+        let wanted = wanted.trim();
+        let named = by(&|c| c.name.as_deref().is_some_and(|name| name.eq_ignore_ascii_case(wanted)));
+        let degrees = wanted.parse().map_or_else(|_| Direction::of(wanted), Direction::azimuth);
+        let directed = by(&|c| c.direction.same(degrees));
+        match (&named[..], &directed[..]) {
+            ([only], _) | ([], [only]) => Ok(*only),
+            _ => {
+                let labels: Vec<String> = self.components.iter().map(Component::label).collect();
+                Err(RecordError::NoComponent {
+                    file: self.file.clone(),
+                    wanted: quote(wanted),
+                    several: named.len().max(directed.len()) > 1,
+                    available: shorten(labels.join(", ")),
+                })
+            }
+        }
+    }
+}
+
+/// A list that keeps a message to one line that can be read.
+fn shorten(list: String) -> String {
+    if list.chars().count() <= 160 { list } else { list.chars().take(160).chain("...".chars()).collect() }
+}
+
+impl Component {
+    /// Name and direction, for messages and tables; empty where the file gives neither.
+    pub fn label(&self) -> String {
+        match (&self.name, self.direction) {
+            (Some(name), Direction::Unknown) => quote(name),
+            (Some(name), direction) => format!("{} ({direction})", quote(name)),
+            (None, Direction::Unknown) => String::new(),
+            (None, direction) => direction.to_string(),
+        }
+    }
+
+    /// What the user should know of this component.
+    pub fn notices(&self, file: &str) -> Vec<Notice> {
+        let mut notices = Vec::new();
+        let (file, component) = (file.to_owned(), self.label());
+        let (pga, pga_g) = (self.record.pga(), self.record.pga_g());
+        let still = super::parsed::mean(&self.record.accel);
+        // one sample is its own mean
+        if self.record.len() > 1 && still.abs() > Notice::OFFSET_SHARE * pga {
+            let share = still.abs() / pga;
+            notices.push(Notice::Offset { file: file.clone(), component: component.clone(), share });
+        }
+        if pga_g > Notice::STRONG_G {
+            notices.push(Notice::Strong { file, component, pga_g });
+        } else if pga_g > 0.0 && pga_g < Notice::WEAK_G {
+            notices.push(Notice::Weak { file, component, pga_g });
+        }
+        notices
+    }
+}
