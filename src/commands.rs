@@ -11,11 +11,12 @@ use crate::{
     figures::FigureError,
     parameters::{ParametersError, RememberedError},
     record::RecordError,
-    tuning::{arr::inner::FitError, job::JobError},
+    tuning::{arr::inner::FitError, job::JobError, landing::design::GeometryError},
     verify::VerifyError,
 };
 
 mod bench;
+mod chart;
 mod common;
 mod draw;
 mod export;
@@ -48,6 +49,8 @@ enum Command {
     Housner(housner::Options),
     /// Fit f and xi of a mass ratio to the wanted frequency response.
     Response(response::Options),
+    /// The design from the geometry over slenderness and Omega_n/p, as CSV and figure.
+    Chart(chart::Options),
     /// Finite element and Housner histories for given springs; their match as JSON on stdout.
     Simulate(simulate::Options),
     /// Judge given springs over many records: peaks, overturning, histories where they can be compared.
@@ -77,6 +80,8 @@ pub enum CommandError {
     Fit(#[from] FitError),
     #[error(transparent)]
     Job(#[from] JobError),
+    #[error(transparent)]
+    Geometry(#[from] GeometryError),
     #[error(transparent)]
     Figure(#[from] FigureError),
     #[error(transparent)]
@@ -124,6 +129,7 @@ pub fn main() -> ExitCode {
         Command::Run(o) => run::run(&o),
         Command::Housner(o) => housner::run(&o),
         Command::Response(o) => response::run(&o),
+        Command::Chart(o) => chart::run(&o),
         Command::Simulate(o) => simulate::run(&o),
         Command::Validate(o) => validate::run(&o),
         Command::Export(o) => export::run(&o),

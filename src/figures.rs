@@ -9,7 +9,8 @@
 //! | [`history`] | horizontal and vertical displacement against time, finite element against Housner (the paper's Figure 4); with a third history and the differences, the comparison with another program |
 //! | [`arr`] | amplitude response ratio against frequency ratio: target, fits, active points |
 //! | [`candidates`] | error of every sampled candidate against its two Omega_n |
-//! | [`front`] | the least error against the stiffness it costs |
+//! | [`front`] | error against Omega_n, and what stiffness costs |
+//! | [`chart`] | the design from the geometry over slenderness and Omega_n/p |
 //! | [`contact`] | forces between feet and ground against time |
 //! | [`energy`] | the energy account against time |
 //! | [`validation`] | two models over many records |
@@ -34,6 +35,7 @@ mod style;
 
 pub mod arr;
 pub mod candidates;
+pub mod chart;
 pub mod contact;
 pub mod energy;
 pub mod front;

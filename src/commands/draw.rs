@@ -164,13 +164,31 @@ pub fn draw(dir: &Path, case: &Case, job: &Job, both: &Both, front: &[Point]) ->
         let all: Vec<_> = [("design from the geometry", &landing), ("the paper's procedure", &arr)]
             .into_iter()
             .filter(|(_, s)| !s.0.is_empty())
-            .map(|(label, s)| figures::front::Series { label, max_hz: &s.0, nrmse_u: &s.1, nrmse_v: &s.1 })
+            .map(|(label, s)| figures::front::Series { label, omega_n_hz: &s.0, error: &s.1 })
             .collect();
         if all.is_empty() {
             return Ok(());
         }
-        let front = figures::front::Front { title: &title("Error against stiffness"), series: &all, goals: &[] };
-        figures::front::render(&front, path)
+        let cost = |pick: fn(&Point) -> f64| -> (Vec<f64>, Vec<f64>) {
+            front.iter().map(|p| (p.omega_n_hz, pick(p).max(1.0))).unzip()
+        };
+        let (forces, steps) = (cost(|p| p.foot_force_weights), cost(|p| p.deck_steps as f64));
+        let on = if job.suites.has_record() { "on the record" } else { "median of synthetic motions" };
+        figures::front::render(
+            &figures::front::Front {
+                title: &title("Error against stiffness"),
+                error_label: &format!("NRMSE of u, {on}"),
+                series: &all,
+                chosen_hz: job.springs.vertical.omega_n_hz,
+                accuracy: case.tuning.accuracy,
+                costs: [
+                    figures::front::Cost { label: "foot force [weights]", omega_n_hz: &forces.0, value: &forces.1 },
+                    figures::front::Cost { label: "steps of a deck", omega_n_hz: &steps.0, value: &steps.1 },
+                ],
+                note: "The largest foot force is that of the springs in a landing, not of the structure.",
+            },
+            path,
+        )
     };
     type Draw<'a> = (&'a str, &'a (dyn Fn(&Path) -> Result<(), FigureError> + Sync));
     let all: [Draw; 6] = [

@@ -1,4 +1,4 @@
-//! The front: the least error that springs up to a stiffness reach, ours beside others.
+//! The front: error against Omega_n, of one way to design springs beside others; below, what stiffness costs.
 
 use std::path::Path;
 
@@ -6,33 +6,46 @@ use plotters::style::text_anchor::{HPos, VPos};
 
 use super::canvas::{Canvas, Lettering};
 use super::legend::{self, Entry};
-use super::mark::{self, Mark, Shape};
+use super::mark::{self, Mark};
 use super::panel::{Frame, Panel};
 use super::scale::Scale;
-use super::style::{self, GREY, NUMBER, Pen, WIDTH};
+use super::style::{self, BLACK, GREY, NUMBER, Pen, TEXT, WIDTH};
 use super::{Check, FigureError};
 
 const CHECK: Check = Check("front");
 
-/// One way to find springs: an error for each bound on the frequency, one value each.
+/// One way to design springs: an error for each Omega_n, one value each.
 #[derive(Clone, Copy, Debug)]
 pub struct Series<'a> {
     pub label: &'a str,
-    /// The stiffer chain's Omega_n [Hz].
-    pub max_hz: &'a [f64],
-    /// Error of the horizontal history.
-    pub nrmse_u: &'a [f64],
-    /// Error of the vertical history.
-    pub nrmse_v: &'a [f64],
+    /// Omega_n of the vertical springs [Hz].
+    pub omega_n_hz: &'a [f64],
+    /// Error of the history, NRMSE.
+    pub error: &'a [f64],
+}
+
+/// What stiffness costs, one value for each Omega_n.
+#[derive(Clone, Copy, Debug)]
+pub struct Cost<'a> {
+    pub label: &'a str,
+    pub omega_n_hz: &'a [f64],
+    pub value: &'a [f64],
 }
 
 /// What the figure shows.
 #[derive(Clone, Copy, Debug)]
 pub struct Front<'a> {
     pub title: &'a str,
+    pub error_label: &'a str,
     pub series: &'a [Series<'a>],
-    /// Errors to be met: (max Omega_n [Hz], largest NRMSE).
-    pub goals: &'a [(f64, f64)],
+    /// Omega_n that was chosen [Hz].
+    pub chosen_hz: f64,
+    /// Accuracy that was asked for.
+    pub accuracy: f64,
+    /// Each in a panel of its own, side by side.
+    pub costs: [Cost<'a>; 2],
+    /// A remark below.
+    pub note: &'a str,
 }
 
 /// Draw the figure.
@@ -41,48 +54,57 @@ pub struct Front<'a> {
 /// [`FigureError`] for an empty or not finite slice or slices of different lengths, and when `path` cannot be written.
 pub fn render(data: &Front<'_>, path: &Path) -> Result<(), FigureError> {
     CHECK.least("series", data.series.len(), 1)?;
-    for series in data.series {
-        CHECK.least(series.label, series.max_hz.len(), 1)?;
-        CHECK.finite(&format!("max_hz of {}", series.label), series.max_hz)?;
-        CHECK.column(&format!("nrmse_u of {}", series.label), series.nrmse_u, series.max_hz.len())?;
-        CHECK.column(&format!("nrmse_v of {}", series.label), series.nrmse_v, series.max_hz.len())?;
+    let columns = data.series.iter().map(|s| (s.label, s.omega_n_hz, s.error));
+    for (label, hz, value) in columns.chain(data.costs.iter().map(|c| (c.label, c.omega_n_hz, c.value))) {
+        CHECK.least(label, hz.len(), 1)?;
+        CHECK.finite(&format!("omega_n_hz of {label}"), hz)?;
+        CHECK.column(label, value, hz.len())?;
     }
-    CHECK.finite("goals", &data.goals.iter().flat_map(|goal| [goal.0, goal.1]).collect::<Vec<_>>())?;
+    CHECK.finite("chosen_hz and accuracy", &[data.chosen_hz, data.accuracy])?;
 
-    let mut canvas = Canvas::new(WIDTH, 1000);
-    let mut entries = Vec::new();
-    for (i, series) in data.series.iter().enumerate() {
-        entries.push(Entry::both(format!("{}, u", series.label), solid(i), dot(i)));
-        entries.push(Entry::both(format!("{}, v", series.label), solid(i).dashed(), dot(i).hollow()));
-    }
-    if !data.goals.is_empty() {
-        entries.push(Entry::mark("goal", goal()));
-    }
+    let mut canvas = Canvas::new(WIDTH, 1400);
+    let mut entries: Vec<Entry> =
+        data.series.iter().enumerate().map(|(i, s)| Entry::both(s.label, solid(i), dot(i))).collect();
+    entries.push(Entry::line("chosen", upright()));
+    entries.push(Entry::line("accuracy asked for", level()));
     let (left, right) = (150.0, WIDTH as f64 - 40.0);
     let top = legend::header(&mut canvas, data.title, &entries, left, right);
-    let goals = data.goals.iter();
-    let x =
-        Scale::log_around(data.series.iter().flat_map(|s| s.max_hz).copied().chain(goals.clone().map(|g| g.0)), 4.0);
-    let errors = data.series.iter().flat_map(|s| s.nrmse_u.iter().chain(s.nrmse_v)).copied();
-    let y = Scale::log_around(errors.chain(goals.map(|g| g.1)), 10.0);
-    let panel = Panel { frame: Frame { left, top, right, bottom: 900.0 }, x, y };
-    panel.axes(&mut canvas, Some("stiffer chain, max Ωₙ [Hz]"), "error against Housner, NRMSE", 110.0);
+    let frequencies = data.series.iter().flat_map(|s| s.omega_n_hz).copied().chain([data.chosen_hz]);
+    let x = Scale::log_around(frequencies, 4.0);
+    let y = Scale::log_around(data.series.iter().flat_map(|s| s.error).copied().chain([data.accuracy]), 10.0);
+    let panel = Panel { frame: Frame { left, top, right, bottom: 850.0 }, x, y };
+    panel.axes(&mut canvas, Some("Ωₙ of the vertical springs [Hz]"), data.error_label, 110.0);
     guide(&mut canvas, &panel, data);
-    for &(hz, error) in data.goals {
-        goal().draw(&mut canvas, panel.at_clamped(hz, error));
-    }
+    panel.upright(&mut canvas, data.chosen_hz, upright());
+    panel.level(&mut canvas, data.accuracy, level());
     // The last series lies lowest: ours comes first in the list and on top in the picture.
     for (i, series) in data.series.iter().enumerate().rev() {
-        for (error, pen, mark) in
-            [(series.nrmse_v, solid(i).dashed(), dot(i).hollow()), (series.nrmse_u, solid(i), dot(i))]
-        {
-            panel.curve(&mut canvas, series.max_hz, error, pen);
-            for (&hz, &error) in series.max_hz.iter().zip(error) {
-                mark.draw(&mut canvas, panel.at_clamped(hz, error));
-            }
+        panel.curve(&mut canvas, series.omega_n_hz, series.error, solid(i));
+        for (&hz, &error) in series.omega_n_hz.iter().zip(series.error) {
+            dot(i).draw(&mut canvas, panel.at_clamped(hz, error));
         }
     }
+    let (middle, gap) = (0.5 * (left + right), 140.0);
+    for (cost, (from, to)) in data.costs.iter().zip([(left, middle - 0.5 * gap), (middle + 0.5 * gap, right)]) {
+        let y = Scale::log_around(cost.value.iter().copied(), 4.0);
+        let panel = Panel { frame: Frame { left: from, top: 985.0, right: to, bottom: 1260.0 }, x, y };
+        panel.axes(&mut canvas, Some("Ωₙ [Hz]"), cost.label, 110.0);
+        panel.upright(&mut canvas, data.chosen_hz, upright());
+        panel.curve(&mut canvas, cost.omega_n_hz, cost.value, solid(0));
+        for (&hz, &value) in cost.omega_n_hz.iter().zip(cost.value) {
+            dot(0).draw(&mut canvas, panel.at_clamped(hz, value));
+        }
+    }
+    canvas.text((left, 1380.0), data.note, Lettering::new(NUMBER).colour(TEXT).at(HPos::Left, VPos::Bottom));
     canvas.save(path)
+}
+
+fn upright() -> Pen {
+    Pen::new(BLACK, 2.0).dashed()
+}
+
+fn level() -> Pen {
+    Pen::new(GREY, 2.0)
 }
 
 fn solid(i: usize) -> Pen {
@@ -93,14 +115,10 @@ fn dot(i: usize) -> Mark {
     Mark::new(mark::series(i), 9.0, style::series(i))
 }
 
-fn goal() -> Mark {
-    Mark::new(Shape::Pennant, 10.0, GREY)
-}
-
-/// error = const / max Omega_n, below every point of the first series so that it crosses none of it.
+/// error = const / Omega_n, below every point of the first series so that it crosses none of it.
 fn guide(canvas: &mut Canvas, panel: &Panel, data: &Front<'_>) {
     let Some(first) = data.series.first() else { return };
-    let pairs = first.max_hz.iter().zip(first.nrmse_u).chain(first.max_hz.iter().zip(first.nrmse_v));
+    let pairs = first.omega_n_hz.iter().zip(first.error);
     let constant = pairs.map(|(hz, error)| hz * error).filter(|x| *x > 0.0).fold(f64::INFINITY, f64::min) / 1.5;
     if !constant.is_finite() {
         return;

@@ -92,7 +92,7 @@ fn empty_or_unequal_or_not_finite_numbers_are_errors() {
             &candidates::Candidates { title: "", error_label: "", candidates: &[], chosen: None },
             &path,
         ),
-        front::render(&front::Front { title: "", series: &[], goals: &[] }, &path),
+        front::render(&front_of(&[]), &path),
         energy::render(
             &energy::Energy { title: "", t: &[], input: &[], stored: &[], dissipated: &[], residual: &[] },
             &path,
@@ -146,7 +146,13 @@ fn the_least_data_still_makes_a_picture() {
     };
     let data = validation::Validation { title: "", rows: &[row], ks_distance: 1.0, well_conditioned: 10.0 };
     validation::render(&data, &path).unwrap();
-    let series = front::Series { label: "", max_hz: &[160.0], nrmse_u: &[0.0], nrmse_v: &[0.02] };
-    front::render(&front::Front { title: "", series: &[series], goals: &[] }, &path).unwrap();
+    let series = front::Series { label: "", omega_n_hz: &[160.0], error: &[0.0] };
+    front::render(&front_of(&[series]), &path).unwrap();
     assert!(path.exists());
+}
+
+/// A front of these errors.
+fn front_of<'a>(series: &'a [front::Series<'a>]) -> front::Front<'a> {
+    let cost = front::Cost { label: "", omega_n_hz: &[160.0], value: &[14.0] };
+    front::Front { title: "", error_label: "", series, chosen_hz: 160.0, accuracy: 0.002, costs: [cost; 2], note: "" }
 }

@@ -235,7 +235,7 @@ mod tests {
         let row = written.record.clone().unwrap();
         let way = "../../motions/a.txt".to_string();
         let named = file.display().to_string();
-        assert_eq!(row.source, Some(SourceRow::File { file: named, path: way, units: Units::G }));
+        assert_eq!(row.source, Some(SourceRow::File { file: named, path: way, units: Units::G, component: None, baseline: false }));
         assert_eq!((row.scale, row.duration_s, row.pga_time_s), (Some(1.5), Some(0.02), Some(0.02)));
 
         std::fs::rename(dir.path().join("old"), dir.path().join("new")).unwrap();
@@ -272,7 +272,7 @@ mod tests {
     fn files_of_schema_1_stand_for_20_s_of_el_centro() {
         let text = include_str!("../../fuzz/corpus/parameters/paper");
         let old = Parameters::parse("p.json", text).unwrap();
-        assert_eq!((old.schema, old.accuracy), (1, None));
+        assert_eq!((old.schema, old.assessment), (1, None));
         let found = old.excitation(Path::new("p.json")).unwrap();
         assert_eq!((&found.record, found.scale, found.duration_s), (&Record::el_centro(), 1.0, Some(20.0)));
     }

@@ -113,16 +113,23 @@ fn draw_candidates(path: &Path) -> Result<(), FigureError> {
 fn draw_front(path: &Path) -> Result<(), FigureError> {
     let hz = [20.0, 40.0, 80.0, 160.0, 320.0, 640.0, 1280.0];
     let ours = hz.map(|hz: f64| 0.9 / hz);
-    let ours_v = hz.map(|hz: f64| 1.4 / hz.powf(1.02));
     let paper = [0.88, 0.147, 0.09, 0.038, 0.03, 0.022, 0.019];
-    let paper_v = [0.93, 0.19, 0.1, 0.052, 0.04, 0.031, 0.022];
+    let forces: Vec<f64> = hz.iter().map(|hz| hz / 12.0).collect();
+    let steps: Vec<f64> = hz.iter().map(|hz| 9000.0 + hz).collect();
     let data = front::Front {
-        title: "Error against stiffness, El Centro 1940 N-S, first 20 s",
+        title: "Error against stiffness",
+        error_label: "NRMSE of u, on the record",
         series: &[
-            front::Series { label: "impact", max_hz: &hz, nrmse_u: &ours, nrmse_v: &ours_v },
-            front::Series { label: "paper's procedure", max_hz: &hz, nrmse_u: &paper, nrmse_v: &paper_v },
+            front::Series { label: "design from the geometry", omega_n_hz: &hz, error: &ours },
+            front::Series { label: "the paper's procedure", omega_n_hz: &hz, error: &paper },
         ],
-        goals: &[(40.0, 0.05), (80.0, 0.03), (160.0, 0.02), (320.0, 0.01), (1280.0, 0.003)],
+        chosen_hz: 500.0,
+        accuracy: 0.002,
+        costs: [
+            front::Cost { label: "foot force [weights]", omega_n_hz: &hz, value: &forces },
+            front::Cost { label: "steps of a deck", omega_n_hz: &hz, value: &steps },
+        ],
+        note: "The largest foot force is that of the springs in a landing, not of the structure.",
     };
     front::render(&data, path)
 }
@@ -231,7 +238,7 @@ pub const FIGURES: [(&str, Draw, u32); 10] = [
     ("history", |path| draw_history(path, false), 1130),
     ("arr", draw_arr, 1000),
     ("candidates", draw_candidates, 900),
-    ("front", draw_front, 1000),
+    ("front", draw_front, 1400),
     ("contact", draw_contact, 1060),
     ("energy", draw_energy, 1060),
     ("record", draw_record, 1140),
