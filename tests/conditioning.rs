@@ -5,7 +5,10 @@ use groundspring::{
     record::Record,
     spring::{Design, Springs},
     structure::Structure,
-    tuning::{impact::report::landings, job::Job},
+    tuning::{
+        job::{Job, at},
+        whole_model::report::landings,
+    },
 };
 
 /// The paper's frame on 10 s of El Centro, begun at rest, few candidates.
@@ -14,15 +17,20 @@ fn paper() -> Case {
     case.record = case.record.truncated(10.0);
     case.record.accel[0] = 0.0;
     case.duration_s = case.record.duration();
-    case.tuning.objective = Objective::Impact;
+    case.tuning.max_omega_hz = None;
     case.tuning.candidates = 16;
     case
 }
 
-/// Springs of the impact objective, and of the paper's procedure.
+/// Springs of the design from the geometry, and of the paper's procedure up to 160 Hz or the case's cap.
 fn tuned(case: &Case) -> [Springs<Design<f64>>; 2] {
-    let job = Job::new(case, &|_, _, _| {}).unwrap();
-    [job.impact.unwrap().springs, job.arr.best.springs]
+    let tune = |case: &Case| Job::new(case, &|_, _, _| {}).unwrap().springs;
+    let mut arr = case.clone();
+    arr.tuning.objective = Objective::Arr;
+    arr.tuning.max_omega_hz = case.tuning.max_omega_hz.or(Some(160.0));
+    let mut landing = case.clone();
+    landing.tuning.max_omega_hz = None;
+    [tune(&landing), tune(&arr)]
 }
 
 /// Largest relative difference of mu, f, xi and Omega_n, the frequencies of `other` first multiplied by `time`.
@@ -47,7 +55,7 @@ fn scaled(case: &Case, length: f64, mass: f64) -> Case {
     case.restitution = case.structure.body::<f64>().restitution();
     case.record = Record { dt: case.record.dt * time, ..case.record };
     case.duration_s *= time;
-    case.tuning.max_omega_hz /= time;
+    case.tuning.max_omega_hz = case.tuning.max_omega_hz.map(|hz| hz / time);
     case.tuning.max_settlement_m *= length;
     case
 }
@@ -69,28 +77,31 @@ fn quiet_before_the_record_changes_no_springs() {
     assert_eq!(tuned(&case), tuned(&shifted));
 }
 
-/// The impact objective's landscape is rugged: rounding alone would lead the search elsewhere.
 #[test]
 fn a_mass_in_tonnes_or_pounds_gives_the_same_springs() {
     for structure in [paper().structure, Structure::block(2.0, 0.5, 1e3).unwrap()] {
         let case = Case { structure, restitution: structure.body::<f64>().restitution(), ..paper() };
-        let [impact, arr] = tuned(&case);
+        let [landing, arr] = tuned(&case);
         for unit in [1e-3, 1.0 / 0.453_592_37] {
             let other = tuned(&scaled(&case, 1.0, unit));
-            assert_eq!(impact, other[0], "masses times {unit}");
+            let design = |d: &Design<f64>| (d.mu, d.f, d.xi);
+            assert_eq!(design(&landing.vertical), design(&other[0].vertical), "masses times {unit}");
+            assert_eq!(design(&landing.horizontal), design(&other[0].horizontal), "masses times {unit}");
+            assert!(difference(&landing, &other[0], 1.0) < 1e-12, "masses times {unit}");
             let error = difference(&arr, &other[1], 1.0);
             assert!(error < 1e-12, "masses times {unit}: {error:e}");
         }
     }
 }
 
-/// The paper's procedure knows no scale. The impact objective does: its uplifts last as long as those of earthquakes, and
-/// its landings are allowed some milliseconds in the air, both in seconds.
+/// Neither the paper's procedure nor the design from the geometry knows a scale; Omega_n of the latter does, for earthquakes have
+/// frequencies of their own.
 #[test]
 fn similar_structures_have_similar_springs_by_the_papers_procedure() {
     for structure in [paper().structure, Structure::block(2.0, 0.5, 1e3).unwrap()] {
         let mut case = Case { structure, restitution: structure.body::<f64>().restitution(), ..paper() };
         case.tuning.objective = Objective::Arr;
+        case.tuning.max_omega_hz = Some(160.0);
         let tuned = |case: &Case| Job::new(case, &|_, _, _| {}).unwrap().springs;
         let one = tuned(&case);
         for (length, mass) in [(4.0, 64.0), (1.0 / 64.0, 1e-3), (3.280_839_895, 2.0)] {
@@ -116,6 +127,25 @@ fn landings_of_similar_bodies_on_similar_springs_are_similar() {
         for (one, row) in ones.iter().zip(rows(&scaled(&case, length, mass), &other)) {
             assert_eq!(one.restitution, row.restitution);
             assert_eq!(one.air_s * time, row.air_s);
+        }
+    }
+}
+
+/// A body of the same slenderness and mass share, at the same Omega_n/p: the same springs to the last digit, whatever its size,
+/// its mass, the record and its scale.
+#[test]
+fn the_design_depends_on_the_geometry_alone() {
+    let p = |case: &Case| case.structure.body::<f64>().p_squared().sqrt();
+    let case = paper();
+    for stiffness in [3e3, 1e5] {
+        let one = at(&case.structure.body(), stiffness).unwrap();
+        for (length, mass) in [(4.0, 64.0), (1.0 / 64.0, 1e-3), (3.280_839_895, 2.0)] {
+            let other = scaled(&case, length, mass);
+            let two = at(&other.structure.body(), stiffness).unwrap();
+            for (a, b) in [(one.vertical, two.vertical), (one.horizontal, two.horizontal)] {
+                assert_eq!((a.mu, a.f, a.xi), (b.mu, b.f, b.xi));
+                assert!((a.omega_n_hz / p(&case) / (b.omega_n_hz / p(&other)) - 1.0).abs() < 1e-12);
+            }
         }
     }
 }

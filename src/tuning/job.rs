@@ -95,7 +95,7 @@ impl Job {
 
         let (tuned, capped, paper) = match case.tuning.objective {
             Objective::Landing => {
-                let design = Landing { case, body, suites: &suites };
+                let design = Landing { case, body, suites: &suites, procedure: &procedure };
                 let (tuned, capped) = design.tune(progress)?;
                 let hz = tuned.best.springs.vertical.omega_n_hz;
                 // on an ill-conditioned record it would tune to noise
@@ -122,6 +122,7 @@ struct Landing<'a> {
     case: &'a Case,
     body: Body<f64>,
     suites: &'a Suites,
+    procedure: &'a Procedure<'a>,
 }
 
 impl Landing<'_> {
@@ -151,28 +152,34 @@ impl Landing<'_> {
                 springs
             })
         };
-        let settles = |tuned: &Tuned| tuned.best.springs.settlement(self.body.mass) <= tuning.max_settlement_m;
         let tuned = omega::tune(self.suites, self.body.mass, tuning.accuracy, highest, &clipped, &said);
-        if let Some(tuned) = tuned.as_ref().filter(|tuned| tuned.reached && settles(tuned)) {
+        if let Some(tuned) = tuned.as_ref().filter(|tuned| tuned.reached && self.settles(tuned)) {
             return Ok((tuned.clone(), false));
         }
         let stiff = Geometry::of(&self.body, highest).is_ok_and(|geometry| geometry.in_stiff_limit());
-        if let Some(tuned) = tuned.as_ref().filter(|tuned| stiff && settles(tuned)) {
+        if let Some(tuned) = tuned.as_ref().filter(|tuned| stiff && self.settles(tuned)) {
             return Ok((tuned.clone(), true));
         }
-        let followed = self.followed(cap)?;
-        let over = |tuned: &Tuned| tuned.best.accuracy.over(tuning.accuracy);
-        let best = tuned.into_iter().filter(settles).chain([followed]).min_by(|a, b| over(a).total_cmp(&over(b)));
+        let followed = self.followed(cap, progress)?;
+        let all = tuned.into_iter().filter(|tuned| self.settles(tuned)).chain([followed]);
+        let best = all.min_by(|a, b| typical(a).total_cmp(&typical(b)));
         Ok((best.ok_or(JobError::NoCandidate)?, true))
     }
 
-    /// The springs within a cap [Hz] that follow the suites best, of those followed down from the stiff limit.
-    fn followed(&self, cap: f64) -> Result<Tuned, JobError> {
-        let accuracy = self.case.tuning.accuracy;
-        let found = follow::follow(&self.body, self.case.restitution, self.bracket(cap)?);
-        let judged = found.into_iter().map(|springs| alone(self.suites, &self.body, accuracy, springs));
-        let over = |tuned: &Tuned| tuned.best.accuracy.over(accuracy);
-        judged.min_by(|a, b| over(a).total_cmp(&over(b))).ok_or(JobError::NoCandidate)
+    /// The springs within a cap [Hz] that follow best what is judged on, of those followed down from the stiff limit and those
+    /// of the paper's procedure: so soft, neither is the better one for every body.
+    fn followed(&self, cap: f64, progress: &(dyn Fn(usize, usize, f64) + Sync)) -> Result<Tuned, JobError> {
+        let mut found = follow::follow(&self.body, self.case.restitution, self.bracket(cap)?);
+        if self.suites.has_record() {
+            found.extend(self.procedure.at(cap, progress).map(|tuned| tuned.best.springs));
+        }
+        let judged = found.into_iter().map(|springs| alone(self.suites, &self.body, self.case.tuning.accuracy, springs));
+        let settles = judged.filter(|tuned| self.settles(tuned));
+        settles.min_by(|a, b| typical(a).total_cmp(&typical(b))).ok_or(JobError::NoCandidate)
+    }
+
+    fn settles(&self, tuned: &Tuned) -> bool {
+        tuned.best.springs.settlement(self.body.mass) <= self.case.tuning.max_settlement_m * (1.0 + 1e-3)
     }
 
     /// A cap [Hz] and the settlement allowed.
@@ -183,6 +190,16 @@ impl Landing<'_> {
             return Err(JobError::Settlement { asked_m: bracket.max_settlement, max_hz: cap, least_m });
         }
         Ok(bracket)
+    }
+}
+
+/// The typical error of springs: the geometric mean of that on the record and of the median of synthetic motions.
+fn typical(tuned: &Tuned) -> f64 {
+    let measured = &tuned.best.accuracy;
+    let median = measured.synthetic_median.map(|median| median.value);
+    match (measured.record, median) {
+        (Some(record), Some(median)) => (record * median).sqrt(),
+        (one, other) => one.or(other).unwrap_or(f64::INFINITY),
     }
 }
 
