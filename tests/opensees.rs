@@ -14,7 +14,7 @@ use groundspring::{
     spring::{Design, Springs},
     structure::Structure,
     tuning::job::Job,
-    verify::{Program, verify},
+    verify::{LIMIT, Program, VerifyError, verify},
 };
 
 /// Largest NRMSE of u, v and theta against our own history.
@@ -66,8 +66,70 @@ fn agrees(programs: &[Program], structure: Structure, springs: Springs<Design<f6
         // to the end of the record, or to where the body falls flat
         let flat = result.ours.theta.last().is_some_and(|theta| theta.abs() > 1.0);
         assert!(result.opensees.len() == record.len() || flat, "{} samples", result.opensees.len());
-        assert!(a.u <= AGREEMENT && a.v <= AGREEMENT && a.theta <= AGREEMENT, "{a:?}");
-        assert!(result.within_one_percent, "{}", result.report);
+        assert_eq!(result.late, 0, "{}", result.report);
+        // a history that hangs on the width's fifth digit agrees up to there
+        let verdict = result.verdict;
+        assert!(verdict.error <= AGREEMENT, "{verdict:?}");
+        if verdict.until.is_none() {
+            assert!(a.u <= AGREEMENT && a.v <= AGREEMENT && a.theta <= AGREEMENT, "{a:?}");
+            assert!(result.within_one_percent, "{}", result.report);
+        }
+    }
+}
+
+/// Springs of theory at this Omega_n [Hz]: one vertical chain scaled by the effective mass M = 1 - (m R^2/I0) sin^2 alpha, K by the
+/// stance, horizontals eight times stiffer.
+fn stiff(structure: &Structure, hz: f64) -> Springs<Design<f64>> {
+    let body = structure.body::<f64>();
+    let (alpha, point) = ((body.half_width / body.height).atan(), body.mass * body.radius().powi(2));
+    let effective = 1.0 - point / (point + body.inertia) * alpha.sin().powi(2);
+    let omega = std::f64::consts::TAU * hz;
+    let k = (0.5 * (omega / body.p_squared().sqrt()).powf(-0.55) * alpha.powf(-1.5)).min(0.3);
+    Springs {
+        vertical: Design::from_kc(0.66 * effective, k, 0.6 * effective.sqrt(), hz),
+        horizontal: Design::from_kc(0.3, 1.0, 2.0, 8.0 * hz),
+    }
+}
+
+/// Stiffness costs a deck next to nothing: within the limit of `tune verify` in about as many steps at 1 kHz and 40 kHz.
+#[test]
+fn decks_on_stiff_springs_are_within_their_limit_in_few_steps() {
+    let pier = Structure::a_frame(12.0, 2.4, 350e3).unwrap();
+    for structure in [Structure::paper(), pier, Structure::a_frame(35.0, 7.7, 400e3).unwrap()] {
+        let structure = with_inertia(&structure);
+        for hz in [1e3, 2.5e3, 1e4, 4e4] {
+            let parameters = Parameters::new(structure, &stiff(&structure, hz));
+            let record = Record::el_centro().truncated(20.0);
+            for program in programs() {
+                let result = verify(&parameters, &record, ACCURACY, &program, &|_, _| ()).unwrap();
+                println!("{} m, {hz} Hz: {} steps, {:?}", structure.height_m, result.steps, result.verdict);
+                assert!(result.verdict.within && result.verdict.until.is_none(), "{:?}", result.verdict);
+                assert!(result.steps <= 13_000 && result.late == 0, "{}", result.report);
+            }
+        }
+    }
+}
+
+/// Springs that the pier of 12 x 2.4 m had once: horizontally k2 is a hundredth of k1, and at its first uplift a foot chatters 70 times.
+/// OpenSees finds another history in other steps; it is refused, and said why.
+#[test]
+fn springs_on_which_a_lifting_foot_chatters_are_refused() {
+    let pier = with_inertia(&Structure::a_frame(12.0, 2.4, 350e3).unwrap());
+    let springs = Springs {
+        vertical: Design::from_kc(3.266_217, 0.491_645_5, 3.115_690, 160.0),
+        horizontal: Design::from_kc(0.012_999_14, 0.013_417_59, 0.007_559_770, 160.0),
+    };
+    let parameters = Parameters::new(pier, &springs);
+    for program in programs() {
+        let record = Record::el_centro().truncated(20.0);
+        match verify(&parameters, &record, ACCURACY, &program, &|_, _| ()) {
+            Ok(result) => {
+                println!("{:?}, itself {:?}", result.verdict, result.opensees_against_itself);
+                assert!(!result.verdict.within && result.opensees_against_itself > Some(LIMIT), "{:?}", result.verdict);
+            }
+            // a foot that chatters may also leave Newton's iteration without a step: that is said
+            Err(error) => assert!(matches!(error, VerifyError::Stopped { .. }), "{error}"),
+        }
     }
 }
 
