@@ -6,7 +6,10 @@ use criterion::{BenchmarkId, Criterion, criterion_group, criterion_main};
 use groundspring::{
     case::Case,
     response::target::Target,
-    tuning::{arr::{bounds::Bounds, inner::fit}, job::Job},
+    tuning::{
+        arr::{bounds::Bounds, inner::fit},
+        job::Job,
+    },
 };
 
 fn inner(c: &mut Criterion) {

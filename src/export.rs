@@ -19,9 +19,9 @@ mod step_count;
 use thiserror::Error;
 
 use crate::{fem::History, parameters::Parameters, record::Record};
-pub use step_count::deck_steps;
 use model::Model;
 pub use model::{ACCURACY, SMALL_INERTIA, with_inertia};
+pub use step_count::deck_steps;
 
 /// What to write.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]

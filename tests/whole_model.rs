@@ -67,7 +67,9 @@ fn free_rocking_on_stiff_springs_never_creates_energy() {
 /// A search of some seconds each; other bodies and ratios end between 0.01 and 3 %, and the program says so.
 #[test]
 fn bodies_can_be_given_another_restitution() {
-    for (structure, ratio) in [(Structure::block(2.0, 0.5, 1e3).unwrap(), 1.02), (Structure::a_frame(5.0, 1.5, 1e4).unwrap(), 1.02)] {
+    for (structure, ratio) in
+        [(Structure::block(2.0, 0.5, 1e3).unwrap(), 1.02), (Structure::a_frame(5.0, 1.5, 1e4).unwrap(), 1.02)]
+    {
         let body = with_inertia(structure);
         let bracket = Bracket { max_hz: 160.0, max_settlement: 0.01 };
         let springs = with_restitution(&body, ratio * body.restitution(), bracket, &|_, _, _| {}).unwrap();

@@ -135,7 +135,8 @@ mod tests {
         let geometry = Geometry::new(0.1, 1.0, 2e4)?;
         let springs = geometry.springs();
         let text = csv(&[Row { kind: 0, geometry, springs }]);
-        let numbers: Vec<f64> = text.lines().nth(1).unwrap_or("").split(',').skip(1).map(|x| x.parse().unwrap()).collect();
+        let numbers: Vec<f64> =
+            text.lines().nth(1).unwrap_or("").split(',').skip(1).map(|x| x.parse().unwrap()).collect();
         assert_eq!(text.lines().next().unwrap().split(',').count(), numbers.len() + 1);
         assert!((numbers[4] - springs.vertical.mu).abs() < 1e-6 && (numbers[5] - springs.vertical.f).abs() < 1e-6);
         Ok(())

@@ -7,10 +7,7 @@ use crate::{
     motion::shown,
     parameters::{PaperProcedure, Parameters},
     spring::ChainRow,
-    tuning::{
-        front::Point,
-        whole_model::report::LandingRow,
-    },
+    tuning::{front::Point, whole_model::report::LandingRow},
 };
 
 /// Springs and their match under a heading.
@@ -23,8 +20,12 @@ struct Column<'a> {
 
 /// The springs of a file, and those beside them.
 fn columns(p: &Parameters) -> Vec<Column<'_>> {
-    let own =
-        Column { heading: "finite elements", vertical: &p.vertical, horizontal: &p.horizontal, matched: p.matched.as_ref() };
+    let own = Column {
+        heading: "finite elements",
+        vertical: &p.vertical,
+        horizontal: &p.horizontal,
+        matched: p.matched.as_ref(),
+    };
     let others = [("paper's procedure, same Omega_n", &p.paper_procedure), ("Table 1 as recovered", &p.table_1)];
     let others = others.into_iter().filter_map(|(heading, other)| Some(Column::beside(heading, other.as_ref()?)));
     std::iter::once(own).chain(others).collect()

@@ -64,8 +64,11 @@ pub fn run(o: &Options) -> Result<(), CommandError> {
     write_file(&o.out.join("verify.csv"), csv(&result).as_bytes())?;
     draw(o, &record, &result)?;
     write!(std::io::stdout(), "{}", said(&record, &result))?;
-    eprintln!("{line}
-written to {}", o.out.display());
+    eprintln!(
+        "{line}
+written to {}",
+        o.out.display()
+    );
     if result.verdict.within { Ok(()) } else { Err(CommandError::Failed(refusal(&result))) }
 }
 

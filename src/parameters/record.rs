@@ -235,7 +235,10 @@ mod tests {
         let row = written.record.clone().unwrap();
         let way = "../../motions/a.txt".to_string();
         let named = file.display().to_string();
-        assert_eq!(row.source, Some(SourceRow::File { file: named, path: way, units: Units::G, component: None, baseline: false }));
+        assert_eq!(
+            row.source,
+            Some(SourceRow::File { file: named, path: way, units: Units::G, component: None, baseline: false })
+        );
         assert_eq!((row.scale, row.duration_s, row.pga_time_s), (Some(1.5), Some(0.02), Some(0.02)));
 
         std::fs::rename(dir.path().join("old"), dir.path().join("new")).unwrap();

@@ -15,4 +15,3 @@ pub mod outer;
 pub mod smooth;
 
 pub mod table_1;
-

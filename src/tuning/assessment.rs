@@ -65,17 +65,27 @@ impl Assessment {
         let mut on = Vec::new();
         on.extend(m.record.map(|e| format!("{} on the record (u or v, the larger)", shown(e))));
         on.extend(m.synthetic_median.zip(m.synthetic_p90).map(|(median, p90)| {
-            format!("{} in the median and {} for 90 % of {} synthetic motions", shown(median.value), shown(p90.value), median.count)
+            format!(
+                "{} in the median and {} for 90 % of {} synthetic motions",
+                shown(median.value),
+                shown(p90.value),
+                median.count
+            )
         }));
         on.extend(m.earthquakes_mean.map(|e| {
-            format!("{} in the geometric mean of {} earthquake-like motions of sensitivity below {PREDICTABLE}", shown(e.value), e.count)
+            format!(
+                "{} in the geometric mean of {} earthquake-like motions of sensitivity below {PREDICTABLE}",
+                shown(e.value),
+                e.count
+            )
         }));
         let measured = if on.is_empty() {
             "nothing that it could be measured on: no motion rocks this body and can be followed one to one".to_string()
         } else {
             on.join("; ")
         };
-        let asked = format!("accuracy: {} was asked for ({LOOSER} times that of 90 % and of earthquakes)", self.accuracy);
+        let asked =
+            format!("accuracy: {} was asked for ({LOOSER} times that of 90 % and of earthquakes)", self.accuracy);
         let mut lines = vec![format!("{asked}; measured as NRMSE against Housner: {measured}")];
         if !self.reached {
             let remedy = if self.capped { "raise or drop --max-hz" } else { "ask for less, or judge by tune validate" };

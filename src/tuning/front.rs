@@ -53,7 +53,8 @@ pub fn front(job: &Job, progress: &(dyn Fn(usize, usize) + Sync)) -> Vec<Point> 
         .par_iter()
         .with_max_len(1)
         .filter_map(|&hz| {
-            let springs = if hz == chosen { Some(job.springs) } else { at(&job.body, TAU * hz / job.body.p_squared().sqrt()) };
+            let springs =
+                if hz == chosen { Some(job.springs) } else { at(&job.body, TAU * hz / job.body.p_squared().sqrt()) };
             let arr = || job.paper.as_ref().and_then(|paper| paper_error(job, paper, hz));
             let ours = || springs.map(|springs| (error(job, &springs), cost(job, &springs)));
             let (arr, ours) = rayon::join(arr, ours);

@@ -42,6 +42,8 @@ pub enum JobError {
         "{record}: PGA {pga_g:.4} g never lifts the structure (it takes {limit_g:.4} g), and the paper's procedure tunes on a record; raise --scale, give another record, or leave objective = \"arr\" out"
     )]
     NeverLifts { record: String, pga_g: f64, limit_g: f64 },
+    #[error("{record} holds {samples} sample; a history needs at least two: give another record, or raise --duration")]
+    TooShort { record: String, samples: usize },
     #[error(
         "tuning.max_settlement_m is {asked_m:?}, but on springs of {max_hz} Hz the body settles by {least_m:.3e} m at least; allow that, or raise --max-hz"
     )]
@@ -84,6 +86,9 @@ impl Job {
     /// No springs that settle as little as asked for; for the paper's procedure, a record that does not lift the structure.
     pub fn new(case: &Case, progress: &(dyn Fn(usize, usize, f64) + Sync)) -> Result<Self, JobError> {
         let record = case.record.truncated(case.duration_s);
+        if record.len() < 2 {
+            return Err(JobError::TooShort { record: record.name.clone(), samples: record.len() });
+        }
         let body = case.structure.body::<f64>();
         let options = housner::Options { restitution: Some(case.restitution), ..Default::default() };
         let rocking = housner::solve(&body, record.dt, &record.accel, &options);
@@ -141,7 +146,8 @@ impl Landing<'_> {
         let said = |rungs: usize, over: f64| progress(rungs, 0, over * omega::MARGIN * tuning.accuracy);
         let stiffest = TAU * CEILING_HZ / p;
         let Some(cap) = tuning.max_omega_hz else {
-            let tuned = omega::tune(self.suites, self.body.mass, tuning.accuracy, stiffest, &springs, &said);
+            let range = (self.softest(stiffest)?, stiffest);
+            let tuned = omega::tune(self.suites, self.body.mass, tuning.accuracy, range, &springs, &said);
             return tuned.map(|tuned| (tuned, false)).ok_or(JobError::NoCandidate);
         };
         // a cap holds for the stiffest of the springs
@@ -152,7 +158,8 @@ impl Landing<'_> {
                 springs
             })
         };
-        let tuned = omega::tune(self.suites, self.body.mass, tuning.accuracy, highest, &clipped, &said);
+        let tuned =
+            omega::tune(self.suites, self.body.mass, tuning.accuracy, (omega::SOFTEST, highest), &clipped, &said);
         if let Some(tuned) = tuned.as_ref().filter(|tuned| tuned.reached && self.settles(tuned)) {
             return Ok((tuned.clone(), false));
         }
@@ -166,6 +173,22 @@ impl Landing<'_> {
         Ok((best.ok_or(JobError::NoCandidate)?, true))
     }
 
+    /// The least Omega_n/p at which the body settles by no more than is allowed.
+    fn softest(&self, stiffest: f64) -> Result<f64, JobError> {
+        let asked_m = self.case.tuning.max_settlement_m;
+        let mut stiffness = omega::SOFTEST;
+        loop {
+            let least_m = at(&self.body, stiffness).map_or(f64::INFINITY, |springs| springs.settlement(self.body.mass));
+            if least_m <= asked_m {
+                return Ok(stiffness);
+            }
+            if stiffness >= stiffest {
+                return Err(JobError::Settlement { asked_m, max_hz: CEILING_HZ, least_m });
+            }
+            stiffness = (1.1 * stiffness).min(stiffest);
+        }
+    }
+
     /// The springs within a cap [Hz] that follow best what is judged on, of those followed down from the stiff limit and those
     /// of the paper's procedure: so soft, neither is the better one for every body.
     fn followed(&self, cap: f64, progress: &(dyn Fn(usize, usize, f64) + Sync)) -> Result<Tuned, JobError> {
@@ -173,7 +196,8 @@ impl Landing<'_> {
         if self.suites.has_record() {
             found.extend(self.procedure.at(cap, progress).map(|tuned| tuned.best.springs));
         }
-        let judged = found.into_iter().map(|springs| alone(self.suites, &self.body, self.case.tuning.accuracy, springs));
+        let judged =
+            found.into_iter().map(|springs| alone(self.suites, &self.body, self.case.tuning.accuracy, springs));
         let settles = judged.filter(|tuned| self.settles(tuned));
         settles.min_by(|a, b| typical(a).total_cmp(&typical(b))).ok_or(JobError::NoCandidate)
     }
@@ -276,7 +300,8 @@ impl<'a> Procedure<'a> {
             near.map(|candidate| candidate.springs)
         };
         let said = |rungs: usize, over: f64| progress(rungs, 0, over * omega::MARGIN * tuning.accuracy);
-        let tuned = omega::tune(suites, body.mass, tuning.accuracy, TAU * CEILING_HZ / p, &springs, &said);
+        let tuned =
+            omega::tune(suites, body.mass, tuning.accuracy, (omega::SOFTEST, TAU * CEILING_HZ / p), &springs, &said);
         Ok((tuned.ok_or(JobError::NoCandidate)?, false, Some(found)))
     }
 }

@@ -18,7 +18,7 @@ pub const MARGIN: f64 = 0.7;
 /// Rungs of the ladder to a factor of ten.
 const DECADE: f64 = 10.0;
 /// The softest rung tried, Omega_n/p.
-const SOFTEST: f64 = 100.0;
+pub const SOFTEST: f64 = 100.0;
 /// Omega_n/p times the accuracy asked for where the search begins: errors of synthetic motions fall about as 20/(Omega_n/p),
 /// those of earthquake-like ones about as five times what is allowed at 160/(Omega_n/p).
 const BEGIN: f64 = 160.0;
@@ -45,13 +45,13 @@ pub struct Tuned {
     pub reached: bool,
 }
 
-/// Seek Omega_n. `springs` gives the inner design at an Omega_n/p; `progress` is told the rungs judged and the least error in
+/// Seek Omega_n in a range of Omega_n/p. `springs` gives the inner design at an Omega_n/p; `progress` is told the rungs judged and the least error in
 /// units of what is allowed.
 pub fn tune(
     suites: &Suites,
     mass: f64,
     accuracy: f64,
-    stiffest: f64,
+    (softest, stiffest): (f64, f64),
     springs: &dyn Fn(f64) -> Option<Springs<Design<f64>>>,
     progress: &dyn Fn(usize, f64),
 ) -> Option<Tuned> {
@@ -69,7 +69,7 @@ pub fn tune(
         progress(seen.len(), least);
         seen.get(&i).map(&over)
     };
-    let (first, last) = (rung(SOFTEST).ceil() as i64, rung(stiffest).floor() as i64);
+    let (first, last) = (rung(softest).ceil() as i64, rung(stiffest).floor() as i64);
     let last = last.max(first);
     let found = seek(first, last, rung(begin(accuracy)).round() as i64, &mut judge)?;
     let best = *seen.get(&found.rung)?;

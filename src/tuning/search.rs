@@ -65,8 +65,7 @@ pub(super) fn search(
         let mut walk = walk.ok()?;
         let end = walk.run_parallel().overall_best?;
         done += walk.function_evals();
-        let inside: Vec<f64> =
-            end.point.iter().zip(low.iter().zip(high)).map(|(z, (l, h))| z.clamp(*l, *h)).collect();
+        let inside: Vec<f64> = end.point.iter().zip(low.iter().zip(high)).map(|(z, (l, h))| z.clamp(*l, *h)).collect();
         if best.as_ref().is_none_or(|(least, _)| end.value < *least) {
             best = Some((end.value, inside));
         }

@@ -60,8 +60,15 @@ impl Trial {
     /// NRMSE of u and of v on these springs; infinite if the history does not get to the record's end.
     pub fn errors(&self, body: &Body<f64>, springs: &Springs<Chain<f64>>, control: Control) -> (f64, f64) {
         let mut stream = Stream::new(body, &self.theta, &self.accel);
-        let case =
-            Case { body: *body, springs: *springs, start: Start::Settled, dt: self.dt, accel: &self.accel, scale: 1.0, control };
+        let case = Case {
+            body: *body,
+            springs: *springs,
+            start: Start::Settled,
+            dt: self.dt,
+            accel: &self.accel,
+            scale: 1.0,
+            control,
+        };
         match case.observe(&mut stream).outcome {
             Outcome::Completed => (stream.errors.horizontal.value(), stream.errors.vertical.value()),
             _ => (f64::INFINITY, f64::INFINITY),
@@ -122,10 +129,9 @@ impl Suites {
     /// Of a body that lands with velocity restitution `restitution`, with this record if there is one.
     pub fn new(body: &Body<f64>, restitution: f64, record: Option<&Record>) -> Self {
         let (p, alpha) = (body.p_squared().sqrt(), body.alpha());
-        let well = |record| {
-            Trial::new(body, restitution, record, |s: &Sensitivity| s.worst() < ILL_CONDITIONED, true)
-        };
-        let predictable = |record| Trial::new(body, restitution, record, |s: &Sensitivity| s.worst() < PREDICTABLE, false);
+        let well = |record| Trial::new(body, restitution, record, |s: &Sensitivity| s.worst() < ILL_CONDITIONED, true);
+        let predictable =
+            |record| Trial::new(body, restitution, record, |s: &Sensitivity| s.worst() < PREDICTABLE, false);
         Self {
             body: *body,
             record: record.and_then(|record| well(record.clone())),

@@ -77,12 +77,13 @@ fn other_commands_take_the_component_that_is_asked_for() {
     let name = |args: &[&str]| {
         let (code, _, err) = tune(dir.path(), args);
         assert_eq!(code, 0, "{err}");
-        (err.lines().last().unwrap().split(':').next().unwrap().to_owned(), err.lines().count())
+        let used = err.lines().find_map(|line| line.strip_prefix("record ")).unwrap();
+        (used.split(" (").next().unwrap().to_owned(), err.lines().count())
     };
-    assert_eq!(name(&["housner", "--record", "site.V2A", "--component", "N28W"]), ("site N28W".into(), 1));
-    assert_eq!(name(&["housner", "--record", "site.V2A"]), ("site S62W".into(), 2));
-    assert_eq!(name(&["housner", "case.toml"]), ("site Up".into(), 1));
-    assert_eq!(name(&["housner", "plain.toml"]), ("site S62W".into(), 2));
+    assert_eq!(name(&["housner", "--record", "site.V2A", "--component", "N28W"]), ("site N28W".into(), 2));
+    assert_eq!(name(&["housner", "--record", "site.V2A"]), ("site S62W".into(), 3));
+    assert_eq!(name(&["housner", "case.toml"]), ("site Up".into(), 2));
+    assert_eq!(name(&["housner", "plain.toml"]), ("site S62W".into(), 3));
     for (args, words) in [
         (&["housner", "--record", "site.V2A", "--component", "90"][..], "there is no component 90; it has N28W"),
         (&["housner", "--component", "90"], "name it with --record"),

@@ -75,7 +75,7 @@ const SAME: f64 = 0.05;
 /// The springs of mass ratio mu whose response follows the target best.
 ///
 /// ```
-/// use groundspring::{response::target::Target, tuning::{bounds::Bounds, inner::fit}};
+/// use groundspring::{response::target::Target, tuning::arr::{bounds::Bounds, inner::fit}};
 ///
 /// // mu -> 0: K = 1/2 and a largest ARR of 3
 /// let fit = fit(1e-3, &Target::default(), &Bounds::default()).unwrap();

@@ -32,8 +32,12 @@ mod tests {
         let springs = of(&Structure::paper()).unwrap().chains(680.1e3);
         assert_eq!(format!("{:.3e}", springs.vertical.k1), "1.032e9");
         assert_eq!(format!("{:.3e}", springs.horizontal.k1), "2.685e9");
-        assert!((springs.vertical.k2 / 9.509e9 - 1.0).abs() < 1e-4 && (springs.vertical.c / 1.165e8 - 1.0).abs() < 1e-3);
-        assert!((1.31e9..1.32e9).contains(&springs.horizontal.k2) && (springs.horizontal.c / 3.34e8 - 1.0).abs() < 1e-3);
+        assert!(
+            (springs.vertical.k2 / 9.509e9 - 1.0).abs() < 1e-4 && (springs.vertical.c / 1.165e8 - 1.0).abs() < 1e-3
+        );
+        assert!(
+            (1.31e9..1.32e9).contains(&springs.horizontal.k2) && (springs.horizontal.c / 3.34e8 - 1.0).abs() < 1e-3
+        );
         assert!(of(&Structure::a_frame(20.0, 4.0, 1e5).unwrap()).is_none());
     }
 }

@@ -35,8 +35,12 @@ pub struct ChainLanding<S> {
 pub fn land<S: Scalar>(k: S, c: S, mu: S) -> Option<ChainLanding<S>> {
     let (zero, one) = (S::zero(), S::one());
     // y = x, a, x', a'
-    let pressing: Matrix<S, 4> =
-        [[zero, zero, one, zero], [zero, zero, zero, one], [-one, one, zero, zero], [mu.recip(), -(k + 1.0) / mu, zero, -c / mu]];
+    let pressing: Matrix<S, 4> = [
+        [zero, zero, one, zero],
+        [zero, zero, zero, one],
+        [-one, one, zero, zero],
+        [mu.recip(), -(k + 1.0) / mu, zero, -c / mu],
+    ];
     let step = exponential(&pressing, real(STEP));
     let force = |y: &[S; 4]| y[1] - y[0];
     let mut y = [zero, zero, -one, zero];
@@ -111,7 +115,10 @@ mod tests {
             let landing = land(1e-9, 0.5 / zeta, 1e-7).unwrap();
             let (lift, rebound) = (std::f64::consts::PI / root, (-zeta * std::f64::consts::PI / root).exp());
             // both are missed by the order of the absorber's mass, over C
-            assert!((landing.lift / lift - 1.0).abs() < 1e-5 && (landing.rebound / rebound - 1.0).abs() < 1e-5, "{zeta}");
+            assert!(
+                (landing.lift / lift - 1.0).abs() < 1e-5 && (landing.rebound / rebound - 1.0).abs() < 1e-5,
+                "{zeta}"
+            );
         }
     }
 

@@ -230,9 +230,12 @@ mod tests {
     /// Table of an independent prototype: C_u and mu_u at a flat optimum, and the rebound.
     #[test]
     fn the_universal_chain_is_that_of_the_prototype() {
-        for (k, c, mu, rebound) in
-            [(0.02, 0.55, 0.665, 0.018), (0.05, 0.60, 0.66, 0.043), (0.1, 0.643, 0.675, 0.080), (0.2, 0.647, 0.77, 0.140)]
-        {
+        for (k, c, mu, rebound) in [
+            (0.02, 0.55, 0.665, 0.018),
+            (0.05, 0.60, 0.66, 0.043),
+            (0.1, 0.643, 0.675, 0.080),
+            (0.2, 0.647, 0.77, 0.140),
+        ] {
             let found = universal(k);
             println!("{found:?}");
             // the optimum is flat along a valley of mu and C: C mu^(2/3) hardly changes there

@@ -196,7 +196,8 @@ impl<S: Scalar> Run<S> {
     fn advance(&mut self) {
         let left = real::<S>(FOLLOWED) - self.time;
         let whole = left.re() > self.step;
-        let next = if whole { times(&self.motion.1, &self.y) } else { times(&exponential(&self.motion.0, left), &self.y) };
+        let next =
+            if whole { times(&self.motion.1, &self.y) } else { times(&exponential(&self.motion.0, left), &self.y) };
         let mut first: Option<(S, [S; N], usize)> = None;
         for foot in 0..2 {
             if self.lasts(foot, &next).0.re() >= -EDGE {
@@ -308,7 +309,17 @@ mod tests {
                     let l = land(&Corners::rigid(alpha, share), &s);
                     println!(
                         "share {share} alpha {alpha} rho {ratio} K {:.3}: H-1 {:.2e} (law {:.2e}) J {:.1e} reb {:.4} left {:.1e} off {:.2} air {:.2} ch {:?} {} {:?}",
-                        s.vertical.k(), l.momentum - 1.0, 4.0 * alpha.tan().powf(6.5) / ratio.powi(4), l.old_impulse, l.rebound, l.left, l.offset, l.air, l.changes, l.complete, begin.elapsed()
+                        s.vertical.k(),
+                        l.momentum - 1.0,
+                        4.0 * alpha.tan().powf(6.5) / ratio.powi(4),
+                        l.old_impulse,
+                        l.rebound,
+                        l.left,
+                        l.offset,
+                        l.air,
+                        l.changes,
+                        l.complete,
+                        begin.elapsed()
                     );
                 }
             }
