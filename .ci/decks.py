@@ -44,8 +44,7 @@ def family(body, hz):
 def tuned(tune, body, folder):
     kind, h, width, m = body
     case = folder / "case.toml"
-    size = f"height_m = {h}" if kind == "aframe" else f"height_m = {2.0 * h}"
-    case.write_text(f'[structure]\nkind = "{kind}"\n{size}\nwidth_m = {width}\nmass_kg = {m}\n')
+    case.write_text(f'[structure]\nkind = "{kind}"\nheight_m = {h}\nwidth_m = {width}\nmass_kg = {m}\n')
     subprocess.run([tune, "run", case, "--no-figures", "--quiet", "--out", folder / "run"], check=True, capture_output=True)
     return json.loads((folder / "run/parameters.json").read_text())
 

@@ -63,6 +63,8 @@ const HOPELESS: f64 = 0.5;
 
 /// Share of a position that a step may miss, over the accuracy of the history (the same in the decks' stepping routine).
 const STEP_ERROR: f64 = 1.0 / 40.0;
+/// How the steps per sample grow with the compression of soft springs, over what a step may miss.
+const SOFTER: f64 = 0.65;
 /// A small motion: share of the way to toppling.
 const SMALL_MOTION: f64 = 0.01;
 
@@ -75,14 +77,15 @@ fn even_steps(parameters: &Parameters, dt: f64) -> usize {
 }
 
 /// Steps per sample at least, where steps follow events: two, a pair. Soft springs go on swinging: where what the weight
-/// compresses them by is more than a step may miss of a small motion, steps shorten, until h^2/12 g is not more.
+/// compresses them by is more than a step may miss of a small motion, steps shorten, until h^2/12 4 g is not more: landings
+/// leave accelerations of some g.
 fn least_steps(parameters: &Parameters, dt: f64, accuracy: f64) -> usize {
     let body = parameters.structure.body::<f64>();
     let top = 2.0 * body.half_width * (body.half_width / body.height).atan();
     let missed = STEP_ERROR * accuracy * SMALL_MOTION * top;
     let compressed = body.mass * GRAVITY / parameters.chains().vertical.k1;
-    let resolved = dt / (12.0 * missed / GRAVITY).sqrt();
-    whole((2.0 * (compressed / missed).sqrt()).min(resolved)).max(2)
+    let resolved = dt / (12.0 * missed / (4.0 * GRAVITY)).sqrt();
+    whole((2.0 * (compressed / missed).powf(SOFTER)).min(resolved)).max(2)
 }
 
 /// Rounded up, but a ratio that is whole but for rounding stays it.

@@ -135,10 +135,10 @@ fn steps_a_sample_follow_from_the_accuracy_and_not_from_stiff_springs() {
     for hz in [1e3, 1e4, 1e5] {
         assert_eq!(stated(hz, 1e-6), (2.0, 0.002), "{hz} Hz");
     }
-    // 2b alpha 0.01 0.002/40 = 6.1e-7 m is missed by h = sqrt(12 x 6.1e-7/9.81) = 8.6e-4 s, 11.6 steps of 0.01 s
-    assert_eq!(stated(6.2, 1e-6), (12.0, 0.002));
-    // g/Omega^2 = 9.7e-6 m at 160 Hz: 2 sqrt(9.7e-6/6.1e-7) = 8.0
-    assert_eq!(stated(160.0, 1e-6).0, 8.0);
+    // 2b alpha 0.01 0.002/40 = 6.1e-7 m is missed by h = sqrt(12 x 6.1e-7/(4 x 9.81)) = 4.3e-4 s, 23.2 steps of 0.01 s
+    assert_eq!(stated(6.2, 1e-6), (24.0, 0.002));
+    // g/Omega^2 = 9.7e-6 m at 160 Hz: 2 (9.7e-6/6.1e-7)^0.65 = 12.1; 1.08e-6 m at 480 Hz: 2.9
+    assert_eq!((stated(160.0, 1e-6).0, stated(480.0, 1e-6).0), (13.0, 3.0));
 }
 
 /// 750 times what a change of the width by 1e-5 does, at most 16; nothing where the history is lost.
