@@ -2,7 +2,7 @@
 //!
 //! | file | what |
 //! |---|---|
-//! | `model`, `balance` | coordinates, kinematics, contact forces, energies; the rotation that has no inertia |
+//! | `model`, `balance`, `strut` | coordinates, kinematics, contact forces, energies; the rotation that has no inertia, on both feet and on one |
 //! | `radau`, `newton`, `step` | one implicit step: tables, condensed matrix, iteration |
 //! | `run` | the time loop: samples; in `run/`, contact events and step acceptance |
 //! | `control`, `energy`, `observer` | what a run is told, accounts for and shows |
@@ -16,9 +16,9 @@
 //! have died. Explicit methods chatter, creep and topple the frame; Newmark, HHT and Gauss leave the unresolved modes
 //! ringing. Its cost stays low because each absorber condenses out of the Newton matrix (`newton`).
 //!
-//! **Why the energy account chooses the step.** The leading error of a Radau step in an oscillation is loss of
-//! amplitude, so the energy that a step fails to account for is its error; it is one number, has a unit, and is what the
-//! user is promised.
+//! **What chooses the step.** The leading error of a Radau step in an oscillation is loss of amplitude, so the energy that a step
+//! fails to account for is one measure of its error; it has a unit, and is what the user is promised. It does not see an error of
+//! phase. So an embedded formula of order three estimates the local error beside it (`step`), and a step must satisfy both.
 
 mod balance;
 mod control;

@@ -31,8 +31,7 @@ impl<S: Scalar> Model<S> {
             return true;
         }
         if let Some(frame) = &self.frame {
-            self.turn_frame_to_balance(frame, state, feet);
-            return true;
+            return self.turn_frame_to_balance(frame, state, feet);
         }
         let start = state.q[TH];
         let (before, ..) = self.potential(state, feet);

@@ -24,9 +24,13 @@ use super::{
     leg::{Law, Leg},
     model::{Contact, Foot, FootForce, Model, Pose, SIDE, State, TH, Vector, X, Z, ax, az},
 };
-use crate::{members::Members, scalar::Scalar};
+use crate::{
+    members::Members,
+    scalar::{Scalar, real},
+};
 
-/// Iterations before the foot's place is left as it is: it converges quadratically from within some per cent.
+/// Iterations before a place counts as not found, and is none (NaN: no step with it is accepted); from within some per cent
+/// it converges quadratically.
 const MOST_ITERATIONS: usize = 40;
 
 /// The tendon as it pulls.
@@ -160,7 +164,10 @@ impl<S: Scalar> Model<S> {
             let away = [t[0] * e[0] + m[0] * e[1], t[1] * e[0] + m[1] * e[1]];
             let place = [px + away[0], pz + away[1]];
             let f = push(place);
-            if done || iterations == MOST_ITERATIONS {
+            if !done && iterations == MOST_ITERATIONS {
+                break (law, [real(f64::NAN); 2], [real(f64::NAN); 2]);
+            }
+            if done {
                 // along and across the leg, the force of the softer of leg and contact: it rounds least
                 let of_leg = |k: usize| law.stiffness[2 * k].re() < local[2 * k].re();
                 let axes = [t, m];
@@ -220,9 +227,10 @@ impl<S: Scalar> Model<S> {
 
     /// `turn_to_balance` on legs. With dampers the rotation cannot jump.
     #[inline(never)]
-    pub(super) fn turn_frame_to_balance(&self, frame: &Frame<S>, state: &mut State<S>, feet: &[Foot<S>; 2]) {
+    #[must_use]
+    pub(super) fn turn_frame_to_balance(&self, frame: &Frame<S>, state: &mut State<S>, feet: &[Foot<S>; 2]) -> bool {
         if frame.damper.re() > 0.0 {
-            return;
+            return true;
         }
         let mut done = 0;
         for _ in 0..MOST_ITERATIONS {
@@ -233,15 +241,16 @@ impl<S: Scalar> Model<S> {
             });
             let turn = (left.0 + right.0) / (left.1 + right.1);
             if !turn.re().is_finite() {
-                break;
+                return false;
             }
             state.q[TH] += turn;
             // derivatives converge one step later
             done += usize::from(turn.re().abs() <= 1e-9 * state.q[TH].re().abs() + 1e-15);
             if done == 2 {
-                break;
+                return true;
             }
         }
+        false
     }
 
     /// Power that the dampers take [W].

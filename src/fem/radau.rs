@@ -29,6 +29,10 @@ pub(super) const ALPHA: f64 = 0.162_555_585_202_161_32;
 /// Imaginary part of the complex pair of A.
 pub(super) const BETA: f64 = 0.184_949_324_407_140_78;
 
+/// Weights of the stages in the embedded formula of order three, GAMMA/3 (-13 - 7 sqrt 6, -13 + 7 sqrt 6, -1); that of the
+/// start is GAMMA.
+pub(super) const E: [f64; 3] = [-2.762_305_454_748_599_2, 0.379_935_598_252_728_87, -0.091_629_609_865_225_789];
+
 /// Eigenvectors: the real one, then real and imaginary part of the one of ALPHA + i BETA.
 pub(super) const T: [[f64; 3]; 3] = [
     [0.094_438_762_488_975_241, -0.141_255_295_020_954_21, -0.030_029_194_105_147_424],
@@ -76,6 +80,21 @@ mod tests {
                 let sum: f64 = (0..3).map(|j| row[j] * C[j].powi(k - 1)).sum();
                 assert!((sum - c.powi(k) / k as f64).abs() < 1e-15);
             }
+        }
+    }
+
+    /// sum E_i (t^k at c_i) + GAMMA k t^(k-1) at 0 = 0 for k = 1 to 3: nothing is missed of a cubic. (The formula's weights
+    /// are GAMMA at the start and b + A^T E at the stages.)
+    #[test]
+    fn the_embedded_formula_is_of_order_three() {
+        let root6 = 6.0_f64.sqrt();
+        for (e, x) in E.iter().zip([-13.0 - 7.0 * root6, -13.0 + 7.0 * root6, -1.0]) {
+            assert!((e - GAMMA / 3.0 * x).abs() < 1e-15);
+        }
+        for k in 1..=3 {
+            let start = if k == 1 { GAMMA } else { 0.0 };
+            let sum: f64 = (0..3).map(|i| E[i] * C[i].powi(k)).sum();
+            assert!((sum + start).abs() < 2e-15, "{k} {sum}");
         }
     }
 

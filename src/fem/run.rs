@@ -11,7 +11,7 @@ use std::f64::consts::FRAC_PI_2;
 use super::{
     control::{Control, Outcome, Work},
     energy::Energy,
-    model::{Foot, Model, State, TH, Vector},
+    model::{Foot, Model, State, TH, Vector, Z},
     observer::{Observer, View},
     step::{Ground, Request, Stages, Stepper, no_guess},
 };
@@ -32,6 +32,12 @@ pub(crate) struct Run<'a, S> {
     compression: f64,
     /// sqrt(compression/g) = 1/Omega_n of the vertical chain [s], the scale of time in contact.
     settling: f64,
+    /// What rounding makes of a foot's place [m]: some units in the last digit of R.
+    rounding: f64,
+    /// Lean of balance [rad], the scale of a local error.
+    alpha: f64,
+    /// 1/p [s], the time in which an error of the rate becomes one of the lean.
+    moment: f64,
     guess: [Vector<S>; 3],
     /// Factor by which an iteration of the next step is expected to reduce the error; 1 if unknown.
     rate: f64,
@@ -72,13 +78,16 @@ impl<'a, S: Scalar> Run<'a, S> {
             scale,
             compression,
             settling: (compression / GRAVITY).sqrt(),
+            rounding: 8.0 * f64::EPSILON * model.body.radius().re(),
+            alpha: model.body.alpha().re(),
+            moment: model.body.p_squared().re().sqrt().recip(),
             guess: no_guess(),
             rate: 1.0,
             opened: [f64::NEG_INFINITY; 2],
             let_go: [0.0; 2],
             leant_on: [0.0; 2],
             h: f64::INFINITY,
-            balanced: model.in_balance(&state, &feet),
+            balanced: state.q[Z].re().is_finite() && model.in_balance(&state, &feet),
             turns: 0,
             resting: false,
             work: Work::default(),
@@ -195,13 +204,13 @@ impl<'a, S: Scalar> Run<'a, S> {
 
     /// Take a step of size h into `stages`; whether it converges.
     fn attempt(&mut self, h: S, ground: &Ground<S>, stages: &mut Stages<S>) -> bool {
-        // a share of what presses the feet that the energy account would not notice, never below the rounding of positions
+        // a share of what presses the feet that the energy account would not notice
         let share = (1e3 * self.control.tolerance).clamp(1e-7, 1e-3);
         let request = Request {
             h,
             ground: *ground,
             guess: &self.guess,
-            tolerance: (share * self.compression).max(8.0 * f64::EPSILON * self.model.body.radius().re()),
+            tolerance: (share * self.compression).max(self.rounding),
             extra: self.control.extra_iterations,
             rate: self.rate,
         };

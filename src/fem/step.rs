@@ -5,7 +5,7 @@ use num_complex::Complex;
 use super::{
     model::{Contact, Foot, Model, N, State, TH, Vector},
     newton::{Chains, Matrix},
-    radau::{A, A2, ALPHA, BETA, C, GAMMA, T, T_INV, position_weights},
+    radau::{A, A2, ALPHA, BETA, C, E, GAMMA, T, T_INV, position_weights},
 };
 use crate::scalar::{Scalar, real};
 
@@ -88,6 +88,8 @@ pub(super) struct Stepper<'a, S> {
     model: &'a Model<S>,
     real: Model<f64>,
     chains: Option<Shared>,
+    /// The real matrix of the last step, for its error.
+    matrix: Option<Matrix<f64>>,
 }
 
 /// What steps of one size under one contact share.
@@ -101,7 +103,7 @@ struct Shared {
 
 impl<'a, S: Scalar> Stepper<'a, S> {
     pub fn new(model: &'a Model<S>) -> Self {
-        Self { model, real: model.real(), chains: None }
+        Self { model, real: model.real(), chains: None, matrix: None }
     }
 
     /// Condense the chains for this size and contact, unless the last step has.
@@ -127,12 +129,15 @@ impl<'a, S: Scalar> Stepper<'a, S> {
         let real_feet = feet.map(|foot| Foot { contact: foot.contact, anchor: foot.anchor.re() });
         self.condense(hr, &real_feet);
         let Some(shared) = &self.chains else { return false };
-        let real_matrix = Matrix::new(&shared.real, &self.real, &middle, &real_feet, hr * GAMMA, |x| x);
+        let real_matrix: &Matrix<f64> =
+            self.matrix.insert(Matrix::new(&shared.real, &self.real, &middle, &real_feet, hr * GAMMA, |x| x));
         let pair_matrix = Matrix::new(&shared.pair, &self.real, &middle, &real_feet, hr * EIGENVALUE, complex);
 
         let model = self.model;
         let masses = model.masses(feet);
         let radius = self.real.body.radius();
+        // a gap rounded by some units in the last digit of R turns the body R/b times as far
+        let rounding = 8.0 * f64::EPSILON * radius * radius / self.real.body.half_width;
         let grounds = C.map(|c| ground.start + ground.slope * h * c);
         let h2 = h * h;
         (s.h, s.a, s.iterations, s.rate) = (h, *guess, 0, request.rate);
@@ -184,8 +189,9 @@ impl<'a, S: Scalar> Stepper<'a, S> {
             }
             // the largest coefficient of A^2 is 0.32
             change *= 0.32 * h2.re();
-            // once converged, what is left is rounding and may well grow
-            if !change.is_finite() || (left.is_none() && s.iterations > 3 && change > 2.0 * last) {
+            // once converged, or as far as rounding lets it, what is left may well grow
+            let rounded = s.iterations > 5 && change <= rounding;
+            if !change.is_finite() || (left.is_none() && !rounded && s.iterations > 3 && change > 2.0 * last) {
                 return false;
             }
             // geometric convergence: what is still missing is change * rate / (1 - rate)
@@ -196,10 +202,43 @@ impl<'a, S: Scalar> Stepper<'a, S> {
             last = change;
             left = match left {
                 Some(n) => Some(n - 1),
-                None if change <= tolerance || missing <= tolerance => Some(extra),
+                None if rounded || change <= tolerance || missing <= tolerance => Some(extra),
                 None => None,
             };
         }
+    }
+}
+
+impl<S: Scalar> Stepper<'_, S> {
+    /// What the step just taken from `start` misses, estimated: displacements, and the velocities that go with them.
+    ///
+    /// Hairer & Wanner, section IV.8, equations (8.17) to (8.19): a formula of order three on the same stages and the start, its
+    /// stiff part filtered by the matrix of the real eigenvalue, here for M q'' = f(q, q', t) with s = h GAMMA,
+    ///
+    /// ```text
+    ///   (M + s C + s^2 K) e_q = s^2 f(q_0, -d_q/s, t_0) + M (s q'_0 + d_q + s d_v)      e_v = (e_q - d_q)/s - q'_0
+    ///   d_q = sum E_i (Q_i - q_0),  d_v = sum E_i (V_i - q'_0)
+    /// ```
+    ///
+    /// where the velocity -d_q/s makes of f what s C would add. It needs no acceleration at the start, so that a rotation
+    /// without inertia is no special case.
+    pub fn local_error(&self, start: &State<S>, feet: &[Foot<S>; 2], ground: &Ground<S>, s: &Stages<S>) -> State<f64> {
+        let none = State { q: [0.0; N], v: [0.0; N] };
+        let (Some(shared), Some(matrix)) = (&self.chains, &self.matrix) else { return none };
+        let root = s.h.re() * GAMMA;
+        let (q, v) = (start.q.map(|x| x.re()), start.v.map(|x| x.re()));
+        let change = |k: usize, stages: &[Vector<S>; 3], from: f64| -> f64 {
+            (0..3).map(|i| E[i] * (stages[i][k].re() - from)).sum()
+        };
+        let d_q: Vector<f64> = std::array::from_fn(|k| change(k, &s.q, q[k]));
+        let feet = feet.map(|foot| Foot { contact: foot.contact, anchor: foot.anchor.re() });
+        let (forces, masses) =
+            (self.real.forces(&q, &d_q.map(|d| -d / root), &feet, ground.start.re()), self.real.masses(&feet));
+        let right = std::array::from_fn(|k| {
+            root * root * forces[k] + masses[k] * (root * v[k] + d_q[k] + root * change(k, &s.v, v[k]))
+        });
+        let e_q = matrix.solve(&shared.real, &right, |x, t| x * t);
+        State { q: e_q, v: std::array::from_fn(|k| (e_q[k] - d_q[k]) / root - v[k]) }
     }
 }
 

@@ -9,3 +9,4 @@ mod landings;
 mod members;
 mod rigid_limit;
 mod similarity;
+mod stiff;

@@ -14,8 +14,13 @@ use crate::{
 
 /// A pseudo time step [s] so long that inertia and dashpots vanish beside the springs.
 const FOR_EVER: f64 = 1e6;
-/// Newton steps after which a stance stays as it is; a handful is needed.
+/// Newton steps after which there is no stance (NaN: its run is unstable from the start); a handful is needed.
 const MOST_ITERATIONS: usize = 60;
+
+/// Where a structure stands that finds no stance.
+fn nowhere<S: Scalar>() -> State<S> {
+    State { q: [real(f64::NAN); N], v: [S::zero(); N] }
+}
 
 impl<S: Scalar> Model<S> {
     /// A body with members on its springs. The tendon is stressed so that its tension in the settled structure is its
@@ -64,10 +69,10 @@ impl<S: Scalar> Model<S> {
             // derivatives converge one step later
             done += usize::from(step <= 1e-9 * state.q[Z].re().abs());
             if done == 3 {
-                break;
+                return (state, feet);
             }
         }
-        (state, feet)
+        (nowhere(), feet)
     }
 
     /// At rest leaning by theta on one foot, as `on_one_foot`: on its leg, and pulled by the tendon.
@@ -88,10 +93,10 @@ impl<S: Scalar> Model<S> {
             q[X] += dx;
             q[Z] += dz;
             if dx.re().hypot(dz.re()) <= 1e-14 * self.body.radius().re() {
-                break;
+                return (State { q, v: [S::zero(); N] }, feet);
             }
         }
-        (State { q, v: [S::zero(); N] }, feet)
+        (nowhere(), feet)
     }
 
     /// Force on the pressing foot, horizontal and vertical, while a rigid body falls back from rest under weight and

@@ -49,6 +49,33 @@ const WHIRL: f64 = 100.0;
 /// step that the event cut short.
 pub(super) const RESTART: f64 = 0.1;
 
+/// Where a step's values are known: its start and its stages.
+const NODES: [f64; 4] = [0.0, C[0], C[1], C[2]];
+
+/// By how much a cubic through values at the nodes can pass beyond the least of them, over their spread: half of what its
+/// largest sum of |Lagrange polynomials| exceeds one by.
+const OVERSHOOT: f64 = 0.4454;
+
+/// The cubic through values at the nodes, by ascending powers.
+fn cubic(values: &[f64; 4]) -> [f64; 4] {
+    // divided differences
+    let mut d = *values;
+    for order in 1..4 {
+        for k in (order..4).rev() {
+            d[k] = (d[k] - d[k - 1]) / (NODES[k] - NODES[k - order]);
+        }
+    }
+    // Newton's form, multiplied out
+    let mut p = [d[3], 0.0, 0.0, 0.0];
+    for k in (0..3).rev() {
+        for i in (1..4).rev() {
+            p[i] = p[i - 1] - NODES[k] * p[i];
+        }
+        p[0] = d[k] - NODES[k] * p[0];
+    }
+    p
+}
+
 /// What a candidate step met.
 pub(super) enum Met {
     Nothing,
@@ -105,10 +132,13 @@ impl<S: Scalar> Run<'_, S> {
             let values: [f64; 4] = [at(0), at(1), at(2), at(3)];
             for &(sign, level) in limits {
                 let inside = values.map(|d| sign * (d - level));
-                let Some(k) = (1..4).find(|&k| inside[k] < -self.gap_tolerance()) else { continue };
-                let node = |k: usize| if k == 0 { 0.0 } else { C[k - 1] };
-                let low = (node(k - 1), inside[k - 1].max(0.0));
-                let tau = self.first_zero(foot, sign, level, stages, low, (node(k), inside[k]));
+                let past = (1..4).find(|&k| inside[k] < -self.gap_tolerance());
+                let high = past.map(|k| (NODES[k], inside[k]));
+                // a node past the level may come after a passage that is over before the node ahead of it
+                let between = self.dip(foot, sign, level, stages, &inside, past.map_or(1.0, |k| NODES[k - 1]));
+                let Some(high) = between.or(high) else { continue };
+                let k = NODES.iter().rposition(|&node| node < high.0).unwrap_or(0);
+                let tau = self.first_zero(foot, sign, level, stages, (NODES[k], inside[k].max(0.0)), high);
                 if tau < earliest {
                     earliest = tau;
                     first = Met::Crossing { foot, level, tau };
@@ -119,6 +149,33 @@ impl<S: Scalar> Run<'_, S> {
             Some((foot, tau)) if tau < earliest => Met::Grip { foot, tau },
             _ => first,
         }
+    }
+
+    /// A passage over before the next node of the step: the point between two nodes, no later than `until`, at which the
+    /// compression is least inside its limit, if that is past it. Found on the cubic through the nodes' values.
+    fn dip(
+        &self,
+        foot: usize,
+        sign: f64,
+        level: f64,
+        stages: &Stages<S>,
+        inside: &[f64; 4],
+        until: f64,
+    ) -> Option<(f64, f64)> {
+        let (low, high) = inside.iter().fold((f64::INFINITY, 0.0_f64), |(l, h), &x| (l.min(x), h.max(x)));
+        if low > OVERSHOOT * (high - low) {
+            return None;
+        }
+        let [_, first, second, third] = cubic(inside);
+        let root = (second * second - 3.0 * first * third).sqrt();
+        // the slope first + 2 second tau + 3 third tau^2 grows through zero there
+        let tau = if second >= 0.0 { -first / (second + root) } else { (root - second) / (3.0 * third) };
+        if !(tau > 0.0 && tau < until) {
+            return None;
+        }
+        let q = stages.position(&self.state, tau);
+        let value = (self.model.compression(foot, &q, &self.feet[foot]).re() - level) * sign;
+        (value < -self.gap_tolerance()).then_some((tau, value))
     }
 
     /// Where the compression passes `level` on the collocation polynomial, between two bracketing points (Illinois).
@@ -170,7 +227,7 @@ impl<S: Scalar> Run<'_, S> {
     }
 
     /// Repeat the step so that it ends where the foot's compression passes `level`. Whether it passes there: if the polynomial
-    /// saw a graze that the step itself does not make, it does not. `None` if no step converges.
+    /// saw a graze that the step itself does not make, it does not. `None` if no step converges, or none ends there.
     pub(super) fn locate(
         &mut self,
         foot: usize,
@@ -218,7 +275,7 @@ impl<S: Scalar> Run<'_, S> {
                 return Some(false);
             };
         }
-        self.attempt(h, ground, stages).then_some(true)
+        None
     }
 
     /// A foot on an elastic leg springs sideways, and maybe down, when its horizontal force is let go: it opens only if it
@@ -361,5 +418,75 @@ impl<S: Scalar> Run<'_, S> {
         };
         self.state.q[TH] = self.model.where_it_touches(foot, &self.state.q, start + (end - start) * share);
         Some(foot)
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::{
+        fem::{
+            control::Control,
+            model::{Model, State, Z, az},
+        },
+        spring::{Chain, Springs},
+        structure::Structure,
+    };
+
+    /// An absorber comes up under a foot in the air and is gone again before the next stage: f = -(tau - 0.2)(tau - 0.6) is
+    /// negative at all nodes.
+    #[test]
+    fn a_touch_between_two_stages_is_found() {
+        let body = Structure::paper().body::<f64>();
+        let chain = Chain { k1: 1e9, k2: 1e8, m2: 1e5, c: 1e6 };
+        let model = Model::new(&body, &Springs { vertical: chain, horizontal: chain });
+        let rise = |tau: f64| -0.01 * (tau - 0.2) * (tau - 0.6);
+        let slope = |tau: f64| -0.01 * (2.0 * tau - 0.8);
+        let mut state = State { q: [0.0; 7], v: [0.0; 7] };
+        // the right foot far above the ground
+        (state.q[az(0)], state.q[az(1)]) = (rise(0.0), -1.0);
+        let feet = [Foot { contact: Contact::Open, anchor: 0.0 }; 2];
+        let run = Run::new(&model, (state, feet), Control::default());
+        let mut stages = Stages::none();
+        stages.h = 1e-3;
+        for i in 0..3 {
+            stages.q[i] = state.q;
+            stages.q[i][az(0)] = rise(C[i]);
+            stages.v[i][az(0)] = slope(C[i]) / stages.h;
+        }
+        match run.met(&stages) {
+            Met::Crossing { foot: 0, level, tau } => assert!(level == 0.0 && (tau - 0.2).abs() < 1e-6, "{tau}"),
+            _ => unreachable!("the touch is missed"),
+        }
+        // a hair lower it does not touch
+        for q in &mut stages.q {
+            q[Z] += 0.01 * 0.04 * 1.001;
+        }
+        let mut state = state;
+        state.q[Z] = stages.q[0][Z];
+        let run = Run::new(&model, (state, feet), Control::default());
+        assert!(matches!(run.met(&stages), Met::Nothing));
+    }
+
+    #[test]
+    fn the_cubic_passes_through_its_values_and_no_further_beyond_them() {
+        for values in [[1.0, -0.3, 0.4, 2.0], [0.0, 0.0, 0.0, 1.0], [0.3, -2.0, 5.0, 0.1]] {
+            let p = cubic(&values);
+            let at = |t: f64| p.iter().rev().fold(0.0, |sum, c| sum * t + c);
+            for (node, value) in NODES.into_iter().zip(values) {
+                assert!((at(node) - value).abs() < 1e-14 * 10.0, "{} {value}", at(node));
+            }
+        }
+        // the worst values are the extremes 0 and 1, where each Lagrange polynomial has the sign that adds
+        let mut beyond: f64 = 0.0;
+        for bits in 0..16 {
+            let values = [0, 1, 2, 3].map(|k| f64::from((bits >> k) & 1));
+            let p = cubic(&values);
+            for i in 0..=10_000 {
+                let t = f64::from(i) * 1e-4;
+                beyond = beyond.max(-p.iter().rev().fold(0.0, |sum, c| sum * t + c));
+            }
+        }
+        assert!(beyond <= OVERSHOOT && beyond > 0.9 * OVERSHOOT, "{beyond}");
     }
 }

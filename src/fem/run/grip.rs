@@ -68,7 +68,7 @@ impl<S: Scalar> Run<'_, S> {
     pub(super) fn locate_grip(&mut self, foot: usize, tau: f64, stages: &mut Stages<S>, ground: &Ground<S>) -> bool {
         let (mut low, mut high) = (0.0, f64::INFINITY);
         let (whole, mut at) = (stages.h, tau);
-        for trial in 0..MOST_TRIALS {
+        for _ in 0..MOST_TRIALS {
             self.work.located += 1;
             if !self.attempt(whole * at, ground, stages) {
                 return false;
@@ -84,7 +84,7 @@ impl<S: Scalar> Run<'_, S> {
                 high = at;
             }
             at = if high.is_finite() { 0.5 * (low + high) } else { (1.5 * at).min(1.0) };
-            if high.is_finite() && high - low < 1e-12 || trial + 1 == MOST_TRIALS {
+            if high.is_finite() && high - low < 1e-12 {
                 return true;
             }
         }
