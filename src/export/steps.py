@@ -89,7 +89,8 @@ class Steps:
             self.taken += 1
             self.gaps = self.measure()
             met += sum(was != (gap[0] <= 0.0) for was, gap in zip(closed, self.gaps))
-        self.smallest = min(self.smallest, h)
+        if h >= self.shortest or self.refused:  # the very first are tiny
+            self.smallest = min(self.smallest, h)
         if met:
             self.allowed = self.shortest
             if h > 1.5 * self.shortest:

@@ -116,7 +116,7 @@ namespace eval steps {
             set gaps [measure]
             foreach a $last b $gaps { incr met [expr {([lindex $a 0] <= 0.0) != ([lindex $b 0] <= 0.0)}] }
         }
-        set smallest [expr {min($smallest, $h)}]
+        if {$h >= $shortest || $refused} { set smallest [expr {min($smallest, $h)}] } ;# the very first are tiny
         if {$met > 0} {
             set allowed $shortest
             if {$h > 1.5 * $shortest} { incr late $met }
