@@ -96,7 +96,9 @@ fn draw(o: &Options, rows: &[Row]) -> Result<(), CommandError> {
     type Pick = fn(&Springs<Design<f64>>) -> f64;
     let picks: [Pick; 4] =
         [|s| s.vertical.mu, |s| s.vertical.f, |s| s.vertical.xi, |s| s.horizontal.omega_n_hz / s.vertical.omega_n_hz];
-    let columns: Vec<(f64, bool, Vec<f64>, [Vec<f64>; 4])> = rows
+    // alpha, dashed, Omega_n/p, the values of each panel
+    type Column = (f64, bool, Vec<f64>, [Vec<f64>; 4]);
+    let columns: Vec<Column> = rows
         .chunk_by(|a, b| a.kind == b.kind && a.geometry.alpha() == b.geometry.alpha())
         .map(|rows| {
             let x = rows.iter().map(|row| row.geometry.stiffness()).collect();

@@ -83,7 +83,7 @@ impl LeastSquares for Objective {
         // one iteration more leaves the gradients good to the square of the iteration's rate, about 1e-4: enough for a step
         let control = Control { extra_iterations: 1, tolerance: 1e-5, ..self.control };
         let found = self.whole.residuals(&springs(&duals), control);
-        let rows = found.iter().map(|r| row(r)).collect();
+        let rows = found.iter().map(row).collect();
         (found.iter().map(|r| r.re).collect(), rows)
     }
 

@@ -116,7 +116,7 @@ impl Geometry {
     }
 
     /// Whether gravity has no part in a landing to speak of: Omega_n v_n/g for a fall from alpha, (m R^2/I0) 2 alpha^2 Omega_n/p,
-    /// is at least [`STIFF_LIMIT`].
+    /// is at least 100.
     pub fn in_stiff_limit(&self) -> bool {
         2.0 * self.mass_share * self.alpha.powi(2) * self.stiffness >= STIFF_LIMIT
     }

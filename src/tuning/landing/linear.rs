@@ -23,7 +23,7 @@ pub(super) fn exponential<S: Scalar, const N: usize>(a: &Matrix<S, N>, t: S) -> 
     let mut sum = identity();
     for k in (1..=TERMS).rev() {
         let mut next = product(&scaled, &sum);
-        next.iter_mut().flatten().for_each(|x| *x = *x / k as f64);
+        next.iter_mut().flatten().for_each(|x| *x /= k as f64);
         (0..N).for_each(|i| next[i][i] += 1.0);
         sum = next;
     }
