@@ -154,6 +154,7 @@ impl<'a, S: Scalar> Run<'a, S> {
             }
             let met = self.met(stages);
             let (located, tau) = match met {
+                Met::Unresolved => (None, 0.5),
                 Met::Nothing => (Some(false), 1.0),
                 Met::Crossing { foot, level, tau } => (self.locate(foot, level, stages, tau, &here), tau),
                 Met::Grip { foot, tau } => (self.locate_grip(foot, tau, stages, &here).then_some(true), tau),

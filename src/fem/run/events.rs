@@ -90,6 +90,8 @@ pub(super) enum Met {
         foot: usize,
         tau: f64,
     },
+    /// What it met is not told: the step is too long.
+    Unresolved,
 }
 
 impl<S: Scalar> Run<'_, S> {
@@ -138,7 +140,8 @@ impl<S: Scalar> Run<'_, S> {
                 let between = self.dip(foot, sign, level, stages, &inside, past.map_or(1.0, |k| NODES[k - 1]));
                 let Some(high) = between.or(high) else { continue };
                 let k = NODES.iter().rposition(|&node| node < high.0).unwrap_or(0);
-                let tau = self.first_zero(foot, sign, level, stages, (NODES[k], inside[k].max(0.0)), high);
+                let low = (NODES[k], inside[k].max(0.0));
+                let Some(tau) = self.first_zero(foot, sign, level, stages, low, high) else { return Met::Unresolved };
                 if tau < earliest {
                     earliest = tau;
                     first = Met::Crossing { foot, level, tau };
@@ -178,7 +181,9 @@ impl<S: Scalar> Run<'_, S> {
         (value < -self.gap_tolerance()).then_some((tau, value))
     }
 
-    /// Where the compression passes `level` on the collocation polynomial, between two bracketing points (Illinois).
+    /// Where the compression passes `level` on the collocation polynomial, between two bracketing points (Illinois). `None` if
+    /// the polynomial leaves at once where the foot itself moves in: it need not begin with the state's velocity, and does not
+    /// in a step too long for the springs.
     fn first_zero(
         &self,
         foot: usize,
@@ -187,7 +192,7 @@ impl<S: Scalar> Run<'_, S> {
         stages: &Stages<S>,
         mut low: (f64, f64),
         mut high: (f64, f64),
-    ) -> f64 {
+    ) -> Option<f64> {
         let value = |tau: f64| {
             let q = stages.position(&self.state, tau);
             (self.model.compression(foot, &q, &self.feet[foot]).re() - level) * sign
@@ -197,7 +202,13 @@ impl<S: Scalar> Run<'_, S> {
         if low.1 <= edge {
             let inner =
                 (1..MOST_HALVED).map(|k| low.0 + (high.0 - low.0) * 0.5_f64.powi(k)).find(|&tau| value(tau) > edge);
-            low = inner.map_or(low, |tau| (tau, value(tau)));
+            match inner {
+                Some(tau) => low = (tau, value(tau)),
+                None if low.0 == 0.0 && self.moves_in(foot, sign) * stages.h.re() > self.gap_tolerance() => {
+                    return None;
+                }
+                None => {}
+            }
         }
         let mut side = 0;
         for _ in 0..60 {
@@ -207,7 +218,7 @@ impl<S: Scalar> Run<'_, S> {
             }
             let d = value(tau);
             if d.abs() < edge {
-                return tau;
+                return Some(tau);
             }
             if d > 0.0 {
                 low = (tau, d);
@@ -223,7 +234,12 @@ impl<S: Scalar> Run<'_, S> {
                 side = -1;
             }
         }
-        low.0.max(1e-9)
+        Some(low.0.max(1e-9))
+    }
+
+    /// Speed at which a foot moves off the edge of its limit, into it [m/s].
+    fn moves_in(&self, foot: usize, sign: f64) -> f64 {
+        sign * self.model.compression_rate(foot, &self.state, &self.feet[foot]).re()
     }
 
     /// Repeat the step so that it ends where the foot's compression passes `level`. Whether it passes there: if the polynomial
