@@ -4,6 +4,7 @@
 mod account;
 mod events;
 mod grip;
+mod met;
 mod rest;
 
 use std::f64::consts::FRAC_PI_2;
@@ -16,7 +17,7 @@ use super::{
     step::{Ground, Request, Stages, Stepper, no_guess},
 };
 use crate::scalar::{GRAVITY, Scalar, real};
-use events::Met;
+use met::Met;
 
 /// A history in the making.
 pub(crate) struct Run<'a, S> {
