@@ -3,6 +3,7 @@
 //! | file | what |
 //! |---|---|
 //! | `model`, `balance`, `strut` | coordinates, kinematics, contact forces, energies; the rotation that has no inertia, on both feet and on one |
+//! | `stance` | where it stands at first |
 //! | `radau`, `newton`, `step` | one implicit step: tables, condensed matrix, iteration |
 //! | `run` | the time loop: samples; in `run/`, contact events and step acceptance |
 //! | `control`, `energy`, `observer` | what a run is told, accounts for and shows |
@@ -36,6 +37,7 @@ mod observer;
 mod radau;
 mod run;
 mod slipping;
+mod stance;
 mod step;
 mod strut;
 

@@ -4,6 +4,7 @@
 mod account;
 mod events;
 mod grip;
+mod met;
 mod rest;
 
 use std::f64::consts::FRAC_PI_2;
@@ -16,7 +17,7 @@ use super::{
     step::{Ground, Request, Stages, Stepper, no_guess},
 };
 use crate::scalar::{GRAVITY, Scalar, real};
-use events::Met;
+use met::Met;
 
 /// A history in the making.
 pub(crate) struct Run<'a, S> {
@@ -154,6 +155,7 @@ impl<'a, S: Scalar> Run<'a, S> {
             }
             let met = self.met(stages);
             let (located, tau) = match met {
+                Met::Unresolved => (None, 0.5),
                 Met::Nothing => (Some(false), 1.0),
                 Met::Crossing { foot, level, tau } => (self.locate(foot, level, stages, tau, &here), tau),
                 Met::Grip { foot, tau } => (self.locate_grip(foot, tau, stages, &here).then_some(true), tau),

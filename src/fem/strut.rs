@@ -84,10 +84,10 @@ mod tests {
         let model = model::<f64>();
         let feet = [Foot { contact: Contact::Open, anchor: 0.0 }; 2];
         let (forces, masses) = (model.forces(&Q, &V, &feet, 0.0), model.masses(&feet));
-        for i in 0..2 {
+        for (i, foot) in feet.iter().enumerate() {
             let moving = |t: f64| {
                 let q = std::array::from_fn(|k| Q[k] + V[k] * t + 0.5 * forces[k] / masses[k] * t * t);
-                model.compression(i, &q, &feet[i])
+                model.compression(i, &q, foot)
             };
             let t = 1e-4;
             let second = (moving(t) - 2.0 * moving(0.0) + moving(-t)) / (t * t);

@@ -56,8 +56,7 @@ fn bisect(mut yes: f64, mut no: f64, passes: impl Fn(f64) -> bool) -> (f64, f64)
 }
 
 /// A falling body is caught by the ground just as its foot comes down: between a push that still lets the foot touch and the
-/// next number, that does not, lies a touch-down at zero velocity. A touch that is over between two stages of a step is not
-/// seen, so what it does must vanish with the step.
+/// next number, that does not, lies a touch-down at zero velocity. What it does must vanish with the step.
 #[test]
 fn a_touch_down_at_zero_velocity_is_the_same_as_none() {
     let lean = 0.3 * block().body::<f64>().alpha();
