@@ -42,6 +42,8 @@ use crate::{
 const K_SCALE: f64 = 0.9;
 /// The K that ever softer springs tend to.
 const K_LARGEST: f64 = 0.5;
+/// Least K: below it no damping lets the absorber come back within the time that a landing is followed.
+const K_LEAST: f64 = 0.003;
 /// Least K for which mu_u is sought: below it the rebound vanishes along a line of mu and C, and mu_u stays what it is here.
 const K_FLAT: f64 = 0.02;
 /// Omega_n v_n/g from which on the stiff limit holds.
@@ -124,7 +126,7 @@ impl Geometry {
     /// Stiffness ratio K = k2/k1 of the vertical units.
     pub fn k(&self) -> f64 {
         let k = K_SCALE * (self.alpha.powi(3) * self.stiffness).powf(-2.0 / 3.0);
-        k / (1.0 + k / K_LARGEST)
+        (k / (1.0 + k / K_LARGEST)).max(K_LEAST)
     }
 
     /// The springs, their frequencies relative to the vertical Omega_n.
