@@ -150,31 +150,26 @@ fn block_of_2_m() -> Structure {
 }
 
 #[test]
-#[ignore = "soft springs ring between events; OpenSees follows them in small steps only, for minutes: run by hand"]
 fn the_paper_frame_on_table_1_springs_agrees() {
     agrees(&programs(), Structure::paper(), table_1());
 }
 
 #[test]
-#[ignore = "soft springs ring between events; OpenSees follows them in small steps only, for minutes: run by hand"]
 fn the_paper_frame_on_its_springs_of_40_hz_agrees() {
     tuned_agrees(Structure::paper(), Objective::Landing, 40.0);
 }
 
 #[test]
-#[ignore = "soft springs ring between events; OpenSees follows them in small steps only, for minutes: run by hand"]
 fn the_paper_frame_on_its_springs_of_160_hz_agrees() {
     tuned_agrees(Structure::paper(), Objective::Landing, 160.0);
 }
 
 #[test]
-#[ignore = "soft springs ring between events; OpenSees follows them in small steps only, for minutes: run by hand"]
 fn the_paper_frame_on_springs_of_40_hz_by_the_papers_procedure_agrees() {
     tuned_agrees(Structure::paper(), Objective::Arr, 40.0);
 }
 
 #[test]
-#[ignore = "soft springs ring between events; OpenSees follows them in small steps only, for minutes: run by hand"]
 fn the_paper_frame_on_springs_of_160_hz_by_the_papers_procedure_agrees() {
     tuned_agrees(Structure::paper(), Objective::Arr, 160.0);
 }

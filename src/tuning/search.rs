@@ -61,7 +61,7 @@ pub(super) fn search(
             .tol_stagnation(PATIENCE)
             .seed(random.random())
             .build(|z: &DVector<f64>| bounded(z.as_slice()));
-        // the options are constants that are in order
+        // the options are constants, and valid
         let mut walk = walk.ok()?;
         let end = walk.run_parallel().overall_best?;
         done += walk.function_evals();
