@@ -7,9 +7,9 @@ Centro. The largest difference of theta must be below 1e-12 rad, and the impacts
 import csv, io, subprocess, sys, tempfile
 
 tune, quad, record = sys.argv[1:]
-ours = subprocess.run([tune, "housner", "--record", record], check=True, capture_output=True, text=True).stdout
+ours = subprocess.run([tune, "housner", "--record", record, "--duration", "20"], check=True, capture_output=True, text=True).stdout
 ours = [float(row["th"]) for row in csv.DictReader(io.StringIO(ours))]
-count = subprocess.run([tune, "housner", "--record", record, "--impacts"], check=True, capture_output=True, text=True)
+count = subprocess.run([tune, "housner", "--record", record, "--duration", "20", "--impacts"], check=True, capture_output=True, text=True)
 count = len(count.stdout.splitlines()) - 1
 with tempfile.NamedTemporaryFile("w", suffix=".txt") as f:
     f.write("\n".join(w for line in open(record).read().splitlines()[4:] for w in line.split()))
