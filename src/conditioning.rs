@@ -90,6 +90,28 @@ impl Conditioning {
     }
 }
 
+/// How far one relative change of the width moves a history, as in [`Changes`]; `rocking` is the unchanged one. Much cheaper than
+/// all that [`Conditioning`] says, and enough to pass over most histories that are ill-conditioned.
+pub fn moved_by_width(
+    body: &Body<f64>,
+    dt: f64,
+    accel: &[f64],
+    options: &Options<f64>,
+    rocking: &Rocking<f64>,
+    change: f64,
+) -> f64 {
+    let changed = Body { half_width: body.half_width * (1.0 + change), ..*body };
+    let other = solve(&changed, dt, accel, options);
+    let u = rocking.motion(body).u;
+    let until = [rocking, &other].into_iter().filter_map(Rocking::overturned).reduce(f64::min);
+    moved(&other.motion(&changed).u, &u[..samples_until(until, dt).min(u.len())])
+}
+
+/// NRMSE of a changed history; of a body that only the change lifts, all of its motion is moved.
+fn moved(changed: &[f64], u: &[f64]) -> f64 {
+    Some(nrmse(changed, u)).filter(|x| x.is_finite()).unwrap_or(1.0)
+}
+
 /// Twelve histories beside the unchanged one, all in lock-step.
 pub fn changes(body: &Body<f64>, dt: f64, accel: &[f64], options: &Options<f64>) -> Changes {
     let restitution = options.restitution.unwrap_or_else(|| body.restitution());
@@ -102,15 +124,14 @@ pub fn changes(body: &Body<f64>, dt: f64, accel: &[f64], options: &Options<f64>)
     let histories = solve_lanes(&bodies, dt, accel, &all);
     let displacements = |i: usize| histories[i].motion(&bodies[i]).u;
     let u = displacements(0);
-    let moved = |i: usize| {
+    let moved_by = |i: usize| {
         let until = [&histories[0], &histories[i]].into_iter().filter_map(Rocking::overturned).reduce(f64::min);
         let samples = samples_until(until, dt).min(u.len());
-        // a body that only the change lifts: all of its motion is moved
-        Some(nrmse(&displacements(i), &u[..samples])).filter(|x| x.is_finite()).unwrap_or(1.0)
+        moved(&displacements(i), &u[..samples])
     };
     let overturns = |rocking: &Rocking<f64>| matches!(rocking.outcome, Outcome::Overturned { .. });
     // history 1 + 6 k + 3 j + what: size k, sign j
-    let largest = |what: usize| [0, 1].map(|k| f64::max(moved(1 + 6 * k + what), moved(4 + 6 * k + what)));
+    let largest = |what: usize| [0, 1].map(|k| f64::max(moved_by(1 + 6 * k + what), moved_by(4 + 6 * k + what)));
     Changes {
         width: largest(0),
         scale: largest(1),

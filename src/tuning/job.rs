@@ -104,7 +104,7 @@ impl Job {
                 let (tuned, capped) = design.tune(progress)?;
                 let hz = tuned.best.springs.vertical.omega_n_hz;
                 // on an ill-conditioned record it would tune to noise
-                let paper = if suites.has_record() { procedure.at(hz, progress) } else { None };
+                let paper = if suites.has_record() { procedure.beside(hz, progress) } else { None };
                 (tuned, capped, paper)
             }
             Objective::Arr if !lifted => {
@@ -265,10 +265,25 @@ impl<'a> Procedure<'a> {
 
     /// Springs up to this Omega_n [Hz], whatever they settle.
     fn at(&self, max_hz: f64, progress: &(dyn Fn(usize, usize, f64) + Sync)) -> Option<outer::Tuned> {
+        self.sampled(max_hz, self.case.tuning.candidates, progress)
+    }
+
+    /// The same to compare with, at the Omega_n [Hz] of stiff springs: sampled at each pair's stiffest only, which is where the best
+    /// ones are refined from there.
+    fn beside(&self, max_hz: f64, progress: &(dyn Fn(usize, usize, f64) + Sync)) -> Option<outer::Tuned> {
+        self.sampled(max_hz, 0, progress)
+    }
+
+    fn sampled(
+        &self,
+        max_hz: f64,
+        candidates: usize,
+        progress: &(dyn Fn(usize, usize, f64) + Sync),
+    ) -> Option<outer::Tuned> {
         let bracket = Bracket { max_hz, max_settlement: self.case.tuning.max_settlement_m };
         let least = self.least_settlement(&bracket);
         let bracket = Bracket { max_settlement: bracket.max_settlement.max(least), ..bracket };
-        outer::tune(self.benchmark, &self.vertical, &self.horizontal, bracket, self.case.tuning.candidates, progress)
+        outer::tune(self.benchmark, &self.vertical, &self.horizontal, bracket, candidates, progress)
     }
 
     fn least_settlement(&self, bracket: &Bracket) -> f64 {

@@ -7,9 +7,9 @@ use rayon::prelude::*;
 use serde::{Deserialize, Serialize};
 
 use crate::{
-    conditioning::{ILL_CONDITIONED, Sensitivity, changes, sensitivity},
+    conditioning::{CHANGES, ILL_CONDITIONED, changes, moved_by_width, sensitivity},
     fem::{Case, Control, Outcome, Start},
-    housner::{self, Options},
+    housner::{self, Options, Rocking},
     record::Record,
     spring::{Chain, Springs},
     structure::Body,
@@ -22,11 +22,14 @@ const SYNTHETIC: usize = 24;
 const EARTHQUAKES: usize = 16;
 /// Motions of each suite that are looked at for them, so many at a time.
 const LOOKED_AT: usize = 160;
-const AT_A_TIME: usize = 16;
+const AT_A_TIME: usize = 8;
 /// Seed of both: not one that `tune validate` takes by itself.
 const SEED: u64 = 1940;
 /// Sensitivity of Housner's answer below which earthquake-like motions count in their geometric mean.
 pub const PREDICTABLE: f64 = 150.0;
+/// A relative change of the width that must not move a predictable history by more than so many times what its sensitivity may.
+const SMALL_CHANGE: f64 = 1e-6;
+const BELIED: f64 = 4.0;
 
 /// A motion and Housner's answer to it.
 #[derive(Clone, Debug)]
@@ -37,24 +40,40 @@ pub struct Trial {
     theta: Vec<f64>,
 }
 
+/// What a motion must be like to be judged on.
+#[derive(Clone, Copy, Debug, PartialEq)]
+enum Wanted {
+    /// Well conditioned, by the derivative and by finite changes.
+    WellConditioned,
+    /// Of a sensitivity below [`PREDICTABLE`], which a small finite change does not belie.
+    Predictable,
+}
+
+impl Wanted {
+    /// Whether Housner's history `rocking` is so; the cheapest grounds to refuse it first.
+    fn holds(self, body: &Body<f64>, record: &Record, options: &Options<f64>, rocking: &Rocking<f64>) -> bool {
+        let Record { dt, ref accel, .. } = *record;
+        let by_width = |change: f64| moved_by_width(body, dt, accel, options, rocking, change) / change;
+        let worst = || sensitivity(body, dt, accel, options).worst();
+        match self {
+            Self::WellConditioned => {
+                by_width(CHANGES[1]) < ILL_CONDITIONED
+                    && worst() < ILL_CONDITIONED
+                    && changes(body, dt, accel, options).proportionate()
+            }
+            Self::Predictable => by_width(SMALL_CHANGE) < BELIED * PREDICTABLE && worst() < PREDICTABLE,
+        }
+    }
+}
+
 impl Trial {
-    /// The motion, if Housner's body rocks on it without overturning and `pick` likes how sensitive its history is; and if
-    /// finite changes confirm that, where they shall.
-    fn new(
-        body: &Body<f64>,
-        restitution: f64,
-        record: Record,
-        pick: impl Fn(&Sensitivity) -> bool,
-        confirmed: bool,
-    ) -> Option<Self> {
+    /// The motion, if Housner's body rocks on it without overturning and its history is as wanted.
+    fn new(body: &Body<f64>, restitution: f64, record: Record, wanted: Wanted) -> Option<Self> {
         let options = Options { restitution: Some(restitution), ..Options::default() };
-        let Record { dt, accel, .. } = record;
-        let rocking = housner::solve(body, dt, &accel, &options);
+        let rocking = housner::solve(body, record.dt, &record.accel, &options);
         let rocks = rocking.outcome == housner::Outcome::Rocked && !rocking.impacts.is_empty();
-        let fit = rocks
-            && pick(&sensitivity(body, dt, &accel, &options))
-            && (!confirmed || changes(body, dt, &accel, &options).proportionate());
-        fit.then_some(Self { dt, accel, theta: rocking.theta })
+        let fit = rocks && wanted.holds(body, &record, &options, &rocking);
+        fit.then(|| Self { dt: record.dt, accel: record.accel, theta: rocking.theta })
     }
 
     /// NRMSE of u and of v on these springs; infinite if the history does not get to the record's end.
@@ -106,14 +125,33 @@ pub const LOOSER: f64 = 5.0;
 impl Accuracy {
     /// The largest error, in units of what an accuracy allows: at most 1 if it is reached; 0 if nothing was measured.
     pub fn over(&self, accuracy: f64) -> f64 {
-        let all = [
-            self.record.map(|x| x / accuracy),
-            self.synthetic_median.map(|s| s.value / accuracy),
-            self.synthetic_p90.map(|s| s.value / (LOOSER * accuracy)),
-            self.earthquakes_mean.map(|s| s.value / (LOOSER * accuracy)),
-        ];
-        all.into_iter().flatten().fold(0.0, f64::max)
+        Suite::ALL.iter().filter_map(|suite| self.over_on(*suite, accuracy)).fold(0.0, f64::max)
     }
+
+    /// The same on one suite; `None` where it was not measured.
+    pub fn over_on(&self, suite: Suite, accuracy: f64) -> Option<f64> {
+        match suite {
+            Suite::Record => self.record.map(|x| x / accuracy),
+            Suite::Synthetic => {
+                let shares = [(self.synthetic_median, 1.0), (self.synthetic_p90, LOOSER)];
+                shares.into_iter().filter_map(|(s, looser)| s.map(|s| s.value / (looser * accuracy))).reduce(f64::max)
+            }
+            Suite::Earthquakes => self.earthquakes_mean.map(|s| s.value / (LOOSER * accuracy)),
+        }
+    }
+}
+
+/// What springs can be judged on.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Suite {
+    Record,
+    Synthetic,
+    Earthquakes,
+}
+
+impl Suite {
+    /// The cheapest first.
+    pub const ALL: [Self; 3] = [Self::Record, Self::Synthetic, Self::Earthquakes];
 }
 
 /// All motions that springs of a body are judged on.
@@ -129,9 +167,8 @@ impl Suites {
     /// Of a body that lands with velocity restitution `restitution`, with this record if there is one.
     pub fn new(body: &Body<f64>, restitution: f64, record: Option<&Record>) -> Self {
         let (p, alpha) = (body.p_squared().sqrt(), body.alpha());
-        let well = |record| Trial::new(body, restitution, record, |s: &Sensitivity| s.worst() < ILL_CONDITIONED, true);
-        let predictable =
-            |record| Trial::new(body, restitution, record, |s: &Sensitivity| s.worst() < PREDICTABLE, false);
+        let well = |record| Trial::new(body, restitution, record, Wanted::WellConditioned);
+        let predictable = |record| Trial::new(body, restitution, record, Wanted::Predictable);
         Self {
             body: *body,
             record: record.and_then(|record| well(record.clone())),
@@ -147,19 +184,32 @@ impl Suites {
 
     /// The error of springs on every suite.
     pub fn accuracy(&self, springs: &Springs<Chain<f64>>, control: Control) -> Accuracy {
-        let all: Vec<&Trial> = self.record.iter().chain(&self.synthetic).chain(&self.earthquakes).collect();
-        let errors: Vec<(f64, f64)> =
-            all.par_iter().with_max_len(1).map(|trial| trial.errors(&self.body, springs, control)).collect();
-        let (record, rest) = errors.split_at(usize::from(self.record.is_some()));
-        let (synthetic, earthquakes) = rest.split_at(self.synthetic.len());
-        let mut sorted: Vec<f64> = synthetic.iter().map(|e| e.0).collect();
-        sorted.sort_by(f64::total_cmp);
+        let mut accuracy = Accuracy::default();
+        Suite::ALL.iter().for_each(|suite| self.measure(*suite, springs, control, &mut accuracy));
+        accuracy
+    }
+
+    /// Add the error of springs on one suite to what was measured.
+    pub fn measure(&self, suite: Suite, springs: &Springs<Chain<f64>>, control: Control, accuracy: &mut Accuracy) {
+        let errors = |trials: &[Trial]| -> Vec<(f64, f64)> {
+            trials.par_iter().with_max_len(1).map(|trial| trial.errors(&self.body, springs, control)).collect()
+        };
         let statistic = |value: Option<f64>, count| value.map(|value| Statistic { value, count });
-        Accuracy {
-            record: record.first().map(|(u, v)| u.max(*v)),
-            synthetic_median: statistic(quantile(&sorted, 0.5), sorted.len()),
-            synthetic_p90: statistic(quantile(&sorted, 0.9), sorted.len()),
-            earthquakes_mean: statistic(geometric_mean(earthquakes.iter().map(|e| e.0)), earthquakes.len()),
+        match suite {
+            Suite::Record => {
+                let errors = self.record.as_ref().map(|trial| trial.errors(&self.body, springs, control));
+                accuracy.record = errors.map(|(u, v)| u.max(v));
+            }
+            Suite::Synthetic => {
+                let mut sorted: Vec<f64> = errors(&self.synthetic).iter().map(|e| e.0).collect();
+                sorted.sort_by(f64::total_cmp);
+                accuracy.synthetic_median = statistic(quantile(&sorted, 0.5), sorted.len());
+                accuracy.synthetic_p90 = statistic(quantile(&sorted, 0.9), sorted.len());
+            }
+            Suite::Earthquakes => {
+                let errors = errors(&self.earthquakes);
+                accuracy.earthquakes_mean = statistic(geometric_mean(errors.iter().map(|e| e.0)), errors.len());
+            }
         }
     }
 
@@ -191,11 +241,11 @@ fn geometric_mean(errors: impl ExactSizeIterator<Item = f64>) -> Option<f64> {
 /// The first `count` motions of a suite that `pick` finds fit; fewer if the suite has no more.
 fn first(count: usize, pick: impl Fn(usize) -> Option<Trial> + Sync) -> Vec<Trial> {
     let mut trials: Vec<Trial> = Vec::new();
-    for begin in (0..LOOKED_AT).step_by(AT_A_TIME) {
-        trials.par_extend((begin..begin + AT_A_TIME).into_par_iter().filter_map(&pick));
-        if trials.len() >= count {
-            break;
-        }
+    let mut begin = 0;
+    while trials.len() < count && begin < LOOKED_AT {
+        let end = (begin + (count - trials.len()).max(AT_A_TIME)).min(LOOKED_AT);
+        trials.par_extend((begin..end).into_par_iter().with_max_len(1).filter_map(&pick));
+        begin = end;
     }
     trials.truncate(count);
     trials
