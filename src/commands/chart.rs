@@ -28,7 +28,7 @@ pub struct Options {
 
 /// m R^2/I0 of an A-frame with all mass at its apex and of a solid block.
 const KINDS: [(&str, f64); 2] = [("aframe", 1.0), ("block", 0.75)];
-/// Omega_n/p of the chart: a decade in ten steps.
+/// Omega_n/p of the chart, a decade in ten steps: from where landings hold.
 const DECADES: (i32, i32) = (30, 60);
 
 /// One row of the chart.
@@ -45,7 +45,10 @@ pub fn run(o: &Options) -> Result<(), CommandError> {
     for (kind, (_, share)) in KINDS.into_iter().enumerate() {
         for &alpha in &o.alpha {
             for i in DECADES.0..=DECADES.1 {
-                all.push((kind, Geometry::new(alpha, share, 10f64.powf(f64::from(i) / 10.0))?));
+                let geometry = Geometry::new(alpha, share, 10f64.powf(f64::from(i) / 10.0))?;
+                if geometry.landings_hold() {
+                    all.push((kind, geometry));
+                }
             }
         }
     }
