@@ -115,3 +115,20 @@ fn a_body_that_overturns_is_compared_up_to_there() {
     );
     assert!(!said.contains("inf") && !said.contains("NaN"), "{said}");
 }
+
+#[test]
+fn springs_are_made_without_a_record_and_are_those_that_a_record_too_weak_to_lift_gives() {
+    let dir = folder();
+    let run = tune(dir.path(), &["run", "--no-record", "--quiet", "--out", "none"]);
+    assert!(stderr(&run).contains("no record"), "{}", stderr(&run));
+    let weak = ["run", "--scale", "0.1", "--quiet", "--no-figures", "--no-front", "--out", "weak"];
+    let output = tune(dir.path(), &weak);
+    assert!(String::from_utf8_lossy(&output.stdout).contains("never lifted"), "{output:?}");
+    let read = |folder: &str| json(&fs::read(dir.path().join(folder).join("parameters.json")).unwrap());
+    let (none, weak) = (read("none"), read("weak"));
+    for key in ["vertical", "horizontal", "assessment", "landings"] {
+        assert_eq!(none[key], weak[key], "{key}");
+    }
+    assert!(none.get("record").is_none() && none.get("match").is_none());
+    assert!(none["assessment"]["reached"].as_bool().unwrap());
+}

@@ -16,6 +16,7 @@ use super::{
 };
 use crate::{
     case::{ACCURACY, Case, Objective},
+    excitation::Excitation,
     export::{Expected, with_inertia},
     members::Members,
     parameters::{PaperProcedure, Parameters, RecordRow},
@@ -31,6 +32,9 @@ pub struct Options {
     case: Option<PathBuf>,
     #[command(flatten)]
     record: RecordOptions,
+    /// Springs from the geometry and the synthetic motions alone: no history, no decks
+    #[arg(long, conflicts_with_all = ["record", "dt", "units", "component", "baseline", "scale", "duration"])]
+    no_record: bool,
     #[command(flatten)]
     ground: Ground,
     /// Stiffest springs allowed, Omega_n / 2 pi, for programs with fixed time steps [default: none, or the case's]
@@ -61,7 +65,15 @@ pub fn run(o: &Options) -> Result<(), CommandError> {
         Some(path) => Case::read(path)?,
         None => Case::paper()?,
     };
-    case.set_excitation(o.record.excitation(|| common::of_case(&case))?)?;
+    if o.no_record {
+        if case.tuning.objective == Objective::Arr {
+            let remedy = "the paper's procedure tunes on a record; leave one of the two out";
+            return Err(CommandError::Option { option: "no-record", value: "objective = \"arr\"".into(), remedy });
+        }
+        case.set_excitation(Excitation::whole(Record::new("none", 0.01, vec![0.0; 2])?))?;
+    } else {
+        case.set_excitation(o.record.excitation(|| common::of_case(&case))?)?;
+    }
     if let Some(hz) = o.max_hz {
         if !(0.1..=1e6).contains(&hz) {
             return Err(CommandError::Option {
@@ -87,7 +99,7 @@ pub fn run(o: &Options) -> Result<(), CommandError> {
     let job = Job::new(&case, &|done, all, error| progress.tell(done, all, &format!("error {error:.2e}")));
     progress.done();
     let job = job?;
-    let front = if o.no_front {
+    let front = if o.no_front || o.no_record {
         Vec::new()
     } else {
         let progress = Progress::new("front", o.quiet);
@@ -97,11 +109,15 @@ pub fn run(o: &Options) -> Result<(), CommandError> {
     };
 
     let mut parameters = Parameters::new(case.structure, &job.springs).with_members(case.members);
-    let both = common::both(&job.body, case.restitution, &parameters.chains(), &case.members, &job.record);
     if case.restitution != job.body.restitution() {
         parameters.restitution = Some(case.restitution);
     }
     parameters.landings = landings(&job.body, &parameters.chains(), case.restitution);
+    parameters.assessment = Some(Assessment::new(&job, case.tuning.objective, case.tuning.accuracy));
+    if o.no_record {
+        return springs_alone(o, &parameters, &front);
+    }
+    let both = common::both(&job.body, case.restitution, &parameters.chains(), &case.members, &job.record);
     parameters.record = Some(RecordRow::new(&case.excitation, &job.record, &o.out));
     parameters.matched = Some(both.matched);
     parameters.match_with_members = both.with.as_ref().map(|with| with.matched);
@@ -122,11 +138,9 @@ pub fn run(o: &Options) -> Result<(), CommandError> {
     let report = Report::new(&job.body, case.restitution, &job.record, &both.rocking, friction);
     parameters.conditioning = Some(report.conditioning.into());
     parameters.verdict = Some(both.verdict(&job.body, job.record.dt, &report.conditioning));
-    parameters.assessment = Some(Assessment::new(&job, case.tuning.objective, case.tuning.accuracy));
     let dt = job.record.dt;
 
-    let write = |e| CommandError::Write { path: o.out.display().to_string(), source: e };
-    std::fs::create_dir_all(&o.out).map_err(write)?;
+    make_folder(o)?;
     write_file(&o.out.join("parameters.json"), parameters.to_json().as_bytes())?;
     let forces = members::markdown(&both.demands, both.with.as_ref());
     let tables = table::markdown(&parameters) + &forces + &table::front(&front);
@@ -146,6 +160,24 @@ pub fn run(o: &Options) -> Result<(), CommandError> {
     let springs = table::terminal(&parameters);
     write!(std::io::stdout(), "{springs}\n{forces}{}\n{}\n", table::front_terminal(&front), said.join("\n"))?;
     eprintln!("{}\nwritten to {}", case.excitation.line(), o.out.display());
+    Ok(())
+}
+
+fn make_folder(o: &Options) -> Result<(), CommandError> {
+    let write = |e| CommandError::Write { path: o.out.display().to_string(), source: e };
+    std::fs::create_dir_all(&o.out).map_err(write)
+}
+
+/// What there is without a record: the springs, what they were judged on, the front.
+fn springs_alone(o: &Options, parameters: &Parameters, points: &[front::Point]) -> Result<(), CommandError> {
+    make_folder(o)?;
+    write_file(&o.out.join("parameters.json"), parameters.to_json().as_bytes())?;
+    write_file(&o.out.join("parameters.md"), (table::markdown(parameters) + &table::front(points)).as_bytes())?;
+    let mut said = table::said(parameters);
+    said.extend(springs_said(parameters));
+    let springs = table::terminal(parameters);
+    write!(std::io::stdout(), "{springs}\n{}\n{}\n", table::front_terminal(points), said.join("\n"))?;
+    eprintln!("no record: give one to tune simulate, verify and export\nwritten to {}", o.out.display());
     Ok(())
 }
 
