@@ -43,7 +43,7 @@ fn suite(structure: &Structure, springs: Springs<Chain<f64>>, n: usize) -> Vec<(
     let body = structure.body::<f64>();
     let records = synthetic::suite(n, 1, body.p_squared().sqrt(), body.alpha());
     let run = |record: groundspring::record::Record| {
-        let control = Control { most_steps: 500_000, trailing: true, ..Control::default() };
+        let control = Control { most_steps: 500_000, ..Control::default() };
         let (dt, accel) = (record.dt, &record.accel[..]);
         let history = Case { body, springs, start: Start::Settled, dt, accel, scale: 1.0, control }.simulate();
         let rocking = housner::solve(&body, dt, accel, &Options::default());
