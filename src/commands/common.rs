@@ -160,7 +160,7 @@ impl Both {
         })
     }
 
-    /// What to say of histories that overturned, or ended before the record did.
+    /// What to say of histories that overturned, ended before the record did, or took steps that broke their bounds.
     pub fn early(&self) -> Vec<String> {
         let said = |name: &str, history: &fem::History| {
             let (time, why) = match history.outcome {
@@ -179,8 +179,16 @@ impl Both {
             Some(format!("{name} ends at t = {time:.3} s: {why}; both are compared up to there"))
         };
         let overturned = self.overturned();
-        let with = self.with.as_ref().and_then(|with| said("finite element history with members", &with.history));
-        overturned.into_iter().chain(said("finite element history", &self.fem)).chain(with).collect()
+        let smallest = |name: &str, history: &fem::History| match history.work.smallest {
+            0 => None,
+            n => Some(format!("{name}: {n} steps were taken at the smallest size, whatever their error")),
+        };
+        let with = self.with.as_ref().map(|with| ("finite element history with members", &with.history));
+        let all = [("finite element history", &self.fem)].into_iter().chain(with);
+        overturned
+            .into_iter()
+            .chain(all.flat_map(|(name, history)| [said(name, history), smallest(name, history)]).flatten())
+            .collect()
     }
 }
 

@@ -11,6 +11,7 @@ use crate::{
     fem::{Case, Control, Outcome, Start},
     housner::{self, Options},
     record::Record,
+    regime,
     spring::{Chain, Springs},
     structure::Body,
     synthetic,
@@ -38,7 +39,7 @@ pub struct Trial {
 }
 
 impl Trial {
-    /// The motion, if Housner's body rocks on it without overturning and `pick` likes how sensitive its history is; and if
+    /// The motion, if Housner's body rocks on it without overturning and with a pivot that presses, and `pick` likes how sensitive its history is; and if
     /// finite changes confirm that, where they shall.
     fn new(
         body: &Body<f64>,
@@ -52,6 +53,7 @@ impl Trial {
         let rocking = housner::solve(body, dt, &accel, &options);
         let rocks = rocking.outcome == housner::Outcome::Rocked && !rocking.impacts.is_empty();
         let fit = rocks
+            && regime::pivot_pulls(body, dt, &accel, &rocking).is_none()
             && pick(&sensitivity(body, dt, &accel, &options))
             && (!confirmed || changes(body, dt, &accel, &options).proportionate());
         fit.then_some(Self { dt, accel, theta: rocking.theta })

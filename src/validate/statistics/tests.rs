@@ -22,6 +22,7 @@ fn row(peaks: (f64, Option<f64>), overturned: (bool, Option<bool>), sensitivity:
         moved_by_1_percent: 1e-2 * sensitivity,
         moved_by_0_1_percent_of_restitution: 1e-2,
         peak_ratio_housner_changed: peaks.0,
+        pivot_pulls_s: None,
     }
 }
 
