@@ -246,6 +246,19 @@ mod tests {
     use super::*;
 
     #[test]
+    fn steps_of_the_smallest_size_are_said_if_there_were_any() {
+        let structure = crate::structure::Structure::paper();
+        let chain = Chain { k1: 1e9, k2: 1e8, m2: 1e5, c: 1e6 };
+        let springs = Springs { vertical: chain, horizontal: chain };
+        let record = Record::new("still", 0.01, vec![0.0; 3]).unwrap();
+        let mut both = both(&structure.body(), 0.98, &springs, &Members::default(), &record);
+        assert_eq!((both.fem.work.smallest, both.early()), (0, Vec::new()));
+        both.fem.work.smallest = 3;
+        let said = "finite element history: 3 steps were taken at the smallest size, whatever their error";
+        assert_eq!(both.early(), [said]);
+    }
+
+    #[test]
     fn numbers_have_twelve_significant_digits() {
         assert_eq!(digits_12(0.401181622959), "0.401181622959");
         assert_eq!(digits_12(-12.5), "-12.5000000000");
