@@ -93,6 +93,12 @@ pub fn check(body: &Body<f64>, dt: f64, accel: &[f64], scale: f64, rocking: &Roc
     }
 }
 
+/// When the pivot would first have to hold the body down (s), if ever, up to its overturning; arguments as of [`check`]. The feet of a
+/// finite element model leave the ground there, as real ones do: Housner's equation says nothing of what follows.
+pub fn pivot_pulls(body: &Body<f64>, dt: f64, accel: &[f64], rocking: &Rocking<f64>) -> Option<f64> {
+    check(body, dt, accel, 1.0, rocking, f64::INFINITY).free_flight.map(|flight| flight.time)
+}
+
 /// The geometry, if it does not land without bouncing under a friction coefficient.
 pub fn stockiness(body: &Body<f64>, friction: f64) -> Option<Stocky> {
     let restitution = body.restitution();

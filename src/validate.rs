@@ -16,8 +16,9 @@
 //!   history ends with a body that would topple by Housner's equation if the ground stopped. How far it had fallen when
 //!   the record ended says nothing, so its peak is pi/2.
 //! - **Histories** can be compared one to one only where Housner's own answer is well conditioned, by its derivative and by finite
-//!   changes (`conditioning`): the quantiles of NRMSE are over such records that lift Housner's body and do not topple it. The geometric
-//!   mean is over the wider set with a sensitivity below 150. The other records count in the distance of the peaks and in the
+//!   changes (`conditioning`), and where his pivot never has to hold the body down: a foot that can only press lifts there, in any finite
+//!   element program and in reality (`regime`; a stocky body under more than g/tan(alpha)). The quantiles of NRMSE are over such records that
+//!   lift Housner's body and do not topple it. The geometric mean is over the wider set with a sensitivity below 150. The other records count in the distance of the peaks and in the
 //!   agreement on overturning. A body that topples on its springs alone counts with an NRMSE of 1 at least.
 //! - **What statistics can tell**: beside D stands the distance of Housner's peaks from his own with a restitution smaller by 1e-5.
 //! - **Suites** (files, motions made for the structure, motions like earthquakes) are judged together and apart.

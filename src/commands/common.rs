@@ -160,7 +160,7 @@ impl Both {
         })
     }
 
-    /// What to say of histories that overturned, or ended before the record did.
+    /// What to say of histories that overturned, ended before the record did, or took steps that broke their bounds.
     pub fn early(&self) -> Vec<String> {
         let said = |name: &str, history: &fem::History| {
             let (time, why) = match history.outcome {
@@ -179,8 +179,16 @@ impl Both {
             Some(format!("{name} ends at t = {time:.3} s: {why}; both are compared up to there"))
         };
         let overturned = self.overturned();
-        let with = self.with.as_ref().and_then(|with| said("finite element history with members", &with.history));
-        overturned.into_iter().chain(said("finite element history", &self.fem)).chain(with).collect()
+        let smallest = |name: &str, history: &fem::History| match history.work.smallest {
+            0 => None,
+            n => Some(format!("{name}: {n} steps were taken at the smallest size, whatever their error")),
+        };
+        let with = self.with.as_ref().map(|with| ("finite element history with members", &with.history));
+        let all = [("finite element history", &self.fem)].into_iter().chain(with);
+        overturned
+            .into_iter()
+            .chain(all.flat_map(|(name, history)| [said(name, history), smallest(name, history)]).flatten())
+            .collect()
     }
 }
 
@@ -236,6 +244,19 @@ fn digits_12(x: f64) -> String {
 #[cfg(test)]
 mod tests {
     use super::*;
+
+    #[test]
+    fn steps_of_the_smallest_size_are_said_if_there_were_any() {
+        let structure = crate::structure::Structure::paper();
+        let chain = Chain { k1: 1e9, k2: 1e8, m2: 1e5, c: 1e6 };
+        let springs = Springs { vertical: chain, horizontal: chain };
+        let record = Record::new("still", 0.01, vec![0.0; 3]).unwrap();
+        let mut both = both(&structure.body(), 0.98, &springs, &Members::default(), &record);
+        assert_eq!((both.fem.work.smallest, both.early()), (0, Vec::new()));
+        both.fem.work.smallest = 3;
+        let said = "finite element history: 3 steps were taken at the smallest size, whatever their error";
+        assert_eq!(both.early(), [said]);
+    }
 
     #[test]
     fn numbers_have_twelve_significant_digits() {

@@ -15,9 +15,6 @@ pub struct Control {
     pub skip_rest: bool,
     /// Solve nothing for an open foot's contact.
     pub skip_open: bool,
-    /// Let a lone foot that touches without force trail on the ground: stocky frames on very stiff springs then finish. Not by
-    /// default: when it holds again energy can be created, in one random case of ten thousand.
-    pub trailing: bool,
 }
 
 impl Control {
@@ -32,14 +29,7 @@ impl Default for Control {
     /// 20 s of El Centro, NRMSE of u against a tolerance of 1e-12: 2e-7 at most for the 61 m frame on springs of 160 Hz to 20 kHz, 5e-6
     /// for a block of alpha 0.24 (`tests/fem/accuracy.rs`).
     fn default() -> Self {
-        Self {
-            tolerance: 1e-8,
-            most_steps: 2_000_000,
-            extra_iterations: 0,
-            skip_rest: true,
-            skip_open: true,
-            trailing: false,
-        }
+        Self { tolerance: 1e-8, most_steps: 2_000_000, extra_iterations: 0, skip_rest: true, skip_open: true }
     }
 }
 

@@ -153,12 +153,20 @@ impl<'a, S: Scalar> Run<'a, S> {
                 self.refuse(h.re() * 0.25);
                 continue;
             }
-            let met = self.met(stages);
+            let mut met = self.met(stages);
+            if let Met::Grip { foot, tau } = met {
+                if !self.locate_grip(foot, tau, stages, &here) {
+                    self.refuse(h.re() * tau * 0.5);
+                    continue;
+                }
+                // where it changes was but estimated: a foot may touch or leave the ground before
+                met = self.crosses(stages).or(met);
+            }
             let (located, tau) = match met {
                 Met::Unresolved => (None, 0.5),
                 Met::Nothing => (Some(false), 1.0),
                 Met::Crossing { foot, level, tau } => (self.locate(foot, level, stages, tau, &here), tau),
-                Met::Grip { foot, tau } => (self.locate_grip(foot, tau, stages, &here).then_some(true), tau),
+                Met::Grip { .. } => (Some(true), 1.0),
             };
             let Some(changes) = located else {
                 // nearer to the event, the step that ends there is easier

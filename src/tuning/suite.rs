@@ -11,6 +11,7 @@ use crate::{
     fem::{Case, Control, Outcome, Start},
     housner::{self, Options, Rocking},
     record::Record,
+    regime,
     spring::{Chain, Springs},
     structure::Body,
     synthetic,
@@ -67,12 +68,13 @@ impl Wanted {
 }
 
 impl Trial {
-    /// The motion, if Housner's body rocks on it without overturning and its history is as wanted.
+    /// The motion, if Housner's body rocks on it without overturning, on a pivot that presses, and its history is as wanted.
     fn new(body: &Body<f64>, restitution: f64, record: Record, wanted: Wanted) -> Option<Self> {
         let options = Options { restitution: Some(restitution), ..Options::default() };
         let rocking = housner::solve(body, record.dt, &record.accel, &options);
         let rocks = rocking.outcome == housner::Outcome::Rocked && !rocking.impacts.is_empty();
-        let fit = rocks && wanted.holds(body, &record, &options, &rocking);
+        let presses = || regime::pivot_pulls(body, record.dt, &record.accel, &rocking).is_none();
+        let fit = rocks && presses() && wanted.holds(body, &record, &options, &rocking);
         fit.then(|| Self { dt: record.dt, accel: record.accel, theta: rocking.theta })
     }
 

@@ -9,6 +9,7 @@ use crate::{
     conditioning::Conditioning,
     fem, housner,
     record::{Record, Source},
+    regime,
 };
 
 /// Whether the two models could be compared.
@@ -87,6 +88,9 @@ pub struct Row {
     pub moved_by_0_1_percent_of_restitution: f64,
     /// As `peak_ratio_housner`, with a restitution smaller by 1e-5 of it.
     pub peak_ratio_housner_changed: f64,
+    /// When Housner's pivot would first have to hold the body down [s]; none if it presses throughout. A foot lifts there, and
+    /// rocking does not hold any more.
+    pub pivot_pulls_s: Option<f64>,
 }
 
 impl Row {
@@ -100,9 +104,10 @@ impl Row {
         self.rocked() && self.well_conditioned
     }
 
-    /// Whether Housner's body rocked without toppling.
+    /// Whether Housner's body rocked without toppling, and on a pivot that never had to pull.
     pub fn rocked(&self) -> bool {
-        matches!(self.outcome, Outcome::Rocked | Outcome::FemFailed) && !self.overturned_housner
+        let rocked = matches!(self.outcome, Outcome::Rocked | Outcome::FemFailed);
+        rocked && !self.overturned_housner && self.pivot_pulls_s.is_none()
     }
 
     /// The NRMSE of a row: at least 1 where one body topples and the other does not, however long they went together.
@@ -187,6 +192,7 @@ impl Judge {
             moved_by_1_percent: moved(1),
             moved_by_0_1_percent_of_restitution: changes.restitution[0],
             peak_ratio_housner_changed: peak_of(&housner::solve(body, dt, accel, &changed)),
+            pivot_pulls_s: regime::pivot_pulls(body, dt, accel, &rocking),
         }
     }
 }

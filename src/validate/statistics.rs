@@ -88,7 +88,7 @@ pub fn ks_distance(a: &[f64], b: &[f64]) -> f64 {
 pub const PREDICTABLE: f64 = 150.0;
 
 /// The geometric mean of the NRMSE of u over records with a sensitivity below [`PREDICTABLE`] that lift Housner's body
-/// and do not topple it.
+/// and neither topple it nor ask its pivot to pull.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize)]
 pub struct GeometricMean {
     /// How many such records the mean is over.
@@ -133,8 +133,10 @@ pub struct Summary {
     pub nrmse_geometric_mean: GeometricMean,
     /// Records that never lift Housner's body.
     pub never_lifted: usize,
-    /// Records whose histories cannot be compared one to one: toppled, or not well conditioned.
+    /// Records whose histories cannot be compared one to one: toppled, not well conditioned, or with a pivot that would have to pull.
     pub not_comparable: usize,
+    /// Records that do not topple Housner's body but ask his pivot to pull: free flight, where rocking does not hold.
+    pub pivot_pulls: usize,
     /// Names of the records in which a model failed.
     pub failed: Vec<String>,
     /// Largest energy residual of all finite element histories.
@@ -182,6 +184,7 @@ impl Summary {
             nrmse_geometric_mean: GeometricMean::new(records.iter().copied()),
             never_lifted,
             not_comparable: records.len() - comparable - never_lifted,
+            pivot_pulls: records.iter().filter(|row| row.pivot_pulls_s.is_some() && !row.overturned_housner).count(),
             failed: records.iter().filter(|row| row.failed()).map(|row| row.name.clone()).collect(),
             energy_residual_max: records.iter().map(|row| row.energy_residual).fold(0.0, f64::max),
         }

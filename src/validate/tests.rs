@@ -80,6 +80,21 @@ fn a_record_that_never_lifts_the_body_has_no_peak_and_no_error() {
     assert!(row.agrees() && !row.comparable());
 }
 
+/// The body leans to the right, its mass still left of the right foot, as the ground goes off to the right with 3 g. Beyond
+/// g/tan(0.6) = 1.46 g only a pivot that pulls could take the mass along.
+#[test]
+fn a_pivot_that_would_have_to_pull_is_told_and_its_history_not_compared() {
+    let judge = judge(&Structure::a_frame(20.0, 40.0 * 0.6f64.tan(), 1e5).unwrap());
+    let push = |samples: usize, g: f64| vec![g * 9.81; samples];
+    let accel = [push(20, -1.0), push(4, 3.0), push(200, 0.0)].concat();
+    let row = judge.judge(&Record::new("jerk", 0.01, accel).unwrap());
+    assert!(row.pivot_pulls_s.is_some_and(|time| (time - 0.20).abs() < 1e-9), "{row:?}");
+    assert!(!row.overturned_housner && !row.rocked() && !row.comparable(), "{row:?}");
+    let weaker = [push(20, -1.0), push(4, 1.0), push(200, 0.0)].concat();
+    let row = judge.judge(&Record::new("jerk", 0.01, weaker).unwrap());
+    assert!(row.pivot_pulls_s.is_none() && row.rocked(), "{row:?}");
+}
+
 #[test]
 fn a_history_that_meets_its_bound_on_work_is_listed_as_failed() {
     let mut judge = judge(&frame());

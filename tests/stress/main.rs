@@ -26,12 +26,15 @@ use rayon::prelude::*;
 /// that is under test, and springs of 2 kHz without damping do meet it.
 const MOST_STEPS: usize = 20_000;
 
+/// Seeds that once created energy: a foot passed the ground while the other one trailed.
+const ONCE_WRONG: [u64; 8] = [18_478, 25_387, 29_730, 53_921, 64_143, 70_467, 70_907, 92_058];
+
 /// Seeds asked for.
-fn seeds() -> std::ops::Range<u64> {
+fn seeds() -> Vec<u64> {
     let number = |name| std::env::var(name).ok().and_then(|text| text.parse().ok());
     match number("STRESS_SEED") {
-        Some(seed) => seed..seed + 1,
-        None => 0..number("STRESS").unwrap_or(2000),
+        Some(seed) => vec![seed],
+        None => (0..number("STRESS").unwrap_or(2000)).chain(ONCE_WRONG).collect(),
     }
 }
 

@@ -25,7 +25,7 @@ fn summary(v: &Validation) -> (Vec<String>, Vec<Vec<String>>) {
         0 => format!("{} of {}", number(m.mean), m.count),
         failed => format!("{} of {}, {failed} failed", number(m.mean), m.count),
     };
-    let lines: [Line; 13] = [
+    let lines: [Line; 14] = [
         ("records".into(), &|s| s.count.to_string()),
         ("KS distance of the peak rotations".into(), &|s| format!("{:.4}", s.ks_distance)),
         ("the same, Housner from himself with e changed by 1e-5".into(), &|s| {
@@ -39,7 +39,10 @@ fn summary(v: &Validation) -> (Vec<String>, Vec<Vec<String>>) {
         (format!("NRMSE horizontal: geometric mean, sensitivity below {PREDICTABLE}"), &|s| {
             mean(&s.nrmse_geometric_mean)
         }),
-        ("not compared one to one: toppled, or ill-conditioned".into(), &|s| s.not_comparable.to_string()),
+        ("not compared one to one: toppled, ill-conditioned, or in free flight".into(), &|s| {
+            s.not_comparable.to_string()
+        }),
+        ("in free flight: Housner's pivot would have to pull".into(), &|s| s.pivot_pulls.to_string()),
         ("never lifted".into(), &|s| s.never_lifted.to_string()),
         ("failed".into(), &|s| s.failed.len().to_string()),
         ("largest energy residual".into(), &|s| format!("{:.1e}", s.energy_residual_max)),

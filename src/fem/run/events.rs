@@ -54,7 +54,7 @@ impl<S: Scalar> Run<'_, S> {
     /// Whether this foot, touching the ground, trails on it rather than holds (`strut`).
     fn trails(&self, foot: usize) -> bool {
         let strut = self.model.strut(foot, &self.state);
-        self.control.trailing && self.model.is_strut() && !self.feet[1 - foot].closed() && strut.press <= 0.0
+        self.model.is_strut() && !self.feet[1 - foot].closed() && strut.press <= 0.0
     }
 
     fn on_legs(&self) -> bool {

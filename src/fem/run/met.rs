@@ -58,9 +58,26 @@ pub(super) enum Met {
     Unresolved,
 }
 
+impl Met {
+    /// This, or `other` where this is nothing.
+    pub(super) fn or(self, other: Self) -> Self {
+        if matches!(self, Self::Nothing) { other } else { self }
+    }
+}
+
 impl<S: Scalar> Run<'_, S> {
     /// Whether a foot's contact changes within the step, and where first.
     pub(super) fn met(&self, stages: &Stages<S>) -> Met {
+        match (self.crosses(stages), self.loses_grip(stages)) {
+            (Met::Unresolved, _) => Met::Unresolved,
+            (Met::Crossing { tau: crossing, .. }, Some((foot, tau))) if tau < crossing => Met::Grip { foot, tau },
+            (Met::Nothing, Some((foot, tau))) => Met::Grip { foot, tau },
+            (crossing, _) => crossing,
+        }
+    }
+
+    /// Whether a foot touches or leaves the ground, or begins to hold as it presses, and where first.
+    pub(super) fn crosses(&self, stages: &Stages<S>) -> Met {
         let mut first = Met::Nothing;
         let mut earliest = f64::INFINITY;
         let nodes = [&self.state.q, &stages.q[0], &stages.q[1], &stages.q[2]];
@@ -92,10 +109,7 @@ impl<S: Scalar> Run<'_, S> {
                 }
             }
         }
-        match self.loses_grip(stages) {
-            Some((foot, tau)) if tau < earliest => Met::Grip { foot, tau },
-            _ => first,
-        }
+        first
     }
 
     /// A passage over before the next node of the step: the point between two nodes, no later than `until`, at which the

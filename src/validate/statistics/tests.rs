@@ -22,11 +22,21 @@ fn row(peaks: (f64, Option<f64>), overturned: (bool, Option<bool>), sensitivity:
         moved_by_1_percent: 1e-2 * sensitivity,
         moved_by_0_1_percent_of_restitution: 1e-2,
         peak_ratio_housner_changed: peaks.0,
+        pivot_pulls_s: None,
     }
 }
 
 fn rocked(sensitivity: f64, error: f64) -> Row {
     row((0.5, Some(0.5)), (false, Some(false)), sensitivity, Some(error))
+}
+
+#[test]
+fn records_of_free_flight_are_counted_and_not_compared() {
+    let flight = Row { pivot_pulls_s: Some(1.0), ..rocked(1.0, 0.5) };
+    let all = Validation::new(vec![rocked(1.0, 0.1), flight, rocked(1.0, 0.1)]).all;
+    assert_eq!((all.pivot_pulls, all.not_comparable, all.nrmse_well_conditioned.count), (1, 1, 2));
+    assert_eq!(all.nrmse_geometric_mean.count, 2);
+    assert!(all.nrmse_well_conditioned.p90.is_some_and(|p90| (p90 - 0.1).abs() < 1e-15));
 }
 
 /// F_a steps by 1/4 at 1, 2, 3, 4; F_b by 1/5 at 2.5, 3.5, 3.6, 3.7, 5. At x = 2: 2/4 - 0 = 0.5; at 3: 3/4 - 1/5 = 0.55;
