@@ -37,6 +37,8 @@ pub(crate) struct Run<'a, S> {
     rounding: f64,
     /// Lean of balance [rad], the scale of a local error.
     alpha: f64,
+    /// What a step's local error may be, in that scale.
+    error: f64,
     /// 1/p [s], the time in which an error of the rate becomes one of the lean.
     moment: f64,
     guess: [Vector<S>; 3],
@@ -81,6 +83,7 @@ impl<'a, S: Scalar> Run<'a, S> {
             settling: (compression / GRAVITY).sqrt(),
             rounding: 8.0 * f64::EPSILON * model.body.radius().re(),
             alpha: model.body.alpha().re(),
+            error: account::allowed_error(control.tolerance),
             moment: model.body.p_squared().re().sqrt().recip(),
             guess: no_guess(),
             rate: 1.0,

@@ -74,7 +74,7 @@ impl Trial {
         let rocking = housner::solve(body, record.dt, &record.accel, &options);
         let rocks = rocking.outcome == housner::Outcome::Rocked && !rocking.impacts.is_empty();
         let presses = || regime::pivot_pulls(body, record.dt, &record.accel, &rocking).is_none();
-        let fit = rocks && presses() && wanted.holds(body, &record, &options, &rocking);
+        let fit = rocks && wanted.holds(body, &record, &options, &rocking) && presses();
         fit.then(|| Self { dt: record.dt, accel: record.accel, theta: rocking.theta })
     }
 

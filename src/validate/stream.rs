@@ -45,6 +45,8 @@ pub struct Stream<'a> {
     body: &'a Body<f64>,
     housner: &'a [f64],
     accel: &'a [f64],
+    /// Lean of balance [rad].
+    alpha: f64,
     /// Index and size of the largest |u_g| of the rest of the record [m/s2].
     strongest: Option<(usize, f64)>,
     initial_z: f64,
@@ -68,6 +70,7 @@ impl<'a> Stream<'a> {
             body,
             housner,
             accel,
+            alpha: body.alpha(),
             strongest: None,
             initial_z: 0.0,
             errors: Errors::default(),
@@ -95,7 +98,7 @@ impl<'a> Stream<'a> {
     /// Whether the body falls whatever the ground does from this sample on.
     fn falls_from(&mut self, index: usize) -> bool {
         let (theta, rate) = self.last;
-        let beyond = theta.abs() - self.body.alpha();
+        let beyond = theta.abs() - self.alpha;
         beyond > 0.0 && theta * rate >= 0.0 && beyond.tan() > self.strongest_from(index) / GRAVITY
     }
 }
@@ -111,7 +114,7 @@ impl Observer<f64> for Stream<'_> {
             self.errors.samples = index + 1;
         }
         let theta = view.theta();
-        if theta.abs() <= self.body.alpha() {
+        if theta.abs() <= self.alpha {
             self.upright = self.errors;
         }
         if !(view.presses(0) && view.presses(1)) {

@@ -16,6 +16,17 @@ const BUDGET: f64 = 50.0;
 /// two blocks): ten times more and their error no longer follows the tolerance, ten times less and it costs twice the steps.
 const ERROR: f64 = 0.1;
 
+/// What a step's local error may be at a tolerance, but for rounding. The estimate falls as h^4, the energy that a step loses as h^6:
+/// with the power 2/3 both criteria ask for the same steps whatever the tolerance.
+pub(super) fn allowed_error(tolerance: f64) -> f64 {
+    ERROR * tolerance.powf(2.0 / 3.0)
+}
+
+/// x^(1/6); infinite where a step would grow beyond any use anyway.
+fn sixth_root(x: f64) -> f64 {
+    if x > 1e5 { f64::INFINITY } else { x.sqrt().cbrt() }
+}
+
 /// A step that may break its bounds, in units of 1/Omega_n.
 const SMALLEST: f64 = 1e-9;
 
@@ -31,7 +42,7 @@ impl<S: Scalar> Run<'_, S> {
         let (energy, error) = (self.allowed(stored, stages) / defect, self.allowed_error(h) / missed);
         let finite = (defect + missed).is_finite();
         // a radau step loses energy as h^6, the estimate falls as h^4
-        let factor = if finite { 0.9 * energy.sqrt().cbrt().min(error.sqrt().sqrt()) } else { 0.0 };
+        let factor = if finite { 0.9 * sixth_root(energy).min(error.sqrt().sqrt()) } else { 0.0 };
         if !finite || energy < 1.0 || error < 1.0 {
             // at a force discontinuity no step size satisfies the account: the smallest may break it, but not with a NaN
             if h > SMALLEST * self.settling || !finite {
@@ -68,11 +79,10 @@ impl<S: Scalar> Run<'_, S> {
         place.max(speed * self.moment) / (radius * self.alpha)
     }
 
-    /// What that error may be. The estimate falls as h^4, the energy that a step loses as h^6: with the power 2/3 both criteria ask
-    /// for the same steps whatever the tolerance. Never less than rounding makes of it.
+    /// What that error may be; never less than rounding makes of it.
     fn allowed_error(&self, h: f64) -> f64 {
         let rounding = self.rounding * (1.0 + self.moment / h) / (self.alpha * self.model.body.half_width.re());
-        (ERROR * self.control.tolerance.powf(2.0 / 3.0)).max(rounding)
+        self.error.max(rounding)
     }
 
     /// Energy that this step may lose or gain [J]: less and less as the account's budget is used up, so that the residual
