@@ -64,10 +64,13 @@ pub mod export;
 
 pub mod verify;
 
+#[cfg(feature = "cli")]
 pub mod bench;
 
 pub mod case;
 
+#[cfg(feature = "cli")]
 pub mod commands;
 
+#[cfg(feature = "figures")]
 pub mod figures;
