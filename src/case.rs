@@ -3,9 +3,9 @@
 //! ```toml
 //! [structure]
 //! kind = "aframe"            # or "block"
-//! height_m = 61.0            # of the centre of mass above the feet
-//! width_m = 12.2             # between the feet
-//! mass_kg = 680.1e3
+//! height_m = 61.0            # of the centre of mass above the feet; a block also total_height_m; also _ft, _in
+//! width_m = 12.2             # between the feet; also _ft, _in
+//! mass_kg = 680.1e3          # also mass_t, mass_lb, weight_kn, weight_kip, weight_lb
 //!
 //! [legs]                     # elastic legs; also [damper] c_ns_per_m; [tendon] stiffness_n_per_m,
 //! ea_n = 6.7e9               # pretension_n; [friction] coefficient
@@ -21,6 +21,8 @@
 //! accuracy = 0.002           # of the history against Housner's, NRMSE
 //! ```
 
+mod structure;
+
 use std::path::{Path, PathBuf};
 
 use serde::{Deserialize, Serialize};
@@ -32,13 +34,11 @@ use crate::{
     message::one_line,
     record::{Notice, ReadOptions, Record, RecordError, Recording, Units},
     response::target::Target,
-    structure::{Kind, Structure, StructureError},
+    structure::{Structure, StructureError},
     tuning::arr::bounds::Bounds,
 };
-
-/// I_cg of an A-frame with all mass at its apex, as a share of m R^2: OpenSees and its like need some, and rocking does
-/// not feel so little (1e-5 of p^2).
-pub const LEAST_INERTIA: f64 = 1e-5;
+pub use structure::LEAST_INERTIA;
+use structure::StructureSection;
 
 /// What is wrong with a case file, and what to do.
 #[derive(Debug, Error)]
@@ -70,23 +70,6 @@ pub enum Objective {
     /// The landing of the structure, by its geometry.
     #[default]
     Landing,
-}
-
-#[derive(Clone, Debug, Deserialize)]
-#[serde(deny_unknown_fields)]
-struct StructureSection {
-    kind: Kind,
-    /// Height of the centre of mass [m].
-    height_m: f64,
-    /// Distance between the feet [m].
-    width_m: f64,
-    mass_kg: f64,
-    /// About the centre of mass; by `kind` unless given.
-    rotational_inertia_kgm2: Option<f64>,
-    /// Velocity restitution e; by equation 2 unless given.
-    restitution: Option<f64>,
-    /// Factor on equation 2's e.
-    restitution_ratio: Option<f64>,
 }
 
 #[derive(Clone, Debug, Default, Deserialize)]
@@ -275,40 +258,6 @@ impl Case {
 impl RecordSection {
     fn tells_of_a_file(&self) -> bool {
         self.dt_s.is_some() || self.units.is_some() || self.component.is_some() || self.baseline
-    }
-}
-
-impl StructureSection {
-    fn checked(&self, path: &str) -> Result<(Structure, f64), CaseError> {
-        let wrap = |source| CaseError::Structure { path: path.into(), source };
-        let mut structure = Structure {
-            kind: self.kind,
-            height_m: self.height_m,
-            width_m: self.width_m,
-            mass_kg: self.mass_kg,
-            rotational_inertia_kgm2: 0.0,
-        };
-        let m_r2 = self.mass_kg * (self.height_m.powi(2) + self.width_m.powi(2) / 4.0);
-        structure.rotational_inertia_kgm2 = self.rotational_inertia_kgm2.unwrap_or(match self.kind {
-            Kind::AFrame => LEAST_INERTIA * m_r2,
-            Kind::Block => m_r2 / 3.0,
-        });
-        let structure = structure.checked().map_err(wrap)?;
-        let housner = structure.body::<f64>().restitution();
-        let value =
-            |key, value: f64, remedy| CaseError::Value { path: path.into(), key, value: format!("{value:?}"), remedy };
-        let restitution = match (self.restitution, self.restitution_ratio) {
-            (None, None) => housner,
-            (Some(e), None) => e,
-            (None, Some(ratio)) => ratio * housner,
-            (Some(e), Some(_)) => {
-                return Err(value("structure.restitution", e, "give restitution or restitution_ratio, not both"));
-            }
-        };
-        if !(0.0..=1.0).contains(&restitution) {
-            return Err(value("structure.restitution", restitution, "a velocity ratio lies between 0 and 1"));
-        }
-        Ok((structure, restitution))
     }
 }
 
