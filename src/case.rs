@@ -33,9 +33,8 @@ use crate::{
     members::{Damper, Friction, Legs, Members, MembersError, Tendon},
     message::one_line,
     record::{Notice, ReadOptions, Record, RecordError, Recording, Units},
-    response::target::Target,
+    response::{bounds::Bounds, target::Target},
     structure::{Structure, StructureError},
-    tuning::arr::bounds::Bounds,
 };
 pub use structure::LEAST_INERTIA;
 use structure::StructureSection;

@@ -62,6 +62,8 @@ pub mod predictability;
 
 pub mod export;
 
+pub mod front;
+
 pub mod verify;
 
 #[cfg(feature = "cli")]

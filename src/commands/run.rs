@@ -18,11 +18,12 @@ use crate::{
     case::{ACCURACY, Case, Objective},
     excitation::Excitation,
     export::{Expected, with_inertia},
+    front,
     members::Members,
     parameters::{PaperProcedure, Parameters, RecordRow},
     predictability::{moved_by_a_hair, simulate},
     record::Record,
-    tuning::{arr::table_1, assessment::Assessment, front, job::Job, whole_model::report::landings},
+    tuning::{arr::table_1, assessment::Assessment, job::Job, whole_model::report::landings},
 };
 
 /// Options of `tune run`.
