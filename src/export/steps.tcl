@@ -22,11 +22,11 @@
 namespace eval steps {
     variable first 1e-6 ;# step, in units of the shortest: OpenSees starts without acceleration, whatever the first load
 
-    variable growth 1.5 ;# from pair to pair, at most
+    variable growth 2.0 ;# from pair to pair, at most
     # What a pair misses of a foot's position, over the highest rise: a landing has up to a thousand pairs, whatever it takes.
     variable pairShare 5e-6
     # The same over a time in which the foot rises or falls.
-    variable riseShare 0.05
+    variable riseShare 0.1
     # A foot that lifts drops a horizontal force at once; the step across it is wrong by that force for all its length.
     variable drop 0.02
 
