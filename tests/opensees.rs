@@ -1,6 +1,6 @@
 //! The exported decks in OpenSees itself, on El Centro, against our own histories: 20 s, NRMSE of u, v and theta.
 //!
-//! `cargo test --release --test opensees -- --ignored --nocapture`, with OPENSEES=1. The Python deck needs openseespy (`pip install openseespy`; Debian: libblas3 liblapack3) in
+//! `cargo test --release --test opensees -- --ignored --nocapture`. The Python deck needs openseespy (`pip install openseespy`; Debian: libblas3 liblapack3) in
 //! OPENSEES_PYTHON, `python3` unless set. The Tcl deck needs OPENSEES_TCL to name an interpreter's command, for example
 //! "python3 -m opensees" (`pip install opensees`) or "OpenSees".
 
@@ -20,22 +20,12 @@ use groundspring::{
 /// Largest NRMSE of u, v and theta against our own history.
 const AGREEMENT: f64 = 0.005;
 
-fn wanted(variable: &str) -> Option<String> {
-    let value = std::env::var(variable).ok().filter(|value| !value.is_empty());
-    if value.is_none() {
-        println!("skipped: {variable} is not set");
-    }
-    value
-}
-
-/// The interpreters to run the decks in: none, Python's, both.
+/// The interpreters to run the decks in: Python's, and Tcl's where it is named.
 fn programs() -> Vec<Program> {
-    if wanted("OPENSEES").is_none() {
-        return Vec::new();
-    }
-    let python = std::env::var("OPENSEES_PYTHON").unwrap_or_else(|_| "python3".into());
+    let variable = |name: &str| std::env::var(name).ok().filter(|value| !value.is_empty());
+    let python = variable("OPENSEES_PYTHON").unwrap_or_else(|| "python3".into());
     let tcl =
-        wanted("OPENSEES_TCL").map(|command| Program::Tcl(command.split_whitespace().map(str::to_string).collect()));
+        variable("OPENSEES_TCL").map(|command| Program::Tcl(command.split_whitespace().map(str::to_string).collect()));
     [Program::Python(python.into())].into_iter().chain(tcl).collect()
 }
 
@@ -137,10 +127,7 @@ fn springs_on_which_a_lifting_foot_chatters_are_refused() {
 
 /// The same for the springs that the program finds for the structure.
 fn tuned_agrees(structure: Structure, objective: Objective, max_hz: f64) {
-    let programs = programs();
-    if !programs.is_empty() {
-        agrees(&programs, structure, tuned(structure, objective, max_hz));
-    }
+    agrees(&programs(), structure, tuned(structure, objective, max_hz));
 }
 
 fn frame_of_5_m() -> Structure {

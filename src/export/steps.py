@@ -35,7 +35,8 @@ class Steps:
     def __init__(self, feet, landing, longest, rise, accuracy=0.002):
         fine = min(1.0, math.sqrt(accuracy / 0.002))   # steps err with their square
         self.feet, self.longest, self.landing, self.accuracy = feet, longest, landing, accuracy
-        self.shortest = min(0.05 * fine * landing, longest) if landing > 0.0 else longest
+        self.first = min(0.05 * fine * landing, longest) if landing > 0.0 else longest   # of a landing
+        self.shortest = self.first
         self.share = 0.2 * fine               # of the time to the next touch or lift that one step takes
         self.allowed = self.FIRST * self.shortest
         self.strongest = 0.0                  # acceleration of an open foot on long steps, m/s2
@@ -78,8 +79,8 @@ class Steps:
         missed = h / 3.0 * max(abs(a[3] - 2.0 * b[3] + c[3]) for a, b, c in zip(*states))
         may = self.accuracy * self.highest * max(self.PAIR, self.RISE * 2.0 * h / self.slow())
         by_error = 0.9 * h * (may / max(missed, 1e-300)) ** (1.0 / 3.0)
-        # Shorter than a landing's first steps, it is rounding and not the motion that the difference shows.
-        return max(min(self.GROWTH * size, max(by_error, 0.3 * size)), min(2.0 * size, self.shortest))
+        # Motions faster than a landing (a rotation of little inertia) are not resolved: steps of a landing end them.
+        return max(min(self.GROWTH * size, max(by_error, 0.3 * size)), min(2.0 * size, self.first))
 
     def learn(self, before, h):
         """Acceleration of open feet, from two long steps of h."""

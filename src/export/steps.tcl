@@ -20,7 +20,7 @@
 # steps::late      touches and lifts within a step too long for them: not 0, and the history is not to be trusted
 # steps::smallest  step, s
 namespace eval steps {
-    variable first 1e-6 ;# step, in units of the shortest: OpenSees starts without acceleration, whatever the first load
+    variable start 1e-6 ;# step, in units of the shortest: OpenSees starts without acceleration, whatever the first load
 
     variable growth 2.0 ;# from pair to pair, at most
     # What a pair misses of a foot's position, over the highest rise: a landing has up to a thousand pairs, whatever it takes.
@@ -31,18 +31,19 @@ namespace eval steps {
     variable drop 0.02
 
     proc start {nodes aLanding aLongest rise {anAccuracy 0.002}} {
-        foreach name {feet longest landing accuracy shortest share allowed strongest highest gaps taken refused late smallest} {
+        foreach name {feet longest landing accuracy first shortest share allowed strongest highest gaps taken refused late smallest} {
             variable $name
         }
-        variable first
+        variable start
         set fine [expr {min(1.0, sqrt($anAccuracy / 0.002))}] ;# steps err with their square
         set feet $nodes
         set longest $aLongest
         set landing $aLanding
         set accuracy $anAccuracy
-        set shortest [expr {$landing > 0.0 ? min(0.05 * $fine * $landing, $longest) : $longest}]
+        set first [expr {$landing > 0.0 ? min(0.05 * $fine * $landing, $longest) : $longest}] ;# of a landing
+        set shortest $first
         set share [expr {0.2 * $fine}] ;# of the time to the next touch or lift that one step takes
-        set allowed [expr {$first * $shortest}]
+        set allowed [expr {$start * $shortest}]
         set strongest 0.0 ;# acceleration of an open foot on long steps, m/s2
         set highest $rise ;# a foot has come, m
         set gaps [measure]
@@ -96,7 +97,7 @@ namespace eval steps {
 
     # Length that the next steps may have by the error of these two of h, s.
     proc grown {states h size} {
-        foreach name {accuracy highest pairShare riseShare growth shortest} { variable $name }
+        foreach name {accuracy highest pairShare riseShare growth first} { variable $name }
         # TRBDF2 misses h^3/3 of the third derivative, in the fast motions of the springs and the slow one of the body alike.
         set missed 1e-300
         foreach a [lindex $states 0] b [lindex $states 1] c [lindex $states 2] {
@@ -104,8 +105,8 @@ namespace eval steps {
         }
         set may [expr {$accuracy * $highest * max($pairShare, $riseShare * 2.0 * $h / [slow])}]
         set byError [expr {0.9 * $h * pow($may / $missed, 1.0 / 3.0)}]
-        # Shorter than a landing's first steps, it is rounding and not the motion that the difference shows.
-        return [expr {max(min($growth * $size, max($byError, 0.3 * $size)), min(2.0 * $size, $shortest))}]
+        # Motions faster than a landing (a rotation of little inertia) are not resolved: steps of a landing end them.
+        return [expr {max(min($growth * $size, max($byError, 0.3 * $size)), min(2.0 * $size, $first))}]
     }
 
     # Acceleration of open feet, from two long steps of h.

@@ -137,10 +137,10 @@ fn steps_a_sample_do_not_follow_from_stiffness() {
     }
 }
 
-/// 750 times what a change of the width by 1e-5 does, at most 16; nothing where the history is lost.
+/// 15,000 times what a change of the width by 1e-5 does, at most 8; nothing where the history is lost.
 #[test]
 fn a_history_that_hangs_on_little_is_asked_more_accurately() {
-    for (hair, tighter) in [(1e-3, 1.0), (4e-3, 3.0), (0.1, 16.0), (0.9, 1.0)] {
+    for (hair, tighter) in [(5e-5, 1.0), (2e-4, 3.0), (0.1, 8.0), (0.9, 1.0)] {
         let accuracy = stated(1e4, hair).1;
         assert!((accuracy * tighter / 0.002 - 1.0).abs() < 1e-12, "{hair}: {accuracy}");
     }
