@@ -46,10 +46,14 @@ fn tuned(structure: Structure, objective: Objective, max_hz: f64) -> Springs<Des
 
 /// Both decks against our own history.
 fn agrees(programs: &[Program], structure: Structure, springs: Springs<Design<f64>>) {
+    agrees_at(ACCURACY, programs, structure, springs);
+}
+
+fn agrees_at(accuracy: f64, programs: &[Program], structure: Structure, springs: Springs<Design<f64>>) {
     let parameters = Parameters::new(with_inertia(&structure), &springs);
     let record = Record::el_centro().truncated(20.0);
     for program in programs {
-        let result = verify(&parameters, &record, ACCURACY, program, &|_, _| ()).unwrap();
+        let result = verify(&parameters, &record, accuracy, program, &|_, _| ()).unwrap();
         let a = result.opensees_against_ours;
         println!("{program:?}: {} steps, {:.1} s: {a:?}", result.steps, result.seconds);
         println!("a change of 1e-5 in width moves it by {:.1e}", result.hair);
@@ -186,11 +190,11 @@ fn a_frame_of_5_by_1_5_m_on_its_springs_of_160_hz_agrees() {
     tuned_agrees(frame_of_5_m(), Objective::Landing, 160.0);
 }
 
-/// It topples at 6.4 s.
+/// It topples at 6.4 s, which multiplies whatever its steps miss before: they are asked for a quarter of that.
 #[test]
 #[ignore = "needs OpenSees"]
 fn a_block_of_2_by_0_5_m_on_table_1_springs_agrees() {
-    agrees(&programs(), block_of_2_m(), table_1());
+    agrees_at(ACCURACY / 4.0, &programs(), block_of_2_m(), table_1());
 }
 
 #[test]
