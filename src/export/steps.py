@@ -90,7 +90,7 @@ class Steps:
             if was > 0.0 and opening > 0.0:
                 self.strongest = max(self.strongest, abs(rate - rate_was) / (2.0 * h))
         if self.landing > 0.0:
-            self.shortest = min(self.shortest, self.DROP * self.accuracy * self.slow())
+            self.shortest = min(self.shortest, max(self.DROP * self.accuracy * self.slow(), 0.1 * self.first))
 
     def pair(self, h, size):
         """Two steps of h, at most `size`: TRBDF2 takes one by BDF2 only if it is as long as the one before, to the last digit."""

@@ -111,7 +111,7 @@ namespace eval steps {
 
     # Acceleration of open feet, from two long steps of h.
     proc learn {before h} {
-        foreach name {longest landing gaps strongest shortest drop accuracy} { variable $name }
+        foreach name {longest landing gaps strongest first shortest drop accuracy} { variable $name }
         if {$h < 0.2 * $longest} { return }
         foreach a $before b $gaps {
             foreach {was rateWas - -} $a {}
@@ -120,7 +120,7 @@ namespace eval steps {
                 set strongest [expr {max($strongest, abs($rate - $rateWas) / (2.0 * $h))}]
             }
         }
-        if {$landing > 0.0} { set shortest [expr {min($shortest, $drop * $accuracy * [slow])}] }
+        if {$landing > 0.0} { set shortest [expr {min($shortest, max($drop * $accuracy * [slow], 0.1 * $first))}] }
     }
 
     # Two steps of h, at most `size`: TRBDF2 takes one by BDF2 only if it is as long as the one before, to the last digit.
