@@ -72,21 +72,22 @@ pub enum Objective {
     Landing,
 }
 
+/// A structure as a user describes it, unchecked.
 #[derive(Clone, Debug, Deserialize)]
 #[serde(deny_unknown_fields)]
-struct StructureSection {
-    kind: Kind,
+pub struct StructureSection {
+    pub kind: Kind,
     /// Height of the centre of mass [m].
-    height_m: f64,
+    pub height_m: f64,
     /// Distance between the feet [m].
-    width_m: f64,
-    mass_kg: f64,
+    pub width_m: f64,
+    pub mass_kg: f64,
     /// About the centre of mass; by `kind` unless given.
-    rotational_inertia_kgm2: Option<f64>,
+    pub rotational_inertia_kgm2: Option<f64>,
     /// Velocity restitution e; by equation 2 unless given.
-    restitution: Option<f64>,
+    pub restitution: Option<f64>,
     /// Factor on equation 2's e.
-    restitution_ratio: Option<f64>,
+    pub restitution_ratio: Option<f64>,
 }
 
 #[derive(Clone, Debug, Default, Deserialize)]
@@ -243,18 +244,33 @@ impl Case {
             return Err(value("record.duration_s", asked, "give seconds greater than zero, at most 1e6"));
         }
         let excitation = Excitation { record, scale: section.scale.unwrap_or(1.0), duration_s: section.duration_s };
-        file.tuning.check(path)?;
+        let case = Self::new(path, (structure, restitution), excitation, file.tuning)?;
+        Ok(Self { members, target: file.target.unwrap_or_default(), bounds: file.bounds, ..case })
+    }
+
+    /// A structure without members and its restitution, as [`StructureSection::checked`] gives them, under a ground motion;
+    /// `name` stands for the case file in messages.
+    ///
+    /// # Errors
+    /// A setting of `tuning` out of its range; a scale that is not finite, or takes the peak above 50 g.
+    pub fn new(
+        name: &str,
+        (structure, restitution): (Structure, f64),
+        excitation: Excitation,
+        tuning: Tuning,
+    ) -> Result<Self, CaseError> {
+        tuning.check(name)?;
         Ok(Self {
             structure,
             restitution,
-            members,
+            members: Members::default(),
             record: excitation.scaled()?,
             notices: Vec::new(),
             duration_s: excitation.duration(),
             excitation,
-            tuning: file.tuning,
-            target: file.target.unwrap_or_default(),
-            bounds: file.bounds,
+            tuning,
+            target: Target::default(),
+            bounds: Bounds::default(),
         })
     }
 }
@@ -279,7 +295,11 @@ impl RecordSection {
 }
 
 impl StructureSection {
-    fn checked(&self, path: &str) -> Result<(Structure, f64), CaseError> {
+    /// The structure and its restitution; `path` is named in messages.
+    ///
+    /// # Errors
+    /// Numbers that cannot rock, or a restitution that is no velocity ratio.
+    pub fn checked(&self, path: &str) -> Result<(Structure, f64), CaseError> {
         let wrap = |source| CaseError::Structure { path: path.into(), source };
         let mut structure = Structure {
             kind: self.kind,

@@ -33,6 +33,10 @@ mod table;
 mod validate;
 mod verify;
 
+pub use common::{Both, both};
+pub use report::Report;
+pub use run::Run;
+
 /// Ground springs that let a finite element program follow Housner's theory of rocking.
 #[derive(Debug, Parser)]
 #[command(name = "tune", version, about, disable_help_subcommand = true)]
