@@ -108,7 +108,7 @@ pub fn run(o: &Options) -> Result<(), CommandError> {
 
     let run = Run::new(case, job, front, friction);
     run.save(&o.out, !o.no_figures)?;
-    let (springs, forces) = (table::terminal(&run.parameters), run.forces());
+    let (springs, forces) = (table::terminal(&run.filed(&o.out)), run.forces());
     let said = run.said().join("\n");
     write!(std::io::stdout(), "{springs}\n{forces}{}\n{said}\n", table::front_terminal(&run.front))?;
     eprintln!("{}\nwritten to {}", run.case.excitation.line(), o.out.display());
@@ -163,8 +163,7 @@ impl Run {
         check_folder(out)?;
         let Self { case, job, front, both, .. } = self;
         let dt = job.record.dt;
-        let record = Some(RecordRow::new(&case.excitation, &job.record, out));
-        let parameters = Parameters { record, ..self.parameters.clone() };
+        let parameters = self.filed(out);
         let write = |e| CommandError::Write { path: out.display().to_string(), source: e };
         std::fs::create_dir_all(out).map_err(write)?;
         write_file(&out.join("parameters.json"), parameters.to_json().as_bytes())?;
@@ -178,6 +177,12 @@ impl Run {
             || if figures { draw(out, case, job, both, front) } else { Ok(()) },
         );
         decks.and(figures)
+    }
+
+    /// `parameters.json` as it stands in a folder.
+    fn filed(&self, out: &Path) -> Parameters {
+        let record = Some(RecordRow::new(&self.case.excitation, &self.job.record, out));
+        Parameters { record, ..self.parameters.clone() }
     }
 
     /// What to file beside the tables, a line each: the verdict, the accuracy, warnings.
