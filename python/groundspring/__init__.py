@@ -29,6 +29,7 @@ from ._native import (
     UnitDesign,
     Validation,
     design,
+    earthquake_records,
     el_centro,
     fit_response,
     frequency_response,
@@ -37,6 +38,7 @@ from ._native import (
     rigid_rocking,
     rigid_rocking_many,
     simulate,
+    synthetic_records,
     tune,
     validate,
 )
@@ -56,6 +58,7 @@ __all__ = [
     "UnitDesign",
     "Validation",
     "design",
+    "earthquake_records",
     "el_centro",
     "fit_response",
     "frequency_response",
@@ -64,6 +67,7 @@ __all__ = [
     "rigid_rocking",
     "rigid_rocking_many",
     "simulate",
+    "synthetic_records",
     "tune",
     "validate",
 ]

@@ -150,7 +150,9 @@ pub fn design(py: Python<'_>, alpha: Of, inertia: Option<f64>, stiffness: Option
         Of::Alpha(alpha) => {
             let inertia = inertia.unwrap_or(0.0);
             if !(inertia.is_finite() && inertia >= 0.0) {
-                return Err(value_error(format!("design: I_cg/(m R^2) is {inertia:?}; give a finite number, zero or greater")));
+                return Err(value_error(format!(
+                    "design: I_cg/(m R^2) is {inertia:?}; give a finite number, zero or greater"
+                )));
             }
             Geometry::new(alpha, 1.0 / (1.0 + inertia), stiffness)
         }
@@ -178,7 +180,9 @@ pub fn frequency_response<'py>(
 ) -> PyResult<Array<'py>> {
     let positive = [("mu", mu), ("f", f)].into_iter().find(|(_, x)| !(x.is_finite() && *x > 0.0));
     if let Some((name, value)) = positive.or((!(xi.is_finite() && xi >= 0.0)).then_some(("xi", xi))) {
-        return Err(value_error(format!("frequency_response: {name} is {value:?}; give finite mu and f above zero, xi zero or greater")));
+        return Err(value_error(format!(
+            "frequency_response: {name} is {value:?}; give finite mu and f above zero, xi zero or greater"
+        )));
     }
     Ok(PyArray1::from_iter(py, g.as_array().iter().map(|&g| response::arr(g, mu, f, xi))))
 }

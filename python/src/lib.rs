@@ -37,7 +37,7 @@ mod _native {
         springs::{Chain, Springs, read_parameters},
         structure::Structure,
         tuned::{Tuned, tune},
-        validation::{Validation, validate},
+        validation::{Validation, earthquake_records, synthetic_records, validate},
     };
 
     #[pymodule_export]

@@ -10,14 +10,7 @@ use groundspring::{
 use numpy::{AllowTypeChange, PyArray1, PyArrayLike1};
 use pyo3::{exceptions::PyIndexError, prelude::*};
 
-use crate::{
-    Array,
-    record::Record,
-    said::value_error,
-    structure::Structure,
-    times, view,
-    work::interruptible,
-};
+use crate::{Array, record::Record, said::value_error, structure::Structure, times, view, work::interruptible};
 
 /// Histories computed between two looks for ^C.
 const AT_A_TIME: usize = 2048;

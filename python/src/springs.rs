@@ -2,10 +2,7 @@
 
 use std::path::PathBuf;
 
-use groundspring::{
-    parameters::Parameters,
-    spring,
-};
+use groundspring::{parameters::Parameters, spring};
 use pyo3::prelude::*;
 
 use crate::{said::value_error, structure::Structure};

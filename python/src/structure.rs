@@ -26,25 +26,13 @@ impl Structure {
 impl Structure {
     #[staticmethod]
     #[pyo3(signature = (height, width, mass, inertia = None, restitution = None))]
-    fn aframe(
-        height: f64,
-        width: f64,
-        mass: f64,
-        inertia: Option<f64>,
-        restitution: Option<f64>,
-    ) -> PyResult<Self> {
+    fn aframe(height: f64, width: f64, mass: f64, inertia: Option<f64>, restitution: Option<f64>) -> PyResult<Self> {
         checked("Structure.aframe", Kind::AFrame, (height, width, mass), inertia, restitution)
     }
 
     #[staticmethod]
     #[pyo3(signature = (height, width, mass, inertia = None, restitution = None))]
-    fn block(
-        height: f64,
-        width: f64,
-        mass: f64,
-        inertia: Option<f64>,
-        restitution: Option<f64>,
-    ) -> PyResult<Self> {
+    fn block(height: f64, width: f64, mass: f64, inertia: Option<f64>, restitution: Option<f64>) -> PyResult<Self> {
         checked("Structure.block", Kind::Block, (height / 2.0, width, mass), inertia, restitution)
     }
 

@@ -115,7 +115,8 @@ pub fn tune(
         return Err(value_error(format!("duration is {duration:?}; give seconds greater than zero, at most 1e6")));
     }
     let record = record.map_or_else(record::Record::el_centro, |record| record.0.clone());
-    let tuning = Tuning { objective, accuracy, max_omega_hz: max_hz, max_settlement_m: max_settlement, ..Tuning::default() };
+    let tuning =
+        Tuning { objective, accuracy, max_omega_hz: max_hz, max_settlement_m: max_settlement, ..Tuning::default() };
     let excitation = Excitation { record, scale, duration_s: duration };
     let case = Case::new("tune", (structure.core, structure.e), excitation, tuning).map_err(value_error)?;
     let (run, simulation) = interruptible(py, |stop| {

@@ -84,7 +84,8 @@ pub fn validate(
         return Err(value_error("validate: there are no records; give some, a folder, or synthetic= or earthquakes="));
     }
     let body = structure.body();
-    let judge = Judge { body, restitution, springs: springs.chains(), duration_s: duration, control: Control::default() };
+    let judge =
+        Judge { body, restitution, springs: springs.chains(), duration_s: duration, control: Control::default() };
     let (p, alpha) = (body.p_squared().sqrt(), body.alpha());
     let validation = interruptible(py, |stop| {
         let record = |i: usize| {
@@ -110,4 +111,21 @@ fn read_folder(py: Python<'_>, folder: &std::path::Path) -> PyResult<Vec<record:
         Ok(recording.into_record())
     };
     files.iter().map(read).collect()
+}
+
+/// The first n motions made for a structure from a seed: Ricker and Mavroeidis-Papageorgiou pulses, filtered noise.
+#[pyfunction]
+#[pyo3(signature = (structure, n, seed = 1))]
+pub fn synthetic_records(structure: Structure, n: usize, seed: u64) -> Vec<Record> {
+    let body = structure.body();
+    let (p, alpha) = (body.p_squared().sqrt(), body.alpha());
+    (0..n).map(|i| Record(synthetic::record(seed, i, p, alpha))).collect()
+}
+
+/// The first n motions with the frequencies of earthquakes from a seed: filtered noise of soils of 9 to 36 rad/s, 0.2 to 0.9 g.
+#[pyfunction]
+#[pyo3(signature = (structure, n, seed = 1))]
+pub fn earthquake_records(structure: Structure, n: usize, seed: u64) -> Vec<Record> {
+    let p = structure.body().p_squared().sqrt();
+    (0..n).map(|i| Record(synthetic::earthquake(seed, i, p))).collect()
 }

@@ -15,8 +15,9 @@ Nothing of the model is changed but what is added; tags do not collide with your
 `tune run` writes, from the same source.
 """
 
+from ._account import Account
 from ._feet import Feet, add_feet
 from ._history import FeetHistory
-from ._stepper import Stepper, StepError
+from ._stepper import StepError, Stepper
 
-__all__ = ["Feet", "FeetHistory", "StepError", "Stepper", "add_feet"]
+__all__ = ["Account", "Feet", "FeetHistory", "StepError", "Stepper", "add_feet"]

@@ -10,6 +10,7 @@ import numpy as np
 if TYPE_CHECKING:
     import pandas
 
+    from ._account import Account
     from ._feet import Array
 
 
@@ -29,6 +30,7 @@ class FeetHistory:
     work                what the structure has done on the feet, J
     stored              energy in the feet's springs and absorbers, J
     dissipated          energy taken by their dashpots, J
+    account             energies of the whole structure, if the run kept them
     """
 
     nodes: tuple[int, ...]
@@ -43,6 +45,7 @@ class FeetHistory:
     work: Array = field(default_factory=lambda: np.empty(0))
     stored: Array = field(default_factory=lambda: np.empty(0))
     dissipated: Array = field(default_factory=lambda: np.empty(0))
+    account: Account | None = None
 
     @property
     def base_shear(self) -> Array:

@@ -9,6 +9,7 @@ from collections.abc import Callable, Sequence
 from typing import Any
 
 from .._native import GRAVITY, STEPS, Record
+from ._account import Books
 from ._feet import FIRST_TAG, Feet, _radius, take
 from ._history import FeetHistory, Watch
 
@@ -85,6 +86,8 @@ class Stepper:
         self.steps: Any = None
         self.on_step: Callable[[float], None] | None = None
         self._watch: Watch | None = None
+        self._books: Books | None = None
+        self._weight = False
 
     def gravity(self, loads: str = "weight", steps: int = 10) -> None:
         """Let the structure settle under its weight; the time is zero after it.
@@ -100,6 +103,7 @@ class Stepper:
                 mass = ops.nodeMass(node, 2)
                 if mass > 0.0 and node not in own:
                     ops.load(node, 0.0, -mass * GRAVITY, 0.0)
+            self._weight = True
         elif loads != "own":
             raise ValueError(f"gravity: loads is {loads!r}; give \"weight\" or \"own\"")
         ops.wipeAnalysis()
@@ -128,35 +132,44 @@ class Stepper:
         duration: float | None = None,
         on_sample: Callable[[int, float], None] | None = None,
         progress: bool = False,
+        account: bool = False,
     ) -> FeetHistory:
         """Shake the model with a record, from the time it stands at; what the feet went through.
 
         on_sample  called with the index and the time of every sample, the first before any step
         progress   a line on stderr for every tenth
+        account    keep the energies of the whole structure, too: `FeetHistory.account`
 
         Every mass is shaken, those of elements and of the absorbers too.
         """
         ops = self.ops
-        if not any(group.pressing().any() for group in self.groups):
+        if not any((group.forces()[:, 1] > 0.0).any() for group in self.groups):
             raise ValueError("run: no foot presses on the ground; call stepper.gravity() first")
         dt, start = record.dt, ops.getTime()
-        self._ground(record if scale == 1.0 else record.scaled(scale), start)
+        shaken = record if scale == 1.0 else record.scaled(scale)
+        self._ground(shaken, start)
         count = len(record if duration is None else record.truncated(duration))
         if self.steps is None:
             self._begin(0.5 * dt)
         watch = self._watch = Watch(self.groups)
+        books = Books(ops, self.groups, shaken, start, self._weight) if account else None
+        self._books = books
         try:
             for i in range(count):
                 if i > 0:
                     self.advance_to(start + i * dt)
                 watch.sample(ops.getTime())
+                if books is not None:
+                    books.sample()
                 if on_sample is not None:
                     on_sample(i, ops.getTime())
                 if progress and i * 10 // max(count - 1, 1) != (i - 1) * 10 // max(count - 1, 1):
                     print(f"{ops.getTime():.2f} s of {start + (count - 1) * dt:.2f} s: {self.report()}", file=sys.stderr)
         finally:
-            self._watch = None
+            self._watch = self._books = None
             self.history = watch.history()
+            if books is not None:
+                self.history.account = books.account(self.history.work.sum(axis=1))
         return self.history
 
     def report(self) -> str:
@@ -174,6 +187,8 @@ class Stepper:
     def _stepped(self, h: float) -> None:
         if self._watch is not None:
             self._watch.step(h)
+        if self._books is not None:
+            self._books.step()
         if self.on_step is not None:
             self.on_step(h)
 
@@ -199,7 +214,7 @@ class Stepper:
         return {absorber for group in self.groups for absorber in group.absorbers}
 
     def _pattern(self) -> int:
-        return max([FIRST_TAG, *(self.ops.getPatterns() or [])]) + 1
+        return 1 + max([FIRST_TAG, *map(int, self.ops.getPatterns() or [])])
 
     def _account(self) -> str:
         feet = [
