@@ -144,6 +144,8 @@ def main(folder: Path) -> None:
     assert free.feet is not None and free.feet.account is not None
     account = free.feet.account
     missing = np.abs(account.residual).max() / account.input.max()
+    walked = ", ".join(f"{1e3 * x:+.1f} mm" for x in free.feet.anchor[-1])
+    print(f"the feet stand off their first places by {walked}: a lifted column straightens, and lands where it hangs")
     print(f"uplift {1e3 * free.feet.uplift.max():.1f} mm; energy not accounted for: {100 * missing:.2f} % of the input")
     converged = [
         np.abs(free.roof).max() / np.abs(finer.roof).max() - 1.0, free.axial / finer.axial - 1.0, free.shear / finer.shear - 1.0,

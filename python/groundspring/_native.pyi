@@ -1,6 +1,6 @@
 from collections.abc import Sequence
 from os import PathLike
-from typing import Any, Literal, overload
+from typing import Any, Literal, final, overload
 
 import numpy as np
 import numpy.typing as npt
@@ -20,13 +20,14 @@ STEPS: str
 class GroundspringWarning(UserWarning):
     """What the program warns of: in reading a record, in springs, in a comparison."""
 
+@final
 class Record:
     """A ground motion: acceleration at even time steps, linear in between.
 
     ValueError: dt not between 1e-6 and 1 s, no sample, a sample that is not finite, a peak above 50 g.
     """
 
-    def __init__(self, dt: float, accel: _Numbers, name: str = "record") -> None: ...
+    def __new__(cls, dt: float, accel: _Numbers, name: str = "record") -> Record: ...
     @property
     def name(self) -> str: ...
     @property
@@ -72,6 +73,7 @@ def read_record(
 def el_centro() -> Record:
     """Imperial Valley 1940, El Centro Array #9, component 180 (north-south), PEER: 3995 samples, dt 0.01 s."""
 
+@final
 class Structure:
     """A rigid body on two feet. Made by `aframe` or `block`.
 
@@ -126,13 +128,14 @@ class Structure:
     def restitution(self) -> float:
         """Velocity ratio of a landing."""
 
+@final
 class Chain:
     """One spring-absorber unit: foot - gap, k1 - absorber m2 - (k2 parallel with dashpot c) - ground.
 
     k1, k2 in N/m, m2 in kg, c in N s/m.
     """
 
-    def __init__(self, k1: float, k2: float, m2: float, c: float) -> None: ...
+    def __new__(cls, k1: float, k2: float, m2: float, c: float) -> Chain: ...
     @property
     def k1(self) -> float: ...
     @property
@@ -142,10 +145,11 @@ class Chain:
     @property
     def c(self) -> float: ...
 
+@final
 class Springs:
     """The units under each of the two feet of a structure of this mass, kg."""
 
-    def __init__(self, mass: float, vertical: Chain, horizontal: Chain) -> None: ...
+    def __new__(cls, mass: float, vertical: Chain, horizontal: Chain) -> Springs: ...
     @property
     def mass(self) -> float: ...
     @property
@@ -162,6 +166,7 @@ class Springs:
 def read_parameters(path: _Path) -> tuple[Structure, Springs]:
     """The structure and the springs of a `parameters.json`."""
 
+@final
 class History:
     """A history of rigid rocking at the record's samples, cut where the body lies flat."""
 
@@ -199,11 +204,12 @@ class History:
     def __len__(self) -> int: ...
     def to_pandas(self) -> pandas.DataFrame: ...
 
+@final
 class Histories:
     """Many histories: a sequence of `History`."""
 
     def __len__(self) -> int: ...
-    def __getitem__(self, index: int) -> History: ...
+    def __getitem__(self, index: int, /) -> History: ...
     @property
     def peak_ratio(self) -> _Array:
         """Largest |theta|/alpha of each; infinite where the body overturned."""
@@ -219,14 +225,17 @@ def rigid_rocking(
 def rigid_rocking_many(
     structures: Structure | Sequence[Structure],
     record: Record,
-    scales: float | _Numbers = 1.0,
+    scales: float | _Numbers = ...,
     restitution: float | None = None,
 ) -> Histories:
     """Housner's solutions on all cores: of several structures, or at several scales, or of as many pairs of both.
 
+    scales  factors on the record; 1 unless given
+
     ValueError: structures and scales of different number, neither of which is one.
     """
 
+@final
 class Simulation:
     """The finite element history on springs, beside Housner's on the same record.
 
@@ -304,6 +313,7 @@ def simulate(
 ) -> Simulation:
     """Both models on given springs, as `tune simulate`. `friction` of the ground is for the warning of sliding."""
 
+@final
 class Tuned:
     """Springs of a structure, and all that `tune run` finds of them."""
 
@@ -358,6 +368,7 @@ def tune(
     ValueError: no springs settle as little as asked for; a number out of its range.
     """
 
+@final
 class UnitDesign:
     """One spring-absorber unit without units."""
 
@@ -380,6 +391,7 @@ class UnitDesign:
     def frequency_ratio(self) -> float:
         """Omega_n of the unit over that of the vertical one."""
 
+@final
 class Design:
     """The springs of every body of this alpha and inertia, at this Omega_n/p."""
 
@@ -405,8 +417,8 @@ class Design:
 @overload
 def design(alpha: Structure, *, stiffness: float | None = None) -> Design: ...
 @overload
-def design(alpha: float, inertia: float = 0.0, stiffness: float | None = None) -> Design:
-    """The design from the geometry, without units: alpha in rad, inertia I_cg/(m R^2), stiffness Omega_n/p.
+def design(alpha: float, inertia: float | None = None, stiffness: float | None = None) -> Design:
+    """The design from the geometry, without units: alpha in rad, inertia I_cg/(m R^2), 0 unless given, stiffness Omega_n/p.
 
     Omega_n/p is, unless given, where `tune` begins to look for an accuracy of 0.002.
     """
@@ -417,6 +429,7 @@ def frequency_response(g: _Numbers, mu: float, f: float, xi: float) -> _Array:
 def fit_response(mu: float) -> dict[str, Any]:
     """f and xi of a mass ratio by the paper's frequency response, and the certificate: what `tune response --json` prints."""
 
+@final
 class Validation:
     """What many records say of springs: a row a record."""
 
@@ -450,4 +463,7 @@ def synthetic_records(structure: Structure, n: int, seed: int = 1) -> list[Recor
     """Motions made for a structure: pulses and filtered noise, as `tune validate --synthetic`."""
 
 def earthquake_records(structure: Structure, n: int, seed: int = 1) -> list[Record]:
-    """Motions with the frequencies of earthquakes, as `tune validate --earthquakes`; the structure decides how long they are silent at the end."""
+    """Motions with the frequencies of earthquakes, as `tune validate --earthquakes`.
+
+    The structure decides how long they are silent at the end.
+    """

@@ -3,6 +3,7 @@
 use std::sync::{Arc, OnceLock};
 
 use groundspring::{
+    case::LONGEST_S,
     housner::{self, Options, Outcome, Rocking},
     motion::Motion,
     structure::Body,
@@ -249,13 +250,11 @@ pub fn rigid_rocking_many(
     Ok(Histories(Arc::new(solved)))
 }
 
+/// Bodies, and how to solve each.
+type Pairs = (Vec<Body<f64>>, Vec<Options<f64>>);
+
 /// Bodies and options of one length, or one of length 1.
-fn pairs(
-    structures: &[Structure],
-    record: &Record,
-    scales: &[f64],
-    restitution: Option<f64>,
-) -> PyResult<(Vec<Body<f64>>, Vec<Options<f64>>)> {
+fn pairs(structures: &[Structure], record: &Record, scales: &[f64], restitution: Option<f64>) -> PyResult<Pairs> {
     let (n, m) = (structures.len(), scales.len());
     if n != m && n != 1 && m != 1 {
         return Err(value_error(format!(
@@ -277,6 +276,16 @@ fn pairs(
         Options { scale: scales[i % m], restitution: Some(e), ..Options::default() }
     });
     Ok((bodies, options.collect()))
+}
+
+/// A length of history [s], in the program's words if it is none.
+pub fn seconds(given: Option<f64>) -> PyResult<Option<f64>> {
+    match given {
+        Some(d) if !(d > 0.0 && d <= LONGEST_S) => {
+            Err(value_error(format!("duration is {d:?}; give seconds greater than zero, at most 1e6")))
+        }
+        given => Ok(given),
+    }
 }
 
 /// A velocity ratio, in the program's words if it is none.

@@ -34,7 +34,7 @@ pub struct Simulation {
 
 /// Where the histories are.
 enum Source {
-    Own(Both),
+    Own(Box<Both>),
     Tuned(Arc<Run>),
 }
 
@@ -226,7 +226,13 @@ pub fn simulate(
         let both = both(&body, e, &springs.chains(), &Members::default(), record);
         let report = Report::new(&body, e, record, &both.rocking, friction);
         let verdict = both.verdict(&body, dt, &report.conditioning);
-        Simulation { structure, dt, lines: lines(&verdict, &both, &report), verdict, source: Source::Own(both) }
+        Simulation {
+            structure,
+            dt,
+            lines: lines(&verdict, &both, &report),
+            verdict,
+            source: Source::Own(Box::new(both)),
+        }
     })?;
     warn_of(py, &simulation.lines)?;
     Ok(simulation)

@@ -13,6 +13,7 @@ use pyo3::prelude::*;
 
 use crate::{
     record::Record,
+    rocking::seconds,
     said::{plain, value_error, warn_of},
     simulation::Simulation,
     springs::Springs,
@@ -111,9 +112,7 @@ pub fn tune(
         "arr" => Objective::Arr,
         other => return Err(value_error(format!("method is {other:?}; give \"landing\" or \"arr\", the paper's"))),
     };
-    if duration.is_some_and(|d| !(d > 0.0)) {
-        return Err(value_error(format!("duration is {duration:?}; give seconds greater than zero, at most 1e6")));
-    }
+    let duration = seconds(duration)?;
     let record = record.map_or_else(record::Record::el_centro, |record| record.0.clone());
     let tuning =
         Tuning { objective, accuracy, max_omega_hz: max_hz, max_settlement_m: max_settlement, ..Tuning::default() };

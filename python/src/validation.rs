@@ -12,7 +12,7 @@ use pyo3::prelude::*;
 
 use crate::{
     record::Record,
-    rocking::ratio,
+    rocking::{ratio, seconds},
     said::{plain, value_error, warn},
     springs::Springs,
     structure::Structure,
@@ -71,9 +71,7 @@ pub fn validate(
     restitution: Option<f64>,
 ) -> PyResult<Validation> {
     let restitution = ratio(restitution)?.unwrap_or(structure.e);
-    if duration.is_some_and(|d| !(d > 0.0)) {
-        return Err(value_error(format!("duration is {duration:?}; give seconds greater than zero, at most 1e6")));
-    }
+    let duration = seconds(duration)?;
     let own: Vec<record::Record> = match records {
         None => Vec::new(),
         Some(Records::Several(several)) => several.iter().map(|record| record.0.clone()).collect(),

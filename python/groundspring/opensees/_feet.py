@@ -191,8 +191,8 @@ def _check(ops: Any, nodes: list[int], springs: Springs, compliance: float, fric
         ndm, ndf = len(ops.nodeCoord(node)), len(ops.nodeDisp(node))
         if ndm == 3:
             raise ValueError(
-                f"add_feet: node {node} is in a space model (ndm 3); these springs are for plane rocking, and nothing would hold the feet "
-                "out of the plane: the body would roll over and twist; make the model plane (ndm 2, ndf 3)"
+                f"add_feet: node {node} is in a space model (ndm 3); these springs are for plane rocking, and nothing would "
+                "hold the feet out of the plane: the body would roll over and twist; make the model plane (ndm 2, ndf 3)"
             )
         if (ndm, ndf) != (2, 3):
             raise ValueError(f"add_feet: node {node} has ndm {ndm}, ndf {ndf}; a plane frame has ndm 2, ndf 3")
@@ -200,14 +200,15 @@ def _check(ops: Any, nodes: list[int], springs: Springs, compliance: float, fric
     for node in nodes:
         held = sorted({1, 2} & set(ops.getFixedDOFs(node))) if node in fixed else []
         if held:
-            raise ValueError(f"add_feet: node {node} is fixed in direction {held[0]}; a foot must be free to move, take the fix off")
+            raise ValueError(f"add_feet: node {node} is fixed in direction {held[0]}; a foot must be free: take the fix off")
     for name, value in (("compliance", compliance), ("friction", friction)):
         if not (math.isfinite(value) and value >= 0.0):
             raise ValueError(f"add_feet: {name} is {value!r}; give a finite number, zero or greater")
     stiffest = max(springs.vertical.k1, springs.horizontal.k1)
     if compliance * stiffest >= 1.0:
         raise ValueError(
-            f"add_feet: compliance is {compliance!r} m/N, that of the stiffest k1 {1.0 / stiffest:.3e} m/N; what the structure gives must be less"
+            f"add_feet: compliance is {compliance!r} m/N, that of the stiffest k1 {1.0 / stiffest:.3e} m/N; "
+            "what the structure gives must be less"
         )
     _check_mass(ops, springs)
 

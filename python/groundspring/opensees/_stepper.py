@@ -109,7 +109,7 @@ class Stepper:
         ops.wipeAnalysis()
         self._solver("LoadControl", 1.0 / steps, kind="Static")
         if ops.analyze(steps) != 0:
-            raise StepError(f"gravity did not converge at {ops.getTime():.0%} of the load; is the structure held by its feet alone?")
+            raise StepError(f"gravity did not converge at {ops.getTime():.0%} of the load; check that the structure can stand")
         ops.loadConst("-time", 0.0)
         ops.wipeAnalysis()
         self.steps = None
@@ -207,7 +207,8 @@ class Stepper:
         """The record as ground acceleration."""
         ops = self.ops
         values = record.accel.tolist()
-        series = take(self._free, lambda tag: ops.timeSeries("Path", tag, "-dt", record.dt, "-startTime", start, "-values", *values))
+        path = ("-dt", record.dt, "-startTime", start, "-values", *values)
+        series = take(self._free, lambda tag: ops.timeSeries("Path", tag, *path))
         ops.pattern("UniformExcitation", self._pattern(), 1, "-accel", series)
 
     def _absorbers(self) -> set[int]:
