@@ -28,7 +28,8 @@ def test_a_body_on_added_feet_is_that_of_the_deck(name: str, ops: Any, tmp_path:
     feet = add_feet(ops, [1, 2], tuned.springs, compliance=give)
     longest = record.dt / deck.STEPS_PER_SAMPLE
     tolerance = 2e-14 * np.hypot(structure.height, structure.width / 2.0)
-    stepper = Stepper(ops, feet, accuracy=deck.ACCURACY, longest=longest, tolerance=tolerance)
+    stepper = Stepper(ops, feet, accuracy=deck.ACCURACY, longest=longest, tolerance=tolerance,
+                      rise=getattr(deck, "RISE", None))
     stepper.gravity()
     found = []
     sunk = ops.nodeDisp(3, 2)

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import inspect
 import itertools
 import math
 import sys
@@ -41,6 +42,16 @@ def _routine(ops: Any) -> Any:
     return names["Steps"]
 
 
+def _topples(ops: Any, feet: Feet) -> float:
+    """How high a foot is where a rigid body of the model's masses would topple, 2 b alpha, m."""
+    places = [ops.nodeCoord(node) for node in feet.nodes]
+    half = max((max(x for x, _ in places) - min(x for x, _ in places)) / 2.0, 1e-3 * _radius(ops, list(feet.nodes)))
+    masses = [(ops.nodeMass(node, 2), ops.nodeCoord(node)[1]) for node in ops.getNodeTags() if node not in feet.absorbers]
+    total = math.fsum(mass for mass, _ in masses)
+    height = math.fsum(mass * (y - places[0][1]) for mass, y in masses) / total if total > 0.0 else 0.0
+    return float(2.0 * half * math.atan2(half, height))
+
+
 class Stepper:
     """A transient analysis of a model with feet.
 
@@ -49,6 +60,7 @@ class Stepper:
     accuracy     wanted of the history, as a normalised error; halve it to see what the steps do
     longest      step, s; half of a record's sampling interval unless given. Shorter ones follow vibrations of the structure
     landing      s, what a landing takes: 1/Omega_n of the vertical k1 unless given
+    rise         of a foot, m, from which on its motion counts; a hundredth of where the structure topples unless given
     tolerance    of Newton's iteration: norm of the displacements' change, m; 1e-12 of the model's size unless given
     constraints  handler, "Plain" unless the model has constraints between nodes
     analysis     set up the solver (UmfPack, Newton, TRBDF2); False if the model has its own, which must be TRBDF2
@@ -65,6 +77,7 @@ class Stepper:
         accuracy: float = 0.002,
         longest: float | None = None,
         landing: float | None = None,
+        rise: float | None = None,
         tolerance: float | None = None,
         constraints: str = "Plain",
         analysis: bool = True,
@@ -75,11 +88,12 @@ class Stepper:
             raise ValueError("Stepper: there are no feet; give what add_feet returns")
         if not 1e-6 <= accuracy <= 0.1:
             raise ValueError(f"accuracy is {accuracy!r}; give a normalised error from 1e-6 to 0.1")
-        for name, value in (("longest", longest), ("landing", landing), ("tolerance", tolerance)):
+        for name, value in (("longest", longest), ("landing", landing), ("rise", rise), ("tolerance", tolerance)):
             if value is not None and not (math.isfinite(value) and value > 0.0):
                 raise ValueError(f"Stepper: {name} is {value!r}; give a finite number greater than zero")
         self.accuracy, self.longest, self.analysis, self.constraints = accuracy, longest, analysis, constraints
         self.landing = min(group.landing for group in self.groups) if landing is None else landing
+        self.rise = min(_topples(ops, group) for group in self.groups) / 100.0 if rise is None else rise
         nodes = [node for group in self.groups for node in group.nodes]
         self.tolerance = 1e-12 * _radius(ops, nodes) if tolerance is None else tolerance
         self._free = itertools.count(max([FIRST_TAG, *ops.getNodeTags(), *ops.getEleTags()]) + 1)
@@ -182,7 +196,10 @@ class Stepper:
             self._solver("TRBDF2", kind="Transient")
         pairs = tuple(pair for group in self.groups for pair in group.pairs)
         longest = longest if self.longest is None else self.longest
-        self.steps = _routine(_Watched(self.ops, self._stepped))(pairs, self.landing, longest, self.accuracy)
+        routine = _routine(_Watched(self.ops, self._stepped))
+        told = {"landing": self.landing, "longest": longest, "rise": self.rise, "accuracy": self.accuracy}
+        asked = inspect.signature(routine).parameters
+        self.steps = routine(pairs, **{name: value for name, value in told.items() if name in asked})
 
     def _stepped(self, h: float) -> None:
         if self._watch is not None:
