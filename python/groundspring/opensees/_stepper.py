@@ -6,10 +6,11 @@ import inspect
 import itertools
 import math
 import sys
+import warnings
 from collections.abc import Callable, Sequence
 from typing import Any
 
-from .._native import GRAVITY, STEPS, Record
+from .._native import GRAVITY, STEPS, GroundspringWarning, Record
 from ._account import Books
 from ._feet import FIRST_TAG, Feet, _radius, take
 from ._history import FeetHistory, Watch
@@ -154,7 +155,7 @@ class Stepper:
         progress   a line on stderr for every tenth
         account    keep the energies of the whole structure, too: `FeetHistory.account`
 
-        Every mass is shaken, those of elements and of the absorbers too.
+        Every mass is shaken, those of elements and of the absorbers too. GroundspringWarning: an event was met in too long a step.
         """
         ops = self.ops
         if not any((group.forces()[:, 1] > 0.0).any() for group in self.groups):
@@ -184,6 +185,8 @@ class Stepper:
             self.history = watch.history()
             if books is not None:
                 self.history.account = books.account(self.history.work.sum(axis=1))
+        if self.steps is not None and self.steps.late:
+            warnings.warn(f"run: {self.report()}", GroundspringWarning, stacklevel=2)
         return self.history
 
     def report(self) -> str:
