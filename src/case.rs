@@ -36,8 +36,7 @@ use crate::{
     response::{bounds::Bounds, target::Target},
     structure::{Structure, StructureError},
 };
-pub use structure::LEAST_INERTIA;
-use structure::StructureSection;
+pub use structure::{LEAST_INERTIA, StructureSection};
 
 /// What is wrong with a case file, and what to do.
 #[derive(Debug, Error)]
@@ -225,18 +224,33 @@ impl Case {
             return Err(value("record.duration_s", asked, "give seconds greater than zero, at most 1e6"));
         }
         let excitation = Excitation { record, scale: section.scale.unwrap_or(1.0), duration_s: section.duration_s };
-        file.tuning.check(path)?;
+        let case = Self::new(path, (structure, restitution), excitation, file.tuning)?;
+        Ok(Self { members, target: file.target.unwrap_or_default(), bounds: file.bounds, ..case })
+    }
+
+    /// A structure without members and its restitution, as [`StructureSection::checked`] gives them, under a ground motion;
+    /// `name` stands for the case file in messages.
+    ///
+    /// # Errors
+    /// A setting of `tuning` out of its range; a scale that is not finite, or takes the peak above 50 g.
+    pub fn new(
+        name: &str,
+        (structure, restitution): (Structure, f64),
+        excitation: Excitation,
+        tuning: Tuning,
+    ) -> Result<Self, CaseError> {
+        tuning.check(name)?;
         Ok(Self {
             structure,
             restitution,
-            members,
+            members: Members::default(),
             record: excitation.scaled()?,
             notices: Vec::new(),
             duration_s: excitation.duration(),
             excitation,
-            tuning: file.tuning,
-            target: file.target.unwrap_or_default(),
-            bounds: file.bounds,
+            tuning,
+            target: Target::default(),
+            bounds: Bounds::default(),
         })
     }
 }

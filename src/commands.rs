@@ -35,6 +35,10 @@ mod table;
 mod validate;
 mod verify;
 
+pub use common::{Both, both};
+pub use report::Report;
+pub use run::Run;
+
 /// The version, and what was built with it.
 #[cfg(feature = "diffsol")]
 const VERSION: &str = concat!(env!("CARGO_PKG_VERSION"), " (features: cli, figures, diffsol)");

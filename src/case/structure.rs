@@ -83,21 +83,21 @@ const KEYS: [&str; 20] = [
     "restitution_ratio",
 ];
 
-/// The section as it stands in the file, in SI.
+/// A structure as a user describes it, in SI, unchecked.
 #[derive(Clone, Debug)]
-pub(super) struct StructureSection {
-    kind: Kind,
+pub struct StructureSection {
+    pub kind: Kind,
     /// Height of the centre of mass [m].
-    height_m: f64,
+    pub height_m: f64,
     /// Distance between the feet [m].
-    width_m: f64,
-    mass_kg: f64,
+    pub width_m: f64,
+    pub mass_kg: f64,
     /// About the centre of mass; by `kind` unless given.
-    rotational_inertia_kgm2: Option<f64>,
+    pub rotational_inertia_kgm2: Option<f64>,
     /// Velocity restitution e; by equation 2 unless given.
-    restitution: Option<f64>,
+    pub restitution: Option<f64>,
     /// Factor on equation 2's e.
-    restitution_ratio: Option<f64>,
+    pub restitution_ratio: Option<f64>,
 }
 
 impl<'de> Deserialize<'de> for StructureSection {
@@ -169,7 +169,10 @@ impl<'de> Visitor<'de> for Keys {
 
 impl StructureSection {
     /// The structure and its velocity restitution; `path` names the file in messages.
-    pub(super) fn checked(&self, path: &str) -> Result<(Structure, f64), CaseError> {
+    ///
+    /// # Errors
+    /// Numbers that cannot rock, or a restitution that is no velocity ratio.
+    pub fn checked(&self, path: &str) -> Result<(Structure, f64), CaseError> {
         let wrap = |source| CaseError::Structure { path: path.into(), source };
         let mut structure = Structure {
             kind: self.kind,

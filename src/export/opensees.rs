@@ -8,7 +8,7 @@ use crate::scalar::GRAVITY;
 /// The deck for openseespy.
 pub(super) fn python(model: &Model) -> String {
     let rows = rows(model, ",");
-    fill(include_str!("deck.py"), include_str!("steps.py"), model, &rows)
+    fill(include_str!("deck.py"), super::STEPS, model, &rows)
 }
 
 /// The deck for OpenSees' Tcl interpreter.
