@@ -316,6 +316,7 @@ fn parse_error(path: &str, text: &str, error: &toml::de::Error) -> CaseError {
     let message = match unknown_key(&message) {
         Some((key, Some(near))) => format!("unknown key \"{key}\"; did you mean \"{near}\"?"),
         Some((key, None)) => format!("unknown key \"{key}\"; remove it"),
+        None if message.contains(';') => message,
         None => format!("{message}; mend this line"),
     };
     CaseError::Parse { path: path.into(), line, message }

