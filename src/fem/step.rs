@@ -20,15 +20,15 @@ pub(super) struct Ground<S> {
 }
 
 impl<S: Scalar> Ground<S> {
-    /// A time after the start [s].
+    /// At a share of a time h [s] after the start.
     #[inline(always)]
-    pub fn after(&self, time: S) -> [S; 2] {
-        [self.start[0] + self.slope[0] * time, self.start[1] + self.slope[1] * time]
+    pub fn after(&self, h: S, share: f64) -> [S; 2] {
+        [0, 1].map(|k| self.start[k] + self.slope[k] * h * share)
     }
 
     /// The same from a later time on [s].
     pub fn from(&self, time: S) -> Self {
-        Self { start: self.after(time), slope: self.slope }
+        Self { start: self.after(time, 1.0), slope: self.slope }
     }
 }
 
@@ -64,7 +64,7 @@ impl<S: Scalar> Stages<S> {
         let (mut input, mut dissipated) = (S::zero(), S::zero());
         for j in 0..3 {
             let weight = self.h * A[2][j];
-            input += model.input_power(&self.v[j], ground.after(self.h * C[j])) * weight;
+            input += model.input_power(&self.v[j], ground.after(self.h, C[j])) * weight;
             dissipated += model.dissipation(&self.q[j], &self.v[j], feet) * weight;
         }
         (input, dissipated)
@@ -150,7 +150,7 @@ impl<'a, S: Scalar> Stepper<'a, S> {
         let radius = self.real.body.radius();
         // a gap rounded by some units in the last digit of R turns the body R/b times as far
         let rounding = 8.0 * f64::EPSILON * radius * radius / self.real.body.half_width;
-        let grounds = C.map(|c| ground.after(h * c));
+        let grounds = C.map(|c| ground.after(h, c));
         let h2 = h * h;
         (s.h, s.a, s.iterations, s.rate) = (h, *guess, 0, request.rate);
         let (mut last, mut left) = (f64::INFINITY, None);
