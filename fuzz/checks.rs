@@ -118,6 +118,7 @@ pub fn parameters(bytes: &[u8]) {
         start: fem::Start::Settled,
         dt: 0.01,
         accel: &accel,
+        vertical: &[],
         scale: 1.0,
         control: fem::Control { most_steps: 1000, ..fem::Control::default() },
     };

@@ -13,6 +13,7 @@
 //!
 //! [record]                   # left out: El Centro 1940 NS
 //! file = "motion.at2"        # relative to the case file
+//! vertical = "auto"          # the file's vertical component, or another file's; left out: none
 //! scale = 1.0
 //! duration_s = 20.0          # left out: all of it
 //!
@@ -32,7 +33,7 @@ use crate::{
     excitation::Excitation,
     members::{Damper, Friction, Legs, Members, MembersError, Tendon},
     message::one_line,
-    record::{Notice, ReadOptions, Record, RecordError, Recording, Units},
+    record::{Notice, ReadOptions, Record, RecordError, Recording, Units, VerticalFrom},
     response::{bounds::Bounds, target::Target},
     structure::{Structure, StructureError},
 };
@@ -52,7 +53,7 @@ pub enum CaseError {
     #[error("{path}: {key} is {value}; {remedy}")]
     Value { path: String, key: &'static str, value: String, remedy: &'static str },
     #[error(
-        "{path}: record.file is not given; record.dt_s, units, component and baseline tell of a file: name it, or leave them out"
+        "{path}: record.file is not given; record.dt_s, units, component, baseline and vertical tell of a file: name it, or leave them out"
     )]
     NoFile { path: String },
     #[error(transparent)]
@@ -83,6 +84,8 @@ struct RecordSection {
     component: Option<String>,
     /// Subtract the mean of the samples.
     baseline: bool,
+    /// "auto", the vertical component of the same file, or the file of one, relative to the case file; none unless given.
+    vertical: Option<VerticalFrom>,
     /// Factor on the acceleration; 1 unless given.
     scale: Option<f64>,
     /// Length to compare over [s]; the whole record unless given.
@@ -211,9 +214,11 @@ impl Case {
         let section = &file.record;
         let record = match &section.file {
             Some(name) => {
-                let file = Path::new(path).parent().unwrap_or(Path::new("")).join(name);
+                let folder = Path::new(path).parent().unwrap_or(Path::new(""));
                 let (component, baseline) = (section.component.clone(), section.baseline);
-                read(&file, &ReadOptions { dt: section.dt_s, units: section.units, component, baseline })?
+                let vertical = section.vertical.clone().map(|from| from.within(folder));
+                let options = ReadOptions { dt: section.dt_s, units: section.units, component, baseline, vertical };
+                read(&folder.join(name), &options)?
             }
             None if section.tells_of_a_file() => {
                 return Err(CaseError::NoFile { path: path.into() });
@@ -270,7 +275,11 @@ impl Case {
 
 impl RecordSection {
     fn tells_of_a_file(&self) -> bool {
-        self.dt_s.is_some() || self.units.is_some() || self.component.is_some() || self.baseline
+        self.dt_s.is_some()
+            || self.units.is_some()
+            || self.component.is_some()
+            || self.baseline
+            || self.vertical.is_some()
     }
 }
 

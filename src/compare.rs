@@ -9,8 +9,8 @@ use crate::{
     structure::Body,
 };
 
-/// How a finite element history matches Housner's over the same samples, up to the first overturning of the two: after it
-/// there is nothing to compare. A number that is not finite (an NRMSE of a body that Housner's equation never lifts) is
+/// How a finite element history matches Housner's over the same samples, up to the first overturning of the two, or to where
+/// Housner's body leaves the ground: after it there is nothing to compare. A number that is not finite (an NRMSE of a body that Housner's equation never lifts) is
 /// `null` in JSON.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Match {
@@ -59,7 +59,10 @@ impl Match {
         let times = [housner, &fem.motion].map(|motion| overturned(body, dt, &motion.theta));
         let until = times.into_iter().flatten().reduce(f64::min);
         let n = housner.len().min(fem.motion.len()).min(samples_until(until, dt));
-        let upright = |l: &&Landing| until.is_none_or(|until| l.time <= until);
+        // Housner's solution may end before: where its pivot leaves the ground
+        let end = if housner.len() < fem.motion.len() { housner.len() as f64 * dt } else { f64::INFINITY };
+        let end = until.unwrap_or(end).min(end);
+        let upright = |l: &&Landing| l.time <= end;
         let before = || fem.landings.iter().filter(upright);
         let landings = effective_restitution(before());
         let largest = before().filter(|l| l.impact).map(|l| l.kinetic).fold(0.0, f64::max);
@@ -130,7 +133,7 @@ mod tests {
         let accel = vec![share_of_limit * 9.81 * body.half_width / body.height; 1000];
         let rocking = solve(&body, dt, &accel, &Options::default());
         let (start, control) = (Start::Settled, Control::default());
-        let history = Case { body, springs, start, dt, accel: &accel, scale: 1.0, control }.simulate();
+        let history = Case { body, springs, start, dt, accel: &accel, vertical: &[], scale: 1.0, control }.simulate();
         let housner = (&rocking.motion(&body), rocking.impacts.len());
         (body, Match::new(&body, dt, housner, &history, body.restitution()), rocking.overturned().unwrap_or(f64::NAN))
     }

@@ -153,6 +153,7 @@ pub fn sensitivity(body: &Body<f64>, dt: f64, accel: &[f64], options: &Options<f
     };
     let dual_options = Options {
         scale: (real(0.0).derivative(1) + 1.0) * options.scale,
+        vertical: options.vertical.clone(),
         restitution: options.restitution.map(real),
         duration: options.duration,
         initial: options.initial.map(|(theta, rate)| (real(theta), real(rate))),

@@ -55,8 +55,11 @@ impl Excitation {
         } else {
             format!("all {} s used", seconds(whole.duration()))
         };
+        let vertical = used.vertical.as_ref().map_or_else(String::new, |up| {
+            format!("; vertical {}, peak {:.4} g", up.name, up.peak_g() * self.scale.abs())
+        });
         format!(
-            "record {} ({from}), scale {}, {part}: {} samples of {} s, PGA {:.4} g at {} s",
+            "record {} ({from}), scale {}, {part}: {} samples of {} s, PGA {:.4} g at {} s{vertical}",
             whole.name,
             self.scale,
             used.len(),

@@ -146,6 +146,7 @@ pub fn export(
         ("friction", members.friction.is_some() && sap2000),
         ("damper", members.damper.is_some() && sap2000),
         ("tendon", members.tendon.is_some() && sap2000),
+        ("vertical ground motion", record.vertical.is_some() && sap2000),
     ] {
         if left_out {
             return Err(ExportError::Member { name, format: format.name() });

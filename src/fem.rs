@@ -77,7 +77,9 @@ pub struct Case<'a, S> {
     pub dt: f64,
     /// Ground acceleration at t = i dt [m/s2], linear in between.
     pub accel: &'a [f64],
-    /// Factor on the ground acceleration.
+    /// Vertical ground acceleration at the same times [m/s2], positive upwards, zero beyond its last sample: empty if there is none.
+    pub vertical: &'a [f64],
+    /// Factor on the ground acceleration, both components.
     pub scale: S,
     pub control: Control,
 }
@@ -110,7 +112,7 @@ impl<S: Scalar> Case<'_, S> {
             Start::Leaning(theta) => model.leaning(theta),
         };
         let mut run = run::Run::new(model, start, self.control);
-        let outcome = run.follow(self.dt, self.accel, self.scale, observer);
+        let outcome = run.follow(self.dt, (self.accel, self.vertical), self.scale, observer);
         Finish { outcome, work: run.work, energy: *run.energy(), energy_scale: run.energy_scale() }
     }
 }

@@ -71,7 +71,13 @@ fn error(job: &Job, springs: &Springs<Design<f64>>) -> Option<f64> {
 
 fn paper_error(job: &Job, paper: &Paper, hz: f64) -> Option<f64> {
     let Paper { vertical, horizontal, tuned } = paper;
-    let benchmark = Benchmark { body: job.body, dt: job.record.dt, accel: &job.record.accel, housner: &job.housner };
+    let benchmark = Benchmark {
+        body: job.body,
+        dt: job.record.dt,
+        accel: &job.record.accel,
+        vertical: job.record.up(),
+        housner: &job.housner,
+    };
     let bracket = Bracket { max_hz: hz, max_settlement: f64::INFINITY };
     let from = job.springs.vertical.omega_n_hz;
     let springs = if hz == from {
@@ -110,6 +116,7 @@ fn cost(job: &Job, springs: &Springs<Design<f64>>) -> (f64, usize) {
         start: Start::Settled,
         dt: job.record.dt,
         accel: &job.record.accel,
+        vertical: job.record.up(),
         scale: 1.0,
         control: Control::search(),
     };

@@ -50,6 +50,7 @@ pub fn simulate(parameters: &Parameters, record: &Record) -> History {
         start: Start::Settled,
         dt: record.dt,
         accel: &record.accel,
+        vertical: record.up(),
         scale: 1.0,
         control: Control::default(),
     }

@@ -31,6 +31,7 @@ mod source;
 mod text;
 mod timing;
 mod units;
+mod vertical;
 
 use std::fs::File;
 use std::io::Read;
@@ -45,6 +46,7 @@ pub use peak::Peak;
 pub use recording::{Component, Recording};
 pub use source::Source;
 pub use units::{Units, UnitsError};
+pub use vertical::{Vertical, VerticalFrom};
 
 use crate::scalar::GRAVITY;
 
@@ -62,13 +64,15 @@ pub struct Record {
     pub dt: f64,
     /// Ground acceleration at t = i dt, positive to the right (m/s2).
     pub accel: Vec<f64>,
+    /// The vertical component at the same times, if there is one.
+    pub vertical: Option<Vertical>,
     /// Where it comes from, which scaling and cutting do not change.
     pub source: Source,
 }
 
 impl PartialEq for Record {
     fn eq(&self, other: &Self) -> bool {
-        (&self.name, self.dt, &self.accel) == (&other.name, other.dt, &other.accel)
+        (&self.name, self.dt, &self.accel, &self.vertical) == (&other.name, other.dt, &other.accel, &other.vertical)
     }
 }
 
@@ -83,6 +87,8 @@ pub struct ReadOptions {
     pub component: Option<String>,
     /// Subtract the mean of the samples.
     pub baseline: bool,
+    /// Where to take the vertical component from; none unless given. Time step, unit and baseline are those of the record.
+    pub vertical: Option<VerticalFrom>,
 }
 
 impl Record {
@@ -91,7 +97,7 @@ impl Record {
     /// # Errors
     /// dt not between 1e-6 and 1 s, no sample, a sample that is not finite, a peak above 50 g.
     pub fn new(name: impl Into<String>, dt: f64, accel: Vec<f64>) -> Result<Self, RecordError> {
-        let record = Self { name: name.into(), dt, accel, source: Source::Numbers };
+        let record = Self { name: name.into(), dt, accel, vertical: None, source: Source::Numbers };
         let name = || text::quote(&record.name);
         check_step(&record.name, dt)?;
         if record.accel.is_empty() {
@@ -132,13 +138,17 @@ impl Record {
         Recording::parse(file, bytes, options).map(Recording::into_record)
     }
 
-    /// The record with every acceleration multiplied by a factor.
+    /// The record with every acceleration multiplied by a factor, both components.
     ///
     /// # Errors
     /// The factor is not finite, or takes the peak above 50 g.
     pub fn scaled(&self, factor: f64) -> Result<Self, RecordError> {
         let scaled = Self::new(self.name.clone(), self.dt, self.accel.iter().map(|a| a * factor).collect())?;
-        Ok(Self { source: self.source.clone(), ..scaled })
+        let vertical = self.vertical.as_ref().map(|up| {
+            let scaled = Self::new(up.name.clone(), self.dt, up.accel.iter().map(|a| a * factor).collect())?;
+            Ok::<_, RecordError>(Vertical { accel: scaled.accel.into(), ..up.clone() })
+        });
+        Ok(Self { source: self.source.clone(), vertical: vertical.transpose()?, ..scaled })
     }
 
     /// The first `duration_s` seconds: the samples up to that time, at least the first.
@@ -147,7 +157,10 @@ impl Record {
         let steps = (duration_s / self.dt + 1e-6).floor();
         let samples = (steps as usize).saturating_add(1).min(self.accel.len());
         let (name, source) = (self.name.clone(), self.source.clone());
-        Self { name, dt: self.dt, accel: self.accel[..samples].to_vec(), source }
+        let vertical = self.vertical.as_ref();
+        let vertical =
+            vertical.map(|up| Vertical { accel: up.accel[..samples.min(up.accel.len())].into(), ..up.clone() });
+        Self { name, dt: self.dt, accel: self.accel[..samples].to_vec(), vertical, source }
     }
 
     /// Peak ground acceleration (m/s2).

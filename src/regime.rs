@@ -4,10 +4,10 @@
 //!
 //! ```text
 //! F = m ( R [ cos(phi) theta'' + sin(phi) theta'^2 ] + u_g )
-//! N = m ( R [ sin(phi) theta'' - cos(phi) theta'^2 ] + g )
+//! N = m ( R [ sin(phi) theta'' - cos(phi) theta'^2 ] + g + a_v )
 //! ```
 //!
-//! and at rest F = m u_g, N = m g. Without sliding |F|/N is below the friction coefficient; N <= 0 is free flight.
+//! and at rest F = m u_g, N = m (g + a_v); a_v is the vertical ground acceleration, if there is any. Without sliding |F|/N is below the friction coefficient; N <= 0 is free flight.
 //!
 //! A landing is an impulse (P_x, P_y) at the new foot that stops it. Housner's, which leaves the old foot (the pivot until now)
 //! without impulse, asks for P_x/P_y = h (1 - e)/(b (1 + e)) = m h b/(I_cg + m h^2). The pivot must then rise. An impulse with friction mu at the new
@@ -58,9 +58,19 @@ pub struct Regime {
     pub too_stocky: Option<Stocky>,
 }
 
-/// Check a history against the record (m/s2) and scale that made it, at the samples and on either side of each impact, up
+/// Check a history against the record (m/s2; horizontal, and vertical, zero beyond its last sample) and scale that made it, at the samples and on either side of each impact, up
 /// to its overturning: what a body asks of the ground while it falls is no question of rocking.
-pub fn check(body: &Body<f64>, dt: f64, accel: &[f64], scale: f64, rocking: &Rocking<f64>, friction: f64) -> Regime {
+pub fn check(
+    body: &Body<f64>,
+    dt: f64,
+    (accel, vertical): (&[f64], &[f64]),
+    scale: f64,
+    rocking: &Rocking<f64>,
+    friction: f64,
+) -> Regime {
+    // in g; gamma = 1 + a_v/g beside u_g/g
+    let at = |record: &[f64], i: usize| record.get(i).copied().unwrap_or(0.0) * scale / GRAVITY;
+    let sample = |i: usize| (at(accel, i), 1.0 + at(vertical, i));
     let mut worst = Worst { friction: Demand { value: 0.0, time: 0.0 }, lowest: 1.0, flight: None };
     let mut impacts = rocking.impacts.iter().peekable();
     let upright = samples_until(rocking.overturned(), dt);
@@ -69,16 +79,17 @@ pub fn check(body: &Body<f64>, dt: f64, accel: &[f64], scale: f64, rocking: &Roc
         while let Some(impact) = impacts.next_if(|impact| impact.time <= time) {
             let x = impact.time / dt;
             let k = (x as usize).min(accel.len().saturating_sub(2));
-            let next = accel.get(k + 1).copied().unwrap_or(accel[k]);
-            let ground = scale * (accel[k] + (next - accel[k]) * (x - k as f64));
+            let ((a0, g0), (a1, g1)) = (sample(k), sample((k + 1).min(accel.len().saturating_sub(1))));
+            let part = x - k as f64;
+            let ground = (a0 + (a1 - a0) * part, g0 + (g1 - g0) * part);
             // the body comes from the side that it moves away from
             let from = -impact.rate_before.signum();
             worst.take(impact.time, forces(body, from, 0.0, impact.rate_before, ground));
             worst.take(impact.time, forces(body, -from, 0.0, impact.rate_after, ground));
         }
-        let ground = scale * accel[i];
+        let ground = sample(i);
         if theta == 0.0 && rate == 0.0 {
-            worst.take(time, (ground / GRAVITY, 1.0));
+            worst.take(time, ground);
         } else {
             let side = if theta == 0.0 { rate.signum() } else { theta.signum() };
             worst.take(time, forces(body, side, theta, rate, ground));
@@ -96,7 +107,7 @@ pub fn check(body: &Body<f64>, dt: f64, accel: &[f64], scale: f64, rocking: &Roc
 /// When the pivot would first have to hold the body down (s), if ever, up to its overturning; arguments as of [`check`]. The feet of a
 /// finite element model leave the ground there, as real ones do: Housner's equation says nothing of what follows.
 pub fn pivot_pulls(body: &Body<f64>, dt: f64, accel: &[f64], rocking: &Rocking<f64>) -> Option<f64> {
-    check(body, dt, accel, 1.0, rocking, f64::INFINITY).free_flight.map(|flight| flight.time)
+    check(body, dt, (accel, &[]), 1.0, rocking, f64::INFINITY).free_flight.map(|flight| flight.time)
 }
 
 /// The geometry, if it does not land without bouncing under a friction coefficient.
@@ -107,13 +118,13 @@ pub fn stockiness(body: &Body<f64>, friction: f64) -> Option<Stocky> {
         .then_some(Stocky { restitution, friction_needed: friction_needed.max(0.0) })
 }
 
-/// F and N of a rocking body over its weight m g.
-fn forces(body: &Body<f64>, side: f64, theta: f64, rate: f64, ground: f64) -> (f64, f64) {
+/// F and N of a rocking body over its weight m g; the ground has u_g/g and gamma.
+fn forces(body: &Body<f64>, side: f64, theta: f64, rate: f64, (ground, gamma): (f64, f64)) -> (f64, f64) {
     let (sin, cos) = (body.alpha() * side - theta).sin_cos();
-    let (r, ground) = (body.radius() / GRAVITY, ground / GRAVITY);
-    let acceleration = -body.p_squared() * (sin + ground * cos); // (1), (3)
+    let r = body.radius() / GRAVITY;
+    let acceleration = -body.p_squared() * (gamma * sin + ground * cos); // (1), (3)
     let horizontal = r * (cos * acceleration + sin * rate * rate) + ground;
-    let vertical = r * (sin * acceleration - cos * rate * rate) + 1.0;
+    let vertical = r * (sin * acceleration - cos * rate * rate) + gamma;
     (horizontal, vertical)
 }
 

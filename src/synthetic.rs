@@ -74,7 +74,7 @@ pub fn record(seed: u64, index: usize, p: f64, alpha: f64) -> Record {
     scale_to(pga, &mut accel);
     let silence = (8.0 / (p * dt)).ceil() as usize;
     accel.resize(accel.len() + silence, 0.0);
-    Record { name: format!("{kind}-{index:04}"), dt, accel, source: Source::Synthetic }
+    Record { name: format!("{kind}-{index:04}"), dt, accel, vertical: None, source: Source::Synthetic }
 }
 
 /// Numbers of this suite are drawn from streams that [`record`] does not use.
@@ -97,7 +97,7 @@ pub fn earthquake(seed: u64, index: usize, p: f64) -> Record {
     let p = if p.is_nan() { 0.0 } else { p.max(0.0) };
     let silence = (8.0 / p).clamp(2.0, 60.0);
     accel.resize(accel.len() + (silence / dt).ceil() as usize, 0.0);
-    Record { name: format!("earthquake-{index:04}"), dt, accel, source: Source::Earthquake }
+    Record { name: format!("earthquake-{index:04}"), dt, accel, vertical: None, source: Source::Earthquake }
 }
 
 /// Scale to a peak.

@@ -20,6 +20,8 @@ pub enum Fate {
     /// It rocked and stood at the end.
     Rocked,
     Overturned,
+    /// Housner's pivot let go of the ground: his solution ends there.
+    LeftGround,
     /// The history ended before the record did, without having overturned.
     Failed,
 }
@@ -31,7 +33,10 @@ pub struct Answer {
     /// When |theta| last grew past alpha [s].
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub overturned_s: Option<f64>,
-    /// Largest |theta|/alpha, of a body that overturned up to then; zero if it never lifted.
+    /// When Housner's pivot let go of the ground, which ends his solution [s].
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub left_ground_s: Option<f64>,
+    /// Largest |theta|/alpha, of a body that overturned or left the ground up to then; zero if it never lifted.
     pub peak_ratio: f64,
 }
 
@@ -39,6 +44,9 @@ pub struct Answer {
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Verdict {
     pub housner: Answer,
+    /// His answer without the record's vertical component, if it has one.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub housner_without_vertical: Option<Answer>,
     pub finite_elements: Answer,
     /// Whether Housner's history is well conditioned: whether the two can be compared one to one.
     pub well_conditioned: bool,
@@ -57,9 +65,11 @@ impl Answer {
             housner::Outcome::NeverMoved => Fate::NeverLifted,
             housner::Outcome::Rocked => Fate::Rocked,
             housner::Outcome::Overturned { .. } => Fate::Overturned,
+            housner::Outcome::LeavesGround { .. } => Fate::LeftGround,
             housner::Outcome::WorkBound { .. } | housner::Outcome::NotFinite { .. } => Fate::Failed,
         };
-        Self::new(body, dt, fate, rocking.overturned(), &rocking.theta)
+        let left_ground_s = rocking.left_ground();
+        Self { left_ground_s, ..Self::new(body, dt, fate, rocking.overturned(), &rocking.theta) }
     }
 
     fn of_history(body: &Body<f64>, dt: f64, history: &History) -> Self {
@@ -78,7 +88,7 @@ impl Answer {
         let standing = samples_until(overturned_s, dt).min(theta.len());
         let peak = theta[..standing].iter().fold(0.0, |peak: f64, x| peak.max(x.abs())) / body.alpha();
         // a standing finite element body sways without lifting
-        Self { fate, overturned_s, peak_ratio: if fate == Fate::NeverLifted { 0.0 } else { peak } }
+        Self { fate, overturned_s, left_ground_s: None, peak_ratio: if fate == Fate::NeverLifted { 0.0 } else { peak } }
     }
 
     fn words(&self) -> String {
@@ -88,6 +98,10 @@ impl Answer {
             (Fate::Rocked, _) => format!("rocked, {peak}"),
             (Fate::Overturned, Some(time)) => format!("OVERTURNED at t = {time:.2} s, {peak} until then"),
             (Fate::Overturned, None) => "OVERTURNED".into(),
+            (Fate::LeftGround, _) => {
+                let time = self.left_ground_s.unwrap_or_default();
+                format!("LEAVES THE GROUND at t = {time:.3} s, where its solution ends; {peak} until then")
+            }
             (Fate::Failed, _) => format!("has no answer: its history ended early, {peak} until then"),
         }
     }
@@ -107,6 +121,7 @@ impl Verdict {
         let number = |x: f64| Some(x).filter(|x| comparable && x.is_finite());
         Self {
             housner,
+            housner_without_vertical: None,
             finite_elements: Answer::of_history(body, dt, history),
             well_conditioned: conditioning.well_conditioned(),
             nrmse_horizontal: number(matched.nrmse_horizontal),
@@ -115,17 +130,29 @@ impl Verdict {
         }
     }
 
-    /// Whether both models say the same: overturned, rocked, or stayed down.
+    /// Beside Housner's history without the vertical component.
+    #[must_use]
+    pub fn beside(self, body: &Body<f64>, dt: f64, level: &Rocking<f64>) -> Self {
+        Self { housner_without_vertical: Some(Answer::of_housner(body, dt, level)), ..self }
+    }
+
+    /// Whether both models say the same: overturned, rocked, or stayed down. Where Housner's body leaves the ground only the finite
+    /// elements say it, and nothing disagrees with them.
     pub fn agrees(&self) -> bool {
-        self.housner.fate == self.finite_elements.fate && self.housner.fate != Fate::Failed
+        match self.housner.fate {
+            Fate::Failed => false,
+            Fate::LeftGround => self.finite_elements.fate != Fate::Failed,
+            fate => fate == self.finite_elements.fate,
+        }
     }
 
     /// A few plain lines for the file.
     pub fn lines(&self) -> Vec<String> {
-        let mut lines = vec![
-            format!("Housner's body {}", self.housner.words()),
-            format!("the body on its springs {}", self.finite_elements.words()),
-        ];
+        let mut lines = vec![format!("Housner's body {}", self.housner.words())];
+        if let Some(level) = &self.housner_without_vertical {
+            lines.push(format!("without the vertical component it {}", level.words()));
+        }
+        lines.push(format!("the body on its springs {}", self.finite_elements.words()));
         if !self.agrees() {
             lines.push("WARNING: the two models disagree on what the body does".into());
         }

@@ -120,7 +120,8 @@ pub fn verify(
     let parameters = &Parameters { structure: with_inertia(&parameters.structure), ..parameters.clone() };
     let body = parameters.structure.body::<f64>();
     let history = simulate(parameters, record);
-    let rocking = housner::solve(&body, record.dt, &record.accel, &housner::Options::default());
+    let options = housner::Options { vertical: record.vertical_accel(), ..Default::default() };
+    let rocking = housner::solve(&body, record.dt, &record.accel, &options);
     let housner = rocking.motion(&body);
 
     let changed = changed_by_a_hair(parameters, record);

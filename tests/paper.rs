@@ -29,6 +29,7 @@ static TUNED: LazyLock<Tuned> = LazyLock::new(|| {
         start: Start::Settled,
         dt: job.record.dt,
         accel: &job.record.accel,
+        vertical: &[],
         scale: 1.0,
         control: Control::default(),
     }

@@ -194,7 +194,7 @@ class History:
     def impact_rates(self) -> _Array:
         """Rates before the impacts, rad/s."""
     @property
-    def outcome(self) -> Literal["rocked", "never_lifted", "overturned", "work_bound", "not_finite"]: ...
+    def outcome(self) -> Literal["rocked", "never_lifted", "overturned", "leaves_ground", "work_bound", "not_finite"]: ...
     @property
     def overturned(self) -> float | None:
         """When |theta| last grew past alpha, of a body that overturned, s."""
@@ -218,9 +218,19 @@ class Histories:
         """Whether each overturned."""
 
 def rigid_rocking(
-    structure: Structure, record: Record, scale: float = 1.0, restitution: float | None = None
+    structure: Structure,
+    record: Record,
+    vertical: Record | None = None,
+    scale: float = 1.0,
+    restitution: float | None = None,
 ) -> History:
-    """Housner's solution for a structure on a record: to the last bit that of `tune housner`."""
+    """Housner's solution for a structure on a record: to the last bit that of `tune housner`.
+
+    vertical  vertical ground acceleration at the same times, positive upwards; the history ends where the ground would
+              have to pull (outcome "leaves_ground")
+
+    ValueError: a vertical record of other times; a scale or restitution out of range.
+    """
 
 def rigid_rocking_many(
     structures: Structure | Sequence[Structure],

@@ -92,7 +92,7 @@ pub fn read_record(
     let units = units.map(str::parse::<Units>).transpose().map_err(value_error)?;
     // an azimuth may be given as a number
     let component = component.map(|component| component.str().map(|s| s.to_string())).transpose()?;
-    let options = core::ReadOptions { dt, units, component, baseline };
+    let options = core::ReadOptions { dt, units, component, baseline, vertical: None };
     let recording = py.detach(|| Recording::read(&path, &options)).map_err(value_error)?;
     recording.notices().iter().try_for_each(|notice| warn(py, notice))?;
     Ok(Record(recording.into_record()))

@@ -6,6 +6,7 @@ use groundspring::{
     case::LONGEST_S,
     housner::{self, Options, Outcome, Rocking},
     motion::Motion,
+    record as core,
     structure::Body,
 };
 use numpy::{AllowTypeChange, PyArray1, PyArrayLike1};
@@ -108,6 +109,7 @@ impl History {
             Outcome::Rocked => "rocked",
             Outcome::NeverMoved => "never_lifted",
             Outcome::Overturned { .. } => "overturned",
+            Outcome::LeavesGround { .. } => "leaves_ground",
             Outcome::WorkBound { .. } => "work_bound",
             Outcome::NotFinite { .. } => "not_finite",
         }
@@ -180,22 +182,41 @@ impl Histories {
     }
 }
 
-/// Housner's solution for a structure on a record.
+/// Housner's solution for a structure on a record; `vertical` holds the vertical ground acceleration at the same times, positive
+/// upwards.
 #[pyfunction]
-#[pyo3(signature = (structure, record, scale = 1.0, restitution = None))]
+#[pyo3(signature = (structure, record, vertical = None, scale = 1.0, restitution = None))]
 pub fn rigid_rocking(
     py: Python<'_>,
     structure: &Structure,
     record: &Record,
+    vertical: Option<&Record>,
     scale: f64,
     restitution: Option<f64>,
 ) -> PyResult<History> {
     let e = ratio(restitution)?.unwrap_or(structure.e);
+    if let Some(up) = vertical.filter(|up| (up.0.dt, up.0.len()) != (record.0.dt, record.0.len())) {
+        return Err(value_error(format!(
+            "vertical: {} has {} samples of {} s, {} has {} of {} s; give both at the same times",
+            up.0.name,
+            up.0.len(),
+            up.0.dt,
+            record.0.name,
+            record.0.len(),
+            record.0.dt
+        )));
+    }
     // as the program scales: the samples are, so that both agree to the last bit
-    let scaled = (scale != 1.0).then(|| record.0.scaled(scale)).transpose().map_err(value_error)?;
+    let scaled_record = |record: &core::Record| match scale {
+        1.0 => Ok(record.clone()),
+        _ => record.scaled(scale).map_err(value_error),
+    };
+    let up = vertical.map(|up| scaled_record(&up.0)).transpose()?.map(|up| up.accel.into());
+    let scaled = (scale != 1.0).then(|| scaled_record(&record.0)).transpose()?;
     let record = scaled.as_ref().unwrap_or(&record.0);
+    let vertical = up.or_else(|| record.vertical.as_ref().map(|up| up.accel.clone()));
     let body = structure.body();
-    let options = Options { restitution: Some(e), ..Options::default() };
+    let options = Options { restitution: Some(e), vertical, ..Options::default() };
     let rocking = py.detach(|| housner::solve(&body, record.dt, &record.accel, &options));
     Ok(History::new(body, record.dt, rocking))
 }
@@ -273,7 +294,8 @@ fn pairs(structures: &[Structure], record: &Record, scales: &[f64], restitution:
     let count = if same_e { m } else { n.max(m) };
     let options = (0..count.min(n * m)).map(|i| {
         let e = restitution.unwrap_or(structures[i % n].e);
-        Options { scale: scales[i % m], restitution: Some(e), ..Options::default() }
+        let vertical = record.0.vertical.as_ref().map(|up| up.accel.clone());
+        Options { scale: scales[i % m], restitution: Some(e), vertical, ..Options::default() }
     });
     Ok((bodies, options.collect()))
 }

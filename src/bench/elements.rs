@@ -67,6 +67,7 @@ impl Scene {
             start: Start::Settled,
             dt: self.record.dt,
             accel: &self.record.accel,
+            vertical: &[],
             scale: 1.0,
             control,
         }

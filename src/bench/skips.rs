@@ -83,6 +83,7 @@ fn toppled(rounds: usize) -> Skip {
         start: Start::Settled,
         dt,
         accel: &accel,
+        vertical: &[],
         scale: 1.0,
         control: Control::default(),
     };
@@ -125,7 +126,16 @@ fn rigid_legs(rounds: usize) -> Skip {
     let legs = Some(Legs { ea: stiff * length, ei: stiff * length.powi(3) / 3.0 });
     let members = Members { legs, ..Members::default() };
     let (dt, accel) = (scene.record.dt, &scene.record.accel[..]);
-    let case = Case { body, springs, start: Start::Settled, dt, accel, scale: 1.0, control: Control::default() };
+    let case = Case {
+        body,
+        springs,
+        start: Start::Settled,
+        dt,
+        accel,
+        vertical: &[],
+        scale: 1.0,
+        control: Control::default(),
+    };
     let mut with = || drop(black_box(case.simulate()));
     let mut without = || drop(black_box(case.simulate_with(&members)));
     let times = alternate(&mut [&mut with, &mut without], rounds.div_ceil(4));
@@ -145,7 +155,7 @@ fn candidates(rounds: usize) -> Skip {
     let (body, record) = (structure().body::<f64>(), Scene::arr().record);
     let rocking = housner::solve(&body, record.dt, &record.accel, &housner::Options::default());
     let motion = rocking.motion(&body);
-    let benchmark = Benchmark { body, dt: record.dt, accel: &record.accel, housner: &motion };
+    let benchmark = Benchmark { body, dt: record.dt, accel: &record.accel, vertical: &[], housner: &motion };
     let best = |abandon: bool| {
         let mut best = (f64::INFINITY, 0);
         for (i, springs) in springs.iter().enumerate() {
@@ -179,6 +189,7 @@ fn history(rounds: usize) -> Skip {
         start: Start::Settled,
         dt: scene.record.dt,
         accel: &scene.record.accel,
+        vertical: &[],
         scale: 1.0,
         control: at(1e-7),
     };

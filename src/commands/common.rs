@@ -17,7 +17,7 @@ use crate::{
     housner::{self, Rocking},
     members::Members,
     motion::Motion,
-    record::{ReadOptions, Record, Recording, Units},
+    record::{ReadOptions, Record, Recording, Units, VerticalFrom},
     spring::{Chain, Springs},
     structure::Body,
     verdict::Verdict,
@@ -41,6 +41,9 @@ pub struct RecordOptions {
     /// Subtract the mean of the samples
     #[arg(long)]
     pub baseline: bool,
+    /// Vertical component: auto, that of the record's file; or the file of one with the same times [default: none]
+    #[arg(long, value_name = "FILE|auto")]
+    pub vertical: Option<VerticalFrom>,
     /// Factor on the record's acceleration, in place of the case's or the parameters' [default: theirs; 1 with --record]
     #[arg(long, value_name = "FACTOR", allow_negative_numbers = true)]
     pub scale: Option<f64>,
@@ -66,16 +69,17 @@ impl RecordOptions {
         let asked = match &self.record {
             Some(path) => {
                 let (component, baseline) = (self.component.clone(), self.baseline);
-                let options = ReadOptions { dt: self.dt, units: self.units, component, baseline };
+                let vertical = self.vertical.clone();
+                let options = ReadOptions { dt: self.dt, units: self.units, component, baseline, vertical };
                 let recording = Recording::read(path, &options)?;
                 recording.notices().iter().for_each(|notice| eprintln!("{notice}"));
                 Excitation::whole(recording.into_record())
             }
-            None if self.dt.is_some() || self.units.is_some() || self.component.is_some() || self.baseline => {
+            None if self.tells_of_a_file() => {
                 return Err(CommandError::Option {
                     option: "record",
                     value: "not given".into(),
-                    remedy: "--dt, --units, --component and --baseline tell of a file: name it with --record",
+                    remedy: "--dt, --units, --component, --baseline and --vertical tell of a file: name it with --record",
                 });
             }
             None => default().map_err(Into::into)?,
@@ -88,6 +92,13 @@ impl RecordOptions {
     }
 }
 
+impl RecordOptions {
+    fn tells_of_a_file(&self) -> bool {
+        let said = self.dt.is_some() || self.units.is_some() || self.component.is_some();
+        said || self.baseline || self.vertical.is_some()
+    }
+}
+
 /// The ground motion of a case; what its reader said goes to stderr.
 pub fn of_case(case: &Case) -> Result<Excitation, CommandError> {
     case.notices.iter().for_each(|notice| eprintln!("{notice}"));
@@ -97,6 +108,8 @@ pub fn of_case(case: &Case) -> Result<Excitation, CommandError> {
 /// Both models' answers to one record.
 pub struct Both {
     pub rocking: Rocking<f64>,
+    /// Housner's history without the vertical component, if the record has one.
+    pub level: Option<Rocking<f64>>,
     pub housner: Motion,
     pub fem: fem::History,
     pub matched: Match,
@@ -114,8 +127,10 @@ pub fn both(
     members: &Members<f64>,
     record: &Record,
 ) -> Both {
-    let options = housner::Options { restitution: Some(restitution), ..Default::default() };
+    let level = housner::Options { restitution: Some(restitution), ..Default::default() };
+    let options = housner::Options { vertical: record.vertical_accel(), ..level.clone() };
     let rocking = housner::solve(body, record.dt, &record.accel, &options);
+    let level = record.vertical.as_ref().map(|_| housner::solve(body, record.dt, &record.accel, &level));
     let motion = rocking.motion(body);
     let case = fem::Case {
         body: *body,
@@ -123,6 +138,7 @@ pub fn both(
         start: fem::Start::Settled,
         dt: record.dt,
         accel: &record.accel,
+        vertical: record.up(),
         scale: 1.0,
         control: fem::Control::default(),
     };
@@ -137,13 +153,17 @@ pub fn both(
         peaks_until(&mut demands, record.dt, matched.overturned_fem_s);
         WithMembers { members: *members, history, demands, matched }
     });
-    Both { rocking, housner: motion, fem, matched: rigid, demands, with }
+    Both { rocking, level, housner: motion, fem, matched: rigid, demands, with }
 }
 
 impl Both {
     /// What the histories say together; `dt` in s.
     pub fn verdict(&self, body: &Body<f64>, dt: f64, conditioning: &Conditioning) -> Verdict {
-        Verdict::new(body, dt, (&self.rocking, &self.fem), &self.matched, conditioning)
+        let verdict = Verdict::new(body, dt, (&self.rocking, &self.fem), &self.matched, conditioning);
+        match &self.level {
+            Some(level) => verdict.beside(body, dt, level),
+            None => verdict,
+        }
     }
 
     /// That a body overturned, and up to when the histories are compared.
@@ -214,10 +234,16 @@ pub fn history_csv(dt: f64, both: &Both) -> String {
         let _ = write!(out, ",u_{name},v_{name},th_{name}");
     }
     out.push('\n');
-    for i in 0..motions.iter().map(|(_, motion)| motion.len()).min().unwrap_or(0) {
-        let mut row = vec![i as f64 * dt];
-        row.extend(motions.iter().flat_map(|(_, motion)| [motion.u[i], motion.v[i], motion.theta[i]]));
-        csv_row(&mut out, &row);
+    // the finite elements go on where Housner's solution ends because the pivot lets go: his columns are then empty
+    let left = both.rocking.left_ground().is_some();
+    let compared = motions.iter().skip(usize::from(left)).map(|(_, motion)| motion.len()).min().unwrap_or(0);
+    for i in 0..compared {
+        out.push_str(&digits_12(i as f64 * dt));
+        for (_, motion) in &motions {
+            let row = (i < motion.len()).then(|| [motion.u[i], motion.v[i], motion.theta[i]].map(digits_12));
+            let _ = write!(out, ",{}", row.map_or(",,".into(), |row| row.join(",")));
+        }
+        out.push('\n');
     }
     out
 }

@@ -50,7 +50,11 @@ pub fn run(o: &Options) -> Result<(), CommandError> {
     }
     let record = excitation.used()?;
     let body = structure.body::<f64>();
-    let options = housner::Options { restitution: restitution(o.restitution)?.or(e), ..Default::default() };
+    let options = housner::Options {
+        restitution: restitution(o.restitution)?.or(e),
+        vertical: record.vertical_accel(),
+        ..Default::default()
+    };
     let rocking = housner::solve(&body, record.dt, &record.accel, &options);
     let motion = rocking.motion(&body);
 
@@ -82,6 +86,7 @@ pub fn run(o: &Options) -> Result<(), CommandError> {
         match rocking.outcome {
             Outcome::Overturned { time } => format!(", overturned at {time:.3} s (peaks until then)"),
             Outcome::NeverMoved => ", never lifted".into(),
+            Outcome::LeavesGround { time } => format!(", leaves the ground at {time:.6} s, where the solution ends"),
             _ => String::new(),
         }
     );

@@ -81,7 +81,8 @@ pub fn run(o: &Options) -> Result<(), CommandError> {
     if let Some(folder) = &o.out {
         check_folder(folder)?;
     }
-    let options = ReadOptions { dt: o.dt, units: o.units, component: o.component.clone(), baseline: o.baseline };
+    let options =
+        ReadOptions { dt: o.dt, units: o.units, component: o.component.clone(), baseline: o.baseline, vertical: None };
     let (mut reports, mut bad) = (Vec::new(), Vec::new());
     for file in &o.files {
         match Recording::read(file, &options) {

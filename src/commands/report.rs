@@ -39,17 +39,21 @@ pub struct Report {
     pub lifted: bool,
     /// When Housner's body overturned [s].
     pub overturned_s: Option<f64>,
+    /// When his pivot left the ground, which ends his solution [s].
+    pub left_ground_s: Option<f64>,
 }
 
 impl Report {
     /// Of a history that `rocking` holds.
     pub fn new(body: &Body<f64>, restitution: f64, record: &Record, rocking: &Rocking<f64>, friction: f64) -> Self {
-        let options = housner::Options { restitution: Some(restitution), ..Default::default() };
+        let vertical = record.vertical_accel();
+        let options = housner::Options { restitution: Some(restitution), vertical, ..Default::default() };
         Self {
             conditioning: Conditioning::new(body, record.dt, &record.accel, &options),
-            regime: regime::check(body, record.dt, &record.accel, 1.0, rocking, friction),
+            regime: regime::check(body, record.dt, (&record.accel, record.up()), 1.0, rocking, friction),
             lifted: rocking.outcome != housner::Outcome::NeverMoved,
             overturned_s: rocking.overturned(),
+            left_ground_s: rocking.left_ground(),
         }
     }
 
@@ -58,6 +62,12 @@ impl Report {
         let mut lines = if self.lifted { self.conditioning_lines() } else { Vec::new() };
         if let Some(time) = self.overturned_s {
             lines.push(format!("regime: Housner's body overturns at t = {time:.3} s; what follows counts up to then"));
+        }
+        if let Some(time) = self.left_ground_s {
+            lines.push(format!(
+                "regime: WARNING: the pivot of Housner's body leaves the ground at t = {time:.3} s, where his solution ends; what \
+                 follows counts up to then"
+            ));
         }
         let warnings = self.regime.warnings();
         if warnings.is_empty() {
@@ -69,7 +79,11 @@ impl Report {
             };
             lines.push(format!(
                 "regime: {}; friction coefficient needed {:.3} at t = {:.3} s{landing}, {:.3} available",
-                if self.lifted { "pure rocking holds" } else { "the body stands" },
+                match (self.lifted, self.left_ground_s) {
+                    (true, Some(_)) => "until then pure rocking holds",
+                    (true, None) => "pure rocking holds",
+                    (false, _) => "the body stands",
+                },
                 need.value,
                 need.time,
                 self.regime.friction

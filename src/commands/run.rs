@@ -38,7 +38,7 @@ pub struct Options {
     #[command(flatten)]
     record: RecordOptions,
     /// Springs from the geometry and the synthetic motions alone: no history, no decks
-    #[arg(long, conflicts_with_all = ["record", "dt", "units", "component", "baseline", "scale", "duration"])]
+    #[arg(long, conflicts_with_all = ["record", "dt", "units", "component", "baseline", "vertical", "scale", "duration"])]
     no_record: bool,
     #[command(flatten)]
     ground: Ground,

@@ -164,7 +164,7 @@ proc gravity {} {
 # @RECORD_NOTE@
 set record {
 @RECORD@
-}
+}@VERTICAL@
 
 # ---------------------------------------------------------------- history
 # The whole history: rows of t, u, v, theta.
@@ -174,7 +174,7 @@ proc run {accuracy} {
     set settled [gravity]
     # Linear between samples: as loads -mass times it, since UniformExcitation would shake `moved` instead of `mass`.
     timeSeries Path 2 -dt $recordDt -values $record -factor 1.0
-    pattern Plain 2 2 "load 3 [expr {-$mass}] 0.0 0.0; load 11 [expr {-$m2h}] 0.0 0.0; load 12 [expr {-$m2h}] 0.0 0.0"
+    pattern Plain 2 2 "load 3 [expr {-$mass}] 0.0 0.0; load 11 [expr {-$m2h}] 0.0 0.0; load 12 [expr {-$m2h}] 0.0 0.0"@VERTICAL_LOADS@
     # TRBDF2 is L-stable: Newmark (1/2, 1/4) and HHT fail on springs this stiff, Newmark with damping spoils the answer.
     solver TRBDF2 Transient
     steps::start {1 11 2 12} $landing [expr {$recordDt / $stepsPerSample}] $rise $accuracy

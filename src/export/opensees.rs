@@ -7,14 +7,30 @@ use crate::scalar::GRAVITY;
 
 /// The deck for openseespy.
 pub(super) fn python(model: &Model) -> String {
-    let rows = rows(model, ",");
-    fill(include_str!("deck.py"), super::STEPS, model, &rows)
+    let vertical = Vertical {
+        loads: r#"
+    # The vertical part, positive upwards, in the same way.
+    ops.timeSeries("Path", 3, "-dt", RECORD_DT, "-values", *VERTICAL)
+    ops.pattern("Plain", 3, 3)
+    ops.load(APEX, 0.0, -MASS, 0.0)
+    for foot, _ in FEET:
+        ops.load(foot + ABSORBER, 0.0, -M2_V, 0.0)"#,
+        around: ("VERTICAL = (\n", "\n)"),
+    };
+    fill(include_str!("deck.py"), super::STEPS, model, ",", &vertical)
 }
 
 /// The deck for OpenSees' Tcl interpreter.
 pub(super) fn tcl(model: &Model) -> String {
-    let rows = rows(model, "");
-    fill(include_str!("deck.tcl"), include_str!("steps.tcl"), model, &rows)
+    let vertical = Vertical {
+        loads: r#"
+    # The vertical part, positive upwards, in the same way.
+    global m2v vertical
+    timeSeries Path 3 -dt $recordDt -values $vertical -factor 1.0
+    pattern Plain 3 3 "load 3 0.0 [expr {-$mass}] 0.0; load 11 0.0 [expr {-$m2v}] 0.0; load 12 0.0 [expr {-$m2v}] 0.0""#,
+        around: ("set vertical {\n", "\n}"),
+    };
+    fill(include_str!("deck.tcl"), include_str!("steps.tcl"), model, "", &vertical)
 }
 
 /// A coefficient of friction at which no pressing foot ever slips, not even in the last microsecond before it lifts: with 1000
@@ -27,9 +43,25 @@ const TURNS: &str = "as little as its foot masses, so that the rotation follows 
 /// The inertia that rocking feels, m R^2 + I_cg, is kept.
 const MOVED: &str = "m1 + I_cg/R^2, which is all of I_cg that rocking feels";
 
-/// The record, four samples a line.
-fn rows(model: &Model, separator: &str) -> String {
-    let lines = model.record.accel.chunks(4).map(|samples| {
+/// What a deck has where the ground moves vertically, too: the loads, and what stands before and after its samples.
+struct Vertical {
+    loads: &'static str,
+    around: (&'static str, &'static str),
+}
+
+impl Vertical {
+    /// Loads and samples; nothing without vertical motion.
+    fn texts(&self, model: &Model, separator: &str) -> (String, String) {
+        let Some(vertical) = &model.record.vertical else { return Default::default() };
+        let (before, after) = self.around;
+        let note = format!("\n# The vertical part, peak {:.4} g; m/s2, positive upwards\n", vertical.peak_g());
+        (self.loads.to_string(), note + before + &rows(&vertical.accel, separator) + after)
+    }
+}
+
+/// A record, four samples a line.
+fn rows(accel: &[f64], separator: &str) -> String {
+    let lines = accel.chunks(4).map(|samples| {
         samples.iter().fold(String::from("   "), |mut line, &a| {
             // writing to a String does not fail
             let _ = write!(line, " {}{separator}", digits(a));
@@ -60,7 +92,8 @@ fn steps_note(model: &Model) -> &'static str {
 }
 
 /// Put the stepping routine and the model's numbers in the place of `@NAME@`.
-fn fill(template: &str, routine: &str, model: &Model, rows: &str) -> String {
+fn fill(template: &str, routine: &str, model: &Model, separator: &str, vertical: &Vertical) -> String {
+    let (loads, samples) = vertical.texts(model, separator);
     let body = model.body();
     let (v, h) = (&model.springs.vertical, &model.springs.horizontal);
     let e = &model.expected;
@@ -113,12 +146,13 @@ fn fill(template: &str, routine: &str, model: &Model, rows: &str) -> String {
         ("V_MAX", digits(e.v.0)),
         ("V_MIN", digits(e.v.1)),
         ("RECORD_NOTE", model.record_note()),
+        ("VERTICAL_LOADS", loads),
     ];
     let mut text = template.to_string();
     for (name, value) in values {
         text = text.replace(&format!("@{name}@"), &value);
     }
     text = text.replace("@ROUTINE@", routine.trim_end());
-    // last and once: it is most of the text
-    text.replacen("@RECORD@", rows, 1)
+    // last and once: they are most of the text
+    text.replacen("@VERTICAL@", &samples, 1).replacen("@RECORD@", &rows(&model.record.accel, separator), 1)
 }

@@ -8,11 +8,11 @@
 //!   gap, closed while it presses:   N =  k1_v (a_z - p_z)            (> 0: the ground pushes the foot up)
 //!                                   H = -k1_h (p_x - a_x - anchor)   (only while N acts)
 //!   m  X''     = -m ug'' + sum H                m2_h a_x'' = -m2_h ug'' - H - k2_h a_x - c_h a_x'
-//!   m  Z''     = -m g    + sum N                m2_v a_z'' =            - N - k2_v a_z - c_v a_z'
+//!   m  Z''     = -m (g + vg'') + sum N          m2_v a_z'' = -m2_v vg'' - N - k2_v a_z - c_v a_z'
 //!   I  theta'' = sum ( H dp_x/dtheta + N dp_z/dtheta )
 //! ```
 //!
-//! Displacements are relative to the ground; gravity acts on the body only, so an open absorber rests at zero, as in
+//! Displacements are relative to the ground, whose acceleration is (ug'', vg''), vg'' upwards; gravity acts on the body only, so an open absorber rests at zero, as in
 //! the engineer's deck, where the weight is a load on the mass.
 
 use super::frame::Frame;
@@ -286,21 +286,21 @@ impl<S: Scalar> Model<S> {
         FootForce { px_th, pz_th, horizontal, vertical }
     }
 
-    /// Forces on the seven coordinates at ground acceleration `ground` [m/s2].
+    /// Forces on the seven coordinates at ground acceleration (ug'', vg'') [m/s2].
     #[inline(always)]
-    pub fn forces(&self, q: &Vector<S>, v: &Vector<S>, feet: &[Foot<S>; 2], ground: S) -> Vector<S> {
+    pub fn forces(&self, q: &Vector<S>, v: &Vector<S>, feet: &[Foot<S>; 2], [ground, up]: [S; 2]) -> Vector<S> {
         let Springs { vertical, horizontal } = &self.springs;
         let contact = self.contact_at(&Pose::of(q), q, feet);
         let [l, r] = &contact;
         let m = self.body.mass;
         let mut f = [S::zero(); N];
         f[X] = l.horizontal + r.horizontal - m * ground;
-        f[Z] = l.vertical + r.vertical - m * GRAVITY;
+        f[Z] = l.vertical + r.vertical - m * (up + GRAVITY);
         // each foot's part by itself, so that a mirrored case gives the mirrored history to the last bit
         f[TH] = (l.horizontal * l.px_th + l.vertical * l.pz_th) + (r.horizontal * r.px_th + r.vertical * r.pz_th);
         for (i, foot) in contact.iter().enumerate() {
             f[ax(i)] = -(foot.horizontal + horizontal.m2 * ground + horizontal.k2 * q[ax(i)] + horizontal.c * v[ax(i)]);
-            f[az(i)] = -(foot.vertical + vertical.k2 * q[az(i)] + vertical.c * v[az(i)]);
+            f[az(i)] = -(foot.vertical + vertical.m2 * up + vertical.k2 * q[az(i)] + vertical.c * v[az(i)]);
         }
         if let Some(frame) = &self.frame {
             self.add_members(frame, q, v, &mut f);
@@ -357,10 +357,12 @@ impl<S: Scalar> Model<S> {
         members.map_or(twice * 0.5, |members| twice * 0.5 + members)
     }
 
-    /// Power of the base excitation in the moving frame, -ug'' (m X' + sum m2_h a_x') [W].
+    /// Power of the base excitation in the moving frame, -ug'' (m X' + sum m2_h a_x') - vg'' (m Z' + sum m2_v a_z') [W].
     #[inline(always)]
-    pub fn input_power(&self, v: &Vector<S>, ground: S) -> S {
-        -(self.body.mass * v[X] + self.springs.horizontal.m2 * (v[ax(0)] + v[ax(1)])) * ground
+    pub fn input_power(&self, v: &Vector<S>, [ground, up]: [S; 2]) -> S {
+        let Springs { vertical, horizontal } = &self.springs;
+        -(self.body.mass * v[X] + horizontal.m2 * (v[ax(0)] + v[ax(1)])) * ground
+            - (self.body.mass * v[Z] + vertical.m2 * (v[az(0)] + v[az(1)])) * up
     }
 
     /// Power that the dashpots take, and friction [W].

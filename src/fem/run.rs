@@ -102,9 +102,16 @@ impl<'a, S: Scalar> Run<'a, S> {
         View { time, model: self.model, state: &self.state, feet: &self.feet, energy: &self.energy }
     }
 
-    /// Follow the record (m/s2 at steps of dt, times `scale`).
-    pub fn follow(&mut self, dt: f64, accel: &[f64], scale: S, observer: &mut impl Observer<S>) -> Outcome {
+    /// Follow the record (m/s2 at steps of dt, times `scale`): horizontal, and vertical, which is zero beyond its last sample.
+    pub fn follow(
+        &mut self,
+        dt: f64,
+        (accel, vertical): (&[f64], &[f64]),
+        scale: S,
+        observer: &mut impl Observer<S>,
+    ) -> Outcome {
         let n = accel.len();
+        let up = |i: usize| vertical.get(i).copied().unwrap_or(0.0);
         if n == 0 {
             return Outcome::Completed;
         }
@@ -114,7 +121,11 @@ impl<'a, S: Scalar> Run<'a, S> {
         let mut stages = Stages::none();
         for i in 0..n - 1 {
             let t0 = i as f64 * dt;
-            let ground = Ground { start: scale * accel[i], slope: scale * ((accel[i + 1] - accel[i]) / dt) };
+            let slope = |now: f64, next: f64| scale * ((next - now) / dt);
+            let ground = Ground {
+                start: [scale * accel[i], scale * up(i)],
+                slope: [slope(accel[i], accel[i + 1]), slope(up(i), up(i + 1))],
+            };
             if self.rests(&ground) {
                 observer.step(&self.view(real(t0 + dt)));
             } else if let Err(outcome) = self.cross_sample(t0, dt, &ground, &mut stages, observer) {
@@ -151,7 +162,7 @@ impl<'a, S: Scalar> Run<'a, S> {
                 return Err(Outcome::Unstable { time });
             }
             let h = self.next_size(left);
-            let here = Ground { start: ground.start + ground.slope * t, slope: ground.slope };
+            let here = ground.from(t);
             if !self.attempt(h, &here, stages) {
                 self.refuse(h.re() * 0.25);
                 continue;

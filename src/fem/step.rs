@@ -12,11 +12,24 @@ use crate::scalar::{Scalar, real};
 /// Iterations before a step counts as diverged.
 const MOST_ITERATIONS: usize = 12;
 
-/// Ground acceleration along a step: value at its start [m/s2] and slope [m/s3].
+/// Ground acceleration along a step, horizontal and vertical: value at its start [m/s2] and slope [m/s3].
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Ground<S> {
-    pub start: S,
-    pub slope: S,
+    pub start: [S; 2],
+    pub slope: [S; 2],
+}
+
+impl<S: Scalar> Ground<S> {
+    /// At a share of a time h [s] after the start.
+    #[inline(always)]
+    pub fn after(&self, h: S, share: f64) -> [S; 2] {
+        [0, 1].map(|k| self.start[k] + self.slope[k] * h * share)
+    }
+
+    /// The same from a later time on [s].
+    pub fn from(&self, time: S) -> Self {
+        Self { start: self.after(time, 1.0), slope: self.slope }
+    }
 }
 
 /// The stages of a converged step.
@@ -51,8 +64,7 @@ impl<S: Scalar> Stages<S> {
         let (mut input, mut dissipated) = (S::zero(), S::zero());
         for j in 0..3 {
             let weight = self.h * A[2][j];
-            let acceleration = ground.start + ground.slope * self.h * C[j];
-            input += model.input_power(&self.v[j], acceleration) * weight;
+            input += model.input_power(&self.v[j], ground.after(self.h, C[j])) * weight;
             dissipated += model.dissipation(&self.q[j], &self.v[j], feet) * weight;
         }
         (input, dissipated)
@@ -138,7 +150,7 @@ impl<'a, S: Scalar> Stepper<'a, S> {
         let radius = self.real.body.radius();
         // a gap rounded by some units in the last digit of R turns the body R/b times as far
         let rounding = 8.0 * f64::EPSILON * radius * radius / self.real.body.half_width;
-        let grounds = C.map(|c| ground.start + ground.slope * h * c);
+        let grounds = C.map(|c| ground.after(h, c));
         let h2 = h * h;
         (s.h, s.a, s.iterations, s.rate) = (h, *guess, 0, request.rate);
         let (mut last, mut left) = (f64::INFINITY, None);
@@ -232,8 +244,10 @@ impl<S: Scalar> Stepper<'_, S> {
         };
         let d_q: Vector<f64> = std::array::from_fn(|k| change(k, &s.q, q[k]));
         let feet = feet.map(|foot| Foot { contact: foot.contact, anchor: foot.anchor.re() });
-        let (forces, masses) =
-            (self.real.forces(&q, &d_q.map(|d| -d / root), &feet, ground.start.re()), self.real.masses(&feet));
+        let (forces, masses) = (
+            self.real.forces(&q, &d_q.map(|d| -d / root), &feet, ground.start.map(|a| a.re())),
+            self.real.masses(&feet),
+        );
         let right = std::array::from_fn(|k| {
             root * root * forces[k] + masses[k] * (root * v[k] + d_q[k] + root * change(k, &s.v, v[k]))
         });

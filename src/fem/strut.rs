@@ -10,6 +10,8 @@
 //!   p_z = a_z      until it presses      e . (v_absorber - v_mass) > 0
 //!                  or the ground recedes from a foot that keeps its rotation rate,  p_z'' > a_z'' at theta'' = 0
 //! ```
+//!
+//! A vertical ground acceleration moves mass and absorber alike (but for I_cg/R^2, less than 2e-3 of the mass, see `model`).
 
 use super::model::{Model, Pose, State, TH, X, Z, ax, az};
 use crate::scalar::{GRAVITY, Scalar};
@@ -83,7 +85,7 @@ mod tests {
     fn it_lifts_as_the_foot_in_flight_leaves_the_ground() {
         let model = model::<f64>();
         let feet = [Foot { contact: Contact::Open, anchor: 0.0 }; 2];
-        let (forces, masses) = (model.forces(&Q, &V, &feet, 0.0), model.masses(&feet));
+        let (forces, masses) = (model.forces(&Q, &V, &feet, [0.0; 2]), model.masses(&feet));
         for (i, foot) in feet.iter().enumerate() {
             let moving = |t: f64| {
                 let q = std::array::from_fn(|k| Q[k] + V[k] * t + 0.5 * forces[k] / masses[k] * t * t);

@@ -8,9 +8,9 @@
 
 use std::{array, mem::swap};
 
-use super::Rocking;
-use super::series::{LEAST, SHORT, Start, change, coefficients, end_slope, is_plain, pulls, turned};
-use super::walk::{Pace, Walk, turns_well};
+use super::series::{Ground, LEAST, SHORT, Start, change, coefficients, end_slope, is_plain, pulls, turned};
+use super::walk::{Pace, Sample, Walk, turns_well};
+use super::{Rocking, contact};
 
 /// Structures in lock-step.
 pub const WIDTH: usize = 16;
@@ -22,7 +22,7 @@ type Lanes = [f64; WIDTH];
 type Mask = u64;
 
 /// The walks of at most [`WIDTH`] structures on one record, to their ends.
-pub fn walk(walks: Vec<Walk<f64>>) -> Vec<Rocking<f64>> {
+pub fn walk<const V: bool>(walks: Vec<Walk<f64, V>>) -> Vec<Rocking<f64>> {
     #[cfg(target_arch = "x86_64")]
     {
         if std::arch::is_x86_feature_detected!("avx512f") && std::arch::is_x86_feature_detected!("avx512dq") {
@@ -39,29 +39,30 @@ pub fn walk(walks: Vec<Walk<f64>>) -> Vec<Rocking<f64>> {
 
 #[cfg(target_arch = "x86_64")]
 #[target_feature(enable = "avx512f,avx512dq,avx512vl")]
-fn walk_avx512(walks: Vec<Walk<f64>>) -> Vec<Rocking<f64>> {
+fn walk_avx512<const V: bool>(walks: Vec<Walk<f64, V>>) -> Vec<Rocking<f64>> {
     at_pace(walks)
 }
 
 #[cfg(target_arch = "x86_64")]
 #[target_feature(enable = "avx2")]
-fn walk_avx2(walks: Vec<Walk<f64>>) -> Vec<Rocking<f64>> {
+fn walk_avx2<const V: bool>(walks: Vec<Walk<f64, V>>) -> Vec<Rocking<f64>> {
     at_pace(walks)
 }
 
 #[inline(always)]
-fn at_pace(walks: Vec<Walk<f64>>) -> Vec<Rocking<f64>> {
+fn at_pace<const V: bool>(walks: Vec<Walk<f64, V>>) -> Vec<Rocking<f64>> {
     match walks.first().map(|walk| walk.pace) {
-        Some(Pace::Slow) => lock_step::<LEAST>(Pace::Slow, walks),
-        _ => lock_step::<SHORT>(Pace::Walk, walks),
+        Some(Pace::Slow) => lock_step::<V, LEAST>(Pace::Slow, walks),
+        _ => lock_step::<V, SHORT>(Pace::Walk, walks),
     }
 }
 
 /// Lanes of another pace go by themselves.
 #[inline(always)]
-fn lock_step<const N: usize>(pace: Pace, mut walks: Vec<Walk<f64>>) -> Vec<Rocking<f64>> {
+fn lock_step<const V: bool, const N: usize>(pace: Pace, mut walks: Vec<Walk<f64, V>>) -> Vec<Rocking<f64>> {
     let Some(longest) = walks.iter().max_by_key(|walk| walk.set.accel.len()) else { return Vec::new() };
-    let (accel, dt) = (longest.set.accel, longest.set.dt);
+    let (accel, vertical, dt) = (longest.set.accel, longest.set.vertical, longest.set.dt);
+    let up = |i: usize| if V { vertical.get(i).copied().unwrap_or(0.0) } else { 0.0 };
     let shortest = walks.iter().map(|walk| walk.set.accel.len()).min().unwrap_or(0);
     let fixed = Fixed::<N> {
         dt,
@@ -70,6 +71,8 @@ fn lock_step<const N: usize>(pace: Pace, mut walks: Vec<Walk<f64>>) -> Vec<Rocki
         q: gather(&walks, |walk| walk.q),
         root: gather(&walks, |walk| walk.q.sqrt()),
         pulls: array::from_fn(|k| gather(&walks, |walk| pulls::<_, N>(walk.q)[k])),
+        share: gather(&walks, |walk| walk.set.share()),
+        arm: gather(&walks, |walk| walk.set.arm_of(dt)),
     };
     let (mut at, mut to) = (&mut Places::default(), &mut Places::default());
     let mut kept = Kept::default();
@@ -78,6 +81,7 @@ fn lock_step<const N: usize>(pace: Pace, mut walks: Vec<Walk<f64>>) -> Vec<Rocki
     let mut joined = 0;
     for (i, &now) in accel.iter().enumerate() {
         let next = accel.get(i + 1).copied().unwrap_or(0.0);
+        let (now, next) = ((now, up(i)), (next, up(i + 1)));
         if i.is_multiple_of(KEPT) {
             for l in lanes(joined) {
                 kept.hand_over(l, &mut walks[l], i);
@@ -87,7 +91,7 @@ fn lock_step<const N: usize>(pace: Pace, mut walks: Vec<Walk<f64>>) -> Vec<Rocki
         if joined != 0 {
             kept.theta[i % KEPT] = array::from_fn(|l| turned_by(at.w[l], at.sign[l]));
             kept.rate[i % KEPT] = array::from_fn(|l| turned_by(at.rate[l], at.sign[l]));
-            let (steps, ages) = step::<N>(&fixed, at, now, next, to);
+            let (steps, ages) = step::<V, N>(&fixed, at, now, next, to);
             plain = steps & joined;
             if i + 1 >= shortest {
                 plain &= !ended(&walks, i + 1);
@@ -115,7 +119,7 @@ fn lock_step<const N: usize>(pace: Pace, mut walks: Vec<Walk<f64>>) -> Vec<Rocki
             // what does not step with the others goes on by itself
             runs = runs
                 && i + 1 < walk.set.accel.len()
-                && walk.advance(i, fixed.unit[l] * now, fixed.unit[l] * next, tried);
+                && walk.advance(i, fixed.sample::<V>(l, now), fixed.sample::<V>(l, next), tried);
             if runs && walk.state.rocking && walk.pace == pace && walk.is_up() {
                 to.join(l, walk);
                 if !tried {
@@ -155,7 +159,7 @@ impl Kept {
     /// Lane l's samples before `until`, none of them handed over before. Not in line: as vector code it would gather
     /// numbers from far apart, which is slower than one load after the other.
     #[inline(never)]
-    fn hand_over(&mut self, l: usize, walk: &mut Walk<f64>, until: usize) {
+    fn hand_over<const V: bool>(&mut self, l: usize, walk: &mut Walk<f64, V>, until: usize) {
         let first = self.since[l] % KEPT;
         let kept = first..first + (until - self.since[l]);
         walk.out.theta.extend(self.theta[kept.clone()].iter().map(|lanes| lanes[l]));
@@ -173,6 +177,17 @@ struct Fixed<const N: usize> {
     /// p dt.
     root: Lanes,
     pulls: [Lanes; N],
+    /// m R^2/I0, and R/(g dt^2).
+    share: Lanes,
+    arm: Lanes,
+}
+
+impl<const N: usize> Fixed<N> {
+    /// The ground as lane l has it, from the record's numbers: horizontal, vertical (m/s2).
+    #[inline(always)]
+    fn sample<const V: bool>(&self, l: usize, (accel, vertical): (f64, f64)) -> Sample<f64> {
+        Sample { a: self.unit[l] * accel, gamma: if V { self.unit[l] * vertical + 1.0 } else { 1.0 } }
+    }
 }
 
 /// Where the joined lanes are; what the others have here is of no effect.
@@ -189,14 +204,25 @@ struct Places {
 
 /// One interval of the record for all lanes: those of which one step takes the whole interval, and those that need new sines after it.
 #[inline(always)]
-fn step<const N: usize>(fixed: &Fixed<N>, at: &Places, now: f64, next: f64, to: &mut Places) -> (Mask, Mask) {
+fn step<const V: bool, const N: usize>(
+    fixed: &Fixed<N>,
+    at: &Places,
+    now: (f64, f64),
+    next: (f64, f64),
+    to: &mut Places,
+) -> (Mask, Mask) {
     let mut bits = [0; WIDTH];
     // one loop of straight arithmetic, which the compiler turns into vector operations
     for l in 0..WIDTH {
         let start = Start { w: at.w[l], rate: at.rate[l], sin: at.sin[l], cos: at.cos[l] };
-        let (a0, a1) = (fixed.unit[l] * now, fixed.unit[l] * next);
-        let (b0, db) = (turned_by(a0, at.sign[l]), turned_by(a1 - a0, at.sign[l]));
-        let c: [f64; N] = coefficients(&start, fixed.dt, b0, db, &array::from_fn(|k| fixed.pulls[k][l]));
+        let (now, next) = (fixed.sample::<V>(l, now), fixed.sample::<V>(l, next));
+        let ground = Ground {
+            b: turned_by(now.a, at.sign[l]),
+            db: turned_by(next.a - now.a, at.sign[l]),
+            gamma: now.gamma,
+            dgamma: next.gamma - now.gamma,
+        };
+        let c = coefficients::<_, V, N>(&start, fixed.dt, &ground, &array::from_fn(|k| fixed.pulls[k][l]));
         let change = change(&c);
         let w = start.w + change;
         let (sin, cos) = turned(start.sin, start.cos, change);
@@ -206,7 +232,10 @@ fn step<const N: usize>(fixed: &Fixed<N>, at: &Places, now: f64, next: f64, to: 
         to.cos[l] = cos;
         to.sign[l] = at.sign[l];
         to.age[l] = at.age[l] + 1;
-        let plain = is_plain(&c, b0, db, fixed.q[l], fixed.root[l], w, fixed.alpha[l]);
+        let mut plain = is_plain::<V, N>(&c, &ground, (fixed.q[l], fixed.root[l]), w, fixed.alpha[l]);
+        if V {
+            plain &= contact::surely_presses(&c, start.sin, &ground, fixed.share[l], fixed.arm[l]);
+        }
         let old = !turns_well(to.age[l], change);
         bits[l] = if plain { 1 << l } else { 0 } | if old { 1 << (l + WIDTH) } else { 0 };
     }
@@ -222,14 +251,14 @@ impl Places {
         self.age[l] = 0;
     }
 
-    fn join(&mut self, l: usize, walk: &Walk<f64>) {
+    fn join<const V: bool>(&mut self, l: usize, walk: &Walk<f64, V>) {
         let state = &walk.state;
         (self.w[l], self.rate[l]) = (state.at.w, state.at.rate);
         (self.sin[l], self.cos[l]) = (state.at.sin, state.at.cos);
         (self.sign[l], self.age[l]) = (state.side.to_bits() & SIGN, state.age);
     }
 
-    fn leave(&self, l: usize, walk: &mut Walk<f64>) {
+    fn leave<const V: bool>(&self, l: usize, walk: &mut Walk<f64, V>) {
         let state = &mut walk.state;
         state.at = Start { w: self.w[l], rate: self.rate[l], sin: self.sin[l], cos: self.cos[l] };
         state.age = self.age[l];
@@ -247,7 +276,7 @@ fn lanes(mut mask: Mask) -> impl Iterator<Item = usize> {
 }
 
 /// The lanes whose records end before sample i.
-fn ended(walks: &[Walk<f64>], i: usize) -> Mask {
+fn ended<const V: bool>(walks: &[Walk<f64, V>], i: usize) -> Mask {
     (0..).zip(walks).fold(0, |mask, (l, walk)| mask | Mask::from(i >= walk.set.accel.len()) << l)
 }
 
@@ -260,6 +289,6 @@ fn turned_by(x: f64, sign: u64) -> f64 {
 }
 
 /// A number of each walk; an empty lane computes what the last walk computes, to no effect.
-fn gather(walks: &[Walk<f64>], f: impl Fn(&Walk<f64>) -> f64) -> Lanes {
+fn gather<const V: bool>(walks: &[Walk<f64, V>], f: impl Fn(&Walk<f64, V>) -> f64) -> Lanes {
     array::from_fn(|l| f(&walks[l.min(walks.len() - 1)]))
 }

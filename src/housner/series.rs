@@ -3,17 +3,20 @@
 //! With the lean w = |theta| and psi = alpha - w, equations (1) and (3) are the same on both sides of the body:
 //!
 //! ```text
-//! w'' = -p^2 [ sin psi + b cos psi ],   b = s u_g/g,   s = sgn(theta)
+//! w'' = -p^2 [ gamma sin psi + b cos psi ],   gamma = 1 + a_v/g,   b = s u_g/g,   s = sgn(theta)
 //! ```
 //!
-//! Time runs as x = (t - t0)/h from 0 to 1 over the step, in which b = b0 + db x (the record is linear between samples).
-//! With w = sum c_k x^k, F = sin psi + b0 cos psi and G = cos psi - b0 sin psi (so that F and G belong to each other as sine and
-//! cosine do), and because psi' = -w':
+//! Time runs as x = (t - t0)/h from 0 to 1 over the step, in which gamma = gamma0 + dgamma x and b = b0 + db x (the record is linear
+//! between samples). With w = sum c_k x^k, F = gamma0 sin psi + b0 cos psi and G = gamma0 cos psi - b0 sin psi (so that F and G belong
+//! to each other as sine and cosine do), and because psi' = -w':
 //!
 //! ```text
 //! k F_k = -sum_{j=1..k} j c_j G_{k-j},   k G_k = sum_{j=1..k} j c_j F_{k-j}
-//! (k+2)(k+1) c_{k+2} = -p^2 h^2 [ F_k + db C_{k-1} ],   C = cos psi = (G + b0 F)/(1 + b0^2)
+//! (k+2)(k+1) c_{k+2} = -p^2 h^2 [ F_k + dg G_{k-1} + df F_{k-1} ],   n = gamma0^2 + b0^2
+//! dg = (db gamma0 - dgamma b0)/n,   df = (db b0 + dgamma gamma0)/n
 //! ```
+//!
+//! Without vertical motion gamma0 = 1 and dgamma = 0, which `V`, whether there is any, tells the compiler.
 
 #![allow(clippy::needless_range_loop)] // indices with constant bounds let the compiler unroll early, and run lanes side by side
 
@@ -72,6 +75,24 @@ pub struct Start<S> {
     pub cos: S,
 }
 
+/// The ground under a leaning body over a step: b and gamma at its start, and their changes over it. Without vertical motion gamma
+/// is not looked at.
+#[derive(Clone, Copy)]
+pub struct Ground<T> {
+    pub b: T,
+    pub db: T,
+    pub gamma: T,
+    pub dgamma: T,
+}
+
+impl<S: Scalar> Ground<S> {
+    /// Real parts.
+    #[inline(always)]
+    pub fn re(&self) -> Ground<f64> {
+        Ground { b: self.b.re(), db: self.db.re(), gamma: self.gamma.re(), dgamma: self.dgamma.re() }
+    }
+}
+
 /// What the force at order k - 2 is multiplied by to give c_k: -q/(k (k - 1)), q = p^2 h^2.
 #[inline(always)]
 pub fn pulls<T: Field, const N: usize>(q: T) -> [T; N] {
@@ -83,22 +104,35 @@ pub fn pulls<T: Field, const N: usize>(q: T) -> [T; N] {
     pulls
 }
 
-/// c_0 to c_{N-1} of a step of length h (s); b0 and db are b and its change over the step, `pulls` those of its q.
+/// c_0 to c_{N-1} of a step of length h (s), `pulls` those of its q.
 ///
 /// What the term before has only just given (c_k, F_{k-1}, G_{k-1}) enters each sum last: the terms then follow each other at the
 /// latency of a few operations, not of whole sums.
 #[inline(always)]
-pub fn coefficients<T: Field, const N: usize>(start: &Start<T>, h: T, b0: T, db: T, pulls: &[T; N]) -> [T; N] {
-    let dg = db / (b0 * b0 + 1.0);
-    let df = dg * b0;
-    let mut f = [start.sin + b0 * start.cos; N];
-    let mut g = [start.cos - b0 * start.sin; N];
+pub fn coefficients<T: Field, const V: bool, const N: usize>(
+    start: &Start<T>,
+    h: T,
+    ground: &Ground<T>,
+    pulls: &[T; N],
+) -> [T; N] {
+    let &Ground { b: b0, db, gamma: gamma0, dgamma } = ground;
+    let (dg, df) = if V {
+        let n = gamma0 * gamma0 + b0 * b0;
+        ((db * gamma0 - dgamma * b0) / n, (db * b0 + dgamma * gamma0) / n)
+    } else {
+        let dg = db / (b0 * b0 + 1.0);
+        (dg, dg * b0)
+    };
+    let (sin, cos) = if V { (gamma0 * start.sin, gamma0 * start.cos) } else { (start.sin, start.cos) };
+    let mut f = [sin + b0 * start.cos; N];
+    let mut g = [cos - b0 * start.sin; N];
     let mut c = [start.w; N];
     c[1] = start.rate * h;
     c[2] = f[0] * pulls[2]; // (1), (3)
     f[1] = -(c[1] * g[0]);
     g[1] = c[1] * f[0];
-    c[3] = (f[1] + db * start.cos) * pulls[3];
+    let push = if V { dgamma * start.sin + db * start.cos } else { db * start.cos };
+    c[3] = (f[1] + push) * pulls[3];
     // jc[j] = j c_j
     let mut jc = [c[1]; N];
     jc[2] = c[2] * 2.0;
@@ -196,11 +230,12 @@ pub struct Series<S, const N: usize> {
     size: f64,
 }
 
-/// A bound of k |c_{k+2}/c_k| for k near N. The equation's part linear in w gives q (1 + |b|)/k^2, its trigonometric part
+/// A bound of k |c_{k+2}/c_k| for k near N. The equation's part linear in w gives q (gamma + |b|)/k^2, its trigonometric part
 /// c_1^2/k^2; one 1/k is kept in reserve.
 #[inline(always)]
-fn growth<const N: usize>(c: &[f64; N], b0: f64, db: f64, q: f64) -> f64 {
-    c[1] * c[1] + q * (1.0 + b0.abs() + db.abs())
+fn growth<const V: bool, const N: usize>(c: &[f64; N], ground: &Ground<f64>, q: f64) -> f64 {
+    let gamma = if V { ground.gamma.abs() + ground.dgamma.abs() } else { 1.0 };
+    c[1] * c[1] + q * (gamma + ground.b.abs() + ground.db.abs())
 }
 
 /// What truncated terms are measured against: the change of the lean within the step, or where it turns, that within a time
@@ -214,13 +249,19 @@ fn size<const N: usize>(c: &[f64; N], root: f64) -> f64 {
 /// alpha nor the flat ground at its end w. With the least number of coefficients a motion smaller than a hundredth of alpha counts as
 /// one of that size. root = p h, q = root^2.
 #[inline(always)]
-pub fn is_plain<const N: usize>(c: &[f64; N], b0: f64, db: f64, q: f64, root: f64, w: f64, alpha: f64) -> bool {
+pub fn is_plain<const V: bool, const N: usize>(
+    c: &[f64; N],
+    ground: &Ground<f64>,
+    (q, root): (f64, f64),
+    w: f64,
+    alpha: f64,
+) -> bool {
     // plain comparisons: a NaN among the coefficients is one in w, too
     let larger = |a: f64, b: f64| if a > b { a } else { b };
     // from the last two terms: every second one may vanish by symmetry
     let last = larger(c[N - 2].abs(), c[N - 1].abs());
     let least = if N == LEAST { 0.01 * alpha } else { 0.0 };
-    let converged = last * growth(c, b0, db, q) <= TAIL * (size(c, root) + least);
+    let converged = last * growth::<V, N>(c, ground, q) <= TAIL * (size(c, root) + least);
     // |w''| <= M lets the lean sag by M/8 below the line between its two ends; the small terms count as the last one does
     let mut small = 0.0;
     for k in 4..N {
@@ -232,12 +273,12 @@ pub fn is_plain<const N: usize>(c: &[f64; N], b0: f64, db: f64, q: f64, root: f6
 }
 
 impl<S: Scalar, const N: usize> Series<S, N> {
-    /// The series of a step of length h (s); b0 and db are b and its change over the step, q = p^2 h^2.
+    /// The series of a step of length h (s), q = p^2 h^2.
     #[inline(always)]
-    pub fn new(start: &Start<S>, h: S, b0: S, db: S, q: S) -> Self {
-        let c = coefficients(start, h, b0, db, &pulls(q));
+    pub fn new<const V: bool>(start: &Start<S>, h: S, ground: &Ground<S>, q: S) -> Self {
+        let c = coefficients::<S, V, N>(start, h, ground, &pulls(q));
         let re = real_parts(&c);
-        let (growth, size) = (growth(&re, b0.re(), db.re(), q.re()), size(&re, q.re().sqrt()));
+        let (growth, size) = (growth::<V, N>(&re, &ground.re(), q.re()), size(&re, q.re().sqrt()));
         Self { c, growth, size }
     }
 
@@ -296,29 +337,50 @@ mod tests {
         Start { w, rate, sin, cos }
     }
 
+    fn level(b: f64, db: f64) -> Ground<f64> {
+        Ground { b, db, gamma: 1.0, dgamma: 0.0 }
+    }
+
     /// w'' of the series against the right hand side, at points of the step.
-    #[test]
-    fn the_series_satisfies_housners_equation_inside_the_step() {
-        let (alpha, h, p2, b0, db) = (0.2, 0.05, 2.9, 0.15, -0.4);
-        let series = Series::<_, SHORT>::new(&start(alpha, 0.07, 0.3), h, b0, db, p2 * h * h);
+    fn satisfies<const V: bool>(ground: &Ground<f64>) {
+        let (alpha, h, p2) = (0.2, 0.05, 2.9);
+        let series = Series::<_, SHORT>::new::<V>(&start(alpha, 0.07, 0.3), h, ground, p2 * h * h);
         for x in [0.0, 0.05, 0.1] {
             let (w, _) = series.at(x);
             let second: f64 = (2..SHORT).map(|k| (k * (k - 1)) as f64 * series.c[k] * f64::powi(x, k as i32 - 2)).sum();
-            let force = -p2 * ((alpha - w).sin() + (b0 + db * x) * (alpha - w).cos());
+            let (gamma, b) = (ground.gamma + ground.dgamma * x, ground.b + ground.db * x);
+            let force = -p2 * (gamma * (alpha - w).sin() + b * (alpha - w).cos());
             assert_relative_eq!(second / (h * h), force, max_relative = 1e-12);
         }
+    }
+
+    #[test]
+    fn the_series_satisfies_housners_equation_inside_the_step() {
+        satisfies::<false>(&level(0.15, -0.4));
+        satisfies::<true>(&Ground { gamma: 0.7, dgamma: 0.5, ..level(0.15, -0.4) });
+        satisfies::<true>(&Ground { gamma: -0.2, dgamma: -0.6, ..level(-0.9, 0.3) });
+    }
+
+    #[test]
+    fn a_level_ground_that_does_not_move_up_gives_the_same_series_either_way() {
+        let (at, ground, h) = (start(0.2, 0.07, 0.3), level(0.15, -0.4), 0.05);
+        let without = Series::<_, LONG>::new::<false>(&at, h, &ground, 2.9 * h * h);
+        assert_eq!(Series::<_, LONG>::new::<true>(&at, h, &ground, 2.9 * h * h).c[..4], without.c[..4]);
     }
 
     /// Two half steps against one whole step: the truncated terms are where `reach` says they are.
     #[test]
     fn two_half_steps_agree_with_a_whole_step_to_rounding() {
         let (alpha, h, p2, b0, db) = (0.2, 0.005, 2.9, 0.15, -0.05);
-        let whole = Series::<_, SHORT>::new(&start(alpha, 0.07, 0.3), h, b0, db, p2 * h * h);
+        let step =
+            |at: &Start<f64>, h: f64, ground: &Ground<f64>| Series::<_, SHORT>::new::<true>(at, h, ground, p2 * h * h);
+        let ground = |gamma, b, part: f64| Ground { b, db: db * part, gamma, dgamma: 0.03 * part };
+        let whole = step(&start(alpha, 0.07, 0.3), h, &ground(0.8, b0, 1.0));
         assert_eq!(whole.reach(), 1.0);
         let k = h / 2.0;
-        let first = Series::<_, SHORT>::new(&start(alpha, 0.07, 0.3), k, b0, db / 2.0, p2 * k * k);
+        let first = step(&start(alpha, 0.07, 0.3), k, &ground(0.8, b0, 0.5));
         let (w, rate) = (first.at(1.0).0, first.end_slope() / k);
-        let second = Series::<_, SHORT>::new(&start(alpha, w, rate), k, b0 + db / 2.0, db / 2.0, p2 * k * k);
+        let second = step(&start(alpha, w, rate), k, &ground(0.815, b0 + db / 2.0, 0.5));
         assert_relative_eq!(second.at(1.0).0, whole.at(1.0).0, max_relative = 1e-15);
         assert_relative_eq!(second.end_slope() / k, whole.end_slope() / h, max_relative = 1e-14);
     }

@@ -1,17 +1,16 @@
 //! The walk through a record: rest, uplift, Taylor steps, impacts, rest again.
 //!
 //! A plain interval between two samples is one Taylor step. An interval with an event (uplift, impact, rest, passing
-//! alpha) or too fast for one step is walked piece by piece. Control flow is decided on real parts. An event's time is solved
-//! for in real numbers; its derivative comes from the equation it solves (implicit function theorem).
+//! alpha, loss of contact) or too fast for one step is walked piece by piece (`interval`). Control flow is decided on real parts.
+//!
+//! `V`: whether the ground moves vertically, too. Without it nothing is computed of what that asks for.
 
 use std::f64::consts::FRAC_PI_2;
 
-use super::rest;
-use super::root::{crossing, first_root, impact_time};
 use super::series::{
-    LEAST, LONG, SHORT, SMALL, Series, Start, change, coefficients, end_slope, is_plain, pulls, real_parts, turned,
+    Ground, LEAST, LONG, SHORT, SMALL, Start, change, coefficients, end_slope, is_plain, pulls, real_parts, turned,
 };
-use super::{Impact, Outcome, Rocking, Uplift};
+use super::{Outcome, Rocking, contact, rest};
 use crate::scalar::{Scalar, real};
 
 /// Sine and cosine are carried from step to step by a rotation, and taken anew after this many steps.
@@ -48,7 +47,9 @@ pub struct Setting<'a, S> {
     pub dt: f64,
     /// Ground acceleration at the samples (m/s2).
     pub accel: &'a [f64],
-    /// u_g/g per unit of `accel`.
+    /// Its vertical part, positive upwards (m/s2); zero where it has no sample.
+    pub vertical: &'a [f64],
+    /// u_g/g per unit of `accel`, a_v/g per unit of `vertical`.
     pub unit: S,
     pub alpha: S,
     pub sin_alpha: S,
@@ -56,6 +57,8 @@ pub struct Setting<'a, S> {
     /// tan alpha: the |u_g|/g at which the body lifts.
     pub lift: S,
     pub p2: S,
+    /// R/g (s2).
+    pub arm: f64,
     /// Velocity restitution.
     pub e: S,
     pub max_work: usize,
@@ -72,13 +75,22 @@ pub struct State<S> {
     /// It did not start at rest.
     started: bool,
     /// When |theta| last grew past alpha (s).
-    passed: f64,
+    pub passed: f64,
     /// Steps and impacts in intervals with events.
-    work: usize,
+    pub work: usize,
+}
+
+/// The ground at an instant.
+#[derive(Clone, Copy)]
+pub struct Sample<S> {
+    /// u_g/g.
+    pub a: S,
+    /// gamma = 1 + a_v/g.
+    pub gamma: S,
 }
 
 /// A walk under way: where the body is, and the history until now.
-pub struct Walk<'a, S> {
+pub struct Walk<'a, S, const V: bool> {
     pub set: Setting<'a, S>,
     pub state: State<S>,
     pub out: Rocking<S>,
@@ -90,9 +102,9 @@ pub struct Walk<'a, S> {
 }
 
 /// Walk from the given lean and rate at t = 0 to the last sample.
-pub fn walk<S: Scalar>(set: Setting<S>, theta: S, rate: S) -> Rocking<S> {
+pub fn walk<S: Scalar, const V: bool>(set: Setting<S>, theta: S, rate: S) -> Rocking<S> {
     let n = set.accel.len();
-    let mut walk = Walk::new(set, theta, rate);
+    let mut walk = Walk::<S, V>::new(set, theta, rate);
     let mut i = 0;
     let mut a0 = walk.ground(0);
     while walk.arrive(i) {
@@ -113,7 +125,7 @@ pub fn walk<S: Scalar>(set: Setting<S>, theta: S, rate: S) -> Rocking<S> {
     walk.end()
 }
 
-impl<'a, S: Scalar> Walk<'a, S> {
+impl<'a, S: Scalar, const V: bool> Walk<'a, S, V> {
     pub fn new(set: Setting<'a, S>, theta: S, rate: S) -> Self {
         let n = set.accel.len();
         let out = Rocking {
@@ -129,9 +141,10 @@ impl<'a, S: Scalar> Walk<'a, S> {
         Self { set, state, out, q, pace: Pace::of(q.re()), quiet }
     }
 
-    /// u_g/g at sample i; zero beyond the record.
-    pub fn ground(&self, i: usize) -> S {
-        self.set.unit * self.set.accel.get(i).copied().unwrap_or(0.0)
+    /// The ground at sample i; at rest beyond the record.
+    pub fn ground(&self, i: usize) -> Sample<S> {
+        let at = |record: &[f64]| record.get(i).copied().unwrap_or(0.0);
+        self.set.sample::<V>(at(self.set.accel), at(self.set.vertical))
     }
 
     /// Whether the body does not lie flat, and its motion is finite.
@@ -170,38 +183,45 @@ impl<'a, S: Scalar> Walk<'a, S> {
     /// Lie still at sample i for as long as the record is quiet; the last such sample.
     pub fn lie(&mut self, i: usize) -> usize {
         let accel = self.set.accel;
-        if i + 1 == accel.len() || !(accel[i].abs() <= self.quiet || self.set.is_grazing(i)) {
+        if i + 1 == accel.len() || !(self.is_quiet(i) || self.set.is_grazing(self.ground(i), self.ground(i + 1))) {
             return i;
         }
-        let still = accel[i + 1..].iter().take_while(|a| a.abs() <= self.quiet).count();
+        let still = (i + 1..accel.len()).take_while(|&i| self.is_quiet(i)).count();
         self.out.theta.resize(i + still + 1, S::zero());
         self.out.rate.resize(i + still + 1, S::zero());
         i + still
     }
 
-    /// Interval i; false, with the outcome set, if the work bound is reached. `tried`: a step at the walk's pace does not take it.
+    /// Whether sample i does not lift a body at rest.
+    fn is_quiet(&self, i: usize) -> bool {
+        let a = self.set.accel[i].abs();
+        if V {
+            let gamma = self.ground(i).gamma.re();
+            gamma > 0.0 && a <= self.quiet * gamma
+        } else {
+            a <= self.quiet
+        }
+    }
+
+    /// Interval i; false, with the outcome set, if the history ends in it. `tried`: a step at the walk's pace does not take it.
     #[inline(always)]
-    pub fn advance(&mut self, i: usize, a0: S, a1: S, tried: bool) -> bool {
+    pub fn advance(&mut self, i: usize, now: Sample<S>, then: Sample<S>, tried: bool) -> bool {
         let Self { set, state, out, q, pace, .. } = self;
-        let (h, da) = (real(set.dt), a1 - a0);
+        let ends = (now, then);
         let steps = state.rocking && !tried;
-        let done = match *pace {
+        match *pace {
             Pace::Slow => {
-                (steps && set.step::<LEAST>(state, h, *q, a0, da))
-                    || (state.rocking && set.step::<SHORT>(state, h, *q, a0, da))
-                    || set.interval::<SHORT>(state, i, a0, a1, out)
+                (steps && set.step::<V, LEAST>(state, *q, ends))
+                    || (state.rocking && set.step::<V, SHORT>(state, *q, ends))
+                    || set.interval::<V, SHORT>(state, i, ends, out)
             }
             Pace::Walk => {
-                (steps && set.step::<SHORT>(state, h, *q, a0, da)) || set.interval::<SHORT>(state, i, a0, a1, out)
+                (steps && set.step::<V, SHORT>(state, *q, ends)) || set.interval::<V, SHORT>(state, i, ends, out)
             }
             Pace::Fast => {
-                (steps && set.step::<LONG>(state, h, *q, a0, da)) || set.interval::<LONG>(state, i, a0, a1, out)
+                (steps && set.step::<V, LONG>(state, *q, ends)) || set.interval::<V, LONG>(state, i, ends, out)
             }
-        };
-        if !done {
-            out.outcome = Outcome::WorkBound { time: i as f64 * set.dt };
         }
-        done
     }
 
     /// The history, its outcome told from its end unless something cut it.
@@ -225,7 +245,7 @@ pub fn turns_well(age: u64, change: f64) -> bool {
 }
 
 /// Whether a body beyond alpha goes on falling when the ground stops: w'^2/2 against p^2 (1 - cos(w - alpha)).
-fn falls<S: Scalar>(at: &Start<S>, alpha: f64, p2: f64) -> bool {
+pub fn falls<S: Scalar>(at: &Start<S>, alpha: f64, p2: f64) -> bool {
     let (beyond, rate) = (at.w.re() - alpha, at.rate.re());
     beyond > 0.0 && (rate >= 0.0 || rate * rate < 4.0 * p2 * (0.5 * beyond).sin().powi(2))
 }
@@ -247,16 +267,29 @@ impl<S: Scalar> Setting<'_, S> {
         }
     }
 
+    /// The ground at an instant from the record's numbers (m/s2).
+    #[inline(always)]
+    pub fn sample<const V: bool>(&self, accel: f64, vertical: f64) -> Sample<S> {
+        Sample { a: self.unit * accel, gamma: if V { self.unit * vertical + 1.0 } else { S::one() } }
+    }
+
     /// One Taylor step over a whole interval; false, with nothing changed, if the interval needs more than that.
     #[inline(always)]
-    fn step<const N: usize>(&self, state: &mut State<S>, h: S, q: S, a0: S, da: S) -> bool {
+    fn step<const V: bool, const N: usize>(
+        &self,
+        state: &mut State<S>,
+        q: S,
+        (now, then): (Sample<S>, Sample<S>),
+    ) -> bool {
         let at = &state.at;
-        let (b0, db) = (a0 * state.side, da * state.side);
-        let c = coefficients::<S, N>(at, h, b0, db, &pulls(q));
+        let (side, da) = (state.side, then.a - now.a);
+        let ground = Ground { b: now.a * side, db: da * side, gamma: now.gamma, dgamma: then.gamma - now.gamma };
+        let c = coefficients::<S, V, N>(at, real(self.dt), &ground, &pulls(q));
         let change = change(&c);
         let w = at.w + change;
-        let (q, root) = (q.re(), q.re().sqrt());
-        let plain = is_plain(&real_parts(&c), b0.re(), db.re(), q, root, w.re(), self.alpha.re());
+        let (re, ground) = (real_parts(&c), ground.re());
+        let plain = is_plain::<V, N>(&re, &ground, (q.re(), q.re().sqrt()), w.re(), self.alpha.re())
+            && (!V || contact::surely_presses(&re, at.sin.re(), &ground, self.share(), self.arm_of(self.dt)));
         if plain {
             state.at.w = w;
             state.at.rate = end_slope(&c) * (1.0 / self.dt);
@@ -265,9 +298,21 @@ impl<S: Scalar> Setting<'_, S> {
         plain
     }
 
+    /// m R^2/I0 = p^2 R/g.
+    #[inline(always)]
+    pub fn share(&self) -> f64 {
+        self.p2.re() * self.arm
+    }
+
+    /// R/(g h^2), for a step of h (s).
+    #[inline(always)]
+    pub fn arm_of(&self, h: f64) -> f64 {
+        self.arm / (h * h)
+    }
+
     /// Sine and cosine of alpha - w after w has changed.
     #[inline(always)]
-    fn turn(&self, state: &mut State<S>, change: S) {
+    pub fn turn(&self, state: &mut State<S>, change: S) {
         let at = &mut state.at;
         state.age += 1;
         if turns_well(state.age, change.re()) {
@@ -278,134 +323,10 @@ impl<S: Scalar> Setting<'_, S> {
         }
     }
 
-    /// Interval i, piece by piece; false if the work bound is reached.
-    #[cold]
-    #[inline(never)]
-    fn interval<const N: usize>(&self, state: &mut State<S>, i: usize, a0: S, a1: S, out: &mut Rocking<S>) -> bool {
-        let start = i as f64 * self.dt;
-        let da = a1 - a0;
-        // x: the fraction of the interval behind us
-        let mut x = S::zero();
-        let mut lifting = false;
-        while x.re() < 1.0 {
-            if !state.rocking {
-                match rest::uplift(x, a0, da, self.lift) {
-                    Some((at, side)) => {
-                        x = at;
-                        self.ground(state, side, S::zero());
-                        state.rocking = true;
-                        lifting = true;
-                        out.uplifts.push(Uplift { time: x * self.dt + start, side });
-                        if x.re() >= 1.0 {
-                            break;
-                        }
-                    }
-                    None => return true,
-                }
-            }
-            state.work += 1;
-            if state.work > self.max_work {
-                return false;
-            }
-            let left = S::one() - x;
-            let h = left * self.dt;
-            let b = (a0 + da * x) * state.side;
-            let mut series = Series::<S, N>::new(&state.at, h, b, da * left * state.side, self.p2 * h * h);
-            let reach = series.reach();
-            if reach < 1.0 {
-                series.shorten(reach);
-            }
-            let mut c = series.re();
-            if lifting {
-                // at the limit w'' = 0, and its rounding error must not press the body into the ground
-                c[2] = c[2].max(0.0);
-                lifting = false;
-            }
-            match first_root(&c) {
-                Some(z) => {
-                    let z = impact_time(&series, z);
-                    let rate = series.at(z).1 / (h * reach);
-                    x += left * z * reach;
-                    if self.land(state, x, rate, a0, a1, start, out) {
-                        return true;
-                    }
-                }
-                None => {
-                    let before = state.at.w.re();
-                    let change = series.change();
-                    state.at.w += change;
-                    state.at.rate = series.end_slope() / (h * reach);
-                    self.turn(state, change);
-                    let alpha = self.alpha.re();
-                    if before < alpha && state.at.w.re() >= alpha {
-                        let passed = (x + left * reach * crossing(&c, alpha)).re();
-                        state.passed = start + passed * self.dt;
-                    }
-                    if state.at.w.re() >= FRAC_PI_2 || state.at.w.re().is_nan() {
-                        return true;
-                    }
-                    if state.at.w.re() == 0.0 && state.at.rate.re() == 0.0 {
-                        state.rocking = false;
-                    }
-                    if reach >= 1.0 {
-                        return true;
-                    }
-                    x += left * reach;
-                }
-            }
-        }
-        // an event exactly at the sample: its time may move with the parameters, the sample does not
-        let late = S::one() - x;
-        let late = (late - late.re()) * self.dt;
-        let force = self.p2 * (state.at.sin + a1 * state.at.cos * state.side);
-        state.at.w += state.at.rate * late;
-        state.at.rate -= force * late;
-        true
-    }
-
-    /// Put the body on the ground, leaning to a side at a rate.
-    fn ground(&self, state: &mut State<S>, side: f64, rate: S) {
-        state.at = Start { w: S::zero(), rate, sin: self.sin_alpha, cos: self.cos_alpha };
-        state.side = side;
-        state.age = 0;
-    }
-
-    /// An impact at fraction x of the interval, w' before it given. True if the body rests until the interval's end.
-    #[allow(clippy::too_many_arguments)]
-    fn land(&self, state: &mut State<S>, x: S, rate: S, a0: S, a1: S, start: f64, out: &mut Rocking<S>) -> bool {
-        // theta' jumps to e theta' and keeps its sign: s, and with it w', turns round
-        let before = rate * state.side;
-        let after = before * self.e; // (2)
-        out.impacts.push(Impact { time: x * self.dt + start, rate_before: before, rate_after: after });
-        self.ground(state, -state.side, -(rate * self.e));
-        let hop = rest::Hop {
-            rate: state.at.rate.re(),
-            left: (1.0 - x.re()) * self.dt,
-            now: (a0 + (a1 - a0) * x).re(),
-            then: a1.re(),
-            e: self.e.re(),
-            alpha: self.alpha.re(),
-            ground: (self.sin_alpha.re(), self.cos_alpha.re()),
-            p2: self.p2.re(),
-        };
-        match hop.fate() {
-            rest::Fate::Hops => false,
-            rest::Fate::Stops => {
-                self.ground(state, state.side, S::zero());
-                state.rocking = false;
-                false
-            }
-            rest::Fate::DiesOut => {
-                self.ground(state, state.side, S::zero());
-                state.rocking = false;
-                true
-            }
-        }
-    }
-
-    /// Sample i is above the limit, but `rest::uplift` calls that a graze.
-    fn is_grazing(&self, i: usize) -> bool {
-        let a0 = self.unit * self.accel[i];
-        rest::uplift(S::zero(), a0, self.unit * self.accel[i + 1] - a0, self.lift).is_none()
+    /// The sample now is above the limit, but `rest::uplift` calls that a graze.
+    fn is_grazing(&self, now: Sample<S>, then: Sample<S>) -> bool {
+        let rest = |now: S, then: S| (now, then - now);
+        rest::uplift(S::zero(), rest(now.a, then.a), rest(now.gamma, then.gamma), self.lift).is_none()
+            && now.gamma.re() > 0.0
     }
 }

@@ -9,7 +9,7 @@ use super::Parameters;
 use crate::{
     excitation::Excitation,
     message::one_line,
-    record::{ReadOptions, Record, RecordError, Source, Units},
+    record::{ReadOptions, Record, RecordError, Source, Units, Vertical},
 };
 
 /// Length that files which remember no record stand for, unless they hold a match [s].
@@ -38,6 +38,21 @@ pub struct RecordRow {
     pub fnv1a_64: Option<String>,
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub source: Option<SourceRow>,
+    /// The vertical component, if there is one.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub vertical: Option<VerticalRow>,
+}
+
+/// The vertical component of the record, scaled and cut as it is.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct VerticalRow {
+    pub name: String,
+    /// Peak of the part used, scaled.
+    pub pga_g: f64,
+    /// As of the record; upwards is positive.
+    pub fnv1a_64: String,
+    pub source: SourceRow,
 }
 
 /// Where the record is to be found.
@@ -81,21 +96,33 @@ pub enum RememberedError {
     Record(#[from] RecordError),
 }
 
-impl RecordRow {
-    /// The row of a ground motion, for a parameters.json in `folder`; `used` is the part used, scaled.
-    pub fn new(excitation: &Excitation, used: &Record, folder: &Path) -> Self {
-        let record = &excitation.record;
-        let source = match &record.source {
-            Source::Embedded => SourceRow::Embedded,
-            Source::File { path, units, component, baseline } => SourceRow::File {
+impl SourceRow {
+    /// For a parameters.json in `folder`.
+    fn new(source: &Source, folder: &Path) -> Self {
+        match source {
+            Source::Embedded => Self::Embedded,
+            Source::File { path, units, component, baseline } => Self::File {
                 file: slashes(path),
                 path: slashes(&way(&real(folder), &real(path))),
                 units: *units,
                 component: component.clone(),
                 baseline: *baseline,
             },
-            Source::Numbers | Source::Synthetic | Source::Earthquake => SourceRow::Numbers,
-        };
+            Source::Numbers | Source::Synthetic | Source::Earthquake => Self::Numbers,
+        }
+    }
+}
+
+impl RecordRow {
+    /// The row of a ground motion, for a parameters.json in `folder`; `used` is the part used, scaled.
+    pub fn new(excitation: &Excitation, used: &Record, folder: &Path) -> Self {
+        let record = &excitation.record;
+        let vertical = record.vertical.as_ref().zip(used.vertical.as_ref()).map(|(whole, used)| VerticalRow {
+            name: whole.name.clone(),
+            pga_g: used.peak_g(),
+            fnv1a_64: hexadecimal(whole.as_record(record.dt).fingerprint()),
+            source: SourceRow::new(&whole.source, folder),
+        });
         Self {
             name: record.name.clone(),
             dt_s: record.dt,
@@ -105,26 +132,43 @@ impl RecordRow {
             scale: Some(excitation.scale),
             duration_s: Some(excitation.duration()),
             fnv1a_64: Some(hexadecimal(record.fingerprint())),
-            source: Some(source),
+            source: Some(SourceRow::new(&record.source, folder)),
+            vertical,
         }
     }
 
     /// The record again, whole and unscaled; `parameters` is the path of the file that this row is of.
     fn record(&self, parameters: &Path) -> Result<Record, RememberedError> {
+        let source = self.source.as_ref().unwrap_or(&SourceRow::Embedded);
+        let record = self.component(parameters, source, (&self.name, self.fnv1a_64.as_ref()), Record::read)?;
+        let Some(row) = &self.vertical else { return Ok(record) };
+        let remembered = (row.name.as_str(), Some(&row.fnv1a_64));
+        Ok(record.with_vertical(self.component(parameters, &row.source, remembered, Vertical::read)?)?)
+    }
+
+    /// A component again by its source, read by `read`; its name and hash are remembered.
+    fn component(
+        &self,
+        parameters: &Path,
+        source: &SourceRow,
+        (called, hash): (&str, Option<&String>),
+        read: fn(&Path, &ReadOptions) -> Result<Record, RecordError>,
+    ) -> Result<Record, RememberedError> {
         let name = || parameters.display().to_string();
-        let (record, file) = match &self.source {
-            None | Some(SourceRow::Embedded) => (Record::el_centro(), "the embedded El Centro".to_string()),
-            Some(SourceRow::Numbers) => {
-                return Err(RememberedError::NoFile { parameters: name(), name: one_line(&self.name) });
+        let (record, file) = match source {
+            SourceRow::Embedded => (Record::el_centro(), "the embedded El Centro".to_string()),
+            SourceRow::Numbers => {
+                return Err(RememberedError::NoFile { parameters: name(), name: one_line(called) });
             }
-            Some(SourceRow::File { file, path, units, component, baseline }) => {
+            SourceRow::File { file, path, units, component, baseline } => {
                 let (component, baseline) = (component.clone(), *baseline);
-                let options = ReadOptions { dt: Some(self.dt_s), units: Some(*units), component, baseline };
+                let options =
+                    ReadOptions { dt: Some(self.dt_s), units: Some(*units), component, baseline, vertical: None };
                 let here = parameters.parent().unwrap_or(Path::new("")).join(path);
                 let there = [here.as_path(), Path::new(file)].into_iter().find(|p| p.exists());
                 let missing =
                     || RememberedError::Missing { parameters: name(), file: one_line(file), path: one_line(path) };
-                match Record::read(there.ok_or_else(missing)?, &options) {
+                match read(there.ok_or_else(missing)?, &options) {
                     Err(RecordError::StepDiffers { .. } | RecordError::UnitsDiffer { .. }) => {
                         let change = "it says another time step or unit".to_string();
                         return Err(RememberedError::Changed { parameters: name(), file: one_line(file), change });
@@ -134,7 +178,7 @@ impl RecordRow {
             }
         };
         let found = hexadecimal(record.fingerprint());
-        match &self.fnv1a_64 {
+        match hash {
             Some(remembered) if *remembered != found => {
                 let change = format!("the hash of its numbers is {found}, not {}", one_line(remembered));
                 Err(RememberedError::Changed { parameters: name(), file, change })

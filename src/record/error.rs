@@ -59,6 +59,12 @@ pub enum RecordError {
     NoUnits { file: String },
     #[error("{file}: the header speaks of {quantity}, not of acceleration; give the accelerogram")]
     NotAcceleration { file: String, quantity: &'static str },
+    #[error("{file}: has {found}; name the file of one, or leave the vertical motion out")]
+    NoVertical { file: String, found: &'static str },
+    #[error(
+        "{vertical}: the vertical component has {samples} samples of {dt:?} s, the record {record_samples} of {record_dt:?} s; resample or cut it to the record's times"
+    )]
+    VerticalDiffers { vertical: String, samples: usize, dt: f64, record_samples: usize, record_dt: f64 },
     #[error("{record}: the time step is {dt:?} s; it must be between 1e-6 and 1 s")]
     BadStep { record: String, dt: f64 },
     #[error("{record}: sample {index} (counted from 0) is {value:?}; every sample must be a finite number")]

@@ -4,7 +4,7 @@ use std::path::Path;
 
 use super::parsed::Channel;
 use super::text::{self, quote};
-use super::{Direction, Format, Notice, Peak, ReadOptions, Record, RecordError, Source, Units};
+use super::{Direction, Format, Notice, Peak, ReadOptions, Record, RecordError, Source, Units, Vertical};
 
 /// One component of a file, in SI units.
 #[derive(Clone, Debug, PartialEq)]
@@ -38,7 +38,9 @@ pub struct Recording {
     pub taken: usize,
     /// Whether the component was asked for.
     asked: bool,
-    file: String,
+    /// The vertical component asked for.
+    vertical: Option<Record>,
+    pub(super) file: String,
 }
 
 impl Recording {
@@ -49,7 +51,8 @@ impl Recording {
     /// with the options: see [`RecordError`].
     pub fn read(path: &Path, options: &ReadOptions) -> Result<Self, RecordError> {
         let bytes = super::bytes(path)?;
-        let mut recording = Self::parse(&super::label(path), &bytes, options)?;
+        let without = ReadOptions { vertical: None, ..options.clone() };
+        let mut recording = Self::parse(&super::label(path), &bytes, &without)?;
         let several = recording.components.len() > 1;
         for component in &mut recording.components {
             component.record.source = Source::File {
@@ -59,6 +62,7 @@ impl Recording {
                 baseline: options.baseline,
             };
         }
+        recording.vertical = recording.check_vertical(options)?;
         Ok(recording)
     }
 
@@ -98,11 +102,12 @@ impl Recording {
             return Err(RecordError::Empty { file: file.clone() });
         }
         let (station, asked) = (parsed.station, options.component.is_some());
-        let mut recording = Self { format, station, components, taken: 0, asked, file: file.clone() };
+        let mut recording = Self { format, station, components, taken: 0, asked, vertical: None, file: file.clone() };
         recording.taken = match &options.component {
             Some(wanted) => recording.find(wanted)?,
             None => recording.strongest_horizontal(),
         };
+        recording.vertical = recording.check_vertical(options)?;
         Ok(recording)
     }
 
@@ -113,7 +118,14 @@ impl Recording {
 
     /// The record that a run takes.
     pub fn into_record(mut self) -> Record {
-        self.components.swap_remove(self.taken).record
+        let record = self.components.swap_remove(self.taken).record;
+        match self.vertical {
+            // checked as it was read
+            Some(Record { name, accel, source, .. }) => {
+                Record { vertical: Some(Vertical { name, accel: accel.into(), source }), ..record }
+            }
+            None => record,
+        }
     }
 
     /// What the user should know of the record that a run takes.

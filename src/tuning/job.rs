@@ -90,12 +90,17 @@ impl Job {
             return Err(JobError::TooShort { record: record.name.clone(), samples: record.len() });
         }
         let body = case.structure.body::<f64>();
-        let options = housner::Options { restitution: Some(case.restitution), ..Default::default() };
+        let options = housner::Options {
+            restitution: Some(case.restitution),
+            vertical: record.vertical_accel(),
+            ..Default::default()
+        };
         let rocking = housner::solve(&body, record.dt, &record.accel, &options);
         let housner = rocking.motion(&body);
         let suites = Suites::new(&body, case.restitution, Some(&record));
         let lifted = !rocking.uplifts.is_empty();
-        let benchmark = Benchmark { body, dt: record.dt, accel: &record.accel, housner: &housner };
+        let benchmark =
+            Benchmark { body, dt: record.dt, accel: &record.accel, vertical: record.up(), housner: &housner };
         let procedure = Procedure::new(case, &benchmark)?;
 
         let (tuned, capped, paper) = match case.tuning.objective {

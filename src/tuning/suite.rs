@@ -3,6 +3,8 @@
 //!
 //! Housner's answers are found once; the springs of every Omega_n are judged against them.
 
+use std::{borrow::Cow, sync::Arc};
+
 use rayon::prelude::*;
 use serde::{Deserialize, Serialize};
 
@@ -12,6 +14,7 @@ use crate::{
     housner::{self, Options, Rocking},
     record::Record,
     regime,
+    scalar::GRAVITY,
     spring::{Chain, Springs},
     structure::Body,
     synthetic,
@@ -37,6 +40,7 @@ const BELIED: f64 = 4.0;
 pub struct Trial {
     dt: f64,
     accel: Vec<f64>,
+    vertical: Option<Arc<[f64]>>,
     /// Housner's rotations at the samples [rad].
     theta: Vec<f64>,
 }
@@ -70,23 +74,37 @@ impl Wanted {
 impl Trial {
     /// The motion, if Housner's body rocks on it without overturning, on a pivot that presses, and its history is as wanted.
     fn new(body: &Body<f64>, restitution: f64, record: Record, wanted: Wanted) -> Option<Self> {
-        let options = Options { restitution: Some(restitution), ..Options::default() };
+        let vertical = record.vertical_accel();
+        let options = Options { restitution: Some(restitution), vertical, ..Options::default() };
         let rocking = housner::solve(body, record.dt, &record.accel, &options);
         let rocks = rocking.outcome == housner::Outcome::Rocked && !rocking.impacts.is_empty();
         let presses = || regime::pivot_pulls(body, record.dt, &record.accel, &rocking).is_none();
         let fit = rocks && wanted.holds(body, &record, &options, &rocking) && presses();
-        fit.then(|| Self { dt: record.dt, accel: record.accel, theta: rocking.theta })
+        fit.then_some(Self { dt: record.dt, accel: record.accel, vertical: options.vertical, theta: rocking.theta })
+    }
+
+    /// u_g over gamma = 1 + a_v/g at the samples [m/s2]: what a body beyond alpha must be able to fall against. It is largest at
+    /// samples; without bound where the ground falls faster than the body.
+    fn push(&self) -> Cow<'_, [f64]> {
+        let Some(vertical) = &self.vertical else { return Cow::Borrowed(&self.accel) };
+        let push = |(i, a): (usize, &f64)| {
+            let gamma = 1.0 + vertical.get(i).map_or(0.0, |up| up / GRAVITY);
+            if gamma > 0.0 { a / gamma } else { f64::INFINITY }
+        };
+        Cow::Owned(self.accel.iter().enumerate().map(push).collect())
     }
 
     /// NRMSE of u and of v on these springs; infinite if the history does not get to the record's end.
     pub fn errors(&self, body: &Body<f64>, springs: &Springs<Chain<f64>>, control: Control) -> (f64, f64) {
-        let mut stream = Stream::new(body, &self.theta, &self.accel);
+        let push = self.push();
+        let mut stream = Stream::new(body, &self.theta, &push);
         let case = Case {
             body: *body,
             springs: *springs,
             start: Start::Settled,
             dt: self.dt,
             accel: &self.accel,
+            vertical: self.vertical.as_deref().unwrap_or_default(),
             scale: 1.0,
             control,
         };

@@ -142,6 +142,7 @@ impl Judge {
             start: fem::Start::Settled,
             dt,
             accel,
+            vertical: &[],
             scale: 1.0,
             control: self.control,
         };
@@ -156,7 +157,9 @@ impl Judge {
         let (horizontal, vertical) = (errors.horizontal.value(), errors.vertical.value());
         let finite = !horizontal.is_nan() && !vertical.is_nan() && stream.peak.is_finite();
         let outcome = match rocking.outcome {
-            housner::Outcome::WorkBound { .. } | housner::Outcome::NotFinite { .. } => Outcome::HousnerFailed,
+            housner::Outcome::LeavesGround { .. }
+            | housner::Outcome::WorkBound { .. }
+            | housner::Outcome::NotFinite { .. } => Outcome::HousnerFailed,
             _ if overturned_fem.is_none() || !finite => Outcome::FemFailed,
             housner::Outcome::NeverMoved => Outcome::NeverLifted,
             _ => Outcome::Rocked,
@@ -168,7 +171,7 @@ impl Judge {
             let peak = rocking.theta.iter().fold(0.0, |peak: f64, x| peak.max(x.abs()));
             ratio(peak, rocking.overturned().is_some())
         };
-        let changed = housner::Options { restitution: Some(self.restitution * (1.0 - CHANGE)), ..options };
+        let changed = housner::Options { restitution: Some(self.restitution * (1.0 - CHANGE)), ..options.clone() };
         let changes = conditioning.map(|c| c.changes).unwrap_or_default();
         let moved = |k: usize| changes.width[k].max(changes.scale[k]);
         let error = |x: f64| (outcome == Outcome::Rocked && x.is_finite()).then_some(x);

@@ -38,6 +38,7 @@ fn a_row_says_what_the_whole_histories_say() {
         start: fem::Start::Settled,
         dt: short.dt,
         accel: &short.accel,
+        vertical: &[],
         scale: 1.0,
         control: judge.control,
     }

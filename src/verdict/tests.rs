@@ -19,7 +19,7 @@ fn verdict(record: &Record) -> Verdict {
     let rocking = housner::solve(&body, dt, accel, &options);
     let springs = springs.chains(structure.mass_kg);
     let (start, control) = (Start::Settled, Control::default());
-    let history = Case { body, springs, start, dt, accel, scale: 1.0, control }.simulate();
+    let history = Case { body, springs, start, dt, accel, vertical: &[], scale: 1.0, control }.simulate();
     let motion = rocking.motion(&body);
     let matched = Match::new(&body, dt, (&motion, rocking.impacts.len()), &history, body.restitution());
     let conditioning = Conditioning::new(&body, dt, accel, &options);
@@ -70,9 +70,10 @@ fn a_weak_record_lifts_neither_and_leaves_nothing_to_compare() {
 
 #[test]
 fn disagreement_and_ill_conditioning_are_said() {
-    let answer = |fate| Answer { fate, overturned_s: None, peak_ratio: 0.9 };
+    let answer = |fate| Answer { fate, overturned_s: None, left_ground_s: None, peak_ratio: 0.9 };
     let mut verdict = Verdict {
         housner: answer(Fate::Rocked),
+        housner_without_vertical: None,
         finite_elements: Answer { overturned_s: Some(3.456), ..answer(Fate::Overturned) },
         well_conditioned: false,
         nrmse_horizontal: Some(0.3),

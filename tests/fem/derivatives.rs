@@ -29,7 +29,16 @@ fn end<S: Scalar>(parameters: [S; 8], share: f64, duration: f64, control: Contro
         ControlFlow::Continue(())
     };
     let start = Start::Leaning(real(0.04));
-    let case = Case { body, springs: springs.chains(body.mass), start, dt, accel: &accel, scale: S::one(), control };
+    let case = Case {
+        body,
+        springs: springs.chains(body.mass),
+        start,
+        dt,
+        accel: &accel,
+        vertical: &[],
+        scale: S::one(),
+        control,
+    };
     case.observe(&mut observer);
     last
 }

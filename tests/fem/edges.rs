@@ -25,7 +25,7 @@ const LIMIT: f64 = 0.25 * GRAVITY;
 
 /// The block from rest on plastic springs.
 fn shaken(hz: f64, dt: f64, accel: &[f64]) -> History {
-    let record = Record { name: "made up".into(), dt, accel: accel.to_vec(), source: Source::Numbers };
+    let record = Record { name: "made up".into(), dt, accel: accel.to_vec(), vertical: None, source: Source::Numbers };
     settled(&block(), plastic(hz, block().mass_kg), &record, Control::default())
 }
 
@@ -69,7 +69,7 @@ fn a_touch_down_at_zero_velocity_is_the_same_as_none() {
                 (0..samples).map(|i| if f64::from(i) * dt < 0.5 * fall { 0.0 } else { -push }).collect();
             let (body, springs) = (block().body(), plastic(160.0, 1e3));
             let (start, control) = (Start::Leaning(lean), Control::default());
-            Case { body, springs, start, dt, accel: &accel, scale: 1.0, control }.simulate()
+            Case { body, springs, start, dt, accel: &accel, vertical: &[], scale: 1.0, control }.simulate()
         };
         // the left foot is in the air at first
         let touch = |h: &History| h.landings.iter().find(|l| l.foot == 0).copied();
@@ -248,7 +248,8 @@ fn a_frame_of_restitution_zero_loses_its_energy_in_the_first_landing() {
     for hz in [40.0, 160.0, 640.0] {
         let (springs, start) = (chains(ratios, ratios, hz, body.mass), Start::Leaning(lean));
         let control = Control::default();
-        let history = Case { body, springs, start, dt: 0.01, accel: &accel, scale: 1.0, control }.simulate();
+        let history =
+            Case { body, springs, start, dt: 0.01, accel: &accel, vertical: &[], scale: 1.0, control }.simulate();
         assert_sound(&history, 300);
         let first = &history.landings[0];
         assert!(first.impact && (first.time / landing - 1.0).abs() < 0.01, "{first:?} {landing}");
@@ -313,6 +314,7 @@ fn without_dampers_nothing_is_dissipated() {
             start: Start::Settled,
             dt: record.dt,
             accel: &record.accel,
+            vertical: &[],
             scale: 1.0,
             control: Control::default(),
         };
@@ -335,9 +337,17 @@ fn records_of_no_sample_one_and_two() {
     for (start, theta) in [(Start::Settled, 0.0), (Start::Leaning(0.1), 0.1)] {
         for n in 0..3 {
             let (body, springs, accel) = (block().body(), table_1(160.0, 1e3), vec![3.0 * LIMIT; n]);
-            let history =
-                Case { body, springs, start, dt: 0.01, accel: &accel, scale: 1.0, control: Control::default() }
-                    .simulate();
+            let history = Case {
+                body,
+                springs,
+                start,
+                dt: 0.01,
+                accel: &accel,
+                vertical: &[],
+                scale: 1.0,
+                control: Control::default(),
+            }
+            .simulate();
             assert_eq!((history.outcome, history.motion.len()), (Outcome::Completed, n));
             assert_eq!((history.impacts(), history.bounces()), (0, 0));
             let first = history.motion.theta.first();

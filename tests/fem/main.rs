@@ -10,3 +10,4 @@ mod members;
 mod rigid_limit;
 mod similarity;
 mod stiff;
+mod vertical;

@@ -26,7 +26,7 @@ fn run(
     members: &Members<f64>,
 ) -> (History, Demands) {
     let (dt, accel, control) = (record.dt, &record.accel[..], Control::default());
-    Case { body: structure.body(), springs, start: Start::Settled, dt, accel, scale: 1.0, control }
+    Case { body: structure.body(), springs, start: Start::Settled, dt, accel, vertical: &[], scale: 1.0, control }
         .simulate_with(members)
 }
 
@@ -128,6 +128,7 @@ fn dampers_take_energy_out_of_free_rocking() {
         start: Start::Leaning(lean),
         dt: 0.01,
         accel: &still,
+        vertical: &[],
         scale: 1.0,
         control: Control::default(),
     };

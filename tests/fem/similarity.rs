@@ -45,6 +45,7 @@ fn scaled(structure: &Structure, make: Make, record: &Record, length: f64, mass:
         start: Start::Settled,
         dt: record.dt * time,
         accel: &record.accel,
+        vertical: &[],
         scale: 1.0,
         control: Control::default(),
     }

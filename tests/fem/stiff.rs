@@ -46,7 +46,8 @@ fn suite(structure: &Structure, springs: Springs<Chain<f64>>, n: usize) -> Vec<(
     let run = |record: groundspring::record::Record| {
         let control = Control { most_steps: 500_000, ..Control::default() };
         let (dt, accel) = (record.dt, &record.accel[..]);
-        let history = Case { body, springs, start: Start::Settled, dt, accel, scale: 1.0, control }.simulate();
+        let history =
+            Case { body, springs, start: Start::Settled, dt, accel, vertical: &[], scale: 1.0, control }.simulate();
         let rocking = housner::solve(&body, dt, accel, &Options::default());
         let rocked = rocking.outcome == housner::Outcome::Rocked && history.outcome == Outcome::Completed;
         let error = rocked.then(|| nrmse(&history.motion.u, &rocking.motion(&body).u));
@@ -106,7 +107,8 @@ fn a_stocky_frame_follows_housner_until_his_pivot_would_have_to_pull() {
         let rocking = housner::solve(&body, dt, accel, &Options::default());
         let Some(time) = regime::pivot_pulls(&body, dt, accel, &rocking) else { continue };
         let control = Control::default();
-        let history = Case { body, springs, start: Start::Settled, dt, accel, scale: 1.0, control }.simulate();
+        let history =
+            Case { body, springs, start: Start::Settled, dt, accel, vertical: &[], scale: 1.0, control }.simulate();
         let (u, reference) = (&history.motion.u, &rocking.motion(&body).u);
         let until = (time / dt) as usize + 1;
         before.push(nrmse(&u[..until], &reference[..until]));

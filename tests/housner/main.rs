@@ -7,6 +7,7 @@ mod free_rocking;
 mod lanes;
 mod reference;
 mod symmetry;
+mod vertical;
 
 /// Four sines that swell for two seconds [g], rounded to 6 digits so that every program reads the same numbers.
 fn noise(dt: f64, seconds: f64) -> Vec<f64> {

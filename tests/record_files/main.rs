@@ -4,4 +4,5 @@ mod command;
 mod malformed;
 mod real;
 mod synthetic;
+mod vertical;
 mod write;

@@ -75,7 +75,7 @@ fn finite_element_histories_are_finite_close_their_account_and_say_how_they_ende
         let start =
             if draw.one_in(3) { Start::Leaning(body.alpha() * draw.between(-1.2, 1.2)) } else { Start::Settled };
         let control = Control { most_steps: MOST_STEPS, ..Control::default() };
-        let history = Case { body, springs, start, dt, accel: &accel, scale: 1.0, control }.simulate();
+        let history = Case { body, springs, start, dt, accel: &accel, vertical: &[], scale: 1.0, control }.simulate();
 
         let (outcome, motion, account) = (history.outcome, &history.motion, &history.account);
         require(finite(motion), || format!("not finite, {outcome:?}"))?;
@@ -121,7 +121,11 @@ fn rigid_histories_are_finite_and_say_how_they_ended_alone_and_in_lock_step() {
                 let barrier = (body.p_squared() * 2.0 * (1.0 - body.alpha().cos())).sqrt();
                 let initial =
                     draw.one_in(3).then(|| (body.alpha() * draw.between(-1.2, 1.2), barrier * draw.between(-1.2, 1.2)));
-                (body, Options { restitution, initial, max_work: MOST_STEPS, ..Options::default() })
+                let vertical = draw
+                    .one_in(2)
+                    .then(|| draw.log(1e-3, 3.0))
+                    .map(|factor| accel.iter().rev().map(|a| factor * a).collect::<Vec<f64>>().into());
+                (body, Options { restitution, initial, vertical, max_work: MOST_STEPS, ..Options::default() })
             })
             .collect();
         let (bodies, options): (Vec<_>, Vec<_>) = cases.into_iter().unzip();
@@ -141,6 +145,10 @@ fn rigid_histories_are_finite_and_say_how_they_ended_alone_and_in_lock_step() {
                 housner::Outcome::NeverMoved => word,
                 housner::Outcome::Rocked => "rocked",
                 housner::Outcome::Overturned { .. } => "overturned",
+                housner::Outcome::LeavesGround { time } if !(0.0..accel.len() as f64 * dt).contains(&time) => {
+                    return Err(format!("leaves the ground at {time} s"));
+                }
+                housner::Outcome::LeavesGround { .. } => "leaves the ground",
                 housner::Outcome::WorkBound { .. } => "work bound",
                 housner::Outcome::NotFinite { .. } => return Err("not finite".into()),
             };

@@ -57,7 +57,7 @@ impl<S: Scalar> Model<S> {
         let s: S = real(FOR_EVER);
         let mut done = 0;
         for _ in 0..MOST_ITERATIONS {
-            let mut residual = self.forces(&state.q, &state.v, &feet, S::zero());
+            let mut residual = self.forces(&state.q, &state.v, &feet, [S::zero(); 2]);
             residual[Z] -= load;
             let a = Newton::new(self, &state, &feet, s, |x: S| x).solve(&residual);
             let mut step: f64 = 0.0;

@@ -17,7 +17,7 @@ const NOTHING: f64 = 1e-9;
 impl<S: Scalar> Run<'_, S> {
     /// Whether nothing moves until the next sample. Only for real numbers: a derivative may still move where its value rests.
     pub(super) fn rests(&mut self, ground: &Ground<S>) -> bool {
-        let silent = ground.start.re() == 0.0 && ground.slope.re() == 0.0;
+        let silent = ground.start.iter().chain(&ground.slope).all(|x| x.re() == 0.0);
         let skips = self.control.skip_rest && self.control.extra_iterations == 0;
         self.resting = skips && silent && (self.resting || self.is_still());
         self.resting
@@ -30,7 +30,7 @@ impl<S: Scalar> Run<'_, S> {
         let radius = self.model.body.radius().re();
         let (weight, speed) = (self.model.body.mass.re() * GRAVITY, GRAVITY * self.settling);
         let length = |k: usize| if k == TH { radius } else { 1.0 };
-        let forces = self.model.forces(&self.state.q, &self.state.v, &self.feet, S::zero());
+        let forces = self.model.forces(&self.state.q, &self.state.v, &self.feet, [S::zero(); 2]);
         (0..N).all(|k| {
             let (force, rate) = (forces[k].re() / length(k), self.state.v[k].re() * length(k));
             force.abs() <= NOTHING * weight && rate.abs() <= NOTHING * speed

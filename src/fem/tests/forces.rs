@@ -44,7 +44,7 @@ fn forces_at_rest_are_the_slope_of_the_energy_in_every_contact() {
         let at_rest = State { q: state().q, v: [0.0; N] };
         let weight = model.body.mass * 9.81;
         for feet in contacts() {
-            let force = model.forces(&at_rest.q, &at_rest.v, &feet, 0.0);
+            let force = model.forces(&at_rest.q, &at_rest.v, &feet, [0.0; 2]);
             for (j, force) in force.iter().enumerate() {
                 let seeded = State { q: seeded(&at_rest.q, j), v: constant(&at_rest.v) };
                 let slope = dual.energy(&seeded, &dual_feet(&feet)).eps;
@@ -59,7 +59,7 @@ fn forces_at_rest_are_the_slope_of_the_energy_in_every_contact() {
 fn forces_at_rest_are_the_slope_of_the_energy_by_finite_differences() {
     let model = Model::new(&body(0.1), &springs());
     let feet = contacts()[8];
-    let force = model.forces(&state().q, &[0.0; N], &feet, 0.0);
+    let force = model.forces(&state().q, &[0.0; N], &feet, [0.0; 2]);
     let energy = |j: usize, step: f64| {
         let mut s = State { q: state().q, v: [0.0; N] };
         s.q[j] += step;
@@ -75,9 +75,9 @@ fn forces_at_rest_are_the_slope_of_the_energy_by_finite_differences() {
 fn power_of_ground_and_dashpots_is_the_power_of_the_forces() {
     let model = Model::new(&body(0.1), &springs());
     let State { q, v } = state();
-    let ground = 3.3;
+    let ground = [3.3, -1.7];
     for feet in contacts() {
-        let (all, without) = (model.forces(&q, &v, &feet, ground), model.forces(&q, &[0.0; N], &feet, 0.0));
+        let (all, without) = (model.forces(&q, &v, &feet, ground), model.forces(&q, &[0.0; N], &feet, [0.0; 2]));
         let power: f64 = (0..N).map(|k| (all[k] - without[k]) * v[k]).sum();
         let booked = model.input_power(&v, ground) - model.dissipation(&q, &v, &feet);
         assert!((power - booked).abs() < 1e-9 * booked.abs(), "{power} {booked}");
@@ -97,8 +97,8 @@ fn dense<T: num_traits::Num + Copy + nalgebra::Scalar>(
     let masses = model.masses(feet);
     for j in 0..N {
         let zero = Dual64::from_re(0.0);
-        let by_q = dual.forces(&seeded(&q, j), &constant(&v), &dual_feet(feet), zero);
-        let by_v = dual.forces(&constant(&q), &seeded(&v, j), &dual_feet(feet), zero);
+        let by_q = dual.forces(&seeded(&q, j), &constant(&v), &dual_feet(feet), [zero; 2]);
+        let by_v = dual.forces(&constant(&q), &seeded(&v, j), &dual_feet(feet), [zero; 2]);
         for i in 0..N {
             matrix[(i, j)] = T::zero() - s * (lift(by_v[i].eps) + s * lift(by_q[i].eps));
         }
@@ -157,7 +157,7 @@ fn a_massless_rotation_turns_to_where_no_moment_acts() {
         let (mut settled, _) = model.settled();
         settled.q[0] += 1e-4;
         assert!(model.turn_to_balance(&mut settled, &feet));
-        let moment = model.forces(&settled.q, &[0.0; N], &feet, 0.0)[2];
+        let moment = model.forces(&settled.q, &[0.0; N], &feet, [0.0; 2])[2];
         let scale = model.body.mass * 9.81 * model.body.half_width;
         assert!(moment.abs() < 1e-9 * scale, "{feet:?} {moment}");
     }

@@ -56,7 +56,7 @@ fn model<S: Scalar>(body: &Body<f64>) -> Model<S> {
 
 fn run(body: Body<f64>, coefficient: f64, dt: f64, accel: &[f64]) -> History {
     let springs = springs().chains(body.mass);
-    Case { body, springs, start: Start::Settled, dt, accel, scale: 1.0, control: Control::default() }
+    Case { body, springs, start: Start::Settled, dt, accel, vertical: &[], scale: 1.0, control: Control::default() }
         .simulate_with(&members(coefficient))
         .0
 }
@@ -88,8 +88,8 @@ fn newton_solves_with_the_dense_matrix_while_feet_slip() {
             let mut matrix = SMatrix::<Complex<f64>, N, N>::zeros();
             for j in 0..N {
                 let zero = Dual64::from_re(0.0);
-                let by_q = dual.forces(&seeded(&q, j), &v.map(Dual64::from_re), &dual_feet, zero);
-                let by_v = dual.forces(&q.map(Dual64::from_re), &seeded(&v, j), &dual_feet, zero);
+                let by_q = dual.forces(&seeded(&q, j), &v.map(Dual64::from_re), &dual_feet, [zero; 2]);
+                let by_v = dual.forces(&q.map(Dual64::from_re), &seeded(&v, j), &dual_feet, [zero; 2]);
                 for i in 0..N {
                     matrix[(i, j)] = -s * (by_v[i].eps + s * by_q[i].eps);
                 }
@@ -115,7 +115,8 @@ fn a_flat_block_slips_as_far_as_newton_says() {
     // stiff springs: softer ones give way before friction has built up
     let springs = springs_of(2000.0).chains(1000.0);
     let control = Control::default();
-    let case = Case { body: flat(), springs, start: Start::Settled, dt, accel: &accel, scale: 1.0, control };
+    let case =
+        Case { body: flat(), springs, start: Start::Settled, dt, accel: &accel, vertical: &[], scale: 1.0, control };
     let history = case.simulate_with(&members(MU)).0;
     // the last interval of the pulse is a ramp down to zero: speed of the ground by the trapezoidal rule
     let (pull, hold) = (a - MU * GRAVITY, MU * GRAVITY);
@@ -143,6 +144,7 @@ fn no_foot_carries_more_than_friction_allows() {
             start: Start::Settled,
             dt: record.dt,
             accel: &accel,
+            vertical: &[],
             scale: 1.0,
             control: Control::default(),
         };
@@ -185,6 +187,7 @@ fn feet_that_never_slip_give_the_history_without_friction() {
         start: Start::Settled,
         dt: record.dt,
         accel: &record.accel,
+        vertical: &[],
         scale: 1.0,
         control: Control::default(),
     };

@@ -64,7 +64,7 @@ fn forces_at_rest_are_the_slope_of_the_energy() {
         let (model, dual) = (model::<f64>(0.1, &members), model::<Dual64>(0.1, &members));
         let q = state().q;
         for feet in contacts() {
-            let force = model.forces(&q, &[0.0; N], &feet, 0.0);
+            let force = model.forces(&q, &[0.0; N], &feet, [0.0; 2]);
             for (j, force) in force.iter().enumerate() {
                 let seeded = State { q: seeded(&q, j), v: constant(&[0.0; N]) };
                 let slope = dual.energy(&seeded, &lift_feet(&feet)).eps;
@@ -78,11 +78,11 @@ fn forces_at_rest_are_the_slope_of_the_energy() {
 #[test]
 fn power_of_ground_and_dashpots_is_the_power_of_the_forces() {
     let State { q, v } = state();
-    let ground = 3.3;
+    let ground = [3.3, -1.7];
     for members in all_members() {
         let model = model::<f64>(0.1, &members);
         for feet in contacts() {
-            let (all, without) = (model.forces(&q, &v, &feet, ground), model.forces(&q, &[0.0; N], &feet, 0.0));
+            let (all, without) = (model.forces(&q, &v, &feet, ground), model.forces(&q, &[0.0; N], &feet, [0.0; 2]));
             let power: f64 = (0..N).map(|k| (all[k] - without[k]) * v[k]).sum();
             let booked = model.input_power(&v, ground) - model.dissipation(&q, &v, &feet);
             assert!((power - booked).abs() < 1e-9 * booked.abs(), "{power} {booked}");
@@ -98,8 +98,8 @@ fn dense(share: f64, members: &Members<f64>, feet: &[Foot<f64>; 2], s: Complex<f
     let masses = model.masses(feet);
     for j in 0..N {
         let zero = Dual64::from_re(0.0);
-        let by_q = dual.forces(&seeded(&q, j), &constant(&v), &lift_feet(feet), zero);
-        let by_v = dual.forces(&constant(&q), &seeded(&v, j), &lift_feet(feet), zero);
+        let by_q = dual.forces(&seeded(&q, j), &constant(&v), &lift_feet(feet), [zero; 2]);
+        let by_v = dual.forces(&constant(&q), &seeded(&v, j), &lift_feet(feet), [zero; 2]);
         for i in 0..N {
             matrix[(i, j)] = -s * (by_v[i].eps + s * by_q[i].eps);
         }

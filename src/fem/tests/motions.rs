@@ -16,7 +16,7 @@ use crate::{
 fn run(body: Body<f64>, springs: Springs<Chain<f64>>, start: Start<f64>, dt: f64, n: usize) -> crate::fem::History {
     let accel = vec![0.0; n];
     let control = Control { tolerance: 1e-11, ..Control::default() };
-    Case { body, springs, start, dt, accel: &accel, scale: 1.0, control }.simulate()
+    Case { body, springs, start, dt, accel: &accel, vertical: &[], scale: 1.0, control }.simulate()
 }
 
 #[test]
@@ -43,7 +43,7 @@ fn a_leaning_body_begins_to_fall_back_as_a_rigid_body_does() {
             assert!(!feet[1 - pressing].closed() && model.compression(1 - pressing, &q, &feet[1 - pressing]) < 0.0);
             assert_eq!(v, [0.0; N]);
             // theta'' = -p^2 sin(alpha s - theta), the centre of mass turning about the foot; absorbers at rest
-            let f = model.forces(&q, &v, &feet, 0.0);
+            let f = model.forces(&q, &v, &feet, [0.0; 2]);
             let m = model.masses(&feet);
             let lean = model.body.alpha() - theta.abs();
             let thrust = model.body.p_squared() * model.body.radius() * lean.sin();
@@ -87,7 +87,7 @@ fn heave_of_the_standing_body_is_the_two_mass_chain() {
     start.q[az(0)] += amplitude * ratio;
     start.q[az(1)] += amplitude * ratio;
     let accelerations = |s: &State<f64>| {
-        let f = model.forces(&s.q, &s.v, &feet, 0.0);
+        let f = model.forces(&s.q, &s.v, &feet, [0.0; 2]);
         let m = model.masses(&feet);
         [f[Z] / m[Z], f[az(0)] / m[az(0)]]
     };
@@ -104,7 +104,7 @@ fn heave_of_the_standing_body_is_the_two_mass_chain() {
         last = view.z();
         std::ops::ControlFlow::Continue(())
     };
-    run.follow(period / 8.0, &[0.0; 9], 1.0, &mut observer);
+    run.follow(period / 8.0, (&[0.0; 9], &[]), 1.0, &mut observer);
     assert!((last - start.q[Z]).abs() < 1e-6 * amplitude, "{} {}", last - rest.q[Z], amplitude);
 }
 
@@ -142,7 +142,7 @@ fn damped_heave_decays_by_the_chain_s_complex_eigenvalue() {
         worst = worst.max((view.z() - rest - exact).abs());
         std::ops::ControlFlow::Continue(())
     };
-    run.follow(dt, &[0.0; 100], 1.0, &mut observer);
+    run.follow(dt, (&[0.0; 100], &[]), 1.0, &mut observer);
     assert!(worst < 1e-5 * amplitude, "{worst:e}");
 }
 
@@ -160,7 +160,7 @@ fn elastic_rocking_is_omega_n_root_2k_over_1_plus_k_times_b_over_r() {
     let mut state = start;
     for _ in 0..50 {
         let newton = crate::fem::newton::Newton::new(&model, &state, &feet, 1e6, |x: f64| x);
-        let mut r = model.forces(&state.q, &state.v, &feet, 0.0);
+        let mut r = model.forces(&state.q, &state.v, &feet, [0.0; 2]);
         r[X] += push;
         let a = newton.solve(&r);
         for (q, a) in state.q.iter_mut().zip(a) {

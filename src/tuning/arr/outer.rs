@@ -45,6 +45,8 @@ pub struct Benchmark<'a> {
     pub dt: f64,
     /// Ground acceleration over the length compared [m/s2].
     pub accel: &'a [f64],
+    /// Its vertical part; empty if there is none.
+    pub vertical: &'a [f64],
     /// Housner's motion, sampled at dt.
     pub housner: &'a Motion,
 }
@@ -86,6 +88,7 @@ impl Benchmark<'_> {
             start: Start::Settled,
             dt: self.dt,
             accel: self.accel,
+            vertical: self.vertical,
             scale: 1.0,
             control,
         }

@@ -89,6 +89,7 @@ impl Release {
             start: Start::Leaning(real(self.lean)),
             dt: self.dt,
             accel: &quiet,
+            vertical: &[],
             scale: S::one(),
             control,
         };

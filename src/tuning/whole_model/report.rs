@@ -91,6 +91,7 @@ fn with_next<T>(
         start: Start::Leaning(lean * body.alpha()),
         dt,
         accel: &quiet,
+        vertical: &[],
         scale: 1.0,
         control,
     })

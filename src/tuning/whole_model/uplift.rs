@@ -80,6 +80,7 @@ impl Uplift {
             start: Start::Settled,
             dt: self.dt,
             accel: &self.accel,
+            vertical: &[],
             scale: S::one(),
             control,
         };
