@@ -5,11 +5,8 @@ use std::{hint::black_box, time::Duration};
 use criterion::{BenchmarkId, Criterion, criterion_group, criterion_main};
 use groundspring::{
     case::Case,
-    response::target::Target,
-    tuning::{
-        arr::{bounds::Bounds, inner::fit},
-        job::Job,
-    },
+    response::{bounds::Bounds, target::Target},
+    tuning::{arr::inner::fit, job::Job},
 };
 
 fn inner(c: &mut Criterion) {

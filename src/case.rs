@@ -3,9 +3,9 @@
 //! ```toml
 //! [structure]
 //! kind = "aframe"            # or "block"
-//! height_m = 61.0            # of the centre of mass above the feet
-//! width_m = 12.2             # between the feet
-//! mass_kg = 680.1e3
+//! height_m = 61.0            # of the centre of mass above the feet; a block also total_height_m; also _ft, _in
+//! width_m = 12.2             # between the feet; also _ft, _in
+//! mass_kg = 680.1e3          # also mass_t, mass_lb, weight_kn, weight_kip, weight_lb
 //!
 //! [legs]                     # elastic legs; also [damper] c_ns_per_m; [tendon] stiffness_n_per_m,
 //! ea_n = 6.7e9               # pretension_n; [friction] coefficient
@@ -22,6 +22,8 @@
 //! accuracy = 0.002           # of the history against Housner's, NRMSE
 //! ```
 
+mod structure;
+
 use std::path::{Path, PathBuf};
 
 use serde::{Deserialize, Serialize};
@@ -32,14 +34,10 @@ use crate::{
     members::{Damper, Friction, Legs, Members, MembersError, Tendon},
     message::one_line,
     record::{Notice, ReadOptions, Record, RecordError, Recording, Units, VerticalFrom},
-    response::target::Target,
-    structure::{Kind, Structure, StructureError},
-    tuning::arr::bounds::Bounds,
+    response::{bounds::Bounds, target::Target},
+    structure::{Structure, StructureError},
 };
-
-/// I_cg of an A-frame with all mass at its apex, as a share of m R^2: OpenSees and its like need some, and rocking does
-/// not feel so little (1e-5 of p^2).
-pub const LEAST_INERTIA: f64 = 1e-5;
+pub use structure::{LEAST_INERTIA, StructureSection};
 
 /// What is wrong with a case file, and what to do.
 #[derive(Debug, Error)]
@@ -71,23 +69,6 @@ pub enum Objective {
     /// The landing of the structure, by its geometry.
     #[default]
     Landing,
-}
-
-#[derive(Clone, Debug, Deserialize)]
-#[serde(deny_unknown_fields)]
-struct StructureSection {
-    kind: Kind,
-    /// Height of the centre of mass [m].
-    height_m: f64,
-    /// Distance between the feet [m].
-    width_m: f64,
-    mass_kg: f64,
-    /// About the centre of mass; by `kind` unless given.
-    rotational_inertia_kgm2: Option<f64>,
-    /// Velocity restitution e; by equation 2 unless given.
-    restitution: Option<f64>,
-    /// Factor on equation 2's e.
-    restitution_ratio: Option<f64>,
 }
 
 #[derive(Clone, Debug, Default, Deserialize)]
@@ -248,18 +229,33 @@ impl Case {
             return Err(value("record.duration_s", asked, "give seconds greater than zero, at most 1e6"));
         }
         let excitation = Excitation { record, scale: section.scale.unwrap_or(1.0), duration_s: section.duration_s };
-        file.tuning.check(path)?;
+        let case = Self::new(path, (structure, restitution), excitation, file.tuning)?;
+        Ok(Self { members, target: file.target.unwrap_or_default(), bounds: file.bounds, ..case })
+    }
+
+    /// A structure without members and its restitution, as [`StructureSection::checked`] gives them, under a ground motion;
+    /// `name` stands for the case file in messages.
+    ///
+    /// # Errors
+    /// A setting of `tuning` out of its range; a scale that is not finite, or takes the peak above 50 g.
+    pub fn new(
+        name: &str,
+        (structure, restitution): (Structure, f64),
+        excitation: Excitation,
+        tuning: Tuning,
+    ) -> Result<Self, CaseError> {
+        tuning.check(name)?;
         Ok(Self {
             structure,
             restitution,
-            members,
+            members: Members::default(),
             record: excitation.scaled()?,
             notices: Vec::new(),
             duration_s: excitation.duration(),
             excitation,
-            tuning: file.tuning,
-            target: file.target.unwrap_or_default(),
-            bounds: file.bounds,
+            tuning,
+            target: Target::default(),
+            bounds: Bounds::default(),
         })
     }
 }
@@ -284,40 +280,6 @@ impl RecordSection {
             || self.component.is_some()
             || self.baseline
             || self.vertical.is_some()
-    }
-}
-
-impl StructureSection {
-    fn checked(&self, path: &str) -> Result<(Structure, f64), CaseError> {
-        let wrap = |source| CaseError::Structure { path: path.into(), source };
-        let mut structure = Structure {
-            kind: self.kind,
-            height_m: self.height_m,
-            width_m: self.width_m,
-            mass_kg: self.mass_kg,
-            rotational_inertia_kgm2: 0.0,
-        };
-        let m_r2 = self.mass_kg * (self.height_m.powi(2) + self.width_m.powi(2) / 4.0);
-        structure.rotational_inertia_kgm2 = self.rotational_inertia_kgm2.unwrap_or(match self.kind {
-            Kind::AFrame => LEAST_INERTIA * m_r2,
-            Kind::Block => m_r2 / 3.0,
-        });
-        let structure = structure.checked().map_err(wrap)?;
-        let housner = structure.body::<f64>().restitution();
-        let value =
-            |key, value: f64, remedy| CaseError::Value { path: path.into(), key, value: format!("{value:?}"), remedy };
-        let restitution = match (self.restitution, self.restitution_ratio) {
-            (None, None) => housner,
-            (Some(e), None) => e,
-            (None, Some(ratio)) => ratio * housner,
-            (Some(e), Some(_)) => {
-                return Err(value("structure.restitution", e, "give restitution or restitution_ratio, not both"));
-            }
-        };
-        if !(0.0..=1.0).contains(&restitution) {
-            return Err(value("structure.restitution", restitution, "a velocity ratio lies between 0 and 1"));
-        }
-        Ok((structure, restitution))
     }
 }
 

@@ -18,9 +18,11 @@ use crate::{
 mod bench;
 mod chart;
 mod common;
+mod completions;
 mod draw;
 mod export;
 mod housner;
+mod init;
 mod members;
 mod output;
 mod progress;
@@ -33,9 +35,19 @@ mod table;
 mod validate;
 mod verify;
 
+pub use common::{Both, both};
+pub use report::Report;
+pub use run::Run;
+
+/// The version, and what was built with it.
+#[cfg(feature = "diffsol")]
+const VERSION: &str = concat!(env!("CARGO_PKG_VERSION"), " (features: cli, figures, diffsol)");
+#[cfg(not(feature = "diffsol"))]
+const VERSION: &str = concat!(env!("CARGO_PKG_VERSION"), " (features: cli, figures)");
+
 /// Ground springs that let a finite element program follow Housner's theory of rocking.
 #[derive(Debug, Parser)]
-#[command(name = "tune", version, about, disable_help_subcommand = true)]
+#[command(name = "tune", version = VERSION, about)]
 pub struct Cli {
     #[command(subcommand)]
     command: Command,
@@ -45,6 +57,8 @@ pub struct Cli {
 enum Command {
     /// Tune the springs of a case; without arguments the paper's A-frame on El Centro.
     Run(run::Options),
+    /// Write a case file to begin with, every line explained.
+    Init(init::Options),
     /// Housner's solution as CSV on stdout.
     Housner(housner::Options),
     /// Fit f and xi of a mass ratio to the wanted frequency response.
@@ -63,6 +77,8 @@ enum Command {
     Verify(verify::Options),
     /// Run time against error, beside other tools; a table on stdout, table and figure into a folder.
     Bench(bench::Options),
+    /// Print what a shell needs to complete commands and options.
+    Completions(completions::Options),
 }
 
 /// Why a command ended without its result.
@@ -121,7 +137,10 @@ pub fn main() -> ExitCode {
             let text = e.to_string();
             let what: Vec<&str> = text.split("\n\n").next().unwrap_or_default().split_whitespace().collect();
             let what = what.join(" ");
-            eprintln!("{}; see tune --help", what.trim_end_matches('.'));
+            // the nearest right one, where there is one
+            let tip = text.lines().map(str::trim).find_map(|line| line.strip_prefix("tip: "));
+            let tip = tip.map_or(String::new(), |tip| format!(" ({tip})"));
+            eprintln!("{}{tip}; see tune --help", what.trim_end_matches('.'));
             return ExitCode::from(2);
         }
     };
@@ -136,6 +155,8 @@ pub fn main() -> ExitCode {
         Command::Record(o) => record::run(&o),
         Command::Verify(o) => verify::run(&o),
         Command::Bench(o) => bench::run(&o),
+        Command::Init(o) => init::run(&o),
+        Command::Completions(o) => completions::run(&o),
     };
     match result {
         Ok(()) => ExitCode::SUCCESS,

@@ -23,6 +23,9 @@ use model::Model;
 pub use model::{ACCURACY, SMALL_INERTIA, with_inertia};
 pub use step_count::deck_steps;
 
+/// The stepping routine of decks for openseespy: `class Steps`, in need of `math`, `sys` and `ops`.
+pub const STEPS: &str = include_str!("export/steps.py");
+
 /// What to write.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Format {

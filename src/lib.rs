@@ -62,12 +62,17 @@ pub mod predictability;
 
 pub mod export;
 
+pub mod front;
+
 pub mod verify;
 
+#[cfg(feature = "cli")]
 pub mod bench;
 
 pub mod case;
 
+#[cfg(feature = "cli")]
 pub mod commands;
 
+#[cfg(feature = "figures")]
 pub mod figures;

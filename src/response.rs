@@ -13,6 +13,8 @@
 
 use crate::scalar::{Scalar, real};
 
+pub mod bounds;
+
 pub mod target;
 
 /// The response of one chain, as a function of the frequency ratio g.

@@ -9,8 +9,6 @@ pub mod descent;
 
 pub mod follow;
 
-pub mod front;
-
 pub mod job;
 
 pub mod landing;

@@ -6,8 +6,8 @@
 //! - large mu: two peaks near the fixed points hold it, f^2 about (mu - 1)/mu, ARR about sqrt(2 mu).
 
 use groundspring::response::Response;
+use groundspring::response::bounds::{Bounds, k_min_for_settlement};
 use groundspring::response::target::{Band, Kind, Target};
-use groundspring::tuning::arr::bounds::{Bounds, k_min_for_settlement};
 use groundspring::tuning::arr::inner::{Fit, FitError, Outcome, families, fit};
 
 fn minimax(mu: f64) -> Fit {

@@ -1,6 +1,6 @@
 //! The exported decks in OpenSees itself, on El Centro, against our own histories: 20 s, NRMSE of u, v and theta.
 //!
-//! Runs with OPENSEES=1. The Python deck needs openseespy (`pip install openseespy`; Debian: libblas3 liblapack3) in
+//! `cargo test --release --test opensees -- --ignored --nocapture`. The Python deck needs openseespy (`pip install openseespy`; Debian: libblas3 liblapack3) in
 //! OPENSEES_PYTHON, `python3` unless set. The Tcl deck needs OPENSEES_TCL to name an interpreter's command, for example
 //! "python3 -m opensees" (`pip install opensees`) or "OpenSees".
 
@@ -20,22 +20,12 @@ use groundspring::{
 /// Largest NRMSE of u, v and theta against our own history.
 const AGREEMENT: f64 = 0.005;
 
-fn wanted(variable: &str) -> Option<String> {
-    let value = std::env::var(variable).ok().filter(|value| !value.is_empty());
-    if value.is_none() {
-        println!("skipped: {variable} is not set");
-    }
-    value
-}
-
-/// The interpreters to run the decks in: none, Python's, both.
+/// The interpreters to run the decks in: Python's, and Tcl's where it is named.
 fn programs() -> Vec<Program> {
-    if wanted("OPENSEES").is_none() {
-        return Vec::new();
-    }
-    let python = std::env::var("OPENSEES_PYTHON").unwrap_or_else(|_| "python3".into());
+    let variable = |name: &str| std::env::var(name).ok().filter(|value| !value.is_empty());
+    let python = variable("OPENSEES_PYTHON").unwrap_or_else(|| "python3".into());
     let tcl =
-        wanted("OPENSEES_TCL").map(|command| Program::Tcl(command.split_whitespace().map(str::to_string).collect()));
+        variable("OPENSEES_TCL").map(|command| Program::Tcl(command.split_whitespace().map(str::to_string).collect()));
     [Program::Python(python.into())].into_iter().chain(tcl).collect()
 }
 
@@ -56,10 +46,14 @@ fn tuned(structure: Structure, objective: Objective, max_hz: f64) -> Springs<Des
 
 /// Both decks against our own history.
 fn agrees(programs: &[Program], structure: Structure, springs: Springs<Design<f64>>) {
+    agrees_at(ACCURACY, programs, structure, springs);
+}
+
+fn agrees_at(accuracy: f64, programs: &[Program], structure: Structure, springs: Springs<Design<f64>>) {
     let parameters = Parameters::new(with_inertia(&structure), &springs);
     let record = Record::el_centro().truncated(20.0);
     for program in programs {
-        let result = verify(&parameters, &record, ACCURACY, program, &|_, _| ()).unwrap();
+        let result = verify(&parameters, &record, accuracy, program, &|_, _| ()).unwrap();
         let a = result.opensees_against_ours;
         println!("{program:?}: {} steps, {:.1} s: {a:?}", result.steps, result.seconds);
         println!("a change of 1e-5 in width moves it by {:.1e}", result.hair);
@@ -93,6 +87,7 @@ fn stiff(structure: &Structure, hz: f64) -> Springs<Design<f64>> {
 
 /// Stiffness costs a deck next to nothing: within the limit of `tune verify` in about as many steps at 1 kHz and 40 kHz.
 #[test]
+#[ignore = "needs OpenSees"]
 fn decks_on_stiff_springs_are_within_their_limit_in_few_steps() {
     let pier = Structure::a_frame(12.0, 2.4, 350e3).unwrap();
     for structure in [Structure::paper(), pier, Structure::a_frame(35.0, 7.7, 400e3).unwrap()] {
@@ -113,6 +108,7 @@ fn decks_on_stiff_springs_are_within_their_limit_in_few_steps() {
 /// Springs that the pier of 12 x 2.4 m had once: horizontally k2 is a hundredth of k1, and at its first uplift a foot chatters 70 times.
 /// OpenSees finds another history in other steps; it is refused, and said why.
 #[test]
+#[ignore = "needs OpenSees"]
 fn springs_on_which_a_lifting_foot_chatters_are_refused() {
     let pier = with_inertia(&Structure::a_frame(12.0, 2.4, 350e3).unwrap());
     let springs = Springs {
@@ -135,10 +131,7 @@ fn springs_on_which_a_lifting_foot_chatters_are_refused() {
 
 /// The same for the springs that the program finds for the structure.
 fn tuned_agrees(structure: Structure, objective: Objective, max_hz: f64) {
-    let programs = programs();
-    if !programs.is_empty() {
-        agrees(&programs, structure, tuned(structure, objective, max_hz));
-    }
+    agrees(&programs(), structure, tuned(structure, objective, max_hz));
 }
 
 fn frame_of_5_m() -> Structure {
@@ -150,69 +143,74 @@ fn block_of_2_m() -> Structure {
 }
 
 #[test]
+#[ignore = "needs OpenSees"]
 fn the_paper_frame_on_table_1_springs_agrees() {
     agrees(&programs(), Structure::paper(), table_1());
 }
 
 #[test]
+#[ignore = "needs OpenSees"]
 fn the_paper_frame_on_its_springs_of_40_hz_agrees() {
     tuned_agrees(Structure::paper(), Objective::Landing, 40.0);
 }
 
 #[test]
+#[ignore = "needs OpenSees"]
 fn the_paper_frame_on_its_springs_of_160_hz_agrees() {
     tuned_agrees(Structure::paper(), Objective::Landing, 160.0);
 }
 
 #[test]
+#[ignore = "needs OpenSees"]
 fn the_paper_frame_on_springs_of_40_hz_by_the_papers_procedure_agrees() {
     tuned_agrees(Structure::paper(), Objective::Arr, 40.0);
 }
 
 #[test]
+#[ignore = "needs OpenSees"]
 fn the_paper_frame_on_springs_of_160_hz_by_the_papers_procedure_agrees() {
     tuned_agrees(Structure::paper(), Objective::Arr, 160.0);
 }
 
 #[test]
-#[ignore = "small bodies on soft springs take OpenSees minutes each; whether they still agree is not known"]
+#[ignore = "needs OpenSees"]
 fn a_frame_of_5_by_1_5_m_on_table_1_springs_agrees() {
     agrees(&programs(), frame_of_5_m(), table_1());
 }
 
 #[test]
-#[ignore = "small bodies on soft springs take OpenSees minutes each; whether they still agree is not known"]
+#[ignore = "needs OpenSees"]
 fn a_frame_of_5_by_1_5_m_on_its_springs_of_40_hz_agrees() {
     tuned_agrees(frame_of_5_m(), Objective::Landing, 40.0);
 }
 
 #[test]
-#[ignore = "small bodies on soft springs take OpenSees minutes each; whether they still agree is not known"]
+#[ignore = "needs OpenSees"]
 fn a_frame_of_5_by_1_5_m_on_its_springs_of_160_hz_agrees() {
     tuned_agrees(frame_of_5_m(), Objective::Landing, 160.0);
 }
 
-/// It topples at 6.4 s.
+/// It topples at 6.4 s, which multiplies whatever its steps miss before: they are asked for a quarter of that.
 #[test]
-#[ignore = "small bodies on soft springs take OpenSees minutes each; whether they still agree is not known"]
+#[ignore = "needs OpenSees"]
 fn a_block_of_2_by_0_5_m_on_table_1_springs_agrees() {
-    agrees(&programs(), block_of_2_m(), table_1());
+    agrees_at(ACCURACY / 4.0, &programs(), block_of_2_m(), table_1());
 }
 
 #[test]
-#[ignore = "small bodies on soft springs take OpenSees minutes each; whether they still agree is not known"]
+#[ignore = "needs OpenSees"]
 fn a_block_of_2_by_0_5_m_on_its_springs_of_40_hz_agrees() {
     tuned_agrees(block_of_2_m(), Objective::Landing, 40.0);
 }
 
 #[test]
-#[ignore = "small bodies on soft springs take OpenSees minutes each; whether they still agree is not known"]
+#[ignore = "needs OpenSees"]
 fn a_block_of_2_by_0_5_m_on_its_springs_of_160_hz_agrees() {
     tuned_agrees(block_of_2_m(), Objective::Landing, 160.0);
 }
 
 #[test]
-#[ignore = "small bodies on soft springs take OpenSees minutes each; whether they still agree is not known"]
+#[ignore = "needs OpenSees"]
 fn a_block_of_2_by_0_5_m_on_springs_of_the_papers_procedure_agrees() {
     tuned_agrees(block_of_2_m(), Objective::Arr, 160.0);
 }
@@ -244,37 +242,44 @@ fn legs(s: f64) -> Option<Legs<f64>> {
 }
 
 #[test]
+#[ignore = "needs OpenSees"]
 fn elastic_legs_that_shorten_by_a_millionth_agree() {
     agrees_with(Members { legs: legs(1e-3), ..Members::default() }, 20.0);
 }
 
 #[test]
+#[ignore = "needs OpenSees"]
 fn elastic_legs_that_shorten_by_a_hundred_thousandth_agree() {
     agrees_with(Members { legs: legs(1e-2), ..Members::default() }, 20.0);
 }
 
 #[test]
+#[ignore = "needs OpenSees"]
 fn elastic_legs_that_shorten_by_a_ten_thousandth_agree() {
     agrees_with(Members { legs: legs(0.1), ..Members::default() }, 20.0);
 }
 
 #[test]
+#[ignore = "needs OpenSees"]
 fn elastic_legs_that_shorten_by_a_thousandth_agree() {
     agrees_with(Members { legs: legs(1.0), ..Members::default() }, 20.0);
 }
 
 #[test]
+#[ignore = "needs OpenSees"]
 fn dampers_across_the_interface_agree() {
     agrees_with(Members { damper: Some(Damper { c: 1e6 }), ..Members::default() }, 20.0);
 }
 
 #[test]
+#[ignore = "needs OpenSees"]
 fn a_post_tensioned_tendon_agrees() {
     let tendon = Some(Tendon { stiffness: 2e6, pretension: 5e5 });
     agrees_with(Members { tendon, ..Members::default() }, 20.0);
 }
 
 #[test]
+#[ignore = "needs OpenSees"]
 fn elastic_legs_with_dampers_and_a_tendon_agree() {
     let tendon = Some(Tendon { stiffness: 2e6, pretension: 5e5 });
     // 8 s: OpenSees takes long over the three together

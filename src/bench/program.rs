@@ -9,11 +9,8 @@ use std::{
 
 use super::{least, skips::Skip};
 use crate::{
-    response::target::Target,
-    tuning::{
-        arr::bounds::Bounds,
-        arr::inner::{FitError, fit},
-    },
+    response::{bounds::Bounds, target::Target},
+    tuning::arr::inner::{FitError, fit},
 };
 
 /// A run of the program.

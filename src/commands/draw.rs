@@ -8,12 +8,13 @@ use super::{CommandError, common::Both};
 use crate::{
     case::Case,
     figures::{self, FigureError},
+    front::Point,
     response::{
         self,
         target::{Band, Kind, Target},
     },
     spring::Design,
-    tuning::{front::Point, job::Job},
+    tuning::job::Job,
 };
 
 /// Whether the target asks for nothing but the lowest cap there is, by a limit that no chain can meet.

@@ -7,8 +7,8 @@ use clap::Args;
 use super::CommandError;
 use crate::{
     case::Case,
-    response::target::Target,
-    tuning::arr::{bounds::Bounds, inner::fit},
+    response::{bounds::Bounds, target::Target},
+    tuning::arr::inner::fit,
 };
 
 /// Options of `tune response`.

@@ -1,6 +1,9 @@
 //! `tune run`: the whole job.
 
-use std::{io::Write, path::PathBuf};
+use std::{
+    io::Write,
+    path::{Path, PathBuf},
+};
 
 use clap::Args;
 
@@ -18,11 +21,13 @@ use crate::{
     case::{ACCURACY, Case, Objective},
     excitation::Excitation,
     export::{Expected, with_inertia},
+    front::{self, Point},
     members::Members,
     parameters::{PaperProcedure, Parameters, RecordRow},
     predictability::{moved_by_a_hair, simulate},
     record::Record,
-    tuning::{arr::table_1, assessment::Assessment, front, job::Job, whole_model::report::landings},
+    spring::{Design, Springs},
+    tuning::{arr::table_1, assessment::Assessment, job::Job, whole_model::report::landings},
 };
 
 /// Options of `tune run`.
@@ -108,75 +113,114 @@ pub fn run(o: &Options) -> Result<(), CommandError> {
         points
     };
 
-    let mut parameters = Parameters::new(case.structure, &job.springs).with_members(case.members);
-    if case.restitution != job.body.restitution() {
-        parameters.restitution = Some(case.restitution);
-    }
-    parameters.landings = landings(&job.body, &parameters.chains(), case.restitution);
-    parameters.assessment = Some(Assessment::new(&job, case.tuning.objective, case.tuning.accuracy));
     if o.no_record {
-        return springs_alone(o, &parameters, &front);
+        return springs_alone(o, &springs_of(&case, &job));
     }
-    let both = common::both(&job.body, case.restitution, &parameters.chains(), &case.members, &job.record);
-    parameters.record = Some(RecordRow::new(&case.excitation, &job.record, &o.out));
-    parameters.matched = Some(both.matched);
-    parameters.match_with_members = both.with.as_ref().map(|with| with.matched);
-    if let Some(paper) = job.paper.as_ref().filter(|_| case.tuning.objective == Objective::Landing) {
-        let paper = Parameters::new(case.structure, &paper.tuned.best.springs);
-        let none = Members::default();
-        let matched = common::both(&job.body, case.restitution, &paper.chains(), &none, &job.record).matched;
-        parameters.paper_procedure =
-            Some(PaperProcedure { vertical: paper.vertical, horizontal: paper.horizontal, matched });
-    }
-    if let Some(springs) = table_1::of(&case.structure).filter(|_| job.paper.is_some()) {
-        let recovered = Parameters::new(case.structure, &springs);
-        let none = Members::default();
-        let matched = common::both(&job.body, case.restitution, &recovered.chains(), &none, &job.record).matched;
-        parameters.table_1 =
-            Some(PaperProcedure { vertical: recovered.vertical, horizontal: recovered.horizontal, matched });
-    }
-    let report = Report::new(&job.body, case.restitution, &job.record, &both.rocking, friction);
-    parameters.conditioning = Some(report.conditioning.into());
-    parameters.verdict = Some(both.verdict(&job.body, job.record.dt, &report.conditioning));
-    let dt = job.record.dt;
-
-    make_folder(o)?;
-    write_file(&o.out.join("parameters.json"), parameters.to_json().as_bytes())?;
-    let forces = members::markdown(&both.demands, both.with.as_ref());
-    let tables = table::markdown(&parameters) + &forces + &table::front(&front);
-    write_file(&o.out.join("parameters.md"), tables.as_bytes())?;
-    write_file(&o.out.join("history.csv"), history_csv(dt, &both).as_bytes())?;
-    let demands = both.with.as_ref().map_or(&both.demands, |with| &with.demands);
-    write_file(&o.out.join("members.csv"), members::csv(dt, demands).as_bytes())?;
-    let (decks, figures) = rayon::join(
-        || decks(o, &parameters, &job.record, &both),
-        || if o.no_figures { Ok(()) } else { draw(&o.out, &case, &job, &both, &front) },
-    );
-    decks?;
-    figures?;
-    let mut said = table::said(&parameters);
-    said.extend(report.lines().into_iter().chain(both.early()));
-    said.extend(springs_said(&parameters));
-    let springs = table::terminal(&parameters);
-    write!(std::io::stdout(), "{springs}\n{forces}{}\n{}\n", table::front_terminal(&front), said.join("\n"))?;
-    eprintln!("{}\nwritten to {}", case.excitation.line(), o.out.display());
+    let run = Run::new(case, job, front, friction);
+    run.save(&o.out, !o.no_figures)?;
+    let (springs, forces) = (table::terminal(&run.filed(&o.out)), run.forces());
+    let said = run.said().join("\n");
+    write!(std::io::stdout(), "{springs}\n{forces}{}\n{said}\n", table::front_terminal(&run.front))?;
+    eprintln!("{}\nwritten to {}", run.case.excitation.line(), o.out.display());
     Ok(())
 }
 
-fn make_folder(o: &Options) -> Result<(), CommandError> {
-    let write = |e| CommandError::Write { path: o.out.display().to_string(), source: e };
-    std::fs::create_dir_all(&o.out).map_err(write)
+/// A job done, and all that is said and saved of it.
+pub struct Run {
+    pub case: Case,
+    pub job: Job,
+    pub front: Vec<Point>,
+    /// Both models' answers to the record.
+    pub both: Both,
+    pub report: Report,
+    /// What `parameters.json` holds, but for the record: where that is to be found depends on the folder.
+    pub parameters: Parameters,
 }
 
-/// What there is without a record: the springs, what they were judged on, the front.
-fn springs_alone(o: &Options, parameters: &Parameters, points: &[front::Point]) -> Result<(), CommandError> {
-    make_folder(o)?;
+impl Run {
+    /// Simulate a job's springs, and those of the paper beside them; `friction` of the ground, for the warning of sliding.
+    pub fn new(case: Case, job: Job, front: Vec<Point>, friction: f64) -> Self {
+        let mut parameters = springs_of(&case, &job);
+        let both = common::both(&job.body, case.restitution, &parameters.chains(), &case.members, &job.record);
+        parameters.matched = Some(both.matched);
+        parameters.match_with_members = both.with.as_ref().map(|with| with.matched);
+        let beside = |springs: &Springs<Design<f64>>| {
+            let other = Parameters::new(case.structure, springs);
+            let none = Members::default();
+            let matched = common::both(&job.body, case.restitution, &other.chains(), &none, &job.record).matched;
+            PaperProcedure { vertical: other.vertical, horizontal: other.horizontal, matched }
+        };
+        let paper = job.paper.as_ref().filter(|_| case.tuning.objective == Objective::Landing);
+        parameters.paper_procedure = paper.map(|paper| beside(&paper.tuned.best.springs));
+        let recovered = table_1::of(&case.structure).filter(|_| job.paper.is_some());
+        parameters.table_1 = recovered.map(|springs| beside(&springs));
+        let report = Report::new(&job.body, case.restitution, &job.record, &both.rocking, friction);
+        parameters.conditioning = Some(report.conditioning.into());
+        parameters.verdict = Some(both.verdict(&job.body, job.record.dt, &report.conditioning));
+        Self { case, job, front, both, report, parameters }
+    }
+
+    /// Write everything into a folder, which is made.
+    ///
+    /// # Errors
+    /// A file that cannot be written; a deck or a figure that cannot be made.
+    pub fn save(&self, out: &Path, figures: bool) -> Result<(), CommandError> {
+        check_folder(out)?;
+        let Self { case, job, front, both, .. } = self;
+        let dt = job.record.dt;
+        let parameters = self.filed(out);
+        let write = |e| CommandError::Write { path: out.display().to_string(), source: e };
+        std::fs::create_dir_all(out).map_err(write)?;
+        write_file(&out.join("parameters.json"), parameters.to_json().as_bytes())?;
+        let tables = table::markdown(&parameters) + &self.forces() + &table::front(front);
+        write_file(&out.join("parameters.md"), tables.as_bytes())?;
+        write_file(&out.join("history.csv"), history_csv(dt, both).as_bytes())?;
+        let demands = both.with.as_ref().map_or(&both.demands, |with| &with.demands);
+        write_file(&out.join("members.csv"), members::csv(dt, demands).as_bytes())?;
+        let (decks, figures) = rayon::join(
+            || decks(out, &parameters, &job.record, both),
+            || if figures { draw(out, case, job, both, front) } else { Ok(()) },
+        );
+        decks.and(figures)
+    }
+
+    /// `parameters.json` as it stands in a folder.
+    fn filed(&self, out: &Path) -> Parameters {
+        let record = Some(RecordRow::new(&self.case.excitation, &self.job.record, out));
+        Parameters { record, ..self.parameters.clone() }
+    }
+
+    /// What to file beside the tables, a line each: the verdict, the accuracy, warnings.
+    pub fn said(&self) -> Vec<String> {
+        let mut said = table::said(&self.parameters);
+        said.extend(self.report.lines().into_iter().chain(self.both.early()));
+        said.extend(springs_said(&self.parameters));
+        said
+    }
+
+    fn forces(&self) -> String {
+        members::markdown(&self.both.demands, self.both.with.as_ref())
+    }
+}
+
+/// What there is to keep of a job whatever the record: the springs, their landings, their accuracy.
+fn springs_of(case: &Case, job: &Job) -> Parameters {
+    let mut parameters = Parameters::new(case.structure, &job.springs).with_members(case.members);
+    parameters.restitution = Some(case.restitution).filter(|e| *e != job.body.restitution());
+    parameters.landings = landings(&job.body, &parameters.chains(), case.restitution);
+    parameters.assessment = Some(Assessment::new(job, case.tuning.objective, case.tuning.accuracy));
+    parameters
+}
+
+/// What there is without a record.
+fn springs_alone(o: &Options, parameters: &Parameters) -> Result<(), CommandError> {
+    let write = |e| CommandError::Write { path: o.out.display().to_string(), source: e };
+    std::fs::create_dir_all(&o.out).map_err(write)?;
     write_file(&o.out.join("parameters.json"), parameters.to_json().as_bytes())?;
-    write_file(&o.out.join("parameters.md"), (table::markdown(parameters) + &table::front(points)).as_bytes())?;
+    write_file(&o.out.join("parameters.md"), table::markdown(parameters).as_bytes())?;
     let mut said = table::said(parameters);
     said.extend(springs_said(parameters));
-    let springs = table::terminal(parameters);
-    write!(std::io::stdout(), "{springs}\n{}\n{}\n", table::front_terminal(points), said.join("\n"))?;
+    write!(std::io::stdout(), "{}\n{}\n", table::terminal(parameters), said.join("\n"))?;
     eprintln!("no record: give one to tune simulate, verify and export\nwritten to {}", o.out.display());
     Ok(())
 }
@@ -202,8 +246,8 @@ fn springs_said(parameters: &Parameters) -> Vec<String> {
 }
 
 /// The model for other programs. A body without rotational inertia gets some there, and its own history to check against.
-fn decks(o: &Options, parameters: &Parameters, record: &Record, both: &Both) -> Result<(), CommandError> {
-    let folder = o.out.join("decks");
+fn decks(out: &Path, parameters: &Parameters, record: &Record, both: &Both) -> Result<(), CommandError> {
+    let folder = out.join("decks");
     let structure = with_inertia(&parameters.structure);
     let given = structure == parameters.structure;
     let parameters = Parameters { structure, ..parameters.clone() };

@@ -4,10 +4,11 @@ use comfy_table::{Table, presets};
 
 use crate::{
     compare::Match,
+    front::Point,
     motion::shown,
     parameters::{PaperProcedure, Parameters},
     spring::ChainRow,
-    tuning::{front::Point, whole_model::report::LandingRow},
+    tuning::whole_model::report::LandingRow,
 };
 
 /// Springs and their match under a heading.

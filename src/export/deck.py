@@ -55,6 +55,7 @@ TENDON_SLACK = @TENDON_SLACK@  # its length without tension, m
 RECORD_DT = @RECORD_DT@        # s
 ACCURACY = @ACCURACY@          # of the history, as a normalised error: @ACCURACY_NOTE@
 LANDING = @LANDING@            # @LANDING_NOTE@
+RISE = @RISE@               # of a foot, m, from which on its motion counts: a hundredth of where the body topples
 STEPS_PER_SAMPLE = @STEPS@     # at least: @STEPS_NOTE@
 SAMPLES = @SAMPLES@            # of the record that are followed: @DURATION@ s
 
@@ -192,7 +193,7 @@ def run(accuracy):
     analysis("TRBDF2")
 
     feet = [(foot, foot + ABSORBER) for foot, _ in FEET]
-    steps = Steps(feet, LANDING, RECORD_DT / STEPS_PER_SAMPLE, accuracy)
+    steps = Steps(feet, LANDING, RECORD_DT / STEPS_PER_SAMPLE, RISE, accuracy)
     rows = [(0.0, 0.0, 0.0, 0.0)]
     for i in range(1, SAMPLES):
         if not steps.advance(i * RECORD_DT):

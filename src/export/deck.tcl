@@ -42,6 +42,7 @@ set tendonSlack @TENDON_SLACK@ ;# its length without tension, m
 set recordDt       @RECORD_DT@ ;# s
 set accuracy @ACCURACY@ ;# of the history, as a normalised error: @ACCURACY_NOTE@
 set landing  @LANDING@ ;# @LANDING_NOTE@
+set rise     @RISE@ ;# of a foot, m, from which on its motion counts: a hundredth of where the body topples
 set stepsPerSample @STEPS@ ;# at least: @STEPS_NOTE@
 set samples        @SAMPLES@ ;# of the record that are followed: @DURATION@ s
 
@@ -168,7 +169,7 @@ set record {
 # ---------------------------------------------------------------- history
 # The whole history: rows of t, u, v, theta.
 proc run {accuracy} {
-    global mass m2h record recordDt stepsPerSample landing samples settled
+    global mass m2h record recordDt stepsPerSample landing rise samples settled
     build
     set settled [gravity]
     # Linear between samples: as loads -mass times it, since UniformExcitation would shake `moved` instead of `mass`.
@@ -176,7 +177,7 @@ proc run {accuracy} {
     pattern Plain 2 2 "load 3 [expr {-$mass}] 0.0 0.0; load 11 [expr {-$m2h}] 0.0 0.0; load 12 [expr {-$m2h}] 0.0 0.0"@VERTICAL_LOADS@
     # TRBDF2 is L-stable: Newmark (1/2, 1/4) and HHT fail on springs this stiff, Newmark with damping spoils the answer.
     solver TRBDF2 Transient
-    steps::start {1 11 2 12} $landing [expr {$recordDt / $stepsPerSample}] $accuracy
+    steps::start {1 11 2 12} $landing [expr {$recordDt / $stepsPerSample}] $rise $accuracy
     set rows {{0.0 0.0 0.0 0.0}}
     for {set i 1} {$i < $samples} {incr i} {
         if {![steps::advance [expr {$i * $recordDt}]]} {

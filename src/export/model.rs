@@ -6,7 +6,6 @@ use crate::{
     members::{Legs, Members},
     parameters::Parameters,
     record::Record,
-    scalar::GRAVITY,
     spring::{Chain, Springs},
     structure::{Body, Structure},
 };
@@ -54,19 +53,17 @@ const TOLERANCE: f64 = 2e-14;
 /// The same on elastic legs as given.
 const TOLERANCE_ON_LEGS: f64 = 2e-11;
 
-/// The accuracy asked is tightened with what a change of the width by 1e-5 does to the history (from 1.3e-3 on), since the
-/// steps' error grows as that does; so many times at most: steps a quarter as long.
-const TIGHTER: f64 = 750.0;
-const TIGHTEST: f64 = 16.0;
+/// The accuracy asked is tightened with what a change of the width by 1e-5 does to the history (from 6.7e-5 on), since the
+/// steps' error grows as that does; so many times at most: steps a third as long.
+const TIGHTER: f64 = 15_000.0;
+const TIGHTEST: f64 = 8.0;
 /// From here on no steps help: the history is not to be foretold to its end.
 const HOPELESS: f64 = 0.5;
 
-/// Share of a position that a step may miss, over the accuracy of the history (the same in the decks' stepping routine).
-const STEP_ERROR: f64 = 1.0 / 40.0;
-/// How the steps per sample grow with the compression of soft springs, over what a step may miss.
-const SOFTER: f64 = 0.65;
-/// A small motion: share of the way to toppling.
+/// Rise of a foot that counts as a motion, over that at which the body topples.
 const SMALL_MOTION: f64 = 0.01;
+/// Steps per sample where steps follow from the accuracy: a pair, ended by every sample.
+const A_PAIR: usize = 2;
 
 /// For a program that takes all its steps alike, 1/(40 Omega_n [Hz]) and 1e-4/p.
 fn even_steps(parameters: &Parameters, dt: f64) -> usize {
@@ -74,18 +71,6 @@ fn even_steps(parameters: &Parameters, dt: f64) -> usize {
     let chains = parameters.chains();
     let omega = (chains.vertical.k1.max(chains.horizontal.k1) / body.mass).sqrt();
     whole(dt / (std::f64::consts::TAU / (STEPS_PER_PERIOD * omega)).min(STEP_BY_ROCKING / body.p_squared().sqrt()))
-}
-
-/// Steps per sample at least, where steps follow events: two, a pair. Soft springs go on swinging: where what the weight
-/// compresses them by is more than a step may miss of a small motion, steps shorten, until h^2/12 4 g is not more: landings
-/// leave accelerations of some g.
-fn least_steps(parameters: &Parameters, dt: f64, accuracy: f64) -> usize {
-    let body = parameters.structure.body::<f64>();
-    let top = 2.0 * body.half_width * (body.half_width / body.height).atan();
-    let missed = STEP_ERROR * accuracy * SMALL_MOTION * top;
-    let compressed = body.mass * GRAVITY / parameters.chains().vertical.k1;
-    let resolved = dt / (12.0 * missed / (4.0 * GRAVITY)).sqrt();
-    whole((2.0 * (compressed / missed).powf(SOFTER)).min(resolved)).max(2)
 }
 
 /// Rounded up, but a ratio that is whole but for rounding stays it.
@@ -118,6 +103,8 @@ pub(super) struct Model<'a> {
     pub accuracy: f64,
     /// 1/Omega_n of the vertical k1 [s]; 0 on elastic legs, where all steps are alike.
     pub landing: f64,
+    /// Rise of a foot from which on its motion counts [m].
+    pub rise: f64,
     /// Steps per sample, at least.
     pub steps_per_sample: usize,
     /// The same for a program that takes all its steps alike.
@@ -168,7 +155,7 @@ impl<'a> Model<'a> {
         let (landing, steps_per_sample, tolerance) = if members.legs.is_some() {
             (0.0, even_steps, TOLERANCE_ON_LEGS)
         } else {
-            ((body.mass / v.k1).sqrt(), least_steps(parameters, record.dt, accuracy), TOLERANCE)
+            ((body.mass / v.k1).sqrt(), A_PAIR, TOLERANCE)
         };
         Ok(Self {
             structure,
@@ -180,6 +167,7 @@ impl<'a> Model<'a> {
             tolerance: tolerance * body.radius(),
             accuracy,
             landing,
+            rise: SMALL_MOTION * 2.0 * body.half_width * (body.half_width / body.height).atan(),
             steps_per_sample,
             even_steps,
             record,

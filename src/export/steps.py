@@ -1,11 +1,11 @@
 class Steps:
     """Steps of a transient analysis that follow feet touching and leaving the ground.
 
-    They are as long as the accuracy asked allows, however stiff the gap springs, and shorten by themselves towards every
-    touch and lift. Needs `import math, sys`, `import openseespy.opensees as ops` and the integrator TRBDF2; nothing else of
-    this file, so it can be pasted into a script of your own:
+    They are as long as the accuracy asked allows, however stiff or soft the gap springs, and shorten by themselves towards
+    every touch and lift. Needs `import math, sys`, `import openseespy.opensees as ops` and the integrator TRBDF2; nothing else
+    of this file, so it can be pasted into a script of your own:
 
-        steps = Steps(((foot, absorber), ...), landing=1.0 / omega_n, longest=record_dt / 2.0)
+        steps = Steps(((foot, absorber), ...), landing=1.0 / omega_n, longest=record_dt / 2.0, rise=0.01 * b * alpha)
         for i in range(1, samples):
             if not steps.advance(i * record_dt):
                 sys.exit(steps.report())
@@ -14,6 +14,7 @@ class Steps:
     feet      pairs of nodes with a vertical gap between them, closed where the foot is not above the absorber
     landing   1/Omega_n of the gap springs, s: what a landing takes; 0: all steps alike
     longest   step, s; steps end where `advance` is told to, which should be every sample of the record
+    rise      of a foot, m, from which on its motion counts: errors are relative to the highest rise so far, at least this
     accuracy  wanted of the history (its normalised error); that of the steps stays below a quarter of it
 
     taken     steps so far
@@ -22,25 +23,31 @@ class Steps:
     smallest  step, s
     """
 
-    FIRST = 1e-6  # step, in units of the shortest: OpenSees starts without acceleration, whatever the first load
+    FIRST = 1e-6   # step, in units of the shortest: OpenSees starts without acceleration, whatever the first load
+    GROWTH = 2.0   # from pair to pair, at most
+    # What a pair misses of a foot's position, over the highest rise: a landing has up to a thousand pairs, whatever it takes.
+    PAIR = 5e-6
+    # The same over a time in which the foot rises or falls.
+    RISE = 0.1
+    # A foot that lifts drops a horizontal force at once; the step across it is wrong by that force for all its length.
+    DROP = 0.02
 
-    def __init__(self, feet, landing, longest, accuracy=0.002):
+    def __init__(self, feet, landing, longest, rise, accuracy=0.002):
         fine = min(1.0, math.sqrt(accuracy / 0.002))   # steps err with their square
-        self.feet, self.longest, self.landing = feet, longest, landing
-        self.shortest = min(0.1 * fine * landing, longest) if landing > 0.0 else longest
-        self.growth = 1.0 + 0.2 * fine        # from pair to pair, while a landing's vibrations last; 1.5 after them
+        self.feet, self.longest, self.landing, self.accuracy = feet, longest, landing, accuracy
+        self.first = min(0.05 * fine * landing, longest) if landing > 0.0 else longest   # of a landing
+        self.shortest = self.first
         self.share = 0.2 * fine               # of the time to the next touch or lift that one step takes
-        self.error = accuracy / 40.0          # of a step in position, relative to how far the foot travels
         self.allowed = self.FIRST * self.shortest
         self.strongest = 0.0                  # acceleration of an open foot on long steps, m/s2
-        self.highest = 0.0                    # a foot has come, m
+        self.highest = rise                   # a foot has come, m
         self.gaps = self.measure()
         self.taken = self.refused = self.late = 0
         self.smallest = math.inf
 
     def measure(self):
-        """Of every gap: opening, its rate and acceleration."""
-        return [[of(foot, 2) - of(absorber, 2) for of in (ops.nodeDisp, ops.nodeVel, ops.nodeAccel)]
+        """Of every gap: opening, its rate and acceleration; the foot's own rate."""
+        return [[of(foot, 2) - of(absorber, 2) for of in (ops.nodeDisp, ops.nodeVel, ops.nodeAccel)] + [ops.nodeVel(foot, 2)]
                 for foot, absorber in self.feet]
 
     def size(self):
@@ -48,14 +55,11 @@ class Steps:
         size = min(self.longest, self.allowed)
         if size <= self.shortest:
             return size
-        for opening, rate, acceleration in self.gaps:
+        for opening, rate, acceleration, _ in self.gaps:
             if opening > 0.0:
                 # Soonest touch: at the strongest acceleration met so far.
                 pull = max(self.strongest, abs(acceleration), 1e-30)
                 soonest = 2.0 * opening / (math.sqrt(rate * rate + 2.0 * pull * opening) - rate)
-                # A step errs by h^2/12 of the acceleration's change; little must it be beside the height the foot can rise to.
-                height = max(opening + 0.5 * rate * rate / pull, 0.01 * self.highest)
-                size = min(size, math.sqrt(12.0 * self.error * height / pull))
             else:
                 # Soonest lift: as the spring now relaxes, and at the rate alone.
                 soonest = -opening / rate if rate > 0.0 else math.inf
@@ -65,19 +69,32 @@ class Steps:
             size = min(size, self.share * soonest)
         return max(size, self.shortest)
 
+    def slow(self):
+        """Time in which a foot rises as high as it has come, s."""
+        return math.sqrt(self.highest / self.strongest) if self.strongest > 0.0 else math.inf
+
+    def grown(self, states, h, size):
+        """Length that the next steps may have by the error of these two of h, s."""
+        # TRBDF2 misses h^3/3 of the third derivative, in the fast motions of the springs and the slow one of the body alike.
+        missed = h / 3.0 * max(abs(a[3] - 2.0 * b[3] + c[3]) for a, b, c in zip(*states))
+        may = self.accuracy * self.highest * max(self.PAIR, self.RISE * 2.0 * h / self.slow())
+        by_error = 0.9 * h * (may / max(missed, 1e-300)) ** (1.0 / 3.0)
+        # Motions faster than a landing (a rotation of little inertia) are not resolved: steps of a landing end them.
+        return max(min(self.GROWTH * size, max(by_error, 0.3 * size)), min(2.0 * size, self.first))
+
     def learn(self, before, h):
-        """Acceleration and height of open feet, from two long steps of h."""
+        """Acceleration of open feet, from two long steps of h."""
         if h < 0.2 * self.longest:
             return
-        for (was, rate_was, _), (opening, rate, _) in zip(before, self.gaps):
+        for (was, rate_was, _, _), (opening, rate, _, _) in zip(before, self.gaps):
             if was > 0.0 and opening > 0.0:
                 self.strongest = max(self.strongest, abs(rate - rate_was) / (2.0 * h))
-                if self.strongest > 0.0:
-                    self.highest = max(self.highest, opening + 0.5 * rate * rate / self.strongest)
+        if self.landing > 0.0:
+            self.shortest = min(self.shortest, max(self.DROP * self.accuracy * self.slow(), 0.1 * self.first))
 
     def pair(self, h, size):
         """Two steps of h, at most `size`: TRBDF2 takes one by BDF2 only if it is as long as the one before, to the last digit."""
-        before, met = self.gaps, 0
+        states, met = [self.gaps], 0
         for _ in range(2):
             closed = [gap[0] <= 0.0 for gap in self.gaps]
             if ops.analyze(1, h) != 0:
@@ -88,16 +105,18 @@ class Steps:
                 return self.allowed > 1e-6 * self.shortest
             self.taken += 1
             self.gaps = self.measure()
+            states.append(self.gaps)
             met += sum(was != (gap[0] <= 0.0) for was, gap in zip(closed, self.gaps))
         if h >= self.shortest or self.refused:  # the very first are tiny
             self.smallest = min(self.smallest, h)
+        self.highest = max(self.highest, *(gap[0] for gap in self.gaps))
         if met:
             self.allowed = self.shortest
             if h > 1.5 * self.shortest:
                 self.late += met
         else:
-            self.allowed = (self.growth if size < self.landing else 1.5) * size
-            self.learn(before, h)
+            self.allowed = self.grown(states, h, size)
+            self.learn(states[0], h)
         return True
 
     def advance(self, end):

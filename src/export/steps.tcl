@@ -1,9 +1,9 @@
 # Steps of a transient analysis that follow feet touching and leaving the ground.
 #
-# They are as long as the accuracy asked allows, however stiff the gap springs, and shorten by themselves towards every touch
-# and lift. Needs the integrator TRBDF2 and nothing else of this file, so it can be pasted into a script of your own:
+# They are as long as the accuracy asked allows, however stiff or soft the gap springs, and shorten by themselves towards every
+# touch and lift. Needs the integrator TRBDF2 and nothing else of this file, so it can be pasted into a script of your own:
 #
-#     steps::start {foot absorber foot absorber ...} [expr {1.0 / $omegaN}] [expr {$recordDt / 2.0}]
+#     steps::start {foot absorber foot absorber ...} [expr {1.0 / $omegaN}] [expr {$recordDt / 2.0}] [expr {0.01 * $b * $alpha}]
 #     for {set i 1} {$i < $samples} {incr i} {
 #         if {![steps::advance [expr {$i * $recordDt}]]} { puts stderr [steps::report]; exit 2 }
 #     }
@@ -12,6 +12,7 @@
 # feet      nodes, two and two, with a vertical gap between them, closed where the foot is not above the absorber
 # landing   1/Omega_n of the gap springs, s: what a landing takes; 0: all steps alike
 # longest   step, s; steps end where `advance` is told to, which should be every sample of the record
+# rise      of a foot, m, from which on its motion counts: errors are relative to the highest rise so far, at least this
 # accuracy  wanted of the history (its normalised error); that of the steps stays below a quarter of it
 #
 # steps::taken     steps so far
@@ -19,24 +20,32 @@
 # steps::late      touches and lifts within a step too long for them: not 0, and the history is not to be trusted
 # steps::smallest  step, s
 namespace eval steps {
-    variable first 1e-6 ;# step, in units of the shortest: OpenSees starts without acceleration, whatever the first load
+    variable start 1e-6 ;# step, in units of the shortest: OpenSees starts without acceleration, whatever the first load
 
-    proc start {nodes aLanding aLongest {accuracy 0.002}} {
-        foreach name {feet longest landing shortest growth share error allowed strongest highest gaps taken refused late smallest} {
+    variable growth 2.0 ;# from pair to pair, at most
+    # What a pair misses of a foot's position, over the highest rise: a landing has up to a thousand pairs, whatever it takes.
+    variable pairShare 5e-6
+    # The same over a time in which the foot rises or falls.
+    variable riseShare 0.1
+    # A foot that lifts drops a horizontal force at once; the step across it is wrong by that force for all its length.
+    variable drop 0.02
+
+    proc start {nodes aLanding aLongest rise {anAccuracy 0.002}} {
+        foreach name {feet longest landing accuracy first shortest share allowed strongest highest gaps taken refused late smallest} {
             variable $name
         }
-        variable first
-        set fine [expr {min(1.0, sqrt($accuracy / 0.002))}] ;# steps err with their square
+        variable start
+        set fine [expr {min(1.0, sqrt($anAccuracy / 0.002))}] ;# steps err with their square
         set feet $nodes
         set longest $aLongest
         set landing $aLanding
-        set shortest [expr {$landing > 0.0 ? min(0.1 * $fine * $landing, $longest) : $longest}]
-        set growth [expr {1.0 + 0.2 * $fine}] ;# from pair to pair, while a landing's vibrations last; 1.5 after them
+        set accuracy $anAccuracy
+        set first [expr {$landing > 0.0 ? min(0.05 * $fine * $landing, $longest) : $longest}] ;# of a landing
+        set shortest $first
         set share [expr {0.2 * $fine}] ;# of the time to the next touch or lift that one step takes
-        set error [expr {$accuracy / 40.0}] ;# of a step in position, relative to how far the foot travels
-        set allowed [expr {$first * $shortest}]
+        set allowed [expr {$start * $shortest}]
         set strongest 0.0 ;# acceleration of an open foot on long steps, m/s2
-        set highest 0.0 ;# a foot has come, m
+        set highest $rise ;# a foot has come, m
         set gaps [measure]
         set taken 0
         set refused 0
@@ -44,31 +53,29 @@ namespace eval steps {
         set smallest 1e300
     }
 
-    # Of every gap: opening, its rate and acceleration.
+    # Of every gap: opening, its rate and acceleration; the foot's own rate.
     proc measure {} {
         variable feet
         set found {}
         foreach {foot absorber} $feet {
             lappend found [list [expr {[nodeDisp $foot 2] - [nodeDisp $absorber 2]}] \
-                [expr {[nodeVel $foot 2] - [nodeVel $absorber 2]}] [expr {[nodeAccel $foot 2] - [nodeAccel $absorber 2]}]]
+                [expr {[nodeVel $foot 2] - [nodeVel $absorber 2]}] [expr {[nodeAccel $foot 2] - [nodeAccel $absorber 2]}] \
+                [nodeVel $foot 2]]
         }
         return $found
     }
 
     # Length of the next two steps, s.
     proc size {} {
-        foreach name {longest allowed shortest gaps strongest highest error share} { variable $name }
+        foreach name {longest allowed shortest gaps strongest share} { variable $name }
         set size [expr {min($longest, $allowed)}]
         if {$size <= $shortest} { return $size }
         foreach gap $gaps {
-            foreach {opening rate acceleration} $gap {}
+            foreach {opening rate acceleration -} $gap {}
             if {$opening > 0.0} {
                 # Soonest touch: at the strongest acceleration met so far.
                 set pull [expr {max($strongest, abs($acceleration), 1e-30)}]
                 set soonest [expr {2.0 * $opening / (sqrt($rate * $rate + 2.0 * $pull * $opening) - $rate)}]
-                # A step errs by h^2/12 of the acceleration's change; little must it be beside the height the foot can rise to.
-                set height [expr {max($opening + 0.5 * $rate * $rate / $pull, 0.01 * $highest)}]
-                set size [expr {min($size, sqrt(12.0 * $error * $height / $pull))}]
             } else {
                 # Soonest lift: as the spring now relaxes, and at the rate alone.
                 set soonest [expr {$rate > 0.0 ? -$opening / $rate : 1e300}]
@@ -82,26 +89,44 @@ namespace eval steps {
         return [expr {max($size, $shortest)}]
     }
 
-    # Acceleration and height of open feet, from two long steps of h.
+    # Time in which a foot rises as high as it has come, s.
+    proc slow {} {
+        foreach name {highest strongest} { variable $name }
+        return [expr {$strongest > 0.0 ? sqrt($highest / $strongest) : 1e300}]
+    }
+
+    # Length that the next steps may have by the error of these two of h, s.
+    proc grown {states h size} {
+        foreach name {accuracy highest pairShare riseShare growth first} { variable $name }
+        # TRBDF2 misses h^3/3 of the third derivative, in the fast motions of the springs and the slow one of the body alike.
+        set missed 1e-300
+        foreach a [lindex $states 0] b [lindex $states 1] c [lindex $states 2] {
+            set missed [expr {max($missed, $h / 3.0 * abs([lindex $a 3] - 2.0 * [lindex $b 3] + [lindex $c 3]))}]
+        }
+        set may [expr {$accuracy * $highest * max($pairShare, $riseShare * 2.0 * $h / [slow])}]
+        set byError [expr {0.9 * $h * pow($may / $missed, 1.0 / 3.0)}]
+        # Motions faster than a landing (a rotation of little inertia) are not resolved: steps of a landing end them.
+        return [expr {max(min($growth * $size, max($byError, 0.3 * $size)), min(2.0 * $size, $first))}]
+    }
+
+    # Acceleration of open feet, from two long steps of h.
     proc learn {before h} {
-        foreach name {longest gaps strongest highest} { variable $name }
+        foreach name {longest landing gaps strongest first shortest drop accuracy} { variable $name }
         if {$h < 0.2 * $longest} { return }
         foreach a $before b $gaps {
-            foreach {was rateWas -} $a {}
-            foreach {opening rate -} $b {}
+            foreach {was rateWas - -} $a {}
+            foreach {opening rate - -} $b {}
             if {$was > 0.0 && $opening > 0.0} {
                 set strongest [expr {max($strongest, abs($rate - $rateWas) / (2.0 * $h))}]
-                if {$strongest > 0.0} {
-                    set highest [expr {max($highest, $opening + 0.5 * $rate * $rate / $strongest)}]
-                }
             }
         }
+        if {$landing > 0.0} { set shortest [expr {min($shortest, max($drop * $accuracy * [slow], 0.1 * $first))}] }
     }
 
     # Two steps of h, at most `size`: TRBDF2 takes one by BDF2 only if it is as long as the one before, to the last digit.
     proc pair {h size} {
-        foreach name {gaps refused allowed shortest taken smallest late growth landing} { variable $name }
-        set before $gaps
+        foreach name {gaps refused allowed shortest taken smallest late highest} { variable $name }
+        set states [list $gaps]
         set met 0
         for {set k 0} {$k < 2} {incr k} {
             set last $gaps
@@ -114,15 +139,17 @@ namespace eval steps {
             }
             incr taken
             set gaps [measure]
+            lappend states $gaps
             foreach a $last b $gaps { incr met [expr {([lindex $a 0] <= 0.0) != ([lindex $b 0] <= 0.0)}] }
         }
         if {$h >= $shortest || $refused} { set smallest [expr {min($smallest, $h)}] } ;# the very first are tiny
+        foreach gap $gaps { set highest [expr {max($highest, [lindex $gap 0])}] }
         if {$met > 0} {
             set allowed $shortest
             if {$h > 1.5 * $shortest} { incr late $met }
         } else {
-            set allowed [expr {($size < $landing ? $growth : 1.5) * $size}]
-            learn $before $h
+            set allowed [grown $states $h $size]
+            learn [lindex $states 0] $h
         }
         return 1
     }

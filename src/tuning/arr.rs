@@ -1,7 +1,5 @@
 //! The paper's inner fit: f and xi of a mass ratio mu by the shape of the frequency response (ARR, equation 7).
 
-pub mod bounds;
-
 pub mod certificate;
 
 pub mod excess;

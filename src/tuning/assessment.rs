@@ -74,8 +74,9 @@ impl Assessment {
         }));
         on.extend(m.earthquakes_mean.map(|e| {
             format!(
-                "{} in the geometric mean of {} earthquake-like motions of sensitivity below {PREDICTABLE}",
+                "{}{} in the geometric mean of {} earthquake-like motions of sensitivity below {PREDICTABLE}",
                 shown(e.value),
+                m.earthquakes_upper.map_or(String::new(), |x| format!(" ({} with its standard error)", shown(x))),
                 e.count
             )
         }));

@@ -137,6 +137,9 @@ pub struct Accuracy {
     /// Geometric mean over the earthquake-like motions on which Housner's sensitivity is below 150.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub earthquakes_mean: Option<Statistic>,
+    /// The same with its standard error on top: what other earthquakes may well give, and what is held against the accuracy.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub earthquakes_upper: Option<f64>,
 }
 
 /// How much more the 90 % quantile and the earthquake-like motions may have than the accuracy asked for.
@@ -156,7 +159,7 @@ impl Accuracy {
                 let shares = [(self.synthetic_median, 1.0), (self.synthetic_p90, LOOSER)];
                 shares.into_iter().filter_map(|(s, looser)| s.map(|s| s.value / (looser * accuracy))).reduce(f64::max)
             }
-            Suite::Earthquakes => self.earthquakes_mean.map(|s| s.value / (LOOSER * accuracy)),
+            Suite::Earthquakes => self.earthquakes_upper.map(|upper| upper / (LOOSER * accuracy)),
         }
     }
 }
@@ -228,7 +231,9 @@ impl Suites {
             }
             Suite::Earthquakes => {
                 let errors = errors(&self.earthquakes);
-                accuracy.earthquakes_mean = statistic(geometric_mean(errors.iter().map(|e| e.0)), errors.len());
+                let found = geometric_mean(errors.iter().map(|e| e.0));
+                accuracy.earthquakes_mean = statistic(found.map(|(mean, _)| mean), errors.len());
+                accuracy.earthquakes_upper = found.map(|(mean, factor)| mean * factor);
             }
         }
     }
@@ -252,10 +257,14 @@ fn quantile(sorted: &[f64], q: f64) -> Option<f64> {
     Some(if share == 0.0 { sorted[low] } else { sorted[low] * (1.0 - share) + sorted[low + 1] * share })
 }
 
-/// Geometric mean; a history that lost the motion altogether counts as one that stands still, lest one decide for all.
-fn geometric_mean(errors: impl ExactSizeIterator<Item = f64>) -> Option<f64> {
-    let n = errors.len();
-    (n > 0).then(|| (errors.map(|e| e.clamp(1e-12, 1.0).ln()).sum::<f64>() / n as f64).exp())
+/// Geometric mean, and the factor of its standard error; a history that lost the motion altogether counts as one that stands
+/// still, lest one decide for all. A factor of e is the spread that few motions are taken to have: it counts as one of them.
+fn geometric_mean(errors: impl ExactSizeIterator<Item = f64> + Clone) -> Option<(f64, f64)> {
+    let n = errors.len() as f64;
+    let logarithms = errors.map(|e| e.clamp(1e-12, 1.0).ln());
+    let mean = logarithms.clone().sum::<f64>() / n;
+    let variance = (1.0 + logarithms.map(|x| (x - mean).powi(2)).sum::<f64>()) / n;
+    (n > 0.0).then(|| (mean.exp(), (variance / n).sqrt().exp()))
 }
 
 /// The first `count` motions of a suite that `pick` finds fit; fewer if the suite has no more.
@@ -282,7 +291,8 @@ mod tests {
             record: Some(1e-3),
             synthetic_median: statistic(1.5e-3),
             synthetic_p90: statistic(4e-3),
-            earthquakes_mean: statistic(1.2e-2),
+            earthquakes_mean: statistic(9e-3),
+            earthquakes_upper: Some(1.2e-2),
         };
         assert!((accuracy.over(2e-3) - 1.2).abs() < 1e-12);
         assert_eq!(Accuracy::default().over(2e-3), 0.0);
@@ -292,7 +302,10 @@ mod tests {
     fn quantiles_and_means_are_those_worked_by_hand() {
         assert_eq!(quantile(&[1.0, 2.0, 3.0, 5.0], 0.5), Some(2.5));
         assert_eq!(quantile(&[1.0, f64::INFINITY], 0.9), Some(f64::INFINITY));
-        assert!((geometric_mean([1e-4, 1e-2, 1e-3].into_iter()).unwrap() - 1e-3).abs() < 1e-15);
+        let (mean, factor) = geometric_mean([1e-4, 1e-2, 1e-3].into_iter()).unwrap();
+        assert!((mean - 1e-3).abs() < 1e-15);
+        // logarithms -l, l, 0 about the mean, l = ln 10
+        assert!((factor.ln() - ((1.0 + 2.0 * 10f64.ln().powi(2)) / 9.0).sqrt()).abs() < 1e-12);
         assert_eq!((quantile(&[], 0.5), geometric_mean([].into_iter())), (None, None));
     }
 }

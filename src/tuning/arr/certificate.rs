@@ -13,8 +13,8 @@
 use nalgebra::{DMatrix, DVector, Matrix2, Vector2};
 use serde::Serialize;
 
-use super::bounds::Region;
 use super::excess::{Curve, Model, Parameters, Point, largest, points, response};
+use crate::response::bounds::Region;
 
 /// A frequency at which the fit is held: the largest excess is reached there.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize)]

@@ -12,11 +12,11 @@ use rayon::prelude::*;
 use serde::Serialize;
 use thiserror::Error;
 
-use super::bounds::{Bounds, BoundsError};
 use super::certificate::{Certificate, Problem};
 use super::excess::{Parameters, curves, largest, points, response};
 use super::minimax::{Minimum, minimise};
 use super::smooth::Smooth;
+use crate::response::bounds::{Bounds, BoundsError};
 use crate::response::target::{Target, TargetError};
 
 /// How a fit ended.
@@ -75,7 +75,7 @@ const SAME: f64 = 0.05;
 /// The springs of mass ratio mu whose response follows the target best.
 ///
 /// ```
-/// use groundspring::{response::target::Target, tuning::arr::{bounds::Bounds, inner::fit}};
+/// use groundspring::{response::{bounds::Bounds, target::Target}, tuning::arr::inner::fit};
 ///
 /// // mu -> 0: K = 1/2 and a largest ARR of 3
 /// let fit = fit(1e-3, &Target::default(), &Bounds::default()).unwrap();

@@ -13,8 +13,8 @@ use argmin::solver::quasinewton::LBFGS;
 use nalgebra::{SVector, Vector2};
 use num_dual::gradient;
 
-use super::bounds::Region;
 use super::excess::{Curve, Parameters, response};
+use crate::response::bounds::Region;
 use crate::scalar::{Scalar, real};
 
 /// Sharpness: F exceeds the largest psi by at most ln(60)/30 = 0.14, near enough to start the minimax from.
@@ -111,8 +111,8 @@ impl Gradient for Problem<'_> {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::response::bounds::Bounds;
     use crate::response::target::Target;
-    use crate::tuning::arr::bounds::Bounds;
     use crate::tuning::arr::excess::{curves, largest, points};
 
     #[test]

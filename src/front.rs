@@ -9,15 +9,15 @@ use std::{
 use rayon::prelude::*;
 use serde::{Deserialize, Serialize};
 
-use super::{
-    arr::outer::{self, Benchmark, Bracket},
-    job::{Job, Paper, at},
-};
 use crate::{
     export::deck_steps,
     fem::{Case, Change, Control, Observer, Start, View},
     scalar::GRAVITY,
     spring::{Design, Springs},
+    tuning::{
+        arr::outer::{self, Benchmark, Bracket},
+        job::{Job, Paper, at},
+    },
 };
 
 /// Omega_n of the front's points [Hz]; the one that was chosen is added.

@@ -1,0 +1,469 @@
+from collections.abc import Sequence
+from os import PathLike
+from typing import Any, Literal, final, overload
+
+import numpy as np
+import numpy.typing as npt
+import pandas
+from matplotlib.axes import Axes
+
+_Array = npt.NDArray[np.float64]
+_Numbers = Sequence[float] | npt.NDArray[np.floating[Any]] | npt.NDArray[np.integer[Any]]
+_Path = str | PathLike[str]
+
+GRAVITY: float
+"""9.81 m/s2, throughout."""
+
+STEPS: str
+"""Source of the stepping routine of decks for openseespy."""
+
+class GroundspringWarning(UserWarning):
+    """What the program warns of: in reading a record, in springs, in a comparison."""
+
+@final
+class Record:
+    """A ground motion: acceleration at even time steps, linear in between.
+
+    ValueError: dt not between 1e-6 and 1 s, no sample, a sample that is not finite, a peak above 50 g.
+    """
+
+    def __new__(cls, dt: float, accel: _Numbers, name: str = "record") -> Record: ...
+    @property
+    def name(self) -> str: ...
+    @property
+    def dt(self) -> float:
+        """Time step, s."""
+    @property
+    def accel(self) -> _Array:
+        """Ground acceleration at t = i dt, positive to the right, m/s2."""
+    @property
+    def t(self) -> _Array:
+        """Times of the samples, s."""
+    @property
+    def duration(self) -> float:
+        """Time of the last sample, s."""
+    @property
+    def pga(self) -> float:
+        """Peak ground acceleration, m/s2."""
+    @property
+    def pga_g(self) -> float:
+        """Peak ground acceleration, g."""
+    def scaled(self, factor: float) -> Record:
+        """Every acceleration times a factor."""
+    def truncated(self, duration: float) -> Record:
+        """The samples up to this time, s; at least the first."""
+    def __len__(self) -> int: ...
+
+def read_record(
+    path: _Path,
+    component: str | float | None = None,
+    dt: float | None = None,
+    units: Literal["g", "m/s2", "cm/s2", "mm/s2"] | str | None = None,
+    baseline: bool = False,
+) -> Record:
+    """The record in a file: PEER AT2, GeoNet, COSMOS, CSMIP, K-NET, ESM or columns.
+
+    component  name or azimuth in degrees, of a file with several; the stronger horizontal one unless given
+    dt, units  where the file does not say: s; g, m/s2, cm/s2 or mm/s2
+    baseline   subtract the mean of the samples
+
+    ValueError: the file cannot be read, is no record, is damaged, or does not agree with what is said of it.
+    """
+
+def el_centro() -> Record:
+    """Imperial Valley 1940, El Centro Array #9, component 180 (north-south), PEER: 3995 samples, dt 0.01 s."""
+
+@final
+class Structure:
+    """A rigid body on two feet. Made by `aframe` or `block`.
+
+    ValueError: numbers that cannot rock.
+    """
+
+    @staticmethod
+    def aframe(
+        height: float, width: float, mass: float, inertia: float | None = None, restitution: float | None = None
+    ) -> Structure:
+        """All mass at the apex of two massless legs.
+
+        height       of the centre of mass above the feet, m
+        width        between the feet, m
+        mass         kg
+        inertia      about the centre of mass, kg m2; 1e-5 m R^2 unless given, which rocking does not feel
+        restitution  velocity ratio of a landing; by equation 2 unless given
+        """
+    @staticmethod
+    def block(
+        height: float, width: float, mass: float, inertia: float | None = None, restitution: float | None = None
+    ) -> Structure:
+        """A solid block.
+
+        height       of the whole block, m: twice that of its centre of mass
+        width        m
+        mass         kg
+        inertia      about the centre of mass, kg m2; m R^2/3 unless given
+        restitution  velocity ratio of a landing; by equation 2 unless given
+        """
+    @property
+    def kind(self) -> Literal["aframe", "block"]: ...
+    @property
+    def height(self) -> float:
+        """Of the centre of mass above the feet, m."""
+    @property
+    def width(self) -> float:
+        """Between the feet, m."""
+    @property
+    def mass(self) -> float:
+        """kg."""
+    @property
+    def inertia(self) -> float:
+        """About the centre of mass, kg m2."""
+    @property
+    def alpha(self) -> float:
+        """atan(b/h), the lean of balance, rad."""
+    @property
+    def p(self) -> float:
+        """sqrt(m g R/I0), 1/s."""
+    @property
+    def restitution(self) -> float:
+        """Velocity ratio of a landing."""
+
+@final
+class Chain:
+    """One spring-absorber unit: foot - gap, k1 - absorber m2 - (k2 parallel with dashpot c) - ground.
+
+    k1, k2 in N/m, m2 in kg, c in N s/m.
+    """
+
+    def __new__(cls, k1: float, k2: float, m2: float, c: float) -> Chain: ...
+    @property
+    def k1(self) -> float: ...
+    @property
+    def k2(self) -> float: ...
+    @property
+    def m2(self) -> float: ...
+    @property
+    def c(self) -> float: ...
+
+@final
+class Springs:
+    """The units under each of the two feet of a structure of this mass, kg."""
+
+    def __new__(cls, mass: float, vertical: Chain, horizontal: Chain) -> Springs: ...
+    @property
+    def mass(self) -> float: ...
+    @property
+    def vertical(self) -> Chain: ...
+    @property
+    def horizontal(self) -> Chain: ...
+    @property
+    def omega_n_hz(self) -> float:
+        """Omega_n/2 pi of the vertical k1 under the mass, Hz."""
+    @property
+    def settlement(self) -> float:
+        """Of the standing body, m."""
+
+def read_parameters(path: _Path) -> tuple[Structure, Springs]:
+    """The structure and the springs of a `parameters.json`."""
+
+@final
+class History:
+    """A history of rigid rocking at the record's samples, cut where the body lies flat."""
+
+    @property
+    def dt(self) -> float: ...
+    @property
+    def t(self) -> _Array:
+        """s."""
+    @property
+    def theta(self) -> _Array:
+        """Rotation, positive leaning to the right, rad."""
+    @property
+    def rate(self) -> _Array:
+        """Its rate, rad/s."""
+    @property
+    def u(self) -> _Array:
+        """Horizontal displacement of the centre of mass, positive to the right, m."""
+    @property
+    def v(self) -> _Array:
+        """Vertical displacement of the centre of mass, positive up, m."""
+    @property
+    def impacts(self) -> _Array:
+        """Times of the impacts, s."""
+    @property
+    def impact_rates(self) -> _Array:
+        """Rates before the impacts, rad/s."""
+    @property
+    def outcome(self) -> Literal["rocked", "never_lifted", "overturned", "left_ground", "work_bound", "not_finite"]: ...
+    @property
+    def overturned(self) -> float | None:
+        """When |theta| last grew past alpha, of a body that overturned, s."""
+    @property
+    def peak_ratio(self) -> float:
+        """Largest |theta|/alpha; infinite if it overturned."""
+    def __len__(self) -> int: ...
+    def to_pandas(self) -> pandas.DataFrame: ...
+
+@final
+class Histories:
+    """Many histories: a sequence of `History`."""
+
+    def __len__(self) -> int: ...
+    def __getitem__(self, index: int, /) -> History: ...
+    @property
+    def peak_ratio(self) -> _Array:
+        """Largest |theta|/alpha of each; infinite where the body overturned."""
+    @property
+    def overturned(self) -> npt.NDArray[np.bool_]:
+        """Whether each overturned."""
+
+def rigid_rocking(
+    structure: Structure, record: Record, scale: float = 1.0, restitution: float | None = None
+) -> History:
+    """Housner's solution for a structure on a record: to the last bit that of `tune housner`."""
+
+def rigid_rocking_many(
+    structures: Structure | Sequence[Structure],
+    record: Record,
+    scales: float | _Numbers = ...,
+    restitution: float | None = None,
+) -> Histories:
+    """Housner's solutions on all cores: of several structures, or at several scales, or of as many pairs of both.
+
+    scales  factors on the record; 1 unless given
+
+    ValueError: structures and scales of different number, neither of which is one.
+    """
+
+@final
+class Simulation:
+    """The finite element history on springs, beside Housner's on the same record.
+
+    Forces are, at every sample, those of largest magnitude since the sample before.
+    """
+
+    @property
+    def dt(self) -> float: ...
+    @property
+    def t(self) -> _Array:
+        """s."""
+    @property
+    def theta(self) -> _Array:
+        """Rotation, positive leaning to the right, rad."""
+    @property
+    def u(self) -> _Array:
+        """Horizontal displacement of the centre of mass, positive to the right, m."""
+    @property
+    def v(self) -> _Array:
+        """Vertical displacement of the centre of mass from the settled position, positive up, m."""
+    @property
+    def vertical_left(self) -> _Array:
+        """The ground's force on the left foot, up, N."""
+    @property
+    def vertical_right(self) -> _Array: ...
+    @property
+    def horizontal_left(self) -> _Array:
+        """The ground's force on the left foot, to the right, N."""
+    @property
+    def horizontal_right(self) -> _Array: ...
+    @property
+    def energy_input(self) -> _Array:
+        """J."""
+    @property
+    def energy_stored(self) -> _Array:
+        """Above the initial energy, J."""
+    @property
+    def energy_dissipated(self) -> _Array:
+        """Of dashpots and released springs, J."""
+    @property
+    def energy_residual(self) -> _Array:
+        """What does not add up, J."""
+    @property
+    def impacts(self) -> _Array:
+        """Times of the touch-downs that end a lean on the other foot, s."""
+    @property
+    def settlement(self) -> float:
+        """Under the weight, before t = 0, m."""
+    @property
+    def outcome(self) -> Literal["completed", "overturned", "stopped", "work_bound", "unstable"]: ...
+    @property
+    def housner(self) -> History: ...
+    @property
+    def match(self) -> dict[str, Any]:
+        """How the two compare, as in `parameters.json`: NRMSE, peaks, impacts, bounces, settlement, restitution."""
+    @property
+    def verdict(self) -> dict[str, Any]:
+        """What the body does in both models, as in `parameters.json`."""
+    @property
+    def lines(self) -> list[str]:
+        """What the program says of the run."""
+    @property
+    def demands(self) -> dict[str, _Array]:
+        """Base shear, forces in the legs: N, N m, by name."""
+    def to_pandas(self) -> pandas.DataFrame: ...
+    def plot(self, axes: Axes | None = None) -> Axes: ...
+
+def simulate(
+    structure: Structure,
+    springs: Springs,
+    record: Record,
+    scale: float = 1.0,
+    restitution: float | None = None,
+    friction: float = 0.5,
+) -> Simulation:
+    """Both models on given springs, as `tune simulate`. `friction` of the ground is for the warning of sliding."""
+
+@final
+class Tuned:
+    """Springs of a structure, and all that `tune run` finds of them."""
+
+    @property
+    def structure(self) -> Structure: ...
+    @property
+    def springs(self) -> Springs: ...
+    @property
+    def accuracy(self) -> dict[str, Any]:
+        """What was asked for, whether it is reached, what was measured and on what: as in `parameters.json`."""
+    @property
+    def verdict(self) -> dict[str, Any]:
+        """What the body does in both models, as in `parameters.json`."""
+    @property
+    def histories(self) -> Simulation: ...
+    @property
+    def parameters(self) -> dict[str, Any]:
+        """All of `parameters.json` but the record."""
+    @property
+    def lines(self) -> list[str]:
+        """What the program says of the run."""
+    def save(self, folder: _Path, figures: bool = True) -> None:
+        """Write what `tune run` writes: springs, histories, figures, decks."""
+    def to_pandas(self) -> pandas.DataFrame: ...
+    def plot(self, axes: Axes | None = None) -> Axes: ...
+
+def tune(
+    structure: Structure,
+    record: Record | None = None,
+    accuracy: float = 0.002,
+    method: Literal["landing", "arr"] = "landing",
+    *,
+    scale: float = 1.0,
+    duration: float | None = None,
+    max_hz: float | None = None,
+    max_settlement: float = 0.01,
+    friction: float = 0.5,
+    front: bool = False,
+) -> Tuned:
+    """Tune the springs of a structure, as `tune run`.
+
+    record          on which they are judged beside the motions made for the structure; all of El Centro unless given
+    accuracy        error of the history against Housner's (NRMSE) that Omega_n is chosen for
+    method          "landing": by the geometry; "arr": the paper's procedure, on the record
+    scale           factor on the record
+    duration        of the record, s; all of it unless given
+    max_hz          stiffest springs, Omega_n/2 pi, for programs with fixed time steps
+    max_settlement  of the standing body, m
+    friction        of the ground, for the warning of sliding
+    front           error against stiffness, too
+
+    ValueError: no springs settle as little as asked for; a number out of its range.
+    """
+
+@final
+class UnitDesign:
+    """One spring-absorber unit without units."""
+
+    @property
+    def mu(self) -> float:
+        """m2/m1."""
+    @property
+    def f(self) -> float:
+        """Frequency of the absorber on k2 over Omega_n."""
+    @property
+    def xi(self) -> float:
+        """c/(2 m2 Omega_n)."""
+    @property
+    def k(self) -> float:
+        """K = k2/k1 = mu f^2."""
+    @property
+    def c(self) -> float:
+        """C = c/(m1 Omega_n) = 2 mu xi."""
+    @property
+    def frequency_ratio(self) -> float:
+        """Omega_n of the unit over that of the vertical one."""
+
+@final
+class Design:
+    """The springs of every body of this alpha and inertia, at this Omega_n/p."""
+
+    @property
+    def alpha(self) -> float:
+        """rad."""
+    @property
+    def inertia(self) -> float:
+        """I_cg/(m R^2)."""
+    @property
+    def stiffness(self) -> float:
+        """Omega_n/p."""
+    @property
+    def in_stiff_limit(self) -> bool:
+        """Whether gravity has no part in a landing to speak of."""
+    @property
+    def vertical(self) -> UnitDesign: ...
+    @property
+    def horizontal(self) -> UnitDesign: ...
+    def springs(self, mass: float, radius: float) -> Springs:
+        """With units, for a mass, kg, and the distance R from a foot to the centre of mass, m."""
+
+@overload
+def design(alpha: Structure, *, stiffness: float | None = None) -> Design: ...
+@overload
+def design(alpha: float, inertia: float | None = None, stiffness: float | None = None) -> Design:
+    """The design from the geometry, without units: alpha in rad, inertia I_cg/(m R^2), 0 unless given, stiffness Omega_n/p.
+
+    Omega_n/p is, unless given, where `tune` begins to look for an accuracy of 0.002.
+    """
+
+def frequency_response(g: _Numbers, mu: float, f: float, xi: float) -> _Array:
+    """Amplitude response ratio (equation 7) of a unit at frequency ratios g = omega/Omega_n."""
+
+def fit_response(mu: float) -> dict[str, Any]:
+    """f and xi of a mass ratio by the paper's frequency response, and the certificate: what `tune response --json` prints."""
+
+@final
+class Validation:
+    """What many records say of springs: a row a record."""
+
+    @property
+    def summary(self) -> dict[str, Any]:
+        """All of `validate.json`: statistics of all records and of each suite, the rows."""
+    def to_pandas(self) -> pandas.DataFrame: ...
+    def __len__(self) -> int: ...
+
+def validate(
+    structure: Structure,
+    springs: Springs,
+    records: Sequence[Record] | _Path | None = None,
+    *,
+    synthetic: int = 0,
+    earthquakes: int = 0,
+    seed: int = 1,
+    duration: float | None = None,
+    restitution: float | None = None,
+) -> Validation:
+    """Judge springs over many records, as `tune validate`.
+
+    records      of your own, or a folder of files
+    synthetic    so many motions made for the structure
+    earthquakes  so many motions like earthquakes
+    seed         of both
+    duration     of each, s; all of it unless given
+    """
+
+def synthetic_records(structure: Structure, n: int, seed: int = 1) -> list[Record]:
+    """Motions made for a structure: pulses and filtered noise, as `tune validate --synthetic`."""
+
+def earthquake_records(structure: Structure, n: int, seed: int = 1) -> list[Record]:
+    """Motions with the frequencies of earthquakes, as `tune validate --earthquakes`.
+
+    The structure decides how long they are silent at the end.
+    """

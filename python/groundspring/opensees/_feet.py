@@ -1,0 +1,234 @@
+"""Spring-absorber units under nodes of a plane frame model.
+
+    node - gap, k1 - absorber m2 - (k2 parallel with dashpot c) - ground,   vertically and horizontally
+
+Why each element is what it is stands in the decks that `tune run` writes; this is the same model.
+"""
+
+from __future__ import annotations
+
+import itertools
+import math
+import warnings
+from collections.abc import Callable, Iterable, Sequence
+from typing import Any
+
+import numpy as np
+import numpy.typing as npt
+
+from .._native import GRAVITY, GroundspringWarning, Springs
+
+Array = npt.NDArray[np.float64]
+
+HOLDS = 1e7
+"""A coefficient of friction at which no pressing foot ever slips, as in the decks."""
+
+FIRST_TAG = 1_000_000
+"""Tags begin here, or beyond the model's largest: materials and friction models cannot be asked for theirs."""
+
+
+class Feet:
+    """Nodes on ground springs. Made by `add_feet`.
+
+    nodes       their tags
+    absorbers   tags of the absorbers' nodes
+    grounds     tags of the fixed nodes
+    units       tags of the zeroLength elements between ground and absorber
+    bearings    tags of the elements with the gap, between absorber and node
+    materials   tags of the uniaxial materials
+    springs     the units, as given
+    landing     1/Omega_n of the vertical k1, s: what a landing takes
+    """
+
+    def __init__(self, ops: Any, nodes: Sequence[int], springs: Springs, compliance: float) -> None:
+        self.ops, self.nodes, self.springs = ops, tuple(nodes), springs
+        self.absorbers: tuple[int, ...] = ()
+        self.grounds: tuple[int, ...] = ()
+        self.units: tuple[int, ...] = ()
+        self.bearings: tuple[int, ...] = ()
+        self.materials: tuple[int, ...] = ()
+        # what the structure gives above the foot is taken off the gap's: both in series are k1
+        self.gap_vertical = springs.vertical.k1 / (1.0 - springs.vertical.k1 * compliance)
+        self.gap_horizontal = springs.horizontal.k1 / (1.0 - springs.horizontal.k1 * compliance)
+        self.landing = math.sqrt(springs.mass / springs.vertical.k1)
+
+    @property
+    def pairs(self) -> tuple[tuple[int, int], ...]:
+        """Node and absorber of every foot: a gap is closed where the node is not above the absorber."""
+        return tuple(zip(self.nodes, self.absorbers, strict=True))
+
+    def gaps(self) -> Array:
+        """Opening of every gap, m; negative: compressed."""
+        return self._relative(2)
+
+    def uplifts(self) -> Array:
+        """Height of every node above the unloaded ground, m; negative: it has sunk in."""
+        return np.array([self.ops.nodeDisp(node, 2) for node in self.nodes])
+
+    def forces(self) -> Array:
+        """The ground's force on every node, N: horizontal (to the right), vertical (up). A row a foot."""
+        return np.array([[-x for x in self.ops.eleForce(bearing)[3:5]] for bearing in self.bearings])
+
+    def anchors(self) -> Array:
+        """Where every foot holds on to the ground: its horizontal displacement at which the bearing carries no shear, m.
+
+        It moves along with a foot in the air.
+        """
+        return self._relative(1) + self.forces()[:, 0] / self.gap_horizontal
+
+    def pressing(self) -> npt.NDArray[np.bool_]:
+        """Whether every foot presses on the ground."""
+        return self.gaps() <= 0.0
+
+    def stored(self) -> Array:
+        """Energy in the springs and the absorbers' motion of every foot, J."""
+        v, h = self.springs.vertical, self.springs.horizontal
+        compressed = np.minimum(self.gaps(), 0.0)
+        energy = 0.5 * self.gap_vertical * compressed**2 + 0.5 * self.forces()[:, 0] ** 2 / self.gap_horizontal
+        for dof, unit in ((1, h), (2, v)):
+            displacement, velocity = self._absorber(dof)
+            energy += 0.5 * unit.k2 * displacement**2 + 0.5 * unit.m2 * velocity**2
+        return energy
+
+    def damping(self) -> Array:
+        """Power that the dashpots of every foot take, W."""
+        (_, across), (_, down) = self._absorber(1), self._absorber(2)
+        return self.springs.horizontal.c * across**2 + self.springs.vertical.c * down**2
+
+    def _relative(self, dof: int) -> Array:
+        disp = self.ops.nodeDisp
+        return np.array([disp(node, dof) - disp(absorber, dof) for node, absorber in self.pairs])
+
+    def _absorber(self, dof: int) -> tuple[Array, Array]:
+        of = self.absorbers
+        return np.array([self.ops.nodeDisp(a, dof) for a in of]), np.array([self.ops.nodeVel(a, dof) for a in of])
+
+    def __repr__(self) -> str:
+        return f"Feet(nodes={self.nodes}, absorbers={self.absorbers}, grounds={self.grounds}, bearings={self.bearings})"
+
+
+def add_feet(
+    ops: Any,
+    nodes: Sequence[int],
+    springs: Springs,
+    *,
+    compliance: float = 0.0,
+    friction: float = HOLDS,
+    first_tag: int | None = None,
+) -> Feet:
+    """Put spring-absorber units under nodes of a plane frame model.
+
+    ops         openseespy.opensees, with a model of ndm 2 and ndf 3
+    nodes       the nodes that stand on the ground, two under a structure that rocks
+    springs     as tuned for the whole structure, or given; each node gets all of them
+    compliance  m/N: what the structure gives above a node, where that stands for a rigid body; taken off k1's
+    friction    coefficient; unless given a pressing foot never slips
+    first_tag   the first of the tags used; beyond the model's own unless given
+
+    Call it after `ops.rayleigh`, which would damp the absorbers.
+
+    ValueError: a model that is not plane, nodes that are not there or fixed, numbers that mean nothing.
+    """
+    nodes = [int(node) for node in nodes]
+    _check(ops, nodes, springs, compliance, friction)
+    feet = Feet(ops, nodes, springs, compliance)
+    there = [*ops.getNodeTags(), *ops.getEleTags()]
+    free = itertools.count(max([FIRST_TAG, *(tag + 1 for tag in there)]) if first_tag is None else first_tag)
+    v, h = springs.vertical, springs.horizontal
+    # the bearing asks for a moment spring; this one is too weak to be felt (1e-9 of the weight's own moment)
+    moment = 1e-9 * springs.mass * GRAVITY * _radius(ops, nodes)
+
+    def material(*arguments: Any) -> int:
+        return take(free, lambda tag: ops.uniaxialMaterial(arguments[0], tag, *arguments[1:]))
+
+    across, down = material("Elastic", h.k2, h.c), material("Elastic", v.k2, v.c)
+    # without a trace of tension a foot in the air would be pulled back to where it stood before, which creates energy
+    closed, trace = material("ENT", feet.gap_vertical), material("Elastic", 1e-9 * feet.gap_vertical)
+    gap, turn = material("Parallel", closed, trace), material("Elastic", moment)
+    feet.materials = (across, down, closed, trace, gap, turn)
+    coulomb = take(free, lambda tag: ops.frictionModel("Coulomb", tag, friction))
+
+    # in the order of the decks: OpenSees numbers and adds up by tags, and its rounding follows
+    feet.absorbers, feet.grounds, feet.units, feet.bearings = (tuple(next(free) for _ in nodes) for _ in range(4))
+    for node, absorber, ground, unit, bearing in zip(
+        nodes, feet.absorbers, feet.grounds, feet.units, feet.bearings, strict=True
+    ):
+        x, y = ops.nodeCoord(node)
+        ops.node(absorber, x, y)
+        ops.node(ground, x, y)
+        ops.fix(ground, 1, 1, 1)
+        # the bearing's axes turn with its first node: the absorber must not rotate
+        ops.fix(absorber, 0, 0, 1)
+        ops.mass(absorber, h.m2, v.m2, 0.0)
+        ops.element("zeroLength", unit, ground, absorber, "-mat", across, down, "-dir", 1, 2)
+        # axial direction up (local x = global y); the horizontal k1 is the bearing's shear stiffness
+        ops.element(
+            "flatSliderBearing", bearing, absorber, node, coulomb, feet.gap_horizontal,
+            "-P", gap, "-Mz", turn, "-orient", 0, 1, 0, -1, 0, 0,
+        )  # fmt: skip
+    return feet
+
+
+def take(free: Iterable[int], make: Callable[[int], Any]) -> int:
+    """Make something that cannot be asked for its tags, under the first of `free` that is not taken."""
+    for tag, _ in zip(free, range(1000), strict=False):
+        try:
+            make(tag)
+        except Exception as error:  # openseespy's own class of errors differs from build to build
+            last = error
+        else:
+            return tag
+    raise ValueError(f"add_feet: OpenSees takes none of a thousand tags up to {tag}; give another first_tag") from last
+
+
+def _check(ops: Any, nodes: list[int], springs: Springs, compliance: float, friction: float) -> None:
+    there = set(ops.getNodeTags())
+    if not nodes or len(set(nodes)) < len(nodes):
+        raise ValueError(f"add_feet: nodes are {nodes}; give the tags of the nodes that stand on the ground, each once")
+    for node in nodes:
+        if node not in there:
+            raise ValueError(f"add_feet: node {node} is not in the model; make it before its foot")
+        ndm, ndf = len(ops.nodeCoord(node)), len(ops.nodeDisp(node))
+        if ndm == 3:
+            raise ValueError(
+                f"add_feet: node {node} is in a space model (ndm 3); these springs are for plane rocking, and nothing would "
+                "hold the feet out of the plane: the body would roll over and twist; make the model plane (ndm 2, ndf 3)"
+            )
+        if (ndm, ndf) != (2, 3):
+            raise ValueError(f"add_feet: node {node} has ndm {ndm}, ndf {ndf}; a plane frame has ndm 2, ndf 3")
+    fixed = set(ops.getFixedNodes() or [])
+    for node in nodes:
+        held = sorted({1, 2} & set(ops.getFixedDOFs(node))) if node in fixed else []
+        if held:
+            raise ValueError(f"add_feet: node {node} is fixed in direction {held[0]}; a foot must be free: take the fix off")
+    for name, value in (("compliance", compliance), ("friction", friction)):
+        if not (math.isfinite(value) and value >= 0.0):
+            raise ValueError(f"add_feet: {name} is {value!r}; give a finite number, zero or greater")
+    stiffest = max(springs.vertical.k1, springs.horizontal.k1)
+    if compliance * stiffest >= 1.0:
+        raise ValueError(
+            f"add_feet: compliance is {compliance!r} m/N, that of the stiffest k1 {1.0 / stiffest:.3e} m/N; "
+            "what the structure gives must be less"
+        )
+    _check_mass(ops, springs)
+
+
+def _check_mass(ops: Any, springs: Springs) -> None:
+    masses = [ops.nodeMass(node, 2) for node in ops.getNodeTags()]
+    if any(mass < 0.0 for mass in masses):
+        raise ValueError("add_feet: a nodal mass is negative; masses are positive or zero")
+    total = math.fsum(masses)
+    # element masses are not seen: too little is no mistake
+    if total > 0.0 and springs.mass > 2.0 * total:
+        text = f"add_feet: WARNING: the springs are for {springs.mass:.4g} kg, the model's nodes carry {total:.4g} kg; check units"
+        warnings.warn(text, GroundspringWarning, stacklevel=4)
+
+
+def _radius(ops: Any, nodes: list[int]) -> float:
+    """Largest distance from a foot to a node of the model, m."""
+    places = [ops.nodeCoord(node) for node in ops.getNodeTags()]
+    feet = [ops.nodeCoord(node) for node in nodes]
+    far = max(math.hypot(x - x0, y - y0) for x0, y0 in feet for x, y in places)
+    if far == 0.0:
+        raise ValueError("add_feet: the model has no node but this one; build the structure before its feet")
+    return far

@@ -1,0 +1,249 @@
+"""Steps that follow feet touching and leaving the ground: the decks' routine, on a model of one's own."""
+
+from __future__ import annotations
+
+import inspect
+import itertools
+import math
+import sys
+import warnings
+from collections.abc import Callable, Sequence
+from typing import Any
+
+from .._native import GRAVITY, STEPS, GroundspringWarning, Record
+from ._account import Books
+from ._feet import FIRST_TAG, Feet, _radius, take
+from ._history import FeetHistory, Watch
+
+
+class StepError(RuntimeError):
+    """Newton's iteration gives up however short the step; the message says where the model stands."""
+
+
+class _Watched:
+    """openseespy as the routine sees it: it is told of every step that succeeds."""
+
+    def __init__(self, ops: Any, after: Callable[[float], None]) -> None:
+        self._ops, self._after = ops, after
+
+    def __getattr__(self, name: str) -> Any:
+        return getattr(self._ops, name)
+
+    def analyze(self, count: int, h: float) -> int:
+        code: int = self._ops.analyze(count, h)
+        if code == 0:
+            self._after(h)
+        return code
+
+
+def _routine(ops: Any) -> Any:
+    """`class Steps` of the decks, from their own source."""
+    names: dict[str, Any] = {"math": math, "sys": sys, "ops": ops, "__name__": __name__}
+    exec(compile(STEPS, "<steps of the decks>", "exec"), names)
+    return names["Steps"]
+
+
+def _topples(ops: Any, feet: Feet) -> float:
+    """How high a foot is where a rigid body of the model's masses would topple, 2 b alpha, m."""
+    places = [ops.nodeCoord(node) for node in feet.nodes]
+    half = max((max(x for x, _ in places) - min(x for x, _ in places)) / 2.0, 1e-3 * _radius(ops, list(feet.nodes)))
+    masses = [(ops.nodeMass(node, 2), ops.nodeCoord(node)[1]) for node in ops.getNodeTags() if node not in feet.absorbers]
+    total = math.fsum(mass for mass, _ in masses)
+    height = math.fsum(mass * (y - places[0][1]) for mass, y in masses) / total if total > 0.0 else 0.0
+    return float(2.0 * half * math.atan2(half, height))
+
+
+class Stepper:
+    """A transient analysis of a model with feet.
+
+    ops          openseespy.opensees
+    feet         of `add_feet`, or several of them: all structures of the model
+    accuracy     wanted of the history, as a normalised error; halve it to see what the steps do
+    longest      step, s; half of a record's sampling interval unless given. Shorter ones follow vibrations of the structure
+    landing      s, what a landing takes: 1/Omega_n of the vertical k1 unless given
+    rise         of a foot, m, from which on its motion counts; a hundredth of where the structure topples unless given
+    tolerance    of Newton's iteration: norm of the displacements' change, m; 1e-12 of the model's size unless given
+    constraints  handler, "Plain" unless the model has constraints between nodes
+    analysis     set up the solver (UmfPack, Newton, TRBDF2); False if the model has its own, which must be TRBDF2
+
+    Nothing of the model is wiped. The analysis objects, of which OpenSees has one set, are the stepper's from here on;
+    recorders go on recording, at every step.
+    """
+
+    def __init__(
+        self,
+        ops: Any,
+        feet: Feet | Sequence[Feet],
+        *,
+        accuracy: float = 0.002,
+        longest: float | None = None,
+        landing: float | None = None,
+        rise: float | None = None,
+        tolerance: float | None = None,
+        constraints: str = "Plain",
+        analysis: bool = True,
+    ) -> None:
+        self.ops = ops
+        self.groups = [feet] if isinstance(feet, Feet) else list(feet)
+        if not self.groups:
+            raise ValueError("Stepper: there are no feet; give what add_feet returns")
+        if not 1e-6 <= accuracy <= 0.1:
+            raise ValueError(f"accuracy is {accuracy!r}; give a normalised error from 1e-6 to 0.1")
+        for name, value in (("longest", longest), ("landing", landing), ("rise", rise), ("tolerance", tolerance)):
+            if value is not None and not (math.isfinite(value) and value > 0.0):
+                raise ValueError(f"Stepper: {name} is {value!r}; give a finite number greater than zero")
+        self.accuracy, self.longest, self.analysis, self.constraints = accuracy, longest, analysis, constraints
+        self.landing = min(group.landing for group in self.groups) if landing is None else landing
+        self.rise = min(_topples(ops, group) for group in self.groups) / 100.0 if rise is None else rise
+        nodes = [node for group in self.groups for node in group.nodes]
+        self.tolerance = 1e-12 * _radius(ops, nodes) if tolerance is None else tolerance
+        self._free = itertools.count(max([FIRST_TAG, *ops.getNodeTags(), *ops.getEleTags()]) + 1)
+        self.steps: Any = None
+        self.on_step: Callable[[float], None] | None = None
+        self._watch: Watch | None = None
+        self._books: Books | None = None
+        self._weight = False
+
+    def gravity(self, loads: str = "weight", steps: int = 10) -> None:
+        """Let the structure settle under its weight; the time is zero after it.
+
+        loads  "weight": that of every nodal mass but the absorbers', put on here; "own": the model's patterns as they are
+        """
+        ops = self.ops
+        if loads == "weight":
+            series = take(self._free, lambda tag: ops.timeSeries("Linear", tag))
+            ops.pattern("Plain", self._pattern(), series)
+            own = self._absorbers()
+            for node in ops.getNodeTags():
+                mass = ops.nodeMass(node, 2)
+                if mass > 0.0 and node not in own:
+                    ops.load(node, 0.0, -mass * GRAVITY, 0.0)
+            self._weight = True
+        elif loads != "own":
+            raise ValueError(f"gravity: loads is {loads!r}; give \"weight\" or \"own\"")
+        ops.wipeAnalysis()
+        self._solver("LoadControl", 1.0 / steps, kind="Static")
+        if ops.analyze(steps) != 0:
+            raise StepError(f"gravity did not converge at {ops.getTime():.0%} of the load; check that the structure can stand")
+        ops.loadConst("-time", 0.0)
+        ops.wipeAnalysis()
+        self.steps = None
+
+    def advance_to(self, t: float) -> None:
+        """To time t, s, in steps that end there.
+
+        StepError: Newton's iteration gives up. The model stands where the last step that succeeded ended.
+        """
+        if self.steps is None:
+            self._begin(t - self.ops.getTime())
+        if not self.steps.advance(t):
+            raise StepError(self._account())
+
+    def run(
+        self,
+        record: Record,
+        *,
+        scale: float = 1.0,
+        duration: float | None = None,
+        on_sample: Callable[[int, float], None] | None = None,
+        progress: bool = False,
+        account: bool = False,
+    ) -> FeetHistory:
+        """Shake the model with a record, from the time it stands at; what the feet went through.
+
+        on_sample  called with the index and the time of every sample, the first before any step
+        progress   a line on stderr for every tenth
+        account    keep the energies of the whole structure, too: `FeetHistory.account`
+
+        Every mass is shaken, those of elements and of the absorbers too. GroundspringWarning: an event was met in too long a step.
+        """
+        ops = self.ops
+        if not any((group.forces()[:, 1] > 0.0).any() for group in self.groups):
+            raise ValueError("run: no foot presses on the ground; call stepper.gravity() first")
+        dt, start = record.dt, ops.getTime()
+        shaken = record if scale == 1.0 else record.scaled(scale)
+        self._ground(shaken, start)
+        count = len(record if duration is None else record.truncated(duration))
+        if self.steps is None:
+            self._begin(0.5 * dt)
+        watch = self._watch = Watch(self.groups)
+        books = Books(ops, self.groups, shaken, start, self._weight) if account else None
+        self._books = books
+        try:
+            for i in range(count):
+                if i > 0:
+                    self.advance_to(start + i * dt)
+                watch.sample(ops.getTime())
+                if books is not None:
+                    books.sample()
+                if on_sample is not None:
+                    on_sample(i, ops.getTime())
+                if progress and i * 10 // max(count - 1, 1) != (i - 1) * 10 // max(count - 1, 1):
+                    print(f"{ops.getTime():.2f} s of {start + (count - 1) * dt:.2f} s: {self.report()}", file=sys.stderr)
+        finally:
+            self._watch = self._books = None
+            self.history = watch.history()
+            if books is not None:
+                self.history.account = books.account(self.history.work.sum(axis=1))
+        if self.steps is not None and self.steps.late:
+            warnings.warn(f"run: {self.report()}", GroundspringWarning, stacklevel=2)
+        return self.history
+
+    def report(self) -> str:
+        """Steps taken, the shortest, pairs repeated, and whether events were met too late."""
+        return str(self.steps.report()) if self.steps is not None else "no steps yet"
+
+    def _begin(self, longest: float) -> None:
+        if self.analysis:
+            self.ops.wipeAnalysis()
+            self._solver("TRBDF2", kind="Transient")
+        pairs = tuple(pair for group in self.groups for pair in group.pairs)
+        longest = longest if self.longest is None else self.longest
+        routine = _routine(_Watched(self.ops, self._stepped))
+        told = {"landing": self.landing, "longest": longest, "rise": self.rise, "accuracy": self.accuracy}
+        asked = inspect.signature(routine).parameters
+        self.steps = routine(pairs, **{name: value for name, value in told.items() if name in asked})
+
+    def _stepped(self, h: float) -> None:
+        if self._watch is not None:
+            self._watch.step(h)
+        if self._books is not None:
+            self._books.step()
+        if self.on_step is not None:
+            self.on_step(h)
+
+    def _solver(self, *integrator: Any, kind: str) -> None:
+        ops = self.ops
+        ops.constraints(self.constraints)
+        ops.numberer("RCM")
+        ops.system("UmfPack")
+        # by displacement: forces of stiff springs never meet a sensible force tolerance
+        ops.test("NormDispIncr", self.tolerance, 30, 0)
+        ops.algorithm("Newton")
+        ops.integrator(*integrator)
+        ops.analysis(kind)
+
+    def _ground(self, record: Record, start: float) -> None:
+        """The record as ground acceleration."""
+        ops = self.ops
+        values = record.accel.tolist()
+        path = ("-dt", record.dt, "-startTime", start, "-values", *values)
+        series = take(self._free, lambda tag: ops.timeSeries("Path", tag, *path))
+        ops.pattern("UniformExcitation", self._pattern(), 1, "-accel", series)
+
+    def _absorbers(self) -> set[int]:
+        return {absorber for group in self.groups for absorber in group.absorbers}
+
+    def _pattern(self) -> int:
+        return 1 + max([FIRST_TAG, *map(int, self.ops.getPatterns() or [])])
+
+    def _account(self) -> str:
+        feet = [
+            f"node {node} {'presses' if gap <= 0.0 else 'is in the air'} (gap {gap:.2e} m)"
+            for group in self.groups
+            for node, gap in zip(group.nodes, group.gaps(), strict=True)
+        ]
+        return (
+            f"stopped at t = {self.ops.getTime():.6f} s: Newton's iteration gives up however short the step ({self.report()}); "
+            f"{', '.join(feet)}; check the structure's own elements there, or give a larger tolerance than {self.tolerance:.1e} m"
+        )

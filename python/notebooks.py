@@ -1,0 +1,60 @@
+"""The examples as notebooks in docs/notebooks, made from their sources.
+
+    python python/notebooks.py           write them
+    python python/notebooks.py --check   exit 1 if one is not that of its example
+"""
+
+import ast
+import json
+import sys
+from pathlib import Path
+from typing import Any
+
+HERE = Path(__file__).parent
+NOTEBOOKS = HERE.parent / "docs" / "notebooks"
+
+
+def cell(kind: str, text: str, number: int) -> dict[str, Any]:
+    lines = text.strip("\n").splitlines(keepends=True)
+    common = {"cell_type": kind, "id": f"cell-{number}", "metadata": {}, "source": lines}
+    return common if kind == "markdown" else common | {"execution_count": None, "outputs": []}
+
+
+def notebook(source: str) -> dict[str, Any]:
+    """The docstring as text; a cell of code for what comes before the first function, one for each function, and the call."""
+    tree, lines = ast.parse(source), source.splitlines(keepends=True)
+    title, _, rest = (ast.get_docstring(tree) or "").partition("\n")
+    rest = "\n".join(line for line in rest.splitlines() if not line.startswith("    "))
+    texts, begin = [], tree.body[0].end_lineno or 0
+    for node in tree.body[1:]:
+        if isinstance(node, ast.If):  # if __name__ == "__main__"
+            break
+        first = min([node.lineno, *(d.lineno for d in getattr(node, "decorator_list", []))])
+        if isinstance(node, (ast.FunctionDef, ast.ClassDef)):
+            texts.append("".join(lines[begin : first - 1]))
+            texts.append("".join(lines[first - 1 : node.end_lineno]))
+            begin = node.end_lineno or begin
+    texts.append('main(Path("."))')
+    cells = [cell("markdown", f"# {title}\n{rest}", 0)]
+    cells += [cell("code", text, i) for i, text in enumerate(filter(str.strip, texts), 1)]
+    kernel = {"display_name": "Python 3", "language": "python", "name": "python3"}
+    return {"cells": cells, "metadata": {"kernelspec": kernel}, "nbformat": 4, "nbformat_minor": 5}
+
+
+def main() -> int:
+    wrong = []
+    for example in sorted((HERE / "examples").glob("*.py")):
+        path = NOTEBOOKS / f"{example.stem}.ipynb"
+        text = json.dumps(notebook(example.read_text()), indent=1) + "\n"
+        if "--check" not in sys.argv[1:]:
+            path.parent.mkdir(parents=True, exist_ok=True)
+            path.write_text(text)
+        elif not path.exists() or path.read_text() != text:
+            wrong.append(path.name)
+    if wrong:
+        print(f"not those of the examples: {', '.join(wrong)}; run python python/notebooks.py", file=sys.stderr)
+    return len(wrong) > 0
+
+
+if __name__ == "__main__":
+    sys.exit(main())

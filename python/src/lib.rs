@@ -1,0 +1,64 @@
+//! The native half of the Python package `groundspring`: what the crate computes, as Python objects.
+//!
+//! | file | what |
+//! |---|---|
+//! | `record`, `structure`, `springs` | what goes in; each object holds one of the crate's |
+//! | `rocking` | Housner's solution, one history or many |
+//! | `simulation` | both models on given springs |
+//! | `tuned` | the whole of `tune run` |
+//! | `design`, `validation` | the design without units, the frequency response; springs judged over many records |
+//! | `work`, `said` | long work that ^C interrupts; errors, warnings, JSON |
+//!
+//! Nothing is computed here. Errors are `ValueError` in the crate's words, warnings `groundspring.GroundspringWarning`. Arrays are
+//! views of the crate's own memory where it has them, and cannot be written to.
+
+mod design;
+mod record;
+mod rocking;
+mod said;
+mod simulation;
+mod springs;
+mod structure;
+mod tuned;
+mod validation;
+mod work;
+
+use pyo3::prelude::*;
+
+#[pymodule]
+mod _native {
+    #[pymodule_export]
+    use crate::{
+        design::{Design, UnitDesign, design, fit_response, frequency_response},
+        record::{Record, el_centro, read_record},
+        rocking::{Histories, History, rigid_rocking, rigid_rocking_many},
+        said::GroundspringWarning,
+        simulation::{Simulation, simulate},
+        springs::{Chain, Springs, read_parameters},
+        structure::Structure,
+        tuned::{Tuned, tune},
+        validation::{Validation, earthquake_records, synthetic_records, validate},
+    };
+
+    #[pymodule_export]
+    const STEPS: &str = groundspring::export::STEPS;
+
+    #[pymodule_export]
+    const GRAVITY: f64 = groundspring::scalar::GRAVITY;
+}
+
+/// What the crate's numbers are called with in Python.
+pub(crate) type Array<'py> = Bound<'py, numpy::PyArray1<f64>>;
+
+/// A view of numbers that live in `owner`, which must be frozen and own them; not to be written to.
+pub(crate) fn view<'py>(owner: Bound<'py, PyAny>, numbers: &[f64]) -> PyResult<Array<'py>> {
+    // SAFETY: `owner` is kept alive by the array, is frozen, and so neither moves nor changes the numbers
+    let array = unsafe { numpy::PyArray1::borrow_from_array(&numpy::ndarray::ArrayView1::from(numbers), owner) };
+    array.getattr("flags")?.setattr("writeable", false)?;
+    Ok(array)
+}
+
+/// t = i dt of n samples [s].
+pub(crate) fn times(py: Python<'_>, n: usize, dt: f64) -> Array<'_> {
+    numpy::PyArray1::from_iter(py, (0..n).map(|i| i as f64 * dt))
+}

@@ -1,0 +1,105 @@
+//! Ground motions.
+
+use std::path::PathBuf;
+
+use groundspring::record::{self as core, Recording, Units};
+use numpy::{AllowTypeChange, PyArrayLike1};
+use pyo3::prelude::*;
+
+use crate::{
+    Array,
+    said::{value_error, warn},
+    times, view,
+};
+
+/// A ground motion: acceleration at even time steps, linear in between.
+#[pyclass(frozen, module = "groundspring")]
+pub struct Record(pub core::Record);
+
+#[pymethods]
+impl Record {
+    #[new]
+    #[pyo3(signature = (dt, accel, name = "record"))]
+    fn new(dt: f64, accel: PyArrayLike1<'_, f64, AllowTypeChange>, name: &str) -> PyResult<Self> {
+        let accel = accel.as_array().to_vec();
+        core::Record::new(name, dt, accel).map(Self).map_err(value_error)
+    }
+
+    #[getter]
+    fn name(&self) -> &str {
+        &self.0.name
+    }
+
+    #[getter]
+    fn dt(&self) -> f64 {
+        self.0.dt
+    }
+
+    #[getter]
+    fn accel<'py>(slf: &Bound<'py, Self>) -> PyResult<Array<'py>> {
+        view(slf.clone().into_any(), &slf.get().0.accel)
+    }
+
+    #[getter]
+    fn t<'py>(&self, py: Python<'py>) -> Array<'py> {
+        times(py, self.0.len(), self.0.dt)
+    }
+
+    #[getter]
+    fn duration(&self) -> f64 {
+        self.0.duration()
+    }
+
+    #[getter]
+    fn pga(&self) -> f64 {
+        self.0.pga()
+    }
+
+    #[getter]
+    fn pga_g(&self) -> f64 {
+        self.0.pga_g()
+    }
+
+    fn scaled(&self, factor: f64) -> PyResult<Self> {
+        self.0.scaled(factor).map(Self).map_err(value_error)
+    }
+
+    fn truncated(&self, duration: f64) -> Self {
+        Self(self.0.truncated(duration))
+    }
+
+    fn __len__(&self) -> usize {
+        self.0.len()
+    }
+
+    fn __repr__(&self) -> String {
+        let r = &self.0;
+        format!("Record({:?}: {} samples of {} s, PGA {:.4} g)", r.name, r.len(), r.dt, r.pga_g())
+    }
+}
+
+/// The record in a file of any format that the program reads.
+#[pyfunction]
+#[pyo3(signature = (path, component = None, dt = None, units = None, baseline = false))]
+pub fn read_record(
+    py: Python<'_>,
+    path: PathBuf,
+    component: Option<&Bound<'_, PyAny>>,
+    dt: Option<f64>,
+    units: Option<&str>,
+    baseline: bool,
+) -> PyResult<Record> {
+    let units = units.map(str::parse::<Units>).transpose().map_err(value_error)?;
+    // an azimuth may be given as a number
+    let component = component.map(|component| component.str().map(|s| s.to_string())).transpose()?;
+    let options = core::ReadOptions { dt, units, component, baseline, vertical: None };
+    let recording = py.detach(|| Recording::read(&path, &options)).map_err(value_error)?;
+    recording.notices().iter().try_for_each(|notice| warn(py, notice))?;
+    Ok(Record(recording.into_record()))
+}
+
+/// El Centro 1940, north-south, from PEER.
+#[pyfunction]
+pub fn el_centro() -> Record {
+    Record(core::Record::el_centro())
+}

@@ -1,0 +1,45 @@
+//! What the crate says, in Python's ways: errors, warnings, JSON.
+
+use std::{ffi::CString, fmt::Display};
+
+use pyo3::{
+    create_exception,
+    exceptions::{PyUserWarning, PyValueError},
+    prelude::*,
+};
+use serde::Serialize;
+
+create_exception!(
+    groundspring,
+    GroundspringWarning,
+    PyUserWarning,
+    "What the program warns of: in reading a record, in springs, in a comparison."
+);
+
+/// One line, as the program prints it.
+fn one_line(text: impl Display) -> String {
+    text.to_string().chars().map(|c| if c.is_control() { ' ' } else { c }).collect()
+}
+
+/// An error in the program's words.
+pub fn value_error(error: impl Display) -> PyErr {
+    PyValueError::new_err(one_line(error))
+}
+
+/// A warning in the program's words, at the line of the user's code.
+pub fn warn(py: Python<'_>, text: impl Display) -> PyResult<()> {
+    let text = CString::new(one_line(text)).map_err(value_error)?;
+    PyErr::warn(py, &py.get_type::<GroundspringWarning>(), &text, 1)
+}
+
+/// Warn of those lines of a report that warn.
+pub fn warn_of<'a>(py: Python<'_>, lines: impl IntoIterator<Item = &'a String>) -> PyResult<()> {
+    let warns = |line: &&String| ["WARNING", "ILL-CONDITIONED"].iter().any(|word| line.contains(word));
+    lines.into_iter().filter(warns).try_for_each(|line| warn(py, line))
+}
+
+/// A value as its JSON has it: dicts, lists, numbers.
+pub fn plain(py: Python<'_>, value: &impl Serialize) -> PyResult<Py<PyAny>> {
+    let text = serde_json::to_string(value).map_err(value_error)?;
+    Ok(py.import("json")?.call_method1("loads", (text,))?.unbind())
+}

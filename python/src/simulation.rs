@@ -1,0 +1,239 @@
+//! Both models on given springs.
+
+use std::sync::Arc;
+
+use groundspring::{
+    commands::{Both, Report, Run, both},
+    fem::{self, QUANTITIES},
+    members::Members,
+    verdict::Verdict,
+};
+use numpy::PyArray1;
+use pyo3::{prelude::*, types::PyDict};
+
+use crate::{
+    Array,
+    record::Record,
+    rocking::{History, ratio},
+    said::{plain, value_error, warn_of},
+    springs::Springs,
+    structure::Structure,
+    times, view,
+    work::interruptible,
+};
+
+/// The finite element history on springs, beside Housner's on the same record.
+#[pyclass(frozen, module = "groundspring")]
+pub struct Simulation {
+    structure: Structure,
+    dt: f64,
+    source: Source,
+    verdict: Verdict,
+    lines: Vec<String>,
+}
+
+/// Where the histories are.
+enum Source {
+    Own(Box<Both>),
+    Tuned(Arc<Run>),
+}
+
+impl Simulation {
+    /// The histories of a run.
+    pub fn of(structure: Structure, run: Arc<Run>) -> Self {
+        let dt = run.job.record.dt;
+        let verdict = run.both.verdict(&run.job.body, dt, &run.report.conditioning);
+        Self { structure, dt, lines: lines(&verdict, &run.both, &run.report), verdict, source: Source::Tuned(run) }
+    }
+
+    fn both(&self) -> &Both {
+        match &self.source {
+            Source::Own(both) => both,
+            Source::Tuned(run) => &run.both,
+        }
+    }
+
+    fn fem(&self) -> &fem::History {
+        &self.both().fem
+    }
+}
+
+fn lines(verdict: &Verdict, both: &Both, report: &Report) -> Vec<String> {
+    verdict.lines().into_iter().chain(report.lines()).chain(both.early()).collect()
+}
+
+#[pymethods]
+impl Simulation {
+    #[getter]
+    fn dt(&self) -> f64 {
+        self.dt
+    }
+
+    #[getter]
+    fn t<'py>(&self, py: Python<'py>) -> Array<'py> {
+        times(py, self.fem().motion.len(), self.dt)
+    }
+
+    #[getter]
+    fn theta<'py>(slf: &Bound<'py, Self>) -> PyResult<Array<'py>> {
+        column(slf, |history| &history.motion.theta)
+    }
+
+    #[getter]
+    fn u<'py>(slf: &Bound<'py, Self>) -> PyResult<Array<'py>> {
+        column(slf, |history| &history.motion.u)
+    }
+
+    #[getter]
+    fn v<'py>(slf: &Bound<'py, Self>) -> PyResult<Array<'py>> {
+        column(slf, |history| &history.motion.v)
+    }
+
+    #[getter]
+    fn vertical_left<'py>(slf: &Bound<'py, Self>) -> PyResult<Array<'py>> {
+        column(slf, |history| &history.forces.vertical[0])
+    }
+
+    #[getter]
+    fn vertical_right<'py>(slf: &Bound<'py, Self>) -> PyResult<Array<'py>> {
+        column(slf, |history| &history.forces.vertical[1])
+    }
+
+    #[getter]
+    fn horizontal_left<'py>(slf: &Bound<'py, Self>) -> PyResult<Array<'py>> {
+        column(slf, |history| &history.forces.horizontal[0])
+    }
+
+    #[getter]
+    fn horizontal_right<'py>(slf: &Bound<'py, Self>) -> PyResult<Array<'py>> {
+        column(slf, |history| &history.forces.horizontal[1])
+    }
+
+    #[getter]
+    fn energy_input<'py>(slf: &Bound<'py, Self>) -> PyResult<Array<'py>> {
+        column(slf, |history| &history.account.input)
+    }
+
+    #[getter]
+    fn energy_stored<'py>(slf: &Bound<'py, Self>) -> PyResult<Array<'py>> {
+        column(slf, |history| &history.account.stored)
+    }
+
+    #[getter]
+    fn energy_dissipated<'py>(slf: &Bound<'py, Self>) -> PyResult<Array<'py>> {
+        column(slf, |history| &history.account.dissipated)
+    }
+
+    #[getter]
+    fn energy_residual<'py>(slf: &Bound<'py, Self>) -> PyResult<Array<'py>> {
+        column(slf, |history| &history.account.residual)
+    }
+
+    /// Touch-downs that end a lean on the other foot.
+    #[getter]
+    fn impacts<'py>(&self, py: Python<'py>) -> Array<'py> {
+        PyArray1::from_iter(py, self.fem().landings.iter().filter(|l| l.impact).map(|l| l.time))
+    }
+
+    /// Settlement under the weight, before t = 0.
+    #[getter]
+    fn settlement(&self) -> f64 {
+        -self.fem().initial_z
+    }
+
+    #[getter]
+    fn outcome(&self) -> &'static str {
+        match self.fem().outcome {
+            fem::Outcome::Completed => "completed",
+            fem::Outcome::Overturned { .. } => "overturned",
+            fem::Outcome::Stopped { .. } => "stopped",
+            fem::Outcome::WorkBound { .. } => "work_bound",
+            fem::Outcome::Unstable { .. } => "unstable",
+        }
+    }
+
+    /// Housner's history on the same record.
+    #[getter]
+    fn housner(&self) -> History {
+        History::new(self.structure.body(), self.dt, self.both().rocking.clone())
+    }
+
+    /// How the two compare: as in `parameters.json`.
+    #[getter(r#match)]
+    fn matched(&self, py: Python<'_>) -> PyResult<Py<PyAny>> {
+        plain(py, &self.both().matched)
+    }
+
+    #[getter]
+    fn verdict(&self, py: Python<'_>) -> PyResult<Py<PyAny>> {
+        plain(py, &self.verdict)
+    }
+
+    /// What the program says of the run, a line each.
+    #[getter]
+    fn lines(&self) -> Vec<String> {
+        self.lines.clone()
+    }
+
+    /// Largest forces in legs and at the base since the sample before, by name.
+    #[getter]
+    fn demands<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyDict>> {
+        let rows = &self.both().demands.rows;
+        let all = PyDict::new(py);
+        for (k, name) in QUANTITIES.iter().enumerate() {
+            all.set_item(name, PyArray1::from_iter(py, rows.iter().map(|row| row[k])))?;
+        }
+        Ok(all)
+    }
+
+    fn to_pandas<'py>(slf: &Bound<'py, Self>) -> PyResult<Bound<'py, PyAny>> {
+        slf.py().import("groundspring._tables")?.call_method1("simulation", (slf,))
+    }
+
+    #[pyo3(signature = (axes = None))]
+    fn plot<'py>(slf: &Bound<'py, Self>, axes: Option<Bound<'py, PyAny>>) -> PyResult<Bound<'py, PyAny>> {
+        slf.py().import("groundspring._plots")?.call_method1("histories", (slf, axes))
+    }
+
+    fn __repr__(&self) -> String {
+        let m = &self.both().matched;
+        format!("Simulation({}, NRMSE of u {:.2e}, of v {:.2e})", self.outcome(), m.nrmse_horizontal, m.nrmse_vertical)
+    }
+}
+
+/// A view of numbers of the finite element history.
+fn column<'py>(of: &Bound<'py, Simulation>, pick: impl Fn(&fem::History) -> &[f64]) -> PyResult<Array<'py>> {
+    view(of.clone().into_any(), pick(&of.get().both().fem))
+}
+
+/// Both models on a record. `friction` of the ground, for the warning of sliding.
+#[pyfunction]
+#[pyo3(signature = (structure, springs, record, scale = 1.0, restitution = None, friction = 0.5))]
+pub fn simulate(
+    py: Python<'_>,
+    structure: Structure,
+    springs: Springs,
+    record: &Record,
+    scale: f64,
+    restitution: Option<f64>,
+    friction: f64,
+) -> PyResult<Simulation> {
+    let e = ratio(restitution)?.unwrap_or(structure.e);
+    let scaled = (scale != 1.0).then(|| record.0.scaled(scale)).transpose().map_err(value_error)?;
+    let record = scaled.as_ref().unwrap_or(&record.0);
+    let simulation = interruptible(py, |_| {
+        let (body, dt) = (structure.body(), record.dt);
+        let both = both(&body, e, &springs.chains(), &Members::default(), record);
+        let report = Report::new(&body, e, record, &both.rocking, friction);
+        let verdict = both.verdict(&body, dt, &report.conditioning);
+        Simulation {
+            structure,
+            dt,
+            lines: lines(&verdict, &both, &report),
+            verdict,
+            source: Source::Own(Box::new(both)),
+        }
+    })?;
+    warn_of(py, &simulation.lines)?;
+    Ok(simulation)
+}

@@ -1,0 +1,135 @@
+"""add_feet and Stepper on models of a user's own: tags, checks, recorders, several structures, failures."""
+
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+import pytest
+from conftest import rigid_body
+
+import groundspring as gs
+from groundspring.opensees import StepError, Stepper, add_feet
+
+FRAME = gs.Structure.aframe(12.0, 2.4, 350e3)
+SPRINGS = gs.design(FRAME, stiffness=2e4).springs(FRAME.mass, np.hypot(12.0, 1.2))
+RECORD = gs.el_centro().truncated(4.0)
+
+
+def standing(ops: Any, **options: Any) -> Stepper:
+    """The pier, settled."""
+    give = rigid_body(ops, FRAME, SPRINGS)
+    stepper = Stepper(ops, add_feet(ops, [1, 2], SPRINGS, compliance=give), tolerance=2e-13, **options)
+    stepper.gravity()
+    return stepper
+
+
+def test_the_feet_know_what_they_carry(ops: Any) -> None:
+    stepper = standing(ops)
+    feet = stepper.groups[0]
+    assert feet.forces()[:, 1] == pytest.approx(FRAME.mass * gs.GRAVITY / 2, rel=1e-6)
+    assert feet.pressing().all() and ops.getTime() == 0.0
+    # each foot carries half the weight on k1 and k2 in series; the legs give some of k1
+    assert -ops.nodeDisp(3, 2) == pytest.approx(SPRINGS.settlement, rel=1e-3)
+    history = stepper.run(RECORD)
+    assert history.uplift.shape == (len(RECORD), 2) and history.uplift.max() > 1e-3
+    assert len(history.to_pandas()) == len(RECORD)
+    # what the ground gives the body is its mass times its absolute acceleration: the mean over the run is its momentum
+    assert np.abs(history.largest_vertical).max() > FRAME.mass * gs.GRAVITY
+    # a foot in the air carries nothing but the trace of tension
+    airborne = history.gap > 1e-4
+    assert airborne.any() and np.abs(history.horizontal[airborne]).max() < 1e-3 * FRAME.mass
+    # what the feet keep and lose is what the structure has done on them
+    missing = np.abs(history.released).sum(axis=1).max()
+    assert missing < 0.1 * history.work.sum(axis=1).max()
+
+
+def test_tags_do_not_collide_and_nothing_is_wiped(ops: Any, tmp_path: Path) -> None:
+    give = rigid_body(ops, FRAME, SPRINGS)
+    ops.uniaxialMaterial("Elastic", 1, 1.0)
+    ops.timeSeries("Linear", 1)
+    ops.pattern("Plain", 1, 1)
+    ops.recorder("Node", "-file", str(tmp_path / "u.txt"), "-time", "-node", 3, "-dof", 1, "disp")
+    nodes, elements = set(ops.getNodeTags()), set(ops.getEleTags())
+    feet = add_feet(ops, [1, 2], SPRINGS, compliance=give)
+    added = (*feet.absorbers, *feet.grounds)
+    assert len(set(added)) == 4 and nodes.isdisjoint(added)
+    assert set(ops.getNodeTags()) == nodes | set(added)
+    assert set(ops.getEleTags()) == elements | {*feet.units, *feet.bearings}
+    stepper = Stepper(ops, feet, tolerance=2e-13)
+    stepper.gravity()
+    stepper.run(RECORD.truncated(1.0))
+    last = ops.nodeDisp(3, 1)
+    ops.wipe()  # recorders write when they are closed
+    rows = np.loadtxt(tmp_path / "u.txt")
+    assert rows[-1, 0] == pytest.approx(1.0) and rows[-1, 1] == pytest.approx(last, rel=1e-3, abs=1e-12)
+    assert len(rows) >= stepper.steps.taken
+
+
+def test_two_structures_stand_in_one_model(ops: Any) -> None:
+    """Each moves as it does alone."""
+    alone: list[float] = []
+    standing(ops).run(RECORD, on_sample=lambda i, t: alone.append(ops.nodeDisp(3, 1)))
+    ops.wipe()
+    give = rigid_body(ops, FRAME, SPRINGS)
+    leg = 4.0 * SPRINGS.horizontal.k1
+    length = np.hypot(12.0, 1.2)
+    ops.node(103, 50.0, 12.0)
+    ops.mass(103, FRAME.mass, FRAME.mass, FRAME.inertia)
+    for node, x in ((101, 48.8), (102, 51.2)):
+        ops.node(node, x, 0.0)
+        ops.element("elasticBeamColumn", node, node, 103, leg * length, 1.0, leg * length**3 / 3.0, 1)
+    groups = [add_feet(ops, nodes, SPRINGS, compliance=give) for nodes in ([1, 2], [101, 102])]
+    tags = [tag for feet in groups for tag in (*feet.absorbers, *feet.grounds, *feet.units, *feet.bearings, *feet.materials)]
+    assert len(set(tags)) == len(tags)
+    stepper = Stepper(ops, groups, tolerance=2e-13)
+    stepper.gravity()
+    both: list[tuple[float, float]] = []
+    history = stepper.run(RECORD, on_sample=lambda i, t: both.append((ops.nodeDisp(3, 1), ops.nodeDisp(103, 1))))
+    assert history.nodes == (1, 2, 101, 102)
+    first, second = np.array(both).T
+    largest = np.abs(alone).max()
+    assert np.abs(first - second).max() < 1e-4 * largest
+    assert np.abs(first - alone).max() < 2e-3 * largest
+
+
+def test_what_cannot_have_feet_is_refused_with_a_reason(ops: Any) -> None:
+    rigid_body(ops, FRAME, SPRINGS)
+    with pytest.raises(ValueError, match="node 7 is not in the model"):
+        add_feet(ops, [1, 7], SPRINGS)
+    with pytest.raises(ValueError, match="each once"):
+        add_feet(ops, [1, 1], SPRINGS)
+    with pytest.raises(ValueError, match="compliance is 1.0 m/N"):
+        add_feet(ops, [1, 2], SPRINGS, compliance=1.0)
+    heavy = gs.Springs(1e9, SPRINGS.vertical, SPRINGS.horizontal)
+    with pytest.warns(gs.GroundspringWarning, match="check units"):
+        add_feet(ops, [1, 2], heavy)
+    ops.fix(1, 1, 0, 0)
+    with pytest.raises(ValueError, match="node 1 is fixed in direction 1"):
+        add_feet(ops, [1, 2], SPRINGS)
+    for ndm, ndf, place, words in ((3, 6, (0.0, 0.0, 0.0), "space model"), (2, 2, (0.0, 0.0), "ndf 2")):
+        ops.wipe()
+        ops.model("basic", "-ndm", ndm, "-ndf", ndf)
+        ops.node(1, *place)
+        with pytest.raises(ValueError, match=words):
+            add_feet(ops, [1], SPRINGS)
+
+
+def test_gravity_comes_first(ops: Any) -> None:
+    rigid_body(ops, FRAME, SPRINGS)
+    feet = add_feet(ops, [1, 2], SPRINGS)
+    stepper = Stepper(ops, feet)
+    with pytest.raises(ValueError, match="a normalised error from 1e-6 to 0.1"):
+        Stepper(ops, feet, accuracy=1.0)
+    with pytest.raises(ValueError, match="greater than zero"):
+        Stepper(ops, feet, longest=-1.0)
+    with pytest.raises(ValueError, match="gravity"):
+        stepper.run(RECORD)
+
+
+def test_a_step_that_fails_is_accounted_for(ops: Any) -> None:
+    """Newton's iteration cannot meet a tolerance below the rounding of its numbers."""
+    stepper = standing(ops)
+    stepper.tolerance = 1e-40
+    with pytest.raises(StepError, match=r"stopped at t = \d.*; node 1 (presses|is in the air).*tolerance"):
+        stepper.run(RECORD)
+    assert len(stepper.history.t) >= 1

@@ -1,0 +1,20 @@
+//! `tune completions`: what a shell needs to complete commands and options.
+
+use clap::{Args, CommandFactory};
+use clap_complete::{Shell, generate};
+
+use super::{Cli, CommandError};
+
+/// Options of `tune completions`.
+#[derive(Debug, Args)]
+pub struct Options {
+    /// The shell; as in `tune completions bash > ~/.local/share/bash-completion/completions/tune`
+    shell: Shell,
+}
+
+pub fn run(o: &Options) -> Result<(), CommandError> {
+    let mut text = Vec::new();
+    generate(o.shell, &mut Cli::command(), "tune", &mut text);
+    std::io::Write::write_all(&mut std::io::stdout(), &text)?;
+    Ok(())
+}
