@@ -32,6 +32,8 @@ pub const CEILING_HZ: f64 = 2e5;
 /// Omega_n of springs that are to have another restitution than equation 2's, where no cap is given [Hz]: they must bounce,
 /// and gravity bring them back.
 const BOUNCING_HZ: f64 = 160.0;
+/// Ratio of typical errors up to which springs within a cap are alike on some twenty motions: more motions decide.
+const ALIKE: f64 = 1.25;
 
 /// Why there are no springs.
 #[derive(Debug, Error)]
@@ -203,8 +205,19 @@ impl Landing<'_> {
         }
         let judged =
             found.into_iter().map(|springs| alone(self.suites, &self.body, self.case.tuning.accuracy, springs));
-        let settles = judged.filter(|tuned| self.settles(tuned));
-        settles.min_by(|a, b| typical(a).total_cmp(&typical(b))).ok_or(JobError::NoCandidate)
+        let mut judged: Vec<Tuned> = judged.filter(|tuned| self.settles(tuned)).collect();
+        judged.sort_by(|a, b| typical(a).total_cmp(&typical(b)));
+        let best = judged.first().map_or(f64::INFINITY, typical);
+        judged.retain(|tuned| typical(tuned) <= ALIKE * best);
+        if judged.len() > 1 {
+            let more = self.suites.more(self.case.restitution);
+            // no record: what it has to say was counted, and it is one motion
+            let median = |tuned: &Tuned| more.error(&tuned.best.springs.chains(self.body.mass), Control::search());
+            let medians: Vec<f64> = judged.iter().map(|tuned| median(tuned).unwrap_or(f64::INFINITY)).collect();
+            let least = (0..medians.len()).min_by(|a, b| medians[*a].total_cmp(&medians[*b]));
+            judged.swap(0, least.unwrap_or(0));
+        }
+        judged.into_iter().next().ok_or(JobError::NoCandidate)
     }
 
     fn settles(&self, tuned: &Tuned) -> bool {

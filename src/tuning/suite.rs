@@ -5,6 +5,8 @@
 
 use std::{borrow::Cow, sync::Arc};
 
+use std::ops::Range;
+
 use rayon::prelude::*;
 use serde::{Deserialize, Serialize};
 
@@ -26,6 +28,9 @@ const SYNTHETIC: usize = 24;
 const EARTHQUAKES: usize = 16;
 /// Motions of each suite that are looked at for them, so many at a time.
 const LOOKED_AT: usize = 160;
+/// The same of the motions that decide between springs which these do not tell apart.
+const MORE: usize = 72;
+const MORE_LOOKED_AT: usize = 480;
 const AT_A_TIME: usize = 8;
 /// Seed of both: not one that `tune validate` takes by itself.
 const SEED: u64 = 1940;
@@ -195,8 +200,21 @@ impl Suites {
         Self {
             body: *body,
             record: record.and_then(|record| well(record.clone())),
-            synthetic: first(SYNTHETIC, |i| well(synthetic::record(SEED, i, p, alpha))),
-            earthquakes: first(EARTHQUAKES, |i| predictable(synthetic::earthquake(SEED, i, p))),
+            synthetic: first(SYNTHETIC, 0..LOOKED_AT, |i| well(synthetic::record(SEED, i, p, alpha))),
+            earthquakes: first(EARTHQUAKES, 0..LOOKED_AT, |i| predictable(synthetic::earthquake(SEED, i, p))),
+        }
+    }
+
+    /// More synthetic motions, none of which is one of these, to tell springs apart on which these do not decide; nothing else.
+    pub fn more(&self, restitution: f64) -> Self {
+        let (p, alpha) = (self.body.p_squared().sqrt(), self.body.alpha());
+        let well = |record| Trial::new(&self.body, restitution, record, Wanted::WellConditioned);
+        let others = LOOKED_AT..LOOKED_AT + MORE_LOOKED_AT;
+        Self {
+            body: self.body,
+            record: None,
+            synthetic: first(MORE, others, |i| well(synthetic::record(SEED, i, p, alpha))),
+            earthquakes: Vec::new(),
         }
     }
 
@@ -267,12 +285,12 @@ fn geometric_mean(errors: impl ExactSizeIterator<Item = f64> + Clone) -> Option<
     (n > 0.0).then(|| (mean.exp(), (variance / n).sqrt().exp()))
 }
 
-/// The first `count` motions of a suite that `pick` finds fit; fewer if the suite has no more.
-fn first(count: usize, pick: impl Fn(usize) -> Option<Trial> + Sync) -> Vec<Trial> {
+/// The first `count` of these motions of a suite that `pick` finds fit; fewer if there are no more.
+fn first(count: usize, motions: Range<usize>, pick: impl Fn(usize) -> Option<Trial> + Sync) -> Vec<Trial> {
     let mut trials: Vec<Trial> = Vec::new();
-    let mut begin = 0;
-    while trials.len() < count && begin < LOOKED_AT {
-        let end = (begin + (count - trials.len()).max(AT_A_TIME)).min(LOOKED_AT);
+    let mut begin = motions.start;
+    while trials.len() < count && begin < motions.end {
+        let end = (begin + (count - trials.len()).max(AT_A_TIME)).min(motions.end);
         trials.par_extend((begin..end).into_par_iter().with_max_len(1).filter_map(&pick));
         begin = end;
     }
