@@ -37,7 +37,7 @@ pub struct Point {
     pub arr: Option<f64>,
     /// Largest vertical foot force on the record, in weights: the springs' force in a landing, not the structure's.
     pub foot_force_weights: f64,
-    /// Steps that an exported deck takes on the record, by its own rule along our history.
+    /// Steps that an exported deck takes on the record at least, by its own rule along our history.
     pub deck_steps: usize,
 }
 

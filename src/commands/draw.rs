@@ -184,7 +184,7 @@ pub fn draw(dir: &Path, case: &Case, job: &Job, both: &Both, front: &[Point]) ->
                 accuracy: case.tuning.accuracy,
                 costs: [
                     figures::front::Cost { label: "foot force [weights]", omega_n_hz: &forces.0, value: &forces.1 },
-                    figures::front::Cost { label: "steps of a deck", omega_n_hz: &steps.0, value: &steps.1 },
+                    figures::front::Cost { label: "deck steps, at least", omega_n_hz: &steps.0, value: &steps.1 },
                 ],
                 note: "The largest foot force is that of the springs in a landing, not of the structure.",
             },

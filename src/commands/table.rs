@@ -203,7 +203,7 @@ const FRONT: [&str; 6] = [
     "NRMSE of u, design from the geometry",
     "paper's procedure",
     "largest foot force [weights]",
-    "steps of a deck",
+    "steps of a deck, at least",
     "",
 ];
 

@@ -93,9 +93,11 @@ impl Scale {
         let every = (decades / most).ceil().max(1.0) as i32;
         // Beyond this, numbers with all their zeros are harder to read than powers of ten.
         let plain = self.low >= 0.9e-4 && self.high <= 1.1e5;
+        // five digits side by side need more room
+        let three_a_decade = if plain && self.high >= 1e4 { 3.2 } else { 2.4 };
         let told: &[u32] = match most / decades {
             room if room >= 10.0 && decades < 1.0 => &[1, 2, 3, 4, 5, 6, 7, 8],
-            room if room >= 2.4 && decades < if plain { 4.0 } else { 2.0 } => &[1, 2, 5],
+            room if room >= three_a_decade && decades < if plain { 4.0 } else { 2.0 } => &[1, 2, 5],
             _ => &[1],
         };
         let mut ticks = Vec::new();
