@@ -77,7 +77,8 @@ def one(tune, parameters, scale, steps, options, folder):
     run = subprocess.run([sys.executable, *(["-m", "opensees"] if options.tcl else []), deck], capture_output=True, text=True)
     seconds = time.perf_counter() - began
     ill = "ILL-CONDITIONED" in told
-    moved = float(re.search(r"width changes Housner's history by (\S+) %", told)[1])
+    moved = re.search(r"width changes Housner's history by (\S+) %", told)
+    moved = float(moved[1]) if moved else 0.0
     taken = re.search(r"(\d+) steps, the shortest \S+ s, (\d+) pairs", run.stdout)
     if not taken:
         return None, run.stderr.strip().splitlines()[-2:], moved, ill
