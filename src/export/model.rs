@@ -53,9 +53,9 @@ const TOLERANCE: f64 = 2e-14;
 /// The same on elastic legs as given.
 const TOLERANCE_ON_LEGS: f64 = 2e-11;
 
-/// The accuracy asked is tightened with what a change of the width by 1e-5 does to the history (from 5e-4 on), since the
+/// The accuracy asked is tightened with what a change of the width by 1e-5 does to the history (from 6.7e-5 on), since the
 /// steps' error grows as that does; so many times at most: steps a third as long.
-const TIGHTER: f64 = 2_000.0;
+const TIGHTER: f64 = 15_000.0;
 const TIGHTEST: f64 = 8.0;
 /// From here on no steps help: the history is not to be foretold to its end.
 const HOPELESS: f64 = 0.5;
