@@ -1,11 +1,11 @@
 //! How many steps a deck takes, by its own rule (`steps.py`) along our history: pairs of steps at most half a sample long,
-//! restarted at a twentieth of 1/Omega_n by every touch and lift, grown by two fifths from pair to pair after that, shortened to a fifth of
+//! restarted at a twentieth of 1/Omega_n by every touch and lift, grown by half from pair to pair after that, shortened to a fifth of
 //! the way to the next. A change within 1/Omega_n of one that counted belongs to it: chatter that short is no longer than a
 //! few of these steps. What the deck's error estimate shortens comes on top: our history does not say it.
 
 /// Of 1/Omega_n: the shortest step. Growth from pair to pair. Share of the way to the next event.
 const SHORTEST: f64 = 0.05;
-const GROWTH: f64 = 1.4;
+const GROWTH: f64 = 1.5;
 const SHARE: f64 = 0.2;
 
 /// Steps to `duration` [s] of a history whose contact changes at these times [s], at sampling interval dt [s] and 1/Omega_n =

@@ -22,7 +22,7 @@
 namespace eval steps {
     variable start 1e-6 ;# step, in units of the shortest: OpenSees starts without acceleration, whatever the first load
 
-    variable growth 1.4 ;# from pair to pair, at most
+    variable growth 1.5 ;# from pair to pair, at most
     # What a pair misses of a foot's position, over the highest rise: a landing has up to a thousand pairs, whatever it takes.
     variable pairShare 5e-6
     # The same over a time in which the foot rises or falls.
