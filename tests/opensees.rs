@@ -86,7 +86,8 @@ fn stiff(structure: &Structure, hz: f64) -> Springs<Design<f64>> {
 }
 
 /// Stiffness costs a deck next to nothing: within the limit of `tune verify` in about as many steps at 1 kHz and 40 kHz. A deck that met
-/// an event in too long a step has run again, with a quarter of the error: that is why the bound is on the median.
+/// an event in too long a step has run again, with a quarter of the error: that is why the bound is on the median. OpenSees' Tcl
+/// interpreter cannot run twice: its deck tells.
 #[test]
 #[ignore = "needs OpenSees"]
 fn decks_on_stiff_springs_are_within_their_limit_in_few_steps() {
@@ -101,7 +102,8 @@ fn decks_on_stiff_springs_are_within_their_limit_in_few_steps() {
                 let result = verify(&parameters, &record, ACCURACY, &program, &|_, _| ()).unwrap();
                 println!("{} m, {hz} Hz: {} steps, {:?}", structure.height_m, result.steps, result.verdict);
                 assert!(result.verdict.within && result.verdict.until.is_none(), "{:?}", result.verdict);
-                assert!(result.late == 0, "{}", result.report);
+                let told = matches!(program, Program::Tcl(_)) && result.report.contains("ask for more accuracy");
+                assert!(result.late == 0 || told, "{}", result.report);
                 steps.push(result.steps);
             }
         }
