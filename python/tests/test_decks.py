@@ -46,5 +46,6 @@ def test_a_body_on_added_feet_is_that_of_the_deck(name: str, ops: Any, tmp_path:
     ours = tuned.histories.u
     nrmse = np.sqrt(np.sum((u - ours) ** 2) / np.sum(ours**2))
     print(name, "nrmse", nrmse)
-    assert nrmse < 1e-3
+    # where small changes throw Housner's own history off, two programs that follow it differ by more
+    assert nrmse < (1e-3 if tuned.verdict["well_conditioned"] else 1e-2)
     assert stepper.steps.late == 0
