@@ -20,8 +20,8 @@ const DECADE: f64 = 10.0;
 /// The softest rung tried, Omega_n/p.
 pub const SOFTEST: f64 = 100.0;
 /// Omega_n/p times the accuracy asked for where the search begins: errors of synthetic motions fall about as 20/(Omega_n/p),
-/// those of earthquake-like ones about as five times what is allowed at 160/(Omega_n/p).
-const BEGIN: f64 = 160.0;
+/// those of earthquake-like ones, with their standard error, are about five times what is allowed at 250/(Omega_n/p).
+const BEGIN: f64 = 250.0;
 /// Rungs judged before the stiffest good one is taken as it is.
 const MOST_RUNGS: usize = 12;
 /// Error of a softer rung on a suite, over what is allowed, below which a stiffer one is not judged on it again: errors fall with
