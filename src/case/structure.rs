@@ -71,28 +71,16 @@ const QUANTITIES: [(&str, Quantity, f64); 16] = [
 ];
 
 /// All keys, for the message about one that is none of them.
-const KEYS: [&str; 20] = [
-    "kind",
-    "height_m",
-    "height_ft",
-    "height_in",
-    "total_height_m",
-    "total_height_ft",
-    "total_height_in",
-    "width_m",
-    "width_ft",
-    "width_in",
-    "mass_kg",
-    "mass_t",
-    "mass_lb",
-    "weight_n",
-    "weight_kn",
-    "weight_lb",
-    "weight_kip",
-    "rotational_inertia_kgm2",
-    "restitution",
-    "restitution_ratio",
-];
+const KEYS: [&str; 4 + QUANTITIES.len()] = {
+    let mut keys = [""; 4 + QUANTITIES.len()];
+    [keys[0], keys[1], keys[2], keys[3]] = ["kind", "rotational_inertia_kgm2", "restitution", "restitution_ratio"];
+    let mut i = 0;
+    while i < QUANTITIES.len() {
+        keys[4 + i] = QUANTITIES[i].0;
+        i += 1;
+    }
+    keys
+};
 
 /// A structure as a user describes it, in SI, unchecked.
 #[derive(Clone, Debug)]

@@ -132,7 +132,7 @@ pub fn draw(dir: &Path, case: &Case, job: &Job, both: &Both, front: &[Point]) ->
         let f = &fem.forces;
         figures::contact::render(
             &figures::contact::Contact {
-                title: &title("Forces on the feet"),
+                title: &title("Forces on the feet; in a landing those of the springs"),
                 t: &t,
                 left_vertical: &f.vertical[0][..n],
                 right_vertical: &f.vertical[1][..n],

@@ -5,7 +5,7 @@ use std::fmt::Write;
 use serde::Serialize;
 use serde_json::{Map, Value, json};
 
-use super::common::csv_row;
+use super::{common::csv_row, table::FORCES};
 use crate::{
     compare::Match,
     fem::{Demands, History, Peak, QUANTITIES},
@@ -117,7 +117,9 @@ pub fn markdown(rigid: &Demands, with: Option<&WithMembers>) -> String {
             m.settlement_m * 1e3
         );
     }
-    out.push_str("\nLargest forces, between samples too; axial force positive in compression, moment at the mass:\n\n");
+    let what = "Largest forces, between samples too; axial force positive in compression, moment at the mass.";
+    // writing to a String cannot fail
+    let _ = write!(out, "\n{what} {FORCES}\n\n");
     out.push_str(if with.is_some() {
         "| | rigid body | with members |\n|---|---|---|\n"
     } else {

@@ -207,8 +207,9 @@ const FRONT: [&str; 6] = [
     "",
 ];
 
-/// What the front's forces are.
-const FORCES: &str = "Foot forces are those of the springs in a landing, not of the structure: they grow with Omega_n.";
+/// What forces of the feet are.
+pub(super) const FORCES: &str =
+    "Foot forces are those of the springs in a landing, not of the structure: they grow with Omega_n.";
 
 fn front_rows(front: &[Point]) -> Vec<[String; 6]> {
     let error = |e: Option<f64>| e.map_or("-".to_string(), shown);

@@ -8,9 +8,9 @@ use super::{
         design::Geometry,
         plane::{Corners, land},
     },
-    suite::{Accuracy, LOOSER, PREDICTABLE},
+    suite::{Accuracy, LOOSER},
 };
-use crate::{case::Objective, motion::shown};
+use crate::{case::Objective, motion::shown, validate::PREDICTABLE};
 
 /// The landing of the springs in the stiff limit, where they follow from the geometry.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]

@@ -20,7 +20,7 @@ use crate::{
     spring::{Chain, Springs},
     structure::Body,
     synthetic,
-    validate::Stream,
+    validate::{PREDICTABLE, Stream},
 };
 
 /// Motions of each suite that are followed.
@@ -34,8 +34,6 @@ const MORE_LOOKED_AT: usize = 480;
 const AT_A_TIME: usize = 8;
 /// Seed of both: not one that `tune validate` takes by itself.
 const SEED: u64 = 1940;
-/// Sensitivity of Housner's answer below which earthquake-like motions count in their geometric mean.
-pub const PREDICTABLE: f64 = 150.0;
 /// A relative change of the width that must not move a predictable history by more than so many times what its sensitivity may.
 const SMALL_CHANGE: f64 = 1e-6;
 const BELIED: f64 = 4.0;
