@@ -3,7 +3,13 @@
 use std::{hint::black_box, time::Duration};
 
 use criterion::{BenchmarkId, Criterion, criterion_group, criterion_main};
-use groundspring::{bench::elements::Scene, fem::Control};
+use groundspring::fem::Control;
+
+#[path = "compare/main.rs"]
+#[cfg_attr(not(test), allow(dead_code))] // its scenes alone
+mod compare;
+
+use compare::elements::Scene;
 
 fn fem(c: &mut Criterion) {
     let mut group = c.benchmark_group("finite elements");

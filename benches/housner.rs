@@ -3,10 +3,13 @@
 use std::{hint::black_box, time::Duration};
 
 use criterion::{Criterion, Throughput, criterion_group, criterion_main};
-use groundspring::{
-    bench::rigid::Problem,
-    housner::{Options, solve, solve_lanes},
-};
+use groundspring::housner::{Options, solve, solve_lanes};
+
+#[path = "compare/main.rs"]
+#[cfg_attr(not(test), allow(dead_code))] // its history and its peer alone
+mod compare;
+
+use compare::rigid::Problem;
 
 fn housner(c: &mut Criterion) {
     let problem = Problem::el_centro();
@@ -23,7 +26,6 @@ fn housner(c: &mut Criterion) {
     group.finish();
 }
 
-#[cfg(feature = "diffsol")]
 fn peers(c: &mut Criterion) {
     let problem = Problem::el_centro();
     let case = problem.diffsol();
@@ -34,9 +36,6 @@ fn peers(c: &mut Criterion) {
     group.bench_function("diffsol", |b| b.iter(|| black_box(&case).theta(1e-9)));
     group.finish();
 }
-
-#[cfg(not(feature = "diffsol"))]
-fn peers(_: &mut Criterion) {}
 
 criterion_group!(benches, housner, peers);
 criterion_main!(benches);

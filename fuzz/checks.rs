@@ -58,7 +58,7 @@ fn whole(recording: &Recording, bytes: &[u8]) {
     }
     for component in &recording.components {
         checked(&component.record);
-        let m = component.record.measures();
+        let m = groundspring::record::measures(&component.record);
         assert!([m.pga.value, m.pgv.value, m.arias_m_per_s, m.duration_5_95_s].iter().all(|x| x.is_finite()), "{m:?}");
         let options = ReadOptions { component: component.name.clone(), baseline: true, ..ReadOptions::default() };
         if let Err(error) = Recording::parse("a.txt", bytes, &options) {
@@ -86,7 +86,7 @@ pub fn case(bytes: &[u8]) {
         assert!(!path.as_os_str().is_empty());
         Record::parse("motion.txt", b"0.1\n0.3\n-0.2\n", options)
     };
-    let case: Result<Case, _> = Case::parse_with("case.toml", text, no_file);
+    let case: Result<Case, _> = groundspring::case::parse_with("case.toml", text, no_file);
     match case {
         Ok(case) => {
             checked(&case.record);

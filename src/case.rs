@@ -37,10 +37,12 @@ use crate::{
     response::{bounds::Bounds, target::Target},
     structure::{Structure, StructureError},
 };
-pub use structure::{LEAST_INERTIA, StructureSection};
+pub use structure::StructureSection;
 
 /// What is wrong with a case file, and what to do.
 #[derive(Debug, Error)]
+#[non_exhaustive]
+#[allow(missing_docs)] // messages say what variants and their fields are
 pub enum CaseError {
     #[error("{path}: cannot be read ({source}); check the name of the case file")]
     Read { path: String, source: std::io::Error },
@@ -76,7 +78,7 @@ pub enum Objective {
 struct RecordSection {
     /// Relative to the case file; the embedded El Centro record unless given.
     file: Option<PathBuf>,
-    /// Time step [s], where the file does not say.
+    /// Time step (s), where the file does not say.
     dt_s: Option<f64>,
     /// "g", "m/s2", "cm/s2" or "mm/s2", where the file does not say.
     units: Option<Units>,
@@ -88,7 +90,7 @@ struct RecordSection {
     vertical: Option<VerticalFrom>,
     /// Factor on the acceleration; 1 unless given.
     scale: Option<f64>,
-    /// Length to compare over [s]; the whole record unless given.
+    /// Length to compare over (s); the whole record unless given.
     duration_s: Option<f64>,
 }
 
@@ -96,12 +98,13 @@ struct RecordSection {
 #[derive(Clone, Debug, Deserialize)]
 #[serde(deny_unknown_fields, default)]
 pub struct Tuning {
+    /// What the inner design follows from.
     pub objective: Objective,
     /// Error of the history against Housner's that Omega_n is chosen for, NRMSE.
     pub accuracy: f64,
-    /// Stiffest springs allowed, Omega_n/2 pi [Hz]; none unless given.
+    /// Stiffest springs allowed, Omega_n/2 pi (Hz); none unless given.
     pub max_omega_hz: Option<f64>,
-    /// Largest settlement of the standing body [m]; it bounds Omega_n from below.
+    /// Largest settlement of the standing body (m); it bounds Omega_n from below.
     pub max_settlement_m: f64,
     /// Mass ratios mu = m2/m1 tried for the vertical chain of the paper's procedure.
     pub mass_ratios_vertical: Vec<f64>,
@@ -149,6 +152,7 @@ struct CaseFile {
 /// A checked case, its record read.
 #[derive(Clone, Debug)]
 pub struct Case {
+    /// The body.
     pub structure: Structure,
     /// Velocity restitution e.
     pub restitution: f64,
@@ -160,14 +164,17 @@ pub struct Case {
     pub record: Record,
     /// What the reader of the record says of it.
     pub notices: Vec<Notice>,
-    /// Length to compare over [s].
+    /// Length to compare over (s).
     pub duration_s: f64,
+    /// The outer loop's settings.
     pub tuning: Tuning,
+    /// The frequency response wanted by the paper's procedure.
     pub target: Target,
+    /// The range of its parameters.
     pub bounds: Bounds,
 }
 
-/// No record is longer [s].
+/// No record is longer (s).
 pub const LONGEST_S: f64 = 1e6;
 
 /// The paper's case, embedded.
@@ -189,7 +196,7 @@ impl Case {
     /// Parse a case file's text; `path` names it in messages and is where its record's path starts.
     pub fn parse(path: &str, text: &str) -> Result<Self, CaseError> {
         let mut notices = Vec::new();
-        let case = Self::parse_with(path, text, |file, options| {
+        let case = parse_with(path, text, |file, options| {
             let recording = Recording::read(file, options)?;
             notices = recording.notices();
             Ok(recording.into_record())
@@ -197,43 +204,7 @@ impl Case {
         Ok(Self { notices, ..case })
     }
 
-    /// The same, the record it names read by `read`.
-    pub fn parse_with(
-        path: &str,
-        text: &str,
-        read: impl FnOnce(&Path, &ReadOptions) -> Result<Record, RecordError>,
-    ) -> Result<Self, CaseError> {
-        let file: CaseFile = toml::from_str(text).map_err(|e| parse_error(path, text, &e))?;
-        let value =
-            |key, value: f64, remedy| CaseError::Value { path: path.into(), key, value: format!("{value:?}"), remedy };
-
-        let (structure, restitution) = file.structure.checked(path)?;
-        let members = Members { legs: file.legs, damper: file.damper, tendon: file.tendon, friction: file.friction }
-            .checked(&structure.body())
-            .map_err(|source| CaseError::Members { path: path.into(), source })?;
-        let section = &file.record;
-        let record = match &section.file {
-            Some(name) => {
-                let folder = Path::new(path).parent().unwrap_or(Path::new(""));
-                let (component, baseline) = (section.component.clone(), section.baseline);
-                let vertical = section.vertical.clone().map(|from| from.within(folder));
-                let options = ReadOptions { dt: section.dt_s, units: section.units, component, baseline, vertical };
-                read(&folder.join(name), &options)?
-            }
-            None if section.tells_of_a_file() => {
-                return Err(CaseError::NoFile { path: path.into() });
-            }
-            None => Record::el_centro(),
-        };
-        if let Some(asked) = section.duration_s.filter(|asked| !(*asked > 0.0 && *asked <= LONGEST_S)) {
-            return Err(value("record.duration_s", asked, "give seconds greater than zero, at most 1e6"));
-        }
-        let excitation = Excitation { record, scale: section.scale.unwrap_or(1.0), duration_s: section.duration_s };
-        let case = Self::new(path, (structure, restitution), excitation, file.tuning)?;
-        Ok(Self { members, target: file.target.unwrap_or_default(), bounds: file.bounds, ..case })
-    }
-
-    /// A structure without members and its restitution, as [`StructureSection::checked`] gives them, under a ground motion;
+    /// A structure without members and its restitution, velocity after an impact over that before, under a ground motion;
     /// `name` stands for the case file in messages.
     ///
     /// # Errors
@@ -261,16 +232,63 @@ impl Case {
 }
 
 impl Case {
+    /// A structure on the whole of a record, everything else by default: restitution by equation 2, an accuracy of 0.002, no
+    /// members.
+    ///
+    /// # Errors
+    /// A peak above 50 g.
+    pub fn of(structure: Structure, record: Record) -> Result<Self, CaseError> {
+        let restitution = structure.body::<f64>().restitution();
+        Self::new("case", (structure, restitution), Excitation::whole(record), Tuning::default())
+    }
+
     /// The case under another ground motion.
     ///
     /// # Errors
     /// A scale that is not finite, or takes the peak above 50 g.
-    pub fn set_excitation(&mut self, excitation: Excitation) -> Result<(), RecordError> {
+    #[cfg(feature = "cli")]
+    pub(crate) fn set_excitation(&mut self, excitation: Excitation) -> Result<(), RecordError> {
         self.record = excitation.scaled()?;
         self.duration_s = excitation.duration();
         self.excitation = excitation;
         Ok(())
     }
+}
+
+/// [`Case::parse`], the record it names read by `read`.
+pub fn parse_with(
+    path: &str,
+    text: &str,
+    read: impl FnOnce(&Path, &ReadOptions) -> Result<Record, RecordError>,
+) -> Result<Case, CaseError> {
+    let file: CaseFile = toml::from_str(text).map_err(|e| parse_error(path, text, &e))?;
+    let value =
+        |key, value: f64, remedy| CaseError::Value { path: path.into(), key, value: format!("{value:?}"), remedy };
+
+    let (structure, restitution) = file.structure.checked(path)?;
+    let members = Members { legs: file.legs, damper: file.damper, tendon: file.tendon, friction: file.friction }
+        .checked(&structure.body())
+        .map_err(|source| CaseError::Members { path: path.into(), source })?;
+    let section = &file.record;
+    let record = match &section.file {
+        Some(name) => {
+            let folder = Path::new(path).parent().unwrap_or(Path::new(""));
+            let (component, baseline) = (section.component.clone(), section.baseline);
+            let vertical = section.vertical.clone().map(|from| from.within(folder));
+            let options = ReadOptions { dt: section.dt_s, units: section.units, component, baseline, vertical };
+            read(&folder.join(name), &options)?
+        }
+        None if section.tells_of_a_file() => {
+            return Err(CaseError::NoFile { path: path.into() });
+        }
+        None => Record::el_centro(),
+    };
+    if let Some(asked) = section.duration_s.filter(|asked| !(*asked > 0.0 && *asked <= LONGEST_S)) {
+        return Err(value("record.duration_s", asked, "give seconds greater than zero, at most 1e6"));
+    }
+    let excitation = Excitation { record, scale: section.scale.unwrap_or(1.0), duration_s: section.duration_s };
+    let case = Case::new(path, (structure, restitution), excitation, file.tuning)?;
+    Ok(Case { members, target: file.target.unwrap_or_default(), bounds: file.bounds, ..case })
 }
 
 impl RecordSection {

@@ -15,7 +15,6 @@ use crate::{
     verify::VerifyError,
 };
 
-mod bench;
 mod chart;
 mod common;
 mod completions;
@@ -35,14 +34,15 @@ mod table;
 mod validate;
 mod verify;
 
-pub use common::{Both, both};
-pub use report::Report;
-pub use run::Run;
+// for the Python package
+#[cfg(feature = "internals")]
+pub use {
+    common::{Both, both},
+    report::Report,
+    run::Run,
+};
 
 /// The version, and what was built with it.
-#[cfg(feature = "diffsol")]
-const VERSION: &str = concat!(env!("CARGO_PKG_VERSION"), " (features: cli, figures, diffsol)");
-#[cfg(not(feature = "diffsol"))]
 const VERSION: &str = concat!(env!("CARGO_PKG_VERSION"), " (features: cli, figures)");
 
 /// Ground springs that let a finite element program follow Housner's theory of rocking.
@@ -75,8 +75,6 @@ enum Command {
     Record(record::Options),
     /// Run the exported model in OpenSees beside our own history and Housner's.
     Verify(verify::Options),
-    /// Run time against error, beside other tools; a table on stdout, table and figure into a folder.
-    Bench(bench::Options),
     /// Print what a shell needs to complete commands and options.
     Completions(completions::Options),
 }
@@ -154,7 +152,6 @@ pub fn main() -> ExitCode {
         Command::Export(o) => export::run(&o),
         Command::Record(o) => record::run(&o),
         Command::Verify(o) => verify::run(&o),
-        Command::Bench(o) => bench::run(&o),
         Command::Init(o) => init::run(&o),
         Command::Completions(o) => completions::run(&o),
     };

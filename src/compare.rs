@@ -14,11 +14,12 @@ use crate::{
 /// `null` in JSON.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Match {
-    /// Length compared [s].
+    /// Length compared (s).
     pub duration_s: f64,
-    /// When each body overturned, that is |theta| last grew past alpha [s].
+    /// When each body overturned, that is |theta| last grew past alpha (s).
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub overturned_housner_s: Option<f64>,
+    /// The same of the finite elements (s).
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub overturned_fem_s: Option<f64>,
     /// sqrt( sum (u - u_H)^2 / sum u_H^2 ).
@@ -27,18 +28,21 @@ pub struct Match {
     /// The same for v, from the settled position.
     #[serde(deserialize_with = "number")]
     pub nrmse_vertical: f64,
-    /// Largest |u| with its sign [m].
+    /// Largest |u| with its sign (m).
     pub peak_horizontal_housner_m: f64,
+    /// The same of the finite elements (m).
     pub peak_horizontal_fem_m: f64,
-    /// Largest |v| with its sign [m].
+    /// Largest |v| with its sign (m).
     pub peak_vertical_housner_m: f64,
+    /// The same of the finite elements (m).
     pub peak_vertical_fem_m: f64,
+    /// Housner's impacts.
     pub impacts_housner: usize,
     /// Landings, re-landings of a bounce not counted.
     pub impacts_fem: usize,
     /// Landing feet that opened again within 0.25 s, the body not having reversed.
     pub bounces: usize,
-    /// Settlement of the standing body under its weight [m].
+    /// Settlement of the standing body under its weight (m).
     pub settlement_m: f64,
     /// Largest |e_effective/e - 1| over the landings with more than 1 % of the largest kinetic energy; the last is left out, for
     /// its losses may not be complete.
@@ -99,7 +103,7 @@ pub const LEAST_LEAN: f64 = 0.02;
 /// Landings of less than this share of the largest kinetic energy do not count in `restitution_error_max`.
 const LANDINGS_THAT_MATTER: f64 = 0.01;
 
-/// Kinetic energy of each impact [J], and sqrt(1 - lost/kinetic): the velocity ratio that loses what the landing lost, up to
+/// Kinetic energy of each impact (J), and sqrt(1 - lost/kinetic): the velocity ratio that loses what the landing lost, up to
 /// the next landing. The last is left out, for its losses may not be complete.
 fn effective_restitution<'a>(landings: impl Iterator<Item = &'a Landing>) -> Vec<(f64, f64)> {
     let mut all: Vec<(f64, f64)> =
@@ -108,7 +112,7 @@ fn effective_restitution<'a>(landings: impl Iterator<Item = &'a Landing>) -> Vec
     all
 }
 
-/// Largest |e_effective/e - 1| of the landings with more kinetic energy than this [J].
+/// Largest |e_effective/e - 1| of the landings with more kinetic energy than this (J).
 fn error_above(landings: &[(f64, f64)], restitution: f64, least: f64) -> Option<f64> {
     let those = landings.iter().filter(|(kinetic, _)| *kinetic > least);
     those.map(|(_, e)| (e / restitution - 1.0).abs()).reduce(f64::max)

@@ -25,15 +25,15 @@ pub const LARGEST: f64 = 1e15;
 /// Relative change of the history u per relative change of a parameter.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Sensitivity {
-    /// Per relative change of the width 2b; at most [`LARGEST`].
+    /// Per relative change of the width 2b; at most 1e15.
     pub width: f64,
-    /// Per relative change of the record's scale; at most [`LARGEST`].
+    /// Per relative change of the record's scale; at most 1e15.
     pub scale: f64,
 }
 
 impl Sensitivity {
     /// The larger of the two.
-    pub fn worst(&self) -> f64 {
+    pub(crate) fn worst(&self) -> f64 {
         self.width.max(self.scale)
     }
 }
@@ -64,7 +64,7 @@ impl Changes {
     /// Whether all is as the derivatives of a well-conditioned history promise: changes of width and scale move it by
     /// less than [`ILL_CONDITIONED`] times as much, 0.1 % of the restitution by less than [`MOVED_BY_RESTITUTION`], and
     /// nothing decides on overturning.
-    pub fn proportionate(&self) -> bool {
+    pub(crate) fn proportionate(&self) -> bool {
         let within =
             |moved: [f64; 2]| moved.iter().zip(CHANGES).all(|(moved, change)| *moved < ILL_CONDITIONED * change);
         within(self.width) && within(self.scale) && self.restitution[0] < MOVED_BY_RESTITUTION && !self.overturning
@@ -74,7 +74,9 @@ impl Changes {
 /// How far a history can be trusted to mean something for a model that is not quite the same.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Conditioning {
+    /// By derivatives.
     pub sensitivity: Sensitivity,
+    /// By finite changes.
     pub changes: Changes,
 }
 

@@ -1,6 +1,6 @@
 //! The ground motion of a case: a record, its scale, and how much of it is used.
 
-use crate::record::{Record, RecordError, Source};
+use crate::record::{Record, RecordError};
 
 /// A record as it was read, and what is made of it.
 #[derive(Clone, Debug, PartialEq)]
@@ -9,13 +9,13 @@ pub struct Excitation {
     pub record: Record,
     /// Factor on its acceleration.
     pub scale: f64,
-    /// Length asked for [s]; the whole record unless given.
+    /// Length asked for (s); the whole record unless given.
     pub duration_s: Option<f64>,
 }
 
 impl Excitation {
     /// A record as it is.
-    pub fn whole(record: Record) -> Self {
+    pub(crate) fn whole(record: Record) -> Self {
         Self { record, scale: 1.0, duration_s: None }
     }
 
@@ -23,12 +23,12 @@ impl Excitation {
     ///
     /// # Errors
     /// The scale is not finite, or takes the peak above 50 g.
-    pub fn scaled(&self) -> Result<Record, RecordError> {
+    pub(crate) fn scaled(&self) -> Result<Record, RecordError> {
         if self.scale == 1.0 { Ok(self.record.clone()) } else { self.record.scaled(self.scale) }
     }
 
     /// Length used [s]: the one asked for, at most the whole record, at least one time step.
-    pub fn duration(&self) -> f64 {
+    pub(crate) fn duration(&self) -> f64 {
         let whole = self.record.duration();
         self.duration_s.map_or(whole, |asked| asked.min(whole)).max(self.record.dt)
     }
@@ -36,19 +36,22 @@ impl Excitation {
     /// The part used, scaled.
     ///
     /// # Errors
-    /// As [`Excitation::scaled`].
+    /// A scale that is not finite, or takes the peak above 50 g.
     pub fn used(&self) -> Result<Record, RecordError> {
         Ok(self.scaled()?.truncated(self.duration()))
     }
 
     /// One line: which record, from where, its scale, how much of it, and the peak of that part.
-    pub fn line(&self) -> String {
+    #[cfg(feature = "cli")]
+    pub(crate) fn line(&self) -> String {
         let whole = &self.record;
         let used = whole.truncated(self.duration());
         let from = match &whole.source {
-            Source::File { path, units, .. } => format!("{}, in {units}", path.display()),
-            Source::Embedded => "embedded".into(),
-            Source::Numbers | Source::Synthetic | Source::Earthquake => "from no file".into(),
+            crate::record::Source::File { path, units, .. } => format!("{}, in {units}", path.display()),
+            crate::record::Source::Embedded => "embedded".into(),
+            crate::record::Source::Numbers | crate::record::Source::Synthetic | crate::record::Source::Earthquake => {
+                "from no file".into()
+            }
         };
         let part = if used.len() < whole.len() {
             format!("first {} s of {} s used", seconds(used.duration()), seconds(whole.duration()))
@@ -71,6 +74,7 @@ impl Excitation {
 }
 
 /// Seconds without the rounding of n dt.
+#[cfg(feature = "cli")]
 fn seconds(t: f64) -> f64 {
     (t * 1e6).round() / 1e6
 }

@@ -14,13 +14,20 @@ mod model;
 mod opensees;
 mod plain;
 mod sap2000;
+#[cfg(feature = "cli")]
 mod step_count;
 
 use thiserror::Error;
 
-use crate::{fem::History, parameters::Parameters, record::Record};
+use crate::{
+    fem::History,
+    parameters::Parameters,
+    predictability::{moved_by_a_hair, simulate},
+    record::Record,
+};
 use model::Model;
-pub use model::{ACCURACY, SMALL_INERTIA, with_inertia};
+pub use model::{ACCURACY, with_inertia};
+#[cfg(feature = "cli")]
 pub use step_count::deck_steps;
 
 /// The stepping routine of decks for openseespy: `class Steps`, in need of `math`, `sys` and `ops`.
@@ -28,11 +35,17 @@ pub const STEPS: &str = include_str!("export/steps.py");
 
 /// What to write.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[non_exhaustive]
 pub enum Format {
+    /// Python for openseespy.
     OpenSeesPy,
+    /// Tcl for OpenSees.
     OpenSeesTcl,
+    /// SAP2000 text tables.
     Sap2000,
+    /// k1, k2, m2, c as CSV.
     Csv,
+    /// The same as Markdown.
     Markdown,
 }
 
@@ -41,7 +54,7 @@ impl Format {
     pub const ALL: [Self; 5] = [Self::OpenSeesPy, Self::OpenSeesTcl, Self::Sap2000, Self::Csv, Self::Markdown];
 
     /// Its name on the command line.
-    pub fn name(self) -> &'static str {
+    pub(crate) fn name(self) -> &'static str {
         match self {
             Self::OpenSeesPy => "openseespy",
             Self::OpenSeesTcl => "opensees-tcl",
@@ -52,7 +65,8 @@ impl Format {
     }
 
     /// The ending of its file, without the dot.
-    pub fn ending(self) -> &'static str {
+    #[cfg(feature = "cli")]
+    pub(crate) fn ending(self) -> &'static str {
         match self {
             Self::OpenSeesPy => "py",
             Self::OpenSeesTcl => "tcl",
@@ -79,11 +93,11 @@ impl std::str::FromStr for Format {
 pub struct Expected {
     /// Number of samples followed, the one at t = 0 included.
     pub samples: usize,
-    /// Z of the centre of mass, standing settled (negative: the settlement) [m].
+    /// Z of the centre of mass, standing settled (negative: the settlement) (m).
     pub settled: f64,
-    /// Largest and least u [m].
+    /// Largest and least u (m).
     pub u: (f64, f64),
-    /// Largest and least v, from the settled position [m].
+    /// Largest and least v, from the settled position (m).
     pub v: (f64, f64),
     /// NRMSE of u that a relative change of the width by 1e-5 makes in the history: the more, the finer are a deck's steps.
     pub hair: f64,
@@ -113,6 +127,8 @@ impl Expected {
 
 /// What is wrong with an export, and what to do.
 #[derive(Debug, Error)]
+#[non_exhaustive]
+#[allow(missing_docs)] // messages say what variants and their fields are
 pub enum ExportError {
     #[error("export: format '{name}' is not known; give one of {known}")]
     Format { name: String, known: String },
@@ -128,6 +144,23 @@ pub enum ExportError {
         "export: the history to check against has {expected} samples but the record has {record}; use the record that was simulated"
     )]
     Samples { expected: usize, record: usize },
+}
+
+/// The text of a deck of these springs on a record, with our own history to check itself against. A body without rotational
+/// inertia gets the least that other programs need (1e-5 m R^2).
+///
+/// # Errors
+/// A member or a vertical motion that the format does not have; numbers that are not finite.
+pub fn deck(parameters: &Parameters, record: &Record, format: Format) -> Result<String, ExportError> {
+    deck_of(parameters, record, format, ACCURACY)
+}
+
+/// The same; an OpenSees deck's steps for this accuracy of its history, a normalised error.
+pub fn deck_of(parameters: &Parameters, record: &Record, format: Format, accuracy: f64) -> Result<String, ExportError> {
+    let parameters = &Parameters { structure: with_inertia(&parameters.structure), ..parameters.clone() };
+    let history = simulate(parameters, record);
+    let hair = moved_by_a_hair(&history.motion, parameters, record);
+    export(parameters, record, &Expected::new(&history, hair).with_accuracy(accuracy), format)
 }
 
 /// The text of a deck: the model of `parameters` on `record` for another program.

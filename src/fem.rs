@@ -42,7 +42,7 @@ mod step;
 mod strut;
 
 pub use control::{Control, Outcome, Work};
-pub use demands::{Demands, Peak, QUANTITIES, Row};
+pub use demands::{Demands, Peak, QUANTITIES};
 pub use energy::Energy;
 pub use history::{Account, Forces, History, Recorder};
 pub use landings::Landing;

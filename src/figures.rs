@@ -40,6 +40,7 @@ pub mod contact;
 pub mod energy;
 pub mod front;
 pub mod history;
+#[cfg(feature = "internals")] // `benches/compare` draws it
 pub mod precision;
 pub mod record;
 pub mod validation;
@@ -49,6 +50,7 @@ mod tests;
 
 /// Why a figure was not drawn; nothing has been written then.
 #[derive(Debug, Error)]
+#[non_exhaustive]
 pub enum FigureError {
     #[error("figure {figure}: {what} is empty; give at least {least} values or leave the figure out")]
     Empty { figure: &'static str, what: String, least: usize },

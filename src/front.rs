@@ -20,13 +20,13 @@ use crate::{
     },
 };
 
-/// Omega_n of the front's points [Hz]; the one that was chosen is added.
+/// Omega_n of the front's points (Hz); the one that was chosen is added.
 const LADDER_HZ: [f64; 8] = [160.0, 320.0, 640.0, 1280.0, 2560.0, 5120.0, 10240.0, 20480.0];
 
 /// One point of the front.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Point {
-    /// Omega_n of the vertical units [Hz].
+    /// Omega_n of the vertical units (Hz).
     pub omega_n_hz: f64,
     /// Whether these springs were chosen.
     pub chosen: bool,
@@ -88,7 +88,7 @@ fn paper_error(job: &Job, paper: &Paper, hz: f64) -> Option<f64> {
     error(job, &springs)
 }
 
-/// Keeps the largest vertical force of either foot [N], and when contact changed [s].
+/// Keeps the largest vertical force of either foot (N), and when contact changed (s).
 struct Watch {
     largest: f64,
     changes: Vec<f64>,

@@ -81,6 +81,7 @@ pub struct Uplift<S> {
 
 /// How a history ended.
 #[derive(Clone, Copy, Debug, PartialEq)]
+#[non_exhaustive]
 pub enum Outcome {
     /// It rocked and did not overturn.
     Rocked,
@@ -245,7 +246,7 @@ fn samples(dt: f64, len: usize, duration: Option<f64>) -> usize {
 }
 
 impl<S> Rocking<S> {
-    /// When |theta| last grew past alpha, if the body overturned [s].
+    /// When |theta| last grew past alpha, if the body overturned (s).
     pub fn overturned(&self) -> Option<f64> {
         match self.outcome {
             Outcome::Overturned { time } => Some(time),
@@ -253,7 +254,7 @@ impl<S> Rocking<S> {
         }
     }
 
-    /// When the pivot let go of the ground, if that ended the history [s].
+    /// When the pivot let go of the ground, if that ended the history (s).
     pub fn left_ground(&self) -> Option<f64> {
         match self.outcome {
             Outcome::LeavesGround { time } => Some(time),

@@ -2,12 +2,12 @@
 //!
 //! ```text
 //!            mass m, I_cg                 legs     massless elastic beams from the mass to the feet, clamped to the mass,
-//!              /|\                                 hinged at the foot: EA [N], EI [N m2]
+//!              /|\                                 hinged at the foot: EA (N), EI [N m2]
 //!             / | \                       damper   a dashpot c [N s/m] between the ground and each lower corner of the
 //!       legs /  |  \                               body, vertical, acting both ways. Its arm is fixed to the mass and
 //!           /   |   \                              stiff: it does not load the legs
 //!          /    |    \                    tendon   from the mass to the ground midway between the feet: stiffness [N/m],
-//!    [c]  /  tendon   \  [c]                       tension of the standing, settled structure [N]; slack it carries nothing
+//!    [c]  /  tendon   \  [c]                       tension of the standing, settled structure (N); slack it carries nothing
 //!   springs     |    springs
 //! ```
 //!
@@ -16,16 +16,13 @@
 use serde::{Deserialize, Serialize};
 use thiserror::Error;
 
-use crate::{
-    scalar::{GRAVITY, Scalar, real},
-    structure::Body,
-};
+use crate::{scalar::GRAVITY, structure::Body};
 
 /// Elastic legs.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct Legs<S> {
-    /// EA, axial stiffness times length [N].
+    /// EA, axial stiffness times length (N).
     #[serde(rename = "ea_n")]
     pub ea: S,
     /// EI, bending stiffness [N m2].
@@ -49,7 +46,7 @@ pub struct Tendon<S> {
     /// Force over elongation [N/m].
     #[serde(rename = "stiffness_n_per_m")]
     pub stiffness: S,
-    /// Tension in the standing, settled structure [N].
+    /// Tension in the standing, settled structure (N).
     #[serde(rename = "pretension_n")]
     pub pretension: S,
 }
@@ -65,8 +62,11 @@ pub struct Friction<S> {
 /// Everything besides the rigid body; by default nothing.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Members<S> {
+    /// Legs that are not rigid.
     pub legs: Option<Legs<S>>,
+    /// Dampers between feet and ground.
     pub damper: Option<Damper<S>>,
+    /// A tendon that holds the body down.
     pub tendon: Option<Tendon<S>>,
     /// Of a body without other members.
     pub friction: Option<Friction<S>>,
@@ -80,7 +80,7 @@ impl<S> Default for Members<S> {
 
 impl<S> Members<S> {
     /// Whether there is only the rigid body.
-    pub fn is_none(&self) -> bool {
+    pub(crate) fn is_none(&self) -> bool {
         !self.any() && self.friction.is_none()
     }
 
@@ -94,6 +94,8 @@ const RATIO: (f64, f64) = (1e-9, 1e15);
 
 /// What is wrong with a member, and what to do.
 #[derive(Clone, Debug, PartialEq, Error)]
+#[non_exhaustive]
+#[allow(missing_docs)] // messages say what variants and their fields are
 pub enum MembersError {
     #[error("{name} is {value}; give a finite number{bound}")]
     Value { name: &'static str, value: f64, bound: &'static str },
@@ -177,7 +179,9 @@ impl Members<f64> {
     }
 
     /// The same as scalars, to compute or to differentiate with.
-    pub fn lift<S: Scalar>(&self) -> Members<S> {
+    #[cfg(test)]
+    pub(crate) fn lift<S: crate::scalar::Scalar>(&self) -> Members<S> {
+        use crate::scalar::real;
         Members {
             legs: self.legs.map(|l| Legs { ea: real(l.ea), ei: real(l.ei) }),
             damper: self.damper.map(|d| Damper { c: real(d.c) }),

@@ -5,11 +5,11 @@
 /// The three vectors have one length. It is shorter than the record when the body toppled.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Motion {
-    /// Horizontal displacement, positive to the right [m].
+    /// Horizontal displacement, positive to the right (m).
     pub u: Vec<f64>,
-    /// Vertical displacement, positive up, from the settled position [m].
+    /// Vertical displacement, positive up, from the settled position (m).
     pub v: Vec<f64>,
-    /// Rotation, positive leaning to the right [rad].
+    /// Rotation, positive leaning to the right (rad).
     pub theta: Vec<f64>,
 }
 
@@ -25,12 +25,12 @@ impl Motion {
     }
 
     /// A motion with room for n samples.
-    pub fn with_capacity(n: usize) -> Self {
+    pub(crate) fn with_capacity(n: usize) -> Self {
         Self { u: Vec::with_capacity(n), v: Vec::with_capacity(n), theta: Vec::with_capacity(n) }
     }
 
     /// Append one sample.
-    pub fn push(&mut self, u: f64, v: f64, theta: f64) {
+    pub(crate) fn push(&mut self, u: f64, v: f64, theta: f64) {
         self.u.push(u);
         self.v.push(v);
         self.theta.push(theta);

@@ -2,7 +2,7 @@
 
 use crate::{housner::topples, structure::Body};
 
-/// When |theta| last grew past alpha [s], linear between the samples of theta [rad] at t = i dt, if the body lies flat at
+/// When |theta| last grew past alpha (s), linear between the samples of theta (rad) at t = i dt, if the body lies flat at
 /// the last of them, or leans beyond alpha and would fall if the ground stopped there.
 ///
 /// ```

@@ -8,6 +8,7 @@ use serde::{Deserialize, Serialize};
 use thiserror::Error;
 
 use crate::{
+    case::Case,
     compare::Match,
     conditioning::Conditioning,
     members::{Damper, Friction, Legs, Members, MembersError, Tendon},
@@ -15,10 +16,14 @@ use crate::{
     scalar::GRAVITY,
     spring::{Chain, ChainRow, Design, Springs},
     structure::{Structure, StructureError},
-    tuning::{assessment::Assessment, whole_model::report::LandingRow},
+    tuning::{
+        assessment::Assessment,
+        job::Job,
+        whole_model::report::{LandingRow, landings},
+    },
     verdict::Verdict,
 };
-pub use record::{RecordRow, RememberedError, SourceRow};
+pub use record::{RecordRow, RememberedError};
 
 /// Version of the keys of parameters.json that this program writes. Version 1 had no number, and remembered of the record
 /// only what it was called.
@@ -79,33 +84,41 @@ const DAMPING: (f64, f64) = (0.0, 1e15);
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct Parameters {
-    /// Version of the keys; [`SCHEMA`] in what this program writes.
+    /// Version of the keys; 2 in what this program writes.
     #[serde(default = "first")]
     pub schema: u32,
+    /// The body.
     pub structure: Structure,
     /// Velocity restitution e that the springs are to have; by equation 2 unless given.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub restitution: Option<f64>,
+    /// The record they were tuned on.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub record: Option<RecordRow>,
     /// What the springs were tuned for, and how accurate they are.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub assessment: Option<Assessment>,
+    /// The vertical unit at each foot.
     pub vertical: ChainRow,
+    /// The horizontal unit at each foot.
     pub horizontal: ChainRow,
     /// Elastic legs, dampers across the interface, a tendon, where the structure has them; the springs are tuned for the
     /// rigid body.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub legs: Option<Legs<f64>>,
+    /// Dampers between feet and ground.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub damper: Option<Damper<f64>>,
+    /// A tendon.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub tendon: Option<Tendon<f64>>,
     /// Between feet and ground; without it a pressing foot holds at any force.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub friction: Option<Friction<f64>>,
+    /// The match of the rigid body on the record.
     #[serde(rename = "match", default, skip_serializing_if = "Option::is_none")]
     pub matched: Option<Match>,
+    /// How sensitive Housner's history of that record is.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub conditioning: Option<ConditioningRow>,
     /// The match of the structure with its members, on the same springs.
@@ -139,6 +152,8 @@ fn first() -> u32 {
 
 /// What is wrong with a parameter file, and what to do.
 #[derive(Debug, Error)]
+#[non_exhaustive]
+#[allow(missing_docs)] // messages say what variants and their fields are
 pub enum ParametersError {
     #[error("{path}: cannot be read ({source}); give the parameters.json that `tune run` wrote")]
     Read { path: String, source: std::io::Error },
@@ -188,13 +203,22 @@ impl Parameters {
         }
     }
 
+    /// What there is to keep of a tuned case whatever the record: the springs, their landings, their accuracy.
+    pub(crate) fn of(case: &Case, job: &Job) -> Self {
+        let mut parameters = Self::new(case.structure, &job.springs).with_members(case.members);
+        parameters.restitution = Some(case.restitution).filter(|e| *e != job.body.restitution());
+        parameters.landings = landings(&job.body, &parameters.chains(), case.restitution);
+        parameters.assessment = Some(Assessment::new(job, case.tuning.objective, case.tuning.accuracy));
+        parameters
+    }
+
     /// The springs with units; k1, k2, m2 and c of the file rule.
     pub fn chains(&self) -> Springs<Chain<f64>> {
         Springs { vertical: self.vertical.chain(), horizontal: self.horizontal.chain() }
     }
 
     /// What the structure has besides the rigid body.
-    pub fn members(&self) -> Members<f64> {
+    pub(crate) fn members(&self) -> Members<f64> {
         Members { legs: self.legs, damper: self.damper, tendon: self.tendon, friction: self.friction }
     }
 

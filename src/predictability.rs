@@ -5,7 +5,7 @@
 
 use crate::{
     fem::{Case, Control, History, Start},
-    motion::{Motion, nrmse, peak},
+    motion::{Motion, nrmse},
     parameters::Parameters,
     record::Record,
     structure::Structure,
@@ -16,9 +16,11 @@ const CHANGE: f64 = 1e-5;
 
 /// Share of the largest u that the same change moves a history by where it can no longer be foretold: a deck's own error is
 /// some ten times as much there, and grows as fast.
+#[cfg(feature = "cli")]
 const HANGS: f64 = 1e-4;
 
 /// NRMSE of u by a relative change of the width by 1e-5 up to which a history can be foretold to its end.
+#[cfg(feature = "cli")]
 const FORETOLD: f64 = 5e-4;
 
 /// NRMSE of u that a relative change of the width by 1e-5 makes, over the whole of `motion`, the history of the model on
@@ -34,11 +36,12 @@ pub fn changed_by_a_hair(parameters: &Parameters, record: &Record) -> Motion {
 }
 
 /// How many samples of a history can be foretold, from what a hair of width `changed`; `None` if all can.
+#[cfg(feature = "cli")]
 pub fn foretold_until(motion: &Motion, changed: &Motion) -> Option<usize> {
     if nrmse(&changed.u, &motion.u) <= FORETOLD {
         return None;
     }
-    let far = HANGS * peak(&motion.u).abs();
+    let far = HANGS * crate::motion::peak(&motion.u).abs();
     motion.u.iter().zip(&changed.u).position(|(a, b)| (a - b).abs() > far)
 }
 

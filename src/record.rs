@@ -16,12 +16,14 @@ mod csmip;
 mod direction;
 mod dyna;
 mod error;
+#[cfg(any(test, feature = "cli", feature = "internals"))]
 mod folder;
 mod format;
 mod fortran;
 mod geonet;
 mod header;
 mod knet;
+#[cfg(any(test, feature = "cli", feature = "internals"))]
 mod measures;
 mod notice;
 mod parsed;
@@ -40,17 +42,21 @@ use std::path::Path;
 pub use direction::Direction;
 pub use error::RecordError;
 pub use format::Format;
-pub use measures::Measures;
 pub use notice::Notice;
 pub use peak::Peak;
 pub use recording::{Component, Recording};
 pub use source::Source;
 pub use units::{Units, UnitsError};
 pub use vertical::{Vertical, VerticalFrom};
+#[cfg(feature = "internals")]
+pub use {
+    folder::list_dir,
+    measures::{Measures, measures},
+};
 
 use crate::scalar::GRAVITY;
 
-/// No record file is larger; the rest is not read [bytes].
+/// No record file is larger; the rest is not read (bytes).
 const FILE_LIMIT: u64 = 256 << 20;
 /// No earthquake comes near this peak; numbers beyond it are in another unit (g).
 const PGA_LIMIT_G: f64 = 50.0;
@@ -122,7 +128,7 @@ impl Record {
     }
 
     /// The record in a file of any supported format; its name is the file's without the ending, and the component's where
-    /// the file has several. [`Recording::read`] gives all components and what the user should know of them.
+    /// the file has several. [`ReadOptions`] asks for one of them.
     ///
     /// # Errors
     /// The file cannot be read, is no record, is damaged, or does not agree with the options: see [`RecordError`].
@@ -169,7 +175,7 @@ impl Record {
     }
 
     /// Time of the peak ground acceleration, the first if there are several (s).
-    pub fn pga_time(&self) -> f64 {
+    pub(crate) fn pga_time(&self) -> f64 {
         let pga = self.pga();
         self.accel.iter().position(|a| a.abs() == pga).unwrap_or(0) as f64 * self.dt
     }

@@ -147,6 +147,7 @@ impl Worst {
 
 impl Regime {
     /// One line for every assumption of pure rocking that this history breaks, with the number and the time.
+    #[cfg(feature = "cli")]
     pub fn warnings(&self) -> Vec<String> {
         let mut lines = Vec::new();
         let Demand { value, time } = self.friction_needed;

@@ -34,15 +34,11 @@ pub struct Response<S> {
 ///
 /// ```
 /// // far above resonance only the mass resists: ARR = 1/g^2
-/// assert!((groundspring::response::arr(1e3, 0.1, 2.3, 9.0) - 1e-6_f64).abs() < 1e-11);
+/// assert!((groundspring::Response::new(0.1, 2.3, 9.0).arr(1e3) - 1e-6_f64).abs() < 1e-11);
 /// ```
+#[cfg(any(test, feature = "cli", feature = "internals"))]
 pub fn arr<S: Scalar>(g: S, mu: S, f: S, xi: S) -> S {
     Response::new(mu, f, xi).arr(g)
-}
-
-/// ARR at g = 0, whatever the damping: 1 + 1/K, the compliance of k1 and k2 in series over that of k1.
-pub fn arr_at_zero<S: Scalar>(mu: S, f: S) -> S {
-    Response::new(mu, f, S::zero()).at_zero()
 }
 
 impl<S: Scalar> Response<S> {
@@ -70,7 +66,7 @@ impl<S: Scalar> Response<S> {
         }
     }
 
-    /// ARR at g = 0: 1 + 1/K.
+    /// ARR at g = 0, whatever the damping: 1 + 1/K, the compliance of k1 and k2 in series over that of k1.
     pub fn at_zero(&self) -> S {
         S::one() + self.k.recip()
     }
@@ -90,7 +86,7 @@ impl<S: Scalar> Response<S> {
     /// The two resonances without damping, lower first [-]: zeros of the denominator of (7) at C = 0.
     ///
     /// Roots x = g^2 of mu x^2 - (1 + K + mu) x + K = 0.
-    pub fn resonances(&self) -> [S; 2] {
+    pub(crate) fn resonances(&self) -> [S; 2] {
         let Self { mu, k, .. } = *self;
         let (one, two) = (S::one(), real::<S>(2.0));
         let root = ((k - mu).powi(2) + one + (k + mu) * two).sqrt();
@@ -143,7 +139,7 @@ mod tests {
         let (mu, f, xi) = (0.3_f64, 1.7, 2.5);
         let by_kc = Response { mu, k: mu * f * f, c: 2.0 * mu * xi };
         assert_relative_eq!(arr(0.8, mu, f, xi), by_kc.arr(0.8), max_relative = 1e-15);
-        assert_relative_eq!(arr_at_zero(mu, f), 1.0 + 1.0 / (mu * f * f), max_relative = 1e-15);
+        assert_relative_eq!(Response::new(mu, f, 0.0).at_zero(), 1.0 + 1.0 / (mu * f * f), max_relative = 1e-15);
     }
 
     #[test]

@@ -23,7 +23,7 @@ pub struct Design<S> {
     pub f: S,
     /// Damping ratio xi = c/c_c.
     pub xi: S,
-    /// Omega_n / 2 pi [Hz].
+    /// Omega_n / 2 pi (Hz).
     pub omega_n_hz: S,
 }
 
@@ -43,7 +43,7 @@ impl<S: Scalar> Design<S> {
         self.mu * self.xi * real::<S>(2.0)
     }
 
-    /// The chain for a mass m1 [kg].
+    /// The chain for a mass m1 (kg).
     pub fn chain(&self, m1: S) -> Chain<S> {
         let omega_n = self.omega_n_hz * real::<S>(TAU);
         let k1 = m1 * omega_n * omega_n;
@@ -58,14 +58,14 @@ pub struct Chain<S> {
     pub k1: S,
     /// Ground spring k2 [N/m].
     pub k2: S,
-    /// Absorber mass m2 [kg].
+    /// Absorber mass m2 (kg).
     pub m2: S,
     /// Dashpot c [N s/m].
     pub c: S,
 }
 
 impl<S: Scalar> Chain<S> {
-    /// The dimensionless design of this chain under a mass m1 [kg].
+    /// The dimensionless design of this chain under a mass m1 (kg).
     pub fn design(&self, m1: S) -> Design<S> {
         let omega_n = (self.k1 / m1).sqrt();
         let mu = self.m2 / m1;
@@ -81,17 +81,19 @@ impl<S: Scalar> Chain<S> {
 /// The springs under each of the two feet: a vertical and a horizontal chain.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Springs<T> {
+    /// The vertical unit.
     pub vertical: T,
+    /// The horizontal unit.
     pub horizontal: T,
 }
 
 impl<S: Scalar> Springs<Design<S>> {
-    /// Both chains for a mass m1 [kg].
+    /// Both chains for a mass m1 (kg).
     pub fn chains(&self, m1: S) -> Springs<Chain<S>> {
         Springs { vertical: self.vertical.chain(m1), horizontal: self.horizontal.chain(m1) }
     }
 
-    /// Settlement of the body standing on both feet, each carrying m1 g/2 on k1 and k2 in series [m].
+    /// Settlement of the body standing on both feet, each carrying m1 g/2 on k1 and k2 in series (m).
     pub fn settlement(&self, m1: S) -> S {
         let chain = self.vertical.chain(m1);
         m1 * real::<S>(0.5 * crate::scalar::GRAVITY) * (chain.k1.recip() + chain.k2.recip())
@@ -102,19 +104,27 @@ impl<S: Scalar> Springs<Design<S>> {
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct ChainRow {
+    /// Mass ratio m2/m1.
     pub mu: f64,
+    /// Frequency ratio omega_a/Omega_n.
     pub f: f64,
+    /// Damping ratio c/(2 m2 Omega_n).
     pub xi: f64,
+    /// Omega_n / 2 pi (Hz).
     pub omega_n_hz: f64,
+    /// Gap spring k1 (N/m).
     pub k1_n_per_m: f64,
+    /// Spring k2 under the absorber (N/m).
     pub k2_n_per_m: f64,
+    /// Absorber's mass m2 (kg).
     pub m2_kg: f64,
+    /// Dashpot c beside k2 (N s/m).
     pub c_ns_per_m: f64,
 }
 
 impl ChainRow {
-    /// The row of a design under a mass m1 [kg].
-    pub fn new(design: &Design<f64>, m1: f64) -> Self {
+    /// The row of a design under a mass m1 (kg).
+    pub(crate) fn new(design: &Design<f64>, m1: f64) -> Self {
         let chain = design.chain(m1);
         Self {
             mu: design.mu,
@@ -129,7 +139,7 @@ impl ChainRow {
     }
 
     /// The chain with units; k1, k2, m2 and c rule, the dimensionless columns are for reading.
-    pub fn chain(&self) -> Chain<f64> {
+    pub(crate) fn chain(&self) -> Chain<f64> {
         Chain { k1: self.k1_n_per_m, k2: self.k2_n_per_m, m2: self.m2_kg, c: self.c_ns_per_m }
     }
 }

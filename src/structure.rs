@@ -19,24 +19,27 @@ pub enum Kind {
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct Structure {
+    /// A-frame or block.
     pub kind: Kind,
-    /// Height h of the centre of mass above the feet [m]. A solid block of height H has h = H/2.
+    /// Height h of the centre of mass above the feet (m). A solid block of height H has h = H/2.
     pub height_m: f64,
-    /// Distance 2b between the feet [m].
+    /// Distance 2b between the feet (m).
     pub width_m: f64,
-    /// Mass m (the paper's m1) [kg].
+    /// Mass m (the paper's m1) (kg).
     pub mass_kg: f64,
     /// Rotational inertia I_cg about the centre of mass [kg m2].
     pub rotational_inertia_kgm2: f64,
 }
 
-/// Lengths that a structure may have, a grain of sand to beyond any tower [m].
+/// Lengths that a structure may have, a grain of sand to beyond any tower (m).
 const LENGTH_M: (f64, f64) = (1e-4, 1e5);
-/// Masses that it may have [kg].
+/// Masses that it may have (kg).
 const MASS_KG: (f64, f64) = (1e-9, 1e15);
 
 /// What is wrong with a structure, and what to do.
 #[derive(Clone, Debug, PartialEq, Error)]
+#[non_exhaustive]
+#[allow(missing_docs)] // messages say what variants and their fields are
 pub enum StructureError {
     #[error("structure: {name} is {value:?}; give a finite number greater than zero")]
     NotPositive { name: &'static str, value: f64 },
@@ -121,29 +124,29 @@ impl Structure {
 /// The body in the paper's letters: m, b, h, I_cg, and what follows from them.
 #[derive(Clone, Copy, Debug)]
 pub struct Body<S> {
-    /// m [kg].
+    /// m (kg).
     pub mass: S,
-    /// b, half the distance between the feet [m].
+    /// b, half the distance between the feet (m).
     pub half_width: S,
-    /// h, height of the centre of mass [m].
+    /// h, height of the centre of mass (m).
     pub height: S,
     /// I_cg, about the centre of mass [kg m2].
     pub inertia: S,
 }
 
 impl<S: Scalar> Body<S> {
-    /// R = hypot(b, h), from a foot to the centre of mass [m].
+    /// R = hypot(b, h), from a foot to the centre of mass (m).
     pub fn radius(&self) -> S {
         (self.half_width * self.half_width + self.height * self.height).sqrt()
     }
 
-    /// alpha = atan(b/h), the lean at which the body stands in balance on one foot [rad].
+    /// alpha = atan(b/h), the lean at which the body stands in balance on one foot (rad).
     pub fn alpha(&self) -> S {
         self.half_width.atan2(self.height)
     }
 
     /// m R^2 / I0, with I0 = I_cg + m R^2: 1 for an A-frame, 3/4 for a solid block.
-    pub fn mass_share(&self) -> S {
+    pub(crate) fn mass_share(&self) -> S {
         let r = self.radius();
         let m_r2 = self.mass * r * r;
         m_r2 / (self.inertia + m_r2)
@@ -160,7 +163,7 @@ impl<S: Scalar> Body<S> {
         S::one() - self.mass_share() * real::<S>(2.0) * sin * sin
     }
 
-    /// Horizontal displacement u of the centre of mass when the rigid body leans by theta [m].
+    /// Horizontal displacement u of the centre of mass when the rigid body leans by theta (m).
     pub fn u(&self, theta: S) -> S {
         // R sin(alpha) s - R sin(alpha s - theta), written without cancellation near theta = 0
         let s: S = real(if theta.re() < 0.0 { -1.0 } else { 1.0 });
@@ -168,7 +171,7 @@ impl<S: Scalar> Body<S> {
         self.half_width * s * real::<S>(2.0) * half.sin() * half.sin() + self.height * theta.sin()
     }
 
-    /// Vertical displacement v of the centre of mass when the rigid body leans by theta [m].
+    /// Vertical displacement v of the centre of mass when the rigid body leans by theta (m).
     pub fn v(&self, theta: S) -> S {
         // R cos(alpha s - theta) - R cos(alpha)
         let s: S = real(if theta.re() < 0.0 { -1.0 } else { 1.0 });
@@ -176,8 +179,8 @@ impl<S: Scalar> Body<S> {
         self.half_width * s * theta.sin() - self.height * real::<S>(2.0) * half.sin() * half.sin()
     }
 
-    /// Kinetic energy with which the body lands that fell from rest at theta, m g v [J].
-    pub fn fall(&self, theta: S) -> S {
+    /// Kinetic energy with which the body lands that fell from rest at theta, m g v (J).
+    pub(crate) fn fall(&self, theta: S) -> S {
         self.mass * self.v(theta) * real::<S>(GRAVITY)
     }
 }

@@ -32,6 +32,7 @@ use crate::scalar::GRAVITY;
 use random::Random;
 
 /// The first n records of the suite of a seed, for a structure with p (1/s) and alpha (rad): see [`record`].
+#[cfg(any(test, feature = "internals"))]
 pub fn suite(n: usize, seed: u64, p: f64, alpha: f64) -> impl ExactSizeIterator<Item = Record> + Clone {
     (0..n).map(move |index| record(seed, index, p, alpha))
 }

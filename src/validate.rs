@@ -36,8 +36,8 @@ use std::sync::atomic::{AtomicUsize, Ordering};
 use rayon::prelude::*;
 
 pub use row::{Outcome, Row, Suite};
-pub use statistics::{Confusion, GeometricMean, PREDICTABLE, Quantiles, Summary, Validation, ks_distance};
-pub(crate) use stream::Stream;
+pub use statistics::{Confusion, GeometricMean, PREDICTABLE, Quantiles, Summary, Validation};
+pub use stream::Stream;
 
 use crate::{
     fem::Control,
@@ -53,7 +53,7 @@ pub struct Judge {
     /// Velocity restitution e of Housner's solution.
     pub restitution: f64,
     pub springs: Springs<Chain<f64>>,
-    /// Length compared [s]; each record's own unless given.
+    /// Length compared (s); each record's own unless given.
     pub duration_s: Option<f64>,
     pub control: Control,
 }

@@ -14,11 +14,13 @@ use crate::{
 /// What a body did on a record.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(rename_all = "snake_case")]
+#[non_exhaustive]
 pub enum Fate {
     /// No foot left the ground.
     NeverLifted,
     /// It rocked and stood at the end.
     Rocked,
+    /// It fell over.
     Overturned,
     /// Housner's pivot let go of the ground: his solution ends there.
     LeftGround,
@@ -29,11 +31,12 @@ pub enum Fate {
 /// One model's answer.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Answer {
+    /// What it did.
     pub fate: Fate,
-    /// When |theta| last grew past alpha [s].
+    /// When |theta| last grew past alpha (s).
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub overturned_s: Option<f64>,
-    /// When Housner's pivot let go of the ground, which ends his solution [s].
+    /// When Housner's pivot let go of the ground, which ends his solution (s).
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub left_ground_s: Option<f64>,
     /// Largest |theta|/alpha, of a body that overturned or left the ground up to then; zero if it never lifted.
@@ -43,19 +46,22 @@ pub struct Answer {
 /// Both models' answers to one record, and what their comparison is worth.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Verdict {
+    /// Housner's body.
     pub housner: Answer,
     /// His answer without the record's vertical component, if it has one.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub housner_without_vertical: Option<Answer>,
+    /// The finite element body on its springs.
     pub finite_elements: Answer,
     /// Whether Housner's history is well conditioned: whether the two can be compared one to one.
     pub well_conditioned: bool,
     /// NRMSE of u and v over the length compared; none where there is nothing to compare.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub nrmse_horizontal: Option<f64>,
+    /// Of v.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub nrmse_vertical: Option<f64>,
-    /// Length compared: up to the first overturning [s].
+    /// Length compared: up to the first overturning (s).
     pub compared_s: f64,
 }
 
@@ -109,7 +115,7 @@ impl Answer {
 
 impl Verdict {
     /// From both histories at the same samples, their match, and the conditioning of Housner's.
-    pub fn new(
+    pub(crate) fn new(
         body: &Body<f64>,
         dt: f64,
         (rocking, history): (&Rocking<f64>, &History),
@@ -132,7 +138,7 @@ impl Verdict {
 
     /// Beside Housner's history without the vertical component.
     #[must_use]
-    pub fn beside(self, body: &Body<f64>, dt: f64, level: &Rocking<f64>) -> Self {
+    pub(crate) fn beside(self, body: &Body<f64>, dt: f64, level: &Rocking<f64>) -> Self {
         Self { housner_without_vertical: Some(Answer::of_housner(body, dt, level)), ..self }
     }
 

@@ -22,7 +22,7 @@ use crate::{
 pub use program::Program;
 pub use verdict::{LIMIT, Verdict};
 
-/// Wall time a run may take before it counts as hung: this, and a time per sample of the record [s].
+/// Wall time a run may take before it counts as hung: this, and a time per sample of the record (s).
 const PATIENCE: f64 = 120.0;
 /// Some hundred times what a sample takes.
 const PATIENCE_PER_SAMPLE: f64 = 0.5;
@@ -51,7 +51,7 @@ impl Agreement {
 /// Three histories of one case at the record's samples, and how they agree.
 #[derive(Clone, Debug)]
 pub struct Verification {
-    /// Sampling interval [s].
+    /// Sampling interval (s).
     pub dt: f64,
     pub opensees: Motion,
     pub ours: Motion,
@@ -66,10 +66,11 @@ pub struct Verification {
     /// NRMSE of u between OpenSees in these steps and in finer ones, asked where it is not within its limit.
     pub opensees_against_itself: Option<f64>,
     /// What the deck printed.
+    #[allow(dead_code)] // tests show it
     pub report: String,
     /// NRMSE of u that a relative change of the width by 1e-5 makes in our own history.
     pub hair: f64,
-    /// Time OpenSees took [s].
+    /// Time OpenSees took (s).
     pub seconds: f64,
     /// Steps that OpenSees took.
     pub steps: usize,
@@ -79,6 +80,7 @@ pub struct Verification {
 
 /// Why a deck could not be verified, and what to do.
 #[derive(Debug, Error)]
+#[non_exhaustive]
 pub enum VerifyError {
     #[error(
         "verify: {python} cannot load openseespy; install it with `pip install openseespy` (on Debian also `apt install libblas3 liblapack3`), or name another interpreter with --python"

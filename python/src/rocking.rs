@@ -112,6 +112,7 @@ impl History {
             Outcome::LeavesGround { .. } => "leaves_ground",
             Outcome::WorkBound { .. } => "work_bound",
             Outcome::NotFinite { .. } => "not_finite",
+            _ => "unknown",
         }
     }
 

@@ -149,6 +149,7 @@ impl Simulation {
             fem::Outcome::Stopped { .. } => "stopped",
             fem::Outcome::WorkBound { .. } => "work_bound",
             fem::Outcome::Unstable { .. } => "unstable",
+            _ => "unknown",
         }
     }
 

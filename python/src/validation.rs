@@ -102,7 +102,7 @@ pub fn validate(
 
 /// Every record of a folder, with what its reader says.
 fn read_folder(py: Python<'_>, folder: &std::path::Path) -> PyResult<Vec<record::Record>> {
-    let files = record::Record::list_dir(folder).map_err(value_error)?;
+    let files = record::list_dir(folder).map_err(value_error)?;
     let read = |file: &PathBuf| {
         let recording = record::Recording::read(file, &ReadOptions::default()).map_err(value_error)?;
         recording.notices().iter().try_for_each(|notice| warn(py, notice))?;

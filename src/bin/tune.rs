@@ -3,5 +3,5 @@
 use std::process::ExitCode;
 
 fn main() -> ExitCode {
-    groundspring::commands::main()
+    groundspring::main()
 }

@@ -24,7 +24,7 @@ use crate::{
 /// not feel so little (1e-5 of p^2).
 pub const LEAST_INERTIA: f64 = 1e-5;
 
-/// The international foot and inch [m], the avoirdupois pound [kg]: exact by definition (1959).
+/// The international foot and inch (m), the avoirdupois pound [kg]: exact by definition (1959).
 const FOOT: f64 = 0.3048;
 const INCH: f64 = 0.0254;
 const POUND: f64 = 0.453_592_37;
@@ -86,9 +86,9 @@ const KEYS: [&str; 4 + QUANTITIES.len()] = {
 #[derive(Clone, Debug)]
 pub struct StructureSection {
     pub kind: Kind,
-    /// Height of the centre of mass [m].
+    /// Height of the centre of mass (m).
     pub height_m: f64,
-    /// Distance between the feet [m].
+    /// Distance between the feet (m).
     pub width_m: f64,
     pub mass_kg: f64,
     /// About the centre of mass; by `kind` unless given.

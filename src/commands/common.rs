@@ -4,23 +4,12 @@ use std::{fmt::Write, path::PathBuf};
 
 use clap::Args;
 
-use super::{
-    CommandError,
-    members::{WithMembers, peaks_until},
-};
+use super::CommandError;
+pub use crate::answers::{Both, both};
 use crate::{
     case::{Case, LONGEST_S},
-    compare::Match,
-    conditioning::Conditioning,
     excitation::Excitation,
-    fem,
-    housner::{self, Rocking},
-    members::Members,
-    motion::Motion,
-    record::{ReadOptions, Record, Recording, Units, VerticalFrom},
-    spring::{Chain, Springs},
-    structure::Body,
-    verdict::Verdict,
+    record::{ReadOptions, Recording, Units, VerticalFrom},
 };
 
 /// Which record, how scaled, how long.
@@ -105,113 +94,6 @@ pub fn of_case(case: &Case) -> Result<Excitation, CommandError> {
     Ok(case.excitation.clone())
 }
 
-/// Both models' answers to one record.
-pub struct Both {
-    pub rocking: Rocking<f64>,
-    /// Housner's history without the vertical component, if the record has one.
-    pub level: Option<Rocking<f64>>,
-    pub housner: Motion,
-    pub fem: fem::History,
-    pub matched: Match,
-    /// Forces in the rigid body's history.
-    pub demands: fem::Demands,
-    /// The same with members, if there are any.
-    pub with: Option<WithMembers>,
-}
-
-/// Run both models over a record; with members, the finite elements once more with them.
-pub fn both(
-    body: &Body<f64>,
-    restitution: f64,
-    springs: &Springs<Chain<f64>>,
-    members: &Members<f64>,
-    record: &Record,
-) -> Both {
-    let level = housner::Options { restitution: Some(restitution), ..Default::default() };
-    let options = housner::Options { vertical: record.vertical_accel(), ..level.clone() };
-    let rocking = housner::solve(body, record.dt, &record.accel, &options);
-    let level = record.vertical.as_ref().map(|_| housner::solve(body, record.dt, &record.accel, &level));
-    let motion = rocking.motion(body);
-    let case = fem::Case {
-        body: *body,
-        springs: *springs,
-        start: fem::Start::Settled,
-        dt: record.dt,
-        accel: &record.accel,
-        vertical: record.up(),
-        scale: 1.0,
-        control: fem::Control::default(),
-    };
-    let matched =
-        |history: &fem::History| Match::new(body, record.dt, (&motion, rocking.impacts.len()), history, restitution);
-    let (fem, mut demands) = case.simulate_with(&Members::default());
-    let rigid = matched(&fem);
-    peaks_until(&mut demands, record.dt, rigid.overturned_fem_s);
-    let with = (!members.is_none()).then(|| {
-        let (history, mut demands) = case.simulate_with(members);
-        let matched = matched(&history);
-        peaks_until(&mut demands, record.dt, matched.overturned_fem_s);
-        WithMembers { members: *members, history, demands, matched }
-    });
-    Both { rocking, level, housner: motion, fem, matched: rigid, demands, with }
-}
-
-impl Both {
-    /// What the histories say together; `dt` in s.
-    pub fn verdict(&self, body: &Body<f64>, dt: f64, conditioning: &Conditioning) -> Verdict {
-        let verdict = Verdict::new(body, dt, (&self.rocking, &self.fem), &self.matched, conditioning);
-        match &self.level {
-            Some(level) => verdict.beside(body, dt, level),
-            None => verdict,
-        }
-    }
-
-    /// That a body overturned, and up to when the histories are compared.
-    fn overturned(&self) -> Option<String> {
-        let m = &self.matched;
-        let words = |time: Option<f64>| time.map_or("stands".into(), |time| format!("overturns at t = {time:.3} s"));
-        (m.overturned_housner_s.or(m.overturned_fem_s)).map(|_| {
-            format!(
-                "Housner's body {}, the body on its springs {}: compared up to t = {:.3} s only",
-                words(m.overturned_housner_s),
-                words(m.overturned_fem_s),
-                m.duration_s
-            )
-        })
-    }
-
-    /// What to say of histories that overturned, ended before the record did, or took steps that broke their bounds.
-    pub fn early(&self) -> Vec<String> {
-        let said = |name: &str, history: &fem::History| {
-            let (time, why) = match history.outcome {
-                fem::Outcome::Completed | fem::Outcome::Stopped { .. } | fem::Outcome::Overturned { .. } => {
-                    return None;
-                }
-                fem::Outcome::WorkBound { time } => {
-                    (time, "given up at the bound on steps; use softer or damped springs")
-                }
-                fem::Outcome::Unstable { time } => (
-                    time,
-                    "the rotation lost its balance: springs too soft for a body with so little rotational inertia, or a lean \
-                     at which a leg would pull; use stiffer springs, or a rotational_inertia_kgm2 above 0.002 m R^2",
-                ),
-            };
-            Some(format!("{name} ends at t = {time:.3} s: {why}; both are compared up to there"))
-        };
-        let overturned = self.overturned();
-        let smallest = |name: &str, history: &fem::History| match history.work.smallest {
-            0 => None,
-            n => Some(format!("{name}: {n} steps were taken at the smallest size, whatever their error")),
-        };
-        let with = self.with.as_ref().map(|with| ("finite element history with members", &with.history));
-        let all = [("finite element history", &self.fem)].into_iter().chain(with);
-        overturned
-            .into_iter()
-            .chain(all.flat_map(|(name, history)| [said(name, history), smallest(name, history)]).flatten())
-            .collect()
-    }
-}
-
 /// A velocity restitution from the command line, checked.
 pub fn restitution(given: Option<f64>) -> Result<Option<f64>, CommandError> {
     match given {
@@ -270,19 +152,6 @@ fn digits_12(x: f64) -> String {
 #[cfg(test)]
 mod tests {
     use super::*;
-
-    #[test]
-    fn steps_of_the_smallest_size_are_said_if_there_were_any() {
-        let structure = crate::structure::Structure::paper();
-        let chain = Chain { k1: 1e9, k2: 1e8, m2: 1e5, c: 1e6 };
-        let springs = Springs { vertical: chain, horizontal: chain };
-        let record = Record::new("still", 0.01, vec![0.0; 3]).unwrap();
-        let mut both = both(&structure.body(), 0.98, &springs, &Members::default(), &record);
-        assert_eq!((both.fem.work.smallest, both.early()), (0, Vec::new()));
-        both.fem.work.smallest = 3;
-        let said = "finite element history: 3 steps were taken at the smallest size, whatever their error";
-        assert_eq!(both.early(), [said]);
-    }
 
     #[test]
     fn numbers_have_twelve_significant_digits() {

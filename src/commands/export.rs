@@ -6,9 +6,8 @@ use clap::Args;
 
 use super::{CommandError, common::RecordOptions, output::check_file, write_file};
 use crate::{
-    export::{ACCURACY, Expected, ExportError, Format, export, with_inertia},
+    export::{ACCURACY, Expected, ExportError, Format, deck_of, export, with_inertia},
     parameters::Parameters,
-    predictability::{moved_by_a_hair, simulate},
     record::Record,
 };
 
@@ -35,9 +34,7 @@ pub fn run(o: &Options) -> Result<(), CommandError> {
     check_file(&o.out)?;
     check_accuracy(o.accuracy)?;
     let (parameters, record, line) = read(&o.parameters, &o.record)?;
-    let history = simulate(&parameters, &record);
-    let hair = moved_by_a_hair(&history.motion, &parameters, &record);
-    let deck = export(&parameters, &record, &Expected::new(&history, hair).with_accuracy(o.accuracy), o.format)?;
+    let deck = deck_of(&parameters, &record, o.format, o.accuracy)?;
     write_file(&o.out, deck.as_bytes())?;
     eprintln!("{line}\nwritten to {}", o.out.display());
     Ok(())

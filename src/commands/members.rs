@@ -7,20 +7,12 @@ use serde_json::{Map, Value, json};
 
 use super::{common::csv_row, table::FORCES};
 use crate::{
+    answers::WithMembers,
     compare::Match,
-    fem::{Demands, History, Peak, QUANTITIES},
+    fem::{Demands, QUANTITIES},
     members::Members,
     motion::shown,
-    overturning::samples_until,
 };
-
-/// A history with members, and what it says.
-pub struct WithMembers {
-    pub members: Members<f64>,
-    pub history: History,
-    pub demands: Demands,
-    pub matched: Match,
-}
 
 /// `members.csv`: forces at the record's samples, each the largest since the sample before.
 pub fn csv(dt: f64, demands: &Demands) -> String {
@@ -32,20 +24,6 @@ pub fn csv(dt: f64, demands: &Demands) -> String {
         csv_row(&mut out, &all);
     }
     out
-}
-
-/// Count the largest forces up to an overturning only, if there is one: those of the fall and of the body on the ground
-/// are no demand of rocking. Times are then those of the samples.
-pub fn peaks_until(demands: &mut Demands, dt: f64, overturned: Option<f64>) {
-    let Some(_) = overturned else { return };
-    demands.peaks = Default::default();
-    for (i, row) in demands.rows.iter().enumerate().take(samples_until(overturned, dt)) {
-        for (peak, &value) in demands.peaks.iter_mut().zip(row) {
-            if value.abs() > peak.value.abs() {
-                *peak = Peak { value, time: i as f64 * dt };
-            }
-        }
-    }
 }
 
 /// Largest forces and their times, as JSON.
@@ -141,18 +119,7 @@ pub fn markdown(rigid: &Demands, with: Option<&WithMembers>) -> String {
 #[cfg(test)]
 mod tests {
     use super::*;
-
-    #[test]
-    fn the_largest_forces_are_those_before_the_fall() {
-        let mut demands = Demands::default();
-        demands.rows = [1.0, -3.0, 2.0, 50.0].map(|x| [x; QUANTITIES.len()]).to_vec();
-        demands.peaks = [Peak { value: 50.0, time: 0.033 }; QUANTITIES.len()];
-        let whole = demands.clone();
-        peaks_until(&mut demands, 0.01, None);
-        assert_eq!(demands, whole);
-        peaks_until(&mut demands, 0.01, Some(0.025));
-        assert_eq!(demands.peaks[0], Peak { value: -3.0, time: 0.01 });
-    }
+    use crate::fem::Peak;
 
     #[test]
     fn forces_stand_in_named_columns_with_their_times() {

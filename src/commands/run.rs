@@ -27,7 +27,7 @@ use crate::{
     predictability::{moved_by_a_hair, simulate},
     record::Record,
     spring::{Design, Springs},
-    tuning::{arr::table_1, assessment::Assessment, job::Job, whole_model::report::landings},
+    tuning::{arr::table_1, job::Job},
 };
 
 /// Options of `tune run`.
@@ -114,7 +114,7 @@ pub fn run(o: &Options) -> Result<(), CommandError> {
     };
 
     if o.no_record {
-        return springs_alone(o, &springs_of(&case, &job));
+        return springs_alone(o, &Parameters::of(&case, &job));
     }
     let run = Run::new(case, job, front, friction);
     run.save(&o.out, !o.no_figures)?;
@@ -140,7 +140,7 @@ pub struct Run {
 impl Run {
     /// Simulate a job's springs, and those of the paper beside them; `friction` of the ground, for the warning of sliding.
     pub fn new(case: Case, job: Job, front: Vec<Point>, friction: f64) -> Self {
-        let mut parameters = springs_of(&case, &job);
+        let mut parameters = Parameters::of(&case, &job);
         let both = common::both(&job.body, case.restitution, &parameters.chains(), &case.members, &job.record);
         parameters.matched = Some(both.matched);
         parameters.match_with_members = both.with.as_ref().map(|with| with.matched);
@@ -201,15 +201,6 @@ impl Run {
     fn forces(&self) -> String {
         members::markdown(&self.both.demands, self.both.with.as_ref())
     }
-}
-
-/// What there is to keep of a job whatever the record: the springs, their landings, their accuracy.
-fn springs_of(case: &Case, job: &Job) -> Parameters {
-    let mut parameters = Parameters::new(case.structure, &job.springs).with_members(case.members);
-    parameters.restitution = Some(case.restitution).filter(|e| *e != job.body.restitution());
-    parameters.landings = landings(&job.body, &parameters.chains(), case.restitution);
-    parameters.assessment = Some(Assessment::new(job, case.tuning.objective, case.tuning.accuracy));
-    parameters
 }
 
 /// What there is without a record.

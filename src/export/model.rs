@@ -30,13 +30,13 @@ const FOOT_DASHPOT: f64 = 4.0;
 /// What OpenSees needs to carry massless legs.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Regularised {
-    /// Of a foot [kg].
+    /// Of a foot (kg).
     pub mass: f64,
     /// Of a foot, to the side [N s/m].
     pub dashpot: f64,
     /// I_cg: where our model takes the rotation as massless, as small as the feet's [kg m2].
     pub inertia: f64,
-    /// Mass of the translation: there with I_cg/R^2 added, as in our model [kg].
+    /// Mass of the translation: there with I_cg/R^2 added, as in our model (kg).
     pub moved: f64,
 }
 
@@ -65,7 +65,7 @@ const SMALL_MOTION: f64 = 0.01;
 /// Steps per sample where steps follow from the accuracy: a pair, ended by every sample.
 const A_PAIR: usize = 2;
 
-/// For a program that takes all its steps alike, 1/(40 Omega_n [Hz]) and 1e-4/p.
+/// For a program that takes all its steps alike, 1/(40 Omega_n (Hz)) and 1e-4/p.
 fn even_steps(parameters: &Parameters, dt: f64) -> usize {
     let body = parameters.structure.body::<f64>();
     let chains = parameters.chains();
@@ -97,13 +97,13 @@ pub(super) struct Model<'a> {
     pub leg: f64,
     /// EA and EI of the legs: given, or of such legs.
     pub legs: Legs<f64>,
-    /// Newton's displacement tolerance [m].
+    /// Newton's displacement tolerance (m).
     pub tolerance: f64,
     /// Accuracy that the steps are to have.
     pub accuracy: f64,
-    /// 1/Omega_n of the vertical k1 [s]; 0 on elastic legs, where all steps are alike.
+    /// 1/Omega_n of the vertical k1 (s); 0 on elastic legs, where all steps are alike.
     pub landing: f64,
-    /// Rise of a foot from which on its motion counts [m].
+    /// Rise of a foot from which on its motion counts (m).
     pub rise: f64,
     /// Steps per sample, at least.
     pub steps_per_sample: usize,
@@ -180,7 +180,7 @@ impl<'a> Model<'a> {
         self.structure.body()
     }
 
-    /// Time of the last sample followed [s].
+    /// Time of the last sample followed (s).
     pub fn duration(&self) -> f64 {
         (self.expected.samples - 1) as f64 * self.record.dt
     }
@@ -216,7 +216,7 @@ impl<'a> Model<'a> {
         Regularised { mass: foot, dashpot: FOOT_DASHPOT * bending * dt, inertia, moved }
     }
 
-    /// Length at which the tendon begins to pull [m]; zero without one.
+    /// Length at which the tendon begins to pull (m); zero without one.
     pub fn slack(&self) -> f64 {
         let length = self.structure.height_m + self.expected.settled;
         self.members.tendon.map_or(0.0, |t| length - t.pretension / t.stiffness)

@@ -8,8 +8,8 @@ const SHORTEST: f64 = 0.05;
 const GROWTH: f64 = 1.5;
 const SHARE: f64 = 0.2;
 
-/// Steps to `duration` [s] of a history whose contact changes at these times [s], at sampling interval dt [s] and 1/Omega_n =
-/// `landing` [s]. What Newton's iteration refuses and repeats comes on top.
+/// Steps to `duration` (s) of a history whose contact changes at these times (s), at sampling interval dt (s) and 1/Omega_n =
+/// `landing` (s). What Newton's iteration refuses and repeats comes on top.
 pub fn deck_steps(changes: &[f64], duration: f64, dt: f64, landing: f64) -> usize {
     let (shortest, longest) = ((SHORTEST * landing).min(0.5 * dt), 0.5 * dt);
     let mut last = f64::NEG_INFINITY;

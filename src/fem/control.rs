@@ -35,27 +35,45 @@ impl Default for Control {
 
 /// How a history ended.
 #[derive(Clone, Copy, Debug, PartialEq)]
+#[non_exhaustive]
 pub enum Outcome {
     /// The record was followed to its end.
     Completed,
-    /// The body lay flat (|theta| > pi/2) at this time [s].
-    Overturned { time: f64 },
-    /// The observer asked to stop at this time [s].
-    Stopped { time: f64 },
-    /// The bound on steps was reached at this time [s].
-    WorkBound { time: f64 },
-    /// No balance was found at this time [s]: soft springs buckle under a body without rotational inertia, it leans so far that
+    /// The body lay flat (|theta| > pi/2) at this time (s).
+    Overturned {
+        /// (s)
+        time: f64,
+    },
+    /// The observer asked to stop at this time (s).
+    Stopped {
+        /// (s)
+        time: f64,
+    },
+    /// The bound on steps was reached at this time (s).
+    WorkBound {
+        /// (s)
+        time: f64,
+    },
+    /// No balance was found at this time (s): soft springs buckle under a body without rotational inertia, it leans so far that
     /// its foot would have to pull, or a leg's place was not found. No motion follows from the model after that.
-    Unstable { time: f64 },
+    Unstable {
+        /// (s)
+        time: f64,
+    },
 }
 
 /// Work done by a run.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct Work {
+    /// Steps accepted.
     pub steps: usize,
+    /// Steps taken again, smaller.
     pub rejected: usize,
+    /// Steps that ended at an event.
     pub located: usize,
+    /// Touches and lifts.
     pub events: usize,
+    /// Newton iterations.
     pub iterations: usize,
     /// Steps so small that they were accepted whatever their error: none, unless a force jumps where no event is.
     pub smallest: usize,

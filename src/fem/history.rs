@@ -11,39 +11,49 @@ use super::{
 };
 use crate::motion::Motion;
 
-/// Contact forces of both feet (left, right) [N]: for every sample the force of largest magnitude since the sample
+/// Contact forces of both feet (left, right) (N): for every sample the force of largest magnitude since the sample
 /// before, since an impact is over long before the next sample.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Forces {
+    /// Positive while the foot presses.
     pub vertical: [Vec<f64>; 2],
+    /// Of the ground on the foot, positive to the right.
     pub horizontal: [Vec<f64>; 2],
 }
 
-/// The energy account at every sample [J].
+/// The energy account at every sample (J).
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Account {
+    /// Work of the ground.
     pub input: Vec<f64>,
     /// Stored above the initial energy.
     pub stored: Vec<f64>,
     /// Dashpots and released springs.
     pub dissipated: Vec<f64>,
+    /// What the account leaves unexplained.
     pub residual: Vec<f64>,
 }
 
 /// A whole history of the finite element model.
 #[derive(Clone, Debug)]
 pub struct History {
+    /// Of the centre of mass.
     pub motion: Motion,
+    /// Every touch-down.
     pub landings: Vec<Landing>,
+    /// At the feet.
     pub forces: Forces,
+    /// Of energy.
     pub account: Account,
+    /// How it ended.
     pub outcome: Outcome,
+    /// What it cost.
     pub work: Work,
     /// Largest |residual| over the largest energy of the history.
     pub energy_residual: f64,
-    /// Z of the centre of mass at the start [m]; minus the settlement when it stood settled.
+    /// Z of the centre of mass at the start (m); minus the settlement when it stood settled.
     pub initial_z: f64,
-    /// Total time with both feet in the air [s].
+    /// Total time with both feet in the air (s).
     pub airborne: f64,
 }
 
@@ -65,12 +75,12 @@ pub struct Recorder {
     motion: Motion,
     events: Events,
     forces: Forces,
-    /// Largest since the last sample: vertical and horizontal of each foot [N].
+    /// Largest since the last sample: vertical and horizontal of each foot (N).
     largest: [[f64; 2]; 2],
     account: Account,
     initial_z: f64,
     residual: f64,
-    /// Time of the last sample [s].
+    /// Time of the last sample (s).
     end: f64,
 }
 

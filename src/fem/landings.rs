@@ -21,19 +21,19 @@ pub(super) const SLIGHT: f64 = 1e-3;
 /// One touch-down of a foot and what came of it.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Landing {
-    /// Touch-down [s].
+    /// Touch-down (s).
     pub time: f64,
     /// 0 left, 1 right.
     pub foot: usize,
-    /// Kinetic energy of the body at touch-down [J].
+    /// Kinetic energy of the body at touch-down (J).
     pub kinetic: f64,
-    /// Of an impact: energy taken by dashpots and let go by springs from it to the next impact, or to the end [J].
+    /// Of an impact: energy taken by dashpots and let go by springs from it to the next impact, or to the end (J).
     pub lost: f64,
     /// Whether this foot, landed or leaned on, opened again within 0.1/p.
     pub bounced: bool,
     /// Whether it ends a lean on the other foot: no re-landing of a bounce, no touch within a lean.
     pub impact: bool,
-    /// Of an impact: time with both feet in the air from it to the next impact, or to the end [s].
+    /// Of an impact: time with both feet in the air from it to the next impact, or to the end (s).
     pub airborne: f64,
 }
 
@@ -43,11 +43,11 @@ pub(super) struct Event {
     pub time: f64,
     pub foot: usize,
     pub change: Change,
-    /// Kinetic energy of the body [J].
+    /// Kinetic energy of the body (J).
     pub kinetic: f64,
     /// Horizontal velocity of its centre of mass [m/s].
     pub speed: f64,
-    /// Energy lost since the start [J].
+    /// Energy lost since the start (J).
     pub lost: f64,
 }
 
@@ -57,9 +57,9 @@ pub(super) struct Events {
     pub events: Vec<Event>,
     /// Which feet press at t = 0.
     pub pressing: [bool; 2],
-    /// A moment [s].
+    /// A moment (s).
     pub moment: f64,
-    /// Energy of a fall from and to what a rigid body rocks in a moment [J].
+    /// Energy of a fall from and to what a rigid body rocks in a moment (J).
     pub slight: f64,
 }
 
@@ -88,7 +88,7 @@ struct Lean {
 }
 
 impl Lean {
-    /// Whether the body turned back and fell with more energy than this [J].
+    /// Whether the body turned back and fell with more energy than this (J).
     fn falls(&self, energy: f64) -> bool {
         turned(self.from, self.to) && self.to.kinetic > energy
     }
@@ -99,7 +99,7 @@ fn turned(before: Instant, after: Instant) -> bool {
 }
 
 impl Events {
-    /// The landings, and the time with both feet in the air, of a history that ended at `end` [s], `lost` [J] having
+    /// The landings, and the time with both feet in the air, of a history that ended at `end` (s), `lost` (J) having
     /// been lost.
     pub fn landings(&self, end: f64, lost: f64) -> (Vec<Landing>, f64) {
         let touch_downs = || self.events.iter().filter(|e| e.change == Change::TouchDown);

@@ -94,6 +94,7 @@ pub fn title(canvas: &mut Canvas, title: &str, (left, right): (f64, f64), y: f64
 }
 
 /// The legend in one column; its left end and the middle of its first row at the point.
+#[cfg(feature = "internals")]
 pub fn column(canvas: &mut Canvas, entries: &[Entry], (x, y): (f64, f64)) {
     for (i, entry) in entries.iter().enumerate() {
         entry.draw(canvas, (x, y + 44.0 * i as f64));

@@ -12,7 +12,7 @@ use crate::{
     record::{ReadOptions, Record, RecordError, Source, Units, Vertical},
 };
 
-/// Length that files which remember no record stand for, unless they hold a match [s].
+/// Length that files which remember no record stand for, unless they hold a match (s).
 const FORMER_DURATION_S: f64 = 20.0;
 
 /// The record the springs were tuned on. Files of schema 1 have the first four keys only.
@@ -24,13 +24,13 @@ pub struct RecordRow {
     pub samples: usize,
     /// Peak of the part used, scaled.
     pub pga_g: f64,
-    /// Its time [s].
+    /// Its time (s).
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub pga_time_s: Option<f64>,
     /// Factor on the record's acceleration.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub scale: Option<f64>,
-    /// Length used [s].
+    /// Length used (s).
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub duration_s: Option<f64>,
     /// Of dt and all samples, unscaled, as 16 hexadecimal digits: [`Record::fingerprint`].
@@ -81,6 +81,8 @@ pub enum SourceRow {
 
 /// Why a remembered record is not to be had, and what to do.
 #[derive(Debug, Error)]
+#[non_exhaustive]
+#[allow(missing_docs)] // messages say what variants and their fields are
 pub enum RememberedError {
     #[error(
         "{parameters}: its record {file} is not there (nor at {path}); put it back, or name a record with --record"

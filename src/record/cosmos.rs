@@ -114,7 +114,7 @@ impl<'a> Header<'a> {
         (value as f64 != self.unknown).then_some(value)
     }
 
-    /// The time step of the samples [s] and half of its last printed digit.
+    /// The time step of the samples (s) and half of its last printed digit.
     fn step(&self, cursor: &Cursor, data: &Series) -> Result<(f64, f64), RecordError> {
         let (dt, half) = match (self.real(62), self.real(34)) {
             (Some((ms, printed)), _) if ms > 0.0 => (ms * 1e-3, half_digit(printed) * 1e-3),

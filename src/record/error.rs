@@ -4,6 +4,8 @@ use super::{Format, Units};
 
 /// What is wrong with a ground motion file or with the numbers of a record, where, and what to do.
 #[derive(Clone, Debug, PartialEq, Error)]
+#[non_exhaustive]
+#[allow(missing_docs)] // messages say what variants and their fields are
 pub enum RecordError {
     #[error("{file}: cannot be read ({reason}); check the path and its permissions")]
     Unreadable { file: String, reason: String },

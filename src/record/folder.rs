@@ -2,7 +2,7 @@
 
 use std::path::{Path, PathBuf};
 
-use super::{ReadOptions, Record, RecordError};
+use super::{Record, RecordError};
 
 /// Endings of the files that are taken for records, in any case; of K-NET's and
 /// KiK-net's, which have one component each, the horizontal ones at the surface.
@@ -14,7 +14,7 @@ impl Record {
     ///
     /// # Errors
     /// The folder cannot be listed, or holds no such file.
-    pub fn list_dir(folder: &Path) -> Result<Vec<PathBuf>, RecordError> {
+    pub(crate) fn list_dir(folder: &Path) -> Result<Vec<PathBuf>, RecordError> {
         let unreadable = |error: std::io::Error| RecordError::Unreadable {
             file: super::label(folder),
             reason: super::text::quote(&error.to_string()),
@@ -33,20 +33,10 @@ impl Record {
         files.sort();
         Ok(files)
     }
+}
 
-    /// The records of a folder, each read when the iterator comes to it, sorted by name; a bad file is an error of its
-    /// own and does not end the iteration.
-    ///
-    /// # Errors
-    /// As [`Record::list_dir`].
-    pub fn read_dir(
-        folder: &Path,
-        options: &ReadOptions,
-    ) -> Result<impl ExactSizeIterator<Item = (PathBuf, Result<Self, RecordError>)> + use<>, RecordError> {
-        let options = options.clone();
-        Ok(Self::list_dir(folder)?.into_iter().map(move |path| {
-            let record = Self::read(&path, &options);
-            (path, record)
-        }))
-    }
+/// The same, for the Python package.
+#[cfg(feature = "internals")]
+pub fn list_dir(folder: &Path) -> Result<Vec<PathBuf>, RecordError> {
+    Record::list_dir(folder)
 }

@@ -10,6 +10,7 @@ use super::{ReadOptions, RecordError, at2, columns, cosmos, csmip, dyna, geonet,
 
 /// Format of a record file.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[non_exhaustive]
 pub enum Format {
     /// PEER AT2, both forms of its header.
     Peer,

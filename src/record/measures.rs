@@ -32,7 +32,7 @@ pub struct Measures {
 impl Record {
     /// Ground velocity at the samples (m/s): the integral from rest of the acceleration, linear between samples, less its mean,
     /// so that the ground is at rest again at the end.
-    pub fn velocity(&self) -> Vec<f64> {
+    pub(crate) fn velocity(&self) -> Vec<f64> {
         let steps = self.accel.len().saturating_sub(1).max(1) as f64;
         let mut velocity = Vec::with_capacity(self.accel.len());
         let mut v = 0.0;
@@ -49,7 +49,7 @@ impl Record {
     }
 
     /// What describes the record.
-    pub fn measures(&self) -> Measures {
+    pub(crate) fn measures(&self) -> Measures {
         let pga = Peak::of(&self.accel, self.dt);
         let pgv = Peak::of(&self.velocity(), self.dt);
         let (arias, duration) = self.arias();
@@ -82,6 +82,12 @@ impl Record {
         };
         (PI / (2.0 * GRAVITY) * all, time(0.95) - time(0.05))
     }
+}
+
+/// The same, for the Python package and tests.
+#[cfg(feature = "internals")]
+pub fn measures(record: &Record) -> Measures {
+    record.measures()
 }
 
 #[cfg(test)]

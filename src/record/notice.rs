@@ -4,6 +4,8 @@ use std::fmt;
 
 /// A remark on a record: one line.
 #[derive(Clone, Debug, PartialEq)]
+#[non_exhaustive]
+#[allow(missing_docs)] // messages say what variants and their fields are
 pub enum Notice {
     /// The file has several components and none was asked for.
     Taken { file: String, taken: String, pga_g: f64, others: String },
@@ -19,11 +21,11 @@ pub enum Notice {
 
 impl Notice {
     /// A mean above this share of the peak is said: no ground moves on with such an acceleration.
-    pub const OFFSET_SHARE: f64 = 0.1;
+    pub(crate) const OFFSET_SHARE: f64 = 0.1;
     /// PGA above this is said (g): no earthquake has been recorded with it.
-    pub const STRONG_G: f64 = 5.0;
+    pub(crate) const STRONG_G: f64 = 5.0;
     /// PGA below this is said (g).
-    pub const WEAK_G: f64 = 1e-4;
+    pub(crate) const WEAK_G: f64 = 1e-4;
 }
 
 /// "component N28W", or the record where its file names none.

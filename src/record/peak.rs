@@ -117,7 +117,7 @@ impl<'a> Stated<'a> {
         })
     }
 
-    /// One sample and half of the last digit of the printed time [s]; the last term is rounding.
+    /// One sample and half of the last digit of the printed time (s); the last term is rounding.
     fn time_tolerance(&self, dt: f64) -> f64 {
         dt + self.time.map_or(0.0, half_digit) + 1e-9
     }

@@ -11,6 +11,7 @@ use super::{Direction, Format, Notice, Peak, ReadOptions, Record, RecordError, S
 pub struct Component {
     /// What the file calls it.
     pub name: Option<String>,
+    /// Its direction.
     pub direction: Direction,
     /// Unit of the numbers in the file, as it says or as was given.
     pub units: Units,
@@ -23,12 +24,14 @@ pub struct Component {
     pub header_pga: Option<Peak>,
     /// The header's peak velocity (m/s).
     pub header_pgv: Option<Peak>,
+    /// Its samples.
     pub record: Record,
 }
 
 /// A record file with all its components.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Recording {
+    /// The file's format.
     pub format: Format,
     /// Station or site, as the file names it.
     pub station: Option<String>,

@@ -6,6 +6,7 @@ use super::{Record, Units};
 
 /// Where a record comes from, as far as it takes to have it again.
 #[derive(Clone, Debug, Default, PartialEq)]
+#[non_exhaustive]
 pub enum Source {
     /// Numbers in memory.
     #[default]
@@ -14,7 +15,16 @@ pub enum Source {
     Embedded,
     /// A file, as it was named, the unit of its numbers, which of its components it is where it has several, and whether its
     /// mean was taken off.
-    File { path: PathBuf, units: Units, component: Option<String>, baseline: bool },
+    File {
+        /// The file.
+        path: PathBuf,
+        /// Unit of its numbers.
+        units: Units,
+        /// The component taken, where it has several.
+        component: Option<String>,
+        /// Whether the mean of the samples was subtracted.
+        baseline: bool,
+    },
     /// Made from a seed for a structure (`synthetic::record`).
     Synthetic,
     /// Made from a seed, with the frequencies of earthquakes (`synthetic::earthquake`).
@@ -25,7 +35,7 @@ impl Record {
     /// FNV-1a (64 bit, G. Fowler, L. C. Noll, K.-P. Vo) of dt and the samples, each as the eight bytes of its IEEE 754
     /// number, least significant first: the same for the same numbers on every machine. It finds a file that was
     /// replaced, not one that was forged.
-    pub fn fingerprint(&self) -> u64 {
+    pub(crate) fn fingerprint(&self) -> u64 {
         let numbers = std::iter::once(&self.dt).chain(&self.accel);
         fnv1a(numbers.flat_map(|x| x.to_bits().to_le_bytes()))
     }

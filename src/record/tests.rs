@@ -234,12 +234,13 @@ fn a_folder_is_read_in_order_and_a_bad_file_does_not_end_it() {
         std::fs::write(folder.path().join(file), text).unwrap();
     }
     std::fs::create_dir(folder.path().join("sub.csv")).unwrap();
-    let read: Vec<_> = Record::read_dir(folder.path(), &options).unwrap().collect();
-    let names: Vec<_> = read.iter().map(|(path, _)| path.file_name().unwrap().to_str().unwrap()).collect();
+    let files = Record::list_dir(folder.path()).unwrap();
+    let names: Vec<_> = files.iter().map(|path| path.file_name().unwrap().to_str().unwrap()).collect();
     assert_eq!(names, ["a.csv", "b.txt", "c.AT2"]);
-    assert_eq!(read[0].1.as_ref().unwrap().name, "a");
-    assert!(matches!(read[1].1, Err(RecordError::Empty { .. })));
-    assert_eq!(read[2].1.as_ref().unwrap().len(), 1);
+    let read: Vec<_> = files.iter().map(|path| Record::read(path, &options)).collect();
+    assert_eq!(read[0].as_ref().unwrap().name, "a");
+    assert!(matches!(read[1], Err(RecordError::Empty { .. })));
+    assert_eq!(read[2].as_ref().unwrap().len(), 1);
 
     assert!(matches!(Record::read(folder.path(), &options), Err(RecordError::Folder { .. })));
     let missing = folder.path().join("missing.at2");

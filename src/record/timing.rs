@@ -23,7 +23,7 @@ impl Times {
         self.lines.push(line);
     }
 
-    /// The time step and how far it may be off by the rounding of the printed times [s]; at least two times.
+    /// The time step and how far it may be off by the rounding of the printed times (s); at least two times.
     /// A given step decides where the times are printed too coarsely to show it.
     pub(super) fn step(&self, file: &str, given: Option<f64>) -> Result<(f64, f64), RecordError> {
         let (Some(first), Some(last)) = (self.times.first(), self.times.last()) else {

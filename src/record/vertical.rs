@@ -19,6 +19,7 @@ use crate::scalar::GRAVITY;
 pub enum VerticalFrom {
     /// The record's own file.
     Auto,
+    /// This file.
     File(PathBuf),
 }
 
@@ -48,7 +49,7 @@ impl FromStr for VerticalFrom {
 impl VerticalFrom {
     /// The same, a relative path starting from a folder.
     #[must_use]
-    pub fn within(self, folder: &Path) -> Self {
+    pub(crate) fn within(self, folder: &Path) -> Self {
         match self {
             Self::Auto => Self::Auto,
             Self::File(path) => Self::File(folder.join(path)),
@@ -75,12 +76,12 @@ impl PartialEq for Vertical {
 
 impl Vertical {
     /// Peak acceleration (g).
-    pub fn peak_g(&self) -> f64 {
+    pub(crate) fn peak_g(&self) -> f64 {
         self.accel.iter().fold(0.0, |peak: f64, a| peak.max(a.abs())) / GRAVITY
     }
 
     /// As a record of its own, with the time step given (s).
-    pub fn as_record(&self, dt: f64) -> Record {
+    pub(crate) fn as_record(&self, dt: f64) -> Record {
         let (name, source) = (self.name.clone(), self.source.clone());
         Record { name, dt, accel: self.accel.to_vec(), vertical: None, source }
     }
@@ -96,7 +97,7 @@ impl Vertical {
     ///
     /// # Errors
     /// The file is no record, or has no vertical component, or several.
-    pub fn read(path: &Path, options: &ReadOptions) -> Result<Record, RecordError> {
+    pub(crate) fn read(path: &Path, options: &ReadOptions) -> Result<Record, RecordError> {
         let options = ReadOptions { vertical: None, ..options.clone() };
         let mut recording = Recording::read(path, &options)?;
         let which = match &recording.components[..] {
@@ -175,7 +176,7 @@ impl Record {
     ///
     /// # Errors
     /// It has another time step or another number of samples.
-    pub fn with_vertical(self, vertical: Self) -> Result<Self, RecordError> {
+    pub(crate) fn with_vertical(self, vertical: Self) -> Result<Self, RecordError> {
         self.agrees(&vertical)?;
         let Self { name, accel, source, .. } = vertical;
         Ok(Self { vertical: Some(Vertical { name, accel: accel.into(), source }), ..self })
@@ -187,7 +188,7 @@ impl Record {
     }
 
     /// The same as `housner::Options` take it.
-    pub fn vertical_accel(&self) -> Option<Arc<[f64]>> {
+    pub(crate) fn vertical_accel(&self) -> Option<Arc<[f64]>> {
         self.vertical.as_ref().map(|vertical| Arc::clone(&vertical.accel))
     }
 }

@@ -4,13 +4,9 @@
 //!  K = mu f^2,   C = 2 mu xi,   settlement s = m1 g/2 (1/k1 + 1/k2) = g (1 + 1/K) / (2 Omega_n^2)
 //! ```
 
-use std::f64::consts::TAU;
-
 use nalgebra::Vector2;
 use serde::{Deserialize, Serialize};
 use thiserror::Error;
-
-use crate::scalar::GRAVITY;
 
 /// Bounds on the fitted parameters, each optional; `[bounds]` in a case file.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]
@@ -35,6 +31,7 @@ pub struct Bounds {
 
 /// What is wrong with bounds, and what to do.
 #[derive(Clone, Debug, PartialEq, Error)]
+#[non_exhaustive]
 pub enum BoundsError {
     #[error("bounds: {name} is {value:?}; give a finite number greater than zero, or leave it out")]
     NotPositive { name: &'static str, value: f64 },
@@ -60,9 +57,13 @@ pub struct Region {
 /// The side of the box where nothing was asked.
 const SEARCH_RANGE: &str = "search_range";
 
-/// Smallest K with which a body on two feet settles by at most `settlement_m` [m] under its weight, the vertical
-/// chain at `omega_n_hz` [Hz]; for [`Bounds::k_min`].
+/// Smallest K with which a body on two feet settles by at most `settlement_m` (m) under its weight, the vertical
+/// chain at `omega_n_hz` (Hz); for [`Bounds::k_min`].
+#[cfg(any(test, feature = "internals"))]
 pub fn k_min_for_settlement(settlement_m: f64, omega_n_hz: f64) -> Result<f64, BoundsError> {
+    use crate::scalar::GRAVITY;
+    use std::f64::consts::TAU;
+
     for (name, value) in [("settlement_m", settlement_m), ("omega_n_hz", omega_n_hz)] {
         if !(value.is_finite() && value > 0.0) {
             return Err(BoundsError::NotPositive { name, value });

@@ -64,6 +64,7 @@ fn one() -> f64 {
 
 /// What is wrong with a target, and what to do. Bands count from 1.
 #[derive(Clone, Debug, PartialEq, Error)]
+#[non_exhaustive]
 pub enum TargetError {
     #[error("target: it has no band; give at least one [[target.bands]], or leave the target out for the default cap")]
     Empty,

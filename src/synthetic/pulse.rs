@@ -35,6 +35,7 @@ pub enum Pulse {
 
 impl Pulse {
     /// Ground velocity over its amplitude (of acceleration/omega_p for the Ricker wavelets) at x = omega_p t.
+    #[cfg(test)]
     pub fn velocity<S: Scalar>(&self, x: S) -> S {
         let half = real::<S>(0.5);
         match *self {

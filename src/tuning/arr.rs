@@ -12,4 +12,5 @@ pub mod outer;
 
 pub mod smooth;
 
+#[cfg(feature = "cli")]
 pub mod table_1;

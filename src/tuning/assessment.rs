@@ -15,7 +15,7 @@ use crate::{case::Objective, motion::shown, validate::PREDICTABLE};
 /// The landing of the springs in the stiff limit, where they follow from the geometry.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 pub struct LimitRow {
-    /// Slenderness [rad], m R^2/I0 and Omega_n/p: all that the design depends on, rounded to nine digits.
+    /// Slenderness (rad), m R^2/I0 and Omega_n/p: all that the design depends on, rounded to nine digits.
     pub alpha: f64,
     pub mass_share: f64,
     pub omega_n_over_p: f64,
@@ -25,7 +25,7 @@ pub struct LimitRow {
     pub momentum_error: f64,
     /// Impulse through the old foot [m v_n].
     pub old_impulse: f64,
-    /// Fastest speed with which the new foot leaves the ground [v_n].
+    /// Fastest speed with which the new foot leaves the ground (v_n).
     pub rebound: f64,
     /// Time with both feet in the air, without gravity to end it, of 30 [1/Omega_n].
     pub air: f64,
@@ -38,6 +38,7 @@ pub struct LimitRow {
 /// The springs' accuracy.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Assessment {
+    /// What the springs follow from.
     pub objective: Objective,
     /// NRMSE asked for.
     pub accuracy: f64,
@@ -47,13 +48,14 @@ pub struct Assessment {
     pub capped: bool,
     /// What was measured.
     pub measured: Accuracy,
+    /// The landing in the stiff limit, where the springs follow from the geometry.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub landing: Option<LimitRow>,
 }
 
 impl Assessment {
     /// Of a job's springs, tuned for this accuracy.
-    pub fn new(job: &Job, objective: Objective, accuracy: f64) -> Self {
+    pub(crate) fn new(job: &Job, objective: Objective, accuracy: f64) -> Self {
         let measured = job.tuned.best.accuracy;
         let landing = (objective == Objective::Landing && !job.capped).then(|| limit(job)).flatten();
         Self { objective, accuracy, reached: measured.over(accuracy) <= 1.0, capped: job.capped, measured, landing }

@@ -35,7 +35,6 @@ pub struct Descent {
     pub z: Vec<f64>,
     /// sqrt(sum r^2).
     pub error: f64,
-    pub iterations: u64,
 }
 
 struct Adapter<'a, P>(&'a P);
@@ -164,7 +163,7 @@ pub fn descend<P: LeastSquares>(problem: &P, z: &[f64], radius: f64, iterations:
     let start: Vec<f64> = z.iter().zip(low.iter().zip(&high)).map(|(z, (l, h))| z.clamp(*l, *h)).collect();
     let stuck = |z: Vec<f64>| {
         let error = sum_of_squares(&problem.residuals(&z)).sqrt();
-        Descent { z, error, iterations: 0 }
+        Descent { z, error }
     };
     let solver = TrustRegion { problem, radius, model: None };
     let run = Executor::new(Adapter(problem), solver)
@@ -172,11 +171,7 @@ pub fn descend<P: LeastSquares>(problem: &P, z: &[f64], radius: f64, iterations:
         .run();
     match run {
         Ok(result) => match result.state().get_best_param() {
-            Some(z) => Descent {
-                z: z.clone(),
-                error: result.state().get_best_cost().sqrt(),
-                iterations: result.state().get_iter(),
-            },
+            Some(z) => Descent { z: z.clone(), error: result.state().get_best_cost().sqrt() },
             None => stuck(start),
         },
         Err(_) => stuck(start),

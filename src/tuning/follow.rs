@@ -35,7 +35,7 @@ const MU: (f64, f64) = (0.0025, 40.0);
 /// Least Omega_n, as a share of the largest.
 const SOFTEST: f64 = 0.1;
 
-/// The eight logarithms: Omega_n [Hz], K, C, mu of the vertical and of the horizontal units.
+/// The eight logarithms: Omega_n (Hz), K, C, mu of the vertical and of the horizontal units.
 fn springs<S: Scalar>(z: &[S]) -> Springs<Design<S>> {
     let design = |z: &[S]| Design::from_kc(z[3].exp(), z[1].exp(), z[2].exp(), z[0].exp());
     Springs { vertical: design(&z[..4]), horizontal: design(&z[4..]) }

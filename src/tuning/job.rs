@@ -27,7 +27,7 @@ use crate::{
     structure::Body,
 };
 
-/// Stiffest springs that are tried where no cap is given [Hz].
+/// Stiffest springs that are tried where no cap is given (Hz).
 pub const CEILING_HZ: f64 = 2e5;
 /// Omega_n of springs that are to have another restitution than equation 2's, where no cap is given [Hz]: they must bounce,
 /// and gravity bring them back.
@@ -37,6 +37,8 @@ const ALIKE: f64 = 1.25;
 
 /// Why there are no springs.
 #[derive(Debug, Error)]
+#[non_exhaustive]
+#[allow(missing_docs)] // messages say what variants and their fields are
 pub enum JobError {
     #[error(transparent)]
     Fit(#[from] FitError),
@@ -56,6 +58,7 @@ pub enum JobError {
 
 /// What the paper's procedure gives: families of the inner fit, and the outer loop over Omega_n on the record.
 #[derive(Debug)]
+#[cfg_attr(not(feature = "cli"), allow(dead_code))] // the program shows all of it
 pub struct Paper {
     pub vertical: Vec<Fit>,
     pub horizontal: Vec<Fit>,
@@ -64,10 +67,12 @@ pub struct Paper {
 
 /// A case's springs and all that led to them.
 #[derive(Debug)]
+#[cfg_attr(not(feature = "cli"), allow(dead_code))] // the program shows all of it
 pub struct Job {
     pub body: Body<f64>,
     /// The record over the length compared.
     pub record: Record,
+    #[allow(dead_code)] // tests look at it
     pub rocking: Rocking<f64>,
     /// Housner's motion.
     pub housner: Motion,
@@ -196,7 +201,7 @@ impl Landing<'_> {
         }
     }
 
-    /// The springs within a cap [Hz] that follow best what is judged on, of those followed down from the stiff limit and those
+    /// The springs within a cap (Hz) that follow best what is judged on, of those followed down from the stiff limit and those
     /// of the paper's procedure: so soft, neither is the better one for every body.
     fn followed(&self, cap: f64, progress: &(dyn Fn(usize, usize, f64) + Sync)) -> Result<Tuned, JobError> {
         let mut found = follow::follow(&self.body, self.case.restitution, self.bracket(cap)?);
@@ -224,7 +229,7 @@ impl Landing<'_> {
         tuned.best.springs.settlement(self.body.mass) <= self.case.tuning.max_settlement_m * (1.0 + 1e-3)
     }
 
-    /// A cap [Hz] and the settlement allowed.
+    /// A cap (Hz) and the settlement allowed.
     fn bracket(&self, cap: f64) -> Result<Bracket, JobError> {
         let bracket = Bracket { max_hz: cap, max_settlement: self.case.tuning.max_settlement_m };
         let least_m = bracket.least_settlement(follow::LARGEST_K);
@@ -281,12 +286,12 @@ impl<'a> Procedure<'a> {
         Ok(Self { case, benchmark, vertical, horizontal })
     }
 
-    /// Springs up to this Omega_n [Hz], whatever they settle.
+    /// Springs up to this Omega_n (Hz), whatever they settle.
     fn at(&self, max_hz: f64, progress: &(dyn Fn(usize, usize, f64) + Sync)) -> Option<outer::Tuned> {
         self.sampled(max_hz, self.case.tuning.candidates, progress)
     }
 
-    /// The same to compare with, at the Omega_n [Hz] of stiff springs: sampled at each pair's stiffest only, which is where the best
+    /// The same to compare with, at the Omega_n (Hz) of stiff springs: sampled at each pair's stiffest only, which is where the best
     /// ones are refined from there.
     fn beside(&self, max_hz: f64, progress: &(dyn Fn(usize, usize, f64) + Sync)) -> Option<outer::Tuned> {
         self.sampled(max_hz, 0, progress)

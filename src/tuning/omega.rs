@@ -42,6 +42,7 @@ pub struct Rung {
 #[derive(Clone, Debug)]
 pub struct Tuned {
     /// Every rung that was judged, the softest first.
+    #[allow(dead_code)] // tests look at them
     pub rungs: Vec<Rung>,
     /// The one that was taken.
     pub best: Rung,

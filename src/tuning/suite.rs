@@ -44,7 +44,7 @@ pub struct Trial {
     dt: f64,
     accel: Vec<f64>,
     vertical: Option<Arc<[f64]>>,
-    /// Housner's rotations at the samples [rad].
+    /// Housner's rotations at the samples (rad).
     theta: Vec<f64>,
 }
 

@@ -51,7 +51,7 @@ const ANOTHER: f64 = 1e-3;
 const WEIGHT_AIR: f64 = 15.0;
 /// The same where another restitution is asked for.
 const WEIGHT_AIR_ASKED: f64 = 0.5;
-/// Time in the air that a landing may take [s], or in periods of the stiffest spring allowed, whichever is longer: a softer
+/// Time in the air that a landing may take (s), or in periods of the stiffest spring allowed, whichever is longer: a softer
 /// spring cannot stop a landing sooner.
 const AIR_S: f64 = 0.010;
 const AIR_PERIODS: f64 = 1.0;
@@ -81,14 +81,14 @@ pub struct WholeModel {
     /// History error per relative error of restitution, and per second in the air.
     weight: f64,
     weight_air: f64,
-    /// Time in the air that a landing may take [s].
+    /// Time in the air that a landing may take (s).
     air_s: f64,
     releases: Vec<Release>,
     uplifts: Vec<Uplift>,
 }
 
 impl WholeModel {
-    /// Scenarios of a body that is to land with velocity restitution `restitution` on springs of Omega_n up to `max_hz` [Hz].
+    /// Scenarios of a body that is to land with velocity restitution `restitution` on springs of Omega_n up to `max_hz` (Hz).
     pub fn new(body: &Body<f64>, restitution: f64, max_hz: f64, criterion: Criterion) -> Self {
         let another = is_another(body, restitution);
         Self {

@@ -15,6 +15,7 @@ use crate::{
 /// Whether the two models could be compared.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize)]
 #[serde(rename_all = "snake_case")]
+#[non_exhaustive]
 pub enum Outcome {
     /// Housner's body rocked, or toppled.
     Rocked,
@@ -54,11 +55,13 @@ const CHANGE: f64 = 1e-5;
 /// What is kept of a record. Options are empty (`null` in JSON) where there is no such number.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct Row {
+    /// The record's name.
     pub name: String,
+    /// How the finite element history ended.
     pub outcome: Outcome,
-    /// Length compared: up to the end of the shorter history, and to the first overturning [s].
+    /// Length compared: up to the end of the shorter history, and to the first overturning (s).
     pub duration_s: f64,
-    /// Peak ground acceleration, scaled as compared [g].
+    /// Peak ground acceleration, scaled as compared (g).
     pub pga_g: f64,
     /// Relative change of Housner's u per relative change of width or record scale, whichever is worse.
     pub sensitivity: f64,
@@ -71,6 +74,7 @@ pub struct Row {
     pub peak_ratio_housner: f64,
     /// The same while a foot is off the ground; none if the history failed.
     pub peak_ratio_fem: Option<f64>,
+    /// Whether Housner's body overturned.
     pub overturned_housner: bool,
     /// None if the history failed.
     pub overturned_fem: Option<bool>,
@@ -78,24 +82,26 @@ pub struct Row {
     pub impacts: usize,
     /// Largest |residual| of the finite element model's energy account over the largest energy of the history.
     pub energy_residual: f64,
+    /// Where the record comes from.
     pub suite: Suite,
     /// By the derivative and by finite changes; false if the record never lifts Housner's body.
     pub well_conditioned: bool,
     /// How far a change of 0.1 % and of 1 % in width or scale, whichever is worse, moves Housner's u.
     pub moved_by_0_1_percent: f64,
+    /// The same of 1 %.
     pub moved_by_1_percent: f64,
     /// How far a change of 0.1 % in restitution moves it.
     pub moved_by_0_1_percent_of_restitution: f64,
     /// As `peak_ratio_housner`, with a restitution smaller by 1e-5 of it.
     pub peak_ratio_housner_changed: f64,
-    /// When Housner's pivot would first have to hold the body down [s]; none if it presses throughout. A foot lifts there, and
+    /// When Housner's pivot would first have to hold the body down (s); none if it presses throughout. A foot lifts there, and
     /// rocking does not hold any more.
     pub pivot_pulls_s: Option<f64>,
 }
 
 impl Row {
     /// Whether one of the models failed.
-    pub fn failed(&self) -> bool {
+    pub(crate) fn failed(&self) -> bool {
         matches!(self.outcome, Outcome::HousnerFailed | Outcome::FemFailed)
     }
 
@@ -105,18 +111,18 @@ impl Row {
     }
 
     /// Whether Housner's body rocked without toppling, and on a pivot that never had to pull.
-    pub fn rocked(&self) -> bool {
+    pub(crate) fn rocked(&self) -> bool {
         let rocked = matches!(self.outcome, Outcome::Rocked | Outcome::FemFailed);
         rocked && !self.overturned_housner && self.pivot_pulls_s.is_none()
     }
 
     /// The NRMSE of a row: at least 1 where one body topples and the other does not, however long they went together.
-    pub fn error(&self, nrmse: Option<f64>) -> Option<f64> {
+    pub(crate) fn error(&self, nrmse: Option<f64>) -> Option<f64> {
         if self.agrees() { nrmse } else { nrmse.map(|x| x.max(1.0)) }
     }
 
     /// Whether both models say the same of overturning.
-    pub fn agrees(&self) -> bool {
+    pub(crate) fn agrees(&self) -> bool {
         !self.failed() && self.overturned_fem == Some(self.overturned_housner)
     }
 }

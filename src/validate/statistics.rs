@@ -9,9 +9,13 @@ use super::{Row, Suite};
 /// Overturning in both models, in records.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize)]
 pub struct Confusion {
+    /// Overturned in both.
     pub both: usize,
+    /// In Housner's alone.
     pub housner_only: usize,
+    /// In the finite elements alone.
     pub fem_only: usize,
+    /// In none.
     pub neither: usize,
     /// A model failed: neither agreement nor a known disagreement, and counted as the latter.
     pub failed: usize,
@@ -87,7 +91,7 @@ pub fn ks_distance(a: &[f64], b: &[f64]) -> f64 {
 /// Below this sensitivity histories are alike or not, though not one to one: what a geometric mean is taken over.
 pub const PREDICTABLE: f64 = 150.0;
 
-/// The geometric mean of the NRMSE of u over records with a sensitivity below [`PREDICTABLE`] that lift Housner's body
+/// The geometric mean of the NRMSE of u over records with a sensitivity below 150 that lift Housner's body
 /// and neither topple it nor ask its pivot to pull.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize)]
 pub struct GeometricMean {
@@ -101,7 +105,7 @@ pub struct GeometricMean {
 
 impl GeometricMean {
     /// Of all such rows.
-    pub fn new<'a>(rows: impl IntoIterator<Item = &'a Row>) -> Self {
+    pub(crate) fn new<'a>(rows: impl IntoIterator<Item = &'a Row>) -> Self {
         let errors: Vec<_> = rows
             .into_iter()
             .filter(|row| row.rocked() && row.sensitivity < PREDICTABLE)
@@ -124,6 +128,7 @@ pub struct Summary {
     pub ks_distance_of_housner_changed: f64,
     /// Share of the records on whose overturning both models agree; a failure is a disagreement.
     pub overturning_agreement: f64,
+    /// Overturning in both models.
     pub overturning: Confusion,
     /// NRMSE of u over the comparable records.
     pub nrmse_well_conditioned: Quantiles,
@@ -146,16 +151,18 @@ pub struct Summary {
 /// All records, what they say together, and what each suite says.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct Validation {
+    /// All records together.
     #[serde(flatten)]
     pub all: Summary,
     /// Of the suites that are there.
     pub suites: BTreeMap<Suite, Summary>,
+    /// A row a record, in their order.
     pub records: Vec<Row>,
 }
 
 impl Validation {
     /// From the rows of all records.
-    pub fn new(records: Vec<Row>) -> Self {
+    pub(crate) fn new(records: Vec<Row>) -> Self {
         let mut suites = BTreeMap::<Suite, Vec<&Row>>::new();
         for row in &records {
             suites.entry(row.suite).or_default().push(row);
@@ -167,7 +174,7 @@ impl Validation {
 
 impl Summary {
     /// From the rows of a set.
-    pub fn new(records: &[&Row]) -> Self {
+    pub(crate) fn new(records: &[&Row]) -> Self {
         let (housner, fem): (Vec<f64>, Vec<f64>) = records.iter().map(|row| peaks(row)).unzip();
         let changed: Vec<f64> = records.iter().map(|row| row.peak_ratio_housner_changed).collect();
         let never_lifted = records.iter().filter(|row| row.outcome == super::Outcome::NeverLifted).count();

@@ -45,7 +45,7 @@ pub struct Stream<'a> {
     body: &'a Body<f64>,
     housner: &'a [f64],
     accel: &'a [f64],
-    /// Lean of balance [rad].
+    /// Lean of balance (rad).
     alpha: f64,
     /// Index and size of the largest |u_g| of the rest of the record [m/s2].
     strongest: Option<(usize, f64)>,
@@ -53,18 +53,18 @@ pub struct Stream<'a> {
     pub errors: Errors,
     /// The same up to the last sample at which the body leaned by alpha or less: what a body that topples is judged by.
     pub upright: Errors,
-    /// Largest |theta| while a foot is off the ground [rad].
+    /// Largest |theta| while a foot is off the ground (rad).
     pub peak: f64,
-    /// theta [rad] and theta' [rad/s] at the last sample.
+    /// theta (rad) and theta' [rad/s] at the last sample.
     pub last: (f64, f64),
     /// Samples seen.
     pub samples: usize,
-    /// Largest |residual| of the energy account [J].
+    /// Largest |residual| of the energy account (J).
     pub residual: f64,
 }
 
 impl<'a> Stream<'a> {
-    /// Beside Housner's rotations [rad], as far as they shall be compared; `accel` is the record [m/s2].
+    /// Beside Housner's rotations (rad), as far as they shall be compared; `accel` is the record [m/s2].
     pub fn new(body: &'a Body<f64>, housner: &'a [f64], accel: &'a [f64]) -> Self {
         Self {
             body,

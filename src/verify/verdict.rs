@@ -23,9 +23,9 @@ pub struct Verdict {
     pub within: bool,
     /// Samples judged: all, or those before the history hangs on the width's fifth digit.
     pub samples: usize,
-    /// Time from which on it does [s].
+    /// Time from which on it does (s).
     pub until: Option<f64>,
-    /// When OpenSees first is off by one hundredth of the largest u [s].
+    /// When OpenSees first is off by one hundredth of the largest u (s).
     pub parted: Option<f64>,
 }
 

@@ -98,6 +98,7 @@ fn finite_element_histories_are_finite_close_their_account_and_say_how_they_ende
             fem::Outcome::Stopped { .. } => return Err("nobody asked to stop".into()),
             fem::Outcome::WorkBound { .. } => "work bound",
             fem::Outcome::Unstable { .. } => "unstable",
+            other => return Err(format!("{other:?}")),
         })
     });
     let (bound, count) = (words.get("work bound").copied().unwrap_or(0), words.values().sum::<usize>());
@@ -150,7 +151,7 @@ fn rigid_histories_are_finite_and_say_how_they_ended_alone_and_in_lock_step() {
                 }
                 housner::Outcome::LeavesGround { .. } => "leaves the ground",
                 housner::Outcome::WorkBound { .. } => "work bound",
-                housner::Outcome::NotFinite { .. } => return Err("not finite".into()),
+                other => return Err(format!("{other:?}")),
             };
             // a rate that grows over an impact, or impacts out of order
             let mut last = 0.0;

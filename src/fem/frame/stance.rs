@@ -52,7 +52,7 @@ impl<S: Scalar> Model<S> {
     }
 
     /// Standing still under the weight and a further load [N] on the mass, downwards.
-    pub(in crate::fem) fn stand(&self, load: S) -> (State<S>, [Foot<S>; 2]) {
+    pub(in super::super) fn stand(&self, load: S) -> (State<S>, [Foot<S>; 2]) {
         let (mut state, feet) = self.stand_rigid(self.body.mass * GRAVITY + load);
         let s: S = real(FOR_EVER);
         let mut done = 0;
@@ -76,7 +76,7 @@ impl<S: Scalar> Model<S> {
     }
 
     /// At rest leaning by theta on one foot, as `on_one_foot`: on its leg, and pulled by the tendon.
-    pub(in crate::fem) fn lean_on_leg(&self, frame: &Frame<S>, theta: S) -> (State<S>, [Foot<S>; 2]) {
+    pub(in super::super) fn lean_on_leg(&self, frame: &Frame<S>, theta: S) -> (State<S>, [Foot<S>; 2]) {
         let pressing = usize::from(theta.re() > 0.0);
         let Springs { vertical, horizontal } = &self.springs;
         let mut q = [S::zero(); N];

@@ -8,7 +8,7 @@
 //! function theorem the gradient psi_z and the Hessian psi_zz - psi_zu psi_uz / psi_uu.
 
 use nalgebra::{Matrix2, SVector, Vector2, vector};
-use num_dual::{Dual2SVec64, DualNum, first_derivative, gradient, hessian, second_derivative};
+use num_dual::{Dual2SVec64, DualNum, first_derivative, hessian, second_derivative};
 
 use crate::response::Response;
 use crate::response::target::{Kind, Target};
@@ -225,8 +225,9 @@ pub fn largest(points: &[Point]) -> f64 {
 }
 
 /// psi and its gradient by z at a g that does not move.
+#[cfg(test)]
 pub fn value_and_slope(curve: &Curve, g: f64, mu: f64, z: &Parameters) -> (f64, Vector2<f64>) {
-    gradient(|z| curve.excess(real(g), &response(mu, &z)), z)
+    num_dual::gradient(|z| curve.excess(real(g), &response(mu, &z)), z)
 }
 
 #[cfg(test)]

@@ -8,7 +8,6 @@
 //! of them to the minimum by convex steps; a certificate of optimality comes with every fit.
 
 use nalgebra::Vector2;
-use rayon::prelude::*;
 use serde::Serialize;
 use thiserror::Error;
 
@@ -22,6 +21,7 @@ use crate::response::target::{Target, TargetError};
 /// How a fit ended.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize)]
 #[serde(rename_all = "snake_case")]
+#[non_exhaustive]
 pub enum Outcome {
     /// A minimum, confirmed by its certificate.
     Converged,
@@ -58,6 +58,8 @@ pub struct Fit {
 
 /// Why there is no fit.
 #[derive(Clone, Debug, PartialEq, Error)]
+#[non_exhaustive]
+#[allow(missing_docs)] // messages say what variants and their fields are
 pub enum FitError {
     #[error("fit: mu is {mu:?}; give a mass ratio between 1e-6 and 1e6")]
     Mu { mu: f64 },
@@ -114,7 +116,9 @@ pub fn fit(mu: f64, target: &Target, bounds: &Bounds) -> Result<Fit, FitError> {
 }
 
 /// Fits of the default target for many mass ratios, in their order; in parallel.
+#[cfg(any(test, feature = "internals"))]
 pub fn families(mus: &[f64]) -> Result<Vec<Fit>, FitError> {
+    use rayon::prelude::*;
     mus.par_iter().map(|&mu| fit(mu, &Target::default(), &Bounds::default())).collect()
 }
 

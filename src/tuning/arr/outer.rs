@@ -54,9 +54,9 @@ pub struct Benchmark<'a> {
 /// Where Omega_n may lie.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Bracket {
-    /// Stiffest springs [Hz].
+    /// Stiffest springs (Hz).
     pub max_hz: f64,
-    /// Largest settlement of the standing body [m].
+    /// Largest settlement of the standing body (m).
     pub max_settlement: f64,
 }
 
@@ -71,6 +71,7 @@ pub struct Candidate {
 
 /// What the outer loop found.
 #[derive(Clone, Debug)]
+#[cfg_attr(not(feature = "cli"), allow(dead_code))] // the program shows all of it
 pub struct Tuned {
     pub best: Candidate,
     /// Index of the best in `candidates`.
@@ -122,7 +123,7 @@ impl Benchmark<'_> {
 }
 
 impl Bracket {
-    /// Least settlement of a body whose vertical chain has the stiffness ratio K = k2/k1: on the stiffest springs [m].
+    /// Least settlement of a body whose vertical chain has the stiffness ratio K = k2/k1: on the stiffest springs (m).
     pub fn least_settlement(&self, k: f64) -> f64 {
         0.5 * GRAVITY * (1.0 + 1.0 / k) / (std::f64::consts::TAU * self.max_hz).powi(2)
     }
@@ -132,7 +133,7 @@ impl Bracket {
         self.least_settlement(k) <= self.max_settlement
     }
 
-    /// Lowest and highest Omega_n [Hz] of a vertical chain of stiffness ratio K = k2/k1.
+    /// Lowest and highest Omega_n (Hz) of a vertical chain of stiffness ratio K = k2/k1.
     fn vertical(&self, k: f64) -> (f64, f64) {
         // settlement = g/2 (1 + 1/K) / Omega_n^2
         let low = (0.5 * GRAVITY * (1.0 + 1.0 / k) / self.max_settlement).sqrt() / std::f64::consts::TAU;

@@ -10,7 +10,7 @@ use crate::{
     structure::{Kind, Structure},
 };
 
-/// Omega_n/2 pi [Hz], K, C, mu.
+/// Omega_n/2 pi (Hz), K, C, mu.
 const VERTICAL: [f64; 4] = [6.2, 9.214, 4.397, 10.2];
 const HORIZONTAL: [f64; 4] = [10.0, 0.4897, 7.816, 10.2];
 

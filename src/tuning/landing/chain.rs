@@ -23,8 +23,9 @@ const NEWTON: usize = 8;
 #[derive(Clone, Copy, Debug)]
 pub struct ChainLanding<S> {
     /// Time at which the mass leaves [1/Omega_n].
+    #[allow(dead_code)] // tests look at it
     pub lift: S,
-    /// Speed with which it leaves the ground, positive upwards [v_n].
+    /// Speed with which it leaves the ground, positive upwards (v_n).
     pub rebound: S,
     /// Least distance of mass and absorber after that, until [`FOLLOWED`] [v_n/Omega_n]; negative if the absorber comes back
     /// and would touch.

@@ -19,7 +19,7 @@
 //!   K_0 = K_SCALE (alpha^3 Omega_n/p)^(-2/3),     K^2 = [K_0/(1 + K_0/K_LARGEST)]^2 + K_LEAST^2
 //! ```
 //!
-//! the fraction for soft springs, where landings on a larger K bounce; K_LEAST below. `cargo run --release --example stance` finds both numbers
+//! the fraction for soft springs, where landings on a larger K bounce; K_LEAST below. `cargo bench --bench stance` finds both numbers
 //! of the first two again, on synthetic motions of seed 5.
 
 use argmin::{
@@ -50,6 +50,7 @@ const K_FLAT: f64 = 0.04;
 /// Omega_n v_n/g from which on the stiff limit holds.
 const STIFF_LIMIT: f64 = 100.0;
 /// Omega_n v_n/g from which on all landings, gentle ones too, keep the restitution to 0.2 % (`tests/chart.rs`).
+#[cfg(feature = "cli")]
 const LANDINGS_HOLD: f64 = 15.0;
 /// Where mu_u and C_u may lie.
 const MU: (f64, f64) = (0.45, 1.1);
@@ -65,6 +66,7 @@ pub struct Geometry {
 
 /// What no design can be made for.
 #[derive(Clone, Copy, Debug, PartialEq, Error)]
+#[non_exhaustive]
 pub enum GeometryError {
     #[error("design: alpha is {0:?}; give a slenderness between 0.005 and 0.9 rad")]
     Alpha(f64),
@@ -75,7 +77,7 @@ pub enum GeometryError {
 }
 
 impl Geometry {
-    /// alpha [rad], m R^2/I0 and Omega_n/p.
+    /// alpha (rad), m R^2/I0 and Omega_n/p.
     ///
     /// # Errors
     /// Numbers outside 0.005 to 0.9 rad, 0 to 1, 1 to 1e9.
@@ -100,7 +102,7 @@ impl Geometry {
         Self::new(body.alpha(), body.mass_share(), stiffness)
     }
 
-    /// Slenderness [rad].
+    /// Slenderness (rad).
     pub fn alpha(&self) -> f64 {
         self.alpha
     }
@@ -131,6 +133,7 @@ impl Geometry {
     }
 
     /// Whether all landings keep the restitution to 0.2 %: the hardness is at least 15.
+    #[cfg(feature = "cli")]
     pub fn landings_hold(&self) -> bool {
         self.hardness() >= LANDINGS_HOLD
     }

@@ -26,7 +26,7 @@ pub(super) struct Release {
     samples: usize,
     /// Those on the rise to it, between which the growing part is averaged.
     rise: std::ops::Range<usize>,
-    /// Housner's u [m] and u' [m/s] there.
+    /// Housner's u (m) and u' [m/s] there.
     housner: Vec<(f64, f64)>,
     p: f64,
 }
@@ -40,11 +40,11 @@ pub(super) struct Left<S> {
     pub kept: S,
     /// The growing part.
     pub growing: S,
-    /// Time with both feet in the air [s].
+    /// Time with both feet in the air (s).
     pub air: S,
 }
 
-/// Time from a lean of phi alpha to the upright, or back, by the small-angle theory [s].
+/// Time from a lean of phi alpha to the upright, or back, by the small-angle theory (s).
 pub(super) fn quarter(phi: f64, p: f64) -> f64 {
     (1.0 / (1.0 - phi)).acosh() / p
 }

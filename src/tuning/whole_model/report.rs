@@ -32,7 +32,7 @@ pub struct LandingRow {
     pub restitution: f64,
     /// Its relative error against the restitution asked for.
     pub restitution_error: f64,
-    /// Time with both feet in the air [s].
+    /// Time with both feet in the air (s).
     pub air_s: f64,
     /// Fastest lift-off of the landing foot over the speed at which it touched down; 0 if it stays.
     pub rebound: f64,
@@ -40,7 +40,7 @@ pub struct LandingRow {
     pub touch_downs: usize,
     /// Ripple of the vertical force just before the next impact, share of the weight.
     pub ringing: f64,
-    /// Depth at which the landed foot then stands below the unloaded ground [m].
+    /// Depth at which the landed foot then stands below the unloaded ground (m).
     pub settlement_m: f64,
 }
 

@@ -18,7 +18,7 @@ use crate::{
     structure::Body,
 };
 
-/// Durations t_r [s].
+/// Durations t_r (s).
 const RAMPS_S: [f64; 5] = [0.045, 0.065, 0.095, 0.14, 0.2];
 /// Durations t_r, in 1/p.
 const RAMPS_P: [f64; 3] = [0.06, 0.12, 0.24];
@@ -32,7 +32,7 @@ pub(super) struct Uplift {
     accel: Vec<f64>,
     /// Samples over which the velocity is taken.
     last: usize,
-    /// Housner's u at both ends of these [m].
+    /// Housner's u at both ends of these (m).
     housner: (f64, f64),
 }
 

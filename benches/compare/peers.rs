@@ -10,7 +10,7 @@ use std::{
 use serde::{Deserialize, Serialize};
 
 use super::{Peer, Point, Series, elements, rigid};
-use crate::{
+use groundspring::{
     export::{Expected, Format, export},
     motion::Motion,
     predictability::moved_by_a_hair,
@@ -46,7 +46,7 @@ pub fn scipy(problem: &rigid::Problem, python: &Path, rtols: &[f64], rounds: usi
         p2: body.p_squared(),
         alpha: body.alpha(),
         e: body.restitution(),
-        g: crate::scalar::GRAVITY,
+        g: groundspring::scalar::GRAVITY,
         dt: record.dt,
         accel: &record.accel,
         methods: ["RK45", "DOP853"],
@@ -74,7 +74,8 @@ pub fn octave(problem: &rigid::Problem, rtols: &[f64], rounds: usize) -> Peer {
     let rigid::Problem { body, record, .. } = problem;
     let folder = tempfile::tempdir().map_err(|e| format!("Octave: no temporary folder ({e})"))?;
     let [script, asked, answer] = ["housner.m", "asked.txt", "answer.txt"].map(|name| folder.path().join(name));
-    let mut numbers = vec![body.p_squared(), body.alpha(), body.restitution(), crate::scalar::GRAVITY, record.dt];
+    let mut numbers =
+        vec![body.p_squared(), body.alpha(), body.restitution(), groundspring::scalar::GRAVITY, record.dt];
     numbers.extend([rounds as f64, rtols.len() as f64]);
     let text = numbers.iter().chain(rtols).chain(&record.accel).fold(String::new(), |mut text, x| {
         // writing to a String cannot fail
@@ -152,7 +153,9 @@ fn read_run(line: &str) -> Option<(usize, f64, Motion)> {
     let Some(path) = words.next() else { return Some((steps, seconds, motion)) };
     for row in csv::Reader::from_path(path).ok()?.deserialize() {
         let (_, u, v, theta): (f64, f64, f64, f64) = row.ok()?;
-        motion.push(u, v, theta);
+        motion.u.push(u);
+        motion.v.push(v);
+        motion.theta.push(theta);
     }
     Some((steps, seconds, motion))
 }

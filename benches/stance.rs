@@ -2,7 +2,7 @@
 //! and Omega_n/p, beside the K that the design takes. 60 synthetic motions of seed 5 each, the well-conditioned ones counted.
 //!
 //! ```sh
-//! cargo run --release --example stance
+//! cargo bench --bench stance
 //! ```
 
 use groundspring::{

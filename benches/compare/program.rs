@@ -8,7 +8,7 @@ use std::{
 };
 
 use super::{least, skips::Skip};
-use crate::{
+use groundspring::{
     response::{bounds::Bounds, target::Target},
     tuning::arr::inner::{FitError, fit},
 };

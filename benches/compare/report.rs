@@ -156,8 +156,8 @@ fn runs(runs: &[Run]) -> String {
 
 #[cfg(test)]
 mod tests {
+    use super::super::Point;
     use super::*;
-    use crate::bench::Point;
 
     fn series(tool: &str, points: &[(f64, f64)]) -> Series {
         let point = |&(seconds, error): &(f64, f64)| Point { setting: "s".into(), seconds, error, note: String::new() };

@@ -3,7 +3,7 @@
 use std::hint::black_box;
 
 use super::{Point, Series, least};
-use crate::{
+use groundspring::{
     fem::{Case, Control, History, Start},
     motion::{Motion, nrmse},
     parameters::Parameters,
@@ -27,7 +27,7 @@ pub struct Scene {
 
 /// The paper's structure, with the little rotational inertia that a deck for OpenSees needs.
 pub fn structure() -> Structure {
-    crate::export::with_inertia(&Structure::paper())
+    groundspring::export::with_inertia(&Structure::paper())
 }
 
 impl Scene {

@@ -1,36 +1,95 @@
 //! Run time against error: our two models and other tools on the same history, in one run.
 //!
+//! ```sh
+//! cargo bench --bench compare -- --quick                       # a few seconds, our own code alone
+//! cargo bench --bench compare -- --page docs/benchmarks.md     # everything, some minutes; writes the page anew
+//! ```
+//!
 //! | file | what |
 //! |---|---|
-//! | [`rigid`] | Housner's equation against a float128 history, alone and in lock-step |
-//! | `diffsol` | the same by diffsol, stopped at every sample (feature `diffsol`) |
-//! | [`elements`] | the finite element history: tolerance, stiffness, length |
-//! | [`peers`] | SciPy, Octave, OpenSees, each in a process of its own |
-//! | [`program`] | inner fit, `tune run`, `tune validate` |
-//! | [`skips`] | what a case does not need, with and without |
-//! | [`report`], `targets` | tables; targets and whether they are met |
+//! | `rigid` | Housner's equation against a float128 history, alone and in lock-step |
+//! | `diffsol` | the same by diffsol, stopped at every sample |
+//! | `elements` | the finite element history: tolerance, stiffness, length |
+//! | `peers` | SciPy, Octave, OpenSees, each in a process of its own |
+//! | `program` | inner fit, `tune run`, `tune validate` |
+//! | `skips` | what a case does not need, with and without |
+//! | `report`, `targets`, `page` | tables; targets and whether they are met; docs/benchmarks.md |
 //!
 //! Times are the least of several rounds in which the contenders take turns: other work on the machine only ever adds.
 //! What counts is their ratio.
 
+// without a harness tests are compiled away; tests/compare.rs runs them
+#![cfg_attr(test, allow(unused_imports, dead_code))]
+
+mod diffsol;
 pub mod elements;
-pub mod peers;
-pub mod program;
-pub mod report;
+mod page;
+mod peers;
+mod program;
+mod report;
 pub mod rigid;
-pub mod skips;
+mod skips;
 mod targets;
 
-#[cfg(feature = "diffsol")]
-pub mod diffsol;
+use std::{
+    error::Error,
+    path::{Path, PathBuf},
+    time::Instant,
+};
 
-use std::{path::Path, time::Instant};
-
-pub use targets::Target;
+use clap::Parser;
+use groundspring::{
+    figures::precision::{self, Precision},
+    tuning::arr::inner::FitError,
+};
 
 use self::peers::Stepping;
-use crate::tuning::arr::inner::FitError;
 use report::Measured;
+
+#[derive(Debug, Parser)]
+#[command(name = "compare", about = "Run time against error, beside other tools")]
+struct Options {
+    /// A few seconds: few rounds, no other program
+    #[arg(long)]
+    quick: bool,
+    /// Python with SciPy and openseespy
+    #[arg(long, value_name = "PATH", default_value = "python3")]
+    python: PathBuf,
+    /// Folder for the table and the figure [default: none]
+    #[arg(long, value_name = "DIR")]
+    out: Option<PathBuf>,
+    /// Write the documentation's page anew
+    #[arg(long, value_name = "FILE", conflicts_with = "quick")]
+    page: Option<PathBuf>,
+    /// Whether the documentation's page has the tables that this program prints
+    #[arg(long, value_name = "FILE")]
+    check: Option<PathBuf>,
+    /// Given by cargo bench
+    #[arg(long, hide = true)]
+    bench: bool,
+}
+
+pub fn main() -> Result<(), Box<dyn Error>> {
+    let o = Options::parse();
+    let effort = if o.quick { Effort::quick() } else { Effort::full() };
+    let program = Path::new(env!("CARGO_BIN_EXE_tune"));
+    let measured = measure(&effort, &o.python, program, &|what| eprintln!("{what}"))?;
+    let text = measured.text();
+    print!("{text}");
+    if let Some(out) = &o.out {
+        std::fs::create_dir_all(out)?;
+        std::fs::write(out.join("bench.md"), &text)?;
+        draw(&measured, &out.join("work_precision.png"))?;
+    }
+    if let Some(path) = &o.page {
+        std::fs::write(path, page::page(&text))?;
+    }
+    if let Some(path) = &o.check {
+        page::check(&text, &std::fs::read_to_string(path)?)?;
+        println!("\n{}: all tables are there", path.display());
+    }
+    Ok(())
+}
 
 /// One run of a tool: a setting, what it cost and how far off it was.
 #[derive(Clone, Debug, PartialEq)]
@@ -98,9 +157,6 @@ pub fn measure(effort: &Effort, python: &Path, program: &Path, tell: &dyn Fn(&st
     tell("Housner's equation");
     m.rigid = rigid::series(&problem, many);
     m.lanes = Some(rigid::lanes(&problem, 64, few));
-    if !cfg!(feature = "diffsol") {
-        m.left_out.push("diffsol: not built in; cargo run --release --features diffsol -- bench".into());
-    }
     if effort.programs {
         tell("Housner's equation: SciPy, Octave");
         for peer in peers::scipy(&problem, python, &[1e-3, 1e-6, 1e-9], 3) {
@@ -160,6 +216,42 @@ pub fn least<T>(rounds: usize, mut contender: impl FnMut() -> T) -> (f64, T) {
         least = least.min(began.elapsed().as_secs_f64());
     }
     (least, out)
+}
+
+/// A tool's name and its (error, time [ms]).
+type Drawn = (String, Vec<(f64, f64)>);
+
+fn series(drawn: &[Drawn]) -> Vec<precision::Series<'_>> {
+    drawn.iter().map(|(label, points)| precision::Series { label, points }).collect()
+}
+
+/// `work_precision.png`: one sheet a model.
+fn draw(measured: &Measured, path: &Path) -> Result<(), Box<dyn Error>> {
+    // what has no finite error, as a history that went wrong, is in the table only; no error at all cannot be drawn
+    let points = |series: &Series| -> Vec<(f64, f64)> {
+        let drawn = series.points.iter().filter(|p| p.error > 0.0 && p.error.is_finite());
+        drawn.map(|p| (p.error, p.seconds * 1e3)).collect()
+    };
+    let all = |list: &[Series]| -> Vec<Drawn> {
+        list.iter().map(|s| (s.tool.clone(), points(s))).filter(|(_, points)| !points.is_empty()).collect()
+    };
+    let (rigid, elements) = (all(&measured.rigid), all(&measured.elements));
+    let (rigid, elements) = (series(&rigid), series(&elements));
+    let sheets = [
+        Precision {
+            title: "Housner's equation, 20 s of El Centro: time against error",
+            error_label: "largest error of u against float128 [m]",
+            time_label: "time [ms]",
+            series: &rigid,
+        },
+        Precision {
+            title: "Finite elements on 160 Hz springs, 20 s of El Centro: time against error",
+            error_label: "larger NRMSE of u and v",
+            time_label: "time [ms]",
+            series: &elements,
+        },
+    ];
+    Ok(precision::render(&sheets, path)?)
 }
 
 #[cfg(test)]

@@ -103,8 +103,8 @@ pub(super) fn table_of(measured: &Measured) -> String {
 
 #[cfg(test)]
 mod tests {
+    use super::super::{Point, Series, program::Run};
     use super::*;
-    use crate::bench::{Point, Series, program::Run};
 
     fn series(tool: &str, points: &[(f64, f64)]) -> Series {
         let point = |&(seconds, error): &(f64, f64)| Point { setting: "s".into(), seconds, error, note: String::new() };

@@ -3,7 +3,7 @@
 use std::hint::black_box;
 
 use super::{Point, Series, alternate};
-use crate::{
+use groundspring::{
     housner::{Options, solve, solve_lanes},
     record::Record,
     structure::{Body, Structure},
@@ -42,13 +42,12 @@ impl Problem {
     }
 
     /// The same history for diffsol.
-    #[cfg(feature = "diffsol")]
     pub fn diffsol(&self) -> super::diffsol::Case<'_> {
         super::diffsol::Case {
             p2: self.body.p_squared(),
             alpha: self.body.alpha(),
             e: self.body.restitution(),
-            g: crate::scalar::GRAVITY,
+            g: groundspring::scalar::GRAVITY,
             dt: self.record.dt,
             accel: &self.record.accel,
         }
@@ -60,10 +59,9 @@ impl Problem {
 }
 
 /// Tolerances of diffsol's ladder.
-#[cfg(feature = "diffsol")]
 const LADDER: [f64; 2] = [1e-4, 1e-10];
 
-/// Our solver, and beside it diffsol where it is built in.
+/// Our solver, and beside it diffsol.
 pub fn series(problem: &Problem, rounds: usize) -> Vec<Series> {
     let mut ours = || drop(black_box(problem.ours()));
     let own = |seconds| Series {
@@ -75,28 +73,23 @@ pub fn series(problem: &Problem, rounds: usize) -> Vec<Series> {
             note: String::new(),
         }],
     };
-    #[cfg(not(feature = "diffsol"))]
-    return vec![own(alternate(&mut [&mut ours], rounds)[0])];
-    #[cfg(feature = "diffsol")]
-    {
-        let case = problem.diffsol();
-        let case = &case;
-        let mut peers = LADDER.map(|rtol| move || drop(black_box(case.theta(rtol))));
-        let [a, b] = &mut peers;
-        let times = alternate(&mut [&mut ours, a, b], rounds);
-        let points = LADDER
-            .iter()
-            .zip(&times[1..])
-            .map(|(&rtol, &seconds)| Point {
-                setting: format!("rtol {rtol:.0e}"),
-                seconds,
-                error: case.theta(rtol).map_or(f64::INFINITY, |theta| problem.error(&theta)),
-                note: String::new(),
-            })
-            .collect();
-        let tool = "diffsol Tsit45, stopped at every sample".into();
-        vec![own(times[0]), Series { tool, points }]
-    }
+    let case = problem.diffsol();
+    let case = &case;
+    let mut peers = LADDER.map(|rtol| move || drop(black_box(case.theta(rtol))));
+    let [a, b] = &mut peers;
+    let times = alternate(&mut [&mut ours, a, b], rounds);
+    let points = LADDER
+        .iter()
+        .zip(&times[1..])
+        .map(|(&rtol, &seconds)| Point {
+            setting: format!("rtol {rtol:.0e}"),
+            seconds,
+            error: case.theta(rtol).map_or(f64::INFINITY, |theta| problem.error(&theta)),
+            note: String::new(),
+        })
+        .collect();
+    let tool = "diffsol Tsit45, stopped at every sample".into();
+    vec![own(times[0]), Series { tool, points }]
 }
 
 /// Many structures on one record: time of each, one by one and in lock-step.

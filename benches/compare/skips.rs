@@ -6,7 +6,7 @@ use super::{
     alternate,
     elements::{Scene, at, structure},
 };
-use crate::{
+use groundspring::{
     fem::{Case, Control, Observer, Recorder, Start, View},
     housner,
     members::{Legs, Members},
@@ -228,7 +228,7 @@ mod tests {
             assert!(a.work.steps + saved < b.work.steps, "{:?} {:?}", a.work, b.work);
             assert!(nrmse(&a.motion.u, &b.motion.u) < 1e-7, "{:e}", nrmse(&a.motion.u, &b.motion.u));
             assert!(nrmse(&a.motion.v, &b.motion.v) < 1e-7);
-            let weight = structure().mass_kg * crate::scalar::GRAVITY;
+            let weight = structure().mass_kg * groundspring::scalar::GRAVITY;
             let tail = a.motion.len() - 1;
             for foot in 0..2 {
                 let [x, y] = [&a, &b].map(|h| h.forces.vertical[foot][tail]);

@@ -1,0 +1,210 @@
+//! Both models' answers to one record, or to many: Housner's rigid body and the finite elements on ground springs, and what they say together.
+
+use std::convert::Infallible;
+
+use crate::{
+    compare::Match,
+    conditioning::Conditioning,
+    fem::{self, Demands, History, Peak},
+    housner::{self, Rocking},
+    members::Members,
+    motion::Motion,
+    overturning::samples_until,
+    parameters::Parameters,
+    record::Record,
+    spring::{Chain, Springs},
+    structure::Body,
+    validate::{Judge, Validation},
+    verdict::Verdict,
+};
+
+/// Both models' answers to one record.
+pub struct Both {
+    /// Housner's history.
+    pub rocking: Rocking<f64>,
+    /// Housner's history without the vertical component, if the record has one.
+    pub level: Option<Rocking<f64>>,
+    /// Its motion of the centre of mass.
+    pub housner: Motion,
+    /// The finite element history of the rigid body.
+    pub fem: fem::History,
+    /// How it matches Housner's.
+    pub matched: Match,
+    /// Forces in the rigid body's history.
+    pub demands: fem::Demands,
+    /// The same with members, if there are any.
+    pub with: Option<WithMembers>,
+}
+
+/// Run both models over a record; with members, the finite elements once more with them.
+pub fn both(
+    body: &Body<f64>,
+    restitution: f64,
+    springs: &Springs<Chain<f64>>,
+    members: &Members<f64>,
+    record: &Record,
+) -> Both {
+    let level = housner::Options { restitution: Some(restitution), ..Default::default() };
+    let options = housner::Options { vertical: record.vertical_accel(), ..level.clone() };
+    let rocking = housner::solve(body, record.dt, &record.accel, &options);
+    let level = record.vertical.as_ref().map(|_| housner::solve(body, record.dt, &record.accel, &level));
+    let motion = rocking.motion(body);
+    let case = fem::Case {
+        body: *body,
+        springs: *springs,
+        start: fem::Start::Settled,
+        dt: record.dt,
+        accel: &record.accel,
+        vertical: record.up(),
+        scale: 1.0,
+        control: fem::Control::default(),
+    };
+    let matched =
+        |history: &fem::History| Match::new(body, record.dt, (&motion, rocking.impacts.len()), history, restitution);
+    let (fem, mut demands) = case.simulate_with(&Members::default());
+    let rigid = matched(&fem);
+    peaks_until(&mut demands, record.dt, rigid.overturned_fem_s);
+    let with = (!members.is_none()).then(|| {
+        let (history, mut demands) = case.simulate_with(members);
+        let matched = matched(&history);
+        peaks_until(&mut demands, record.dt, matched.overturned_fem_s);
+        WithMembers { members: *members, history, demands, matched }
+    });
+    Both { rocking, level, housner: motion, fem, matched: rigid, demands, with }
+}
+
+/// Both models on the springs and members of a parameter file, and what they say together: peaks, overturning, match.
+pub fn compare(parameters: &Parameters, record: &Record) -> (Both, Verdict) {
+    let (body, e) = (parameters.structure.body(), parameters.restitution());
+    let both = both(&body, e, &parameters.chains(), &parameters.members(), record);
+    let vertical = record.vertical_accel();
+    let options = housner::Options { restitution: Some(e), vertical, ..Default::default() };
+    let verdict = both.verdict(&body, record.dt, &Conditioning::new(&body, record.dt, &record.accel, &options));
+    (both, verdict)
+}
+
+/// The springs of a parameter file over many records, each as long as it is, on all cores.
+pub fn validate(parameters: &Parameters, records: &[Record]) -> Validation {
+    let judge = Judge {
+        body: parameters.structure.body(),
+        restitution: parameters.restitution(),
+        springs: parameters.chains(),
+        duration_s: None,
+        control: fem::Control::default(),
+    };
+    let Ok(validation) = judge.judge_all(records.len(), |i| Ok::<_, Infallible>(records[i].clone()), |_| ());
+    validation
+}
+
+impl Both {
+    /// What the histories say together; `dt` in s.
+    pub fn verdict(&self, body: &Body<f64>, dt: f64, conditioning: &Conditioning) -> Verdict {
+        let verdict = Verdict::new(body, dt, (&self.rocking, &self.fem), &self.matched, conditioning);
+        match &self.level {
+            Some(level) => verdict.beside(body, dt, level),
+            None => verdict,
+        }
+    }
+
+    /// That a body overturned, and up to when the histories are compared.
+    fn overturned(&self) -> Option<String> {
+        let m = &self.matched;
+        let words = |time: Option<f64>| time.map_or("stands".into(), |time| format!("overturns at t = {time:.3} s"));
+        (m.overturned_housner_s.or(m.overturned_fem_s)).map(|_| {
+            format!(
+                "Housner's body {}, the body on its springs {}: compared up to t = {:.3} s only",
+                words(m.overturned_housner_s),
+                words(m.overturned_fem_s),
+                m.duration_s
+            )
+        })
+    }
+
+    /// What to say of histories that overturned, ended before the record did, or took steps that broke their bounds.
+    pub fn early(&self) -> Vec<String> {
+        let said = |name: &str, history: &fem::History| {
+            let (time, why) = match history.outcome {
+                fem::Outcome::Completed | fem::Outcome::Stopped { .. } | fem::Outcome::Overturned { .. } => {
+                    return None;
+                }
+                fem::Outcome::WorkBound { time } => {
+                    (time, "given up at the bound on steps; use softer or damped springs")
+                }
+                fem::Outcome::Unstable { time } => (
+                    time,
+                    "the rotation lost its balance: springs too soft for a body with so little rotational inertia, or a lean \
+                     at which a leg would pull; use stiffer springs, or a rotational_inertia_kgm2 above 0.002 m R^2",
+                ),
+            };
+            Some(format!("{name} ends at t = {time:.3} s: {why}; both are compared up to there"))
+        };
+        let overturned = self.overturned();
+        let smallest = |name: &str, history: &fem::History| match history.work.smallest {
+            0 => None,
+            n => Some(format!("{name}: {n} steps were taken at the smallest size, whatever their error")),
+        };
+        let with = self.with.as_ref().map(|with| ("finite element history with members", &with.history));
+        let all = [("finite element history", &self.fem)].into_iter().chain(with);
+        overturned
+            .into_iter()
+            .chain(all.flat_map(|(name, history)| [said(name, history), smallest(name, history)]).flatten())
+            .collect()
+    }
+}
+
+/// A history with members, and what it says.
+pub struct WithMembers {
+    /// What the body has besides.
+    pub members: Members<f64>,
+    /// The finite element history with them.
+    pub history: History,
+    /// Forces in it.
+    pub demands: Demands,
+    /// How it matches Housner's.
+    pub matched: Match,
+}
+
+/// Count the largest forces up to an overturning only, if there is one: those of the fall and of the body on the ground
+/// are no demand of rocking. Times are then those of the samples.
+fn peaks_until(demands: &mut Demands, dt: f64, overturned: Option<f64>) {
+    let Some(_) = overturned else { return };
+    demands.peaks = Default::default();
+    for (i, row) in demands.rows.iter().enumerate().take(samples_until(overturned, dt)) {
+        for (peak, &value) in demands.peaks.iter_mut().zip(row) {
+            if value.abs() > peak.value.abs() {
+                *peak = Peak { value, time: i as f64 * dt };
+            }
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::{fem::QUANTITIES, structure::Structure};
+
+    #[test]
+    fn steps_of_the_smallest_size_are_said_if_there_were_any() {
+        let structure = Structure::paper();
+        let chain = Chain { k1: 1e9, k2: 1e8, m2: 1e5, c: 1e6 };
+        let springs = Springs { vertical: chain, horizontal: chain };
+        let record = Record::new("still", 0.01, vec![0.0; 3]).unwrap();
+        let mut both = both(&structure.body(), 0.98, &springs, &Members::default(), &record);
+        assert_eq!((both.fem.work.smallest, both.early()), (0, Vec::new()));
+        both.fem.work.smallest = 3;
+        let said = "finite element history: 3 steps were taken at the smallest size, whatever their error";
+        assert_eq!(both.early(), [said]);
+    }
+
+    #[test]
+    fn the_largest_forces_are_those_before_the_fall() {
+        let mut demands = Demands::default();
+        demands.rows = [1.0, -3.0, 2.0, 50.0].map(|x| [x; QUANTITIES.len()]).to_vec();
+        demands.peaks = [Peak { value: 50.0, time: 0.033 }; QUANTITIES.len()];
+        let whole = demands.clone();
+        peaks_until(&mut demands, 0.01, None);
+        assert_eq!(demands, whole);
+        peaks_until(&mut demands, 0.01, Some(0.025));
+        assert_eq!(demands.peaks[0], Peak { value: -3.0, time: 0.01 });
+    }
+}
