@@ -167,11 +167,12 @@ pub fn main() -> ExitCode {
     }
 }
 
-/// Write a whole file or nothing: to a temporary file beside it, then rename.
+/// Write a whole file or nothing: to a temporary file beside it, then rename. Its folder is made.
 fn write_file(path: &Path, bytes: &[u8]) -> Result<(), CommandError> {
     use std::io::Write;
     let wrap = |source| CommandError::Write { path: path.display().to_string(), source };
     let folder = path.parent().filter(|p| !p.as_os_str().is_empty()).unwrap_or(Path::new("."));
+    std::fs::create_dir_all(folder).map_err(wrap)?;
     let mut file = tempfile::NamedTempFile::new_in(folder).map_err(wrap)?;
     file.write_all(bytes).map_err(wrap)?;
     #[cfg(unix)]

@@ -2,10 +2,10 @@
 //!
 //! | format | what it is |
 //! |---|---|
-//! | [`Format::OpenSeesPy`] | one Python file for `openseespy` that builds, runs and checks itself |
-//! | [`Format::OpenSeesTcl`] | the same for OpenSees' Tcl interpreter |
-//! | [`Format::Sap2000`] | .s2k text tables for File > Import > SAP2000 .s2k Text File |
-//! | [`Format::Csv`], [`Format::Markdown`] | k1, k2, m2, c per foot and direction, for everyone else |
+//! | [`DeckFormat::OpenSeesPy`] | one Python file for `openseespy` that builds, runs and checks itself |
+//! | [`DeckFormat::OpenSeesTcl`] | the same for OpenSees' Tcl interpreter |
+//! | [`DeckFormat::Sap2000`] | .s2k text tables for File > Import > SAP2000 .s2k Text File |
+//! | [`DeckFormat::Csv`], [`DeckFormat::Markdown`] | k1, k2, m2, c per foot and direction, for everyone else |
 //!
 //! Numbers are written with 17 significant digits, so that a deck holds exactly what was tuned. SI units, except in
 //! SAP2000 where the tables say KN, m.
@@ -36,7 +36,7 @@ pub const STEPS: &str = include_str!("export/steps.py");
 /// What to write.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 #[non_exhaustive]
-pub enum Format {
+pub enum DeckFormat {
     /// Python for openseespy.
     OpenSeesPy,
     /// Tcl for OpenSees.
@@ -49,7 +49,7 @@ pub enum Format {
     Markdown,
 }
 
-impl Format {
+impl DeckFormat {
     /// Every format.
     pub const ALL: [Self; 5] = [Self::OpenSeesPy, Self::OpenSeesTcl, Self::Sap2000, Self::Csv, Self::Markdown];
 
@@ -77,14 +77,14 @@ impl Format {
     }
 }
 
-impl std::str::FromStr for Format {
+impl std::str::FromStr for DeckFormat {
     type Err = ExportError;
 
     fn from_str(name: &str) -> Result<Self, ExportError> {
-        Self::ALL
-            .into_iter()
-            .find(|f| f.name() == name)
-            .ok_or_else(|| ExportError::Format { name: printable(name), known: Self::ALL.map(Self::name).join(", ") })
+        Self::ALL.into_iter().find(|f| f.name() == name).ok_or_else(|| ExportError::DeckFormat {
+            name: printable(name),
+            known: Self::ALL.map(Self::name).join(", "),
+        })
     }
 }
 
@@ -131,7 +131,7 @@ impl Expected {
 #[allow(missing_docs)] // messages say what variants and their fields are
 pub enum ExportError {
     #[error("export: format '{name}' is not known; give one of {known}")]
-    Format { name: String, known: String },
+    DeckFormat { name: String, known: String },
     #[error(
         "export: {name} is {value}; give a finite number above zero (dampers and inertia may be zero), as `tune run` writes them"
     )]
@@ -151,12 +151,17 @@ pub enum ExportError {
 ///
 /// # Errors
 /// A member or a vertical motion that the format does not have; numbers that are not finite.
-pub fn deck(parameters: &Parameters, record: &Record, format: Format) -> Result<String, ExportError> {
+pub fn deck(parameters: &Parameters, record: &Record, format: DeckFormat) -> Result<String, ExportError> {
     deck_of(parameters, record, format, ACCURACY)
 }
 
 /// The same; an OpenSees deck's steps for this accuracy of its history, a normalised error.
-pub fn deck_of(parameters: &Parameters, record: &Record, format: Format, accuracy: f64) -> Result<String, ExportError> {
+pub fn deck_of(
+    parameters: &Parameters,
+    record: &Record,
+    format: DeckFormat,
+    accuracy: f64,
+) -> Result<String, ExportError> {
     let parameters = &Parameters { structure: with_inertia(&parameters.structure), ..parameters.clone() };
     let history = simulate(parameters, record);
     let hair = moved_by_a_hair(&history.motion, parameters, record);
@@ -171,10 +176,10 @@ pub fn export(
     parameters: &Parameters,
     record: &Record,
     expected: &Expected,
-    format: Format,
+    format: DeckFormat,
 ) -> Result<String, ExportError> {
     let model = Model::new(parameters, record, expected)?;
-    let (members, sap2000) = (&model.members, format == Format::Sap2000);
+    let (members, sap2000) = (&model.members, format == DeckFormat::Sap2000);
     for (name, left_out) in [
         ("friction", members.friction.is_some() && sap2000),
         ("damper", members.damper.is_some() && sap2000),
@@ -186,11 +191,11 @@ pub fn export(
         }
     }
     Ok(match format {
-        Format::OpenSeesPy => opensees::python(&model),
-        Format::OpenSeesTcl => opensees::tcl(&model),
-        Format::Sap2000 => sap2000::tables(&model),
-        Format::Csv => plain::csv(&model),
-        Format::Markdown => plain::markdown(&model),
+        DeckFormat::OpenSeesPy => opensees::python(&model),
+        DeckFormat::OpenSeesTcl => opensees::tcl(&model),
+        DeckFormat::Sap2000 => sap2000::tables(&model),
+        DeckFormat::Csv => plain::csv(&model),
+        DeckFormat::Markdown => plain::markdown(&model),
     })
 }
 

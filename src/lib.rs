@@ -111,7 +111,7 @@ pub use case::{Case, CaseError, Objective, Tuning};
 pub use compare::Match;
 pub use conditioning::{Changes, Conditioning, Sensitivity};
 pub use excitation::Excitation;
-pub use export::{ExportError, Format as DeckFormat, deck};
+pub use export::{DeckFormat, ExportError, deck};
 pub use fem::{Account, Demands, Forces, History, Landing, Outcome as HistoryOutcome, QUANTITIES, Work};
 pub use housner::{
     Impact, Options as RockingOptions, Outcome as RockingOutcome, Rocking, Uplift, solve as rock,
@@ -128,7 +128,7 @@ pub use spring::{Chain, ChainRow, Design, Springs};
 pub use structure::{Body, Kind, Structure, StructureError};
 pub use synthetic::{earthquake as earthquake_motion, record as synthetic_motion};
 pub use tuning::{arr::inner::FitError, assessment::Assessment, job::JobError};
-pub use validate::{Confusion, GeometricMean, Outcome as RecordOutcome, Quantiles, Row, Suite, Summary, Validation};
+pub use validate::{Confusion, GeometricMean, Quantiles, RecordOutcome, Row, Suite, Summary, Validation};
 pub use verdict::{Answer, Fate, Verdict};
 
 /// The program `tune`: parses the arguments of the process and runs.

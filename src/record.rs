@@ -5,7 +5,7 @@
 //! turned into m/s2 with g = 9.81 m/s2 ([`GRAVITY`]).
 //!
 //! Files: PEER AT2, GeoNet V1A and V2A, COSMOS V1 and V2c, CSMIP .V2, K-NET and KiK-net, ESM/ITACA/AFAD, and text columns,
-//! recognised by what they say and not by their names ([`Format`]). What a file does not say (unit, time step) must be
+//! recognised by what they say and not by their names ([`RecordFormat`]). What a file does not say (unit, time step) must be
 //! given; what it says and the user says must agree, and the samples must have the peak that a header gives. A file may
 //! have several components ([`Recording`]): a record is the one asked for, else the stronger horizontal one.
 
@@ -41,7 +41,7 @@ use std::path::Path;
 
 pub use direction::Direction;
 pub use error::RecordError;
-pub use format::Format;
+pub use format::RecordFormat;
 pub use notice::Notice;
 pub use peak::Peak;
 pub use recording::{Component, Recording};

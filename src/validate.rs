@@ -35,7 +35,7 @@ use std::sync::atomic::{AtomicUsize, Ordering};
 
 use rayon::prelude::*;
 
-pub use row::{Outcome, Row, Suite};
+pub use row::{RecordOutcome, Row, Suite};
 pub use statistics::{Confusion, GeometricMean, PREDICTABLE, Quantiles, Summary, Validation};
 pub use stream::Stream;
 

@@ -20,7 +20,7 @@ use crate::{
     record::Record,
 };
 pub use program::Program;
-pub use verdict::{LIMIT, Verdict};
+pub use verdict::{LIMIT, OpenSeesVerdict};
 
 /// Wall time a run may take before it counts as hung: this, and a time per sample of the record (s).
 const PATIENCE: f64 = 120.0;
@@ -62,7 +62,7 @@ pub struct Verification {
     /// Whether the deck found its peaks within 1 % of ours.
     pub within_one_percent: bool,
     /// Whether OpenSees is within its limit, and how it was judged.
-    pub verdict: Verdict,
+    pub verdict: OpenSeesVerdict,
     /// NRMSE of u between OpenSees in these steps and in finer ones, asked where it is not within its limit.
     pub opensees_against_itself: Option<f64>,
     /// What the deck printed.
@@ -133,7 +133,7 @@ pub fn verify(
     let expected = Expected::new(&history, hair);
     let run = deck.run(&expected.with_accuracy(accuracy))?;
     let ours = history.motion;
-    let verdict = Verdict::new(&run.motion, &ours, &body, record.dt, until);
+    let verdict = OpenSeesVerdict::new(&run.motion, &ours, &body, record.dt, until);
     let finer = match verdict.within {
         true => None,
         false => Some(deck.run(&expected.with_accuracy(accuracy * FINER))?.motion),

@@ -7,7 +7,7 @@
 
 use groundspring::response::Response;
 use groundspring::response::bounds::{Bounds, k_min_for_settlement};
-use groundspring::response::target::{Band, Kind, Target};
+use groundspring::response::target::{Band, BandKind, Target};
 use groundspring::tuning::arr::inner::{Fit, FitError, Outcome, families, fit};
 
 fn minimax(mu: f64) -> Fit {
@@ -151,9 +151,9 @@ fn a_target_of_three_bands_is_certified_and_its_excess_true() {
     let band = |g_low, g_high, kind, limit| Band { g_low, g_high, kind, limit, weight: 1.0 };
     let target = Target {
         bands: vec![
-            band(0.0, Some(0.25), Kind::Uniform, 0.02),
-            band(0.25, Some(2.0), Kind::Cap, 2.2),
-            band(2.0, None, Kind::RollOff, 1.2),
+            band(0.0, Some(0.25), BandKind::Uniform, 0.02),
+            band(0.25, Some(2.0), BandKind::Cap, 2.2),
+            band(2.0, None, BandKind::RollOff, 1.2),
         ],
     };
     for mu in [0.1, 0.5, 3.0] {

@@ -100,18 +100,93 @@ fn refuses(more: &[&str], words: &[&str]) {
 }
 
 #[test]
-fn one_bad_file_ends_the_job_before_it_begins() {
-    refuses(&RECORDS, &["zz.txt, line 3", "'x' is not a number"]);
+fn files_and_folders_are_named_without_an_option_and_what_cannot_be_read_is_said_and_left_out() {
+    let dir = folder();
+    let records = dir.path().join("records");
+    fs::write(records.join("zz.txt"), "0.1\n0.2\nx\n").unwrap();
+    fs::copy(records.join("weak.txt"), dir.path().join("one.txt")).unwrap();
+    // a file that is named twice counts once
+    let more = ["one.txt", "records", "nowhere.at2", "one.txt", "--dt", "0.01", "--units", "g", "--no-figures"];
+    let output = validate(dir.path(), &more);
+    let stderr = String::from_utf8(output.stderr).unwrap();
+    assert!(output.status.success(), "{stderr}");
+    let said: Vec<&str> = stderr.lines().filter(|line| line.starts_with("left out: ")).collect();
+    assert!(said.len() == 2 && said[0].contains("zz.txt, line 3") && said[1].contains("nowhere.at2"), "{stderr}");
+    let stdout = String::from_utf8(output.stdout).unwrap();
+    assert!(stdout.starts_with("records: 3 from files (2 left out)\n"), "{stdout}");
+    let all: Value = serde_json::from_slice(&fs::read(dir.path().join("out/validate.json")).unwrap()).unwrap();
+    let names: Vec<&str> = all["records"].as_array().unwrap().iter().map(|row| row["name"].as_str().unwrap()).collect();
+    assert_eq!(names, ["one", "centro", "weak"]);
+    let left_out: Vec<&str> =
+        all["left_out"].as_array().unwrap().iter().map(|row| row["file"].as_str().unwrap()).collect();
+    assert_eq!(left_out, ["records/zz.txt", "nowhere.at2"]);
+}
+
+#[test]
+fn motions_made_beside_files_are_said_to_be() {
+    let dir = folder();
+    let more = ["--synthetic", "2", "--earthquakes", "1", "--seed", "7", "--duration", "5", "--no-figures"];
+    let output = validate(dir.path(), &[&RECORDS[..], &more].concat());
+    let stdout = String::from_utf8(output.stdout).unwrap();
+    let line = "records: 2 from files, 2 synthetic of seed 7, 1 earthquake-like of seed 7";
+    assert!(stdout.starts_with(&format!("{line}\n")) && stdout.contains("all together"), "{stdout}");
+    assert!(fs::read_to_string(dir.path().join("out/validate.md")).unwrap().contains(line));
+}
+
+#[test]
+fn files_that_are_all_unreadable_end_the_job_before_it_begins() {
+    let dir = folder();
+    fs::remove_dir_all(dir.path().join("records")).unwrap();
+    fs::write(dir.path().join("zz.txt"), "0.1\n0.2\nx\n").unwrap();
+    let output = validate(dir.path(), &["zz.txt", "--dt", "0.01", "--units", "g"]);
+    let stderr = String::from_utf8(output.stderr).unwrap();
+    assert_eq!(output.status.code(), Some(2), "{stderr}");
+    assert!(stderr.contains("no file could be read, of 1; the first: zz.txt, line 3"), "{stderr}");
+    assert!(!dir.path().join("out").exists());
+}
+
+#[test]
+fn a_rerun_leaves_nothing_of_the_last_but_what_the_user_made() {
+    let dir = folder();
+    let made = ["--synthetic", "1", "--duration", "5"];
+    assert!(validate(dir.path(), &made).status.success());
+    let out = dir.path().join("out");
+    assert!(out.join("validation.png").exists());
+    fs::write(out.join("notes.txt"), "the user's").unwrap();
+    assert!(validate(dir.path(), &[&made[..], &["--no-figures"]].concat()).status.success());
+    assert!(!out.join("validation.png").exists() && out.join("notes.txt").exists());
+    assert!(out.join("validate.json").exists());
+}
+
+#[test]
+fn a_folder_takes_a_single_result_under_its_usual_name_everywhere() {
+    let dir = folder();
+    let parameters = ["--parameters", "parameters.json"];
+    let short = ["--duration", "1"];
+    for (args, more, name) in [
+        (&["housner"][..], &short[..], "housner.csv"),
+        (&["simulate"], &[&parameters[..], &short].concat(), "history.csv"),
+        (&["export", "--format", "csv"], &[&parameters[..], &short].concat(), "springs.csv"),
+        (&["init"], &[], "case.toml"),
+    ] {
+        // made where it is written as a folder, used where it is there
+        for folder in ["made/", "records"] {
+            let output = tune(dir.path(), &[args, more, &["--out", folder]].concat());
+            assert!(output.status.success(), "{args:?}: {}", String::from_utf8_lossy(&output.stderr));
+            assert!(dir.path().join(folder).join(name).exists(), "{args:?} {folder}");
+        }
+    }
 }
 
 #[test]
 fn bad_options_are_refused_in_one_line() {
-    refuses(&[], &["--records", "--synthetic"]);
+    refuses(&[], &["RECORDS", "--synthetic"]);
     refuses(&["--records", "nowhere"], &["nowhere"]);
     refuses(&["--synthetic", "0"], &["--synthetic"]);
     refuses(&["--synthetic", "3", "--duration", "-1"], &["--duration is -1"]);
     refuses(&["--synthetic", "3", "--restitution", "2"], &["--restitution is 2"]);
-    refuses(&["--synthetic", "3", "--dt", "0.01"], &["--records"]);
+    refuses(&["--synthetic", "3", "--dt", "0.01"], &["RECORDS"]);
+    refuses(&["--synthetic", "3", "--jobs", "0"], &["--jobs is 0"]);
 }
 
 #[test]

@@ -11,7 +11,7 @@ use serde::{Deserialize, Serialize};
 
 use super::{Peer, Point, Series, elements, rigid};
 use groundspring::{
-    export::{Expected, Format, export},
+    export::{DeckFormat, Expected, export},
     motion::Motion,
     predictability::moved_by_a_hair,
 };
@@ -118,7 +118,8 @@ pub fn opensees(scene: &elements::Scene, tight: &Motion, python: &Path, stepping
     let hair = moved_by_a_hair(&history.motion, &scene.parameters(), &scene.record);
     let expected = Expected::new(&history, hair);
     let folder = tempfile::tempdir().map_err(|e| format!("OpenSees: no temporary folder ({e})"))?;
-    let text = export(&scene.parameters(), &scene.record, &expected, Format::OpenSeesPy).map_err(|e| e.to_string())?;
+    let text =
+        export(&scene.parameters(), &scene.record, &expected, DeckFormat::OpenSeesPy).map_err(|e| e.to_string())?;
     let deck = folder.path().join("deck.py");
     std::fs::write(&deck, text).map_err(|e| format!("OpenSees: {e}"))?;
     let mut command = Command::new(python);

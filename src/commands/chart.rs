@@ -5,7 +5,12 @@ use std::{fmt::Write as _, io::Write as _, path::PathBuf};
 use clap::Args;
 use rayon::prelude::*;
 
-use super::{CommandError, output::check_folder, run::threads, write_file};
+use super::{
+    CommandError,
+    output::{Folder, check_folder},
+    run::threads,
+    write_file,
+};
 use crate::{
     figures,
     spring::{Design, Springs},
@@ -54,10 +59,10 @@ pub fn run(o: &Options) -> Result<(), CommandError> {
     }
     let rows: Vec<Row> =
         all.into_par_iter().map(|(kind, geometry)| Row { kind, geometry, springs: geometry.springs() }).collect();
-    std::fs::create_dir_all(&o.out)
-        .map_err(|source| CommandError::Write { path: o.out.display().to_string(), source })?;
+    let folder = Folder::begin(&o.out, "chart", &["chart.csv", "chart.png", "chart.svg"])?;
     write_file(&o.out.join("chart.csv"), csv(&rows).as_bytes())?;
     draw(o, &rows)?;
+    folder.finish()?;
     writeln!(
         std::io::stdout(),
         "{} designs: alpha {:?}, Omega_n/p 1e3 to 1e6; horizontal units: mu 0.3, f 1.8257, xi 3.3333",

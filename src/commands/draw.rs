@@ -11,7 +11,7 @@ use crate::{
     front::Point,
     response::{
         self,
-        target::{Band, Kind, Target},
+        target::{Band, BandKind, Target},
     },
     spring::Design,
     tuning::job::Job,
@@ -19,18 +19,20 @@ use crate::{
 
 /// Whether the target asks for nothing but the lowest cap there is, by a limit that no chain can meet.
 fn lowest_cap(target: &Target) -> bool {
-    target.bands.iter().all(|band| band.kind == Kind::Cap && band.limit <= 1.0)
+    target.bands.iter().all(|band| band.kind == BandKind::Cap && band.limit <= 1.0)
 }
 
 /// A target band as the figure shows it: caps that can be met and flat bands.
 fn wanted(band: &Band, low: f64, high: f64) -> Option<figures::arr::Band> {
     let g = (band.g_low.max(low), band.g_high.unwrap_or(high).min(high));
     match band.kind {
-        Kind::Cap => (band.limit > 1.0).then_some(figures::arr::Band { g, at_least: None, at_most: Some(band.limit) }),
-        Kind::Rigid => {
+        BandKind::Cap => {
+            (band.limit > 1.0).then_some(figures::arr::Band { g, at_least: None, at_most: Some(band.limit) })
+        }
+        BandKind::Rigid => {
             Some(figures::arr::Band { g, at_least: Some(1.0 / (1.0 + band.limit)), at_most: Some(1.0 + band.limit) })
         }
-        Kind::Uniform | Kind::RollOff => None,
+        BandKind::Uniform | BandKind::RollOff => None,
     }
 }
 

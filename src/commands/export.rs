@@ -4,9 +4,9 @@ use std::path::{Path, PathBuf};
 
 use clap::Args;
 
-use super::{CommandError, common::RecordOptions, output::check_file, write_file};
+use super::{CommandError, common::RecordOptions, output::file_in, write_file};
 use crate::{
-    export::{ACCURACY, Expected, ExportError, Format, deck_of, export, with_inertia},
+    export::{ACCURACY, DeckFormat, Expected, ExportError, deck_of, export, with_inertia},
     parameters::Parameters,
     record::Record,
 };
@@ -19,9 +19,9 @@ pub struct Options {
     parameters: PathBuf,
     /// openseespy, opensees-tcl, sap2000, csv or markdown
     #[arg(long)]
-    format: Format,
-    /// The deck's file
-    #[arg(long, value_name = "FILE")]
+    format: DeckFormat,
+    /// The deck's file; into a folder under the name that tune run gives it
+    #[arg(long, value_name = "PATH")]
     out: PathBuf,
     /// Accuracy of the history (normalised error) that the steps of an OpenSees deck are to have
     #[arg(long, default_value_t = ACCURACY)]
@@ -31,12 +31,13 @@ pub struct Options {
 }
 
 pub fn run(o: &Options) -> Result<(), CommandError> {
-    check_file(&o.out)?;
+    let usual = DECKS.iter().find(|(_, format)| *format == o.format).map_or("deck", |(name, _)| name);
+    let out = file_in(&o.out, usual)?;
     check_accuracy(o.accuracy)?;
     let (parameters, record, line) = read(&o.parameters, &o.record)?;
     let deck = deck_of(&parameters, &record, o.format, o.accuracy)?;
-    write_file(&o.out, deck.as_bytes())?;
-    eprintln!("{line}\nwritten to {}", o.out.display());
+    write_file(&out, deck.as_bytes())?;
+    eprintln!("{line}\nwritten to {}", out.display());
     Ok(())
 }
 
@@ -59,12 +60,12 @@ pub(super) fn read(file: &Path, options: &RecordOptions) -> Result<(Parameters, 
 }
 
 /// The decks of `tune run`: name in the folder, format.
-const DECKS: [(&str, Format); 5] = [
-    ("model_openseespy.py", Format::OpenSeesPy),
-    ("model_opensees.tcl", Format::OpenSeesTcl),
-    ("model_sap2000.s2k", Format::Sap2000),
-    ("springs.csv", Format::Csv),
-    ("springs.md", Format::Markdown),
+const DECKS: [(&str, DeckFormat); 5] = [
+    ("model_openseespy.py", DeckFormat::OpenSeesPy),
+    ("model_opensees.tcl", DeckFormat::OpenSeesTcl),
+    ("model_sap2000.s2k", DeckFormat::Sap2000),
+    ("springs.csv", DeckFormat::Csv),
+    ("springs.md", DeckFormat::Markdown),
 ];
 
 /// Write every deck into a folder, which is made.

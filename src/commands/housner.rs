@@ -7,7 +7,7 @@ use clap::Args;
 use super::{
     CommandError,
     common::{RecordOptions, csv_row, of_case, restitution},
-    output::check_file,
+    output::file_in,
     write_file,
 };
 use crate::{
@@ -28,7 +28,7 @@ pub struct Options {
     /// Velocity restitution; by equation 2 unless given
     #[arg(long, allow_negative_numbers = true)]
     restitution: Option<f64>,
-    /// Write the history here instead of to stdout
+    /// Write the history here instead of to stdout; into a folder as housner.csv
     #[arg(long, value_name = "FILE")]
     out: Option<PathBuf>,
     /// Print the impacts (time, velocity before and after) instead of the history
@@ -45,9 +45,7 @@ pub fn run(o: &Options) -> Result<(), CommandError> {
         None => (Structure::paper(), None, Case::paper()?),
     };
     let excitation = o.record.excitation(|| of_case(&default))?;
-    if let Some(path) = &o.out {
-        check_file(path)?;
-    }
+    let out = o.out.as_deref().map(|path| file_in(path, "housner.csv")).transpose()?;
     let record = excitation.used()?;
     let body = structure.body::<f64>();
     let options = housner::Options {
@@ -70,7 +68,7 @@ pub fn run(o: &Options) -> Result<(), CommandError> {
             csv_row(&mut csv, &[i as f64 * record.dt, motion.u[i], motion.v[i], motion.theta[i]]);
         }
     }
-    match &o.out {
+    match &out {
         Some(path) => write_file(path, csv.as_bytes())?,
         None => std::io::stdout().write_all(csv.as_bytes())?,
     }

@@ -8,7 +8,7 @@ use std::{
 
 use clap::{Args, ValueEnum};
 
-use super::{CommandError, output::check_file};
+use super::{CommandError, output::file_in};
 
 /// What the file begins with.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
@@ -27,7 +27,7 @@ pub struct Options {
     #[arg(value_enum, default_value_t = Shape::AFrame)]
     shape: Shape,
     /// The case file to write; one that is there stays as it is
-    #[arg(long, value_name = "FILE", default_value = "case.toml")]
+    #[arg(long, value_name = "PATH", default_value = "case.toml")]
     out: PathBuf,
 }
 
@@ -74,15 +74,18 @@ fn text(shape: Shape) -> String {
 }
 
 pub fn run(o: &Options) -> Result<(), CommandError> {
-    check_file(&o.out)?;
-    let path = o.out.display().to_string();
+    let out = file_in(&o.out, "case.toml")?;
+    let path = out.display().to_string();
     let there = |source: std::io::Error| match source.kind() {
         ErrorKind::AlreadyExists => {
             CommandError::Result(format!("{path}: is there already; name another with --out, or remove it"))
         }
         _ => CommandError::Write { path: path.clone(), source },
     };
-    let mut file = OpenOptions::new().write(true).create_new(true).open(&o.out).map_err(there)?;
+    if let Some(folder) = out.parent() {
+        std::fs::create_dir_all(folder).map_err(there)?;
+    }
+    let mut file = OpenOptions::new().write(true).create_new(true).open(&out).map_err(there)?;
     file.write_all(text(o.shape).as_bytes()).map_err(there)?;
     eprintln!("written to {path}: edit it, then `tune run {path}`");
     Ok(())

@@ -15,7 +15,7 @@ use super::{CommandError, output::check_folder};
 use crate::{
     case::{Case, LONGEST_S},
     figures,
-    record::{Format, ReadOptions, Recording, Units},
+    record::{ReadOptions, RecordFormat, Recording, Units},
     scalar::GRAVITY,
     structure::Body,
 };
@@ -54,7 +54,7 @@ pub struct Options {
 #[derive(Serialize)]
 struct Report {
     file: String,
-    format: Format,
+    format: RecordFormat,
     station: Option<String>,
     components: Vec<Row>,
     run: Run,

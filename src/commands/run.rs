@@ -12,7 +12,7 @@ use super::{
     common::{self, Both, RecordOptions, history_csv},
     draw::draw,
     export, members,
-    output::check_folder,
+    output::{Folder, check_folder},
     progress::Progress,
     report::{Ground, Report},
     table, write_file,
@@ -29,6 +29,32 @@ use crate::{
     spring::{Design, Springs},
     tuning::{arr::table_1, job::Job},
 };
+
+/// All that `tune run` can write into its folder.
+const FILES: &[&str] = &[
+    "parameters.json",
+    "parameters.md",
+    "history.csv",
+    "members.csv",
+    "report.html",
+    "decks/model_openseespy.py",
+    "decks/model_opensees.tcl",
+    "decks/model_sap2000.s2k",
+    "decks/springs.csv",
+    "decks/springs.md",
+    "history.png",
+    "history.svg",
+    "response.png",
+    "response.svg",
+    "candidates.png",
+    "candidates.svg",
+    "contact.png",
+    "contact.svg",
+    "energy.png",
+    "energy.svg",
+    "front.png",
+    "front.svg",
+];
 
 /// Options of `tune run`.
 #[derive(Debug, Args)]
@@ -165,12 +191,10 @@ impl Run {
     /// # Errors
     /// A file that cannot be written; a deck or a figure that cannot be made.
     pub fn save(&self, out: &Path, figures: bool) -> Result<(), CommandError> {
-        check_folder(out)?;
+        let folder = Folder::begin(out, "run", FILES)?;
         let Self { case, job, front, both, .. } = self;
         let dt = job.record.dt;
         let parameters = self.filed(out);
-        let write = |e| CommandError::Write { path: out.display().to_string(), source: e };
-        std::fs::create_dir_all(out).map_err(write)?;
         write_file(&out.join("parameters.json"), parameters.to_json().as_bytes())?;
         let tables = table::markdown(&parameters) + &self.forces() + &table::front(front);
         write_file(&out.join("parameters.md"), tables.as_bytes())?;
@@ -181,7 +205,8 @@ impl Run {
             || decks(out, &parameters, &job.record, both),
             || if figures { draw(out, case, job, both, front) } else { Ok(()) },
         );
-        decks.and(figures)
+        decks.and(figures)?;
+        folder.finish()
     }
 
     /// `parameters.json` as it stands in a folder.
@@ -205,10 +230,10 @@ impl Run {
 
 /// What there is without a record.
 fn springs_alone(o: &Options, parameters: &Parameters) -> Result<(), CommandError> {
-    let write = |e| CommandError::Write { path: o.out.display().to_string(), source: e };
-    std::fs::create_dir_all(&o.out).map_err(write)?;
+    let folder = Folder::begin(&o.out, "run", FILES)?;
     write_file(&o.out.join("parameters.json"), parameters.to_json().as_bytes())?;
     write_file(&o.out.join("parameters.md"), table::markdown(parameters).as_bytes())?;
+    folder.finish()?;
     let mut said = table::said(parameters);
     said.extend(springs_said(parameters));
     write!(std::io::stdout(), "{}\n{}\n", table::terminal(parameters), said.join("\n"))?;
@@ -251,11 +276,15 @@ fn decks(out: &Path, parameters: &Parameters, record: &Record, both: &Both) -> R
 /// Threads beyond which a machine only starves.
 const MOST_THREADS: usize = 1024;
 
-/// Use this many threads, 0 or none: all cores.
+/// Use this many threads; none: all cores.
 pub(super) fn threads(jobs: Option<usize>) -> Result<(), CommandError> {
     if let Some(n) = jobs {
+        if n == 0 {
+            let remedy = "give at least one thread, or leave it out for one a core";
+            return Err(CommandError::Option { option: "jobs", value: n.to_string(), remedy });
+        }
         if n > MOST_THREADS {
-            let remedy = "give at most 1024 threads, or 0 for one a core";
+            let remedy = "give at most 1024 threads";
             return Err(CommandError::Option { option: "jobs", value: n.to_string(), remedy });
         }
         rayon::ThreadPoolBuilder::new()

@@ -8,7 +8,7 @@ use super::{
     CommandError,
     common::{RecordOptions, both, history_csv, restitution},
     members,
-    output::check_file,
+    output::file_in,
     report::{Ground, Report},
     write_file,
 };
@@ -27,10 +27,10 @@ pub struct Options {
     /// Velocity restitution of Housner's solution; that of the parameters, or by equation 2, unless given
     #[arg(long, allow_negative_numbers = true)]
     restitution: Option<f64>,
-    /// Write the histories here (CSV)
+    /// Write the histories here (CSV); into a folder as history.csv
     #[arg(long, value_name = "FILE")]
     out: Option<PathBuf>,
-    /// Write base shear and the forces in legs, tendon and dampers here (CSV)
+    /// Write base shear and the forces in legs, tendon and dampers here (CSV); into a folder as members.csv
     #[arg(long, value_name = "FILE")]
     forces: Option<PathBuf>,
 }
@@ -41,15 +41,14 @@ pub fn run(o: &Options) -> Result<(), CommandError> {
     let record = excitation.used()?;
     let body = parameters.structure.body::<f64>();
     let e = restitution(o.restitution)?.unwrap_or_else(|| parameters.restitution());
-    for path in o.out.iter().chain(&o.forces) {
-        check_file(path)?;
-    }
+    let file = |path: &Option<PathBuf>, name| path.as_deref().map(|path| file_in(path, name)).transpose();
+    let (out, forces) = (file(&o.out, "history.csv")?, file(&o.forces, "members.csv")?);
     let friction = o.ground.friction()?;
     let both = both(&body, e, &parameters.chains(), &parameters.members(), &record);
-    if let Some(path) = &o.out {
+    if let Some(path) = &out {
         write_file(path, history_csv(record.dt, &both).as_bytes())?;
     }
-    if let Some(path) = &o.forces {
+    if let Some(path) = &forces {
         let demands = both.with.as_ref().map_or(&both.demands, |with| &with.demands);
         write_file(path, members::csv(record.dt, demands).as_bytes())?;
     }

@@ -2,17 +2,24 @@
 
 mod tables;
 
-use std::{io::Write, path::PathBuf};
+use std::{collections::HashSet, io::Write, path::PathBuf};
 
 use clap::Args;
 use rayon::prelude::*;
 use serde::Serialize;
 
-use super::{CommandError, output::check_folder, progress::Progress, run::threads, write_file};
+use super::{
+    CommandError,
+    output::{Folder, check_folder},
+    progress::Progress,
+    run::threads,
+    write_file,
+};
 use crate::{
     case::LONGEST_S,
     conditioning::ILL_CONDITIONED,
     fem, figures,
+    message::one_line,
     parameters::Parameters,
     record::{Notice, ReadOptions, Record, RecordError, Recording, Units},
     spring::ChainRow,
@@ -23,23 +30,27 @@ use crate::{
 
 /// Options of `tune validate`.
 #[derive(Debug, Args)]
-#[command(group = clap::ArgGroup::new("source").required(true).multiple(true).args(["records", "synthetic", "earthquakes"]))]
+#[command(group = clap::ArgGroup::new("source").required(true).multiple(true).args(["paths", "records", "synthetic", "earthquakes"]))]
+#[command(group = clap::ArgGroup::new("given").multiple(true).args(["paths", "records"]))]
 #[command(group = clap::ArgGroup::new("made").multiple(true).args(["synthetic", "earthquakes"]))]
 pub struct Options {
+    /// Record files, and folders of them: any mix of formats, see tune record
+    #[arg(value_name = "RECORDS")]
+    paths: Vec<PathBuf>,
     /// Springs and structure, as `tune run` writes them
     #[arg(long, value_name = "parameters.json")]
     parameters: PathBuf,
-    /// Folder of records: any mix of formats, see tune record
+    /// Folder of records, the same as naming it without an option
     #[arg(long, value_name = "DIR")]
     records: Option<PathBuf>,
     /// Time step, where the files do not say
-    #[arg(long, value_name = "SECONDS", requires = "records", allow_negative_numbers = true)]
+    #[arg(long, value_name = "SECONDS", requires = "given", allow_negative_numbers = true)]
     dt: Option<f64>,
     /// g, m/s2, cm/s2 or mm/s2, where the files do not say
-    #[arg(long, requires = "records")]
+    #[arg(long, requires = "given")]
     units: Option<Units>,
     /// Factor on the acceleration of the files
-    #[arg(long, value_name = "FACTOR", requires = "records", allow_negative_numbers = true)]
+    #[arg(long, value_name = "FACTOR", requires = "given", allow_negative_numbers = true)]
     scale: Option<f64>,
     /// This many records made for the structure: Ricker and Mavroeidis-Papageorgiou pulses, filtered noise
     #[arg(long, value_name = "N", value_parser = clap::value_parser!(u32).range(1..=1_000_000))]
@@ -105,8 +116,8 @@ impl Source {
         }
     }
 
-    /// Read every file, keep none: a bad one ends the job before it begins. What the readers say of the others.
-    fn check(&self) -> Result<Vec<Notice>, RecordError> {
+    /// Read every file, keep none. One that cannot be read is left out, and said; what the readers say of the others is printed.
+    fn check(&mut self) -> Vec<Unread> {
         let read = |file: &PathBuf| {
             let recording = Recording::read(file, &self.read)?;
             let notices = recording.notices();
@@ -116,8 +127,60 @@ impl Source {
             Ok(notices)
         };
         let notices: Vec<Result<Vec<Notice>, RecordError>> = self.files.par_iter().map(read).collect();
-        Ok(notices.into_iter().collect::<Result<Vec<_>, _>>()?.into_iter().flatten().collect())
+        let mut unread = Vec::new();
+        let files = std::mem::take(&mut self.files);
+        for (file, notices) in files.into_iter().zip(notices) {
+            match notices {
+                Ok(notices) => {
+                    notices.iter().for_each(|notice| eprintln!("{notice}"));
+                    self.files.push(file);
+                }
+                Err(error) => {
+                    let reason = one_line(&error.to_string());
+                    eprintln!("left out: {reason}");
+                    unread.push(Unread { file: file.display().to_string(), reason });
+                }
+            }
+        }
+        unread
     }
+
+    /// What is judged, in words.
+    fn line(&self, unread: usize) -> String {
+        let mut parts = Vec::new();
+        if !self.files.is_empty() || unread > 0 {
+            let left_out = if unread > 0 { format!(" ({unread} left out)") } else { String::new() };
+            parts.push(format!("{} from files{left_out}", self.files.len()));
+        }
+        if self.synthetic > 0 {
+            parts.push(format!("{} synthetic of seed {}", self.synthetic, self.seed));
+        }
+        if self.earthquakes > 0 {
+            parts.push(format!("{} earthquake-like of seed {}", self.earthquakes, self.seed));
+        }
+        format!("records: {}", parts.join(", "))
+    }
+}
+
+/// Every record file that was named, once, those of folders in the order of their names.
+fn files(o: &Options) -> Result<Vec<PathBuf>, RecordError> {
+    let (mut files, mut seen) = (Vec::new(), HashSet::new());
+    for path in o.paths.iter().chain(&o.records) {
+        let named = if path.is_dir() || Some(path) == o.records.as_ref() {
+            Record::list_dir(path)?
+        } else {
+            vec![path.clone()]
+        };
+        files.extend(named.into_iter().filter(|file| seen.insert(file.clone())));
+    }
+    Ok(files)
+}
+
+/// A file that is no record.
+#[derive(Serialize)]
+struct Unread {
+    file: String,
+    reason: String,
 }
 
 /// The records made from a seed.
@@ -138,9 +201,15 @@ struct Report<'a> {
     synthetic: Option<Made>,
     #[serde(skip_serializing_if = "Option::is_none")]
     earthquakes: Option<Made>,
+    /// Files that could not be read.
+    #[serde(skip_serializing_if = "<[Unread]>::is_empty")]
+    left_out: &'a [Unread],
     #[serde(flatten)]
     validation: &'a Validation,
 }
+
+/// All that `tune validate` can write into its folder.
+const FILES: &[&str] = &["validate.json", "validate.md", "validate.csv", "validation.png", "validation.svg"];
 
 pub fn run(o: &Options) -> Result<(), CommandError> {
     let parameters = Parameters::read(&o.parameters)?;
@@ -158,8 +227,8 @@ pub fn run(o: &Options) -> Result<(), CommandError> {
     }
     check_folder(&o.out)?;
     threads(o.jobs)?;
-    let source = Source {
-        files: o.records.as_deref().map_or(Ok(Vec::new()), Record::list_dir)?,
+    let mut source = Source {
+        files: files(o)?,
         read: ReadOptions { dt: o.dt, units: o.units, ..ReadOptions::default() },
         scale: o.scale,
         synthetic: o.synthetic.unwrap_or(0) as usize,
@@ -168,7 +237,12 @@ pub fn run(o: &Options) -> Result<(), CommandError> {
         p: body.p_squared().sqrt(),
         alpha: body.alpha(),
     };
-    source.check()?.iter().for_each(|notice| eprintln!("{notice}"));
+    let left_out = source.check();
+    if source.len() == 0 {
+        let first = left_out.first().map_or("", |unread| &unread.reason);
+        return Err(CommandError::Result(format!("no file could be read, of {}; the first: {first}", left_out.len())));
+    }
+    let line = source.line(left_out.len());
     let judge = Judge {
         body,
         restitution,
@@ -187,19 +261,20 @@ pub fn run(o: &Options) -> Result<(), CommandError> {
         horizontal: parameters.horizontal,
         synthetic: o.synthetic.map(|_| Made { count: source.synthetic, seed: source.seed }),
         earthquakes: o.earthquakes.map(|_| Made { count: source.earthquakes, seed: source.seed }),
+        left_out: &left_out,
         validation: &validation,
     };
     let mut json = serde_json::to_string_pretty(&report).map_err(|e| CommandError::Result(e.to_string()))?;
     json.push('\n');
-    std::fs::create_dir_all(&o.out)
-        .map_err(|source| CommandError::Write { path: o.out.display().to_string(), source })?;
+    let folder = Folder::begin(&o.out, "validate", FILES)?;
     write_file(&o.out.join("validate.json"), json.as_bytes())?;
-    write_file(&o.out.join("validate.md"), tables::markdown(&validation).as_bytes())?;
+    write_file(&o.out.join("validate.md"), tables::markdown(&validation, &line).as_bytes())?;
     write_file(&o.out.join("validate.csv"), &tables::csv(&validation)?)?;
     if !o.no_figures {
         draw(o, &validation)?;
     }
-    writeln!(std::io::stdout(), "{}", tables::terminal(&validation))?;
+    folder.finish()?;
+    writeln!(std::io::stdout(), "{line}\n{}", tables::terminal(&validation))?;
     for name in &validation.all.failed {
         eprintln!("failed: {name}; see its outcome in {}", o.out.join("validate.csv").display());
     }

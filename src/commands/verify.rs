@@ -9,7 +9,7 @@ use super::{
     CommandError,
     common::{RecordOptions, csv_row},
     export::{check_accuracy, read},
-    output::check_folder,
+    output::{Folder, check_folder},
     progress::Progress,
     write_file,
 };
@@ -59,10 +59,10 @@ pub fn run(o: &Options) -> Result<(), CommandError> {
     progress.done();
     let result = result?;
 
-    std::fs::create_dir_all(&o.out)
-        .map_err(|source| CommandError::Write { path: o.out.display().to_string(), source })?;
+    let folder = Folder::begin(&o.out, "verify", &["verify.csv", "verify.png", "verify.svg"])?;
     write_file(&o.out.join("verify.csv"), csv(&result).as_bytes())?;
     draw(o, &record, &result)?;
+    folder.finish()?;
     write!(std::io::stdout(), "{}", said(&record, &result))?;
     eprintln!(
         "{line}

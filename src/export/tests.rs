@@ -27,7 +27,7 @@ const EXPECTED: Expected = Expected {
     accuracy: 0.002,
 };
 
-fn deck(format: Format) -> String {
+fn deck(format: DeckFormat) -> String {
     export(&parameters(), &Record::el_centro(), &EXPECTED, format).unwrap()
 }
 
@@ -52,7 +52,7 @@ fn numbers_in(text: &str) -> Vec<f64> {
 
 #[test]
 fn opensees_decks_hold_every_number_to_the_last_bit() {
-    for format in [Format::OpenSeesPy, Format::OpenSeesTcl] {
+    for format in [DeckFormat::OpenSeesPy, DeckFormat::OpenSeesTcl] {
         let found = numbers_in(&deck(format));
         for number in numbers(1e-5) {
             // the inertia comes from a sum in another order
@@ -65,7 +65,7 @@ fn opensees_decks_hold_every_number_to_the_last_bit() {
 #[test]
 fn opensees_decks_hold_the_whole_record_in_order() {
     let accel = Record::el_centro().accel;
-    for (format, begin) in [(Format::OpenSeesPy, "RECORD = ("), (Format::OpenSeesTcl, "set record {")] {
+    for (format, begin) in [(DeckFormat::OpenSeesPy, "RECORD = ("), (DeckFormat::OpenSeesTcl, "set record {")] {
         let text = deck(format);
         let rows = text.split(begin).nth(1).unwrap();
         let rows = rows.split([')', '}']).next().unwrap();
@@ -75,7 +75,7 @@ fn opensees_decks_hold_the_whole_record_in_order() {
 
 #[test]
 fn no_placeholder_is_left_in_a_deck() {
-    for format in Format::ALL {
+    for format in DeckFormat::ALL {
         assert!(!deck(format).contains('@'), "{format:?}");
     }
 }
@@ -84,7 +84,7 @@ fn no_placeholder_is_left_in_a_deck() {
 fn the_python_deck_compiles() {
     let folder = tempfile::tempdir().unwrap();
     let path = folder.path().join("frame.py");
-    std::fs::write(&path, deck(Format::OpenSeesPy)).unwrap();
+    std::fs::write(&path, deck(DeckFormat::OpenSeesPy)).unwrap();
     // a machine without Python can still run the other tests
     if let Ok(run) = Command::new("python3").args(["-m", "py_compile"]).arg(&path).output() {
         assert!(run.status.success(), "{}", String::from_utf8_lossy(&run.stderr));
@@ -95,7 +95,7 @@ fn the_python_deck_compiles() {
 fn a_record_name_cannot_break_out_of_a_comment() {
     let mut record = Record::el_centro();
     record.name = "a\"\"\"\n} ; exit [exec rm x] \\ @K1_V@".into();
-    for format in Format::ALL {
+    for format in DeckFormat::ALL {
         let text = export(&parameters(), &record, &EXPECTED, format).unwrap();
         assert!(!text.contains("a\"\"\"") && !text.contains("[exec") && !text.contains("@K1_V@"), "{format:?}");
     }
@@ -104,7 +104,7 @@ fn a_record_name_cannot_break_out_of_a_comment() {
 #[test]
 fn plain_tables_hold_every_chain_of_both_feet() {
     let p = parameters();
-    for format in [Format::Csv, Format::Markdown] {
+    for format in [DeckFormat::Csv, DeckFormat::Markdown] {
         let text = deck(format);
         for row in [p.vertical, p.horizontal] {
             for number in [row.k1_n_per_m, row.k2_n_per_m, row.m2_kg, row.c_ns_per_m] {
@@ -121,7 +121,7 @@ fn plain_tables_hold_every_chain_of_both_feet() {
 fn stated(hz: f64, hair: f64) -> (f64, f64) {
     let parameters = Parameters::new(Structure::paper(), &springs(hz));
     let expected = Expected { hair, ..EXPECTED };
-    let text = export(&parameters, &Record::el_centro(), &expected, Format::OpenSeesPy).unwrap();
+    let text = export(&parameters, &Record::el_centro(), &expected, DeckFormat::OpenSeesPy).unwrap();
     let after = |name: &str| {
         let line = text.lines().find(|line| line.starts_with(name)).unwrap();
         line[name.len()..].split_whitespace().next().unwrap().parse().unwrap()
@@ -150,7 +150,7 @@ fn a_history_that_hangs_on_little_is_asked_more_accurately() {
 #[test]
 fn the_stepping_routine_is_in_both_decks_as_it_stands() {
     for (format, routine) in
-        [(Format::OpenSeesPy, include_str!("steps.py")), (Format::OpenSeesTcl, include_str!("steps.tcl"))]
+        [(DeckFormat::OpenSeesPy, include_str!("steps.py")), (DeckFormat::OpenSeesTcl, include_str!("steps.tcl"))]
     {
         assert!(deck(format).contains(routine.trim_end()) && routine.contains("pasted into a script of your own"));
         assert!(!routine.contains('@'));
@@ -161,12 +161,12 @@ fn the_stepping_routine_is_in_both_decks_as_it_stands() {
 fn numbers_that_make_no_deck_are_refused_in_one_line() {
     let mut p = parameters();
     p.vertical.k1_n_per_m = f64::NAN;
-    let error = export(&p, &Record::el_centro(), &EXPECTED, Format::Csv).unwrap_err().to_string();
+    let error = export(&p, &Record::el_centro(), &EXPECTED, DeckFormat::Csv).unwrap_err().to_string();
     assert!(error.contains("vertical.k1_n_per_m") && !error.contains('\n'), "{error}");
     let long = Expected { samples: 4000, ..EXPECTED };
-    let error = export(&parameters(), &Record::el_centro(), &long, Format::Csv).unwrap_err().to_string();
+    let error = export(&parameters(), &Record::el_centro(), &long, DeckFormat::Csv).unwrap_err().to_string();
     assert!(error.contains("4000") && error.contains("3995"), "{error}");
-    let error = "nastran".parse::<Format>().unwrap_err().to_string();
+    let error = "nastran".parse::<DeckFormat>().unwrap_err().to_string();
     assert!(error.contains("openseespy, opensees-tcl, sap2000, csv, markdown"), "{error}");
 }
 
@@ -206,7 +206,7 @@ fn number(row: &HashMap<String, String>, field: &str) -> f64 {
 #[test]
 fn sap2000_tables_hold_masses_stiffnesses_weight_and_record_in_kilonewtons() {
     let p = parameters();
-    let t = read_s2k(&deck(Format::Sap2000));
+    let t = read_s2k(&deck(DeckFormat::Sap2000));
     assert_eq!(t["PROGRAM CONTROL"][0]["CurrUnits"], "KN, m, C");
 
     let total = |field| t["JOINT ADDED MASS ASSIGNMENTS"].iter().map(|row| number(row, field)).sum::<f64>();
@@ -241,7 +241,7 @@ fn sap2000_tables_hold_masses_stiffnesses_weight_and_record_in_kilonewtons() {
 /// Every name that a table uses is defined in another one.
 #[test]
 fn sap2000_tables_refer_to_what_they_define() {
-    let t = read_s2k(&deck(Format::Sap2000));
+    let t = read_s2k(&deck(DeckFormat::Sap2000));
     let names = |table: &str, field: &str| t[table].iter().map(|row| row[field].clone()).collect::<Vec<_>>();
     for (table, field, defined_in, key) in [
         ("CONNECTIVITY - FRAME", "JointI", "JOINT COORDINATES", "Joint"),

@@ -9,7 +9,7 @@ use super::fortran::{Cursor, Layout, Promise, half_digit};
 use super::parsed::{Channel, Parsed, Samples};
 use super::peak::{Clock, Peak, Stated};
 use super::text::{number, quote};
-use super::{Direction, Format, RecordError, Units};
+use super::{Direction, RecordError, RecordFormat, Units};
 
 /// Whether the first lines are those of a COSMOS file.
 pub(super) fn is_it(head: &[&str]) -> bool {
@@ -27,7 +27,7 @@ fn text_lines(line: &str) -> Option<usize> {
 
 /// All channels of acceleration.
 pub(super) fn parse(file: &str, text: &str) -> Result<Parsed, RecordError> {
-    let mut cursor = Cursor::new(file, Format::Cosmos, text);
+    let mut cursor = Cursor::new(file, RecordFormat::Cosmos, text);
     let mut parsed = Parsed { station: None, channels: Vec::new() };
     let mut other = None;
     while cursor.skip_blank() {

@@ -7,7 +7,7 @@ use super::fortran::{Block, Cursor, Layout, Promise, half_digit};
 use super::parsed::{Channel, Parsed, Samples};
 use super::peak::{Clock, Peak, Stated};
 use super::text::{number, quote};
-use super::{Direction, Format, RecordError, Units};
+use super::{Direction, RecordError, RecordFormat, Units};
 
 /// How many lines a channel's header may have.
 const HEADER_LINES: usize = 80;
@@ -28,7 +28,7 @@ fn is_data_line(line: &str, quantity: &str) -> bool {
 
 /// All channels.
 pub(super) fn parse(file: &str, text: &str) -> Result<Parsed, RecordError> {
-    let mut cursor = Cursor::new(file, Format::Csmip, text);
+    let mut cursor = Cursor::new(file, RecordFormat::Csmip, text);
     let mut parsed = Parsed { station: None, channels: Vec::new() };
     while cursor.skip_blank() {
         let (station, channel) = read_channel(&mut cursor)?;

@@ -15,7 +15,7 @@ use super::fortran::{Cursor, Layout, Promise, half_digit};
 use super::parsed::{Channel, Parsed, Samples};
 use super::peak::{Clock, Stated};
 use super::text::{number, quote};
-use super::{Direction, Format, RecordError, Units};
+use super::{Direction, RecordError, RecordFormat, Units};
 
 /// Keys that no other format has.
 const KEYS: [&str; 7] =
@@ -28,7 +28,7 @@ pub(super) fn is_it(head: &[&str]) -> bool {
 
 /// The one component.
 pub(super) fn parse(file: &str, text: &str) -> Result<Parsed, RecordError> {
-    let mut cursor = Cursor::new(file, Format::Dyna, text);
+    let mut cursor = Cursor::new(file, RecordFormat::Dyna, text);
     cursor.skip_blank();
     let header = Header::read(&mut cursor);
     header.check_quantity(file)?;

@@ -1,6 +1,6 @@
 use thiserror::Error;
 
-use super::{Format, Units};
+use super::{RecordFormat, Units};
 
 /// What is wrong with a ground motion file or with the numbers of a record, where, and what to do.
 #[derive(Clone, Debug, PartialEq, Error)]
@@ -79,7 +79,7 @@ pub enum RecordError {
     #[error(
         "{file}, line {line}: {wanted} should stand here, not {found}; the {format} file is cut or damaged: fetch it again"
     )]
-    Layout { file: String, line: usize, format: Format, wanted: &'static str, found: String },
+    Layout { file: String, line: usize, format: RecordFormat, wanted: &'static str, found: String },
     #[error(
         "{file}, line {line}: the {what} end after {found} values where line {header_line} announces {said}; the file is cut or damaged: fetch it again"
     )]

@@ -8,10 +8,10 @@ use super::parsed::Parsed;
 use super::text::lines;
 use super::{ReadOptions, RecordError, at2, columns, cosmos, csmip, dyna, geonet, knet};
 
-/// Format of a record file.
+/// RecordFormat of a record file.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 #[non_exhaustive]
-pub enum Format {
+pub enum RecordFormat {
     /// PEER AT2, both forms of its header.
     Peer,
     /// GeoNet, New Zealand: V1A (uncorrected) and V2A (corrected), three components a file.
@@ -28,7 +28,7 @@ pub enum Format {
     Columns,
 }
 
-impl fmt::Display for Format {
+impl fmt::Display for RecordFormat {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         f.write_str(match self {
             Self::Peer => "PEER AT2",
@@ -42,7 +42,7 @@ impl fmt::Display for Format {
     }
 }
 
-impl Serialize for Format {
+impl Serialize for RecordFormat {
     fn serialize<S: Serializer>(&self, serializer: S) -> Result<S::Ok, S::Error> {
         serializer.collect_str(self)
     }
@@ -54,7 +54,7 @@ type Test = fn(&[&str]) -> bool;
 /// How far down a file says what it is.
 const HEAD_LINES: usize = 100;
 
-impl Format {
+impl RecordFormat {
     /// The format that the first lines speak; columns if none.
     pub(super) fn of(text: &str) -> Self {
         let head: Vec<&str> = lines(text).take(HEAD_LINES).map(|(_, line)| line).collect();

@@ -1,7 +1,7 @@
 //! Numbers in fixed formats, as Fortran programs write them: `(8F10.5)` is eight fields of ten characters to a line.
 
 use super::text::{number, precision, quote, raw_lines};
-use super::{Format, RecordError};
+use super::{RecordError, RecordFormat};
 
 /// How numbers stand in lines.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -40,7 +40,7 @@ impl Layout {
 /// A file line by line, from the top.
 pub(super) struct Cursor<'a> {
     pub file: &'a str,
-    format: Format,
+    format: RecordFormat,
     lines: Vec<&'a str>,
     at: usize,
 }
@@ -75,7 +75,7 @@ pub(super) fn half_digit(printed: &str) -> f64 {
 }
 
 impl<'a> Cursor<'a> {
-    pub(super) fn new(file: &'a str, format: Format, text: &'a str) -> Self {
+    pub(super) fn new(file: &'a str, format: RecordFormat, text: &'a str) -> Self {
         Self { file, format, lines: raw_lines(text).collect(), at: 0 }
     }
 
@@ -220,7 +220,7 @@ mod tests {
         let promise =
             Promise { what: "acceleration samples", count: 5, layout: Layout { per_line: 3, width: 4 }, line: 1 };
         let block = |text: &str| {
-            let mut cursor = Cursor::new("x", Format::GeoNet, text);
+            let mut cursor = Cursor::new("x", RecordFormat::GeoNet, text);
             cursor.block(promise).map(|block| (block.values, cursor.number()))
         };
         assert_eq!(block("  1.  2.  3.\n  4.  5.\nEND"), Ok((vec![1.0, 2.0, 3.0, 4.0, 5.0], 3)));

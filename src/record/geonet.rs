@@ -9,7 +9,7 @@ use super::fortran::{Block, Cursor, Layout, Promise, half_digit};
 use super::parsed::{Channel, Parsed, Samples};
 use super::peak::{Clock, Peak, Stated};
 use super::text::number;
-use super::{Direction, Format, RecordError, Units};
+use super::{Direction, RecordError, RecordFormat, Units};
 
 const TEXT_LINES: usize = 16;
 const INTEGERS: Layout = Layout { per_line: 10, width: 8 };
@@ -34,7 +34,7 @@ pub(super) fn is_it(head: &[&str]) -> bool {
 
 /// All components.
 pub(super) fn parse(file: &str, text: &str) -> Result<Parsed, RecordError> {
-    let mut cursor = Cursor::new(file, Format::GeoNet, text);
+    let mut cursor = Cursor::new(file, RecordFormat::GeoNet, text);
     let mut parsed = Parsed { station: None, channels: Vec::new() };
     while cursor.skip_blank() {
         let header = Header::read(&mut cursor)?;

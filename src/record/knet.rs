@@ -15,7 +15,7 @@ use super::fortran::Cursor;
 use super::parsed::{Channel, Parsed, Samples, mean};
 use super::peak::{Clock, Stated};
 use super::text::{number, quote};
-use super::{Direction, Format, RecordError, Units};
+use super::{Direction, RecordError, RecordFormat, Units};
 
 /// Words that lines of the header begin with.
 const KEYS: [&str; 6] = ["Sampling Freq", "Scale Factor", "Max. Acc.", "Max Acc.", "Station Code", "Last Correction"];
@@ -31,7 +31,7 @@ pub(super) fn is_it(head: &[&str]) -> bool {
 
 /// The one component.
 pub(super) fn parse(file: &str, text: &str) -> Result<Parsed, RecordError> {
-    let mut cursor = Cursor::new(file, Format::KNet, text);
+    let mut cursor = Cursor::new(file, RecordFormat::KNet, text);
     cursor.skip_blank();
     let header = Header::read(&mut cursor)?;
     let frequency = header.number("Sampling Freq", "'Sampling Freq(Hz)' and a number", &cursor)?;

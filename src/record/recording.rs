@@ -4,7 +4,7 @@ use std::path::Path;
 
 use super::parsed::Channel;
 use super::text::{self, quote};
-use super::{Direction, Format, Notice, Peak, ReadOptions, Record, RecordError, Source, Units, Vertical};
+use super::{Direction, Notice, Peak, ReadOptions, Record, RecordError, RecordFormat, Source, Units, Vertical};
 
 /// One component of a file, in SI units.
 #[derive(Clone, Debug, PartialEq)]
@@ -32,7 +32,7 @@ pub struct Component {
 #[derive(Clone, Debug, PartialEq)]
 pub struct Recording {
     /// The file's format.
-    pub format: Format,
+    pub format: RecordFormat,
     /// Station or site, as the file names it.
     pub station: Option<String>,
     /// At least one.
@@ -83,9 +83,9 @@ impl Recording {
         if text.trim().is_empty() {
             return Err(RecordError::Empty { file: file.clone() });
         }
-        let format = Format::of(&text);
+        let format = RecordFormat::of(&text);
         let is_at2 = path.extension().is_some_and(|ending| ending.eq_ignore_ascii_case("at2"));
-        if is_at2 && format == Format::Columns {
+        if is_at2 && format == RecordFormat::Columns {
             return Err(RecordError::NoHeader { file: file.clone() });
         }
         let parsed = format.parse(file, &text, options)?;

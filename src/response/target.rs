@@ -28,7 +28,7 @@ pub struct Target {
 /// What a band asks of ARR.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(rename_all = "snake_case")]
-pub enum Kind {
+pub enum BandKind {
     /// ARR <= limit.
     Cap,
     /// ARR within the share `limit` of ARR(0), above or below.
@@ -50,7 +50,7 @@ pub struct Band {
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub g_high: Option<f64>,
     /// What the band asks.
-    pub kind: Kind,
+    pub kind: BandKind,
     /// The limit of that kind [-]: a largest ARR, a largest ARR g^2, or a share (0.05 is 5 %).
     pub limit: f64,
     /// Weight w of the excess [-]; 1 unless given.
@@ -83,7 +83,7 @@ pub enum TargetError {
 impl Default for Target {
     /// The flat cap: make the largest ARR over all g as small as possible.
     fn default() -> Self {
-        Self { bands: vec![Band { g_low: 0.0, g_high: None, kind: Kind::Cap, limit: 1.0, weight: 1.0 }] }
+        Self { bands: vec![Band { g_low: 0.0, g_high: None, kind: BandKind::Cap, limit: 1.0, weight: 1.0 }] }
     }
 }
 
@@ -112,9 +112,9 @@ impl Band {
             }
         }
         match self.kind {
-            Kind::RollOff if g_low == 0.0 => Err(TargetError::RollOffFromZero { band }),
-            Kind::Uniform if g_high.is_infinite() => Err(TargetError::FlatWithoutEnd { band, kind: "uniform" }),
-            Kind::Rigid if g_high.is_infinite() => Err(TargetError::FlatWithoutEnd { band, kind: "rigid" }),
+            BandKind::RollOff if g_low == 0.0 => Err(TargetError::RollOffFromZero { band }),
+            BandKind::Uniform if g_high.is_infinite() => Err(TargetError::FlatWithoutEnd { band, kind: "uniform" }),
+            BandKind::Rigid if g_high.is_infinite() => Err(TargetError::FlatWithoutEnd { band, kind: "rigid" }),
             _ => Ok(()),
         }
     }
@@ -138,8 +138,8 @@ mod tests {
             limit = 4.0
         ";
         let target: Target = toml::from_str(text).unwrap();
-        let uniform = Band { g_low: 0.0, g_high: Some(0.2), kind: Kind::Uniform, limit: 0.05, weight: 2.0 };
-        let roll_off = Band { g_low: 2.0, g_high: None, kind: Kind::RollOff, limit: 4.0, weight: 1.0 };
+        let uniform = Band { g_low: 0.0, g_high: Some(0.2), kind: BandKind::Uniform, limit: 0.05, weight: 2.0 };
+        let roll_off = Band { g_low: 2.0, g_high: None, kind: BandKind::RollOff, limit: 4.0, weight: 1.0 };
         assert_eq!(target.clone().checked().unwrap().bands, [uniform, roll_off]);
         let back: Target = toml::from_str(&toml::to_string(&target).unwrap()).unwrap();
         assert_eq!(back, target);
@@ -160,7 +160,7 @@ mod tests {
         assert!(matches!(check(Band { g_low: f64::NAN, ..good }), TargetError::Range { band: 2, .. }));
         assert!(matches!(check(Band { limit: 0.0, ..good }), TargetError::NotPositive { name: "limit", .. }));
         assert!(matches!(check(Band { weight: -1.0, ..good }), TargetError::NotPositive { name: "weight", .. }));
-        assert_eq!(check(Band { kind: Kind::RollOff, ..good }), TargetError::RollOffFromZero { band: 2 });
-        assert!(matches!(check(Band { kind: Kind::Rigid, ..good }), TargetError::FlatWithoutEnd { band: 2, .. }));
+        assert_eq!(check(Band { kind: BandKind::RollOff, ..good }), TargetError::RollOffFromZero { band: 2 });
+        assert!(matches!(check(Band { kind: BandKind::Rigid, ..good }), TargetError::FlatWithoutEnd { band: 2, .. }));
     }
 }

@@ -62,7 +62,7 @@ pub enum JobError {
 pub struct Paper {
     pub vertical: Vec<Fit>,
     pub horizontal: Vec<Fit>,
-    pub tuned: outer::Tuned,
+    pub tuned: outer::OmegaSearch,
 }
 
 /// A case's springs and all that led to them.
@@ -287,13 +287,13 @@ impl<'a> Procedure<'a> {
     }
 
     /// Springs up to this Omega_n (Hz), whatever they settle.
-    fn at(&self, max_hz: f64, progress: &(dyn Fn(usize, usize, f64) + Sync)) -> Option<outer::Tuned> {
+    fn at(&self, max_hz: f64, progress: &(dyn Fn(usize, usize, f64) + Sync)) -> Option<outer::OmegaSearch> {
         self.sampled(max_hz, self.case.tuning.candidates, progress)
     }
 
     /// The same to compare with, at the Omega_n (Hz) of stiff springs: sampled at each pair's stiffest only, which is where the best
     /// ones are refined from there.
-    fn beside(&self, max_hz: f64, progress: &(dyn Fn(usize, usize, f64) + Sync)) -> Option<outer::Tuned> {
+    fn beside(&self, max_hz: f64, progress: &(dyn Fn(usize, usize, f64) + Sync)) -> Option<outer::OmegaSearch> {
         self.sampled(max_hz, 0, progress)
     }
 
@@ -302,7 +302,7 @@ impl<'a> Procedure<'a> {
         max_hz: f64,
         candidates: usize,
         progress: &(dyn Fn(usize, usize, f64) + Sync),
-    ) -> Option<outer::Tuned> {
+    ) -> Option<outer::OmegaSearch> {
         let bracket = Bracket { max_hz, max_settlement: self.case.tuning.max_settlement_m };
         let least = self.least_settlement(&bracket);
         let bracket = Bracket { max_settlement: bracket.max_settlement.max(least), ..bracket };
@@ -318,7 +318,7 @@ impl<'a> Procedure<'a> {
         &self,
         suites: &Suites,
         progress: &(dyn Fn(usize, usize, f64) + Sync),
-    ) -> Result<(Tuned, bool, Option<outer::Tuned>), JobError> {
+    ) -> Result<(Tuned, bool, Option<outer::OmegaSearch>), JobError> {
         let (tuning, body) = (&self.case.tuning, &self.benchmark.body);
         if let Some(max_hz) = tuning.max_omega_hz {
             let bracket = Bracket { max_hz, max_settlement: tuning.max_settlement_m };

@@ -16,7 +16,7 @@ use crate::{
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize)]
 #[serde(rename_all = "snake_case")]
 #[non_exhaustive]
-pub enum Outcome {
+pub enum RecordOutcome {
     /// Housner's body rocked, or toppled.
     Rocked,
     /// The record never lifts Housner's body: there is no history to compare with.
@@ -58,7 +58,7 @@ pub struct Row {
     /// The record's name.
     pub name: String,
     /// How the finite element history ended.
-    pub outcome: Outcome,
+    pub outcome: RecordOutcome,
     /// Length compared: up to the end of the shorter history, and to the first overturning (s).
     pub duration_s: f64,
     /// Peak ground acceleration, scaled as compared (g).
@@ -102,7 +102,7 @@ pub struct Row {
 impl Row {
     /// Whether one of the models failed.
     pub(crate) fn failed(&self) -> bool {
-        matches!(self.outcome, Outcome::HousnerFailed | Outcome::FemFailed)
+        matches!(self.outcome, RecordOutcome::HousnerFailed | RecordOutcome::FemFailed)
     }
 
     /// Whether Housner's body rocked without toppling and its history is well conditioned: NRMSE means something one to one.
@@ -112,7 +112,7 @@ impl Row {
 
     /// Whether Housner's body rocked without toppling, and on a pivot that never had to pull.
     pub(crate) fn rocked(&self) -> bool {
-        let rocked = matches!(self.outcome, Outcome::Rocked | Outcome::FemFailed);
+        let rocked = matches!(self.outcome, RecordOutcome::Rocked | RecordOutcome::FemFailed);
         rocked && !self.overturned_housner && self.pivot_pulls_s.is_none()
     }
 
@@ -165,13 +165,13 @@ impl Judge {
         let outcome = match rocking.outcome {
             housner::Outcome::LeavesGround { .. }
             | housner::Outcome::WorkBound { .. }
-            | housner::Outcome::NotFinite { .. } => Outcome::HousnerFailed,
-            _ if overturned_fem.is_none() || !finite => Outcome::FemFailed,
-            housner::Outcome::NeverMoved => Outcome::NeverLifted,
-            _ => Outcome::Rocked,
+            | housner::Outcome::NotFinite { .. } => RecordOutcome::HousnerFailed,
+            _ if overturned_fem.is_none() || !finite => RecordOutcome::FemFailed,
+            housner::Outcome::NeverMoved => RecordOutcome::NeverLifted,
+            _ => RecordOutcome::Rocked,
         };
         let overturned_housner = rocking.overturned().is_some();
-        let overturned_fem = overturned_fem.filter(|_| outcome != Outcome::FemFailed);
+        let overturned_fem = overturned_fem.filter(|_| outcome != RecordOutcome::FemFailed);
         let ratio = |peak: f64, overturned| if overturned { FRAC_PI_2 } else { peak } / body.alpha();
         let peak_of = |rocking: &housner::Rocking<f64>| {
             let peak = rocking.theta.iter().fold(0.0, |peak: f64, x| peak.max(x.abs()));
@@ -180,7 +180,7 @@ impl Judge {
         let changed = housner::Options { restitution: Some(self.restitution * (1.0 - CHANGE)), ..options.clone() };
         let changes = conditioning.map(|c| c.changes).unwrap_or_default();
         let moved = |k: usize| changes.width[k].max(changes.scale[k]);
-        let error = |x: f64| (outcome == Outcome::Rocked && x.is_finite()).then_some(x);
+        let error = |x: f64| (outcome == RecordOutcome::Rocked && x.is_finite()).then_some(x);
         Row {
             name: record.name.clone(),
             outcome,

@@ -177,7 +177,7 @@ impl Summary {
     pub(crate) fn new(records: &[&Row]) -> Self {
         let (housner, fem): (Vec<f64>, Vec<f64>) = records.iter().map(|row| peaks(row)).unzip();
         let changed: Vec<f64> = records.iter().map(|row| row.peak_ratio_housner_changed).collect();
-        let never_lifted = records.iter().filter(|row| row.outcome == super::Outcome::NeverLifted).count();
+        let never_lifted = records.iter().filter(|row| row.outcome == super::RecordOutcome::NeverLifted).count();
         let comparable = records.iter().filter(|row| row.comparable()).count();
         let agreeing = records.iter().filter(|row| row.agrees()).count();
         Self {

@@ -65,7 +65,10 @@ fn a_body_that_topples_has_the_peak_of_one_that_lies_flat() {
         let record = Record::new("push", 0.01, vec![0.15 * 9.81; (100.0 * duration) as usize]).unwrap();
         let row = judge.judge(&record);
         assert!(row.overturned_housner, "{row:?}");
-        assert_eq!((row.outcome, row.overturned_fem, row.peak_ratio_housner), (Outcome::Rocked, Some(true), flat));
+        assert_eq!(
+            (row.outcome, row.overturned_fem, row.peak_ratio_housner),
+            (RecordOutcome::Rocked, Some(true), flat)
+        );
         assert_eq!(row.peak_ratio_fem, Some(flat));
         assert!(row.agrees() && !row.comparable());
     }
@@ -76,7 +79,7 @@ fn a_record_that_never_lifts_the_body_has_no_peak_and_no_error() {
     let judge = judge(&frame());
     let record = Record::new("weak", 0.01, vec![0.02 * 9.81; 300]).unwrap();
     let row = judge.judge(&record);
-    assert_eq!((row.outcome, row.nrmse_horizontal, row.nrmse_vertical), (Outcome::NeverLifted, None, None));
+    assert_eq!((row.outcome, row.nrmse_horizontal, row.nrmse_vertical), (RecordOutcome::NeverLifted, None, None));
     assert_eq!((row.peak_ratio_housner, row.peak_ratio_fem, row.sensitivity), (0.0, Some(0.0), 0.0));
     assert!(row.agrees() && !row.comparable());
 }
@@ -103,7 +106,7 @@ fn a_history_that_meets_its_bound_on_work_is_listed_as_failed() {
     judge.duration_s = Some(5.0);
     let found = judge.judge_all(1, |_| Ok::<_, ()>(Record::el_centro()), |_| {}).unwrap();
     let row = &found.records[0];
-    assert_eq!((row.outcome, row.overturned_fem, row.peak_ratio_fem), (Outcome::FemFailed, None, None));
+    assert_eq!((row.outcome, row.overturned_fem, row.peak_ratio_fem), (RecordOutcome::FemFailed, None, None));
     let all = found.all;
     assert_eq!((all.failed, all.overturning_agreement, all.ks_distance), (vec!["IELC180".to_string()], 0.0, 1.0));
 }

@@ -8,7 +8,7 @@ use std::{
 };
 
 use super::VerifyError;
-use crate::export::Format;
+use crate::export::DeckFormat;
 
 /// The deck's exit code when openseespy cannot be loaded.
 const NO_OPENSEES: i32 = 3;
@@ -39,10 +39,10 @@ pub(super) struct Ran {
 
 impl Program {
     /// The deck it reads.
-    pub fn format(&self) -> Format {
+    pub fn format(&self) -> DeckFormat {
         match self {
-            Self::Python(_) => Format::OpenSeesPy,
-            Self::Tcl(_) => Format::OpenSeesTcl,
+            Self::Python(_) => DeckFormat::OpenSeesPy,
+            Self::Tcl(_) => DeckFormat::OpenSeesTcl,
         }
     }
 

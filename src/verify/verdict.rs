@@ -16,7 +16,7 @@ const PARTED: f64 = 0.01;
 
 /// OpenSees against our own history, up to where that can be foretold.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Verdict {
+pub struct OpenSeesVerdict {
     /// NRMSE of u over what is judged.
     pub error: f64,
     /// Whether it is at most [`LIMIT`].
@@ -29,7 +29,7 @@ pub struct Verdict {
     pub parted: Option<f64>,
 }
 
-impl Verdict {
+impl OpenSeesVerdict {
     /// `until`: samples that can be foretold, `None` for all.
     pub fn new(opensees: &Motion, ours: &Motion, body: &Body<f64>, dt: f64, until: Option<usize>) -> Self {
         let samples = until.unwrap_or(ours.len()).min(ours.len()).min(opensees.len());
@@ -56,9 +56,9 @@ mod tests {
         [off, u].map(|u| Motion { v: u.clone(), theta: u.clone(), u })
     }
 
-    fn judged(share: f64, from: usize, until: Option<usize>) -> Verdict {
+    fn judged(share: f64, from: usize, until: Option<usize>) -> OpenSeesVerdict {
         let [off, ours] = pair(share, from);
-        Verdict::new(&off, &ours, &Structure::paper().body(), 0.01, until)
+        OpenSeesVerdict::new(&off, &ours, &Structure::paper().body(), 0.01, until)
     }
 
     #[test]
@@ -84,7 +84,7 @@ mod tests {
             let u: Vec<f64> = m.u.iter().map(|u| u * 1e-5).collect();
             Motion { v: u.clone(), theta: u.clone(), u }
         });
-        let verdict = Verdict::new(&off, &ours, &Structure::paper().body(), 0.01, None);
+        let verdict = OpenSeesVerdict::new(&off, &ours, &Structure::paper().body(), 0.01, None);
         assert!(verdict.within && verdict.error > 0.0, "{verdict:?}");
     }
 }

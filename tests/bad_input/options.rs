@@ -18,19 +18,19 @@ fn results_that_cannot_be_written_are_refused_before_the_work() {
     for args in [
         &["run", "--quiet", "--out", "results"][..],
         &["run", "--quiet", "--out", "results/below"],
-        &["bench", "--quick", "--out", "results"],
+        &["chart", "--out", "results"],
     ] {
         refuses(&file, args, &["results: is a file where a folder is needed"]);
     }
-    refuses(&[], &["housner", "--out", "."], &["is a folder; name a file"]);
+    refuses(&[("housner.csv/", "")], &["housner", "--out", "."], &["is a folder; name a file"]);
     refuses(&[], &["housner", "--out", "nowhere/h.csv"], &["there is no folder nowhere"]);
     let parameters = ("p.json", PARAMETERS);
     let validate = ["validate", "--parameters", "p.json", "--synthetic", "3", "--out", "results"];
     refuses(&[parameters, file[0]], &validate, &["results: is a file"]);
     refuses(&[parameters, file[0]], &["verify", "--parameters", "p.json", "--out", "results"], &["results: is a file"]);
     refuses(&[parameters], &["simulate", "--parameters", "p.json", "--out", "x/h.csv"], &["there is no folder x"]);
-    let export = ["export", "--parameters", "p.json", "--format", "csv", "--out", "."];
-    refuses(&[parameters], &export, &["is a folder; name a file"]);
+    let export = ["export", "--parameters", "p.json", "--format", "csv", "--out", "results/"];
+    refuses(&[parameters, file[0]], &export, &["results", "is a file where a folder is needed"]);
 }
 
 #[test]
@@ -43,6 +43,13 @@ fn options_that_are_no_numbers_or_out_of_range() {
         (&["run", "--max-hz", "nan"], "--max-hz is NaN"),
         (&["run", "--friction", "-1"], "--friction is -1"),
         (&["run", "--jobs", "-1"], "unexpected argument"),
+        (&["run", "--jobs", "0"], "--jobs is 0; give at least one thread"),
+        (&["chart", "--jobs", "0"], "--jobs is 0"),
+        (&["chart", "--alpha", "nan"], "alpha is NaN"),
+        (&["run", "--scale", "inf"], "inf"),
+        (&["run", "--accuracy", "inf"], "--accuracy is inf"),
+        (&["run", "--max-hz", "0"], "--max-hz is 0"),
+        (&["run", "--duration", "0"], "--duration is 0"),
         (&["run", "--jobs", "99999999"], "--jobs is 99999999"),
         (&["run", "--dt", "0.01"], "name it with --record"),
         (&["housner", "--restitution", "nan"], "--restitution is NaN"),
@@ -110,8 +117,28 @@ fn case_values_that_cannot_be() {
         ("[bounds]\nf_min = -1.0\n", "f_min is -1"),
         ("[[target.bands]]\nkind = \"cap\"\nlimit = nan\n", "limit"),
         ("[damper]\nc_ns_per_m = nan\n", "c_ns_per_m is NaN"),
+        ("[tuning]\naccuracy = nan\n", "accuracy is NaN"),
+        ("[tuning]\nmax_omega_hz = inf\n", "max_omega_hz is inf"),
+        ("[tuning]\nmax_settlement_m = 0.0\n", "max_settlement_m is 0"),
+        ("[record]\nduration_s = inf\n", "duration_s is inf"),
+        ("[legs]\nea_n = inf\nei_nm2 = 1e9\n", "ea_n is inf"),
+        ("[friction]\ncoefficient = nan\n", "coefficient is NaN"),
     ] {
         run_case(&format!("{STRUCTURE}{extra}"), &[word]);
+    }
+}
+
+#[test]
+fn sizes_that_are_zero_or_not_finite() {
+    for (key, value, word) in [
+        ("height_m = 1.0", "height_m = 0.0", "height_m is 0"),
+        ("height_m = 1.0", "height_m = nan", "height_m is NaN"),
+        ("width_m = 0.5", "width_m = inf", "width_m is inf"),
+        ("width_m = 0.5", "width_m = -0.0", "width_m is -0"),
+        ("mass_kg = 100.0", "mass_kg = 0.0", "mass_kg is 0"),
+        ("mass_kg = 100.0", "mass_kg = nan", "mass_kg is NaN"),
+    ] {
+        run_case(&STRUCTURE.replace(key, value), &[word]);
     }
 }
 

@@ -5,7 +5,7 @@
 
 use std::path::{Path, PathBuf};
 
-use groundspring::record::{Direction, Format, ReadOptions, Recording};
+use groundspring::record::{Direction, ReadOptions, RecordFormat, Recording};
 
 /// What a header says of a component: direction, PGA (m/s2) and its time (s).
 type Header = (Direction, f64, Option<f64>);
@@ -20,7 +20,7 @@ fn shared(name: &str) -> Option<PathBuf> {
 }
 
 /// Read a file and compare its components with the printed header; `digit` is half of the last digit there (m/s2).
-fn check(path: &Path, format: Format, dt: f64, headers: &[Header], samples: &[usize], digit: f64) -> Recording {
+fn check(path: &Path, format: RecordFormat, dt: f64, headers: &[Header], samples: &[usize], digit: f64) -> Recording {
     let recording = Recording::read(path, &ReadOptions::default()).unwrap_or_else(|error| panic!("{error}"));
     assert_eq!((recording.format, recording.components.len()), (format, headers.len()));
     for ((component, header), samples) in recording.components.iter().zip(headers).zip(samples) {
@@ -46,7 +46,7 @@ fn kaikoura_at_te_mara_farm() {
         (Vertical, 18.0219, Some(44.14)),
     ];
     let path = committed("20161113_110259_WTMC_20.V2A");
-    let recording = check(&path, Format::GeoNet, 0.02, &headers, &[8192; 3], 5e-5);
+    let recording = check(&path, RecordFormat::GeoNet, 0.02, &headers, &[8192; 3], 5e-5);
     assert_eq!(recording.station.as_deref(), Some("WTMC Te Mara Farm Waiau"));
     let velocity: Vec<f64> = recording.components.iter().map(|c| c.header_pgv.unwrap().value).collect();
     assert_eq!(velocity, [-1.01655, 0.68643, -0.39493]);
@@ -68,7 +68,7 @@ fn a_small_earthquake_at_waipawa() {
         (Vertical, -0.0273, Some(40.36)),
     ];
     let path = committed("20180212_211557_WPWS_20.V2A");
-    let recording = check(&path, Format::GeoNet, 0.02, &headers, &[5800; 3], 5e-5);
+    let recording = check(&path, RecordFormat::GeoNet, 0.02, &headers, &[5800; 3], 5e-5);
     assert_eq!(recording.taken, 1);
 }
 
@@ -76,7 +76,7 @@ fn a_small_earthquake_at_waipawa() {
 fn a_cosmos_file_of_the_vertical_at_bremner_river() {
     let Some(path) = shared("us1000hyfh_akbmrp_AKBMR--n.1000hyfh.BNZ.--.acc.V2c") else { return };
     let headers = [(Direction::Vertical, -0.06851512, Some(76.215))];
-    check(&path, Format::Cosmos, 0.005, &headers, &[42000], 5e-9);
+    check(&path, RecordFormat::Cosmos, 0.005, &headers, &[42000], 5e-9);
 }
 
 #[test]
@@ -88,7 +88,7 @@ fn a_csmip_file_of_three_channels() {
         (Azimuth(0.0), -1.15845, Some(14.52)),
         (Vertical, 0.69662, Some(12.06)),
     ];
-    let recording = check(&path, Format::Csmip, 0.02, &headers, &[15050, 15029, 15050], 5e-6);
+    let recording = check(&path, RecordFormat::Csmip, 0.02, &headers, &[15050, 15029, 15050], 5e-6);
     let velocity: Vec<f64> = recording.components.iter().map(|c| c.header_pgv.unwrap().value).collect();
     for (found, printed) in velocity.iter().zip([-6.863, -8.141, -5.845]) {
         assert!((found - 0.01 * printed).abs() < 1e-12);
@@ -100,5 +100,5 @@ fn a_csmip_file_of_three_channels() {
 fn an_afad_file() {
     let Some(path) = shared("20101114230825_3104_ap_RawAcc_E.asc") else { return };
     let headers = [(Direction::Azimuth(90.0), 0.01632, None)];
-    check(&path, Format::Dyna, 0.01, &headers, &[5600], 5e-6);
+    check(&path, RecordFormat::Dyna, 0.01, &headers, &[5600], 5e-6);
 }

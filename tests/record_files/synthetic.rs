@@ -1,6 +1,6 @@
 //! Files made in each format come back as the numbers they were made of.
 
-use groundspring::record::{Direction, Format, Notice, ReadOptions, Recording, Units};
+use groundspring::record::{Direction, Notice, ReadOptions, RecordFormat, Recording, Units};
 
 use crate::write::{self, DT, PREPENDED, SAMPLES, peak, rounded, wave};
 
@@ -21,7 +21,7 @@ fn geonet_files_have_three_components() {
     for raw in [false, true] {
         let text = write::geonet(&[("N28W", 5000.0), ("S62W", 7000.0), ("Up", 9000.0)], raw);
         let recording = read("x.txt", &text);
-        assert_eq!((recording.format, recording.station.as_deref()), (Format::GeoNet, Some("TEST Made up Farm")));
+        assert_eq!((recording.format, recording.station.as_deref()), (RecordFormat::GeoNet, Some("TEST Made up Farm")));
         let directions: Vec<_> = recording.components.iter().map(|c| c.direction).collect();
         assert_eq!(directions, [Direction::Azimuth(332.0), Direction::Azimuth(242.0), Direction::Vertical]);
         for (component, scale) in recording.components.iter().zip([5000.0, 7000.0, 9000.0]) {
@@ -70,7 +70,10 @@ fn a_component_is_chosen_by_name_or_azimuth() {
 fn cosmos_channels_have_the_step_of_the_data_not_of_the_raw_record() {
     for (unit, factor) in [(("cm/sec2", 4), 0.01), (("g", 2), 9.81), (("gal", 10), 0.01)] {
         let recording = read("x", &write::cosmos(&[(360, 3.0), (90, 2.0), (400, 4.0)], unit));
-        assert_eq!((recording.format, recording.station.as_deref()), (Format::Cosmos, Some("XX-TEST Test Place")));
+        assert_eq!(
+            (recording.format, recording.station.as_deref()),
+            (RecordFormat::Cosmos, Some("XX-TEST Test Place"))
+        );
         let directions: Vec<_> = recording.components.iter().map(|c| c.direction).collect();
         assert_eq!(directions, [Direction::Azimuth(0.0), Direction::Azimuth(90.0), Direction::Vertical]);
         for (component, scale) in recording.components.iter().zip([3.0, 2.0, 4.0]) {
@@ -94,7 +97,7 @@ fn csmip_channels_are_read_by_their_announced_formats() {
     let text = write::csmip(&[("90 Deg", 60.0), ("360 Deg", 80.0), (" Up", 70.0)]);
     for text in [text.replace("\r\n", "\n"), text.clone()] {
         let recording = read("x", &text);
-        assert_eq!((recording.format, recording.station.as_deref()), (Format::Csmip, Some("12345 Test Place")));
+        assert_eq!((recording.format, recording.station.as_deref()), (RecordFormat::Csmip, Some("12345 Test Place")));
         let labels: Vec<String> = recording.components.iter().map(|c| c.label()).collect();
         assert_eq!(labels, ["Chan 1 (azimuth 90)", "Chan 2 (azimuth 0)", "Chan 3 (vertical)"]);
         for (component, scale) in recording.components.iter().zip([60.0, 80.0, 70.0]) {
@@ -117,7 +120,7 @@ fn knet_counts_are_scaled_and_lose_their_mean() {
         ("3", "UD1", Direction::Vertical),
     ] {
         let recording = read("TST001.EW", &write::knet(dir));
-        assert_eq!((recording.format, recording.station.as_deref()), (Format::KNet, Some("TST001")));
+        assert_eq!((recording.format, recording.station.as_deref()), (RecordFormat::KNet, Some("TST001")));
         let component = recording.component();
         assert_eq!((component.name.as_deref(), component.direction), (Some(name), direction));
         assert_eq!(component.record.dt, 0.01);
@@ -126,14 +129,17 @@ fn knet_counts_are_scaled_and_lose_their_mean() {
         assert_eq!(only, direction == Direction::Vertical);
     }
     // newer files spell it without the point
-    assert_eq!(read("x", &write::knet("N-S").replace("Max. Acc. (gal) ", "Max Acc. (gal)  ")).format, Format::KNet);
+    assert_eq!(
+        read("x", &write::knet("N-S").replace("Max. Acc. (gal) ", "Max Acc. (gal)  ")).format,
+        RecordFormat::KNet
+    );
 }
 
 #[test]
 fn esm_files_have_one_value_a_line() {
     for (stream, direction) in [("HNE", Direction::Azimuth(90.0)), ("HNZ", Direction::Vertical)] {
         let recording = read("x.asc", &write::dyna(stream, -30.0));
-        assert_eq!((recording.format, recording.station.as_deref()), (Format::Dyna, Some("XX TST Test Place")));
+        assert_eq!((recording.format, recording.station.as_deref()), (RecordFormat::Dyna, Some("XX TST Test Place")));
         let component = recording.component();
         assert_eq!((component.name.as_deref(), component.direction), (Some(stream), direction));
         assert_eq!((component.record.dt, component.record.len()), (DT, SAMPLES));

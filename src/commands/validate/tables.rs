@@ -5,14 +5,16 @@ use std::fmt::Write;
 use comfy_table::{Table, presets};
 
 use super::CommandError;
-use crate::validate::{Confusion, GeometricMean, Outcome, PREDICTABLE, Quantiles, Row, Suite, Summary, Validation};
+use crate::validate::{
+    Confusion, GeometricMean, PREDICTABLE, Quantiles, RecordOutcome, Row, Suite, Summary, Validation,
+};
 
 /// A line of the summary: what it says of each set of records.
 type Line<'a> = (String, &'a dyn Fn(&Summary) -> String);
 
 /// What the records say together, and each suite of several: head, then name and a value for each set.
 fn summary(v: &Validation) -> (Vec<String>, Vec<Vec<String>>) {
-    let mut sets = vec![("all records", &v.all)];
+    let mut sets = vec![("all together", &v.all)];
     if v.suites.len() > 1 {
         sets.extend(v.suites.iter().map(|(suite, summary)| (name(*suite), summary)));
     } else {
@@ -82,10 +84,10 @@ fn cells(row: &Row) -> [String; 12] {
     let number = |x: Option<f64>, none: &str| x.map_or(none.to_string(), |x| format!("{x:.4}"));
     let yes = |x: bool| if x { "yes" } else { "no" }.to_string();
     let missing = match row.outcome {
-        Outcome::Rocked => "-",
-        Outcome::NeverLifted => "never lifted",
-        Outcome::HousnerFailed => "Housner failed",
-        Outcome::FemFailed => "failed",
+        RecordOutcome::Rocked => "-",
+        RecordOutcome::NeverLifted => "never lifted",
+        RecordOutcome::HousnerFailed => "Housner failed",
+        RecordOutcome::FemFailed => "failed",
     };
     [
         // the name comes from a file: it must not end the cell
@@ -105,10 +107,10 @@ fn cells(row: &Row) -> [String; 12] {
 }
 
 /// `validate.md`: the summary, then a row a record.
-pub fn markdown(v: &Validation) -> String {
+pub fn markdown(v: &Validation, line: &str) -> String {
     let (head, lines) = summary(v);
     let mut out = format!(
-        "Finite elements on ground springs against Housner.\n\n| {} |\n{}|\n",
+        "Finite elements on ground springs against Housner; {line}.\n\n| {} |\n{}|\n",
         head.join(" | "),
         "|---".repeat(head.len())
     );

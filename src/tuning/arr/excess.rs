@@ -11,7 +11,7 @@ use nalgebra::{Matrix2, SVector, Vector2, vector};
 use num_dual::{Dual2SVec64, DualNum, first_derivative, hessian, second_derivative};
 
 use crate::response::Response;
-use crate::response::target::{Kind, Target};
+use crate::response::target::{BandKind, Target};
 use crate::scalar::{Scalar, real};
 
 /// The searched parameters z = (ln K, ln C). At fixed mu, ln f and ln xi are half of the first and the second, plus
@@ -28,7 +28,7 @@ pub fn response<S: Scalar>(mu: f64, z: &SVector<S, 2>) -> Response<S> {
 pub struct Curve {
     /// The band's number, from 0.
     pub band: usize,
-    kind: Kind,
+    kind: BandKind,
     /// +1 where ARR must stay below, -1 where it must stay above.
     pub side: f64,
     weight: f64,
@@ -66,8 +66,8 @@ pub fn curves(target: &Target) -> Vec<Curve> {
     let mut curves = Vec::new();
     for (index, band) in target.bands.iter().enumerate() {
         let (sides, ln_limit): (&[f64], _) = match band.kind {
-            Kind::Cap | Kind::RollOff => (&[1.0], band.limit.ln()),
-            Kind::Uniform | Kind::Rigid => (&[1.0, -1.0], band.limit.ln_1p()),
+            BandKind::Cap | BandKind::RollOff => (&[1.0], band.limit.ln()),
+            BandKind::Uniform | BandKind::Rigid => (&[1.0, -1.0], band.limit.ln_1p()),
         };
         curves.extend(sides.iter().map(|&side| Curve {
             band: index,
@@ -87,10 +87,10 @@ impl Curve {
     pub fn excess<S: Scalar>(&self, g: S, response: &Response<S>) -> S {
         let ln_arr = response.arr(g).ln();
         let above = match self.kind {
-            Kind::Cap => ln_arr,
-            Kind::RollOff => ln_arr + g.ln() * real::<S>(2.0),
-            Kind::Uniform => (ln_arr - response.at_zero().ln()) * real::<S>(self.side),
-            Kind::Rigid => ln_arr * real::<S>(self.side),
+            BandKind::Cap => ln_arr,
+            BandKind::RollOff => ln_arr + g.ln() * real::<S>(2.0),
+            BandKind::Uniform => (ln_arr - response.at_zero().ln()) * real::<S>(self.side),
+            BandKind::Rigid => ln_arr * real::<S>(self.side),
         };
         (above - real::<S>(self.ln_limit)) * real::<S>(self.weight)
     }
@@ -110,7 +110,7 @@ impl Curve {
     fn at_end(&self, g: f64, response: &Response<f64>) -> f64 {
         match (g.is_infinite(), self.kind) {
             (false, _) => self.excess(g, response),
-            (true, Kind::RollOff) => -self.weight * self.ln_limit,
+            (true, BandKind::RollOff) => -self.weight * self.ln_limit,
             (true, _) => f64::NEG_INFINITY,
         }
     }
@@ -133,7 +133,7 @@ impl Curve {
                 out.push(Point { curve: index, g, inside: true, value: self.excess(g, &response) });
             }
         }
-        if self.g_high.is_finite() || self.kind == Kind::RollOff {
+        if self.g_high.is_finite() || self.kind == BandKind::RollOff {
             out.push(end(self.g_high));
         }
     }
@@ -239,10 +239,10 @@ mod tests {
         let band = |g_low, g_high, kind| Band { g_low, g_high, kind, limit: 0.5, weight: 2.0 };
         curves(&Target {
             bands: vec![
-                band(0.0, None, Kind::Cap),
-                band(0.0, Some(0.9), Kind::Uniform),
-                band(0.1, Some(3.0), Kind::Rigid),
-                band(0.8, None, Kind::RollOff),
+                band(0.0, None, BandKind::Cap),
+                band(0.0, Some(0.9), BandKind::Uniform),
+                band(0.1, Some(3.0), BandKind::Rigid),
+                band(0.8, None, BandKind::RollOff),
             ],
         })
     }
@@ -281,7 +281,7 @@ mod tests {
         let z = Vector2::new(0.3, 0.2);
         let peak = points(&bands()[..1], 1.0, &z).into_iter().find(|point| point.inside).unwrap();
         for gap in [1e-3, 1e-6, 1e-9] {
-            let band = |g_low, g_high| Band { g_low, g_high, kind: Kind::Cap, limit: 0.5, weight: 2.0 };
+            let band = |g_low, g_high| Band { g_low, g_high, kind: BandKind::Cap, limit: 0.5, weight: 2.0 };
             for band in [band(0.0, Some(peak.g * (1.0 + gap))), band(peak.g * (1.0 - gap), None)] {
                 let found = points(&curves(&Target { bands: vec![band] }), 1.0, &z);
                 assert!(found.iter().any(|point| point.inside && (point.g / peak.g - 1.0).abs() < 1e-14), "{found:?}");

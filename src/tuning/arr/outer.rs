@@ -72,7 +72,7 @@ pub struct Candidate {
 /// What the outer loop found.
 #[derive(Clone, Debug)]
 #[cfg_attr(not(feature = "cli"), allow(dead_code))] // the program shows all of it
-pub struct Tuned {
+pub struct OmegaSearch {
     pub best: Candidate,
     /// Index of the best in `candidates`.
     pub chosen: usize,
@@ -204,7 +204,7 @@ pub fn tune(
     bracket: Bracket,
     samples: usize,
     progress: &(dyn Fn(usize, usize, f64) + Sync),
-) -> Option<Tuned> {
+) -> Option<OmegaSearch> {
     let pairs = pairs(vertical, horizontal, bracket);
     if pairs.is_empty() {
         return None;
@@ -232,7 +232,7 @@ pub fn follow(
     vertical: &[Fit],
     horizontal: &[Fit],
     bracket: Bracket,
-    found: &Tuned,
+    found: &OmegaSearch,
     from_hz: f64,
 ) -> Option<Candidate> {
     let mut near: Vec<&Candidate> = found.candidates.iter().filter(|c| !c.abandoned && c.error.is_finite()).collect();
@@ -286,7 +286,7 @@ fn best_of(
     mut candidates: Vec<Candidate>,
     refined: usize,
     refinements: u64,
-) -> Option<Tuned> {
+) -> Option<OmegaSearch> {
     let mut order: Vec<usize> = (0..candidates.len()).filter(|&i| !candidates[i].abandoned).collect();
     order.sort_by(|&a, &b| candidates[a].error.total_cmp(&candidates[b].error).then(a.cmp(&b)));
     let refined: Vec<Vec<Candidate>> = order
@@ -298,7 +298,7 @@ fn best_of(
     let chosen = (0..candidates.len())
         .filter(|&i| !candidates[i].abandoned)
         .min_by(|&a, &b| candidates[a].error.total_cmp(&candidates[b].error).then(a.cmp(&b)))?;
-    Some(Tuned { best: candidates[chosen], chosen, candidates })
+    Some(OmegaSearch { best: candidates[chosen], chosen, candidates })
 }
 
 /// Nelder-Mead from one sample; every evaluation is kept.

@@ -81,7 +81,7 @@ impl<S: Scalar> Corners<S> {
 
 /// What a landing does.
 #[derive(Clone, Copy, Debug)]
-pub struct Landing<S> {
+pub struct PlaneLanding<S> {
     /// Angular momentum about the new foot over that before: 1 is Housner's, equation 2.
     pub momentum: S,
     /// Vertical impulse through the old foot, J_old [m v_n]; never negative.
@@ -105,7 +105,7 @@ pub struct Landing<S> {
 
 /// Land the structure on units of these designs, whose frequencies count relative to the vertical one's; followed to
 /// [`FOLLOWED`].
-pub fn land<S: Scalar>(corners: &Corners<S>, springs: &Springs<Design<S>>) -> Landing<S> {
+pub fn land<S: Scalar>(corners: &Corners<S>, springs: &Springs<Design<S>>) -> PlaneLanding<S> {
     let mut run = Run::new(corners, springs);
     while run.time.re() < FOLLOWED && run.changes[0] + run.changes[1] < MOST_CHANGES {
         run.advance();
@@ -259,7 +259,7 @@ impl<S: Scalar> Run<S> {
         self.take_contact();
     }
 
-    fn finish(&self, corners: &Corners<S>) -> Landing<S> {
+    fn finish(&self, corners: &Corners<S>) -> PlaneLanding<S> {
         let old_impulse = self.y[IMPULSE + 1];
         let mut left = S::zero();
         for i in 0..DIRECTIONS {
@@ -272,7 +272,7 @@ impl<S: Scalar> Run<S> {
         }
         // the angle that the body has turned about the new foot, against what it would have turned at the ideal rate
         let turned = (self.y[1] - self.y[3]) / corners.width;
-        Landing {
+        PlaneLanding {
             momentum: old_impulse * corners.width / corners.momentum + 1.0,
             old_impulse,
             rebound: self.rebound,

@@ -1,10 +1,10 @@
 use super::*;
-use crate::validate::Outcome;
+use crate::validate::RecordOutcome;
 
 fn row(peaks: (f64, Option<f64>), overturned: (bool, Option<bool>), sensitivity: f64, error: Option<f64>) -> Row {
     Row {
         name: "made-up".into(),
-        outcome: if peaks.1.is_none() { Outcome::FemFailed } else { Outcome::Rocked },
+        outcome: if peaks.1.is_none() { RecordOutcome::FemFailed } else { RecordOutcome::Rocked },
         duration_s: 20.0,
         pga_g: 0.3,
         sensitivity,
@@ -78,7 +78,7 @@ fn overturning_is_counted_in_two_by_two_and_failures_apart() {
 #[test]
 fn only_well_conditioned_records_that_do_not_topple_enter_the_quantiles() {
     let mut never = rocked(0.0, 0.0);
-    (never.outcome, never.nrmse_horizontal) = (Outcome::NeverLifted, None);
+    (never.outcome, never.nrmse_horizontal) = (RecordOutcome::NeverLifted, None);
     let rows = vec![
         rocked(2.0, 0.04),
         rocked(9.9, 0.01),
