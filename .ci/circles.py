@@ -7,7 +7,7 @@ Tests (`#[cfg(test)]` modules, files named tests) may look anywhere.
 import pathlib, re, sys
 
 SRC = pathlib.Path(__file__).resolve().parent.parent / "src"
-names = re.findall(r"^(?:pub )?mod (\w+);", (SRC / "lib.rs").read_text(), re.M)
+names = re.findall(r"^ *(?:pub )?mod (\w+);", (SRC / "lib.rs").read_text(), re.M)
 
 
 def files(name):

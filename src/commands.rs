@@ -59,13 +59,13 @@ enum Command {
     Run(run::Options),
     /// Write a case file to begin with, every line explained.
     Init(init::Options),
-    /// Housner's solution as CSV on stdout.
+    /// Rock the rigid body by Housner's equation; its history as CSV on stdout.
     Housner(housner::Options),
-    /// Fit f and xi of a mass ratio to the wanted frequency response.
+    /// Fit a spring-absorber unit (frequency ratio f, damping ratio xi) of a mass ratio to the wanted frequency response.
     Response(response::Options),
-    /// The design from the geometry over slenderness and Omega_n/p, as CSV and figure.
+    /// The design over slenderness and stiffness, for any size and mass, as CSV and figure.
     Chart(chart::Options),
-    /// Finite element and Housner histories for given springs; their match as JSON on stdout.
+    /// Rock the finite elements on given springs, and Housner's body; their match as JSON on stdout.
     Simulate(simulate::Options),
     /// Judge given springs over many records: peaks, overturning, histories where they can be compared.
     Validate(validate::Options),

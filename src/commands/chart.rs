@@ -20,7 +20,7 @@ use crate::{
 /// Options of `tune chart`.
 #[derive(Debug, Args)]
 pub struct Options {
-    /// Slendernesses alpha [rad]
+    /// Slenderness alpha = atan(width / (2 height)) [rad], several with commas
     #[arg(long, value_name = "RAD", value_delimiter = ',', default_values_t = [0.05, 0.1, 0.15, 0.2, 0.3, 0.4, 0.5])]
     alpha: Vec<f64>,
     /// Folder for chart.csv and chart.png

@@ -25,7 +25,7 @@ pub struct Options {
     case: Option<PathBuf>,
     #[command(flatten)]
     record: RecordOptions,
-    /// Velocity restitution; by equation 2 unless given
+    /// Velocity after an impact over that before; by equation 2 unless given
     #[arg(long, allow_negative_numbers = true)]
     restitution: Option<f64>,
     /// Write the history here instead of to stdout; into a folder as housner.csv

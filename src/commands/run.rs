@@ -68,10 +68,12 @@ pub struct Options {
     no_record: bool,
     #[command(flatten)]
     ground: Ground,
-    /// Stiffest springs allowed, Omega_n / 2 pi, for programs with fixed time steps [default: none, or the case's]
+    /// Stiffest springs allowed, as the frequency Omega_n / 2 pi of the mass on a gap spring; for programs with fixed time steps
+    /// [default: none, or the case's]
     #[arg(long, value_name = "HZ", allow_negative_numbers = true)]
     max_hz: Option<f64>,
-    /// Error of the history against Housner's that Omega_n is chosen for, NRMSE [default: 0.002, or the case's]
+    /// Error of the history against Housner's that the stiffness is chosen for: normalised root mean square error, NRMSE [default:
+    /// 0.002, or the case's]
     #[arg(long, value_name = "ERROR", allow_negative_numbers = true)]
     accuracy: Option<f64>,
     /// Folder for the results
@@ -83,7 +85,7 @@ pub struct Options {
     /// No figures
     #[arg(long)]
     no_figures: bool,
-    /// No front of error against stiffness
+    /// Do not compute the error over the stiffness (front.png)
     #[arg(long)]
     no_front: bool,
     /// No progress

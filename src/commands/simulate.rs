@@ -24,7 +24,7 @@ pub struct Options {
     record: RecordOptions,
     #[command(flatten)]
     ground: Ground,
-    /// Velocity restitution of Housner's solution; that of the parameters, or by equation 2, unless given
+    /// Velocity after an impact over that before, of Housner's body; that of the parameters, or by equation 2, unless given
     #[arg(long, allow_negative_numbers = true)]
     restitution: Option<f64>,
     /// Write the histories here (CSV); into a folder as history.csv

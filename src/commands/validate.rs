@@ -65,7 +65,7 @@ pub struct Options {
     /// Length of each history [default: the whole record]
     #[arg(long, value_name = "SECONDS", allow_negative_numbers = true)]
     duration: Option<f64>,
-    /// Velocity restitution of Housner's solution; that of the parameters, or by equation 2, unless given
+    /// Velocity after an impact over that before, of Housner's body; that of the parameters, or by equation 2, unless given
     #[arg(long, allow_negative_numbers = true)]
     restitution: Option<f64>,
     /// Folder for the results

@@ -122,16 +122,11 @@ fn control() -> Vec<Table> {
     ]
 }
 
-fn geometry(model: &Model) -> Vec<Table> {
+/// Joints, what holds them, and the masses at them.
+fn joints(model: &Model) -> [Table; 3] {
     let body = model.body();
     let (b, h) = (body.half_width, body.height);
-    let (v, hz) = (&model.springs.vertical, &model.springs.horizontal);
-    let stiffest = v.k1.max(v.k2).max(hz.k1).max(hz.k2);
-    let legs = model.members.legs.unwrap_or(legs_of(LEG_STIFFNESS * stiffest, &body));
-    let area = digits(legs.ea * KILO / LEG_E);
-    let inertia = digits(legs.ei * KILO / LEG_E);
     let link = LINK_LENGTH * h;
-
     let mut joints = Table::new("JOINT COORDINATES");
     for (joint, x, z) in [
         (1, -b, 0.0),
@@ -179,6 +174,17 @@ fn geometry(model: &Model) -> Vec<Table> {
             ("MMI3", &0),
         ]);
     }
+    [joints, restraints, masses]
+}
+
+/// What the legs are made of, and where they are.
+fn legs(model: &Model) -> Vec<Table> {
+    let body = model.body();
+    let (v, hz) = (&model.springs.vertical, &model.springs.horizontal);
+    let stiffest = v.k1.max(v.k2).max(hz.k1).max(hz.k2);
+    let legs = model.members.legs.unwrap_or(legs_of(LEG_STIFFNESS * stiffest, &body));
+    let area = digits(legs.ea * KILO / LEG_E);
+    let inertia = digits(legs.ei * KILO / LEG_E);
     let mut frames = Table::new("CONNECTIVITY - FRAME");
     let mut sections = Table::new("FRAME SECTION ASSIGNMENTS");
     for frame in [1, 2] {
@@ -225,10 +231,16 @@ fn geometry(model: &Model) -> Vec<Table> {
             ("AS3", &0),
             ("Color", &"Gray8Dark"),
         ]),
-        joints,
         frames,
         sections,
-        restraints,
-        masses,
     ]
+}
+
+fn geometry(model: &Model) -> Vec<Table> {
+    let [joints, restraints, masses] = joints(model);
+    let mut tables = legs(model);
+    // joints before the frames between them
+    tables.insert(3, joints);
+    tables.extend([restraints, masses]);
+    tables
 }

@@ -35,18 +35,13 @@ impl<S: Scalar> Setting<'_, S> {
                     out.outcome = Outcome::LeavesGround { time: start + at * self.dt };
                     return false;
                 }
-                match lift {
-                    Some((at, side)) => {
-                        x = at;
-                        self.ground(state, side, S::zero());
-                        state.rocking = true;
-                        lifting = true;
-                        out.uplifts.push(Uplift { time: x * self.dt + start, side });
-                        if x.re() >= 1.0 {
-                            break;
-                        }
-                    }
-                    None => return true,
+                let Some((at, side)) = lift else { return true };
+                x = at;
+                self.ground(state, side, S::zero());
+                (state.rocking, lifting) = (true, true);
+                out.uplifts.push(Uplift { time: x * self.dt + start, side });
+                if x.re() >= 1.0 {
+                    break;
                 }
             }
             state.work += 1;
@@ -86,36 +81,52 @@ impl<S: Scalar> Setting<'_, S> {
                     }
                 }
                 None => {
-                    let before = state.at.w.re();
-                    let change = series.change();
-                    state.at.w += change;
-                    state.at.rate = series.end_slope() / (h * reach);
-                    self.turn(state, change);
-                    let alpha = self.alpha.re();
-                    if before < alpha && state.at.w.re() >= alpha {
-                        let passed = (x + left * reach * crossing(&c, alpha)).re();
-                        state.passed = start + passed * self.dt;
-                    }
-                    if state.at.w.re() >= FRAC_PI_2 || state.at.w.re().is_nan() {
-                        return true;
-                    }
-                    if state.at.w.re() == 0.0 && state.at.rate.re() == 0.0 {
-                        state.rocking = false;
-                    }
-                    if reach >= 1.0 {
+                    let time = |z: f64| start + (x + left * reach * z).re() * self.dt;
+                    if self.end_of_piece(state, &series, &c, h * reach, time) || reach >= 1.0 {
                         return true;
                     }
                     x += left * reach;
                 }
             }
         }
-        // an event exactly at the sample: its time may move with the parameters, the sample does not
+        self.at_sample(state, x, then);
+        true
+    }
+
+    /// Carry the state over a piece of length h without an event, `time` (s) the time at a fraction of it; true if the history ends there.
+    fn end_of_piece<const N: usize>(
+        &self,
+        state: &mut State<S>,
+        series: &Series<S, N>,
+        c: &[f64; N],
+        h: S,
+        time: impl Fn(f64) -> f64,
+    ) -> bool {
+        let before = state.at.w.re();
+        let change = series.change();
+        state.at.w += change;
+        state.at.rate = series.end_slope() / h;
+        self.turn(state, change);
+        let alpha = self.alpha.re();
+        if before < alpha && state.at.w.re() >= alpha {
+            state.passed = time(crossing(c, alpha));
+        }
+        if state.at.w.re() >= FRAC_PI_2 || state.at.w.re().is_nan() {
+            return true;
+        }
+        if state.at.w.re() == 0.0 && state.at.rate.re() == 0.0 {
+            state.rocking = false;
+        }
+        false
+    }
+
+    /// After an event exactly at the sample: its time x may move with the parameters, the sample does not.
+    fn at_sample(&self, state: &mut State<S>, x: S, then: Sample<S>) {
         let late = S::one() - x;
         let late = (late - late.re()) * self.dt;
         let force = self.p2 * (then.gamma * state.at.sin + then.a * state.at.cos * state.side);
         state.at.w += state.at.rate * late;
         state.at.rate -= force * late;
-        true
     }
 
     /// Where in a piece of the interval, a fraction of its `reach`, the pivot's force falls to zero.

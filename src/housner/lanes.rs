@@ -64,16 +64,7 @@ fn lock_step<const V: bool, const N: usize>(pace: Pace, mut walks: Vec<Walk<f64,
     let (accel, vertical, dt) = (longest.set.accel, longest.set.vertical, longest.set.dt);
     let up = |i: usize| if V { vertical.get(i).copied().unwrap_or(0.0) } else { 0.0 };
     let shortest = walks.iter().map(|walk| walk.set.accel.len()).min().unwrap_or(0);
-    let fixed = Fixed::<N> {
-        dt,
-        unit: gather(&walks, |walk| walk.set.unit),
-        alpha: gather(&walks, |walk| walk.set.alpha),
-        q: gather(&walks, |walk| walk.q),
-        root: gather(&walks, |walk| walk.q.sqrt()),
-        pulls: array::from_fn(|k| gather(&walks, |walk| pulls::<_, N>(walk.q)[k])),
-        share: gather(&walks, |walk| walk.set.share()),
-        arm: gather(&walks, |walk| walk.set.arm_of(dt)),
-    };
+    let fixed = Fixed::<N>::new(&walks, dt);
     let (mut at, mut to) = (&mut Places::default(), &mut Places::default());
     let mut kept = Kept::default();
     let mut running = (1 << walks.len()) - 1;
@@ -142,6 +133,22 @@ fn lock_step<const V: bool, const N: usize>(pace: Pace, mut walks: Vec<Walk<f64,
         swap(&mut at, &mut to);
     }
     walks.into_iter().map(Walk::end).collect()
+}
+
+impl<const N: usize> Fixed<N> {
+    #[inline(always)]
+    fn new<const V: bool>(walks: &[Walk<f64, V>], dt: f64) -> Self {
+        Self {
+            dt,
+            unit: gather(walks, |walk| walk.set.unit),
+            alpha: gather(walks, |walk| walk.set.alpha),
+            q: gather(walks, |walk| walk.q),
+            root: gather(walks, |walk| walk.q.sqrt()),
+            pulls: array::from_fn(|k| gather(walks, |walk| pulls::<_, N>(walk.q)[k])),
+            share: gather(walks, |walk| walk.set.share()),
+            arm: gather(walks, |walk| walk.set.arm_of(dt)),
+        }
+    }
 }
 
 /// Samples of the joined lanes that are kept until handed over to their walks together.
