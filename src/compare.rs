@@ -48,7 +48,7 @@ pub struct Match {
     /// its losses may not be complete.
     #[serde(deserialize_with = "number")]
     pub restitution_error_max: f64,
-    /// The same over the firm ones, as hard as a fall from 0.02 of alpha or harder, for which springs are tuned: gentler ones
+    /// The same over impacts above the energy threshold, a fall from 0.02 alpha, for which springs are tuned: gentler ones
     /// are partly taken by the elastic stance. None if there are none.
     #[serde(default)]
     pub restitution_error_firm: Option<f64>,

@@ -22,7 +22,7 @@ use thiserror::Error;
 use crate::{
     fem::History,
     parameters::Parameters,
-    predictability::{moved_by_a_hair, simulate},
+    predictability::{simulate, width_sensitivity},
     record::Record,
 };
 use model::Model;
@@ -100,21 +100,21 @@ pub struct Expected {
     /// Largest and least v, from the settled position (m).
     pub v: (f64, f64),
     /// NRMSE of u that a relative change of the width by 1e-5 makes in the history: the more, the finer are a deck's steps.
-    pub hair: f64,
+    pub width_sensitivity: f64,
     /// Accuracy asked of the deck, as a normalised error of its history: its steps follow from it.
     pub accuracy: f64,
 }
 
 impl Expected {
-    /// From a history that began settled, and what a hair of width does to it; at the accuracy [`ACCURACY`].
-    pub fn new(history: &History, hair: f64) -> Self {
+    /// From a history that began settled, and its width sensitivity; at the accuracy [`ACCURACY`].
+    pub fn new(history: &History, width_sensitivity: f64) -> Self {
         let range = |x: &[f64]| x.iter().fold((0.0, 0.0), |(max, min): (f64, f64), &x| (max.max(x), min.min(x)));
         Self {
             samples: history.motion.len(),
             settled: history.initial_z,
             u: range(&history.motion.u),
             v: range(&history.motion.v),
-            hair,
+            width_sensitivity,
             accuracy: ACCURACY,
         }
     }
@@ -164,8 +164,8 @@ pub fn deck_of(
 ) -> Result<String, ExportError> {
     let parameters = &Parameters { structure: with_inertia(&parameters.structure), ..parameters.clone() };
     let history = simulate(parameters, record);
-    let hair = moved_by_a_hair(&history.motion, parameters, record);
-    export(parameters, record, &Expected::new(&history, hair).with_accuracy(accuracy), format)
+    let width_sensitivity = width_sensitivity(&history.motion, parameters, record);
+    export(parameters, record, &Expected::new(&history, width_sensitivity).with_accuracy(accuracy), format)
 }
 
 /// The text of a deck: the model of `parameters` on `record` for another program.

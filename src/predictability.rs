@@ -1,4 +1,4 @@
-//! How far a history can be foretold at all: what a hair of width does to our own.
+//! How far a history can be foretold at all: how sensitive our own is to the width.
 //!
 //! Some histories of rocking hang on so little that two programs agree on them only if both work much more accurately than
 //! anyone needs. A deck's steps become finer where that is so (`export/model`).
@@ -25,17 +25,17 @@ const FORETOLD: f64 = 5e-4;
 
 /// NRMSE of u that a relative change of the width by 1e-5 makes, over the whole of `motion`, the history of the model on
 /// `record`.
-pub fn moved_by_a_hair(motion: &Motion, parameters: &Parameters, record: &Record) -> f64 {
-    nrmse(&changed_by_a_hair(parameters, record).u, &motion.u)
+pub fn width_sensitivity(motion: &Motion, parameters: &Parameters, record: &Record) -> f64 {
+    nrmse(&slightly_wider(parameters, record).u, &motion.u)
 }
 
 /// The history of the model with that change of the width.
-pub fn changed_by_a_hair(parameters: &Parameters, record: &Record) -> Motion {
+pub fn slightly_wider(parameters: &Parameters, record: &Record) -> Motion {
     let structure = Structure { width_m: parameters.structure.width_m * (1.0 + CHANGE), ..parameters.structure };
     simulate(&Parameters { structure, ..parameters.clone() }, record).motion
 }
 
-/// How many samples of a history can be foretold, from what a hair of width `changed`; `None` if all can.
+/// How many samples of a history can be foretold, from the history of a body slightly wider, `changed`; `None` if all can.
 #[cfg(feature = "cli")]
 pub fn foretold_until(motion: &Motion, changed: &Motion) -> Option<usize> {
     if nrmse(&changed.u, &motion.u) <= FORETOLD {

@@ -16,7 +16,7 @@ use crate::{
     housner,
     motion::{Motion, nrmse},
     parameters::Parameters,
-    predictability::{changed_by_a_hair, foretold_until, simulate},
+    predictability::{foretold_until, simulate, slightly_wider},
     record::Record,
 };
 pub use program::Program;
@@ -69,7 +69,7 @@ pub struct Verification {
     #[allow(dead_code)] // tests show it
     pub report: String,
     /// NRMSE of u that a relative change of the width by 1e-5 makes in our own history.
-    pub hair: f64,
+    pub width_sensitivity: f64,
     /// Time OpenSees took (s).
     pub seconds: f64,
     /// Steps that OpenSees took.
@@ -126,11 +126,11 @@ pub fn verify(
     let rocking = housner::solve(&body, record.dt, &record.accel, &options);
     let housner = rocking.motion(&body);
 
-    let changed = changed_by_a_hair(parameters, record);
-    let hair = nrmse(&changed.u, &history.motion.u);
+    let changed = slightly_wider(parameters, record);
+    let width_sensitivity = nrmse(&changed.u, &history.motion.u);
     let until = foretold_until(&history.motion, &changed);
     let deck = Deck { parameters, record, program, progress };
-    let expected = Expected::new(&history, hair);
+    let expected = Expected::new(&history, width_sensitivity);
     let run = deck.run(&expected.with_accuracy(accuracy))?;
     let ours = history.motion;
     let verdict = OpenSeesVerdict::new(&run.motion, &ours, &body, record.dt, until);
@@ -152,7 +152,7 @@ pub fn verify(
         steps: number_before(&run.report, " steps"),
         late: number_before(&run.report, " touches or lifts"),
         report: run.report,
-        hair,
+        width_sensitivity,
         seconds: run.seconds,
     })
 }

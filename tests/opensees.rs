@@ -56,7 +56,7 @@ fn agrees_at(accuracy: f64, programs: &[Program], structure: Structure, springs:
         let result = verify(&parameters, &record, accuracy, program, &|_, _| ()).unwrap();
         let a = result.opensees_against_ours;
         println!("{program:?}: {} steps, {:.1} s: {a:?}", result.steps, result.seconds);
-        println!("a change of 1e-5 in width moves it by {:.1e}", result.hair);
+        println!("a change of 1e-5 in width moves it by {:.1e}", result.width_sensitivity);
         // to the end of the record, or to where the body falls flat
         let flat = result.ours.theta.last().is_some_and(|theta| theta.abs() > 1.0);
         assert!(result.opensees.len() == record.len() || flat, "{} samples", result.opensees.len());

@@ -19,7 +19,7 @@ pub const LADDER: [f64; 8] = [1e-4, 1e-5, 1e-6, 1e-7, 1e-8, 1e-9, 1e-10, 1e-11];
 
 /// The paper's A-frame on springs, on a record.
 #[derive(Clone, Debug)]
-pub struct Scene {
+pub struct BenchCase {
     pub name: &'static str,
     pub springs: Springs<Design<f64>>,
     pub record: Record,
@@ -30,7 +30,7 @@ pub fn structure() -> Structure {
     groundspring::export::with_inertia(&Structure::paper())
 }
 
-impl Scene {
+impl BenchCase {
     /// 160 Hz springs as the paper's procedure tunes them.
     pub fn arr() -> Self {
         let vertical = Design { mu: 1.0, f: 0.862_809_649, xi: 1.023_922_665, omega_n_hz: 160.0 };
@@ -127,23 +127,23 @@ pub struct Cost {
 
 /// Cost against stiffness, 20 s of El Centro.
 pub fn against_stiffness(hz: &[f64], rounds: usize) -> Vec<Cost> {
-    hz.iter().map(|&hz| cost(hz, &Scene::plain(hz), rounds)).collect()
+    hz.iter().map(|&hz| cost(hz, &BenchCase::plain(hz), rounds)).collect()
 }
 
 /// Cost against length; the record is El Centro's first 20 s, over and over.
 pub fn against_length(seconds: &[f64], rounds: usize) -> Vec<Cost> {
     let once = el_centro();
-    let scene = |length: f64| {
+    let bench = |length: f64| {
         let samples = (length / once.dt).round() as usize + 1;
         let accel = once.accel[..once.len() - 1].iter().copied().cycle().take(samples).collect();
-        Scene { record: Record { accel, ..once.clone() }, ..Scene::plain(160.0) }
+        BenchCase { record: Record { accel, ..once.clone() }, ..BenchCase::plain(160.0) }
     };
-    seconds.iter().map(|&length| cost(length, &scene(length), rounds)).collect()
+    seconds.iter().map(|&length| cost(length, &bench(length), rounds)).collect()
 }
 
-fn cost(at: f64, scene: &Scene, rounds: usize) -> Cost {
-    let (seconds, history) = least(rounds, || scene.simulate(black_box(Control::default())));
-    let error = error(&history.motion, &scene.tight());
+fn cost(at: f64, bench: &BenchCase, rounds: usize) -> Cost {
+    let (seconds, history) = least(rounds, || bench.simulate(black_box(Control::default())));
+    let error = error(&history.motion, &bench.tight());
     Cost { at, seconds, steps: steps(&history), impacts: history.impacts(), error }
 }
 
@@ -157,17 +157,17 @@ mod tests {
 
     #[test]
     fn the_default_history_is_within_its_promise_of_the_tight_one_which_the_next_tighter_confirms() {
-        for scene in [Scene::arr(), Scene::impact()] {
-            let tight = scene.tight();
-            assert!(error(&scene.simulate(at(0.1 * TIGHT)).motion, &tight) < 5e-6);
-            assert!(error(&scene.simulate(Control::default()).motion, &tight) < 5e-4);
+        for bench in [BenchCase::arr(), BenchCase::impact()] {
+            let tight = bench.tight();
+            assert!(error(&bench.simulate(at(0.1 * TIGHT)).motion, &tight) < 5e-6);
+            assert!(error(&bench.simulate(Control::default()).motion, &tight) < 5e-4);
         }
     }
 
     #[test]
     fn a_history_cut_short_has_no_error() {
-        let scene = Scene::plain(20.0);
-        let mut motion = scene.tight();
+        let bench = BenchCase::plain(20.0);
+        let mut motion = bench.tight();
         let reference = motion.clone();
         assert_eq!(error(&motion, &reference), 0.0);
         motion.u.pop();

@@ -165,18 +165,18 @@ pub fn measure(effort: &Effort, python: &Path, program: &Path, tell: &dyn Fn(&st
         Measured::add(&mut m.left_out, &mut m.rigid, peers::octave(&problem, &[1e-3, 1e-6], 1));
     }
     tell("finite elements");
-    let scenes = [elements::Scene::arr(), elements::Scene::impact()].map(|scene| (scene.tight(), scene));
-    m.elements = scenes.iter().map(|(tight, scene)| scene.ladder(&elements::LADDER, tight, few)).collect();
+    let benches = [elements::BenchCase::arr(), elements::BenchCase::impact()].map(|bench| (bench.tight(), bench));
+    m.elements = benches.iter().map(|(tight, bench)| bench.ladder(&elements::LADDER, tight, few)).collect();
     m.own = m.elements.len();
     m.stiffness = elements::against_stiffness(&[20.0, 80.0, 320.0, 1280.0], few);
     m.length = elements::against_length(&[5.0, 10.0, 20.0, 40.0], few);
     m.skips = skips::all(few.max(10));
     m.fits = program::fits(few)?;
     if effort.programs {
-        for (tight, scene) in &scenes {
-            tell(&format!("OpenSees, {}", scene.name));
+        for (tight, bench) in &benches {
+            tell(&format!("OpenSees, {}", bench.name));
             for stepping in [Stepping::Even, Stepping::Watched] {
-                let peer = peers::opensees(scene, tight, python, stepping, effort.opensees);
+                let peer = peers::opensees(bench, tight, python, stepping, effort.opensees);
                 Measured::add(&mut m.left_out, &mut m.elements, peer);
             }
         }

@@ -13,7 +13,7 @@ use super::{Peer, Point, Series, elements, rigid};
 use groundspring::{
     export::{DeckFormat, Expected, export},
     motion::Motion,
-    predictability::moved_by_a_hair,
+    predictability::width_sensitivity,
 };
 
 /// What housner.py reads.
@@ -109,17 +109,23 @@ pub enum Stepping {
 
 /// OpenSees' TRBDF2 on the exported deck, at `steps` per sample. Errors are told against our own tight solution and, in
 /// the note, against OpenSees' own last run, which is to be the finest.
-pub fn opensees(scene: &elements::Scene, tight: &Motion, python: &Path, stepping: Stepping, steps: &[usize]) -> Peer {
+pub fn opensees(
+    bench: &elements::BenchCase,
+    tight: &Motion,
+    python: &Path,
+    stepping: Stepping,
+    steps: &[usize],
+) -> Peer {
     let (word, told) = match stepping {
         Stepping::Even => ("even", "even steps"),
         Stepping::Watched => ("watched", "our deck"),
     };
-    let history = scene.simulate(Default::default());
-    let hair = moved_by_a_hair(&history.motion, &scene.parameters(), &scene.record);
-    let expected = Expected::new(&history, hair);
+    let history = bench.simulate(Default::default());
+    let width_sensitivity = width_sensitivity(&history.motion, &bench.parameters(), &bench.record);
+    let expected = Expected::new(&history, width_sensitivity);
     let folder = tempfile::tempdir().map_err(|e| format!("OpenSees: no temporary folder ({e})"))?;
     let text =
-        export(&scene.parameters(), &scene.record, &expected, DeckFormat::OpenSeesPy).map_err(|e| e.to_string())?;
+        export(&bench.parameters(), &bench.record, &expected, DeckFormat::OpenSeesPy).map_err(|e| e.to_string())?;
     let deck = folder.path().join("deck.py");
     std::fs::write(&deck, text).map_err(|e| format!("OpenSees: {e}"))?;
     let mut command = Command::new(python);
@@ -134,7 +140,7 @@ pub fn opensees(scene: &elements::Scene, tight: &Motion, python: &Path, stepping
         return Err("OpenSees: the analysis stopped at every time step".into());
     };
     let point = |(steps, seconds, motion): &(usize, f64, Motion)| Point {
-        setting: format!("dt {:.0e}", scene.record.dt / *steps as f64),
+        setting: format!("dt {:.0e}", bench.record.dt / *steps as f64),
         seconds: *seconds,
         // infinite if the analysis stopped on its way
         error: elements::error(motion, tight),
@@ -143,7 +149,7 @@ pub fn opensees(scene: &elements::Scene, tight: &Motion, python: &Path, stepping
             _ => format!("against its own finest {:.0e}", elements::error(motion, finest)),
         },
     };
-    Ok(Series { tool: format!("OpenSees, {told}, {}", scene.name), points: runs.iter().map(point).collect() })
+    Ok(Series { tool: format!("OpenSees, {told}, {}", bench.name), points: runs.iter().map(point).collect() })
 }
 
 /// "steps seconds file" and the history in the file; "steps seconds" and none if the analysis stopped.
@@ -198,8 +204,8 @@ mod tests {
         let nothing = Path::new("no-such-interpreter");
         let [Err(reason)] = &scipy(&rigid::Problem::el_centro(), nothing, &[1e-6], 1)[..] else { panic!() };
         assert!(reason.starts_with("SciPy: no-such-interpreter cannot be run") && reason.lines().count() == 1);
-        let scene = elements::Scene::plain(20.0);
-        let reason = opensees(&scene, &Motion::default(), nothing, Stepping::Even, &[1]).unwrap_err();
+        let bench = elements::BenchCase::plain(20.0);
+        let reason = opensees(&bench, &Motion::default(), nothing, Stepping::Even, &[1]).unwrap_err();
         assert!(reason.starts_with("OpenSees: no-such-interpreter cannot be run"), "{reason}");
         let failed = run("false", &mut Command::new("false"), &[]);
         assert_eq!(failed, Err("false: stopped without a word".into()));

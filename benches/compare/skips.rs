@@ -4,7 +4,7 @@ use std::{hint::black_box, ops::ControlFlow};
 
 use super::{
     alternate,
-    elements::{Scene, at, structure},
+    elements::{BenchCase, at, structure},
 };
 use groundspring::{
     fem::{Case, Control, Observer, Recorder, Start, View},
@@ -41,28 +41,28 @@ pub fn all(rounds: usize) -> Vec<Skip> {
 }
 
 /// The impact springs on El Centro, times a factor, with silence around it [s].
-fn silent(before: f64, factor: f64, after: f64) -> Scene {
-    let mut scene = Scene::impact();
-    let zeros = |seconds: f64| vec![0.0; (seconds / scene.record.dt).round() as usize];
-    let shaking: Vec<f64> = scene.record.accel.iter().map(|a| factor * a).collect();
-    scene.record.accel = [zeros(before), shaking, zeros(after)].concat();
-    scene
+fn silent(before: f64, factor: f64, after: f64) -> BenchCase {
+    let mut bench = BenchCase::impact();
+    let zeros = |seconds: f64| vec![0.0; (seconds / bench.record.dt).round() as usize];
+    let shaking: Vec<f64> = bench.record.accel.iter().map(|a| factor * a).collect();
+    bench.record.accel = [zeros(before), shaking, zeros(after)].concat();
+    bench
 }
 
-fn rest(what: &'static str, scene: &Scene, rounds: usize) -> Skip {
+fn rest(what: &'static str, bench: &BenchCase, rounds: usize) -> Skip {
     let [skip, step] = [true, false].map(|skip_rest| Control { skip_rest, ..Control::default() });
-    let mut with = || drop(black_box(scene.simulate(skip)));
-    let mut without = || drop(black_box(scene.simulate(step)));
+    let mut with = || drop(black_box(bench.simulate(skip)));
+    let mut without = || drop(black_box(bench.simulate(step)));
     let times = alternate(&mut [&mut with, &mut without], rounds);
-    let (a, b) = (scene.simulate(skip), scene.simulate(step));
+    let (a, b) = (bench.simulate(skip), bench.simulate(step));
     let same = format!("u to {:.0e} (NRMSE), {} impacts", nrmse(&a.motion.u, &b.motion.u), a.impacts());
     Skip { what, with: times[0], without: times[1], same }
 }
 
 /// Watches like another observer, but never stops the run.
-struct Deaf<'a>(Stream<'a>);
+struct NonStopping<'a>(Stream<'a>);
 
-impl Observer<f64> for Deaf<'_> {
+impl Observer<f64> for NonStopping<'_> {
     fn sample(&mut self, index: usize, view: &View<f64>) -> ControlFlow<()> {
         let _ = self.0.sample(index, view);
         ControlFlow::Continue(())
@@ -71,15 +71,15 @@ impl Observer<f64> for Deaf<'_> {
 
 /// A push that topples the body, and then half a minute of silence: followed until the fall is certain, or until the body lies flat.
 fn toppled(rounds: usize) -> Skip {
-    let scene = Scene::impact();
+    let bench = BenchCase::impact();
     let body = structure().body::<f64>();
-    let dt = scene.record.dt;
+    let dt = bench.record.dt;
     let mut accel = vec![4.0; (3.0 / dt) as usize];
     accel.resize((33.0 / dt) as usize, 0.0);
     let theta = housner::solve(&body, dt, &accel, &housner::Options::default()).theta;
     let case = Case {
         body,
-        springs: scene.springs.chains(body.mass),
+        springs: bench.springs.chains(body.mass),
         start: Start::Settled,
         dt,
         accel: &accel,
@@ -93,39 +93,39 @@ fn toppled(rounds: usize) -> Skip {
         black_box(case.observe(&mut watch()));
     };
     let mut without = || {
-        black_box(case.observe(&mut Deaf(watch())));
+        black_box(case.observe(&mut NonStopping(watch())));
     };
     let times = alternate(&mut [&mut with, &mut without], rounds);
-    let (mut stopped, mut deaf) = (watch(), Deaf(watch()));
+    let (mut stopped, mut non_stopping) = (watch(), NonStopping(watch()));
     case.observe(&mut stopped);
-    case.observe(&mut deaf);
+    case.observe(&mut non_stopping);
     let word = |fallen| if fallen { "topples" } else { "stands" };
-    let same = format!("{}, {}", word(fallen(stopped.last)), word(fallen(deaf.0.last)));
+    let same = format!("{}, {}", word(fallen(stopped.last)), word(fallen(non_stopping.0.last)));
     Skip { what: "toppled body (0.4 g for 3 s, then silence)", with: times[0], without: times[1], same }
 }
 
 /// Chains of a foot in the air, solved with the body or by themselves.
 fn open_foot(rounds: usize) -> Skip {
-    let scene = Scene::impact();
+    let bench = BenchCase::impact();
     let [skip, solve] = [true, false].map(|skip_open| Control { skip_open, ..Control::default() });
-    let mut with = || drop(black_box(scene.simulate(skip)));
-    let mut without = || drop(black_box(scene.simulate(solve)));
+    let mut with = || drop(black_box(bench.simulate(skip)));
+    let mut without = || drop(black_box(bench.simulate(solve)));
     let times = alternate(&mut [&mut with, &mut without], rounds);
-    let (a, b) = (scene.simulate(skip), scene.simulate(solve));
+    let (a, b) = (bench.simulate(skip), bench.simulate(solve));
     let same = format!("u to {:.0e} (NRMSE), {} impacts", nrmse(&a.motion.u, &b.motion.u), a.impacts());
     Skip { what: "chains of an open foot", with: times[0], without: times[1], same }
 }
 
 /// Rigid directions: legs that bend and shorten by all but nothing, solved as elastic ones or not at all.
 fn rigid_legs(rounds: usize) -> Skip {
-    let scene = Scene::impact();
+    let bench = BenchCase::impact();
     let body = structure().body::<f64>();
-    let springs = scene.springs.chains(body.mass);
+    let springs = bench.springs.chains(body.mass);
     let stiff = 1e5 * springs.vertical.k1.max(springs.horizontal.k1).max(springs.horizontal.k2);
     let length = body.radius();
     let legs = Some(Legs { ea: stiff * length, ei: stiff * length.powi(3) / 3.0 });
     let members = Members { legs, ..Members::default() };
-    let (dt, accel) = (scene.record.dt, &scene.record.accel[..]);
+    let (dt, accel) = (bench.record.dt, &bench.record.accel[..]);
     let case = Case {
         body,
         springs,
@@ -146,13 +146,13 @@ fn rigid_legs(rounds: usize) -> Skip {
 
 /// Springs from stiff to soft, judged against Housner: abandoned when their running error exceeds the best, or followed.
 fn candidates(rounds: usize) -> Skip {
-    let sets = [Scene::arr().springs, Scene::impact().springs, Scene::plain(160.0).springs];
+    let sets = [BenchCase::arr().springs, BenchCase::impact().springs, BenchCase::plain(160.0).springs];
     let scaled = |chain: Design<f64>, hz: f64| Design { omega_n_hz: hz, ..chain };
     let springs: Vec<Springs<Design<f64>>> = [160.0, 120.0, 80.0, 60.0, 40.0, 30.0]
         .into_iter()
         .flat_map(|hz| sets.map(|s| Springs { vertical: scaled(s.vertical, hz), horizontal: scaled(s.horizontal, hz) }))
         .collect();
-    let (body, record) = (structure().body::<f64>(), Scene::arr().record);
+    let (body, record) = (structure().body::<f64>(), BenchCase::arr().record);
     let rocking = housner::solve(&body, record.dt, &record.accel, &housner::Options::default());
     let motion = rocking.motion(&body);
     let benchmark = Benchmark { body, dt: record.dt, accel: &record.accel, vertical: &[], housner: &motion };
@@ -181,14 +181,14 @@ fn candidates(rounds: usize) -> Skip {
 
 /// A search needs the motion at the samples only, not forces, energies and events.
 fn history(rounds: usize) -> Skip {
-    let scene = Scene::impact();
+    let bench = BenchCase::impact();
     let body = structure().body::<f64>();
     let case = Case {
         body,
-        springs: scene.springs.chains(body.mass),
+        springs: bench.springs.chains(body.mass),
         start: Start::Settled,
-        dt: scene.record.dt,
-        accel: &scene.record.accel,
+        dt: bench.record.dt,
+        accel: &bench.record.accel,
         vertical: &[],
         scale: 1.0,
         control: at(1e-7),
@@ -222,8 +222,8 @@ mod tests {
 
     #[test]
     fn a_resting_body_that_is_skipped_has_the_history_of_one_that_is_followed() {
-        for (scene, saved) in [(silent(3.0, 1.0, 0.0), 250), (silent(0.0, 0.25, 20.0), 1000)] {
-            let [a, b] = [true, false].map(|skip_rest| scene.simulate(Control { skip_rest, ..Control::default() }));
+        for (bench, saved) in [(silent(3.0, 1.0, 0.0), 250), (silent(0.0, 0.25, 20.0), 1000)] {
+            let [a, b] = [true, false].map(|skip_rest| bench.simulate(Control { skip_rest, ..Control::default() }));
             assert_eq!((a.motion.len(), a.impacts(), a.bounces()), (b.motion.len(), b.impacts(), b.bounces()));
             assert!(a.work.steps + saved < b.work.steps, "{:?} {:?}", a.work, b.work);
             assert!(nrmse(&a.motion.u, &b.motion.u) < 1e-7, "{:e}", nrmse(&a.motion.u, &b.motion.u));

@@ -48,8 +48,13 @@ class Record:
     @property
     def pga_g(self) -> float:
         """Peak ground acceleration, g."""
+    @property
+    def vertical(self) -> Record | None:
+        """The vertical ground acceleration that goes with it, positive upwards."""
+    def with_vertical(self, up: Record) -> Record:
+        """The record with a vertical ground acceleration at the same times, positive upwards."""
     def scaled(self, factor: float) -> Record:
-        """Every acceleration times a factor."""
+        """Every acceleration times a factor, the vertical ones too."""
     def truncated(self, duration: float) -> Record:
         """The samples up to this time, s; at least the first."""
     def __len__(self) -> int: ...
@@ -60,12 +65,14 @@ def read_record(
     dt: float | None = None,
     units: Literal["g", "m/s2", "cm/s2", "mm/s2"] | str | None = None,
     baseline: bool = False,
+    vertical: _Path | None = None,
 ) -> Record:
     """The record in a file: PEER AT2, GeoNet, COSMOS, CSMIP, K-NET, ESM or columns.
 
     component  name or azimuth in degrees, of a file with several; the stronger horizontal one unless given
     dt, units  where the file does not say: s; g, m/s2, cm/s2 or mm/s2
     baseline   subtract the mean of the samples
+    vertical   the file of the vertical component, or "auto": that of the same file; none unless given
 
     ValueError: the file cannot be read, is no record, is damaged, or does not agree with what is said of it.
     """
@@ -226,8 +233,8 @@ def rigid_rocking(
 ) -> History:
     """Housner's solution for a structure on a record: to the last bit that of `tune housner`.
 
-    vertical  vertical ground acceleration at the same times, positive upwards; the history ends where the ground would
-              have to pull (outcome "leaves_ground")
+    vertical  ground acceleration at the same times, positive upwards, if not that of the record; the history ends where the
+              ground would have to pull (outcome "leaves_ground")
 
     ValueError: a vertical record of other times; a scale or restitution out of range.
     """
@@ -320,8 +327,13 @@ def simulate(
     scale: float = 1.0,
     restitution: float | None = None,
     friction: float = 0.5,
+    vertical: Record | None = None,
 ) -> Simulation:
-    """Both models on given springs, as `tune simulate`. `friction` of the ground is for the warning of sliding."""
+    """Both models on given springs, as `tune simulate`.
+
+    friction  of the ground, for the warning of sliding
+    vertical  ground acceleration at the same times, positive upwards, if not that of the record
+    """
 
 @final
 class Tuned:
@@ -362,6 +374,7 @@ def tune(
     max_settlement: float = 0.01,
     friction: float = 0.5,
     front: bool = False,
+    vertical: Record | None = None,
 ) -> Tuned:
     """Tune the springs of a structure, as `tune run`.
 
@@ -374,6 +387,7 @@ def tune(
     max_settlement  of the standing body, m
     friction        of the ground, for the warning of sliding
     front           error against stiffness, too
+    vertical        ground acceleration at the record's times, positive upwards, if not that of the record
 
     ValueError: no springs settle as little as asked for; a number out of its range.
     """
@@ -467,6 +481,8 @@ def validate(
     earthquakes  so many motions like earthquakes
     seed         of both
     duration     of each, s; all of it unless given
+
+    Horizontal motion alone: a record with a vertical component is refused.
     """
 
 def synthetic_records(structure: Structure, n: int, seed: int = 1) -> list[Record]:

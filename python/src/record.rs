@@ -1,6 +1,6 @@
 //! Ground motions.
 
-use std::path::PathBuf;
+use std::{borrow::Cow, path::PathBuf};
 
 use groundspring::record::{self as core, Recording, Units};
 use numpy::{AllowTypeChange, PyArrayLike1};
@@ -14,7 +14,16 @@ use crate::{
 
 /// A ground motion: acceleration at even time steps, linear in between.
 #[pyclass(frozen, module = "groundspring")]
+#[derive(Clone)]
 pub struct Record(pub core::Record);
+
+impl Record {
+    /// With the vertical motion given beside it, if one is.
+    pub fn beside(&self, vertical: Option<&Self>) -> PyResult<Cow<'_, core::Record>> {
+        let Some(up) = vertical else { return Ok(Cow::Borrowed(&self.0)) };
+        self.0.clone().with_vertical(up.0.clone()).map(Cow::Owned).map_err(value_error)
+    }
+}
 
 #[pymethods]
 impl Record {
@@ -60,6 +69,16 @@ impl Record {
         self.0.pga_g()
     }
 
+    /// The vertical motion that goes with it, as a record of its own.
+    #[getter]
+    fn vertical(&self) -> Option<Self> {
+        self.0.vertical.as_ref().map(|up| Self(up.as_record(self.0.dt)))
+    }
+
+    fn with_vertical(&self, up: &Self) -> PyResult<Self> {
+        Ok(Self(self.beside(Some(up))?.into_owned()))
+    }
+
     fn scaled(&self, factor: f64) -> PyResult<Self> {
         self.0.scaled(factor).map(Self).map_err(value_error)
     }
@@ -80,7 +99,7 @@ impl Record {
 
 /// The record in a file of any format that the program reads.
 #[pyfunction]
-#[pyo3(signature = (path, component = None, dt = None, units = None, baseline = false))]
+#[pyo3(signature = (path, component = None, dt = None, units = None, baseline = false, vertical = None))]
 pub fn read_record(
     py: Python<'_>,
     path: PathBuf,
@@ -88,11 +107,12 @@ pub fn read_record(
     dt: Option<f64>,
     units: Option<&str>,
     baseline: bool,
+    vertical: Option<PathBuf>,
 ) -> PyResult<Record> {
     let units = units.map(str::parse::<Units>).transpose().map_err(value_error)?;
     // an azimuth may be given as a number
     let component = component.map(|component| component.str().map(|s| s.to_string())).transpose()?;
-    let options = core::ReadOptions { dt, units, component, baseline, vertical: None };
+    let options = core::ReadOptions { dt, units, component, baseline, vertical: vertical.map(Into::into) };
     let recording = py.detach(|| Recording::read(&path, &options)).map_err(value_error)?;
     recording.notices().iter().try_for_each(|notice| warn(py, notice))?;
     Ok(Record(recording.into_record()))

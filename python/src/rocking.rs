@@ -1,12 +1,14 @@
 //! Housner's solution: one history, or many on all cores.
 
-use std::sync::{Arc, OnceLock};
+use std::{
+    borrow::Cow,
+    sync::{Arc, OnceLock},
+};
 
 use groundspring::{
     case::LONGEST_S,
     housner::{self, Options, Outcome, Rocking},
     motion::Motion,
-    record as core,
     structure::Body,
 };
 use numpy::{AllowTypeChange, PyArray1, PyArrayLike1};
@@ -196,28 +198,11 @@ pub fn rigid_rocking(
     restitution: Option<f64>,
 ) -> PyResult<History> {
     let e = ratio(restitution)?.unwrap_or(structure.e);
-    if let Some(up) = vertical.filter(|up| (up.0.dt, up.0.len()) != (record.0.dt, record.0.len())) {
-        return Err(value_error(format!(
-            "vertical: {} has {} samples of {} s, {} has {} of {} s; give both at the same times",
-            up.0.name,
-            up.0.len(),
-            up.0.dt,
-            record.0.name,
-            record.0.len(),
-            record.0.dt
-        )));
-    }
     // as the program scales: the samples are, so that both agree to the last bit
-    let scaled_record = |record: &core::Record| match scale {
-        1.0 => Ok(record.clone()),
-        _ => record.scaled(scale).map_err(value_error),
-    };
-    let up = vertical.map(|up| scaled_record(&up.0)).transpose()?.map(|up| up.accel.into());
-    let scaled = (scale != 1.0).then(|| scaled_record(&record.0)).transpose()?;
-    let record = scaled.as_ref().unwrap_or(&record.0);
-    let vertical = up.or_else(|| record.vertical.as_ref().map(|up| up.accel.clone()));
+    let record = record.beside(vertical)?;
+    let record = if scale == 1.0 { record } else { Cow::Owned(record.scaled(scale).map_err(value_error)?) };
     let body = structure.body();
-    let options = Options { restitution: Some(e), vertical, ..Options::default() };
+    let options = Options { restitution: Some(e), vertical: record.vertical_accel(), ..Options::default() };
     let rocking = py.detach(|| housner::solve(&body, record.dt, &record.accel, &options));
     Ok(History::new(body, record.dt, rocking))
 }
@@ -295,8 +280,12 @@ fn pairs(structures: &[Structure], record: &Record, scales: &[f64], restitution:
     let count = if same_e { m } else { n.max(m) };
     let options = (0..count.min(n * m)).map(|i| {
         let e = restitution.unwrap_or(structures[i % n].e);
-        let vertical = record.0.vertical.as_ref().map(|up| up.accel.clone());
-        Options { scale: scales[i % m], restitution: Some(e), vertical, ..Options::default() }
+        Options {
+            scale: scales[i % m],
+            restitution: Some(e),
+            vertical: record.0.vertical_accel(),
+            ..Options::default()
+        }
     });
     Ok((bodies, options.collect()))
 }

@@ -1,6 +1,6 @@
 //! Both models on given springs.
 
-use std::sync::Arc;
+use std::{borrow::Cow, sync::Arc};
 
 use groundspring::{
     commands::{Both, Report, Run, both},
@@ -209,7 +209,8 @@ fn column<'py>(of: &Bound<'py, Simulation>, pick: impl Fn(&fem::History) -> &[f6
 
 /// Both models on a record. `friction` of the ground, for the warning of sliding.
 #[pyfunction]
-#[pyo3(signature = (structure, springs, record, scale = 1.0, restitution = None, friction = 0.5))]
+#[pyo3(signature = (structure, springs, record, scale = 1.0, restitution = None, friction = 0.5, vertical = None))]
+#[allow(clippy::too_many_arguments)]
 pub fn simulate(
     py: Python<'_>,
     structure: Structure,
@@ -218,14 +219,15 @@ pub fn simulate(
     scale: f64,
     restitution: Option<f64>,
     friction: f64,
+    vertical: Option<&Record>,
 ) -> PyResult<Simulation> {
     let e = ratio(restitution)?.unwrap_or(structure.e);
-    let scaled = (scale != 1.0).then(|| record.0.scaled(scale)).transpose().map_err(value_error)?;
-    let record = scaled.as_ref().unwrap_or(&record.0);
+    let record = record.beside(vertical)?;
+    let record = if scale == 1.0 { record } else { Cow::Owned(record.scaled(scale).map_err(value_error)?) };
     let simulation = interruptible(py, |_| {
         let (body, dt) = (structure.body(), record.dt);
-        let both = both(&body, e, &springs.chains(), &Members::default(), record);
-        let report = Report::new(&body, e, record, &both.rocking, friction);
+        let both = both(&body, e, &springs.chains(), &Members::default(), &record);
+        let report = Report::new(&body, e, &record, &both.rocking, friction);
         let verdict = both.verdict(&body, dt, &report.conditioning);
         Simulation {
             structure,

@@ -92,7 +92,7 @@ impl Tuned {
 /// Tune the springs of a structure; on El Centro unless a record is given.
 #[pyfunction]
 #[pyo3(signature = (structure, record = None, accuracy = 0.002, method = "landing", *, scale = 1.0, duration = None,
-    max_hz = None, max_settlement = 0.01, friction = 0.5, front = false))]
+    max_hz = None, max_settlement = 0.01, friction = 0.5, front = false, vertical = None))]
 #[allow(clippy::too_many_arguments)]
 pub fn tune(
     py: Python<'_>,
@@ -106,6 +106,7 @@ pub fn tune(
     max_settlement: f64,
     friction: f64,
     front: bool,
+    vertical: Option<&Record>,
 ) -> PyResult<Tuned> {
     let objective = match method {
         "landing" => Objective::Landing,
@@ -113,7 +114,8 @@ pub fn tune(
         other => return Err(value_error(format!("method is {other:?}; give \"landing\" or \"arr\", the paper's"))),
     };
     let duration = seconds(duration)?;
-    let record = record.map_or_else(record::Record::el_centro, |record| record.0.clone());
+    let record =
+        record.map_or_else(|| Record(record::Record::el_centro()), Record::clone).beside(vertical)?.into_owned();
     let tuning =
         Tuning { objective, accuracy, max_omega_hz: max_hz, max_settlement_m: max_settlement, ..Tuning::default() };
     let excitation = Excitation { record, scale, duration_s: duration };

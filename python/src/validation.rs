@@ -77,6 +77,12 @@ pub fn validate(
         Some(Records::Several(several)) => several.iter().map(|record| record.0.clone()).collect(),
         Some(Records::Folder(folder)) => read_folder(py, &folder)?,
     };
+    if let Some(shaken) = own.iter().find(|record| record.vertical.is_some()) {
+        return Err(value_error(format!(
+            "validate: record {:?} has a vertical component, which is not judged; give it without",
+            shaken.name
+        )));
+    }
     let n = own.len() + synthetic + earthquakes;
     if n == 0 {
         return Err(value_error("validate: there are no records; give some, a folder, or synthetic= or earthquakes="));

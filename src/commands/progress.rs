@@ -27,16 +27,16 @@ impl Progress {
         Self { bar, lines: !quiet && !terminal, what, tenth: AtomicUsize::new(0) }
     }
 
-    /// `done` of `total`, with the news.
-    pub fn tell(&self, done: usize, total: usize, news: &str) {
+    /// `done` of `total`, with the status.
+    pub fn tell(&self, done: usize, total: usize, status: &str) {
         if let Some(bar) = &self.bar {
             bar.set_length(total as u64);
             bar.set_position(done as u64);
-            bar.set_message(news.to_string());
+            bar.set_message(status.to_string());
         }
         let tenth = 10 * done / total.max(1);
         if self.lines && self.tenth.swap(tenth, Ordering::Relaxed) != tenth {
-            eprintln!("{}: {done}/{total} {news}", self.what);
+            eprintln!("{}: {done}/{total} {status}", self.what);
         }
     }
 

@@ -154,7 +154,7 @@ mod tests {
     }
 
     #[test]
-    fn a_history_that_hangs_on_a_hair_is_said_to_mean_nothing_one_to_one() {
+    fn a_history_that_hangs_on_the_least_change_is_said_to_mean_nothing_one_to_one() {
         let mut report = report(vec![0.0; 100], 0.5);
         report.lifted = true;
         report.conditioning.sensitivity = Sensitivity { width: 3.0, scale: 250.0 };

@@ -24,7 +24,7 @@ use crate::{
     front::{self, Point},
     members::Members,
     parameters::{PaperProcedure, Parameters, RecordRow},
-    predictability::{moved_by_a_hair, simulate},
+    predictability::{simulate, width_sensitivity},
     record::Record,
     spring::{Design, Springs},
     tuning::{arr::table_1, job::Job},
@@ -168,10 +168,6 @@ pub struct Run {
 impl Run {
     /// Simulate a job's springs, and those of the paper beside them; `friction` of the ground, for the warning of sliding.
     pub fn new(case: Case, job: Job, front: Vec<Point>, friction: f64) -> Self {
-        let mut parameters = Parameters::of(&case, &job);
-        let both = common::both(&job.body, case.restitution, &parameters.chains(), &case.members, &job.record);
-        parameters.matched = Some(both.matched);
-        parameters.match_with_members = both.with.as_ref().map(|with| with.matched);
         let beside = |springs: &Springs<Design<f64>>| {
             let other = Parameters::new(case.structure, springs);
             let none = Members::default();
@@ -179,10 +175,22 @@ impl Run {
             PaperProcedure { vertical: other.vertical, horizontal: other.horizontal, matched }
         };
         let paper = job.paper.as_ref().filter(|_| case.tuning.objective == Objective::Landing);
-        parameters.paper_procedure = paper.map(|paper| beside(&paper.tuned.best.springs));
         let recovered = table_1::of(&case.structure).filter(|_| job.paper.is_some());
-        parameters.table_1 = recovered.map(|springs| beside(&springs));
-        let report = Report::new(&job.body, case.restitution, &job.record, &both.rocking, friction);
+        let chains = Parameters::new(case.structure, &job.springs).chains();
+        let ((both, mut parameters), ((paper, recovered), report)) = rayon::join(
+            || {
+                let both = common::both(&job.body, case.restitution, &chains, &case.members, &job.record);
+                (both, Parameters::of(&case, &job))
+            },
+            || {
+                let others = || (paper.map(|paper| beside(&paper.tuned.best.springs)), recovered.map(|r| beside(&r)));
+                let report = || Report::new(&job.body, case.restitution, &job.record, &job.rocking, friction);
+                rayon::join(others, report)
+            },
+        );
+        parameters.matched = Some(both.matched);
+        parameters.match_with_members = both.with.as_ref().map(|with| with.matched);
+        (parameters.paper_procedure, parameters.table_1) = (paper, recovered);
         parameters.conditioning = Some(report.conditioning.into());
         parameters.verdict = Some(both.verdict(&job.body, job.record.dt, &report.conditioning));
         Self { case, job, front, both, report, parameters }
@@ -271,8 +279,8 @@ fn decks(out: &Path, parameters: &Parameters, record: &Record, both: &Both) -> R
     let parameters = Parameters { structure, ..parameters.clone() };
     let own = (!given).then(|| simulate(&parameters, record));
     let history = own.as_ref().unwrap_or_else(|| both.with.as_ref().map_or(&both.fem, |with| &with.history));
-    let hair = moved_by_a_hair(&history.motion, &parameters, record);
-    export::write_all(&folder, &parameters, record, &Expected::new(history, hair))
+    let width_sensitivity = width_sensitivity(&history.motion, &parameters, record);
+    export::write_all(&folder, &parameters, record, &Expected::new(history, width_sensitivity))
 }
 
 /// Threads beyond which a machine only starves.

@@ -123,7 +123,7 @@ fn judged(result: &Verification) -> String {
             out,
             "from {until:.2} s on this history hangs on the fifth digit of the width (a change by 1e-5 moves the whole by {:.1e}): up \
              to then OpenSees is {whether} {LIMIT} of tune simulate's u: {:.1e}",
-            result.hair, verdict.error
+            result.width_sensitivity, verdict.error
         ),
     };
     if let Some(parted) = verdict.parted {

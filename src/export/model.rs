@@ -149,7 +149,11 @@ impl<'a> Model<'a> {
         }
         let leg = LEG_STIFFNESS * v.k1.max(h.k1);
         let body = structure.body::<f64>();
-        let tighter = if expected.hair > HOPELESS { 1.0 } else { (TIGHTER * expected.hair).clamp(1.0, TIGHTEST) };
+        let tighter = if expected.width_sensitivity > HOPELESS {
+            1.0
+        } else {
+            (TIGHTER * expected.width_sensitivity).clamp(1.0, TIGHTEST)
+        };
         let accuracy = expected.accuracy / tighter;
         let even_steps = even_steps(parameters, record.dt);
         let (landing, steps_per_sample, tolerance) = if members.legs.is_some() {

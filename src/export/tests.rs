@@ -23,7 +23,7 @@ const EXPECTED: Expected = Expected {
     settled: -0.00123,
     u: (0.4567, -0.3456),
     v: (0.0421, -0.0012),
-    hair: 1e-6,
+    width_sensitivity: 1e-6,
     accuracy: 0.002,
 };
 
@@ -118,9 +118,9 @@ fn plain_tables_hold_every_chain_of_both_feet() {
 }
 
 /// Steps a sample at least, and the accuracy, as a deck for springs of `hz` states them.
-fn stated(hz: f64, hair: f64) -> (f64, f64) {
+fn stated(hz: f64, width_sensitivity: f64) -> (f64, f64) {
     let parameters = Parameters::new(Structure::paper(), &springs(hz));
-    let expected = Expected { hair, ..EXPECTED };
+    let expected = Expected { width_sensitivity, ..EXPECTED };
     let text = export(&parameters, &Record::el_centro(), &expected, DeckFormat::OpenSeesPy).unwrap();
     let after = |name: &str| {
         let line = text.lines().find(|line| line.starts_with(name)).unwrap();
@@ -140,9 +140,9 @@ fn steps_a_sample_do_not_follow_from_stiffness() {
 /// 15,000 times what a change of the width by 1e-5 does, at most 8; nothing where the history is lost.
 #[test]
 fn a_history_that_hangs_on_little_is_asked_more_accurately() {
-    for (hair, tighter) in [(5e-5, 1.0), (2e-4, 3.0), (0.1, 8.0), (0.9, 1.0)] {
-        let accuracy = stated(1e4, hair).1;
-        assert!((accuracy * tighter / 0.002 - 1.0).abs() < 1e-12, "{hair}: {accuracy}");
+    for (width_sensitivity, tighter) in [(5e-5, 1.0), (2e-4, 3.0), (0.1, 8.0), (0.9, 1.0)] {
+        let accuracy = stated(1e4, width_sensitivity).1;
+        assert!((accuracy * tighter / 0.002 - 1.0).abs() < 1e-12, "{width_sensitivity}: {accuracy}");
     }
 }
 

@@ -116,7 +116,7 @@ impl Job {
                 let (tuned, capped) = design.tune(progress)?;
                 let hz = tuned.best.springs.vertical.omega_n_hz;
                 // on an ill-conditioned record it would tune to noise
-                let paper = if suites.has_record() { procedure.beside(hz, progress) } else { None };
+                let paper = if suites.has_whole_record() { procedure.beside(hz, progress) } else { None };
                 (tuned, capped, paper)
             }
             Objective::Arr if !lifted => {
@@ -205,7 +205,7 @@ impl Landing<'_> {
     /// of the paper's procedure: so soft, neither is the better one for every body.
     fn followed(&self, cap: f64, progress: &(dyn Fn(usize, usize, f64) + Sync)) -> Result<Tuned, JobError> {
         let mut found = follow::follow(&self.body, self.case.restitution, self.bracket(cap)?);
-        if self.suites.has_record() {
+        if self.suites.has_whole_record() {
             found.extend(self.procedure.at(cap, progress).map(|tuned| tuned.best.springs));
         }
         let judged =

@@ -14,6 +14,7 @@ use crate::{
     conditioning::{CHANGES, ILL_CONDITIONED, changes, moved_by_width, sensitivity},
     fem::{Case, Control, Outcome, Start},
     housner::{self, Options, Rocking},
+    overturning::samples_until,
     record::Record,
     regime,
     scalar::GRAVITY,
@@ -27,7 +28,7 @@ use crate::{
 const SYNTHETIC: usize = 24;
 const EARTHQUAKES: usize = 16;
 /// Motions of each suite that are looked at for them, so many at a time.
-const LOOKED_AT: usize = 160;
+const LOOKED_AT: usize = 480;
 /// The same of the motions that decide between springs which these do not tell apart.
 const MORE: usize = 72;
 const MORE_LOOKED_AT: usize = 480;
@@ -38,14 +39,18 @@ const SEED: u64 = 1940;
 const SMALL_CHANGE: f64 = 1e-6;
 const BELIED: f64 = 4.0;
 
+/// The errors of a history that says nothing.
+const LOST: (f64, f64) = (f64::INFINITY, f64::INFINITY);
+
 /// A motion and Housner's answer to it.
 #[derive(Clone, Debug)]
 pub struct Trial {
     dt: f64,
     accel: Vec<f64>,
     vertical: Option<Arc<[f64]>>,
-    /// Housner's rotations at the samples (rad).
+    /// Housner's rotations at the samples, up to overturning if he overturns (rad).
     theta: Vec<f64>,
+    overturns: bool,
 }
 
 /// What a motion must be like to be judged on.
@@ -53,6 +58,8 @@ pub struct Trial {
 enum Wanted {
     /// Well conditioned, by the derivative and by finite changes.
     WellConditioned,
+    /// The same up to overturning, if it overturns.
+    WellConditionedWhileItStands,
     /// Of a sensitivity below [`PREDICTABLE`], which a small finite change does not belie.
     Predictable,
 }
@@ -64,7 +71,7 @@ impl Wanted {
         let by_width = |change: f64| moved_by_width(body, dt, accel, options, rocking, change) / change;
         let worst = || sensitivity(body, dt, accel, options).worst();
         match self {
-            Self::WellConditioned => {
+            Self::WellConditioned | Self::WellConditionedWhileItStands => {
                 by_width(CHANGES[1]) < ILL_CONDITIONED
                     && worst() < ILL_CONDITIONED
                     && changes(body, dt, accel, options).proportionate()
@@ -75,15 +82,22 @@ impl Wanted {
 }
 
 impl Trial {
-    /// The motion, if Housner's body rocks on it without overturning, on a pivot that presses, and its history is as wanted.
+    /// The motion, if Housner's body rocks on it, on a pivot that presses, and its history is as wanted.
     fn new(body: &Body<f64>, restitution: f64, record: Record, wanted: Wanted) -> Option<Self> {
         let vertical = record.vertical_accel();
         let options = Options { restitution: Some(restitution), vertical, ..Options::default() };
         let rocking = housner::solve(body, record.dt, &record.accel, &options);
-        let rocks = rocking.outcome == housner::Outcome::Rocked && !rocking.impacts.is_empty();
+        let overturned = rocking.overturned().filter(|_| wanted == Wanted::WellConditionedWhileItStands);
+        let rocks = rocking.outcome == housner::Outcome::Rocked || overturned.is_some();
         let presses = || regime::pivot_pulls(body, record.dt, &record.accel, &rocking).is_none();
-        let fit = rocks && wanted.holds(body, &record, &options, &rocking) && presses();
-        fit.then_some(Self { dt: record.dt, accel: record.accel, vertical: options.vertical, theta: rocking.theta })
+        let lands = !rocking.impacts.is_empty();
+        let fit = rocks && lands && wanted.holds(body, &record, &options, &rocking) && presses();
+        fit.then(|| {
+            let Record { dt, accel, .. } = record;
+            let mut theta = rocking.theta;
+            theta.truncate(samples_until(overturned, dt));
+            Self { dt, accel, vertical: options.vertical, theta, overturns: overturned.is_some() }
+        })
     }
 
     /// u_g over gamma = 1 + a_v/g at the samples [m/s2]: what a body beyond alpha must be able to fall against. It is largest at
@@ -97,7 +111,8 @@ impl Trial {
         Cow::Owned(self.accel.iter().enumerate().map(push).collect())
     }
 
-    /// NRMSE of u and of v on these springs; infinite if the history does not get to the record's end.
+    /// NRMSE of u and of v on these springs, of a body that overturns up to then; infinite if the history does not get to the
+    /// record's end, or one body overturns and the other does not.
     pub fn errors(&self, body: &Body<f64>, springs: &Springs<Chain<f64>>, control: Control) -> (f64, f64) {
         let push = self.push();
         let mut stream = Stream::new(body, &self.theta, &push);
@@ -111,10 +126,15 @@ impl Trial {
             scale: 1.0,
             control,
         };
-        match case.observe(&mut stream).outcome {
-            Outcome::Completed => (stream.errors.horizontal.value(), stream.errors.vertical.value()),
-            _ => (f64::INFINITY, f64::INFINITY),
-        }
+        let errors = match case.observe(&mut stream).outcome {
+            Outcome::Completed if !self.overturns => stream.errors,
+            Outcome::Completed if !housner::topples(body, stream.last.0, stream.last.1) => return LOST,
+            Outcome::Completed | Outcome::Overturned { .. } | Outcome::Stopped { .. } if self.overturns => {
+                stream.upright
+            }
+            _ => return LOST,
+        };
+        (errors.horizontal.value(), errors.vertical.value())
     }
 }
 
@@ -194,10 +214,11 @@ impl Suites {
     pub fn new(body: &Body<f64>, restitution: f64, record: Option<&Record>) -> Self {
         let (p, alpha) = (body.p_squared().sqrt(), body.alpha());
         let well = |record| Trial::new(body, restitution, record, Wanted::WellConditioned);
+        let standing = |record| Trial::new(body, restitution, record, Wanted::WellConditionedWhileItStands);
         let predictable = |record| Trial::new(body, restitution, record, Wanted::Predictable);
         Self {
             body: *body,
-            record: record.and_then(|record| well(record.clone())),
+            record: record.and_then(|record| standing(record.clone())),
             synthetic: first(SYNTHETIC, 0..LOOKED_AT, |i| well(synthetic::record(SEED, i, p, alpha))),
             earthquakes: first(EARTHQUAKES, 0..LOOKED_AT, |i| predictable(synthetic::earthquake(SEED, i, p))),
         }
@@ -217,8 +238,14 @@ impl Suites {
     }
 
     /// Whether the record is one of the motions judged on.
+    #[cfg(feature = "cli")]
     pub fn has_record(&self) -> bool {
         self.record.is_some()
+    }
+
+    /// Whether the record is one of the motions judged on, from its beginning to its end.
+    pub fn has_whole_record(&self) -> bool {
+        self.record.as_ref().is_some_and(|trial| !trial.overturns)
     }
 
     /// The error of springs on every suite.

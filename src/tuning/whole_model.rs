@@ -12,8 +12,8 @@
 //! force has come to rest before the next impact: an absorber that swings on spoils landings that follow each other.
 //!
 //! E is the energy above that of the body balanced on one foot at theta = 0. An elastic stance sways before it lifts, and
-//! this head start (the lead) and the error of restitution are all that sets the two models apart to first order. The
-//! lead is counted by the growing part of what it becomes, for the body on one foot is an inverted pendulum: u' + p u.
+//! this head start (the uplift error) and the error of restitution are all that sets the two models apart to first order. It
+//! is counted by the growing part of what it becomes, for the body on one foot is an inverted pendulum: u' + p u.
 //! Both are in units of the error of a history (a share 1e-3 of e is worth 1 to 2 %, and more the more impacts). Every
 //! residual is generic in the scalar, so its gradient by the springs is exact, through the integrator and its events.
 //!
@@ -130,7 +130,7 @@ impl WholeModel {
                     }
                     None => vec![real(f64::INFINITY), S::zero()],
                 },
-                None => vec![self.uplifts[i - n].lead(&body, &chains, control) * w_l],
+                None => vec![self.uplifts[i - n].uplift_error(&body, &chains, control) * w_l],
             })
             .collect();
         each.into_iter().flatten().collect()

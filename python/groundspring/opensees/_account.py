@@ -38,6 +38,8 @@ class Books:
 
     def __init__(self, ops: Any, groups: list[Feet], record: Record, start: float, weight: bool) -> None:
         self.ops, self.record, self.start, self.weight = ops, record, start, weight
+        up = record.vertical
+        self.accel = (record.accel, np.zeros(len(record)) if up is None else up.accel)
         own = {node for group in groups for node in (*group.absorbers, *group.grounds)}
         masses = [(node, dof, ops.nodeMass(node, dof)) for node in ops.getNodeTags() if node not in own for dof in (1, 2, 3)]
         self.masses = [entry for entry in masses if entry[2] > 0.0]
@@ -48,9 +50,10 @@ class Books:
         self.before = self._now()
         self.kinetic = self._kinetic()
 
-    def _now(self) -> tuple[float, Array, list[Array], list[Array]]:
+    def _now(self) -> tuple[Array, Array, list[Array], list[Array]]:
         ops = self.ops
-        ground = float(np.interp(ops.getTime() - self.start, self.record.t, self.record.accel, right=0.0))
+        since = ops.getTime() - self.start
+        ground = np.array([np.interp(since, self.record.t, accel, right=0.0) for accel in self.accel])
         places = np.array([ops.nodeDisp(node, dof) for node, dof, _ in self.masses])
         forces = [np.array(ops.eleDynamicalForce(element)) for element, _ in self.elements]
         ends = [np.array([x for node in nodes for x in ops.nodeDisp(node)]) for _, nodes in self.elements]
@@ -63,7 +66,7 @@ class Books:
         now = self._now()
         ground = 0.5 * (self.before[0] + now[0])
         for (_, dof, mass), moved in zip(self.masses, now[1] - self.before[1], strict=True):
-            force = -mass * (ground if dof == 1 else GRAVITY if dof == 2 and self.weight else 0.0)
+            force = -mass * (ground[dof - 1] + (GRAVITY if dof == 2 and self.weight else 0.0)) if dof < 3 else 0.0
             self.sums[0] += force * moved
         for old, new, start, end in zip(self.before[2], now[2], self.before[3], now[3], strict=True):
             self.sums[1] += 0.5 * (old + new) @ (end - start)

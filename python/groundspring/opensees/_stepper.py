@@ -148,12 +148,14 @@ class Stepper:
         on_sample: Callable[[int, float], None] | None = None,
         progress: bool = False,
         account: bool = False,
+        vertical: Record | None = None,
     ) -> FeetHistory:
         """Shake the model with a record, from the time it stands at; what the feet went through.
 
         on_sample  called with the index and the time of every sample, the first before any step
         progress   a line on stderr for every tenth
         account    keep the energies of the whole structure, too: `FeetHistory.account`
+        vertical   ground acceleration at the record's times, positive upwards, if not that of the record
 
         Every mass is shaken, those of elements and of the absorbers too. GroundspringWarning: an event was met in too long a step.
         """
@@ -161,8 +163,11 @@ class Stepper:
         if not any((group.forces()[:, 1] > 0.0).any() for group in self.groups):
             raise ValueError("run: no foot presses on the ground; call stepper.gravity() first")
         dt, start = record.dt, ops.getTime()
-        shaken = record if scale == 1.0 else record.scaled(scale)
-        self._ground(shaken, start)
+        both = record if vertical is None else record.with_vertical(vertical)
+        shaken = both if scale == 1.0 else both.scaled(scale)
+        self._ground(shaken, 1, start)
+        if shaken.vertical is not None:
+            self._ground(shaken.vertical, 2, start)
         count = len(record if duration is None else record.truncated(duration))
         if self.steps is None:
             self._begin(0.5 * dt)
@@ -223,13 +228,13 @@ class Stepper:
         ops.integrator(*integrator)
         ops.analysis(kind)
 
-    def _ground(self, record: Record, start: float) -> None:
-        """The record as ground acceleration."""
+    def _ground(self, record: Record, direction: int, start: float) -> None:
+        """The record as ground acceleration, to the right (1) or upwards (2)."""
         ops = self.ops
         values = record.accel.tolist()
         path = ("-dt", record.dt, "-startTime", start, "-values", *values)
         series = take(self._free, lambda tag: ops.timeSeries("Path", tag, *path))
-        ops.pattern("UniformExcitation", self._pattern(), 1, "-accel", series)
+        ops.pattern("UniformExcitation", self._pattern(), direction, "-accel", series)
 
     def _absorbers(self) -> set[int]:
         return {absorber for group in self.groups for absorber in group.absorbers}

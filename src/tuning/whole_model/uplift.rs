@@ -62,8 +62,8 @@ impl Uplift {
         Self { dt, last, housner: (u(end - last), u(end)), accel }
     }
 
-    /// The lead, in units of p R alpha / 4; infinite if the run did not finish.
-    pub fn lead<S: Scalar>(&self, body: &Body<S>, chains: &Springs<Chain<S>>, control: Control) -> S {
+    /// The uplift error, in units of p R alpha / 4; infinite if the run did not finish.
+    pub fn uplift_error<S: Scalar>(&self, body: &Body<S>, chains: &Springs<Chain<S>>, control: Control) -> S {
         let end = self.accel.len() - 1;
         let (mut from, mut to) = (S::zero(), S::zero());
         let mut observer = |i: usize, view: &View<S>| {
@@ -89,7 +89,7 @@ impl Uplift {
         }
         let p = body.p_squared().sqrt();
         let (from, to) = (from - self.housner.0, to - self.housner.1);
-        let lead = (to - from) / (self.last as f64 * self.dt) + p * to;
-        lead / (p * body.radius() * body.alpha() * 0.25)
+        let ahead = (to - from) / (self.last as f64 * self.dt) + p * to;
+        ahead / (p * body.radius() * body.alpha() * 0.25)
     }
 }
