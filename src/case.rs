@@ -335,14 +335,16 @@ impl Tuning {
 /// The line of the error, and for an unknown key the nearest known one.
 fn parse_error(path: &str, text: &str, error: &toml::de::Error) -> CaseError {
     let line = error.span().map_or(1, |span| text[..span.start.min(text.len())].matches('\n').count() + 1);
-    let message = one_line(error.message().lines().next().unwrap_or_default());
+    let whole = error.message().lines().next().unwrap_or_default();
+    let message = one_line(whole);
     if message.starts_with("unknown variant `impact`") {
         let message = "objective \"impact\" is now landing; write objective = \"landing\"".to_string();
         return CaseError::Parse { path: path.into(), line, message };
     }
-    let message = match unknown_key(&message) {
-        Some((key, Some(near))) => format!("unknown key \"{key}\"; did you mean \"{near}\"?"),
-        Some((key, None)) => format!("unknown key \"{key}\"; remove it"),
+    // of the whole message: all known keys, the nearest one among them
+    let message = match unknown_key(whole) {
+        Some((key, Some(near))) => format!("unknown key \"{}\"; did you mean \"{near}\"?", one_line(&key)),
+        Some((key, None)) => format!("unknown key \"{}\"; remove it", one_line(&key)),
         None if message.contains(';') => message,
         None => format!("{message}; mend this line"),
     };

@@ -82,7 +82,13 @@ impl<'a> Folder<'a> {
         let wrap = |source| CommandError::Write { path: path.display().to_string(), source };
         std::fs::create_dir_all(path).map_err(wrap)?;
         let now = || tempfile::NamedTempFile::new_in(path)?.as_file().metadata()?.modified();
-        let began = now().map_err(wrap)?;
+        let before = now().map_err(wrap)?;
+        let mut began = before;
+        // that clock ticks every few milliseconds: what is there already must be older
+        while began == before {
+            std::thread::sleep(std::time::Duration::from_millis(1));
+            began = now().map_err(wrap)?;
+        }
         Ok(Self { path, command, files, began })
     }
 
@@ -139,8 +145,6 @@ mod tests {
             std::fs::write(path, name).unwrap();
         }
         results.finish().unwrap();
-        // beyond the grain of the files' clock
-        std::thread::sleep(std::time::Duration::from_millis(30));
     }
 
     fn left(folder: &Path) -> Vec<&'static str> {
@@ -164,7 +168,6 @@ mod tests {
         written(dir.path(), &["b.csv", "decks/c.py"]);
         std::fs::write(dir.path().join("decks/notes.txt"), "the user's").unwrap();
         std::fs::write(dir.path().join("b.csv"), "changed").unwrap();
-        std::thread::sleep(std::time::Duration::from_millis(30));
         written(dir.path(), &[]);
         assert_eq!(left(dir.path()), ["a.csv", "b.csv"]);
         assert!(dir.path().join("decks/notes.txt").exists());
@@ -177,7 +180,6 @@ mod tests {
         std::fs::write(&own, "x").unwrap();
         let list = format!("{{\"run\": {{\"own.txt\": \"{}\"}}}}", fingerprint(&own).unwrap());
         std::fs::write(dir.path().join(WRITTEN), list).unwrap();
-        std::thread::sleep(std::time::Duration::from_millis(30));
         written(dir.path(), &["a.csv"]);
         assert!(own.exists());
     }
