@@ -25,6 +25,7 @@ mod housner;
 mod init;
 mod members;
 mod output;
+mod page;
 mod progress;
 mod record;
 mod report;
@@ -37,7 +38,7 @@ mod verify;
 
 pub use common::{Both, both};
 pub use report::Report;
-pub use run::Run;
+pub use run::{Output, Run};
 
 /// The version, and what was built with it.
 #[cfg(feature = "diffsol")]

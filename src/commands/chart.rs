@@ -118,15 +118,13 @@ fn draw(o: &Options, rows: &[Row]) -> Result<(), CommandError> {
             values: [&values[0], &values[1], &values[2], &values[3]],
         })
         .collect();
-    figures::chart::render(
-        &figures::chart::Chart {
-            title: "Ground springs from the geometry; horizontal: μ 0.3, f 1.826, ξ 3.333",
-            panels: ["vertical μ", "vertical f", "vertical ξ", "horizontal over vertical Ωₙ"],
-            kinds: ["A-frame", "solid block"],
-            curves: &curves,
-        },
-        &o.out.join("chart.png"),
-    )?;
+    figures::chart::draw(&figures::chart::Chart {
+        title: "Ground springs from the geometry; horizontal: μ 0.3, f 1.826, ξ 3.333",
+        panels: ["vertical μ", "vertical f", "vertical ξ", "horizontal over vertical Ωₙ"],
+        kinds: ["A-frame", "solid block"],
+        curves: &curves,
+    })?
+    .save(&o.out.join("chart.png"))?;
     Ok(())
 }
 

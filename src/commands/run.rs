@@ -10,9 +10,10 @@ use clap::Args;
 use super::{
     CommandError,
     common::{self, Both, RecordOptions, history_csv},
-    draw::draw,
+    draw::{self, Pictures},
     export, members,
     output::check_folder,
+    page::Page,
     progress::Progress,
     report::{Ground, Report},
     table, write_file,
@@ -57,6 +58,9 @@ pub struct Options {
     /// No figures
     #[arg(long)]
     no_figures: bool,
+    /// No report.html
+    #[arg(long)]
+    no_report: bool,
     /// No front of error against stiffness
     #[arg(long)]
     no_front: bool,
@@ -117,12 +121,19 @@ pub fn run(o: &Options) -> Result<(), CommandError> {
         return springs_alone(o, &springs_of(&case, &job));
     }
     let run = Run::new(case, job, front, friction);
-    run.save(&o.out, !o.no_figures)?;
+    run.save(&o.out, Output { figures: !o.no_figures, report: !o.no_report })?;
     let (springs, forces) = (table::terminal(&run.filed(&o.out)), run.forces());
     let said = run.said().join("\n");
     write!(std::io::stdout(), "{springs}\n{forces}{}\n{said}\n", table::front_terminal(&run.front))?;
     eprintln!("{}\nwritten to {}", run.case.excitation.line(), o.out.display());
     Ok(())
+}
+
+/// What to write besides tables and decks.
+#[derive(Clone, Copy, Debug)]
+pub struct Output {
+    pub figures: bool,
+    pub report: bool,
 }
 
 /// A job done, and all that is said and saved of it.
@@ -164,9 +175,9 @@ impl Run {
     ///
     /// # Errors
     /// A file that cannot be written; a deck or a figure that cannot be made.
-    pub fn save(&self, out: &Path, figures: bool) -> Result<(), CommandError> {
+    pub fn save(&self, out: &Path, output: Output) -> Result<(), CommandError> {
         check_folder(out)?;
-        let Self { case, job, front, both, .. } = self;
+        let Self { job, front, both, .. } = self;
         let dt = job.record.dt;
         let parameters = self.filed(out);
         let write = |e| CommandError::Write { path: out.display().to_string(), source: e };
@@ -177,11 +188,19 @@ impl Run {
         write_file(&out.join("history.csv"), history_csv(dt, both).as_bytes())?;
         let demands = both.with.as_ref().map_or(&both.demands, |with| &with.demands);
         write_file(&out.join("members.csv"), members::csv(dt, demands).as_bytes())?;
-        let (decks, figures) = rayon::join(
-            || decks(out, &parameters, &job.record, both),
-            || if figures { draw(out, case, job, both, front) } else { Ok(()) },
-        );
-        decks.and(figures)
+        let (decks, pictures) =
+            rayon::join(|| decks(out, &parameters, &job.record, both), || self.pictures(out, &parameters, output));
+        decks.and(pictures)
+    }
+
+    /// Figures and the page; those of an earlier run into the same folder go.
+    fn pictures(&self, out: &Path, parameters: &Parameters, output: Output) -> Result<(), CommandError> {
+        let Self { case, job, front, both, .. } = self;
+        draw::clear(out);
+        let figures = if output.figures { Pictures { case, job, both, front }.draw()? } else { Vec::new() };
+        let page = || report(out, output.report.then_some(Page { parameters, run: Some(self), figures: &figures }));
+        let (saved, page) = rayon::join(|| draw::save(out, &figures), page);
+        saved.and(page)
     }
 
     /// `parameters.json` as it stands in a folder.
@@ -212,12 +231,27 @@ fn springs_of(case: &Case, job: &Job) -> Parameters {
     parameters
 }
 
+/// `report.html`; without one, that of an earlier run into the same folder goes.
+fn report(out: &Path, page: Option<Page<'_>>) -> Result<(), CommandError> {
+    let path = out.join("report.html");
+    match page {
+        Some(page) => write_file(&path, page.html().as_bytes()),
+        None => {
+            // there need not be any
+            let _ = std::fs::remove_file(path);
+            Ok(())
+        }
+    }
+}
+
 /// What there is without a record.
 fn springs_alone(o: &Options, parameters: &Parameters) -> Result<(), CommandError> {
     let write = |e| CommandError::Write { path: o.out.display().to_string(), source: e };
     std::fs::create_dir_all(&o.out).map_err(write)?;
     write_file(&o.out.join("parameters.json"), parameters.to_json().as_bytes())?;
     write_file(&o.out.join("parameters.md"), table::markdown(parameters).as_bytes())?;
+    draw::clear(&o.out);
+    report(&o.out, (!o.no_report).then_some(Page { parameters, run: None, figures: &[] }))?;
     let mut said = table::said(parameters);
     said.extend(springs_said(parameters));
     write!(std::io::stdout(), "{}\n{}\n", table::terminal(parameters), said.join("\n"))?;
@@ -226,7 +260,7 @@ fn springs_alone(o: &Options, parameters: &Parameters) -> Result<(), CommandErro
 }
 
 /// Error of restitution that is worth a warning.
-const RESTITUTION_MISSED: f64 = 0.005;
+pub(super) const RESTITUTION_MISSED: f64 = 0.005;
 
 /// What these springs cannot do.
 fn springs_said(parameters: &Parameters) -> Vec<String> {

@@ -221,14 +221,12 @@ fn draw(o: &Options, validation: &Validation) -> Result<(), CommandError> {
             nrmse: row.nrmse_horizontal.unwrap_or(if row.failed() { f64::INFINITY } else { 0.0 }),
         })
         .collect();
-    figures::validation::render(
-        &figures::validation::Validation {
-            title: &format!("Finite elements on ground springs against Housner, {} records", rows.len()),
-            rows: &rows,
-            ks_distance: validation.all.ks_distance,
-            well_conditioned: ILL_CONDITIONED,
-        },
-        &o.out.join("validation.png"),
-    )?;
+    figures::validation::draw(&figures::validation::Validation {
+        title: &format!("Finite elements on ground springs against Housner, {} records", rows.len()),
+        rows: &rows,
+        ks_distance: validation.all.ks_distance,
+        well_conditioned: ILL_CONDITIONED,
+    })?
+    .save(&o.out.join("validation.png"))?;
     Ok(())
 }

@@ -167,21 +167,13 @@ fn csv(result: &Verification) -> String {
 
 fn draw(o: &Options, record: &Record, result: &Verification) -> Result<(), CommandError> {
     fn trace<'a>(label: &'a str, motion: &'a Motion) -> Trace<'a> {
-        Trace { label, u: &motion.u, v: &motion.v, impacts: &[] }
+        Trace { label, u: &motion.u, v: &motion.v, ..Trace::default() }
     }
     let n = result.housner.len().max(result.ours.len());
     let t: Vec<f64> = (0..n).map(|i| i as f64 * result.dt).collect();
     let others = [trace("tune simulate", &result.ours), trace("OpenSees", &result.opensees)];
     let title = format!("The exported model in OpenSees: {}", record.name);
-    history::render(
-        &History {
-            title: &title,
-            t: &t,
-            reference: trace("Housner", &result.housner),
-            others: &others,
-            differences: true,
-        },
-        &o.out.join("verify.png"),
-    )?;
-    Ok(())
+    let reference = trace("Housner", &result.housner);
+    let data = History { title: &title, t: &t, reference, others: &others, differences: true };
+    Ok(history::draw(&data)?.save(&o.out.join("verify.png"))?)
 }
