@@ -10,7 +10,7 @@ use super::{
 };
 use crate::{
     case::Objective,
-    figures::{self, short},
+    figures::{self, brief, short},
     motion::shown,
     parameters::Parameters,
     structure::Kind,
@@ -138,7 +138,7 @@ impl Page<'_> {
         };
         match (v.well_conditioned, v.nrmse_horizontal) {
             (true, Some(e)) if v.agrees() => {
-                format!("{what}; the finite elements follow Housner to {} % in u", short(e * 100.0, 2))
+                format!("{what}; the finite elements follow Housner to {} %", short(e * 100.0, 2))
             }
             (false, Some(_)) => format!("{what}; its history cannot be compared one to one"),
             _ => what,
@@ -154,7 +154,8 @@ impl Page<'_> {
             let mm = |x: f64| format!("{} mm", short(x.abs() * 1e3, 4));
             let housner = format!("largest u up to {:.2} s; Housner {}", m.duration_s, mm(m.peak_horizontal_housner_m));
             out += &tile(&mm(m.peak_horizontal_fem_m), &housner);
-            let ratio = format!("peak theta/alpha; Housner {:.3}", v.housner.peak_ratio);
+            let until = v.housner.left_ground_s.map_or(String::new(), |t| format!(" until t = {t:.2} s"));
+            let ratio = format!("peak theta/alpha; Housner {:.3}{until}", v.housner.peak_ratio);
             out += &tile(&format!("{:.3}", v.finite_elements.peak_ratio), &ratio);
             out += &tile(&m.impacts_fem.to_string(), &format!("impacts; Housner {}", m.impacts_housner));
             if v.well_conditioned {
@@ -180,8 +181,8 @@ impl Page<'_> {
             ("structure", kind.to_string()),
             ("height h of the centre of mass", format!("{} m", s.height_m)),
             ("distance 2b of the feet", format!("{} m", s.width_m)),
-            ("mass m", format!("{} kg", short(s.mass_kg, 5))),
-            ("rotational inertia about the centre of mass", format!("{} kg m²", short(s.rotational_inertia_kgm2, 5))),
+            ("mass m", format!("{} kg", brief(s.mass_kg, 5))),
+            ("rotational inertia about the centre of mass", format!("{} kg m²", brief(s.rotational_inertia_kgm2, 5))),
             ("slenderness alpha", format!("{:.5} rad", body.alpha())),
             ("frequency p", format!("{:.4} 1/s", body.p_squared().sqrt())),
             ("restitution e", format!("{:.5} ({given})", self.parameters.restitution())),
@@ -308,7 +309,7 @@ impl Page<'_> {
                 let (factor, letter) = figures::prefix(peak.value.abs());
                 format!("{} {letter}{unit} at {:.2} s", short(peak.value / factor, 4), peak.time)
             };
-            let mut row = vec![what.replace('_', " ")];
+            let mut row = vec![what.replace("axial", "axial force").replace('_', " ")];
             row.extend(all.iter().map(|(_, demands)| cell(demands.peaks[k])));
             Some(row)
         });

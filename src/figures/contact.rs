@@ -59,6 +59,7 @@ pub fn draw(data: &Contact<'_>) -> Result<Sheet, FigureError> {
         let (unit, letter) = prefix(weight);
         entries.push(Entry::line(format!("weight, {} {letter}N", brief(weight / unit, 3)), level()));
     }
+    entries.extend(data.end.map(|end| Entry::line(end.text, ending())));
     let (left, right) = (150.0, WIDTH as f64 - 40.0);
     let top = legend::header(&mut canvas, data.title, &entries, left, right);
     let middle = top + 450.0;
@@ -77,6 +78,10 @@ pub fn draw(data: &Contact<'_>) -> Result<Sheet, FigureError> {
 
 fn pens() -> [Pen; 2] {
     [Pen::new(BLUE, 2.6), Pen::new(VERMILLION, 2.6)]
+}
+
+fn ending() -> Pen {
+    Pen::new(style::BLACK, 2.4).dashed()
 }
 
 fn level() -> Pen {
@@ -121,8 +126,8 @@ impl Direction<'_> {
             .extend(["left foot", "right foot"].into_iter().zip(&scaled).zip(pens()).map(|((n, f), p)| (n, &f[..], p)));
         curves.extend(weight.iter().map(|weight| ("weight", &weight[..], level())));
         let mut plot = panel.history(canvas, &label, data.t, &curves);
-        let end = data.end.map(|end| (end, Pen::new(style::BLACK, 2.4).dashed()));
-        panel.events(canvas, &mut plot, end.as_slice(), !self.last);
+        let end = data.end.map(|end| (end, ending()));
+        panel.events(canvas, &mut plot, end.as_slice(), false);
         if let Some(most) = beyond {
             let (unit, letter) = prefix(most);
             let weights = data.weight.map_or(String::new(), |w| format!(", {} weights", short(most / w, 3)));

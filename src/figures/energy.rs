@@ -50,6 +50,8 @@ pub fn draw(data: &Energy<'_>) -> Result<Sheet, FigureError> {
     let mut entries: Vec<Entry> = names.iter().zip(pens).map(|(name, pen)| Entry::line(*name, pen)).collect();
     let rest = Pen::new(GREEN, 2.4);
     entries.push(Entry::line("residual", rest));
+    let ending = Pen::new(BLACK, 2.4).dashed();
+    entries.extend(data.end.map(|end| Entry::line(end.text, ending)));
     let (left, right) = (150.0, WIDTH as f64 - 40.0);
     let top = legend::header(&mut canvas, data.title, &entries, left, right);
     let x = Scale::linear(data.t[0], data.t[n - 1]);
@@ -68,8 +70,8 @@ pub fn draw(data: &Energy<'_>) -> Result<Sheet, FigureError> {
     let curves: Vec<(&str, &[f64], Pen)> =
         names.iter().zip(&scaled).zip(pens).map(|((name, energy), pen)| (*name, &energy[..], pen)).collect();
     let mut plot = panel.history(&mut canvas, &label, data.t, &curves);
-    let end = data.end.map(|end| (end, Pen::new(BLACK, 2.4).dashed()));
-    panel.events(&mut canvas, &mut plot, end.as_slice(), true);
+    let end = data.end.map(|end| (end, ending));
+    panel.events(&mut canvas, &mut plot, end.as_slice(), false);
     canvas.keep(plot);
 
     // The residual as a share of the largest input so far known: of the whole run.

@@ -19,6 +19,8 @@ const RIGHT: f64 = WIDTH as f64 - 40.0;
 const GUTTER: f64 = 112.0;
 /// Displacements from here on are in millimetres, smaller ones in what suits them [m].
 const MILLIMETRES: f64 = 1e-4;
+/// No displacement is shown larger than at this scale [m].
+const NOTHING: f64 = 1e-9;
 /// An extreme so much smaller than what the panel shows is none.
 const NOUGHT: f64 = 0.01;
 /// Impacts nearer to each other than this are strokes: triangles would be a smear [pixel].
@@ -141,7 +143,11 @@ fn bounds<'a>(t: &[f64], traces: &[Drawn<'a>], of: fn(&Trace<'a>) -> &'a [f64]) 
         });
         values.fold((0.0_f64, 0.0_f64), |(low, high), &x| (low.min(x), high.max(x)))
     };
-    let ((low, high), (least, most)) = (range(false), range(true));
+    let ((low, mut high), (least, mut most)) = (range(false), range(true));
+    // what is smaller is rounding, and not to be magnified
+    if high > low && high - low < NOTHING {
+        (high, most) = (low + NOTHING, most.max(low + NOTHING));
+    }
     let room = FALL * (high - low).max(f64::MIN_POSITIVE);
     (least.max(low - room), most.min(high + room))
 }
@@ -172,11 +178,12 @@ fn horizontal(canvas: &mut Canvas, t: &[f64], traces: &[Drawn<'_>], x: Scale, fr
     let (unit, name) = unit((low, high));
     let (low, high, label) = (low / unit, high / unit, format!("horizontal, u [{name}]"));
     let size = high - low;
-    // Room for the numbers of the peaks and the words about ends, and below for the rows of impacts.
+    // Room for the numbers of the peaks and the words about ends, and below for the rows of impacts [pixel].
     let rows = traces.iter().filter(|(trace, _)| !trace.impacts.is_empty()).count() as f64;
     let ends = traces.iter().filter(|(trace, _)| trace.end.is_some()).count() as f64;
-    let above = 0.13 + ends * 1.4 * ROW / (frame.bottom - frame.top);
-    let panel = Panel { frame, x, y: Scale::linear(low - size * (0.13 + 0.05 * rows), high + above * size) };
+    let (above, below) = (52.0 + ROW * ends, 52.0 + 25.0 * rows);
+    let pixel = size / (frame.bottom - frame.top - above - below);
+    let panel = Panel { frame, x, y: Scale::linear(low - below * pixel, high + above * pixel) };
     panel.axes(canvas, None, &label, GUTTER);
     let mut plot = curves(canvas, &panel, &label, t, traces, (|trace| trace.u, unit), true);
     peak(canvas, &panel, t, traces, (|trace| trace.u, unit), 1.0);

@@ -100,8 +100,8 @@ fn verdict(run: &Run) -> Vec<Advice> {
         all.push(Advice::new(
             Weight::Care,
             "The motion is ill-conditioned",
-            "A change of the width, the scale or the restitution far below what is known of a real structure moves this history by more \
-             than itself. No two models, and no two tests, agree on it one to one, whatever the springs.",
+            "A change of the width, the scale or the restitution far smaller than what is unknown of a real structure makes another history \
+             of it. No two models, and no two tests, agree on it one to one, whatever the springs.",
             "do not judge the springs by this history: judge them by the statistics over many records (tune validate).",
         ));
     }

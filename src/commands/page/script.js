@@ -126,7 +126,7 @@
         for (const panel of this.panels) panel.shown = panel.y;
         return;
       }
-      const top = this.panels[0].frame[1] - 12;
+      const top = this.panels[0].frame[1] - 25; // the legend ends above
       add(this.cover, "rect", { x: 0, y: top, width: this.width, height: this.height - top, fill: "#fff" });
       this.panels.forEach((panel, i) => this.panel(panel, i === this.panels.length - 1));
     }
