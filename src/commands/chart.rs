@@ -18,7 +18,7 @@ pub struct Options {
     /// Slendernesses alpha [rad]
     #[arg(long, value_name = "RAD", value_delimiter = ',', default_values_t = [0.05, 0.1, 0.15, 0.2, 0.3, 0.4, 0.5])]
     alpha: Vec<f64>,
-    /// Folder for chart.csv and chart.png
+    /// Folder for chart.csv, chart.png and chart.svg
     #[arg(long, value_name = "DIR", default_value = "out")]
     out: PathBuf,
     /// Threads [default: all cores]

@@ -14,8 +14,8 @@ use crate::{
         self,
         target::{Band, Kind, Target},
     },
-    spring::{Design, Springs},
-    structure,
+    spring::Design,
+    structure::{Kind as BodyKind, Structure},
     tuning::job::Job,
 };
 
@@ -73,7 +73,10 @@ impl Pictures<'_> {
 
     /// A title, and below it the structure, the record, its scale and Omega_n.
     fn title(&self, what: &str) -> String {
-        format!("{what}\n{}", subtitle(self.case, &self.job.springs))
+        let excitation = &self.case.excitation;
+        let motions = format!("{} × {}", self.case.record.name, brief(excitation.scale, 4));
+        let hz = self.job.springs.vertical.omega_n_hz;
+        format!("{what}\n{}", subtitle(&self.case.structure, &motions, hz))
     }
 
     /// Times of so many samples [s].
@@ -105,8 +108,8 @@ impl Pictures<'_> {
     fn history(&self) -> Result<Option<Sheet>, FigureError> {
         let (housner, fem) = (&self.both.housner, &self.both.fem);
         let what = match self.case.structure.kind {
-            structure::Kind::AFrame => "Displacement of the apex",
-            structure::Kind::Block => "Displacement of the centre of mass",
+            BodyKind::AFrame => "Displacement of the apex",
+            BodyKind::Block => "Displacement of the centre of mass",
         };
         let t = self.times(housner.len().max(fem.motion.len()));
         let impacts_housner: Vec<f64> = self.both.rocking.impacts.iter().map(|i| i.time).collect();
@@ -290,16 +293,15 @@ impl Pictures<'_> {
     }
 }
 
-/// Structure, record, scale and Omega_n in a line.
-pub fn subtitle(case: &Case, springs: &Springs<Design<f64>>) -> String {
-    let s = &case.structure;
-    let body = match s.kind {
-        structure::Kind::AFrame => format!("A-frame {} m high, feet {} m apart", s.height_m, s.width_m),
-        structure::Kind::Block => format!("block with its mass at {} m, {} m wide", s.height_m, s.width_m),
+/// What a figure is of, in a line: the structure, the motions, Omega_n.
+pub fn subtitle(structure: &Structure, motions: &str, omega_n_hz: f64) -> String {
+    let Structure { height_m, width_m, .. } = structure;
+    let body = match structure.kind {
+        BodyKind::AFrame => format!("A-frame {height_m} m high, feet {width_m} m apart"),
+        BodyKind::Block => format!("block with its mass at {height_m} m, {width_m} m wide"),
     };
-    let hz = springs.vertical.omega_n_hz;
-    let omega = if hz < 1e3 { format!("{} Hz", short(hz, 3)) } else { format!("{} kHz", short(hz * 1e-3, 3)) };
-    format!("{body}; {} × {}; Ωₙ/2π = {omega}", case.record.name, brief(case.excitation.scale, 4))
+    let (unit, letter) = figures::prefix(omega_n_hz);
+    format!("{body}; {motions}; Ωₙ/2π = {} {letter}Hz", short(omega_n_hz / unit, 3))
 }
 
 /// The field's letter in place of its name.

@@ -8,7 +8,7 @@ use clap::Args;
 use rayon::prelude::*;
 use serde::Serialize;
 
-use super::{CommandError, output::check_folder, progress::Progress, run::threads, write_file};
+use super::{CommandError, draw::subtitle, output::check_folder, progress::Progress, run::threads, write_file};
 use crate::{
     case::LONGEST_S,
     conditioning::ILL_CONDITIONED,
@@ -197,7 +197,7 @@ pub fn run(o: &Options) -> Result<(), CommandError> {
     write_file(&o.out.join("validate.md"), tables::markdown(&validation).as_bytes())?;
     write_file(&o.out.join("validate.csv"), &tables::csv(&validation)?)?;
     if !o.no_figures {
-        draw(o, &validation)?;
+        draw(o, &parameters, &validation)?;
     }
     writeln!(std::io::stdout(), "{}", tables::terminal(&validation))?;
     for name in &validation.all.failed {
@@ -207,7 +207,7 @@ pub fn run(o: &Options) -> Result<(), CommandError> {
     Ok(())
 }
 
-fn draw(o: &Options, validation: &Validation) -> Result<(), CommandError> {
+fn draw(o: &Options, parameters: &Parameters, validation: &Validation) -> Result<(), CommandError> {
     let rows: Vec<figures::validation::Row> = validation
         .records
         .iter()
@@ -221,8 +221,9 @@ fn draw(o: &Options, validation: &Validation) -> Result<(), CommandError> {
             nrmse: row.nrmse_horizontal.unwrap_or(if row.failed() { f64::INFINITY } else { 0.0 }),
         })
         .collect();
+    let of = subtitle(&parameters.structure, &format!("{} records", rows.len()), parameters.vertical.omega_n_hz);
     figures::validation::draw(&figures::validation::Validation {
-        title: &format!("Finite elements on ground springs against Housner, {} records", rows.len()),
+        title: &format!("Finite elements on ground springs against Housner\n{of}"),
         rows: &rows,
         ks_distance: validation.all.ks_distance,
         well_conditioned: ILL_CONDITIONED,
