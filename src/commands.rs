@@ -24,6 +24,7 @@ mod housner;
 mod init;
 mod members;
 mod output;
+mod page;
 mod progress;
 mod record;
 mod report;
@@ -39,7 +40,7 @@ mod verify;
 pub use {
     common::{Both, both},
     report::Report,
-    run::Run,
+    run::{Output, Run},
 };
 
 /// The version, and what was built with it.

@@ -1,8 +1,9 @@
-//! Pictures of the results: plain numbers in, a PNG out, no physics.
+//! Pictures of the results: plain numbers in, an SVG and a PNG out, no physics.
 //!
-//! Each figure is a module with one input struct of slices and labels and one function `render(&data, path)`. A picture
-//! is 1600 pixels wide and readable at half that size. It is written whole or not at all, and the same numbers give
-//! the same bytes. Figures share nothing, so a program may render them in parallel.
+//! Each figure is a module with one input struct of slices and labels and one function `draw(&data)`, which gives a [`Sheet`]: an SVG,
+//! drawn through plotters, which resvg turns into a PNG with an embedded font. A picture is 1600 pixels wide and readable at half that
+//! size. It is written whole or not at all, and the same numbers give the same bytes. Figures share nothing, so a program may draw them
+//! in parallel. The first line of a title is its head, further ones are remarks.
 //!
 //! | module | shows |
 //! |---|---|
@@ -22,15 +23,14 @@ use std::path::PathBuf;
 use thiserror::Error;
 
 mod canvas;
-mod glyph;
+mod font;
 mod legend;
 mod mark;
 mod number;
-mod painter;
 mod panel;
-mod png;
-mod raster;
+mod plot;
 mod scale;
+mod sheet;
 mod style;
 
 pub mod arr;
@@ -44,6 +44,10 @@ pub mod history;
 pub mod precision;
 pub mod record;
 pub mod validation;
+
+pub use number::{brief, power_of_ten, prefix, short};
+pub use plot::{Event, Plot};
+pub use sheet::Sheet;
 
 #[cfg(test)]
 mod tests;
@@ -60,8 +64,8 @@ pub enum FigureError {
     Length { figure: &'static str, what: String, found: usize, wanted: usize },
     #[error("figure: cannot write {path}: {source}; check that the folder exists and may be written to", path = path.display())]
     Write { path: PathBuf, source: std::io::Error },
-    #[error("figure: cannot draw {path}: {reason}; please report this", path = path.display())]
-    Draw { path: PathBuf, reason: String },
+    #[error("figure: cannot draw: {reason}; please report this")]
+    Draw { reason: String },
 }
 
 /// What is being checked: the figure's name, for the messages.

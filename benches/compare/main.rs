@@ -233,7 +233,12 @@ fn draw(measured: &Measured, path: &Path) -> Result<(), Box<dyn Error>> {
         drawn.map(|p| (p.error, p.seconds * 1e3)).collect()
     };
     let all = |list: &[Series]| -> Vec<Drawn> {
-        list.iter().map(|s| (s.tool.clone(), points(s))).filter(|(_, points)| !points.is_empty()).collect()
+        let named = |s: &Series, drawn: usize| match s.points.len() - drawn {
+            0 => s.tool.clone(),
+            lost => format!("{} ({lost} in the table only)", s.tool),
+        };
+        let all = list.iter().map(|s| (s, points(s))).filter(|(_, points)| !points.is_empty());
+        all.map(|(s, points)| (named(s, points.len()), points)).collect()
     };
     let (rigid, elements) = (all(&measured.rigid), all(&measured.elements));
     let (rigid, elements) = (series(&rigid), series(&elements));
@@ -251,7 +256,7 @@ fn draw(measured: &Measured, path: &Path) -> Result<(), Box<dyn Error>> {
             series: &elements,
         },
     ];
-    Ok(precision::render(&sheets, path)?)
+    Ok(precision::draw(&sheets)?.save(path)?)
 }
 
 #[cfg(test)]

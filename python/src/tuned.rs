@@ -4,7 +4,7 @@ use std::{path::PathBuf, sync::Arc};
 
 use groundspring::{
     case::{Case, Objective, Tuning},
-    commands::Run,
+    commands::{Output, Run},
     excitation::Excitation,
     front, record,
     tuning::job::Job,
@@ -72,7 +72,7 @@ impl Tuned {
     /// Write what `tune run` writes.
     #[pyo3(signature = (folder, figures = true))]
     fn save(&self, py: Python<'_>, folder: PathBuf, figures: bool) -> PyResult<()> {
-        interruptible(py, |_| self.run.save(&folder, figures))?.map_err(value_error)
+        interruptible(py, |_| self.run.save(&folder, Output { figures, report: true }))?.map_err(value_error)
     }
 
     fn to_pandas<'py>(slf: &Bound<'py, Self>) -> PyResult<Bound<'py, PyAny>> {

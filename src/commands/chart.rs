@@ -23,7 +23,7 @@ pub struct Options {
     /// Slenderness alpha = atan(width / (2 height)) [rad], several with commas
     #[arg(long, value_name = "RAD", value_delimiter = ',', default_values_t = [0.05, 0.1, 0.15, 0.2, 0.3, 0.4, 0.5])]
     alpha: Vec<f64>,
-    /// Folder for chart.csv and chart.png
+    /// Folder for chart.csv, chart.png and chart.svg
     #[arg(long, value_name = "DIR", default_value = "out")]
     out: PathBuf,
     /// Threads [default: all cores]
@@ -123,15 +123,13 @@ fn draw(o: &Options, rows: &[Row]) -> Result<(), CommandError> {
             values: [&values[0], &values[1], &values[2], &values[3]],
         })
         .collect();
-    figures::chart::render(
-        &figures::chart::Chart {
-            title: "Ground springs from the geometry; horizontal: μ 0.3, f 1.826, ξ 3.333",
-            panels: ["vertical μ", "vertical f", "vertical ξ", "horizontal over vertical Ωₙ"],
-            kinds: ["A-frame", "solid block"],
-            curves: &curves,
-        },
-        &o.out.join("chart.png"),
-    )?;
+    figures::chart::draw(&figures::chart::Chart {
+        title: "Ground springs from the geometry; horizontal: μ 0.3, f 1.826, ξ 3.333",
+        panels: ["vertical μ", "vertical f", "vertical ξ", "horizontal over vertical Ωₙ"],
+        kinds: ["A-frame", "solid block"],
+        curves: &curves,
+    })?
+    .save(&o.out.join("chart.png"))?;
     Ok(())
 }
 

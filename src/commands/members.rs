@@ -58,7 +58,7 @@ impl<'a> Report<'a> {
 }
 
 /// What the members are, in words.
-fn names(members: &Members<f64>) -> String {
+pub(super) fn names(members: &Members<f64>) -> String {
     let mut out = Vec::new();
     if let Some(l) = members.legs {
         out.push(format!("legs of EA = {:.4e} N, EI = {:.4e} N m2", l.ea, l.ei));

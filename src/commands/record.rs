@@ -198,16 +198,14 @@ fn draw(folder: &Path, file: &Path, recording: &Recording, body: Option<&Body<f6
     let stem = file.file_stem().unwrap_or(file.as_os_str());
     let mut name = stem.to_os_string();
     name.push(".png");
-    figures::record::render(
-        &figures::record::Record {
-            title: &record.name,
-            t: &t,
-            accel_g: &accel,
-            velocity: &record.velocity(),
-            uplift_g: body.map(|body| body.alpha().tan()),
-            notes: &notes,
-        },
-        &folder.join(name),
-    )?;
+    figures::record::draw(&figures::record::Record {
+        title: &record.name,
+        t: &t,
+        accel_g: &accel,
+        velocity: &record.velocity(),
+        uplift_g: body.map(|body| body.alpha().tan()),
+        notes: &notes,
+    })?
+    .save(&folder.join(name))?;
     Ok(())
 }

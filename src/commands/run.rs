@@ -10,9 +10,10 @@ use clap::Args;
 use super::{
     CommandError,
     common::{self, Both, RecordOptions, history_csv},
-    draw::draw,
+    draw::{self, Pictures},
     export, members,
     output::{Folder, check_folder},
+    page::Page,
     progress::Progress,
     report::{Ground, Report},
     table, write_file,
@@ -85,6 +86,9 @@ pub struct Options {
     /// No figures
     #[arg(long)]
     no_figures: bool,
+    /// No report.html
+    #[arg(long)]
+    no_report: bool,
     /// Do not compute the error over the stiffness (front.png)
     #[arg(long)]
     no_front: bool,
@@ -145,12 +149,19 @@ pub fn run(o: &Options) -> Result<(), CommandError> {
         return springs_alone(o, &Parameters::of(&case, &job));
     }
     let run = Run::new(case, job, front, friction);
-    run.save(&o.out, !o.no_figures)?;
+    run.save(&o.out, Output { figures: !o.no_figures, report: !o.no_report })?;
     let (springs, forces) = (table::terminal(&run.filed(&o.out)), run.forces());
     let said = run.said().join("\n");
     write!(std::io::stdout(), "{springs}\n{forces}{}\n{said}\n", table::front_terminal(&run.front))?;
     eprintln!("{}\nwritten to {}", run.case.excitation.line(), o.out.display());
     Ok(())
+}
+
+/// What to write besides tables and decks.
+#[derive(Clone, Copy, Debug)]
+pub struct Output {
+    pub figures: bool,
+    pub report: bool,
 }
 
 /// A job done, and all that is said and saved of it.
@@ -200,9 +211,9 @@ impl Run {
     ///
     /// # Errors
     /// A file that cannot be written; a deck or a figure that cannot be made.
-    pub fn save(&self, out: &Path, figures: bool) -> Result<(), CommandError> {
+    pub fn save(&self, out: &Path, output: Output) -> Result<(), CommandError> {
         let folder = Folder::begin(out, "run", FILES)?;
-        let Self { case, job, front, both, .. } = self;
+        let Self { job, front, both, .. } = self;
         let dt = job.record.dt;
         let parameters = self.filed(out);
         write_file(&out.join("parameters.json"), parameters.to_json().as_bytes())?;
@@ -211,12 +222,19 @@ impl Run {
         write_file(&out.join("history.csv"), history_csv(dt, both).as_bytes())?;
         let demands = both.with.as_ref().map_or(&both.demands, |with| &with.demands);
         write_file(&out.join("members.csv"), members::csv(dt, demands).as_bytes())?;
-        let (decks, figures) = rayon::join(
-            || decks(out, &parameters, &job.record, both),
-            || if figures { draw(out, case, job, both, front) } else { Ok(()) },
-        );
-        decks.and(figures)?;
+        let (decks, pictures) =
+            rayon::join(|| decks(out, &parameters, &job.record, both), || self.pictures(out, &parameters, output));
+        decks.and(pictures)?;
         folder.finish()
+    }
+
+    /// Figures and the page.
+    fn pictures(&self, out: &Path, parameters: &Parameters, output: Output) -> Result<(), CommandError> {
+        let Self { case, job, front, both, .. } = self;
+        let figures = if output.figures { Pictures { case, job, both, front }.draw()? } else { Vec::new() };
+        let page = || report(out, output.report.then_some(Page { parameters, run: Some(self), figures: &figures }));
+        let (saved, page) = rayon::join(|| draw::save(out, &figures), page);
+        saved.and(page)
     }
 
     /// `parameters.json` as it stands in a folder.
@@ -238,11 +256,17 @@ impl Run {
     }
 }
 
+/// `report.html`, if it is asked for.
+fn report(out: &Path, page: Option<Page<'_>>) -> Result<(), CommandError> {
+    page.map_or(Ok(()), |page| write_file(&out.join("report.html"), page.html().as_bytes()))
+}
+
 /// What there is without a record.
 fn springs_alone(o: &Options, parameters: &Parameters) -> Result<(), CommandError> {
     let folder = Folder::begin(&o.out, "run", FILES)?;
     write_file(&o.out.join("parameters.json"), parameters.to_json().as_bytes())?;
     write_file(&o.out.join("parameters.md"), table::markdown(parameters).as_bytes())?;
+    report(&o.out, (!o.no_report).then_some(Page { parameters, run: None, figures: &[] }))?;
     folder.finish()?;
     let mut said = table::said(parameters);
     said.extend(springs_said(parameters));
@@ -252,7 +276,7 @@ fn springs_alone(o: &Options, parameters: &Parameters) -> Result<(), CommandErro
 }
 
 /// Error of restitution that is worth a warning.
-const RESTITUTION_MISSED: f64 = 0.005;
+pub(super) const RESTITUTION_MISSED: f64 = 0.005;
 
 /// What these springs cannot do.
 fn springs_said(parameters: &Parameters) -> Vec<String> {

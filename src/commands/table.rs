@@ -40,7 +40,7 @@ impl<'a> Column<'a> {
 }
 
 /// Heading and rows of Table 1: name, vertical and horizontal of each springs.
-fn spring_rows(p: &Parameters) -> (Vec<String>, Vec<Vec<String>>) {
+pub(super) fn spring_rows(p: &Parameters) -> (Vec<String>, Vec<Vec<String>>) {
     let all = columns(p);
     let mut head = vec!["per foot".to_string()];
     for (i, column) in all.iter().enumerate() {
@@ -69,7 +69,7 @@ fn spring_rows(p: &Parameters) -> (Vec<String>, Vec<Vec<String>>) {
 }
 
 /// Heading and rows of the match: name, Housner, and each springs.
-fn match_rows(first: &str, p: &Parameters) -> (Vec<String>, Vec<Vec<String>>) {
+pub(super) fn match_rows(first: &str, p: &Parameters) -> (Vec<String>, Vec<Vec<String>>) {
     let all = columns(p);
     let mut head = vec![first.to_string(), "Housner".to_string()];
     head.extend(all.iter().map(|column| column.heading.to_string()));
@@ -137,11 +137,11 @@ fn strings(head: &[&str]) -> Vec<String> {
     head.iter().map(|s| s.to_string()).collect()
 }
 
-const LANDINGS: [&str; 8] =
+pub(super) const LANDINGS: [&str; 8] =
     ["landing from", "restitution e", "error of e", "in the air", "rebound", "touch-downs", "ringing", "settlement"];
 
 /// Rows of the landings.
-fn landing_rows(p: &Parameters) -> Vec<[String; 8]> {
+pub(super) fn landing_rows(p: &Parameters) -> Vec<[String; 8]> {
     let row = |l: &LandingRow| {
         [
             format!("{} alpha", l.lean),
@@ -198,7 +198,7 @@ pub fn terminal(p: &Parameters) -> String {
     out
 }
 
-const FRONT: [&str; 6] = [
+pub(super) const FRONT: [&str; 6] = [
     "Omega_n [Hz]",
     "NRMSE of u, design from the geometry",
     "paper's procedure",
@@ -211,7 +211,7 @@ const FRONT: [&str; 6] = [
 pub(super) const FORCES: &str =
     "Foot forces are those of the springs in a landing, not of the structure: they grow with Omega_n.";
 
-fn front_rows(front: &[Point]) -> Vec<[String; 6]> {
+pub(super) fn front_rows(front: &[Point]) -> Vec<[String; 6]> {
     let error = |e: Option<f64>| e.map_or("-".to_string(), shown);
     let row = |p: &Point| {
         [

@@ -10,6 +10,7 @@ use serde::Serialize;
 
 use super::{
     CommandError,
+    draw::subtitle,
     output::{Folder, check_folder},
     progress::Progress,
     run::threads,
@@ -271,7 +272,7 @@ pub fn run(o: &Options) -> Result<(), CommandError> {
     write_file(&o.out.join("validate.md"), tables::markdown(&validation, &line).as_bytes())?;
     write_file(&o.out.join("validate.csv"), &tables::csv(&validation)?)?;
     if !o.no_figures {
-        draw(o, &validation)?;
+        draw(o, &parameters, &validation)?;
     }
     folder.finish()?;
     writeln!(std::io::stdout(), "{line}\n{}", tables::terminal(&validation))?;
@@ -282,7 +283,7 @@ pub fn run(o: &Options) -> Result<(), CommandError> {
     Ok(())
 }
 
-fn draw(o: &Options, validation: &Validation) -> Result<(), CommandError> {
+fn draw(o: &Options, parameters: &Parameters, validation: &Validation) -> Result<(), CommandError> {
     let rows: Vec<figures::validation::Row> = validation
         .records
         .iter()
@@ -296,14 +297,13 @@ fn draw(o: &Options, validation: &Validation) -> Result<(), CommandError> {
             nrmse: row.nrmse_horizontal.unwrap_or(if row.failed() { f64::INFINITY } else { 0.0 }),
         })
         .collect();
-    figures::validation::render(
-        &figures::validation::Validation {
-            title: &format!("Finite elements on ground springs against Housner, {} records", rows.len()),
-            rows: &rows,
-            ks_distance: validation.all.ks_distance,
-            well_conditioned: ILL_CONDITIONED,
-        },
-        &o.out.join("validation.png"),
-    )?;
+    let of = subtitle(&parameters.structure, &format!("{} records", rows.len()), parameters.vertical.omega_n_hz);
+    figures::validation::draw(&figures::validation::Validation {
+        title: &format!("Finite elements on ground springs against Housner\n{of}"),
+        rows: &rows,
+        ks_distance: validation.all.ks_distance,
+        well_conditioned: ILL_CONDITIONED,
+    })?
+    .save(&o.out.join("validation.png"))?;
     Ok(())
 }

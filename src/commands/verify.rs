@@ -8,6 +8,7 @@ use comfy_table::{Table, presets};
 use super::{
     CommandError,
     common::{RecordOptions, csv_row},
+    draw::subtitle,
     export::{check_accuracy, read},
     output::{Folder, check_folder},
     progress::Progress,
@@ -17,6 +18,7 @@ use crate::{
     export::ACCURACY,
     figures::history::{self, History, Trace},
     motion::{Motion, peak},
+    parameters::Parameters,
     record::Record,
     verify::{LIMIT, Program, Verification, verify},
 };
@@ -38,7 +40,7 @@ pub struct Options {
     accuracy: f64,
     #[command(flatten)]
     record: RecordOptions,
-    /// Folder for verify.png and verify.csv
+    /// Folder for verify.png, verify.svg and verify.csv
     #[arg(long, value_name = "DIR", default_value = "out")]
     out: PathBuf,
     /// No progress
@@ -61,7 +63,7 @@ pub fn run(o: &Options) -> Result<(), CommandError> {
 
     let folder = Folder::begin(&o.out, "verify", &["verify.csv", "verify.png", "verify.svg"])?;
     write_file(&o.out.join("verify.csv"), csv(&result).as_bytes())?;
-    draw(o, &record, &result)?;
+    draw(o, &parameters, &record, &result)?;
     folder.finish()?;
     write!(std::io::stdout(), "{}", said(&record, &result))?;
     eprintln!(
@@ -165,23 +167,16 @@ fn csv(result: &Verification) -> String {
     out
 }
 
-fn draw(o: &Options, record: &Record, result: &Verification) -> Result<(), CommandError> {
+fn draw(o: &Options, parameters: &Parameters, record: &Record, result: &Verification) -> Result<(), CommandError> {
     fn trace<'a>(label: &'a str, motion: &'a Motion) -> Trace<'a> {
-        Trace { label, u: &motion.u, v: &motion.v, impacts: &[] }
+        Trace { label, u: &motion.u, v: &motion.v, ..Trace::default() }
     }
     let n = result.housner.len().max(result.ours.len());
     let t: Vec<f64> = (0..n).map(|i| i as f64 * result.dt).collect();
     let others = [trace("tune simulate", &result.ours), trace("OpenSees", &result.opensees)];
-    let title = format!("The exported model in OpenSees: {}", record.name);
-    history::render(
-        &History {
-            title: &title,
-            t: &t,
-            reference: trace("Housner", &result.housner),
-            others: &others,
-            differences: true,
-        },
-        &o.out.join("verify.png"),
-    )?;
-    Ok(())
+    let of = subtitle(&parameters.structure, &record.name, parameters.vertical.omega_n_hz);
+    let title = format!("The exported model in OpenSees\n{of}");
+    let reference = trace("Housner", &result.housner);
+    let data = History { title: &title, t: &t, reference, others: &others, differences: true };
+    Ok(history::draw(&data)?.save(&o.out.join("verify.png"))?)
 }

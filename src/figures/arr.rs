@@ -1,7 +1,5 @@
 //! Amplitude response ratio against frequency ratio (equation 7 of the paper): target, fits, active points.
 
-use std::path::Path;
-
 use plotters::style::Color;
 use plotters::style::text_anchor::{HPos, VPos};
 
@@ -12,7 +10,7 @@ use super::number::{brief, short};
 use super::panel::{Frame, Panel};
 use super::scale::Scale;
 use super::style::{self, GREY, NUMBER, Pen, SKY, WIDTH};
-use super::{Check, FigureError};
+use super::{Check, FigureError, Sheet};
 
 const CHECK: Check = Check("arr");
 
@@ -36,7 +34,7 @@ pub struct Active {
     pub multiplier: Option<f64>,
 }
 
-/// One chain's response.
+/// One spring-absorber unit's response.
 #[derive(Clone, Copy, Debug)]
 pub struct Curve<'a> {
     pub label: &'a str,
@@ -44,7 +42,11 @@ pub struct Curve<'a> {
     pub g: &'a [f64],
     pub arr: &'a [f64],
     pub active: &'a [Active],
-    /// The lowest cap that its kind of chain can keep, if that is what was wanted.
+    /// Whether it is of the springs that were delivered: a full line; others are dashed.
+    pub delivered: bool,
+    /// Vertical and horizontal units have their own colours.
+    pub horizontal: bool,
+    /// The lowest cap that its kind of unit can keep, if that is what was wanted.
     pub cap: Option<f64>,
 }
 
@@ -59,8 +61,8 @@ pub struct Response<'a> {
 /// Draw the figure.
 ///
 /// # Errors
-/// [`FigureError`] for an empty or not finite slice, and when `path` cannot be written.
-pub fn render(data: &Response<'_>, path: &Path) -> Result<(), FigureError> {
+/// [`FigureError`] for an empty or not finite slice.
+pub fn draw(data: &Response<'_>) -> Result<Sheet, FigureError> {
     CHECK.least("curves", data.curves.len(), 1)?;
     for curve in data.curves {
         CHECK.least(curve.label, curve.g.len(), 2)?;
@@ -75,14 +77,17 @@ pub fn render(data: &Response<'_>, path: &Path) -> Result<(), FigureError> {
         CHECK.finite("target", &[band.g.0, band.g.1, bounds[0], bounds[1]])?;
     }
 
-    let mut canvas = Canvas::new(WIDTH, 1000);
+    let mut canvas = Canvas::default();
     let mut entries: Vec<Entry> = data
         .curves
         .iter()
-        .enumerate()
-        .map(|(i, curve)| {
-            let pen = pen(i);
-            if curve.active.is_empty() { Entry::line(curve.label, pen) } else { Entry::both(curve.label, pen, dot(i)) }
+        .map(|curve| {
+            let pen = pen(curve);
+            if curve.active.is_empty() {
+                Entry::line(curve.label, pen)
+            } else {
+                Entry::both(curve.label, pen, dot(curve))
+            }
         })
         .collect();
     if !data.target.is_empty() {
@@ -94,7 +99,7 @@ pub fn render(data: &Response<'_>, path: &Path) -> Result<(), FigureError> {
     }
     let (left, right) = (150.0, WIDTH as f64 - 40.0);
     let top = legend::header(&mut canvas, data.title, &entries, left, right);
-    let panel = Panel { frame: Frame { left, top, right, bottom: 900.0 }, x: g_axis(data), y: arr_axis(data) };
+    let panel = Panel { frame: Frame { left, top, right, bottom: top + 750.0 }, x: g_axis(data), y: arr_axis(data) };
     for band in data.target {
         shade(&mut canvas, &panel, band);
     }
@@ -102,24 +107,23 @@ pub fn render(data: &Response<'_>, path: &Path) -> Result<(), FigureError> {
     for band in data.target {
         bound(&mut canvas, &panel, band);
     }
-    for (i, curve) in data.curves.iter().enumerate() {
-        lowest(&mut canvas, &panel, curve, i);
+    lowest(&mut canvas, &panel, data.curves);
+    for curve in data.curves {
+        panel.curve(&mut canvas, curve.g, curve.arr, pen(curve));
     }
-    for (i, curve) in data.curves.iter().enumerate() {
-        panel.curve(&mut canvas, curve.g, curve.arr, pen(i));
+    for curve in data.curves {
+        touches(&mut canvas, &panel, curve);
     }
-    for (i, curve) in data.curves.iter().enumerate() {
-        touches(&mut canvas, &panel, curve, i);
-    }
-    canvas.save(path)
+    canvas.finish(top + 850.0)
 }
 
-fn pen(i: usize) -> Pen {
-    let pen = Pen::new(style::series(i), if i == 0 { 4.5 } else { 3.2 });
-    if i == 0 { pen } else { pen.dashed() }
+fn pen(curve: &Curve<'_>) -> Pen {
+    let pen = Pen::new(style::series(usize::from(curve.horizontal)), if curve.delivered { 4.5 } else { 2.8 });
+    if curve.delivered { pen } else { pen.dashed() }
 }
 
-fn dot(i: usize) -> Mark {
+fn dot(curve: &Curve<'_>) -> Mark {
+    let i = usize::from(curve.horizontal);
     Mark::new(mark::series(i), 9.0, style::series(i))
 }
 
@@ -162,20 +166,25 @@ fn bound(canvas: &mut Canvas, panel: &Panel, band: &Band) {
     canvas.text((at.0 + 14.0, at.1 + 12.0), &format!("ARR ≤ {}", brief(most, 4)), how);
 }
 
-/// The lowest cap of a curve, its value at the right.
-fn lowest(canvas: &mut Canvas, panel: &Panel, curve: &Curve<'_>, i: usize) {
-    let Some(cap) = curve.cap else { return };
-    panel.curve(canvas, &[panel.x.low, panel.x.high], &[cap, cap], Pen::new(style::series(i), 1.6).dashed());
-    let at = panel.at(panel.x.high, cap);
-    let how = Lettering::new(NUMBER).colour(style::series(i)).at(HPos::Right, VPos::Bottom);
-    canvas.text((at.0 - 14.0, at.1 - 10.0), &format!("lowest cap {}", brief(cap, 4)), how);
+/// The lowest cap of every curve that has one, its value at the right; below its line where the next cap is near above.
+fn lowest(canvas: &mut Canvas, panel: &Panel, curves: &[Curve<'_>]) {
+    let caps = || curves.iter().filter_map(|curve| Some((curve, curve.cap?)));
+    for (curve, cap) in caps() {
+        let colour = pen(curve).rgb();
+        panel.curve(canvas, &[panel.x.low, panel.x.high], &[cap, cap], Pen::new(colour, 1.6).dashed());
+        let at = panel.at(panel.x.high, cap);
+        let crowded = caps().any(|(_, other)| (1.0..36.0).contains(&(at.1 - panel.at(panel.x.high, other).1)));
+        let (y, along) = if crowded { (at.1 + 10.0, VPos::Top) } else { (at.1 - 10.0, VPos::Bottom) };
+        let how = Lettering::new(NUMBER).colour(colour).at(HPos::Right, along);
+        canvas.text((at.0 - 14.0, y), &format!("lowest cap {}", brief(cap, 4)), how);
+    }
 }
 
-fn touches(canvas: &mut Canvas, panel: &Panel, curve: &Curve<'_>, i: usize) {
+fn touches(canvas: &mut Canvas, panel: &Panel, curve: &Curve<'_>) {
     for active in curve.active {
         // A point at g = 0 has no place on this axis: it stands at the left edge.
         let at = panel.at_clamped(active.g, active.arr);
-        dot(i).draw(canvas, at);
+        dot(curve).draw(canvas, at);
         let Some(multiplier) = active.multiplier else { continue };
         // Points close to each other tell their numbers to either side.
         let near = |other: &Active, side: f64| {
@@ -189,9 +198,9 @@ fn touches(canvas: &mut Canvas, panel: &Panel, curve: &Curve<'_>, i: usize) {
         } else {
             (HPos::Center, 0.0)
         };
-        let how = Lettering::new(NUMBER).colour(style::series(i));
+        let how = Lettering::new(NUMBER).colour(pen(curve).rgb());
         // The first curve tells its multipliers above, the others below: both stay readable where they touch together.
-        let (y, along) = if i == 0 { (at.1 - 22.0, VPos::Bottom) } else { (at.1 + 22.0, VPos::Top) };
+        let (y, along) = if !curve.horizontal { (at.1 - 22.0, VPos::Bottom) } else { (at.1 + 22.0, VPos::Top) };
         canvas.text((at.0 + shift, y), &short(multiplier, 2), how.at(across, along));
     }
 }

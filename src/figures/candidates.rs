@@ -1,7 +1,5 @@
 //! Error of every sampled candidate against its two frequencies: how rugged the landscape is, and what was chosen.
 
-use std::path::Path;
-
 use plotters::style::text_anchor::{HPos, VPos};
 
 use super::canvas::{Canvas, Lettering};
@@ -11,7 +9,7 @@ use super::number::short;
 use super::panel::{Frame, Panel};
 use super::scale::Scale;
 use super::style::{BLUE, NUMBER, PALE, Pen, VERMILLION, WIDTH};
-use super::{Check, FigureError};
+use super::{Check, FigureError, Sheet};
 
 const CHECK: Check = Check("candidates");
 
@@ -35,16 +33,17 @@ pub struct Candidates<'a> {
     /// What the error is, as "NRMSE of u and v".
     pub error_label: &'a str,
     pub candidates: &'a [Candidate],
-    /// Index of the chosen one.
+    /// Index of the best one.
     pub chosen: Option<usize>,
+    /// What the best one is: "delivered", or best of something else.
+    pub chosen_label: &'a str,
 }
 
 /// Draw the figure.
 ///
 /// # Errors
-/// [`FigureError`] when there is no candidate, for a NaN, for an index beyond the candidates, and when `path` cannot be
-/// written.
-pub fn render(data: &Candidates<'_>, path: &Path) -> Result<(), FigureError> {
+/// [`FigureError`] when there is no candidate, for a NaN, for an index beyond the candidates.
+pub fn draw(data: &Candidates<'_>) -> Result<Sheet, FigureError> {
     let all = data.candidates;
     CHECK.least("candidates", all.len().min(data.chosen.map_or(usize::MAX, |i| all.len().saturating_sub(i))), 1)?;
     let frequencies: Vec<f64> = all.iter().flat_map(|c| [c.vertical_hz, c.horizontal_hz]).collect();
@@ -52,14 +51,18 @@ pub fn render(data: &Candidates<'_>, path: &Path) -> Result<(), FigureError> {
     let errors: Vec<f64> = all.iter().map(|c| c.error).collect();
     CHECK.each("error", &errors, |x| !x.is_nan())?;
 
-    let mut canvas = Canvas::new(WIDTH, 900);
+    let mut canvas = Canvas::default();
     let count = |abandoned: bool| all.iter().filter(|c| c.abandoned == abandoned).count();
     let mut entries = vec![Entry::mark(format!("run to the end ({})", count(false)), whole())];
     if count(true) > 0 {
         entries.push(Entry::mark(format!("abandoned, at its lower bound ({})", count(true)), abandoned()));
     }
     if data.chosen.is_some() {
-        entries.push(Entry::mark("chosen", chosen()));
+        entries.push(Entry::mark(data.chosen_label, chosen()));
+    }
+    let lost = errors.iter().filter(|e| e.is_infinite()).count();
+    if lost > 0 {
+        entries.push(Entry::mark(format!("no finite error ({lost}), at the upper edge"), infinite()));
     }
     let (left, right, gap) = (150.0, WIDTH as f64 - 40.0, 110.0);
     let top = legend::header(&mut canvas, data.title, &entries, left, right);
@@ -71,7 +74,7 @@ pub fn render(data: &Candidates<'_>, path: &Path) -> Result<(), FigureError> {
     for (from, to, axis, first) in
         [(left, middle - gap / 2.0, "vertical Ωₙ [Hz]", true), (middle + gap / 2.0, right, "horizontal Ωₙ [Hz]", false)]
     {
-        let panel = Panel { frame: Frame { left: from, top, right: to, bottom: 800.0 }, x, y };
+        let panel = Panel { frame: Frame { left: from, top, right: to, bottom: top + 670.0 }, x, y };
         panel.axes(&mut canvas, Some(axis), if first { data.error_label } else { "" }, 110.0);
         let hz = |c: &Candidate| if first { c.vertical_hz } else { c.horizontal_hz };
         let best = data.chosen.map(|i| all[i]);
@@ -81,6 +84,7 @@ pub fn render(data: &Candidates<'_>, path: &Path) -> Result<(), FigureError> {
         // The abandoned lie under the others.
         for (skip, mark) in [(false, abandoned()), (true, whole())] {
             for candidate in all.iter().filter(|c| c.abandoned != skip) {
+                let mark = if candidate.error.is_infinite() { infinite() } else { mark };
                 mark.draw(&mut canvas, panel.at_clamped(hz(candidate), candidate.error));
             }
         }
@@ -89,7 +93,7 @@ pub fn render(data: &Candidates<'_>, path: &Path) -> Result<(), FigureError> {
             tell(&mut canvas, &panel, hz(&best), best.error);
         }
     }
-    canvas.save(path)
+    canvas.finish(top + 770.0)
 }
 
 fn whole() -> Mark {
@@ -98,6 +102,10 @@ fn whole() -> Mark {
 
 fn abandoned() -> Mark {
     Mark::new(Shape::Disc, 7.0, PALE).hollow()
+}
+
+fn infinite() -> Mark {
+    Mark::new(Shape::Triangle, 8.0, PALE)
 }
 
 fn chosen() -> Mark {

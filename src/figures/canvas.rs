@@ -1,23 +1,36 @@
-//! A white sheet: draw on it through plotters, then write it as a PNG, whole or not at all.
+//! A white sheet: what is drawn on it is kept as plotters' elements, and becomes an SVG when its height is known.
 
-use std::cell::RefCell;
-use std::fmt::Display;
-use std::io::Write as _;
-use std::path::Path;
-use std::rc::Rc;
-
-use plotters::coord::Shift;
-use plotters::drawing::{DrawingArea, IntoDrawingArea as _};
+use plotters::drawing::IntoDrawingArea as _;
 use plotters::element::{Circle, PathElement, Polygon, Text};
 use plotters::style::text_anchor::{HPos, Pos, VPos};
 use plotters::style::{Color, FontDesc, FontFamily, FontStyle, FontTransform, RGBColor, ShapeStyle, TextStyle};
+use plotters_svg::SVGBackend;
 
 use super::FigureError;
-use super::glyph::{self, Setting};
-use super::painter::{FINE, Painter};
-use super::png;
-use super::raster::{Point, Raster};
-use super::style::{Pen, TEXT};
+use super::font::{self, CAPITAL};
+use super::plot::Plot;
+use super::sheet::Sheet;
+use super::style::{Pen, TEXT, WHITE, WIDTH};
+
+/// A point [pixel].
+pub type Point = (f64, f64);
+
+/// Units of plotters' surface in one pixel: its backends take whole numbers, which would make a flat curve jump.
+const FINE: f64 = 16.0;
+/// plotters' SVG divides the sizes of fonts by this.
+const EM: f64 = 1.24;
+/// and sets the top of a text so far above its baseline, in em.
+const ASCENT: f64 = 0.76;
+
+type Fine = (i32, i32);
+
+/// One thing drawn.
+enum Element {
+    Line(PathElement<Fine>),
+    Fill(Polygon<Fine>),
+    Disc(Circle<Fine, u32>),
+    Text(Text<'static, Fine, String>),
+}
 
 /// How a text looks and where it stands against its point.
 #[derive(Clone, Copy)]
@@ -27,7 +40,7 @@ pub struct Lettering {
     pub upwards: bool,
     pub colour: RGBColor,
     pub across: HPos,
-    /// Bottom is the baseline.
+    /// Bottom is the baseline, top the head of the capitals, centre the middle between them.
     pub along: VPos,
 }
 
@@ -55,58 +68,52 @@ impl Lettering {
 
     /// Length of a text so set [pixel].
     pub fn length(self, text: &str) -> f64 {
-        glyph::length(text, Setting { bold: self.bold, size: self.size, upwards: false })
+        font::length(text, self.size, self.bold)
+    }
+
+    /// From the point to the baseline [pixel], across the direction of reading.
+    fn drop(self) -> f64 {
+        self.size
+            * match self.along {
+                VPos::Bottom => 0.0,
+                VPos::Center => CAPITAL / 2.0,
+                VPos::Top => CAPITAL,
+            }
     }
 }
 
 /// The sheet; coordinates are pixels from the top left corner, and may be fractions.
+#[derive(Default)]
 pub struct Canvas {
-    raster: Rc<RefCell<Raster>>,
-    area: DrawingArea<Painter, Shift>,
-    /// The first thing that plotters refused; told when the picture is to be written.
-    fault: Option<String>,
+    elements: Vec<Element>,
+    plots: Vec<Plot>,
 }
 
-fn fine((x, y): Point) -> (i32, i32) {
+fn fine((x, y): Point) -> Fine {
     // Casts saturate: a point far outside stays outside.
     ((x * FINE).round() as i32, (y * FINE).round() as i32)
 }
 
+fn all_fine(points: &[Point]) -> Vec<Fine> {
+    points.iter().copied().map(fine).collect()
+}
+
 impl Canvas {
-    /// A white sheet [pixel].
-    pub fn new(width: usize, height: usize) -> Self {
-        let raster = Rc::new(RefCell::new(Raster::new(width, height)));
-        let area = Painter { raster: Rc::clone(&raster) }.into_drawing_area();
-        Self { raster, area, fault: None }
-    }
-
-    fn note<E: Display>(&mut self, drawn: Result<(), E>) {
-        if let Err(error) = drawn {
-            self.fault.get_or_insert_with(|| error.to_string());
-        }
-    }
-
     /// A polyline, full or dashed.
     pub fn line(&mut self, points: &[Point], pen: Pen) {
         let style =
             ShapeStyle { color: pen.colour, filled: false, stroke_width: (pen.width * FINE).round().max(1.0) as u32 };
-        let Some(dash) = pen.dash else {
-            let points: Vec<_> = points.iter().copied().map(fine).collect();
-            let drawn = self.area.draw(&PathElement::new(points, style));
-            return self.note(drawn);
-        };
-        for piece in dashes(points, dash) {
-            let points: Vec<_> = piece.into_iter().map(fine).collect();
-            let drawn = self.area.draw(&PathElement::new(points, style));
-            self.note(drawn);
+        let pieces = pen.dash.map_or_else(|| vec![points.to_vec()], |dash| dashes(points, dash));
+        for piece in pieces {
+            let mut points = all_fine(&piece);
+            points.dedup();
+            self.elements.push(Element::Line(PathElement::new(points, style)));
         }
     }
 
     /// A filled polygon.
     pub fn fill<C: Color>(&mut self, points: &[Point], colour: C) {
-        let points: Vec<_> = points.iter().copied().map(fine).collect();
-        let drawn = self.area.draw(&Polygon::new(points, colour.filled()));
-        self.note(drawn);
+        self.elements.push(Element::Fill(Polygon::new(all_fine(points), colour.filled())));
     }
 
     /// A filled rectangle from its left top to its right bottom corner.
@@ -116,18 +123,21 @@ impl Canvas {
 
     /// A filled circle.
     pub fn disc<C: Color>(&mut self, centre: Point, radius: f64, colour: C) {
-        let drawn = self.area.draw(&Circle::new(fine(centre), (radius * FINE).round() as u32, colour.filled()));
-        self.note(drawn);
+        self.elements.push(Element::Disc(Circle::new(fine(centre), (radius * FINE).round() as u32, colour.filled())));
     }
 
     /// A text at a point.
-    pub fn text(&mut self, at: Point, text: &str, how: Lettering) {
+    pub fn text(&mut self, (x, y): Point, text: &str, how: Lettering) {
         let face = if how.bold { FontStyle::Bold } else { FontStyle::Normal };
         let turn = if how.upwards { FontTransform::Rotate270 } else { FontTransform::None };
-        let font = FontDesc::new(FontFamily::SansSerif, how.size * FINE, face).transform(turn);
-        let style = TextStyle::from(font).color(&how.colour).pos(Pos::new(how.across, how.along));
-        let drawn = self.area.draw(&Text::new(text, fine(at), style));
-        self.note(drawn);
+        let font = FontDesc::new(FontFamily::Name(font::FAMILY), how.size * EM * FINE, face).transform(turn);
+        let (color, pos) = (how.colour.to_backend_color(), Pos::new(how.across, VPos::Top));
+        let style = TextStyle { font, color, pos };
+        let drop = how.drop() - ASCENT * how.size;
+        let at = if how.upwards { (x + drop, y) } else { (x, y + drop) };
+        // a name may hold what XML may not
+        let text: String = text.chars().map(|c| if c.is_control() || c >= '\u{fffe}' { ' ' } else { c }).collect();
+        self.elements.push(Element::Text(Text::new(text, fine(at), style)));
     }
 
     /// A text on a white ground, so that it can be read across lines.
@@ -138,48 +148,54 @@ impl Canvas {
             HPos::Center => at.0 - length / 2.0,
             HPos::Right => at.0 - length,
         };
-        let foot = match how.along {
-            VPos::Bottom => at.1,
-            VPos::Center => at.1 + how.size * glyph::CAPITAL / 2.0,
-            VPos::Top => at.1 + how.size * glyph::CAPITAL,
-        };
-        let head = foot - how.size * glyph::CAPITAL;
-        self.block((left - pad, head - pad), (left + length + pad, foot + pad), super::style::WHITE.mix(0.85));
+        let foot = at.1 + how.drop();
+        let head = foot - how.size * CAPITAL;
+        self.block((left - pad, head - pad), (left + length + pad, foot + pad), WHITE.mix(0.85));
         self.text(at, text, how);
     }
 
-    /// Write the PNG: into a temporary file beside `path` first, then under its name.
+    /// Keep the numbers of a panel, for a page that zooms.
+    pub fn keep(&mut self, plot: Plot) {
+        self.plots.push(plot);
+    }
+
+    /// The picture, as high as is said [pixel].
     ///
     /// # Errors
-    /// [`FigureError::Write`] when the folder is missing or may not be written to; nothing is left behind then.
-    pub fn save(self, path: &Path) -> Result<(), FigureError> {
-        if let Some(reason) = self.fault {
-            return Err(FigureError::Draw { path: path.into(), reason });
-        }
-        let raster = self.raster.borrow();
-        let (width, height) = raster.size();
-        let write = |bytes: Vec<u8>| write(path, &bytes);
-        png::encode(raster.rgb(), width as u32, height as u32)
-            .and_then(write)
-            .map_err(|source| FigureError::Write { path: path.into(), source })
+    /// [`FigureError::Draw`] for what plotters refuses.
+    pub fn finish(self, height: f64) -> Result<Sheet, FigureError> {
+        let (width, height) = (WIDTH as u32, height.round() as u32);
+        let mut svg = String::new();
+        write(&mut svg, (width, height), &self.elements).map_err(|reason| FigureError::Draw { reason })?;
+        // plotters' head says the size of its surface, and nothing of joins: an impact would be a spike
+        let body = svg.split_once('>').map_or("", |(_, body)| body);
+        let head = format!(
+            "<svg xmlns=\"http://www.w3.org/2000/svg\" width=\"{width}\" height=\"{height}\" viewBox=\"0 0 {} {}\" \
+             stroke-linejoin=\"round\" stroke-linecap=\"round\">",
+            width * FINE as u32,
+            height * FINE as u32
+        );
+        Ok(Sheet { svg: head + body, width, height, plots: self.plots })
     }
 }
 
-/// Put the bytes under the name at once.
-fn write(path: &Path, bytes: &[u8]) -> std::io::Result<()> {
-    let folder = match path.parent() {
-        Some(folder) if !folder.as_os_str().is_empty() => folder,
-        _ => Path::new("."),
-    };
-    let mut builder = tempfile::Builder::new();
-    builder.prefix(".figure");
-    // A temporary file is private by default; a picture is for everyone whom the user's mask admits.
-    #[cfg(unix)]
-    builder.permissions(std::os::unix::fs::PermissionsExt::from_mode(0o666));
-    let mut file = builder.tempfile_in(folder)?;
-    file.write_all(bytes)?;
-    file.persist(path)?;
-    Ok(())
+/// Everything, on white, as plotters writes it.
+fn write(svg: &mut String, (width, height): (u32, u32), elements: &[Element]) -> Result<(), String> {
+    let size = (width * FINE as u32, height * FINE as u32);
+    let area = SVGBackend::with_string(svg, size).into_drawing_area();
+    let ground = all_fine(&[(0.0, 0.0), (f64::from(width), 0.0), (f64::from(width), f64::from(height))]);
+    let ground = Polygon::new([ground, vec![fine((0.0, f64::from(height)))]].concat(), WHITE.filled());
+    area.draw(&ground).map_err(|e| e.to_string())?;
+    for element in elements {
+        match element {
+            Element::Line(line) => area.draw(line),
+            Element::Fill(polygon) => area.draw(polygon),
+            Element::Disc(circle) => area.draw(circle),
+            Element::Text(text) => area.draw(text),
+        }
+        .map_err(|e| e.to_string())?;
+    }
+    area.present().map_err(|e| e.to_string())
 }
 
 /// The drawn pieces of a polyline.
@@ -234,27 +250,11 @@ mod tests {
     }
 
     #[test]
-    fn a_saved_sheet_reads_back_as_it_was_drawn() {
-        let folder = tempfile::tempdir().unwrap();
-        let path = folder.path().join("sheet.png");
-        let mut canvas = Canvas::new(64, 48);
-        canvas.block((10.0, 10.0), (20.0, 20.0), RGBColor(0, 114, 178));
-        canvas.save(&path).unwrap();
-        let picture = image::open(&path).unwrap().to_rgb8();
-        assert_eq!(picture.dimensions(), (64, 48));
-        assert_eq!(picture.get_pixel(15, 15).0, [0, 114, 178]);
-        assert_eq!(picture.get_pixel(25, 15).0, [255, 255, 255]);
-    }
-
-    #[test]
-    fn nothing_is_left_behind_when_the_file_cannot_be_written() {
-        let folder = tempfile::tempdir().unwrap();
-        let missing = folder.path().join("missing").join("sheet.png");
-        assert!(matches!(Canvas::new(8, 8).save(&missing), Err(FigureError::Write { .. })));
-        // The name is taken by a folder: the rename fails after the bytes were written.
-        let taken = folder.path().join("taken.png");
-        std::fs::create_dir(&taken).unwrap();
-        assert!(matches!(Canvas::new(8, 8).save(&taken), Err(FigureError::Write { .. })));
-        assert_eq!(std::fs::read_dir(folder.path()).unwrap().count(), 1);
+    fn letters_that_xml_knows_or_refuses_do_no_harm() {
+        let mut canvas = Canvas::default();
+        canvas.text((10.0, 40.0), "a < b & \"c\" \u{1}\u{ffff}", Lettering::new(20.0));
+        let sheet = canvas.finish(80.0).unwrap();
+        assert!(sheet.svg.contains("a &lt; b &amp; &quot;c&quot;   \n"), "{}", sheet.svg);
+        assert!(sheet.png().is_ok());
     }
 }

@@ -1,13 +1,11 @@
 //! The chart of the design from the geometry: what to read off for a slenderness and an Omega_n/p.
 
-use std::path::Path;
-
 use super::canvas::Canvas;
 use super::legend::{self, Entry};
 use super::panel::{Frame, Panel};
 use super::scale::Scale;
 use super::style::{self, BLACK, Pen, WIDTH};
-use super::{Check, FigureError};
+use super::{Check, FigureError, Sheet};
 
 const CHECK: Check = Check("chart");
 
@@ -41,8 +39,8 @@ const GAP: f64 = 40.0;
 /// Draw the figure.
 ///
 /// # Errors
-/// [`FigureError`] for an empty or not finite slice or slices of different lengths, and when `path` cannot be written.
-pub fn render(data: &Chart<'_>, path: &Path) -> Result<(), FigureError> {
+/// [`FigureError`] for an empty or not finite slice or slices of different lengths.
+pub fn draw(data: &Chart<'_>) -> Result<Sheet, FigureError> {
     CHECK.least("curves", data.curves.len(), 1)?;
     for curve in data.curves {
         let name = format!("omega_n_over_p at alpha {}", curve.alpha);
@@ -62,7 +60,7 @@ pub fn render(data: &Chart<'_>, path: &Path) -> Result<(), FigureError> {
         let pen = Pen::new(style::series(alphas.iter().position(|a| *a == curve.alpha).unwrap_or(0)), 3.0);
         if curve.dashed { pen.dashed() } else { pen }
     };
-    let mut canvas = Canvas::new(WIDTH, 1850);
+    let mut canvas = Canvas::default();
     let mut entries: Vec<Entry> = alphas
         .iter()
         .enumerate()
@@ -82,5 +80,5 @@ pub fn render(data: &Chart<'_>, path: &Path) -> Result<(), FigureError> {
             panel.curve(&mut canvas, curve.omega_n_over_p, curve.values[k], pen(curve));
         }
     }
-    canvas.save(path)
+    canvas.finish(top + 4.0 * (HEIGHT + GAP) + 80.0)
 }

@@ -1,7 +1,5 @@
 //! The front: error against Omega_n, of one way to design springs beside others; below, what stiffness costs.
 
-use std::path::Path;
-
 use plotters::style::text_anchor::{HPos, VPos};
 
 use super::canvas::{Canvas, Lettering};
@@ -10,7 +8,7 @@ use super::mark::{self, Mark};
 use super::panel::{Frame, Panel};
 use super::scale::Scale;
 use super::style::{self, BLACK, GREY, NUMBER, Pen, TEXT, WIDTH};
-use super::{Check, FigureError};
+use super::{Check, FigureError, Sheet};
 
 const CHECK: Check = Check("front");
 
@@ -38,21 +36,21 @@ pub struct Front<'a> {
     pub title: &'a str,
     pub error_label: &'a str,
     pub series: &'a [Series<'a>],
-    /// Omega_n that was chosen [Hz].
+    /// Omega_n of the springs that were delivered [Hz].
     pub chosen_hz: f64,
     /// Accuracy that was asked for.
     pub accuracy: f64,
     /// Each in a panel of its own, side by side.
     pub costs: [Cost<'a>; 2],
-    /// A remark below.
-    pub note: &'a str,
+    /// Remarks below, a line each.
+    pub notes: &'a [String],
 }
 
 /// Draw the figure.
 ///
 /// # Errors
-/// [`FigureError`] for an empty or not finite slice or slices of different lengths, and when `path` cannot be written.
-pub fn render(data: &Front<'_>, path: &Path) -> Result<(), FigureError> {
+/// [`FigureError`] for an empty or not finite slice or slices of different lengths.
+pub fn draw(data: &Front<'_>) -> Result<Sheet, FigureError> {
     CHECK.least("series", data.series.len(), 1)?;
     let columns = data.series.iter().map(|s| (s.label, s.omega_n_hz, s.error));
     for (label, hz, value) in columns.chain(data.costs.iter().map(|c| (c.label, c.omega_n_hz, c.value))) {
@@ -62,17 +60,17 @@ pub fn render(data: &Front<'_>, path: &Path) -> Result<(), FigureError> {
     }
     CHECK.finite("chosen_hz and accuracy", &[data.chosen_hz, data.accuracy])?;
 
-    let mut canvas = Canvas::new(WIDTH, 1400);
+    let mut canvas = Canvas::default();
     let mut entries: Vec<Entry> =
         data.series.iter().enumerate().map(|(i, s)| Entry::both(s.label, solid(i), dot(i))).collect();
-    entries.push(Entry::line("chosen", upright()));
+    entries.push(Entry::line("delivered", upright()));
     entries.push(Entry::line("accuracy asked for", level()));
     let (left, right) = (150.0, WIDTH as f64 - 40.0);
     let top = legend::header(&mut canvas, data.title, &entries, left, right);
     let frequencies = data.series.iter().flat_map(|s| s.omega_n_hz).copied().chain([data.chosen_hz]);
     let x = Scale::log_around(frequencies, 4.0);
     let y = Scale::log_around(data.series.iter().flat_map(|s| s.error).copied().chain([data.accuracy]), 10.0);
-    let panel = Panel { frame: Frame { left, top, right, bottom: 850.0 }, x, y };
+    let panel = Panel { frame: Frame { left, top, right, bottom: top + 680.0 }, x, y };
     panel.axes(&mut canvas, Some("Ωₙ of the vertical springs [Hz]"), data.error_label, 110.0);
     guide(&mut canvas, &panel, data);
     panel.upright(&mut canvas, data.chosen_hz, upright());
@@ -87,7 +85,7 @@ pub fn render(data: &Front<'_>, path: &Path) -> Result<(), FigureError> {
     let (middle, gap) = (0.5 * (left + right), 140.0);
     for (cost, (from, to)) in data.costs.iter().zip([(left, middle - 0.5 * gap), (middle + 0.5 * gap, right)]) {
         let y = Scale::log_around(cost.value.iter().copied(), 4.0);
-        let panel = Panel { frame: Frame { left: from, top: 985.0, right: to, bottom: 1260.0 }, x, y };
+        let panel = Panel { frame: Frame { left: from, top: top + 815.0, right: to, bottom: top + 1090.0 }, x, y };
         panel.axes(&mut canvas, Some("Ωₙ [Hz]"), cost.label, 110.0);
         panel.upright(&mut canvas, data.chosen_hz, upright());
         panel.curve(&mut canvas, cost.omega_n_hz, cost.value, solid(0));
@@ -95,8 +93,12 @@ pub fn render(data: &Front<'_>, path: &Path) -> Result<(), FigureError> {
             dot(0).draw(&mut canvas, panel.at_clamped(hz, value));
         }
     }
-    canvas.text((left, 1380.0), data.note, Lettering::new(NUMBER).colour(TEXT).at(HPos::Left, VPos::Bottom));
-    canvas.save(path)
+    let mut below = top + 1210.0;
+    for note in data.notes {
+        canvas.text((left, below), note, Lettering::new(NUMBER).colour(TEXT).at(HPos::Left, VPos::Bottom));
+        below += 36.0;
+    }
+    canvas.finish(below)
 }
 
 fn upright() -> Pen {

@@ -1,27 +1,37 @@
 //! Displacement of the centre of mass against time: finite element against Housner, the paper's Figure 4.
 
-use std::path::Path;
-
 use plotters::style::RGBColor;
 use plotters::style::text_anchor::{HPos, VPos};
 
 use super::canvas::{Canvas, Lettering};
 use super::legend::{self, Entry};
 use super::mark::{Mark, Shape};
-use super::number::short;
-use super::panel::{Frame, Panel};
+use super::number::{prefix, short};
+use super::panel::{Frame, Panel, ROW};
+use super::plot::{self, Event};
 use super::scale::Scale;
 use super::style::{self, BLACK, NUMBER, Pen, WIDTH};
-use super::{Check, FigureError};
+use super::{Check, FigureError, Sheet};
 
 const CHECK: Check = Check("history");
 const LEFT: f64 = 150.0;
 const RIGHT: f64 = WIDTH as f64 - 40.0;
 const GUTTER: f64 = 112.0;
-const MILLI: f64 = 1e3;
+/// Displacements from here on are in millimetres, smaller ones in what suits them [m].
+const MILLIMETRES: f64 = 1e-4;
+/// No displacement is shown larger than at this scale [m].
+const NOTHING: f64 = 1e-9;
+/// An extreme so much smaller than what the panel shows is none.
+const NOUGHT: f64 = 0.01;
+/// Impacts nearer to each other than this are strokes: triangles would be a smear [pixel].
+const CROWDED: f64 = 15.0;
+/// A peak so much smaller than another model's is not told beside it.
+const SMALL: f64 = 0.5;
+/// How far beyond what stands a fall is shown.
+const FALL: f64 = 0.6;
 
 /// One model's history at the samples; it may end before the time axis does.
-#[derive(Clone, Copy, Debug)]
+#[derive(Clone, Copy, Debug, Default)]
 pub struct Trace<'a> {
     /// Its name in the legend.
     pub label: &'a str,
@@ -31,6 +41,15 @@ pub struct Trace<'a> {
     pub v: &'a [f64],
     /// Times of impact [s]; empty when they are not known.
     pub impacts: &'a [f64],
+    /// When it overturned or ended; what follows is a fall, and shown in part.
+    pub end: Option<Event<'a>>,
+}
+
+impl Trace<'_> {
+    /// How many of its samples come before its end.
+    fn standing(&self, t: &[f64]) -> usize {
+        self.end.map_or(self.u.len(), |end| t.partition_point(|t| *t <= end.time)).min(self.u.len())
+    }
 }
 
 /// What the figure shows.
@@ -47,18 +66,42 @@ pub struct History<'a> {
     pub differences: bool,
 }
 
+/// A trace and how it is drawn.
+type Drawn<'a> = (Trace<'a>, Pen);
+
 /// Draw the figure.
 ///
 /// # Errors
-/// [`FigureError`] for an empty or not finite slice, for a history longer than the time axis, and when `path` cannot be
-/// written.
-pub fn render(data: &History<'_>, path: &Path) -> Result<(), FigureError> {
-    CHECK.least("t", data.t.len(), 2)?;
-    CHECK.finite("t", data.t)?;
-    let traces: Vec<(Trace<'_>, Pen)> = std::iter::once((data.reference, Pen::new(BLACK, 5.0)))
+/// [`FigureError`] for an empty or not finite slice, and for a history longer than the time axis.
+pub fn draw(data: &History<'_>) -> Result<Sheet, FigureError> {
+    check(data)?;
+    let traces: Vec<Drawn> = std::iter::once((data.reference, Pen::new(BLACK, 5.0)))
         .chain(data.others.iter().enumerate().map(|(i, trace)| (*trace, pen(i))))
         .collect();
-    for (trace, _) in &traces {
+    let mut canvas = Canvas::default();
+    let mut entries: Vec<Entry> = traces.iter().map(|(trace, pen)| Entry::line(trace.label, *pen)).collect();
+    if traces.iter().any(|(trace, _)| !trace.impacts.is_empty()) {
+        entries.push(Entry::mark("impact", impact(BLACK)));
+    }
+    let top = legend::header(&mut canvas, data.title, &entries, LEFT, RIGHT);
+    let x = Scale::linear(data.t[0], data.t[data.t.len() - 1]);
+    let frame = Frame { left: LEFT, top, right: RIGHT, bottom: top + 560.0 };
+    horizontal(&mut canvas, data.t, &traces, x, frame);
+    let frame = Frame { top: frame.bottom + 34.0, bottom: frame.bottom + 350.0, ..frame };
+    vertical(&mut canvas, data.t, &traces, x, frame, !data.differences);
+    let mut bottom = frame.bottom;
+    if data.differences {
+        let frame = Frame { top: bottom + 34.0, bottom: bottom + 330.0, ..frame };
+        differences(&mut canvas, data, x, frame);
+        bottom = frame.bottom;
+    }
+    canvas.finish(bottom + 100.0)
+}
+
+fn check(data: &History<'_>) -> Result<(), FigureError> {
+    CHECK.least("t", data.t.len(), 2)?;
+    CHECK.finite("t", data.t)?;
+    for trace in std::iter::once(&data.reference).chain(data.others) {
         CHECK.least(trace.label, trace.u.len(), 1)?;
         if trace.u.len() > data.t.len() {
             let what = format!("u of {}", trace.label);
@@ -68,24 +111,7 @@ pub fn render(data: &History<'_>, path: &Path) -> Result<(), FigureError> {
         CHECK.column(&format!("v of {}", trace.label), trace.v, trace.u.len())?;
         CHECK.finite(&format!("impacts of {}", trace.label), trace.impacts)?;
     }
-
-    let extra = if data.differences { 330.0 } else { 0.0 };
-    let mut canvas = Canvas::new(WIDTH, 1130 + extra as usize);
-    let mut entries: Vec<Entry> = traces.iter().map(|(trace, pen)| Entry::line(trace.label, *pen)).collect();
-    if traces.iter().any(|(trace, _)| !trace.impacts.is_empty()) {
-        entries.push(Entry::mark("impact", impact(BLACK)));
-    }
-    let top = legend::header(&mut canvas, data.title, &entries, LEFT, RIGHT);
-    let x = Scale::linear(data.t[0], data.t[data.t.len() - 1]);
-    let middle = top + 560.0;
-    horizontal(&mut canvas, data.t, &traces, x, Frame { left: LEFT, top, right: RIGHT, bottom: middle });
-    let frame = Frame { left: LEFT, top: middle + 34.0, right: RIGHT, bottom: 1030.0 };
-    vertical(&mut canvas, data.t, &traces, x, frame, !data.differences);
-    if data.differences {
-        let frame = Frame { left: LEFT, top: 1064.0, right: RIGHT, bottom: 1030.0 + extra };
-        differences(&mut canvas, data, x, frame);
-    }
-    canvas.save(path)
+    Ok(())
 }
 
 /// Thinner than the reference, which shows as a dark rim where both agree.
@@ -98,93 +124,147 @@ fn impact(colour: RGBColor) -> Mark {
     Mark::new(Shape::Triangle, 8.0, colour)
 }
 
-fn millimetres(values: &[f64]) -> Vec<f64> {
-    values.iter().map(|x| x * MILLI).collect()
+/// A unit of length [m], and its name.
+fn unit((low, high): (f64, f64)) -> (f64, String) {
+    let size = high.max(-low);
+    if size == 0.0 || size >= MILLIMETRES {
+        return (1e-3, "mm".into());
+    }
+    let (unit, letter) = prefix(size);
+    (unit, format!("{letter}m"))
 }
 
-fn bounds<'a>(values: impl IntoIterator<Item = &'a [f64]>) -> (f64, f64) {
-    values.into_iter().flatten().fold((0.0, 0.0), |(low, high), &x| (x.min(low), x.max(high)))
+/// The range of one quantity [m]: of what stands, and as much of a fall as leaves that legible.
+fn bounds<'a>(t: &[f64], traces: &[Drawn<'a>], of: fn(&Trace<'a>) -> &'a [f64]) -> (f64, f64) {
+    let range = |all: bool| {
+        let values = traces.iter().flat_map(|(trace, _)| {
+            let n = if all { trace.u.len() } else { trace.standing(t) };
+            of(trace)[..n].iter()
+        });
+        values.fold((0.0_f64, 0.0_f64), |(low, high), &x| (low.min(x), high.max(x)))
+    };
+    let ((low, mut high), (least, mut most)) = (range(false), range(true));
+    // what is smaller is rounding, and not to be magnified
+    if high > low && high - low < NOTHING {
+        (high, most) = (low + NOTHING, most.max(low + NOTHING));
+    }
+    let room = FALL * (high - low).max(f64::MIN_POSITIVE);
+    (least.max(low - room), most.min(high + room))
 }
 
-fn horizontal(canvas: &mut Canvas, t: &[f64], traces: &[(Trace<'_>, Pen)], x: Scale, frame: Frame) {
-    let (low, high) = bounds(traces.iter().map(|(trace, _)| trace.u));
-    let size = (high - low) * MILLI;
-    // Room for the numbers of the peaks, and below for the rows of impacts.
+/// The curves of one quantity, and where they end.
+fn curves<'a>(
+    canvas: &mut Canvas,
+    panel: &Panel,
+    label: &str,
+    t: &[f64],
+    traces: &[Drawn<'a>],
+    (of, unit): (fn(&Trace<'a>) -> &'a [f64], f64),
+    told: bool,
+) -> plot::Plot {
+    panel.level(canvas, 0.0, Pen::new(style::AXIS, 1.5));
+    let values: Vec<Vec<f64>> = traces.iter().map(|(trace, _)| of(trace).iter().map(|x| x / unit).collect()).collect();
+    let named: Vec<(&str, &[f64], Pen)> =
+        traces.iter().zip(&values).map(|((trace, pen), values)| (trace.label, values.as_slice(), *pen)).collect();
+    let mut plot = panel.history(canvas, label, t, &named);
+    let ends: Vec<(Event, Pen)> =
+        traces.iter().filter_map(|(trace, pen)| Some((trace.end?, Pen { width: 2.4, ..pen.dashed() }))).collect();
+    panel.events(canvas, &mut plot, &ends, told);
+    plot
+}
+
+fn horizontal(canvas: &mut Canvas, t: &[f64], traces: &[Drawn<'_>], x: Scale, frame: Frame) {
+    let (low, high) = bounds(t, traces, |trace| trace.u);
+    let (unit, name) = unit((low, high));
+    let (low, high, label) = (low / unit, high / unit, format!("horizontal, u [{name}]"));
+    let size = high - low;
+    // Room for the numbers of the peaks and the words about ends, and below for the rows of impacts [pixel].
     let rows = traces.iter().filter(|(trace, _)| !trace.impacts.is_empty()).count() as f64;
-    let y = Scale::linear(low * MILLI - size * (0.13 + 0.05 * rows), high * MILLI + 0.13 * size);
-    let panel = Panel { frame, x, y };
-    panel.axes(canvas, None, "horizontal, u [mm]", GUTTER);
-    panel.level(canvas, 0.0, Pen::new(style::AXIS, 1.5));
-    for (trace, pen) in traces {
-        panel.curve(canvas, t, &millimetres(trace.u), *pen);
-    }
-    peak(canvas, &panel, t, traces, |trace| trace.u, 1.0);
-    peak(canvas, &panel, t, traces, |trace| trace.u, -1.0);
-    let mut row = 0.0;
-    for (trace, pen) in traces.iter().rev().filter(|(trace, _)| !trace.impacts.is_empty()) {
-        let colour = RGBColor(pen.colour.0, pen.colour.1, pen.colour.2);
-        for &time in trace.impacts.iter().filter(|time| **time >= x.low && **time <= x.high) {
-            let at = panel.at(time, y.low);
-            impact(colour).draw(canvas, (at.0, frame.bottom - 13.0 - 25.0 * row));
+    let ends = traces.iter().filter(|(trace, _)| trace.end.is_some()).count() as f64;
+    let (above, below) = (52.0 + ROW * ends, 52.0 + 25.0 * rows);
+    let pixel = size / (frame.bottom - frame.top - above - below);
+    let panel = Panel { frame, x, y: Scale::linear(low - below * pixel, high + above * pixel) };
+    panel.axes(canvas, None, &label, GUTTER);
+    let mut plot = curves(canvas, &panel, &label, t, traces, (|trace| trace.u, unit), true);
+    peak(canvas, &panel, t, traces, (|trace| trace.u, unit), 1.0);
+    peak(canvas, &panel, t, traces, (|trace| trace.u, unit), -1.0);
+    let impacting = traces.iter().rev().filter(|(trace, _)| !trace.impacts.is_empty());
+    for (row, (trace, pen)) in impacting.enumerate() {
+        let times: Vec<f64> = trace.impacts.iter().copied().filter(|t| (x.low..=x.high).contains(t)).collect();
+        let crowded = |pair: &[f64]| (panel.at(pair[1], 0.0).0 - panel.at(pair[0], 0.0).0) < CROWDED;
+        for (i, &time) in times.iter().enumerate() {
+            let at = (panel.at(time, panel.y.low).0, frame.bottom - 13.0 - 25.0 * row as f64);
+            let near = times[i.saturating_sub(1)..(i + 2).min(times.len())].windows(2).any(crowded);
+            if near {
+                canvas.line(&[(at.0, at.1 - 9.0), (at.0, at.1 + 6.0)], Pen { width: 2.0, ..*pen }.full());
+            } else {
+                impact(pen.rgb()).draw(canvas, at);
+            }
+            plot.marks.push(plot::Mark { time, row, colour: pen.hex() });
         }
-        row += 1.0;
     }
+    canvas.keep(plot);
 }
 
-fn vertical(canvas: &mut Canvas, t: &[f64], traces: &[(Trace<'_>, Pen)], x: Scale, frame: Frame, last: bool) {
-    let (low, high) = bounds(traces.iter().map(|(trace, _)| trace.v));
-    let size = (high - low) * MILLI;
-    let panel = Panel { frame, x, y: Scale::linear(low * MILLI - 0.05 * size, high * MILLI + 0.22 * size) };
-    panel.axes(canvas, if last { Some("time [s]") } else { None }, "vertical, v [mm]", GUTTER);
-    panel.level(canvas, 0.0, Pen::new(style::AXIS, 1.5));
-    for (trace, pen) in traces {
-        panel.curve(canvas, t, &millimetres(trace.v), *pen);
-    }
-    peak(canvas, &panel, t, traces, |trace| trace.v, 1.0);
+fn vertical(canvas: &mut Canvas, t: &[f64], traces: &[Drawn<'_>], x: Scale, frame: Frame, last: bool) {
+    let (low, high) = bounds(t, traces, |trace| trace.v);
+    let (unit, name) = unit((low, high));
+    let (low, high, label) = (low / unit, high / unit, format!("vertical, v [{name}]"));
+    let size = high - low;
+    let panel = Panel { frame, x, y: Scale::linear(low - 0.05 * size, high + 0.22 * size) };
+    panel.axes(canvas, if last { Some("time [s]") } else { None }, &label, GUTTER);
+    let plot = curves(canvas, &panel, &label, t, traces, (|trace| trace.v, unit), false);
+    peak(canvas, &panel, t, traces, (|trace| trace.v, unit), 1.0);
+    canvas.keep(plot);
 }
 
 fn differences(canvas: &mut Canvas, data: &History<'_>, x: Scale, frame: Frame) {
     let differences: Vec<Vec<f64>> = data
         .others
         .iter()
-        .map(|other| other.u.iter().zip(data.reference.u).map(|(a, b)| (a - b) * MILLI).collect())
+        .map(|other| other.u.iter().zip(data.reference.u).map(|(a, b)| (a - b) / 1e-3).collect())
         .collect();
-    let (low, high) = bounds(differences.iter().map(Vec::as_slice));
+    let all = differences.iter().flatten();
+    let (low, high) = all.fold((0.0_f64, 0.0_f64), |(low, high), &x| (low.min(x), high.max(x)));
     let size = high - low;
     let panel = Panel { frame, x, y: Scale::linear(low - 0.08 * size, high + 0.08 * size) };
-    panel.axes(canvas, Some("time [s]"), &format!("Δu to {} [mm]", data.reference.label), GUTTER);
+    let label = format!("Δu to {} [mm]", data.reference.label);
+    panel.axes(canvas, Some("time [s]"), &label, GUTTER);
     panel.level(canvas, 0.0, Pen::new(style::AXIS, 1.5));
-    for (i, difference) in differences.iter().enumerate() {
-        panel.curve(canvas, data.t, difference, pen(i));
-    }
+    let named: Vec<(&str, &[f64], Pen)> =
+        data.others.iter().zip(&differences).enumerate().map(|(i, (o, d))| (o.label, d.as_slice(), pen(i))).collect();
+    let plot = panel.history(canvas, &label, data.t, &named);
+    canvas.keep(plot);
 }
 
-/// Mark every model's extreme on one side, and tell them in one line beyond the outermost, where no curve can be.
+/// Mark every model's extreme on one side, and tell them in one line beyond the outermost, where no curve can be. What only a fall
+/// reaches is no peak.
 fn peak<'a>(
     canvas: &mut Canvas,
     panel: &Panel,
     t: &[f64],
-    traces: &[(Trace<'a>, Pen)],
-    of: fn(&Trace<'a>) -> &'a [f64],
+    traces: &[Drawn<'a>],
+    (of, unit): (fn(&Trace<'a>) -> &'a [f64], f64),
     side: f64,
 ) {
-    let mut told: Vec<(String, RGBColor)> = Vec::new();
-    let mut outermost: Option<(f64, f64)> = None;
-    for (trace, pen) in traces {
-        let colour = RGBColor(pen.colour.0, pen.colour.1, pen.colour.2);
-        let values = of(trace);
+    let least = NOUGHT * (panel.y.high - panel.y.low);
+    let peak_of = |(trace, pen): &Drawn<'a>| {
+        let standing = trace.standing(t);
+        let values = &of(trace)[..standing];
         let best = (0..values.len()).fold(0, |best, i| if values[i] * side > values[best] * side { i } else { best });
-        let value = values[best] * MILLI;
-        if value * side <= 0.0 {
-            continue;
-        }
-        if outermost.is_none_or(|(_, outer)| value * side > outer * side) {
-            outermost = Some((t[best], value));
-        }
-        Mark::new(Shape::Disc, if told.is_empty() { 8.0 } else { 5.0 }, colour).draw(canvas, panel.at(t[best], value));
-        told.push((short(value, if value.abs() < 100.0 { 3 } else { 4 }), colour));
+        let value = values.get(best).map_or(0.0, |x| x / unit);
+        let falls = trace.end.is_some() && best + 2 >= standing;
+        (value * side > least && !falls).then(|| (t[best], value, pen.rgb()))
+    };
+    let peaks: Vec<(f64, f64, RGBColor)> = traces.iter().filter_map(peak_of).collect();
+    let further = |a: &&(f64, f64, RGBColor), b: &&(f64, f64, RGBColor)| a.1.abs().total_cmp(&b.1.abs());
+    let Some(&(time, value, _)) = peaks.iter().max_by(further) else { return };
+    let mut told: Vec<(String, RGBColor)> = Vec::new();
+    for &(time, own, colour) in peaks.iter().filter(|peak| peak.1.abs() >= SMALL * value.abs()) {
+        let radius = if told.is_empty() { 8.0 } else { 5.0 };
+        Mark::new(Shape::Disc, radius, colour).draw(canvas, panel.at(time, own));
+        told.push((short(own, if own.abs() < 100.0 { 3 } else { 4 }), colour));
     }
-    let Some((time, value)) = outermost else { return };
     let lettering = Lettering::new(NUMBER).bold();
     let gap = 16.0;
     let length: f64 = told.iter().map(|(text, _)| lettering.length(text) + gap).sum::<f64>() - gap;

@@ -5,8 +5,10 @@ use plotters::style::text_anchor::{HPos, VPos};
 
 use super::canvas::{Canvas, Lettering};
 use super::mark::Mark;
-use super::style::{LABEL, Pen, TITLE};
+use super::style::{LABEL, NUMBER, Pen, TITLE};
 
+/// Size below which no line of a title is set [pixel].
+const SMALLEST: f64 = 19.0;
 /// Length of a sample of line [pixel].
 const SAMPLE: f64 = 64.0;
 
@@ -80,17 +82,19 @@ pub fn header(canvas: &mut Canvas, title: &str, entries: &[Entry], left: f64, ri
     if entries.is_empty() { below } else { y + 36.0 }
 }
 
-/// A title between `left` and `right` in a figure whose upper edge is at `y`; its height [pixel].
+/// A title between `left` and `right` in a figure whose upper edge is at `y`, remarks below its first line; their height [pixel].
 pub fn title(canvas: &mut Canvas, title: &str, (left, right): (f64, f64), y: f64) -> f64 {
-    let mut size = TITLE;
-    let mut lettering = Lettering::new(size).bold();
-    // A long title is set smaller rather than cut, but never below the size of the numbers.
-    while lettering.length(title) > right - left && size > super::style::NUMBER {
-        size -= 1.0;
-        lettering = Lettering::new(size).bold();
+    let mut below = 52.0;
+    for (i, line) in title.lines().enumerate() {
+        let mut how = if i == 0 { Lettering::new(TITLE).bold() } else { Lettering::new(NUMBER) };
+        // A long line is set smaller rather than cut, as far as it can be read.
+        while how.length(line) > right - left && how.size > SMALLEST {
+            how.size -= 1.0;
+        }
+        below += if i == 0 { 0.0 } else { 37.0 };
+        canvas.text((left, y + below), line, how.at(HPos::Left, VPos::Bottom));
     }
-    canvas.text((left, y + 52.0), title, lettering.at(HPos::Left, VPos::Bottom));
-    84.0
+    below + 32.0
 }
 
 /// The legend in one column; its left end and the middle of its first row at the point.

@@ -2,8 +2,7 @@
 
 use plotters::style::RGBColor;
 
-use super::canvas::Canvas;
-use super::raster::Point;
+use super::canvas::{Canvas, Point};
 use super::style::WHITE;
 
 /// A mark's shape.

@@ -2,10 +2,14 @@
 
 use plotters::style::text_anchor::{HPos, VPos};
 
-use super::canvas::{Canvas, Lettering};
-use super::raster::Point;
+use super::canvas::{Canvas, Lettering, Point};
+use super::plot::{Event, Plot};
 use super::scale::Scale;
-use super::style::{AXIS, GRID, LABEL, NUMBER, Pen};
+use super::style::{AXIS, GREY, GRID, LABEL, NUMBER, Pen};
+
+/// Height of a row of words about an event, and size of a remark [pixel].
+pub const ROW: f64 = 36.0;
+const REMARK: f64 = 23.0;
 
 /// Where a panel stands on the sheet [pixel].
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -86,9 +90,44 @@ impl Panel {
     /// A curve through the pairs of values, cut at the frame; the shorter of the two slices counts.
     pub fn curve(&self, canvas: &mut Canvas, xs: &[f64], ys: &[f64], pen: Pen) {
         let points: Vec<Point> = xs.iter().zip(ys).map(|(&x, &y)| self.at(x, y)).collect();
-        for piece in clip(&thin(&points), self.frame) {
+        for piece in
+            points.split(|p| !(p.0.is_finite() && p.1.is_finite())).flat_map(|run| clip(&thin(run), self.frame))
+        {
             canvas.line(&piece, pen);
         }
+    }
+
+    /// Curves over time, each with its name, and their numbers for a page that zooms; `label` is that of the axis.
+    pub fn history(&self, canvas: &mut Canvas, label: &str, t: &[f64], curves: &[(&str, &[f64], Pen)]) -> Plot {
+        for (_, values, pen) in curves {
+            match values {
+                [constant] => self.level(canvas, *constant, *pen),
+                _ => self.curve(canvas, t, values, *pen),
+            }
+        }
+        Plot::new(self, label, t, curves)
+    }
+
+    /// Times at which something ends: a line each, and its words at the top of the panel if they are wanted.
+    pub fn events(&self, canvas: &mut Canvas, plot: &mut Plot, events: &[(Event<'_>, Pen)], told: bool) {
+        for (i, (event, pen)) in events.iter().enumerate() {
+            self.upright(canvas, event.time, *pen);
+            plot.events.push((event.time, event.text.into()));
+            if !told {
+                continue;
+            }
+            let how = Lettering::new(NUMBER).bold().colour(pen.rgb());
+            let (x, length) = (self.at(event.time, self.y.low).0, how.length(event.text));
+            let left = x - 14.0 - length > self.frame.left + 10.0;
+            let (x, across) = if left { (x - 14.0, HPos::Right) } else { (x + 14.0, HPos::Left) };
+            canvas.label((x, self.frame.top + 12.0 + ROW * i as f64), event.text, how.at(across, VPos::Top));
+        }
+    }
+
+    /// A remark above the panel's upper right corner.
+    pub fn remark(&self, canvas: &mut Canvas, text: &str) {
+        let at = (self.frame.right, self.frame.top - 8.0);
+        canvas.text(at, text, Lettering::new(REMARK).colour(GREY).at(HPos::Right, VPos::Bottom));
     }
 
     /// A straight line from edge to edge at a height.

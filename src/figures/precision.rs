@@ -1,14 +1,12 @@
 //! Work and precision: what an error costs with each tool.
 
-use std::path::Path;
-
 use super::canvas::Canvas;
 use super::legend::{self, Entry};
 use super::mark::{self, Mark};
 use super::panel::{Frame, Panel};
 use super::scale::Scale;
 use super::style::{self, LABEL, Pen, WIDTH};
-use super::{Check, FigureError};
+use super::{Check, FigureError, Sheet};
 
 const CHECK: Check = Check("precision");
 
@@ -37,9 +35,8 @@ const SHEET: f64 = 960.0;
 /// Draw comparisons one below the other.
 ///
 /// # Errors
-/// [`FigureError`] when a slice is empty, when a number is not finite or not greater than zero, and when `path` cannot
-/// be written.
-pub fn render(sheets: &[Precision<'_>], path: &Path) -> Result<(), FigureError> {
+/// [`FigureError`] when a slice is empty, when a number is not finite or not greater than zero.
+pub fn draw(sheets: &[Precision<'_>]) -> Result<Sheet, FigureError> {
     CHECK.least("comparisons", sheets.len(), 1)?;
     for data in sheets {
         CHECK.least("series", data.series.len(), 1)?;
@@ -50,15 +47,15 @@ pub fn render(sheets: &[Precision<'_>], path: &Path) -> Result<(), FigureError> 
             CHECK.each(&what, &numbers, |x| x.is_finite() && x > 0.0)?;
         }
     }
-    let mut canvas = Canvas::new(WIDTH, SHEET as usize * sheets.len());
+    let mut canvas = Canvas::default();
     for (k, data) in sheets.iter().enumerate() {
-        draw(&mut canvas, data, SHEET * k as f64);
+        panel(&mut canvas, data, SHEET * k as f64);
     }
-    canvas.save(path)
+    canvas.finish(SHEET * sheets.len() as f64)
 }
 
 /// One comparison, its upper edge at `y`.
-fn draw(canvas: &mut Canvas, data: &Precision<'_>, y: f64) {
+fn panel(canvas: &mut Canvas, data: &Precision<'_>, y: f64) {
     let entries: Vec<Entry> =
         data.series.iter().enumerate().map(|(i, series)| Entry::both(series.label, pen(i), dot(i))).collect();
     let left = 150.0;

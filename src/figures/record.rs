@@ -1,13 +1,11 @@
 //! A ground motion against time: acceleration and velocity, and what lifts a structure.
 
-use std::path::Path;
-
 use super::canvas::{Canvas, Lettering};
 use super::legend::{self, Entry};
 use super::panel::{Frame, Panel};
 use super::scale::Scale;
 use super::style::{self, BLUE, GREY, NUMBER, Pen, VERMILLION, WIDTH};
-use super::{Check, FigureError};
+use super::{Check, FigureError, Sheet};
 
 const CHECK: Check = Check("record");
 
@@ -30,9 +28,8 @@ pub struct Record<'a> {
 /// Draw the figure.
 ///
 /// # Errors
-/// [`FigureError`] for fewer than two times, a slice that is not finite or of another length, and when `path` cannot be
-/// written.
-pub fn render(data: &Record<'_>, path: &Path) -> Result<(), FigureError> {
+/// [`FigureError`] for fewer than two times, a slice that is not finite or of another length.
+pub fn draw(data: &Record<'_>) -> Result<Sheet, FigureError> {
     CHECK.least("t", data.t.len(), 2)?;
     CHECK.finite("t", data.t)?;
     let n = data.t.len();
@@ -40,7 +37,7 @@ pub fn render(data: &Record<'_>, path: &Path) -> Result<(), FigureError> {
     CHECK.column("velocity", data.velocity, n)?;
     CHECK.finite("uplift_g", data.uplift_g.as_slice())?;
 
-    let mut canvas = Canvas::new(WIDTH, 1140);
+    let mut canvas = Canvas::default();
     let (accel, velocity) = (Pen::new(VERMILLION, 2.4), Pen::new(BLUE, 2.8));
     let level = Pen::new(GREY, 2.2).dashed();
     let mut entries = vec![Entry::line("acceleration", accel), Entry::line("velocity", velocity)];
@@ -50,7 +47,7 @@ pub fn render(data: &Record<'_>, path: &Path) -> Result<(), FigureError> {
     let (left, right) = (150.0, WIDTH as f64 - 40.0);
     let top = legend::header(&mut canvas, data.title, &entries, left, right);
     let x = Scale::linear(data.t[0], data.t[n - 1]);
-    let (middle, bottom) = (top + 440.0, 960.0);
+    let (middle, bottom) = (top + 440.0, top + 830.0);
     let symmetric = |values: &[f64], least: f64| {
         let most = values.iter().fold(least, |most, x| most.max(x.abs())).max(f64::MIN_POSITIVE);
         Scale::linear(-1.08 * most, 1.08 * most)
@@ -76,5 +73,5 @@ pub fn render(data: &Record<'_>, path: &Path) -> Result<(), FigureError> {
         let at = (left, bottom + 105.0 + 36.0 * i as f64);
         canvas.text(at, note, Lettering::new(NUMBER).colour(style::TEXT));
     }
-    canvas.save(path)
+    canvas.finish(bottom + 180.0)
 }

@@ -52,6 +52,11 @@ impl Scale {
         Self { low: low / room / missing, high: high * room * missing, logarithmic: true }
     }
 
+    /// Whether it shows powers of ten at even distances.
+    pub fn logarithmic(&self) -> bool {
+        self.logarithmic
+    }
+
     /// Where a value stands: 0 at low, 1 at high. What a logarithm cannot show stands far below.
     pub fn share(&self, value: f64) -> f64 {
         if !self.logarithmic {

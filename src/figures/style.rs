@@ -50,6 +50,21 @@ impl Pen {
         Self { colour: colour.into(), width, dash: None }
     }
 
+    /// Its colour, without its opacity.
+    pub fn rgb(self) -> RGBColor {
+        RGBColor(self.colour.0, self.colour.1, self.colour.2)
+    }
+
+    /// Its colour as a page writes it.
+    pub fn hex(self) -> String {
+        format!("#{:02X}{:02X}{:02X}", self.colour.0, self.colour.1, self.colour.2)
+    }
+
+    /// The same line, full.
+    pub fn full(self) -> Self {
+        Self { dash: None, ..self }
+    }
+
     /// The same line, dashed.
     pub fn dashed(self) -> Self {
         Self { dash: Some((5.0 * self.width, 3.5 * self.width)), ..self }

@@ -23,9 +23,11 @@ fn folder() -> (Option<tempfile::TempDir>, PathBuf) {
 #[test]
 fn every_figure_has_its_size_and_ink_on_white() {
     let (_keep, folder) = folder();
-    for (name, draw, height) in FIGURES {
+    for (name, draw) in FIGURES {
         let path = folder.join(format!("{name}.png"));
-        draw(&path).unwrap();
+        let sheet = draw().unwrap();
+        sheet.save(&path).unwrap();
+        let height = sheet.height;
         let picture = image::open(&path).unwrap().to_rgb8();
         assert_eq!(picture.dimensions(), (style::WIDTH as u32, height), "{name}");
         let white = picture.pixels().filter(|pixel| pixel.0 == [255; 3]).count() as f64;
@@ -45,11 +47,11 @@ fn the_same_numbers_give_the_same_bytes_on_any_thread() {
     let folder = tempfile::tempdir().unwrap();
     let draw = |turn: &str| -> Vec<Vec<u8>> {
         std::thread::scope(|scope| {
-            let running = FIGURES.map(|(name, draw, _)| {
+            let running = FIGURES.map(|(name, draw)| {
                 let path = folder.path().join(format!("{name}{turn}.png"));
                 scope.spawn(move || {
-                    draw(&path).unwrap();
-                    std::fs::read(path).unwrap()
+                    draw().unwrap().save(&path).unwrap();
+                    [std::fs::read(&path).unwrap(), std::fs::read(path.with_extension("svg")).unwrap()].concat()
                 })
             });
             running.into_iter().map(|thread| thread.join().unwrap()).collect()
@@ -61,8 +63,8 @@ fn the_same_numbers_give_the_same_bytes_on_any_thread() {
 #[test]
 fn a_missing_folder_is_an_error_and_leaves_nothing() {
     let folder = tempfile::tempdir().unwrap();
-    for (_, draw, _) in FIGURES {
-        let error = draw(&folder.path().join("missing").join("figure.png")).unwrap_err();
+    for (_, draw) in FIGURES {
+        let error = draw().unwrap().save(&folder.path().join("missing").join("figure.png")).unwrap_err();
         assert!(matches!(error, FigureError::Write { .. }));
         assert_eq!(error.to_string().lines().count(), 1);
     }
@@ -71,12 +73,10 @@ fn a_missing_folder_is_an_error_and_leaves_nothing() {
 
 #[test]
 fn empty_or_unequal_or_not_finite_numbers_are_errors() {
-    let folder = tempfile::tempdir().unwrap();
-    let path = folder.path().join("figure.png");
     let t = [0.0, 1.0, 2.0];
-    let good = history::Trace { label: "Housner", u: &[0.0, 1.0, 0.5], v: &[0.0, 0.1, 0.0], impacts: &[] };
+    let good = history::Trace { label: "Housner", u: &[0.0, 1.0, 0.5], v: &[0.0, 0.1, 0.0], impacts: &[], end: None };
     let with = |t, reference| history::History { title: "", t, reference, others: &[], differences: false };
-    let told = |data: &history::History<'_>| history::render(data, &path).unwrap_err().to_string();
+    let told = |data: &history::History<'_>| history::draw(data).unwrap_err().to_string();
     assert_eq!(
         told(&with(&t, history::Trace { u: &[0.0, f64::NAN, 0.5], ..good })),
         "figure history: u of Housner[1] is NaN, which cannot be drawn; remove it or mend what computed it"
@@ -86,41 +86,43 @@ fn empty_or_unequal_or_not_finite_numbers_are_errors() {
         "figure history: v of Housner has 1 values where 3 are wanted; give slices of one length"
     );
     assert_eq!(told(&with(&[], good)), "figure history: t is empty; give at least 2 values or leave the figure out");
-    let empty: [Result<(), FigureError>; 6] = [
-        arr::render(&arr::Response { title: "", target: &[], curves: &[] }, &path),
-        candidates::render(
-            &candidates::Candidates { title: "", error_label: "", candidates: &[], chosen: None },
-            &path,
-        ),
-        front::render(&front_of(&[]), &path),
-        energy::render(
-            &energy::Energy { title: "", t: &[], input: &[], stored: &[], dissipated: &[], residual: &[] },
-            &path,
-        ),
-        validation::render(
-            &validation::Validation { title: "", rows: &[], ks_distance: 0.0, well_conditioned: 10.0 },
-            &path,
-        ),
-        precision::render(&[precision::Precision { title: "", error_label: "", time_label: "", series: &[] }], &path),
+    let empty: [Result<Sheet, FigureError>; 6] = [
+        arr::draw(&arr::Response { title: "", target: &[], curves: &[] }),
+        candidates::draw(&candidates::Candidates {
+            title: "",
+            error_label: "",
+            candidates: &[],
+            chosen: None,
+            chosen_label: "",
+        }),
+        front::draw(&front_of(&[])),
+        energy::draw(&energy::Energy {
+            title: "",
+            t: &[],
+            input: &[],
+            stored: &[],
+            dissipated: &[],
+            residual: &[],
+            end: None,
+        }),
+        validation::draw(&validation::Validation { title: "", rows: &[], ks_distance: 0.0, well_conditioned: 10.0 }),
+        precision::draw(&[precision::Precision { title: "", error_label: "", time_label: "", series: &[] }]),
     ];
     for result in empty {
         assert!(matches!(result, Err(FigureError::Empty { .. })));
     }
     let points = precision::Series { label: "tool", points: &[(1e-3, 0.0)] };
     let data = precision::Precision { title: "", error_label: "", time_label: "", series: &[points] };
-    assert!(matches!(precision::render(&[data], &path), Err(FigureError::NotFinite { index: 1, .. })));
-    assert!(!path.exists());
+    assert!(matches!(precision::draw(&[data]), Err(FigureError::NotFinite { index: 1, .. })));
 }
 
 /// Histories that never move, a single record, one candidate: unusual, but not wrong.
 #[test]
 fn the_least_data_still_makes_a_picture() {
-    let folder = tempfile::tempdir().unwrap();
-    let path = folder.path().join("figure.png");
     let (t, still) = ([0.0, 1.0], [0.0, 0.0]);
-    let trace = history::Trace { label: "Housner", u: &still, v: &still, impacts: &[] };
+    let trace = history::Trace { label: "Housner", u: &still, v: &still, impacts: &[], end: None };
     let data = history::History { title: "", t: &t, reference: trace, others: &[trace], differences: true };
-    history::render(&data, &path).unwrap();
+    history::draw(&data).unwrap();
     let data = contact::Contact {
         title: "",
         t: &t,
@@ -129,13 +131,23 @@ fn the_least_data_still_makes_a_picture() {
         left_horizontal: &still,
         right_horizontal: &still,
         weight: None,
+        end: None,
     };
-    contact::render(&data, &path).unwrap();
-    let data = energy::Energy { title: "", t: &t, input: &still, stored: &still, dissipated: &still, residual: &still };
-    energy::render(&data, &path).unwrap();
+    contact::draw(&data).unwrap();
+    let data = energy::Energy {
+        title: "",
+        t: &t,
+        input: &still,
+        stored: &still,
+        dissipated: &still,
+        residual: &still,
+        end: None,
+    };
+    energy::draw(&data).unwrap();
     let one = candidates::Candidate { vertical_hz: 20.0, horizontal_hz: 30.0, error: f64::INFINITY, abandoned: false };
-    let data = candidates::Candidates { title: "", error_label: "", candidates: &[one], chosen: Some(0) };
-    candidates::render(&data, &path).unwrap();
+    let data =
+        candidates::Candidates { title: "", error_label: "", candidates: &[one], chosen: Some(0), chosen_label: "" };
+    candidates::draw(&data).unwrap();
     let row = validation::Row {
         peak_housner: 0.0,
         peak_fem: f64::INFINITY,
@@ -145,14 +157,13 @@ fn the_least_data_still_makes_a_picture() {
         nrmse: 0.0,
     };
     let data = validation::Validation { title: "", rows: &[row], ks_distance: 1.0, well_conditioned: 10.0 };
-    validation::render(&data, &path).unwrap();
+    validation::draw(&data).unwrap();
     let series = front::Series { label: "", omega_n_hz: &[160.0], error: &[0.0] };
-    front::render(&front_of(&[series]), &path).unwrap();
-    assert!(path.exists());
+    front::draw(&front_of(&[series])).unwrap();
 }
 
 /// A front of these errors.
 fn front_of<'a>(series: &'a [front::Series<'a>]) -> front::Front<'a> {
     let cost = front::Cost { label: "", omega_n_hz: &[160.0], value: &[14.0] };
-    front::Front { title: "", error_label: "", series, chosen_hz: 160.0, accuracy: 0.002, costs: [cost; 2], note: "" }
+    front::Front { title: "", error_label: "", series, chosen_hz: 160.0, accuracy: 0.002, costs: [cost; 2], notes: &[] }
 }

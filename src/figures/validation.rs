@@ -1,7 +1,5 @@
 //! Two models over many records: distributions of the peaks, peak against peak, error against conditioning.
 
-use std::path::Path;
-
 use plotters::style::text_anchor::{HPos, VPos};
 
 use super::canvas::{Canvas, Lettering};
@@ -11,7 +9,7 @@ use super::number::short;
 use super::panel::{Frame, Panel};
 use super::scale::Scale;
 use super::style::{BLACK, BLUE, GREY, NUMBER, Pen, VERMILLION, WIDTH};
-use super::{Check, FigureError};
+use super::{Check, FigureError, Sheet};
 
 const CHECK: Check = Check("validation");
 /// A toppled body has no peak of its own: it stands at 1, the edge of the pictures.
@@ -46,8 +44,8 @@ pub struct Validation<'a> {
 /// Draw the figure.
 ///
 /// # Errors
-/// [`FigureError`] when there is no row, for a NaN or a negative peak, and when `path` cannot be written.
-pub fn render(data: &Validation<'_>, path: &Path) -> Result<(), FigureError> {
+/// [`FigureError`] when there is no row, for a NaN or a negative peak.
+pub fn draw(data: &Validation<'_>) -> Result<Sheet, FigureError> {
     CHECK.least("rows", data.rows.len(), 1)?;
     let column = |of: fn(&Row) -> f64| -> Vec<f64> { data.rows.iter().map(of).collect() };
     for (what, values) in [
@@ -60,7 +58,7 @@ pub fn render(data: &Validation<'_>, path: &Path) -> Result<(), FigureError> {
     }
     CHECK.finite("ks_distance and well_conditioned", &[data.ks_distance, data.well_conditioned])?;
 
-    let mut canvas = Canvas::new(WIDTH, 1480);
+    let mut canvas = Canvas::default();
     let mut entries = vec![
         Entry::line("Housner", Pen::new(BLACK, 5.0)),
         Entry::line("finite element", Pen::new(VERMILLION, 2.6)),
@@ -69,18 +67,26 @@ pub fn render(data: &Validation<'_>, path: &Path) -> Result<(), FigureError> {
     if data.rows.iter().any(|row| row.overturned_housner || row.overturned_fem) {
         entries.push(Entry::mark("toppled in one or both", toppled()));
     }
+    let lost = data.rows.iter().filter(|row| !(row.nrmse.is_finite() && row.sensitivity.is_finite())).count();
+    if lost > 0 {
+        entries.push(Entry::mark(format!("error or sensitivity not finite ({lost}), at the edge"), infinite()));
+    }
     let (left, right) = (150.0, WIDTH as f64 - 40.0);
     let top = legend::header(&mut canvas, data.title, &entries, left, right);
     let middle = (left + right) / 2.0;
     let bottom = top + 590.0;
     distributions(&mut canvas, data, Frame { left, top, right: middle - 40.0, bottom });
     peaks(&mut canvas, data, Frame { left: middle + 115.0, top, right, bottom });
-    errors(&mut canvas, data, Frame { left, top: bottom + 130.0, right, bottom: 1380.0 });
-    canvas.save(path)
+    errors(&mut canvas, data, Frame { left, top: bottom + 130.0, right, bottom: bottom + 660.0 });
+    canvas.finish(bottom + 760.0)
 }
 
 fn dot() -> Mark {
     Mark::new(Shape::Disc, 7.0, BLUE)
+}
+
+fn infinite() -> Mark {
+    Mark::new(Shape::Triangle, 9.0, GREY)
 }
 
 fn toppled() -> Mark {
@@ -152,7 +158,9 @@ fn errors(canvas: &mut Canvas, data: &Validation<'_>, frame: Frame) {
     // Well conditioned first, so that the rarer toppled ones stay visible on top.
     let over = |row: &&Row| row.overturned_housner || row.overturned_fem;
     for row in data.rows.iter().filter(|row| !over(row)) {
-        dot().draw(canvas, panel.at_clamped(row.sensitivity, row.nrmse));
+        let finite = row.nrmse.is_finite() && row.sensitivity.is_finite();
+        let mark = if finite { dot() } else { infinite() };
+        mark.draw(canvas, panel.at_clamped(row.sensitivity, row.nrmse));
     }
     for row in data.rows.iter().filter(over) {
         toppled().draw(canvas, panel.at_clamped(row.sensitivity, row.nrmse));

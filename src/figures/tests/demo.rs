@@ -1,7 +1,5 @@
 //! Every figure with numbers from closed forms, in the shape of the real ones.
 
-use std::path::Path;
-
 use crate::figures::*;
 
 /// A seeded sequence of numbers in [0, 1) (Knuth's MMIX generator).
@@ -35,24 +33,24 @@ fn zeros(t: &[f64], u: &[f64]) -> Vec<f64> {
     u.windows(2).zip(t).filter(|(pair, _)| pair[0] * pair[1] < 0.0).map(|(_, t)| *t).collect()
 }
 
-fn draw_history(path: &Path, three: bool) -> Result<(), FigureError> {
+fn draw_history(three: bool) -> Result<Sheet, FigureError> {
     let t = times(2001);
     let (u, v) = rocking(&t, 1.0, 0.0);
     let (u1, v1) = rocking(&t, 0.985, 0.02);
     let (u2, v2) = rocking(&t, 0.98, 0.03);
     let (z, z1) = (zeros(&t, &u), zeros(&t, &u1));
     let others = [
-        history::Trace { label: "finite element", u: &u1, v: &v1, impacts: &z1 },
-        history::Trace { label: "OpenSees", u: &u2[..1900], v: &v2[..1900], impacts: &[] },
+        history::Trace { label: "finite element", u: &u1, v: &v1, impacts: &z1, end: None },
+        history::Trace { label: "OpenSees", u: &u2[..1900], v: &v2[..1900], impacts: &[], end: None },
     ];
     let data = history::History {
         title: "Apex displacement, 61 × 12.2 m A-frame, El Centro 1940 N-S",
         t: &t,
-        reference: history::Trace { label: "Housner", u: &u, v: &v, impacts: &z },
+        reference: history::Trace { label: "Housner", u: &u, v: &v, impacts: &z, end: None },
         others: if three { &others } else { &others[..1] },
         differences: three,
     };
-    history::render(&data, path)
+    history::draw(&data)
 }
 
 /// Equation 7 of the paper, to have curves of a familiar shape.
@@ -63,7 +61,7 @@ fn ratio(mu: f64, k: f64, c: f64, g: f64) -> f64 {
     (above / below).sqrt()
 }
 
-fn draw_arr(path: &Path) -> Result<(), FigureError> {
+fn draw_arr() -> Result<Sheet, FigureError> {
     let g: Vec<f64> = (0..2000).map(|i| 0.05 * 400_f64.powf(f64::from(i) / 1999.0)).collect();
     let vertical: Vec<f64> = g.iter().map(|&g| ratio(10.0, 8.993, 3.948, g)).collect();
     let horizontal: Vec<f64> = g.iter().map(|&g| ratio(0.1, 0.52254, 1.8395, g)).collect();
@@ -78,14 +76,30 @@ fn draw_arr(path: &Path) -> Result<(), FigureError> {
             arr::Band { g: (6.0, 20.0), at_least: None, at_most: Some(0.1) },
         ],
         curves: &[
-            arr::Curve { label: "vertical, μ = 10", g: &g, arr: &vertical, active: &active, cap: None },
-            arr::Curve { label: "horizontal, μ = 0.1", g: &g, arr: &horizontal, active: &one, cap: Some(2.0) },
+            arr::Curve {
+                label: "vertical, μ = 10",
+                g: &g,
+                arr: &vertical,
+                active: &active,
+                delivered: true,
+                horizontal: false,
+                cap: None,
+            },
+            arr::Curve {
+                label: "horizontal, μ = 0.1",
+                g: &g,
+                arr: &horizontal,
+                active: &one,
+                delivered: false,
+                horizontal: true,
+                cap: Some(2.0),
+            },
         ],
     };
-    arr::render(&data, path)
+    arr::draw(&data)
 }
 
-fn draw_candidates(path: &Path) -> Result<(), FigureError> {
+fn draw_candidates() -> Result<Sheet, FigureError> {
     let mut dice = Dice(7);
     let all: Vec<candidates::Candidate> = (0..400)
         .map(|_| {
@@ -106,11 +120,12 @@ fn draw_candidates(path: &Path) -> Result<(), FigureError> {
         error_label: "error, NRMSE of u and v",
         candidates: &all,
         chosen,
+        chosen_label: "delivered",
     };
-    candidates::render(&data, path)
+    candidates::draw(&data)
 }
 
-fn draw_front(path: &Path) -> Result<(), FigureError> {
+fn draw_front() -> Result<Sheet, FigureError> {
     let hz = [20.0, 40.0, 80.0, 160.0, 320.0, 640.0, 1280.0];
     let ours = hz.map(|hz: f64| 0.9 / hz);
     let paper = [0.88, 0.147, 0.09, 0.038, 0.03, 0.022, 0.019];
@@ -129,12 +144,12 @@ fn draw_front(path: &Path) -> Result<(), FigureError> {
             front::Cost { label: "foot force [weights]", omega_n_hz: &hz, value: &forces },
             front::Cost { label: "steps of a deck", omega_n_hz: &hz, value: &steps },
         ],
-        note: "The largest foot force is that of the springs in a landing, not of the structure.",
+        notes: &["Foot forces are those of the springs in a landing, not of the structure.".into()],
     };
-    front::render(&data, path)
+    front::draw(&data)
 }
 
-fn draw_contact(path: &Path) -> Result<(), FigureError> {
+fn draw_contact() -> Result<Sheet, FigureError> {
     let t: Vec<f64> = (0..20_000).map(|i| f64::from(i) * 1e-3).collect();
     let (u, _) = rocking(&t, 1.0, 0.0);
     let weight = 680.1e3 * 9.81;
@@ -151,11 +166,12 @@ fn draw_contact(path: &Path) -> Result<(), FigureError> {
         left_horizontal: &force(&|share, ring| 0.1 * weight * (1.0 - share) * (1.0 + ring)),
         right_horizontal: &force(&|share, ring| -0.1 * weight * share * (1.0 + ring)),
         weight: Some(weight),
+        end: None,
     };
-    contact::render(&data, path)
+    contact::draw(&data)
 }
 
-fn draw_energy(path: &Path) -> Result<(), FigureError> {
+fn draw_energy() -> Result<Sheet, FigureError> {
     let t = times(2001);
     let dissipated: Vec<f64> = t.iter().map(|t| 4.1e5 * (1.0 - (-0.2 * t).exp())).collect();
     let stored: Vec<f64> = t.iter().map(|t| 1.9e5 * (0.9 * t).sin().powi(2) * (-0.1 * t).exp()).collect();
@@ -168,11 +184,12 @@ fn draw_energy(path: &Path) -> Result<(), FigureError> {
         stored: &stored,
         dissipated: &dissipated,
         residual: &residual,
+        end: Some(Event { time: 15.0, text: "overturned at t = 15.00 s" }),
     };
-    energy::render(&data, path)
+    energy::draw(&data)
 }
 
-fn draw_validation(path: &Path) -> Result<(), FigureError> {
+fn draw_validation() -> Result<Sheet, FigureError> {
     let mut dice = Dice(3);
     let rows: Vec<validation::Row> = (0..200)
         .map(|_| {
@@ -196,10 +213,10 @@ fn draw_validation(path: &Path) -> Result<(), FigureError> {
         ks_distance: 0.025,
         well_conditioned: 10.0,
     };
-    validation::render(&data, path)
+    validation::draw(&data)
 }
 
-fn draw_precision(path: &Path) -> Result<(), FigureError> {
+fn draw_precision() -> Result<Sheet, FigureError> {
     let ladder = |base: f64, order: f64, first: f64, n: i32| -> Vec<(f64, f64)> {
         (0..n).map(|i| (first * 10_f64.powi(-i * 2), base * 10_f64.powf(f64::from(2 * i) / order))).collect()
     };
@@ -215,34 +232,31 @@ fn draw_precision(path: &Path) -> Result<(), FigureError> {
             precision::Series { label: "Octave ode45", points: &ladder(400.0, 5.0, 0.2, 2) },
         ],
     };
-    precision::render(&[data], path)
+    precision::draw(&[data])
 }
 
-pub type Draw = fn(&Path) -> Result<(), FigureError>;
+pub type Draw = fn() -> Result<Sheet, FigureError>;
 
-fn draw_record(path: &Path) -> Result<(), FigureError> {
+fn draw_record() -> Result<Sheet, FigureError> {
     let t = times(2001);
     let envelope = |t: f64| (-(t - 6.0).powi(2) / 9.0).exp();
     let accel: Vec<f64> = t.iter().map(|t| 0.4 * envelope(*t) * (9.0 * t).sin()).collect();
     let velocity: Vec<f64> = t.iter().map(|t| -0.45 * envelope(*t) * (9.0 * t).cos()).collect();
     let notes = ["PGA 0.4 g, PGV 0.45 m/s, pulse period 0.7 s".to_owned(), "a second line".to_owned()];
     let (title, uplift_g) = ("A burst", Some(0.2));
-    record::render(
-        &record::Record { title, t: &t, accel_g: &accel, velocity: &velocity, uplift_g, notes: &notes },
-        path,
-    )
+    record::draw(&record::Record { title, t: &t, accel_g: &accel, velocity: &velocity, uplift_g, notes: &notes })
 }
 
-/// Every figure: its name, how to draw it, its height [pixel].
-pub const FIGURES: [(&str, Draw, u32); 10] = [
-    ("history", |path| draw_history(path, false), 1130),
-    ("arr", draw_arr, 1000),
-    ("candidates", draw_candidates, 900),
-    ("front", draw_front, 1400),
-    ("contact", draw_contact, 1060),
-    ("energy", draw_energy, 1060),
-    ("record", draw_record, 1140),
-    ("validation", draw_validation, 1480),
-    ("precision", draw_precision, 960),
-    ("three", |path| draw_history(path, true), 1460),
+/// Every figure: its name, and how to draw it.
+pub const FIGURES: [(&str, Draw); 10] = [
+    ("history", || draw_history(false)),
+    ("arr", draw_arr),
+    ("candidates", draw_candidates),
+    ("front", draw_front),
+    ("contact", draw_contact),
+    ("energy", draw_energy),
+    ("record", draw_record),
+    ("validation", draw_validation),
+    ("precision", draw_precision),
+    ("three", || draw_history(true)),
 ];
