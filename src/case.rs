@@ -315,7 +315,7 @@ impl Tuning {
 }
 
 /// The line of the error, and for an unknown key the nearest known one.
-fn parse_error(path: &str, text: &str, error: &toml::de::Error) -> CaseError {
+pub(crate) fn parse_error(path: &str, text: &str, error: &toml::de::Error) -> CaseError {
     let line = error.span().map_or(1, |span| text[..span.start.min(text.len())].matches('\n').count() + 1);
     let message = one_line(error.message().lines().next().unwrap_or_default());
     if message.starts_with("unknown variant `impact`") {

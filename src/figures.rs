@@ -15,6 +15,9 @@
 //! | [`energy`] | the energy account against time |
 //! | [`validation`] | two models over many records |
 //! | [`record`] | acceleration and velocity of a ground motion, and the level that lifts a structure |
+//! | [`fragility`], [`ida`] | probabilities and peaks against the intensity of many ground motions |
+//! | [`overturning`], [`rocking`] | what overturns over a pulse's frequency; peaks over size and slenderness |
+//! | [`peaks`] | peaks of two models over a sweep |
 //! | [`precision`] | run time against error of several tools |
 
 use std::path::PathBuf;
@@ -38,10 +41,15 @@ pub mod candidates;
 pub mod chart;
 pub mod contact;
 pub mod energy;
+pub mod fragility;
 pub mod front;
 pub mod history;
+pub mod ida;
+pub mod overturning;
+pub mod peaks;
 pub mod precision;
 pub mod record;
+pub mod rocking;
 pub mod validation;
 
 #[cfg(test)]

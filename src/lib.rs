@@ -60,6 +60,9 @@ pub mod validate;
 
 pub mod predictability;
 
+#[cfg(feature = "cli")]
+pub mod sweep;
+
 pub mod export;
 
 pub mod front;
