@@ -83,7 +83,9 @@ fn begin(plan: &Plan, hash: &str, out: &Path, quiet: bool) -> Result<Option<Spri
     progress.done();
     let springs = springs?;
     for structure in &springs.missed {
-        eprintln!("springs: WARNING: the accuracy asked for was not reached on {structure}; ask for less, or allow stiffer springs");
+        eprintln!(
+            "springs: WARNING: the accuracy asked for was not reached on {structure}; ask for less, or allow stiffer springs"
+        );
     }
     Ok(Some(springs))
 }
@@ -91,7 +93,7 @@ fn begin(plan: &Plan, hash: &str, out: &Path, quiet: bool) -> Result<Option<Spri
 impl Run {
     fn compute(&self, sweep: &Path) -> Result<(), CommandError> {
         let plan = Plan::read(sweep)?;
-        let hash = plan.hash()?;
+        let hash = plan.hash(&mut |notice| eprintln!("{notice}"))?;
         threads(self.jobs)?;
         let springs = begin(&plan, &hash, &self.out, self.quiet)?;
         let parts = Parts { plan: &plan, folder: &self.out, hash: &hash };

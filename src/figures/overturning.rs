@@ -39,7 +39,8 @@ pub struct Spectrum {
 pub struct Overturning<'a> {
     pub title: &'a str,
     pub spectra: &'a [Spectrum],
-    /// Amplitudes that were looked at.
+    /// Frequencies omega/p and amplitudes that were looked at.
+    pub frequencies: (f64, f64),
     pub amplitudes: (f64, f64),
 }
 
@@ -98,12 +99,16 @@ fn one(canvas: &mut Canvas, data: &Overturning<'_>, spectrum: &Spectrum, frame: 
         let high = if i + 1 == q.len() { q[i] * step } else { between(q[i], q[i + 1]) };
         (low, high)
     };
-    let (low, high) = (edges(0).0, edges(q.len() - 1).1);
-    let panel = Panel { frame, x: Scale::log(low, high), y: Scale::log(data.amplitudes.0, data.amplitudes.1) };
+    let panel = Panel {
+        frame,
+        x: Scale::log(data.frequencies.0, data.frequencies.1),
+        y: Scale::log(data.amplitudes.0, data.amplitudes.1),
+    };
     for interval in &spectrum.intervals {
         let Some(i) = q.iter().position(|other| (other / interval.q - 1.0).abs() < 1e-9) else { continue };
         let (from, to) = edges(i);
-        let (a, b) = (panel.at_clamped(from, interval.to), panel.at_clamped(to, interval.from));
+        let above = if interval.to.is_finite() { interval.to } else { panel.y.high };
+        let (a, b) = (panel.at_clamped(from, above), panel.at_clamped(to, interval.from));
         canvas.block(a, b, colour(interval.impacts).mix(0.8));
     }
     panel.axes(canvas, Some(&format!("{}: ω/p", spectrum.label)), "a/(g tan α)", 95.0);

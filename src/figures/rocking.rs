@@ -40,7 +40,7 @@ pub struct Rocking<'a> {
 
 /// Upper ends of the steps of |theta|/alpha, and their colours, from light to dark: told apart in print too.
 const STEPS: [(f64, RGBColor); 6] = [
-    (0.0, RGBColor(255, 255, 255)),
+    (0.0, RGBColor(236, 236, 236)),
     (0.1, RGBColor(222, 235, 247)),
     (0.25, RGBColor(158, 202, 225)),
     (0.5, RGBColor(66, 146, 198)),
@@ -68,7 +68,8 @@ pub fn render(data: &Rocking<'_>, path: &Path) -> Result<(), FigureError> {
     }
     let names = ["never lifted", "|θ|/α to 0.1", "to 0.25", "to 0.5", "to 1", "above 1", "overturned"];
     let colours = STEPS.iter().map(|(_, colour)| *colour).chain([OVERTURNED]);
-    let entries: Vec<Entry> = names.iter().zip(colours).map(|(name, colour)| Entry::patch(*name, colour.into())).collect();
+    let entries: Vec<Entry> =
+        names.iter().zip(colours).map(|(name, colour)| Entry::patch(*name, colour.into())).collect();
     let (left, right) = (150.0, WIDTH as f64 - 40.0);
     let (height, gap) = (620.0, 150.0);
     let top = legend::header(&mut Canvas::new(WIDTH, 8), data.title, &entries, left, right) + 20.0;

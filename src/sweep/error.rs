@@ -19,7 +19,9 @@ pub enum SweepError {
     Still { record: String },
     #[error("springs of {structure}: {source}")]
     Springs { structure: String, source: JobError },
-    #[error("{folder}: holds another sweep ({there}, this one is {here}); name another folder with --out, or remove it")]
+    #[error(
+        "{folder}: holds another sweep ({there}, this one is {here}); name another folder with --out, or remove it"
+    )]
     OtherSweep { folder: String, there: String, here: String },
     #[error("{path}: {source}; check the folder, its rights and the room on the disk")]
     File { path: String, source: std::io::Error },

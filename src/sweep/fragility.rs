@@ -6,6 +6,8 @@
 
 use std::{collections::HashMap, sync::Arc};
 
+use rayon::prelude::*;
+
 use super::{
     SweepError,
     lognormal::{Fit, Group, Matrix, Probit, quantile, score},
@@ -305,19 +307,21 @@ fn sorted(bins: &HashMap<i32, Bin>) -> Vec<&Bin> {
 }
 
 fn fits(members: &[Member], states: &[State]) -> Vec<Row> {
-    let mut rows = Vec::new();
-    for (place, member) in members.iter().enumerate() {
-        for (measure, bins) in member.bins.iter().enumerate() {
-            for (s, &state) in states.iter().enumerate() {
-                let group = |bin: &&Bin| Group { ln_x: bin.sum_ln / bin.n as f64, n: bin.n, k: bin.k[s] };
-                let groups: Vec<Group> = sorted(bins).iter().map(group).collect();
-                let (n, exceeded) = groups.iter().fold((0, 0), |(n, k), group| (n + group.n, k + group.k));
-                let fit = if n == 0 { Fit::NoneExceeded } else { Fit::new(&groups) };
-                rows.push(Row { member: place, state, measure, n, exceeded, fit, covariance: None });
-            }
-        }
-    }
-    rows
+    let all: Vec<(usize, usize)> =
+        (0..members.len()).flat_map(|place| (0..MEASURES.len()).map(move |measure| (place, measure))).collect();
+    let of = |(place, measure): (usize, usize)| -> Vec<Row> {
+        let bins = sorted(&members[place].bins[measure]);
+        let fitted = |(s, state): (usize, &State)| {
+            let group = |bin: &&Bin| Group { ln_x: bin.sum_ln / bin.n as f64, n: bin.n, k: bin.k[s] };
+            let groups: Vec<Group> = bins.iter().map(group).collect();
+            let (n, exceeded) = groups.iter().fold((0, 0), |(n, k), group| (n + group.n, k + group.k));
+            let fit = if n == 0 { Fit::NoneExceeded } else { Fit::new(&groups) };
+            Row { member: place, state: *state, measure, n, exceeded, fit, covariance: None }
+        };
+        states.iter().enumerate().map(fitted).collect()
+    };
+    let rows: Vec<Vec<Row>> = all.into_par_iter().with_max_len(1).map(of).collect();
+    rows.into_iter().flatten().collect()
 }
 
 /// The second pass: sums of u u^T over records, whose histories come one after the other.

@@ -141,20 +141,19 @@ impl Probit {
             let ([ua, ub], information, _) = state;
             let [[iaa, iab], [_, ibb]] = inverse(information)?;
             let (da, db) = (iaa * ua + iab * ub, iab * ua + ibb * ub);
-            // concave: half a step at a time goes uphill at last
-            let mut factor = 1.0;
-            loop {
-                let next = sums(groups, centre, a + factor * da, b + factor * db);
-                if next.2 >= state.2 || factor < 1e-6 {
-                    (a, b) = (a + factor * da, b + factor * db);
-                    state = next;
-                    break;
-                }
-                factor *= 0.5;
-            }
-            if da.abs() + db.abs() < 1e-12 * (1.0 + a.abs() + b.abs()) {
+            if da.abs() + db.abs() < 1e-10 * (1.0 + a.abs() + b.abs()) {
                 break;
             }
+            // concave: half a step at a time goes uphill at last
+            let mut factor = 1.0;
+            let mut next = sums(groups, centre, a + da, b + db);
+            // to rounding: at the top it may not rise any more
+            while next.2 < state.2 - 1e-12 * state.2.abs() && factor > 1e-6 {
+                factor *= 0.5;
+                next = sums(groups, centre, a + factor * da, b + factor * db);
+            }
+            (a, b) = (a + factor * da, b + factor * db);
+            state = next;
         }
         let (_, _, log_likelihood) = state;
         let a = a - b * centre;
@@ -230,9 +229,8 @@ fn sums(groups: &[Group], centre: f64, a: f64, b: f64) -> ([f64; 2], Matrix, f64
 
 fn inverse([aa, ab, bb]: Matrix) -> Option<[[f64; 2]; 2]> {
     let determinant = aa * bb - ab * ab;
-    (determinant > 1e-14 * aa * bb).then(|| {
-        [[bb / determinant, -ab / determinant], [-ab / determinant, aa / determinant]]
-    })
+    (determinant > 1e-14 * aa * bb)
+        .then(|| [[bb / determinant, -ab / determinant], [-ab / determinant, aa / determinant]])
 }
 
 #[cfg(test)]
@@ -242,7 +240,8 @@ mod tests {
     /// Abramowitz & Stegun, tables 26.1 and 26.5.
     #[test]
     fn the_normal_distribution_has_its_printed_values() {
-        for (z, printed) in [(0.0, 0.5), (1.0, 0.841_344_746_068_543), (2.0, 0.977_249_868_051_821), (-3.0, 0.001_349_898_031_630)]
+        for (z, printed) in
+            [(0.0, 0.5), (1.0, 0.841_344_746_068_543), (2.0, 0.977_249_868_051_821), (-3.0, 0.001_349_898_031_630)]
         {
             assert!((phi(z) - printed).abs() < 2e-15, "{z}: {}", phi(z));
         }
@@ -273,7 +272,8 @@ mod tests {
     #[test]
     fn capacities_of_records_give_the_deviation_of_their_mean() {
         let levels: Vec<f64> = (0..200).map(|i| -1.0 + 0.02 * f64::from(i)).collect();
-        let capacities: Vec<f64> = (0..1000).map(|j| 2_f64.ln() + 0.4 * quantile((f64::from(j) + 0.5) / 1000.0)).collect();
+        let capacities: Vec<f64> =
+            (0..1000).map(|j| 2_f64.ln() + 0.4 * quantile((f64::from(j) + 0.5) / 1000.0)).collect();
         let below = |ln_x: f64| capacities.iter().filter(|c| **c < ln_x).count() as u64;
         let groups: Vec<Group> = levels.iter().map(|&ln_x| Group { ln_x, n: 1000, k: below(ln_x) }).collect();
         let Fit::Fitted(fit) = Fit::new(&groups) else { panic!() };

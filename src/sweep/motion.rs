@@ -4,7 +4,7 @@ use std::{f64::consts::TAU, path::PathBuf};
 
 use super::pulse::Shape;
 use crate::{
-    record::{ReadOptions, Record, RecordError, Source},
+    record::{Notice, ReadOptions, Record, RecordError, Recording, Source},
     scalar::GRAVITY,
     synthetic,
 };
@@ -27,7 +27,10 @@ pub enum Motion {
     /// `synthetic::earthquake` of this index.
     Earthquake(usize),
     /// With a peak of 1 g.
-    Pulse { shape: Shape, frequency: Frequency },
+    Pulse {
+        shape: Shape,
+        frequency: Frequency,
+    },
 }
 
 /// How motions are read and made.
@@ -58,6 +61,17 @@ impl Motion {
             Self::Earthquake(i) => format!("earthquake-{i:05}"),
             Self::Pulse { shape, frequency: Frequency::OverP(q) } => format!("{} q {q:.4}", shape.name()),
             Self::Pulse { shape, frequency: Frequency::Hz(f) } => format!("{} {f:.4} Hz", shape.name()),
+        }
+    }
+
+    /// What the reader of a file says of it.
+    ///
+    /// # Errors
+    /// A file that cannot be read.
+    pub fn notices(&self, making: &Making) -> Result<Vec<Notice>, RecordError> {
+        match self {
+            Self::File(path) => Ok(Recording::read(path, &making.read)?.notices()),
+            _ => Ok(Vec::new()),
         }
     }
 

@@ -7,12 +7,7 @@ use std::{
 };
 
 use super::{
-    SweepError, history, manifest, overturning,
-    plan::Plan,
-    row,
-    spec::Kind,
-    springs::SpringsTable,
-    table::Table,
+    SweepError, history, manifest, overturning, plan::Plan, row, spec::Kind, springs::SpringsTable, table::Table,
 };
 
 /// Share I of N of a sweep, for machines that share the work: the parts I, I + N, I + 2 N ... from 1.

@@ -13,7 +13,7 @@ use super::{
 };
 use crate::{
     case::{ACCURACY, LEAST_INERTIA, LONGEST_S},
-    record::{ReadOptions, Record},
+    record::{Notice, ReadOptions, Record},
     scalar::GRAVITY,
     structure::{self, Body, Structure},
 };
@@ -131,7 +131,9 @@ impl Plan {
             && kind == Kind::Compare
             && model != Model::Both
         {
-            return Err(source.at(written, "kind = \"compare\" compares both models; write model = \"both\", or leave it out"));
+            return Err(
+                source.at(written, "kind = \"compare\" compares both models; write model = \"both\", or leave it out")
+            );
         }
         let subjects = subjects(source)?;
         let restitutions = match &sweep.restitution {
@@ -253,13 +255,14 @@ impl Plan {
     }
 
     /// A number that tells sweeps apart: FNV-1a of the program's version, of everything that decides a result, and of the samples of
-    /// every file.
+    /// every file. `notice` is told what the readers say of the files.
     ///
     /// # Errors
     /// A record that cannot be read, or has no motion.
-    pub fn hash(&self) -> Result<String, SweepError> {
+    pub fn hash(&self, notice: &mut dyn FnMut(&Notice)) -> Result<String, SweepError> {
         let Making { seed, duration_s, p, .. } = &self.making;
-        let mut text = format!("{} {:?} {:?} {seed} {duration_s:?} {p:?}", env!("CARGO_PKG_VERSION"), self.kind, self.model);
+        let mut text =
+            format!("{} {:?} {:?} {seed} {duration_s:?} {p:?}", env!("CARGO_PKG_VERSION"), self.kind, self.model);
         for subject in &self.subjects {
             text += &format!("{:?} {:?}", subject.structure, subject.restitution);
         }
@@ -274,6 +277,7 @@ impl Plan {
             } else {
                 // not where it lies, but what is in it
                 text += &motion.name();
+                motion.notices(&self.making)?.iter().for_each(&mut *notice);
                 let record = motion.record(&self.making, any)?;
                 if record.pga() == 0.0 {
                     return Err(SweepError::Still { record: record.name });
@@ -296,8 +300,10 @@ fn fnv1a(bytes: &[u8]) -> u64 {
 fn subjects(source: &Source) -> Result<Vec<Subject>, SweepError> {
     let mut subjects = Vec::new();
     for section in &source.spec.structure {
-        let (structure, e) =
-            section.get_ref().checked(&source.path).map_err(|e| source.at(section, reason(&source.path, &e.to_string())))?;
+        let (structure, e) = section
+            .get_ref()
+            .checked(&source.path)
+            .map_err(|e| source.at(section, reason(&source.path, &e.to_string())))?;
         subjects.push(Subject::new(structure, e));
     }
     if let Some(grid) = &source.spec.grid {
@@ -376,8 +382,7 @@ fn levels(source: &Source, kind: Kind) -> Result<(Measure, Vec<f64>), SweepError
 
 fn motions(source: &Source) -> Result<Vec<Motion>, SweepError> {
     let records = &source.spec.records;
-    let mut motions: Vec<Motion> =
-        records.files.iter().map(|file| Motion::File(source.folder().join(file))).collect();
+    let mut motions: Vec<Motion> = records.files.iter().map(|file| Motion::File(source.folder().join(file))).collect();
     if let Some(folder) = &records.folder {
         motions.extend(Record::list_dir(&source.folder().join(folder))?.into_iter().map(Motion::File));
     }
@@ -412,7 +417,10 @@ fn of_pulse(source: &Source, pulse: &PulseSection, motions: &mut Vec<Motion>) ->
         Name::MavroeidisPapageorgiou => {
             let gamma = match &pulse.gamma {
                 Some(gamma) => source.within("gamma", gamma, 1.0, 10.0)?,
-                None => return Err(source.at(&pulse.shape, "a Mavroeidis-Papageorgiou pulse needs gamma, its oscillations, 1 to 10, and nu, their phase [rad]")),
+                None => return Err(source.at(
+                    &pulse.shape,
+                    "a Mavroeidis-Papageorgiou pulse needs gamma, its oscillations, 1 to 10, and nu, their phase [rad]",
+                )),
             };
             Shape::MavroeidisPapageorgiou { gamma, nu: pulse.nu.filter(|nu| nu.is_finite()).unwrap_or(0.0) }
         }

@@ -93,7 +93,11 @@ pub fn table(plan: &Plan, rows: &[Row]) -> Table {
             |row| row.housner,
             ["housner_outcome", "housner_overturned", "housner_peak", "housner_impacts", "housner_overturned_s"],
         ),
-        (plan.model.fem(), |row| row.fem, ["fem_outcome", "fem_overturned", "fem_peak", "fem_impacts", "fem_overturned_s"]),
+        (
+            plan.model.fem(),
+            |row| row.fem,
+            ["fem_outcome", "fem_overturned", "fem_peak", "fem_impacts", "fem_overturned_s"],
+        ),
     ];
     for (asked, of, [outcome, overturned, peak, impacts, time]) in models {
         if !asked {

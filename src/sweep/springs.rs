@@ -72,12 +72,7 @@ impl SpringsTable {
     ///
     /// # Errors
     /// A structure that cannot be tuned; a file that cannot be read or written.
-    pub fn new(
-        plan: &Plan,
-        folder: &Path,
-        hash: &str,
-        progress: &dyn Fn(usize, usize),
-    ) -> Result<Self, SweepError> {
+    pub fn new(plan: &Plan, folder: &Path, hash: &str, progress: &dyn Fn(usize, usize)) -> Result<Self, SweepError> {
         let path = folder.join("springs.json");
         let read = || {
             let text = std::fs::read_to_string(&path).ok()?;
@@ -93,8 +88,10 @@ impl SpringsTable {
                 read().ok_or_else(|| SweepError::Damaged { path: path.display().to_string(), reason: reason() })?
             }
         };
-        Self::of_filed(plan, &filed)
-            .ok_or_else(|| SweepError::Damaged { path: path.display().to_string(), reason: "springs are missing".into() })
+        Self::of_filed(plan, &filed).ok_or_else(|| SweepError::Damaged {
+            path: path.display().to_string(),
+            reason: "springs are missing".into(),
+        })
     }
 
     fn of_filed(plan: &Plan, filed: &Filed) -> Option<Self> {
@@ -111,8 +108,7 @@ impl SpringsTable {
                     xi: unit.xi,
                     omega_n_hz: unit.omega_n_hz_over_p * subject.p,
                 };
-                let springs =
-                    Springs { vertical: design(&tuned.vertical), horizontal: design(&tuned.horizontal) };
+                let springs = Springs { vertical: design(&tuned.vertical), horizontal: design(&tuned.horizontal) };
                 chains.push(springs.chains(subject.structure.mass_kg));
             }
         }
@@ -151,11 +147,8 @@ fn tune(plan: &Plan, progress: &dyn Fn(usize, usize)) -> Result<Vec<Tuned>, Swee
         let subject = &plan.subjects[*subject];
         // no record: nothing is tuned to one
         let still = Record::new("none", 0.01, vec![0.0; 2])?;
-        let tuning = Tuning {
-            accuracy: plan.springs.accuracy,
-            max_omega_hz: plan.springs.max_omega_hz,
-            ..Tuning::default()
-        };
+        let tuning =
+            Tuning { accuracy: plan.springs.accuracy, max_omega_hz: plan.springs.max_omega_hz, ..Tuning::default() };
         let case = Case::new("sweep", (subject.structure, e), Excitation::whole(still), tuning)?;
         let job = Job::new(&case, &|_, _, _| {})
             .map_err(|source| SweepError::Springs { structure: subject.name.clone(), source })?;

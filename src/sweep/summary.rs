@@ -65,7 +65,11 @@ pub fn fragility(plan: &Plan, fragility: &Fragility) -> Vec<String> {
             }
             _ => format!("no fit on {measure}: higher levels overturn it less often"),
         };
-        said.push(format!("- {name}{e}, {}: {share:.1} % of {} histories overturn; {fit}.", by(MODELS[member.model]), pga.n));
+        said.push(format!(
+            "- {name}{e}, {}: {share:.1} % of {} histories overturn; {fit}.",
+            by(MODELS[member.model]),
+            pga.n
+        ));
         if member.subject.is_none() {
             said.extend(best_measure(rows()));
         }
@@ -90,7 +94,8 @@ fn best_measure<'a>(rows: impl Iterator<Item = &'a super::fragility::Row>) -> Op
     let betas: Vec<(&str, f64)> =
         rows.filter_map(|row| row.probit().map(|fit| (MEASURES[row.measure].0, fit.beta()))).collect();
     let (best, beta) = betas.iter().min_by(|a, b| a.1.total_cmp(&b.1))?;
-    let others: Vec<String> = betas.iter().filter(|(name, _)| name != best).map(|(n, b)| format!("{n} {b:.2}")).collect();
+    let others: Vec<String> =
+        betas.iter().filter(|(name, _)| name != best).map(|(n, b)| format!("{n} {b:.2}")).collect();
     Some(format!("  Over all structures {best} scatters least: beta {beta:.2} ({}).", others.join(", ")))
 }
 
@@ -142,17 +147,18 @@ pub fn overturning(plan: &Plan, table: &Table) -> Vec<String> {
     let (from, to) = (table.reals("from_over_uplift"), table.reals("to_over_uplift"));
     let (structure, pulse, q) = (table.texts("structure"), table.texts("pulse"), table.reals("omega_over_p"));
     let mut said = vec![format!(
-        "{} spectra of {} frequencies and structures, scanned from {} to {} times g tan(alpha): {} intervals overturn.",
+        "{} pulse frequencies times structures, scanned from {} to {} times g tan(alpha): {} intervals overturn.",
         plan.len(),
-        plan.motions.len() * plan.subjects.len(),
         plan.levels[0],
         plan.levels[plan.levels.len() - 1],
         table.len()
     )];
     let finite = (0..table.len()).filter(|row| to[*row].is_some()).count();
-    said.push(format!(
-        "{finite} of them end: there a stronger pulse leaves the body standing, so no single amplitude is safe to interpolate from."
-    ));
+    if finite > 0 {
+        said.push(format!(
+            "{finite} of them have an upper end, above which a stronger pulse leaves the body standing or overturns it otherwise."
+        ));
+    }
     let least = (0..table.len()).filter_map(|row| from[row].map(|from| (row, from))).min_by(|a, b| a.1.total_cmp(&b.1));
     if let Some((row, from)) = least {
         said.push(format!(

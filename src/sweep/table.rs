@@ -86,7 +86,8 @@ impl Column {
                 writer.write_batch(&present, Some(&levels(values)), None)?;
             }
             (Self::Text(values), ColumnWriter::ByteArrayColumnWriter(writer)) => {
-                let bytes: Vec<ByteArray> = values.iter().map(|text| ByteArray::from(text.as_bytes().to_vec())).collect();
+                let bytes: Vec<ByteArray> =
+                    values.iter().map(|text| ByteArray::from(text.as_bytes().to_vec())).collect();
                 writer.write_batch(&bytes, None, None)?;
             }
             _ => return Err(ParquetError::General("a column of another type".into())),

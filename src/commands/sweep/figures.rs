@@ -55,7 +55,8 @@ pub fn fragility(plan: &Plan, fragility: &Fragility, path: &Path) -> Result<(), 
     if !measures.is_empty() {
         let title = format!("Fragility, {who}, {} motions, {model}", plan.motions.len());
         let label = format!("probability, {:.0} % bounds", 100.0 * plan.confidence);
-        let data = probability::Fragility { title: &title, entries: &names, measures: &measures, probability_label: &label };
+        let data =
+            probability::Fragility { title: &title, entries: &names, measures: &measures, probability_label: &label };
         probability::render(&data, path)?;
     }
     if !several {
@@ -82,7 +83,8 @@ pub fn fragility(plan: &Plan, fragility: &Fragility, path: &Path) -> Result<(), 
     if !measures.is_empty() {
         let title = format!("Overturning of each structure, {} motions, {model}", plan.motions.len());
         let label = format!("probability, {:.0} % bounds", 100.0 * plan.confidence);
-        let data = probability::Fragility { title: &title, entries: &names, measures: &measures, probability_label: &label };
+        let data =
+            probability::Fragility { title: &title, entries: &names, measures: &measures, probability_label: &label };
         probability::render(&data, &path.with_file_name("fragility_structures.png"))?;
     }
     Ok(())
@@ -146,9 +148,9 @@ pub fn overturning(plan: &Plan, table: &Table, path: &Path) -> Result<(), Comman
     for row in 0..table.len() {
         let key = (subject[row], &*pulse[row], &*model[row]);
         let at = all.iter().position(|(other, _)| *other == key).unwrap_or_else(|| {
-            let name = &plan.subjects[key.0 as usize].name;
+            let which = if plan.subjects.len() > 1 { format!(", structure {}", key.0 + 1) } else { String::new() };
             let how = if plan.model.housner() && plan.model.fem() { format!(", {}", key.2) } else { String::new() };
-            let label = format!("{}, {name}{how}", key.1);
+            let label = format!("{}{which}{how}", key.1);
             all.push((key, spectra::Spectrum { label, frequencies: Vec::new(), intervals: Vec::new() }));
             all.len() - 1
         });
@@ -170,8 +172,14 @@ pub fn overturning(plan: &Plan, table: &Table, path: &Path) -> Result<(), Comman
     if spectra.is_empty() {
         return Ok(());
     }
-    let data =
-        spectra::Overturning { title: "Overturning spectra: amplitudes of a pulse that overturn", spectra: &spectra, amplitudes: (0.9 * low, high) };
+    let all = || q.iter().copied().flatten();
+    let frequencies = (all().fold(f64::INFINITY, f64::min), all().fold(0.0, f64::max));
+    let title = match &plan.subjects[..] {
+        [one] => format!("Pulses that overturn: {}", one.name),
+        all => format!("Pulses that overturn, {} structures", all.len()),
+    };
+    let amplitudes = (0.9 * low, high);
+    let data = spectra::Overturning { title: &title, spectra: &spectra, frequencies, amplitudes };
     Ok(spectra::render(&data, path)?)
 }
 

@@ -49,7 +49,7 @@ const NAMED: usize = 20;
 
 pub fn run(o: &Options) -> Result<(), CommandError> {
     let plan = Plan::read(&o.sweep)?;
-    let hash = plan.hash()?;
+    let hash = plan.hash(&mut |_| {})?;
     let folder = o.out.display().to_string();
     match Manifest::there(&o.out)? {
         None => return Err(SweepError::NoSweep { folder }.into()),
@@ -75,9 +75,8 @@ pub fn run(o: &Options) -> Result<(), CommandError> {
 /// Write everything that follows from the parts, and print the summary.
 pub fn gather(parts: &Parts, draw: bool) -> Result<(), CommandError> {
     let (plan, out) = (parts.plan, parts.folder);
-    let save = |name: &str, table: &Table| {
-        write_file(&out.join(name), (table.csv_head() + &table.csv_rows()).as_bytes())
-    };
+    let save =
+        |name: &str, table: &Table| write_file(&out.join(name), (table.csv_head() + &table.csv_rows()).as_bytes());
     let said = if plan.kind == Kind::Overturning {
         let table = whole(parts, &overturning::table(plan, &[]))?;
         save("overturning.csv", &table)?;

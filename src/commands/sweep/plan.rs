@@ -46,7 +46,7 @@ pub fn run(o: &Options) -> Result<(), CommandError> {
         return Err(CommandError::Option { option: "time", value: format!("{:?}", o.time), remedy });
     }
     let plan = Plan::read(&o.sweep)?;
-    let hash = plan.hash()?;
+    let hash = plan.hash(&mut |notice| eprintln!("{notice}"))?;
     begin(&plan, &hash, &o.out, o.quiet)?;
     let missing = Parts { plan: &plan, folder: &o.out, hash: &hash }.missing().len();
     writeln!(
