@@ -37,7 +37,7 @@ use crate::{
 pub struct Interval {
     pub from: Option<f64>,
     pub to: Option<f64>,
-    /// Impacts before the body overturns; not counted on springs.
+    /// Impacts before the body overturns: 0, 1, or 2 for two and more; not counted on springs.
     pub impacts: Option<usize>,
 }
 
@@ -50,7 +50,7 @@ pub struct Row {
     pub intervals: Vec<Interval>,
 }
 
-/// What becomes of a body: it stands, or overturns after so many impacts.
+/// What becomes of a body: it stands, or overturns after none, one or several impacts.
 #[derive(Clone, Copy, Debug, PartialEq)]
 enum Fate {
     Stands,
@@ -58,9 +58,12 @@ enum Fate {
     Overturns(Option<usize>),
 }
 
+/// Impacts that are told apart: a body that comes to rest and is lifted again within a long pulse has any number of them.
+const SEVERAL: usize = 2;
+
 impl Fate {
     fn new(overturns: bool, impacts: Option<usize>) -> Self {
-        if overturns { Self::Overturns(impacts) } else { Self::Stands }
+        if overturns { Self::Overturns(impacts.map(|n| n.min(SEVERAL))) } else { Self::Stands }
     }
 }
 

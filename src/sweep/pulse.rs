@@ -145,7 +145,9 @@ mod tests {
             // the area below chords of a sine is short by h^2/12 of it
             let chords = 1.0 - (TAU / A_PERIOD).powi(2) / 12.0;
             let exact = if shape == Shape::HalfSine { chords * 2.0 * 2.5 / 3.0 } else { 0.0 };
-            assert!((gained - exact).abs() < 1e-7 * 2.5 / 3.0, "{shape:?}: {gained}");
+            // a wavelet that ends with a kink is off by h^2/12 of its slope there
+            let tolerance = if shape == Shape::HalfSine { 1e-9 } else { 1e-5 };
+            assert!((gained - exact).abs() < tolerance * 2.5 / 3.0, "{shape:?}: {gained}");
         }
     }
 

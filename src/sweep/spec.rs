@@ -6,7 +6,7 @@
 //! model = "housner"                   # or "fem", "both"; left out: "both" for "compare", else "housner"
 //! seed = 1                            # of the motions made
 //! restitution = [0.9, 0.95]           # velocity ratio; left out: each structure's own
-//! ratios = [0.25, 0.5]                # of theta/alpha whose exceedance is fitted, beside rocking and overturning
+//! ratios = [0.1, 0.5]                 # of theta/alpha whose exceedance is fitted, beside rocking and overturning
 //! confidence = 0.9                    # of the bounds
 //!
 //! [[structure]]                       # as in a case file; as many as wanted

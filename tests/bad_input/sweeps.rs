@@ -27,11 +27,11 @@ fn a_sweep_that_asks_for_nothing_or_twice_is_refused_with_its_line() {
         (format!("{HEAD}{BLOCK}[records]\nearthquakes = 0\n{LEVELS}"), ["line 9", "earthquakes is 0"]),
         (
             format!("{HEAD}{GROUND}{LEVELS}[grid]\nkind = \"block\"\nsize_m = 1.0\nslenderness = 1.2\n"),
-            ["line 9", "slenderness has 1.2"],
+            ["line 10", "slenderness has 1.2"],
         ),
         (
             format!("{HEAD}{GROUND}{LEVELS}[grid]\nkind = \"cone\"\nsize_m = 1.0\nslenderness = 0.2\n"),
-            ["line 7", "aframe"],
+            ["line 8", "aframe"],
         ),
     ] {
         sweep(&text, &words);
