@@ -37,6 +37,8 @@ use crate::{
     response::{bounds::Bounds, target::Target},
     structure::{Structure, StructureError},
 };
+#[cfg(feature = "cli")]
+pub use structure::LEAST_INERTIA;
 pub use structure::StructureSection;
 
 /// What is wrong with a case file, and what to do.
@@ -333,7 +335,7 @@ impl Tuning {
 }
 
 /// The line of the error, and for an unknown key the nearest known one.
-fn parse_error(path: &str, text: &str, error: &toml::de::Error) -> CaseError {
+pub(crate) fn parse_error(path: &str, text: &str, error: &toml::de::Error) -> CaseError {
     let line = error.span().map_or(1, |span| text[..span.start.min(text.len())].matches('\n').count() + 1);
     let whole = error.message().lines().next().unwrap_or_default();
     let message = one_line(whole);

@@ -11,6 +11,7 @@ use crate::{
     figures::FigureError,
     parameters::{ParametersError, RememberedError},
     record::RecordError,
+    sweep::SweepError,
     tuning::{arr::inner::FitError, job::JobError, landing::design::GeometryError},
     verify::VerifyError,
 };
@@ -31,6 +32,7 @@ mod report;
 mod response;
 mod run;
 mod simulate;
+mod sweep;
 mod table;
 mod validate;
 mod verify;
@@ -70,6 +72,8 @@ enum Command {
     Simulate(simulate::Options),
     /// Judge given springs over many records: peaks, overturning, histories where they can be compared.
     Validate(validate::Options),
+    /// Many histories over structures, records, scales: fragility, overturning and rocking spectra.
+    Sweep(sweep::Options),
     /// Write the springs and their model for OpenSees, SAP2000 or as plain tables.
     Export(export::Options),
     /// What is in record files of any format, and what a run would take of them.
@@ -101,6 +105,8 @@ pub enum CommandError {
     Figure(#[from] FigureError),
     #[error(transparent)]
     Export(#[from] ExportError),
+    #[error(transparent)]
+    Sweep(#[from] SweepError),
     #[error(transparent)]
     Verify(#[from] VerifyError),
     #[error("{path}: cannot be written ({source}); check the folder and its rights")]
@@ -150,6 +156,7 @@ pub fn main() -> ExitCode {
         Command::Chart(o) => chart::run(&o),
         Command::Simulate(o) => simulate::run(&o),
         Command::Validate(o) => validate::run(&o),
+        Command::Sweep(o) => sweep::run(&o),
         Command::Export(o) => export::run(&o),
         Command::Record(o) => record::run(&o),
         Command::Verify(o) => verify::run(&o),

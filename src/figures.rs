@@ -16,6 +16,9 @@
 //! | [`energy`] | the energy account against time |
 //! | [`validation`] | two models over many records |
 //! | [`record`] | acceleration and velocity of a ground motion, and the level that lifts a structure |
+//! | [`fragility`], [`ida`] | probabilities and peaks against the intensity of many ground motions |
+//! | [`overturning`], [`rocking`] | what overturns over a pulse's frequency; peaks over size and slenderness |
+//! | [`peaks`] | peaks of two models over a sweep |
 //! | [`precision`] | run time against error of several tools |
 
 use std::path::PathBuf;
@@ -38,11 +41,16 @@ pub mod candidates;
 pub mod chart;
 pub mod contact;
 pub mod energy;
+pub mod fragility;
 pub mod front;
 pub mod history;
+pub mod ida;
+pub mod overturning;
+pub mod peaks;
 #[cfg(feature = "internals")] // `benches/compare` draws it
 pub mod precision;
 pub mod record;
+pub mod rocking;
 pub mod validation;
 
 pub use number::{brief, power_of_ten, prefix, short};

@@ -84,6 +84,9 @@ mod house {
 
     pub mod predictability;
 
+    #[cfg(feature = "cli")]
+    pub mod sweep;
+
     pub mod export;
 
     #[cfg(feature = "cli")]

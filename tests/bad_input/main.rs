@@ -3,6 +3,7 @@
 mod contents;
 mod files;
 mod options;
+mod sweeps;
 
 use std::{fs, path::Path};
 

@@ -1,0 +1,147 @@
+//! `tune sweep`: many histories, and what they say together.
+
+use std::{
+    io::Write as _,
+    path::{Path, PathBuf},
+    sync::atomic::{AtomicU64, Ordering},
+    time::Instant,
+};
+
+use clap::{Args, Subcommand};
+
+use super::{CommandError, output::check_folder, progress::Progress, run::threads};
+use crate::sweep::{
+    manifest::Manifest,
+    parts::{Parts, Share},
+    plan::Plan,
+    springs::SpringsTable,
+};
+
+mod figures;
+mod gather;
+mod plan;
+
+/// Options of `tune sweep`.
+#[derive(Debug, Args)]
+#[command(args_conflicts_with_subcommands = true, subcommand_negates_reqs = true)]
+pub struct Options {
+    #[command(subcommand)]
+    step: Option<Step>,
+    #[command(flatten)]
+    run: Run,
+}
+
+#[derive(Debug, Subcommand)]
+enum Step {
+    /// What a sweep will compute; the springs that it needs; files that run it on a cluster.
+    Plan(plan::Options),
+    /// What the parts that are there say together, or which are missing.
+    Gather(gather::Options),
+}
+
+/// Options of the sweep itself.
+#[derive(Debug, Args)]
+struct Run {
+    /// Sweep file (TOML)
+    #[arg(required = true)]
+    sweep: Option<PathBuf>,
+    /// Folder for the results; one that holds a part of this sweep is gone on with
+    #[arg(long, value_name = "DIR", default_value = "out")]
+    out: PathBuf,
+    /// Only the I-th of N shares, without gathering them
+    #[arg(long, value_name = "I/N")]
+    shard: Option<Share>,
+    /// Threads [default: all cores]
+    #[arg(long, value_name = "N")]
+    jobs: Option<usize>,
+    /// No figures
+    #[arg(long)]
+    no_figures: bool,
+    /// No progress
+    #[arg(long)]
+    quiet: bool,
+}
+
+pub fn run(o: &Options) -> Result<(), CommandError> {
+    match (&o.step, &o.run.sweep) {
+        (Some(Step::Plan(o)), _) => plan::run(o),
+        (Some(Step::Gather(o)), _) => gather::run(o),
+        (None, Some(sweep)) => o.run.compute(sweep),
+        (None, None) => Ok(()),
+    }
+}
+
+/// The folder of a sweep, begun or gone on with; the springs that it needs.
+fn begin(plan: &Plan, hash: &str, out: &Path, quiet: bool) -> Result<Option<SpringsTable>, CommandError> {
+    check_folder(out)?;
+    Manifest::new(plan, hash).begin(out)?;
+    if !plan.model.fem() {
+        return Ok(None);
+    }
+    let progress = Progress::new("springs", quiet);
+    let springs = SpringsTable::new(plan, out, hash, &|done, all| progress.tell(done, all, "geometries"));
+    progress.done();
+    let springs = springs?;
+    for structure in &springs.missed {
+        eprintln!(
+            "springs: WARNING: the accuracy asked for was not reached on {structure}; ask for less, or allow stiffer springs"
+        );
+    }
+    Ok(Some(springs))
+}
+
+impl Run {
+    fn compute(&self, sweep: &Path) -> Result<(), CommandError> {
+        let plan = Plan::read(sweep)?;
+        let hash = plan.hash(&mut |notice| eprintln!("{notice}"))?;
+        threads(self.jobs)?;
+        let springs = begin(&plan, &hash, &self.out, self.quiet)?;
+        let parts = Parts { plan: &plan, folder: &self.out, hash: &hash };
+        let share = self.shard.unwrap_or_default();
+        let wanted: Vec<u64> = share.parts(plan.parts()).filter(|part| !parts.is_done(*part)).collect();
+        let all: u64 = wanted.iter().map(|part| parts.cells(*part)).map(|cells| cells.end - cells.start).sum();
+        let progress = Progress::new("sweep", self.quiet);
+        let (began, through) = (Instant::now(), AtomicU64::new(0));
+        let done = |more: u64| {
+            let n = through.fetch_add(more, Ordering::Relaxed) + more;
+            progress.tell(n as usize, all as usize, &left(n, all, began.elapsed().as_secs_f64()));
+        };
+        for &part in &wanted {
+            parts.compute(part, springs.as_ref(), &done)?;
+        }
+        progress.done();
+        let seconds = began.elapsed().as_secs_f64();
+        if !self.quiet && all > 0 {
+            eprintln!("{all} cells in {}: {:.0} a second", duration(seconds), all as f64 / seconds);
+        }
+        if self.shard.is_some() {
+            writeln!(
+                std::io::stdout(),
+                "share {}/{}: {} of {} parts computed now; gather them with: tune sweep gather {} --out {}",
+                share.index,
+                share.of,
+                wanted.len(),
+                plan.parts(),
+                sweep.display(),
+                self.out.display()
+            )?;
+            return Ok(());
+        }
+        gather::gather(&parts, !self.no_figures)
+    }
+}
+
+/// Rate and time left.
+fn left(done: u64, all: u64, seconds: f64) -> String {
+    let rate = done as f64 / seconds.max(1e-9);
+    format!("{rate:.0} a second, {} left", duration((all - done) as f64 / rate))
+}
+
+/// A time in words.
+fn duration(seconds: f64) -> String {
+    match seconds {
+        s if s < 99.5 => format!("{s:.1} s"),
+        s if s < 5970.0 => format!("{:.0} min", s / 60.0),
+        s => format!("{:.1} h", s / 3600.0),
+    }
+}

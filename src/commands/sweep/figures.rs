@@ -1,0 +1,219 @@
+//! The figures of a sweep, from its tables.
+
+use std::path::Path;
+
+use super::super::CommandError;
+use crate::{
+    figures::{fragility as probability, ida as levels, overturning as spectra, peaks, rocking as maps},
+    structure::Kind,
+    sweep::{
+        compare::Comparison,
+        fragility::{Fragility, MEASURES, Row, State},
+        ida::{Ida, Point},
+        plan::{Measure, Plan},
+        reduce::MODELS,
+        table::Table,
+    },
+};
+
+/// Panels beyond which a figure is no figure.
+const PANELS: usize = 6;
+/// Points of a curve, and of what was observed.
+const POINTS: usize = 120;
+const OBSERVED: usize = 24;
+
+/// Both figures: all states for all structures together, and overturning structure by structure.
+pub fn fragility(plan: &Plan, fragility: &Fragility, path: &Path) -> Result<(), CommandError> {
+    let states = State::all(plan);
+    let several = plan.subjects.len() > 1;
+    let (first, half_width) = (fragility.members[0].model, fragility.half_width());
+    let of = |row: &Row| &fragility.members[row.member];
+    let main = |row: &Row| {
+        let member = of(row);
+        member.model == first && member.restitution == 0 && member.subject.is_none() == several
+    };
+    let curve = |row: &Row, entry: usize| {
+        let observed = fragility.observed(row, &states, OBSERVED);
+        curve(row, entry, half_width, observed)
+    };
+    let measure = |index: usize, curves: Vec<probability::Curve>| {
+        let (name, unit) = MEASURES[index];
+        let unit = if unit == "-" { String::new() } else { format!(" [{unit}]") };
+        probability::Measure { label: format!("{}{unit}", name.replace("alpha", "α")), curves }
+    };
+    let measures: Vec<probability::Measure> = (0..MEASURES.len())
+        .map(|index| {
+            let rows = fragility.rows.iter().filter(|row| row.measure == index && main(row));
+            let place = |row: &Row| states.iter().position(|state| *state == row.state).unwrap_or(0);
+            measure(index, rows.filter_map(|row| curve(row, place(row))).collect())
+        })
+        .filter(|measure| !measure.curves.is_empty())
+        .collect();
+    let model = if MODELS[first] == "fem" { "finite elements" } else { "Housner" };
+    let who = if several { format!("all {} structures", plan.subjects.len()) } else { plan.subjects[0].name.clone() };
+    let names: Vec<String> = states.iter().map(|state| state.name().replace("theta/alpha", "|θ|/α")).collect();
+    if !measures.is_empty() {
+        let title = format!("Fragility, {who}, {} motions, {model}", plan.motions.len());
+        let label = format!("probability, {:.0} % bounds", 100.0 * plan.confidence);
+        let data =
+            probability::Fragility { title: &title, entries: &names, measures: &measures, probability_label: &label };
+        probability::draw(&data)?.save(path)?;
+    }
+    if !several {
+        return Ok(());
+    }
+    let shown = plan.subjects.len().min(PANELS);
+    let names: Vec<String> = plan.subjects.iter().take(shown).map(|subject| subject.name.clone()).collect();
+    let alone = |row: &&Row, index: usize| {
+        let member = of(row);
+        let shown = member.subject.is_some_and(|subject| subject < shown);
+        row.measure == index
+            && row.state == State::Overturning
+            && member.model == first
+            && member.restitution == 0
+            && shown
+    };
+    let measures: Vec<probability::Measure> = (0..MEASURES.len())
+        .map(|index| {
+            let rows = fragility.rows.iter().filter(|row| alone(row, index));
+            measure(index, rows.filter_map(|row| curve(row, of(row).subject?)).collect())
+        })
+        .filter(|measure| !measure.curves.is_empty())
+        .collect();
+    if !measures.is_empty() {
+        let title = format!("Overturning of each structure, {} motions, {model}", plan.motions.len());
+        let label = format!("probability, {:.0} % bounds", 100.0 * plan.confidence);
+        let data =
+            probability::Fragility { title: &title, entries: &names, measures: &measures, probability_label: &label };
+        probability::draw(&data)?.save(&path.with_file_name("fragility_structures.png"))?;
+    }
+    Ok(())
+}
+
+/// From 0.2 % to 99.8 % of a fit.
+fn curve(row: &Row, entry: usize, half_width: f64, observed: Vec<(f64, f64)>) -> Option<probability::Curve> {
+    use crate::sweep::lognormal::phi;
+    let (fit, covariance) = (row.probit()?, row.covariance?);
+    let x: Vec<f64> = (0..POINTS)
+        .map(|i| fit.median() * (fit.beta() * 2.9 * (2.0 * i as f64 / (POINTS - 1) as f64 - 1.0)).exp())
+        .collect();
+    let at = |side: f64| -> Vec<f64> {
+        x.iter().map(|x| phi(fit.a + fit.b * x.ln() + side * half_width * fit.deviation_at(covariance, *x))).collect()
+    };
+    Some(probability::Curve { entry, probability: at(0.0), low: at(-1.0), high: at(1.0), observed, x })
+}
+
+fn level_label(plan: &Plan) -> &'static str {
+    match plan.measure {
+        Measure::Scale => "scale",
+        Measure::PgaG => "PGA [g]",
+        Measure::PgaOverUplift => "PGA/(g tan α)",
+    }
+}
+
+pub fn ida(plan: &Plan, ida: &Ida, path: &Path) -> Result<(), CommandError> {
+    let first = ida.points.first().map_or(0, |point| point.model);
+    let subjects: Vec<levels::Subject> = plan
+        .subjects
+        .iter()
+        .enumerate()
+        .take(PANELS)
+        .map(|(i, subject)| {
+            let points: Vec<&Point> =
+                ida.points.iter().filter(|p| p.subject == i && p.model == first && p.restitution == 0).collect();
+            let quantile = |share: f64| points.iter().map(|point| point.quantile(share).unwrap_or(0.0)).collect();
+            levels::Subject {
+                label: subject.name.clone(),
+                records: ida
+                    .curves
+                    .iter()
+                    .filter(|curve| curve.subject == i)
+                    .map(|curve| (curve.levels.clone(), curve.peaks.clone()))
+                    .collect(),
+                levels: points.iter().map(|point| point.level).collect(),
+                quantiles: [quantile(0.16), quantile(0.5), quantile(0.84)],
+            }
+        })
+        .collect();
+    let title = format!("Peak rotation against {}, {} motions", level_label(plan), plan.motions.len());
+    Ok(levels::draw(&levels::Ida { title: &title, level_label: level_label(plan), subjects: &subjects })?.save(path)?)
+}
+
+pub fn overturning(plan: &Plan, table: &Table, path: &Path) -> Result<(), CommandError> {
+    let (q, model) = (table.reals("omega_over_p"), table.texts("model"));
+    let (from, to, impacts) = (table.reals("from_over_uplift"), table.reals("to_over_uplift"), table.reals("impacts"));
+    let (subject, pulse) = (table.counts("structure_index"), table.texts("pulse"));
+    let (low, high) = (plan.levels[0], plan.levels[plan.levels.len() - 1]);
+    let mut all: Vec<((i64, &str, &str), spectra::Spectrum)> = Vec::new();
+    for row in 0..table.len() {
+        let key = (subject[row], &*pulse[row], &*model[row]);
+        let at = all.iter().position(|(other, _)| *other == key).unwrap_or_else(|| {
+            let which = if plan.subjects.len() > 1 { format!(", structure {}", key.0 + 1) } else { String::new() };
+            let how = if plan.model.housner() && plan.model.fem() { format!(", {}", key.2) } else { String::new() };
+            let label = format!("{}{which}{how}", key.1);
+            all.push((key, spectra::Spectrum { label, frequencies: Vec::new(), intervals: Vec::new() }));
+            all.len() - 1
+        });
+        let spectrum = &mut all[at].1;
+        let q = q[row].unwrap_or(1.0);
+        spectrum.frequencies.push(q);
+        spectrum.intervals.push(spectra::Interval {
+            q,
+            from: from[row].unwrap_or(low),
+            to: to[row].unwrap_or(f64::INFINITY),
+            impacts: impacts[row].unwrap_or(0.0) as usize,
+        });
+    }
+    let mut spectra: Vec<spectra::Spectrum> = all.into_iter().take(PANELS).map(|(_, spectrum)| spectrum).collect();
+    for spectrum in &mut spectra {
+        spectrum.frequencies.sort_by(f64::total_cmp);
+        spectrum.frequencies.dedup();
+    }
+    if spectra.is_empty() {
+        return Ok(());
+    }
+    let all = || q.iter().copied().flatten();
+    let frequencies = (all().fold(f64::INFINITY, f64::min), all().fold(0.0, f64::max));
+    let title = match &plan.subjects[..] {
+        [one] => format!("Pulses that overturn: {}", one.name),
+        all => format!("Pulses that overturn, {} structures", all.len()),
+    };
+    let amplitudes = (0.9 * low, high);
+    let data = spectra::Overturning { title: &title, spectra: &spectra, frequencies, amplitudes };
+    Ok(spectra::draw(&data)?.save(path)?)
+}
+
+pub fn rocking(plan: &Plan, ida: &Ida, path: &Path) -> Result<(), CommandError> {
+    let first = ida.points.first().map_or(0, |point| point.model);
+    let mut maps_found = Vec::new();
+    for (kind, name) in [(Kind::AFrame, "A-frames"), (Kind::Block, "blocks")] {
+        let mine = |point: &&Point| {
+            point.model == first
+                && point.restitution == 0
+                && point.level == plan.levels[0]
+                && plan.subjects[point.subject].structure.kind == kind
+        };
+        let body = |point: &Point| {
+            let subject = &plan.subjects[point.subject];
+            maps::Body { period: 1.0 / subject.p, alpha: subject.alpha, peak: point.quantile(0.5).unwrap_or(0.0) }
+        };
+        let bodies: Vec<maps::Body> = ida.points.iter().filter(mine).map(body).collect();
+        if !bodies.is_empty() {
+            maps_found.push(maps::Map { label: name.into(), bodies });
+        }
+    }
+    let of = match &plan.motions[..] {
+        [one] => one.name(),
+        all => format!("median of {} motions", all.len()),
+    };
+    let title = format!("Rocking spectrum, {of}, {} {}", level_label(plan), plan.levels[0]);
+    Ok(maps::draw(&maps::Rocking { title: &title, maps: &maps_found })?.save(path)?)
+}
+
+pub fn compare(comparison: &Comparison, path: &Path) -> Result<(), CommandError> {
+    if comparison.sample.is_empty() {
+        return Ok(());
+    }
+    let title = format!("Rigid against springs, {} histories", comparison.all().map_or(0, |row| row.n));
+    Ok(peaks::draw(&peaks::Peaks { title: &title, pairs: &comparison.sample })?.save(path)?)
+}

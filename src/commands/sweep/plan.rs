@@ -1,0 +1,152 @@
+//! `tune sweep plan`: what a sweep will compute, and files that run it on a cluster.
+
+use std::{
+    fmt::Write as _,
+    io::Write as _,
+    path::{Path, PathBuf},
+};
+
+use clap::Args;
+
+use super::{
+    super::{CommandError, write_file},
+    begin,
+    gather::absolute,
+};
+use crate::sweep::{parts::Parts, plan::Plan};
+
+/// Options of `tune sweep plan`.
+#[derive(Debug, Args)]
+pub struct Options {
+    /// Sweep file (TOML)
+    sweep: PathBuf,
+    /// Folder for the results
+    #[arg(long, value_name = "DIR", default_value = "out")]
+    out: PathBuf,
+    /// Shares of the work
+    #[arg(long, value_name = "N", default_value_t = 8, value_parser = clap::value_parser!(u64).range(1..=100_000))]
+    shards: u64,
+    /// Write sweep.sbatch and gather.sbatch for Slurm, and commands.txt for PyLauncher, GNU parallel and their like
+    #[arg(long)]
+    slurm: bool,
+    /// Threads of a share
+    #[arg(long, value_name = "N", default_value_t = 1)]
+    jobs: usize,
+    /// Time limit of a share, as Slurm has it
+    #[arg(long, value_name = "TIME", default_value = "02:00:00", requires = "slurm")]
+    time: String,
+    /// No progress
+    #[arg(long)]
+    quiet: bool,
+}
+
+pub fn run(o: &Options) -> Result<(), CommandError> {
+    if o.time.is_empty() || !o.time.chars().all(|c| c.is_ascii_digit() || c == ':' || c == '-') {
+        let remedy = "give minutes, or hours:minutes:seconds, as 02:00:00";
+        return Err(CommandError::Option { option: "time", value: format!("{:?}", o.time), remedy });
+    }
+    let plan = Plan::read(&o.sweep)?;
+    let hash = plan.hash(&mut |notice| eprintln!("{notice}"))?;
+    begin(&plan, &hash, &o.out, o.quiet)?;
+    let missing = Parts { plan: &plan, folder: &o.out, hash: &hash }.missing().len();
+    writeln!(
+        std::io::stdout(),
+        "{} cells: {} motions, {} structures, {} restitutions, {} levels; {} parts of {} cells, {missing} missing; sweep {hash}",
+        plan.len(),
+        plan.motions.len(),
+        plan.subjects.len(),
+        plan.restitution_count(),
+        plan.levels.len(),
+        plan.parts(),
+        plan.part
+    )?;
+    let shares = o.shards.min(plan.parts());
+    let program = std::env::current_exe().unwrap_or_else(|_| PathBuf::from("tune"));
+    let script = Script {
+        program: quoted(&program),
+        sweep: quoted(&absolute(&o.sweep)),
+        out: quoted(&absolute(&o.out)),
+        shares,
+        jobs: o.jobs,
+        time: &o.time,
+    };
+    write_file(&o.out.join("commands.txt"), script.commands().as_bytes())?;
+    if o.slurm {
+        write_file(&o.out.join("sweep.sbatch"), script.array().as_bytes())?;
+        write_file(&o.out.join("gather.sbatch"), script.gather().as_bytes())?;
+        write_file(&o.out.join("submit.sh"), script.submit().as_bytes())?;
+        eprintln!("submit with: sh {}", o.out.join("submit.sh").display());
+    }
+    eprintln!("written to {}", o.out.display());
+    Ok(())
+}
+
+/// A word of a shell.
+fn quoted(path: &Path) -> String {
+    format!("'{}'", path.display().to_string().replace('\'', "'\\''"))
+}
+
+/// All that the files for a cluster say.
+struct Script<'a> {
+    program: String,
+    sweep: String,
+    out: String,
+    shares: u64,
+    jobs: usize,
+    time: &'a str,
+}
+
+impl Script<'_> {
+    fn share(&self, index: &str) -> String {
+        let Self { program, sweep, out, shares, jobs, .. } = self;
+        format!("{program} sweep {sweep} --out {out} --shard {index}/{shares} --jobs {jobs} --quiet")
+    }
+
+    /// A line a share, then none to gather: launchers run lines in any order.
+    fn commands(&self) -> String {
+        let mut out = String::new();
+        for index in 1..=self.shares {
+            // writing to a String cannot fail
+            let _ = writeln!(out, "{}", self.share(&index.to_string()));
+        }
+        out
+    }
+
+    /// An array of at most a thousand tasks, as clusters allow by default; each computes every thousandth share from its own on.
+    fn array(&self) -> String {
+        let tasks = self.shares.min(1000);
+        format!(
+            "#!/bin/sh\n#SBATCH --job-name=tune-sweep\n#SBATCH --array=1-{tasks}\n#SBATCH --cpus-per-task={}\n#SBATCH --time={}\n\
+             #SBATCH --requeue\n#SBATCH --output={}/slurm-%A_%a.log\n\
+             # parts are idempotent: a task that is killed or run twice leaves whole files, the same ones\n\
+             i=$SLURM_ARRAY_TASK_ID\nwhile [ \"$i\" -le {} ]; do\n    {} || exit 1\n    i=$((i + {tasks}))\ndone\n",
+            self.jobs,
+            self.time,
+            self.bare(),
+            self.shares,
+            self.share("\"$i\""),
+        )
+    }
+
+    fn gather(&self) -> String {
+        let Self { program, sweep, out, .. } = self;
+        format!(
+            "#!/bin/sh\n#SBATCH --job-name=tune-gather\n#SBATCH --time={}\n#SBATCH --output={}/slurm-gather.log\n{program} sweep gather {sweep} --out {out}\n",
+            self.time,
+            self.bare(),
+        )
+    }
+
+    /// afterany: a task that died must not keep the others' results waiting; gather says what is missing.
+    fn submit(&self) -> String {
+        format!(
+            "#!/bin/sh\nset -e\ncd {}\njob=$(sbatch --parsable sweep.sbatch)\nsbatch --dependency=afterany:\"$job\" gather.sbatch\necho \"array $job\"\n",
+            self.out
+        )
+    }
+
+    /// #SBATCH lines are no shell: a folder without quotes.
+    fn bare(&self) -> String {
+        self.out.trim_matches('\'').to_string()
+    }
+}

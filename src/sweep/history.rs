@@ -1,0 +1,194 @@
+//! Histories of a range of cells, by Housner in lock-step lanes, by finite elements one by one.
+
+use std::{f64::consts::FRAC_PI_2, ops::Range, sync::Arc};
+
+use rayon::prelude::*;
+
+use super::{
+    SweepError,
+    plan::{Cell, Plan, Subject},
+    row::{Answer, Outcome, Row},
+    springs::SpringsTable,
+};
+use crate::{
+    fem,
+    housner::{self, Rocking},
+    record::Record,
+    spring::{Chain, Springs},
+    structure::Body,
+    validate::Stream,
+};
+
+/// Cells that a thread takes at a time: as many as go in lock-step.
+const TOGETHER: usize = 16;
+
+/// The rows of a range of cells, in their order. `done` is told how many more are through.
+///
+/// # Errors
+/// A record that cannot be read, or has no motion.
+pub fn rows(
+    plan: &Plan,
+    springs: Option<&SpringsTable>,
+    cells: Range<u64>,
+    done: &(dyn Fn(u64) + Sync),
+) -> Result<Vec<Row>, SweepError> {
+    let cells: Vec<Cell> = cells.map(|index| plan.cell(index)).collect();
+    let same = |a: &Cell, b: &Cell| {
+        a.motion == b.motion && (a.subject == b.subject || !plan.motions[a.motion].is_for_structure())
+    };
+    let groups: Vec<&[Cell]> = cells.chunk_by(same).collect();
+    let rows: Vec<Result<Vec<Row>, SweepError>> = groups
+        .into_par_iter()
+        .with_max_len(1)
+        .map(|group| {
+            let ground = Ground::new(plan, group[0])?;
+            let rows: Vec<Vec<Row>> = group
+                .par_chunks(TOGETHER)
+                .with_max_len(1)
+                .map(|cells| {
+                    let rows = ground.rows(plan, springs, cells);
+                    done(cells.len() as u64);
+                    rows
+                })
+                .collect();
+            Ok(rows.into_iter().flatten().collect())
+        })
+        .collect();
+    Ok(rows.into_iter().collect::<Result<Vec<_>, _>>()?.into_iter().flatten().collect())
+}
+
+/// A ground motion and its peaks, unscaled.
+struct Ground {
+    record: Record,
+    name: Arc<str>,
+    pga: f64,
+    pgv: f64,
+    vertical: Option<Arc<[f64]>>,
+}
+
+impl Ground {
+    fn new(plan: &Plan, cell: Cell) -> Result<Self, SweepError> {
+        let Subject { p, alpha, .. } = plan.subjects[cell.subject];
+        let record = plan.motions[cell.motion].record(&plan.making, (p, alpha))?;
+        let measures = record.measures();
+        let (pga, pgv) = (measures.pga.value.abs(), measures.pgv.value.abs());
+        if pga == 0.0 {
+            return Err(SweepError::Still { record: record.name });
+        }
+        let (name, vertical) = (Arc::from(record.name.as_str()), record.vertical_accel());
+        Ok(Self { record, name, pga, pgv, vertical })
+    }
+
+    fn rows(&self, plan: &Plan, springs: Option<&SpringsTable>, cells: &[Cell]) -> Vec<Row> {
+        let scales: Vec<f64> = cells
+            .iter()
+            .map(|cell| plan.factor(&plan.subjects[cell.subject], plan.levels[cell.level], self.pga))
+            .collect();
+        let bodies: Vec<Body<f64>> = cells.iter().map(|cell| plan.subjects[cell.subject].body).collect();
+        let options: Vec<housner::Options<f64>> = cells
+            .iter()
+            .zip(&scales)
+            .map(|(cell, &scale)| housner::Options {
+                scale,
+                vertical: self.vertical.clone(),
+                restitution: Some(plan.restitution(cell.subject, cell.restitution)),
+                ..Default::default()
+            })
+            .collect();
+        let rigid = housner::solve_lanes(&bodies, self.record.dt, &self.record.accel, &options);
+        let row = |(i, cell): (usize, &Cell)| {
+            let subject = &plan.subjects[cell.subject];
+            let (fem, nrmse) = match springs {
+                Some(springs) => {
+                    let springs = springs.of(cell.subject, cell.restitution);
+                    let (answer, nrmse) = elements(subject, &springs, &self.record, scales[i], &rigid[i]);
+                    (Some(answer), nrmse.filter(|_| plan.model.housner()))
+                }
+                None => (None, None),
+            };
+            Row {
+                cell: cell.index,
+                subject: cell.subject,
+                motion: cell.motion,
+                restitution: plan.restitution(cell.subject, cell.restitution),
+                level: plan.levels[cell.level],
+                record: self.name.clone(),
+                scale: scales[i],
+                pga: self.pga * scales[i].abs(),
+                pgv: self.pgv * scales[i].abs(),
+                housner: plan.model.housner().then(|| of_housner(subject, &rigid[i])),
+                fem,
+                nrmse,
+            }
+        };
+        match springs {
+            // one may take as long as all the others
+            Some(_) => cells.par_iter().enumerate().with_max_len(1).map(row).collect(),
+            None => cells.iter().enumerate().map(row).collect(),
+        }
+    }
+}
+
+/// pi/2 of a body that overturned; it lies, and how far it had fallen at the record's end says nothing.
+fn ratio(subject: &Subject, peak: f64, outcome: Outcome) -> Option<f64> {
+    match outcome {
+        Outcome::Failed => None,
+        Outcome::Overturned => Some(FRAC_PI_2 / subject.alpha),
+        _ => Some(peak / subject.alpha),
+    }
+}
+
+fn of_housner(subject: &Subject, rocking: &Rocking<f64>) -> Answer {
+    let outcome = match rocking.outcome {
+        housner::Outcome::NeverMoved => Outcome::NeverLifted,
+        housner::Outcome::Rocked => Outcome::Rocked,
+        housner::Outcome::Overturned { .. } => Outcome::Overturned,
+        housner::Outcome::LeavesGround { .. } => Outcome::LeavesGround,
+        housner::Outcome::WorkBound { .. } | housner::Outcome::NotFinite { .. } => Outcome::Failed,
+    };
+    let peak = rocking.theta.iter().fold(0.0, |peak: f64, theta| peak.max(theta.abs()));
+    Answer {
+        outcome,
+        peak: ratio(subject, peak, outcome),
+        impacts: Some(rocking.impacts.len()),
+        overturned_s: rocking.overturned(),
+    }
+}
+
+/// One finite element history, streamed; its NRMSE against Housner's. The one place where histories on springs are computed.
+pub(super) fn elements(
+    subject: &Subject,
+    springs: &Springs<Chain<f64>>,
+    record: &Record,
+    scale: f64,
+    rigid: &Rocking<f64>,
+) -> (Answer, Option<f64>) {
+    let body = &subject.body;
+    let accel: Vec<f64> = record.accel.iter().map(|a| a * scale).collect();
+    let vertical: Vec<f64> = record.up().iter().map(|a| a * scale).collect();
+    let case = fem::Case {
+        body: *body,
+        springs: *springs,
+        start: fem::Start::Settled,
+        dt: record.dt,
+        accel: &accel,
+        vertical: &vertical,
+        scale: 1.0,
+        control: fem::Control::default(),
+    };
+    let standing = rigid.overturned().map_or(rigid.theta.len(), |time| (time / record.dt) as usize + 1);
+    let mut stream = Stream::new(body, &rigid.theta[..standing.min(rigid.theta.len())], &accel);
+    let outcome = match case.observe(&mut stream).outcome {
+        fem::Outcome::Overturned { .. } | fem::Outcome::Stopped { .. } => Outcome::Overturned,
+        fem::Outcome::Completed if housner::topples(body, stream.last.0, stream.last.1) => Outcome::Overturned,
+        fem::Outcome::Completed if stream.peak == 0.0 => Outcome::NeverLifted,
+        fem::Outcome::Completed => Outcome::Rocked,
+        fem::Outcome::WorkBound { .. } | fem::Outcome::Unstable { .. } => Outcome::Failed,
+    };
+    let outcome = if stream.peak.is_finite() { outcome } else { Outcome::Failed };
+    let errors = if outcome == Outcome::Overturned { stream.upright } else { stream.errors };
+    let lifted = rigid.outcome != housner::Outcome::NeverMoved;
+    let nrmse = errors.horizontal.value();
+    let nrmse = (lifted && outcome != Outcome::Failed && nrmse.is_finite()).then_some(nrmse);
+    (Answer { outcome, peak: ratio(subject, stream.peak, outcome), impacts: None, overturned_s: None }, nrmse)
+}

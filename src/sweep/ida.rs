@@ -1,0 +1,136 @@
+//! Incremental dynamic analysis: peak |theta|/alpha against the level, over all records of a structure.
+
+use std::sync::Arc;
+
+use super::{
+    SweepError,
+    parts::Parts,
+    plan::Plan,
+    reduce::{self, Histogram, MODELS},
+    table::{Column, Table},
+};
+
+/// One structure and restitution at one level, by one model.
+#[derive(Clone, Debug)]
+pub struct Point {
+    /// Index into [`MODELS`].
+    pub model: usize,
+    pub subject: usize,
+    pub restitution: usize,
+    pub level: f64,
+    pub n: u64,
+    pub lifted: u64,
+    pub overturned: u64,
+    /// Failed, or the pivot let go: not in n.
+    pub left_out: u64,
+    /// Of |theta|/alpha; infinite for a body that overturned.
+    peaks: Histogram,
+}
+
+/// Peaks of one record against level, for the figure.
+#[derive(Clone, Debug)]
+pub struct Curve {
+    pub subject: usize,
+    pub levels: Vec<f64>,
+    pub peaks: Vec<f64>,
+}
+
+/// All points of a sweep: by model, structure, restitution, level.
+#[derive(Clone, Debug)]
+pub struct Ida {
+    pub points: Vec<Point>,
+    /// Of some records, the first model and the first restitution.
+    pub curves: Vec<Curve>,
+}
+
+/// Records whose curves are kept, and structures of which.
+const CURVES: usize = 30;
+const SUBJECTS: usize = 6;
+
+impl Point {
+    /// A quantile of |theta|/alpha; infinite where that many overturn.
+    pub fn quantile(&self, share: f64) -> Option<f64> {
+        self.peaks.quantile(share)
+    }
+}
+
+impl Ida {
+    /// Of the parts that are there.
+    ///
+    /// # Errors
+    /// A part that cannot be read.
+    pub fn new(parts: &Parts) -> Result<Self, SweepError> {
+        let plan = parts.plan;
+        let models = reduce::models(plan);
+        let (subjects, restitutions, levels) = (plan.subjects.len(), plan.restitution_count(), plan.levels.len());
+        let mut points = Vec::new();
+        for &model in &models {
+            for subject in 0..subjects {
+                for restitution in 0..restitutions {
+                    points.extend(plan.levels.iter().map(|&level| {
+                        let (n, lifted, overturned, left_out) = (0, 0, 0, 0);
+                        let peaks = Histogram::default();
+                        Point { model, subject, restitution, level, n, lifted, overturned, left_out, peaks }
+                    }));
+                }
+            }
+        }
+        let stride = plan.motions.len().div_ceil(CURVES);
+        let mut curves: Vec<Curve> = Vec::new();
+        let mut last = None;
+        reduce::each(parts, |seen| {
+            let cell = seen.cell;
+            for (place, &model) in models.iter().enumerate() {
+                let at = ((place * subjects + cell.subject) * restitutions + cell.restitution) * levels + cell.level;
+                let point = &mut points[at];
+                let Some(known) = &seen.answers[model] else {
+                    point.left_out += 1;
+                    continue;
+                };
+                point.n += 1;
+                point.lifted += u64::from(known.peak > 0.0);
+                point.overturned += u64::from(known.overturned);
+                let peak = if known.overturned { f64::INFINITY } else { known.peak };
+                point.peaks.add(peak);
+                let wanted = place == 0 && cell.restitution == 0 && cell.subject < SUBJECTS && levels > 1;
+                if wanted && cell.motion.is_multiple_of(stride) {
+                    let key = (cell.motion, cell.subject);
+                    if last.replace(key) != Some(key) {
+                        curves.push(Curve { subject: cell.subject, levels: Vec::new(), peaks: Vec::new() });
+                    }
+                    if let Some(curve) = curves.last_mut() {
+                        curve.levels.push(point.level);
+                        curve.peaks.push(peak);
+                    }
+                }
+            }
+        })?;
+        Ok(Self { points, curves })
+    }
+
+    /// `ida.csv`.
+    pub fn table(&self, plan: &Plan) -> Table {
+        let points = &self.points;
+        let count = |of: fn(&Point) -> u64| Column::Count(points.iter().map(|point| of(point) as i64).collect());
+        let real = |of: &dyn Fn(&Point) -> Option<f64>| Column::Real(points.iter().map(of).collect());
+        let text = |of: &dyn Fn(&Point) -> String| Column::Text(points.iter().map(|p| Arc::from(of(p))).collect());
+        let share = |k: u64, n: u64| (n > 0).then(|| k as f64 / n as f64);
+        Table {
+            columns: vec![
+                ("model", text(&|point| MODELS[point.model].into())),
+                ("structure", text(&|point| plan.subjects[point.subject].name.clone())),
+                ("alpha", real(&|point| Some(plan.subjects[point.subject].alpha))),
+                ("p_per_s", real(&|point| Some(plan.subjects[point.subject].p))),
+                ("restitution", real(&|point| Some(plan.restitution(point.subject, point.restitution)))),
+                ("level", real(&|point| Some(point.level))),
+                ("histories", count(|point| point.n)),
+                ("left_out", count(|point| point.left_out)),
+                ("share_rocking", real(&|point| share(point.lifted, point.n))),
+                ("share_overturned", real(&|point| share(point.overturned, point.n))),
+                ("peak_16", real(&|point| point.quantile(0.16))),
+                ("peak_50", real(&|point| point.quantile(0.5))),
+                ("peak_84", real(&|point| point.quantile(0.84))),
+            ],
+        }
+    }
+}

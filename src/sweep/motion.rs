@@ -1,0 +1,104 @@
+//! The ground motions of a sweep, each made or read when it is needed.
+
+use std::{f64::consts::TAU, path::PathBuf};
+
+use super::pulse::Shape;
+use crate::{
+    record::{Notice, ReadOptions, Record, RecordError, Recording, Source},
+    scalar::GRAVITY,
+    synthetic,
+};
+
+/// A pulse's frequency.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum Frequency {
+    /// Circular, over p of the structure.
+    OverP(f64),
+    Hz(f64),
+}
+
+/// One ground motion.
+#[derive(Clone, Debug, PartialEq)]
+pub enum Motion {
+    ElCentro,
+    File(PathBuf),
+    /// `synthetic::record` of this index, made for the structure.
+    Synthetic(usize),
+    /// `synthetic::earthquake` of this index.
+    Earthquake(usize),
+    /// With a peak of 1 g.
+    Pulse {
+        shape: Shape,
+        frequency: Frequency,
+    },
+}
+
+/// How motions are read and made.
+#[derive(Clone, Debug)]
+pub struct Making {
+    pub read: ReadOptions,
+    pub seed: u64,
+    pub duration_s: Option<f64>,
+    /// The least and the greatest p of the structures [1/s]: silences are long enough for the one, steps fine enough for the other.
+    pub p: (f64, f64),
+}
+
+/// Silence behind a pulse, for a body to topple or to come back in [1/p].
+pub(super) const SILENCE: f64 = 12.0;
+
+impl Motion {
+    /// Whether each structure has its own.
+    pub fn is_for_structure(&self) -> bool {
+        matches!(self, Self::Synthetic(_) | Self::Pulse { frequency: Frequency::OverP(_), .. })
+    }
+
+    /// Name in tables.
+    pub fn name(&self) -> String {
+        match self {
+            Self::ElCentro => "IELC180".into(),
+            Self::File(path) => path.file_stem().unwrap_or_default().to_string_lossy().into_owned(),
+            Self::Synthetic(i) => format!("synthetic-{i:05}"),
+            Self::Earthquake(i) => format!("earthquake-{i:05}"),
+            Self::Pulse { shape, frequency: Frequency::OverP(q) } => format!("{} q {q:.4}", shape.name()),
+            Self::Pulse { shape, frequency: Frequency::Hz(f) } => format!("{} {f:.4} Hz", shape.name()),
+        }
+    }
+
+    /// What the reader of a file says of it.
+    ///
+    /// # Errors
+    /// A file that cannot be read.
+    pub fn notices(&self, making: &Making) -> Result<Vec<Notice>, RecordError> {
+        match self {
+            Self::File(path) => Ok(Recording::read(path, &making.read)?.notices()),
+            _ => Ok(Vec::new()),
+        }
+    }
+
+    /// The record, unscaled, for a structure with p [1/s] and alpha [rad] where each has its own.
+    ///
+    /// # Errors
+    /// A file that cannot be read.
+    pub fn record(&self, making: &Making, (p, alpha): (f64, f64)) -> Result<Record, RecordError> {
+        let record = match self {
+            Self::ElCentro => Record::el_centro(),
+            Self::File(path) => Record::read(path, &making.read)?,
+            Self::Synthetic(i) => synthetic::record(making.seed, *i, p, alpha),
+            Self::Earthquake(i) => synthetic::earthquake(making.seed, *i, making.p.0),
+            Self::Pulse { shape, frequency } => {
+                let (omega, least, greatest) = match frequency {
+                    Frequency::OverP(q) => (q * p, p, p),
+                    Frequency::Hz(f) => (TAU * f, making.p.0, making.p.1),
+                };
+                let (dt, mut accel) = shape.sampled(omega, GRAVITY, greatest);
+                accel.resize(accel.len() + (SILENCE / (least * dt)).ceil() as usize, 0.0);
+                // its length is the pulse's
+                return Ok(Record { name: self.name(), dt, accel, vertical: None, source: Source::Synthetic });
+            }
+        };
+        Ok(match making.duration_s {
+            Some(duration) => record.truncated(duration),
+            None => record,
+        })
+    }
+}

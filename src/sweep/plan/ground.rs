@@ -1,0 +1,86 @@
+//! The ground motions that a sweep file asks for.
+
+use toml::Spanned;
+
+use crate::{
+    record::Record,
+    sweep::{
+        SweepError,
+        motion::{Frequency, Motion},
+        pulse::{Name, Shape},
+        spec::{Kind, PulseSection, Source},
+    },
+};
+
+/// Bounds on omega/p and on a frequency [Hz].
+const OMEGA_OVER_P: (f64, f64) = (0.01, 1e3);
+const FREQUENCY_HZ: (f64, f64) = (0.01, 1e3);
+
+/// The motions of a sweep file: files, folder, El Centro, those made, pulses.
+///
+/// # Errors
+/// A folder without records; a pulse that is none, with its line.
+pub fn motions(source: &Source) -> Result<Vec<Motion>, SweepError> {
+    let records = &source.spec.records;
+    let mut motions: Vec<Motion> = records.files.iter().map(|file| Motion::File(source.folder().join(file))).collect();
+    if let Some(folder) = &records.folder {
+        motions.extend(Record::list_dir(&source.folder().join(folder))?.into_iter().map(Motion::File));
+    }
+    if records.el_centro {
+        motions.push(Motion::ElCentro);
+    }
+    let count = |name: &str, n: &Option<Spanned<usize>>| match n {
+        Some(n) if (1..=10_000_000).contains(n.get_ref()) => Ok(*n.get_ref()),
+        Some(n) => Err(source.at(n, format!("{name} is {}; give 1 to 10000000 motions", n.get_ref()))),
+        None => Ok(0),
+    };
+    motions.extend((0..count("synthetic", &records.synthetic)?).map(Motion::Synthetic));
+    motions.extend((0..count("earthquakes", &records.earthquakes)?).map(Motion::Earthquake));
+    let files = motions.len();
+    for pulse in &source.spec.pulse {
+        of_pulse(source, pulse, &mut motions)?;
+    }
+    let kind = &source.spec.sweep.kind;
+    if motions.is_empty() {
+        return Err(source.at(kind, "no ground motion; give [records] or [[pulse]]"));
+    }
+    if *kind.get_ref() == Kind::Overturning && files > 0 {
+        return Err(source.at(kind, "an overturning spectrum is of pulses; take [records] out"));
+    }
+    Ok(motions)
+}
+
+fn of_pulse(source: &Source, pulse: &PulseSection, motions: &mut Vec<Motion>) -> Result<(), SweepError> {
+    let name = *pulse.shape.get_ref();
+    let given = [&pulse.gamma.as_ref().map(|gamma| *gamma.get_ref()), &pulse.nu].into_iter().any(Option::is_some);
+    let shape = match name {
+        Name::MavroeidisPapageorgiou => {
+            let gamma = match &pulse.gamma {
+                Some(gamma) => source.within("gamma", gamma, 1.0, 10.0)?,
+                None => return Err(source.at(
+                    &pulse.shape,
+                    "a Mavroeidis-Papageorgiou pulse needs gamma, its oscillations, 1 to 10, and nu, their phase [rad]",
+                )),
+            };
+            Shape::MavroeidisPapageorgiou { gamma, nu: pulse.nu.filter(|nu| nu.is_finite()).unwrap_or(0.0) }
+        }
+        _ if given => return Err(source.at(&pulse.shape, "gamma and nu are of mavroeidis-papageorgiou; take them out")),
+        Name::HalfSine => Shape::HalfSine,
+        Name::Sine => Shape::Sine,
+        Name::Ricker => Shape::Ricker,
+        Name::RickerAntisymmetric => Shape::RickerAntisymmetric,
+    };
+    let frequencies: Vec<Frequency> = match (&pulse.omega_over_p, &pulse.frequency_hz) {
+        (Some(q), None) => {
+            let (low, high) = OMEGA_OVER_P;
+            source.all_within("omega_over_p", q, low, high)?.into_iter().map(Frequency::OverP).collect()
+        }
+        (None, Some(hz)) => {
+            let (low, high) = FREQUENCY_HZ;
+            source.all_within("frequency_hz", hz, low, high)?.into_iter().map(Frequency::Hz).collect()
+        }
+        _ => return Err(source.at(&pulse.shape, "a pulse needs omega_over_p or frequency_hz, one of the two")),
+    };
+    motions.extend(frequencies.into_iter().map(|frequency| Motion::Pulse { shape, frequency }));
+    Ok(())
+}

@@ -1,0 +1,172 @@
+//! What a sweep found, in plain words.
+
+use super::{
+    compare::Comparison,
+    fragility::{Fragility, MEASURES, State, subject_name},
+    ida::Ida,
+    plan::Plan,
+    reduce::MODELS,
+    table::Table,
+};
+use crate::sweep::lognormal::Fit;
+
+/// A model in words.
+fn by(model: &str) -> &'static str {
+    if model == "fem" { "on springs, by finite elements" } else { "by Housner's equation" }
+}
+
+/// What was computed.
+pub fn head(plan: &Plan) -> String {
+    let counted = |n: usize, one: &str, several: &str| format!("{n} {}", if n == 1 { one } else { several });
+    format!(
+        "{} histories: {}, {}, {}, {}.",
+        plan.len(),
+        counted(plan.subjects.len(), "structure", "structures"),
+        counted(plan.motions.len(), "ground motion", "ground motions"),
+        counted(plan.restitution_count(), "restitution", "restitutions"),
+        counted(plan.levels.len(), "level", "levels"),
+    )
+}
+
+/// Structures that are spoken of one by one.
+const SPOKEN_OF: usize = 12;
+
+/// A paragraph a structure on overturning, and one on which measure tells most.
+pub fn fragility(plan: &Plan, fragility: &Fragility) -> Vec<String> {
+    let mut said = Vec::new();
+    let percent = 100.0 * fragility.confidence;
+    for (at, member) in fragility.members.iter().enumerate().take(SPOKEN_OF) {
+        let rows = || fragility.rows.iter().filter(move |row| row.member == at && row.state == State::Overturning);
+        let Some(pga) = rows().find(|row| row.measure == if member.subject.is_some() { 0 } else { 2 }) else {
+            continue;
+        };
+        let name = subject_name(plan, member.subject);
+        let e = match &plan.restitutions {
+            Some(all) => format!(", e = {}", all[member.restitution]),
+            None => String::new(),
+        };
+        let share = 100.0 * pga.exceeded as f64 / pga.n.max(1) as f64;
+        let (measure, unit) = MEASURES[pga.measure];
+        let unit = if unit == "-" { String::new() } else { format!(" {unit}") };
+        let fit = match (&pga.fit, pga.bounds(fragility.half_width())) {
+            (Fit::Fitted(fit), Some(bounds)) => format!(
+                "half of the motions overturn it at {measure} = {:.3}{unit} ({percent:.0} % bounds {:.3} to {:.3}), beta {:.2} ({:.2} to {:.2})",
+                fit.median(),
+                bounds.median.0,
+                bounds.median.1,
+                fit.beta(),
+                bounds.beta.0,
+                bounds.beta.1
+            ),
+            (Fit::NoneExceeded, _) => "no motion overturns it; raise the levels".into(),
+            (Fit::AllExceeded, _) => "every motion overturns it; lower the levels".into(),
+            (Fit::Separated { below, above }, _) => {
+                format!("{measure} alone decides: up to {below:.3}{unit} it stands, from {above:.3}{unit} it overturns")
+            }
+            _ => format!("no fit on {measure}: higher levels overturn it less often"),
+        };
+        said.push(format!(
+            "- {name}{e}, {}: {share:.1} % of {} histories overturn; {fit}.",
+            by(MODELS[member.model]),
+            pga.n
+        ));
+        if member.subject.is_none() {
+            said.extend(best_measure(rows()));
+        }
+        if member.excluded > 0 {
+            said.push(format!("  {} histories are left out: failed, or the pivot left the ground.", member.excluded));
+        }
+    }
+    if fragility.members.len() > SPOKEN_OF {
+        said.push("- All structures are in fragility.csv.".into());
+    }
+    let records = fragility.members.first().map_or(0, |member| member.records);
+    said.push(if records < 10 {
+        format!("Bounds rest on {records} records only: take more.")
+    } else {
+        "Bounds take the histories of one record for one observation, however many levels it was scaled to.".into()
+    });
+    said
+}
+
+/// The measure with the least scatter.
+fn best_measure<'a>(rows: impl Iterator<Item = &'a super::fragility::Row>) -> Option<String> {
+    let betas: Vec<(&str, f64)> =
+        rows.filter_map(|row| row.probit().map(|fit| (MEASURES[row.measure].0, fit.beta()))).collect();
+    let (best, beta) = betas.iter().min_by(|a, b| a.1.total_cmp(&b.1))?;
+    let others: Vec<String> =
+        betas.iter().filter(|(name, _)| name != best).map(|(n, b)| format!("{n} {b:.2}")).collect();
+    Some(format!("  Over all structures {best} scatters least: beta {beta:.2} ({}).", others.join(", ")))
+}
+
+/// What overturns over size and slenderness.
+pub fn rocking(plan: &Plan, ida: &Ida) -> Vec<String> {
+    let mut said = Vec::new();
+    let counts = ida.points.iter().fold([0_u64; 4], |[n, lifted, over, out], p| {
+        [n + p.n, lifted + p.lifted, over + p.overturned, out + p.left_out]
+    });
+    let [n, lifted, over, out] = counts;
+    let share = |k: u64| 100.0 * k as f64 / n.max(1) as f64;
+    said.push(format!(
+        "{:.1} % of the bodies are never lifted, {:.1} % rock and come to rest upright, {:.1} % overturn; {out} histories are left out.",
+        share(n - lifted),
+        share(lifted - over),
+        share(over)
+    ));
+    let overturned = ida.points.iter().filter(|p| 2 * p.overturned > p.n);
+    let largest = overturned.max_by(|a, b| plan.subjects[b.subject].p.total_cmp(&plan.subjects[a.subject].p));
+    if let Some(point) = largest {
+        let subject = &plan.subjects[point.subject];
+        said.push(format!("The largest body that overturns: {} (1/p = {:.3} s).", subject.name, 1.0 / subject.p));
+    }
+    said
+}
+
+/// How both models differ.
+pub fn compare(comparison: &Comparison) -> Vec<String> {
+    let Some(all) = comparison.all() else { return Vec::new() };
+    let number = |x: Option<f64>| x.map_or("-".into(), |x| format!("{x:.4}"));
+    vec![format!(
+        "Rigid against springs, {} histories ({} left out): both say the same of overturning in {:.2} % (Housner alone overturns {}, springs alone {}); \
+         peaks of theta/alpha differ by {} (median) and {} (90 %), their distributions by {:.4} (KS); NRMSE of u {} (median), {} (90 %).",
+        all.n,
+        all.left_out,
+        100.0 * all.agreement().unwrap_or(0.0),
+        all.housner_only,
+        all.fem_only,
+        number(all.difference.quantile(0.5)),
+        number(all.difference.quantile(0.9)),
+        all.ks_distance(),
+        number(all.nrmse.quantile(0.5)),
+        number(all.nrmse.quantile(0.9)),
+    )]
+}
+
+/// What pulses it takes.
+pub fn overturning(plan: &Plan, table: &Table) -> Vec<String> {
+    let (from, to) = (table.reals("from_over_uplift"), table.reals("to_over_uplift"));
+    let (structure, pulse, q) = (table.texts("structure"), table.texts("pulse"), table.reals("omega_over_p"));
+    let mut said = vec![format!(
+        "{} pulse frequencies times structures, scanned from {} to {} times g tan(alpha): {} intervals overturn.",
+        plan.len(),
+        plan.levels[0],
+        plan.levels[plan.levels.len() - 1],
+        table.len()
+    )];
+    let finite = (0..table.len()).filter(|row| to[*row].is_some()).count();
+    if finite > 0 {
+        said.push(format!(
+            "{finite} of them have an upper end, above which a stronger pulse leaves the body standing or overturns it otherwise."
+        ));
+    }
+    let least = (0..table.len()).filter_map(|row| from[row].map(|from| (row, from))).min_by(|a, b| a.1.total_cmp(&b.1));
+    if let Some((row, from)) = least {
+        said.push(format!(
+            "The weakest pulse that overturns: {} on {} at omega/p = {:.3}, {from:.4} g tan(alpha).",
+            pulse[row],
+            structure[row],
+            q[row].unwrap_or(0.0)
+        ));
+    }
+    said
+}

@@ -1,0 +1,138 @@
+//! `tune sweep`: killed and gone on with, cut into shares, on any number of threads, the bytes are the same.
+
+use std::{
+    collections::BTreeMap,
+    fs,
+    path::Path,
+    process::{Command, Stdio},
+    thread::sleep,
+    time::Duration,
+};
+
+use assert_cmd::cargo::cargo_bin;
+use tempfile::TempDir;
+
+const SWEEP: &str = r#"
+[sweep]
+kind = "fragility"
+seed = 5
+part = 60
+
+[[structure]]
+kind = "aframe"
+height_m = 12.0
+width_m = 2.4
+mass_kg = 350e3
+
+[[structure]]
+kind = "block"
+total_height_m = 2.0
+width_m = 0.5
+mass_kg = 400.0
+
+[records]
+el_centro = true
+earthquakes = 40
+synthetic = 20
+
+[levels]
+pga_g = { from = 0.1, to = 2.0, count = 12, spacing = "log" }
+"#;
+
+fn tune(folder: &Path, args: &[&str]) -> Command {
+    let mut command = Command::new(cargo_bin("tune"));
+    command.current_dir(folder).args(args).stdout(Stdio::null()).stderr(Stdio::null());
+    command
+}
+
+fn sweep(folder: &Path, out: &str, more: &[&str]) {
+    let args = [&["sweep", "sweep.toml", "--out", out, "--quiet"], more].concat();
+    assert!(tune(folder, &args).status().unwrap().success(), "{args:?}");
+}
+
+/// Every file below a folder with its bytes.
+fn files(folder: &Path) -> BTreeMap<String, Vec<u8>> {
+    let mut found = BTreeMap::new();
+    let mut folders = vec![folder.to_path_buf()];
+    while let Some(here) = folders.pop() {
+        for entry in fs::read_dir(here).unwrap().map(|entry| entry.unwrap().path()) {
+            if entry.is_dir() {
+                folders.push(entry);
+            } else {
+                let name = entry.strip_prefix(folder).unwrap().display().to_string();
+                found.insert(name, fs::read(&entry).unwrap());
+            }
+        }
+    }
+    found
+}
+
+fn same(a: &Path, b: &Path) {
+    let (a, b) = (files(a), files(b));
+    assert_eq!(a.keys().collect::<Vec<_>>(), b.keys().collect::<Vec<_>>());
+    for (name, bytes) in &a {
+        assert!(b[name] == *bytes, "{name} differs");
+    }
+}
+
+fn begun() -> TempDir {
+    let dir = TempDir::new().unwrap();
+    fs::write(dir.path().join("sweep.toml"), SWEEP).unwrap();
+    sweep(dir.path(), "whole", &["--jobs", "1"]);
+    dir
+}
+
+#[test]
+fn a_sweep_killed_ten_times_and_gone_on_with_has_the_same_bytes() {
+    let dir = begun();
+    let mut killed = 0;
+    for i in 0_u64..40 {
+        let mut child = tune(dir.path(), &["sweep", "sweep.toml", "--out", "killed", "--quiet"]).spawn().unwrap();
+        // moments without a rhythm, from before the first part to after several
+        sleep(Duration::from_millis(3 + i * i * 37 % 61));
+        child.kill().unwrap();
+        killed += u32::from(!child.wait().unwrap().success());
+        if killed == 10 {
+            break;
+        }
+    }
+    sweep(dir.path(), "killed", &[]);
+    assert!(killed >= 3, "only {killed} runs were caught alive");
+    same(&dir.path().join("whole"), &dir.path().join("killed"));
+}
+
+#[test]
+fn shares_on_other_threads_in_another_order_and_twice_give_the_same_bytes() {
+    let dir = begun();
+    for share in ["3/3", "1/3", "2/3", "1/3"] {
+        sweep(dir.path(), "shares", &["--shard", share, "--jobs", "2"]);
+    }
+    // one part lost, one damaged: both are computed again
+    let part = |i: u32| dir.path().join(format!("shares/parts/part-{i:05}.parquet"));
+    fs::remove_file(part(2)).unwrap();
+    let bytes = fs::read(part(4)).unwrap();
+    fs::write(part(4), &bytes[..bytes.len() / 2]).unwrap();
+    let gather = tune(dir.path(), &["sweep", "gather", "sweep.toml", "--out", "shares"])
+        .stderr(Stdio::piped())
+        .output()
+        .unwrap();
+    assert_eq!(gather.status.code(), Some(1));
+    let said = String::from_utf8(gather.stderr).unwrap();
+    assert!(said.contains("2 of 25 parts are missing (2, 4)"), "{said}");
+    sweep(dir.path(), "shares", &["--shard", "1/1"]);
+    assert!(tune(dir.path(), &["sweep", "gather", "sweep.toml", "--out", "shares"]).status().unwrap().success());
+    same(&dir.path().join("whole"), &dir.path().join("shares"));
+}
+
+#[test]
+fn another_sweep_in_the_same_folder_is_refused() {
+    let dir = TempDir::new().unwrap();
+    let write = |text: &str| fs::write(dir.path().join("sweep.toml"), text).unwrap();
+    write(&SWEEP.replace("earthquakes = 40", "").replace("synthetic = 20", ""));
+    sweep(dir.path(), "out", &["--no-figures"]);
+    write(&SWEEP.replace("earthquakes = 40", "").replace("synthetic = 20", "").replace("seed = 5", "seed = 6"));
+    let refused = tune(dir.path(), &["sweep", "sweep.toml", "--out", "out"]).stderr(Stdio::piped()).output().unwrap();
+    let said = String::from_utf8(refused.stderr).unwrap();
+    assert_eq!(refused.status.code(), Some(2));
+    assert!(said.contains("holds another sweep") && said.lines().count() == 1, "{said}");
+}
