@@ -52,6 +52,7 @@ pub use vertical::{Vertical, VerticalFrom};
 pub use {
     folder::list_dir,
     measures::{Measures, measures},
+    vertical::as_record,
 };
 
 use crate::scalar::GRAVITY;

@@ -72,7 +72,7 @@ impl Record {
     /// The vertical motion that goes with it, as a record of its own.
     #[getter]
     fn vertical(&self) -> Option<Self> {
-        self.0.vertical.as_ref().map(|up| Self(up.as_record(self.0.dt)))
+        self.0.vertical.as_ref().map(|up| Self(core::as_record(up, self.0.dt)))
     }
 
     fn with_vertical(&self, up: &Self) -> PyResult<Self> {

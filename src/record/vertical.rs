@@ -157,6 +157,12 @@ impl Recording {
     }
 }
 
+/// [`Vertical::as_record`], for the Python package.
+#[cfg(feature = "internals")]
+pub fn as_record(vertical: &Vertical, dt: f64) -> Record {
+    vertical.as_record(dt)
+}
+
 impl Record {
     /// Whether another record has its times.
     fn agrees(&self, other: &Self) -> Result<(), RecordError> {
@@ -176,7 +182,7 @@ impl Record {
     ///
     /// # Errors
     /// It has another time step or another number of samples.
-    pub(crate) fn with_vertical(self, vertical: Self) -> Result<Self, RecordError> {
+    pub fn with_vertical(self, vertical: Self) -> Result<Self, RecordError> {
         self.agrees(&vertical)?;
         let Self { name, accel, source, .. } = vertical;
         Ok(Self { vertical: Some(Vertical { name, accel: accel.into(), source }), ..self })
@@ -188,7 +194,7 @@ impl Record {
     }
 
     /// The same as `housner::Options` take it.
-    pub(crate) fn vertical_accel(&self) -> Option<Arc<[f64]>> {
+    pub fn vertical_accel(&self) -> Option<Arc<[f64]>> {
         self.vertical.as_ref().map(|vertical| Arc::clone(&vertical.accel))
     }
 }
