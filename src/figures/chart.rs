@@ -4,7 +4,7 @@ use super::canvas::Canvas;
 use super::legend::{self, Entry};
 use super::panel::{Frame, Panel};
 use super::scale::Scale;
-use super::style::{self, BLACK, Pen, WIDTH};
+use super::style::{self, GREY, Pen, WIDTH};
 use super::{Check, FigureError, Sheet};
 
 const CHECK: Check = Check("chart");
@@ -66,8 +66,8 @@ pub fn draw(data: &Chart<'_>) -> Result<Sheet, FigureError> {
         .enumerate()
         .map(|(i, alpha)| Entry::line(format!("\u{3b1} = {alpha}"), Pen::new(style::series(i), 3.0)))
         .collect();
-    entries.push(Entry::line(data.kinds[0], Pen::new(BLACK, 3.0)));
-    entries.push(Entry::line(data.kinds[1], Pen::new(BLACK, 3.0).dashed()));
+    entries.push(Entry::line(data.kinds[0], Pen::new(GREY, 3.0)));
+    entries.push(Entry::line(data.kinds[1], Pen::new(GREY, 3.0).dashed()));
     let (left, right) = (170.0, WIDTH as f64 - 40.0);
     let top = legend::header(&mut canvas, data.title, &entries, left, right);
     let x = Scale::log_around(data.curves.iter().flat_map(|c| c.omega_n_over_p).copied(), 4.0);

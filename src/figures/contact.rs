@@ -61,7 +61,8 @@ pub fn draw(data: &Contact<'_>) -> Result<Sheet, FigureError> {
     }
     entries.extend(data.end.map(|end| Entry::line(end.text, ending())));
     let (left, right) = (150.0, WIDTH as f64 - 40.0);
-    let top = legend::header(&mut canvas, data.title, &entries, left, right);
+    // room for a remark
+    let top = legend::header(&mut canvas, data.title, &entries, left, right) + 16.0;
     let middle = top + 450.0;
     let frames =
         [Frame { left, top, right, bottom: middle }, Frame { left, top: middle + 34.0, right, bottom: middle + 390.0 }];

@@ -191,16 +191,16 @@ fn horizontal(canvas: &mut Canvas, t: &[f64], traces: &[Drawn<'_>], x: Scale, fr
     let impacting = traces.iter().rev().filter(|(trace, _)| !trace.impacts.is_empty());
     for (row, (trace, pen)) in impacting.enumerate() {
         let times: Vec<f64> = trace.impacts.iter().copied().filter(|t| (x.low..=x.high).contains(t)).collect();
-        let crowded = |pair: &[f64]| (panel.at(pair[1], 0.0).0 - panel.at(pair[0], 0.0).0) < CROWDED;
-        for (i, &time) in times.iter().enumerate() {
-            let at = (panel.at(time, panel.y.low).0, frame.bottom - 13.0 - 25.0 * row as f64);
-            let near = times[i.saturating_sub(1)..(i + 2).min(times.len())].windows(2).any(crowded);
-            if near {
-                canvas.line(&[(at.0, at.1 - 9.0), (at.0, at.1 + 6.0)], Pen { width: 2.0, ..*pen }.full());
-            } else {
-                impact(pen.rgb()).draw(canvas, at);
+        plot.marks.push(plot::Marks::new(&times, *pen));
+        let places: Vec<f64> = times.iter().map(|&time| panel.at(time, 0.0).0).collect();
+        let y = frame.bottom - 13.0 - 25.0 * row as f64;
+        for (i, &place) in places.iter().enumerate() {
+            let near = places[i.saturating_sub(1)..(i + 2).min(places.len())].windows(2).any(|p| p[1] - p[0] < CROWDED);
+            if !near {
+                impact(pen.rgb()).draw(canvas, (place, y));
+            } else if i == 0 || place.round() != places[i - 1].round() {
+                canvas.line(&[(place, y - 9.0), (place, y + 6.0)], Pen { width: 2.0, ..*pen }.full());
             }
-            plot.marks.push(plot::Mark { time, row, colour: pen.hex() });
         }
     }
     canvas.keep(plot);

@@ -79,7 +79,7 @@ pub fn header(canvas: &mut Canvas, title: &str, entries: &[Entry], left: f64, ri
         entry.draw(canvas, (x, y));
         x += length + 44.0;
     }
-    if entries.is_empty() { below } else { y + 36.0 }
+    if entries.is_empty() { below } else { y + 46.0 }
 }
 
 /// A title between `left` and `right` in a figure whose upper edge is at `y`, remarks below its first line; their height [pixel].

@@ -6,7 +6,7 @@ use super::panel::Panel;
 use super::style::Pen;
 
 /// Times that a panel keeps at most; of more, the extremes of every curve in as many stretches of time.
-const MOST: usize = 6000;
+const MOST: usize = 5000;
 
 /// A curve: as many values as the panel has times, or fewer where it ends early, or one that holds at all times.
 #[derive(Clone, Debug, Serialize)]
@@ -19,12 +19,19 @@ pub struct Curve {
     pub values: String,
 }
 
-/// A mark on the time axis, in the row that is its model's.
+/// One model's marks on the time axis, in a row of their own.
 #[derive(Clone, Debug, Serialize)]
-pub struct Mark {
-    pub time: f64,
-    pub row: usize,
+pub struct Marks {
     pub colour: String,
+    /// Their times [s], as `Curve::values`.
+    pub times: String,
+}
+
+impl Marks {
+    /// Marks at these times.
+    pub fn new(times: &[f64], pen: Pen) -> Self {
+        Self { colour: pen.hex(), times: base64(&times.iter().map(|&t| t as f32).collect::<Vec<f32>>()) }
+    }
 }
 
 /// A time at which something ends.
@@ -49,7 +56,8 @@ pub struct Plot {
     /// Times of the values [s], as `Curve::values`.
     pub t: String,
     pub curves: Vec<Curve>,
-    pub marks: Vec<Mark>,
+    /// Rows from the axis upwards.
+    pub marks: Vec<Marks>,
     pub events: Vec<(f64, String)>,
 }
 

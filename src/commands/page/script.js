@@ -53,6 +53,7 @@
       for (const panel of this.panels) {
         panel.t = numbers(panel.t);
         for (const curve of panel.curves) curve.values = numbers(curve.values);
+        for (const row of panel.marks) row.times = numbers(row.times);
         panel.unit = (/\[(.*)\]/.exec(panel.label) || ["", ""])[1];
       }
       this.whole = this.panels[0].x;
@@ -126,7 +127,7 @@
         for (const panel of this.panels) panel.shown = panel.y;
         return;
       }
-      const top = this.panels[0].frame[1] - 25; // the legend ends above
+      const top = this.panels[0].frame[1] - 27; // the legend ends above
       add(this.cover, "rect", { x: 0, y: top, width: this.width, height: this.height - top, fill: "#fff" });
       this.panels.forEach((panel, i) => this.panel(panel, i === this.panels.length - 1));
     }
@@ -187,10 +188,16 @@
         add(inside, "line", { x1: x, x2: x, y1: top, y2: bottom, stroke: "#222", "stroke-width": 2, "stroke-dasharray": "10 7" });
         add(inside, "text", { x: x - 10, y: top + 30, "font-size": 25, "text-anchor": "end" }, words);
       }
-      for (const { time, row, colour } of panel.marks) {
-        const [x] = this.place(panel, time, 0), y = bottom - 13 - 25 * row;
-        add(inside, "path", { d: `M${x} ${y - 10}l9 15h-18z`, fill: colour });
-      }
+      panel.marks.forEach(({ times, colour }, row) => {
+        const y = bottom - 13 - 25 * row;
+        let before = -Infinity;
+        for (const time of times) {
+          const [x] = this.place(panel, time, 0);
+          if (time < this.from || time > this.to || x - before < 2) continue;
+          add(inside, "path", { d: x - before < 15 ? `M${x} ${y - 9}v15h2v-15z` : `M${x} ${y - 10}l9 15h-18z`, fill: colour });
+          before = x;
+        }
+      });
     }
 
     curve(inside, panel, { values, colour, width, dashed }) {
