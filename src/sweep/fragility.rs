@@ -80,6 +80,8 @@ pub struct Row {
     pub measure: usize,
     pub n: u64,
     pub exceeded: u64,
+    /// The least and the greatest intensity that was computed.
+    pub range: (f64, f64),
     pub fit: Fit,
     /// Of (a, b).
     pub covariance: Option<Matrix>,
@@ -240,6 +242,7 @@ impl Fragility {
                 ("median", real(&|row| row.median())),
                 ("median_low", bounds(|bounds| bounds.median.0)),
                 ("median_high", bounds(|bounds| bounds.median.1)),
+                ("extrapolated", Column::Flag(self.rows.iter().map(|row| Some(row.is_extrapolated())).collect())),
                 ("beta", probit(Probit::beta)),
                 ("beta_low", bounds(|bounds| bounds.beta.0)),
                 ("beta_high", bounds(|bounds| bounds.beta.1)),
@@ -267,6 +270,11 @@ impl Row {
             Fit::Fitted(fit) => Some(fit),
             _ => None,
         }
+    }
+
+    /// Whether the median lies outside of what was computed.
+    pub fn is_extrapolated(&self) -> bool {
+        self.median().is_some_and(|median| !(self.range.0..=self.range.1).contains(&median))
     }
 
     /// The median: of a fit, or between what exceeds and what does not.
@@ -311,12 +319,15 @@ fn fits(members: &[Member], states: &[State]) -> Vec<Row> {
         (0..members.len()).flat_map(|place| (0..MEASURES.len()).map(move |measure| (place, measure))).collect();
     let of = |(place, measure): (usize, usize)| -> Vec<Row> {
         let bins = sorted(&members[place].bins[measure]);
+        let ends = (bins.first(), bins.last());
+        let mean = |bin: Option<&&Bin>| bin.map_or(1.0, |bin| (bin.sum_ln / bin.n as f64).exp());
+        let range = (mean(ends.0), mean(ends.1));
         let fitted = |(s, state): (usize, &State)| {
             let group = |bin: &&Bin| Group { ln_x: bin.sum_ln / bin.n as f64, n: bin.n, k: bin.k[s] };
             let groups: Vec<Group> = bins.iter().map(group).collect();
             let (n, exceeded) = groups.iter().fold((0, 0), |(n, k), group| (n + group.n, k + group.k));
             let fit = if n == 0 { Fit::NoneExceeded } else { Fit::new(&groups) };
-            Row { member: place, state: *state, measure, n, exceeded, fit, covariance: None }
+            Row { member: place, state: *state, measure, n, exceeded, range, fit, covariance: None }
         };
         states.iter().enumerate().map(fitted).collect()
     };

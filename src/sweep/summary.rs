@@ -50,8 +50,9 @@ pub fn fragility(plan: &Plan, fragility: &Fragility) -> Vec<String> {
         let unit = if unit == "-" { String::new() } else { format!(" {unit}") };
         let fit = match (&pga.fit, pga.bounds(fragility.half_width())) {
             (Fit::Fitted(fit), Some(bounds)) => format!(
-                "half of the motions overturn it at {measure} = {:.3}{unit} ({percent:.0} % bounds {:.3} to {:.3}), beta {:.2} ({:.2} to {:.2})",
+                "half of the motions overturn it at {measure} = {:.3}{unit}{} ({percent:.0} % bounds {:.3} to {:.3}), beta {:.2} ({:.2} to {:.2})",
                 fit.median(),
+                if pga.is_extrapolated() { ", extrapolated beyond the levels" } else { "" },
                 bounds.median.0,
                 bounds.median.1,
                 fit.beta(),

@@ -90,13 +90,20 @@ pub fn fragility(plan: &Plan, fragility: &Fragility, path: &Path) -> Result<(), 
     Ok(())
 }
 
+/// Beyond what was computed a fit is not drawn by more than this factor.
+const BEYOND: f64 = 1.5;
+
 /// From 0.2 % to 99.8 % of a fit.
 fn curve(row: &Row, entry: usize, half_width: f64, observed: Vec<(f64, f64)>) -> Option<probability::Curve> {
     use crate::sweep::lognormal::phi;
     let (fit, covariance) = (row.probit()?, row.covariance?);
     let x: Vec<f64> = (0..POINTS)
         .map(|i| fit.median() * (fit.beta() * 2.9 * (2.0 * i as f64 / (POINTS - 1) as f64 - 1.0)).exp())
+        .filter(|x| (row.range.0 / BEYOND..=row.range.1 * BEYOND).contains(x))
         .collect();
+    if x.len() < 2 {
+        return None;
+    }
     let at = |side: f64| -> Vec<f64> {
         x.iter().map(|x| phi(fit.a + fit.b * x.ln() + side * half_width * fit.deviation_at(covariance, *x))).collect()
     };
