@@ -58,8 +58,8 @@ struct Options {
     /// Folder for the table and the figure [default: none]
     #[arg(long, value_name = "DIR")]
     out: Option<PathBuf>,
-    /// Write the documentation's page anew
-    #[arg(long, value_name = "FILE", conflicts_with = "quick")]
+    /// Write the documentation's page anew; with --quick what our own code and diffsol do, alone
+    #[arg(long, value_name = "FILE")]
     page: Option<PathBuf>,
     /// Whether the documentation's page has the tables that this program prints
     #[arg(long, value_name = "FILE")]
