@@ -316,7 +316,7 @@ mod tests {
     fn the_limit_of_slender_bodies_is_the_closed_form() {
         let closed = |q: f64| {
             let f = |psi: f64| q * psi.sin() - psi.cos() - (-(std::f64::consts::PI - psi) / q).exp();
-            let (mut low, mut high) = (1e-6, 1.5707);
+            let (mut low, mut high) = (1e-6, std::f64::consts::FRAC_PI_2);
             for _ in 0..100 {
                 let middle = 0.5 * (low + high);
                 if f(middle) > 0.0 { high = middle } else { low = middle }

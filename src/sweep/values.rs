@@ -67,7 +67,8 @@ impl TryFrom<Written> for Values {
 impl Range {
     fn values(&self) -> Result<Vec<f64>, String> {
         let Self { from, to, count, spacing } = *self;
-        if !(2..=MOST).contains(&count) || !(to > from) {
+        let rises = to > from;
+        if !(2..=MOST).contains(&count) || !rises {
             return Err(format!("from {from:?} to {to:?} in {count}; give to greater than from, count 2 to {MOST}"));
         }
         let steps = (count - 1) as f64;
