@@ -25,6 +25,13 @@ impl Control {
     }
 }
 
+impl Control {
+    /// Whether histories may be followed side by side with it.
+    pub(super) fn side_by_side(&self) -> bool {
+        self.skip_open && self.extra_iterations == 0
+    }
+}
+
 impl Default for Control {
     /// 20 s of El Centro, NRMSE of u against a tolerance of 1e-12: 2e-7 at most for the 61 m frame on springs of 160 Hz to 20 kHz, 5e-6
     /// for a block of alpha 0.24 (`tests/fem/accuracy.rs`).
