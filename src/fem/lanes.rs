@@ -53,6 +53,8 @@ struct Lane<'a, O> {
     observer: O,
     /// Size of the step to try [s].
     h: f64,
+    /// Whether the kernel was asked for it.
+    asked: bool,
 }
 
 impl<'a, O: Observer<f64>, F: Fn(usize) -> O> Batch<'a, O, F> {
@@ -83,8 +85,9 @@ impl<'a, O: Observer<f64>, F: Fn(usize) -> O> Batch<'a, O, F> {
                     None => kernel.leave(l),
                 }
             }
-            for (l, lane) in lanes.iter().enumerate() {
-                if let Some(lane) = lane {
+            for (l, lane) in lanes.iter_mut().enumerate() {
+                if let Some(lane) = lane.as_mut().filter(|lane| !lane.asked) {
+                    lane.asked = true;
                     lane.run
                         .ask(lane.h, |state, feet, request, rounding| kernel.ask(l, state, feet, request, rounding));
                 }
@@ -105,6 +108,7 @@ impl<'a, O: Observer<f64>, F: Fn(usize) -> O> Batch<'a, O, F> {
                 let Some(lane) = slot else { continue };
                 let (converged, measures) = match kernel.tell(l, &mut stages) {
                     Tried::Step(converged, measures) => (converged, Some(measures)),
+                    Tried::GoesOn => continue,
                     Tried::Steep => (lane.run.attempt(lane.h, &mut stages), None),
                 };
                 let next = match lane.run.tried(converged, &mut stages, measures.as_ref(), &mut lane.observer) {
@@ -113,7 +117,7 @@ impl<'a, O: Observer<f64>, F: Fn(usize) -> O> Batch<'a, O, F> {
                     Err(outcome) => Err(outcome),
                 };
                 match next {
-                    Ok(h) => lane.h = h,
+                    Ok(h) => (lane.h, lane.asked) = (h, false),
                     Err(outcome) => {
                         if let Some(lane) = slot.take() {
                             self.end(lane, outcome);
@@ -129,7 +133,7 @@ impl<'a, O: Observer<f64>, F: Fn(usize) -> O> Batch<'a, O, F> {
         loop {
             let index = self.next.fetch_add(1, Ordering::Relaxed);
             let (case, model) = (self.cases.get(index)?, &self.models[index]);
-            let mut lane = Lane { index, run: case.run(model), observer: (self.observer)(index), h: 0.0 };
+            let mut lane = Lane { index, run: case.run(model), observer: (self.observer)(index), h: 0.0, asked: false };
             let begun = lane.run.begin(case.ground(), &mut lane.observer);
             match begun.and_then(|()| lane.run.plan(&mut lane.observer)) {
                 Ok(h) if case.control.side_by_side() => return Some(Lane { h, ..lane }),

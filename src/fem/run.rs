@@ -6,6 +6,7 @@ mod events;
 mod grip;
 mod met;
 mod rest;
+mod span;
 
 use std::{f64::consts::FRAC_PI_2, ops::ControlFlow};
 
@@ -22,6 +23,7 @@ pub(super) use account::{Measures, Scales};
 use events::{Located, Locating};
 use met::Met;
 pub(super) use met::OVERSHOOT;
+use span::Span;
 
 /// The motion of the ground, at steps of dt and linear between.
 #[derive(Clone, Copy, Debug)]
@@ -44,6 +46,7 @@ impl<S: Scalar> Motion<'_, S> {
         Ground {
             start: [scale * accel[i], scale * up(i)],
             slope: [slope(accel[i], accel[i + 1]), slope(up(i), up(i + 1))],
+            curve: [S::zero(); 2],
         }
     }
 }
@@ -61,6 +64,10 @@ pub(crate) struct Run<'a, S> {
     /// Ground acceleration from its start on, and from now on.
     ground: Ground<S>,
     here: Ground<S>,
+    /// The step over several samples under way.
+    spanning: Option<Span<S>>,
+    /// The sample up to which steps over several samples may go: an event comes after it.
+    event_by: usize,
     /// The event that the step under way is repeated for.
     locating: Option<Locating<S>>,
     stepper: Stepper<'a, S>,
@@ -119,6 +126,8 @@ impl<'a, S: Scalar> Run<'a, S> {
             t: S::zero(),
             ground: Ground::still(),
             here: Ground::still(),
+            spanning: None,
+            event_by: usize::MAX,
             locating: None,
             stepper: Stepper::new(model),
             control,
@@ -212,6 +221,10 @@ impl<'a, S: Scalar> Run<'a, S> {
                 observer.step(&self.view(real(self.interval as f64 * dt + dt)));
                 self.show_sample(self.interval + 1, observer)?;
             } else {
+                self.check(self.start_of_interval())?;
+                if let Some(size) = self.span() {
+                    return Ok(size);
+                }
                 (self.t, self.crossing) = (S::zero(), true);
             }
         }
@@ -219,18 +232,22 @@ impl<'a, S: Scalar> Run<'a, S> {
 
     /// The next step, `left` being left of the interval between two samples.
     fn next_step(&mut self, left: S) -> Result<S, Outcome> {
-        let dt = self.motion.dt;
-        let time = self.start_of_interval() + self.t.re();
+        self.check(self.start_of_interval() + self.t.re())?;
+        self.here = self.ground.from(self.t);
+        self.locating = None;
+        Ok(self.next_size(left))
+    }
+
+    /// The outcome if the history can go no further.
+    fn check(&self, time: f64) -> Result<(), Outcome> {
         if self.work.steps + self.work.rejected >= self.control.most_steps {
             return Err(Outcome::WorkBound { time });
         }
         // no step is short enough: where a massless rotation is about to snap its rate has no bound
-        if !self.balanced || self.h < 1e-14 * dt {
+        if !self.balanced || self.h < 1e-14 * self.motion.dt {
             return Err(Outcome::Unstable { time });
         }
-        self.here = self.ground.from(self.t);
-        self.locating = None;
-        Ok(self.next_size(left))
+        Ok(())
     }
 
     fn start_of_interval(&self) -> f64 {
@@ -248,6 +265,10 @@ impl<'a, S: Scalar> Run<'a, S> {
     ) -> Result<Option<S>, Outcome> {
         if converged {
             self.work.iterations += stages.iterations;
+        }
+        if let Some(span) = self.spanning.take() {
+            self.tried_span(&span, converged, stages, measures, observer)?;
+            return Ok(None);
         }
         let h = stages.h.re();
         if let Some(mut event) = self.locating {
@@ -315,7 +336,7 @@ impl<'a, S: Scalar> Run<'a, S> {
         observer.step(&self.view(time));
         match *met {
             Met::Crossing { foot, level, .. } => {
-                self.turns = 0;
+                (self.turns, self.event_by) = (0, usize::MAX);
                 self.switch(foot, level, time, observer);
             }
             Met::Grip { foot, .. } => self.change_grip(foot, time, observer),
@@ -350,7 +371,7 @@ impl<'a, S: Scalar> Run<'a, S> {
         Request {
             h,
             ground: self.here,
-            guess: self.guess,
+            guess: if self.spanning.is_some() { self.pendulum(h) } else { [self.guess; 3] },
             tolerance: (share * self.compression).max(self.rounding),
             extra: self.control.extra_iterations,
             rate: self.rate,

@@ -5,35 +5,40 @@ use num_complex::Complex;
 use super::{
     model::{Contact, Foot, Model, N, State, TH, Vector},
     newton::{Chains, Matrix},
-    radau::{A, A2, ALPHA, BETA, C, E, GAMMA, T, T_INV, position_weights},
+    radau::{A, A2, ALPHA, BETA, C, E, GAMMA, T, T_INV, position_weights, velocity_weights},
 };
 use crate::scalar::{Scalar, real};
 
 /// Iterations before a step counts as diverged.
 const MOST_ITERATIONS: usize = 12;
 
-/// Ground acceleration along a step, horizontal and vertical: value at its start [m/s2] and slope [m/s3].
+/// Ground acceleration along a step, horizontal and vertical, by powers of the time since its start.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Ground<S> {
+    /// [m/s2]
     pub start: [S; 2],
+    /// [m/s3]
     pub slope: [S; 2],
+    /// [m/s4]; zero between two samples.
+    pub curve: [S; 2],
 }
 
 impl<S: Scalar> Ground<S> {
     pub fn still() -> Self {
-        Self { start: [S::zero(); 2], slope: [S::zero(); 2] }
+        let none = [S::zero(); 2];
+        Self { start: none, slope: none, curve: none }
     }
 
     /// At a share of a time h [s] after the start.
     #[inline(always)]
     pub fn after(&self, h: S, share: f64) -> [S; 2] {
-        let at = |k: usize| self.start[k] + self.slope[k] * h * share;
+        let at = |k: usize| self.start[k] + (self.slope[k] + self.curve[k] * h * share) * h * share;
         [at(0), at(1)]
     }
 
-    /// The same from a later time on [s].
+    /// The same between two samples, from a later time on [s].
     pub fn from(&self, time: S) -> Self {
-        Self { start: self.after(time, 1.0), slope: self.slope }
+        Self { start: self.after(time, 1.0), ..*self }
     }
 }
 
@@ -75,6 +80,13 @@ impl<S: Scalar> Stages<S> {
         (input, dissipated)
     }
 
+    /// Velocity on the collocation polynomial at tau in 0..1.
+    pub fn velocity(&self, tau: f64) -> Vector<S> {
+        let [w0, w1, w2] = velocity_weights(tau);
+        let [v0, v1, v2] = &self.v;
+        std::array::from_fn(|k| v0[k] * w0 + v1[k] * w1 + v2[k] * w2)
+    }
+
     /// Position on the collocation polynomial at tau in 0..1 of the step that began at `start`.
     pub fn position(&self, start: &State<S>, tau: f64) -> Vector<S> {
         let [w0, w1, w2] = position_weights(tau);
@@ -87,8 +99,8 @@ impl<S: Scalar> Stages<S> {
 pub(super) struct Request<S> {
     pub h: S,
     pub ground: Ground<S>,
-    /// First guess of the acceleration, the same at every stage.
-    pub guess: Vector<S>,
+    /// First guess of the acceleration at every stage.
+    pub guess: [Vector<S>; 3],
     /// A displacement [m] below which an iteration's correction no longer matters.
     pub tolerance: f64,
     /// Iterations to add after convergence, so that derivatives converge too.
@@ -257,7 +269,7 @@ impl<'a, S: Scalar> Stepper<'a, S> {
         let radius = self.real.body.radius();
         let grounds = C.map(|c| ground.after(h, c));
         let mut convergence = Convergence::new(request, self.rounding);
-        (s.h, s.a) = (h, [guess; 3]);
+        (s.h, s.a) = (h, guess);
         loop {
             for i in 0..3 {
                 for k in 0..N {

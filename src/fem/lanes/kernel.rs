@@ -40,6 +40,9 @@ macro_rules! coordinates {
 /// Histories side by side.
 pub(super) const WIDTH: usize = 8;
 
+/// Iterations of a call: most steps need one or two, those after an event more.
+const ROUNDS: usize = 2;
+
 /// A number of each lane.
 type Lanes = [f64; WIDTH];
 
@@ -60,9 +63,10 @@ pub(super) struct Kernel {
     closed: [Lanes; 2],
     holds: [Lanes; 2],
     h: Lanes,
-    /// Ground acceleration at the start, and its slope.
+    /// Ground acceleration along the step.
     start: [Lanes; 2],
     slope: [Lanes; 2],
+    curve: [Lanes; 2],
     real: [Lanes; ENTRIES],
     pair: [[Lanes; ENTRIES]; 2],
     a: [[Lanes; N]; 3],
@@ -75,9 +79,13 @@ pub(super) struct Kernel {
     active: Lanes,
     /// One where the rotation left the reach of the polynomials for sine and cosine.
     steep: Lanes,
+    /// The same where it was so at the step's start or half way.
+    begins_steep: Lanes,
     change: Lanes,
     convergence: [Option<Convergence>; WIDTH],
-    converged: [bool; WIDTH],
+    verdict: [Verdict; WIDTH],
+    /// Whether a step has been asked for since the last call.
+    fresh: bool,
     stored: Lanes,
     input: Lanes,
     dissipated: Lanes,
@@ -90,6 +98,8 @@ pub(super) struct Kernel {
 pub(super) enum Tried {
     /// Whether it converged, and what it did.
     Step(bool, Measures<f64>),
+    /// It needs more iterations.
+    GoesOn,
     /// It is to be tried by itself.
     Steep,
 }
@@ -109,6 +119,7 @@ impl Kernel {
             h: [1.0; WIDTH],
             start: [none; 2],
             slope: [none; 2],
+            curve: [none; 2],
             real: [none; ENTRIES],
             pair: [[none; ENTRIES]; 2],
             a: [[none; N]; 3],
@@ -118,9 +129,11 @@ impl Kernel {
             w: [[none; N]; 3],
             active: none,
             steep: none,
+            begins_steep: none,
             change: none,
             convergence: [None; WIDTH],
-            converged: [false; WIDTH],
+            verdict: [Verdict::Failed; WIDTH],
+            fresh: false,
             stored: none,
             input: none,
             dissipated: none,
@@ -173,7 +186,7 @@ impl Kernel {
             self.q0[k][l] = state.q[k];
             self.v0[k][l] = state.v[k];
             for i in 0..3 {
-                self.a[i][k][l] = request.guess[k];
+                self.a[i][k][l] = request.guess[i][k];
             }
         }
         for (i, foot) in feet.iter().enumerate() {
@@ -185,8 +198,10 @@ impl Kernel {
         for k in 0..2 {
             self.start[k][l] = request.ground.start[k];
             self.slope[k][l] = request.ground.slope[k];
+            self.curve[k][l] = request.ground.curve[k];
         }
         self.convergence[l] = Some(Convergence::new(request, rounding));
+        self.fresh = true;
     }
 
     /// What lane l's step came to; its stages, if it converged.
@@ -198,7 +213,11 @@ impl Kernel {
         if let Some(convergence) = &self.convergence[l] {
             (stages.iterations, stages.rate) = (convergence.iterations, convergence.rate);
         }
-        if self.converged[l] {
+        let converged = match self.verdict[l] {
+            Verdict::GoesOn => return Tried::GoesOn,
+            verdict => verdict == Verdict::Converged,
+        };
+        if converged {
             for i in 0..3 {
                 for k in 0..N {
                     stages.a[i][k] = self.a[i][k][l];
@@ -214,27 +233,28 @@ impl Kernel {
             missed: self.missed[l],
             clear: self.clear[l] != 0.0,
         };
-        Tried::Step(self.converged[l], measures)
+        Tried::Step(converged, measures)
     }
 
-    /// Try the steps of all lanes.
+    /// Go on with the steps of all lanes, a few iterations: those that need more go on with the next call, beside others' new steps.
     #[inline(always)]
     pub fn step(&mut self) {
-        self.steep = [0.0; WIDTH];
-        self.converged = [false; WIDTH];
-        self.factor();
-        loop {
+        if self.fresh {
+            self.factor();
+            self.fresh = false;
+        }
+        self.steep = self.begins_steep;
+        for round in 0..=ROUNDS {
             self.stages();
             let mut goes_on = false;
             for l in 0..WIDTH {
                 let verdict = self.convergence[l].as_ref().map_or(Verdict::Failed, Convergence::verdict);
-                // what has failed is not asked again
+                self.verdict[l] = verdict;
                 let runs = verdict == Verdict::GoesOn && self.steep[l] == 0.0;
-                self.converged[l] = verdict == Verdict::Converged;
                 self.active[l] = f64::from(u8::from(runs));
                 goes_on |= runs;
             }
-            if !goes_on {
+            if !goes_on || round == ROUNDS {
                 break;
             }
             for i in 0..3 {
@@ -283,7 +303,7 @@ impl Kernel {
 
     #[inline(always)]
     fn ground(&self, l: usize) -> Ground<f64> {
-        Ground { start: column(&self.start, l), slope: column(&self.slope, l) }
+        Ground { start: column(&self.start, l), slope: column(&self.slope, l), curve: column(&self.curve, l) }
     }
 
     /// Where lane l is half way, at the velocity that it has.
@@ -323,7 +343,8 @@ impl Kernel {
                 self.pair[0][e][l] = entries[e].re;
                 self.pair[1][e][l] = entries[e].im;
             }
-            self.steep[l] = if in_reach(middle[TH]) && in_reach(self.q0[TH][l]) { 0.0 } else { 1.0 };
+            let reached = in_reach(middle[TH]) & in_reach(self.q0[TH][l]);
+            self.begins_steep[l] = if reached { 0.0 } else { 1.0 };
         }
     }
 
