@@ -54,10 +54,8 @@ impl<S: Scalar> Run<'_, S> {
     pub(super) fn span(&mut self) -> Option<S> {
         let dt = self.motion.dt;
         let model = self.model;
-        let leans = match self.feet.map(|foot| foot.contact) {
-            [Contact::Stick, Contact::Open] | [Contact::Open, Contact::Stick] => true,
-            _ => false,
-        };
+        let contacts = self.feet.map(|foot| foot.contact);
+        let leans = matches!(contacts, [Contact::Stick, Contact::Open] | [Contact::Open, Contact::Stick]);
         let simple = model.frame.is_none() && model.friction.is_none() && self.motion.vertical.is_empty();
         if !(leans && simple && self.control.long_steps && self.h >= 2.0 * dt) {
             return None;
@@ -77,6 +75,7 @@ impl<S: Scalar> Run<'_, S> {
     }
 
     /// The parabola over so many intervals from here.
+    #[allow(clippy::needless_range_loop)] // one index over samples and what is late at them
     fn parabola(&self, n: usize) -> (Ground<S>, Span<S>) {
         let (dt, count) = (self.motion.dt, n as f64);
         let a = |i: usize| self.motion.scale * self.motion.accel[self.interval + i];
