@@ -1,9 +1,9 @@
 //! The finite element history, 20 s of El Centro: the springs of both procedures, and springs of any stiffness.
 
-use std::{hint::black_box, time::Duration};
+use std::{hint::black_box, ops::ControlFlow, time::Duration};
 
-use criterion::{BenchmarkId, Criterion, criterion_group, criterion_main};
-use groundspring::fem::Control;
+use criterion::{BenchmarkId, Criterion, Throughput, criterion_group, criterion_main};
+use groundspring::fem::{Case, Control, Observer, View, histories};
 
 #[path = "compare/main.rs"]
 #[cfg_attr(not(test), allow(dead_code))] // its benches alone
@@ -28,5 +28,43 @@ fn fem(c: &mut Criterion) {
     group.finish();
 }
 
-criterion_group!(benches, fem);
+/// 64 histories of 20 s of El Centro at scales of 0.8 to 1.3, at an error of 1e-4: one after the other, and in lanes on one thread.
+fn lanes(c: &mut Criterion) {
+    let mut group = c.benchmark_group("lanes");
+    group.warm_up_time(Duration::from_millis(300)).measurement_time(Duration::from_secs(3)).sample_size(20);
+    let threads = rayon::ThreadPoolBuilder::new().num_threads(1).build().expect("a thread");
+    for bench in [BenchCase::arr(), BenchCase::plain(160.0), BenchCase::plain(10_240.0)] {
+        let control = Control { tolerance: 1e-4, long_steps: true, ..Control::default() };
+        let cases: Vec<Case<f64>> = (0..64).map(|i| bench.case(0.8 + f64::from(i) / 128.0, control)).collect();
+        group.throughput(Throughput::Elements(64));
+        let name = format!("{}, {} Hz", bench.name, bench.springs.vertical.omega_n_hz);
+        group.bench_function(BenchmarkId::new(&name, "every sample"), |b| {
+            let control = Control { long_steps: false, ..control };
+            b.iter(|| cases.iter().map(|case| peak(&Case { control, ..*case })).sum::<f64>())
+        });
+        group.bench_function(BenchmarkId::new(&name, "one by one"), |b| b.iter(|| cases.iter().map(peak).sum::<f64>()));
+        group.bench_function(BenchmarkId::new(&name, "side by side"), |b| {
+            b.iter(|| threads.install(|| histories(black_box(&cases), |_| Peak(0.0))))
+        });
+    }
+    group.finish();
+}
+
+/// Largest rotation at a sample [rad].
+struct Peak(f64);
+
+impl Observer<f64> for Peak {
+    fn sample(&mut self, _: usize, view: &View<f64>) -> ControlFlow<()> {
+        self.0 = self.0.max(view.theta().abs());
+        ControlFlow::Continue(())
+    }
+}
+
+fn peak(case: &Case<f64>) -> f64 {
+    let mut peak = Peak(0.0);
+    case.observe(&mut peak);
+    peak.0
+}
+
+criterion_group!(benches, fem, lanes);
 criterion_main!(benches);

@@ -53,7 +53,7 @@ fn main() -> Result<(), Box<dyn std::error::Error>> {
                     duration_s: None,
                     control: Control::search(),
                 };
-                let found = motions.par_iter().filter_map(|r| judge.judge(r).nrmse_horizontal);
+                let found = judge.judge(&motions).into_iter().filter_map(|row| row.nrmse_horizontal);
                 let mut errors: Vec<f64> = found.collect();
                 errors.sort_by(f64::total_cmp);
                 errors.get(errors.len() / 2).copied().unwrap_or(f64::NAN)

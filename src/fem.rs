@@ -29,6 +29,7 @@ mod energy;
 mod frame;
 mod history;
 mod landings;
+mod lanes;
 mod leg;
 mod model;
 mod newton;
@@ -46,6 +47,7 @@ pub use demands::{Demands, Peak, QUANTITIES};
 pub use energy::Energy;
 pub use history::{Account, Forces, History, Recorder};
 pub use landings::Landing;
+pub use lanes::histories;
 pub(crate) use model::MASSLESS_ROTATION;
 pub use observer::{Change, Observer, View};
 
@@ -97,7 +99,7 @@ pub struct Finish<S> {
 impl<S: Scalar> Case<'_, S> {
     /// Run the case, showing every sample and event to `observer`.
     pub fn observe(&self, observer: &mut impl Observer<S>) -> Finish<S> {
-        self.follow(&model::Model::new(&self.body, &self.springs), observer)
+        self.follow(&self.model(), observer)
     }
 
     /// The same with elastic legs, dampers or a tendon.
@@ -107,13 +109,26 @@ impl<S: Scalar> Case<'_, S> {
 
     fn follow(&self, model: &model::Model<S>, observer: &mut impl Observer<S>) -> Finish<S> {
         let model = &model::Model { skip_open: self.control.skip_open, ..*model };
+        let mut run = self.run(model);
+        let outcome = run.follow(self.ground(), observer);
+        run.finish(outcome)
+    }
+
+    fn run<'a>(&self, model: &'a model::Model<S>) -> run::Run<'a, S> {
         let start = match self.start {
             Start::Settled => model.settled(),
             Start::Leaning(theta) => model.leaning(theta),
         };
-        let mut run = run::Run::new(model, start, self.control);
-        let outcome = run.follow(self.dt, (self.accel, self.vertical), self.scale, observer);
-        Finish { outcome, work: run.work, energy: *run.energy(), energy_scale: run.energy_scale() }
+        run::Run::new(model, start, self.control)
+    }
+
+    fn model(&self) -> model::Model<S> {
+        model::Model::new(&self.body, &self.springs)
+    }
+
+    fn ground(&self) -> run::Motion<'_, S> {
+        let &Self { dt, accel, vertical, scale, .. } = self;
+        run::Motion { dt, accel, vertical, scale }
     }
 }
 

@@ -118,7 +118,8 @@ fn cost(job: &Job, springs: &Springs<Design<f64>>) -> (f64, usize) {
         accel: &job.record.accel,
         vertical: job.record.up(),
         scale: 1.0,
-        control: Control::search(),
+        // forces at every sample
+        control: Control { long_steps: false, ..Control::search() },
     };
     let mut watch = Watch { largest: 0.0, changes: Vec::new() };
     case.observe(&mut watch);

@@ -23,18 +23,24 @@ pub fn real<S: Scalar>(x: f64) -> S {
 #[inline(always)]
 pub fn sin_cos<S: Scalar>(x: S) -> (S, S) {
     match (&x as &dyn Any).downcast_ref::<f64>() {
-        Some(&small) if small.abs() <= FRAC_PI_4 => {
-            let (sin, cos) = kernel(small);
+        Some(&small) if in_reach(small) => {
+            let (sin, cos) = small_sin_cos(small);
             (real(sin), real(cos))
         }
         _ => x.sin_cos(),
     }
 }
 
+/// Whether an angle is within pi/4.
+#[inline(always)]
+pub(crate) fn in_reach(x: f64) -> bool {
+    x.abs() <= FRAC_PI_4
+}
+
 /// Sine and cosine within pi/4: the polynomials of fdlibm (Sun Microsystems, 1993: k_sin.c, k_cos.c).
 #[inline(always)]
 #[allow(clippy::excessive_precision)] // the tables as published
-fn kernel(x: f64) -> (f64, f64) {
+pub(crate) fn small_sin_cos(x: f64) -> (f64, f64) {
     const S: [f64; 6] = [
         -1.666_666_666_666_663_243_48e-1,
         8.333_333_333_322_489_461_24e-3,

@@ -58,8 +58,8 @@ impl BenchCase {
         Parameters::new(structure(), &self.springs)
     }
 
-    /// The history at a tolerance.
-    pub fn simulate(&self, control: Control) -> History {
+    /// The record at a scale.
+    pub fn case(&self, scale: f64, control: Control) -> Case<'_, f64> {
         let body = structure().body::<f64>();
         Case {
             body,
@@ -68,10 +68,14 @@ impl BenchCase {
             dt: self.record.dt,
             accel: &self.record.accel,
             vertical: &[],
-            scale: 1.0,
+            scale,
             control,
         }
-        .simulate()
+    }
+
+    /// The history at a tolerance.
+    pub fn simulate(&self, control: Control) -> History {
+        self.case(1.0, control).simulate()
     }
 
     /// The history that errors are told against.

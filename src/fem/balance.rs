@@ -10,8 +10,11 @@
 use super::model::{Contact, Foot, FootForce, Model, State, TH, Vector, X, Z, ax, az};
 use crate::scalar::{GRAVITY, Scalar, real};
 
-/// Newton steps from anywhere: V is all but quadratic, so that a few do; the last make derivatives exact.
+/// Newton steps from anywhere: V is all but quadratic, so that a few do.
 const STEPS: usize = 6;
+
+/// A Newton step this small ends them [rad]: values converged with the step before, derivatives with this one.
+const LAST: f64 = 1e-12;
 
 /// Steps of the guarded descent, where Newton's method alone does not find the least.
 const DESCENT: usize = 60;
@@ -113,6 +116,9 @@ impl<S: Scalar> Model<S> {
             let step = moment / stiffness;
             last = step.re();
             state.q[TH] += step;
+            if last.abs() < LAST {
+                break;
+            }
         }
         let (after, _, stiffness) = self.potential(state, feet);
         last.abs() < CLOSE && stiffness.re() > 0.0 && after.re() <= before.re() + self.rounding(before.re())

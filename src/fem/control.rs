@@ -15,13 +15,22 @@ pub struct Control {
     pub skip_rest: bool,
     /// Solve nothing for an open foot's contact.
     pub skip_open: bool,
+    /// Take steps over several samples while the body leans on one foot (`run/span`): for peaks and comparisons. Forces and energies
+    /// at samples within such a step are those at its end.
+    pub long_steps: bool,
 }
 
 impl Control {
-    /// For comparing many candidates: three to ten times the default's error, in 0.4 (blocks) to 0.9 of its time (frames, most of
-    /// whose steps end at samples).
+    /// For comparing many candidates: steps over several samples, and a hundred times the default's tolerance.
     pub fn search() -> Self {
-        Self { tolerance: 1e-6, most_steps: 200_000, ..Self::default() }
+        Self { tolerance: 1e-6, most_steps: 200_000, long_steps: true, ..Self::default() }
+    }
+}
+
+impl Control {
+    /// Whether histories may be followed side by side with it.
+    pub(super) fn side_by_side(&self) -> bool {
+        self.skip_open && self.extra_iterations == 0
     }
 }
 
@@ -29,7 +38,14 @@ impl Default for Control {
     /// 20 s of El Centro, NRMSE of u against a tolerance of 1e-12: 2e-7 at most for the 61 m frame on springs of 160 Hz to 20 kHz, 5e-6
     /// for a block of alpha 0.24 (`tests/fem/accuracy.rs`).
     fn default() -> Self {
-        Self { tolerance: 1e-8, most_steps: 2_000_000, extra_iterations: 0, skip_rest: true, skip_open: true }
+        Self {
+            tolerance: 1e-8,
+            most_steps: 2_000_000,
+            extra_iterations: 0,
+            skip_rest: true,
+            skip_open: true,
+            long_steps: false,
+        }
     }
 }
 

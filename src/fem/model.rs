@@ -95,6 +95,7 @@ pub(crate) struct Foot<S> {
 
 impl<S> Foot<S> {
     /// Whether the foot is on the ground.
+    #[inline(always)]
     pub fn closed(&self) -> bool {
         self.contact != Contact::Open
     }
@@ -105,6 +106,7 @@ impl<S> Foot<S> {
     }
 
     /// Whether its horizontal spring holds.
+    #[inline(always)]
     pub fn holds(&self) -> bool {
         self.contact == Contact::Stick
     }
@@ -277,20 +279,33 @@ impl<S: Scalar> Model<S> {
     fn foot_force(&self, pose: &Pose<S>, i: usize, q: &Vector<S>, foot: &Foot<S>) -> FootForce<S> {
         let (px, pz, px_th, pz_th) = self.foot(i, q, pose.sin, pose.cos);
         let press = || (q[az(i)] - pz) * self.springs.vertical.k1;
-        let (horizontal, vertical) = match foot.contact {
-            Contact::Open => (S::zero(), S::zero()),
-            Contact::Slide | Contact::Trail => (S::zero(), press()),
-            Contact::Stick => ((q[ax(i)] + foot.anchor - px) * self.springs.horizontal.k1, press()),
-            Contact::Slip(side) => (-press() * self.grip() * side, press()),
+        let vertical = if foot.closed() { press() } else { S::zero() };
+        let horizontal = match (&self.friction, foot.contact) {
+            (Some(grip), Contact::Slip(side)) => -press() * *grip * side,
+            _ if foot.holds() => (q[ax(i)] + foot.anchor - px) * self.springs.horizontal.k1,
+            _ => S::zero(),
         };
         FootForce { px_th, pz_th, horizontal, vertical }
     }
 
     /// Forces on the seven coordinates at ground acceleration (ug'', vg'') [m/s2].
     #[inline(always)]
-    pub fn forces(&self, q: &Vector<S>, v: &Vector<S>, feet: &[Foot<S>; 2], [ground, up]: [S; 2]) -> Vector<S> {
+    pub fn forces(&self, q: &Vector<S>, v: &Vector<S>, feet: &[Foot<S>; 2], ground: [S; 2]) -> Vector<S> {
+        self.forces_at(&Pose::of(q), q, v, feet, ground)
+    }
+
+    /// The same where the rotation's sine and cosine are known.
+    #[inline(always)]
+    pub fn forces_at(
+        &self,
+        pose: &Pose<S>,
+        q: &Vector<S>,
+        v: &Vector<S>,
+        feet: &[Foot<S>; 2],
+        [ground, up]: [S; 2],
+    ) -> Vector<S> {
         let Springs { vertical, horizontal } = &self.springs;
-        let contact = self.contact_at(&Pose::of(q), q, feet);
+        let contact = self.contact_at(pose, q, feet);
         let [l, r] = &contact;
         let m = self.body.mass;
         let mut f = [S::zero(); N];
@@ -327,6 +342,7 @@ impl<S: Scalar> Model<S> {
     }
 
     /// Kinetic energy of the body [J].
+    #[inline(always)]
     pub fn body_kinetic(&self, state: &State<S>) -> S {
         let v = &state.v;
         (self.translation * (v[X] * v[X] + v[Z] * v[Z]) + self.rotation * v[TH] * v[TH]) * 0.5

@@ -8,25 +8,29 @@ use std::ops::{Add, Neg, Sub};
 
 use num_traits::{Num, Zero};
 
-use super::model::{Contact, Foot, Model, N, State, TH, X, Z, ax, az};
+use super::model::{Contact, Foot, FootForce, Model, N, State, TH, Vector, X, Z, ax, az};
 use super::{coupled::Coupled, slipping::Slipping};
-use crate::{scalar::Scalar, spring::Chain};
+use crate::{
+    scalar::Scalar,
+    spring::{Chain, Springs},
+};
 
 /// One chain's share of the condensed matrix.
 #[derive(Clone, Copy)]
-struct Condensed<T> {
+pub(super) struct Condensed<T> {
     /// 1 / (m2 + s c + s^2 (k1 + k2)); k1 only when closed.
-    pivot: T,
+    pub pivot: T,
     /// s^2 k1; zero when open.
-    coupling: T,
+    pub coupling: T,
     /// coupling pivot: the share of a force on the absorber that reaches the body.
-    share: T,
+    pub share: T,
     /// The chain's dynamic stiffness times s^2; zero when open.
-    stiffness: T,
+    pub stiffness: T,
 }
 
 impl<T: Num + Copy> Condensed<T> {
-    fn new<S: Scalar>(chain: &Chain<S>, closed: bool, s: T, lift: &impl Fn(S) -> T) -> Self {
+    #[inline(always)]
+    pub fn new<S: Scalar>(chain: &Chain<S>, closed: bool, s: T, lift: &impl Fn(S) -> T) -> Self {
         let base = lift(chain.m2) + s * (lift(chain.c) + s * lift(chain.k2));
         if closed {
             let coupling = s * s * lift(chain.k1);
@@ -40,15 +44,15 @@ impl<T: Num + Copy> Condensed<T> {
 
 /// Both feet's chains, horizontal and vertical. They depend on the step's size and on what holds, on nothing else.
 #[derive(Clone, Copy)]
-pub(super) struct Chains<T>([[Condensed<T>; 2]; 2]);
+pub(super) struct Chains<T>(pub [[Condensed<T>; 2]; 2]);
 
 impl<T: Num + Copy> Chains<T> {
+    #[inline(always)]
     pub fn new<S: Scalar>(model: &Model<S>, feet: &[Foot<S>; 2], s: T, lift: &impl Fn(S) -> T) -> Self {
-        Self([0, 1].map(|i| {
-            let h = Condensed::new(&model.springs.horizontal, feet[i].holds(), s, lift);
-            let v = Condensed::new(&model.springs.vertical, feet[i].closed(), s, lift);
-            [h, v]
-        }))
+        let Springs { vertical: v, horizontal: h } = &model.springs;
+        let left = [Condensed::new(h, feet[0].holds(), s, lift), Condensed::new(v, feet[0].closed(), s, lift)];
+        let right = [Condensed::new(h, feet[1].holds(), s, lift), Condensed::new(v, feet[1].closed(), s, lift)];
+        Self([left, right])
     }
 }
 
@@ -79,20 +83,12 @@ impl<T: Num + Copy + Neg<Output = T>> Newton<T> {
 }
 
 /// What is left of the matrix once the chains are condensed.
-pub(super) struct Matrix<T> {
-    /// Which feet are solved for: an open foot's absorbers move by themselves.
-    closed: [bool; 2],
-    /// dp_x/dtheta and dp_z/dtheta of each foot.
-    lever: [[T; 2]; 2],
-    x_inv: T,
-    z_inv: T,
-    th_inv: T,
-    x_th: T,
-    z_th: T,
-    /// The matrix of a body with members, in place of all the rest.
-    coupled: Option<Box<Coupled<T>>>,
-    /// The same while a foot slips.
-    slipping: Option<Box<Slipping<T>>>,
+pub(super) enum Matrix<T> {
+    Rigid(Rigid<T>),
+    /// Of a body with members.
+    Coupled(Box<Coupled<T>>),
+    /// While a foot slips.
+    Slipping(Box<Slipping<T>>),
 }
 
 impl<T: Num + Copy + Neg<Output = T>> Matrix<T> {
@@ -107,19 +103,57 @@ impl<T: Num + Copy + Neg<Output = T>> Matrix<T> {
         lift: impl Fn(S) -> T,
     ) -> Self {
         if let Some(frame) = &model.frame {
-            let coupled = Some(Box::new(Coupled::new(model, frame, state, feet, s, &lift)));
-            return Self { coupled, ..Self::none() };
+            return Self::Coupled(Box::new(Coupled::new(model, frame, state, feet, s, &lift)));
         }
         if feet.iter().any(|foot| matches!(foot.contact, Contact::Slip(_))) {
-            let slipping = Some(Box::new(Slipping::new(model, state, feet, s, &lift)));
-            return Self { slipping, ..Self::none() };
+            return Self::Slipping(Box::new(Slipping::new(model, state, feet, s, &lift)));
         }
-        let contact = model.contact(&state.q, feet);
-        let masses = model.masses(feet);
+        let closed = feet.map(|foot| foot.closed() || !model.skip_open);
+        Self::Rigid(Rigid::new(chains, &model.contact(&state.q, feet), &model.masses(feet), closed, s, lift))
+    }
+
+    /// Solve for the accelerations' correction; `times` multiplies an entry of the right side by one of the matrix.
+    #[inline(always)]
+    pub fn solve<V>(&self, chains: &Chains<T>, r: &[V; N], times: impl Fn(V, T) -> V + Copy) -> [V; N]
+    where
+        V: Copy + Add<Output = V> + Sub<Output = V> + Zero,
+    {
+        match self {
+            Self::Rigid(rigid) => rigid.solve(chains, r, times),
+            Self::Coupled(coupled) => coupled.solve(r, times),
+            Self::Slipping(slipping) => slipping.solve(r, times),
+        }
+    }
+}
+
+/// The matrix of the body alone.
+#[derive(Clone, Copy)]
+pub(super) struct Rigid<T> {
+    /// Which feet are solved for: an open foot's absorbers move by themselves.
+    pub closed: [bool; 2],
+    /// dp_x/dtheta and dp_z/dtheta of each foot.
+    pub lever: [[T; 2]; 2],
+    pub x_inv: T,
+    pub z_inv: T,
+    pub th_inv: T,
+    pub x_th: T,
+    pub z_th: T,
+}
+
+impl<T: Num + Copy + Neg<Output = T>> Rigid<T> {
+    /// Factor where the feet's forces are `contact`, for s = h lambda.
+    #[inline(always)]
+    pub fn new<S: Scalar>(
+        chains: &Chains<T>,
+        contact: &[FootForce<S>; 2],
+        masses: &Vector<S>,
+        closed: [bool; 2],
+        s: T,
+        lift: impl Fn(S) -> T,
+    ) -> Self {
         // [xx, zz, tt, x_th, z_th] of both feet
         let mut shares = [[T::zero(); 5]; 2];
         let mut lever = [[T::zero(); 2]; 2];
-        let closed = feet.map(|foot| foot.closed() || !model.skip_open);
         for i in 0..2 {
             let ([h, v], foot) = (&chains.0[i], &contact[i]);
             if closed[i] {
@@ -136,64 +170,59 @@ impl<T: Num + Copy + Neg<Output = T>> Matrix<T> {
         let x_inv = T::one() / (lift(masses[X]) + xx);
         let z_inv = T::one() / (lift(masses[Z]) + zz);
         let th_inv = T::one() / (lift(masses[TH]) + tt - x_th * x_th * x_inv - z_th * z_th * z_inv);
-        Self { closed, lever, x_inv, z_inv, th_inv, x_th, z_th, coupled: None, slipping: None }
+        Self { closed, lever, x_inv, z_inv, th_inv, x_th, z_th }
     }
 
-    fn none() -> Self {
-        let zero = T::zero();
-        Self {
-            closed: [false; 2],
-            lever: [[zero; 2]; 2],
-            x_inv: zero,
-            z_inv: zero,
-            th_inv: zero,
-            x_th: zero,
-            z_th: zero,
-            coupled: None,
-            slipping: None,
-        }
-    }
-
-    /// Solve for the accelerations' correction; `times` multiplies an entry of the right side by one of the matrix.
+    /// Solve for the accelerations' correction.
     #[inline(always)]
     pub fn solve<V>(&self, chains: &Chains<T>, r: &[V; N], times: impl Fn(V, T) -> V + Copy) -> [V; N]
     where
         V: Copy + Add<Output = V> + Sub<Output = V> + Zero,
     {
-        if let Some(coupled) = &self.coupled {
-            return coupled.solve(r, times);
-        }
-        if let Some(slipping) = &self.slipping {
-            return slipping.solve(r, times);
-        }
-        let chains = &chains.0;
-        let mut d = *r;
-        let mut reaching = [[V::zero(); 3]; 2];
-        for i in 0..2 {
-            if self.closed[i] {
-                let ([h, v], [px, pz]) = (&chains[i], self.lever[i]);
-                let (from_x, from_z) = (times(r[ax(i)], h.share), times(r[az(i)], v.share));
-                reaching[i] = [from_x, from_z, times(from_x, px) + times(from_z, pz)];
-            }
-        }
+        let (left, right) = (self.reach(chains, 0, r, times), self.reach(chains, 1, r, times));
         // one sum of both feet first, so that a mirrored case gives the mirrored history to the last bit
-        for k in [X, Z, TH] {
-            d[k] = d[k] + (reaching[0][k] + reaching[1][k]);
+        let [x, z, th] = [r[X] + (left[X] + right[X]), r[Z] + (left[Z] + right[Z]), r[TH] + (left[TH] + right[TH])];
+        let turned = times(x, self.x_th * self.x_inv) + times(z, self.z_th * self.z_inv);
+        let th = times(th - turned, self.th_inv);
+        let x = times(x - times(th, self.x_th), self.x_inv);
+        let z = times(z - times(th, self.z_th), self.z_inv);
+        let [lx, lz] = self.absorbers(chains, 0, r, [x, z, th], times);
+        let [rx, rz] = self.absorbers(chains, 1, r, [x, z, th], times);
+        [x, z, th, lx, lz, rx, rz]
+    }
+
+    /// What of the right side of foot i's absorbers reaches X, Z and theta.
+    #[inline(always)]
+    fn reach<V>(&self, chains: &Chains<T>, i: usize, r: &[V; N], times: impl Fn(V, T) -> V + Copy) -> [V; 3]
+    where
+        V: Copy + Add<Output = V> + Sub<Output = V> + Zero,
+    {
+        if !self.closed[i] {
+            return [V::zero(), V::zero(), V::zero()];
         }
-        let turned = times(d[X], self.x_th * self.x_inv) + times(d[Z], self.z_th * self.z_inv);
-        d[TH] = times(d[TH] - turned, self.th_inv);
-        d[X] = times(d[X] - times(d[TH], self.x_th), self.x_inv);
-        d[Z] = times(d[Z] - times(d[TH], self.z_th), self.z_inv);
-        for i in 0..2 {
-            let [h, v] = &chains[i];
-            let [px, pz] = self.lever[i];
-            if self.closed[i] {
-                d[ax(i)] = times(r[ax(i)] + times(d[X] + times(d[TH], px), h.coupling), h.pivot);
-                d[az(i)] = times(r[az(i)] + times(d[Z] + times(d[TH], pz), v.coupling), v.pivot);
-            } else {
-                (d[ax(i)], d[az(i)]) = (times(r[ax(i)], h.pivot), times(r[az(i)], v.pivot));
-            }
+        let ([h, v], [px, pz]) = (&chains.0[i], self.lever[i]);
+        let (from_x, from_z) = (times(r[ax(i)], h.share), times(r[az(i)], v.share));
+        [from_x, from_z, times(from_x, px) + times(from_z, pz)]
+    }
+
+    /// The correction of foot i's absorbers, that of the body known.
+    #[inline(always)]
+    fn absorbers<V>(
+        &self,
+        chains: &Chains<T>,
+        i: usize,
+        r: &[V; N],
+        [x, z, th]: [V; 3],
+        times: impl Fn(V, T) -> V + Copy,
+    ) -> [V; 2]
+    where
+        V: Copy + Add<Output = V> + Sub<Output = V> + Zero,
+    {
+        let ([h, v], [px, pz]) = (&chains.0[i], self.lever[i]);
+        if !self.closed[i] {
+            return [times(r[ax(i)], h.pivot), times(r[az(i)], v.pivot)];
         }
-        d
+        let along = times(r[ax(i)] + times(x + times(th, px), h.coupling), h.pivot);
+        [along, times(r[az(i)] + times(z + times(th, pz), v.coupling), v.pivot)]
     }
 }

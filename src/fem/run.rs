@@ -6,10 +6,12 @@ mod events;
 mod grip;
 mod met;
 mod rest;
+mod span;
 
-use std::f64::consts::FRAC_PI_2;
+use std::{f64::consts::FRAC_PI_2, ops::ControlFlow};
 
 use super::{
+    Finish,
     control::{Control, Outcome, Work},
     energy::Energy,
     model::{Foot, Model, State, TH, Vector, Z},
@@ -17,11 +19,57 @@ use super::{
     step::{Ground, Request, Stages, Stepper, no_guess},
 };
 use crate::scalar::{GRAVITY, Scalar, real};
+pub(super) use account::{Measures, Scales};
+use events::{Located, Locating};
 use met::Met;
+pub(super) use met::OVERSHOOT;
+use span::Span;
+
+/// The motion of the ground, at steps of dt and linear between.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Motion<'a, S> {
+    /// [s]
+    pub dt: f64,
+    /// [m/s2]
+    pub accel: &'a [f64],
+    /// The vertical component; zero beyond its last sample.
+    pub vertical: &'a [f64],
+    pub scale: S,
+}
+
+impl<S: Scalar> Motion<'_, S> {
+    /// From sample i on.
+    fn ground(&self, i: usize) -> Ground<S> {
+        let Self { dt, accel, vertical, scale } = *self;
+        let up = |i: usize| vertical.get(i).copied().unwrap_or(0.0);
+        let slope = |now: f64, next: f64| scale * ((next - now) / dt);
+        Ground {
+            start: [scale * accel[i], scale * up(i)],
+            slope: [slope(accel[i], accel[i + 1]), slope(up(i), up(i + 1))],
+            curve: [S::zero(); 2],
+        }
+    }
+}
 
 /// A history in the making.
 pub(crate) struct Run<'a, S> {
-    model: &'a Model<S>,
+    pub model: &'a Model<S>,
+    motion: Motion<'a, S>,
+    /// The interval between two samples that is crossed, or that comes next.
+    interval: usize,
+    /// Whether it is under way.
+    crossing: bool,
+    /// Time since its start [s].
+    t: S,
+    /// Ground acceleration from its start on, and from now on.
+    ground: Ground<S>,
+    here: Ground<S>,
+    /// The step over several samples under way.
+    spanning: Option<Span<S>>,
+    /// The sample up to which steps over several samples may go: an event comes after it.
+    event_by: usize,
+    /// The event that the step under way is repeated for.
+    locating: Option<Locating<S>>,
     stepper: Stepper<'a, S>,
     control: Control,
     state: State<S>,
@@ -35,13 +83,12 @@ pub(crate) struct Run<'a, S> {
     settling: f64,
     /// What rounding makes of a foot's place [m]: some units in the last digit of R.
     rounding: f64,
-    /// Lean of balance [rad], the scale of a local error.
-    alpha: f64,
-    /// What a step's local error may be, in that scale.
+    /// The scales of a local error.
+    pub scales: Scales,
+    /// What a step's local error may be, in these scales.
     error: f64,
-    /// 1/p [s], the time in which an error of the rate becomes one of the lean.
-    moment: f64,
-    guess: [Vector<S>; 3],
+    /// First guess of the next step's acceleration.
+    guess: Vector<S>,
     /// Factor by which an iteration of the next step is expected to reduce the error; 1 if unknown.
     rate: f64,
     /// When each foot last opened [s].
@@ -73,6 +120,15 @@ impl<'a, S: Scalar> Run<'a, S> {
         let scale = (stored.re() - rest).abs().max(1e-3 * rest.abs());
         Self {
             model,
+            motion: Motion { dt: 0.0, accel: &[], vertical: &[], scale: S::one() },
+            interval: 0,
+            crossing: false,
+            t: S::zero(),
+            ground: Ground::still(),
+            here: Ground::still(),
+            spanning: None,
+            event_by: usize::MAX,
+            locating: None,
             stepper: Stepper::new(model),
             control,
             state,
@@ -82,9 +138,8 @@ impl<'a, S: Scalar> Run<'a, S> {
             compression,
             settling: (compression / GRAVITY).sqrt(),
             rounding: 8.0 * f64::EPSILON * model.body.radius().re(),
-            alpha: model.body.alpha().re(),
+            scales: Scales::of(model),
             error: account::allowed_error(control.tolerance),
-            moment: model.body.p_squared().re().sqrt().recip(),
             guess: no_guess(),
             rate: 1.0,
             opened: [f64::NEG_INFINITY; 2],
@@ -102,109 +157,192 @@ impl<'a, S: Scalar> Run<'a, S> {
         View { time, model: self.model, state: &self.state, feet: &self.feet, energy: &self.energy }
     }
 
-    /// Follow the record (m/s2 at steps of dt, times `scale`): horizontal, and vertical, which is zero beyond its last sample.
-    pub fn follow(
-        &mut self,
-        dt: f64,
-        (accel, vertical): (&[f64], &[f64]),
-        scale: S,
-        observer: &mut impl Observer<S>,
-    ) -> Outcome {
-        let n = accel.len();
-        let up = |i: usize| vertical.get(i).copied().unwrap_or(0.0);
-        if n == 0 {
-            return Outcome::Completed;
+    /// Follow a motion of the ground to its end.
+    pub fn follow(&mut self, motion: Motion<'a, S>, observer: &mut impl Observer<S>) -> Outcome {
+        let begun = self.begin(motion, observer);
+        match begun.and_then(|()| self.plan(observer)) {
+            Ok(h) => self.go_on(h, observer),
+            Err(outcome) => outcome,
         }
-        if observer.sample(0, &self.view(S::zero())).is_break() {
-            return Outcome::Stopped { time: 0.0 };
-        }
-        let mut stages = Stages::none();
-        for i in 0..n - 1 {
-            let t0 = i as f64 * dt;
-            let slope = |now: f64, next: f64| scale * ((next - now) / dt);
-            let ground = Ground {
-                start: [scale * accel[i], scale * up(i)],
-                slope: [slope(accel[i], accel[i + 1]), slope(up(i), up(i + 1))],
-            };
-            if self.rests(&ground) {
-                observer.step(&self.view(real(t0 + dt)));
-            } else if let Err(outcome) = self.cross_sample(t0, dt, &ground, &mut stages, observer) {
-                return outcome;
-            }
-            if observer.sample(i + 1, &self.view(real(t0 + dt))).is_break() {
-                return Outcome::Stopped { time: t0 + dt };
-            }
-        }
-        Outcome::Completed
     }
 
-    /// From one sample to the next; the outcome if the history ends in between.
-    fn cross_sample(
-        &mut self,
-        t0: f64,
-        dt: f64,
-        ground: &Ground<S>,
-        stages: &mut Stages<S>,
-        observer: &mut impl Observer<S>,
-    ) -> Result<(), Outcome> {
-        let mut t = S::zero();
+    /// Go on to the motion's end, with a step of size h [s] first.
+    pub fn go_on(&mut self, mut h: S, observer: &mut impl Observer<S>) -> Outcome {
+        let mut stages = Stages::none();
         loop {
-            let left = -t + dt;
-            if left.re() <= 1e-13 * dt {
-                return Ok(());
-            }
-            let time = t0 + t.re();
-            if self.work.steps + self.work.rejected >= self.control.most_steps {
-                return Err(Outcome::WorkBound { time });
-            }
-            // no step is short enough: where a massless rotation is about to snap its rate has no bound
-            if !self.balanced || self.h < 1e-14 * dt {
-                return Err(Outcome::Unstable { time });
-            }
-            let h = self.next_size(left);
-            let here = ground.from(t);
-            if !self.attempt(h, &here, stages) {
-                self.refuse(h.re() * 0.25);
-                continue;
-            }
-            let mut met = self.met(stages);
-            if let Met::Grip { foot, tau } = met {
-                if !self.locate_grip(foot, tau, stages, &here) {
-                    self.refuse(h.re() * tau * 0.5);
-                    continue;
-                }
-                // where it changes was but estimated: a foot may touch or leave the ground before
-                met = self.crosses(stages).or(met);
-            }
-            let (located, tau) = match met {
-                Met::Unresolved => (None, 0.5),
-                Met::Nothing => (Some(false), 1.0),
-                Met::Crossing { foot, level, tau } => (self.locate(foot, level, stages, tau, &here), tau),
-                Met::Grip { .. } => (Some(true), 1.0),
+            let converged = self.attempt(h, &mut stages);
+            let next = match self.tried(converged, &mut stages, None, observer) {
+                Ok(Some(h)) => Ok(h),
+                Ok(None) => self.plan(observer),
+                Err(outcome) => Err(outcome),
             };
-            let Some(changes) = located else {
-                // nearer to the event, the step that ends there is easier
-                self.refuse(h.re() * tau * 0.5);
-                continue;
-            };
-            if !self.account(stages, &here) {
-                self.work.rejected += 1;
-                continue;
-            }
-            t += stages.h;
-            if self.state.q[TH].re().abs() > FRAC_PI_2 {
-                return Err(Outcome::Overturned { time: t0 + t.re() });
-            }
-            observer.step(&self.view(real::<S>(t0) + t));
-            match met {
-                Met::Crossing { foot, level, .. } if changes => {
-                    self.turns = 0;
-                    self.switch(foot, level, real::<S>(t0) + t, observer);
-                }
-                Met::Grip { foot, .. } if changes => self.change_grip(foot, real::<S>(t0) + t, observer),
-                _ => {}
+            match next {
+                Ok(next) => h = next,
+                Err(outcome) => return outcome,
             }
         }
+    }
+
+    /// Set out on a motion and show the first sample; the outcome if there is nothing to follow.
+    pub fn begin(&mut self, motion: Motion<'a, S>, observer: &mut impl Observer<S>) -> Result<(), Outcome> {
+        self.motion = motion;
+        if self.motion.accel.is_empty() {
+            return Err(Outcome::Completed);
+        }
+        self.show_sample(0, observer)
+    }
+
+    fn show_sample(&mut self, index: usize, observer: &mut impl Observer<S>) -> Result<(), Outcome> {
+        let time = index as f64 * self.motion.dt;
+        self.interval = index;
+        self.crossing = false;
+        match observer.sample(index, &self.view(real(time))) {
+            ControlFlow::Break(()) => Err(Outcome::Stopped { time }),
+            ControlFlow::Continue(()) => Ok(()),
+        }
+    }
+
+    /// Size of the next step to try, past samples and rests; the outcome once the history has ended.
+    pub fn plan(&mut self, observer: &mut impl Observer<S>) -> Result<S, Outcome> {
+        let dt = self.motion.dt;
+        loop {
+            if self.crossing {
+                let left = -self.t + dt;
+                if left.re() > 1e-13 * dt {
+                    return self.next_step(left);
+                }
+                self.show_sample(self.interval + 1, observer)?;
+            }
+            if self.interval + 1 >= self.motion.accel.len() {
+                return Err(Outcome::Completed);
+            }
+            self.ground = self.motion.ground(self.interval);
+            if self.rests() {
+                observer.step(&self.view(real(self.interval as f64 * dt + dt)));
+                self.show_sample(self.interval + 1, observer)?;
+            } else {
+                self.check(self.start_of_interval())?;
+                if let Some(size) = self.span() {
+                    return Ok(size);
+                }
+                (self.t, self.crossing) = (S::zero(), true);
+            }
+        }
+    }
+
+    /// The next step, `left` being left of the interval between two samples.
+    fn next_step(&mut self, left: S) -> Result<S, Outcome> {
+        self.check(self.start_of_interval() + self.t.re())?;
+        self.here = self.ground.from(self.t);
+        self.locating = None;
+        Ok(self.next_size(left))
+    }
+
+    /// The outcome if the history can go no further.
+    fn check(&self, time: f64) -> Result<(), Outcome> {
+        if self.work.steps + self.work.rejected >= self.control.most_steps {
+            return Err(Outcome::WorkBound { time });
+        }
+        // no step is short enough: where a massless rotation is about to snap its rate has no bound
+        if !self.balanced || self.h < 1e-14 * self.motion.dt {
+            return Err(Outcome::Unstable { time });
+        }
+        Ok(())
+    }
+
+    fn start_of_interval(&self) -> f64 {
+        self.interval as f64 * self.motion.dt
+    }
+
+    /// Take note of a step that was tried: accept it, refuse it, or ask for the same step with the size that is returned, to find
+    /// the event within it. `measures` are its own, if known.
+    pub fn tried(
+        &mut self,
+        converged: bool,
+        stages: &mut Stages<S>,
+        measures: Option<&Measures<S>>,
+        observer: &mut impl Observer<S>,
+    ) -> Result<Option<S>, Outcome> {
+        if converged {
+            self.work.iterations += stages.iterations;
+        }
+        if let Some(span) = self.spanning.take() {
+            self.tried_span(&span, converged, stages, measures, observer)?;
+            return Ok(None);
+        }
+        let h = stages.h.re();
+        if let Some(mut event) = self.locating {
+            match self.locate(&mut event, converged, stages) {
+                Located::Next(size) => {
+                    self.locating = Some(event);
+                    return Ok(Some(size));
+                }
+                // nearer to the event, the step that ends there is easier
+                Located::Nowhere => self.refuse(event.whole * event.tau * 0.5),
+                Located::Here { changes } => {
+                    let met = if changes { event.met() } else { Met::Nothing };
+                    self.accept(stages, measures, &met, observer)?;
+                }
+            }
+            return Ok(None);
+        }
+        if !converged {
+            self.refuse(h * 0.25);
+            return Ok(None);
+        }
+        let mut measures = measures;
+        let mut met = if measures.is_some_and(|m| m.clear) { Met::Nothing } else { self.met(stages) };
+        if let Met::Grip { foot, tau } = met {
+            if !self.locate_grip(foot, tau, stages) {
+                self.refuse(h * tau * 0.5);
+                return Ok(None);
+            }
+            // where it changes was but estimated: a foot may touch or leave the ground before
+            met = self.crosses(stages).or(met);
+            measures = None;
+        }
+        match met {
+            Met::Unresolved => self.refuse(h * 0.25),
+            Met::Crossing { foot, level, tau } => {
+                let event = Locating::new(foot, level, (stages.h, tau));
+                let size = event.h;
+                self.locating = Some(event);
+                return Ok(Some(size));
+            }
+            Met::Nothing | Met::Grip { .. } => self.accept(stages, measures, &met, observer)?,
+        }
+        Ok(None)
+    }
+
+    /// Book the step, if it is accurate enough, and change the contact that changes at its end.
+    fn accept(
+        &mut self,
+        stages: &Stages<S>,
+        measures: Option<&Measures<S>>,
+        met: &Met,
+        observer: &mut impl Observer<S>,
+    ) -> Result<(), Outcome> {
+        let measured = measures.copied().unwrap_or_else(|| self.measure(stages));
+        if !self.account(stages, &measured) {
+            self.work.rejected += 1;
+            return Ok(());
+        }
+        self.t += stages.h;
+        let t0 = self.start_of_interval();
+        if self.state.q[TH].re().abs() > FRAC_PI_2 {
+            return Err(Outcome::Overturned { time: t0 + self.t.re() });
+        }
+        let time = real::<S>(t0) + self.t;
+        observer.step(&self.view(time));
+        match *met {
+            Met::Crossing { foot, level, .. } => {
+                (self.turns, self.event_by) = (0, usize::MAX);
+                self.switch(foot, level, time, observer);
+            }
+            Met::Grip { foot, .. } => self.change_grip(foot, time, observer),
+            Met::Nothing | Met::Unresolved => {}
+        }
+        Ok(())
     }
 
     /// Count a step that did not converge; try again with size h [s].
@@ -226,31 +364,33 @@ impl<'a, S: Scalar> Run<'a, S> {
         }
     }
 
-    /// Take a step of size h into `stages`; whether it converges.
-    fn attempt(&mut self, h: S, ground: &Ground<S>, stages: &mut Stages<S>) -> bool {
+    /// What is asked of a step of size h.
+    fn request(&self, h: S) -> Request<S> {
         // a share of what presses the feet that the energy account would not notice
         let share = (1e3 * self.control.tolerance).clamp(1e-7, 1e-3);
-        let request = Request {
+        Request {
             h,
-            ground: *ground,
-            guess: &self.guess,
+            ground: self.here,
+            guess: if self.spanning.is_some() { self.pendulum(h) } else { [self.guess; 3] },
             tolerance: (share * self.compression).max(self.rounding),
             extra: self.control.extra_iterations,
             rate: self.rate,
-        };
-        let converged = self.stepper.step(&self.state, &self.feet, &request, stages);
-        if converged {
-            self.work.iterations += stages.iterations;
         }
-        converged
     }
 
-    pub fn energy(&self) -> &Energy<S> {
-        &self.energy
+    /// Hand over what a step of size h needs: start, contacts, what is asked, and what rounding alone may make of an iteration [m].
+    pub fn ask(&self, h: S, take: impl FnOnce(&State<S>, &[Foot<S>; 2], &Request<S>, f64)) {
+        take(&self.state, &self.feet, &self.request(h), self.stepper.rounding);
     }
 
-    /// Largest energy of the history [J].
-    pub fn energy_scale(&self) -> f64 {
-        self.scale
+    /// Take a step of size h into `stages`; whether it converges.
+    pub fn attempt(&mut self, h: S, stages: &mut Stages<S>) -> bool {
+        let request = self.request(h);
+        self.stepper.step(&self.state, &self.feet, &request, stages)
+    }
+
+    /// How it ended, and what it cost.
+    pub fn finish(&self, outcome: Outcome) -> Finish<S> {
+        Finish { outcome, work: self.work, energy: self.energy, energy_scale: self.scale }
     }
 }

@@ -5,30 +5,40 @@ use num_complex::Complex;
 use super::{
     model::{Contact, Foot, Model, N, State, TH, Vector},
     newton::{Chains, Matrix},
-    radau::{A, A2, ALPHA, BETA, C, E, GAMMA, T, T_INV, position_weights},
+    radau::{A, A2, ALPHA, BETA, C, E, GAMMA, T, T_INV, position_weights, velocity_weights},
 };
 use crate::scalar::{Scalar, real};
 
 /// Iterations before a step counts as diverged.
 const MOST_ITERATIONS: usize = 12;
 
-/// Ground acceleration along a step, horizontal and vertical: value at its start [m/s2] and slope [m/s3].
+/// Ground acceleration along a step, horizontal and vertical, by powers of the time since its start.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Ground<S> {
+    /// [m/s2]
     pub start: [S; 2],
+    /// [m/s3]
     pub slope: [S; 2],
+    /// [m/s4]; zero between two samples.
+    pub curve: [S; 2],
 }
 
 impl<S: Scalar> Ground<S> {
+    pub fn still() -> Self {
+        let none = [S::zero(); 2];
+        Self { start: none, slope: none, curve: none }
+    }
+
     /// At a share of a time h [s] after the start.
     #[inline(always)]
     pub fn after(&self, h: S, share: f64) -> [S; 2] {
-        [0, 1].map(|k| self.start[k] + self.slope[k] * h * share)
+        let at = |k: usize| self.start[k] + (self.slope[k] + self.curve[k] * h * share) * h * share;
+        [at(0), at(1)]
     }
 
-    /// The same from a later time on [s].
+    /// The same between two samples, from a later time on [s].
     pub fn from(&self, time: S) -> Self {
-        Self { start: self.after(time, 1.0), slope: self.slope }
+        Self { start: self.after(time, 1.0), ..*self }
     }
 }
 
@@ -70,6 +80,13 @@ impl<S: Scalar> Stages<S> {
         (input, dissipated)
     }
 
+    /// Velocity on the collocation polynomial at tau in 0..1.
+    pub fn velocity(&self, tau: f64) -> Vector<S> {
+        let [w0, w1, w2] = velocity_weights(tau);
+        let [v0, v1, v2] = &self.v;
+        std::array::from_fn(|k| v0[k] * w0 + v1[k] * w1 + v2[k] * w2)
+    }
+
     /// Position on the collocation polynomial at tau in 0..1 of the step that began at `start`.
     pub fn position(&self, start: &State<S>, tau: f64) -> Vector<S> {
         let [w0, w1, w2] = position_weights(tau);
@@ -79,11 +96,11 @@ impl<S: Scalar> Stages<S> {
 }
 
 /// What a step is asked for: size, tolerance and where to begin the iteration.
-pub(super) struct Request<'a, S> {
+pub(super) struct Request<S> {
     pub h: S,
     pub ground: Ground<S>,
     /// First guess of the acceleration at every stage.
-    pub guess: &'a [Vector<S>; 3],
+    pub guess: [Vector<S>; 3],
     /// A displacement [m] below which an iteration's correction no longer matters.
     pub tolerance: f64,
     /// Iterations to add after convergence, so that derivatives converge too.
@@ -92,6 +109,102 @@ pub(super) struct Request<'a, S> {
     pub rate: f64,
 }
 
+/// The simplified Newton iteration of one step: how far it is, and whether it has arrived.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Convergence {
+    pub iterations: usize,
+    /// Factor by which an iteration reduced the error, measured if there were two.
+    pub rate: f64,
+    /// The last correction [m].
+    last: f64,
+    /// Iterations still to be added, once converged.
+    left: Option<usize>,
+    tolerance: f64,
+    rounding: f64,
+    extra: usize,
+}
+
+/// What becomes of an iteration.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(super) enum Verdict {
+    GoesOn,
+    Converged,
+    Failed,
+}
+
+impl Convergence {
+    pub fn new<S>(request: &Request<S>, rounding: f64) -> Self {
+        let &Request { tolerance, extra, rate, .. } = request;
+        Self { iterations: 0, rate, last: f64::INFINITY, left: None, tolerance, rounding, extra }
+    }
+
+    /// Whether another iteration is to be made.
+    #[inline(always)]
+    pub fn verdict(&self) -> Verdict {
+        if self.left == Some(0) {
+            Verdict::Converged
+        } else if self.iterations == MOST_ITERATIONS {
+            Verdict::Failed
+        } else {
+            Verdict::GoesOn
+        }
+    }
+
+    /// No more of it.
+    pub fn give_up(&mut self) {
+        self.iterations = MOST_ITERATIONS;
+    }
+
+    /// Take note of an iteration that moved the body by `change` [m]; false if it diverges.
+    #[inline(always)]
+    #[must_use]
+    pub fn moved(&mut self, change: f64) -> bool {
+        self.iterations += 1;
+        // once converged, or as far as rounding lets it, what is left may well grow
+        let rounded = self.iterations > 5 && change <= self.rounding;
+        let grows = self.left.is_none() && !rounded && self.iterations > 3 && change > 2.0 * self.last;
+        if !change.is_finite() || grows {
+            return false;
+        }
+        // geometric convergence: what is still missing is change * rate / (1 - rate)
+        if self.last.is_finite() {
+            self.rate = (change / self.last).min(1.0);
+        }
+        let missing = if self.rate < 1.0 { change * self.rate / (1.0 - self.rate) } else { f64::INFINITY };
+        self.last = change;
+        self.left = match self.left {
+            Some(n) => Some(n - 1),
+            None if rounded || change <= self.tolerance || missing <= self.tolerance => Some(self.extra),
+            None => None,
+        };
+        true
+    }
+}
+
+/// Place and velocity of coordinate k at stage i, from the accelerations at all stages.
+#[inline(always)]
+pub(super) fn stage<S: Scalar>(i: usize, (q, v): (S, S), [a0, a1, a2]: [S; 3], h: S) -> (S, S) {
+    let ([b0, b1, b2], [d0, d1, d2]) = (A2[i], A[i]);
+    (q + (v * (h * C[i]) + (a0 * b0 + a1 * b1 + a2 * b2) * (h * h)), v + (a0 * d0 + a1 * d1 + a2 * d2) * h)
+}
+
+/// The residuals of a coordinate at the stages in the eigenvectors of A: the real one, and one of the pair.
+#[inline(always)]
+pub(super) fn modes<S: Scalar>([a, b, c]: [S; 3]) -> (S, Complex<S>) {
+    let mode = |row: usize| a * T_INV[row][0] + b * T_INV[row][1] + c * T_INV[row][2];
+    (mode(0), Complex::new(mode(1), -mode(2)))
+}
+
+/// The corrections at the stages from those of the eigenvectors.
+#[inline(always)]
+pub(super) fn from_modes<S: Scalar>(w0: S, w1: Complex<S>) -> [S; 3] {
+    let at = |[t0, t1, t2]: [f64; 3]| w0 * t0 + w1.re * t1 - w1.im * t2;
+    [at(T[0]), at(T[1]), at(T[2])]
+}
+
+/// What an iteration's correction of a coordinate counts [m], with h^2: the largest coefficient of A^2 is 0.32.
+pub(super) const LARGEST: f64 = 0.32;
+
 /// Takes steps of a model.
 ///
 /// The Newton matrix is one of real numbers whatever the scalar is: the iteration makes derivatives converge as it does values,
@@ -99,6 +212,9 @@ pub(super) struct Request<'a, S> {
 pub(super) struct Stepper<'a, S> {
     model: &'a Model<S>,
     real: Model<f64>,
+    /// Correction of an iteration that rounding alone may make [m]: a gap rounded by some units in the last digit of R turns the
+    /// body R/b times as far.
+    pub rounding: f64,
     chains: Option<Shared>,
     /// The real matrix of the last step, for its error.
     matrix: Option<Matrix<f64>>,
@@ -115,7 +231,10 @@ struct Shared {
 
 impl<'a, S: Scalar> Stepper<'a, S> {
     pub fn new(model: &'a Model<S>) -> Self {
-        Self { model, real: model.real(), chains: None, matrix: None }
+        let real = model.real();
+        let radius = real.body.radius();
+        let rounding = 8.0 * f64::EPSILON * radius * radius / real.body.half_width;
+        Self { model, real, rounding, chains: None, matrix: None }
     }
 
     /// Condense the chains for this size and contact, unless the last step has.
@@ -130,7 +249,7 @@ impl<'a, S: Scalar> Stepper<'a, S> {
 
     /// Take the step into `s`; whether the iteration converges.
     pub fn step(&mut self, start: &State<S>, feet: &[Foot<S>; 2], request: &Request<S>, s: &mut Stages<S>) -> bool {
-        let &Request { h, ground, guess, tolerance, extra, .. } = request;
+        let &Request { h, ground, guess, .. } = request;
         // The matrix is taken half way, where its error over the step is least.
         let hr = h.re();
         let mut middle = State { q: [0.0; N], v: [0.0; N] };
@@ -148,29 +267,21 @@ impl<'a, S: Scalar> Stepper<'a, S> {
         let model = self.model;
         let masses = model.masses(feet);
         let radius = self.real.body.radius();
-        // a gap rounded by some units in the last digit of R turns the body R/b times as far
-        let rounding = 8.0 * f64::EPSILON * radius * radius / self.real.body.half_width;
         let grounds = C.map(|c| ground.after(h, c));
-        let h2 = h * h;
-        (s.h, s.a, s.iterations, s.rate) = (h, *guess, 0, request.rate);
-        let (mut last, mut left) = (f64::INFINITY, None);
+        let mut convergence = Convergence::new(request, self.rounding);
+        (s.h, s.a) = (h, guess);
         loop {
             for i in 0..3 {
-                let ([b0, b1, b2], [d0, d1, d2]) = (A2[i], A[i]);
-                let hc = h * C[i];
                 for k in 0..N {
-                    let (a0, a1, a2) = (s.a[0][k], s.a[1][k], s.a[2][k]);
-                    s.q[i][k] = start.q[k] + (start.v[k] * hc + (a0 * b0 + a1 * b1 + a2 * b2) * h2);
-                    s.v[i][k] = start.v[k] + (a0 * d0 + a1 * d1 + a2 * d2) * h;
+                    let a = [s.a[0][k], s.a[1][k], s.a[2][k]];
+                    (s.q[i][k], s.v[i][k]) = stage(i, (start.q[k], start.v[k]), a, h);
                 }
             }
-            if left == Some(0) {
-                return true;
+            (s.iterations, s.rate) = (convergence.iterations, convergence.rate);
+            match convergence.verdict() {
+                Verdict::GoesOn => {}
+                verdict => return verdict == Verdict::Converged,
             }
-            if s.iterations == MOST_ITERATIONS {
-                return false;
-            }
-            s.iterations += 1;
 
             let mut residual = [[S::zero(); N]; 3];
             for i in 0..3 {
@@ -182,10 +293,7 @@ impl<'a, S: Scalar> Stepper<'a, S> {
             let mut r0 = [S::zero(); N];
             let mut r1 = [Complex::new(S::zero(), S::zero()); N];
             for k in 0..N {
-                let (a, b, c) = (residual[0][k], residual[1][k], residual[2][k]);
-                let mode = |row: usize| a * T_INV[row][0] + b * T_INV[row][1] + c * T_INV[row][2];
-                r0[k] = mode(0);
-                r1[k] = Complex::new(mode(1), -mode(2));
+                (r0[k], r1[k]) = modes([residual[0][k], residual[1][k], residual[2][k]]);
             }
             let w0 = real_matrix.solve(&shared.real, &r0, |x, t| x * t);
             let w1 = pair_matrix.solve(&shared.pair, &r1, times);
@@ -193,30 +301,14 @@ impl<'a, S: Scalar> Stepper<'a, S> {
             let mut change: f64 = 0.0;
             for k in 0..N {
                 let length = if k == TH { radius } else { 1.0 };
-                for (a, [t0, t1, t2]) in s.a.iter_mut().zip(T) {
-                    let delta = w0[k] * t0 + w1[k].re * t1 - w1[k].im * t2;
+                for (a, delta) in s.a.iter_mut().zip(from_modes(w0[k], w1[k])) {
                     a[k] += delta;
                     change = change.max((delta.re() * length).abs());
                 }
             }
-            // the largest coefficient of A^2 is 0.32
-            change *= 0.32 * h2.re();
-            // once converged, or as far as rounding lets it, what is left may well grow
-            let rounded = s.iterations > 5 && change <= rounding;
-            if !change.is_finite() || (left.is_none() && !rounded && s.iterations > 3 && change > 2.0 * last) {
+            if !convergence.moved(change * (LARGEST * (h * h).re())) {
                 return false;
             }
-            // geometric convergence: what is still missing is change * rate / (1 - rate)
-            if last.is_finite() {
-                s.rate = (change / last).min(1.0);
-            }
-            let missing = if s.rate < 1.0 { change * s.rate / (1.0 - s.rate) } else { f64::INFINITY };
-            last = change;
-            left = match left {
-                Some(n) => Some(n - 1),
-                None if rounded || change <= tolerance || missing <= tolerance => Some(extra),
-                None => None,
-            };
         }
     }
 }
@@ -239,37 +331,54 @@ impl<S: Scalar> Stepper<'_, S> {
         let (Some(shared), Some(matrix)) = (&self.chains, &self.matrix) else { return none };
         let root = s.h.re() * GAMMA;
         let (q, v) = (start.q.map(|x| x.re()), start.v.map(|x| x.re()));
-        let change = |k: usize, stages: &[Vector<S>; 3], from: f64| -> f64 {
-            (0..3).map(|i| E[i] * (stages[i][k].re() - from)).sum()
-        };
-        let d_q: Vector<f64> = std::array::from_fn(|k| change(k, &s.q, q[k]));
+        let d_q = std::array::from_fn(|k| embedded([0, 1, 2].map(|i| s.q[i][k].re()), q[k]));
+        let d_v = std::array::from_fn(|k| embedded([0, 1, 2].map(|i| s.v[i][k].re()), v[k]));
         let feet = feet.map(|foot| Foot { contact: foot.contact, anchor: foot.anchor.re() });
-        let (forces, masses) = (
-            self.real.forces(&q, &d_q.map(|d| -d / root), &feet, ground.start.map(|a| a.re())),
-            self.real.masses(&feet),
-        );
-        let right = std::array::from_fn(|k| {
-            root * root * forces[k] + masses[k] * (root * v[k] + d_q[k] + root * change(k, &s.v, v[k]))
-        });
+        let forces = self.real.forces(&q, &d_q.map(|d: f64| -d / root), &feet, ground.start.map(|a| a.re()));
+        let right = error_right(root, &forces, &self.real.masses(&feet), &v, &d_q, &d_v);
         let e_q = matrix.solve(&shared.real, &right, |x, t| x * t);
         State { q: e_q, v: std::array::from_fn(|k| (e_q[k] - d_q[k]) / root - v[k]) }
     }
 }
 
-/// ALPHA + i BETA.
-const EIGENVALUE: Complex<f64> = Complex::new(ALPHA, BETA);
+/// sum E_i (x_i - x_0) of a coordinate's values at the stages and the start.
+#[inline(always)]
+pub(super) fn embedded(stages: [f64; 3], start: f64) -> f64 {
+    E[0] * (stages[0] - start) + E[1] * (stages[1] - start) + E[2] * (stages[2] - start)
+}
 
-fn complex(x: f64) -> Complex<f64> {
+/// The right side of the equation for e_q, with s = `root`.
+#[inline(always)]
+pub(super) fn error_right(
+    root: f64,
+    forces: &Vector<f64>,
+    masses: &Vector<f64>,
+    v: &Vector<f64>,
+    d_q: &Vector<f64>,
+    d_v: &Vector<f64>,
+) -> Vector<f64> {
+    let mut right = [0.0; N];
+    for k in 0..N {
+        right[k] = root * root * forces[k] + masses[k] * (root * v[k] + d_q[k] + root * d_v[k]);
+    }
+    right
+}
+
+/// ALPHA + i BETA.
+pub(super) const EIGENVALUE: Complex<f64> = Complex::new(ALPHA, BETA);
+
+#[inline(always)]
+pub(super) fn complex(x: f64) -> Complex<f64> {
     Complex::new(x, 0.0)
 }
 
 /// A complex number of any scalar times a real one's.
 #[inline(always)]
-fn times<S: Scalar>(x: Complex<S>, t: Complex<f64>) -> Complex<S> {
+pub(super) fn times<S: Scalar>(x: Complex<S>, t: Complex<f64>) -> Complex<S> {
     Complex::new(x.re * t.re - x.im * t.im, x.re * t.im + x.im * t.re)
 }
 
 /// The acceleration everywhere zero: the guess after an event, when the old accelerations tell nothing.
-pub(super) fn no_guess<S: Scalar>() -> [Vector<S>; 3] {
-    [[real(0.0); N]; 3]
+pub(super) fn no_guess<S: Scalar>() -> Vector<S> {
+    [real(0.0); N]
 }

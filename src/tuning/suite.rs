@@ -12,7 +12,7 @@ use serde::{Deserialize, Serialize};
 
 use crate::{
     conditioning::{CHANGES, ILL_CONDITIONED, changes, moved_by_width, sensitivity},
-    fem::{Case, Control, Outcome, Start},
+    fem::{Case, Control, Finish, Outcome, Start, histories},
     housner::{self, Options, Rocking},
     overturning::samples_until,
     record::Record,
@@ -111,12 +111,8 @@ impl Trial {
         Cow::Owned(self.accel.iter().enumerate().map(push).collect())
     }
 
-    /// NRMSE of u and of v on these springs, of a body that overturns up to then; infinite if the history does not get to the
-    /// record's end, or one body overturns and the other does not.
-    pub fn errors(&self, body: &Body<f64>, springs: &Springs<Chain<f64>>, control: Control) -> (f64, f64) {
-        let push = self.push();
-        let mut stream = Stream::new(body, &self.theta, &push);
-        let case = Case {
+    fn case(&self, body: &Body<f64>, springs: &Springs<Chain<f64>>, control: Control) -> Case<'_, f64> {
+        Case {
             body: *body,
             springs: *springs,
             start: Start::Settled,
@@ -125,17 +121,28 @@ impl Trial {
             vertical: self.vertical.as_deref().unwrap_or_default(),
             scale: 1.0,
             control,
-        };
-        let errors = match case.observe(&mut stream).outcome {
-            Outcome::Completed if !self.overturns => stream.errors,
+        }
+    }
+}
+
+/// NRMSE of u and of v on these springs, of each trial, of a body that overturns up to then; infinite if the history does not get to
+/// the record's end, or one body overturns and the other does not.
+fn errors(trials: &[Trial], body: &Body<f64>, springs: &Springs<Chain<f64>>, control: Control) -> Vec<(f64, f64)> {
+    let pushes: Vec<Cow<[f64]>> = trials.iter().map(Trial::push).collect();
+    let cases: Vec<Case<f64>> = trials.iter().map(|trial| trial.case(body, springs, control)).collect();
+    let followed = histories(&cases, |i| Stream::new(body, &trials[i].theta, &pushes[i]));
+    let error = |((stream, finish), trial): ((Stream, Finish<f64>), &Trial)| {
+        let errors = match finish.outcome {
+            Outcome::Completed if !trial.overturns => stream.errors,
             Outcome::Completed if !housner::topples(body, stream.last.0, stream.last.1) => return LOST,
-            Outcome::Completed | Outcome::Overturned { .. } | Outcome::Stopped { .. } if self.overturns => {
+            Outcome::Completed | Outcome::Overturned { .. } | Outcome::Stopped { .. } if trial.overturns => {
                 stream.upright
             }
             _ => return LOST,
         };
         (errors.horizontal.value(), errors.vertical.value())
-    }
+    };
+    followed.into_iter().zip(trials).map(error).collect()
 }
 
 /// A statistic of errors (NRMSE of u), and over how many motions.
@@ -257,14 +264,11 @@ impl Suites {
 
     /// Add the error of springs on one suite to what was measured.
     pub fn measure(&self, suite: Suite, springs: &Springs<Chain<f64>>, control: Control, accuracy: &mut Accuracy) {
-        let errors = |trials: &[Trial]| -> Vec<(f64, f64)> {
-            trials.par_iter().with_max_len(1).map(|trial| trial.errors(&self.body, springs, control)).collect()
-        };
+        let errors = |trials: &[Trial]| errors(trials, &self.body, springs, control);
         let statistic = |value: Option<f64>, count| value.map(|value| Statistic { value, count });
         match suite {
             Suite::Record => {
-                let errors = self.record.as_ref().map(|trial| trial.errors(&self.body, springs, control));
-                accuracy.record = errors.map(|(u, v)| u.max(v));
+                accuracy.record = errors(self.record.as_slice()).first().map(|(u, v)| u.max(*v));
             }
             Suite::Synthetic => {
                 let mut sorted: Vec<f64> = errors(&self.synthetic).iter().map(|e| e.0).collect();
@@ -283,11 +287,8 @@ impl Suites {
 
     /// The error on the record, or the median of the synthetic motions where it cannot be followed: one number for a figure.
     pub fn error(&self, springs: &Springs<Chain<f64>>, control: Control) -> Option<f64> {
-        if let Some(record) = &self.record {
-            return Some(record.errors(&self.body, springs, control).0);
-        }
-        let found = self.synthetic.par_iter().with_max_len(1).map(|trial| trial.errors(&self.body, springs, control).0);
-        let mut errors: Vec<f64> = found.collect();
+        let trials = if self.has_record() { self.record.as_slice() } else { &self.synthetic };
+        let mut errors: Vec<f64> = errors(trials, &self.body, springs, control).iter().map(|e| e.0).collect();
         errors.sort_by(f64::total_cmp);
         quantile(&errors, 0.5)
     }

@@ -1,7 +1,8 @@
 //! One record under both models.
 
-use std::f64::consts::FRAC_PI_2;
+use std::{borrow::Cow, f64::consts::FRAC_PI_2};
 
+use rayon::prelude::*;
 use serde::Serialize;
 
 use super::{Judge, stream::Stream};
@@ -127,33 +128,61 @@ impl Row {
     }
 }
 
+/// Housner's answer to a record.
+struct Answer<'a> {
+    record: Cow<'a, Record>,
+    options: housner::Options<f64>,
+    rocking: housner::Rocking<f64>,
+    conditioning: Option<Conditioning>,
+}
+
+impl Answer<'_> {
+    /// His rotations until the body lies.
+    fn standing(&self) -> &[f64] {
+        let Self { record, rocking, .. } = self;
+        let samples = rocking.overturned().map_or(rocking.theta.len(), |time| (time / record.dt) as usize + 1);
+        &rocking.theta[..samples.min(rocking.theta.len())]
+    }
+}
+
 impl Judge {
-    /// Run both models over a record.
-    pub fn judge(&self, record: &Record) -> Row {
-        let body = &self.body;
+    /// Run both models over records, the finite element histories side by side.
+    pub fn judge(&self, records: &[Record]) -> Vec<Row> {
+        let answers: Vec<Answer> = records.par_iter().with_max_len(1).map(|record| self.answer(record)).collect();
+        let cases: Vec<fem::Case<f64>> = answers.iter().map(|answer| self.case(&answer.record)).collect();
+        let watch = |i: usize| Stream::new(&self.body, answers[i].standing(), cases[i].accel);
+        let followed = fem::histories(&cases, watch);
+        let both = answers.par_iter().with_max_len(1).zip(followed);
+        both.map(|(answer, (stream, finish))| self.row(answer, &stream, &finish)).collect()
+    }
+
+    fn answer<'a>(&self, record: &'a Record) -> Answer<'a> {
         // the whole record as it is, without a copy
         let short = self.duration_s.map(|duration| record.truncated(duration));
-        let record = short.as_ref().unwrap_or(record);
-        let (dt, accel) = (record.dt, &record.accel[..]);
+        let record = short.map_or(Cow::Borrowed(record), Cow::Owned);
         let options = housner::Options { restitution: Some(self.restitution), ..Default::default() };
-        let rocking = housner::solve(body, dt, accel, &options);
+        let rocking = housner::solve(&self.body, record.dt, &record.accel, &options);
         let lifted = rocking.outcome != housner::Outcome::NeverMoved;
-        let conditioning = lifted.then(|| Conditioning::new(body, dt, accel, &options));
-        let standing = rocking.overturned().map_or(rocking.theta.len(), |time| (time / dt) as usize + 1);
-        let standing = &rocking.theta[..standing.min(rocking.theta.len())];
+        let conditioning = lifted.then(|| Conditioning::new(&self.body, record.dt, &record.accel, &options));
+        Answer { record, options, rocking, conditioning }
+    }
 
-        let case = fem::Case {
-            body: *body,
+    fn case<'a>(&self, record: &'a Record) -> fem::Case<'a, f64> {
+        fem::Case {
+            body: self.body,
             springs: self.springs,
             start: fem::Start::Settled,
-            dt,
-            accel,
+            dt: record.dt,
+            accel: &record.accel,
             vertical: &[],
             scale: 1.0,
             control: self.control,
-        };
-        let mut stream = Stream::new(body, standing, accel);
-        let finish = case.observe(&mut stream);
+        }
+    }
+
+    fn row(&self, answer: &Answer, stream: &Stream, finish: &fem::Finish<f64>) -> Row {
+        let Answer { record, options, rocking, conditioning } = answer;
+        let (body, dt, accel) = (&self.body, record.dt, &record.accel[..]);
         let overturned_fem = match finish.outcome {
             fem::Outcome::Overturned { .. } | fem::Outcome::Stopped { .. } => Some(true),
             fem::Outcome::Completed => Some(housner::topples(body, stream.last.0, stream.last.1)),
@@ -189,7 +218,7 @@ impl Judge {
             sensitivity: conditioning.map_or(0.0, |c| c.sensitivity.worst()),
             nrmse_horizontal: error(horizontal),
             nrmse_vertical: error(vertical),
-            peak_ratio_housner: peak_of(&rocking),
+            peak_ratio_housner: peak_of(rocking),
             peak_ratio_fem: overturned_fem.map(|overturned| ratio(stream.peak, overturned)),
             overturned_housner,
             overturned_fem,
@@ -201,7 +230,7 @@ impl Judge {
             moved_by_1_percent: moved(1),
             moved_by_0_1_percent_of_restitution: changes.restitution[0],
             peak_ratio_housner_changed: peak_of(&housner::solve(body, dt, accel, &changed)),
-            pivot_pulls_s: regime::pivot_pulls(body, dt, accel, &rocking),
+            pivot_pulls_s: regime::pivot_pulls(body, dt, accel, rocking),
         }
     }
 }

@@ -1,3 +1,5 @@
+use std::sync::atomic::{AtomicUsize, Ordering};
+
 use super::*;
 use crate::{compare::Match, fem, housner, spring::Design, structure::Structure, synthetic};
 
@@ -27,7 +29,7 @@ fn frame() -> Structure {
 fn a_row_says_what_the_whole_histories_say() {
     let judge = Judge { duration_s: Some(10.0), ..judge(&frame()) };
     let record = Record::el_centro();
-    let row = judge.judge(&record);
+    let row = judge.judge(std::slice::from_ref(&record)).remove(0);
 
     let short = record.truncated(10.0);
     let rocking = housner::solve(&judge.body, short.dt, &short.accel, &housner::Options::default());
@@ -63,7 +65,7 @@ fn a_body_that_topples_has_the_peak_of_one_that_lies_flat() {
     // it passes alpha at acosh(3)/p = 4.4 s, cannot come back from 6.2 s on and would lie on the ground after some 11 s
     for duration in [5.0, 20.0] {
         let record = Record::new("push", 0.01, vec![0.15 * 9.81; (100.0 * duration) as usize]).unwrap();
-        let row = judge.judge(&record);
+        let row = judge.judge(std::slice::from_ref(&record)).remove(0);
         assert!(row.overturned_housner, "{row:?}");
         assert_eq!(
             (row.outcome, row.overturned_fem, row.peak_ratio_housner),
@@ -78,7 +80,7 @@ fn a_body_that_topples_has_the_peak_of_one_that_lies_flat() {
 fn a_record_that_never_lifts_the_body_has_no_peak_and_no_error() {
     let judge = judge(&frame());
     let record = Record::new("weak", 0.01, vec![0.02 * 9.81; 300]).unwrap();
-    let row = judge.judge(&record);
+    let row = judge.judge(std::slice::from_ref(&record)).remove(0);
     assert_eq!((row.outcome, row.nrmse_horizontal, row.nrmse_vertical), (RecordOutcome::NeverLifted, None, None));
     assert_eq!((row.peak_ratio_housner, row.peak_ratio_fem, row.sensitivity), (0.0, Some(0.0), 0.0));
     assert!(row.agrees() && !row.comparable());
@@ -91,11 +93,11 @@ fn a_pivot_that_would_have_to_pull_is_told_and_its_history_not_compared() {
     let judge = judge(&Structure::a_frame(20.0, 40.0 * 0.6f64.tan(), 1e5).unwrap());
     let push = |samples: usize, g: f64| vec![g * 9.81; samples];
     let accel = [push(20, -1.0), push(4, 3.0), push(200, 0.0)].concat();
-    let row = judge.judge(&Record::new("jerk", 0.01, accel).unwrap());
+    let row = judge.judge(&[Record::new("jerk", 0.01, accel).unwrap()]).remove(0);
     assert!(row.pivot_pulls_s.is_some_and(|time| (time - 0.20).abs() < 1e-9), "{row:?}");
     assert!(!row.overturned_housner && !row.rocked() && !row.comparable(), "{row:?}");
     let weaker = [push(20, -1.0), push(4, 1.0), push(200, 0.0)].concat();
-    let row = judge.judge(&Record::new("jerk", 0.01, weaker).unwrap());
+    let row = judge.judge(&[Record::new("jerk", 0.01, weaker).unwrap()]).remove(0);
     assert!(row.pivot_pulls_s.is_none() && row.rocked(), "{row:?}");
 }
 
@@ -125,7 +127,7 @@ fn every_record_is_asked_for_once_and_rows_keep_their_order() {
     assert!(asked.iter().all(|n| n.load(Ordering::Relaxed) == 1));
     assert_eq!(last.load(Ordering::Relaxed), 6);
     for (i, row) in all.records.iter().enumerate() {
-        assert_eq!(*row, judge.judge(&synthetic::record(1, i, p, alpha)));
+        assert_eq!(*row, judge.judge(&[synthetic::record(1, i, p, alpha)])[0]);
     }
 }
 

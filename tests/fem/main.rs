@@ -6,6 +6,7 @@ mod derivatives;
 mod edges;
 mod energy;
 mod landings;
+mod lanes;
 mod members;
 mod rigid_limit;
 mod similarity;

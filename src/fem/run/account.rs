@@ -3,8 +3,8 @@
 use super::Run;
 use crate::{
     fem::{
-        model::{State, TH, X, Z},
-        step::{Ground, Stages},
+        model::{Model, State, TH, X, Z},
+        step::Stages,
     },
     scalar::{GRAVITY, Scalar},
 };
@@ -27,18 +27,68 @@ fn sixth_root(x: f64) -> f64 {
     if x > 1e5 { f64::INFINITY } else { x.sqrt().cbrt() }
 }
 
+/// What a step does, measured.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Measures<S> {
+    /// Energy stored at its end [J].
+    pub stored: S,
+    /// Work of the base excitation and dissipation over it [J].
+    pub input: S,
+    pub dissipated: S,
+    /// Its local error by the embedded formula: of the body's place over R alpha, and of its momentum over m p R alpha.
+    pub missed: f64,
+    /// Whether no foot comes near a change of contact; false where that is not known.
+    pub clear: bool,
+}
+
+/// The scales of a local error.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Scales {
+    pub radius: f64,
+    /// The rotation's share of a momentum; none without inertia.
+    pub share: f64,
+    /// 1/p [s], the time in which an error of the rate becomes one of the lean.
+    pub moment: f64,
+    /// Lean of balance [rad].
+    pub alpha: f64,
+}
+
+impl Scales {
+    pub fn of<S: Scalar>(model: &Model<S>) -> Self {
+        let body = &model.body;
+        let radius = body.radius().re();
+        let share = model.rotation.re() / (body.mass.re() * radius * radius);
+        let moment = body.p_squared().re().sqrt().recip();
+        Self { radius, share: share.min(1.0), moment, alpha: body.alpha().re() }
+    }
+
+    /// Of what a step misses.
+    #[inline(always)]
+    pub fn missed(&self, State { q, v }: &State<f64>) -> f64 {
+        let place = q[X].abs().max(q[Z].abs()).max(q[TH].abs() * self.radius);
+        let speed = v[X].abs().max(v[Z].abs()).max(v[TH].abs() * self.radius * self.share);
+        place.max(speed * self.moment) / (self.radius * self.alpha)
+    }
+}
+
 /// A step that may break its bounds, in units of 1/Omega_n.
 const SMALLEST: f64 = 1e-9;
 
 impl<S: Scalar> Run<'_, S> {
+    /// What a step does to the account, and what it misses.
+    pub(super) fn measure(&self, stages: &Stages<S>) -> Measures<S> {
+        let stored = self.model.energy(&stages.end(), &self.feet);
+        let (input, dissipated) = stages.work(self.model, &self.feet, &self.here);
+        let local = self.stepper.local_error(&self.state, &self.feet, &self.here, stages);
+        Measures { stored, input, dissipated, missed: self.scales.missed(&local), clear: false }
+    }
+
     /// Book the step if the account closes well enough and little is missed; choose the next step's size.
-    pub(super) fn account(&mut self, stages: &Stages<S>, ground: &Ground<S>) -> bool {
+    pub(super) fn account(&mut self, stages: &Stages<S>, measures: &Measures<S>) -> bool {
         let end = stages.end();
-        let stored = self.model.energy(&end, &self.feet);
-        let (input, dissipated) = stages.work(self.model, &self.feet, ground);
+        let &Measures { stored, input, dissipated, missed, .. } = measures;
         let defect = (stored - self.energy.stored - input + dissipated).re().abs();
         let h = stages.h.re();
-        let missed = self.missed(stages, ground);
         let (energy, error) = (self.allowed(stored, stages) / defect, self.allowed_error(h) / missed);
         let finite = (defect + missed).is_finite();
         // a radau step loses energy as h^6, the estimate falls as h^4
@@ -60,28 +110,17 @@ impl<S: Scalar> Run<'_, S> {
         self.energy.input += input;
         self.energy.dissipated += dissipated;
         self.scale = self.scale.max(self.energy.input.re().abs()).max((stored - self.energy.initial).re().abs());
-        self.guess = [stages.a[2]; 3];
+        self.guess = stages.a[2];
         let root = stages.rate.max(f64::EPSILON).sqrt();
         // with some caution: to the power 3/4
         self.rate = root * root.sqrt();
         true
     }
 
-    /// The step's local error by the embedded formula: of the body's place over R alpha, and of its momentum over m p R alpha.
-    fn missed(&self, stages: &Stages<S>, ground: &Ground<S>) -> f64 {
-        let body = &self.model.body;
-        let radius = body.radius().re();
-        let State { q, v } = self.stepper.local_error(&self.state, &self.feet, ground, stages);
-        // the rotation's share of a momentum; none without inertia
-        let share = self.model.rotation.re() / (body.mass.re() * radius * radius);
-        let place = q[X].abs().max(q[Z].abs()).max(q[TH].abs() * radius);
-        let speed = v[X].abs().max(v[Z].abs()).max(v[TH].abs() * radius * share.min(1.0));
-        place.max(speed * self.moment) / (radius * self.alpha)
-    }
-
     /// What that error may be; never less than rounding makes of it.
     fn allowed_error(&self, h: f64) -> f64 {
-        let rounding = self.rounding * (1.0 + self.moment / h) / (self.alpha * self.model.body.half_width.re());
+        let rounding =
+            self.rounding * (1.0 + self.scales.moment / h) / (self.scales.alpha * self.model.body.half_width.re());
         self.error.max(rounding)
     }
 

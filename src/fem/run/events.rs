@@ -1,11 +1,11 @@
 //! Contact events: located by repeating the step, then the foot switches (where they are met: `met`).
 
-use super::Run;
+use super::{Run, met::Met};
 use crate::{
     fem::{
         model::{Contact, Foot, TH},
         observer::{Change, Observer},
-        step::{Ground, Stages, no_guess},
+        step::{Stages, no_guess},
     },
     scalar::{Scalar, real},
 };
@@ -37,6 +37,9 @@ const MOST_LOCATED: usize = 40;
 /// Touches and lift-offs of one jump of a massless rotation before it counts as having lost its balance.
 const MOST_TURNS: usize = 50;
 
+/// Share of such a jump to which the place where a foot touches is found by halving.
+const HALVED: f64 = 1e-8;
+
 /// Radians within 1/Omega_n: a massless rotation that is let go faster than that was about to snap, and keeps no rate that
 /// means anything.
 const WHIRL: f64 = 100.0;
@@ -44,6 +47,47 @@ const WHIRL: f64 = 100.0;
 /// First step tried after an event, in units of 1/Omega_n: the transient that the event began decides the step, not the
 /// step that the event cut short.
 pub(super) const RESTART: f64 = 0.1;
+
+/// The event that a step is repeated for, so that it ends where a foot's compression passes a level.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Locating<S> {
+    foot: usize,
+    /// [m]
+    level: f64,
+    /// The size of the step that met it [s], and where in it.
+    pub whole: f64,
+    pub tau: f64,
+    /// The size that is tried, and the sizes known to be too small and too large [s].
+    pub h: S,
+    low: f64,
+    high: f64,
+    /// Sizes tried.
+    tried: usize,
+    /// Whether what is tried is taken.
+    last: bool,
+}
+
+impl<S: Scalar> Locating<S> {
+    pub fn new(foot: usize, level: f64, (whole, tau): (S, f64)) -> Self {
+        let (low, high) = (0.0, f64::INFINITY);
+        Self { foot, level, whole: whole.re(), tau, h: whole * tau, low, high, tried: 0, last: false }
+    }
+
+    pub fn met(&self) -> Met {
+        Met::Crossing { foot: self.foot, level: self.level, tau: self.tau }
+    }
+}
+
+/// What came of a repeated step.
+pub(super) enum Located<S> {
+    /// It is to be repeated with this size [s].
+    Next(S),
+    /// It is taken; whether the foot passes the level there: if the polynomial saw a graze that the step itself does not make, it
+    /// does not.
+    Here { changes: bool },
+    /// No step converges, or none ends there.
+    Nowhere,
+}
 
 impl<S: Scalar> Run<'_, S> {
     /// Contact force scale below which a gap counts as zero [m].
@@ -66,56 +110,52 @@ impl<S: Scalar> Run<'_, S> {
         HOLDING * LET_GO * self.leant_on[foot] / self.model.springs.vertical.k1.re()
     }
 
-    /// Repeat the step so that it ends where the foot's compression passes `level`. Whether it passes there: if the polynomial
-    /// saw a graze that the step itself does not make, it does not. `None` if no step converges, or none ends there.
-    pub(super) fn locate(
-        &mut self,
-        foot: usize,
-        level: f64,
-        stages: &mut Stages<S>,
-        tau: f64,
-        ground: &Ground<S>,
-    ) -> Option<bool> {
-        // the contact lasts while sign (compression - level) is positive
-        let sign = if self.feet[foot].closed() && level == 0.0 { 1.0 } else { -1.0 };
-        let (mut low, mut high) = (0.0, f64::INFINITY);
-        let mut h = stages.h * tau;
-        for _ in 0..MOST_LOCATED {
-            self.work.located += 1;
-            if !self.attempt(h, ground, stages) {
-                return None;
-            }
-            let end = stages.end();
-            let gap = self.model.compression(foot, &end.q, &self.feet[foot]) - level;
-            let met = gap.re().abs() <= self.gap_tolerance();
-            if met && self.control.extra_iterations == 0 {
-                return Some(true);
-            }
-            let correction = gap / self.model.compression_rate(foot, &end, &self.feet[foot]);
-            let usable = correction.re().abs() <= 0.5 * h.re();
-            if met {
-                // derivatives of the event's time, by the implicit function theorem
-                return if usable && !self.attempt(h - correction, ground, stages) { None } else { Some(true) };
-            }
-            // steps too small for the clock
-            if h.re() <= 1e-9 * self.settling {
-                return Some(true);
-            }
-            if sign * gap.re() > 0.0 {
-                low = h.re();
-            } else {
-                high = h.re();
-            }
-            let next = h - correction;
-            h = if usable && next.re() > low && next.re() < high {
-                next
-            } else if high.is_finite() {
-                real(0.5 * (low + high))
-            } else {
-                return Some(false);
-            };
+    /// Take note of the repeated step of an event that is sought, and say how to go on.
+    pub(super) fn locate(&mut self, event: &mut Locating<S>, converged: bool, stages: &Stages<S>) -> Located<S> {
+        if event.last {
+            // derivatives of the event's time, by the implicit function theorem
+            return if converged { Located::Here { changes: true } } else { Located::Nowhere };
         }
-        None
+        self.work.located += 1;
+        event.tried += 1;
+        if !converged {
+            return Located::Nowhere;
+        }
+        let (foot, h, end) = (event.foot, event.h, stages.end());
+        // the contact lasts while sign (compression - level) is positive
+        let sign = if self.feet[foot].closed() && event.level == 0.0 { 1.0 } else { -1.0 };
+        let gap = self.model.compression(foot, &end.q, &self.feet[foot]) - event.level;
+        let met = gap.re().abs() <= self.gap_tolerance();
+        if met && self.control.extra_iterations == 0 {
+            return Located::Here { changes: true };
+        }
+        let correction = gap / self.model.compression_rate(foot, &end, &self.feet[foot]);
+        let usable = correction.re().abs() <= 0.5 * h.re();
+        if met {
+            if !usable {
+                return Located::Here { changes: true };
+            }
+            (event.h, event.last) = (h - correction, true);
+            return Located::Next(event.h);
+        }
+        // steps too small for the clock
+        if h.re() <= 1e-9 * self.settling {
+            return Located::Here { changes: true };
+        }
+        if sign * gap.re() > 0.0 {
+            event.low = h.re();
+        } else {
+            event.high = h.re();
+        }
+        let next = h - correction;
+        event.h = if usable && next.re() > event.low && next.re() < event.high {
+            next
+        } else if event.high.is_finite() {
+            real(0.5 * (event.low + event.high))
+        } else {
+            return Located::Here { changes: false };
+        };
+        if event.tried == MOST_LOCATED { Located::Nowhere } else { Located::Next(event.h) }
     }
 
     /// A foot on an elastic leg springs sideways, and maybe down, when its horizontal force is let go: it opens only if it
@@ -236,7 +276,8 @@ impl<S: Scalar> Run<'_, S> {
                 return None;
             }
             let (mut low, mut high) = (0.0, 1.0);
-            for _ in 0..60 {
+            // near enough for Newton's method (`where_it_touches`)
+            while high - low > HALVED {
                 let middle = 0.5 * (low + high);
                 if inside(start + (end - start) * middle) >= 0.0 {
                     low = middle;

@@ -11,7 +11,7 @@ use crate::{
     fem::{
         model::{Contact, Foot, State},
         observer::Observer,
-        step::{Ground, Stages, no_guess},
+        step::{Stages, no_guess},
         strut::Strut,
     },
     scalar::{GRAVITY, Scalar},
@@ -65,14 +65,15 @@ impl<S: Scalar> Run<'_, S> {
     }
 
     /// Repeat the step so that it ends where the foot's grip changes (false position); whether that succeeds.
-    pub(super) fn locate_grip(&mut self, foot: usize, tau: f64, stages: &mut Stages<S>, ground: &Ground<S>) -> bool {
+    pub(super) fn locate_grip(&mut self, foot: usize, tau: f64, stages: &mut Stages<S>) -> bool {
         let (mut low, mut high) = (0.0, f64::INFINITY);
         let (whole, mut at) = (stages.h, tau);
         for _ in 0..MOST_TRIALS {
             self.work.located += 1;
-            if !self.attempt(whole * at, ground, stages) {
+            if !self.attempt(whole * at, stages) {
                 return false;
             }
+            self.work.iterations += stages.iterations;
             let Some(value) = self.grip(foot, &stages.end()) else { return false };
             // at the edge, or as near to it as the clock can tell
             if (-1.0..=0.0).contains(&value) || whole.re() * at <= 1e-9 * self.settling {

@@ -18,7 +18,7 @@ const NODES: [f64; 4] = [0.0, C[0], C[1], C[2]];
 
 /// By how much a cubic through values at the nodes can pass beyond the least of them, over their spread: half of what its
 /// largest sum of |Lagrange polynomials| exceeds one by.
-const OVERSHOOT: f64 = 0.4454;
+pub(crate) const OVERSHOOT: f64 = 0.4454;
 
 /// The cubic through values at the nodes, by ascending powers.
 fn cubic(values: &[f64; 4]) -> [f64; 4] {

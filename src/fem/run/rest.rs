@@ -3,10 +3,7 @@
 
 use super::Run;
 use crate::{
-    fem::{
-        model::{N, TH},
-        step::Ground,
-    },
+    fem::model::{N, TH},
     scalar::{GRAVITY, Scalar},
 };
 
@@ -16,7 +13,8 @@ const NOTHING: f64 = 1e-9;
 
 impl<S: Scalar> Run<'_, S> {
     /// Whether nothing moves until the next sample. Only for real numbers: a derivative may still move where its value rests.
-    pub(super) fn rests(&mut self, ground: &Ground<S>) -> bool {
+    pub(super) fn rests(&mut self) -> bool {
+        let ground = &self.ground;
         let silent = ground.start.iter().chain(&ground.slope).all(|x| x.re() == 0.0);
         let skips = self.control.skip_rest && self.control.extra_iterations == 0;
         self.resting = skips && silent && (self.resting || self.is_still());

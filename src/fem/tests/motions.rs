@@ -7,6 +7,7 @@ use crate::{
     fem::{
         Case, Control, Start, View,
         model::{Model, N, State, TH, X, Z, ax, az},
+        run::{Motion, Run},
     },
     scalar::GRAVITY,
     spring::{Chain, Design, Springs},
@@ -98,13 +99,13 @@ fn heave_of_the_standing_body_is_the_two_mass_chain() {
 
     // and followed in time: one period later it is where it began
     let period = std::f64::consts::TAU / slow.sqrt();
-    let mut run = crate::fem::run::Run::new(&model, (start, feet), Control { tolerance: 1e-13, ..Control::default() });
+    let mut run = Run::new(&model, (start, feet), Control { tolerance: 1e-13, ..Control::default() });
     let mut last = 0.0;
     let mut observer = |_: usize, view: &View<f64>| {
         last = view.z();
         std::ops::ControlFlow::Continue(())
     };
-    run.follow(period / 8.0, (&[0.0; 9], &[]), 1.0, &mut observer);
+    run.follow(Motion { dt: period / 8.0, accel: &[0.0; 9], vertical: &[], scale: 1.0 }, &mut observer);
     assert!((last - start.q[Z]).abs() < 1e-6 * amplitude, "{} {}", last - rest.q[Z], amplitude);
 }
 
@@ -134,7 +135,7 @@ fn damped_heave_decays_by_the_chain_s_complex_eigenvalue() {
         start.q[az(i)] += (ratio * amplitude).re;
         start.v[az(i)] = (s * ratio * amplitude).re;
     }
-    let mut run = crate::fem::run::Run::new(&model, (start, feet), Control { tolerance: 1e-13, ..Control::default() });
+    let mut run = Run::new(&model, (start, feet), Control { tolerance: 1e-13, ..Control::default() });
     let dt = 0.003;
     let mut worst: f64 = 0.0;
     let mut observer = |i: usize, view: &View<f64>| {
@@ -142,7 +143,7 @@ fn damped_heave_decays_by_the_chain_s_complex_eigenvalue() {
         worst = worst.max((view.z() - rest - exact).abs());
         std::ops::ControlFlow::Continue(())
     };
-    run.follow(dt, (&[0.0; 100], &[]), 1.0, &mut observer);
+    run.follow(Motion { dt: dt, accel: &[0.0; 100], vertical: &[], scale: 1.0 }, &mut observer);
     assert!(worst < 1e-5 * amplitude, "{worst:e}");
 }
 

@@ -1,0 +1,228 @@
+//! Steps over several samples, while the body leans on one foot.
+//!
+//! A body on one foot answers the ground's kinks by their double integral: it does not feel that the ground acceleration is another
+//! one within the step, as long as its moments are the same. So the step follows the parabola P of the same moments,
+//!
+//! ```text
+//!   int (a - P) dt = int (a - P) t dt = int (a - P) t^2 dt = 0
+//! ```
+//!
+//! and at a sample within the step the body is where the parabola takes it, turned about its foot by what is missing,
+//!
+//! ```text
+//!   (I + m R^2) d_theta = -m dX/dtheta D,    D = int int (a - P) dt dt
+//! ```
+//!
+//! What is left of the kinks at the step's end is p^2 h^2 of the largest D, and what springs give way under a - P; both are counted as
+//! local error. A step that meets a change of contact is refused: the steps up to it end at samples.
+
+use super::{Measures, Met, Run, real};
+use crate::{
+    fem::{
+        control::Outcome,
+        model::{Contact, State, TH, Vector, X, Z},
+        observer::{Observer, View},
+        radau::C,
+        step::{Ground, Stages, no_guess},
+    },
+    scalar::{GRAVITY, Scalar},
+};
+use std::{f64::consts::FRAC_PI_2, ops::ControlFlow};
+
+/// Intervals between samples in a step, at most.
+const MOST: usize = 32;
+
+/// Omega theta' h^2 of the longest step: beyond, iterations take more time than they save.
+const REACH: f64 = 1.5;
+
+/// Growth from such a step to the next.
+const GROWTH: f64 = 1.6;
+
+/// A step over several samples.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Span<S> {
+    /// Intervals between samples.
+    intervals: usize,
+    /// D at the samples within [m].
+    late: [S; MOST],
+    /// What the parabola adds to the step's local error.
+    missed: f64,
+}
+
+impl<S: Scalar> Run<'_, S> {
+    /// The step over several samples that begins at this sample, and its size, if there is one.
+    pub(super) fn span(&mut self) -> Option<S> {
+        let dt = self.motion.dt;
+        let model = self.model;
+        let contacts = self.feet.map(|foot| foot.contact);
+        let leans = matches!(contacts, [Contact::Stick, Contact::Open] | [Contact::Open, Contact::Stick]);
+        let simple = model.frame.is_none() && model.friction.is_none() && self.motion.vertical.is_empty();
+        if !(leans && simple && self.control.long_steps && self.h >= 2.0 * dt) {
+            return None;
+        }
+        if self.interval > self.event_by + 1 {
+            self.event_by = usize::MAX;
+        }
+        let left = (self.motion.accel.len() - 1 - self.interval).min(self.event_by.saturating_sub(self.interval));
+        let size = self.h.min(self.reach());
+        let intervals = ((size / dt) as usize).min(left).min(MOST);
+        if intervals < 2 {
+            return None;
+        }
+        let (ground, span) = self.parabola(intervals);
+        (self.here, self.spanning, self.locating) = (ground, Some(span), None);
+        Some(real(intervals as f64 * dt))
+    }
+
+    /// The parabola over so many intervals from here.
+    #[allow(clippy::needless_range_loop)] // one index over samples and what is late at them
+    fn parabola(&self, n: usize) -> (Ground<S>, Span<S>) {
+        let (dt, count) = (self.motion.dt, n as f64);
+        let a = |i: usize| self.motion.scale * self.motion.accel[self.interval + i];
+        let zero = S::zero();
+        let (mut m0, mut m1, mut m2) = (zero, zero, zero);
+        for i in 0..n {
+            let (now, next, at) = (a(i), a(i + 1), i as f64);
+            let (zeroth, first) = ((now + next) * 0.5, now / 6.0 + next / 3.0);
+            m0 += zeroth;
+            m1 += zeroth * at + first;
+            m2 += (zeroth * at + first * 2.0) * at + now / 12.0 + next * 0.25;
+        }
+        // over a step of length 1
+        let (m0, m1, m2) = (m0 / count, m1 / (count * count), m2 / (count * count * count));
+        let c0 = m0 * 9.0 - m1 * 36.0 + m2 * 30.0;
+        let c1 = m1 * 192.0 - m0 * 36.0 - m2 * 180.0;
+        let c2 = m0 * 30.0 - m1 * 180.0 + m2 * 180.0;
+
+        let h = count * dt;
+        let (mut speed, mut place) = (zero, zero);
+        let (mut late, mut latest, mut most) = ([zero; MOST], 0.0_f64, (a(0) - c0).re().abs());
+        for i in 1..=n {
+            let (before, now, x) = (a(i - 1), a(i), i as f64 / count);
+            place += (speed + (before / 3.0 + now / 6.0) * dt) * dt;
+            speed += (before + now) * (0.5 * dt);
+            let parabola = (c0 * 0.5 + (c1 / 6.0 + c2 * (x / 12.0)) * x) * (h * x * h * x);
+            most = most.max((now - (c0 + (c1 + c2 * x) * x)).re().abs());
+            if i < n {
+                late[i] = place - parabola;
+                latest = latest.max(late[i].re().abs());
+            }
+        }
+        let kinks = (h / self.scales.moment).powi(2) * latest + self.compliance() * most;
+        let missed = kinks / (self.scales.radius * self.scales.alpha);
+        let ground = Ground { start: [c0, zero], slope: [c1 / h, zero], curve: [c2 / (h * h), zero] };
+        (ground, Span { intervals: n, late, missed })
+    }
+
+    /// The accelerations at the stages of a step of size h, of a rigid body that turns about its foot,
+    ///
+    /// ```text
+    ///   (I + m R^2) theta'' = -m (ug'' dX/dtheta + g dZ/dtheta)
+    /// ```
+    pub(super) fn pendulum(&self, h: S) -> [Vector<S>; 3] {
+        let Self { model, scales, state, .. } = self;
+        let foot = usize::from(self.feet[1].closed());
+        let inertia = model.rotation + model.translation * (scales.radius * scales.radius);
+        C.map(|c| {
+            let (time, last) = (h * c, self.guess[TH]);
+            let rate = state.v[TH] + last * time;
+            let theta = state.q[TH] + (state.v[TH] + last * time * 0.5) * time;
+            let (sin, cos) = crate::scalar::sin_cos(theta);
+            let (_, _, px_th, pz_th) = model.foot(foot, &state.q, sin, cos);
+            let [ground, _] = self.here.after(h, c);
+            let turning = model.body.mass * (ground * px_th + pz_th * GRAVITY) / inertia;
+            let mut a = no_guess();
+            a[TH] = turning;
+            a[X] = -(px_th * turning + pz_th * rate * rate);
+            a[Z] = px_th * rate * rate - pz_th * turning;
+            a
+        })
+    }
+
+    /// The longest step whose iteration converges [s]. While the body turns by d_theta from where the matrix was taken, stiff springs
+    /// push it aside with Omega^2 d_theta for each unit that it is off, and an iteration is off by (Omega h d_theta)^2 of that.
+    fn reach(&self) -> f64 {
+        let springs = &self.model.springs;
+        let stiff = [&springs.vertical, &springs.horizontal].map(|chain| {
+            let (k1, k2) = (chain.k1.re(), chain.k2.re());
+            k1 * k2 / (k1 + k2)
+        });
+        let omega = (stiff[0].max(stiff[1]) / self.model.body.mass.re()).sqrt();
+        (REACH / (omega * self.state.v[TH].re().abs())).sqrt()
+    }
+
+    /// By how much the springs give way under an acceleration of the mass of one [m per m/s2].
+    fn compliance(&self) -> f64 {
+        let springs = &self.model.springs;
+        let give = |k: S| k.re().recip();
+        let chains = [&springs.vertical, &springs.horizontal].map(|chain| give(chain.k1) + give(chain.k2));
+        self.model.body.mass.re() * (chains[0] + chains[1])
+    }
+
+    /// Take note of such a step.
+    pub(super) fn tried_span(
+        &mut self,
+        span: &Span<S>,
+        converged: bool,
+        stages: &Stages<S>,
+        measures: Option<&Measures<S>>,
+        observer: &mut impl Observer<S>,
+    ) -> Result<(), Outcome> {
+        let h = stages.h.re();
+        if !converged {
+            self.refuse(h * 0.25);
+            return Ok(());
+        }
+        let met = if measures.is_some_and(|m| m.clear) { Met::Nothing } else { self.met(stages) };
+        let until = match met {
+            Met::Nothing => None,
+            Met::Crossing { tau, .. } | Met::Grip { tau, .. } => Some(tau),
+            Met::Unresolved => Some(0.25),
+        };
+        if let Some(tau) = until {
+            self.event_by = self.interval + (tau * span.intervals as f64) as usize;
+            self.work.rejected += 1;
+            return Ok(());
+        }
+        let mut measured = measures.copied().unwrap_or_else(|| self.measure(stages));
+        measured.missed += span.missed;
+        let start = self.state;
+        if !self.account(stages, &measured) {
+            self.work.rejected += 1;
+            return Ok(());
+        }
+        self.h = self.h.min(GROWTH * h);
+        for i in 1..span.intervals {
+            let time = (self.interval + i) as f64 * self.motion.dt;
+            let state = self.within(&start, stages, i as f64 / span.intervals as f64, span.late[i]);
+            let view =
+                View { time: real(time), model: self.model, state: &state, feet: &self.feet, energy: &self.energy };
+            if let ControlFlow::Break(()) = observer.sample(self.interval + i, &view) {
+                return Err(Outcome::Stopped { time });
+            }
+        }
+        self.interval += span.intervals - 1;
+        (self.t, self.crossing) = (real(self.motion.dt), true);
+        let time = (self.interval + 1) as f64 * self.motion.dt;
+        if self.state.q[TH].re().abs() > FRAC_PI_2 {
+            return Err(Outcome::Overturned { time });
+        }
+        observer.step(&self.view(real(time)));
+        Ok(())
+    }
+
+    /// The state at a sample within the step, at tau of it.
+    fn within(&self, start: &State<S>, stages: &Stages<S>, tau: f64, late: S) -> State<S> {
+        let (mut q, v) = (stages.position(start, tau), stages.velocity(tau));
+        let foot = usize::from(self.feet[1].closed());
+        let (sin, cos) = crate::scalar::sin_cos(q[TH]);
+        let (_, _, px_th, pz_th) = self.model.foot(foot, &q, sin, cos);
+        let Self { model, scales, .. } = self;
+        let inertia = model.rotation + model.translation * (scales.radius * scales.radius);
+        let turn = model.body.mass * px_th * late / inertia;
+        q[TH] += turn;
+        q[X] -= px_th * turn;
+        q[Z] -= pz_th * turn;
+        State { q, v }
+    }
+}
