@@ -54,7 +54,7 @@ pub mod rocking;
 pub mod validation;
 
 pub use number::{brief, power_of_ten, prefix, short};
-pub use plot::{Event, Plot};
+pub use plot::Event;
 pub use sheet::Sheet;
 
 #[cfg(test)]

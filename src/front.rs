@@ -119,7 +119,7 @@ fn cost(job: &Job, springs: &Springs<Design<f64>>) -> (f64, usize) {
         vertical: job.record.up(),
         scale: 1.0,
         // forces at every sample
-        control: Control { long_steps: false, ..Control::search() },
+        control: Control::search(),
     };
     let mut watch = Watch { largest: 0.0, changes: Vec::new() };
     case.observe(&mut watch);

@@ -3,9 +3,9 @@
 use std::fmt::Write;
 
 use super::{
-    Run,
     draw::Figure,
     members,
+    run::Run,
     table::{self, FORCES},
 };
 use crate::{

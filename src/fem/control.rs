@@ -21,9 +21,9 @@ pub struct Control {
 }
 
 impl Control {
-    /// For comparing many candidates: steps over several samples, and a hundred times the default's tolerance.
+    /// For comparing many candidates: a hundred times the default's tolerance.
     pub fn search() -> Self {
-        Self { tolerance: 1e-6, most_steps: 200_000, long_steps: true, ..Self::default() }
+        Self { tolerance: 1e-6, most_steps: 200_000, ..Self::default() }
     }
 }
 

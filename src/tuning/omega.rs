@@ -22,6 +22,8 @@ pub const SOFTEST: f64 = 100.0;
 /// Omega_n/p times the accuracy asked for where the search begins: errors of synthetic motions fall about as 20/(Omega_n/p),
 /// those of earthquake-like ones, with their standard error, are about five times what is allowed at 250/(Omega_n/p).
 const BEGIN: f64 = 250.0;
+/// An accuracy for which steps over several samples will do.
+const COARSE: f64 = 1e-3;
 /// Rungs judged before the stiffest good one is taken as it is.
 const MOST_RUNGS: usize = 12;
 /// Error of a softer rung on a suite, over what is allowed, below which a stiffer one is not judged on it again: errors fall with
@@ -63,6 +65,7 @@ pub fn tune(
     let mut seen: BTreeMap<i64, Rung> = BTreeMap::new();
     let allowed = MARGIN * accuracy;
     let over = |rung: &Rung| rung.accuracy.over(allowed);
+    let control = control(accuracy);
     let mut judge = |i: i64| -> Option<f64> {
         if let Some(rung) = seen.get(&i) {
             return Some(over(rung));
@@ -71,7 +74,7 @@ pub fn tune(
         let springs = springs(stiffness)?;
         let mut accuracy = Accuracy::default();
         for suite in in_order(&seen, i, allowed) {
-            suites.measure(suite, &springs.chains(mass), Control::search(), &mut accuracy);
+            suites.measure(suite, &springs.chains(mass), control, &mut accuracy);
             if !seen.is_empty() && accuracy.over(allowed) > 1.0 {
                 break;
             }
@@ -87,11 +90,17 @@ pub fn tune(
     let best = seen.get_mut(&found.rung)?;
     for suite in Suite::ALL {
         if best.accuracy.over_on(suite, allowed).is_none() {
-            suites.measure(suite, &best.springs.chains(mass), Control::search(), &mut best.accuracy);
+            suites.measure(suite, &best.springs.chains(mass), control, &mut best.accuracy);
         }
     }
     let (best, reached) = (*best, found.holds && over(best) <= 1.0);
     Some(Tuned { rungs: seen.into_values().collect(), best, reached })
+}
+
+/// How closely histories are followed to find out whether they are this accurate: steps over several samples, which err by up to
+/// 1e-4, only where much more is allowed.
+pub fn control(accuracy: f64) -> Control {
+    Control { long_steps: accuracy >= COARSE, ..Control::search() }
 }
 
 /// The suites that a rung is to be judged on: what decided at the nearest rung first, for it may refuse this one alone; and none on

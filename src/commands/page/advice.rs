@@ -2,7 +2,7 @@
 
 use super::html::{escape, pretty};
 use crate::{
-    commands::Run,
+    commands::run::Run,
     fem,
     parameters::Parameters,
     verdict::{Answer, Fate},
