@@ -66,7 +66,7 @@ impl Comparison {
         let n = parts.plan.subjects.len();
         let named = |subject| Row { subject, ..Row::default() };
         let mut rows: Vec<Row> = (0..n).map(Some).chain([None]).map(named).collect();
-        let stride = parts.plan.len().div_ceil(SAMPLE);
+        let stride = parts.plan.cells().div_ceil(SAMPLE);
         let mut sample = Vec::new();
         reduce::each(parts, |seen| {
             for place in [seen.cell.subject, n] {

@@ -171,11 +171,6 @@ impl Probit {
         1.0 / self.b
     }
 
-    /// Probability at an intensity.
-    pub fn probability(&self, x: f64) -> f64 {
-        phi(self.a + self.b * x.ln())
-    }
-
     /// Covariance of (a, b) from the scores of records, summed as u u^T, of so many records; as if all outcomes were independent where there
     /// is one record or none.
     pub fn covariance(&self, scores: Matrix, records: usize) -> Option<Matrix> {
@@ -258,7 +253,7 @@ mod tests {
         let z = [quantile(0.15), quantile(0.8)];
         let b = (z[1] - z[0]) / 0.8;
         assert!((fit.b - b).abs() < 1e-10 && (fit.a - (z[0] - 0.3 * b)).abs() < 1e-10, "{fit:?}");
-        assert!((fit.probability(1.1_f64.exp()) - 0.8).abs() < 1e-10);
+        assert!((phi(fit.a + 1.1 * fit.b) - 0.8).abs() < 1e-10);
         let variance = |z: f64, n: f64| phi(z) * phi(-z) / (n * density(z).powi(2));
         let [v0, v1] = [variance(z[0], 200.0), variance(z[1], 100.0)];
         let covariance = fit.covariance([0.0; 3], 1).unwrap();

@@ -54,7 +54,7 @@ impl Manifest {
             restitutions: plan.restitution_count(),
             measure: plan.measure,
             levels: plan.levels.clone(),
-            cells: plan.len(),
+            cells: plan.cells(),
             cells_to_a_part: plan.part,
             parts: plan.parts(),
         }

@@ -247,29 +247,21 @@ pub fn table(plan: &Plan, rows: &[Row]) -> Table {
     }
 }
 
-/// The overturning intervals of PGA/(g tan alpha) of a body with restitution `e` under a pulse with omega = q p, by Housner's equation.
-/// `levels` are the amplitudes of the scan, increasing.
-///
-/// ```
-/// use groundspring::{structure::Structure, sweep::{overturning::spectrum, pulse::Shape}};
-/// let body = Structure::block(2.0, 2.0 * 0.2_f64.tan(), 1000.0).unwrap().body::<f64>(); // alpha = 0.2
-/// let levels: Vec<f64> = (0..400).map(|i| 1.0 + 0.02 * i as f64).collect();
-/// let found = spectrum(&body, body.restitution(), Shape::HalfSine, 2.0, &levels);
-/// assert!((found[0].from.unwrap() - 1.8013).abs() < 1e-3 && found[0].to.is_none());
-/// ```
-pub fn spectrum(body: &Body<f64>, e: f64, shape: super::pulse::Shape, q: f64, levels: &[f64]) -> Vec<Interval> {
-    let p = body.p_squared().sqrt();
-    let uplift = crate::scalar::GRAVITY * body.half_width / body.height;
-    let (dt, accel) = shape.sampled(q * p, uplift, p);
-    let pulse = Pulse { body, e, dt, accel: &accel };
-    intervals(levels, WIDTH, &|amplitudes| pulse.fates(amplitudes))
-}
-
 #[cfg(test)]
 mod tests {
     use super::super::pulse::Shape;
     use super::*;
     use crate::structure::Structure;
+
+    /// The overturning intervals of PGA/(g tan alpha) of a body with restitution `e` under a pulse with omega = q p, by Housner's equation.
+    /// `levels` are the amplitudes of the scan, increasing.
+    fn spectrum(body: &Body<f64>, e: f64, shape: Shape, q: f64, levels: &[f64]) -> Vec<Interval> {
+        let p = body.p_squared().sqrt();
+        let uplift = crate::scalar::GRAVITY * body.half_width / body.height;
+        let (dt, accel) = shape.sampled(q * p, uplift, p);
+        let pulse = Pulse { body, e, dt, accel: &accel };
+        intervals(levels, WIDTH, &|amplitudes| pulse.fates(amplitudes))
+    }
 
     fn levels(from: f64, to: f64, count: usize) -> Vec<f64> {
         (0..count).map(|i| from * (to / from).powf(i as f64 / (count - 1) as f64)).collect()

@@ -57,7 +57,7 @@ impl Parts<'_> {
     /// Cells of part i.
     pub fn cells(&self, part: u64) -> Range<u64> {
         let from = part * self.plan.part;
-        from..(from + self.plan.part).min(self.plan.len())
+        from..(from + self.plan.part).min(self.plan.cells())
     }
 
     /// Whether part i is there and of this sweep.

@@ -212,16 +212,11 @@ impl Plan {
     }
 
     /// Number of cells.
-    pub fn len(&self) -> u64 {
+    pub fn cells(&self) -> u64 {
         [self.motions.len(), self.subjects.len(), self.restitution_count(), self.level_count()]
             .into_iter()
             .map(|n| n as u64)
             .product()
-    }
-
-    /// Whether there is no cell (never so for a checked plan).
-    pub fn is_empty(&self) -> bool {
-        self.len() == 0
     }
 
     /// Cell i.
@@ -240,7 +235,7 @@ impl Plan {
 
     /// Number of parts.
     pub fn parts(&self) -> u64 {
-        self.len().div_ceil(self.part)
+        self.cells().div_ceil(self.part)
     }
 
     /// The factor that takes a record of this peak [m/s2] to a level for a structure.

@@ -20,7 +20,7 @@ pub fn head(plan: &Plan) -> String {
     let counted = |n: usize, one: &str, several: &str| format!("{n} {}", if n == 1 { one } else { several });
     format!(
         "{} histories: {}, {}, {}, {}.",
-        plan.len(),
+        plan.cells(),
         counted(plan.subjects.len(), "structure", "structures"),
         counted(plan.motions.len(), "ground motion", "ground motions"),
         counted(plan.restitution_count(), "restitution", "restitutions"),
@@ -149,18 +149,19 @@ pub fn overturning(plan: &Plan, table: &Table) -> Vec<String> {
     let (structure, pulse, q) = (table.texts("structure"), table.texts("pulse"), table.reals("omega_over_p"));
     let mut said = vec![format!(
         "{} pulse frequencies times structures, scanned from {} to {} times g tan(alpha): {} intervals overturn.",
-        plan.len(),
+        plan.cells(),
         plan.levels[0],
         plan.levels[plan.levels.len() - 1],
-        table.len()
+        table.rows()
     )];
-    let finite = (0..table.len()).filter(|row| to[*row].is_some()).count();
+    let finite = (0..table.rows()).filter(|row| to[*row].is_some()).count();
     if finite > 0 {
         said.push(format!(
             "{finite} of them have an upper end, above which a stronger pulse leaves the body standing or overturns it otherwise."
         ));
     }
-    let least = (0..table.len()).filter_map(|row| from[row].map(|from| (row, from))).min_by(|a, b| a.1.total_cmp(&b.1));
+    let least =
+        (0..table.rows()).filter_map(|row| from[row].map(|from| (row, from))).min_by(|a, b| a.1.total_cmp(&b.1));
     if let Some((row, from)) = least {
         said.push(format!(
             "The weakest pulse that overturns: {} on {} at omega/p = {:.3}, {from:.4} g tan(alpha).",

@@ -110,13 +110,8 @@ impl Column {
 
 impl Table {
     /// Number of rows.
-    pub fn len(&self) -> usize {
+    pub fn rows(&self) -> usize {
         self.columns.first().map_or(0, |(_, column)| column.len())
-    }
-
-    /// Whether there is no row.
-    pub fn is_empty(&self) -> bool {
-        self.len() == 0
     }
 
     /// Add the rows of a table with the same columns.
@@ -217,7 +212,7 @@ impl Table {
     /// The rows of the CSV file.
     pub fn csv_rows(&self) -> String {
         let mut out = String::new();
-        for row in 0..self.len() {
+        for row in 0..self.rows() {
             let cells: Vec<String> = self.columns.iter().map(|(_, column)| column.cell(row)).collect();
             // writing to a String cannot fail
             let _ = writeln!(out, "{}", cells.join(","));

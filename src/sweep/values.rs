@@ -86,14 +86,6 @@ impl Range {
 }
 
 impl Values {
-    /// These numbers.
-    ///
-    /// # Errors
-    /// None, too many, or one that is not finite.
-    pub fn new(values: Vec<f64>) -> Result<Self, String> {
-        Written::Some(values).try_into()
-    }
-
     /// The numbers, at least one.
     pub fn all(&self) -> &[f64] {
         &self.0

@@ -245,7 +245,6 @@ impl Suites {
     }
 
     /// Whether the record is one of the motions judged on.
-    #[cfg(feature = "cli")]
     pub fn has_record(&self) -> bool {
         self.record.is_some()
     }

@@ -152,7 +152,7 @@ pub fn overturning(plan: &Plan, table: &Table, path: &Path) -> Result<(), Comman
     let (subject, pulse) = (table.counts("structure_index"), table.texts("pulse"));
     let (low, high) = (plan.levels[0], plan.levels[plan.levels.len() - 1]);
     let mut all: Vec<((i64, &str, &str), spectra::Spectrum)> = Vec::new();
-    for row in 0..table.len() {
+    for row in 0..table.rows() {
         let key = (subject[row], &*pulse[row], &*model[row]);
         let at = all.iter().position(|(other, _)| *other == key).unwrap_or_else(|| {
             let which = if plan.subjects.len() > 1 { format!(", structure {}", key.0 + 1) } else { String::new() };

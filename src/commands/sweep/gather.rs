@@ -104,7 +104,7 @@ fn histories(
     save: &dyn Fn(&str, &Table) -> Result<(), CommandError>,
 ) -> Result<Vec<String>, CommandError> {
     let (plan, out) = (parts.plan, parts.folder);
-    if plan.len() <= CSV_ROWS {
+    if plan.cells() <= CSV_ROWS {
         save("histories.csv", &whole(parts, &row::table(plan, &[]))?)?;
     }
     let mut said = vec![summary::head(plan)];

@@ -52,7 +52,7 @@ pub fn run(o: &Options) -> Result<(), CommandError> {
     writeln!(
         std::io::stdout(),
         "{} cells: {} motions, {} structures, {} restitutions, {} levels; {} parts of {} cells, {missing} missing; sweep {hash}",
-        plan.len(),
+        plan.cells(),
         plan.motions.len(),
         plan.subjects.len(),
         plan.restitution_count(),

@@ -143,7 +143,7 @@ fn damped_heave_decays_by_the_chain_s_complex_eigenvalue() {
         worst = worst.max((view.z() - rest - exact).abs());
         std::ops::ControlFlow::Continue(())
     };
-    run.follow(Motion { dt: dt, accel: &[0.0; 100], vertical: &[], scale: 1.0 }, &mut observer);
+    run.follow(Motion { dt, accel: &[0.0; 100], vertical: &[], scale: 1.0 }, &mut observer);
     assert!(worst < 1e-5 * amplitude, "{worst:e}");
 }
 

@@ -131,7 +131,7 @@ fn the_first_frequency_of_the_frame_is_beam_theory_s() {
         worst = worst.max((view.x() - exact).abs());
         std::ops::ControlFlow::Continue(())
     };
-    run.follow(Motion { dt: dt, accel: &[0.0; 41], vertical: &[], scale: 1.0 }, &mut observer);
+    run.follow(Motion { dt, accel: &[0.0; 41], vertical: &[], scale: 1.0 }, &mut observer);
     // displacements of 1e-9 m round at 1e-16 of the frame's height
     assert!(worst < 1e-5 * 1e-9, "{worst:e}");
 }
