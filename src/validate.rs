@@ -35,7 +35,7 @@ use rayon::prelude::*;
 
 pub use row::{RecordOutcome, Row, Suite};
 pub use statistics::{Confusion, GeometricMean, PREDICTABLE, Quantiles, Summary, Validation};
-pub use stream::Stream;
+pub use stream::{Stream, push};
 
 use crate::{
     fem::Control,

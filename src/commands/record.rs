@@ -153,8 +153,11 @@ impl Report {
         table.add_rows(self.components.iter().map(Row::cells));
         let run = &self.run;
         let mut text = format!(
-            "{}: {}{station}\n\n{table}\n\ntune run takes {}, its first {} s unless --duration says otherwise: ",
-            self.file, self.format, run.record, run.duration_s
+            "{}: {}{station}\n\n{table}\n\ntune run takes {}, {} unless --duration says otherwise: ",
+            self.file,
+            self.format,
+            run.record,
+            if run.duration_s < LONGEST_S { format!("its first {} s", run.duration_s) } else { "all of it".into() }
         );
         let whole = self.components.iter().find(|row| row.taken).map_or(0.0, |row| row.pga_g.abs());
         if run.pga_g < whole {

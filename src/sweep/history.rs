@@ -1,6 +1,6 @@
-//! Histories of a range of cells, by Housner in lock-step lanes, by finite elements one by one.
+//! Histories of a range of cells, by Housner in lock-step, by finite elements side by side.
 
-use std::{f64::consts::FRAC_PI_2, ops::Range, sync::Arc};
+use std::{borrow::Cow, f64::consts::FRAC_PI_2, ops::Range, sync::Arc};
 
 use rayon::prelude::*;
 
@@ -13,14 +13,17 @@ use super::{
 use crate::{
     fem,
     housner::{self, Rocking},
+    overturning::samples_until,
     record::Record,
     spring::{Chain, Springs},
     structure::Body,
-    validate::Stream,
+    validate::{Stream, push},
 };
 
-/// Cells that a thread takes at a time: as many as go in lock-step.
-const TOGETHER: usize = 16;
+/// Cells that are taken at a time: of Housner's as many as go in lock-step; of finite elements enough to fill the lanes again
+/// where a history ends early.
+const LOCK_STEP: usize = 16;
+const SIDE_BY_SIDE: usize = 64;
 
 /// The rows of a range of cells, in their order. `done` is told how many more are through.
 ///
@@ -37,13 +40,14 @@ pub fn rows(
         a.motion == b.motion && (a.subject == b.subject || !plan.motions[a.motion].is_for_structure())
     };
     let groups: Vec<&[Cell]> = cells.chunk_by(same).collect();
+    let together = if springs.is_some() { SIDE_BY_SIDE } else { LOCK_STEP };
     let rows: Vec<Result<Vec<Row>, SweepError>> = groups
         .into_par_iter()
         .with_max_len(1)
         .map(|group| {
             let ground = Ground::new(plan, group[0])?;
             let rows: Vec<Vec<Row>> = group
-                .par_chunks(TOGETHER)
+                .par_chunks(together)
                 .with_max_len(1)
                 .map(|cells| {
                     let rows = ground.rows(plan, springs, cells);
@@ -96,16 +100,19 @@ impl Ground {
             })
             .collect();
         let rigid = housner::solve_lanes(&bodies, self.record.dt, &self.record.accel, &options);
+        let fem = springs.map(|springs| {
+            let wanted = cells.iter().zip(&scales).zip(&rigid).map(|((cell, &scale), rigid)| Wanted {
+                subject: &plan.subjects[cell.subject],
+                springs: springs.of(cell.subject, cell.restitution),
+                scale,
+                rigid,
+            });
+            elements(&wanted.collect::<Vec<_>>(), &self.record)
+        });
         let row = |(i, cell): (usize, &Cell)| {
             let subject = &plan.subjects[cell.subject];
-            let (fem, nrmse) = match springs {
-                Some(springs) => {
-                    let springs = springs.of(cell.subject, cell.restitution);
-                    let (answer, nrmse) = elements(subject, &springs, &self.record, scales[i], &rigid[i]);
-                    (Some(answer), nrmse.filter(|_| plan.model.housner()))
-                }
-                None => (None, None),
-            };
+            let (fem, nrmse) = fem.as_ref().map(|fem| fem[i]).unzip();
+            let nrmse = nrmse.flatten().filter(|_| plan.model.housner());
             Row {
                 cell: cell.index,
                 subject: cell.subject,
@@ -121,11 +128,7 @@ impl Ground {
                 nrmse,
             }
         };
-        match springs {
-            // one may take as long as all the others
-            Some(_) => cells.par_iter().enumerate().with_max_len(1).map(row).collect(),
-            None => cells.iter().enumerate().map(row).collect(),
-        }
+        cells.iter().enumerate().map(row).collect()
     }
 }
 
@@ -155,40 +158,58 @@ fn of_housner(subject: &Subject, rocking: &Rocking<f64>) -> Answer {
     }
 }
 
-/// One finite element history, streamed; its NRMSE against Housner's. The one place where histories on springs are computed.
-pub(super) fn elements(
-    subject: &Subject,
-    springs: &Springs<Chain<f64>>,
-    record: &Record,
-    scale: f64,
-    rigid: &Rocking<f64>,
-) -> (Answer, Option<f64>) {
-    let body = &subject.body;
-    let accel: Vec<f64> = record.accel.iter().map(|a| a * scale).collect();
-    let vertical: Vec<f64> = record.up().iter().map(|a| a * scale).collect();
-    let case = fem::Case {
-        body: *body,
-        springs: *springs,
+/// A finite element history that is wanted, and Housner's answer.
+pub(super) struct Wanted<'a> {
+    pub subject: &'a Subject,
+    pub springs: Springs<Chain<f64>>,
+    pub scale: f64,
+    pub rigid: &'a Rocking<f64>,
+}
+
+impl Wanted<'_> {
+    /// What to say of a history, and its NRMSE against Housner's.
+    fn answer(&self, stream: &Stream, finish: &fem::Finish<f64>) -> (Answer, Option<f64>) {
+        let outcome = match finish.outcome {
+            fem::Outcome::Overturned { .. } | fem::Outcome::Stopped { .. } => Outcome::Overturned,
+            fem::Outcome::Completed if housner::topples(&self.subject.body, stream.last.0, stream.last.1) => {
+                Outcome::Overturned
+            }
+            fem::Outcome::Completed if stream.peak == 0.0 => Outcome::NeverLifted,
+            fem::Outcome::Completed => Outcome::Rocked,
+            fem::Outcome::WorkBound { .. } | fem::Outcome::Unstable { .. } => Outcome::Failed,
+        };
+        let outcome = if stream.peak.is_finite() { outcome } else { Outcome::Failed };
+        let errors = if outcome == Outcome::Overturned { stream.upright } else { stream.errors };
+        let lifted = self.rigid.outcome != housner::Outcome::NeverMoved;
+        let nrmse = errors.horizontal.value();
+        let nrmse = (lifted && outcome != Outcome::Failed && nrmse.is_finite()).then_some(nrmse);
+        let peak = ratio(self.subject, stream.peak, outcome);
+        (Answer { outcome, peak, impacts: None, overturned_s: None }, nrmse)
+    }
+}
+
+/// Finite element histories on a record, streamed. The one place where histories on springs are computed.
+pub(super) fn elements(wanted: &[Wanted<'_>], record: &Record) -> Vec<(Answer, Option<f64>)> {
+    let scaled = |samples: &[f64], scale: f64| -> Vec<f64> { samples.iter().map(|a| a * scale).collect() };
+    let grounds: Vec<(Vec<f64>, Vec<f64>)> =
+        wanted.iter().map(|w| (scaled(&record.accel, w.scale), scaled(record.up(), w.scale))).collect();
+    let pushes: Vec<Cow<[f64]>> = grounds.iter().map(|(accel, vertical)| push(accel, vertical)).collect();
+    let case = |i: usize| fem::Case {
+        body: wanted[i].subject.body,
+        springs: wanted[i].springs,
         start: fem::Start::Settled,
         dt: record.dt,
-        accel: &accel,
-        vertical: &vertical,
+        accel: &grounds[i].0,
+        vertical: &grounds[i].1,
         scale: 1.0,
-        control: fem::Control::default(),
+        // peaks and comparisons alone
+        control: fem::Control { long_steps: true, ..fem::Control::search() },
     };
-    let standing = rigid.overturned().map_or(rigid.theta.len(), |time| (time / record.dt) as usize + 1);
-    let mut stream = Stream::new(body, &rigid.theta[..standing.min(rigid.theta.len())], &accel);
-    let outcome = match case.observe(&mut stream).outcome {
-        fem::Outcome::Overturned { .. } | fem::Outcome::Stopped { .. } => Outcome::Overturned,
-        fem::Outcome::Completed if housner::topples(body, stream.last.0, stream.last.1) => Outcome::Overturned,
-        fem::Outcome::Completed if stream.peak == 0.0 => Outcome::NeverLifted,
-        fem::Outcome::Completed => Outcome::Rocked,
-        fem::Outcome::WorkBound { .. } | fem::Outcome::Unstable { .. } => Outcome::Failed,
-    };
-    let outcome = if stream.peak.is_finite() { outcome } else { Outcome::Failed };
-    let errors = if outcome == Outcome::Overturned { stream.upright } else { stream.errors };
-    let lifted = rigid.outcome != housner::Outcome::NeverMoved;
-    let nrmse = errors.horizontal.value();
-    let nrmse = (lifted && outcome != Outcome::Failed && nrmse.is_finite()).then_some(nrmse);
-    (Answer { outcome, peak: ratio(subject, stream.peak, outcome), impacts: None, overturned_s: None }, nrmse)
+    let cases: Vec<fem::Case<f64>> = (0..wanted.len()).map(case).collect();
+    let followed = fem::histories(&cases, |i| {
+        let Wanted { subject, rigid, .. } = &wanted[i];
+        let standing = samples_until(rigid.overturned(), record.dt).min(rigid.theta.len());
+        Stream::new(&subject.body, &rigid.theta[..standing], &pushes[i])
+    });
+    followed.iter().zip(wanted).map(|((stream, finish), w)| w.answer(stream, finish)).collect()
 }

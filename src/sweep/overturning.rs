@@ -19,7 +19,8 @@ use std::{f64::consts::TAU, ops::Range, sync::Arc};
 use rayon::prelude::*;
 
 use super::{
-    SweepError, history,
+    SweepError,
+    history::{self, Wanted},
     motion::{Frequency, Motion},
     plan::{Cell, Plan},
     row::Outcome,
@@ -118,11 +119,12 @@ fn of_cell(plan: &Plan, springs: Option<&SpringsTable>, cell: Cell) -> Vec<Row> 
         accel.resize(accel.len() + (super::motion::SILENCE / (subject.p * dt)).ceil() as usize, 0.0);
         let record = Record { name: shape.name().into(), dt, accel, vertical: None, source: Source::Synthetic };
         let still = housner::solve(&subject.body, dt, &[0.0], &housner::Options::default());
-        let fate = |amplitude: &f64| {
-            let (answer, _) = history::elements(subject, &springs, &record, *amplitude, &still);
-            Fate::new(answer.outcome == Outcome::Overturned, None)
+        let wanted = |&scale: &f64| Wanted { subject, springs, scale, rigid: &still };
+        let fates = |amplitudes: &[f64]| {
+            let found = history::elements(&amplitudes.iter().map(wanted).collect::<Vec<_>>(), &record);
+            found.iter().map(|(answer, _)| Fate::new(answer.outcome == Outcome::Overturned, None)).collect()
         };
-        add("fem", intervals(&plan.levels, WIDTH_FEM, &|amplitudes| amplitudes.par_iter().map(fate).collect()));
+        add("fem", intervals(&plan.levels, WIDTH_FEM, &fates));
     }
     rows
 }

@@ -17,11 +17,10 @@ use crate::{
     overturning::samples_until,
     record::Record,
     regime,
-    scalar::GRAVITY,
     spring::{Chain, Springs},
     structure::Body,
     synthetic,
-    validate::{PREDICTABLE, Stream},
+    validate::{PREDICTABLE, Stream, push},
 };
 
 /// Motions of each suite that are followed.
@@ -100,15 +99,8 @@ impl Trial {
         })
     }
 
-    /// u_g over gamma = 1 + a_v/g at the samples [m/s2]: what a body beyond alpha must be able to fall against. It is largest at
-    /// samples; without bound where the ground falls faster than the body.
     fn push(&self) -> Cow<'_, [f64]> {
-        let Some(vertical) = &self.vertical else { return Cow::Borrowed(&self.accel) };
-        let push = |(i, a): (usize, &f64)| {
-            let gamma = 1.0 + vertical.get(i).map_or(0.0, |up| up / GRAVITY);
-            if gamma > 0.0 { a / gamma } else { f64::INFINITY }
-        };
-        Cow::Owned(self.accel.iter().enumerate().map(push).collect())
+        push(&self.accel, self.vertical.as_deref().unwrap_or_default())
     }
 
     fn case(&self, body: &Body<f64>, springs: &Springs<Chain<f64>>, control: Control) -> Case<'_, f64> {

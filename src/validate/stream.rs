@@ -5,13 +5,26 @@
 //! history is stopped there. To follow the fall any further costs a lot and says nothing: from 48 degrees on an A-frame's
 //! leg would have to pull, and a body without rotational inertia flies and spins.
 
-use std::ops::ControlFlow;
+use std::{borrow::Cow, ops::ControlFlow};
 
 use crate::{
     fem::{Observer, View},
     scalar::GRAVITY,
     structure::Body,
 };
+
+/// u_g over gamma = 1 + a_v/g at the samples (m/s2): what a body beyond alpha must be able to fall against. It is largest at
+/// samples; without bound where the ground falls faster than the body. `vertical` is empty where there is none.
+pub fn push<'a>(accel: &'a [f64], vertical: &[f64]) -> Cow<'a, [f64]> {
+    if vertical.is_empty() {
+        return Cow::Borrowed(accel);
+    }
+    let push = |(i, a): (usize, &f64)| {
+        let gamma = 1.0 + vertical.get(i).map_or(0.0, |up| up / GRAVITY);
+        if gamma > 0.0 { a / gamma } else { f64::INFINITY }
+    };
+    Cow::Owned(accel.iter().enumerate().map(push).collect())
+}
 
 /// sqrt( sum (x - x_ref)^2 / sum x_ref^2 ) of samples that come one by one.
 #[derive(Clone, Copy, Debug, Default)]
