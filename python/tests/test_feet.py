@@ -133,3 +133,23 @@ def test_a_step_that_fails_is_accounted_for(ops: Any) -> None:
     with pytest.raises(StepError, match=r"stopped at t = \d.*; node 1 (presses|is in the air).*tolerance"):
         stepper.run(RECORD)
     assert len(stepper.history.t) >= 1
+
+
+def test_a_weight_that_is_there_twice_is_warned_of(ops: Any) -> None:
+    give = rigid_body(ops, FRAME, SPRINGS)
+    feet = add_feet(ops, [1, 2], SPRINGS, compliance=give)
+    ops.timeSeries("Linear", 1)
+    ops.pattern("Plain", 1, 1)
+    ops.load(3, 0.0, -FRAME.mass * gs.GRAVITY, 0.0)
+    with pytest.warns(gs.GroundspringWarning, match=r'call gravity\("own"\)'):
+        Stepper(ops, feet).gravity()
+
+
+def test_a_structure_that_overturns_is_warned_of(ops: Any) -> None:
+    give = rigid_body(ops, FRAME, SPRINGS)
+    stepper = Stepper(ops, add_feet(ops, [1, 2], SPRINGS, compliance=give))
+    stepper.gravity()
+    push = gs.Record(0.01, np.full(330, 3.0))
+    with pytest.warns(gs.GroundspringWarning, match="the structure overturned"):
+        history = stepper.run(push)
+    assert repr(history).startswith("FeetHistory(nodes 1, 2; 330 samples to 3.29 s; largest uplift")

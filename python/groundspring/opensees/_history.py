@@ -14,7 +14,7 @@ if TYPE_CHECKING:
     from ._feet import Array
 
 
-@dataclass
+@dataclass(repr=False)
 class FeetHistory:
     """Feet at the samples, the first at the start of the run. Arrays of the feet have a column a foot.
 
@@ -46,6 +46,14 @@ class FeetHistory:
     stored: Array = field(default_factory=lambda: np.empty(0))
     dissipated: Array = field(default_factory=lambda: np.empty(0))
     account: Account | None = None
+
+    def __repr__(self) -> str:
+        if not len(self.t):
+            return "FeetHistory(no samples)"
+        return (
+            f"FeetHistory(nodes {', '.join(map(str, self.nodes))}; {len(self.t)} samples to {self.t[-1]:.2f} s; "
+            f"largest uplift {self.uplift.max():.4g} m)"
+        )
 
     @property
     def base_shear(self) -> Array:

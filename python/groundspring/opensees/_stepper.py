@@ -128,6 +128,21 @@ class Stepper:
         ops.loadConst("-time", 0.0)
         ops.wipeAnalysis()
         self.steps = None
+        if loads == "weight":
+            self._check_weight()
+
+    def _check_weight(self) -> None:
+        """Warn where the feet carry more than the nodal masses weigh."""
+        ops, own = self.ops, self._absorbers()
+        masses = math.fsum(ops.nodeMass(node, 2) for node in ops.getNodeTags() if node not in own)
+        carried = math.fsum(float(group.forces()[:, 1].sum()) for group in self.groups)
+        if carried > 1.01 * masses * GRAVITY:
+            warnings.warn(
+                f"gravity: the feet carry {carried:.4g} N, the nodal masses weigh {masses * GRAVITY:.4g} N; if the model has its "
+                'weight in a pattern of its own, call gravity("own")',
+                GroundspringWarning,
+                stacklevel=3,
+            )
 
     def advance_to(self, t: float) -> None:
         """To time t, s, in steps that end there.
@@ -190,9 +205,32 @@ class Stepper:
             self.history = watch.history()
             if books is not None:
                 self.history.account = books.account(self.history.work.sum(axis=1))
+        self._check_standing()
         if self.steps is not None and self.steps.late:
             warnings.warn(f"run: {self.report()}", GroundspringWarning, stacklevel=2)
         return self.history
+
+    def _check_standing(self) -> None:
+        """Warn where a structure fell over."""
+        if self.history.uplift.ndim != 2:
+            return
+        column = 0
+        for group in self.groups:
+            places = [self.ops.nodeCoord(node)[0] for node in group.nodes]
+            width = max(places) - min(places)
+            risen = float(self.history.uplift[:, column : column + len(places)].max(initial=0.0))
+            column += len(places)
+            # from 45 degrees on nothing brings it back
+            if width > 0.0 and risen > 0.7 * width:
+                warnings.warn(
+                    f"run: a foot rose by {risen:.3g} m, the feet are {width:.3g} m apart: the structure overturned, what "
+                    "follows means nothing",
+                    GroundspringWarning,
+                    stacklevel=3,
+                )
+
+    def __repr__(self) -> str:
+        return f"Stepper({self.report()})"
 
     def report(self) -> str:
         """Steps taken, the shortest, pairs repeated, and whether events were met too late."""
