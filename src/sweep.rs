@@ -4,7 +4,7 @@
 //! SWEEP.toml -> spec -> plan: cell i = (motion, structure, restitution, level), in that order, the last one fastest
 //!     parts: fixed ranges of cells --(history | overturning)--> rows -> table -> DIR/parts/part-00000.parquet
 //!     springs: tuned once a geometry before the first cell, kept in DIR/springs.json
-//! gather: parts in order, one at a time -> fragility, ida, spectrum, compare -> CSV, figures, plain words
+//! gather: parts one after another -> fragility, ida, spectrum, compare -> CSV, figures, plain words
 //! ```
 //!
 //! The cut into parts belongs to the plan and not to the machine: a part is a function of the sweep alone, is written under a temporary

@@ -89,7 +89,7 @@ fn stiff(structure: &Structure, hz: f64) -> Springs<Design<f64>> {
 /// an event in too long a step has run again, with a quarter of the error: that is why the bound is on the median. OpenSees' Tcl
 /// interpreter cannot run twice: its deck tells.
 #[test]
-#[ignore = "needs OpenSees"]
+#[ignore = "runs OpenSees, which cargo cannot install: .ci/run installs it and runs this test"]
 fn decks_on_stiff_springs_are_within_their_limit_in_few_steps() {
     let pier = Structure::a_frame(12.0, 2.4, 350e3).unwrap();
     let mut steps = Vec::new();
@@ -115,7 +115,7 @@ fn decks_on_stiff_springs_are_within_their_limit_in_few_steps() {
 /// Springs that the pier of 12 x 2.4 m had once: horizontally k2 is a hundredth of k1, and at its first uplift a foot chatters 70 times.
 /// OpenSees finds another history in other steps; it is refused, and said why.
 #[test]
-#[ignore = "needs OpenSees"]
+#[ignore = "runs OpenSees, which cargo cannot install: .ci/run installs it and runs this test"]
 fn springs_on_which_a_lifting_foot_chatters_are_refused() {
     let pier = with_inertia(&Structure::a_frame(12.0, 2.4, 350e3).unwrap());
     let springs = Springs {
@@ -150,74 +150,74 @@ fn block_of_2_m() -> Structure {
 }
 
 #[test]
-#[ignore = "needs OpenSees"]
+#[ignore = "runs OpenSees, which cargo cannot install: .ci/run installs it and runs this test"]
 fn the_paper_frame_on_table_1_springs_agrees() {
     agrees(&programs(), Structure::paper(), table_1());
 }
 
 #[test]
-#[ignore = "needs OpenSees"]
+#[ignore = "runs OpenSees, which cargo cannot install: .ci/run installs it and runs this test"]
 fn the_paper_frame_on_its_springs_of_40_hz_agrees() {
     tuned_agrees(Structure::paper(), Objective::Landing, 40.0);
 }
 
 #[test]
-#[ignore = "needs OpenSees"]
+#[ignore = "runs OpenSees, which cargo cannot install: .ci/run installs it and runs this test"]
 fn the_paper_frame_on_its_springs_of_160_hz_agrees() {
     tuned_agrees(Structure::paper(), Objective::Landing, 160.0);
 }
 
 #[test]
-#[ignore = "needs OpenSees"]
+#[ignore = "runs OpenSees, which cargo cannot install: .ci/run installs it and runs this test"]
 fn the_paper_frame_on_springs_of_40_hz_by_the_papers_procedure_agrees() {
     tuned_agrees(Structure::paper(), Objective::Arr, 40.0);
 }
 
 #[test]
-#[ignore = "needs OpenSees"]
+#[ignore = "runs OpenSees, which cargo cannot install: .ci/run installs it and runs this test"]
 fn the_paper_frame_on_springs_of_160_hz_by_the_papers_procedure_agrees() {
     tuned_agrees(Structure::paper(), Objective::Arr, 160.0);
 }
 
 #[test]
-#[ignore = "needs OpenSees"]
+#[ignore = "runs OpenSees, which cargo cannot install: .ci/run installs it and runs this test"]
 fn a_frame_of_5_by_1_5_m_on_table_1_springs_agrees() {
     agrees(&programs(), frame_of_5_m(), table_1());
 }
 
 #[test]
-#[ignore = "needs OpenSees"]
+#[ignore = "runs OpenSees, which cargo cannot install: .ci/run installs it and runs this test"]
 fn a_frame_of_5_by_1_5_m_on_its_springs_of_40_hz_agrees() {
     tuned_agrees(frame_of_5_m(), Objective::Landing, 40.0);
 }
 
 #[test]
-#[ignore = "needs OpenSees"]
+#[ignore = "runs OpenSees, which cargo cannot install: .ci/run installs it and runs this test"]
 fn a_frame_of_5_by_1_5_m_on_its_springs_of_160_hz_agrees() {
     tuned_agrees(frame_of_5_m(), Objective::Landing, 160.0);
 }
 
 /// It topples at 6.4 s, which multiplies whatever its steps miss before: they are asked for a quarter of that.
 #[test]
-#[ignore = "needs OpenSees"]
+#[ignore = "runs OpenSees, which cargo cannot install: .ci/run installs it and runs this test"]
 fn a_block_of_2_by_0_5_m_on_table_1_springs_agrees() {
     agrees_at(ACCURACY / 4.0, &programs(), block_of_2_m(), table_1());
 }
 
 #[test]
-#[ignore = "needs OpenSees"]
+#[ignore = "runs OpenSees, which cargo cannot install: .ci/run installs it and runs this test"]
 fn a_block_of_2_by_0_5_m_on_its_springs_of_40_hz_agrees() {
     tuned_agrees(block_of_2_m(), Objective::Landing, 40.0);
 }
 
 #[test]
-#[ignore = "needs OpenSees"]
+#[ignore = "runs OpenSees, which cargo cannot install: .ci/run installs it and runs this test"]
 fn a_block_of_2_by_0_5_m_on_its_springs_of_160_hz_agrees() {
     tuned_agrees(block_of_2_m(), Objective::Landing, 160.0);
 }
 
 #[test]
-#[ignore = "needs OpenSees"]
+#[ignore = "runs OpenSees, which cargo cannot install: .ci/run installs it and runs this test"]
 fn a_block_of_2_by_0_5_m_on_springs_of_the_papers_procedure_agrees() {
     tuned_agrees(block_of_2_m(), Objective::Arr, 160.0);
 }
@@ -249,44 +249,44 @@ fn legs(s: f64) -> Option<Legs<f64>> {
 }
 
 #[test]
-#[ignore = "needs OpenSees"]
+#[ignore = "runs OpenSees, which cargo cannot install: .ci/run installs it and runs this test"]
 fn elastic_legs_that_shorten_by_a_millionth_agree() {
     agrees_with(Members { legs: legs(1e-3), ..Members::default() }, 20.0);
 }
 
 #[test]
-#[ignore = "needs OpenSees"]
+#[ignore = "runs OpenSees, which cargo cannot install: .ci/run installs it and runs this test"]
 fn elastic_legs_that_shorten_by_a_hundred_thousandth_agree() {
     agrees_with(Members { legs: legs(1e-2), ..Members::default() }, 20.0);
 }
 
 #[test]
-#[ignore = "needs OpenSees"]
+#[ignore = "runs OpenSees, which cargo cannot install: .ci/run installs it and runs this test"]
 fn elastic_legs_that_shorten_by_a_ten_thousandth_agree() {
     agrees_with(Members { legs: legs(0.1), ..Members::default() }, 20.0);
 }
 
 #[test]
-#[ignore = "needs OpenSees"]
+#[ignore = "runs OpenSees, which cargo cannot install: .ci/run installs it and runs this test"]
 fn elastic_legs_that_shorten_by_a_thousandth_agree() {
     agrees_with(Members { legs: legs(1.0), ..Members::default() }, 20.0);
 }
 
 #[test]
-#[ignore = "needs OpenSees"]
+#[ignore = "runs OpenSees, which cargo cannot install: .ci/run installs it and runs this test"]
 fn dampers_across_the_interface_agree() {
     agrees_with(Members { damper: Some(Damper { c: 1e6 }), ..Members::default() }, 20.0);
 }
 
 #[test]
-#[ignore = "needs OpenSees"]
+#[ignore = "runs OpenSees, which cargo cannot install: .ci/run installs it and runs this test"]
 fn a_post_tensioned_tendon_agrees() {
     let tendon = Some(Tendon { stiffness: 2e6, pretension: 5e5 });
     agrees_with(Members { tendon, ..Members::default() }, 20.0);
 }
 
 #[test]
-#[ignore = "needs OpenSees"]
+#[ignore = "runs OpenSees, which cargo cannot install: .ci/run installs it and runs this test"]
 fn elastic_legs_with_dampers_and_a_tendon_agree() {
     let tendon = Some(Tendon { stiffness: 2e6, pretension: 5e5 });
     // 8 s: OpenSees takes long over the three together

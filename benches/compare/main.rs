@@ -263,13 +263,15 @@ fn draw(measured: &Measured, path: &Path) -> Result<(), Box<dyn Error>> {
 mod tests {
     use super::*;
 
-    fn point(seconds: f64, error: f64) -> Point {
-        Point { setting: String::new(), seconds, error, note: String::new() }
+    /// A tool and what it measured: seconds, error.
+    pub fn series(tool: &str, points: &[(f64, f64)]) -> Series {
+        let point = |&(seconds, error): &(f64, f64)| Point { setting: "s".into(), seconds, error, note: String::new() };
+        Series { tool: tool.into(), points: points.iter().map(point).collect() }
     }
 
     #[test]
     fn the_cheapest_point_meets_the_error_and_no_dearer_one_is_taken() {
-        let series = Series { tool: "t".into(), points: vec![point(1.0, 1e-2), point(3.0, 1e-4), point(2.0, 1e-5)] };
+        let series = series("t", &[(1.0, 1e-2), (3.0, 1e-4), (2.0, 1e-5)]);
         assert_eq!(series.cheapest(1e-3).map(|p| p.seconds), Some(2.0));
         assert_eq!(series.cheapest(1e-1).map(|p| p.seconds), Some(1.0));
         assert_eq!(series.cheapest(1e-6), None);

@@ -156,13 +156,8 @@ fn runs(runs: &[Run]) -> String {
 
 #[cfg(test)]
 mod tests {
-    use super::super::Point;
+    use super::super::tests::series;
     use super::*;
-
-    fn series(tool: &str, points: &[(f64, f64)]) -> Series {
-        let point = |&(seconds, error): &(f64, f64)| Point { setting: "s".into(), seconds, error, note: String::new() };
-        Series { tool: tool.into(), points: points.iter().map(point).collect() }
-    }
 
     #[test]
     fn times_have_three_digits_and_a_unit_that_suits() {

@@ -103,13 +103,8 @@ pub(super) fn table_of(measured: &Measured) -> String {
 
 #[cfg(test)]
 mod tests {
-    use super::super::{Point, Series, program::Run};
+    use super::super::{program::Run, tests::series};
     use super::*;
-
-    fn series(tool: &str, points: &[(f64, f64)]) -> Series {
-        let point = |&(seconds, error): &(f64, f64)| Point { setting: "s".into(), seconds, error, note: String::new() };
-        Series { tool: tool.into(), points: points.iter().map(point).collect() }
-    }
 
     #[test]
     fn a_peer_that_is_too_inaccurate_does_not_count() {

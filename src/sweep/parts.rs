@@ -95,7 +95,7 @@ impl Parts<'_> {
         manifest::whole(&path, &bytes)
     }
 
-    /// Some columns of every part in order, one part at a time.
+    /// Some columns of every part, one part after another.
     ///
     /// # Errors
     /// A file that cannot be read, or what `take` says.

@@ -122,7 +122,7 @@ impl SpringsTable {
     }
 }
 
-/// Every geometry with its largest structure, in order of first appearance.
+/// Every geometry with its largest structure, as they first appear.
 fn keys(plan: &Plan) -> Vec<(Key, usize, usize)> {
     let mut keys: Vec<(Key, usize, usize)> = Vec::new();
     for subject in 0..plan.subjects.len() {
