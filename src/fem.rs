@@ -123,7 +123,7 @@ impl<S: Scalar> Case<'_, S> {
     }
 
     fn model(&self) -> model::Model<S> {
-        model::Model::new(&self.body, &self.springs)
+        model::Model { skip_open: self.control.skip_open, ..model::Model::new(&self.body, &self.springs) }
     }
 
     fn ground(&self) -> run::Motion<'_, S> {

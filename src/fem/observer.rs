@@ -57,7 +57,7 @@ impl<S: Scalar> View<'_, S> {
     }
 
     /// Vertical force on foot i, positive while it presses [N].
-    #[cfg(feature = "cli")]
+    #[cfg(any(feature = "cli", feature = "internals"))]
     pub fn vertical_force(&self, i: usize) -> S {
         self.model.contact(&self.state.q, self.feet)[i].vertical
     }

@@ -65,7 +65,12 @@ fn a_history_is_the_same_to_the_last_bit_in_any_company_and_on_any_number_of_thr
         .enumerate()
         .map(|(i, record)| {
             let (body, springs) = models[i % models.len()];
-            let control = Control { long_steps: i % 4 != 0, tolerance: [1e-4, 1e-6, 1e-8][i % 3], ..Control::search() };
+            let control = Control {
+                long_steps: i % 4 != 0,
+                tolerance: [1e-4, 1e-6, 1e-8][i % 3],
+                skip_open: i % 7 != 6,
+                ..Control::search()
+            };
             let start = if i % 9 == 5 { Start::Leaning(0.6 * body.alpha()) } else { Start::Settled };
             let vertical: &[f64] = if i % 5 == 4 { &up } else { &[] };
             Case { body, springs, start, dt: record.dt, accel: &record.accel, vertical, scale: 1.0, control }
