@@ -9,7 +9,7 @@ use rayon::prelude::*;
 use serde::Serialize;
 
 use super::{
-    CommandError,
+    CommandError, common,
     draw::subtitle,
     output::{Folder, check_folder},
     progress::Progress,
@@ -215,11 +215,7 @@ const FILES: &[&str] = &["validate.json", "validate.md", "validate.csv", "valida
 pub fn run(o: &Options) -> Result<(), CommandError> {
     let parameters = Parameters::read(&o.parameters)?;
     let body = parameters.structure.body::<f64>();
-    let restitution = o.restitution.unwrap_or_else(|| parameters.restitution());
-    if !(0.0..=1.0).contains(&restitution) {
-        let remedy = "a velocity ratio lies between 0 and 1";
-        return Err(CommandError::Option { option: "restitution", value: format!("{restitution:?}"), remedy });
-    }
+    let restitution = common::restitution(o.restitution)?.unwrap_or_else(|| parameters.restitution());
     if let Some(duration) = o.duration
         && !(duration > 0.0 && duration <= LONGEST_S)
     {

@@ -124,14 +124,15 @@ fn errors(trials: &[Trial], body: &Body<f64>, springs: &Springs<Chain<f64>>, con
     let cases: Vec<Case<f64>> = trials.iter().map(|trial| trial.case(body, springs, control)).collect();
     let followed = histories(&cases, |i| Stream::new(body, &trials[i].theta, &pushes[i]));
     let error = |((stream, finish), trial): ((Stream, Finish<f64>), &Trial)| {
-        let errors = match finish.outcome {
-            Outcome::Completed if !trial.overturns => stream.errors,
-            Outcome::Completed if !housner::topples(body, stream.last.0, stream.last.1) => return LOST,
-            Outcome::Completed | Outcome::Overturned { .. } | Outcome::Stopped { .. } if trial.overturns => {
-                stream.upright
-            }
+        let overturned = match finish.outcome {
+            Outcome::Completed => housner::topples(body, stream.last.0, stream.last.1),
+            Outcome::Overturned { .. } | Outcome::Stopped { .. } => true,
             _ => return LOST,
         };
+        if overturned != trial.overturns {
+            return LOST;
+        }
+        let errors = if overturned { stream.upright } else { stream.errors };
         (errors.horizontal.value(), errors.vertical.value())
     };
     followed.into_iter().zip(trials).map(error).collect()

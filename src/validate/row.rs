@@ -9,6 +9,7 @@ use super::{Judge, stream::Stream};
 use crate::{
     conditioning::Conditioning,
     fem, housner,
+    overturning::samples_until,
     record::{Record, Source},
     regime,
 };
@@ -140,7 +141,7 @@ impl Answer<'_> {
     /// His rotations until the body lies.
     fn standing(&self) -> &[f64] {
         let Self { record, rocking, .. } = self;
-        let samples = rocking.overturned().map_or(rocking.theta.len(), |time| (time / record.dt) as usize + 1);
+        let samples = samples_until(rocking.overturned(), record.dt);
         &rocking.theta[..samples.min(rocking.theta.len())]
     }
 }
