@@ -46,6 +46,8 @@ pub use notice::Notice;
 pub use peak::Peak;
 pub use recording::{Component, Recording};
 pub use source::Source;
+#[cfg(feature = "cli")]
+pub(crate) use source::fnv1a;
 pub use units::{Units, UnitsError};
 pub use vertical::{Vertical, VerticalFrom};
 #[cfg(feature = "internals")]

@@ -7,6 +7,7 @@ use std::{
 };
 
 use super::{CommandError, write_file};
+use crate::record::fnv1a;
 
 /// Whether a folder for results can be made or written into.
 pub(super) fn check_folder(path: &Path) -> Result<(), CommandError> {
@@ -125,10 +126,7 @@ impl<'a> Folder<'a> {
 /// FNV-1a of a file; `None` if it is none.
 fn fingerprint(path: &Path) -> Option<String> {
     let bytes = path.metadata().is_ok_and(|there| there.is_file()).then(|| std::fs::read(path).ok())??;
-    let hash = bytes
-        .iter()
-        .fold(0xcbf2_9ce4_8422_2325, |hash: u64, &byte| (hash ^ u64::from(byte)).wrapping_mul(0x0000_0100_0000_01b3));
-    Some(format!("{hash:016x}"))
+    Some(format!("{:016x}", fnv1a(bytes.into_iter())))
 }
 
 #[cfg(test)]

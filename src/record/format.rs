@@ -8,7 +8,7 @@ use super::parsed::Parsed;
 use super::text::lines;
 use super::{ReadOptions, RecordError, at2, columns, cosmos, csmip, dyna, geonet, knet};
 
-/// RecordFormat of a record file.
+/// Format of a record file.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 #[non_exhaustive]
 pub enum RecordFormat {

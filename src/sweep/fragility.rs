@@ -303,6 +303,7 @@ impl Row {
             Fit::NoneExceeded => "none exceeds",
             Fit::AllExceeded => "all exceed",
             Fit::Separated { .. } => "separated",
+            Fit::Undetermined => "undetermined",
             Fit::Falling => "falling",
         }
     }

@@ -53,6 +53,8 @@ pub enum Fit {
         below: f64,
         above: f64,
     },
+    /// Outcomes are mixed at one intensity alone: no width can be told.
+    Undetermined,
     /// Higher intensities exceed less often.
     Falling,
 }
@@ -119,6 +121,10 @@ impl Fit {
         let over = groups.iter().filter(|group| group.k > 0).map(|group| group.ln_x).fold(f64::INFINITY, f64::min);
         let under =
             groups.iter().filter(|group| group.k < group.n).map(|group| group.ln_x).fold(f64::NEG_INFINITY, f64::max);
+        // one intensity, to rounding: the likelihood rises for ever with the slope
+        if (under - over).abs() < 1e-9 {
+            return Self::Undetermined;
+        }
         if under < over {
             return Self::Separated { below: under.exp(), above: over.exp() };
         }
@@ -294,6 +300,8 @@ mod tests {
         assert_eq!(Fit::new(&[group(0.0, 0), group(1.0, 0)]), Fit::NoneExceeded);
         assert_eq!(Fit::new(&[group(0.0, 10)]), Fit::AllExceeded);
         assert!(matches!(Fit::new(&[group(0.0, 0), group(1.0, 10)]), Fit::Separated { .. }));
+        assert_eq!(Fit::new(&[group(0.0, 0), group(1.0, 5), group(2.0, 10)]), Fit::Undetermined);
+        assert_eq!(Fit::new(&[group(1.0, 3)]), Fit::Undetermined);
         assert_eq!(Fit::new(&[group(0.0, 8), group(1.0, 2)]), Fit::Falling);
     }
 }

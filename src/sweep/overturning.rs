@@ -158,6 +158,10 @@ fn intervals(levels: &[f64], width: f64, fates: &dyn Fn(&[f64]) -> Vec<Fate>) ->
             stretches.push((0.5 * (low + high), beyond));
             (from, fate) = (high, beyond);
         }
+        // more changes than are sought: the scan's own answer holds from here on
+        if fate != scanned[i] {
+            stretches.push((levels[i], scanned[i]));
+        }
     }
     let mut found = Vec::new();
     for (i, (from, fate)) in stretches.iter().enumerate() {

@@ -14,7 +14,7 @@ use super::{
 };
 use crate::{
     case::{ACCURACY, LEAST_INERTIA, LONGEST_S},
-    record::{Notice, ReadOptions},
+    record::{Notice, ReadOptions, fnv1a},
     scalar::GRAVITY,
     structure::{self, Body, Structure},
 };
@@ -281,13 +281,8 @@ impl Plan {
                 }
             }
         }
-        Ok(format!("{:016x}", fnv1a(text.as_bytes())))
+        Ok(format!("{:016x}", fnv1a(text.bytes())))
     }
-}
-
-/// FNV-1a, 64 bit.
-fn fnv1a(bytes: &[u8]) -> u64 {
-    bytes.iter().fold(0xcbf2_9ce4_8422_2325, |hash, byte| (hash ^ u64::from(*byte)).wrapping_mul(0x0100_0000_01b3))
 }
 
 fn subjects(source: &Source) -> Result<Vec<Subject>, SweepError> {

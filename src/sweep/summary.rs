@@ -2,7 +2,7 @@
 
 use super::{
     compare::Comparison,
-    fragility::{Fragility, MEASURES, State, subject_name},
+    fragility::{Fragility, MEASURES, Member, State, subject_name},
     ida::Ida,
     plan::Plan,
     reduce::MODELS,
@@ -35,7 +35,8 @@ const SPOKEN_OF: usize = 12;
 pub fn fragility(plan: &Plan, fragility: &Fragility) -> Vec<String> {
     let mut said = Vec::new();
     let percent = 100.0 * fragility.confidence;
-    for (at, member) in fragility.members.iter().enumerate().take(SPOKEN_OF) {
+    let spoken_of = |member: &Member| member.subject.is_none_or(|subject| subject < SPOKEN_OF);
+    for (at, member) in fragility.members.iter().enumerate().filter(|(_, member)| spoken_of(member)) {
         let rows = || fragility.rows.iter().filter(move |row| row.member == at && row.state == State::Overturning);
         let Some(pga) = rows().find(|row| row.measure == if member.subject.is_some() { 0 } else { 2 }) else {
             continue;
@@ -64,6 +65,9 @@ pub fn fragility(plan: &Plan, fragility: &Fragility) -> Vec<String> {
             (Fit::Separated { below, above }, _) => {
                 format!("{measure} alone decides: up to {below:.3}{unit} it stands, from {above:.3}{unit} it overturns")
             }
+            (Fit::Undetermined, _) => {
+                format!("no fit on {measure}: outcomes are mixed at one level alone; add levels about it")
+            }
             _ => format!("no fit on {measure}: higher levels overturn it less often"),
         };
         said.push(format!(
@@ -78,7 +82,7 @@ pub fn fragility(plan: &Plan, fragility: &Fragility) -> Vec<String> {
             said.push(format!("  {} histories are left out: failed, or the pivot left the ground.", member.excluded));
         }
     }
-    if fragility.members.len() > SPOKEN_OF {
+    if plan.subjects.len() > SPOKEN_OF {
         said.push("- All structures are in fragility.csv.".into());
     }
     let records = fragility.members.first().map_or(0, |member| member.records);

@@ -126,9 +126,12 @@ pub fn ida(plan: &Plan, ida: &Ida, path: &Path) -> Result<(), CommandError> {
         .enumerate()
         .take(PANELS)
         .map(|(i, subject)| {
-            let points: Vec<&Point> =
-                ida.points.iter().filter(|p| p.subject == i && p.model == first && p.restitution == 0).collect();
-            let quantile = |share: f64| points.iter().map(|point| point.quantile(share).unwrap_or(0.0)).collect();
+            let points: Vec<&Point> = ida
+                .points
+                .iter()
+                .filter(|p| p.subject == i && p.model == first && p.restitution == 0 && p.n > 0)
+                .collect();
+            let quantile = |share: f64| points.iter().filter_map(|point| point.quantile(share)).collect();
             levels::Subject {
                 label: subject.name.clone(),
                 records: ida
@@ -141,7 +144,11 @@ pub fn ida(plan: &Plan, ida: &Ida, path: &Path) -> Result<(), CommandError> {
                 quantiles: [quantile(0.16), quantile(0.5), quantile(0.84)],
             }
         })
+        .filter(|subject: &levels::Subject| !subject.levels.is_empty())
         .collect();
+    if subjects.is_empty() {
+        return Ok(());
+    }
     let title = format!("Peak rotation against {}, {} motions", level_label(plan), plan.motions.len());
     Ok(levels::draw(&levels::Ida { title: &title, level_label: level_label(plan), subjects: &subjects })?.save(path)?)
 }
@@ -152,7 +159,9 @@ pub fn overturning(plan: &Plan, table: &Table, path: &Path) -> Result<(), Comman
     let (subject, pulse) = (table.counts("structure_index"), table.texts("pulse"));
     let (low, high) = (plan.levels[0], plan.levels[plan.levels.len() - 1]);
     let mut all: Vec<((i64, &str, &str), spectra::Spectrum)> = Vec::new();
-    for row in 0..table.rows() {
+    let e = table.reals("restitution");
+    // one spectrum each, of the first restitution
+    for row in (0..table.rows()).filter(|&row| e[row] == Some(plan.restitution(subject[row] as usize, 0))) {
         let key = (subject[row], &*pulse[row], &*model[row]);
         let at = all.iter().position(|(other, _)| *other == key).unwrap_or_else(|| {
             let which = if plan.subjects.len() > 1 { format!(", structure {}", key.0 + 1) } else { String::new() };
@@ -202,12 +211,15 @@ pub fn rocking(plan: &Plan, ida: &Ida, path: &Path) -> Result<(), CommandError> 
         };
         let body = |point: &Point| {
             let subject = &plan.subjects[point.subject];
-            maps::Body { period: 1.0 / subject.p, alpha: subject.alpha, peak: point.quantile(0.5).unwrap_or(0.0) }
+            Some(maps::Body { period: 1.0 / subject.p, alpha: subject.alpha, peak: point.quantile(0.5)? })
         };
-        let bodies: Vec<maps::Body> = ida.points.iter().filter(mine).map(body).collect();
+        let bodies: Vec<maps::Body> = ida.points.iter().filter(mine).filter_map(body).collect();
         if !bodies.is_empty() {
             maps_found.push(maps::Map { label: name.into(), bodies });
         }
+    }
+    if maps_found.is_empty() {
+        return Ok(());
     }
     let of = match &plan.motions[..] {
         [one] => one.name(),

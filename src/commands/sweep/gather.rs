@@ -108,8 +108,8 @@ fn histories(
         save("histories.csv", &whole(parts, &row::table(plan, &[]))?)?;
     }
     let mut said = vec![summary::head(plan)];
-    let ida = Ida::new(parts)?;
     if plan.kind == Kind::Rocking {
+        let ida = Ida::new(parts)?;
         save("rocking.csv", &ida.table(plan))?;
         if draw {
             figures::rocking(plan, &ida, &out.join("rocking.png"))?;
@@ -117,7 +117,7 @@ fn histories(
         said.extend(summary::rocking(plan, &ida));
     }
     if plan.kind == Kind::Fragility {
-        let fragility = Fragility::new(parts)?;
+        let (ida, fragility) = (Ida::new(parts)?, Fragility::new(parts)?);
         save("ida.csv", &ida.table(plan))?;
         save("fragility.csv", &fragility.table(plan))?;
         if draw {
