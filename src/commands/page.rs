@@ -6,7 +6,7 @@ use super::{
     draw::Figure,
     members,
     run::Run,
-    table::{self, FORCES},
+    table::{self, FORCES, strings},
 };
 use crate::{
     case::Objective,
@@ -362,16 +362,12 @@ impl Page<'_> {
 fn objective(objective: Objective) -> &'static str {
     match objective {
         Objective::Landing => "the landing of the structure, from its geometry",
-        Objective::Arr => "the paper's procedure: frequency response, then Omega_n on the record",
+        Objective::Arr => "the paper's procedure: frequency response, then Ωₙ on the record",
     }
 }
 
 fn hz(x: f64) -> String {
     if x < 1e3 { format!("{} Hz", short(x, 4)) } else { format!("{} kHz", short(x * 1e-3, 4)) }
-}
-
-fn strings(all: &[&str]) -> Vec<String> {
-    all.iter().map(|s| s.to_string()).collect()
 }
 
 fn cite() -> String {

@@ -133,7 +133,7 @@ fn terminal_table<T: AsRef<[String]>>(head: &[String], rows: impl IntoIterator<I
     table.to_string()
 }
 
-fn strings(head: &[&str]) -> Vec<String> {
+pub(super) fn strings(head: &[&str]) -> Vec<String> {
     head.iter().map(|s| s.to_string()).collect()
 }
 

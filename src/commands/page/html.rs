@@ -79,7 +79,7 @@ pub fn facts(rows: &[(&str, String)]) -> String {
     let mut out = String::from("<div class=\"scroll\"><table class=\"facts\"><tbody>\n");
     for (name, value) in rows {
         // writing to a String cannot fail
-        let _ = writeln!(out, "<tr><td>{}</td><td>{}</td></tr>", pretty(name), pretty(value));
+        let _ = writeln!(out, "<tr><td>{}</td><td>{}</td></tr>", pretty(name), escape(value));
     }
     out + "</tbody></table></div>\n"
 }

@@ -183,11 +183,13 @@
       const [width, height] = [right - left, bottom - top];
       const inside = add(g, "svg", { x: left, y: top, width, height, viewBox: `${left} ${top} ${width} ${height}` });
       for (const curve of panel.curves) this.curve(inside, panel, curve);
-      for (const [t, words] of panel.events) {
-        const [x] = this.place(panel, t, 0);
+      panel.events.forEach(([t, words], row) => {
+        if (t < this.from || t > this.to) return;
+        const [x] = this.place(panel, t, 0), after = x < (left + right) / 2;
         add(inside, "line", { x1: x, x2: x, y1: top, y2: bottom, stroke: "#222", "stroke-width": 2, "stroke-dasharray": "10 7" });
-        add(inside, "text", { x: x - 10, y: top + 30, "font-size": 25, "text-anchor": "end" }, words);
-      }
+        const at = { x: x + (after ? 10 : -10), y: top + 30 + 36 * row };
+        add(inside, "text", { ...at, "font-size": 25, "text-anchor": after ? "start" : "end" }, words);
+      });
       panel.marks.forEach(({ times, colour }, row) => {
         const y = bottom - 13 - 25 * row;
         let before = -Infinity;
