@@ -1,6 +1,6 @@
 #!/usr/bin/env python3
-"""No module of the library may depend on itself by way of others: reads `crate::` paths and `use` trees of src/, top-level modules only.
-Tests (`#[cfg(test)]` modules, files named tests) may look anywhere.
+"""A module of the library may use those alone that stand above it in src/lib.rs, so that none depends on itself by way of others: reads
+`crate::` paths and `use` trees of src/, top-level modules only. Tests (`#[cfg(test)]` modules, files named tests) may look anywhere.
 
     circles.py
 """
@@ -15,9 +15,10 @@ def files(name):
     yield from (p for p in (SRC / name).rglob("*.rs") if p.stem != "tests" and "tests" not in p.parent.parts)
 
 
-def used(text):
+def used(text, at_top):
     text = re.sub(r"//.*", "", text.split("#[cfg(test)]\nmod tests {")[0])
     found = set(re.findall(r"crate::(\w+)", text))
+    found |= set(re.findall(r"super::(\w+)", text)) if at_top else set()
     for tree in re.findall(r"crate::\{(.*?)\};", text, re.S):
         depth, word = 0, ""
         for c in tree + ",":
@@ -30,29 +31,15 @@ def used(text):
     return found & set(names)
 
 
-graph = {name: set().union(*(used(p.read_text()) for p in files(name) if p.exists())) - {name} for name in names}
+graph = {name: set().union(*(used(p.read_text(), p.parent == SRC) for p in files(name) if p.exists())) - {name} for name in names}
 
 
-def circle():
-    done, path = set(), []
-
-    def visit(name):
-        if name in path:
-            return path[path.index(name):] + [name]
-        if name in done:
-            return None
-        path.append(name)
-        for other in sorted(graph[name]):
-            if found := visit(other):
-                return found
-        path.pop()
-        done.add(name)
-
-    for name in names:
-        if found := visit(name):
-            return found
-
-
-if found := circle():
-    sys.exit("a circle of modules: " + " -> ".join(found))
-print(f"{len(names)} modules, {sum(map(len, graph.values()))} dependencies, no circle")
+wrong = [
+    f"{name} uses {other}, which stands below it"
+    for place, name in enumerate(names)
+    for other in sorted(graph[name])
+    if names.index(other) > place
+]
+if wrong:
+    sys.exit("src/lib.rs says that each module uses those above it alone: " + "; ".join(wrong))
+print(f"{len(names)} modules, {sum(map(len, graph.values()))} dependencies, each on a module further up in src/lib.rs")

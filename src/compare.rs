@@ -4,6 +4,7 @@ use serde::{Deserialize, Deserializer, Serialize};
 
 use crate::{
     fem::{History, Landing},
+    housner::Impact,
     motion::{Motion, nrmse, peak},
     overturning::{overturned, samples_until},
     structure::Body,
@@ -40,6 +41,13 @@ pub struct Match {
     pub impacts_housner: usize,
     /// Landings, re-landings of a bounce not counted.
     pub impacts_fem: usize,
+    /// Housner's impacts harder than a fall from 0.02 alpha: what both models count alike, for a body that comes to rest has ever
+    /// more, ever gentler ones by his theory, and sways on its springs.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub impacts_housner_firm: Option<usize>,
+    /// The same of the finite elements.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub impacts_fem_firm: Option<usize>,
     /// Landing feet that opened again within 0.25 s, the body not having reversed.
     pub bounces: usize,
     /// Settlement of the standing body under its weight (m).
@@ -57,9 +65,9 @@ pub struct Match {
 }
 
 impl Match {
-    /// Compare a history with Housner's motion, both sampled at dt, and the number of his impacts.
-    pub fn new(body: &Body<f64>, dt: f64, rocking: (&Motion, usize), fem: &History, restitution: f64) -> Self {
-        let (housner, impacts_housner) = rocking;
+    /// Compare a history with Housner's motion, both sampled at dt, and his impacts.
+    pub fn new(body: &Body<f64>, dt: f64, rocking: (&Motion, &[Impact<f64>]), fem: &History, restitution: f64) -> Self {
+        let (housner, impacts) = rocking;
         let times = [housner, &fem.motion].map(|motion| overturned(body, dt, &motion.theta));
         let until = times.into_iter().flatten().reduce(f64::min);
         let n = housner.len().min(fem.motion.len()).min(samples_until(until, dt));
@@ -71,6 +79,9 @@ impl Match {
         let landings = effective_restitution(before());
         let largest = before().filter(|l| l.impact).map(|l| l.kinetic).fold(0.0, f64::max);
         let error = |least: f64| error_above(&landings, restitution, least);
+        let firm = body.fall(LEAST_LEAN * body.alpha());
+        let inertia = body.mass * body.radius().powi(2) / body.mass_share();
+        let kinetic = |impact: &Impact<f64>| 0.5 * inertia * impact.rate_before.powi(2);
         Self {
             duration_s: n.saturating_sub(1) as f64 * dt,
             overturned_housner_s: times[0],
@@ -81,12 +92,14 @@ impl Match {
             peak_horizontal_fem_m: peak(&fem.motion.u[..n]),
             peak_vertical_housner_m: peak(&housner.v[..n]),
             peak_vertical_fem_m: peak(&fem.motion.v[..n]),
-            impacts_housner,
+            impacts_housner: impacts.len(),
             impacts_fem: before().filter(|l| l.impact).count(),
+            impacts_housner_firm: Some(impacts.iter().filter(|impact| kinetic(impact) > firm).count()),
+            impacts_fem_firm: Some(before().filter(|l| l.impact && l.kinetic > firm).count()),
             bounces: before().filter(|l| l.bounced).count(),
             settlement_m: -fem.initial_z,
             restitution_error_max: error(LANDINGS_THAT_MATTER * largest).unwrap_or(0.0),
-            restitution_error_firm: error(body.fall(LEAST_LEAN * body.alpha())),
+            restitution_error_firm: error(firm),
             energy_residual: fem.energy_residual,
         }
     }
@@ -138,8 +151,30 @@ mod tests {
         let rocking = solve(&body, dt, &accel, &Options::default());
         let (start, control) = (Start::Settled, Control::default());
         let history = Case { body, springs, start, dt, accel: &accel, vertical: &[], scale: 1.0, control }.simulate();
-        let housner = (&rocking.motion(&body), rocking.impacts.len());
+        let housner = (&rocking.motion(&body), &rocking.impacts[..]);
         (body, Match::new(&body, dt, housner, &history, body.restitution()), rocking.overturned().unwrap_or(f64::NAN))
+    }
+
+    /// A block that falls from 0.3 alpha lands with e^2 of the energy each time: (1 - |theta|/alpha)^2 - 1 of alpha is what is left, so
+    /// that it takes a count of landings until a fall from less than 0.02 alpha, and infinitely many to rest.
+    #[test]
+    fn impacts_above_the_threshold_are_as_many_in_both_models() {
+        let structure = Structure::block(2.0, 0.5, 1e3).unwrap();
+        let body = structure.body::<f64>();
+        let (dt, accel, theta) = (0.005, vec![0.0; 2000], 0.3 * body.alpha());
+        let options = Options { initial: Some((theta, 0.0)), ..Options::default() };
+        let rocking = solve(&body, dt, &accel, &options);
+        let design = Design::from_kc(0.3, 0.1, 0.75, 2000.0);
+        let springs = Springs { vertical: design, horizontal: design }.chains(body.mass);
+        let (start, control) = (Start::Leaning(theta), Control::default());
+        let history = Case { body, springs, start, dt, accel: &accel, vertical: &[], scale: 1.0, control }.simulate();
+        let found =
+            Match::new(&body, dt, (&rocking.motion(&body), &rocking.impacts), &history, body.restitution());
+        let energy = |lean: f64| (1.0 - (1.0 - lean).powi(2)) / (1.0 - 0.7f64.powi(2));
+        let expected = (energy(0.02).ln() / (2.0 * body.restitution().ln())).ceil() as usize;
+        assert!(found.impacts_housner_firm.unwrap().abs_diff(expected) <= 1, "{found:?}, {expected}");
+        assert!(found.impacts_fem_firm.unwrap().abs_diff(found.impacts_housner_firm.unwrap()) <= 1, "{found:?}");
+        assert!(found.impacts_housner > found.impacts_housner_firm.unwrap(), "{found:?}");
     }
 
     /// alpha is passed at acosh(1 + 1/(x - 1))/p, small angles, x the push over its limit: 1.3170/p for x = 2.

@@ -62,25 +62,27 @@ mod house {
 
     pub mod housner;
 
+    pub mod overturning;
+
     pub mod conditioning;
 
     pub mod regime;
 
     pub mod fem;
 
-    pub mod overturning;
-
     pub mod compare;
 
     pub mod verdict;
 
-    pub mod answers;
+    pub mod validate;
 
-    pub mod parameters;
+    pub mod case;
 
     pub mod tuning;
 
-    pub mod validate;
+    pub mod parameters;
+
+    pub mod answers;
 
     pub mod predictability;
 
@@ -95,13 +97,11 @@ mod house {
     #[cfg(feature = "cli")]
     pub mod verify;
 
-    pub mod case;
+    #[cfg(feature = "figures")]
+    pub mod figures;
 
     #[cfg(feature = "cli")]
     pub mod commands;
-
-    #[cfg(feature = "figures")]
-    pub mod figures;
 }
 
 #[cfg(not(feature = "internals"))]

@@ -170,8 +170,8 @@ impl Verdict {
                 self.compared_s
             )),
             Some(_) => lines.push(
-                "the motion is ILL-CONDITIONED: whatever the springs, histories cannot be compared one to one; judge \
-                 them over many motions (tune validate)"
+                "this one motion is ILL-CONDITIONED: the least change of structure or record makes another history of it, so that no \
+                 model can foretell it, whatever its springs; judge them by many motions (tune validate)"
                     .into(),
             ),
         }

@@ -34,8 +34,8 @@ static TUNED: LazyLock<Tuned> = LazyLock::new(|| {
         control: Control::default(),
     }
     .simulate();
-    let impacts = job.rocking.impacts.len();
-    let matched = Match::new(&job.body, job.record.dt, (&job.housner, impacts), &fem, case.restitution);
+    let rocking = (&job.housner, &job.rocking.impacts[..]);
+    let matched = Match::new(&job.body, job.record.dt, rocking, &fem, case.restitution);
     Tuned { job, fem, matched }
 });
 

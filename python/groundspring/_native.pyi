@@ -207,7 +207,7 @@ class History:
         """When |theta| last grew past alpha, of a body that overturned, s."""
     @property
     def peak_ratio(self) -> float:
-        """Largest |theta|/alpha; infinite if it overturned."""
+        """Largest |theta|/alpha, without unit; pi/2 / alpha if it overturned, as in every table of the program."""
     def __len__(self) -> int: ...
     def to_pandas(self) -> pandas.DataFrame: ...
 
@@ -219,7 +219,7 @@ class Histories:
     def __getitem__(self, index: int, /) -> History: ...
     @property
     def peak_ratio(self) -> _Array:
-        """Largest |theta|/alpha of each; infinite where the body overturned."""
+        """Largest |theta|/alpha of each, without unit; pi/2 / alpha where the body overturned."""
     @property
     def overturned(self) -> npt.NDArray[np.bool_]:
         """Whether each overturned."""

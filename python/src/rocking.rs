@@ -2,6 +2,7 @@
 
 use std::{
     borrow::Cow,
+    f64::consts::FRAC_PI_2,
     sync::{Arc, OnceLock},
 };
 
@@ -38,7 +39,8 @@ impl Solved {
 
     fn peak_ratio(&self) -> f64 {
         if self.rocking.overturned().is_some() {
-            return f64::INFINITY;
+            // as in the tables of tune validate and tune sweep: it lies, and how far it had fallen says nothing
+            return FRAC_PI_2 / self.body.alpha();
         }
         self.rocking.theta.iter().fold(0.0, |peak: f64, x| peak.max(x.abs())) / self.body.alpha()
     }
@@ -124,7 +126,7 @@ impl History {
         self.one().rocking.overturned()
     }
 
-    /// Largest |theta|/alpha; infinite if it overturned.
+    /// Largest |theta|/alpha; pi/2 / alpha if it overturned.
     #[getter]
     fn peak_ratio(&self) -> f64 {
         self.one().peak_ratio()
@@ -168,7 +170,7 @@ impl Histories {
         Ok(History { all: self.0.clone(), index: at as usize })
     }
 
-    /// Largest |theta|/alpha of each; infinite where the body overturned.
+    /// Largest |theta|/alpha of each; pi/2 / alpha where the body overturned.
     #[getter]
     fn peak_ratio<'py>(&self, py: Python<'py>) -> Array<'py> {
         PyArray1::from_iter(py, self.0.iter().map(Solved::peak_ratio))

@@ -9,7 +9,7 @@ use super::{common::csv_row, table::FORCES};
 use crate::{
     answers::WithMembers,
     compare::Match,
-    fem::{Demands, QUANTITIES},
+    fem::{Demands, Peak, QUANTITIES},
     members::Members,
     motion::shown,
 };
@@ -27,8 +27,8 @@ pub fn csv(dt: f64, demands: &Demands) -> String {
 }
 
 /// Largest forces and their times, as JSON.
-pub fn forces(demands: &Demands) -> Value {
-    let peak = |k: usize| json!({ "value": demands.peaks[k].value, "time_s": demands.peaks[k].time });
+fn forces(peaks: &[Peak; QUANTITIES.len()]) -> Value {
+    let peak = |k: usize| json!({ "value": peaks[k].value, "time_s": peaks[k].time });
     Value::Object(QUANTITIES.iter().enumerate().map(|(k, name)| (name.to_string(), peak(k))).collect::<Map<_, _>>())
 }
 
@@ -37,7 +37,9 @@ pub fn forces(demands: &Demands) -> Value {
 pub struct Report<'a> {
     #[serde(flatten)]
     matched: &'a Match,
+    /// Over all steps: in landings, forces of the springs.
     forces: Value,
+    forces_between_landings: Value,
     #[serde(skip_serializing_if = "Option::is_none")]
     with_members: Option<With<'a>>,
 }
@@ -47,13 +49,19 @@ struct With<'a> {
     #[serde(rename = "match")]
     matched: &'a Match,
     forces: Value,
+    forces_between_landings: Value,
 }
 
 impl<'a> Report<'a> {
     /// Of a rigid body's history, and of one with members if there is one.
     pub fn new(matched: &'a Match, demands: &Demands, with: Option<&'a WithMembers>) -> Self {
-        let with = with.map(|with| With { matched: &with.matched, forces: forces(&with.demands) });
-        Self { matched, forces: forces(demands), with_members: with }
+        let with = with.map(|with| With {
+            matched: &with.matched,
+            forces: forces(&with.demands.peaks),
+            forces_between_landings: forces(&with.demands.between),
+        });
+        let (all, between) = (forces(&demands.peaks), forces(&demands.between));
+        Self { matched, forces: all, forces_between_landings: between, with_members: with }
     }
 }
 
@@ -95,31 +103,47 @@ pub fn markdown(rigid: &Demands, with: Option<&WithMembers>) -> String {
             m.settlement_m * 1e3
         );
     }
-    let what = "Largest forces, between samples too; axial force positive in compression, moment at the mass.";
     // writing to a String cannot fail
-    let _ = write!(out, "\n{what} {FORCES}\n\n");
-    out.push_str(if with.is_some() {
-        "| | rigid body | with members |\n|---|---|---|\n"
-    } else {
-        "| | rigid body |\n|---|---|\n"
-    });
+    let _ = write!(out, "\n{ABOUT} {FORCES}\n\n");
+    let columns = columns(rigid, with);
+    let names: Vec<&str> = columns.iter().map(|(name, _)| *name).collect();
+    let _ = writeln!(out, "| largest force | {} |\n|---|{}", names.join(" | "), "---|".repeat(names.len()));
     for (k, name) in QUANTITIES.iter().enumerate() {
-        let cell = |d: &Demands| format!("{:.4e} at {:.3} s", d.peaks[k].value, d.peaks[k].time);
-        let there = |d: &Demands| d.peaks[k].value != 0.0;
-        if there(rigid) || with.is_some_and(|w| there(&w.demands)) {
-            let _ = match with {
-                Some(w) => writeln!(out, "| {name} | {} | {} |", cell(rigid), cell(&w.demands)),
-                None => writeln!(out, "| {name} | {} |", cell(rigid)),
+        if columns.iter().any(|(_, peaks)| peaks[k].value != 0.0) {
+            let cell = |peak: Peak| match peak.value {
+                0.0 => "-".to_string(),
+                value => format!("{value:.4e} at {:.3} s", peak.time),
             };
+            let cells: Vec<String> = columns.iter().map(|(_, peaks)| cell(peaks[k])).collect();
+            let _ = writeln!(out, "| {name} | {} |", cells.join(" | "));
         }
     }
     out
 }
 
+/// What the table of forces holds.
+pub(super) const ABOUT: &str = "Largest forces between landings, later than 0.1/p after the last touch-down of a foot, are those of a \
+                                rocking structure; those in landings are the springs'. Axial force is positive in compression, the \
+                                moment is that at the mass.";
+
+/// The largest forces of each history, between landings and in them.
+pub(super) fn columns<'a>(
+    rigid: &'a Demands,
+    with: Option<&'a WithMembers>,
+) -> Vec<(&'static str, &'a [Peak; QUANTITIES.len()])> {
+    let mut columns = vec![("between landings", &rigid.between), ("in landings", &rigid.peaks)];
+    if let Some(with) = with {
+        columns.extend([
+            ("with members, between landings", &with.demands.between),
+            ("with members, in landings", &with.demands.peaks),
+        ]);
+    }
+    columns
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::fem::Peak;
 
     #[test]
     fn forces_stand_in_named_columns_with_their_times() {
@@ -130,9 +154,9 @@ mod tests {
         let text = csv(0.02, &demands);
         assert!(text.starts_with("t,base_shear_n,axial_left_n,"));
         assert!(text.lines().nth(2).unwrap().starts_with("0.0200000000000,-2.50000000000,0,"));
-        assert_eq!(forces(&demands)["base_shear_n"]["time_s"], 0.013);
+        assert_eq!(forces(&demands.peaks)["base_shear_n"]["time_s"], 0.013);
         let table = markdown(&demands, None);
-        assert!(table.contains("| base_shear_n | -2.5000e0 at 0.013 s |\n"), "{table}");
+        assert!(table.contains("| base_shear_n | - | -2.5000e0 at 0.013 s |\n"), "{table}");
         assert!(!table.contains("tendon_n"));
     }
 }

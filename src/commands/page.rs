@@ -118,13 +118,10 @@ impl Page<'_> {
 
     fn sentence(&self) -> String {
         let reached = self.parameters.assessment.as_ref().is_none_or(|a| a.reached);
+        let missed = if reached { "" } else { "The accuracy asked for was not reached. " };
         let Some(v) = &self.parameters.verdict else {
-            return if reached {
-                "Springs of the accuracy asked for, tuned without a record"
-            } else {
-                "Accuracy not reached"
-            }
-            .into();
+            let without = "Springs tuned without a record";
+            return if reached { format!("{without}, of the accuracy asked for") } else { format!("{missed}{without}") };
         };
         let what = match (v.agrees(), v.housner.fate, v.finite_elements.fate) {
             (false, ..) => "The two models disagree on what the structure does".to_string(),
@@ -138,10 +135,13 @@ impl Page<'_> {
         };
         match (v.well_conditioned, v.nrmse_horizontal) {
             (true, Some(e)) if v.agrees() => {
-                format!("{what}; the finite elements follow Housner to {} %", short(e * 100.0, 2))
+                format!("{missed}{what}; the finite elements follow Housner to {} %", short(e * 100.0, 2))
             }
-            (false, Some(_)) => format!("{what}; its history cannot be compared one to one"),
-            _ => what,
+            (false, Some(_)) if reached => format!(
+                "{what}; no model can foretell this one motion, but the springs can be trusted: they were judged on synthetic ones"
+            ),
+            (false, Some(_)) => format!("{missed}{what}; no model can foretell this one motion"),
+            _ => format!("{missed}{what}"),
         }
     }
 
@@ -157,7 +157,9 @@ impl Page<'_> {
             let until = v.housner.left_ground_s.map_or(String::new(), |t| format!(" until t = {t:.2} s"));
             let ratio = format!("peak theta/alpha; Housner {:.3}{until}", v.housner.peak_ratio);
             out += &tile(&format!("{:.3}", v.finite_elements.peak_ratio), &ratio);
-            out += &tile(&m.impacts_fem.to_string(), &format!("impacts; Housner {}", m.impacts_housner));
+            if let (Some(fem), Some(housner)) = (m.impacts_fem_firm, m.impacts_housner_firm) {
+                out += &tile(&fem.to_string(), &format!("impacts harder than a fall from 0.02 alpha; Housner {housner}"));
+            }
             if v.well_conditioned {
                 out += &tile(&shown(m.nrmse_horizontal), "error of u on the record (NRMSE)");
             }
@@ -208,8 +210,9 @@ impl Page<'_> {
         let mut out = String::from(
             "<p>Table 1 of the paper, for one foot; every foot has a vertical and a horizontal unit. In a unit the gap spring k₁ stands \
              between the foot and an absorber of mass m₂, and the spring k₂ and the dashpot c, side by side, between the absorber and the \
-             ground. μ = m₂/m₁ with the structure's mass m₁.</p>\n",
+             ground. μ = m₂/m₁ with the structure's mass m₁. ",
         );
+        out += &format!("{}</p>\n", pretty(table::ABSORBER));
         out += &table(&head, rows, 1..3);
         let columns = self.parameters.paper_procedure.is_some() || self.parameters.table_1.is_some();
         if columns {
@@ -293,28 +296,27 @@ impl Page<'_> {
 
     fn forces(&self) -> String {
         let Some(run) = self.run else { return String::new() };
-        let all: Vec<_> = [("rigid body", &run.both.demands)]
-            .into_iter()
-            .chain(run.both.with.as_ref().map(|with| ("with members", &with.demands)))
-            .collect();
-        let mut head = strings(&["largest of the history"]);
-        head.extend(all.iter().map(|(name, _)| name.to_string()));
+        let columns = members::columns(&run.both.demands, run.both.with.as_ref());
+        let mut head = strings(&["largest force"]);
+        head.extend(columns.iter().map(|(name, _)| name.to_string()));
         let rows = crate::fem::QUANTITIES.iter().enumerate().filter_map(|(k, name)| {
             let (what, unit) = name.rsplit_once('_')?;
             let unit = if unit == "nm" { "N m" } else { "N" };
-            if all.iter().all(|(_, demands)| demands.peaks[k].value == 0.0) {
+            if columns.iter().all(|(_, peaks)| peaks[k].value == 0.0) {
                 return None;
             }
             let cell = |peak: crate::fem::Peak| {
                 let (factor, letter) = figures::prefix(peak.value.abs());
-                format!("{} {letter}{unit} at {:.2} s", short(peak.value / factor, 4), peak.time)
+                match peak.value {
+                    0.0 => "-".into(),
+                    value => format!("{} {letter}{unit} at {:.2} s", short(value / factor, 4), peak.time),
+                }
             };
             let mut row = vec![what.replace("axial", "axial force").replace('_', " ")];
-            row.extend(all.iter().map(|(_, demands)| cell(demands.peaks[k])));
+            row.extend(columns.iter().map(|(_, peaks)| cell(peaks[k])));
             Some(row)
         });
-        let about = "Between samples too; axial force is positive in compression, the moment is that at the mass.";
-        format!("<p><b>{}</b> {about}</p>\n{}", pretty(FORCES), table(&head, rows, 0..0))
+        format!("<p>{} <b>{}</b></p>\n{}", pretty(members::ABOUT), pretty(FORCES), table(&head, rows, 1..2))
     }
 
     fn stiffness(&self) -> String {

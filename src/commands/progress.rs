@@ -27,16 +27,17 @@ impl Progress {
         Self { bar, lines: !quiet && !terminal, what, tenth: AtomicUsize::new(0) }
     }
 
-    /// `done` of `total`, with the status.
+    /// `done` of `total`, with the status; a total of zero is not known.
     pub fn tell(&self, done: usize, total: usize, status: &str) {
         if let Some(bar) = &self.bar {
-            bar.set_length(total as u64);
+            // a total that is not known keeps the bar open
+            bar.set_length(if total == 0 { done as u64 + 1 } else { total as u64 });
             bar.set_position(done as u64);
             bar.set_message(status.to_string());
         }
         let tenth = 10 * done / total.max(1);
         if self.lines && self.tenth.swap(tenth, Ordering::Relaxed) != tenth {
-            eprintln!("{}: {done}/{total} {status}", self.what);
+            eprintln!("{}", line(self.what, done, total, status));
         }
     }
 
@@ -44,5 +45,23 @@ impl Progress {
         if let Some(bar) = &self.bar {
             bar.finish_and_clear();
         }
+    }
+}
+
+/// A line for a pipe.
+fn line(what: &str, done: usize, total: usize, status: &str) -> String {
+    let count = if total == 0 { format!("{done} tried") } else { format!("{done}/{total}") };
+    let comma = if status.is_empty() { "" } else { ", " };
+    format!("{what}: {count}{comma}{status}")
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_total_that_is_not_known_is_not_said() {
+        assert_eq!(line("tuning", 3, 0, "error 3.7e-4"), "tuning: 3 tried, error 3.7e-4");
+        assert_eq!(line("front", 3, 9, ""), "front: 3/9");
     }
 }

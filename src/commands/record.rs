@@ -15,7 +15,7 @@ use super::{CommandError, output::check_folder};
 use crate::{
     case::{Case, LONGEST_S},
     figures,
-    record::{ReadOptions, RecordFormat, Recording, Units},
+    record::{ReadOptions, RecordFormat, Recording, Source, Units},
     scalar::GRAVITY,
     structure::Body,
 };
@@ -24,8 +24,8 @@ use row::Row;
 /// Options of `tune record`.
 #[derive(Debug, Args)]
 pub struct Options {
-    /// Record files of any format
-    #[arg(required = true, value_name = "FILE")]
+    /// Record files of any format; that of the case unless given
+    #[arg(required_unless_present = "case", value_name = "FILE")]
     files: Vec<PathBuf>,
     /// Time step, where the files do not say
     #[arg(long, value_name = "SECONDS", allow_negative_numbers = true)]
@@ -39,7 +39,7 @@ pub struct Options {
     /// Subtract the mean of the samples
     #[arg(long)]
     baseline: bool,
-    /// Structure to measure the records on
+    /// Case file: the structure to measure the records on, and the record where none is named
     #[arg(long, value_name = "case.toml")]
     case: Option<PathBuf>,
     /// JSON on stdout instead of tables
@@ -81,11 +81,9 @@ pub fn run(o: &Options) -> Result<(), CommandError> {
     if let Some(folder) = &o.out {
         check_folder(folder)?;
     }
-    let options =
-        ReadOptions { dt: o.dt, units: o.units, component: o.component.clone(), baseline: o.baseline, vertical: None };
     let (mut reports, mut bad) = (Vec::new(), Vec::new());
-    for file in &o.files {
-        match Recording::read(file, &options) {
+    for (file, options) in &named(o, case.as_ref())? {
+        match Recording::read(file, options) {
             Ok(recording) => {
                 if let Some(folder) = &o.out {
                     draw(folder, file, &recording, body.as_ref())?;
@@ -115,6 +113,30 @@ pub fn run(o: &Options) -> Result<(), CommandError> {
     match bad.len() {
         0 => Ok(()),
         n => Err(CommandError::Result(format!("{n} of {} files could not be read", o.files.len()))),
+    }
+}
+
+/// The files that were named and how to read them; with none named, that of the case, as the case says unless an option does.
+fn named(o: &Options, case: Option<&Case>) -> Result<Vec<(PathBuf, ReadOptions)>, CommandError> {
+    let asked =
+        ReadOptions { dt: o.dt, units: o.units, component: o.component.clone(), baseline: o.baseline, vertical: None };
+    let Some(case) = case.filter(|_| o.files.is_empty()) else {
+        return Ok(o.files.iter().map(|file| (file.clone(), asked.clone())).collect());
+    };
+    match case.excitation.record.source.clone() {
+        Source::File { path, units, component, baseline } => {
+            let options = ReadOptions {
+                dt: asked.dt.or(Some(case.excitation.record.dt)),
+                units: asked.units.or(Some(units)),
+                component: asked.component.or(component),
+                baseline: asked.baseline || baseline,
+                vertical: None,
+            };
+            Ok(vec![(path, options)])
+        }
+        _ => Err(CommandError::Result(
+            "the case names no record file, and so stands for El Centro, which is part of the program; name a file to look at".into(),
+        )),
     }
 }
 

@@ -151,7 +151,7 @@ pub fn run(o: &Options) -> Result<(), CommandError> {
     let run = Run::new(case, job, front, friction);
     run.save(&o.out, Output { figures: !o.no_figures, report: !o.no_report })?;
     let (springs, forces) = (table::terminal(&run.filed(&o.out)), run.forces());
-    let said = run.said().join("\n");
+    let said = run.found().join("\n");
     write!(std::io::stdout(), "{springs}\n{forces}{}\n{said}\n", table::front_terminal(&run.front))?;
     eprintln!("{}\nwritten to {}", run.case.excitation.line(), o.out.display());
     Ok(())
@@ -243,9 +243,15 @@ impl Run {
         Parameters { record, ..self.parameters.clone() }
     }
 
-    /// What to file beside the tables, a line each: the verdict, the accuracy, warnings.
+    /// What to file beside the tables, a line each: an accuracy missed, the verdict, the accuracy, warnings.
     pub fn said(&self) -> Vec<String> {
-        let mut said = table::said(&self.parameters);
+        let warning = self.parameters.assessment.and_then(|assessment| assessment.warning());
+        warning.into_iter().chain(self.found()).collect()
+    }
+
+    /// The same without the accuracy missed, with which the tables begin.
+    fn found(&self) -> Vec<String> {
+        let mut said = table::found(&self.parameters);
         said.extend(self.report.lines().into_iter().chain(self.both.early()));
         said.extend(springs_said(&self.parameters));
         said
@@ -268,7 +274,7 @@ fn springs_alone(o: &Options, parameters: &Parameters) -> Result<(), CommandErro
     write_file(&o.out.join("parameters.md"), table::markdown(parameters).as_bytes())?;
     report(&o.out, (!o.no_report).then_some(Page { parameters, run: None, figures: &[] }))?;
     folder.finish()?;
-    let mut said = table::said(parameters);
+    let mut said = table::found(parameters);
     said.extend(springs_said(parameters));
     write!(std::io::stdout(), "{}\n{}\n", table::terminal(parameters), said.join("\n"))?;
     eprintln!("no record: give one to tune simulate, verify and export\nwritten to {}", o.out.display());

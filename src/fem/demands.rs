@@ -10,7 +10,11 @@
 
 use std::ops::ControlFlow;
 
-use super::observer::{Observer, View};
+use super::{
+    landings::{Landing, MOMENT},
+    observer::{Observer, View},
+};
+use crate::structure::Body;
 
 /// The forces, in the order of their columns: names with units.
 pub const QUANTITIES: [&str; 10] = [
@@ -43,9 +47,31 @@ pub struct Peak {
 pub struct Demands {
     /// For every sample the values of largest magnitude since the sample before.
     pub rows: Vec<Row>,
-    /// Largest magnitude of each, over all steps.
+    /// Largest magnitude of each, over all steps: in landings, forces of the springs.
     pub peaks: [Peak; QUANTITIES.len()],
+    /// Largest magnitude of each between landings: later than 0.1/p after the last touch-down, times those of the samples.
+    pub between: [Peak; QUANTITIES.len()],
     largest: Row,
+}
+
+impl Demands {
+    /// Find what is largest between these landings, over the first `samples` of the history.
+    pub(crate) fn separate(&mut self, body: &Body<f64>, dt: f64, landings: &[Landing], samples: usize) {
+        let rest = MOMENT / body.p_squared().sqrt();
+        self.between = Default::default();
+        for (i, row) in self.rows.iter().enumerate().take(samples) {
+            let time = i as f64 * dt;
+            let first = landings.partition_point(|l| l.time < time - dt - rest);
+            if landings.get(first).is_some_and(|l| l.time <= time) {
+                continue;
+            }
+            for (peak, &value) in self.between.iter_mut().zip(row) {
+                if value.abs() > peak.value.abs() {
+                    *peak = Peak { value, time };
+                }
+            }
+        }
+    }
 }
 
 /// The forces at one instant.

@@ -92,8 +92,11 @@ pub enum RememberedError {
         "{parameters}: its record {file} has changed since the springs were tuned ({change}); put the old one back, or name this one with --record"
     )]
     Changed { parameters: String, file: String, change: String },
-    #[error("{parameters}: its record {name} was made by a program and is in no file; name a record with --record")]
-    NoFile { parameters: String, name: String },
+    #[error(
+        "{parameters}: its record {name} was given as numbers and is in no file; save it as a column of accelerations, in Python \
+         numpy.savetxt(\"motion.txt\", record.accel), and name it with --record motion.txt --dt {dt_s} --units m/s2"
+    )]
+    NoFile { parameters: String, name: String, dt_s: f64 },
     #[error(transparent)]
     Record(#[from] RecordError),
 }
@@ -160,7 +163,7 @@ impl RecordRow {
         let (record, file) = match source {
             SourceRow::Embedded => (Record::el_centro(), "the embedded El Centro".to_string()),
             SourceRow::Numbers => {
-                return Err(RememberedError::NoFile { parameters: name(), name: one_line(called) });
+                return Err(RememberedError::NoFile { parameters: name(), name: one_line(called), dt_s: self.dt_s });
             }
             SourceRow::File { file, path, units, component, baseline } => {
                 let (component, baseline) = (component.clone(), *baseline);

@@ -61,39 +61,26 @@ impl Assessment {
         Self { objective, accuracy, reached: measured.over(accuracy) <= 1.0, capped: job.capped, measured, landing }
     }
 
-    /// What to file: accuracy reached, on what, with counts; which springs; what to do if it is not enough.
+    /// That the accuracy was not reached, and what to do: to be said before anything else.
+    pub fn warning(&self) -> Option<String> {
+        let remedy = if self.capped { "raise or drop --max-hz" } else { "ask for less, or judge them by tune validate" };
+        let accuracy = self.accuracy;
+        (!self.reached).then(|| {
+            format!("WARNING: the accuracy of {accuracy} was not reached; these are the best springs within what was allowed: {remedy}")
+        })
+    }
+
+    /// What to file: the accuracy measured, on what, with counts and what is allowed; which springs.
     pub fn lines(&self) -> Vec<String> {
-        let m = &self.measured;
-        let mut on = Vec::new();
-        on.extend(m.record.map(|e| format!("{} on the record (u or v, the larger)", shown(e))));
-        on.extend(m.synthetic_median.zip(m.synthetic_p90).map(|(median, p90)| {
-            format!(
-                "{} in the median and {} for 90 % of {} synthetic motions",
-                shown(median.value),
-                shown(p90.value),
-                median.count
-            )
-        }));
-        on.extend(m.earthquakes_mean.map(|e| {
-            format!(
-                "{}{} in the geometric mean of {} earthquake-like motions of sensitivity below {PREDICTABLE}",
-                shown(e.value),
-                m.earthquakes_upper.map_or(String::new(), |x| format!(" ({} with its standard error)", shown(x))),
-                e.count
-            )
-        }));
-        let measured = if on.is_empty() {
-            "nothing that it could be measured on: no motion rocks this body and can be followed one to one".to_string()
-        } else {
-            on.join("; ")
+        let measured = match self.measured_on() {
+            on if on.is_empty() => "nothing to measure it on: no motion rocks this body and can be foretold".to_string(),
+            on => on.join("; "),
         };
-        let asked =
-            format!("accuracy: {} was asked for ({LOOSER} times that of 90 % and of earthquakes)", self.accuracy);
-        let mut lines = vec![format!("{asked}; measured as NRMSE against Housner: {measured}")];
-        if !self.reached {
-            let remedy = if self.capped { "raise or drop --max-hz" } else { "ask for less, or judge by tune validate" };
-            lines.push(format!("accuracy: WARNING: not reached; these are the best springs found; {remedy}"));
-        }
+        let mut lines = vec![format!(
+            "accuracy: {} was asked for and {}; error measured (NRMSE of the displacement against Housner's): {measured}",
+            self.accuracy,
+            if self.reached { "reached" } else { "NOT reached" },
+        )];
         if let Some(l) = &self.landing {
             lines.push(format!(
                 "springs: by the landing of a body of alpha {:.5} and m R^2/I0 {:.5} at Omega_n/p {:.0}: error of the momentum {:.0e}, \
@@ -102,6 +89,30 @@ impl Assessment {
             ));
         }
         lines
+    }
+
+    /// Each error with the motions that it was measured on, and how much is allowed there. There are no statistics of one motion.
+    fn measured_on(&self) -> Vec<String> {
+        let m = &self.measured;
+        let (allowed, looser) = (shown(self.accuracy), shown(LOOSER * self.accuracy));
+        let record = m.record.map(|e| format!("{} on the record, u or v (allowed {allowed})", shown(e)));
+        let synthetic = m.synthetic_median.zip(m.synthetic_p90).map(|(median, p90)| match median.count {
+            1 => format!("{} on the one synthetic motion that can be foretold (allowed {allowed})", shown(median.value)),
+            n => format!(
+                "{} in the median of {n} synthetic motions (allowed {allowed}), {} for 90 % of them (allowed {looser})",
+                shown(median.value),
+                shown(p90.value)
+            ),
+        });
+        let earthquakes = m.earthquakes_mean.map(|e| match (e.count, m.earthquakes_upper) {
+            (1, _) => format!("{} on the one earthquake-like motion of sensitivity below {PREDICTABLE}", shown(e.value)),
+            (n, upper) => format!(
+                "{} in the geometric mean of {n} earthquake-like motions of sensitivity below {PREDICTABLE}{}",
+                shown(e.value),
+                upper.map_or(String::new(), |x| format!(", {} with its standard error (allowed {looser})", shown(x)))
+            ),
+        });
+        [record, synthetic, earthquakes].into_iter().flatten().collect()
     }
 }
 

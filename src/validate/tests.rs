@@ -45,7 +45,7 @@ fn a_row_says_what_the_whole_histories_say() {
         control: judge.control,
     }
     .simulate();
-    let found = Match::new(&judge.body, short.dt, (&motion, rocking.impacts.len()), &history, judge.restitution);
+    let found = Match::new(&judge.body, short.dt, (&motion, &rocking.impacts), &history, judge.restitution);
     let close = |a: f64, b: f64| (a - b).abs() <= 1e-12 * b.abs();
     assert!(close(row.nrmse_horizontal.unwrap(), found.nrmse_horizontal), "{row:?} {found:?}");
     assert!(close(row.nrmse_vertical.unwrap(), found.nrmse_vertical), "{row:?} {found:?}");

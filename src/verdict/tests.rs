@@ -21,7 +21,7 @@ fn verdict(record: &Record) -> Verdict {
     let (start, control) = (Start::Settled, Control::default());
     let history = Case { body, springs, start, dt, accel, vertical: &[], scale: 1.0, control }.simulate();
     let motion = rocking.motion(&body);
-    let matched = Match::new(&body, dt, (&motion, rocking.impacts.len()), &history, body.restitution());
+    let matched = Match::new(&body, dt, (&motion, &rocking.impacts), &history, body.restitution());
     let conditioning = Conditioning::new(&body, dt, accel, &options);
     Verdict::new(&body, dt, (&rocking, &history), &matched, &conditioning)
 }

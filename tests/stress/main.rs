@@ -88,7 +88,7 @@ fn finite_element_histories_are_finite_close_their_account_and_say_how_they_ende
         require(steps <= MOST_STEPS, || format!("{steps} steps"))?;
         let rocking = housner::solve(&body, dt, &accel, &Options::default());
         let matched =
-            Match::new(&body, dt, (&rocking.motion(&body), rocking.impacts.len()), &history, body.restitution());
+            Match::new(&body, dt, (&rocking.motion(&body), &rocking.impacts[..]), &history, body.restitution());
         require(!matched.nrmse_horizontal.is_nan() && !matched.nrmse_vertical.is_nan(), || format!("{matched:?}"))?;
         require(matched.restitution_error_max.is_finite(), || format!("{matched:?}"))?;
         Ok(match outcome {

@@ -20,7 +20,7 @@ pub fn escape(text: &str) -> String {
 
 /// The same with letters in place of what files and terminals spell out, and numbers with a true exponent.
 pub fn pretty(text: &str) -> String {
-    const LETTERS: [(&str, &str); 13] = [
+    const LETTERS: [(&str, &str); 14] = [
         ("Omega_n / 2 pi", "Ωₙ/2π"),
         ("Omega_n", "Ωₙ"),
         ("theta/alpha", "θ/α"),
@@ -32,6 +32,7 @@ pub fn pretty(text: &str) -> String {
         ("k1 [", "k₁ ["),
         ("k2 [", "k₂ ["),
         ("m2 [", "m₂ ["),
+        ("m2 is", "m₂ is"),
         ("N s/m", "N·s/m"),
         ("<=", "≤"),
     ];
