@@ -22,9 +22,11 @@
 //! phase. So an embedded formula of order three estimates the local error beside it (`step`), and a step must satisfy both.
 
 mod balance;
+mod contact;
 mod control;
 mod coupled;
 mod demands;
+mod element;
 mod energy;
 mod frame;
 mod history;

@@ -285,7 +285,7 @@ impl Pictures<'_> {
             accuracy: self.case.tuning.accuracy,
             costs: [
                 figures::front::Cost { label: "foot force [weights]", omega_n_hz: &forces.0, value: &forces.1 },
-                figures::front::Cost { label: "deck steps, at least", omega_n_hz: &steps.0, value: &steps.1 },
+                figures::front::Cost { label: "steps of the deck", omega_n_hz: &steps.0, value: &steps.1 },
             ],
             notes: &notes,
         };

@@ -33,15 +33,15 @@ impl<S: Scalar> Model<S> {
         if !self.massless() || !(feet[0].closed() || feet[1].closed()) {
             return true;
         }
-        if let Some(frame) = &self.frame {
-            return self.turn_frame_to_balance(frame, state, feet);
+        if !self.elements.is_empty() {
+            return self.turn_with_elements(state, feet);
         }
         let start = state.q[TH];
         let (before, ..) = self.potential(state, feet);
         if self.newton(state, feet, before) {
             return true;
         }
-        if self.friction.is_some() {
+        if self.law.slips() {
             // a slipping foot's force has no potential to go down
             return state.q[TH].re().is_finite();
         }
@@ -51,11 +51,7 @@ impl<S: Scalar> Model<S> {
 
     /// Whether the rotation stands where V is least, or has inertia and need not.
     pub fn in_balance(&self, state: &State<S>, feet: &[Foot<S>; 2]) -> bool {
-        if !self.massless()
-            || self.frame.is_some()
-            || self.friction.is_some()
-            || !(feet[0].closed() || feet[1].closed())
-        {
+        if !self.massless() || !self.is_plain() || !(feet[0].closed() || feet[1].closed()) {
             return true;
         }
         let (_, moment, stiffness) = self.potential(state, feet);
@@ -86,7 +82,7 @@ impl<S: Scalar> Model<S> {
     /// A step too short to tell would leave it any rate, and a body that then leaves the ground keeps what it has.
     pub fn rotate_in_balance(&self, state: &mut State<S>, feet: &[Foot<S>; 2]) {
         let leans = feet[0].closed() || feet[1].closed();
-        if !self.massless() || self.frame.is_some() || self.friction.is_some() || !leans {
+        if !self.massless() || !self.is_plain() || !leans {
             return;
         }
         let (_, _, stiffness) = self.potential(state, feet);

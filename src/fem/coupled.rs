@@ -7,16 +7,15 @@
 //!   P = (D + s^2 B)^-1      condensed contact  D P s^2 B      condensed lever  D P s^2 g,  g = B J + c  (`frame`)
 //! ```
 //!
-//! written so that nothing cancels where springs are stiff. Dampers and tendon touch the body only; the dampers' turning
-//! levers make the body's 3 x 3 matrix unsymmetric.
+//! written so that nothing cancels where springs are stiff. Elements touch the body only; the dampers' turning levers make its
+//! 3 x 3 matrix unsymmetric.
 
 use std::ops::{Add, Neg, Sub};
 
 use num_traits::Num;
 
 use super::{
-    frame::Frame,
-    model::{Foot, Model, N, Pose, State, TH, X, Z, ax, az},
+    model::{Foot, Model, N, State, TH, X, Z, ax, az},
 };
 use crate::scalar::Scalar;
 
@@ -50,14 +49,13 @@ impl<T: Num + Copy + Neg<Output = T>> Coupled<T> {
     /// Factor at `state` for s = h lambda.
     pub fn new<S: Scalar>(
         model: &Model<S>,
-        frame: &Frame<S>,
         state: &State<S>,
         feet: &[Foot<S>; 2],
         s: T,
         lift: &impl Fn(S) -> T,
     ) -> Self {
         let s2 = s * s;
-        let both = std::array::from_fn(|i| foot(model, frame, state, (i, &feet[i]), s, lift));
+        let both = std::array::from_fn(|i| foot(model, state, (i, &feet[i]), s, lift));
         let [(left, of_left), (right, of_right)]: [(Absorbers<T>, [[T; 3]; 3]); 2] = both;
         let mut body: [[T; 3]; 3] = std::array::from_fn(|i| std::array::from_fn(|j| of_left[i][j] + of_right[i][j]));
         let masses = model.masses(feet);
@@ -65,26 +63,14 @@ impl<T: Num + Copy + Neg<Output = T>> Coupled<T> {
             body[k][k] = body[k][k] + lift(masses[k]);
         }
 
-        let [xx, xz, zz] = frame.pull(&state.q, model.body.height).stiffness.map(|k| s2 * lift(k));
-        body[X][X] = body[X][X] + xx;
-        body[X][Z] = body[X][Z] + xz;
-        body[Z][X] = body[Z][X] + xz;
-        body[Z][Z] = body[Z][Z] + zz;
-
-        let (c, rate) = (frame.damper, state.v[TH]);
-        let Pose { sin, cos } = Pose::of(&state.q);
-        let damper = |i: usize| {
-            let (force, arm) = model.damping(frame, &state.q, &state.v)[i];
-            // d arm/dtheta = -dp_x/dtheta
-            let turning = -model.foot(i, &state.q, sin, cos).2;
-            [arm * c, arm * arm * c, turning * rate * c, turning * (arm * rate * c - force)]
-        };
-        let (l, r) = (damper(0), damper(1));
-        let [arm, arm2, z_th, th_th] = std::array::from_fn(|k| lift(l[k] + r[k]));
-        body[Z][Z] = body[Z][Z] + s * lift(c + c);
-        body[Z][TH] = body[Z][TH] + s * arm + s2 * z_th;
-        body[TH][Z] = body[TH][Z] + s * arm;
-        body[TH][TH] = body[TH][TH] + s * arm2 + s2 * th_th;
+        for element in model.elements.each() {
+            let tangent = element.tangent(&state.q, &state.v);
+            for (row, (k, c)) in body.iter_mut().zip(tangent.stiffness.iter().zip(&tangent.damping)) {
+                for j in 0..3 {
+                    row[j] = row[j] + (s2 * lift(k[j]) + s * lift(c[j]));
+                }
+            }
+        }
 
         // masses keep the pivots of X and Z away from zero
         for k in 0..2 {
@@ -135,7 +121,6 @@ impl<T: Num + Copy + Neg<Output = T>> Coupled<T> {
 /// One foot's absorbers, and its share of the body's matrix.
 fn foot<S: Scalar, T: Num + Copy + Neg<Output = T>>(
     model: &Model<S>,
-    frame: &Frame<S>,
     state: &State<S>,
     (i, foot): (usize, &Foot<S>),
     s: T,
@@ -148,7 +133,7 @@ fn foot<S: Scalar, T: Num + Copy + Neg<Output = T>>(
         let pivot = [[T::one() / base[0], zero], [zero, T::one() / base[1]]];
         return (Absorbers { pivot, coupling: [[zero; 3]; 2] }, [[zero; 3]; 3]);
     }
-    let poised = model.poised(frame, i, &state.q, foot);
+    let poised = model.poised(model.elements.leg.as_ref(), i, &state.q, foot);
     let tangent = poised.tangent();
     let [xx, xz, zz] = tangent.b.map(|b| s2 * lift(b));
     let b = [[xx, xz], [xz, zz]];

@@ -86,11 +86,12 @@ pub(super) fn demand(view: &View<f64>) -> Row {
         [(h * f.pz_th - n * f.px_th) / length, moment / length, moment]
     });
     let (mut shear, mut tension, mut dampers) = (feet[0].horizontal + feet[1].horizontal, 0.0, [0.0; 2]);
-    if let Some(frame) = &model.frame {
-        let pull = frame.pull(q, model.body.height);
-        shear += pull.force[0];
-        tension = pull.tension;
-        dampers = model.damping(frame, q, v).map(|(force, _)| force);
+    if let Some(tendon) = &model.elements.tendon {
+        shear += tendon.force_on_mass(q)[0];
+        tension = tendon.tension(q);
+    }
+    if let Some(all) = &model.elements.dampers {
+        dampers = all.forces(q, v).map(|(force, _)| force);
     }
     [shear, left[0], left[1], left[2], right[0], right[1], right[2], tension, dampers[0], dampers[1]]
 }

@@ -1,7 +1,5 @@
-//! Members around the rigid body: elastic legs under it, dampers and a tendon between it and the ground.
-//!
-//! Legs have no mass, so a pressing foot stands where leg and contact are in balance, and both together are one contact
-//! law, with the foot's displacement e (axes of the body, `leg`) as its inner unknown:
+//! Elastic legs under the rigid body. They have no mass, so a pressing foot stands where leg and contact are in balance, and both together
+//! are one contact law, with the foot's displacement e (axes of the body, `leg`) as its inner unknown:
 //!
 //! ```text
 //!   V(q) = min over e  [ U(e) + k1_v (a_z - p_z)^2 / 2 + k1_h (p_x - a_x - anchor)^2 / 2 ]      p = p_rigid + R(theta) e
@@ -12,57 +10,18 @@
 //!
 //! A foot in the air hangs on its unstressed leg, so it opens and closes where the rigid body's would, at the same N = 0.
 //! The forces on the body are those on the foot; only its place differs from the rigid body's.
-//!
-//! ```text
-//!   damper   F = -c (Z' + theta' dp_z/dtheta) at each corner of the rigid body
-//!   tendon   T = max(0, k (l - l_0)) along the line from the mass to the ground midway between the feet
-//! ```
 
 mod stance;
 
 use super::{
     leg::{Law, Leg},
-    model::{Contact, Foot, FootForce, Model, Pose, SIDE, State, TH, Vector, X, Z, ax, az},
+    model::{Contact, Foot, FootForce, Model, Pose, State, TH, Vector, X, Z, ax, az},
 };
-use crate::{
-    members::Members,
-    scalar::{Scalar, real},
-};
+use crate::scalar::{Scalar, real};
 
 /// Iterations before a place counts as not found, and is none (NaN: no step with it is accepted); from within some per cent
 /// it converges quadratically.
 const MOST_ITERATIONS: usize = 40;
-
-/// The tendon as it pulls.
-#[derive(Clone, Copy, Debug)]
-pub(crate) struct Cable<S> {
-    /// k [N/m].
-    pub stiffness: S,
-    /// l_0, at which it begins to pull [m].
-    pub slack: S,
-}
-
-/// The members, ready to compute with.
-#[derive(Clone, Copy, Debug)]
-pub(crate) struct Frame<S> {
-    pub leg: Option<Leg<S>>,
-    /// c [N s/m], zero without dampers.
-    pub damper: S,
-    pub cable: Option<Cable<S>>,
-}
-
-/// The tendon's state in one configuration.
-#[derive(Clone, Copy, Debug)]
-pub(crate) struct Pull<S> {
-    /// T [N].
-    pub tension: S,
-    /// Its elastic energy [J].
-    pub energy: S,
-    /// Force on the mass [N].
-    pub force: [S; 2],
-    /// xx, xz, zz of its stiffness [N/m].
-    pub stiffness: [S; 3],
-}
 
 /// One foot in balance between its leg and its contact.
 #[derive(Clone, Copy, Debug)]
@@ -88,48 +47,9 @@ pub(crate) struct Tangent<S> {
     pub turning: S,
 }
 
-impl<S: Scalar> Frame<S> {
-    /// The members as they stand under a model's body, the tendon left out: its slack length follows from the stance.
-    fn new(members: &Members<S>, length: S) -> Self {
-        let leg = members.legs.map(|l| Leg { length, axial: l.ea / length, bending: l.ei * 3.0 / length });
-        Self { leg, damper: members.damper.map_or(S::zero(), |d| d.c), cable: None }
-    }
-
-    /// The members without derivatives.
-    pub fn real(&self) -> Frame<f64> {
-        Frame {
-            leg: self.leg.map(|l| Leg { length: l.length.re(), axial: l.axial.re(), bending: l.bending.re() }),
-            damper: self.damper.re(),
-            cable: self.cable.map(|c| Cable { stiffness: c.stiffness.re(), slack: c.slack.re() }),
-        }
-    }
-
-    /// The tendon's pull, nothing without one.
-    pub fn pull(&self, q: &Vector<S>, height: S) -> Pull<S> {
-        let zero = S::zero();
-        let none = Pull { tension: zero, energy: zero, force: [zero; 2], stiffness: [zero; 3] };
-        let Some(Cable { stiffness, slack }) = self.cable else { return none };
-        let (x, z) = (q[X], height + q[Z]);
-        let l = (x * x + z * z).sqrt();
-        let stretch = l - slack;
-        if stretch.re() <= 0.0 {
-            return none;
-        }
-        let tension = stiffness * stretch;
-        let (ux, uz, across) = (x / l, z / l, tension / l);
-        let along = stiffness - across;
-        Pull {
-            tension,
-            energy: tension * stretch * 0.5,
-            force: [-tension * ux, -tension * uz],
-            stiffness: [across + along * ux * ux, along * ux * uz, across + along * uz * uz],
-        }
-    }
-}
-
 impl<S: Scalar> Model<S> {
-    /// Foot i in balance in its contact.
-    pub(crate) fn poised(&self, frame: &Frame<S>, i: usize, q: &Vector<S>, foot: &Foot<S>) -> Poised<S> {
+    /// Foot i in balance in its contact, on its leg if it has one.
+    pub(crate) fn poised(&self, leg: Option<&Leg<S>>, i: usize, q: &Vector<S>, foot: &Foot<S>) -> Poised<S> {
         let Pose { sin, cos } = Pose::of(q);
         let (px, pz, px_th, pz_th) = self.foot(i, q, sin, cos);
         let (kh, kv) = match foot.contact {
@@ -147,7 +67,7 @@ impl<S: Scalar> Model<S> {
             law: None,
             contact: [kh, kv],
         };
-        let leg = match frame.leg {
+        let leg = match leg {
             Some(leg) if foot.closed() => leg,
             _ => {
                 [poised.force.horizontal, poised.force.vertical] = push([px, pz]);
@@ -195,47 +115,28 @@ impl<S: Scalar> Model<S> {
 
     /// Contact forces of both feet on their legs.
     #[inline(never)]
-    pub(super) fn frame_contact(&self, frame: &Frame<S>, q: &Vector<S>, feet: &[Foot<S>; 2]) -> [FootForce<S>; 2] {
-        std::array::from_fn(|i| self.poised(frame, i, q, &feet[i]).force)
+    pub(super) fn contact_on_legs(&self, leg: &Leg<S>, q: &Vector<S>, feet: &[Foot<S>; 2]) -> [FootForce<S>; 2] {
+        std::array::from_fn(|i| self.poised(Some(leg), i, q, &feet[i]).force)
     }
 
-    /// Add the forces of dampers and tendon on the body.
-    #[inline(never)]
-    pub(super) fn add_members(&self, frame: &Frame<S>, q: &Vector<S>, v: &Vector<S>, f: &mut Vector<S>) {
-        let [left, right] = self.damping(frame, q, v).map(|(force, arm)| (force, force * arm));
-        f[Z] += left.0 + right.0;
-        f[TH] += left.1 + right.1;
-        let pull = frame.pull(q, self.body.height);
-        f[X] += pull.force[0];
-        f[Z] += pull.force[1];
+    /// Elastic energy of the legs [J].
+    pub(super) fn legs_energy(&self, q: &Vector<S>, feet: &[Foot<S>; 2]) -> S {
+        let leg = self.elements.leg.as_ref();
+        let energy = |i: usize| self.poised(leg, i, q, &feet[i]).law.map_or(S::zero(), |law| law.energy);
+        if leg.is_some() { energy(0) + energy(1) } else { S::zero() }
     }
 
-    /// Each damper's force on the body [N], and its arm dp_z/dtheta [m].
-    pub(super) fn damping(&self, frame: &Frame<S>, q: &Vector<S>, v: &Vector<S>) -> [(S, S); 2] {
-        let Pose { sin, cos } = Pose::of(q);
-        std::array::from_fn(|i| {
-            let arm = self.body.height * sin - self.body.half_width * SIDE[i] * cos;
-            (-frame.damper * (v[Z] + arm * v[TH]), arm)
-        })
-    }
-
-    /// Elastic energy of legs and tendon [J].
-    pub(super) fn members_energy(&self, frame: &Frame<S>, q: &Vector<S>, feet: &[Foot<S>; 2]) -> S {
-        let leg = |i: usize| self.poised(frame, i, q, &feet[i]).law.map_or(S::zero(), |law| law.energy);
-        leg(0) + leg(1) + frame.pull(q, self.body.height).energy
-    }
-
-    /// `turn_to_balance` on legs. With dampers the rotation cannot jump.
+    /// `turn_to_balance` with elements. With dampers the rotation cannot jump.
     #[inline(never)]
     #[must_use]
-    pub(super) fn turn_frame_to_balance(&self, frame: &Frame<S>, state: &mut State<S>, feet: &[Foot<S>; 2]) -> bool {
-        if frame.damper.re() > 0.0 {
+    pub(super) fn turn_with_elements(&self, state: &mut State<S>, feet: &[Foot<S>; 2]) -> bool {
+        if self.elements.dampers.is_some() {
             return true;
         }
         let mut done = 0;
         for _ in 0..MOST_ITERATIONS {
             let [left, right] = std::array::from_fn(|i| {
-                let poised = self.poised(frame, i, &state.q, &feet[i]);
+                let poised = self.poised(self.elements.leg.as_ref(), i, &state.q, &feet[i]);
                 let f = &poised.force;
                 (f.horizontal * f.px_th + f.vertical * f.pz_th, poised.tangent().rotational(f))
             });
@@ -251,12 +152,6 @@ impl<S: Scalar> Model<S> {
             }
         }
         false
-    }
-
-    /// Power that the dampers take [W].
-    pub(super) fn members_dissipation(&self, frame: &Frame<S>, q: &Vector<S>, v: &Vector<S>) -> S {
-        let [left, right] = self.damping(frame, q, v).map(|(force, arm)| -force * (v[Z] + arm * v[TH]));
-        left + right
     }
 }
 

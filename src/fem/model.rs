@@ -15,7 +15,8 @@
 //! Displacements are relative to the ground, whose acceleration is (ug'', vg''), vg'' upwards; gravity acts on the body only, so an open absorber rests at zero, as in
 //! the engineer's deck, where the weight is a load on the mass.
 
-use super::frame::Frame;
+pub(crate) use super::contact::{Contact, ContactLaw, Foot, FootForce};
+use super::element::Elements;
 use crate::{
     scalar::{GRAVITY, Scalar, sin_cos},
     spring::{Chain, Springs},
@@ -71,47 +72,6 @@ impl<S: Scalar> Pose<S> {
     }
 }
 
-/// How a foot meets its ground chain.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub(crate) enum Contact {
-    /// In the air: no force.
-    Open,
-    /// Pressing too lightly to hold: no horizontal force yet (see `run`).
-    Slide,
-    /// Following the ground without any force: the only foot near it, of a body without rotational inertia (see `strut`).
-    Trail,
-    /// Pressing, its horizontal spring anchored.
-    Stick,
-    /// Slipping against friction, to the right (+1) or to the left (-1).
-    Slip(f64),
-}
-
-/// A foot's contact and the horizontal anchor it landed on [m].
-#[derive(Clone, Copy, Debug)]
-pub(crate) struct Foot<S> {
-    pub contact: Contact,
-    pub anchor: S,
-}
-
-impl<S> Foot<S> {
-    /// Whether the foot is on the ground.
-    #[inline(always)]
-    pub fn closed(&self) -> bool {
-        self.contact != Contact::Open
-    }
-
-    /// Whether it presses: a trailing foot touches the ground and takes no force.
-    pub fn presses(&self) -> bool {
-        self.closed() && self.contact != Contact::Trail
-    }
-
-    /// Whether its horizontal spring holds.
-    #[inline(always)]
-    pub fn holds(&self) -> bool {
-        self.contact == Contact::Stick
-    }
-}
-
 /// I_cg / (m R^2) below which the rotation counts as massless.
 ///
 /// A little rotational inertia on stiff springs makes an undamped oscillator of several kHz (Omega_n R sqrt(m/I_cg)) that
@@ -130,25 +90,12 @@ pub(crate) struct Model<S> {
     pub translation: S,
     /// Inertia of the rotation [kg m2]; zero when massless.
     pub rotation: S,
+    /// What a pressing foot can take along the ground.
+    pub law: ContactLaw<S>,
     /// Legs, dampers, tendon; none under a rigid body.
-    pub frame: Option<Frame<S>>,
-    /// Coefficient of friction between foot and ground; none holds at any force.
-    pub friction: Option<S>,
+    pub elements: Elements<S>,
     /// Solve nothing for an open foot's contact (`Control::skip_open`).
     pub skip_open: bool,
-}
-
-/// A foot's kinematics and contact forces in one configuration.
-#[derive(Clone, Copy, Debug)]
-pub(crate) struct FootForce<S> {
-    /// dp_x/dtheta [m].
-    pub px_th: S,
-    /// dp_z/dtheta [m].
-    pub pz_th: S,
-    /// Horizontal force on the foot [N].
-    pub horizontal: S,
-    /// Vertical force on the foot, positive when pressing [N].
-    pub vertical: S,
 }
 
 impl<S: Scalar> Model<S> {
@@ -160,7 +107,14 @@ impl<S: Scalar> Model<S> {
         } else {
             (body.mass, body.inertia)
         };
-        Self { body: *body, springs: *springs, translation, rotation, frame: None, friction: None, skip_open: true }
+        let (law, elements) = (ContactLaw::Sticking, Elements::NONE);
+        Self { body: *body, springs: *springs, translation, rotation, law, elements, skip_open: true }
+    }
+
+    /// Whether this is the rigid body on feet that hold at any force.
+    #[inline(always)]
+    pub(super) fn is_plain(&self) -> bool {
+        self.elements.is_empty() && !self.law.slips()
     }
 
     /// Whether the rotation follows the contact forces without inertia.
@@ -177,8 +131,8 @@ impl<S: Scalar> Model<S> {
             springs: Springs { vertical: chain(&self.springs.vertical), horizontal: chain(&self.springs.horizontal) },
             translation: self.translation.re(),
             rotation: self.rotation.re(),
-            frame: self.frame.as_ref().map(Frame::real),
-            friction: self.friction.map(|friction| friction.re()),
+            law: self.law.real(),
+            elements: self.elements.real(),
             skip_open: self.skip_open,
         }
     }
@@ -202,8 +156,8 @@ impl<S: Scalar> Model<S> {
     /// The same where the rotation's sine and cosine are known.
     #[inline(always)]
     pub fn compression_at(&self, pose: &Pose<S>, i: usize, q: &Vector<S>, foot: &Foot<S>) -> S {
-        if let Some(frame) = &self.frame {
-            return q[az(i)] - self.poised(frame, i, q, foot).place[1];
+        if let Some(leg) = &self.elements.leg {
+            return q[az(i)] - self.poised(Some(leg), i, q, foot).place[1];
         }
         q[az(i)] - self.foot(i, q, pose.sin, pose.cos).1
     }
@@ -217,18 +171,13 @@ impl<S: Scalar> Model<S> {
 
     /// Rate of the compression [m/s].
     pub fn compression_rate(&self, i: usize, state: &State<S>, foot: &Foot<S>) -> S {
-        if let (Some(frame), true) = (&self.frame, foot.closed()) {
-            let poised = self.poised(frame, i, &state.q, foot);
+        if let (Some(leg), true) = (&self.elements.leg, foot.closed()) {
+            let poised = self.poised(Some(leg), i, &state.q, foot);
             return poised.tangent().change(&poised.force, i, &state.v)[1] / self.springs.vertical.k1;
         }
         let Pose { sin, cos } = Pose::of(&state.q);
         let pz_th = self.foot(i, &state.q, sin, cos).3;
         state.v[az(i)] - state.v[Z] - pz_th * state.v[TH]
-    }
-
-    /// The coefficient of friction; zero if there is none.
-    pub fn grip(&self) -> S {
-        self.friction.unwrap_or(S::zero())
     }
 
     /// Velocity at which foot i slips over the ground while it does so to this side [m/s].
@@ -237,7 +186,7 @@ impl<S: Scalar> Model<S> {
         let (_, _, px_th, pz_th) = self.foot(i, q, sin, cos);
         let Springs { vertical, horizontal } = &self.springs;
         let compression_rate = v[az(i)] - v[Z] - pz_th * v[TH];
-        let stretch_rate = compression_rate * self.grip() * vertical.k1 / horizontal.k1 * side;
+        let stretch_rate = compression_rate * self.law.coefficient() * vertical.k1 / horizontal.k1 * side;
         v[X] + px_th * v[TH] - v[ax(i)] - stretch_rate
     }
 
@@ -253,8 +202,8 @@ impl<S: Scalar> Model<S> {
 
     /// The anchor that leaves foot i's horizontal spring without force where it stands now [m].
     pub fn anchor_here(&self, i: usize, q: &Vector<S>, foot: &Foot<S>) -> S {
-        if let Some(frame) = &self.frame {
-            return self.poised(frame, i, q, foot).place[0] - q[ax(i)];
+        if let Some(leg) = &self.elements.leg {
+            return self.poised(Some(leg), i, q, foot).place[0] - q[ax(i)];
         }
         let Pose { sin, cos } = Pose::of(q);
         self.foot(i, q, sin, cos).0 - q[ax(i)]
@@ -269,8 +218,8 @@ impl<S: Scalar> Model<S> {
     /// The same where the rotation's sine and cosine are known.
     #[inline(always)]
     pub fn contact_at(&self, pose: &Pose<S>, q: &Vector<S>, feet: &[Foot<S>; 2]) -> [FootForce<S>; 2] {
-        if let Some(frame) = &self.frame {
-            return self.frame_contact(frame, q, feet);
+        if let Some(leg) = &self.elements.leg {
+            return self.contact_on_legs(leg, q, feet);
         }
         [self.foot_force(pose, 0, q, &feet[0]), self.foot_force(pose, 1, q, &feet[1])]
     }
@@ -280,10 +229,10 @@ impl<S: Scalar> Model<S> {
         let (px, pz, px_th, pz_th) = self.foot(i, q, pose.sin, pose.cos);
         let press = || (q[az(i)] - pz) * self.springs.vertical.k1;
         let vertical = if foot.closed() { press() } else { S::zero() };
-        let horizontal = match (&self.friction, foot.contact) {
-            (Some(grip), Contact::Slip(side)) => -press() * *grip * side,
-            _ if foot.holds() => (q[ax(i)] + foot.anchor - px) * self.springs.horizontal.k1,
-            _ => S::zero(),
+        let horizontal = match foot.contact {
+            Contact::Stick => (q[ax(i)] + foot.anchor - px) * self.springs.horizontal.k1,
+            Contact::Slip(side) => self.law.slipping(press(), side),
+            Contact::Open | Contact::Slide | Contact::Trail => S::zero(),
         };
         FootForce { px_th, pz_th, horizontal, vertical }
     }
@@ -317,8 +266,8 @@ impl<S: Scalar> Model<S> {
             f[ax(i)] = -(foot.horizontal + horizontal.m2 * ground + horizontal.k2 * q[ax(i)] + horizontal.c * v[ax(i)]);
             f[az(i)] = -(foot.vertical + vertical.m2 * up + vertical.k2 * q[az(i)] + vertical.c * v[az(i)]);
         }
-        if let Some(frame) = &self.frame {
-            self.add_members(frame, q, v, &mut f);
+        if !self.elements.is_empty() {
+            self.elements.add_forces(q, v, &mut f);
         }
         f
     }
@@ -333,7 +282,7 @@ impl<S: Scalar> Model<S> {
     /// value does not matter).
     fn rotational_inertia(&self, feet: &[Foot<S>; 2]) -> S {
         // dampers do turn it in flight
-        let free = self.frame.is_none_or(|frame| frame.damper.re() == 0.0);
+        let free = self.elements.dampers.is_none();
         if self.massless() && free && !feet[0].closed() && !feet[1].closed() {
             self.body.mass * self.body.height * self.body.height
         } else {
@@ -368,9 +317,8 @@ impl<S: Scalar> Model<S> {
             }
             twice
         };
-        let members = self.frame.as_ref().map(|frame| self.members_energy(frame, q, feet));
         let twice = self.body_kinetic(state) * 2.0 + self.body.mass * q[Z] * (2.0 * GRAVITY) + (share(0) + share(1));
-        members.map_or(twice * 0.5, |members| twice * 0.5 + members)
+        if self.elements.is_empty() { twice * 0.5 } else { twice * 0.5 + self.elements_energy(q, feet) }
     }
 
     /// Power of the base excitation in the moving frame, -ug'' (m X' + sum m2_h a_x') - vg'' (m Z' + sum m2_v a_z') [W].
@@ -387,7 +335,14 @@ impl<S: Scalar> Model<S> {
         let Springs { vertical, horizontal } = &self.springs;
         let springs = horizontal.c * (v[ax(0)] * v[ax(0)] + v[ax(1)] * v[ax(1)])
             + vertical.c * (v[az(0)] * v[az(0)] + v[az(1)] * v[az(1)]);
-        let springs = if self.friction.is_some() { springs + self.friction_loss(q, v, feet) } else { springs };
-        self.frame.as_ref().map_or(springs, |frame| springs + self.members_dissipation(frame, q, v))
+        let taken = if self.law.slips() { springs + self.friction_loss(q, v, feet) } else { springs };
+        self.elements.each().fold(taken, |taken, element| taken + element.dissipation(q, v))
+    }
+
+    /// Elastic energy of legs and elements [J].
+    #[inline(never)]
+    fn elements_energy(&self, q: &Vector<S>, feet: &[Foot<S>; 2]) -> S {
+        let legs = self.legs_energy(q, feet);
+        self.elements.each().fold(legs, |energy, element| energy + element.energy(q))
     }
 }

@@ -102,8 +102,8 @@ impl<T: Num + Copy + Neg<Output = T>> Matrix<T> {
         s: T,
         lift: impl Fn(S) -> T,
     ) -> Self {
-        if let Some(frame) = &model.frame {
-            return Self::Coupled(Box::new(Coupled::new(model, frame, state, feet, s, &lift)));
+        if !model.elements.is_empty() {
+            return Self::Coupled(Box::new(Coupled::new(model, state, feet, s, &lift)));
         }
         if feet.iter().any(|foot| matches!(foot.contact, Contact::Slip(_))) {
             return Self::Slipping(Box::new(Slipping::new(model, state, feet, s, &lift)));

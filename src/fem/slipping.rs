@@ -44,7 +44,7 @@ impl<T: Num + Copy> Slipping<T> {
             let mut of_h = [S::zero(); N];
             match feet[i].contact {
                 Contact::Stick => (of_h[X], of_h[TH], of_h[ax(i)]) = (kh, kh * f.px_th, -kh),
-                Contact::Slip(side) => of_h = of_n.map(|n| n * model.grip() * -side),
+                Contact::Slip(side) => of_h = of_n.map(|n| model.law.slipping(n, side)),
                 Contact::Open | Contact::Slide | Contact::Trail => {}
             }
             for k in 0..N {

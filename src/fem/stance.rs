@@ -9,9 +9,9 @@ use crate::{
 impl<S: Scalar> Model<S> {
     /// The body standing still on both feet under its weight, each foot on half of it.
     pub fn settled(&self) -> (State<S>, [Foot<S>; 2]) {
-        match self.frame {
-            None => self.stand_rigid(self.body.mass * GRAVITY),
-            Some(_) => self.stand(S::zero()),
+        match self.elements.is_empty() {
+            true => self.stand_rigid(self.body.mass * GRAVITY),
+            false => self.stand(S::zero()),
         }
     }
 
@@ -34,8 +34,8 @@ impl<S: Scalar> Model<S> {
     ///   theta'' = -m g R sin(alpha - theta) / I0      H = m X''      N = m (g + Z'')
     /// ```
     pub fn on_one_foot(&self, theta: S) -> (State<S>, [Foot<S>; 2]) {
-        if let Some(frame) = &self.frame {
-            return self.lean_on_leg(frame, theta);
+        if !self.elements.is_empty() {
+            return self.lean_with_elements(theta);
         }
         let side: S = real(if theta.re() > 0.0 { 1.0 } else { -1.0 });
         let pressing = usize::from(theta.re() > 0.0);

@@ -27,7 +27,7 @@ pub(super) struct Strut {
 impl<S: Scalar> Model<S> {
     /// Whether the body on one foot is a strut: no inertia, no member, no slip.
     pub(super) fn is_strut(&self) -> bool {
-        self.massless() && self.frame.is_none() && self.friction.is_none()
+        self.massless() && self.is_plain()
     }
 
     /// Foot i as the only one near the ground.

@@ -81,7 +81,7 @@ pub fn draw(data: &History<'_>) -> Result<Sheet, FigureError> {
     let mut canvas = Canvas::default();
     let mut entries: Vec<Entry> = traces.iter().map(|(trace, pen)| Entry::line(trace.label, *pen)).collect();
     if traces.iter().any(|(trace, _)| !trace.impacts.is_empty()) {
-        entries.push(Entry::mark("impact", impact(BLACK)));
+        entries.push(Entry::mark("impact (a stroke where close)", impact(BLACK)));
     }
     let top = legend::header(&mut canvas, data.title, &entries, LEFT, RIGHT);
     let x = Scale::linear(data.t[0], data.t[data.t.len() - 1]);

@@ -123,14 +123,17 @@ fn distributions(canvas: &mut Canvas, data: &Validation<'_>, frame: Frame) {
             widest = (x, (a + b) / 2.0, (a - b).abs());
         }
     }
-    let told = format!("KS distance {}", short(data.ks_distance, 2));
+    let told = match data.rows.len() {
+        1 => "one record: no statistics".to_string(),
+        _ => format!("KS distance {}", short(data.ks_distance, 2)),
+    };
     let how = Lettering::new(NUMBER).colour(BLUE).bold().at(HPos::Right, VPos::Bottom);
     if widest.2 > 0.0 {
         let (x, half) = (widest.0, widest.2 / 2.0);
         panel.curve(canvas, &[x, x], &[widest.1 - half, widest.1 + half], Pen::new(BLUE, 5.0));
     }
-    // The lower right corner lies below any distribution that is not all toppled.
-    canvas.label((frame.right - 16.0, frame.bottom - 18.0), &told, how);
+    // The lower right corner, up to where toppled bodies stand, lies below any distribution but one of toppled bodies alone.
+    canvas.label((panel.at(0.97, 0.0).0, frame.bottom - 18.0), &told, how);
 }
 
 /// Each record's peak in the finite element model against Housner's; on the diagonal they agree.
@@ -166,6 +169,7 @@ fn errors(canvas: &mut Canvas, data: &Validation<'_>, frame: Frame) {
         toppled().draw(canvas, panel.at_clamped(row.sensitivity, row.nrmse));
     }
     let at = panel.at(data.well_conditioned, panel.y.high);
-    let how = Lettering::new(NUMBER).colour(GREY).at(HPos::Right, VPos::Top);
-    canvas.label((at.0 - 14.0, at.1 + 8.0), "well conditioned", how);
+    // above the frame: within it there may be a point anywhere
+    let how = Lettering::new(NUMBER).colour(GREY).at(HPos::Right, VPos::Bottom);
+    canvas.label((at.0 + 8.0, at.1 - 8.0), "well conditioned", how);
 }

@@ -21,19 +21,24 @@ fn summary(v: &Validation) -> (Vec<String>, Vec<Vec<String>>) {
         sets[0].0 = v.suites.keys().next().map_or("no records", |suite| name(*suite));
     }
     let number = |x: Option<f64>| x.map_or("-".to_string(), |x| format!("{x:.4}"));
-    let quantiles = |q: &Quantiles| format!("{} / {}", number(q.median), number(q.p90));
+    // of one record there are no statistics
+    let several = |n: usize, text: String| if n == 1 { "-".to_string() } else { text };
+    let quantiles = |q: &Quantiles| several(q.count, format!("{} / {}", number(q.median), number(q.p90)));
     let overturned = |c: &Confusion| format!("{} / {} / {} / {}", c.both, c.housner_only, c.fem_only, c.neither);
     let mean = |m: &GeometricMean| match m.failed {
+        0 if m.count < 2 => format!("- of {}", m.count),
         0 => format!("{} of {}", number(m.mean), m.count),
         failed => format!("{} of {}, {failed} failed", number(m.mean), m.count),
     };
     let lines: [Line; 14] = [
         ("records".into(), &|s| s.count.to_string()),
-        ("KS distance of the peak rotations".into(), &|s| format!("{:.4}", s.ks_distance)),
+        ("KS distance of the peak rotations".into(), &|s| several(s.count, format!("{:.4}", s.ks_distance))),
         ("the same, Housner from himself with e changed by 1e-5".into(), &|s| {
-            format!("{:.4}", s.ks_distance_of_housner_changed)
+            several(s.count, format!("{:.4}", s.ks_distance_of_housner_changed))
         }),
-        ("agreement on overturning".into(), &|s| format!("{:.2} %", 100.0 * s.overturning_agreement)),
+        ("agreement on overturning".into(), &|s| {
+            several(s.count, format!("{:.2} %", 100.0 * s.overturning_agreement))
+        }),
         ("overturned in both / Housner only / finite elements only / neither".into(), &|s| overturned(&s.overturning)),
         ("well-conditioned histories compared".into(), &|s| s.nrmse_well_conditioned.count.to_string()),
         ("NRMSE horizontal: median / 90 %".into(), &|s| quantiles(&s.nrmse_well_conditioned)),
@@ -141,5 +146,11 @@ pub fn terminal(v: &Validation) -> String {
     let (head, lines) = summary(v);
     table.load_style(presets::ASCII_MARKDOWN).set_header(head);
     table.add_rows(lines);
-    table.to_string()
+    let mut out = table.to_string();
+    for row in v.records.iter().filter(|_| v.records.len() == 1) {
+        let cells = HEAD.iter().zip(cells(row)).skip(1).map(|(head, cell)| format!("{head} {cell}"));
+        // writing to a String cannot fail
+        let _ = write!(out, "\none record, no statistics: {}", cells.collect::<Vec<_>>().join("; "));
+    }
+    out
 }

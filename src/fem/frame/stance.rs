@@ -1,9 +1,9 @@
 //! Where a structure with members stands: settled on both feet, or leaning on one.
 
-use super::{Cable, Frame};
 use crate::{
     fem::{
-        model::{Contact, Foot, Model, N, Pose, State, TH, X, Z, ax, az},
+        element::{Elements, Tendon},
+        model::{Contact, ContactLaw, Foot, Model, N, Pose, State, TH, X, Z, ax, az},
         newton::Newton,
     },
     members::Members,
@@ -33,20 +33,18 @@ impl<S: Scalar> Model<S> {
         if let Some(friction) = members.friction {
             // while feet slip, nothing but its own inertia holds the rotation
             (model.translation, model.rotation) = (body.mass, body.inertia);
-            model.friction = Some(friction.coefficient);
+            model.law = ContactLaw::Coulomb { coefficient: friction.coefficient };
             return model;
         }
-        let mut frame = Frame::new(members, body.radius());
-        if frame.damper.re() > 0.0 && body.inertia.re() > 0.0 {
+        model.elements = Elements::new(members, body);
+        if model.elements.dampers.is_some() && body.inertia.re() > 0.0 {
             // dampers let a rotation without inertia neither follow the contact forces at once nor keep its rate
             (model.translation, model.rotation) = (body.mass, body.inertia);
         }
-        model.frame = Some(frame);
         if let Some(tendon) = members.tendon {
             let (state, _) = model.stand(tendon.pretension);
             let slack = body.height + state.q[Z] - tendon.pretension / tendon.stiffness;
-            frame.cable = Some(Cable { stiffness: tendon.stiffness, slack });
-            model.frame = Some(frame);
+            model.elements.tendon = Some(Tendon { stiffness: tendon.stiffness, slack, height: body.height });
         }
         model
     }
@@ -76,7 +74,7 @@ impl<S: Scalar> Model<S> {
     }
 
     /// At rest leaning by theta on one foot, as `on_one_foot`: on its leg, and pulled by the tendon.
-    pub(in super::super) fn lean_on_leg(&self, frame: &Frame<S>, theta: S) -> (State<S>, [Foot<S>; 2]) {
+    pub(in super::super) fn lean_with_elements(&self, theta: S) -> (State<S>, [Foot<S>; 2]) {
         let pressing = usize::from(theta.re() > 0.0);
         let Springs { vertical, horizontal } = &self.springs;
         let mut q = [S::zero(); N];
@@ -84,11 +82,11 @@ impl<S: Scalar> Model<S> {
         let mut feet = [Foot { contact: Contact::Open, anchor: S::zero() }; 2];
         // on the stiff ground, whose place and force follow one from the other
         for _ in 0..MOST_ITERATIONS {
-            let (h, n) = self.falling_back(frame, &q, pressing);
+            let (h, n) = self.falling_back(&q, pressing);
             q[ax(pressing)] = -h / horizontal.k2;
             q[az(pressing)] = -n / vertical.k2;
             feet[pressing] = Foot { contact: Contact::Stick, anchor: h / horizontal.k1 - q[ax(pressing)] };
-            let place = self.poised(frame, pressing, &q, &feet[pressing]).place;
+            let place = self.poised(self.elements.leg.as_ref(), pressing, &q, &feet[pressing]).place;
             let (dx, dz) = (-place[0], q[az(pressing)] - n / vertical.k1 - place[1]);
             q[X] += dx;
             q[Z] += dz;
@@ -101,8 +99,8 @@ impl<S: Scalar> Model<S> {
 
     /// Force on the pressing foot, horizontal and vertical, while a rigid body falls back from rest under weight and
     /// tendon [N].
-    fn falling_back(&self, frame: &Frame<S>, q: &[S; N], pressing: usize) -> (S, S) {
-        let pull = frame.pull(q, self.body.height).force;
+    fn falling_back(&self, q: &[S; N], pressing: usize) -> (S, S) {
+        let pull = self.elements.tendon.map_or([S::zero(); 2], |tendon| tendon.force_on_mass(q));
         let (gx, gz) = (pull[0], pull[1] - self.body.mass * GRAVITY);
         let Pose { sin, cos } = Pose::of(q);
         let (_, _, dz, minus_dx) = self.foot(pressing, q, sin, cos);

@@ -102,7 +102,7 @@ impl<S: Scalar> Run<'_, S> {
     }
 
     fn on_legs(&self) -> bool {
-        self.model.frame.is_some_and(|frame| frame.leg.is_some())
+        self.model.elements.leg.is_some()
     }
 
     /// Compression of k1 from which this foot, sliding, holds [m].
@@ -193,7 +193,7 @@ impl<S: Scalar> Run<'_, S> {
                 // a body on sliding feet alone has nothing to lean on
                 let leans = self.feet[1 - foot].holds();
                 // with friction the force has gone before the foot opens, and nothing jumps
-                let jumps = self.model.friction.is_none();
+                let jumps = !self.model.law.slips();
                 let contact = if at_once && !held && leans && jumps {
                     Contact::Slide
                 } else if self.trails(foot) {
@@ -261,8 +261,7 @@ impl<S: Scalar> Run<'_, S> {
             && self.model.turn_to_balance(&mut self.state, &self.feet);
         let end = self.state.q[TH];
         // feet on elastic legs, and feet that may slip, are met by the steps that follow
-        let simple = self.model.frame.is_none() && self.model.friction.is_none();
-        if !self.balanced || end.re() == start.re() || !simple {
+                if !self.balanced || end.re() == start.re() || !self.model.is_plain() {
             return None;
         }
         let passed = |foot: usize| {

@@ -27,13 +27,13 @@ impl<S: Scalar> Run<'_, S> {
     /// What must stay positive while foot i holds or slips as it does, in units of the hesitation; `None` without friction
     /// or in the air.
     fn grip(&self, foot: usize, state: &State<S>) -> Option<f64> {
-        let mu = self.model.grip().re();
+        let mu = self.model.law.coefficient().re();
         match self.feet[foot].contact {
             Contact::Trail => {
                 let Strut { press, lift } = self.model.strut(foot, state);
                 Some(-(press / self.settling).max(lift) / (HESITATION * GRAVITY))
             }
-            _ if self.model.friction.is_none() => None,
+            _ if !self.model.law.slips() => None,
             Contact::Open | Contact::Slide => None,
             Contact::Stick => {
                 let f = &self.model.contact(&state.q, &self.feet)[foot];

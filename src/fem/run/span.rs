@@ -57,7 +57,7 @@ impl<S: Scalar> Run<'_, S> {
         let model = self.model;
         let contacts = self.feet.map(|foot| foot.contact);
         let leans = matches!(contacts, [Contact::Stick, Contact::Open] | [Contact::Open, Contact::Stick]);
-        let simple = model.frame.is_none() && model.friction.is_none() && self.motion.vertical.is_empty();
+        let simple = model.is_plain() && self.motion.vertical.is_empty();
         if !(leans && simple && self.control.long_steps && self.h >= 2.0 * dt) {
             return None;
         }

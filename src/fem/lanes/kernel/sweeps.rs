@@ -8,6 +8,8 @@ use super::{
 };
 use crate::{
     fem::{
+        contact::ContactLaw,
+        element::Elements,
         model::{Contact, Foot, Model, N, Pose, State, TH, Vector},
         newton::{Chains, Rigid},
         radau::{A, C, GAMMA},
@@ -29,8 +31,8 @@ impl Kernel {
             springs: Springs { vertical: chain(4), horizontal: chain(8) },
             translation: f(12),
             rotation: f(13),
-            frame: None,
-            friction: None,
+            law: ContactLaw::Sticking,
+            elements: Elements::NONE,
             skip_open: true,
         }
     }
