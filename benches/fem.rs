@@ -3,7 +3,7 @@
 use std::{hint::black_box, ops::ControlFlow, time::Duration};
 
 use criterion::{BenchmarkId, Criterion, Throughput, criterion_group, criterion_main};
-use groundspring::fem::{Case, Control, Observer, View, histories};
+use groundspring::fem::{Analysis, Control, Observer, View, histories};
 
 #[path = "compare/main.rs"]
 #[cfg_attr(not(test), allow(dead_code))] // its benches alone
@@ -35,12 +35,12 @@ fn lanes(c: &mut Criterion) {
     let threads = rayon::ThreadPoolBuilder::new().num_threads(1).build().expect("a thread");
     for bench in [BenchCase::arr(), BenchCase::plain(160.0), BenchCase::plain(10_240.0)] {
         let control = Control { tolerance: 1e-4, long_steps: true, ..Control::default() };
-        let cases: Vec<Case<f64>> = (0..64).map(|i| bench.case(0.8 + f64::from(i) / 128.0, control)).collect();
+        let cases: Vec<Analysis<f64>> = (0..64).map(|i| bench.case(0.8 + f64::from(i) / 128.0, control)).collect();
         group.throughput(Throughput::Elements(64));
         let name = format!("{}, {} Hz", bench.name, bench.springs.vertical.omega_n_hz);
         group.bench_function(BenchmarkId::new(&name, "every sample"), |b| {
             let control = Control { long_steps: false, ..control };
-            b.iter(|| cases.iter().map(|case| peak(&Case { control, ..*case })).sum::<f64>())
+            b.iter(|| cases.iter().map(|case| peak(&Analysis { control, ..*case })).sum::<f64>())
         });
         group.bench_function(BenchmarkId::new(&name, "one by one"), |b| b.iter(|| cases.iter().map(peak).sum::<f64>()));
         group.bench_function(BenchmarkId::new(&name, "side by side"), |b| {
@@ -60,7 +60,7 @@ impl Observer<f64> for Peak {
     }
 }
 
-fn peak(case: &Case<f64>) -> f64 {
+fn peak(case: &Analysis<f64>) -> f64 {
     let mut peak = Peak(0.0);
     case.observe(&mut peak);
     peak.0

@@ -3,7 +3,7 @@
 use std::{hint::black_box, time::Duration};
 
 use criterion::{Criterion, Throughput, criterion_group, criterion_main};
-use groundspring::housner::{Options, solve, solve_lanes};
+use groundspring::housner::{RockingOptions, solve, solve_lanes};
 
 #[path = "compare/main.rs"]
 #[cfg_attr(not(test), allow(dead_code))] // its history and its peer alone
@@ -14,7 +14,7 @@ use compare::rigid::Problem;
 fn housner(c: &mut Criterion) {
     let problem = Problem::el_centro();
     let (body, dt, accel) = (&problem.body, problem.record.dt, &problem.record.accel);
-    let options = Options::default();
+    let options = RockingOptions::default();
     let mut group = c.benchmark_group("housner");
     group.warm_up_time(Duration::from_millis(300)).measurement_time(Duration::from_secs(2));
     group.bench_function("one", |b| b.iter(|| solve(body, dt, black_box(accel), &options)));

@@ -8,7 +8,7 @@
 use groundspring::{
     conditioning::Conditioning,
     fem::Control,
-    housner::Options,
+    housner::RockingOptions,
     spring::Design,
     structure::Structure,
     synthetic,
@@ -36,7 +36,7 @@ fn main() -> Result<(), Box<dyn std::error::Error>> {
         let motions: Vec<_> = (0..60)
             .into_par_iter()
             .map(|i| synthetic::record(5, i, p, alpha))
-            .filter(|r| Conditioning::new(&body, r.dt, &r.accel, &Options::default()).well_conditioned())
+            .filter(|r| Conditioning::new(&body, r.dt, &r.accel, &RockingOptions::default()).well_conditioned())
             .collect();
         for stiffness in [5e3, 2e4, 8e4] {
             let geometry = Geometry::of(&body, stiffness)?;

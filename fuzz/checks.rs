@@ -9,7 +9,7 @@ use std::path::Path;
 use groundspring::{
     case::Case,
     fem,
-    housner::{self, Options},
+    housner::{self, RockingOptions},
     parameters::Parameters,
     record::{ReadOptions, Record, Recording, Units},
 };
@@ -110,9 +110,9 @@ pub fn parameters(bytes: &[u8]) {
 
     let body = parameters.structure.body::<f64>();
     let accel: Vec<f64> = (0..40).map(|i| 6.0 * (0.4 * f64::from(i)).sin()).collect();
-    let rocking = housner::solve(&body, 0.01, &accel, &Options { max_work: 1000, ..Options::default() });
+    let rocking = housner::solve(&body, 0.01, &accel, &RockingOptions { max_work: 1000, ..RockingOptions::default() });
     assert!(rocking.theta.iter().all(|theta| theta.is_finite()));
-    let case = fem::Case {
+    let case = fem::Analysis {
         body,
         springs: parameters.chains(),
         start: fem::Start::Settled,

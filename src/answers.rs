@@ -5,7 +5,7 @@ use std::convert::Infallible;
 use crate::{
     compare::Match,
     conditioning::Conditioning,
-    fem::{self, Demands, History, Landing, Peak},
+    fem::{self, Demands, ForcePeak, History, Landing},
     housner::{self, Rocking},
     members::Members,
     motion::Motion,
@@ -44,12 +44,12 @@ pub fn both(
     members: &Members<f64>,
     record: &Record,
 ) -> Both {
-    let level = housner::Options { restitution: Some(restitution), ..Default::default() };
-    let options = housner::Options { vertical: record.vertical_accel(), ..level.clone() };
+    let level = housner::RockingOptions { restitution: Some(restitution), ..Default::default() };
+    let options = housner::RockingOptions { vertical: record.vertical_accel(), ..level.clone() };
     let rocking = housner::solve(body, record.dt, &record.accel, &options);
     let level = record.vertical.as_ref().map(|_| housner::solve(body, record.dt, &record.accel, &level));
     let motion = rocking.motion(body);
-    let case = fem::Case {
+    let case = fem::Analysis {
         body: *body,
         springs: *springs,
         start: fem::Start::Settled,
@@ -78,7 +78,7 @@ pub fn compare(parameters: &Parameters, record: &Record) -> (Both, Verdict) {
     let (body, e) = (parameters.structure.body(), parameters.restitution());
     let both = both(&body, e, &parameters.chains(), &parameters.members(), record);
     let vertical = record.vertical_accel();
-    let options = housner::Options { restitution: Some(e), vertical, ..Default::default() };
+    let options = housner::RockingOptions { restitution: Some(e), vertical, ..Default::default() };
     let verdict = both.verdict(&body, record.dt, &Conditioning::new(&body, record.dt, &record.accel, &options));
     (both, verdict)
 }
@@ -124,13 +124,15 @@ impl Both {
     pub fn early(&self) -> Vec<String> {
         let said = |name: &str, history: &fem::History| {
             let (time, why) = match history.outcome {
-                fem::Outcome::Completed | fem::Outcome::Stopped { .. } | fem::Outcome::Overturned { .. } => {
+                fem::HistoryOutcome::Completed
+                | fem::HistoryOutcome::Stopped { .. }
+                | fem::HistoryOutcome::Overturned { .. } => {
                     return None;
                 }
-                fem::Outcome::WorkBound { time } => {
+                fem::HistoryOutcome::WorkBound { time } => {
                     (time, "given up at the bound on steps; use softer or damped springs")
                 }
-                fem::Outcome::Unstable { time } => (
+                fem::HistoryOutcome::Unstable { time } => (
                     time,
                     "the rotation lost its balance: springs too soft for a body with so little rotational inertia, or a lean \
                      at which a leg would pull; use stiffer springs, or a rotational_inertia_kgm2 above 0.002 m R^2",
@@ -178,7 +180,7 @@ fn peaks_until(demands: &mut Demands, dt: f64, overturned: Option<f64>) {
     for (i, row) in demands.rows.iter().enumerate().take(samples_until(overturned, dt)) {
         for (peak, &value) in demands.peaks.iter_mut().zip(row) {
             if value.abs() > peak.value.abs() {
-                *peak = Peak { value, time: i as f64 * dt };
+                *peak = ForcePeak { value, time: i as f64 * dt };
             }
         }
     }
@@ -225,11 +227,11 @@ mod tests {
     fn the_largest_forces_are_those_before_the_fall() {
         let mut demands = Demands::default();
         demands.rows = [1.0, -3.0, 2.0, 50.0].map(|x| [x; QUANTITIES.len()]).to_vec();
-        demands.peaks = [Peak { value: 50.0, time: 0.033 }; QUANTITIES.len()];
+        demands.peaks = [ForcePeak { value: 50.0, time: 0.033 }; QUANTITIES.len()];
         let whole = demands.clone();
         peaks_until(&mut demands, 0.01, None);
         assert_eq!(demands, whole);
         peaks_until(&mut demands, 0.01, Some(0.025));
-        assert_eq!(demands.peaks[0], Peak { value: -3.0, time: 0.01 });
+        assert_eq!(demands.peaks[0], ForcePeak { value: -3.0, time: 0.01 });
     }
 }

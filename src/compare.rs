@@ -135,8 +135,8 @@ fn error_above(landings: &[(f64, f64)], restitution: f64, least: f64) -> Option<
 mod tests {
     use super::*;
     use crate::{
-        fem::{Case, Control, Start},
-        housner::{Options, solve},
+        fem::{Analysis, Control, Start},
+        housner::{RockingOptions, solve},
         spring::{Design, Springs},
         structure::Structure,
     };
@@ -148,9 +148,10 @@ mod tests {
         let springs = Springs { vertical: design, horizontal: design }.chains(body.mass);
         let dt = 0.01;
         let accel = vec![share_of_limit * 9.81 * body.half_width / body.height; 1000];
-        let rocking = solve(&body, dt, &accel, &Options::default());
+        let rocking = solve(&body, dt, &accel, &RockingOptions::default());
         let (start, control) = (Start::Settled, Control::default());
-        let history = Case { body, springs, start, dt, accel: &accel, vertical: &[], scale: 1.0, control }.simulate();
+        let history =
+            Analysis { body, springs, start, dt, accel: &accel, vertical: &[], scale: 1.0, control }.simulate();
         let housner = (&rocking.motion(&body), &rocking.impacts[..]);
         (body, Match::new(&body, dt, housner, &history, body.restitution()), rocking.overturned().unwrap_or(f64::NAN))
     }
@@ -162,14 +163,14 @@ mod tests {
         let structure = Structure::block(2.0, 0.5, 1e3).unwrap();
         let body = structure.body::<f64>();
         let (dt, accel, theta) = (0.005, vec![0.0; 2000], 0.3 * body.alpha());
-        let options = Options { initial: Some((theta, 0.0)), ..Options::default() };
+        let options = RockingOptions { initial: Some((theta, 0.0)), ..RockingOptions::default() };
         let rocking = solve(&body, dt, &accel, &options);
         let design = Design::from_kc(0.3, 0.1, 0.75, 2000.0);
         let springs = Springs { vertical: design, horizontal: design }.chains(body.mass);
         let (start, control) = (Start::Leaning(theta), Control::default());
-        let history = Case { body, springs, start, dt, accel: &accel, vertical: &[], scale: 1.0, control }.simulate();
-        let found =
-            Match::new(&body, dt, (&rocking.motion(&body), &rocking.impacts), &history, body.restitution());
+        let history =
+            Analysis { body, springs, start, dt, accel: &accel, vertical: &[], scale: 1.0, control }.simulate();
+        let found = Match::new(&body, dt, (&rocking.motion(&body), &rocking.impacts), &history, body.restitution());
         let energy = |lean: f64| (1.0 - (1.0 - lean).powi(2)) / (1.0 - 0.7f64.powi(2));
         let expected = (energy(0.02).ln() / (2.0 * body.restitution().ln())).ceil() as usize;
         assert!(found.impacts_housner_firm.unwrap().abs_diff(expected) <= 1, "{found:?}, {expected}");

@@ -11,7 +11,7 @@
 use nalgebra::Const;
 use num_dual::DualSVec64;
 
-use crate::housner::{Options, Outcome, Rocking, solve, solve_lanes};
+use crate::housner::{Rocking, RockingOptions, RockingOutcome, solve, solve_lanes};
 use crate::motion::nrmse;
 use crate::overturning::samples_until;
 use crate::structure::Body;
@@ -82,7 +82,7 @@ pub struct Conditioning {
 
 impl Conditioning {
     /// Of Housner's history: record and options as in [`solve`].
-    pub fn new(body: &Body<f64>, dt: f64, accel: &[f64], options: &Options<f64>) -> Self {
+    pub fn new(body: &Body<f64>, dt: f64, accel: &[f64], options: &RockingOptions<f64>) -> Self {
         Self { sensitivity: sensitivity(body, dt, accel, options), changes: changes(body, dt, accel, options) }
     }
 
@@ -98,7 +98,7 @@ pub fn moved_by_width(
     body: &Body<f64>,
     dt: f64,
     accel: &[f64],
-    options: &Options<f64>,
+    options: &RockingOptions<f64>,
     rocking: &Rocking<f64>,
     change: f64,
 ) -> f64 {
@@ -115,13 +115,13 @@ fn moved(changed: &[f64], u: &[f64]) -> f64 {
 }
 
 /// Twelve histories beside the unchanged one, all in lock-step.
-pub fn changes(body: &Body<f64>, dt: f64, accel: &[f64], options: &Options<f64>) -> Changes {
+pub fn changes(body: &Body<f64>, dt: f64, accel: &[f64], options: &RockingOptions<f64>) -> Changes {
     let restitution = options.restitution.unwrap_or_else(|| body.restitution());
     let (mut bodies, mut all) = (vec![*body], vec![options.clone()]);
     for change in CHANGES.iter().flat_map(|d| [1.0 + d, 1.0 - d]) {
-        let changed = Options { restitution: Some((restitution * change).min(1.0)), ..options.clone() };
+        let changed = RockingOptions { restitution: Some((restitution * change).min(1.0)), ..options.clone() };
         bodies.extend([Body { half_width: body.half_width * change, ..*body }, *body, *body]);
-        all.extend([options.clone(), Options { scale: options.scale * change, ..options.clone() }, changed]);
+        all.extend([options.clone(), RockingOptions { scale: options.scale * change, ..options.clone() }, changed]);
     }
     let histories = solve_lanes(&bodies, dt, accel, &all);
     let displacements = |i: usize| histories[i].motion(&bodies[i]).u;
@@ -131,7 +131,7 @@ pub fn changes(body: &Body<f64>, dt: f64, accel: &[f64], options: &Options<f64>)
         let samples = samples_until(until, dt).min(u.len());
         moved(&displacements(i), &u[..samples])
     };
-    let overturns = |rocking: &Rocking<f64>| matches!(rocking.outcome, Outcome::Overturned { .. });
+    let overturns = |rocking: &Rocking<f64>| matches!(rocking.outcome, RockingOutcome::Overturned { .. });
     // history 1 + 6 k + 3 j + what: size k, sign j
     let largest = |what: usize| [0, 1].map(|k| f64::max(moved_by(1 + 6 * k + what), moved_by(4 + 6 * k + what)));
     Changes {
@@ -144,7 +144,7 @@ pub fn changes(body: &Body<f64>, dt: f64, accel: &[f64], options: &Options<f64>)
 
 /// The sensitivity of a history up to its overturning, if it does: record and options as in [`solve`]. A body that never
 /// moves has none: zero.
-pub fn sensitivity(body: &Body<f64>, dt: f64, accel: &[f64], options: &Options<f64>) -> Sensitivity {
+pub fn sensitivity(body: &Body<f64>, dt: f64, accel: &[f64], options: &RockingOptions<f64>) -> Sensitivity {
     type Dual = DualSVec64<2>;
     let real = Dual::from_re;
     let dual_body = Body {
@@ -153,7 +153,7 @@ pub fn sensitivity(body: &Body<f64>, dt: f64, accel: &[f64], options: &Options<f
         height: real(body.height),
         inertia: real(body.inertia),
     };
-    let dual_options = Options {
+    let dual_options = RockingOptions {
         scale: (real(0.0).derivative(1) + 1.0) * options.scale,
         vertical: options.vertical.clone(),
         restitution: options.restitution.map(real),
@@ -182,8 +182,8 @@ mod tests {
     use crate::scalar::GRAVITY;
     use crate::structure::Structure;
 
-    fn twenty_seconds() -> Options<f64> {
-        Options { duration: Some(20.0), ..Options::default() }
+    fn twenty_seconds() -> RockingOptions<f64> {
+        RockingOptions { duration: Some(20.0), ..RockingOptions::default() }
     }
 
     /// || u(x) - u(-x) || / 2x || u ||, x the relative change of one parameter.
@@ -208,7 +208,7 @@ mod tests {
         );
         let scale = by_differences(
             |x| {
-                let options = Options { scale: 1.0 + x, ..twenty_seconds() };
+                let options = RockingOptions { scale: 1.0 + x, ..twenty_seconds() };
                 solve(&body, 0.01, &accel, &options).motion(&body).u
             },
             1e-6,
@@ -226,15 +226,15 @@ mod tests {
         let body = Structure::paper().body::<f64>();
         let accel = Record::el_centro().accel;
         let found = Conditioning::new(&body, 0.01, &accel, &twenty_seconds());
-        let u = |body: Body<f64>, options: Options<f64>| solve(&body, 0.01, &accel, &options).motion(&body).u;
+        let u = |body: Body<f64>, options: RockingOptions<f64>| solve(&body, 0.01, &accel, &options).motion(&body).u;
         let middle = u(body, twenty_seconds());
         for (k, d) in CHANGES.into_iter().enumerate() {
             let largest = |u: &dyn Fn(f64) -> Vec<f64>| nrmse(&u(1.0 + d), &middle).max(nrmse(&u(1.0 - d), &middle));
             let width = largest(&|x| u(Body { half_width: body.half_width * x, ..body }, twenty_seconds()));
-            let scale = largest(&|x| u(body, Options { scale: x, ..twenty_seconds() }));
+            let scale = largest(&|x| u(body, RockingOptions { scale: x, ..twenty_seconds() }));
             let e = body.restitution();
             let restitution =
-                largest(&|x| u(body, Options { restitution: Some((e * x).min(1.0)), ..twenty_seconds() }));
+                largest(&|x| u(body, RockingOptions { restitution: Some((e * x).min(1.0)), ..twenty_seconds() }));
             assert_eq!([found.changes.width[k], found.changes.scale[k]], [width, scale]);
             assert_eq!(found.changes.restitution[k], restitution);
         }
@@ -257,7 +257,7 @@ mod tests {
         };
         let accel: Vec<f64> = (0..6000).map(|i| push(f64::from(i) * 0.01)).collect();
         let initial = Some((0.3 * body.alpha(), 0.0));
-        let options = Options { initial, restitution: Some(0.6), ..Options::default() };
+        let options = RockingOptions { initial, restitution: Some(0.6), ..RockingOptions::default() };
         let found = Conditioning::new(&body, 0.01, &accel, &options);
         assert!(found.sensitivity.worst() < ILL_CONDITIONED, "{found:?}");
         assert!(found.changes.width[0] > 0.1 && found.changes.scale[0] > 0.1, "{found:?}");
@@ -269,7 +269,7 @@ mod tests {
     fn some_motions_of_any_suite_are_well_conditioned_by_the_derivative_alone() {
         let body = Structure::a_frame(20.0, 1.2, 1e5).unwrap().body::<f64>();
         let by_both = |record: Record| {
-            let found = Conditioning::new(&body, record.dt, &record.accel, &Options::default());
+            let found = Conditioning::new(&body, record.dt, &record.accel, &RockingOptions::default());
             (found.sensitivity.worst() < ILL_CONDITIONED, found.well_conditioned())
         };
         let all: Vec<_> = crate::synthetic::suite(200, 7, body.p_squared().sqrt(), body.alpha()).map(by_both).collect();
@@ -281,7 +281,7 @@ mod tests {
     #[test]
     fn a_body_that_never_moves_is_not_sensitive() {
         let body = Structure::paper().body::<f64>();
-        let found = Conditioning::new(&body, 0.01, &[0.1; 100], &Options::default());
+        let found = Conditioning::new(&body, 0.01, &[0.1; 100], &RockingOptions::default());
         assert_eq!(found.sensitivity, Sensitivity { width: 0.0, scale: 0.0 });
         assert_eq!(found.changes, Changes::default());
     }
@@ -290,7 +290,7 @@ mod tests {
     #[test]
     fn a_body_near_balance_is_ill_conditioned() {
         let body = Structure::paper().body::<f64>();
-        let options = Options { initial: Some(((1.0 - 1e-4) * body.alpha(), 0.0)), ..Options::default() };
+        let options = RockingOptions { initial: Some(((1.0 - 1e-4) * body.alpha(), 0.0)), ..RockingOptions::default() };
         let found = Conditioning::new(&body, 0.01, &[0.0; 3000], &options);
         assert!(found.sensitivity.worst() > ILL_CONDITIONED && !found.changes.proportionate(), "{found:?}");
     }

@@ -44,8 +44,8 @@ mod stance;
 mod step;
 mod strut;
 
-pub use control::{Control, Outcome, Work};
-pub use demands::{Demands, Peak, QUANTITIES};
+pub use control::{Control, HistoryOutcome, Work};
+pub use demands::{Demands, ForcePeak, QUANTITIES};
 pub use energy::Energy;
 pub use history::{Account, Forces, History, Recorder};
 pub use landings::Landing;
@@ -73,7 +73,7 @@ pub enum Start<S> {
 
 /// What a run is made of.
 #[derive(Clone, Copy, Debug)]
-pub struct Case<'a, S> {
+pub struct Analysis<'a, S> {
     pub body: Body<S>,
     pub springs: Springs<Chain<S>>,
     pub start: Start<S>,
@@ -91,14 +91,14 @@ pub struct Case<'a, S> {
 /// How a run ended, what it cost, and its energy account.
 #[derive(Clone, Copy, Debug)]
 pub struct Finish<S> {
-    pub outcome: Outcome,
+    pub outcome: HistoryOutcome,
     pub work: Work,
     pub energy: Energy<S>,
     /// Largest energy of the history, the scale of its residual [J].
     pub energy_scale: f64,
 }
 
-impl<S: Scalar> Case<'_, S> {
+impl<S: Scalar> Analysis<'_, S> {
     /// Run the case, showing every sample and event to `observer`.
     pub fn observe(&self, observer: &mut impl Observer<S>) -> Finish<S> {
         self.follow(&self.model(), observer)
@@ -128,13 +128,13 @@ impl<S: Scalar> Case<'_, S> {
         model::Model { skip_open: self.control.skip_open, ..model::Model::new(&self.body, &self.springs) }
     }
 
-    fn ground(&self) -> run::Motion<'_, S> {
+    fn ground(&self) -> run::GroundMotion<'_, S> {
         let &Self { dt, accel, vertical, scale, .. } = self;
-        run::Motion { dt, accel, vertical, scale }
+        run::GroundMotion { dt, accel, vertical, scale }
     }
 }
 
-impl Case<'_, f64> {
+impl Analysis<'_, f64> {
     /// Run the case and keep its history.
     pub fn simulate(&self) -> History {
         let mut recorder = Recorder::new(self.accel.len());

@@ -11,7 +11,7 @@ use serde::{Deserialize, Serialize};
 
 use crate::{
     export::deck_steps,
-    fem::{Case, Change, Control, Observer, Start, View},
+    fem::{Analysis, Change, Control, Observer, Start, View},
     scalar::GRAVITY,
     spring::{Design, Springs},
     tuning::{
@@ -25,7 +25,7 @@ const LADDER_HZ: [f64; 8] = [160.0, 320.0, 640.0, 1280.0, 2560.0, 5120.0, 10240.
 
 /// One point of the front.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
-pub struct Point {
+pub struct FrontPoint {
     /// Omega_n of the vertical units (Hz).
     pub omega_n_hz: f64,
     /// Whether these springs were chosen.
@@ -42,7 +42,7 @@ pub struct Point {
 }
 
 /// The front of a job.
-pub fn front(job: &Job, progress: &(dyn Fn(usize, usize) + Sync)) -> Vec<Point> {
+pub fn front(job: &Job, progress: &(dyn Fn(usize, usize) + Sync)) -> Vec<FrontPoint> {
     let chosen = job.springs.vertical.omega_n_hz;
     let mut ladder: Vec<f64> = LADDER_HZ.into_iter().filter(|hz| (hz / chosen).ln().abs() > 0.05).collect();
     ladder.push(chosen);
@@ -60,7 +60,7 @@ pub fn front(job: &Job, progress: &(dyn Fn(usize, usize) + Sync)) -> Vec<Point> 
             let (arr, ours) = rayon::join(arr, ours);
             progress(done.fetch_add(1, Ordering::Relaxed) + 1, ladder.len());
             let (landing, (foot_force_weights, deck_steps)) = ours?;
-            Some(Point { omega_n_hz: hz, chosen: hz == chosen, landing, arr, foot_force_weights, deck_steps })
+            Some(FrontPoint { omega_n_hz: hz, chosen: hz == chosen, landing, arr, foot_force_weights, deck_steps })
         })
         .collect()
 }
@@ -110,7 +110,7 @@ impl Observer<f64> for Watch {
 
 /// Largest vertical foot force in weights, and a deck's steps, on the record.
 fn cost(job: &Job, springs: &Springs<Design<f64>>) -> (f64, usize) {
-    let case = Case {
+    let case = Analysis {
         body: job.body,
         springs: springs.chains(job.body.mass),
         start: Start::Settled,

@@ -37,7 +37,7 @@ use std::sync::Arc;
 
 /// How to solve.
 #[derive(Clone, Debug)]
-pub struct Options<S> {
+pub struct RockingOptions<S> {
     /// Factor on the record's acceleration, both components.
     pub scale: S,
     /// Vertical ground acceleration at the same times (m/s2), positive upwards; zero after its last sample. None: the ground does
@@ -53,7 +53,7 @@ pub struct Options<S> {
     pub max_work: usize,
 }
 
-impl<S: Scalar> Default for Options<S> {
+impl<S: Scalar> Default for RockingOptions<S> {
     fn default() -> Self {
         Self { scale: S::one(), vertical: None, restitution: None, duration: None, initial: None, max_work: 2_000_000 }
     }
@@ -82,7 +82,7 @@ pub struct Uplift<S> {
 /// How a history ended.
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[non_exhaustive]
-pub enum Outcome {
+pub enum RockingOutcome {
     /// It rocked and did not overturn.
     Rocked,
     /// The ground never lifted it.
@@ -123,7 +123,7 @@ pub struct Rocking<S> {
     /// Uplifts from rest in order of time.
     pub uplifts: Vec<Uplift<S>>,
     /// How it ended.
-    pub outcome: Outcome,
+    pub outcome: RockingOutcome,
 }
 
 /// Rock a body on a record: ground accelerations (m/s2) at t = 0, dt, 2 dt ... (s), linear between them.
@@ -133,11 +133,11 @@ pub struct Rocking<S> {
 /// let body = Structure::paper().body::<f64>();
 /// // 0.5 s at 2 m/s2, just above g tan(alpha) = 0.981 m/s2
 /// let accel: Vec<f64> = (0..1000).map(|i| if i < 50 { 2.0 } else { 0.0 }).collect();
-/// let rocking = housner::solve(&body, 0.01, &accel, &housner::Options::default());
+/// let rocking = housner::solve(&body, 0.01, &accel, &housner::RockingOptions::default());
 /// assert_eq!(rocking.uplifts[0].side, -1.0);
 /// assert!(!rocking.impacts.is_empty());
 /// ```
-pub fn solve<S: Scalar>(body: &Body<S>, dt: f64, accel: &[f64], options: &Options<S>) -> Rocking<S> {
+pub fn solve<S: Scalar>(body: &Body<S>, dt: f64, accel: &[f64], options: &RockingOptions<S>) -> Rocking<S> {
     let (theta, rate) = start(options);
     let set = setting(body, dt, accel, options);
     match options.vertical {
@@ -149,7 +149,7 @@ pub fn solve<S: Scalar>(body: &Body<S>, dt: f64, accel: &[f64], options: &Option
 /// Rock many bodies on one record, or one body on many scales of it, sixteen at a time in lock-step, on every
 /// thread; each result is, bit for bit, that of [`solve`]. The longer of the two lists decides how many there are; the shorter one is repeated from its start.
 /// Options with the same vertical record (clones of one `Arc`) go side by side.
-pub fn solve_lanes(bodies: &[Body<f64>], dt: f64, accel: &[f64], options: &[Options<f64>]) -> Vec<Rocking<f64>> {
+pub fn solve_lanes(bodies: &[Body<f64>], dt: f64, accel: &[f64], options: &[RockingOptions<f64>]) -> Vec<Rocking<f64>> {
     if bodies.is_empty() || options.is_empty() {
         return Vec::new();
     }
@@ -207,11 +207,16 @@ fn together<'a, const V: bool>(
     placed.extend(done.into_iter().flatten());
 }
 
-fn start<S: Scalar>(options: &Options<S>) -> (S, S) {
+fn start<S: Scalar>(options: &RockingOptions<S>) -> (S, S) {
     options.initial.unwrap_or((real(0.0), real(0.0)))
 }
 
-fn setting<'a, S: Scalar>(body: &Body<S>, dt: f64, accel: &'a [f64], options: &'a Options<S>) -> walk::Setting<'a, S> {
+fn setting<'a, S: Scalar>(
+    body: &Body<S>,
+    dt: f64,
+    accel: &'a [f64],
+    options: &'a RockingOptions<S>,
+) -> walk::Setting<'a, S> {
     let radius = body.radius();
     walk::Setting {
         dt,
@@ -232,7 +237,7 @@ fn setting<'a, S: Scalar>(body: &Body<S>, dt: f64, accel: &'a [f64], options: &'
 /// Whether a body left alone on still ground with this theta (rad) and theta' (rad/s) falls: it is beyond alpha, and what
 /// brings it back is too slow to reach alpha.
 pub fn topples(body: &Body<f64>, theta: f64, rate: f64) -> bool {
-    let options = Options { initial: Some((theta, rate)), ..Options::default() };
+    let options = RockingOptions { initial: Some((theta, rate)), ..RockingOptions::default() };
     solve(body, 1.0, &[0.0], &options).overturned().is_some()
 }
 
@@ -249,7 +254,7 @@ impl<S> Rocking<S> {
     /// When |theta| last grew past alpha, if the body overturned (s).
     pub fn overturned(&self) -> Option<f64> {
         match self.outcome {
-            Outcome::Overturned { time } => Some(time),
+            RockingOutcome::Overturned { time } => Some(time),
             _ => None,
         }
     }
@@ -257,7 +262,7 @@ impl<S> Rocking<S> {
     /// When the pivot let go of the ground, if that ended the history (s).
     pub fn left_ground(&self) -> Option<f64> {
         match self.outcome {
-            Outcome::LeavesGround { time } => Some(time),
+            RockingOutcome::LeavesGround { time } => Some(time),
             _ => None,
         }
     }

@@ -115,11 +115,8 @@ pub use compare::Match;
 pub use conditioning::{Changes, Conditioning, Sensitivity};
 pub use excitation::Excitation;
 pub use export::{DeckFormat, ExportError, deck};
-pub use fem::{Account, Demands, Forces, History, Landing, Outcome as HistoryOutcome, QUANTITIES, Work};
-pub use housner::{
-    Impact, Options as RockingOptions, Outcome as RockingOutcome, Rocking, Uplift, solve as rock,
-    solve_lanes as rock_many,
-};
+pub use fem::{Account, Demands, Forces, History, HistoryOutcome, Landing, QUANTITIES, Work};
+pub use housner::{Impact, Rocking, RockingOptions, RockingOutcome, Uplift, solve as rock, solve_lanes as rock_many};
 pub use members::{Damper, Friction, Legs, Members, MembersError, Tendon};
 pub use motion::{Motion, nrmse};
 pub use parameters::{Parameters, ParametersError, RememberedError};

@@ -33,7 +33,10 @@ mod tests {
     #[test]
     fn shares_have_three_digits_or_words() {
         let all = [0.0, 4e-6, -2.34e-4, 0.0457, 0.96, 1.0, 12.0].map(percent);
-        assert_eq!(all, ["below 0.001 %", "below 0.001 %", "-0.023 %", "4.57 %", "96.0 %", "100 %", "more than 1000 %"]);
+        assert_eq!(
+            all,
+            ["below 0.001 %", "below 0.001 %", "-0.023 %", "4.57 %", "96.0 %", "100 %", "more than 1000 %"]
+        );
     }
 
     #[test]

@@ -34,7 +34,7 @@ pub fn samples_until(time: Option<f64>, dt: f64) -> usize {
 mod tests {
     use super::*;
     use crate::{
-        housner::{Options, solve},
+        housner::{RockingOptions, solve},
         structure::Structure,
     };
 
@@ -44,7 +44,7 @@ mod tests {
         let body = Structure::paper().body::<f64>();
         for duration in [7.0, 20.0] {
             let accel = vec![1.5; (100.0 * duration) as usize];
-            let rocking = solve(&body, 0.01, &accel, &Options::default());
+            let rocking = solve(&body, 0.01, &accel, &RockingOptions::default());
             let (found, exact) = (overturned(&body, 0.01, &rocking.theta).unwrap(), rocking.overturned().unwrap());
             assert!((found - exact).abs() < 1e-4, "{found} {exact}");
         }

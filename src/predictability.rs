@@ -4,7 +4,7 @@
 //! anyone needs. A deck's steps become finer where that is so (`export/model`).
 
 use crate::{
-    fem::{Case, Control, History, Start},
+    fem::{Analysis, Control, History, Start},
     motion::{Motion, nrmse},
     parameters::Parameters,
     record::Record,
@@ -47,7 +47,7 @@ pub fn foretold_until(motion: &Motion, changed: &Motion) -> Option<usize> {
 
 /// Our own history of a deck's model; `parameters` with inertia.
 pub fn simulate(parameters: &Parameters, record: &Record) -> History {
-    Case {
+    Analysis {
         body: parameters.structure.body::<f64>(),
         springs: parameters.chains(),
         start: Start::Settled,

@@ -68,11 +68,11 @@ pub struct Verdict {
 impl Answer {
     fn of_housner(body: &Body<f64>, dt: f64, rocking: &Rocking<f64>) -> Self {
         let fate = match rocking.outcome {
-            housner::Outcome::NeverMoved => Fate::NeverLifted,
-            housner::Outcome::Rocked => Fate::Rocked,
-            housner::Outcome::Overturned { .. } => Fate::Overturned,
-            housner::Outcome::LeavesGround { .. } => Fate::LeftGround,
-            housner::Outcome::WorkBound { .. } | housner::Outcome::NotFinite { .. } => Fate::Failed,
+            housner::RockingOutcome::NeverMoved => Fate::NeverLifted,
+            housner::RockingOutcome::Rocked => Fate::Rocked,
+            housner::RockingOutcome::Overturned { .. } => Fate::Overturned,
+            housner::RockingOutcome::LeavesGround { .. } => Fate::LeftGround,
+            housner::RockingOutcome::WorkBound { .. } | housner::RockingOutcome::NotFinite { .. } => Fate::Failed,
         };
         let left_ground_s = rocking.left_ground();
         Self { left_ground_s, ..Self::new(body, dt, fate, rocking.overturned(), &rocking.theta) }
@@ -83,7 +83,7 @@ impl Answer {
         let time = overturned(body, dt, theta);
         let fate = match history.outcome {
             _ if time.is_some() => Fate::Overturned,
-            fem::Outcome::WorkBound { .. } | fem::Outcome::Unstable { .. } => Fate::Failed,
+            fem::HistoryOutcome::WorkBound { .. } | fem::HistoryOutcome::Unstable { .. } => Fate::Failed,
             _ if history.landings.is_empty() && history.airborne == 0.0 => Fate::NeverLifted,
             _ => Fate::Rocked,
         };
@@ -170,8 +170,8 @@ impl Verdict {
                 self.compared_s
             )),
             Some(_) => lines.push(
-                "this one motion is ILL-CONDITIONED: the least change of structure or record makes another history of it, so that no \
-                 model can foretell it, whatever its springs; judge them by many motions (tune validate)"
+                "this one motion is ILL-CONDITIONED: a small change of structure or record makes another history of it, so that no \
+                 model can foretell that of a real structure, whatever its springs; judge them by many motions (tune validate)"
                     .into(),
             ),
         }

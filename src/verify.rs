@@ -122,7 +122,7 @@ pub fn verify(
     let parameters = &Parameters { structure: with_inertia(&parameters.structure), ..parameters.clone() };
     let body = parameters.structure.body::<f64>();
     let history = simulate(parameters, record);
-    let options = housner::Options { vertical: record.vertical_accel(), ..Default::default() };
+    let options = housner::RockingOptions { vertical: record.vertical_accel(), ..Default::default() };
     let rocking = housner::solve(&body, record.dt, &record.accel, &options);
     let housner = rocking.motion(&body);
 

@@ -8,7 +8,7 @@
 use groundspring::response::Response;
 use groundspring::response::bounds::{Bounds, k_min_for_settlement};
 use groundspring::response::target::{Band, BandKind, Target};
-use groundspring::tuning::arr::inner::{Fit, FitError, Outcome, families, fit};
+use groundspring::tuning::arr::inner::{Fit, FitError, FitOutcome, families, fit};
 
 fn minimax(mu: f64) -> Fit {
     fit(mu, &Target::default(), &Bounds::default()).unwrap()
@@ -16,7 +16,7 @@ fn minimax(mu: f64) -> Fit {
 
 fn assert_certified(fit: &Fit) {
     let certificate = &fit.certificate;
-    assert_eq!(fit.outcome, Outcome::Converged, "{fit:?}");
+    assert_eq!(fit.outcome, FitOutcome::Converged, "{fit:?}");
     assert!(certificate.residual < 1e-7 && certificate.spread < 1e-9, "{fit:?}");
     let sum: f64 = certificate.active.iter().map(|active| active.multiplier).sum();
     assert!((sum - 1.0).abs() < 1e-12 && certificate.active.iter().all(|active| active.multiplier >= 0.0), "{fit:?}");

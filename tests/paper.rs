@@ -23,7 +23,7 @@ struct Tuned {
 static TUNED: LazyLock<Tuned> = LazyLock::new(|| {
     let case = Case::paper().unwrap();
     let job = Job::new(&case, &|_, _, _| {}).unwrap();
-    let fem = fem::Case {
+    let fem = fem::Analysis {
         body: job.body,
         springs: job.springs.chains(job.body.mass),
         start: Start::Settled,

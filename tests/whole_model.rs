@@ -1,7 +1,7 @@
 //! Springs softer than the landing's limit, and springs that are to have another restitution: landings of the whole model.
 
 use groundspring::{
-    fem::{Case, Control, Start},
+    fem::{Analysis, Control, Start},
     spring::{Design, Springs},
     structure::{Body, Structure},
     tuning::{
@@ -54,7 +54,8 @@ fn free_rocking_on_stiff_springs_never_creates_energy() {
     let springs = at(&body, 4e4).unwrap().chains(body.mass);
     let accel = vec![0.0; 10001];
     let (start, control) = (Start::Leaning(0.9 * body.alpha()), Control::default());
-    let history = Case { body, springs, start, dt: 0.01, accel: &accel, vertical: &[], scale: 1.0, control }.simulate();
+    let history =
+        Analysis { body, springs, start, dt: 0.01, accel: &accel, vertical: &[], scale: 1.0, control }.simulate();
     assert!(history.impacts() > 10);
     let scale = history.account.dissipated.last().unwrap();
     // a Radau step may misjudge its own dissipation by what the account allows it, 1e-9 of the energy

@@ -4,7 +4,7 @@ use std::hint::black_box;
 
 use super::{Point, Series, least};
 use groundspring::{
-    fem::{Case, Control, History, Start},
+    fem::{Analysis, Control, History, Start},
     motion::{Motion, nrmse},
     parameters::Parameters,
     record::Record,
@@ -59,9 +59,9 @@ impl BenchCase {
     }
 
     /// The record at a scale.
-    pub fn case(&self, scale: f64, control: Control) -> Case<'_, f64> {
+    pub fn case(&self, scale: f64, control: Control) -> Analysis<'_, f64> {
         let body = structure().body::<f64>();
-        Case {
+        Analysis {
             body,
             springs: self.springs.chains(body.mass),
             start: Start::Settled,

@@ -4,7 +4,7 @@ use std::hint::black_box;
 
 use super::{Point, Series, alternate};
 use groundspring::{
-    housner::{Options, solve, solve_lanes},
+    housner::{RockingOptions, solve, solve_lanes},
     record::Record,
     structure::{Body, Structure},
 };
@@ -54,7 +54,7 @@ impl Problem {
     }
 
     fn ours(&self) -> Vec<f64> {
-        solve(&self.body, self.record.dt, &self.record.accel, &Options::default()).theta
+        solve(&self.body, self.record.dt, &self.record.accel, &RockingOptions::default()).theta
     }
 }
 
@@ -113,7 +113,7 @@ pub fn lanes(problem: &Problem, structures: usize, rounds: usize) -> Lanes {
             ..problem.body
         })
         .collect();
-    let options = Options::default();
+    let options = RockingOptions::default();
     let mut together = || drop(black_box(solve_lanes(&bodies, *dt, accel, std::slice::from_ref(&options))));
     let mut each = || drop(black_box(bodies.iter().map(|body| solve(body, *dt, accel, &options)).collect::<Vec<_>>()));
     // from within the pool, as a program at work calls it; a call from outside wakes two threads at once, which Linux often

@@ -7,7 +7,7 @@ use super::{
     elements::{BenchCase, at, structure},
 };
 use groundspring::{
-    fem::{Case, Control, Observer, Recorder, Start, View},
+    fem::{Analysis, Control, Observer, Recorder, Start, View},
     housner,
     members::{Legs, Members},
     motion::nrmse,
@@ -76,8 +76,8 @@ fn toppled(rounds: usize) -> Skip {
     let dt = bench.record.dt;
     let mut accel = vec![4.0; (3.0 / dt) as usize];
     accel.resize((33.0 / dt) as usize, 0.0);
-    let theta = housner::solve(&body, dt, &accel, &housner::Options::default()).theta;
-    let case = Case {
+    let theta = housner::solve(&body, dt, &accel, &housner::RockingOptions::default()).theta;
+    let case = Analysis {
         body,
         springs: bench.springs.chains(body.mass),
         start: Start::Settled,
@@ -126,7 +126,7 @@ fn rigid_legs(rounds: usize) -> Skip {
     let legs = Some(Legs { ea: stiff * length, ei: stiff * length.powi(3) / 3.0 });
     let members = Members { legs, ..Members::default() };
     let (dt, accel) = (bench.record.dt, &bench.record.accel[..]);
-    let case = Case {
+    let case = Analysis {
         body,
         springs,
         start: Start::Settled,
@@ -153,7 +153,7 @@ fn candidates(rounds: usize) -> Skip {
         .flat_map(|hz| sets.map(|s| Springs { vertical: scaled(s.vertical, hz), horizontal: scaled(s.horizontal, hz) }))
         .collect();
     let (body, record) = (structure().body::<f64>(), BenchCase::arr().record);
-    let rocking = housner::solve(&body, record.dt, &record.accel, &housner::Options::default());
+    let rocking = housner::solve(&body, record.dt, &record.accel, &housner::RockingOptions::default());
     let motion = rocking.motion(&body);
     let benchmark = Benchmark { body, dt: record.dt, accel: &record.accel, vertical: &[], housner: &motion };
     let best = |abandon: bool| {
@@ -183,7 +183,7 @@ fn candidates(rounds: usize) -> Skip {
 fn history(rounds: usize) -> Skip {
     let bench = BenchCase::impact();
     let body = structure().body::<f64>();
-    let case = Case {
+    let case = Analysis {
         body,
         springs: bench.springs.chains(body.mass),
         start: Start::Settled,

@@ -8,7 +8,7 @@ use std::{
 
 use groundspring::{
     case::LONGEST_S,
-    housner::{self, Options, Outcome, Rocking},
+    housner::{self, Rocking, RockingOptions, RockingOutcome},
     motion::Motion,
     structure::Body,
 };
@@ -110,12 +110,12 @@ impl History {
     #[getter]
     fn outcome(&self) -> &'static str {
         match self.one().rocking.outcome {
-            Outcome::Rocked => "rocked",
-            Outcome::NeverMoved => "never_lifted",
-            Outcome::Overturned { .. } => "overturned",
-            Outcome::LeavesGround { .. } => "leaves_ground",
-            Outcome::WorkBound { .. } => "work_bound",
-            Outcome::NotFinite { .. } => "not_finite",
+            RockingOutcome::Rocked => "rocked",
+            RockingOutcome::NeverMoved => "never_lifted",
+            RockingOutcome::Overturned { .. } => "overturned",
+            RockingOutcome::LeavesGround { .. } => "leaves_ground",
+            RockingOutcome::WorkBound { .. } => "work_bound",
+            RockingOutcome::NotFinite { .. } => "not_finite",
             _ => "unknown",
         }
     }
@@ -204,7 +204,8 @@ pub fn rigid_rocking(
     let record = record.beside(vertical)?;
     let record = if scale == 1.0 { record } else { Cow::Owned(record.scaled(scale).map_err(value_error)?) };
     let body = structure.body();
-    let options = Options { restitution: Some(e), vertical: record.vertical_accel(), ..Options::default() };
+    let options =
+        RockingOptions { restitution: Some(e), vertical: record.vertical_accel(), ..RockingOptions::default() };
     let rocking = py.detach(|| housner::solve(&body, record.dt, &record.accel, &options));
     Ok(History::new(body, record.dt, rocking))
 }
@@ -260,7 +261,7 @@ pub fn rigid_rocking_many(
 }
 
 /// Bodies, and how to solve each.
-type Pairs = (Vec<Body<f64>>, Vec<Options<f64>>);
+type Pairs = (Vec<Body<f64>>, Vec<RockingOptions<f64>>);
 
 /// Bodies and options of one length, or one of length 1.
 fn pairs(structures: &[Structure], record: &Record, scales: &[f64], restitution: Option<f64>) -> PyResult<Pairs> {
@@ -282,11 +283,11 @@ fn pairs(structures: &[Structure], record: &Record, scales: &[f64], restitution:
     let count = if same_e { m } else { n.max(m) };
     let options = (0..count.min(n * m)).map(|i| {
         let e = restitution.unwrap_or(structures[i % n].e);
-        Options {
+        RockingOptions {
             scale: scales[i % m],
             restitution: Some(e),
             vertical: record.0.vertical_accel(),
-            ..Options::default()
+            ..RockingOptions::default()
         }
     });
     Ok((bodies, options.collect()))

@@ -144,11 +144,11 @@ impl Simulation {
     #[getter]
     fn outcome(&self) -> &'static str {
         match self.fem().outcome {
-            fem::Outcome::Completed => "completed",
-            fem::Outcome::Overturned { .. } => "overturned",
-            fem::Outcome::Stopped { .. } => "stopped",
-            fem::Outcome::WorkBound { .. } => "work_bound",
-            fem::Outcome::Unstable { .. } => "unstable",
+            fem::HistoryOutcome::Completed => "completed",
+            fem::HistoryOutcome::Overturned { .. } => "overturned",
+            fem::HistoryOutcome::Stopped { .. } => "stopped",
+            fem::HistoryOutcome::WorkBound { .. } => "work_bound",
+            fem::HistoryOutcome::Unstable { .. } => "unstable",
             _ => "unknown",
         }
     }

@@ -8,7 +8,7 @@ use super::{CommandError, common::Both, table::FORCES};
 use crate::{
     case::Case,
     figures::{self, Event, FigureError, Sheet, brief, short},
-    front::Point,
+    front::FrontPoint,
     housner,
     response::{
         self,
@@ -36,7 +36,7 @@ pub struct Pictures<'a> {
     pub case: &'a Case,
     pub job: &'a Job,
     pub both: &'a Both,
-    pub front: &'a [Point],
+    pub front: &'a [FrontPoint],
 }
 
 impl Pictures<'_> {
@@ -94,10 +94,10 @@ impl Pictures<'_> {
     fn end_of_housner(&self) -> Option<(f64, String)> {
         let rocking = &self.both.rocking;
         let time = match rocking.outcome {
-            housner::Outcome::LeavesGround { time } => {
+            housner::RockingOutcome::LeavesGround { time } => {
                 return Some((time, format!("Housner: leaves the ground at t = {time:.2} s")));
             }
-            housner::Outcome::WorkBound { time } | housner::Outcome::NotFinite { time } => {
+            housner::RockingOutcome::WorkBound { time } | housner::RockingOutcome::NotFinite { time } => {
                 return Some((time, format!("Housner: ends at t = {time:.2} s")));
             }
             _ => rocking.overturned()?,
@@ -250,7 +250,7 @@ impl Pictures<'_> {
 
     fn front(&self) -> Result<Option<Sheet>, FigureError> {
         let front = self.front;
-        let series = |pick: fn(&Point) -> Option<f64>| -> (Vec<f64>, Vec<f64>) {
+        let series = |pick: fn(&FrontPoint) -> Option<f64>| -> (Vec<f64>, Vec<f64>) {
             front.iter().filter_map(|p| pick(p).map(|e| (p.omega_n_hz, e))).unzip()
         };
         let (landing, arr) = (series(|p| p.landing), series(|p| p.arr));
@@ -272,7 +272,7 @@ impl Pictures<'_> {
                 _ => format!("No finite error of {label} at {} Hz.", without.join(", ")),
             });
         }
-        let cost = |pick: fn(&Point) -> f64| -> (Vec<f64>, Vec<f64>) {
+        let cost = |pick: fn(&FrontPoint) -> f64| -> (Vec<f64>, Vec<f64>) {
             front.iter().map(|p| (p.omega_n_hz, pick(p).max(1.0))).unzip()
         };
         let (forces, steps) = (cost(|p| p.foot_force_weights), cost(|p| p.deck_steps as f64));

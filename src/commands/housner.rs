@@ -12,7 +12,7 @@ use super::{
 };
 use crate::{
     case::Case,
-    housner::{self, Outcome},
+    housner::{self, RockingOutcome},
     motion::peak,
     overturning::samples_until,
     structure::Structure,
@@ -48,7 +48,7 @@ pub fn run(o: &Options) -> Result<(), CommandError> {
     let out = o.out.as_deref().map(|path| file_in(path, "housner.csv")).transpose()?;
     let record = excitation.used()?;
     let body = structure.body::<f64>();
-    let options = housner::Options {
+    let options = housner::RockingOptions {
         restitution: restitution(o.restitution)?.or(e),
         vertical: record.vertical_accel(),
         ..Default::default()
@@ -82,9 +82,10 @@ pub fn run(o: &Options) -> Result<(), CommandError> {
         peak(&motion.v[..upright]) * 1e3,
         rocking.impacts.len(),
         match rocking.outcome {
-            Outcome::Overturned { time } => format!(", overturned at {time:.3} s (peaks until then)"),
-            Outcome::NeverMoved => ", never lifted".into(),
-            Outcome::LeavesGround { time } => format!(", leaves the ground at {time:.6} s, where the solution ends"),
+            RockingOutcome::Overturned { time } => format!(", overturned at {time:.3} s (peaks until then)"),
+            RockingOutcome::NeverMoved => ", never lifted".into(),
+            RockingOutcome::LeavesGround { time } =>
+                format!(", leaves the ground at {time:.6} s, where the solution ends"),
             _ => String::new(),
         }
     );

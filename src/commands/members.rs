@@ -9,7 +9,7 @@ use super::{common::csv_row, table::FORCES};
 use crate::{
     answers::WithMembers,
     compare::Match,
-    fem::{Demands, Peak, QUANTITIES},
+    fem::{Demands, ForcePeak, QUANTITIES},
     members::Members,
     motion::shown,
 };
@@ -27,7 +27,7 @@ pub fn csv(dt: f64, demands: &Demands) -> String {
 }
 
 /// Largest forces and their times, as JSON.
-fn forces(peaks: &[Peak; QUANTITIES.len()]) -> Value {
+fn forces(peaks: &[ForcePeak; QUANTITIES.len()]) -> Value {
     let peak = |k: usize| json!({ "value": peaks[k].value, "time_s": peaks[k].time });
     Value::Object(QUANTITIES.iter().enumerate().map(|(k, name)| (name.to_string(), peak(k))).collect::<Map<_, _>>())
 }
@@ -110,7 +110,7 @@ pub fn markdown(rigid: &Demands, with: Option<&WithMembers>) -> String {
     let _ = writeln!(out, "| largest force | {} |\n|---|{}", names.join(" | "), "---|".repeat(names.len()));
     for (k, name) in QUANTITIES.iter().enumerate() {
         if columns.iter().any(|(_, peaks)| peaks[k].value != 0.0) {
-            let cell = |peak: Peak| match peak.value {
+            let cell = |peak: ForcePeak| match peak.value {
                 0.0 => "-".to_string(),
                 value => format!("{value:.4e} at {:.3} s", peak.time),
             };
@@ -130,7 +130,7 @@ pub(super) const ABOUT: &str = "Largest forces between landings, later than 0.1/
 pub(super) fn columns<'a>(
     rigid: &'a Demands,
     with: Option<&'a WithMembers>,
-) -> Vec<(&'static str, &'a [Peak; QUANTITIES.len()])> {
+) -> Vec<(&'static str, &'a [ForcePeak; QUANTITIES.len()])> {
     let mut columns = vec![("between landings", &rigid.between), ("in landings", &rigid.peaks)];
     if let Some(with) = with {
         columns.extend([
@@ -150,7 +150,7 @@ mod tests {
         let mut demands = Demands::default();
         demands.rows = vec![[0.0; QUANTITIES.len()]; 2];
         demands.rows[1][0] = -2.5;
-        demands.peaks[0] = Peak { value: -2.5, time: 0.013 };
+        demands.peaks[0] = ForcePeak { value: -2.5, time: 0.013 };
         let text = csv(0.02, &demands);
         assert!(text.starts_with("t,base_shear_n,axial_left_n,"));
         assert!(text.lines().nth(2).unwrap().starts_with("0.0200000000000,-2.50000000000,0,"));

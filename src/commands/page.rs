@@ -121,7 +121,11 @@ impl Page<'_> {
         let missed = if reached { "" } else { "The accuracy asked for was not reached. " };
         let Some(v) = &self.parameters.verdict else {
             let without = "Springs tuned without a record";
-            return if reached { format!("{without}, of the accuracy asked for") } else { format!("{missed}{without}") };
+            return if reached {
+                format!("{without}, of the accuracy asked for")
+            } else {
+                format!("{missed}{without}")
+            };
         };
         let what = match (v.agrees(), v.housner.fate, v.finite_elements.fate) {
             (false, ..) => "The two models disagree on what the structure does".to_string(),
@@ -158,7 +162,8 @@ impl Page<'_> {
             let ratio = format!("peak theta/alpha; Housner {:.3}{until}", v.housner.peak_ratio);
             out += &tile(&format!("{:.3}", v.finite_elements.peak_ratio), &ratio);
             if let (Some(fem), Some(housner)) = (m.impacts_fem_firm, m.impacts_housner_firm) {
-                out += &tile(&fem.to_string(), &format!("impacts harder than a fall from 0.02 alpha; Housner {housner}"));
+                out +=
+                    &tile(&fem.to_string(), &format!("impacts harder than a fall from 0.02 alpha; Housner {housner}"));
             }
             if v.well_conditioned {
                 out += &tile(&shown(m.nrmse_horizontal), "error of u on the record (NRMSE)");
@@ -305,7 +310,7 @@ impl Page<'_> {
             if columns.iter().all(|(_, peaks)| peaks[k].value == 0.0) {
                 return None;
             }
-            let cell = |peak: crate::fem::Peak| {
+            let cell = |peak: crate::fem::ForcePeak| {
                 let (factor, letter) = figures::prefix(peak.value.abs());
                 match peak.value {
                     0.0 => "-".into(),

@@ -48,11 +48,11 @@ impl Report {
     /// Of a history that `rocking` holds.
     pub fn new(body: &Body<f64>, restitution: f64, record: &Record, rocking: &Rocking<f64>, friction: f64) -> Self {
         let vertical = record.vertical_accel();
-        let options = housner::Options { restitution: Some(restitution), vertical, ..Default::default() };
+        let options = housner::RockingOptions { restitution: Some(restitution), vertical, ..Default::default() };
         Self {
             conditioning: Conditioning::new(body, record.dt, &record.accel, &options),
             regime: regime::check(body, record.dt, (&record.accel, record.up()), 1.0, rocking, friction),
-            lifted: rocking.outcome != housner::Outcome::NeverMoved,
+            lifted: rocking.outcome != housner::RockingOutcome::NeverMoved,
             overturned_s: rocking.overturned(),
             left_ground_s: rocking.left_ground(),
         }
@@ -135,7 +135,7 @@ mod tests {
     fn report(accel: Vec<f64>, friction: f64) -> Report {
         let body = Structure::paper().body::<f64>();
         let record = Record::new("made-up", 0.01, accel).unwrap();
-        let rocking = housner::solve(&body, record.dt, &record.accel, &housner::Options::default());
+        let rocking = housner::solve(&body, record.dt, &record.accel, &housner::RockingOptions::default());
         Report::new(&body, body.restitution(), &record, &rocking, friction)
     }
 

@@ -22,7 +22,7 @@ use crate::{
     case::{ACCURACY, Case, Objective},
     excitation::Excitation,
     export::{Expected, with_inertia},
-    front::{self, Point},
+    front::{self, FrontPoint},
     members::Members,
     parameters::{PaperProcedure, Parameters, RecordRow},
     predictability::{simulate, width_sensitivity},
@@ -152,7 +152,7 @@ pub fn run(o: &Options) -> Result<(), CommandError> {
     run.save(&o.out, Output { figures: !o.no_figures, report: !o.no_report })?;
     let (springs, forces) = (table::terminal(&run.filed(&o.out)), run.forces());
     let said = run.found().join("\n");
-    write!(std::io::stdout(), "{springs}\n{forces}{}\n{said}\n", table::front_terminal(&run.front))?;
+    write!(std::io::stdout(), "{springs}{forces}{}\n{said}\n", table::front_terminal(&run.front))?;
     eprintln!("{}\nwritten to {}", run.case.excitation.line(), o.out.display());
     Ok(())
 }
@@ -168,7 +168,7 @@ pub struct Output {
 pub struct Run {
     pub case: Case,
     pub job: Job,
-    pub front: Vec<Point>,
+    pub front: Vec<FrontPoint>,
     /// Both models' answers to the record.
     pub both: Both,
     pub report: Report,
@@ -178,7 +178,7 @@ pub struct Run {
 
 impl Run {
     /// Simulate a job's springs, and those of the paper beside them; `friction` of the ground, for the warning of sliding.
-    pub fn new(case: Case, job: Job, front: Vec<Point>, friction: f64) -> Self {
+    pub fn new(case: Case, job: Job, front: Vec<FrontPoint>, friction: f64) -> Self {
         let beside = |springs: &Springs<Design<f64>>| {
             let other = Parameters::new(case.structure, springs);
             let none = Members::default();

@@ -4,7 +4,7 @@ use comfy_table::{Table, presets};
 
 use crate::{
     compare::Match,
-    front::Point,
+    front::FrontPoint,
     message::percent,
     motion::shown,
     parameters::{PaperProcedure, Parameters},
@@ -96,7 +96,9 @@ pub(super) fn match_rows(first: &str, p: &Parameters) -> (Vec<String>, Vec<Vec<S
     let rows = vec![
         row("peak horizontal displacement", mm(m.peak_horizontal_housner_m), &|m| mm(m.peak_horizontal_fem_m)),
         row("peak vertical displacement", mm(m.peak_vertical_housner_m), &|m| mm(m.peak_vertical_fem_m)),
-        row("impacts harder than a fall from 0.02 alpha", count(m.impacts_housner_firm), &|m| count(m.impacts_fem_firm)),
+        row("impacts harder than a fall from 0.02 alpha", count(m.impacts_housner_firm), &|m| {
+            count(m.impacts_fem_firm)
+        }),
         row("all, with the tremble of a body coming to rest", m.impacts_housner.to_string(), &|m| {
             m.impacts_fem.to_string()
         }),
@@ -249,9 +251,9 @@ pub(super) const FRONT: [&str; 6] = [
 pub(super) const FORCES: &str =
     "Foot forces are those of the springs in a landing, not of the structure: they grow with Omega_n.";
 
-pub(super) fn front_rows(front: &[Point]) -> Vec<[String; 6]> {
+pub(super) fn front_rows(front: &[FrontPoint]) -> Vec<[String; 6]> {
     let error = |e: Option<f64>| e.map_or("-".to_string(), shown);
-    let row = |p: &Point| {
+    let row = |p: &FrontPoint| {
         [
             format!("{:.0}", p.omega_n_hz),
             error(p.landing),
@@ -265,7 +267,7 @@ pub(super) fn front_rows(front: &[Point]) -> Vec<[String; 6]> {
 }
 
 /// The front, for `parameters.md`.
-pub fn front(front: &[Point]) -> String {
+pub fn front(front: &[FrontPoint]) -> String {
     if front.is_empty() {
         return String::new();
     }
@@ -273,7 +275,7 @@ pub fn front(front: &[Point]) -> String {
 }
 
 /// The front, for a terminal.
-pub fn front_terminal(front: &[Point]) -> String {
+pub fn front_terminal(front: &[FrontPoint]) -> String {
     if front.is_empty() {
         return String::new();
     }

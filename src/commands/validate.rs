@@ -293,7 +293,11 @@ fn draw(o: &Options, parameters: &Parameters, validation: &Validation) -> Result
             nrmse: row.nrmse_horizontal.unwrap_or(if row.failed() { f64::INFINITY } else { 0.0 }),
         })
         .collect();
-    let of = subtitle(&parameters.structure, &format!("{} record{}", rows.len(), if rows.len() == 1 { "" } else { "s" }), parameters.vertical.omega_n_hz);
+    let of = subtitle(
+        &parameters.structure,
+        &format!("{} record{}", rows.len(), if rows.len() == 1 { "" } else { "s" }),
+        parameters.vertical.omega_n_hz,
+    );
     figures::validation::draw(&figures::validation::Validation {
         title: &format!("Finite elements on ground springs against Housner\n{of}"),
         rows: &rows,

@@ -52,7 +52,7 @@ impl Default for Control {
 /// How a history ended.
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[non_exhaustive]
-pub enum Outcome {
+pub enum HistoryOutcome {
     /// The record was followed to its end.
     Completed,
     /// The body lay flat (|theta| > pi/2) at this time (s).

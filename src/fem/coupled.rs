@@ -14,9 +14,7 @@ use std::ops::{Add, Neg, Sub};
 
 use num_traits::Num;
 
-use super::{
-    model::{Foot, Model, N, State, TH, X, Z, ax, az},
-};
+use super::model::{Foot, Model, N, State, TH, X, Z, ax, az};
 use crate::scalar::Scalar;
 
 type Matrix2<T> = [[T; 2]; 2];

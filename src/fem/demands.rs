@@ -35,7 +35,7 @@ pub type Row = [f64; QUANTITIES.len()];
 
 /// A largest value, with its sign, and when it came.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
-pub struct Peak {
+pub struct ForcePeak {
     /// As `QUANTITIES` says.
     pub value: f64,
     /// [s].
@@ -48,9 +48,9 @@ pub struct Demands {
     /// For every sample the values of largest magnitude since the sample before.
     pub rows: Vec<Row>,
     /// Largest magnitude of each, over all steps: in landings, forces of the springs.
-    pub peaks: [Peak; QUANTITIES.len()],
+    pub peaks: [ForcePeak; QUANTITIES.len()],
     /// Largest magnitude of each between landings: later than 0.1/p after the last touch-down, times those of the samples.
-    pub between: [Peak; QUANTITIES.len()],
+    pub between: [ForcePeak; QUANTITIES.len()],
     largest: Row,
 }
 
@@ -67,7 +67,7 @@ impl Demands {
             }
             for (peak, &value) in self.between.iter_mut().zip(row) {
                 if value.abs() > peak.value.abs() {
-                    *peak = Peak { value, time };
+                    *peak = ForcePeak { value, time };
                 }
             }
         }
@@ -111,7 +111,7 @@ impl Observer<f64> for Demands {
                 self.largest[k] = value;
             }
             if value.abs() > self.peaks[k].value.abs() {
-                self.peaks[k] = Peak { value, time: view.time };
+                self.peaks[k] = ForcePeak { value, time: view.time };
             }
         }
     }

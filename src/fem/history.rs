@@ -4,7 +4,7 @@ use std::ops::ControlFlow;
 
 use super::{
     Finish,
-    control::{Outcome, Work},
+    control::{HistoryOutcome, Work},
     landings::{Event, Events, Landing, MOMENT, SLIGHT},
     model::{TH, X, Z},
     observer::{Change, Observer, View},
@@ -46,7 +46,7 @@ pub struct History {
     /// Of energy.
     pub account: Account,
     /// How it ended.
-    pub outcome: Outcome,
+    pub outcome: HistoryOutcome,
     /// What it cost.
     pub work: Work,
     /// Largest |residual| over the largest energy of the history.

@@ -9,7 +9,7 @@ use std::sync::atomic::{AtomicUsize, Ordering};
 
 use rayon::prelude::*;
 
-use super::{Case, Finish, control::Outcome, model::Model, observer::Observer, run::Run, step::Stages};
+use super::{Analysis, Finish, control::HistoryOutcome, model::Model, observer::Observer, run::Run, step::Stages};
 use kernel::{Kernel, Tried, WIDTH};
 
 /// Follow many cases, each shown to an observer of its own, which `observer` makes for the case of an index. Returned in the
@@ -17,10 +17,10 @@ use kernel::{Kernel, Tried, WIDTH};
 ///
 /// Each history is the one that [`Case::observe`] gives, bit for bit, on any number of threads and any processor.
 pub fn histories<O: Observer<f64> + Send>(
-    cases: &[Case<'_, f64>],
+    cases: &[Analysis<'_, f64>],
     observer: impl Fn(usize) -> O + Sync,
 ) -> Vec<(O, Finish<f64>)> {
-    let models: Vec<Model<f64>> = cases.iter().map(Case::model).collect();
+    let models: Vec<Model<f64>> = cases.iter().map(Analysis::model).collect();
     let next = AtomicUsize::new(0);
     let threads = rayon::current_num_threads().min(cases.len().div_ceil(WIDTH)).max(1);
     let mut done: Vec<(usize, O, Finish<f64>)> = (0..threads)
@@ -38,7 +38,7 @@ pub fn histories<O: Observer<f64> + Send>(
 
 /// What one thread follows of them.
 struct Batch<'a, O, F> {
-    cases: &'a [Case<'a, f64>],
+    cases: &'a [Analysis<'a, f64>],
     models: &'a [Model<f64>],
     /// The next case that nobody follows yet.
     next: &'a AtomicUsize,
@@ -149,7 +149,7 @@ impl<'a, O: Observer<f64>, F: Fn(usize) -> O> Batch<'a, O, F> {
         }
     }
 
-    fn end(&mut self, lane: Lane<'a, O>, outcome: Outcome) {
+    fn end(&mut self, lane: Lane<'a, O>, outcome: HistoryOutcome) {
         self.done.push((lane.index, lane.observer, lane.run.finish(outcome)));
     }
 }

@@ -12,14 +12,14 @@ use std::{f64::consts::FRAC_PI_2, ops::ControlFlow};
 
 use super::{
     Finish,
-    control::{Control, Outcome, Work},
+    control::{Control, HistoryOutcome, Work},
     energy::Energy,
     model::{Foot, Model, State, TH, Vector, Z},
     observer::{Observer, View},
     step::{Ground, Request, Stages, Stepper, no_guess},
 };
 use crate::scalar::{GRAVITY, Scalar, real};
-pub(super) use account::{Measures, Scales};
+pub(super) use account::{Scales, StepMeasures};
 use events::{Located, Locating};
 use met::Met;
 pub(super) use met::OVERSHOOT;
@@ -27,7 +27,7 @@ use span::Span;
 
 /// The motion of the ground, at steps of dt and linear between.
 #[derive(Clone, Copy, Debug)]
-pub(crate) struct Motion<'a, S> {
+pub(crate) struct GroundMotion<'a, S> {
     /// [s]
     pub dt: f64,
     /// [m/s2]
@@ -37,7 +37,7 @@ pub(crate) struct Motion<'a, S> {
     pub scale: S,
 }
 
-impl<S: Scalar> Motion<'_, S> {
+impl<S: Scalar> GroundMotion<'_, S> {
     /// From sample i on.
     fn ground(&self, i: usize) -> Ground<S> {
         let Self { dt, accel, vertical, scale } = *self;
@@ -54,7 +54,7 @@ impl<S: Scalar> Motion<'_, S> {
 /// A history in the making.
 pub(crate) struct Run<'a, S> {
     pub model: &'a Model<S>,
-    motion: Motion<'a, S>,
+    motion: GroundMotion<'a, S>,
     /// The interval between two samples that is crossed, or that comes next.
     interval: usize,
     /// Whether it is under way.
@@ -120,7 +120,7 @@ impl<'a, S: Scalar> Run<'a, S> {
         let scale = (stored.re() - rest).abs().max(1e-3 * rest.abs());
         Self {
             model,
-            motion: Motion { dt: 0.0, accel: &[], vertical: &[], scale: S::one() },
+            motion: GroundMotion { dt: 0.0, accel: &[], vertical: &[], scale: S::one() },
             interval: 0,
             crossing: false,
             t: S::zero(),
@@ -158,7 +158,7 @@ impl<'a, S: Scalar> Run<'a, S> {
     }
 
     /// Follow a motion of the ground to its end.
-    pub fn follow(&mut self, motion: Motion<'a, S>, observer: &mut impl Observer<S>) -> Outcome {
+    pub fn follow(&mut self, motion: GroundMotion<'a, S>, observer: &mut impl Observer<S>) -> HistoryOutcome {
         let begun = self.begin(motion, observer);
         match begun.and_then(|()| self.plan(observer)) {
             Ok(h) => self.go_on(h, observer),
@@ -167,7 +167,7 @@ impl<'a, S: Scalar> Run<'a, S> {
     }
 
     /// Go on to the motion's end, with a step of size h [s] first.
-    pub fn go_on(&mut self, mut h: S, observer: &mut impl Observer<S>) -> Outcome {
+    pub fn go_on(&mut self, mut h: S, observer: &mut impl Observer<S>) -> HistoryOutcome {
         let mut stages = Stages::none();
         loop {
             let converged = self.attempt(h, &mut stages);
@@ -184,26 +184,30 @@ impl<'a, S: Scalar> Run<'a, S> {
     }
 
     /// Set out on a motion and show the first sample; the outcome if there is nothing to follow.
-    pub fn begin(&mut self, motion: Motion<'a, S>, observer: &mut impl Observer<S>) -> Result<(), Outcome> {
+    pub fn begin(
+        &mut self,
+        motion: GroundMotion<'a, S>,
+        observer: &mut impl Observer<S>,
+    ) -> Result<(), HistoryOutcome> {
         self.motion = motion;
         if self.motion.accel.is_empty() {
-            return Err(Outcome::Completed);
+            return Err(HistoryOutcome::Completed);
         }
         self.show_sample(0, observer)
     }
 
-    fn show_sample(&mut self, index: usize, observer: &mut impl Observer<S>) -> Result<(), Outcome> {
+    fn show_sample(&mut self, index: usize, observer: &mut impl Observer<S>) -> Result<(), HistoryOutcome> {
         let time = index as f64 * self.motion.dt;
         self.interval = index;
         self.crossing = false;
         match observer.sample(index, &self.view(real(time))) {
-            ControlFlow::Break(()) => Err(Outcome::Stopped { time }),
+            ControlFlow::Break(()) => Err(HistoryOutcome::Stopped { time }),
             ControlFlow::Continue(()) => Ok(()),
         }
     }
 
     /// Size of the next step to try, past samples and rests; the outcome once the history has ended.
-    pub fn plan(&mut self, observer: &mut impl Observer<S>) -> Result<S, Outcome> {
+    pub fn plan(&mut self, observer: &mut impl Observer<S>) -> Result<S, HistoryOutcome> {
         let dt = self.motion.dt;
         loop {
             if self.crossing {
@@ -214,7 +218,7 @@ impl<'a, S: Scalar> Run<'a, S> {
                 self.show_sample(self.interval + 1, observer)?;
             }
             if self.interval + 1 >= self.motion.accel.len() {
-                return Err(Outcome::Completed);
+                return Err(HistoryOutcome::Completed);
             }
             self.ground = self.motion.ground(self.interval);
             if self.rests() {
@@ -231,7 +235,7 @@ impl<'a, S: Scalar> Run<'a, S> {
     }
 
     /// The next step, `left` being left of the interval between two samples.
-    fn next_step(&mut self, left: S) -> Result<S, Outcome> {
+    fn next_step(&mut self, left: S) -> Result<S, HistoryOutcome> {
         self.check(self.start_of_interval() + self.t.re())?;
         self.here = self.ground.from(self.t);
         self.locating = None;
@@ -239,13 +243,13 @@ impl<'a, S: Scalar> Run<'a, S> {
     }
 
     /// The outcome if the history can go no further.
-    fn check(&self, time: f64) -> Result<(), Outcome> {
+    fn check(&self, time: f64) -> Result<(), HistoryOutcome> {
         if self.work.steps + self.work.rejected >= self.control.most_steps {
-            return Err(Outcome::WorkBound { time });
+            return Err(HistoryOutcome::WorkBound { time });
         }
         // no step is short enough: where a massless rotation is about to snap its rate has no bound
         if !self.balanced || self.h < 1e-14 * self.motion.dt {
-            return Err(Outcome::Unstable { time });
+            return Err(HistoryOutcome::Unstable { time });
         }
         Ok(())
     }
@@ -260,9 +264,9 @@ impl<'a, S: Scalar> Run<'a, S> {
         &mut self,
         converged: bool,
         stages: &mut Stages<S>,
-        measures: Option<&Measures<S>>,
+        measures: Option<&StepMeasures<S>>,
         observer: &mut impl Observer<S>,
-    ) -> Result<Option<S>, Outcome> {
+    ) -> Result<Option<S>, HistoryOutcome> {
         if converged {
             self.work.iterations += stages.iterations;
         }
@@ -318,10 +322,10 @@ impl<'a, S: Scalar> Run<'a, S> {
     fn accept(
         &mut self,
         stages: &Stages<S>,
-        measures: Option<&Measures<S>>,
+        measures: Option<&StepMeasures<S>>,
         met: &Met,
         observer: &mut impl Observer<S>,
-    ) -> Result<(), Outcome> {
+    ) -> Result<(), HistoryOutcome> {
         let measured = measures.copied().unwrap_or_else(|| self.measure(stages));
         if !self.account(stages, &measured) {
             self.work.rejected += 1;
@@ -330,7 +334,7 @@ impl<'a, S: Scalar> Run<'a, S> {
         self.t += stages.h;
         let t0 = self.start_of_interval();
         if self.state.q[TH].re().abs() > FRAC_PI_2 {
-            return Err(Outcome::Overturned { time: t0 + self.t.re() });
+            return Err(HistoryOutcome::Overturned { time: t0 + self.t.re() });
         }
         let time = real::<S>(t0) + self.t;
         observer.step(&self.view(time));
@@ -390,7 +394,7 @@ impl<'a, S: Scalar> Run<'a, S> {
     }
 
     /// How it ended, and what it cost.
-    pub fn finish(&self, outcome: Outcome) -> Finish<S> {
+    pub fn finish(&self, outcome: HistoryOutcome) -> Finish<S> {
         Finish { outcome, work: self.work, energy: self.energy, energy_scale: self.scale }
     }
 }

@@ -7,7 +7,7 @@ use std::f64::consts::FRAC_PI_2;
 use super::root::{crossing, first_root, impact_time};
 use super::series::{Ground, Series, Start, value_and_slope};
 use super::walk::{Sample, Setting, State, falls};
-use super::{Impact, Outcome, Rocking, Uplift, contact, rest};
+use super::{Impact, Rocking, RockingOutcome, Uplift, contact, rest};
 use crate::scalar::Scalar;
 
 impl<S: Scalar> Setting<'_, S> {
@@ -32,7 +32,7 @@ impl<S: Scalar> Setting<'_, S> {
                 let lift = rest::uplift(x, (a0, da), (g0, dg), self.lift);
                 let release = if V { rest::release(x.re(), g0.re(), dg.re()) } else { None };
                 if let Some(at) = release.filter(|&at| lift.is_none_or(|(lift, _)| at <= lift.re())) {
-                    out.outcome = Outcome::LeavesGround { time: start + at * self.dt };
+                    out.outcome = RockingOutcome::LeavesGround { time: start + at * self.dt };
                     return false;
                 }
                 let Some((at, side)) = lift else { return true };
@@ -46,7 +46,7 @@ impl<S: Scalar> Setting<'_, S> {
             }
             state.work += 1;
             if state.work > self.max_work {
-                out.outcome = Outcome::WorkBound { time: start };
+                out.outcome = RockingOutcome::WorkBound { time: start };
                 return false;
             }
             let left = S::one() - x;
@@ -168,9 +168,9 @@ impl<S: Scalar> Setting<'_, S> {
                 });
                 state.passed = time - h * z * (1.0 - crossing(&part, alpha));
             }
-            Outcome::Overturned { time: state.passed }
+            RockingOutcome::Overturned { time: state.passed }
         } else {
-            Outcome::LeavesGround { time }
+            RockingOutcome::LeavesGround { time }
         };
     }
 
@@ -207,13 +207,13 @@ impl<S: Scalar> Setting<'_, S> {
             p2: self.p2.re(),
         };
         match hop.fate() {
-            rest::Fate::Hops => false,
-            rest::Fate::Stops => {
+            rest::AfterImpact::Hops => false,
+            rest::AfterImpact::Stops => {
                 self.ground(state, state.side, S::zero());
                 state.rocking = false;
                 false
             }
-            rest::Fate::DiesOut => {
+            rest::AfterImpact::DiesOut => {
                 self.ground(state, state.side, S::zero());
                 state.rocking = false;
                 true

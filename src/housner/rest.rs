@@ -58,7 +58,7 @@ pub fn release(x: f64, g: f64, dg: f64) -> Option<f64> {
 
 /// What becomes of a body just after an impact.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub enum Fate {
+pub enum AfterImpact {
     /// It hops on.
     Hops,
     /// It has no rate left: it rests now.
@@ -87,10 +87,10 @@ pub struct Hop {
 }
 
 impl Hop {
-    pub fn fate(&self) -> Fate {
+    pub fn fate(&self) -> AfterImpact {
         let v = self.rate;
         if v <= 0.0 {
-            return Fate::Stops;
+            return AfterImpact::Stops;
         }
         let peak = self.now.abs().max(self.then.abs());
         let (least, most) = (self.gamma.0.min(self.gamma.1), self.gamma.0.max(self.gamma.1));
@@ -109,15 +109,15 @@ impl Hop {
                 };
                 let loss = 1.0 - self.e * ratio(1.0).max(ratio(-1.0)).sqrt();
                 if 2.0 * v < self.left * d_min * loss {
-                    return Fate::DiesOut;
+                    return AfterImpact::DiesOut;
                 }
             }
         }
         let d_now = d(self.ground, self.gamma.0, -self.now.abs());
         if d_now > 0.0 && v * v < 2.0 * d_now * FLOOR * self.alpha {
-            return Fate::Stops;
+            return AfterImpact::Stops;
         }
-        Fate::Hops
+        AfterImpact::Hops
     }
 }
 
@@ -177,10 +177,10 @@ mod tests {
         };
         // under half the weight they take twice as long
         for (gamma, time) in [(1.0, time), (0.5, 2.0 * time)] {
-            assert_eq!(hop(1.0001 * time, gamma).fate(), Fate::DiesOut);
-            assert_eq!(hop(0.9999 * time, gamma).fate(), Fate::Hops);
+            assert_eq!(hop(1.0001 * time, gamma).fate(), AfterImpact::DiesOut);
+            assert_eq!(hop(0.9999 * time, gamma).fate(), AfterImpact::Hops);
         }
         let falling = Hop { gamma: (1.0, -0.1), ..hop(1.0001 * time, 1.0) };
-        assert_eq!(falling.fate(), Fate::Hops);
+        assert_eq!(falling.fate(), AfterImpact::Hops);
     }
 }

@@ -10,7 +10,7 @@ use std::f64::consts::FRAC_PI_2;
 use super::series::{
     Ground, LEAST, LONG, SHORT, SMALL, Start, change, coefficients, end_slope, is_plain, pulls, real_parts, turned,
 };
-use super::{Outcome, Rocking, contact, rest};
+use super::{Rocking, RockingOutcome, contact, rest};
 use crate::scalar::{Scalar, real};
 
 /// Sine and cosine are carried from step to step by a rotation, and taken anew after this many steps.
@@ -133,7 +133,7 @@ impl<'a, S: Scalar, const V: bool> Walk<'a, S, V> {
             rate: Vec::with_capacity(n),
             impacts: Vec::with_capacity(32),
             uplifts: Vec::new(),
-            outcome: Outcome::NeverMoved,
+            outcome: RockingOutcome::NeverMoved,
         };
         let q = set.p2 * (set.dt * set.dt);
         let quiet = (set.lift / set.unit).re().abs();
@@ -170,8 +170,11 @@ impl<'a, S: Scalar, const V: bool> Walk<'a, S, V> {
         if !self.is_up() {
             let time = i as f64 * self.set.dt;
             let flat = at.w.re() >= FRAC_PI_2;
-            self.out.outcome =
-                if flat { Outcome::Overturned { time: self.state.passed } } else { Outcome::NotFinite { time } };
+            self.out.outcome = if flat {
+                RockingOutcome::Overturned { time: self.state.passed }
+            } else {
+                RockingOutcome::NotFinite { time }
+            };
             return false;
         }
         // not -0.0 at rest
@@ -227,11 +230,11 @@ impl<'a, S: Scalar, const V: bool> Walk<'a, S, V> {
     /// The history, its outcome told from its end unless something cut it.
     pub fn end(mut self) -> Rocking<S> {
         let Self { set, state, out, .. } = &mut self;
-        if out.outcome == Outcome::NeverMoved {
+        if out.outcome == RockingOutcome::NeverMoved {
             if state.rocking && falls(&state.at, set.alpha.re(), set.p2.re()) {
-                out.outcome = Outcome::Overturned { time: state.passed };
+                out.outcome = RockingOutcome::Overturned { time: state.passed };
             } else if state.started || !out.uplifts.is_empty() {
-                out.outcome = Outcome::Rocked;
+                out.outcome = RockingOutcome::Rocked;
             }
         }
         self.out

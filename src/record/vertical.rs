@@ -193,7 +193,7 @@ impl Record {
         self.vertical.as_ref().map_or(&[], |vertical| &vertical.accel)
     }
 
-    /// The same as `housner::Options` take it.
+    /// The same as `housner::RockingOptions` take it.
     pub fn vertical_accel(&self) -> Option<Arc<[f64]>> {
         self.vertical.as_ref().map(|vertical| Arc::clone(&vertical.accel))
     }

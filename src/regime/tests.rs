@@ -1,5 +1,5 @@
 use super::*;
-use crate::housner::{Options, Outcome, solve};
+use crate::housner::{RockingOptions, RockingOutcome, solve};
 use crate::record::Record;
 use crate::structure::Structure;
 
@@ -26,7 +26,7 @@ fn forces_are_mass_times_acceleration_of_the_history() {
 }
 
 fn forces_are_those_of(body: &Body<f64>, dt: f64, fine: &[f64], up: &[f64], vertical: Option<std::sync::Arc<[f64]>>) {
-    let rocking = solve(body, dt, fine, &Options { vertical, ..Options::default() });
+    let rocking = solve(body, dt, fine, &RockingOptions { vertical, ..RockingOptions::default() });
     let motion = rocking.motion(body);
     let mut compared = 0;
     for i in (10..7990).filter(|i| i % 10 == 5) {
@@ -51,8 +51,8 @@ fn forces_are_those_of(body: &Body<f64>, dt: f64, fine: &[f64], up: &[f64], vert
 fn at_rest_the_friction_needed_is_the_ground_acceleration_over_g() {
     let body = Structure::paper().body::<f64>();
     let accel = [0.0, 0.3, -0.9, 0.5];
-    let rocking = solve(&body, 0.01, &accel, &Options::default());
-    assert_eq!(rocking.outcome, Outcome::NeverMoved);
+    let rocking = solve(&body, 0.01, &accel, &RockingOptions::default());
+    assert_eq!(rocking.outcome, RockingOutcome::NeverMoved);
     let regime = check(&body, 0.01, (&accel, &[]), 1.0, &rocking, 0.5);
     assert!((regime.friction_needed.value - 0.9 / GRAVITY).abs() < 1e-16);
     assert_eq!(regime.friction_needed.time, 0.02);
@@ -72,7 +72,7 @@ fn an_a_frames_contact_force_points_along_the_leg() {
 fn el_centro_on_the_papers_frame_rocks_without_warnings() {
     let body = Structure::paper().body::<f64>();
     let record = Record::el_centro();
-    let rocking = solve(&body, record.dt, &record.accel, &Options::default());
+    let rocking = solve(&body, record.dt, &record.accel, &RockingOptions::default());
     let regime = check(&body, record.dt, (&record.accel, &[]), 1.0, &rocking, 0.5);
     // the A-frame's force stays near its leg: tan(alpha) = 0.1, and at uplift exactly that
     assert!((0.0999..0.11).contains(&regime.friction_needed.value), "{regime:?}");
@@ -89,7 +89,7 @@ fn a_fast_body_leaves_the_ground_where_the_centripetal_force_exceeds_the_weight(
     let theta = body.alpha();
     let limit = (GRAVITY / body.radius()).sqrt();
     for (rate, flies) in [(0.999 * limit, false), (1.001 * limit, true)] {
-        let options = Options { initial: Some((theta, rate)), ..Options::default() };
+        let options = RockingOptions { initial: Some((theta, rate)), ..RockingOptions::default() };
         let rocking = solve(&body, 0.01, &[0.0], &options);
         let regime = check(&body, 0.01, (&[0.0], &[]), 1.0, &rocking, 0.5);
         assert_eq!(regime.free_flight.is_some(), flies);
@@ -118,7 +118,7 @@ fn landing_friction_is_the_ratio_of_housners_impulses() {
     for body in [Structure::paper().body::<f64>(), block(2.0, 0.8)] {
         let e = body.restitution();
         let expected = (1.0 - e) * body.height / ((1.0 + e) * body.half_width);
-        let rocking = solve(&body, 0.01, &[0.0], &Options::default());
+        let rocking = solve(&body, 0.01, &[0.0], &RockingOptions::default());
         let regime = check(&body, 0.01, (&[0.0], &[]), 1.0, &rocking, 0.5);
         assert!((regime.landing_friction / expected - 1.0).abs() < 1e-14);
     }
@@ -130,7 +130,7 @@ fn what_a_falling_body_asks_of_the_ground_does_not_count() {
     let body = block(2.0, 0.5);
     let limit = GRAVITY * body.half_width / body.height;
     let accel = vec![2.0 * limit; 1000];
-    let rocking = solve(&body, 0.01, &accel, &Options::default());
+    let rocking = solve(&body, 0.01, &accel, &RockingOptions::default());
     let time = rocking.overturned().unwrap();
     let regime = check(&body, 0.01, (&accel, &[]), 1.0, &rocking, 0.5);
     assert!(regime.friction_needed.time <= time, "{regime:?}");
@@ -138,7 +138,7 @@ fn what_a_falling_body_asks_of_the_ground_does_not_count() {
     assert!((regime.friction_needed.value - 2.0 * body.half_width / body.height).abs() < 1e-12, "{regime:?}");
     assert_eq!(regime.free_flight, None);
     // uncut, the same samples need more
-    let uncut = Rocking { outcome: Outcome::Rocked, ..rocking };
+    let uncut = Rocking { outcome: RockingOutcome::Rocked, ..rocking };
     assert!(
         check(&body, 0.01, (&accel, &[]), 1.0, &uncut, 0.5).friction_needed.value > 1.5 * regime.friction_needed.value
     );

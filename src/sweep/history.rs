@@ -89,10 +89,10 @@ impl Ground {
             .map(|cell| plan.factor(&plan.subjects[cell.subject], plan.levels[cell.level], self.pga))
             .collect();
         let bodies: Vec<Body<f64>> = cells.iter().map(|cell| plan.subjects[cell.subject].body).collect();
-        let options: Vec<housner::Options<f64>> = cells
+        let options: Vec<housner::RockingOptions<f64>> = cells
             .iter()
             .zip(&scales)
-            .map(|(cell, &scale)| housner::Options {
+            .map(|(cell, &scale)| housner::RockingOptions {
                 scale,
                 vertical: self.vertical.clone(),
                 restitution: Some(plan.restitution(cell.subject, cell.restitution)),
@@ -143,11 +143,11 @@ fn ratio(subject: &Subject, peak: f64, outcome: Outcome) -> Option<f64> {
 
 fn of_housner(subject: &Subject, rocking: &Rocking<f64>) -> Answer {
     let outcome = match rocking.outcome {
-        housner::Outcome::NeverMoved => Outcome::NeverLifted,
-        housner::Outcome::Rocked => Outcome::Rocked,
-        housner::Outcome::Overturned { .. } => Outcome::Overturned,
-        housner::Outcome::LeavesGround { .. } => Outcome::LeavesGround,
-        housner::Outcome::WorkBound { .. } | housner::Outcome::NotFinite { .. } => Outcome::Failed,
+        housner::RockingOutcome::NeverMoved => Outcome::NeverLifted,
+        housner::RockingOutcome::Rocked => Outcome::Rocked,
+        housner::RockingOutcome::Overturned { .. } => Outcome::Overturned,
+        housner::RockingOutcome::LeavesGround { .. } => Outcome::LeavesGround,
+        housner::RockingOutcome::WorkBound { .. } | housner::RockingOutcome::NotFinite { .. } => Outcome::Failed,
     };
     let peak = rocking.theta.iter().fold(0.0, |peak: f64, theta| peak.max(theta.abs()));
     Answer {
@@ -170,17 +170,17 @@ impl Wanted<'_> {
     /// What to say of a history, and its NRMSE against Housner's.
     fn answer(&self, stream: &Stream, finish: &fem::Finish<f64>) -> (Answer, Option<f64>) {
         let outcome = match finish.outcome {
-            fem::Outcome::Overturned { .. } | fem::Outcome::Stopped { .. } => Outcome::Overturned,
-            fem::Outcome::Completed if housner::topples(&self.subject.body, stream.last.0, stream.last.1) => {
+            fem::HistoryOutcome::Overturned { .. } | fem::HistoryOutcome::Stopped { .. } => Outcome::Overturned,
+            fem::HistoryOutcome::Completed if housner::topples(&self.subject.body, stream.last.0, stream.last.1) => {
                 Outcome::Overturned
             }
-            fem::Outcome::Completed if stream.peak == 0.0 => Outcome::NeverLifted,
-            fem::Outcome::Completed => Outcome::Rocked,
-            fem::Outcome::WorkBound { .. } | fem::Outcome::Unstable { .. } => Outcome::Failed,
+            fem::HistoryOutcome::Completed if stream.peak == 0.0 => Outcome::NeverLifted,
+            fem::HistoryOutcome::Completed => Outcome::Rocked,
+            fem::HistoryOutcome::WorkBound { .. } | fem::HistoryOutcome::Unstable { .. } => Outcome::Failed,
         };
         let outcome = if stream.peak.is_finite() { outcome } else { Outcome::Failed };
         let errors = if outcome == Outcome::Overturned { stream.upright } else { stream.errors };
-        let lifted = self.rigid.outcome != housner::Outcome::NeverMoved;
+        let lifted = self.rigid.outcome != housner::RockingOutcome::NeverMoved;
         let nrmse = errors.horizontal.value();
         let nrmse = (lifted && outcome != Outcome::Failed && nrmse.is_finite()).then_some(nrmse);
         let peak = ratio(self.subject, stream.peak, outcome);
@@ -194,7 +194,7 @@ pub(super) fn elements(wanted: &[Wanted<'_>], record: &Record) -> Vec<(Answer, O
     let grounds: Vec<(Vec<f64>, Vec<f64>)> =
         wanted.iter().map(|w| (scaled(&record.accel, w.scale), scaled(record.up(), w.scale))).collect();
     let pushes: Vec<Cow<[f64]>> = grounds.iter().map(|(accel, vertical)| push(accel, vertical)).collect();
-    let case = |i: usize| fem::Case {
+    let case = |i: usize| fem::Analysis {
         body: wanted[i].subject.body,
         springs: wanted[i].springs,
         start: fem::Start::Settled,
@@ -205,7 +205,7 @@ pub(super) fn elements(wanted: &[Wanted<'_>], record: &Record) -> Vec<(Answer, O
         // peaks and comparisons alone
         control: fem::Control { long_steps: true, ..fem::Control::search() },
     };
-    let cases: Vec<fem::Case<f64>> = (0..wanted.len()).map(case).collect();
+    let cases: Vec<fem::Analysis<f64>> = (0..wanted.len()).map(case).collect();
     let followed = fem::histories(&cases, |i| {
         let Wanted { subject, rigid, .. } = &wanted[i];
         let standing = samples_until(rigid.overturned(), record.dt).min(rigid.theta.len());

@@ -118,7 +118,7 @@ fn of_cell(plan: &Plan, springs: Option<&SpringsTable>, cell: Cell) -> Vec<Row> 
         let mut accel = accel;
         accel.resize(accel.len() + (super::motion::SILENCE / (subject.p * dt)).ceil() as usize, 0.0);
         let record = Record { name: shape.name().into(), dt, accel, vertical: None, source: Source::Synthetic };
-        let still = housner::solve(&subject.body, dt, &[0.0], &housner::Options::default());
+        let still = housner::solve(&subject.body, dt, &[0.0], &housner::RockingOptions::default());
         let wanted = |&scale: &f64| Wanted { subject, springs, scale, rigid: &still };
         let fates = |amplitudes: &[f64]| {
             let found = history::elements(&amplitudes.iter().map(wanted).collect::<Vec<_>>(), &record);
@@ -183,9 +183,10 @@ struct Pulse<'a> {
 
 impl Pulse<'_> {
     fn fates(&self, amplitudes: &[f64]) -> Vec<Fate> {
-        let options = |scale: &f64| housner::Options { scale: *scale, restitution: Some(self.e), ..Default::default() };
+        let options =
+            |scale: &f64| housner::RockingOptions { scale: *scale, restitution: Some(self.e), ..Default::default() };
         let solve = |chunk: &[f64]| {
-            let options: Vec<housner::Options<f64>> = chunk.iter().map(options).collect();
+            let options: Vec<housner::RockingOptions<f64>> = chunk.iter().map(options).collect();
             match &options[..] {
                 [one] => vec![housner::solve(self.body, self.dt, self.accel, one)],
                 all => housner::solve_lanes(std::slice::from_ref(self.body), self.dt, self.accel, all),
@@ -341,7 +342,8 @@ mod tests {
             long.resize(accel.len() + (25.0 / (p * dt)) as usize, 0.0);
             let pulse = Pulse { body: &body, e: 0.9, dt, accel: &accel };
             for amplitude in levels(1.05, 9.0, 60) {
-                let options = housner::Options { scale: amplitude, restitution: Some(0.9), ..Default::default() };
+                let options =
+                    housner::RockingOptions { scale: amplitude, restitution: Some(0.9), ..Default::default() };
                 let rocking = housner::solve(&body, dt, &long, &options);
                 let fate = pulse.fates(&[amplitude])[0];
                 let shown = Fate::new(rocking.overturned().is_some(), Some(rocking.impacts.len()));

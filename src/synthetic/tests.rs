@@ -61,8 +61,8 @@ fn outcomes_are_a_mix_from_hardly_lifting_to_toppling() {
         let (p, alpha) = (body.p_squared().sqrt(), body.alpha());
         let solved = (0..n).into_par_iter().map(|index| {
             let record = record(42, index, p, alpha);
-            let rocking = housner::solve(&body, record.dt, &record.accel, &housner::Options::default());
-            (peak_rocking(&body, &record), matches!(rocking.outcome, housner::Outcome::Overturned { .. }))
+            let rocking = housner::solve(&body, record.dt, &record.accel, &housner::RockingOptions::default());
+            (peak_rocking(&body, &record), matches!(rocking.outcome, housner::RockingOutcome::Overturned { .. }))
         });
         let (peaks, overturned): (Vec<f64>, Vec<bool>) = solved.unzip();
         // the two solvers differ where a body hangs in the balance

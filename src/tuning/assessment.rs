@@ -63,7 +63,8 @@ impl Assessment {
 
     /// That the accuracy was not reached, and what to do: to be said before anything else.
     pub fn warning(&self) -> Option<String> {
-        let remedy = if self.capped { "raise or drop --max-hz" } else { "ask for less, or judge them by tune validate" };
+        let remedy =
+            if self.capped { "raise or drop --max-hz" } else { "ask for less, or judge them by tune validate" };
         let accuracy = self.accuracy;
         (!self.reached).then(|| {
             format!("WARNING: the accuracy of {accuracy} was not reached; these are the best springs within what was allowed: {remedy}")
@@ -73,7 +74,9 @@ impl Assessment {
     /// What to file: the accuracy measured, on what, with counts and what is allowed; which springs.
     pub fn lines(&self) -> Vec<String> {
         let measured = match self.measured_on() {
-            on if on.is_empty() => "nothing to measure it on: no motion rocks this body and can be foretold".to_string(),
+            on if on.is_empty() => {
+                "nothing to measure it on: no motion rocks this body and can be foretold".to_string()
+            }
             on => on.join("; "),
         };
         let mut lines = vec![format!(
@@ -97,7 +100,9 @@ impl Assessment {
         let (allowed, looser) = (shown(self.accuracy), shown(LOOSER * self.accuracy));
         let record = m.record.map(|e| format!("{} on the record, u or v (allowed {allowed})", shown(e)));
         let synthetic = m.synthetic_median.zip(m.synthetic_p90).map(|(median, p90)| match median.count {
-            1 => format!("{} on the one synthetic motion that can be foretold (allowed {allowed})", shown(median.value)),
+            1 => {
+                format!("{} on the one synthetic motion that can be foretold (allowed {allowed})", shown(median.value))
+            }
             n => format!(
                 "{} in the median of {n} synthetic motions (allowed {allowed}), {} for 90 % of them (allowed {looser})",
                 shown(median.value),
@@ -105,7 +110,9 @@ impl Assessment {
             ),
         });
         let earthquakes = m.earthquakes_mean.map(|e| match (e.count, m.earthquakes_upper) {
-            (1, _) => format!("{} on the one earthquake-like motion of sensitivity below {PREDICTABLE}", shown(e.value)),
+            (1, _) => {
+                format!("{} on the one earthquake-like motion of sensitivity below {PREDICTABLE}", shown(e.value))
+            }
             (n, upper) => format!(
                 "{} in the geometric mean of {n} earthquake-like motions of sensitivity below {PREDICTABLE}{}",
                 shown(e.value),

@@ -97,7 +97,7 @@ impl Job {
             return Err(JobError::TooShort { record: record.name.clone(), samples: record.len() });
         }
         let body = case.structure.body::<f64>();
-        let options = housner::Options {
+        let options = housner::RockingOptions {
             restitution: Some(case.restitution),
             vertical: record.vertical_accel(),
             ..Default::default()

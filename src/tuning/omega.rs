@@ -7,7 +7,7 @@
 
 use std::collections::BTreeMap;
 
-use super::suite::{Accuracy, Suite, Suites};
+use super::suite::{Accuracy, JudgedOn, Suites};
 use crate::{
     fem::Control,
     spring::{Design, Springs},
@@ -88,7 +88,7 @@ pub fn tune(
     let last = last.max(first);
     let found = seek(first, last, rung(begin(accuracy)).round() as i64, &mut judge)?;
     let best = seen.get_mut(&found.rung)?;
-    for suite in Suite::ALL {
+    for suite in JudgedOn::ALL {
         if best.accuracy.over_on(suite, allowed).is_none() {
             suites.measure(suite, &best.springs.chains(mass), control, &mut best.accuracy);
         }
@@ -105,12 +105,12 @@ pub fn control(accuracy: f64) -> Control {
 
 /// The suites that a rung is to be judged on: what decided at the nearest rung first, for it may refuse this one alone; and none on
 /// which a softer rung had so little error that this one will hold.
-fn in_order(seen: &BTreeMap<i64, Rung>, i: i64, allowed: f64) -> Vec<Suite> {
+fn in_order(seen: &BTreeMap<i64, Rung>, i: i64, allowed: f64) -> Vec<JudgedOn> {
     let share = |rung: &Rung, suite| rung.accuracy.over_on(suite, allowed);
-    let softer = |suite: &Suite| seen.range(..i).any(|(_, rung)| share(rung, *suite).is_some_and(|x| x < LITTLE));
-    let mut order: Vec<Suite> = Suite::ALL.into_iter().filter(|suite| !softer(suite)).collect();
+    let softer = |suite: &JudgedOn| seen.range(..i).any(|(_, rung)| share(rung, *suite).is_some_and(|x| x < LITTLE));
+    let mut order: Vec<JudgedOn> = JudgedOn::ALL.into_iter().filter(|suite| !softer(suite)).collect();
     if let Some(nearest) = seen.iter().min_by_key(|(j, _)| (*j - i).abs()).map(|(_, rung)| rung) {
-        let least = |suite: &Suite| share(nearest, *suite).unwrap_or(0.0);
+        let least = |suite: &JudgedOn| share(nearest, *suite).unwrap_or(0.0);
         order.sort_by(|a, b| least(b).total_cmp(&least(a)));
     }
     order

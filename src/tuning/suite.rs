@@ -12,8 +12,8 @@ use serde::{Deserialize, Serialize};
 
 use crate::{
     conditioning::{CHANGES, ILL_CONDITIONED, changes, moved_by_width, sensitivity},
-    fem::{Case, Control, Finish, Outcome, Start, histories},
-    housner::{self, Options, Rocking},
+    fem::{Analysis, Control, Finish, HistoryOutcome, Start, histories},
+    housner::{self, Rocking, RockingOptions},
     overturning::samples_until,
     record::Record,
     regime,
@@ -65,7 +65,7 @@ enum Wanted {
 
 impl Wanted {
     /// Whether Housner's history `rocking` is so; the cheapest grounds to refuse it first.
-    fn holds(self, body: &Body<f64>, record: &Record, options: &Options<f64>, rocking: &Rocking<f64>) -> bool {
+    fn holds(self, body: &Body<f64>, record: &Record, options: &RockingOptions<f64>, rocking: &Rocking<f64>) -> bool {
         let Record { dt, ref accel, .. } = *record;
         let by_width = |change: f64| moved_by_width(body, dt, accel, options, rocking, change) / change;
         let worst = || sensitivity(body, dt, accel, options).worst();
@@ -84,10 +84,10 @@ impl Trial {
     /// The motion, if Housner's body rocks on it, on a pivot that presses, and its history is as wanted.
     fn new(body: &Body<f64>, restitution: f64, record: Record, wanted: Wanted) -> Option<Self> {
         let vertical = record.vertical_accel();
-        let options = Options { restitution: Some(restitution), vertical, ..Options::default() };
+        let options = RockingOptions { restitution: Some(restitution), vertical, ..RockingOptions::default() };
         let rocking = housner::solve(body, record.dt, &record.accel, &options);
         let overturned = rocking.overturned().filter(|_| wanted == Wanted::WellConditionedWhileItStands);
-        let rocks = rocking.outcome == housner::Outcome::Rocked || overturned.is_some();
+        let rocks = rocking.outcome == housner::RockingOutcome::Rocked || overturned.is_some();
         let presses = || regime::pivot_pulls(body, record.dt, &record.accel, &rocking).is_none();
         let lands = !rocking.impacts.is_empty();
         let fit = rocks && lands && wanted.holds(body, &record, &options, &rocking) && presses();
@@ -103,8 +103,8 @@ impl Trial {
         push(&self.accel, self.vertical.as_deref().unwrap_or_default())
     }
 
-    fn case(&self, body: &Body<f64>, springs: &Springs<Chain<f64>>, control: Control) -> Case<'_, f64> {
-        Case {
+    fn case(&self, body: &Body<f64>, springs: &Springs<Chain<f64>>, control: Control) -> Analysis<'_, f64> {
+        Analysis {
             body: *body,
             springs: *springs,
             start: Start::Settled,
@@ -121,12 +121,12 @@ impl Trial {
 /// the record's end, or one body overturns and the other does not.
 fn errors(trials: &[Trial], body: &Body<f64>, springs: &Springs<Chain<f64>>, control: Control) -> Vec<(f64, f64)> {
     let pushes: Vec<Cow<[f64]>> = trials.iter().map(Trial::push).collect();
-    let cases: Vec<Case<f64>> = trials.iter().map(|trial| trial.case(body, springs, control)).collect();
+    let cases: Vec<Analysis<f64>> = trials.iter().map(|trial| trial.case(body, springs, control)).collect();
     let followed = histories(&cases, |i| Stream::new(body, &trials[i].theta, &pushes[i]));
     let error = |((stream, finish), trial): ((Stream, Finish<f64>), &Trial)| {
         let overturned = match finish.outcome {
-            Outcome::Completed => housner::topples(body, stream.last.0, stream.last.1),
-            Outcome::Overturned { .. } | Outcome::Stopped { .. } => true,
+            HistoryOutcome::Completed => housner::topples(body, stream.last.0, stream.last.1),
+            HistoryOutcome::Overturned { .. } | HistoryOutcome::Stopped { .. } => true,
             _ => return LOST,
         };
         if overturned != trial.overturns {
@@ -171,31 +171,31 @@ pub const LOOSER: f64 = 5.0;
 impl Accuracy {
     /// The largest error, in units of what an accuracy allows: at most 1 if it is reached; 0 if nothing was measured.
     pub fn over(&self, accuracy: f64) -> f64 {
-        Suite::ALL.iter().filter_map(|suite| self.over_on(*suite, accuracy)).fold(0.0, f64::max)
+        JudgedOn::ALL.iter().filter_map(|suite| self.over_on(*suite, accuracy)).fold(0.0, f64::max)
     }
 
     /// The same on one suite; `None` where it was not measured.
-    pub fn over_on(&self, suite: Suite, accuracy: f64) -> Option<f64> {
+    pub fn over_on(&self, suite: JudgedOn, accuracy: f64) -> Option<f64> {
         match suite {
-            Suite::Record => self.record.map(|x| x / accuracy),
-            Suite::Synthetic => {
+            JudgedOn::Record => self.record.map(|x| x / accuracy),
+            JudgedOn::Synthetic => {
                 let shares = [(self.synthetic_median, 1.0), (self.synthetic_p90, LOOSER)];
                 shares.into_iter().filter_map(|(s, looser)| s.map(|s| s.value / (looser * accuracy))).reduce(f64::max)
             }
-            Suite::Earthquakes => self.earthquakes_upper.map(|upper| upper / (LOOSER * accuracy)),
+            JudgedOn::Earthquakes => self.earthquakes_upper.map(|upper| upper / (LOOSER * accuracy)),
         }
     }
 }
 
 /// What springs can be judged on.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Suite {
+pub enum JudgedOn {
     Record,
     Synthetic,
     Earthquakes,
 }
 
-impl Suite {
+impl JudgedOn {
     /// The cheapest first.
     pub const ALL: [Self; 3] = [Self::Record, Self::Synthetic, Self::Earthquakes];
 }
@@ -250,25 +250,25 @@ impl Suites {
     /// The error of springs on every suite.
     pub fn accuracy(&self, springs: &Springs<Chain<f64>>, control: Control) -> Accuracy {
         let mut accuracy = Accuracy::default();
-        Suite::ALL.iter().for_each(|suite| self.measure(*suite, springs, control, &mut accuracy));
+        JudgedOn::ALL.iter().for_each(|suite| self.measure(*suite, springs, control, &mut accuracy));
         accuracy
     }
 
     /// Add the error of springs on one suite to what was measured.
-    pub fn measure(&self, suite: Suite, springs: &Springs<Chain<f64>>, control: Control, accuracy: &mut Accuracy) {
+    pub fn measure(&self, suite: JudgedOn, springs: &Springs<Chain<f64>>, control: Control, accuracy: &mut Accuracy) {
         let errors = |trials: &[Trial]| errors(trials, &self.body, springs, control);
         let statistic = |value: Option<f64>, count| value.map(|value| Statistic { value, count });
         match suite {
-            Suite::Record => {
+            JudgedOn::Record => {
                 accuracy.record = errors(self.record.as_slice()).first().map(|(u, v)| u.max(*v));
             }
-            Suite::Synthetic => {
+            JudgedOn::Synthetic => {
                 let mut sorted: Vec<f64> = errors(&self.synthetic).iter().map(|e| e.0).collect();
                 sorted.sort_by(f64::total_cmp);
                 accuracy.synthetic_median = statistic(quantile(&sorted, 0.5), sorted.len());
                 accuracy.synthetic_p90 = statistic(quantile(&sorted, 0.9), sorted.len());
             }
-            Suite::Earthquakes => {
+            JudgedOn::Earthquakes => {
                 let errors = errors(&self.earthquakes);
                 let found = geometric_mean(errors.iter().map(|e| e.0));
                 accuracy.earthquakes_mean = statistic(found.map(|(mean, _)| mean), errors.len());

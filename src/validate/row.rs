@@ -132,7 +132,7 @@ impl Row {
 /// Housner's answer to a record.
 struct Answer<'a> {
     record: Cow<'a, Record>,
-    options: housner::Options<f64>,
+    options: housner::RockingOptions<f64>,
     rocking: housner::Rocking<f64>,
     conditioning: Option<Conditioning>,
 }
@@ -150,7 +150,7 @@ impl Judge {
     /// Run both models over records, the finite element histories side by side.
     pub fn judge(&self, records: &[Record]) -> Vec<Row> {
         let answers: Vec<Answer> = records.par_iter().with_max_len(1).map(|record| self.answer(record)).collect();
-        let cases: Vec<fem::Case<f64>> = answers.iter().map(|answer| self.case(&answer.record)).collect();
+        let cases: Vec<fem::Analysis<f64>> = answers.iter().map(|answer| self.case(&answer.record)).collect();
         let watch = |i: usize| Stream::new(&self.body, answers[i].standing(), cases[i].accel);
         let followed = fem::histories(&cases, watch);
         let both = answers.par_iter().with_max_len(1).zip(followed);
@@ -161,15 +161,15 @@ impl Judge {
         // the whole record as it is, without a copy
         let short = self.duration_s.map(|duration| record.truncated(duration));
         let record = short.map_or(Cow::Borrowed(record), Cow::Owned);
-        let options = housner::Options { restitution: Some(self.restitution), ..Default::default() };
+        let options = housner::RockingOptions { restitution: Some(self.restitution), ..Default::default() };
         let rocking = housner::solve(&self.body, record.dt, &record.accel, &options);
-        let lifted = rocking.outcome != housner::Outcome::NeverMoved;
+        let lifted = rocking.outcome != housner::RockingOutcome::NeverMoved;
         let conditioning = lifted.then(|| Conditioning::new(&self.body, record.dt, &record.accel, &options));
         Answer { record, options, rocking, conditioning }
     }
 
-    fn case<'a>(&self, record: &'a Record) -> fem::Case<'a, f64> {
-        fem::Case {
+    fn case<'a>(&self, record: &'a Record) -> fem::Analysis<'a, f64> {
+        fem::Analysis {
             body: self.body,
             springs: self.springs,
             start: fem::Start::Settled,
@@ -185,19 +185,19 @@ impl Judge {
         let Answer { record, options, rocking, conditioning } = answer;
         let (body, dt, accel) = (&self.body, record.dt, &record.accel[..]);
         let overturned_fem = match finish.outcome {
-            fem::Outcome::Overturned { .. } | fem::Outcome::Stopped { .. } => Some(true),
-            fem::Outcome::Completed => Some(housner::topples(body, stream.last.0, stream.last.1)),
-            fem::Outcome::WorkBound { .. } | fem::Outcome::Unstable { .. } => None,
+            fem::HistoryOutcome::Overturned { .. } | fem::HistoryOutcome::Stopped { .. } => Some(true),
+            fem::HistoryOutcome::Completed => Some(housner::topples(body, stream.last.0, stream.last.1)),
+            fem::HistoryOutcome::WorkBound { .. } | fem::HistoryOutcome::Unstable { .. } => None,
         };
         let errors = if overturned_fem == Some(true) { stream.upright } else { stream.errors };
         let (horizontal, vertical) = (errors.horizontal.value(), errors.vertical.value());
         let finite = !horizontal.is_nan() && !vertical.is_nan() && stream.peak.is_finite();
         let outcome = match rocking.outcome {
-            housner::Outcome::LeavesGround { .. }
-            | housner::Outcome::WorkBound { .. }
-            | housner::Outcome::NotFinite { .. } => RecordOutcome::HousnerFailed,
+            housner::RockingOutcome::LeavesGround { .. }
+            | housner::RockingOutcome::WorkBound { .. }
+            | housner::RockingOutcome::NotFinite { .. } => RecordOutcome::HousnerFailed,
             _ if overturned_fem.is_none() || !finite => RecordOutcome::FemFailed,
-            housner::Outcome::NeverMoved => RecordOutcome::NeverLifted,
+            housner::RockingOutcome::NeverMoved => RecordOutcome::NeverLifted,
             _ => RecordOutcome::Rocked,
         };
         let overturned_housner = rocking.overturned().is_some();
@@ -207,7 +207,8 @@ impl Judge {
             let peak = rocking.theta.iter().fold(0.0, |peak: f64, x| peak.max(x.abs()));
             ratio(peak, rocking.overturned().is_some())
         };
-        let changed = housner::Options { restitution: Some(self.restitution * (1.0 - CHANGE)), ..options.clone() };
+        let changed =
+            housner::RockingOptions { restitution: Some(self.restitution * (1.0 - CHANGE)), ..options.clone() };
         let changes = conditioning.map(|c| c.changes).unwrap_or_default();
         let moved = |k: usize| changes.width[k].max(changes.scale[k]);
         let error = |x: f64| (outcome == RecordOutcome::Rocked && x.is_finite()).then_some(x);

@@ -32,9 +32,9 @@ fn a_row_says_what_the_whole_histories_say() {
     let row = judge.judge(std::slice::from_ref(&record)).remove(0);
 
     let short = record.truncated(10.0);
-    let rocking = housner::solve(&judge.body, short.dt, &short.accel, &housner::Options::default());
+    let rocking = housner::solve(&judge.body, short.dt, &short.accel, &housner::RockingOptions::default());
     let motion = rocking.motion(&judge.body);
-    let history = fem::Case {
+    let history = fem::Analysis {
         body: judge.body,
         springs: judge.springs,
         start: fem::Start::Settled,

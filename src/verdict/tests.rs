@@ -1,6 +1,6 @@
 use super::*;
 use crate::{
-    fem::{Case, Control, Start},
+    fem::{Analysis, Control, Start},
     record::Record,
     spring::{Design, Springs},
     structure::Structure,
@@ -15,11 +15,11 @@ fn verdict(record: &Record) -> Verdict {
         horizontal: Design::from_kc(0.3, 0.57, 1.86, 640.0),
     };
     let body = structure.body::<f64>();
-    let (dt, accel, options) = (record.dt, &record.accel[..], housner::Options::default());
+    let (dt, accel, options) = (record.dt, &record.accel[..], housner::RockingOptions::default());
     let rocking = housner::solve(&body, dt, accel, &options);
     let springs = springs.chains(structure.mass_kg);
     let (start, control) = (Start::Settled, Control::default());
-    let history = Case { body, springs, start, dt, accel, vertical: &[], scale: 1.0, control }.simulate();
+    let history = Analysis { body, springs, start, dt, accel, vertical: &[], scale: 1.0, control }.simulate();
     let motion = rocking.motion(&body);
     let matched = Match::new(&body, dt, (&motion, &rocking.impacts), &history, body.restitution());
     let conditioning = Conditioning::new(&body, dt, accel, &options);

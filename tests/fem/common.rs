@@ -1,7 +1,7 @@
 //! Cases that the stories share.
 
 use groundspring::{
-    fem::{Case, Control, History, Start},
+    fem::{Analysis, Control, History, Start},
     record::Record,
     spring::{Chain, Design, Springs},
     structure::Structure,
@@ -51,13 +51,22 @@ pub fn el_centro() -> Record {
 /// A history from rest.
 pub fn settled(structure: &Structure, springs: Springs<Chain<f64>>, record: &Record, control: Control) -> History {
     let (dt, accel) = (record.dt, &record.accel[..]);
-    Case { body: structure.body(), springs, start: Start::Settled, dt, accel, vertical: &[], scale: 1.0, control }
+    Analysis { body: structure.body(), springs, start: Start::Settled, dt, accel, vertical: &[], scale: 1.0, control }
         .simulate()
 }
 
 /// Free rocking from a lean [rad] for n samples of dt [s].
 pub fn free(structure: &Structure, springs: Springs<Chain<f64>>, lean: f64, dt: f64, n: usize) -> History {
     let (start, accel) = (Start::Leaning(lean), &vec![0.0; n][..]);
-    Case { body: structure.body(), springs, start, dt, accel, vertical: &[], scale: 1.0, control: Control::default() }
-        .simulate()
+    Analysis {
+        body: structure.body(),
+        springs,
+        start,
+        dt,
+        accel,
+        vertical: &[],
+        scale: 1.0,
+        control: Control::default(),
+    }
+    .simulate()
 }

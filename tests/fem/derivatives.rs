@@ -1,7 +1,7 @@
 //! Derivatives by dual numbers pass through the integrator and its events.
 
 use groundspring::{
-    fem::{Case, Control, Start, View},
+    fem::{Analysis, Control, Start, View},
     scalar::{Scalar, real},
     spring::{Design, Springs},
     structure::{Body, Structure},
@@ -29,7 +29,7 @@ fn end<S: Scalar>(parameters: [S; 8], share: f64, duration: f64, control: Contro
         ControlFlow::Continue(())
     };
     let start = Start::Leaning(real(0.04));
-    let case = Case {
+    let case = Analysis {
         body,
         springs: springs.chains(body.mass),
         start,

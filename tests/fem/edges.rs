@@ -4,8 +4,8 @@
 use std::{f64::consts::FRAC_PI_4, ops::ControlFlow};
 
 use groundspring::{
-    fem::{Case, Control, Finish, History, Outcome, Start, View},
-    housner::{self, Options},
+    fem::{Analysis, Control, Finish, History, HistoryOutcome, Start, View},
+    housner::{self, RockingOptions},
     motion::nrmse,
     record::{Record, Source},
     scalar::GRAVITY,
@@ -32,7 +32,7 @@ fn shaken(hz: f64, dt: f64, accel: &[f64]) -> History {
 /// What every history here promises: numbers, all samples, a closed energy account, no energy from nowhere.
 fn assert_sound(history: &History, samples: usize) {
     let (motion, account) = (&history.motion, &history.account);
-    assert_eq!((history.outcome, motion.len()), (Outcome::Completed, samples));
+    assert_eq!((history.outcome, motion.len()), (HistoryOutcome::Completed, samples));
     assert!([&motion.u, &motion.v, &motion.theta].into_iter().flatten().all(|x| x.is_finite()));
     assert!(history.energy_residual < 1e-6, "{:e}", history.energy_residual);
     let largest = account.stored.iter().chain(&account.input).fold(0.0_f64, |m, e| m.max(e.abs()));
@@ -69,7 +69,7 @@ fn a_touch_down_at_zero_velocity_is_the_same_as_none() {
                 (0..samples).map(|i| if f64::from(i) * dt < 0.5 * fall { 0.0 } else { -push }).collect();
             let (body, springs) = (block().body(), plastic(160.0, 1e3));
             let (start, control) = (Start::Leaning(lean), Control::default());
-            Case { body, springs, start, dt, accel: &accel, vertical: &[], scale: 1.0, control }.simulate()
+            Analysis { body, springs, start, dt, accel: &accel, vertical: &[], scale: 1.0, control }.simulate()
         };
         // the left foot is in the air at first
         let touch = |h: &History| h.landings.iter().find(|l| l.foot == 0).copied();
@@ -172,7 +172,7 @@ fn ever_smaller_impacts_end_in_rest_and_all_energy_is_accounted_for() {
     let lean = 0.3 * body.alpha();
     let history = free(&structure, springs, lean, 0.01, 1501);
     assert_sound(&history, 1501);
-    let options = Options { initial: Some((lean, 0.0)), ..Options::default() };
+    let options = RockingOptions { initial: Some((lean, 0.0)), ..RockingOptions::default() };
     let rigid = housner::solve(&body, 0.01, &[0.0; 1501], &options);
     let rest = rigid.theta.iter().position(|theta| *theta == 0.0).unwrap();
     assert!(rigid.theta[rest..].iter().all(|theta| *theta == 0.0));
@@ -193,7 +193,7 @@ fn ever_smaller_impacts_end_in_rest_and_all_energy_is_accounted_for() {
 fn a_record_that_starts_in_strong_motion_gives_housner_s_history() {
     let accel: Vec<f64> = (0..100).map(|i| if i < 20 { 2.0 * LIMIT } else { 0.0 }).collect();
     let body = block().body::<f64>();
-    let rigid = housner::solve(&body, 0.01, &accel, &Options::default());
+    let rigid = housner::solve(&body, 0.01, &accel, &RockingOptions::default());
     assert_eq!(rigid.uplifts[0].time, 0.0);
     let error = |hz: f64| {
         let history = shaken(hz, 0.01, &accel);
@@ -219,7 +219,7 @@ fn near_alpha_the_body_stays_long_and_then_decides() {
             assert!((landed - 1.0).abs() < 0.02, "{landed}");
             let over = free(&structure, springs, side * alpha * (1.0 + 1e-6), dt, n);
             assert!(
-                matches!(over.outcome, Outcome::Overturned { time } if time * p > 2e6_f64.ln()),
+                matches!(over.outcome, HistoryOutcome::Overturned { time } if time * p > 2e6_f64.ln()),
                 "{:?}",
                 over.outcome
             );
@@ -239,7 +239,7 @@ fn a_frame_of_restitution_zero_loses_its_energy_in_the_first_landing() {
     let body = Body { mass: 1e4, half_width: 5.0, height: 5.0, inertia: 0.0 };
     assert!(body.restitution().abs() < 1e-15 && (body.alpha() - FRAC_PI_4).abs() < 1e-15);
     let (lean, accel) = (0.1, vec![0.0; 300]);
-    let options = Options { initial: Some((lean, 0.0)), ..Options::default() };
+    let options = RockingOptions { initial: Some((lean, 0.0)), ..RockingOptions::default() };
     let rigid = housner::solve(&body, 0.01, &accel, &options);
     let landing = rigid.impacts[0].time;
     assert!(rigid.theta[(landing / 0.01) as usize + 1..].iter().all(|theta| theta.abs() < 1e-12));
@@ -249,7 +249,7 @@ fn a_frame_of_restitution_zero_loses_its_energy_in_the_first_landing() {
         let (springs, start) = (chains(ratios, ratios, hz, body.mass), Start::Leaning(lean));
         let control = Control::default();
         let history =
-            Case { body, springs, start, dt: 0.01, accel: &accel, vertical: &[], scale: 1.0, control }.simulate();
+            Analysis { body, springs, start, dt: 0.01, accel: &accel, vertical: &[], scale: 1.0, control }.simulate();
         assert_sound(&history, 300);
         let first = &history.landings[0];
         assert!(first.impact && (first.time / landing - 1.0).abs() < 0.01, "{first:?} {landing}");
@@ -290,7 +290,7 @@ fn equal_vertical_and_horizontal_springs_are_no_special_case() {
     let history = settled(&structure, springs, &record, Control::default());
     assert_sound(&history, record.accel.len());
     let body = structure.body::<f64>();
-    let rigid = housner::solve(&body, record.dt, &record.accel, &Options::default());
+    let rigid = housner::solve(&body, record.dt, &record.accel, &RockingOptions::default());
     let error = nrmse(&history.motion.u, &rigid.motion(&body).u);
     assert!(error < 0.05, "{error}");
     let nearly = Chain { k1: springs.horizontal.k1 * (1.0 + 1e-9), ..springs.horizontal };
@@ -308,7 +308,7 @@ fn without_dampers_nothing_is_dissipated() {
         let springs = Springs { vertical: design(0.3, 1.0), horizontal: design(0.3, 0.57) }.chains(structure.mass_kg);
         let record = el_centro();
         let (mut samples, mut released) = (0, 0.0);
-        let case = Case {
+        let case = Analysis {
             body: structure.body(),
             springs,
             start: Start::Settled,
@@ -323,7 +323,7 @@ fn without_dampers_nothing_is_dissipated() {
             assert!(view.x().is_finite() && view.z().is_finite());
             ControlFlow::Continue(())
         });
-        assert_eq!((finish.outcome, samples), (Outcome::Completed, record.accel.len()));
+        assert_eq!((finish.outcome, samples), (HistoryOutcome::Completed, record.accel.len()));
         assert_eq!(finish.energy.dissipated, 0.0);
         released += finish.energy.released;
         assert!(released > 0.0, "a foot that lifts lets its horizontal spring go");
@@ -337,7 +337,7 @@ fn records_of_no_sample_one_and_two() {
     for (start, theta) in [(Start::Settled, 0.0), (Start::Leaning(0.1), 0.1)] {
         for n in 0..3 {
             let (body, springs, accel) = (block().body(), table_1(160.0, 1e3), vec![3.0 * LIMIT; n]);
-            let history = Case {
+            let history = Analysis {
                 body,
                 springs,
                 start,
@@ -348,7 +348,7 @@ fn records_of_no_sample_one_and_two() {
                 control: Control::default(),
             }
             .simulate();
-            assert_eq!((history.outcome, history.motion.len()), (Outcome::Completed, n));
+            assert_eq!((history.outcome, history.motion.len()), (HistoryOutcome::Completed, n));
             assert_eq!((history.impacts(), history.bounces()), (0, 0));
             let first = history.motion.theta.first();
             assert!(first.is_none_or(|first| (first - theta).abs() < 1e-12), "{first:?}");

@@ -3,7 +3,7 @@
 use groundspring::{
     compare::Match,
     fem::Control,
-    housner::{self, Options},
+    housner::{self, RockingOptions},
     structure::Structure,
 };
 
@@ -58,7 +58,7 @@ fn every_firm_landing_of_a_block_shaken_hard_loses_what_housner_s_does() {
     let short: Vec<_> = history.landings.iter().filter(|l| l.impact && (4.67..4.70).contains(&l.time)).collect();
     assert_eq!(short.iter().map(|l| l.foot).collect::<Vec<_>>(), [0, 1], "{short:?}");
     let body = structure.body::<f64>();
-    let rocking = housner::solve(&body, record.dt, &record.accel, &Options::default());
+    let rocking = housner::solve(&body, record.dt, &record.accel, &RockingOptions::default());
     let housner = (&rocking.motion(&body), &rocking.impacts[..]);
     let found = Match::new(&body, record.dt, housner, &history, body.restitution());
     // the least lean is a share of alpha; gentler landings lose more to the elastic stance

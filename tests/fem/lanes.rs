@@ -3,7 +3,7 @@
 use std::ops::ControlFlow;
 
 use groundspring::{
-    fem::{Case, Change, Control, Observer, Start, View, histories},
+    fem::{Analysis, Change, Control, Observer, Start, View, histories},
     motion::nrmse,
     spring::{Chain, Springs},
     structure::{Body, Structure},
@@ -60,7 +60,7 @@ fn a_history_is_the_same_to_the_last_bit_in_any_company_and_on_any_number_of_thr
         })
         .collect();
     let up: Vec<f64> = (0..400).map(|i| 1.5 * (0.11 * f64::from(i)).sin()).collect();
-    let cases: Vec<Case<f64>> = records
+    let cases: Vec<Analysis<f64>> = records
         .iter()
         .enumerate()
         .map(|(i, record)| {
@@ -73,7 +73,7 @@ fn a_history_is_the_same_to_the_last_bit_in_any_company_and_on_any_number_of_thr
             };
             let start = if i % 9 == 5 { Start::Leaning(0.6 * body.alpha()) } else { Start::Settled };
             let vertical: &[f64] = if i % 5 == 4 { &up } else { &[] };
-            Case { body, springs, start, dt: record.dt, accel: &record.accel, vertical, scale: 1.0, control }
+            Analysis { body, springs, start, dt: record.dt, accel: &record.accel, vertical, scale: 1.0, control }
         })
         .collect();
     let alone: Vec<_> = cases
@@ -117,7 +117,8 @@ fn steps_over_several_samples_keep_the_history_and_follow_the_tolerance() {
         let at = |tolerance: f64, long_steps: bool| {
             let control = Control { tolerance, long_steps, ..Control::default() };
             let (start, dt, accel) = (Start::Settled, record.dt, &record.accel[..]);
-            Case { body: structure.body(), springs, start, dt, accel, vertical: &[], scale: 1.0, control }.simulate()
+            Analysis { body: structure.body(), springs, start, dt, accel, vertical: &[], scale: 1.0, control }
+                .simulate()
         };
         let tight = at(1e-12, false);
         let error = |tolerance| nrmse(&at(tolerance, true).motion.u, &tight.motion.u);

@@ -1,7 +1,7 @@
 //! Elastic legs, dampers and a tendon through El Centro.
 
 use groundspring::{
-    fem::{Case, Control, Demands, History, Start},
+    fem::{Analysis, Control, Demands, History, Start},
     members::{Damper, Legs, Members, Tendon},
     motion::nrmse,
     record::Record,
@@ -26,7 +26,7 @@ fn run(
     members: &Members<f64>,
 ) -> (History, Demands) {
     let (dt, accel, control) = (record.dt, &record.accel[..], Control::default());
-    Case { body: structure.body(), springs, start: Start::Settled, dt, accel, vertical: &[], scale: 1.0, control }
+    Analysis { body: structure.body(), springs, start: Start::Settled, dt, accel, vertical: &[], scale: 1.0, control }
         .simulate_with(members)
 }
 
@@ -122,7 +122,7 @@ fn dampers_take_energy_out_of_free_rocking() {
     let springs = plastic(80.0, structure.mass_kg);
     let lean = 0.5 * structure.body::<f64>().alpha();
     let still = vec![0.0; 1500];
-    let case = Case {
+    let case = Analysis {
         body: structure.body(),
         springs,
         start: Start::Leaning(lean),

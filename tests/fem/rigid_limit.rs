@@ -2,7 +2,7 @@
 
 use groundspring::{
     fem::Control,
-    housner::{self, Options},
+    housner::{self, RockingOptions},
     motion::nrmse,
 };
 
@@ -12,7 +12,7 @@ use crate::common::{el_centro, paper, plastic, settled};
 fn stiff_springs_give_housner_s_history_of_el_centro() {
     let (structure, record) = (paper(1e-5), el_centro());
     let body = structure.body::<f64>();
-    let rigid = housner::solve(&body, record.dt, &record.accel, &Options::default());
+    let rigid = housner::solve(&body, record.dt, &record.accel, &RockingOptions::default());
     let motion = rigid.motion(&body);
     let mut errors = Vec::new();
     for hz in [80.0, 320.0, 1280.0] {

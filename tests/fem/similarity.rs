@@ -1,7 +1,7 @@
 //! The same case in other units, at another scale, or mirrored is the same case.
 
 use groundspring::{
-    fem::{Case, Control, History, Start},
+    fem::{Analysis, Control, History, Start},
     record::{ReadOptions, Record},
     spring::{Chain, Springs},
     structure::Structure,
@@ -39,7 +39,7 @@ fn scaled(structure: &Structure, make: Make, record: &Record, length: f64, mass:
         ..*structure
     };
     let springs = make(80.0 / time, structure.mass_kg);
-    Case {
+    Analysis {
         body: structure.body(),
         springs,
         start: Start::Settled,

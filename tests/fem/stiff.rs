@@ -1,8 +1,8 @@
 //! Very stiff springs under bodies slender and stocky: every history finishes, whatever the springs do in a landing.
 
 use groundspring::{
-    fem::{Case, Control, History, Outcome, Start},
-    housner::{self, Options},
+    fem::{Analysis, Control, History, HistoryOutcome, Start},
+    housner::{self, RockingOptions},
     motion::nrmse,
     regime,
     spring::{Chain, Design, Springs},
@@ -47,9 +47,9 @@ fn suite(structure: &Structure, springs: Springs<Chain<f64>>, n: usize) -> Vec<(
         let control = Control { most_steps: 500_000, ..Control::default() };
         let (dt, accel) = (record.dt, &record.accel[..]);
         let history =
-            Case { body, springs, start: Start::Settled, dt, accel, vertical: &[], scale: 1.0, control }.simulate();
-        let rocking = housner::solve(&body, dt, accel, &Options::default());
-        let rocked = rocking.outcome == housner::Outcome::Rocked && history.outcome == Outcome::Completed;
+            Analysis { body, springs, start: Start::Settled, dt, accel, vertical: &[], scale: 1.0, control }.simulate();
+        let rocking = housner::solve(&body, dt, accel, &RockingOptions::default());
+        let rocked = rocking.outcome == housner::RockingOutcome::Rocked && history.outcome == HistoryOutcome::Completed;
         let error = rocked.then(|| nrmse(&history.motion.u, &rocking.motion(&body).u));
         (history, error)
     };
@@ -69,7 +69,8 @@ fn frames_slender_and_stocky_finish_on_springs_of_10_and_200_khz() {
                 ];
                 for springs in all {
                     for (i, (history, _)) in suite(&structure, springs, 12).into_iter().enumerate() {
-                        let ended = matches!(history.outcome, Outcome::Completed | Outcome::Overturned { .. });
+                        let ended =
+                            matches!(history.outcome, HistoryOutcome::Completed | HistoryOutcome::Overturned { .. });
                         assert!(ended, "alpha {alpha}, I_cg {share}, {hz} Hz, motion {i}: {:?}", history.outcome);
                         assert!(
                             history.energy_residual < 1e-6,
@@ -104,15 +105,15 @@ fn a_stocky_frame_follows_housner_until_his_pivot_would_have_to_pull() {
     let (mut before, mut whole) = (Vec::new(), Vec::new());
     for record in synthetic::suite(60, 1, body.p_squared().sqrt(), body.alpha()) {
         let (dt, accel) = (record.dt, &record.accel[..]);
-        let rocking = housner::solve(&body, dt, accel, &Options::default());
+        let rocking = housner::solve(&body, dt, accel, &RockingOptions::default());
         let Some(time) = regime::pivot_pulls(&body, dt, accel, &rocking) else { continue };
         let control = Control::default();
         let history =
-            Case { body, springs, start: Start::Settled, dt, accel, vertical: &[], scale: 1.0, control }.simulate();
+            Analysis { body, springs, start: Start::Settled, dt, accel, vertical: &[], scale: 1.0, control }.simulate();
         let (u, reference) = (&history.motion.u, &rocking.motion(&body).u);
         let until = (time / dt) as usize + 1;
         before.push(nrmse(&u[..until], &reference[..until]));
-        if rocking.outcome == housner::Outcome::Rocked && history.outcome == Outcome::Completed {
+        if rocking.outcome == housner::RockingOutcome::Rocked && history.outcome == HistoryOutcome::Completed {
             whole.push(nrmse(u, reference));
         }
     }

@@ -2,8 +2,8 @@
 
 use groundspring::{
     conditioning::Conditioning,
-    fem::{Case, Control, History, Outcome, Start},
-    housner::{self, Options},
+    fem::{Analysis, Control, History, HistoryOutcome, Start},
+    housner::{self, RockingOptions},
     motion::nrmse,
     scalar::GRAVITY,
     spring::{Chain, Design, Springs},
@@ -27,7 +27,7 @@ fn springs(body: &Body<f64>) -> Springs<Chain<f64>> {
 
 fn simulate(body: Body<f64>, springs: Springs<Chain<f64>>, dt: f64, accel: &[f64], vertical: &[f64]) -> History {
     let (start, control) = (Start::Settled, Control::default());
-    Case { body, springs, start, dt, accel, vertical, scale: 1.0, control }.simulate()
+    Analysis { body, springs, start, dt, accel, vertical, scale: 1.0, control }.simulate()
 }
 
 /// A horizontal motion, and another one with a peak of `peak` (g) as the vertical.
@@ -51,11 +51,12 @@ fn stiff_springs_follow_housner_as_well_with_vertical_motion_as_without() {
         let (mut with, mut without) = (Vec::new(), Vec::new());
         for (dt, accel, up) in motions(&body, 100, 0.6) {
             for (vertical, errors) in [(&up[..], &mut with), (&[][..], &mut without)] {
-                let options = Options { vertical: Some(vertical.into()), ..Options::default() };
+                let options = RockingOptions { vertical: Some(vertical.into()), ..RockingOptions::default() };
                 let rocking = housner::solve(&body, dt, &accel, &options);
                 let history = simulate(body, springs, dt, &accel, vertical);
                 assert!(history.energy_residual < 1e-6, "{:e}", history.energy_residual);
-                let rocked = rocking.outcome == housner::Outcome::Rocked && history.outcome == Outcome::Completed;
+                let rocked =
+                    rocking.outcome == housner::RockingOutcome::Rocked && history.outcome == HistoryOutcome::Completed;
                 if rocked && Conditioning::new(&body, dt, &accel, &options).well_conditioned() {
                     errors.push(nrmse(&history.motion.u, &rocking.motion(&body).u));
                 }
@@ -96,7 +97,7 @@ fn a_body_on_a_ground_that_falls_faster_flies() {
     let body = Structure::block(2.0, 0.5, 2.4e3).unwrap().body::<f64>();
     let (dt, n) = (1e-3, 201);
     let history = simulate(body, plastic(2e3, body.mass), dt, &vec![0.0; n], &vec![-1.5 * GRAVITY; n]);
-    assert_eq!(history.outcome, Outcome::Completed);
+    assert_eq!(history.outcome, HistoryOutcome::Completed);
     assert!(history.airborne > 0.19, "{}", history.airborne);
     let v = |i: usize| history.motion.v[i];
     let (i, step) = (100, 50);

@@ -1,6 +1,6 @@
 //! Derivatives through uplifts and impacts against finite differences of the f64 run.
 
-use groundspring::housner::{Options, solve};
+use groundspring::housner::{RockingOptions, solve};
 use groundspring::record::Record;
 use groundspring::structure::{Body, Structure};
 use num_dual::{Dual64, DualNum};
@@ -33,9 +33,9 @@ fn wide<S: DualNum<f64> + Copy>(body: Body<f64>, relative: S) -> Body<S> {
 fn theta_by_width_on_el_centro_through_twelve_impacts() {
     let body = Structure::paper().body::<f64>();
     let accel = Record::el_centro().accel;
-    let dual_options = Options { duration: Some(20.0), ..Options::<Dual64>::default() };
+    let dual_options = RockingOptions { duration: Some(20.0), ..RockingOptions::<Dual64>::default() };
     let dual = solve(&wide(body, Dual64::new(0.0, 1.0)), 0.01, &accel, &dual_options);
-    let options = Options { duration: Some(20.0), ..Options::default() };
+    let options = RockingOptions { duration: Some(20.0), ..RockingOptions::default() };
     let expected = differences(|x| solve(&wide(body, x), 0.01, &accel, &options).theta, 1e-5);
     let exact: Vec<f64> = dual.theta.iter().map(|theta| theta.eps).collect();
     let error = relative_error(&exact, &expected);
@@ -51,9 +51,9 @@ fn theta_by_width_on_el_centro_through_twelve_impacts() {
 fn theta_by_scale_on_el_centro_of_a_solid_block() {
     let body = Structure::block(4.0, 1.0, 100.0).unwrap().body::<f64>();
     let accel = &Record::el_centro().accel[..600];
-    let run = |scale: f64| solve(&body, 0.01, accel, &Options { scale, ..Options::default() });
+    let run = |scale: f64| solve(&body, 0.01, accel, &RockingOptions { scale, ..RockingOptions::default() });
     let dual_body = Structure::block(4.0, 1.0, 100.0).unwrap().body::<Dual64>();
-    let options = Options { scale: Dual64::new(1.5, 1.0), ..Options::default() };
+    let options = RockingOptions { scale: Dual64::new(1.5, 1.0), ..RockingOptions::default() };
     let exact: Vec<f64> = solve(&dual_body, 0.01, accel, &options).theta.iter().map(|theta| theta.eps).collect();
     let expected = differences(|x| run(1.5 + x).theta, 1e-5);
     assert!(run(1.5).impacts.len() > 3);
@@ -65,9 +65,11 @@ fn theta_by_scale_on_el_centro_of_a_solid_block() {
 fn impact_and_uplift_times_carry_derivatives() {
     let body = Structure::paper().body::<f64>();
     let accel = Record::el_centro().accel;
-    let options = Options { duration: Some(20.0), ..Options::<Dual64>::default() };
+    let options = RockingOptions { duration: Some(20.0), ..RockingOptions::<Dual64>::default() };
     let dual = solve(&wide(body, Dual64::new(0.0, 1.0)), 0.01, &accel, &options);
-    let run = |x: f64| solve(&wide(body, x), 0.01, &accel, &Options { duration: Some(20.0), ..Options::default() });
+    let run = |x: f64| {
+        solve(&wide(body, x), 0.01, &accel, &RockingOptions { duration: Some(20.0), ..RockingOptions::default() })
+    };
     let expected = differences(|x| run(x).impacts.iter().map(|impact| impact.time).collect(), 1e-5);
     for (impact, expected) in dual.impacts.iter().zip(&expected) {
         assert!((impact.time.eps - expected).abs() < 1e-5 * (1.0 + expected.abs()), "{} {expected}", impact.time.eps);
@@ -83,7 +85,7 @@ fn a_quarter_period_differentiates_as_its_closed_form() {
     let body = Body { mass: lift(1.0), half_width: lift(10.0 * alpha), height: lift(10.0), inertia: lift(0.0) };
     let phi = 0.4_f64;
     let theta = Dual64::new(phi, 1.0) * body.alpha().re;
-    let options = Options { initial: Some((theta, lift(0.0))), ..Options::default() };
+    let options = RockingOptions { initial: Some((theta, lift(0.0))), ..RockingOptions::default() };
     let rocking = solve(&body, 0.01, &[0.0; 300], &options);
     let p = body.p_squared().re.sqrt();
     let expected = 1.0 / (p * (1.0 - phi) * (1.0 - (1.0 - phi).powi(2)).sqrt());

@@ -1,6 +1,6 @@
 //! The paper's A-frame on El Centro, against float128 values of an independent Taylor program (degree 26).
 
-use groundspring::housner::{Options, Outcome, solve};
+use groundspring::housner::{RockingOptions, RockingOutcome, solve};
 use groundspring::motion::peak;
 use groundspring::structure::Structure;
 
@@ -10,8 +10,8 @@ fn el_centro() -> Vec<f64> {
     Record::el_centro().accel
 }
 
-fn twenty_seconds() -> Options<f64> {
-    Options { duration: Some(20.0), ..Options::default() }
+fn twenty_seconds() -> RockingOptions<f64> {
+    RockingOptions { duration: Some(20.0), ..RockingOptions::default() }
 }
 
 #[test]
@@ -26,7 +26,7 @@ fn peaks_of_the_first_20_s_agree_with_float128_to_1e_10_m() {
     assert!((min + 0.401181622959).abs() < 1e-10, "{min}");
     assert_eq!(rocking.impacts.len(), 12);
     assert_eq!(rocking.theta.len(), 2001);
-    assert_eq!(rocking.outcome, Outcome::Rocked);
+    assert_eq!(rocking.outcome, RockingOutcome::Rocked);
     assert!((peak(&motion.v) - 0.0388).abs() < 5e-5);
 }
 

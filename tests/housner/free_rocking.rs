@@ -1,6 +1,6 @@
 //! Free rocking against Housner's closed forms (small angles) and the exact energy integral.
 
-use groundspring::housner::{Options, solve};
+use groundspring::housner::{RockingOptions, solve};
 use groundspring::structure::{Body, Structure};
 
 /// An A-frame so slender that the small-angle forms hold to its alpha^2.
@@ -26,8 +26,11 @@ fn amplitudes(body: &Body<f64>, rates: &[f64]) -> Vec<f64> {
 #[test]
 fn amplitudes_fall_as_in_theory() {
     let body = slender();
-    let options =
-        Options { restitution: Some(99.0 / 101.0), initial: Some((0.5 * body.alpha(), 0.0)), ..Options::default() };
+    let options = RockingOptions {
+        restitution: Some(99.0 / 101.0),
+        initial: Some((0.5 * body.alpha(), 0.0)),
+        ..RockingOptions::default()
+    };
     let rocking = solve(&body, 0.01, &[0.0; 4000], &options);
     let rates: Vec<f64> = rocking.impacts.iter().map(|impact| impact.rate_after).collect();
     for (phi, expected) in amplitudes(&body, &rates).iter().zip([0.4714, 0.4453, 0.4214, 0.3993, 0.3787]) {
@@ -42,8 +45,11 @@ fn the_period_is_4_over_p_acosh_1_over_1_minus_phi() {
     let body = slender();
     let p = body.p_squared().sqrt();
     for phi in [0.05_f64, 0.5, 0.9] {
-        let options =
-            Options { restitution: Some(1.0), initial: Some((phi * body.alpha(), 0.0)), ..Options::default() };
+        let options = RockingOptions {
+            restitution: Some(1.0),
+            initial: Some((phi * body.alpha(), 0.0)),
+            ..RockingOptions::default()
+        };
         let rocking = solve(&body, 0.013, &[0.0; 3000], &options);
         let period = 4.0 / p * (1.0 / (1.0 - phi)).acosh();
         for (k, impact) in rocking.impacts.iter().enumerate().take(6) {
@@ -68,7 +74,8 @@ fn the_block_of_the_theory_has_p_1_70980_and_a_period_of_3_08096_s() {
         inertia: radius * radius / 3.0,
         mass: 1.0,
     };
-    let options = Options { initial: Some((0.5 * alpha, 0.0)), restitution: Some(1.0), ..Options::default() };
+    let options =
+        RockingOptions { initial: Some((0.5 * alpha, 0.0)), restitution: Some(1.0), ..RockingOptions::default() };
     let rocking = solve(&body, 0.01, &[0.0; 1000], &options);
     assert_eq!(format!("{:.5}", 2.0 * (rocking.impacts[1].time - rocking.impacts[0].time)), "3.08096");
 }
@@ -77,7 +84,7 @@ fn the_block_of_the_theory_has_p_1_70980_and_a_period_of_3_08096_s() {
 fn energy_is_constant_between_impacts_and_falls_by_r_at_each() {
     let body = Structure::block(2.0, 0.5, 100.0).unwrap().body::<f64>();
     let (alpha, p2, e) = (body.alpha(), body.p_squared(), body.restitution());
-    let options = Options { initial: Some((-0.9 * alpha, 0.0)), ..Options::default() };
+    let options = RockingOptions { initial: Some((-0.9 * alpha, 0.0)), ..RockingOptions::default() };
     let (dt, n) = (0.02, 800);
     let rocking = solve(&body, dt, &vec![0.0; n], &options);
     let mut level = p2 * ((0.1 * alpha).cos() - alpha.cos());

@@ -1,6 +1,6 @@
 //! Structures in lock-step against the same structures one by one: bit for bit.
 
-use groundspring::housner::{Options, Outcome, solve, solve_lanes};
+use groundspring::housner::{RockingOptions, RockingOutcome, solve, solve_lanes};
 use groundspring::record::Record;
 use groundspring::structure::{Body, Structure};
 
@@ -19,8 +19,8 @@ fn bodies() -> Vec<Body<f64>> {
 #[test]
 fn lanes_give_what_single_walks_give_bit_for_bit() {
     let accel = Record::el_centro().accel;
-    let options: Vec<Options<f64>> =
-        [0.6, 1.0, 2.5].map(|scale| Options { scale, ..Options::default() }).into_iter().collect();
+    let options: Vec<RockingOptions<f64>> =
+        [0.6, 1.0, 2.5].map(|scale| RockingOptions { scale, ..RockingOptions::default() }).into_iter().collect();
     let bodies = bodies();
     let together = solve_lanes(&bodies, 0.01, &accel, &options);
     assert_eq!(together.len(), bodies.len());
@@ -29,8 +29,8 @@ fn lanes_give_what_single_walks_give_bit_for_bit() {
         let single = solve(&bodies[i], 0.01, &accel, &options[i % 3]);
         assert_eq!(*lane, single, "lane {i}");
         outcomes[match lane.outcome {
-            Outcome::Rocked => 0,
-            Outcome::NeverMoved => 1,
+            RockingOutcome::Rocked => 0,
+            RockingOutcome::NeverMoved => 1,
             _ => 2,
         }] += 1;
     }
@@ -40,8 +40,12 @@ fn lanes_give_what_single_walks_give_bit_for_bit() {
 #[test]
 fn one_body_on_many_scales_and_durations() {
     let accel = Record::el_centro().accel;
-    let options: Vec<Options<f64>> = (0..11)
-        .map(|i| Options { scale: 0.5 + 0.2 * f64::from(i), duration: Some(3.0 * f64::from(i)), ..Options::default() })
+    let options: Vec<RockingOptions<f64>> = (0..11)
+        .map(|i| RockingOptions {
+            scale: 0.5 + 0.2 * f64::from(i),
+            duration: Some(3.0 * f64::from(i)),
+            ..RockingOptions::default()
+        })
         .collect();
     let body = Structure::paper().body::<f64>();
     for (lane, options) in solve_lanes(&[body], 0.01, &accel, &options).iter().zip(&options) {
@@ -51,7 +55,7 @@ fn one_body_on_many_scales_and_durations() {
 
 #[test]
 fn no_body_or_no_sample_gives_nothing() {
-    assert!(solve_lanes(&[], 0.01, &[1.0], &[Options::default()]).is_empty());
-    let rocking = solve_lanes(&[Structure::paper().body()], 0.01, &[], &[Options::default()]);
+    assert!(solve_lanes(&[], 0.01, &[1.0], &[RockingOptions::default()]).is_empty());
+    let rocking = solve_lanes(&[Structure::paper().body()], 0.01, &[], &[RockingOptions::default()]);
     assert_eq!((rocking.len(), rocking[0].theta.len()), (1, 0));
 }

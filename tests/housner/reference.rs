@@ -5,7 +5,7 @@
 
 #![allow(clippy::excessive_precision)] // the digits of the reference as it printed them
 
-use groundspring::housner::{Options, Outcome, Rocking, solve};
+use groundspring::housner::{Rocking, RockingOptions, RockingOutcome, solve};
 use groundspring::record::Record;
 use groundspring::structure::Body;
 
@@ -25,7 +25,7 @@ fn agree(rocking: &Rocking<f64>, dt: f64, reference: &[(f64, f64)], tolerance: f
 
 #[test]
 fn the_papers_frame_on_el_centro() {
-    let rocking = solve(&body(6.1, 61.0, 1.0), 0.01, &Record::el_centro().accel, &Options::default());
+    let rocking = solve(&body(6.1, 61.0, 1.0), 0.01, &Record::el_centro().accel, &RockingOptions::default());
     let reference = [
         (5.0, 4.6911533147641060474975924e-3),
         (10.0, -5.1432040599407297874283211e-3),
@@ -37,7 +37,7 @@ fn the_papers_frame_on_el_centro() {
 
 #[test]
 fn the_papers_frame_on_noise_with_eighteen_impacts() {
-    let rocking = solve(&body(6.1, 61.0, 1.0), 0.01, &in_si(&noise(0.01, 10.0)), &Options::default());
+    let rocking = solve(&body(6.1, 61.0, 1.0), 0.01, &in_si(&noise(0.01, 10.0)), &RockingOptions::default());
     let reference = [
         (2.0, -4.3925914800682702603747970e-3),
         (4.0, 1.1516204545341678206408391e-5),
@@ -65,7 +65,7 @@ fn a_solid_block_on_a_coarse_half_sine() {
             |i| if i <= 10 { (0.45e6 * (std::f64::consts::PI * f64::from(i) / 10.0).sin()).round() / 1e6 } else { 0.0 },
         )
         .collect();
-    let rocking = solve(&body(0.25, 1.0, 0.75), 0.05, &in_si(&pulse), &Options::default());
+    let rocking = solve(&body(0.25, 1.0, 0.75), 0.05, &in_si(&pulse), &RockingOptions::default());
     let reference = [
         (0.5, -7.3659083286177456066113373e-2),
         (1.0, -7.5550545225275583744688881e-2),
@@ -82,7 +82,7 @@ fn a_solid_block_on_a_coarse_half_sine() {
 
 #[test]
 fn a_block_that_rests_and_lifts_again() {
-    let rocking = solve(&body(0.25, 1.0, 0.75), 0.01, &in_si(&noise(0.01, 10.0)), &Options::default());
+    let rocking = solve(&body(0.25, 1.0, 0.75), 0.01, &in_si(&noise(0.01, 10.0)), &RockingOptions::default());
     assert!(rocking.uplifts.len() > 1);
     let reference = [
         (2.0, 1.4964729463827091964726032e-2),
@@ -96,7 +96,7 @@ fn a_block_that_rests_and_lifts_again() {
 
 #[test]
 fn a_small_block_on_el_centro() {
-    let rocking = solve(&body(0.125, 0.5, 0.75), 0.01, &Record::el_centro().accel, &Options::default());
+    let rocking = solve(&body(0.125, 0.5, 0.75), 0.01, &Record::el_centro().accel, &RockingOptions::default());
     let reference = [
         (3.0, 1.7029312761129117021427735e-2),
         (5.0, 2.8184768047915924198898630e-2),
@@ -110,7 +110,7 @@ fn a_small_block_on_el_centro() {
 #[test]
 fn a_tiny_block_at_a_coarse_time_step_until_it_overturns() {
     let coarse: Vec<f64> = noise(0.01, 10.0).into_iter().step_by(5).collect();
-    let rocking = solve(&body(0.05, 0.2, 0.75), 0.05, &in_si(&coarse), &Options::default());
+    let rocking = solve(&body(0.05, 0.2, 0.75), 0.05, &in_si(&coarse), &RockingOptions::default());
     let reference = [
         (1.0, 3.0950174906828177867369721e-4),
         (1.5, 0.0),
@@ -118,7 +118,7 @@ fn a_tiny_block_at_a_coarse_time_step_until_it_overturns() {
         (2.25, 7.1659618804601975666240788e-1),
     ];
     agree(&rocking, 0.05, &reference, 1e-14);
-    let Outcome::Overturned { time } = rocking.outcome else { panic!("{:?}", rocking.outcome) };
+    let RockingOutcome::Overturned { time } = rocking.outcome else { panic!("{:?}", rocking.outcome) };
     // between the samples of the reference where |theta| is below and above alpha = 0.245
     assert!((2.0..2.25).contains(&time));
     assert!(rocking.theta.len() < coarse.len());

@@ -3,14 +3,14 @@
 use std::f64::consts::PI;
 use std::sync::Arc;
 
-use groundspring::housner::{Options, Outcome, Rocking, solve, solve_lanes};
+use groundspring::housner::{Rocking, RockingOptions, RockingOutcome, solve, solve_lanes};
 use groundspring::record::Record;
 use groundspring::scalar::GRAVITY;
 use groundspring::structure::{Body, Structure};
 use num_dual::Dual64;
 
-fn with<S: Clone>(vertical: &[f64], options: &Options<S>) -> Options<S> {
-    Options { vertical: Some(Arc::from(vertical)), ..options.clone() }
+fn with<S: Clone>(vertical: &[f64], options: &RockingOptions<S>) -> RockingOptions<S> {
+    RockingOptions { vertical: Some(Arc::from(vertical)), ..options.clone() }
 }
 
 /// El Centro as the vertical component: shifted by 1.3 s, so that it has nothing to do with the horizontal one.
@@ -27,14 +27,16 @@ fn a_constant_vertical_acceleration_is_another_gravity() {
     for kappa in [-0.4, 0.3, 1.2] {
         let constant = vec![kappa * GRAVITY; accel.len()];
         let scale = 1.1 * (1.0 + kappa);
-        let there = solve(&body, 0.01, &accel, &with(&constant, &Options { scale, ..Options::default() }));
+        let there =
+            solve(&body, 0.01, &accel, &with(&constant, &RockingOptions { scale, ..RockingOptions::default() }));
         // the scale is on both components
         let vertical: Vec<f64> = constant.iter().map(|a| a / scale).collect();
-        let here = solve(&body, 0.01, &accel, &with(&vertical, &Options { scale, ..Options::default() }));
+        let here = solve(&body, 0.01, &accel, &with(&vertical, &RockingOptions { scale, ..RockingOptions::default() }));
         let dt = 0.01 * f64::sqrt(1.0 + kappa);
-        let level = solve(&body, dt, &accel, &Options { scale: scale / (1.0 + kappa), ..Options::default() });
+        let level =
+            solve(&body, dt, &accel, &RockingOptions { scale: scale / (1.0 + kappa), ..RockingOptions::default() });
         assert!(level.impacts.len() > 5, "{kappa} {}", level.impacts.len());
-        assert_eq!((here.impacts.len(), here.outcome), (level.impacts.len(), Outcome::Rocked));
+        assert_eq!((here.impacts.len(), here.outcome), (level.impacts.len(), RockingOutcome::Rocked));
         for (a, b) in here.theta.iter().zip(&level.theta) {
             assert!((a - b).abs() < 1e-13, "{kappa}: {a} {b}");
         }
@@ -61,7 +63,7 @@ fn a_block_on_a_sine_with_and_without_vertical_motion() {
         (0..=n).map(|i| if i <= 400_000 { f(f64::from(i) * dt) } else { 0.0 }).collect()
     };
     let accel = sampled(&|t| -2.5 * (2.0 * PI * t).sin());
-    let options = Options { restitution: Some(1.0 - 1.5 * alpha.sin().powi(2)), ..Options::default() };
+    let options = RockingOptions { restitution: Some(1.0 - 1.5 * alpha.sin().powi(2)), ..RockingOptions::default() };
     let cases = [
         (0.0, 0.1463786, [0.5798270, 1.5757455], (0.2171948, -0.2499408)),
         (2.0, 0.1695078, [0.6197615, 1.9622997], (0.3677347, -0.4325412)),
@@ -84,10 +86,10 @@ fn a_block_on_a_sine_with_and_without_vertical_motion() {
 fn a_ground_that_does_not_move_up_gives_the_same_history() {
     let accel = Record::el_centro().accel;
     let body = Structure::block(3.0, 0.7, 1.0).unwrap().body::<f64>();
-    let without = solve(&body, 0.01, &accel, &Options::default());
+    let without = solve(&body, 0.01, &accel, &RockingOptions::default());
     // a vertical record may be shorter: the ground then moves no more
     for zeros in [vec![0.0; accel.len()], vec![0.0; 10], Vec::new()] {
-        let with = solve(&body, 0.01, &accel, &with(&zeros, &Options::default()));
+        let with = solve(&body, 0.01, &accel, &with(&zeros, &RockingOptions::default()));
         assert_eq!((with.impacts.len(), with.outcome), (without.impacts.len(), without.outcome));
         assert!(with.theta.iter().zip(&without.theta).all(|(a, b)| (a - b).abs() < 1e-13));
     }
@@ -102,10 +104,15 @@ fn a_ground_sampled_four_times_finer_gives_the_same_history() {
         between.chain(coarse.last().copied()).collect()
     };
     let (accel, up) = (Record::el_centro().accel[..700].to_vec(), vertical(0.9)[..700].to_vec());
-    let options = Options { scale: 0.68, ..Options::default() };
+    let options = RockingOptions { scale: 0.68, ..RockingOptions::default() };
     let there = solve(&body, 0.04, &accel, &with(&up, &options));
     let here = solve(&body, 0.01, &fine(&accel), &with(&fine(&up), &options));
-    assert!(here.impacts.len() > 10 && here.outcome == Outcome::Rocked, "{} {:?}", here.impacts.len(), here.outcome);
+    assert!(
+        here.impacts.len() > 10 && here.outcome == RockingOutcome::Rocked,
+        "{} {:?}",
+        here.impacts.len(),
+        here.outcome
+    );
     assert_eq!(there.outcome, here.outcome);
     for (a, b) in there.theta.iter().zip(here.theta.iter().step_by(4)) {
         assert!((a - b).abs() < 1e-12, "{a} {b}");
@@ -117,7 +124,7 @@ fn a_ground_sampled_four_times_finer_gives_the_same_history() {
 fn uplift_is_where_the_falling_limit_is_met() {
     let body = Structure::block(4.0, 1.0, 1.0).unwrap().body::<f64>();
     let (accel, up) = ([-2.0, -4.0], [0.0, -6.0]);
-    let found = solve(&body, 0.1, &accel, &with(&up, &Options::default()));
+    let found = solve(&body, 0.1, &accel, &with(&up, &RockingOptions::default()));
     assert!((found.uplifts[0].time - (9.81 / 4.0 - 2.0) / 35.0).abs() < 1e-16, "{:?}", found.uplifts);
     assert_eq!(found.uplifts[0].side, 1.0);
 }
@@ -126,8 +133,8 @@ fn uplift_is_where_the_falling_limit_is_met() {
 fn a_body_at_rest_leaves_a_ground_that_falls_faster_than_it() {
     let body = Structure::block(4.0, 1.0, 1.0).unwrap().body::<f64>();
     let up = [0.0, -5.0, -15.0, -15.0, 0.0];
-    let found = solve(&body, 0.1, &[0.0; 5], &with(&up, &Options::default()));
-    let Outcome::LeavesGround { time } = found.outcome else { panic!("{:?}", found.outcome) };
+    let found = solve(&body, 0.1, &[0.0; 5], &with(&up, &RockingOptions::default()));
+    let RockingOutcome::LeavesGround { time } = found.outcome else { panic!("{:?}", found.outcome) };
     assert!((time - (0.1 + 0.1 * 4.81 / 10.0)).abs() < 1e-15, "{time}");
     assert_eq!(found.theta, [0.0; 2]);
     assert_eq!(found.left_ground(), Some(time));
@@ -179,9 +186,9 @@ fn loss_of_contact_is_located_as_a_fine_integration_finds_it() {
         // down to -1.4 g within 0.3 s, pushing about at 0.2 g
         let up: Vec<f64> = (0..40).map(|i| -1.4 * GRAVITY * (PI * f64::from(i) / 30.0).sin()).collect();
         let accel: Vec<f64> = (0..40).map(|i| 0.2 * GRAVITY * (0.7 * f64::from(i)).sin()).collect();
-        let options = Options { initial: Some(start), ..Options::default() };
+        let options = RockingOptions { initial: Some(start), ..RockingOptions::default() };
         let found = solve(&body, 0.02, &accel, &with(&up, &options));
-        let Outcome::LeavesGround { time } = found.outcome else { panic!("{:?}", found.outcome) };
+        let RockingOutcome::LeavesGround { time } = found.outcome else { panic!("{:?}", found.outcome) };
         let expected = leaves(&body, start, 0.02, &accel, &up);
         assert!((time - expected).abs() < 1e-9, "{time} {expected}");
         assert!(found.impacts.is_empty() && found.theta.len() == (time / 0.02) as usize + 1);
@@ -197,14 +204,14 @@ fn histories_end_where_the_force_at_the_samples_says_and_not_before() {
         let height = 0.4 * 1.1_f64.powi(i);
         let body = Structure::block(height, height * (0.15 + 0.01 * f64::from(i % 10)), 1.0).unwrap().body::<f64>();
         let up = vertical(1.2 + 0.1 * f64::from(i));
-        let found = solve(&body, 0.01, &accel, &with(&up, &Options::default()));
+        let found = solve(&body, 0.01, &accel, &with(&up, &RockingOptions::default()));
         let force = |i: usize| pressure(&body, (found.theta[i], found.rate[i]), (accel[i], up[i]));
         let upright = |i: &usize| found.theta[*i] != 0.0 && found.theta[*i].abs() < body.alpha();
         assert!((0..found.theta.len()).filter(upright).all(|i| force(i) > 0.0), "{i}");
         if let Some(time) = found.left_ground() {
             assert_eq!(found.theta.len(), (time / 0.01) as usize + 1);
             ended[0] += 1;
-        } else if found.outcome == Outcome::Rocked {
+        } else if found.outcome == RockingOutcome::Rocked {
             ended[1] += 1;
         }
     }
@@ -221,12 +228,12 @@ fn lanes_give_what_single_walks_give_bit_for_bit_with_vertical_motion() {
             Structure::block(height, height * (0.1 + 0.005 * f64::from(i)), 1.0).unwrap().body()
         })
         .collect();
-    let options: Vec<Options<f64>> = (0..60)
-        .map(|i| Options {
+    let options: Vec<RockingOptions<f64>> = (0..60)
+        .map(|i| RockingOptions {
             scale: [0.8, 1.3][i / 3 % 2],
             vertical: ups[i % 3].clone(),
             duration: (i % 4 == 0).then_some(12.0 + i as f64),
-            ..Options::default()
+            ..RockingOptions::default()
         })
         .collect();
     let mut left = 0;
@@ -244,18 +251,23 @@ fn derivatives_pass_through_uplifts_and_impacts_with_vertical_motion() {
     let run = |width: f64, scale: f64| -> Rocking<f64> {
         let body = structure.body::<f64>();
         let body = Body { half_width: body.half_width * (1.0 + width), ..body };
-        solve(&body, 0.01, &accel, &with(&up, &Options { scale, ..Options::default() }))
+        solve(&body, 0.01, &accel, &with(&up, &RockingOptions { scale, ..RockingOptions::default() }))
     };
     let dual = |width: f64, scale: f64| {
         let body = structure.body::<Dual64>();
         let body = Body { half_width: body.half_width * Dual64::new(1.0, width), ..body };
-        solve(&body, 0.01, &accel, &with(&up, &Options { scale: Dual64::new(1.5, scale), ..Options::default() }))
+        solve(
+            &body,
+            0.01,
+            &accel,
+            &with(&up, &RockingOptions { scale: Dual64::new(1.5, scale), ..RockingOptions::default() }),
+        )
     };
     let differences = |f: &dyn Fn(f64) -> Vec<f64>| -> Vec<f64> {
         let [a, b, c, d] = [-2e-5, -1e-5, 1e-5, 2e-5].map(f);
         (0..a.len()).map(|i| (a[i] - 8.0 * b[i] + 8.0 * c[i] - d[i]) / 12e-5).collect()
     };
-    assert!(run(0.0, 1.5).impacts.len() > 3 && run(0.0, 1.5).outcome == Outcome::Rocked);
+    assert!(run(0.0, 1.5).impacts.len() > 3 && run(0.0, 1.5).outcome == RockingOutcome::Rocked);
     let theta = |rocking: Rocking<Dual64>| -> Vec<f64> { rocking.theta.iter().map(|theta| theta.eps).collect() };
     for (exact, expected) in [
         (theta(dual(1.0, 0.0)), differences(&|x| run(x, 1.5).theta)),

@@ -16,8 +16,8 @@ use std::{
 use draw::Draw;
 use groundspring::{
     compare::Match,
-    fem::{self, Case, Control, Start},
-    housner::{self, Options},
+    fem::{self, Analysis, Control, Start},
+    housner::{self, RockingOptions},
     motion::Motion,
 };
 use rayon::prelude::*;
@@ -75,7 +75,8 @@ fn finite_element_histories_are_finite_close_their_account_and_say_how_they_ende
         let start =
             if draw.one_in(3) { Start::Leaning(body.alpha() * draw.between(-1.2, 1.2)) } else { Start::Settled };
         let control = Control { most_steps: MOST_STEPS, ..Control::default() };
-        let history = Case { body, springs, start, dt, accel: &accel, vertical: &[], scale: 1.0, control }.simulate();
+        let history =
+            Analysis { body, springs, start, dt, accel: &accel, vertical: &[], scale: 1.0, control }.simulate();
 
         let (outcome, motion, account) = (history.outcome, &history.motion, &history.account);
         require(finite(motion), || format!("not finite, {outcome:?}"))?;
@@ -86,18 +87,18 @@ fn finite_element_histories_are_finite_close_their_account_and_say_how_they_ende
         require(fell <= 1e-6 * largest, || format!("energy created: {:e}, {outcome:?}", fell / largest))?;
         let steps = history.work.steps + history.work.rejected;
         require(steps <= MOST_STEPS, || format!("{steps} steps"))?;
-        let rocking = housner::solve(&body, dt, &accel, &Options::default());
+        let rocking = housner::solve(&body, dt, &accel, &RockingOptions::default());
         let matched =
             Match::new(&body, dt, (&rocking.motion(&body), &rocking.impacts[..]), &history, body.restitution());
         require(!matched.nrmse_horizontal.is_nan() && !matched.nrmse_vertical.is_nan(), || format!("{matched:?}"))?;
         require(matched.restitution_error_max.is_finite(), || format!("{matched:?}"))?;
         Ok(match outcome {
-            fem::Outcome::Completed if motion.len() != accel.len() => return Err("samples missing".into()),
-            fem::Outcome::Completed => "completed",
-            fem::Outcome::Overturned { .. } => "overturned",
-            fem::Outcome::Stopped { .. } => return Err("nobody asked to stop".into()),
-            fem::Outcome::WorkBound { .. } => "work bound",
-            fem::Outcome::Unstable { .. } => "unstable",
+            fem::HistoryOutcome::Completed if motion.len() != accel.len() => return Err("samples missing".into()),
+            fem::HistoryOutcome::Completed => "completed",
+            fem::HistoryOutcome::Overturned { .. } => "overturned",
+            fem::HistoryOutcome::Stopped { .. } => return Err("nobody asked to stop".into()),
+            fem::HistoryOutcome::WorkBound { .. } => "work bound",
+            fem::HistoryOutcome::Unstable { .. } => "unstable",
             other => return Err(format!("{other:?}")),
         })
     });
@@ -126,7 +127,16 @@ fn rigid_histories_are_finite_and_say_how_they_ended_alone_and_in_lock_step() {
                     .one_in(2)
                     .then(|| draw.log(1e-3, 3.0))
                     .map(|factor| accel.iter().rev().map(|a| factor * a).collect::<Vec<f64>>().into());
-                (body, Options { restitution, initial, vertical, max_work: MOST_STEPS, ..Options::default() })
+                (
+                    body,
+                    RockingOptions {
+                        restitution,
+                        initial,
+                        vertical,
+                        max_work: MOST_STEPS,
+                        ..RockingOptions::default()
+                    },
+                )
             })
             .collect();
         let (bodies, options): (Vec<_>, Vec<_>) = cases.into_iter().unzip();
@@ -140,17 +150,17 @@ fn rigid_histories_are_finite_and_say_how_they_ended_alone_and_in_lock_step() {
             require(motion.len() <= accel.len() && alone.rate.len() == motion.len(), || "samples".into())?;
             let whole = motion.len() == accel.len();
             word = match alone.outcome {
-                housner::Outcome::NeverMoved | housner::Outcome::Rocked if !whole => {
+                housner::RockingOutcome::NeverMoved | housner::RockingOutcome::Rocked if !whole => {
                     return Err(format!("{} of {} samples, {:?}", motion.len(), accel.len(), alone.outcome));
                 }
-                housner::Outcome::NeverMoved => word,
-                housner::Outcome::Rocked => "rocked",
-                housner::Outcome::Overturned { .. } => "overturned",
-                housner::Outcome::LeavesGround { time } if !(0.0..accel.len() as f64 * dt).contains(&time) => {
+                housner::RockingOutcome::NeverMoved => word,
+                housner::RockingOutcome::Rocked => "rocked",
+                housner::RockingOutcome::Overturned { .. } => "overturned",
+                housner::RockingOutcome::LeavesGround { time } if !(0.0..accel.len() as f64 * dt).contains(&time) => {
                     return Err(format!("leaves the ground at {time} s"));
                 }
-                housner::Outcome::LeavesGround { .. } => "leaves the ground",
-                housner::Outcome::WorkBound { .. } => "work bound",
+                housner::RockingOutcome::LeavesGround { .. } => "leaves the ground",
+                housner::RockingOutcome::WorkBound { .. } => "work bound",
                 other => return Err(format!("{other:?}")),
             };
             // a rate that grows over an impact, or impacts out of order

@@ -176,13 +176,13 @@ fn history(run: &Run) -> Vec<Advice> {
     let mut all = Vec::new();
     for (which, history) in [("", &run.both.fem)].into_iter().chain(with) {
         match history.outcome {
-            fem::Outcome::WorkBound { time } => all.push(Advice::new(
+            fem::HistoryOutcome::WorkBound { time } => all.push(Advice::new(
                 Weight::Bad,
                 format!("The history {which}ends at t = {time:.3} s: the bound on steps was reached"),
                 "Springs this stiff with so little damping make more landings than can be followed.",
                 "use softer springs (--max-hz), or springs with more damping.",
             )),
-            fem::Outcome::Unstable { time } => all.push(Advice::new(
+            fem::HistoryOutcome::Unstable { time } => all.push(Advice::new(
                 Weight::Bad,
                 format!("The history {which}ends at t = {time:.3} s: the rotation lost its balance"),
                 "A body with almost no rotational inertia cannot stand on springs so soft, or leans so far that a leg would pull.",

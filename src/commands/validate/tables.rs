@@ -36,9 +36,7 @@ fn summary(v: &Validation) -> (Vec<String>, Vec<Vec<String>>) {
         ("the same, Housner from himself with e changed by 1e-5".into(), &|s| {
             several(s.count, format!("{:.4}", s.ks_distance_of_housner_changed))
         }),
-        ("agreement on overturning".into(), &|s| {
-            several(s.count, format!("{:.2} %", 100.0 * s.overturning_agreement))
-        }),
+        ("agreement on overturning".into(), &|s| several(s.count, format!("{:.2} %", 100.0 * s.overturning_agreement))),
         ("overturned in both / Housner only / finite elements only / neither".into(), &|s| overturned(&s.overturning)),
         ("well-conditioned histories compared".into(), &|s| s.nrmse_well_conditioned.count.to_string()),
         ("NRMSE horizontal: median / 90 %".into(), &|s| quantiles(&s.nrmse_well_conditioned)),

@@ -77,8 +77,7 @@ impl<S: Scalar> Element<S> for Tendon<S> {
         let across = tension / length;
         let along = self.stiffness - across;
         let mixed = along * ux * uz;
-        let stiffness =
-            [[across + along * ux * ux, mixed, zero], [mixed, across + along * uz * uz, zero], [zero; 3]];
+        let stiffness = [[across + along * ux * ux, mixed, zero], [mixed, across + along * uz * uz, zero], [zero; 3]];
         ElementTangent { stiffness, damping: none }
     }
 

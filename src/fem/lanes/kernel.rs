@@ -9,7 +9,7 @@
 use crate::{
     fem::{
         model::{Foot, Model, N, State},
-        run::{Measures, Scales},
+        run::{Scales, StepMeasures},
         step::{Convergence, Request, Stages, Verdict},
     },
     spring::{Chain, Springs},
@@ -90,7 +90,7 @@ pub(super) struct Kernel {
 /// A lane's step, tried.
 pub(super) enum Tried {
     /// Whether it converged, and what it did.
-    Step(bool, Measures<f64>),
+    Step(bool, StepMeasures<f64>),
     /// It needs more iterations.
     GoesOn,
     /// It is to be tried by itself.
@@ -219,7 +219,7 @@ impl Kernel {
                 }
             }
         }
-        let measures = Measures {
+        let measures = StepMeasures {
             stored: self.stored[l],
             input: self.input[l],
             dissipated: self.dissipated[l],

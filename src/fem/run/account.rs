@@ -29,7 +29,7 @@ fn sixth_root(x: f64) -> f64 {
 
 /// What a step does, measured.
 #[derive(Clone, Copy, Debug)]
-pub(crate) struct Measures<S> {
+pub(crate) struct StepMeasures<S> {
     /// Energy stored at its end [J].
     pub stored: S,
     /// Work of the base excitation and dissipation over it [J].
@@ -76,17 +76,17 @@ const SMALLEST: f64 = 1e-9;
 
 impl<S: Scalar> Run<'_, S> {
     /// What a step does to the account, and what it misses.
-    pub(super) fn measure(&self, stages: &Stages<S>) -> Measures<S> {
+    pub(super) fn measure(&self, stages: &Stages<S>) -> StepMeasures<S> {
         let stored = self.model.energy(&stages.end(), &self.feet);
         let (input, dissipated) = stages.work(self.model, &self.feet, &self.here);
         let local = self.stepper.local_error(&self.state, &self.feet, &self.here, stages);
-        Measures { stored, input, dissipated, missed: self.scales.missed(&local), clear: false }
+        StepMeasures { stored, input, dissipated, missed: self.scales.missed(&local), clear: false }
     }
 
     /// Book the step if the account closes well enough and little is missed; choose the next step's size.
-    pub(super) fn account(&mut self, stages: &Stages<S>, measures: &Measures<S>) -> bool {
+    pub(super) fn account(&mut self, stages: &Stages<S>, measures: &StepMeasures<S>) -> bool {
         let end = stages.end();
-        let &Measures { stored, input, dissipated, missed, .. } = measures;
+        let &StepMeasures { stored, input, dissipated, missed, .. } = measures;
         let defect = (stored - self.energy.stored - input + dissipated).re().abs();
         let h = stages.h.re();
         let (energy, error) = (self.allowed(stored, stages) / defect, self.allowed_error(h) / missed);

@@ -261,7 +261,7 @@ impl<S: Scalar> Run<'_, S> {
             && self.model.turn_to_balance(&mut self.state, &self.feet);
         let end = self.state.q[TH];
         // feet on elastic legs, and feet that may slip, are met by the steps that follow
-                if !self.balanced || end.re() == start.re() || !self.model.is_plain() {
+        if !self.balanced || end.re() == start.re() || !self.model.is_plain() {
             return None;
         }
         let passed = |foot: usize| {

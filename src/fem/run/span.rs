@@ -17,10 +17,10 @@
 //! local error. A step that meets a change of contact, or whose body comes to lie, is refused: the steps up to it end at samples. Contact is
 //! looked for along the parabola; a touch that only what is missing would make is not seen.
 
-use super::{Measures, Met, Run, real};
+use super::{Met, Run, StepMeasures, real};
 use crate::{
     fem::{
-        control::Outcome,
+        control::HistoryOutcome,
         model::{Contact, State, TH, Vector, X, Z},
         observer::{Observer, View},
         radau::C,
@@ -166,9 +166,9 @@ impl<S: Scalar> Run<'_, S> {
         span: &Span<S>,
         converged: bool,
         stages: &Stages<S>,
-        measures: Option<&Measures<S>>,
+        measures: Option<&StepMeasures<S>>,
         observer: &mut impl Observer<S>,
-    ) -> Result<(), Outcome> {
+    ) -> Result<(), HistoryOutcome> {
         let h = stages.h.re();
         if !converged {
             self.refuse(h * 0.25);
@@ -203,7 +203,7 @@ impl<S: Scalar> Run<'_, S> {
             let view =
                 View { time: real(time), model: self.model, state: &state, feet: &self.feet, energy: &self.energy };
             if let ControlFlow::Break(()) = observer.sample(self.interval + i, &view) {
-                return Err(Outcome::Stopped { time });
+                return Err(HistoryOutcome::Stopped { time });
             }
         }
         self.interval += span.intervals - 1;

@@ -7,7 +7,7 @@ use num_dual::Dual64;
 use super::state;
 use crate::{
     fem::{
-        Case, Control, History, Start,
+        Analysis, Control, History, Start,
         model::{Contact, Foot, Model, N, State, Vector},
         newton::Newton,
     },
@@ -56,7 +56,7 @@ fn model<S: Scalar>(body: &Body<f64>) -> Model<S> {
 
 fn run(body: Body<f64>, coefficient: f64, dt: f64, accel: &[f64]) -> History {
     let springs = springs().chains(body.mass);
-    Case { body, springs, start: Start::Settled, dt, accel, vertical: &[], scale: 1.0, control: Control::default() }
+    Analysis { body, springs, start: Start::Settled, dt, accel, vertical: &[], scale: 1.0, control: Control::default() }
         .simulate_with(&members(coefficient))
         .0
 }
@@ -115,8 +115,16 @@ fn a_flat_block_slips_as_far_as_newton_says() {
     // stiff springs: softer ones give way before friction has built up
     let springs = springs_of(2000.0).chains(1000.0);
     let control = Control::default();
-    let case =
-        Case { body: flat(), springs, start: Start::Settled, dt, accel: &accel, vertical: &[], scale: 1.0, control };
+    let case = Analysis {
+        body: flat(),
+        springs,
+        start: Start::Settled,
+        dt,
+        accel: &accel,
+        vertical: &[],
+        scale: 1.0,
+        control,
+    };
     let history = case.simulate_with(&members(MU)).0;
     // the last interval of the pulse is a ramp down to zero: speed of the ground by the trapezoidal rule
     let (pull, hold) = (a - MU * GRAVITY, MU * GRAVITY);
@@ -138,7 +146,7 @@ fn no_foot_carries_more_than_friction_allows() {
     let accel: Vec<f64> = record.accel.iter().map(|a| 2.0 * a).collect();
     for body in [flat(), block(2.0, 1.0)] {
         let springs = springs().chains(body.mass);
-        let case = Case {
+        let case = Analysis {
             body,
             springs,
             start: Start::Settled,
@@ -181,7 +189,7 @@ fn feet_that_never_slip_give_the_history_without_friction() {
     let record = Record::el_centro().truncated(10.0);
     let body = block(2.0, 0.5);
     let springs = springs().chains(body.mass);
-    let case = Case {
+    let case = Analysis {
         body,
         springs,
         start: Start::Settled,

@@ -5,9 +5,9 @@ use nalgebra::Matrix2;
 use super::{body, omega, springs, undamped};
 use crate::{
     fem::{
-        Case, Control, Start, View,
+        Analysis, Control, Start, View,
         model::{Model, N, State, TH, X, Z, ax, az},
-        run::{Motion, Run},
+        run::{GroundMotion, Run},
     },
     scalar::GRAVITY,
     spring::{Chain, Design, Springs},
@@ -17,7 +17,7 @@ use crate::{
 fn run(body: Body<f64>, springs: Springs<Chain<f64>>, start: Start<f64>, dt: f64, n: usize) -> crate::fem::History {
     let accel = vec![0.0; n];
     let control = Control { tolerance: 1e-11, ..Control::default() };
-    Case { body, springs, start, dt, accel: &accel, vertical: &[], scale: 1.0, control }.simulate()
+    Analysis { body, springs, start, dt, accel: &accel, vertical: &[], scale: 1.0, control }.simulate()
 }
 
 #[test]
@@ -105,7 +105,7 @@ fn heave_of_the_standing_body_is_the_two_mass_chain() {
         last = view.z();
         std::ops::ControlFlow::Continue(())
     };
-    run.follow(Motion { dt: period / 8.0, accel: &[0.0; 9], vertical: &[], scale: 1.0 }, &mut observer);
+    run.follow(GroundMotion { dt: period / 8.0, accel: &[0.0; 9], vertical: &[], scale: 1.0 }, &mut observer);
     assert!((last - start.q[Z]).abs() < 1e-6 * amplitude, "{} {}", last - rest.q[Z], amplitude);
 }
 
@@ -143,7 +143,7 @@ fn damped_heave_decays_by_the_chain_s_complex_eigenvalue() {
         worst = worst.max((view.z() - rest - exact).abs());
         std::ops::ControlFlow::Continue(())
     };
-    run.follow(Motion { dt, accel: &[0.0; 100], vertical: &[], scale: 1.0 }, &mut observer);
+    run.follow(GroundMotion { dt, accel: &[0.0; 100], vertical: &[], scale: 1.0 }, &mut observer);
     assert!(worst < 1e-5 * amplitude, "{worst:e}");
 }
 

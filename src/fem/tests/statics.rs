@@ -8,7 +8,7 @@ use crate::{
         Control, View,
         model::{Contact, Foot, Model, N, State, TH, Vector, X, Z},
         newton::Newton,
-        run::{Motion, Run},
+        run::{GroundMotion, Run},
     },
     members::{Damper, Legs, Members, Tendon},
     scalar::{GRAVITY, Scalar, real},
@@ -131,7 +131,7 @@ fn the_first_frequency_of_the_frame_is_beam_theory_s() {
         worst = worst.max((view.x() - exact).abs());
         std::ops::ControlFlow::Continue(())
     };
-    run.follow(Motion { dt, accel: &[0.0; 41], vertical: &[], scale: 1.0 }, &mut observer);
+    run.follow(GroundMotion { dt, accel: &[0.0; 41], vertical: &[], scale: 1.0 }, &mut observer);
     // displacements of 1e-9 m round at 1e-16 of the frame's height
     assert!(worst < 1e-5 * 1e-9, "{worst:e}");
 }
@@ -202,6 +202,6 @@ fn a_body_falling_on_dampers_alone_is_the_exponential() {
         assert!((view.energy.dissipated - lost).abs() < 1e-9 * body.mass * GRAVITY, "{}", view.energy.dissipated);
         std::ops::ControlFlow::Continue(())
     };
-    run.follow(Motion { dt: 0.02, accel: &[0.0; 20], vertical: &[], scale: 1.0 }, &mut observer);
+    run.follow(GroundMotion { dt: 0.02, accel: &[0.0; 20], vertical: &[], scale: 1.0 }, &mut observer);
     assert!(worst < 1e-10, "{worst:e}");
 }

@@ -22,7 +22,7 @@ use crate::response::target::{Target, TargetError};
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize)]
 #[serde(rename_all = "snake_case")]
 #[non_exhaustive]
-pub enum Outcome {
+pub enum FitOutcome {
     /// A minimum, confirmed by its certificate.
     Converged,
     /// The best that was found; the certificate's residual tells how far the conditions are from met.
@@ -50,7 +50,7 @@ pub struct Fit {
     pub arr_at_zero: f64,
     /// The largest excess over the target; zero or less if the target is met. ln(peak) for the default target.
     pub excess: f64,
-    pub outcome: Outcome,
+    pub outcome: FitOutcome,
     /// Convex steps of the minimax.
     pub iterations: usize,
     pub certificate: Certificate,
@@ -153,7 +153,7 @@ impl Fit {
             peak_g,
             arr_at_zero: response.at_zero(),
             excess: *excess,
-            outcome: if certificate.holds() { Outcome::Converged } else { Outcome::NotConverged },
+            outcome: if certificate.holds() { FitOutcome::Converged } else { FitOutcome::NotConverged },
             iterations: *iterations,
             certificate,
         }

@@ -18,7 +18,7 @@ use rayon::prelude::*;
 
 use super::inner::Fit;
 use crate::{
-    fem::{Case, Control, Finish, Outcome, Start, View},
+    fem::{Analysis, Control, Finish, HistoryOutcome, Start, View},
     motion::Motion,
     scalar::GRAVITY,
     spring::{Design, Springs},
@@ -82,8 +82,8 @@ pub struct OmegaSearch {
 
 impl Benchmark<'_> {
     /// The finite element case of these springs.
-    pub fn case(&self, springs: &Springs<Design<f64>>, control: Control) -> Case<'_, f64> {
-        Case {
+    pub fn case(&self, springs: &Springs<Design<f64>>, control: Control) -> Analysis<'_, f64> {
+        Analysis {
             body: self.body,
             springs: springs.chains(self.body.mass),
             start: Start::Settled,
@@ -114,10 +114,12 @@ impl Benchmark<'_> {
         });
         let error = (0.5 * sum).sqrt();
         match finish.outcome {
-            Outcome::Completed => (error, false),
+            HistoryOutcome::Completed => (error, false),
             // toppled, out of work or out of balance: it has not followed to the end
-            Outcome::Overturned { .. } | Outcome::WorkBound { .. } | Outcome::Unstable { .. } => (f64::INFINITY, false),
-            Outcome::Stopped { .. } => (error, error > limit),
+            HistoryOutcome::Overturned { .. } | HistoryOutcome::WorkBound { .. } | HistoryOutcome::Unstable { .. } => {
+                (f64::INFINITY, false)
+            }
+            HistoryOutcome::Stopped { .. } => (error, error > limit),
         }
     }
 }

@@ -10,7 +10,7 @@
 use std::ops::ControlFlow;
 
 use crate::{
-    fem::{Case, Change, Control, Observer, Outcome, Start, View, energy_on_one_foot},
+    fem::{Analysis, Change, Control, HistoryOutcome, Observer, Start, View, energy_on_one_foot},
     housner,
     scalar::{Scalar, real},
     spring::{Chain, Springs},
@@ -63,8 +63,11 @@ impl Release {
         let dt = time / 30.0;
         let samples = (time / dt) as usize + 2;
         let lean = phi * body.alpha();
-        let options =
-            housner::Options { restitution: Some(restitution), initial: Some((lean, 0.0)), ..Default::default() };
+        let options = housner::RockingOptions {
+            restitution: Some(restitution),
+            initial: Some((lean, 0.0)),
+            ..Default::default()
+        };
         let rocking = housner::solve(body, dt, &vec![0.0; samples], &options);
         // the exact fall takes a little longer than the small-angle one
         let landed = rocking.impacts.first().map_or(fall, |impact| impact.time);
@@ -83,7 +86,7 @@ impl Release {
     pub fn run<S: Scalar>(&self, body: &Body<S>, chains: &Springs<Chain<S>>, control: Control) -> Option<Left<S>> {
         let quiet = vec![0.0; self.samples];
         let mut flight = Watch { release: self, since: None, air: S::zero(), growing: S::zero() };
-        let case = Case {
+        let case = Analysis {
             body: *body,
             springs: *chains,
             start: Start::Leaning(real(self.lean)),
@@ -94,7 +97,7 @@ impl Release {
             control,
         };
         let finish = case.observe(&mut flight);
-        if finish.outcome != Outcome::Completed {
+        if finish.outcome != HistoryOutcome::Completed {
             return None;
         }
         let rest = energy_on_one_foot(body, chains);

@@ -17,7 +17,7 @@ use super::{
     landing::{Left, Release, next_peak, quarter},
 };
 use crate::{
-    fem::{Case, Change, Control, Observer, Start, View},
+    fem::{Analysis, Change, Control, Observer, Start, View},
     scalar::GRAVITY,
     spring::{Chain, Springs},
     structure::Body,
@@ -78,14 +78,14 @@ fn with_next<T>(
     restitution: f64,
     lean: f64,
     control: Control,
-    run: impl FnOnce(&Case<f64>) -> T,
+    run: impl FnOnce(&Analysis<f64>) -> T,
 ) -> T {
     let p = body.p_squared().sqrt();
     let next = next_peak(lean, restitution);
     let time = quarter(lean, p) + 1.9 * quarter(next, p);
     let dt = (time / 400.0).min(0.01);
     let quiet = vec![0.0; (time / dt) as usize + 1];
-    run(&Case {
+    run(&Analysis {
         body: *body,
         springs: *chains,
         start: Start::Leaning(lean * body.alpha()),

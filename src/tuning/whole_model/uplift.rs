@@ -11,7 +11,7 @@
 use std::{f64::consts::PI, ops::ControlFlow};
 
 use crate::{
-    fem::{Case, Control, Outcome, Start, View},
+    fem::{Analysis, Control, HistoryOutcome, Start, View},
     housner,
     scalar::{GRAVITY, Scalar, real},
     spring::{Chain, Springs},
@@ -55,7 +55,7 @@ impl Uplift {
             lift * (SWING.0 + (SWING.1 - SWING.0) * share)
         }));
         accel.extend(std::iter::repeat_n(lift * SWING.1, after));
-        let rocking = housner::solve(body, dt, &accel, &housner::Options::default());
+        let rocking = housner::solve(body, dt, &accel, &housner::RockingOptions::default());
         let last = ((0.04 / dt).ceil() as usize).clamp(2, after);
         let end = accel.len() - 1;
         let u = |i: usize| rocking.theta.get(i).map_or(f64::NAN, |&theta| body.u(theta));
@@ -74,7 +74,7 @@ impl Uplift {
             }
             ControlFlow::Continue(())
         };
-        let case = Case {
+        let case = Analysis {
             body: *body,
             springs: *chains,
             start: Start::Settled,
@@ -84,7 +84,7 @@ impl Uplift {
             scale: S::one(),
             control,
         };
-        if case.observe(&mut observer).outcome != Outcome::Completed {
+        if case.observe(&mut observer).outcome != HistoryOutcome::Completed {
             return real(f64::INFINITY);
         }
         let p = body.p_squared().sqrt();
