@@ -14,7 +14,7 @@ import groundspring as gs
 
 
 def table(cabinet: gs.Structure, motions: int, pgas: list[float]) -> pandas.DataFrame:
-    """A row a motion and PGA: peak |theta|/alpha, infinite where the cabinet overturned."""
+    """A row a motion and PGA: peak |theta|/alpha, pi/2 / alpha where the cabinet overturned."""
     parts = []
     for record in gs.earthquake_records(cabinet, motions, seed=7):
         scales = np.array(pgas) / record.pga_g

@@ -29,7 +29,8 @@ class Record:
 
     def __new__(cls, dt: float, accel: _Numbers, name: str = "record") -> Record: ...
     @property
-    def name(self) -> str: ...
+    def name(self) -> str:
+        """What it is called."""
     @property
     def dt(self) -> float:
         """Time step, s."""
@@ -112,7 +113,8 @@ class Structure:
         restitution  velocity ratio of a landing; by equation 2 unless given
         """
     @property
-    def kind(self) -> Literal["aframe", "block"]: ...
+    def kind(self) -> Literal["aframe", "block"]:
+        """"aframe" or "block"."""
     @property
     def height(self) -> float:
         """Of the centre of mass above the feet, m."""
@@ -133,7 +135,7 @@ class Structure:
         """sqrt(m g R/I0), 1/s."""
     @property
     def restitution(self) -> float:
-        """Velocity ratio of a landing."""
+        """Velocity ratio of a landing, without unit."""
 
 @final
 class Chain:
@@ -144,13 +146,17 @@ class Chain:
 
     def __new__(cls, k1: float, k2: float, m2: float, c: float) -> Chain: ...
     @property
-    def k1(self) -> float: ...
+    def k1(self) -> float:
+        """Gap spring, N/m."""
     @property
-    def k2(self) -> float: ...
+    def k2(self) -> float:
+        """Spring to the ground, N/m."""
     @property
-    def m2(self) -> float: ...
+    def m2(self) -> float:
+        """Mass of the absorber, kg: fictitious, without weight."""
     @property
-    def c(self) -> float: ...
+    def c(self) -> float:
+        """Dashpot beside k2, N s/m."""
 
 @final
 class Springs:
@@ -158,17 +164,20 @@ class Springs:
 
     def __new__(cls, mass: float, vertical: Chain, horizontal: Chain) -> Springs: ...
     @property
-    def mass(self) -> float: ...
+    def mass(self) -> float:
+        """Of the structure, kg."""
     @property
-    def vertical(self) -> Chain: ...
+    def vertical(self) -> Chain:
+        """The vertical unit of each foot."""
     @property
-    def horizontal(self) -> Chain: ...
+    def horizontal(self) -> Chain:
+        """The horizontal unit of each foot."""
     @property
     def omega_n_hz(self) -> float:
         """Omega_n/2 pi of the vertical k1 under the mass, Hz."""
     @property
     def settlement(self) -> float:
-        """Of the standing body, m."""
+        """Of the standing body under its weight, m."""
 
 def read_parameters(path: _Path) -> tuple[Structure, Springs]:
     """The structure and the springs of a `parameters.json`."""
@@ -178,16 +187,17 @@ class History:
     """A history of rigid rocking at the record's samples, cut where the body lies flat."""
 
     @property
-    def dt(self) -> float: ...
+    def dt(self) -> float:
+        """Time step, s."""
     @property
     def t(self) -> _Array:
-        """s."""
+        """Times of the samples, s."""
     @property
     def theta(self) -> _Array:
         """Rotation, positive leaning to the right, rad."""
     @property
     def rate(self) -> _Array:
-        """Its rate, rad/s."""
+        """Rate of the rotation, rad/s."""
     @property
     def u(self) -> _Array:
         """Horizontal displacement of the centre of mass, positive to the right, m."""
@@ -199,9 +209,10 @@ class History:
         """Times of the impacts, s."""
     @property
     def impact_rates(self) -> _Array:
-        """Rates before the impacts, rad/s."""
+        """Rates of the rotation before the impacts, rad/s."""
     @property
-    def outcome(self) -> Literal["rocked", "never_lifted", "overturned", "leaves_ground", "work_bound", "not_finite"]: ...
+    def outcome(self) -> Literal["rocked", "never_lifted", "overturned", "leaves_ground", "work_bound", "not_finite"]:
+        """How it ended."""
     @property
     def overturned(self) -> float | None:
         """When |theta| last grew past alpha, of a body that overturned, s."""
@@ -260,10 +271,11 @@ class Simulation:
     """
 
     @property
-    def dt(self) -> float: ...
+    def dt(self) -> float:
+        """Time step, s."""
     @property
     def t(self) -> _Array:
-        """s."""
+        """Times of the samples, s."""
     @property
     def theta(self) -> _Array:
         """Rotation, positive leaning to the right, rad."""
@@ -277,46 +289,50 @@ class Simulation:
     def vertical_left(self) -> _Array:
         """The ground's force on the left foot, up, N."""
     @property
-    def vertical_right(self) -> _Array: ...
+    def vertical_right(self) -> _Array:
+        """The ground's force on the right foot, up, N."""
     @property
     def horizontal_left(self) -> _Array:
         """The ground's force on the left foot, to the right, N."""
     @property
-    def horizontal_right(self) -> _Array: ...
+    def horizontal_right(self) -> _Array:
+        """The ground's force on the right foot, to the right, N."""
     @property
     def energy_input(self) -> _Array:
-        """J."""
+        """Work of the ground since the start, J."""
     @property
     def energy_stored(self) -> _Array:
         """Above the initial energy, J."""
     @property
     def energy_dissipated(self) -> _Array:
-        """Of dashpots and released springs, J."""
+        """Taken by dashpots and released springs, J."""
     @property
     def energy_residual(self) -> _Array:
-        """What does not add up, J."""
+        """What the account leaves unexplained, J."""
     @property
     def impacts(self) -> _Array:
         """Times of the touch-downs that end a lean on the other foot, s."""
     @property
     def settlement(self) -> float:
-        """Under the weight, before t = 0, m."""
+        """Of the body standing under its weight, before t = 0, m."""
     @property
-    def outcome(self) -> Literal["completed", "overturned", "stopped", "work_bound", "unstable"]: ...
+    def outcome(self) -> Literal["completed", "overturned", "stopped", "work_bound", "unstable"]:
+        """How it ended."""
     @property
-    def housner(self) -> History: ...
+    def housner(self) -> History:
+        """Housner's history of the same record."""
     @property
     def match(self) -> dict[str, Any]:
-        """How the two compare, as in `parameters.json`: NRMSE, peaks, impacts, bounces, settlement, restitution."""
+        """How the two compare, as in `parameters.json`: errors without unit, peaks and settlement in m, times in s."""
     @property
     def verdict(self) -> dict[str, Any]:
-        """What the body does in both models, as in `parameters.json`."""
+        """What the body does in both models, as in `parameters.json`: times in s, rotations over alpha."""
     @property
     def lines(self) -> list[str]:
         """What the program says of the run."""
     @property
     def demands(self) -> dict[str, _Array]:
-        """Base shear, forces in the legs: N, N m, by name."""
+        """Base shear and forces in the legs, N; moments, N m; by name."""
     def to_pandas(self) -> pandas.DataFrame: ...
     def plot(self, axes: Axes | None = None) -> Axes: ...
 
@@ -331,7 +347,7 @@ def simulate(
 ) -> Simulation:
     """Both models on given springs, as `tune simulate`.
 
-    friction  of the ground, for the warning of sliding
+    friction  coefficient of the ground, without unit, for the warning of sliding
     vertical  ground acceleration at the same times, positive upwards, if not that of the record
     """
 
@@ -340,20 +356,23 @@ class Tuned:
     """Springs of a structure, and all that `tune run` finds of them."""
 
     @property
-    def structure(self) -> Structure: ...
+    def structure(self) -> Structure:
+        """What they are for."""
     @property
-    def springs(self) -> Springs: ...
+    def springs(self) -> Springs:
+        """The springs."""
     @property
     def accuracy(self) -> dict[str, Any]:
-        """What was asked for, whether it is reached, what was measured and on what: as in `parameters.json`."""
+        """What was asked for, whether it is reached, what was measured and on what, as in `parameters.json`: NRMSE, without unit."""
     @property
     def verdict(self) -> dict[str, Any]:
-        """What the body does in both models, as in `parameters.json`."""
+        """What the body does in both models, as in `parameters.json`: times in s, rotations over alpha."""
     @property
-    def histories(self) -> Simulation: ...
+    def histories(self) -> Simulation:
+        """Both histories on the record."""
     @property
     def parameters(self) -> dict[str, Any]:
-        """All of `parameters.json` but the record."""
+        """All of `parameters.json` but the record; keys end in their units."""
     @property
     def lines(self) -> list[str]:
         """What the program says of the run."""
@@ -398,22 +417,22 @@ class UnitDesign:
 
     @property
     def mu(self) -> float:
-        """m2/m1."""
+        """m2/m1, without unit."""
     @property
     def f(self) -> float:
-        """Frequency of the absorber on k2 over Omega_n."""
+        """Frequency of the absorber on k2 over Omega_n, without unit."""
     @property
     def xi(self) -> float:
-        """c/(2 m2 Omega_n)."""
+        """c/(2 m2 Omega_n), without unit."""
     @property
     def k(self) -> float:
-        """K = k2/k1 = mu f^2."""
+        """K = k2/k1 = mu f^2, without unit."""
     @property
     def c(self) -> float:
-        """C = c/(m1 Omega_n) = 2 mu xi."""
+        """C = c/(m1 Omega_n) = 2 mu xi, without unit."""
     @property
     def frequency_ratio(self) -> float:
-        """Omega_n of the unit over that of the vertical one."""
+        """Omega_n of the unit over that of the vertical one, without unit."""
 
 @final
 class Design:
@@ -421,20 +440,22 @@ class Design:
 
     @property
     def alpha(self) -> float:
-        """rad."""
+        """atan(b/h), rad."""
     @property
     def inertia(self) -> float:
-        """I_cg/(m R^2)."""
+        """I_cg/(m R^2), without unit."""
     @property
     def stiffness(self) -> float:
-        """Omega_n/p."""
+        """Omega_n/p, without unit."""
     @property
     def in_stiff_limit(self) -> bool:
         """Whether gravity has no part in a landing to speak of."""
     @property
-    def vertical(self) -> UnitDesign: ...
+    def vertical(self) -> UnitDesign:
+        """The vertical unit of each foot."""
     @property
-    def horizontal(self) -> UnitDesign: ...
+    def horizontal(self) -> UnitDesign:
+        """The horizontal unit of each foot."""
     def springs(self, mass: float, radius: float) -> Springs:
         """With units, for a mass, kg, and the distance R from a foot to the centre of mass, m."""
 

@@ -24,37 +24,37 @@ pub struct UnitDesign(spring::Design<f64>);
 
 #[pymethods]
 impl UnitDesign {
-    /// m2/m1.
+    /// m2/m1, without unit.
     #[getter]
     fn mu(&self) -> f64 {
         self.0.mu
     }
 
-    /// omega_a/Omega_n of the unit.
+    /// Frequency of the absorber on k2 over Omega_n, without unit.
     #[getter]
     fn f(&self) -> f64 {
         self.0.f
     }
 
-    /// c/(2 m2 Omega_n).
+    /// c/(2 m2 Omega_n), without unit.
     #[getter]
     fn xi(&self) -> f64 {
         self.0.xi
     }
 
-    /// K = k2/k1 = mu f^2.
+    /// K = k2/k1 = mu f^2, without unit.
     #[getter]
     fn k(&self) -> f64 {
         self.0.k()
     }
 
-    /// C = c/(m1 Omega_n) = 2 mu xi.
+    /// C = c/(m1 Omega_n) = 2 mu xi, without unit.
     #[getter]
     fn c(&self) -> f64 {
         self.0.c()
     }
 
-    /// Omega_n of the unit over that of the vertical one.
+    /// Omega_n of the unit over that of the vertical one, without unit.
     #[getter]
     fn frequency_ratio(&self) -> f64 {
         self.0.omega_n_hz
@@ -75,18 +75,19 @@ pub struct Design {
 
 #[pymethods]
 impl Design {
+    /// atan(b/h), rad.
     #[getter]
     fn alpha(&self) -> f64 {
         self.geometry.alpha()
     }
 
-    /// I_cg/(m R^2).
+    /// I_cg/(m R^2), without unit.
     #[getter]
     fn inertia(&self) -> f64 {
         self.geometry.mass_share().recip() - 1.0
     }
 
-    /// Omega_n/p.
+    /// Omega_n/p, without unit.
     #[getter]
     fn stiffness(&self) -> f64 {
         self.geometry.stiffness()
@@ -98,11 +99,13 @@ impl Design {
         self.geometry.in_stiff_limit()
     }
 
+    /// The vertical unit of each foot.
     #[getter]
     fn vertical(&self) -> UnitDesign {
         UnitDesign(self.springs.vertical)
     }
 
+    /// The horizontal unit of each foot.
     #[getter]
     fn horizontal(&self) -> UnitDesign {
         UnitDesign(self.springs.horizontal)

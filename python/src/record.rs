@@ -34,42 +34,49 @@ impl Record {
         core::Record::new(name, dt, accel).map(Self).map_err(value_error)
     }
 
+    /// What it is called.
     #[getter]
     fn name(&self) -> &str {
         &self.0.name
     }
 
+    /// Time step, s.
     #[getter]
     fn dt(&self) -> f64 {
         self.0.dt
     }
 
+    /// Ground acceleration at t = i dt, positive to the right, m/s2.
     #[getter]
     fn accel<'py>(slf: &Bound<'py, Self>) -> PyResult<Array<'py>> {
         view(slf.clone().into_any(), &slf.get().0.accel)
     }
 
+    /// Times of the samples, s.
     #[getter]
     fn t<'py>(&self, py: Python<'py>) -> Array<'py> {
         times(py, self.0.len(), self.0.dt)
     }
 
+    /// Time of the last sample, s.
     #[getter]
     fn duration(&self) -> f64 {
         self.0.duration()
     }
 
+    /// Peak ground acceleration, m/s2.
     #[getter]
     fn pga(&self) -> f64 {
         self.0.pga()
     }
 
+    /// Peak ground acceleration, g.
     #[getter]
     fn pga_g(&self) -> f64 {
         self.0.pga_g()
     }
 
-    /// The vertical motion that goes with it, as a record of its own.
+    /// The vertical ground acceleration that goes with it, positive upwards.
     #[getter]
     fn vertical(&self) -> Option<Self> {
         self.0.vertical.as_ref().map(|up| Self(core::as_record(up, self.0.dt)))

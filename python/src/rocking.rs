@@ -65,48 +65,55 @@ impl History {
 
 #[pymethods]
 impl History {
+    /// Time step, s.
     #[getter]
     fn dt(&self) -> f64 {
         self.one().dt
     }
 
+    /// Times of the samples, s.
     #[getter]
     fn t<'py>(&self, py: Python<'py>) -> Array<'py> {
         times(py, self.one().rocking.theta.len(), self.one().dt)
     }
 
+    /// Rotation, positive leaning to the right, rad.
     #[getter]
     fn theta<'py>(slf: &Bound<'py, Self>) -> PyResult<Array<'py>> {
         view(slf.clone().into_any(), &slf.get().one().rocking.theta)
     }
 
+    /// Rate of the rotation, rad/s.
     #[getter]
     fn rate<'py>(slf: &Bound<'py, Self>) -> PyResult<Array<'py>> {
         view(slf.clone().into_any(), &slf.get().one().rocking.rate)
     }
 
+    /// Horizontal displacement of the centre of mass, positive to the right, m.
     #[getter]
     fn u<'py>(slf: &Bound<'py, Self>) -> PyResult<Array<'py>> {
         view(slf.clone().into_any(), &slf.get().one().motion().u)
     }
 
+    /// Vertical displacement of the centre of mass, positive up, m.
     #[getter]
     fn v<'py>(slf: &Bound<'py, Self>) -> PyResult<Array<'py>> {
         view(slf.clone().into_any(), &slf.get().one().motion().v)
     }
 
-    /// Times of the impacts.
+    /// Times of the impacts, s.
     #[getter]
     fn impacts<'py>(&self, py: Python<'py>) -> Array<'py> {
         PyArray1::from_iter(py, self.one().rocking.impacts.iter().map(|i| i.time))
     }
 
-    /// theta' before the impacts.
+    /// Rates of the rotation before the impacts, rad/s.
     #[getter]
     fn impact_rates<'py>(&self, py: Python<'py>) -> Array<'py> {
         PyArray1::from_iter(py, self.one().rocking.impacts.iter().map(|i| i.rate_before))
     }
 
+    /// How it ended.
     #[getter]
     fn outcome(&self) -> &'static str {
         match self.one().rocking.outcome {
@@ -120,13 +127,13 @@ impl History {
         }
     }
 
-    /// When |theta| last grew past alpha, of a body that overturned.
+    /// When |theta| last grew past alpha, of a body that overturned, s.
     #[getter]
     fn overturned(&self) -> Option<f64> {
         self.one().rocking.overturned()
     }
 
-    /// Largest |theta|/alpha; pi/2 / alpha if it overturned.
+    /// Largest |theta|/alpha, without unit; pi/2 / alpha if it overturned, as in every table of the program.
     #[getter]
     fn peak_ratio(&self) -> f64 {
         self.one().peak_ratio()
@@ -170,7 +177,7 @@ impl Histories {
         Ok(History { all: self.0.clone(), index: at as usize })
     }
 
-    /// Largest |theta|/alpha of each; pi/2 / alpha where the body overturned.
+    /// Largest |theta|/alpha of each, without unit; pi/2 / alpha where the body overturned.
     #[getter]
     fn peak_ratio<'py>(&self, py: Python<'py>) -> Array<'py> {
         PyArray1::from_iter(py, self.0.iter().map(Solved::peak_ratio))

@@ -64,83 +64,97 @@ fn lines(verdict: &Verdict, both: &Both, report: &Report) -> Vec<String> {
 
 #[pymethods]
 impl Simulation {
+    /// Time step, s.
     #[getter]
     fn dt(&self) -> f64 {
         self.dt
     }
 
+    /// Times of the samples, s.
     #[getter]
     fn t<'py>(&self, py: Python<'py>) -> Array<'py> {
         times(py, self.fem().motion.len(), self.dt)
     }
 
+    /// Rotation, positive leaning to the right, rad.
     #[getter]
     fn theta<'py>(slf: &Bound<'py, Self>) -> PyResult<Array<'py>> {
         column(slf, |history| &history.motion.theta)
     }
 
+    /// Horizontal displacement of the centre of mass, positive to the right, m.
     #[getter]
     fn u<'py>(slf: &Bound<'py, Self>) -> PyResult<Array<'py>> {
         column(slf, |history| &history.motion.u)
     }
 
+    /// Vertical displacement of the centre of mass from the settled position, positive up, m.
     #[getter]
     fn v<'py>(slf: &Bound<'py, Self>) -> PyResult<Array<'py>> {
         column(slf, |history| &history.motion.v)
     }
 
+    /// The ground's force on the left foot, up, N.
     #[getter]
     fn vertical_left<'py>(slf: &Bound<'py, Self>) -> PyResult<Array<'py>> {
         column(slf, |history| &history.forces.vertical[0])
     }
 
+    /// The ground's force on the right foot, up, N.
     #[getter]
     fn vertical_right<'py>(slf: &Bound<'py, Self>) -> PyResult<Array<'py>> {
         column(slf, |history| &history.forces.vertical[1])
     }
 
+    /// The ground's force on the left foot, to the right, N.
     #[getter]
     fn horizontal_left<'py>(slf: &Bound<'py, Self>) -> PyResult<Array<'py>> {
         column(slf, |history| &history.forces.horizontal[0])
     }
 
+    /// The ground's force on the right foot, to the right, N.
     #[getter]
     fn horizontal_right<'py>(slf: &Bound<'py, Self>) -> PyResult<Array<'py>> {
         column(slf, |history| &history.forces.horizontal[1])
     }
 
+    /// Work of the ground since the start, J.
     #[getter]
     fn energy_input<'py>(slf: &Bound<'py, Self>) -> PyResult<Array<'py>> {
         column(slf, |history| &history.account.input)
     }
 
+    /// Above the initial energy, J.
     #[getter]
     fn energy_stored<'py>(slf: &Bound<'py, Self>) -> PyResult<Array<'py>> {
         column(slf, |history| &history.account.stored)
     }
 
+    /// Taken by dashpots and released springs, J.
     #[getter]
     fn energy_dissipated<'py>(slf: &Bound<'py, Self>) -> PyResult<Array<'py>> {
         column(slf, |history| &history.account.dissipated)
     }
 
+    /// What the account leaves unexplained, J.
     #[getter]
     fn energy_residual<'py>(slf: &Bound<'py, Self>) -> PyResult<Array<'py>> {
         column(slf, |history| &history.account.residual)
     }
 
-    /// Touch-downs that end a lean on the other foot.
+    /// Times of the touch-downs that end a lean on the other foot, s.
     #[getter]
     fn impacts<'py>(&self, py: Python<'py>) -> Array<'py> {
         PyArray1::from_iter(py, self.fem().landings.iter().filter(|l| l.impact).map(|l| l.time))
     }
 
-    /// Settlement under the weight, before t = 0.
+    /// Of the body standing under its weight, before t = 0, m.
     #[getter]
     fn settlement(&self) -> f64 {
         -self.fem().initial_z
     }
 
+    /// How it ended.
     #[getter]
     fn outcome(&self) -> &'static str {
         match self.fem().outcome {
@@ -153,7 +167,7 @@ impl Simulation {
         }
     }
 
-    /// Housner's history on the same record.
+    /// Housner's history of the same record.
     #[getter]
     fn housner(&self) -> History {
         History::new(self.structure.body(), self.dt, self.both().rocking.clone())
@@ -165,18 +179,19 @@ impl Simulation {
         plain(py, &self.both().matched)
     }
 
+    /// What the body does in both models, as in `parameters.json`: times in s, rotations over alpha.
     #[getter]
     fn verdict(&self, py: Python<'_>) -> PyResult<Py<PyAny>> {
         plain(py, &self.verdict)
     }
 
-    /// What the program says of the run, a line each.
+    /// What the program says of the run.
     #[getter]
     fn lines(&self) -> Vec<String> {
         self.lines.clone()
     }
 
-    /// Largest forces in legs and at the base since the sample before, by name.
+    /// Base shear and forces in the legs, N; moments, N m; by name.
     #[getter]
     fn demands<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyDict>> {
         let rows = &self.both().demands.rows;

@@ -26,21 +26,25 @@ impl Chain {
         Ok(Self(spring::Chain { k1, k2, m2, c }))
     }
 
+    /// Gap spring, N/m.
     #[getter]
     fn k1(&self) -> f64 {
         self.0.k1
     }
 
+    /// Spring to the ground, N/m.
     #[getter]
     fn k2(&self) -> f64 {
         self.0.k2
     }
 
+    /// Mass of the absorber, kg: fictitious, without weight.
     #[getter]
     fn m2(&self) -> f64 {
         self.0.m2
     }
 
+    /// Dashpot beside k2, N s/m.
     #[getter]
     fn c(&self) -> f64 {
         self.0.c
@@ -89,13 +93,13 @@ impl Springs {
         Ok(Self { mass, vertical, horizontal })
     }
 
-    /// Omega_n/2 pi of the vertical k1 under the mass.
+    /// Omega_n/2 pi of the vertical k1 under the mass, Hz.
     #[getter]
     fn omega_n_hz(&self) -> f64 {
         self.designs().vertical.omega_n_hz
     }
 
-    /// Of the standing body.
+    /// Of the standing body under its weight, m.
     #[getter]
     fn settlement(&self) -> f64 {
         self.designs().settlement(self.mass)

@@ -36,6 +36,7 @@ impl Structure {
         checked("Structure.block", Kind::Block, (height / 2.0, width, mass), inertia, restitution)
     }
 
+    /// "aframe" or "block".
     #[getter]
     fn kind(&self) -> &'static str {
         match self.core.kind {
@@ -44,37 +45,43 @@ impl Structure {
         }
     }
 
-    /// Of the centre of mass above the feet.
+    /// Of the centre of mass above the feet, m.
     #[getter]
     fn height(&self) -> f64 {
         self.core.height_m
     }
 
+    /// Between the feet, m.
     #[getter]
     fn width(&self) -> f64 {
         self.core.width_m
     }
 
+    /// kg.
     #[getter]
     fn mass(&self) -> f64 {
         self.core.mass_kg
     }
 
+    /// About the centre of mass, kg m2.
     #[getter]
     fn inertia(&self) -> f64 {
         self.core.rotational_inertia_kgm2
     }
 
+    /// atan(b/h), the lean of balance, rad.
     #[getter]
     fn alpha(&self) -> f64 {
         self.body().alpha()
     }
 
+    /// sqrt(m g R/I0), 1/s.
     #[getter]
     fn p(&self) -> f64 {
         self.body().p_squared().sqrt()
     }
 
+    /// Velocity ratio of a landing, without unit.
     #[getter]
     fn restitution(&self) -> f64 {
         self.e

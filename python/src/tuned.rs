@@ -31,39 +31,43 @@ pub struct Tuned {
 
 #[pymethods]
 impl Tuned {
+    /// What they are for.
     #[getter]
     fn structure(&self) -> Structure {
         self.structure
     }
 
+    /// The springs.
     #[getter]
     fn springs(&self) -> Springs {
         Springs::of(self.structure.core.mass_kg, &self.run.job.springs)
     }
 
-    /// What was asked for, whether it is reached, what was measured and on what: as in `parameters.json`.
+    /// What was asked for, whether it is reached, what was measured and on what, as in `parameters.json`: NRMSE, without unit.
     #[getter]
     fn accuracy(&self, py: Python<'_>) -> PyResult<Py<PyAny>> {
         plain(py, &self.run.parameters.assessment)
     }
 
+    /// What the body does in both models, as in `parameters.json`: times in s, rotations over alpha.
     #[getter]
     fn verdict(&self, py: Python<'_>) -> PyResult<Py<PyAny>> {
         plain(py, &self.run.parameters.verdict)
     }
 
+    /// Both histories on the record.
     #[getter]
     fn histories(&self, py: Python<'_>) -> Py<Simulation> {
         self.histories.clone_ref(py)
     }
 
-    /// All of `parameters.json` but the record.
+    /// All of `parameters.json` but the record; keys end in their units.
     #[getter]
     fn parameters(&self, py: Python<'_>) -> PyResult<Py<PyAny>> {
         plain(py, &self.run.parameters)
     }
 
-    /// What the program says of the run, a line each.
+    /// What the program says of the run.
     #[getter]
     fn lines(&self) -> Vec<String> {
         self.run.said()

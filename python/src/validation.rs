@@ -25,7 +25,7 @@ pub struct Validation(core::Validation);
 
 #[pymethods]
 impl Validation {
-    /// All of `validate.json`: statistics of all records and of each suite, a row a record.
+    /// All of `validate.json`: statistics of all records and of each suite, the rows.
     #[getter]
     fn summary(&self, py: Python<'_>) -> PyResult<Py<PyAny>> {
         plain(py, &self.0)

@@ -103,16 +103,22 @@ impl Page<'_> {
             Some(Weight::Bad) => "verdict bad",
         };
         let said = self.run.map_or_else(|| table::said(self.parameters), Run::said);
-        let (short, rest) = said.split_at(said.iter().take_while(|line| !line.starts_with("accuracy")).count());
+        let short = &said[..said.iter().take_while(|line| !line.starts_with("accuracy")).count()];
+        // what the heading and a remark below say is not said a third time
+        let told = |line: &&String| {
+            let remarked = ["WARNING: the accuracy", "ILL-CONDITIONED", "the springs can be trusted"];
+            !remarked.iter().any(|what| line.contains(what))
+        };
+        let short: Vec<String> = short.iter().filter(told).cloned().collect();
         let items =
             |lines: &[String]| lines.iter().map(|line| format!("<li>{}</li>", pretty(line))).collect::<String>();
         format!(
             "<div class=\"{class}\" id=\"verdict\"><strong>{}</strong><ul>{}</ul></div>\n<div class=\"tiles\">\n{}</div>\n\
              <details><summary>All that the program said</summary><ul>{}</ul></details>\n",
             escape(&self.sentence()),
-            items(short),
+            items(&short),
             self.tiles(),
-            items(rest)
+            items(&said)
         )
     }
 

@@ -194,6 +194,7 @@ proc run {accuracy} {
 
 # One run: OpenSees' Tcl interpreter does not forget a model's loads, so that a second one needs a new interpreter. If the report at the
 # end warns of touches or lifts within too long a step, make `accuracy` a quarter of what it is and run again.
+puts stderr "OpenSees tells of every step that does not converge; such steps are repeated shorter"
 set rows [run $accuracy]
 
 set out [open "[file rootname [info script]]_history.csv" w]

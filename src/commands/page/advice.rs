@@ -102,7 +102,8 @@ fn verdict(run: &Run) -> Vec<Advice> {
             "The motion is ill-conditioned",
             "A change of the width, the scale or the restitution far smaller than what is unknown of a real structure makes another history \
              of it. No two models, and no two tests, agree on it one to one, whatever the springs.",
-            "do not judge the springs by this history: judge them by the statistics over many records (tune validate).",
+            "do not judge the springs by this history: judge them by the accuracy on synthetic motions below, and by many records (tune \
+             validate).",
         ));
     }
     all
@@ -133,8 +134,9 @@ fn accuracy(parameters: &Parameters) -> Vec<Advice> {
         all.push(Advice::new(
             Weight::Care,
             "Landings do not have the restitution that was asked for",
-            "Springs find a restitution other than equation 2's by a search, and not exactly; the table of landings says how far off.",
-            "ask for a restitution nearer to equation 2's, or allow stiffer springs.",
+            "A body on soft springs sways before it lifts and loses less; and a restitution other than equation 2's is met by a search, not \
+             exactly. The table of landings says how far off.",
+            "allow stiffer springs (--max-hz), or ask for a restitution nearer to equation 2's.",
         ));
     }
     all
