@@ -83,8 +83,31 @@ impl<S: Scalar> Elements<S> {
     }
 
     /// Add their forces to those on the body.
-    #[inline(never)]
+    #[inline(always)]
     pub fn add_forces(&self, q: &Vector<S>, v: &Vector<S>, f: &mut Vector<S>) {
+        if !self.is_empty() {
+            self.add_all_forces(q, v, f);
+        }
+    }
+
+    /// An energy and what is stored in legs, of which `legs` knows, and elements [J].
+    #[inline(always)]
+    pub fn add_energy(&self, energy: S, q: &Vector<S>, legs: impl Fn(&Leg<S>) -> S) -> S {
+        if self.is_empty() {
+            return energy;
+        }
+        let stored = self.leg.as_ref().map_or(S::zero(), legs);
+        energy + self.each().fold(stored, |stored, element| stored + element.energy(q))
+    }
+
+    /// A power and what the elements take [W].
+    #[inline(always)]
+    pub fn add_dissipation(&self, power: S, q: &Vector<S>, v: &Vector<S>) -> S {
+        self.each().fold(power, |power, element| power + element.dissipation(q, v))
+    }
+
+    #[inline(never)]
+    fn add_all_forces(&self, q: &Vector<S>, v: &Vector<S>, f: &mut Vector<S>) {
         for element in self.each() {
             let force = element.force(q, v);
             for k in [X, Z, TH] {

@@ -120,10 +120,10 @@ impl<S: Scalar> Model<S> {
     }
 
     /// Elastic energy of the legs [J].
-    pub(super) fn legs_energy(&self, q: &Vector<S>, feet: &[Foot<S>; 2]) -> S {
-        let leg = self.elements.leg.as_ref();
-        let energy = |i: usize| self.poised(leg, i, q, &feet[i]).law.map_or(S::zero(), |law| law.energy);
-        if leg.is_some() { energy(0) + energy(1) } else { S::zero() }
+    #[inline(never)]
+    pub(super) fn legs_energy(&self, leg: &Leg<S>, q: &Vector<S>, feet: &[Foot<S>; 2]) -> S {
+        let energy = |i: usize| self.poised(Some(leg), i, q, &feet[i]).law.map_or(S::zero(), |law| law.energy);
+        energy(0) + energy(1)
     }
 
     /// `turn_to_balance` with elements. With dampers the rotation cannot jump.

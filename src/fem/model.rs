@@ -266,9 +266,7 @@ impl<S: Scalar> Model<S> {
             f[ax(i)] = -(foot.horizontal + horizontal.m2 * ground + horizontal.k2 * q[ax(i)] + horizontal.c * v[ax(i)]);
             f[az(i)] = -(foot.vertical + vertical.m2 * up + vertical.k2 * q[az(i)] + vertical.c * v[az(i)]);
         }
-        if !self.elements.is_empty() {
-            self.elements.add_forces(q, v, &mut f);
-        }
+        self.elements.add_forces(q, v, &mut f);
         f
     }
 
@@ -318,7 +316,7 @@ impl<S: Scalar> Model<S> {
             twice
         };
         let twice = self.body_kinetic(state) * 2.0 + self.body.mass * q[Z] * (2.0 * GRAVITY) + (share(0) + share(1));
-        if self.elements.is_empty() { twice * 0.5 } else { twice * 0.5 + self.elements_energy(q, feet) }
+        self.elements.add_energy(twice * 0.5, q, |leg| self.legs_energy(leg, q, feet))
     }
 
     /// Power of the base excitation in the moving frame, -ug'' (m X' + sum m2_h a_x') - vg'' (m Z' + sum m2_v a_z') [W].
@@ -336,13 +334,6 @@ impl<S: Scalar> Model<S> {
         let springs = horizontal.c * (v[ax(0)] * v[ax(0)] + v[ax(1)] * v[ax(1)])
             + vertical.c * (v[az(0)] * v[az(0)] + v[az(1)] * v[az(1)]);
         let taken = if self.law.slips() { springs + self.friction_loss(q, v, feet) } else { springs };
-        self.elements.each().fold(taken, |taken, element| taken + element.dissipation(q, v))
-    }
-
-    /// Elastic energy of legs and elements [J].
-    #[inline(never)]
-    fn elements_energy(&self, q: &Vector<S>, feet: &[Foot<S>; 2]) -> S {
-        let legs = self.legs_energy(q, feet);
-        self.elements.each().fold(legs, |energy, element| energy + element.energy(q))
+        self.elements.add_dissipation(taken, q, v)
     }
 }

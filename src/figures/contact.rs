@@ -65,7 +65,7 @@ pub fn draw(data: &Contact<'_>) -> Result<Sheet, FigureError> {
     let top = legend::header(&mut canvas, data.title, &entries, left, right) + 16.0;
     let middle = top + 450.0;
     let frames =
-        [Frame { left, top, right, bottom: middle }, Frame { left, top: middle + 34.0, right, bottom: middle + 390.0 }];
+        [Frame { left, top, right, bottom: middle }, Frame { left, top: middle + 48.0, right, bottom: middle + 404.0 }];
     let vertical = [data.left_vertical, data.right_vertical];
     Direction { name: "vertical", forces: vertical, weight: data.weight, last: false }.draw(
         &mut canvas,
@@ -74,7 +74,7 @@ pub fn draw(data: &Contact<'_>) -> Result<Sheet, FigureError> {
     );
     let horizontal = [data.left_horizontal, data.right_horizontal];
     Direction { name: "horizontal", forces: horizontal, weight: None, last: true }.draw(&mut canvas, data, frames[1]);
-    canvas.finish(middle + 490.0)
+    canvas.finish(middle + 504.0)
 }
 
 fn pens() -> [Pen; 2] {
