@@ -141,7 +141,7 @@ fn a_remembered_record_that_is_missing_or_has_changed() {
             |text: &str, words: &[&str]| refuses(&[("p.json", text), ("a.txt", "0.1\n0.3\n-0.2\n")], args, words);
         refuse(&there, &["p.json: its record a.txt has changed", "not 0123456789abcdef", "--record"]);
         refuse(&missing, &["p.json: its record b.txt is not there", "--record"]);
-        refuse(&numbers, &["p.json: its record a was made by a program", "--record"]);
+        refuse(&numbers, &["p.json: its record a was given as numbers", "--record"]);
         refuse(&embedded, &["its record the embedded El Centro has changed"]);
     }
     for text in ["0.1\nx\n", ""] {
