@@ -1,6 +1,10 @@
 //! The finite element history, 20 s of El Centro: the springs of both procedures, and springs of any stiffness.
 
-use std::{hint::black_box, ops::ControlFlow, time::Duration};
+use std::{
+    hint::black_box,
+    ops::ControlFlow,
+    time::{Duration, Instant},
+};
 
 use criterion::{BenchmarkId, Criterion, Throughput, criterion_group, criterion_main};
 use groundspring::fem::{Analysis, Control, Observer, View, histories};
@@ -36,6 +40,7 @@ fn lanes(c: &mut Criterion) {
     for bench in [BenchCase::arr(), BenchCase::plain(160.0), BenchCase::plain(10_240.0)] {
         let control = Control { tolerance: 1e-4, long_steps: true, ..Control::default() };
         let cases: Vec<Analysis<f64>> = (0..64).map(|i| bench.case(0.8 + f64::from(i) / 128.0, control)).collect();
+        ratio(&bench, &cases, &threads);
         group.throughput(Throughput::Elements(64));
         let name = format!("{}, {} Hz", bench.name, bench.springs.vertical.omega_n_hz);
         group.bench_function(BenchmarkId::new(&name, "every sample"), |b| {
@@ -48,6 +53,34 @@ fn lanes(c: &mut Criterion) {
         });
     }
     group.finish();
+}
+
+/// Rounds of one by one and side by side in turn, so that whatever else the machine does slows both.
+const PAIRS: usize = 15;
+
+/// Print what a history costs either way, and the ratio: medians over the pairs.
+fn ratio(bench: &BenchCase, cases: &[Analysis<f64>], threads: &rayon::ThreadPool) {
+    let seconds = |work: &dyn Fn() -> f64| {
+        let began = Instant::now();
+        black_box(work());
+        began.elapsed().as_secs_f64() / cases.len() as f64
+    };
+    let alone = || cases.iter().map(peak).sum();
+    let lanes = || threads.install(|| histories(black_box(cases), |_| Peak(0.0))).iter().map(|(peak, _)| peak.0).sum();
+    let pairs: Vec<[f64; 2]> = (0..PAIRS).map(|_| [seconds(&alone), seconds(&lanes)]).collect();
+    let median = |of: &dyn Fn(&[f64; 2]) -> f64| {
+        let mut all: Vec<f64> = pairs.iter().map(of).collect();
+        all.sort_by(f64::total_cmp);
+        all[PAIRS / 2]
+    };
+    println!(
+        "{}, {} Hz: one by one {:.3} ms, side by side {:.3} ms a history, ratio {:.2}",
+        bench.name,
+        bench.springs.vertical.omega_n_hz,
+        1e3 * median(&|pair| pair[0]),
+        1e3 * median(&|pair| pair[1]),
+        median(&|pair| pair[0] / pair[1])
+    );
 }
 
 /// Largest rotation at a sample [rad].

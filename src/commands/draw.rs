@@ -28,8 +28,14 @@ pub struct Figure {
     pub sheet: Sheet,
 }
 
-/// Every figure that a run may leave.
-const NAMES: [&str; 6] = ["history", "response", "contact", "energy", "front", "candidates"];
+/// Every figure that a run may leave, and its files.
+macro_rules! figures {
+    ($($name:literal)+) => {
+        const NAMES: [&str; 6] = [$($name),+];
+        pub const FILES: &[&str] = &[$(concat!($name, ".png"), concat!($name, ".svg")),+];
+    };
+}
+figures!("history" "response" "contact" "energy" "front" "candidates");
 
 /// What figures are drawn from.
 pub struct Pictures<'a> {

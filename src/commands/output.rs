@@ -71,14 +71,14 @@ pub(super) struct Folder<'a> {
     path: &'a Path,
     command: &'static str,
     /// All that the command can write.
-    files: &'static [&'static str],
+    files: &'a [&'static str],
     /// By the clock of the files.
     began: SystemTime,
 }
 
 impl<'a> Folder<'a> {
     /// Make a folder and begin to write.
-    pub fn begin(path: &'a Path, command: &'static str, files: &'static [&'static str]) -> Result<Self, CommandError> {
+    pub fn begin(path: &'a Path, command: &'static str, files: &'a [&'static str]) -> Result<Self, CommandError> {
         check_folder(path)?;
         let wrap = |source| CommandError::Write { path: path.display().to_string(), source };
         std::fs::create_dir_all(path).map_err(wrap)?;

@@ -31,7 +31,7 @@ use crate::{
     tuning::{arr::table_1, job::Job},
 };
 
-/// All that `tune run` can write into its folder.
+/// All that `tune run` can write into its folder, beside figures.
 const FILES: &[&str] = &[
     "parameters.json",
     "parameters.md",
@@ -43,19 +43,11 @@ const FILES: &[&str] = &[
     "decks/model_sap2000.s2k",
     "decks/springs.csv",
     "decks/springs.md",
-    "history.png",
-    "history.svg",
-    "response.png",
-    "response.svg",
-    "candidates.png",
-    "candidates.svg",
-    "contact.png",
-    "contact.svg",
-    "energy.png",
-    "energy.svg",
-    "front.png",
-    "front.svg",
 ];
+
+fn files() -> Vec<&'static str> {
+    [FILES, draw::FILES].concat()
+}
 
 /// Options of `tune run`.
 #[derive(Debug, Args)]
@@ -212,7 +204,8 @@ impl Run {
     /// # Errors
     /// A file that cannot be written; a deck or a figure that cannot be made.
     pub fn save(&self, out: &Path, output: Output) -> Result<(), CommandError> {
-        let folder = Folder::begin(out, "run", FILES)?;
+        let files = files();
+        let folder = Folder::begin(out, "run", &files)?;
         let Self { job, front, both, .. } = self;
         let dt = job.record.dt;
         let parameters = self.filed(out);
@@ -269,7 +262,8 @@ fn report(out: &Path, page: Option<Page<'_>>) -> Result<(), CommandError> {
 
 /// What there is without a record.
 fn springs_alone(o: &Options, parameters: &Parameters) -> Result<(), CommandError> {
-    let folder = Folder::begin(&o.out, "run", FILES)?;
+    let files = files();
+    let folder = Folder::begin(&o.out, "run", &files)?;
     write_file(&o.out.join("parameters.json"), parameters.to_json().as_bytes())?;
     write_file(&o.out.join("parameters.md"), table::markdown(parameters).as_bytes())?;
     report(&o.out, (!o.no_report).then_some(Page { parameters, run: None, figures: &[] }))?;

@@ -85,11 +85,11 @@ impl<S: Scalar> Model<S> {
         if !self.massless() || !self.is_plain() || !leans {
             return;
         }
-        let (_, _, stiffness) = self.potential(state, feet);
+        let contact = self.contact(&state.q, feet);
+        let (_, stiffness) = self.moment_and_stiffness(&contact, feet);
         if stiffness.re() <= 0.0 {
             return;
         }
-        let contact = self.contact(&state.q, feet);
         let v = &state.v;
         let moment = |i: usize| {
             let FootForce { px_th, pz_th, .. } = contact[i];
@@ -108,7 +108,7 @@ impl<S: Scalar> Model<S> {
     fn newton(&self, state: &mut State<S>, feet: &[Foot<S>; 2], before: S) -> bool {
         let mut last = f64::INFINITY;
         for _ in 0..STEPS {
-            let (_, moment, stiffness) = self.potential(state, feet);
+            let (moment, stiffness) = self.moment_and_stiffness(&self.contact(&state.q, feet), feet);
             let step = moment / stiffness;
             last = step.re();
             state.q[TH] += step;
@@ -157,12 +157,26 @@ impl<S: Scalar> Model<S> {
 
     /// V [J], the moment -V' [N m] and the stiffness V'' [N m].
     fn potential(&self, state: &State<S>, feet: &[Foot<S>; 2]) -> (S, S, S) {
+        let contact = self.contact(&state.q, feet);
         let (k_v, k_h) = (self.springs.vertical.k1, self.springs.horizontal.k1);
-        let (mut twice, mut moment, mut stiffness) = (S::zero(), S::zero(), S::zero());
-        for (foot, f) in feet.iter().zip(&self.contact(&state.q, feet)) {
+        let mut twice = S::zero();
+        for (foot, &FootForce { horizontal, vertical, .. }) in feet.iter().zip(&contact) {
+            if foot.closed() {
+                twice += horizontal * horizontal / k_h + vertical * vertical / k_v;
+            }
+        }
+        let (moment, stiffness) = self.moment_and_stiffness(&contact, feet);
+        (twice * 0.5, moment, stiffness)
+    }
+
+    /// The moment -V' [N m] and the stiffness V'' [N m].
+    #[inline(always)]
+    fn moment_and_stiffness(&self, contact: &[FootForce<S>; 2], feet: &[Foot<S>; 2]) -> (S, S) {
+        let (k_v, k_h) = (self.springs.vertical.k1, self.springs.horizontal.k1);
+        let (mut moment, mut stiffness) = (S::zero(), S::zero());
+        for (foot, f) in feet.iter().zip(contact) {
             if foot.closed() {
                 let &FootForce { px_th, pz_th, horizontal, vertical } = f;
-                twice += horizontal * horizontal / k_h + vertical * vertical / k_v;
                 moment += horizontal * px_th + vertical * pz_th;
                 let mut share = k_v * pz_th * pz_th + vertical * px_th - horizontal * pz_th;
                 if foot.holds() {
@@ -171,6 +185,6 @@ impl<S: Scalar> Model<S> {
                 stiffness += share;
             }
         }
-        (twice * 0.5, moment, stiffness)
+        (moment, stiffness)
     }
 }

@@ -59,24 +59,12 @@ struct Lane<'a, O> {
 
 impl<'a, O: Observer<f64>, F: Fn(usize) -> O> Batch<'a, O, F> {
     fn follow(&mut self) {
-        #[cfg(target_arch = "x86_64")]
-        {
-            if std::arch::is_x86_feature_detected!("avx512f")
-                && std::arch::is_x86_feature_detected!("avx512dq")
-                && std::arch::is_x86_feature_detected!("avx512vl")
-            {
-                // SAFETY: the processor has what the function was compiled for
-                return self.lanes(|kernel| unsafe { step_avx512(kernel) });
-            }
-            if std::arch::is_x86_feature_detected!("avx2") {
-                // SAFETY: as above
-                return self.lanes(|kernel| unsafe { step_avx2(kernel) });
-            }
+        if let Some(step) = steps().first() {
+            self.lanes(*step);
         }
-        self.lanes(Kernel::step);
     }
 
-    fn lanes(&mut self, step: impl Fn(&mut Kernel)) {
+    fn lanes(&mut self, step: Step) {
         let mut kernel = Box::new(Kernel::new());
         let mut stages = Stages::none();
         let mut lanes: [Option<Lane<'a, O>>; WIDTH] = std::array::from_fn(|_| None);
@@ -84,7 +72,7 @@ impl<'a, O: Observer<f64>, F: Fn(usize) -> O> Batch<'a, O, F> {
             for (l, lane) in lanes.iter_mut().enumerate().filter(|(_, lane)| lane.is_none()) {
                 *lane = self.begin();
                 match lane {
-                    Some(lane) => kernel.seat(l, lane.run.model, &lane.run.scales),
+                    Some(lane) => kernel.seat(l, &lane.run),
                     None => kernel.leave(l),
                 }
             }
@@ -109,7 +97,7 @@ impl<'a, O: Observer<f64>, F: Fn(usize) -> O> Batch<'a, O, F> {
             }
             for (l, slot) in lanes.iter_mut().enumerate() {
                 let Some(lane) = slot else { continue };
-                let (converged, measures) = match kernel.tell(l, &mut stages) {
+                let (converged, measures) = match kernel.tell(l, lane.run.spans(), &mut stages) {
                     Tried::Step(converged, measures) => (converged, Some(measures)),
                     Tried::GoesOn => continue,
                     Tried::Steep => (lane.run.attempt(lane.h, &mut stages), None),
@@ -154,6 +142,30 @@ impl<'a, O: Observer<f64>, F: Fn(usize) -> O> Batch<'a, O, F> {
     }
 }
 
+/// A step of all lanes, compiled for a processor.
+type Step = fn(&mut Kernel);
+
+/// Those that this processor has, the widest first.
+fn steps() -> Vec<Step> {
+    let mut steps: Vec<Step> = Vec::new();
+    #[cfg(target_arch = "x86_64")]
+    {
+        if std::arch::is_x86_feature_detected!("avx512f")
+            && std::arch::is_x86_feature_detected!("avx512dq")
+            && std::arch::is_x86_feature_detected!("avx512vl")
+        {
+            // SAFETY: the processor has what the function was compiled for
+            steps.push(|kernel| unsafe { step_avx512(kernel) });
+        }
+        if std::arch::is_x86_feature_detected!("avx2") {
+            // SAFETY: as above
+            steps.push(|kernel| unsafe { step_avx2(kernel) });
+        }
+    }
+    steps.push(|kernel| kernel.step());
+    steps
+}
+
 #[cfg(target_arch = "x86_64")]
 #[target_feature(enable = "avx512f,avx512dq,avx512vl")]
 fn step_avx512(kernel: &mut Kernel) {
@@ -165,3 +177,6 @@ fn step_avx512(kernel: &mut Kernel) {
 fn step_avx2(kernel: &mut Kernel) {
     kernel.step();
 }
+
+#[cfg(test)]
+mod tests;

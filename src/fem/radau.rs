@@ -56,7 +56,7 @@ const LAGRANGE: [[f64; 3]; 3] = [
 
 /// Weights w_j(tau) such that q(tau) = q + h sum w_j V_j, the collocation polynomial at tau in 0..1.
 pub(super) fn position_weights(tau: f64) -> [f64; 3] {
-    LAGRANGE.map(|[p0, p1, p2]| tau * (p0 + tau * (p1 / 2.0 + tau * p2 / 3.0)))
+    LAGRANGE.map(|[p0, p1, p2]| tau * (p0 + tau * (p1 / 2.0 + tau * (p2 / 3.0))))
 }
 
 /// Weights of the stages' velocities in the velocity of the collocation polynomial at tau in 0..1.

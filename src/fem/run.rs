@@ -2,6 +2,7 @@
 //! account accepts them and chooses the next (`run/account`).
 
 mod account;
+mod cubic;
 mod events;
 mod grip;
 mod met;
@@ -19,11 +20,11 @@ use super::{
     step::{Ground, Request, Stages, Stepper, no_guess},
 };
 use crate::scalar::{GRAVITY, Scalar, real};
-pub(super) use account::{Scales, StepMeasures};
+pub(super) use account::{Contacts, Scales, StepMeasures};
+pub(super) use cubic::stays_inside;
 use events::{Located, Locating};
 use met::Met;
-pub(super) use met::OVERSHOOT;
-use span::Span;
+use span::{Softness, Span};
 
 /// The motion of the ground, at steps of dt and linear between.
 #[derive(Clone, Copy, Debug)]
@@ -65,7 +66,10 @@ pub(crate) struct Run<'a, S> {
     ground: Ground<S>,
     here: Ground<S>,
     /// The step over several samples under way.
-    spanning: Option<Span<S>>,
+    spanning: Option<Span>,
+    /// By how far the parabola is late at the samples within it [m].
+    late: [S; span::MOST],
+    softness: Softness,
     /// The sample up to which steps over several samples may go: an event comes after it.
     event_by: usize,
     /// The event that the step under way is repeated for.
@@ -127,6 +131,8 @@ impl<'a, S: Scalar> Run<'a, S> {
             ground: Ground::still(),
             here: Ground::still(),
             spanning: None,
+            late: [S::zero(); span::MOST],
+            softness: Softness::of(model),
             event_by: usize::MAX,
             locating: None,
             stepper: Stepper::new(model),
@@ -181,6 +187,11 @@ impl<'a, S: Scalar> Run<'a, S> {
                 Err(outcome) => return outcome,
             }
         }
+    }
+
+    /// Whether the step that was planned goes over several samples.
+    pub fn spans(&self) -> bool {
+        self.spanning.is_some()
     }
 
     /// Set out on a motion and show the first sample; the outcome if there is nothing to follow.
@@ -295,14 +306,14 @@ impl<'a, S: Scalar> Run<'a, S> {
             return Ok(None);
         }
         let mut measures = measures;
-        let mut met = if measures.is_some_and(|m| m.clear) { Met::Nothing } else { self.met(stages) };
+        let mut met = self.met(stages, measures.map_or(&Contacts::Unknown, |m| &m.contacts));
         if let Met::Grip { foot, tau } = met {
             if !self.locate_grip(foot, tau, stages) {
                 self.refuse(h * tau * 0.5);
                 return Ok(None);
             }
             // where it changes was but estimated: a foot may touch or leave the ground before
-            met = self.crosses(stages).or(met);
+            met = self.crosses(stages, &Contacts::Unknown).or(met);
             measures = None;
         }
         match met {

@@ -330,14 +330,15 @@ impl<S: Scalar> Stepper<'_, S> {
         let none = State { q: [0.0; N], v: [0.0; N] };
         let (Some(shared), Some(matrix)) = (&self.chains, &self.matrix) else { return none };
         let root = s.h.re() * GAMMA;
+        let per = root.recip();
         let (q, v) = (start.q.map(|x| x.re()), start.v.map(|x| x.re()));
         let d_q = std::array::from_fn(|k| embedded([0, 1, 2].map(|i| s.q[i][k].re()), q[k]));
         let d_v = std::array::from_fn(|k| embedded([0, 1, 2].map(|i| s.v[i][k].re()), v[k]));
         let feet = feet.map(|foot| Foot { contact: foot.contact, anchor: foot.anchor.re() });
-        let forces = self.real.forces(&q, &d_q.map(|d: f64| -d / root), &feet, ground.start.map(|a| a.re()));
+        let forces = self.real.forces(&q, &d_q.map(|d: f64| -d * per), &feet, ground.start.map(|a| a.re()));
         let right = error_right(root, &forces, &self.real.masses(&feet), &v, &d_q, &d_v);
         let e_q = matrix.solve(&shared.real, &right, |x, t| x * t);
-        State { q: e_q, v: std::array::from_fn(|k| (e_q[k] - d_q[k]) / root - v[k]) }
+        State { q: e_q, v: std::array::from_fn(|k| (e_q[k] - d_q[k]) * per - v[k]) }
     }
 }
 

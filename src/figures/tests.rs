@@ -27,9 +27,12 @@ fn every_figure_has_its_size_and_ink_on_white() {
         let path = folder.join(format!("{name}.png"));
         let sheet = draw().unwrap();
         sheet.save(&path).unwrap();
-        let height = sheet.height;
         let picture = image::open(&path).unwrap().to_rgb8();
-        assert_eq!(picture.dimensions(), (style::WIDTH as u32, height), "{name}");
+        let (width, height) = picture.dimensions();
+        // a page shows it 1600 wide; neither a strip nor a scroll
+        assert!(width == 1600 && (400..=2400).contains(&height), "{name}: {width} x {height}");
+        let svg = std::fs::read_to_string(path.with_extension("svg")).unwrap();
+        assert!(svg.contains(&format!(" width=\"{width}\" height=\"{height}\" ")), "{name}");
         let white = picture.pixels().filter(|pixel| pixel.0 == [255; 3]).count() as f64;
         let share = white / picture.pixels().len() as f64;
         assert!((0.5..0.97).contains(&share), "{name}: {share} of the picture is white");

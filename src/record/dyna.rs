@@ -52,7 +52,7 @@ pub(super) fn parse(file: &str, text: &str) -> Result<Parsed, RecordError> {
     if cursor.skip_blank() {
         return Err(cursor.not(end, "the end of the file, after the samples that NDATA announces,"));
     }
-    let pga = match header.value("PGA_CM/S^2").filter(|_| units == Units::CentimetrePerSecond2) {
+    let pga = match header.value("PGA_CM/S^2") {
         Some((line, value)) => {
             let time = header.value("TIME_PGA_S");
             if let Some((line, _)) =
@@ -63,7 +63,10 @@ pub(super) fn parse(file: &str, text: &str) -> Result<Parsed, RecordError> {
             // some give the size alone; a minus is meant
             let signed = value.starts_with('-');
             let stated = Stated { line, of: "acceleration", value, time: time.map(|(_, time)| time), signed };
-            Some(stated.check(file, Clock::from_first(dt), &block)?)
+            // whatever the samples are in, the header's peak is in cm/s2
+            let factor = units.metres_per_second2() / Units::CentimetrePerSecond2.metres_per_second2();
+            let values: Vec<f64> = block.values.iter().map(|a| a * factor).collect();
+            Some(stated.check_values(file, Clock::from_first(dt), &values, |i| block.half_digit(i) * factor)?)
         }
         None => None,
     };
@@ -112,10 +115,15 @@ impl<'a> Header<'a> {
     }
 
     fn need(&self, key: &str, wanted: &'static str, cursor: &Cursor) -> Result<(usize, &'a str), RecordError> {
-        self.value(key).ok_or_else(|| {
+        let (line, value) = self.value(key).ok_or_else(|| {
             let line = self.entries.iter().find(|(_, name, _)| *name == key).map_or(self.end, |(line, ..)| *line);
             cursor.not(line, wanted)
-        })
+        })?;
+        // said twice, it must be the same
+        match self.entries.iter().find(|(_, name, other)| *name == key && !other.is_empty() && *other != value) {
+            Some((other, ..)) => Err(cursor.not(*other, "nothing else than what an earlier line says")),
+            None => Ok((line, value)),
+        }
     }
 
     fn check_quantity(&self, file: &str) -> Result<(), RecordError> {

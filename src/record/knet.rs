@@ -113,8 +113,8 @@ impl<'a> Header<'a> {
         let Some((line, value)) = self.value("Duration Time") else { return Ok(()) };
         let seconds = positive(value).ok_or_else(|| cursor.not(line, "'Duration Time(s)' and a number"))?;
         let said = seconds * frequency;
-        // a duration of whole seconds
-        if (found as f64 - said).abs() < frequency {
+        // whole seconds: there may be samples of one more, never fewer
+        if (-0.5..frequency).contains(&(found as f64 - said)) {
             return Ok(());
         }
         let (file, what) = (cursor.file.to_owned(), "samples");

@@ -66,7 +66,7 @@ pub struct Member {
     pub restitution: usize,
     bins: [HashMap<i32, Bin>; 4],
     pub excluded: u64,
-    /// The last record that was seen, and how many there were.
+    /// The last record that counts, and how many do: one whose histories are all left out says nothing.
     last: Option<usize>,
     pub records: usize,
 }
@@ -166,14 +166,14 @@ impl Fragility {
             let xs = measures(plan, seen);
             for (place, model) in places.of(seen) {
                 let member = &mut members[place];
-                if member.last != Some(seen.cell.motion) {
-                    member.last = Some(seen.cell.motion);
-                    member.records += 1;
-                }
                 let Some(known) = &seen.answers[model] else {
                     member.excluded += 1;
                     continue;
                 };
+                if member.last != Some(seen.cell.motion) {
+                    member.last = Some(seen.cell.motion);
+                    member.records += 1;
+                }
                 for (bins, x) in member.bins.iter_mut().zip(xs) {
                     let bin = bins.entry(bin(x)).or_insert_with(|| Bin { n: 0, sum_ln: 0.0, k: vec![0; states.len()] });
                     bin.n += 1;

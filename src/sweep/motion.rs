@@ -17,6 +17,16 @@ pub enum Frequency {
     Hz(f64),
 }
 
+impl Frequency {
+    /// For a structure with p [1/s]: circular [rad/s].
+    pub fn omega(self, p: f64) -> f64 {
+        match self {
+            Self::OverP(q) => q * p,
+            Self::Hz(hz) => TAU * hz,
+        }
+    }
+}
+
 /// One ground motion.
 #[derive(Clone, Debug, PartialEq)]
 pub enum Motion {
@@ -59,19 +69,8 @@ impl Motion {
             Self::File(path) => path.file_stem().unwrap_or_default().to_string_lossy().into_owned(),
             Self::Synthetic(i) => format!("synthetic-{i:05}"),
             Self::Earthquake(i) => format!("earthquake-{i:05}"),
-            Self::Pulse { shape, frequency: Frequency::OverP(q) } => format!("{} q {q:.4}", shape.name()),
-            Self::Pulse { shape, frequency: Frequency::Hz(f) } => format!("{} {f:.4} Hz", shape.name()),
-        }
-    }
-
-    /// What the reader of a file says of it.
-    ///
-    /// # Errors
-    /// A file that cannot be read.
-    pub fn notices(&self, making: &Making) -> Result<Vec<Notice>, RecordError> {
-        match self {
-            Self::File(path) => Ok(Recording::read(path, &making.read)?.notices()),
-            _ => Ok(Vec::new()),
+            Self::Pulse { shape, frequency: Frequency::OverP(q) } => format!("{} q {q:.4}", shape.label()),
+            Self::Pulse { shape, frequency: Frequency::Hz(f) } => format!("{} {f:.4} Hz", shape.label()),
         }
     }
 
@@ -79,18 +78,35 @@ impl Motion {
     ///
     /// # Errors
     /// A file that cannot be read.
-    pub fn record(&self, making: &Making, (p, alpha): (f64, f64)) -> Result<Record, RecordError> {
+    pub fn record(&self, making: &Making, of: (f64, f64)) -> Result<Record, RecordError> {
+        self.told(making, of, &mut |_| {})
+    }
+
+    /// The same; `notice` is told what the reader of a file says of it.
+    ///
+    /// # Errors
+    /// A file that cannot be read.
+    pub fn told(
+        &self,
+        making: &Making,
+        (p, alpha): (f64, f64),
+        notice: &mut dyn FnMut(&Notice),
+    ) -> Result<Record, RecordError> {
         let record = match self {
             Self::ElCentro => Record::el_centro(),
-            Self::File(path) => Record::read(path, &making.read)?,
+            Self::File(path) => {
+                let recording = Recording::read(path, &making.read)?;
+                recording.notices().iter().for_each(notice);
+                recording.into_record()
+            }
             Self::Synthetic(i) => synthetic::record(making.seed, *i, p, alpha),
             Self::Earthquake(i) => synthetic::earthquake(making.seed, *i, making.p.0),
             Self::Pulse { shape, frequency } => {
-                let (omega, least, greatest) = match frequency {
-                    Frequency::OverP(q) => (q * p, p, p),
-                    Frequency::Hz(f) => (TAU * f, making.p.0, making.p.1),
+                let (least, greatest) = match frequency {
+                    Frequency::OverP(_) => (p, p),
+                    Frequency::Hz(_) => making.p,
                 };
-                let (dt, mut accel) = shape.sampled(omega, GRAVITY, greatest);
+                let (dt, mut accel) = shape.sampled(frequency.omega(p), GRAVITY, greatest);
                 accel.resize(accel.len() + (SILENCE / (least * dt)).ceil() as usize, 0.0);
                 // its length is the pulse's
                 return Ok(Record { name: self.name(), dt, accel, vertical: None, source: Source::Synthetic });

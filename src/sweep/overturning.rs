@@ -14,14 +14,14 @@
 //! so that Housner's histories end with the pulse and a decision is exact however long the body would take. On springs the record
 //! goes on for 12/p.
 
-use std::{f64::consts::TAU, ops::Range, sync::Arc};
+use std::{ops::Range, sync::Arc};
 
 use rayon::prelude::*;
 
 use super::{
     SweepError,
     history::{self, Wanted},
-    motion::{Frequency, Motion},
+    motion::Motion,
     plan::{Cell, Plan},
     row::Outcome,
     springs::SpringsTable,
@@ -100,10 +100,7 @@ pub fn rows(
 fn of_cell(plan: &Plan, springs: Option<&SpringsTable>, cell: Cell) -> Vec<Row> {
     let subject = &plan.subjects[cell.subject];
     let Motion::Pulse { shape, frequency } = &plan.motions[cell.motion] else { return Vec::new() };
-    let omega = match frequency {
-        Frequency::OverP(q) => q * subject.p,
-        Frequency::Hz(hz) => TAU * hz,
-    };
+    let omega = frequency.omega(subject.p);
     // an amplitude of 1 lifts the body
     let (dt, accel) = shape.sampled(omega, subject.uplift(), subject.p);
     let e = plan.restitution(cell.subject, cell.restitution);
@@ -231,7 +228,7 @@ pub fn table(plan: &Plan, rows: &[Row]) -> Table {
     };
     let text = |of: &dyn Fn(&Row) -> String| Column::Text(all.iter().map(|(row, ..)| Arc::from(of(row))).collect());
     let pulse = |row: &Row| match &plan.motions[row.cell.motion] {
-        Motion::Pulse { shape, .. } => shape.name().to_string(),
+        Motion::Pulse { shape, .. } => shape.label(),
         other => other.name(),
     };
     let restitution = |row: &Row| plan.restitution(row.cell.subject, row.cell.restitution);

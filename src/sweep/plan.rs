@@ -270,8 +270,7 @@ impl Plan {
             } else {
                 // not where it lies, but what is in it
                 text += &motion.name();
-                motion.notices(&self.making)?.iter().for_each(&mut *notice);
-                let record = motion.record(&self.making, any)?;
+                let record = motion.told(&self.making, any, notice)?;
                 if record.pga() == 0.0 {
                     return Err(SweepError::Still { record: record.name });
                 }

@@ -58,6 +58,14 @@ impl Shape {
         }
     }
 
+    /// What tells it from others of its name.
+    pub fn label(&self) -> String {
+        match self {
+            Self::MavroeidisPapageorgiou { gamma, nu } => format!("{} gamma {gamma} nu {nu}", self.name()),
+            _ => self.name().into(),
+        }
+    }
+
     /// Where x = omega_p t begins and ends.
     fn range(&self) -> (f64, f64) {
         let around = |half: f64| (-half, half);
@@ -120,6 +128,14 @@ mod tests {
         Shape::MavroeidisPapageorgiou { gamma: 1.5, nu: 0.7 },
         Shape::MavroeidisPapageorgiou { gamma: 2.0, nu: PI / 2.0 },
     ];
+
+    #[test]
+    fn every_shape_has_a_label_of_its_own() {
+        let mut labels: Vec<String> = ALL.iter().map(Shape::label).collect();
+        labels.sort();
+        labels.dedup();
+        assert_eq!(labels.len(), ALL.len());
+    }
 
     #[test]
     fn a_pulse_has_its_peak_its_length_and_small_steps() {

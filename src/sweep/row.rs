@@ -87,19 +87,11 @@ pub fn table(plan: &Plan, rows: &[Row]) -> Table {
         ("pgv_over_uplift", real(&|row| Some(subject(row).p * row.pgv / subject(row).uplift()))),
     ];
     type Of = fn(&Row) -> Option<Answer>;
-    let models: [(_, Of, [&'static str; 5]); 2] = [
-        (
-            plan.model.housner(),
-            |row| row.housner,
-            ["housner_outcome", "housner_overturned", "housner_peak", "housner_impacts", "housner_overturned_s"],
-        ),
-        (
-            plan.model.fem(),
-            |row| row.fem,
-            ["fem_outcome", "fem_overturned", "fem_peak", "fem_impacts", "fem_overturned_s"],
-        ),
+    let models: [(_, Of, [&'static str; 3]); 2] = [
+        (plan.model.housner(), |row| row.housner, ["housner_outcome", "housner_overturned", "housner_peak"]),
+        (plan.model.fem(), |row| row.fem, ["fem_outcome", "fem_overturned", "fem_peak"]),
     ];
-    for (asked, of, [outcome, overturned, peak, impacts, time]) in models {
+    for (i, (asked, of, [outcome, overturned, peak])) in models.into_iter().enumerate() {
         if !asked {
             continue;
         }
@@ -109,11 +101,10 @@ pub fn table(plan: &Plan, rows: &[Row]) -> Table {
         let flags = rows.iter().map(|row| known(row).map(|a| a.outcome == Outcome::Overturned)).collect();
         columns.push((overturned, Column::Flag(flags)));
         columns.push((peak, real(&|row| of(row).and_then(|a| a.peak))));
-        if impacts == "housner_impacts" {
-            columns.push((impacts, real(&|row| of(row).and_then(|a| a.impacts).map(|n| n as f64))));
-        }
-        if time == "housner_overturned_s" {
-            columns.push((time, real(&|row| of(row).and_then(|a| a.overturned_s))));
+        // on springs neither is kept
+        if i == 0 {
+            columns.push(("housner_impacts", real(&|row| of(row).and_then(|a| a.impacts).map(|n| n as f64))));
+            columns.push(("housner_overturned_s", real(&|row| of(row).and_then(|a| a.overturned_s))));
         }
     }
     if plan.model.housner() && plan.model.fem() {

@@ -146,6 +146,7 @@ fn knet() {
         (cut(&text, 14), "line 15: 'Memo.', the last line of the header"),
         (cut(&text, 17), "the samples end after 0 values where line 12 announces 200"),
         (cut(&text, 28), "line 28: the samples end after 88 values where line 12 announces 200"),
+        (cut(&text, 41), "line 41: the samples end after 192 values where line 12 announces 200"),
         (change("Memo.", ""), "'Memo.'"),
         (change("100Hz", "Hz"), "line 11: 'Sampling Freq(Hz)' and a number"),
         (change("100Hz", "-100Hz"), "line 11: 'Sampling Freq(Hz)' and a number"),
@@ -175,6 +176,8 @@ fn esm() {
         (change("NDATA: 203", "NDATA: many"), "line 9: 'NDATA: ' and the number of samples"),
         (change("NDATA: 203", "NDATA: "), "line 9: 'NDATA: ' and the number of samples"),
         (without(&text, 9), "'NDATA: ' and the number of samples"),
+        (change("NDATA: 203", "NDATA: 203\nNDATA: 202"), "line 10: nothing else than what an earlier line says"),
+        (change("UNITS: cm/s^2", "UNITS: m/s^2"), "line 12: the header gives the peak acceleration as"),
         (
             change("SAMPLING_INTERVAL_S: 0.020000", "SAMPLING_INTERVAL_S: 0"),
             "line 8: 'SAMPLING_INTERVAL_S: ' and seconds",

@@ -165,3 +165,67 @@ fn options_must_agree_with_the_file() {
         assert!(with(Some(0.03), None).unwrap_err().contains("time step is"));
     }
 }
+
+/// Files as other programs leave them on the way: other line ends, a mark of byte order, tabs, blanks, no last line end.
+#[test]
+fn a_file_says_the_same_however_its_lines_end() {
+    let files = [
+        write::geonet(&[("N28W", 5000.0), ("S62W", 7000.0), ("Up", 9000.0)], true),
+        write::cosmos(&[(360, 3.0), (90, 2.0), (400, 4.0)], ("cm/sec2", 4)),
+        write::csmip(&[("90 Deg", 10.0), ("360 Deg", 5.0)]),
+        write::knet("N-S"),
+        write::dyna("HNE", 30.0),
+    ];
+    for text in files {
+        let expected = read("x", &text);
+        let unix = text.replace("\r\n", "\n");
+        let changed = [
+            unix.replace('\n', "\r\n"),
+            unix.replace('\n', "\r"),
+            format!("\u{feff}{unix}"),
+            unix.trim_end().to_owned(),
+            format!("{}\n\n   \n", unix.trim_end()),
+            unix.lines().map(|line| format!("{line} \t ")).collect::<Vec<_>>().join("\n"),
+            format!("{}\n\u{1a}", unix.trim_end()),
+        ];
+        for changed in changed {
+            let found = read("x", &changed);
+            assert_eq!((found.format, found.taken), (expected.format, expected.taken));
+            for (found, expected) in found.components.iter().zip(&expected.components) {
+                assert_eq!(found.record.accel, expected.record.accel);
+                assert_eq!((found.record.dt, found.direction), (expected.record.dt, expected.direction));
+            }
+        }
+    }
+}
+
+/// Instruments of K-NET and KiK-net differ in their scale factors and rates.
+#[test]
+fn knet_scale_factors_and_rates_are_the_header_s() {
+    let (counts, gal) = write::knet_counts();
+    let largest = gal.iter().fold(0.0, |most: f64, a| most.max(a.abs()));
+    let (most, mean) = (3920.0 / 6_182_761.0, counts.iter().sum::<i64>() as f64 / counts.len() as f64);
+    for (scale, hz, seconds) in [((2000.0, 8_388_608.0), 200.0, "1"), ((7845.0, 8_223_790.0), 100.0, "2")] {
+        let factor = scale.0 / scale.1;
+        let text = write::knet("4")
+            .replace("3920(gal)/6182761", &format!("{}(gal)/{}", scale.0, scale.1))
+            .replace("100Hz", &format!("{hz}Hz"))
+            .replace("Duration Time(s)  2", &format!("Duration Time(s)  {seconds}"))
+            .replace(&format!("{largest:.3}"), &format!("{:.3}", largest / most * factor));
+        let recording = read("x.NS2", &text);
+        let record = &recording.components[0].record;
+        assert_eq!((recording.format, record.dt), (RecordFormat::KNet, 1.0 / hz));
+        same(&record.accel, counts.iter().map(|count| (*count as f64 - mean) * factor * 0.01));
+    }
+}
+
+/// ESM and its relatives add keys; AFAD gives the peak without its sign.
+#[test]
+fn unknown_keys_of_a_header_are_passed_over() {
+    let text = write::dyna("HNE", 30.0);
+    let expected = read("x", &text);
+    let more =
+        text.replace("HEADER_FORMAT", "NDBC: 3\nBOGUS: 12.5: x\nLATE_NORMAL_TRIGGERED: \nUSER1:\t7\nHEADER_FORMAT");
+    assert_eq!(read("x", &more).components[0].record.accel, expected.components[0].record.accel);
+    assert_eq!(read("x", &text.replace("PGA_CM/S^2: -", "PGA_CM/S^2: ")).components.len(), 1);
+}

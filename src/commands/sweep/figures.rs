@@ -10,8 +10,9 @@ use crate::{
         compare::Comparison,
         fragility::{Fragility, MEASURES, Row, State},
         ida::{Ida, Point},
+        motion::Motion,
         plan::{Measure, Plan},
-        reduce::MODELS,
+        reduce::{MODELS, models},
         table::Table,
     },
 };
@@ -153,42 +154,66 @@ pub fn ida(plan: &Plan, ida: &Ida, path: &Path) -> Result<(), CommandError> {
     Ok(levels::draw(&levels::Ida { title: &title, level_label: level_label(plan), subjects: &subjects })?.save(path)?)
 }
 
+/// The spectra of a plan: structure, pulse and model.
+fn spectra_of(plan: &Plan) -> impl Iterator<Item = (usize, String, &'static str)> {
+    let mut pulses: Vec<String> = Vec::new();
+    for motion in &plan.motions {
+        if let Motion::Pulse { shape, .. } = motion
+            && !pulses.contains(&shape.label())
+        {
+            pulses.push(shape.label());
+        }
+    }
+    let models = models(plan);
+    (0..plan.subjects.len()).flat_map(move |subject| {
+        let (pulses, models) = (pulses.clone(), models.clone());
+        pulses
+            .into_iter()
+            .flat_map(move |pulse| models.clone().into_iter().map(move |model| (subject, pulse.clone(), MODELS[model])))
+    })
+}
+
+/// omega/p at which a structure is given a pulse, increasing: those where nothing overturns, too.
+fn frequencies(plan: &Plan, subject: usize, pulse: &str) -> Vec<f64> {
+    let p = plan.subjects[subject].p;
+    let of = |motion: &Motion| match motion {
+        Motion::Pulse { shape, frequency } if shape.label() == pulse => Some(frequency.omega(p) / p),
+        _ => None,
+    };
+    let mut all: Vec<f64> = plan.motions.iter().filter_map(of).collect();
+    all.sort_by(f64::total_cmp);
+    all.dedup();
+    all
+}
+
 pub fn overturning(plan: &Plan, table: &Table, path: &Path) -> Result<(), CommandError> {
     let (q, model) = (table.reals("omega_over_p"), table.texts("model"));
     let (from, to, impacts) = (table.reals("from_over_uplift"), table.reals("to_over_uplift"), table.reals("impacts"));
     let (subject, pulse) = (table.counts("structure_index"), table.texts("pulse"));
     let (low, high) = (plan.levels[0], plan.levels[plan.levels.len() - 1]);
-    let mut all: Vec<((i64, &str, &str), spectra::Spectrum)> = Vec::new();
     let e = table.reals("restitution");
-    // one spectrum each, of the first restitution
-    for row in (0..table.rows()).filter(|&row| e[row] == Some(plan.restitution(subject[row] as usize, 0))) {
-        let key = (subject[row], &*pulse[row], &*model[row]);
-        let at = all.iter().position(|(other, _)| *other == key).unwrap_or_else(|| {
-            let which = if plan.subjects.len() > 1 { format!(", structure {}", key.0 + 1) } else { String::new() };
-            let how = if plan.model.housner() && plan.model.fem() { format!(", {}", key.2) } else { String::new() };
-            let label = format!("{}{which}{how}", key.1);
-            all.push((key, spectra::Spectrum { label, frequencies: Vec::new(), intervals: Vec::new() }));
-            all.len() - 1
-        });
-        let spectrum = &mut all[at].1;
-        let q = q[row].unwrap_or(1.0);
-        spectrum.frequencies.push(q);
-        spectrum.intervals.push(spectra::Interval {
-            q,
+    let mut spectra = Vec::new();
+    for (index, name, kind) in spectra_of(plan).take(PANELS) {
+        let which = if plan.subjects.len() > 1 { format!(", structure {}", index + 1) } else { String::new() };
+        let how = if plan.model.housner() && plan.model.fem() { format!(", {kind}") } else { String::new() };
+        let frequencies = frequencies(plan, index, &name);
+        // of the first restitution
+        let mine = |row: &usize| {
+            subject[*row] == index as i64
+                && *pulse[*row] == *name
+                && &*model[*row] == kind
+                && e[*row] == Some(plan.restitution(index, 0))
+        };
+        let interval = |row: usize| spectra::Interval {
+            q: q[row].unwrap_or(1.0),
             from: from[row].unwrap_or(low),
             to: to[row].unwrap_or(f64::INFINITY),
             impacts: impacts[row].unwrap_or(0.0) as usize,
-        });
+        };
+        let intervals = (0..table.rows()).filter(mine).map(interval).collect();
+        spectra.push(spectra::Spectrum { label: format!("{name}{which}{how}"), frequencies, intervals });
     }
-    let mut spectra: Vec<spectra::Spectrum> = all.into_iter().take(PANELS).map(|(_, spectrum)| spectrum).collect();
-    for spectrum in &mut spectra {
-        spectrum.frequencies.sort_by(f64::total_cmp);
-        spectrum.frequencies.dedup();
-    }
-    if spectra.is_empty() {
-        return Ok(());
-    }
-    let all = || q.iter().copied().flatten();
+    let all = || spectra.iter().flat_map(|spectrum| spectrum.frequencies.iter().copied());
     let frequencies = (all().fold(f64::INFINITY, f64::min), all().fold(0.0, f64::max));
     let title = match &plan.subjects[..] {
         [one] => format!("Pulses that overturn: {}", one.name),

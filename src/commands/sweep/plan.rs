@@ -23,15 +23,15 @@ pub struct Options {
     /// Folder for the results
     #[arg(long, value_name = "DIR", default_value = "out")]
     out: PathBuf,
-    /// Shares of the work
+    /// Shares of the work, no more than there are parts
     #[arg(long, value_name = "N", default_value_t = 8, value_parser = clap::value_parser!(u64).range(1..=100_000))]
     shards: u64,
     /// Write sweep.sbatch and gather.sbatch for Slurm, and commands.txt for PyLauncher, GNU parallel and their like
     #[arg(long)]
     slurm: bool,
     /// Threads of a share
-    #[arg(long, value_name = "N", default_value_t = 1)]
-    jobs: usize,
+    #[arg(long, value_name = "N", default_value_t = 1, value_parser = clap::value_parser!(u16).range(1..=1024))]
+    jobs: u16,
     /// Time limit of a share, as Slurm has it
     #[arg(long, value_name = "TIME", default_value = "02:00:00", requires = "slurm")]
     time: String,
@@ -61,6 +61,12 @@ pub fn run(o: &Options) -> Result<(), CommandError> {
         plan.part
     )?;
     let shares = o.shards.min(plan.parts());
+    if shares < o.shards {
+        eprintln!(
+            "--shards {}: a share has one part of {} cells at least, so there are {shares}; for more, write a smaller part under [sweep]",
+            o.shards, plan.part
+        );
+    }
     let program = std::env::current_exe().unwrap_or_else(|_| PathBuf::from("tune"));
     let script = Script {
         program: quoted(&program),
@@ -92,7 +98,7 @@ struct Script<'a> {
     sweep: String,
     out: String,
     shares: u64,
-    jobs: usize,
+    jobs: u16,
     time: &'a str,
 }
 

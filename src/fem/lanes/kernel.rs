@@ -8,14 +8,14 @@
 
 use crate::{
     fem::{
-        model::{Foot, Model, N, State},
-        run::{Scales, StepMeasures},
+        model::{Foot, N, State},
+        run::{Contacts, Run, Scales, StepMeasures},
         step::{Convergence, Request, Stages, Verdict},
     },
     spring::{Chain, Springs},
     structure::Body,
 };
-use rows::ENTRIES;
+use rows::{ENTRIES, column};
 
 /// A block for each coordinate, written out: the compiler keeps a loop of many lines as a loop, and then leaves the lanes alone.
 macro_rules! coordinates {
@@ -42,8 +42,8 @@ const ROUNDS: usize = 2;
 /// A number of each lane.
 type Lanes = [f64; WIDTH];
 
-/// What a history's model and scales are made of.
-const FIXED: usize = 16;
+/// What a history's model is made of.
+const FIXED: usize = 14;
 
 /// The steps of all lanes: what is asked, and what comes out.
 pub(super) struct Kernel {
@@ -83,8 +83,11 @@ pub(super) struct Kernel {
     input: Lanes,
     dissipated: Lanes,
     missed: Lanes,
-    /// One where no foot comes near a change of contact.
-    clear: Lanes,
+    /// Compressions of both feet's gaps at the step's start and stages, and what counts as none.
+    gaps: [[Lanes; 4]; 2],
+    gap_tolerance: Lanes,
+    /// One where no foot's contact changes.
+    unchanged: Lanes,
 }
 
 /// A lane's step, tried.
@@ -131,34 +134,21 @@ impl Kernel {
             input: none,
             dissipated: none,
             missed: none,
-            clear: none,
+            gaps: [[none; 4]; 2],
+            gap_tolerance: none,
+            unchanged: none,
         }
     }
 
-    /// Lane l follows this model from now on.
-    pub fn seat(&mut self, l: usize, model: &Model<f64>, scales: &Scales) {
+    /// Lane l follows this run from now on.
+    pub fn seat(&mut self, l: usize, run: &Run<'_, f64>) {
+        let (model, scales) = (run.model, &run.scales);
+        self.gap_tolerance[l] = run.gap_tolerance();
         let Springs { vertical: v, horizontal: h } = &model.springs;
         let Body { mass, half_width, height, inertia } = model.body;
         let chain = |c: &Chain<f64>| [c.k1, c.k2, c.m2, c.c];
         let ([a, b, c, d], [e, f, g, i]) = (chain(v), chain(h));
-        let fixed = [
-            mass,
-            half_width,
-            height,
-            inertia,
-            a,
-            b,
-            c,
-            d,
-            e,
-            f,
-            g,
-            i,
-            model.translation,
-            model.rotation,
-            scales.radius,
-            0.0,
-        ];
+        let fixed = [mass, half_width, height, inertia, a, b, c, d, e, f, g, i, model.translation, model.rotation];
         for (to, from) in self.fixed.iter_mut().zip(fixed) {
             to[l] = from;
         }
@@ -175,6 +165,7 @@ impl Kernel {
 
     /// Ask lane l for a step.
     pub fn ask(&mut self, l: usize, state: &State<f64>, feet: &[Foot<f64>; 2], request: &Request<f64>, rounding: f64) {
+        assert!(l < WIDTH);
         for k in 0..N {
             self.q0[k][l] = state.q[k];
             self.v0[k][l] = state.v[k];
@@ -197,8 +188,9 @@ impl Kernel {
         self.fresh = true;
     }
 
-    /// What lane l's step came to; its stages, if it converged.
-    pub fn tell(&self, l: usize, stages: &mut Stages<f64>) -> Tried {
+    /// What lane l's step came to; if it converged, its end, and where contacts change or `wholly` all its stages.
+    pub fn tell(&self, l: usize, wholly: bool, stages: &mut Stages<f64>) -> Tried {
+        assert!(l < WIDTH);
         if self.steep[l] != 0.0 {
             return Tried::Steep;
         }
@@ -210,21 +202,26 @@ impl Kernel {
             Verdict::GoesOn => return Tried::GoesOn,
             verdict => verdict == Verdict::Converged,
         };
+        let unchanged = self.unchanged[l] != 0.0;
         if converged {
-            for i in 0..3 {
-                for k in 0..N {
-                    stages.a[i][k] = self.a[i][k][l];
-                    stages.q[i][k] = self.q[i][k][l];
-                    stages.v[i][k] = self.v[i][k][l];
-                }
+            let first = if unchanged && !wholly { 2 } else { 0 };
+            for i in first..3 {
+                stages.a[i] = column(&self.a[i], l);
+                stages.q[i] = column(&self.q[i], l);
+                stages.v[i] = column(&self.v[i], l);
             }
         }
+        let contacts = if unchanged {
+            Contacts::Unchanged
+        } else {
+            Contacts::Gaps([column(&self.gaps[0], l), column(&self.gaps[1], l)])
+        };
         let measures = StepMeasures {
             stored: self.stored[l],
             input: self.input[l],
             dissipated: self.dissipated[l],
             missed: self.missed[l],
-            clear: self.clear[l] != 0.0,
+            contacts,
         };
         Tried::Step(converged, measures)
     }
@@ -264,6 +261,6 @@ impl Kernel {
         }
         self.measure();
         self.account();
-        self.clear();
+        self.contacts();
     }
 }

@@ -1,6 +1,6 @@
 //! Contact events: located by repeating the step, then the foot switches (where they are met: `met`).
 
-use super::{Run, met::Met};
+use super::{Run, cubic::falls_through_zero, met::Met};
 use crate::{
     fem::{
         model::{Contact, Foot, TH},
@@ -37,7 +37,7 @@ const MOST_LOCATED: usize = 40;
 /// Touches and lift-offs of one jump of a massless rotation before it counts as having lost its balance.
 const MOST_TURNS: usize = 50;
 
-/// Share of such a jump to which the place where a foot touches is found by halving.
+/// Share of such a jump to which the place where a foot touches is found by halving, where it stood at the edge.
 const HALVED: f64 = 1e-8;
 
 /// Radians within 1/Omega_n: a massless rotation that is let go faster than that was about to snap, and keeps no rate that
@@ -90,9 +90,10 @@ pub(super) enum Located<S> {
 }
 
 impl<S: Scalar> Run<'_, S> {
-    /// Contact force scale below which a gap counts as zero [m].
-    pub(super) fn gap_tolerance(&self) -> f64 {
-        (1e-9 * self.compression).max(4e-16 * self.model.body.radius().re())
+    /// Compression below which a gap counts as zero [m]: a share of the weight's that is far below what a step may miss.
+    pub fn gap_tolerance(&self) -> f64 {
+        let share = (0.01 * self.control.tolerance).clamp(1e-9, 1e-6);
+        (share * self.compression).max(4e-16 * self.model.body.radius().re())
     }
 
     /// Whether this foot, touching the ground, trails on it rather than holds (`strut`).
@@ -274,11 +275,24 @@ impl<S: Scalar> Run<'_, S> {
             if inside(end) >= -self.gap_tolerance() {
                 return None;
             }
+            let within = |share: f64| inside(start + (end - start) * share);
+            let edge = 0.1 * self.gap_tolerance();
+            let first = within(0.0);
+            if first > edge {
+                return Some((falls_through_zero((0.0, first), (1.0, within(1.0)), edge, within), foot));
+            }
+            // at the edge, and off it at once: half a turn away it does not come back
+            let mut q = self.state.q;
+            q[TH] = start;
+            let (_, slope) = self.model.compression_and_slope(foot, &q);
+            if sign * slope.re() * (end - start).re() < 0.0 {
+                return Some((0.0, foot));
+            }
             let (mut low, mut high) = (0.0, 1.0);
             // near enough for Newton's method (`where_it_touches`)
             while high - low > HALVED {
                 let middle = 0.5 * (low + high);
-                if inside(start + (end - start) * middle) >= 0.0 {
+                if within(middle) >= 0.0 {
                     low = middle;
                 } else {
                     high = middle;

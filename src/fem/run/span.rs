@@ -17,11 +17,11 @@
 //! local error. A step that meets a change of contact, or whose body comes to lie, is refused: the steps up to it end at samples. Contact is
 //! looked for along the parabola; a touch that only what is missing would make is not seen.
 
-use super::{Met, Run, StepMeasures, real};
+use super::{Contacts, Met, Run, StepMeasures, real};
 use crate::{
     fem::{
         control::HistoryOutcome,
-        model::{Contact, State, TH, Vector, X, Z},
+        model::{Contact, Model, Pose, State, TH, Vector, X, Z},
         observer::{Observer, View},
         radau::C,
         step::{Ground, Stages, no_guess},
@@ -31,7 +31,7 @@ use crate::{
 use std::{f64::consts::FRAC_PI_2, ops::ControlFlow};
 
 /// Intervals between samples in a step, at most.
-const MOST: usize = 32;
+pub(super) const MOST: usize = 32;
 
 /// Omega theta' h^2 of the longest step: beyond, iterations take more time than they save.
 const REACH: f64 = 1.5;
@@ -39,15 +39,36 @@ const REACH: f64 = 1.5;
 /// Growth from such a step to the next.
 const GROWTH: f64 = 1.6;
 
+// a multiplication where a division would be: they are done at every sample
+const THIRD: f64 = 1.0 / 3.0;
+const SIXTH: f64 = 1.0 / 6.0;
+
 /// A step over several samples.
 #[derive(Clone, Copy, Debug)]
-pub(super) struct Span<S> {
+pub(super) struct Span {
     /// Intervals between samples.
     intervals: usize,
-    /// D at the samples within [m].
-    late: [S; MOST],
     /// What the parabola adds to the step's local error.
     missed: f64,
+}
+
+/// The springs as such a step sees them.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Softness {
+    /// Circular frequency of the body on the stiffer chain [rad/s].
+    omega: f64,
+    /// By how much the springs give way under an acceleration of the mass of one [m per m/s2].
+    compliance: f64,
+}
+
+impl Softness {
+    pub fn of<S: Scalar>(model: &Model<S>) -> Self {
+        let mass = model.body.mass.re();
+        let chains = [&model.springs.vertical, &model.springs.horizontal];
+        let give = chains.map(|chain| chain.k1.re().recip() + chain.k2.re().recip());
+        let omega = (give[0].min(give[1]) * mass).sqrt().recip();
+        Self { omega, compliance: mass * (give[0] + give[1]) }
+    }
 }
 
 impl<S: Scalar> Run<'_, S> {
@@ -76,18 +97,18 @@ impl<S: Scalar> Run<'_, S> {
     }
 
     /// The parabola over so many intervals from here.
-    #[allow(clippy::needless_range_loop)] // one index over samples and what is late at them
-    fn parabola(&self, n: usize) -> (Ground<S>, Span<S>) {
+    fn parabola(&mut self, n: usize) -> (Ground<S>, Span) {
         let (dt, count) = (self.motion.dt, n as f64);
-        let a = |i: usize| self.motion.scale * self.motion.accel[self.interval + i];
+        let (motion, from) = (self.motion, self.interval);
+        let a = |i: usize| motion.scale * motion.accel[from + i];
         let zero = S::zero();
         let (mut m0, mut m1, mut m2) = (zero, zero, zero);
         for i in 0..n {
             let (now, next, at) = (a(i), a(i + 1), i as f64);
-            let (zeroth, first) = ((now + next) * 0.5, now / 6.0 + next / 3.0);
+            let (zeroth, first) = ((now + next) * 0.5, now * SIXTH + next * THIRD);
             m0 += zeroth;
             m1 += zeroth * at + first;
-            m2 += (zeroth * at + first * 2.0) * at + now / 12.0 + next * 0.25;
+            m2 += (zeroth * at + first * 2.0) * at + (now * THIRD + next) * 0.25;
         }
         // over a step of length 1
         let (m0, m1, m2) = (m0 / count, m1 / (count * count), m2 / (count * count * count));
@@ -95,24 +116,24 @@ impl<S: Scalar> Run<'_, S> {
         let c1 = m1 * 192.0 - m0 * 36.0 - m2 * 180.0;
         let c2 = m0 * 30.0 - m1 * 180.0 + m2 * 180.0;
 
-        let h = count * dt;
+        let (h, per) = (count * dt, count.recip());
         let (mut speed, mut place) = (zero, zero);
-        let (mut late, mut latest, mut most) = ([zero; MOST], 0.0_f64, (a(0) - c0).re().abs());
+        let (mut latest, mut most) = (0.0_f64, (a(0) - c0).re().abs());
         for i in 1..=n {
-            let (before, now, x) = (a(i - 1), a(i), i as f64 / count);
-            place += (speed + (before / 3.0 + now / 6.0) * dt) * dt;
+            let (before, now, x) = (a(i - 1), a(i), i as f64 * per);
+            place += (speed + (before * THIRD + now * SIXTH) * dt) * dt;
             speed += (before + now) * (0.5 * dt);
-            let parabola = (c0 * 0.5 + (c1 / 6.0 + c2 * (x / 12.0)) * x) * (h * x * h * x);
+            let parabola = (c0 * 0.5 + (c1 + c2 * (0.5 * x)) * (SIXTH * x)) * (h * x * h * x);
             most = most.max((now - (c0 + (c1 + c2 * x) * x)).re().abs());
             if i < n {
-                late[i] = place - parabola;
-                latest = latest.max(late[i].re().abs());
+                self.late[i] = place - parabola;
+                latest = latest.max(self.late[i].re().abs());
             }
         }
-        let kinks = (h / self.scales.moment).powi(2) * latest + self.compliance() * most;
+        let kinks = (h / self.scales.moment).powi(2) * latest + self.softness.compliance * most;
         let missed = kinks / (self.scales.radius * self.scales.alpha);
         let ground = Ground { start: [c0, zero], slope: [c1 / h, zero], curve: [c2 / (h * h), zero] };
-        (ground, Span { intervals: n, late, missed })
+        (ground, Span { intervals: n, missed })
     }
 
     /// The accelerations at the stages of a step of size h, of a rigid body that turns about its foot,
@@ -124,14 +145,18 @@ impl<S: Scalar> Run<'_, S> {
         let Self { model, scales, state, .. } = self;
         let foot = usize::from(self.feet[1].closed());
         let inertia = model.rotation + model.translation * (scales.radius * scales.radius);
+        let share = model.body.mass / inertia;
+        let Pose { sin: sin_0, cos: cos_0 } = Pose::of(&state.q);
         C.map(|c| {
             let (time, last) = (h * c, self.guess[TH]);
             let rate = state.v[TH] + last * time;
-            let theta = state.q[TH] + (state.v[TH] + last * time * 0.5) * time;
-            let (sin, cos) = crate::scalar::sin_cos(theta);
+            let turn = (state.v[TH] + last * time * 0.5) * time;
+            // near enough for a guess
+            let level = -turn * turn * 0.5 + 1.0;
+            let (sin, cos) = (sin_0 * level + cos_0 * turn, cos_0 * level - sin_0 * turn);
             let (_, _, px_th, pz_th) = model.foot(foot, &state.q, sin, cos);
             let [ground, _] = self.here.after(h, c);
-            let turning = model.body.mass * (ground * px_th + pz_th * GRAVITY) / inertia;
+            let turning = share * (ground * px_th + pz_th * GRAVITY);
             let mut a = no_guess();
             a[TH] = turning;
             a[X] = -(px_th * turning + pz_th * rate * rate);
@@ -143,27 +168,13 @@ impl<S: Scalar> Run<'_, S> {
     /// The longest step whose iteration converges [s]. While the body turns by d_theta from where the matrix was taken, stiff springs
     /// push it aside with Omega^2 d_theta for each unit that it is off, and an iteration is off by (Omega h d_theta)^2 of that.
     fn reach(&self) -> f64 {
-        let springs = &self.model.springs;
-        let stiff = [&springs.vertical, &springs.horizontal].map(|chain| {
-            let (k1, k2) = (chain.k1.re(), chain.k2.re());
-            k1 * k2 / (k1 + k2)
-        });
-        let omega = (stiff[0].max(stiff[1]) / self.model.body.mass.re()).sqrt();
-        (REACH / (omega * self.state.v[TH].re().abs())).sqrt()
-    }
-
-    /// By how much the springs give way under an acceleration of the mass of one [m per m/s2].
-    fn compliance(&self) -> f64 {
-        let springs = &self.model.springs;
-        let give = |k: S| k.re().recip();
-        let chains = [&springs.vertical, &springs.horizontal].map(|chain| give(chain.k1) + give(chain.k2));
-        self.model.body.mass.re() * (chains[0] + chains[1])
+        (REACH / (self.softness.omega * self.state.v[TH].re().abs())).sqrt()
     }
 
     /// Take note of such a step.
     pub(super) fn tried_span(
         &mut self,
-        span: &Span<S>,
+        span: &Span,
         converged: bool,
         stages: &Stages<S>,
         measures: Option<&StepMeasures<S>>,
@@ -174,7 +185,7 @@ impl<S: Scalar> Run<'_, S> {
             self.refuse(h * 0.25);
             return Ok(());
         }
-        let met = if measures.is_some_and(|m| m.clear) { Met::Nothing } else { self.met(stages) };
+        let met = self.met(stages, measures.map_or(&Contacts::Unknown, |m| &m.contacts));
         // a body that lies is followed to the sample at which it does
         let flat = stages.end().q[TH].re().abs() > FRAC_PI_2;
         let until = match met {
@@ -199,7 +210,7 @@ impl<S: Scalar> Run<'_, S> {
             let time = (self.interval + i) as f64 * self.motion.dt;
             // forces are those at the end
             observer.step(&self.view(real(time)));
-            let state = self.within(&start, stages, i as f64 / span.intervals as f64, span.late[i]);
+            let state = self.within(&start, stages, i as f64 / span.intervals as f64, self.late[i]);
             let view =
                 View { time: real(time), model: self.model, state: &state, feet: &self.feet, energy: &self.energy };
             if let ControlFlow::Break(()) = observer.sample(self.interval + i, &view) {

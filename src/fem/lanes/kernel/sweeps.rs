@@ -13,7 +13,7 @@ use crate::{
         model::{Contact, Foot, Model, N, Pose, State, TH, Vector},
         newton::{Chains, Rigid},
         radau::{A, C, GAMMA},
-        run::{OVERSHOOT, Scales},
+        run::{Scales, stays_inside},
         step::{EIGENVALUE, Ground, LARGEST, complex, embedded, error_right, from_modes, modes, stage, times},
     },
     scalar::{in_reach, small_sin_cos},
@@ -186,12 +186,13 @@ impl Kernel {
     pub(super) fn measure(&mut self) {
         for l in 0..WIDTH {
             let (model, feet, root) = (self.model(l), self.feet(l), self.h[l] * GAMMA);
+            let per = root.recip();
             let (q, v) = (column(&self.q0, l), column(&self.v0, l));
             let (mut d_q, mut d_v, mut rate) = ([0.0; N], [0.0; N], [0.0; N]);
             coordinates!(K => {
                 d_q[K] = embedded([self.q[0][K][l], self.q[1][K][l], self.q[2][K][l]], q[K]);
                 d_v[K] = embedded([self.v[0][K][l], self.v[1][K][l], self.v[2][K][l]], v[K]);
-                rate[K] = -d_q[K] / root;
+                rate[K] = -d_q[K] * per;
             });
             let forces = model.forces_at(&pose(&q), &q, &rate, &feet, column(&self.start, l));
             let right = error_right(root, &forces, &model.masses(&feet), &v, &d_q, &d_v);
@@ -199,7 +200,7 @@ impl Kernel {
             let e_q = rigid.solve(&chains, &right, |x, t| x * t);
             let mut e_v = [0.0; N];
             coordinates!(K => {
-                e_v[K] = (e_q[K] - d_q[K]) / root - v[K];
+                e_v[K] = (e_q[K] - d_q[K]) * per - v[K];
             });
             let error = State { q: e_q, v: e_v };
             let [radius, share, moment, alpha] = column(&self.scales, l);
@@ -229,26 +230,26 @@ impl Kernel {
         (input, model.dissipation(&q, &v, &self.feet(l)) * weight)
     }
 
-    /// Whether the gaps' compressions at the nodes leave no room for a change of contact (`run/met`).
+    /// The gaps' compressions at the nodes, and whether they leave every contact what it is (`run/met`).
     #[inline(always)]
-    pub(super) fn clear(&mut self) {
+    pub(super) fn contacts(&mut self) {
         for l in 0..WIDTH {
             let (model, feet) = (self.model(l), self.feet(l));
             let nodes = [column(&self.q0, l), column(&self.q[0], l), column(&self.q[1], l), column(&self.q[2], l)];
-            let mut clear = true;
+            let mut unchanged = true;
             let poses = [pose(&nodes[0]), pose(&nodes[1]), pose(&nodes[2]), pose(&nodes[3])];
             coordinates!(I in 0 1 => {
                 let sign = if feet[I].closed() { 1.0 } else { -1.0 };
                 let mut inside = [0.0; 4];
                 coordinates!(M in 0 1 2 3 => {
-                    inside[M] = sign * model.compression_at(&poses[M], I, &nodes[M], &feet[I]);
+                    let gap = model.compression_at(&poses[M], I, &nodes[M], &feet[I]);
+                    self.gaps[I][M][l] = gap;
+                    inside[M] = sign * gap;
                 });
-                let low = inside[0].min(inside[1]).min(inside[2].min(inside[3]));
-                let high = inside[0].max(inside[1]).max(inside[2].max(inside[3])).max(0.0);
                 // a sliding foot has a level of its own
-                clear &= (low > OVERSHOOT * (high - low)) & (feet[I].closed() == feet[I].holds());
+                unchanged &= stays_inside(&inside, self.gap_tolerance[l]) & (feet[I].closed() == feet[I].holds());
             });
-            self.clear[l] = if clear { 1.0 } else { 0.0 };
+            self.unchanged[l] = if unchanged { 1.0 } else { 0.0 };
         }
     }
 }
