@@ -61,6 +61,26 @@ fn files_are_told_as_tables_and_as_json() {
 }
 
 #[test]
+fn a_case_without_a_file_stands_for_its_own_record() {
+    let dir = folder();
+    let json = |args: &[&str]| {
+        let (code, out, err) = tune(dir.path(), args);
+        assert_eq!(code, 0, "{err}");
+        serde_json::from_str::<Value>(&out).unwrap()
+    };
+    let named = json(&["record", "site.V2A", "--json", "--component", "up", "--case", "case.toml"]);
+    assert_eq!(json(&["record", "--case", "case.toml", "--json"]), named);
+    let other = json(&["record", "--case", "case.toml", "--component", "332", "--json"]);
+    assert_eq!(other[0]["components"][0]["taken"].as_bool(), Some(true));
+    let (code, out, err) = tune(dir.path(), &["record"]);
+    assert_eq!((code, out.as_str(), err.lines().count()), (2, "", 1), "{err}");
+    let block = "[structure]\nkind = \"block\"\nheight_m = 1.0\nwidth_m = 0.5\nmass_kg = 100.0\n";
+    fs::write(dir.path().join("none.toml"), block).unwrap();
+    let (code, _, err) = tune(dir.path(), &["record", "--case", "none.toml"]);
+    assert!(code == 2 && err.contains("names no record file"), "{err}");
+}
+
+#[test]
 fn a_bad_file_among_others_is_said_and_fails() {
     let dir = folder();
     let (code, out, err) = tune(dir.path(), &["record", "bad.txt"]);
