@@ -208,7 +208,7 @@ mod tests {
     #[test]
     fn forces_between_landings_are_about_the_weight_whatever_the_springs() {
         let structure = Structure::a_frame(9.0, 2.1, 120e3).unwrap();
-        let record = Record::new("pulse", 0.01, (0..1000).map(|i| if i < 50 { 4.0 } else { 0.0 }).collect()).unwrap();
+        let record = Record::new("pulse", 0.01, (0..1000).map(|i| if i < 25 { 4.0 } else { 0.0 }).collect()).unwrap();
         for hz in [320.0, 1280.0] {
             let design = Design::from_kc(0.3, 0.1, 0.75, hz);
             let springs = Springs { vertical: design, horizontal: design }.chains(structure.mass_kg);

@@ -96,14 +96,23 @@ impl<S: Scalar> Elements<S> {
         if self.is_empty() {
             return energy;
         }
-        let stored = self.leg.as_ref().map_or(S::zero(), legs);
-        energy + self.each().fold(stored, |stored, element| stored + element.energy(q))
+        energy + self.stored(self.leg.as_ref().map_or(S::zero(), legs), q)
+    }
+
+    #[inline(never)]
+    fn stored(&self, legs: S, q: &Vector<S>) -> S {
+        self.each().fold(legs, |stored, element| stored + element.energy(q))
     }
 
     /// A power and what the elements take [W].
     #[inline(always)]
     pub fn add_dissipation(&self, power: S, q: &Vector<S>, v: &Vector<S>) -> S {
-        self.each().fold(power, |power, element| power + element.dissipation(q, v))
+        if self.is_empty() { power } else { power + self.dissipation(q, v) }
+    }
+
+    #[inline(never)]
+    fn dissipation(&self, q: &Vector<S>, v: &Vector<S>) -> S {
+        self.each().fold(S::zero(), |power, element| power + element.dissipation(q, v))
     }
 
     #[inline(never)]

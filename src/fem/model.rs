@@ -229,10 +229,11 @@ impl<S: Scalar> Model<S> {
         let (px, pz, px_th, pz_th) = self.foot(i, q, pose.sin, pose.cos);
         let press = || (q[az(i)] - pz) * self.springs.vertical.k1;
         let vertical = if foot.closed() { press() } else { S::zero() };
-        let horizontal = match foot.contact {
-            Contact::Stick => (q[ax(i)] + foot.anchor - px) * self.springs.horizontal.k1,
-            Contact::Slip(side) => self.law.slipping(press(), side),
-            Contact::Open | Contact::Slide | Contact::Trail => S::zero(),
+        // the law first: where no foot can slip, lanes of histories must not branch on how one does
+        let horizontal = match (&self.law, foot.contact) {
+            (ContactLaw::Coulomb { .. }, Contact::Slip(side)) => self.law.slipping(press(), side),
+            _ if foot.holds() => (q[ax(i)] + foot.anchor - px) * self.springs.horizontal.k1,
+            _ => S::zero(),
         };
         FootForce { px_th, pz_th, horizontal, vertical }
     }

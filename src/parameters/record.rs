@@ -316,7 +316,8 @@ mod tests {
         let error = parameters(&made, Path::new("out")).excitation(Path::new("p.json")).unwrap_err().to_string();
         assert_eq!(
             error,
-            "p.json: its record made was made by a program and is in no file; name a record with --record"
+            "p.json: its record made was given as numbers and is in no file; save it as a column of accelerations, in Python \
+             numpy.savetxt(\"motion.txt\", record.accel), and name it with --record motion.txt --dt 0.01 --units m/s2"
         );
     }
 
