@@ -22,7 +22,7 @@ pub(super) fn allowed_error(tolerance: f64) -> f64 {
     ERROR * tolerance.powf(2.0 / 3.0)
 }
 
-/// x^(1/6) within 0.4 %; infinite where a step would grow beyond any use anyway.
+/// x^(1/6), up to 0.81 % too large: a tenth is left for it and for more. Infinite where a step would grow beyond any use anyway.
 fn sixth_root(x: f64) -> f64 {
     if x > 1e5 {
         return f64::INFINITY;
@@ -168,7 +168,7 @@ mod tests {
         for i in -600..=49 {
             let x = 10.0_f64.powf(f64::from(i) * 0.1);
             let exact = x.powf(1.0 / 6.0);
-            assert!((sixth_root(x) - exact).abs() < 4e-3 * exact, "{x}");
+            assert!((0.0..8.1e-3).contains(&(sixth_root(x) / exact - 1.0 + 1e-15)), "{x}");
         }
         assert!(sixth_root(0.0) < 1e-40 && sixth_root(f64::INFINITY) == f64::INFINITY);
     }
