@@ -15,6 +15,9 @@ use super::{
 };
 use crate::sweep::{parts::Parts, plan::Plan};
 
+/// Shares unless said.
+const SHARES: u64 = 8;
+
 /// Options of `tune sweep plan`.
 #[derive(Debug, Args)]
 pub struct Options {
@@ -23,9 +26,9 @@ pub struct Options {
     /// Folder for the results
     #[arg(long, value_name = "DIR", default_value = "out")]
     out: PathBuf,
-    /// Shares of the work, no more than there are parts
-    #[arg(long, value_name = "N", default_value_t = 8, value_parser = clap::value_parser!(u64).range(1..=100_000))]
-    shards: u64,
+    /// Shares of the work, no more than there are parts [default: 8]
+    #[arg(long, value_name = "N", value_parser = clap::value_parser!(u64).range(1..=100_000))]
+    shards: Option<u64>,
     /// Write sweep.sbatch and gather.sbatch for Slurm, and commands.txt for PyLauncher, GNU parallel and their like
     #[arg(long)]
     slurm: bool,
@@ -60,11 +63,11 @@ pub fn run(o: &Options) -> Result<(), CommandError> {
         plan.parts(),
         plan.part
     )?;
-    let shares = o.shards.min(plan.parts());
-    if shares < o.shards {
+    let shares = o.shards.unwrap_or(SHARES).min(plan.parts());
+    if let Some(asked) = o.shards.filter(|asked| *asked > shares) {
         eprintln!(
-            "--shards {}: a share has one part of {} cells at least, so there are {shares}; for more, write a smaller part under [sweep]",
-            o.shards, plan.part
+            "--shards {asked}: a share has one part of {} cells at least, so there are {shares}; for more, write a smaller part under [sweep]",
+            plan.part
         );
     }
     let program = std::env::current_exe().unwrap_or_else(|_| PathBuf::from("tune"));
