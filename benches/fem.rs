@@ -66,7 +66,8 @@ fn ratio(bench: &BenchCase, cases: &[Analysis<f64>], threads: &rayon::ThreadPool
         black_box(work());
         began.elapsed().as_secs_f64() / cases.len() as f64
     };
-    let every = |case: &Case<f64>| peak(&Case { control: Control { long_steps: false, ..case.control }, ..*case });
+    let every =
+        |case: &Analysis<f64>| peak(&Analysis { control: Control { long_steps: false, ..case.control }, ..*case });
     let samples = || cases.iter().map(every).sum();
     let alone = || cases.iter().map(peak).sum();
     let lanes = || threads.install(|| histories(black_box(cases), |_| Peak(0.0))).iter().map(|(peak, _)| peak.0).sum();

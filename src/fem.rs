@@ -4,7 +4,7 @@
 //! |---|---|
 //! | `model`, `balance`, `strut` | coordinates, kinematics, contact forces, energies; the rotation that has no inertia, on both feet and on one |
 //! | `stance` | where it stands at first |
-//! | `radau`, `newton`, `step` | one implicit step: tables, condensed matrix, iteration |
+//! | `radau`, `iterate`, `condensed`, `newton`, `step` | one implicit step: tables, iteration, condensed chains and matrix |
 //! | `run` | the time loop: samples; in `run/`, contact events and step acceptance |
 //! | `control`, `energy`, `observer` | what a run is told, accounts for and shows |
 //! | `frame`, `leg`, `coupled` | elastic legs, dampers, tendon: condensed into the contact law; their Newton matrix |
@@ -22,14 +22,17 @@
 //! phase. So an embedded formula of order three estimates the local error beside it (`step`), and a step must satisfy both.
 
 mod balance;
+pub(crate) mod condensed;
 mod contact;
 mod control;
 mod coupled;
+pub(crate) mod cubic;
 mod demands;
 mod element;
 mod energy;
 mod frame;
 mod history;
+pub(crate) mod iterate;
 mod landings;
 mod lanes;
 mod leg;
@@ -37,7 +40,7 @@ mod model;
 mod newton;
 mod observer;
 #[allow(clippy::excessive_precision)] // tables to 18 digits, as computed
-mod radau;
+pub(crate) mod radau;
 mod run;
 mod slipping;
 mod stance;

@@ -13,6 +13,7 @@ pub(crate) fn one_line(text: &str) -> String {
 }
 
 /// A share in percent, three digits: 0.0123 %, 4.57 %, 96.0 %. Beyond a thousand percent a number says no more than that it is large.
+#[cfg(any(feature = "cli", test))]
 pub(crate) fn percent(share: f64) -> String {
     let x = 100.0 * share;
     let size = x.abs();

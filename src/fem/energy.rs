@@ -19,7 +19,7 @@ pub struct Energy<S> {
 
 impl<S: Scalar> Energy<S> {
     /// The account of a run that begins with this much stored [J].
-    pub(super) fn new(stored: S) -> Self {
+    pub(crate) fn new(stored: S) -> Self {
         let zero = S::zero();
         Self { initial: stored, stored, input: zero, dissipated: zero, released: zero }
     }

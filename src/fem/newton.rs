@@ -8,39 +8,10 @@ use std::ops::{Add, Neg, Sub};
 
 use num_traits::{Num, Zero};
 
+pub(super) use super::condensed::Condensed;
 use super::model::{Contact, Foot, FootForce, Model, N, State, TH, Vector, X, Z, ax, az};
 use super::{coupled::Coupled, slipping::Slipping};
-use crate::{
-    scalar::Scalar,
-    spring::{Chain, Springs},
-};
-
-/// One chain's share of the condensed matrix.
-#[derive(Clone, Copy)]
-pub(super) struct Condensed<T> {
-    /// 1 / (m2 + s c + s^2 (k1 + k2)); k1 only when closed.
-    pub pivot: T,
-    /// s^2 k1; zero when open.
-    pub coupling: T,
-    /// coupling pivot: the share of a force on the absorber that reaches the body.
-    pub share: T,
-    /// The chain's dynamic stiffness times s^2; zero when open.
-    pub stiffness: T,
-}
-
-impl<T: Num + Copy> Condensed<T> {
-    #[inline(always)]
-    pub fn new<S: Scalar>(chain: &Chain<S>, closed: bool, s: T, lift: &impl Fn(S) -> T) -> Self {
-        let base = lift(chain.m2) + s * (lift(chain.c) + s * lift(chain.k2));
-        if closed {
-            let coupling = s * s * lift(chain.k1);
-            let pivot = T::one() / (base + coupling);
-            Self { pivot, coupling, share: coupling * pivot, stiffness: coupling * base * pivot }
-        } else {
-            Self { pivot: T::one() / base, coupling: T::zero(), share: T::zero(), stiffness: T::zero() }
-        }
-    }
-}
+use crate::{scalar::Scalar, spring::Springs};
 
 /// Both feet's chains, horizontal and vertical. They depend on the step's size and on what holds, on nothing else.
 #[derive(Clone, Copy)]

@@ -6,42 +6,42 @@
 //! `T` diagonalises A in real form: A T = T Lambda with Lambda = [[GAMMA]] and [[ALPHA, BETA], [-BETA, ALPHA]].
 
 /// Nodes c.
-pub(super) const C: [f64; 3] = [0.155_051_025_721_682_19, 0.644_948_974_278_317_8, 1.0];
+pub(crate) const C: [f64; 3] = [0.155_051_025_721_682_19, 0.644_948_974_278_317_8, 1.0];
 
 /// Coefficients A; the last row is also the weights b.
-pub(super) const A: [[f64; 3]; 3] = [
+pub(crate) const A: [[f64; 3]; 3] = [
     [0.196_815_477_223_660_43, -0.065_535_425_850_198_388, 0.023_770_974_348_220_152],
     [0.394_424_314_739_087_28, 0.292_073_411_665_228_46, -0.041_548_752_125_997_931],
     [0.376_403_062_700_467_28, 0.512_485_826_188_421_61, 0.111_111_111_111_111_11],
 ];
 
 /// A squared.
-pub(super) const A2: [[f64; 3]; 3] = [
+pub(crate) const A2: [[f64; 3]; 3] = [
     [0.021_835_034_190_722_740, -0.019_857_254_098_612_275, 0.010_042_630_196_562_411],
     [0.177_190_587_431_945_61, 0.038_164_965_809_277_260, -0.007_375_963_529_895_744_3],
     [0.318_041_381_743_977_17, 0.181_958_618_256_022_83, 0.0],
 ];
 
 /// The real eigenvalue of A.
-pub(super) const GAMMA: f64 = 0.274_888_829_595_677_37;
+pub(crate) const GAMMA: f64 = 0.274_888_829_595_677_37;
 /// Real part of the complex pair of A.
-pub(super) const ALPHA: f64 = 0.162_555_585_202_161_32;
+pub(crate) const ALPHA: f64 = 0.162_555_585_202_161_32;
 /// Imaginary part of the complex pair of A.
-pub(super) const BETA: f64 = 0.184_949_324_407_140_78;
+pub(crate) const BETA: f64 = 0.184_949_324_407_140_78;
 
 /// Weights of the stages in the embedded formula of order three, GAMMA/3 (-13 - 7 sqrt 6, -13 + 7 sqrt 6, -1); that of the
 /// start is GAMMA.
-pub(super) const E: [f64; 3] = [-2.762_305_454_748_599_2, 0.379_935_598_252_728_87, -0.091_629_609_865_225_789];
+pub(crate) const E: [f64; 3] = [-2.762_305_454_748_599_2, 0.379_935_598_252_728_87, -0.091_629_609_865_225_789];
 
 /// Eigenvectors: the real one, then real and imaginary part of the one of ALPHA + i BETA.
-pub(super) const T: [[f64; 3]; 3] = [
+pub(crate) const T: [[f64; 3]; 3] = [
     [0.094_438_762_488_975_241, -0.141_255_295_020_954_21, -0.030_029_194_105_147_424],
     [0.250_213_122_965_333_11, 0.204_129_352_293_799_93, 0.382_942_112_757_261_94],
     [1.0, 1.0, 0.0],
 ];
 
 /// Inverse of T.
-pub(super) const T_INV: [[f64; 3]; 3] = [
+pub(crate) const T_INV: [[f64; 3]; 3] = [
     [4.178_718_591_551_904_7, 0.327_682_820_761_062_39, 0.523_376_445_499_449_55],
     [-4.178_718_591_551_904_7, -0.327_682_820_761_062_39, 0.476_623_554_500_550_45],
     [-0.502_872_634_945_786_88, 2.571_926_949_855_605_4, -0.596_039_204_828_224_92],
@@ -55,12 +55,12 @@ const LAGRANGE: [[f64; 3]; 3] = [
 ];
 
 /// Weights w_j(tau) such that q(tau) = q + h sum w_j V_j, the collocation polynomial at tau in 0..1.
-pub(super) fn position_weights(tau: f64) -> [f64; 3] {
+pub(crate) fn position_weights(tau: f64) -> [f64; 3] {
     LAGRANGE.map(|[p0, p1, p2]| tau * (p0 + tau * (p1 / 2.0 + tau * (p2 / 3.0))))
 }
 
 /// Weights of the stages' velocities in the velocity of the collocation polynomial at tau in 0..1.
-pub(super) fn velocity_weights(tau: f64) -> [f64; 3] {
+pub(crate) fn velocity_weights(tau: f64) -> [f64; 3] {
     LAGRANGE.map(|[p0, p1, p2]| p0 + tau * (p1 + tau * p2))
 }
 

@@ -2,15 +2,16 @@
 //! account accepts them and chooses the next (`run/account`).
 
 mod account;
-mod cubic;
 mod events;
 mod grip;
+mod ground;
 mod met;
 mod rest;
 mod span;
 
 use std::{f64::consts::FRAC_PI_2, ops::ControlFlow};
 
+pub(super) use super::cubic::stays_inside;
 use super::{
     Finish,
     control::{Control, HistoryOutcome, Work},
@@ -21,36 +22,10 @@ use super::{
 };
 use crate::scalar::{GRAVITY, Scalar, real};
 pub(super) use account::{Contacts, Scales, StepMeasures};
-pub(super) use cubic::stays_inside;
 use events::{Located, Locating};
+pub(crate) use ground::GroundMotion;
 use met::Met;
 use span::{Softness, Span};
-
-/// The motion of the ground, at steps of dt and linear between.
-#[derive(Clone, Copy, Debug)]
-pub(crate) struct GroundMotion<'a, S> {
-    /// [s]
-    pub dt: f64,
-    /// [m/s2]
-    pub accel: &'a [f64],
-    /// The vertical component; zero beyond its last sample.
-    pub vertical: &'a [f64],
-    pub scale: S,
-}
-
-impl<S: Scalar> GroundMotion<'_, S> {
-    /// From sample i on.
-    fn ground(&self, i: usize) -> Ground<S> {
-        let Self { dt, accel, vertical, scale } = *self;
-        let up = |i: usize| vertical.get(i).copied().unwrap_or(0.0);
-        let slope = |now: f64, next: f64| scale * ((next - now) / dt);
-        Ground {
-            start: [scale * accel[i], scale * up(i)],
-            slope: [slope(accel[i], accel[i + 1]), slope(up(i), up(i + 1))],
-            curve: [S::zero(); 2],
-        }
-    }
-}
 
 /// A history in the making.
 pub(crate) struct Run<'a, S> {

@@ -47,7 +47,9 @@ fn a_frame_that_never_lifts_is_said_to_stand() {
     let page = page(&run(0.1, None), true);
     assert!(page.contains("The record does not lift the structure"));
     assert!(page.contains("its peak is 0.0313 g, uplift takes 0.1000 g"), "{page}");
-    assert!(!page.contains("NaN"));
+    // numbers of figures are in base 64, where three letters may be any
+    let read = page.split("<script").map(|part| part.rsplit("</script>").next().unwrap_or(part));
+    assert!(read.into_iter().all(|part| !part.contains("NaN")));
 }
 
 #[test]

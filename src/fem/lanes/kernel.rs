@@ -184,7 +184,7 @@ impl Kernel {
             self.slope[k][l] = request.ground.slope[k];
             self.curve[k][l] = request.ground.curve[k];
         }
-        self.convergence[l] = Some(Convergence::new(request, rounding));
+        self.convergence[l] = Some(Convergence::new(request.tolerance, rounding, request.extra, request.rate));
         self.fresh = true;
     }
 

@@ -27,12 +27,12 @@ fn avx_512_avx_2_and_no_vectors_at_all_agree_to_the_last_bit() {
     let record = Record::el_centro().truncated(12.0);
     let frame = Structure::paper();
     let block = Structure::block(2.0, 0.5, 1e3).unwrap();
-    let cases: Vec<Case<f64>> = (0..20)
+    let cases: Vec<Analysis<f64>> = (0..20)
         .map(|i| {
             let structure = if i % 2 == 0 { frame } else { block };
             let chain = Design::from_kc(0.5, 0.2, 0.92, [160.0, 40.0, 2500.0][i % 3]);
             let (body, long_steps) = (structure.body::<f64>(), i % 5 != 0);
-            Case {
+            Analysis {
                 body,
                 springs: Springs { vertical: chain, horizontal: chain }.chains(body.mass),
                 start: Start::Settled,
@@ -44,7 +44,7 @@ fn avx_512_avx_2_and_no_vectors_at_all_agree_to_the_last_bit() {
             }
         })
         .collect();
-    let models: Vec<Model<f64>> = cases.iter().map(Case::model).collect();
+    let models: Vec<Model<f64>> = cases.iter().map(Analysis::model).collect();
     let followed = |step: Step| {
         let next = AtomicUsize::new(0);
         let mut batch =

@@ -1,8 +1,9 @@
 //! Contact events: located by repeating the step, then the foot switches (where they are met: `met`).
 
-use super::{Run, cubic::falls_through_zero, met::Met};
+use super::{Run, met::Met};
 use crate::{
     fem::{
+        cubic::falls_through_zero,
         model::{Contact, Foot, TH},
         observer::{Change, Observer},
         step::{Stages, no_guess},

@@ -1,12 +1,9 @@
 //! Contact events that a candidate step meets, found on the cubic through each gap's values.
 
-use super::{
-    Run,
-    account::Contacts,
-    cubic::{Cubic, NODES, falls_through_zero},
-};
+use super::{Run, account::Contacts};
 use crate::{
     fem::{
+        cubic::{Cubic, NODES, falls_through_zero},
         model::{Contact, Pose},
         step::Stages,
     },

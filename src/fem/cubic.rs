@@ -2,10 +2,10 @@
 //!
 //! The collocation polynomial is a cubic, too, so that this one leaves out no more than what sine and cosine bend within a step.
 
-use crate::fem::radau::C;
+use super::radau::C;
 
 /// Where a step's values are known: its start and its stages.
-pub(super) const NODES: [f64; 4] = [0.0, C[0], C[1], C[2]];
+pub(crate) const NODES: [f64; 4] = [0.0, C[0], C[1], C[2]];
 
 /// Coefficients by ascending powers of tau, from tau on, for each unit by which a stage's value differs from the start's.
 const WEIGHTS: [[f64; 3]; 3] = {
@@ -25,7 +25,7 @@ const WEIGHTS: [[f64; 3]; 3] = {
 
 /// Where `value` falls through zero between two points at which it is known, the first inside and the second not (Illinois): a
 /// value below `edge` counts as none.
-pub(super) fn falls_through_zero(
+pub(crate) fn falls_through_zero(
     mut low: (f64, f64),
     mut high: (f64, f64),
     edge: f64,
