@@ -1,0 +1,117 @@
+//! Which corners the ground holds, by trying every set of them.
+
+use nalgebra::DVector;
+
+use super::Corners;
+use super::hold::{Configuration, Contact, Held};
+use super::walk::ON_GROUND;
+use crate::elastic::Mechanics;
+use crate::scalar::GRAVITY;
+
+/// A corner that a landing leaves with less speed has not been moved (m/s).
+pub const AT_REST: f64 = 1e-8;
+/// Speed into the ground, as a share of the landing speed, that is rounding.
+const ROUNDING: f64 = 1e-9;
+/// Acceleration into the ground that is rounding (m/s2).
+const ROUNDING_A: f64 = 1e-9 * GRAVITY;
+
+/// The ground's say on which corners may be let go.
+pub struct Rule<'a> {
+    /// Footing of each corner.
+    pub footings: &'a [usize],
+    /// Whether a footing may leave the ground altogether.
+    pub hop: bool,
+    /// Vertical force that is rounding (N).
+    pub rounding: f64,
+}
+
+impl Rule<'_> {
+    /// Whether a corner is the only one of its footing in a set and has to stay.
+    pub fn bound(&self, set: Corners, i: usize) -> bool {
+        !self.hop && !set.without(i).iter().any(|k| self.footings[k] == self.footings[i])
+    }
+
+    /// Whether of every footing in a set that has to keep a corner, one is kept.
+    fn allows(&self, kept: Corners, of: Corners) -> bool {
+        self.hop || of.iter().all(|i| kept.iter().any(|k| self.footings[k] == self.footings[i]))
+    }
+}
+
+/// Velocities after a landing and the corners held then. `touching`: those held before and those that land.
+pub fn land<M: Mechanics>(
+    at: &Configuration<M>,
+    ground: [f64; 2],
+    touching: Corners,
+    landing: Corners,
+    rule: &Rule,
+) -> Option<(DVector<f64>, Corners)> {
+    let speed = landing.iter().map(|i| -at.rise(i, at.v, false)).fold(0.0, f64::max);
+    let good = |kept: Corners, after: &Held| {
+        let pushed =
+            |i: usize| landing.contains(i) || rule.bound(kept, i) || after.force(i)[1] >= -ROUNDING * largest(after);
+        kept.iter().all(pushed)
+            && touching.minus(kept).iter().all(|i| at.rise(i, &after.motion, false) >= -ROUNDING * speed)
+    };
+    let tried = touching.subsets().into_iter().filter(|kept| kept.meets(landing) && rule.allows(*kept, touching));
+    let found =
+        tried.filter_map(|kept| Some((kept, at.impact(Contact::held(kept))?))).find(|(kept, after)| good(*kept, after));
+    // none is good: all stay, which does not add energy either
+    let (kept, after) = match found {
+        Some(found) => found,
+        None => (touching, at.impact(Contact::held(touching))?),
+    };
+    let afterwards = Configuration::new(at.mechanics, at.q, &after.motion)?;
+    let pull = afterwards.accelerations(ground, Contact::held(kept))?.motion;
+    let stays = |i: &usize| {
+        let (speed, pull) = (at.rise(*i, &after.motion, false), afterwards.rise(*i, &pull, true));
+        // would come back at once: an endless row of ever smaller hops ends here
+        let back = pull < 0.0 && speed * speed <= -2.0 * pull * ON_GROUND;
+        back || at.speed(*i, &after.motion) <= AT_REST
+    };
+    let held = kept.and(touching.minus(kept).iter().filter(stays).collect());
+    let after = if held == kept { after } else { at.impact(Contact::held(held))? };
+    Some((after.motion, held))
+}
+
+fn largest(held: &Held) -> f64 {
+    held.forces.iter().flat_map(|(_, force)| force).fold(0.0, |most, force| most.max(force.abs()))
+}
+
+/// What becomes of corners on the ground: contact, accelerations, and whether all of it is consistent: a held corner is pushed, a sliding one
+/// braked, and one that goes leaves the ground. `resting`: corners that may be held, at rest; `tried`: sets of them in the order of
+/// preference; `sliding`: corners that move along the ground. If nothing is consistent, all that rest stay.
+pub fn stay<M: Mechanics>(
+    at: &Configuration<M>,
+    ground: [f64; 2],
+    Contact { held: resting, sliding }: Contact,
+    tried: &[Corners],
+    rule: &Rule,
+) -> Option<(Contact, Held, bool)> {
+    let on_footing = |i: usize, set: Corners| set.iter().any(|k| rule.footings[k] == rule.footings[i]);
+    let sinks = |i: &usize, held: &Held| at.rise(*i, &held.motion, true) < -ROUNDING_A;
+    // first without new sliding, then with
+    for slips in [false, true] {
+        for &kept in tried.iter().filter(|kept| rule.allows(**kept, resting)) {
+            let free = resting.minus(kept);
+            let mut contact = Contact { held: kept, sliding };
+            let Some(mut held) = at.accelerations(ground, contact) else { continue };
+            let new: Corners = free.iter().filter(|i| sinks(i, &held)).collect();
+            if slips && !new.is_empty() && !new.iter().any(|i| on_footing(i, kept.and(sliding).and(new.without(i)))) {
+                contact.sliding = sliding.and(new);
+                let Some(then) = at.accelerations(ground, contact) else { continue };
+                held = then;
+                // friction brakes
+                let driven = |i: usize| at.slip(i, &held.motion, true) * held.force(i)[0].signum() > ROUNDING_A;
+                if new.iter().any(driven) {
+                    continue;
+                }
+            }
+            let pushed = |i: usize| rule.bound(kept, i) || held.force(i)[1] >= -rule.rounding;
+            if kept.iter().all(pushed) && !resting.minus(contact.all()).iter().any(|i| sinks(&i, &held)) {
+                return Some((contact, held, true));
+            }
+        }
+    }
+    let all = Contact { held: resting, sliding };
+    Some((all, at.accelerations(ground, all)?, false))
+}

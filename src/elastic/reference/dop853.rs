@@ -1,0 +1,250 @@
+//! One step of the Runge-Kutta method of order 8 by Dormand and Prince (Hairer, Norsett & Wanner, Solving Ordinary Differential Equations I,
+//! section II.5 and the code DOP853), for q'' = a(q, q', t) and the work of forces along the way.
+
+use nalgebra::DVector;
+
+use super::hold::force;
+
+/// Stages of a step.
+const STAGES: usize = 12;
+
+/// Nodes c_i.
+const C: [f64; STAGES] = [
+    0.0,
+    0.05260015195876773,
+    0.0789002279381516,
+    0.1183503419072274,
+    0.2816496580927726,
+    0.3333333333333333,
+    0.25,
+    0.3076923076923077,
+    0.6512820512820513,
+    0.6,
+    0.8571428571428571,
+    1.0,
+];
+
+/// Coefficients a_ij of stages 2 to 12, each as (j, a_ij); at last the weights b_j.
+const A: [&[(usize, f64)]; STAGES] = [
+    &[(0, 0.05260015195876773)],
+    &[(0, 0.0197250569845379), (1, 0.0591751709536137)],
+    &[(0, 0.02958758547680685), (2, 0.08876275643042054)],
+    &[(0, 0.2413651341592667), (2, -0.8845494793282861), (3, 0.924834003261792)],
+    &[(0, 0.037037037037037035), (3, 0.17082860872947386), (4, 0.12546768756682242)],
+    &[(0, 0.037109375), (3, 0.17025221101954405), (4, 0.06021653898045596), (5, -0.017578125)],
+    &[
+        (0, 0.03709200011850479),
+        (3, 0.17038392571223998),
+        (4, 0.10726203044637328),
+        (5, -0.015319437748624402),
+        (6, 0.008273789163814023),
+    ],
+    &[
+        (0, 0.6241109587160757),
+        (3, -3.3608926294469414),
+        (4, -0.868219346841726),
+        (5, 27.59209969944671),
+        (6, 20.154067550477894),
+        (7, -43.48988418106996),
+    ],
+    &[
+        (0, 0.47766253643826434),
+        (3, -2.4881146199716677),
+        (4, -0.590290826836843),
+        (5, 21.230051448181193),
+        (6, 15.279233632882423),
+        (7, -33.28821096898486),
+        (8, -0.020331201708508627),
+    ],
+    &[
+        (0, -0.9371424300859873),
+        (3, 5.186372428844064),
+        (4, 1.0914373489967295),
+        (5, -8.149787010746927),
+        (6, -18.52006565999696),
+        (7, 22.739487099350505),
+        (8, 2.4936055526796523),
+        (9, -3.0467644718982196),
+    ],
+    &[
+        (0, 2.273310147516538),
+        (3, -10.53449546673725),
+        (4, -2.0008720582248625),
+        (5, -17.9589318631188),
+        (6, 27.94888452941996),
+        (7, -2.8589982771350235),
+        (8, -8.87285693353063),
+        (9, 12.360567175794303),
+        (10, 0.6433927460157636),
+    ],
+    &[
+        (0, 0.054293734116568765),
+        (5, 4.450312892752409),
+        (6, 1.8915178993145003),
+        (7, -5.801203960010585),
+        (8, 0.3111643669578199),
+        (9, -0.1521609496625161),
+        (10, 0.20136540080403034),
+        (11, 0.04471061572777259),
+    ],
+];
+
+/// Error estimates of order 5 and 3.
+const ERROR: [&[(usize, f64)]; 2] = [
+    &[
+        (0, 0.01312004499419488),
+        (5, -1.2251564463762044),
+        (6, -0.4957589496572502),
+        (7, 1.6643771824549864),
+        (8, -0.35032884874997366),
+        (9, 0.3341791187130175),
+        (10, 0.08192320648511571),
+        (11, -0.022355307863886294),
+    ],
+    &[
+        (0, -0.18980075407240762),
+        (5, 4.450312892752409),
+        (6, 1.8915178993145003),
+        (7, -5.801203960010585),
+        (8, -0.4226823213237919),
+        (9, -0.1521609496625161),
+        (10, 0.20136540080403034),
+        (11, 0.02265179219836082),
+    ],
+];
+
+/// Where the structure is, and what dampers have taken and the ground put in since the start (J).
+#[derive(Clone, Debug)]
+pub struct State {
+    /// Coordinates.
+    pub q: DVector<f64>,
+    /// Their velocities.
+    pub v: DVector<f64>,
+    /// Work: taken by dampers, put in by the ground, taken by sliding.
+    pub work: [f64; 3],
+}
+
+/// How it goes on from there.
+#[derive(Clone, Debug)]
+pub struct Rates {
+    /// q''.
+    pub a: DVector<f64>,
+    /// Power: taken by dampers, put in by the ground, taken by sliding (W).
+    pub power: [f64; 3],
+    /// (corner, horizontal, vertical) force of the ground (N).
+    pub forces: Vec<(usize, [f64; 2])>,
+}
+
+impl Rates {
+    /// Force on a corner; zero if it is not on the ground.
+    pub fn force(&self, corner: usize) -> [f64; 2] {
+        force(&self.forces, corner)
+    }
+}
+
+/// The state after a step of length h from a state and its rates, and the error estimate over what `rtol` allows: at most 1 is good. The rates
+/// are functions of the time since the step's start. None where they are not defined.
+pub fn step(
+    mut rates: impl FnMut(f64, &State) -> Option<Rates>,
+    start: &State,
+    first: &Rates,
+    h: f64,
+    rtol: f64,
+) -> Option<(State, f64)> {
+    let mut velocities = vec![start.v.clone()];
+    let mut slopes = vec![first.clone()];
+    let mut stage = start.clone();
+    for (i, row) in A.iter().enumerate() {
+        stage.clone_from(start);
+        for &(j, a) in *row {
+            stage.q.axpy(h * a, &velocities[j], 1.0);
+            stage.v.axpy(h * a, &slopes[j].a, 1.0);
+            for k in 0..stage.work.len() {
+                stage.work[k] += h * a * slopes[j].power[k];
+            }
+        }
+        if i + 1 < STAGES {
+            slopes.push(rates(h * C[i + 1], &stage)?);
+            velocities.push(stage.v.clone());
+        }
+    }
+    let mut squares = [0.0; 2];
+    for (square, row) in squares.iter_mut().zip(ERROR) {
+        let estimate = |of: &dyn Fn(usize) -> f64| row.iter().map(|&(j, e)| e * of(j)).sum::<f64>();
+        // a length or an angle of 1 % and a velocity of 10 % of the unit are the least that errors are compared with
+        for (k, (a, b)) in start.q.iter().zip(stage.q.iter()).enumerate() {
+            *square += (estimate(&|j| velocities[j][k]) / (rtol * (0.01 + a.abs().max(b.abs())))).powi(2);
+        }
+        for (k, (a, b)) in start.v.iter().zip(stage.v.iter()).enumerate() {
+            *square += (estimate(&|j| slopes[j].a[k]) / (rtol * (0.1 + a.abs().max(b.abs())))).powi(2);
+        }
+    }
+    let [fifth, third] = squares;
+    let below = (fifth + 0.01 * third) * (2 * start.q.len()) as f64;
+    let error = if fifth == 0.0 { 0.0 } else { h * fifth / below.sqrt() };
+    error.is_finite().then_some((stage, error))
+}
+
+/// The state at a share of a step, by Hermite's polynomial through q, q', q'' of both ends: good enough to look for events.
+pub fn within(ends: [(&State, &Rates); 2], h: f64, share: f64) -> State {
+    let [(start, first), (end, last)] = ends;
+    let s = share;
+    let (s2, s3) = (s * s, s * s * s);
+    let (s4, s5) = (s3 * s, s3 * s2);
+    let place = [
+        1.0 - 10.0 * s3 + 15.0 * s4 - 6.0 * s5,
+        10.0 * s3 - 15.0 * s4 + 6.0 * s5,
+        h * (s - 6.0 * s3 + 8.0 * s4 - 3.0 * s5),
+        h * (-4.0 * s3 + 7.0 * s4 - 3.0 * s5),
+        h * h * 0.5 * (s2 - 3.0 * s3 + 3.0 * s4 - s5),
+        h * h * 0.5 * (s3 - 2.0 * s4 + s5),
+    ];
+    let rate = [
+        (-30.0 * s2 + 60.0 * s3 - 30.0 * s4) / h,
+        (30.0 * s2 - 60.0 * s3 + 30.0 * s4) / h,
+        1.0 - 18.0 * s2 + 32.0 * s3 - 15.0 * s4,
+        -12.0 * s2 + 28.0 * s3 - 15.0 * s4,
+        h * 0.5 * (2.0 * s - 9.0 * s2 + 12.0 * s3 - 5.0 * s4),
+        h * 0.5 * (3.0 * s2 - 8.0 * s3 + 5.0 * s4),
+    ];
+    let known = [&start.q, &end.q, &start.v, &end.v, &first.a, &last.a];
+    let sum = |weights: [f64; 6]| {
+        known.iter().zip(weights).fold(DVector::zeros(start.q.len()), |sum, (x, weight)| sum + *x * weight)
+    };
+    let work = std::array::from_fn(|k| start.work[k] + share * (end.work[k] - start.work[k]));
+    State { q: sum(place), v: sum(rate), work }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// q'' = -q - 0.1 q' + t: the error of one step falls like h^9, and the estimate is of its size or above.
+    #[test]
+    fn the_order_is_eight() {
+        let rates = |t: f64, y: &State| {
+            let a = t - y.q[0] - 0.1 * y.v[0];
+            Some(Rates { a: DVector::from_element(1, a), power: [0.1 * y.v[0] * y.v[0], 0.0, 0.0], forces: vec![] })
+        };
+        let start = State { q: DVector::from_element(1, 1.0), v: DVector::zeros(1), work: [0.0; 3] };
+        // q = t - 0.1 + exp(-t/20)(A cos + B sin)
+        let exact = |t: f64| {
+            let w = (1.0_f64 - 0.0025).sqrt();
+            let (a, b) = (1.1, (0.05 * 1.1 - 1.0) / w);
+            t - 0.1 + (-0.05 * t).exp() * (a * (w * t).cos() + b * (w * t).sin())
+        };
+        let error = |h: f64| {
+            let first = rates(0.0, &start).unwrap();
+            let (end, _) = step(rates, &start, &first, h, 1e-9).unwrap();
+            (end.q[0] - exact(h)).abs()
+        };
+        let order = (error(1.6) / error(0.8)).log2();
+        assert!((8.5..10.5).contains(&order), "{order} {} {}", error(1.6), error(0.8));
+        let first = rates(0.0, &start).unwrap();
+        let (end, estimate) = step(rates, &start, &first, 0.4, 1e-9).unwrap();
+        assert!(estimate < 1.0 && (end.q[0] - exact(0.4)).abs() < 1e-9, "{estimate}");
+        let last = rates(0.4, &end).unwrap();
+        let middle = within([(&start, &first), (&end, &last)], 0.4, 0.3);
+        assert!((middle.q[0] - exact(0.12)).abs() < 1e-7, "{} {}", middle.q[0], exact(0.12));
+    }
+}
