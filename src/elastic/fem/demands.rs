@@ -1,0 +1,80 @@
+//! What the designer needs: what columns and beams bear, and what footings feel.
+//!
+//! ```text
+//!   base shear     sum of the horizontal forces that footings give the beams that end on them
+//!   beam i         axial force N (tension positive), shear V, moments at its first and its second end
+//! ```
+
+use crate::elastic::{beam::Bearing, frame::Frame};
+
+/// A largest magnitude, with its sign, and when it came.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct Peak {
+    /// In the quantity's unit.
+    pub value: f64,
+    /// (s)
+    pub time: f64,
+}
+
+/// What a structure bears at one instant, or at its worst since the sample before: each value by itself.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct Demand {
+    /// Horizontal force of the footings on the beams that end on them (N).
+    pub base_shear: f64,
+    /// Of every beam.
+    pub bearings: Vec<Bearing>,
+}
+
+impl Demand {
+    pub(super) fn new(frame: &Frame) -> Self {
+        Self { base_shear: 0.0, bearings: vec![Bearing::default(); frame.beams()] }
+    }
+
+    /// At one instant.
+    pub(super) fn take(&mut self, frame: &Frame, q: &[f64], v: &[f64]) {
+        self.base_shear = 0.0;
+        for (i, bearing) in self.bearings.iter_mut().enumerate() {
+            *bearing = frame.bearing(i, q, v);
+            for (end, _) in frame.bases_of(i).into_iter().enumerate().filter(|(_, base)| *base) {
+                let [x, z] = frame.direction(i, q);
+                // the force that the node gives this end of the beam
+                let along = bearing.shear * z - bearing.axial * x;
+                self.base_shear += if end == 0 { along } else { -along };
+            }
+        }
+    }
+
+    /// The values, in the order in which [`Demand::values_mut`] gives them.
+    pub fn values(&self) -> impl Iterator<Item = f64> + '_ {
+        let bearings = self.bearings.iter().flat_map(|b| [b.axial, b.shear, b.moments[0], b.moments[1]]);
+        std::iter::once(self.base_shear).chain(bearings)
+    }
+
+    fn values_mut(&mut self) -> impl Iterator<Item = &mut f64> {
+        let bearings = self.bearings.iter_mut().flat_map(|b| {
+            let [first, second] = &mut b.moments;
+            [&mut b.axial, &mut b.shear, first, second]
+        });
+        std::iter::once(&mut self.base_shear).chain(bearings)
+    }
+
+    /// Keep the larger magnitudes of both.
+    pub(super) fn enlarge(&mut self, other: &Self) {
+        for (mine, theirs) in self.values_mut().zip(other.values()) {
+            if theirs.abs() > mine.abs() {
+                *mine = theirs;
+            }
+        }
+    }
+}
+
+/// Largest magnitude of a series of samples dt apart.
+pub fn peak(dt: f64, series: impl IntoIterator<Item = f64>) -> Peak {
+    let mut peak = Peak::default();
+    for (i, value) in series.into_iter().enumerate() {
+        if value.abs() > peak.value.abs() {
+            peak = Peak { value, time: i as f64 * dt };
+        }
+    }
+    peak
+}

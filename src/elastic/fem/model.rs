@@ -1,0 +1,209 @@
+//! A frame whose corners stand on spring-absorber units.
+//!
+//! ```text
+//!   q = [ the frame's n coordinates;  a_x, a_z of every corner's absorbers ]
+//!   gap, closed while it presses:   N =  k1_v (a_z - p_z)            (> 0: the ground pushes the corner up)
+//!                                   H = -k1_h (p_x - a_x - anchor)   (only while N acts; anchored where it landed)
+//!   M q'' = Q + sum G' (H, N)       m2_h a_x'' = -m2_h a_g - H - k2_h a_x - c_h a_x'
+//!                                   m2_v a_z'' = -m2_v a_v - N - k2_v a_z - c_v a_z'
+//! ```
+//!
+//! The law of the rigid body's feet (`fem/model.rs`), p the corner's displacement. Gravity acts on the frame only, so that an open absorber rests at zero.
+
+use nalgebra::DVector;
+
+use crate::{
+    elastic::{
+        frame::{EquilibriumError, Frame, Support},
+        mechanics::Mechanics,
+    },
+    spring::{Chain, Springs},
+};
+
+/// How a corner meets its springs.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Foot {
+    /// Whether it is on the ground.
+    pub closed: bool,
+    /// Whether its horizontal spring holds.
+    pub holds: bool,
+    /// Where its horizontal spring is anchored [m].
+    pub anchor: f64,
+}
+
+impl Foot {
+    /// In the air.
+    pub const OPEN: Self = Self { closed: false, holds: false, anchor: 0.0 };
+    /// On the ground since the structure was built.
+    pub const STANDING: Self = Self { closed: true, holds: true, anchor: 0.0 };
+}
+
+/// Frame and springs, ready to compute with.
+#[derive(Debug)]
+pub(super) struct Model<'a> {
+    pub frame: &'a Frame,
+    /// Under each corner.
+    pub units: &'a [Springs<Chain<f64>>],
+    /// Number of the frame's coordinates, and with the absorbers.
+    pub n: usize,
+    pub size: usize,
+}
+
+/// Index of a corner's horizontal absorber displacement; the vertical one follows.
+#[inline(always)]
+pub(super) fn absorber(n: usize, corner: usize) -> usize {
+    n + 2 * corner
+}
+
+/// Stiffness of both springs of a chain, one after the other [N/m].
+pub(super) fn series(chain: &Chain<f64>) -> f64 {
+    chain.k1 * chain.k2 / (chain.k1 + chain.k2)
+}
+
+impl<'a> Model<'a> {
+    pub fn new(frame: &'a Frame, units: &'a [Springs<Chain<f64>>]) -> Self {
+        let n = frame.size();
+        Self { frame, units, n, size: n + 2 * units.len() }
+    }
+
+    /// Forces of the ground on a corner (H, N) at q.
+    #[inline(always)]
+    pub fn contact(&self, i: usize, foot: &Foot, q: &[f64]) -> [f64; 2] {
+        if !foot.closed {
+            return [0.0; 2];
+        }
+        let Springs { vertical, horizontal } = &self.units[i];
+        let at = absorber(self.n, i);
+        let [x, z] = self.frame.places()[i].reach(q).place;
+        let h = if foot.holds { horizontal.k1 * (q[at] + foot.anchor - x) } else { 0.0 };
+        [h, vertical.k1 * (q[at + 1] - z)]
+    }
+
+    /// Compression of a corner's gap: positive when it presses [m].
+    #[inline(always)]
+    pub fn compression(&self, i: usize, q: &[f64]) -> f64 {
+        q[absorber(self.n, i) + 1] - self.frame.places()[i].reach(q).place[1]
+    }
+
+    /// Its rate [m/s].
+    pub fn compression_rate(&self, i: usize, q: &[f64], v: &[f64]) -> f64 {
+        let place = &self.frame.places()[i];
+        v[absorber(self.n, i) + 1] - place.velocity(&place.reach(q), v)[1]
+    }
+
+    /// The anchor that leaves a corner's horizontal spring without force where it stands now [m].
+    pub fn anchor_here(&self, i: usize, q: &[f64]) -> f64 {
+        self.frame.places()[i].reach(q).place[0] - q[absorber(self.n, i)]
+    }
+
+    /// Forces on all coordinates.
+    pub fn forces(&self, q: &[f64], v: &[f64], feet: &[Foot], ground: [f64; 2], out: &mut [f64]) {
+        let n = self.n;
+        self.frame.forces(&q[..n], &v[..n], ground, &mut out[..n]);
+        for (i, (foot, Springs { vertical, horizontal })) in feet.iter().zip(self.units).enumerate() {
+            let at = absorber(n, i);
+            let (mut h, mut p) = (0.0, 0.0);
+            if foot.closed {
+                let place = &self.frame.places()[i];
+                let reach = place.reach(q);
+                p = vertical.k1 * (q[at + 1] - reach.place[1]);
+                if foot.holds {
+                    h = horizontal.k1 * (q[at] + foot.anchor - reach.place[0]);
+                }
+                place.push(&reach, [h, p], out);
+            }
+            out[at] = -(h + horizontal.m2 * ground[0] + horizontal.k2 * q[at] + horizontal.c * v[at]);
+            out[at + 1] = -(p + vertical.m2 * ground[1] + vertical.k2 * q[at + 1] + vertical.c * v[at + 1]);
+        }
+    }
+
+    /// Masses of an absorber's two coordinates [kg].
+    pub fn absorber_masses(&self, i: usize) -> [f64; 2] {
+        [self.units[i].horizontal.m2, self.units[i].vertical.m2]
+    }
+
+    /// out = M a.
+    pub fn momentum(&self, a: &[f64], out: &mut [f64]) {
+        let n = self.n;
+        self.frame.momentum(&a[..n], &mut out[..n]);
+        for i in 0..self.units.len() {
+            let (at, [h, v]) = (absorber(n, i), self.absorber_masses(i));
+            (out[at], out[at + 1]) = (h * a[at], v * a[at + 1]);
+        }
+    }
+
+    /// Kinetic, gravitational and elastic energy [J].
+    pub fn energy(&self, q: &[f64], v: &[f64], feet: &[Foot]) -> f64 {
+        let n = self.n;
+        let mut twice = 0.0;
+        for (i, (foot, Springs { vertical, horizontal })) in feet.iter().zip(self.units).enumerate() {
+            let at = absorber(n, i);
+            twice += horizontal.m2 * v[at] * v[at] + vertical.m2 * v[at + 1] * v[at + 1];
+            twice += horizontal.k2 * q[at] * q[at] + vertical.k2 * q[at + 1] * q[at + 1];
+            let [h, p] = self.contact(i, foot, q);
+            twice += h * h / horizontal.k1 + p * p / vertical.k1;
+        }
+        self.frame.kinetic_energy(&v[..n]) + self.frame.stored(&q[..n]) + 0.5 * twice
+    }
+
+    /// Power of the ground's motion [W].
+    pub fn input_power(&self, v: &[f64], [ground, up]: [f64; 2]) -> f64 {
+        let mut power = self.frame.fed(&v[..self.n], [ground, up]);
+        for i in 0..self.units.len() {
+            let (at, [h, z]) = (absorber(self.n, i), self.absorber_masses(i));
+            power -= h * v[at] * ground + z * v[at + 1] * up;
+        }
+        power
+    }
+
+    /// Power that dashpots take [W].
+    pub fn dissipation(&self, q: &[f64], v: &[f64]) -> f64 {
+        let mut power = self.frame.dissipated(&q[..self.n], &v[..self.n]);
+        for (i, unit) in self.units.iter().enumerate() {
+            let at = absorber(self.n, i);
+            power += unit.horizontal.c * v[at] * v[at] + unit.vertical.c * v[at + 1] * v[at + 1];
+        }
+        power
+    }
+
+    /// Stiffness under each corner, standing.
+    pub fn supports(&self) -> Vec<Support> {
+        self.units.iter().map(|unit| Some([series(&unit.horizontal), series(&unit.vertical)])).collect()
+    }
+
+    /// Standing still on all corners.
+    pub fn standing(&self) -> Result<(Vec<f64>, Vec<Foot>), EquilibriumError> {
+        let feet = vec![Foot::STANDING; self.units.len()];
+        Ok((self.settle(&self.frame.standing(&self.supports())?, &feet), feet))
+    }
+
+    /// Held at a lean on the last corner, or the first.
+    pub fn leaning(&self, lean: f64) -> Result<(Vec<f64>, Vec<Foot>), EquilibriumError> {
+        let frame = self.frame.leaning(lean, &self.supports())?;
+        let mut feet = vec![Foot::OPEN; self.units.len()];
+        let pivot = if lean > 0.0 { feet.last_mut() } else { feet.first_mut() };
+        if let Some(pivot) = pivot {
+            *pivot = Foot::STANDING;
+        }
+        let q = self.settle(&frame, &feet);
+        // a lean of less than the settlement leaves other corners in the ground, and then they press too
+        for (i, foot) in feet.iter_mut().enumerate() {
+            if !foot.closed && self.compression(i, &q) > 0.0 {
+                *foot = Foot { anchor: self.anchor_here(i, &q), ..Foot::STANDING };
+            }
+        }
+        Ok((q, feet))
+    }
+
+    /// The frame at q, absorbers under what they carry.
+    pub fn settle(&self, frame: &DVector<f64>, feet: &[Foot]) -> Vec<f64> {
+        let mut q = frame.as_slice().to_vec();
+        for ((foot, unit), corner) in feet.iter().zip(self.units).zip(self.frame.places()) {
+            let [x, z] = corner.reach(frame.as_slice()).place;
+            let share = |chain: &Chain<f64>| chain.k1 / (chain.k1 + chain.k2);
+            let along = if foot.closed && foot.holds { (x - foot.anchor) * share(&unit.horizontal) } else { 0.0 };
+            q.extend([along, if foot.closed { z * share(&unit.vertical) } else { 0.0 }]);
+        }
+        q
+    }
+}

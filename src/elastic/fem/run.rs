@@ -1,0 +1,243 @@
+//! The time loop: steps that end at every sample, and between samples at every touch and lift.
+
+use std::f64::consts::FRAC_PI_2;
+
+use super::{
+    Case, Finish,
+    account::Scales,
+    events::Met,
+    history::Recorder,
+    model::{Foot, Model},
+    step::{Request, Stages, Stepper},
+};
+use crate::{
+    elastic::frame::Base,
+    fem::{Control, Energy, HistoryOutcome, Work, iterate::Ground},
+    scalar::GRAVITY,
+};
+
+/// First step tried after an event, in units of 1/Omega_n: the transient that the event began decides the step, not the
+/// step that the event cut short.
+const RESTART: f64 = 0.1;
+
+/// What a run shows.
+pub(super) struct View<'a> {
+    /// [s]
+    pub time: f64,
+    pub model: &'a Model<'a>,
+    pub q: &'a [f64],
+    pub v: &'a [f64],
+    pub feet: &'a [Foot],
+    pub energy: &'a Energy<f64>,
+}
+
+/// A history in the making.
+pub(super) struct Run<'a> {
+    pub model: &'a Model<'a>,
+    case: &'a Case<'a>,
+    pub control: Control,
+    pub stepper: Stepper<'a>,
+    bases: Vec<Base>,
+    pub q: Vec<f64>,
+    pub v: Vec<f64>,
+    pub feet: Vec<Foot>,
+    pub energy: Energy<f64>,
+    /// Largest energy seen [J], the scale of the account.
+    pub scale: f64,
+    pub scales: Scales,
+    /// Compression of the stiffest k1 under the weight [m], the scale of contact; that of what is too small to matter without springs.
+    pub compression: f64,
+    /// 1/Omega_n of the stiffest vertical chain under what lands on it [s], the scale of time in contact.
+    pub settling: f64,
+    /// Step size that the energy account asked for [s].
+    pub h: f64,
+    pub rate: f64,
+    /// Ground from now on.
+    pub here: Ground<f64>,
+    pub time: f64,
+    /// Impulses of the corners over the step.
+    pub impulses: Vec<[f64; 2]>,
+    /// When each corner last opened, and how often it has closed at once since [s].
+    pub opened: Vec<(f64, usize)>,
+    pub work: Work,
+}
+
+impl<'a> Run<'a> {
+    pub fn new(case: &'a Case<'a>, model: &'a Model<'a>, start: (Vec<f64>, Vec<f64>, Vec<Foot>)) -> Self {
+        let (q, v, feet) = start;
+        let frame = model.frame;
+        let scales = Scales::of(frame);
+        let weight = frame.total_mass() * GRAVITY;
+        let vertical = || model.units.iter().map(|unit| unit.vertical.k1);
+        let stiffest = vertical().fold(0.0, f64::max);
+        // without springs: what the frame's own weight on a millionth of its length would do
+        let compression = if stiffest > 0.0 { weight / stiffest } else { 1e-7 * scales.length };
+        let settling = vertical()
+            .enumerate()
+            .map(|(i, k)| (frame.effective_mass(i)[1] / k).sqrt())
+            .fold(f64::INFINITY, f64::min)
+            .min((scales.length / GRAVITY).sqrt());
+        let stored = model.energy(&q, &v, &feet);
+        let rest = model.standing().map_or(0.0, |(at, feet)| model.energy(&at, &vec![0.0; at.len()], &feet));
+        let scale = (stored - rest).abs().max(1e-3 * rest.abs()).max(1e-12 * weight * scales.length);
+        let lengths = scales.lengths(model);
+        let rounding = 8.0 * f64::EPSILON * scales.span * scales.span / scales.length;
+        let corners = feet.len();
+        Self {
+            model,
+            case,
+            control: case.control,
+            stepper: Stepper::new(model, lengths, rounding),
+            bases: Base::all(frame),
+            q,
+            v,
+            feet,
+            energy: Energy::new(stored),
+            scale,
+            scales,
+            compression,
+            settling,
+            h: f64::INFINITY,
+            rate: 1.0,
+            here: Ground::still(),
+            time: 0.0,
+            impulses: vec![[0.0; 2]; corners],
+            opened: vec![(f64::NEG_INFINITY, 0); corners],
+            work: Work::default(),
+        }
+    }
+
+    pub fn view(&self) -> View<'_> {
+        let Self { time, model, q, v, feet, energy, .. } = self;
+        View { time: *time, model, q, v, feet, energy }
+    }
+
+    /// Ground from sample i on.
+    fn ground(&self, i: usize) -> Ground<f64> {
+        let Case { dt, accel, vertical, scale, .. } = *self.case;
+        let at = |i: usize| [accel, vertical].map(|a| scale * a.get(i).copied().unwrap_or(0.0));
+        let (now, next) = (at(i), at(i + 1));
+        Ground { start: now, slope: [0, 1].map(|k| (next[k] - now[k]) / dt), curve: [0.0; 2] }
+    }
+
+    /// Follow the record to its end.
+    pub fn follow(&mut self, recorder: &mut Recorder) -> HistoryOutcome {
+        let (dt, samples) = (self.case.dt, self.case.accel.len());
+        let mut stages = Stages::new(self.model.size);
+        recorder.sample(&self.view());
+        for i in 0..samples.saturating_sub(1) {
+            let (ground, start) = (self.ground(i), i as f64 * dt);
+            let mut t = 0.0;
+            while dt - t > 1e-13 * dt {
+                (self.time, self.here) = (start + t, ground.from(t));
+                if self.work.steps + self.work.rejected >= self.control.most_steps {
+                    return HistoryOutcome::WorkBound { time: self.time };
+                }
+                if self.h < 1e-14 * dt {
+                    return HistoryOutcome::Unstable { time: self.time };
+                }
+                t += self.advance(dt - t, &mut stages, recorder);
+            }
+            self.time = start + dt;
+            recorder.sample(&self.view());
+            if self.bases.iter().any(|base| base.rotation(self.model.frame, &self.q).abs() > FRAC_PI_2) {
+                return HistoryOutcome::Overturned { time: self.time };
+            }
+        }
+        HistoryOutcome::Completed
+    }
+
+    /// Take a step, of at most `left`; by how much time has moved on: zero if it was refused.
+    fn advance(&mut self, left: f64, stages: &mut Stages, recorder: &mut Recorder) -> f64 {
+        let h = self.next_size(left);
+        if !self.attempt(h, stages) {
+            self.refuse(0.25 * h, stages);
+            return 0.0;
+        }
+        let mut met = self.met(stages);
+        match met {
+            Met::Unresolved => {
+                self.refuse(0.25 * h, stages);
+                return 0.0;
+            }
+            Met::AtOnce { corner } => {
+                self.switch(corner, stages, recorder);
+                return 0.0;
+            }
+            Met::Crossing { corner, level, tau } => match self.locate(corner, level, h, tau, stages) {
+                Some(true) => {}
+                Some(false) => met = Met::Nothing,
+                None => {
+                    self.refuse(0.5 * h * tau, stages);
+                    return 0.0;
+                }
+            },
+            Met::Nothing => {}
+        }
+        if !self.account(stages) {
+            self.work.rejected += 1;
+            return 0.0;
+        }
+        self.time += stages.h;
+        recorder.step(&self.view(), &self.impulses);
+        if let Met::Crossing { corner, .. } = met {
+            self.switch(corner, stages, recorder);
+        }
+        stages.h
+    }
+
+    /// Take a step of size h into `stages`; whether it converges.
+    pub fn attempt(&mut self, h: f64, stages: &mut Stages) -> bool {
+        // a share of what presses the corners that the energy account would not notice
+        let share = (1e3 * self.control.tolerance).clamp(1e-7, 1e-3);
+        let tolerance = (share * self.compression).max(8.0 * f64::EPSILON * self.scales.span);
+        let request = Request { h, ground: self.here, tolerance, rate: self.rate };
+        let converged = self.stepper.step([&self.q, &self.v], &self.feet, &request, stages);
+        if converged {
+            self.work.iterations += stages.iterations;
+        }
+        converged
+    }
+
+    /// Try again with size h [s].
+    fn refuse(&mut self, h: f64, stages: &mut Stages) {
+        self.work.rejected += 1;
+        self.rate = 1.0;
+        self.h = h;
+        self.forget(stages);
+    }
+
+    /// The accelerations tell nothing of the next step.
+    fn forget(&self, stages: &mut Stages) {
+        stages.a.iter_mut().for_each(|a| a.fill(0.0));
+    }
+
+    /// What the account allows, never past the sample, and no sliver left over.
+    fn next_size(&self, left: f64) -> f64 {
+        if self.h >= 0.999 * left {
+            left
+        } else if self.h > 0.5 * left {
+            0.5 * left
+        } else {
+            self.h
+        }
+    }
+
+    /// A corner touches or lifts now.
+    fn switch(&mut self, corner: usize, stages: &mut Stages, recorder: &mut Recorder) {
+        self.feet[corner] = self.changed(corner);
+        let stored = self.model.energy(&self.q, &self.v, &self.feet);
+        self.energy.released += self.energy.stored - stored;
+        self.energy.stored = stored;
+        self.forget(stages);
+        self.rate = 1.0;
+        self.h = self.h.min(RESTART * self.settling);
+        self.work.events += 1;
+        recorder.contact(corner, &self.view());
+    }
+
+    /// How it ended, and what it cost.
+    pub fn finish(&self, outcome: HistoryOutcome) -> Finish {
+        Finish { outcome, work: self.work, energy_scale: self.scale }
+    }
+}
