@@ -14,7 +14,7 @@ use groundspring::{
     synthetic,
     tuning::{
         job::at,
-        landing::design::{Geometry, universal},
+        landing::{design::Geometry, universal::universal},
     },
     validate::Judge,
 };

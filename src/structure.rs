@@ -31,6 +31,10 @@ pub struct Structure {
     pub rotational_inertia_kgm2: f64,
 }
 
+/// I_cg of an A-frame with all mass at its apex, as a share of m R^2: OpenSees and its like need some, and rocking does
+/// not feel so little (1e-5 of p^2).
+pub(crate) const LEAST_INERTIA: f64 = 1e-5;
+
 /// Lengths that a structure may have, a grain of sand to beyond any tower (m).
 const LENGTH_M: (f64, f64) = (1e-4, 1e5);
 /// Masses that it may have (kg).

@@ -7,9 +7,14 @@ pub mod assessment;
 
 pub mod descent;
 
+#[cfg(any(feature = "cli", feature = "internals"))]
+pub mod elastic;
+
 pub mod follow;
 
 pub mod job;
+
+mod ladder;
 
 pub mod landing;
 

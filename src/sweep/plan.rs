@@ -13,7 +13,7 @@ use super::{
     spec::{Grid, Kind, Kinds, Model, Source},
 };
 use crate::{
-    case::{ACCURACY, LEAST_INERTIA, LONGEST_S},
+    case::{ACCURACY, LONGEST_S},
     record::{Notice, ReadOptions, fnv1a},
     scalar::GRAVITY,
     structure::{self, Body, Structure},
@@ -326,7 +326,7 @@ fn of_grid(source: &Source, grid: &Spanned<Grid>, subjects: &mut Vec<Subject>) -
                     width_m: 2.0 * radius * alpha.sin(),
                     mass_kg,
                     rotational_inertia_kgm2: match kind {
-                        structure::Kind::AFrame => LEAST_INERTIA * m_r2,
+                        structure::Kind::AFrame => structure::LEAST_INERTIA * m_r2,
                         structure::Kind::Block => m_r2 / 3.0,
                     },
                 };

@@ -4,10 +4,7 @@ use serde::{Deserialize, Serialize};
 
 use super::{
     job::Job,
-    landing::{
-        design::Geometry,
-        plane::{Corners, land},
-    },
+    landing::{corners::Corners, design::Geometry, plane::land},
     suite::{Accuracy, LOOSER},
 };
 use crate::{case::Objective, motion::shown, validate::PREDICTABLE};

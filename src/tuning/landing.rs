@@ -4,6 +4,10 @@ pub mod chain;
 
 mod linear;
 
+pub mod corners;
+
 pub mod plane;
 
 pub mod design;
+
+pub mod universal;

@@ -287,7 +287,7 @@ impl Suites {
 }
 
 /// The q-quantile of sorted numbers, linear between the two nearest ranks; infinite if it falls on an infinite one.
-fn quantile(sorted: &[f64], q: f64) -> Option<f64> {
+pub(super) fn quantile(sorted: &[f64], q: f64) -> Option<f64> {
     let rank = q * sorted.len().checked_sub(1)? as f64;
     let (low, share) = (rank.floor() as usize, rank.fract());
     Some(if share == 0.0 { sorted[low] } else { sorted[low] * (1.0 - share) + sorted[low + 1] * share })

@@ -1,0 +1,59 @@
+//! The number SCALE in the choice of K for elastic structures (`tuning/elastic/design`): errors of piers with light to heavy footings over
+//! factors on K^3, on releases and motions.
+//!
+//! ```sh
+//! cargo bench --bench elastic_stance
+//! ```
+
+use groundspring::{
+    elastic::structure::{ElasticStructure, PierSpec},
+    fem::Control,
+    tuning::elastic::{
+        design::{springs, with_k},
+        landing_speed, stand,
+        suite::Suite,
+        trial::Model,
+    },
+};
+
+/// Factors on the K^3 of the design.
+const FACTORS: [f64; 5] = [0.03, 0.2, 1.0, 5.0, 30.0];
+
+fn main() -> Result<(), Box<dyn std::error::Error>> {
+    for (mass_kg, footing_mass_kg, frequency_hz) in
+        [(600e3, 60e3, 2.0), (600e3, 60e3, 1.5), (600e3, 200e3, 2.0), (200e3, 600e3, 2.0)]
+    {
+        let pier = PierSpec {
+            height_m: 12.0,
+            width_m: 4.0,
+            mass_kg,
+            footing_mass_kg,
+            footing_height_m: 2.0,
+            footing_inertia_kgm2: None,
+            ea_n: None,
+            ei_nm2: None,
+            frequency_hz: Some(frequency_hz),
+            damping_ratio: 0.02,
+            axial_damping_ratio: None,
+            column_mass_kg: 0.0,
+            elements: None,
+        };
+        let structure = ElasticStructure::Pier(pier).checked()?;
+        let model = Model { structure, frame: structure.layout().frame()? };
+        let standing = stand(&model).ok_or("does not stand")?;
+        let suite = Suite::new(model, None);
+        for give in [1e-3, 1e-4, 1e-5] {
+            let k = springs(&standing, give, landing_speed(&structure)).k;
+            let over = |factor: f64| {
+                let springs = with_k(&standing, give, k * f64::cbrt(factor));
+                format!("{:.1e}", suite.measure(&springs, Control::search()).over(1.0))
+            };
+            let all: Vec<String> = FACTORS.into_iter().map(over).collect();
+            println!(
+                "{mass_kg:.0e} kg on {footing_mass_kg:.0e} kg, {frequency_hz} Hz, give {give:.0e}, K {k:.4}; error at K^3 x {FACTORS:?}: {}",
+                all.join(" ")
+            );
+        }
+    }
+    Ok(())
+}

@@ -1,0 +1,128 @@
+//! Springs for what lands of an elastic structure, from its standing configuration.
+//!
+//! ```text
+//!   m_l      mass of what lands, with W = G M^-1 G' of its two corners as that of a body (`Corners`): the footing alone under an elastic column
+//!   m_eff    [(W_new)^-1]_zz, under the landing corner
+//!   units    the universal chain on m_eff: m2 = mu_u(K) m_eff, c = C_u(K) sqrt(k1 m_eff), k2 = K k1; horizontals that do not lag, on m_l
+//!   k1       by the give of the stance: the energy of springs k1 over the structure's own, under a uniform acceleration (`Standing`)
+//! ```
+//!
+//! The structure's own springs have no part in the landing: they are softer than k1 by the give, which is small.
+//!
+//! **K** trades what a landing leaves against the stance, as for a rigid body. The footing comes back by v_r, about 0.8 K v, and stays in the
+//! air for 2 v_r m_eff/(M g), since the column presses it down with all of the weight: the sway meanwhile goes on by a phase of order
+//! omega K^2 v m_eff/(M g). A stance softer by 1/K lowers the sway's frequency by give/(2 K). The least sum of both has
+//!
+//! ```text
+//!   K^3 = SCALE give M g/(omega v m_eff),     v: speed at which a corner lands that fell from half of what overturns
+//! ```
+//!
+//! with a number of order one that `cargo run --release --example elastic_stance` finds again, on piers of light to heavy footings.
+
+use std::f64::consts::TAU;
+
+use nalgebra::DMatrix;
+
+use crate::{
+    elastic::standing::{Footing, Standing, Sway},
+    scalar::GRAVITY,
+    spring::{Chain, Springs},
+    tuning::landing::{corners::Corners, design::for_landing},
+};
+
+/// See above; the range of K: soft springs bounce on a larger one, and below the least no chain is sought.
+const SCALE: f64 = 0.1;
+const K: (f64, f64) = (0.005, 0.5);
+
+/// Springs under every corner.
+#[derive(Clone, Debug, PartialEq)]
+pub struct CornerSprings {
+    /// Under corner i.
+    pub corners: Vec<Springs<Chain<f64>>>,
+    /// K = k2/k1 of the vertical units.
+    pub k: f64,
+    /// Energy of all springs over the structure's, under its weight's worth sideways and upwards together.
+    pub give: f64,
+    /// sqrt(k1/M)/(2 pi), M all mass, of the vertical units (Hz).
+    pub omega_n_hz: f64,
+}
+
+/// What lands at a footing, in units of its mass.
+#[derive(Clone, Debug)]
+struct Lands {
+    corners: Corners<f64>,
+    /// (kg)
+    mass: f64,
+    /// Effective mass under the landing corner, over that.
+    effective: f64,
+}
+
+impl Lands {
+    fn new(footing: &Footing) -> Self {
+        let Footing { w, width, .. } = footing;
+        let last = w.nrows() - 2;
+        if last == 0 {
+            // a foot without a width: the other corner is not there
+            let mass = 1.0 / w[(1, 1)];
+            let mut alone = [[0.0; 4]; 4];
+            (0..2).for_each(|i| (0..2).for_each(|j| alone[2 + i][2 + j] = w[(i, j)] * mass));
+            return Self { corners: Corners::of(alone, 1.0), mass, effective: 1.0 };
+        }
+        // a body's corners go up and down together by 1/m
+        let mass = 2.0 / (w[(1, 1)] + w[(1, last + 1)]);
+        let outer = outer(w, last);
+        let corners = Corners::of(outer.map(|row| row.map(|x| x * mass)), *width);
+        let effective = corners.effective_mass()[1];
+        Self { corners, mass, effective }
+    }
+
+    /// m_eff (kg).
+    fn effective_mass(&self) -> f64 {
+        self.mass * self.effective
+    }
+
+    /// Units at K, at this k1 of the vertical ones (N/m).
+    fn springs(&self, k: f64, k1: f64) -> Springs<Chain<f64>> {
+        let mut design = for_landing(&self.corners, self.effective, k);
+        let hz = (k1 / self.mass).sqrt() / TAU;
+        design.vertical.omega_n_hz *= hz;
+        design.horizontal.omega_n_hz *= hz;
+        design.chains(self.mass)
+    }
+}
+
+/// W of a footing's outer corners.
+fn outer(w: &DMatrix<f64>, last: usize) -> [[f64; 4]; 4] {
+    let at = |i: usize| if i < 2 { i } else { last + i - 2 };
+    std::array::from_fn(|i| std::array::from_fn(|j| w[(at(i), at(j))]))
+}
+
+/// Springs of a structure at a give of its vertical k1 alone: the smaller, the stiffer. `landing`: v of the choice of K (m/s).
+pub fn springs(standing: &Standing, give: f64, landing: f64) -> CornerSprings {
+    let lightest = standing.footings.iter().map(|f| Lands::new(f).effective_mass()).fold(f64::INFINITY, f64::min);
+    let share = standing.sways[0].omega * landing * lightest / (standing.mass * GRAVITY);
+    with_k(standing, give, (SCALE * give / share).cbrt().clamp(K.0, K.1))
+}
+
+/// The same at any K.
+pub fn with_k(standing: &Standing, give: f64, k: f64) -> CornerSprings {
+    let unit: f64 = standing.sways.iter().map(|sway| sway.give([f64::INFINITY, 1.0])).sum();
+    let k1 = unit / give;
+    let of_footing: Vec<Springs<Chain<f64>>> = standing.footings.iter().map(|f| Lands::new(f).springs(k, k1)).collect();
+    let count = standing.sways[0].reactions.len();
+    let footing = |corner: usize| standing.footings.iter().position(|f| f.corners.contains(&corner)).unwrap_or(0);
+    let corners: Vec<_> = (0..count).map(|corner| of_footing[footing(corner)]).collect();
+    let give = standing.sways.iter().map(|sway| total_give(sway, &corners)).sum();
+    CornerSprings { corners, k, give, omega_n_hz: (k1 / standing.mass).sqrt() / TAU }
+}
+
+/// Energy of the springs over that of the structure.
+fn total_give(sway: &Sway, corners: &[Springs<Chain<f64>>]) -> f64 {
+    let series = |chain: &Chain<f64>| chain.k1 * chain.k2 / (chain.k1 + chain.k2);
+    let each = sway.reactions.iter().zip(corners);
+    let energy: f64 = each.map(|([h, n], s)| h * h / series(&s.horizontal) + n * n / series(&s.vertical)).sum();
+    energy / sway.work
+}
+
+#[cfg(test)]
+mod tests;

@@ -1,0 +1,44 @@
+use super::*;
+use crate::elastic::Pier;
+use approx::assert_relative_eq;
+use nalgebra::DVector;
+
+fn standing() -> Standing {
+    let pier = Pier::new([6e5, 12.0, 2.0], [2.0, 0.02], [6e4, 0.75]).with_axial(4e9, 0.02);
+    Standing::new(&pier, &DVector::zeros(5)).unwrap()
+}
+
+/// m_eff of a block on its corner, held horizontally: m (1 - 3/4 sin^2 alpha).
+#[test]
+fn units_are_those_of_the_footing_alone() {
+    let springs = with_k(&standing(), 1e-4, 0.1);
+    let effective = 6e4 * (1.0 - 0.75 * (4.0 / (4.0 + 0.5625)));
+    let chain = crate::tuning::landing::universal::universal(0.1);
+    for corner in &springs.corners {
+        let unit = corner.vertical;
+        assert_relative_eq!(unit.k2, 0.1 * unit.k1, max_relative = 1e-12);
+        assert_relative_eq!(unit.m2, chain.mu * effective, max_relative = 1e-9);
+        assert_relative_eq!(unit.c, chain.c * (unit.k1 * effective).sqrt(), max_relative = 1e-9);
+    }
+}
+
+/// Ten times as stiff, a tenth of the give; and the springs' compliance is more than k1's alone.
+#[test]
+fn the_give_asked_for_is_that_of_k1() {
+    let standing = standing();
+    let [soft, stiff] = [1e-3, 1e-4].map(|give| with_k(&standing, give, 0.1));
+    assert_relative_eq!(soft.give / stiff.give, 10.0, max_relative = 1e-9);
+    assert_relative_eq!(stiff.corners[0].vertical.k1 / soft.corners[0].vertical.k1, 10.0, max_relative = 1e-9);
+    // k1 and K k1 in series: 1 + 1/K, and the horizontals
+    assert!(stiff.give > 11e-4 && stiff.give < 12e-4, "{}", stiff.give);
+}
+
+#[test]
+fn k_falls_with_the_give_and_with_what_lands() {
+    let light = standing();
+    let heavy = Pier::new([2e5, 12.0, 2.0], [2.0, 0.02], [6e5, 1.0]).with_axial(4e9, 0.02);
+    let heavy = Standing::new(&heavy, &DVector::zeros(5)).unwrap();
+    let k = |standing: &Standing, give: f64| springs(standing, give, 0.6).k;
+    assert_relative_eq!(k(&light, 1e-3) / k(&light, 1e-4), 10f64.cbrt(), max_relative = 1e-9);
+    assert!(k(&heavy, 1e-4) < 0.5 * k(&light, 1e-4));
+}

@@ -1,0 +1,127 @@
+//! What springs of an elastic structure are judged on: releases from leans, motions made for the structure, earthquake-like motions, and the
+//! record at hand, each over the part in which the reference can be predicted.
+
+use rayon::prelude::*;
+use serde::{Deserialize, Serialize};
+
+use super::{
+    design::CornerSprings,
+    trial::{Found, Model, Trial},
+};
+use crate::{fem::Control, record::Record, synthetic, tuning::suite::quantile};
+
+/// Leans that the structure is released from, over alpha.
+pub const LEANS: [f64; 6] = [0.05, 0.2, 0.35, 0.5, 0.7, 0.9];
+/// How long a release is followed, in 1/p, and its samples.
+const RELEASE: f64 = 8.0;
+const SAMPLES: f64 = 1600.0;
+/// Motions of each suite that are followed, and that are looked at for them.
+const MOTIONS: usize = 8;
+const LOOKED_AT: usize = 12;
+/// Seed of both.
+const SEED: u64 = 1940;
+/// How much more sways and the worst tenth may have than the accuracy asked for.
+pub const LOOSER: f64 = 5.0;
+
+/// Errors of rotations and sways (NRMSE) over several histories.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+pub struct Errors {
+    /// Median of rotations, of sways.
+    pub median: [f64; 2],
+    /// 90 % of them are below it.
+    pub p90: [f64; 2],
+    /// Histories compared.
+    pub count: usize,
+    /// Touches to a landing of the reference, over all.
+    pub touches: f64,
+}
+
+impl Errors {
+    /// The largest in units of what an accuracy of rotations allows.
+    pub fn over(&self, accuracy: f64) -> f64 {
+        let allowed = [accuracy, LOOSER * accuracy];
+        let each = (0..2).map(|i| (self.median[i] / allowed[i]).max(self.p90[i] / (LOOSER * allowed[i])));
+        each.fold(0.0, f64::max)
+    }
+}
+
+/// What was measured of springs; `None` where there is nothing to measure it on.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]
+pub struct Measured {
+    pub releases: Option<Errors>,
+    pub motions: Option<Errors>,
+    pub record: Option<Errors>,
+    /// Motions whose reference cannot be predicted, left out.
+    pub ill_conditioned: usize,
+}
+
+impl Measured {
+    /// The largest error in units of what an accuracy allows.
+    pub fn over(&self, accuracy: f64) -> f64 {
+        [self.releases, self.motions, self.record].iter().flatten().map(|e| e.over(accuracy)).fold(0.0, f64::max)
+    }
+}
+
+/// The trials of a structure.
+#[derive(Debug)]
+pub struct Suite {
+    pub model: Model,
+    pub releases: Vec<Trial>,
+    pub motions: Vec<Trial>,
+    pub record: Option<Trial>,
+    /// Motions left out since their reference cannot be predicted.
+    pub ill_conditioned: usize,
+}
+
+impl Suite {
+    /// Of a structure, with this record if there is one.
+    pub fn new(model: Model, record: Option<&Record>) -> Self {
+        let body = model.structure.body();
+        let (p, alpha) = (body.p_squared().sqrt(), body.alpha());
+        let released = |lean: f64| Trial::released(&model, lean * alpha, RELEASE / p / SAMPLES, RELEASE / p);
+        let releases: Vec<Found> = LEANS.par_iter().with_max_len(1).map(|lean| released(*lean)).collect();
+        let motion = |i: usize| match i % 2 {
+            0 => synthetic::record(SEED, i / 2, p, alpha),
+            _ => synthetic::earthquake(SEED, i / 2, p),
+        };
+        let shaken = (0..LOOKED_AT).into_par_iter().with_max_len(1).map(|i| Trial::shaken(&model, &motion(i)));
+        let motions: Vec<Found> = shaken.collect();
+        let record = record.map(|record| Trial::shaken(&model, record));
+        let all = releases.iter().chain(&motions).chain(&record);
+        let ill_conditioned = all.filter(|found| matches!(found, Found::IllConditioned)).count();
+        let trials = |found: Vec<Found>, most| found.into_iter().filter_map(Found::trial).take(most).collect();
+        Self {
+            releases: trials(releases, LEANS.len()),
+            motions: trials(motions, MOTIONS),
+            record: record.and_then(Found::trial),
+            ill_conditioned,
+            model,
+        }
+    }
+
+    /// The errors of springs.
+    pub fn measure(&self, springs: &CornerSprings, control: Control) -> Measured {
+        Measured {
+            releases: self.errors(&self.releases, springs, control),
+            motions: self.errors(&self.motions, springs, control),
+            record: self.errors(self.record.as_slice(), springs, control),
+            ill_conditioned: self.ill_conditioned,
+        }
+    }
+
+    fn errors(&self, trials: &[Trial], springs: &CornerSprings, control: Control) -> Option<Errors> {
+        let judged: Vec<_> =
+            trials.par_iter().with_max_len(1).map(|trial| trial.judge(&self.model, springs, control)).collect();
+        let sorted = |i: usize| {
+            let mut errors: Vec<f64> = judged.iter().map(|judged| judged.errors[i]).collect();
+            errors.sort_by(f64::total_cmp);
+            errors
+        };
+        let (turns, sways) = (sorted(0), sorted(1));
+        let of = |q: f64| Some([quantile(&turns, q)?, quantile(&sways, q)?]);
+        let landings: usize = trials.iter().map(|trial| trial.landings).sum();
+        let touches: usize = judged.iter().map(|judged| judged.touches).sum();
+        let touches = touches as f64 / landings as f64;
+        Some(Errors { median: of(0.5)?, p90: of(0.9)?, count: judged.len(), touches })
+    }
+}
