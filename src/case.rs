@@ -22,6 +22,8 @@
 //! accuracy = 0.002           # of the history against Housner's, NRMSE
 //! ```
 
+#[cfg(feature = "cli")]
+mod elastic;
 mod structure;
 
 use std::path::{Path, PathBuf};
@@ -38,7 +40,7 @@ use crate::{
     structure::{Structure, StructureError},
 };
 #[cfg(feature = "cli")]
-pub use structure::LEAST_INERTIA;
+pub use elastic::ElasticCase;
 pub use structure::StructureSection;
 
 /// What is wrong with a case file, and what to do.
@@ -52,6 +54,9 @@ pub enum CaseError {
     Parse { path: String, line: usize, message: String },
     #[error("{path}: {source}")]
     Structure { path: String, source: StructureError },
+    #[cfg(feature = "cli")]
+    #[error("{path}: {source}")]
+    Elastic { path: String, source: crate::elastic::structure::ElasticError },
     #[error("{path}: {source}")]
     Members { path: String, source: MembersError },
     #[error("{path}: {key} is {value}; {remedy}")]
@@ -264,36 +269,41 @@ pub fn parse_with(
     read: impl FnOnce(&Path, &ReadOptions) -> Result<Record, RecordError>,
 ) -> Result<Case, CaseError> {
     let file: CaseFile = toml::from_str(text).map_err(|e| parse_error(path, text, &e))?;
-    let value =
-        |key, value: f64, remedy| CaseError::Value { path: path.into(), key, value: format!("{value:?}"), remedy };
-
     let (structure, restitution) = file.structure.checked(path)?;
     let members = Members { legs: file.legs, damper: file.damper, tendon: file.tendon, friction: file.friction }
         .checked(&structure.body())
         .map_err(|source| CaseError::Members { path: path.into(), source })?;
-    let section = &file.record;
-    let record = match &section.file {
-        Some(name) => {
-            let folder = Path::new(path).parent().unwrap_or(Path::new(""));
-            let (component, baseline) = (section.component.clone(), section.baseline);
-            let vertical = section.vertical.clone().map(|from| from.within(folder));
-            let options = ReadOptions { dt: section.dt_s, units: section.units, component, baseline, vertical };
-            read(&folder.join(name), &options)?
-        }
-        None if section.tells_of_a_file() => {
-            return Err(CaseError::NoFile { path: path.into() });
-        }
-        None => Record::el_centro(),
-    };
-    if let Some(asked) = section.duration_s.filter(|asked| !(*asked > 0.0 && *asked <= LONGEST_S)) {
-        return Err(value("record.duration_s", asked, "give seconds greater than zero, at most 1e6"));
-    }
-    let excitation = Excitation { record, scale: section.scale.unwrap_or(1.0), duration_s: section.duration_s };
+    let excitation = file.record.excitation(path, read)?;
     let case = Case::new(path, (structure, restitution), excitation, file.tuning)?;
     Ok(Case { members, target: file.target.unwrap_or_default(), bounds: file.bounds, ..case })
 }
 
 impl RecordSection {
+    /// The ground motion, its record read by `read`; `path` is where the record's path starts.
+    fn excitation(
+        &self,
+        path: &str,
+        read: impl FnOnce(&Path, &ReadOptions) -> Result<Record, RecordError>,
+    ) -> Result<Excitation, CaseError> {
+        let record = match &self.file {
+            Some(name) => {
+                let folder = Path::new(path).parent().unwrap_or(Path::new(""));
+                let (component, baseline) = (self.component.clone(), self.baseline);
+                let vertical = self.vertical.clone().map(|from| from.within(folder));
+                let options = ReadOptions { dt: self.dt_s, units: self.units, component, baseline, vertical };
+                read(&folder.join(name), &options)?
+            }
+            None if self.tells_of_a_file() => return Err(CaseError::NoFile { path: path.into() }),
+            None => Record::el_centro(),
+        };
+        if let Some(asked) = self.duration_s.filter(|asked| !(*asked > 0.0 && *asked <= LONGEST_S)) {
+            let (key, value) = ("record.duration_s", format!("{asked:?}"));
+            let remedy = "give seconds greater than zero, at most 1e6";
+            return Err(CaseError::Value { path: path.into(), key, value, remedy });
+        }
+        Ok(Excitation { record, scale: self.scale.unwrap_or(1.0), duration_s: self.duration_s })
+    }
+
     fn tells_of_a_file(&self) -> bool {
         self.dt_s.is_some()
             || self.units.is_some()
@@ -343,6 +353,12 @@ pub(crate) fn parse_error(path: &str, text: &str, error: &toml::de::Error) -> Ca
         let message = "objective \"impact\" is now landing; write objective = \"landing\"".to_string();
         return CaseError::Parse { path: path.into(), line, message };
     }
+    if message.starts_with("unknown variant `pier`") || message.starts_with("unknown variant `frame`") {
+        let message =
+            "this kind is an elastic structure, which tune run and tune verify take; give \"aframe\" or \"block\" here";
+        return CaseError::Parse { path: path.into(), line, message: message.into() };
+    }
+    let message = message.replace("expected `aframe` or `block`", "expected `aframe`, `block`, `pier` or `frame`");
     // of the whole message: all known keys, the nearest one among them
     let message = match unknown_key(whole) {
         Some((key, Some(near))) => format!("unknown key \"{}\"; did you mean \"{near}\"?", one_line(&key)),

@@ -20,6 +20,7 @@ mod chart;
 mod common;
 mod completions;
 mod draw;
+mod elastic;
 mod export;
 mod housner;
 mod init;

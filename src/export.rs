@@ -10,6 +10,8 @@
 //! Numbers are written with 17 significant digits, so that a deck holds exactly what was tuned. SI units, except in
 //! SAP2000 where the tables say KN, m.
 
+#[cfg(feature = "cli")]
+mod elastic;
 mod model;
 mod opensees;
 mod plain;
@@ -25,6 +27,8 @@ use crate::{
     predictability::{simulate, width_sensitivity},
     record::Record,
 };
+#[cfg(feature = "cli")]
+pub use elastic::ElasticDeck;
 use model::Model;
 pub use model::{ACCURACY, with_inertia};
 #[cfg(feature = "cli")]

@@ -51,6 +51,7 @@ pub mod peaks;
 pub mod precision;
 pub mod record;
 pub mod rocking;
+pub mod stack;
 pub mod validation;
 
 pub use number::{brief, power_of_ten, prefix, short};

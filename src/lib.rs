@@ -76,6 +76,10 @@ mod house {
 
     pub mod validate;
 
+    #[cfg(any(feature = "cli", feature = "internals"))]
+    #[cfg_attr(not(feature = "internals"), allow(unused_imports, dead_code))] // tests look at more than the program
+    pub mod elastic;
+
     pub mod case;
 
     pub mod tuning;

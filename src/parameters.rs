@@ -1,5 +1,7 @@
 //! `parameters.json`: the tuned springs as the engineer keeps them, and how well they follow Housner.
 
+#[cfg(feature = "cli")]
+pub mod elastic;
 mod record;
 
 use std::path::Path;
@@ -157,6 +159,10 @@ fn first() -> u32 {
 pub enum ParametersError {
     #[error("{path}: cannot be read ({source}); give the parameters.json that `tune run` wrote")]
     Read { path: String, source: std::io::Error },
+    #[error(
+        "{path}: these are springs of an elastic structure, which `tune verify` takes and this command does not; give those of a rigid body"
+    )]
+    Elastic { path: String },
     #[error("{path}, line {line}: {message}; give a parameters.json as `tune run` writes it")]
     Parse { path: String, line: usize, message: String },
     #[error("{path}: {chain}.{name} is {value:?}; give a finite number{bound}")]
@@ -251,6 +257,10 @@ impl Parameters {
             && schema > SCHEMA
         {
             return Err(ParametersError::Schema { path: path.to_string(), schema });
+        }
+        #[cfg(feature = "cli")]
+        if elastic::ElasticParameters::is(text) {
+            return Err(ParametersError::Elastic { path: path.to_string() });
         }
         let parameters: Self = serde_json::from_str(text).map_err(|e| ParametersError::Parse {
             path: path.to_string(),

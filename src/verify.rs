@@ -158,7 +158,7 @@ pub fn verify(
 }
 
 /// The whole number before these words, zero if they are not there.
-fn number_before(report: &str, words: &str) -> usize {
+pub(crate) fn number_before(report: &str, words: &str) -> usize {
     let before = report.split(words).next().filter(|before| before.len() < report.len());
     before.and_then(|before| before.rsplit(' ').next()?.parse().ok()).unwrap_or(0)
 }
@@ -172,30 +172,43 @@ struct Deck<'a> {
 }
 
 /// A deck's run: its history and what it printed.
-struct Run {
-    motion: Motion,
-    good: bool,
-    report: String,
-    seconds: f64,
+pub(crate) struct DeckRun<T> {
+    pub motion: T,
+    pub good: bool,
+    pub report: String,
+    pub seconds: f64,
+}
+
+/// Run a deck's text that follows so many samples dt (s) apart; `read` takes its history from the file that it writes. All
+/// that the deck writes goes to a temporary folder that is removed.
+pub(crate) fn run_deck<T>(
+    text: &str,
+    program: &Program,
+    (samples, dt): (usize, f64),
+    progress: &dyn Fn(usize, usize),
+    read: impl FnOnce(&Path) -> Result<T, VerifyError>,
+) -> Result<DeckRun<T>, VerifyError> {
+    let wrap = |path: &Path| {
+        let path = path.display().to_string();
+        move |source| VerifyError::Folder { path, source }
+    };
+    let folder = tempfile::tempdir().map_err(wrap(&std::env::temp_dir()))?;
+    let path = folder.path().join("deck").with_extension(program.format().ending());
+    fs::write(&path, text).map_err(wrap(&path))?;
+    let began = Instant::now();
+    let all = (samples.saturating_sub(1) as f64 * dt) as usize;
+    let patience = Duration::from_secs_f64(PATIENCE + PATIENCE_PER_SAMPLE * samples as f64);
+    let ran = program.run(&path, patience, &|done| progress(done, all))?;
+    let seconds = began.elapsed().as_secs_f64();
+    let motion = read(&folder.path().join("deck_history.csv"))?;
+    Ok(DeckRun { motion, good: ran.good, report: ran.report, seconds })
 }
 
 impl Deck<'_> {
-    fn run(&self, expected: &Expected) -> Result<Run, VerifyError> {
+    fn run(&self, expected: &Expected) -> Result<DeckRun<Motion>, VerifyError> {
         let text = export(self.parameters, self.record, expected, self.program.format())?;
-        let wrap = |path: &Path| {
-            let path = path.display().to_string();
-            move |source| VerifyError::Folder { path, source }
-        };
-        let folder = tempfile::tempdir().map_err(wrap(&std::env::temp_dir()))?;
-        let path = folder.path().join("deck").with_extension(self.program.format().ending());
-        fs::write(&path, text).map_err(wrap(&path))?;
-        let began = Instant::now();
-        let all = (expected.samples.saturating_sub(1) as f64 * self.record.dt) as usize;
-        let patience = Duration::from_secs_f64(PATIENCE + PATIENCE_PER_SAMPLE * expected.samples as f64);
-        let ran = self.program.run(&path, patience, &|done| (self.progress)(done, all))?;
-        let seconds = began.elapsed().as_secs_f64();
-        let motion = read_history(&folder.path().join("deck_history.csv"), expected.samples)?;
-        Ok(Run { motion, good: ran.good, report: ran.report, seconds })
+        let read = |path: &Path| read_history(path, expected.samples);
+        run_deck(&text, self.program, (expected.samples, self.record.dt), self.progress, read)
     }
 }
 

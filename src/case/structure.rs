@@ -17,12 +17,8 @@ use serde::{
 use super::CaseError;
 use crate::{
     scalar::GRAVITY,
-    structure::{Kind, Structure},
+    structure::{Kind, LEAST_INERTIA, Structure},
 };
-
-/// I_cg of an A-frame with all mass at its apex, as a share of m R^2: OpenSees and its like need some, and rocking does
-/// not feel so little (1e-5 of p^2).
-pub const LEAST_INERTIA: f64 = 1e-5;
 
 /// The international foot and inch (m), the avoirdupois pound [kg]: exact by definition (1959).
 const FOOT: f64 = 0.3048;

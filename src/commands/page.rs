@@ -21,7 +21,7 @@ use advice::{Advice, Weight};
 use html::{escape, facts, json, pretty, table, tile};
 
 mod advice;
-mod html;
+pub(super) mod html;
 
 const STYLE: &str = include_str!("page/style.css");
 const SCRIPT: &str = include_str!("page/script.js");
@@ -36,7 +36,7 @@ pub struct Page<'a> {
 }
 
 /// A section: its name in the address, its heading, its body.
-type Section = (&'static str, &'static str, String);
+pub(super) type Section = (&'static str, &'static str, String);
 
 impl Page<'_> {
     /// The whole page.
@@ -46,7 +46,7 @@ impl Page<'_> {
             ("case", "The case", self.case()),
             ("springs", "The springs", self.springs()),
             ("accuracy", "Accuracy, and on what", self.accuracy()),
-            ("figures", "Figures", self.drawn()),
+            ("figures", "Figures", figures(self.figures)),
             ("landings", "Landings", self.landings()),
             ("forces", "Forces", self.forces()),
             ("stiffness", "Stiffness", self.stiffness()),
@@ -58,30 +58,8 @@ impl Page<'_> {
         .filter(|(_, _, body)| !body.is_empty())
         .collect();
         let (title, subtitle) = self.title();
-        let mut out = format!(
-            "<!DOCTYPE html>\n<html lang=\"en\">\n<head>\n<meta charset=\"utf-8\">\n<meta name=\"viewport\" \
-             content=\"width=device-width, initial-scale=1\">\n<link rel=\"icon\" href=\"data:,\">\n<title>{title}</title>\n\
-             <style>\n{STYLE}</style>\n</head>\n<body>\n<main>\n<h1>{title}</h1>\n<p class=\"sub\">{subtitle}</p>\n<nav>"
-        );
-        for (name, heading, _) in &sections {
-            // writing to a String cannot fail
-            let _ = write!(out, "<a href=\"#{name}\">{heading}</a>");
-        }
-        out.push_str("</nav>\n");
-        out.push_str(&self.verdict(&advice));
-        for advice in &advice {
-            out.push_str(&advice.html());
-        }
-        for (name, heading, body) in &sections {
-            let _ = write!(out, "<section id=\"{name}\">\n<h2>{heading}</h2>\n{body}</section>\n");
-        }
-        let version = env!("CARGO_PKG_VERSION");
-        let _ = write!(
-            out,
-            "<footer>Written by tune {version} (crate groundspring). The same numbers: parameters.json, parameters.md, history.csv, \
-             members.csv.</footer>\n</main>\n<script>\n{SCRIPT}</script>\n</body>\n</html>\n"
-        );
-        out
+        let advised: String = advice.iter().map(Advice::html).collect();
+        document(&title, &subtitle, &(self.verdict(&advice) + &advised), &sections)
     }
 
     /// Of what, and on what.
@@ -270,29 +248,6 @@ impl Page<'_> {
         out
     }
 
-    fn drawn(&self) -> String {
-        let mut out = String::new();
-        for figure in self.figures {
-            let svg = figure.sheet.svg.replacen("<svg ", "<svg class=\"sheet\" role=\"img\" ", 1);
-            let (live, numbers) = if figure.sheet.plots.is_empty() {
-                ("", String::new())
-            } else {
-                (
-                    " class=\"live\"",
-                    format!("<script type=\"application/json\">{}</script>\n", json(&figure.sheet.plots)),
-                )
-            };
-            // writing to a String cannot fail
-            let _ = write!(
-                out,
-                "<figure id=\"{}\"{live}>\n{svg}{numbers}<figcaption>{}</figcaption>\n</figure>\n",
-                figure.name,
-                pretty(figure.caption)
-            );
-        }
-        out
-    }
-
     fn landings(&self) -> String {
         if self.parameters.landings.is_empty() {
             return String::new();
@@ -372,6 +327,52 @@ impl Page<'_> {
     }
 }
 
+/// A page of sections below a verdict; title and line are escaped.
+pub(super) fn document(title: &str, subtitle: &str, verdict: &str, sections: &[Section]) -> String {
+    let mut out = format!(
+        "<!DOCTYPE html>\n<html lang=\"en\">\n<head>\n<meta charset=\"utf-8\">\n<meta name=\"viewport\" \
+         content=\"width=device-width, initial-scale=1\">\n<link rel=\"icon\" href=\"data:,\">\n<title>{title}</title>\n\
+         <style>\n{STYLE}</style>\n</head>\n<body>\n<main>\n<h1>{title}</h1>\n<p class=\"sub\">{subtitle}</p>\n<nav>"
+    );
+    for (name, heading, _) in sections {
+        // writing to a String cannot fail
+        let _ = write!(out, "<a href=\"#{name}\">{heading}</a>");
+    }
+    out.push_str("</nav>\n");
+    out.push_str(verdict);
+    for (name, heading, body) in sections {
+        let _ = write!(out, "<section id=\"{name}\">\n<h2>{heading}</h2>\n{body}</section>\n");
+    }
+    let version = env!("CARGO_PKG_VERSION");
+    let _ = write!(
+        out,
+        "<footer>Written by tune {version} (crate groundspring). The same numbers: parameters.json, parameters.md, history.csv, \
+         members.csv.</footer>\n</main>\n<script>\n{SCRIPT}</script>\n</body>\n</html>\n"
+    );
+    out
+}
+
+/// Figures with their captions; those over time zoom.
+pub(super) fn figures(all: &[Figure]) -> String {
+    let mut out = String::new();
+    for figure in all {
+        let svg = figure.sheet.svg.replacen("<svg ", "<svg class=\"sheet\" role=\"img\" ", 1);
+        let (live, numbers) = if figure.sheet.plots.is_empty() {
+            ("", String::new())
+        } else {
+            (" class=\"live\"", format!("<script type=\"application/json\">{}</script>\n", json(&figure.sheet.plots)))
+        };
+        // writing to a String cannot fail
+        let _ = write!(
+            out,
+            "<figure id=\"{}\"{live}>\n{svg}{numbers}<figcaption>{}</figcaption>\n</figure>\n",
+            figure.name,
+            pretty(figure.caption)
+        );
+    }
+    out
+}
+
 fn objective(objective: Objective) -> &'static str {
     match objective {
         Objective::Landing => "the landing of the structure, from its geometry",
@@ -383,7 +384,7 @@ fn hz(x: f64) -> String {
     if x < 1e3 { format!("{} Hz", short(x, 4)) } else { format!("{} kHz", short(x * 1e-3, 4)) }
 }
 
-fn cite() -> String {
+pub(super) fn cite() -> String {
     format!(
         "<p>The method: Q. T. Ma, J. W. Butterworth, B. D. Davidson, <i>Modelling rocking structures using standard finite elements</i>, \
          New Zealand Society for Earthquake Engineering Conference, 2005. The theory: G. W. Housner, <i>The behavior of inverted \

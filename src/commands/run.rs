@@ -1,5 +1,7 @@
 //! `tune run`: the whole job.
 
+mod elastic;
+
 use std::{
     io::Write,
     path::{Path, PathBuf},
@@ -19,7 +21,7 @@ use super::{
     table, write_file,
 };
 use crate::{
-    case::{ACCURACY, Case, Objective},
+    case::{ACCURACY, Case, CaseError, ElasticCase, Objective},
     excitation::Excitation,
     export::{Expected, with_inertia},
     front::{self, FrontPoint},
@@ -43,6 +45,8 @@ const FILES: &[&str] = &[
     "decks/model_sap2000.s2k",
     "decks/springs.csv",
     "decks/springs.md",
+    "forces.png",
+    "forces.svg",
 ];
 
 fn files() -> Vec<&'static str> {
@@ -91,7 +95,15 @@ pub struct Options {
 
 pub fn run(o: &Options) -> Result<(), CommandError> {
     let mut case = match &o.case {
-        Some(path) => Case::read(path)?,
+        Some(path) => {
+            let name = path.display().to_string();
+            let text =
+                std::fs::read_to_string(path).map_err(|source| CaseError::Read { path: name.clone(), source })?;
+            if ElasticCase::is(&text) {
+                return elastic::run(o, ElasticCase::parse(&name, &text)?);
+            }
+            Case::parse(&name, &text)?
+        }
         None => Case::paper()?,
     };
     if o.no_record {
@@ -103,23 +115,8 @@ pub fn run(o: &Options) -> Result<(), CommandError> {
     } else {
         case.set_excitation(o.record.excitation(|| common::of_case(&case))?)?;
     }
-    if let Some(hz) = o.max_hz {
-        if !(0.1..=1e6).contains(&hz) {
-            return Err(CommandError::Option {
-                option: "max-hz",
-                value: format!("{hz:?}"),
-                remedy: "give a frequency between 0.1 and 1e6 Hz",
-            });
-        }
-        case.tuning.max_omega_hz = Some(hz);
-    }
-    if let Some(accuracy) = o.accuracy {
-        if !(ACCURACY.0..=ACCURACY.1).contains(&accuracy) {
-            let remedy = "give an error between 1e-5 and 1, as 0.002";
-            return Err(CommandError::Option { option: "accuracy", value: format!("{accuracy:?}"), remedy });
-        }
-        case.tuning.accuracy = accuracy;
-    }
+    case.tuning.max_omega_hz = max_hz(o)?.or(case.tuning.max_omega_hz);
+    case.tuning.accuracy = accuracy(o)?.unwrap_or(case.tuning.accuracy);
     let friction = o.ground.friction()?;
     check_folder(&o.out)?;
     threads(o.jobs)?;
@@ -147,6 +144,28 @@ pub fn run(o: &Options) -> Result<(), CommandError> {
     write!(std::io::stdout(), "{springs}{forces}{}\n{said}\n", table::front_terminal(&run.front))?;
     eprintln!("{}\nwritten to {}", run.case.excitation.line(), o.out.display());
     Ok(())
+}
+
+/// The stiffest springs allowed, if it is given (Hz).
+fn max_hz(o: &Options) -> Result<Option<f64>, CommandError> {
+    match o.max_hz {
+        Some(hz) if !(0.1..=1e6).contains(&hz) => {
+            let remedy = "give a frequency between 0.1 and 1e6 Hz";
+            Err(CommandError::Option { option: "max-hz", value: format!("{hz:?}"), remedy })
+        }
+        given => Ok(given),
+    }
+}
+
+/// The accuracy asked for, if it is given.
+fn accuracy(o: &Options) -> Result<Option<f64>, CommandError> {
+    match o.accuracy {
+        Some(accuracy) if !(ACCURACY.0..=ACCURACY.1).contains(&accuracy) => {
+            let remedy = "give an error between 1e-5 and 1, as 0.002";
+            Err(CommandError::Option { option: "accuracy", value: format!("{accuracy:?}"), remedy })
+        }
+        given => Ok(given),
+    }
 }
 
 /// What to write besides tables and decks.

@@ -1,5 +1,7 @@
 //! `tune verify`: the deck run in OpenSees, beside our own history and Housner's.
 
+mod elastic;
+
 use std::{fmt::Write as _, io::Write, path::PathBuf};
 
 use clap::Args;
@@ -18,7 +20,7 @@ use crate::{
     export::ACCURACY,
     figures::history::{self, History, Trace},
     motion::{Motion, peak},
-    parameters::Parameters,
+    parameters::{Parameters, ParametersError, elastic::ElasticParameters},
     record::Record,
     verify::{LIMIT, Program, Verification, verify},
 };
@@ -53,6 +55,12 @@ pub fn run(o: &Options) -> Result<(), CommandError> {
         Some(command) => Program::Tcl(command.split_whitespace().map(str::to_string).collect()),
         None => Program::Python(o.python.clone()),
     };
+    let name = o.parameters.display().to_string();
+    let text = std::fs::read_to_string(&o.parameters)
+        .map_err(|source| ParametersError::Read { path: name.clone(), source })?;
+    if ElasticParameters::is(&text) {
+        return elastic::run(o, &ElasticParameters::parse(&name, &text)?, &program);
+    }
     let (parameters, record, line) = read(&o.parameters, &o.record)?;
     check_folder(&o.out)?;
     check_accuracy(o.accuracy)?;

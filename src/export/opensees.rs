@@ -60,7 +60,7 @@ impl Vertical {
 }
 
 /// A record, four samples a line.
-fn rows(accel: &[f64], separator: &str) -> String {
+pub(super) fn rows(accel: &[f64], separator: &str) -> String {
     let lines = accel.chunks(4).map(|samples| {
         samples.iter().fold(String::from("   "), |mut line, &a| {
             // writing to a String does not fail

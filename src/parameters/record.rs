@@ -142,6 +142,12 @@ impl RecordRow {
         }
     }
 
+    /// The ground motion again; `parameters` is the path of the file that this row is of.
+    pub(super) fn excitation(&self, parameters: &Path) -> Result<Excitation, RememberedError> {
+        let (record, scale) = (self.record(parameters)?, self.scale.unwrap_or(1.0));
+        Ok(Excitation { record, scale, duration_s: self.duration_s })
+    }
+
     /// The record again, whole and unscaled; `parameters` is the path of the file that this row is of.
     fn record(&self, parameters: &Path) -> Result<Record, RememberedError> {
         let source = self.source.as_ref().unwrap_or(&SourceRow::Embedded);
@@ -201,11 +207,7 @@ impl Parameters {
     /// The record is not there, has changed, was in no file, or is none any more.
     pub fn excitation(&self, path: &Path) -> Result<Excitation, RememberedError> {
         match &self.record {
-            Some(row) if row.source.is_some() => Ok(Excitation {
-                record: row.record(path)?,
-                scale: row.scale.unwrap_or(1.0),
-                duration_s: row.duration_s,
-            }),
+            Some(row) if row.source.is_some() => row.excitation(path),
             _ => Ok(Excitation {
                 duration_s: Some(self.matched.map_or(FORMER_DURATION_S, |m| m.duration_s)),
                 ..Excitation::whole(Record::el_centro())

@@ -1,0 +1,135 @@
+//! Case files of elastic structures.
+//!
+//! ```toml
+//! [structure]
+//! kind = "pier"              # or "frame", or "aframe" with ea_n, ei_nm2, foot_mass_kg, damping_ratio
+//! height_m = 12.0            # of the mass above the soles
+//! width_m = 4.0              # of the footing
+//! mass_kg = 600e3
+//! footing_mass_kg = 120e3
+//! footing_height_m = 1.5
+//! frequency_hz = 2.0         # fixed to the ground, across; or ei_nm2
+//! damping_ratio = 0.02
+//!
+//! [record]                   # as for a rigid body
+//!
+//! [tuning]
+//! accuracy = 0.002           # of rotations against the reference's, NRMSE
+//! ```
+
+use std::path::Path;
+
+use serde::Deserialize;
+
+use super::{ACCURACY, CaseError, RecordSection, parse_error};
+use crate::{
+    elastic::structure::ElasticStructure,
+    excitation::Excitation,
+    record::{Notice, Recording},
+};
+
+/// Keys that an A-frame has only if its legs are elastic.
+const OF_LEGS: [&str; 4] = ["ea_n", "ei_nm2", "foot_mass_kg", "damping_ratio"];
+
+/// A checked case, its record read.
+#[derive(Clone, Debug)]
+pub struct ElasticCase {
+    /// The structure.
+    pub structure: ElasticStructure,
+    /// The record, its scale, the length asked for.
+    pub excitation: Excitation,
+    /// What the reader of the record says of it.
+    pub notices: Vec<Notice>,
+    /// Error of the rotations against the reference that Omega_n is chosen for, NRMSE.
+    pub accuracy: f64,
+    /// Stiffest springs allowed, Omega_n/2 pi of all mass (Hz); none unless given.
+    pub max_omega_hz: Option<f64>,
+}
+
+#[derive(Deserialize)]
+#[serde(deny_unknown_fields)]
+struct ElasticFile {
+    structure: ElasticStructure,
+    #[serde(default)]
+    record: RecordSection,
+    #[serde(default)]
+    tuning: ElasticTuning,
+}
+
+#[derive(Deserialize)]
+#[serde(deny_unknown_fields, default)]
+struct ElasticTuning {
+    accuracy: f64,
+    max_omega_hz: Option<f64>,
+}
+
+impl Default for ElasticTuning {
+    fn default() -> Self {
+        Self { accuracy: 0.002, max_omega_hz: None }
+    }
+}
+
+impl ElasticCase {
+    /// Whether a case file's text tells of an elastic structure.
+    pub fn is(text: &str) -> bool {
+        let Ok(file) = text.parse::<toml::Table>() else { return false };
+        let Some(structure) = file.get("structure").and_then(toml::Value::as_table) else { return false };
+        match structure.get("kind").and_then(toml::Value::as_str) {
+            Some("pier" | "frame") => true,
+            Some("aframe") => OF_LEGS.iter().any(|key| structure.contains_key(*key)),
+            _ => false,
+        }
+    }
+
+    /// Parse a case file's text and read the record it names; `path` names it in messages and is where its record's path starts.
+    ///
+    /// # Errors
+    /// What is wrong with the file, the structure, the record.
+    pub fn parse(path: &str, text: &str) -> Result<Self, CaseError> {
+        let file: ElasticFile = toml::from_str(text).map_err(|e| parse_error(path, text, &e))?;
+        let structure = file.structure.checked().map_err(|source| CaseError::Elastic { path: path.into(), source })?;
+        let value =
+            |key, value: f64, remedy| CaseError::Value { path: path.into(), key, value: format!("{value:?}"), remedy };
+        let ElasticTuning { accuracy, max_omega_hz } = file.tuning;
+        if !(ACCURACY.0..=ACCURACY.1).contains(&accuracy) {
+            return Err(value("tuning.accuracy", accuracy, "give an error between 1e-5 and 1, as 0.002"));
+        }
+        if let Some(hz) = max_omega_hz.filter(|hz| !(0.1..=1e6).contains(hz)) {
+            return Err(value("tuning.max_omega_hz", hz, "give a frequency between 0.1 and 1e6 Hz, or leave it out"));
+        }
+        let mut notices = Vec::new();
+        let excitation = file.record.excitation(path, |file: &Path, options| {
+            let recording = Recording::read(file, options)?;
+            notices = recording.notices();
+            Ok(recording.into_record())
+        })?;
+        Ok(Self { structure, excitation, notices, accuracy, max_omega_hz })
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    const PIER: &str = "[structure]\nkind = 'pier'\nheight_m = 12.0\nwidth_m = 4.0\nmass_kg = 600e3\nfooting_mass_kg = 120e3\n\
+                        footing_height_m = 1.5\nfrequency_hz = 2.0\ndamping_ratio = 0.02\n";
+
+    #[test]
+    fn a_pier_and_an_a_frame_with_legs_are_elastic() {
+        assert!(ElasticCase::is(PIER));
+        let frame = "[structure]\nkind = 'aframe'\nheight_m = 12.0\n";
+        assert!(!ElasticCase::is(frame) && ElasticCase::is(&format!("{frame}ea_n = 1e9\n")));
+        assert!(!ElasticCase::is("[structure]\nkind = 'block'\n") && !ElasticCase::is("kind"));
+    }
+
+    #[test]
+    fn a_case_is_read_and_what_is_wrong_is_named() {
+        let case = ElasticCase::parse("pier.toml", PIER).unwrap();
+        assert_eq!((case.accuracy, case.excitation.scale), (0.002, 1.0));
+        let said = |more: &str| ElasticCase::parse("pier.toml", &format!("{PIER}{more}")).unwrap_err().to_string();
+        assert!(said("[tuning]\naccuracy = 7.0\n").contains("tuning.accuracy is 7.0"));
+        let objective = said("[tuning]\nobjective = 'arr'\n");
+        assert!(objective.contains("objective"), "{objective}");
+        assert!(said("[legs]\nea_n = 1.0\n").contains("legs"));
+    }
+}

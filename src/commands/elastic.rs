@@ -1,0 +1,202 @@
+//! What `tune run` leaves of an elastic structure: tables, histories, figures, the deck, the page.
+
+use std::path::Path;
+
+use super::{
+    CommandError,
+    common::csv_row,
+    draw::{self, Figure},
+    run::Output,
+    write_file,
+};
+use crate::{
+    case::ElasticCase,
+    elastic::{
+        answer::{Assembled, ElasticAnswer},
+        fem::{History, low_pass},
+    },
+    export::{ACCURACY, ElasticDeck},
+    motion::peak,
+    parameters::{
+        RecordRow,
+        elastic::{ElasticAssessment, ElasticParameters, OnRecord},
+    },
+    record::Record,
+    spring::{Chain, Springs},
+    tuning::elastic::ElasticTuned,
+};
+
+mod demands;
+mod page;
+mod pictures;
+pub(super) mod words;
+
+/// Frequency above which forces of the ground are taken to be the springs' (Hz).
+pub(super) const FILTER_HZ: f64 = 20.0;
+
+/// A job done.
+pub struct ElasticRun {
+    pub case: ElasticCase,
+    pub assembled: Assembled,
+    pub tuned: ElasticTuned,
+    /// The part of the record that is used, scaled.
+    pub record: Record,
+    pub answer: ElasticAnswer,
+    /// But for the record: where that is to be found depends on the folder.
+    pub parameters: ElasticParameters,
+}
+
+/// What is filed of springs without a record.
+pub fn springs_alone(assembled: &Assembled, tuned: &ElasticTuned, accuracy: f64) -> ElasticParameters {
+    let place = |(i, springs): (usize, &Springs<Chain<f64>>)| (assembled.layout.corners[i].place[0], *springs);
+    let corners: Vec<_> = tuned.springs.corners.iter().enumerate().map(place).collect();
+    let assessment = ElasticAssessment { accuracy, reached: tuned.reached, measured: tuned.measured };
+    ElasticParameters {
+        assessment: Some(assessment),
+        ..ElasticParameters::new(assembled.structure, tuned.springs.omega_n_hz, &corners)
+    }
+}
+
+impl ElasticParameters {
+    /// Write the file and its tables; what to print.
+    pub(super) fn save_alone(&self, out: &Path) -> Result<String, CommandError> {
+        write_file(&out.join("parameters.json"), self.to_json().as_bytes())?;
+        write_file(&out.join("parameters.md"), words::markdown(self).as_bytes())?;
+        Ok(format!("{}\n{}\n", words::markdown(self), words::assessed(self).join("\n")))
+    }
+}
+
+/// The deck for openseespy that is to find this history, its steps for this accuracy.
+pub(super) fn deck(
+    assembled: &Assembled,
+    springs: &[Springs<Chain<f64>>],
+    record: &Record,
+    history: &History,
+    accuracy: f64,
+) -> String {
+    let (frame, top) = (&assembled.frame, assembled.watched.first().map_or(0, |watched| watched.top));
+    let at = |q: &Vec<f64>| {
+        let [x, z, _] = frame.displacement(top, q);
+        [x, z]
+    };
+    let motion: Vec<[f64; 2]> = history.q.iter().map(at).collect();
+    ElasticDeck {
+        title: &words::title(&assembled.structure),
+        layout: &assembled.layout,
+        frame,
+        springs,
+        record,
+        samples: motion.len(),
+        top: (top, &motion),
+        alpha: assembled.structure.body().alpha(),
+        frequency_hz: assembled.structure.frequency_hz(),
+        accuracy,
+    }
+    .python()
+}
+
+impl ElasticRun {
+    /// All that is said and saved of an answer.
+    pub fn new(
+        case: ElasticCase,
+        assembled: Assembled,
+        tuned: ElasticTuned,
+        record: Record,
+        answer: ElasticAnswer,
+    ) -> Self {
+        let alpha = assembled.structure.body().alpha();
+        let [rotations, drifts]: [fn(&crate::elastic::answer::Sway) -> &[f64]; 2] =
+            [|sway| &sway.rotation, |sway| &sway.drift];
+        let largest = |k: usize, of: fn(&crate::elastic::answer::Sway) -> &[f64]| {
+            answer.sways.iter().map(|pair| peak(of(&pair[k])).abs()).fold(0.0, f64::max)
+        };
+        let on_record = OnRecord {
+            compared_s: answer.compared_s(),
+            whole: answer.predictable_to_its_end(),
+            nrmse_rotation: answer.errors[0],
+            nrmse_drift: answer.errors[1],
+            peak_ratio_reference: largest(0, rotations) / alpha,
+            peak_ratio_fem: largest(1, rotations) / alpha,
+            peak_drift_reference_m: largest(0, drifts),
+            peak_drift_fem_m: largest(1, drifts),
+            landings_reference: answer.reference.landings().count(),
+            touches_fem: answer.fem.contacts.iter().filter(|contact| contact.touches).count(),
+            energy_residual: answer.fem.energy_residual,
+        };
+        let parameters =
+            ElasticParameters { on_record: Some(on_record), ..springs_alone(&assembled, &tuned, case.accuracy) };
+        Self { case, assembled, tuned, record, answer, parameters }
+    }
+
+    /// Write everything into a folder, which is there.
+    pub fn save(&self, out: &Path, output: Output) -> Result<(), CommandError> {
+        let parameters = self.filed(out);
+        write_file(&out.join("parameters.json"), parameters.to_json().as_bytes())?;
+        let tables = words::markdown(&parameters) + "\n" + &demands::markdown(self);
+        write_file(&out.join("parameters.md"), tables.as_bytes())?;
+        write_file(&out.join("history.csv"), self.history().as_bytes())?;
+        write_file(&out.join("members.csv"), demands::csv(self).as_bytes())?;
+        write_file(&out.join("decks/model_openseespy.py"), self.deck(ACCURACY).as_bytes())?;
+        let figures: Vec<Figure> = if output.figures { pictures::draw(self)? } else { Vec::new() };
+        draw::save(out, &figures)?;
+        if output.report {
+            let page = page::Page { run: self, parameters: &parameters, figures: &figures };
+            write_file(&out.join("report.html"), page.html().as_bytes())?;
+        }
+        Ok(())
+    }
+
+    fn filed(&self, out: &Path) -> ElasticParameters {
+        let record = Some(RecordRow::new(&self.case.excitation, &self.record, out));
+        ElasticParameters { record, ..self.parameters.clone() }
+    }
+
+    /// For the terminal.
+    pub fn terminal(&self) -> String {
+        let said = words::said(self).join("\n");
+        format!("{}\n{}\n{said}\n", words::markdown(&self.parameters), demands::markdown(self))
+    }
+
+    fn deck(&self, accuracy: f64) -> String {
+        deck(&self.assembled, &self.tuned.springs.corners, &self.record, &self.answer.fem, accuracy)
+    }
+
+    /// `history.csv`: rotation and drift of every base in the reference and on the springs, uplift of every corner on them.
+    fn history(&self) -> String {
+        let sways = &self.answer.sways;
+        let name = |what: &str, i: usize| if sways.len() > 1 { format!("{what}_{}", i + 1) } else { what.to_string() };
+        let mut head = vec!["t".to_string()];
+        for (i, _) in sways.iter().enumerate() {
+            for model in ["reference", "fem"] {
+                head.extend([name(&format!("theta_{model}"), i), name(&format!("drift_{model}"), i)]);
+            }
+        }
+        let corners = self.assembled.layout.corners.len();
+        head.extend((1..=corners).map(|i| format!("uplift_{i}")));
+        let uplifts: Vec<Vec<f64>> = (0..corners).map(|i| self.answer.fem.uplift(&self.assembled.frame, i)).collect();
+        let mut out = head.join(",") + "\n";
+        for sample in 0..self.answer.fem.q.len() {
+            let mut row = vec![sample as f64 * self.record.dt];
+            for pair in sways {
+                for sway in pair {
+                    // the reference may end before: an empty cell is not a number
+                    let at = |values: &[f64]| values.get(sample).copied().unwrap_or(f64::NAN);
+                    row.extend([at(&sway.rotation), at(&sway.drift)]);
+                }
+            }
+            row.extend(uplifts.iter().map(|uplift| uplift[sample]));
+            csv_row(&mut out, &row);
+        }
+        out
+    }
+
+    /// Vertical force of the ground on all corners at every sample, as it is and without what is faster than [`FILTER_HZ`] (N).
+    pub(super) fn ground_forces(&self) -> [Vec<f64>; 2] {
+        let forces = &self.answer.fem.forces;
+        let count = self.answer.fem.q.len();
+        let sum = |of: &dyn Fn(usize) -> f64| -> Vec<f64> { (0..count).map(of).collect() };
+        let at = sum(&|i| forces.iter().map(|corner| corner.peak[i][1]).sum());
+        let mean = sum(&|i| forces.iter().map(|corner| corner.mean[i][1]).sum());
+        [at, low_pass(&mean, self.record.dt, FILTER_HZ)]
+    }
+}

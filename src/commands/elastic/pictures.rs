@@ -1,0 +1,89 @@
+//! Figures of an elastic structure's run.
+
+use super::{ElasticRun, demands, words};
+use crate::{
+    commands::draw::Figure,
+    figures::{
+        Event, FigureError, brief, prefix, short,
+        stack::{self, Quantity, Stack},
+    },
+};
+
+/// Title, and below it the structure, the record, its scale and Omega_n.
+fn title(run: &ElasticRun, what: &str) -> String {
+    let excitation = &run.case.excitation;
+    let (unit, letter) = prefix(run.parameters.omega_n_hz);
+    format!(
+        "{what}\n{}; {} × {}; Ωₙ/2π = {} {letter}Hz",
+        words::title(&run.assembled.structure),
+        excitation.record.name,
+        brief(excitation.scale, 4),
+        short(run.parameters.omega_n_hz / unit, 3)
+    )
+}
+
+/// All of them.
+pub fn draw(run: &ElasticRun) -> Result<Vec<Figure>, FigureError> {
+    Ok(vec![history(run)?, forces(run)?])
+}
+
+fn history(run: &ElasticRun) -> Result<Figure, FigureError> {
+    let answer = &run.answer;
+    let n = answer.reference.q.len().max(answer.fem.q.len());
+    let t: Vec<f64> = (0..n).map(|i| i as f64 * run.record.dt).collect();
+    let several = answer.sways.len() > 1;
+    let label = |what: &str, i: usize| {
+        if several { format!("{what}, {}", if i == 0 { "left" } else { "right" }) } else { what.to_string() }
+    };
+    let mut names = Vec::new();
+    let mut curves: Vec<[&[f64]; 2]> = Vec::new();
+    for (i, [reference, fem]) in answer.sways.iter().enumerate() {
+        names.push((label("rotation", i), "rad"));
+        curves.push([&reference.rotation, &fem.rotation]);
+        names.push((label("drift", i), "m"));
+        curves.push([&reference.drift, &fem.drift]);
+    }
+    let panels: Vec<Quantity> =
+        names.iter().zip(&curves).map(|((name, unit), curves)| Quantity { name, unit, curves }).collect();
+    let told = (!answer.predictable_to_its_end())
+        .then(|| format!("from t = {:.2} s on no model foretells this motion", answer.compared_s()));
+    let event = told.as_ref().map(|text| Event { time: answer.compared_s(), text });
+    let title = title(run, "Rotation on the ground, and drift without it");
+    let names = ["rigid ground, plastic landings", "finite elements on ground springs"];
+    let sheet = stack::draw(&Stack { title: &title, t: &t, names: &names, panels: &panels, event })?;
+    let caption =
+        "Rotation of the footing (of the line between the feet), and drift of the mass without the rigid rotation.";
+    Ok(Figure { name: "history", caption, sheet })
+}
+
+fn forces(run: &ElasticRun) -> Result<Figure, FigureError> {
+    let quantities = demands::quantities(run);
+    let n = run.answer.fem.q.len().max(run.answer.fixed.q.len());
+    let t: Vec<f64> = (0..n).map(|i| i as f64 * run.record.dt).collect();
+    // fixed in black under the others
+    let rigid = run.answer.rigid.is_some();
+    let names: &[&str] = if rigid {
+        &["fixed to the ground", "rocking, elastic", "rocking, rigid (Housner)"]
+    } else {
+        &["fixed to the ground", "rocking, elastic"]
+    };
+    let curves: Vec<Vec<&[f64]>> = quantities
+        .iter()
+        .map(|quantity| {
+            let [rocking, fixed, body] = &quantity.series;
+            let mut all: Vec<&[f64]> = vec![fixed, rocking];
+            if rigid {
+                all.push(&body[..body.len().min(n)]);
+            }
+            all
+        })
+        .collect();
+    let panels: Vec<Quantity> = quantities
+        .iter()
+        .zip(&curves)
+        .map(|(quantity, curves)| Quantity { name: quantity.name, unit: quantity.unit, curves })
+        .collect();
+    let title = title(run, "What rocking buys");
+    let sheet = stack::draw(&Stack { title: &title, t: &t, names, panels: &panels, event: None })?;
+    Ok(Figure { name: "forces", caption: "What the structure bears when it rocks, and held to the ground.", sheet })
+}

@@ -1,0 +1,62 @@
+//! `tune run` of an elastic structure.
+
+use std::io::Write;
+
+use super::{Options, Output, accuracy, files, max_hz, threads};
+use crate::{
+    case::ElasticCase,
+    commands::{
+        CommandError,
+        elastic::{ElasticRun, springs_alone},
+        output::{Folder, check_folder},
+        progress::Progress,
+    },
+    elastic::answer::{Assembled, ElasticAnswer},
+    tuning::elastic::tune,
+};
+
+/// The whole job.
+pub fn run(o: &Options, mut case: ElasticCase) -> Result<(), CommandError> {
+    if !o.no_record {
+        let notices = std::mem::take(&mut case.notices);
+        let of_case = || -> Result<_, CommandError> {
+            notices.iter().for_each(|notice| eprintln!("{notice}"));
+            Ok(case.excitation.clone())
+        };
+        case.excitation = o.record.excitation(of_case)?;
+    }
+    case.max_omega_hz = max_hz(o)?.or(case.max_omega_hz);
+    case.accuracy = accuracy(o)?.unwrap_or(case.accuracy);
+    o.ground.friction()?;
+    check_folder(&o.out)?;
+    threads(o.jobs)?;
+    let all = files();
+
+    let assembled = Assembled::new(case.structure).map_err(|e| CommandError::Result(e.to_string()))?;
+    let progress = Progress::new("tuning", o.quiet);
+    let tell = |done: usize, error: f64| progress.tell(done, 0, &format!("error {error:.2e}"));
+    let record = if o.no_record { None } else { Some(case.excitation.used()?) };
+    let tuned = tune(&case.structure, case.accuracy, case.max_omega_hz, record.as_ref(), &tell);
+    progress.done();
+    let tuned = tuned.map_err(|e| CommandError::Result(e.to_string()))?;
+    let Some(record) = record else {
+        let parameters = springs_alone(&assembled, &tuned, case.accuracy);
+        let folder = Folder::begin(&o.out, "run", &all)?;
+        let said = parameters.save_alone(&o.out)?;
+        folder.finish()?;
+        write!(std::io::stdout(), "{said}")?;
+        eprintln!("no record: give one with --record\nwritten to {}", o.out.display());
+        return Ok(());
+    };
+    let progress = Progress::new("history", o.quiet);
+    let answer = ElasticAnswer::new(&assembled, &tuned.springs.corners, &record);
+    progress.done();
+    let answer = answer.map_err(|e| CommandError::Result(e.to_string()))?;
+    let run = ElasticRun::new(case, assembled, tuned, record, answer);
+    let folder = Folder::begin(&o.out, "run", &all)?;
+    run.save(&o.out, Output { figures: !o.no_figures, report: !o.no_report })?;
+    folder.finish()?;
+    write!(std::io::stdout(), "{}", run.terminal())?;
+    eprintln!("{}\nwritten to {}", run.case.excitation.line(), o.out.display());
+    Ok(())
+}

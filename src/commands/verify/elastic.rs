@@ -1,0 +1,151 @@
+//! `tune verify` of an elastic structure's deck.
+
+use std::{fmt::Write as _, io::Write, path::Path};
+
+use super::Options;
+use crate::{
+    commands::{
+        CommandError,
+        common::csv_row,
+        elastic::{deck, words},
+        export::check_accuracy,
+        output::{Folder, check_folder},
+        progress::Progress,
+        write_file,
+    },
+    elastic::answer::{Assembled, ElasticAnswer, Sway, errors},
+    figures::stack::{self, Quantity, Stack},
+    parameters::elastic::ElasticParameters,
+    verify::{Program, VerifyError, number_before, run_deck},
+};
+
+/// Largest NRMSE of rotation between OpenSees and our own history, over what can be foretold; of drift, five times that.
+const LIMIT: f64 = 0.002;
+const LOOSER: f64 = 5.0;
+
+/// Run the deck beside our own history.
+pub fn run(o: &Options, parameters: &ElasticParameters, program: &Program) -> Result<(), CommandError> {
+    if matches!(program, Program::Tcl(_)) {
+        let remedy = "decks of elastic structures are for openseespy; leave it out";
+        return Err(CommandError::Option { option: "tcl", value: "given".into(), remedy });
+    }
+    let excitation = o.record.excitation(|| parameters.excitation(&o.parameters))?;
+    let record = excitation.used()?;
+    check_folder(&o.out)?;
+    check_accuracy(o.accuracy)?;
+    let assembled = Assembled::new(parameters.structure).map_err(|e| CommandError::Result(e.to_string()))?;
+    let springs = parameters.chains();
+    let answer = ElasticAnswer::new(&assembled, &springs, &record).map_err(|e| CommandError::Result(e.to_string()))?;
+    let text = deck(&assembled, &springs, &record, &answer.fem, o.accuracy);
+    let progress = Progress::new("OpenSees [s]", o.quiet);
+    let samples = answer.fem.q.len();
+    let read = |path: &Path| sways(&assembled, path, samples);
+    let ran = run_deck(&text, program, (samples, record.dt), &|done, all| progress.tell(done, all, ""), read);
+    progress.done();
+    let ran = ran?;
+
+    let pairs: Vec<[Sway; 2]> =
+        answer.sways.iter().zip(ran.motion).map(|([_, ours], opensees)| [ours.clone(), opensees]).collect();
+    let (compared, whole) = (answer.predictable.min(samples), answer.predictable >= samples);
+    let [rotation, drift] = errors(&pairs, compared);
+    let within = rotation <= LIMIT && drift <= LOOSER * LIMIT;
+    let folder = Folder::begin(&o.out, "verify", &["verify.csv", "verify.png", "verify.svg"])?;
+    write_file(&o.out.join("verify.csv"), csv(&pairs, record.dt).as_bytes())?;
+    draw(o, &assembled, &pairs, record.dt)?;
+    folder.finish()?;
+
+    let mut said = format!("OpenSees took {:.1} s and {} steps\n", ran.seconds, number_before(&ran.report, " steps"));
+    let over = if whole {
+        "over all of it".to_string()
+    } else {
+        format!("over the first {:.2} s, beyond which no model foretells this motion", answer.compared_s())
+    };
+    // writing to a String does not fail
+    let _ = writeln!(
+        said,
+        "OpenSees is {} {LIMIT} of our own rotation ({rotation:.1e}) and {} of our drift ({drift:.1e}), NRMSE {over}",
+        if within { "within" } else { "NOT within" },
+        LOOSER * LIMIT
+    );
+    let late = number_before(&ran.report, " touches or lifts");
+    if late > 0 {
+        let _ = writeln!(said, "WARNING: {late} touches or lifts of a corner within too long a step of OpenSees");
+    }
+    write!(std::io::stdout(), "{said}")?;
+    eprintln!("{}\nwritten to {}", excitation.line(), o.out.display());
+    if within {
+        return Ok(());
+    }
+    let refusal = format!(
+        "verify: OpenSees is off by {rotation:.1e} in rotation and {drift:.1e} in drift; ask for finer steps with --accuracy, or stiffer springs"
+    );
+    Err(CommandError::Failed(refusal))
+}
+
+/// Rotations and drifts from the deck's history: t, then x, z, rotation of every node.
+fn sways(assembled: &Assembled, path: &Path, samples: usize) -> Result<Vec<Sway>, VerifyError> {
+    let bad = |reason: String| VerifyError::History { path: path.display().to_string(), reason };
+    let mut reader = csv::Reader::from_path(path).map_err(|e| bad(e.to_string()))?;
+    let nodes = assembled.layout.nodes.len();
+    let mut all = Vec::with_capacity(samples);
+    for row in reader.deserialize() {
+        let row: Vec<f64> = row.map_err(|e| bad(e.to_string()))?;
+        if row.len() != 1 + 3 * nodes {
+            return Err(bad(format!("{} columns instead of {}", row.len(), 1 + 3 * nodes)));
+        }
+        // of the coordinates that the frame has
+        let mut q = vec![0.0; assembled.frame.mass_matrix().nrows()];
+        for node in 0..nodes {
+            for (k, at) in assembled.frame.coordinates(node).into_iter().enumerate() {
+                if let Some(at) = at {
+                    q[at] = row[1 + 3 * node + k];
+                }
+            }
+        }
+        all.push(q);
+    }
+    if all.len() != samples {
+        return Err(bad(format!("{} samples instead of {samples}", all.len())));
+    }
+    Ok(assembled.sways(all.iter().map(Vec::as_slice)))
+}
+
+/// Our own histories and OpenSees', 12 significant digits.
+fn csv(pairs: &[[Sway; 2]], dt: f64) -> String {
+    let mut head = vec!["t".to_string()];
+    for i in 1..=pairs.len() {
+        for model in ["fem", "opensees"] {
+            head.extend([format!("theta_{model}_{i}"), format!("drift_{model}_{i}")]);
+        }
+    }
+    let mut out = head.join(",") + "\n";
+    for sample in 0..pairs.first().map_or(0, |pair| pair[0].rotation.len().min(pair[1].rotation.len())) {
+        let mut row = vec![sample as f64 * dt];
+        row.extend(pairs.iter().flatten().flat_map(|sway| [sway.rotation[sample], sway.drift[sample]]));
+        csv_row(&mut out, &row);
+    }
+    out
+}
+
+fn draw(o: &Options, assembled: &Assembled, pairs: &[[Sway; 2]], dt: f64) -> Result<(), CommandError> {
+    let n = pairs.first().map_or(0, |pair| pair[0].rotation.len());
+    let t: Vec<f64> = (0..n).map(|i| i as f64 * dt).collect();
+    let of = |pick: fn(&Sway) -> &[f64]| -> Vec<[&[f64]; 2]> {
+        pairs.iter().map(|[ours, opensees]| [pick(ours), pick(opensees)]).collect()
+    };
+    let (rotations, drifts) = (of(|sway| &sway.rotation), of(|sway| &sway.drift));
+    let panels: Vec<Quantity> = rotations
+        .iter()
+        .zip(&drifts)
+        .flat_map(|(rotation, drift)| {
+            [
+                Quantity { name: "rotation", unit: "rad", curves: rotation },
+                Quantity { name: "drift", unit: "m", curves: drift },
+            ]
+        })
+        .collect();
+    let title = format!("The exported model in OpenSees\n{}", words::title(&assembled.structure));
+    let names = ["tune run", "OpenSees"];
+    let data = Stack { title: &title, t: &t, names: &names, panels: &panels, event: None };
+    Ok(stack::draw(&data)?.save(&o.out.join("verify.png"))?)
+}

@@ -1,0 +1,61 @@
+//! What rocking buys, and what foot forces are without the spikes of landings.
+
+use groundspring::{
+    elastic::{
+        fem::{Case, Start, peak},
+        frame::{Base, Column, Pier},
+    },
+    scalar::GRAVITY,
+};
+
+use crate::common::{MODERATE, el_centro, pier, springs};
+
+/// A pier of four elements with its mass, on 1.5 times El Centro: fixed at its base, and free to rock. The weight can hold down no more than
+/// itself times half the width: the base's moment stays near that, where the fixed base bears several times it.
+#[test]
+fn rocking_caps_the_moment_at_the_base() {
+    let mut whole: Pier = pier(&MODERATE);
+    whole.column = Column { elements: 4, section: whole.column.section };
+    (whole.column.section.line_mass, whole.inertia) = (5e3, Some(1e6));
+    let layout = whole.layout();
+    let (fixed, free) = (layout.fixed().frame().unwrap(), layout.frame().unwrap());
+    let accel: Vec<f64> = el_centro(1001).iter().map(|a| 1.5 * a).collect();
+    let springs = springs(&free, 5e3, 4.0);
+    let held = Case::new(&fixed, &[], Start::Standing, 0.01, &accel).simulate().unwrap();
+    let rocked = Case::new(&free, &springs, Start::Standing, 0.01, &accel).simulate().unwrap();
+    let [moment, rocking] =
+        [&held, &rocked].map(|h| peak(0.01, h.demands.iter().map(|d| d.bearings[0].moments[0])).value.abs());
+    let capacity = free.total_mass() * GRAVITY * 2.0;
+    assert!(rocking < 2.0 * capacity && moment > 2.0 * rocking, "{moment:e} {rocking:e} {capacity:e}");
+    // moments of two elements are one at their joint, but for its own rotational inertia
+    let last = &held.demands[400];
+    for pair in last.bearings.windows(2) {
+        assert!((pair[0].moments[1] + pair[1].moments[0]).abs() < 0.02 * moment);
+    }
+    // worst between samples is at least what samples see
+    for (worst, at) in rocked.worst.iter().zip(&rocked.demands) {
+        assert!(worst.values().zip(at.values()).all(|(w, a)| w.abs() >= a.abs()));
+    }
+    assert!(rocked.uplift(&free, 0).iter().chain(&rocked.uplift(&free, 1)).fold(0.0_f64, |m, z| m.max(*z)) > 0.01);
+    let rotation = rocked.rotation(&free, Base::Footing(0));
+    assert!(rotation.iter().any(|th| th.abs() > 2e-3));
+}
+
+/// Landings shed spikes of many times the weight within fractions of a millisecond. Filtered at 20 Hz, what is left is of the weight's size, and
+/// its mean over the history is the mean of the forces.
+#[test]
+fn filtered_foot_forces_have_no_spikes_and_the_same_mean() {
+    let frame = pier(&MODERATE).layout().frame().unwrap();
+    let springs = springs(&frame, 5e3, 4.0);
+    let still = vec![0.0; 2001];
+    let history = Case::new(&frame, &springs, Start::Leaning(0.06), 0.0025, &still).simulate().unwrap();
+    let weight = frame.total_mass() * GRAVITY;
+    let corner = &history.forces[0];
+    let spike = corner.peak.iter().fold(0.0_f64, |m, f| m.max(f[1]));
+    let filtered = corner.filtered(1, 0.0025, 20.0);
+    let most = filtered.iter().fold(0.0_f64, |m, f| m.max(*f));
+    assert!(spike > 3.0 * most && most < 3.0 * weight, "{spike:e} {most:e} {weight:e}");
+    let mean = |x: &[f64]| x.iter().sum::<f64>() / x.len() as f64;
+    let means: Vec<f64> = corner.mean.iter().map(|f| f[1]).collect();
+    assert!((mean(&filtered) - mean(&means)).abs() < 0.01 * weight);
+}

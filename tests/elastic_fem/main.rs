@@ -1,0 +1,8 @@
+//! Stories of elastic frames on ground springs: what a user may rely on, over whole histories.
+
+mod balance;
+mod common;
+mod demands;
+mod fixed_base;
+mod reference;
+mod rigid_limit;

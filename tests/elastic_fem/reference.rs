@@ -1,0 +1,91 @@
+//! Against the nonsmooth reference, event-driven with plastic landings, of the same frame.
+
+use groundspring::{
+    elastic::{
+        Mechanics,
+        beam::Section,
+        fem::{Case, History, Start},
+        frame::{Base, Column, Frame, LeggedFrame},
+        reference::{Corners, ElasticRocking, Ground, Options, at_rest, rock},
+    },
+    scalar::GRAVITY,
+};
+use nalgebra::DVector;
+
+use crate::common::{MODERATE, Numbers, el_centro, nrmse, pier, springs};
+
+/// NRMSE of a base's rotation and of a mass's drift from it.
+fn errors(frame: &Frame, (base, mass): (Base, usize), history: &History, reference: &ElasticRocking) -> [f64; 2] {
+    let rotation: Vec<f64> = reference.q.iter().map(|q| base.rotation(frame, q.as_slice())).collect();
+    let drift: Vec<f64> = reference.q.iter().map(|q| base.drift(frame, mass, q.as_slice())[0]).collect();
+    [nrmse(&history.rotation(frame, base), &rotation), nrmse(&history.drift(frame, mass, base), &drift)]
+}
+
+/// Let go at half of alpha, on springs of 10 kHz of what lands: a light, a moderate, a heavy footing.
+#[test]
+fn free_rocking_follows_the_reference() {
+    let heavy = Numbers { mass: 2e5, footing: 6e5, centre: 4.0, axial: 4e9, ..MODERATE };
+    // the heavy one's corner slides in hops: on springs by chatter
+    for numbers in [Numbers { footing: 6e4, ..MODERATE }, MODERATE, heavy] {
+        let frame = pier(&numbers).layout().frame().unwrap();
+        let Numbers { mass, footing, centre, .. } = numbers;
+        let alpha = (2.0 * (mass + footing) / (mass * 12.0 + footing * centre)).atan();
+        let (still, springs) = (vec![0.0; 1001], springs(&frame, 1e4, 20.0));
+        let history = Case::new(&frame, &springs, Start::Leaning(0.5 * alpha), 0.005, &still).simulate().unwrap();
+        // the same lean, its pivot where it would be on rigid ground
+        let mut q = DVector::from_column_slice(&history.q[0]);
+        let [x, z] = frame.places()[1].reach(q.as_slice()).place;
+        for node in 0..frame.nodes() {
+            let [i, j, _] = frame.coordinates(node).map(Option::unwrap_or_default);
+            (q[i], q[j]) = (q[i] - x, q[j] - z);
+        }
+        let start = (&q, &DVector::zeros(frame.size()));
+        let reference = rock(&frame, Ground::horizontal(0.005, &still), start, &Options::default());
+        let [rotation, drift] = errors(&frame, (Base::Footing(0), 1), &history, &reference);
+        assert!(rotation < 1e-3 && drift < 5e-3, "{footing}: {rotation:e} {drift:e}");
+        assert!(history.energy_residual < 1e-6);
+    }
+}
+
+/// 20 s of El Centro, a pier of 2 Hz on a footing of 60 t; stiffer springs follow more closely.
+#[test]
+fn el_centro_follows_the_reference() {
+    let frame = pier(&Numbers { footing: 6e4, ..MODERATE }).layout().frame().unwrap();
+    let accel = el_centro(2001);
+    let rest = at_rest(&frame, &DVector::zeros(frame.size()), Corners::NONE.with(0).with(1), &[]).unwrap();
+    let start = (&rest, &DVector::zeros(frame.size()));
+    let reference = rock(&frame, Ground::horizontal(0.01, &accel), start, &Options::default());
+    let [soft, stiff] = [2.5e3, 4e4].map(|hz| {
+        let springs = springs(&frame, hz, 20.0);
+        let history = Case::new(&frame, &springs, Start::Standing, 0.01, &accel).simulate().unwrap();
+        errors(&frame, (Base::Footing(0), 1), &history, &reference)
+    });
+    assert!(stiff[0] < 3e-3 && stiff[1] < 1e-2, "{stiff:?}");
+    assert!(4.0 * stiff[0] < soft[0] && 4.0 * stiff[1] < soft[1], "{soft:?} {stiff:?}");
+}
+
+/// 20 s of El Centro, an A-frame of 61 m whose legs shorten by 1e-4 of their length under the weight. A foot lifts as soon as it has landed:
+/// its horizontal spring must have stopped it by then.
+#[test]
+fn legs_that_give_way_follow_the_reference() {
+    let (mass, height, width): (f64, f64, f64) = (680.1e3, 61.0, 12.2);
+    let length = height.hypot(0.5 * width);
+    let axial = 0.5 * mass * GRAVITY / 1e-4;
+    // radius of gyration 1 m; 2 % of damping at some 3 Hz
+    let damping = 2e-3 * axial;
+    let section = Section { axial_damping: damping, bending_damping: damping, ..Section::elastic(axial, axial) };
+    let inertia = 0.01 * mass * length * length;
+    let leg = Column { section, elements: 1 };
+    let frame = LeggedFrame { mass, inertia, height, width, foot_mass: 1e4, leg }.layout().frame().unwrap();
+    let accel = el_centro(2001);
+    let rest = at_rest(&frame, &DVector::zeros(frame.size()), Corners::NONE.with(0).with(1), &[]).unwrap();
+    let start = (&rest, &DVector::zeros(frame.size()));
+    let reference = rock(&frame, Ground::horizontal(0.01, &accel), start, &Options::default());
+    let [soft, stiff] = [4.0, 20.0].map(|ratio| {
+        let springs = springs(&frame, 1e4, ratio);
+        let history = Case::new(&frame, &springs, Start::Standing, 0.01, &accel).simulate().unwrap();
+        errors(&frame, (Base::Feet, 2), &history, &reference)
+    });
+    assert!(stiff[0] < 1e-2 && stiff[1] < 1e-2, "{stiff:?}");
+    assert!(soft[0] > 5e-2, "{soft:?}");
+}
