@@ -76,8 +76,9 @@ impl ElasticCase {
         let Some(structure) = file.get("structure").and_then(toml::Value::as_table) else { return false };
         match structure.get("kind").and_then(toml::Value::as_str) {
             Some("pier" | "frame") => true,
-            Some("aframe") => OF_LEGS.iter().any(|key| structure.contains_key(*key)),
-            _ => false,
+            Some("block") | None => false,
+            // an A-frame, or a kind that there is not: the keys tell which kinds are to be named
+            Some(_) => OF_LEGS.iter().any(|key| structure.contains_key(*key)),
         }
     }
 
