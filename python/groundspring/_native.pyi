@@ -363,7 +363,7 @@ class Tuned:
         """The springs."""
     @property
     def accuracy(self) -> dict[str, Any]:
-        """What was asked for, whether it is reached, what was measured and on what, as in `parameters.json`: NRMSE, without unit."""
+        """What was asked for, whether it is reached, what was measured and on what, as in `parameters.json`: NRMSE."""
     @property
     def verdict(self) -> dict[str, Any]:
         """What the body does in both models, as in `parameters.json`: times in s, rotations over alpha."""
