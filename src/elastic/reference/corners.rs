@@ -65,7 +65,7 @@ impl Corners {
         })
     }
 
-    /// All its subsets, itself and the empty one among them; in order of their number of corners.
+    /// All its subsets, itself and the empty one among them; sets of fewer corners come first.
     pub fn subsets(self) -> Vec<Self> {
         let mut all = vec![Self::NONE];
         for i in self.iter() {

@@ -49,7 +49,8 @@ impl AFrameSpec {
         damping("damping_ratio", self.damping_ratio)?;
         slender(self.body().alpha())?;
         let critical = PI * PI * self.ei_nm2 / self.leg_length().powi(2);
-        stands("a leg", self.leg_load(), critical)?;
+        // leaning, the frame stands on one foot: a leg carries all
+        stands("a leg", self.mass_kg * GRAVITY, critical)?;
         shortens("a leg", self.leg_load(), self.ea_n)
     }
 
