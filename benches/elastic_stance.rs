@@ -6,13 +6,15 @@
 //! ```
 
 use groundspring::{
-    elastic::structure::{ElasticStructure, PierSpec},
+    elastic::{
+        assembled::Assembled,
+        structure::{ElasticStructure, PierSpec},
+    },
     fem::Control,
     tuning::elastic::{
         design::{springs, with_k},
         landing_speed, stand,
         suite::Suite,
-        trial::Model,
     },
 };
 
@@ -39,7 +41,7 @@ fn main() -> Result<(), Box<dyn std::error::Error>> {
             elements: None,
         };
         let structure = ElasticStructure::Pier(pier).checked()?;
-        let model = Model { structure, frame: structure.layout().frame()? };
+        let model = Assembled::new(structure)?;
         let standing = stand(&model).ok_or("does not stand")?;
         let suite = Suite::new(model, None);
         for give in [1e-3, 1e-4, 1e-5] {

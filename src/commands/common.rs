@@ -134,8 +134,10 @@ pub fn history_csv(dt: f64, both: &Both) -> String {
 pub fn csv_row(out: &mut String, row: &[f64]) {
     for (i, x) in row.iter().enumerate() {
         let comma = if i == 0 { "" } else { "," };
+        // where a history has ended there is no number
+        let cell = if x.is_nan() { String::new() } else { digits_12(*x) };
         // writing to a String cannot fail
-        let _ = write!(out, "{comma}{}", digits_12(*x));
+        let _ = write!(out, "{comma}{cell}");
     }
     out.push('\n');
 }

@@ -12,7 +12,8 @@ use super::{
 use crate::{
     case::ElasticCase,
     elastic::{
-        answer::{Assembled, ElasticAnswer},
+        answer::ElasticAnswer,
+        assembled::Assembled,
         fem::{History, low_pass},
     },
     export::{ACCURACY, ElasticDeck},
@@ -105,9 +106,9 @@ impl ElasticRun {
         answer: ElasticAnswer,
     ) -> Self {
         let alpha = assembled.structure.body().alpha();
-        let [rotations, drifts]: [fn(&crate::elastic::answer::Sway) -> &[f64]; 2] =
+        let [rotations, drifts]: [fn(&crate::elastic::assembled::Sway) -> &[f64]; 2] =
             [|sway| &sway.rotation, |sway| &sway.drift];
-        let largest = |k: usize, of: fn(&crate::elastic::answer::Sway) -> &[f64]| {
+        let largest = |k: usize, of: fn(&crate::elastic::assembled::Sway) -> &[f64]| {
             answer.sways.iter().map(|pair| peak(of(&pair[k])).abs()).fold(0.0, f64::max)
         };
         let on_record = OnRecord {
@@ -179,7 +180,7 @@ impl ElasticRun {
             let mut row = vec![sample as f64 * self.record.dt];
             for pair in sways {
                 for sway in pair {
-                    // the reference may end before: an empty cell is not a number
+                    // the reference may end before: its cells are empty then
                     let at = |values: &[f64]| values.get(sample).copied().unwrap_or(f64::NAN);
                     row.extend([at(&sway.rotation), at(&sway.drift)]);
                 }

@@ -19,11 +19,11 @@ use thiserror::Error;
 use self::{
     design::{CornerSprings, springs},
     suite::{Measured, Suite},
-    trial::Model,
 };
 use super::ladder::{DECADE, seek};
 use crate::{
     elastic::{
+        assembled::Assembled,
         frame::FrameError,
         standing::Standing,
         structure::{ElasticError, ElasticStructure},
@@ -79,7 +79,7 @@ pub fn tune(
         return Err(ElasticTuneError::Accuracy(accuracy));
     }
     let structure = structure.checked()?;
-    let model = Model { structure, frame: structure.layout().frame()? };
+    let model = Assembled::new(structure)?;
     let standing = stand(&model).ok_or(ElasticTuneError::Falls)?;
     let suite = Suite::new(model, record);
     let landing = landing_speed(&structure);
@@ -108,8 +108,8 @@ pub fn tune(
 }
 
 /// The structure as it stands on rigid ground.
-pub fn stand(model: &Model) -> Option<Standing> {
-    Standing::new(&model.frame, &model.upright()?)
+pub fn stand(model: &Assembled) -> Option<Standing> {
+    Standing::new(&model.frame, &model.upright().ok()?)
 }
 
 /// Speed at which a corner lands that fell from half of what overturns, 2b p alpha sqrt(3)/2 (m/s).

@@ -11,7 +11,7 @@ use crate::{
         output::{Folder, check_folder},
         progress::Progress,
     },
-    elastic::answer::{Assembled, ElasticAnswer},
+    elastic::{answer::ElasticAnswer, assembled::Assembled},
     tuning::elastic::tune,
 };
 

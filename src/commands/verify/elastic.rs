@@ -13,7 +13,10 @@ use crate::{
         progress::Progress,
         write_file,
     },
-    elastic::answer::{Assembled, ElasticAnswer, Sway, errors},
+    elastic::{
+        answer::ElasticAnswer,
+        assembled::{Assembled, Sway, errors},
+    },
     figures::stack::{self, Quantity, Stack},
     parameters::elastic::ElasticParameters,
     verify::{Program, VerifyError, number_before, run_deck},
@@ -44,10 +47,10 @@ pub fn run(o: &Options, parameters: &ElasticParameters, program: &Program) -> Re
     progress.done();
     let ran = ran?;
 
-    let pairs: Vec<[Sway; 2]> =
-        answer.sways.iter().zip(ran.motion).map(|([_, ours], opensees)| [ours.clone(), opensees]).collect();
+    let ours: Vec<Sway> = answer.sways.iter().map(|[_, ours]| ours.clone()).collect();
     let (compared, whole) = (answer.predictable.min(samples), answer.predictable >= samples);
-    let [rotation, drift] = errors(&pairs, compared);
+    let [rotation, drift] = errors(&ours, &ran.motion, compared);
+    let pairs: Vec<[Sway; 2]> = ours.into_iter().zip(ran.motion).map(|(ours, opensees)| [ours, opensees]).collect();
     let within = rotation <= LIMIT && drift <= LOOSER * LIMIT;
     let folder = Folder::begin(&o.out, "verify", &["verify.csv", "verify.png", "verify.svg"])?;
     write_file(&o.out.join("verify.csv"), csv(&pairs, record.dt).as_bytes())?;

@@ -6,9 +6,9 @@ use serde::{Deserialize, Serialize};
 
 use super::{
     design::CornerSprings,
-    trial::{Found, Model, Trial},
+    trial::{Found, Trial},
 };
-use crate::{fem::Control, record::Record, synthetic, tuning::suite::quantile};
+use crate::{elastic::assembled::Assembled, fem::Control, record::Record, synthetic, tuning::suite::quantile};
 
 /// Leans that the structure is released from, over alpha.
 pub const LEANS: [f64; 6] = [0.05, 0.2, 0.35, 0.5, 0.7, 0.9];
@@ -65,7 +65,7 @@ impl Measured {
 /// The trials of a structure.
 #[derive(Debug)]
 pub struct Suite {
-    pub model: Model,
+    pub model: Assembled,
     pub releases: Vec<Trial>,
     pub motions: Vec<Trial>,
     pub record: Option<Trial>,
@@ -75,7 +75,7 @@ pub struct Suite {
 
 impl Suite {
     /// Of a structure, with this record if there is one.
-    pub fn new(model: Model, record: Option<&Record>) -> Self {
+    pub fn new(model: Assembled, record: Option<&Record>) -> Self {
         let body = model.structure.body();
         let (p, alpha) = (body.p_squared().sqrt(), body.alpha());
         let released = |lean: f64| Trial::released(&model, lean * alpha, RELEASE / p / SAMPLES, RELEASE / p);

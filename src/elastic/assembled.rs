@@ -1,0 +1,162 @@
+//! An elastic structure, assembled: what is watched of it, where it rests, how it rocks on rigid ground and for how long that can be told.
+
+use nalgebra::DVector;
+
+use super::{
+    Mechanics,
+    frame::{Base, Frame, FrameError, Layout},
+    reference::{
+        Corners, ElasticRocking, FORETOLD, Ground, Options, Outcome, PERTURBATION, RestError, at_rest, growth, rock,
+    },
+    structure::ElasticStructure,
+};
+
+/// Stiffness of the ground, in units of the mass, on which a leaning structure is looked for before it is put on rigid ground [1/s2].
+const FIRM: f64 = 1e9;
+
+/// What is watched: something that turns rigidly, and the node above it.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct Watched {
+    /// A footing, or the line between two feet.
+    pub base: Base,
+    /// Node whose drift against it counts.
+    pub top: usize,
+}
+
+/// Rotation of a base and drift of the node above it, sample by sample.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct Sway {
+    /// Clockwise (rad).
+    pub rotation: Vec<f64>,
+    /// Across the base's axis, without the rigid rotation (m).
+    pub drift: Vec<f64>,
+}
+
+/// An elastic structure and its finite elements.
+#[derive(Clone, Debug)]
+pub struct Assembled {
+    /// As given.
+    pub structure: ElasticStructure,
+    /// Its parts.
+    pub layout: Layout,
+    /// The parts assembled.
+    pub frame: Frame,
+    /// What is watched of it, from left to right.
+    pub watched: Vec<Watched>,
+}
+
+impl Assembled {
+    /// Of a structure.
+    ///
+    /// # Errors
+    /// Parts that do not fit together: not of a structure that was checked.
+    pub fn new(structure: ElasticStructure) -> Result<Self, FrameError> {
+        let layout = structure.layout();
+        let frame = layout.frame()?;
+        let tops: &[usize] = match structure {
+            ElasticStructure::Pier(_) => &[1],
+            ElasticStructure::AFrame(_) => &[2],
+            ElasticStructure::Frame(_) => &[2, 3],
+        };
+        let watched = Base::all(&frame).into_iter().zip(tops).map(|(base, &top)| Watched { base, top }).collect();
+        Ok(Self { structure, layout, frame, watched })
+    }
+
+    /// What is watched, at every configuration.
+    pub fn sways<'a>(&self, all: impl Iterator<Item = &'a [f64]> + Clone) -> Vec<Sway> {
+        let of = |&Watched { base, top }: &Watched| Sway {
+            rotation: all.clone().map(|q| base.rotation(&self.frame, q)).collect(),
+            drift: all.clone().map(|q| base.drift(&self.frame, top, q)[0]).collect(),
+        };
+        self.watched.iter().map(of).collect()
+    }
+
+    /// At rest on rigid ground, upright.
+    ///
+    /// # Errors
+    /// There is no such place.
+    pub fn upright(&self) -> Result<DVector<f64>, RestError> {
+        let all = (0..self.frame.footings().len()).fold(Corners::NONE, Corners::with);
+        at_rest(&self.frame, &DVector::zeros(self.frame.size()), all, &[])
+    }
+
+    /// At rest on the corners of one side, leaning by `lean` (rad), on rigid ground; not of a frame, which leans as it bends.
+    pub fn leaning(&self, lean: f64) -> Option<DVector<f64>> {
+        let pivot = usize::from(lean > 0.0);
+        let fixed = match self.structure {
+            ElasticStructure::Pier(_) => self.frame.coordinates(0)[2]?,
+            ElasticStructure::AFrame(_) => self.frame.coordinates(1 - pivot)[1]?,
+            ElasticStructure::Frame(_) => return None,
+        };
+        let firm = FIRM * self.frame.total_mass();
+        let q = self.frame.leaning(lean, &[Some([firm; 2]); 2]).ok()?;
+        at_rest(&self.frame, &q, Corners::NONE.with(pivot), &[fixed]).ok()
+    }
+
+    /// From rest at `q` through a motion of rigid ground.
+    pub fn rock(&self, ground: Ground, q: &DVector<f64>) -> ElasticRocking {
+        rock(&self.frame, ground, (q, &DVector::zeros(q.len())), &Options::default())
+    }
+
+    /// Samples of such a history that can be foretold, up to where it overturns.
+    pub fn foretold(&self, ground: Ground, q: &DVector<f64>, history: &ElasticRocking) -> usize {
+        let (still, options) = (DVector::zeros(q.len()), Options::default());
+        let told = (history, &self.telling()[..], PERTURBATION);
+        let grown = growth(&self.frame, ground, (q, &still), &options, told);
+        let until = grown.samples_below(FORETOLD).min(history.q.len());
+        match history.outcome {
+            Outcome::Overturned { time } => until.min((time / ground.dt) as usize + 1),
+            _ => until,
+        }
+    }
+
+    /// Coordinates whose growth tells of the conditioning: rotations of footings and the tops' displacements.
+    fn telling(&self) -> Vec<usize> {
+        let turn = |base: Base| match base {
+            Base::Footing(node) => self.frame.coordinates(node)[2],
+            Base::Feet => None,
+        };
+        self.watched.iter().flat_map(|w| [turn(w.base), self.frame.coordinates(w.top)[0]]).flatten().collect()
+    }
+}
+
+/// NRMSE of the rotations and of the drifts over the first samples, all bases together; infinite where a history does not get so far.
+pub fn errors(reference: &[Sway], others: &[Sway], samples: usize) -> [f64; 2] {
+    let of = |pick: fn(&Sway) -> &[f64]| {
+        let (mut difference, mut square) = (0.0, 0.0);
+        for (reference, other) in reference.iter().zip(others) {
+            let (reference, other) = (pick(reference), pick(other));
+            let n = samples.min(reference.len());
+            if other.len() < n {
+                return f64::INFINITY;
+            }
+            for (a, b) in reference[..n].iter().zip(other) {
+                difference += (a - b).powi(2);
+                square += a * a;
+            }
+        }
+        if square > 0.0 { (difference / square).sqrt() } else { 0.0 }
+    };
+    [of(|sway| &sway.rotation), of(|sway| &sway.drift)]
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn sway(scale: f64) -> Sway {
+        let rotation: Vec<f64> = (0..10).map(|i| scale * f64::from(i)).collect();
+        Sway { drift: rotation.iter().map(|x| 2.0 * x).collect(), rotation }
+    }
+
+    #[test]
+    fn errors_are_shares_of_the_reference_and_a_history_too_short_has_none() {
+        let [rotation, drift] = errors(&[sway(1.0)], &[sway(1.1)], 10);
+        assert!((rotation - 0.1).abs() < 1e-12 && (drift - 0.1).abs() < 1e-12);
+        let short = Sway { rotation: vec![0.0; 3], drift: vec![0.0; 3] };
+        assert_eq!(errors(&[sway(1.0)], &[short], 10), [f64::INFINITY; 2]);
+        // two bases of which one is off by a tenth: over both
+        let [both, _] = errors(&[sway(1.0), sway(1.0)], &[sway(1.0), sway(1.1)], 10);
+        assert!((both - 0.1 / 2f64.sqrt()).abs() < 1e-12);
+    }
+}
