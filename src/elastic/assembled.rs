@@ -98,16 +98,18 @@ impl Assembled {
         rock(&self.frame, ground, (q, &DVector::zeros(q.len())), &Options::default())
     }
 
-    /// Samples of such a history that can be foretold, up to where it overturns.
+    /// Samples of such a history that can be foretold on springs, up to where it overturns or a corner slides on from a landing.
     pub fn foretold(&self, ground: Ground, q: &DVector<f64>, history: &ElasticRocking) -> usize {
         let (still, options) = (DVector::zeros(q.len()), Options::default());
         let told = (history, &self.telling()[..], PERTURBATION);
         let grown = growth(&self.frame, ground, (q, &still), &options, told);
         let until = grown.samples_below(FORETOLD).min(history.q.len());
-        match history.outcome {
-            Outcome::Overturned { time } => until.min((time / ground.dt) as usize + 1),
-            _ => until,
-        }
+        let overturned = match history.outcome {
+            Outcome::Overturned { time } => Some(time),
+            _ => None,
+        };
+        let ends = history.skidded.into_iter().chain(overturned);
+        ends.fold(until, |until, time| until.min((time / ground.dt) as usize + 1))
     }
 
     /// Coordinates whose growth tells of the conditioning: rotations of footings and the tops' displacements.

@@ -227,6 +227,9 @@ pub struct ElasticRocking {
     pub ledger: Ledger,
     /// Largest force that pulled at a corner which could neither press nor leave nor slide (N).
     pub pulled: f64,
+    /// Time of the first landing, of any energy to speak of, from which a corner slid on (s): it would have had to be pulled to stop. What follows depends on friction,
+    /// which ground springs that hold a corner until it lifts do not have.
+    pub skidded: Option<f64>,
     /// Steps taken.
     pub steps: usize,
 }

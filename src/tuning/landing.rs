@@ -10,4 +10,6 @@ pub mod plane;
 
 pub mod design;
 
+pub mod stopping;
+
 pub mod universal;

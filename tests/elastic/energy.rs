@@ -45,7 +45,23 @@ fn assert_plastic(structure: &impl Mechanics, event: &Event, name: &str) {
     let [before, after] = &event.velocity;
     let speed = before.amax();
     let at = Configuration::new(structure, &event.q, before).unwrap();
-    let impact = at.impact(Contact::held(event.held)).unwrap();
+    let skids = |&i: &usize| {
+        let corner = structure.corner(i, &event.q, before);
+        !event.held.contains(i) && corner.jacobian[1].dot(after).abs() < 1e-9 * speed
+    };
+    let sliding: Corners = event.corners.iter().filter(skids).collect();
+    let impact = if sliding.is_empty() {
+        at.impact(Contact::held(event.held)).unwrap()
+    } else {
+        let braked = at.braked(Contact { held: event.held, sliding }).unwrap();
+        for i in sliding.iter() {
+            // the ground brakes it, and would have to pull to stop it
+            assert!(at.slip(i, &braked.motion, false) * braked.force(i)[0] <= 0.0, "{name}: {event:?}");
+            let stopped = at.impact(Contact::held(event.held.with(i))).unwrap();
+            assert!(stopped.force(i)[1] < 0.0, "{name}: {event:?}");
+        }
+        braked
+    };
     assert!((&impact.motion - after).amax() < 1e-7 * speed, "{name}: {event:?}");
     let largest = impact.forces.iter().flat_map(|(_, force)| force).fold(0.0, |most: f64, force| most.max(force.abs()));
     for i in 0..structure.footings().len() {

@@ -37,28 +37,52 @@ impl Rule<'_> {
     }
 }
 
-/// Velocities after a landing and the corners held then. `touching`: those held before and those that land.
+/// What a landing leaves.
+pub struct Landed {
+    /// Velocities.
+    pub velocity: DVector<f64>,
+    /// Corners that are held.
+    pub held: Corners,
+    /// A corner that slides on, the sign of the force that brakes it, and the energy that stopping it would have taken (J).
+    pub sliding: Option<(usize, f64, f64)>,
+}
+
+/// A landing of some corners. `touching`: those held before and those that land.
+///
+/// A corner that comes in flat may be one that would have to be pulled to stop: the impulse that stops it horizontally would throw it up. It is
+/// then stopped vertically only, by the horizontal impulse alone, and slides on: Coulomb's limit of great friction, as in `stay`.
 pub fn land<M: Mechanics>(
     at: &Configuration<M>,
     ground: [f64; 2],
     touching: Corners,
     landing: Corners,
     rule: &Rule,
-) -> Option<(DVector<f64>, Corners)> {
+) -> Option<Landed> {
     let speed = landing.iter().map(|i| -at.rise(i, at.v, false)).fold(0.0, f64::max);
     let good = |kept: Corners, after: &Held| {
-        let pushed =
-            |i: usize| landing.contains(i) || rule.bound(kept, i) || after.force(i)[1] >= -ROUNDING * largest(after);
+        let pushed = |i: usize| rule.bound(kept, i) || after.force(i)[1] >= -ROUNDING * largest(after);
         kept.iter().all(pushed)
             && touching.minus(kept).iter().all(|i| at.rise(i, &after.motion, false) >= -ROUNDING * speed)
     };
     let tried = touching.subsets().into_iter().filter(|kept| kept.meets(landing) && rule.allows(*kept, touching));
     let found =
         tried.filter_map(|kept| Some((kept, at.impact(Contact::held(kept))?))).find(|(kept, after)| good(*kept, after));
-    // none is good: all stay, which does not add energy either
+    let braked = |i: usize| {
+        let contact = Contact { held: touching.minus(landing), sliding: Corners::NONE.with(i) };
+        let after = at.braked(contact)?;
+        let (slip, force) = (at.slip(i, &after.motion, false), after.force(i)[0]);
+        let good = good(contact.held, &after) && slip * force <= 0.0;
+        let stopped = at.impact(Contact::held(contact.held.with(i)))?;
+        let energy = at.mechanics.kinetic(at.q, at.v) - at.mechanics.kinetic(at.q, &stopped.motion);
+        good.then(|| Landed { velocity: after.motion, held: contact.held, sliding: Some((i, -slip.signum(), energy)) })
+    };
     let (kept, after) = match found {
         Some(found) => found,
-        None => (touching, at.impact(Contact::held(touching))?),
+        None => match landing.iter().find_map(braked) {
+            Some(landed) => return Some(landed),
+            // none is good: all stay, which does not add energy either
+            None => (touching, at.impact(Contact::held(touching))?),
+        },
     };
     let afterwards = Configuration::new(at.mechanics, at.q, &after.motion)?;
     let pull = afterwards.accelerations(ground, Contact::held(kept))?.motion;
@@ -70,7 +94,7 @@ pub fn land<M: Mechanics>(
     };
     let held = kept.and(touching.minus(kept).iter().filter(stays).collect());
     let after = if held == kept { after } else { at.impact(Contact::held(held))? };
-    Some((after.motion, held))
+    Some(Landed { velocity: after.motion, held, sliding: None })
 }
 
 fn largest(held: &Held) -> f64 {

@@ -2,7 +2,7 @@
 
 use nalgebra::DVector;
 
-use super::contact::{AT_REST, land, stay};
+use super::contact::{AT_REST, Landed, land, stay};
 use super::dop853::State;
 use super::hold::{Configuration, Contact};
 use super::walk::{ON_GROUND, Walk};
@@ -11,6 +11,8 @@ use crate::elastic::Mechanics;
 
 /// Height and speed at which a corner counts as standing at the start (m, m/s).
 const STANDING: f64 = 1e-9;
+/// Energy at stake where a corner slides on from a landing, as a share of the largest so far, below which it cannot be seen: 1e-4 of velocities.
+const SKID: f64 = 1e-8;
 
 impl<M: Mechanics> Walk<'_, M> {
     /// Corners that are on the ground and at rest at the start are held, as far as they press.
@@ -51,7 +53,8 @@ impl<M: Mechanics> Walk<'_, M> {
         let there: Corners = self.all.minus(was.all()).iter().filter(there).collect();
         let landing: Corners = there.iter().filter(down).collect();
         let touching = was.all().and(there);
-        let (mut after, held) = land(&at, self.ground(0.0), touching, landing, &self.rule()).ok_or(singular)?;
+        let Landed { velocity: mut after, held, sliding: skidding } =
+            land(&at, self.ground(0.0), touching, landing, &self.rule()).ok_or(singular)?;
         let slides = |&i: &usize| !held.contains(i) && at.rise(i, &after, false).abs() <= AT_REST;
         self.contact = Contact { held, sliding: was.sliding.iter().filter(slides).collect() };
         after *= self.options.kept;
@@ -62,7 +65,26 @@ impl<M: Mechanics> Walk<'_, M> {
         self.anchor(held.minus(was.held));
         self.put_back()?;
         self.note(What::Land, landing, before)?;
+        if let Some((corner, sense, energy)) = skidding {
+            if energy > SKID * self.history.ledger.largest {
+                self.history.skidded = self.history.skidded.or(Some(self.time()));
+            }
+            self.skid(corner, sense)?;
+        }
         self.release()
+    }
+
+    /// A corner slides on from a landing, unless it rises at once.
+    fn skid(&mut self, corner: usize, sense: f64) -> Result<(), Outcome> {
+        let free = self.contact;
+        self.contact.sliding = free.sliding.with(corner);
+        self.sense[corner] = sense;
+        self.refresh()?;
+        if self.now.rates.force(corner)[0] * sense <= 0.0 {
+            self.contact = free;
+            self.refresh()?;
+        }
+        Ok(())
     }
 
     /// A sliding corner leaves the ground, or stops.

@@ -73,7 +73,16 @@ pub fn force(forces: &[(usize, [f64; 2])], corner: usize) -> [f64; 2] {
 enum Aim {
     Acceleration,
     Velocity,
+    /// Of a landing in which corners slide.
+    Braked,
     Place,
+}
+
+impl Aim {
+    /// Whether a sliding corner is kept at its height by its horizontal force.
+    fn has_friction(self) -> bool {
+        matches!(self, Self::Acceleration | Self::Braked)
+    }
 }
 
 impl<'a, M: Mechanics> Configuration<'a, M> {
@@ -91,6 +100,11 @@ impl<'a, M: Mechanics> Configuration<'a, M> {
     /// Velocities after an impact that stops held corners, and sliding ones vertically; impulses.
     pub fn impact(&self, contact: Contact) -> Option<Held> {
         self.hold(contact, Aim::Velocity, self.v.clone(), |_, _, _| 0.0)
+    }
+
+    /// Velocities after an impact that stops held corners, and sliding ones vertically by horizontal impulses alone; impulses.
+    pub fn braked(&self, contact: Contact) -> Option<Held> {
+        self.hold(contact, Aim::Braked, self.v.clone(), |_, _, _| 0.0)
     }
 
     /// The smallest displacement, by M, that takes corners to their places on the ground (x; z = 0), to first order.
@@ -131,7 +145,7 @@ impl<'a, M: Mechanics> Configuration<'a, M> {
         let (mut rows, mut gap) = (Vec::with_capacity(most), Vec::with_capacity(most));
         // columns: G' by the coordinates that are kept, and by those of the forces
         let (mut kept, mut pushed) = (Vec::with_capacity(most * n), Vec::with_capacity(most * n));
-        let friction = aim == Aim::Acceleration && !contact.sliding.is_empty();
+        let friction = aim.has_friction() && !contact.sliding.is_empty();
         for i in contact.all().iter() {
             let corner = self.mechanics.corner(i, self.q, self.v);
             let slides = contact.sliding.contains(i);

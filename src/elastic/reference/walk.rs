@@ -68,6 +68,7 @@ impl<'a, M: Mechanics> Walk<'a, M> {
             outcome: Outcome::Completed,
             ledger: Ledger { start, ..Ledger::default() },
             pulled: 0.0,
+            skidded: None,
             steps: 0,
         };
         Self {

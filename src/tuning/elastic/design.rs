@@ -31,7 +31,7 @@ use crate::{
 };
 
 /// See above; the range of K: soft springs bounce on a larger one, and below the least no chain is sought.
-const SCALE: f64 = 0.1;
+const SCALE: f64 = 0.05;
 const K: (f64, f64) = (0.005, 0.5);
 
 /// Springs under every corner.

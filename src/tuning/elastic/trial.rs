@@ -11,8 +11,9 @@ use crate::{
     record::Record,
 };
 
-/// A history whose predictable part is shorter than this share of it is not compared.
+/// A history is compared if its predictable part is this share of it, or has so many landings.
 const LEAST_SHARE: f64 = 0.2;
+const LEAST_LANDINGS: usize = 3;
 
 /// A motion, a start, and the reference's history.
 #[derive(Clone, Debug)]
@@ -82,7 +83,8 @@ impl Trial {
         }
         let samples = model.foretold(ground, &q, &history);
         let landings = history.landings().take_while(|event| event.time < samples as f64 * dt).count();
-        if (samples as f64) < LEAST_SHARE * accel.len() as f64 || landings == 0 {
+        let long = samples as f64 >= LEAST_SHARE * accel.len() as f64;
+        if landings == 0 || !long && landings < LEAST_LANDINGS {
             return Found::IllConditioned;
         }
         let reference = model.sways(history.q[..samples].iter().map(|q| q.as_slice()));

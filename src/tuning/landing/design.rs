@@ -27,6 +27,7 @@ use thiserror::Error;
 use super::{
     corners::Corners,
     plane::land,
+    stopping::for_stopping,
     universal::{Universal, universal},
 };
 use crate::{
@@ -147,11 +148,12 @@ pub fn for_landing(corners: &Corners<f64>, m: f64, k: f64) -> Springs<Design<f64
         vertical: Design::from_kc(mu * m, k, c * m.sqrt(), 1.0),
         horizontal: Design::from_kc(HORIZONTAL.mu, HORIZONTAL.k, HORIZONTAL.c, HORIZONTAL.ratio),
     };
-    // what the old foot takes falls with the fourth power of the ratio; where both corners stop the body it has its share
-    if !corners.stops() {
-        let error = land(corners, &springs).momentum - 1.0;
-        springs.horizontal.omega_n_hz *= (error / MOMENTUM).max(1.0).powf(0.25);
+    if corners.stops() {
+        return for_stopping(corners, &springs);
     }
+    // what the old foot takes falls with the fourth power of the ratio
+    let error = land(corners, &springs).momentum - 1.0;
+    springs.horizontal.omega_n_hz *= (error / MOMENTUM).max(1.0).powf(0.25);
     springs
 }
 
