@@ -181,3 +181,40 @@ fn growth_is_a_property_of_the_history() {
     assert_eq!(fine.samples_below(1e-9), 120);
     assert!((fine.predictable(f64::INFINITY) - 4.0).abs() < 1e-9);
 }
+
+/// A footing that flies in sideways on one corner. Of a free footing on an axially elastic column W_xx = 1/m_b + h_b^2/I, W_xz = h_b b'/I, where b'
+/// is the corner's distance from the centre: coming with v_x > -v_z W_xx/W_zx it would have to be pulled to stop. It slides on instead,
+/// v_z = 0 by J_x = -v_z/W_zx alone; slower, it stops.
+#[test]
+fn a_corner_that_lands_flat_slides_on() {
+    let pier = light().with_axial(4e9, 0.02);
+    let lean = 0.05_f64;
+    for (share, slides) in [(0.9, false), (1.1, true)] {
+        let mut q = pier.leaning(lean);
+        let still = DVector::zeros(q.len());
+        // leaning clockwise it is lowest on its right
+        q[1] += 1e-9 - pier.corner(1, &q, &still).place[1];
+        let (sin, cos) = lean.sin_cos();
+        // from the footing's centre to the corner
+        let arm = [
+            pier.half_width * cos - pier.footing_height * sin,
+            -pier.half_width * sin - pier.footing_height * cos,
+        ];
+        let (m, inertia) = (pier.footing_mass, pier.footing_inertia);
+        let (w_xx, w_xz) = (1.0 / m + arm[1] * arm[1] / inertia, -arm[0] * arm[1] / inertia);
+        let down = -0.5;
+        // the direction in which the ground's brake throws the corner up
+        let across = -down * w_xx / w_xz * share;
+        let mut v = still.clone();
+        (v[0], v[1]) = (-across, down);
+        let history = rock(&pier, Ground::still(1e-3), (&q, &v), &Options { duration: Some(1e-3), ..Options::tight() });
+        let landing = history.landings().next().expect("it lands");
+        let corner = pier.corner(1, &landing.q, &landing.velocity[1]);
+        let [x, z] = corner.jacobian.each_ref().map(|row| row.dot(&landing.velocity[1]));
+        let expected = if slides { -across - w_xx * down / w_xz } else { 0.0 };
+        assert!(z.abs() < 1e-9 && (x - expected).abs() < 1e-5 * across.abs(), "{share}: {x} {z}, {expected}");
+        assert_eq!(history.skidded.is_some(), slides);
+        assert_eq!(landing.held.contains(1), !slides);
+        assert!(landing.loss() > 0.0);
+    }
+}
