@@ -6,10 +6,11 @@ use super::{
     Mechanics,
     frame::{Base, Frame, FrameError, Layout},
     reference::{
-        Corners, ElasticRocking, FORETOLD, Ground, Options, Outcome, PERTURBATION, RestError, at_rest, growth, rock,
+        Corners, ElasticRocking, FORETOLD, Ground, Options, PERTURBATION, RestError, Twins, at_rest, growth, rock,
     },
     structure::ElasticStructure,
 };
+use crate::motion::nrmse_of;
 
 /// Stiffness of the ground, in units of the mass, on which a leaning structure is looked for before it is put on rigid ground [1/s2].
 const FIRM: f64 = 1e9;
@@ -98,16 +99,11 @@ impl Assembled {
         rock(&self.frame, ground, (q, &DVector::zeros(q.len())), &Options::default())
     }
 
-    /// Samples of such a history that can be foretold, up to where it overturns.
+    /// Samples of such a history that can be foretold, at most its own.
     pub fn foretold(&self, ground: Ground, q: &DVector<f64>, history: &ElasticRocking) -> usize {
         let (still, options) = (DVector::zeros(q.len()), Options::default());
-        let told = (history, &self.telling()[..], PERTURBATION);
-        let grown = growth(&self.frame, ground, (q, &still), &options, told);
-        let until = grown.samples_below(FORETOLD).min(history.q.len());
-        match history.outcome {
-            Outcome::Overturned { time } => until.min((time / ground.dt) as usize + 1),
-            _ => until,
-        }
+        let twins = Twins { coordinates: &self.telling(), perturbation: PERTURBATION, limit: FORETOLD };
+        growth(&self.frame, ground, (q, &still), &options, (history, &twins)).samples_below(FORETOLD)
     }
 
     /// Coordinates whose growth tells of the conditioning: rotations of footings and the tops' displacements.
@@ -120,22 +116,15 @@ impl Assembled {
     }
 }
 
-/// NRMSE of the rotations and of the drifts over the first samples, all bases together; infinite where a history does not get so far.
+/// NRMSE of the rotations and of the drifts over the first samples, all bases together; infinite where a history does not get so far, and where
+/// it moves and the reference does not.
 pub fn errors(reference: &[Sway], others: &[Sway], samples: usize) -> [f64; 2] {
     let of = |pick: fn(&Sway) -> &[f64]| {
-        let (mut difference, mut square) = (0.0, 0.0);
-        for (reference, other) in reference.iter().zip(others) {
-            let (reference, other) = (pick(reference), pick(other));
-            let n = samples.min(reference.len());
-            if other.len() < n {
-                return f64::INFINITY;
-            }
-            for (a, b) in reference[..n].iter().zip(other) {
-                difference += (a - b).powi(2);
-                square += a * a;
-            }
+        let each = || others.iter().zip(reference).map(|(other, reference)| (pick(other), pick(reference)));
+        if each().any(|(other, reference)| other.len() < samples.min(reference.len())) {
+            return f64::INFINITY;
         }
-        if square > 0.0 { (difference / square).sqrt() } else { 0.0 }
+        nrmse_of(each().flat_map(|(other, reference)| other.iter().zip(reference).take(samples)))
     };
     [of(|sway| &sway.rotation), of(|sway| &sway.drift)]
 }
@@ -158,5 +147,8 @@ mod tests {
         // two bases of which one is off by a tenth: over both
         let [both, _] = errors(&[sway(1.0), sway(1.0)], &[sway(1.0), sway(1.1)], 10);
         assert!((both - 0.1 / 2f64.sqrt()).abs() < 1e-12);
+        // a reference that stands still: nothing to divide by
+        assert_eq!(errors(&[sway(0.0)], &[sway(1.0)], 10), [f64::INFINITY; 2]);
+        assert_eq!(errors(&[sway(0.0)], &[sway(0.0)], 10), [0.0; 2]);
     }
 }

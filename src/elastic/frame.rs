@@ -87,7 +87,7 @@ impl Frame {
         &self.mass
     }
 
-    /// Largest distance between two unstressed places of it (m): what rotations are measured with.
+    /// Diagonal of the rectangle about its unstressed nodes and corners (m): what rotations are measured with.
     pub fn span(&self) -> f64 {
         let places = self.bodies.iter().map(|body| body.centre);
         let corners = self.corners.iter().map(|corner| corner.unstressed);

@@ -59,7 +59,7 @@ impl Standing {
     /// Of a structure that stands at `q`; `None` if it does not: its stiffness, with the corners held, is not positive.
     pub fn new<T: Mechanics + ?Sized>(structure: &T, q: &DVector<f64>) -> Option<Self> {
         let rest = DVector::zeros(structure.size());
-        let mass = structure.mass(q).cholesky()?;
+        let mass = structure.factored_mass(q)?;
         let corners = structure.footings().len();
         let rows: Vec<_> = (0..corners).map(|i| structure.corner(i, q, &rest)).collect();
         let mut g = DMatrix::zeros(2 * corners, structure.size());
@@ -73,15 +73,10 @@ impl Standing {
         let [stiffness, _] = structure.tangent(q, &rest, [0.0; 2]);
         let held = Held::new(&g)?;
         let still = structure.force(q, &rest, [0.0; 2]);
-        let of = |ground: [f64; 2]| {
-            let load = structure.force(q, &rest, ground) - &still;
-            let total = load.dot(&mass.solve(&load));
-            Some((held.sway(&stiffness, &structure.mass(q), &load)?, total))
-        };
-        // a constant M's load is that of a rigid translation: r' M r is all the mass
-        let (sideways, _) = of([-1.0, 0.0])?;
-        let (upwards, total) = of([0.0, -1.0])?;
-        Some(Self { footings, sways: [sideways, upwards], mass: total })
+        let of =
+            |ground: [f64; 2]| held.sway(&stiffness, &structure.mass(q), &(structure.force(q, &rest, ground) - &still));
+        let sways = [of([-1.0, 0.0])?, of([0.0, -1.0])?];
+        Some(Self { footings, sways, mass: structure.whole_mass(q) })
     }
 }
 

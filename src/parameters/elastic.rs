@@ -79,10 +79,10 @@ pub struct OnRecord {
     pub compared_s: f64,
     /// Whether that is all of it.
     pub whole: bool,
-    /// NRMSE of the rotations over that length.
-    pub nrmse_rotation: f64,
-    /// NRMSE of the drifts.
-    pub nrmse_drift: f64,
+    /// NRMSE of the rotations over that length; none where the reference is not lifted, or the history on springs ends before.
+    pub nrmse_rotation: Option<f64>,
+    /// NRMSE of the drifts; none where the history on springs ends before.
+    pub nrmse_drift: Option<f64>,
     /// Largest rotation of the reference over alpha of the rigid body.
     pub peak_ratio_reference: f64,
     /// The same on the springs.

@@ -2,7 +2,7 @@
 
 use groundspring::elastic::{
     Mechanics, Pier,
-    reference::{Configuration, Contact, Corners, Ground, Options, at_rest, growth, rock},
+    reference::{Configuration, Contact, Corners, Ground, Options, Twins, at_rest, growth, rock},
 };
 use nalgebra::DVector;
 
@@ -173,7 +173,15 @@ fn growth_is_a_property_of_the_history() {
     let options = Options { duration: Some(4.0), ..Options::tight() };
     let ground = Ground::still(0.01);
     let history = rock(&pier, ground, (&q, &v), &options);
-    let at = |d: f64| growth(&pier, ground, (&q, &v), &options, (&history, &[2, 3], d));
+    let at = |d: f64| {
+        growth(
+            &pier,
+            ground,
+            (&q, &v),
+            &options,
+            (&history, &Twins { coordinates: &[2, 3], perturbation: d, limit: f64::INFINITY }),
+        )
+    };
     let (fine, finer) = (at(1e-5), at(1e-6));
     assert!((fine.last() / finer.last() - 1.0).abs() < 1e-3, "{} {}", fine.last(), finer.last());
     assert!((1.0..200.0).contains(&fine.last()));

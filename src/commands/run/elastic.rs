@@ -2,7 +2,7 @@
 
 use std::io::Write;
 
-use super::{Options, Output, accuracy, files, max_hz, threads};
+use super::{Options, Output, files, threads};
 use crate::{
     case::ElasticCase,
     commands::{
@@ -17,6 +17,7 @@ use crate::{
 
 /// The whole job.
 pub fn run(o: &Options, mut case: ElasticCase) -> Result<(), CommandError> {
+    applies(o)?;
     if !o.no_record {
         let notices = std::mem::take(&mut case.notices);
         let of_case = || -> Result<_, CommandError> {
@@ -25,9 +26,8 @@ pub fn run(o: &Options, mut case: ElasticCase) -> Result<(), CommandError> {
         };
         case.excitation = o.record.excitation(of_case)?;
     }
-    case.max_omega_hz = max_hz(o)?.or(case.max_omega_hz);
-    case.accuracy = accuracy(o)?.unwrap_or(case.accuracy);
-    o.ground.friction()?;
+    case.max_omega_hz = o.max_hz()?.or(case.max_omega_hz);
+    case.accuracy = o.accuracy()?.unwrap_or(case.accuracy);
     check_folder(&o.out)?;
     threads(o.jobs)?;
     let all = files();
@@ -59,4 +59,17 @@ pub fn run(o: &Options, mut case: ElasticCase) -> Result<(), CommandError> {
     write!(std::io::stdout(), "{}", run.terminal())?;
     eprintln!("{}\nwritten to {}", run.case.excitation.line(), o.out.display());
     Ok(())
+}
+
+/// Options that mean nothing for an elastic structure are refused.
+fn applies(o: &Options) -> Result<(), CommandError> {
+    let friction = o.ground.friction.map(|value| format!("{value:?}"));
+    let given = [("friction", friction), ("no-front", o.no_front.then(|| "given".to_string()))];
+    match given.into_iter().find_map(|(option, value)| Some((option, value?))) {
+        Some((option, value)) => {
+            let remedy = "that is for rigid bodies and does nothing for an elastic structure; leave it out";
+            Err(CommandError::Option { option, value, remedy })
+        }
+        None => Ok(()),
+    }
 }

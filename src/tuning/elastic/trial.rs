@@ -19,15 +19,14 @@ const LEAST_SHARE: f64 = 0.2;
 pub struct Trial {
     /// Time step (s).
     pub dt: f64,
-    /// Ground acceleration [m/s2].
+    /// Ground acceleration over the part that can be foretold [m/s2].
     pub accel: Vec<f64>,
     /// The vertical part, upwards; empty if there is none.
     pub vertical: Vec<f64>,
     /// Lean it is let go from (rad); none if it stands.
     pub lean: Option<f64>,
-    /// The reference over the part that can be foretold, and its samples.
+    /// The reference over that part.
     pub reference: Vec<Sway>,
-    pub samples: usize,
     /// Landings of the reference in it.
     pub landings: usize,
 }
@@ -68,11 +67,10 @@ impl Trial {
 
     /// From rest through a record.
     pub fn shaken(model: &Assembled, record: &Record) -> Found {
-        let vertical = record.vertical.as_ref().map_or(Vec::new(), |vertical| vertical.accel.to_vec());
-        Self::found(model, record.dt, (record.accel.clone(), vertical), None)
+        Self::found(model, record.dt, (record.accel.clone(), record.up().to_vec()), None)
     }
 
-    fn found(model: &Assembled, dt: f64, (accel, vertical): (Vec<f64>, Vec<f64>), lean: Option<f64>) -> Found {
+    fn found(model: &Assembled, dt: f64, (mut accel, mut vertical): (Vec<f64>, Vec<f64>), lean: Option<f64>) -> Found {
         let q = lean.map_or_else(|| model.upright().ok(), |lean| model.leaning(lean));
         let Some(q) = q else { return Found::Unfit };
         let ground = Ground { dt, accel: &accel, vertical: &vertical };
@@ -81,19 +79,27 @@ impl Trial {
             return Found::Unfit;
         }
         let samples = model.foretold(ground, &q, &history);
-        let landings = history.landings().take_while(|event| event.time < samples as f64 * dt).count();
+        let end = samples.saturating_sub(1) as f64 * dt;
+        let landings = history.landings().take_while(|event| event.time <= end).count();
         if (samples as f64) < LEAST_SHARE * accel.len() as f64 || landings == 0 {
             return Found::IllConditioned;
         }
         let reference = model.sways(history.q[..samples].iter().map(|q| q.as_slice()));
-        Found::Trial(Self { dt, accel, vertical, lean, reference, samples, landings })
+        accel.truncate(samples);
+        vertical.truncate(samples);
+        Found::Trial(Self { dt, accel, vertical, lean, reference, landings })
     }
 
     /// The finite elements' history on springs; as far as it got.
     pub fn follow(&self, model: &Assembled, springs: &CornerSprings, control: Control) -> Option<History> {
         let start = self.lean.map_or(Start::Standing, Start::Leaning);
         let vertical = &self.vertical;
-        let case = Case { control, vertical, ..Case::new(&model.frame, &springs.corners, start, self.dt, &self.accel) };
+        let case = Case {
+            control,
+            vertical,
+            forces: false,
+            ..Case::new(&model.frame, &springs.corners, start, self.dt, &self.accel)
+        };
         case.simulate().ok()
     }
 
@@ -102,9 +108,8 @@ impl Trial {
         let Some(history) = self.follow(model, springs, control) else {
             return Judged { errors: [f64::INFINITY; 2], touches: 0 };
         };
-        let end = self.samples as f64 * self.dt;
-        let touches = history.contacts.iter().filter(|contact| contact.touches && contact.time < end).count();
+        let touches = history.contacts.iter().filter(|contact| contact.touches).count();
         let sways = model.sways(history.q.iter().map(Vec::as_slice));
-        Judged { errors: errors(&self.reference, &sways, self.samples), touches }
+        Judged { errors: errors(&self.reference, &sways, self.accel.len()), touches }
     }
 }
