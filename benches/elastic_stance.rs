@@ -48,7 +48,7 @@ fn main() -> Result<(), Box<dyn std::error::Error>> {
             let k = springs(&standing, give, landing_speed(&structure)).k;
             let over = |factor: f64| {
                 let springs = with_k(&standing, give, k * f64::cbrt(factor));
-                format!("{:.1e}", suite.measure(&springs, Control::search()).over(1.0))
+                format!("{:.1e}", suite.measure(&springs, Control::search()).over(1.0).unwrap_or(f64::NAN))
             };
             let all: Vec<String> = FACTORS.into_iter().map(over).collect();
             println!(

@@ -27,7 +27,7 @@ mod step;
 
 pub use demands::{Demand, Peak, peak};
 pub use filter::{low_pass, resolves};
-pub use history::{Contact, GroundForces, History};
+pub use history::{ContactChange, GroundForces, History};
 pub use model::Foot;
 
 use super::{

@@ -28,7 +28,7 @@ mod place;
 use nalgebra::{Cholesky, DMatrix, DVector, Dyn};
 
 pub use base::Base;
-pub use builders::{Column, Footing, LeggedFrame, Pier, Portal};
+pub use builders::{Cantilever, Column, Footing, LeggedFrame, Portal};
 pub use equilibrium::{EquilibriumError, Support};
 pub use layout::{Damper, FrameError, Layout, Member, Node, Point, Tendon};
 pub use place::{Place, Reach};

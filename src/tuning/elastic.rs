@@ -54,7 +54,8 @@ pub enum ElasticTuneError {
     #[error("tuning.accuracy is {value}; {remedy}")]
     Accuracy { value: String, remedy: &'static str },
     #[error(
-        "tuning.max_omega_hz is {most_hz:?}, below the {softest_hz:.1} Hz of the softest springs on which this structure rocks as on rigid ground; allow at least that"
+        "max_omega_hz (--max-hz) is {most_hz:?}, but the softest springs tried for this structure have {:.1} Hz: softer ones give way by more than a tenth of its own deformation; allow at least that, or leave it out",
+        (.softest_hz * 10.0).ceil() / 10.0
     )]
     TooSoft { most_hz: f64, softest_hz: f64 },
 }

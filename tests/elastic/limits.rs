@@ -157,7 +157,12 @@ fn a_standing_structure_presses_with_its_weight() {
     let q = DVector::zeros(4);
     let at = Configuration::new(&pier, &q, &v).unwrap();
     let held = at.accelerations([0.0; 2], Contact::held(Corners::from_iter([0, 1]))).unwrap();
-    let weight = 9.81 * (pier.mass + pier.footing_mass);
+    let mass = pier.mass + pier.footing_mass;
+    let weight = 9.81 * mass;
+    // in whatever configuration
+    for q in [q.clone(), pier.leaning(0.3)] {
+        assert!((pier.whole_mass(&q) / mass - 1.0).abs() < 1e-12, "{}", pier.whole_mass(&q));
+    }
     for i in 0..2 {
         assert!((held.force(i)[1] / (0.5 * weight) - 1.0).abs() < 1e-12 && held.force(i)[0].abs() < 1e-9 * weight);
     }

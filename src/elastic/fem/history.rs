@@ -8,7 +8,7 @@ use crate::{
 
 /// A touch or a lift of a corner.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Contact {
+pub struct ContactChange {
     /// (s)
     pub time: f64,
     /// Counted from the left.
@@ -86,7 +86,7 @@ pub struct History {
     /// Of each value, the largest magnitude since the sample before.
     pub worst: Vec<Demand>,
     /// Touches and lifts.
-    pub contacts: Vec<Contact>,
+    pub contacts: Vec<ContactChange>,
     /// Of energy.
     pub account: Account,
     /// How it ended.
@@ -232,7 +232,7 @@ impl Recorder {
         let place = &view.model.frame.places()[corner];
         let speed = place.velocity(&place.reach(view.q), view.v);
         let touches = view.feet[corner].closed;
-        self.history.contacts.push(Contact { time: view.time, corner, touches, speed });
+        self.history.contacts.push(ContactChange { time: view.time, corner, touches, speed });
     }
 
     /// The history, once the run is over.

@@ -1,7 +1,7 @@
 //! How long a history can be told.
 //!
 //! ```text
-//! growth(t) = max over s <= t, coordinates and twins of |q_twin(s) - q(s)| / (peak of |q|) / d
+//! growth(t) = max over s <= t, coordinates and twins of |q_twin(s) - q(s)| / (peak of |q|, at least 1e-9) / d
 //! ```
 //!
 //! One twin has the ground's acceleration scaled by 1 + d, in the other every landing leaves 1 - d of the velocities. A history that two models
@@ -18,6 +18,9 @@ pub const FORETOLD: f64 = 30.0;
 
 /// Perturbation whose growth tells how long a history can be foretold.
 pub const PERTURBATION: f64 = 1e-6;
+
+/// A coordinate that never becomes larger than this stands still: what two histories differ by is rounding (m or rad).
+const STILL: f64 = 1e-9;
 
 /// How perturbations grow.
 #[derive(Clone, Debug, PartialEq)]
@@ -66,7 +69,7 @@ pub fn growth(
 ) -> Growth {
     let &Twins { coordinates, perturbation: d, limit } = twins;
     let peaks: Vec<f64> =
-        coordinates.iter().map(|&c| history.q.iter().fold(0.0, |peak, q| f64::max(peak, q[c].abs()))).collect();
+        coordinates.iter().map(|&c| history.q.iter().fold(STILL, |peak, q| f64::max(peak, q[c].abs()))).collect();
     let twin = |options: &Options| {
         let (mut most, mut factor) = (0.0, Vec::with_capacity(history.q.len()));
         let apart = |q: &DVector<f64>| {
