@@ -42,7 +42,9 @@ use crate::{
 };
 #[cfg(feature = "cli")]
 pub use elastic::ElasticCase;
-pub use limits::{ACCURACY, Limits, MAX_HZ};
+#[cfg(feature = "cli")]
+pub use limits::Limits;
+pub use limits::{ACCURACY, MAX_HZ};
 pub use structure::StructureSection;
 
 /// What is wrong with a case file, and what to do.

@@ -117,13 +117,13 @@ impl ElasticRun {
             compared_s: answer.compared.seconds,
             whole: answer.compared.whole(),
             // rotations of a structure that stands are rounding
-            nrmse_rotation: rotation.filter(|_| reference.lifts()),
+            nrmse_rotation: rotation.filter(|_| reference.history.lifts()),
             nrmse_drift: drift,
             peak_ratio_reference: largest(0, rotations) / alpha,
             peak_ratio_fem: largest(1, rotations) / alpha,
             peak_drift_reference_m: largest(0, drifts),
             peak_drift_fem_m: largest(1, drifts),
-            landings_reference: reference.landings().count(),
+            landings_reference: reference.history.landings().count(),
             touches_fem: fem.contacts.iter().filter(|contact| contact.touches).count(),
             energy_residual: fem.energy_residual,
         };

@@ -53,13 +53,19 @@ impl Compared {
     }
 }
 
+/// What a structure does in a ground motion on rigid ground with plastic landings.
+#[derive(Clone, Debug)]
+pub struct Reference {
+    pub history: ElasticRocking,
+    /// Samples of it that can be foretold.
+    pub foretold: usize,
+}
+
 /// What a structure does in a ground motion on rigid ground and on its springs.
 #[derive(Clone, Debug)]
 pub struct ElasticHistories {
-    /// On rigid ground with plastic landings.
-    pub reference: ElasticRocking,
-    /// Samples over which the reference can be foretold.
-    pub foretold: usize,
+    /// On rigid ground.
+    pub reference: Reference,
     /// On its springs.
     pub fem: History,
     /// Of each base in the reference and on the springs.
@@ -100,34 +106,56 @@ fn follow(frame: &Frame, springs: &[Springs<Chain<f64>>], record: &Record) -> Re
     Case { vertical: record.up(), ..Case::new(frame, springs, Start::Standing, record.dt, &record.accel) }.simulate()
 }
 
-impl ElasticHistories {
+impl Reference {
     /// Through a record, from rest.
     ///
     /// # Errors
     /// The structure does not stand.
-    pub fn new(assembled: &Assembled, springs: &[Springs<Chain<f64>>], record: &Record) -> Result<Self, AnswerError> {
+    pub fn new(assembled: &Assembled, record: &Record) -> Result<Self, AnswerError> {
         let ground = Ground { dt: record.dt, accel: &record.accel, vertical: record.up() };
-        let reference = || {
-            let q = assembled.upright().map_err(AnswerError::RestOnGround)?;
-            let history = assembled.rock(ground, &q);
-            let foretold = assembled.foretold(ground, &q, &history);
-            Ok::<_, AnswerError>((history, foretold))
-        };
-        let (reference, fem) = rayon::join(reference, || follow(&assembled.frame, springs, record));
-        let ((reference, foretold), fem) = (reference?, fem?);
-        let of_reference = assembled.sways(reference.q.iter().map(|q| q.as_slice()));
+        let q = assembled.upright().map_err(AnswerError::RestOnGround)?;
+        let history = assembled.rock(ground, &q);
+        let foretold = assembled.foretold(ground, &q, &history);
+        Ok(Self { history, foretold })
+    }
+}
+
+impl ElasticHistories {
+    /// Through a record, from rest, beside its reference.
+    ///
+    /// # Errors
+    /// The structure does not stand.
+    pub fn new(
+        assembled: &Assembled,
+        springs: &[Springs<Chain<f64>>],
+        record: &Record,
+        reference: Reference,
+    ) -> Result<Self, AnswerError> {
+        let fem = follow(&assembled.frame, springs, record)?;
+        let of_reference = assembled.sways(reference.history.q.iter().map(|q| q.as_slice()));
         let of_fem = assembled.sways(fem.q.iter().map(Vec::as_slice));
         let sways = of_reference.into_iter().zip(of_fem).map(|(a, b)| [a, b]).collect();
-        Ok(Self { reference, foretold, fem, sways })
+        Ok(Self { reference, fem, sways })
+    }
+
+    /// Over how much of the record histories of these lengths, beside the reference's, are compared.
+    pub fn compared(&self, record: &Record, lengths: &[usize]) -> Compared {
+        let Reference { history, foretold } = &self.reference;
+        Compared::new(record, *foretold, &[&[history.q.len()], lengths].concat())
     }
 }
 
 impl ElasticAnswer {
-    /// Through a record, from rest.
+    /// Through a record, from rest, beside its reference.
     ///
     /// # Errors
     /// The structure does not stand.
-    pub fn new(assembled: &Assembled, springs: &[Springs<Chain<f64>>], record: &Record) -> Result<Self, AnswerError> {
+    pub fn new(
+        assembled: &Assembled,
+        springs: &[Springs<Chain<f64>>],
+        record: &Record,
+        reference: Reference,
+    ) -> Result<Self, AnswerError> {
         let held = || {
             // what holds a frame can hold it fixed
             let frame = assembled.layout.fixed().frame().map_err(|_| EquilibriumError::NoRest { lean: 0.0 })?;
@@ -136,9 +164,9 @@ impl ElasticAnswer {
             let drift = history.q.iter().map(|q| frame.displacement(top, q)[0]).collect();
             Ok::<_, AnswerError>((history, drift))
         };
-        let (histories, held) = rayon::join(|| ElasticHistories::new(assembled, springs, record), held);
+        let (histories, held) = rayon::join(|| ElasticHistories::new(assembled, springs, record, reference), held);
         let (histories, (fixed, fixed_drift)) = (histories?, held?);
-        let compared = Compared::new(record, histories.foretold, &[histories.reference.q.len()]);
+        let compared = histories.compared(record, &[]);
         let [reference, fem] = [0, 1].map(|k| histories.sways.iter().map(|pair| pair[k].clone()).collect::<Vec<_>>());
         let errors = errors(&reference, &fem, compared.samples);
         let rigid = RigidForces::of(&assembled.structure, record);

@@ -66,7 +66,7 @@ pub struct CornerRow {
 pub struct ElasticAssessment {
     /// Error asked for, NRMSE of the rotations.
     pub accuracy: f64,
-    /// Whether it was reached.
+    /// Whether it was reached; not if there was nothing to measure it on.
     pub reached: bool,
     /// On what, and how well.
     pub measured: Measured,

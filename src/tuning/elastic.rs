@@ -24,6 +24,7 @@ use super::ladder::{DECADE, Found, seek};
 use crate::{
     case::ACCURACY,
     elastic::{
+        answer::Reference,
         assembled::Assembled,
         frame::FrameError,
         standing::Standing,
@@ -79,7 +80,7 @@ pub fn tune(
     structure: &ElasticStructure,
     accuracy: f64,
     most_hz: Option<f64>,
-    record: Option<&Record>,
+    record: Option<(&Record, &Reference)>,
     progress: &dyn Fn(usize, f64),
 ) -> Result<ElasticTuned, ElasticTuneError> {
     ACCURACY.check(accuracy).map_err(|(value, remedy)| ElasticTuneError::Accuracy { value, remedy })?;

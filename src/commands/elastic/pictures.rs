@@ -30,7 +30,7 @@ pub fn draw(run: &ElasticRun) -> Result<Vec<Figure>, FigureError> {
 
 fn history(run: &ElasticRun) -> Result<Figure, FigureError> {
     let ElasticHistories { reference, fem, sways, .. } = &run.answer.histories;
-    let n = reference.q.len().max(fem.q.len());
+    let n = reference.history.q.len().max(fem.q.len());
     let t: Vec<f64> = (0..n).map(|i| i as f64 * run.record.dt).collect();
     let several = sways.len() > 1;
     let label = |what: &str, i: usize| {

@@ -122,7 +122,7 @@ pub fn over(compared: &Compared) -> String {
 
 /// What the structure does on rigid ground.
 fn on_rigid_ground(run: &ElasticRun, on: &OnRecord) -> String {
-    let reference = &run.answer.histories.reference;
+    let reference = &run.answer.histories.reference.history;
     let did = match reference.outcome {
         Outcome::Overturned { time } => format!("overturns at t = {time:.2} s"),
         Outcome::Stopped { time, .. } => format!("could not be followed beyond t = {time:.2} s"),

@@ -14,7 +14,7 @@ use crate::{
         write_file,
     },
     elastic::{
-        answer::{Compared, ElasticHistories},
+        answer::{ElasticHistories, Reference},
         assembled::{Assembled, Sway, errors},
     },
     figures::stack::{self, Quantity, Stack},
@@ -38,18 +38,19 @@ pub fn run(o: &Options, parameters: &ElasticParameters, program: &Program) -> Re
     check_accuracy(o.accuracy)?;
     let assembled = Assembled::new(parameters.structure).map_err(|e| CommandError::Result(e.to_string()))?;
     let springs = parameters.chains();
-    let ElasticHistories { reference, foretold, fem, sways: both } =
-        ElasticHistories::new(&assembled, &springs, &record).map_err(|e| CommandError::Result(e.to_string()))?;
-    let text = deck(&assembled, &springs, &record, &fem, o.accuracy);
+    let histories = Reference::new(&assembled, &record)
+        .and_then(|reference| ElasticHistories::new(&assembled, &springs, &record, reference))
+        .map_err(|e| CommandError::Result(e.to_string()))?;
+    let text = deck(&assembled, &springs, &record, &histories.fem, o.accuracy);
     let progress = Progress::new("OpenSees [s]", o.quiet);
-    let samples = fem.q.len();
+    let samples = histories.fem.q.len();
     let read = |path: &Path| sways(&assembled, path, samples);
     let ran = run_deck(&text, program, (samples, record.dt), &|done, all| progress.tell(done, all, ""), read);
     progress.done();
     let ran = ran?;
 
-    let ours: Vec<Sway> = both.into_iter().map(|[_, ours]| ours).collect();
-    let compared = Compared::new(&record, foretold, &[reference.q.len(), samples]);
+    let compared = histories.compared(&record, &[samples]);
+    let ours: Vec<Sway> = histories.sways.into_iter().map(|[_, ours]| ours).collect();
     let [rotation, drift] = errors(&ours, &ran.motion, compared.samples);
     let pairs: Vec<[Sway; 2]> = ours.into_iter().zip(ran.motion).map(|(ours, opensees)| [ours, opensees]).collect();
     let within = rotation <= LIMIT && drift <= LOOSER * LIMIT;

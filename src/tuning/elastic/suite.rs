@@ -8,7 +8,13 @@ use super::{
     design::CornerSprings,
     trial::{Found, Trial},
 };
-use crate::{elastic::assembled::Assembled, fem::Control, record::Record, synthetic, tuning::suite::quantile};
+use crate::{
+    elastic::{answer::Reference, assembled::Assembled},
+    fem::Control,
+    record::Record,
+    synthetic,
+    tuning::suite::quantile,
+};
 
 /// Leans that the structure is released from, over alpha.
 pub const LEANS: [f64; 6] = [0.05, 0.2, 0.35, 0.5, 0.7, 0.9];
@@ -92,8 +98,8 @@ pub struct Suite {
 }
 
 impl Suite {
-    /// Of a structure, with this record if there is one.
-    pub fn new(model: Assembled, record: Option<&Record>) -> Self {
+    /// Of a structure, with this record and its reference if there is one.
+    pub fn new(model: Assembled, record: Option<(&Record, &Reference)>) -> Self {
         let body = model.structure.body();
         let (p, alpha) = (body.p_squared().sqrt(), body.alpha());
         let released = |lean: f64| Trial::released(&model, lean * alpha, RELEASE / p / SAMPLES, RELEASE / p);
@@ -104,7 +110,7 @@ impl Suite {
         };
         let shaken = (0..LOOKED_AT).into_par_iter().with_max_len(1).map(|i| Trial::shaken(&model, &motion(i)));
         let motions: Vec<Found> = shaken.collect();
-        let record = record.map(|record| Trial::shaken(&model, record));
+        let record = record.map(|(record, reference)| Trial::beside(&model, record, reference));
         let all = releases.iter().chain(&motions).chain(&record);
         let ill_conditioned = all.filter(|found| matches!(found, Found::IllConditioned)).count();
         let trials = |found: Vec<Found>, most| found.into_iter().filter_map(Found::trial).take(most).collect();

@@ -3,9 +3,10 @@
 use super::design::CornerSprings;
 use crate::{
     elastic::{
+        answer::Reference,
         assembled::{Assembled, Sway, errors},
         fem::{Case, History, Start},
-        reference::{Ground, Outcome},
+        reference::{ElasticRocking, Ground, Outcome},
     },
     fem::Control,
     record::Record,
@@ -62,32 +63,47 @@ impl Trial {
     /// Let go from a lean.
     pub fn released(model: &Assembled, lean: f64, dt: f64, duration: f64) -> Found {
         let still = vec![0.0; (duration / dt).ceil() as usize + 1];
-        Self::found(model, dt, (still, Vec::new()), Some(lean))
+        let Some(q) = model.leaning(lean) else { return Found::Unfit };
+        let ground = Ground::horizontal(dt, &still);
+        let history = model.rock(ground, &q);
+        let foretold = || model.foretold(ground, &q, &history);
+        Self::found(model, ground, Some(lean), &history, foretold)
     }
 
     /// From rest through a record.
     pub fn shaken(model: &Assembled, record: &Record) -> Found {
-        Self::found(model, record.dt, (record.accel.clone(), record.up().to_vec()), None)
+        let Ok(q) = model.upright() else { return Found::Unfit };
+        let ground = Ground { dt: record.dt, accel: &record.accel, vertical: record.up() };
+        let history = model.rock(ground, &q);
+        let foretold = || model.foretold(ground, &q, &history);
+        Self::found(model, ground, None, &history, foretold)
     }
 
-    fn found(model: &Assembled, dt: f64, (mut accel, mut vertical): (Vec<f64>, Vec<f64>), lean: Option<f64>) -> Found {
-        let q = lean.map_or_else(|| model.upright().ok(), |lean| model.leaning(lean));
-        let Some(q) = q else { return Found::Unfit };
-        let ground = Ground { dt, accel: &accel, vertical: &vertical };
-        let history = model.rock(ground, &q);
+    /// The same beside a reference that is known.
+    pub fn beside(model: &Assembled, record: &Record, reference: &Reference) -> Found {
+        let ground = Ground { dt: record.dt, accel: &record.accel, vertical: record.up() };
+        Self::found(model, ground, None, &reference.history, || reference.foretold)
+    }
+
+    fn found(
+        model: &Assembled,
+        Ground { dt, accel, vertical }: Ground,
+        lean: Option<f64>,
+        history: &ElasticRocking,
+        foretold: impl FnOnce() -> usize,
+    ) -> Found {
         if history.outcome != Outcome::Completed || history.landings().next().is_none() {
             return Found::Unfit;
         }
-        let samples = model.foretold(ground, &q, &history);
+        let samples = foretold().min(accel.len());
         let end = samples.saturating_sub(1) as f64 * dt;
         let landings = history.landings().take_while(|event| event.time <= end).count();
         if (samples as f64) < LEAST_SHARE * accel.len() as f64 || landings == 0 {
             return Found::IllConditioned;
         }
         let reference = model.sways(history.q[..samples].iter().map(|q| q.as_slice()));
-        accel.truncate(samples);
-        vertical.truncate(samples);
-        Found::Trial(Self { dt, accel, vertical, lean, reference, landings })
+        let vertical = vertical[..samples.min(vertical.len())].to_vec();
+        Found::Trial(Self { dt, accel: accel[..samples].to_vec(), vertical, lean, reference, landings })
     }
 
     /// The finite elements' history on springs; as far as it got.
