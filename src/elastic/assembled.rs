@@ -12,7 +12,8 @@ use super::{
 };
 use crate::motion::nrmse_of;
 
-/// Stiffness of the ground, in units of the mass, on which a leaning structure is looked for before it is put on rigid ground [1/s2].
+/// Stiffness of the ground over all mass, on which a leaning structure is looked for before it is put on rigid ground: its weight settles by
+/// g/FIRM, 1e-8 m [1/s2].
 const FIRM: f64 = 1e9;
 
 /// What is watched: something that turns rigidly, and the node above it.
