@@ -69,12 +69,14 @@ impl Tried {
 }
 
 /// The factor by which an iteration of the next step is expected to reduce the error, from this step's: with some caution, to the power 3/4.
+#[inline]
 pub(crate) fn cautious(rate: f64) -> f64 {
     let root = rate.max(f64::EPSILON).sqrt();
     root * root.sqrt()
 }
 
 /// x^(1/6), up to 0.81 % too large: a tenth is left for it and for more. Infinite where a step would grow beyond any use anyway.
+#[inline]
 fn sixth_root(x: f64) -> f64 {
     if x > 1e5 {
         return f64::INFINITY;

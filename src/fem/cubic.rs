@@ -83,6 +83,7 @@ impl Cubic {
 
     /// Where it falls through zero between two points, the first inside or at the edge and the second not. What is at the edge and comes in first
     /// must come back before it falls: `None` if it falls at once.
+    #[inline]
     pub fn falls(&self, mut low: (f64, f64), high: (f64, f64), edge: f64) -> Option<f64> {
         if low.1 <= edge {
             let nearer = (1..MOST_HALVED).map(|k| low.0 + (high.0 - low.0) * 0.5_f64.powi(k));

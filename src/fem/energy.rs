@@ -25,6 +25,7 @@ impl<S: Scalar> Energy<S> {
     }
 
     /// Book a step.
+    #[inline]
     pub(crate) fn book(&mut self, stored: S, input: S, dissipated: S) {
         self.stored = stored;
         self.input += input;
@@ -32,6 +33,7 @@ impl<S: Scalar> Energy<S> {
     }
 
     /// The larger of the largest energy so far and that of now [J].
+    #[inline]
     pub(crate) fn largest(&self, so_far: f64) -> f64 {
         so_far.max(self.input.re().abs()).max((self.stored - self.initial).re().abs())
     }
