@@ -50,7 +50,7 @@ fn main() -> Result<(), Box<dyn std::error::Error>> {
                 let springs = with_k(&standing, give, k * f64::cbrt(factor));
                 let measured = suite.measure(&springs, Control::search());
                 let touches = [measured.releases, measured.motions].into_iter().flatten().map(|e| e.touches);
-                format!("{:.1e} ({:.1})", measured.over(1.0), touches.fold(0.0, f64::max))
+                format!("{:.1e} ({:.1})", measured.over(1.0).unwrap_or(f64::NAN), touches.fold(0.0, f64::max))
             };
             let all: Vec<String> = FACTORS.into_iter().map(over).collect();
             println!(

@@ -24,6 +24,7 @@
 
 #[cfg(feature = "cli")]
 mod elastic;
+mod limits;
 mod structure;
 
 use std::path::{Path, PathBuf};
@@ -41,6 +42,9 @@ use crate::{
 };
 #[cfg(feature = "cli")]
 pub use elastic::ElasticCase;
+#[cfg(feature = "cli")]
+pub use limits::Limits;
+pub use limits::{ACCURACY, MAX_HZ};
 pub use structure::StructureSection;
 
 /// What is wrong with a case file, and what to do.
@@ -120,9 +124,6 @@ pub struct Tuning {
     /// Candidates that the paper's procedure samples before refining.
     pub candidates: usize,
 }
-
-/// The accuracies that can be asked for.
-pub const ACCURACY: (f64, f64) = (1e-5, 1.0);
 
 impl Default for Tuning {
     fn default() -> Self {
@@ -317,12 +318,7 @@ impl Tuning {
     fn check(&self, path: &str) -> Result<(), CaseError> {
         let value =
             |key, value: f64, remedy| CaseError::Value { path: path.into(), key, value: format!("{value:?}"), remedy };
-        if let Some(hz) = self.max_omega_hz.filter(|hz| !(0.1..=1e6).contains(hz)) {
-            return Err(value("tuning.max_omega_hz", hz, "give a frequency between 0.1 and 1e6 Hz, or leave it out"));
-        }
-        if !(ACCURACY.0..=ACCURACY.1).contains(&self.accuracy) {
-            return Err(value("tuning.accuracy", self.accuracy, "give an error between 1e-5 and 1, as 0.002"));
-        }
+        check_stiffness(path, self.accuracy, self.max_omega_hz)?;
         if self.max_settlement_m.is_nan() || self.max_settlement_m <= 0.0 {
             return Err(value("tuning.max_settlement_m", self.max_settlement_m, "give metres greater than zero"));
         }
@@ -344,6 +340,16 @@ impl Tuning {
     }
 }
 
+/// What every tuning is asked for.
+fn check_stiffness(path: &str, accuracy: f64, max_omega_hz: Option<f64>) -> Result<(), CaseError> {
+    let asked = [("tuning.max_omega_hz", max_omega_hz, MAX_HZ), ("tuning.accuracy", Some(accuracy), ACCURACY)];
+    for (key, value, limits) in asked {
+        let checked = value.map_or(Ok(0.0), |value| limits.check(value));
+        checked.map_err(|(value, remedy)| CaseError::Value { path: path.into(), key, value, remedy })?;
+    }
+    Ok(())
+}
+
 /// The line of the error, and for an unknown key the nearest known one.
 pub(crate) fn parse_error(path: &str, text: &str, error: &toml::de::Error) -> CaseError {
     let line = error.span().map_or(1, |span| text[..span.start.min(text.len())].matches('\n').count() + 1);
@@ -355,7 +361,7 @@ pub(crate) fn parse_error(path: &str, text: &str, error: &toml::de::Error) -> Ca
     }
     if message.starts_with("unknown variant `pier`") || message.starts_with("unknown variant `frame`") {
         let message =
-            "this kind is an elastic structure, which tune run and tune verify take; give \"aframe\" or \"block\" here";
+            "this kind is an elastic structure, whose case files tune run takes; give \"aframe\" or \"block\" here";
         return CaseError::Parse { path: path.into(), line, message: message.into() };
     }
     let message = message.replace("expected `aframe` or `block`", "expected `aframe`, `block`, `pier` or `frame`");

@@ -5,7 +5,7 @@
 //! | `model`, `balance`, `strut` | coordinates, kinematics, contact forces, energies; the rotation that has no inertia, on both feet and on one |
 //! | `stance` | where it stands at first |
 //! | `radau`, `iterate`, `condensed`, `newton`, `step` | one implicit step: tables, iteration, condensed chains and matrix |
-//! | `run` | the time loop: samples; in `run/`, contact events and step acceptance |
+//! | `run`, `acceptance` | the time loop: samples; in `run/`, contact events and step acceptance; which steps hold |
 //! | `control`, `energy`, `observer` | what a run is told, accounts for and shows |
 //! | `frame`, `leg`, `coupled` | elastic legs, dampers, tendon: condensed into the contact law; their Newton matrix |
 //! | `demands` | forces in legs, tendon, dampers; base shear |
@@ -21,6 +21,7 @@
 //! fails to account for is one measure of its error; it has a unit, and is what the user is promised. It does not see an error of
 //! phase. So an embedded formula of order three estimates the local error beside it (`step`), and a step must satisfy both.
 
+pub(crate) mod acceptance;
 mod balance;
 pub(crate) mod condensed;
 mod contact;

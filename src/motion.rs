@@ -40,8 +40,13 @@ impl Motion {
 /// sqrt( sum (x - x_ref)^2 / sum x_ref^2 ) over the common length; infinite when the reference is
 /// zero and x is not, zero when both are.
 pub fn nrmse(x: &[f64], reference: &[f64]) -> f64 {
+    nrmse_of(x.iter().zip(reference))
+}
+
+/// The same of pairs (x, x_ref).
+pub(crate) fn nrmse_of<'a>(pairs: impl Iterator<Item = (&'a f64, &'a f64)>) -> f64 {
     let (mut above, mut below) = (0.0, 0.0);
-    for (a, b) in x.iter().zip(reference) {
+    for (a, b) in pairs {
         above += (a - b) * (a - b);
         below += b * b;
     }

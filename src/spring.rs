@@ -65,6 +65,11 @@ pub struct Chain<S> {
 }
 
 impl<S: Scalar> Chain<S> {
+    /// Stiffness of both springs, one after the other [N/m].
+    pub fn in_series(&self) -> S {
+        self.k1 * self.k2 / (self.k1 + self.k2)
+    }
+
     /// The dimensionless design of this chain under a mass m1 (kg).
     pub fn design(&self, m1: S) -> Design<S> {
         let omega_n = (self.k1 / m1).sqrt();

@@ -21,7 +21,7 @@ use std::path::Path;
 
 use serde::Deserialize;
 
-use super::{ACCURACY, CaseError, RecordSection, parse_error};
+use super::{CaseError, RecordSection, check_stiffness, parse_error};
 use crate::{
     elastic::structure::ElasticStructure,
     excitation::Excitation,
@@ -89,15 +89,8 @@ impl ElasticCase {
     pub fn parse(path: &str, text: &str) -> Result<Self, CaseError> {
         let file: ElasticFile = toml::from_str(text).map_err(|e| parse_error(path, text, &e))?;
         let structure = file.structure.checked().map_err(|source| CaseError::Elastic { path: path.into(), source })?;
-        let value =
-            |key, value: f64, remedy| CaseError::Value { path: path.into(), key, value: format!("{value:?}"), remedy };
         let ElasticTuning { accuracy, max_omega_hz } = file.tuning;
-        if !(ACCURACY.0..=ACCURACY.1).contains(&accuracy) {
-            return Err(value("tuning.accuracy", accuracy, "give an error between 1e-5 and 1, as 0.002"));
-        }
-        if let Some(hz) = max_omega_hz.filter(|hz| !(0.1..=1e6).contains(hz)) {
-            return Err(value("tuning.max_omega_hz", hz, "give a frequency between 0.1 and 1e6 Hz, or leave it out"));
-        }
+        check_stiffness(path, accuracy, max_omega_hz)?;
         let mut notices = Vec::new();
         let excitation = file.record.excitation(path, |file: &Path, options| {
             let recording = Recording::read(file, options)?;

@@ -30,12 +30,20 @@ pub struct Figure {
 
 /// Every figure that a run may leave, and its files.
 macro_rules! figures {
-    ($($name:literal)+) => {
-        const NAMES: [&str; 6] = [$($name),+];
+    ($($constant:ident = $name:literal)+) => {
+        $(pub const $constant: &str = $name;)+
         pub const FILES: &[&str] = &[$(concat!($name, ".png"), concat!($name, ".svg")),+];
     };
 }
-figures!("history" "response" "contact" "energy" "front" "candidates");
+figures!(
+    HISTORY = "history"
+    RESPONSE = "response"
+    CONTACT = "contact"
+    ENERGY = "energy"
+    FRONT = "front"
+    CANDIDATES = "candidates"
+    BEARING = "forces"
+);
 
 /// What figures are drawn from.
 pub struct Pictures<'a> {
@@ -54,23 +62,23 @@ impl Pictures<'_> {
         type Draw<'a> = fn(&Pictures<'a>) -> Result<Option<Sheet>, FigureError>;
         let all: [(&str, &str, Draw); 6] = [
             (
-                NAMES[0],
+                HISTORY,
                 "Displacement of the mass, finite elements over Housner's solution; impacts as triangles.",
                 Self::history,
             ),
             (
-                NAMES[1],
+                RESPONSE,
                 "Amplitude response ratio of the spring-absorber units (equation 7 of the paper).",
                 Self::response,
             ),
-            (NAMES[2], FORCES, Self::contact),
+            (CONTACT, FORCES, Self::contact),
             (
-                NAMES[3],
+                ENERGY,
                 "Where the energy that the ground brings in goes; the residual is what the account misses.",
                 Self::energy,
             ),
-            (NAMES[4], "What stiffer springs gain in accuracy, and what they cost.", Self::front),
-            (NAMES[5], "Every pair of Ωₙ that the paper's procedure tried.", Self::candidates),
+            (FRONT, "What stiffer springs gain in accuracy, and what they cost.", Self::front),
+            (CANDIDATES, "Every pair of Ωₙ that the paper's procedure tried.", Self::candidates),
         ];
         let drawn =
             all.par_iter().map(|(name, caption, draw)| Ok(draw(self)?.map(|sheet| Figure { name, caption, sheet })));

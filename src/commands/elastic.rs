@@ -12,9 +12,9 @@ use super::{
 use crate::{
     case::ElasticCase,
     elastic::{
-        answer::ElasticAnswer,
-        assembled::Assembled,
-        fem::{History, low_pass},
+        answer::{ElasticAnswer, ElasticHistories},
+        assembled::{Assembled, Sway},
+        fem::History,
     },
     export::{ACCURACY, ElasticDeck},
     motion::peak,
@@ -27,13 +27,13 @@ use crate::{
     tuning::elastic::ElasticTuned,
 };
 
+mod bearing;
 mod demands;
 mod page;
 mod pictures;
 pub(super) mod words;
 
-/// Frequency above which forces of the ground are taken to be the springs' (Hz).
-pub(super) const FILTER_HZ: f64 = 20.0;
+use bearing::Bearing;
 
 /// A job done.
 pub struct ElasticRun {
@@ -43,6 +43,8 @@ pub struct ElasticRun {
     /// The part of the record that is used, scaled.
     pub record: Record,
     pub answer: ElasticAnswer,
+    /// What the structure bears.
+    bearing: Bearing,
     /// But for the record: where that is to be found depends on the folder.
     pub parameters: ElasticParameters,
 }
@@ -106,27 +108,29 @@ impl ElasticRun {
         answer: ElasticAnswer,
     ) -> Self {
         let alpha = assembled.structure.body().alpha();
-        let [rotations, drifts]: [fn(&crate::elastic::assembled::Sway) -> &[f64]; 2] =
-            [|sway| &sway.rotation, |sway| &sway.drift];
-        let largest = |k: usize, of: fn(&crate::elastic::assembled::Sway) -> &[f64]| {
-            answer.sways.iter().map(|pair| peak(of(&pair[k])).abs()).fold(0.0, f64::max)
-        };
+        let ElasticHistories { reference, fem, sways, .. } = &answer.histories;
+        let [rotations, drifts]: [fn(&Sway) -> &[f64]; 2] = [|sway| &sway.rotation, |sway| &sway.drift];
+        let largest =
+            |k: usize, of: fn(&Sway) -> &[f64]| sways.iter().map(|pair| peak(of(&pair[k])).abs()).fold(0.0, f64::max);
+        let [rotation, drift] = answer.errors.map(|error| Some(error).filter(|error| error.is_finite()));
         let on_record = OnRecord {
-            compared_s: answer.compared_s(),
-            whole: answer.predictable_to_its_end(),
-            nrmse_rotation: answer.errors[0],
-            nrmse_drift: answer.errors[1],
+            compared_s: answer.compared.seconds,
+            whole: answer.compared.whole(),
+            // rotations of a structure that stands are rounding
+            nrmse_rotation: rotation.filter(|_| reference.history.lifts()),
+            nrmse_drift: drift,
             peak_ratio_reference: largest(0, rotations) / alpha,
             peak_ratio_fem: largest(1, rotations) / alpha,
             peak_drift_reference_m: largest(0, drifts),
             peak_drift_fem_m: largest(1, drifts),
-            landings_reference: answer.reference.landings().count(),
-            touches_fem: answer.fem.contacts.iter().filter(|contact| contact.touches).count(),
-            energy_residual: answer.fem.energy_residual,
+            landings_reference: reference.history.landings().count(),
+            touches_fem: fem.contacts.iter().filter(|contact| contact.touches).count(),
+            energy_residual: fem.energy_residual,
         };
+        let bearing = Bearing::new(&assembled, &answer, record.dt);
         let parameters =
             ElasticParameters { on_record: Some(on_record), ..springs_alone(&assembled, &tuned, case.accuracy) };
-        Self { case, assembled, tuned, record, answer, parameters }
+        Self { case, assembled, tuned, record, answer, bearing, parameters }
     }
 
     /// Write everything into a folder, which is there.
@@ -159,12 +163,12 @@ impl ElasticRun {
     }
 
     fn deck(&self, accuracy: f64) -> String {
-        deck(&self.assembled, &self.tuned.springs.corners, &self.record, &self.answer.fem, accuracy)
+        deck(&self.assembled, &self.tuned.springs.corners, &self.record, &self.answer.histories.fem, accuracy)
     }
 
     /// `history.csv`: rotation and drift of every base in the reference and on the springs, uplift of every corner on them.
     fn history(&self) -> String {
-        let sways = &self.answer.sways;
+        let ElasticHistories { fem, sways, .. } = &self.answer.histories;
         let name = |what: &str, i: usize| if sways.len() > 1 { format!("{what}_{}", i + 1) } else { what.to_string() };
         let mut head = vec!["t".to_string()];
         for (i, _) in sways.iter().enumerate() {
@@ -174,9 +178,9 @@ impl ElasticRun {
         }
         let corners = self.assembled.layout.corners.len();
         head.extend((1..=corners).map(|i| format!("uplift_{i}")));
-        let uplifts: Vec<Vec<f64>> = (0..corners).map(|i| self.answer.fem.uplift(&self.assembled.frame, i)).collect();
+        let uplifts: Vec<Vec<f64>> = (0..corners).map(|i| fem.uplift(&self.assembled.frame, i)).collect();
         let mut out = head.join(",") + "\n";
-        for sample in 0..self.answer.fem.q.len() {
+        for sample in 0..fem.q.len() {
             let mut row = vec![sample as f64 * self.record.dt];
             for pair in sways {
                 for sway in pair {
@@ -189,15 +193,5 @@ impl ElasticRun {
             csv_row(&mut out, &row);
         }
         out
-    }
-
-    /// Vertical force of the ground on all corners at every sample, as it is and without what is faster than [`FILTER_HZ`] (N).
-    pub(super) fn ground_forces(&self) -> [Vec<f64>; 2] {
-        let forces = &self.answer.fem.forces;
-        let count = self.answer.fem.q.len();
-        let sum = |of: &dyn Fn(usize) -> f64| -> Vec<f64> { (0..count).map(of).collect() };
-        let at = sum(&|i| forces.iter().map(|corner| corner.peak[i][1]).sum());
-        let mean = sum(&|i| forces.iter().map(|corner| corner.mean[i][1]).sum());
-        [at, low_pass(&mean, self.record.dt, FILTER_HZ)]
     }
 }

@@ -123,7 +123,7 @@ pub fn markdown(rigid: &Demands, with: Option<&WithMembers>) -> String {
 
 /// What the table of forces holds.
 pub(super) const ABOUT: &str = "Largest forces between landings, later than 0.1/p after the last touch-down of a foot, are those of a \
-                                rocking structure; those in landings are the springs'. Axial force is positive in compression, the \
+                                rocking structure; those in landings are the springs'. Axial force is positive in tension, the \
                                 moment is that at the mass.";
 
 /// The largest forces of each history, between landings and in them.

@@ -15,19 +15,23 @@ use crate::{
 /// What the ground offers.
 #[derive(Clone, Copy, Debug, Args)]
 pub struct Ground {
-    /// Friction coefficient between foot and ground, for the warning of sliding
-    #[arg(long, value_name = "MU", default_value_t = 0.5, allow_negative_numbers = true)]
-    friction: f64,
+    /// Friction coefficient between foot and ground, for the warning of sliding [default: 0.5]
+    #[arg(long, value_name = "MU", allow_negative_numbers = true)]
+    pub friction: Option<f64>,
 }
+
+/// Friction coefficient unless one is given.
+const USUAL: f64 = 0.5;
 
 impl Ground {
     /// The friction coefficient, checked.
     pub fn friction(&self) -> Result<f64, CommandError> {
-        if self.friction.is_finite() && self.friction >= 0.0 {
-            return Ok(self.friction);
+        let friction = self.friction.unwrap_or(USUAL);
+        if friction.is_finite() && friction >= 0.0 {
+            return Ok(friction);
         }
         let remedy = "give a friction coefficient, zero or greater";
-        Err(CommandError::Option { option: "friction", value: format!("{:?}", self.friction), remedy })
+        Err(CommandError::Option { option: "friction", value: format!("{friction:?}"), remedy })
     }
 }
 

@@ -21,7 +21,7 @@ use super::{
     table, write_file,
 };
 use crate::{
-    case::{ACCURACY, Case, CaseError, ElasticCase, Objective},
+    case::{ACCURACY, Case, CaseError, ElasticCase, Limits, MAX_HZ, Objective},
     excitation::Excitation,
     export::{Expected, with_inertia},
     front::{self, FrontPoint},
@@ -45,8 +45,6 @@ const FILES: &[&str] = &[
     "decks/model_sap2000.s2k",
     "decks/springs.csv",
     "decks/springs.md",
-    "forces.png",
-    "forces.svg",
 ];
 
 fn files() -> Vec<&'static str> {
@@ -115,8 +113,8 @@ pub fn run(o: &Options) -> Result<(), CommandError> {
     } else {
         case.set_excitation(o.record.excitation(|| common::of_case(&case))?)?;
     }
-    case.tuning.max_omega_hz = max_hz(o)?.or(case.tuning.max_omega_hz);
-    case.tuning.accuracy = accuracy(o)?.unwrap_or(case.tuning.accuracy);
+    case.tuning.max_omega_hz = o.max_hz()?.or(case.tuning.max_omega_hz);
+    case.tuning.accuracy = o.accuracy()?.unwrap_or(case.tuning.accuracy);
     let friction = o.ground.friction()?;
     check_folder(&o.out)?;
     threads(o.jobs)?;
@@ -146,26 +144,21 @@ pub fn run(o: &Options) -> Result<(), CommandError> {
     Ok(())
 }
 
-/// The stiffest springs allowed, if it is given (Hz).
-fn max_hz(o: &Options) -> Result<Option<f64>, CommandError> {
-    match o.max_hz {
-        Some(hz) if !(0.1..=1e6).contains(&hz) => {
-            let remedy = "give a frequency between 0.1 and 1e6 Hz";
-            Err(CommandError::Option { option: "max-hz", value: format!("{hz:?}"), remedy })
-        }
-        given => Ok(given),
+impl Options {
+    /// The stiffest springs allowed, if it is given (Hz).
+    fn max_hz(&self) -> Result<Option<f64>, CommandError> {
+        within("max-hz", self.max_hz, &MAX_HZ)
+    }
+
+    /// The accuracy asked for, if it is given.
+    fn accuracy(&self) -> Result<Option<f64>, CommandError> {
+        within("accuracy", self.accuracy, &ACCURACY)
     }
 }
 
-/// The accuracy asked for, if it is given.
-fn accuracy(o: &Options) -> Result<Option<f64>, CommandError> {
-    match o.accuracy {
-        Some(accuracy) if !(ACCURACY.0..=ACCURACY.1).contains(&accuracy) => {
-            let remedy = "give an error between 1e-5 and 1, as 0.002";
-            Err(CommandError::Option { option: "accuracy", value: format!("{accuracy:?}"), remedy })
-        }
-        given => Ok(given),
-    }
+fn within(option: &'static str, given: Option<f64>, limits: &Limits) -> Result<Option<f64>, CommandError> {
+    let refuse = |(value, remedy)| CommandError::Option { option, value, remedy };
+    given.map(|value| limits.check(value).map_err(refuse)).transpose()
 }
 
 /// What to write besides tables and decks.

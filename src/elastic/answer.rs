@@ -12,23 +12,82 @@ use crate::{
     spring::{Chain, Springs},
 };
 
-/// What a structure does in a ground motion.
+/// Over how much of a record two histories are compared.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Compared {
+    /// Samples.
+    pub samples: usize,
+    /// The same as a length (s).
+    pub seconds: f64,
+    /// What ends it.
+    pub end: ComparedEnd,
+}
+
+/// What ends a comparison.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum ComparedEnd {
+    /// The record: histories are compared over all of it.
+    Record,
+    /// A history that ends before, overturned or not to be followed.
+    History,
+    /// What can be foretold: from then on two models of one structure part, and only statistics compare them.
+    Foretold,
+}
+
+impl Compared {
+    /// Of a record of so many samples dt apart, of which `foretold` can be foretold, by histories of these lengths.
+    pub fn new(record: &Record, foretold: usize, lengths: &[usize]) -> Self {
+        let shortest = lengths.iter().copied().fold(record.len(), usize::min);
+        let samples = foretold.min(shortest);
+        let end = match samples {
+            n if n >= record.len() => ComparedEnd::Record,
+            n if n >= shortest => ComparedEnd::History,
+            _ => ComparedEnd::Foretold,
+        };
+        Self { samples, seconds: samples.saturating_sub(1) as f64 * record.dt, end }
+    }
+
+    /// Whether it is all of the record.
+    pub fn whole(&self) -> bool {
+        self.end == ComparedEnd::Record
+    }
+}
+
+/// What a structure does in a ground motion on rigid ground with plastic landings.
 #[derive(Clone, Debug)]
-pub struct ElasticAnswer {
-    /// On rigid ground with plastic landings.
-    pub reference: ElasticRocking,
-    /// Samples over which the reference can be foretold.
-    pub predictable: usize,
+pub struct Reference {
+    pub history: ElasticRocking,
+    /// Samples of it that can be foretold.
+    pub foretold: usize,
+}
+
+/// What a structure does in a ground motion on rigid ground and on its springs.
+#[derive(Clone, Debug)]
+pub struct ElasticHistories {
+    /// On rigid ground.
+    pub reference: Reference,
     /// On its springs.
     pub fem: History,
-    /// Held to the ground.
-    pub fixed: History,
-    /// The rigid body of the same masses, by Housner's equation; none of a frame, whose columns rock side by side.
-    pub rigid: Option<RigidForces>,
     /// Of each base in the reference and on the springs.
     pub sways: Vec<[Sway; 2]>,
-    /// NRMSE of the rotations and of the drifts over the predictable part.
+}
+
+/// The same, and what it is judged beside.
+#[derive(Clone, Debug)]
+pub struct ElasticAnswer {
+    /// On rigid ground and on its springs.
+    pub histories: ElasticHistories,
+    /// Over how much of the record these two are compared.
+    pub compared: Compared,
+    /// NRMSE of the rotations and of the drifts over that; infinite where the springs' history does not get so far, and where it moves
+    /// and the reference does not.
     pub errors: [f64; 2],
+    /// Held to the ground.
+    pub fixed: History,
+    /// Drift of the first watched node held to the ground (m).
+    pub fixed_drift: Vec<f64>,
+    /// The rigid body of the same masses, by Housner's equation; none of a frame, whose columns rock side by side.
+    pub rigid: Option<RigidForces>,
 }
 
 /// Why there is no answer.
@@ -42,46 +101,95 @@ pub enum AnswerError {
     RestOnGround(RestError),
 }
 
-impl ElasticAnswer {
+/// The history of a frame through a record, from rest.
+fn follow(frame: &Frame, springs: &[Springs<Chain<f64>>], record: &Record) -> Result<History, EquilibriumError> {
+    Case { vertical: record.up(), ..Case::new(frame, springs, Start::Standing, record.dt, &record.accel) }.simulate()
+}
+
+impl Reference {
     /// Through a record, from rest.
     ///
     /// # Errors
     /// The structure does not stand.
-    pub fn new(assembled: &Assembled, springs: &[Springs<Chain<f64>>], record: &Record) -> Result<Self, AnswerError> {
-        let frame = &assembled.frame;
-        let vertical: &[f64] = record.vertical.as_ref().map_or(&[], |vertical| &vertical.accel);
-        let follow = |frame: &Frame, springs: &[Springs<Chain<f64>>]| {
-            Case { vertical, ..Case::new(frame, springs, Start::Standing, record.dt, &record.accel) }.simulate()
-        };
-        let ground = Ground { dt: record.dt, accel: &record.accel, vertical };
-        let reference = || {
-            let q = assembled.upright().map_err(AnswerError::RestOnGround)?;
-            let history = assembled.rock(ground, &q);
-            let predictable = assembled.foretold(ground, &q, &history);
-            Ok::<_, AnswerError>((history, predictable))
-        };
-        let ((reference, fem), fixed) = rayon::join(
-            || rayon::join(reference, || follow(frame, springs)),
-            || assembled.layout.fixed().frame().map(|held| follow(&held, &[])),
-        );
-        let ((reference, predictable), fem) = (reference?, fem?);
-        // what holds a frame can hold it fixed
-        let fixed = fixed.map_err(|_| EquilibriumError::NoRest { lean: 0.0 })??;
-        let of_reference = assembled.sways(reference.q.iter().map(|q| q.as_slice()));
+    pub fn new(assembled: &Assembled, record: &Record) -> Result<Self, AnswerError> {
+        let ground = Ground { dt: record.dt, accel: &record.accel, vertical: record.up() };
+        let q = assembled.upright().map_err(AnswerError::RestOnGround)?;
+        let history = assembled.rock(ground, &q);
+        let foretold = assembled.foretold(ground, &q, &history);
+        Ok(Self { history, foretold })
+    }
+}
+
+impl ElasticHistories {
+    /// Through a record, from rest, beside its reference.
+    ///
+    /// # Errors
+    /// The structure does not stand.
+    pub fn new(
+        assembled: &Assembled,
+        springs: &[Springs<Chain<f64>>],
+        record: &Record,
+        reference: Reference,
+    ) -> Result<Self, AnswerError> {
+        let fem = follow(&assembled.frame, springs, record)?;
+        let of_reference = assembled.sways(reference.history.q.iter().map(|q| q.as_slice()));
         let of_fem = assembled.sways(fem.q.iter().map(Vec::as_slice));
-        let errors = errors(&of_reference, &of_fem, predictable);
-        let sways: Vec<[Sway; 2]> = of_reference.into_iter().zip(of_fem).map(|(a, b)| [a, b]).collect();
+        let sways = of_reference.into_iter().zip(of_fem).map(|(a, b)| [a, b]).collect();
+        Ok(Self { reference, fem, sways })
+    }
+
+    /// Over how much of the record histories of these lengths, beside the reference's, are compared.
+    pub fn compared(&self, record: &Record, lengths: &[usize]) -> Compared {
+        let Reference { history, foretold } = &self.reference;
+        Compared::new(record, *foretold, &[&[history.q.len()], lengths].concat())
+    }
+}
+
+impl ElasticAnswer {
+    /// Through a record, from rest, beside its reference.
+    ///
+    /// # Errors
+    /// The structure does not stand.
+    pub fn new(
+        assembled: &Assembled,
+        springs: &[Springs<Chain<f64>>],
+        record: &Record,
+        reference: Reference,
+    ) -> Result<Self, AnswerError> {
+        let held = || {
+            // what holds a frame can hold it fixed
+            let frame = assembled.layout.fixed().frame().map_err(|_| EquilibriumError::NoRest { lean: 0.0 })?;
+            let history = follow(&frame, &[], record)?;
+            let top = assembled.watched.first().map_or(0, |watched| watched.top);
+            let drift = history.q.iter().map(|q| frame.displacement(top, q)[0]).collect();
+            Ok::<_, AnswerError>((history, drift))
+        };
+        let (histories, held) = rayon::join(|| ElasticHistories::new(assembled, springs, record, reference), held);
+        let (histories, (fixed, fixed_drift)) = (histories?, held?);
+        let compared = histories.compared(record, &[]);
+        let [reference, fem] = [0, 1].map(|k| histories.sways.iter().map(|pair| pair[k].clone()).collect::<Vec<_>>());
+        let errors = errors(&reference, &fem, compared.samples);
         let rigid = RigidForces::of(&assembled.structure, record);
-        Ok(Self { reference, predictable, fem, fixed, rigid, sways, errors })
+        Ok(Self { histories, compared, errors, fixed, fixed_drift, rigid })
     }
+}
 
-    /// Length over which both can be compared (s).
-    pub fn compared_s(&self) -> f64 {
-        self.predictable.saturating_sub(1) as f64 * self.fem.dt
-    }
+#[cfg(test)]
+mod tests {
+    use super::*;
 
-    /// Whether the whole motion can be foretold.
-    pub fn predictable_to_its_end(&self) -> bool {
-        self.predictable >= self.reference.q.len()
+    #[test]
+    fn a_comparison_ends_with_the_record_a_history_or_what_can_be_foretold() {
+        let record = Record::new("made up", 0.01, vec![0.0; 101]).unwrap();
+        let of = |foretold, lengths: &[usize]| {
+            let compared = Compared::new(&record, foretold, lengths);
+            (compared.samples, compared.end)
+        };
+        assert_eq!(of(101, &[101]), (101, ComparedEnd::Record));
+        assert_eq!(of(60, &[101]), (60, ComparedEnd::Foretold));
+        // the reference overturns: all of it can be foretold, and it is not all of the record
+        assert_eq!(of(60, &[60]), (60, ComparedEnd::History));
+        assert_eq!(of(70, &[101, 60]), (60, ComparedEnd::History));
+        assert_eq!(Compared::new(&record, 101, &[101]).seconds, 1.0);
     }
 }

@@ -6,12 +6,14 @@ use super::{
     Mechanics,
     frame::{Base, Frame, FrameError, Layout},
     reference::{
-        Corners, ElasticRocking, FORETOLD, Ground, Options, Outcome, PERTURBATION, RestError, at_rest, growth, rock,
+        Corners, ElasticRocking, FORETOLD, Ground, Options, PERTURBATION, RestError, Twins, at_rest, growth, rock,
     },
     structure::ElasticStructure,
 };
+use crate::motion::nrmse_of;
 
-/// Stiffness of the ground, in units of the mass, on which a leaning structure is looked for before it is put on rigid ground [1/s2].
+/// Stiffness of the ground over all mass, on which a leaning structure is looked for before it is put on rigid ground: its weight settles by
+/// g/FIRM, 1e-8 m [1/s2].
 const FIRM: f64 = 1e9;
 
 /// What is watched: something that turns rigidly, and the node above it.
@@ -98,18 +100,12 @@ impl Assembled {
         rock(&self.frame, ground, (q, &DVector::zeros(q.len())), &Options::default())
     }
 
-    /// Samples of such a history that can be foretold on springs, up to where it overturns or a corner slides on from a landing.
+    /// Samples of such a history that can be foretold on springs, at most its own: up to where a corner slides on from a landing.
     pub fn foretold(&self, ground: Ground, q: &DVector<f64>, history: &ElasticRocking) -> usize {
         let (still, options) = (DVector::zeros(q.len()), Options::default());
-        let told = (history, &self.telling()[..], PERTURBATION);
-        let grown = growth(&self.frame, ground, (q, &still), &options, told);
-        let until = grown.samples_below(FORETOLD).min(history.q.len());
-        let overturned = match history.outcome {
-            Outcome::Overturned { time } => Some(time),
-            _ => None,
-        };
-        let ends = history.skidded.into_iter().chain(overturned);
-        ends.fold(until, |until, time| until.min((time / ground.dt) as usize + 1))
+        let twins = Twins { coordinates: &self.telling(), perturbation: PERTURBATION, limit: FORETOLD };
+        let grown = growth(&self.frame, ground, (q, &still), &options, (history, &twins)).samples_below(FORETOLD);
+        history.skidded.map_or(grown, |time| grown.min((time / ground.dt) as usize + 1))
     }
 
     /// Coordinates whose growth tells of the conditioning: rotations of footings and the tops' displacements.
@@ -122,22 +118,15 @@ impl Assembled {
     }
 }
 
-/// NRMSE of the rotations and of the drifts over the first samples, all bases together; infinite where a history does not get so far.
+/// NRMSE of the rotations and of the drifts over the first samples, all bases together; infinite where a history does not get so far, and where
+/// it moves and the reference does not.
 pub fn errors(reference: &[Sway], others: &[Sway], samples: usize) -> [f64; 2] {
     let of = |pick: fn(&Sway) -> &[f64]| {
-        let (mut difference, mut square) = (0.0, 0.0);
-        for (reference, other) in reference.iter().zip(others) {
-            let (reference, other) = (pick(reference), pick(other));
-            let n = samples.min(reference.len());
-            if other.len() < n {
-                return f64::INFINITY;
-            }
-            for (a, b) in reference[..n].iter().zip(other) {
-                difference += (a - b).powi(2);
-                square += a * a;
-            }
+        let each = || others.iter().zip(reference).map(|(other, reference)| (pick(other), pick(reference)));
+        if each().any(|(other, reference)| other.len() < samples.min(reference.len())) {
+            return f64::INFINITY;
         }
-        if square > 0.0 { (difference / square).sqrt() } else { 0.0 }
+        nrmse_of(each().flat_map(|(other, reference)| other.iter().zip(reference).take(samples)))
     };
     [of(|sway| &sway.rotation), of(|sway| &sway.drift)]
 }
@@ -160,5 +149,8 @@ mod tests {
         // two bases of which one is off by a tenth: over both
         let [both, _] = errors(&[sway(1.0), sway(1.0)], &[sway(1.0), sway(1.1)], 10);
         assert!((both - 0.1 / 2f64.sqrt()).abs() < 1e-12);
+        // a reference that stands still: nothing to divide by
+        assert_eq!(errors(&[sway(0.0)], &[sway(1.0)], 10), [f64::INFINITY; 2]);
+        assert_eq!(errors(&[sway(0.0)], &[sway(0.0)], 10), [0.0; 2]);
     }
 }

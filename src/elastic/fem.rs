@@ -26,8 +26,8 @@ mod run;
 mod step;
 
 pub use demands::{Demand, Peak, peak};
-pub use filter::low_pass;
-pub use history::{Contact, CornerForces, History};
+pub use filter::{low_pass, resolves};
+pub use history::{ContactChange, GroundForces, History};
 pub use model::Foot;
 
 use super::{
@@ -80,6 +80,8 @@ pub struct Case<'a> {
     pub scale: f64,
     /// How accurately and how long to work.
     pub control: Control,
+    /// Whether to keep what members bear and what the ground presses with: a history without is quicker.
+    pub forces: bool,
 }
 
 /// How a run ended, and what it cost.
@@ -92,10 +94,10 @@ pub(super) struct Finish {
 }
 
 impl<'a> Case<'a> {
-    /// On horizontal ground motion, unscaled, at the default accuracy.
+    /// On horizontal ground motion, unscaled, at the default accuracy, its forces kept.
     pub fn new(frame: &'a Frame, springs: &'a [Springs<Chain<f64>>], start: Start, dt: f64, accel: &'a [f64]) -> Self {
         let control = Control { tolerance: TOLERANCE, ..Control::default() };
-        Self { frame, springs, start, dt, accel, vertical: &[], scale: 1.0, control }
+        Self { frame, springs, start, dt, accel, vertical: &[], scale: 1.0, control, forces: true }
     }
 
     /// Run the case and keep its history.
@@ -106,8 +108,11 @@ impl<'a> Case<'a> {
         self.fits()?;
         let model = model::Model::new(self.frame, self.springs);
         let still = |(q, feet): (Vec<f64>, Vec<Foot>)| (vec![0.0; q.len()], q, feet);
+        let standing = model.standing();
+        // the scale of energies, also of a structure that does not stand
+        let at_rest = standing.as_ref().map_or(0.0, |(q, feet)| model.energy(q, &vec![0.0; q.len()], feet));
         let (v, q, feet) = match &self.start {
-            Start::Standing => still(model.standing()?),
+            Start::Standing => still(standing?),
             Start::Leaning(lean) => still(model.leaning(*lean)?),
             Start::State { q, v, feet } => {
                 let q = model.settle(&nalgebra::DVector::from_column_slice(q), feet);
@@ -116,8 +121,8 @@ impl<'a> Case<'a> {
                 (v, q, feet.clone())
             }
         };
-        let mut recorder = history::Recorder::new(self.frame, self.dt, self.accel.len());
-        let mut run = run::Run::new(self, &model, (q, v, feet));
+        let mut recorder = history::Recorder::new(self.frame, self.dt, self.accel.len(), self.forces);
+        let mut run = run::Run::new(self, &model, (q, v, feet), at_rest);
         let outcome = run.follow(&mut recorder);
         Ok(recorder.finish(run.finish(outcome)))
     }

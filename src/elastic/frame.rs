@@ -28,7 +28,7 @@ mod place;
 use nalgebra::{Cholesky, DMatrix, DVector, Dyn};
 
 pub use base::Base;
-pub use builders::{Column, Footing, LeggedFrame, Pier, Portal};
+pub use builders::{Cantilever, Column, Footing, LeggedFrame, Portal};
 pub use equilibrium::{EquilibriumError, Support};
 pub use layout::{Damper, FrameError, Layout, Member, Node, Point, Tendon};
 pub use place::{Place, Reach};
@@ -87,7 +87,7 @@ impl Frame {
         &self.mass
     }
 
-    /// Largest distance between two unstressed places of it (m): what rotations are measured with.
+    /// Diagonal of the rectangle about its unstressed nodes and corners (m): what rotations are measured with.
     pub fn span(&self) -> f64 {
         let places = self.bodies.iter().map(|body| body.centre);
         let corners = self.corners.iter().map(|corner| corner.unstressed);

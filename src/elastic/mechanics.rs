@@ -9,7 +9,9 @@
 //! clockwise (to the right) as theta of the rigid body. Every other force is in Q: gravity, ground motion, elastic and damping
 //! forces, and what a changing M does.
 
-use nalgebra::{DMatrix, DVector};
+use std::borrow::Cow;
+
+use nalgebra::{Cholesky, DMatrix, DVector, Dyn};
 
 /// A corner's kinematics in one configuration.
 #[derive(Clone, Debug)]
@@ -29,6 +31,19 @@ pub trait Mechanics {
 
     /// M(q), symmetric and positive definite [kg, kg m, kg m2].
     fn mass(&self, q: &DVector<f64>) -> DMatrix<f64>;
+
+    /// M(q), factored; `None` if it is not positive definite. A constant M need not be factored again.
+    fn factored_mass(&self, q: &DVector<f64>) -> Option<Cow<'_, Cholesky<f64, Dyn>>> {
+        self.mass(q).cholesky().map(Cow::Owned)
+    }
+
+    /// All mass (kg): r' M r of a rigid translation r upwards, whose load M r is that of a ground that falls at 1 m/s2. Zero if M is not
+    /// positive definite.
+    fn whole_mass(&self, q: &DVector<f64>) -> f64 {
+        let still = DVector::zeros(self.size());
+        let load = self.force(q, &still, [0.0, -1.0]) - self.force(q, &still, [0.0; 2]);
+        self.factored_mass(q).map_or(0.0, |mass| load.dot(&mass.solve(&load)))
+    }
 
     /// Q(q, q', t) at ground acceleration (a_g, a_v) [m/s2]; N and N m.
     fn force(&self, q: &DVector<f64>, v: &DVector<f64>, ground: [f64; 2]) -> DVector<f64>;

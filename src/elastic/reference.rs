@@ -39,7 +39,7 @@ mod walk;
 
 use nalgebra::DVector;
 
-pub use conditioning::{FORETOLD, Growth, PERTURBATION, growth};
+pub use conditioning::{FORETOLD, Growth, PERTURBATION, Twins, growth};
 pub use corners::Corners;
 pub use hold::{Configuration, Contact, Held};
 pub use rest::{RestError, at_rest};
@@ -240,6 +240,11 @@ impl ElasticRocking {
         self.q.iter().map(|q| q[i]).collect()
     }
 
+    /// Whether a corner ever leaves the ground.
+    pub fn lifts(&self) -> bool {
+        self.events.iter().any(|event| event.what == What::Lift)
+    }
+
     /// Landings.
     pub fn landings(&self) -> impl Iterator<Item = &Event> {
         self.events.iter().filter(|event| event.what == What::Land)
@@ -253,5 +258,5 @@ pub fn rock(
     start: (&DVector<f64>, &DVector<f64>),
     options: &Options,
 ) -> ElasticRocking {
-    walk::Walk::new(mechanics, ground, start, options).run()
+    walk::Walk::new(mechanics, ground, start, options).run(|_| true)
 }

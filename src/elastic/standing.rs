@@ -18,7 +18,7 @@ const REDUNDANT: f64 = 1e-9;
 
 /// One footing, or a foot without a width.
 #[derive(Clone, Debug)]
-pub struct Footing {
+pub struct FootingInertia {
     /// Its corners, from the left.
     pub corners: Vec<usize>,
     /// W of these: rows and columns x, z of each corner [1/kg].
@@ -29,7 +29,7 @@ pub struct Footing {
 
 /// The fixed structure under a uniform acceleration.
 #[derive(Clone, Debug)]
-pub struct Sway {
+pub struct FixedResponse {
     /// Reactions (H, N) at each corner, at 1 m/s2 (N).
     pub reactions: Vec<[f64; 2]>,
     /// u' K u, twice the elastic energy at 1 m/s2 (J).
@@ -38,7 +38,7 @@ pub struct Sway {
     pub omega: f64,
 }
 
-impl Sway {
+impl FixedResponse {
     /// Give of springs of stiffness `k` = [horizontal, vertical] under every corner (N/m).
     pub fn give(&self, k: [f64; 2]) -> f64 {
         self.reactions.iter().map(|[h, n]| h * h / k[0] + n * n / k[1]).sum::<f64>() / self.work
@@ -48,9 +48,9 @@ impl Sway {
 /// A structure in its standing configuration.
 #[derive(Clone, Debug)]
 pub struct Standing {
-    pub footings: Vec<Footing>,
+    pub footings: Vec<FootingInertia>,
     /// Sideways and upwards.
-    pub sways: [Sway; 2],
+    pub responses: [FixedResponse; 2],
     /// All mass (kg).
     pub mass: f64,
 }
@@ -59,7 +59,7 @@ impl Standing {
     /// Of a structure that stands at `q`; `None` if it does not: its stiffness, with the corners held, is not positive.
     pub fn new<T: Mechanics + ?Sized>(structure: &T, q: &DVector<f64>) -> Option<Self> {
         let rest = DVector::zeros(structure.size());
-        let mass = structure.mass(q).cholesky()?;
+        let mass = structure.factored_mass(q)?;
         let corners = structure.footings().len();
         let rows: Vec<_> = (0..corners).map(|i| structure.corner(i, q, &rest)).collect();
         let mut g = DMatrix::zeros(2 * corners, structure.size());
@@ -74,26 +74,22 @@ impl Standing {
         let held = Held::new(&g)?;
         let still = structure.force(q, &rest, [0.0; 2]);
         let of = |ground: [f64; 2]| {
-            let load = structure.force(q, &rest, ground) - &still;
-            let total = load.dot(&mass.solve(&load));
-            Some((held.sway(&stiffness, &structure.mass(q), &load)?, total))
+            held.response(&stiffness, &structure.mass(q), &(structure.force(q, &rest, ground) - &still))
         };
-        // a constant M's load is that of a rigid translation: r' M r is all the mass
-        let (sideways, _) = of([-1.0, 0.0])?;
-        let (upwards, total) = of([0.0, -1.0])?;
-        Some(Self { footings, sways: [sideways, upwards], mass: total })
+        let responses = [of([-1.0, 0.0])?, of([0.0, -1.0])?];
+        Some(Self { footings, responses, mass: structure.whole_mass(q) })
     }
 }
 
 /// W of each footing, in the order of their corners.
-fn footings(of_corner: &[usize], w: &DMatrix<f64>, width: impl Fn(&[usize]) -> f64) -> Vec<Footing> {
+fn footings(of_corner: &[usize], w: &DMatrix<f64>, width: impl Fn(&[usize]) -> f64) -> Vec<FootingInertia> {
     let count = of_corner.iter().map(|footing| footing + 1).max().unwrap_or(0);
     let footing = |index: usize| {
         let corners: Vec<usize> = (0..of_corner.len()).filter(|i| of_corner[*i] == index).collect();
         let at = |row: usize| 2 * corners[row / 2] + row % 2;
         let own = DMatrix::from_fn(2 * corners.len(), 2 * corners.len(), |i, j| w[(at(i), at(j))]);
         let width = width(&corners);
-        Footing { corners, w: own, width }
+        FootingInertia { corners, w: own, width }
     };
     // nodes without corners are no footings
     (0..count).filter(|index| of_corner.contains(index)).map(footing).collect()
@@ -127,7 +123,7 @@ impl Held {
         Some(Self { free, reactions })
     }
 
-    fn sway(&self, stiffness: &DMatrix<f64>, mass: &DMatrix<f64>, load: &DVector<f64>) -> Option<Sway> {
+    fn response(&self, stiffness: &DMatrix<f64>, mass: &DMatrix<f64>, load: &DVector<f64>) -> Option<FixedResponse> {
         let reduced = self.free.transpose() * stiffness * &self.free;
         let reduced = 0.5 * (&reduced + reduced.transpose());
         let u = &self.free * reduced.cholesky()?.solve(&(self.free.transpose() * load));
@@ -136,7 +132,7 @@ impl Held {
         let reactions = &self.reactions * (forces - load);
         let reactions = (0..reactions.len() / 2).map(|i| [reactions[2 * i], reactions[2 * i + 1]]).collect();
         let omega = (work / u.dot(&(mass * &u))).sqrt();
-        Some(Sway { reactions, work, omega })
+        Some(FixedResponse { reactions, work, omega })
     }
 }
 

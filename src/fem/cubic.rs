@@ -58,6 +58,9 @@ pub(crate) fn falls_through_zero(
     low.0
 }
 
+/// Halvings in the search for a place where a gap is clear of the edge.
+const MOST_HALVED: i32 = 30;
+
 /// A cubic in tau, 0 to 1 over the step, by ascending powers.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Cubic([f64; 4]);
@@ -76,6 +79,18 @@ impl Cubic {
     pub fn at(&self, tau: f64) -> f64 {
         let [p0, p1, p2, p3] = self.0;
         p0 + tau * (p1 + tau * (p2 + tau * p3))
+    }
+
+    /// Where it falls through zero between two points, the first inside or at the edge and the second not. What is at the edge and comes in first
+    /// must come back before it falls: `None` if it falls at once.
+    #[inline]
+    pub fn falls(&self, mut low: (f64, f64), high: (f64, f64), edge: f64) -> Option<f64> {
+        if low.1 <= edge {
+            let nearer = (1..MOST_HALVED).map(|k| low.0 + (high.0 - low.0) * 0.5_f64.powi(k));
+            let inside = nearer.into_iter().find(|&tau| self.at(tau) > edge)?;
+            low = (inside, self.at(inside));
+        }
+        Some(falls_through_zero(low, high, edge, |tau| self.at(tau)))
     }
 
     /// Where it is least, beyond the step or NaN where it has no such place within.

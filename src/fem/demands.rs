@@ -2,7 +2,7 @@
 //!
 //! ```text
 //!   leg      F = (H, N) the ground's force on the foot, D from the mass to the foot:
-//!            axial -F D/|D| (compression positive)    moment at the mass H D_z - N D_x    shear moment/|D|
+//!            axial F D/|D| (tension positive)   moment at the mass H D_z - N D_x    shear moment/|D|
 //!   base shear    sum H plus the tendon's horizontal force at its anchor: what the ground gives the body, m (X'' + ug'')
 //! ```
 //!
@@ -83,7 +83,7 @@ pub(super) fn demand(view: &View<f64>) -> Row {
         // D = (-dp_z/dtheta, dp_x/dtheta)
         let length = f.px_th.hypot(f.pz_th);
         let moment = h * f.px_th + n * f.pz_th;
-        [(h * f.pz_th - n * f.px_th) / length, moment / length, moment]
+        [(n * f.px_th - h * f.pz_th) / length, moment / length, moment]
     });
     let (mut shear, mut tension, mut dampers) = (feet[0].horizontal + feet[1].horizontal, 0.0, [0.0; 2]);
     if let Some(tendon) = &model.elements.tendon {

@@ -24,6 +24,20 @@ impl<S: Scalar> Energy<S> {
         Self { initial: stored, stored, input: zero, dissipated: zero, released: zero }
     }
 
+    /// Book a step.
+    #[inline]
+    pub(crate) fn book(&mut self, stored: S, input: S, dissipated: S) {
+        self.stored = stored;
+        self.input += input;
+        self.dissipated += dissipated;
+    }
+
+    /// The larger of the largest energy so far and that of now [J].
+    #[inline]
+    pub(crate) fn largest(&self, so_far: f64) -> f64 {
+        so_far.max(self.input.re().abs()).max((self.stored - self.initial).re().abs())
+    }
+
     /// What the account leaves unexplained: stored - initial - input + dissipated + released [J].
     pub fn residual(&self) -> S {
         self.stored - self.initial - self.input + self.dissipated + self.released

@@ -15,7 +15,7 @@ use kernel::{Kernel, Tried, WIDTH};
 /// Follow many cases, each shown to an observer of its own, which `observer` makes for the case of an index. Returned in the
 /// order of the cases.
 ///
-/// Each history is the one that [`Case::observe`] gives, bit for bit, on any number of threads and any processor.
+/// Each history is the one that [`Analysis::observe`] gives, bit for bit, on any number of threads and any processor.
 pub fn histories<O: Observer<f64> + Send>(
     cases: &[Analysis<'_, f64>],
     observer: impl Fn(usize) -> O + Sync,

@@ -14,6 +14,7 @@ use std::{f64::consts::FRAC_PI_2, ops::ControlFlow};
 pub(super) use super::cubic::stays_inside;
 use super::{
     Finish,
+    acceptance::allowed_error,
     control::{Control, HistoryOutcome, Work},
     energy::Energy,
     model::{Foot, Model, State, TH, Vector, Z},
@@ -120,7 +121,7 @@ impl<'a, S: Scalar> Run<'a, S> {
             settling: (compression / GRAVITY).sqrt(),
             rounding: 8.0 * f64::EPSILON * model.body.radius().re(),
             scales: Scales::of(model),
-            error: account::allowed_error(control.tolerance),
+            error: allowed_error(control.tolerance),
             guess: no_guess(),
             rate: 1.0,
             opened: [f64::NEG_INFINITY; 2],

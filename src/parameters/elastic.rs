@@ -66,7 +66,7 @@ pub struct CornerRow {
 pub struct ElasticAssessment {
     /// Error asked for, NRMSE of the rotations.
     pub accuracy: f64,
-    /// Whether it was reached.
+    /// Whether it was reached; not if there was nothing to measure it on.
     pub reached: bool,
     /// On what, and how well.
     pub measured: Measured,
@@ -79,10 +79,10 @@ pub struct OnRecord {
     pub compared_s: f64,
     /// Whether that is all of it.
     pub whole: bool,
-    /// NRMSE of the rotations over that length.
-    pub nrmse_rotation: f64,
-    /// NRMSE of the drifts.
-    pub nrmse_drift: f64,
+    /// NRMSE of the rotations over that length; none where the reference is not lifted, or the history on springs ends before.
+    pub nrmse_rotation: Option<f64>,
+    /// NRMSE of the drifts; none where the history on springs ends before.
+    pub nrmse_drift: Option<f64>,
     /// Largest rotation of the reference over alpha of the rigid body.
     pub peak_ratio_reference: f64,
     /// The same on the springs.
@@ -201,6 +201,7 @@ impl ElasticParameters {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::tuning::elastic::suite::Errors;
 
     fn parameters() -> ElasticParameters {
         let structure = toml::from_str(
@@ -218,6 +219,31 @@ mod tests {
         let written = parameters();
         let text = written.to_json();
         assert!(ElasticParameters::is(&text) && !ElasticParameters::is("{}"));
+        assert_eq!(ElasticParameters::parse("p.json", &text).unwrap(), written);
+    }
+
+    /// JSON has no infinity.
+    #[test]
+    fn errors_that_could_not_be_had_are_read_back() {
+        let errors = Errors { median: [f64::INFINITY, 0.1], p90: [f64::INFINITY; 2], count: 3, touches: 2.0 };
+        let measured = Measured { motions: Some(errors), ..Measured::default() };
+        let on_record = OnRecord {
+            compared_s: 5.0,
+            whole: false,
+            nrmse_rotation: None,
+            nrmse_drift: None,
+            peak_ratio_reference: 0.5,
+            peak_ratio_fem: 2.0,
+            peak_drift_reference_m: 0.1,
+            peak_drift_fem_m: 0.2,
+            landings_reference: 4,
+            touches_fem: 9,
+            energy_residual: 1e-7,
+        };
+        let assessment = ElasticAssessment { accuracy: 0.002, reached: false, measured };
+        let written = ElasticParameters { assessment: Some(assessment), on_record: Some(on_record), ..parameters() };
+        let text = written.to_json();
+        assert!(text.contains("\"nrmse_rotation\": null"), "{text}");
         assert_eq!(ElasticParameters::parse("p.json", &text).unwrap(), written);
     }
 

@@ -13,7 +13,7 @@ use super::{
     spec::{Grid, Kind, Kinds, Model, Source},
 };
 use crate::{
-    case::{ACCURACY, LONGEST_S},
+    case::{ACCURACY, LONGEST_S, MAX_HZ},
     record::{Notice, ReadOptions, fnv1a},
     scalar::GRAVITY,
     structure::{self, Body, Structure},
@@ -164,7 +164,7 @@ impl Plan {
         };
         let springs = &source.spec.springs;
         let max_omega_hz = match &springs.max_omega_hz {
-            Some(hz) => Some(source.within("max_omega_hz", hz, 0.1, 1e6)?),
+            Some(hz) => Some(source.within("max_omega_hz", hz, MAX_HZ.least, MAX_HZ.most)?),
             None => None,
         };
         let default = match (kind, model) {
@@ -189,7 +189,7 @@ impl Plan {
             ratios,
             confidence: within("confidence", &sweep.confidence, 0.5, 0.999, 0.9)?,
             springs: SpringsAsked {
-                accuracy: within("accuracy", &springs.accuracy, ACCURACY.0, ACCURACY.1, 0.002)?,
+                accuracy: within("accuracy", &springs.accuracy, ACCURACY.least, ACCURACY.most, 0.002)?,
                 max_omega_hz,
             },
             part,

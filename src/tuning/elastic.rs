@@ -20,9 +20,11 @@ use self::{
     design::{CornerSprings, springs},
     suite::{Measured, Suite},
 };
-use super::ladder::{DECADE, seek};
+use super::ladder::{DECADE, Found, seek};
 use crate::{
+    case::ACCURACY,
     elastic::{
+        answer::Reference,
         assembled::Assembled,
         frame::FrameError,
         standing::Standing,
@@ -50,8 +52,13 @@ pub enum ElasticTuneError {
     Frame(#[from] FrameError),
     #[error("structure: it does not stand under its weight; give stiffer members")]
     Falls,
-    #[error("tuning.accuracy is {0:?}; give a number between 1e-5 and 1")]
-    Accuracy(f64),
+    #[error("tuning.accuracy is {value}; {remedy}")]
+    Accuracy { value: String, remedy: &'static str },
+    #[error(
+        "max_omega_hz (--max-hz) is {most_hz:?}, but the softest springs tried for this structure have {:.1} Hz: softer ones give way by more than a tenth of its own deformation; allow at least that, or leave it out",
+        (.softest_hz * 10.0).ceil() / 10.0
+    )]
+    TooSoft { most_hz: f64, softest_hz: f64 },
 }
 
 /// Springs of an elastic structure and what was measured of them.
@@ -59,7 +66,8 @@ pub enum ElasticTuneError {
 pub struct ElasticTuned {
     pub springs: CornerSprings,
     pub measured: Measured,
-    /// Whether the accuracy asked for is reached.
+    /// Whether the accuracy asked for is reached; not if there was nothing to measure it on: springs are then those that the search would begin
+    /// with.
     pub reached: bool,
 }
 
@@ -67,44 +75,79 @@ pub struct ElasticTuned {
 /// least error so far.
 ///
 /// # Errors
-/// A structure that cannot be or does not stand; an accuracy that is none.
+/// A structure that cannot be or does not stand; an accuracy that is none; springs allowed that are too soft for any.
 pub fn tune(
     structure: &ElasticStructure,
     accuracy: f64,
     most_hz: Option<f64>,
-    record: Option<&Record>,
+    record: Option<(&Record, &Reference)>,
     progress: &dyn Fn(usize, f64),
 ) -> Result<ElasticTuned, ElasticTuneError> {
-    if !(1e-5..=1.0).contains(&accuracy) {
-        return Err(ElasticTuneError::Accuracy(accuracy));
-    }
+    ACCURACY.check(accuracy).map_err(|(value, remedy)| ElasticTuneError::Accuracy { value, remedy })?;
     let structure = structure.checked()?;
     let model = Assembled::new(structure)?;
     let standing = stand(&model).ok_or(ElasticTuneError::Falls)?;
-    let suite = Suite::new(model, record);
     let landing = landing_speed(&structure);
-    let allowed = MARGIN * accuracy;
-    let mut seen: BTreeMap<i64, (CornerSprings, Measured)> = BTreeMap::new();
-    let mut judge = |i: i64| {
-        if let Some((_, measured)) = seen.get(&i) {
-            return Some(measured.over(allowed));
+    let rungs = Rungs::new(accuracy, most_hz, |i| springs(&standing, give(i), landing).omega_n_hz)?;
+    let suite = Suite::new(model, record);
+    let of = |i: i64| springs(&standing, give(i), landing);
+    Ok(rungs.search(accuracy, of, &|springs| suite.measure(springs, Control::search()), progress))
+}
+
+/// The ladder of springs that may be chosen.
+#[derive(Clone, Copy, Debug, PartialEq)]
+struct Rungs {
+    /// Softest and stiffest.
+    ends: (i64, i64),
+    /// Where the search begins.
+    guess: i64,
+}
+
+impl Rungs {
+    /// For an accuracy, up to a frequency; `hz` is that of a rung (Hz).
+    fn new(accuracy: f64, most_hz: Option<f64>, hz: impl Fn(i64) -> f64) -> Result<Self, ElasticTuneError> {
+        let (softest, stiffest) = RUNGS;
+        let softest_hz = hz(softest);
+        if let Some(most_hz) = most_hz.filter(|hz| *hz < softest_hz) {
+            return Err(ElasticTuneError::TooSoft { most_hz, softest_hz });
         }
-        let springs = springs(&standing, give(i), landing);
-        let measured = suite.measure(&springs, Control::search());
-        seen.insert(i, (springs, measured));
-        let least = seen.values().map(|(_, m)| m.over(allowed)).fold(f64::INFINITY, f64::min);
-        progress(seen.len(), least * allowed);
-        Some(measured.over(allowed))
-    };
-    let guess = (-DECADE * (BEGIN * accuracy).log10()).round() as i64;
-    // Omega_n^2 goes as 1/give
-    let soft = springs(&standing, give(RUNGS.0), landing).omega_n_hz;
-    let stiffest = most_hz.map_or(RUNGS.1, |hz| RUNGS.0 + (2.0 * DECADE * (hz / soft).log10()).floor() as i64);
-    let found = seek(RUNGS.0, stiffest.clamp(RUNGS.0, RUNGS.1), guess, &mut judge);
-    let best = found.and_then(|found| Some((seen.remove(&found.rung)?, found.holds)));
-    let ((springs, measured), holds) = best.ok_or(ElasticTuneError::Falls)?;
-    let reached = holds && measured.over(allowed) <= 1.0;
-    Ok(ElasticTuned { springs, measured, reached })
+        // Omega_n^2 goes as 1/give
+        let allowed = |hz: f64| softest + (2.0 * DECADE * (hz / softest_hz).log10()).floor() as i64;
+        let stiffest = most_hz.map_or(stiffest, |hz| allowed(hz).min(stiffest));
+        let guess = (-DECADE * (BEGIN * accuracy).log10()).round() as i64;
+        Ok(Self { ends: (softest, stiffest), guess: guess.clamp(softest, stiffest) })
+    }
+
+    /// The softest that hold an accuracy, by what is measured of them.
+    fn search(
+        &self,
+        accuracy: f64,
+        springs: impl Fn(i64) -> CornerSprings,
+        measure: &dyn Fn(&CornerSprings) -> Measured,
+        progress: &dyn Fn(usize, f64),
+    ) -> ElasticTuned {
+        let allowed = MARGIN * accuracy;
+        let judged = |i: i64| {
+            let springs = springs(i);
+            let measured = measure(&springs);
+            (springs, measured)
+        };
+        let mut seen: BTreeMap<i64, (CornerSprings, Measured)> = BTreeMap::new();
+        let mut judge = |i: i64| {
+            if let Some((_, measured)) = seen.get(&i) {
+                return measured.over(allowed);
+            }
+            let over = seen.entry(i).or_insert(judged(i)).1.over(allowed)?;
+            let least = seen.values().filter_map(|(_, m)| m.over(allowed)).fold(f64::INFINITY, f64::min);
+            progress(seen.len(), least * allowed);
+            Some(over)
+        };
+        let found = seek(self.ends.0, self.ends.1, self.guess, &mut judge);
+        // nothing to measure springs on
+        let Found { rung, holds } = found.unwrap_or(Found { rung: self.guess, holds: false });
+        let (springs, measured) = seen.remove(&rung).unwrap_or_else(|| judged(rung));
+        ElasticTuned { springs, measured, reached: holds && measured.over(allowed).is_some_and(|over| over <= 1.0) }
+    }
 }
 
 /// The structure as it stands on rigid ground.
@@ -121,4 +164,54 @@ pub fn landing_speed(structure: &ElasticStructure) -> f64 {
 /// Give of a rung.
 fn give(i: i64) -> f64 {
     10f64.powf(-i as f64 / DECADE)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::tuning::elastic::suite::Errors;
+
+    fn springs(i: i64) -> CornerSprings {
+        CornerSprings { corners: Vec::new(), k: 0.1, give: give(i), omega_n_hz: 2.0 / give(i).sqrt() }
+    }
+
+    fn hz(i: i64) -> f64 {
+        springs(i).omega_n_hz
+    }
+
+    #[test]
+    fn springs_softer_than_any_rung_are_refused_and_others_bound_the_search() {
+        let softest = hz(RUNGS.0);
+        let refused = Rungs::new(0.002, Some(0.9 * softest), hz).unwrap_err();
+        assert!(matches!(refused, ElasticTuneError::TooSoft { softest_hz, .. } if softest_hz == softest), "{refused}");
+        for most in [softest, 1.5 * softest, 1e3 * softest] {
+            let rungs = Rungs::new(1e-5, Some(most), hz).unwrap();
+            assert!(hz(rungs.ends.1) <= most * (1.0 + 1e-12) && hz(rungs.ends.1 + 1) > most, "{most} {rungs:?}");
+            assert!(rungs.guess <= rungs.ends.1);
+        }
+        assert_eq!(Rungs::new(0.002, None, hz).unwrap(), Rungs { ends: RUNGS, guess: 37 });
+    }
+
+    /// Errors of a tenth of the give, as good as asked at 0.7 times 0.002.
+    #[test]
+    fn the_softest_springs_that_hold_are_taken() {
+        let errors = |give: f64| {
+            let error = [0.1 * give; 2];
+            Measured {
+                releases: Some(Errors { median: error, p90: error, count: 1, touches: 2.0 }),
+                ..Measured::default()
+            }
+        };
+        let rungs = Rungs::new(0.002, None, hz).unwrap();
+        let tuned = rungs.search(0.002, springs, &|springs| errors(springs.give), &|_, _| ());
+        assert!(tuned.reached && tuned.springs.give <= 0.014 && tuned.springs.give > 0.011, "{tuned:?}");
+    }
+
+    #[test]
+    fn springs_that_nothing_could_be_measured_on_have_not_reached_the_accuracy() {
+        let rungs = Rungs::new(0.002, None, hz).unwrap();
+        let tuned = rungs.search(0.002, springs, &|_| Measured::default(), &|_, _| panic!("nothing to tell"));
+        assert!(!tuned.reached && tuned.measured.nothing());
+        assert_eq!(tuned.springs, springs(37));
+    }
 }

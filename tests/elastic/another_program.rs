@@ -5,7 +5,7 @@ use std::path::Path;
 use groundspring::{
     elastic::{
         Mechanics, Pier,
-        reference::{ElasticRocking, Ground, Options, growth},
+        reference::{ElasticRocking, Ground, Options, Twins, growth},
     },
     record::Record,
 };
@@ -72,7 +72,13 @@ fn el_centro() {
         let options = Options { duration: Some(8.0), ..options };
         let history = shaken(&pier, &accel, 8.0, &options);
         let ground = Ground::horizontal(0.01, &accel);
-        let grown = growth(&pier, ground, (&q, &v), &options, (&history, &[2, 3], 1e-6));
+        let grown = growth(
+            &pier,
+            ground,
+            (&q, &v),
+            &options,
+            (&history, &Twins { coordinates: &[2, 3], perturbation: 1e-6, limit: f64::INFINITY }),
+        );
         println!("{name}: growth {:.0} in 8 s", grown.last());
         assert_equal(&history, name, grown.samples_below(GROWN), 6.0);
     }

@@ -1,27 +1,34 @@
 //! Energy: never made, and accounted for; histories that are hard to follow.
 
-use groundspring::elastic::{
-    Mechanics,
-    reference::{
-        Configuration, Contact, Corners, ElasticRocking, Event, Ground, Options, Outcome, What, at_rest, rock,
+use groundspring::{
+    elastic::{
+        Mechanics,
+        reference::{
+            Configuration, Contact, Corners, ElasticRocking, Event, Ground, Options, Outcome, What, at_rest, rock,
+        },
     },
+    scalar::GRAVITY,
 };
 use nalgebra::DVector;
 
 use crate::portal::Portal;
 use crate::random::{Random, slenderness};
 
+fn weight(structure: &impl Mechanics, q: &DVector<f64>) -> f64 {
+    GRAVITY * structure.whole_mass(q)
+}
+
 /// Closed account; no landing that adds energy; no corner below the ground; nobody pulled.
 fn assert_sound(structure: &impl Mechanics, history: &ElasticRocking, name: &str) {
     // of a structure that never moves, what lifting it by a micrometre takes
-    let scale = history.ledger.largest.max(1e-6 * 9.81 * structure.mass(&history.q[0]).amax());
+    let scale = history.ledger.largest.max(1e-6 * weight(structure, &history.q[0]));
     assert!(!matches!(history.outcome, Outcome::Stopped { .. }), "{name}: {:?}", history.outcome);
     assert!(history.ledger.open < 1e-6 * scale, "{name}: {:?}", history.ledger);
     assert!(history.ledger.damped >= 0.0 && history.ledger.slid >= -1e-12 * scale, "{name}: {:?}", history.ledger);
     for event in &history.events {
         assert!(event.loss() >= -1e-12 * scale, "{name}: {event:?}");
     }
-    assert!(history.pulled <= 1e-6 * 9.81 * structure.mass(&history.q[0]).amax(), "{name}: {}", history.pulled);
+    assert!(history.pulled <= 1e-6 * weight(structure, &history.q[0]), "{name}: {}", history.pulled);
     for (q, v) in history.q.iter().zip(&history.v) {
         for i in 0..structure.footings().len() {
             assert!(structure.corner(i, q, v).place[1] > -1e-9, "{name}: corner {i} below the ground");
@@ -31,7 +38,7 @@ fn assert_sound(structure: &impl Mechanics, history: &ElasticRocking, name: &str
 
 /// The ground only pushes: forces at the samples, and the impulses of a landing.
 fn assert_pushed(structure: &impl Mechanics, history: &ElasticRocking, name: &str) {
-    let weight = 9.81 * structure.mass(&history.q[0]).amax();
+    let weight = weight(structure, &history.q[0]);
     for force in history.forces.iter().flatten() {
         assert!(force[1] > -1e-8 * weight, "{name}: {force:?}");
     }
@@ -69,7 +76,7 @@ fn assert_plastic(structure: &impl Mechanics, event: &Event, name: &str) {
         if event.held.contains(i) {
             assert!(corner.jacobian.iter().all(|row| row.dot(after).abs() < 1e-9 * speed), "{name}: {event:?}");
             // where a row of hops is ended, the last one is stopped: what some 1e-5 m/s and rad/s take
-            let rounding = 1e-6 * largest + 1e-5 * structure.mass(&event.q).amax();
+            let rounding = 1e-6 * largest + 1e-5 * structure.whole_mass(&event.q);
             assert!(event.corners.contains(i) || impact.force(i)[1] > -rounding, "{name}: pulled {event:?}");
         } else if corner.place[1].abs() < 1e-12 {
             assert!(corner.jacobian[1].dot(after) > -1e-8 * speed, "{name}: {event:?}");

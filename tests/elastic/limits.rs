@@ -2,7 +2,7 @@
 
 use groundspring::elastic::{
     Mechanics, Pier,
-    reference::{Configuration, Contact, Corners, Ground, Options, at_rest, growth, rock},
+    reference::{Configuration, Contact, Corners, Ground, Options, Twins, at_rest, growth, rock},
 };
 use nalgebra::DVector;
 
@@ -157,7 +157,12 @@ fn a_standing_structure_presses_with_its_weight() {
     let q = DVector::zeros(4);
     let at = Configuration::new(&pier, &q, &v).unwrap();
     let held = at.accelerations([0.0; 2], Contact::held(Corners::from_iter([0, 1]))).unwrap();
-    let weight = 9.81 * (pier.mass + pier.footing_mass);
+    let mass = pier.mass + pier.footing_mass;
+    let weight = 9.81 * mass;
+    // in whatever configuration
+    for q in [q.clone(), pier.leaning(0.3)] {
+        assert!((pier.whole_mass(&q) / mass - 1.0).abs() < 1e-12, "{}", pier.whole_mass(&q));
+    }
     for i in 0..2 {
         assert!((held.force(i)[1] / (0.5 * weight) - 1.0).abs() < 1e-12 && held.force(i)[0].abs() < 1e-9 * weight);
     }
@@ -173,7 +178,15 @@ fn growth_is_a_property_of_the_history() {
     let options = Options { duration: Some(4.0), ..Options::tight() };
     let ground = Ground::still(0.01);
     let history = rock(&pier, ground, (&q, &v), &options);
-    let at = |d: f64| growth(&pier, ground, (&q, &v), &options, (&history, &[2, 3], d));
+    let at = |d: f64| {
+        growth(
+            &pier,
+            ground,
+            (&q, &v),
+            &options,
+            (&history, &Twins { coordinates: &[2, 3], perturbation: d, limit: f64::INFINITY }),
+        )
+    };
     let (fine, finer) = (at(1e-5), at(1e-6));
     assert!((fine.last() / finer.last() - 1.0).abs() < 1e-3, "{} {}", fine.last(), finer.last());
     assert!((1.0..200.0).contains(&fine.last()));

@@ -3,10 +3,10 @@
 use std::f64::consts::TAU;
 
 use groundspring::{
-    Chain, Springs,
+    Chain, Record, Springs,
     elastic::{
         beam::Section,
-        frame::{Column, Footing, Frame, Pier},
+        frame::{Cantilever, Column, Footing, Frame},
     },
     scalar::GRAVITY,
 };
@@ -21,7 +21,7 @@ pub struct Numbers {
 }
 
 /// The pier of reference/flexible_pier.py with `--chord`: one element hinged at the mass, kb = 3EI/L = (k + m g/L) L^2.
-pub fn pier(numbers: &Numbers) -> Pier {
+pub fn pier(numbers: &Numbers) -> Cantilever {
     let &Numbers { mass, footing, centre, hz, axial } = numbers;
     let (height, omega) = (12.0, TAU * hz);
     let length = height - 2.0 * centre;
@@ -33,7 +33,7 @@ pub fn pier(numbers: &Numbers) -> Pier {
         bending_damping: 2.0 * 0.02 * mass * omega * length.powi(3) / 3.0,
         line_mass: 0.0,
     };
-    Pier {
+    Cantilever {
         mass,
         inertia: None,
         height,
@@ -62,15 +62,11 @@ pub fn springs(frame: &Frame, hz: f64, ratio: f64) -> Vec<Springs<Chain<f64>>> {
 
 /// The first samples of El Centro (PEER I-ELC180, dt 0.01 s) [m/s2].
 pub fn el_centro(samples: usize) -> Vec<f64> {
-    let file = concat!(env!("CARGO_MANIFEST_DIR"), "/tuning/records/IELC180.AT2");
-    let text = std::fs::read_to_string(file).unwrap();
-    let values = text.lines().skip(4).flat_map(str::split_whitespace);
-    values.take(samples).map(|x| x.parse::<f64>().unwrap() * GRAVITY).collect()
+    Record::el_centro().accel[..samples].to_vec()
 }
 
-/// sqrt(sum (a - b)^2 / sum b^2).
+/// The NRMSE of histories that must have one length.
 pub fn nrmse(a: &[f64], b: &[f64]) -> f64 {
     assert_eq!(a.len(), b.len());
-    let squares: f64 = a.iter().zip(b).map(|(a, b)| (a - b) * (a - b)).sum();
-    (squares / b.iter().map(|b| b * b).sum::<f64>()).sqrt()
+    groundspring::nrmse(a, b)
 }

@@ -1,9 +1,10 @@
 //! What rocking buys, and what foot forces are without the spikes of landings.
 
+use approx::assert_relative_eq;
 use groundspring::{
     elastic::{
-        fem::{Case, Start, peak},
-        frame::{Base, Column, Pier},
+        fem::{Case, GroundForces, Start, peak},
+        frame::{Base, Cantilever, Column},
     },
     scalar::GRAVITY,
 };
@@ -14,7 +15,7 @@ use crate::common::{MODERATE, el_centro, pier, springs};
 /// itself times half the width: the base's moment stays near that, where the fixed base bears several times it.
 #[test]
 fn rocking_caps_the_moment_at_the_base() {
-    let mut whole: Pier = pier(&MODERATE);
+    let mut whole: Cantilever = pier(&MODERATE);
     whole.column = Column { elements: 4, section: whole.column.section };
     (whole.column.section.line_mass, whole.inertia) = (5e3, Some(1e6));
     let layout = whole.layout();
@@ -58,4 +59,39 @@ fn filtered_foot_forces_have_no_spikes_and_the_same_mean() {
     let mean = |x: &[f64]| x.iter().sum::<f64>() / x.len() as f64;
     let means: Vec<f64> = corner.mean.iter().map(|f| f[1]).collect();
     assert!((mean(&filtered) - mean(&means)).abs() < 0.01 * weight);
+}
+
+/// Corners have their largest forces at different instants of a landing: what all of them press with at one instant is less than the sum of these,
+/// and no less than at the sample. Impulses add up.
+#[test]
+fn the_ground_s_force_is_that_of_one_instant() {
+    let frame = pier(&MODERATE).layout().frame().unwrap();
+    let springs = springs(&frame, 5e3, 4.0);
+    let still = vec![0.0; 501];
+    let case = Case::new(&frame, &springs, Start::Leaning(0.06), 0.01, &still);
+    let history = case.simulate().unwrap();
+    let sum = |of: &dyn Fn(&GroundForces) -> f64| history.forces.iter().map(of).sum::<f64>();
+    let mut apart = 0;
+    for i in 0..history.q.len() {
+        let (apiece, at) = (sum(&|corner| corner.peak[i][1]), sum(&|corner| corner.at[i][1]));
+        let largest = history.ground.peak[i][1];
+        assert!(
+            largest <= apiece * (1.0 + 1e-12) && largest >= at * (1.0 - 1e-12),
+            "{i}: {at:e} {largest:e} {apiece:e}"
+        );
+        assert_relative_eq!(history.ground.at[i][1], at, max_relative = 1e-12);
+        assert_relative_eq!(
+            history.ground.mean[i][1],
+            sum(&|corner| corner.mean[i][1]),
+            max_relative = 1e-9,
+            epsilon = 1.0
+        );
+        apart += usize::from(largest < 0.9 * apiece);
+    }
+    assert!(apart > 0);
+
+    // without forces: the same motion, bit for bit
+    let bare = Case { forces: false, ..case }.simulate().unwrap();
+    assert!(bare.q == history.q && bare.v == history.v && bare.contacts == history.contacts);
+    assert!(bare.forces.is_empty() && bare.worst.is_empty() && bare.ground.at.is_empty());
 }

@@ -153,7 +153,7 @@ fn base_shear_is_mass_times_absolute_acceleration_and_legs_carry_the_weight_at_r
     // each leg carries half the weight along its line, but for its bending
     let [shear, axial, _, _, other, ..] = demands.rows[2];
     assert!(shear.abs() < 1e-9 * weight && axial == other);
-    assert!((axial * 2.0 * alpha.cos() / weight - 1.0).abs() < 0.01, "{axial}");
+    assert!((axial * 2.0 * alpha.cos() / weight + 1.0).abs() < 0.01, "{axial}");
     // a rigid body on one foot under steady ground acceleration, before it moves: H = m ug''
     let push = 0.05 * GRAVITY;
     let steady = Record { accel: vec![0.0, push, push, push], dt: 1.0, ..el_centro() };

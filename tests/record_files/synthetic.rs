@@ -191,6 +191,7 @@ fn a_file_says_the_same_however_its_lines_end() {
         for changed in changed {
             let found = read("x", &changed);
             assert_eq!((found.format, found.taken), (expected.format, expected.taken));
+            assert_eq!(found.components.len(), expected.components.len());
             for (found, expected) in found.components.iter().zip(&expected.components) {
                 assert_eq!(found.record.accel, expected.record.accel);
                 assert_eq!((found.record.dt, found.direction), (expected.record.dt, expected.direction));

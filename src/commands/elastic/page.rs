@@ -57,7 +57,7 @@ impl Page<'_> {
             let drift = format!("largest drift; on rigid ground {} mm", short(on.peak_drift_reference_m * 1e3, 3));
             out += &html::tile(&format!("{} mm", short(on.peak_drift_fem_m * 1e3, 3)), &drift);
             let over = format!("error of the rotation (NRMSE) over {:.2} s", on.compared_s);
-            out += &html::tile(&shown(on.nrmse_rotation), &over);
+            out += &html::tile(&on.nrmse_rotation.map_or("-".into(), shown), &over);
         }
         out + "</div>\n"
     }

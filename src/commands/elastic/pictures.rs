@@ -1,8 +1,9 @@
 //! Figures of an elastic structure's run.
 
-use super::{ElasticRun, demands, words};
+use super::{ElasticRun, words};
 use crate::{
-    commands::draw::Figure,
+    commands::draw::{self, Figure},
+    elastic::answer::{Compared, ComparedEnd, ElasticHistories},
     figures::{
         Event, FigureError, brief, prefix, short,
         stack::{self, Quantity, Stack},
@@ -28,16 +29,16 @@ pub fn draw(run: &ElasticRun) -> Result<Vec<Figure>, FigureError> {
 }
 
 fn history(run: &ElasticRun) -> Result<Figure, FigureError> {
-    let answer = &run.answer;
-    let n = answer.reference.q.len().max(answer.fem.q.len());
+    let ElasticHistories { reference, fem, sways, .. } = &run.answer.histories;
+    let n = reference.history.q.len().max(fem.q.len());
     let t: Vec<f64> = (0..n).map(|i| i as f64 * run.record.dt).collect();
-    let several = answer.sways.len() > 1;
+    let several = sways.len() > 1;
     let label = |what: &str, i: usize| {
         if several { format!("{what}, {}", if i == 0 { "left" } else { "right" }) } else { what.to_string() }
     };
     let mut names = Vec::new();
     let mut curves: Vec<[&[f64]; 2]> = Vec::new();
-    for (i, [reference, fem]) in answer.sways.iter().enumerate() {
+    for (i, [reference, fem]) in sways.iter().enumerate() {
         names.push((label("rotation", i), "rad"));
         curves.push([&reference.rotation, &fem.rotation]);
         names.push((label("drift", i), "m"));
@@ -45,20 +46,24 @@ fn history(run: &ElasticRun) -> Result<Figure, FigureError> {
     }
     let panels: Vec<Quantity> =
         names.iter().zip(&curves).map(|((name, unit), curves)| Quantity { name, unit, curves }).collect();
-    let told = (!answer.predictable_to_its_end())
-        .then(|| format!("from t = {:.2} s on no model foretells this motion", answer.compared_s()));
-    let event = told.as_ref().map(|text| Event { time: answer.compared_s(), text });
+    let Compared { seconds, end, .. } = run.answer.compared;
+    let text = match end {
+        ComparedEnd::Record => None,
+        ComparedEnd::History => Some(format!("the history on rigid ground ends at t = {seconds:.2} s")),
+        ComparedEnd::Foretold => Some(format!("from t = {seconds:.2} s on no model foretells this motion")),
+    };
+    let event = text.as_ref().map(|text| Event { time: seconds, text });
     let title = title(run, "Rotation on the ground, and drift without it");
     let names = ["rigid ground, plastic landings", "finite elements on ground springs"];
     let sheet = stack::draw(&Stack { title: &title, t: &t, names: &names, panels: &panels, event })?;
     let caption =
         "Rotation of the footing (of the line between the feet), and drift of the mass without the rigid rotation.";
-    Ok(Figure { name: "history", caption, sheet })
+    Ok(Figure { name: draw::HISTORY, caption, sheet })
 }
 
 fn forces(run: &ElasticRun) -> Result<Figure, FigureError> {
-    let quantities = demands::quantities(run);
-    let n = run.answer.fem.q.len().max(run.answer.fixed.q.len());
+    let quantities = &run.bearing.quantities;
+    let n = run.answer.histories.fem.q.len().max(run.answer.fixed.q.len());
     let t: Vec<f64> = (0..n).map(|i| i as f64 * run.record.dt).collect();
     // fixed in black under the others
     let rigid = run.answer.rigid.is_some();
@@ -85,5 +90,9 @@ fn forces(run: &ElasticRun) -> Result<Figure, FigureError> {
         .collect();
     let title = title(run, "What rocking buys");
     let sheet = stack::draw(&Stack { title: &title, t: &t, names, panels: &panels, event: None })?;
-    Ok(Figure { name: "forces", caption: "What the structure bears when it rocks, and held to the ground.", sheet })
+    Ok(Figure {
+        name: draw::BEARING,
+        caption: "What the structure bears when it rocks, and held to the ground.",
+        sheet,
+    })
 }

@@ -4,10 +4,16 @@ use std::fmt::Write;
 
 use super::ElasticRun;
 use crate::{
-    elastic::{reference::Outcome, structure::ElasticStructure},
+    elastic::{
+        answer::{Compared, ComparedEnd},
+        reference::Outcome,
+        structure::ElasticStructure,
+    },
+    fem::HistoryOutcome,
     figures::{brief, short},
     motion::shown,
-    parameters::elastic::{ElasticParameters, UnitRow},
+    parameters::elastic::{ElasticAssessment, ElasticParameters, OnRecord, UnitRow},
+    tuning::elastic::suite::Measured,
 };
 
 /// The structure in a few words.
@@ -58,17 +64,24 @@ pub fn markdown(parameters: &ElasticParameters) -> String {
     out
 }
 
-/// What was measured without the record.
-pub fn assessed(parameters: &ElasticParameters) -> Vec<String> {
-    let Some(a) = &parameters.assessment else { return Vec::new() };
+/// Why the accuracy asked for is not reached, if it is not.
+fn missed(a: &ElasticAssessment) -> Option<String> {
+    let what = match (a.reached, a.measured.nothing()) {
+        (true, _) => return None,
+        (false, false) => {
+            "was asked for and is NOT REACHED: the springs are the best found, allow stiffer ones or ask for less"
+        }
+        (false, true) => {
+            "was asked for and could NOT be MEASURED: no release and no motion of this structure can be compared with rigid ground (it is not lifted, overturns, or no \
+             model foretells it); the springs are those that the search begins with"
+        }
+    };
+    Some(format!("accuracy: {} {what}", a.accuracy))
+}
+
+/// What was measured without the record, a line each.
+fn measured(m: &Measured) -> Vec<String> {
     let mut lines = Vec::new();
-    if !a.reached {
-        lines.push(format!(
-            "accuracy: NOT REACHED: {} was asked for; the springs are the best found, allow stiffer ones or ask for less",
-            a.accuracy
-        ));
-    }
-    let m = &a.measured;
     for (on, errors) in
         [("releases from leans", m.releases), ("synthetic motions", m.motions), ("the record", m.record)]
     {
@@ -89,44 +102,75 @@ pub fn assessed(parameters: &ElasticParameters) -> Vec<String> {
     lines
 }
 
-/// All that the program says, a line each.
-pub fn said(run: &ElasticRun) -> Vec<String> {
-    let (missed, assessed): (Vec<String>, Vec<String>) =
-        assessed(&run.parameters).into_iter().partition(|line| line.contains("NOT REACHED"));
-    let mut lines = missed;
-    let structure = &run.assembled.structure;
-    if let Some(on) = &run.parameters.on_record {
-        let alpha = structure.body().alpha();
-        let verdict = match run.answer.reference.outcome {
-            Outcome::Overturned { time } => format!("overturns at t = {time:.2} s"),
-            Outcome::Stopped { time, .. } => format!("could not be followed beyond t = {time:.2} s"),
-            Outcome::Completed if on.landings_reference == 0 => "is not lifted by this record".into(),
-            Outcome::Completed => format!(
-                "rocks to {} of alpha ({:.4} rad) and stands; {} landings",
-                short(on.peak_ratio_reference, 3),
-                alpha,
-                on.landings_reference
-            ),
-        };
-        lines.push(format!("on rigid ground with plastic landings the structure {verdict}"));
-        if on.landings_reference > 0 {
-            let over = if on.whole {
-                "over all of it".to_string()
-            } else {
-                format!(
-                    "over its first {:.2} s; from then on no model foretells this motion one to one, judge it over many records",
-                    on.compared_s
-                )
-            };
-            lines.push(format!(
-                "on its springs the rotation is within {} of that, the drift within {} (NRMSE), {over}; {} touches",
-                shown(on.nrmse_rotation),
-                shown(on.nrmse_drift),
-                on.touches_fem
-            ));
+/// What is said of springs without a record.
+pub fn assessed(parameters: &ElasticParameters) -> Vec<String> {
+    let Some(a) = &parameters.assessment else { return Vec::new() };
+    missed(a).into_iter().chain(measured(&a.measured)).collect()
+}
+
+/// Over how much of a record something is compared.
+pub fn over(compared: &Compared) -> String {
+    let seconds = compared.seconds;
+    match compared.end {
+        ComparedEnd::Record => "over all of it".into(),
+        ComparedEnd::History => format!("over its first {seconds:.2} s, where it ends"),
+        ComparedEnd::Foretold => format!(
+            "over its first {seconds:.2} s; from then on no model foretells this motion one to one, judge it over many records"
+        ),
+    }
+}
+
+/// What the structure does on rigid ground.
+fn on_rigid_ground(run: &ElasticRun, on: &OnRecord) -> String {
+    let reference = &run.answer.histories.reference.history;
+    let did = match reference.outcome {
+        Outcome::Overturned { time } => format!("overturns at t = {time:.2} s"),
+        Outcome::Stopped { time, .. } => format!("could not be followed beyond t = {time:.2} s"),
+        Outcome::Completed if !reference.lifts() => "is not lifted by this record".into(),
+        Outcome::Completed => format!(
+            "rocks to {} of alpha ({:.4} rad) and stands; {} landings",
+            short(on.peak_ratio_reference, 3),
+            run.assembled.structure.body().alpha(),
+            on.landings_reference
+        ),
+    };
+    format!("on rigid ground with plastic landings the structure {did}")
+}
+
+/// What it does on its springs: how that history ends if it does not get through the record, and how near it is.
+fn on_springs(run: &ElasticRun, on: &OnRecord) -> Vec<String> {
+    let mut lines = Vec::new();
+    match run.answer.histories.fem.outcome {
+        HistoryOutcome::Completed => {}
+        HistoryOutcome::Overturned { time } => {
+            lines.push(format!("on its springs the structure overturns at t = {time:.2} s"));
+        }
+        HistoryOutcome::Stopped { time } | HistoryOutcome::WorkBound { time } | HistoryOutcome::Unstable { time } => {
+            lines.push(format!("on its springs the structure could not be followed beyond t = {time:.2} s"));
         }
     }
-    lines.extend(assessed);
+    let within = match (on.nrmse_rotation, on.nrmse_drift) {
+        (Some(rotation), Some(drift)) => {
+            format!("the rotation is within {} of that, the drift within {}", shown(rotation), shown(drift))
+        }
+        (None, Some(drift)) => format!("the drift is within {} of that", shown(drift)),
+        _ => return lines,
+    };
+    let over = over(&run.answer.compared);
+    lines.push(format!("on its springs {within} (NRMSE), {over}; {} touches", on.touches_fem));
+    lines
+}
+
+/// All that the program says, a line each.
+pub fn said(run: &ElasticRun) -> Vec<String> {
+    let assessment = run.parameters.assessment.as_ref();
+    let mut lines: Vec<String> = assessment.and_then(missed).into_iter().collect();
+    if let Some(on) = &run.parameters.on_record {
+        lines.push(on_rigid_ground(run, on));
+        lines.extend(on_springs(run, on));
+    }
+    lines.extend(assessment.into_iter().flat_map(|a| measured(&a.measured)));
+    let structure = &run.assembled.structure;
     lines.push(format!(
         "structure: {} Hz fixed to the ground, across; its weight shortens the columns by {} of their length",
         short(structure.frequency_hz(), 4),

@@ -2,7 +2,7 @@
 
 use std::io::Write;
 
-use super::{Options, Output, accuracy, files, max_hz, threads};
+use super::{Options, Output, files, threads};
 use crate::{
     case::ElasticCase,
     commands::{
@@ -11,12 +11,17 @@ use crate::{
         output::{Folder, check_folder},
         progress::Progress,
     },
-    elastic::{answer::ElasticAnswer, assembled::Assembled},
+    elastic::{
+        answer::{ElasticAnswer, Reference},
+        assembled::Assembled,
+    },
+    record::Record,
     tuning::elastic::tune,
 };
 
 /// The whole job.
 pub fn run(o: &Options, mut case: ElasticCase) -> Result<(), CommandError> {
+    applies(o)?;
     if !o.no_record {
         let notices = std::mem::take(&mut case.notices);
         let of_case = || -> Result<_, CommandError> {
@@ -25,9 +30,8 @@ pub fn run(o: &Options, mut case: ElasticCase) -> Result<(), CommandError> {
         };
         case.excitation = o.record.excitation(of_case)?;
     }
-    case.max_omega_hz = max_hz(o)?.or(case.max_omega_hz);
-    case.accuracy = accuracy(o)?.unwrap_or(case.accuracy);
-    o.ground.friction()?;
+    case.max_omega_hz = o.max_hz()?.or(case.max_omega_hz);
+    case.accuracy = o.accuracy()?.unwrap_or(case.accuracy);
     check_folder(&o.out)?;
     threads(o.jobs)?;
     let all = files();
@@ -35,11 +39,12 @@ pub fn run(o: &Options, mut case: ElasticCase) -> Result<(), CommandError> {
     let assembled = Assembled::new(case.structure).map_err(|e| CommandError::Result(e.to_string()))?;
     let progress = Progress::new("tuning", o.quiet);
     let tell = |done: usize, error: f64| progress.tell(done, 0, &format!("error {error:.2e}"));
-    let record = if o.no_record { None } else { Some(case.excitation.used()?) };
-    let tuned = tune(&case.structure, case.accuracy, case.max_omega_hz, record.as_ref(), &tell);
+    let record = if o.no_record { None } else { Some(referred(&assembled, case.excitation.used()?)?) };
+    let beside = record.as_ref().map(|(record, reference)| (record, reference));
+    let tuned = tune(&case.structure, case.accuracy, case.max_omega_hz, beside, &tell);
     progress.done();
     let tuned = tuned.map_err(|e| CommandError::Result(e.to_string()))?;
-    let Some(record) = record else {
+    let Some((record, reference)) = record else {
         let parameters = springs_alone(&assembled, &tuned, case.accuracy);
         let folder = Folder::begin(&o.out, "run", &all)?;
         let said = parameters.save_alone(&o.out)?;
@@ -49,7 +54,7 @@ pub fn run(o: &Options, mut case: ElasticCase) -> Result<(), CommandError> {
         return Ok(());
     };
     let progress = Progress::new("history", o.quiet);
-    let answer = ElasticAnswer::new(&assembled, &tuned.springs.corners, &record);
+    let answer = ElasticAnswer::new(&assembled, &tuned.springs.corners, &record, reference);
     progress.done();
     let answer = answer.map_err(|e| CommandError::Result(e.to_string()))?;
     let run = ElasticRun::new(case, assembled, tuned, record, answer);
@@ -59,4 +64,23 @@ pub fn run(o: &Options, mut case: ElasticCase) -> Result<(), CommandError> {
     write!(std::io::stdout(), "{}", run.terminal())?;
     eprintln!("{}\nwritten to {}", run.case.excitation.line(), o.out.display());
     Ok(())
+}
+
+/// A record with what the structure does in it on rigid ground.
+fn referred(assembled: &Assembled, record: Record) -> Result<(Record, Reference), CommandError> {
+    let reference = Reference::new(assembled, &record).map_err(|e| CommandError::Result(e.to_string()))?;
+    Ok((record, reference))
+}
+
+/// Options that mean nothing for an elastic structure are refused.
+fn applies(o: &Options) -> Result<(), CommandError> {
+    let friction = o.ground.friction.map(|value| format!("{value:?}"));
+    let given = [("friction", friction), ("no-front", o.no_front.then(|| "given".to_string()))];
+    match given.into_iter().find_map(|(option, value)| Some((option, value?))) {
+        Some((option, value)) => {
+            let remedy = "that is for rigid bodies and does nothing for an elastic structure; leave it out";
+            Err(CommandError::Option { option, value, remedy })
+        }
+        None => Ok(()),
+    }
 }

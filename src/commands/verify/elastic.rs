@@ -14,7 +14,7 @@ use crate::{
         write_file,
     },
     elastic::{
-        answer::ElasticAnswer,
+        answer::{ElasticHistories, Reference},
         assembled::{Assembled, Sway, errors},
     },
     figures::stack::{self, Quantity, Stack},
@@ -38,18 +38,20 @@ pub fn run(o: &Options, parameters: &ElasticParameters, program: &Program) -> Re
     check_accuracy(o.accuracy)?;
     let assembled = Assembled::new(parameters.structure).map_err(|e| CommandError::Result(e.to_string()))?;
     let springs = parameters.chains();
-    let answer = ElasticAnswer::new(&assembled, &springs, &record).map_err(|e| CommandError::Result(e.to_string()))?;
-    let text = deck(&assembled, &springs, &record, &answer.fem, o.accuracy);
+    let histories = Reference::new(&assembled, &record)
+        .and_then(|reference| ElasticHistories::new(&assembled, &springs, &record, reference))
+        .map_err(|e| CommandError::Result(e.to_string()))?;
+    let text = deck(&assembled, &springs, &record, &histories.fem, o.accuracy);
     let progress = Progress::new("OpenSees [s]", o.quiet);
-    let samples = answer.fem.q.len();
+    let samples = histories.fem.q.len();
     let read = |path: &Path| sways(&assembled, path, samples);
     let ran = run_deck(&text, program, (samples, record.dt), &|done, all| progress.tell(done, all, ""), read);
     progress.done();
     let ran = ran?;
 
-    let ours: Vec<Sway> = answer.sways.iter().map(|[_, ours]| ours.clone()).collect();
-    let (compared, whole) = (answer.predictable.min(samples), answer.predictable >= samples);
-    let [rotation, drift] = errors(&ours, &ran.motion, compared);
+    let compared = histories.compared(&record, &[samples]);
+    let ours: Vec<Sway> = histories.sways.into_iter().map(|[_, ours]| ours).collect();
+    let [rotation, drift] = errors(&ours, &ran.motion, compared.samples);
     let pairs: Vec<[Sway; 2]> = ours.into_iter().zip(ran.motion).map(|(ours, opensees)| [ours, opensees]).collect();
     let within = rotation <= LIMIT && drift <= LOOSER * LIMIT;
     let folder = Folder::begin(&o.out, "verify", &["verify.csv", "verify.png", "verify.svg"])?;
@@ -58,11 +60,7 @@ pub fn run(o: &Options, parameters: &ElasticParameters, program: &Program) -> Re
     folder.finish()?;
 
     let mut said = format!("OpenSees took {:.1} s and {} steps\n", ran.seconds, number_before(&ran.report, " steps"));
-    let over = if whole {
-        "over all of it".to_string()
-    } else {
-        format!("over the first {:.2} s, beyond which no model foretells this motion", answer.compared_s())
-    };
+    let over = words::over(&compared);
     // writing to a String does not fail
     let _ = writeln!(
         said,

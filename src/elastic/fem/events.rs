@@ -41,16 +41,7 @@ fn first_zero(values: &[f64; 4], tolerance: f64) -> Option<f64> {
     let mut start = 0.0;
     for end in [cubic.least(), 1.0].into_iter().filter(|end| *end > 0.0 && *end <= 1.0) {
         if at(end) < -tolerance {
-            let (mut inside, mut outside) = (start, end);
-            for _ in 0..50 {
-                let middle = 0.5 * (inside + outside);
-                if at(middle) > 0.0 {
-                    inside = middle;
-                } else {
-                    outside = middle;
-                }
-            }
-            return Some(inside);
+            return Some(cubic.falls((start, at(start)), (end, at(end)), 0.1 * tolerance).unwrap_or(start));
         }
         start = end;
     }

@@ -33,11 +33,16 @@ impl Section {
     }
 }
 
-/// The series without what is faster than `frequency` (Hz), samples dt (s) apart. The series itself if the frequency is not
-/// below half of the samples'.
+/// Whether samples dt (s) apart have this frequency (Hz): it lies below half of theirs.
+pub fn resolves(dt: f64, frequency: f64) -> bool {
+    frequency > 0.0 && frequency * dt < 0.5
+}
+
+/// The series without what is faster than `frequency` (Hz), samples dt (s) apart. The series itself if its samples do not have that
+/// frequency.
 pub fn low_pass(series: &[f64], dt: f64, frequency: f64) -> Vec<f64> {
     let mut out = series.to_vec();
-    if !(frequency > 0.0 && frequency * dt < 0.5) {
+    if !resolves(dt, frequency) {
         return out;
     }
     let w = (PI * frequency * dt).tan();

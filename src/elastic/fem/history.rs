@@ -8,7 +8,7 @@ use crate::{
 
 /// A touch or a lift of a corner.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Contact {
+pub struct ContactChange {
     /// (s)
     pub time: f64,
     /// Counted from the left.
@@ -19,9 +19,9 @@ pub struct Contact {
     pub speed: [f64; 2],
 }
 
-/// Force of the ground on a corner, horizontally and vertically, sample by sample (N).
+/// Force of the ground on a corner, or on all of them together, horizontally and vertically, sample by sample (N).
 #[derive(Clone, Debug, Default, PartialEq)]
-pub struct CornerForces {
+pub struct GroundForces {
     /// At the sample.
     pub at: Vec<[f64; 2]>,
     /// The largest magnitudes since the sample before: an impact is over long before the next sample.
@@ -30,11 +30,41 @@ pub struct CornerForces {
     pub mean: Vec<[f64; 2]>,
 }
 
-impl CornerForces {
-    /// Vertical forces without the spikes of landings (N): means between samples dt apart, low-pass filtered at this frequency (Hz).
+impl GroundForces {
+    /// Forces in one direction (0: horizontal, 1: vertical) without the spikes of landings (N): means between samples dt apart, low-pass
+    /// filtered at this frequency (Hz); the means themselves where the samples are too far apart to have it ([`low_pass`]).
     pub fn filtered(&self, direction: usize, dt: f64, frequency: f64) -> Vec<f64> {
         let means: Vec<f64> = self.mean.iter().map(|force| force[direction]).collect();
         low_pass(&means, dt, frequency)
+    }
+
+    /// Note a sample's force; what was found since the sample before begins anew.
+    fn push(&mut self, at: [f64; 2], since: &mut Since, dt: f64) {
+        let Since { impulse, largest } = std::mem::take(since);
+        self.mean.push(if self.at.is_empty() { at } else { impulse.map(|j| j / dt) });
+        self.peak.push(largest);
+        self.at.push(at);
+    }
+}
+
+/// Impulse [N s] and largest force [N] since the last sample.
+#[derive(Clone, Copy, Debug, Default)]
+struct Since {
+    impulse: [f64; 2],
+    largest: [f64; 2],
+}
+
+impl Since {
+    fn force(&mut self, force: [f64; 2]) {
+        for (largest, force) in self.largest.iter_mut().zip(force) {
+            if force.abs() > largest.abs() {
+                *largest = force;
+            }
+        }
+    }
+
+    fn add(&mut self, impulse: [f64; 2]) {
+        self.impulse = [self.impulse[0] + impulse[0], self.impulse[1] + impulse[1]];
     }
 }
 
@@ -47,14 +77,16 @@ pub struct History {
     pub q: Vec<Vec<f64>>,
     /// Their velocities.
     pub v: Vec<Vec<f64>>,
-    /// At every corner.
-    pub forces: Vec<CornerForces>,
+    /// At every corner; empty, as all forces are, of a history that keeps none.
+    pub forces: Vec<GroundForces>,
+    /// On all corners together: the largest is that of one instant.
+    pub ground: GroundForces,
     /// What the structure bears at every sample.
     pub demands: Vec<Demand>,
     /// Of each value, the largest magnitude since the sample before.
     pub worst: Vec<Demand>,
     /// Touches and lifts.
-    pub contacts: Vec<Contact>,
+    pub contacts: Vec<ContactChange>,
     /// Of energy.
     pub account: Account,
     /// How it ended.
@@ -89,30 +121,74 @@ impl History {
     }
 }
 
-/// Keeps everything.
+/// Keeps everything, or all but forces.
 pub(super) struct Recorder {
     history: History,
-    /// Impulse of every corner since the last sample [N s], and largest forces [N].
-    impulses: Vec<[f64; 2]>,
-    largest: Vec<[f64; 2]>,
+    forces: Option<Forces>,
+    residual: f64,
+}
+
+/// Forces since the last sample.
+struct Forces {
+    corners: Vec<Since>,
+    ground: Since,
     now: Demand,
     worst: Demand,
-    residual: f64,
-    begun: bool,
+}
+
+impl Forces {
+    fn new(frame: &Frame) -> Self {
+        let corners = vec![Since::default(); frame.places().len()];
+        Self { corners, ground: Since::default(), now: Demand::new(frame), worst: Demand::new(frame) }
+    }
+
+    fn look(&mut self, view: &View) {
+        let n = view.model.n;
+        self.now.take(view.model.frame, &view.q[..n], &view.v[..n]);
+        self.worst.enlarge(&self.now);
+        let mut sum = [0.0; 2];
+        for (i, corner) in self.corners.iter_mut().enumerate() {
+            let force = view.model.contact(i, &view.feet[i], view.q);
+            corner.force(force);
+            sum = [sum[0] + force[0], sum[1] + force[1]];
+        }
+        self.ground.force(sum);
+    }
+
+    fn step(&mut self, impulses: &[[f64; 2]]) {
+        for (corner, &impulse) in self.corners.iter_mut().zip(impulses) {
+            corner.add(impulse);
+            self.ground.add(impulse);
+        }
+    }
+
+    fn sample(&mut self, view: &View, history: &mut History) {
+        let mut sum = [0.0; 2];
+        for (i, (since, forces)) in self.corners.iter_mut().zip(&mut history.forces).enumerate() {
+            let force = view.model.contact(i, &view.feet[i], view.q);
+            forces.push(force, since, history.dt);
+            sum = [sum[0] + force[0], sum[1] + force[1]];
+        }
+        history.ground.push(sum, &mut self.ground, history.dt);
+        history.demands.push(self.now.clone());
+        history.worst.push(std::mem::replace(&mut self.worst, self.now.clone()));
+    }
 }
 
 impl Recorder {
-    pub fn new(frame: &Frame, dt: f64, samples: usize) -> Self {
-        let corners = frame.places().len();
+    /// Of a history of so many samples, with forces or without.
+    pub fn new(frame: &Frame, dt: f64, samples: usize, forces: bool) -> Self {
         let room = || Vec::with_capacity(samples);
+        let corners = if forces { frame.places().len() } else { 0 };
         Self {
             history: History {
                 dt,
                 q: Vec::with_capacity(samples),
                 v: Vec::with_capacity(samples),
-                forces: vec![CornerForces::default(); corners],
-                demands: Vec::with_capacity(samples),
-                worst: Vec::with_capacity(samples),
+                forces: vec![GroundForces::default(); corners],
+                ground: GroundForces::default(),
+                demands: Vec::new(),
+                worst: Vec::new(),
                 contacts: Vec::new(),
                 account: Account { input: room(), stored: room(), dissipated: room(), residual: room() },
                 outcome: HistoryOutcome::Completed,
@@ -120,59 +196,35 @@ impl Recorder {
                 energy_residual: 0.0,
                 energy_scale: 0.0,
             },
-            impulses: vec![[0.0; 2]; corners],
-            largest: vec![[0.0; 2]; corners],
-            now: Demand::new(frame),
-            worst: Demand::new(frame),
+            forces: forces.then(|| Forces::new(frame)),
             residual: 0.0,
-            begun: false,
         }
     }
 
     /// At a sample.
     pub fn sample(&mut self, view: &View) {
         let n = view.model.n;
-        self.look(view);
         let history = &mut self.history;
-        for (i, forces) in history.forces.iter_mut().enumerate() {
-            let force = view.model.contact(i, &view.feet[i], view.q);
-            forces.at.push(force);
-            forces.peak.push(std::mem::take(&mut self.largest[i]));
-            let impulse = std::mem::take(&mut self.impulses[i]);
-            forces.mean.push(if self.begun { impulse.map(|j| j / history.dt) } else { force });
+        if let Some(forces) = &mut self.forces {
+            forces.look(view);
+            forces.sample(view, history);
         }
         history.q.push(view.q[..n].to_vec());
         history.v.push(view.v[..n].to_vec());
-        history.demands.push(self.now.clone());
-        history.worst.push(std::mem::replace(&mut self.worst, self.now.clone()));
         let e = view.energy;
         history.account.input.push(e.input);
         history.account.stored.push(e.stored - e.initial);
         history.account.dissipated.push(e.dissipated + e.released);
         history.account.residual.push(e.residual());
         self.residual = self.residual.max(e.residual().abs());
-        self.begun = true;
-    }
-
-    fn look(&mut self, view: &View) {
-        let frame = view.model.frame;
-        self.now.take(frame, &view.q[..view.model.n], &view.v[..view.model.n]);
-        self.worst.enlarge(&self.now);
-        for (i, largest) in self.largest.iter_mut().enumerate() {
-            for (largest, force) in largest.iter_mut().zip(view.model.contact(i, &view.feet[i], view.q)) {
-                if force.abs() > largest.abs() {
-                    *largest = force;
-                }
-            }
-        }
     }
 
     /// After a step, with its impulses.
     pub fn step(&mut self, view: &View, impulses: &[[f64; 2]]) {
-        for (sum, impulse) in self.impulses.iter_mut().zip(impulses) {
-            *sum = [sum[0] + impulse[0], sum[1] + impulse[1]];
+        if let Some(forces) = &mut self.forces {
+            forces.step(impulses);
+            forces.look(view);
         }
-        self.look(view);
     }
 
     /// After a corner's contact has changed.
@@ -180,7 +232,7 @@ impl Recorder {
         let place = &view.model.frame.places()[corner];
         let speed = place.velocity(&place.reach(view.q), view.v);
         let touches = view.feet[corner].closed;
-        self.history.contacts.push(Contact { time: view.time, corner, touches, speed });
+        self.history.contacts.push(ContactChange { time: view.time, corner, touches, speed });
     }
 
     /// The history, once the run is over.

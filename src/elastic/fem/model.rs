@@ -55,11 +55,6 @@ pub(super) fn absorber(n: usize, corner: usize) -> usize {
     n + 2 * corner
 }
 
-/// Stiffness of both springs of a chain, one after the other [N/m].
-pub(super) fn series(chain: &Chain<f64>) -> f64 {
-    chain.k1 * chain.k2 / (chain.k1 + chain.k2)
-}
-
 impl<'a> Model<'a> {
     pub fn new(frame: &'a Frame, units: &'a [Springs<Chain<f64>>]) -> Self {
         let n = frame.size();
@@ -168,7 +163,7 @@ impl<'a> Model<'a> {
 
     /// Stiffness under each corner, standing.
     pub fn supports(&self) -> Vec<Support> {
-        self.units.iter().map(|unit| Some([series(&unit.horizontal), series(&unit.vertical)])).collect()
+        self.units.iter().map(|unit| Some([unit.horizontal.in_series(), unit.vertical.in_series()])).collect()
     }
 
     /// Standing still on all corners.

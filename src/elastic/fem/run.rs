@@ -63,14 +63,15 @@ pub(super) struct Run<'a> {
 }
 
 impl<'a> Run<'a> {
-    pub fn new(case: &'a Case<'a>, model: &'a Model<'a>, start: (Vec<f64>, Vec<f64>, Vec<Foot>)) -> Self {
+    /// From a start whose energy is measured by that at rest [J].
+    pub fn new(case: &'a Case<'a>, model: &'a Model<'a>, start: (Vec<f64>, Vec<f64>, Vec<Foot>), at_rest: f64) -> Self {
         let (q, v, feet) = start;
         let frame = model.frame;
         let scales = Scales::of(frame);
         let weight = frame.total_mass() * GRAVITY;
         let vertical = || model.units.iter().map(|unit| unit.vertical.k1);
         let stiffest = vertical().fold(0.0, f64::max);
-        // without springs: what the frame's own weight on a millionth of its length would do
+        // without springs: a ten-millionth of its length
         let compression = if stiffest > 0.0 { weight / stiffest } else { 1e-7 * scales.length };
         let settling = vertical()
             .enumerate()
@@ -78,8 +79,7 @@ impl<'a> Run<'a> {
             .fold(f64::INFINITY, f64::min)
             .min((scales.length / GRAVITY).sqrt());
         let stored = model.energy(&q, &v, &feet);
-        let rest = model.standing().map_or(0.0, |(at, feet)| model.energy(&at, &vec![0.0; at.len()], &feet));
-        let scale = (stored - rest).abs().max(1e-3 * rest.abs()).max(1e-12 * weight * scales.length);
+        let scale = (stored - at_rest).abs().max(1e-3 * at_rest.abs()).max(1e-12 * weight * scales.length);
         let lengths = scales.lengths(model);
         let rounding = 8.0 * f64::EPSILON * scales.span * scales.span / scales.length;
         let corners = feet.len();

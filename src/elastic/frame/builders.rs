@@ -1,4 +1,4 @@
-//! Piers, A-frames and portals laid out.
+//! Cantilevers (piers), A-frames and portals laid out.
 
 use super::layout::{Layout, Member, Node, Point};
 use crate::elastic::beam::Section;
@@ -37,7 +37,7 @@ impl Footing {
 
 /// A mass on a column on a footing. Nodes: 0 the footing, 1 the mass, then those along the column.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Pier {
+pub struct Cantilever {
     /// (kg)
     pub mass: f64,
     /// About its centre [kg m2]; `None` of a mass on a hinge.
@@ -121,7 +121,7 @@ impl Layout {
     }
 }
 
-impl Pier {
+impl Cantilever {
     /// Its layout, the middle of the soles at the origin.
     pub fn layout(&self) -> Layout {
         let mut layout = Layout { consistent: self.consistent, ..Layout::default() };

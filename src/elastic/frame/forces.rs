@@ -1,6 +1,8 @@
 //! A frame's forces, their tangent, energies and powers.
 
-use nalgebra::{DMatrix, DVector};
+use std::borrow::Cow;
+
+use nalgebra::{Cholesky, DMatrix, DVector, Dyn};
 
 use super::{Base, Frame, NONE, Place, Tendon, gather};
 use crate::{
@@ -185,6 +187,14 @@ impl Mechanics for Frame {
 
     fn mass(&self, _: &DVector<f64>) -> DMatrix<f64> {
         self.mass.clone()
+    }
+
+    fn factored_mass(&self, _: &DVector<f64>) -> Option<Cow<'_, Cholesky<f64, Dyn>>> {
+        Some(Cow::Borrowed(&self.cholesky))
+    }
+
+    fn whole_mass(&self, _: &DVector<f64>) -> f64 {
+        self.total
     }
 
     fn force(&self, q: &DVector<f64>, v: &DVector<f64>, ground: [f64; 2]) -> DVector<f64> {

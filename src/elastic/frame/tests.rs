@@ -10,9 +10,9 @@ fn section() -> Section {
     Section { axial: 8e9, bending: 6e9, axial_damping: 3e7, bending_damping: 2e7, line_mass: 5e3 }
 }
 
-fn pier(elements: usize, inertia: Option<f64>) -> Pier {
+fn pier(elements: usize, inertia: Option<f64>) -> Cantilever {
     let footing = Footing::block(4.0, 1.2e5, 0.75, 1.5);
-    Pier {
+    Cantilever {
         mass: 6e5,
         inertia,
         height: 12.0,
@@ -38,7 +38,7 @@ fn frames() -> Vec<Frame> {
     }
     let legs = Column { section: section(), elements: 2 };
     let legged = LeggedFrame { mass: 6e5, inertia: 1e5, height: 12.0, width: 5.0, foot_mass: 3e3, leg: legs };
-    let consistent = Pier { consistent: true, ..pier(4, Some(1e5)) };
+    let consistent = Cantilever { consistent: true, ..pier(4, Some(1e5)) };
     [tied, legged.layout(), portal().layout(), consistent.layout()].map(|l| l.frame().unwrap()).to_vec()
 }
 

@@ -1,7 +1,7 @@
 //! How long a history can be told.
 //!
 //! ```text
-//! growth(t) = max over s <= t, coordinates and twins of |q_twin(s) - q(s)| / (peak of |q|) / d
+//! growth(t) = max over s <= t, coordinates and twins of |q_twin(s) - q(s)| / (peak of |q|, at least 1e-9) / d
 //! ```
 //!
 //! One twin has the ground's acceleration scaled by 1 + d, in the other every landing leaves 1 - d of the velocities. A history that two models
@@ -9,7 +9,7 @@
 
 use nalgebra::DVector;
 
-use super::{ElasticRocking, Ground, Options, rock};
+use super::{ElasticRocking, Ground, Options, walk::Walk};
 use crate::elastic::Mechanics;
 
 /// A history can be compared one to one while a perturbation has grown less than this: springs within a thousandth of the reference are then
@@ -19,12 +19,15 @@ pub const FORETOLD: f64 = 30.0;
 /// Perturbation whose growth tells how long a history can be foretold.
 pub const PERTURBATION: f64 = 1e-6;
 
+/// A coordinate that never becomes larger than this stands still: what two histories differ by is rounding (m or rad).
+const STILL: f64 = 1e-9;
+
 /// How perturbations grow.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Growth {
     /// Time step (s).
     pub dt: f64,
-    /// Largest relative separation up to t = i dt, over the perturbation; as long as the shortest of the histories.
+    /// Largest relative separation up to t = i dt, over the perturbation; as long as the shortest of the histories, or up to the limit.
     pub factor: Vec<f64>,
 }
 
@@ -45,31 +48,47 @@ impl Growth {
     }
 }
 
-/// Growth of a perturbation d in the given coordinates of a history; start and options are the history's own.
+/// What two histories are told apart by: a perturbation d, in these coordinates, up to a growth.
+#[derive(Clone, Copy, Debug)]
+pub struct Twins<'a> {
+    /// Indices of coordinates.
+    pub coordinates: &'a [usize],
+    /// d.
+    pub perturbation: f64,
+    /// Growth beyond which a twin is not followed.
+    pub limit: f64,
+}
+
+/// Growth of a perturbation of a history; start and options are the history's own.
 pub fn growth(
-    mechanics: &impl Mechanics,
+    mechanics: &(impl Mechanics + Sync),
     ground: Ground,
     start: (&DVector<f64>, &DVector<f64>),
     options: &Options,
-    (history, coordinates, d): (&ElasticRocking, &[usize], f64),
+    (history, twins): (&ElasticRocking, &Twins),
 ) -> Growth {
-    let scaled = Options { scale: options.scale * (1.0 + d), ..*options };
-    let landed = Options { kept: options.kept * (1.0 - d), ..*options };
-    let twins = [scaled, landed].map(|options| rock(mechanics, ground, start, &options));
+    let &Twins { coordinates, perturbation: d, limit } = twins;
     let peaks: Vec<f64> =
-        coordinates.iter().map(|&c| history.q.iter().fold(0.0, |peak, q| f64::max(peak, q[c].abs()))).collect();
-    let samples = twins.iter().map(|twin| twin.q.len()).fold(history.q.len(), usize::min);
-    let mut most = 0.0;
-    let separation = |i: usize| {
-        for twin in &twins {
+        coordinates.iter().map(|&c| history.q.iter().fold(STILL, |peak, q| f64::max(peak, q[c].abs()))).collect();
+    let twin = |options: &Options| {
+        let (mut most, mut factor) = (0.0, Vec::with_capacity(history.q.len()));
+        let apart = |q: &DVector<f64>| {
+            let Some(other) = history.q.get(factor.len()) else { return false };
             for (&c, peak) in coordinates.iter().zip(&peaks) {
-                let apart = (twin.q[i][c] - history.q[i][c]).abs();
+                let apart = (q[c] - other[c]).abs();
                 if apart > 0.0 {
                     most = f64::max(most, apart / (peak * d));
                 }
             }
-        }
-        most
+            factor.push(most);
+            most < limit
+        };
+        Walk::new(mechanics, ground, start, options).run(apart);
+        factor
     };
-    Growth { dt: ground.dt, factor: (0..samples).map(separation).collect() }
+    let (scaled, landed) = rayon::join(
+        || twin(&Options { scale: options.scale * (1.0 + d), ..*options }),
+        || twin(&Options { kept: options.kept * (1.0 - d), ..*options }),
+    );
+    Growth { dt: ground.dt, factor: scaled.iter().zip(&landed).map(|(a, b)| f64::max(*a, *b)).collect() }
 }

@@ -11,6 +11,8 @@
 //! A held corner keeps both its coordinates. Two held corners of one footing cannot move apart, so that the horizontal force on the second is
 //! redundant: the first has all of it.
 
+use std::borrow::Cow;
+
 use nalgebra::{Cholesky, DMatrix, DVector, Dyn};
 
 use super::Corners;
@@ -20,7 +22,7 @@ use crate::elastic::{Corner, Mechanics};
 pub struct Configuration<'a, M> {
     /// Equations of motion.
     pub mechanics: &'a M,
-    mass: Cholesky<f64, Dyn>,
+    mass: Cow<'a, Cholesky<f64, Dyn>>,
     /// Coordinates.
     pub q: &'a DVector<f64>,
     /// Velocities.
@@ -88,7 +90,7 @@ impl Aim {
 impl<'a, M: Mechanics> Configuration<'a, M> {
     /// None if M is not positive definite: the structure has a coordinate without inertia, or a number is not finite.
     pub fn new(mechanics: &'a M, q: &'a DVector<f64>, v: &'a DVector<f64>) -> Option<Self> {
-        Some(Self { mechanics, mass: mechanics.mass(q).cholesky()?, q, v })
+        Some(Self { mechanics, mass: mechanics.factored_mass(q)?, q, v })
     }
 
     /// Accelerations under the ground's acceleration, and the ground's forces.

@@ -6,7 +6,7 @@ use super::contact::Rule;
 use super::dop853::{Rates, State, step};
 use super::hold::{Configuration, Contact};
 use super::{Corners, ElasticRocking, Ground, Ledger, Options, Outcome, Stop, search};
-use crate::elastic::Mechanics;
+use crate::{elastic::Mechanics, scalar::GRAVITY};
 
 /// Height at which a corner is on the ground, to rounding (m).
 pub const ON_GROUND: f64 = 1e-12;
@@ -57,7 +57,7 @@ impl<'a, M: Mechanics> Walk<'a, M> {
         let state = State { q: q.clone(), v: v.clone(), work: [0.0; 3] };
         let rates = Rates { a: DVector::zeros(v.len()), power: [0.0; 3], forces: Vec::new() };
         let corners = mechanics.footings().len();
-        let weight = mechanics.force(q, &DVector::zeros(v.len()), [0.0; 2]).amax();
+        let weight = mechanics.whole_mass(q) * GRAVITY;
         let start = mechanics.kinetic(q, v) + mechanics.potential(q);
         let history = ElasticRocking {
             dt: ground.dt,
@@ -90,14 +90,15 @@ impl<'a, M: Mechanics> Walk<'a, M> {
         }
     }
 
-    pub fn run(mut self) -> ElasticRocking {
-        if let Err(outcome) = self.follow() {
+    /// To the end, or to the sample at which `go_on` of its coordinates is false.
+    pub fn run(mut self, mut go_on: impl FnMut(&DVector<f64>) -> bool) -> ElasticRocking {
+        if let Err(outcome) = self.follow(&mut go_on) {
             self.history.outcome = outcome;
         }
         self.history
     }
 
-    fn follow(&mut self) -> Result<(), Outcome> {
+    fn follow(&mut self, go_on: &mut impl FnMut(&DVector<f64>) -> bool) -> Result<(), Outcome> {
         if self.mechanics.footings().len() > Corners::MOST {
             return Err(self.stop(Stop::Corners));
         }
@@ -105,7 +106,7 @@ impl<'a, M: Mechanics> Walk<'a, M> {
         let duration = self.options.duration.unwrap_or_else(|| self.ground.duration());
         let intervals = (duration / self.ground.dt).round() as usize;
         self.sample()?;
-        while self.interval < intervals {
+        while go_on(&self.now.state.q) && self.interval < intervals {
             self.cross()?;
             self.put_back()?;
             self.sample()?;

@@ -29,7 +29,7 @@ pub struct AFrameSpec {
     pub ei_nm2: f64,
     /// Mass at each foot (kg).
     pub foot_mass_kg: f64,
-    /// Ratio to critical damping along a leg, of the frame fixed to the ground.
+    /// Ratio to critical damping of the frame fixed to the ground, across.
     pub damping_ratio: f64,
 }
 

@@ -13,7 +13,7 @@ use std::f64::consts::TAU;
 use super::{AFrameSpec, ElasticStructure, PierSpec, PortalSpec};
 use crate::elastic::{
     beam::Section,
-    frame::{Column, Footing, Layout, LeggedFrame, Pier, Portal},
+    frame::{Cantilever, Column, Footing, Layout, LeggedFrame, Portal},
 };
 
 impl ElasticStructure {
@@ -28,7 +28,7 @@ impl ElasticStructure {
 }
 
 impl PierSpec {
-    fn finite(&self) -> Pier {
+    fn finite(&self) -> Cantilever {
         let (length, ei, ea) = (self.length(), self.ei(), self.ea());
         let omega = TAU * self.frequency();
         let section = Section {
@@ -38,7 +38,7 @@ impl PierSpec {
             bending_damping: 2.0 * self.damping_ratio * self.moving_mass() * omega * length.powi(3) / 3.0,
             line_mass: self.column_mass_kg / length,
         };
-        Pier {
+        Cantilever {
             mass: self.mass_kg,
             inertia: None,
             height: self.height_m,

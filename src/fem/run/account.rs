@@ -1,37 +1,14 @@
-//! Step acceptance: by the energy account, and by the embedded estimate of the local error.
+//! What a step does to the energy account, and what it misses.
 
 use super::Run;
 use crate::{
     fem::{
+        acceptance::{Tried, Verdict, allowed_energy, cautious},
         model::{Model, State, TH, X, Z},
         step::Stages,
     },
     scalar::{GRAVITY, Scalar},
 };
-
-/// The energy that all steps together may lose or gain, in units of `Control::tolerance`.
-const BUDGET: f64 = 50.0;
-
-/// The local error that a step may have at a tolerance of one. Found on histories of El Centro (61 m frame at 160 Hz to 20 kHz,
-/// two blocks): ten times more and their error no longer follows the tolerance, ten times less and it costs twice the steps.
-const ERROR: f64 = 0.1;
-
-/// What a step's local error may be at a tolerance, but for rounding. The estimate falls as h^4, the energy that a step loses as h^6:
-/// with the power 2/3 both criteria ask for the same steps whatever the tolerance.
-pub(super) fn allowed_error(tolerance: f64) -> f64 {
-    ERROR * tolerance.powf(2.0 / 3.0)
-}
-
-/// x^(1/6), up to 0.81 % too large: a tenth is left for it and for more. Infinite where a step would grow beyond any use anyway.
-fn sixth_root(x: f64) -> f64 {
-    if x > 1e5 {
-        return f64::INFINITY;
-    }
-    // a sixth of the exponent, and of the mantissa, which serves as its logarithm; then one step of Newton's method
-    let near = f64::from_bits(x.to_bits() / 6 + 1.0_f64.to_bits() / 6 * 5);
-    let cube = near * near * near;
-    near * (5.0 / 6.0) + x / (6.0 * cube * near * near)
-}
 
 /// What a step does, measured.
 #[derive(Clone, Copy, Debug)]
@@ -86,9 +63,6 @@ impl Scales {
     }
 }
 
-/// A step that may break its bounds, in units of 1/Omega_n.
-const SMALLEST: f64 = 1e-9;
-
 impl<S: Scalar> Run<'_, S> {
     /// What a step does to the account, and what it misses.
     pub(super) fn measure(&self, stages: &Stages<S>) -> StepMeasures<S> {
@@ -100,35 +74,26 @@ impl<S: Scalar> Run<'_, S> {
 
     /// Book the step if the account closes well enough and little is missed; choose the next step's size.
     pub(super) fn account(&mut self, stages: &Stages<S>, measures: &StepMeasures<S>) -> bool {
-        let end = stages.end();
         let &StepMeasures { stored, input, dissipated, missed, .. } = measures;
         let defect = (stored - self.energy.stored - input + dissipated).re().abs();
         let h = stages.h.re();
-        let (energy, error) = (self.allowed(stored, stages) / defect, self.allowed_error(h) / missed);
-        let finite = (defect + missed).is_finite();
-        // a radau step loses energy as h^6, the estimate falls as h^4
-        let factor = if finite { 0.9 * sixth_root(energy).min(error.sqrt().sqrt()) } else { 0.0 };
-        if !finite || energy < 1.0 || error < 1.0 {
-            // at a force discontinuity no step size satisfies the account: the smallest may break it, but not with a NaN
-            if h > SMALLEST * self.settling || !finite {
-                self.h = h * factor.clamp(0.1, 0.9);
+        let tried = Tried { h, planned: self.h, settling: self.settling };
+        match tried.verdict([defect, missed], [self.allowed(stored, stages), self.allowed_error(h)]) {
+            Verdict::Refused(h) => {
+                self.h = h;
                 return false;
             }
-            self.work.smallest += 1;
+            Verdict::Holds { next, breaks } => {
+                self.h = next;
+                self.work.smallest += usize::from(breaks);
+            }
         }
         self.work.steps += 1;
-        let next = h * factor.clamp(0.2, 5.0);
-        // a step cut short by a sample or an event does not refute the size that was planned
-        self.h = if h < 0.9 * self.h && self.h.is_finite() { next.max(self.h) } else { next };
-        self.state = end;
-        self.energy.stored = stored;
-        self.energy.input += input;
-        self.energy.dissipated += dissipated;
-        self.scale = self.scale.max(self.energy.input.re().abs()).max((stored - self.energy.initial).re().abs());
+        self.state = stages.end();
+        self.energy.book(stored, input, dissipated);
+        self.scale = self.energy.largest(self.scale);
         self.guess = stages.a[2];
-        let root = stages.rate.max(f64::EPSILON).sqrt();
-        // with some caution: to the power 3/4
-        self.rate = root * root.sqrt();
+        self.rate = cautious(stages.rate);
         true
     }
 
@@ -139,14 +104,9 @@ impl<S: Scalar> Run<'_, S> {
         self.error.max(rounding)
     }
 
-    /// Energy that this step may lose or gain [J]: less and less as the account's budget is used up, so that the residual
-    /// stays within it however long the history; never less than rounding makes of it.
+    /// Energy that this step may lose or gain [J].
     fn allowed(&self, stored: S, stages: &Stages<S>) -> f64 {
-        let most = self.control.tolerance * self.scale;
-        let left = (1.0 - self.energy.residual().re().abs() / (BUDGET * most)).max(0.0);
-        let entries = [stored, self.energy.input, self.energy.dissipated, self.energy.released];
-        let rounding = entries.iter().map(|e| e.re().abs()).fold(0.0, f64::max) * (32.0 * f64::EPSILON);
-        (most * left.powi(4)).max(rounding).max(self.places(stages))
+        allowed_energy(self.control.tolerance * self.scale, &self.energy, stored).max(self.places(stages))
     }
 
     /// Energy that comes and goes as places are rounded [J]: a few units in their last digit times the force. On stiff springs under
@@ -156,20 +116,5 @@ impl<S: Scalar> Run<'_, S> {
         let place = q[X].re().abs() + q[Z].re().abs() + q[TH].re().abs() * self.model.body.radius().re();
         let force = self.model.translation.re() * (a[X].re().abs() + a[Z].re().abs() + GRAVITY);
         4.0 * f64::EPSILON * place * force
-    }
-}
-
-#[cfg(test)]
-mod tests {
-    use super::sixth_root;
-
-    #[test]
-    fn the_sixth_root_is_one() {
-        for i in -600..=49 {
-            let x = 10.0_f64.powf(f64::from(i) * 0.1);
-            let exact = x.powf(1.0 / 6.0);
-            assert!((0.0..8.1e-3).contains(&(sixth_root(x) / exact - 1.0 + 1e-15)), "{x}");
-        }
-        assert!(sixth_root(0.0) < 1e-40 && sixth_root(f64::INFINITY) == f64::INFINITY);
     }
 }

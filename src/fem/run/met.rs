@@ -10,9 +10,6 @@ use crate::{
     scalar::Scalar,
 };
 
-/// Halvings of a step in the search for a place where a foot is clear of the edge.
-const MOST_HALVED: i32 = 30;
-
 /// What a candidate step met.
 pub(super) enum Met {
     Nothing,
@@ -106,25 +103,14 @@ impl<S: Scalar> Run<'_, S> {
     /// Where the compression passes its limit between two bracketing points. `None` if the cubic leaves at once
     /// where the foot itself moves in: it need not begin with the state's velocity, and does not in a step too long for the
     /// springs.
-    fn first_zero(
-        &self,
-        cubic: &Cubic,
-        mut low: (f64, f64),
-        high: (f64, f64),
-        moves_in: impl Fn() -> bool,
-    ) -> Option<f64> {
-        // a foot at the edge that moves off it first must come back before it crosses
+    fn first_zero(&self, cubic: &Cubic, low: (f64, f64), high: (f64, f64), moves_in: impl Fn() -> bool) -> Option<f64> {
         let edge = 0.1 * self.gap_tolerance();
-        if low.1 <= edge {
-            let inner =
-                (1..MOST_HALVED).map(|k| low.0 + (high.0 - low.0) * 0.5_f64.powi(k)).find(|&tau| cubic.at(tau) > edge);
-            match inner {
-                Some(tau) => low = (tau, cubic.at(tau)),
-                None if low.0 == 0.0 && moves_in() => return None,
-                None => {}
-            }
-        }
-        Some(falls_through_zero(low, high, edge, |tau| cubic.at(tau)).max(1e-9))
+        let tau = match cubic.falls(low, high, edge) {
+            Some(tau) => tau,
+            None if low.0 == 0.0 && moves_in() => return None,
+            None => falls_through_zero(low, high, edge, |tau| cubic.at(tau)),
+        };
+        Some(tau.max(1e-9))
     }
 
     /// Speed at which a foot moves off the edge of its limit, into it [m/s].

@@ -17,14 +17,14 @@
 //!   K^3 = SCALE give M g/(omega v m_eff),     v: speed at which a corner lands that fell from half of what overturns
 //! ```
 //!
-//! with a number of order one that `cargo run --release --example elastic_stance` finds again, on piers of light to heavy footings.
+//! with a number of order one that `cargo bench --bench elastic_stance` finds again, on piers of light to heavy footings.
 
 use std::f64::consts::TAU;
 
 use nalgebra::DMatrix;
 
 use crate::{
-    elastic::standing::{Footing, Standing, Sway},
+    elastic::standing::{FixedResponse, FootingInertia, Standing},
     scalar::GRAVITY,
     spring::{Chain, Springs},
     tuning::landing::{corners::Corners, design::for_landing},
@@ -58,8 +58,8 @@ struct Lands {
 }
 
 impl Lands {
-    fn new(footing: &Footing) -> Self {
-        let Footing { w, width, .. } = footing;
+    fn new(footing: &FootingInertia) -> Self {
+        let FootingInertia { w, width, .. } = footing;
         let last = w.nrows() - 2;
         if last == 0 {
             // a foot without a width: the other corner is not there
@@ -100,27 +100,26 @@ fn outer(w: &DMatrix<f64>, last: usize) -> [[f64; 4]; 4] {
 /// Springs of a structure at a give of its vertical k1 alone: the smaller, the stiffer. `landing`: v of the choice of K (m/s).
 pub fn springs(standing: &Standing, give: f64, landing: f64) -> CornerSprings {
     let lightest = standing.footings.iter().map(|f| Lands::new(f).effective_mass()).fold(f64::INFINITY, f64::min);
-    let share = standing.sways[0].omega * landing * lightest / (standing.mass * GRAVITY);
+    let share = standing.responses[0].omega * landing * lightest / (standing.mass * GRAVITY);
     with_k(standing, give, (SCALE * give / share).cbrt().clamp(K.0, K.1))
 }
 
 /// The same at any K.
 pub fn with_k(standing: &Standing, give: f64, k: f64) -> CornerSprings {
-    let unit: f64 = standing.sways.iter().map(|sway| sway.give([f64::INFINITY, 1.0])).sum();
+    let unit: f64 = standing.responses.iter().map(|sway| sway.give([f64::INFINITY, 1.0])).sum();
     let k1 = unit / give;
     let of_footing: Vec<Springs<Chain<f64>>> = standing.footings.iter().map(|f| Lands::new(f).springs(k, k1)).collect();
-    let count = standing.sways[0].reactions.len();
+    let count = standing.responses[0].reactions.len();
     let footing = |corner: usize| standing.footings.iter().position(|f| f.corners.contains(&corner)).unwrap_or(0);
     let corners: Vec<_> = (0..count).map(|corner| of_footing[footing(corner)]).collect();
-    let give = standing.sways.iter().map(|sway| total_give(sway, &corners)).sum();
+    let give = standing.responses.iter().map(|sway| total_give(sway, &corners)).sum();
     CornerSprings { corners, k, give, omega_n_hz: (k1 / standing.mass).sqrt() / TAU }
 }
 
 /// Energy of the springs over that of the structure.
-fn total_give(sway: &Sway, corners: &[Springs<Chain<f64>>]) -> f64 {
-    let series = |chain: &Chain<f64>| chain.k1 * chain.k2 / (chain.k1 + chain.k2);
+fn total_give(sway: &FixedResponse, corners: &[Springs<Chain<f64>>]) -> f64 {
     let each = sway.reactions.iter().zip(corners);
-    let energy: f64 = each.map(|([h, n], s)| h * h / series(&s.horizontal) + n * n / series(&s.vertical)).sum();
+    let energy: f64 = each.map(|([h, n], s)| h * h / s.horizontal.in_series() + n * n / s.vertical.in_series()).sum();
     energy / sway.work
 }
 

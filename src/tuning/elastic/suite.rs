@@ -2,13 +2,19 @@
 //! record at hand, each over the part in which the reference can be predicted.
 
 use rayon::prelude::*;
-use serde::{Deserialize, Serialize};
+use serde::{Deserialize, Deserializer, Serialize};
 
 use super::{
     design::CornerSprings,
     trial::{Found, Trial},
 };
-use crate::{elastic::assembled::Assembled, fem::Control, record::Record, synthetic, tuning::suite::quantile};
+use crate::{
+    elastic::{answer::Reference, assembled::Assembled},
+    fem::Control,
+    record::Record,
+    synthetic,
+    tuning::suite::quantile,
+};
 
 /// Leans that the structure is released from, over alpha.
 pub const LEANS: [f64; 6] = [0.05, 0.2, 0.35, 0.5, 0.7, 0.9];
@@ -23,17 +29,26 @@ const SEED: u64 = 1940;
 /// How much more sways and the worst tenth may have than the accuracy asked for.
 pub const LOOSER: f64 = 5.0;
 
-/// Errors of rotations and sways (NRMSE) over several histories.
+/// Errors of rotations and sways (NRMSE) over several histories; infinite, `null` in JSON, where histories on springs do not get as far as the
+/// reference.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Errors {
     /// Median of rotations, of sways.
+    #[serde(deserialize_with = "null_as_infinite")]
     pub median: [f64; 2],
     /// 90 % of them are below it.
+    #[serde(deserialize_with = "null_as_infinite")]
     pub p90: [f64; 2],
     /// Histories compared.
     pub count: usize,
     /// Touches to a landing of the reference, over all.
     pub touches: f64,
+}
+
+/// JSON has no infinity: it is written as null.
+fn null_as_infinite<'de, D: Deserializer<'de>>(deserializer: D) -> Result<[f64; 2], D::Error> {
+    let given: [Option<f64>; 2] = Deserialize::deserialize(deserializer)?;
+    Ok(given.map(|value| value.unwrap_or(f64::INFINITY)))
 }
 
 impl Errors {
@@ -51,14 +66,23 @@ pub struct Measured {
     pub releases: Option<Errors>,
     pub motions: Option<Errors>,
     pub record: Option<Errors>,
-    /// Motions whose reference cannot be predicted, left out.
+    /// Releases and motions, the record among them, whose reference cannot be predicted: left out.
     pub ill_conditioned: usize,
 }
 
 impl Measured {
-    /// The largest error in units of what an accuracy allows.
-    pub fn over(&self, accuracy: f64) -> f64 {
-        [self.releases, self.motions, self.record].iter().flatten().map(|e| e.over(accuracy)).fold(0.0, f64::max)
+    fn errors(&self) -> impl Iterator<Item = Errors> {
+        [self.releases, self.motions, self.record].into_iter().flatten()
+    }
+
+    /// Whether there was nothing to measure springs on.
+    pub fn nothing(&self) -> bool {
+        self.errors().next().is_none()
+    }
+
+    /// The largest error in units of what an accuracy allows; none if nothing was measured.
+    pub fn over(&self, accuracy: f64) -> Option<f64> {
+        self.errors().map(|errors| errors.over(accuracy)).reduce(f64::max)
     }
 }
 
@@ -69,13 +93,13 @@ pub struct Suite {
     pub releases: Vec<Trial>,
     pub motions: Vec<Trial>,
     pub record: Option<Trial>,
-    /// Motions left out since their reference cannot be predicted.
+    /// Releases and motions, the record among them, left out since their reference cannot be predicted.
     pub ill_conditioned: usize,
 }
 
 impl Suite {
-    /// Of a structure, with this record if there is one.
-    pub fn new(model: Assembled, record: Option<&Record>) -> Self {
+    /// Of a structure, with this record and its reference if there is one.
+    pub fn new(model: Assembled, record: Option<(&Record, &Reference)>) -> Self {
         let body = model.structure.body();
         let (p, alpha) = (body.p_squared().sqrt(), body.alpha());
         let released = |lean: f64| Trial::released(&model, lean * alpha, RELEASE / p / SAMPLES, RELEASE / p);
@@ -86,7 +110,7 @@ impl Suite {
         };
         let shaken = (0..LOOKED_AT).into_par_iter().with_max_len(1).map(|i| Trial::shaken(&model, &motion(i)));
         let motions: Vec<Found> = shaken.collect();
-        let record = record.map(|record| Trial::shaken(&model, record));
+        let record = record.map(|(record, reference)| Trial::beside(&model, record, reference));
         let all = releases.iter().chain(&motions).chain(&record);
         let ill_conditioned = all.filter(|found| matches!(found, Found::IllConditioned)).count();
         let trials = |found: Vec<Found>, most| found.into_iter().filter_map(Found::trial).take(most).collect();

@@ -3,9 +3,10 @@
 use super::design::CornerSprings;
 use crate::{
     elastic::{
+        answer::Reference,
         assembled::{Assembled, Sway, errors},
         fem::{Case, History, Start},
-        reference::{Ground, Outcome},
+        reference::{ElasticRocking, Ground, Outcome},
     },
     fem::Control,
     record::Record,
@@ -14,21 +15,22 @@ use crate::{
 /// A history is compared if its predictable part is this share of it, or has so many landings.
 const LEAST_SHARE: f64 = 0.2;
 const LEAST_LANDINGS: usize = 3;
+/// A motion is followed over this part of it, then over twice as much, until it can be foretold no further.
+const PARTS: usize = 4;
 
 /// A motion, a start, and the reference's history.
 #[derive(Clone, Debug)]
 pub struct Trial {
     /// Time step (s).
     pub dt: f64,
-    /// Ground acceleration [m/s2].
+    /// Ground acceleration over the part that can be foretold [m/s2].
     pub accel: Vec<f64>,
     /// The vertical part, upwards; empty if there is none.
     pub vertical: Vec<f64>,
     /// Lean it is let go from (rad); none if it stands.
     pub lean: Option<f64>,
-    /// The reference over the part that can be foretold, and its samples.
+    /// The reference over that part.
     pub reference: Vec<Sway>,
-    pub samples: usize,
     /// Landings of the reference in it.
     pub landings: usize,
 }
@@ -64,38 +66,69 @@ impl Trial {
     /// Let go from a lean.
     pub fn released(model: &Assembled, lean: f64, dt: f64, duration: f64) -> Found {
         let still = vec![0.0; (duration / dt).ceil() as usize + 1];
-        Self::found(model, dt, (still, Vec::new()), Some(lean))
+        let Some(q) = model.leaning(lean) else { return Found::Unfit };
+        let ground = Ground::horizontal(dt, &still);
+        let history = model.rock(ground, &q);
+        let foretold = || model.foretold(ground, &q, &history);
+        Self::found(model, ground, Some(lean), &history, foretold)
     }
 
     /// From rest through a record.
     pub fn shaken(model: &Assembled, record: &Record) -> Found {
-        let vertical = record.vertical.as_ref().map_or(Vec::new(), |vertical| vertical.accel.to_vec());
-        Self::found(model, record.dt, (record.accel.clone(), vertical), None)
+        let Ok(q) = model.upright() else { return Found::Unfit };
+        let (accel, up) = (&record.accel, record.up());
+        let mut samples = accel.len().div_ceil(PARTS);
+        loop {
+            let (accel, vertical) = (&accel[..samples], &up[..samples.min(up.len())]);
+            let ground = Ground { dt: record.dt, accel, vertical };
+            let history = model.rock(ground, &q);
+            let foretold = model.foretold(ground, &q, &history);
+            // what comes after it need not be known
+            if foretold < samples && history.landings().next().is_some() || samples == record.accel.len() {
+                return Self::found(model, ground, None, &history, || foretold);
+            }
+            samples = (2 * samples).min(record.accel.len());
+        }
     }
 
-    fn found(model: &Assembled, dt: f64, (accel, vertical): (Vec<f64>, Vec<f64>), lean: Option<f64>) -> Found {
-        let q = lean.map_or_else(|| model.upright().ok(), |lean| model.leaning(lean));
-        let Some(q) = q else { return Found::Unfit };
-        let ground = Ground { dt, accel: &accel, vertical: &vertical };
-        let history = model.rock(ground, &q);
+    /// The same beside a reference that is known.
+    pub fn beside(model: &Assembled, record: &Record, reference: &Reference) -> Found {
+        let ground = Ground { dt: record.dt, accel: &record.accel, vertical: record.up() };
+        Self::found(model, ground, None, &reference.history, || reference.foretold)
+    }
+
+    fn found(
+        model: &Assembled,
+        Ground { dt, accel, vertical }: Ground,
+        lean: Option<f64>,
+        history: &ElasticRocking,
+        foretold: impl FnOnce() -> usize,
+    ) -> Found {
         if history.outcome != Outcome::Completed || history.landings().next().is_none() {
             return Found::Unfit;
         }
-        let samples = model.foretold(ground, &q, &history);
-        let landings = history.landings().take_while(|event| event.time < samples as f64 * dt).count();
+        let samples = foretold().min(accel.len());
+        let end = samples.saturating_sub(1) as f64 * dt;
+        let landings = history.landings().take_while(|event| event.time <= end).count();
         let long = samples as f64 >= LEAST_SHARE * accel.len() as f64;
         if landings == 0 || !long && landings < LEAST_LANDINGS {
             return Found::IllConditioned;
         }
         let reference = model.sways(history.q[..samples].iter().map(|q| q.as_slice()));
-        Found::Trial(Self { dt, accel, vertical, lean, reference, samples, landings })
+        let vertical = vertical[..samples.min(vertical.len())].to_vec();
+        Found::Trial(Self { dt, accel: accel[..samples].to_vec(), vertical, lean, reference, landings })
     }
 
     /// The finite elements' history on springs; as far as it got.
     pub fn follow(&self, model: &Assembled, springs: &CornerSprings, control: Control) -> Option<History> {
         let start = self.lean.map_or(Start::Standing, Start::Leaning);
         let vertical = &self.vertical;
-        let case = Case { control, vertical, ..Case::new(&model.frame, &springs.corners, start, self.dt, &self.accel) };
+        let case = Case {
+            control,
+            vertical,
+            forces: false,
+            ..Case::new(&model.frame, &springs.corners, start, self.dt, &self.accel)
+        };
         case.simulate().ok()
     }
 
@@ -104,9 +137,8 @@ impl Trial {
         let Some(history) = self.follow(model, springs, control) else {
             return Judged { errors: [f64::INFINITY; 2], touches: 0 };
         };
-        let end = self.samples as f64 * self.dt;
-        let touches = history.contacts.iter().filter(|contact| contact.touches && contact.time < end).count();
+        let touches = history.contacts.iter().filter(|contact| contact.touches).count();
         let sways = model.sways(history.q.iter().map(Vec::as_slice));
-        Judged { errors: errors(&self.reference, &sways, self.samples), touches }
+        Judged { errors: errors(&self.reference, &sways, self.accel.len()), touches }
     }
 }

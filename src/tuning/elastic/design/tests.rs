@@ -1,5 +1,8 @@
 use super::*;
-use crate::elastic::Pier;
+use crate::{
+    elastic::{Pier, assembled::Assembled},
+    tuning::elastic::stand,
+};
 use approx::assert_relative_eq;
 use nalgebra::DVector;
 
@@ -31,6 +34,26 @@ fn the_give_asked_for_is_that_of_k1() {
     assert_relative_eq!(stiff.corners[0].vertical.k1 / soft.corners[0].vertical.k1, 10.0, max_relative = 1e-9);
     // k1 and K k1 in series: 1 + 1/K, and the horizontals
     assert!(stiff.give > 11e-4 && stiff.give < 12e-4, "{}", stiff.give);
+}
+
+/// A foot without a width: what lands is the foot's own mass, under massless legs.
+#[test]
+fn units_under_a_point_foot_are_those_of_its_mass() {
+    let frame = toml::from_str(
+        "kind = 'aframe'\nheight_m = 61.0\nwidth_m = 12.2\nmass_kg = 680.1e3\nfoot_mass_kg = 5e3\nea_n = 6.7e9\nei_nm2 = 1e10\ndamping_ratio = 0.02\n",
+    )
+    .unwrap();
+    let standing = stand(&Assembled::new(frame).unwrap()).unwrap();
+    let springs = with_k(&standing, 1e-4, 0.1);
+    let chain = crate::tuning::landing::universal::universal(0.1);
+    assert_eq!(springs.corners.len(), 2);
+    for corner in &springs.corners {
+        let unit = corner.vertical;
+        assert_relative_eq!(unit.m2, chain.mu * 5e3, max_relative = 1e-9);
+        assert_relative_eq!(unit.c, chain.c * (unit.k1 * 5e3).sqrt(), max_relative = 1e-9);
+        let Chain { k1, k2, m2, c } = corner.horizontal;
+        assert!([k1, k2, m2, c].iter().all(|x| x.is_finite() && *x > 0.0), "{:?}", corner.horizontal);
+    }
 }
 
 #[test]

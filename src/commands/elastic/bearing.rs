@@ -1,0 +1,86 @@
+//! What the structure bears: on its springs, held to the ground, as a rigid body.
+
+use crate::{
+    elastic::{
+        answer::ElasticAnswer,
+        assembled::Assembled,
+        beam::Bearing as OfBeam,
+        fem::{Demand, History, resolves},
+        structure::ElasticStructure,
+    },
+    scalar::GRAVITY,
+};
+
+/// Frequency above which forces of the ground are taken to be the springs' (Hz).
+const FILTER_HZ: f64 = 20.0;
+
+/// A quantity and how it is had from each model, as largest magnitudes since the sample before.
+pub struct Quantity {
+    pub name: &'static str,
+    pub unit: &'static str,
+    /// Rocking on springs, fixed to the ground, rigid: empty where a model has none.
+    pub series: [Vec<f64>; 3],
+}
+
+/// What a run's tables and figures of forces are made from.
+pub struct Bearing {
+    pub quantities: Vec<Quantity>,
+    /// Vertical force of the ground on all corners together: the largest since the sample before (N).
+    pub ground: Vec<f64>,
+    /// The same without the spikes of landings (N).
+    pub filtered: Vec<f64>,
+    /// Frequency up to which the latter is had (Hz); none where samples are too far apart, it is then the mean between them.
+    pub below_hz: Option<f64>,
+    /// (N)
+    pub weight: f64,
+}
+
+impl Bearing {
+    pub fn new(assembled: &Assembled, answer: &ElasticAnswer, dt: f64) -> Self {
+        let ground = &answer.histories.fem.ground;
+        Self {
+            quantities: quantities(assembled, answer),
+            ground: ground.peak.iter().map(|force| force[1]).collect(),
+            filtered: ground.filtered(1, dt, FILTER_HZ),
+            below_hz: resolves(dt, FILTER_HZ).then_some(FILTER_HZ),
+            weight: assembled.frame.total_mass() * GRAVITY,
+        }
+    }
+}
+
+/// Index of beams that end on a footing, and which end it is, from the left.
+fn bases(assembled: &Assembled) -> Vec<(usize, usize)> {
+    let footing = |node: usize| assembled.frame.footing_nodes().contains(&node);
+    let members = assembled.layout.members.iter().enumerate();
+    members.filter_map(|(i, member)| Some((i, member.ends.iter().position(|end| footing(end.node))?))).collect()
+}
+
+/// Shear, axial force and moment at the foot of the columns or legs, the largest of them, and the drift.
+fn quantities(assembled: &Assembled, answer: &ElasticAnswer) -> Vec<Quantity> {
+    let bases = bases(assembled);
+    let largest = |history: &History, of: &dyn Fn(&OfBeam, usize) -> f64| -> Vec<f64> {
+        let at = |demand: &Demand| {
+            let values = bases.iter().map(|&(i, end)| of(&demand.bearings[i], end));
+            values.fold(0.0, |most: f64, value| if value.abs() > most.abs() { value } else { most })
+        };
+        history.worst.iter().map(at).collect()
+    };
+    let both = |of: &dyn Fn(&OfBeam, usize) -> f64| [&answer.histories.fem, &answer.fixed].map(|h| largest(h, of));
+    let rigid = answer.rigid.as_ref();
+    let [shear, fixed] = [&answer.histories.fem, &answer.fixed]
+        .map(|history| history.worst.iter().map(|demand| demand.base_shear).collect::<Vec<_>>());
+    let body = rigid.map_or(Vec::new(), |rigid| rigid.base_shear.clone());
+    let mut all = vec![Quantity { name: "base shear", unit: "N", series: [shear, fixed, body] }];
+    let [axial, fixed] = both(&|beam, _| beam.axial);
+    let body = rigid.map_or(Vec::new(), |rigid| rigid.axial.clone());
+    all.push(Quantity { name: "axial force", unit: "N", series: [axial, fixed, body] });
+    // a leg is hinged at its foot
+    if !matches!(assembled.structure, ElasticStructure::AFrame(_)) {
+        let [moment, fixed] = both(&|beam, end| beam.moments[end]);
+        let body = rigid.map_or(Vec::new(), |rigid| rigid.moment.iter().map(|x| -x).collect());
+        all.push(Quantity { name: "moment at the foot", unit: "N m", series: [moment, fixed, body] });
+    }
+    let drift = answer.histories.sways.first().map_or(Vec::new(), |pair| pair[1].drift.clone());
+    all.push(Quantity { name: "drift", unit: "m", series: [drift, answer.fixed_drift.clone(), Vec::new()] });
+    all
+}
