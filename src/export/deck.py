@@ -30,10 +30,8 @@ GRAVITY = @GRAVITY@            # m/s2
 HEIGHT = @HEIGHT@              # h, of the centre of mass above the feet, m
 HALF_WIDTH = @HALF_WIDTH@      # b, half the distance between the feet, m
 MASS = @MASS@                  # m1, kg
-MOVED = @MOVED@                 # mass as it moves, kg: @MOVED_NOTE@
 INERTIA = @INERTIA@            # about the centre of mass, kg m2: @INERTIA_NOTE@
-EA = @EA@                      # of a leg, N: @LEG_NOTE@
-EI = @EI@                      # N m2
+LEG = @LEG@                    # EA/L = 3EI/L^3 of the legs that stand for the body, N/m: @LEG_RATIO@ times the stiffest k1
 
 K1_V = @K1_V@                  # vertical chain: gap spring, N/m
 K2_V = @K2_V@                  # ground spring, N/m
@@ -44,19 +42,15 @@ K2_H = @K2_H@
 C_H = @C_H@
 M2_H = @M2_H@
 
-# Elastic legs only, else zero. A foot that opens lets go at once what its leg was bent by, and without a little mass
-# Newton's iteration does not find where it goes; the dashpot, to the side, ends its swing within a few steps.
-FOOT_MASS = @FOOT_MASS@        # kg
-FOOT_C = @FOOT_C@              # N s/m
 DAMPER_C = @DAMPER_C@          # dashpot between the ground and each corner of the body, N s/m; 0: none
 TENDON_K = @TENDON_K@          # from the mass to the ground between the feet, N/m; 0: none
 TENDON_SLACK = @TENDON_SLACK@  # its length without tension, m
 
 RECORD_DT = @RECORD_DT@        # s
 ACCURACY = @ACCURACY@          # of the history, as a normalised error: @ACCURACY_NOTE@
-LANDING = @LANDING@            # @LANDING_NOTE@
+LANDING = @LANDING@            # 1/Omega_n of the vertical k1, s
 RISE = @RISE@               # of a foot, m, from which on its motion counts: a hundredth of where the body topples
-STEPS_PER_SAMPLE = @STEPS@     # at least: @STEPS_NOTE@
+STEPS_PER_SAMPLE = @STEPS@     # at least; more change nothing
 SAMPLES = @SAMPLES@            # of the record that are followed: @DURATION@ s
 
 # What `tune simulate` found for the same springs and record, m: the check at the end.
@@ -79,15 +73,13 @@ def build():
     ops.wipe()
     ops.model("basic", "-ndm", 2, "-ndf", 3)
     ops.node(APEX, 0.0, HEIGHT)
-    ops.mass(APEX, MOVED, MOVED, INERTIA)
+    ops.mass(APEX, MASS, MASS, INERTIA)
 
-    # Legs from the centre of mass to the feet. Where they stand for a rigid body they need not be stiff, since what they
-    # give is taken off the gap's k1; stiffer ones lose digits of its force.
+    # Legs from the centre of mass to the feet stand for the rigid body. They need not be stiff: what they give, the same in every
+    # direction, is taken off the gap's k1, so that both in series are k1; stiffer ones lose digits of its force.
     length = math.hypot(HALF_WIDTH, HEIGHT)
-    rigid = @LEG@  # EA/L = 3EI/L^3 of such a leg, N/m
-    # What such a leg gives is the same in every direction: taken off the gap's, both in series are k1.
-    give = @GIVE@  # m/N
-    gap_v, gap_h = (k1 / (1.0 - k1 * give) for k1 in (K1_V, K1_H))
+    ea, ei = LEG * length, LEG * length**3 / 3.0
+    gap_v, gap_h = (k1 / (1.0 - k1 / LEG) for k1 in (K1_V, K1_H))
     # Corotational: with Linear the weight's moment on the leaning body (P-Delta), which drives rocking, is lost.
     ops.geomTransf("Corotational", 1)
 
@@ -115,20 +107,16 @@ def build():
         ops.fix(absorber, 0, 0, 1)
         # One node carries both absorbers: OpenSees takes a mass per direction.
         ops.mass(absorber, M2_H, M2_V, 0.0)
-        ops.element("elasticBeamColumn", foot, foot, APEX, EA, 1.0, EI, 1)
+        ops.element("elasticBeamColumn", foot, foot, APEX, ea, 1.0, ei, 1)
         ops.element("zeroLength", 30 + foot, ground, absorber, "-mat", 1, 2, "-dir", 1, 2)
         # Axial direction up (local x = global y); the horizontal k1 is the bearing's shear stiffness.
         ops.element("flatSliderBearing", 50 + foot, absorber, foot, 1, gap_h,
                     "-P", 3, "-Mz", 5, "-orient", 0, 1, 0, -1, 0, 0)
-        if FOOT_MASS > 0.0:
-            ops.mass(foot, FOOT_MASS, FOOT_MASS, 0.0)
-            ops.uniaxialMaterial("Elastic", 60 + foot, 0.0, FOOT_C)
-            ops.element("zeroLength", 60 + foot, ground, foot, "-mat", 60 + foot, "-dir", 1)
         if DAMPER_C > 0.0:
-            # on a rigid arm of its own: it does not load the leg
+            # on an arm of its own: what the leg gives is the gap's
             arm = foot + 40
             ops.node(arm, x, 0.0)
-            ops.element("elasticBeamColumn", arm, arm, APEX, rigid * length, 1.0, rigid * length**3 / 3.0, 1)
+            ops.element("elasticBeamColumn", arm, arm, APEX, ea, 1.0, ei, 1)
             ops.uniaxialMaterial("Elastic", 70 + foot, 0.0, DAMPER_C)
             ops.element("zeroLength", 70 + foot, ground, arm, "-mat", 70 + foot, "-dir", 2)
 
@@ -182,8 +170,7 @@ def run(accuracy):
     """The whole history: rows of t, u, v, theta; the settled position; the steps."""
     build()
     settled = gravity()
-    # Ground acceleration, m/s2, positive to the right, linear between samples: as loads -mass times it, since
-    # UniformExcitation would shake MOVED instead of MASS.
+    # Ground acceleration, m/s2, positive to the right, linear between samples: as loads -mass times it.
     ops.timeSeries("Path", 2, "-dt", RECORD_DT, "-values", *RECORD)
     ops.pattern("Plain", 2, 2)
     ops.load(APEX, -MASS, 0.0, 0.0)

@@ -16,11 +16,8 @@ set gravity   @GRAVITY@    ;# m/s2
 set height    @HEIGHT@     ;# h, of the centre of mass above the feet, m
 set halfWidth @HALF_WIDTH@ ;# b, half the distance between the feet, m
 set mass      @MASS@       ;# m1, kg
-set moved     @MOVED@      ;# mass as it moves, kg: @MOVED_NOTE@
 set inertia   @INERTIA@    ;# about the centre of mass, kg m2: @INERTIA_NOTE@
-
-set ea @EA@ ;# of a leg, N: @LEG_NOTE@
-set ei @EI@ ;# N m2
+set leg       @LEG@        ;# EA/L = 3EI/L^3 of the legs that stand for the body, N/m: @LEG_RATIO@ times the stiffest k1
 
 set k1v @K1_V@ ;# vertical chain: gap spring, N/m
 set k2v @K2_V@ ;# ground spring, N/m
@@ -31,19 +28,15 @@ set k2h @K2_H@
 set ch  @C_H@
 set m2h @M2_H@
 
-# Elastic legs only, else zero. A foot that opens lets go at once what its leg was bent by, and without a little mass
-# Newton's iteration does not find where it goes; the dashpot, to the side, ends its swing within a few steps.
-set footMass @FOOT_MASS@ ;# kg
-set footC @FOOT_C@ ;# N s/m
 set damperC @DAMPER_C@ ;# dashpot between the ground and each corner of the body, N s/m; 0: none
 set tendonK @TENDON_K@ ;# from the mass to the ground between the feet, N/m; 0: none
 set tendonSlack @TENDON_SLACK@ ;# its length without tension, m
 
 set recordDt       @RECORD_DT@ ;# s
 set accuracy @ACCURACY@ ;# of the history, as a normalised error: @ACCURACY_NOTE@
-set landing  @LANDING@ ;# @LANDING_NOTE@
+set landing  @LANDING@ ;# 1/Omega_n of the vertical k1, s
 set rise     @RISE@ ;# of a foot, m, from which on its motion counts: a hundredth of where the body topples
-set stepsPerSample @STEPS@ ;# at least: @STEPS_NOTE@
+set stepsPerSample @STEPS@ ;# at least; more change nothing
 set samples        @SAMPLES@ ;# of the record that are followed: @DURATION@ s
 
 # What `tune simulate` found for the same springs and record, m: the check at the end.
@@ -55,16 +48,15 @@ proc build {} {
         wipe
         model basic -ndm 2 -ndf 3
         node 3 0.0 $height
-        mass 3 $moved $moved $inertia
+        mass 3 $mass $mass $inertia
 
-        # Legs from the centre of mass to the feet. Where they stand for a rigid body they need not be stiff, since what they
-        # give is taken off the gap's k1; stiffer ones lose digits of its force.
+        # Legs from the centre of mass to the feet stand for the rigid body. They need not be stiff: what they give, the same in
+        # every direction, is taken off the gap's k1, so that both in series are k1; stiffer ones lose digits of its force.
         set length [expr {hypot($halfWidth, $height)}]
-        set rigid @LEG@ ;# EA/L = 3EI/L^3 of such a leg, N/m
-        # What such a leg gives is the same in every direction: taken off the gap's, both in series are k1.
-        set give @GIVE@ ;# m/N
-        set gapV [expr {$k1v / (1.0 - $k1v * $give)}]
-        set gapH [expr {$k1h / (1.0 - $k1h * $give)}]
+        set ea [expr {$leg * $length}]
+        set ei [expr {$leg * $length**3 / 3.0}]
+        set gapV [expr {$k1v / (1.0 - $k1v / $leg)}]
+        set gapH [expr {$k1h / (1.0 - $k1h / $leg)}]
         # Corotational: with Linear the weight's moment on the leaning body (P-Delta), which drives rocking, is lost.
         geomTransf Corotational 1
 
@@ -98,16 +90,11 @@ proc build {} {
             element zeroLength [expr {$foot + 30}] $ground $absorber -mat 1 2 -dir 1 2
             # Axial direction up (local x = global y); the horizontal k1 is the bearing's shear stiffness.
             element flatSliderBearing [expr {$foot + 50}] $absorber $foot 1 $gapH -P 3 -Mz 5 -orient 0 1 0 -1 0 0
-            if {$footMass > 0.0} {
-                mass $foot $footMass $footMass 0.0
-                uniaxialMaterial Elastic [expr {$foot + 60}] 0.0 $footC
-                element zeroLength [expr {$foot + 60}] $ground $foot -mat [expr {$foot + 60}] -dir 1
-            }
             if {$damperC > 0.0} {
-                # on a rigid arm of its own: it does not load the leg
+                # on an arm of its own: what the leg gives is the gap's
                 set arm [expr {$foot + 40}]
                 node $arm $x 0.0
-                element elasticBeamColumn $arm $arm 3 [expr {$rigid * $length}] 1.0 [expr {$rigid * $length**3 / 3.0}] 1
+                element elasticBeamColumn $arm $arm 3 $ea 1.0 $ei 1
                 uniaxialMaterial Elastic [expr {$foot + 70}] 0.0 $damperC
                 element zeroLength [expr {$foot + 70}] $ground $arm -mat [expr {$foot + 70}] -dir 2
             }
@@ -172,7 +159,7 @@ proc run {accuracy} {
     global mass m2h record recordDt stepsPerSample landing rise samples settled
     build
     set settled [gravity]
-    # Linear between samples: as loads -mass times it, since UniformExcitation would shake `moved` instead of `mass`.
+    # Linear between samples: as loads -mass times it.
     timeSeries Path 2 -dt $recordDt -values $record -factor 1.0
     pattern Plain 2 2 "load 3 [expr {-$mass}] 0.0 0.0; load 11 [expr {-$m2h}] 0.0 0.0; load 12 [expr {-$m2h}] 0.0 0.0"@VERTICAL_LOADS@
     # TRBDF2 is L-stable: Newmark (1/2, 1/4) and HHT fail on springs this stiff, Newmark with damping spoils the answer.
