@@ -145,23 +145,46 @@ impl<T: Num + Copy + Neg<Output = T>> Rigid<T> {
     where
         V: Copy + Add<Output = V> + Sub<Output = V> + Zero,
     {
-        let of = |i: usize| match self.closed[i] {
-            true => reach(&chains.0[i], self.lever[i], [r[ax(i)], r[az(i)]], times),
-            false => [V::zero(), V::zero(), V::zero()],
-        };
-        let (left, right) = (of(0), of(1));
+        let (left, right) = (self.reach(chains, 0, r, times), self.reach(chains, 1, r, times));
         // one sum of both feet first, so that a mirrored case gives the mirrored history to the last bit
         let [x, z, th] = [r[X] + (left[X] + right[X]), r[Z] + (left[Z] + right[Z]), r[TH] + (left[TH] + right[TH])];
         let turned = times(x, self.x_th * self.x_inv) + times(z, self.z_th * self.z_inv);
         let th = times(th - turned, self.th_inv);
         let x = times(x - times(th, self.x_th), self.x_inv);
         let z = times(z - times(th, self.z_th), self.z_inv);
-        let of = |i: usize| match self.closed[i] {
-            true => absorbers(&chains.0[i], self.lever[i], [r[ax(i)], r[az(i)]], [x, z, th], times),
-            false => [times(r[ax(i)], chains.0[i][0].pivot), times(r[az(i)], chains.0[i][1].pivot)],
-        };
-        let ([lx, lz], [rx, rz]) = (of(0), of(1));
+        let [lx, lz] = self.absorbers(chains, 0, r, [x, z, th], times);
+        let [rx, rz] = self.absorbers(chains, 1, r, [x, z, th], times);
         [x, z, th, lx, lz, rx, rz]
+    }
+
+    #[inline(always)]
+    fn reach<V>(&self, chains: &Chains<T>, i: usize, r: &[V; N], times: impl Fn(V, T) -> V + Copy) -> [V; 3]
+    where
+        V: Copy + Add<Output = V> + Sub<Output = V> + Zero,
+    {
+        if !self.closed[i] {
+            return [V::zero(), V::zero(), V::zero()];
+        }
+        reach(&chains.0[i], self.lever[i], [r[ax(i)], r[az(i)]], times)
+    }
+
+    #[inline(always)]
+    fn absorbers<V>(
+        &self,
+        chains: &Chains<T>,
+        i: usize,
+        r: &[V; N],
+        body: [V; 3],
+        times: impl Fn(V, T) -> V + Copy,
+    ) -> [V; 2]
+    where
+        V: Copy + Add<Output = V> + Sub<Output = V> + Zero,
+    {
+        if !self.closed[i] {
+            let [h, v] = &chains.0[i];
+            return [times(r[ax(i)], h.pivot), times(r[az(i)], v.pivot)];
+        }
+        absorbers(&chains.0[i], self.lever[i], [r[ax(i)], r[az(i)]], body, times)
     }
 }
 
