@@ -156,7 +156,7 @@ pub enum ParametersError {
     #[error("{path}: cannot be read ({source}); give the parameters.json that `tune run` wrote")]
     Read { path: String, source: std::io::Error },
     #[error(
-        "{path}: these are springs of an elastic structure, which `tune verify` takes and this command does not; give those of a rigid body"
+        "{path}: these are springs of an elastic structure, which `tune export` and `tune verify` take and this command does not; give those of a rigid body"
     )]
     Elastic { path: String },
     #[error("{path}: {}, and let `tune run` find its springs", NO_LEGS)]

@@ -1,6 +1,6 @@
 //! What every deck needs besides the parameters: stiff legs, steps, tolerances, each with its rule.
 
-use super::{Expected, ExportError, printable};
+use super::{Expected, ExportError, plain::Place, printable};
 use crate::{
     members::Members,
     parameters::Parameters,
@@ -147,6 +147,11 @@ impl<'a> Model<'a> {
         self.structure.body()
     }
 
+    /// The feet and what is under them.
+    pub fn places(&self) -> [Place; 2] {
+        ["left", "right"].map(|foot| (foot.to_string(), self.springs))
+    }
+
     /// Time of the last sample followed (s).
     pub fn duration(&self) -> f64 {
         (self.expected.samples - 1) as f64 * self.record.dt
@@ -170,16 +175,6 @@ impl<'a> Model<'a> {
         format!(
             "Rocking body, h = {} m, 2b = {} m, m = {} kg, on tuned ground springs: {}",
             self.structure.height_m, self.structure.width_m, self.structure.mass_kg, self.record_name
-        )
-    }
-
-    pub fn record_note(&self) -> String {
-        format!(
-            "{}: {} samples, dt {} s, peak {:.4} g; m/s2, positive to the right",
-            self.record_name,
-            self.record.len(),
-            self.record.dt,
-            self.record.pga_g()
         )
     }
 }
