@@ -2,24 +2,13 @@
 """Agreement of `tune simulate` with the same model in OpenSees (../shared/opensees/aframe.py, 10 s of El Centro):
 NRMSE of u, v and theta at most 1 %, for the springs of Table 1 as recovered and for the tuned springs.
 
-aframe.py stands on elastic legs of 1e13 N/m. Under springs of 160 Hz (k1 = 7e11 N/m) these are not rigid: they take 7 % off
-k1. So it is compared twice: at dt 2e-4 with our rigid legs, and at dt 1e-4, where its steps err less, with legs like its own.
+aframe.py stands on elastic legs of 1e13 N/m, which take 7 % off the k1 of 160 Hz (7e11 N/m).
 
     agreement.py TUNE AFRAME RECORD TUNED.json
 """
 import csv, json, math, pathlib, subprocess, sys, tempfile
 
 LIMIT = 0.01
-LEG_N_PER_M = 1e13
-
-
-def with_legs(parameters, path):
-    """The same parameters with the legs of aframe.py, EA = k L and EI = k L^3/3, written to `path`."""
-    p = json.loads(pathlib.Path(parameters).read_text())
-    length = math.hypot(p["structure"]["height_m"], p["structure"]["width_m"] / 2)
-    p["legs"] = {"ea_n": LEG_N_PER_M * length, "ei_nm2": LEG_N_PER_M * length**3 / 3}
-    path.write_text(json.dumps(p))
-    return path
 
 
 def table_1():
@@ -56,19 +45,16 @@ def main():
         table.write_text(json.dumps(table_1()))
         passed = failed = 0
         for name, parameters in (("Table 1 as recovered", table), ("tuned springs", tuned)):
-            elastic = with_legs(parameters, folder / "legs.json")
             ours, theirs = folder / "ours.csv", folder / "theirs.csv"
-            for legs, ours_on, kind, dt in (("rigid", parameters, "fem", "2e-4"), ("elastic", elastic, "members", "1e-4")):
-                subprocess.run([tune, "simulate", "--parameters", ours_on, "--duration", "10", "--out", ours],
-                               check=True, stdout=subprocess.DEVNULL)
-                subprocess.run([sys.executable, aframe, "--parameters", parameters, "--record", record, "--duration", "10",
-                                "--dt", dt, "--out", theirs], check=True, capture_output=True)
-                a = columns(ours, *(f"{x}_{kind}" for x in ("u", "v", "th")))
-                errors = [nrmse(x, y) for x, y in zip(a, columns(theirs, "u", "v", "th"))]
-                ok = all(e <= LIMIT for e in errors)
-                passed, failed = passed + ok, failed + (not ok)
-                print(f"OpenSees agreement, {name}, {legs} legs, dt {dt}: NRMSE u {errors[0]:.2e}, v {errors[1]:.2e}, "
-                      f"theta {errors[2]:.2e} (limit {LIMIT}): {'ok' if ok else 'FAILED'}")
+            subprocess.run([tune, "simulate", "--parameters", parameters, "--duration", "10", "--out", ours],
+                           check=True, stdout=subprocess.DEVNULL)
+            subprocess.run([sys.executable, aframe, "--parameters", parameters, "--record", record, "--duration", "10",
+                            "--dt", "2e-4", "--out", theirs], check=True, capture_output=True)
+            errors = [nrmse(x, y) for x, y in zip(columns(ours, "u_fem", "v_fem", "th_fem"), columns(theirs, "u", "v", "th"))]
+            ok = all(e <= LIMIT for e in errors)
+            passed, failed = passed + ok, failed + (not ok)
+            print(f"OpenSees agreement, {name}: NRMSE u {errors[0]:.2e}, v {errors[1]:.2e}, "
+                  f"theta {errors[2]:.2e} (limit {LIMIT}): {'ok' if ok else 'FAILED'}")
     print(f"{passed} passed, {failed} failed")
     sys.exit(failed > 0)
 

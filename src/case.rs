@@ -7,9 +7,8 @@
 //! width_m = 12.2             # between the feet; also _ft, _in
 //! mass_kg = 680.1e3          # also mass_t, mass_lb, weight_kn, weight_kip, weight_lb
 //!
-//! [legs]                     # elastic legs; also [damper] c_ns_per_m; [tendon] stiffness_n_per_m,
-//! ea_n = 6.7e9               # pretension_n; [friction] coefficient
-//! ei_nm2 = 1.0e10
+//! [damper]                   # also [tendon] stiffness_n_per_m, pretension_n; [friction] coefficient
+//! c_ns_per_m = 1e6
 //!
 //! [record]                   # left out: El Centro 1940 NS
 //! file = "motion.at2"        # relative to the case file
@@ -34,7 +33,7 @@ use thiserror::Error;
 
 use crate::{
     excitation::Excitation,
-    members::{Damper, Friction, Legs, Members, MembersError, Tendon},
+    members::{Damper, Friction, Members, MembersError, NO_LEGS, Tendon, names_legs},
     message::one_line,
     record::{Notice, ReadOptions, Record, RecordError, Recording, Units, VerticalFrom},
     response::{bounds::Bounds, target::Target},
@@ -144,7 +143,6 @@ impl Default for Tuning {
 struct CaseFile {
     structure: StructureSection,
     /// Members that are simulated after tuning, with the springs of the rigid body.
-    legs: Option<Legs<f64>>,
     damper: Option<Damper<f64>>,
     tendon: Option<Tendon<f64>>,
     friction: Option<Friction<f64>>,
@@ -164,7 +162,7 @@ pub struct Case {
     pub structure: Structure,
     /// Velocity restitution e.
     pub restitution: f64,
-    /// Elastic legs, dampers, a tendon, friction: not tuned for, but simulated with the tuned springs.
+    /// Dampers, a tendon, friction: not tuned for, but simulated with the tuned springs.
     pub members: Members<f64>,
     /// The record as read, its scale, the length asked for: what `record` and `duration_s` come from.
     pub excitation: Excitation,
@@ -271,7 +269,7 @@ pub fn parse_with(
 ) -> Result<Case, CaseError> {
     let file: CaseFile = toml::from_str(text).map_err(|e| parse_error(path, text, &e))?;
     let (structure, restitution) = file.structure.checked(path)?;
-    let members = Members { legs: file.legs, damper: file.damper, tendon: file.tendon, friction: file.friction }
+    let members = Members { damper: file.damper, tendon: file.tendon, friction: file.friction }
         .checked(&structure.body())
         .map_err(|source| CaseError::Members { path: path.into(), source })?;
     let excitation = file.record.excitation(path, read)?;
@@ -363,6 +361,9 @@ pub(crate) fn parse_error(path: &str, text: &str, error: &toml::de::Error) -> Ca
         let message =
             "this kind is an elastic structure, whose case files tune run takes; give \"aframe\" or \"block\" here";
         return CaseError::Parse { path: path.into(), line, message: message.into() };
+    }
+    if names_legs(&message) {
+        return CaseError::Parse { path: path.into(), line, message: NO_LEGS.into() };
     }
     let message = message.replace("expected `aframe` or `block`", "expected `aframe`, `block`, `pier` or `frame`");
     // of the whole message: all known keys, the nearest one among them

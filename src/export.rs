@@ -12,6 +12,7 @@
 
 #[cfg(feature = "cli")]
 mod elastic;
+mod language;
 mod model;
 mod opensees;
 mod plain;
@@ -198,8 +199,8 @@ pub fn export(
         DeckFormat::OpenSeesPy => opensees::python(&model),
         DeckFormat::OpenSeesTcl => opensees::tcl(&model),
         DeckFormat::Sap2000 => sap2000::tables(&model),
-        DeckFormat::Csv => plain::csv(&model),
-        DeckFormat::Markdown => plain::markdown(&model),
+        DeckFormat::Csv => plain::csv(&model.places()),
+        DeckFormat::Markdown => plain::markdown(&model.title(), &model.places()),
     })
 }
 

@@ -7,7 +7,7 @@
 //! | `radau`, `iterate`, `condensed`, `newton`, `step` | one implicit step: tables, iteration, condensed chains and matrix |
 //! | `run`, `acceptance` | the time loop: samples; in `run/`, contact events and step acceptance; which steps hold |
 //! | `control`, `energy`, `observer` | what a run is told, accounts for and shows |
-//! | `frame`, `leg`, `coupled` | elastic legs, dampers, tendon: condensed into the contact law; their Newton matrix |
+//! | `element`, `coupled` | dampers, tendon; the Newton matrix of a body with them |
 //! | `demands` | forces in legs, tendon, dampers; base shear |
 //! | `history`, `landings` | what a run leaves behind: motion, forces, energies; impacts and bounces |
 //!
@@ -31,12 +31,10 @@ pub(crate) mod cubic;
 mod demands;
 mod element;
 mod energy;
-mod frame;
 mod history;
 pub(crate) mod iterate;
 mod landings;
 mod lanes;
-mod leg;
 mod model;
 mod newton;
 mod observer;
@@ -54,7 +52,6 @@ pub use energy::Energy;
 pub use history::{Account, Forces, History, Recorder};
 pub use landings::Landing;
 pub use lanes::histories;
-pub(crate) use model::MASSLESS_ROTATION;
 pub use observer::{Change, Observer, View};
 
 use std::ops::ControlFlow;
@@ -108,7 +105,7 @@ impl<S: Scalar> Analysis<'_, S> {
         self.follow(&self.model(), observer)
     }
 
-    /// The same with elastic legs, dampers or a tendon.
+    /// The same with dampers, a tendon or friction.
     pub fn observe_with(&self, members: &Members<S>, observer: &mut impl Observer<S>) -> Finish<S> {
         self.follow(&model::Model::with_members(&self.body, &self.springs, members), observer)
     }
@@ -146,7 +143,7 @@ impl Analysis<'_, f64> {
         recorder.finish(finish)
     }
 
-    /// The same with elastic legs, dampers or a tendon, or none of them; and the forces in them.
+    /// The same with dampers, a tendon or friction, or none of them; and the forces in them.
     pub fn simulate_with(&self, members: &Members<f64>) -> (History, Demands) {
         let mut both = Both { recorder: Recorder::new(self.accel.len()), demands: Demands::default() };
         let finish = self.observe_with(members, &mut both);

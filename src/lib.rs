@@ -121,7 +121,7 @@ pub use excitation::Excitation;
 pub use export::{DeckFormat, ExportError, deck};
 pub use fem::{Account, Demands, Forces, History, HistoryOutcome, Landing, QUANTITIES, Work};
 pub use housner::{Impact, Rocking, RockingOptions, RockingOutcome, Uplift, solve as rock, solve_lanes as rock_many};
-pub use members::{Damper, Friction, Legs, Members, MembersError, Tendon};
+pub use members::{Damper, Friction, Members, MembersError, Tendon};
 pub use motion::{Motion, nrmse};
 pub use parameters::{Parameters, ParametersError, RememberedError};
 pub use predictability::simulate;

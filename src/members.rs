@@ -1,13 +1,12 @@
-//! What a structure may have besides a rigid body on ground springs: elastic legs, dampers, a tendon.
+//! What a structure may have besides a rigid body on ground springs: dampers, a tendon, friction.
 //!
 //! ```text
-//!            mass m, I_cg                 legs     massless elastic beams from the mass to the feet, clamped to the mass,
-//!              /|\                                 hinged at the foot: EA (N), EI [N m2]
-//!             / | \                       damper   a dashpot c [N s/m] between the ground and each lower corner of the
-//!       legs /  |  \                               body, vertical, acting both ways. Its arm is fixed to the mass and
-//!           /   |   \                              stiff: it does not load the legs
-//!          /    |    \                    tendon   from the mass to the ground midway between the feet: stiffness [N/m],
-//!    [c]  /  tendon   \  [c]                       tension of the standing, settled structure (N); slack it carries nothing
+//!            mass m, I_cg                 damper   a dashpot c [N s/m] between the ground and each lower corner of the
+//!              /|\                                 body, vertical, acting both ways
+//!             / | \                       tendon   from the mass to the ground midway between the feet: stiffness [N/m],
+//!            /  |  \                               tension of the standing, settled structure (N); slack it carries nothing
+//!           / tendon\
+//!     [c]  /    |    \  [c]
 //!   springs     |    springs
 //! ```
 //!
@@ -18,16 +17,13 @@ use thiserror::Error;
 
 use crate::{scalar::GRAVITY, structure::Body};
 
-/// Elastic legs.
-#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
-#[serde(deny_unknown_fields)]
-pub struct Legs<S> {
-    /// EA, axial stiffness times length (N).
-    #[serde(rename = "ea_n")]
-    pub ea: S,
-    /// EI, bending stiffness [N m2].
-    #[serde(rename = "ei_nm2")]
-    pub ei: S,
+/// What to say of a file with `legs`, which springs of a rigid body cannot carry.
+pub(crate) const NO_LEGS: &str = "legs on springs of a rigid body are no more; give [structure] kind = \"aframe\" elastic legs of its own: \
+                                  ea_n, ei_nm2, foot_mass_kg, damping_ratio (docs/elastic.md)";
+
+/// Whether serde's message is about that key.
+pub(crate) fn names_legs(message: &str) -> bool {
+    message.starts_with("unknown field `legs`")
 }
 
 /// Dashpots across the rocking interface, one at each foot.
@@ -62,8 +58,6 @@ pub struct Friction<S> {
 /// Everything besides the rigid body; by default nothing.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Members<S> {
-    /// Legs that are not rigid.
-    pub legs: Option<Legs<S>>,
     /// Dampers between feet and ground.
     pub damper: Option<Damper<S>>,
     /// A tendon that holds the body down.
@@ -74,7 +68,7 @@ pub struct Members<S> {
 
 impl<S> Default for Members<S> {
     fn default() -> Self {
-        Self { legs: None, damper: None, tendon: None, friction: None }
+        Self { damper: None, tendon: None, friction: None }
     }
 }
 
@@ -85,7 +79,7 @@ impl<S> Members<S> {
     }
 
     fn any(&self) -> bool {
-        self.legs.is_some() || self.damper.is_some() || self.tendon.is_some()
+        self.damper.is_some() || self.tendon.is_some()
     }
 }
 
@@ -102,7 +96,7 @@ pub enum MembersError {
     #[error("{name} is {value:?}, {times:.1e} times {unit}; nothing computed from that means anything, check the unit")]
     Absurd { name: &'static str, value: f64, times: f64, unit: &'static str },
     #[error(
-        "friction.coefficient is given together with legs, damper or tendon; slipping is followed for a rigid body only, leave one out"
+        "friction.coefficient is given together with damper or tendon; slipping is followed for a rigid body only, leave one out"
     )]
     Slipping,
     #[error(
@@ -123,7 +117,6 @@ impl Members<f64> {
     pub fn checked(self, body: &Body<f64>) -> Result<Self, MembersError> {
         let positive = |name, value: f64| (name, value, value > 0.0, " greater than zero");
         let not_negative = |name, value: f64| (name, value, value >= 0.0, ", zero or greater");
-        let legs = self.legs.map(|l| [positive("legs.ea_n", l.ea), positive("legs.ei_nm2", l.ei)]);
         let damper = self.damper.map(|d| not_negative("damper.c_ns_per_m", d.c));
         let tendon = self.tendon.map(|t| {
             [positive("tendon.stiffness_n_per_m", t.stiffness), not_negative("tendon.pretension_n", t.pretension)]
@@ -135,8 +128,7 @@ impl Members<f64> {
         if friction.is_some() && body.inertia <= 0.0 {
             return Err(MembersError::Spinning);
         }
-        let all =
-            friction.into_iter().chain(legs.into_iter().flatten()).chain(damper).chain(tendon.into_iter().flatten());
+        let all = friction.into_iter().chain(damper).chain(tendon.into_iter().flatten());
         for (name, value, good, bound) in all {
             if !(good && value.is_finite()) {
                 return Err(MembersError::Value { name, value, bound });
@@ -155,12 +147,6 @@ impl Members<f64> {
     /// Members whose numbers, in units of the structure's own, are within what 16 digits can follow.
     fn meaningful(&self, body: &Body<f64>) -> Result<(), MembersError> {
         let (weight, length) = (body.mass * GRAVITY, body.radius());
-        let legs = self.legs.map(|l| {
-            [
-                ("legs.ea_n", l.ea, weight, "the weight"),
-                ("legs.ei_nm2", l.ei, weight * length * length, "the weight times the leg's length squared"),
-            ]
-        });
         let damper = self.damper.filter(|d| d.c > 0.0).map(|d| {
             let unit = body.mass * (GRAVITY / length).sqrt();
             ("damper.c_ns_per_m", d.c, unit, "the mass times sqrt(g/leg's length)")
@@ -169,7 +155,7 @@ impl Members<f64> {
             .tendon
             .map(|t| ("tendon.stiffness_n_per_m", t.stiffness, weight / length, "the weight over the leg's length"));
         let friction = self.friction.map(|f| ("friction.coefficient", f.coefficient, 1.0, "the weight"));
-        for (name, value, unit, word) in legs.into_iter().flatten().chain(damper).chain(tendon).chain(friction) {
+        for (name, value, unit, word) in damper.into_iter().chain(tendon).chain(friction) {
             let times = value / unit;
             if !(RATIO.0..=RATIO.1).contains(&times) {
                 return Err(MembersError::Absurd { name, value, times, unit: word });
@@ -183,7 +169,6 @@ impl Members<f64> {
     pub(crate) fn lift<S: crate::scalar::Scalar>(&self) -> Members<S> {
         use crate::scalar::real;
         Members {
-            legs: self.legs.map(|l| Legs { ea: real(l.ea), ei: real(l.ei) }),
             damper: self.damper.map(|d| Damper { c: real(d.c) }),
             tendon: self.tendon.map(|t| Tendon { stiffness: real(t.stiffness), pretension: real(t.pretension) }),
             friction: self.friction.map(|f| Friction { coefficient: real(f.coefficient) }),
@@ -202,14 +187,12 @@ mod tests {
 
     #[test]
     fn bad_members_are_named_with_what_to_do() {
-        let legs = |ea, ei| Members { legs: Some(Legs { ea, ei }), ..Members::default() };
-        assert_eq!(message(legs(-1.0, 1e9)), "legs.ea_n is -1; give a finite number greater than zero");
-        assert_eq!(message(legs(1e9, f64::NAN)), "legs.ei_nm2 is NaN; give a finite number greater than zero");
         let damper = Members { damper: Some(Damper { c: f64::INFINITY }), ..Members::default() };
         assert_eq!(message(damper), "damper.c_ns_per_m is inf; give a finite number, zero or greater");
         let tendon =
             |stiffness, pretension| Members { tendon: Some(Tendon { stiffness, pretension }), ..Members::default() };
         assert!(message(tendon(0.0, 1.0)).starts_with("tendon.stiffness_n_per_m is 0;"));
+        assert!(message(tendon(f64::NAN, 1.0)).starts_with("tendon.stiffness_n_per_m is NaN;"));
         assert!(message(tendon(1e5, 1e7)).ends_with("give less than 3.0500e6 N"));
         assert!(tendon(1e6, 0.0).checked(&Structure::paper().body()).is_ok());
     }

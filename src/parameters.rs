@@ -13,7 +13,7 @@ use crate::{
     case::Case,
     compare::Match,
     conditioning::Conditioning,
-    members::{Damper, Friction, Legs, Members, MembersError, Tendon},
+    members::{Damper, Friction, Members, MembersError, NO_LEGS, Tendon, names_legs},
     message::one_line,
     scalar::GRAVITY,
     spring::{Chain, ChainRow, Design, Springs},
@@ -104,11 +104,7 @@ pub struct Parameters {
     pub vertical: ChainRow,
     /// The horizontal unit at each foot.
     pub horizontal: ChainRow,
-    /// Elastic legs, dampers across the interface, a tendon, where the structure has them; the springs are tuned for the
-    /// rigid body.
-    #[serde(default, skip_serializing_if = "Option::is_none")]
-    pub legs: Option<Legs<f64>>,
-    /// Dampers between feet and ground.
+    /// Dampers between feet and ground; the springs are tuned without them.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub damper: Option<Damper<f64>>,
     /// A tendon.
@@ -160,9 +156,11 @@ pub enum ParametersError {
     #[error("{path}: cannot be read ({source}); give the parameters.json that `tune run` wrote")]
     Read { path: String, source: std::io::Error },
     #[error(
-        "{path}: these are springs of an elastic structure, which `tune verify` takes and this command does not; give those of a rigid body"
+        "{path}: these are springs of an elastic structure, which `tune export` and `tune verify` take and this command does not; give those of a rigid body"
     )]
     Elastic { path: String },
+    #[error("{path}: {}, and let `tune run` find its springs", NO_LEGS)]
+    Legs { path: String },
     #[error("{path}, line {line}: {message}; give a parameters.json as `tune run` writes it")]
     Parse { path: String, line: usize, message: String },
     #[error("{path}: {chain}.{name} is {value:?}; give a finite number{bound}")]
@@ -195,7 +193,6 @@ impl Parameters {
             assessment: None,
             vertical: ChainRow::new(&springs.vertical, m1),
             horizontal: ChainRow::new(&springs.horizontal, m1),
-            legs: None,
             damper: None,
             tendon: None,
             friction: None,
@@ -225,13 +222,13 @@ impl Parameters {
 
     /// What the structure has besides the rigid body.
     pub(crate) fn members(&self) -> Members<f64> {
-        Members { legs: self.legs, damper: self.damper, tendon: self.tendon, friction: self.friction }
+        Members { damper: self.damper, tendon: self.tendon, friction: self.friction }
     }
 
     /// The same with these members.
     pub fn with_members(self, members: Members<f64>) -> Self {
-        let Members { legs, damper, tendon, friction } = members;
-        Self { legs, damper, tendon, friction, ..self }
+        let Members { damper, tendon, friction } = members;
+        Self { damper, tendon, friction, ..self }
     }
 
     /// Velocity restitution e of Housner's body beside these springs.
@@ -262,10 +259,13 @@ impl Parameters {
         if elastic::ElasticParameters::is(text) {
             return Err(ParametersError::Elastic { path: path.to_string() });
         }
-        let parameters: Self = serde_json::from_str(text).map_err(|e| ParametersError::Parse {
-            path: path.to_string(),
-            line: e.line(),
-            message: one_line(e.to_string().split(" at line").next().unwrap_or_default()),
+        let parameters: Self = serde_json::from_str(text).map_err(|e| {
+            let (path, message) = (path.to_string(), e.to_string());
+            if names_legs(&message) {
+                return ParametersError::Legs { path };
+            }
+            let message = one_line(message.split(" at line").next().unwrap_or_default());
+            ParametersError::Parse { path, line: e.line(), message }
         })?;
         parameters.checked(path)
     }

@@ -59,6 +59,23 @@ fn a_pier_is_tuned_and_what_is_written_agrees_with_itself() {
         read("decks/model_openseespy.py").contains("\"flatSliderBearing\"")
             && !read("decks/model_openseespy.py").contains('@')
     );
+    assert!(
+        read("decks/model_opensees.tcl").contains("flatSliderBearing")
+            && !read("decks/model_opensees.tcl").contains('@')
+    );
+    assert_eq!(read("decks/springs.csv").lines().count(), 1 + 2 * 2);
+    for (format, name) in
+        [("openseespy", "model_openseespy.py"), ("opensees-tcl", "model_opensees.tcl"), ("csv", "springs.csv")]
+    {
+        let arguments = ["export", "--parameters", "out/parameters.json", "--format", format, "--out", "again"];
+        let ran = tune(folder.path(), &arguments);
+        assert!(ran.status.success(), "{}", text(&ran.stderr));
+        assert_eq!(
+            std::fs::read_to_string(folder.path().join("again")).unwrap(),
+            read(&format!("decks/{name}")),
+            "{format}"
+        );
+    }
     for name in ["history.png", "history.svg", "forces.png", "forces.svg", "members.csv", "parameters.md"] {
         assert!(out.join(name).metadata().unwrap().len() > 300, "{name}");
     }

@@ -124,6 +124,6 @@ mod tests {
         assert!(said("[tuning]\naccuracy = 7.0\n").contains("tuning.accuracy is 7.0"));
         let objective = said("[tuning]\nobjective = 'arr'\n");
         assert!(objective.contains("objective"), "{objective}");
-        assert!(said("[legs]\nea_n = 1.0\n").contains("legs"));
+        assert!(said("[legs]\nea_n = 1.0\n").contains("kind = \"aframe\" elastic legs"));
     }
 }

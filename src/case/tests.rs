@@ -78,14 +78,18 @@ fn friction_is_read_and_goes_alone() {
 
 #[test]
 fn members_are_read_and_checked() {
-    let text = "[legs]\nea_n = 1e9\nei_nm2 = 2e9\n[damper]\nc_ns_per_m = 3e5\n[tendon]\nstiffness_n_per_m = 4e5\npretension_n = 5e4\n";
+    let text = "[damper]\nc_ns_per_m = 3e5\n[tendon]\nstiffness_n_per_m = 4e5\npretension_n = 5e4\n";
     let members = Case::parse("case.toml", &format!("{STRUCTURE}{text}")).unwrap().members;
-    assert_eq!(members.legs, Some(Legs { ea: 1e9, ei: 2e9 }));
     assert_eq!(members.damper, Some(Damper { c: 3e5 }));
     assert_eq!(members.tendon, Some(Tendon { stiffness: 4e5, pretension: 5e4 }));
     assert_eq!(
-        message("[legs]\nea_n = 0.0\nei_nm2 = 2e9\n"),
-        "case.toml: legs.ea_n is 0; give a finite number greater than zero"
+        message("[tendon]\nstiffness_n_per_m = 0.0\npretension_n = 0.0\n"),
+        "case.toml: tendon.stiffness_n_per_m is 0; give a finite number greater than zero"
+    );
+    assert_eq!(
+        message("[legs]\nea_n = 1e9\nei_nm2 = 2e9\n"),
+        "case.toml, line 6: legs on springs of a rigid body are no more; give [structure] kind = \"aframe\" elastic legs of its own: ea_n, ei_nm2, \
+         foot_mass_kg, damping_ratio (docs/elastic.md)"
     );
     assert!(message("[damper]\nc = 1.0\n").contains("did you mean \"c_ns_per_m\"?"));
 }

@@ -6,6 +6,7 @@ use super::{
     CommandError,
     common::csv_row,
     draw::{self, Figure},
+    export,
     run::Output,
     write_file,
 };
@@ -16,7 +17,7 @@ use crate::{
         assembled::{Assembled, Sway},
         fem::History,
     },
-    export::{ACCURACY, ElasticDeck},
+    export::{ACCURACY, DeckFormat, ElasticDeck, ExportError},
     motion::peak,
     parameters::{
         RecordRow,
@@ -69,14 +70,14 @@ impl ElasticParameters {
     }
 }
 
-/// The deck for openseespy that is to find this history, its steps for this accuracy.
+/// The deck that is to find this history, in a format, its steps for an accuracy.
 pub(super) fn deck(
     assembled: &Assembled,
     springs: &[Springs<Chain<f64>>],
     record: &Record,
     history: &History,
-    accuracy: f64,
-) -> String {
+    (format, accuracy): (DeckFormat, f64),
+) -> Result<String, ExportError> {
     let (frame, top) = (&assembled.frame, assembled.watched.first().map_or(0, |watched| watched.top));
     let at = |q: &Vec<f64>| {
         let [x, z, _] = frame.displacement(top, q);
@@ -95,7 +96,7 @@ pub(super) fn deck(
         frequency_hz: assembled.structure.frequency_hz(),
         accuracy,
     }
-    .python()
+    .text(format)
 }
 
 impl ElasticRun {
@@ -141,7 +142,7 @@ impl ElasticRun {
         write_file(&out.join("parameters.md"), tables.as_bytes())?;
         write_file(&out.join("history.csv"), self.history().as_bytes())?;
         write_file(&out.join("members.csv"), demands::csv(self).as_bytes())?;
-        write_file(&out.join("decks/model_openseespy.py"), self.deck(ACCURACY).as_bytes())?;
+        export::write_all(&out.join("decks"), |format| self.deck(format))?;
         let figures: Vec<Figure> = if output.figures { pictures::draw(self)? } else { Vec::new() };
         draw::save(out, &figures)?;
         if output.report {
@@ -162,8 +163,9 @@ impl ElasticRun {
         format!("{}\n{}\n{said}\n", words::markdown(&self.parameters), demands::markdown(self))
     }
 
-    fn deck(&self, accuracy: f64) -> String {
-        deck(&self.assembled, &self.tuned.springs.corners, &self.record, &self.answer.histories.fem, accuracy)
+    fn deck(&self, format: DeckFormat) -> Result<String, ExportError> {
+        let corners = &self.tuned.springs.corners;
+        deck(&self.assembled, corners, &self.record, &self.answer.histories.fem, (format, ACCURACY))
     }
 
     /// `history.csv`: rotation and drift of every base in the reference and on the springs, uplift of every corner on them.

@@ -4,10 +4,14 @@ use std::path::{Path, PathBuf};
 
 use clap::Args;
 
-use super::{CommandError, common::RecordOptions, output::file_in, write_file};
+use super::{CommandError, common::RecordOptions, elastic::deck, output::file_in, write_file};
 use crate::{
-    export::{ACCURACY, DeckFormat, Expected, ExportError, deck_of, export, with_inertia},
-    parameters::Parameters,
+    elastic::{
+        assembled::Assembled,
+        fem::{Case, Start},
+    },
+    export::{ACCURACY, DeckFormat, ExportError, deck_of, with_inertia},
+    parameters::{Parameters, elastic::ElasticParameters},
     record::Record,
 };
 
@@ -34,11 +38,31 @@ pub fn run(o: &Options) -> Result<(), CommandError> {
     let usual = DECKS.iter().find(|(_, format)| *format == o.format).map_or("deck", |(name, _)| name);
     let out = file_in(&o.out, usual)?;
     check_accuracy(o.accuracy)?;
-    let (parameters, record, line) = read(&o.parameters, &o.record)?;
-    let deck = deck_of(&parameters, &record, o.format, o.accuracy)?;
+    let (deck, line) = match ElasticParameters::read(&o.parameters)? {
+        Some(parameters) => elastic(o, &parameters)?,
+        None => {
+            let (parameters, record, line) = read(&o.parameters, &o.record)?;
+            (deck_of(&parameters, &record, o.format, o.accuracy)?, line)
+        }
+    };
     write_file(&out, deck.as_bytes())?;
     eprintln!("{line}\nwritten to {}", out.display());
     Ok(())
+}
+
+/// The deck of an elastic structure, with our own history to check itself against, and a line that says on which record.
+fn elastic(o: &Options, parameters: &ElasticParameters) -> Result<(String, String), CommandError> {
+    let excitation = o.record.excitation(|| parameters.excitation(&o.parameters))?;
+    let record = excitation.used()?;
+    let assembled = Assembled::new(parameters.structure).map_err(|e| CommandError::Result(e.to_string()))?;
+    let springs = parameters.chains();
+    let case = Case {
+        vertical: record.vertical.as_ref().map_or(&[], |vertical| &vertical.accel),
+        ..Case::new(&assembled.frame, &springs, Start::Standing, record.dt, &record.accel)
+    };
+    let history = case.simulate().map_err(|e| CommandError::Result(e.to_string()))?;
+    let text = deck(&assembled, &springs, &record, &history, (o.format, o.accuracy))?;
+    Ok((text, excitation.line()))
 }
 
 /// Between what double precision and what a landing allow.
@@ -71,13 +95,11 @@ const DECKS: [(&str, DeckFormat); 5] = [
 /// Write every deck into a folder, which is made.
 pub(super) fn write_all(
     dir: &Path,
-    parameters: &Parameters,
-    record: &Record,
-    expected: &Expected,
+    text: impl Fn(DeckFormat) -> Result<String, ExportError>,
 ) -> Result<(), CommandError> {
     std::fs::create_dir_all(dir).map_err(|source| CommandError::Write { path: dir.display().to_string(), source })?;
     for (name, format) in DECKS {
-        match export(parameters, record, expected, format) {
+        match text(format) {
             // said, not fatal: the other decks are of use
             Err(e @ ExportError::Member { .. }) => eprintln!("{name} is left out: {e}"),
             deck => write_file(&dir.join(name), deck?.as_bytes())?,

@@ -18,6 +18,13 @@ enum Shape {
     AFrame,
     /// A solid block: a column, a cabinet, equipment
     Block,
+    /// A mass on an elastic column on a rigid footing
+    Pier,
+    /// The A-frame with elastic legs
+    #[value(name = "elastic-aframe")]
+    ElasticAFrame,
+    /// Two elastic columns on two footings under a beam
+    Frame,
 }
 
 /// Options of `tune init`.
@@ -48,9 +55,56 @@ mass_kg = 400.0          # or mass_t, mass_lb, weight_kn, weight_lb
 # rotational_inertia_kgm2 = 140.0  # about the centre of mass, where it is not that of a solid block
 ";
 
-const REST: &str = "\
-# restitution = 0.9      # velocity after an impact over that before; left out: Housner's, equation 2
+const PIER: &str = "\
+[structure]
+kind = \"pier\"            # a mass on an elastic column on a rigid footing
+height_m = 12.0          # of the mass above the soles
+width_m = 4.0            # of the footing
+mass_kg = 600e3
+footing_mass_kg = 60e3
+footing_height_m = 1.5
+frequency_hz = 2.0       # fixed to the ground, across; or the column's EI, ei_nm2
+damping_ratio = 0.02     # to critical, across
+# ea_n = 5e10            # of the column, EA; left out: that of a square concrete section
+# axial_damping_ratio = 0.02
+# column_mass_kg = 40e3  # along the column
+# elements = 4           # to the column, where it has a mass
+";
 
+const ELASTIC_AFRAME: &str = "\
+[structure]
+kind = \"aframe\"          # a mass at the apex of two legs, clamped to it and hinged at the feet
+height_m = 12.0          # of the apex above the feet
+width_m = 2.4            # between the feet
+mass_kg = 350e3          # at the apex
+foot_mass_kg = 5e3       # at each foot: what is stopped at a landing
+ea_n = 2e10              # of a leg: EA
+ei_nm2 = 5e8             # and EI
+damping_ratio = 0.02     # to critical, across
+# rotational_inertia_kgm2 = 1e5    # of the mass at the apex
+";
+
+const FRAME: &str = "\
+[structure]
+kind = \"frame\"           # two columns on two footings under a beam
+height_m = 8.0           # of the beam's axis above the soles
+span_m = 10.0            # between the columns' axes
+footing_width_m = 2.5
+footing_height_m = 1.0
+footing_mass_kg = 30e3   # each
+beam_mass_kg = 200e3
+column_ea_n = 3e10       # of a column: EA
+column_ei_nm2 = 4e9      # and EI
+beam_ea_n = 4e10
+beam_ei_nm2 = 8e9
+damping_ratio = 0.02     # to critical, across
+";
+
+const RESTITUTION: &str = "\
+# restitution = 0.9      # velocity after an impact over that before; left out: Housner's, equation 2
+";
+
+const REST: &str = "
 [record]                 # left out: 1940 El Centro, north-south
 # file = \"motion.at2\"    # PEER AT2, GeoNet, COSMOS, CSMIP, K-NET, ESM or columns, beside this file
 # component = \"N\"        # of a file with several; left out: the stronger horizontal one
@@ -60,17 +114,22 @@ scale = 1.0              # factor on the acceleration
 # duration_s = 20.0      # left out: the whole record
 
 [tuning]
-accuracy = 0.002         # of the history against Housner's: sqrt(sum (u - u_H)^2 / sum u_H^2)
+accuracy = 0.002         # of the history against the reference's, normalised: sqrt(sum (u - u_r)^2 / sum u_r^2)
 # max_omega_hz = 160.0   # stiffest springs, for programs with fixed time steps; left out: no limit
 ";
 
 /// The text for a shape.
 fn text(shape: Shape) -> String {
-    let structure = match shape {
-        Shape::AFrame => AFRAME,
-        Shape::Block => BLOCK,
+    let (structure, restitution) = match shape {
+        Shape::AFrame => (AFRAME, RESTITUTION),
+        Shape::Block => (BLOCK, RESTITUTION),
+        Shape::Pier => (PIER, ""),
+        Shape::ElasticAFrame => (ELASTIC_AFRAME, ""),
+        Shape::Frame => (FRAME, ""),
     };
-    format!("# A case for `tune run`: what rocks, on which ground motion, how accurately.\n\n{structure}{REST}")
+    format!(
+        "# A case for `tune run`: what rocks, on which ground motion, how accurately.\n\n{structure}{restitution}{REST}"
+    )
 }
 
 pub fn run(o: &Options) -> Result<(), CommandError> {
@@ -94,7 +153,7 @@ pub fn run(o: &Options) -> Result<(), CommandError> {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::case::Case;
+    use crate::case::{Case, ElasticCase};
 
     #[test]
     fn both_files_are_cases() {
@@ -108,15 +167,24 @@ mod tests {
     #[test]
     fn what_is_commented_out_can_be_used() {
         for shape in [Shape::AFrame, Shape::Block] {
-            let used: String = text(shape)
-                .lines()
-                .filter(|line| {
-                    !["# file", "# component", "# dt_s", "# units", "# A case"].iter().any(|x| line.starts_with(x))
-                })
-                .map(|line| format!("{}\n", line.strip_prefix("# ").unwrap_or(line)))
-                .collect();
-            let case = Case::parse("case.toml", &used).unwrap();
+            let case = Case::parse("case.toml", &used(shape)).unwrap();
             assert_eq!((case.restitution, case.tuning.max_omega_hz), (0.9, Some(160.0)));
         }
+        for shape in [Shape::Pier, Shape::ElasticAFrame, Shape::Frame] {
+            let used = used(shape);
+            assert!(ElasticCase::is(&text(shape)) && ElasticCase::is(&used));
+            ElasticCase::parse("case.toml", &text(shape)).unwrap();
+            assert_eq!(ElasticCase::parse("case.toml", &used).unwrap().max_omega_hz, Some(160.0));
+        }
+    }
+
+    /// The text with what is commented out.
+    fn used(shape: Shape) -> String {
+        let names = ["# file", "# component", "# dt_s", "# units", "# A case"];
+        text(shape)
+            .lines()
+            .filter(|line| !names.iter().any(|x| line.starts_with(x)))
+            .map(|line| format!("{}\n", line.strip_prefix("# ").unwrap_or(line)))
+            .collect()
     }
 }

@@ -1,4 +1,4 @@
-//! Elastic legs, dampers and tendon beside the rigid body: their history, their forces, as tables.
+//! Dampers and tendon beside the rigid body: their history, their forces, as tables.
 
 use std::fmt::Write;
 
@@ -68,9 +68,6 @@ impl<'a> Report<'a> {
 /// What the members are, in words.
 pub(super) fn names(members: &Members<f64>) -> String {
     let mut out = Vec::new();
-    if let Some(l) = members.legs {
-        out.push(format!("legs of EA = {:.4e} N, EI = {:.4e} N m2", l.ea, l.ei));
-    }
     if let Some(d) = members.damper {
         out.push(format!("dampers of {:.4e} N s/m at each foot", d.c));
     }

@@ -316,7 +316,8 @@ fn decks(out: &Path, parameters: &Parameters, record: &Record, both: &Both) -> R
     let own = (!given).then(|| simulate(&parameters, record));
     let history = own.as_ref().unwrap_or_else(|| both.with.as_ref().map_or(&both.fem, |with| &with.history));
     let width_sensitivity = width_sensitivity(&history.motion, &parameters, record);
-    export::write_all(&folder, &parameters, record, &Expected::new(history, width_sensitivity))
+    let expected = Expected::new(history, width_sensitivity);
+    export::write_all(&folder, |format| crate::export::export(&parameters, record, &expected, format))
 }
 
 /// Threads beyond which a machine only starves.

@@ -20,7 +20,7 @@ use crate::{
     export::ACCURACY,
     figures::history::{self, History, Trace},
     motion::{Motion, peak},
-    parameters::{Parameters, ParametersError, elastic::ElasticParameters},
+    parameters::{Parameters, elastic::ElasticParameters},
     record::Record,
     verify::{LIMIT, Program, Verification, verify},
 };
@@ -55,11 +55,8 @@ pub fn run(o: &Options) -> Result<(), CommandError> {
         Some(command) => Program::Tcl(command.split_whitespace().map(str::to_string).collect()),
         None => Program::Python(o.python.clone()),
     };
-    let name = o.parameters.display().to_string();
-    let text = std::fs::read_to_string(&o.parameters)
-        .map_err(|source| ParametersError::Read { path: name.clone(), source })?;
-    if ElasticParameters::is(&text) {
-        return elastic::run(o, &ElasticParameters::parse(&name, &text)?, &program);
+    if let Some(parameters) = ElasticParameters::read(&o.parameters)? {
+        return elastic::run(o, &parameters, &program);
     }
     let (parameters, record, line) = read(&o.parameters, &o.record)?;
     check_folder(&o.out)?;

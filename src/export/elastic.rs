@@ -1,10 +1,16 @@
-//! An elastic structure on its springs as a deck for openseespy: nodes, corotational beams, stiff arms to the corners.
+//! An elastic structure on its springs as a deck for OpenSees: nodes, corotational beams, stiff arms to the corners.
 
-use std::{f64::consts::TAU, fmt::Write};
+use std::f64::consts::TAU;
 
-use super::{STEPS, model::digits, opensees::rows, printable};
+use super::{
+    DeckFormat, ExportError,
+    language::{Language, PYTHON, TCL, record_note},
+    model::digits,
+    plain::{self, Place},
+    printable,
+};
 use crate::{
-    elastic::frame::{Frame, Layout, Point},
+    elastic::frame::{Damper, Frame, Layout, Point},
     record::Record,
     scalar::GRAVITY,
     spring::{Chain, Springs},
@@ -49,31 +55,43 @@ pub struct ElasticDeck<'a> {
 }
 
 impl ElasticDeck<'_> {
-    /// The deck for openseespy.
-    pub fn python(&self) -> String {
+    /// The text of the deck.
+    ///
+    /// # Errors
+    /// A vertical motion that the format does not have.
+    pub fn text(&self, format: DeckFormat) -> Result<String, ExportError> {
+        Ok(match format {
+            DeckFormat::OpenSeesPy => self.fill(&PYTHON, include_str!("elastic_deck.py")),
+            DeckFormat::OpenSeesTcl => self.fill(&TCL, include_str!("elastic_deck.tcl")),
+            DeckFormat::Sap2000 => {
+                return Err(ExportError::Member { name: "an elastic structure", format: format.name() });
+            }
+            DeckFormat::Csv => plain::csv(&self.places()),
+            DeckFormat::Markdown => plain::markdown(self.title, &self.places()),
+        })
+    }
+
+    /// The corners from the left, and what is under them.
+    fn places(&self) -> Vec<Place> {
+        self.springs.iter().enumerate().map(|(i, springs)| (format!("corner {}", i + 1), *springs)).collect()
+    }
+
+    fn fill(&self, language: &Language, template: &str) -> String {
         let (top, motion) = self.top;
         let settled = motion.first().map_or(0.0, |start| start[1]);
         let peak = |k: usize, sign: f64| {
             let from = if k == 1 { settled } else { 0.0 };
             motion.iter().map(|at| sign * (at[k] - from)).fold(f64::NEG_INFINITY, f64::max) * sign
         };
-        let vertical = self.record.vertical.as_ref().map_or(String::new(), |vertical| rows(&vertical.accel, ","));
-        let note = format!(
-            "{}: {} samples, dt {} s, peak {:.4} g; m/s2, positive to the right",
-            printable(&self.record.name),
-            self.record.len(),
-            self.record.dt,
-            self.record.pga_g()
-        );
         let rise = SMALL_MOTION * self.frame.stance() * self.alpha;
         let values = [
             ("TITLE", printable(self.title)),
             ("GRAVITY", digits(GRAVITY)),
-            ("NODES", self.nodes()),
-            ("TOP", top.to_string()),
-            ("BEAMS", self.beams()),
-            ("CORNERS", self.corners()),
-            ("DAMPERS", self.dampers()),
+            ("NODES", language.lines(self.nodes())),
+            ("TOP", (top + 1).to_string()),
+            ("BEAMS", language.lines(self.beams(language))),
+            ("CORNERS", language.lines(self.corners(language))),
+            ("DAMPERS", language.lines(self.dampers(language))),
             ("LEG", digits(ARM_STIFFNESS)),
             ("RECORD_DT", digits(self.record.dt)),
             ("ACCURACY", digits(SHARE * self.accuracy)),
@@ -88,70 +106,53 @@ impl ElasticDeck<'_> {
             ("X_MIN", digits(peak(0, -1.0))),
             ("Z_MAX", digits(peak(1, 1.0))),
             ("Z_MIN", digits(peak(1, -1.0))),
-            ("RECORD_NOTE", note),
+            ("RECORD_NOTE", record_note(self.record)),
         ];
-        let mut text = include_str!("elastic_deck.py").to_string();
-        for (name, value) in values {
-            text = text.replace(&format!("@{name}@"), &value);
-        }
-        text = text.replace("@ROUTINE@", STEPS.trim_end());
-        text.replacen("@VERTICAL@", &vertical, 1).replacen("@RECORD@", &rows(&self.record.accel, ","), 1)
+        language.fill(template, &values, self.record)
     }
 
-    fn nodes(&self) -> String {
+    /// x, z, mass, rotational inertia of every node.
+    fn nodes(&self) -> impl Iterator<Item = Vec<String>> {
         let mass = self.frame.mass_matrix();
-        let line = |node: usize| {
+        let of = |at: Option<usize>| digits(at.map_or(0.0, |k| mass[(k, k)]));
+        (0..self.layout.nodes.len()).map(move |node| {
             let ([x, z], [at, _, turn]) = (self.frame.centre(node), self.frame.coordinates(node));
-            let mass_of = |k: usize| digits(mass[(k, k)]);
-            let inertia = turn.map_or("None".into(), mass_of);
-            format!("    ({}, {}, {}, {inertia}),", digits(x), digits(z), at.map_or("0.0".into(), mass_of))
-        };
-        (0..self.layout.nodes.len()).map(line).collect::<Vec<_>>().join("\n")
+            vec![digits(x), digits(z), of(at), of(turn)]
+        })
     }
 
     /// From a node's centre of mass to a place on it.
-    fn arm(&self, point: &Point) -> String {
+    fn arm(&self, language: &Language, point: &Point) -> String {
         let [x, z] = self.frame.centre(point.node);
         // a place on its node is there, to the last digit
-        format!("({}, {})", plain(point.place[0] - x), plain(point.place[1] - z))
+        language.list(&[plain(point.place[0] - x), plain(point.place[1] - z)])
     }
 
-    fn beams(&self) -> String {
-        let mut out = Vec::new();
-        for member in &self.layout.members {
+    fn beams(&self, language: &Language) -> impl Iterator<Item = Vec<String>> {
+        self.layout.members.iter().map(|member| {
             let [a, b] = &member.ends;
             let s = &member.section;
             let ahead = |damping: f64, stiffness: f64| if stiffness > 0.0 { damping / stiffness } else { 0.0 };
-            out.push(format!(
-                "    ({}, {}, {}, {}, {}, {}, {}, {}),",
-                a.node,
-                b.node,
-                self.arm(a),
-                self.arm(b),
-                digits(s.axial),
-                digits(s.bending),
-                digits(ahead(s.axial_damping, s.axial)),
-                digits(ahead(s.bending_damping, s.bending))
-            ));
-        }
-        out.join("\n")
+            let (axial, bending) = (ahead(s.axial_damping, s.axial), ahead(s.bending_damping, s.bending));
+            let numbers = [s.axial, s.bending, axial, bending].map(digits);
+            let ends = [a.node.to_string(), b.node.to_string(), self.arm(language, a), self.arm(language, b)];
+            [ends, numbers].concat()
+        })
     }
 
-    fn corners(&self) -> String {
-        let mut out = String::new();
-        for (corner, springs) in self.layout.corners.iter().zip(self.springs) {
-            let unit =
-                |c: &Chain<f64>| format!("({}, {}, {}, {})", digits(c.k1), digits(c.k2), digits(c.c), digits(c.m2));
-            let (vertical, horizontal) = (unit(&springs.vertical), unit(&springs.horizontal));
-            // writing to a String cannot fail
-            let _ = writeln!(out, "    ({}, {}, {vertical}, {horizontal}),", corner.node, self.arm(corner));
-        }
-        out.trim_end().to_string()
+    fn corners(&self, language: &Language) -> impl Iterator<Item = Vec<String>> {
+        let unit = |c: &Chain<f64>| language.list(&[c.k1, c.k2, c.c, c.m2].map(digits));
+        self.layout.corners.iter().zip(self.springs).map(move |(corner, springs)| {
+            let units = [unit(&springs.vertical), unit(&springs.horizontal)];
+            [[corner.node.to_string(), self.arm(language, corner)], units].concat()
+        })
     }
 
-    fn dampers(&self) -> String {
-        let line = |(at, [h, v]): (&Point, [f64; 2])| format!("    ({}, {}, {h:?}, {v:?}),", at.node, self.arm(at));
-        self.layout.dampers.iter().map(|damper| line((&damper.at, damper.c))).collect::<Vec<_>>().join("\n")
+    fn dampers(&self, language: &Language) -> impl Iterator<Item = Vec<String>> {
+        self.layout
+            .dampers
+            .iter()
+            .map(|Damper { at, c: [h, v] }| vec![at.node.to_string(), self.arm(language, at), digits(*h), digits(*v)])
     }
 
     /// Steps per sample, at least: pairs.

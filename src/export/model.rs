@@ -1,9 +1,8 @@
-//! What every deck needs besides the parameters: legs, steps, tolerances, each with its rule.
+//! What every deck needs besides the parameters: stiff legs, steps, tolerances, each with its rule.
 
-use super::{Expected, ExportError, printable};
+use super::{Expected, ExportError, plain::Place, printable};
 use crate::{
-    fem::MASSLESS_ROTATION,
-    members::{Legs, Members},
+    members::Members,
     parameters::Parameters,
     record::Record,
     spring::{Chain, Springs},
@@ -18,27 +17,7 @@ pub const SMALL_INERTIA: f64 = 1e-5;
 /// Stiffness of the legs that stand for a rigid body, over the stiffest gap spring k1, the same along and across. OpenSees
 /// decks take their compliance off that of k1, so that both in series are k1, however soft the legs; a leg a thousand times
 /// stiffer than k1 costs three digits of k1's force, and on springs of 10 kHz Newton's iteration ends in its rounding.
-const LEG_STIFFNESS: f64 = 4.0;
-
-/// Mass of a foot on an elastic leg, over 3EI/L^3 dt^2, in an OpenSees deck. A foot that opens lets go what its leg was
-/// bent by, at once if it has no mass; without a little mass Newton's iteration does not find where it goes, with ten times
-/// more the foot goes on swinging, and what it keeps of the energy changes the history by 1e-2 and more.
-const FOOT_MASS: f64 = 0.05;
-/// Dashpot of such a foot, to the side, over 3EI/L^3 dt: the swing ends within a few steps.
-const FOOT_DASHPOT: f64 = 4.0;
-
-/// What OpenSees needs to carry massless legs.
-#[derive(Clone, Copy, Debug)]
-pub(super) struct Regularised {
-    /// Of a foot (kg).
-    pub mass: f64,
-    /// Of a foot, to the side [N s/m].
-    pub dashpot: f64,
-    /// I_cg: where our model takes the rotation as massless, as small as the feet's [kg m2].
-    pub inertia: f64,
-    /// Mass of the translation: there with I_cg/R^2 added, as in our model (kg).
-    pub moved: f64,
-}
+pub(super) const LEG_STIFFNESS: f64 = 4.0;
 
 /// What a history's error is to be, unless one asks otherwise.
 pub const ACCURACY: f64 = 0.002;
@@ -50,8 +29,6 @@ const STEP_BY_ROCKING: f64 = 1e-4;
 
 /// Newton's displacement tolerance over R: some twenty times what rounding leaves of it with legs of [`LEG_STIFFNESS`].
 const TOLERANCE: f64 = 2e-14;
-/// The same on elastic legs as given.
-const TOLERANCE_ON_LEGS: f64 = 2e-11;
 
 /// The accuracy asked is tightened with what a change of the width by 1e-5 does to the history (from 6.7e-5 on), since the
 /// steps' error grows as that does; so many times at most: steps a third as long.
@@ -63,7 +40,7 @@ const HOPELESS: f64 = 0.5;
 /// Rise of a foot that counts as a motion, over that at which the body topples.
 const SMALL_MOTION: f64 = 0.01;
 /// Steps per sample where steps follow from the accuracy: a pair, ended by every sample.
-const A_PAIR: usize = 2;
+pub(super) const A_PAIR: usize = 2;
 
 /// For a program that takes all its steps alike, 1/(40 Omega_n (Hz)) and 1e-4/p.
 fn even_steps(parameters: &Parameters, dt: f64) -> usize {
@@ -93,21 +70,17 @@ pub(super) struct Model<'a> {
     pub inertia: f64,
     pub springs: Springs<Chain<f64>>,
     pub members: Members<f64>,
-    /// EA/L and 3EI/L^3 of a leg that stands for a rigid body [N/m].
+    /// EA/L and 3EI/L^3 of the legs that stand for the rigid body [N/m].
     pub leg: f64,
-    /// EA and EI of the legs: given, or of such legs.
-    pub legs: Legs<f64>,
     /// Newton's displacement tolerance (m).
     pub tolerance: f64,
     /// Accuracy that the steps are to have.
     pub accuracy: f64,
-    /// 1/Omega_n of the vertical k1 (s); 0 on elastic legs, where all steps are alike.
+    /// 1/Omega_n of the vertical k1 (s).
     pub landing: f64,
     /// Rise of a foot from which on its motion counts (m).
     pub rise: f64,
-    /// Steps per sample, at least.
-    pub steps_per_sample: usize,
-    /// The same for a program that takes all its steps alike.
+    /// Steps per sample for a program that takes all its steps alike.
     pub even_steps: usize,
     pub record: &'a Record,
     pub expected: Expected,
@@ -134,8 +107,6 @@ impl<'a> Model<'a> {
             ("horizontal.k2_n_per_m", h.k2, false),
             ("horizontal.m2_kg", h.m2, false),
             ("horizontal.c_ns_per_m", h.c, true),
-            ("legs.ea_n", members.legs.map_or(1.0, |l| l.ea), false),
-            ("legs.ei_nm2", members.legs.map_or(1.0, |l| l.ei), false),
             ("damper.c_ns_per_m", members.damper.map_or(0.0, |d| d.c), true),
             ("tendon.stiffness_n_per_m", members.tendon.map_or(1.0, |t| t.stiffness), false),
             ("tendon.pretension_n", members.tendon.map_or(0.0, |t| t.pretension), true),
@@ -155,25 +126,17 @@ impl<'a> Model<'a> {
             (TIGHTER * expected.width_sensitivity).clamp(1.0, TIGHTEST)
         };
         let accuracy = expected.accuracy / tighter;
-        let even_steps = even_steps(parameters, record.dt);
-        let (landing, steps_per_sample, tolerance) = if members.legs.is_some() {
-            (0.0, even_steps, TOLERANCE_ON_LEGS)
-        } else {
-            ((body.mass / v.k1).sqrt(), A_PAIR, TOLERANCE)
-        };
         Ok(Self {
             structure,
             inertia: with_inertia(&structure).rotational_inertia_kgm2,
             springs,
             members,
             leg,
-            legs: members.legs.unwrap_or(legs_of(leg, &body)),
-            tolerance: tolerance * body.radius(),
+            tolerance: TOLERANCE * body.radius(),
             accuracy,
-            landing,
+            landing: (body.mass / v.k1).sqrt(),
             rise: SMALL_MOTION * 2.0 * body.half_width * (body.half_width / body.height).atan(),
-            steps_per_sample,
-            even_steps,
+            even_steps: even_steps(parameters, record.dt),
             record,
             expected: *expected,
             record_name: printable(&record.name),
@@ -182,6 +145,11 @@ impl<'a> Model<'a> {
 
     pub fn body(&self) -> Body<f64> {
         self.structure.body()
+    }
+
+    /// The feet and what is under them.
+    pub fn places(&self) -> [Place; 2] {
+        ["left", "right"].map(|foot| (foot.to_string(), self.springs))
     }
 
     /// Time of the last sample followed (s).
@@ -197,40 +165,10 @@ impl<'a> Model<'a> {
         }
     }
 
-    /// How OpenSees holds legs that have no mass, where they are given; else zero.
-    ///
-    /// On all but rigid legs the rotation keeps its inertia, however little: its vibration on the springs, of
-    /// sqrt(m R^2/I_cg) Omega_n, dies in the steps. With much less a foot that lifts while its horizontal spring is loaded has
-    /// no state at all: held, it would pull; let go, the body turns at once and presses it down.
-    pub fn regularised(&self) -> Regularised {
-        let (mass, radius) = (self.structure.mass_kg, self.body().radius());
-        let massless = self.inertia < MASSLESS_ROTATION * mass * radius * radius;
-        if self.members.legs.is_none() {
-            return Regularised { mass: 0.0, dashpot: 0.0, inertia: self.inertia, moved: mass };
-        }
-        let dt = self.record.dt / self.steps_per_sample as f64;
-        let bending = 3.0 * self.legs.ei / radius.powi(3);
-        let foot = FOOT_MASS * bending * dt * dt;
-        // what rocking feels of a rotation that is taken as massless is in the mass of the translation
-        let (inertia, moved) = if massless {
-            (foot * radius * radius, mass + self.inertia / (radius * radius))
-        } else {
-            (self.inertia, mass)
-        };
-        Regularised { mass: foot, dashpot: FOOT_DASHPOT * bending * dt, inertia, moved }
-    }
-
     /// Length at which the tendon begins to pull (m); zero without one.
     pub fn slack(&self) -> f64 {
         let length = self.structure.height_m + self.expected.settled;
         self.members.tendon.map_or(0.0, |t| length - t.pretension / t.stiffness)
-    }
-
-    pub fn leg_note(&self) -> String {
-        if self.members.legs.is_some() {
-            return "as given".to_string();
-        }
-        format!("{LEG_STIFFNESS} times the stiffest k1, whose compliance is less by the leg's")
     }
 
     pub fn title(&self) -> String {
@@ -239,22 +177,6 @@ impl<'a> Model<'a> {
             self.structure.height_m, self.structure.width_m, self.structure.mass_kg, self.record_name
         )
     }
-
-    pub fn record_note(&self) -> String {
-        format!(
-            "{}: {} samples, dt {} s, peak {:.4} g; m/s2, positive to the right",
-            self.record_name,
-            self.record.len(),
-            self.record.dt,
-            self.record.pga_g()
-        )
-    }
-}
-
-/// Legs of this stiffness, along and across [N/m].
-pub(super) fn legs_of(stiffness: f64, body: &Body<f64>) -> Legs<f64> {
-    let length = body.radius();
-    Legs { ea: stiffness * length, ei: stiffness * length.powi(3) / 3.0 }
 }
 
 /// 17 significant digits: reads back to the same number.

@@ -1,46 +1,43 @@
-//! Plain tables: k1, k2, m2 and c of every foot and direction.
+//! Plain tables: k1, k2, m2 and c under every foot or corner, in both directions.
 
 use std::fmt::Write;
 
-use super::model::{Model, digits};
-use crate::spring::Chain;
+use super::model::digits;
+use crate::spring::{Chain, Springs};
 
-/// Foot and direction of every chain.
-fn rows<'a>(model: &'a Model) -> impl Iterator<Item = (&'static str, &'static str, &'a Chain<f64>)> {
-    let (v, h) = (&model.springs.vertical, &model.springs.horizontal);
-    [("left", "vertical", v), ("left", "horizontal", h), ("right", "vertical", v), ("right", "horizontal", h)]
-        .into_iter()
+/// A foot or corner by name, and the units under it.
+pub(super) type Place = (String, Springs<Chain<f64>>);
+
+/// Place, direction and numbers of every unit.
+fn rows(places: &[Place]) -> impl Iterator<Item = [String; 6]> {
+    places.iter().flat_map(|(place, Springs { vertical, horizontal })| {
+        [("vertical", vertical), ("horizontal", horizontal)].map(|(direction, &Chain { k1, k2, m2, c })| {
+            let [k1, k2, m2, c] = [k1, k2, m2, c].map(digits);
+            [place.clone(), direction.to_string(), k1, k2, m2, c]
+        })
+    })
 }
 
-/// One line a chain, SI units in the header.
-pub(super) fn csv(model: &Model) -> String {
+/// One line a unit, SI units in the header.
+pub(super) fn csv(places: &[Place]) -> String {
     let mut text = String::from("foot,direction,k1_n_per_m,k2_n_per_m,m2_kg,c_ns_per_m\n");
-    for (foot, direction, chain) in rows(model) {
-        let Chain { k1, k2, m2, c } = *chain;
-        // writing to a String does not fail
-        let _ = writeln!(text, "{foot},{direction},{},{},{},{}", digits(k1), digits(k2), digits(m2), digits(c));
+    for row in rows(places) {
+        text.push_str(&(row.join(",") + "\n"));
     }
     text
 }
 
-/// A table to read and to paste, with the chain's picture.
-pub(super) fn markdown(model: &Model) -> String {
-    let mut text = format!("# Ground springs\n\n{}\n\n", model.title());
+/// A table to read and to paste, with the unit's picture.
+pub(super) fn markdown(title: &str, places: &[Place]) -> String {
+    let mut text = format!("# Ground springs\n\n{title}\n\n");
     text.push_str(
         "Under each foot, vertically and horizontally: foot - gap, k1 - m2 - (k2 parallel with c) - ground.\n",
     );
     text.push_str("The gaps press and never pull; the horizontal k1 acts only while its foot presses.\n\n");
     text.push_str("| foot | direction | k1 [N/m] | k2 [N/m] | m2 [kg] | c [N s/m] |\n|---|---|---|---|---|---|\n");
-    for (foot, direction, chain) in rows(model) {
-        let Chain { k1, k2, m2, c } = *chain;
-        let _ = writeln!(
-            text,
-            "| {foot} | {direction} | {} | {} | {} | {} |",
-            digits(k1),
-            digits(k2),
-            digits(m2),
-            digits(c)
-        );
+    for row in rows(places) {
+        // writing to a String cannot fail
+        let _ = writeln!(text, "| {} |", row.join(" | "));
     }
     text
 }

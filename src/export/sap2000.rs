@@ -17,7 +17,7 @@ mod links;
 
 use std::fmt::{Display, Write};
 
-use super::model::{Model, digits, legs_of};
+use super::model::{Model, digits};
 use cases::{cases, loads, record};
 use links::links;
 
@@ -182,9 +182,9 @@ fn legs(model: &Model) -> Vec<Table> {
     let body = model.body();
     let (v, hz) = (&model.springs.vertical, &model.springs.horizontal);
     let stiffest = v.k1.max(v.k2).max(hz.k1).max(hz.k2);
-    let legs = model.members.legs.unwrap_or(legs_of(LEG_STIFFNESS * stiffest, &body));
-    let area = digits(legs.ea * KILO / LEG_E);
-    let inertia = digits(legs.ei * KILO / LEG_E);
+    let (stiffness, length) = (LEG_STIFFNESS * stiffest * KILO, body.radius());
+    let area = digits(stiffness * length / LEG_E);
+    let inertia = digits(stiffness * length.powi(3) / 3.0 / LEG_E);
     let mut frames = Table::new("CONNECTIVITY - FRAME");
     let mut sections = Table::new("FRAME SECTION ASSIGNMENTS");
     for frame in [1, 2] {

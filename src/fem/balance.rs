@@ -33,8 +33,9 @@ impl<S: Scalar> Model<S> {
         if !self.massless() || !(feet[0].closed() || feet[1].closed()) {
             return true;
         }
-        if !self.elements.is_empty() {
-            return self.turn_with_elements(state, feet);
+        // a tendon pulls on the mass and turns nothing; with dampers the rotation cannot jump
+        if self.elements.dampers.is_some() {
+            return true;
         }
         let start = state.q[TH];
         let (before, ..) = self.potential(state, feet);

@@ -70,8 +70,8 @@ pub enum HistoryOutcome {
         /// (s)
         time: f64,
     },
-    /// No balance was found at this time (s): soft springs buckle under a body without rotational inertia, it leans so far that
-    /// its foot would have to pull, or a leg's place was not found. No motion follows from the model after that.
+    /// No balance was found at this time (s): soft springs buckle under a body without rotational inertia, or it leans so far that
+    /// its foot would have to pull. No motion follows from the model after that.
     Unstable {
         /// (s)
         time: f64,

@@ -6,7 +6,7 @@
 //!   base shear    sum H plus the tendon's horizontal force at its anchor: what the ground gives the body, m (X'' + ug'')
 //! ```
 //!
-//! The legs of a rigid body carry the same forces, rigid or not; those of a solid block mean little.
+//! The legs are those of a rigid A-frame, the lines from the mass to its feet; those of a solid block mean little.
 
 use std::ops::ControlFlow;
 

@@ -1,5 +1,5 @@
 //! Elements between the body and the ground. Each gives its energy, its force on the body's coordinates X, Z, theta, the tangent of that
-//! force and the power it takes; the model adds them up. Legs are no such element: they stand between the body and the contact (`frame`).
+//! force and the power it takes; the model adds them up.
 //!
 //! ```text
 //!   F = -dU/dq + F_d(q, q')      K = -dF/dq      C = -dF/dq'      power taken  P = -F_d . q'
@@ -11,11 +11,8 @@ mod tendon;
 pub(crate) use dampers::Dampers;
 pub(crate) use tendon::Tendon;
 
-use super::{
-    leg::Leg,
-    model::{TH, Vector, X, Z},
-};
-use crate::{members::Members, scalar::Scalar, structure::Body};
+use super::model::{TH, Vector, X, Z};
+use crate::scalar::Scalar;
 
 /// K [N/m, N, N m] and C [N s/m, N s, N m s] of an element, rows and columns X, Z, theta.
 #[derive(Clone, Copy, Debug)]
@@ -39,37 +36,25 @@ pub(crate) trait Element<S: Scalar> {
 /// All that a body has besides its springs.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Elements<S> {
-    pub leg: Option<Leg<S>>,
     pub dampers: Option<Dampers<S>>,
     pub tendon: Option<Tendon<S>>,
 }
 
 impl<S> Elements<S> {
     /// A rigid body's.
-    pub const NONE: Self = Self { leg: None, dampers: None, tendon: None };
+    pub const NONE: Self = Self { dampers: None, tendon: None };
 
     /// Whether there are none.
     #[inline(always)]
     pub fn is_empty(&self) -> bool {
-        self.leg.is_none() && self.dampers.is_none() && self.tendon.is_none()
+        self.dampers.is_none() && self.tendon.is_none()
     }
 }
 
 impl<S: Scalar> Elements<S> {
-    /// Members under a body, the tendon left out: its slack length follows from the stance.
-    pub fn new(members: &Members<S>, body: &Body<S>) -> Self {
-        let length = body.radius();
-        Self {
-            leg: members.legs.map(|l| Leg { length, axial: l.ea / length, bending: l.ei * 3.0 / length }),
-            dampers: members.damper.filter(|d| d.c.re() > 0.0).map(|d| Dampers::new(d.c, body)),
-            tendon: None,
-        }
-    }
-
     /// The elements without derivatives.
     pub fn real(&self) -> Elements<f64> {
         Elements {
-            leg: self.leg.map(|l| Leg { length: l.length.re(), axial: l.axial.re(), bending: l.bending.re() }),
             dampers: self.dampers.map(|dampers| dampers.real()),
             tendon: self.tendon.map(|tendon| tendon.real()),
         }
@@ -90,18 +75,15 @@ impl<S: Scalar> Elements<S> {
         }
     }
 
-    /// An energy and what is stored in legs, of which `legs` knows, and elements [J].
+    /// An energy and what the elements store [J].
     #[inline(always)]
-    pub fn add_energy(&self, energy: S, q: &Vector<S>, legs: impl Fn(&Leg<S>) -> S) -> S {
-        if self.is_empty() {
-            return energy;
-        }
-        energy + self.stored(self.leg.as_ref().map_or(S::zero(), legs), q)
+    pub fn add_energy(&self, energy: S, q: &Vector<S>) -> S {
+        if self.is_empty() { energy } else { energy + self.stored(q) }
     }
 
     #[inline(never)]
-    fn stored(&self, legs: S, q: &Vector<S>) -> S {
-        self.each().fold(legs, |stored, element| stored + element.energy(q))
+    fn stored(&self, q: &Vector<S>) -> S {
+        self.each().fold(S::zero(), |stored, element| stored + element.energy(q))
     }
 
     /// A power and what the elements take [W].

@@ -16,8 +16,9 @@
 //! the engineer's deck, where the weight is a load on the mass.
 
 pub(crate) use super::contact::{Contact, ContactLaw, Foot, FootForce};
-use super::element::Elements;
+use super::element::{Dampers, Elements, Tendon};
 use crate::{
+    members::{self, Members},
     scalar::{GRAVITY, Scalar, sin_cos},
     spring::{Chain, Springs},
     structure::Body,
@@ -79,7 +80,7 @@ impl<S: Scalar> Pose<S> {
 /// damps it by the error of its integrator. Its limit is well behaved: the rotation follows the contact forces at once.
 /// The inertia that rocking feels is kept, m R^2 + I_cg, by moving I_cg/R^2 into the inertia of the translation; what is
 /// lost is the share 2 sin^2(alpha) I_cg/(m R^2) of the restitution, less than 1e-3 for any slender body.
-pub(crate) const MASSLESS_ROTATION: f64 = 2e-3;
+const MASSLESS_ROTATION: f64 = 2e-3;
 
 /// Body and springs, ready to compute with.
 #[derive(Clone, Copy, Debug)]
@@ -92,7 +93,7 @@ pub(crate) struct Model<S> {
     pub rotation: S,
     /// What a pressing foot can take along the ground.
     pub law: ContactLaw<S>,
-    /// Legs, dampers, tendon; none under a rigid body.
+    /// Dampers, tendon; none of a body on its springs alone.
     pub elements: Elements<S>,
     /// Solve nothing for an open foot's contact (`Control::skip_open`).
     pub skip_open: bool,
@@ -109,6 +110,30 @@ impl<S: Scalar> Model<S> {
         };
         let (law, elements) = (ContactLaw::Sticking, Elements::NONE);
         Self { body: *body, springs: *springs, translation, rotation, law, elements, skip_open: true }
+    }
+
+    /// A body with members on its springs. The tendon is stressed so that its tension in the settled structure is its pretension.
+    pub fn with_members(body: &Body<S>, springs: &Springs<Chain<S>>, members: &Members<S>) -> Self {
+        let mut model = Self::new(body, springs);
+        if let Some(friction) = members.friction {
+            // while feet slip, nothing but its own inertia holds the rotation
+            (model.translation, model.rotation) = (body.mass, body.inertia);
+            model.law = ContactLaw::Coulomb { coefficient: friction.coefficient };
+            return model;
+        }
+        if let Some(damper) = members.damper.filter(|damper| damper.c.re() > 0.0) {
+            model.elements.dampers = Some(Dampers::new(damper.c, body));
+            if body.inertia.re() > 0.0 {
+                // dampers let a rotation without inertia neither follow the contact forces at once nor keep its rate
+                (model.translation, model.rotation) = (body.mass, body.inertia);
+            }
+        }
+        if let Some(members::Tendon { stiffness, pretension }) = members.tendon {
+            let (state, _) = model.stand(body.mass * GRAVITY + pretension);
+            let slack = body.height + state.q[Z] - pretension / stiffness;
+            model.elements.tendon = Some(Tendon { stiffness, slack, height: body.height, pretension });
+        }
+        model
     }
 
     /// Whether this is the rigid body on feet that hold at any force.
@@ -149,16 +174,13 @@ impl<S: Scalar> Model<S> {
     }
 
     /// Compression of foot i's gap, a_z - p_z: positive when the foot presses [m].
-    pub fn compression(&self, i: usize, q: &Vector<S>, foot: &Foot<S>) -> S {
-        self.compression_at(&Pose::of(q), i, q, foot)
+    pub fn compression(&self, i: usize, q: &Vector<S>) -> S {
+        self.compression_at(&Pose::of(q), i, q)
     }
 
     /// The same where the rotation's sine and cosine are known.
     #[inline(always)]
-    pub fn compression_at(&self, pose: &Pose<S>, i: usize, q: &Vector<S>, foot: &Foot<S>) -> S {
-        if let Some(leg) = &self.elements.leg {
-            return q[az(i)] - self.poised(Some(leg), i, q, foot).place[1];
-        }
+    pub fn compression_at(&self, pose: &Pose<S>, i: usize, q: &Vector<S>) -> S {
         q[az(i)] - self.foot(i, q, pose.sin, pose.cos).1
     }
 
@@ -170,11 +192,7 @@ impl<S: Scalar> Model<S> {
     }
 
     /// Rate of the compression [m/s].
-    pub fn compression_rate(&self, i: usize, state: &State<S>, foot: &Foot<S>) -> S {
-        if let (Some(leg), true) = (&self.elements.leg, foot.closed()) {
-            let poised = self.poised(Some(leg), i, &state.q, foot);
-            return poised.tangent().change(&poised.force, i, &state.v)[1] / self.springs.vertical.k1;
-        }
+    pub fn compression_rate(&self, i: usize, state: &State<S>) -> S {
         let Pose { sin, cos } = Pose::of(&state.q);
         let pz_th = self.foot(i, &state.q, sin, cos).3;
         state.v[az(i)] - state.v[Z] - pz_th * state.v[TH]
@@ -201,10 +219,7 @@ impl<S: Scalar> Model<S> {
     }
 
     /// The anchor that leaves foot i's horizontal spring without force where it stands now [m].
-    pub fn anchor_here(&self, i: usize, q: &Vector<S>, foot: &Foot<S>) -> S {
-        if let Some(leg) = &self.elements.leg {
-            return self.poised(Some(leg), i, q, foot).place[0] - q[ax(i)];
-        }
+    pub fn anchor_here(&self, i: usize, q: &Vector<S>) -> S {
         let Pose { sin, cos } = Pose::of(q);
         self.foot(i, q, sin, cos).0 - q[ax(i)]
     }
@@ -218,9 +233,6 @@ impl<S: Scalar> Model<S> {
     /// The same where the rotation's sine and cosine are known.
     #[inline(always)]
     pub fn contact_at(&self, pose: &Pose<S>, q: &Vector<S>, feet: &[Foot<S>; 2]) -> [FootForce<S>; 2] {
-        if let Some(leg) = &self.elements.leg {
-            return self.contact_on_legs(leg, q, feet);
-        }
         [self.foot_force(pose, 0, q, &feet[0]), self.foot_force(pose, 1, q, &feet[1])]
     }
 
@@ -317,7 +329,7 @@ impl<S: Scalar> Model<S> {
             twice
         };
         let twice = self.body_kinetic(state) * 2.0 + self.body.mass * q[Z] * (2.0 * GRAVITY) + (share(0) + share(1));
-        self.elements.add_energy(twice * 0.5, q, |leg| self.legs_energy(leg, q, feet))
+        self.elements.add_energy(twice * 0.5, q)
     }
 
     /// Power of the base excitation in the moving frame, -ug'' (m X' + sum m2_h a_x') - vg'' (m Z' + sum m2_v a_z') [W].

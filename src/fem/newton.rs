@@ -27,12 +27,14 @@ impl<T: Num + Copy> Chains<T> {
     }
 }
 
-/// The matrix for one eigenvalue, ready to solve with.
+/// The matrix for one eigenvalue with its chains, ready to solve with.
+#[cfg(test)]
 pub(super) struct Newton<T> {
     chains: Chains<T>,
     matrix: Matrix<T>,
 }
 
+#[cfg(test)]
 impl<T: Num + Copy + Neg<Output = T>> Newton<T> {
     /// Factor at `state` for s = h lambda.
     pub fn new<S: Scalar>(
@@ -74,7 +76,7 @@ impl<T: Num + Copy + Neg<Output = T>> Matrix<T> {
         lift: impl Fn(S) -> T,
     ) -> Self {
         if !model.elements.is_empty() {
-            return Self::Coupled(Box::new(Coupled::new(model, state, feet, s, &lift)));
+            return Self::Coupled(Box::new(Coupled::new(chains, model, state, feet, s, &lift)));
         }
         if feet.iter().any(|foot| matches!(foot.contact, Contact::Slip(_))) {
             return Self::Slipping(Box::new(Slipping::new(model, state, feet, s, &lift)));
@@ -91,7 +93,7 @@ impl<T: Num + Copy + Neg<Output = T>> Matrix<T> {
     {
         match self {
             Self::Rigid(rigid) => rigid.solve(chains, r, times),
-            Self::Coupled(coupled) => coupled.solve(r, times),
+            Self::Coupled(coupled) => coupled.solve(chains, r, times),
             Self::Slipping(slipping) => slipping.solve(r, times),
         }
     }
@@ -122,18 +124,11 @@ impl<T: Num + Copy + Neg<Output = T>> Rigid<T> {
         s: T,
         lift: impl Fn(S) -> T,
     ) -> Self {
-        // [xx, zz, tt, x_th, z_th] of both feet
         let mut shares = [[T::zero(); 5]; 2];
         let mut lever = [[T::zero(); 2]; 2];
         for i in 0..2 {
-            let ([h, v], foot) = (&chains.0[i], &contact[i]);
             if closed[i] {
-                lever[i] = [lift(foot.px_th), lift(foot.pz_th)];
-                let [px, pz] = lever[i];
-                // the turning lever arms: d2p_x = dp_z, d2p_z = -dp_x
-                let geometric = lift(foot.vertical * foot.px_th - foot.horizontal * foot.pz_th);
-                let tt = h.stiffness * px * px + v.stiffness * pz * pz + s * s * geometric;
-                shares[i] = [h.stiffness, v.stiffness, tt, h.stiffness * px, v.stiffness * pz];
+                (shares[i], lever[i]) = share(&chains.0[i], &contact[i], s, &lift);
             }
         }
         let sum = |k: usize| shares[0][k] + shares[1][k];
@@ -162,7 +157,6 @@ impl<T: Num + Copy + Neg<Output = T>> Rigid<T> {
         [x, z, th, lx, lz, rx, rz]
     }
 
-    /// What of the right side of foot i's absorbers reaches X, Z and theta.
     #[inline(always)]
     fn reach<V>(&self, chains: &Chains<T>, i: usize, r: &[V; N], times: impl Fn(V, T) -> V + Copy) -> [V; 3]
     where
@@ -171,29 +165,65 @@ impl<T: Num + Copy + Neg<Output = T>> Rigid<T> {
         if !self.closed[i] {
             return [V::zero(), V::zero(), V::zero()];
         }
-        let ([h, v], [px, pz]) = (&chains.0[i], self.lever[i]);
-        let (from_x, from_z) = (times(r[ax(i)], h.share), times(r[az(i)], v.share));
-        [from_x, from_z, times(from_x, px) + times(from_z, pz)]
+        reach(&chains.0[i], self.lever[i], [r[ax(i)], r[az(i)]], times)
     }
 
-    /// The correction of foot i's absorbers, that of the body known.
     #[inline(always)]
     fn absorbers<V>(
         &self,
         chains: &Chains<T>,
         i: usize,
         r: &[V; N],
-        [x, z, th]: [V; 3],
+        body: [V; 3],
         times: impl Fn(V, T) -> V + Copy,
     ) -> [V; 2]
     where
         V: Copy + Add<Output = V> + Sub<Output = V> + Zero,
     {
-        let ([h, v], [px, pz]) = (&chains.0[i], self.lever[i]);
         if !self.closed[i] {
+            let [h, v] = &chains.0[i];
             return [times(r[ax(i)], h.pivot), times(r[az(i)], v.pivot)];
         }
-        let along = times(r[ax(i)] + times(x + times(th, px), h.coupling), h.pivot);
-        [along, times(r[az(i)] + times(z + times(th, pz), v.coupling), v.pivot)]
+        absorbers(&chains.0[i], self.lever[i], [r[ax(i)], r[az(i)]], body, times)
     }
+}
+
+/// A closed foot's share of the body's matrix, [xx, zz, tt, x_th, z_th], and its lever [dp_x/dtheta, dp_z/dtheta].
+#[inline(always)]
+pub(super) fn share<S: Scalar, T: Num + Copy>(
+    [h, v]: &[Condensed<T>; 2],
+    foot: &FootForce<S>,
+    s: T,
+    lift: &impl Fn(S) -> T,
+) -> ([T; 5], [T; 2]) {
+    let [px, pz] = [lift(foot.px_th), lift(foot.pz_th)];
+    // the turning lever arms: d2p_x = dp_z, d2p_z = -dp_x
+    let geometric = lift(foot.vertical * foot.px_th - foot.horizontal * foot.pz_th);
+    let tt = h.stiffness * px * px + v.stiffness * pz * pz + s * s * geometric;
+    ([h.stiffness, v.stiffness, tt, h.stiffness * px, v.stiffness * pz], [px, pz])
+}
+
+/// What of the right side of a closed foot's absorbers, horizontal and vertical, reaches X, Z and theta.
+#[inline(always)]
+pub(super) fn reach<T: Num + Copy, V: Copy + Add<Output = V>>(
+    [h, v]: &[Condensed<T>; 2],
+    [px, pz]: [T; 2],
+    r: [V; 2],
+    times: impl Fn(V, T) -> V,
+) -> [V; 3] {
+    let (from_x, from_z) = (times(r[0], h.share), times(r[1], v.share));
+    [from_x, from_z, times(from_x, px) + times(from_z, pz)]
+}
+
+/// The correction of a closed foot's absorbers, that of the body known.
+#[inline(always)]
+pub(super) fn absorbers<T: Num + Copy, V: Copy + Add<Output = V>>(
+    [h, v]: &[Condensed<T>; 2],
+    [px, pz]: [T; 2],
+    r: [V; 2],
+    [x, z, th]: [V; 3],
+    times: impl Fn(V, T) -> V,
+) -> [V; 2] {
+    let along = times(r[0] + times(x + times(th, px), h.coupling), h.pivot);
+    [along, times(r[1] + times(z + times(th, pz), v.coupling), v.pivot)]
 }

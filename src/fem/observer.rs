@@ -64,7 +64,7 @@ impl<S: Scalar> View<'_, S> {
 
     /// Speed at which foot i comes down on its absorber [m/s].
     pub fn gap_speed(&self, i: usize) -> S {
-        self.model.compression_rate(i, self.state, &self.feet[i])
+        self.model.compression_rate(i, self.state)
     }
 
     /// Kinetic energy of the body [J].

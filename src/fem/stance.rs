@@ -2,21 +2,23 @@
 
 use super::model::{Contact, Foot, Model, N, State, TH, X, Z, ax, az};
 use crate::{
+    fem::model::Pose,
     scalar::{GRAVITY, Scalar, real, sin_cos},
     spring::Springs,
 };
 
+/// Iterations after which a body leaning under a tendon has no place; a handful is needed.
+const MOST_ITERATIONS: usize = 40;
+
 impl<S: Scalar> Model<S> {
     /// The body standing still on both feet under its weight, each foot on half of it.
     pub fn settled(&self) -> (State<S>, [Foot<S>; 2]) {
-        match self.elements.is_empty() {
-            true => self.stand_rigid(self.body.mass * GRAVITY),
-            false => self.stand(S::zero()),
-        }
+        let pretension = self.elements.tendon.map_or(S::zero(), |tendon| tendon.pretension);
+        self.stand(self.body.mass * GRAVITY + pretension)
     }
 
-    /// The rigid body standing still under a load on its mass [N], downwards.
-    pub fn stand_rigid(&self, load: S) -> (State<S>, [Foot<S>; 2]) {
+    /// The body standing still under a load on its mass [N], downwards.
+    pub fn stand(&self, load: S) -> (State<S>, [Foot<S>; 2]) {
         let half_weight = load * 0.5;
         let absorber = -half_weight / self.springs.vertical.k2;
         let mut q = [S::zero(); N];
@@ -34,8 +36,8 @@ impl<S: Scalar> Model<S> {
     ///   theta'' = -m g R sin(alpha - theta) / I0      H = m X''      N = m (g + Z'')
     /// ```
     pub fn on_one_foot(&self, theta: S) -> (State<S>, [Foot<S>; 2]) {
-        if !self.elements.is_empty() {
-            return self.lean_with_elements(theta);
+        if self.elements.tendon.is_some() {
+            return self.lean_under_tendon(theta);
         }
         let side: S = real(if theta.re() > 0.0 { 1.0 } else { -1.0 });
         let pressing = usize::from(theta.re() > 0.0);
@@ -59,13 +61,53 @@ impl<S: Scalar> Model<S> {
         (State { q, v: [S::zero(); N] }, feet)
     }
 
+    /// At rest leaning by theta on one foot, pulled by the tendon, whose pull follows from the place and the place from it.
+    fn lean_under_tendon(&self, theta: S) -> (State<S>, [Foot<S>; 2]) {
+        let pressing = usize::from(theta.re() > 0.0);
+        let Springs { vertical, horizontal } = &self.springs;
+        let mut q = [S::zero(); N];
+        q[TH] = theta;
+        let mut feet = [Foot { contact: Contact::Open, anchor: S::zero() }; 2];
+        for _ in 0..MOST_ITERATIONS {
+            let (h, n) = self.falling_back(&q, pressing);
+            q[ax(pressing)] = -h / horizontal.k2;
+            q[az(pressing)] = -n / vertical.k2;
+            feet[pressing] = Foot { contact: Contact::Stick, anchor: h / horizontal.k1 - q[ax(pressing)] };
+            let Pose { sin, cos } = Pose::of(&q);
+            let (px, pz, ..) = self.foot(pressing, &q, sin, cos);
+            let (dx, dz) = (-px, q[az(pressing)] - n / vertical.k1 - pz);
+            q[X] += dx;
+            q[Z] += dz;
+            if dx.re().hypot(dz.re()) <= 1e-14 * self.body.radius().re() {
+                return (State { q, v: [S::zero(); N] }, feet);
+            }
+        }
+        // a run from nowhere is unstable from the start
+        (State { q: [real(f64::NAN); N], v: [S::zero(); N] }, feet)
+    }
+
+    /// Force on the pressing foot, horizontal and vertical, while a rigid body falls back from rest under weight and tendon [N].
+    fn falling_back(&self, q: &[S; N], pressing: usize) -> (S, S) {
+        let pull = self.elements.tendon.map_or([S::zero(); 2], |tendon| tendon.force_on_mass(q));
+        let (gx, gz) = (pull[0], pull[1] - self.body.mass * GRAVITY);
+        let Pose { sin, cos } = Pose::of(q);
+        let (_, _, dz, minus_dx) = self.foot(pressing, q, sin, cos);
+        let radius = self.body.radius();
+        let (tx, tz) = (-minus_dx / radius, dz / radius);
+        // the part of the load across the leg accelerates the body about its foot
+        let across = gz * tx - gx * tz;
+        let swing = self.translation * radius * radius;
+        let thrust = across * swing / (self.rotation + swing);
+        (-gx - thrust * tz, -gz + thrust * tx)
+    }
+
     /// A start for free rocking: at rest `on_one_foot`; a lean of less than the settlement leaves the other foot in the
     /// ground, and then it presses too.
     pub fn leaning(&self, theta: S) -> (State<S>, [Foot<S>; 2]) {
         let (mut state, mut feet) = self.on_one_foot(theta);
         for (i, foot) in feet.iter_mut().enumerate() {
-            if !foot.closed() && self.compression(i, &state.q, foot).re() > 0.0 {
-                *foot = Foot { contact: Contact::Stick, anchor: self.anchor_here(i, &state.q, foot) };
+            if !foot.closed() && self.compression(i, &state.q).re() > 0.0 {
+                *foot = Foot { contact: Contact::Stick, anchor: self.anchor_here(i, &state.q) };
             }
         }
         // a body that finds no balance is told by the run (`in_balance`)

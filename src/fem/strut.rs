@@ -86,10 +86,10 @@ mod tests {
         let model = model::<f64>();
         let feet = [Foot { contact: Contact::Open, anchor: 0.0 }; 2];
         let (forces, masses) = (model.forces(&Q, &V, &feet, [0.0; 2]), model.masses(&feet));
-        for (i, foot) in feet.iter().enumerate() {
+        for i in 0..feet.len() {
             let moving = |t: f64| {
                 let q = std::array::from_fn(|k| Q[k] + V[k] * t + 0.5 * forces[k] / masses[k] * t * t);
-                model.compression(i, &q, foot)
+                model.compression(i, &q)
             };
             let t = 1e-4;
             let second = (moving(t) - 2.0 * moving(0.0) + moving(-t)) / (t * t);
@@ -112,7 +112,7 @@ mod tests {
             assert!(force.horizontal == 0.0 && force.vertical.abs() < 1e-9 * 100.0 * GRAVITY, "{force:?}");
             assert!(!feet[i].presses());
             model.rotate_in_balance(&mut state, &feet);
-            assert!(model.compression_rate(i, &state, &feet[i]).abs() < 1e-14);
+            assert!(model.compression_rate(i, &state).abs() < 1e-14);
         }
     }
 }

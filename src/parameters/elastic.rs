@@ -140,6 +140,17 @@ impl ElasticParameters {
         value["springs"].is_array() && value["structure"]["kind"].is_string()
     }
 
+    /// Read a file, if it is of an elastic structure.
+    ///
+    /// # Errors
+    /// It cannot be read; what is wrong with it.
+    pub fn read(path: &Path) -> Result<Option<Self>, ParametersError> {
+        let name = path.display().to_string();
+        let text =
+            std::fs::read_to_string(path).map_err(|source| ParametersError::Read { path: name.clone(), source })?;
+        if Self::is(&text) { Self::parse(&name, &text).map(Some) } else { Ok(None) }
+    }
+
     /// Parse a file's text; `path` names it in messages.
     ///
     /// # Errors

@@ -28,10 +28,6 @@ const LOOSER: f64 = 5.0;
 
 /// Run the deck beside our own history.
 pub fn run(o: &Options, parameters: &ElasticParameters, program: &Program) -> Result<(), CommandError> {
-    if matches!(program, Program::Tcl(_)) {
-        let remedy = "decks of elastic structures are for openseespy; leave it out";
-        return Err(CommandError::Option { option: "tcl", value: "given".into(), remedy });
-    }
     let excitation = o.record.excitation(|| parameters.excitation(&o.parameters))?;
     let record = excitation.used()?;
     check_folder(&o.out)?;
@@ -41,7 +37,7 @@ pub fn run(o: &Options, parameters: &ElasticParameters, program: &Program) -> Re
     let histories = Reference::new(&assembled, &record)
         .and_then(|reference| ElasticHistories::new(&assembled, &springs, &record, reference))
         .map_err(|e| CommandError::Result(e.to_string()))?;
-    let text = deck(&assembled, &springs, &record, &histories.fem, o.accuracy);
+    let text = deck(&assembled, &springs, &record, &histories.fem, (program.format(), o.accuracy))?;
     let progress = Progress::new("OpenSees [s]", o.quiet);
     let samples = histories.fem.q.len();
     let read = |path: &Path| sways(&assembled, path, samples);

@@ -19,6 +19,8 @@ pub(crate) struct Tendon<S> {
     pub slack: S,
     /// h, of the mass above the anchor while the structure stands unstressed [m].
     pub height: S,
+    /// T while the structure stands settled [N].
+    pub pretension: S,
 }
 
 /// Its state in one configuration.
@@ -35,7 +37,8 @@ struct Pull<S> {
 
 impl<S: Scalar> Tendon<S> {
     pub fn real(&self) -> Tendon<f64> {
-        Tendon { stiffness: self.stiffness.re(), slack: self.slack.re(), height: self.height.re() }
+        let Self { stiffness, slack, height, pretension } = self;
+        Tendon { stiffness: stiffness.re(), slack: slack.re(), height: height.re(), pretension: pretension.re() }
     }
 
     /// Its pull; none while it is slack.

@@ -3,7 +3,7 @@
 use num_dual::Dual64;
 
 use super::*;
-use crate::fem::model::N;
+use crate::{fem::model::N, structure::Body};
 
 const Q: Vector<f64> = [0.4, 0.03, 0.07, 0.0, 0.0, 0.0, 0.0];
 const V: Vector<f64> = [0.5, -0.2, 0.3, 0.0, 0.0, 0.0, 0.0];
@@ -14,7 +14,12 @@ fn body<S: Scalar>() -> Body<S> {
 
 /// Every element, by name.
 fn all<S: Scalar>() -> Vec<(&'static str, Box<dyn Element<S>>)> {
-    let tendon = |slack: f64| Tendon { stiffness: S::from(4e6), slack: S::from(slack), height: S::from(9.0) };
+    let tendon = |slack: f64| Tendon {
+        stiffness: S::from(4e6),
+        slack: S::from(slack),
+        height: S::from(9.0),
+        pretension: S::zero(),
+    };
     vec![
         ("dampers", Box::new(Dampers::new(S::from(3e4), &body()))),
         ("tendon", Box::new(tendon(8.9))),
@@ -67,7 +72,7 @@ fn the_power_taken_is_that_of_the_force_beyond_its_potential() {
 
 #[test]
 fn a_slack_tendon_does_nothing_and_an_upright_one_pulls_by_its_stretch() {
-    let tendon = Tendon { stiffness: 4e6, slack: 8.9, height: 9.0 };
+    let tendon = Tendon { stiffness: 4e6, slack: 8.9, height: 9.0, pretension: 0.0 };
     let still = [0.0; N];
     // 0.1 m of stretch, upright
     assert!((tendon.tension(&still) - 4e5).abs() < 1e-6 && (tendon.energy(&still) - 2e4).abs() < 1e-6);

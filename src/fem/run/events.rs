@@ -103,10 +103,6 @@ impl<S: Scalar> Run<'_, S> {
         self.model.is_strut() && !self.feet[1 - foot].closed() && strut.press <= 0.0
     }
 
-    fn on_legs(&self) -> bool {
-        self.model.elements.leg.is_some()
-    }
-
     /// Compression of k1 from which this foot, sliding, holds [m].
     pub(super) fn holding(&self, foot: usize) -> f64 {
         HOLDING * LET_GO * self.leant_on[foot] / self.model.springs.vertical.k1.re()
@@ -126,12 +122,12 @@ impl<S: Scalar> Run<'_, S> {
         let (foot, h, end) = (event.foot, event.h, stages.end());
         // the contact lasts while sign (compression - level) is positive
         let sign = if self.feet[foot].closed() && event.level == 0.0 { 1.0 } else { -1.0 };
-        let gap = self.model.compression(foot, &end.q, &self.feet[foot]) - event.level;
+        let gap = self.model.compression(foot, &end.q) - event.level;
         let met = gap.re().abs() <= self.gap_tolerance();
         if met && self.control.extra_iterations == 0 {
             return Located::Here { changes: true };
         }
-        let correction = gap / self.model.compression_rate(foot, &end, &self.feet[foot]);
+        let correction = gap / self.model.compression_rate(foot, &end);
         let usable = correction.re().abs() <= 0.5 * h.re();
         if met {
             if !usable {
@@ -160,38 +156,17 @@ impl<S: Scalar> Run<'_, S> {
         if event.tried == MOST_LOCATED { Located::Nowhere } else { Located::Next(event.h) }
     }
 
-    /// A foot on an elastic leg springs sideways, and maybe down, when its horizontal force is let go: it opens only if it
-    /// would not press without that force. If it would, it holds where the leg, relaxed, has carried it; and if that took more
-    /// than the `stored` energy [J], it slides, which never does: leg and contact are then free to stay as they were.
-    fn catch(&mut self, foot: usize, relaxed: S, stored: S) {
-        if !self.on_legs() || self.feet[foot].closed() || !self.feet[1 - foot].holds() {
-            return;
-        }
-        let open = (self.state, self.feet[foot]);
-        let holds = self.let_go[foot] > LET_GO;
-        for contact in if holds { [Contact::Stick, Contact::Slide] } else { [Contact::Slide; 2] } {
-            (self.state, self.feet[foot]) = (open.0, Foot { contact, anchor: relaxed });
-            self.balanced = self.model.turn_to_balance(&mut self.state, &self.feet);
-            if self.model.energy(&self.state, &self.feet).re() <= stored.re() {
-                break;
-            }
-        }
-        if self.model.compression(foot, &self.state.q, &self.feet[foot]).re() <= self.gap_tolerance() {
-            (self.state, self.feet[foot]) = open;
-        }
-    }
-
     /// Change a foot's contact.
     pub(super) fn switch(&mut self, foot: usize, level: f64, time: S, observer: &mut impl Observer<S>) {
         let before = self.energy.stored;
         let was = self.feet[foot].contact;
         self.model.rotate_in_balance(&mut self.state, &self.feet);
-        let anchor = self.model.anchor_here(foot, &self.state.q, &self.feet[foot]);
+        let anchor = self.model.anchor_here(foot, &self.state.q);
         self.feet[foot] = match was {
             Contact::Open => {
                 let at_once = time.re() - self.opened[foot] < AT_ONCE * self.settling;
                 let held = self.let_go[foot] > LET_GO
-                    || self.model.compression(foot, &self.state.q, &self.feet[foot]).re() >= self.holding(foot);
+                    || self.model.compression(foot, &self.state.q).re() >= self.holding(foot);
                 // a body on sliding feet alone has nothing to lean on
                 let leans = self.feet[1 - foot].holds();
                 // with friction the force has gone before the foot opens, and nothing jumps
@@ -221,15 +196,10 @@ impl<S: Scalar> Run<'_, S> {
         let other = 1 - foot;
         let trails = self.feet[other].contact == Contact::Trail;
         if trails || self.feet[other].contact == Contact::Slide && !self.feet[foot].holds() {
-            let anchor = self.model.anchor_here(other, &self.state.q, &self.feet[other]);
+            let anchor = self.model.anchor_here(other, &self.state.q);
             self.feet[other] = Foot { contact: Contact::Stick, anchor };
         }
-        // a leg that lets its force go carries the foot to where it would be without
-        let relaxed = self.model.anchor_here(foot, &self.state.q, &self.feet[foot]);
         let met = self.turn();
-        if was == Contact::Stick {
-            self.catch(foot, relaxed, before);
-        }
         self.model.rotate_in_balance(&mut self.state, &self.feet);
         self.energy.stored = self.model.energy(&self.state, &self.feet);
         self.energy.released += before - self.energy.stored;
@@ -262,7 +232,7 @@ impl<S: Scalar> Run<'_, S> {
             && !(whirls && flies && self.model.massless())
             && self.model.turn_to_balance(&mut self.state, &self.feet);
         let end = self.state.q[TH];
-        // feet on elastic legs, and feet that may slip, are met by the steps that follow
+        // feet of a structure with members, and feet that may slip, are met by the steps that follow
         if !self.balanced || end.re() == start.re() || !self.model.is_plain() {
             return None;
         }
@@ -271,7 +241,7 @@ impl<S: Scalar> Run<'_, S> {
             let inside = |theta: S| {
                 let mut q = self.state.q;
                 q[TH] = theta;
-                sign * self.model.compression(foot, &q, &self.feet[foot]).re()
+                sign * self.model.compression(foot, &q).re()
             };
             if inside(end) >= -self.gap_tolerance() {
                 return None;

@@ -103,8 +103,7 @@ impl<S: Scalar> Run<'_, S> {
         let force = self.model.contact(&self.state.q, &self.feet)[foot].horizontal;
         self.feet[foot] = match self.feet[foot].contact {
             Contact::Slip(_) => {
-                let anchor = self.model.anchor_here(foot, &self.state.q, &self.feet[foot])
-                    + force / self.model.springs.horizontal.k1;
+                let anchor = self.model.anchor_here(foot, &self.state.q) + force / self.model.springs.horizontal.k1;
                 Foot { contact: Contact::Stick, anchor }
             }
             _ => Foot { contact: Contact::Slip(-force.re().signum()), ..self.feet[foot] },

@@ -88,7 +88,7 @@ impl<S: Scalar> Run<'_, S> {
     fn gaps(&self, stages: &Stages<S>) -> [[f64; 4]; 2] {
         let nodes = [&self.state.q, &stages.q[0], &stages.q[1], &stages.q[2]];
         let poses = nodes.map(Pose::of);
-        let at = |foot: usize, k: usize| self.model.compression_at(&poses[k], foot, nodes[k], &self.feet[foot]).re();
+        let at = |foot: usize, k: usize| self.model.compression_at(&poses[k], foot, nodes[k]).re();
         [0, 1].map(|foot| [0, 1, 2, 3].map(|k| at(foot, k)))
     }
 
@@ -115,7 +115,7 @@ impl<S: Scalar> Run<'_, S> {
 
     /// Speed at which a foot moves off the edge of its limit, into it [m/s].
     fn moves_in(&self, foot: usize, sign: f64) -> f64 {
-        sign * self.model.compression_rate(foot, &self.state, &self.feet[foot]).re()
+        sign * self.model.compression_rate(foot, &self.state).re()
     }
 }
 

@@ -33,7 +33,7 @@ impl Kernel {
             rotation: f(13),
             law: ContactLaw::Sticking,
             // written out: of a constant the compiler copies the bytes, and then does not see that there are none
-            elements: Elements { leg: None, dampers: None, tendon: None },
+            elements: Elements { dampers: None, tendon: None },
             skip_open: true,
         }
     }
@@ -243,7 +243,7 @@ impl Kernel {
                 let sign = if feet[I].closed() { 1.0 } else { -1.0 };
                 let mut inside = [0.0; 4];
                 coordinates!(M in 0 1 2 3 => {
-                    let gap = model.compression_at(&poses[M], I, &nodes[M], &feet[I]);
+                    let gap = model.compression_at(&poses[M], I, &nodes[M]);
                     self.gaps[I][M][l] = gap;
                     inside[M] = sign * gap;
                 });
