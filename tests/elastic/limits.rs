@@ -209,10 +209,8 @@ fn a_corner_that_lands_flat_slides_on() {
         q[1] += 1e-9 - pier.corner(1, &q, &still).place[1];
         let (sin, cos) = lean.sin_cos();
         // from the footing's centre to the corner
-        let arm = [
-            pier.half_width * cos - pier.footing_height * sin,
-            -pier.half_width * sin - pier.footing_height * cos,
-        ];
+        let arm =
+            [pier.half_width * cos - pier.footing_height * sin, -pier.half_width * sin - pier.footing_height * cos];
         let (m, inertia) = (pier.footing_mass, pier.footing_inertia);
         let (w_xx, w_xz) = (1.0 / m + arm[1] * arm[1] / inertia, -arm[0] * arm[1] / inertia);
         let down = -0.5;

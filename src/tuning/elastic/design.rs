@@ -27,7 +27,7 @@ use crate::{
     elastic::standing::{FixedResponse, FootingInertia, Standing},
     scalar::GRAVITY,
     spring::{Chain, Springs},
-    tuning::landing::{corners::Corners, design::for_landing},
+    tuning::landing::{corners::Corners, design::for_part},
 };
 
 /// See above; the range of K: soft springs bounce on a larger one, and below the least no chain is sought.
@@ -83,7 +83,7 @@ impl Lands {
 
     /// Units at K, at this k1 of the vertical ones (N/m).
     fn springs(&self, k: f64, k1: f64) -> Springs<Chain<f64>> {
-        let mut design = for_landing(&self.corners, self.effective, k);
+        let mut design = for_part(&self.corners, k);
         let hz = (k1 / self.mass).sqrt() / TAU;
         design.vertical.omega_n_hz *= hz;
         design.horizontal.omega_n_hz *= hz;
