@@ -19,7 +19,7 @@ use groundspring::{
 };
 
 /// Factors on the K^3 of the design.
-const FACTORS: [f64; 5] = [0.03, 0.2, 1.0, 5.0, 30.0];
+const FACTORS: [f64; 5] = [0.1, 0.3, 1.0, 3.0, 10.0];
 
 fn main() -> Result<(), Box<dyn std::error::Error>> {
     for (mass_kg, footing_mass_kg, frequency_hz) in
