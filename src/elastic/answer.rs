@@ -32,6 +32,8 @@ pub enum ComparedEnd {
     History,
     /// What can be foretold: from then on two models of one structure part, and only statistics compare them.
     Foretold,
+    /// A landing from which a corner slides on: what follows depends on friction.
+    Slides,
 }
 
 impl Compared {
@@ -141,7 +143,10 @@ impl ElasticHistories {
     /// Over how much of the record histories of these lengths, beside the reference's, are compared.
     pub fn compared(&self, record: &Record, lengths: &[usize]) -> Compared {
         let Reference { history, foretold } = &self.reference;
-        Compared::new(record, *foretold, &[&[history.q.len()], lengths].concat())
+        let compared = Compared::new(record, *foretold, &[&[history.q.len()], lengths].concat());
+        let slides = history.skidded.is_some_and(|time| compared.samples == history.samples_to(time));
+        let end = if compared.end == ComparedEnd::Foretold && slides { ComparedEnd::Slides } else { compared.end };
+        Compared { end, ..compared }
     }
 }
 

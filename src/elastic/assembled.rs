@@ -105,7 +105,7 @@ impl Assembled {
         let (still, options) = (DVector::zeros(q.len()), Options::default());
         let twins = Twins { coordinates: &self.telling(), perturbation: PERTURBATION, limit: FORETOLD };
         let grown = growth(&self.frame, ground, (q, &still), &options, (history, &twins)).samples_below(FORETOLD);
-        history.skidded.map_or(grown, |time| grown.min((time / ground.dt) as usize + 1))
+        history.skidded.map_or(grown, |time| grown.min(history.samples_to(time)))
     }
 
     /// Coordinates whose growth tells of the conditioning: rotations of footings and the tops' displacements.

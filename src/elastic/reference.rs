@@ -245,6 +245,11 @@ impl ElasticRocking {
         self.events.iter().any(|event| event.what == What::Lift)
     }
 
+    /// Samples up to a time (s).
+    pub fn samples_to(&self, time: f64) -> usize {
+        (time / self.dt) as usize + 1
+    }
+
     /// Landings.
     pub fn landings(&self) -> impl Iterator<Item = &Event> {
         self.events.iter().filter(|event| event.what == What::Land)

@@ -50,6 +50,7 @@ fn history(run: &ElasticRun) -> Result<Figure, FigureError> {
     let text = match end {
         ComparedEnd::Record => None,
         ComparedEnd::History => Some(format!("the history on rigid ground ends at t = {seconds:.2} s")),
+        ComparedEnd::Slides => Some(format!("at t = {seconds:.2} s a corner lands sliding: friction decides")),
         ComparedEnd::Foretold => Some(format!("from t = {seconds:.2} s on no model foretells this motion")),
     };
     let event = text.as_ref().map(|text| Event { time: seconds, text });

@@ -117,6 +117,9 @@ pub fn over(compared: &Compared) -> String {
         ComparedEnd::Foretold => format!(
             "over its first {seconds:.2} s; from then on no model foretells this motion one to one, judge it over many records"
         ),
+        ComparedEnd::Slides => format!(
+            "over its first {seconds:.2} s; then a corner lands so flat that it slides on, and what follows depends on friction, which the springs do not have"
+        ),
     }
 }
 
