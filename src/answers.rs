@@ -215,9 +215,9 @@ mod tests {
             let both = both(&structure.body(), 0.97, &springs, &Members::default(), &record);
             assert!(both.fem.impacts() > 3);
             let weight = structure.mass_kg * crate::scalar::GRAVITY;
-            // the leg carries m g R cos(alpha - theta) less the centrifugal force
+            // the leg carries m g R cos(alpha - theta) less the centrifugal force, in compression
             for k in [1, 4] {
-                let [all, between] = [both.demands.peaks, both.demands.between].map(|peaks| peaks[k].value / weight);
+                let [all, between] = [both.demands.peaks, both.demands.between].map(|peaks| -peaks[k].value / weight);
                 assert!((0.95..1.3).contains(&between) && all > 10.0, "{hz} Hz: {between}, {all}");
             }
         }

@@ -53,3 +53,36 @@ pub fn for_stopping(corners: &Corners<f64>, springs: &Springs<Design<f64>>) -> S
         .and_then(|solver| Executor::new(Search(cost), solver).configure(|state| state.max_iters(STEPS)).run());
     found.ok().and_then(|result| result.state.best_param).map_or(*springs, |x| at(&x))
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::tuning::landing::design::{for_landing, for_part};
+
+    /// W of a free block of half width b and half height h, over 1/m.
+    fn block(b: f64, h: f64) -> Corners<f64> {
+        let inertia = (b * b + h * h) / 3.0;
+        let g = [[1.0, 0.0, -h], [0.0, 1.0, b], [1.0, 0.0, -h], [0.0, 1.0, -b]];
+        let w = |i: usize, j: usize| (0..2).map(|k| g[i][k] * g[j][k]).sum::<f64>() + g[i][2] * g[j][2] / inertia;
+        Corners::of(std::array::from_fn(|i| std::array::from_fn(|j| w(i, j))), 2.0 * b)
+    }
+
+    /// Flat footings of any proportion, at any K: three changes of contact, and less energy left than on the chain of a single mass.
+    #[test]
+    fn a_landing_is_over_once_both_corners_have_lifted() {
+        for (b, h) in [(2.0, 0.4), (2.0, 1.0), (2.0, 1.3), (5.0, 0.5)] {
+            for k in [0.01, 0.05, 0.2] {
+                let corners = block(b, h);
+                let single = land(&corners, &for_landing(&corners, corners.effective_mass()[1], k));
+                let sought = land(&corners, &for_part(&corners, k));
+                println!(
+                    "{b} {h} {k}: {:?} {:.1e}, {:?} {:.1e}",
+                    single.changes, single.deviation, sought.changes, sought.deviation
+                );
+                assert!(corners.stops() && sought.complete);
+                assert!(sought.changes.iter().sum::<usize>() <= FEWEST, "{b} {h} {k}: {:?}", sought.changes);
+                assert!(sought.deviation < single.deviation, "{b} {h} {k}: {sought:?} {single:?}");
+            }
+        }
+    }
+}

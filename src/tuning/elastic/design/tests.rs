@@ -11,17 +11,32 @@ fn standing() -> Standing {
     Standing::new(&pier, &DVector::zeros(5)).unwrap()
 }
 
-/// m_eff of a block on its corner, held horizontally: m (1 - 3/4 sin^2 alpha).
+/// m_eff of a block on its corner, held horizontally: m (1 - 3/4 sin^2 alpha). So high a block lands on one corner; across, it feels 1/W_xx =
+/// m/(1 + h^2/(I/m)), and stops by four equal poles.
 #[test]
 fn units_are_those_of_the_footing_alone() {
-    let springs = with_k(&standing(), 1e-4, 0.1);
-    let effective = 6e4 * (1.0 - 0.75 * (4.0 / (4.0 + 0.5625)));
+    let pier = Pier::new([6e5, 12.0, 2.0], [2.0, 0.02], [6e4, 1.8]).with_axial(4e9, 0.02);
+    let springs = with_k(&Standing::new(&pier, &DVector::zeros(5)).unwrap(), 1e-4, 0.1);
+    let (b, h) = (4.0, 1.8 * 1.8);
+    let effective = 6e4 * (1.0 - 0.75 * b / (b + h));
+    let across = 6e4 / (1.0 + h / ((b + h) / 3.0));
     let chain = crate::tuning::landing::universal::universal(0.1);
     for corner in &springs.corners {
         let unit = corner.vertical;
         assert_relative_eq!(unit.k2, 0.1 * unit.k1, max_relative = 1e-12);
         assert_relative_eq!(unit.m2, chain.mu * effective, max_relative = 1e-9);
         assert_relative_eq!(unit.c, chain.c * (unit.k1 * effective).sqrt(), max_relative = 1e-9);
+        let unit = corner.horizontal;
+        assert_relative_eq!(unit.k2, unit.k1 / 4.0, max_relative = 1e-9);
+        assert_relative_eq!(unit.m2, across / 4.0, max_relative = 1e-9);
+        assert_relative_eq!(unit.c, (unit.k1 * across).sqrt(), max_relative = 1e-9);
+        // (s + w)^4 with w^2 = k1/m: the polynomial of the mass on its unit, term by term
+        let (m, w) = (across, (unit.k1 / across).sqrt());
+        let all =
+            [m * unit.m2, m * unit.c, m * (unit.k1 + unit.k2) + unit.k1 * unit.m2, unit.k1 * unit.c, unit.k1 * unit.k2];
+        for (i, (term, binomial)) in all.into_iter().zip([1.0, 4.0, 6.0, 4.0, 1.0]).enumerate() {
+            assert_relative_eq!(term / all[0], binomial * w.powi(i as i32), max_relative = 1e-9);
+        }
     }
 }
 
