@@ -120,7 +120,12 @@ fn what_cannot_be_is_refused_in_one_line_before_anything_is_written() {
         ("damping_ratio = 0.02", "damping_ratio = 2.0", "damping_ratio"),
         ("footing_mass_kg = 60e3\n", "", "footing_mass_kg"),
         ("kind = \"pier\"", "kind = \"tower\"", "pier"),
-        ("[record]", "[damper]\nc_ns_per_m = 1.0\n[record]", "damper"),
+        ("[record]", "[damper]\nc_ns_per_m = -1.0\n[record]", "damper.c_ns_per_m is -1"),
+        ("[record]", "[damper]\nc = 1.0\n[record]", "did you mean \"c_ns_per_m\""),
+        ("[record]", "[tendon]\nstiffness_n_per_m = 1e8\n[record]", "pretension_n"),
+        ("[record]", "[tendon]\nstiffness_n_per_m = 0.0\npretension_n = 1.0\n[record]", "stiffness_n_per_m is 0"),
+        ("[record]", "[tendon]\nstiffness_n_per_m = 1e9\npretension_n = 4e9\n[record]", "tendon"),
+        ("[record]", "[friction]\ncoefficient = 0.5\n[record]", "rigid bodies only"),
     ] {
         assert!(PIER.contains(from), "{from}");
         std::fs::write(folder.path().join("case.toml"), PIER.replace(from, to)).unwrap();

@@ -308,3 +308,14 @@ fn an_undamped_elastic_structure_agrees_in_every_language() {
         );
     }
 }
+
+/// Rocking piers of El Centro's first seconds, damped at their corners and tied down.
+#[test]
+#[ignore = "runs OpenSees, which cargo cannot install: .ci/run installs it and runs this test"]
+fn an_elastic_structure_with_dampers_and_a_tendon_agrees_in_every_language() {
+    let pier = include_str!("../tuning/pier.toml").replace("damping_ratio = 0.02", "damping_ratio = 0.0");
+    let members = "[damper]\nc_ns_per_m = 1e6\n[tendon]\nstiffness_n_per_m = 2e7\npretension_n = 1e6\n";
+    for program in programs() {
+        elastic_agrees(&format!("{pier}\n{members}"), &[], "4.5", &program);
+    }
+}

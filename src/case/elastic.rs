@@ -11,6 +11,9 @@
 //! frequency_hz = 2.0         # fixed to the ground, across; or ei_nm2
 //! damping_ratio = 0.02
 //!
+//! [damper]                   # as for a rigid body; also [tendon]
+//! c_ns_per_m = 1e6
+//!
 //! [record]                   # as for a rigid body
 //!
 //! [tuning]
@@ -25,6 +28,7 @@ use super::{CaseError, RecordSection, check_stiffness, parse_error};
 use crate::{
     elastic::structure::ElasticStructure,
     excitation::Excitation,
+    members::{Damper, Members, Tendon},
     record::{Notice, Recording},
 };
 
@@ -36,6 +40,8 @@ const OF_LEGS: [&str; 4] = ["ea_n", "ei_nm2", "foot_mass_kg", "damping_ratio"];
 pub struct ElasticCase {
     /// The structure.
     pub structure: ElasticStructure,
+    /// Dampers and a tendon: springs are tuned for the structure with them.
+    pub members: Members<f64>,
     /// The record, its scale, the length asked for.
     pub excitation: Excitation,
     /// What the reader of the record says of it.
@@ -50,6 +56,10 @@ pub struct ElasticCase {
 #[serde(deny_unknown_fields)]
 struct ElasticFile {
     structure: ElasticStructure,
+    damper: Option<Damper<f64>>,
+    tendon: Option<Tendon<f64>>,
+    /// Refused: of rigid bodies.
+    friction: Option<toml::Value>,
     #[serde(default)]
     record: RecordSection,
     #[serde(default)]
@@ -88,7 +98,14 @@ impl ElasticCase {
     /// What is wrong with the file, the structure, the record.
     pub fn parse(path: &str, text: &str) -> Result<Self, CaseError> {
         let file: ElasticFile = toml::from_str(text).map_err(|e| parse_error(path, text, &e))?;
-        let structure = file.structure.checked().map_err(|source| CaseError::Elastic { path: path.into(), source })?;
+        let of_elastic = |source| CaseError::Elastic { path: path.into(), source };
+        let structure = file.structure.checked().map_err(of_elastic)?;
+        if let Some(friction) = file.friction {
+            let remedy = "slipping is followed for rigid bodies only, leave it out";
+            return Err(CaseError::Value { path: path.into(), key: "friction", value: friction.to_string(), remedy });
+        }
+        let members = Members { damper: file.damper, tendon: file.tendon, friction: None };
+        let members = structure.bears(members).map_err(of_elastic)?;
         let ElasticTuning { accuracy, max_omega_hz } = file.tuning;
         check_stiffness(path, accuracy, max_omega_hz)?;
         let mut notices = Vec::new();
@@ -97,7 +114,7 @@ impl ElasticCase {
             notices = recording.notices();
             Ok(recording.into_record())
         })?;
-        Ok(Self { structure, excitation, notices, accuracy, max_omega_hz })
+        Ok(Self { structure, members, excitation, notices, accuracy, max_omega_hz })
     }
 }
 

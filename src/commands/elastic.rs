@@ -58,6 +58,7 @@ pub fn springs_alone(assembled: &Assembled, tuned: &ElasticTuned, accuracy: f64)
     ElasticParameters {
         assessment: Some(assessment),
         ..ElasticParameters::new(assembled.structure, tuned.springs.omega_n_hz, &corners)
+            .with_members(assembled.members)
     }
 }
 

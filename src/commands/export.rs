@@ -6,10 +6,7 @@ use clap::Args;
 
 use super::{CommandError, common::RecordOptions, elastic::deck, output::file_in, write_file};
 use crate::{
-    elastic::{
-        assembled::Assembled,
-        fem::{Case, Start},
-    },
+    elastic::fem::{Case, Start},
     export::{ACCURACY, DeckFormat, ExportError, deck_of, with_inertia},
     parameters::{Parameters, elastic::ElasticParameters},
     record::Record,
@@ -54,7 +51,7 @@ pub fn run(o: &Options) -> Result<(), CommandError> {
 fn elastic(o: &Options, parameters: &ElasticParameters) -> Result<(String, String), CommandError> {
     let excitation = o.record.excitation(|| parameters.excitation(&o.parameters))?;
     let record = excitation.used()?;
-    let assembled = Assembled::new(parameters.structure).map_err(|e| CommandError::Result(e.to_string()))?;
+    let assembled = parameters.assembled().map_err(|e| CommandError::Result(e.to_string()))?;
     let springs = parameters.chains();
     let case = Case {
         vertical: record.vertical.as_ref().map_or(&[], |vertical| &vertical.accel),

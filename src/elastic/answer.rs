@@ -8,6 +8,7 @@ use super::{
     rigid::RigidForces,
 };
 use crate::{
+    members::Members,
     record::Record,
     spring::{Chain, Springs},
 };
@@ -88,7 +89,8 @@ pub struct ElasticAnswer {
     pub fixed: History,
     /// Drift of the first watched node held to the ground (m).
     pub fixed_drift: Vec<f64>,
-    /// The rigid body of the same masses, by Housner's equation; none of a frame, whose columns rock side by side.
+    /// The rigid body of the same masses, by Housner's equation; none of a frame, whose columns rock side by side, and of a structure
+    /// with members.
     pub rigid: Option<RigidForces>,
 }
 
@@ -174,7 +176,9 @@ impl ElasticAnswer {
         let compared = histories.compared(record, &[]);
         let [reference, fem] = [0, 1].map(|k| histories.sways.iter().map(|pair| pair[k].clone()).collect::<Vec<_>>());
         let errors = errors(&reference, &fem, compared.samples);
-        let rigid = RigidForces::of(&assembled.structure, record);
+        // Housner's equation has no members
+        let bare = assembled.members == Members::default();
+        let rigid = RigidForces::of(&assembled.structure, record).filter(|_| bare);
         Ok(Self { histories, compared, errors, fixed, fixed_drift, rigid })
     }
 }

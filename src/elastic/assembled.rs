@@ -1,20 +1,24 @@
 //! An elastic structure, assembled: what is watched of it, where it rests, how it rocks on rigid ground and for how long that can be told.
 
 use nalgebra::DVector;
+use thiserror::Error;
 
 use super::{
     Mechanics,
-    frame::{Base, Frame, FrameError, Layout},
+    frame::{Base, Frame, FrameError, Layout, Tendon},
     reference::{
         Corners, ElasticRocking, FORETOLD, Ground, Options, PERTURBATION, RestError, Twins, at_rest, growth, rock,
     },
     structure::ElasticStructure,
 };
-use crate::motion::nrmse_of;
+use crate::{members::Members, motion::nrmse_of};
 
 /// Stiffness of the ground over all mass, on which a leaning structure is looked for before it is put on rigid ground: its weight settles by
 /// g/FIRM, 1e-8 m [1/s2].
 const FIRM: f64 = 1e9;
+
+/// Share of its stiffness that a tendon keeps while the structure settles under a tension that is given.
+const SOFT: f64 = 1e-9;
 
 /// What is watched: something that turns rigidly, and the node above it.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -34,12 +38,25 @@ pub struct Sway {
     pub drift: Vec<f64>,
 }
 
+/// Why a structure with its members cannot be assembled.
+#[derive(Clone, Debug, PartialEq, Error)]
+#[non_exhaustive]
+#[allow(missing_docs)] // messages say what variants are
+pub enum AssemblyError {
+    #[error(transparent)]
+    Frame(#[from] FrameError),
+    #[error("under its tendon {0}")]
+    Rest(#[from] RestError),
+}
+
 /// An elastic structure and its finite elements.
 #[derive(Clone, Debug)]
 pub struct Assembled {
     /// As given.
     pub structure: ElasticStructure,
-    /// Its parts.
+    /// What it has besides.
+    pub members: Members<f64>,
+    /// Its parts, members among them.
     pub layout: Layout,
     /// The parts assembled.
     pub frame: Frame,
@@ -53,7 +70,20 @@ impl Assembled {
     /// # Errors
     /// Parts that do not fit together: not of a structure that was checked.
     pub fn new(structure: ElasticStructure) -> Result<Self, FrameError> {
-        let layout = structure.layout();
+        Self::of(structure, Members::default(), structure.layout())
+    }
+
+    /// Of a structure with dampers and tendons. A tendon has its pretension when the structure stands still on rigid ground, settled under
+    /// its weight and the tendon; on springs and held to the ground it is the same tendon, as long when slack.
+    ///
+    /// # Errors
+    /// Parts that do not fit together; a structure that does not stand under its tendon.
+    pub fn with_members(structure: ElasticStructure, members: Members<f64>) -> Result<Self, AssemblyError> {
+        let layout = stressed(structure.layout_with(&members))?;
+        Ok(Self::of(structure, members, layout)?)
+    }
+
+    fn of(structure: ElasticStructure, members: Members<f64>, layout: Layout) -> Result<Self, FrameError> {
         let frame = layout.frame()?;
         let tops: &[usize] = match structure {
             ElasticStructure::Pier(_) => &[1],
@@ -61,7 +91,7 @@ impl Assembled {
             ElasticStructure::Frame(_) => &[2, 3],
         };
         let watched = Base::all(&frame).into_iter().zip(tops).map(|(base, &top)| Watched { base, top }).collect();
-        Ok(Self { structure, layout, frame, watched })
+        Ok(Self { structure, members, layout, frame, watched })
     }
 
     /// What is watched, at every configuration.
@@ -78,8 +108,7 @@ impl Assembled {
     /// # Errors
     /// There is no such place.
     pub fn upright(&self) -> Result<DVector<f64>, RestError> {
-        let all = (0..self.frame.footings().len()).fold(Corners::NONE, Corners::with);
-        at_rest(&self.frame, &DVector::zeros(self.frame.size()), all, &[])
+        upright(&self.frame)
     }
 
     /// At rest on the corners of one side, leaning by `lean` (rad), on rigid ground; not of a frame, which leans as it bends.
@@ -116,6 +145,25 @@ impl Assembled {
         };
         self.watched.iter().flat_map(|w| [turn(w.base), self.frame.coordinates(w.top)[0]]).flatten().collect()
     }
+}
+
+fn upright(frame: &Frame) -> Result<DVector<f64>, RestError> {
+    let all = (0..frame.footings().len()).fold(Corners::NONE, Corners::with);
+    at_rest(frame, &DVector::zeros(frame.size()), all, &[])
+}
+
+/// A layout whose tendons' tension is that of the settled structure, with that of the unstressed one: it settles under that tension, as if by
+/// tendons that keep it, and so lengthens or shortens the real ones.
+fn stressed(layout: Layout) -> Result<Layout, AssemblyError> {
+    if layout.tendons.is_empty() {
+        return Ok(layout);
+    }
+    let soft = |tendon: &Tendon| Tendon { stiffness: SOFT * tendon.stiffness, ..*tendon };
+    let frame = Layout { tendons: layout.tendons.iter().map(soft).collect(), ..layout.clone() }.frame()?;
+    let lengthened = frame.lengthened(upright(&frame)?.as_slice());
+    let tendons = layout.tendons.iter().zip(lengthened);
+    let tendons = tendons.map(|(t, by)| Tendon { pretension: t.pretension - t.stiffness * by, ..*t }).collect();
+    Ok(Layout { tendons, ..layout })
 }
 
 /// NRMSE of the rotations and of the drifts over the first samples, all bases together; infinite where a history does not get so far, and where

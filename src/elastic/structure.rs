@@ -16,13 +16,14 @@
 
 mod aframe;
 mod layout;
+mod members;
 mod pier;
 mod portal;
 
 use serde::{Deserialize, Serialize};
 use thiserror::Error;
 
-use crate::structure::Body;
+use crate::{members::MembersError, structure::Body};
 pub use aframe::AFrameSpec;
 pub use pier::PierSpec;
 pub use portal::PortalSpec;
@@ -65,15 +66,17 @@ pub enum ElasticError {
     )]
     Slenderness { alpha: f64 },
     #[error(
-        "structure: the weight shortens {member} by {share:.3} of its length; give an ea_n in N of at least {least:.2e}"
+        "structure: the weight, and the tendon if there is one, shorten {member} by {share:.3} of its length; give an ea_n in N of at least {least:.2e}"
     )]
     Shortens { member: &'static str, share: f64, least: f64 },
     #[error(
-        "structure: {member} buckles under the weight, {load:.3e} N over {critical:.3e} N; give a larger ei_nm2 (N m2) or frequency_hz"
+        "structure: {member} buckles under the weight, and the tendon if there is one, {load:.3e} N over {critical:.3e} N; give a larger ei_nm2 (N m2) or frequency_hz"
     )]
     Buckles { member: &'static str, load: f64, critical: f64 },
     #[error("structure: elements is {elements}; give 1 to 32 to a column, more than one only with column_mass_kg")]
     Elements { elements: usize },
+    #[error(transparent)]
+    Members(#[from] MembersError),
 }
 
 /// Ranges of what a structure may be made of: m, kg, N, N m2, Hz.

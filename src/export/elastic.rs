@@ -10,7 +10,7 @@ use super::{
     printable,
 };
 use crate::{
-    elastic::frame::{Damper, Frame, Layout, Point},
+    elastic::frame::{Damper, Frame, Layout, Point, Tendon},
     record::Record,
     scalar::GRAVITY,
     spring::{Chain, Springs},
@@ -92,6 +92,7 @@ impl ElasticDeck<'_> {
             ("BEAMS", language.lines(self.beams(language))),
             ("CORNERS", language.lines(self.corners(language))),
             ("DAMPERS", language.lines(self.dampers(language))),
+            ("TENDONS", language.lines(self.tendons(language))),
             ("LEG", digits(ARM_STIFFNESS)),
             ("RECORD_DT", digits(self.record.dt)),
             ("ACCURACY", digits(SHARE * self.accuracy)),
@@ -153,6 +154,14 @@ impl ElasticDeck<'_> {
             .dampers
             .iter()
             .map(|Damper { at, c: [h, v] }| vec![at.node.to_string(), self.arm(language, at), digits(*h), digits(*v)])
+    }
+
+    fn tendons(&self, language: &Language) -> impl Iterator<Item = Vec<String>> {
+        self.layout.tendons.iter().map(|Tendon { at, anchor, stiffness, pretension }| {
+            let numbers = [digits(*stiffness), digits(*pretension)];
+            [vec![at.node.to_string(), self.arm(language, at), language.list(&anchor.map(digits))], numbers.to_vec()]
+                .concat()
+        })
     }
 
     /// Steps per sample, at least: pairs.

@@ -48,6 +48,11 @@ DAMPERS = (
 @DAMPERS@
 )
 
+# Tendons to the ground, which only pull: node, arm (m), lower end x, z (m), N/m, tension in the unstressed structure (N).
+TENDONS = (
+@TENDONS@
+)
+
 RECORD_DT = @RECORD_DT@        # s
 ACCURACY = @ACCURACY@          # of the history, as a normalised error: the steps follow from it
 LANDING = @LANDING@            # s: sqrt(mass that lands / k1), what a landing takes
@@ -66,7 +71,8 @@ EXPECTED = {
 }
 
 # ---------------------------------------------------------------- tags
-CORNER, ABSORBER, GROUND, PLACE, END = 1000, 2000, 3000, 4000, 8000   # added to the index of a corner, a dashpot, a beam's end
+# Added to the index of a corner, a dashpot, a tendon, a beam's end.
+CORNER, ABSORBER, GROUND, PLACE, TIE, END = 1000, 2000, 3000, 4000, 5000, 8000
 
 
 def node(i):
@@ -151,6 +157,20 @@ def build():
         for k, c in enumerate((horizontal, vertical)):
             ops.uniaxialMaterial("Elastic", 60000 + 2 * i + k, 0.0, c)
         ops.element("zeroLength", 60000 + i, ground, place, "-mat", 60000 + 2 * i, 60001 + 2 * i, "-dir", 1, 2)
+    for i, (owner, arm, below, stiffness, tension) in enumerate(TENDONS):
+        anchor, material = TIE + 1000 + i, 70000 + 10 * i
+        place = rigid_arm(80000 + i, owner, TIE + i, arm, rigid)
+        ops.node(anchor, *below)
+        length = math.dist(ops.nodeCoord(place), below)
+        # A beam that can hardly bend: a corotTruss does not turn with the structure in every build of OpenSees.
+        ops.fix(anchor, 1, 1, 0)
+        # no compression: the third stiffness; stressed: a strain from the slack length
+        ops.uniaxialMaterial("Elastic", material, stiffness * length, 0.0, 0.0)
+        ops.uniaxialMaterial("InitStrainMaterial", material + 1, material, tension / (stiffness * length))
+        ops.uniaxialMaterial("Elastic", material + 2, 1e-9 * GRAVITY * sum(n[2] for n in NODES) * length**2)
+        ops.section("Aggregator", material, material + 1, "P", material + 2, "Mz")
+        ops.beamIntegration("Legendre", material, material, 2)
+        ops.element("dispBeamColumn", 81000 + i, anchor, place, 1, material)
 
 
 def corner(i):

@@ -34,6 +34,11 @@ set dampers {
 @DAMPERS@
 }
 
+# Tendons to the ground, which only pull: node, arm (m), lower end x, z (m), N/m, tension in the unstressed structure (N).
+set tendons {
+@TENDONS@
+}
+
 set recordDt  @RECORD_DT@ ;# s
 set accuracy  @ACCURACY@ ;# of the history, as a normalised error: the steps follow from it
 set landing   @LANDING@ ;# s: sqrt(mass that lands / k1), what a landing takes
@@ -46,7 +51,7 @@ set tolerance @TOLERANCE@ ;# of Newton's displacements, m
 set expected [list settled @SETTLED@ {x max} @X_MAX@ {x min} @X_MIN@ {z max} @Z_MAX@ {z min} @Z_MIN@]
 
 # ---------------------------------------------------------------- model
-# Tags: a node's index and 1; added to the index of a corner, a dashpot, a beam's end, as below.
+# Tags: a node's index and 1; added to the index of a corner, a dashpot, a tendon, a beam's end, as below.
 
 # The node at an offset (x, z) from node i, on a stiff arm; node i itself without an offset.
 proc rigidArm {tag i place offset stiffness} {
@@ -114,7 +119,7 @@ proc stand {i corner rigid trace} {
 
 # Nodes, masses, beams, springs. Returns the corners' nodes.
 proc build {} {
-    global nodes beams corners dampers gravity
+    global nodes beams corners dampers tendons gravity
     foreach each $beams {
         if {[lindex $each 6] + [lindex $each 7] > 0.0 && [info commands damping] eq ""} {
             stop "this OpenSees has no damping objects, which version 3.5 has; run the deck for openseespy"
@@ -168,6 +173,25 @@ proc build {} {
         uniaxialMaterial Elastic $side 0.0 $horizontal
         uniaxialMaterial Elastic [expr {$side + 1}] 0.0 $vertical
         element zeroLength [expr {60000 + $i}] $ground $place -mat $side [expr {$side + 1}] -dir 1 2
+        incr i
+    }
+    set i 0
+    foreach each $tendons {
+        lassign $each owner arm below stiffness tension
+        lassign $below x z
+        set anchor [expr {6000 + $i}]
+        set place [rigidArm [expr {80000 + $i}] $owner [expr {5000 + $i}] $arm $rigid]
+        node $anchor $x $z
+        set length [expr {hypot([nodeCoord $place 1] - $x, [nodeCoord $place 2] - $z)}]
+        # A beam that can hardly bend: a corotTruss does not turn with the structure in every build of OpenSees.
+        fix $anchor 1 1 0
+        # no compression: the third stiffness; stressed: a strain from the slack length
+        set material [expr {70000 + 10 * $i}]
+        uniaxialMaterial Elastic $material [expr {$stiffness * $length}] 0.0 0.0
+        uniaxialMaterial InitStrainMaterial [expr {$material + 1}] $material [expr {$tension / ($stiffness * $length)}]
+        uniaxialMaterial Elastic [expr {$material + 2}] [expr {1e-9 * $gravity * $total * $length**2}]
+        section Aggregator $material [expr {$material + 1}] P [expr {$material + 2}] Mz
+        element dispBeamColumn [expr {81000 + $i}] $anchor $place 2 $material 1
         incr i
     }
     return $feet

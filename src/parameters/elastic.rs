@@ -6,8 +6,12 @@ use serde::{Deserialize, Serialize};
 
 use super::{ParametersError, RecordRow, RememberedError, SCHEMA};
 use crate::{
-    elastic::structure::ElasticStructure,
+    elastic::{
+        assembled::{Assembled, AssemblyError},
+        structure::ElasticStructure,
+    },
     excitation::Excitation,
+    members::{Damper, Members, Tendon},
     message::one_line,
     record::Record,
     spring::{Chain, Springs},
@@ -107,6 +111,12 @@ pub struct ElasticParameters {
     pub schema: u32,
     /// As given, checked.
     pub structure: ElasticStructure,
+    /// Dampers between corners and ground.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub damper: Option<Damper<f64>>,
+    /// A tendon from the mass to the ground, of a frame one along each column.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub tendon: Option<Tendon<f64>>,
     /// The record, if there was one.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub record: Option<RecordRow>,
@@ -131,7 +141,35 @@ impl ElasticParameters {
             horizontal: (&springs.horizontal).into(),
         };
         let springs = corners.iter().map(row).collect();
-        Self { schema: SCHEMA, structure, record: None, omega_n_hz, springs, assessment: None, on_record: None }
+        Self {
+            schema: SCHEMA,
+            structure,
+            damper: None,
+            tendon: None,
+            record: None,
+            omega_n_hz,
+            springs,
+            assessment: None,
+            on_record: None,
+        }
+    }
+
+    /// The same of a structure with these members.
+    pub fn with_members(self, Members { damper, tendon, .. }: Members<f64>) -> Self {
+        Self { damper, tendon, ..self }
+    }
+
+    /// What the structure has besides.
+    pub fn members(&self) -> Members<f64> {
+        Members { damper: self.damper, tendon: self.tendon, friction: None }
+    }
+
+    /// The structure with its members.
+    ///
+    /// # Errors
+    /// It does not stand under its tendon.
+    pub fn assembled(&self) -> Result<Assembled, AssemblyError> {
+        Assembled::with_members(self.structure, self.members())
     }
 
     /// Whether a file's text is of an elastic structure.
@@ -167,6 +205,7 @@ impl ElasticParameters {
             return Err(value(format!("schema is {found}, this program knows {SCHEMA}; run tune run again")));
         }
         let structure = parameters.structure.checked().map_err(|e| value(e.to_string()))?;
+        structure.bears(parameters.members()).map_err(|e| value(e.to_string()))?;
         let corners = structure.layout().corners.len();
         if parameters.springs.len() != corners {
             let found = parameters.springs.len();

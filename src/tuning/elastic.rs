@@ -23,13 +23,7 @@ use self::{
 use super::ladder::{DECADE, Found, seek};
 use crate::{
     case::ACCURACY,
-    elastic::{
-        answer::Reference,
-        assembled::Assembled,
-        frame::FrameError,
-        standing::Standing,
-        structure::{ElasticError, ElasticStructure},
-    },
+    elastic::{answer::Reference, assembled::Assembled, standing::Standing, structure::ElasticStructure},
     fem::Control,
     record::Record,
 };
@@ -46,10 +40,6 @@ const BEGIN: f64 = 0.1;
 #[non_exhaustive]
 #[allow(missing_docs)] // messages say what variants and their fields are
 pub enum ElasticTuneError {
-    #[error(transparent)]
-    Structure(#[from] ElasticError),
-    #[error(transparent)]
-    Frame(#[from] FrameError),
     #[error("structure: it does not stand under its weight; give stiffer members")]
     Falls,
     #[error("tuning.accuracy is {value}; {remedy}")]
@@ -71,25 +61,23 @@ pub struct ElasticTuned {
     pub reached: bool,
 }
 
-/// Springs under every corner of a structure, as stiff as `accuracy` (NRMSE of rotations) asks for, at most `most_hz` (Omega_n/2 pi, Hz); `progress` is told the rungs judged and the
+/// Springs under every corner of a structure, its members at work, as stiff as `accuracy` (NRMSE of rotations) asks for, at most `most_hz` (Omega_n/2 pi, Hz); `progress` is told the rungs judged and the
 /// least error so far.
 ///
 /// # Errors
-/// A structure that cannot be or does not stand; an accuracy that is none; springs allowed that are too soft for any.
+/// A structure that does not stand; an accuracy that is none; springs allowed that are too soft for any.
 pub fn tune(
-    structure: &ElasticStructure,
+    model: &Assembled,
     accuracy: f64,
     most_hz: Option<f64>,
     record: Option<(&Record, &Reference)>,
     progress: &dyn Fn(usize, f64),
 ) -> Result<ElasticTuned, ElasticTuneError> {
     ACCURACY.check(accuracy).map_err(|(value, remedy)| ElasticTuneError::Accuracy { value, remedy })?;
-    let structure = structure.checked()?;
-    let model = Assembled::new(structure)?;
-    let standing = stand(&model).ok_or(ElasticTuneError::Falls)?;
-    let landing = landing_speed(&structure);
+    let standing = stand(model).ok_or(ElasticTuneError::Falls)?;
+    let landing = landing_speed(&model.structure);
     let rungs = Rungs::new(accuracy, most_hz, |i| springs(&standing, give(i), landing).omega_n_hz)?;
-    let suite = Suite::new(model, record);
+    let suite = Suite::new(model.clone(), record);
     let of = |i: i64| springs(&standing, give(i), landing);
     Ok(rungs.search(accuracy, of, &|springs| suite.measure(springs, Control::search()), progress))
 }

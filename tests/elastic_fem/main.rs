@@ -4,5 +4,6 @@ mod balance;
 mod common;
 mod demands;
 mod fixed_base;
+mod members;
 mod reference;
 mod rigid_limit;

@@ -10,6 +10,7 @@ use crate::{
         table::strings,
     },
     figures::{brief, short},
+    members::Tendon,
     motion::shown,
     parameters::elastic::ElasticParameters,
 };
@@ -75,6 +76,13 @@ impl Page<'_> {
             .map(|(key, value)| (key.clone(), value.to_string()))
             .collect();
         rows.extend(keys.iter().map(|(key, value)| (key.as_str(), value.clone())));
+        let members = self.parameters.members();
+        if let Some(damper) = members.damper {
+            rows.push(("damper at each corner", format!("{} N s/m", brief(damper.c, 5))));
+        }
+        if let Some(Tendon { stiffness, pretension }) = members.tendon {
+            rows.push(("tendon", format!("{} N/m, stressed to {} N", brief(stiffness, 5), brief(pretension, 5))));
+        }
         rows.push(("slenderness alpha of the rigid body", format!("{:.5} rad", body.alpha())));
         rows.push(("frequency p of the rigid body", format!("{:.4} 1/s", body.p_squared().sqrt())));
         rows.push(("frequency fixed to the ground", format!("{} Hz", short(structure.frequency_hz(), 4))));

@@ -11,6 +11,7 @@ use crate::{
     },
     fem::HistoryOutcome,
     figures::{brief, short},
+    members::Members,
     motion::shown,
     parameters::elastic::{ElasticAssessment, ElasticParameters, OnRecord, UnitRow},
     tuning::elastic::suite::Measured,
@@ -173,6 +174,11 @@ pub fn said(run: &ElasticRun) -> Vec<String> {
         lines.extend(on_springs(run, on));
     }
     lines.extend(assessment.into_iter().flat_map(|a| measured(&a.measured)));
+    if run.assembled.members != Members::default() {
+        lines.push(
+            "members: springs are tuned for the structure with its dampers and tendons; the frequency below is that without them".into(),
+        );
+    }
     let structure = &run.assembled.structure;
     lines.push(format!(
         "structure: {} Hz fixed to the ground, across; its weight shortens the columns by {} of their length",

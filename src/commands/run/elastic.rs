@@ -36,12 +36,13 @@ pub fn run(o: &Options, mut case: ElasticCase) -> Result<(), CommandError> {
     threads(o.jobs)?;
     let all = files();
 
-    let assembled = Assembled::new(case.structure).map_err(|e| CommandError::Result(e.to_string()))?;
+    let assembled =
+        Assembled::with_members(case.structure, case.members).map_err(|e| CommandError::Result(e.to_string()))?;
     let progress = Progress::new("tuning", o.quiet);
     let tell = |done: usize, error: f64| progress.tell(done, 0, &format!("error {error:.2e}"));
     let record = if o.no_record { None } else { Some(referred(&assembled, case.excitation.used()?)?) };
     let beside = record.as_ref().map(|(record, reference)| (record, reference));
-    let tuned = tune(&case.structure, case.accuracy, case.max_omega_hz, beside, &tell);
+    let tuned = tune(&assembled, case.accuracy, case.max_omega_hz, beside, &tell);
     progress.done();
     let tuned = tuned.map_err(|e| CommandError::Result(e.to_string()))?;
     let Some((record, reference)) = record else {

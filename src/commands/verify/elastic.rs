@@ -32,7 +32,7 @@ pub fn run(o: &Options, parameters: &ElasticParameters, program: &Program) -> Re
     let record = excitation.used()?;
     check_folder(&o.out)?;
     check_accuracy(o.accuracy)?;
-    let assembled = Assembled::new(parameters.structure).map_err(|e| CommandError::Result(e.to_string()))?;
+    let assembled = parameters.assembled().map_err(|e| CommandError::Result(e.to_string()))?;
     let springs = parameters.chains();
     let histories = Reference::new(&assembled, &record)
         .and_then(|reference| ElasticHistories::new(&assembled, &springs, &record, reference))

@@ -62,6 +62,12 @@ impl Frame {
         self.tendons.iter().map(tension).collect()
     }
 
+    /// By how much every tendon is longer than in the unstressed structure (m).
+    pub fn lengthened(&self, q: &[f64]) -> Vec<f64> {
+        let by = |(place, tendon): &(Place, Tendon)| tendon.length(place.reach(q).place).1 - tendon.length([0.0; 2]).1;
+        self.tendons.iter().map(by).collect()
+    }
+
     /// Q at ground acceleration (a_g, a_v), in place of what is in `out`.
     pub(crate) fn forces(&self, q: &[f64], v: &[f64], [ground, up]: [f64; 2], out: &mut [f64]) {
         let [mx, mz] = &self.pull;

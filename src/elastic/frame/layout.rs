@@ -131,9 +131,9 @@ fn check(what: &'static str, number: usize, values: &[(&'static str, f64, &'stat
 }
 
 impl Layout {
-    /// The same with its footings held: the fixed-base structure.
+    /// The same with its footings held: the fixed-base structure. Dampers at what is held have nothing to do; others act, as tendons do.
     pub fn fixed(&self) -> Self {
-        let mut fixed = Self { corners: Vec::new(), dampers: Vec::new(), ..self.clone() };
+        let mut fixed = Self { corners: Vec::new(), ..self.clone() };
         for corner in &self.corners {
             if let Some(node) = fixed.nodes.get_mut(corner.node) {
                 node.held = true;

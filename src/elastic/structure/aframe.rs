@@ -48,10 +48,15 @@ impl AFrameSpec {
         not_negative("rotational_inertia_kgm2", self.inertia(), 1e20)?;
         damping("damping_ratio", self.damping_ratio)?;
         slender(self.body().alpha())?;
+        self.carries(0.0)
+    }
+
+    /// Whether the legs carry the weight and a tendon's tension (N).
+    pub(super) fn carries(&self, tension: f64) -> Result<(), ElasticError> {
         let critical = PI * PI * self.ei_nm2 / self.leg_length().powi(2);
         // leaning, the frame stands on one foot: a leg carries all
-        stands("a leg", self.mass_kg * GRAVITY, critical)?;
-        shortens("a leg", self.leg_load(), self.ea_n)
+        stands("a leg", self.mass_kg * GRAVITY + tension, critical)?;
+        shortens("a leg", self.leg_load() + 0.5 * tension * self.leg_length() / self.height_m, self.ea_n)
     }
 
     /// Length of a leg (m).

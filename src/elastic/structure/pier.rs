@@ -84,8 +84,15 @@ impl PierSpec {
         }
         check_elements(self.elements(), self.column_mass_kg)?;
         slender(self.body().alpha())?;
-        stands("the column", self.load(), PI * PI * self.ei() / (4.0 * self.length() * self.length()))?;
-        shortens("the column", self.load(), self.ea())
+        self.carries(0.0)
+    }
+
+    /// Whether the column carries the weight and a tendon's tension (N). The tendon pulls towards the footing's middle, which takes four times
+    /// as much of it as of a weight to buckle.
+    pub(super) fn carries(&self, tension: f64) -> Result<(), ElasticError> {
+        let critical = PI * PI * self.ei() / (4.0 * self.length() * self.length());
+        stands("the column", self.load() + 0.25 * tension, critical)?;
+        shortens("the column", self.load() + tension, self.ea())
     }
 
     /// Length of the column, from the footing's top to the mass (m).

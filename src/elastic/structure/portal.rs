@@ -70,10 +70,15 @@ impl PortalSpec {
         }
         check_elements(self.elements(), self.column_mass_kg)?;
         slender(self.body().alpha())?;
+        self.carries(0.0)
+    }
+
+    /// Whether each column carries its weight and its tendon's tension (N), which pulls towards the footing's middle.
+    pub(super) fn carries(&self, tension: f64) -> Result<(), ElasticError> {
         // free to sway, as in flight: a cantilever's critical load, on the safe side of the portal's
         let critical = PI * PI * self.column_ei_nm2 / (4.0 * self.length() * self.length());
-        stands("a column", self.load(), critical)?;
-        shortens("a column", self.load(), self.column_ea_n)
+        stands("a column", self.load() + 0.25 * tension, critical)?;
+        shortens("a column", self.load() + tension, self.column_ea_n)
     }
 
     /// Length of a column, from the footing's top to the beam's axis (m).
