@@ -87,21 +87,25 @@ fn a_pier_is_tuned_and_what_is_written_agrees_with_itself() {
     assert_eq!(read("parameters.json"), before);
     assert!(!out.join("history.png").exists());
 
-    // options that an elastic structure has no use for are refused
+    refuses(folder.path());
+}
+
+/// What an elastic structure has no use for.
+fn refuses(folder: &Path) {
     for option in [&["--friction", "0.3"][..], &["--no-front"]] {
-        let refused = tune(folder.path(), &[&["run", "pier.toml", "--quiet"], option].concat());
+        let refused = tune(folder, &[&["run", "pier.toml", "--quiet"], option].concat());
         let line = text(&refused.stderr);
         assert_eq!(refused.status.code(), Some(2), "{line}");
         assert!(line.contains(option[0]) && line.trim().lines().count() == 1, "{line}");
     }
     // and springs softer than any that could be judged
-    let refused = tune(folder.path(), &["run", "pier.toml", "--quiet", "--max-hz", "0.5"]);
+    let refused = tune(folder, &["run", "pier.toml", "--quiet", "--max-hz", "0.5"]);
     let line = text(&refused.stderr);
     assert_eq!(refused.status.code(), Some(2), "{line}");
     assert!(line.contains("max_omega_hz (--max-hz) is 0.5") && line.trim().lines().count() == 1, "{line}");
 
     // commands for rigid bodies say what this is
-    let refused = tune(folder.path(), &["simulate", "--parameters", "out/parameters.json"]);
+    let refused = tune(folder, &["simulate", "--parameters", "out/parameters.json"]);
     assert_eq!(refused.status.code(), Some(2));
     let line = text(&refused.stderr);
     assert!(line.contains("elastic structure") && line.trim().lines().count() == 1, "{line}");

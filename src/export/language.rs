@@ -15,7 +15,10 @@ pub(super) struct Language {
     solver: &'static str,
     epilogue: &'static str,
     /// Around a list, between its items, and after a row of a list of lists.
+    #[cfg_attr(not(any(feature = "cli", feature = "internals")), allow(dead_code))]
+    // decks of elastic structures have lists
     brackets: [&'static str; 2],
+    #[cfg_attr(not(any(feature = "cli", feature = "internals")), allow(dead_code))]
     separator: &'static str,
     end: &'static str,
 }
@@ -42,12 +45,14 @@ pub(super) static TCL: Language = Language {
 
 impl Language {
     /// A list of two items or more.
+    #[cfg(any(feature = "cli", feature = "internals"))]
     pub fn list(&self, items: &[String]) -> String {
         let [open, close] = self.brackets;
         format!("{open}{}{close}", items.join(self.separator))
     }
 
     /// A list of lists, one a line.
+    #[cfg(any(feature = "cli", feature = "internals"))]
     pub fn lines(&self, lists: impl Iterator<Item = Vec<String>>) -> String {
         lists.map(|items| format!("    {}{}", self.list(&items), self.end)).collect::<Vec<_>>().join("\n")
     }

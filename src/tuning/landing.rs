@@ -10,6 +10,7 @@ pub mod plane;
 
 pub mod design;
 
-pub mod stopping;
+#[cfg(any(feature = "cli", feature = "internals"))]
+pub mod part;
 
 pub mod universal;

@@ -28,7 +28,7 @@ use crate::{
     elastic::standing::{FixedResponse, FootingInertia, Standing},
     scalar::GRAVITY,
     spring::{Chain, Springs},
-    tuning::landing::{corners::Corners, design::for_part},
+    tuning::landing::{corners::Corners, part::for_part},
 };
 
 /// See above; the range of K: soft springs bounce on a larger one, and below the least no chain is sought.

@@ -27,7 +27,6 @@ use thiserror::Error;
 use super::{
     corners::Corners,
     plane::land,
-    stopping::for_stopping,
     universal::{Universal, universal},
 };
 use crate::{
@@ -153,31 +152,6 @@ pub fn for_landing(corners: &Corners<f64>, m: f64, k: f64) -> Springs<Design<f64
     springs.horizontal.omega_n_hz *= (error / MOMENTUM).max(1.0).powf(0.25);
     springs
 }
-
-/// Springs for a part of an elastic structure that lands on these corners, in units of its mass, at K; frequencies relative to the vertical
-/// Omega_n. Such a part comes in sideways, too, and lifts as soon as it has landed: its horizontal units stop it by then.
-#[cfg(any(feature = "cli", feature = "internals"))]
-pub fn for_part(corners: &Corners<f64>, k: f64) -> Springs<Design<f64>> {
-    let m = corners.effective_mass()[1];
-    // free to turn: the horizontal units are the faster ones
-    let across = corners.w[2][2].recip();
-    let Universal { k, c, mu, .. } = universal(k);
-    let springs = Springs {
-        vertical: Design::from_kc(mu * m, k, c * m.sqrt(), 1.0),
-        horizontal: Design::from_kc(DEAD_K * across, DEAD_K, DEAD_C * across.sqrt(), FASTER * (across / m).sqrt()),
-    };
-    if corners.stops() { for_stopping(corners, &springs) } else { springs }
-}
-
-/// The unit on which a mass that it holds comes to rest soonest: mu s^4 + C s^3 + (1 + K + mu) s^2 + C s + K = mu (s + 1)^4.
-#[cfg(any(feature = "cli", feature = "internals"))]
-const DEAD_K: f64 = 0.25;
-#[cfg(any(feature = "cli", feature = "internals"))]
-const DEAD_C: f64 = 1.0;
-/// How much faster the horizontal units are: when the foot lifts, 2.3/Omega_n after its touch, they have left 9e-4 of its speed. Twice as fast, they
-/// would cost more touches and follow no better.
-#[cfg(any(feature = "cli", feature = "internals"))]
-const FASTER: f64 = 6.0;
 
 /// The horizontal units: what they are hardly matters for the landing, as long as they do not lag.
 struct Horizontal {
