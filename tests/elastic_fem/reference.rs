@@ -94,23 +94,32 @@ fn legs_that_give_way_follow_the_reference() {
     assert!(soft[0] > 5e-2, "{soft:?}");
 }
 
-/// A 61 m A-frame on legs that shorten by 1e-4, let go from a lean: the leg in the air springs straight and its foot comes down at 7.7 m/s
-/// across, 0.8 m/s down. On units that give back of it the frame would step somewhere else.
+/// A 61 m A-frame on legs that shorten by 1e-7 to 1e-3 of their length under its weight, let go from leans: on springs of its own it does not
+/// bounce. From 0.2 alpha on legs of 1e-4 the leg in the air springs straight, and its foot comes down at 7.7 m/s across and 0.8 m/s down.
 #[test]
-fn a_foot_that_comes_in_sideways_stays_where_it_lands() {
-    let (mass, shortening, radius) = (680.1e3, 1e-4, 1.0);
-    let axial = 0.5 * mass * GRAVITY / shortening;
-    let spec = format!(
-        "kind = 'aframe'\nheight_m = 61.0\nwidth_m = 12.2\nmass_kg = {mass:?}\nfoot_mass_kg = 1e4\nea_n = {axial:?}\nei_nm2 = {:?}\ndamping_ratio = 0.02\n",
-        axial * radius * radius
-    );
-    let structure: ElasticStructure = toml::from_str(&spec).unwrap();
-    let alpha = structure.body().alpha();
-    let landing = landing_speed(&structure);
-    let model = Assembled::new(structure).unwrap();
-    let springs = springs_of_design(&stand(&model).unwrap(), 1e-5, landing);
-    let trial = Trial::released(&model, 0.2 * alpha, 0.0125, 20.0).trial().unwrap();
-    let [rotation, drift] = trial.judge(&model, &springs, Control::search()).errors;
-    println!("{rotation:e} {drift:e}, landings {}", trial.landings);
-    assert!(trial.landings >= 5 && rotation < 1e-3 && drift < 5e-3, "{rotation:e} {drift:e}");
+fn legs_of_any_stiffness_follow_the_reference() {
+    for (shortening, radius, lean) in
+        [(1e-7, 1.0, 0.5), (1e-6, 1.0, 0.5), (1e-5, 1.0, 0.5), (1e-4, 1.0, 0.5), (1e-4, 1.0, 0.2), (1e-3, 10.0, 0.5)]
+    {
+        let mass = 680.1e3;
+        let axial = 0.5 * mass * GRAVITY / shortening;
+        let bending = axial * radius * radius;
+        let spec = format!(
+            "kind = 'aframe'\nheight_m = 61.0\nwidth_m = 12.2\nmass_kg = {mass:?}\nfoot_mass_kg = 1e4\nea_n = {axial:?}\nei_nm2 = {bending:?}\ndamping_ratio = 0.02\n"
+        );
+        let structure: ElasticStructure = toml::from_str(&spec).unwrap();
+        let (alpha, landing) = (structure.body().alpha(), landing_speed(&structure));
+        let model = Assembled::new(structure).unwrap();
+        let springs = springs_of_design(&stand(&model).unwrap(), 1e-5, landing);
+        let trial = Trial::released(&model, lean * alpha, 0.0125, 9.0).trial().unwrap();
+        let judged = trial.judge(&model, &springs, Control::search());
+        let [rotation, drift] = judged.errors;
+        let touches = judged.touches as f64 / trial.landings as f64;
+        println!(
+            "{shortening:e} from {lean} alpha: {rotation:.1e} {drift:.1e}, {touches:.1} touches to each of {} landings",
+            trial.landings
+        );
+        assert!(rotation < 1e-3 && drift < 5e-3, "{shortening:e}: {rotation:e} {drift:e}");
+        assert!(trial.landings >= 1 && touches <= 4.0, "{shortening:e}: {touches} {}", trial.landings);
+    }
 }
