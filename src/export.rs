@@ -198,7 +198,7 @@ pub fn export(
     Ok(match format {
         DeckFormat::OpenSeesPy => opensees::python(&model),
         DeckFormat::OpenSeesTcl => opensees::tcl(&model),
-        DeckFormat::Sap2000 => sap2000::tables(&model),
+        DeckFormat::Sap2000 => sap2000::tables(&sap2000::Parts::rigid(&model)),
         DeckFormat::Csv => plain::csv(&model.places()),
         DeckFormat::Markdown => plain::markdown(&model.title(), &model.places()),
     })

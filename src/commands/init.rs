@@ -74,12 +74,12 @@ damping_ratio = 0.02     # to critical, across
 const ELASTIC_AFRAME: &str = "\
 [structure]
 kind = \"aframe\"          # a mass at the apex of two legs, clamped to it and hinged at the feet
-height_m = 12.0          # of the apex above the feet
-width_m = 2.4            # between the feet
-mass_kg = 350e3          # at the apex
-foot_mass_kg = 5e3       # at each foot: what is stopped at a landing
-ea_n = 2e10              # of a leg: EA
-ei_nm2 = 5e8             # and EI
+height_m = 30.0          # of the apex above the feet
+width_m = 4.0            # between the feet
+mass_kg = 400e3          # at the apex
+foot_mass_kg = 10e3      # at each foot: what is stopped at a landing
+ea_n = 3e10              # of a leg: EA
+ei_nm2 = 2.5e9           # and EI
 damping_ratio = 0.02     # to critical, across
 # rotational_inertia_kgm2 = 1e5    # of the mass at the apex
 ";
@@ -87,16 +87,16 @@ damping_ratio = 0.02     # to critical, across
 const FRAME: &str = "\
 [structure]
 kind = \"frame\"           # two columns on two footings under a beam
-height_m = 8.0           # of the beam's axis above the soles
+height_m = 12.0          # of the beam's axis above the soles
 span_m = 10.0            # between the columns' axes
-footing_width_m = 2.5
-footing_height_m = 1.0
-footing_mass_kg = 30e3   # each
-beam_mass_kg = 200e3
-column_ea_n = 3e10       # of a column: EA
-column_ei_nm2 = 4e9      # and EI
+footing_width_m = 3.0
+footing_height_m = 1.5
+footing_mass_kg = 40e3   # each
+beam_mass_kg = 500e3     # of the beam and what it carries
+column_ea_n = 3.4e10     # of a column: EA
+column_ei_nm2 = 3e9      # and EI
 beam_ea_n = 4e10
-beam_ei_nm2 = 8e9
+beam_ei_nm2 = 1e10
 damping_ratio = 0.02     # to critical, across
 ";
 

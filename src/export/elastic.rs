@@ -5,9 +5,9 @@ use std::f64::consts::TAU;
 use super::{
     DeckFormat, ExportError,
     language::{Language, PYTHON, TCL, record_note},
-    model::digits,
+    model::{STEPS_PER_PERIOD, digits, whole},
     plain::{self, Place},
-    printable,
+    printable, sap2000,
 };
 use crate::{
     elastic::frame::{Damper, Frame, Layout, Point, Tendon},
@@ -58,13 +58,14 @@ impl ElasticDeck<'_> {
     /// The text of the deck.
     ///
     /// # Errors
-    /// A vertical motion that the format does not have.
+    /// A member or a vertical motion that the format does not have.
     pub fn text(&self, format: DeckFormat) -> Result<String, ExportError> {
         Ok(match format {
             DeckFormat::OpenSeesPy => self.fill(&PYTHON, include_str!("elastic_deck.py")),
             DeckFormat::OpenSeesTcl => self.fill(&TCL, include_str!("elastic_deck.tcl")),
             DeckFormat::Sap2000 => {
-                return Err(ExportError::Member { name: "an elastic structure", format: format.name() });
+                self.without_members(format)?;
+                sap2000::tables(&sap2000::Parts::elastic(self))
             }
             DeckFormat::Csv => plain::csv(&self.places()),
             DeckFormat::Markdown => plain::markdown(self.title, &self.places()),
@@ -76,19 +77,42 @@ impl ElasticDeck<'_> {
         self.springs.iter().enumerate().map(|(i, springs)| (format!("corner {}", i + 1), *springs)).collect()
     }
 
+    /// Tables leave out what SAP2000's have no word for here.
+    fn without_members(&self, format: DeckFormat) -> Result<(), ExportError> {
+        let left_out = [
+            ("damper", !self.layout.dampers.is_empty()),
+            ("tendon", !self.layout.tendons.is_empty()),
+            ("vertical ground motion", self.record.vertical.is_some()),
+        ];
+        match left_out.into_iter().find(|(_, there)| *there) {
+            Some((name, _)) => Err(ExportError::Member { name, format: format.name() }),
+            None => Ok(()),
+        }
+    }
+
+    /// Where the node that is checked settles (m).
+    pub(super) fn settled(&self) -> f64 {
+        self.top.1.first().map_or(0.0, |start| start[1])
+    }
+
+    /// Its largest displacement towards a side, x or, from where it settled, z (m).
+    pub(super) fn peak(&self, k: usize, sign: f64) -> f64 {
+        let from = if k == 1 { self.settled() } else { 0.0 };
+        self.top.1.iter().map(|at| sign * (at[k] - from)).fold(f64::NEG_INFINITY, f64::max) * sign
+    }
+
+    /// Steps per sample for a program that takes all its steps alike, 40 to a period of what lands.
+    pub(super) fn even_steps(&self) -> usize {
+        whole(self.record.dt / (TAU * self.landing() / STEPS_PER_PERIOD))
+    }
+
     fn fill(&self, language: &Language, template: &str) -> String {
-        let (top, motion) = self.top;
-        let settled = motion.first().map_or(0.0, |start| start[1]);
-        let peak = |k: usize, sign: f64| {
-            let from = if k == 1 { settled } else { 0.0 };
-            motion.iter().map(|at| sign * (at[k] - from)).fold(f64::NEG_INFINITY, f64::max) * sign
-        };
         let rise = SMALL_MOTION * self.frame.stance() * self.alpha;
         let values = [
             ("TITLE", printable(self.title)),
             ("GRAVITY", digits(GRAVITY)),
             ("NODES", language.lines(self.nodes())),
-            ("TOP", (top + 1).to_string()),
+            ("TOP", (self.top.0 + 1).to_string()),
             ("BEAMS", language.lines(self.beams(language))),
             ("CORNERS", language.lines(self.corners(language))),
             ("DAMPERS", language.lines(self.dampers(language))),
@@ -102,11 +126,11 @@ impl ElasticDeck<'_> {
             ("SAMPLES", self.samples.to_string()),
             ("DURATION", format!("{}", (self.samples.saturating_sub(1)) as f64 * self.record.dt)),
             ("TOLERANCE", digits(TOLERANCE * self.frame.span())),
-            ("SETTLED", digits(settled)),
-            ("X_MAX", digits(peak(0, 1.0))),
-            ("X_MIN", digits(peak(0, -1.0))),
-            ("Z_MAX", digits(peak(1, 1.0))),
-            ("Z_MIN", digits(peak(1, -1.0))),
+            ("SETTLED", digits(self.settled())),
+            ("X_MAX", digits(self.peak(0, 1.0))),
+            ("X_MIN", digits(self.peak(0, -1.0))),
+            ("Z_MAX", digits(self.peak(1, 1.0))),
+            ("Z_MIN", digits(self.peak(1, -1.0))),
             ("RECORD_NOTE", record_note(self.record)),
         ];
         language.fill(template, &values, self.record)

@@ -23,7 +23,7 @@ pub(super) const LEG_STIFFNESS: f64 = 4.0;
 pub const ACCURACY: f64 = 0.002;
 
 /// For a program that takes all its steps alike: per period of the stiffest Omega_n.
-const STEPS_PER_PERIOD: f64 = 40.0;
+pub(super) const STEPS_PER_PERIOD: f64 = 40.0;
 /// p times the time step, at most, where all steps are alike.
 const STEP_BY_ROCKING: f64 = 1e-4;
 
@@ -51,7 +51,7 @@ fn even_steps(parameters: &Parameters, dt: f64) -> usize {
 }
 
 /// Rounded up, but a ratio that is whole but for rounding stays it.
-fn whole(ratio: f64) -> usize {
+pub(super) fn whole(ratio: f64) -> usize {
     ((ratio - 1e-9).ceil() as usize).max(1)
 }
 

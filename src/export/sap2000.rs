@@ -5,6 +5,8 @@
 //!      └─ links 1, 2: FOOT ── joints 11, 12 (absorbers, not rotating) ── links 3, 4: GROUND ── joints 21, 22 (fixed)
 //! ```
 //!
+//! So a rigid body; an elastic structure has joints at its nodes, frames between them and FOOT_1, GROUND_1, ... under its corners.
+//!
 //! Link axes of a vertical link: local 1 up (U1 vertical), local 2 along +X (U2 horizontal). FOOT is a friction isolator:
 //! its U1 presses and does not pull, its U2 acts only while U1 presses, which a gap link cannot say. GROUND is a linear
 //! link with damping. A gap property FOOT_GAP is defined beside it, not used, for programs or versions without isolators.
@@ -13,22 +15,23 @@
 //! without the program stands in the file's own header.
 
 mod cases;
+#[cfg(feature = "cli")]
+mod elastic;
 mod links;
+mod parts;
 
 use std::fmt::{Display, Write};
 
-use super::model::{Model, digits};
+use super::model::digits;
 use cases::{cases, loads, record};
 use links::links;
+pub(super) use parts::Parts;
+use parts::{Bar, Foot, Section};
 
 /// N to KN, and kg to KN s2/m.
 const KILO: f64 = 1e-3;
-/// Modulus of the legs' material; only its products with area and inertia count [KN/m2].
-const LEG_E: f64 = 2e8;
-/// Length of a link over h: long enough that importing merges no joints. The absorbers do not rotate, so it does not matter.
-const LINK_LENGTH: f64 = 0.01;
-/// Stiffness of legs that stand for a rigid body, over the stiffest spring: nothing takes their compliance off k1 here.
-const LEG_STIFFNESS: f64 = 1e4;
+/// Modulus of every material; only its products with area and inertia count [KN/m2].
+const MODULUS: f64 = 2e8;
 /// Friction coefficient: a pressing foot never slides.
 const FRICTION: f64 = 1000.0;
 
@@ -39,38 +42,26 @@ $ Not verified with the program (tables and fields follow SAP2000's own exports)
 $  1. FOOT is a friction isolator (LINK PROPERTY DEFINITIONS 08 - SLIDING ISOLATOR): U1 compression only with k1, U2 with k1
 $     while U1 presses, friction coefficient 1000 so that a foot never slides. In SAP2000 its shear force follows the axial
 $     force (force = P mu z); the tuned model has a plain spring that lets go when P = 0. If the import does not know the
-$     table, assign FOOT_GAP to links 1 and 2: its horizontal spring then also acts on a lifted foot, which is wrong by
+$     table, assign FOOT_GAP to the FOOT links: its horizontal spring then also acts on a lifted foot, which is wrong by
 $     the foot's travel times k1; use it for small rocking only.
 $  2. GeoNonLin of both cases must read 'P-Delta plus Large Displacements': check under Define > Load Cases.
 $  3. The integrator is Hilber-Hughes-Taylor with alpha = -1/3, the most damped SAP2000 offers; halve the step once and compare.
 $  4. The mass source must count added masses only.
 $  5. The words for the isolator (LinkType), large displacements (GeoNonLin) and ground acceleration (LoadType) differ between
-$     versions: if the import log names one, set it in the dialog of links 1 and 2 or of the load cases.
+$     versions: if the import log names one, set it in the dialog of the FOOT links or of the load cases.
 ";
 
 /// The whole file.
-pub(super) fn tables(model: &Model) -> String {
-    let mut text = format!("$ {}\n{NOTES}{}\n", model.title(), expected(model));
+pub(super) fn tables(parts: &Parts) -> String {
+    let mut text = format!("$ {}\n{NOTES}{}{}\n", parts.title, parts.notes, parts.expected());
     for table in
-        [control(), geometry(model), links(model), loads(model), cases(model), record(model)].into_iter().flatten()
+        [control(), geometry(parts), links(parts), loads(parts), cases(parts), record(parts)].into_iter().flatten()
     {
         text.push_str(&table.text);
         text.push('\n');
     }
     text.push_str("END TABLE DATA\n");
     text
-}
-
-fn expected(model: &Model) -> String {
-    let e = &model.expected;
-    format!(
-        "$ Expected at joint 3, m, within 1 % (`tune simulate`): settled U3 {}; U1 {} to {}; U3 above settled {} to {}\n",
-        digits(e.settled),
-        digits(e.u.1),
-        digits(e.u.0),
-        digits(e.v.1),
-        digits(e.v.0)
-    )
 }
 
 /// A table in the making.
@@ -83,8 +74,14 @@ impl Table {
         Self { text: format!("TABLE:  \"{name}\"\n") }
     }
 
-    /// One row of field = value; texts with spaces or commas are quoted.
+    /// The same with one more row.
     fn row(mut self, fields: &[(&str, &dyn Display)]) -> Self {
+        self.add(fields);
+        self
+    }
+
+    /// One row of field = value; texts with spaces or commas are quoted.
+    fn add(&mut self, fields: &[(&str, &dyn Display)]) {
         for (field, value) in fields {
             let value = value.to_string();
             let quote = if value.contains([' ', ',']) { "\"" } else { "" };
@@ -92,7 +89,6 @@ impl Table {
             let _ = write!(self.text, "   {field}={quote}{value}{quote}");
         }
         self.text.push('\n');
-        self
     }
 }
 
@@ -123,32 +119,30 @@ fn control() -> Vec<Table> {
 }
 
 /// Joints, what holds them, and the masses at them.
-fn joints(model: &Model) -> [Table; 3] {
-    let body = model.body();
-    let (b, h) = (body.half_width, body.height);
-    let link = LINK_LENGTH * h;
+fn joints(parts: &Parts) -> [Table; 3] {
     let mut joints = Table::new("JOINT COORDINATES");
-    for (joint, x, z) in [
-        (1, -b, 0.0),
-        (2, b, 0.0),
-        (3, 0.0, h),
-        (11, -b, -link),
-        (12, b, -link),
-        (21, -b, -2.0 * link),
-        (22, b, -2.0 * link),
-    ] {
-        joints = joints.row(&[
-            ("Joint", &joint),
+    let mut joint = |tag: usize, [x, z]: [f64; 2]| {
+        joints.add(&[
+            ("Joint", &tag),
             ("CoordSys", &"GLOBAL"),
             ("CoordType", &"Cartesian"),
             ("XorR", &digits(x)),
             ("Y", &0),
             ("Z", &digits(z)),
         ]);
-    }
+    };
+    parts.joints.iter().for_each(|each| joint(each.tag, each.place));
+    let below = |foot: &Foot, links: f64| {
+        let [x, z] = parts.place(foot.joint);
+        [x, z - links * parts.link]
+    };
+    parts.feet.iter().for_each(|foot| joint(foot.absorber, below(foot, 1.0)));
+    parts.feet.iter().for_each(|foot| joint(foot.ground, below(foot, 2.0)));
+
     let mut restraints = Table::new("JOINT RESTRAINT ASSIGNMENTS");
-    for (joint, held) in [(11, "No"), (12, "No"), (21, "Yes"), (22, "Yes")] {
-        restraints = restraints.row(&[
+    let absorbers = parts.feet.iter().map(|foot| (foot.absorber, "No"));
+    for (joint, held) in absorbers.chain(parts.feet.iter().map(|foot| (foot.ground, "Yes"))) {
+        restraints.add(&[
             ("Joint", &joint),
             ("U1", &held),
             ("U2", &"Yes"),
@@ -158,12 +152,15 @@ fn joints(model: &Model) -> [Table; 3] {
             ("R3", &"Yes"),
         ]);
     }
-    let (v, hz) = (&model.springs.vertical, &model.springs.horizontal);
     let mut masses = Table::new("JOINT ADDED MASS ASSIGNMENTS");
-    for (joint, horizontal, vertical, turning) in
-        [(3, body.mass, body.mass, model.inertia), (11, hz.m2, v.m2, 0.0), (12, hz.m2, v.m2, 0.0)]
-    {
-        masses = masses.row(&[
+    let heavy = parts.joints.iter().filter(|joint| joint.mass > 0.0);
+    let absorber = |foot: &Foot| {
+        let springs = &parts.units[foot.unit].springs;
+        (foot.absorber, springs.horizontal.m2, springs.vertical.m2, 0.0)
+    };
+    let all = heavy.map(|j| (j.tag, j.mass, j.mass, j.inertia)).chain(parts.feet.iter().map(absorber));
+    for (joint, horizontal, vertical, turning) in all {
+        masses.add(&[
             ("Joint", &joint),
             ("CoordSys", &"GLOBAL"),
             ("Mass1", &digits(horizontal * KILO)),
@@ -177,48 +174,56 @@ fn joints(model: &Model) -> [Table; 3] {
     [joints, restraints, masses]
 }
 
-/// What the legs are made of, and where they are.
-fn legs(model: &Model) -> Vec<Table> {
-    let body = model.body();
-    let (v, hz) = (&model.springs.vertical, &model.springs.horizontal);
-    let stiffest = v.k1.max(v.k2).max(hz.k1).max(hz.k2);
-    let (stiffness, length) = (LEG_STIFFNESS * stiffest * KILO, body.radius());
-    let area = digits(stiffness * length / LEG_E);
-    let inertia = digits(stiffness * length.powi(3) / 3.0 / LEG_E);
-    let mut frames = Table::new("CONNECTIVITY - FRAME");
-    let mut sections = Table::new("FRAME SECTION ASSIGNMENTS");
-    for frame in [1, 2] {
-        frames = frames.row(&[("Frame", &frame), ("JointI", &frame), ("JointJ", &3), ("IsCurved", &"No")]);
-        sections = sections.row(&[
-            ("Frame", &frame),
-            ("SectionType", &"General"),
-            ("AutoSelect", &"N.A."),
-            ("AnalSect", &"LEG"),
-            ("DesignSect", &"N.A."),
-            ("MatProp", &"Default"),
-        ]);
-    }
-    vec![
-        Table::new("MATERIAL PROPERTIES 01 - GENERAL").row(&[
-            ("Material", &"RIGID"),
+/// Materials: by name, each once, with their damping over stiffness.
+fn materials(parts: &Parts) -> Vec<Table> {
+    let mut general = Table::new("MATERIAL PROPERTIES 01 - GENERAL");
+    let mut mechanical = Table::new("MATERIAL PROPERTIES 02 - BASIC MECHANICAL PROPERTIES");
+    let mut damping = Table::new("MATERIAL PROPERTIES 06 - DAMPING PARAMETERS");
+    let mut seen: Vec<&str> = Vec::new();
+    for Section { material, ahead, .. } in &parts.sections {
+        if seen.contains(&material.as_str()) {
+            continue;
+        }
+        seen.push(material);
+        general.add(&[
+            ("Material", material),
             ("Type", &"Other"),
             ("SymType", &"Isotropic"),
             ("TempDepend", &"No"),
             ("Color", &"Gray8Dark"),
-        ]),
-        Table::new("MATERIAL PROPERTIES 02 - BASIC MECHANICAL PROPERTIES").row(&[
-            ("Material", &"RIGID"),
+        ]);
+        mechanical.add(&[
+            ("Material", material),
             ("UnitWeight", &0),
             ("UnitMass", &0),
-            ("E1", &digits(LEG_E)),
-            ("G12", &digits(LEG_E / 2.0)),
+            ("E1", &digits(MODULUS)),
+            ("G12", &digits(MODULUS / 2.0)),
             ("U12", &0),
             ("A1", &0),
-        ]),
+        ]);
+        if *ahead > 0.0 {
+            damping.add(&[
+                ("Material", material),
+                ("ModalRatio", &0),
+                ("VisMass", &0),
+                ("VisStiff", &digits(*ahead)),
+                ("HysMass", &0),
+                ("HysStiff", &0),
+            ]);
+        }
+    }
+    let damped = parts.sections.iter().any(|section| section.ahead > 0.0);
+    [general, mechanical].into_iter().chain(damped.then_some(damping)).collect()
+}
+
+fn sections(parts: &Parts) -> Table {
+    let mut table = Table::new("FRAME SECTION PROPERTIES 01 - GENERAL");
+    for Section { name, material, axial, bending, .. } in &parts.sections {
+        let [area, inertia] = [axial, bending].map(|stiffness| digits(stiffness * KILO / MODULUS));
         // AS2 = AS3 = 0: no shear deformation
-        Table::new("FRAME SECTION PROPERTIES 01 - GENERAL").row(&[
-            ("SectionName", &"LEG"),
-            ("Material", &"RIGID"),
+        table.add(&[
+            ("SectionName", name),
+            ("Material", material),
             ("Shape", &"General"),
             ("t3", &1),
             ("t2", &1),
@@ -230,17 +235,34 @@ fn legs(model: &Model) -> Vec<Table> {
             ("AS2", &0),
             ("AS3", &0),
             ("Color", &"Gray8Dark"),
-        ]),
-        frames,
-        sections,
-    ]
+        ]);
+    }
+    table
 }
 
-fn geometry(model: &Model) -> Vec<Table> {
-    let [joints, restraints, masses] = joints(model);
-    let mut tables = legs(model);
+fn frames(parts: &Parts) -> [Table; 2] {
+    let mut frames = Table::new("CONNECTIVITY - FRAME");
+    let mut assigned = Table::new("FRAME SECTION ASSIGNMENTS");
+    for (i, Bar { joints: [from, to], section }) in parts.bars.iter().enumerate() {
+        let frame = i + 1;
+        frames.add(&[("Frame", &frame), ("JointI", from), ("JointJ", to), ("IsCurved", &"No")]);
+        assigned.add(&[
+            ("Frame", &frame),
+            ("SectionType", &"General"),
+            ("AutoSelect", &"N.A."),
+            ("AnalSect", &parts.sections[*section].name),
+            ("DesignSect", &"N.A."),
+            ("MatProp", &"Default"),
+        ]);
+    }
+    [frames, assigned]
+}
+
+fn geometry(parts: &Parts) -> Vec<Table> {
+    let [joints, restraints, masses] = joints(parts);
+    let [frames, assigned] = frames(parts);
+    let mut tables = materials(parts);
     // joints before the frames between them
-    tables.insert(3, joints);
-    tables.extend([restraints, masses]);
+    tables.extend([sections(parts), joints, frames, assigned, restraints, masses]);
     tables
 }

@@ -1,5 +1,8 @@
 //! Decks without the programs they are for: they hold every number, to the last bit, and parse.
 
+#[cfg(feature = "cli")]
+mod elastic_tables;
+
 use std::{collections::HashMap, process::Command};
 
 use super::*;
@@ -238,10 +241,13 @@ fn sap2000_tables_hold_masses_stiffnesses_weight_and_record_in_kilonewtons() {
     assert!(close(number(history, "OutSteps") * number(history, "StepSize"), 20.0));
 }
 
-/// Every name that a table uses is defined in another one.
 #[test]
 fn sap2000_tables_refer_to_what_they_define() {
-    let t = read_s2k(&deck(DeckFormat::Sap2000));
+    refers_to_what_it_defines(&read_s2k(&deck(DeckFormat::Sap2000)));
+}
+
+/// Every name that a table uses is defined in another one.
+fn refers_to_what_it_defines(t: &Tables) {
     let names = |table: &str, field: &str| t[table].iter().map(|row| row[field].clone()).collect::<Vec<_>>();
     for (table, field, defined_in, key) in [
         ("CONNECTIVITY - FRAME", "JointI", "JOINT COORDINATES", "Joint"),

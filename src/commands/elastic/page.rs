@@ -10,7 +10,7 @@ use crate::{
         table::strings,
     },
     figures::{brief, short},
-    members::Tendon,
+    members::{Members, Tendon},
     motion::shown,
     parameters::elastic::ElasticParameters,
 };
@@ -32,6 +32,7 @@ impl Page<'_> {
             ("figures", "Figures", figures(self.figures)),
             ("forces", "What the structure bears", self.forces()),
             ("opensees", "In OpenSees", OPENSEES.into()),
+            ("sap2000", "In SAP2000", self.sap2000()),
             ("cite", "How to cite", page::cite()),
         ];
         let title = format!("Ground springs for a {}", words::title(&run.assembled.structure));
@@ -108,6 +109,16 @@ impl Page<'_> {
         });
         out += &html::table(&strings(&["", "k1 [N/m]", "k2 [N/m]", "m2 [kg]", "c [N s/m]"]), rows, 0..0);
         out
+    }
+
+    fn sap2000(&self) -> String {
+        if self.run.assembled.members != Members::default() || self.run.record.vertical.is_some() {
+            return "<p>No SAP2000 deck was written: its tables leave dampers, tendons and vertical motion out.</p>\n"
+                .into();
+        }
+        "<p>File &gt; Import &gt; SAP2000 .s2k Text File: <code>decks/model_sap2000.s2k</code>; then run the load cases GRAVITY and QUAKE. The file \
+         could not be tried with the program; its head lists what to check after the import.</p>\n"
+            .into()
     }
 
     fn forces(&self) -> String {

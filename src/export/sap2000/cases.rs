@@ -1,36 +1,34 @@
 //! The weight, the ground motion, and the load cases that apply them.
 
-use super::{KILO, Table};
-use crate::{
-    export::model::{Model, digits},
-    scalar::GRAVITY,
-};
+use super::{KILO, Parts, Table};
+use crate::{export::model::digits, scalar::GRAVITY};
 
-pub(super) fn loads(model: &Model) -> Vec<Table> {
-    let weight = digits(-model.body().mass * GRAVITY * KILO);
-    vec![
-        Table::new("LOAD PATTERN DEFINITIONS").row(&[
-            ("LoadPat", &"WEIGHT"),
-            ("DesignType", &"DEAD"),
-            ("SelfWtMult", &0),
-        ]),
-        Table::new("JOINT LOADS - FORCE").row(&[
-            ("Joint", &3),
+pub(super) fn loads(parts: &Parts) -> Vec<Table> {
+    let mut forces = Table::new("JOINT LOADS - FORCE");
+    for joint in parts.joints.iter().filter(|joint| joint.mass > 0.0) {
+        forces.add(&[
+            ("Joint", &joint.tag),
             ("LoadPat", &"WEIGHT"),
             ("CoordSys", &"GLOBAL"),
             ("F1", &0),
             ("F2", &0),
-            ("F3", &weight),
+            ("F3", &digits(-joint.mass * GRAVITY * KILO)),
             ("M1", &0),
             ("M2", &0),
             ("M3", &0),
-        ]),
-    ]
+        ]);
+    }
+    let patterns = Table::new("LOAD PATTERN DEFINITIONS").row(&[
+        ("LoadPat", &"WEIGHT"),
+        ("DesignType", &"DEAD"),
+        ("SelfWtMult", &0),
+    ]);
+    vec![patterns, forces]
 }
 
-pub(super) fn cases(model: &Model) -> Vec<Table> {
-    let step = model.record.dt / model.even_steps as f64;
-    let out_steps = (model.expected.samples - 1) * model.even_steps;
+pub(super) fn cases(parts: &Parts) -> Vec<Table> {
+    let step = parts.record.dt / parts.even_steps as f64;
+    let out_steps = parts.samples.saturating_sub(1) * parts.even_steps;
     vec![
         Table::new("LOAD CASE DEFINITIONS")
             .row(&[("Case", &"GRAVITY"), ("Type", &"NonStatic"), ("InitialCond", &"Zero"), ("RunCase", &"Yes")])
@@ -45,7 +43,7 @@ pub(super) fn cases(model: &Model) -> Vec<Table> {
             ("Case", &"GRAVITY"),
             ("LoadApp", &"Full Load"),
             ("MonitorDOF", &"U3"),
-            ("MonitorJt", &3),
+            ("MonitorJt", &parts.watched),
         ]),
         Table::new("CASE - STATIC 4 - NONLINEAR PARAMETERS").row(&[
             ("Case", &"GRAVITY"),
@@ -68,7 +66,7 @@ pub(super) fn cases(model: &Model) -> Vec<Table> {
             ("CoordSys", &"GLOBAL"),
             ("Angle", &0),
         ]),
-        // the dashpots are the only damping
+        // dashpots and materials have all damping
         Table::new("CASE - DIRECT HISTORY 3 - PROPORTIONAL DAMPING").row(&[
             ("Case", &"QUAKE"),
             ("SpecifyType", &"Direct"),
@@ -95,10 +93,10 @@ pub(super) fn cases(model: &Model) -> Vec<Table> {
     ]
 }
 
-pub(super) fn record(model: &Model) -> Vec<Table> {
+pub(super) fn record(parts: &Parts) -> Vec<Table> {
     let mut table = Table::new("FUNCTION - TIME HISTORY - USER");
-    for (i, &a) in model.record.accel.iter().enumerate() {
-        let time = i as f64 * model.record.dt;
+    for (i, &a) in parts.record.accel.iter().enumerate() {
+        let time = i as f64 * parts.record.dt;
         table = table.row(&[("Name", &"GROUND_MOTION"), ("Time", &digits(time)), ("Value", &digits(a))]);
     }
     vec![table]

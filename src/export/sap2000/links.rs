@@ -1,14 +1,15 @@
 //! The springs: links between foot, absorber and ground.
 
-use super::{FRICTION, KILO, Table};
-use crate::export::model::{Model, digits};
+use super::{FRICTION, KILO, Parts, Table, parts::Unit};
+use crate::{export::model::digits, spring::Springs};
 
-pub(super) fn links(model: &Model) -> Vec<Table> {
+pub(super) fn links(parts: &Parts) -> Vec<Table> {
     let mut general = Table::new("LINK PROPERTY DEFINITIONS 01 - GENERAL");
-    for (link, kind) in [("FOOT", "Friction Isolator"), ("FOOT_GAP", "Gap"), ("GROUND", "Linear")] {
+    let kinds = [("FOOT", "Friction Isolator"), ("FOOT_GAP", "Gap"), ("GROUND", "Linear")];
+    for (unit, (link, kind)) in parts.units.iter().flat_map(|unit| kinds.map(|kind| (unit, kind))) {
         // P-Delta moments go to joint I, the absorber or the ground, which does not rotate
-        general = general.row(&[
-            ("Link", &link),
+        general.add(&[
+            ("Link", &name(link, unit)),
             ("LinkType", &kind),
             ("Mass", &0),
             ("Weight", &0),
@@ -27,22 +28,36 @@ pub(super) fn links(model: &Model) -> Vec<Table> {
     let mut connect = Table::new("CONNECTIVITY - LINK");
     let mut assign = Table::new("LINK PROPERTY ASSIGNMENTS");
     // from below to above: a foot that goes down shortens its link, U1 < 0
-    for (link, from, to, property, kind) in [
-        (1, 11, 1, "FOOT", "Friction Isolator"),
-        (2, 12, 2, "FOOT", "Friction Isolator"),
-        (3, 21, 11, "GROUND", "Linear"),
-        (4, 22, 12, "GROUND", "Linear"),
-    ] {
-        connect = connect.row(&[("Link", &link), ("JointI", &from), ("JointJ", &to)]);
-        assign = assign.row(&[
+    let upper = parts.feet.iter().map(|foot| (foot.absorber, foot.joint, foot.unit, kinds[0]));
+    let lower = parts.feet.iter().map(|foot| (foot.ground, foot.absorber, foot.unit, kinds[2]));
+    for (i, (from, to, unit, (property, kind))) in upper.chain(lower).enumerate() {
+        let link = i + 1;
+        connect.add(&[("Link", &link), ("JointI", &from), ("JointJ", &to)]);
+        assign.add(&[
             ("Link", &link),
             ("LinkType", &kind),
             ("LinkJoints", &"TwoJoint"),
-            ("LinkProp", &property),
+            ("LinkProp", &name(property, &parts.units[unit])),
             ("LinkFDProp", &"None"),
         ]);
     }
-    vec![general, linear(model), gap(model), isolator(model), connect, assign]
+    let mut springs = [
+        Table::new("LINK PROPERTY DEFINITIONS 02 - LINEAR"),
+        Table::new("LINK PROPERTY DEFINITIONS 05 - GAP"),
+        Table::new("LINK PROPERTY DEFINITIONS 08 - SLIDING ISOLATOR"),
+    ];
+    for unit in &parts.units {
+        let [linear_table, gap_table, isolator_table] = &mut springs;
+        linear(unit, linear_table);
+        gap(unit, gap_table);
+        isolator(unit, isolator_table);
+    }
+    [general].into_iter().chain(springs).chain([connect, assign]).collect()
+}
+
+/// A link property of a unit.
+fn name(link: &str, unit: &Unit) -> String {
+    format!("{link}{}", unit.suffix)
 }
 
 fn kilo(x: f64) -> String {
@@ -50,78 +65,69 @@ fn kilo(x: f64) -> String {
 }
 
 /// k2 beside c, between absorber and ground.
-fn linear(model: &Model) -> Table {
-    let (v, h) = (&model.springs.vertical, &model.springs.horizontal);
-    Table::new("LINK PROPERTY DEFINITIONS 02 - LINEAR")
-        .row(&[
-            ("Link", &"GROUND"),
-            ("DOF", &"U1"),
-            ("Fixed", &"No"),
-            ("TransKE", &kilo(v.k2)),
-            ("TransCE", &kilo(v.c)),
-        ])
-        .row(&[
-            ("Link", &"GROUND"),
-            ("DOF", &"U2"),
-            ("Fixed", &"No"),
-            ("TransKE", &kilo(h.k2)),
-            ("TransCE", &kilo(h.c)),
-            ("DJ", &0),
-        ])
+fn linear(unit: &Unit, table: &mut Table) {
+    let (link, Springs { vertical: v, horizontal: h }) = (name("GROUND", unit), &unit.springs);
+    table.add(&[("Link", &link), ("DOF", &"U1"), ("Fixed", &"No"), ("TransKE", &kilo(v.k2)), ("TransCE", &kilo(v.c))]);
+    table.add(&[
+        ("Link", &link),
+        ("DOF", &"U2"),
+        ("Fixed", &"No"),
+        ("TransKE", &kilo(h.k2)),
+        ("TransCE", &kilo(h.c)),
+        ("DJ", &0),
+    ]);
 }
 
 /// k1, between foot and absorber, where the program knows no isolator.
-fn gap(model: &Model) -> Table {
-    let (v, h) = (&model.springs.vertical, &model.springs.horizontal);
-    Table::new("LINK PROPERTY DEFINITIONS 05 - GAP")
-        .row(&[
-            ("Link", &"FOOT_GAP"),
-            ("DOF", &"U1"),
-            ("Fixed", &"No"),
-            ("NonLinear", &"Yes"),
-            ("TransKE", &kilo(v.k1)),
-            ("TransCE", &0),
-            ("TransK", &kilo(v.k1)),
-            ("TransOpen", &0),
-        ])
-        .row(&[
-            ("Link", &"FOOT_GAP"),
-            ("DOF", &"U2"),
-            ("Fixed", &"No"),
-            ("NonLinear", &"No"),
-            ("TransKE", &kilo(h.k1)),
-            ("TransCE", &0),
-            ("DJ", &0),
-        ])
+fn gap(unit: &Unit, table: &mut Table) {
+    let (link, Springs { vertical: v, horizontal: h }) = (name("FOOT_GAP", unit), &unit.springs);
+    table.add(&[
+        ("Link", &link),
+        ("DOF", &"U1"),
+        ("Fixed", &"No"),
+        ("NonLinear", &"Yes"),
+        ("TransKE", &kilo(v.k1)),
+        ("TransCE", &0),
+        ("TransK", &kilo(v.k1)),
+        ("TransOpen", &0),
+    ]);
+    table.add(&[
+        ("Link", &link),
+        ("DOF", &"U2"),
+        ("Fixed", &"No"),
+        ("NonLinear", &"No"),
+        ("TransKE", &kilo(h.k1)),
+        ("TransCE", &0),
+        ("DJ", &0),
+    ]);
 }
 
 /// The same as an isolator, whose horizontal spring acts while the foot presses.
-fn isolator(model: &Model) -> Table {
-    let (v, h) = (&model.springs.vertical, &model.springs.horizontal);
+fn isolator(unit: &Unit, table: &mut Table) {
+    let (link, Springs { vertical: v, horizontal: h }) = (name("FOOT", unit), &unit.springs);
     // DJ = 0: the shear spring sits at the foot, so the foot's rotation does not stretch it. Radius 0: a flat slider.
-    Table::new("LINK PROPERTY DEFINITIONS 08 - SLIDING ISOLATOR")
-        .row(&[
-            ("Link", &"FOOT"),
-            ("DOF", &"U1"),
-            ("Fixed", &"No"),
-            ("NonLinear", &"Yes"),
-            ("TransKE", &kilo(v.k1)),
-            ("TransCE", &0),
-            ("TransK", &kilo(v.k1)),
-            ("TransC", &0),
-        ])
-        .row(&[
-            ("Link", &"FOOT"),
-            ("DOF", &"U2"),
-            ("Fixed", &"No"),
-            ("NonLinear", &"Yes"),
-            ("TransKE", &kilo(h.k1)),
-            ("TransCE", &0),
-            ("DJ", &0),
-            ("TransK", &kilo(h.k1)),
-            ("Slow", &FRICTION),
-            ("Fast", &FRICTION),
-            ("Rate", &0),
-            ("Radius", &0),
-        ])
+    table.add(&[
+        ("Link", &link),
+        ("DOF", &"U1"),
+        ("Fixed", &"No"),
+        ("NonLinear", &"Yes"),
+        ("TransKE", &kilo(v.k1)),
+        ("TransCE", &0),
+        ("TransK", &kilo(v.k1)),
+        ("TransC", &0),
+    ]);
+    table.add(&[
+        ("Link", &link),
+        ("DOF", &"U2"),
+        ("Fixed", &"No"),
+        ("NonLinear", &"Yes"),
+        ("TransKE", &kilo(h.k1)),
+        ("TransCE", &0),
+        ("DJ", &0),
+        ("TransK", &kilo(h.k1)),
+        ("Slow", &FRICTION),
+        ("Fast", &FRICTION),
+        ("Rate", &0),
+        ("Radius", &0),
+    ]);
 }
