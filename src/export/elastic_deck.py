@@ -112,7 +112,8 @@ def build():
         for part, (ea, ei, ahead) in enumerate(((axial, 0.0, ahead_axial), (0.0, bending, ahead_bending))):
             damping = ()
             if ahead > 0.0:
-                ops.damping("SecStif", tag + part, ahead)
+                # from a step on: the first one would take all of the weight's force for a change since the one before
+                ops.damping("SecStif", tag + part, ahead, "-activateTime", 1e-4 * RECORD_DT)
                 damping = ("-damp", tag + part)
             ops.element("elasticBeamColumn", tag + part, *ends, ea, 1.0, ei, 1, *damping)
 

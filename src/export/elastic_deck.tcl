@@ -69,7 +69,8 @@ proc rigidArm {tag i place offset stiffness} {
 # rotation of the whole structure meets none.
 proc beam {tag from to ea ei ahead} {
     if {$ahead > 0.0} {
-        damping SecStif $tag $ahead
+        # from a step on: the first one would take all of the weight's force for a change since the one before
+        damping SecStif $tag $ahead -activateTime [expr {1e-4 * $::recordDt}]
         element elasticBeamColumn $tag $from $to $ea 1.0 $ei 1 -damp $tag
     } else {
         element elasticBeamColumn $tag $from $to $ea 1.0 $ei 1
