@@ -78,9 +78,10 @@ def build():
 
     # Legs from the centre of mass to the feet stand for the rigid body. They need not be stiff: what they give, the same in every
     # direction, is taken off the gap's k1, so that both in series are k1; stiffer ones lose digits of its force.
-    length = math.hypot(HALF_WIDTH, HEIGHT)
-    ea, ei = LEG * length, LEG * length**3 / 3.0
-    gap_v, gap_h = (k1 / (1.0 - k1 / LEG) for k1 in (K1_V, K1_H))
+    # Products in this order: a body in a live model, which has them so, is equal to the last bit.
+    length = math.sqrt(HALF_WIDTH * HALF_WIDTH + HEIGHT * HEIGHT)
+    ea, ei = LEG * length, LEG * (length * (length * length)) / 3.0
+    gap_v, gap_h = (k1 / (1.0 - k1 * (1.0 / LEG)) for k1 in (K1_V, K1_H))
     # Corotational: with Linear the weight's moment on the leaning body (P-Delta), which drives rocking, is lost.
     ops.geomTransf("Corotational", 1)
 
