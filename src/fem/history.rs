@@ -5,7 +5,7 @@ use std::ops::ControlFlow;
 use super::{
     Finish,
     control::{HistoryOutcome, Work},
-    landings::{Event, Events, Landing, MOMENT, SLIGHT},
+    landings::{ContactEvent, Events, Landing, MOMENT, SLIGHT},
     model::{TH, X, Z},
     observer::{Change, Observer, View},
 };
@@ -157,7 +157,7 @@ impl Observer<f64> for Recorder {
     }
 
     fn event(&mut self, foot: usize, change: Change, view: &View<f64>) {
-        self.events.events.push(Event {
+        self.events.events.push(ContactEvent {
             time: view.time,
             foot,
             change,
