@@ -42,60 +42,44 @@ pub fn fragility(plan: &Plan, fragility: &Fragility, path: &Path) -> Result<(), 
         let unit = if unit == "-" { String::new() } else { format!(" [{unit}]") };
         probability::MeasurePanel { label: format!("{}{unit}", name.replace("alpha", "α")), curves }
     };
-    let measures: Vec<probability::MeasurePanel> = (0..MEASURES.len())
-        .map(|index| {
-            let rows = fragility.rows.iter().filter(|row| row.measure == index && main(row));
-            let place = |row: &FragilityRow| states.iter().position(|state| *state == row.state).unwrap_or(0);
-            measure(index, rows.filter_map(|row| curve(row, place(row))).collect())
-        })
-        .filter(|measure| !measure.curves.is_empty())
-        .collect();
     let model = if MODELS[first] == "fem" { "finite elements" } else { "Housner" };
     let who = if several { format!("all {} structures", plan.subjects.len()) } else { plan.subjects[0].name.clone() };
     let names: Vec<String> = states.iter().map(|state| state.name().replace("theta/alpha", "|θ|/α")).collect();
-    if !measures.is_empty() {
-        let title = format!("Fragility, {who}, {} motions, {model}", plan.motions.len());
+    // curves of the rows for which there is an entry of the legend, a panel a measure
+    let save = |what: String, names: &[String], entry: &dyn Fn(&FragilityRow) -> Option<usize>, path: &Path| {
+        let rows = |index: usize| fragility.rows.iter().filter(move |row| row.measure == index);
+        let curves = |index: usize| rows(index).filter_map(|row| curve(row, entry(row)?)).collect();
+        let measures: Vec<probability::MeasurePanel> = (0..MEASURES.len())
+            .map(|index| measure(index, curves(index)))
+            .filter(|measure| !measure.curves.is_empty())
+            .collect();
+        if measures.is_empty() {
+            return Ok::<_, CommandError>(());
+        }
+        let title = format!("{what}, {} motions, {model}", plan.motions.len());
         let label = format!("probability, {:.0} % bounds", 100.0 * plan.confidence);
         let data = probability::FragilityFigure {
             title: &title,
-            entries: &names,
+            entries: names,
             measures: &measures,
             probability_label: &label,
         };
-        probability::draw(&data)?.save(path)?;
-    }
+        Ok(probability::draw(&data)?.save(path)?)
+    };
+    let state = |row: &FragilityRow| states.iter().position(|state| main(row) && *state == row.state);
+    save(format!("Fragility, {who}"), &names, &state, path)?;
     if !several {
         return Ok(());
     }
     let shown = plan.subjects.len().min(PANELS);
     let names: Vec<String> = plan.subjects.iter().take(shown).map(|subject| subject.name.clone()).collect();
-    let alone = |row: &&FragilityRow, index: usize| {
+    let alone = |row: &FragilityRow| {
         let member = of(row);
-        let shown = member.subject.is_some_and(|subject| subject < shown);
-        row.measure == index
-            && row.state == LimitState::Overturning
-            && member.model == first
-            && member.restitution == 0
-            && shown
+        let overturning = row.state == LimitState::Overturning && member.model == first && member.restitution == 0;
+        member.subject.filter(|subject| overturning && *subject < shown)
     };
-    let measures: Vec<probability::MeasurePanel> = (0..MEASURES.len())
-        .map(|index| {
-            let rows = fragility.rows.iter().filter(|row| alone(row, index));
-            measure(index, rows.filter_map(|row| curve(row, of(row).subject?)).collect())
-        })
-        .filter(|measure| !measure.curves.is_empty())
-        .collect();
-    if !measures.is_empty() {
-        let title = format!("Overturning of each structure, {} motions, {model}", plan.motions.len());
-        let label = format!("probability, {:.0} % bounds", 100.0 * plan.confidence);
-        let data = probability::FragilityFigure {
-            title: &title,
-            entries: &names,
-            measures: &measures,
-            probability_label: &label,
-        };
-        probability::draw(&data)?.save(&path.with_file_name("fragility_structures.png"))?;
-    }
+    let each = path.with_file_name("fragility_structures.png");
+    save("Overturning of each structure".to_string(), &names, &alone, &each)?;
     Ok(())
 }
 

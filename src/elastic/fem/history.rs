@@ -211,12 +211,8 @@ impl ElasticRecorder {
         }
         history.q.push(view.q[..n].to_vec());
         history.v.push(view.v[..n].to_vec());
-        let e = view.energy;
-        history.account.input.push(e.input);
-        history.account.stored.push(e.stored - e.initial);
-        history.account.dissipated.push(e.dissipated + e.released);
-        history.account.residual.push(e.residual());
-        self.residual = self.residual.max(e.residual().abs());
+        history.account.push(view.energy);
+        self.residual = self.residual.max(view.energy.residual().abs());
     }
 
     /// After a step, with its impulses.

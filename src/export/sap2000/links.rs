@@ -1,5 +1,7 @@
 //! The springs: links between foot, absorber and ground.
 
+use std::fmt::Display;
+
 use super::{FRICTION, KILO, SapModel, SapTable, parts::SpringLinks};
 use crate::{export::model::digits, spring::Springs};
 
@@ -78,56 +80,46 @@ fn linear(unit: &SpringLinks, table: &mut SapTable) {
     ]);
 }
 
-/// k1, between foot and absorber, where the program knows no isolator.
+/// k1, between foot and absorber, where the program knows no isolator: the horizontal spring acts in the air, too.
 fn gap(unit: &SpringLinks, table: &mut SapTable) {
-    let (link, Springs { vertical: v, horizontal: h }) = (name("FOOT_GAP", unit), &unit.springs);
-    table.add(&[
-        ("Link", &link),
-        ("DOF", &"U1"),
-        ("Fixed", &"No"),
-        ("NonLinear", &"Yes"),
-        ("TransKE", &kilo(v.k1)),
-        ("TransCE", &0),
-        ("TransK", &kilo(v.k1)),
-        ("TransOpen", &0),
-    ]);
-    table.add(&[
-        ("Link", &link),
-        ("DOF", &"U2"),
-        ("Fixed", &"No"),
-        ("NonLinear", &"No"),
-        ("TransKE", &kilo(h.k1)),
-        ("TransCE", &0),
-        ("DJ", &0),
-    ]);
+    foot("FOOT_GAP", unit, ("TransOpen", &0), "No", &[], table);
 }
 
 /// The same as an isolator, whose horizontal spring acts while the foot presses.
 fn isolator(unit: &SpringLinks, table: &mut SapTable) {
-    let (link, Springs { vertical: v, horizontal: h }) = (name("FOOT", unit), &unit.springs);
-    // DJ = 0: the shear spring sits at the foot, so the foot's rotation does not stretch it. Radius 0: a flat slider.
-    table.add(&[
-        ("Link", &link),
-        ("DOF", &"U1"),
-        ("Fixed", &"No"),
-        ("NonLinear", &"Yes"),
-        ("TransKE", &kilo(v.k1)),
-        ("TransCE", &0),
-        ("TransK", &kilo(v.k1)),
-        ("TransC", &0),
-    ]);
-    table.add(&[
-        ("Link", &link),
-        ("DOF", &"U2"),
-        ("Fixed", &"No"),
-        ("NonLinear", &"Yes"),
-        ("TransKE", &kilo(h.k1)),
-        ("TransCE", &0),
-        ("DJ", &0),
-        ("TransK", &kilo(h.k1)),
-        ("Slow", &FRICTION),
-        ("Fast", &FRICTION),
-        ("Rate", &0),
-        ("Radius", &0),
-    ]);
+    let k1 = kilo(unit.springs.horizontal.k1);
+    // radius 0: a flat slider
+    let slider: [SapField; 5] =
+        [("TransK", &k1), ("Slow", &FRICTION), ("Fast", &FRICTION), ("Rate", &0), ("Radius", &0)];
+    foot("FOOT", unit, ("TransC", &0), "Yes", &slider, table);
+}
+
+/// A column of a table and its value.
+type SapField<'a> = (&'a str, &'a dyn Display);
+
+/// k1 of a unit, as `link`: it only presses vertically, with the column that this kind has for it; whether the horizontal spring is nonlinear,
+/// and its columns then. DJ = 0: it sits at the foot, so the foot's rotation does not stretch it.
+fn foot(
+    link: &str,
+    unit: &SpringLinks,
+    vertical: SapField,
+    nonlinear: &str,
+    horizontal: &[SapField],
+    table: &mut SapTable,
+) {
+    let link = name(link, unit);
+    let [v, h] = [unit.springs.vertical.k1, unit.springs.horizontal.k1].map(kilo);
+    let mut row = |direction: &str, nonlinear: &str, k1: &String, rest: &[SapField]| {
+        let all: [SapField; 6] = [
+            ("Link", &link),
+            ("DOF", &direction),
+            ("Fixed", &"No"),
+            ("NonLinear", &nonlinear),
+            ("TransKE", k1),
+            ("TransCE", &0),
+        ];
+        table.add(&[&all, rest].concat());
+    };
+    row("U1", "Yes", &v, &[("TransK", &v), vertical]);
+    row("U2", nonlinear, &h, &[&[("DJ", &0 as &dyn Display)], horizontal].concat());
 }
