@@ -14,7 +14,7 @@ use groundspring::{
     tuning::elastic::{
         design::{springs, with_k},
         landing_speed, stand,
-        suite::Suite,
+        suite::ElasticSuite,
     },
 };
 
@@ -43,7 +43,7 @@ fn main() -> Result<(), Box<dyn std::error::Error>> {
         let structure = ElasticStructure::Pier(pier).checked()?;
         let model = Assembled::new(structure)?;
         let standing = stand(&model).ok_or("does not stand")?;
-        let suite = Suite::new(model, None);
+        let suite = ElasticSuite::new(model, None);
         for give in [1e-3, 1e-4, 1e-5] {
             let k = springs(&standing, give, landing_speed(&structure)).k;
             let over = |factor: f64| {

@@ -42,8 +42,8 @@ mod verify;
 #[cfg(feature = "internals")]
 pub use {
     common::{Both, both},
-    report::Report,
-    run::{Output, Run},
+    report::HousnerReport,
+    run::{FinishedRun, Output},
 };
 
 /// The version, and what was built with it.
@@ -60,29 +60,29 @@ pub struct Cli {
 #[derive(Debug, Subcommand)]
 enum Command {
     /// Tune the springs of a case; without arguments the paper's A-frame on El Centro.
-    Run(run::Options),
+    Run(run::RunOptions),
     /// Write a case file to begin with, every line explained.
-    Init(init::Options),
+    Init(init::InitOptions),
     /// Rock the rigid body by Housner's equation; its history as CSV on stdout.
-    Housner(housner::Options),
+    Housner(housner::HousnerOptions),
     /// Fit a spring-absorber unit (frequency ratio f, damping ratio xi) of a mass ratio to the wanted frequency response.
-    Response(response::Options),
+    Response(response::ResponseOptions),
     /// The design over slenderness and stiffness, for any size and mass, as CSV and figure.
-    Chart(chart::Options),
+    Chart(chart::ChartOptions),
     /// Rock the finite elements on given springs, and Housner's body; their match as JSON on stdout.
-    Simulate(simulate::Options),
+    Simulate(simulate::SimulateOptions),
     /// Judge given springs over many records: peaks, overturning, histories where they can be compared.
-    Validate(validate::Options),
+    Validate(validate::ValidateOptions),
     /// Many histories over structures, records, scales: fragility, overturning and rocking spectra.
-    Sweep(sweep::Options),
+    Sweep(sweep::SweepOptions),
     /// Write the springs and their model for OpenSees, SAP2000 or as plain tables.
-    Export(export::Options),
+    Export(export::ExportOptions),
     /// What is in record files of any format, and what a run would take of them.
-    Record(record::Options),
+    Record(record::RecordFileOptions),
     /// Run the exported model in OpenSees beside our own history and Housner's.
-    Verify(verify::Options),
+    Verify(verify::VerifyOptions),
     /// Print what a shell needs to complete commands and options.
-    Completions(completions::Options),
+    Completions(completions::CompletionsOptions),
 }
 
 /// Why a command ended without its result.

@@ -30,7 +30,7 @@ use crate::{
 };
 #[cfg(feature = "cli")]
 pub use elastic::ElasticDeck;
-use model::Model;
+use model::DeckModel;
 pub use model::{ACCURACY, with_inertia};
 #[cfg(feature = "cli")]
 pub use step_count::deck_steps;
@@ -183,7 +183,7 @@ pub fn export(
     expected: &Expected,
     format: DeckFormat,
 ) -> Result<String, ExportError> {
-    let model = Model::new(parameters, record, expected)?;
+    let model = DeckModel::new(parameters, record, expected)?;
     let (members, sap2000) = (&model.members, format == DeckFormat::Sap2000);
     for (name, left_out) in [
         ("friction", members.friction.is_some() && sap2000),
@@ -198,7 +198,7 @@ pub fn export(
     Ok(match format {
         DeckFormat::OpenSeesPy => opensees::python(&model),
         DeckFormat::OpenSeesTcl => opensees::tcl(&model),
-        DeckFormat::Sap2000 => sap2000::tables(&sap2000::Parts::rigid(&model)),
+        DeckFormat::Sap2000 => sap2000::tables(&sap2000::SapModel::rigid(&model)),
         DeckFormat::Csv => plain::csv(&model.places()),
         DeckFormat::Markdown => plain::markdown(&model.title(), &model.places()),
     })

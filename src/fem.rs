@@ -145,19 +145,19 @@ impl Analysis<'_, f64> {
 
     /// The same with dampers, a tendon or friction, or none of them; and the forces in them.
     pub fn simulate_with(&self, members: &Members<f64>) -> (History, Demands) {
-        let mut both = Both { recorder: Recorder::new(self.accel.len()), demands: Demands::default() };
+        let mut both = HistoryAndForces { recorder: Recorder::new(self.accel.len()), demands: Demands::default() };
         let finish = self.observe_with(members, &mut both);
         (both.recorder.finish(finish), both.demands)
     }
 }
 
 /// Keeps the history and the forces.
-struct Both {
+struct HistoryAndForces {
     recorder: Recorder,
     demands: Demands,
 }
 
-impl Observer<f64> for Both {
+impl Observer<f64> for HistoryAndForces {
     fn sample(&mut self, index: usize, view: &View<f64>) -> ControlFlow<()> {
         let _ = self.demands.sample(index, view);
         self.recorder.sample(index, view)

@@ -55,7 +55,7 @@ pub mod stack;
 pub mod validation;
 
 pub use number::{brief, power_of_ten, prefix, short};
-pub use plot::Event;
+pub use plot::EventMark;
 pub use sheet::Sheet;
 
 #[cfg(test)]

@@ -89,12 +89,12 @@ fn paper_error(job: &Job, paper: &Paper, hz: f64) -> Option<f64> {
 }
 
 /// Keeps the largest vertical force of either foot (N), and when contact changed (s).
-struct Watch {
+struct ForceWatch {
     largest: f64,
     changes: Vec<f64>,
 }
 
-impl Observer<f64> for Watch {
+impl Observer<f64> for ForceWatch {
     fn sample(&mut self, _: usize, _: &View<f64>) -> ControlFlow<()> {
         ControlFlow::Continue(())
     }
@@ -121,7 +121,7 @@ fn cost(job: &Job, springs: &Springs<Design<f64>>) -> (f64, usize) {
         // forces at every sample
         control: Control::search(),
     };
-    let mut watch = Watch { largest: 0.0, changes: Vec::new() };
+    let mut watch = ForceWatch { largest: 0.0, changes: Vec::new() };
     case.observe(&mut watch);
     let duration = job.record.len().saturating_sub(1) as f64 * job.record.dt;
     let landing = (TAU * springs.vertical.omega_n_hz).recip();

@@ -39,7 +39,7 @@ use std::{
 
 use clap::Parser;
 use groundspring::{
-    figures::precision::{self, Precision},
+    figures::precision::{self, PrecisionFigure},
     tuning::arr::inner::FitError,
 };
 
@@ -221,8 +221,8 @@ pub fn least<T>(rounds: usize, mut contender: impl FnMut() -> T) -> (f64, T) {
 /// A tool's name and its (error, time [ms]).
 type Drawn = (String, Vec<(f64, f64)>);
 
-fn series(drawn: &[Drawn]) -> Vec<precision::Series<'_>> {
-    drawn.iter().map(|(label, points)| precision::Series { label, points }).collect()
+fn series(drawn: &[Drawn]) -> Vec<precision::ToolSeries<'_>> {
+    drawn.iter().map(|(label, points)| precision::ToolSeries { label, points }).collect()
 }
 
 /// `work_precision.png`: one sheet a model.
@@ -243,13 +243,13 @@ fn draw(measured: &Measured, path: &Path) -> Result<(), Box<dyn Error>> {
     let (rigid, elements) = (all(&measured.rigid), all(&measured.elements));
     let (rigid, elements) = (series(&rigid), series(&elements));
     let sheets = [
-        Precision {
+        PrecisionFigure {
             title: "Housner's equation, 20 s of El Centro: time against error",
             error_label: "largest error of u against float128 [m]",
             time_label: "time [ms]",
             series: &rigid,
         },
-        Precision {
+        PrecisionFigure {
             title: "Finite elements on 160 Hz springs, 20 s of El Centro: time against error",
             error_label: "larger NRMSE of u and v",
             time_label: "time [ms]",

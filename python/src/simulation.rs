@@ -3,7 +3,7 @@
 use std::{borrow::Cow, sync::Arc};
 
 use groundspring::{
-    commands::{Both, Report, Run, both},
+    commands::{Both, FinishedRun, HousnerReport, both},
     fem::{self, QUANTITIES},
     members::Members,
     verdict::Verdict,
@@ -35,12 +35,12 @@ pub struct Simulation {
 /// Where the histories are.
 enum Source {
     Own(Box<Both>),
-    Tuned(Arc<Run>),
+    Tuned(Arc<FinishedRun>),
 }
 
 impl Simulation {
     /// The histories of a run.
-    pub fn of(structure: Structure, run: Arc<Run>) -> Self {
+    pub fn of(structure: Structure, run: Arc<FinishedRun>) -> Self {
         let dt = run.job.record.dt;
         let verdict = run.both.verdict(&run.job.body, dt, &run.report.conditioning);
         Self { structure, dt, lines: lines(&verdict, &run.both, &run.report), verdict, source: Source::Tuned(run) }
@@ -58,7 +58,7 @@ impl Simulation {
     }
 }
 
-fn lines(verdict: &Verdict, both: &Both, report: &Report) -> Vec<String> {
+fn lines(verdict: &Verdict, both: &Both, report: &HousnerReport) -> Vec<String> {
     verdict.lines().into_iter().chain(report.lines()).chain(both.early()).collect()
 }
 
@@ -242,7 +242,7 @@ pub fn simulate(
     let simulation = interruptible(py, |_| {
         let (body, dt) = (structure.body(), record.dt);
         let both = both(&body, e, &springs.chains(), &Members::default(), &record);
-        let report = Report::new(&body, e, &record, &both.rocking, friction);
+        let report = HousnerReport::new(&body, e, &record, &both.rocking, friction);
         let verdict = both.verdict(&body, dt, &report.conditioning);
         Simulation {
             structure,

@@ -4,7 +4,7 @@ use std::{path::PathBuf, sync::Arc};
 
 use groundspring::{
     case::{Case, Objective, Tuning},
-    commands::{Output, Run},
+    commands::{FinishedRun, Output},
     excitation::Excitation,
     front, record,
     tuning::job::Job,
@@ -24,7 +24,7 @@ use crate::{
 /// Springs of a structure, and all that `tune run` finds of them.
 #[pyclass(frozen, module = "groundspring")]
 pub struct Tuned {
-    run: Arc<Run>,
+    run: Arc<FinishedRun>,
     structure: Structure,
     histories: Py<Simulation>,
 }
@@ -128,7 +128,7 @@ pub fn tune(
         let job = Job::new(&case, &|_, _, _| stop.check()).map_err(value_error)?;
         let points = if front { front::front(&job, &|_, _| stop.check()) } else { Vec::new() };
         stop.check();
-        let run = Run::new(case, job, points, friction);
+        let run = FinishedRun::new(case, job, points, friction);
         let run = Arc::new(run);
         let simulation = Simulation::of(structure, run.clone());
         Ok::<_, PyErr>((run, simulation))

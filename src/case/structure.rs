@@ -27,14 +27,14 @@ const POUND: f64 = 0.453_592_37;
 
 /// What a key gives.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-enum Quantity {
+enum KeyQuantity {
     Height,
     TotalHeight,
     Width,
     Mass,
 }
 
-impl Quantity {
+impl KeyQuantity {
     /// What may not be given beside it.
     fn same(self) -> &'static [Self] {
         match self {
@@ -46,24 +46,24 @@ impl Quantity {
 }
 
 /// Keys with a number of a unit: what it gives, in how many SI units one of it is.
-const QUANTITIES: [(&str, Quantity, f64); 16] = [
-    ("height_m", Quantity::Height, 1.0),
-    ("height_ft", Quantity::Height, FOOT),
-    ("height_in", Quantity::Height, INCH),
-    ("total_height_m", Quantity::TotalHeight, 1.0),
-    ("total_height_ft", Quantity::TotalHeight, FOOT),
-    ("total_height_in", Quantity::TotalHeight, INCH),
-    ("width_m", Quantity::Width, 1.0),
-    ("width_ft", Quantity::Width, FOOT),
-    ("width_in", Quantity::Width, INCH),
-    ("mass_kg", Quantity::Mass, 1.0),
-    ("mass_t", Quantity::Mass, 1e3),
-    ("mass_lb", Quantity::Mass, POUND),
-    ("weight_n", Quantity::Mass, 1.0 / GRAVITY),
-    ("weight_kn", Quantity::Mass, 1e3 / GRAVITY),
+const QUANTITIES: [(&str, KeyQuantity, f64); 16] = [
+    ("height_m", KeyQuantity::Height, 1.0),
+    ("height_ft", KeyQuantity::Height, FOOT),
+    ("height_in", KeyQuantity::Height, INCH),
+    ("total_height_m", KeyQuantity::TotalHeight, 1.0),
+    ("total_height_ft", KeyQuantity::TotalHeight, FOOT),
+    ("total_height_in", KeyQuantity::TotalHeight, INCH),
+    ("width_m", KeyQuantity::Width, 1.0),
+    ("width_ft", KeyQuantity::Width, FOOT),
+    ("width_in", KeyQuantity::Width, INCH),
+    ("mass_kg", KeyQuantity::Mass, 1.0),
+    ("mass_t", KeyQuantity::Mass, 1e3),
+    ("mass_lb", KeyQuantity::Mass, POUND),
+    ("weight_n", KeyQuantity::Mass, 1.0 / GRAVITY),
+    ("weight_kn", KeyQuantity::Mass, 1e3 / GRAVITY),
     // the weight of a pound of mass is a pound of force
-    ("weight_lb", Quantity::Mass, POUND),
-    ("weight_kip", Quantity::Mass, 1e3 * POUND),
+    ("weight_lb", KeyQuantity::Mass, POUND),
+    ("weight_kip", KeyQuantity::Mass, 1e3 * POUND),
 ];
 
 /// All keys, for the message about one that is none of them.
@@ -104,9 +104,9 @@ impl<'de> Deserialize<'de> for StructureSection {
 struct Keys;
 
 /// One of [`KEYS`]; refused as it is read, so that the message tells its line.
-struct Key(&'static str);
+struct StructureKey(&'static str);
 
-impl<'de> Deserialize<'de> for Key {
+impl<'de> Deserialize<'de> for StructureKey {
     fn deserialize<D: Deserializer<'de>>(deserializer: D) -> Result<Self, D::Error> {
         let key = String::deserialize(deserializer)?;
         let known = KEYS.iter().find(|known| **known == key);
@@ -142,7 +142,7 @@ impl<'de> Visitor<'de> for Keys {
         let (mut inertia, mut restitution, mut ratio) = (None, None, None);
         // each with the key that gave it
         let mut given: [Option<(&str, f64)>; 4] = [None; 4];
-        while let Some(Key(key)) = map.next_key()? {
+        while let Some(StructureKey(key)) = map.next_key()? {
             match key {
                 "kind" => kind = Some(map.next_value()?),
                 "rotational_inertia_kgm2" => inertia = Some(map.next_value()?),

@@ -19,7 +19,7 @@ use crate::{
 
 /// Options of `tune chart`.
 #[derive(Debug, Args)]
-pub struct Options {
+pub struct ChartOptions {
     /// Slenderness alpha = atan(width / (2 height)) [rad], several with commas
     #[arg(long, value_name = "RAD", value_delimiter = ',', default_values_t = [0.05, 0.1, 0.15, 0.2, 0.3, 0.4, 0.5])]
     alpha: Vec<f64>,
@@ -37,13 +37,13 @@ const KINDS: [(&str, f64); 2] = [("aframe", 1.0), ("block", 0.75)];
 const DECADES: (i32, i32) = (30, 60);
 
 /// One row of the chart.
-struct Row {
+struct ChartRow {
     kind: usize,
     geometry: Geometry,
     springs: Springs<Design<f64>>,
 }
 
-pub fn run(o: &Options) -> Result<(), CommandError> {
+pub fn run(o: &ChartOptions) -> Result<(), CommandError> {
     check_folder(&o.out)?;
     threads(o.jobs)?;
     let mut all = Vec::new();
@@ -57,8 +57,8 @@ pub fn run(o: &Options) -> Result<(), CommandError> {
             }
         }
     }
-    let rows: Vec<Row> =
-        all.into_par_iter().map(|(kind, geometry)| Row { kind, geometry, springs: geometry.springs() }).collect();
+    let rows: Vec<ChartRow> =
+        all.into_par_iter().map(|(kind, geometry)| ChartRow { kind, geometry, springs: geometry.springs() }).collect();
     let folder = Folder::begin(&o.out, "chart", &["chart.csv", "chart.png", "chart.svg"])?;
     write_file(&o.out.join("chart.csv"), csv(&rows).as_bytes())?;
     draw(o, &rows)?;
@@ -74,11 +74,11 @@ pub fn run(o: &Options) -> Result<(), CommandError> {
 }
 
 /// One row a design.
-fn csv(rows: &[Row]) -> String {
+fn csv(rows: &[ChartRow]) -> String {
     let mut out = String::from(
         "kind,alpha,mass_share,omega_n_over_p,k,mu_vertical,f_vertical,xi_vertical,mu_horizontal,f_horizontal,xi_horizontal,omega_h_over_omega_v\n",
     );
-    for Row { kind, geometry: g, springs: Springs { vertical: v, horizontal: h } } in rows {
+    for ChartRow { kind, geometry: g, springs: Springs { vertical: v, horizontal: h } } in rows {
         // writing to a String cannot fail
         let _ = writeln!(
             out,
@@ -100,13 +100,13 @@ fn csv(rows: &[Row]) -> String {
     out
 }
 
-fn draw(o: &Options, rows: &[Row]) -> Result<(), CommandError> {
+fn draw(o: &ChartOptions, rows: &[ChartRow]) -> Result<(), CommandError> {
     type Pick = fn(&Springs<Design<f64>>) -> f64;
     let picks: [Pick; 4] =
         [|s| s.vertical.mu, |s| s.vertical.f, |s| s.vertical.xi, |s| s.horizontal.omega_n_hz / s.vertical.omega_n_hz];
     // alpha, dashed, Omega_n/p, the values of each panel
-    type Column = (f64, bool, Vec<f64>, [Vec<f64>; 4]);
-    let columns: Vec<Column> = rows
+    type SlendernessColumn = (f64, bool, Vec<f64>, [Vec<f64>; 4]);
+    let columns: Vec<SlendernessColumn> = rows
         .chunk_by(|a, b| a.kind == b.kind && a.geometry.alpha() == b.geometry.alpha())
         .map(|rows| {
             let x = rows.iter().map(|row| row.geometry.stiffness()).collect();
@@ -114,16 +114,16 @@ fn draw(o: &Options, rows: &[Row]) -> Result<(), CommandError> {
             (rows[0].geometry.alpha(), rows[0].kind == 1, x, values)
         })
         .collect();
-    let curves: Vec<figures::chart::Curve> = columns
+    let curves: Vec<figures::chart::ChartCurve> = columns
         .iter()
-        .map(|(alpha, dashed, x, values)| figures::chart::Curve {
+        .map(|(alpha, dashed, x, values)| figures::chart::ChartCurve {
             alpha: *alpha,
             dashed: *dashed,
             omega_n_over_p: x,
             values: [&values[0], &values[1], &values[2], &values[3]],
         })
         .collect();
-    figures::chart::draw(&figures::chart::Chart {
+    figures::chart::draw(&figures::chart::ChartFigure {
         title: "Ground springs from the geometry; horizontal: μ 0.3, f 1.826, ξ 3.333",
         panels: ["vertical μ", "vertical f", "vertical ξ", "horizontal over vertical Ωₙ"],
         kinds: ["A-frame", "solid block"],
@@ -142,7 +142,7 @@ mod tests {
     fn a_row_holds_the_design() -> Result<(), GeometryError> {
         let geometry = Geometry::new(0.1, 1.0, 2e4)?;
         let springs = geometry.springs();
-        let text = csv(&[Row { kind: 0, geometry, springs }]);
+        let text = csv(&[ChartRow { kind: 0, geometry, springs }]);
         let numbers: Vec<f64> =
             text.lines().nth(1).unwrap_or("").split(',').skip(1).map(|x| x.parse().unwrap()).collect();
         assert_eq!(text.lines().next().unwrap().split(',').count(), numbers.len() + 1);

@@ -7,12 +7,12 @@ use super::{Cli, CommandError};
 
 /// Options of `tune completions`.
 #[derive(Debug, Args)]
-pub struct Options {
+pub struct CompletionsOptions {
     /// The shell; as in `tune completions bash > ~/.local/share/bash-completion/completions/tune`
     shell: Shell,
 }
 
-pub fn run(o: &Options) -> Result<(), CommandError> {
+pub fn run(o: &CompletionsOptions) -> Result<(), CommandError> {
     let mut text = Vec::new();
     generate(o.shell, &mut Cli::command(), "tune", &mut text);
     std::io::Write::write_all(&mut std::io::stdout(), &text)?;

@@ -7,7 +7,7 @@ use rayon::prelude::*;
 use super::{CommandError, common::Both, table::FORCES};
 use crate::{
     case::Case,
-    figures::{self, Event, FigureError, Sheet, brief, short},
+    figures::{self, EventMark, FigureError, Sheet, brief, short},
     front::FrontPoint,
     housner,
     response::{
@@ -148,7 +148,8 @@ impl Pictures<'_> {
             end: event(&fall),
         };
         let title = self.title(what);
-        let data = figures::history::History { title: &title, t: &t, reference, others: &[other], differences: false };
+        let data =
+            figures::history::HistoryFigure { title: &title, t: &t, reference, others: &[other], differences: false };
         figures::history::draw(&data).map(Some)
     }
 
@@ -176,17 +177,17 @@ impl Pictures<'_> {
         // a point that is active at an infinite frequency stands at the right edge, and is said
         let lowest = lowest_cap(&self.case.target);
         let end = g[g.len() - 1];
-        let active: Vec<Vec<figures::arr::Active>> = labels
+        let active: Vec<Vec<figures::arr::ActiveMark>> = labels
             .iter()
             .map(|(_, _, _, fit)| {
                 let all = fit.iter().flat_map(|fit| &fit.certificate.active);
-                all.map(|a| figures::arr::Active { g: a.g.min(end), arr: a.arr, multiplier: None }).collect()
+                all.map(|a| figures::arr::ActiveMark { g: a.g.min(end), arr: a.arr, multiplier: None }).collect()
             })
             .collect();
         let arr: Vec<Vec<f64>> = labels.iter().map(|(_, _, d, _)| arr_of(d)).collect();
         let curve = |i: usize| {
             let (horizontal, label, d, fit) = &labels[i];
-            figures::arr::Curve {
+            figures::arr::UnitCurve {
                 label,
                 g: &g,
                 arr: &arr[i],
@@ -202,7 +203,7 @@ impl Pictures<'_> {
         if labels.iter().filter_map(|label| label.3).flat_map(|fit| &fit.certificate.active).any(|a| a.g > end) {
             title.push_str("\nPoints active at g beyond the axis stand at its right end.");
         }
-        figures::arr::draw(&figures::arr::Response { title: &title, target: &target, curves: &curves }).map(Some)
+        figures::arr::draw(&figures::arr::ResponseFigure { title: &title, target: &target, curves: &curves }).map(Some)
     }
 
     fn candidates(&self) -> Result<Option<Sheet>, FigureError> {
@@ -211,7 +212,7 @@ impl Pictures<'_> {
         let candidates: Vec<_> = tuned
             .candidates
             .iter()
-            .map(|c| figures::candidates::Candidate {
+            .map(|c| figures::candidates::CandidateMark {
                 vertical_hz: c.springs.vertical.omega_n_hz,
                 horizontal_hz: c.springs.horizontal.omega_n_hz,
                 error: c.error,
@@ -219,7 +220,7 @@ impl Pictures<'_> {
             })
             .collect();
         let delivered = self.job.springs == tuned.candidates[tuned.chosen].springs;
-        let data = figures::candidates::Candidates {
+        let data = figures::candidates::CandidatesFigure {
             title: &self.title("Every candidate of the paper's procedure"),
             error_label: "NRMSE of u and v",
             candidates: &candidates,
@@ -233,7 +234,7 @@ impl Pictures<'_> {
         let f = &self.both.fem.forces;
         let t = self.times(f.vertical[0].len());
         let fall = self.fall();
-        let data = figures::contact::Contact {
+        let data = figures::contact::ContactFigure {
             title: &format!("{}\n{}", self.title("Forces between the feet and the ground"), letters(FORCES)),
             t: &t,
             left_vertical: &f.vertical[0],
@@ -250,7 +251,7 @@ impl Pictures<'_> {
         let a = &self.both.fem.account;
         let t = self.times(a.input.len());
         let fall = self.fall();
-        let data = figures::energy::Energy {
+        let data = figures::energy::EnergyFigure {
             title: &self.title("Energy account of the finite elements"),
             t: &t,
             input: &a.input,
@@ -272,7 +273,7 @@ impl Pictures<'_> {
         let all: Vec<_> = named
             .into_iter()
             .filter(|(_, s)| !s.0.is_empty())
-            .map(|(label, s)| figures::front::Series { label, omega_n_hz: &s.0, error: &s.1 })
+            .map(|(label, s)| figures::front::DesignSeries { label, omega_n_hz: &s.0, error: &s.1 })
             .collect();
         if all.is_empty() {
             return Ok(None);
@@ -291,7 +292,7 @@ impl Pictures<'_> {
         };
         let (forces, steps) = (cost(|p| p.foot_force_weights), cost(|p| p.deck_steps as f64));
         let on = if self.job.suites.has_record() { "on the record" } else { "median of synthetic motions" };
-        let data = figures::front::Front {
+        let data = figures::front::FrontFigure {
             title: &self.title("Error against stiffness"),
             error_label: &format!("NRMSE of u, {on}"),
             series: &all,
@@ -323,8 +324,8 @@ fn letters(text: &str) -> String {
     text.replace("Omega_n", "Ωₙ")
 }
 
-fn event(end: &Option<(f64, String)>) -> Option<Event<'_>> {
-    end.as_ref().map(|(time, text)| Event { time: *time, text })
+fn event(end: &Option<(f64, String)>) -> Option<EventMark<'_>> {
+    end.as_ref().map(|(time, text)| EventMark { time: *time, text })
 }
 
 /// Whether the target asks for nothing but the lowest cap there is, by a limit that no chain can meet.
@@ -333,15 +334,17 @@ fn lowest_cap(target: &Target) -> bool {
 }
 
 /// A target band as the figure shows it: caps that can be met and flat bands.
-fn wanted(band: &Band, low: f64, high: f64) -> Option<figures::arr::Band> {
+fn wanted(band: &Band, low: f64, high: f64) -> Option<figures::arr::TargetBand> {
     let g = (band.g_low.max(low), band.g_high.unwrap_or(high).min(high));
     match band.kind {
         BandKind::Cap => {
-            (band.limit > 1.0).then_some(figures::arr::Band { g, at_least: None, at_most: Some(band.limit) })
+            (band.limit > 1.0).then_some(figures::arr::TargetBand { g, at_least: None, at_most: Some(band.limit) })
         }
-        BandKind::Rigid => {
-            Some(figures::arr::Band { g, at_least: Some(1.0 / (1.0 + band.limit)), at_most: Some(1.0 + band.limit) })
-        }
+        BandKind::Rigid => Some(figures::arr::TargetBand {
+            g,
+            at_least: Some(1.0 / (1.0 + band.limit)),
+            at_most: Some(1.0 + band.limit),
+        }),
         BandKind::Uniform | BandKind::RollOff => None,
     }
 }

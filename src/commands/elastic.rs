@@ -15,7 +15,7 @@ use crate::{
     elastic::{
         answer::{ElasticAnswer, ElasticHistories},
         assembled::{Assembled, Sway},
-        fem::History,
+        fem::ElasticHistory,
     },
     export::{ACCURACY, DeckFormat, ElasticDeck, ExportError},
     motion::peak,
@@ -34,7 +34,7 @@ mod page;
 mod pictures;
 pub(super) mod words;
 
-use bearing::Bearing;
+use bearing::ForceQuantities;
 
 /// A job done.
 pub struct ElasticRun {
@@ -45,7 +45,7 @@ pub struct ElasticRun {
     pub record: Record,
     pub answer: ElasticAnswer,
     /// What the structure bears.
-    bearing: Bearing,
+    bearing: ForceQuantities,
     /// But for the record: where that is to be found depends on the folder.
     pub parameters: ElasticParameters,
 }
@@ -76,7 +76,7 @@ pub(super) fn deck(
     assembled: &Assembled,
     springs: &[Springs<Chain<f64>>],
     record: &Record,
-    history: &History,
+    history: &ElasticHistory,
     (format, accuracy): (DeckFormat, f64),
 ) -> Result<String, ExportError> {
     let (frame, top) = (&assembled.frame, assembled.watched.first().map_or(0, |watched| watched.top));
@@ -129,7 +129,7 @@ impl ElasticRun {
             touches_fem: fem.contacts.iter().filter(|contact| contact.touches).count(),
             energy_residual: fem.energy_residual,
         };
-        let bearing = Bearing::new(&assembled, &answer, record.dt);
+        let bearing = ForceQuantities::new(&assembled, &answer, record.dt);
         let parameters =
             ElasticParameters { on_record: Some(on_record), ..springs_alone(&assembled, &tuned, case.accuracy) };
         Self { case, assembled, tuned, record, answer, bearing, parameters }
@@ -147,7 +147,7 @@ impl ElasticRun {
         let figures: Vec<Figure> = if output.figures { pictures::draw(self)? } else { Vec::new() };
         draw::save(out, &figures)?;
         if output.report {
-            let page = page::Page { run: self, parameters: &parameters, figures: &figures };
+            let page = page::ElasticPage { run: self, parameters: &parameters, figures: &figures };
             write_file(&out.join("report.html"), page.html().as_bytes())?;
         }
         Ok(())

@@ -6,7 +6,7 @@ use clap::Args;
 
 use super::{CommandError, common::RecordOptions, elastic::deck, output::file_in, write_file};
 use crate::{
-    elastic::fem::{Case, Start},
+    elastic::fem::{ElasticAnalysis, ElasticStart},
     export::{ACCURACY, DeckFormat, ExportError, deck_of, with_inertia},
     parameters::{Parameters, elastic::ElasticParameters},
     record::Record,
@@ -14,7 +14,7 @@ use crate::{
 
 /// Options of `tune export`.
 #[derive(Debug, Args)]
-pub struct Options {
+pub struct ExportOptions {
     /// Springs and structure, as `tune run` writes them
     #[arg(long, value_name = "parameters.json")]
     parameters: PathBuf,
@@ -31,7 +31,7 @@ pub struct Options {
     record: RecordOptions,
 }
 
-pub fn run(o: &Options) -> Result<(), CommandError> {
+pub fn run(o: &ExportOptions) -> Result<(), CommandError> {
     let usual = DECKS.iter().find(|(_, format)| *format == o.format).map_or("deck", |(name, _)| name);
     let out = file_in(&o.out, usual)?;
     check_accuracy(o.accuracy)?;
@@ -48,14 +48,14 @@ pub fn run(o: &Options) -> Result<(), CommandError> {
 }
 
 /// The deck of an elastic structure, with our own history to check itself against, and a line that says on which record.
-fn elastic(o: &Options, parameters: &ElasticParameters) -> Result<(String, String), CommandError> {
+fn elastic(o: &ExportOptions, parameters: &ElasticParameters) -> Result<(String, String), CommandError> {
     let excitation = o.record.excitation(|| parameters.excitation(&o.parameters))?;
     let record = excitation.used()?;
     let assembled = parameters.assembled().map_err(|e| CommandError::Result(e.to_string()))?;
     let springs = parameters.chains();
-    let case = Case {
+    let case = ElasticAnalysis {
         vertical: record.vertical.as_ref().map_or(&[], |vertical| &vertical.accel),
-        ..Case::new(&assembled.frame, &springs, Start::Standing, record.dt, &record.accel)
+        ..ElasticAnalysis::new(&assembled.frame, &springs, ElasticStart::Standing, record.dt, &record.accel)
     };
     let history = case.simulate().map_err(|e| CommandError::Result(e.to_string()))?;
     let text = deck(&assembled, &springs, &record, &history, (o.format, o.accuracy))?;

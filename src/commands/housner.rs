@@ -20,7 +20,7 @@ use crate::{
 
 /// Options of `tune housner`.
 #[derive(Debug, Args)]
-pub struct Options {
+pub struct HousnerOptions {
     /// Structure and record; the paper's A-frame (all mass at the apex, I_cg = 0) on El Centro unless given
     case: Option<PathBuf>,
     #[command(flatten)]
@@ -36,7 +36,7 @@ pub struct Options {
     impacts: bool,
 }
 
-pub fn run(o: &Options) -> Result<(), CommandError> {
+pub fn run(o: &HousnerOptions) -> Result<(), CommandError> {
     let (structure, e, default) = match &o.case {
         Some(path) => {
             let case = Case::read(path)?;

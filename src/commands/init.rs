@@ -12,7 +12,7 @@ use super::{CommandError, output::file_in};
 
 /// What the file begins with.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
-enum Shape {
+enum StructureShape {
     /// Two legs that meet in one mass: a bridge pier, a tower
     #[value(name = "aframe")]
     AFrame,
@@ -29,10 +29,10 @@ enum Shape {
 
 /// Options of `tune init`.
 #[derive(Debug, Args)]
-pub struct Options {
+pub struct InitOptions {
     /// What rocks
-    #[arg(value_enum, default_value_t = Shape::AFrame)]
-    shape: Shape,
+    #[arg(value_enum, default_value_t = StructureShape::AFrame)]
+    shape: StructureShape,
     /// The case file to write; one that is there stays as it is
     #[arg(long, value_name = "PATH", default_value = "case.toml")]
     out: PathBuf,
@@ -119,20 +119,20 @@ accuracy = 0.002         # of the history against the reference's, normalised: s
 ";
 
 /// The text for a shape.
-fn text(shape: Shape) -> String {
+fn text(shape: StructureShape) -> String {
     let (structure, restitution) = match shape {
-        Shape::AFrame => (AFRAME, RESTITUTION),
-        Shape::Block => (BLOCK, RESTITUTION),
-        Shape::Pier => (PIER, ""),
-        Shape::ElasticAFrame => (ELASTIC_AFRAME, ""),
-        Shape::Frame => (FRAME, ""),
+        StructureShape::AFrame => (AFRAME, RESTITUTION),
+        StructureShape::Block => (BLOCK, RESTITUTION),
+        StructureShape::Pier => (PIER, ""),
+        StructureShape::ElasticAFrame => (ELASTIC_AFRAME, ""),
+        StructureShape::Frame => (FRAME, ""),
     };
     format!(
         "# A case for `tune run`: what rocks, on which ground motion, how accurately.\n\n{structure}{restitution}{REST}"
     )
 }
 
-pub fn run(o: &Options) -> Result<(), CommandError> {
+pub fn run(o: &InitOptions) -> Result<(), CommandError> {
     let out = file_in(&o.out, "case.toml")?;
     let path = out.display().to_string();
     let there = |source: std::io::Error| match source.kind() {
@@ -157,20 +157,20 @@ mod tests {
 
     #[test]
     fn both_files_are_cases() {
-        let frame = Case::parse("case.toml", &text(Shape::AFrame)).unwrap();
+        let frame = Case::parse("case.toml", &text(StructureShape::AFrame)).unwrap();
         assert_eq!((frame.structure.height_m, frame.structure.mass_kg), (12.0, 350e3));
-        let block = Case::parse("case.toml", &text(Shape::Block)).unwrap();
+        let block = Case::parse("case.toml", &text(StructureShape::Block)).unwrap();
         assert_eq!((block.structure.height_m, block.structure.width_m), (1.0, 0.5));
     }
 
     /// What is commented out is right, too: but for the names of files, which are not there.
     #[test]
     fn what_is_commented_out_can_be_used() {
-        for shape in [Shape::AFrame, Shape::Block] {
+        for shape in [StructureShape::AFrame, StructureShape::Block] {
             let case = Case::parse("case.toml", &used(shape)).unwrap();
             assert_eq!((case.restitution, case.tuning.max_omega_hz), (0.9, Some(160.0)));
         }
-        for shape in [Shape::Pier, Shape::ElasticAFrame, Shape::Frame] {
+        for shape in [StructureShape::Pier, StructureShape::ElasticAFrame, StructureShape::Frame] {
             let used = used(shape);
             assert!(ElasticCase::is(&text(shape)) && ElasticCase::is(&used));
             ElasticCase::parse("case.toml", &text(shape)).unwrap();
@@ -179,7 +179,7 @@ mod tests {
     }
 
     /// The text with what is commented out.
-    fn used(shape: Shape) -> String {
+    fn used(shape: StructureShape) -> String {
         let names = ["# file", "# component", "# dt_s", "# units", "# A case"];
         text(shape)
             .lines()

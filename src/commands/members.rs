@@ -34,7 +34,7 @@ fn forces(peaks: &[ForcePeak; QUANTITIES.len()]) -> Value {
 
 /// The match and the largest forces of the rigid body, and of the one with members.
 #[derive(Serialize)]
-pub struct Report<'a> {
+pub struct MembersReport<'a> {
     #[serde(flatten)]
     matched: &'a Match,
     /// Over all steps: in landings, forces of the springs.
@@ -52,7 +52,7 @@ struct With<'a> {
     forces_between_landings: Value,
 }
 
-impl<'a> Report<'a> {
+impl<'a> MembersReport<'a> {
     /// Of a rigid body's history, and of one with members if there is one.
     pub fn new(matched: &'a Match, demands: &Demands, with: Option<&'a WithMembers>) -> Self {
         let with = with.map(|with| With {

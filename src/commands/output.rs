@@ -60,7 +60,7 @@ pub(super) fn file_in(path: &Path, name: &str) -> Result<PathBuf, CommandError> 
 }
 
 /// Which files of a folder each command wrote last, and their fingerprints.
-type Written = BTreeMap<String, BTreeMap<String, String>>;
+type WrittenFiles = BTreeMap<String, BTreeMap<String, String>>;
 
 /// Where that is remembered, in the folder.
 const WRITTEN: &str = ".tune-files.json";
@@ -96,7 +96,7 @@ impl<'a> Folder<'a> {
     /// All is written.
     pub fn finish(self) -> Result<(), CommandError> {
         let list = self.path.join(WRITTEN);
-        let mut all: Written =
+        let mut all: WrittenFiles =
             std::fs::read(&list).ok().and_then(|text| serde_json::from_slice(&text).ok()).unwrap_or_default();
         let before = all.remove(self.command).unwrap_or_default();
         let (mut now, mut stale) = (BTreeMap::new(), Vec::new());

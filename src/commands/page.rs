@@ -5,7 +5,7 @@ use std::fmt::Write;
 use super::{
     draw::Figure,
     members,
-    run::Run,
+    run::FinishedRun,
     table::{self, FORCES, strings},
 };
 use crate::{
@@ -31,18 +31,18 @@ pub struct Page<'a> {
     /// As `parameters.json` holds it.
     pub parameters: &'a Parameters,
     /// None of springs that were tuned without a record.
-    pub run: Option<&'a Run>,
+    pub run: Option<&'a FinishedRun>,
     pub figures: &'a [Figure],
 }
 
 /// A section: its name in the address, its heading, its body.
-pub(super) type Section = (&'static str, &'static str, String);
+pub(super) type PageSection = (&'static str, &'static str, String);
 
 impl Page<'_> {
     /// The whole page.
     pub fn html(&self) -> String {
         let advice = advice::all(self.parameters, self.run);
-        let sections: Vec<Section> = [
+        let sections: Vec<PageSection> = [
             ("case", "The case", self.case()),
             ("springs", "The springs", self.springs()),
             ("accuracy", "Accuracy, and on what", self.accuracy()),
@@ -80,7 +80,7 @@ impl Page<'_> {
             Some(Weight::Care) => "verdict care",
             Some(Weight::Bad) => "verdict bad",
         };
-        let said = self.run.map_or_else(|| table::said(self.parameters), Run::said);
+        let said = self.run.map_or_else(|| table::said(self.parameters), FinishedRun::said);
         let short = &said[..said.iter().take_while(|line| !line.starts_with("accuracy")).count()];
         // what the heading and a remark below say is not said a third time
         let told = |line: &&String| {
@@ -328,7 +328,7 @@ impl Page<'_> {
 }
 
 /// A page of sections below a verdict; title and line are escaped.
-pub(super) fn document(title: &str, subtitle: &str, verdict: &str, sections: &[Section]) -> String {
+pub(super) fn document(title: &str, subtitle: &str, verdict: &str, sections: &[PageSection]) -> String {
     let mut out = format!(
         "<!DOCTYPE html>\n<html lang=\"en\">\n<head>\n<meta charset=\"utf-8\">\n<meta name=\"viewport\" \
          content=\"width=device-width, initial-scale=1\">\n<link rel=\"icon\" href=\"data:,\">\n<title>{title}</title>\n\

@@ -19,11 +19,11 @@ use crate::{
     scalar::GRAVITY,
     structure::Body,
 };
-use row::Row;
+use row::ComponentRow;
 
 /// Options of `tune record`.
 #[derive(Debug, Args)]
-pub struct Options {
+pub struct RecordFileOptions {
     /// Record files of any format; that of the case unless given
     #[arg(required_unless_present = "case", value_name = "FILE")]
     files: Vec<PathBuf>,
@@ -52,18 +52,18 @@ pub struct Options {
 
 /// One file.
 #[derive(Serialize)]
-struct Report {
+struct FileReport {
     file: String,
     format: RecordFormat,
     station: Option<String>,
-    components: Vec<Row>,
-    run: Run,
+    components: Vec<ComponentRow>,
+    run: RunInputs,
     notices: Vec<String>,
 }
 
 /// What `tune run` would take.
 #[derive(Serialize)]
-struct Run {
+struct RunInputs {
     /// Name of the record.
     record: String,
     /// Length compared unless another is asked for.
@@ -74,7 +74,7 @@ struct Run {
     pga_time_s: f64,
 }
 
-pub fn run(o: &Options) -> Result<(), CommandError> {
+pub fn run(o: &RecordFileOptions) -> Result<(), CommandError> {
     let case = o.case.as_deref().map(Case::read).transpose()?;
     let body = case.as_ref().map(|case| case.structure.body::<f64>());
     let duration = case.as_ref().map_or(LONGEST_S, |case| case.excitation.duration_s.unwrap_or(LONGEST_S));
@@ -88,7 +88,7 @@ pub fn run(o: &Options) -> Result<(), CommandError> {
                 if let Some(folder) = &o.out {
                     draw(folder, file, &recording, body.as_ref())?;
                 }
-                reports.push(Report::new(file, &recording, body.as_ref(), duration));
+                reports.push(FileReport::new(file, &recording, body.as_ref(), duration));
             }
             Err(error) => bad.push(error),
         }
@@ -101,7 +101,7 @@ pub fn run(o: &Options) -> Result<(), CommandError> {
         let json = serde_json::to_string_pretty(&reports).map_err(|e| CommandError::Result(e.to_string()))?;
         writeln!(out, "{json}")?;
     } else {
-        let texts: Vec<String> = reports.iter().map(Report::text).collect();
+        let texts: Vec<String> = reports.iter().map(FileReport::text).collect();
         write!(out, "{}", texts.join("\n"))?;
     }
     for notice in reports.iter().flat_map(|report| &report.notices) {
@@ -117,7 +117,7 @@ pub fn run(o: &Options) -> Result<(), CommandError> {
 }
 
 /// The files that were named and how to read them; with none named, that of the case, as the case says unless an option does.
-fn named(o: &Options, case: Option<&Case>) -> Result<Vec<(PathBuf, ReadOptions)>, CommandError> {
+fn named(o: &RecordFileOptions, case: Option<&Case>) -> Result<Vec<(PathBuf, ReadOptions)>, CommandError> {
     let asked =
         ReadOptions { dt: o.dt, units: o.units, component: o.component.clone(), baseline: o.baseline, vertical: None };
     let Some(case) = case.filter(|_| o.files.is_empty()) else {
@@ -140,7 +140,7 @@ fn named(o: &Options, case: Option<&Case>) -> Result<Vec<(PathBuf, ReadOptions)>
     }
 }
 
-impl Report {
+impl FileReport {
     fn new(file: &Path, recording: &Recording, body: Option<&Body<f64>>, duration_s: f64) -> Self {
         let taken = recording.component();
         let peak = taken.record.measures().pga;
@@ -155,8 +155,8 @@ impl Report {
             file: file.display().to_string(),
             format: recording.format,
             station: recording.station.clone(),
-            components: (0..recording.components.len()).map(|i| Row::new(recording, i, body)).collect(),
-            run: Run {
+            components: (0..recording.components.len()).map(|i| ComponentRow::new(recording, i, body)).collect(),
+            run: RunInputs {
                 record: taken.record.name.clone(),
                 duration_s,
                 pga_g: taken.record.truncated(duration_s).pga_g(),
@@ -172,7 +172,7 @@ impl Report {
         let mut table = Table::new();
         let on_structure = self.components.iter().any(|row| row.structure.is_some());
         table.load_style(presets::ASCII_MARKDOWN).set_header(row::head(on_structure));
-        table.add_rows(self.components.iter().map(Row::cells));
+        table.add_rows(self.components.iter().map(ComponentRow::cells));
         let run = &self.run;
         let mut text = format!(
             "{}: {}{station}\n\n{table}\n\ntune run takes {}, {} unless --duration says otherwise: ",
@@ -202,7 +202,7 @@ impl Report {
 
 /// The figure of the component that a run takes.
 fn draw(folder: &Path, file: &Path, recording: &Recording, body: Option<&Body<f64>>) -> Result<(), CommandError> {
-    let row = Row::new(recording, recording.taken, body);
+    let row = ComponentRow::new(recording, recording.taken, body);
     let record = &recording.component().record;
     let t: Vec<f64> = (0..record.len()).map(|i| i as f64 * record.dt).collect();
     let accel: Vec<f64> = record.accel.iter().map(|a| a / GRAVITY).collect();
@@ -223,7 +223,7 @@ fn draw(folder: &Path, file: &Path, recording: &Recording, body: Option<&Body<f6
     let stem = file.file_stem().unwrap_or(file.as_os_str());
     let mut name = stem.to_os_string();
     name.push(".png");
-    figures::record::draw(&figures::record::Record {
+    figures::record::draw(&figures::record::RecordFigure {
         title: &record.name,
         t: &t,
         accel_g: &accel,

@@ -14,7 +14,7 @@ use crate::{
 
 /// What the ground offers.
 #[derive(Clone, Copy, Debug, Args)]
-pub struct Ground {
+pub struct GroundOptions {
     /// Friction coefficient between foot and ground, for the warning of sliding [default: 0.5]
     #[arg(long, value_name = "MU", allow_negative_numbers = true)]
     pub friction: Option<f64>,
@@ -23,7 +23,7 @@ pub struct Ground {
 /// Friction coefficient unless one is given.
 const USUAL: f64 = 0.5;
 
-impl Ground {
+impl GroundOptions {
     /// The friction coefficient, checked.
     pub fn friction(&self) -> Result<f64, CommandError> {
         let friction = self.friction.unwrap_or(USUAL);
@@ -37,7 +37,7 @@ impl Ground {
 
 /// Conditioning and regime of Housner's history.
 #[derive(Clone, Copy, Debug)]
-pub struct Report {
+pub struct HousnerReport {
     pub conditioning: Conditioning,
     pub regime: Regime,
     /// Whether the record lifts Housner's body: else there is no history to be sensitive.
@@ -48,7 +48,7 @@ pub struct Report {
     pub left_ground_s: Option<f64>,
 }
 
-impl Report {
+impl HousnerReport {
     /// Of a history that `rocking` holds.
     pub fn new(body: &Body<f64>, restitution: f64, record: &Record, rocking: &Rocking<f64>, friction: f64) -> Self {
         let vertical = record.vertical_accel();
@@ -136,11 +136,11 @@ mod tests {
     use crate::conditioning::Sensitivity;
     use crate::structure::Structure;
 
-    fn report(accel: Vec<f64>, friction: f64) -> Report {
+    fn report(accel: Vec<f64>, friction: f64) -> HousnerReport {
         let body = Structure::paper().body::<f64>();
         let record = Record::new("made-up", 0.01, accel).unwrap();
         let rocking = housner::solve(&body, record.dt, &record.accel, &housner::RockingOptions::default());
-        Report::new(&body, body.restitution(), &record, &rocking, friction)
+        HousnerReport::new(&body, body.restitution(), &record, &rocking, friction)
     }
 
     #[test]

@@ -13,7 +13,7 @@ use crate::{
 
 /// Options of `tune response`.
 #[derive(Debug, Args)]
-pub struct Options {
+pub struct ResponseOptions {
     /// Target shape and bounds; the flat cap unless given
     case: Option<PathBuf>,
     /// Mass ratio m2/m1
@@ -24,7 +24,7 @@ pub struct Options {
     json: bool,
 }
 
-pub fn run(o: &Options) -> Result<(), CommandError> {
+pub fn run(o: &ResponseOptions) -> Result<(), CommandError> {
     let (target, bounds) = match &o.case {
         Some(path) => {
             let case = Case::read(path)?;

@@ -17,7 +17,7 @@ use super::{
     output::{Folder, check_folder},
     page::Page,
     progress::Progress,
-    report::{Ground, Report},
+    report::{GroundOptions, HousnerReport},
     table, write_file,
 };
 use crate::{
@@ -53,7 +53,7 @@ fn files() -> Vec<&'static str> {
 
 /// Options of `tune run`.
 #[derive(Debug, Args)]
-pub struct Options {
+pub struct RunOptions {
     /// Case file (TOML); the paper's A-frame on El Centro unless given
     case: Option<PathBuf>,
     #[command(flatten)]
@@ -62,7 +62,7 @@ pub struct Options {
     #[arg(long, conflicts_with_all = ["record", "dt", "units", "component", "baseline", "vertical", "scale", "duration"])]
     no_record: bool,
     #[command(flatten)]
-    ground: Ground,
+    ground: GroundOptions,
     /// Stiffest springs allowed, as the frequency Omega_n / 2 pi of the mass on a gap spring; for programs with fixed time steps
     /// [default: none, or the case's]
     #[arg(long, value_name = "HZ", allow_negative_numbers = true)]
@@ -91,7 +91,7 @@ pub struct Options {
     quiet: bool,
 }
 
-pub fn run(o: &Options) -> Result<(), CommandError> {
+pub fn run(o: &RunOptions) -> Result<(), CommandError> {
     let mut case = match &o.case {
         Some(path) => {
             let name = path.display().to_string();
@@ -135,7 +135,7 @@ pub fn run(o: &Options) -> Result<(), CommandError> {
     if o.no_record {
         return springs_alone(o, &Parameters::of(&case, &job));
     }
-    let run = Run::new(case, job, front, friction);
+    let run = FinishedRun::new(case, job, front, friction);
     run.save(&o.out, Output { figures: !o.no_figures, report: !o.no_report })?;
     let (springs, forces) = (table::terminal(&run.filed(&o.out)), run.forces());
     let said = run.found().join("\n");
@@ -144,7 +144,7 @@ pub fn run(o: &Options) -> Result<(), CommandError> {
     Ok(())
 }
 
-impl Options {
+impl RunOptions {
     /// The stiffest springs allowed, if it is given (Hz).
     fn max_hz(&self) -> Result<Option<f64>, CommandError> {
         within("max-hz", self.max_hz, &MAX_HZ)
@@ -169,18 +169,18 @@ pub struct Output {
 }
 
 /// A job done, and all that is said and saved of it.
-pub struct Run {
+pub struct FinishedRun {
     pub case: Case,
     pub job: Job,
     pub front: Vec<FrontPoint>,
     /// Both models' answers to the record.
     pub both: Both,
-    pub report: Report,
+    pub report: HousnerReport,
     /// What `parameters.json` holds, but for the record: where that is to be found depends on the folder.
     pub parameters: Parameters,
 }
 
-impl Run {
+impl FinishedRun {
     /// Simulate a job's springs, and those of the paper beside them; `friction` of the ground, for the warning of sliding.
     pub fn new(case: Case, job: Job, front: Vec<FrontPoint>, friction: f64) -> Self {
         let beside = |springs: &Springs<Design<f64>>| {
@@ -199,7 +199,7 @@ impl Run {
             },
             || {
                 let others = || (paper.map(|paper| beside(&paper.tuned.best.springs)), recovered.map(|r| beside(&r)));
-                let report = || Report::new(&job.body, case.restitution, &job.record, &job.rocking, friction);
+                let report = || HousnerReport::new(&job.body, case.restitution, &job.record, &job.rocking, friction);
                 rayon::join(others, report)
             },
         );
@@ -273,7 +273,7 @@ fn report(out: &Path, page: Option<Page<'_>>) -> Result<(), CommandError> {
 }
 
 /// What there is without a record.
-fn springs_alone(o: &Options, parameters: &Parameters) -> Result<(), CommandError> {
+fn springs_alone(o: &RunOptions, parameters: &Parameters) -> Result<(), CommandError> {
     let files = files();
     let folder = Folder::begin(&o.out, "run", &files)?;
     write_file(&o.out.join("parameters.json"), parameters.to_json().as_bytes())?;

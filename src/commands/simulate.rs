@@ -9,21 +9,21 @@ use super::{
     common::{RecordOptions, both, history_csv, restitution},
     members,
     output::file_in,
-    report::{Ground, Report},
+    report::{GroundOptions, HousnerReport},
     write_file,
 };
 use crate::parameters::Parameters;
 
 /// Options of `tune simulate`.
 #[derive(Debug, Args)]
-pub struct Options {
+pub struct SimulateOptions {
     /// Springs and structure, as `tune run` writes them
     #[arg(long, value_name = "parameters.json")]
     parameters: PathBuf,
     #[command(flatten)]
     record: RecordOptions,
     #[command(flatten)]
-    ground: Ground,
+    ground: GroundOptions,
     /// Velocity after an impact over that before, of Housner's body; that of the parameters, or by equation 2, unless given
     #[arg(long, allow_negative_numbers = true)]
     restitution: Option<f64>,
@@ -35,7 +35,7 @@ pub struct Options {
     forces: Option<PathBuf>,
 }
 
-pub fn run(o: &Options) -> Result<(), CommandError> {
+pub fn run(o: &SimulateOptions) -> Result<(), CommandError> {
     let parameters = Parameters::read(&o.parameters)?;
     let excitation = o.record.excitation(|| parameters.excitation(&o.parameters))?;
     let record = excitation.used()?;
@@ -53,13 +53,13 @@ pub fn run(o: &Options) -> Result<(), CommandError> {
         write_file(path, members::csv(record.dt, demands).as_bytes())?;
     }
     eprintln!("{}", excitation.line());
-    let said = Report::new(&body, e, &record, &both.rocking, friction);
+    let said = HousnerReport::new(&body, e, &record, &both.rocking, friction);
     let verdict = both.verdict(&body, record.dt, &said.conditioning).lines();
     let verdict = verdict.into_iter().map(|line| format!("verdict: {line}"));
     for line in said.lines().into_iter().chain(both.early()).chain(verdict) {
         eprintln!("{line}");
     }
-    let report = members::Report::new(&both.matched, &both.demands, both.with.as_ref());
+    let report = members::MembersReport::new(&both.matched, &both.demands, both.with.as_ref());
     let json = serde_json::to_string_pretty(&report).map_err(|e| CommandError::Result(e.to_string()))?;
     writeln!(std::io::stdout(), "{json}")?;
     Ok(())

@@ -12,7 +12,7 @@ use clap::{Args, Subcommand};
 use super::{CommandError, output::check_folder, progress::Progress, run::threads};
 use crate::sweep::{
     manifest::Manifest,
-    parts::{Parts, Share},
+    parts::{Share, SweepParts},
     plan::Plan,
     springs::SpringsTable,
 };
@@ -24,24 +24,24 @@ mod plan;
 /// Options of `tune sweep`.
 #[derive(Debug, Args)]
 #[command(args_conflicts_with_subcommands = true, subcommand_negates_reqs = true)]
-pub struct Options {
+pub struct SweepOptions {
     #[command(subcommand)]
-    step: Option<Step>,
+    step: Option<SweepStage>,
     #[command(flatten)]
-    run: Run,
+    run: SweepRunOptions,
 }
 
 #[derive(Debug, Subcommand)]
-enum Step {
+enum SweepStage {
     /// What a sweep will compute; the springs that it needs; files that run it on a cluster.
-    Plan(plan::Options),
+    Plan(plan::PlanOptions),
     /// What the parts that are there say together, or which are missing.
-    Gather(gather::Options),
+    Gather(gather::GatherOptions),
 }
 
 /// Options of the sweep itself.
 #[derive(Debug, Args)]
-struct Run {
+struct SweepRunOptions {
     /// Sweep file (TOML)
     #[arg(required = true)]
     sweep: Option<PathBuf>,
@@ -62,10 +62,10 @@ struct Run {
     quiet: bool,
 }
 
-pub fn run(o: &Options) -> Result<(), CommandError> {
+pub fn run(o: &SweepOptions) -> Result<(), CommandError> {
     match (&o.step, &o.run.sweep) {
-        (Some(Step::Plan(o)), _) => plan::run(o),
-        (Some(Step::Gather(o)), _) => gather::run(o),
+        (Some(SweepStage::Plan(o)), _) => plan::run(o),
+        (Some(SweepStage::Gather(o)), _) => gather::run(o),
         (None, Some(sweep)) => o.run.compute(sweep),
         (None, None) => Ok(()),
     }
@@ -90,13 +90,13 @@ fn begin(plan: &Plan, hash: &str, out: &Path, quiet: bool) -> Result<Option<Spri
     Ok(Some(springs))
 }
 
-impl Run {
+impl SweepRunOptions {
     fn compute(&self, sweep: &Path) -> Result<(), CommandError> {
         let plan = Plan::read(sweep)?;
         let hash = plan.hash(&mut |notice| eprintln!("{notice}"))?;
         threads(self.jobs)?;
         let springs = begin(&plan, &hash, &self.out, self.quiet)?;
-        let parts = Parts { plan: &plan, folder: &self.out, hash: &hash };
+        let parts = SweepParts { plan: &plan, folder: &self.out, hash: &hash };
         let share = self.shard.unwrap_or_default();
         let wanted: Vec<u64> = share.parts(plan.parts()).filter(|part| !parts.is_done(*part)).collect();
         let all: u64 = wanted.iter().map(|part| parts.cells(*part)).map(|cells| cells.end - cells.start).sum();

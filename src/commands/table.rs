@@ -13,7 +13,7 @@ use crate::{
 };
 
 /// Springs and their match under a heading.
-struct Column<'a> {
+struct SpringsColumn<'a> {
     heading: &'static str,
     vertical: &'a ChainRow,
     horizontal: &'a ChainRow,
@@ -21,19 +21,20 @@ struct Column<'a> {
 }
 
 /// The springs of a file, and those beside them.
-fn columns(p: &Parameters) -> Vec<Column<'_>> {
-    let own = Column {
+fn columns(p: &Parameters) -> Vec<SpringsColumn<'_>> {
+    let own = SpringsColumn {
         heading: "finite elements",
         vertical: &p.vertical,
         horizontal: &p.horizontal,
         matched: p.matched.as_ref(),
     };
     let others = [("paper's procedure, same Omega_n", &p.paper_procedure), ("Table 1 as recovered", &p.table_1)];
-    let others = others.into_iter().filter_map(|(heading, other)| Some(Column::beside(heading, other.as_ref()?)));
+    let others =
+        others.into_iter().filter_map(|(heading, other)| Some(SpringsColumn::beside(heading, other.as_ref()?)));
     std::iter::once(own).chain(others).collect()
 }
 
-impl<'a> Column<'a> {
+impl<'a> SpringsColumn<'a> {
     fn beside(heading: &'static str, other: &'a PaperProcedure) -> Self {
         let PaperProcedure { vertical, horizontal, matched } = other;
         Self { heading, vertical, horizontal, matched: Some(matched) }
@@ -50,8 +51,8 @@ pub(super) fn spring_rows(p: &Parameters) -> (Vec<String>, Vec<Vec<String>>) {
     }
     let plain = |x: f64| format!("{x:.4}");
     let power = |x: f64| format!("{x:.4e}");
-    type Cell<'a> = (&'static str, &'a dyn Fn(&ChainRow) -> String);
-    let cells: [Cell; 8] = [
+    type SpringsCell<'a> = (&'static str, &'a dyn Fn(&ChainRow) -> String);
+    let cells: [SpringsCell; 8] = [
         ("mass ratio mu = m2/m1", &|c| plain(c.mu)),
         ("frequency ratio f", &|c| plain(c.f)),
         ("damping ratio xi", &|c| plain(c.xi)),
@@ -61,7 +62,7 @@ pub(super) fn spring_rows(p: &Parameters) -> (Vec<String>, Vec<Vec<String>>) {
         ("m2 [kg]", &|c| power(c.m2_kg)),
         ("c [N s/m]", &|c| power(c.c_ns_per_m)),
     ];
-    let row = |(name, cell): Cell| {
+    let row = |(name, cell): SpringsCell| {
         let mut row = vec![name.to_string()];
         row.extend(all.iter().flat_map(|column| [cell(column.vertical), cell(column.horizontal)]));
         row

@@ -34,7 +34,7 @@ use crate::{
 #[command(group = clap::ArgGroup::new("source").required(true).multiple(true).args(["paths", "records", "synthetic", "earthquakes"]))]
 #[command(group = clap::ArgGroup::new("given").multiple(true).args(["paths", "records"]))]
 #[command(group = clap::ArgGroup::new("made").multiple(true).args(["synthetic", "earthquakes"]))]
-pub struct Options {
+pub struct ValidateOptions {
     /// Record files, and folders of them: any mix of formats, see tune record
     #[arg(value_name = "RECORDS")]
     paths: Vec<PathBuf>,
@@ -84,7 +84,7 @@ pub struct Options {
 }
 
 /// Where the records come from: files first, in the order of their names, then those made from the seed, earthquakes last.
-struct Source {
+struct RecordsSource {
     files: Vec<PathBuf>,
     read: ReadOptions,
     scale: Option<f64>,
@@ -97,7 +97,7 @@ struct Source {
     alpha: f64,
 }
 
-impl Source {
+impl RecordsSource {
     fn len(&self) -> usize {
         self.files.len() + self.synthetic + self.earthquakes
     }
@@ -164,7 +164,7 @@ impl Source {
 }
 
 /// Every record file that was named, once, those of folders in the order of their names.
-fn files(o: &Options) -> Result<Vec<PathBuf>, RecordError> {
+fn files(o: &ValidateOptions) -> Result<Vec<PathBuf>, RecordError> {
     let (mut files, mut seen) = (Vec::new(), HashSet::new());
     for path in o.paths.iter().chain(&o.records) {
         let named = if path.is_dir() || Some(path) == o.records.as_ref() {
@@ -193,7 +193,7 @@ struct Made {
 
 /// `validate.json`.
 #[derive(Serialize)]
-struct Report<'a> {
+struct ValidationReport<'a> {
     structure: Structure,
     restitution: f64,
     vertical: ChainRow,
@@ -212,7 +212,7 @@ struct Report<'a> {
 /// All that `tune validate` can write into its folder.
 const FILES: &[&str] = &["validate.json", "validate.md", "validate.csv", "validation.png", "validation.svg"];
 
-pub fn run(o: &Options) -> Result<(), CommandError> {
+pub fn run(o: &ValidateOptions) -> Result<(), CommandError> {
     let parameters = Parameters::read(&o.parameters)?;
     let body = parameters.structure.body::<f64>();
     let restitution = common::restitution(o.restitution)?.unwrap_or_else(|| parameters.restitution());
@@ -224,7 +224,7 @@ pub fn run(o: &Options) -> Result<(), CommandError> {
     }
     check_folder(&o.out)?;
     threads(o.jobs)?;
-    let mut source = Source {
+    let mut source = RecordsSource {
         files: files(o)?,
         read: ReadOptions { dt: o.dt, units: o.units, ..ReadOptions::default() },
         scale: o.scale,
@@ -251,7 +251,7 @@ pub fn run(o: &Options) -> Result<(), CommandError> {
     let validation = judge.judge_all(source.len(), |i| source.record(i), |n| progress.tell(n, source.len(), ""))?;
     progress.done();
 
-    let report = Report {
+    let report = ValidationReport {
         structure: parameters.structure,
         restitution,
         vertical: parameters.vertical,
@@ -279,11 +279,11 @@ pub fn run(o: &Options) -> Result<(), CommandError> {
     Ok(())
 }
 
-fn draw(o: &Options, parameters: &Parameters, validation: &Validation) -> Result<(), CommandError> {
-    let rows: Vec<figures::validation::Row> = validation
+fn draw(o: &ValidateOptions, parameters: &Parameters, validation: &Validation) -> Result<(), CommandError> {
+    let rows: Vec<figures::validation::ValidationPoint> = validation
         .records
         .iter()
-        .map(|row| figures::validation::Row {
+        .map(|row| figures::validation::ValidationPoint {
             peak_housner: row.peak_ratio_housner,
             peak_fem: row.peak_ratio_fem.unwrap_or(f64::INFINITY),
             overturned_housner: row.overturned_housner,
@@ -298,7 +298,7 @@ fn draw(o: &Options, parameters: &Parameters, validation: &Validation) -> Result
         &format!("{} record{}", rows.len(), if rows.len() == 1 { "" } else { "s" }),
         parameters.vertical.omega_n_hz,
     );
-    figures::validation::draw(&figures::validation::Validation {
+    figures::validation::draw(&figures::validation::ValidationFigure {
         title: &format!("Finite elements on ground springs against Housner\n{of}"),
         rows: &rows,
         ks_distance: validation.all.ks_distance,

@@ -18,7 +18,7 @@ use super::{
 };
 use crate::{
     export::ACCURACY,
-    figures::history::{self, History, Trace},
+    figures::history::{self, HistoryFigure, Trace},
     motion::{Motion, peak},
     parameters::{Parameters, elastic::ElasticParameters},
     record::Record,
@@ -27,7 +27,7 @@ use crate::{
 
 /// Options of `tune verify`.
 #[derive(Debug, Args)]
-pub struct Options {
+pub struct VerifyOptions {
     /// Springs and structure, as `tune run` writes them
     #[arg(long, value_name = "parameters.json")]
     parameters: PathBuf,
@@ -50,7 +50,7 @@ pub struct Options {
     quiet: bool,
 }
 
-pub fn run(o: &Options) -> Result<(), CommandError> {
+pub fn run(o: &VerifyOptions) -> Result<(), CommandError> {
     let program = match &o.tcl {
         Some(command) => Program::Tcl(command.split_whitespace().map(str::to_string).collect()),
         None => Program::Python(o.python.clone()),
@@ -172,7 +172,12 @@ fn csv(result: &Verification) -> String {
     out
 }
 
-fn draw(o: &Options, parameters: &Parameters, record: &Record, result: &Verification) -> Result<(), CommandError> {
+fn draw(
+    o: &VerifyOptions,
+    parameters: &Parameters,
+    record: &Record,
+    result: &Verification,
+) -> Result<(), CommandError> {
     fn trace<'a>(label: &'a str, motion: &'a Motion) -> Trace<'a> {
         Trace { label, u: &motion.u, v: &motion.v, ..Trace::default() }
     }
@@ -182,6 +187,6 @@ fn draw(o: &Options, parameters: &Parameters, record: &Record, result: &Verifica
     let of = subtitle(&parameters.structure, &record.name, parameters.vertical.omega_n_hz);
     let title = format!("The exported model in OpenSees\n{of}");
     let reference = trace("Housner", &result.housner);
-    let data = History { title: &title, t: &t, reference, others: &others, differences: true };
+    let data = HistoryFigure { title: &title, t: &t, reference, others: &others, differences: true };
     Ok(history::draw(&data)?.save(&o.out.join("verify.png"))?)
 }

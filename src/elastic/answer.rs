@@ -2,9 +2,9 @@
 
 use super::{
     assembled::{Assembled, Sway, errors},
-    fem::{Case, History, Start},
+    fem::{ElasticAnalysis, ElasticHistory, ElasticStart},
     frame::{EquilibriumError, Frame},
-    reference::{ElasticRocking, Ground, RestError},
+    reference::{ElasticRocking, GroundAcceleration, RestError},
     rigid::RigidForces,
 };
 use crate::{
@@ -70,7 +70,7 @@ pub struct ElasticHistories {
     /// On rigid ground.
     pub reference: Reference,
     /// On its springs.
-    pub fem: History,
+    pub fem: ElasticHistory,
     /// Of each base in the reference and on the springs.
     pub sways: Vec<[Sway; 2]>,
 }
@@ -86,7 +86,7 @@ pub struct ElasticAnswer {
     /// and the reference does not.
     pub errors: [f64; 2],
     /// Held to the ground.
-    pub fixed: History,
+    pub fixed: ElasticHistory,
     /// Drift of the first watched node held to the ground (m).
     pub fixed_drift: Vec<f64>,
     /// The rigid body of the same masses, by Housner's equation; none of a frame, whose columns rock side by side, and of a structure
@@ -106,8 +106,12 @@ pub enum AnswerError {
 }
 
 /// The history of a frame through a record, from rest.
-fn follow(frame: &Frame, springs: &[Springs<Chain<f64>>], record: &Record) -> Result<History, EquilibriumError> {
-    Case { vertical: record.up(), ..Case::new(frame, springs, Start::Standing, record.dt, &record.accel) }.simulate()
+fn follow(frame: &Frame, springs: &[Springs<Chain<f64>>], record: &Record) -> Result<ElasticHistory, EquilibriumError> {
+    ElasticAnalysis {
+        vertical: record.up(),
+        ..ElasticAnalysis::new(frame, springs, ElasticStart::Standing, record.dt, &record.accel)
+    }
+    .simulate()
 }
 
 impl Reference {
@@ -116,7 +120,7 @@ impl Reference {
     /// # Errors
     /// The structure does not stand.
     pub fn new(assembled: &Assembled, record: &Record) -> Result<Self, AnswerError> {
-        let ground = Ground { dt: record.dt, accel: &record.accel, vertical: record.up() };
+        let ground = GroundAcceleration { dt: record.dt, accel: &record.accel, vertical: record.up() };
         let q = assembled.upright().map_err(AnswerError::RestOnGround)?;
         let history = assembled.rock(ground, &q);
         let foretold = assembled.foretold(ground, &q, &history);

@@ -5,9 +5,10 @@ use thiserror::Error;
 
 use super::{
     Mechanics,
-    frame::{Base, Frame, FrameError, Layout, Tendon},
+    frame::{Base, Frame, FrameError, FrameLayout, FrameTendon},
     reference::{
-        Corners, ElasticRocking, FORETOLD, Ground, Options, PERTURBATION, RestError, Twins, at_rest, growth, rock,
+        CornerSet, ElasticRocking, FORETOLD, GroundAcceleration, PERTURBATION, ReferenceOptions, RestError, Twins,
+        at_rest, growth, rock,
     },
     structure::ElasticStructure,
 };
@@ -57,7 +58,7 @@ pub struct Assembled {
     /// What it has besides.
     pub members: Members<f64>,
     /// Its parts, members among them.
-    pub layout: Layout,
+    pub layout: FrameLayout,
     /// The parts assembled.
     pub frame: Frame,
     /// What is watched of it, from left to right.
@@ -83,7 +84,7 @@ impl Assembled {
         Ok(Self::of(structure, members, layout)?)
     }
 
-    fn of(structure: ElasticStructure, members: Members<f64>, layout: Layout) -> Result<Self, FrameError> {
+    fn of(structure: ElasticStructure, members: Members<f64>, layout: FrameLayout) -> Result<Self, FrameError> {
         let frame = layout.frame()?;
         let tops: &[usize] = match structure {
             ElasticStructure::Pier(_) => &[1],
@@ -121,17 +122,17 @@ impl Assembled {
         };
         let firm = FIRM * self.frame.total_mass();
         let q = self.frame.leaning(lean, &[Some([firm; 2]); 2]).ok()?;
-        at_rest(&self.frame, &q, Corners::NONE.with(pivot), &[fixed]).ok()
+        at_rest(&self.frame, &q, CornerSet::NONE.with(pivot), &[fixed]).ok()
     }
 
     /// From rest at `q` through a motion of rigid ground.
-    pub fn rock(&self, ground: Ground, q: &DVector<f64>) -> ElasticRocking {
-        rock(&self.frame, ground, (q, &DVector::zeros(q.len())), &Options::default())
+    pub fn rock(&self, ground: GroundAcceleration, q: &DVector<f64>) -> ElasticRocking {
+        rock(&self.frame, ground, (q, &DVector::zeros(q.len())), &ReferenceOptions::default())
     }
 
     /// Samples of such a history that can be foretold on springs, at most its own: up to where a corner slides on from a landing.
-    pub fn foretold(&self, ground: Ground, q: &DVector<f64>, history: &ElasticRocking) -> usize {
-        let (still, options) = (DVector::zeros(q.len()), Options::default());
+    pub fn foretold(&self, ground: GroundAcceleration, q: &DVector<f64>, history: &ElasticRocking) -> usize {
+        let (still, options) = (DVector::zeros(q.len()), ReferenceOptions::default());
         let twins = Twins { coordinates: &self.telling(), perturbation: PERTURBATION, limit: FORETOLD };
         let grown = growth(&self.frame, ground, (q, &still), &options, (history, &twins)).samples_below(FORETOLD);
         history.skidded.map_or(grown, |time| grown.min(history.samples_to(time)))
@@ -148,22 +149,22 @@ impl Assembled {
 }
 
 fn upright(frame: &Frame) -> Result<DVector<f64>, RestError> {
-    let all = (0..frame.footings().len()).fold(Corners::NONE, Corners::with);
+    let all = (0..frame.footings().len()).fold(CornerSet::NONE, CornerSet::with);
     at_rest(frame, &DVector::zeros(frame.size()), all, &[])
 }
 
 /// A layout whose tendons' tension is that of the settled structure, with that of the unstressed one: it settles under that tension, as if by
 /// tendons that keep it, and so lengthens or shortens the real ones.
-fn stressed(layout: Layout) -> Result<Layout, AssemblyError> {
+fn stressed(layout: FrameLayout) -> Result<FrameLayout, AssemblyError> {
     if layout.tendons.is_empty() {
         return Ok(layout);
     }
-    let soft = |tendon: &Tendon| Tendon { stiffness: SOFT * tendon.stiffness, ..*tendon };
-    let frame = Layout { tendons: layout.tendons.iter().map(soft).collect(), ..layout.clone() }.frame()?;
+    let soft = |tendon: &FrameTendon| FrameTendon { stiffness: SOFT * tendon.stiffness, ..*tendon };
+    let frame = FrameLayout { tendons: layout.tendons.iter().map(soft).collect(), ..layout.clone() }.frame()?;
     let lengthened = frame.lengthened(upright(&frame)?.as_slice());
     let tendons = layout.tendons.iter().zip(lengthened);
-    let tendons = tendons.map(|(t, by)| Tendon { pretension: t.pretension - t.stiffness * by, ..*t }).collect();
-    Ok(Layout { tendons, ..layout })
+    let tendons = tendons.map(|(t, by)| FrameTendon { pretension: t.pretension - t.stiffness * by, ..*t }).collect();
+    Ok(FrameLayout { tendons, ..layout })
 }
 
 /// NRMSE of the rotations and of the drifts over the first samples, all bases together; infinite where a history does not get so far, and where

@@ -17,7 +17,7 @@ use crate::scalar::sin_cos;
 
 /// What a beam is made of; SI units.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Section {
+pub struct BeamSection {
     /// EA [N].
     pub axial: f64,
     /// EI [N m2].
@@ -30,7 +30,7 @@ pub struct Section {
     pub line_mass: f64,
 }
 
-impl Section {
+impl BeamSection {
     /// Without damping or mass.
     pub fn elastic(axial: f64, bending: f64) -> Self {
         Self { axial, bending, axial_damping: 0.0, bending_damping: 0.0, line_mass: 0.0 }
@@ -40,7 +40,7 @@ impl Section {
 /// A beam between two nodes.
 #[derive(Clone, Copy, Debug)]
 pub struct Beam {
-    section: Section,
+    section: BeamSection,
     /// L [m].
     length: f64,
     /// Unit vector from end a to end b, unstressed.
@@ -53,7 +53,7 @@ pub struct Beam {
 
 /// What a beam bears: positive in tension; moments clockwise, of the node on the end of the beam.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
-pub struct Bearing {
+pub struct BeamForces {
     /// [N]
     pub axial: f64,
     /// (M_a + M_b)/l [N].
@@ -81,7 +81,7 @@ const TURN: [usize; 2] = [2, 5];
 
 impl Beam {
     /// Between two ends (x, z) [m], each carried by a node through a rigid arm [m].
-    pub fn new(ends: [[f64; 2]; 2], arms: [[f64; 2]; 2], hinged: [bool; 2], section: Section) -> Self {
+    pub fn new(ends: [[f64; 2]; 2], arms: [[f64; 2]; 2], hinged: [bool; 2], section: BeamSection) -> Self {
         let [[xa, za], [xb, zb]] = ends;
         let length = (xb - xa).hypot(zb - za);
         let bending = match hinged {
@@ -128,7 +128,7 @@ impl Beam {
     /// Energy stored at y [J].
     pub fn energy(&self, y: &[f64; 6]) -> f64 {
         let d = self.deformed(y);
-        let Section { axial, bending, .. } = self.section;
+        let BeamSection { axial, bending, .. } = self.section;
         let [e, f @ ..] = d.strain;
         let [a, b] = self.bend(f);
         (axial * e * e + bending * (f[0] * a + f[1] * b)) / (2.0 * self.length)
@@ -136,7 +136,7 @@ impl Beam {
 
     /// Power that its dashpots take [W].
     pub fn dissipation(&self, y: &[f64; 6], rate: &[f64; 6]) -> f64 {
-        let Section { axial_damping, bending_damping, .. } = self.section;
+        let BeamSection { axial_damping, bending_damping, .. } = self.section;
         if axial_damping == 0.0 && bending_damping == 0.0 {
             return 0.0;
         }
@@ -151,7 +151,7 @@ impl Beam {
 
     /// N, M_a, M_b at these strains and strain rates.
     fn forces(&self, d: &Deformed, rate: &[f64; 6]) -> [f64; 3] {
-        let Section { axial, bending, axial_damping, bending_damping, .. } = self.section;
+        let BeamSection { axial, bending, axial_damping, bending_damping, .. } = self.section;
         let [e, f @ ..] = d.strain;
         let [de, df @ ..] = d.rates(rate);
         let bent = [0, 1].map(|i| bending * f[i] + bending_damping * df[i]);
@@ -166,10 +166,10 @@ impl Beam {
     }
 
     /// What it bears at y, y'.
-    pub fn bearing(&self, y: &[f64; 6], rate: &[f64; 6]) -> Bearing {
+    pub fn bearing(&self, y: &[f64; 6], rate: &[f64; 6]) -> BeamForces {
         let d = self.deformed(y);
         let [axial, a, b] = self.forces(&d, rate);
-        Bearing { axial, shear: (a + b) / d.length, moments: [a, b] }
+        BeamForces { axial, shear: (a + b) / d.length, moments: [a, b] }
     }
 
     /// The force that its two nodes need to hold it so: the slope of its energy, and what its dashpots resist [N, N m].
@@ -187,7 +187,7 @@ impl Beam {
 
     /// The resistance's derivatives by y and by y'.
     pub fn tangent(&self, y: &[f64; 6], rate: &[f64; 6]) -> [[[f64; 6]; 6]; 2] {
-        let Section { axial, bending, axial_damping, bending_damping, .. } = self.section;
+        let BeamSection { axial, bending, axial_damping, bending_damping, .. } = self.section;
         let d = self.deformed(y);
         let [n, a, b] = self.forces(&d, rate);
         let ends = [0, 1].map(|i| {

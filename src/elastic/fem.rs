@@ -25,10 +25,10 @@ mod newton;
 mod run;
 mod step;
 
-pub use demands::{Demand, Peak, peak};
+pub use demands::{DemandPeak, FrameDemand, peak};
 pub use filter::{low_pass, resolves};
-pub use history::{ContactChange, GroundForces, History};
-pub use model::Foot;
+pub use history::{ContactChange, ElasticHistory, GroundForces};
+pub use model::CornerState;
 
 use super::{
     frame::{EquilibriumError, Frame},
@@ -45,7 +45,7 @@ const TOLERANCE: f64 = 2e-8;
 
 /// How the structure stands at t = 0.
 #[derive(Clone, Debug, PartialEq)]
-pub enum Start {
+pub enum ElasticStart {
     /// At rest on all corners, settled under its weight.
     Standing,
     /// At rest, held at this lean (rad) on its last corner, or on its first if negative, then let go: [`Frame::leaning`].
@@ -57,19 +57,19 @@ pub enum Start {
         /// The frame's.
         v: Vec<f64>,
         /// For every corner.
-        feet: Vec<Foot>,
+        feet: Vec<CornerState>,
     },
 }
 
 /// What a run is made of.
 #[derive(Clone, Debug)]
-pub struct Case<'a> {
+pub struct ElasticAnalysis<'a> {
     /// The structure.
     pub frame: &'a Frame,
     /// Under every corner; none under a frame that is held.
     pub springs: &'a [Springs<Chain<f64>>],
     /// How it begins.
-    pub start: Start,
+    pub start: ElasticStart,
     /// Sampling interval (s).
     pub dt: f64,
     /// Ground acceleration at t = i dt [m/s2], linear in between.
@@ -86,16 +86,22 @@ pub struct Case<'a> {
 
 /// How a run ended, and what it cost.
 #[derive(Clone, Copy, Debug)]
-pub(super) struct Finish {
+pub(super) struct ElasticFinish {
     pub outcome: HistoryOutcome,
     pub work: Work,
     /// Largest energy of the history, the scale of its residual [J].
     pub energy_scale: f64,
 }
 
-impl<'a> Case<'a> {
+impl<'a> ElasticAnalysis<'a> {
     /// On horizontal ground motion, unscaled, at the default accuracy, its forces kept.
-    pub fn new(frame: &'a Frame, springs: &'a [Springs<Chain<f64>>], start: Start, dt: f64, accel: &'a [f64]) -> Self {
+    pub fn new(
+        frame: &'a Frame,
+        springs: &'a [Springs<Chain<f64>>],
+        start: ElasticStart,
+        dt: f64,
+        accel: &'a [f64],
+    ) -> Self {
         let control = Control { tolerance: TOLERANCE, ..Control::default() };
         Self { frame, springs, start, dt, accel, vertical: &[], scale: 1.0, control, forces: true }
     }
@@ -104,25 +110,25 @@ impl<'a> Case<'a> {
     ///
     /// # Errors
     /// The structure finds no rest to begin from, or springs or start do not fit it.
-    pub fn simulate(&self) -> Result<History, EquilibriumError> {
+    pub fn simulate(&self) -> Result<ElasticHistory, EquilibriumError> {
         self.fits()?;
-        let model = model::Model::new(self.frame, self.springs);
-        let still = |(q, feet): (Vec<f64>, Vec<Foot>)| (vec![0.0; q.len()], q, feet);
+        let model = model::ElasticModel::new(self.frame, self.springs);
+        let still = |(q, feet): (Vec<f64>, Vec<CornerState>)| (vec![0.0; q.len()], q, feet);
         let standing = model.standing();
         // the scale of energies, also of a structure that does not stand
         let at_rest = standing.as_ref().map_or(0.0, |(q, feet)| model.energy(q, &vec![0.0; q.len()], feet));
         let (v, q, feet) = match &self.start {
-            Start::Standing => still(standing?),
-            Start::Leaning(lean) => still(model.leaning(*lean)?),
-            Start::State { q, v, feet } => {
+            ElasticStart::Standing => still(standing?),
+            ElasticStart::Leaning(lean) => still(model.leaning(*lean)?),
+            ElasticStart::State { q, v, feet } => {
                 let q = model.settle(&nalgebra::DVector::from_column_slice(q), feet);
                 let mut v = v.clone();
                 v.resize(q.len(), 0.0);
                 (v, q, feet.clone())
             }
         };
-        let mut recorder = history::Recorder::new(self.frame, self.dt, self.accel.len(), self.forces);
-        let mut run = run::Run::new(self, &model, (q, v, feet), at_rest);
+        let mut recorder = history::ElasticRecorder::new(self.frame, self.dt, self.accel.len(), self.forces);
+        let mut run = run::SpringsRun::new(self, &model, (q, v, feet), at_rest);
         let outcome = run.follow(&mut recorder);
         Ok(recorder.finish(run.finish(outcome)))
     }
@@ -130,7 +136,7 @@ impl<'a> Case<'a> {
     fn fits(&self) -> Result<(), EquilibriumError> {
         let (n, corners) = (self.frame.size(), self.frame.places().len());
         let mut counts = vec![("springs", self.springs.len(), corners)];
-        if let Start::State { q, v, feet } = &self.start {
+        if let ElasticStart::State { q, v, feet } = &self.start {
             counts.extend([("coordinates", q.len(), n), ("velocities", v.len(), n), ("feet", feet.len(), corners)]);
         }
         match counts.into_iter().find(|(_, given, needed)| given != needed) {

@@ -28,19 +28,19 @@ mod place;
 use nalgebra::{Cholesky, DMatrix, DVector, Dyn};
 
 pub use base::Base;
-pub use builders::{Cantilever, Column, Footing, LeggedFrame, Portal};
+pub use builders::{Cantilever, Footing, LeggedFrame, Portal, StraightMember};
 pub use equilibrium::{EquilibriumError, Support};
-pub use layout::{Damper, FrameError, Layout, Member, Node, Point, Tendon};
-pub use place::{Place, Reach};
+pub use layout::{FrameDamper, FrameError, FrameLayout, FrameMember, FrameTendon, Node, NodePoint};
+pub use place::{PlaceOnNode, Reach};
 
-use super::beam::{Beam, Bearing};
+use super::beam::{Beam, BeamForces};
 
 /// The index of a coordinate that is not there: held, or of a node that does not turn.
 const NONE: usize = usize::MAX;
 
 /// A beam and the coordinates of its two nodes.
 #[derive(Clone, Debug)]
-struct Element {
+struct BeamElement {
     beam: Beam,
     index: [usize; 6],
     /// Whether its first, its second end is on a footing, or on what is held.
@@ -49,7 +49,7 @@ struct Element {
 
 /// A node, assembled.
 #[derive(Clone, Copy, Debug)]
-struct Body {
+struct FrameBody {
     /// Unstressed place of its centre of mass [m].
     centre: [f64; 2],
     index: [usize; 3],
@@ -59,13 +59,13 @@ struct Body {
 #[derive(Clone, Debug)]
 pub struct Frame {
     size: usize,
-    bodies: Vec<Body>,
-    elements: Vec<Element>,
-    corners: Vec<Place>,
+    bodies: Vec<FrameBody>,
+    elements: Vec<BeamElement>,
+    corners: Vec<PlaceOnNode>,
     /// Node that each corner belongs to.
     footings: Vec<usize>,
-    dampers: Vec<(Place, [f64; 2])>,
-    tendons: Vec<(Place, Tendon)>,
+    dampers: Vec<(PlaceOnNode, [f64; 2])>,
+    tendons: Vec<(PlaceOnNode, FrameTendon)>,
     mass: DMatrix<f64>,
     /// M where it is diagonal: beams' mass in halves.
     diagonal: Option<Vec<f64>>,
@@ -127,7 +127,7 @@ impl Frame {
     }
 
     /// Its corners, from left to right.
-    pub fn places(&self) -> &[Place] {
+    pub fn places(&self) -> &[PlaceOnNode] {
         &self.corners
     }
 
@@ -142,8 +142,8 @@ impl Frame {
     }
 
     /// What beam i bears.
-    pub fn bearing(&self, i: usize, q: &[f64], v: &[f64]) -> Bearing {
-        let Element { beam, index, .. } = &self.elements[i];
+    pub fn bearing(&self, i: usize, q: &[f64], v: &[f64]) -> BeamForces {
+        let BeamElement { beam, index, .. } = &self.elements[i];
         beam.bearing(&gather(index, q), &gather(index, v))
     }
 
@@ -154,7 +154,7 @@ impl Frame {
 
     /// Unit vector along beam i's chord, from its first end to its second.
     pub fn direction(&self, i: usize, q: &[f64]) -> [f64; 2] {
-        let Element { beam, index, .. } = &self.elements[i];
+        let BeamElement { beam, index, .. } = &self.elements[i];
         beam.direction(&gather(index, q))
     }
 

@@ -40,15 +40,15 @@ mod walk;
 use nalgebra::DVector;
 
 pub use conditioning::{FORETOLD, Growth, PERTURBATION, Twins, growth};
-pub use corners::Corners;
-pub use hold::{Configuration, Contact, Held};
+pub use corners::CornerSet;
+pub use hold::{Configuration, CornerContact, HeldMotion};
 pub use rest::{RestError, at_rest};
 
 use super::Mechanics;
 
 /// The ground's acceleration: at t = i dt, linear between samples, zero after the last (m/s2).
 #[derive(Clone, Copy, Debug)]
-pub struct Ground<'a> {
+pub struct GroundAcceleration<'a> {
     /// Time step (s).
     pub dt: f64,
     /// To the right.
@@ -57,7 +57,7 @@ pub struct Ground<'a> {
     pub vertical: &'a [f64],
 }
 
-impl<'a> Ground<'a> {
+impl<'a> GroundAcceleration<'a> {
     /// Horizontal motion alone.
     pub fn horizontal(dt: f64, accel: &'a [f64]) -> Self {
         Self { dt, accel, vertical: &[] }
@@ -76,7 +76,7 @@ impl<'a> Ground<'a> {
 
 /// How to solve.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Options {
+pub struct ReferenceOptions {
     /// Whether the last corner of a footing lets go where its force falls to zero; else it is held, pushed or pulled.
     pub hop: bool,
     /// Error allowed in a step, relative to a coordinate (at least 0.01 m or rad) and a velocity (at least 0.1 m/s or rad/s).
@@ -93,7 +93,7 @@ pub struct Options {
     pub max_events: usize,
 }
 
-impl Default for Options {
+impl Default for ReferenceOptions {
     fn default() -> Self {
         Self {
             hop: true,
@@ -107,7 +107,7 @@ impl Default for Options {
     }
 }
 
-impl Options {
+impl ReferenceOptions {
     /// For references: errors of a step at 1e-11.
     pub fn tight() -> Self {
         Self { rtol: 1e-11, ..Self::default() }
@@ -129,15 +129,15 @@ pub enum What {
 
 /// A change of contact.
 #[derive(Clone, Debug, PartialEq)]
-pub struct Event {
+pub struct ReferenceEvent {
     /// (s)
     pub time: f64,
     /// What it was.
     pub what: What,
     /// Corners that it was about.
-    pub corners: Corners,
+    pub corners: CornerSet,
     /// Corners held after it.
-    pub held: Corners,
+    pub held: CornerSet,
     /// Coordinates.
     pub q: DVector<f64>,
     /// Velocities before and after.
@@ -146,7 +146,7 @@ pub struct Event {
     pub energy: [f64; 2],
 }
 
-impl Event {
+impl ReferenceEvent {
     /// Energy that it took (J); none but at a landing.
     pub fn loss(&self) -> f64 {
         self.energy[0] - self.energy[1]
@@ -168,7 +168,7 @@ pub enum Stop {
 
 /// How a history ended.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub enum Outcome {
+pub enum ReferenceOutcome {
     /// At its duration.
     Completed,
     /// A footing overturned.
@@ -220,9 +220,9 @@ pub struct ElasticRocking {
     /// (horizontal, vertical) force of the ground on every corner there (N).
     pub forces: Vec<Vec<[f64; 2]>>,
     /// Changes of contact.
-    pub events: Vec<Event>,
+    pub events: Vec<ReferenceEvent>,
     /// How it ended.
-    pub outcome: Outcome,
+    pub outcome: ReferenceOutcome,
     /// Account of energy.
     pub ledger: Ledger,
     /// Largest force that pulled at a corner which could neither press nor leave nor slide (N).
@@ -251,7 +251,7 @@ impl ElasticRocking {
     }
 
     /// Landings.
-    pub fn landings(&self) -> impl Iterator<Item = &Event> {
+    pub fn landings(&self) -> impl Iterator<Item = &ReferenceEvent> {
         self.events.iter().filter(|event| event.what == What::Land)
     }
 }
@@ -259,9 +259,9 @@ impl ElasticRocking {
 /// Follow a structure from coordinates and velocities through the ground's motion. A corner is held at first if it is on the ground and at rest.
 pub fn rock(
     mechanics: &impl Mechanics,
-    ground: Ground,
+    ground: GroundAcceleration,
     start: (&DVector<f64>, &DVector<f64>),
-    options: &Options,
+    options: &ReferenceOptions,
 ) -> ElasticRocking {
-    walk::Walk::new(mechanics, ground, start, options).run(|_| true)
+    walk::ReferenceWalk::new(mechanics, ground, start, options).run(|_| true)
 }

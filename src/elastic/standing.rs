@@ -71,7 +71,7 @@ impl Standing {
         let footings = footings(structure.footings(), &w, |corners| width(&g, corners));
 
         let [stiffness, _] = structure.tangent(q, &rest, [0.0; 2]);
-        let held = Held::new(&g)?;
+        let held = HeldFrame::new(&g)?;
         let still = structure.force(q, &rest, [0.0; 2]);
         let of = |ground: [f64; 2]| {
             held.response(&stiffness, &structure.mass(q), &(structure.force(q, &rest, ground) - &still))
@@ -103,14 +103,14 @@ fn width(g: &DMatrix<f64>, corners: &[usize]) -> f64 {
 }
 
 /// All corners held.
-struct Held {
+struct HeldFrame {
     /// Motions that leave them where they are, in columns.
     free: DMatrix<f64>,
     /// G'^+, from forces on the coordinates to reactions; redundant ones shared.
     reactions: DMatrix<f64>,
 }
 
-impl Held {
+impl HeldFrame {
     fn new(g: &DMatrix<f64>) -> Option<Self> {
         let n = g.ncols();
         // of the square matrix, for all right singular vectors

@@ -6,11 +6,11 @@ use super::{
     DeckFormat, ExportError,
     language::{Language, PYTHON, TCL, record_note},
     model::{STEPS_PER_PERIOD, digits, whole},
-    plain::{self, Place},
+    plain::{self, NamedSprings},
     printable, sap2000,
 };
 use crate::{
-    elastic::frame::{Damper, Frame, Layout, Point, Tendon},
+    elastic::frame::{Frame, FrameDamper, FrameLayout, FrameTendon, NodePoint},
     record::Record,
     scalar::GRAVITY,
     spring::{Chain, Springs},
@@ -35,7 +35,7 @@ pub struct ElasticDeck<'a> {
     /// What the structure is, in a line.
     pub title: &'a str,
     /// What it is made of.
-    pub layout: &'a Layout,
+    pub layout: &'a FrameLayout,
     /// The same, assembled.
     pub frame: &'a Frame,
     /// Under every corner.
@@ -65,7 +65,7 @@ impl ElasticDeck<'_> {
             DeckFormat::OpenSeesTcl => self.fill(&TCL, include_str!("elastic_deck.tcl")),
             DeckFormat::Sap2000 => {
                 self.without_members(format)?;
-                sap2000::tables(&sap2000::Parts::elastic(self))
+                sap2000::tables(&sap2000::SapModel::elastic(self))
             }
             DeckFormat::Csv => plain::csv(&self.places()),
             DeckFormat::Markdown => plain::markdown(self.title, &self.places()),
@@ -73,7 +73,7 @@ impl ElasticDeck<'_> {
     }
 
     /// The corners from the left, and what is under them.
-    fn places(&self) -> Vec<Place> {
+    fn places(&self) -> Vec<NamedSprings> {
         self.springs.iter().enumerate().map(|(i, springs)| (format!("corner {}", i + 1), *springs)).collect()
     }
 
@@ -147,7 +147,7 @@ impl ElasticDeck<'_> {
     }
 
     /// From a node's centre of mass to a place on it.
-    fn arm(&self, language: &Language, point: &Point) -> String {
+    fn arm(&self, language: &Language, point: &NodePoint) -> String {
         let [x, z] = self.frame.centre(point.node);
         // a place on its node is there, to the last digit
         language.list(&[plain(point.place[0] - x), plain(point.place[1] - z)])
@@ -174,14 +174,13 @@ impl ElasticDeck<'_> {
     }
 
     fn dampers(&self, language: &Language) -> impl Iterator<Item = Vec<String>> {
-        self.layout
-            .dampers
-            .iter()
-            .map(|Damper { at, c: [h, v] }| vec![at.node.to_string(), self.arm(language, at), digits(*h), digits(*v)])
+        self.layout.dampers.iter().map(|FrameDamper { at, c: [h, v] }| {
+            vec![at.node.to_string(), self.arm(language, at), digits(*h), digits(*v)]
+        })
     }
 
     fn tendons(&self, language: &Language) -> impl Iterator<Item = Vec<String>> {
-        self.layout.tendons.iter().map(|Tendon { at, anchor, stiffness, pretension }| {
+        self.layout.tendons.iter().map(|FrameTendon { at, anchor, stiffness, pretension }| {
             let numbers = [digits(*stiffness), digits(*pretension)];
             [vec![at.node.to_string(), self.arm(language, at), language.list(&anchor.map(digits))], numbers.to_vec()]
                 .concat()

@@ -1,6 +1,6 @@
 //! What every deck needs besides the parameters: stiff legs, steps, tolerances, each with its rule.
 
-use super::{Expected, ExportError, plain::Place, printable};
+use super::{Expected, ExportError, plain::NamedSprings, printable};
 use crate::{
     members::Members,
     parameters::Parameters,
@@ -64,7 +64,7 @@ pub fn with_inertia(structure: &Structure) -> Structure {
 }
 
 /// A deck's numbers.
-pub(super) struct Model<'a> {
+pub(super) struct DeckModel<'a> {
     pub structure: Structure,
     /// I_cg as written [kg m2].
     pub inertia: f64,
@@ -88,7 +88,7 @@ pub(super) struct Model<'a> {
     pub record_name: String,
 }
 
-impl<'a> Model<'a> {
+impl<'a> DeckModel<'a> {
     pub fn new(parameters: &Parameters, record: &'a Record, expected: &Expected) -> Result<Self, ExportError> {
         let members = parameters.members();
         let structure = parameters.structure;
@@ -148,7 +148,7 @@ impl<'a> Model<'a> {
     }
 
     /// The feet and what is under them.
-    pub fn places(&self) -> [Place; 2] {
+    pub fn places(&self) -> [NamedSprings; 2] {
         ["left", "right"].map(|foot| (foot.to_string(), self.springs))
     }
 

@@ -2,17 +2,17 @@
 
 use super::{
     language::{Language, PYTHON, TCL, record_note},
-    model::{A_PAIR, LEG_STIFFNESS, Model, digits},
+    model::{A_PAIR, DeckModel, LEG_STIFFNESS, digits},
 };
 use crate::scalar::GRAVITY;
 
 /// The deck for openseespy.
-pub(super) fn python(model: &Model) -> String {
+pub(super) fn python(model: &DeckModel) -> String {
     fill(&PYTHON, include_str!("deck.py"), model)
 }
 
 /// The deck for OpenSees' Tcl interpreter.
-pub(super) fn tcl(model: &Model) -> String {
+pub(super) fn tcl(model: &DeckModel) -> String {
     fill(&TCL, include_str!("deck.tcl"), model)
 }
 
@@ -20,7 +20,7 @@ pub(super) fn tcl(model: &Model) -> String {
 /// a foot that lifts lets its horizontal force go in 20 us instead of at once, and 3 s of a 2 m block are off by 3e-4.
 const HOLDS: f64 = 1e7;
 
-fn accuracy_note(model: &Model) -> String {
+fn accuracy_note(model: &DeckModel) -> String {
     if model.accuracy < model.expected.accuracy {
         format!("{} was asked for, and small errors grow in this history", model.expected.accuracy)
     } else {
@@ -29,7 +29,7 @@ fn accuracy_note(model: &Model) -> String {
 }
 
 /// The template with the model's numbers.
-fn fill(language: &Language, template: &str, model: &Model) -> String {
+fn fill(language: &Language, template: &str, model: &DeckModel) -> String {
     let body = model.body();
     let (v, h) = (&model.springs.vertical, &model.springs.horizontal);
     let e = &model.expected;

@@ -6,10 +6,10 @@ use super::model::digits;
 use crate::spring::{Chain, Springs};
 
 /// A foot or corner by name, and the units under it.
-pub(super) type Place = (String, Springs<Chain<f64>>);
+pub(super) type NamedSprings = (String, Springs<Chain<f64>>);
 
 /// Place, direction and numbers of every unit.
-fn rows(places: &[Place]) -> impl Iterator<Item = [String; 6]> {
+fn rows(places: &[NamedSprings]) -> impl Iterator<Item = [String; 6]> {
     places.iter().flat_map(|(place, Springs { vertical, horizontal })| {
         [("vertical", vertical), ("horizontal", horizontal)].map(|(direction, &Chain { k1, k2, m2, c })| {
             let [k1, k2, m2, c] = [k1, k2, m2, c].map(digits);
@@ -19,7 +19,7 @@ fn rows(places: &[Place]) -> impl Iterator<Item = [String; 6]> {
 }
 
 /// One line a unit, SI units in the header.
-pub(super) fn csv(places: &[Place]) -> String {
+pub(super) fn csv(places: &[NamedSprings]) -> String {
     let mut text = String::from("foot,direction,k1_n_per_m,k2_n_per_m,m2_kg,c_ns_per_m\n");
     for row in rows(places) {
         text.push_str(&(row.join(",") + "\n"));
@@ -28,7 +28,7 @@ pub(super) fn csv(places: &[Place]) -> String {
 }
 
 /// A table to read and to paste, with the unit's picture.
-pub(super) fn markdown(title: &str, places: &[Place]) -> String {
+pub(super) fn markdown(title: &str, places: &[NamedSprings]) -> String {
     let mut text = format!("# Ground springs\n\n{title}\n\n");
     text.push_str(
         "Under each foot, vertically and horizontally: foot - gap, k1 - m2 - (k2 parallel with c) - ground.\n",

@@ -25,8 +25,8 @@ use std::fmt::{Display, Write};
 use super::model::digits;
 use cases::{cases, loads, record};
 use links::links;
-pub(super) use parts::Parts;
-use parts::{Bar, Foot, Section};
+pub(super) use parts::SapModel;
+use parts::{Bar, FootJoints, SapSection};
 
 /// N to KN, and kg to KN s2/m.
 const KILO: f64 = 1e-3;
@@ -52,7 +52,7 @@ $     versions: if the import log names one, set it in the dialog of the FOOT li
 ";
 
 /// The whole file.
-pub(super) fn tables(parts: &Parts) -> String {
+pub(super) fn tables(parts: &SapModel) -> String {
     let mut text = format!("$ {}\n{NOTES}{}{}\n", parts.title, parts.notes, parts.expected());
     for table in
         [control(), geometry(parts), links(parts), loads(parts), cases(parts), record(parts)].into_iter().flatten()
@@ -65,11 +65,11 @@ pub(super) fn tables(parts: &Parts) -> String {
 }
 
 /// A table in the making.
-struct Table {
+struct SapTable {
     text: String,
 }
 
-impl Table {
+impl SapTable {
     fn new(name: &str) -> Self {
         Self { text: format!("TABLE:  \"{name}\"\n") }
     }
@@ -92,15 +92,15 @@ impl Table {
     }
 }
 
-fn control() -> Vec<Table> {
+fn control() -> Vec<SapTable> {
     vec![
-        Table::new("PROGRAM CONTROL").row(&[
+        SapTable::new("PROGRAM CONTROL").row(&[
             ("ProgramName", &"SAP2000"),
             ("Version", &"20.0.0"),
             ("CurrUnits", &"KN, m, C"),
             ("MergeTol", &"0.0001"),
         ]),
-        Table::new("ACTIVE DEGREES OF FREEDOM").row(&[
+        SapTable::new("ACTIVE DEGREES OF FREEDOM").row(&[
             ("UX", &"Yes"),
             ("UY", &"No"),
             ("UZ", &"Yes"),
@@ -108,7 +108,7 @@ fn control() -> Vec<Table> {
             ("RY", &"Yes"),
             ("RZ", &"No"),
         ]),
-        Table::new("MASS SOURCE").row(&[
+        SapTable::new("MASS SOURCE").row(&[
             ("MassSource", &"ADDED"),
             ("Elements", &"Yes"),
             ("Masses", &"Yes"),
@@ -119,8 +119,8 @@ fn control() -> Vec<Table> {
 }
 
 /// Joints, what holds them, and the masses at them.
-fn joints(parts: &Parts) -> [Table; 3] {
-    let mut joints = Table::new("JOINT COORDINATES");
+fn joints(parts: &SapModel) -> [SapTable; 3] {
+    let mut joints = SapTable::new("JOINT COORDINATES");
     let mut joint = |tag: usize, [x, z]: [f64; 2]| {
         joints.add(&[
             ("Joint", &tag),
@@ -132,14 +132,14 @@ fn joints(parts: &Parts) -> [Table; 3] {
         ]);
     };
     parts.joints.iter().for_each(|each| joint(each.tag, each.place));
-    let below = |foot: &Foot, links: f64| {
+    let below = |foot: &FootJoints, links: f64| {
         let [x, z] = parts.place(foot.joint);
         [x, z - links * parts.link]
     };
     parts.feet.iter().for_each(|foot| joint(foot.absorber, below(foot, 1.0)));
     parts.feet.iter().for_each(|foot| joint(foot.ground, below(foot, 2.0)));
 
-    let mut restraints = Table::new("JOINT RESTRAINT ASSIGNMENTS");
+    let mut restraints = SapTable::new("JOINT RESTRAINT ASSIGNMENTS");
     let absorbers = parts.feet.iter().map(|foot| (foot.absorber, "No"));
     for (joint, held) in absorbers.chain(parts.feet.iter().map(|foot| (foot.ground, "Yes"))) {
         restraints.add(&[
@@ -152,9 +152,9 @@ fn joints(parts: &Parts) -> [Table; 3] {
             ("R3", &"Yes"),
         ]);
     }
-    let mut masses = Table::new("JOINT ADDED MASS ASSIGNMENTS");
+    let mut masses = SapTable::new("JOINT ADDED MASS ASSIGNMENTS");
     let heavy = parts.joints.iter().filter(|joint| joint.mass > 0.0);
-    let absorber = |foot: &Foot| {
+    let absorber = |foot: &FootJoints| {
         let springs = &parts.units[foot.unit].springs;
         (foot.absorber, springs.horizontal.m2, springs.vertical.m2, 0.0)
     };
@@ -175,12 +175,12 @@ fn joints(parts: &Parts) -> [Table; 3] {
 }
 
 /// Materials: by name, each once, with their damping over stiffness.
-fn materials(parts: &Parts) -> Vec<Table> {
-    let mut general = Table::new("MATERIAL PROPERTIES 01 - GENERAL");
-    let mut mechanical = Table::new("MATERIAL PROPERTIES 02 - BASIC MECHANICAL PROPERTIES");
-    let mut damping = Table::new("MATERIAL PROPERTIES 06 - DAMPING PARAMETERS");
+fn materials(parts: &SapModel) -> Vec<SapTable> {
+    let mut general = SapTable::new("MATERIAL PROPERTIES 01 - GENERAL");
+    let mut mechanical = SapTable::new("MATERIAL PROPERTIES 02 - BASIC MECHANICAL PROPERTIES");
+    let mut damping = SapTable::new("MATERIAL PROPERTIES 06 - DAMPING PARAMETERS");
     let mut seen: Vec<&str> = Vec::new();
-    for Section { material, ahead, .. } in &parts.sections {
+    for SapSection { material, ahead, .. } in &parts.sections {
         if seen.contains(&material.as_str()) {
             continue;
         }
@@ -216,9 +216,9 @@ fn materials(parts: &Parts) -> Vec<Table> {
     [general, mechanical].into_iter().chain(damped.then_some(damping)).collect()
 }
 
-fn sections(parts: &Parts) -> Table {
-    let mut table = Table::new("FRAME SECTION PROPERTIES 01 - GENERAL");
-    for Section { name, material, axial, bending, .. } in &parts.sections {
+fn sections(parts: &SapModel) -> SapTable {
+    let mut table = SapTable::new("FRAME SECTION PROPERTIES 01 - GENERAL");
+    for SapSection { name, material, axial, bending, .. } in &parts.sections {
         let [area, inertia] = [axial, bending].map(|stiffness| digits(stiffness * KILO / MODULUS));
         // AS2 = AS3 = 0: no shear deformation
         table.add(&[
@@ -240,9 +240,9 @@ fn sections(parts: &Parts) -> Table {
     table
 }
 
-fn frames(parts: &Parts) -> [Table; 2] {
-    let mut frames = Table::new("CONNECTIVITY - FRAME");
-    let mut assigned = Table::new("FRAME SECTION ASSIGNMENTS");
+fn frames(parts: &SapModel) -> [SapTable; 2] {
+    let mut frames = SapTable::new("CONNECTIVITY - FRAME");
+    let mut assigned = SapTable::new("FRAME SECTION ASSIGNMENTS");
     for (i, Bar { joints: [from, to], section }) in parts.bars.iter().enumerate() {
         let frame = i + 1;
         frames.add(&[("Frame", &frame), ("JointI", from), ("JointJ", to), ("IsCurved", &"No")]);
@@ -258,7 +258,7 @@ fn frames(parts: &Parts) -> [Table; 2] {
     [frames, assigned]
 }
 
-fn geometry(parts: &Parts) -> Vec<Table> {
+fn geometry(parts: &SapModel) -> Vec<SapTable> {
     let [joints, restraints, masses] = joints(parts);
     let [frames, assigned] = frames(parts);
     let mut tables = materials(parts);

@@ -31,7 +31,7 @@ pub(crate) fn allowed_energy<S: Scalar>(most: f64, account: &Energy<S>, stored: 
 
 /// A step of size h [s] where one of `planned` was asked for.
 #[derive(Clone, Copy, Debug)]
-pub(crate) struct Tried {
+pub(crate) struct TriedStep {
     pub h: f64,
     pub planned: f64,
     /// 1/Omega_n [s].
@@ -40,17 +40,17 @@ pub(crate) struct Tried {
 
 /// What becomes of a step.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub(crate) enum Verdict {
+pub(crate) enum StepVerdict {
     /// To be tried again with this size [s].
     Refused(f64),
     /// It holds; the size to go on with [s], and whether it breaks its bounds as the smallest of steps.
     Holds { next: f64, breaks: bool },
 }
 
-impl Tried {
+impl TriedStep {
     /// By what it misses of energy and by its local error, and what these may be.
     #[inline(always)]
-    pub fn verdict(&self, missed: [f64; 2], allowed: [f64; 2]) -> Verdict {
+    pub fn verdict(&self, missed: [f64; 2], allowed: [f64; 2]) -> StepVerdict {
         let &Self { h, planned, settling } = self;
         let (energy, error) = (allowed[0] / missed[0], allowed[1] / missed[1]);
         let finite = (missed[0] + missed[1]).is_finite();
@@ -59,12 +59,12 @@ impl Tried {
         let missed = !finite || energy < 1.0 || error < 1.0;
         // at a force discontinuity no step size satisfies the account: the smallest may break it, but not with a NaN
         if missed && (h > SMALLEST * settling || !finite) {
-            return Verdict::Refused(h * factor.clamp(0.1, 0.9));
+            return StepVerdict::Refused(h * factor.clamp(0.1, 0.9));
         }
         let next = h * factor.clamp(0.2, 5.0);
         // a step cut short by a sample or an event does not refute the size that was planned
         let next = if h < 0.9 * planned && planned.is_finite() { next.max(planned) } else { next };
-        Verdict::Holds { next, breaks: missed }
+        StepVerdict::Holds { next, breaks: missed }
     }
 }
 
@@ -103,13 +103,13 @@ mod tests {
 
     #[test]
     fn a_step_that_misses_too_much_is_refused_unless_it_is_the_smallest() {
-        let tried = Tried { h: 1e-3, planned: 1e-3, settling: 1.0 };
-        assert_eq!(tried.verdict([2.0, 1e-9], [1.0, 1e-6]), Verdict::Refused(1e-3 * 0.9 * sixth_root(0.5)));
-        assert_eq!(tried.verdict([f64::NAN, 0.0], [1.0, 1.0]), Verdict::Refused(1e-4));
-        let smallest = Tried { h: 1e-10, ..tried };
-        assert!(matches!(smallest.verdict([2.0, 0.0], [1.0, 1.0]), Verdict::Holds { breaks: true, .. }));
+        let tried = TriedStep { h: 1e-3, planned: 1e-3, settling: 1.0 };
+        assert_eq!(tried.verdict([2.0, 1e-9], [1.0, 1e-6]), StepVerdict::Refused(1e-3 * 0.9 * sixth_root(0.5)));
+        assert_eq!(tried.verdict([f64::NAN, 0.0], [1.0, 1.0]), StepVerdict::Refused(1e-4));
+        let smallest = TriedStep { h: 1e-10, ..tried };
+        assert!(matches!(smallest.verdict([2.0, 0.0], [1.0, 1.0]), StepVerdict::Holds { breaks: true, .. }));
         // cut short by a sample: what was planned still holds
-        let cut = Tried { h: 1e-4, ..tried };
-        assert_eq!(cut.verdict([1.0, 1.0], [1.0, 1.0]), Verdict::Holds { next: 1e-3, breaks: false });
+        let cut = TriedStep { h: 1e-4, ..tried };
+        assert_eq!(cut.verdict([1.0, 1.0], [1.0, 1.0]), StepVerdict::Holds { next: 1e-3, breaks: false });
     }
 }

@@ -31,7 +31,7 @@ pub const QUANTITIES: [&str; 10] = [
 ];
 
 /// One value of each of `QUANTITIES`.
-pub type Row = [f64; QUANTITIES.len()];
+pub type DemandRow = [f64; QUANTITIES.len()];
 
 /// A largest value, with its sign, and when it came.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
@@ -46,12 +46,12 @@ pub struct ForcePeak {
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Demands {
     /// For every sample the values of largest magnitude since the sample before.
-    pub rows: Vec<Row>,
+    pub rows: Vec<DemandRow>,
     /// Largest magnitude of each, over all steps: in landings, forces of the springs.
     pub peaks: [ForcePeak; QUANTITIES.len()],
     /// Largest magnitude of each between landings: later than 0.1/p after the last touch-down, times those of the samples.
     pub between: [ForcePeak; QUANTITIES.len()],
-    largest: Row,
+    largest: DemandRow,
 }
 
 impl Demands {
@@ -75,7 +75,7 @@ impl Demands {
 }
 
 /// The forces at one instant.
-pub(super) fn demand(view: &View<f64>) -> Row {
+pub(super) fn demand(view: &View<f64>) -> DemandRow {
     let (model, q, v) = (view.model, &view.state.q, &view.state.v);
     let feet = model.contact(q, view.feet);
     let [left, right] = feet.map(|f| {

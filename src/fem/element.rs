@@ -9,7 +9,7 @@ mod dampers;
 mod tendon;
 
 pub(crate) use dampers::Dampers;
-pub(crate) use tendon::Tendon;
+pub(crate) use tendon::TendonElement;
 
 use super::model::{TH, Vector, X, Z};
 use crate::scalar::Scalar;
@@ -37,7 +37,7 @@ pub(crate) trait Element<S: Scalar> {
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Elements<S> {
     pub dampers: Option<Dampers<S>>,
-    pub tendon: Option<Tendon<S>>,
+    pub tendon: Option<TendonElement<S>>,
 }
 
 impl<S> Elements<S> {

@@ -5,7 +5,8 @@ use std::ops::ControlFlow;
 use super::{
     Finish,
     control::{HistoryOutcome, Work},
-    landings::{Event, Events, Landing, MOMENT, SLIGHT},
+    energy::Energy,
+    landings::{ContactEvent, Events, Landing, MOMENT, SLIGHT},
     model::{TH, X, Z},
     observer::{Change, Observer, View},
 };
@@ -32,6 +33,16 @@ pub struct Account {
     pub dissipated: Vec<f64>,
     /// What the account leaves unexplained.
     pub residual: Vec<f64>,
+}
+
+impl Account {
+    /// The account at a sample.
+    pub(crate) fn push(&mut self, energy: &Energy<f64>) {
+        self.input.push(energy.input);
+        self.stored.push(energy.stored - energy.initial);
+        self.dissipated.push(energy.dissipated + energy.released);
+        self.residual.push(energy.residual());
+    }
 }
 
 /// A whole history of the finite element model.
@@ -137,12 +148,8 @@ impl Observer<f64> for Recorder {
             self.forces.vertical[i].push(vertical);
             self.forces.horizontal[i].push(horizontal);
         }
-        let e = view.energy;
-        self.account.input.push(e.input);
-        self.account.stored.push(e.stored - e.initial);
-        self.account.dissipated.push(e.dissipated + e.released);
-        self.account.residual.push(e.residual());
-        self.residual = self.residual.max(e.residual().abs());
+        self.account.push(view.energy);
+        self.residual = self.residual.max(view.energy.residual().abs());
         ControlFlow::Continue(())
     }
 
@@ -157,7 +164,7 @@ impl Observer<f64> for Recorder {
     }
 
     fn event(&mut self, foot: usize, change: Change, view: &View<f64>) {
-        self.events.events.push(Event {
+        self.events.events.push(ContactEvent {
             time: view.time,
             foot,
             change,

@@ -56,7 +56,7 @@ pub(crate) struct Convergence {
 
 /// What becomes of an iteration.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub(crate) enum Verdict {
+pub(crate) enum IterationVerdict {
     GoesOn,
     Converged,
     Failed,
@@ -71,13 +71,13 @@ impl Convergence {
 
     /// Whether another iteration is to be made.
     #[inline(always)]
-    pub fn verdict(&self) -> Verdict {
+    pub fn verdict(&self) -> IterationVerdict {
         if self.left == Some(0) {
-            Verdict::Converged
+            IterationVerdict::Converged
         } else if self.iterations == MOST_ITERATIONS {
-            Verdict::Failed
+            IterationVerdict::Failed
         } else {
-            Verdict::GoesOn
+            IterationVerdict::GoesOn
         }
     }
 

@@ -39,7 +39,7 @@ pub struct Landing {
 
 /// A foot's change of contact, as it was seen.
 #[derive(Clone, Copy, Debug)]
-pub(super) struct Event {
+pub(super) struct ContactEvent {
     pub time: f64,
     pub foot: usize,
     pub change: Change,
@@ -54,7 +54,7 @@ pub(super) struct Event {
 /// All events of a history, and what is needed to read them.
 #[derive(Clone, Debug, Default)]
 pub(super) struct Events {
-    pub events: Vec<Event>,
+    pub events: Vec<ContactEvent>,
     /// Which feet press at t = 0.
     pub pressing: [bool; 2],
     /// A moment (s).
@@ -73,7 +73,7 @@ struct Instant {
 
 /// A time of unchanged contact.
 #[derive(Clone, Copy, Debug)]
-struct Span {
+struct ContactSpan {
     from: Instant,
     to: Instant,
     pressing: [bool; 2],
@@ -145,14 +145,14 @@ impl Events {
     }
 
     /// Spans of unchanged contact.
-    fn spans(&self, end: f64) -> impl Iterator<Item = Span> {
+    fn spans(&self, end: f64) -> impl Iterator<Item = ContactSpan> {
         let mut pressing = self.pressing;
         let still = |time: f64| Instant { time, speed: 0.0, kinetic: 0.0 };
         let mut from = still(0.0);
-        let at = |e: &Event| Instant { time: e.time, speed: e.speed, kinetic: e.kinetic };
+        let at = |e: &ContactEvent| Instant { time: e.time, speed: e.speed, kinetic: e.kinetic };
         let changes = self.events.iter().map(move |e| (at(e), Some(e))).chain([(still(end), None)]);
         changes.map(move |(to, event)| {
-            let span = Span { from, to, pressing };
+            let span = ContactSpan { from, to, pressing };
             from = to;
             if let Some(e) = event {
                 pressing[e.foot] = e.change == Change::TouchDown;
@@ -163,7 +163,7 @@ impl Events {
 
     /// The leans in order of time, chatter removed.
     fn leans(&self, end: f64) -> Vec<Lean> {
-        let alone = self.spans(end).filter_map(|Span { from, to, pressing }| {
+        let alone = self.spans(end).filter_map(|ContactSpan { from, to, pressing }| {
             (pressing[0] != pressing[1]).then_some(Lean { foot: usize::from(pressing[1]), from, to })
         });
         // interruptions of a lean that the other foot did not take over
@@ -234,7 +234,7 @@ mod tests {
 
     /// The same of a body with this speed at a time.
     fn at_speeds(changes: &[(f64, usize, bool)], speed: impl Fn(f64) -> f64) -> Events {
-        let event = |&(time, foot, down): &(f64, usize, bool)| Event {
+        let event = |&(time, foot, down): &(f64, usize, bool)| ContactEvent {
             time,
             foot,
             change: if down { Change::TouchDown } else { Change::LiftOff },

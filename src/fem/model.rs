@@ -16,7 +16,7 @@
 //! the engineer's deck, where the weight is a load on the mass.
 
 pub(crate) use super::contact::{Contact, ContactLaw, Foot, FootForce};
-use super::element::{Dampers, Elements, Tendon};
+use super::element::{Dampers, Elements, TendonElement};
 use crate::{
     members::{self, Members},
     scalar::{GRAVITY, Scalar, sin_cos},
@@ -131,7 +131,7 @@ impl<S: Scalar> Model<S> {
         if let Some(members::Tendon { stiffness, pretension }) = members.tendon {
             let (state, _) = model.stand(body.mass * GRAVITY + pretension);
             let slack = body.height + state.q[Z] - pretension / stiffness;
-            model.elements.tendon = Some(Tendon { stiffness, slack, height: body.height, pretension });
+            model.elements.tendon = Some(TendonElement { stiffness, slack, height: body.height, pretension });
         }
         model
     }

@@ -31,7 +31,7 @@ impl<T: Num + Copy> Chains<T> {
 #[cfg(test)]
 pub(super) struct Newton<T> {
     chains: Chains<T>,
-    matrix: Matrix<T>,
+    matrix: CondensedMatrix<T>,
 }
 
 #[cfg(test)]
@@ -45,7 +45,7 @@ impl<T: Num + Copy + Neg<Output = T>> Newton<T> {
         lift: impl Fn(S) -> T,
     ) -> Self {
         let chains = Chains::new(model, feet, s, &lift);
-        let matrix = Matrix::new(&chains, model, state, feet, s, lift);
+        let matrix = CondensedMatrix::new(&chains, model, state, feet, s, lift);
         Self { chains, matrix }
     }
 
@@ -56,7 +56,7 @@ impl<T: Num + Copy + Neg<Output = T>> Newton<T> {
 }
 
 /// What is left of the matrix once the chains are condensed.
-pub(super) enum Matrix<T> {
+pub(super) enum CondensedMatrix<T> {
     Rigid(Rigid<T>),
     /// Of a body with members.
     Coupled(Box<Coupled<T>>),
@@ -64,7 +64,7 @@ pub(super) enum Matrix<T> {
     Slipping(Box<Slipping<T>>),
 }
 
-impl<T: Num + Copy + Neg<Output = T>> Matrix<T> {
+impl<T: Num + Copy + Neg<Output = T>> CondensedMatrix<T> {
     /// Factor at `state` for s = h lambda.
     #[inline(always)]
     pub fn new<S: Scalar>(

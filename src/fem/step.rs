@@ -3,11 +3,11 @@
 use num_complex::Complex;
 
 pub(super) use super::iterate::{
-    Convergence, EIGENVALUE, Ground, LARGEST, Verdict, complex, embedded, from_modes, modes, stage, times,
+    Convergence, EIGENVALUE, Ground, IterationVerdict, LARGEST, complex, embedded, from_modes, modes, stage, times,
 };
 use super::{
     model::{Contact, Foot, Model, N, State, TH, Vector},
-    newton::{Chains, Matrix},
+    newton::{Chains, CondensedMatrix},
     radau::{A, C, GAMMA, position_weights, velocity_weights},
 };
 use crate::scalar::{Scalar, real};
@@ -91,7 +91,7 @@ pub(super) struct Stepper<'a, S> {
     pub rounding: f64,
     chains: Option<Shared>,
     /// The real matrix of the last step, for its error.
-    matrix: Option<Matrix<f64>>,
+    matrix: Option<CondensedMatrix<f64>>,
 }
 
 /// What steps of one size under one contact share.
@@ -134,9 +134,9 @@ impl<'a, S: Scalar> Stepper<'a, S> {
         let real_feet = feet.map(|foot| Foot { contact: foot.contact, anchor: foot.anchor.re() });
         self.condense(hr, &real_feet);
         let Some(shared) = &self.chains else { return false };
-        let real_matrix: &Matrix<f64> =
-            self.matrix.insert(Matrix::new(&shared.real, &self.real, &middle, &real_feet, hr * GAMMA, |x| x));
-        let pair_matrix = Matrix::new(&shared.pair, &self.real, &middle, &real_feet, hr * EIGENVALUE, complex);
+        let real_matrix: &CondensedMatrix<f64> =
+            self.matrix.insert(CondensedMatrix::new(&shared.real, &self.real, &middle, &real_feet, hr * GAMMA, |x| x));
+        let pair_matrix = CondensedMatrix::new(&shared.pair, &self.real, &middle, &real_feet, hr * EIGENVALUE, complex);
 
         let model = self.model;
         let masses = model.masses(feet);
@@ -153,8 +153,8 @@ impl<'a, S: Scalar> Stepper<'a, S> {
             }
             (s.iterations, s.rate) = (convergence.iterations, convergence.rate);
             match convergence.verdict() {
-                Verdict::GoesOn => {}
-                verdict => return verdict == Verdict::Converged,
+                IterationVerdict::GoesOn => {}
+                verdict => return verdict == IterationVerdict::Converged,
             }
 
             let mut residual = [[S::zero(); N]; 3];

@@ -4,10 +4,10 @@ use plotters::style::Color;
 use plotters::style::text_anchor::{HPos, VPos};
 
 use super::canvas::{Canvas, Lettering};
-use super::legend::{self, Entry};
-use super::mark::{self, Mark, Shape};
+use super::legend::{self, LegendEntry};
+use super::mark::{self, Mark, MarkShape};
 use super::number::{brief, short};
-use super::panel::{Frame, Panel};
+use super::panel::{Panel, PanelFrame};
 use super::scale::Scale;
 use super::style::{self, GREY, NUMBER, Pen, SKY, WIDTH};
 use super::{Check, FigureError, Sheet};
@@ -16,7 +16,7 @@ const CHECK: Check = Check("arr");
 
 /// A band of frequencies in which the target bounds the response.
 #[derive(Clone, Copy, Debug)]
-pub struct Band {
+pub struct TargetBand {
     /// From and to, frequency ratio g.
     pub g: (f64, f64),
     /// Least ARR wanted, if any.
@@ -27,7 +27,7 @@ pub struct Band {
 
 /// A frequency at which the fit touches its bound.
 #[derive(Clone, Copy, Debug)]
-pub struct Active {
+pub struct ActiveMark {
     pub g: f64,
     pub arr: f64,
     /// Its multiplier in the optimality conditions, told beside it; `None` tells nothing.
@@ -36,12 +36,12 @@ pub struct Active {
 
 /// One spring-absorber unit's response.
 #[derive(Clone, Copy, Debug)]
-pub struct Curve<'a> {
+pub struct UnitCurve<'a> {
     pub label: &'a str,
     /// Frequency ratios, increasing, greater than zero.
     pub g: &'a [f64],
     pub arr: &'a [f64],
-    pub active: &'a [Active],
+    pub active: &'a [ActiveMark],
     /// Whether it is of the springs that were delivered: a full line; others are dashed.
     pub delivered: bool,
     /// Vertical and horizontal units have their own colours.
@@ -52,17 +52,17 @@ pub struct Curve<'a> {
 
 /// What the figure shows.
 #[derive(Clone, Copy, Debug)]
-pub struct Response<'a> {
+pub struct ResponseFigure<'a> {
     pub title: &'a str,
-    pub target: &'a [Band],
-    pub curves: &'a [Curve<'a>],
+    pub target: &'a [TargetBand],
+    pub curves: &'a [UnitCurve<'a>],
 }
 
 /// Draw the figure.
 ///
 /// # Errors
 /// [`FigureError`] for an empty or not finite slice.
-pub fn draw(data: &Response<'_>) -> Result<Sheet, FigureError> {
+pub fn draw(data: &ResponseFigure<'_>) -> Result<Sheet, FigureError> {
     CHECK.least("curves", data.curves.len(), 1)?;
     for curve in data.curves {
         CHECK.least(curve.label, curve.g.len(), 2)?;
@@ -78,28 +78,29 @@ pub fn draw(data: &Response<'_>) -> Result<Sheet, FigureError> {
     }
 
     let mut canvas = Canvas::default();
-    let mut entries: Vec<Entry> = data
+    let mut entries: Vec<LegendEntry> = data
         .curves
         .iter()
         .map(|curve| {
             let pen = pen(curve);
             if curve.active.is_empty() {
-                Entry::line(curve.label, pen)
+                LegendEntry::line(curve.label, pen)
             } else {
-                Entry::both(curve.label, pen, dot(curve))
+                LegendEntry::both(curve.label, pen, dot(curve))
             }
         })
         .collect();
     if !data.target.is_empty() {
-        entries.push(Entry::patch("outside the target", SKY.mix(0.22)));
+        entries.push(LegendEntry::patch("outside the target", SKY.mix(0.22)));
     }
     if data.curves.iter().flat_map(|curve| curve.active).any(|active| active.multiplier.is_some()) {
-        let neutral = Mark::new(Shape::Disc, 9.0, GREY);
-        entries.push(Entry::mark("active, with multiplier", neutral));
+        let neutral = Mark::new(MarkShape::Disc, 9.0, GREY);
+        entries.push(LegendEntry::mark("active, with multiplier", neutral));
     }
     let (left, right) = (150.0, WIDTH as f64 - 40.0);
     let top = legend::header(&mut canvas, data.title, &entries, left, right);
-    let panel = Panel { frame: Frame { left, top, right, bottom: top + 750.0 }, x: g_axis(data), y: arr_axis(data) };
+    let panel =
+        Panel { frame: PanelFrame { left, top, right, bottom: top + 750.0 }, x: g_axis(data), y: arr_axis(data) };
     for band in data.target {
         shade(&mut canvas, &panel, band);
     }
@@ -117,24 +118,24 @@ pub fn draw(data: &Response<'_>) -> Result<Sheet, FigureError> {
     canvas.finish(top + 850.0)
 }
 
-fn pen(curve: &Curve<'_>) -> Pen {
+fn pen(curve: &UnitCurve<'_>) -> Pen {
     let pen = Pen::new(style::series(usize::from(curve.horizontal)), if curve.delivered { 4.5 } else { 2.8 });
     if curve.delivered { pen } else { pen.dashed() }
 }
 
-fn dot(curve: &Curve<'_>) -> Mark {
+fn dot(curve: &UnitCurve<'_>) -> Mark {
     let i = usize::from(curve.horizontal);
     Mark::new(mark::series(i), 9.0, style::series(i))
 }
 
-fn g_axis(data: &Response<'_>) -> Scale {
+fn g_axis(data: &ResponseFigure<'_>) -> Scale {
     let all = data.curves.iter().flat_map(|curve| curve.g).copied().filter(|g| *g > 0.0);
     let (low, high) = all.fold((f64::INFINITY, 0.0_f64), |(low, high), g| (low.min(g), high.max(g)));
     if high > 0.0 { Scale::log(low, high) } else { Scale::log(0.05, 20.0) }
 }
 
 /// The tails of the curves may fall for ever; four decades below the top are enough to see them go.
-fn arr_axis(data: &Response<'_>) -> Scale {
+fn arr_axis(data: &ResponseFigure<'_>) -> Scale {
     let caps = data.target.iter().filter_map(|band| band.at_most);
     let all = data.curves.iter().flat_map(|curve| curve.arr).copied().chain(caps).filter(|arr| *arr > 0.0);
     let (low, high) = all.fold((f64::INFINITY, 0.0_f64), |(low, high), arr| (low.min(arr), high.max(arr)));
@@ -142,7 +143,7 @@ fn arr_axis(data: &Response<'_>) -> Scale {
 }
 
 /// Colour what the target forbids.
-fn shade(canvas: &mut Canvas, panel: &Panel, band: &Band) {
+fn shade(canvas: &mut Canvas, panel: &Panel, band: &TargetBand) {
     let colour = SKY.mix(0.22);
     if let Some(most) = band.at_most {
         canvas.block(panel.at_clamped(band.g.0, panel.y.high), panel.at_clamped(band.g.1, most), colour);
@@ -153,7 +154,7 @@ fn shade(canvas: &mut Canvas, panel: &Panel, band: &Band) {
 }
 
 /// The edge of what the target forbids; the cap tells its value.
-fn bound(canvas: &mut Canvas, panel: &Panel, band: &Band) {
+fn bound(canvas: &mut Canvas, panel: &Panel, band: &TargetBand) {
     let pen = Pen::new(GREY, 2.0).dashed();
     let ends = [panel.x.clamp(band.g.0), panel.x.clamp(band.g.1)];
     if let Some(least) = band.at_least {
@@ -167,7 +168,7 @@ fn bound(canvas: &mut Canvas, panel: &Panel, band: &Band) {
 }
 
 /// The lowest cap of every curve that has one, its value at the right; below its line where the next cap is near above.
-fn lowest(canvas: &mut Canvas, panel: &Panel, curves: &[Curve<'_>]) {
+fn lowest(canvas: &mut Canvas, panel: &Panel, curves: &[UnitCurve<'_>]) {
     let caps = || curves.iter().filter_map(|curve| Some((curve, curve.cap?)));
     for (curve, cap) in caps() {
         let colour = pen(curve).rgb();
@@ -180,14 +181,14 @@ fn lowest(canvas: &mut Canvas, panel: &Panel, curves: &[Curve<'_>]) {
     }
 }
 
-fn touches(canvas: &mut Canvas, panel: &Panel, curve: &Curve<'_>) {
+fn touches(canvas: &mut Canvas, panel: &Panel, curve: &UnitCurve<'_>) {
     for active in curve.active {
         // A point at g = 0 has no place on this axis: it stands at the left edge.
         let at = panel.at_clamped(active.g, active.arr);
         dot(curve).draw(canvas, at);
         let Some(multiplier) = active.multiplier else { continue };
         // Points close to each other tell their numbers to either side.
-        let near = |other: &Active, side: f64| {
+        let near = |other: &ActiveMark, side: f64| {
             let away = side * (panel.at_clamped(other.g, other.arr).0 - at.0);
             away > 0.0 && away < 100.0
         };

@@ -3,10 +3,10 @@
 use plotters::style::text_anchor::{HPos, VPos};
 
 use super::canvas::{Canvas, Lettering};
-use super::legend::{self, Entry};
-use super::mark::{Mark, Shape};
+use super::legend::{self, LegendEntry};
+use super::mark::{Mark, MarkShape};
 use super::number::short;
-use super::panel::{Frame, Panel};
+use super::panel::{Panel, PanelFrame};
 use super::scale::Scale;
 use super::style::{BLUE, NUMBER, PALE, Pen, VERMILLION, WIDTH};
 use super::{Check, FigureError, Sheet};
@@ -15,7 +15,7 @@ const CHECK: Check = Check("candidates");
 
 /// One pair of springs that was tried.
 #[derive(Clone, Copy, Debug)]
-pub struct Candidate {
+pub struct CandidateMark {
     /// Omega_n of the vertical chain [Hz].
     pub vertical_hz: f64,
     /// Omega_n of the horizontal chain [Hz].
@@ -28,11 +28,11 @@ pub struct Candidate {
 
 /// What the figure shows.
 #[derive(Clone, Copy, Debug)]
-pub struct Candidates<'a> {
+pub struct CandidatesFigure<'a> {
     pub title: &'a str,
     /// What the error is, as "NRMSE of u and v".
     pub error_label: &'a str,
-    pub candidates: &'a [Candidate],
+    pub candidates: &'a [CandidateMark],
     /// Index of the best one.
     pub chosen: Option<usize>,
     /// What the best one is: "delivered", or best of something else.
@@ -43,7 +43,7 @@ pub struct Candidates<'a> {
 ///
 /// # Errors
 /// [`FigureError`] when there is no candidate, for a NaN, for an index beyond the candidates.
-pub fn draw(data: &Candidates<'_>) -> Result<Sheet, FigureError> {
+pub fn draw(data: &CandidatesFigure<'_>) -> Result<Sheet, FigureError> {
     let all = data.candidates;
     CHECK.least("candidates", all.len().min(data.chosen.map_or(usize::MAX, |i| all.len().saturating_sub(i))), 1)?;
     let frequencies: Vec<f64> = all.iter().flat_map(|c| [c.vertical_hz, c.horizontal_hz]).collect();
@@ -53,16 +53,16 @@ pub fn draw(data: &Candidates<'_>) -> Result<Sheet, FigureError> {
 
     let mut canvas = Canvas::default();
     let count = |abandoned: bool| all.iter().filter(|c| c.abandoned == abandoned).count();
-    let mut entries = vec![Entry::mark(format!("run to the end ({})", count(false)), whole())];
+    let mut entries = vec![LegendEntry::mark(format!("run to the end ({})", count(false)), whole())];
     if count(true) > 0 {
-        entries.push(Entry::mark(format!("abandoned, at its lower bound ({})", count(true)), abandoned()));
+        entries.push(LegendEntry::mark(format!("abandoned, at its lower bound ({})", count(true)), abandoned()));
     }
     if data.chosen.is_some() {
-        entries.push(Entry::mark(data.chosen_label, chosen()));
+        entries.push(LegendEntry::mark(data.chosen_label, chosen()));
     }
     let lost = errors.iter().filter(|e| e.is_infinite()).count();
     if lost > 0 {
-        entries.push(Entry::mark(format!("no finite error ({lost}), at the upper edge"), infinite()));
+        entries.push(LegendEntry::mark(format!("no finite error ({lost}), at the upper edge"), infinite()));
     }
     let (left, right, gap) = (150.0, WIDTH as f64 - 40.0, 110.0);
     let top = legend::header(&mut canvas, data.title, &entries, left, right);
@@ -74,9 +74,9 @@ pub fn draw(data: &Candidates<'_>) -> Result<Sheet, FigureError> {
     for (from, to, axis, first) in
         [(left, middle - gap / 2.0, "vertical Ωₙ [Hz]", true), (middle + gap / 2.0, right, "horizontal Ωₙ [Hz]", false)]
     {
-        let panel = Panel { frame: Frame { left: from, top, right: to, bottom: top + 670.0 }, x, y };
+        let panel = Panel { frame: PanelFrame { left: from, top, right: to, bottom: top + 670.0 }, x, y };
         panel.axes(&mut canvas, Some(axis), if first { data.error_label } else { "" }, 110.0);
-        let hz = |c: &Candidate| if first { c.vertical_hz } else { c.horizontal_hz };
+        let hz = |c: &CandidateMark| if first { c.vertical_hz } else { c.horizontal_hz };
         let best = data.chosen.map(|i| all[i]);
         if let Some(best) = best {
             panel.upright(&mut canvas, hz(&best), Pen::new(VERMILLION, 2.0).dashed());
@@ -97,19 +97,19 @@ pub fn draw(data: &Candidates<'_>) -> Result<Sheet, FigureError> {
 }
 
 fn whole() -> Mark {
-    Mark::new(Shape::Disc, 7.0, BLUE)
+    Mark::new(MarkShape::Disc, 7.0, BLUE)
 }
 
 fn abandoned() -> Mark {
-    Mark::new(Shape::Disc, 7.0, PALE).hollow()
+    Mark::new(MarkShape::Disc, 7.0, PALE).hollow()
 }
 
 fn infinite() -> Mark {
-    Mark::new(Shape::Triangle, 8.0, PALE)
+    Mark::new(MarkShape::Triangle, 8.0, PALE)
 }
 
 fn chosen() -> Mark {
-    Mark::new(Shape::Diamond, 12.0, VERMILLION)
+    Mark::new(MarkShape::Diamond, 12.0, VERMILLION)
 }
 
 /// The chosen one's numbers, at the foot of its line.

@@ -13,7 +13,7 @@ use super::sheet::Sheet;
 use super::style::{Pen, TEXT, WHITE, WIDTH};
 
 /// A point [pixel].
-pub type Point = (f64, f64);
+pub type PixelPoint = (f64, f64);
 
 /// Units of plotters' surface in one pixel: its backends take whole numbers, which would make a flat curve jump.
 const FINE: f64 = 16.0;
@@ -25,7 +25,7 @@ const ASCENT: f64 = 0.76;
 type Fine = (i32, i32);
 
 /// One thing drawn.
-enum Element {
+enum SvgElement {
     Line(PathElement<Fine>),
     Fill(Polygon<Fine>),
     Disc(Circle<Fine, u32>),
@@ -85,49 +85,53 @@ impl Lettering {
 /// The sheet; coordinates are pixels from the top left corner, and may be fractions.
 #[derive(Default)]
 pub struct Canvas {
-    elements: Vec<Element>,
+    elements: Vec<SvgElement>,
     plots: Vec<Plot>,
 }
 
-fn fine((x, y): Point) -> Fine {
+fn fine((x, y): PixelPoint) -> Fine {
     // Casts saturate: a point far outside stays outside.
     ((x * FINE).round() as i32, (y * FINE).round() as i32)
 }
 
-fn all_fine(points: &[Point]) -> Vec<Fine> {
+fn all_fine(points: &[PixelPoint]) -> Vec<Fine> {
     points.iter().copied().map(fine).collect()
 }
 
 impl Canvas {
     /// A polyline, full or dashed.
-    pub fn line(&mut self, points: &[Point], pen: Pen) {
+    pub fn line(&mut self, points: &[PixelPoint], pen: Pen) {
         let style =
             ShapeStyle { color: pen.colour, filled: false, stroke_width: (pen.width * FINE).round().max(1.0) as u32 };
         let pieces = pen.dash.map_or_else(|| vec![points.to_vec()], |dash| dashes(points, dash));
         for piece in pieces {
             let mut points = all_fine(&piece);
             points.dedup();
-            self.elements.push(Element::Line(PathElement::new(points, style)));
+            self.elements.push(SvgElement::Line(PathElement::new(points, style)));
         }
     }
 
     /// A filled polygon.
-    pub fn fill<C: Color>(&mut self, points: &[Point], colour: C) {
-        self.elements.push(Element::Fill(Polygon::new(all_fine(points), colour.filled())));
+    pub fn fill<C: Color>(&mut self, points: &[PixelPoint], colour: C) {
+        self.elements.push(SvgElement::Fill(Polygon::new(all_fine(points), colour.filled())));
     }
 
     /// A filled rectangle from its left top to its right bottom corner.
-    pub fn block<C: Color>(&mut self, a: Point, b: Point, colour: C) {
+    pub fn block<C: Color>(&mut self, a: PixelPoint, b: PixelPoint, colour: C) {
         self.fill(&[a, (b.0, a.1), b, (a.0, b.1)], colour);
     }
 
     /// A filled circle.
-    pub fn disc<C: Color>(&mut self, centre: Point, radius: f64, colour: C) {
-        self.elements.push(Element::Disc(Circle::new(fine(centre), (radius * FINE).round() as u32, colour.filled())));
+    pub fn disc<C: Color>(&mut self, centre: PixelPoint, radius: f64, colour: C) {
+        self.elements.push(SvgElement::Disc(Circle::new(
+            fine(centre),
+            (radius * FINE).round() as u32,
+            colour.filled(),
+        )));
     }
 
     /// A text at a point.
-    pub fn text(&mut self, (x, y): Point, text: &str, how: Lettering) {
+    pub fn text(&mut self, (x, y): PixelPoint, text: &str, how: Lettering) {
         let face = if how.bold { FontStyle::Bold } else { FontStyle::Normal };
         let turn = if how.upwards { FontTransform::Rotate270 } else { FontTransform::None };
         let font = FontDesc::new(FontFamily::Name(font::FAMILY), how.size * EM * FINE, face).transform(turn);
@@ -137,11 +141,11 @@ impl Canvas {
         let at = if how.upwards { (x + drop, y) } else { (x, y + drop) };
         // a name may hold what XML may not
         let text: String = text.chars().map(|c| if c.is_control() || c >= '\u{fffe}' { ' ' } else { c }).collect();
-        self.elements.push(Element::Text(Text::new(text, fine(at), style)));
+        self.elements.push(SvgElement::Text(Text::new(text, fine(at), style)));
     }
 
     /// A text on a white ground, so that it can be read across lines.
-    pub fn label(&mut self, at: Point, text: &str, how: Lettering) {
+    pub fn label(&mut self, at: PixelPoint, text: &str, how: Lettering) {
         let (length, pad) = (how.length(text), 0.22 * how.size);
         let left = match how.across {
             HPos::Left => at.0,
@@ -180,7 +184,7 @@ impl Canvas {
 }
 
 /// Everything, on white, as plotters writes it.
-fn write(svg: &mut String, (width, height): (u32, u32), elements: &[Element]) -> Result<(), String> {
+fn write(svg: &mut String, (width, height): (u32, u32), elements: &[SvgElement]) -> Result<(), String> {
     let size = (width * FINE as u32, height * FINE as u32);
     let area = SVGBackend::with_string(svg, size).into_drawing_area();
     let ground = all_fine(&[(0.0, 0.0), (f64::from(width), 0.0), (f64::from(width), f64::from(height))]);
@@ -188,10 +192,10 @@ fn write(svg: &mut String, (width, height): (u32, u32), elements: &[Element]) ->
     area.draw(&ground).map_err(|e| e.to_string())?;
     for element in elements {
         match element {
-            Element::Line(line) => area.draw(line),
-            Element::Fill(polygon) => area.draw(polygon),
-            Element::Disc(circle) => area.draw(circle),
-            Element::Text(text) => area.draw(text),
+            SvgElement::Line(line) => area.draw(line),
+            SvgElement::Fill(polygon) => area.draw(polygon),
+            SvgElement::Disc(circle) => area.draw(circle),
+            SvgElement::Text(text) => area.draw(text),
         }
         .map_err(|e| e.to_string())?;
     }
@@ -199,9 +203,9 @@ fn write(svg: &mut String, (width, height): (u32, u32), elements: &[Element]) ->
 }
 
 /// The drawn pieces of a polyline.
-fn dashes(points: &[Point], (on, off): (f64, f64)) -> Vec<Vec<Point>> {
+fn dashes(points: &[PixelPoint], (on, off): (f64, f64)) -> Vec<Vec<PixelPoint>> {
     let mut pieces = Vec::new();
-    let mut piece: Vec<Point> = points.first().copied().into_iter().collect();
+    let mut piece: Vec<PixelPoint> = points.first().copied().into_iter().collect();
     let (mut drawing, mut left) = (true, on);
     for pair in points.windows(2) {
         let (a, b) = (pair[0], pair[1]);

@@ -1,8 +1,8 @@
 //! The chart of the design from the geometry: what to read off for a slenderness and an Omega_n/p.
 
 use super::canvas::Canvas;
-use super::legend::{self, Entry};
-use super::panel::{Frame, Panel};
+use super::legend::{self, LegendEntry};
+use super::panel::{Panel, PanelFrame};
 use super::scale::Scale;
 use super::style::{self, GREY, Pen, WIDTH};
 use super::{Check, FigureError, Sheet};
@@ -11,7 +11,7 @@ const CHECK: Check = Check("chart");
 
 /// One slenderness of one kind of body: a value each for every Omega_n/p.
 #[derive(Clone, Copy, Debug)]
-pub struct Curve<'a> {
+pub struct ChartCurve<'a> {
     /// Slenderness [rad].
     pub alpha: f64,
     /// Whether it is drawn dashed: the second kind of body.
@@ -23,13 +23,13 @@ pub struct Curve<'a> {
 
 /// What the figure shows.
 #[derive(Clone, Copy, Debug)]
-pub struct Chart<'a> {
+pub struct ChartFigure<'a> {
     pub title: &'a str,
     /// What is on the vertical axis of each panel.
     pub panels: [&'a str; 4],
     /// What a full and a dashed line are.
     pub kinds: [&'a str; 2],
-    pub curves: &'a [Curve<'a>],
+    pub curves: &'a [ChartCurve<'a>],
 }
 
 /// Height of a panel, and the distance between two [pixel].
@@ -40,7 +40,7 @@ const GAP: f64 = 40.0;
 ///
 /// # Errors
 /// [`FigureError`] for an empty or not finite slice or slices of different lengths.
-pub fn draw(data: &Chart<'_>) -> Result<Sheet, FigureError> {
+pub fn draw(data: &ChartFigure<'_>) -> Result<Sheet, FigureError> {
     CHECK.least("curves", data.curves.len(), 1)?;
     for curve in data.curves {
         let name = format!("omega_n_over_p at alpha {}", curve.alpha);
@@ -56,25 +56,25 @@ pub fn draw(data: &Chart<'_>) -> Result<Sheet, FigureError> {
             alphas.push(curve.alpha);
         }
     }
-    let pen = |curve: &Curve| {
+    let pen = |curve: &ChartCurve| {
         let pen = Pen::new(style::series(alphas.iter().position(|a| *a == curve.alpha).unwrap_or(0)), 3.0);
         if curve.dashed { pen.dashed() } else { pen }
     };
     let mut canvas = Canvas::default();
-    let mut entries: Vec<Entry> = alphas
+    let mut entries: Vec<LegendEntry> = alphas
         .iter()
         .enumerate()
-        .map(|(i, alpha)| Entry::line(format!("\u{3b1} = {alpha}"), Pen::new(style::series(i), 3.0)))
+        .map(|(i, alpha)| LegendEntry::line(format!("\u{3b1} = {alpha}"), Pen::new(style::series(i), 3.0)))
         .collect();
-    entries.push(Entry::line(data.kinds[0], Pen::new(GREY, 3.0)));
-    entries.push(Entry::line(data.kinds[1], Pen::new(GREY, 3.0).dashed()));
+    entries.push(LegendEntry::line(data.kinds[0], Pen::new(GREY, 3.0)));
+    entries.push(LegendEntry::line(data.kinds[1], Pen::new(GREY, 3.0).dashed()));
     let (left, right) = (170.0, WIDTH as f64 - 40.0);
     let top = legend::header(&mut canvas, data.title, &entries, left, right);
     let x = Scale::log_around(data.curves.iter().flat_map(|c| c.omega_n_over_p).copied(), 4.0);
     for (k, label) in data.panels.into_iter().enumerate() {
         let y = Scale::log_around(data.curves.iter().flat_map(|c| c.values[k]).copied(), 3.0);
         let top = top + k as f64 * (HEIGHT + GAP);
-        let panel = Panel { frame: Frame { left, top, right, bottom: top + HEIGHT }, x, y };
+        let panel = Panel { frame: PanelFrame { left, top, right, bottom: top + HEIGHT }, x, y };
         panel.axes(&mut canvas, (k == 3).then_some("Ωₙ/p"), label, 120.0);
         for curve in data.curves {
             panel.curve(&mut canvas, curve.omega_n_over_p, curve.values[k], pen(curve));

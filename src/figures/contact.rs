@@ -1,10 +1,10 @@
 //! Forces between the feet and the ground against time.
 
 use super::canvas::Canvas;
-use super::legend::{self, Entry};
+use super::legend::{self, LegendEntry};
 use super::number::{brief, prefix, short};
-use super::panel::{Frame, Panel};
-use super::plot::Event;
+use super::panel::{Panel, PanelFrame};
+use super::plot::EventMark;
 use super::scale::Scale;
 use super::style::{self, BLUE, GREY, Pen, VERMILLION, WIDTH};
 use super::{Check, FigureError, Sheet};
@@ -17,7 +17,7 @@ const USUAL: f64 = 0.95;
 
 /// What the figure shows: forces on the body at the times t, one value each.
 #[derive(Clone, Copy, Debug)]
-pub struct Contact<'a> {
+pub struct ContactFigure<'a> {
     pub title: &'a str,
     /// Times, increasing [s].
     pub t: &'a [f64],
@@ -32,14 +32,14 @@ pub struct Contact<'a> {
     /// The body's weight [N], drawn as a level to compare with.
     pub weight: Option<f64>,
     /// When the body overturned.
-    pub end: Option<Event<'a>>,
+    pub end: Option<EventMark<'a>>,
 }
 
 /// Draw the figure.
 ///
 /// # Errors
 /// [`FigureError`] for an empty or not finite slice or slices of different lengths.
-pub fn draw(data: &Contact<'_>) -> Result<Sheet, FigureError> {
+pub fn draw(data: &ContactFigure<'_>) -> Result<Sheet, FigureError> {
     CHECK.least("t", data.t.len(), 2)?;
     CHECK.finite("t", data.t)?;
     let n = data.t.len();
@@ -54,26 +54,32 @@ pub fn draw(data: &Contact<'_>) -> Result<Sheet, FigureError> {
     CHECK.finite("weight", data.weight.as_slice())?;
 
     let mut canvas = Canvas::default();
-    let mut entries = vec![Entry::line("left foot", pens()[0]), Entry::line("right foot", pens()[1])];
+    let mut entries = vec![LegendEntry::line("left foot", pens()[0]), LegendEntry::line("right foot", pens()[1])];
     if let Some(weight) = data.weight {
         let (unit, letter) = prefix(weight);
-        entries.push(Entry::line(format!("weight, {} {letter}N", brief(weight / unit, 3)), level()));
+        entries.push(LegendEntry::line(format!("weight, {} {letter}N", brief(weight / unit, 3)), level()));
     }
-    entries.extend(data.end.map(|end| Entry::line(end.text, ending())));
+    entries.extend(data.end.map(|end| LegendEntry::line(end.text, ending())));
     let (left, right) = (150.0, WIDTH as f64 - 40.0);
     // room for a remark
     let top = legend::header(&mut canvas, data.title, &entries, left, right) + 16.0;
     let middle = top + 450.0;
-    let frames =
-        [Frame { left, top, right, bottom: middle }, Frame { left, top: middle + 48.0, right, bottom: middle + 404.0 }];
+    let frames = [
+        PanelFrame { left, top, right, bottom: middle },
+        PanelFrame { left, top: middle + 48.0, right, bottom: middle + 404.0 },
+    ];
     let vertical = [data.left_vertical, data.right_vertical];
-    Direction { name: "vertical", forces: vertical, weight: data.weight, last: false }.draw(
+    ForceDirection { name: "vertical", forces: vertical, weight: data.weight, last: false }.draw(
         &mut canvas,
         data,
         frames[0],
     );
     let horizontal = [data.left_horizontal, data.right_horizontal];
-    Direction { name: "horizontal", forces: horizontal, weight: None, last: true }.draw(&mut canvas, data, frames[1]);
+    ForceDirection { name: "horizontal", forces: horizontal, weight: None, last: true }.draw(
+        &mut canvas,
+        data,
+        frames[1],
+    );
     canvas.finish(middle + 504.0)
 }
 
@@ -90,14 +96,14 @@ fn level() -> Pen {
 }
 
 /// One direction: both feet on one axis.
-struct Direction<'a> {
+struct ForceDirection<'a> {
     name: &'a str,
     forces: [&'a [f64]; 2],
     weight: Option<f64>,
     last: bool,
 }
 
-impl Direction<'_> {
+impl ForceDirection<'_> {
     /// From and to [N], and the largest force if it lies beyond.
     fn range(&self) -> (f64, f64, Option<f64>) {
         let mut sizes: Vec<f64> = self.forces.iter().flat_map(|force| force.iter().map(|x| x.abs())).collect();
@@ -111,7 +117,7 @@ impl Direction<'_> {
         (low.max(-end), high.min(end), (most > end).then_some(most))
     }
 
-    fn draw(&self, canvas: &mut Canvas, data: &Contact<'_>, frame: Frame) {
+    fn draw(&self, canvas: &mut Canvas, data: &ContactFigure<'_>, frame: PanelFrame) {
         let (low, high, beyond) = self.range();
         let (unit, letter) = prefix(high.max(-low));
         let room = 0.06 * (high - low) / unit;

@@ -3,10 +3,10 @@
 use plotters::style::text_anchor::{HPos, VPos};
 
 use super::canvas::{Canvas, Lettering};
-use super::legend::{self, Entry};
+use super::legend::{self, LegendEntry};
 use super::number::{prefix, short};
-use super::panel::{Frame, Panel};
-use super::plot::Event;
+use super::panel::{Panel, PanelFrame};
+use super::plot::EventMark;
 use super::scale::Scale;
 use super::style::{self, BLACK, BLUE, GREEN, NUMBER, Pen, VERMILLION, WIDTH};
 use super::{Check, FigureError, Sheet};
@@ -15,7 +15,7 @@ const CHECK: Check = Check("energy");
 
 /// What the figure shows, at the times t, one value each.
 #[derive(Clone, Copy, Debug)]
-pub struct Energy<'a> {
+pub struct EnergyFigure<'a> {
     pub title: &'a str,
     /// Times, increasing [s].
     pub t: &'a [f64],
@@ -28,14 +28,14 @@ pub struct Energy<'a> {
     /// input - stored - dissipated, as the account found it [J].
     pub residual: &'a [f64],
     /// When the body overturned.
-    pub end: Option<Event<'a>>,
+    pub end: Option<EventMark<'a>>,
 }
 
 /// Draw the figure.
 ///
 /// # Errors
 /// [`FigureError`] for an empty or not finite slice or slices of different lengths.
-pub fn draw(data: &Energy<'_>) -> Result<Sheet, FigureError> {
+pub fn draw(data: &EnergyFigure<'_>) -> Result<Sheet, FigureError> {
     CHECK.least("t", data.t.len(), 2)?;
     CHECK.finite("t", data.t)?;
     let n = data.t.len();
@@ -47,11 +47,12 @@ pub fn draw(data: &Energy<'_>) -> Result<Sheet, FigureError> {
     let mut canvas = Canvas::default();
     let pens = [Pen::new(BLACK, 4.0), Pen::new(BLUE, 2.8), Pen::new(VERMILLION, 2.8)];
     let names = ["input by the ground", "stored", "dissipated"];
-    let mut entries: Vec<Entry> = names.iter().zip(pens).map(|(name, pen)| Entry::line(*name, pen)).collect();
+    let mut entries: Vec<LegendEntry> =
+        names.iter().zip(pens).map(|(name, pen)| LegendEntry::line(*name, pen)).collect();
     let rest = Pen::new(GREEN, 2.4);
-    entries.push(Entry::line("residual", rest));
+    entries.push(LegendEntry::line("residual", rest));
     let ending = Pen::new(BLACK, 2.4).dashed();
-    entries.extend(data.end.map(|end| Entry::line(end.text, ending)));
+    entries.extend(data.end.map(|end| LegendEntry::line(end.text, ending)));
     let (left, right) = (150.0, WIDTH as f64 - 40.0);
     let top = legend::header(&mut canvas, data.title, &entries, left, right);
     let x = Scale::linear(data.t[0], data.t[n - 1]);
@@ -62,7 +63,7 @@ pub fn draw(data: &Energy<'_>) -> Result<Sheet, FigureError> {
     let room = 0.06 * (high - low) / unit;
     let y = Scale::linear(if low < 0.0 { low / unit - room } else { 0.0 }, high / unit + room);
     let middle = top + 520.0;
-    let panel = Panel { frame: Frame { left, top, right, bottom: middle }, x, y };
+    let panel = Panel { frame: PanelFrame { left, top, right, bottom: middle }, x, y };
     let label = format!("energy [{letter}J]");
     panel.axes(&mut canvas, None, &label, 110.0);
     panel.level(&mut canvas, 0.0, Pen::new(style::AXIS, 1.5));
@@ -80,7 +81,7 @@ pub fn draw(data: &Energy<'_>) -> Result<Sheet, FigureError> {
     let most = share.iter().copied().fold(0.0_f64, f64::max);
     let top_share = (most * 4.0).max(1e-15);
     let panel = Panel {
-        frame: Frame { left, top: middle + 34.0, right, bottom: middle + 330.0 },
+        frame: PanelFrame { left, top: middle + 34.0, right, bottom: middle + 330.0 },
         x,
         y: Scale::log(top_share * 1e-5, top_share),
     };

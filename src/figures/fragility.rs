@@ -3,9 +3,9 @@
 use plotters::style::Color;
 
 use super::canvas::Canvas;
-use super::legend::{self, Entry};
-use super::mark::{Mark, Shape};
-use super::panel::{Frame, Panel};
+use super::legend::{self, LegendEntry};
+use super::mark::{Mark, MarkShape};
+use super::panel::{Panel, PanelFrame};
 use super::scale::Scale;
 use super::style::{self, Pen, WIDTH};
 use super::{Check, FigureError, Sheet};
@@ -14,7 +14,7 @@ const CHECK: Check = Check("fragility");
 
 /// One fitted curve and its bounds at the same intensities.
 #[derive(Clone, Debug)]
-pub struct Curve {
+pub struct FragilityCurve {
     /// Which entry of the legend it is.
     pub entry: usize,
     pub x: Vec<f64>,
@@ -27,17 +27,17 @@ pub struct Curve {
 
 /// One measure of intensity.
 #[derive(Clone, Debug)]
-pub struct Measure {
+pub struct MeasurePanel {
     pub label: String,
-    pub curves: Vec<Curve>,
+    pub curves: Vec<FragilityCurve>,
 }
 
 /// What the figure shows.
 #[derive(Clone, Copy, Debug)]
-pub struct Fragility<'a> {
+pub struct FragilityFigure<'a> {
     pub title: &'a str,
     pub entries: &'a [String],
-    pub measures: &'a [Measure],
+    pub measures: &'a [MeasurePanel],
     pub probability_label: &'a str,
 }
 
@@ -49,7 +49,7 @@ const GAP: f64 = 130.0;
 ///
 /// # Errors
 /// [`FigureError`] when there is nothing to draw, for numbers that are not finite.
-pub fn draw(data: &Fragility<'_>) -> Result<Sheet, FigureError> {
+pub fn draw(data: &FragilityFigure<'_>) -> Result<Sheet, FigureError> {
     CHECK.least("measures", data.measures.len(), 1)?;
     for measure in data.measures {
         for curve in &measure.curves {
@@ -60,8 +60,8 @@ pub fn draw(data: &Fragility<'_>) -> Result<Sheet, FigureError> {
         }
     }
     let rows = data.measures.len().div_ceil(2);
-    let entries: Vec<Entry> =
-        data.entries.iter().enumerate().map(|(i, name)| Entry::both(name.as_str(), pen(i), dot(i))).collect();
+    let entries: Vec<LegendEntry> =
+        data.entries.iter().enumerate().map(|(i, name)| LegendEntry::both(name.as_str(), pen(i), dot(i))).collect();
     let (left, right) = (150.0, WIDTH as f64 - 40.0);
     let mut canvas = Canvas::default();
     let top = legend::header(&mut canvas, data.title, &entries, left, right);
@@ -70,7 +70,7 @@ pub fn draw(data: &Fragility<'_>) -> Result<Sheet, FigureError> {
     for (i, measure) in data.measures.iter().enumerate() {
         let top = top + (i / 2) as f64 * (HEIGHT + GAP);
         let (from, to) = if i % 2 == 0 { (left, middle - 40.0) } else { (middle + 75.0, right) };
-        one(&mut canvas, data, measure, Frame { left: from, top, right: to, bottom: top + HEIGHT }, i % 2 == 0);
+        one(&mut canvas, data, measure, PanelFrame { left: from, top, right: to, bottom: top + HEIGHT }, i % 2 == 0);
     }
     canvas.finish(height)
 }
@@ -80,10 +80,10 @@ fn pen(i: usize) -> Pen {
 }
 
 fn dot(i: usize) -> Mark {
-    Mark::new(Shape::Disc, 5.5, style::series(i))
+    Mark::new(MarkShape::Disc, 5.5, style::series(i))
 }
 
-fn one(canvas: &mut Canvas, data: &Fragility<'_>, measure: &Measure, frame: Frame, labelled: bool) {
+fn one(canvas: &mut Canvas, data: &FragilityFigure<'_>, measure: &MeasurePanel, frame: PanelFrame, labelled: bool) {
     let x = Scale::log_around(measure.curves.iter().flat_map(|curve| curve.x.iter().copied()), 2.0);
     let panel = Panel { frame, x, y: Scale::linear(0.0, 1.02) };
     panel.axes(canvas, Some(&measure.label), if labelled { data.probability_label } else { "" }, 95.0);

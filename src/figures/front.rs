@@ -3,9 +3,9 @@
 use plotters::style::text_anchor::{HPos, VPos};
 
 use super::canvas::{Canvas, Lettering};
-use super::legend::{self, Entry};
+use super::legend::{self, LegendEntry};
 use super::mark::{self, Mark};
-use super::panel::{Frame, Panel};
+use super::panel::{Panel, PanelFrame};
 use super::scale::Scale;
 use super::style::{self, BLACK, GREY, NUMBER, Pen, TEXT, WIDTH};
 use super::{Check, FigureError, Sheet};
@@ -14,7 +14,7 @@ const CHECK: Check = Check("front");
 
 /// One way to design springs: an error for each Omega_n, one value each.
 #[derive(Clone, Copy, Debug)]
-pub struct Series<'a> {
+pub struct DesignSeries<'a> {
     pub label: &'a str,
     /// Omega_n of the vertical springs [Hz].
     pub omega_n_hz: &'a [f64],
@@ -32,10 +32,10 @@ pub struct Cost<'a> {
 
 /// What the figure shows.
 #[derive(Clone, Copy, Debug)]
-pub struct Front<'a> {
+pub struct FrontFigure<'a> {
     pub title: &'a str,
     pub error_label: &'a str,
-    pub series: &'a [Series<'a>],
+    pub series: &'a [DesignSeries<'a>],
     /// Omega_n of the springs that were delivered [Hz].
     pub chosen_hz: f64,
     /// Accuracy that was asked for.
@@ -50,7 +50,7 @@ pub struct Front<'a> {
 ///
 /// # Errors
 /// [`FigureError`] for an empty or not finite slice or slices of different lengths.
-pub fn draw(data: &Front<'_>) -> Result<Sheet, FigureError> {
+pub fn draw(data: &FrontFigure<'_>) -> Result<Sheet, FigureError> {
     CHECK.least("series", data.series.len(), 1)?;
     let columns = data.series.iter().map(|s| (s.label, s.omega_n_hz, s.error));
     for (label, hz, value) in columns.chain(data.costs.iter().map(|c| (c.label, c.omega_n_hz, c.value))) {
@@ -61,16 +61,16 @@ pub fn draw(data: &Front<'_>) -> Result<Sheet, FigureError> {
     CHECK.finite("chosen_hz and accuracy", &[data.chosen_hz, data.accuracy])?;
 
     let mut canvas = Canvas::default();
-    let mut entries: Vec<Entry> =
-        data.series.iter().enumerate().map(|(i, s)| Entry::both(s.label, solid(i), dot(i))).collect();
-    entries.push(Entry::line("delivered", upright()));
-    entries.push(Entry::line("accuracy asked for", level()));
+    let mut entries: Vec<LegendEntry> =
+        data.series.iter().enumerate().map(|(i, s)| LegendEntry::both(s.label, solid(i), dot(i))).collect();
+    entries.push(LegendEntry::line("delivered", upright()));
+    entries.push(LegendEntry::line("accuracy asked for", level()));
     let (left, right) = (150.0, WIDTH as f64 - 40.0);
     let top = legend::header(&mut canvas, data.title, &entries, left, right);
     let frequencies = data.series.iter().flat_map(|s| s.omega_n_hz).copied().chain([data.chosen_hz]);
     let x = Scale::log_around(frequencies, 4.0);
     let y = Scale::log_around(data.series.iter().flat_map(|s| s.error).copied().chain([data.accuracy]), 10.0);
-    let panel = Panel { frame: Frame { left, top, right, bottom: top + 680.0 }, x, y };
+    let panel = Panel { frame: PanelFrame { left, top, right, bottom: top + 680.0 }, x, y };
     panel.axes(&mut canvas, Some("Ωₙ of the vertical springs [Hz]"), data.error_label, 110.0);
     guide(&mut canvas, &panel, data);
     panel.upright(&mut canvas, data.chosen_hz, upright());
@@ -85,7 +85,7 @@ pub fn draw(data: &Front<'_>) -> Result<Sheet, FigureError> {
     let (middle, gap) = (0.5 * (left + right), 140.0);
     for (cost, (from, to)) in data.costs.iter().zip([(left, middle - 0.5 * gap), (middle + 0.5 * gap, right)]) {
         let y = Scale::log_around(cost.value.iter().copied(), 4.0);
-        let panel = Panel { frame: Frame { left: from, top: top + 815.0, right: to, bottom: top + 1090.0 }, x, y };
+        let panel = Panel { frame: PanelFrame { left: from, top: top + 815.0, right: to, bottom: top + 1090.0 }, x, y };
         panel.axes(&mut canvas, Some("Ωₙ [Hz]"), cost.label, 110.0);
         panel.upright(&mut canvas, data.chosen_hz, upright());
         panel.curve(&mut canvas, cost.omega_n_hz, cost.value, solid(0));
@@ -118,7 +118,7 @@ fn dot(i: usize) -> Mark {
 }
 
 /// error = const / Omega_n, below every point of the first series so that it crosses none of it.
-fn guide(canvas: &mut Canvas, panel: &Panel, data: &Front<'_>) {
+fn guide(canvas: &mut Canvas, panel: &Panel, data: &FrontFigure<'_>) {
     let Some(first) = data.series.first() else { return };
     let pairs = first.omega_n_hz.iter().zip(first.error);
     let constant = pairs.map(|(hz, error)| hz * error).filter(|x| *x > 0.0).fold(f64::INFINITY, f64::min) / 1.5;

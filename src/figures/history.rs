@@ -4,11 +4,11 @@ use plotters::style::RGBColor;
 use plotters::style::text_anchor::{HPos, VPos};
 
 use super::canvas::{Canvas, Lettering};
-use super::legend::{self, Entry};
-use super::mark::{Mark, Shape};
+use super::legend::{self, LegendEntry};
+use super::mark::{Mark, MarkShape};
 use super::number::{prefix, short};
-use super::panel::{Frame, Panel, ROW};
-use super::plot::{self, Event};
+use super::panel::{Panel, PanelFrame, ROW};
+use super::plot::{self, EventMark};
 use super::scale::Scale;
 use super::style::{self, BLACK, NUMBER, Pen, WIDTH};
 use super::{Check, FigureError, Sheet};
@@ -42,7 +42,7 @@ pub struct Trace<'a> {
     /// Times of impact [s]; empty when they are not known.
     pub impacts: &'a [f64],
     /// When it overturned or ended; what follows is a fall, and shown in part.
-    pub end: Option<Event<'a>>,
+    pub end: Option<EventMark<'a>>,
 }
 
 impl Trace<'_> {
@@ -54,7 +54,7 @@ impl Trace<'_> {
 
 /// What the figure shows.
 #[derive(Clone, Copy, Debug)]
-pub struct History<'a> {
+pub struct HistoryFigure<'a> {
     pub title: &'a str,
     /// Times of the samples, increasing [s].
     pub t: &'a [f64],
@@ -73,32 +73,33 @@ type Drawn<'a> = (Trace<'a>, Pen);
 ///
 /// # Errors
 /// [`FigureError`] for an empty or not finite slice, and for a history longer than the time axis.
-pub fn draw(data: &History<'_>) -> Result<Sheet, FigureError> {
+pub fn draw(data: &HistoryFigure<'_>) -> Result<Sheet, FigureError> {
     check(data)?;
     let traces: Vec<Drawn> = std::iter::once((data.reference, Pen::new(BLACK, 5.0)))
         .chain(data.others.iter().enumerate().map(|(i, trace)| (*trace, pen(i))))
         .collect();
     let mut canvas = Canvas::default();
-    let mut entries: Vec<Entry> = traces.iter().map(|(trace, pen)| Entry::line(trace.label, *pen)).collect();
+    let mut entries: Vec<LegendEntry> =
+        traces.iter().map(|(trace, pen)| LegendEntry::line(trace.label, *pen)).collect();
     if traces.iter().any(|(trace, _)| !trace.impacts.is_empty()) {
-        entries.push(Entry::mark("impact (a stroke where close)", impact(BLACK)));
+        entries.push(LegendEntry::mark("impact (a stroke where close)", impact(BLACK)));
     }
     let top = legend::header(&mut canvas, data.title, &entries, LEFT, RIGHT);
     let x = Scale::linear(data.t[0], data.t[data.t.len() - 1]);
-    let frame = Frame { left: LEFT, top, right: RIGHT, bottom: top + 560.0 };
+    let frame = PanelFrame { left: LEFT, top, right: RIGHT, bottom: top + 560.0 };
     horizontal(&mut canvas, data.t, &traces, x, frame);
-    let frame = Frame { top: frame.bottom + 34.0, bottom: frame.bottom + 350.0, ..frame };
+    let frame = PanelFrame { top: frame.bottom + 34.0, bottom: frame.bottom + 350.0, ..frame };
     vertical(&mut canvas, data.t, &traces, x, frame, !data.differences);
     let mut bottom = frame.bottom;
     if data.differences {
-        let frame = Frame { top: bottom + 34.0, bottom: bottom + 330.0, ..frame };
+        let frame = PanelFrame { top: bottom + 34.0, bottom: bottom + 330.0, ..frame };
         differences(&mut canvas, data, x, frame);
         bottom = frame.bottom;
     }
     canvas.finish(bottom + 100.0)
 }
 
-fn check(data: &History<'_>) -> Result<(), FigureError> {
+fn check(data: &HistoryFigure<'_>) -> Result<(), FigureError> {
     CHECK.least("t", data.t.len(), 2)?;
     CHECK.finite("t", data.t)?;
     for trace in std::iter::once(&data.reference).chain(data.others) {
@@ -121,7 +122,7 @@ fn pen(i: usize) -> Pen {
 }
 
 fn impact(colour: RGBColor) -> Mark {
-    Mark::new(Shape::Triangle, 8.0, colour)
+    Mark::new(MarkShape::Triangle, 8.0, colour)
 }
 
 /// A unit of length [m], and its name.
@@ -167,13 +168,13 @@ fn curves<'a>(
     let named: Vec<(&str, &[f64], Pen)> =
         traces.iter().zip(&values).map(|((trace, pen), values)| (trace.label, values.as_slice(), *pen)).collect();
     let mut plot = panel.history(canvas, label, t, &named);
-    let ends: Vec<(Event, Pen)> =
+    let ends: Vec<(EventMark, Pen)> =
         traces.iter().filter_map(|(trace, pen)| Some((trace.end?, Pen { width: 2.4, ..pen.dashed() }))).collect();
     panel.events(canvas, &mut plot, &ends, told);
     plot
 }
 
-fn horizontal(canvas: &mut Canvas, t: &[f64], traces: &[Drawn<'_>], x: Scale, frame: Frame) {
+fn horizontal(canvas: &mut Canvas, t: &[f64], traces: &[Drawn<'_>], x: Scale, frame: PanelFrame) {
     let (low, high) = bounds(t, traces, |trace| trace.u);
     let (unit, name) = unit((low, high));
     let (low, high, label) = (low / unit, high / unit, format!("horizontal, u [{name}]"));
@@ -206,7 +207,7 @@ fn horizontal(canvas: &mut Canvas, t: &[f64], traces: &[Drawn<'_>], x: Scale, fr
     canvas.keep(plot);
 }
 
-fn vertical(canvas: &mut Canvas, t: &[f64], traces: &[Drawn<'_>], x: Scale, frame: Frame, last: bool) {
+fn vertical(canvas: &mut Canvas, t: &[f64], traces: &[Drawn<'_>], x: Scale, frame: PanelFrame, last: bool) {
     let (low, high) = bounds(t, traces, |trace| trace.v);
     let (unit, name) = unit((low, high));
     let (low, high, label) = (low / unit, high / unit, format!("vertical, v [{name}]"));
@@ -218,7 +219,7 @@ fn vertical(canvas: &mut Canvas, t: &[f64], traces: &[Drawn<'_>], x: Scale, fram
     canvas.keep(plot);
 }
 
-fn differences(canvas: &mut Canvas, data: &History<'_>, x: Scale, frame: Frame) {
+fn differences(canvas: &mut Canvas, data: &HistoryFigure<'_>, x: Scale, frame: PanelFrame) {
     let differences: Vec<Vec<f64>> = data
         .others
         .iter()
@@ -262,7 +263,7 @@ fn peak<'a>(
     let mut told: Vec<(String, RGBColor)> = Vec::new();
     for &(time, own, colour) in peaks.iter().filter(|peak| peak.1.abs() >= SMALL * value.abs()) {
         let radius = if told.is_empty() { 8.0 } else { 5.0 };
-        Mark::new(Shape::Disc, radius, colour).draw(canvas, panel.at(time, own));
+        Mark::new(MarkShape::Disc, radius, colour).draw(canvas, panel.at(time, own));
         told.push((short(own, if own.abs() < 100.0 { 3 } else { 4 }), colour));
     }
     let lettering = Lettering::new(NUMBER).bold();

@@ -1,8 +1,8 @@
 //! Peak rotation against the level of the ground motion: single records in grey, quantiles over all of them. A panel a structure.
 
 use super::canvas::Canvas;
-use super::legend::{self, Entry};
-use super::panel::{Frame, Panel};
+use super::legend::{self, LegendEntry};
+use super::panel::{Panel, PanelFrame};
 use super::scale::Scale;
 use super::style::{self, PALE, Pen, WIDTH};
 use super::{Check, FigureError, Sheet};
@@ -11,7 +11,7 @@ const CHECK: Check = Check("ida");
 
 /// One structure.
 #[derive(Clone, Debug)]
-pub struct Subject {
+pub struct IdaSubject {
     pub label: String,
     /// Levels and peaks |theta|/alpha of single records; infinite where the body overturned.
     pub records: Vec<(Vec<f64>, Vec<f64>)>,
@@ -22,10 +22,10 @@ pub struct Subject {
 
 /// What the figure shows.
 #[derive(Clone, Copy, Debug)]
-pub struct Ida<'a> {
+pub struct IdaFigure<'a> {
     pub title: &'a str,
     pub level_label: &'a str,
-    pub subjects: &'a [Subject],
+    pub subjects: &'a [IdaSubject],
 }
 
 /// |theta|/alpha at the upper edge: above it all have overturned, or nearly.
@@ -38,7 +38,7 @@ const SHARES: [&str; 3] = ["16 % of records below", "median", "84 %"];
 ///
 /// # Errors
 /// [`FigureError`] when there is nothing to draw, for a NaN.
-pub fn draw(data: &Ida<'_>) -> Result<Sheet, FigureError> {
+pub fn draw(data: &IdaFigure<'_>) -> Result<Sheet, FigureError> {
     CHECK.least("subjects", data.subjects.len(), 1)?;
     for subject in data.subjects {
         CHECK.least("levels", subject.levels.len(), 1)?;
@@ -47,8 +47,8 @@ pub fn draw(data: &Ida<'_>) -> Result<Sheet, FigureError> {
             CHECK.each(&subject.label, values, |x| x >= 0.0)?;
         }
     }
-    let mut entries = vec![Entry::line("single records", Pen::new(PALE, 1.5))];
-    entries.extend(SHARES.iter().enumerate().map(|(i, share)| Entry::line(*share, pen(i))));
+    let mut entries = vec![LegendEntry::line("single records", Pen::new(PALE, 1.5))];
+    entries.extend(SHARES.iter().enumerate().map(|(i, share)| LegendEntry::line(*share, pen(i))));
     let (left, right) = (150.0, WIDTH as f64 - 40.0);
     let rows = data.subjects.len().div_ceil(2);
     let mut canvas = Canvas::default();
@@ -58,7 +58,7 @@ pub fn draw(data: &Ida<'_>) -> Result<Sheet, FigureError> {
         let top = top + (i / 2) as f64 * (HEIGHT + GAP);
         let (from, to) = if i % 2 == 0 { (left, middle - 40.0) } else { (middle + 75.0, right) };
         let x = Scale::log_around(subject.levels.iter().copied(), 2.0);
-        let frame = Frame { left: from, top, right: to, bottom: top + HEIGHT };
+        let frame = PanelFrame { left: from, top, right: to, bottom: top + HEIGHT };
         let panel = Panel { frame, x, y: Scale::linear(0.0, HIGHEST) };
         panel.axes(&mut canvas, Some(&format!("{}: {}", subject.label, data.level_label)), "peak |θ|/α", 95.0);
         let shown = |values: &[f64]| -> Vec<f64> { values.iter().map(|x| x.min(10.0 * HIGHEST)).collect() };

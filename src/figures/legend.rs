@@ -14,14 +14,14 @@ const SAMPLE: f64 = 64.0;
 
 /// One row of a legend: what is drawn, and what it means.
 #[derive(Clone, Debug)]
-pub struct Entry {
+pub struct LegendEntry {
     pub text: String,
     pub pen: Option<Pen>,
     pub mark: Option<Mark>,
     pub patch: Option<RGBAColor>,
 }
 
-impl Entry {
+impl LegendEntry {
     /// A line.
     pub fn line(text: impl Into<String>, pen: Pen) -> Self {
         Self { text: text.into(), pen: Some(pen), mark: None, patch: None }
@@ -68,7 +68,7 @@ impl Entry {
 
 /// A title, and below it the legend in as many rows as it takes, from `left` to `right`; where the figure may begin
 /// below them [pixel].
-pub fn header(canvas: &mut Canvas, title: &str, entries: &[Entry], left: f64, right: f64) -> f64 {
+pub fn header(canvas: &mut Canvas, title: &str, entries: &[LegendEntry], left: f64, right: f64) -> f64 {
     let below = self::title(canvas, title, (left, right), 0.0);
     let (mut x, mut y) = (left, below + 8.0);
     for entry in entries {
@@ -99,7 +99,7 @@ pub fn title(canvas: &mut Canvas, title: &str, (left, right): (f64, f64), y: f64
 
 /// The legend in one column; its left end and the middle of its first row at the point.
 #[cfg(feature = "internals")]
-pub fn column(canvas: &mut Canvas, entries: &[Entry], (x, y): (f64, f64)) {
+pub fn column(canvas: &mut Canvas, entries: &[LegendEntry], (x, y): (f64, f64)) {
     for (i, entry) in entries.iter().enumerate() {
         entry.draw(canvas, (x, y + 44.0 * i as f64));
     }

@@ -2,12 +2,12 @@
 
 use plotters::style::RGBColor;
 
-use super::canvas::{Canvas, Point};
+use super::canvas::{Canvas, PixelPoint};
 use super::style::WHITE;
 
 /// A mark's shape.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Shape {
+pub enum MarkShape {
     Disc,
     Square,
     Diamond,
@@ -20,20 +20,20 @@ pub enum Shape {
 /// A mark: its shape, half its size [pixel], its colour, and whether it is filled.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Mark {
-    pub shape: Shape,
+    pub shape: MarkShape,
     pub radius: f64,
     pub colour: RGBColor,
     pub hollow: bool,
 }
 
 /// The shape of the i-th series.
-pub fn series(i: usize) -> Shape {
-    [Shape::Disc, Shape::Square, Shape::Diamond, Shape::Triangle, Shape::Pennant][i % 5]
+pub fn series(i: usize) -> MarkShape {
+    [MarkShape::Disc, MarkShape::Square, MarkShape::Diamond, MarkShape::Triangle, MarkShape::Pennant][i % 5]
 }
 
 impl Mark {
     /// A filled mark.
-    pub fn new(shape: Shape, radius: f64, colour: RGBColor) -> Self {
+    pub fn new(shape: MarkShape, radius: f64, colour: RGBColor) -> Self {
         Self { shape, radius, colour, hollow: false }
     }
 
@@ -43,7 +43,7 @@ impl Mark {
     }
 
     /// Draw it; a thin white seam keeps crowded marks apart.
-    pub fn draw(self, canvas: &mut Canvas, at: Point) {
+    pub fn draw(self, canvas: &mut Canvas, at: PixelPoint) {
         self.paint(canvas, at, self.radius + 1.5, WHITE);
         self.paint(canvas, at, self.radius, self.colour);
         if self.hollow {
@@ -51,20 +51,24 @@ impl Mark {
         }
     }
 
-    fn paint(self, canvas: &mut Canvas, (x, y): Point, radius: f64, colour: RGBColor) {
-        let corners = |scaled: f64, corners: &[Point]| -> Vec<Point> {
+    fn paint(self, canvas: &mut Canvas, (x, y): PixelPoint, radius: f64, colour: RGBColor) {
+        let corners = |scaled: f64, corners: &[PixelPoint]| -> Vec<PixelPoint> {
             corners.iter().map(|(dx, dy)| (x + dx * scaled, y + dy * scaled)).collect()
         };
         match self.shape {
-            Shape::Disc => canvas.disc((x, y), radius, colour),
-            Shape::Square => {
+            MarkShape::Disc => canvas.disc((x, y), radius, colour),
+            MarkShape::Square => {
                 canvas.fill(&corners(0.88 * radius, &[(-1.0, -1.0), (1.0, -1.0), (1.0, 1.0), (-1.0, 1.0)]), colour);
             }
-            Shape::Diamond => {
+            MarkShape::Diamond => {
                 canvas.fill(&corners(1.22 * radius, &[(0.0, -1.0), (1.0, 0.0), (0.0, 1.0), (-1.0, 0.0)]), colour);
             }
-            Shape::Triangle => canvas.fill(&corners(1.3 * radius, &[(0.0, -1.0), (0.87, 0.5), (-0.87, 0.5)]), colour),
-            Shape::Pennant => canvas.fill(&corners(1.3 * radius, &[(0.0, 1.0), (0.87, -0.5), (-0.87, -0.5)]), colour),
+            MarkShape::Triangle => {
+                canvas.fill(&corners(1.3 * radius, &[(0.0, -1.0), (0.87, 0.5), (-0.87, 0.5)]), colour)
+            }
+            MarkShape::Pennant => {
+                canvas.fill(&corners(1.3 * radius, &[(0.0, 1.0), (0.87, -0.5), (-0.87, -0.5)]), colour)
+            }
         }
     }
 }

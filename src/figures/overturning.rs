@@ -3,8 +3,8 @@
 use plotters::style::Color;
 
 use super::canvas::Canvas;
-use super::legend::{self, Entry};
-use super::panel::{Frame, Panel};
+use super::legend::{self, LegendEntry};
+use super::panel::{Panel, PanelFrame};
 use super::scale::Scale;
 use super::style::{self, BLACK, Pen, WIDTH};
 use super::{Check, FigureError, Sheet};
@@ -13,7 +13,7 @@ const CHECK: Check = Check("overturning");
 
 /// An interval of amplitudes at a frequency.
 #[derive(Clone, Copy, Debug)]
-pub struct Interval {
+pub struct AmplitudeInterval {
     /// omega/p.
     pub q: f64,
     pub from: f64,
@@ -29,12 +29,12 @@ pub struct Spectrum {
     pub label: String,
     /// Every frequency that was looked at, increasing.
     pub frequencies: Vec<f64>,
-    pub intervals: Vec<Interval>,
+    pub intervals: Vec<AmplitudeInterval>,
 }
 
 /// What the figure shows.
 #[derive(Clone, Copy, Debug)]
-pub struct Overturning<'a> {
+pub struct OverturningFigure<'a> {
     pub title: &'a str,
     pub spectra: &'a [Spectrum],
     /// Frequencies omega/p and amplitudes that were looked at.
@@ -50,7 +50,7 @@ const ENTRIES: [&str; 3] = ["overturns without an impact", "after one impact", "
 ///
 /// # Errors
 /// [`FigureError`] when there is nothing to draw, for numbers that are not finite.
-pub fn draw(data: &Overturning<'_>) -> Result<Sheet, FigureError> {
+pub fn draw(data: &OverturningFigure<'_>) -> Result<Sheet, FigureError> {
     CHECK.least("spectra", data.spectra.len(), 1)?;
     for spectrum in data.spectra {
         CHECK.least("frequencies", spectrum.frequencies.len(), 1)?;
@@ -58,9 +58,9 @@ pub fn draw(data: &Overturning<'_>) -> Result<Sheet, FigureError> {
         let from: Vec<f64> = spectrum.intervals.iter().map(|interval| interval.from).collect();
         CHECK.finite("from", &from)?;
     }
-    let mut entries: Vec<Entry> =
-        ENTRIES.iter().enumerate().map(|(i, name)| Entry::patch(*name, colour(i).mix(0.8))).collect();
-    entries.push(Entry::line("lifts the body", lift()));
+    let mut entries: Vec<LegendEntry> =
+        ENTRIES.iter().enumerate().map(|(i, name)| LegendEntry::patch(*name, colour(i).mix(0.8))).collect();
+    entries.push(LegendEntry::line("lifts the body", lift()));
     let (left, right) = (150.0, WIDTH as f64 - 40.0);
     let columns = if data.spectra.len() == 1 { 1 } else { 2 };
     let rows = data.spectra.len().div_ceil(columns);
@@ -74,7 +74,7 @@ pub fn draw(data: &Overturning<'_>) -> Result<Sheet, FigureError> {
             (_, 0) => (left, middle - 40.0),
             _ => (middle + 75.0, right),
         };
-        one(&mut canvas, data, spectrum, Frame { left: from, top, right: to, bottom: top + HEIGHT });
+        one(&mut canvas, data, spectrum, PanelFrame { left: from, top, right: to, bottom: top + HEIGHT });
     }
     canvas.finish(top + rows as f64 * (HEIGHT + GAP))
 }
@@ -87,7 +87,7 @@ fn lift() -> Pen {
     Pen::new(BLACK, 2.5).dashed()
 }
 
-fn one(canvas: &mut Canvas, data: &Overturning<'_>, spectrum: &Spectrum, frame: Frame) {
+fn one(canvas: &mut Canvas, data: &OverturningFigure<'_>, spectrum: &Spectrum, frame: PanelFrame) {
     let q = &spectrum.frequencies;
     let edges = |i: usize| -> (f64, f64) {
         let between = |a: f64, b: f64| (a * b).sqrt();

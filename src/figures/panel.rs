@@ -2,8 +2,8 @@
 
 use plotters::style::text_anchor::{HPos, VPos};
 
-use super::canvas::{Canvas, Lettering, Point};
-use super::plot::{Event, Plot};
+use super::canvas::{Canvas, Lettering, PixelPoint};
+use super::plot::{EventMark, Plot};
 use super::scale::Scale;
 use super::style::{AXIS, GREY, GRID, LABEL, NUMBER, Pen};
 
@@ -13,16 +13,16 @@ const REMARK: f64 = 23.0;
 
 /// Where a panel stands on the sheet [pixel].
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Frame {
+pub struct PanelFrame {
     pub left: f64,
     pub top: f64,
     pub right: f64,
     pub bottom: f64,
 }
 
-impl Frame {
+impl PanelFrame {
     /// Whether a point lies inside or on the edge.
-    fn holds(&self, (x, y): Point) -> bool {
+    fn holds(&self, (x, y): PixelPoint) -> bool {
         x >= self.left && x <= self.right && y >= self.top && y <= self.bottom
     }
 }
@@ -30,27 +30,27 @@ impl Frame {
 /// Two axes in a frame.
 #[derive(Clone, Copy, Debug)]
 pub struct Panel {
-    pub frame: Frame,
+    pub frame: PanelFrame,
     pub x: Scale,
     pub y: Scale,
 }
 
 impl Panel {
     /// Where a pair of values stands [pixel].
-    pub fn at(&self, x: f64, y: f64) -> Point {
-        let Frame { left, top, right, bottom } = self.frame;
+    pub fn at(&self, x: f64, y: f64) -> PixelPoint {
+        let PanelFrame { left, top, right, bottom } = self.frame;
         (left + self.x.share(x) * (right - left), bottom - self.y.share(y) * (bottom - top))
     }
 
     /// Where the nearest pair of values that the axes show stands [pixel].
-    pub fn at_clamped(&self, x: f64, y: f64) -> Point {
+    pub fn at_clamped(&self, x: f64, y: f64) -> PixelPoint {
         self.at(self.x.clamp(x), self.y.clamp(y))
     }
 
     /// Grid, axes, numbers and labels; no numbers below when there is no label for x. `gutter` is the distance of the
     /// y label's middle from the axis [pixel]; long numbers push it farther.
     pub fn axes(&self, canvas: &mut Canvas, x_label: Option<&str>, y_label: &str, gutter: f64) {
-        let Frame { left, top, right, bottom } = self.frame;
+        let PanelFrame { left, top, right, bottom } = self.frame;
         let (grid, axis) = (Pen::new(GRID, 1.5), Pen::new(AXIS, 2.0));
         let number = Lettering::new(NUMBER);
         let (x_ticks, y_ticks) = (self.x.ticks(right - left, 110.0), self.y.ticks(bottom - top, 60.0));
@@ -89,7 +89,7 @@ impl Panel {
 
     /// A curve through the pairs of values, cut at the frame; the shorter of the two slices counts.
     pub fn curve(&self, canvas: &mut Canvas, xs: &[f64], ys: &[f64], pen: Pen) {
-        let points: Vec<Point> = xs.iter().zip(ys).map(|(&x, &y)| self.at(x, y)).collect();
+        let points: Vec<PixelPoint> = xs.iter().zip(ys).map(|(&x, &y)| self.at(x, y)).collect();
         for piece in
             points.split(|p| !(p.0.is_finite() && p.1.is_finite())).flat_map(|run| clip(&thin(run), self.frame))
         {
@@ -109,7 +109,7 @@ impl Panel {
     }
 
     /// Times at which something ends: a line each, and its words at the top of the panel if they are wanted.
-    pub fn events(&self, canvas: &mut Canvas, plot: &mut Plot, events: &[(Event<'_>, Pen)], told: bool) {
+    pub fn events(&self, canvas: &mut Canvas, plot: &mut Plot, events: &[(EventMark<'_>, Pen)], told: bool) {
         for (i, (event, pen)) in events.iter().enumerate() {
             self.upright(canvas, event.time, *pen);
             plot.events.push((event.time, event.text.into()));
@@ -142,7 +142,7 @@ impl Panel {
 }
 
 /// At most four points a pixel column: the first, the lowest, the highest and the last look the same as all of them.
-fn thin(points: &[Point]) -> Vec<Point> {
+fn thin(points: &[PixelPoint]) -> Vec<PixelPoint> {
     let mut kept = Vec::with_capacity(points.len().min(8192));
     for column in points.chunk_by(|a, b| a.0.floor() == b.0.floor()) {
         if column.len() <= 4 {
@@ -170,9 +170,9 @@ fn thin(points: &[Point]) -> Vec<Point> {
 }
 
 /// The pieces of a polyline inside a frame (Liang & Barsky 1984, segment by segment).
-fn clip(points: &[Point], frame: Frame) -> Vec<Vec<Point>> {
-    let mut pieces: Vec<Vec<Point>> = Vec::new();
-    let mut piece: Vec<Point> = Vec::new();
+fn clip(points: &[PixelPoint], frame: PanelFrame) -> Vec<Vec<PixelPoint>> {
+    let mut pieces: Vec<Vec<PixelPoint>> = Vec::new();
+    let mut piece: Vec<PixelPoint> = Vec::new();
     for pair in points.windows(2) {
         let (a, b) = (pair[0], pair[1]);
         let Some((from, to)) = inside(a, b, frame) else { continue };
@@ -200,7 +200,7 @@ fn clip(points: &[Point], frame: Frame) -> Vec<Vec<Point>> {
 }
 
 /// The share of the segment from a to b at which it enters and leaves the frame.
-fn inside(a: Point, b: Point, frame: Frame) -> Option<(f64, f64)> {
+fn inside(a: PixelPoint, b: PixelPoint, frame: PanelFrame) -> Option<(f64, f64)> {
     let (mut from, mut to) = (0.0_f64, 1.0_f64);
     let edges = [
         (a.0 - b.0, a.0 - frame.left),
@@ -226,7 +226,7 @@ fn inside(a: Point, b: Point, frame: Frame) -> Option<(f64, f64)> {
 mod tests {
     use super::*;
 
-    const FRAME: Frame = Frame { left: 0.0, top: 0.0, right: 10.0, bottom: 10.0 };
+    const FRAME: PanelFrame = PanelFrame { left: 0.0, top: 0.0, right: 10.0, bottom: 10.0 };
 
     #[test]
     fn a_curve_is_cut_where_it_leaves_and_enters() {
@@ -238,12 +238,12 @@ mod tests {
 
     #[test]
     fn thinning_keeps_the_extremes_of_every_pixel_column() {
-        let points: Vec<Point> =
+        let points: Vec<PixelPoint> =
             (0..100_000).map(|i| (f64::from(i) * 1e-3, (f64::from(i) * 0.37).sin() * f64::from(i))).collect();
         let kept = thin(&points);
         assert!(kept.len() <= 400);
         for column in 0..100 {
-            let extremes = |points: &[Point]| {
+            let extremes = |points: &[PixelPoint]| {
                 points
                     .iter()
                     .filter(|p| p.0.floor() == f64::from(column))

@@ -36,7 +36,7 @@ impl Marks {
 
 /// A time at which something ends.
 #[derive(Clone, Copy, Debug)]
-pub struct Event<'a> {
+pub struct EventMark<'a> {
     /// [s]
     pub time: f64,
     /// As "Housner's body overturns at t = 4.44 s".

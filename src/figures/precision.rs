@@ -1,9 +1,9 @@
 //! Work and precision: what an error costs with each tool.
 
 use super::canvas::Canvas;
-use super::legend::{self, Entry};
+use super::legend::{self, LegendEntry};
 use super::mark::{self, Mark};
-use super::panel::{Frame, Panel};
+use super::panel::{Panel, PanelFrame};
 use super::scale::Scale;
 use super::style::{self, LABEL, Pen, WIDTH};
 use super::{Check, FigureError, Sheet};
@@ -12,7 +12,7 @@ const CHECK: Check = Check("precision");
 
 /// One tool over a ladder of tolerances or steps.
 #[derive(Clone, Copy, Debug)]
-pub struct Series<'a> {
+pub struct ToolSeries<'a> {
     pub label: &'a str,
     /// (error, time), in the units of the two labels, both greater than zero.
     pub points: &'a [(f64, f64)],
@@ -20,13 +20,13 @@ pub struct Series<'a> {
 
 /// What the figure shows.
 #[derive(Clone, Copy, Debug)]
-pub struct Precision<'a> {
+pub struct PrecisionFigure<'a> {
     pub title: &'a str,
     /// As "largest error of u [m]".
     pub error_label: &'a str,
     /// As "time [ms]".
     pub time_label: &'a str,
-    pub series: &'a [Series<'a>],
+    pub series: &'a [ToolSeries<'a>],
 }
 
 /// Height of one comparison [pixel].
@@ -36,7 +36,7 @@ const SHEET: f64 = 960.0;
 ///
 /// # Errors
 /// [`FigureError`] when a slice is empty, when a number is not finite or not greater than zero.
-pub fn draw(sheets: &[Precision<'_>]) -> Result<Sheet, FigureError> {
+pub fn draw(sheets: &[PrecisionFigure<'_>]) -> Result<Sheet, FigureError> {
     CHECK.least("comparisons", sheets.len(), 1)?;
     for data in sheets {
         CHECK.least("series", data.series.len(), 1)?;
@@ -55,9 +55,9 @@ pub fn draw(sheets: &[Precision<'_>]) -> Result<Sheet, FigureError> {
 }
 
 /// One comparison, its upper edge at `y`.
-fn panel(canvas: &mut Canvas, data: &Precision<'_>, y: f64) {
-    let entries: Vec<Entry> =
-        data.series.iter().enumerate().map(|(i, series)| Entry::both(series.label, pen(i), dot(i))).collect();
+fn panel(canvas: &mut Canvas, data: &PrecisionFigure<'_>, y: f64) {
+    let entries: Vec<LegendEntry> =
+        data.series.iter().enumerate().map(|(i, series)| LegendEntry::both(series.label, pen(i), dot(i))).collect();
     let left = 150.0;
     let top = y + legend::title(canvas, data.title, (left, WIDTH as f64 - 40.0), y);
     // The legend's column takes what its longest text needs, but leaves the panel more than half of the sheet.
@@ -68,7 +68,7 @@ fn panel(canvas: &mut Canvas, data: &Precision<'_>, y: f64) {
 
     let points = || data.series.iter().flat_map(|series| series.points);
     let panel = Panel {
-        frame: Frame { left, top, right, bottom: y + 860.0 },
+        frame: PanelFrame { left, top, right, bottom: y + 860.0 },
         x: Scale::log_around(points().map(|point| point.0), 10.0),
         y: Scale::log_around(points().map(|point| point.1), 10.0),
     };

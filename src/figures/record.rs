@@ -1,8 +1,8 @@
 //! A ground motion against time: acceleration and velocity, and what lifts a structure.
 
 use super::canvas::{Canvas, Lettering};
-use super::legend::{self, Entry};
-use super::panel::{Frame, Panel};
+use super::legend::{self, LegendEntry};
+use super::panel::{Panel, PanelFrame};
 use super::scale::Scale;
 use super::style::{self, BLUE, GREY, NUMBER, Pen, VERMILLION, WIDTH};
 use super::{Check, FigureError, Sheet};
@@ -11,7 +11,7 @@ const CHECK: Check = Check("record");
 
 /// What the figure shows, at the times t, one value each.
 #[derive(Clone, Copy, Debug)]
-pub struct Record<'a> {
+pub struct RecordFigure<'a> {
     pub title: &'a str,
     /// Times, increasing [s].
     pub t: &'a [f64],
@@ -29,7 +29,7 @@ pub struct Record<'a> {
 ///
 /// # Errors
 /// [`FigureError`] for fewer than two times, a slice that is not finite or of another length.
-pub fn draw(data: &Record<'_>) -> Result<Sheet, FigureError> {
+pub fn draw(data: &RecordFigure<'_>) -> Result<Sheet, FigureError> {
     CHECK.least("t", data.t.len(), 2)?;
     CHECK.finite("t", data.t)?;
     let n = data.t.len();
@@ -40,9 +40,9 @@ pub fn draw(data: &Record<'_>) -> Result<Sheet, FigureError> {
     let mut canvas = Canvas::default();
     let (accel, velocity) = (Pen::new(VERMILLION, 2.4), Pen::new(BLUE, 2.8));
     let level = Pen::new(GREY, 2.2).dashed();
-    let mut entries = vec![Entry::line("acceleration", accel), Entry::line("velocity", velocity)];
+    let mut entries = vec![LegendEntry::line("acceleration", accel), LegendEntry::line("velocity", velocity)];
     if data.uplift_g.is_some() {
-        entries.push(Entry::line("uplift, ± g tan α", level));
+        entries.push(LegendEntry::line("uplift, ± g tan α", level));
     }
     let (left, right) = (150.0, WIDTH as f64 - 40.0);
     let top = legend::header(&mut canvas, data.title, &entries, left, right);
@@ -57,7 +57,7 @@ pub fn draw(data: &Record<'_>) -> Result<Sheet, FigureError> {
     let peak = data.accel_g.iter().fold(0.0_f64, |most, a| most.max(a.abs()));
     let shown = data.uplift_g.filter(|uplift| *uplift <= 3.0 * peak);
     let y = symmetric(data.accel_g, shown.unwrap_or(0.0));
-    let panel = Panel { frame: Frame { left, top, right, bottom: middle }, x, y };
+    let panel = Panel { frame: PanelFrame { left, top, right, bottom: middle }, x, y };
     panel.axes(&mut canvas, None, "acceleration [g]", 110.0);
     panel.level(&mut canvas, 0.0, Pen::new(style::AXIS, 1.5));
     panel.curve(&mut canvas, data.t, data.accel_g, accel);
@@ -65,7 +65,8 @@ pub fn draw(data: &Record<'_>) -> Result<Sheet, FigureError> {
         panel.level(&mut canvas, uplift, level);
     }
 
-    let panel = Panel { frame: Frame { left, top: middle + 34.0, right, bottom }, x, y: symmetric(data.velocity, 0.0) };
+    let panel =
+        Panel { frame: PanelFrame { left, top: middle + 34.0, right, bottom }, x, y: symmetric(data.velocity, 0.0) };
     panel.axes(&mut canvas, Some("time from the first sample [s]"), "velocity [m/s]", 110.0);
     panel.level(&mut canvas, 0.0, Pen::new(style::AXIS, 1.5));
     panel.curve(&mut canvas, data.t, data.velocity, velocity);

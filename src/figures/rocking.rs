@@ -3,8 +3,8 @@
 use plotters::style::RGBColor;
 
 use super::canvas::Canvas;
-use super::legend::{self, Entry};
-use super::panel::{Frame, Panel};
+use super::legend::{self, LegendEntry};
+use super::panel::{Panel, PanelFrame};
 use super::scale::Scale;
 use super::style::WIDTH;
 use super::{Check, FigureError, Sheet};
@@ -13,7 +13,7 @@ const CHECK: Check = Check("rocking");
 
 /// One body.
 #[derive(Clone, Copy, Debug)]
-pub struct Body {
+pub struct RockingBody {
     /// 1/p [s].
     pub period: f64,
     /// [rad]
@@ -26,12 +26,12 @@ pub struct Body {
 #[derive(Clone, Debug)]
 pub struct Map {
     pub label: String,
-    pub bodies: Vec<Body>,
+    pub bodies: Vec<RockingBody>,
 }
 
 /// What the figure shows.
 #[derive(Clone, Copy, Debug)]
-pub struct Rocking<'a> {
+pub struct RockingFigure<'a> {
     pub title: &'a str,
     pub maps: &'a [Map],
 }
@@ -55,7 +55,7 @@ fn colour(peak: f64) -> RGBColor {
 ///
 /// # Errors
 /// [`FigureError`] when there is nothing to draw, for numbers that are not finite.
-pub fn draw(data: &Rocking<'_>) -> Result<Sheet, FigureError> {
+pub fn draw(data: &RockingFigure<'_>) -> Result<Sheet, FigureError> {
     CHECK.least("maps", data.maps.len(), 1)?;
     for map in data.maps {
         CHECK.least("bodies", map.bodies.len(), 1)?;
@@ -66,15 +66,15 @@ pub fn draw(data: &Rocking<'_>) -> Result<Sheet, FigureError> {
     }
     let names = ["never lifted", "|θ|/α to 0.1", "to 0.25", "to 0.5", "to 1", "above 1", "overturned"];
     let colours = STEPS.iter().map(|(_, colour)| *colour).chain([OVERTURNED]);
-    let entries: Vec<Entry> =
-        names.iter().zip(colours).map(|(name, colour)| Entry::patch(*name, colour.into())).collect();
+    let entries: Vec<LegendEntry> =
+        names.iter().zip(colours).map(|(name, colour)| LegendEntry::patch(*name, colour.into())).collect();
     let (left, right) = (150.0, WIDTH as f64 - 40.0);
     let (height, gap) = (620.0, 150.0);
     let mut canvas = Canvas::default();
     let top = legend::header(&mut canvas, data.title, &entries, left, right) + 20.0;
     for (i, map) in data.maps.iter().enumerate() {
         let top = top + i as f64 * (height + gap);
-        one(&mut canvas, map, Frame { left, top, right, bottom: top + height });
+        one(&mut canvas, map, PanelFrame { left, top, right, bottom: top + height });
     }
     canvas.finish(top + data.maps.len() as f64 * (height + gap))
 }
@@ -99,7 +99,7 @@ fn edges(numbers: &[f64], i: usize) -> (f64, f64) {
     }
 }
 
-fn one(canvas: &mut Canvas, map: &Map, frame: Frame) {
+fn one(canvas: &mut Canvas, map: &Map, frame: PanelFrame) {
     // even steps of ln(1/p)
     let periods = different(map.bodies.iter().map(|body| body.period));
     let logs: Vec<f64> = periods.iter().map(|x| x.ln()).collect();

@@ -1,10 +1,10 @@
 //! Quantities against time, one panel each above the other.
 
 use super::canvas::Canvas;
-use super::legend::{self, Entry};
+use super::legend::{self, LegendEntry};
 use super::number::prefix;
-use super::panel::{Frame, Panel};
-use super::plot::Event;
+use super::panel::{Panel, PanelFrame};
+use super::plot::EventMark;
 use super::scale::Scale;
 use super::style::{self, BLACK, Pen, WIDTH};
 use super::{Check, FigureError, Sheet};
@@ -16,18 +16,18 @@ const GAP: f64 = 34.0;
 
 /// One quantity: the same curves in every panel, one of them empty where a model has no such thing.
 #[derive(Clone, Copy, Debug)]
-pub struct Quantity<'a> {
+pub struct StackQuantity<'a> {
     /// As "base shear".
     pub name: &'a str,
     /// As "N": a prefix is set before it.
     pub unit: &'a str,
-    /// As many as [`Stack::names`], each at most as long as the times.
+    /// As many as [`StackFigure::names`], each at most as long as the times.
     pub curves: &'a [&'a [f64]],
 }
 
 /// What the figure shows.
 #[derive(Clone, Copy, Debug)]
-pub struct Stack<'a> {
+pub struct StackFigure<'a> {
     /// Lines of the title.
     pub title: &'a str,
     /// Times, increasing [s].
@@ -35,16 +35,16 @@ pub struct Stack<'a> {
     /// Names of the curves; the first is black and lies under the others.
     pub names: &'a [&'a str],
     /// From above.
-    pub panels: &'a [Quantity<'a>],
+    pub panels: &'a [StackQuantity<'a>],
     /// A time from which on curves are not to be compared.
-    pub event: Option<Event<'a>>,
+    pub event: Option<EventMark<'a>>,
 }
 
 /// Draw the figure.
 ///
 /// # Errors
 /// [`FigureError`] for an empty or not finite slice, or one longer than the times.
-pub fn draw(data: &Stack<'_>) -> Result<Sheet, FigureError> {
+pub fn draw(data: &StackFigure<'_>) -> Result<Sheet, FigureError> {
     CHECK.least("t", data.t.len(), 2)?;
     CHECK.finite("t", data.t)?;
     for panel in data.panels {
@@ -59,13 +59,14 @@ pub fn draw(data: &Stack<'_>) -> Result<Sheet, FigureError> {
     let pens: Vec<Pen> = (0..data.names.len()).map(pen).collect();
     let mut canvas = Canvas::default();
     let ending = Pen::new(BLACK, 2.4).dashed();
-    let mut entries: Vec<Entry> = data.names.iter().zip(&pens).map(|(name, pen)| Entry::line(*name, *pen)).collect();
-    entries.extend(data.event.map(|event| Entry::line(event.text, ending)));
+    let mut entries: Vec<LegendEntry> =
+        data.names.iter().zip(&pens).map(|(name, pen)| LegendEntry::line(*name, *pen)).collect();
+    entries.extend(data.event.map(|event| LegendEntry::line(event.text, ending)));
     let (left, right) = (150.0, WIDTH as f64 - 40.0);
     let mut top = legend::header(&mut canvas, data.title, &entries, left, right);
     let x = Scale::linear(data.t[0], data.t[data.t.len() - 1]);
     for (i, quantity) in data.panels.iter().enumerate() {
-        let frame = Frame { left, top, right, bottom: top + TALL };
+        let frame = PanelFrame { left, top, right, bottom: top + TALL };
         let last = i + 1 == data.panels.len();
         one(&mut canvas, data, quantity, &pens, (x, frame, last, ending));
         top += TALL + GAP;
@@ -75,10 +76,10 @@ pub fn draw(data: &Stack<'_>) -> Result<Sheet, FigureError> {
 
 fn one(
     canvas: &mut Canvas,
-    data: &Stack<'_>,
-    quantity: &Quantity<'_>,
+    data: &StackFigure<'_>,
+    quantity: &StackQuantity<'_>,
     pens: &[Pen],
-    (x, frame, last, ending): (Scale, Frame, bool, Pen),
+    (x, frame, last, ending): (Scale, PanelFrame, bool, Pen),
 ) {
     let all = quantity.curves.iter().flat_map(|curve| curve.iter().copied());
     let (low, high) = all.fold((0.0_f64, 0.0_f64), |(low, high), value| (low.min(value), high.max(value)));
@@ -125,13 +126,13 @@ mod tests {
         let wave: Vec<f64> = t.iter().map(|t| 2e5 * (30.0 * t).sin()).collect();
         let curves: [&[f64]; 2] = [&wave, &wave[..50]];
         let panels = [
-            Quantity { name: "base shear", unit: "N", curves: &curves },
-            Quantity { name: "moment", unit: "N m", curves: &curves },
+            StackQuantity { name: "base shear", unit: "N", curves: &curves },
+            StackQuantity { name: "moment", unit: "N m", curves: &curves },
         ];
-        let stack = Stack { title: "Forces", t: &t, names: &["one", "two"], panels: &panels, event: None };
+        let stack = StackFigure { title: "Forces", t: &t, names: &["one", "two"], panels: &panels, event: None };
         let sheet = draw(&stack).unwrap();
         assert_eq!(sheet.plots.len(), 2);
         assert!(sheet.svg.contains("base shear") && sheet.svg.contains("kN"));
-        assert!(draw(&Stack { t: &t[..60], ..stack }).is_err());
+        assert!(draw(&StackFigure { t: &t[..60], ..stack }).is_err());
     }
 }

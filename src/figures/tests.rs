@@ -78,8 +78,8 @@ fn a_missing_folder_is_an_error_and_leaves_nothing() {
 fn empty_or_unequal_or_not_finite_numbers_are_errors() {
     let t = [0.0, 1.0, 2.0];
     let good = history::Trace { label: "Housner", u: &[0.0, 1.0, 0.5], v: &[0.0, 0.1, 0.0], impacts: &[], end: None };
-    let with = |t, reference| history::History { title: "", t, reference, others: &[], differences: false };
-    let told = |data: &history::History<'_>| history::draw(data).unwrap_err().to_string();
+    let with = |t, reference| history::HistoryFigure { title: "", t, reference, others: &[], differences: false };
+    let told = |data: &history::HistoryFigure<'_>| history::draw(data).unwrap_err().to_string();
     assert_eq!(
         told(&with(&t, history::Trace { u: &[0.0, f64::NAN, 0.5], ..good })),
         "figure history: u of Housner[1] is NaN, which cannot be drawn; remove it or mend what computed it"
@@ -90,8 +90,8 @@ fn empty_or_unequal_or_not_finite_numbers_are_errors() {
     );
     assert_eq!(told(&with(&[], good)), "figure history: t is empty; give at least 2 values or leave the figure out");
     let empty: [Result<Sheet, FigureError>; 6] = [
-        arr::draw(&arr::Response { title: "", target: &[], curves: &[] }),
-        candidates::draw(&candidates::Candidates {
+        arr::draw(&arr::ResponseFigure { title: "", target: &[], curves: &[] }),
+        candidates::draw(&candidates::CandidatesFigure {
             title: "",
             error_label: "",
             candidates: &[],
@@ -99,7 +99,7 @@ fn empty_or_unequal_or_not_finite_numbers_are_errors() {
             chosen_label: "",
         }),
         front::draw(&front_of(&[])),
-        energy::draw(&energy::Energy {
+        energy::draw(&energy::EnergyFigure {
             title: "",
             t: &[],
             input: &[],
@@ -108,14 +108,19 @@ fn empty_or_unequal_or_not_finite_numbers_are_errors() {
             residual: &[],
             end: None,
         }),
-        validation::draw(&validation::Validation { title: "", rows: &[], ks_distance: 0.0, well_conditioned: 10.0 }),
-        precision::draw(&[precision::Precision { title: "", error_label: "", time_label: "", series: &[] }]),
+        validation::draw(&validation::ValidationFigure {
+            title: "",
+            rows: &[],
+            ks_distance: 0.0,
+            well_conditioned: 10.0,
+        }),
+        precision::draw(&[precision::PrecisionFigure { title: "", error_label: "", time_label: "", series: &[] }]),
     ];
     for result in empty {
         assert!(matches!(result, Err(FigureError::Empty { .. })));
     }
-    let points = precision::Series { label: "tool", points: &[(1e-3, 0.0)] };
-    let data = precision::Precision { title: "", error_label: "", time_label: "", series: &[points] };
+    let points = precision::ToolSeries { label: "tool", points: &[(1e-3, 0.0)] };
+    let data = precision::PrecisionFigure { title: "", error_label: "", time_label: "", series: &[points] };
     assert!(matches!(precision::draw(&[data]), Err(FigureError::NotFinite { index: 1, .. })));
 }
 
@@ -124,9 +129,9 @@ fn empty_or_unequal_or_not_finite_numbers_are_errors() {
 fn the_least_data_still_makes_a_picture() {
     let (t, still) = ([0.0, 1.0], [0.0, 0.0]);
     let trace = history::Trace { label: "Housner", u: &still, v: &still, impacts: &[], end: None };
-    let data = history::History { title: "", t: &t, reference: trace, others: &[trace], differences: true };
+    let data = history::HistoryFigure { title: "", t: &t, reference: trace, others: &[trace], differences: true };
     history::draw(&data).unwrap();
-    let data = contact::Contact {
+    let data = contact::ContactFigure {
         title: "",
         t: &t,
         left_vertical: &still,
@@ -137,7 +142,7 @@ fn the_least_data_still_makes_a_picture() {
         end: None,
     };
     contact::draw(&data).unwrap();
-    let data = energy::Energy {
+    let data = energy::EnergyFigure {
         title: "",
         t: &t,
         input: &still,
@@ -147,11 +152,17 @@ fn the_least_data_still_makes_a_picture() {
         end: None,
     };
     energy::draw(&data).unwrap();
-    let one = candidates::Candidate { vertical_hz: 20.0, horizontal_hz: 30.0, error: f64::INFINITY, abandoned: false };
-    let data =
-        candidates::Candidates { title: "", error_label: "", candidates: &[one], chosen: Some(0), chosen_label: "" };
+    let one =
+        candidates::CandidateMark { vertical_hz: 20.0, horizontal_hz: 30.0, error: f64::INFINITY, abandoned: false };
+    let data = candidates::CandidatesFigure {
+        title: "",
+        error_label: "",
+        candidates: &[one],
+        chosen: Some(0),
+        chosen_label: "",
+    };
     candidates::draw(&data).unwrap();
-    let row = validation::Row {
+    let row = validation::ValidationPoint {
         peak_housner: 0.0,
         peak_fem: f64::INFINITY,
         overturned_housner: false,
@@ -159,14 +170,22 @@ fn the_least_data_still_makes_a_picture() {
         sensitivity: f64::INFINITY,
         nrmse: 0.0,
     };
-    let data = validation::Validation { title: "", rows: &[row], ks_distance: 1.0, well_conditioned: 10.0 };
+    let data = validation::ValidationFigure { title: "", rows: &[row], ks_distance: 1.0, well_conditioned: 10.0 };
     validation::draw(&data).unwrap();
-    let series = front::Series { label: "", omega_n_hz: &[160.0], error: &[0.0] };
+    let series = front::DesignSeries { label: "", omega_n_hz: &[160.0], error: &[0.0] };
     front::draw(&front_of(&[series])).unwrap();
 }
 
 /// A front of these errors.
-fn front_of<'a>(series: &'a [front::Series<'a>]) -> front::Front<'a> {
+fn front_of<'a>(series: &'a [front::DesignSeries<'a>]) -> front::FrontFigure<'a> {
     let cost = front::Cost { label: "", omega_n_hz: &[160.0], value: &[14.0] };
-    front::Front { title: "", error_label: "", series, chosen_hz: 160.0, accuracy: 0.002, costs: [cost; 2], notes: &[] }
+    front::FrontFigure {
+        title: "",
+        error_label: "",
+        series,
+        chosen_hz: 160.0,
+        accuracy: 0.002,
+        costs: [cost; 2],
+        notes: &[],
+    }
 }

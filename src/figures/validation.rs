@@ -3,10 +3,10 @@
 use plotters::style::text_anchor::{HPos, VPos};
 
 use super::canvas::{Canvas, Lettering};
-use super::legend::{self, Entry};
-use super::mark::{Mark, Shape};
+use super::legend::{self, LegendEntry};
+use super::mark::{Mark, MarkShape};
 use super::number::short;
-use super::panel::{Frame, Panel};
+use super::panel::{Panel, PanelFrame};
 use super::scale::Scale;
 use super::style::{BLACK, BLUE, GREY, NUMBER, Pen, VERMILLION, WIDTH};
 use super::{Check, FigureError, Sheet};
@@ -17,7 +17,7 @@ const TOPPLED: f64 = 1.0;
 
 /// One record under both models.
 #[derive(Clone, Copy, Debug)]
-pub struct Row {
+pub struct ValidationPoint {
     /// Peak |theta|/alpha by Housner; whatever it is, 1 is drawn when the body toppled.
     pub peak_housner: f64,
     /// Peak |theta|/alpha by finite elements.
@@ -32,9 +32,9 @@ pub struct Row {
 
 /// What the figure shows.
 #[derive(Clone, Copy, Debug)]
-pub struct Validation<'a> {
+pub struct ValidationFigure<'a> {
     pub title: &'a str,
-    pub rows: &'a [Row],
+    pub rows: &'a [ValidationPoint],
     /// Kolmogorov-Smirnov distance of the two distributions of peaks.
     pub ks_distance: f64,
     /// Below this sensitivity a record is well conditioned.
@@ -45,9 +45,9 @@ pub struct Validation<'a> {
 ///
 /// # Errors
 /// [`FigureError`] when there is no row, for a NaN or a negative peak.
-pub fn draw(data: &Validation<'_>) -> Result<Sheet, FigureError> {
+pub fn draw(data: &ValidationFigure<'_>) -> Result<Sheet, FigureError> {
     CHECK.least("rows", data.rows.len(), 1)?;
-    let column = |of: fn(&Row) -> f64| -> Vec<f64> { data.rows.iter().map(of).collect() };
+    let column = |of: fn(&ValidationPoint) -> f64| -> Vec<f64> { data.rows.iter().map(of).collect() };
     for (what, values) in [
         ("peak_housner", column(|row| row.peak_housner)),
         ("peak_fem", column(|row| row.peak_fem)),
@@ -60,46 +60,46 @@ pub fn draw(data: &Validation<'_>) -> Result<Sheet, FigureError> {
 
     let mut canvas = Canvas::default();
     let mut entries = vec![
-        Entry::line("Housner", Pen::new(BLACK, 5.0)),
-        Entry::line("finite element", Pen::new(VERMILLION, 2.6)),
-        Entry::mark("record", dot()),
+        LegendEntry::line("Housner", Pen::new(BLACK, 5.0)),
+        LegendEntry::line("finite element", Pen::new(VERMILLION, 2.6)),
+        LegendEntry::mark("record", dot()),
     ];
     if data.rows.iter().any(|row| row.overturned_housner || row.overturned_fem) {
-        entries.push(Entry::mark("toppled in one or both", toppled()));
+        entries.push(LegendEntry::mark("toppled in one or both", toppled()));
     }
     let lost = data.rows.iter().filter(|row| !(row.nrmse.is_finite() && row.sensitivity.is_finite())).count();
     if lost > 0 {
-        entries.push(Entry::mark(format!("error or sensitivity not finite ({lost}), at the edge"), infinite()));
+        entries.push(LegendEntry::mark(format!("error or sensitivity not finite ({lost}), at the edge"), infinite()));
     }
     let (left, right) = (150.0, WIDTH as f64 - 40.0);
     let top = legend::header(&mut canvas, data.title, &entries, left, right);
     let middle = (left + right) / 2.0;
     let bottom = top + 590.0;
-    distributions(&mut canvas, data, Frame { left, top, right: middle - 40.0, bottom });
-    peaks(&mut canvas, data, Frame { left: middle + 115.0, top, right, bottom });
-    errors(&mut canvas, data, Frame { left, top: bottom + 130.0, right, bottom: bottom + 660.0 });
+    distributions(&mut canvas, data, PanelFrame { left, top, right: middle - 40.0, bottom });
+    peaks(&mut canvas, data, PanelFrame { left: middle + 115.0, top, right, bottom });
+    errors(&mut canvas, data, PanelFrame { left, top: bottom + 130.0, right, bottom: bottom + 660.0 });
     canvas.finish(bottom + 760.0)
 }
 
 fn dot() -> Mark {
-    Mark::new(Shape::Disc, 7.0, BLUE)
+    Mark::new(MarkShape::Disc, 7.0, BLUE)
 }
 
 fn infinite() -> Mark {
-    Mark::new(Shape::Triangle, 9.0, GREY)
+    Mark::new(MarkShape::Triangle, 9.0, GREY)
 }
 
 fn toppled() -> Mark {
-    Mark::new(Shape::Square, 8.0, VERMILLION).hollow()
+    Mark::new(MarkShape::Square, 8.0, VERMILLION).hollow()
 }
 
-fn pair(row: &Row) -> (f64, f64) {
+fn pair(row: &ValidationPoint) -> (f64, f64) {
     let of = |peak: f64, over: bool| if over { TOPPLED } else { peak.min(TOPPLED) };
     (of(row.peak_housner, row.overturned_housner), of(row.peak_fem, row.overturned_fem))
 }
 
 /// Both cumulative distributions as stairs, and where they are farthest apart.
-fn distributions(canvas: &mut Canvas, data: &Validation<'_>, frame: Frame) {
+fn distributions(canvas: &mut Canvas, data: &ValidationFigure<'_>, frame: PanelFrame) {
     let panel = Panel { frame, x: Scale::linear(0.0, 1.04), y: Scale::linear(0.0, 1.04) };
     panel.axes(canvas, Some("peak |θ|/α"), "share of records below", 105.0);
     let (mut rigid, mut fem): (Vec<f64>, Vec<f64>) = data.rows.iter().map(pair).unzip();
@@ -137,11 +137,11 @@ fn distributions(canvas: &mut Canvas, data: &Validation<'_>, frame: Frame) {
 }
 
 /// Each record's peak in the finite element model against Housner's; on the diagonal they agree.
-fn peaks(canvas: &mut Canvas, data: &Validation<'_>, frame: Frame) {
+fn peaks(canvas: &mut Canvas, data: &ValidationFigure<'_>, frame: PanelFrame) {
     let panel = Panel { frame, x: Scale::linear(0.0, 1.04), y: Scale::linear(0.0, 1.04) };
     panel.axes(canvas, Some("Housner, peak |θ|/α"), "finite element, peak |θ|/α", 95.0);
     panel.curve(canvas, &[0.0, 1.04], &[0.0, 1.04], Pen::new(GREY, 2.0).dashed());
-    let over = |row: &&Row| row.overturned_housner || row.overturned_fem;
+    let over = |row: &&ValidationPoint| row.overturned_housner || row.overturned_fem;
     for row in data.rows.iter().filter(|row| !over(row)) {
         let (x, y) = pair(row);
         dot().draw(canvas, panel.at(x, y));
@@ -153,13 +153,13 @@ fn peaks(canvas: &mut Canvas, data: &Validation<'_>, frame: Frame) {
 }
 
 /// Error against the sensitivity of Housner's own answer: where it is large, no model can follow one to one.
-fn errors(canvas: &mut Canvas, data: &Validation<'_>, frame: Frame) {
+fn errors(canvas: &mut Canvas, data: &ValidationFigure<'_>, frame: PanelFrame) {
     let x = Scale::log_around(data.rows.iter().map(|row| row.sensitivity).chain([data.well_conditioned]), 10.0);
     let panel = Panel { frame, x, y: Scale::log_around(data.rows.iter().map(|row| row.nrmse), 10.0) };
     panel.axes(canvas, Some("sensitivity of Housner's history"), "NRMSE of u", 110.0);
     panel.upright(canvas, data.well_conditioned, Pen::new(GREY, 2.2).dashed());
     // Well conditioned first, so that the rarer toppled ones stay visible on top.
-    let over = |row: &&Row| row.overturned_housner || row.overturned_fem;
+    let over = |row: &&ValidationPoint| row.overturned_housner || row.overturned_fem;
     for row in data.rows.iter().filter(|row| !over(row)) {
         let finite = row.nrmse.is_finite() && row.sensitivity.is_finite();
         let mark = if finite { dot() } else { infinite() };

@@ -12,10 +12,10 @@
 #![allow(clippy::needless_range_loop)] // as in `series`
 
 use super::root::first_root;
-use super::series::{Ground, Start, value_and_slope};
+use super::series::{StepGround, StepStart, value_and_slope};
 
 /// N/(m g) at a point of the motion; `arm` = R/g (s2).
-pub fn pressure(at: &Start<f64>, ground: &Ground<f64>, p2: f64, arm: f64) -> f64 {
+pub fn pressure(at: &StepStart<f64>, ground: &StepGround<f64>, p2: f64, arm: f64) -> f64 {
     let second = -p2 * (ground.gamma * at.sin + ground.b * at.cos); // (1), (3)
     ground.gamma + arm * (second * at.sin - at.rate * at.rate * at.cos)
 }
@@ -24,7 +24,7 @@ pub fn pressure(at: &Start<f64>, ground: &Ground<f64>, p2: f64, arm: f64) -> f64
 /// N/(m g) >= gamma (1 - share s^2) - share |b| s - arm w'^2. `share` = m R^2/I0 and `arm` = R/(g h^2), w' being per step.
 /// It may say no where [`loss`] finds nothing.
 #[inline(always)]
-pub fn surely_presses<const N: usize>(c: &[f64; N], sin: f64, ground: &Ground<f64>, share: f64, arm: f64) -> bool {
+pub fn surely_presses<const N: usize>(c: &[f64; N], sin: f64, ground: &StepGround<f64>, share: f64, arm: f64) -> bool {
     let (mut turn, mut slope) = (0.0, 0.0);
     for k in 1..N {
         turn += c[k].abs();
@@ -39,7 +39,7 @@ pub fn surely_presses<const N: usize>(c: &[f64; N], sin: f64, ground: &Ground<f6
 }
 
 /// Where in a step, x in [0, 1], a pressed pivot's force falls to zero; `c` is the lean's series, `arm` = R/(g h^2).
-pub fn loss<const N: usize>(c: &[f64; N], at: &Start<f64>, ground: &Ground<f64>, arm: f64) -> Option<f64> {
+pub fn loss<const N: usize>(c: &[f64; N], at: &StepStart<f64>, ground: &StepGround<f64>, arm: f64) -> Option<f64> {
     let n = series(c, at, ground, arm);
     let mut x = first_root(&n)?;
     for _ in 0..2 {
@@ -52,7 +52,7 @@ pub fn loss<const N: usize>(c: &[f64; N], at: &Start<f64>, ground: &Ground<f64>,
 }
 
 /// N/(m g) over the step as a power series.
-fn series<const N: usize>(c: &[f64; N], at: &Start<f64>, ground: &Ground<f64>, arm: f64) -> [f64; N] {
+fn series<const N: usize>(c: &[f64; N], at: &StepStart<f64>, ground: &StepGround<f64>, arm: f64) -> [f64; N] {
     // k S_k = -sum j c_j C_{k-j}, k C_k = sum j c_j S_{k-j}, as F and G of the lean's series
     let (mut sin, mut cos) = ([at.sin; N], [at.cos; N]);
     for k in 1..N {
@@ -78,29 +78,29 @@ fn series<const N: usize>(c: &[f64; N], at: &Start<f64>, ground: &Ground<f64>, a
 
 #[cfg(test)]
 mod tests {
-    use super::super::series::{LONG, Series};
+    use super::super::series::{LONG, PowerSeries};
     use super::*;
 
     const P2: f64 = 3.0;
     const ARM: f64 = 0.2;
 
-    fn step(ground: &Ground<f64>, rate: f64, h: f64) -> (Start<f64>, Series<f64, LONG>) {
+    fn step(ground: &StepGround<f64>, rate: f64, h: f64) -> (StepStart<f64>, PowerSeries<f64, LONG>) {
         let (sin, cos) = 0.13_f64.sin_cos();
-        let at = Start { w: 0.07, rate, sin, cos };
-        (at, Series::new::<true>(&at, h, ground, P2 * h * h))
+        let at = StepStart { w: 0.07, rate, sin, cos };
+        (at, PowerSeries::new::<true>(&at, h, ground, P2 * h * h))
     }
 
     #[test]
     fn the_forces_series_is_the_force_along_the_step() {
         let h = 0.05;
-        let ground = Ground { b: -0.3, db: 0.2, gamma: 0.6, dgamma: -0.5 };
+        let ground = StepGround { b: -0.3, db: 0.2, gamma: 0.6, dgamma: -0.5 };
         let (at, lean) = step(&ground, 1.5, h);
         let n = series(&lean.c, &at, &ground, ARM / (h * h));
         for x in [0.0, 0.3, 0.7, 1.0] {
             let (w, slope) = lean.at(x);
             let (sin, cos) = (0.2 - w).sin_cos();
-            let here = Ground { b: ground.b + ground.db * x, gamma: ground.gamma + ground.dgamma * x, ..ground };
-            let expected = pressure(&Start { w, rate: slope / h, sin, cos }, &here, P2, ARM);
+            let here = StepGround { b: ground.b + ground.db * x, gamma: ground.gamma + ground.dgamma * x, ..ground };
+            let expected = pressure(&StepStart { w, rate: slope / h, sin, cos }, &here, P2, ARM);
             assert!((value_and_slope(&n, x).0 - expected).abs() < 1e-13, "{x}");
         }
     }
@@ -110,7 +110,7 @@ mod tests {
         let h = 0.05;
         let mut lost = 0;
         for i in 0..40 {
-            let ground = Ground { b: -0.3, db: 0.4, gamma: 0.6, dgamma: -0.02 * f64::from(i) };
+            let ground = StepGround { b: -0.3, db: 0.4, gamma: 0.6, dgamma: -0.02 * f64::from(i) };
             let (at, lean) = step(&ground, 1.0, h);
             let found = loss(&lean.c, &at, &ground, ARM / (h * h));
             // share = p^2 R/g

@@ -5,8 +5,8 @@
 use std::f64::consts::FRAC_PI_2;
 
 use super::root::{crossing, first_root, impact_time};
-use super::series::{Ground, Series, Start, value_and_slope};
-use super::walk::{Sample, Setting, State, falls};
+use super::series::{PowerSeries, StepGround, StepStart, value_and_slope};
+use super::walk::{Sample, Setting, WalkState, falls};
 use super::{Impact, Rocking, RockingOutcome, Uplift, contact, rest};
 use crate::scalar::Scalar;
 
@@ -16,7 +16,7 @@ impl<S: Scalar> Setting<'_, S> {
     #[inline(never)]
     pub fn interval<const V: bool, const N: usize>(
         &self,
-        state: &mut State<S>,
+        state: &mut WalkState<S>,
         i: usize,
         (now, then): (Sample<S>, Sample<S>),
         out: &mut Rocking<S>,
@@ -52,8 +52,8 @@ impl<S: Scalar> Setting<'_, S> {
             let left = S::one() - x;
             let h = left * self.dt;
             let (b, db) = ((a0 + da * x) * state.side, da * left * state.side);
-            let ground = Ground { b, db, gamma: g0 + dg * x, dgamma: dg * left };
-            let mut series = Series::<S, N>::new::<V>(&state.at, h, &ground, self.p2 * h * h);
+            let ground = StepGround { b, db, gamma: g0 + dg * x, dgamma: dg * left };
+            let mut series = PowerSeries::<S, N>::new::<V>(&state.at, h, &ground, self.p2 * h * h);
             let reach = series.reach();
             if reach < 1.0 {
                 series.shorten(reach);
@@ -96,8 +96,8 @@ impl<S: Scalar> Setting<'_, S> {
     /// Carry the state over a piece of length h without an event, `time` (s) the time at a fraction of it; true if the history ends there.
     fn end_of_piece<const N: usize>(
         &self,
-        state: &mut State<S>,
-        series: &Series<S, N>,
+        state: &mut WalkState<S>,
+        series: &PowerSeries<S, N>,
         c: &[f64; N],
         h: S,
         time: impl Fn(f64) -> f64,
@@ -121,7 +121,7 @@ impl<S: Scalar> Setting<'_, S> {
     }
 
     /// After an event exactly at the sample: its time x may move with the parameters, the sample does not.
-    fn at_sample(&self, state: &mut State<S>, x: S, then: Sample<S>) {
+    fn at_sample(&self, state: &mut WalkState<S>, x: S, then: Sample<S>) {
         let late = S::one() - x;
         let late = (late - late.re()) * self.dt;
         let force = self.p2 * (then.gamma * state.at.sin + then.a * state.at.cos * state.side);
@@ -132,24 +132,24 @@ impl<S: Scalar> Setting<'_, S> {
     /// Where in a piece of the interval, a fraction of its `reach`, the pivot's force falls to zero.
     fn loss<const N: usize>(
         &self,
-        at: &Start<S>,
+        at: &StepStart<S>,
         c: &[f64; N],
-        ground: &Ground<f64>,
+        ground: &StepGround<f64>,
         h: f64,
         reach: f64,
     ) -> Option<f64> {
-        let at = Start { w: at.w.re(), rate: at.rate.re(), sin: at.sin.re(), cos: at.cos.re() };
+        let at = StepStart { w: at.w.re(), rate: at.rate.re(), sin: at.sin.re(), cos: at.cos.re() };
         if contact::pressure(&at, ground, self.p2.re(), self.arm) <= 0.0 {
             return Some(0.0);
         }
-        let ground = Ground { db: ground.db * reach, dgamma: ground.dgamma * reach, ..*ground };
+        let ground = StepGround { db: ground.db * reach, dgamma: ground.dgamma * reach, ..*ground };
         contact::loss(c, &at, &ground, self.arm_of(h * reach))
     }
 
     /// The pivot lets go at z of a piece of length h (s), at a time (s): the end, which a body that falls over has reached already.
     fn leave<const N: usize>(
         &self,
-        state: &mut State<S>,
+        state: &mut WalkState<S>,
         c: &[f64; N],
         z: f64,
         time: f64,
@@ -158,7 +158,7 @@ impl<S: Scalar> Setting<'_, S> {
     ) {
         let (w, slope) = value_and_slope(c, z);
         let alpha = self.alpha.re();
-        let at = Start { w, rate: slope / h, sin: 0.0, cos: 1.0 };
+        let at = StepStart { w, rate: slope / h, sin: 0.0, cos: 1.0 };
         out.outcome = if falls(&at, alpha, self.p2.re()) {
             if state.at.w.re() < alpha {
                 let mut part = *c;
@@ -175,8 +175,8 @@ impl<S: Scalar> Setting<'_, S> {
     }
 
     /// Put the body on the ground, leaning to a side at a rate.
-    fn ground(&self, state: &mut State<S>, side: f64, rate: S) {
-        state.at = Start { w: S::zero(), rate, sin: self.sin_alpha, cos: self.cos_alpha };
+    fn ground(&self, state: &mut WalkState<S>, side: f64, rate: S) {
+        state.at = StepStart { w: S::zero(), rate, sin: self.sin_alpha, cos: self.cos_alpha };
         state.side = side;
         state.age = 0;
     }
@@ -184,7 +184,7 @@ impl<S: Scalar> Setting<'_, S> {
     /// An impact at fraction x of the interval, w' before it given. True if the body rests until the interval's end.
     fn land(
         &self,
-        state: &mut State<S>,
+        state: &mut WalkState<S>,
         (x, rate): (S, S),
         (now, then): (Sample<S>, Sample<S>),
         start: f64,

@@ -8,7 +8,7 @@
 
 use std::{array, mem::swap};
 
-use super::series::{Ground, LEAST, SHORT, Start, change, coefficients, end_slope, is_plain, pulls, turned};
+use super::series::{LEAST, SHORT, StepGround, StepStart, change, coefficients, end_slope, is_plain, pulls, turned};
 use super::walk::{Pace, Sample, Walk, turns_well};
 use super::{Rocking, contact};
 
@@ -16,7 +16,7 @@ use super::{Rocking, contact};
 pub const WIDTH: usize = 16;
 
 /// A number for each lane.
-type Lanes = [f64; WIDTH];
+type PerLane = [f64; WIDTH];
 
 /// A bit for each lane, as wide as a number.
 type Mask = u64;
@@ -65,7 +65,7 @@ fn lock_step<const V: bool, const N: usize>(pace: Pace, mut walks: Vec<Walk<f64,
     let up = |i: usize| if V { vertical.get(i).copied().unwrap_or(0.0) } else { 0.0 };
     let shortest = walks.iter().map(|walk| walk.set.accel.len()).min().unwrap_or(0);
     let fixed = Fixed::<N>::new(&walks, dt);
-    let (mut at, mut to) = (&mut Places::default(), &mut Places::default());
+    let (mut at, mut to) = (&mut LanePlaces::default(), &mut LanePlaces::default());
     let mut kept = Kept::default();
     let mut running = (1 << walks.len()) - 1;
     // the lane's state stands in `at`, its last samples in `kept`, not in its walk
@@ -156,8 +156,8 @@ const KEPT: usize = 32;
 
 #[derive(Default)]
 struct Kept {
-    theta: [Lanes; KEPT],
-    rate: [Lanes; KEPT],
+    theta: [PerLane; KEPT],
+    rate: [PerLane; KEPT],
     /// The first sample kept of each lane.
     since: [usize; WIDTH],
 }
@@ -178,15 +178,15 @@ impl Kept {
 /// What does not change along the walk.
 struct Fixed<const N: usize> {
     dt: f64,
-    unit: Lanes,
-    alpha: Lanes,
-    q: Lanes,
+    unit: PerLane,
+    alpha: PerLane,
+    q: PerLane,
     /// p dt.
-    root: Lanes,
-    pulls: [Lanes; N],
+    root: PerLane,
+    pulls: [PerLane; N],
     /// m R^2/I0, and R/(g dt^2).
-    share: Lanes,
-    arm: Lanes,
+    share: PerLane,
+    arm: PerLane,
 }
 
 impl<const N: usize> Fixed<N> {
@@ -199,11 +199,11 @@ impl<const N: usize> Fixed<N> {
 
 /// Where the joined lanes are; what the others have here is of no effect.
 #[derive(Default)]
-struct Places {
-    w: Lanes,
-    rate: Lanes,
-    sin: Lanes,
-    cos: Lanes,
+struct LanePlaces {
+    w: PerLane,
+    rate: PerLane,
+    sin: PerLane,
+    cos: PerLane,
     /// The sign bit of the side.
     sign: [u64; WIDTH],
     age: [u64; WIDTH],
@@ -213,17 +213,17 @@ struct Places {
 #[inline(always)]
 fn step<const V: bool, const N: usize>(
     fixed: &Fixed<N>,
-    at: &Places,
+    at: &LanePlaces,
     now: (f64, f64),
     next: (f64, f64),
-    to: &mut Places,
+    to: &mut LanePlaces,
 ) -> (Mask, Mask) {
     let mut bits = [0; WIDTH];
     // one loop of straight arithmetic, which the compiler turns into vector operations
     for l in 0..WIDTH {
-        let start = Start { w: at.w[l], rate: at.rate[l], sin: at.sin[l], cos: at.cos[l] };
+        let start = StepStart { w: at.w[l], rate: at.rate[l], sin: at.sin[l], cos: at.cos[l] };
         let (now, next) = (fixed.sample::<V>(l, now), fixed.sample::<V>(l, next));
-        let ground = Ground {
+        let ground = StepGround {
             b: turned_by(now.a, at.sign[l]),
             db: turned_by(next.a - now.a, at.sign[l]),
             gamma: now.gamma,
@@ -250,7 +250,7 @@ fn step<const V: bool, const N: usize>(
     (all & ((1 << WIDTH) - 1), all >> WIDTH)
 }
 
-impl Places {
+impl LanePlaces {
     /// Lane l takes new sines.
     #[inline(always)]
     fn turn(&mut self, l: usize, alpha: f64) {
@@ -267,7 +267,7 @@ impl Places {
 
     fn leave<const V: bool>(&self, l: usize, walk: &mut Walk<f64, V>) {
         let state = &mut walk.state;
-        state.at = Start { w: self.w[l], rate: self.rate[l], sin: self.sin[l], cos: self.cos[l] };
+        state.at = StepStart { w: self.w[l], rate: self.rate[l], sin: self.sin[l], cos: self.cos[l] };
         state.age = self.age[l];
     }
 }
@@ -296,6 +296,6 @@ fn turned_by(x: f64, sign: u64) -> f64 {
 }
 
 /// A number of each walk; an empty lane computes what the last walk computes, to no effect.
-fn gather<const V: bool>(walks: &[Walk<f64, V>], f: impl Fn(&Walk<f64, V>) -> f64) -> Lanes {
+fn gather<const V: bool>(walks: &[Walk<f64, V>], f: impl Fn(&Walk<f64, V>) -> f64) -> PerLane {
     array::from_fn(|l| f(&walks[l.min(walks.len() - 1)]))
 }

@@ -5,7 +5,7 @@
 //! simple root the convergence is that of Newton's method. Mostly the coefficients tell that there is no root, or only one, which any
 //! method finds.
 
-use super::series::{Series, value_and_slope};
+use super::series::{PowerSeries, value_and_slope};
 use crate::scalar::{Scalar, real};
 
 /// More steps than a double root needs at a linear rate of 0.6 to reach rounding.
@@ -96,7 +96,7 @@ fn root_by_parabolas<const N: usize>(g: &[f64; N], bound: f64) -> Option<f64> {
 
 /// The root z of the lean as a function of the parameters. The first Newton step takes the root to rounding, and each one
 /// after it doubles the order of exact derivatives.
-pub fn impact_time<S: Scalar, const N: usize>(series: &Series<S, N>, z: f64) -> S {
+pub fn impact_time<S: Scalar, const N: usize>(series: &PowerSeries<S, N>, z: f64) -> S {
     let mut z: S = real(z);
     for _ in 0..=(S::NDERIV + 1).next_power_of_two().ilog2() {
         let (w, slope) = series.at(z);

@@ -64,7 +64,7 @@ impl<T> Field for T where
 
 /// Start of a step.
 #[derive(Clone, Copy)]
-pub struct Start<S> {
+pub struct StepStart<S> {
     /// Lean w = |theta| (rad).
     pub w: S,
     /// w' (rad/s).
@@ -78,18 +78,18 @@ pub struct Start<S> {
 /// The ground under a leaning body over a step: b and gamma at its start, and their changes over it. Without vertical motion gamma
 /// is not looked at.
 #[derive(Clone, Copy)]
-pub struct Ground<T> {
+pub struct StepGround<T> {
     pub b: T,
     pub db: T,
     pub gamma: T,
     pub dgamma: T,
 }
 
-impl<S: Scalar> Ground<S> {
+impl<S: Scalar> StepGround<S> {
     /// Real parts.
     #[inline(always)]
-    pub fn re(&self) -> Ground<f64> {
-        Ground { b: self.b.re(), db: self.db.re(), gamma: self.gamma.re(), dgamma: self.dgamma.re() }
+    pub fn re(&self) -> StepGround<f64> {
+        StepGround { b: self.b.re(), db: self.db.re(), gamma: self.gamma.re(), dgamma: self.dgamma.re() }
     }
 }
 
@@ -110,12 +110,12 @@ pub fn pulls<T: Field, const N: usize>(q: T) -> [T; N] {
 /// latency of a few operations, not of whole sums.
 #[inline(always)]
 pub fn coefficients<T: Field, const V: bool, const N: usize>(
-    start: &Start<T>,
+    start: &StepStart<T>,
     h: T,
-    ground: &Ground<T>,
+    ground: &StepGround<T>,
     pulls: &[T; N],
 ) -> [T; N] {
-    let &Ground { b: b0, db, gamma: gamma0, dgamma } = ground;
+    let &StepGround { b: b0, db, gamma: gamma0, dgamma } = ground;
     let (dg, df) = if V {
         let n = gamma0 * gamma0 + b0 * b0;
         ((db * gamma0 - dgamma * b0) / n, (db * b0 + dgamma * gamma0) / n)
@@ -223,7 +223,7 @@ pub fn real_parts<S: Scalar, const N: usize>(c: &[S; N]) -> [f64; N] {
 
 /// The lean over one step as a power series of N coefficients in x = (t - t0)/h.
 #[derive(Clone, Copy)]
-pub struct Series<S, const N: usize> {
+pub struct PowerSeries<S, const N: usize> {
     /// c_0 to c_{N-1} (rad).
     pub c: [S; N],
     growth: f64,
@@ -233,7 +233,7 @@ pub struct Series<S, const N: usize> {
 /// A bound of k |c_{k+2}/c_k| for k near N. The equation's part linear in w gives q (gamma + |b|)/k^2, its trigonometric part
 /// c_1^2/k^2; one 1/k is kept in reserve.
 #[inline(always)]
-fn growth<const V: bool, const N: usize>(c: &[f64; N], ground: &Ground<f64>, q: f64) -> f64 {
+fn growth<const V: bool, const N: usize>(c: &[f64; N], ground: &StepGround<f64>, q: f64) -> f64 {
     let gamma = if V { ground.gamma.abs() + ground.dgamma.abs() } else { 1.0 };
     c[1] * c[1] + q * (gamma + ground.b.abs() + ground.db.abs())
 }
@@ -251,7 +251,7 @@ fn size<const N: usize>(c: &[f64; N], root: f64) -> f64 {
 #[inline(always)]
 pub fn is_plain<const V: bool, const N: usize>(
     c: &[f64; N],
-    ground: &Ground<f64>,
+    ground: &StepGround<f64>,
     (q, root): (f64, f64),
     w: f64,
     alpha: f64,
@@ -272,10 +272,10 @@ pub fn is_plain<const V: bool, const N: usize>(
     converged & (c[0] > sag) & (w > sag) & (w < FRAC_PI_2) & ((w < alpha) | (c[0] >= alpha))
 }
 
-impl<S: Scalar, const N: usize> Series<S, N> {
+impl<S: Scalar, const N: usize> PowerSeries<S, N> {
     /// The series of a step of length h (s), q = p^2 h^2.
     #[inline(always)]
-    pub fn new<const V: bool>(start: &Start<S>, h: S, ground: &Ground<S>, q: S) -> Self {
+    pub fn new<const V: bool>(start: &StepStart<S>, h: S, ground: &StepGround<S>, q: S) -> Self {
         let c = coefficients::<S, V, N>(start, h, ground, &pulls(q));
         let re = real_parts(&c);
         let (growth, size) = (growth::<V, N>(&re, &ground.re(), q.re()), size(&re, q.re().sqrt()));
@@ -332,19 +332,19 @@ mod tests {
     use super::*;
     use approx::assert_relative_eq;
 
-    fn start(alpha: f64, w: f64, rate: f64) -> Start<f64> {
+    fn start(alpha: f64, w: f64, rate: f64) -> StepStart<f64> {
         let (sin, cos) = (alpha - w).sin_cos();
-        Start { w, rate, sin, cos }
+        StepStart { w, rate, sin, cos }
     }
 
-    fn level(b: f64, db: f64) -> Ground<f64> {
-        Ground { b, db, gamma: 1.0, dgamma: 0.0 }
+    fn level(b: f64, db: f64) -> StepGround<f64> {
+        StepGround { b, db, gamma: 1.0, dgamma: 0.0 }
     }
 
     /// w'' of the series against the right hand side, at points of the step.
-    fn satisfies<const V: bool>(ground: &Ground<f64>) {
+    fn satisfies<const V: bool>(ground: &StepGround<f64>) {
         let (alpha, h, p2) = (0.2, 0.05, 2.9);
-        let series = Series::<_, SHORT>::new::<V>(&start(alpha, 0.07, 0.3), h, ground, p2 * h * h);
+        let series = PowerSeries::<_, SHORT>::new::<V>(&start(alpha, 0.07, 0.3), h, ground, p2 * h * h);
         for x in [0.0, 0.05, 0.1] {
             let (w, _) = series.at(x);
             let second: f64 = (2..SHORT).map(|k| (k * (k - 1)) as f64 * series.c[k] * f64::powi(x, k as i32 - 2)).sum();
@@ -357,24 +357,25 @@ mod tests {
     #[test]
     fn the_series_satisfies_housners_equation_inside_the_step() {
         satisfies::<false>(&level(0.15, -0.4));
-        satisfies::<true>(&Ground { gamma: 0.7, dgamma: 0.5, ..level(0.15, -0.4) });
-        satisfies::<true>(&Ground { gamma: -0.2, dgamma: -0.6, ..level(-0.9, 0.3) });
+        satisfies::<true>(&StepGround { gamma: 0.7, dgamma: 0.5, ..level(0.15, -0.4) });
+        satisfies::<true>(&StepGround { gamma: -0.2, dgamma: -0.6, ..level(-0.9, 0.3) });
     }
 
     #[test]
     fn a_level_ground_that_does_not_move_up_gives_the_same_series_either_way() {
         let (at, ground, h) = (start(0.2, 0.07, 0.3), level(0.15, -0.4), 0.05);
-        let without = Series::<_, LONG>::new::<false>(&at, h, &ground, 2.9 * h * h);
-        assert_eq!(Series::<_, LONG>::new::<true>(&at, h, &ground, 2.9 * h * h).c[..4], without.c[..4]);
+        let without = PowerSeries::<_, LONG>::new::<false>(&at, h, &ground, 2.9 * h * h);
+        assert_eq!(PowerSeries::<_, LONG>::new::<true>(&at, h, &ground, 2.9 * h * h).c[..4], without.c[..4]);
     }
 
     /// Two half steps against one whole step: the truncated terms are where `reach` says they are.
     #[test]
     fn two_half_steps_agree_with_a_whole_step_to_rounding() {
         let (alpha, h, p2, b0, db) = (0.2, 0.005, 2.9, 0.15, -0.05);
-        let step =
-            |at: &Start<f64>, h: f64, ground: &Ground<f64>| Series::<_, SHORT>::new::<true>(at, h, ground, p2 * h * h);
-        let ground = |gamma, b, part: f64| Ground { b, db: db * part, gamma, dgamma: 0.03 * part };
+        let step = |at: &StepStart<f64>, h: f64, ground: &StepGround<f64>| {
+            PowerSeries::<_, SHORT>::new::<true>(at, h, ground, p2 * h * h)
+        };
+        let ground = |gamma, b, part: f64| StepGround { b, db: db * part, gamma, dgamma: 0.03 * part };
         let whole = step(&start(alpha, 0.07, 0.3), h, &ground(0.8, b0, 1.0));
         assert_eq!(whole.reach(), 1.0);
         let k = h / 2.0;

@@ -8,7 +8,8 @@
 use std::f64::consts::FRAC_PI_2;
 
 use super::series::{
-    Ground, LEAST, LONG, SHORT, SMALL, Start, change, coefficients, end_slope, is_plain, pulls, real_parts, turned,
+    LEAST, LONG, SHORT, SMALL, StepGround, StepStart, change, coefficients, end_slope, is_plain, pulls, real_parts,
+    turned,
 };
 use super::{Rocking, RockingOutcome, contact, rest};
 use crate::scalar::{Scalar, real};
@@ -65,8 +66,8 @@ pub struct Setting<'a, S> {
 }
 
 /// Where the body is.
-pub struct State<S> {
-    pub at: Start<S>,
+pub struct WalkState<S> {
+    pub at: StepStart<S>,
     /// s = sgn(theta).
     pub side: f64,
     pub rocking: bool,
@@ -92,7 +93,7 @@ pub struct Sample<S> {
 /// A walk under way: where the body is, and the history until now.
 pub struct Walk<'a, S, const V: bool> {
     pub set: Setting<'a, S>,
-    pub state: State<S>,
+    pub state: WalkState<S>,
     pub out: Rocking<S>,
     /// p^2 dt^2.
     pub q: S,
@@ -248,19 +249,19 @@ pub fn turns_well(age: u64, change: f64) -> bool {
 }
 
 /// Whether a body beyond alpha goes on falling when the ground stops: w'^2/2 against p^2 (1 - cos(w - alpha)).
-pub fn falls<S: Scalar>(at: &Start<S>, alpha: f64, p2: f64) -> bool {
+pub fn falls<S: Scalar>(at: &StepStart<S>, alpha: f64, p2: f64) -> bool {
     let (beyond, rate) = (at.w.re() - alpha, at.rate.re());
     beyond > 0.0 && (rate >= 0.0 || rate * rate < 4.0 * p2 * (0.5 * beyond).sin().powi(2))
 }
 
 impl<S: Scalar> Setting<'_, S> {
-    fn begin(&self, theta: S, rate: S) -> State<S> {
+    fn begin(&self, theta: S, rate: S) -> WalkState<S> {
         let negative = theta.re() < 0.0 || (theta.re() == 0.0 && rate.re() < 0.0);
         let side = if negative { -1.0 } else { 1.0 };
         let w = theta * side;
         let (sin, cos) = (self.alpha - w).sin_cos();
-        State {
-            at: Start { w, rate: rate * side, sin, cos },
+        WalkState {
+            at: StepStart { w, rate: rate * side, sin, cos },
             side,
             rocking: theta.re() != 0.0 || rate.re() != 0.0,
             age: 0,
@@ -280,13 +281,13 @@ impl<S: Scalar> Setting<'_, S> {
     #[inline(always)]
     fn step<const V: bool, const N: usize>(
         &self,
-        state: &mut State<S>,
+        state: &mut WalkState<S>,
         q: S,
         (now, then): (Sample<S>, Sample<S>),
     ) -> bool {
         let at = &state.at;
         let (side, da) = (state.side, then.a - now.a);
-        let ground = Ground { b: now.a * side, db: da * side, gamma: now.gamma, dgamma: then.gamma - now.gamma };
+        let ground = StepGround { b: now.a * side, db: da * side, gamma: now.gamma, dgamma: then.gamma - now.gamma };
         let c = coefficients::<S, V, N>(at, real(self.dt), &ground, &pulls(q));
         let change = change(&c);
         let w = at.w + change;
@@ -315,7 +316,7 @@ impl<S: Scalar> Setting<'_, S> {
 
     /// Sine and cosine of alpha - w after w has changed.
     #[inline(always)]
-    pub fn turn(&self, state: &mut State<S>, change: S) {
+    pub fn turn(&self, state: &mut WalkState<S>, change: S) {
         let at = &mut state.at;
         state.age += 1;
         if turns_well(state.age, change.re()) {

@@ -15,7 +15,7 @@ const LARGEST_WHOLE: f64 = 5000.0;
 
 /// The samples, in the file's own unit; the time step comes from the time column, else from the header.
 pub(super) fn parse(file: &str, text: &str, options: &ReadOptions) -> Result<Parsed, RecordError> {
-    let table = Table::read(file, text)?;
+    let table = NumberTable::read(file, text)?;
     let names = table.names();
     let units = units::declared(&table.header, table.header.last().map(|(_, line)| *line));
     let quantity = header::quantity(&table.header, &names);
@@ -41,7 +41,7 @@ pub(super) fn parse(file: &str, text: &str, options: &ReadOptions) -> Result<Par
 
 /// The numbers of a file, as they stand.
 #[derive(Default)]
-struct Table<'a> {
+struct NumberTable<'a> {
     header: Vec<(usize, &'a str)>,
     columns: usize,
     /// Lines with numbers, and the first of them.
@@ -57,7 +57,7 @@ struct Table<'a> {
     whole: bool,
 }
 
-impl<'a> Table<'a> {
+impl<'a> NumberTable<'a> {
     fn read(file: &str, text: &'a str) -> Result<Self, RecordError> {
         let file_name = || file.to_owned();
         let mut table = Self { whole: true, ..Self::default() };

@@ -5,7 +5,7 @@
 //! that ends the data. Integer 54 is the azimuth or a code for up; number 62 is the time step in ms (number 34 that of the raw
 //! record, which may differ), 64 and 65 are the largest value and its time. Unknown values are written as line 13 says.
 
-use super::fortran::{Cursor, Layout, Promise, half_digit};
+use super::fortran::{Cursor, FortranFormat, Promise, half_digit};
 use super::parsed::{Channel, Parsed, Samples};
 use super::peak::{Clock, Peak, Stated};
 use super::text::{number, quote};
@@ -31,9 +31,9 @@ pub(super) fn parse(file: &str, text: &str) -> Result<Parsed, RecordError> {
     let mut parsed = Parsed { station: None, channels: Vec::new() };
     let mut other = None;
     while cursor.skip_blank() {
-        let header = Header::read(&mut cursor)?;
+        let header = CosmosHeader::read(&mut cursor)?;
         parsed.station = parsed.station.or_else(|| header.station());
-        while let Some(series) = Series::next(&mut cursor)? {
+        while let Some(series) = CosmosSeries::next(&mut cursor)? {
             match series.channel(&mut cursor, &header)? {
                 Some(channel) => parsed.channels.push(channel),
                 None => other = other.or(Some(series.quantity)),
@@ -60,7 +60,7 @@ fn end_of_data(cursor: &mut Cursor) -> Result<(), RecordError> {
 }
 
 /// The header of a channel.
-struct Header<'a> {
+struct CosmosHeader<'a> {
     text: Vec<&'a str>,
     integers: Vec<&'a str>,
     integers_line: usize,
@@ -71,7 +71,7 @@ struct Header<'a> {
     unknown: f64,
 }
 
-impl<'a> Header<'a> {
+impl<'a> CosmosHeader<'a> {
     fn read(cursor: &mut Cursor<'a>) -> Result<Self, RecordError> {
         let first = cursor.number();
         let lines = cursor.peek().and_then(text_lines);
@@ -115,7 +115,7 @@ impl<'a> Header<'a> {
     }
 
     /// The time step of the samples (s) and half of its last printed digit.
-    fn step(&self, cursor: &Cursor, data: &Series) -> Result<(f64, f64), RecordError> {
+    fn step(&self, cursor: &Cursor, data: &CosmosSeries) -> Result<(f64, f64), RecordError> {
         let (dt, half) = match (self.real(62), self.real(34)) {
             (Some((ms, printed)), _) if ms > 0.0 => (ms * 1e-3, half_digit(printed) * 1e-3),
             (_, Some((s, printed))) if s > 0.0 => (s, half_digit(printed)),
@@ -165,14 +165,14 @@ fn announced(cursor: &mut Cursor, what: &'static str, words: &'static str) -> Re
     let line = cursor.number();
     let text = cursor.line(words)?;
     let count = text.split_whitespace().next().and_then(|n| n.parse().ok()).filter(|_| text.contains(words));
-    match (count, Layout::parse(text)) {
+    match (count, FortranFormat::parse(text)) {
         (Some(count), Some(layout)) => Ok(Promise { what, count, layout, line }),
         _ => Err(cursor.not(line, words)),
     }
 }
 
 /// What the line above the samples says.
-struct Series<'a> {
+struct CosmosSeries<'a> {
     promise: Promise,
     quantity: &'static str,
     /// Length, in whole seconds.
@@ -180,7 +180,7 @@ struct Series<'a> {
     unit: &'a str,
 }
 
-impl<'a> Series<'a> {
+impl<'a> CosmosSeries<'a> {
     /// The next series, if one comes: `7000 acceleration pts, approx 70 secs, units=cm/sec2(04),Format=(8F10.5)`.
     fn next(cursor: &mut Cursor<'a>) -> Result<Option<Self>, RecordError> {
         let line = cursor.number();
@@ -200,7 +200,7 @@ impl<'a> Series<'a> {
             _ => "displacement samples",
         };
         let unit = lower.find("units=").map(|at| &text[at + 6..]).and_then(|rest| rest.split([',', ' ']).next());
-        let (Some(unit), Some(layout), 1..) = (unit, Layout::parse(text), count) else {
+        let (Some(unit), Some(layout), 1..) = (unit, FortranFormat::parse(text), count) else {
             return Err(cursor.not(line, wanted));
         };
         let seconds = lower.split_once("approx").and_then(|(_, rest)| number(rest.split_whitespace().next()?));
@@ -209,7 +209,7 @@ impl<'a> Series<'a> {
     }
 
     /// The channel, unless the series is not of acceleration.
-    fn channel(&self, cursor: &mut Cursor<'a>, header: &Header<'a>) -> Result<Option<Channel>, RecordError> {
+    fn channel(&self, cursor: &mut Cursor<'a>, header: &CosmosHeader<'a>) -> Result<Option<Channel>, RecordError> {
         let (dt, half) = header.step(cursor, self)?;
         let block = cursor.block(self.promise)?;
         if self.quantity != "acceleration" {

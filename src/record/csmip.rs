@@ -3,7 +3,7 @@
 //!
 //! The time step in these lines has three decimals; number 53 of the header gives more. Uncorrected files (.V1) are not read.
 
-use super::fortran::{Block, Cursor, Layout, Promise, half_digit};
+use super::fortran::{Block, Cursor, FortranFormat, Promise, half_digit};
 use super::parsed::{Channel, Parsed, Samples};
 use super::peak::{Clock, Peak, Stated};
 use super::text::{number, quote};
@@ -11,7 +11,7 @@ use super::{Direction, RecordError, RecordFormat, Units};
 
 /// How many lines a channel's header may have.
 const HEADER_LINES: usize = 80;
-const NUMBERS: Layout = Layout { per_line: 8, width: 10 };
+const NUMBERS: FortranFormat = FortranFormat { per_line: 8, width: 10 };
 const NUMBER_LINES: usize = 13;
 
 /// Whether the first lines are those of a CSMIP file.
@@ -39,20 +39,20 @@ pub(super) fn parse(file: &str, text: &str) -> Result<Parsed, RecordError> {
 }
 
 /// The lines above the acceleration, and the number of the first.
-struct Header<'a> {
+struct CsmipHeader<'a> {
     lines: Vec<&'a str>,
     line: usize,
 }
 
 fn read_channel(cursor: &mut Cursor) -> Result<(Option<String>, Channel), RecordError> {
-    let header = Header::read(cursor)?;
-    let announced = Series::announced(cursor, "accel", "'... points of accel data equally spaced at ...'")?;
+    let header = CsmipHeader::read(cursor)?;
+    let announced = CsmipSeries::announced(cursor, "accel", "'... points of accel data equally spaced at ...'")?;
     let step = header.step(announced.step, announced.step_rounding);
     let (values, pga) = announced.read(cursor, step.0, header.peak("acceleration"))?;
     let mut pgv = None;
     for (quantity, of) in [("veloc", "velocity"), ("displ", "displacement")] {
         if cursor.peek().is_some_and(|line| is_data_line(line, quantity)) {
-            let announced = Series::announced(cursor, quantity, "'... points of ... data equally spaced at ...'")?;
+            let announced = CsmipSeries::announced(cursor, quantity, "'... points of ... data equally spaced at ...'")?;
             let cm = announced.unit.to_ascii_lowercase().contains("cm");
             let (_, peak) = announced.read(cursor, step.0, header.peak(of))?;
             if of == "velocity" && cm {
@@ -77,7 +77,7 @@ fn read_channel(cursor: &mut Cursor) -> Result<(Option<String>, Channel), Record
     Ok((header.station(), Channel { name, direction, samples, pga, pgv }))
 }
 
-impl<'a> Header<'a> {
+impl<'a> CsmipHeader<'a> {
     /// Everything above the line that announces the acceleration.
     fn read(cursor: &mut Cursor<'a>) -> Result<Self, RecordError> {
         let line = cursor.number();
@@ -138,14 +138,14 @@ impl<'a> Header<'a> {
 }
 
 /// What the line above a series says.
-struct Series<'a> {
+struct CsmipSeries<'a> {
     promise: Promise,
     step: f64,
     step_rounding: f64,
     unit: &'a str,
 }
 
-impl<'a> Series<'a> {
+impl<'a> CsmipSeries<'a> {
     fn announced(cursor: &mut Cursor<'a>, quantity: &str, wanted: &'static str) -> Result<Self, RecordError> {
         let line = cursor.number();
         let text = cursor.line(wanted)?;
@@ -159,7 +159,7 @@ impl<'a> Series<'a> {
             _ => "displacement samples",
         };
         let count = text.split_whitespace().next().and_then(|n| n.parse().ok()).filter(|n| *n > 0).ok_or_else(bad)?;
-        let layout = Layout::parse(text).ok_or_else(bad)?;
+        let layout = FortranFormat::parse(text).ok_or_else(bad)?;
         // older files write in capitals
         let at = text.to_ascii_lowercase().find(" at ").ok_or_else(bad)?;
         let after = &text[at + 4..];

@@ -11,7 +11,7 @@
 //! 0.000000
 //! ```
 
-use super::fortran::{Cursor, Layout, Promise, half_digit};
+use super::fortran::{Cursor, FortranFormat, Promise, half_digit};
 use super::parsed::{Channel, Parsed, Samples};
 use super::peak::{Clock, Stated};
 use super::text::{number, quote};
@@ -30,7 +30,7 @@ pub(super) fn is_it(head: &[&str]) -> bool {
 pub(super) fn parse(file: &str, text: &str) -> Result<Parsed, RecordError> {
     let mut cursor = Cursor::new(file, RecordFormat::Dyna, text);
     cursor.skip_blank();
-    let header = Header::read(&mut cursor);
+    let header = DynaHeader::read(&mut cursor);
     header.check_quantity(file)?;
     let (line, count) = header.need("NDATA", "'NDATA: ' and the number of samples", &cursor)?;
     let count = count.parse::<u64>().ok().filter(|n| *n > 0);
@@ -46,7 +46,7 @@ pub(super) fn parse(file: &str, text: &str) -> Result<Parsed, RecordError> {
         unit: quote(units),
     })?;
 
-    let layout = Layout { per_line: 1, width: 40 };
+    let layout = FortranFormat { per_line: 1, width: 40 };
     let block = cursor.block(Promise { what: "acceleration samples", count, layout, line })?;
     let end = cursor.number();
     if cursor.skip_blank() {
@@ -89,14 +89,14 @@ pub(super) fn parse(file: &str, text: &str) -> Result<Parsed, RecordError> {
 }
 
 /// The lines with keys.
-struct Header<'a> {
+struct DynaHeader<'a> {
     /// Line, key, value.
     entries: Vec<(usize, &'a str, &'a str)>,
     /// The last of these lines.
     end: usize,
 }
 
-impl<'a> Header<'a> {
+impl<'a> DynaHeader<'a> {
     /// Every line down to the first number.
     fn read(cursor: &mut Cursor<'a>) -> Self {
         let mut entries = Vec::new();

@@ -5,12 +5,12 @@ use super::{RecordError, RecordFormat};
 
 /// How numbers stand in lines.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(super) struct Layout {
+pub(super) struct FortranFormat {
     pub per_line: usize,
     pub width: usize,
 }
 
-impl Layout {
+impl FortranFormat {
     /// From a line that ends in a format: `(8F10.5)`, `(10I8)`, `(1P5E14.6)`, `(E15.6)`.
     pub(super) fn parse(line: &str) -> Option<Self> {
         let inside = line[line.rfind('(')? + 1..].to_ascii_uppercase();
@@ -51,7 +51,7 @@ pub(super) struct Promise {
     /// The numbers, as in "acceleration samples".
     pub what: &'static str,
     pub count: u64,
-    pub layout: Layout,
+    pub layout: FortranFormat,
     /// The line that says so.
     pub line: usize,
 }
@@ -189,7 +189,7 @@ mod tests {
 
     #[test]
     fn formats_are_read_from_the_lines_that_announce_them() {
-        let layout = |per_line, width| Some(Layout { per_line, width });
+        let layout = |per_line, width| Some(FortranFormat { per_line, width });
         for (line, expected) in [
             (" 15050 points of accel data equally spaced at  .020 sec, in cm/sec2. (8f10.6)", layout(8, 10)),
             ("   42000 acceleration pts, approx  210 secs, units=cm/sec2(04),Format=(1E15.6)", layout(1, 15)),
@@ -201,13 +201,13 @@ mod tests {
             ("(0F10.3)", None),
             ("(8F)", None),
         ] {
-            assert_eq!(Layout::parse(line), expected, "{line}");
+            assert_eq!(FortranFormat::parse(line), expected, "{line}");
         }
     }
 
     #[test]
     fn touching_fields_are_cut_by_columns_and_loose_ones_by_blanks() {
-        let layout = Layout { per_line: 3, width: 8 };
+        let layout = FortranFormat { per_line: 3, width: 8 };
         assert_eq!(layout.fields(" -5505.9-11026.4 -6529.3", 3), ["-5505.9", "-11026.4", "-6529.3"]);
         assert_eq!(layout.fields("1 2\t3", 3), ["1", "2", "3"]);
         assert_eq!(layout.fields("12345678123456781234.678", 3), ["12345678", "12345678", "1234.678"]);
@@ -217,8 +217,12 @@ mod tests {
 
     #[test]
     fn a_block_ends_with_its_last_number_or_an_error_that_says_where() {
-        let promise =
-            Promise { what: "acceleration samples", count: 5, layout: Layout { per_line: 3, width: 4 }, line: 1 };
+        let promise = Promise {
+            what: "acceleration samples",
+            count: 5,
+            layout: FortranFormat { per_line: 3, width: 4 },
+            line: 1,
+        };
         let block = |text: &str| {
             let mut cursor = Cursor::new("x", RecordFormat::GeoNet, text);
             cursor.block(promise).map(|block| (block.values, cursor.number()))

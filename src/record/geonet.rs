@@ -5,15 +5,15 @@
 //! number 26 is their time step. The header's clock is that of the uncorrected record, to which a corrected one has
 //! samples prepended: number 22 says how many seconds, and the first sample is that long before zero. A number too long for its eight characters loses its decimals.
 
-use super::fortran::{Block, Cursor, Layout, Promise, half_digit};
+use super::fortran::{Block, Cursor, FortranFormat, Promise, half_digit};
 use super::parsed::{Channel, Parsed, Samples};
 use super::peak::{Clock, Peak, Stated};
 use super::text::number;
 use super::{Direction, RecordError, RecordFormat, Units};
 
 const TEXT_LINES: usize = 16;
-const INTEGERS: Layout = Layout { per_line: 10, width: 8 };
-const NUMBERS: Layout = Layout { per_line: 10, width: 8 };
+const INTEGERS: FortranFormat = FortranFormat { per_line: 10, width: 8 };
+const NUMBERS: FortranFormat = FortranFormat { per_line: 10, width: 8 };
 /// The three series of a component, what they are called in its text and the unit there in m.
 const SERIES: [(&str, &str, &str); 3] = [
     ("acceleration samples", "acceleration", "Acceleration:"),
@@ -37,7 +37,7 @@ pub(super) fn parse(file: &str, text: &str) -> Result<Parsed, RecordError> {
     let mut cursor = Cursor::new(file, RecordFormat::GeoNet, text);
     let mut parsed = Parsed { station: None, channels: Vec::new() };
     while cursor.skip_blank() {
-        let header = Header::read(&mut cursor)?;
+        let header = GeonetHeader::read(&mut cursor)?;
         parsed.station = parsed.station.or_else(|| header.station());
         parsed.channels.push(header.channel(&mut cursor)?);
     }
@@ -45,7 +45,7 @@ pub(super) fn parse(file: &str, text: &str) -> Result<Parsed, RecordError> {
 }
 
 /// The header of one component.
-struct Header<'a> {
+struct GeonetHeader<'a> {
     text: Vec<&'a str>,
     /// The line that the text begins on.
     line: usize,
@@ -56,7 +56,7 @@ struct Header<'a> {
     dt_rounding: f64,
 }
 
-impl<'a> Header<'a> {
+impl<'a> GeonetHeader<'a> {
     fn read(cursor: &mut Cursor<'a>) -> Result<Self, RecordError> {
         let line = cursor.number();
         let text = cursor.take(TEXT_LINES, "16 lines of text, from 'Corrected accelerogram' to 'Displacement:',")?;

@@ -33,7 +33,7 @@ pub(super) fn is_it(head: &[&str]) -> bool {
 pub(super) fn parse(file: &str, text: &str) -> Result<Parsed, RecordError> {
     let mut cursor = Cursor::new(file, RecordFormat::KNet, text);
     cursor.skip_blank();
-    let header = Header::read(&mut cursor)?;
+    let header = KnetHeader::read(&mut cursor)?;
     let frequency = header.number("Sampling Freq", "'Sampling Freq(Hz)' and a number", &cursor)?;
     let scale = header.scale(&cursor)?;
     let counts = counts(&mut cursor)?;
@@ -57,13 +57,13 @@ pub(super) fn parse(file: &str, text: &str) -> Result<Parsed, RecordError> {
 }
 
 /// The lines above the numbers.
-struct Header<'a> {
+struct KnetHeader<'a> {
     lines: Vec<(usize, &'a str)>,
     /// The line of the memo, the last.
     end: usize,
 }
 
-impl<'a> Header<'a> {
+impl<'a> KnetHeader<'a> {
     fn read(cursor: &mut Cursor<'a>) -> Result<Self, RecordError> {
         let mut lines = Vec::new();
         loop {

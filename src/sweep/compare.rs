@@ -5,7 +5,7 @@ use std::sync::Arc;
 use super::{
     SweepError,
     fragility::subject_name,
-    parts::Parts,
+    parts::SweepParts,
     plan::Plan,
     reduce::{self, Histogram},
     table::{Column, Table},
@@ -13,7 +13,7 @@ use super::{
 
 /// One structure, or all of them.
 #[derive(Clone, Debug, Default)]
-pub struct Row {
+pub struct ComparisonRow {
     /// None: all structures together.
     pub subject: Option<usize>,
     /// Histories that both models followed.
@@ -33,7 +33,7 @@ pub struct Row {
     pub nrmse: Histogram,
 }
 
-impl Row {
+impl ComparisonRow {
     /// Share of histories on whose overturning both agree.
     pub fn agreement(&self) -> Option<f64> {
         (self.n > 0).then(|| (self.both + self.neither) as f64 / self.n as f64)
@@ -49,7 +49,7 @@ impl Row {
 #[derive(Clone, Debug)]
 pub struct Comparison {
     /// Every structure, and all of them last.
-    pub rows: Vec<Row>,
+    pub rows: Vec<ComparisonRow>,
     /// |theta|/alpha by Housner and on springs of some histories, for the figure; infinite for a body that overturned.
     pub sample: Vec<(f64, f64)>,
 }
@@ -62,10 +62,10 @@ impl Comparison {
     ///
     /// # Errors
     /// A part that cannot be read.
-    pub fn new(parts: &Parts) -> Result<Self, SweepError> {
+    pub fn new(parts: &SweepParts) -> Result<Self, SweepError> {
         let n = parts.plan.subjects.len();
-        let named = |subject| Row { subject, ..Row::default() };
-        let mut rows: Vec<Row> = (0..n).map(Some).chain([None]).map(named).collect();
+        let named = |subject| ComparisonRow { subject, ..ComparisonRow::default() };
+        let mut rows: Vec<ComparisonRow> = (0..n).map(Some).chain([None]).map(named).collect();
         let stride = parts.plan.cells().div_ceil(SAMPLE);
         let mut sample = Vec::new();
         reduce::each(parts, |seen| {
@@ -82,7 +82,7 @@ impl Comparison {
                     (false, true) => row.fem_only += 1,
                     (false, false) => row.neither += 1,
                 }
-                let peak = |known: reduce::Known| if known.overturned { f64::INFINITY } else { known.peak };
+                let peak = |known: reduce::KnownAnswer| if known.overturned { f64::INFINITY } else { known.peak };
                 let pair = [peak(rigid), peak(fem)];
                 for (peaks, peak) in row.peaks.iter_mut().zip(pair) {
                     peaks.add(peak);
@@ -102,14 +102,14 @@ impl Comparison {
     }
 
     /// All structures together.
-    pub fn all(&self) -> Option<&Row> {
+    pub fn all(&self) -> Option<&ComparisonRow> {
         self.rows.last()
     }
 
     /// `compare.csv`.
     pub fn table(&self, plan: &Plan) -> Table {
-        let count = |of: fn(&Row) -> u64| Column::Count(self.rows.iter().map(|row| of(row) as i64).collect());
-        let real = |of: &dyn Fn(&Row) -> Option<f64>| Column::Real(self.rows.iter().map(of).collect());
+        let count = |of: fn(&ComparisonRow) -> u64| Column::Count(self.rows.iter().map(|row| of(row) as i64).collect());
+        let real = |of: &dyn Fn(&ComparisonRow) -> Option<f64>| Column::Real(self.rows.iter().map(of).collect());
         let names = self.rows.iter().map(|row| Arc::from(subject_name(plan, row.subject))).collect();
         Table {
             columns: vec![
@@ -120,7 +120,7 @@ impl Comparison {
                 ("overturned_housner_only", count(|row| row.housner_only)),
                 ("overturned_fem_only", count(|row| row.fem_only)),
                 ("overturned_neither", count(|row| row.neither)),
-                ("agreement", real(&Row::agreement)),
+                ("agreement", real(&ComparisonRow::agreement)),
                 ("ks_distance_of_peaks", real(&|row| Some(row.ks_distance()))),
                 ("peak_difference_50", real(&|row| row.difference.quantile(0.5))),
                 ("peak_difference_90", real(&|row| row.difference.quantile(0.9))),

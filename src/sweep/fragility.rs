@@ -4,14 +4,14 @@
 //! One pass counts outcomes in bins of 0.1 % of each measure, the fits are made from these, and a second pass sums their scores by
 //! record for the bounds (`lognormal`). Histories that failed, or whose pivot let go of the ground, are left out and counted.
 
-use std::{collections::HashMap, sync::Arc};
+use std::collections::HashMap;
 
 use rayon::prelude::*;
 
 use super::{
     SweepError,
-    lognormal::{Fit, Group, Matrix, Probit, quantile, score},
-    parts::Parts,
+    lognormal::{Group, LognormalFit, Probit, SymmetricMatrix, quantile, score},
+    parts::SweepParts,
     plan::Plan,
     reduce::{self, MODELS, Seen},
     table::{Column, Table},
@@ -19,14 +19,14 @@ use super::{
 
 /// What is asked whether it is exceeded.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub enum State {
+pub enum LimitState {
     Rocking,
     /// |theta|/alpha.
     Ratio(f64),
     Overturning,
 }
 
-impl State {
+impl LimitState {
     /// All that a plan asks for.
     pub fn all(plan: &Plan) -> Vec<Self> {
         let ratios = plan.ratios.iter().map(|ratio| Self::Ratio(*ratio));
@@ -58,7 +58,7 @@ struct Bin {
 
 /// One structure, or all of them, by one model.
 #[derive(Clone, Debug)]
-pub struct Member {
+pub struct FragilityGroup {
     /// Index into [`MODELS`].
     pub model: usize,
     /// None: all structures together.
@@ -73,25 +73,25 @@ pub struct Member {
 
 /// A fit with all that the tables say of it.
 #[derive(Clone, Debug)]
-pub struct Row {
+pub struct FragilityRow {
     pub member: usize,
-    pub state: State,
+    pub state: LimitState,
     /// Index into [`MEASURES`].
     pub measure: usize,
     pub n: u64,
     pub exceeded: u64,
     /// The least and the greatest intensity that was computed.
     pub range: (f64, f64),
-    pub fit: Fit,
+    pub fit: LognormalFit,
     /// Of (a, b).
-    pub covariance: Option<Matrix>,
+    pub covariance: Option<SymmetricMatrix>,
 }
 
 /// The fragility of a sweep.
 #[derive(Clone, Debug)]
 pub struct Fragility {
-    pub members: Vec<Member>,
-    pub rows: Vec<Row>,
+    pub members: Vec<FragilityGroup>,
+    pub rows: Vec<FragilityRow>,
     pub confidence: f64,
 }
 
@@ -105,36 +105,36 @@ fn bin(x: f64) -> i32 {
     (x.ln() / BIN).floor() as i32
 }
 
-fn exceeds(state: State, known: &reduce::Known) -> bool {
+fn exceeds(state: LimitState, known: &reduce::KnownAnswer) -> bool {
     match state {
-        State::Rocking => known.peak > 0.0,
-        State::Ratio(ratio) => known.overturned || known.peak > ratio,
-        State::Overturning => known.overturned,
+        LimitState::Rocking => known.peak > 0.0,
+        LimitState::Ratio(ratio) => known.overturned || known.peak > ratio,
+        LimitState::Overturning => known.overturned,
     }
 }
 
 /// Where the members of a model, structure and restitution stand.
-struct Places<'a> {
+struct GroupPlaces<'a> {
     plan: &'a Plan,
     models: Vec<usize>,
     /// Structures, and one place more for all of them if there are several.
     subjects: usize,
 }
 
-impl<'a> Places<'a> {
+impl<'a> GroupPlaces<'a> {
     fn new(plan: &'a Plan) -> Self {
         let n = plan.subjects.len();
         Self { plan, models: reduce::models(plan), subjects: if n > 1 { n + 1 } else { n } }
     }
 
-    fn members(&self) -> Vec<Member> {
+    fn members(&self) -> Vec<FragilityGroup> {
         let mut members = Vec::new();
         for &model in &self.models {
             for subject in 0..self.subjects {
                 for restitution in 0..self.plan.restitution_count() {
                     let subject = (subject < self.plan.subjects.len()).then_some(subject);
                     let (bins, excluded, records) = (Default::default(), 0, 0);
-                    members.push(Member { model, subject, restitution, bins, excluded, last: None, records });
+                    members.push(FragilityGroup { model, subject, restitution, bins, excluded, last: None, records });
                 }
             }
         }
@@ -158,9 +158,9 @@ impl Fragility {
     ///
     /// # Errors
     /// A part that cannot be read.
-    pub fn new(parts: &Parts) -> Result<Self, SweepError> {
+    pub fn new(parts: &SweepParts) -> Result<Self, SweepError> {
         let plan = parts.plan;
-        let (places, states) = (Places::new(plan), State::all(plan));
+        let (places, states) = (GroupPlaces::new(plan), LimitState::all(plan));
         let mut members = places.members();
         reduce::each(parts, |seen| {
             let xs = measures(plan, seen);
@@ -195,7 +195,7 @@ impl Fragility {
     }
 
     /// Shares observed for a row: geometric means of the intensity and shares of about equally many histories each.
-    pub fn observed(&self, row: &Row, states: &[State], points: usize) -> Vec<(f64, f64)> {
+    pub fn observed(&self, row: &FragilityRow, states: &[LimitState], points: usize) -> Vec<(f64, f64)> {
         let Some(state) = states.iter().position(|state| *state == row.state) else { return Vec::new() };
         let sorted = sorted(&self.members[row.member].bins[row.measure]);
         let wanted = (row.n / points.max(1) as u64).max(1);
@@ -212,13 +212,16 @@ impl Fragility {
 
     /// `fragility.csv`.
     pub fn table(&self, plan: &Plan) -> Table {
-        let member = |row: &Row| &self.members[row.member];
-        let text = |of: &dyn Fn(&Row) -> String| Column::Text(self.rows.iter().map(|row| Arc::from(of(row))).collect());
-        let count = |of: &dyn Fn(&Row) -> u64| Column::Count(self.rows.iter().map(|row| of(row) as i64).collect());
-        let real = |of: &dyn Fn(&Row) -> Option<f64>| Column::Real(self.rows.iter().map(of).collect());
-        let bounds = |of: fn(&Bounds) -> f64| real(&|row| row.bounds(self.half_width()).map(|bounds| of(&bounds)));
+        let member = |row: &FragilityRow| &self.members[row.member];
+        let text =
+            |of: &dyn Fn(&FragilityRow) -> String| Column::Text(self.rows.iter().map(|row| of(row).into()).collect());
+        let count =
+            |of: &dyn Fn(&FragilityRow) -> u64| Column::Count(self.rows.iter().map(|row| of(row) as i64).collect());
+        let real = |of: &dyn Fn(&FragilityRow) -> Option<f64>| Column::Real(self.rows.iter().map(of).collect());
+        let bounds =
+            |of: fn(&ConfidenceBounds) -> f64| real(&|row| row.bounds(self.half_width()).map(|bounds| of(&bounds)));
         let probit = |of: fn(&Probit) -> f64| real(&|row| row.probit().map(of));
-        let restitution = |row: &Row| {
+        let restitution = |row: &FragilityRow| {
             let member = member(row);
             match (member.subject, &plan.restitutions) {
                 (_, Some(all)) => Some(all[member.restitution]),
@@ -259,15 +262,15 @@ pub fn subject_name(plan: &Plan, subject: Option<usize>) -> String {
 
 /// Confidence bounds.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Bounds {
+pub struct ConfidenceBounds {
     pub median: (f64, f64),
     pub beta: (f64, f64),
 }
 
-impl Row {
+impl FragilityRow {
     pub fn probit(&self) -> Option<&Probit> {
         match &self.fit {
-            Fit::Fitted(fit) => Some(fit),
+            LognormalFit::Fitted(fit) => Some(fit),
             _ => None,
         }
     }
@@ -280,31 +283,31 @@ impl Row {
     /// The median: of a fit, or between what exceeds and what does not.
     pub fn median(&self) -> Option<f64> {
         match &self.fit {
-            Fit::Fitted(fit) => Some(fit.median()),
-            Fit::Separated { below, above } => Some((below * above).sqrt()),
+            LognormalFit::Fitted(fit) => Some(fit.median()),
+            LognormalFit::Separated { below, above } => Some((below * above).sqrt()),
             _ => None,
         }
     }
 
     /// Bounds at so many standard deviations, of the logarithms.
-    pub fn bounds(&self, half_width: f64) -> Option<Bounds> {
+    pub fn bounds(&self, half_width: f64) -> Option<ConfidenceBounds> {
         let (fit, covariance) = (self.probit()?, self.covariance?);
         let (ln_median, beta) = fit.deviations(covariance);
         let around = |x: f64, relative: f64| {
             let factor = (half_width * relative).exp();
             (x / factor, x * factor)
         };
-        Some(Bounds { median: around(fit.median(), ln_median), beta: around(fit.beta(), beta / fit.beta()) })
+        Some(ConfidenceBounds { median: around(fit.median(), ln_median), beta: around(fit.beta(), beta / fit.beta()) })
     }
 
     pub fn said(&self) -> &'static str {
         match self.fit {
-            Fit::Fitted(_) => "fitted",
-            Fit::NoneExceeded => "none exceeds",
-            Fit::AllExceeded => "all exceed",
-            Fit::Separated { .. } => "separated",
-            Fit::Undetermined => "undetermined",
-            Fit::Falling => "falling",
+            LognormalFit::Fitted(_) => "fitted",
+            LognormalFit::NoneExceeded => "none exceeds",
+            LognormalFit::AllExceeded => "all exceed",
+            LognormalFit::Separated { .. } => "separated",
+            LognormalFit::Undetermined => "undetermined",
+            LognormalFit::Falling => "falling",
         }
     }
 }
@@ -315,34 +318,34 @@ fn sorted(bins: &HashMap<i32, Bin>) -> Vec<&Bin> {
     sorted.into_iter().map(|(_, bin)| bin).collect()
 }
 
-fn fits(members: &[Member], states: &[State]) -> Vec<Row> {
+fn fits(members: &[FragilityGroup], states: &[LimitState]) -> Vec<FragilityRow> {
     let all: Vec<(usize, usize)> =
         (0..members.len()).flat_map(|place| (0..MEASURES.len()).map(move |measure| (place, measure))).collect();
-    let of = |(place, measure): (usize, usize)| -> Vec<Row> {
+    let of = |(place, measure): (usize, usize)| -> Vec<FragilityRow> {
         let bins = sorted(&members[place].bins[measure]);
         let ends = (bins.first(), bins.last());
         let mean = |bin: Option<&&Bin>| bin.map_or(1.0, |bin| (bin.sum_ln / bin.n as f64).exp());
         let range = (mean(ends.0), mean(ends.1));
-        let fitted = |(s, state): (usize, &State)| {
+        let fitted = |(s, state): (usize, &LimitState)| {
             let group = |bin: &&Bin| Group { ln_x: bin.sum_ln / bin.n as f64, n: bin.n, k: bin.k[s] };
             let groups: Vec<Group> = bins.iter().map(group).collect();
             let (n, exceeded) = groups.iter().fold((0, 0), |(n, k), group| (n + group.n, k + group.k));
-            let fit = if n == 0 { Fit::NoneExceeded } else { Fit::new(&groups) };
-            Row { member: place, state: *state, measure, n, exceeded, range, fit, covariance: None }
+            let fit = if n == 0 { LognormalFit::NoneExceeded } else { LognormalFit::new(&groups) };
+            FragilityRow { member: place, state: *state, measure, n, exceeded, range, fit, covariance: None }
         };
         states.iter().enumerate().map(fitted).collect()
     };
-    let rows: Vec<Vec<Row>> = all.into_par_iter().with_max_len(1).map(of).collect();
+    let rows: Vec<Vec<FragilityRow>> = all.into_par_iter().with_max_len(1).map(of).collect();
     rows.into_iter().flatten().collect()
 }
 
 /// The second pass: sums of u u^T over records, whose histories come one after the other.
 fn bounds(
-    parts: &Parts,
-    places: &Places,
-    members: &[Member],
-    states: &[State],
-    rows: &mut [Row],
+    parts: &SweepParts,
+    places: &GroupPlaces,
+    members: &[FragilityGroup],
+    states: &[LimitState],
+    rows: &mut [FragilityRow],
 ) -> Result<(), SweepError> {
     let fitted: Vec<Option<Probit>> = rows.iter().map(|row| row.probit().copied()).collect();
     // of each fit and bin: the scores of an outcome that exceeds and of one that does not, times 1 and ln x
@@ -364,7 +367,7 @@ fn bounds(
         })
         .collect();
     let (mut sums, mut current) = (vec![[0.0; 3]; rows.len()], vec![[0.0; 2]; rows.len()]);
-    let flush = |current: &mut [[f64; 2]], sums: &mut [Matrix]| {
+    let flush = |current: &mut [[f64; 2]], sums: &mut [SymmetricMatrix]| {
         for (u, sum) in current.iter_mut().zip(sums) {
             *sum = [sum[0] + u[0] * u[0], sum[1] + u[0] * u[1], sum[2] + u[1] * u[1]];
             *u = [0.0; 2];

@@ -7,7 +7,7 @@ use rayon::prelude::*;
 use super::{
     SweepError,
     plan::{Cell, Plan, Subject},
-    row::{Answer, Outcome, Row},
+    row::{CellAnswer, CellOutcome, HistoryRow},
     springs::SpringsTable,
 };
 use crate::{
@@ -34,19 +34,19 @@ pub fn rows(
     springs: Option<&SpringsTable>,
     cells: Range<u64>,
     done: &(dyn Fn(u64) + Sync),
-) -> Result<Vec<Row>, SweepError> {
+) -> Result<Vec<HistoryRow>, SweepError> {
     let cells: Vec<Cell> = cells.map(|index| plan.cell(index)).collect();
     let same = |a: &Cell, b: &Cell| {
         a.motion == b.motion && (a.subject == b.subject || !plan.motions[a.motion].is_for_structure())
     };
     let groups: Vec<&[Cell]> = cells.chunk_by(same).collect();
     let together = if springs.is_some() { SIDE_BY_SIDE } else { LOCK_STEP };
-    let rows: Vec<Result<Vec<Row>, SweepError>> = groups
+    let rows: Vec<Result<Vec<HistoryRow>, SweepError>> = groups
         .into_par_iter()
         .with_max_len(1)
         .map(|group| {
-            let ground = Ground::new(plan, group[0])?;
-            let rows: Vec<Vec<Row>> = group
+            let ground = UnscaledGround::new(plan, group[0])?;
+            let rows: Vec<Vec<HistoryRow>> = group
                 .par_chunks(together)
                 .with_max_len(1)
                 .map(|cells| {
@@ -62,7 +62,7 @@ pub fn rows(
 }
 
 /// A ground motion and its peaks, unscaled.
-struct Ground {
+struct UnscaledGround {
     record: Record,
     name: Arc<str>,
     pga: f64,
@@ -70,7 +70,7 @@ struct Ground {
     vertical: Option<Arc<[f64]>>,
 }
 
-impl Ground {
+impl UnscaledGround {
     fn new(plan: &Plan, cell: Cell) -> Result<Self, SweepError> {
         let Subject { p, alpha, .. } = plan.subjects[cell.subject];
         let record = plan.motions[cell.motion].record(&plan.making, (p, alpha))?;
@@ -83,7 +83,7 @@ impl Ground {
         Ok(Self { record, name, pga, pgv, vertical })
     }
 
-    fn rows(&self, plan: &Plan, springs: Option<&SpringsTable>, cells: &[Cell]) -> Vec<Row> {
+    fn rows(&self, plan: &Plan, springs: Option<&SpringsTable>, cells: &[Cell]) -> Vec<HistoryRow> {
         let scales: Vec<f64> = cells
             .iter()
             .map(|cell| plan.factor(&plan.subjects[cell.subject], plan.levels[cell.level], self.pga))
@@ -101,7 +101,7 @@ impl Ground {
             .collect();
         let rigid = housner::solve_lanes(&bodies, self.record.dt, &self.record.accel, &options);
         let fem = springs.map(|springs| {
-            let wanted = cells.iter().zip(&scales).zip(&rigid).map(|((cell, &scale), rigid)| Wanted {
+            let wanted = cells.iter().zip(&scales).zip(&rigid).map(|((cell, &scale), rigid)| WantedHistory {
                 subject: &plan.subjects[cell.subject],
                 springs: springs.of(cell.subject, cell.restitution),
                 scale,
@@ -113,7 +113,7 @@ impl Ground {
             let subject = &plan.subjects[cell.subject];
             let (fem, nrmse) = fem.as_ref().map(|fem| fem[i]).unzip();
             let nrmse = nrmse.flatten().filter(|_| plan.model.housner());
-            Row {
+            HistoryRow {
                 cell: cell.index,
                 subject: cell.subject,
                 motion: cell.motion,
@@ -133,24 +133,24 @@ impl Ground {
 }
 
 /// pi/2 of a body that overturned; it lies, and how far it had fallen at the record's end says nothing.
-fn ratio(subject: &Subject, peak: f64, outcome: Outcome) -> Option<f64> {
+fn ratio(subject: &Subject, peak: f64, outcome: CellOutcome) -> Option<f64> {
     match outcome {
-        Outcome::Failed => None,
-        Outcome::Overturned => Some(FRAC_PI_2 / subject.alpha),
+        CellOutcome::Failed => None,
+        CellOutcome::Overturned => Some(FRAC_PI_2 / subject.alpha),
         _ => Some(peak / subject.alpha),
     }
 }
 
-fn of_housner(subject: &Subject, rocking: &Rocking<f64>) -> Answer {
+fn of_housner(subject: &Subject, rocking: &Rocking<f64>) -> CellAnswer {
     let outcome = match rocking.outcome {
-        housner::RockingOutcome::NeverMoved => Outcome::NeverLifted,
-        housner::RockingOutcome::Rocked => Outcome::Rocked,
-        housner::RockingOutcome::Overturned { .. } => Outcome::Overturned,
-        housner::RockingOutcome::LeavesGround { .. } => Outcome::LeavesGround,
-        housner::RockingOutcome::WorkBound { .. } | housner::RockingOutcome::NotFinite { .. } => Outcome::Failed,
+        housner::RockingOutcome::NeverMoved => CellOutcome::NeverLifted,
+        housner::RockingOutcome::Rocked => CellOutcome::Rocked,
+        housner::RockingOutcome::Overturned { .. } => CellOutcome::Overturned,
+        housner::RockingOutcome::LeavesGround { .. } => CellOutcome::LeavesGround,
+        housner::RockingOutcome::WorkBound { .. } | housner::RockingOutcome::NotFinite { .. } => CellOutcome::Failed,
     };
     let peak = rocking.theta.iter().fold(0.0, |peak: f64, theta| peak.max(theta.abs()));
-    Answer {
+    CellAnswer {
         outcome,
         peak: ratio(subject, peak, outcome),
         impacts: Some(rocking.impacts.len()),
@@ -159,37 +159,37 @@ fn of_housner(subject: &Subject, rocking: &Rocking<f64>) -> Answer {
 }
 
 /// A finite element history that is wanted, and Housner's answer.
-pub(super) struct Wanted<'a> {
+pub(super) struct WantedHistory<'a> {
     pub subject: &'a Subject,
     pub springs: Springs<Chain<f64>>,
     pub scale: f64,
     pub rigid: &'a Rocking<f64>,
 }
 
-impl Wanted<'_> {
+impl WantedHistory<'_> {
     /// What to say of a history, and its NRMSE against Housner's.
-    fn answer(&self, stream: &Stream, finish: &fem::Finish<f64>) -> (Answer, Option<f64>) {
+    fn answer(&self, stream: &Stream, finish: &fem::Finish<f64>) -> (CellAnswer, Option<f64>) {
         let outcome = match finish.outcome {
-            fem::HistoryOutcome::Overturned { .. } | fem::HistoryOutcome::Stopped { .. } => Outcome::Overturned,
+            fem::HistoryOutcome::Overturned { .. } | fem::HistoryOutcome::Stopped { .. } => CellOutcome::Overturned,
             fem::HistoryOutcome::Completed if housner::topples(&self.subject.body, stream.last.0, stream.last.1) => {
-                Outcome::Overturned
+                CellOutcome::Overturned
             }
-            fem::HistoryOutcome::Completed if stream.peak == 0.0 => Outcome::NeverLifted,
-            fem::HistoryOutcome::Completed => Outcome::Rocked,
-            fem::HistoryOutcome::WorkBound { .. } | fem::HistoryOutcome::Unstable { .. } => Outcome::Failed,
+            fem::HistoryOutcome::Completed if stream.peak == 0.0 => CellOutcome::NeverLifted,
+            fem::HistoryOutcome::Completed => CellOutcome::Rocked,
+            fem::HistoryOutcome::WorkBound { .. } | fem::HistoryOutcome::Unstable { .. } => CellOutcome::Failed,
         };
-        let outcome = if stream.peak.is_finite() { outcome } else { Outcome::Failed };
-        let errors = if outcome == Outcome::Overturned { stream.upright } else { stream.errors };
+        let outcome = if stream.peak.is_finite() { outcome } else { CellOutcome::Failed };
+        let errors = if outcome == CellOutcome::Overturned { stream.upright } else { stream.errors };
         let lifted = self.rigid.outcome != housner::RockingOutcome::NeverMoved;
         let nrmse = errors.horizontal.value();
-        let nrmse = (lifted && outcome != Outcome::Failed && nrmse.is_finite()).then_some(nrmse);
+        let nrmse = (lifted && outcome != CellOutcome::Failed && nrmse.is_finite()).then_some(nrmse);
         let peak = ratio(self.subject, stream.peak, outcome);
-        (Answer { outcome, peak, impacts: None, overturned_s: None }, nrmse)
+        (CellAnswer { outcome, peak, impacts: None, overturned_s: None }, nrmse)
     }
 }
 
 /// Finite element histories on a record, streamed. The one place where histories on springs are computed.
-pub(super) fn elements(wanted: &[Wanted<'_>], record: &Record) -> Vec<(Answer, Option<f64>)> {
+pub(super) fn elements(wanted: &[WantedHistory<'_>], record: &Record) -> Vec<(CellAnswer, Option<f64>)> {
     let scaled = |samples: &[f64], scale: f64| -> Vec<f64> { samples.iter().map(|a| a * scale).collect() };
     let grounds: Vec<(Vec<f64>, Vec<f64>)> =
         wanted.iter().map(|w| (scaled(&record.accel, w.scale), scaled(record.up(), w.scale))).collect();
@@ -207,7 +207,7 @@ pub(super) fn elements(wanted: &[Wanted<'_>], record: &Record) -> Vec<(Answer, O
     };
     let cases: Vec<fem::Analysis<f64>> = (0..wanted.len()).map(case).collect();
     let followed = fem::histories(&cases, |i| {
-        let Wanted { subject, rigid, .. } = &wanted[i];
+        let WantedHistory { subject, rigid, .. } = &wanted[i];
         let standing = samples_until(rigid.overturned(), record.dt).min(rigid.theta.len());
         Stream::new(&subject.body, &rigid.theta[..standing], &pushes[i])
     });

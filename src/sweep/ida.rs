@@ -4,7 +4,7 @@ use std::sync::Arc;
 
 use super::{
     SweepError,
-    parts::Parts,
+    parts::SweepParts,
     plan::Plan,
     reduce::{self, Histogram, MODELS},
     table::{Column, Table},
@@ -12,7 +12,7 @@ use super::{
 
 /// One structure and restitution at one level, by one model.
 #[derive(Clone, Debug)]
-pub struct Point {
+pub struct IdaPoint {
     /// Index into [`MODELS`].
     pub model: usize,
     pub subject: usize,
@@ -29,7 +29,7 @@ pub struct Point {
 
 /// Peaks of one record against level, for the figure.
 #[derive(Clone, Debug)]
-pub struct Curve {
+pub struct IdaCurve {
     pub subject: usize,
     pub levels: Vec<f64>,
     pub peaks: Vec<f64>,
@@ -38,16 +38,16 @@ pub struct Curve {
 /// All points of a sweep: by model, structure, restitution, level.
 #[derive(Clone, Debug)]
 pub struct Ida {
-    pub points: Vec<Point>,
+    pub points: Vec<IdaPoint>,
     /// Of some records, the first model and the first restitution.
-    pub curves: Vec<Curve>,
+    pub curves: Vec<IdaCurve>,
 }
 
 /// Records whose curves are kept, and structures of which.
 const CURVES: usize = 30;
 const SUBJECTS: usize = 6;
 
-impl Point {
+impl IdaPoint {
     /// A quantile of |theta|/alpha; infinite where that many overturn.
     pub fn quantile(&self, share: f64) -> Option<f64> {
         self.peaks.quantile(share)
@@ -59,7 +59,7 @@ impl Ida {
     ///
     /// # Errors
     /// A part that cannot be read.
-    pub fn new(parts: &Parts) -> Result<Self, SweepError> {
+    pub fn new(parts: &SweepParts) -> Result<Self, SweepError> {
         let plan = parts.plan;
         let models = reduce::models(plan);
         let (subjects, restitutions, levels) = (plan.subjects.len(), plan.restitution_count(), plan.levels.len());
@@ -70,13 +70,13 @@ impl Ida {
                     points.extend(plan.levels.iter().map(|&level| {
                         let (n, lifted, overturned, left_out) = (0, 0, 0, 0);
                         let peaks = Histogram::default();
-                        Point { model, subject, restitution, level, n, lifted, overturned, left_out, peaks }
+                        IdaPoint { model, subject, restitution, level, n, lifted, overturned, left_out, peaks }
                     }));
                 }
             }
         }
         let stride = plan.motions.len().div_ceil(CURVES);
-        let mut curves: Vec<Curve> = Vec::new();
+        let mut curves: Vec<IdaCurve> = Vec::new();
         let mut last = None;
         reduce::each(parts, |seen| {
             let cell = seen.cell;
@@ -96,7 +96,7 @@ impl Ida {
                 if wanted && cell.motion.is_multiple_of(stride) {
                     let key = (cell.motion, cell.subject);
                     if last.replace(key) != Some(key) {
-                        curves.push(Curve { subject: cell.subject, levels: Vec::new(), peaks: Vec::new() });
+                        curves.push(IdaCurve { subject: cell.subject, levels: Vec::new(), peaks: Vec::new() });
                     }
                     if let Some(curve) = curves.last_mut() {
                         curve.levels.push(point.level);
@@ -111,9 +111,9 @@ impl Ida {
     /// `ida.csv`.
     pub fn table(&self, plan: &Plan) -> Table {
         let points = &self.points;
-        let count = |of: fn(&Point) -> u64| Column::Count(points.iter().map(|point| of(point) as i64).collect());
-        let real = |of: &dyn Fn(&Point) -> Option<f64>| Column::Real(points.iter().map(of).collect());
-        let text = |of: &dyn Fn(&Point) -> String| Column::Text(points.iter().map(|p| Arc::from(of(p))).collect());
+        let count = |of: fn(&IdaPoint) -> u64| Column::Count(points.iter().map(|point| of(point) as i64).collect());
+        let real = |of: &dyn Fn(&IdaPoint) -> Option<f64>| Column::Real(points.iter().map(of).collect());
+        let text = |of: &dyn Fn(&IdaPoint) -> String| Column::Text(points.iter().map(|p| Arc::from(of(p))).collect());
         let share = |k: u64, n: u64| (n > 0).then(|| k as f64 / n as f64);
         Table {
             columns: vec![

@@ -30,7 +30,7 @@ pub struct Group {
 }
 
 /// A symmetric 2 x 2 matrix: aa, ab, bb.
-pub type Matrix = [f64; 3];
+pub type SymmetricMatrix = [f64; 3];
 
 /// Phi(a + b ln x).
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -38,13 +38,13 @@ pub struct Probit {
     pub a: f64,
     pub b: f64,
     /// Expected information.
-    pub information: Matrix,
+    pub information: SymmetricMatrix,
     pub log_likelihood: f64,
 }
 
 /// What can be said of some outcomes.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub enum Fit {
+pub enum LognormalFit {
     Fitted(Probit),
     NoneExceeded,
     AllExceeded,
@@ -108,7 +108,7 @@ pub fn score(z: f64, exceeds: bool) -> f64 {
     if tail > 1e-300 { side * density(z) / tail } else { -z }
 }
 
-impl Fit {
+impl LognormalFit {
     /// The fit to groups, in any order.
     pub fn new(groups: &[Group]) -> Self {
         let (n, k): (u64, u64) = groups.iter().fold((0, 0), |(n, k), group| (n + group.n, k + group.k));
@@ -179,7 +179,7 @@ impl Probit {
 
     /// Covariance of (a, b) from the scores of records, summed as u u^T, of so many records; as if all outcomes were independent where there
     /// is one record or none.
-    pub fn covariance(&self, scores: Matrix, records: usize) -> Option<Matrix> {
+    pub fn covariance(&self, scores: SymmetricMatrix, records: usize) -> Option<SymmetricMatrix> {
         let [[aa, ab], [_, bb]] = inverse(self.information)?;
         if records < 2 {
             return Some([aa, ab, bb]);
@@ -192,7 +192,7 @@ impl Probit {
     }
 
     /// Standard deviations of ln(theta) and of beta, to first order.
-    pub fn deviations(&self, covariance: Matrix) -> (f64, f64) {
+    pub fn deviations(&self, covariance: SymmetricMatrix) -> (f64, f64) {
         let [aa, ab, bb] = covariance;
         let m = -self.a / self.b;
         let ln_median = ((aa + 2.0 * m * ab + m * m * bb).max(0.0)).sqrt() / self.b;
@@ -200,14 +200,14 @@ impl Probit {
     }
 
     /// Standard deviation of a + b ln x.
-    pub fn deviation_at(&self, covariance: Matrix, x: f64) -> f64 {
+    pub fn deviation_at(&self, covariance: SymmetricMatrix, x: f64) -> f64 {
         let ([aa, ab, bb], ln_x) = (covariance, x.ln());
         (aa + 2.0 * ln_x * ab + ln_x * ln_x * bb).max(0.0).sqrt()
     }
 }
 
 /// Score, expected information and ln L.
-fn sums(groups: &[Group], centre: f64, a: f64, b: f64) -> ([f64; 2], Matrix, f64) {
+fn sums(groups: &[Group], centre: f64, a: f64, b: f64) -> ([f64; 2], SymmetricMatrix, f64) {
     let (mut score_sum, mut information, mut likelihood) = ([0.0; 2], [0.0; 3], 0.0);
     for group in groups {
         let x = group.ln_x - centre;
@@ -228,7 +228,7 @@ fn sums(groups: &[Group], centre: f64, a: f64, b: f64) -> ([f64; 2], Matrix, f64
     (score_sum, information, likelihood)
 }
 
-fn inverse([aa, ab, bb]: Matrix) -> Option<[[f64; 2]; 2]> {
+fn inverse([aa, ab, bb]: SymmetricMatrix) -> Option<[[f64; 2]; 2]> {
     let determinant = aa * bb - ab * ab;
     (determinant > 1e-14 * aa * bb)
         .then(|| [[bb / determinant, -ab / determinant], [-ab / determinant, aa / determinant]])
@@ -255,7 +255,7 @@ mod tests {
     #[test]
     fn two_intensities_are_fitted_exactly() {
         let groups = [Group { ln_x: 0.3, n: 200, k: 30 }, Group { ln_x: 1.1, n: 100, k: 80 }];
-        let Fit::Fitted(fit) = Fit::new(&groups) else { panic!() };
+        let LognormalFit::Fitted(fit) = LognormalFit::new(&groups) else { panic!() };
         let z = [quantile(0.15), quantile(0.8)];
         let b = (z[1] - z[0]) / 0.8;
         assert!((fit.b - b).abs() < 1e-10 && (fit.a - (z[0] - 0.3 * b)).abs() < 1e-10, "{fit:?}");
@@ -277,7 +277,7 @@ mod tests {
             (0..1000).map(|j| 2_f64.ln() + 0.4 * quantile((f64::from(j) + 0.5) / 1000.0)).collect();
         let below = |ln_x: f64| capacities.iter().filter(|c| **c < ln_x).count() as u64;
         let groups: Vec<Group> = levels.iter().map(|&ln_x| Group { ln_x, n: 1000, k: below(ln_x) }).collect();
-        let Fit::Fitted(fit) = Fit::new(&groups) else { panic!() };
+        let LognormalFit::Fitted(fit) = LognormalFit::new(&groups) else { panic!() };
         assert!((fit.median() - 2.0).abs() < 0.01 && (fit.beta() - 0.4).abs() < 0.005, "{fit:?}");
         let mut scores = [0.0; 3];
         for capacity in &capacities {
@@ -297,11 +297,11 @@ mod tests {
     #[test]
     fn what_cannot_be_fitted_is_said() {
         let group = |ln_x: f64, k: u64| Group { ln_x, n: 10, k };
-        assert_eq!(Fit::new(&[group(0.0, 0), group(1.0, 0)]), Fit::NoneExceeded);
-        assert_eq!(Fit::new(&[group(0.0, 10)]), Fit::AllExceeded);
-        assert!(matches!(Fit::new(&[group(0.0, 0), group(1.0, 10)]), Fit::Separated { .. }));
-        assert_eq!(Fit::new(&[group(0.0, 0), group(1.0, 5), group(2.0, 10)]), Fit::Undetermined);
-        assert_eq!(Fit::new(&[group(1.0, 3)]), Fit::Undetermined);
-        assert_eq!(Fit::new(&[group(0.0, 8), group(1.0, 2)]), Fit::Falling);
+        assert_eq!(LognormalFit::new(&[group(0.0, 0), group(1.0, 0)]), LognormalFit::NoneExceeded);
+        assert_eq!(LognormalFit::new(&[group(0.0, 10)]), LognormalFit::AllExceeded);
+        assert!(matches!(LognormalFit::new(&[group(0.0, 0), group(1.0, 10)]), LognormalFit::Separated { .. }));
+        assert_eq!(LognormalFit::new(&[group(0.0, 0), group(1.0, 5), group(2.0, 10)]), LognormalFit::Undetermined);
+        assert_eq!(LognormalFit::new(&[group(1.0, 3)]), LognormalFit::Undetermined);
+        assert_eq!(LognormalFit::new(&[group(0.0, 8), group(1.0, 2)]), LognormalFit::Falling);
     }
 }

@@ -11,7 +11,7 @@ use serde::{Deserialize, Serialize};
 use super::{
     SweepError,
     plan::{Measure, Plan},
-    spec::{Kind, Model},
+    spec::{SweepKind, SweepModel},
 };
 
 /// What a sweep is, for whoever finds its folder.
@@ -21,8 +21,8 @@ pub struct Manifest {
     pub version: &'static str,
     /// FNV-1a of all that decides the results, the samples of files included.
     pub sweep: String,
-    pub kind: Kind,
-    pub model: Model,
+    pub kind: SweepKind,
+    pub model: SweepModel,
     pub seed: u64,
     pub structures: Vec<String>,
     pub motions: usize,
@@ -36,7 +36,7 @@ pub struct Manifest {
 
 /// The one key that tells sweeps apart.
 #[derive(Deserialize)]
-struct Known {
+struct ManifestKey {
     sweep: String,
 }
 
@@ -81,7 +81,7 @@ impl Manifest {
     pub fn there(folder: &Path) -> Result<Option<String>, SweepError> {
         let path = folder.join("manifest.json");
         let Ok(text) = fs::read_to_string(&path) else { return Ok(None) };
-        let known: Known = serde_json::from_str(&text)
+        let known: ManifestKey = serde_json::from_str(&text)
             .map_err(|e| SweepError::Damaged { path: path.display().to_string(), reason: e.to_string() })?;
         Ok(Some(known.sweep))
     }

@@ -2,7 +2,7 @@
 
 use std::{f64::consts::TAU, path::PathBuf};
 
-use super::pulse::Shape;
+use super::pulse::PulseShape;
 use crate::{
     record::{Notice, ReadOptions, Record, RecordError, Recording, Source},
     scalar::GRAVITY,
@@ -29,7 +29,7 @@ impl Frequency {
 
 /// One ground motion.
 #[derive(Clone, Debug, PartialEq)]
-pub enum Motion {
+pub enum SweepMotion {
     ElCentro,
     File(PathBuf),
     /// `synthetic::record` of this index, made for the structure.
@@ -38,7 +38,7 @@ pub enum Motion {
     Earthquake(usize),
     /// With a peak of 1 g.
     Pulse {
-        shape: Shape,
+        shape: PulseShape,
         frequency: Frequency,
     },
 }
@@ -56,7 +56,7 @@ pub struct Making {
 /// Silence behind a pulse, for a body to topple or to come back in [1/p].
 pub(super) const SILENCE: f64 = 12.0;
 
-impl Motion {
+impl SweepMotion {
     /// Whether each structure has its own.
     pub fn is_for_structure(&self) -> bool {
         matches!(self, Self::Synthetic(_) | Self::Pulse { frequency: Frequency::OverP(_), .. })

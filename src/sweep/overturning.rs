@@ -20,10 +20,10 @@ use rayon::prelude::*;
 
 use super::{
     SweepError,
-    history::{self, Wanted},
-    motion::Motion,
+    history::{self, WantedHistory},
+    motion::SweepMotion,
     plan::{Cell, Plan},
-    row::Outcome,
+    row::CellOutcome,
     springs::SpringsTable,
     table::{Column, Table},
 };
@@ -35,7 +35,7 @@ use crate::{
 
 /// An interval of PGA/(g tan alpha) that overturns after one number of impacts; an end is missing where the scan ends first.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Interval {
+pub struct OverturningInterval {
     pub from: Option<f64>,
     pub to: Option<f64>,
     /// Impacts before the body overturns: 0, 1, or 2 for two and more; not counted on springs.
@@ -44,16 +44,16 @@ pub struct Interval {
 
 /// The intervals of one cell by one model.
 #[derive(Clone, Debug)]
-pub struct Row {
+pub struct OverturningRow {
     pub cell: Cell,
     pub omega_over_p: f64,
     pub model: &'static str,
-    pub intervals: Vec<Interval>,
+    pub intervals: Vec<OverturningInterval>,
 }
 
 /// What becomes of a body: it stands, or overturns after none, one or several impacts.
 #[derive(Clone, Copy, Debug, PartialEq)]
-enum Fate {
+enum OverturningFate {
     Stands,
     /// After so many impacts; on springs they are not counted.
     Overturns(Option<usize>),
@@ -62,7 +62,7 @@ enum Fate {
 /// Impacts that are told apart: a body that comes to rest and is lifted again within a long pulse has any number of them.
 const SEVERAL: usize = 2;
 
-impl Fate {
+impl OverturningFate {
     fn new(overturns: bool, impacts: Option<usize>) -> Self {
         if overturns { Self::Overturns(impacts.map(|n| n.min(SEVERAL))) } else { Self::Stands }
     }
@@ -83,9 +83,9 @@ pub fn rows(
     springs: Option<&SpringsTable>,
     cells: Range<u64>,
     done: &(dyn Fn(u64) + Sync),
-) -> Result<Vec<Row>, SweepError> {
+) -> Result<Vec<OverturningRow>, SweepError> {
     let cells: Vec<u64> = cells.collect();
-    let rows: Vec<Vec<Row>> = cells
+    let rows: Vec<Vec<OverturningRow>> = cells
         .into_par_iter()
         .with_max_len(1)
         .map(|index| {
@@ -97,17 +97,18 @@ pub fn rows(
     Ok(rows.into_iter().flatten().collect())
 }
 
-fn of_cell(plan: &Plan, springs: Option<&SpringsTable>, cell: Cell) -> Vec<Row> {
+fn of_cell(plan: &Plan, springs: Option<&SpringsTable>, cell: Cell) -> Vec<OverturningRow> {
     let subject = &plan.subjects[cell.subject];
-    let Motion::Pulse { shape, frequency } = &plan.motions[cell.motion] else { return Vec::new() };
+    let SweepMotion::Pulse { shape, frequency } = &plan.motions[cell.motion] else { return Vec::new() };
     let omega = frequency.omega(subject.p);
     // an amplitude of 1 lifts the body
     let (dt, accel) = shape.sampled(omega, subject.uplift(), subject.p);
     let e = plan.restitution(cell.subject, cell.restitution);
     let mut rows = Vec::new();
-    let mut add = |model, intervals| rows.push(Row { cell, omega_over_p: omega / subject.p, model, intervals });
+    let mut add =
+        |model, intervals| rows.push(OverturningRow { cell, omega_over_p: omega / subject.p, model, intervals });
     if plan.model.housner() {
-        let pulse = Pulse { body: &subject.body, e, dt, accel: &accel };
+        let pulse = LonePulse { body: &subject.body, e, dt, accel: &accel };
         add("housner", intervals(&plan.levels, WIDTH, &|amplitudes| pulse.fates(amplitudes)));
     }
     if let Some(springs) = springs {
@@ -116,10 +117,13 @@ fn of_cell(plan: &Plan, springs: Option<&SpringsTable>, cell: Cell) -> Vec<Row> 
         accel.resize(accel.len() + (super::motion::SILENCE / (subject.p * dt)).ceil() as usize, 0.0);
         let record = Record { name: shape.name().into(), dt, accel, vertical: None, source: Source::Synthetic };
         let still = housner::solve(&subject.body, dt, &[0.0], &housner::RockingOptions::default());
-        let wanted = |&scale: &f64| Wanted { subject, springs, scale, rigid: &still };
+        let wanted = |&scale: &f64| WantedHistory { subject, springs, scale, rigid: &still };
         let fates = |amplitudes: &[f64]| {
             let found = history::elements(&amplitudes.iter().map(wanted).collect::<Vec<_>>(), &record);
-            found.iter().map(|(answer, _)| Fate::new(answer.outcome == Outcome::Overturned, None)).collect()
+            found
+                .iter()
+                .map(|(answer, _)| OverturningFate::new(answer.outcome == CellOutcome::Overturned, None))
+                .collect()
         };
         add("fem", intervals(&plan.levels, WIDTH_FEM, &fates));
     }
@@ -131,7 +135,7 @@ const CHANGES: usize = 16;
 
 /// The overturning intervals of a body under a pulse: scanned at amplitudes (increasing, over g tan alpha), ends by bisection. Neighbours that
 /// overturn after different numbers of impacts are looked between, too: often the body stands in a gap there.
-fn intervals(levels: &[f64], width: f64, fates: &dyn Fn(&[f64]) -> Vec<Fate>) -> Vec<Interval> {
+fn intervals(levels: &[f64], width: f64, fates: &dyn Fn(&[f64]) -> Vec<OverturningFate>) -> Vec<OverturningInterval> {
     let scanned = fates(levels);
     let (Some(&low), Some(&first)) = (levels.first(), scanned.first()) else { return Vec::new() };
     // each stretch of one fate: where it begins
@@ -162,24 +166,24 @@ fn intervals(levels: &[f64], width: f64, fates: &dyn Fn(&[f64]) -> Vec<Fate>) ->
     }
     let mut found = Vec::new();
     for (i, (from, fate)) in stretches.iter().enumerate() {
-        if let Fate::Overturns(impacts) = fate {
+        if let OverturningFate::Overturns(impacts) = fate {
             let from = (i > 0).then_some(*from);
-            found.push(Interval { from, to: stretches.get(i + 1).map(|(to, _)| *to), impacts: *impacts });
+            found.push(OverturningInterval { from, to: stretches.get(i + 1).map(|(to, _)| *to), impacts: *impacts });
         }
     }
     found
 }
 
 /// A pulse, and nothing behind it.
-struct Pulse<'a> {
+struct LonePulse<'a> {
     body: &'a Body<f64>,
     e: f64,
     dt: f64,
     accel: &'a [f64],
 }
 
-impl Pulse<'_> {
-    fn fates(&self, amplitudes: &[f64]) -> Vec<Fate> {
+impl LonePulse<'_> {
+    fn fates(&self, amplitudes: &[f64]) -> Vec<OverturningFate> {
         let options =
             |scale: &f64| housner::RockingOptions { scale: *scale, restitution: Some(self.e), ..Default::default() };
         let solve = |chunk: &[f64]| {
@@ -194,14 +198,14 @@ impl Pulse<'_> {
     }
 
     /// What becomes of a body whose history is over when the pulse is.
-    fn fate(&self, rocking: &Rocking<f64>) -> Fate {
+    fn fate(&self, rocking: &Rocking<f64>) -> OverturningFate {
         let during = rocking.impacts.len();
         let (Some(&theta), Some(&rate)) = (rocking.theta.last(), rocking.rate.last()) else {
-            return Fate::Stands;
+            return OverturningFate::Stands;
         };
         // lying already
         if rocking.theta.len() < self.accel.len() {
-            return Fate::new(rocking.overturned().is_some(), Some(during));
+            return OverturningFate::new(rocking.overturned().is_some(), Some(during));
         }
         let (alpha, p2) = (self.body.alpha(), self.body.p_squared());
         let side = if theta < 0.0 || (theta == 0.0 && rate < 0.0) { -1.0 } else { 1.0 };
@@ -213,25 +217,27 @@ impl Pulse<'_> {
         let climbs = energy > top;
         let there = if w > alpha { rate >= 0.0 || !climbs } else { rate > 0.0 && climbs };
         let across = !there && rate < 0.0 && self.e * self.e * energy > top;
-        Fate::new(there || across, Some(during + usize::from(across)))
+        OverturningFate::new(there || across, Some(during + usize::from(across)))
     }
 }
 
 /// Columns that an overturning spectrum has: a row an interval.
-pub fn table(plan: &Plan, rows: &[Row]) -> Table {
-    let all: Vec<(&Row, usize, &Interval)> =
+pub fn table(plan: &Plan, rows: &[OverturningRow]) -> Table {
+    let all: Vec<(&OverturningRow, usize, &OverturningInterval)> =
         rows.iter().flat_map(|row| row.intervals.iter().enumerate().map(move |(i, found)| (row, i, found))).collect();
-    let subject = |row: &Row| &plan.subjects[row.cell.subject];
-    let count = |of: &dyn Fn(&Row, usize) -> i64| Column::Count(all.iter().map(|(row, i, _)| of(row, *i)).collect());
-    let real = |of: &dyn Fn(&Row, &Interval) -> Option<f64>| {
+    let subject = |row: &OverturningRow| &plan.subjects[row.cell.subject];
+    let count =
+        |of: &dyn Fn(&OverturningRow, usize) -> i64| Column::Count(all.iter().map(|(row, i, _)| of(row, *i)).collect());
+    let real = |of: &dyn Fn(&OverturningRow, &OverturningInterval) -> Option<f64>| {
         Column::Real(all.iter().map(|(row, _, found)| of(row, found)).collect())
     };
-    let text = |of: &dyn Fn(&Row) -> String| Column::Text(all.iter().map(|(row, ..)| Arc::from(of(row))).collect());
-    let pulse = |row: &Row| match &plan.motions[row.cell.motion] {
-        Motion::Pulse { shape, .. } => shape.label(),
+    let text =
+        |of: &dyn Fn(&OverturningRow) -> String| Column::Text(all.iter().map(|(row, ..)| Arc::from(of(row))).collect());
+    let pulse = |row: &OverturningRow| match &plan.motions[row.cell.motion] {
+        SweepMotion::Pulse { shape, .. } => shape.label(),
         other => other.name(),
     };
-    let restitution = |row: &Row| plan.restitution(row.cell.subject, row.cell.restitution);
+    let restitution = |row: &OverturningRow| plan.restitution(row.cell.subject, row.cell.restitution);
     Table {
         columns: vec![
             ("cell", count(&|row, _| row.cell.index as i64)),
@@ -253,17 +259,17 @@ pub fn table(plan: &Plan, rows: &[Row]) -> Table {
 
 #[cfg(test)]
 mod tests {
-    use super::super::pulse::Shape;
+    use super::super::pulse::PulseShape;
     use super::*;
     use crate::structure::Structure;
 
     /// The overturning intervals of PGA/(g tan alpha) of a body with restitution `e` under a pulse with omega = q p, by Housner's equation.
     /// `levels` are the amplitudes of the scan, increasing.
-    fn spectrum(body: &Body<f64>, e: f64, shape: Shape, q: f64, levels: &[f64]) -> Vec<Interval> {
+    fn spectrum(body: &Body<f64>, e: f64, shape: PulseShape, q: f64, levels: &[f64]) -> Vec<OverturningInterval> {
         let p = body.p_squared().sqrt();
         let uplift = crate::scalar::GRAVITY * body.half_width / body.height;
         let (dt, accel) = shape.sampled(q * p, uplift, p);
-        let pulse = Pulse { body, e, dt, accel: &accel };
+        let pulse = LonePulse { body, e, dt, accel: &accel };
         intervals(levels, WIDTH, &|amplitudes| pulse.fates(amplitudes))
     }
 
@@ -280,7 +286,7 @@ mod tests {
     fn a_half_sine_overturns_from_the_exact_equations_amplitude() {
         let body = body(0.2);
         for (q, exact) in [(1.0, 1.3217), (2.0, 1.8013), (5.0, 3.2960), (10.0, 5.805)] {
-            let found = spectrum(&body, body.restitution(), Shape::HalfSine, q, &levels(1.0, 12.0, 300));
+            let found = spectrum(&body, body.restitution(), PulseShape::HalfSine, q, &levels(1.0, 12.0, 300));
             println!("half sine q {q}: {found:?}");
             assert!(found.iter().any(|i| (i.from.unwrap() / exact - 1.0).abs() < 2e-4), "q {q}: {found:?}");
         }
@@ -290,7 +296,7 @@ mod tests {
     fn one_sine_overturns_without_impact_from_the_exact_equations_amplitude() {
         let body = body(0.2);
         for (q, exact) in [(2.0, 2.3549), (3.0, 3.6526), (5.0, 7.2759)] {
-            let found = spectrum(&body, body.restitution(), Shape::Sine, q, &levels(1.0, 12.0, 600));
+            let found = spectrum(&body, body.restitution(), PulseShape::Sine, q, &levels(1.0, 12.0, 600));
             println!("sine q {q}: {found:?}");
             let upper = found.iter().find(|i| i.impacts == Some(0)).unwrap();
             assert!((upper.from.unwrap() / exact - 1.0).abs() < 2e-4, "q {q}: {found:?}");
@@ -301,7 +307,7 @@ mod tests {
     #[test]
     fn below_the_upper_branch_lies_an_interval_with_one_impact() {
         let body = body(0.2);
-        let found = spectrum(&body, 0.9, Shape::Sine, 2.0, &levels(1.0, 12.0, 300));
+        let found = spectrum(&body, 0.9, PulseShape::Sine, 2.0, &levels(1.0, 12.0, 300));
         println!("{found:?}");
         let lower = found.iter().find(|i| i.impacts == Some(1)).unwrap();
         assert!((lower.from.unwrap() - 1.22).abs() < 0.01 && (lower.to.unwrap() - 2.32).abs() < 0.01, "{found:?}");
@@ -321,7 +327,7 @@ mod tests {
         };
         let body = body(0.01);
         for q in [1.0, 2.0, 5.0, 10.0] {
-            let found = spectrum(&body, 0.95, Shape::HalfSine, q, &levels(1.0, 12.0, 100));
+            let found = spectrum(&body, 0.95, PulseShape::HalfSine, q, &levels(1.0, 12.0, 100));
             let first = found[0].from.unwrap();
             assert!((first / closed(q) - 1.0).abs() < 1e-4, "{q}: {first} {}", closed(q));
         }
@@ -333,17 +339,17 @@ mod tests {
         let body = body(0.25);
         let p = body.p_squared().sqrt();
         let uplift = crate::scalar::GRAVITY * 0.25_f64.tan();
-        for shape in [Shape::HalfSine, Shape::Sine, Shape::Ricker] {
+        for shape in [PulseShape::HalfSine, PulseShape::Sine, PulseShape::Ricker] {
             let (dt, accel) = shape.sampled(2.0 * p, uplift, p);
             let mut long = accel.clone();
             long.resize(accel.len() + (25.0 / (p * dt)) as usize, 0.0);
-            let pulse = Pulse { body: &body, e: 0.9, dt, accel: &accel };
+            let pulse = LonePulse { body: &body, e: 0.9, dt, accel: &accel };
             for amplitude in levels(1.05, 9.0, 60) {
                 let options =
                     housner::RockingOptions { scale: amplitude, restitution: Some(0.9), ..Default::default() };
                 let rocking = housner::solve(&body, dt, &long, &options);
                 let fate = pulse.fates(&[amplitude])[0];
-                let shown = Fate::new(rocking.overturned().is_some(), Some(rocking.impacts.len()));
+                let shown = OverturningFate::new(rocking.overturned().is_some(), Some(rocking.impacts.len()));
                 assert_eq!(fate, shown, "{shape:?} {amplitude}");
             }
         }

@@ -7,7 +7,7 @@ use std::{
 };
 
 use super::{
-    SweepError, history, manifest, overturning, plan::Plan, row, spec::Kind, springs::SpringsTable, table::Table,
+    SweepError, history, manifest, overturning, plan::Plan, row, spec::SweepKind, springs::SpringsTable, table::Table,
 };
 
 /// Share I of N of a sweep, for machines that share the work: the parts I, I + N, I + 2 N ... from 1.
@@ -42,13 +42,13 @@ impl Share {
 }
 
 /// The parts of a sweep in its folder.
-pub struct Parts<'a> {
+pub struct SweepParts<'a> {
     pub plan: &'a Plan,
     pub folder: &'a Path,
     pub hash: &'a str,
 }
 
-impl Parts<'_> {
+impl SweepParts<'_> {
     /// File of part i.
     pub fn path(&self, part: u64) -> PathBuf {
         self.folder.join("parts").join(format!("part-{part:05}.parquet"))
@@ -81,7 +81,7 @@ impl Parts<'_> {
         done: &(dyn Fn(u64) + Sync),
     ) -> Result<(), SweepError> {
         let cells = self.cells(part);
-        let table = if self.plan.kind == Kind::Overturning {
+        let table = if self.plan.kind == SweepKind::Overturning {
             overturning::table(self.plan, &overturning::rows(self.plan, springs, cells, done)?)
         } else {
             row::table(self.plan, &history::rows(self.plan, springs, cells, done)?)

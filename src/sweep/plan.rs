@@ -9,8 +9,8 @@ use toml::Spanned;
 
 use super::{
     SweepError,
-    motion::{Making, Motion},
-    spec::{Grid, Kind, Kinds, Model, Source},
+    motion::{Making, SweepMotion},
+    spec::{Grid, Kinds, SweepKind, SweepModel, SweepSource},
 };
 use crate::{
     case::{ACCURACY, LONGEST_S, MAX_HZ},
@@ -75,10 +75,10 @@ pub struct SpringsAsked {
 /// A checked sweep.
 #[derive(Clone, Debug)]
 pub struct Plan {
-    pub kind: Kind,
-    pub model: Model,
+    pub kind: SweepKind,
+    pub model: SweepModel,
     pub subjects: Vec<Subject>,
-    pub motions: Vec<Motion>,
+    pub motions: Vec<SweepMotion>,
     pub making: Making,
     /// Velocity restitutions for all structures; each structure's own unless given.
     pub restitutions: Option<Vec<f64>>,
@@ -113,21 +113,21 @@ impl Plan {
     /// # Errors
     /// What is wrong with it, with the line.
     pub fn read(path: &Path) -> Result<Self, SweepError> {
-        Self::new(&Source::read(path)?)
+        Self::new(&SweepSource::read(path)?)
     }
 
     /// Put the plan together.
     ///
     /// # Errors
     /// What is wrong with the file, with the line.
-    pub fn new(source: &Source) -> Result<Self, SweepError> {
+    pub fn new(source: &SweepSource) -> Result<Self, SweepError> {
         let sweep = &source.spec.sweep;
         let kind = *sweep.kind.get_ref();
-        let default = if kind == Kind::Compare { Model::Both } else { Model::Housner };
+        let default = if kind == SweepKind::Compare { SweepModel::Both } else { SweepModel::Housner };
         let model = sweep.model.as_ref().map_or(default, |model| *model.get_ref());
         if let Some(written) = &sweep.model
-            && kind == Kind::Compare
-            && model != Model::Both
+            && kind == SweepKind::Compare
+            && model != SweepModel::Both
         {
             return Err(
                 source.at(written, "kind = \"compare\" compares both models; write model = \"both\", or leave it out")
@@ -168,8 +168,8 @@ impl Plan {
             None => None,
         };
         let default = match (kind, model) {
-            (Kind::Overturning, _) => PART_SPECTRUM,
-            (_, Model::Housner) => PART_HOUSNER,
+            (SweepKind::Overturning, _) => PART_SPECTRUM,
+            (_, SweepModel::Housner) => PART_HOUSNER,
             _ => PART_FEM,
         };
         let part = match &sweep.part {
@@ -198,7 +198,7 @@ impl Plan {
 
     /// Levels that cells are cut by: an overturning spectrum scans them all in one cell.
     fn level_count(&self) -> usize {
-        if self.kind == Kind::Overturning { 1 } else { self.levels.len() }
+        if self.kind == SweepKind::Overturning { 1 } else { self.levels.len() }
     }
 
     /// Restitutions of each structure.
@@ -265,7 +265,7 @@ impl Plan {
         }
         let any = (self.subjects[0].p, self.subjects[0].alpha);
         for motion in &self.motions {
-            if !matches!(motion, Motion::File(_)) {
+            if !matches!(motion, SweepMotion::File(_)) {
                 text += &format!("{motion:?}");
             } else {
                 // not where it lies, but what is in it
@@ -284,7 +284,7 @@ impl Plan {
     }
 }
 
-fn subjects(source: &Source) -> Result<Vec<Subject>, SweepError> {
+fn subjects(source: &SweepSource) -> Result<Vec<Subject>, SweepError> {
     let mut subjects = Vec::new();
     for section in &source.spec.structure {
         let (structure, e) = section
@@ -307,7 +307,7 @@ fn reason(path: &str, message: &str) -> String {
     message.strip_prefix(&format!("{path}: ")).unwrap_or(message).to_string()
 }
 
-fn of_grid(source: &Source, grid: &Spanned<Grid>, subjects: &mut Vec<Subject>) -> Result<(), SweepError> {
+fn of_grid(source: &SweepSource, grid: &Spanned<Grid>, subjects: &mut Vec<Subject>) -> Result<(), SweepError> {
     let Grid { kind, size_m, slenderness } = grid.get_ref();
     let kinds = match kind {
         Kinds::One(kind) => std::slice::from_ref(kind),
@@ -338,9 +338,9 @@ fn of_grid(source: &Source, grid: &Spanned<Grid>, subjects: &mut Vec<Subject>) -
     Ok(())
 }
 
-fn levels(source: &Source, kind: Kind) -> Result<(Measure, Vec<f64>), SweepError> {
+fn levels(source: &SweepSource, kind: SweepKind) -> Result<(Measure, Vec<f64>), SweepError> {
     let Some(section) = &source.spec.levels else {
-        if matches!(kind, Kind::Rocking | Kind::Compare) {
+        if matches!(kind, SweepKind::Rocking | SweepKind::Compare) {
             return Ok((Measure::Scale, vec![1.0]));
         }
         let remedy = "no [levels]; give scale, pga_g or pga_over_uplift";
@@ -357,7 +357,7 @@ fn levels(source: &Source, kind: Kind) -> Result<(Measure, Vec<f64>), SweepError
         return Err(source.at(section, "levels: give one of scale, pga_g and pga_over_uplift"));
     };
     let mut levels = source.all_within(name, values, 1e-6, most)?;
-    if kind == Kind::Overturning {
+    if kind == SweepKind::Overturning {
         if measure != Measure::PgaOverUplift || levels.len() < 2 {
             let remedy = "an overturning spectrum scans pga_over_uplift; give a range, as { from = 1.0, to = 12.0, count = 400, spacing = \"log\" }";
             return Err(source.at(values, remedy));

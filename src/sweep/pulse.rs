@@ -16,7 +16,7 @@ use crate::synthetic::Pulse;
 
 /// The shape of a pulse.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub enum Shape {
+pub enum PulseShape {
     HalfSine,
     Sine,
     /// Symmetric Ricker wavelet, the second derivative of a Gaussian.
@@ -46,7 +46,7 @@ const A_PERIOD: f64 = 800.0;
 /// Samples to a time of 1/p at least.
 const A_RADIAN: f64 = 50.0;
 
-impl Shape {
+impl PulseShape {
     /// Name, as in a sweep file.
     pub fn name(&self) -> &'static str {
         match self {
@@ -120,18 +120,18 @@ impl Shape {
 mod tests {
     use super::*;
 
-    const ALL: [Shape; 6] = [
-        Shape::HalfSine,
-        Shape::Sine,
-        Shape::Ricker,
-        Shape::RickerAntisymmetric,
-        Shape::MavroeidisPapageorgiou { gamma: 1.5, nu: 0.7 },
-        Shape::MavroeidisPapageorgiou { gamma: 2.0, nu: PI / 2.0 },
+    const ALL: [PulseShape; 6] = [
+        PulseShape::HalfSine,
+        PulseShape::Sine,
+        PulseShape::Ricker,
+        PulseShape::RickerAntisymmetric,
+        PulseShape::MavroeidisPapageorgiou { gamma: 1.5, nu: 0.7 },
+        PulseShape::MavroeidisPapageorgiou { gamma: 2.0, nu: PI / 2.0 },
     ];
 
     #[test]
     fn every_shape_has_a_label_of_its_own() {
-        let mut labels: Vec<String> = ALL.iter().map(Shape::label).collect();
+        let mut labels: Vec<String> = ALL.iter().map(PulseShape::label).collect();
         labels.sort();
         labels.dedup();
         assert_eq!(labels.len(), ALL.len());
@@ -160,9 +160,9 @@ mod tests {
             let gained: f64 = accel.windows(2).map(|w| 0.5 * dt * (w[0] + w[1])).sum();
             // the area below chords of a sine is short by h^2/12 of it
             let chords = 1.0 - (TAU / A_PERIOD).powi(2) / 12.0;
-            let exact = if shape == Shape::HalfSine { chords * 2.0 * 2.5 / 3.0 } else { 0.0 };
+            let exact = if shape == PulseShape::HalfSine { chords * 2.0 * 2.5 / 3.0 } else { 0.0 };
             // a wavelet that ends with a kink is off by h^2/12 of its slope there
-            let tolerance = if shape == Shape::HalfSine { 1e-9 } else { 1e-5 };
+            let tolerance = if shape == PulseShape::HalfSine { 1e-9 } else { 1e-5 };
             assert!((gained - exact).abs() < tolerance * 2.5 / 3.0, "{shape:?}: {gained}");
         }
     }
@@ -170,14 +170,14 @@ mod tests {
     /// Printed forms: Ricker (1 - x^2/2) exp(-x^2/4) at x = 1 after the peak, sine of 30 degrees.
     #[test]
     fn values_at_single_points_are_the_printed_formulas() {
-        let (dt, accel) = Shape::Sine.sampled(2.0, 1.0, 1.0);
+        let (dt, accel) = PulseShape::Sine.sampled(2.0, 1.0, 1.0);
         let at = |accel: &[f64], dt: f64, t: f64| {
             let (i, part) = ((t / dt) as usize, t / dt % 1.0);
             accel[i] * (1.0 - part) + accel[i + 1] * part
         };
         assert!((at(&accel, dt, PI / 12.0) - 0.5).abs() < 1e-5);
         assert!((at(&accel, dt, 7.0 * PI / 12.0) + 0.5).abs() < 1e-5);
-        let (dt, accel) = Shape::Ricker.sampled(2.0, 1.0, 1.0);
+        let (dt, accel) = PulseShape::Ricker.sampled(2.0, 1.0, 1.0);
         let middle = dt * (accel.len() / 2) as f64;
         assert!((at(&accel, dt, middle + 0.5) - 0.5 * (-0.25_f64).exp()).abs() < 1e-5);
     }

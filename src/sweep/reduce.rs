@@ -2,7 +2,7 @@
 
 use super::{
     SweepError,
-    parts::Parts,
+    parts::SweepParts,
     plan::{Cell, Plan},
     table::{Column, Table},
 };
@@ -12,7 +12,7 @@ pub const MODELS: [&str; 2] = ["housner", "fem"];
 
 /// What a model answered; none of histories that failed, or whose pivot let go.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Known {
+pub struct KnownAnswer {
     /// Largest |theta|/alpha: zero of a body that was never lifted.
     pub peak: f64,
     pub overturned: bool,
@@ -26,7 +26,7 @@ pub struct Seen {
     pub pga: f64,
     pub pgv: f64,
     /// By Housner, on springs.
-    pub answers: [Option<Known>; 2],
+    pub answers: [Option<KnownAnswer>; 2],
     pub nrmse: Option<f64>,
 }
 
@@ -39,7 +39,7 @@ pub fn models(plan: &Plan) -> Vec<usize> {
 ///
 /// # Errors
 /// A part that cannot be read.
-pub fn each(parts: &Parts, mut take: impl FnMut(&Seen)) -> Result<(), SweepError> {
+pub fn each(parts: &SweepParts, mut take: impl FnMut(&Seen)) -> Result<(), SweepError> {
     let models = models(parts.plan);
     let real = |name: &'static str| (name, Column::Real(Vec::new()));
     let mut columns = vec![("cell", Column::Count(Vec::new())), real("pga_m_per_s2"), real("pgv_m_per_s")];
@@ -58,7 +58,7 @@ pub fn each(parts: &Parts, mut take: impl FnMut(&Seen)) -> Result<(), SweepError
         for (row, &cell) in table.counts("cell").iter().enumerate() {
             let known = |(peak, overturned): &(&[Option<f64>], &[Option<bool>])| {
                 let (peak, overturned) = (peak.get(row).copied()??, overturned.get(row).copied()??);
-                Some(Known { peak, overturned })
+                Some(KnownAnswer { peak, overturned })
             };
             take(&Seen {
                 cell: parts.plan.cell(cell as u64),

@@ -9,7 +9,7 @@ use super::{
 
 /// How a history ended.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Outcome {
+pub enum CellOutcome {
     /// The ground never lifted the body.
     NeverLifted,
     Rocked,
@@ -20,7 +20,7 @@ pub enum Outcome {
     Failed,
 }
 
-impl Outcome {
+impl CellOutcome {
     /// In tables.
     pub fn name(self) -> &'static str {
         match self {
@@ -35,8 +35,8 @@ impl Outcome {
 
 /// One model's answer.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Answer {
-    pub outcome: Outcome,
+pub struct CellAnswer {
+    pub outcome: CellOutcome,
     /// Largest |theta|/alpha; pi/2 / alpha of a body that overturned; none of a history that failed.
     pub peak: Option<f64>,
     pub impacts: Option<usize>,
@@ -46,7 +46,7 @@ pub struct Answer {
 
 /// One cell of a sweep of histories.
 #[derive(Clone, Debug)]
-pub struct Row {
+pub struct HistoryRow {
     pub cell: u64,
     pub subject: usize,
     pub motion: usize,
@@ -58,18 +58,18 @@ pub struct Row {
     /// As scaled [m/s2, m/s].
     pub pga: f64,
     pub pgv: f64,
-    pub housner: Option<Answer>,
-    pub fem: Option<Answer>,
+    pub housner: Option<CellAnswer>,
+    pub fem: Option<CellAnswer>,
     /// Of the finite elements' u against Housner's, up to the first overturning.
     pub nrmse: Option<f64>,
 }
 
 /// Columns that a sweep of histories has.
-pub fn table(plan: &Plan, rows: &[Row]) -> Table {
-    let count = |of: fn(&Row) -> i64| Column::Count(rows.iter().map(of).collect());
-    let real = |of: &dyn Fn(&Row) -> Option<f64>| Column::Real(rows.iter().map(of).collect());
+pub fn table(plan: &Plan, rows: &[HistoryRow]) -> Table {
+    let count = |of: fn(&HistoryRow) -> i64| Column::Count(rows.iter().map(of).collect());
+    let real = |of: &dyn Fn(&HistoryRow) -> Option<f64>| Column::Real(rows.iter().map(of).collect());
     let names: Vec<Arc<str>> = plan.subjects.iter().map(|subject| subject.name.as_str().into()).collect();
-    let subject = |row: &Row| &plan.subjects[row.subject];
+    let subject = |row: &HistoryRow| &plan.subjects[row.subject];
     let mut columns = vec![
         ("cell", count(|row| row.cell as i64)),
         ("structure_index", count(|row| row.subject as i64)),
@@ -86,8 +86,8 @@ pub fn table(plan: &Plan, rows: &[Row]) -> Table {
         ("pga_over_uplift", real(&|row| Some(row.pga / subject(row).uplift()))),
         ("pgv_over_uplift", real(&|row| Some(subject(row).p * row.pgv / subject(row).uplift()))),
     ];
-    type Of = fn(&Row) -> Option<Answer>;
-    let models: [(_, Of, [&'static str; 3]); 2] = [
+    type AnswerOf = fn(&HistoryRow) -> Option<CellAnswer>;
+    let models: [(_, AnswerOf, [&'static str; 3]); 2] = [
         (plan.model.housner(), |row| row.housner, ["housner_outcome", "housner_overturned", "housner_peak"]),
         (plan.model.fem(), |row| row.fem, ["fem_outcome", "fem_overturned", "fem_peak"]),
     ];
@@ -95,10 +95,12 @@ pub fn table(plan: &Plan, rows: &[Row]) -> Table {
         if !asked {
             continue;
         }
-        let word = |row: &Row| Arc::from(of(row).map_or(Outcome::Failed, |answer| answer.outcome).name());
-        let known = |row: &Row| of(row).filter(|a| !matches!(a.outcome, Outcome::Failed | Outcome::LeavesGround));
+        let word = |row: &HistoryRow| Arc::from(of(row).map_or(CellOutcome::Failed, |answer| answer.outcome).name());
+        let known = |row: &HistoryRow| {
+            of(row).filter(|a| !matches!(a.outcome, CellOutcome::Failed | CellOutcome::LeavesGround))
+        };
         columns.push((outcome, Column::Text(rows.iter().map(word).collect())));
-        let flags = rows.iter().map(|row| known(row).map(|a| a.outcome == Outcome::Overturned)).collect();
+        let flags = rows.iter().map(|row| known(row).map(|a| a.outcome == CellOutcome::Overturned)).collect();
         columns.push((overturned, Column::Flag(flags)));
         columns.push((peak, real(&|row| of(row).and_then(|a| a.peak))));
         // on springs neither is kept

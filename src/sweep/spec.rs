@@ -57,7 +57,7 @@ use crate::{
 /// What a sweep asks.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(rename_all = "lowercase")]
-pub enum Kind {
+pub enum SweepKind {
     /// Peak theta/alpha against intensity, and probabilities with lognormal fits.
     Fragility,
     /// The intervals of pulse amplitude that overturn.
@@ -71,13 +71,13 @@ pub enum Kind {
 /// By what the histories are computed.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(rename_all = "lowercase")]
-pub enum Model {
+pub enum SweepModel {
     Housner,
     Fem,
     Both,
 }
 
-impl Model {
+impl SweepModel {
     pub fn housner(self) -> bool {
         self != Self::Fem
     }
@@ -90,8 +90,8 @@ impl Model {
 #[derive(Clone, Debug, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct SweepSection {
-    pub kind: Spanned<Kind>,
-    pub model: Option<Spanned<Model>>,
+    pub kind: Spanned<SweepKind>,
+    pub model: Option<Spanned<SweepModel>>,
     #[serde(default = "first_seed")]
     pub seed: u64,
     pub restitution: Option<Spanned<Values>>,
@@ -180,13 +180,13 @@ pub struct Spec {
 }
 
 /// A sweep file and its text, to say lines of.
-pub struct Source {
+pub struct SweepSource {
     pub path: String,
     pub text: String,
     pub spec: Spec,
 }
 
-impl Source {
+impl SweepSource {
     /// Read a sweep file.
     ///
     /// # Errors
@@ -200,7 +200,7 @@ impl Source {
     /// The same from its text; `path` names it and is where its records' paths start.
     ///
     /// # Errors
-    /// As [`Source::read`].
+    /// As [`SweepSource::read`].
     pub fn parse(path: String, text: String) -> Result<Self, SweepError> {
         let spec = toml::from_str(&text).map_err(|e| parse_error(&path, &text, &e))?;
         Ok(Self { path, text, spec })

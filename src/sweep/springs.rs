@@ -18,7 +18,7 @@ use crate::{
 
 /// A chain without units; its Omega_n over p.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
-struct Unit {
+struct DimensionlessChain {
     mu: f64,
     f: f64,
     xi: f64,
@@ -27,7 +27,7 @@ struct Unit {
 
 /// The springs of one geometry and restitution.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
-struct Tuned {
+struct TunedSprings {
     alpha: f64,
     mass_share: f64,
     restitution: f64,
@@ -36,15 +36,15 @@ struct Tuned {
     accuracy: f64,
     /// Whether what was measured there is within it.
     reached: bool,
-    vertical: Unit,
-    horizontal: Unit,
+    vertical: DimensionlessChain,
+    horizontal: DimensionlessChain,
 }
 
 /// `springs.json`: of a sweep, in the order in which its geometries come.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 struct Filed {
     sweep: String,
-    springs: Vec<Tuned>,
+    springs: Vec<TunedSprings>,
 }
 
 /// Springs with units of every structure and restitution.
@@ -58,9 +58,9 @@ pub struct SpringsTable {
 
 /// What springs depend on, to nine digits.
 #[derive(Clone, PartialEq)]
-struct Key([String; 3]);
+struct SpringsKey([String; 3]);
 
-impl Key {
+impl SpringsKey {
     fn new(plan: &Plan, subject: usize, restitution: usize) -> Self {
         let body = &plan.subjects[subject].body;
         Self([body.alpha(), body.mass_share(), plan.restitution(subject, restitution)].map(|x| format!("{x:.8e}")))
@@ -99,10 +99,10 @@ impl SpringsTable {
         let mut chains = Vec::new();
         for subject in 0..plan.subjects.len() {
             for restitution in 0..plan.restitution_count() {
-                let key = Key::new(plan, subject, restitution);
+                let key = SpringsKey::new(plan, subject, restitution);
                 let tuned = filed.springs.get(keys.iter().position(|(other, ..)| *other == key)?)?;
                 let subject = &plan.subjects[subject];
-                let design = |unit: &Unit| Design {
+                let design = |unit: &DimensionlessChain| Design {
                     mu: unit.mu,
                     f: unit.f,
                     xi: unit.xi,
@@ -123,11 +123,11 @@ impl SpringsTable {
 }
 
 /// Every geometry with its largest structure, as they first appear.
-fn keys(plan: &Plan) -> Vec<(Key, usize, usize)> {
-    let mut keys: Vec<(Key, usize, usize)> = Vec::new();
+fn keys(plan: &Plan) -> Vec<(SpringsKey, usize, usize)> {
+    let mut keys: Vec<(SpringsKey, usize, usize)> = Vec::new();
     for subject in 0..plan.subjects.len() {
         for restitution in 0..plan.restitution_count() {
-            let key = Key::new(plan, subject, restitution);
+            let key = SpringsKey::new(plan, subject, restitution);
             match keys.iter_mut().find(|(other, ..)| *other == key) {
                 Some((_, largest, _)) if plan.subjects[subject].p < plan.subjects[*largest].p => *largest = subject,
                 Some(_) => {}
@@ -138,7 +138,7 @@ fn keys(plan: &Plan) -> Vec<(Key, usize, usize)> {
     keys
 }
 
-fn tune(plan: &Plan, progress: &dyn Fn(usize, usize)) -> Result<Vec<Tuned>, SweepError> {
+fn tune(plan: &Plan, progress: &dyn Fn(usize, usize)) -> Result<Vec<TunedSprings>, SweepError> {
     let keys = keys(plan);
     let mut all = Vec::new();
     for (done, (_, subject, restitution)) in keys.iter().enumerate() {
@@ -152,13 +152,13 @@ fn tune(plan: &Plan, progress: &dyn Fn(usize, usize)) -> Result<Vec<Tuned>, Swee
         let case = Case::new("sweep", (subject.structure, e), Excitation::whole(still), tuning)?;
         let job = Job::new(&case, &|_, _, _| {})
             .map_err(|source| SweepError::Springs { structure: subject.name.clone(), source })?;
-        let unit = |design: &Design<f64>| Unit {
+        let unit = |design: &Design<f64>| DimensionlessChain {
             mu: design.mu,
             f: design.f,
             xi: design.xi,
             omega_n_hz_over_p: design.omega_n_hz / subject.p,
         };
-        all.push(Tuned {
+        all.push(TunedSprings {
             alpha: subject.alpha,
             mass_share: subject.body.mass_share(),
             restitution: e,

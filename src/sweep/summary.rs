@@ -2,13 +2,13 @@
 
 use super::{
     compare::Comparison,
-    fragility::{Fragility, MEASURES, Member, State, subject_name},
+    fragility::{Fragility, FragilityGroup, LimitState, MEASURES, subject_name},
     ida::Ida,
     plan::Plan,
     reduce::MODELS,
     table::Table,
 };
-use crate::sweep::lognormal::Fit;
+use crate::sweep::lognormal::LognormalFit;
 
 /// A model in words.
 fn by(model: &str) -> &'static str {
@@ -35,9 +35,9 @@ const SPOKEN_OF: usize = 12;
 pub fn fragility(plan: &Plan, fragility: &Fragility) -> Vec<String> {
     let mut said = Vec::new();
     let percent = 100.0 * fragility.confidence;
-    let spoken_of = |member: &Member| member.subject.is_none_or(|subject| subject < SPOKEN_OF);
+    let spoken_of = |member: &FragilityGroup| member.subject.is_none_or(|subject| subject < SPOKEN_OF);
     for (at, member) in fragility.members.iter().enumerate().filter(|(_, member)| spoken_of(member)) {
-        let rows = || fragility.rows.iter().filter(move |row| row.member == at && row.state == State::Overturning);
+        let rows = || fragility.rows.iter().filter(move |row| row.member == at && row.state == LimitState::Overturning);
         let Some(pga) = rows().find(|row| row.measure == if member.subject.is_some() { 0 } else { 2 }) else {
             continue;
         };
@@ -50,7 +50,7 @@ pub fn fragility(plan: &Plan, fragility: &Fragility) -> Vec<String> {
         let (measure, unit) = MEASURES[pga.measure];
         let unit = if unit == "-" { String::new() } else { format!(" {unit}") };
         let fit = match (&pga.fit, pga.bounds(fragility.half_width())) {
-            (Fit::Fitted(fit), Some(bounds)) => format!(
+            (LognormalFit::Fitted(fit), Some(bounds)) => format!(
                 "half of the motions overturn it at {measure} = {:.3}{unit}{} ({percent:.0} % bounds {:.3} to {:.3}), beta {:.2} ({:.2} to {:.2})",
                 fit.median(),
                 if pga.is_extrapolated() { ", extrapolated beyond the levels" } else { "" },
@@ -60,12 +60,12 @@ pub fn fragility(plan: &Plan, fragility: &Fragility) -> Vec<String> {
                 bounds.beta.0,
                 bounds.beta.1
             ),
-            (Fit::NoneExceeded, _) => "no motion overturns it; raise the levels".into(),
-            (Fit::AllExceeded, _) => "every motion overturns it; lower the levels".into(),
-            (Fit::Separated { below, above }, _) => {
+            (LognormalFit::NoneExceeded, _) => "no motion overturns it; raise the levels".into(),
+            (LognormalFit::AllExceeded, _) => "every motion overturns it; lower the levels".into(),
+            (LognormalFit::Separated { below, above }, _) => {
                 format!("{measure} alone decides: up to {below:.3}{unit} it stands, from {above:.3}{unit} it overturns")
             }
-            (Fit::Undetermined, _) => {
+            (LognormalFit::Undetermined, _) => {
                 format!("no fit on {measure}: outcomes are mixed at one level alone; add levels about it")
             }
             _ => format!("no fit on {measure}: higher levels overturn it less often"),
@@ -95,7 +95,7 @@ pub fn fragility(plan: &Plan, fragility: &Fragility) -> Vec<String> {
 }
 
 /// The measure with the least scatter.
-fn best_measure<'a>(rows: impl Iterator<Item = &'a super::fragility::Row>) -> Option<String> {
+fn best_measure<'a>(rows: impl Iterator<Item = &'a super::fragility::FragilityRow>) -> Option<String> {
     let betas: Vec<(&str, f64)> =
         rows.filter_map(|row| row.probit().map(|fit| (MEASURES[row.measure].0, fit.beta()))).collect();
     let (best, beta) = betas.iter().min_by(|a, b| a.1.total_cmp(&b.1))?;

@@ -10,7 +10,7 @@ use serde::Deserialize;
 
 /// One number, some numbers, or a range of them: at least one, all finite.
 #[derive(Clone, Debug, PartialEq, Deserialize)]
-#[serde(try_from = "Written")]
+#[serde(try_from = "WrittenValues")]
 pub struct Values(Vec<f64>);
 
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Deserialize)]
@@ -36,7 +36,7 @@ struct Range {
     untagged,
     expecting = "give a number, a list of numbers, or { from = 1.0, to = 9.0, count = 5, spacing = \"log\" }"
 )]
-enum Written {
+enum WrittenValues {
     One(f64),
     Some(Vec<f64>),
     Range(Range),
@@ -45,14 +45,14 @@ enum Written {
 /// No list is longer.
 const MOST: usize = 100_000;
 
-impl TryFrom<Written> for Values {
+impl TryFrom<WrittenValues> for Values {
     type Error = String;
 
-    fn try_from(written: Written) -> Result<Self, String> {
+    fn try_from(written: WrittenValues) -> Result<Self, String> {
         let values = match written {
-            Written::One(x) => vec![x],
-            Written::Some(list) => list,
-            Written::Range(range) => range.values()?,
+            WrittenValues::One(x) => vec![x],
+            WrittenValues::Some(list) => list,
+            WrittenValues::Range(range) => range.values()?,
         };
         if values.is_empty() || values.len() > MOST {
             return Err(format!("{} values; give 1 to {MOST} numbers", values.len()));

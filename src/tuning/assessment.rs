@@ -4,7 +4,7 @@ use serde::{Deserialize, Serialize};
 
 use super::{
     job::Job,
-    landing::{corners::Corners, design::Geometry, plane::land},
+    landing::{corners::CornerDynamics, design::Geometry, plane::land},
     suite::{Accuracy, LOOSER},
 };
 use crate::{case::Objective, motion::shown, validate::PREDICTABLE};
@@ -123,7 +123,7 @@ impl Assessment {
 fn limit(job: &Job) -> Option<LimitRow> {
     let springs = &job.springs;
     let geometry = Geometry::of(&job.body, job.tuned.best.stiffness).ok()?;
-    let landing = land(&Corners::rigid(geometry.alpha(), geometry.mass_share()), springs);
+    let landing = land(&CornerDynamics::rigid(geometry.alpha(), geometry.mass_share()), springs);
     Some(LimitRow {
         alpha: geometry.alpha(),
         mass_share: geometry.mass_share(),

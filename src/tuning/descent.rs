@@ -60,13 +60,13 @@ fn sum_of_squares(r: &[f64]) -> f64 {
 }
 
 /// Residuals, and a matrix that may be a few steps old.
-struct Model {
+struct ResidualModel {
     r: Vec<f64>,
     j: Vec<Vec<f64>>,
     fresh: bool,
 }
 
-impl Model {
+impl ResidualModel {
     /// Learn from residuals `r` found a step d away.
     fn moved(&mut self, d: &[f64], r: Vec<f64>) {
         let square = sum_of_squares(d);
@@ -85,7 +85,7 @@ impl Model {
 struct TrustRegion<'a, P> {
     problem: &'a P,
     radius: f64,
-    model: Option<Model>,
+    model: Option<ResidualModel>,
 }
 
 /// Smallest trust region worth another step (logarithms of the parameters).
@@ -110,7 +110,7 @@ impl<P: LeastSquares> Solver<Adapter<'_, P>, Iterate> for TrustRegion<'_, P> {
             Some(model) => model,
             None => {
                 let (r, j) = problem.jacobian(&z)?;
-                Model { r, j, fresh: true }
+                ResidualModel { r, j, fresh: true }
             }
         };
         let now = sum_of_squares(&model.r);

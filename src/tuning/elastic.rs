@@ -18,9 +18,9 @@ use thiserror::Error;
 
 use self::{
     design::{CornerSprings, springs},
-    suite::{Measured, Suite},
+    suite::{ElasticSuite, Measured},
 };
-use super::ladder::{DECADE, Found, seek};
+use super::ladder::{DECADE, FoundRung, seek};
 use crate::{
     case::ACCURACY,
     elastic::{answer::Reference, assembled::Assembled, standing::Standing, structure::ElasticStructure},
@@ -77,7 +77,7 @@ pub fn tune(
     let standing = stand(model).ok_or(ElasticTuneError::Falls)?;
     let landing = landing_speed(&model.structure);
     let rungs = Rungs::new(accuracy, most_hz, |i| springs(&standing, give(i), landing).omega_n_hz)?;
-    let suite = Suite::new(model.clone(), record);
+    let suite = ElasticSuite::new(model.clone(), record);
     let of = |i: i64| springs(&standing, give(i), landing);
     Ok(rungs.search(accuracy, of, &|springs| suite.measure(springs, Control::search()), progress))
 }
@@ -132,7 +132,7 @@ impl Rungs {
         };
         let found = seek(self.ends.0, self.ends.1, self.guess, &mut judge);
         // nothing to measure springs on
-        let Found { rung, holds } = found.unwrap_or(Found { rung: self.guess, holds: false });
+        let FoundRung { rung, holds } = found.unwrap_or(FoundRung { rung: self.guess, holds: false });
         let (springs, measured) = seen.remove(&rung).unwrap_or_else(|| judged(rung));
         ElasticTuned { springs, measured, reached: holds && measured.over(allowed).is_some_and(|over| over <= 1.0) }
     }
@@ -157,7 +157,7 @@ fn give(i: i64) -> f64 {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::tuning::elastic::suite::Errors;
+    use crate::tuning::elastic::suite::ElasticErrors;
 
     fn springs(i: i64) -> CornerSprings {
         CornerSprings { corners: Vec::new(), k: 0.1, give: give(i), omega_n_hz: 2.0 / give(i).sqrt() }
@@ -186,7 +186,7 @@ mod tests {
         let errors = |give: f64| {
             let error = [0.1 * give; 2];
             Measured {
-                releases: Some(Errors { median: error, p90: error, count: 1, touches: 2.0 }),
+                releases: Some(ElasticErrors { median: error, p90: error, count: 1, touches: 2.0 }),
                 ..Measured::default()
             }
         };

@@ -24,7 +24,7 @@ use crate::{
     structure::Body,
 };
 
-type Dual = DualSVec64<8>;
+type FollowDual = DualSVec64<8>;
 
 /// Stiffness ratio K, damping number C, mass ratio mu: least and largest.
 const K: (f64, f64) = (0.001, LARGEST_K);
@@ -53,13 +53,13 @@ const EVALUATIONS: usize = 6000;
 const ENOUGH: f64 = 0.4;
 
 /// Landings and uplifts of a body on springs within a bracket.
-struct Objective {
+struct LandingsAndUplifts {
     whole: WholeModel,
     bracket: Bracket,
     control: Control,
 }
 
-impl Objective {
+impl LandingsAndUplifts {
     /// It depends on the mass only through I_cg/m, so it is that of a body of 1 kg: in whatever unit a mass is given, the same
     /// springs are found.
     fn new(body: &Body<f64>, restitution: f64, bracket: Bracket, criterion: Criterion) -> Self {
@@ -69,16 +69,16 @@ impl Objective {
     }
 }
 
-impl LeastSquares for Objective {
+impl LeastSquares for LandingsAndUplifts {
     fn residuals(&self, z: &[f64]) -> Vec<f64> {
         self.whole.residuals(&springs(z), self.control)
     }
 
     fn gradients(&self, z: &[f64]) -> (Vec<f64>, Vec<Vec<f64>>) {
-        let duals: Vec<Dual> = z
+        let duals: Vec<FollowDual> = z
             .iter()
             .enumerate()
-            .map(|(i, &z)| Dual::new(z, Derivative::derivative_generic(nalgebra::Const::<8>, nalgebra::U1, i)))
+            .map(|(i, &z)| FollowDual::new(z, Derivative::derivative_generic(nalgebra::Const::<8>, nalgebra::U1, i)))
             .collect();
         // one iteration more leaves the gradients good to the square of the iteration's rate, about 1e-4: enough for a step
         let control = Control { extra_iterations: 1, tolerance: 1e-5, ..self.control };
@@ -95,17 +95,18 @@ impl LeastSquares for Objective {
 
     fn inequality(&self, z: &[f64]) -> Option<(f64, Vec<f64>)> {
         // ln of g/2 (1 + 1/K) / Omega_n^2 over the largest settlement
-        let settlement = |omega: Dual, k: Dual| {
+        let settlement = |omega: FollowDual, k: FollowDual| {
             ((k.exp().recip() + 1.0) * (0.5 * GRAVITY) / ((omega.exp() * TAU) * (omega.exp() * TAU))).ln()
         };
-        let seed =
-            |i: usize, x: f64| Dual::new(x, Derivative::derivative_generic(nalgebra::Const::<8>, nalgebra::U1, i));
-        let value = settlement(seed(0, z[0]), seed(1, z[1])) - real::<Dual>(self.bracket.max_settlement.ln());
+        let seed = |i: usize, x: f64| {
+            FollowDual::new(x, Derivative::derivative_generic(nalgebra::Const::<8>, nalgebra::U1, i))
+        };
+        let value = settlement(seed(0, z[0]), seed(1, z[1])) - real::<FollowDual>(self.bracket.max_settlement.ln());
         Some((value.re, row(&value)))
     }
 }
 
-fn row(x: &Dual) -> Vec<f64> {
+fn row(x: &FollowDual) -> Vec<f64> {
     let row: SVector<f64, 8> = x.eps.unwrap_generic(nalgebra::Const::<8>, nalgebra::U1);
     row.iter().copied().collect()
 }
@@ -135,7 +136,7 @@ pub fn with_restitution(
     bracket: Bracket,
     progress: &(dyn Fn(usize, usize, f64) + Sync),
 ) -> Option<Springs<Design<f64>>> {
-    let objective = Objective::new(body, restitution, bracket, Criterion::Energy);
+    let objective = LandingsAndUplifts::new(body, restitution, bracket, Criterion::Energy);
     let cost = |z: &[f64]| {
         let error = objective.residuals(z).iter().map(|r| r * r).sum::<f64>().sqrt();
         // a run that did not finish is worse than any other
@@ -165,7 +166,7 @@ fn path(
             found.vertical.omega_n_hz *= 0.5;
             found.horizontal.omega_n_hz *= 0.5;
         }
-        let objective = Objective::new(body, restitution, here, criterion);
+        let objective = LandingsAndUplifts::new(body, restitution, here, criterion);
         let steps = if halving == 0 { STEPS.1 } else { STEPS.0 };
         let end = descend(&objective, &logarithms(&found), 0.3, steps);
         (found, error) = (springs(&end.z), end.error);

@@ -112,7 +112,7 @@ impl Job {
 
         let (tuned, capped, paper) = match case.tuning.objective {
             Objective::Landing => {
-                let design = Landing { case, body, suites: &suites, procedure: &procedure };
+                let design = LandingDesign { case, body, suites: &suites, procedure: &procedure };
                 let (tuned, capped) = design.tune(progress)?;
                 let hz = tuned.best.springs.vertical.omega_n_hz;
                 // on an ill-conditioned record it would tune to noise
@@ -135,14 +135,14 @@ impl Job {
 }
 
 /// The design from the geometry, and Omega_n.
-struct Landing<'a> {
+struct LandingDesign<'a> {
     case: &'a Case,
     body: Body<f64>,
     suites: &'a Suites,
     procedure: &'a Procedure<'a>,
 }
 
-impl Landing<'_> {
+impl LandingDesign<'_> {
     /// The outer loop, and whether a cap decided.
     fn tune(&self, progress: &(dyn Fn(usize, usize, f64) + Sync)) -> Result<(Tuned, bool), JobError> {
         let tuning = &self.case.tuning;

@@ -6,7 +6,7 @@ pub(super) const DECADE: f64 = 10.0;
 const MOST_RUNGS: usize = 12;
 
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub(super) struct Found {
+pub(super) struct FoundRung {
     /// Its number.
     pub rung: i64,
     /// Whether it holds.
@@ -15,7 +15,7 @@ pub(super) struct Found {
 
 /// The softest rung between first and last that holds with the next above it, from a guess; else the best one seen. `judge`
 /// gives the error of a rung over what is allowed.
-pub(super) fn seek(first: i64, last: i64, guess: i64, judge: &mut dyn FnMut(i64) -> Option<f64>) -> Option<Found> {
+pub(super) fn seek(first: i64, last: i64, guess: i64, judge: &mut dyn FnMut(i64) -> Option<f64>) -> Option<FoundRung> {
     // everything up to `fails` counts as failing, `holds` holds
     let (mut fails, mut holds): (i64, Option<i64>) = (first - 1, None);
     let mut best: Option<(f64, i64)> = None;
@@ -43,7 +43,7 @@ pub(super) fn seek(first: i64, last: i64, guess: i64, judge: &mut dyn FnMut(i64)
             // the rung above the softest that holds must hold, too
             if h - 1 == fails {
                 if h == last || judge(h + 1)? <= 1.0 {
-                    return Some(Found { rung: h, holds: true });
+                    return Some(FoundRung { rung: h, holds: true });
                 }
                 if h + 1 == last {
                     break;
@@ -55,8 +55,8 @@ pub(super) fn seek(first: i64, last: i64, guess: i64, judge: &mut dyn FnMut(i64)
         }
     }
     match holds {
-        Some(rung) => Some(Found { rung, holds: true }),
-        None => best.map(|(over, rung)| Found { rung, holds: over <= 1.0 }),
+        Some(rung) => Some(FoundRung { rung, holds: true }),
+        None => best.map(|(over, rung)| FoundRung { rung, holds: over <= 1.0 }),
     }
 }
 
@@ -64,7 +64,7 @@ pub(super) fn seek(first: i64, last: i64, guess: i64, judge: &mut dyn FnMut(i64)
 mod tests {
     use super::*;
 
-    fn found(error: impl Fn(i64) -> f64, guess: i64) -> (Option<Found>, usize) {
+    fn found(error: impl Fn(i64) -> f64, guess: i64) -> (Option<FoundRung>, usize) {
         let mut seen = std::collections::BTreeSet::new();
         let found = seek(20, 60, guess, &mut |i| {
             seen.insert(i);
@@ -78,7 +78,7 @@ mod tests {
         for guess in 20..=60 {
             // 1/Omega_n, 1 at rung 41
             let (rung, count) = found(|i| 10f64.powf((41 - i) as f64 / 10.0), guess);
-            assert_eq!(rung, Some(Found { rung: 41, holds: true }), "{guess}");
+            assert_eq!(rung, Some(FoundRung { rung: 41, holds: true }), "{guess}");
             assert!(count <= 5, "{guess}: {count}");
         }
     }
@@ -87,13 +87,13 @@ mod tests {
     fn a_rung_that_holds_below_one_that_does_not_is_passed_over() {
         let bump = |i: i64| if i == 42 { 1.3 } else { 10f64.powf((41 - i) as f64 / 10.0) };
         for guess in [25, 41, 42, 43, 55] {
-            assert_eq!(found(bump, guess).0, Some(Found { rung: 43, holds: true }), "{guess}");
+            assert_eq!(found(bump, guess).0, Some(FoundRung { rung: 43, holds: true }), "{guess}");
         }
     }
 
     #[test]
     fn where_none_holds_the_best_is_taken_and_it_is_said() {
         assert_eq!(found(|i| 10.0 + (50 - i).abs() as f64, 40).0.map(|f| f.holds), Some(false));
-        assert_eq!(found(|_| 0.1, 40).0, Some(Found { rung: 20, holds: true }));
+        assert_eq!(found(|_| 0.1, 40).0, Some(FoundRung { rung: 20, holds: true }));
     }
 }

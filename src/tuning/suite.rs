@@ -54,7 +54,7 @@ pub struct Trial {
 
 /// What a motion must be like to be judged on.
 #[derive(Clone, Copy, Debug, PartialEq)]
-enum Wanted {
+enum WantedMotion {
     /// Well conditioned, by the derivative and by finite changes.
     WellConditioned,
     /// The same up to overturning, if it overturns.
@@ -63,7 +63,7 @@ enum Wanted {
     Predictable,
 }
 
-impl Wanted {
+impl WantedMotion {
     /// Whether Housner's history `rocking` is so; the cheapest grounds to refuse it first.
     fn holds(self, body: &Body<f64>, record: &Record, options: &RockingOptions<f64>, rocking: &Rocking<f64>) -> bool {
         let Record { dt, ref accel, .. } = *record;
@@ -82,11 +82,11 @@ impl Wanted {
 
 impl Trial {
     /// The motion, if Housner's body rocks on it, on a pivot that presses, and its history is as wanted.
-    fn new(body: &Body<f64>, restitution: f64, record: Record, wanted: Wanted) -> Option<Self> {
+    fn new(body: &Body<f64>, restitution: f64, record: Record, wanted: WantedMotion) -> Option<Self> {
         let vertical = record.vertical_accel();
         let options = RockingOptions { restitution: Some(restitution), vertical, ..RockingOptions::default() };
         let rocking = housner::solve(body, record.dt, &record.accel, &options);
-        let overturned = rocking.overturned().filter(|_| wanted == Wanted::WellConditionedWhileItStands);
+        let overturned = rocking.overturned().filter(|_| wanted == WantedMotion::WellConditionedWhileItStands);
         let rocks = rocking.outcome == housner::RockingOutcome::Rocked || overturned.is_some();
         let presses = || regime::pivot_pulls(body, record.dt, &record.accel, &rocking).is_none();
         let lands = !rocking.impacts.is_empty();
@@ -213,9 +213,9 @@ impl Suites {
     /// Of a body that lands with velocity restitution `restitution`, with this record if there is one.
     pub fn new(body: &Body<f64>, restitution: f64, record: Option<&Record>) -> Self {
         let (p, alpha) = (body.p_squared().sqrt(), body.alpha());
-        let well = |record| Trial::new(body, restitution, record, Wanted::WellConditioned);
-        let standing = |record| Trial::new(body, restitution, record, Wanted::WellConditionedWhileItStands);
-        let predictable = |record| Trial::new(body, restitution, record, Wanted::Predictable);
+        let well = |record| Trial::new(body, restitution, record, WantedMotion::WellConditioned);
+        let standing = |record| Trial::new(body, restitution, record, WantedMotion::WellConditionedWhileItStands);
+        let predictable = |record| Trial::new(body, restitution, record, WantedMotion::Predictable);
         Self {
             body: *body,
             record: record.and_then(|record| standing(record.clone())),
@@ -227,7 +227,7 @@ impl Suites {
     /// More synthetic motions, none of which is one of these, to tell springs apart on which these do not decide; nothing else.
     pub fn more(&self, restitution: f64) -> Self {
         let (p, alpha) = (self.body.p_squared().sqrt(), self.body.alpha());
-        let well = |record| Trial::new(&self.body, restitution, record, Wanted::WellConditioned);
+        let well = |record| Trial::new(&self.body, restitution, record, WantedMotion::WellConditioned);
         let others = LOOKED_AT..LOOKED_AT + MORE_LOOKED_AT;
         Self {
             body: self.body,

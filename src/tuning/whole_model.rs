@@ -37,7 +37,7 @@ use crate::{
     structure::Body,
 };
 use landing::{Left, Release};
-use uplift::Uplift;
+use uplift::UpliftRamp;
 
 /// Leans from which landings are judged and reported, shares of alpha.
 pub const LEANS: [f64; 8] = [0.9, 0.7, 0.5, 0.3, 0.2, 0.1, 0.05, LEAST_LEAN];
@@ -84,7 +84,7 @@ pub struct WholeModel {
     /// Time in the air that a landing may take (s).
     air_s: f64,
     releases: Vec<Release>,
-    uplifts: Vec<Uplift>,
+    uplifts: Vec<UpliftRamp>,
 }
 
 impl WholeModel {

@@ -130,14 +130,14 @@ impl Row {
 }
 
 /// Housner's answer to a record.
-struct Answer<'a> {
+struct HousnerAnswer<'a> {
     record: Cow<'a, Record>,
     options: housner::RockingOptions<f64>,
     rocking: housner::Rocking<f64>,
     conditioning: Option<Conditioning>,
 }
 
-impl Answer<'_> {
+impl HousnerAnswer<'_> {
     /// His rotations until the body lies.
     fn standing(&self) -> &[f64] {
         let Self { record, rocking, .. } = self;
@@ -149,7 +149,8 @@ impl Answer<'_> {
 impl Judge {
     /// Run both models over records, the finite element histories side by side.
     pub fn judge(&self, records: &[Record]) -> Vec<Row> {
-        let answers: Vec<Answer> = records.par_iter().with_max_len(1).map(|record| self.answer(record)).collect();
+        let answers: Vec<HousnerAnswer> =
+            records.par_iter().with_max_len(1).map(|record| self.answer(record)).collect();
         let cases: Vec<fem::Analysis<f64>> = answers.iter().map(|answer| self.case(&answer.record)).collect();
         let watch = |i: usize| Stream::new(&self.body, answers[i].standing(), cases[i].accel);
         let followed = fem::histories(&cases, watch);
@@ -157,7 +158,7 @@ impl Judge {
         both.map(|(answer, (stream, finish))| self.row(answer, &stream, &finish)).collect()
     }
 
-    fn answer<'a>(&self, record: &'a Record) -> Answer<'a> {
+    fn answer<'a>(&self, record: &'a Record) -> HousnerAnswer<'a> {
         // the whole record as it is, without a copy
         let short = self.duration_s.map(|duration| record.truncated(duration));
         let record = short.map_or(Cow::Borrowed(record), Cow::Owned);
@@ -165,7 +166,7 @@ impl Judge {
         let rocking = housner::solve(&self.body, record.dt, &record.accel, &options);
         let lifted = rocking.outcome != housner::RockingOutcome::NeverMoved;
         let conditioning = lifted.then(|| Conditioning::new(&self.body, record.dt, &record.accel, &options));
-        Answer { record, options, rocking, conditioning }
+        HousnerAnswer { record, options, rocking, conditioning }
     }
 
     fn case<'a>(&self, record: &'a Record) -> fem::Analysis<'a, f64> {
@@ -181,8 +182,8 @@ impl Judge {
         }
     }
 
-    fn row(&self, answer: &Answer, stream: &Stream, finish: &fem::Finish<f64>) -> Row {
-        let Answer { record, options, rocking, conditioning } = answer;
+    fn row(&self, answer: &HousnerAnswer, stream: &Stream, finish: &fem::Finish<f64>) -> Row {
+        let HousnerAnswer { record, options, rocking, conditioning } = answer;
         let (body, dt, accel) = (&self.body, record.dt, &record.accel[..]);
         let overturned_fem = match finish.outcome {
             fem::HistoryOutcome::Overturned { .. } | fem::HistoryOutcome::Stopped { .. } => Some(true),

@@ -47,7 +47,7 @@ impl Nrmse {
 
 /// Errors over the samples that both histories have.
 #[derive(Clone, Copy, Debug, Default)]
-pub struct Errors {
+pub struct StreamErrors {
     pub horizontal: Nrmse,
     pub vertical: Nrmse,
     pub samples: usize,
@@ -63,9 +63,9 @@ pub struct Stream<'a> {
     /// Index and size of the largest |u_g| of the rest of the record [m/s2].
     strongest: Option<(usize, f64)>,
     initial_z: f64,
-    pub errors: Errors,
+    pub errors: StreamErrors,
     /// The same up to the last sample at which the body leaned by alpha or less: what a body that topples is judged by.
-    pub upright: Errors,
+    pub upright: StreamErrors,
     /// Largest |theta| while a foot is off the ground (rad).
     pub peak: f64,
     /// theta (rad) and theta' [rad/s] at the last sample.
@@ -86,8 +86,8 @@ impl<'a> Stream<'a> {
             alpha: body.alpha(),
             strongest: None,
             initial_z: 0.0,
-            errors: Errors::default(),
-            upright: Errors::default(),
+            errors: StreamErrors::default(),
+            upright: StreamErrors::default(),
             peak: 0.0,
             last: (0.0, 0.0),
             samples: 0,

@@ -5,7 +5,7 @@ use std::path::Path;
 use groundspring::{
     elastic::{
         Mechanics, Pier,
-        reference::{ElasticRocking, Ground, Options, Twins, growth},
+        reference::{ElasticRocking, GroundAcceleration, ReferenceOptions, Twins, growth},
     },
     record::Record,
 };
@@ -46,10 +46,10 @@ fn axial() -> Pier {
 
 #[test]
 fn free_rocking_with_axial_stiffness_a_chord_and_without_hops() {
-    let held_down = Options { hop: false, ..Options::tight() };
+    let held_down = ReferenceOptions { hop: false, ..ReferenceOptions::tight() };
     for (name, pier, options) in [
-        ("free_axial", axial(), Options::tight()),
-        ("free_chord", axial().with_chord(12.0), Options::tight()),
+        ("free_axial", axial(), ReferenceOptions::tight()),
+        ("free_chord", axial().with_chord(12.0), ReferenceOptions::tight()),
         ("free_bilateral", light(), held_down),
     ] {
         assert_equal(&free_rocking(&pier, 0.0975, 5.0, &options), name, 501, 5.0);
@@ -59,19 +59,19 @@ fn free_rocking_with_axial_stiffness_a_chord_and_without_hops() {
 #[test]
 fn el_centro() {
     let accel = Record::el_centro().accel;
-    let held_down = Options { hop: false, ..Options::tight() };
+    let held_down = ReferenceOptions { hop: false, ..ReferenceOptions::tight() };
     let soft = Pier::new([6e5, 12.0, 2.0], [1.5, 0.02], [6e4, 0.75]);
     for (name, pier, options) in [
-        ("el_centro", light(), Options::tight()),
-        ("el_centro_axial", axial(), Options::tight()),
-        ("el_centro_chord", axial().with_chord(12.0), Options::tight()),
+        ("el_centro", light(), ReferenceOptions::tight()),
+        ("el_centro_axial", axial(), ReferenceOptions::tight()),
+        ("el_centro_chord", axial().with_chord(12.0), ReferenceOptions::tight()),
         ("el_centro_bilateral", light(), held_down),
-        ("el_centro_soft", soft, Options::tight()),
+        ("el_centro_soft", soft, ReferenceOptions::tight()),
     ] {
         let (q, v) = (pier.leaning(0.0), DVector::zeros(pier.size()));
-        let options = Options { duration: Some(8.0), ..options };
+        let options = ReferenceOptions { duration: Some(8.0), ..options };
         let history = shaken(&pier, &accel, 8.0, &options);
-        let ground = Ground::horizontal(0.01, &accel);
+        let ground = GroundAcceleration::horizontal(0.01, &accel);
         let grown = growth(
             &pier,
             ground,

@@ -4,7 +4,8 @@ use groundspring::{
     elastic::{
         Mechanics,
         reference::{
-            Configuration, Contact, Corners, ElasticRocking, Event, Ground, Options, Outcome, What, at_rest, rock,
+            Configuration, CornerContact, CornerSet, ElasticRocking, GroundAcceleration, ReferenceEvent,
+            ReferenceOptions, ReferenceOutcome, What, at_rest, rock,
         },
     },
     scalar::GRAVITY,
@@ -22,7 +23,7 @@ fn weight(structure: &impl Mechanics, q: &DVector<f64>) -> f64 {
 fn assert_sound(structure: &impl Mechanics, history: &ElasticRocking, name: &str) {
     // of a structure that never moves, what lifting it by a micrometre takes
     let scale = history.ledger.largest.max(1e-6 * weight(structure, &history.q[0]));
-    assert!(!matches!(history.outcome, Outcome::Stopped { .. }), "{name}: {:?}", history.outcome);
+    assert!(!matches!(history.outcome, ReferenceOutcome::Stopped { .. }), "{name}: {:?}", history.outcome);
     assert!(history.ledger.open < 1e-6 * scale, "{name}: {:?}", history.ledger);
     assert!(history.ledger.damped >= 0.0 && history.ledger.slid >= -1e-12 * scale, "{name}: {:?}", history.ledger);
     for event in &history.events {
@@ -48,7 +49,7 @@ fn assert_pushed(structure: &impl Mechanics, history: &ElasticRocking, name: &st
 }
 
 /// Velocities after a landing: held corners at rest, others not into the ground, corners that stayed pushed; nothing else has acted.
-fn assert_plastic(structure: &impl Mechanics, event: &Event, name: &str) {
+fn assert_plastic(structure: &impl Mechanics, event: &ReferenceEvent, name: &str) {
     let [before, after] = &event.velocity;
     let speed = before.amax();
     let at = Configuration::new(structure, &event.q, before).unwrap();
@@ -56,15 +57,15 @@ fn assert_plastic(structure: &impl Mechanics, event: &Event, name: &str) {
         let corner = structure.corner(i, &event.q, before);
         !event.held.contains(i) && corner.jacobian[1].dot(after).abs() < 1e-9 * speed
     };
-    let sliding: Corners = event.corners.iter().filter(skids).collect();
+    let sliding: CornerSet = event.corners.iter().filter(skids).collect();
     let impact = if sliding.is_empty() {
-        at.impact(Contact::held(event.held)).unwrap()
+        at.impact(CornerContact::held(event.held)).unwrap()
     } else {
-        let braked = at.braked(Contact { held: event.held, sliding }).unwrap();
+        let braked = at.braked(CornerContact { held: event.held, sliding }).unwrap();
         for i in sliding.iter() {
             // the ground brakes it, and would have to pull to stop it
             assert!(at.slip(i, &braked.motion, false) * braked.force(i)[0] <= 0.0, "{name}: {event:?}");
-            let stopped = at.impact(Contact::held(event.held.with(i))).unwrap();
+            let stopped = at.impact(CornerContact::held(event.held.with(i))).unwrap();
             assert!(stopped.force(i)[1] < 0.0, "{name}: {event:?}");
         }
         braked
@@ -94,8 +95,8 @@ fn energy_never_grows_in_random_piers() {
         let [accel, vertical] = random.shake(slenderness(&pier), 601);
         let (q, v) =
             (at_rest(&pier, &DVector::zeros(pier.size()), (0..2).collect(), &[]).unwrap(), DVector::zeros(pier.size()));
-        let ground = Ground { dt: 0.01, accel: &accel, vertical: &vertical };
-        let history = rock(&pier, ground, (&q, &v), &Options::default());
+        let ground = GroundAcceleration { dt: 0.01, accel: &accel, vertical: &vertical };
+        let history = rock(&pier, ground, (&q, &v), &ReferenceOptions::default());
         assert_sound(&pier, &history, &format!("case {case}"));
         assert_pushed(&pier, &history, &format!("case {case}"));
         events += history.events.len();
@@ -110,7 +111,7 @@ fn energy_never_grows_in_random_piers() {
 #[test]
 fn energy_never_grows_in_random_portals() {
     let mut random = Random::new(2);
-    let mut held: Vec<Corners> = Vec::new();
+    let mut held: Vec<CornerSet> = Vec::new();
     for case in 0..16 {
         let portal = Portal {
             head: random.within(1e4, 2e5),
@@ -122,9 +123,9 @@ fn energy_never_grows_in_random_portals() {
             ..Portal::default()
         };
         let [accel, vertical] = random.shake(portal.half_width / portal.height, 601);
-        let ground = Ground { dt: 0.01, accel: &accel, vertical: &vertical };
+        let ground = GroundAcceleration { dt: 0.01, accel: &accel, vertical: &vertical };
         let start = DVector::zeros(6);
-        let history = rock(&portal, ground, (&start, &start), &Options::default());
+        let history = rock(&portal, ground, (&start, &start), &ReferenceOptions::default());
         assert_sound(&portal, &history, &format!("case {case}"));
         assert_pushed(&portal, &history, &format!("case {case}"));
         held.extend(history.landings().map(|event| event.held));
@@ -145,7 +146,8 @@ fn both_footings_of_a_symmetrical_portal_land_at_once() {
     let mut random = Random::new(5);
     let accel = random.motion(601, 9.0);
     let start = DVector::zeros(6);
-    let history = rock(&portal, Ground::horizontal(0.01, &accel), (&start, &start), &Options::default());
+    let history =
+        rock(&portal, GroundAcceleration::horizontal(0.01, &accel), (&start, &start), &ReferenceOptions::default());
     assert!(history.landings().count() > 4);
     for q in &history.q {
         for i in 0..3 {
@@ -158,8 +160,8 @@ fn both_footings_of_a_symmetrical_portal_land_at_once() {
 #[test]
 fn rocking_comes_to_rest() {
     for pier in [crate::piers::heavy(), crate::piers::heavy().with_axial(8e9, 0.02), crate::piers::light()] {
-        let history = crate::piers::free_rocking(&pier, 0.02, 20.0, &Options::default());
-        assert_eq!(history.outcome, Outcome::Completed);
+        let history = crate::piers::free_rocking(&pier, 0.02, 20.0, &ReferenceOptions::default());
+        assert_eq!(history.outcome, ReferenceOutcome::Completed);
         assert!(history.events.len() < 2000, "{}", history.events.len());
         assert_eq!(history.events.last().map(|event| event.held.len()), Some(2));
         assert!(history.q.last().is_some_and(|q| q[2].abs() < 1e-12));
@@ -171,10 +173,10 @@ fn rocking_comes_to_rest() {
 fn a_history_ends_in_one_of_three_ways() {
     let pier = crate::piers::light();
     let hard = vec![6.0; 501];
-    let outcome = crate::piers::shaken(&pier, &hard, 5.0, &Options::default()).outcome;
-    assert!(matches!(outcome, Outcome::Overturned { time } if time > 0.5), "{outcome:?}");
-    let few = Options { max_events: 2, ..Options::default() };
+    let outcome = crate::piers::shaken(&pier, &hard, 5.0, &ReferenceOptions::default()).outcome;
+    assert!(matches!(outcome, ReferenceOutcome::Overturned { time } if time > 0.5), "{outcome:?}");
+    let few = ReferenceOptions { max_events: 2, ..ReferenceOptions::default() };
     let history = crate::piers::free_rocking(&pier, 0.0975, 5.0, &few);
-    assert!(matches!(history.outcome, Outcome::Stopped { .. }) && history.events.len() == 3);
+    assert!(matches!(history.outcome, ReferenceOutcome::Stopped { .. }) && history.events.len() == 3);
     assert!(history.q.len() < 300);
 }

@@ -2,7 +2,9 @@
 
 use groundspring::elastic::{
     Mechanics, Pier,
-    reference::{Configuration, Contact, Corners, Ground, Options, Twins, at_rest, growth, rock},
+    reference::{
+        Configuration, CornerContact, CornerSet, GroundAcceleration, ReferenceOptions, Twins, at_rest, growth, rock,
+    },
 };
 use nalgebra::DVector;
 
@@ -11,12 +13,12 @@ use crate::portal::Portal;
 use crate::random::Random;
 
 /// No hops: the Lagrangian model.
-fn held_down() -> Options {
-    Options { hop: false, ..Options::tight() }
+fn held_down() -> ReferenceOptions {
+    ReferenceOptions { hop: false, ..ReferenceOptions::tight() }
 }
 
 /// sqrt of the ratio of the potential energies of the rigid body at the second and the first of its turning points.
-fn restitution(pier: &Pier, theta: f64, seconds: f64, options: &Options) -> f64 {
+fn restitution(pier: &Pier, theta: f64, seconds: f64, options: &ReferenceOptions) -> f64 {
     let history = free_rocking(pier, theta, seconds, options);
     let [first, second] = {
         let landings: Vec<f64> = history.landings().map(|event| event.time).collect();
@@ -62,9 +64,9 @@ fn a_stiff_pier_that_lands_on_one_corner_has_housners_restitution() {
     println!("Housner's e {housner}, relative errors at 80 and 320 Hz {errors:?}");
     assert!(errors[1].abs() < 1e-3 && errors[1].abs() < 0.5 * errors[0].abs(), "{errors:?}");
     // reported, not bounded
-    let hopping = restitution(&at_hertz(&heavy(), 320.0), 0.15, 4.0, &Options::tight());
+    let hopping = restitution(&at_hertz(&heavy(), 320.0), 0.15, 4.0, &ReferenceOptions::tight());
     let axial = at_hertz(&heavy(), 80.0).with_axial(4e12, 0.02);
-    println!("with hops {hopping}; with k_a = 4e12 N/m {}", restitution(&axial, 0.15, 4.0, &Options::tight()));
+    println!("with hops {hopping}; with k_a = 4e12 N/m {}", restitution(&axial, 0.15, 4.0, &ReferenceOptions::tight()));
 }
 
 /// e = m h^2/(m R^2 + I_b0) where both corners stop.
@@ -97,8 +99,8 @@ fn impacts_follow_the_formula() {
         let du = random.within(-0.5, 0.5);
         let (sin, cos) = q[2].sin_cos();
         let v = DVector::from_vec(vec![side * b * sin * rate, side * b * cos * rate, rate, du]);
-        let options = Options { duration: Some(0.01), max_events: 1, ..held_down() };
-        let history = rock(&pier, Ground::still(0.01), (&q, &v), &options);
+        let options = ReferenceOptions { duration: Some(0.01), max_events: 1, ..held_down() };
+        let history = rock(&pier, GroundAcceleration::still(0.01), (&q, &v), &options);
         let landing = &history.events[0];
         let [before, after] = &landing.velocity;
         let u = landing.q[3];
@@ -121,7 +123,7 @@ fn a_mirror_image_rocks_as_the_image_of_what_it_mirrors() {
     let accel = random.motion(600, 4.0);
     let mirrored: Vec<f64> = accel.iter().map(|a| -a).collect();
     let pier = light().with_axial(2e9, 0.02);
-    let [one, other] = [&accel, &mirrored].map(|accel| shaken(&pier, accel, 5.99, &Options::default()));
+    let [one, other] = [&accel, &mirrored].map(|accel| shaken(&pier, accel, 5.99, &ReferenceOptions::default()));
     assert!(one.events.len() > 10 && one.events.len() == other.events.len());
     for (a, b) in one.q.iter().zip(&other.q) {
         for (i, sign) in [-1.0, 1.0, -1.0, -1.0, 1.0].into_iter().enumerate() {
@@ -133,21 +135,21 @@ fn a_mirror_image_rocks_as_the_image_of_what_it_mirrors() {
 /// Rest: a column shortened by its load, a pier held leaning, a portal without force in its spring.
 #[test]
 fn structures_rest_under_their_weight() {
-    let (pier, both) = (light().with_axial(4e9, 0.02), Corners::from_iter([0, 1]));
+    let (pier, both) = (light().with_axial(4e9, 0.02), CornerSet::from_iter([0, 1]));
     let q = at_rest(&pier, &DVector::zeros(5), both, &[]).unwrap();
     assert!((&q - pier.leaning(0.0)).amax() < 1e-15, "{q}");
     let lean = pier.leaning(0.08);
-    let found = at_rest(&pier, &lean, Corners::from_iter([1]), &[2]).unwrap();
+    let found = at_rest(&pier, &lean, CornerSet::from_iter([1]), &[2]).unwrap();
     assert!((&found - &lean).amax() < 1e-14);
     let chord = pier.with_chord(12.0);
-    let found = at_rest(&chord, &lean, Corners::from_iter([1]), &[2]).unwrap();
+    let found = at_rest(&chord, &lean, CornerSet::from_iter([1]), &[2]).unwrap();
     let force = chord.force(&found, &DVector::zeros(5), [0.0; 2]);
     assert!(force.rows(3, 2).amax() < 1e-8 * force.amax(), "{force}");
     assert!((1e-6..1e-1).contains(&(found[3] / lean[3] - 1.0).abs()), "{found} {lean}");
     let portal = Portal::default();
     let four = (0..4).collect();
     assert!(at_rest(&portal, &DVector::zeros(6), four, &[]).unwrap().amax() < 1e-15);
-    assert!(at_rest(&portal, &DVector::zeros(6), Corners::from_iter([1]), &[]).is_err());
+    assert!(at_rest(&portal, &DVector::zeros(6), CornerSet::from_iter([1]), &[]).is_err());
 }
 
 /// Held corners carry the weight; one that is not held carries nothing.
@@ -156,7 +158,7 @@ fn a_standing_structure_presses_with_its_weight() {
     let (pier, v) = (light(), DVector::zeros(4));
     let q = DVector::zeros(4);
     let at = Configuration::new(&pier, &q, &v).unwrap();
-    let held = at.accelerations([0.0; 2], Contact::held(Corners::from_iter([0, 1]))).unwrap();
+    let held = at.accelerations([0.0; 2], CornerContact::held(CornerSet::from_iter([0, 1]))).unwrap();
     let mass = pier.mass + pier.footing_mass;
     let weight = 9.81 * mass;
     // in whatever configuration
@@ -166,7 +168,7 @@ fn a_standing_structure_presses_with_its_weight() {
     for i in 0..2 {
         assert!((held.force(i)[1] / (0.5 * weight) - 1.0).abs() < 1e-12 && held.force(i)[0].abs() < 1e-9 * weight);
     }
-    let free = at.accelerations([0.0; 2], Contact::default()).unwrap();
+    let free = at.accelerations([0.0; 2], CornerContact::default()).unwrap();
     assert!((free.motion[1] + 9.81).abs() < 1e-12 && free.force(0) == [0.0; 2]);
 }
 
@@ -175,8 +177,8 @@ fn a_standing_structure_presses_with_its_weight() {
 fn growth_is_a_property_of_the_history() {
     let pier = heavy();
     let (q, v) = (pier.leaning(0.15), DVector::zeros(4));
-    let options = Options { duration: Some(4.0), ..Options::tight() };
-    let ground = Ground::still(0.01);
+    let options = ReferenceOptions { duration: Some(4.0), ..ReferenceOptions::tight() };
+    let ground = GroundAcceleration::still(0.01);
     let history = rock(&pier, ground, (&q, &v), &options);
     let at = |d: f64| {
         growth(
@@ -218,7 +220,12 @@ fn a_corner_that_lands_flat_slides_on() {
         let across = -down * w_xx / w_xz * share;
         let mut v = still.clone();
         (v[0], v[1]) = (-across, down);
-        let history = rock(&pier, Ground::still(1e-3), (&q, &v), &Options { duration: Some(1e-3), ..Options::tight() });
+        let history = rock(
+            &pier,
+            GroundAcceleration::still(1e-3),
+            (&q, &v),
+            &ReferenceOptions { duration: Some(1e-3), ..ReferenceOptions::tight() },
+        );
         let landing = history.landings().next().expect("it lands");
         let corner = pier.corner(1, &landing.q, &landing.velocity[1]);
         let [x, z] = corner.jacobian.each_ref().map(|row| row.dot(&landing.velocity[1]));

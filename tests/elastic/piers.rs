@@ -2,7 +2,7 @@
 
 use groundspring::elastic::{
     Mechanics, Pier,
-    reference::{ElasticRocking, Ground, Options, rock},
+    reference::{ElasticRocking, GroundAcceleration, ReferenceOptions, rock},
 };
 use nalgebra::DVector;
 
@@ -17,13 +17,18 @@ pub fn heavy() -> Pier {
 }
 
 /// Let go at a lean [rad] and followed for some seconds at dt = 0.01 s.
-pub fn free_rocking(pier: &Pier, theta: f64, seconds: f64, options: &Options) -> ElasticRocking {
+pub fn free_rocking(pier: &Pier, theta: f64, seconds: f64, options: &ReferenceOptions) -> ElasticRocking {
     let (q, v) = (pier.leaning(theta), DVector::zeros(pier.size()));
-    rock(pier, Ground::still(0.01), (&q, &v), &Options { duration: Some(seconds), ..*options })
+    rock(pier, GroundAcceleration::still(0.01), (&q, &v), &ReferenceOptions { duration: Some(seconds), ..*options })
 }
 
 /// From rest through a record at dt = 0.01 s.
-pub fn shaken(pier: &Pier, accel: &[f64], seconds: f64, options: &Options) -> ElasticRocking {
+pub fn shaken(pier: &Pier, accel: &[f64], seconds: f64, options: &ReferenceOptions) -> ElasticRocking {
     let (q, v) = (pier.leaning(0.0), DVector::zeros(pier.size()));
-    rock(pier, Ground::horizontal(0.01, accel), (&q, &v), &Options { duration: Some(seconds), ..*options })
+    rock(
+        pier,
+        GroundAcceleration::horizontal(0.01, accel),
+        (&q, &v),
+        &ReferenceOptions { duration: Some(seconds), ..*options },
+    )
 }

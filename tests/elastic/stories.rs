@@ -1,6 +1,6 @@
 //! Reference stories of theory.md, section 9 (V1, V2): printed by an independent program.
 
-use groundspring::elastic::reference::{ElasticRocking, Options, Outcome, What};
+use groundspring::elastic::reference::{ElasticRocking, ReferenceOptions, ReferenceOutcome, What};
 
 use crate::piers::{free_rocking, heavy, light};
 
@@ -23,7 +23,7 @@ fn assert_printed(history: &ElasticRocking, printed: &Printed) {
     let close = |found: f64, printed: f64, digit: f64, what: &str| {
         assert!((found - printed).abs() <= 0.6 * digit, "{what}: {found} for {printed}");
     };
-    assert_eq!(history.outcome, Outcome::Completed);
+    assert_eq!(history.outcome, ReferenceOutcome::Completed);
     let landings: Vec<_> = history.landings().collect();
     assert_eq!(landings.len(), printed.landings.len());
     for (event, time) in landings.iter().zip(printed.landings) {
@@ -42,7 +42,7 @@ fn assert_printed(history: &ElasticRocking, printed: &Printed) {
 
 #[test]
 fn v1_a_light_footing_lands_on_both_corners_and_hops() {
-    let history = free_rocking(&light(), 0.0975, 5.0, &Options::tight());
+    let history = free_rocking(&light(), 0.0975, 5.0, &ReferenceOptions::tight());
     let printed = Printed {
         landings: &[1.4610186, 1.5597634, 4.1152838, 4.2125930],
         rates: [-0.15132406, 0.0],
@@ -58,7 +58,7 @@ fn v1_a_light_footing_lands_on_both_corners_and_hops() {
 
 #[test]
 fn v2_a_heavy_footing_lands_on_one_corner() {
-    let history = free_rocking(&heavy(), 0.15, 6.0, &Options::tight());
+    let history = free_rocking(&heavy(), 0.15, 6.0, &ReferenceOptions::tight());
     let printed = Printed {
         landings: &[1.1914084, 2.9505034, 4.3513030, 5.5141050],
         rates: [-0.27871328, -0.17237671],
@@ -74,8 +74,8 @@ fn v2_a_heavy_footing_lands_on_one_corner() {
 #[test]
 fn the_default_tolerance_follows_the_tight_one() {
     for (pier, theta) in [(light(), 0.0975), (heavy(), 0.15), (light().with_axial(4e9, 0.02), 0.0975)] {
-        let tight = free_rocking(&pier, theta, 4.0, &Options::tight());
-        let quick = free_rocking(&pier, theta, 4.0, &Options::default());
+        let tight = free_rocking(&pier, theta, 4.0, &ReferenceOptions::tight());
+        let quick = free_rocking(&pier, theta, 4.0, &ReferenceOptions::default());
         for i in [2, 3] {
             let (a, b) = (tight.coordinate(i), quick.coordinate(i));
             let peak = a.iter().fold(0.0, |peak: f64, x| peak.max(x.abs()));

@@ -4,44 +4,47 @@ use groundspring::{
     HistoryOutcome,
     elastic::{
         Mechanics,
-        beam::Section,
-        fem::{Case, History, Start},
-        frame::{Base, Column, Footing, Frame, Layout, LeggedFrame, Point, Portal, Tendon},
+        beam::BeamSection,
+        fem::{ElasticAnalysis, ElasticHistory, ElasticStart},
+        frame::{Base, Footing, Frame, FrameLayout, FrameTendon, LeggedFrame, NodePoint, Portal, StraightMember},
     },
     scalar::GRAVITY,
 };
 
 use crate::common::{MODERATE, Numbers, el_centro, pier, springs};
 
-fn portal() -> Layout {
-    let section = Section { line_mass: 4e3, ..pier(&MODERATE).column.section };
+fn portal() -> FrameLayout {
+    let section = BeamSection { line_mass: 4e3, ..pier(&MODERATE).column.section };
     let footing = Footing::block(3.0, 1e5, 0.6, 1.2);
-    let column = Column { section, elements: 2 };
+    let column = StraightMember { section, elements: 2 };
     Portal { span: 8.0, height: 9.0, mass: 3e5, inertia: 1e5, footing, column, girder: column }.layout()
 }
 
-fn legged() -> Layout {
+fn legged() -> FrameLayout {
     let section = pier(&MODERATE).column.section;
-    let leg = Column { section, elements: 1 };
+    let leg = StraightMember { section, elements: 1 };
     LeggedFrame { mass: 6e5, inertia: 1e6, height: 12.0, width: 4.0, foot_mass: 2e4, leg }.layout()
 }
 
 /// Several elements with their own mass, dampers at the corners, and a tendon.
-fn tied() -> Layout {
+fn tied() -> FrameLayout {
     let mut pier = pier(&MODERATE);
     (pier.inertia, pier.column.elements, pier.column.section.line_mass) = (Some(2e6), 4, 8e3);
     let mut layout = pier.layout();
-    let at = Point { node: 1, place: [0.0, 12.0] };
-    layout.tendons.push(Tendon { at, anchor: [0.0; 2], stiffness: 2e7, pretension: 5e5 });
+    let at = NodePoint { node: 1, place: [0.0, 12.0] };
+    layout.tendons.push(FrameTendon { at, anchor: [0.0; 2], stiffness: 2e7, pretension: 5e5 });
     for at in layout.corners.clone() {
-        layout.dampers.push(groundspring::elastic::frame::Damper { at, c: [1e5, 2e5] });
+        layout.dampers.push(groundspring::elastic::frame::FrameDamper { at, c: [1e5, 2e5] });
     }
     layout
 }
 
-fn history(frame: &Frame, accel: &[f64], vertical: &[f64]) -> History {
+fn history(frame: &Frame, accel: &[f64], vertical: &[f64]) -> ElasticHistory {
     let springs = springs(frame, 2e3, 4.0);
-    let history = Case { vertical, ..Case::new(frame, &springs, Start::Standing, 0.01, accel) }.simulate().unwrap();
+    let history =
+        ElasticAnalysis { vertical, ..ElasticAnalysis::new(frame, &springs, ElasticStart::Standing, 0.01, accel) }
+            .simulate()
+            .unwrap();
     assert_eq!(history.outcome, HistoryOutcome::Completed);
     history
 }
@@ -120,9 +123,10 @@ fn a_small_lean_stands_on_both_corners_and_a_spring_too_few_is_refused() {
     let frame = pier(&MODERATE).layout().frame().unwrap();
     let springs = springs(&frame, 50.0, 4.0);
     let accel = [0.0; 201];
-    let history = Case::new(&frame, &springs, Start::Leaning(1e-6), 0.01, &accel).simulate().unwrap();
+    let history = ElasticAnalysis::new(&frame, &springs, ElasticStart::Leaning(1e-6), 0.01, &accel).simulate().unwrap();
     assert!(history.energy_residual < 1e-6, "{:e}", history.energy_residual);
     assert!(history.forces.iter().all(|corner| corner.at[0][1] > 0.0));
-    let refused = Case::new(&frame, &springs[..1], Start::Standing, 0.01, &accel).simulate().unwrap_err();
+    let refused =
+        ElasticAnalysis::new(&frame, &springs[..1], ElasticStart::Standing, 0.01, &accel).simulate().unwrap_err();
     assert_eq!(refused.to_string(), "frame: 1 springs given, but it has 2");
 }

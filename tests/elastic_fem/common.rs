@@ -5,8 +5,8 @@ use std::f64::consts::TAU;
 use groundspring::{
     Chain, Record, Springs,
     elastic::{
-        beam::Section,
-        frame::{Cantilever, Column, Footing, Frame},
+        beam::BeamSection,
+        frame::{Cantilever, Footing, Frame, StraightMember},
     },
     scalar::GRAVITY,
 };
@@ -26,7 +26,7 @@ pub fn pier(numbers: &Numbers) -> Cantilever {
     let (height, omega) = (12.0, TAU * hz);
     let length = height - 2.0 * centre;
     let bending = (mass * omega * omega + mass * GRAVITY / length) * length.powi(3) / 3.0;
-    let section = Section {
+    let section = BeamSection {
         axial: axial * length,
         bending,
         axial_damping: 2.0 * 0.02 * (axial * mass).sqrt() * length,
@@ -38,7 +38,7 @@ pub fn pier(numbers: &Numbers) -> Cantilever {
         inertia: None,
         height,
         footing: Footing::block(4.0, footing, centre, 2.0 * centre),
-        column: Column { section, elements: 1 },
+        column: StraightMember { section, elements: 1 },
         consistent: false,
     }
 }

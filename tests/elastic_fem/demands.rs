@@ -3,8 +3,8 @@
 use approx::assert_relative_eq;
 use groundspring::{
     elastic::{
-        fem::{Case, GroundForces, Start, peak},
-        frame::{Base, Cantilever, Column},
+        fem::{ElasticAnalysis, ElasticStart, GroundForces, peak},
+        frame::{Base, Cantilever, StraightMember},
     },
     scalar::GRAVITY,
 };
@@ -16,14 +16,14 @@ use crate::common::{MODERATE, el_centro, pier, springs};
 #[test]
 fn rocking_caps_the_moment_at_the_base() {
     let mut whole: Cantilever = pier(&MODERATE);
-    whole.column = Column { elements: 4, section: whole.column.section };
+    whole.column = StraightMember { elements: 4, section: whole.column.section };
     (whole.column.section.line_mass, whole.inertia) = (5e3, Some(1e6));
     let layout = whole.layout();
     let (fixed, free) = (layout.fixed().frame().unwrap(), layout.frame().unwrap());
     let accel: Vec<f64> = el_centro(1001).iter().map(|a| 1.5 * a).collect();
     let springs = springs(&free, 5e3, 4.0);
-    let held = Case::new(&fixed, &[], Start::Standing, 0.01, &accel).simulate().unwrap();
-    let rocked = Case::new(&free, &springs, Start::Standing, 0.01, &accel).simulate().unwrap();
+    let held = ElasticAnalysis::new(&fixed, &[], ElasticStart::Standing, 0.01, &accel).simulate().unwrap();
+    let rocked = ElasticAnalysis::new(&free, &springs, ElasticStart::Standing, 0.01, &accel).simulate().unwrap();
     let [moment, rocking] =
         [&held, &rocked].map(|h| peak(0.01, h.demands.iter().map(|d| d.bearings[0].moments[0])).value.abs());
     let capacity = free.total_mass() * GRAVITY * 2.0;
@@ -49,7 +49,8 @@ fn filtered_foot_forces_have_no_spikes_and_the_same_mean() {
     let frame = pier(&MODERATE).layout().frame().unwrap();
     let springs = springs(&frame, 5e3, 4.0);
     let still = vec![0.0; 2001];
-    let history = Case::new(&frame, &springs, Start::Leaning(0.06), 0.0025, &still).simulate().unwrap();
+    let history =
+        ElasticAnalysis::new(&frame, &springs, ElasticStart::Leaning(0.06), 0.0025, &still).simulate().unwrap();
     let weight = frame.total_mass() * GRAVITY;
     let corner = &history.forces[0];
     let spike = corner.peak.iter().fold(0.0_f64, |m, f| m.max(f[1]));
@@ -68,7 +69,7 @@ fn the_ground_s_force_is_that_of_one_instant() {
     let frame = pier(&MODERATE).layout().frame().unwrap();
     let springs = springs(&frame, 5e3, 4.0);
     let still = vec![0.0; 501];
-    let case = Case::new(&frame, &springs, Start::Leaning(0.06), 0.01, &still);
+    let case = ElasticAnalysis::new(&frame, &springs, ElasticStart::Leaning(0.06), 0.01, &still);
     let history = case.simulate().unwrap();
     let sum = |of: &dyn Fn(&GroundForces) -> f64| history.forces.iter().map(of).sum::<f64>();
     let mut apart = 0;
@@ -91,7 +92,7 @@ fn the_ground_s_force_is_that_of_one_instant() {
     assert!(apart > 0);
 
     // without forces: the same motion, bit for bit
-    let bare = Case { forces: false, ..case }.simulate().unwrap();
+    let bare = ElasticAnalysis { forces: false, ..case }.simulate().unwrap();
     assert!(bare.q == history.q && bare.v == history.v && bare.contacts == history.contacts);
     assert!(bare.forces.is_empty() && bare.worst.is_empty() && bare.ground.at.is_empty());
 }

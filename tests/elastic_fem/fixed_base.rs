@@ -5,7 +5,7 @@ use std::f64::consts::TAU;
 use groundspring::{
     elastic::{
         Mechanics,
-        fem::{Case, Start, peak},
+        fem::{ElasticAnalysis, ElasticStart, peak},
     },
     scalar::GRAVITY,
 };
@@ -22,8 +22,8 @@ fn a_pier_let_go_vibrates_as_one_degree_of_freedom_does() {
     let mut q = rest.as_slice().to_vec();
     let u0 = 1e-4;
     q[frame.coordinates(1)[0].unwrap()] += u0;
-    let start = Start::State { q, v: vec![0.0; frame.size()], feet: Vec::new() };
-    let history = Case::new(&frame, &[], start, 0.01, &[0.0; 301]).simulate().unwrap();
+    let start = ElasticStart::State { q, v: vec![0.0; frame.size()], feet: Vec::new() };
+    let history = ElasticAnalysis::new(&frame, &[], start, 0.01, &[0.0; 301]).simulate().unwrap();
     let (w, zeta) = (TAU * hz, 0.02 * 2.0 / hz);
     let damped = w * (1.0 - zeta * zeta).sqrt();
     let exact = |t: f64| u0 * (-zeta * w * t).exp() * ((damped * t).cos() + zeta * w / damped * (damped * t).sin());
@@ -39,7 +39,7 @@ fn a_pier_let_go_vibrates_as_one_degree_of_freedom_does() {
 fn what_the_base_bears_is_what_the_mass_needs() {
     let accel = el_centro(801);
     let frame = pier(&MODERATE).layout().fixed().frame().unwrap();
-    let history = Case::new(&frame, &[], Start::Standing, 0.01, &accel).simulate().unwrap();
+    let history = ElasticAnalysis::new(&frame, &[], ElasticStart::Standing, 0.01, &accel).simulate().unwrap();
     let x = frame.coordinates(1)[0].unwrap();
     let shear: Vec<f64> = history.demands.iter().map(|demand| demand.base_shear).collect();
     let mut needed = vec![shear[0]];

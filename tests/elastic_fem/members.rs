@@ -6,9 +6,9 @@ use groundspring::{
     elastic::{
         Mechanics,
         assembled::{Assembled, errors},
-        fem::{Case, Start},
+        fem::{ElasticAnalysis, ElasticStart},
         frame::Frame,
-        reference::Ground,
+        reference::GroundAcceleration,
         structure::ElasticStructure,
     },
     scalar::GRAVITY,
@@ -100,11 +100,12 @@ fn a_pier_with_members_follows_the_reference() {
     let (model, bare) = (Assembled::with_members(pier(), members).unwrap(), Assembled::new(pier()).unwrap());
     let accel = el_centro(601);
     let springs = springs(&model.frame, 4e4, 20.0);
-    let history = Case::new(&model.frame, &springs, Start::Standing, 0.01, &accel).simulate().unwrap();
+    let history =
+        ElasticAnalysis::new(&model.frame, &springs, ElasticStart::Standing, 0.01, &accel).simulate().unwrap();
     assert_eq!(history.outcome, HistoryOutcome::Completed);
     assert!(history.energy_residual < 1e-6, "{:e}", history.energy_residual);
     let sways = |model: &Assembled| {
-        let rocking = model.rock(Ground::horizontal(0.01, &accel), &model.upright().unwrap());
+        let rocking = model.rock(GroundAcceleration::horizontal(0.01, &accel), &model.upright().unwrap());
         assert!(rocking.landings().count() > 2);
         model.sways(rocking.q.iter().map(|q| q.as_slice()))
     };
@@ -142,12 +143,12 @@ fn dampers_take_the_rotation_rate_of_the_closed_form() {
     let dt = 1e-3;
     let still = [0.0; 21];
     let after = |model: &Assembled| {
-        let ground = Ground::horizontal(dt, &still);
+        let ground = GroundAcceleration::horizontal(dt, &still);
         let rocking = groundspring::elastic::reference::rock(
             &model.frame,
             ground,
             (&q, &v),
-            &groundspring::elastic::reference::Options::default(),
+            &groundspring::elastic::reference::ReferenceOptions::default(),
         );
         let turn = model.frame.coordinates(0)[2].unwrap();
         rocking.v.last().unwrap()[turn]

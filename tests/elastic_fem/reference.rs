@@ -4,22 +4,27 @@ use groundspring::{
     elastic::{
         Mechanics,
         assembled::Assembled,
-        beam::Section,
-        fem::{Case, History, Start},
-        frame::{Base, Column, Frame, LeggedFrame},
-        reference::{Corners, ElasticRocking, Ground, Options, at_rest, rock},
+        beam::BeamSection,
+        fem::{ElasticAnalysis, ElasticHistory, ElasticStart},
+        frame::{Base, Frame, LeggedFrame, StraightMember},
+        reference::{CornerSet, ElasticRocking, GroundAcceleration, ReferenceOptions, at_rest, rock},
         structure::ElasticStructure,
     },
     fem::Control,
     scalar::GRAVITY,
-    tuning::elastic::{design::springs as springs_of_design, landing_speed, stand, trial::Trial},
+    tuning::elastic::{design::springs as springs_of_design, landing_speed, stand, trial::ElasticTrial},
 };
 use nalgebra::DVector;
 
 use crate::common::{MODERATE, Numbers, el_centro, nrmse, pier, springs};
 
 /// NRMSE of a base's rotation and of a mass's drift from it.
-fn errors(frame: &Frame, (base, mass): (Base, usize), history: &History, reference: &ElasticRocking) -> [f64; 2] {
+fn errors(
+    frame: &Frame,
+    (base, mass): (Base, usize),
+    history: &ElasticHistory,
+    reference: &ElasticRocking,
+) -> [f64; 2] {
     let rotation: Vec<f64> = reference.q.iter().map(|q| base.rotation(frame, q.as_slice())).collect();
     let drift: Vec<f64> = reference.q.iter().map(|q| base.drift(frame, mass, q.as_slice())[0]).collect();
     [nrmse(&history.rotation(frame, base), &rotation), nrmse(&history.drift(frame, mass, base), &drift)]
@@ -35,7 +40,9 @@ fn free_rocking_follows_the_reference() {
         let Numbers { mass, footing, centre, .. } = numbers;
         let alpha = (2.0 * (mass + footing) / (mass * 12.0 + footing * centre)).atan();
         let (still, springs) = (vec![0.0; 1001], springs(&frame, 1e4, 20.0));
-        let history = Case::new(&frame, &springs, Start::Leaning(0.5 * alpha), 0.005, &still).simulate().unwrap();
+        let history = ElasticAnalysis::new(&frame, &springs, ElasticStart::Leaning(0.5 * alpha), 0.005, &still)
+            .simulate()
+            .unwrap();
         // the same lean, its pivot where it would be on rigid ground
         let mut q = DVector::from_column_slice(&history.q[0]);
         let [x, z] = frame.places()[1].reach(q.as_slice()).place;
@@ -44,7 +51,8 @@ fn free_rocking_follows_the_reference() {
             (q[i], q[j]) = (q[i] - x, q[j] - z);
         }
         let start = (&q, &DVector::zeros(frame.size()));
-        let reference = rock(&frame, Ground::horizontal(0.005, &still), start, &Options::default());
+        let reference =
+            rock(&frame, GroundAcceleration::horizontal(0.005, &still), start, &ReferenceOptions::default());
         let [rotation, drift] = errors(&frame, (Base::Footing(0), 1), &history, &reference);
         assert!(rotation < 1e-3 && drift < 5e-3, "{footing}: {rotation:e} {drift:e}");
         assert!(history.energy_residual < 1e-6);
@@ -56,12 +64,12 @@ fn free_rocking_follows_the_reference() {
 fn el_centro_follows_the_reference() {
     let frame = pier(&Numbers { footing: 6e4, ..MODERATE }).layout().frame().unwrap();
     let accel = el_centro(2001);
-    let rest = at_rest(&frame, &DVector::zeros(frame.size()), Corners::NONE.with(0).with(1), &[]).unwrap();
+    let rest = at_rest(&frame, &DVector::zeros(frame.size()), CornerSet::NONE.with(0).with(1), &[]).unwrap();
     let start = (&rest, &DVector::zeros(frame.size()));
-    let reference = rock(&frame, Ground::horizontal(0.01, &accel), start, &Options::default());
+    let reference = rock(&frame, GroundAcceleration::horizontal(0.01, &accel), start, &ReferenceOptions::default());
     let [soft, stiff] = [2.5e3, 4e4].map(|hz| {
         let springs = springs(&frame, hz, 20.0);
-        let history = Case::new(&frame, &springs, Start::Standing, 0.01, &accel).simulate().unwrap();
+        let history = ElasticAnalysis::new(&frame, &springs, ElasticStart::Standing, 0.01, &accel).simulate().unwrap();
         errors(&frame, (Base::Footing(0), 1), &history, &reference)
     });
     assert!(stiff[0] < 3e-3 && stiff[1] < 1e-2, "{stiff:?}");
@@ -77,17 +85,18 @@ fn legs_that_give_way_follow_the_reference() {
     let axial = 0.5 * mass * GRAVITY / 1e-4;
     // radius of gyration 1 m; 2 % of damping at some 3 Hz
     let damping = 2e-3 * axial;
-    let section = Section { axial_damping: damping, bending_damping: damping, ..Section::elastic(axial, axial) };
+    let section =
+        BeamSection { axial_damping: damping, bending_damping: damping, ..BeamSection::elastic(axial, axial) };
     let inertia = 0.01 * mass * length * length;
-    let leg = Column { section, elements: 1 };
+    let leg = StraightMember { section, elements: 1 };
     let frame = LeggedFrame { mass, inertia, height, width, foot_mass: 1e4, leg }.layout().frame().unwrap();
     let accel = el_centro(2001);
-    let rest = at_rest(&frame, &DVector::zeros(frame.size()), Corners::NONE.with(0).with(1), &[]).unwrap();
+    let rest = at_rest(&frame, &DVector::zeros(frame.size()), CornerSet::NONE.with(0).with(1), &[]).unwrap();
     let start = (&rest, &DVector::zeros(frame.size()));
-    let reference = rock(&frame, Ground::horizontal(0.01, &accel), start, &Options::default());
+    let reference = rock(&frame, GroundAcceleration::horizontal(0.01, &accel), start, &ReferenceOptions::default());
     let [soft, stiff] = [4.0, 20.0].map(|ratio| {
         let springs = springs(&frame, 1e4, ratio);
-        let history = Case::new(&frame, &springs, Start::Standing, 0.01, &accel).simulate().unwrap();
+        let history = ElasticAnalysis::new(&frame, &springs, ElasticStart::Standing, 0.01, &accel).simulate().unwrap();
         errors(&frame, (Base::Feet, 2), &history, &reference)
     });
     assert!(stiff[0] < 1e-2 && stiff[1] < 1e-2, "{stiff:?}");
@@ -111,7 +120,7 @@ fn legs_of_any_stiffness_follow_the_reference() {
         let (alpha, landing) = (structure.body().alpha(), landing_speed(&structure));
         let model = Assembled::new(structure).unwrap();
         let springs = springs_of_design(&stand(&model).unwrap(), 1e-5, landing);
-        let trial = Trial::released(&model, lean * alpha, 0.0125, 9.0).trial().unwrap();
+        let trial = ElasticTrial::released(&model, lean * alpha, 0.0125, 9.0).trial().unwrap();
         let judged = trial.judge(&model, &springs, Control::search());
         let [rotation, drift] = judged.errors;
         let touches = judged.touches as f64 / trial.landings as f64;

@@ -3,9 +3,9 @@
 use groundspring::{
     Body, Design, Springs,
     elastic::{
-        beam::Section,
-        fem::{Case, Start},
-        frame::{Base, Column, LeggedFrame},
+        beam::BeamSection,
+        fem::{ElasticAnalysis, ElasticStart},
+        frame::{Base, LeggedFrame, StraightMember},
     },
     fem,
 };
@@ -21,16 +21,17 @@ fn stiff_legs_with_light_feet_rock_as_the_rigid_body_does() {
     let springs = Springs { vertical: design, horizontal: design }.chains(mass);
     let length = height.hypot(0.5 * width);
     let stiff = 1e4 * springs.vertical.k1;
-    let leg = Column { section: Section::elastic(stiff * length, stiff * length.powi(3) / 3.0), elements: 1 };
+    let leg =
+        StraightMember { section: BeamSection::elastic(stiff * length, stiff * length.powi(3) / 3.0), elements: 1 };
     let frame = LeggedFrame { mass, inertia, height, width, foot_mass: 1.0, leg }.layout().frame().unwrap();
     let body = Body { mass, half_width: 0.5 * width, height, inertia };
     let accel = el_centro(1001);
     for (elastic, rigid, accel) in [
-        (Start::Leaning(0.05), fem::Start::Leaning(0.05), vec![0.0; 1001]),
-        (Start::Standing, fem::Start::Settled, accel),
+        (ElasticStart::Leaning(0.05), fem::Start::Leaning(0.05), vec![0.0; 1001]),
+        (ElasticStart::Standing, fem::Start::Settled, accel),
     ] {
         let both = [springs; 2];
-        let history = Case::new(&frame, &both, elastic, 0.01, &accel).simulate().unwrap();
+        let history = ElasticAnalysis::new(&frame, &both, elastic, 0.01, &accel).simulate().unwrap();
         let case = fem::Analysis {
             body,
             springs,

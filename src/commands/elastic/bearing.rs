@@ -4,8 +4,8 @@ use crate::{
     elastic::{
         answer::ElasticAnswer,
         assembled::Assembled,
-        beam::Bearing as OfBeam,
-        fem::{Demand, History, resolves},
+        beam::BeamForces as OfBeam,
+        fem::{ElasticHistory, FrameDemand, resolves},
         structure::ElasticStructure,
     },
     scalar::GRAVITY,
@@ -15,7 +15,7 @@ use crate::{
 const FILTER_HZ: f64 = 20.0;
 
 /// A quantity and how it is had from each model, as largest magnitudes since the sample before.
-pub struct Quantity {
+pub struct ForceQuantity {
     pub name: &'static str,
     pub unit: &'static str,
     /// Rocking on springs, fixed to the ground, rigid: empty where a model has none.
@@ -23,8 +23,8 @@ pub struct Quantity {
 }
 
 /// What a run's tables and figures of forces are made from.
-pub struct Bearing {
-    pub quantities: Vec<Quantity>,
+pub struct ForceQuantities {
+    pub quantities: Vec<ForceQuantity>,
     /// Vertical force of the ground on all corners together: the largest since the sample before (N).
     pub ground: Vec<f64>,
     /// The same without the spikes of landings (N).
@@ -35,7 +35,7 @@ pub struct Bearing {
     pub weight: f64,
 }
 
-impl Bearing {
+impl ForceQuantities {
     pub fn new(assembled: &Assembled, answer: &ElasticAnswer, dt: f64) -> Self {
         let ground = &answer.histories.fem.ground;
         Self {
@@ -56,10 +56,10 @@ fn bases(assembled: &Assembled) -> Vec<(usize, usize)> {
 }
 
 /// Shear, axial force and moment at the foot of the columns or legs, the largest of them, and the drift.
-fn quantities(assembled: &Assembled, answer: &ElasticAnswer) -> Vec<Quantity> {
+fn quantities(assembled: &Assembled, answer: &ElasticAnswer) -> Vec<ForceQuantity> {
     let bases = bases(assembled);
-    let largest = |history: &History, of: &dyn Fn(&OfBeam, usize) -> f64| -> Vec<f64> {
-        let at = |demand: &Demand| {
+    let largest = |history: &ElasticHistory, of: &dyn Fn(&OfBeam, usize) -> f64| -> Vec<f64> {
+        let at = |demand: &FrameDemand| {
             let values = bases.iter().map(|&(i, end)| of(&demand.bearings[i], end));
             values.fold(0.0, |most: f64, value| if value.abs() > most.abs() { value } else { most })
         };
@@ -70,17 +70,17 @@ fn quantities(assembled: &Assembled, answer: &ElasticAnswer) -> Vec<Quantity> {
     let [shear, fixed] = [&answer.histories.fem, &answer.fixed]
         .map(|history| history.worst.iter().map(|demand| demand.base_shear).collect::<Vec<_>>());
     let body = rigid.map_or(Vec::new(), |rigid| rigid.base_shear.clone());
-    let mut all = vec![Quantity { name: "base shear", unit: "N", series: [shear, fixed, body] }];
+    let mut all = vec![ForceQuantity { name: "base shear", unit: "N", series: [shear, fixed, body] }];
     let [axial, fixed] = both(&|beam, _| beam.axial);
     let body = rigid.map_or(Vec::new(), |rigid| rigid.axial.clone());
-    all.push(Quantity { name: "axial force", unit: "N", series: [axial, fixed, body] });
+    all.push(ForceQuantity { name: "axial force", unit: "N", series: [axial, fixed, body] });
     // a leg is hinged at its foot
     if !matches!(assembled.structure, ElasticStructure::AFrame(_)) {
         let [moment, fixed] = both(&|beam, end| beam.moments[end]);
         let body = rigid.map_or(Vec::new(), |rigid| rigid.moment.iter().map(|x| -x).collect());
-        all.push(Quantity { name: "moment at the foot", unit: "N m", series: [moment, fixed, body] });
+        all.push(ForceQuantity { name: "moment at the foot", unit: "N m", series: [moment, fixed, body] });
     }
     let drift = answer.histories.sways.first().map_or(Vec::new(), |pair| pair[1].drift.clone());
-    all.push(Quantity { name: "drift", unit: "m", series: [drift, answer.fixed_drift.clone(), Vec::new()] });
+    all.push(ForceQuantity { name: "drift", unit: "m", series: [drift, answer.fixed_drift.clone(), Vec::new()] });
     all
 }

@@ -4,7 +4,7 @@ use std::fmt::Write;
 
 use super::{
     ElasticRun,
-    bearing::{Bearing, Quantity},
+    bearing::{ForceQuantities, ForceQuantity},
 };
 use crate::{
     commands::common::csv_row,
@@ -20,7 +20,7 @@ fn most(series: &[f64], dt: f64) -> Option<(f64, f64)> {
 /// Rows of the table: quantity, rocking, fixed, rigid, and what rocking buys.
 pub(super) fn rows(run: &ElasticRun) -> Vec<[String; 5]> {
     let dt = run.record.dt;
-    let row = |quantity: &Quantity| {
+    let row = |quantity: &ForceQuantity| {
         let peaks = [0, 1, 2].map(|k| most(&quantity.series[k], dt));
         let cell = |peak: Option<(f64, f64)>| {
             peak.map_or("-".to_string(), |(value, time)| {
@@ -53,7 +53,7 @@ pub(super) fn markdown(run: &ElasticRun) -> String {
 
 /// What the numbers are.
 pub(super) fn about(run: &ElasticRun) -> String {
-    let Bearing { ground, filtered, below_hz, weight, .. } = &run.bearing;
+    let ForceQuantities { ground, filtered, below_hz, weight, .. } = &run.bearing;
     let share = |series: &[f64]| short(peak(series).abs() / weight, 3);
     let filtered = match below_hz {
         Some(hz) => format!(

@@ -6,7 +6,7 @@ use super::{ElasticRun, demands, words};
 use crate::{
     commands::{
         draw::Figure,
-        page::{self, Section, figures, html},
+        page::{self, PageSection, figures, html},
         table::strings,
     },
     figures::{brief, short},
@@ -16,17 +16,17 @@ use crate::{
 };
 
 /// What the page is made from.
-pub struct Page<'a> {
+pub struct ElasticPage<'a> {
     pub run: &'a ElasticRun,
     pub parameters: &'a ElasticParameters,
     pub figures: &'a [Figure],
 }
 
-impl Page<'_> {
+impl ElasticPage<'_> {
     /// The whole page.
     pub fn html(&self) -> String {
         let run = self.run;
-        let sections: Vec<Section> = vec![
+        let sections: Vec<PageSection> = vec![
             ("case", "The case", self.case()),
             ("springs", "The springs", self.springs()),
             ("figures", "Figures", figures(self.figures)),

@@ -5,8 +5,8 @@ use crate::{
     commands::draw::{self, Figure},
     elastic::answer::{Compared, ComparedEnd, ElasticHistories},
     figures::{
-        Event, FigureError, brief, prefix, short,
-        stack::{self, Quantity, Stack},
+        EventMark, FigureError, brief, prefix, short,
+        stack::{self, StackFigure, StackQuantity},
     },
 };
 
@@ -44,8 +44,8 @@ fn history(run: &ElasticRun) -> Result<Figure, FigureError> {
         names.push((label("drift", i), "m"));
         curves.push([&reference.drift, &fem.drift]);
     }
-    let panels: Vec<Quantity> =
-        names.iter().zip(&curves).map(|((name, unit), curves)| Quantity { name, unit, curves }).collect();
+    let panels: Vec<StackQuantity> =
+        names.iter().zip(&curves).map(|((name, unit), curves)| StackQuantity { name, unit, curves }).collect();
     let Compared { seconds, end, .. } = run.answer.compared;
     let text = match end {
         ComparedEnd::Record => None,
@@ -53,10 +53,10 @@ fn history(run: &ElasticRun) -> Result<Figure, FigureError> {
         ComparedEnd::Slides => Some(format!("at t = {seconds:.2} s a corner lands sliding: friction decides")),
         ComparedEnd::Foretold => Some(format!("from t = {seconds:.2} s on no model foretells this motion")),
     };
-    let event = text.as_ref().map(|text| Event { time: seconds, text });
+    let event = text.as_ref().map(|text| EventMark { time: seconds, text });
     let title = title(run, "Rotation on the ground, and drift without it");
     let names = ["rigid ground, plastic landings", "finite elements on ground springs"];
-    let sheet = stack::draw(&Stack { title: &title, t: &t, names: &names, panels: &panels, event })?;
+    let sheet = stack::draw(&StackFigure { title: &title, t: &t, names: &names, panels: &panels, event })?;
     let caption =
         "Rotation of the footing (of the line between the feet), and drift of the mass without the rigid rotation.";
     Ok(Figure { name: draw::HISTORY, caption, sheet })
@@ -84,13 +84,13 @@ fn forces(run: &ElasticRun) -> Result<Figure, FigureError> {
             all
         })
         .collect();
-    let panels: Vec<Quantity> = quantities
+    let panels: Vec<StackQuantity> = quantities
         .iter()
         .zip(&curves)
-        .map(|(quantity, curves)| Quantity { name: quantity.name, unit: quantity.unit, curves })
+        .map(|(quantity, curves)| StackQuantity { name: quantity.name, unit: quantity.unit, curves })
         .collect();
     let title = title(run, "What rocking buys");
-    let sheet = stack::draw(&Stack { title: &title, t: &t, names, panels: &panels, event: None })?;
+    let sheet = stack::draw(&StackFigure { title: &title, t: &t, names, panels: &panels, event: None })?;
     Ok(Figure {
         name: draw::BEARING,
         caption: "What the structure bears when it rocks, and held to the ground.",

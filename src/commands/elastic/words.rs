@@ -6,7 +6,7 @@ use super::ElasticRun;
 use crate::{
     elastic::{
         answer::{Compared, ComparedEnd},
-        reference::Outcome,
+        reference::ReferenceOutcome,
         structure::ElasticStructure,
     },
     fem::HistoryOutcome,
@@ -128,10 +128,10 @@ pub fn over(compared: &Compared) -> String {
 fn on_rigid_ground(run: &ElasticRun, on: &OnRecord) -> String {
     let reference = &run.answer.histories.reference.history;
     let did = match reference.outcome {
-        Outcome::Overturned { time } => format!("overturns at t = {time:.2} s"),
-        Outcome::Stopped { time, .. } => format!("could not be followed beyond t = {time:.2} s"),
-        Outcome::Completed if !reference.lifts() => "is not lifted by this record".into(),
-        Outcome::Completed => format!(
+        ReferenceOutcome::Overturned { time } => format!("overturns at t = {time:.2} s"),
+        ReferenceOutcome::Stopped { time, .. } => format!("could not be followed beyond t = {time:.2} s"),
+        ReferenceOutcome::Completed if !reference.lifts() => "is not lifted by this record".into(),
+        ReferenceOutcome::Completed => format!(
             "rocks to {} of alpha ({:.4} rad) and stands; {} landings",
             short(on.peak_ratio_reference, 3),
             run.assembled.structure.body().alpha(),

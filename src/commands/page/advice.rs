@@ -2,7 +2,7 @@
 
 use super::html::{escape, pretty};
 use crate::{
-    commands::run::Run,
+    commands::run::FinishedRun,
     fem,
     parameters::Parameters,
     verdict::{Answer, Fate},
@@ -46,7 +46,7 @@ impl Advice {
 }
 
 /// Everything that a reader must know, gravest first.
-pub fn all(parameters: &Parameters, run: Option<&Run>) -> Vec<Advice> {
+pub fn all(parameters: &Parameters, run: Option<&FinishedRun>) -> Vec<Advice> {
     let mut all = Vec::new();
     all.extend(run.iter().flat_map(|run| verdict(run)));
     all.extend(accuracy(parameters));
@@ -56,7 +56,7 @@ pub fn all(parameters: &Parameters, run: Option<&Run>) -> Vec<Advice> {
     all
 }
 
-fn verdict(run: &Run) -> Vec<Advice> {
+fn verdict(run: &FinishedRun) -> Vec<Advice> {
     let mut all = Vec::new();
     let Some(verdict) = &run.parameters.verdict else { return all };
     let fell = |answer: &Answer| answer.fate == Fate::Overturned;
@@ -142,7 +142,7 @@ fn accuracy(parameters: &Parameters) -> Vec<Advice> {
     all
 }
 
-fn regime(run: &Run) -> Vec<Advice> {
+fn regime(run: &FinishedRun) -> Vec<Advice> {
     let r = &run.report.regime;
     let mut all = Vec::new();
     let need = r.friction_needed.value.max(if run.report.lifted { r.landing_friction } else { 0.0 });
@@ -173,7 +173,7 @@ fn regime(run: &Run) -> Vec<Advice> {
     all
 }
 
-fn history(run: &Run) -> Vec<Advice> {
+fn history(run: &FinishedRun) -> Vec<Advice> {
     let with = run.both.with.as_ref().map(|with| ("with members ", &with.history));
     let mut all = Vec::new();
     for (which, history) in [("", &run.both.fem)].into_iter().chain(with) {

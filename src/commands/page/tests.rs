@@ -2,21 +2,21 @@
 
 use super::super::draw::Pictures;
 use super::*;
-use crate::{case::Case, commands::Run, excitation::Excitation, record::Record, tuning::job::Job};
+use crate::{case::Case, commands::FinishedRun, excitation::Excitation, record::Record, tuning::job::Job};
 
 /// A run of a short stretch of El Centro.
-fn run(scale: f64, toml: Option<&str>) -> Run {
+fn run(scale: f64, toml: Option<&str>) -> FinishedRun {
     let mut case = toml.map_or_else(Case::paper, |text| Case::parse("tuning/test.toml", text)).unwrap();
     let excitation = Excitation { scale, duration_s: Some(8.0), ..Excitation::whole(Record::el_centro()) };
     case.set_excitation(excitation).unwrap();
     case.tuning.max_omega_hz = Some(160.0);
     case.tuning.accuracy = 0.1;
     let job = Job::new(&case, &|_, _, _| {}).unwrap();
-    Run::new(case, job, Vec::new(), 0.5)
+    FinishedRun::new(case, job, Vec::new(), 0.5)
 }
 
-fn page(run: &Run, figures: bool) -> String {
-    let Run { case, job, front, both, .. } = run;
+fn page(run: &FinishedRun, figures: bool) -> String {
+    let FinishedRun { case, job, front, both, .. } = run;
     let figures = if figures { Pictures { case, job, both, front }.draw().unwrap() } else { Vec::new() };
     let page = Page { parameters: &run.parameters, run: Some(run), figures: &figures }.html();
     assert!(page.len() < 2_000_000, "{} bytes", page.len());

@@ -12,7 +12,7 @@ use crate::{
 
 /// One component. Times are those of the file's header.
 #[derive(Debug, Serialize)]
-pub struct Row {
+pub struct ComponentRow {
     pub component: String,
     pub direction: Direction,
     pub dt_s: f64,
@@ -54,7 +54,7 @@ pub struct OnStructure {
     pub pulse_omega_over_p: f64,
 }
 
-impl Row {
+impl ComponentRow {
     /// The component at an index.
     pub fn new(recording: &Recording, index: usize, body: Option<&Body<f64>>) -> Self {
         let component = &recording.components[index];

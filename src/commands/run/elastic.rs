@@ -2,7 +2,7 @@
 
 use std::io::Write;
 
-use super::{Options, Output, files, threads};
+use super::{Output, RunOptions, files, threads};
 use crate::{
     case::ElasticCase,
     commands::{
@@ -20,7 +20,7 @@ use crate::{
 };
 
 /// The whole job.
-pub fn run(o: &Options, mut case: ElasticCase) -> Result<(), CommandError> {
+pub fn run(o: &RunOptions, mut case: ElasticCase) -> Result<(), CommandError> {
     applies(o)?;
     if !o.no_record {
         let notices = std::mem::take(&mut case.notices);
@@ -74,7 +74,7 @@ fn referred(assembled: &Assembled, record: Record) -> Result<(Record, Reference)
 }
 
 /// Options that mean nothing for an elastic structure are refused.
-fn applies(o: &Options) -> Result<(), CommandError> {
+fn applies(o: &RunOptions) -> Result<(), CommandError> {
     let friction = o.ground.friction.map(|value| format!("{value:?}"));
     let given = [("friction", friction), ("no-front", o.no_front.then(|| "given".to_string()))];
     match given.into_iter().find_map(|(option, value)| Some((option, value?))) {

@@ -8,9 +8,9 @@ use crate::{
     structure::Kind,
     sweep::{
         compare::Comparison,
-        fragility::{Fragility, MEASURES, Row, State},
-        ida::{Ida, Point},
-        motion::Motion,
+        fragility::{Fragility, FragilityRow, LimitState, MEASURES},
+        ida::{Ida, IdaPoint},
+        motion::SweepMotion,
         plan::{Measure, Plan},
         reduce::{MODELS, models},
         table::Table,
@@ -25,69 +25,61 @@ const OBSERVED: usize = 24;
 
 /// Both figures: all states for all structures together, and overturning structure by structure.
 pub fn fragility(plan: &Plan, fragility: &Fragility, path: &Path) -> Result<(), CommandError> {
-    let states = State::all(plan);
+    let states = LimitState::all(plan);
     let several = plan.subjects.len() > 1;
     let (first, half_width) = (fragility.members[0].model, fragility.half_width());
-    let of = |row: &Row| &fragility.members[row.member];
-    let main = |row: &Row| {
+    let of = |row: &FragilityRow| &fragility.members[row.member];
+    let main = |row: &FragilityRow| {
         let member = of(row);
         member.model == first && member.restitution == 0 && member.subject.is_none() == several
     };
-    let curve = |row: &Row, entry: usize| {
+    let curve = |row: &FragilityRow, entry: usize| {
         let observed = fragility.observed(row, &states, OBSERVED);
         curve(row, entry, half_width, observed)
     };
-    let measure = |index: usize, curves: Vec<probability::Curve>| {
+    let measure = |index: usize, curves: Vec<probability::FragilityCurve>| {
         let (name, unit) = MEASURES[index];
         let unit = if unit == "-" { String::new() } else { format!(" [{unit}]") };
-        probability::Measure { label: format!("{}{unit}", name.replace("alpha", "α")), curves }
+        probability::MeasurePanel { label: format!("{}{unit}", name.replace("alpha", "α")), curves }
     };
-    let measures: Vec<probability::Measure> = (0..MEASURES.len())
-        .map(|index| {
-            let rows = fragility.rows.iter().filter(|row| row.measure == index && main(row));
-            let place = |row: &Row| states.iter().position(|state| *state == row.state).unwrap_or(0);
-            measure(index, rows.filter_map(|row| curve(row, place(row))).collect())
-        })
-        .filter(|measure| !measure.curves.is_empty())
-        .collect();
     let model = if MODELS[first] == "fem" { "finite elements" } else { "Housner" };
     let who = if several { format!("all {} structures", plan.subjects.len()) } else { plan.subjects[0].name.clone() };
     let names: Vec<String> = states.iter().map(|state| state.name().replace("theta/alpha", "|θ|/α")).collect();
-    if !measures.is_empty() {
-        let title = format!("Fragility, {who}, {} motions, {model}", plan.motions.len());
+    // curves of the rows for which there is an entry of the legend, a panel a measure
+    let save = |what: String, names: &[String], entry: &dyn Fn(&FragilityRow) -> Option<usize>, path: &Path| {
+        let rows = |index: usize| fragility.rows.iter().filter(move |row| row.measure == index);
+        let curves = |index: usize| rows(index).filter_map(|row| curve(row, entry(row)?)).collect();
+        let measures: Vec<probability::MeasurePanel> = (0..MEASURES.len())
+            .map(|index| measure(index, curves(index)))
+            .filter(|measure| !measure.curves.is_empty())
+            .collect();
+        if measures.is_empty() {
+            return Ok::<_, CommandError>(());
+        }
+        let title = format!("{what}, {} motions, {model}", plan.motions.len());
         let label = format!("probability, {:.0} % bounds", 100.0 * plan.confidence);
-        let data =
-            probability::Fragility { title: &title, entries: &names, measures: &measures, probability_label: &label };
-        probability::draw(&data)?.save(path)?;
-    }
+        let data = probability::FragilityFigure {
+            title: &title,
+            entries: names,
+            measures: &measures,
+            probability_label: &label,
+        };
+        Ok(probability::draw(&data)?.save(path)?)
+    };
+    let state = |row: &FragilityRow| states.iter().position(|state| main(row) && *state == row.state);
+    save(format!("Fragility, {who}"), &names, &state, path)?;
     if !several {
         return Ok(());
     }
     let shown = plan.subjects.len().min(PANELS);
     let names: Vec<String> = plan.subjects.iter().take(shown).map(|subject| subject.name.clone()).collect();
-    let alone = |row: &&Row, index: usize| {
+    let alone = |row: &FragilityRow| {
         let member = of(row);
-        let shown = member.subject.is_some_and(|subject| subject < shown);
-        row.measure == index
-            && row.state == State::Overturning
-            && member.model == first
-            && member.restitution == 0
-            && shown
+        let overturning = row.state == LimitState::Overturning && member.model == first && member.restitution == 0;
+        member.subject.filter(|subject| overturning && *subject < shown)
     };
-    let measures: Vec<probability::Measure> = (0..MEASURES.len())
-        .map(|index| {
-            let rows = fragility.rows.iter().filter(|row| alone(row, index));
-            measure(index, rows.filter_map(|row| curve(row, of(row).subject?)).collect())
-        })
-        .filter(|measure| !measure.curves.is_empty())
-        .collect();
-    if !measures.is_empty() {
-        let title = format!("Overturning of each structure, {} motions, {model}", plan.motions.len());
-        let label = format!("probability, {:.0} % bounds", 100.0 * plan.confidence);
-        let data =
-            probability::Fragility { title: &title, entries: &names, measures: &measures, probability_label: &label };
-        probability::draw(&data)?.save(&path.with_file_name("fragility_structures.png"))?;
-    }
+    let each = path.with_file_name("fragility_structures.png");
+    save("Overturning of each structure".to_string(), &names, &alone, &each)?;
     Ok(())
 }
 
@@ -95,7 +87,12 @@ pub fn fragility(plan: &Plan, fragility: &Fragility, path: &Path) -> Result<(), 
 const BEYOND: f64 = 1.5;
 
 /// From 0.2 % to 99.8 % of a fit.
-fn curve(row: &Row, entry: usize, half_width: f64, observed: Vec<(f64, f64)>) -> Option<probability::Curve> {
+fn curve(
+    row: &FragilityRow,
+    entry: usize,
+    half_width: f64,
+    observed: Vec<(f64, f64)>,
+) -> Option<probability::FragilityCurve> {
     use crate::sweep::lognormal::phi;
     let (fit, covariance) = (row.probit()?, row.covariance?);
     let x: Vec<f64> = (0..POINTS)
@@ -108,7 +105,7 @@ fn curve(row: &Row, entry: usize, half_width: f64, observed: Vec<(f64, f64)>) ->
     let at = |side: f64| -> Vec<f64> {
         x.iter().map(|x| phi(fit.a + fit.b * x.ln() + side * half_width * fit.deviation_at(covariance, *x))).collect()
     };
-    Some(probability::Curve { entry, probability: at(0.0), low: at(-1.0), high: at(1.0), observed, x })
+    Some(probability::FragilityCurve { entry, probability: at(0.0), low: at(-1.0), high: at(1.0), observed, x })
 }
 
 fn level_label(plan: &Plan) -> &'static str {
@@ -121,19 +118,19 @@ fn level_label(plan: &Plan) -> &'static str {
 
 pub fn ida(plan: &Plan, ida: &Ida, path: &Path) -> Result<(), CommandError> {
     let first = ida.points.first().map_or(0, |point| point.model);
-    let subjects: Vec<levels::Subject> = plan
+    let subjects: Vec<levels::IdaSubject> = plan
         .subjects
         .iter()
         .enumerate()
         .take(PANELS)
         .map(|(i, subject)| {
-            let points: Vec<&Point> = ida
+            let points: Vec<&IdaPoint> = ida
                 .points
                 .iter()
                 .filter(|p| p.subject == i && p.model == first && p.restitution == 0 && p.n > 0)
                 .collect();
             let quantile = |share: f64| points.iter().filter_map(|point| point.quantile(share)).collect();
-            levels::Subject {
+            levels::IdaSubject {
                 label: subject.name.clone(),
                 records: ida
                     .curves
@@ -145,20 +142,21 @@ pub fn ida(plan: &Plan, ida: &Ida, path: &Path) -> Result<(), CommandError> {
                 quantiles: [quantile(0.16), quantile(0.5), quantile(0.84)],
             }
         })
-        .filter(|subject: &levels::Subject| !subject.levels.is_empty())
+        .filter(|subject: &levels::IdaSubject| !subject.levels.is_empty())
         .collect();
     if subjects.is_empty() {
         return Ok(());
     }
     let title = format!("Peak rotation against {}, {} motions", level_label(plan), plan.motions.len());
-    Ok(levels::draw(&levels::Ida { title: &title, level_label: level_label(plan), subjects: &subjects })?.save(path)?)
+    Ok(levels::draw(&levels::IdaFigure { title: &title, level_label: level_label(plan), subjects: &subjects })?
+        .save(path)?)
 }
 
 /// The spectra of a plan: structure, pulse and model.
 fn spectra_of(plan: &Plan) -> impl Iterator<Item = (usize, String, &'static str)> {
     let mut pulses: Vec<String> = Vec::new();
     for motion in &plan.motions {
-        if let Motion::Pulse { shape, .. } = motion
+        if let SweepMotion::Pulse { shape, .. } = motion
             && !pulses.contains(&shape.label())
         {
             pulses.push(shape.label());
@@ -176,8 +174,8 @@ fn spectra_of(plan: &Plan) -> impl Iterator<Item = (usize, String, &'static str)
 /// omega/p at which a structure is given a pulse, increasing: those where nothing overturns, too.
 fn frequencies(plan: &Plan, subject: usize, pulse: &str) -> Vec<f64> {
     let p = plan.subjects[subject].p;
-    let of = |motion: &Motion| match motion {
-        Motion::Pulse { shape, frequency } if shape.label() == pulse => Some(frequency.omega(p) / p),
+    let of = |motion: &SweepMotion| match motion {
+        SweepMotion::Pulse { shape, frequency } if shape.label() == pulse => Some(frequency.omega(p) / p),
         _ => None,
     };
     let mut all: Vec<f64> = plan.motions.iter().filter_map(of).collect();
@@ -204,7 +202,7 @@ pub fn overturning(plan: &Plan, table: &Table, path: &Path) -> Result<(), Comman
                 && &*model[*row] == kind
                 && e[*row] == Some(plan.restitution(index, 0))
         };
-        let interval = |row: usize| spectra::Interval {
+        let interval = |row: usize| spectra::AmplitudeInterval {
             q: q[row].unwrap_or(1.0),
             from: from[row].unwrap_or(low),
             to: to[row].unwrap_or(f64::INFINITY),
@@ -220,7 +218,7 @@ pub fn overturning(plan: &Plan, table: &Table, path: &Path) -> Result<(), Comman
         all => format!("Pulses that overturn, {} structures", all.len()),
     };
     let amplitudes = (0.9 * low, high);
-    let data = spectra::Overturning { title: &title, spectra: &spectra, frequencies, amplitudes };
+    let data = spectra::OverturningFigure { title: &title, spectra: &spectra, frequencies, amplitudes };
     Ok(spectra::draw(&data)?.save(path)?)
 }
 
@@ -228,17 +226,17 @@ pub fn rocking(plan: &Plan, ida: &Ida, path: &Path) -> Result<(), CommandError> 
     let first = ida.points.first().map_or(0, |point| point.model);
     let mut maps_found = Vec::new();
     for (kind, name) in [(Kind::AFrame, "A-frames"), (Kind::Block, "blocks")] {
-        let mine = |point: &&Point| {
+        let mine = |point: &&IdaPoint| {
             point.model == first
                 && point.restitution == 0
                 && point.level == plan.levels[0]
                 && plan.subjects[point.subject].structure.kind == kind
         };
-        let body = |point: &Point| {
+        let body = |point: &IdaPoint| {
             let subject = &plan.subjects[point.subject];
-            Some(maps::Body { period: 1.0 / subject.p, alpha: subject.alpha, peak: point.quantile(0.5)? })
+            Some(maps::RockingBody { period: 1.0 / subject.p, alpha: subject.alpha, peak: point.quantile(0.5)? })
         };
-        let bodies: Vec<maps::Body> = ida.points.iter().filter(mine).filter_map(body).collect();
+        let bodies: Vec<maps::RockingBody> = ida.points.iter().filter(mine).filter_map(body).collect();
         if !bodies.is_empty() {
             maps_found.push(maps::Map { label: name.into(), bodies });
         }
@@ -251,7 +249,7 @@ pub fn rocking(plan: &Plan, ida: &Ida, path: &Path) -> Result<(), CommandError> 
         all => format!("median of {} motions", all.len()),
     };
     let title = format!("Rocking spectrum, {of}, {} {}", level_label(plan), plan.levels[0]);
-    Ok(maps::draw(&maps::Rocking { title: &title, maps: &maps_found })?.save(path)?)
+    Ok(maps::draw(&maps::RockingFigure { title: &title, maps: &maps_found })?.save(path)?)
 }
 
 pub fn compare(comparison: &Comparison, path: &Path) -> Result<(), CommandError> {
@@ -259,5 +257,5 @@ pub fn compare(comparison: &Comparison, path: &Path) -> Result<(), CommandError>
         return Ok(());
     }
     let title = format!("Rigid against springs, {} histories", comparison.all().map_or(0, |row| row.n));
-    Ok(peaks::draw(&peaks::Peaks { title: &title, pairs: &comparison.sample })?.save(path)?)
+    Ok(peaks::draw(&peaks::PeaksFigure { title: &title, pairs: &comparison.sample })?.save(path)?)
 }

@@ -18,17 +18,17 @@ use crate::sweep::{
     ida::Ida,
     manifest::{self, Manifest},
     overturning,
-    parts::Parts,
+    parts::SweepParts,
     plan::Plan,
     row,
-    spec::Kind,
+    spec::SweepKind,
     summary,
     table::Table,
 };
 
 /// Options of `tune sweep gather`.
 #[derive(Debug, Args)]
-pub struct Options {
+pub struct GatherOptions {
     /// Sweep file (TOML)
     sweep: PathBuf,
     /// Folder with the parts
@@ -47,7 +47,7 @@ const CSV_ROWS: u64 = 20_000;
 /// Missing parts that are named.
 const NAMED: usize = 20;
 
-pub fn run(o: &Options) -> Result<(), CommandError> {
+pub fn run(o: &GatherOptions) -> Result<(), CommandError> {
     let plan = Plan::read(&o.sweep)?;
     let hash = plan.hash(&mut |_| {})?;
     let folder = o.out.display().to_string();
@@ -56,7 +56,7 @@ pub fn run(o: &Options) -> Result<(), CommandError> {
         Some(there) if there != hash => return Err(SweepError::OtherSweep { folder, there, here: hash }.into()),
         Some(_) => {}
     }
-    let parts = Parts { plan: &plan, folder: &o.out, hash: &hash };
+    let parts = SweepParts { plan: &plan, folder: &o.out, hash: &hash };
     let missing = parts.missing();
     if !missing.is_empty() {
         let names: Vec<String> = missing.iter().take(NAMED).map(|part| part.to_string()).collect();
@@ -73,11 +73,11 @@ pub fn run(o: &Options) -> Result<(), CommandError> {
 }
 
 /// Write everything that follows from the parts, and print the summary.
-pub fn gather(parts: &Parts, draw: bool) -> Result<(), CommandError> {
+pub fn gather(parts: &SweepParts, draw: bool) -> Result<(), CommandError> {
     let (plan, out) = (parts.plan, parts.folder);
     let save =
         |name: &str, table: &Table| write_file(&out.join(name), (table.csv_head() + &table.csv_rows()).as_bytes());
-    let said = if plan.kind == Kind::Overturning {
+    let said = if plan.kind == SweepKind::Overturning {
         let table = whole(parts, &overturning::table(plan, &[]))?;
         save("overturning.csv", &table)?;
         if draw {
@@ -99,7 +99,7 @@ pub fn gather(parts: &Parts, draw: bool) -> Result<(), CommandError> {
 }
 
 fn histories(
-    parts: &Parts,
+    parts: &SweepParts,
     draw: bool,
     save: &dyn Fn(&str, &Table) -> Result<(), CommandError>,
 ) -> Result<Vec<String>, CommandError> {
@@ -108,7 +108,7 @@ fn histories(
         save("histories.csv", &whole(parts, &row::table(plan, &[]))?)?;
     }
     let mut said = vec![summary::head(plan)];
-    if plan.kind == Kind::Rocking {
+    if plan.kind == SweepKind::Rocking {
         let ida = Ida::new(parts)?;
         save("rocking.csv", &ida.table(plan))?;
         if draw {
@@ -116,7 +116,7 @@ fn histories(
         }
         said.extend(summary::rocking(plan, &ida));
     }
-    if plan.kind == Kind::Fragility {
+    if plan.kind == SweepKind::Fragility {
         let (ida, fragility) = (Ida::new(parts)?, Fragility::new(parts)?);
         save("ida.csv", &ida.table(plan))?;
         save("fragility.csv", &fragility.table(plan))?;
@@ -138,7 +138,7 @@ fn histories(
 }
 
 /// All rows of the parts that are there.
-fn whole(parts: &Parts, columns: &Table) -> Result<Table, CommandError> {
+fn whole(parts: &SweepParts, columns: &Table) -> Result<Table, CommandError> {
     let mut all = columns.clone();
     parts.each(columns, |table| {
         all.append(table);

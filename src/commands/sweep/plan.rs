@@ -13,14 +13,14 @@ use super::{
     begin,
     gather::absolute,
 };
-use crate::sweep::{parts::Parts, plan::Plan};
+use crate::sweep::{parts::SweepParts, plan::Plan};
 
 /// Shares unless said.
 const SHARES: u64 = 8;
 
 /// Options of `tune sweep plan`.
 #[derive(Debug, Args)]
-pub struct Options {
+pub struct PlanOptions {
     /// Sweep file (TOML)
     sweep: PathBuf,
     /// Folder for the results
@@ -43,7 +43,7 @@ pub struct Options {
     quiet: bool,
 }
 
-pub fn run(o: &Options) -> Result<(), CommandError> {
+pub fn run(o: &PlanOptions) -> Result<(), CommandError> {
     if o.time.is_empty() || !o.time.chars().all(|c| c.is_ascii_digit() || c == ':' || c == '-') {
         let remedy = "give minutes, or hours:minutes:seconds, as 02:00:00";
         return Err(CommandError::Option { option: "time", value: format!("{:?}", o.time), remedy });
@@ -51,7 +51,7 @@ pub fn run(o: &Options) -> Result<(), CommandError> {
     let plan = Plan::read(&o.sweep)?;
     let hash = plan.hash(&mut |notice| eprintln!("{notice}"))?;
     begin(&plan, &hash, &o.out, o.quiet)?;
-    let missing = Parts { plan: &plan, folder: &o.out, hash: &hash }.missing().len();
+    let missing = SweepParts { plan: &plan, folder: &o.out, hash: &hash }.missing().len();
     writeln!(
         std::io::stdout(),
         "{} cells: {} motions, {} structures, {} restitutions, {} levels; {} parts of {} cells, {missing} missing; sweep {hash}",

@@ -2,7 +2,7 @@
 
 use std::{fmt::Write as _, io::Write, path::Path};
 
-use super::Options;
+use super::VerifyOptions;
 use crate::{
     commands::{
         CommandError,
@@ -17,7 +17,7 @@ use crate::{
         answer::{ElasticHistories, Reference},
         assembled::{Assembled, Sway, errors},
     },
-    figures::stack::{self, Quantity, Stack},
+    figures::stack::{self, StackFigure, StackQuantity},
     parameters::elastic::ElasticParameters,
     verify::{Program, VerifyError, number_before, run_deck},
 };
@@ -27,7 +27,7 @@ const LIMIT: f64 = 0.002;
 const LOOSER: f64 = 5.0;
 
 /// Run the deck beside our own history.
-pub fn run(o: &Options, parameters: &ElasticParameters, program: &Program) -> Result<(), CommandError> {
+pub fn run(o: &VerifyOptions, parameters: &ElasticParameters, program: &Program) -> Result<(), CommandError> {
     let excitation = o.record.excitation(|| parameters.excitation(&o.parameters))?;
     let record = excitation.used()?;
     check_folder(&o.out)?;
@@ -124,25 +124,25 @@ fn csv(pairs: &[[Sway; 2]], dt: f64) -> String {
     out
 }
 
-fn draw(o: &Options, assembled: &Assembled, pairs: &[[Sway; 2]], dt: f64) -> Result<(), CommandError> {
+fn draw(o: &VerifyOptions, assembled: &Assembled, pairs: &[[Sway; 2]], dt: f64) -> Result<(), CommandError> {
     let n = pairs.first().map_or(0, |pair| pair[0].rotation.len());
     let t: Vec<f64> = (0..n).map(|i| i as f64 * dt).collect();
     let of = |pick: fn(&Sway) -> &[f64]| -> Vec<[&[f64]; 2]> {
         pairs.iter().map(|[ours, opensees]| [pick(ours), pick(opensees)]).collect()
     };
     let (rotations, drifts) = (of(|sway| &sway.rotation), of(|sway| &sway.drift));
-    let panels: Vec<Quantity> = rotations
+    let panels: Vec<StackQuantity> = rotations
         .iter()
         .zip(&drifts)
         .flat_map(|(rotation, drift)| {
             [
-                Quantity { name: "rotation", unit: "rad", curves: rotation },
-                Quantity { name: "drift", unit: "m", curves: drift },
+                StackQuantity { name: "rotation", unit: "rad", curves: rotation },
+                StackQuantity { name: "drift", unit: "m", curves: drift },
             ]
         })
         .collect();
     let title = format!("The exported model in OpenSees\n{}", words::title(&assembled.structure));
     let names = ["tune run", "OpenSees"];
-    let data = Stack { title: &title, t: &t, names: &names, panels: &panels, event: None };
+    let data = StackFigure { title: &title, t: &t, names: &names, panels: &panels, event: None };
     Ok(stack::draw(&data)?.save(&o.out.join("verify.png"))?)
 }

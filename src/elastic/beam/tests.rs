@@ -2,8 +2,8 @@ use num_dual::{DualNum, HyperDual64};
 
 use super::*;
 
-fn section() -> Section {
-    Section { axial: 3e6, bending: 2e5, axial_damping: 4e3, bending_damping: 7e2, line_mass: 0.0 }
+fn section() -> BeamSection {
+    BeamSection { axial: 3e6, bending: 2e5, axial_damping: 4e3, bending_damping: 7e2, line_mass: 0.0 }
 }
 
 const ENDS: [[f64; 2]; 2] = [[1.0, 2.0], [1.8, 9.0]];

@@ -1,15 +1,15 @@
 //! What a step does to the energy account, and what it misses: as in `fem/run/account.rs`.
 
-use super::{model::Model, run::Run, step::Stages};
+use super::{model::ElasticModel, run::SpringsRun, step::ElasticStages};
 use crate::{
     elastic::frame::Frame,
-    fem::acceptance::{Tried, Verdict, allowed_energy, allowed_error, cautious},
+    fem::acceptance::{StepVerdict, TriedStep, allowed_energy, allowed_error, cautious},
     scalar::GRAVITY,
 };
 
 /// What errors are measured with.
 #[derive(Clone, Copy, Debug)]
-pub(super) struct Scales {
+pub(super) struct ElasticScales {
     /// Half the distance between the outer corners; of a frame without corners a sixteenth of its span [m].
     pub length: f64,
     pub span: f64,
@@ -19,7 +19,7 @@ pub(super) struct Scales {
     mass: f64,
 }
 
-impl Scales {
+impl ElasticScales {
     pub fn of(frame: &Frame) -> Self {
         let (span, stance) = (frame.span(), frame.stance());
         let length = if stance > 0.0 { 0.5 * stance } else { span / 16.0 };
@@ -27,7 +27,7 @@ impl Scales {
     }
 
     /// What each coordinate is multiplied with to be a displacement.
-    pub fn lengths(&self, model: &Model) -> Vec<f64> {
+    pub fn lengths(&self, model: &ElasticModel) -> Vec<f64> {
         let mut lengths = vec![1.0; model.size];
         for th in (0..model.frame.nodes()).filter_map(|node| model.frame.coordinates(node)[2]) {
             lengths[th] = self.span;
@@ -36,20 +36,20 @@ impl Scales {
     }
 }
 
-impl Run<'_> {
+impl SpringsRun<'_> {
     /// Book the step if the account closes well enough and little is missed; choose the next step's size.
-    pub fn account(&mut self, s: &Stages) -> bool {
+    pub fn account(&mut self, s: &ElasticStages) -> bool {
         let stored = self.model.energy(&s.q[2], &s.v[2], &self.feet);
         let [input, dissipated] = self.stepper.work(&self.feet, &self.here, s, &mut self.impulses);
         let missed = self.missed(s);
         let defect = (stored - self.energy.stored - input + dissipated).abs();
-        let tried = Tried { h: s.h, planned: self.h, settling: self.settling };
+        let tried = TriedStep { h: s.h, planned: self.h, settling: self.settling };
         match tried.verdict([defect, missed], [self.allowed(stored, s), self.allowed_error(s.h)]) {
-            Verdict::Refused(h) => {
+            StepVerdict::Refused(h) => {
                 self.h = h;
                 return false;
             }
-            Verdict::Holds { next, breaks } => {
+            StepVerdict::Holds { next, breaks } => {
                 self.h = next;
                 self.work.smallest += usize::from(breaks);
             }
@@ -64,7 +64,7 @@ impl Run<'_> {
     }
 
     /// What the step misses.
-    fn missed(&mut self, s: &Stages) -> f64 {
+    fn missed(&mut self, s: &ElasticStages) -> f64 {
         let [place, momentum] = self.stepper.local_error([&self.q, &self.v], &self.feet, &self.here, s);
         place.max(momentum / self.scales.mass * self.scales.moment) / self.scales.length
     }
@@ -76,12 +76,12 @@ impl Run<'_> {
     }
 
     /// Energy that this step may lose or gain [J].
-    fn allowed(&self, stored: f64, s: &Stages) -> f64 {
+    fn allowed(&self, stored: f64, s: &ElasticStages) -> f64 {
         allowed_energy(self.control.tolerance * self.scale, &self.energy, stored).max(self.places(s))
     }
 
     /// Energy that comes and goes as places are rounded [J]: a few units in their last digit times the force.
-    fn places(&self, s: &Stages) -> f64 {
+    fn places(&self, s: &ElasticStages) -> f64 {
         let (mut place, mut acceleration) = (0.0_f64, 0.0_f64);
         for (k, length) in self.stepper.lengths.iter().enumerate().take(self.model.n) {
             place = place.max((s.q[2][k] * length).abs());

@@ -5,11 +5,11 @@
 //!   beam i         axial force N (tension positive), shear V, moments at its first and its second end
 //! ```
 
-use crate::elastic::{beam::Bearing, frame::Frame};
+use crate::elastic::{beam::BeamForces, frame::Frame};
 
 /// A largest magnitude, with its sign, and when it came.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
-pub struct Peak {
+pub struct DemandPeak {
     /// In the quantity's unit.
     pub value: f64,
     /// (s)
@@ -18,16 +18,16 @@ pub struct Peak {
 
 /// What a structure bears at one instant, or at its worst since the sample before: each value by itself.
 #[derive(Clone, Debug, Default, PartialEq)]
-pub struct Demand {
+pub struct FrameDemand {
     /// Horizontal force of the footings on the beams that end on them (N).
     pub base_shear: f64,
     /// Of every beam.
-    pub bearings: Vec<Bearing>,
+    pub bearings: Vec<BeamForces>,
 }
 
-impl Demand {
+impl FrameDemand {
     pub(super) fn new(frame: &Frame) -> Self {
-        Self { base_shear: 0.0, bearings: vec![Bearing::default(); frame.beams()] }
+        Self { base_shear: 0.0, bearings: vec![BeamForces::default(); frame.beams()] }
     }
 
     /// At one instant.
@@ -44,7 +44,7 @@ impl Demand {
         }
     }
 
-    /// The values, in the order in which [`Demand::values_mut`] gives them.
+    /// The values, in the order in which [`FrameDemand::values_mut`] gives them.
     pub fn values(&self) -> impl Iterator<Item = f64> + '_ {
         let bearings = self.bearings.iter().flat_map(|b| [b.axial, b.shear, b.moments[0], b.moments[1]]);
         std::iter::once(self.base_shear).chain(bearings)
@@ -69,11 +69,11 @@ impl Demand {
 }
 
 /// Largest magnitude of a series of samples dt apart.
-pub fn peak(dt: f64, series: impl IntoIterator<Item = f64>) -> Peak {
-    let mut peak = Peak::default();
+pub fn peak(dt: f64, series: impl IntoIterator<Item = f64>) -> DemandPeak {
+    let mut peak = DemandPeak::default();
     for (i, value) in series.into_iter().enumerate() {
         if value.abs() > peak.value.abs() {
-            peak = Peak { value, time: i as f64 * dt };
+            peak = DemandPeak { value, time: i as f64 * dt };
         }
     }
     peak

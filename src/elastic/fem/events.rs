@@ -1,6 +1,6 @@
 //! Touches and lifts: met on the cubic through a step's values, located by repeating the step.
 
-use super::{model::Foot, run::Run, step::Stages};
+use super::{model::CornerState, run::SpringsRun, step::ElasticStages};
 use crate::fem::cubic::{Cubic, NODES};
 
 /// Steps that locate one event: Newton's method needs two or three.
@@ -18,7 +18,7 @@ const HOLDING: f64 = 1e-4;
 
 /// What a step meets.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub(super) enum Met {
+pub(super) enum ElasticEvent {
     Nothing,
     /// This corner's compression passes a level [m] at tau in 0..1 of the step, roughly.
     Crossing {
@@ -48,7 +48,7 @@ fn first_zero(values: &[f64; 4], tolerance: f64) -> Option<f64> {
     None
 }
 
-impl Run<'_> {
+impl SpringsRun<'_> {
     /// Below this a gap counts as zero [m].
     fn gap_tolerance(&self) -> f64 {
         (1e-9 * self.compression).max(4.0 * f64::EPSILON * self.scales.span)
@@ -58,16 +58,16 @@ impl Run<'_> {
     /// sign (compression - level) is positive.
     fn limits(&self, corner: usize) -> [Option<(f64, f64)>; 2] {
         match self.feet[corner] {
-            Foot { closed: false, .. } => [Some((-1.0, 0.0)), None],
-            Foot { holds: true, .. } => [Some((1.0, 0.0)), None],
+            CornerState { closed: false, .. } => [Some((-1.0, 0.0)), None],
+            CornerState { holds: true, .. } => [Some((1.0, 0.0)), None],
             // sliding
-            Foot { .. } => [Some((1.0, 0.0)), Some((-1.0, HOLDING * self.compression))],
+            CornerState { .. } => [Some((1.0, 0.0)), Some((-1.0, HOLDING * self.compression))],
         }
     }
 
     /// What the step just taken meets first.
-    pub fn met(&self, s: &Stages) -> Met {
-        let (mut first, mut earliest) = (Met::Nothing, f64::INFINITY);
+    pub fn met(&self, s: &ElasticStages) -> ElasticEvent {
+        let (mut first, mut earliest) = (ElasticEvent::Nothing, f64::INFINITY);
         let tolerance = self.gap_tolerance();
         for corner in 0..self.feet.len() {
             let at = |q: &[f64]| self.model.compression(corner, q);
@@ -80,14 +80,14 @@ impl Run<'_> {
                     // on the edge: the corner itself knows where it goes, the polynomial may not
                     let rate = sign * self.model.compression_rate(corner, &self.q, &self.v);
                     if start > -tolerance && rate * s.h * NODES[1] > tolerance {
-                        return Met::Unresolved;
+                        return ElasticEvent::Unresolved;
                     }
                     if start < -tolerance || rate < 0.0 {
-                        return Met::AtOnce { corner };
+                        return ElasticEvent::AtOnce { corner };
                     }
                 }
                 if tau < earliest {
-                    (earliest, first) = (tau, Met::Crossing { corner, level, tau: tau.max(1e-9) });
+                    (earliest, first) = (tau, ElasticEvent::Crossing { corner, level, tau: tau.max(1e-9) });
                 }
             }
         }
@@ -95,7 +95,7 @@ impl Run<'_> {
     }
 
     /// Repeat the step so that it ends where the compression passes the level: whether it does; `None` if no step converges there.
-    pub fn locate(&mut self, corner: usize, level: f64, whole: f64, tau: f64, s: &mut Stages) -> Option<bool> {
+    pub fn locate(&mut self, corner: usize, level: f64, whole: f64, tau: f64, s: &mut ElasticStages) -> Option<bool> {
         let sign = self.limits(corner).into_iter().flatten().find(|l| l.1 == level).map_or(1.0, |l| l.0);
         let (mut low, mut high) = (0.0, f64::INFINITY);
         let mut h = whole * tau;
@@ -129,15 +129,15 @@ impl Run<'_> {
     }
 
     /// A corner's contact after what it met.
-    pub fn changed(&mut self, corner: usize) -> Foot {
+    pub fn changed(&mut self, corner: usize) -> CornerState {
         let foot = self.feet[corner];
-        let here = |holds: bool| Foot { closed: true, holds, anchor: self.model.anchor_here(corner, &self.q) };
+        let here = |holds: bool| CornerState { closed: true, holds, anchor: self.model.anchor_here(corner, &self.q) };
         if foot.closed && !foot.holds && self.model.compression(corner, &self.q) > 0.5 * HOLDING * self.compression {
             return here(true);
         }
         if foot.closed {
             self.opened[corner].0 = self.time;
-            return Foot { anchor: foot.anchor, ..Foot::OPEN };
+            return CornerState { anchor: foot.anchor, ..CornerState::OPEN };
         }
         let (opened, times) = self.opened[corner];
         let times = if self.time - opened < AT_ONCE * self.settling { times + 1 } else { 0 };

@@ -7,12 +7,12 @@
 use std::f64::consts::{FRAC_PI_8, PI};
 
 /// One section of order two: y_i = b0 x_i + b1 x_(i-1) + b2 x_(i-2) - a1 y_(i-1) - a2 y_(i-2).
-struct Section {
+struct FilterSection {
     b: [f64; 3],
     a: [f64; 2],
 }
 
-impl Section {
+impl FilterSection {
     /// A pair of poles of this damping ratio, of the low-pass at w = tan(pi f dt).
     fn new(w: f64, damping: f64) -> Self {
         let scale = 1.0 / (1.0 + 2.0 * damping * w + w * w);
@@ -46,7 +46,7 @@ pub fn low_pass(series: &[f64], dt: f64, frequency: f64) -> Vec<f64> {
         return out;
     }
     let w = (PI * frequency * dt).tan();
-    let sections = [FRAC_PI_8, 3.0 * FRAC_PI_8].map(|angle| Section::new(w, angle.cos()));
+    let sections = [FRAC_PI_8, 3.0 * FRAC_PI_8].map(|angle| FilterSection::new(w, angle.cos()));
     for section in &sections {
         section.run(out.iter_mut());
     }

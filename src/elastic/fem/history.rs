@@ -1,6 +1,6 @@
 //! What a run leaves behind.
 
-use super::{Finish, demands::Demand, filter::low_pass, run::View};
+use super::{ElasticFinish, demands::FrameDemand, filter::low_pass, run::ElasticView};
 use crate::{
     elastic::frame::{Base, Frame},
     fem::{Account, HistoryOutcome, Work},
@@ -70,7 +70,7 @@ impl Since {
 
 /// A whole history.
 #[derive(Clone, Debug)]
-pub struct History {
+pub struct ElasticHistory {
     /// Time between samples (s).
     pub dt: f64,
     /// The frame's coordinates at every sample (m, rad).
@@ -82,9 +82,9 @@ pub struct History {
     /// On all corners together: the largest is that of one instant.
     pub ground: GroundForces,
     /// What the structure bears at every sample.
-    pub demands: Vec<Demand>,
+    pub demands: Vec<FrameDemand>,
     /// Of each value, the largest magnitude since the sample before.
-    pub worst: Vec<Demand>,
+    pub worst: Vec<FrameDemand>,
     /// Touches and lifts.
     pub contacts: Vec<ContactChange>,
     /// Of energy.
@@ -99,7 +99,7 @@ pub struct History {
     pub energy_scale: f64,
 }
 
-impl History {
+impl ElasticHistory {
     /// Rotation of a base at every sample (rad).
     pub fn rotation(&self, frame: &Frame, base: Base) -> Vec<f64> {
         self.q.iter().map(|q| base.rotation(frame, q)).collect()
@@ -122,27 +122,27 @@ impl History {
 }
 
 /// Keeps everything, or all but forces.
-pub(super) struct Recorder {
-    history: History,
-    forces: Option<Forces>,
+pub(super) struct ElasticRecorder {
+    history: ElasticHistory,
+    forces: Option<ElasticForces>,
     residual: f64,
 }
 
 /// Forces since the last sample.
-struct Forces {
+struct ElasticForces {
     corners: Vec<Since>,
     ground: Since,
-    now: Demand,
-    worst: Demand,
+    now: FrameDemand,
+    worst: FrameDemand,
 }
 
-impl Forces {
+impl ElasticForces {
     fn new(frame: &Frame) -> Self {
         let corners = vec![Since::default(); frame.places().len()];
-        Self { corners, ground: Since::default(), now: Demand::new(frame), worst: Demand::new(frame) }
+        Self { corners, ground: Since::default(), now: FrameDemand::new(frame), worst: FrameDemand::new(frame) }
     }
 
-    fn look(&mut self, view: &View) {
+    fn look(&mut self, view: &ElasticView) {
         let n = view.model.n;
         self.now.take(view.model.frame, &view.q[..n], &view.v[..n]);
         self.worst.enlarge(&self.now);
@@ -162,7 +162,7 @@ impl Forces {
         }
     }
 
-    fn sample(&mut self, view: &View, history: &mut History) {
+    fn sample(&mut self, view: &ElasticView, history: &mut ElasticHistory) {
         let mut sum = [0.0; 2];
         for (i, (since, forces)) in self.corners.iter_mut().zip(&mut history.forces).enumerate() {
             let force = view.model.contact(i, &view.feet[i], view.q);
@@ -175,13 +175,13 @@ impl Forces {
     }
 }
 
-impl Recorder {
+impl ElasticRecorder {
     /// Of a history of so many samples, with forces or without.
     pub fn new(frame: &Frame, dt: f64, samples: usize, forces: bool) -> Self {
         let room = || Vec::with_capacity(samples);
         let corners = if forces { frame.places().len() } else { 0 };
         Self {
-            history: History {
+            history: ElasticHistory {
                 dt,
                 q: Vec::with_capacity(samples),
                 v: Vec::with_capacity(samples),
@@ -196,13 +196,13 @@ impl Recorder {
                 energy_residual: 0.0,
                 energy_scale: 0.0,
             },
-            forces: forces.then(|| Forces::new(frame)),
+            forces: forces.then(|| ElasticForces::new(frame)),
             residual: 0.0,
         }
     }
 
     /// At a sample.
-    pub fn sample(&mut self, view: &View) {
+    pub fn sample(&mut self, view: &ElasticView) {
         let n = view.model.n;
         let history = &mut self.history;
         if let Some(forces) = &mut self.forces {
@@ -211,16 +211,12 @@ impl Recorder {
         }
         history.q.push(view.q[..n].to_vec());
         history.v.push(view.v[..n].to_vec());
-        let e = view.energy;
-        history.account.input.push(e.input);
-        history.account.stored.push(e.stored - e.initial);
-        history.account.dissipated.push(e.dissipated + e.released);
-        history.account.residual.push(e.residual());
-        self.residual = self.residual.max(e.residual().abs());
+        history.account.push(view.energy);
+        self.residual = self.residual.max(view.energy.residual().abs());
     }
 
     /// After a step, with its impulses.
-    pub fn step(&mut self, view: &View, impulses: &[[f64; 2]]) {
+    pub fn step(&mut self, view: &ElasticView, impulses: &[[f64; 2]]) {
         if let Some(forces) = &mut self.forces {
             forces.step(impulses);
             forces.look(view);
@@ -228,7 +224,7 @@ impl Recorder {
     }
 
     /// After a corner's contact has changed.
-    pub fn contact(&mut self, corner: usize, view: &View) {
+    pub fn contact(&mut self, corner: usize, view: &ElasticView) {
         let place = &view.model.frame.places()[corner];
         let speed = place.velocity(&place.reach(view.q), view.v);
         let touches = view.feet[corner].closed;
@@ -236,8 +232,8 @@ impl Recorder {
     }
 
     /// The history, once the run is over.
-    pub fn finish(self, finish: Finish) -> History {
-        History {
+    pub fn finish(self, finish: ElasticFinish) -> ElasticHistory {
+        ElasticHistory {
             outcome: finish.outcome,
             work: finish.work,
             energy_residual: self.residual / finish.energy_scale,

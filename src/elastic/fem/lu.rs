@@ -4,19 +4,19 @@ use num_complex::Complex;
 use num_traits::Num;
 
 /// A number that a pivot is chosen by.
-pub(super) trait Entry: Num + Copy {
+pub(super) trait MatrixEntry: Num + Copy {
     /// Its absolute value, squared.
     fn size(self) -> f64;
 }
 
-impl Entry for f64 {
+impl MatrixEntry for f64 {
     #[inline(always)]
     fn size(self) -> f64 {
         self * self
     }
 }
 
-impl Entry for Complex<f64> {
+impl MatrixEntry for Complex<f64> {
     #[inline(always)]
     fn size(self) -> f64 {
         self.norm_sqr()
@@ -33,7 +33,7 @@ pub(super) struct Lu<T> {
     work: Vec<T>,
 }
 
-impl<T: Entry> Lu<T> {
+impl<T: MatrixEntry> Lu<T> {
     pub fn new(n: usize) -> Self {
         Self { n, entries: vec![T::zero(); n * n], order: vec![0; n], work: vec![T::zero(); n] }
     }

@@ -22,7 +22,7 @@ use crate::{
 
 /// How a corner meets its springs.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Foot {
+pub struct CornerState {
     /// Whether it is on the ground.
     pub closed: bool,
     /// Whether its horizontal spring holds.
@@ -31,7 +31,7 @@ pub struct Foot {
     pub anchor: f64,
 }
 
-impl Foot {
+impl CornerState {
     /// In the air.
     pub const OPEN: Self = Self { closed: false, holds: false, anchor: 0.0 };
     /// On the ground since the structure was built.
@@ -40,7 +40,7 @@ impl Foot {
 
 /// Frame and springs, ready to compute with.
 #[derive(Debug)]
-pub(super) struct Model<'a> {
+pub(super) struct ElasticModel<'a> {
     pub frame: &'a Frame,
     /// Under each corner.
     pub units: &'a [Springs<Chain<f64>>],
@@ -55,7 +55,7 @@ pub(super) fn absorber(n: usize, corner: usize) -> usize {
     n + 2 * corner
 }
 
-impl<'a> Model<'a> {
+impl<'a> ElasticModel<'a> {
     pub fn new(frame: &'a Frame, units: &'a [Springs<Chain<f64>>]) -> Self {
         let n = frame.size();
         Self { frame, units, n, size: n + 2 * units.len() }
@@ -63,7 +63,7 @@ impl<'a> Model<'a> {
 
     /// Forces of the ground on a corner (H, N) at q.
     #[inline(always)]
-    pub fn contact(&self, i: usize, foot: &Foot, q: &[f64]) -> [f64; 2] {
+    pub fn contact(&self, i: usize, foot: &CornerState, q: &[f64]) -> [f64; 2] {
         if !foot.closed {
             return [0.0; 2];
         }
@@ -92,7 +92,7 @@ impl<'a> Model<'a> {
     }
 
     /// Forces on all coordinates.
-    pub fn forces(&self, q: &[f64], v: &[f64], feet: &[Foot], ground: [f64; 2], out: &mut [f64]) {
+    pub fn forces(&self, q: &[f64], v: &[f64], feet: &[CornerState], ground: [f64; 2], out: &mut [f64]) {
         let n = self.n;
         self.frame.forces(&q[..n], &v[..n], ground, &mut out[..n]);
         for (i, (foot, Springs { vertical, horizontal })) in feet.iter().zip(self.units).enumerate() {
@@ -128,7 +128,7 @@ impl<'a> Model<'a> {
     }
 
     /// Kinetic, gravitational and elastic energy [J].
-    pub fn energy(&self, q: &[f64], v: &[f64], feet: &[Foot]) -> f64 {
+    pub fn energy(&self, q: &[f64], v: &[f64], feet: &[CornerState]) -> f64 {
         let n = self.n;
         let mut twice = 0.0;
         for (i, (foot, Springs { vertical, horizontal })) in feet.iter().zip(self.units).enumerate() {
@@ -167,31 +167,31 @@ impl<'a> Model<'a> {
     }
 
     /// Standing still on all corners.
-    pub fn standing(&self) -> Result<(Vec<f64>, Vec<Foot>), EquilibriumError> {
-        let feet = vec![Foot::STANDING; self.units.len()];
+    pub fn standing(&self) -> Result<(Vec<f64>, Vec<CornerState>), EquilibriumError> {
+        let feet = vec![CornerState::STANDING; self.units.len()];
         Ok((self.settle(&self.frame.standing(&self.supports())?, &feet), feet))
     }
 
     /// Held at a lean on the last corner, or the first.
-    pub fn leaning(&self, lean: f64) -> Result<(Vec<f64>, Vec<Foot>), EquilibriumError> {
+    pub fn leaning(&self, lean: f64) -> Result<(Vec<f64>, Vec<CornerState>), EquilibriumError> {
         let frame = self.frame.leaning(lean, &self.supports())?;
-        let mut feet = vec![Foot::OPEN; self.units.len()];
+        let mut feet = vec![CornerState::OPEN; self.units.len()];
         let pivot = if lean > 0.0 { feet.last_mut() } else { feet.first_mut() };
         if let Some(pivot) = pivot {
-            *pivot = Foot::STANDING;
+            *pivot = CornerState::STANDING;
         }
         let q = self.settle(&frame, &feet);
         // a lean of less than the settlement leaves other corners in the ground, and then they press too
         for (i, foot) in feet.iter_mut().enumerate() {
             if !foot.closed && self.compression(i, &q) > 0.0 {
-                *foot = Foot { anchor: self.anchor_here(i, &q), ..Foot::STANDING };
+                *foot = CornerState { anchor: self.anchor_here(i, &q), ..CornerState::STANDING };
             }
         }
         Ok((q, feet))
     }
 
     /// The frame at q, absorbers under what they carry.
-    pub fn settle(&self, frame: &DVector<f64>, feet: &[Foot]) -> Vec<f64> {
+    pub fn settle(&self, frame: &DVector<f64>, feet: &[CornerState]) -> Vec<f64> {
         let mut q = frame.as_slice().to_vec();
         for ((foot, unit), corner) in feet.iter().zip(self.units).zip(self.frame.places()) {
             let [x, z] = corner.reach(frame.as_slice()).place;

@@ -3,8 +3,8 @@
 use nalgebra::DMatrix;
 
 use super::{
-    lu::{Entry, Lu},
-    model::{Foot, Model, absorber},
+    lu::{Lu, MatrixEntry},
+    model::{CornerState, ElasticModel, absorber},
 };
 use crate::{fem::condensed::Condensed, spring::Springs};
 
@@ -17,13 +17,13 @@ pub(super) struct Tangent {
 }
 
 impl Tangent {
-    pub fn new(model: &Model) -> Self {
+    pub fn new(model: &ElasticModel) -> Self {
         let n = model.n;
         Self { k: DMatrix::zeros(n, n), c: DMatrix::zeros(n, n), slopes: vec![[0.0; 2]; model.units.len()] }
     }
 
     /// Take it at q, q'.
-    pub fn take(&mut self, model: &Model, q: &[f64], v: &[f64], feet: &[Foot]) {
+    pub fn take(&mut self, model: &ElasticModel, q: &[f64], v: &[f64], feet: &[CornerState]) {
         let n = model.n;
         model.frame.slopes(&q[..n], &v[..n], &mut self.k, &mut self.c);
         for (i, (foot, corner)) in feet.iter().zip(model.frame.places()).enumerate() {
@@ -38,21 +38,21 @@ impl Tangent {
 }
 
 /// The matrix for one eigenvalue, ready to solve with.
-pub(super) struct Matrix<T> {
+pub(super) struct FactoredMatrix<T> {
     chains: Vec<[Condensed<T>; 2]>,
     lu: Lu<T>,
     /// The frame's part before it is factored.
     entries: Vec<T>,
 }
 
-impl<T: Entry> Matrix<T> {
-    pub fn new(model: &Model) -> Self {
+impl<T: MatrixEntry> FactoredMatrix<T> {
+    pub fn new(model: &ElasticModel) -> Self {
         let n = model.n;
         Self { chains: Vec::with_capacity(model.units.len()), lu: Lu::new(n), entries: vec![T::zero(); n * n] }
     }
 
     /// Condense the chains for s = h lambda.
-    pub fn condense(&mut self, model: &Model, feet: &[Foot], s: T, lift: impl Fn(f64) -> T) {
+    pub fn condense(&mut self, model: &ElasticModel, feet: &[CornerState], s: T, lift: impl Fn(f64) -> T) {
         self.chains.clear();
         self.chains.extend(feet.iter().zip(model.units).map(|(foot, Springs { vertical, horizontal })| {
             [
@@ -64,7 +64,14 @@ impl<T: Entry> Matrix<T> {
 
     /// Factor; false if it is singular.
     #[must_use]
-    pub fn factor(&mut self, model: &Model, tangent: &Tangent, feet: &[Foot], s: T, lift: impl Fn(f64) -> T) -> bool {
+    pub fn factor(
+        &mut self,
+        model: &ElasticModel,
+        tangent: &Tangent,
+        feet: &[CornerState],
+        s: T,
+        lift: impl Fn(f64) -> T,
+    ) -> bool {
         let n = model.n;
         let mass = model.frame.mass_matrix();
         let s2 = s * s;
@@ -91,7 +98,14 @@ impl<T: Entry> Matrix<T> {
     }
 
     /// Solve for the accelerations' correction, in place.
-    pub fn solve(&mut self, model: &Model, tangent: &Tangent, feet: &[Foot], r: &mut [T], lift: impl Fn(f64) -> T) {
+    pub fn solve(
+        &mut self,
+        model: &ElasticModel,
+        tangent: &Tangent,
+        feet: &[CornerState],
+        r: &mut [T],
+        lift: impl Fn(f64) -> T,
+    ) {
         let n = model.n;
         for (i, corner) in model.frame.places().iter().enumerate() {
             if feet[i].closed {

@@ -3,12 +3,12 @@
 use std::f64::consts::FRAC_PI_2;
 
 use super::{
-    Case, Finish,
-    account::Scales,
-    events::Met,
-    history::Recorder,
-    model::{Foot, Model},
-    step::{Request, Stages, Stepper},
+    ElasticAnalysis, ElasticFinish,
+    account::ElasticScales,
+    events::ElasticEvent,
+    history::ElasticRecorder,
+    model::{CornerState, ElasticModel},
+    step::{ElasticRequest, ElasticStages, ElasticStepper},
 };
 use crate::{
     elastic::frame::Base,
@@ -21,30 +21,30 @@ use crate::{
 const RESTART: f64 = 0.1;
 
 /// What a run shows.
-pub(super) struct View<'a> {
+pub(super) struct ElasticView<'a> {
     /// [s]
     pub time: f64,
-    pub model: &'a Model<'a>,
+    pub model: &'a ElasticModel<'a>,
     pub q: &'a [f64],
     pub v: &'a [f64],
-    pub feet: &'a [Foot],
+    pub feet: &'a [CornerState],
     pub energy: &'a Energy<f64>,
 }
 
 /// A history in the making.
-pub(super) struct Run<'a> {
-    pub model: &'a Model<'a>,
-    case: &'a Case<'a>,
+pub(super) struct SpringsRun<'a> {
+    pub model: &'a ElasticModel<'a>,
+    case: &'a ElasticAnalysis<'a>,
     pub control: Control,
-    pub stepper: Stepper<'a>,
+    pub stepper: ElasticStepper<'a>,
     bases: Vec<Base>,
     pub q: Vec<f64>,
     pub v: Vec<f64>,
-    pub feet: Vec<Foot>,
+    pub feet: Vec<CornerState>,
     pub energy: Energy<f64>,
     /// Largest energy seen [J], the scale of the account.
     pub scale: f64,
-    pub scales: Scales,
+    pub scales: ElasticScales,
     /// Compression of the stiffest k1 under the weight [m], the scale of contact; that of what is too small to matter without springs.
     pub compression: f64,
     /// 1/Omega_n of the stiffest vertical chain under what lands on it [s], the scale of time in contact.
@@ -62,12 +62,17 @@ pub(super) struct Run<'a> {
     pub work: Work,
 }
 
-impl<'a> Run<'a> {
+impl<'a> SpringsRun<'a> {
     /// From a start whose energy is measured by that at rest [J].
-    pub fn new(case: &'a Case<'a>, model: &'a Model<'a>, start: (Vec<f64>, Vec<f64>, Vec<Foot>), at_rest: f64) -> Self {
+    pub fn new(
+        case: &'a ElasticAnalysis<'a>,
+        model: &'a ElasticModel<'a>,
+        start: (Vec<f64>, Vec<f64>, Vec<CornerState>),
+        at_rest: f64,
+    ) -> Self {
         let (q, v, feet) = start;
         let frame = model.frame;
-        let scales = Scales::of(frame);
+        let scales = ElasticScales::of(frame);
         let weight = frame.total_mass() * GRAVITY;
         let vertical = || model.units.iter().map(|unit| unit.vertical.k1);
         let stiffest = vertical().fold(0.0, f64::max);
@@ -87,7 +92,7 @@ impl<'a> Run<'a> {
             model,
             case,
             control: case.control,
-            stepper: Stepper::new(model, lengths, rounding),
+            stepper: ElasticStepper::new(model, lengths, rounding),
             bases: Base::all(frame),
             q,
             v,
@@ -107,23 +112,23 @@ impl<'a> Run<'a> {
         }
     }
 
-    pub fn view(&self) -> View<'_> {
+    pub fn view(&self) -> ElasticView<'_> {
         let Self { time, model, q, v, feet, energy, .. } = self;
-        View { time: *time, model, q, v, feet, energy }
+        ElasticView { time: *time, model, q, v, feet, energy }
     }
 
     /// Ground from sample i on.
     fn ground(&self, i: usize) -> Ground<f64> {
-        let Case { dt, accel, vertical, scale, .. } = *self.case;
+        let ElasticAnalysis { dt, accel, vertical, scale, .. } = *self.case;
         let at = |i: usize| [accel, vertical].map(|a| scale * a.get(i).copied().unwrap_or(0.0));
         let (now, next) = (at(i), at(i + 1));
         Ground { start: now, slope: [0, 1].map(|k| (next[k] - now[k]) / dt), curve: [0.0; 2] }
     }
 
     /// Follow the record to its end.
-    pub fn follow(&mut self, recorder: &mut Recorder) -> HistoryOutcome {
+    pub fn follow(&mut self, recorder: &mut ElasticRecorder) -> HistoryOutcome {
         let (dt, samples) = (self.case.dt, self.case.accel.len());
-        let mut stages = Stages::new(self.model.size);
+        let mut stages = ElasticStages::new(self.model.size);
         recorder.sample(&self.view());
         for i in 0..samples.saturating_sub(1) {
             let (ground, start) = (self.ground(i), i as f64 * dt);
@@ -148,7 +153,7 @@ impl<'a> Run<'a> {
     }
 
     /// Take a step, of at most `left`; by how much time has moved on: zero if it was refused.
-    fn advance(&mut self, left: f64, stages: &mut Stages, recorder: &mut Recorder) -> f64 {
+    fn advance(&mut self, left: f64, stages: &mut ElasticStages, recorder: &mut ElasticRecorder) -> f64 {
         let h = self.next_size(left);
         if !self.attempt(h, stages) {
             self.refuse(0.25 * h, stages);
@@ -156,23 +161,23 @@ impl<'a> Run<'a> {
         }
         let mut met = self.met(stages);
         match met {
-            Met::Unresolved => {
+            ElasticEvent::Unresolved => {
                 self.refuse(0.25 * h, stages);
                 return 0.0;
             }
-            Met::AtOnce { corner } => {
+            ElasticEvent::AtOnce { corner } => {
                 self.switch(corner, stages, recorder);
                 return 0.0;
             }
-            Met::Crossing { corner, level, tau } => match self.locate(corner, level, h, tau, stages) {
+            ElasticEvent::Crossing { corner, level, tau } => match self.locate(corner, level, h, tau, stages) {
                 Some(true) => {}
-                Some(false) => met = Met::Nothing,
+                Some(false) => met = ElasticEvent::Nothing,
                 None => {
                     self.refuse(0.5 * h * tau, stages);
                     return 0.0;
                 }
             },
-            Met::Nothing => {}
+            ElasticEvent::Nothing => {}
         }
         if !self.account(stages) {
             self.work.rejected += 1;
@@ -180,18 +185,18 @@ impl<'a> Run<'a> {
         }
         self.time += stages.h;
         recorder.step(&self.view(), &self.impulses);
-        if let Met::Crossing { corner, .. } = met {
+        if let ElasticEvent::Crossing { corner, .. } = met {
             self.switch(corner, stages, recorder);
         }
         stages.h
     }
 
     /// Take a step of size h into `stages`; whether it converges.
-    pub fn attempt(&mut self, h: f64, stages: &mut Stages) -> bool {
+    pub fn attempt(&mut self, h: f64, stages: &mut ElasticStages) -> bool {
         // a share of what presses the corners that the energy account would not notice
         let share = (1e3 * self.control.tolerance).clamp(1e-7, 1e-3);
         let tolerance = (share * self.compression).max(8.0 * f64::EPSILON * self.scales.span);
-        let request = Request { h, ground: self.here, tolerance, rate: self.rate };
+        let request = ElasticRequest { h, ground: self.here, tolerance, rate: self.rate };
         let converged = self.stepper.step([&self.q, &self.v], &self.feet, &request, stages);
         if converged {
             self.work.iterations += stages.iterations;
@@ -200,7 +205,7 @@ impl<'a> Run<'a> {
     }
 
     /// Try again with size h [s].
-    fn refuse(&mut self, h: f64, stages: &mut Stages) {
+    fn refuse(&mut self, h: f64, stages: &mut ElasticStages) {
         self.work.rejected += 1;
         self.rate = 1.0;
         self.h = h;
@@ -208,7 +213,7 @@ impl<'a> Run<'a> {
     }
 
     /// The accelerations tell nothing of the next step.
-    fn forget(&self, stages: &mut Stages) {
+    fn forget(&self, stages: &mut ElasticStages) {
         stages.a.iter_mut().for_each(|a| a.fill(0.0));
     }
 
@@ -224,7 +229,7 @@ impl<'a> Run<'a> {
     }
 
     /// A corner touches or lifts now.
-    fn switch(&mut self, corner: usize, stages: &mut Stages, recorder: &mut Recorder) {
+    fn switch(&mut self, corner: usize, stages: &mut ElasticStages, recorder: &mut ElasticRecorder) {
         self.feet[corner] = self.changed(corner);
         let stored = self.model.energy(&self.q, &self.v, &self.feet);
         self.energy.released += self.energy.stored - stored;
@@ -237,7 +242,7 @@ impl<'a> Run<'a> {
     }
 
     /// How it ended, and what it cost.
-    pub fn finish(&self, outcome: HistoryOutcome) -> Finish {
-        Finish { outcome, work: self.work, energy_scale: self.scale }
+    pub fn finish(&self, outcome: HistoryOutcome) -> ElasticFinish {
+        ElasticFinish { outcome, work: self.work, energy_scale: self.scale }
     }
 }

@@ -3,17 +3,19 @@
 use num_complex::Complex;
 
 use super::{
-    model::{Foot, Model},
-    newton::{Matrix, Tangent},
+    model::{CornerState, ElasticModel},
+    newton::{FactoredMatrix, Tangent},
 };
 use crate::fem::{
-    iterate::{Convergence, EIGENVALUE, Ground, LARGEST, Verdict, complex, embedded, from_modes, modes, stage},
+    iterate::{
+        Convergence, EIGENVALUE, Ground, IterationVerdict, LARGEST, complex, embedded, from_modes, modes, stage,
+    },
     radau::{A, C, GAMMA},
 };
 
 /// The stages of a step.
 #[derive(Clone, Debug)]
-pub(super) struct Stages {
+pub(super) struct ElasticStages {
     /// [s]
     pub h: f64,
     /// Accelerations, places, velocities; the last is the step's end.
@@ -25,7 +27,7 @@ pub(super) struct Stages {
     pub rate: f64,
 }
 
-impl Stages {
+impl ElasticStages {
     pub fn new(size: usize) -> Self {
         let room = || [(); 3].map(|()| vec![0.0; size]);
         Self { h: 0.0, a: room(), q: room(), v: room(), iterations: 0, rate: 1.0 }
@@ -34,7 +36,7 @@ impl Stages {
 
 /// What a step is asked for.
 #[derive(Clone, Copy, Debug)]
-pub(super) struct Request {
+pub(super) struct ElasticRequest {
     /// [s]
     pub h: f64,
     pub ground: Ground<f64>,
@@ -45,33 +47,33 @@ pub(super) struct Request {
 }
 
 /// Takes steps of a model.
-pub(super) struct Stepper<'a> {
-    model: &'a Model<'a>,
+pub(super) struct ElasticStepper<'a> {
+    model: &'a ElasticModel<'a>,
     /// What each coordinate is multiplied with to be a displacement [m or 1].
     pub lengths: Vec<f64>,
     rounding: f64,
     tangent: Tangent,
-    real: Matrix<f64>,
-    pair: Matrix<Complex<f64>>,
+    real: FactoredMatrix<f64>,
+    pair: FactoredMatrix<Complex<f64>>,
     /// The size and the contacts that the chains are condensed for.
-    condensed: (f64, Vec<Foot>),
+    condensed: (f64, Vec<CornerState>),
     middle: [Vec<f64>; 2],
     residual: [Vec<f64>; 3],
     r0: Vec<f64>,
     r1: Vec<Complex<f64>>,
 }
 
-impl<'a> Stepper<'a> {
+impl<'a> ElasticStepper<'a> {
     /// `rounding`: correction of an iteration that rounding alone may make [m].
-    pub fn new(model: &'a Model<'a>, lengths: Vec<f64>, rounding: f64) -> Self {
+    pub fn new(model: &'a ElasticModel<'a>, lengths: Vec<f64>, rounding: f64) -> Self {
         let room = || vec![0.0; model.size];
         Self {
             model,
             lengths,
             rounding,
             tangent: Tangent::new(model),
-            real: Matrix::new(model),
-            pair: Matrix::new(model),
+            real: FactoredMatrix::new(model),
+            pair: FactoredMatrix::new(model),
             condensed: (0.0, Vec::new()),
             middle: [room(), room()],
             residual: [room(), room(), room()],
@@ -81,7 +83,7 @@ impl<'a> Stepper<'a> {
     }
 
     /// Matrices for a step of size h from q, q'; false if they are singular.
-    fn prepare(&mut self, [q, v]: [&[f64]; 2], feet: &[Foot], h: f64) -> bool {
+    fn prepare(&mut self, [q, v]: [&[f64]; 2], feet: &[CornerState], h: f64) -> bool {
         let Self { model, tangent, real, pair, condensed, middle, .. } = self;
         // half way, where the matrix's error over the step is least
         let [mq, mv] = middle;
@@ -101,8 +103,14 @@ impl<'a> Stepper<'a> {
     }
 
     /// Take the step from q, q' into `s`, whose accelerations are the first guess; whether the iteration converges.
-    pub fn step(&mut self, [q, v]: [&[f64]; 2], feet: &[Foot], request: &Request, s: &mut Stages) -> bool {
-        let &Request { h, ground, tolerance, rate } = request;
+    pub fn step(
+        &mut self,
+        [q, v]: [&[f64]; 2],
+        feet: &[CornerState],
+        request: &ElasticRequest,
+        s: &mut ElasticStages,
+    ) -> bool {
+        let &ElasticRequest { h, ground, tolerance, rate } = request;
         let size = self.model.size;
         if !self.prepare([q, v], feet, h) {
             return false;
@@ -119,8 +127,8 @@ impl<'a> Stepper<'a> {
             }
             (s.iterations, s.rate) = (convergence.iterations, convergence.rate);
             match convergence.verdict() {
-                Verdict::GoesOn => {}
-                verdict => return verdict == Verdict::Converged,
+                IterationVerdict::GoesOn => {}
+                verdict => return verdict == IterationVerdict::Converged,
             }
             for (i, (residual, ground)) in self.residual.iter_mut().zip(grounds).enumerate() {
                 model.forces(&s.q[i], &s.v[i], feet, ground, residual);
@@ -150,7 +158,13 @@ impl<'a> Stepper<'a> {
 
     /// What the step just taken from q, q' misses, estimated as `fem/step.rs` does: the frame's largest displacement [m], and the largest
     /// momentum that goes with one [kg m/s].
-    pub fn local_error(&mut self, [q, v]: [&[f64]; 2], feet: &[Foot], ground: &Ground<f64>, s: &Stages) -> [f64; 2] {
+    pub fn local_error(
+        &mut self,
+        [q, v]: [&[f64]; 2],
+        feet: &[CornerState],
+        ground: &Ground<f64>,
+        s: &ElasticStages,
+    ) -> [f64; 2] {
         let model = self.model;
         let root = s.h * GAMMA;
         let [d_q, d_v] = &mut self.middle;
@@ -180,7 +194,13 @@ impl<'a> Stepper<'a> {
     }
 
     /// Work of the ground and of the dashpots over the step, and impulse of every corner, by the step's own quadrature [J, N s].
-    pub fn work(&self, feet: &[Foot], ground: &Ground<f64>, s: &Stages, impulses: &mut [[f64; 2]]) -> [f64; 2] {
+    pub fn work(
+        &self,
+        feet: &[CornerState],
+        ground: &Ground<f64>,
+        s: &ElasticStages,
+        impulses: &mut [[f64; 2]],
+    ) -> [f64; 2] {
         let (mut input, mut dissipated) = (0.0, 0.0);
         impulses.fill([0.0; 2]);
         for j in 0..3 {

@@ -1,13 +1,13 @@
 //! Cantilevers (piers), A-frames and portals laid out.
 
-use super::layout::{Layout, Member, Node, Point};
-use crate::elastic::beam::Section;
+use super::layout::{FrameLayout, FrameMember, Node, NodePoint};
+use crate::elastic::beam::BeamSection;
 
 /// A straight column, leg or girder of equal elements.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Column {
+pub struct StraightMember {
     /// What it is made of.
-    pub section: Section,
+    pub section: BeamSection,
     /// Beams along it, at least one.
     pub elements: usize,
 }
@@ -47,7 +47,7 @@ pub struct Cantilever {
     /// What it stands on.
     pub footing: Footing,
     /// From the footing's top to the mass.
-    pub column: Column,
+    pub column: StraightMember,
     /// Beams' mass consistent with linear displacements rather than in halves.
     pub consistent: bool,
 }
@@ -67,7 +67,7 @@ pub struct LeggedFrame {
     /// Of each foot (kg).
     pub foot_mass: f64,
     /// From the apex to a foot.
-    pub leg: Column,
+    pub leg: StraightMember,
 }
 
 /// Two columns on two footings under a girder. Nodes: 0 and 1 the footings, 2 and 3 the corners of the frame, then those along the left
@@ -85,14 +85,14 @@ pub struct Portal {
     /// Under each column.
     pub footing: Footing,
     /// Each column.
-    pub column: Column,
+    pub column: StraightMember,
     /// The girder.
-    pub girder: Column,
+    pub girder: StraightMember,
 }
 
-impl Layout {
+impl FrameLayout {
     /// Add a row of beams from one place to another, with nodes between them that have no mass but theirs.
-    fn line(&mut self, from: Point, to: Point, hinged: [bool; 2], column: &Column) {
+    fn line(&mut self, from: NodePoint, to: NodePoint, hinged: [bool; 2], column: &StraightMember) {
         let count = column.elements.max(1);
         let mut start = from;
         for i in 1..=count {
@@ -102,50 +102,50 @@ impl Layout {
                 to
             } else {
                 self.nodes.push(Node::body(place, 0.0, 0.0));
-                Point { node: self.nodes.len() - 1, place }
+                NodePoint { node: self.nodes.len() - 1, place }
             };
             let hinged = [hinged[0] && i == 1, hinged[1] && i == count];
-            self.members.push(Member { ends: [start, end], hinged, section: column.section });
+            self.members.push(FrameMember { ends: [start, end], hinged, section: column.section });
             start = end;
         }
     }
 
     /// Add a footing with its middle at x; where its column begins.
-    fn stand(&mut self, footing: &Footing, x: f64) -> Point {
+    fn stand(&mut self, footing: &Footing, x: f64) -> NodePoint {
         let node = self.nodes.len();
         self.nodes.push(Node::body([x, footing.centre], footing.mass, footing.inertia));
         for side in [-0.5, 0.5] {
-            self.corners.push(Point { node, place: [x + side * footing.width, 0.0] });
+            self.corners.push(NodePoint { node, place: [x + side * footing.width, 0.0] });
         }
-        Point { node, place: [x, footing.top] }
+        NodePoint { node, place: [x, footing.top] }
     }
 }
 
 impl Cantilever {
     /// Its layout, the middle of the soles at the origin.
-    pub fn layout(&self) -> Layout {
-        let mut layout = Layout { consistent: self.consistent, ..Layout::default() };
+    pub fn layout(&self) -> FrameLayout {
+        let mut layout = FrameLayout { consistent: self.consistent, ..FrameLayout::default() };
         let base = layout.stand(&self.footing, 0.0);
         let place = [0.0, self.height];
         layout.nodes.push(Node { place, mass: self.mass, inertia: self.inertia, held: false });
-        layout.line(base, Point { node: 1, place }, [false, self.inertia.is_none()], &self.column);
+        layout.line(base, NodePoint { node: 1, place }, [false, self.inertia.is_none()], &self.column);
         layout
     }
 }
 
 impl LeggedFrame {
     /// Its layout, the middle between the feet at the origin.
-    pub fn layout(&self) -> Layout {
+    pub fn layout(&self) -> FrameLayout {
         let feet = [-0.5, 0.5].map(|side| [side * self.width, 0.0]);
         let apex = [0.0, self.height];
-        let mut layout = Layout {
+        let mut layout = FrameLayout {
             nodes: feet.map(|place| Node::point(place, self.foot_mass)).to_vec(),
-            corners: [0, 1].map(|node| Point { node, place: feet[node] }).to_vec(),
-            ..Layout::default()
+            corners: [0, 1].map(|node| NodePoint { node, place: feet[node] }).to_vec(),
+            ..FrameLayout::default()
         };
         layout.nodes.push(Node::body(apex, self.mass, self.inertia));
         for (node, place) in feet.into_iter().enumerate() {
-            layout.line(Point { node: 2, place: apex }, Point { node, place }, [false, true], &self.leg);
+            layout.line(NodePoint { node: 2, place: apex }, NodePoint { node, place }, [false, true], &self.leg);
         }
         layout
     }
@@ -153,11 +153,11 @@ impl LeggedFrame {
 
 impl Portal {
     /// Its layout, the middle between the columns at the origin.
-    pub fn layout(&self) -> Layout {
+    pub fn layout(&self) -> FrameLayout {
         let xs = [-0.5, 0.5].map(|side| side * self.span);
-        let mut layout = Layout::default();
+        let mut layout = FrameLayout::default();
         let bases = xs.map(|x| layout.stand(&self.footing, x));
-        let tops = [0, 1].map(|i| Point { node: 2 + i, place: [xs[i], self.height] });
+        let tops = [0, 1].map(|i| NodePoint { node: 2 + i, place: [xs[i], self.height] });
         for top in tops {
             layout.nodes.push(Node::body(top.place, self.mass, self.inertia));
         }

@@ -4,14 +4,14 @@ use std::borrow::Cow;
 
 use nalgebra::{Cholesky, DMatrix, DVector, Dyn};
 
-use super::{Base, Frame, NONE, Place, Tendon, gather};
+use super::{Base, Frame, FrameTendon, NONE, PlaceOnNode, gather};
 use crate::{
     elastic::mechanics::{Corner, Mechanics},
     scalar::GRAVITY,
 };
 
 /// A tendon that pulls.
-struct Pull {
+struct TendonPull {
     /// [N]
     tension: f64,
     /// Unit vector towards the anchor.
@@ -20,7 +20,7 @@ struct Pull {
     length: f64,
 }
 
-impl Tendon {
+impl FrameTendon {
     fn length(&self, [x, z]: [f64; 2]) -> ([f64; 2], f64) {
         let [dx, dz] = [self.anchor[0] - self.at.place[0] - x, self.anchor[1] - self.at.place[1] - z];
         let length = dx.hypot(dz);
@@ -32,10 +32,10 @@ impl Tendon {
         self.pretension / self.stiffness + self.length(displacement).1 - self.length([0.0; 2]).1
     }
 
-    fn pull(&self, displacement: [f64; 2]) -> Option<Pull> {
+    fn pull(&self, displacement: [f64; 2]) -> Option<TendonPull> {
         let tension = self.stiffness * self.elongation(displacement);
         let (towards, length) = self.length(displacement);
-        (tension > 0.0).then_some(Pull { tension, towards, length })
+        (tension > 0.0).then_some(TendonPull { tension, towards, length })
     }
 
     /// Above that in the unstressed structure [J].
@@ -46,7 +46,7 @@ impl Tendon {
 }
 
 /// Adds to the upper and lower half of a matrix what a place on a node with a stiffness [xx, xz, zz] adds.
-fn add_block(place: &Place, slope: [f64; 2], block: [[f64; 2]; 2], out: &mut DMatrix<f64>) {
+fn add_block(place: &PlaceOnNode, slope: [f64; 2], block: [[f64; 2]; 2], out: &mut DMatrix<f64>) {
     place.rows(slope, |i, gi| {
         place.rows(slope, |j, gj| {
             let by = |k: usize| block[k][0] * gj[0] + block[k][1] * gj[1];
@@ -58,13 +58,16 @@ fn add_block(place: &Place, slope: [f64; 2], block: [[f64; 2]; 2], out: &mut DMa
 impl Frame {
     /// Tension of every tendon (N).
     pub fn tensions(&self, q: &[f64]) -> Vec<f64> {
-        let tension = |(place, tendon): &(Place, Tendon)| tendon.pull(place.reach(q).place).map_or(0.0, |p| p.tension);
+        let tension =
+            |(place, tendon): &(PlaceOnNode, FrameTendon)| tendon.pull(place.reach(q).place).map_or(0.0, |p| p.tension);
         self.tendons.iter().map(tension).collect()
     }
 
     /// By how much every tendon is longer than in the unstressed structure (m).
     pub fn lengthened(&self, q: &[f64]) -> Vec<f64> {
-        let by = |(place, tendon): &(Place, Tendon)| tendon.length(place.reach(q).place).1 - tendon.length([0.0; 2]).1;
+        let by = |(place, tendon): &(PlaceOnNode, FrameTendon)| {
+            tendon.length(place.reach(q).place).1 - tendon.length([0.0; 2]).1
+        };
         self.tendons.iter().map(by).collect()
     }
 
@@ -89,7 +92,7 @@ impl Frame {
         }
         for (place, tendon) in &self.tendons {
             let reach = place.reach(q);
-            if let Some(Pull { tension, towards, .. }) = tendon.pull(reach.place) {
+            if let Some(TendonPull { tension, towards, .. }) = tendon.pull(reach.place) {
                 place.push(&reach, towards.map(|n| n * tension), out);
             }
         }
@@ -120,7 +123,7 @@ impl Frame {
         }
         for (place, tendon) in &self.tendons {
             let reach = place.reach(q);
-            let Some(Pull { tension, towards: [x, z], length }) = tendon.pull(reach.place) else { continue };
+            let Some(TendonPull { tension, towards: [x, z], length }) = tendon.pull(reach.place) else { continue };
             let across = tension / length;
             let along = tendon.stiffness - across;
             let block = [[across + along * x * x, along * x * z], [along * x * z, across + along * z * z]];
@@ -141,9 +144,10 @@ impl Frame {
 
     /// Power that dashpots take (W).
     pub(crate) fn dissipated(&self, q: &[f64], v: &[f64]) -> f64 {
-        let beam =
-            |element: &super::Element| element.beam.dissipation(&gather(&element.index, q), &gather(&element.index, v));
-        let damper = |(place, c): &(Place, [f64; 2])| {
+        let beam = |element: &super::BeamElement| {
+            element.beam.dissipation(&gather(&element.index, q), &gather(&element.index, v))
+        };
+        let damper = |(place, c): &(PlaceOnNode, [f64; 2])| {
             let [x, z] = place.velocity(&place.reach(q), v);
             c[0] * x * x + c[1] * z * z
         };

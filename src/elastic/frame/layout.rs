@@ -2,8 +2,8 @@
 
 use thiserror::Error;
 
-use super::{Body, Element, Frame, NONE, Place, masses::Masses};
-use crate::elastic::beam::{Beam, Section};
+use super::{BeamElement, Frame, FrameBody, NONE, PlaceOnNode, masses::Masses};
+use crate::elastic::beam::{Beam, BeamSection};
 
 /// A node: a point, or a rigid body.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -32,7 +32,7 @@ impl Node {
 
 /// A place on a node.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Point {
+pub struct NodePoint {
     /// Which.
     pub node: usize,
     /// In the unstressed structure (m).
@@ -41,29 +41,29 @@ pub struct Point {
 
 /// A beam.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Member {
+pub struct FrameMember {
     /// Where it begins and ends.
-    pub ends: [Point; 2],
+    pub ends: [NodePoint; 2],
     /// Ends without moment.
     pub hinged: [bool; 2],
     /// What it is made of.
-    pub section: Section,
+    pub section: BeamSection,
 }
 
 /// Dashpots between a place on a node and the ground.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Damper {
+pub struct FrameDamper {
     /// The place.
-    pub at: Point,
+    pub at: NodePoint,
     /// Force over velocity, horizontally and vertically [N s/m].
     pub c: [f64; 2],
 }
 
 /// A tendon from a node to the ground: it only pulls.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Tendon {
+pub struct FrameTendon {
     /// Its upper end.
-    pub at: Point,
+    pub at: NodePoint,
     /// Its lower end, in the ground (m).
     pub anchor: [f64; 2],
     /// Force over elongation [N/m].
@@ -74,17 +74,17 @@ pub struct Tendon {
 
 /// What a frame is made of.
 #[derive(Clone, Debug, Default, PartialEq)]
-pub struct Layout {
+pub struct FrameLayout {
     /// Nodes.
     pub nodes: Vec<Node>,
     /// Beams.
-    pub members: Vec<Member>,
+    pub members: Vec<FrameMember>,
     /// Corners, from left to right: nodes that have some are footings.
-    pub corners: Vec<Point>,
+    pub corners: Vec<NodePoint>,
     /// Dashpots to the ground.
-    pub dampers: Vec<Damper>,
+    pub dampers: Vec<FrameDamper>,
     /// Tendons.
-    pub tendons: Vec<Tendon>,
+    pub tendons: Vec<FrameTendon>,
     /// Beams' mass consistent with linear displacements between nodes, where both of its ends are at the centre of a node: half of it goes
     /// to each end otherwise.
     pub consistent: bool,
@@ -130,7 +130,7 @@ fn check(what: &'static str, number: usize, values: &[(&'static str, f64, &'stat
     Ok(())
 }
 
-impl Layout {
+impl FrameLayout {
     /// The same with its footings held: the fixed-base structure. Dampers at what is held have nothing to do; others act, as tendons do.
     pub fn fixed(&self) -> Self {
         let mut fixed = Self { corners: Vec::new(), ..self.clone() };
@@ -160,14 +160,14 @@ impl Layout {
                     size += 1;
                 }
             }
-            bodies.push(Body { centre: lump.centre, index });
+            bodies.push(FrameBody { centre: lump.centre, index });
         }
-        let place = |point: &Point| {
-            let Body { centre, index } = bodies[point.node];
+        let place = |point: &NodePoint| {
+            let FrameBody { centre, index } = bodies[point.node];
             let arm = [point.place[0] - centre[0], point.place[1] - centre[1]];
-            Place { unstressed: point.place, arm, index }
+            PlaceOnNode { unstressed: point.place, arm, index }
         };
-        let element = |member: &Member| {
+        let element = |member: &FrameMember| {
             let [a, b] = [&member.ends[0], &member.ends[1]].map(place);
             let beam = Beam::new([a.unstressed, b.unstressed], [a.arm, b.arm], member.hinged, member.section);
             let mut index = [NONE; 6];
@@ -176,7 +176,7 @@ impl Layout {
             let bases = member
                 .ends
                 .map(|end| self.nodes[end.node].held || self.corners.iter().any(|corner| corner.node == end.node));
-            Element { beam, index, bases }
+            BeamElement { beam, index, bases }
         };
         let elements = self.members.iter().map(element).collect();
         let corners = self.corners.iter().map(place).collect();
@@ -200,7 +200,7 @@ impl Layout {
             self.meets("corner", i, corner)?;
         }
         for (i, member) in self.members.iter().enumerate() {
-            let Section { axial, bending, axial_damping, bending_damping, line_mass } = member.section;
+            let BeamSection { axial, bending, axial_damping, bending_damping, line_mass } = member.section;
             let values = [
                 ("EA", axial, NOT_NEGATIVE),
                 ("EI", bending, NOT_NEGATIVE),
@@ -233,7 +233,7 @@ impl Layout {
     }
 
     /// Whether a place is on a node that can carry it.
-    fn meets(&self, what: &'static str, number: usize, point: &Point) -> Result<(), FrameError> {
+    fn meets(&self, what: &'static str, number: usize, point: &NodePoint) -> Result<(), FrameError> {
         let nodes = self.nodes.len();
         let Some(node) = self.nodes.get(point.node) else {
             return Err(FrameError::NoNode { what, number, node: point.node, nodes });

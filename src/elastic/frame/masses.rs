@@ -6,7 +6,7 @@
 
 use nalgebra::{Cholesky, DMatrix, DVector, Dyn};
 
-use super::{Body, NONE, layout::FrameError, layout::Layout};
+use super::{FrameBody, NONE, layout::FrameError, layout::FrameLayout};
 
 /// A node with the halves of its beams.
 #[derive(Clone, Copy, Debug)]
@@ -39,7 +39,7 @@ pub(super) struct Masses {
 }
 
 impl Masses {
-    pub fn of(layout: &Layout) -> Self {
+    pub fn of(layout: &FrameLayout) -> Self {
         let node = |i: usize| &layout.nodes[i];
         let mut lumps: Vec<Lump> = layout
             .nodes
@@ -81,7 +81,7 @@ impl Masses {
     #[allow(clippy::type_complexity)]
     pub fn matrix(
         &self,
-        bodies: &[Body],
+        bodies: &[FrameBody],
         size: usize,
     ) -> Result<(DMatrix<f64>, Cholesky<f64, Dyn>, [DVector<f64>; 2], f64), FrameError> {
         let mut mass = DMatrix::zeros(size, size);

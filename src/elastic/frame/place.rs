@@ -7,7 +7,7 @@ use crate::elastic::beam::{Turned, turned};
 
 /// A place on a node.
 #[derive(Clone, Copy, Debug)]
-pub struct Place {
+pub struct PlaceOnNode {
     /// Where it is in the unstressed structure (x, z) (m).
     pub unstressed: [f64; 2],
     /// From the centre of mass, unstressed [m].
@@ -26,7 +26,7 @@ pub struct Reach {
     pub arm: [f64; 2],
 }
 
-impl Place {
+impl PlaceOnNode {
     /// Where it is at q.
     #[inline(always)]
     pub fn reach(&self, q: &[f64]) -> Reach {

@@ -2,12 +2,12 @@ use nalgebra::{DMatrix, DVector};
 
 use super::*;
 use crate::{
-    elastic::{beam::Section, mechanics::Mechanics},
+    elastic::{beam::BeamSection, mechanics::Mechanics},
     scalar::GRAVITY,
 };
 
-fn section() -> Section {
-    Section { axial: 8e9, bending: 6e9, axial_damping: 3e7, bending_damping: 2e7, line_mass: 5e3 }
+fn section() -> BeamSection {
+    BeamSection { axial: 8e9, bending: 6e9, axial_damping: 3e7, bending_damping: 2e7, line_mass: 5e3 }
 }
 
 fn pier(elements: usize, inertia: Option<f64>) -> Cantilever {
@@ -17,13 +17,13 @@ fn pier(elements: usize, inertia: Option<f64>) -> Cantilever {
         inertia,
         height: 12.0,
         footing,
-        column: Column { section: section(), elements },
+        column: StraightMember { section: section(), elements },
         consistent: false,
     }
 }
 
 fn portal() -> Portal {
-    let column = Column { section: section(), elements: 2 };
+    let column = StraightMember { section: section(), elements: 2 };
     let footing = Footing::block(3.0, 5e4, 0.5, 1.0);
     Portal { span: 10.0, height: 7.0, mass: 1e5, inertia: 3e4, footing, column, girder: column }
 }
@@ -31,12 +31,12 @@ fn portal() -> Portal {
 /// Everything at once: dampers, tendon, several elements, beams' mass.
 fn frames() -> Vec<Frame> {
     let mut tied = pier(3, Some(1e5)).layout();
-    let at = Point { node: 1, place: [0.3, 12.5] };
-    tied.tendons.push(Tendon { at, anchor: [0.7, 0.0], stiffness: 3e7, pretension: 1e6 });
+    let at = NodePoint { node: 1, place: [0.3, 12.5] };
+    tied.tendons.push(FrameTendon { at, anchor: [0.7, 0.0], stiffness: 3e7, pretension: 1e6 });
     for corner in tied.corners.clone() {
-        tied.dampers.push(Damper { at: corner, c: [2e5, 7e5] });
+        tied.dampers.push(FrameDamper { at: corner, c: [2e5, 7e5] });
     }
-    let legs = Column { section: section(), elements: 2 };
+    let legs = StraightMember { section: section(), elements: 2 };
     let legged = LeggedFrame { mass: 6e5, inertia: 1e5, height: 12.0, width: 5.0, foot_mass: 3e3, leg: legs };
     let consistent = Cantilever { consistent: true, ..pier(4, Some(1e5)) };
     [tied, legged.layout(), portal().layout(), consistent.layout()].map(|l| l.frame().unwrap()).to_vec()
@@ -128,7 +128,7 @@ fn gravity_softens_a_column_as_the_stability_functions_say() {
     let exact = load / ((kappa * length).tan() / kappa - length);
     let error = |elements: usize| {
         let mut pier = pier(elements, Some(1.0));
-        pier.column.section = Section::elastic(1e14, ei);
+        pier.column.section = BeamSection::elastic(1e14, ei);
         // massless nodes between have a little, or there is no M
         pier.column.section.line_mass = 1e-6;
         let frame = pier.layout().fixed().frame().unwrap();
@@ -139,7 +139,7 @@ fn gravity_softens_a_column_as_the_stability_functions_say() {
     assert!(fine.abs() < 2e-3 && (coarse / fine - 4.0).abs() < 0.2, "{coarse} {fine}");
     // and with one hinged element kb/L^2 - m g/L
     let mut hinged = pier(1, None);
-    hinged.column.section = Section::elastic(1e14, ei);
+    hinged.column.section = BeamSection::elastic(1e14, ei);
     let frame = hinged.layout().fixed().frame().unwrap();
     let stiffness = 1.0 / flexibility(&frame, &frame.standing(&[]).unwrap(), 1);
     let expected = 3.0 * ei / length.powi(3) - load / length;
@@ -150,7 +150,7 @@ fn gravity_softens_a_column_as_the_stability_functions_say() {
 #[test]
 fn a_portal_sways_as_the_textbook_says() {
     let mut portal = portal();
-    (portal.column.section, portal.girder.section) = (Section::elastic(1e14, 6e9), Section::elastic(1e14, 2e9));
+    (portal.column.section, portal.girder.section) = (BeamSection::elastic(1e14, 6e9), BeamSection::elastic(1e14, 2e9));
     (portal.column.elements, portal.girder.elements) = (1, 1);
     let frame = portal.layout().fixed().frame().unwrap();
     let (height, r) = (6.0_f64, (2e9 / 10.0) / (6e9 / 6.0));
@@ -181,7 +181,8 @@ fn a_column_s_own_mass_vibrates_as_the_textbook_says() {
 #[test]
 fn the_weight_stands_on_the_corners_and_a_lean_is_held() {
     let mut portal = portal();
-    (portal.column.section, portal.girder.section) = (Section::elastic(1e12, 6e12), Section::elastic(1e12, 6e12));
+    (portal.column.section, portal.girder.section) =
+        (BeamSection::elastic(1e12, 6e12), BeamSection::elastic(1e12, 6e12));
     (portal.column.elements, portal.girder.elements) = (1, 1);
     let frame = portal.layout().frame().unwrap();
     let supports = vec![Some([1e10, 1e10]); 4];
@@ -214,7 +215,7 @@ fn what_lands_is_the_free_body_s_effective_mass() {
 
 #[test]
 fn what_does_not_fit_together_is_refused() {
-    let refused = |change: &dyn Fn(&mut Layout)| {
+    let refused = |change: &dyn Fn(&mut FrameLayout)| {
         let mut layout = pier(2, None).layout();
         change(&mut layout);
         layout.frame().unwrap_err().to_string()

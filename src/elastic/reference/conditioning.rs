@@ -9,7 +9,7 @@
 
 use nalgebra::DVector;
 
-use super::{ElasticRocking, Ground, Options, walk::Walk};
+use super::{ElasticRocking, GroundAcceleration, ReferenceOptions, walk::ReferenceWalk};
 use crate::elastic::Mechanics;
 
 /// A history can be compared one to one while a perturbation has grown less than this: springs within a thousandth of the reference are then
@@ -62,15 +62,15 @@ pub struct Twins<'a> {
 /// Growth of a perturbation of a history; start and options are the history's own.
 pub fn growth(
     mechanics: &(impl Mechanics + Sync),
-    ground: Ground,
+    ground: GroundAcceleration,
     start: (&DVector<f64>, &DVector<f64>),
-    options: &Options,
+    options: &ReferenceOptions,
     (history, twins): (&ElasticRocking, &Twins),
 ) -> Growth {
     let &Twins { coordinates, perturbation: d, limit } = twins;
     let peaks: Vec<f64> =
         coordinates.iter().map(|&c| history.q.iter().fold(STILL, |peak, q| f64::max(peak, q[c].abs()))).collect();
-    let twin = |options: &Options| {
+    let twin = |options: &ReferenceOptions| {
         let (mut most, mut factor) = (0.0, Vec::with_capacity(history.q.len()));
         let apart = |q: &DVector<f64>| {
             let Some(other) = history.q.get(factor.len()) else { return false };
@@ -83,12 +83,12 @@ pub fn growth(
             factor.push(most);
             most < limit
         };
-        Walk::new(mechanics, ground, start, options).run(apart);
+        ReferenceWalk::new(mechanics, ground, start, options).run(apart);
         factor
     };
     let (scaled, landed) = rayon::join(
-        || twin(&Options { scale: options.scale * (1.0 + d), ..*options }),
-        || twin(&Options { kept: options.kept * (1.0 - d), ..*options }),
+        || twin(&ReferenceOptions { scale: options.scale * (1.0 + d), ..*options }),
+        || twin(&ReferenceOptions { kept: options.kept * (1.0 - d), ..*options }),
     );
     Growth { dt: ground.dt, factor: scaled.iter().zip(&landed).map(|(a, b)| f64::max(*a, *b)).collect() }
 }

@@ -2,8 +2,8 @@
 
 use nalgebra::DVector;
 
-use super::Corners;
-use super::hold::{Configuration, Contact, Held};
+use super::CornerSet;
+use super::hold::{Configuration, CornerContact, HeldMotion};
 use super::walk::ON_GROUND;
 use crate::elastic::Mechanics;
 use crate::scalar::GRAVITY;
@@ -27,12 +27,12 @@ pub struct Rule<'a> {
 
 impl Rule<'_> {
     /// Whether a corner is the only one of its footing in a set and has to stay.
-    pub fn bound(&self, set: Corners, i: usize) -> bool {
+    pub fn bound(&self, set: CornerSet, i: usize) -> bool {
         !self.hop && !set.without(i).iter().any(|k| self.footings[k] == self.footings[i])
     }
 
     /// Whether of every footing in a set that has to keep a corner, one is kept.
-    fn allows(&self, kept: Corners, of: Corners) -> bool {
+    fn allows(&self, kept: CornerSet, of: CornerSet) -> bool {
         self.hop || of.iter().all(|i| kept.iter().any(|k| self.footings[k] == self.footings[i]))
     }
 }
@@ -42,7 +42,7 @@ pub struct Landed {
     /// Velocities.
     pub velocity: DVector<f64>,
     /// Corners that are held.
-    pub held: Corners,
+    pub held: CornerSet,
     /// A corner that slides on, the sign of the force that brakes it, and the energy that stopping it would have taken (J).
     pub sliding: Option<(usize, f64, f64)>,
 }
@@ -54,25 +54,26 @@ pub struct Landed {
 pub fn land<M: Mechanics>(
     at: &Configuration<M>,
     ground: [f64; 2],
-    touching: Corners,
-    landing: Corners,
+    touching: CornerSet,
+    landing: CornerSet,
     rule: &Rule,
 ) -> Option<Landed> {
     let speed = landing.iter().map(|i| -at.rise(i, at.v, false)).fold(0.0, f64::max);
-    let good = |kept: Corners, after: &Held| {
+    let good = |kept: CornerSet, after: &HeldMotion| {
         let pushed = |i: usize| rule.bound(kept, i) || after.force(i)[1] >= -ROUNDING * largest(after);
         kept.iter().all(pushed)
             && touching.minus(kept).iter().all(|i| at.rise(i, &after.motion, false) >= -ROUNDING * speed)
     };
     let tried = touching.subsets().into_iter().filter(|kept| kept.meets(landing) && rule.allows(*kept, touching));
-    let found =
-        tried.filter_map(|kept| Some((kept, at.impact(Contact::held(kept))?))).find(|(kept, after)| good(*kept, after));
+    let found = tried
+        .filter_map(|kept| Some((kept, at.impact(CornerContact::held(kept))?)))
+        .find(|(kept, after)| good(*kept, after));
     let braked = |i: usize| {
-        let contact = Contact { held: touching.minus(landing), sliding: Corners::NONE.with(i) };
+        let contact = CornerContact { held: touching.minus(landing), sliding: CornerSet::NONE.with(i) };
         let after = at.braked(contact)?;
         let (slip, force) = (at.slip(i, &after.motion, false), after.force(i)[0]);
         let good = good(contact.held, &after) && slip * force <= 0.0;
-        let stopped = at.impact(Contact::held(contact.held.with(i)))?;
+        let stopped = at.impact(CornerContact::held(contact.held.with(i)))?;
         let energy = at.mechanics.kinetic(at.q, at.v) - at.mechanics.kinetic(at.q, &stopped.motion);
         good.then(|| Landed { velocity: after.motion, held: contact.held, sliding: Some((i, -slip.signum(), energy)) })
     };
@@ -81,11 +82,11 @@ pub fn land<M: Mechanics>(
         None => match landing.iter().find_map(braked) {
             Some(landed) => return Some(landed),
             // none is good: all stay, which does not add energy either
-            None => (touching, at.impact(Contact::held(touching))?),
+            None => (touching, at.impact(CornerContact::held(touching))?),
         },
     };
     let afterwards = Configuration::new(at.mechanics, at.q, &after.motion)?;
-    let pull = afterwards.accelerations(ground, Contact::held(kept))?.motion;
+    let pull = afterwards.accelerations(ground, CornerContact::held(kept))?.motion;
     let stays = |i: &usize| {
         let (speed, pull) = (at.rise(*i, &after.motion, false), afterwards.rise(*i, &pull, true));
         // would come back at once: an endless row of ever smaller hops ends here
@@ -93,11 +94,11 @@ pub fn land<M: Mechanics>(
         back || at.speed(*i, &after.motion) <= AT_REST
     };
     let held = kept.and(touching.minus(kept).iter().filter(stays).collect());
-    let after = if held == kept { after } else { at.impact(Contact::held(held))? };
+    let after = if held == kept { after } else { at.impact(CornerContact::held(held))? };
     Some(Landed { velocity: after.motion, held, sliding: None })
 }
 
-fn largest(held: &Held) -> f64 {
+fn largest(held: &HeldMotion) -> f64 {
     held.forces.iter().flat_map(|(_, force)| force).fold(0.0, |most, force| most.max(force.abs()))
 }
 
@@ -107,19 +108,19 @@ fn largest(held: &Held) -> f64 {
 pub fn stay<M: Mechanics>(
     at: &Configuration<M>,
     ground: [f64; 2],
-    Contact { held: resting, sliding }: Contact,
-    tried: &[Corners],
+    CornerContact { held: resting, sliding }: CornerContact,
+    tried: &[CornerSet],
     rule: &Rule,
-) -> Option<(Contact, Held, bool)> {
-    let on_footing = |i: usize, set: Corners| set.iter().any(|k| rule.footings[k] == rule.footings[i]);
-    let sinks = |i: &usize, held: &Held| at.rise(*i, &held.motion, true) < -ROUNDING_A;
+) -> Option<(CornerContact, HeldMotion, bool)> {
+    let on_footing = |i: usize, set: CornerSet| set.iter().any(|k| rule.footings[k] == rule.footings[i]);
+    let sinks = |i: &usize, held: &HeldMotion| at.rise(*i, &held.motion, true) < -ROUNDING_A;
     // first without new sliding, then with
     for slips in [false, true] {
         for &kept in tried.iter().filter(|kept| rule.allows(**kept, resting)) {
             let free = resting.minus(kept);
-            let mut contact = Contact { held: kept, sliding };
+            let mut contact = CornerContact { held: kept, sliding };
             let Some(mut held) = at.accelerations(ground, contact) else { continue };
-            let new: Corners = free.iter().filter(|i| sinks(i, &held)).collect();
+            let new: CornerSet = free.iter().filter(|i| sinks(i, &held)).collect();
             if slips && !new.is_empty() && !new.iter().any(|i| on_footing(i, kept.and(sliding).and(new.without(i)))) {
                 contact.sliding = sliding.and(new);
                 let Some(then) = at.accelerations(ground, contact) else { continue };
@@ -136,6 +137,6 @@ pub fn stay<M: Mechanics>(
             }
         }
     }
-    let all = Contact { held: resting, sliding };
+    let all = CornerContact { held: resting, sliding };
     Some((all, at.accelerations(ground, all)?, false))
 }

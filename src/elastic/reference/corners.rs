@@ -2,9 +2,9 @@
 
 /// A set of corners, by number.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
-pub struct Corners(u32);
+pub struct CornerSet(u32);
 
-impl Corners {
+impl CornerSet {
     /// Most corners a structure may have: every set of them may be looked at.
     pub const MOST: usize = 16;
 
@@ -78,7 +78,7 @@ impl Corners {
     }
 }
 
-impl FromIterator<usize> for Corners {
+impl FromIterator<usize> for CornerSet {
     fn from_iter<I: IntoIterator<Item = usize>>(corners: I) -> Self {
         corners.into_iter().fold(Self::NONE, Self::with)
     }
@@ -90,12 +90,12 @@ mod tests {
 
     #[test]
     fn a_set_of_three_has_eight_subsets_small_ones_first() {
-        let set = Corners::from_iter([3, 0, 2]);
+        let set = CornerSet::from_iter([3, 0, 2]);
         assert_eq!(set.iter().collect::<Vec<_>>(), [0, 2, 3]);
         let subsets = set.subsets();
         assert_eq!(subsets.iter().map(|s| s.len()).collect::<Vec<_>>(), [0, 1, 1, 1, 2, 2, 2, 3]);
         assert!(subsets[7] == set && subsets[0].is_empty() && !subsets[1].meets(subsets[2]));
-        assert_eq!(set.minus(Corners::NONE.with(2)), set.without(2));
-        assert_eq!(subsets[1].and(subsets[2]), Corners::from_iter([0, 2]));
+        assert_eq!(set.minus(CornerSet::NONE.with(2)), set.without(2));
+        assert_eq!(subsets[1].and(subsets[2]), CornerSet::from_iter([0, 2]));
     }
 }

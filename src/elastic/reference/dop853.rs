@@ -115,7 +115,7 @@ const ERROR: [&[(usize, f64)]; 2] = [
 
 /// Where the structure is, and what dampers have taken and the ground put in since the start (J).
 #[derive(Clone, Debug)]
-pub struct State {
+pub struct ReferenceState {
     /// Coordinates.
     pub q: DVector<f64>,
     /// Their velocities.
@@ -145,12 +145,12 @@ impl Rates {
 /// The state after a step of length h from a state and its rates, and the error estimate over what `rtol` allows: at most 1 is good. The rates
 /// are functions of the time since the step's start. None where they are not defined.
 pub fn step(
-    mut rates: impl FnMut(f64, &State) -> Option<Rates>,
-    start: &State,
+    mut rates: impl FnMut(f64, &ReferenceState) -> Option<Rates>,
+    start: &ReferenceState,
     first: &Rates,
     h: f64,
     rtol: f64,
-) -> Option<(State, f64)> {
+) -> Option<(ReferenceState, f64)> {
     let mut velocities = vec![start.v.clone()];
     let mut slopes = vec![first.clone()];
     let mut stage = start.clone();
@@ -186,7 +186,7 @@ pub fn step(
 }
 
 /// The state at a share of a step, by Hermite's polynomial through q, q', q'' of both ends: good enough to look for events.
-pub fn within(ends: [(&State, &Rates); 2], h: f64, share: f64) -> State {
+pub fn within(ends: [(&ReferenceState, &Rates); 2], h: f64, share: f64) -> ReferenceState {
     let [(start, first), (end, last)] = ends;
     let s = share;
     let (s2, s3) = (s * s, s * s * s);
@@ -212,7 +212,7 @@ pub fn within(ends: [(&State, &Rates); 2], h: f64, share: f64) -> State {
         known.iter().zip(weights).fold(DVector::zeros(start.q.len()), |sum, (x, weight)| sum + *x * weight)
     };
     let work = std::array::from_fn(|k| start.work[k] + share * (end.work[k] - start.work[k]));
-    State { q: sum(place), v: sum(rate), work }
+    ReferenceState { q: sum(place), v: sum(rate), work }
 }
 
 #[cfg(test)]
@@ -222,11 +222,11 @@ mod tests {
     /// q'' = -q - 0.1 q' + t: the error of one step falls like h^9, and the estimate is of its size or above.
     #[test]
     fn the_order_is_eight() {
-        let rates = |t: f64, y: &State| {
+        let rates = |t: f64, y: &ReferenceState| {
             let a = t - y.q[0] - 0.1 * y.v[0];
             Some(Rates { a: DVector::from_element(1, a), power: [0.1 * y.v[0] * y.v[0], 0.0, 0.0], forces: vec![] })
         };
-        let start = State { q: DVector::from_element(1, 1.0), v: DVector::zeros(1), work: [0.0; 3] };
+        let start = ReferenceState { q: DVector::from_element(1, 1.0), v: DVector::zeros(1), work: [0.0; 3] };
         // q = t - 0.1 + exp(-t/20)(A cos + B sin)
         let exact = |t: f64| {
             let w = (1.0_f64 - 0.0025).sqrt();

@@ -15,7 +15,7 @@ use std::borrow::Cow;
 
 use nalgebra::{Cholesky, DMatrix, DVector, Dyn};
 
-use super::Corners;
+use super::CornerSet;
 use crate::elastic::{Corner, Mechanics};
 
 /// A structure in one configuration and at one velocity.
@@ -30,14 +30,14 @@ pub struct Configuration<'a, M> {
 }
 
 /// What a set of held corners makes of a motion.
-pub struct Held {
+pub struct HeldMotion {
     /// Acceleration, velocity or displacement with the corners held.
     pub motion: DVector<f64>,
     /// (corner, horizontal, vertical) force of the ground, impulse, or what stands for it (N, N s).
     pub forces: Vec<(usize, [f64; 2])>,
 }
 
-impl Held {
+impl HeldMotion {
     /// Force on a corner; zero if it is not on the ground.
     pub fn force(&self, corner: usize) -> [f64; 2] {
         force(&self.forces, corner)
@@ -46,21 +46,21 @@ impl Held {
 
 /// Corners on the ground.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
-pub struct Contact {
+pub struct CornerContact {
     /// Those that keep their place.
-    pub held: Corners,
+    pub held: CornerSet,
     /// Those that slide, and do not press.
-    pub sliding: Corners,
+    pub sliding: CornerSet,
 }
 
-impl Contact {
+impl CornerContact {
     /// Corners that keep their place, and none that slides.
-    pub fn held(held: Corners) -> Self {
-        Self { held, sliding: Corners::NONE }
+    pub fn held(held: CornerSet) -> Self {
+        Self { held, sliding: CornerSet::NONE }
     }
 
     /// All corners on the ground.
-    pub fn all(self) -> Corners {
+    pub fn all(self) -> CornerSet {
         self.held.and(self.sliding)
     }
 }
@@ -94,23 +94,23 @@ impl<'a, M: Mechanics> Configuration<'a, M> {
     }
 
     /// Accelerations under the ground's acceleration, and the ground's forces.
-    pub fn accelerations(&self, ground: [f64; 2], contact: Contact) -> Option<Held> {
+    pub fn accelerations(&self, ground: [f64; 2], contact: CornerContact) -> Option<HeldMotion> {
         let free = self.mass.solve(&self.mechanics.force(self.q, self.v, ground));
         self.hold(contact, Aim::Acceleration, free, |_, corner, direction| corner.bias[direction])
     }
 
     /// Velocities after an impact that stops held corners, and sliding ones vertically; impulses.
-    pub fn impact(&self, contact: Contact) -> Option<Held> {
+    pub fn impact(&self, contact: CornerContact) -> Option<HeldMotion> {
         self.hold(contact, Aim::Velocity, self.v.clone(), |_, _, _| 0.0)
     }
 
     /// Velocities after an impact that stops held corners, and sliding ones vertically by horizontal impulses alone; impulses.
-    pub fn braked(&self, contact: Contact) -> Option<Held> {
+    pub fn braked(&self, contact: CornerContact) -> Option<HeldMotion> {
         self.hold(contact, Aim::Braked, self.v.clone(), |_, _, _| 0.0)
     }
 
     /// The smallest displacement, by M, that takes corners to their places on the ground (x; z = 0), to first order.
-    pub fn shift(&self, contact: Contact, anchors: &[f64]) -> Option<Held> {
+    pub fn shift(&self, contact: CornerContact, anchors: &[f64]) -> Option<HeldMotion> {
         self.hold(contact, Aim::Place, DVector::zeros(self.v.len()), |i, corner, direction| {
             corner.place[direction] - if direction == 0 { anchors[i] } else { 0.0 }
         })
@@ -137,11 +137,11 @@ impl<'a, M: Mechanics> Configuration<'a, M> {
     /// x + M^-1 G' F such that G x = -offset at the corners on the ground.
     fn hold(
         &self,
-        contact: Contact,
+        contact: CornerContact,
         aim: Aim,
         mut x: DVector<f64>,
         offset: impl Fn(usize, &Corner, usize) -> f64,
-    ) -> Option<Held> {
+    ) -> Option<HeldMotion> {
         let (n, footings) = (x.len(), self.mechanics.footings());
         let most = 2 * contact.all().len();
         let (mut rows, mut gap) = (Vec::with_capacity(most), Vec::with_capacity(most));
@@ -164,7 +164,7 @@ impl<'a, M: Mechanics> Configuration<'a, M> {
         }
         let r = rows.len();
         if r == 0 {
-            return Some(Held { motion: x, forces: Vec::new() });
+            return Some(HeldMotion { motion: x, forces: Vec::new() });
         }
         let pushed = DMatrix::from_vec(n, r, pushed);
         let response = self.mass.solve(&pushed);
@@ -180,6 +180,6 @@ impl<'a, M: Mechanics> Configuration<'a, M> {
             let entry = forces.iter_mut().find(|(i, _)| *i == corner)?;
             entry.1[direction] = -force;
         }
-        Some(Held { motion: x, forces })
+        Some(HeldMotion { motion: x, forces })
     }
 }

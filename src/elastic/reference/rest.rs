@@ -3,7 +3,7 @@
 use nalgebra::{DMatrix, DVector};
 use thiserror::Error;
 
-use super::Corners;
+use super::CornerSet;
 use crate::elastic::Mechanics;
 
 /// Newton steps, and the size of the last one that is rounding (m, rad).
@@ -33,7 +33,7 @@ pub enum RestError {
 pub fn at_rest(
     mechanics: &impl Mechanics,
     q: &DVector<f64>,
-    held: Corners,
+    held: CornerSet,
     fixed: &[usize],
 ) -> Result<DVector<f64>, RestError> {
     let (n, still) = (mechanics.size(), DVector::zeros(mechanics.size()));

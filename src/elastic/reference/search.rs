@@ -1,7 +1,7 @@
 //! Events within a step: where a held corner's vertical force, or a free corner's height, falls to zero.
 
 use super::dop853::within;
-use super::walk::{Moment, Walk};
+use super::walk::{Moment, ReferenceWalk};
 use crate::elastic::Mechanics;
 
 /// Where a corner lifts or lands: the time since the step's start (s).
@@ -18,7 +18,7 @@ const TRIALS: usize = 60;
 const ROUNDING: f64 = 1e-15;
 
 /// The first event within a step of length h from `start` to `end`.
-pub fn first<M: Mechanics>(walk: &Walk<M>, start: &Moment, end: &Moment, h: f64) -> Option<Crossing> {
+pub fn first<M: Mechanics>(walk: &ReferenceWalk<M>, start: &Moment, end: &Moment, h: f64) -> Option<Crossing> {
     let ends = [(&start.state, &start.rates), (&end.state, &end.rates)];
     let inside = |share: f64| walk.moment(share * h, within(ends, h, share));
     let middle = inside(0.5)?;

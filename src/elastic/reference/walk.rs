@@ -3,9 +3,9 @@
 use nalgebra::DVector;
 
 use super::contact::Rule;
-use super::dop853::{Rates, State, step};
-use super::hold::{Configuration, Contact};
-use super::{Corners, ElasticRocking, Ground, Ledger, Options, Outcome, Stop, search};
+use super::dop853::{Rates, ReferenceState, step};
+use super::hold::{Configuration, CornerContact};
+use super::{CornerSet, ElasticRocking, GroundAcceleration, Ledger, ReferenceOptions, ReferenceOutcome, Stop, search};
 use crate::{elastic::Mechanics, scalar::GRAVITY};
 
 /// Height at which a corner is on the ground, to rounding (m).
@@ -18,25 +18,25 @@ const SHORTEST: f64 = 1e-9;
 /// A state and its rates.
 #[derive(Clone, Debug)]
 pub struct Moment {
-    pub state: State,
+    pub state: ReferenceState,
     pub rates: Rates,
 }
 
 /// A structure on its way.
-pub struct Walk<'a, M> {
+pub struct ReferenceWalk<'a, M> {
     pub(super) mechanics: &'a M,
-    pub(super) ground: Ground<'a>,
-    pub(super) options: &'a Options,
+    pub(super) ground: GroundAcceleration<'a>,
+    pub(super) options: &'a ReferenceOptions,
     /// Vertical force that is rounding (N).
     pub(super) rounding: f64,
-    pub(super) all: Corners,
-    pub(super) contact: Contact,
+    pub(super) all: CornerSet,
+    pub(super) contact: CornerContact,
     /// Sign of the force on each sliding corner.
     pub(super) sense: Vec<f64>,
     /// Free corners that have been clear of the ground since they lifted, or have the velocity to be so at once.
-    pub(super) clear: Corners,
+    pub(super) clear: CornerSet,
     /// Held corners that can neither press nor leave.
-    pub(super) stuck: Corners,
+    pub(super) stuck: CornerSet,
     /// x at which each corner is held.
     pub(super) anchors: Vec<f64>,
     pub(super) now: Moment,
@@ -47,14 +47,14 @@ pub struct Walk<'a, M> {
     pub(super) history: ElasticRocking,
 }
 
-impl<'a, M: Mechanics> Walk<'a, M> {
+impl<'a, M: Mechanics> ReferenceWalk<'a, M> {
     pub fn new(
         mechanics: &'a M,
-        ground: Ground<'a>,
+        ground: GroundAcceleration<'a>,
         (q, v): (&DVector<f64>, &DVector<f64>),
-        options: &'a Options,
+        options: &'a ReferenceOptions,
     ) -> Self {
-        let state = State { q: q.clone(), v: v.clone(), work: [0.0; 3] };
+        let state = ReferenceState { q: q.clone(), v: v.clone(), work: [0.0; 3] };
         let rates = Rates { a: DVector::zeros(v.len()), power: [0.0; 3], forces: Vec::new() };
         let corners = mechanics.footings().len();
         let weight = mechanics.whole_mass(q) * GRAVITY;
@@ -65,7 +65,7 @@ impl<'a, M: Mechanics> Walk<'a, M> {
             v: Vec::new(),
             forces: Vec::new(),
             events: Vec::new(),
-            outcome: Outcome::Completed,
+            outcome: ReferenceOutcome::Completed,
             ledger: Ledger { start, ..Ledger::default() },
             pulled: 0.0,
             skidded: None,
@@ -76,11 +76,11 @@ impl<'a, M: Mechanics> Walk<'a, M> {
             ground,
             options,
             rounding: ROUNDING * weight,
-            all: (0..corners.min(Corners::MOST)).collect(),
-            contact: Contact::default(),
+            all: (0..corners.min(CornerSet::MOST)).collect(),
+            contact: CornerContact::default(),
             sense: vec![0.0; corners],
-            clear: Corners::NONE,
-            stuck: Corners::NONE,
+            clear: CornerSet::NONE,
+            stuck: CornerSet::NONE,
             anchors: vec![0.0; corners],
             now: Moment { state, rates },
             interval: 0,
@@ -98,8 +98,8 @@ impl<'a, M: Mechanics> Walk<'a, M> {
         self.history
     }
 
-    fn follow(&mut self, go_on: &mut impl FnMut(&DVector<f64>) -> bool) -> Result<(), Outcome> {
-        if self.mechanics.footings().len() > Corners::MOST {
+    fn follow(&mut self, go_on: &mut impl FnMut(&DVector<f64>) -> bool) -> Result<(), ReferenceOutcome> {
+        if self.mechanics.footings().len() > CornerSet::MOST {
             return Err(self.stop(Stop::Corners));
         }
         self.stand()?;
@@ -120,7 +120,7 @@ impl<'a, M: Mechanics> Walk<'a, M> {
     }
 
     /// One sample interval.
-    fn cross(&mut self) -> Result<(), Outcome> {
+    fn cross(&mut self) -> Result<(), ReferenceOutcome> {
         self.release()?;
         while self.since < self.ground.dt {
             let left = self.ground.dt - self.since;
@@ -165,7 +165,7 @@ impl<'a, M: Mechanics> Walk<'a, M> {
         })
     }
 
-    pub(super) fn rates(&self, t: f64, state: &State) -> Option<Rates> {
+    pub(super) fn rates(&self, t: f64, state: &ReferenceState) -> Option<Rates> {
         let (q, v, ground) = (&state.q, &state.v, self.ground(t));
         let at = Configuration::new(self.mechanics, q, v)?;
         let held = at.accelerations(ground, self.contact)?;
@@ -175,7 +175,7 @@ impl<'a, M: Mechanics> Walk<'a, M> {
     }
 
     /// A state at a time since the present, with its rates.
-    pub fn moment(&self, t: f64, state: State) -> Option<Moment> {
+    pub fn moment(&self, t: f64, state: ReferenceState) -> Option<Moment> {
         Some(Moment { rates: self.rates(t, &state)?, state })
     }
 
@@ -213,7 +213,7 @@ impl<'a, M: Mechanics> Walk<'a, M> {
         self.contact.sliding.contains(corner) || self.clear.contains(corner)
     }
 
-    fn height(&self, corner: usize, state: &State) -> f64 {
+    fn height(&self, corner: usize, state: &ReferenceState) -> f64 {
         self.mechanics.corner(corner, &state.q, &state.v).place[1]
     }
 
@@ -225,7 +225,7 @@ impl<'a, M: Mechanics> Walk<'a, M> {
         self.interval as f64 * self.ground.dt + self.since
     }
 
-    pub(super) fn stop(&self, why: Stop) -> Outcome {
-        Outcome::Stopped { time: self.time(), why }
+    pub(super) fn stop(&self, why: Stop) -> ReferenceOutcome {
+        ReferenceOutcome::Stopped { time: self.time(), why }
     }
 }

@@ -12,13 +12,13 @@ use std::f64::consts::TAU;
 
 use super::{AFrameSpec, ElasticStructure, PierSpec, PortalSpec};
 use crate::elastic::{
-    beam::Section,
-    frame::{Cantilever, Column, Footing, Layout, LeggedFrame, Portal},
+    beam::BeamSection,
+    frame::{Cantilever, Footing, FrameLayout, LeggedFrame, Portal, StraightMember},
 };
 
 impl ElasticStructure {
     /// The structure as nodes, footings and beams.
-    pub fn layout(&self) -> Layout {
+    pub fn layout(&self) -> FrameLayout {
         match self {
             Self::Pier(pier) => pier.finite().layout(),
             Self::AFrame(frame) => frame.finite().layout(),
@@ -31,7 +31,7 @@ impl PierSpec {
     fn finite(&self) -> Cantilever {
         let (length, ei, ea) = (self.length(), self.ei(), self.ea());
         let omega = TAU * self.frequency();
-        let section = Section {
+        let section = BeamSection {
             axial: ea,
             bending: ei,
             axial_damping: 2.0 * self.axial_damping_ratio() * (ea * self.moving_mass() * length).sqrt(),
@@ -49,7 +49,7 @@ impl PierSpec {
                 centre: 0.5 * self.footing_height_m,
                 top: self.footing_height_m,
             },
-            column: Column { section, elements: self.elements() },
+            column: StraightMember { section, elements: self.elements() },
             consistent: false,
         }
     }
@@ -58,7 +58,7 @@ impl PierSpec {
 impl AFrameSpec {
     fn finite(&self) -> LeggedFrame {
         let share = 2.0 * self.damping_ratio / (TAU * self.frequency());
-        let section = Section {
+        let section = BeamSection {
             axial: self.ea_n,
             bending: self.ei_nm2,
             axial_damping: share * self.ea_n,
@@ -71,7 +71,7 @@ impl AFrameSpec {
             height: self.height_m,
             width: self.width_m,
             foot_mass: self.foot_mass_kg,
-            leg: Column { section, elements: 1 },
+            leg: StraightMember { section, elements: 1 },
         }
     }
 }
@@ -80,7 +80,7 @@ impl PortalSpec {
     fn finite(&self) -> Portal {
         let share = 2.0 * self.damping_ratio / (TAU * self.frequency());
         let (mass, inertia) = self.top();
-        let section = |ea: f64, ei: f64, length: f64, mass: f64, line_mass: f64| Section {
+        let section = |ea: f64, ei: f64, length: f64, mass: f64, line_mass: f64| BeamSection {
             axial: ea,
             bending: ei,
             axial_damping: 2.0 * self.damping_ratio * (ea * mass * length).sqrt(),
@@ -103,8 +103,8 @@ impl PortalSpec {
                 centre: 0.5 * self.footing_height_m,
                 top: self.footing_height_m,
             },
-            column: Column { section: column, elements: self.elements() },
-            girder: Column { section: girder, elements: 1 },
+            column: StraightMember { section: column, elements: self.elements() },
+            girder: StraightMember { section: girder, elements: 1 },
         }
     }
 }

@@ -7,7 +7,7 @@
 
 use super::{ElasticError, ElasticStructure};
 use crate::{
-    elastic::frame::{Damper, Layout, Point, Tendon},
+    elastic::frame::{FrameDamper, FrameLayout, FrameTendon, NodePoint},
     members::Members,
     structure::Body,
 };
@@ -39,8 +39,8 @@ impl ElasticStructure {
     }
 
     /// Where tendons hold the structure, and where they are anchored (m).
-    fn tied(&self) -> Vec<(Point, [f64; 2])> {
-        let at = |node: usize, x: f64| (Point { node, place: [x, self.height()] }, [x, 0.0]);
+    fn tied(&self) -> Vec<(NodePoint, [f64; 2])> {
+        let at = |node: usize, x: f64| (NodePoint { node, place: [x, self.height()] }, [x, 0.0]);
         match self {
             Self::Pier(_) => vec![at(1, 0.0)],
             Self::AFrame(_) => vec![at(2, 0.0)],
@@ -49,13 +49,14 @@ impl ElasticStructure {
     }
 
     /// The structure as nodes, footings and beams, with these members; the tendons' tension is that of the unstressed structure.
-    pub fn layout_with(&self, members: &Members<f64>) -> Layout {
+    pub fn layout_with(&self, members: &Members<f64>) -> FrameLayout {
         let mut layout = self.layout();
         if let Some(damper) = members.damper {
-            layout.dampers = layout.corners.iter().map(|&at| Damper { at, c: [0.0, damper.c] }).collect();
+            layout.dampers = layout.corners.iter().map(|&at| FrameDamper { at, c: [0.0, damper.c] }).collect();
         }
         if let Some(tendon) = members.tendon {
-            let of = |(at, anchor)| Tendon { at, anchor, stiffness: tendon.stiffness, pretension: tendon.pretension };
+            let of =
+                |(at, anchor)| FrameTendon { at, anchor, stiffness: tendon.stiffness, pretension: tendon.pretension };
             layout.tendons = self.tied().into_iter().map(of).collect();
         }
         layout

@@ -1,10 +1,10 @@
 //! The weight, the ground motion, and the load cases that apply them.
 
-use super::{KILO, Parts, Table};
+use super::{KILO, SapModel, SapTable};
 use crate::{export::model::digits, scalar::GRAVITY};
 
-pub(super) fn loads(parts: &Parts) -> Vec<Table> {
-    let mut forces = Table::new("JOINT LOADS - FORCE");
+pub(super) fn loads(parts: &SapModel) -> Vec<SapTable> {
+    let mut forces = SapTable::new("JOINT LOADS - FORCE");
     for joint in parts.joints.iter().filter(|joint| joint.mass > 0.0) {
         forces.add(&[
             ("Joint", &joint.tag),
@@ -18,7 +18,7 @@ pub(super) fn loads(parts: &Parts) -> Vec<Table> {
             ("M3", &0),
         ]);
     }
-    let patterns = Table::new("LOAD PATTERN DEFINITIONS").row(&[
+    let patterns = SapTable::new("LOAD PATTERN DEFINITIONS").row(&[
         ("LoadPat", &"WEIGHT"),
         ("DesignType", &"DEAD"),
         ("SelfWtMult", &0),
@@ -26,36 +26,36 @@ pub(super) fn loads(parts: &Parts) -> Vec<Table> {
     vec![patterns, forces]
 }
 
-pub(super) fn cases(parts: &Parts) -> Vec<Table> {
+pub(super) fn cases(parts: &SapModel) -> Vec<SapTable> {
     let step = parts.record.dt / parts.even_steps as f64;
     let out_steps = parts.samples.saturating_sub(1) * parts.even_steps;
     vec![
-        Table::new("LOAD CASE DEFINITIONS")
+        SapTable::new("LOAD CASE DEFINITIONS")
             .row(&[("Case", &"GRAVITY"), ("Type", &"NonStatic"), ("InitialCond", &"Zero"), ("RunCase", &"Yes")])
             .row(&[("Case", &"QUAKE"), ("Type", &"NonDirHist"), ("InitialCond", &"GRAVITY"), ("RunCase", &"Yes")]),
-        Table::new("CASE - STATIC 1 - LOAD ASSIGNMENTS").row(&[
+        SapTable::new("CASE - STATIC 1 - LOAD ASSIGNMENTS").row(&[
             ("Case", &"GRAVITY"),
             ("LoadType", &"Load pattern"),
             ("LoadName", &"WEIGHT"),
             ("LoadSF", &1),
         ]),
-        Table::new("CASE - STATIC 2 - NONLINEAR LOAD APPLICATION").row(&[
+        SapTable::new("CASE - STATIC 2 - NONLINEAR LOAD APPLICATION").row(&[
             ("Case", &"GRAVITY"),
             ("LoadApp", &"Full Load"),
             ("MonitorDOF", &"U3"),
             ("MonitorJt", &parts.watched),
         ]),
-        Table::new("CASE - STATIC 4 - NONLINEAR PARAMETERS").row(&[
+        SapTable::new("CASE - STATIC 4 - NONLINEAR PARAMETERS").row(&[
             ("Case", &"GRAVITY"),
             ("GeoNonLin", &"Large Displ"),
             ("ResultsSave", &"Final State"),
         ]),
-        Table::new("CASE - DIRECT HISTORY 1 - GENERAL").row(&[
+        SapTable::new("CASE - DIRECT HISTORY 1 - GENERAL").row(&[
             ("Case", &"QUAKE"),
             ("OutSteps", &out_steps),
             ("StepSize", &digits(step)),
         ]),
-        Table::new("CASE - DIRECT HISTORY 2 - LOAD ASSIGNMENTS").row(&[
+        SapTable::new("CASE - DIRECT HISTORY 2 - LOAD ASSIGNMENTS").row(&[
             ("Case", &"QUAKE"),
             ("LoadType", &"Accel"),
             ("LoadName", &"U1"),
@@ -67,20 +67,20 @@ pub(super) fn cases(parts: &Parts) -> Vec<Table> {
             ("Angle", &0),
         ]),
         // dashpots and materials have all damping
-        Table::new("CASE - DIRECT HISTORY 3 - PROPORTIONAL DAMPING").row(&[
+        SapTable::new("CASE - DIRECT HISTORY 3 - PROPORTIONAL DAMPING").row(&[
             ("Case", &"QUAKE"),
             ("SpecifyType", &"Direct"),
             ("MassCoeff", &0),
             ("StiffCoeff", &0),
         ]),
-        Table::new("CASE - DIRECT HISTORY 4 - INTEGRATION PARAMETERS").row(&[
+        SapTable::new("CASE - DIRECT HISTORY 4 - INTEGRATION PARAMETERS").row(&[
             ("Case", &"QUAKE"),
             ("IntMethod", &"HilberHughesTaylor"),
             ("Gamma", &digits(5.0 / 6.0)),
             ("Beta", &digits(4.0 / 9.0)),
             ("Alpha", &digits(-1.0 / 3.0)),
         ]),
-        Table::new("CASE - DIRECT HISTORY 5 - NONLINEAR PARAMETERS").row(&[
+        SapTable::new("CASE - DIRECT HISTORY 5 - NONLINEAR PARAMETERS").row(&[
             ("Case", &"QUAKE"),
             ("GeoNonLin", &"Large Displ"),
             ("DTMax", &0),
@@ -93,8 +93,8 @@ pub(super) fn cases(parts: &Parts) -> Vec<Table> {
     ]
 }
 
-pub(super) fn record(parts: &Parts) -> Vec<Table> {
-    let mut table = Table::new("FUNCTION - TIME HISTORY - USER");
+pub(super) fn record(parts: &SapModel) -> Vec<SapTable> {
+    let mut table = SapTable::new("FUNCTION - TIME HISTORY - USER");
     for (i, &a) in parts.record.accel.iter().enumerate() {
         let time = i as f64 * parts.record.dt;
         table = table.row(&[("Name", &"GROUND_MOTION"), ("Time", &digits(time)), ("Value", &digits(a))]);

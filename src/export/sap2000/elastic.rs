@@ -1,8 +1,8 @@
 //! An elastic structure for the tables: beams between joints, stiff arms to places off their nodes.
 
-use super::parts::{Bar, Foot, Joint, LINK_LENGTH, Parts, Section, Unit};
+use super::parts::{Bar, FootJoints, Joint, LINK_LENGTH, SapModel, SapSection, SpringLinks};
 use crate::{
-    elastic::{beam, frame::Point},
+    elastic::{beam, frame::NodePoint},
     export::{elastic::ElasticDeck, printable},
 };
 
@@ -22,13 +22,13 @@ struct Build<'a, 'd> {
     joints: Vec<Joint>,
     /// Node that each joint belongs to.
     owners: Vec<usize>,
-    sections: Vec<Section>,
+    sections: Vec<SapSection>,
     bars: Vec<Bar>,
 }
 
 impl Build<'_, '_> {
     /// The joint at a place on a node, on an arm if that is off it.
-    fn joint(&mut self, point: &Point) -> usize {
+    fn joint(&mut self, point: &NodePoint) -> usize {
         let known = self.joints.iter().zip(&self.owners);
         let mut known = known.filter(|(joint, owner)| **owner == point.node && joint.place == point.place);
         if let Some((joint, _)) = known.next() {
@@ -39,22 +39,22 @@ impl Build<'_, '_> {
         let length = (point.place[0] - from.place[0]).hypot(point.place[1] - from.place[1]);
         self.joints.push(Joint { tag, place: point.place, mass: 0.0, inertia: 0.0 });
         self.owners.push(point.node);
-        let section = Section::rigid(format!("ARM_{tag}"), self.deck.springs, length);
+        let section = SapSection::rigid(format!("ARM_{tag}"), self.deck.springs, length);
         self.bar([from.tag, tag], section);
         tag
     }
 
-    fn bar(&mut self, joints: [usize; 2], section: Section) {
+    fn bar(&mut self, joints: [usize; 2], section: SapSection) {
         self.sections.push(section);
         self.bars.push(Bar { joints, section: self.sections.len() - 1 });
     }
 
     /// Beam i between two joints.
-    fn beam(&mut self, i: usize, joints: [usize; 2], s: &beam::Section) {
+    fn beam(&mut self, i: usize, joints: [usize; 2], s: &beam::BeamSection) {
         let share = |damping: f64, stiffness: f64| if stiffness > 0.0 { damping / stiffness } else { 0.0 };
         let ahead = [share(s.axial_damping, s.axial), share(s.bending_damping, s.bending)];
         let name = format!("BEAM_{}", i + 1);
-        let of = |name: String, [axial, bending]: [f64; 2], ahead: f64| Section {
+        let of = |name: String, [axial, bending]: [f64; 2], ahead: f64| SapSection {
             material: name.clone(),
             name,
             axial: axial * s.axial,
@@ -69,7 +69,7 @@ impl Build<'_, '_> {
     }
 }
 
-impl<'a> Parts<'a> {
+impl<'a> SapModel<'a> {
     /// Of an elastic structure without members of its own: joint i + 1 is node i.
     pub fn elastic(deck: &ElasticDeck<'a>) -> Self {
         let mass = deck.frame.mass_matrix();
@@ -86,8 +86,8 @@ impl<'a> Parts<'a> {
             build.beam(i, ends, &member.section);
         }
         let stands: Vec<usize> = deck.layout.corners.iter().map(|corner| build.joint(corner)).collect();
-        let foot = |(i, &joint): (usize, &usize)| Foot { joint, absorber: 1001 + i, ground: 2001 + i, unit: i };
-        let unit = |(i, springs): (usize, &_)| Unit { suffix: format!("_{}", i + 1), springs: *springs };
+        let foot = |(i, &joint): (usize, &usize)| FootJoints { joint, absorber: 1001 + i, ground: 2001 + i, unit: i };
+        let unit = |(i, springs): (usize, &_)| SpringLinks { suffix: format!("_{}", i + 1), springs: *springs };
         let (top, _) = deck.top;
         Self {
             title: printable(deck.title),

@@ -1,10 +1,12 @@
 //! The springs: links between foot, absorber and ground.
 
-use super::{FRICTION, KILO, Parts, Table, parts::Unit};
+use std::fmt::Display;
+
+use super::{FRICTION, KILO, SapModel, SapTable, parts::SpringLinks};
 use crate::{export::model::digits, spring::Springs};
 
-pub(super) fn links(parts: &Parts) -> Vec<Table> {
-    let mut general = Table::new("LINK PROPERTY DEFINITIONS 01 - GENERAL");
+pub(super) fn links(parts: &SapModel) -> Vec<SapTable> {
+    let mut general = SapTable::new("LINK PROPERTY DEFINITIONS 01 - GENERAL");
     let kinds = [("FOOT", "Friction Isolator"), ("FOOT_GAP", "Gap"), ("GROUND", "Linear")];
     for (unit, (link, kind)) in parts.units.iter().flat_map(|unit| kinds.map(|kind| (unit, kind))) {
         // P-Delta moments go to joint I, the absorber or the ground, which does not rotate
@@ -25,8 +27,8 @@ pub(super) fn links(parts: &Parts) -> Vec<Table> {
             ("Color", &"Magenta"),
         ]);
     }
-    let mut connect = Table::new("CONNECTIVITY - LINK");
-    let mut assign = Table::new("LINK PROPERTY ASSIGNMENTS");
+    let mut connect = SapTable::new("CONNECTIVITY - LINK");
+    let mut assign = SapTable::new("LINK PROPERTY ASSIGNMENTS");
     // from below to above: a foot that goes down shortens its link, U1 < 0
     let upper = parts.feet.iter().map(|foot| (foot.absorber, foot.joint, foot.unit, kinds[0]));
     let lower = parts.feet.iter().map(|foot| (foot.ground, foot.absorber, foot.unit, kinds[2]));
@@ -42,9 +44,9 @@ pub(super) fn links(parts: &Parts) -> Vec<Table> {
         ]);
     }
     let mut springs = [
-        Table::new("LINK PROPERTY DEFINITIONS 02 - LINEAR"),
-        Table::new("LINK PROPERTY DEFINITIONS 05 - GAP"),
-        Table::new("LINK PROPERTY DEFINITIONS 08 - SLIDING ISOLATOR"),
+        SapTable::new("LINK PROPERTY DEFINITIONS 02 - LINEAR"),
+        SapTable::new("LINK PROPERTY DEFINITIONS 05 - GAP"),
+        SapTable::new("LINK PROPERTY DEFINITIONS 08 - SLIDING ISOLATOR"),
     ];
     for unit in &parts.units {
         let [linear_table, gap_table, isolator_table] = &mut springs;
@@ -56,7 +58,7 @@ pub(super) fn links(parts: &Parts) -> Vec<Table> {
 }
 
 /// A link property of a unit.
-fn name(link: &str, unit: &Unit) -> String {
+fn name(link: &str, unit: &SpringLinks) -> String {
     format!("{link}{}", unit.suffix)
 }
 
@@ -65,7 +67,7 @@ fn kilo(x: f64) -> String {
 }
 
 /// k2 beside c, between absorber and ground.
-fn linear(unit: &Unit, table: &mut Table) {
+fn linear(unit: &SpringLinks, table: &mut SapTable) {
     let (link, Springs { vertical: v, horizontal: h }) = (name("GROUND", unit), &unit.springs);
     table.add(&[("Link", &link), ("DOF", &"U1"), ("Fixed", &"No"), ("TransKE", &kilo(v.k2)), ("TransCE", &kilo(v.c))]);
     table.add(&[
@@ -78,56 +80,46 @@ fn linear(unit: &Unit, table: &mut Table) {
     ]);
 }
 
-/// k1, between foot and absorber, where the program knows no isolator.
-fn gap(unit: &Unit, table: &mut Table) {
-    let (link, Springs { vertical: v, horizontal: h }) = (name("FOOT_GAP", unit), &unit.springs);
-    table.add(&[
-        ("Link", &link),
-        ("DOF", &"U1"),
-        ("Fixed", &"No"),
-        ("NonLinear", &"Yes"),
-        ("TransKE", &kilo(v.k1)),
-        ("TransCE", &0),
-        ("TransK", &kilo(v.k1)),
-        ("TransOpen", &0),
-    ]);
-    table.add(&[
-        ("Link", &link),
-        ("DOF", &"U2"),
-        ("Fixed", &"No"),
-        ("NonLinear", &"No"),
-        ("TransKE", &kilo(h.k1)),
-        ("TransCE", &0),
-        ("DJ", &0),
-    ]);
+/// k1, between foot and absorber, where the program knows no isolator: the horizontal spring acts in the air, too.
+fn gap(unit: &SpringLinks, table: &mut SapTable) {
+    foot("FOOT_GAP", unit, ("TransOpen", &0), "No", &[], table);
 }
 
 /// The same as an isolator, whose horizontal spring acts while the foot presses.
-fn isolator(unit: &Unit, table: &mut Table) {
-    let (link, Springs { vertical: v, horizontal: h }) = (name("FOOT", unit), &unit.springs);
-    // DJ = 0: the shear spring sits at the foot, so the foot's rotation does not stretch it. Radius 0: a flat slider.
-    table.add(&[
-        ("Link", &link),
-        ("DOF", &"U1"),
-        ("Fixed", &"No"),
-        ("NonLinear", &"Yes"),
-        ("TransKE", &kilo(v.k1)),
-        ("TransCE", &0),
-        ("TransK", &kilo(v.k1)),
-        ("TransC", &0),
-    ]);
-    table.add(&[
-        ("Link", &link),
-        ("DOF", &"U2"),
-        ("Fixed", &"No"),
-        ("NonLinear", &"Yes"),
-        ("TransKE", &kilo(h.k1)),
-        ("TransCE", &0),
-        ("DJ", &0),
-        ("TransK", &kilo(h.k1)),
-        ("Slow", &FRICTION),
-        ("Fast", &FRICTION),
-        ("Rate", &0),
-        ("Radius", &0),
-    ]);
+fn isolator(unit: &SpringLinks, table: &mut SapTable) {
+    let k1 = kilo(unit.springs.horizontal.k1);
+    // radius 0: a flat slider
+    let slider: [SapField; 5] =
+        [("TransK", &k1), ("Slow", &FRICTION), ("Fast", &FRICTION), ("Rate", &0), ("Radius", &0)];
+    foot("FOOT", unit, ("TransC", &0), "Yes", &slider, table);
+}
+
+/// A column of a table and its value.
+type SapField<'a> = (&'a str, &'a dyn Display);
+
+/// k1 of a unit, as `link`: it only presses vertically, with the column that this kind has for it; whether the horizontal spring is nonlinear,
+/// and its columns then. DJ = 0: it sits at the foot, so the foot's rotation does not stretch it.
+fn foot(
+    link: &str,
+    unit: &SpringLinks,
+    vertical: SapField,
+    nonlinear: &str,
+    horizontal: &[SapField],
+    table: &mut SapTable,
+) {
+    let link = name(link, unit);
+    let [v, h] = [unit.springs.vertical.k1, unit.springs.horizontal.k1].map(kilo);
+    let mut row = |direction: &str, nonlinear: &str, k1: &String, rest: &[SapField]| {
+        let all: [SapField; 6] = [
+            ("Link", &link),
+            ("DOF", &direction),
+            ("Fixed", &"No"),
+            ("NonLinear", &nonlinear),
+            ("TransKE", k1),
+            ("TransCE", &0),
+        ];
+        table.add(&[&all, rest].concat());
+    };
+    row("U1", "Yes", &v, &[("TransK", &v), vertical]);
+    row("U2", nonlinear, &h, &[&[("DJ", &0 as &dyn Display)], horizontal].concat());
 }

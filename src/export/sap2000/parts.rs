@@ -1,7 +1,7 @@
 //! What tables are made from, whatever the structure: joints with masses, frames, feet on their links, a record.
 
 use crate::{
-    export::model::{Model, digits},
+    export::model::{DeckModel, digits},
     record::Record,
     spring::{Chain, Springs},
 };
@@ -26,7 +26,7 @@ pub struct Joint {
 
 /// A frame section, of a material of its own.
 #[derive(Clone, Debug, PartialEq)]
-pub struct Section {
+pub struct SapSection {
     pub name: String,
     pub material: String,
     /// EA (N).
@@ -37,7 +37,7 @@ pub struct Section {
     pub ahead: f64,
 }
 
-impl Section {
+impl SapSection {
     /// All but rigid, beside springs as stiff as this, of a frame of this length.
     pub fn rigid(name: String, springs: &[Springs<Chain<f64>>], length: f64) -> Self {
         let of = |s: &Springs<Chain<f64>>| s.vertical.k1.max(s.vertical.k2).max(s.horizontal.k1).max(s.horizontal.k2);
@@ -56,7 +56,7 @@ pub struct Bar {
 
 /// What stands on the ground: a joint, those of its absorber and of the ground below, its unit's index.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Foot {
+pub struct FootJoints {
     pub joint: usize,
     pub absorber: usize,
     pub ground: usize,
@@ -65,21 +65,21 @@ pub struct Foot {
 
 /// Springs, and what is added to the names of their links.
 #[derive(Clone, Debug, PartialEq)]
-pub struct Unit {
+pub struct SpringLinks {
     pub suffix: String,
     pub springs: Springs<Chain<f64>>,
 }
 
 /// A model for tables.
-pub struct Parts<'a> {
+pub struct SapModel<'a> {
     pub title: String,
     /// Notes besides those of all tables, lines that begin with a dollar.
     pub notes: String,
     pub joints: Vec<Joint>,
-    pub sections: Vec<Section>,
+    pub sections: Vec<SapSection>,
     pub bars: Vec<Bar>,
-    pub units: Vec<Unit>,
-    pub feet: Vec<Foot>,
+    pub units: Vec<SpringLinks>,
+    pub feet: Vec<FootJoints>,
     /// Joint whose motion is expected to be this.
     pub watched: usize,
     /// Where it settles (m).
@@ -94,9 +94,9 @@ pub struct Parts<'a> {
     pub even_steps: usize,
 }
 
-impl<'a> Parts<'a> {
+impl<'a> SapModel<'a> {
     /// Of a rigid body: joint 3 the mass, on legs from joints 1 and 2.
-    pub fn rigid(model: &Model<'a>) -> Self {
+    pub fn rigid(model: &DeckModel<'a>) -> Self {
         let body = model.body();
         let (b, h) = (body.half_width, body.height);
         let foot = |tag: usize, x: f64| Joint { tag, place: [x, 0.0], mass: 0.0, inertia: 0.0 };
@@ -106,10 +106,10 @@ impl<'a> Parts<'a> {
             title: model.title(),
             notes: String::new(),
             joints: vec![foot(1, -b), foot(2, b), mass],
-            sections: vec![Section::rigid("LEG".into(), &[model.springs], body.radius())],
+            sections: vec![SapSection::rigid("LEG".into(), &[model.springs], body.radius())],
             bars: [1, 2].map(|foot| Bar { joints: [foot, 3], section: 0 }).to_vec(),
-            units: vec![Unit { suffix: String::new(), springs: model.springs }],
-            feet: [1, 2].map(|joint| Foot { joint, absorber: 10 + joint, ground: 20 + joint, unit: 0 }).to_vec(),
+            units: vec![SpringLinks { suffix: String::new(), springs: model.springs }],
+            feet: [1, 2].map(|joint| FootJoints { joint, absorber: 10 + joint, ground: 20 + joint, unit: 0 }).to_vec(),
             watched: 3,
             settled: e.settled,
             peaks: [e.u, e.v],

@@ -12,7 +12,7 @@ use crate::{
 
 /// A tendon.
 #[derive(Clone, Copy, Debug)]
-pub(crate) struct Tendon<S> {
+pub(crate) struct TendonElement<S> {
     /// k [N/m].
     pub stiffness: S,
     /// l_0, at which it begins to pull [m].
@@ -24,7 +24,7 @@ pub(crate) struct Tendon<S> {
 }
 
 /// Its state in one configuration.
-struct Pull<S> {
+struct TendonState<S> {
     /// T [N].
     tension: S,
     /// l - l_0 [m].
@@ -35,19 +35,19 @@ struct Pull<S> {
     direction: [S; 2],
 }
 
-impl<S: Scalar> Tendon<S> {
-    pub fn real(&self) -> Tendon<f64> {
+impl<S: Scalar> TendonElement<S> {
+    pub fn real(&self) -> TendonElement<f64> {
         let Self { stiffness, slack, height, pretension } = self;
-        Tendon { stiffness: stiffness.re(), slack: slack.re(), height: height.re(), pretension: pretension.re() }
+        TendonElement { stiffness: stiffness.re(), slack: slack.re(), height: height.re(), pretension: pretension.re() }
     }
 
     /// Its pull; none while it is slack.
-    fn pull(&self, q: &Vector<S>) -> Option<Pull<S>> {
+    fn pull(&self, q: &Vector<S>) -> Option<TendonState<S>> {
         let (x, z) = (q[X], self.height + q[Z]);
         let length = (x * x + z * z).sqrt();
         let stretch = length - self.slack;
         let tension = self.stiffness * stretch;
-        (stretch.re() > 0.0).then(|| Pull { tension, stretch, length, direction: [x / length, z / length] })
+        (stretch.re() > 0.0).then(|| TendonState { tension, stretch, length, direction: [x / length, z / length] })
     }
 
     /// T [N].
@@ -57,11 +57,12 @@ impl<S: Scalar> Tendon<S> {
 
     /// Force on the mass, horizontal and vertical [N].
     pub fn force_on_mass(&self, q: &Vector<S>) -> [S; 2] {
-        self.pull(q).map_or([S::zero(); 2], |Pull { tension, direction: [ux, uz], .. }| [-tension * ux, -tension * uz])
+        self.pull(q)
+            .map_or([S::zero(); 2], |TendonState { tension, direction: [ux, uz], .. }| [-tension * ux, -tension * uz])
     }
 }
 
-impl<S: Scalar> Element<S> for Tendon<S> {
+impl<S: Scalar> Element<S> for TendonElement<S> {
     fn energy(&self, q: &Vector<S>) -> S {
         self.pull(q).map_or(S::zero(), |pull| pull.tension * pull.stretch * 0.5)
     }
@@ -74,7 +75,7 @@ impl<S: Scalar> Element<S> for Tendon<S> {
     fn tangent(&self, q: &Vector<S>, _: &Vector<S>) -> ElementTangent<S> {
         let zero = S::zero();
         let none = [[zero; 3]; 3];
-        let Some(Pull { tension, length, direction: [ux, uz], .. }) = self.pull(q) else {
+        let Some(TendonState { tension, length, direction: [ux, uz], .. }) = self.pull(q) else {
             return ElementTangent { stiffness: none, damping: none };
         };
         let across = tension / length;

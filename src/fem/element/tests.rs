@@ -14,7 +14,7 @@ fn body<S: Scalar>() -> Body<S> {
 
 /// Every element, by name.
 fn all<S: Scalar>() -> Vec<(&'static str, Box<dyn Element<S>>)> {
-    let tendon = |slack: f64| Tendon {
+    let tendon = |slack: f64| TendonElement {
         stiffness: S::from(4e6),
         slack: S::from(slack),
         height: S::from(9.0),
@@ -72,11 +72,11 @@ fn the_power_taken_is_that_of_the_force_beyond_its_potential() {
 
 #[test]
 fn a_slack_tendon_does_nothing_and_an_upright_one_pulls_by_its_stretch() {
-    let tendon = Tendon { stiffness: 4e6, slack: 8.9, height: 9.0, pretension: 0.0 };
+    let tendon = TendonElement { stiffness: 4e6, slack: 8.9, height: 9.0, pretension: 0.0 };
     let still = [0.0; N];
     // 0.1 m of stretch, upright
     assert!((tendon.tension(&still) - 4e5).abs() < 1e-6 && (tendon.energy(&still) - 2e4).abs() < 1e-6);
     assert_eq!(tendon.force(&still, &still)[0], 0.0);
-    let slack = Tendon { slack: 9.9, ..tendon };
+    let slack = TendonElement { slack: 9.9, ..tendon };
     assert_eq!((slack.tension(&Q), slack.energy(&Q), slack.force(&Q, &V)), (0.0, 0.0, [0.0; 3]));
 }

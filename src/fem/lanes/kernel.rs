@@ -10,7 +10,7 @@ use crate::{
     fem::{
         model::{Foot, N, State},
         run::{Contacts, Run, Scales, StepMeasures},
-        step::{Convergence, Request, Stages, Verdict},
+        step::{Convergence, IterationVerdict, Request, Stages},
     },
     spring::{Chain, Springs},
     structure::Body,
@@ -76,7 +76,7 @@ pub(super) struct Kernel {
     begins_steep: Lanes,
     change: Lanes,
     convergence: [Option<Convergence>; WIDTH],
-    verdict: [Verdict; WIDTH],
+    verdict: [IterationVerdict; WIDTH],
     /// Whether a step has been asked for since the last call.
     fresh: bool,
     stored: Lanes,
@@ -128,7 +128,7 @@ impl Kernel {
             begins_steep: none,
             change: none,
             convergence: [None; WIDTH],
-            verdict: [Verdict::Failed; WIDTH],
+            verdict: [IterationVerdict::Failed; WIDTH],
             fresh: false,
             stored: none,
             input: none,
@@ -199,8 +199,8 @@ impl Kernel {
             (stages.iterations, stages.rate) = (convergence.iterations, convergence.rate);
         }
         let converged = match self.verdict[l] {
-            Verdict::GoesOn => return Tried::GoesOn,
-            verdict => verdict == Verdict::Converged,
+            IterationVerdict::GoesOn => return Tried::GoesOn,
+            verdict => verdict == IterationVerdict::Converged,
         };
         let unchanged = self.unchanged[l] != 0.0;
         if converged {
@@ -238,9 +238,9 @@ impl Kernel {
             self.stages();
             let mut goes_on = false;
             for l in 0..WIDTH {
-                let verdict = self.convergence[l].as_ref().map_or(Verdict::Failed, Convergence::verdict);
+                let verdict = self.convergence[l].as_ref().map_or(IterationVerdict::Failed, Convergence::verdict);
                 self.verdict[l] = verdict;
-                let runs = verdict == Verdict::GoesOn && self.steep[l] == 0.0;
+                let runs = verdict == IterationVerdict::GoesOn && self.steep[l] == 0.0;
                 self.active[l] = f64::from(u8::from(runs));
                 goes_on |= runs;
             }

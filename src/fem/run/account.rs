@@ -3,7 +3,7 @@
 use super::Run;
 use crate::{
     fem::{
-        acceptance::{Tried, Verdict, allowed_energy, cautious},
+        acceptance::{StepVerdict, TriedStep, allowed_energy, cautious},
         model::{Model, State, TH, X, Z},
         step::Stages,
     },
@@ -77,13 +77,13 @@ impl<S: Scalar> Run<'_, S> {
         let &StepMeasures { stored, input, dissipated, missed, .. } = measures;
         let defect = (stored - self.energy.stored - input + dissipated).re().abs();
         let h = stages.h.re();
-        let tried = Tried { h, planned: self.h, settling: self.settling };
+        let tried = TriedStep { h, planned: self.h, settling: self.settling };
         match tried.verdict([defect, missed], [self.allowed(stored, stages), self.allowed_error(h)]) {
-            Verdict::Refused(h) => {
+            StepVerdict::Refused(h) => {
                 self.h = h;
                 return false;
             }
-            Verdict::Holds { next, breaks } => {
+            StepVerdict::Holds { next, breaks } => {
                 self.h = next;
                 self.work.smallest += usize::from(breaks);
             }

@@ -43,7 +43,7 @@ fn draw_history(three: bool) -> Result<Sheet, FigureError> {
         history::Trace { label: "finite element", u: &u1, v: &v1, impacts: &z1, end: None },
         history::Trace { label: "OpenSees", u: &u2[..1900], v: &v2[..1900], impacts: &[], end: None },
     ];
-    let data = history::History {
+    let data = history::HistoryFigure {
         title: "Apex displacement, 61 × 12.2 m A-frame, El Centro 1940 N-S",
         t: &t,
         reference: history::Trace { label: "Housner", u: &u, v: &v, impacts: &z, end: None },
@@ -66,17 +66,17 @@ fn draw_arr() -> Result<Sheet, FigureError> {
     let vertical: Vec<f64> = g.iter().map(|&g| ratio(10.0, 8.993, 3.948, g)).collect();
     let horizontal: Vec<f64> = g.iter().map(|&g| ratio(0.1, 0.52254, 1.8395, g)).collect();
     let tops = (1..g.len() - 1).filter(|&i| vertical[i] > vertical[i - 1] && vertical[i] > vertical[i + 1]);
-    let active: Vec<arr::Active> =
-        tops.map(|i| arr::Active { g: g[i], arr: vertical[i], multiplier: Some(0.487) }).collect();
-    let one = [arr::Active { g: 0.05, arr: ratio(0.1, 0.52254, 1.8395, 0.05), multiplier: Some(1.0) }];
-    let data = arr::Response {
+    let active: Vec<arr::ActiveMark> =
+        tops.map(|i| arr::ActiveMark { g: g[i], arr: vertical[i], multiplier: Some(0.487) }).collect();
+    let one = [arr::ActiveMark { g: 0.05, arr: ratio(0.1, 0.52254, 1.8395, 0.05), multiplier: Some(1.0) }];
+    let data = arr::ResponseFigure {
         title: "Frequency response of the springs",
         target: &[
-            arr::Band { g: (0.05, 2.0), at_least: None, at_most: Some(4.541) },
-            arr::Band { g: (6.0, 20.0), at_least: None, at_most: Some(0.1) },
+            arr::TargetBand { g: (0.05, 2.0), at_least: None, at_most: Some(4.541) },
+            arr::TargetBand { g: (6.0, 20.0), at_least: None, at_most: Some(0.1) },
         ],
         curves: &[
-            arr::Curve {
+            arr::UnitCurve {
                 label: "vertical, μ = 10",
                 g: &g,
                 arr: &vertical,
@@ -85,7 +85,7 @@ fn draw_arr() -> Result<Sheet, FigureError> {
                 horizontal: false,
                 cap: None,
             },
-            arr::Curve {
+            arr::UnitCurve {
                 label: "horizontal, μ = 0.1",
                 g: &g,
                 arr: &horizontal,
@@ -101,12 +101,12 @@ fn draw_arr() -> Result<Sheet, FigureError> {
 
 fn draw_candidates() -> Result<Sheet, FigureError> {
     let mut dice = Dice(7);
-    let all: Vec<candidates::Candidate> = (0..400)
+    let all: Vec<candidates::CandidateMark> = (0..400)
         .map(|_| {
             let (v, h) = (5.0 * 32_f64.powf(dice.roll()), 5.0 * 32_f64.powf(dice.roll()));
             let error = (1.2 / v + 0.9 / h) * (1.0 + 0.5 * (9.0 * (v.ln() + 2.0 * h.ln())).sin()) + 0.01 * dice.roll();
             let abandoned = error > 0.08 && dice.roll() < 0.8;
-            candidates::Candidate {
+            candidates::CandidateMark {
                 vertical_hz: v,
                 horizontal_hz: h,
                 error: if abandoned { error * (0.3 + 0.5 * dice.roll()) } else { error },
@@ -115,7 +115,7 @@ fn draw_candidates() -> Result<Sheet, FigureError> {
         })
         .collect();
     let chosen = (0..all.len()).filter(|&i| !all[i].abandoned).min_by(|&a, &b| all[a].error.total_cmp(&all[b].error));
-    let data = candidates::Candidates {
+    let data = candidates::CandidatesFigure {
         title: "Every sampled pair of Ωₙ",
         error_label: "error, NRMSE of u and v",
         candidates: &all,
@@ -131,12 +131,12 @@ fn draw_front() -> Result<Sheet, FigureError> {
     let paper = [0.88, 0.147, 0.09, 0.038, 0.03, 0.022, 0.019];
     let forces: Vec<f64> = hz.iter().map(|hz| hz / 12.0).collect();
     let steps: Vec<f64> = hz.iter().map(|hz| 9000.0 + hz).collect();
-    let data = front::Front {
+    let data = front::FrontFigure {
         title: "Error against stiffness",
         error_label: "NRMSE of u, on the record",
         series: &[
-            front::Series { label: "design from the geometry", omega_n_hz: &hz, error: &ours },
-            front::Series { label: "the paper's procedure", omega_n_hz: &hz, error: &paper },
+            front::DesignSeries { label: "design from the geometry", omega_n_hz: &hz, error: &ours },
+            front::DesignSeries { label: "the paper's procedure", omega_n_hz: &hz, error: &paper },
         ],
         chosen_hz: 500.0,
         accuracy: 0.002,
@@ -158,7 +158,7 @@ fn draw_contact() -> Result<Sheet, FigureError> {
     let force = |of: &dyn Fn(f64, f64) -> f64| -> Vec<f64> {
         share.iter().zip(&ring).map(|(&share, &ring)| of(share, ring)).collect()
     };
-    let data = contact::Contact {
+    let data = contact::ContactFigure {
         title: "Forces between the feet and the ground",
         t: &t,
         left_vertical: &force(&|share, ring| (weight * (1.0 - share) * (1.0 + 0.3 * ring)).max(0.0)),
@@ -177,27 +177,27 @@ fn draw_energy() -> Result<Sheet, FigureError> {
     let stored: Vec<f64> = t.iter().map(|t| 1.9e5 * (0.9 * t).sin().powi(2) * (-0.1 * t).exp()).collect();
     let residual: Vec<f64> = t.iter().map(|t| 0.02 * (7.0 * t).sin() * t.min(3.0)).collect();
     let input: Vec<f64> = (0..t.len()).map(|i| stored[i] + dissipated[i] + residual[i]).collect();
-    let data = energy::Energy {
+    let data = energy::EnergyFigure {
         title: "Energy account",
         t: &t,
         input: &input,
         stored: &stored,
         dissipated: &dissipated,
         residual: &residual,
-        end: Some(Event { time: 15.0, text: "overturned at t = 15.00 s" }),
+        end: Some(EventMark { time: 15.0, text: "overturned at t = 15.00 s" }),
     };
     energy::draw(&data)
 }
 
 fn draw_validation() -> Result<Sheet, FigureError> {
     let mut dice = Dice(3);
-    let rows: Vec<validation::Row> = (0..200)
+    let rows: Vec<validation::ValidationPoint> = (0..200)
         .map(|_| {
             let peak = dice.roll().powf(1.6) * 1.25;
             let sensitivity = 10_f64.powf(3.0 * dice.roll() * dice.roll() - 0.3);
             let nrmse = 0.01 * sensitivity.powf(0.7) * (0.3 + dice.roll());
             let fem = peak * (1.0 + nrmse * (dice.roll() - 0.5));
-            validation::Row {
+            validation::ValidationPoint {
                 peak_housner: peak,
                 peak_fem: fem,
                 overturned_housner: peak > 1.0,
@@ -207,7 +207,7 @@ fn draw_validation() -> Result<Sheet, FigureError> {
             }
         })
         .collect();
-    let data = validation::Validation {
+    let data = validation::ValidationFigure {
         title: "200 synthetic records, 2 × 0.5 m block",
         rows: &rows,
         ks_distance: 0.025,
@@ -220,16 +220,16 @@ fn draw_precision() -> Result<Sheet, FigureError> {
     let ladder = |base: f64, order: f64, first: f64, n: i32| -> Vec<(f64, f64)> {
         (0..n).map(|i| (first * 10_f64.powi(-i * 2), base * 10_f64.powf(f64::from(2 * i) / order))).collect()
     };
-    let data = precision::Precision {
+    let data = precision::PrecisionFigure {
         title: "Housner, 20 s of El Centro: time against error",
         error_label: "largest error of u [m]",
         time_label: "time [ms]",
         series: &[
-            precision::Series { label: "groundspring", points: &ladder(0.03, 12.0, 1e-4, 5) },
-            precision::Series { label: "diffsol", points: &ladder(0.2, 9.0, 1e-3, 5) },
-            precision::Series { label: "SciPy RK45", points: &ladder(50.0, 10.0, 1e-2, 5) },
-            precision::Series { label: "SciPy DOP853", points: &ladder(70.0, 16.0, 1e-4, 4) },
-            precision::Series { label: "Octave ode45", points: &ladder(400.0, 5.0, 0.2, 2) },
+            precision::ToolSeries { label: "groundspring", points: &ladder(0.03, 12.0, 1e-4, 5) },
+            precision::ToolSeries { label: "diffsol", points: &ladder(0.2, 9.0, 1e-3, 5) },
+            precision::ToolSeries { label: "SciPy RK45", points: &ladder(50.0, 10.0, 1e-2, 5) },
+            precision::ToolSeries { label: "SciPy DOP853", points: &ladder(70.0, 16.0, 1e-4, 4) },
+            precision::ToolSeries { label: "Octave ode45", points: &ladder(400.0, 5.0, 0.2, 2) },
         ],
     };
     precision::draw(&[data])
@@ -244,7 +244,7 @@ fn draw_record() -> Result<Sheet, FigureError> {
     let velocity: Vec<f64> = t.iter().map(|t| -0.45 * envelope(*t) * (9.0 * t).cos()).collect();
     let notes = ["PGA 0.4 g, PGV 0.45 m/s, pulse period 0.7 s".to_owned(), "a second line".to_owned()];
     let (title, uplift_g) = ("A burst", Some(0.2));
-    record::draw(&record::Record { title, t: &t, accel_g: &accel, velocity: &velocity, uplift_g, notes: &notes })
+    record::draw(&record::RecordFigure { title, t: &t, accel_g: &accel, velocity: &velocity, uplift_g, notes: &notes })
 }
 
 /// Every figure: its name, and how to draw it.

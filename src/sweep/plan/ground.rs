@@ -6,9 +6,9 @@ use crate::{
     record::Record,
     sweep::{
         SweepError,
-        motion::{Frequency, Motion},
-        pulse::{Name, Shape},
-        spec::{Kind, PulseSection, Source},
+        motion::{Frequency, SweepMotion},
+        pulse::{Name, PulseShape},
+        spec::{PulseSection, SweepKind, SweepSource},
     },
 };
 
@@ -20,22 +20,23 @@ const FREQUENCY_HZ: (f64, f64) = (0.01, 1e3);
 ///
 /// # Errors
 /// A folder without records; a pulse that is none, with its line.
-pub fn motions(source: &Source) -> Result<Vec<Motion>, SweepError> {
+pub fn motions(source: &SweepSource) -> Result<Vec<SweepMotion>, SweepError> {
     let records = &source.spec.records;
-    let mut motions: Vec<Motion> = records.files.iter().map(|file| Motion::File(source.folder().join(file))).collect();
+    let mut motions: Vec<SweepMotion> =
+        records.files.iter().map(|file| SweepMotion::File(source.folder().join(file))).collect();
     if let Some(folder) = &records.folder {
-        motions.extend(Record::list_dir(&source.folder().join(folder))?.into_iter().map(Motion::File));
+        motions.extend(Record::list_dir(&source.folder().join(folder))?.into_iter().map(SweepMotion::File));
     }
     if records.el_centro {
-        motions.push(Motion::ElCentro);
+        motions.push(SweepMotion::ElCentro);
     }
     let count = |name: &str, n: &Option<Spanned<usize>>| match n {
         Some(n) if (1..=10_000_000).contains(n.get_ref()) => Ok(*n.get_ref()),
         Some(n) => Err(source.at(n, format!("{name} is {}; give 1 to 10000000 motions", n.get_ref()))),
         None => Ok(0),
     };
-    motions.extend((0..count("synthetic", &records.synthetic)?).map(Motion::Synthetic));
-    motions.extend((0..count("earthquakes", &records.earthquakes)?).map(Motion::Earthquake));
+    motions.extend((0..count("synthetic", &records.synthetic)?).map(SweepMotion::Synthetic));
+    motions.extend((0..count("earthquakes", &records.earthquakes)?).map(SweepMotion::Earthquake));
     let files = motions.len();
     for pulse in &source.spec.pulse {
         of_pulse(source, pulse, &mut motions)?;
@@ -44,13 +45,13 @@ pub fn motions(source: &Source) -> Result<Vec<Motion>, SweepError> {
     if motions.is_empty() {
         return Err(source.at(kind, "no ground motion; give [records] or [[pulse]]"));
     }
-    if *kind.get_ref() == Kind::Overturning && files > 0 {
+    if *kind.get_ref() == SweepKind::Overturning && files > 0 {
         return Err(source.at(kind, "an overturning spectrum is of pulses; take [records] out"));
     }
     Ok(motions)
 }
 
-fn of_pulse(source: &Source, pulse: &PulseSection, motions: &mut Vec<Motion>) -> Result<(), SweepError> {
+fn of_pulse(source: &SweepSource, pulse: &PulseSection, motions: &mut Vec<SweepMotion>) -> Result<(), SweepError> {
     let name = *pulse.shape.get_ref();
     let given = [&pulse.gamma.as_ref().map(|gamma| *gamma.get_ref()), &pulse.nu].into_iter().any(Option::is_some);
     let shape = match name {
@@ -62,13 +63,13 @@ fn of_pulse(source: &Source, pulse: &PulseSection, motions: &mut Vec<Motion>) ->
                     "a Mavroeidis-Papageorgiou pulse needs gamma, its oscillations, 1 to 10, and nu, their phase [rad]",
                 )),
             };
-            Shape::MavroeidisPapageorgiou { gamma, nu: pulse.nu.filter(|nu| nu.is_finite()).unwrap_or(0.0) }
+            PulseShape::MavroeidisPapageorgiou { gamma, nu: pulse.nu.filter(|nu| nu.is_finite()).unwrap_or(0.0) }
         }
         _ if given => return Err(source.at(&pulse.shape, "gamma and nu are of mavroeidis-papageorgiou; take them out")),
-        Name::HalfSine => Shape::HalfSine,
-        Name::Sine => Shape::Sine,
-        Name::Ricker => Shape::Ricker,
-        Name::RickerAntisymmetric => Shape::RickerAntisymmetric,
+        Name::HalfSine => PulseShape::HalfSine,
+        Name::Sine => PulseShape::Sine,
+        Name::Ricker => PulseShape::Ricker,
+        Name::RickerAntisymmetric => PulseShape::RickerAntisymmetric,
     };
     let frequencies: Vec<Frequency> = match (&pulse.omega_over_p, &pulse.frequency_hz) {
         (Some(q), None) => {
@@ -81,6 +82,6 @@ fn of_pulse(source: &Source, pulse: &PulseSection, motions: &mut Vec<Motion>) ->
         }
         _ => return Err(source.at(&pulse.shape, "a pulse needs omega_over_p or frequency_hz, one of the two")),
     };
-    motions.extend(frequencies.into_iter().map(|frequency| Motion::Pulse { shape, frequency }));
+    motions.extend(frequencies.into_iter().map(|frequency| SweepMotion::Pulse { shape, frequency }));
     Ok(())
 }

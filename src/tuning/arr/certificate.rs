@@ -13,7 +13,7 @@
 use nalgebra::{DMatrix, DVector, Matrix2, Vector2};
 use serde::Serialize;
 
-use super::excess::{Curve, Model, Parameters, Point, largest, points, response};
+use super::excess::{BoundSide, ExcessPoint, QuadraticModel, SearchParameters, largest, points, response};
 use crate::response::bounds::Region;
 
 /// A frequency at which the fit is held: the largest excess is reached there.
@@ -62,24 +62,24 @@ impl Certificate {
 /// The problem at one mu: the curves and the box.
 #[derive(Clone, Copy)]
 pub struct Problem<'a> {
-    pub curves: &'a [Curve],
+    pub curves: &'a [BoundSide],
     pub mu: f64,
     pub region: &'a Region,
 }
 
 impl Problem<'_> {
     /// Every end and peak at z.
-    pub fn points(&self, z: &Parameters) -> Vec<Point> {
+    pub fn points(&self, z: &SearchParameters) -> Vec<ExcessPoint> {
         points(self.curves, self.mu, z)
     }
 
     /// The second-order model of a point.
-    pub fn model(&self, point: &Point, z: &Parameters) -> Model {
+    pub fn model(&self, point: &ExcessPoint, z: &SearchParameters) -> QuadraticModel {
         self.curves[point.curve].model(point, self.mu, z)
     }
 
     /// The certificate of z with these active points and multipliers.
-    pub fn certificate(&self, z: &Parameters, active: &[Point], multipliers: &[f64]) -> Certificate {
+    pub fn certificate(&self, z: &SearchParameters, active: &[ExcessPoint], multipliers: &[f64]) -> Certificate {
         let t = largest(&self.points(z));
         let response = response(self.mu, z);
         let (mut sum, mut size) = (Vector2::zeros(), 0.0);
@@ -111,7 +111,7 @@ impl Problem<'_> {
     }
 
     /// The bound that z lies on in direction j, and the sign of the slope that it can balance.
-    fn bound(&self, z: &Parameters, j: usize) -> Option<(&'static str, f64)> {
+    fn bound(&self, z: &SearchParameters, j: usize) -> Option<(&'static str, f64)> {
         let Region { low, high, low_names, high_names } = self.region;
         if z[j] <= low[j] {
             Some((low_names[j], 1.0))
@@ -126,10 +126,10 @@ impl Problem<'_> {
     /// that is no minimum (a multiplier has the wrong sign, a point has gone) or no better than `z` was.
     pub fn polish(
         &self,
-        z: &Parameters,
-        active: &[Point],
+        z: &SearchParameters,
+        active: &[ExcessPoint],
         multipliers: &[f64],
-    ) -> Option<(Parameters, Vec<Point>, Vec<f64>)> {
+    ) -> Option<(SearchParameters, Vec<ExcessPoint>, Vec<f64>)> {
         /// A step this small in ln K and ln C is rounding.
         const STEP: f64 = 1e-14;
         let mut lambda = multipliers.to_vec();
@@ -139,7 +139,7 @@ impl Problem<'_> {
         // Along a flat valley rounding throws the last steps about: the best of them is kept.
         let (mut best, mut best_residual) = (None, f64::INFINITY);
         for _ in 0..12 {
-            let models: Vec<Model> = active.iter().map(|point| self.model(point, &z)).collect();
+            let models: Vec<QuadraticModel> = active.iter().map(|point| self.model(point, &z)).collect();
             let (d, next) = self.newton(&z, &models, &lambda)?;
             if d.norm() > 0.5 {
                 break;
@@ -167,7 +167,7 @@ impl Problem<'_> {
     }
 
     /// z moved onto a bound that it all but touches.
-    fn snapped(&self, z: &Parameters) -> Parameters {
+    fn snapped(&self, z: &SearchParameters) -> SearchParameters {
         /// What the interior-point solver leaves between a solution and an active bound.
         const GAP: f64 = 1e-6;
         let Region { low, high, .. } = self.region;
@@ -179,12 +179,17 @@ impl Problem<'_> {
     }
 
     /// Where the active points have gone: of the same curve and sort, the nearest.
-    fn followed(&self, active: &[Point], now: &[Point]) -> Option<Vec<Point>> {
+    fn followed(&self, active: &[ExcessPoint], now: &[ExcessPoint]) -> Option<Vec<ExcessPoint>> {
         active.iter().map(|point| follow(point, now).map(|index| now[index])).collect()
     }
 
     /// One Newton step in z, and the new multipliers. Least squares of least norm where points depend on each other.
-    fn newton(&self, z: &Parameters, models: &[Model], lambda: &[f64]) -> Option<(Vector2<f64>, Vec<f64>)> {
+    fn newton(
+        &self,
+        z: &SearchParameters,
+        models: &[QuadraticModel],
+        lambda: &[f64],
+    ) -> Option<(Vector2<f64>, Vec<f64>)> {
         let n = models.len();
         let top = models.iter().fold(f64::NEG_INFINITY, |top, model| top.max(model.value));
         // slopes may be 1e-6 (a flat band is flat for any z): in units of the steepest all entries are of order one
@@ -224,8 +229,8 @@ impl Problem<'_> {
 }
 
 /// Which of `now` is `point` after a small move: of the same curve and sort, the nearest in ln g.
-pub fn follow(point: &Point, now: &[Point]) -> Option<usize> {
-    let distance = |other: &Point| if other.g == point.g { 0.0 } else { (other.g / point.g).ln().abs() };
+pub fn follow(point: &ExcessPoint, now: &[ExcessPoint]) -> Option<usize> {
+    let distance = |other: &ExcessPoint| if other.g == point.g { 0.0 } else { (other.g / point.g).ln().abs() };
     now.iter()
         .enumerate()
         .filter(|(_, other)| other.curve == point.curve && other.inside == point.inside)

@@ -16,7 +16,7 @@ use crate::scalar::{Scalar, real};
 
 /// The searched parameters z = (ln K, ln C). At fixed mu, ln f and ln xi are half of the first and the second, plus
 /// constants; K and C keep a size near one for every mu.
-pub type Parameters = Vector2<f64>;
+pub type SearchParameters = Vector2<f64>;
 
 /// The response of mass ratio mu at parameters z.
 pub fn response<S: Scalar>(mu: f64, z: &SVector<S, 2>) -> Response<S> {
@@ -25,7 +25,7 @@ pub fn response<S: Scalar>(mu: f64, z: &SVector<S, 2>) -> Response<S> {
 
 /// One side of one band.
 #[derive(Clone, Copy, Debug)]
-pub struct Curve {
+pub struct BoundSide {
     /// The band's number, from 0.
     pub band: usize,
     kind: BandKind,
@@ -39,7 +39,7 @@ pub struct Curve {
 
 /// The curve at one g: an end of its band, or a peak inside.
 #[derive(Clone, Copy, Debug)]
-pub struct Point {
+pub struct ExcessPoint {
     /// Which curve, from 0.
     pub curve: usize,
     /// Frequency ratio; zero and infinity are possible at ends.
@@ -52,7 +52,7 @@ pub struct Point {
 
 /// What a point's value does when z moves: value, gradient and Hessian by z.
 #[derive(Clone, Copy, Debug)]
-pub struct Model {
+pub struct QuadraticModel {
     /// psi.
     pub value: f64,
     /// d phi/dz.
@@ -62,14 +62,14 @@ pub struct Model {
 }
 
 /// The curves of a target, in the order of its bands, above before below.
-pub fn curves(target: &Target) -> Vec<Curve> {
+pub fn curves(target: &Target) -> Vec<BoundSide> {
     let mut curves = Vec::new();
     for (index, band) in target.bands.iter().enumerate() {
         let (sides, ln_limit): (&[f64], _) = match band.kind {
             BandKind::Cap | BandKind::RollOff => (&[1.0], band.limit.ln()),
             BandKind::Uniform | BandKind::Rigid => (&[1.0, -1.0], band.limit.ln_1p()),
         };
-        curves.extend(sides.iter().map(|&side| Curve {
+        curves.extend(sides.iter().map(|&side| BoundSide {
             band: index,
             kind: band.kind,
             side,
@@ -82,7 +82,7 @@ pub fn curves(target: &Target) -> Vec<Curve> {
     curves
 }
 
-impl Curve {
+impl BoundSide {
     /// psi at a finite g of a response.
     pub fn excess<S: Scalar>(&self, g: S, response: &Response<S>) -> S {
         let ln_arr = response.arr(g).ln();
@@ -119,9 +119,9 @@ impl Curve {
     ///
     /// Peaks are bracketed by the sign of d psi/du on a grid that holds the response's own corner frequencies, so a
     /// resonance however sharp is not stepped over, and found to rounding by Newton's method.
-    fn points(&self, index: usize, mu: f64, z: &Parameters, out: &mut Vec<Point>) {
+    fn points(&self, index: usize, mu: f64, z: &SearchParameters, out: &mut Vec<ExcessPoint>) {
         let response = response(mu, z);
-        let end = |g: f64| Point { curve: index, g, inside: false, value: self.at_end(g, &response) };
+        let end = |g: f64| ExcessPoint { curve: index, g, inside: false, value: self.at_end(g, &response) };
         out.push(end(self.g_low));
         let mut left: Option<f64> = None;
         for g in self.grid(&response) {
@@ -130,7 +130,7 @@ impl Curve {
                 left = Some(u);
             } else if let Some(from) = left.take() {
                 let g = self.peak(from, u, mu, z).exp();
-                out.push(Point { curve: index, g, inside: true, value: self.excess(g, &response) });
+                out.push(ExcessPoint { curve: index, g, inside: true, value: self.excess(g, &response) });
             }
         }
         if self.g_high.is_finite() || self.kind == BandKind::RollOff {
@@ -164,12 +164,12 @@ impl Curve {
         grid
     }
 
-    fn slope(&self, u: f64, mu: f64, z: &Parameters) -> f64 {
+    fn slope(&self, u: f64, mu: f64, z: &SearchParameters) -> f64 {
         first_derivative(|u| self.excess(u.exp(), &response(mu, &z.map(real))), u).1
     }
 
     /// The u between `a` (rising) and `b` (not rising) where d psi/du = 0.
-    fn peak(&self, mut a: f64, mut b: f64, mu: f64, z: &Parameters) -> f64 {
+    fn peak(&self, mut a: f64, mut b: f64, mu: f64, z: &SearchParameters) -> f64 {
         let mut u = 0.5 * (a + b);
         for _ in 0..100 {
             let (_, first, second) = second_derivative(|u| self.excess(u.exp(), &response(mu, &z.map(real))), u);
@@ -191,14 +191,14 @@ impl Curve {
     }
 
     /// The second-order model of a point of this curve.
-    pub fn model(&self, point: &Point, mu: f64, z: &Parameters) -> Model {
+    pub fn model(&self, point: &ExcessPoint, mu: f64, z: &SearchParameters) -> QuadraticModel {
         if point.g.is_infinite() {
-            return Model { value: point.value, slope: Vector2::zeros(), curvature: Matrix2::zeros() };
+            return QuadraticModel { value: point.value, slope: Vector2::zeros(), curvature: Matrix2::zeros() };
         }
         if !point.inside {
             let at = |z: SVector<Dual2SVec64<2>, 2>| self.excess(real(point.g), &response(mu, &z));
             let (_, slope, curvature) = hessian(at, z);
-            return Model { value: point.value, slope, curvature };
+            return QuadraticModel { value: point.value, slope, curvature };
         }
         let at = |v: SVector<Dual2SVec64<3>, 3>| self.excess(v[2].exp(), &response(mu, &vector![v[0], v[1]]));
         let (_, slope, second) = hessian(at, &vector![z[0], z[1], point.g.ln()]);
@@ -206,12 +206,12 @@ impl Curve {
         // psi_uu < 0 at a peak; one that is about to vanish (psi_uu -> 0) keeps a finite, convex model
         let bend = second[(2, 2)].min(-1e-9);
         let curvature = second.fixed_view::<2, 2>(0, 0) - cross * cross.transpose() / bend;
-        Model { value: point.value, slope, curvature }
+        QuadraticModel { value: point.value, slope, curvature }
     }
 }
 
 /// Every end and peak of every curve.
-pub fn points(curves: &[Curve], mu: f64, z: &Parameters) -> Vec<Point> {
+pub fn points(curves: &[BoundSide], mu: f64, z: &SearchParameters) -> Vec<ExcessPoint> {
     let mut out = Vec::new();
     for (index, curve) in curves.iter().enumerate() {
         curve.points(index, mu, z, &mut out);
@@ -220,13 +220,13 @@ pub fn points(curves: &[Curve], mu: f64, z: &Parameters) -> Vec<Point> {
 }
 
 /// t(z): the largest excess of these points.
-pub fn largest(points: &[Point]) -> f64 {
+pub fn largest(points: &[ExcessPoint]) -> f64 {
     points.iter().fold(f64::NEG_INFINITY, |t, point| t.max(point.value))
 }
 
 /// psi and its gradient by z at a g that does not move.
 #[cfg(test)]
-pub fn value_and_slope(curve: &Curve, g: f64, mu: f64, z: &Parameters) -> (f64, Vector2<f64>) {
+pub fn value_and_slope(curve: &BoundSide, g: f64, mu: f64, z: &SearchParameters) -> (f64, Vector2<f64>) {
     num_dual::gradient(|z| curve.excess(real(g), &response(mu, &z)), z)
 }
 
@@ -235,7 +235,7 @@ mod tests {
     use super::*;
     use crate::response::target::Band;
 
-    fn bands() -> Vec<Curve> {
+    fn bands() -> Vec<BoundSide> {
         let band = |g_low, g_high, kind| Band { g_low, g_high, kind, limit: 0.5, weight: 2.0 };
         curves(&Target {
             bands: vec![
@@ -248,7 +248,7 @@ mod tests {
     }
 
     /// mu, z over the search range: damping from next to nothing to locked.
-    fn designs() -> impl Iterator<Item = (f64, Parameters)> {
+    fn designs() -> impl Iterator<Item = (f64, SearchParameters)> {
         [1e-3, 0.2, 3.0, 100.0].into_iter().flat_map(|mu| {
             [-4.0, -0.7, 1.0, 4.6].into_iter().flat_map(move |ln_k| {
                 [-5.0, -1.0, 0.6, 3.0, 7.0].into_iter().map(move |ln_c| (mu, Vector2::new(ln_k, ln_c)))
@@ -307,7 +307,7 @@ mod tests {
         for (mu, z) in [(0.3, Vector2::new(-0.5, 0.8)), (5.0, Vector2::new(1.4, 1.0)), (1.0, Vector2::new(0.1, -0.5))] {
             let curves = bands();
             for point in points(&curves, mu, &z).iter().filter(|point| point.value.is_finite()) {
-                let at = |z: Parameters| {
+                let at = |z: SearchParameters| {
                     let now = points(&curves, mu, &z);
                     let same = now
                         .iter()

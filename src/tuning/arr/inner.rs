@@ -12,7 +12,7 @@ use serde::Serialize;
 use thiserror::Error;
 
 use super::certificate::{Certificate, Problem};
-use super::excess::{Parameters, curves, largest, points, response};
+use super::excess::{SearchParameters, curves, largest, points, response};
 use super::minimax::{Minimum, minimise};
 use super::smooth::Smooth;
 use crate::response::bounds::{Bounds, BoundsError};
@@ -93,10 +93,10 @@ pub fn fit(mu: f64, target: &Target, bounds: &Bounds) -> Result<Fit, FitError> {
     let problem = Problem { curves: &curves, mu, region: &region };
     let smooth = Smooth { curves: &curves, mu, region: &region };
 
-    let mut starts: Vec<(f64, Parameters)> =
+    let mut starts: Vec<(f64, SearchParameters)> =
         starts(mu).into_iter().map(|z| region.clamp(&z)).map(|z| (smooth.value(&z), z)).collect();
     starts.sort_by(|a, b| a.0.total_cmp(&b.0));
-    let mut ends: Vec<Parameters> = Vec::new();
+    let mut ends: Vec<SearchParameters> = Vec::new();
     for (_, start) in starts.iter().take(STARTS) {
         let (z, _) = smooth.minimise(start);
         if ends.iter().all(|end| (end - z).amax() > SAME) {
@@ -123,7 +123,7 @@ pub fn families(mus: &[f64]) -> Result<Vec<Fit>, FitError> {
 }
 
 /// Starts for stage 1: K about the closed forms' (1/2 for small mu, mu - 1 for large) and away from them.
-fn starts(mu: f64) -> Vec<Parameters> {
+fn starts(mu: f64) -> Vec<SearchParameters> {
     let mut out = Vec::new();
     for k in [0.5, 1.0, mu.max(0.1), 4.0, 20.0] {
         for c in [0.5, 2.0, 8.0, 1.3 * mu.sqrt()] {

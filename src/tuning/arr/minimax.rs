@@ -15,15 +15,15 @@ use clarabel::solver::{DefaultSettingsBuilder, DefaultSolver, IPSolver, Nonnegat
 use nalgebra::{Matrix2, Vector2};
 
 use super::certificate::{Problem, follow};
-use super::excess::{Model, Parameters, Point, largest};
+use super::excess::{ExcessPoint, QuadraticModel, SearchParameters, largest};
 
 /// Where the steps ended.
 #[derive(Clone, Debug)]
 pub struct Minimum {
-    pub z: Parameters,
+    pub z: SearchParameters,
     /// t: the largest excess.
     pub excess: f64,
-    pub active: Vec<Point>,
+    pub active: Vec<ExcessPoint>,
     pub multipliers: Vec<f64>,
     /// Convex steps taken.
     pub iterations: usize,
@@ -37,7 +37,7 @@ const ACTIVE: f64 = 1e-5;
 const NEAR: f64 = 1e-2;
 
 /// The minimum that the steps reach from `start`.
-pub fn minimise(problem: &Problem, start: &Parameters) -> Minimum {
+pub fn minimise(problem: &Problem, start: &SearchParameters) -> Minimum {
     let mut z = problem.region.clamp(start);
     let mut points = problem.points(&z);
     let mut t = largest(&points);
@@ -46,7 +46,7 @@ pub fn minimise(problem: &Problem, start: &Parameters) -> Minimum {
     let mut iterations = 0;
     while iterations < ITERATIONS {
         iterations += 1;
-        let models: Vec<Model> = points.iter().map(|point| problem.model(point, &z)).collect();
+        let models: Vec<QuadraticModel> = points.iter().map(|point| problem.model(point, &z)).collect();
         let w = models.iter().zip(&lambda).map(|(model, &l)| model.curvature * l).sum();
         let Some(step) = convex_step(problem, &z, t, &models, &convex(w), radius) else {
             radius *= 0.25;
@@ -67,13 +67,13 @@ pub fn minimise(problem: &Problem, start: &Parameters) -> Minimum {
             lambda = step.lambda;
             break;
         }
-        let mut trial = Trial::at(problem, &z, &step.d);
+        let mut trial = MinimaxTrial::at(problem, &z, &step.d);
         // Along a curved valley between two peaks the straight step is turned down however short (Maratos); a second
         // step with what the first did to each peak follows the valley.
         if t - trial.t < 0.75 * step.gain {
             let bent = corrected(&models, &points, &trial.points, &step.d);
             if let Some(second) = convex_step(problem, &z, t, &bent, &convex(w), radius) {
-                let second = Trial::at(problem, &z, &second.d);
+                let second = MinimaxTrial::at(problem, &z, &second.d);
                 if second.t < trial.t {
                     trial = second;
                 }
@@ -92,12 +92,12 @@ pub fn minimise(problem: &Problem, start: &Parameters) -> Minimum {
             _ => 0.25 * step.d.amax().min(radius),
         };
     }
-    let models: Vec<Model> = points.iter().map(|point| problem.model(point, &z)).collect();
+    let models: Vec<QuadraticModel> = points.iter().map(|point| problem.model(point, &z)).collect();
     let (active, multipliers) = held(&points, &models, &lambda);
     Minimum { z, excess: t, active, multipliers, iterations }
 }
 
-struct Step {
+struct MinimaxStep {
     d: Vector2<f64>,
     /// The model's fall of t.
     gain: f64,
@@ -105,14 +105,14 @@ struct Step {
 }
 
 /// Where a step leads.
-struct Trial {
-    z: Parameters,
-    points: Vec<Point>,
+struct MinimaxTrial {
+    z: SearchParameters,
+    points: Vec<ExcessPoint>,
     t: f64,
 }
 
-impl Trial {
-    fn at(problem: &Problem, z: &Parameters, d: &Vector2<f64>) -> Self {
+impl MinimaxTrial {
+    fn at(problem: &Problem, z: &SearchParameters, d: &Vector2<f64>) -> Self {
         let z = problem.region.clamp(&(z + d));
         let points = problem.points(&z);
         let t = largest(&points);
@@ -121,9 +121,14 @@ impl Trial {
 }
 
 /// The models with, for each value, what the step d showed that its slope had left out.
-fn corrected(models: &[Model], points: &[Point], after: &[Point], d: &Vector2<f64>) -> Vec<Model> {
-    let bent = |(model, point): (&Model, &Point)| match follow(point, after) {
-        Some(index) => Model { value: after[index].value - model.slope.dot(d), ..*model },
+fn corrected(
+    models: &[QuadraticModel],
+    points: &[ExcessPoint],
+    after: &[ExcessPoint],
+    d: &Vector2<f64>,
+) -> Vec<QuadraticModel> {
+    let bent = |(model, point): (&QuadraticModel, &ExcessPoint)| match follow(point, after) {
+        Some(index) => QuadraticModel { value: after[index].value - model.slope.dot(d), ..*model },
         None => *model,
     };
     models.iter().zip(points).map(bent).collect()
@@ -132,12 +137,12 @@ fn corrected(models: &[Model], points: &[Point], after: &[Point], d: &Vector2<f6
 /// One convex step, or nothing if the solver did not solve it.
 fn convex_step(
     problem: &Problem,
-    z: &Parameters,
+    z: &SearchParameters,
     t: f64,
-    models: &[Model],
+    models: &[QuadraticModel],
     w: &Matrix2<f64>,
     radius: f64,
-) -> Option<Step> {
+) -> Option<MinimaxStep> {
     // rows: a d - s <= t - phi, with s counted from t; then the box
     let mut rows: Vec<[f64; 3]> = Vec::with_capacity(models.len() + 4);
     let mut right = Vec::with_capacity(models.len() + 4);
@@ -177,7 +182,7 @@ fn convex_step(
     let d = Vector2::new(x[0], x[1]);
     let mut lambda = vec![0.0; models.len()];
     of_row.iter().zip(&solver.solution.z).for_each(|(&index, &dual)| lambda[index] = dual.max(0.0));
-    Some(Step { d, gain: -(x[2] + 0.5 * d.dot(&(w * d))), lambda })
+    Some(MinimaxStep { d, gain: -(x[2] + 0.5 * d.dot(&(w * d))), lambda })
 }
 
 /// W without its negative part.
@@ -189,14 +194,14 @@ fn convex(w: Matrix2<f64>) -> Matrix2<f64> {
 }
 
 /// First guess of the multipliers: by how near each point is to the largest.
-fn softmax(points: &[Point], t: f64) -> Vec<f64> {
+fn softmax(points: &[ExcessPoint], t: f64) -> Vec<f64> {
     let weights: Vec<f64> = points.iter().map(|point| (30.0 * (point.value - t)).exp()).collect();
     let sum: f64 = weights.iter().sum();
     weights.iter().map(|weight| weight / sum).collect()
 }
 
 /// The multipliers handed on to the points after a step.
-fn carried(before: &[Point], lambda: &[f64], now: &[Point]) -> Vec<f64> {
+fn carried(before: &[ExcessPoint], lambda: &[f64], now: &[ExcessPoint]) -> Vec<f64> {
     let mut out = vec![0.0; now.len()];
     for (point, &l) in before.iter().zip(lambda) {
         if let Some(index) = follow(point, now) {
@@ -207,10 +212,10 @@ fn carried(before: &[Point], lambda: &[f64], now: &[Point]) -> Vec<f64> {
 }
 
 /// The points that hold the fit, and their multipliers, which sum to 1.
-fn held(points: &[Point], models: &[Model], lambda: &[f64]) -> (Vec<Point>, Vec<f64>) {
+fn held(points: &[ExcessPoint], models: &[QuadraticModel], lambda: &[f64]) -> (Vec<ExcessPoint>, Vec<f64>) {
     let pulls: Vec<f64> = models.iter().zip(lambda).map(|(model, &l)| l * model.slope.norm()).collect();
     let pull: f64 = pulls.iter().sum();
-    let (active, mut held): (Vec<Point>, Vec<f64>) = points
+    let (active, mut held): (Vec<ExcessPoint>, Vec<f64>) = points
         .iter()
         .zip(lambda)
         .zip(&pulls)

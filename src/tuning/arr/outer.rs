@@ -305,13 +305,13 @@ fn best_of(
 
 /// Nelder-Mead from one sample; every evaluation is kept.
 fn refine(benchmark: &Benchmark, pair: &Pair, x: [f64; 2], start: f64, refinements: u64) -> Vec<Candidate> {
-    struct Problem<'a> {
+    struct OuterProblem<'a> {
         benchmark: &'a Benchmark<'a>,
         pair: &'a Pair,
         limit: f64,
         seen: std::sync::Mutex<Vec<Candidate>>,
     }
-    impl CostFunction for Problem<'_> {
+    impl CostFunction for OuterProblem<'_> {
         type Param = Vec<f64>;
         type Output = f64;
         fn cost(&self, x: &Vec<f64>) -> Result<f64, Error> {
@@ -327,7 +327,7 @@ fn refine(benchmark: &Benchmark, pair: &Pair, x: [f64; 2], start: f64, refinemen
     let step = |x: f64, d: f64| if x + d > 1.0 { x - d } else { x + d };
     let simplex = vec![vec![x[0], x[1]], vec![step(x[0], 0.06), x[1]], vec![x[0], step(x[1], 0.06)]];
     // an error well above the start's cannot help, but its size still steers the simplex
-    let problem = Problem { benchmark, pair, limit: 2.0 * start, seen: Default::default() };
+    let problem = OuterProblem { benchmark, pair, limit: 2.0 * start, seen: Default::default() };
     let run = NelderMead::new(simplex)
         .with_sd_tolerance(1e-7)
         .map(|solver| Executor::new(problem, solver).configure(|state| state.max_iters(refinements)).run());

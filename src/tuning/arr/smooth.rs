@@ -13,7 +13,7 @@ use argmin::solver::quasinewton::LBFGS;
 use nalgebra::{SVector, Vector2};
 use num_dual::gradient;
 
-use super::excess::{Curve, Parameters, response};
+use super::excess::{BoundSide, SearchParameters, response};
 use crate::response::bounds::Region;
 use crate::scalar::{Scalar, real};
 
@@ -26,7 +26,7 @@ const ITERATIONS: u64 = 30;
 
 /// The smooth objective at one mu.
 pub struct Smooth<'a> {
-    pub curves: &'a [Curve],
+    pub curves: &'a [BoundSide],
     pub mu: f64,
     pub region: &'a Region,
 }
@@ -57,7 +57,7 @@ impl Smooth<'_> {
         })
     }
 
-    fn q(&self, z: &Parameters) -> Vec<f64> {
+    fn q(&self, z: &SearchParameters) -> Vec<f64> {
         let share = |i: usize| {
             let (low, high) = (self.region.low[i], self.region.high[i]);
             // on a bound q would be infinite; where the bounds meet any q will do
@@ -68,11 +68,11 @@ impl Smooth<'_> {
     }
 
     /// The z that L-BFGS reaches from `start`, and its iterations. Where the line search gives up, what it had.
-    pub fn minimise(&self, start: &Parameters) -> (Parameters, u64) {
+    pub fn minimise(&self, start: &SearchParameters) -> (SearchParameters, u64) {
         let solver = LBFGS::new(MoreThuenteLineSearch::new(), 5).with_tolerance_grad(1e-5);
         let start = self.region.clamp(start);
         let Ok(solver) = solver else { return (start, 0) };
-        let run = Executor::new(Problem(self), solver)
+        let run = Executor::new(SmoothProblem(self), solver)
             .configure(|state| state.param(self.q(&start)).max_iters(ITERATIONS))
             .run();
         let Ok(run) = run else { return (start, 0) };
@@ -87,9 +87,9 @@ impl Smooth<'_> {
 }
 
 /// The objective as argmin takes it, in q.
-struct Problem<'a>(&'a Smooth<'a>);
+struct SmoothProblem<'a>(&'a Smooth<'a>);
 
-impl CostFunction for Problem<'_> {
+impl CostFunction for SmoothProblem<'_> {
     type Param = Vec<f64>;
     type Output = f64;
 
@@ -98,7 +98,7 @@ impl CostFunction for Problem<'_> {
     }
 }
 
-impl Gradient for Problem<'_> {
+impl Gradient for SmoothProblem<'_> {
     type Param = Vec<f64>;
     type Gradient = Vec<f64>;
 

@@ -28,7 +28,7 @@ use crate::{
     elastic::standing::{FixedResponse, FootingInertia, Standing},
     scalar::GRAVITY,
     spring::{Chain, Springs},
-    tuning::landing::{corners::Corners, part::for_part},
+    tuning::landing::{corners::CornerDynamics, part::for_part},
 };
 
 /// See above; the range of K: soft springs bounce on a larger one, and below the least no chain is sought.
@@ -51,7 +51,7 @@ pub struct CornerSprings {
 /// What lands at a footing, in units of its mass.
 #[derive(Clone, Debug)]
 struct Lands {
-    corners: Corners<f64>,
+    corners: CornerDynamics<f64>,
     /// (kg)
     mass: f64,
     /// Effective mass under the landing corner, over that.
@@ -67,12 +67,12 @@ impl Lands {
             let mass = 1.0 / w[(1, 1)];
             let mut alone = [[0.0; 4]; 4];
             (0..2).for_each(|i| (0..2).for_each(|j| alone[2 + i][2 + j] = w[(i, j)] * mass));
-            return Self { corners: Corners::of(alone, 1.0), mass, effective: 1.0 };
+            return Self { corners: CornerDynamics::of(alone, 1.0), mass, effective: 1.0 };
         }
         // a body's corners go up and down together by 1/m
         let mass = 2.0 / (w[(1, 1)] + w[(1, last + 1)]);
         let outer = outer(w, last);
-        let corners = Corners::of(outer.map(|row| row.map(|x| x * mass)), *width);
+        let corners = CornerDynamics::of(outer.map(|row| row.map(|x| x * mass)), *width);
         let effective = corners.effective_mass()[1];
         Self { corners, mass, effective }
     }

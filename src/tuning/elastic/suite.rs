@@ -6,7 +6,7 @@ use serde::{Deserialize, Deserializer, Serialize};
 
 use super::{
     design::CornerSprings,
-    trial::{Found, Trial},
+    trial::{ElasticTrial, ElasticTrialOutcome},
 };
 use crate::{
     elastic::{answer::Reference, assembled::Assembled},
@@ -32,7 +32,7 @@ pub const LOOSER: f64 = 5.0;
 /// Errors of rotations and sways (NRMSE) over several histories; infinite, `null` in JSON, where histories on springs do not get as far as the
 /// reference.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
-pub struct Errors {
+pub struct ElasticErrors {
     /// Median of rotations, of sways.
     #[serde(deserialize_with = "null_as_infinite")]
     pub median: [f64; 2],
@@ -51,7 +51,7 @@ fn null_as_infinite<'de, D: Deserializer<'de>>(deserializer: D) -> Result<[f64; 
     Ok(given.map(|value| value.unwrap_or(f64::INFINITY)))
 }
 
-impl Errors {
+impl ElasticErrors {
     /// The largest in units of what an accuracy of rotations allows.
     pub fn over(&self, accuracy: f64) -> f64 {
         let allowed = [accuracy, LOOSER * accuracy];
@@ -63,15 +63,15 @@ impl Errors {
 /// What was measured of springs; `None` where there is nothing to measure it on.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]
 pub struct Measured {
-    pub releases: Option<Errors>,
-    pub motions: Option<Errors>,
-    pub record: Option<Errors>,
+    pub releases: Option<ElasticErrors>,
+    pub motions: Option<ElasticErrors>,
+    pub record: Option<ElasticErrors>,
     /// Releases and motions, the record among them, whose reference cannot be predicted: left out.
     pub ill_conditioned: usize,
 }
 
 impl Measured {
-    fn errors(&self) -> impl Iterator<Item = Errors> {
+    fn errors(&self) -> impl Iterator<Item = ElasticErrors> {
         [self.releases, self.motions, self.record].into_iter().flatten()
     }
 
@@ -88,36 +88,38 @@ impl Measured {
 
 /// The trials of a structure.
 #[derive(Debug)]
-pub struct Suite {
+pub struct ElasticSuite {
     pub model: Assembled,
-    pub releases: Vec<Trial>,
-    pub motions: Vec<Trial>,
-    pub record: Option<Trial>,
+    pub releases: Vec<ElasticTrial>,
+    pub motions: Vec<ElasticTrial>,
+    pub record: Option<ElasticTrial>,
     /// Releases and motions, the record among them, left out since their reference cannot be predicted.
     pub ill_conditioned: usize,
 }
 
-impl Suite {
+impl ElasticSuite {
     /// Of a structure, with this record and its reference if there is one.
     pub fn new(model: Assembled, record: Option<(&Record, &Reference)>) -> Self {
         let body = model.structure.body();
         let (p, alpha) = (body.p_squared().sqrt(), body.alpha());
-        let released = |lean: f64| Trial::released(&model, lean * alpha, RELEASE / p / SAMPLES, RELEASE / p);
-        let releases: Vec<Found> = LEANS.par_iter().with_max_len(1).map(|lean| released(*lean)).collect();
+        let released = |lean: f64| ElasticTrial::released(&model, lean * alpha, RELEASE / p / SAMPLES, RELEASE / p);
+        let releases: Vec<ElasticTrialOutcome> = LEANS.par_iter().with_max_len(1).map(|lean| released(*lean)).collect();
         let motion = |i: usize| match i % 2 {
             0 => synthetic::record(SEED, i / 2, p, alpha),
             _ => synthetic::earthquake(SEED, i / 2, p),
         };
-        let shaken = (0..LOOKED_AT).into_par_iter().with_max_len(1).map(|i| Trial::shaken(&model, &motion(i)));
-        let motions: Vec<Found> = shaken.collect();
-        let record = record.map(|(record, reference)| Trial::beside(&model, record, reference));
+        let shaken = (0..LOOKED_AT).into_par_iter().with_max_len(1).map(|i| ElasticTrial::shaken(&model, &motion(i)));
+        let motions: Vec<ElasticTrialOutcome> = shaken.collect();
+        let record = record.map(|(record, reference)| ElasticTrial::beside(&model, record, reference));
         let all = releases.iter().chain(&motions).chain(&record);
-        let ill_conditioned = all.filter(|found| matches!(found, Found::IllConditioned)).count();
-        let trials = |found: Vec<Found>, most| found.into_iter().filter_map(Found::trial).take(most).collect();
+        let ill_conditioned = all.filter(|found| matches!(found, ElasticTrialOutcome::IllConditioned)).count();
+        let trials = |found: Vec<ElasticTrialOutcome>, most| {
+            found.into_iter().filter_map(ElasticTrialOutcome::trial).take(most).collect()
+        };
         Self {
             releases: trials(releases, LEANS.len()),
             motions: trials(motions, MOTIONS),
-            record: record.and_then(Found::trial),
+            record: record.and_then(ElasticTrialOutcome::trial),
             ill_conditioned,
             model,
         }
@@ -133,7 +135,7 @@ impl Suite {
         }
     }
 
-    fn errors(&self, trials: &[Trial], springs: &CornerSprings, control: Control) -> Option<Errors> {
+    fn errors(&self, trials: &[ElasticTrial], springs: &CornerSprings, control: Control) -> Option<ElasticErrors> {
         let judged: Vec<_> =
             trials.par_iter().with_max_len(1).map(|trial| trial.judge(&self.model, springs, control)).collect();
         let sorted = |i: usize| {
@@ -146,6 +148,6 @@ impl Suite {
         let landings: usize = trials.iter().map(|trial| trial.landings).sum();
         let touches: usize = judged.iter().map(|judged| judged.touches).sum();
         let touches = touches as f64 / landings as f64;
-        Some(Errors { median: of(0.5)?, p90: of(0.9)?, count: judged.len(), touches })
+        Some(ElasticErrors { median: of(0.5)?, p90: of(0.9)?, count: judged.len(), touches })
     }
 }

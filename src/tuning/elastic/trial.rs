@@ -5,8 +5,8 @@ use crate::{
     elastic::{
         answer::Reference,
         assembled::{Assembled, Sway, errors},
-        fem::{Case, History, Start},
-        reference::{ElasticRocking, Ground, Outcome},
+        fem::{ElasticAnalysis, ElasticHistory, ElasticStart},
+        reference::{ElasticRocking, GroundAcceleration, ReferenceOutcome},
     },
     fem::Control,
     record::Record,
@@ -20,7 +20,7 @@ const PARTS: usize = 4;
 
 /// A motion, a start, and the reference's history.
 #[derive(Clone, Debug)]
-pub struct Trial {
+pub struct ElasticTrial {
     /// Time step (s).
     pub dt: f64,
     /// Ground acceleration over the part that can be foretold [m/s2].
@@ -46,41 +46,41 @@ pub struct Judged {
 
 /// What a motion comes to.
 #[derive(Clone, Debug)]
-pub enum Found {
+pub enum ElasticTrialOutcome {
     /// A history to compare with.
-    Trial(Trial),
+    Trial(ElasticTrial),
     /// It does not lift the structure, or overturns it, or cannot be followed.
     Unfit,
     /// Its reference cannot be predicted for long enough.
     IllConditioned,
 }
 
-impl Found {
+impl ElasticTrialOutcome {
     /// The trial, if it is one.
-    pub fn trial(self) -> Option<Trial> {
+    pub fn trial(self) -> Option<ElasticTrial> {
         if let Self::Trial(trial) = self { Some(trial) } else { None }
     }
 }
 
-impl Trial {
+impl ElasticTrial {
     /// Let go from a lean.
-    pub fn released(model: &Assembled, lean: f64, dt: f64, duration: f64) -> Found {
+    pub fn released(model: &Assembled, lean: f64, dt: f64, duration: f64) -> ElasticTrialOutcome {
         let still = vec![0.0; (duration / dt).ceil() as usize + 1];
-        let Some(q) = model.leaning(lean) else { return Found::Unfit };
-        let ground = Ground::horizontal(dt, &still);
+        let Some(q) = model.leaning(lean) else { return ElasticTrialOutcome::Unfit };
+        let ground = GroundAcceleration::horizontal(dt, &still);
         let history = model.rock(ground, &q);
         let foretold = || model.foretold(ground, &q, &history);
         Self::found(model, ground, Some(lean), &history, foretold)
     }
 
     /// From rest through a record.
-    pub fn shaken(model: &Assembled, record: &Record) -> Found {
-        let Ok(q) = model.upright() else { return Found::Unfit };
+    pub fn shaken(model: &Assembled, record: &Record) -> ElasticTrialOutcome {
+        let Ok(q) = model.upright() else { return ElasticTrialOutcome::Unfit };
         let (accel, up) = (&record.accel, record.up());
         let mut samples = accel.len().div_ceil(PARTS);
         loop {
             let (accel, vertical) = (&accel[..samples], &up[..samples.min(up.len())]);
-            let ground = Ground { dt: record.dt, accel, vertical };
+            let ground = GroundAcceleration { dt: record.dt, accel, vertical };
             let history = model.rock(ground, &q);
             let foretold = model.foretold(ground, &q, &history);
             // what comes after it need not be known
@@ -92,42 +92,42 @@ impl Trial {
     }
 
     /// The same beside a reference that is known.
-    pub fn beside(model: &Assembled, record: &Record, reference: &Reference) -> Found {
-        let ground = Ground { dt: record.dt, accel: &record.accel, vertical: record.up() };
+    pub fn beside(model: &Assembled, record: &Record, reference: &Reference) -> ElasticTrialOutcome {
+        let ground = GroundAcceleration { dt: record.dt, accel: &record.accel, vertical: record.up() };
         Self::found(model, ground, None, &reference.history, || reference.foretold)
     }
 
     fn found(
         model: &Assembled,
-        Ground { dt, accel, vertical }: Ground,
+        GroundAcceleration { dt, accel, vertical }: GroundAcceleration,
         lean: Option<f64>,
         history: &ElasticRocking,
         foretold: impl FnOnce() -> usize,
-    ) -> Found {
-        if history.outcome != Outcome::Completed || history.landings().next().is_none() {
-            return Found::Unfit;
+    ) -> ElasticTrialOutcome {
+        if history.outcome != ReferenceOutcome::Completed || history.landings().next().is_none() {
+            return ElasticTrialOutcome::Unfit;
         }
         let samples = foretold().min(accel.len());
         let end = samples.saturating_sub(1) as f64 * dt;
         let landings = history.landings().take_while(|event| event.time <= end).count();
         let long = samples as f64 >= LEAST_SHARE * accel.len() as f64;
         if landings == 0 || !long && landings < LEAST_LANDINGS {
-            return Found::IllConditioned;
+            return ElasticTrialOutcome::IllConditioned;
         }
         let reference = model.sways(history.q[..samples].iter().map(|q| q.as_slice()));
         let vertical = vertical[..samples.min(vertical.len())].to_vec();
-        Found::Trial(Self { dt, accel: accel[..samples].to_vec(), vertical, lean, reference, landings })
+        ElasticTrialOutcome::Trial(Self { dt, accel: accel[..samples].to_vec(), vertical, lean, reference, landings })
     }
 
     /// The finite elements' history on springs; as far as it got.
-    pub fn follow(&self, model: &Assembled, springs: &CornerSprings, control: Control) -> Option<History> {
-        let start = self.lean.map_or(Start::Standing, Start::Leaning);
+    pub fn follow(&self, model: &Assembled, springs: &CornerSprings, control: Control) -> Option<ElasticHistory> {
+        let start = self.lean.map_or(ElasticStart::Standing, ElasticStart::Leaning);
         let vertical = &self.vertical;
-        let case = Case {
+        let case = ElasticAnalysis {
             control,
             vertical,
             forces: false,
-            ..Case::new(&model.frame, &springs.corners, start, self.dt, &self.accel)
+            ..ElasticAnalysis::new(&model.frame, &springs.corners, start, self.dt, &self.accel)
         };
         case.simulate().ok()
     }

@@ -9,7 +9,7 @@
 //! gravity or the rotation matter). The mass leaves when N falls to zero, with the speed `rebound`; the absorber swings back
 //! and must not meet it again: `clearance`, the least later distance of the two, must not be negative.
 
-use super::linear::{Matrix, exponential, times};
+use super::linear::{SquareMatrix, exponential, times};
 use crate::scalar::{Scalar, real};
 
 /// How long a landing is followed [1/Omega_n]: first lifts come near 2.4, late touches between 8 and 28.
@@ -36,7 +36,7 @@ pub struct ChainLanding<S> {
 pub fn land<S: Scalar>(k: S, c: S, mu: S) -> Option<ChainLanding<S>> {
     let (zero, one) = (S::zero(), S::one());
     // y = x, a, x', a'
-    let pressing: Matrix<S, 4> = [
+    let pressing: SquareMatrix<S, 4> = [
         [zero, zero, one, zero],
         [zero, zero, zero, one],
         [-one, one, zero, zero],
@@ -69,7 +69,7 @@ pub fn land<S: Scalar>(k: S, c: S, mu: S) -> Option<ChainLanding<S>> {
 /// Least distance of the free mass from the absorber that swings by itself.
 fn clearance<S: Scalar>(start: &[S; 4], k: S, c: S, mu: S, lift: S) -> S {
     let (zero, one) = (S::zero(), S::one());
-    let free: Matrix<S, 2> = [[zero, one], [-k / mu, -c / mu]];
+    let free: SquareMatrix<S, 2> = [[zero, one], [-k / mu, -c / mu]];
     let step = exponential(&free, real(STEP));
     let [x, _, speed, _] = *start;
     let gap = |s: S, a: &[S; 2]| x + speed * s - a[0];

@@ -19,7 +19,7 @@ const LEAST_INERTIA: f64 = 1e-3;
 
 /// The structure as its corners feel it.
 #[derive(Clone, Copy, Debug)]
-pub struct Corners<S> {
+pub struct CornerDynamics<S> {
     /// W = G M^-1 G', over 1/m; rows and columns old foot x, z, new foot x, z.
     pub w: [[S; DIRECTIONS]; DIRECTIONS],
     /// 2b, between the feet [R].
@@ -33,7 +33,7 @@ pub struct Corners<S> {
     pub plastic: [S; DIRECTIONS],
 }
 
-impl<S: Scalar> Corners<S> {
+impl<S: Scalar> CornerDynamics<S> {
     /// Of a rigid body of slenderness alpha and mass share m R^2/I0; one whose mass is all in one point, m R^2/I0 = 1, as the
     /// limit of little rotational inertia.
     pub fn rigid(alpha: S, mass_share: S) -> Self {

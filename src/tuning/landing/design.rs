@@ -25,7 +25,7 @@
 use thiserror::Error;
 
 use super::{
-    corners::Corners,
+    corners::CornerDynamics,
     plane::land,
     universal::{Universal, universal},
 };
@@ -135,13 +135,13 @@ impl Geometry {
 
     /// The springs, their frequencies relative to the vertical Omega_n.
     pub fn springs(&self) -> Springs<Design<f64>> {
-        for_landing(&Corners::rigid(self.alpha, self.mass_share), self.effective_mass(), self.k())
+        for_landing(&CornerDynamics::rigid(self.alpha, self.mass_share), self.effective_mass(), self.k())
     }
 }
 
 /// Springs for what lands on these corners, of effective mass `m` vertically in units of its mass, at K; frequencies relative to the
 /// vertical Omega_n.
-pub fn for_landing(corners: &Corners<f64>, m: f64, k: f64) -> Springs<Design<f64>> {
+pub fn for_landing(corners: &CornerDynamics<f64>, m: f64, k: f64) -> Springs<Design<f64>> {
     let Universal { k, c, mu, .. } = universal(k);
     let mut springs = Springs {
         vertical: Design::from_kc(mu * m, k, c * m.sqrt(), 1.0),

@@ -6,7 +6,7 @@
 use crate::scalar::{Scalar, real};
 
 /// A square matrix, row by row.
-pub(super) type Matrix<S, const N: usize> = [[S; N]; N];
+pub(super) type SquareMatrix<S, const N: usize> = [[S; N]; N];
 
 /// Terms of the Taylor series; with |A t|/2^s at most 1/4 the first left out is below 1e-18.
 const TERMS: usize = 12;
@@ -14,11 +14,11 @@ const TERMS: usize = 12;
 const NORM: f64 = 0.25;
 
 /// exp(A t).
-pub(super) fn exponential<S: Scalar, const N: usize>(a: &Matrix<S, N>, t: S) -> Matrix<S, N> {
+pub(super) fn exponential<S: Scalar, const N: usize>(a: &SquareMatrix<S, N>, t: S) -> SquareMatrix<S, N> {
     let norm = a.iter().map(|row| row.iter().map(|x| x.re().abs()).sum::<f64>()).fold(0.0, f64::max) * t.re().abs();
     let squarings = if norm > NORM { (norm / NORM).log2().ceil() as i32 } else { 0 };
     let small = t * real::<S>(0.5_f64.powi(squarings));
-    let scaled: Matrix<S, N> = a.map(|row| row.map(|x| x * small));
+    let scaled: SquareMatrix<S, N> = a.map(|row| row.map(|x| x * small));
     // Horner: 1 + X (1 + X/2 (1 + X/3 (...)))
     let mut sum = identity();
     for k in (1..=TERMS).rev() {
@@ -34,7 +34,7 @@ pub(super) fn exponential<S: Scalar, const N: usize>(a: &Matrix<S, N>, t: S) -> 
 }
 
 /// A y.
-pub(super) fn times<S: Scalar, const N: usize>(a: &Matrix<S, N>, y: &[S; N]) -> [S; N] {
+pub(super) fn times<S: Scalar, const N: usize>(a: &SquareMatrix<S, N>, y: &[S; N]) -> [S; N] {
     std::array::from_fn(|i| dot(&a[i], y))
 }
 
@@ -43,11 +43,11 @@ pub(super) fn dot<S: Scalar, const N: usize>(a: &[S; N], b: &[S; N]) -> S {
     a.iter().zip(b).fold(S::zero(), |sum, (&a, &b)| sum + a * b)
 }
 
-fn identity<S: Scalar, const N: usize>() -> Matrix<S, N> {
+fn identity<S: Scalar, const N: usize>() -> SquareMatrix<S, N> {
     std::array::from_fn(|i| std::array::from_fn(|j| if i == j { S::one() } else { S::zero() }))
 }
 
-fn product<S: Scalar, const N: usize>(a: &Matrix<S, N>, b: &Matrix<S, N>) -> Matrix<S, N> {
+fn product<S: Scalar, const N: usize>(a: &SquareMatrix<S, N>, b: &SquareMatrix<S, N>) -> SquareMatrix<S, N> {
     let mut out = [[S::zero(); N]; N];
     for (row, out) in a.iter().zip(&mut out) {
         for (&x, b) in row.iter().zip(b) {

@@ -18,7 +18,7 @@ use argmin::{
 };
 
 use super::{
-    corners::Corners,
+    corners::CornerDynamics,
     plane::{PlaneLanding, land},
     universal::{Universal, universal},
 };
@@ -54,7 +54,7 @@ impl<F: Fn(&[f64]) -> f64> CostFunction for Search<F> {
 
 /// Springs for a part of an elastic structure that lands on these corners, in units of its mass, at K; frequencies relative to the vertical
 /// Omega_n.
-pub fn for_part(corners: &Corners<f64>, k: f64) -> Springs<Design<f64>> {
+pub fn for_part(corners: &CornerDynamics<f64>, k: f64) -> Springs<Design<f64>> {
     let m = corners.effective_mass()[1];
     // free to turn: the horizontal units are the faster ones
     let across = corners.w[2][2].recip();
@@ -67,7 +67,7 @@ pub fn for_part(corners: &Corners<f64>, k: f64) -> Springs<Design<f64>> {
 }
 
 /// These springs with mu and C of their vertical units as the landing wants them.
-fn for_stopping(corners: &Corners<f64>, springs: &Springs<Design<f64>>) -> Springs<Design<f64>> {
+fn for_stopping(corners: &CornerDynamics<f64>, springs: &Springs<Design<f64>>) -> Springs<Design<f64>> {
     let Design { mu, omega_n_hz, .. } = springs.vertical;
     let (k, c) = (springs.vertical.k(), springs.vertical.c());
     let at =
@@ -89,11 +89,11 @@ mod tests {
     use crate::tuning::landing::design::for_landing;
 
     /// W of a free block of half width b and half height h, over 1/m.
-    fn block(b: f64, h: f64) -> Corners<f64> {
+    fn block(b: f64, h: f64) -> CornerDynamics<f64> {
         let inertia = (b * b + h * h) / 3.0;
         let g = [[1.0, 0.0, -h], [0.0, 1.0, b], [1.0, 0.0, -h], [0.0, 1.0, -b]];
         let w = |i: usize, j: usize| (0..2).map(|k| g[i][k] * g[j][k]).sum::<f64>() + g[i][2] * g[j][2] / inertia;
-        Corners::of(std::array::from_fn(|i| std::array::from_fn(|j| w(i, j))), 2.0 * b)
+        CornerDynamics::of(std::array::from_fn(|i| std::array::from_fn(|j| w(i, j))), 2.0 * b)
     }
 
     /// Flat footings of any proportion, at any K: three changes of contact, and less energy left than on the chain of a single mass.

@@ -21,8 +21,8 @@
 
 use super::{
     chain::FOLLOWED,
-    corners::{Corners, DIRECTIONS},
-    linear::{Matrix, dot, exponential, times},
+    corners::{CornerDynamics, DIRECTIONS},
+    linear::{SquareMatrix, dot, exponential, times},
 };
 use crate::{
     scalar::{Scalar, real},
@@ -74,8 +74,8 @@ pub struct PlaneLanding<S> {
 
 /// Land the structure on units of these designs, whose frequencies count relative to the vertical one's; followed to
 /// [`FOLLOWED`].
-pub fn land<S: Scalar>(corners: &Corners<S>, springs: &Springs<Design<S>>) -> PlaneLanding<S> {
-    let mut run = Run::new(corners, springs);
+pub fn land<S: Scalar>(corners: &CornerDynamics<S>, springs: &Springs<Design<S>>) -> PlaneLanding<S> {
+    let mut run = LandingRun::new(corners, springs);
     while run.time.re() < FOLLOWED && run.changes[0] + run.changes[1] < MOST_CHANGES {
         run.advance();
     }
@@ -83,7 +83,7 @@ pub fn land<S: Scalar>(corners: &Corners<S>, springs: &Springs<Design<S>>) -> Pl
 }
 
 /// One landing under way.
-struct Run<S> {
+struct LandingRun<S> {
     w: [[S; DIRECTIONS]; DIRECTIONS],
     /// k1, k2, m2, c of x and z.
     units: [[S; 4]; 2],
@@ -93,14 +93,14 @@ struct Run<S> {
     time: S,
     step: f64,
     /// A y and exp(A step) of the present contact.
-    motion: (Matrix<S, N>, Matrix<S, N>),
+    motion: (SquareMatrix<S, N>, SquareMatrix<S, N>),
     rebound: S,
     air: S,
     changes: [usize; 2],
 }
 
-impl<S: Scalar> Run<S> {
-    fn new(corners: &Corners<S>, springs: &Springs<Design<S>>) -> Self {
+impl<S: Scalar> LandingRun<S> {
+    fn new(corners: &CornerDynamics<S>, springs: &Springs<Design<S>>) -> Self {
         let ratio = springs.horizontal.omega_n_hz / springs.vertical.omega_n_hz;
         let unit = |d: &Design<S>, omega: S| {
             let k1 = omega * omega;
@@ -228,7 +228,7 @@ impl<S: Scalar> Run<S> {
         self.take_contact();
     }
 
-    fn finish(&self, corners: &Corners<S>) -> PlaneLanding<S> {
+    fn finish(&self, corners: &CornerDynamics<S>) -> PlaneLanding<S> {
         let old_impulse = self.y[IMPULSE + 1];
         let mut left = S::zero();
         for i in 0..DIRECTIONS {

@@ -85,7 +85,7 @@ impl Release {
     /// Release the body on these springs; `None` unless the run finished.
     pub fn run<S: Scalar>(&self, body: &Body<S>, chains: &Springs<Chain<S>>, control: Control) -> Option<Left<S>> {
         let quiet = vec![0.0; self.samples];
-        let mut flight = Watch { release: self, since: None, air: S::zero(), growing: S::zero() };
+        let mut flight = LandingWatch { release: self, since: None, air: S::zero(), growing: S::zero() };
         let case = Analysis {
             body: *body,
             springs: *chains,
@@ -110,14 +110,14 @@ impl Release {
 }
 
 /// Sums the growing part and the time with both feet in the air.
-struct Watch<'a, S> {
+struct LandingWatch<'a, S> {
     release: &'a Release,
     since: Option<S>,
     air: S,
     growing: S,
 }
 
-impl<S: Scalar> Observer<S> for Watch<'_, S> {
+impl<S: Scalar> Observer<S> for LandingWatch<'_, S> {
     fn sample(&mut self, index: usize, view: &View<S>) -> ControlFlow<()> {
         let Release { rise, housner, p, .. } = self.release;
         if rise.contains(&index) {

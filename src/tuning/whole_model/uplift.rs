@@ -27,7 +27,7 @@ const SWING: (f64, f64) = (-0.8, 1.7);
 
 /// Ground acceleration from rest through an uplift, and Housner's displacement at its end.
 #[derive(Clone, Debug)]
-pub(super) struct Uplift {
+pub(super) struct UpliftRamp {
     dt: f64,
     accel: Vec<f64>,
     /// Samples over which the velocity is taken.
@@ -37,12 +37,12 @@ pub(super) struct Uplift {
 }
 
 /// The uplifts of a structure.
-pub(super) fn all(body: &Body<f64>) -> Vec<Uplift> {
+pub(super) fn all(body: &Body<f64>) -> Vec<UpliftRamp> {
     let p = body.p_squared().sqrt();
-    RAMPS_S.iter().copied().chain(RAMPS_P.iter().map(|t| t / p)).map(|tr| Uplift::new(body, tr)).collect()
+    RAMPS_S.iter().copied().chain(RAMPS_P.iter().map(|t| t / p)).map(|tr| UpliftRamp::new(body, tr)).collect()
 }
 
-impl Uplift {
+impl UpliftRamp {
     fn new(body: &Body<f64>, tr: f64) -> Self {
         let lift = GRAVITY * body.half_width / body.height;
         let steps = 6;
