@@ -22,6 +22,8 @@ use groundspring::{
 const FACTORS: [f64; 5] = [0.1, 0.3, 1.0, 3.0, 10.0];
 
 fn main() -> Result<(), Box<dyn std::error::Error>> {
+    let mut logarithms = [0.0; FACTORS.len()];
+    let mut rows = 0.0;
     for (mass_kg, footing_mass_kg, frequency_hz) in
         [(600e3, 60e3, 2.0), (600e3, 60e3, 1.5), (600e3, 200e3, 2.0), (200e3, 600e3, 2.0)]
     {
@@ -46,18 +48,22 @@ fn main() -> Result<(), Box<dyn std::error::Error>> {
         let suite = ElasticSuite::new(model, None);
         for give in [1e-3, 1e-4, 1e-5] {
             let k = springs(&standing, give, landing_speed(&structure)).k;
-            let over = |factor: f64| {
-                let springs = with_k(&standing, give, k * f64::cbrt(factor));
-                let measured = suite.measure(&springs, Control::search());
+            let measured = FACTORS.map(|factor| {
+                let measured = suite.measure(&with_k(&standing, give, k * f64::cbrt(factor)), Control::search());
                 let touches = [measured.releases, measured.motions].into_iter().flatten().map(|e| e.touches);
-                format!("{:.1e} ({:.1})", measured.over(1.0).unwrap_or(f64::NAN), touches.fold(0.0, f64::max))
-            };
-            let all: Vec<String> = FACTORS.into_iter().map(over).collect();
+                (measured.over(1.0).unwrap_or(f64::NAN), touches.fold(0.0, f64::max))
+            });
+            let all: Vec<String> =
+                measured.iter().map(|(error, touches)| format!("{error:.1e} ({touches:.1})")).collect();
+            logarithms.iter_mut().zip(measured).for_each(|(sum, (error, _))| *sum += error.ln());
+            rows += 1.0;
             println!(
                 "{mass_kg:.0e} kg on {footing_mass_kg:.0e} kg, {frequency_hz} Hz, give {give:.0e}, K {k:.4}; error (touches a landing) at K^3 x {FACTORS:?}: {}",
                 all.join(" ")
             );
         }
     }
+    let means: Vec<String> = logarithms.iter().map(|sum| format!("{:.1e}", f64::exp(sum / rows))).collect();
+    println!("geometric means at K^3 x {FACTORS:?}: {}", means.join(" "));
     Ok(())
 }

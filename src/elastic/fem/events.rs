@@ -6,12 +6,9 @@ use crate::fem::cubic::{Cubic, NODES};
 /// Steps that locate one event: Newton's method needs two or three.
 const MOST_LOCATED: usize = 40;
 
-/// A corner that closes again this soon after it opened, in units of 1/Omega_n, has hardly left the ground.
+/// A corner that closes again this soon after it opened, in units of 1/Omega_n, has hardly left the ground: its horizontal spring does not hold until
+/// it carries weight. It would let go of a part of its horizontal force each time, at an accumulating sequence of instants.
 const AT_ONCE: f64 = 0.1;
-
-/// So often may it do so before its horizontal spring no longer holds until it carries weight: each time it lets go of a part of its
-/// horizontal force, at an accumulating sequence of instants.
-const OFTEN: usize = 6;
 
 /// Share of the weight that it then carries before it holds.
 const HOLDING: f64 = 1e-4;
@@ -136,14 +133,10 @@ impl SpringsRun<'_> {
             return here(true);
         }
         if foot.closed {
-            self.opened[corner].0 = self.time;
+            self.opened[corner] = self.time;
             return CornerState { anchor: foot.anchor, ..CornerState::OPEN };
         }
-        let (opened, times) = self.opened[corner];
-        let times = if self.time - opened < AT_ONCE * self.settling { times + 1 } else { 0 };
-        let foot = here(times < OFTEN);
-        self.opened[corner].1 = times;
-        foot
+        here(self.time - self.opened[corner] >= AT_ONCE * self.settling)
     }
 }
 

@@ -57,8 +57,8 @@ pub(super) struct SpringsRun<'a> {
     pub time: f64,
     /// Impulses of the corners over the step.
     pub impulses: Vec<[f64; 2]>,
-    /// When each corner last opened, and how often it has closed at once since [s].
-    pub opened: Vec<(f64, usize)>,
+    /// When each corner last opened [s].
+    pub opened: Vec<f64>,
     pub work: Work,
 }
 
@@ -107,7 +107,7 @@ impl<'a> SpringsRun<'a> {
             here: Ground::still(),
             time: 0.0,
             impulses: vec![[0.0; 2]; corners],
-            opened: vec![(f64::NEG_INFINITY, 0); corners],
+            opened: vec![f64::NEG_INFINITY; corners],
             work: Work::default(),
         }
     }
@@ -230,6 +230,7 @@ impl<'a> SpringsRun<'a> {
 
     /// A corner touches or lifts now.
     fn switch(&mut self, corner: usize, stages: &mut ElasticStages, recorder: &mut ElasticRecorder) {
+        let closed = self.feet[corner].closed;
         self.feet[corner] = self.changed(corner);
         let stored = self.model.energy(&self.q, &self.v, &self.feet);
         self.energy.released += self.energy.stored - stored;
@@ -238,7 +239,9 @@ impl<'a> SpringsRun<'a> {
         self.rate = 1.0;
         self.h = self.h.min(RESTART * self.settling);
         self.work.events += 1;
-        recorder.contact(corner, &self.view());
+        if self.feet[corner].closed != closed {
+            recorder.contact(corner, &self.view());
+        }
     }
 
     /// How it ended, and what it cost.

@@ -74,7 +74,7 @@ impl<S: Scalar> CornerDynamics<S> {
     }
 
     /// Whether a landing brings both corners to rest.
-    #[cfg(any(feature = "cli", feature = "internals"))]
+    #[cfg(test)]
     pub fn stops(&self) -> bool {
         self.plastic[1].re() > 0.0
     }
