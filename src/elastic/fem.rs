@@ -3,7 +3,7 @@
 //! ```text
 //!   let frame = pier.layout().frame()?;                      what is held at its base: pier.layout().fixed().frame()?, without springs
 //!   let springs = vec![chains; frame.places().len()];
-//!   let history = Case::new(&frame, &springs, Start::Standing, dt, &accel).simulate()?;
+//!   let history = ElasticAnalysis::new(&frame, &springs, ElasticStart::Standing, dt, &accel).simulate()?;
 //!   let rotation = history.rotation(&frame, Base::Footing(0));
 //! ```
 //!

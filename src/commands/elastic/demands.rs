@@ -62,14 +62,16 @@ pub(super) fn about(run: &ElasticRun) -> String {
         ),
         None => format!("its mean between samples {} s apart {} times", run.record.dt, share(filtered)),
     };
+    let lands = run.answer.histories.fem.contacts.iter().any(|contact| contact.touches);
+    let landing = if lands { " in a landing, which is the springs' and grows with Omega_n" } else { "" };
     format!(
         "Members' forces are the structure's own, between samples too; those of the rigid body are between impacts. The ground's vertical force \
-         on all corners together reaches {} times the weight in a landing, which is the springs' and grows with Omega_n; {filtered}.",
+         on all corners together reaches {} times the weight{landing}; {filtered}.",
         share(ground)
     )
 }
 
-/// `members.csv`: at every sample the largest magnitudes since the sample before; axial forces are positive in tension, as in `Bearing`.
+/// `members.csv`: at every sample the largest magnitudes since the sample before; axial forces are positive in tension, as in `BeamForces`.
 pub(super) fn csv(run: &ElasticRun) -> String {
     let fem = &run.answer.histories.fem;
     let mut head = vec!["t".to_string(), "base_shear_n".into()];
