@@ -25,7 +25,7 @@ mod newton;
 mod run;
 mod step;
 
-pub use demands::{DemandPeak, FrameDemand, peak};
+pub use demands::FrameDemand;
 pub use filter::{low_pass, resolves};
 pub use history::{ContactChange, ElasticHistory, GroundForces};
 pub use model::CornerState;
