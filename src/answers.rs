@@ -5,10 +5,10 @@ use std::convert::Infallible;
 use crate::{
     compare::Match,
     conditioning::Conditioning,
-    fem::{self, Demands, ForcePeak, History, Landing},
+    fem::{self, Demands, History, Landing},
     housner::{self, Rocking},
     members::Members,
-    motion::Motion,
+    motion::{Motion, TimedPeak},
     overturning::samples_until,
     parameters::Parameters,
     record::Record,
@@ -180,7 +180,7 @@ fn peaks_until(demands: &mut Demands, dt: f64, overturned: Option<f64>) {
     for (i, row) in demands.rows.iter().enumerate().take(samples_until(overturned, dt)) {
         for (peak, &value) in demands.peaks.iter_mut().zip(row) {
             if value.abs() > peak.value.abs() {
-                *peak = ForcePeak { value, time: i as f64 * dt };
+                *peak = TimedPeak { value, time: i as f64 * dt };
             }
         }
     }
@@ -227,11 +227,11 @@ mod tests {
     fn the_largest_forces_are_those_before_the_fall() {
         let mut demands = Demands::default();
         demands.rows = [1.0, -3.0, 2.0, 50.0].map(|x| [x; QUANTITIES.len()]).to_vec();
-        demands.peaks = [ForcePeak { value: 50.0, time: 0.033 }; QUANTITIES.len()];
+        demands.peaks = [TimedPeak { value: 50.0, time: 0.033 }; QUANTITIES.len()];
         let whole = demands.clone();
         peaks_until(&mut demands, 0.01, None);
         assert_eq!(demands, whole);
         peaks_until(&mut demands, 0.01, Some(0.025));
-        assert_eq!(demands.peaks[0], ForcePeak { value: -3.0, time: 0.01 });
+        assert_eq!(demands.peaks[0], TimedPeak { value: -3.0, time: 0.01 });
     }
 }

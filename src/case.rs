@@ -60,6 +60,11 @@ pub enum CaseError {
     #[cfg(feature = "cli")]
     #[error("{path}: {source}")]
     Elastic { path: String, source: crate::elastic::structure::ElasticError },
+    #[cfg(feature = "cli")]
+    #[error(
+        "{path}: this is an elastic structure, which `tune run` alone takes; give a rigid body here: kind = \"aframe\" or \"block\""
+    )]
+    OfElastic { path: String },
     #[error("{path}: {source}")]
     Members { path: String, source: MembersError },
     #[error("{path}: {key} is {value}; {remedy}")]
@@ -267,6 +272,8 @@ pub fn parse_with(
     text: &str,
     read: impl FnOnce(&Path, &ReadOptions) -> Result<Record, RecordError>,
 ) -> Result<Case, CaseError> {
+    #[cfg(feature = "cli")]
+    ElasticCase::refuse(path, text)?;
     let file: CaseFile = toml::from_str(text).map_err(|e| parse_error(path, text, &e))?;
     let (structure, restitution) = file.structure.checked(path)?;
     let members = Members { damper: file.damper, tendon: file.tendon, friction: file.friction }

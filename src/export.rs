@@ -142,7 +142,7 @@ pub enum ExportError {
     )]
     Number { name: &'static str, value: f64 },
     #[error(
-        "export: {name} is not written for {format}; remove it from parameters.json, or take another --format (SAP2000 tables leave damper, tendon and friction out)"
+        "export: {name} is not written for {format}; leave it out, or take another --format (SAP2000 tables have no damper, tendon, friction and vertical ground motion)"
     )]
     Member { name: &'static str, format: &'static str },
     #[error(

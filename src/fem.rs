@@ -47,7 +47,7 @@ mod step;
 mod strut;
 
 pub use control::{Control, HistoryOutcome, Work};
-pub use demands::{Demands, ForcePeak, QUANTITIES};
+pub use demands::{Demands, QUANTITIES};
 pub use energy::Energy;
 pub use history::{Account, Forces, History, Recorder};
 pub use landings::Landing;

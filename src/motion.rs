@@ -37,6 +37,23 @@ impl Motion {
     }
 }
 
+/// A value, with its sign, and when it came: the largest magnitude of a quantity.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct TimedPeak {
+    /// In the quantity's unit.
+    pub value: f64,
+    /// (s)
+    pub time: f64,
+}
+
+impl TimedPeak {
+    /// Of samples dt (s) apart: the first of the largest; none of no samples.
+    pub fn of(dt: f64, series: &[f64]) -> Option<Self> {
+        let sample = |(i, &value): (usize, &f64)| Self { value, time: i as f64 * dt };
+        series.iter().enumerate().map(sample).reduce(|a, b| if b.value.abs() > a.value.abs() { b } else { a })
+    }
+}
+
 /// sqrt( sum (x - x_ref)^2 / sum x_ref^2 ) over the common length; infinite when the reference is
 /// zero and x is not, zero when both are.
 pub fn nrmse(x: &[f64], reference: &[f64]) -> f64 {
@@ -78,6 +95,13 @@ mod tests {
         assert!((nrmse(&scaled, &reference) - 0.1).abs() < 1e-15);
         assert_eq!(nrmse(&reference, &reference), 0.0);
         assert_eq!((shown(0.1), shown(nrmse(&reference, &[0.0; 3]))), ("0.1000".into(), "-".into()));
+    }
+
+    #[test]
+    fn a_peak_is_the_first_of_the_largest_with_its_sign() {
+        let at = |value, time| Some(TimedPeak { value, time });
+        assert_eq!(TimedPeak::of(0.5, &[1.0, -3.0, 3.0]), at(-3.0, 0.5));
+        assert_eq!((TimedPeak::of(0.5, &[0.0; 3]), TimedPeak::of(0.5, &[])), (at(0.0, 0.0), None));
     }
 
     #[test]

@@ -22,17 +22,10 @@
 //! A-frame needs mu >= b/h = tan(alpha), which it needs to lift off anyway.
 
 use crate::housner::Rocking;
+use crate::motion::TimedPeak;
 use crate::overturning::samples_until;
 use crate::scalar::GRAVITY;
 use crate::structure::Body;
-
-/// A number and when it occurs.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct TimedDemand {
-    pub value: f64,
-    /// Time (s).
-    pub time: f64,
-}
 
 /// A geometry that does not land without bouncing.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -49,11 +42,11 @@ pub struct Regime {
     /// The friction coefficient that is available.
     pub friction: f64,
     /// Largest |F|/N while the feet press on the ground, at rest and rocking.
-    pub friction_needed: TimedDemand,
+    pub friction_needed: TimedPeak,
     /// P_x/P_y of Housner's landing: the friction coefficient needed not to slide in an impact.
     pub landing_friction: f64,
     /// First time with N <= 0, and the lowest N/(m g) of the history.
-    pub free_flight: Option<TimedDemand>,
+    pub free_flight: Option<TimedPeak>,
     /// The geometry, if it is too stocky to land without bouncing.
     pub too_stocky: Option<Stocky>,
 }
@@ -71,7 +64,7 @@ pub fn check(
     // in g; gamma = 1 + a_v/g beside u_g/g
     let at = |record: &[f64], i: usize| record.get(i).copied().unwrap_or(0.0) * scale / GRAVITY;
     let sample = |i: usize| (at(accel, i), 1.0 + at(vertical, i));
-    let mut worst = Worst { friction: TimedDemand { value: 0.0, time: 0.0 }, lowest: 1.0, flight: None };
+    let mut worst = Worst { friction: TimedPeak { value: 0.0, time: 0.0 }, lowest: 1.0, flight: None };
     let mut impacts = rocking.impacts.iter().peekable();
     let upright = samples_until(rocking.overturned(), dt);
     for (i, (&theta, &rate)) in rocking.theta.iter().zip(&rocking.rate).enumerate().take(upright) {
@@ -99,7 +92,7 @@ pub fn check(
         friction,
         friction_needed: worst.friction,
         landing_friction: body.mass * body.height * body.half_width / (body.inertia + body.mass * body.height.powi(2)),
-        free_flight: worst.flight.map(|time| TimedDemand { value: worst.lowest, time }),
+        free_flight: worst.flight.map(|time| TimedPeak { value: worst.lowest, time }),
         too_stocky: stockiness(body, friction),
     }
 }
@@ -129,7 +122,7 @@ fn forces(body: &Body<f64>, side: f64, theta: f64, rate: f64, (ground, gamma): (
 }
 
 struct Worst {
-    friction: TimedDemand,
+    friction: TimedPeak,
     lowest: f64,
     flight: Option<f64>,
 }
@@ -140,7 +133,7 @@ impl Worst {
         if vertical <= 0.0 {
             self.flight.get_or_insert(time);
         } else if horizontal.abs() > self.friction.value * vertical {
-            self.friction = TimedDemand { value: horizontal.abs() / vertical, time };
+            self.friction = TimedPeak { value: horizontal.abs() / vertical, time };
         }
     }
 }
@@ -150,7 +143,7 @@ impl Regime {
     #[cfg(feature = "cli")]
     pub fn warnings(&self) -> Vec<String> {
         let mut lines = Vec::new();
-        let TimedDemand { value, time } = self.friction_needed;
+        let TimedPeak { value, time } = self.friction_needed;
         if value > self.friction {
             lines.push(format!(
                 "sliding: a friction coefficient of {value:.3} is needed at t = {time:.3} s, {:.3} is available; rocking without sliding does not hold",
@@ -163,7 +156,7 @@ impl Regime {
                 self.landing_friction, self.friction
             ));
         }
-        if let Some(TimedDemand { value, time }) = self.free_flight {
+        if let Some(TimedPeak { value, time }) = self.free_flight {
             lines.push(format!(
                 "free flight: the pivot lifts at t = {time:.3} s (lowest vertical force {value:.3} of the weight); rocking does not hold from there on"
             ));

@@ -84,7 +84,17 @@ fn refuses(folder: &Path) {
     assert_eq!(refused.status.code(), Some(2), "{line}");
     assert!(line.contains("max_omega_hz (--max-hz) is 0.5") && line.trim().lines().count() == 1, "{line}");
 
+    // a history needs two samples
+    std::fs::write(folder.join("one.txt"), "1.0\n").unwrap();
+    let refused = tune(folder, &["run", "pier.toml", "--quiet", "--record", "one.txt", "--dt", "0.01", "--units", "g"]);
+    let line = text(&refused.stderr);
+    assert_eq!(refused.status.code(), Some(2), "{line}");
+    assert!(line.contains("needs at least two") && line.trim().lines().count() == 1, "{line}");
+
     // commands for rigid bodies say what this is
+    let refused = tune(folder, &["housner", "--out", "out", "pier.toml"]);
+    let line = text(&refused.stderr);
+    assert!(line.contains("pier.toml: this is an elastic structure"), "{line}");
     let refused = tune(folder, &["simulate", "--parameters", "out/parameters.json"]);
     assert_eq!(refused.status.code(), Some(2));
     let line = text(&refused.stderr);
@@ -161,4 +171,25 @@ fn a_pier_that_overturns_is_told_to() {
     let json = std::fs::read_to_string(out.join("parameters.json")).unwrap();
     let parameters = ElasticParameters::parse("parameters.json", &json).unwrap();
     assert!(!parameters.on_record.unwrap().whole);
+    // both models' histories to their ends, cells of the one that ends before are empty
+    let history = std::fs::read_to_string(out.join("history.csv")).unwrap();
+    let columns: Vec<Vec<&str>> = history.lines().skip(1).map(|line| line.split(',').collect()).collect();
+    let given = |k: usize| columns.iter().filter(|row| !row[k].is_empty()).count();
+    assert_eq!(given(1).max(given(3)), columns.len());
+    assert!(given(1) < 600 && given(3) < 600 && given(5) == given(3), "{} {}", given(1), given(3));
+}
+
+/// Without a motion there are no landings to speak of, and no errors of rounding over rounding.
+#[test]
+fn of_a_record_without_a_motion_no_landing_and_no_error_is_said() {
+    let folder = tempfile::tempdir().unwrap();
+    std::fs::write(folder.path().join("pier.toml"), PIER).unwrap();
+    std::fs::write(folder.path().join("still.txt"), "# dt = 0.01\n".to_string() + &"0.0\n".repeat(20)).unwrap();
+    let options =
+        ["--record", "still.txt", "--units", "g", "--accuracy", "0.1", "--no-figures", "--no-report", "--quiet"];
+    let ran = tune(folder.path(), &[&["run", "pier.toml"], &options[..]].concat());
+    assert!(ran.status.success(), "{}", text(&ran.stderr));
+    let said = text(&ran.stdout);
+    assert!(said.contains("is not lifted by this record") && said.contains("reaches 1.00 times the weight;"), "{said}");
+    assert!(!said.contains("in a landing") && !said.contains("on its springs the drift"), "{said}");
 }

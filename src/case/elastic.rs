@@ -92,6 +92,11 @@ impl ElasticCase {
         }
     }
 
+    /// Of a text that is to be of a rigid body: says so if it tells of an elastic structure.
+    pub(super) fn refuse(path: &str, text: &str) -> Result<(), CaseError> {
+        if Self::is(text) { Err(CaseError::OfElastic { path: path.into() }) } else { Ok(()) }
+    }
+
     /// Parse a case file's text and read the record it names; `path` names it in messages and is where its record's path starts.
     ///
     /// # Errors
@@ -131,6 +136,12 @@ mod tests {
         let frame = "[structure]\nkind = 'aframe'\nheight_m = 12.0\n";
         assert!(!ElasticCase::is(frame) && ElasticCase::is(&format!("{frame}ea_n = 1e9\n")));
         assert!(!ElasticCase::is("[structure]\nkind = 'block'\n") && !ElasticCase::is("kind"));
+    }
+
+    #[test]
+    fn as_a_rigid_body_it_is_refused_for_what_it_is() {
+        let refused = crate::case::Case::parse("pier.toml", PIER).unwrap_err().to_string();
+        assert!(refused.starts_with("pier.toml: this is an elastic structure"), "{refused}");
     }
 
     #[test]

@@ -54,7 +54,7 @@ fn elastic(o: &ExportOptions, parameters: &ElasticParameters) -> Result<(String,
     let assembled = parameters.assembled().map_err(|e| CommandError::Result(e.to_string()))?;
     let springs = parameters.chains();
     let case = ElasticAnalysis {
-        vertical: record.vertical.as_ref().map_or(&[], |vertical| &vertical.accel),
+        vertical: record.up(),
         ..ElasticAnalysis::new(&assembled.frame, &springs, ElasticStart::Standing, record.dt, &record.accel)
     };
     let history = case.simulate().map_err(|e| CommandError::Result(e.to_string()))?;

@@ -9,9 +9,9 @@ use super::{common::csv_row, table::FORCES};
 use crate::{
     answers::WithMembers,
     compare::Match,
-    fem::{Demands, ForcePeak, QUANTITIES},
+    fem::{Demands, QUANTITIES},
     members::Members,
-    motion::shown,
+    motion::{TimedPeak, shown},
 };
 
 /// `members.csv`: forces at the record's samples, each the largest since the sample before.
@@ -27,7 +27,7 @@ pub fn csv(dt: f64, demands: &Demands) -> String {
 }
 
 /// Largest forces and their times, as JSON.
-fn forces(peaks: &[ForcePeak; QUANTITIES.len()]) -> Value {
+fn forces(peaks: &[TimedPeak; QUANTITIES.len()]) -> Value {
     let peak = |k: usize| json!({ "value": peaks[k].value, "time_s": peaks[k].time });
     Value::Object(QUANTITIES.iter().enumerate().map(|(k, name)| (name.to_string(), peak(k))).collect::<Map<_, _>>())
 }
@@ -107,7 +107,7 @@ pub fn markdown(rigid: &Demands, with: Option<&WithMembers>) -> String {
     let _ = writeln!(out, "| largest force | {} |\n|---|{}", names.join(" | "), "---|".repeat(names.len()));
     for (k, name) in QUANTITIES.iter().enumerate() {
         if columns.iter().any(|(_, peaks)| peaks[k].value != 0.0) {
-            let cell = |peak: ForcePeak| match peak.value {
+            let cell = |peak: TimedPeak| match peak.value {
                 0.0 => "-".to_string(),
                 value => format!("{value:.4e} at {:.3} s", peak.time),
             };
@@ -127,7 +127,7 @@ pub(super) const ABOUT: &str = "Largest forces between landings, later than 0.1/
 pub(super) fn columns<'a>(
     rigid: &'a Demands,
     with: Option<&'a WithMembers>,
-) -> Vec<(&'static str, &'a [ForcePeak; QUANTITIES.len()])> {
+) -> Vec<(&'static str, &'a [TimedPeak; QUANTITIES.len()])> {
     let mut columns = vec![("between landings", &rigid.between), ("in landings", &rigid.peaks)];
     if let Some(with) = with {
         columns.extend([
@@ -147,7 +147,7 @@ mod tests {
         let mut demands = Demands::default();
         demands.rows = vec![[0.0; QUANTITIES.len()]; 2];
         demands.rows[1][0] = -2.5;
-        demands.peaks[0] = ForcePeak { value: -2.5, time: 0.013 };
+        demands.peaks[0] = TimedPeak { value: -2.5, time: 0.013 };
         let text = csv(0.02, &demands);
         assert!(text.starts_with("t,base_shear_n,axial_left_n,"));
         assert!(text.lines().nth(2).unwrap().starts_with("0.0200000000000,-2.50000000000,0,"));

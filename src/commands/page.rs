@@ -271,7 +271,7 @@ impl Page<'_> {
             if columns.iter().all(|(_, peaks)| peaks[k].value == 0.0) {
                 return None;
             }
-            let cell = |peak: crate::fem::ForcePeak| {
+            let cell = |peak: crate::motion::TimedPeak| {
                 let (factor, letter) = figures::prefix(peak.value.abs());
                 match peak.value {
                     0.0 => "-".into(),

@@ -3,7 +3,7 @@
 //! ```text
 //!   let frame = pier.layout().frame()?;                      what is held at its base: pier.layout().fixed().frame()?, without springs
 //!   let springs = vec![chains; frame.places().len()];
-//!   let history = Case::new(&frame, &springs, Start::Standing, dt, &accel).simulate()?;
+//!   let history = ElasticAnalysis::new(&frame, &springs, ElasticStart::Standing, dt, &accel).simulate()?;
 //!   let rotation = history.rotation(&frame, Base::Footing(0));
 //! ```
 //!
@@ -25,7 +25,7 @@ mod newton;
 mod run;
 mod step;
 
-pub use demands::{DemandPeak, FrameDemand, peak};
+pub use demands::FrameDemand;
 pub use filter::{low_pass, resolves};
 pub use history::{ContactChange, ElasticHistory, GroundForces};
 pub use model::CornerState;

@@ -14,7 +14,7 @@ use super::{
     landings::{Landing, MOMENT},
     observer::{Observer, View},
 };
-use crate::structure::Body;
+use crate::{motion::TimedPeak, structure::Body};
 
 /// The forces, in the order of their columns: names with units.
 pub const QUANTITIES: [&str; 10] = [
@@ -33,24 +33,15 @@ pub const QUANTITIES: [&str; 10] = [
 /// One value of each of `QUANTITIES`.
 pub type DemandRow = [f64; QUANTITIES.len()];
 
-/// A largest value, with its sign, and when it came.
-#[derive(Clone, Copy, Debug, Default, PartialEq)]
-pub struct ForcePeak {
-    /// As `QUANTITIES` says.
-    pub value: f64,
-    /// [s].
-    pub time: f64,
-}
-
 /// The forces of a history.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Demands {
     /// For every sample the values of largest magnitude since the sample before.
     pub rows: Vec<DemandRow>,
     /// Largest magnitude of each, over all steps: in landings, forces of the springs.
-    pub peaks: [ForcePeak; QUANTITIES.len()],
+    pub peaks: [TimedPeak; QUANTITIES.len()],
     /// Largest magnitude of each between landings: later than 0.1/p after the last touch-down, times those of the samples.
-    pub between: [ForcePeak; QUANTITIES.len()],
+    pub between: [TimedPeak; QUANTITIES.len()],
     largest: DemandRow,
 }
 
@@ -67,7 +58,7 @@ impl Demands {
             }
             for (peak, &value) in self.between.iter_mut().zip(row) {
                 if value.abs() > peak.value.abs() {
-                    *peak = ForcePeak { value, time };
+                    *peak = TimedPeak { value, time };
                 }
             }
         }
@@ -111,7 +102,7 @@ impl Observer<f64> for Demands {
                 self.largest[k] = value;
             }
             if value.abs() > self.peaks[k].value.abs() {
-                self.peaks[k] = ForcePeak { value, time: view.time };
+                self.peaks[k] = TimedPeak { value, time: view.time };
             }
         }
     }

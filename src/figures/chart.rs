@@ -17,7 +17,7 @@ pub struct ChartCurve<'a> {
     /// Whether it is drawn dashed: the second kind of body.
     pub dashed: bool,
     pub omega_n_over_p: &'a [f64],
-    /// Values of each panel, in the order of `Chart::panels`.
+    /// Values of each panel, in the order of `ChartFigure::panels`.
     pub values: [&'a [f64]; 4],
 }
 

@@ -45,7 +45,7 @@ pub enum ElasticTuneError {
     #[error("tuning.accuracy is {value}; {remedy}")]
     Accuracy { value: String, remedy: &'static str },
     #[error(
-        "max_omega_hz (--max-hz) is {most_hz:?}, but the softest springs tried for this structure have {:.1} Hz: softer ones give way by more than a tenth of its own deformation; allow at least that, or leave it out",
+        "max_omega_hz (--max-hz) is {most_hz:?}, but the softest springs tried for this structure have {:.1} Hz: softer ones give way by more than a tenth of the structure's own deformation; allow at least that, or leave it out",
         (.softest_hz * 10.0).ceil() / 10.0
     )]
     TooSoft { most_hz: f64, softest_hz: f64 },
@@ -61,8 +61,8 @@ pub struct ElasticTuned {
     pub reached: bool,
 }
 
-/// Springs under every corner of a structure, its members at work, as stiff as `accuracy` (NRMSE of rotations) asks for, at most `most_hz` (Omega_n/2 pi, Hz); `progress` is told the rungs judged and the
-/// least error so far.
+/// Springs under every corner of a structure, its members at work, as stiff as `accuracy` (NRMSE of rotations) asks for, at most `most_hz`
+/// (Omega_n/2 pi, Hz); `progress` is told the rungs judged and the least error so far.
 ///
 /// # Errors
 /// A structure that does not stand; an accuracy that is none; springs allowed that are too soft for any.

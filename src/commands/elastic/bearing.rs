@@ -4,7 +4,7 @@ use crate::{
     elastic::{
         answer::ElasticAnswer,
         assembled::Assembled,
-        beam::BeamForces as OfBeam,
+        beam::BeamForces,
         fem::{ElasticHistory, FrameDemand, resolves},
         structure::ElasticStructure,
     },
@@ -58,14 +58,14 @@ fn bases(assembled: &Assembled) -> Vec<(usize, usize)> {
 /// Shear, axial force and moment at the foot of the columns or legs, the largest of them, and the drift.
 fn quantities(assembled: &Assembled, answer: &ElasticAnswer) -> Vec<ForceQuantity> {
     let bases = bases(assembled);
-    let largest = |history: &ElasticHistory, of: &dyn Fn(&OfBeam, usize) -> f64| -> Vec<f64> {
+    let largest = |history: &ElasticHistory, of: &dyn Fn(&BeamForces, usize) -> f64| -> Vec<f64> {
         let at = |demand: &FrameDemand| {
             let values = bases.iter().map(|&(i, end)| of(&demand.bearings[i], end));
             values.fold(0.0, |most: f64, value| if value.abs() > most.abs() { value } else { most })
         };
         history.worst.iter().map(at).collect()
     };
-    let both = |of: &dyn Fn(&OfBeam, usize) -> f64| [&answer.histories.fem, &answer.fixed].map(|h| largest(h, of));
+    let both = |of: &dyn Fn(&BeamForces, usize) -> f64| [&answer.histories.fem, &answer.fixed].map(|h| largest(h, of));
     let rigid = answer.rigid.as_ref();
     let [shear, fixed] = [&answer.histories.fem, &answer.fixed]
         .map(|history| history.worst.iter().map(|demand| demand.base_shear).collect::<Vec<_>>());

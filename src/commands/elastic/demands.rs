@@ -9,27 +9,22 @@ use super::{
 use crate::{
     commands::common::csv_row,
     figures::{prefix, short},
-    motion::peak,
+    motion::{TimedPeak, peak},
 };
-
-fn most(series: &[f64], dt: f64) -> Option<(f64, f64)> {
-    let (i, value) = series.iter().enumerate().max_by(|a, b| a.1.abs().total_cmp(&b.1.abs()))?;
-    Some((*value, i as f64 * dt))
-}
 
 /// Rows of the table: quantity, rocking, fixed, rigid, and what rocking buys.
 pub(super) fn rows(run: &ElasticRun) -> Vec<[String; 5]> {
     let dt = run.record.dt;
     let row = |quantity: &ForceQuantity| {
-        let peaks = [0, 1, 2].map(|k| most(&quantity.series[k], dt));
-        let cell = |peak: Option<(f64, f64)>| {
-            peak.map_or("-".to_string(), |(value, time)| {
+        let peaks = [0, 1, 2].map(|k| TimedPeak::of(dt, &quantity.series[k]));
+        let cell = |peak: Option<TimedPeak>| {
+            peak.map_or("-".to_string(), |TimedPeak { value, time }| {
                 let (unit, letter) = prefix(value.abs());
                 format!("{} {letter}{} at {time:.2} s", short(value.abs() / unit, 4), quantity.unit)
             })
         };
         let share = match (peaks[0], peaks[1]) {
-            (Some((rocking, _)), Some((fixed, _))) if fixed != 0.0 => format!("{:.2}", (rocking / fixed).abs()),
+            (Some(rocking), Some(fixed)) if fixed.value != 0.0 => format!("{:.2}", (rocking.value / fixed.value).abs()),
             _ => "-".into(),
         };
         [quantity.name.to_string(), cell(peaks[0]), cell(peaks[1]), cell(peaks[2]), share]
@@ -62,14 +57,16 @@ pub(super) fn about(run: &ElasticRun) -> String {
         ),
         None => format!("its mean between samples {} s apart {} times", run.record.dt, share(filtered)),
     };
+    let lands = run.answer.histories.fem.contacts.iter().any(|contact| contact.touches);
+    let landing = if lands { " in a landing, which is the springs' and grows with Omega_n" } else { "" };
     format!(
         "Members' forces are the structure's own, between samples too; those of the rigid body are between impacts. The ground's vertical force \
-         on all corners together reaches {} times the weight in a landing, which is the springs' and grows with Omega_n; {filtered}.",
+         on all corners together reaches {} times the weight{landing}; {filtered}.",
         share(ground)
     )
 }
 
-/// `members.csv`: at every sample the largest magnitudes since the sample before; axial forces are positive in tension, as in `Bearing`.
+/// `members.csv`: at every sample the largest magnitudes since the sample before; axial forces are positive in tension, as in `BeamForces`.
 pub(super) fn csv(run: &ElasticRun) -> String {
     let fem = &run.answer.histories.fem;
     let mut head = vec!["t".to_string(), "base_shear_n".into()];

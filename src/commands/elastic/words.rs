@@ -98,7 +98,10 @@ fn measured(m: &Measured) -> Vec<String> {
         ));
     }
     if m.ill_conditioned > 0 {
-        lines.push(format!("accuracy: {} motions are left out: no model foretells them", m.ill_conditioned));
+        lines.push(format!(
+            "accuracy: left out, since no model foretells them: {} of the releases and motions",
+            m.ill_conditioned
+        ));
     }
     lines
 }
@@ -132,7 +135,7 @@ fn on_rigid_ground(run: &ElasticRun, on: &OnRecord) -> String {
         ReferenceOutcome::Stopped { time, .. } => format!("could not be followed beyond t = {time:.2} s"),
         ReferenceOutcome::Completed if !reference.lifts() => "is not lifted by this record".into(),
         ReferenceOutcome::Completed => format!(
-            "rocks to {} of alpha ({:.4} rad) and stands; {} landings",
+            "rocks to {} of alpha = {:.4} rad and stands; {} landings",
             short(on.peak_ratio_reference, 3),
             run.assembled.structure.body().alpha(),
             on.landings_reference

@@ -16,7 +16,7 @@ use crate::{
         assembled::Assembled,
     },
     record::Record,
-    tuning::elastic::tune,
+    tuning::{elastic::tune, job::JobError},
 };
 
 /// The whole job.
@@ -69,6 +69,9 @@ pub fn run(o: &RunOptions, mut case: ElasticCase) -> Result<(), CommandError> {
 
 /// A record with what the structure does in it on rigid ground.
 fn referred(assembled: &Assembled, record: Record) -> Result<(Record, Reference), CommandError> {
+    if record.len() < 2 {
+        return Err(JobError::TooShort { samples: record.len(), record: record.name }.into());
+    }
     let reference = Reference::new(assembled, &record).map_err(|e| CommandError::Result(e.to_string()))?;
     Ok((record, reference))
 }

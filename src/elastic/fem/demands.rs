@@ -7,15 +7,6 @@
 
 use crate::elastic::{beam::BeamForces, frame::Frame};
 
-/// A largest magnitude, with its sign, and when it came.
-#[derive(Clone, Copy, Debug, Default, PartialEq)]
-pub struct DemandPeak {
-    /// In the quantity's unit.
-    pub value: f64,
-    /// (s)
-    pub time: f64,
-}
-
 /// What a structure bears at one instant, or at its worst since the sample before: each value by itself.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct FrameDemand {
@@ -66,15 +57,4 @@ impl FrameDemand {
             }
         }
     }
-}
-
-/// Largest magnitude of a series of samples dt apart.
-pub fn peak(dt: f64, series: impl IntoIterator<Item = f64>) -> DemandPeak {
-    let mut peak = DemandPeak::default();
-    for (i, value) in series.into_iter().enumerate() {
-        if value.abs() > peak.value.abs() {
-            peak = DemandPeak { value, time: i as f64 * dt };
-        }
-    }
-    peak
 }

@@ -1,7 +1,7 @@
 //! Springs for what lands of an elastic structure, from its standing configuration.
 //!
 //! ```text
-//!   m_l      mass of what lands, with W = G M^-1 G' of its two corners as that of a body (`Corners`): the footing alone under an elastic column
+//!   m_l      mass of what lands, with W = G M^-1 G' of its two corners as that of a body (`CornerDynamics`): the footing alone under an elastic column
 //!   m_eff    [(W_new)^-1]_zz, under the landing corner
 //!   units    the universal chain on m_eff: m2 = mu_u(K) m_eff, c = C_u(K) sqrt(k1 m_eff), k2 = K k1; horizontals that do not lag, on m_l
 //!   k1       by the give of the stance: the energy of springs k1 over the structure's own, under a uniform acceleration (`Standing`)
