@@ -4,7 +4,7 @@ use super::{
     assembled::{Assembled, Sway, errors},
     fem::{ElasticAnalysis, ElasticHistory, ElasticStart},
     frame::{EquilibriumError, Frame},
-    reference::{ElasticRocking, GroundAcceleration, RestError},
+    reference::{ElasticRocking, FORETOLD, GroundAcceleration, RestError},
     rigid::RigidForces,
 };
 use crate::{
@@ -123,7 +123,7 @@ impl Reference {
         let ground = GroundAcceleration { dt: record.dt, accel: &record.accel, vertical: record.up() };
         let q = assembled.upright().map_err(AnswerError::RestOnGround)?;
         let history = assembled.rock(ground, &q);
-        let foretold = assembled.foretold(ground, &q, &history);
+        let foretold = assembled.foretold(ground, &q, &history, FORETOLD);
         Ok(Self { history, foretold })
     }
 }
