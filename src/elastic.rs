@@ -10,11 +10,13 @@
 //! | `beam`, `frame` | finite elements: corotational beams between nodes and rigid footings |
 //! | `fem` | a frame's history on ground springs |
 //! | `assembled` | a structure and its finite elements: rotation and drift, rest, the reference and for how long it can be told |
+//! | `ensemble` | peaks over motions near a record, where no model foretells a history |
 //! | `rigid`, `answer` | what the rigid body bears; all of them through one record |
 
 pub mod answer;
 pub mod assembled;
 pub mod beam;
+pub mod ensemble;
 pub mod fem;
 pub mod frame;
 mod mechanics;

@@ -39,6 +39,8 @@ use rayon::prelude::*;
 
 pub use row::{RecordOutcome, Row, Suite};
 pub use statistics::{Confusion, GeometricMean, PREDICTABLE, Quantiles, Summary, Validation};
+#[cfg(any(feature = "cli", feature = "internals"))]
+pub use statistics::{ks_distance, quantile};
 pub use stream::{Stream, push};
 
 use crate::{

@@ -131,6 +131,7 @@ impl ElasticRun {
             landings_reference: reference.history.landings().count(),
             touches_fem: fem.contacts.iter().filter(|contact| contact.touches).count(),
             energy_residual: fem.energy_residual,
+            near: answer.ensemble,
         };
         let bearing = ForceQuantities::new(&assembled, &answer, record.dt);
         let parameters =

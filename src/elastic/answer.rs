@@ -2,9 +2,10 @@
 
 use super::{
     assembled::{Assembled, Sway, errors},
+    ensemble::Ensemble,
     fem::{ElasticAnalysis, ElasticHistory, ElasticStart},
     frame::{EquilibriumError, Frame},
-    reference::{ElasticRocking, GroundAcceleration, RestError},
+    reference::{ElasticRocking, FORETOLD, GroundAcceleration, RestError},
     rigid::RigidForces,
 };
 use crate::{
@@ -89,6 +90,8 @@ pub struct ElasticAnswer {
     pub fixed: ElasticHistory,
     /// Drift of the first watched node held to the ground (m).
     pub fixed_drift: Vec<f64>,
+    /// Peaks over motions near the record, where it cannot be foretold to its end.
+    pub ensemble: Option<Ensemble>,
     /// The rigid body of the same masses, by Housner's equation; none of a frame, whose columns rock side by side, and of a structure
     /// with members.
     pub rigid: Option<RigidForces>,
@@ -102,7 +105,7 @@ pub enum AnswerError {
     #[error(transparent)]
     Rest(#[from] EquilibriumError),
     #[error("the structure finds no rest on rigid ground ({0}); stiffen its columns")]
-    RestOnGround(RestError),
+    RestOnGround(#[from] RestError),
 }
 
 /// The history of a frame through a record, from rest.
@@ -121,9 +124,9 @@ impl Reference {
     /// The structure does not stand.
     pub fn new(assembled: &Assembled, record: &Record) -> Result<Self, AnswerError> {
         let ground = GroundAcceleration { dt: record.dt, accel: &record.accel, vertical: record.up() };
-        let q = assembled.upright().map_err(AnswerError::RestOnGround)?;
+        let q = assembled.upright()?;
         let history = assembled.rock(ground, &q);
-        let foretold = assembled.foretold(ground, &q, &history);
+        let foretold = assembled.foretold(ground, &q, &history, FORETOLD);
         Ok(Self { history, foretold })
     }
 }
@@ -180,10 +183,12 @@ impl ElasticAnswer {
         let compared = histories.compared(record, &[]);
         let [reference, fem] = [0, 1].map(|k| histories.sways.iter().map(|pair| pair[k].clone()).collect::<Vec<_>>());
         let errors = errors(&reference, &fem, compared.samples);
+        let parts = matches!(compared.end, ComparedEnd::Foretold | ComparedEnd::Slides);
+        let ensemble = if parts { Ensemble::new(assembled, springs, record)? } else { None };
         // Housner's equation has no members
         let bare = assembled.members == Members::default();
         let rigid = RigidForces::of(&assembled.structure, record).filter(|_| bare);
-        Ok(Self { histories, compared, errors, fixed, fixed_drift, rigid })
+        Ok(Self { histories, compared, errors, fixed, fixed_drift, ensemble, rigid })
     }
 }
 

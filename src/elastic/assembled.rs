@@ -7,8 +7,8 @@ use super::{
     Mechanics,
     frame::{Base, Frame, FrameError, FrameLayout, FrameTendon},
     reference::{
-        CornerSet, ElasticRocking, FORETOLD, GroundAcceleration, PERTURBATION, ReferenceOptions, RestError, Twins,
-        at_rest, growth, rock,
+        CornerSet, ElasticRocking, GroundAcceleration, PERTURBATION, ReferenceOptions, RestError, Twins, at_rest,
+        growth, rock,
     },
     structure::ElasticStructure,
 };
@@ -130,11 +130,17 @@ impl Assembled {
         rock(&self.frame, ground, (q, &DVector::zeros(q.len())), &ReferenceOptions::default())
     }
 
-    /// Samples of such a history that can be foretold on springs, at most its own: up to where a corner slides on from a landing.
-    pub fn foretold(&self, ground: GroundAcceleration, q: &DVector<f64>, history: &ElasticRocking) -> usize {
+    /// Samples of such a history over which a perturbation grows less than `limit`, at most its own: up to where a corner slides on from a landing.
+    pub fn foretold(
+        &self,
+        ground: GroundAcceleration,
+        q: &DVector<f64>,
+        history: &ElasticRocking,
+        limit: f64,
+    ) -> usize {
         let (still, options) = (DVector::zeros(q.len()), ReferenceOptions::default());
-        let twins = Twins { coordinates: &self.telling(), perturbation: PERTURBATION, limit: FORETOLD };
-        let grown = growth(&self.frame, ground, (q, &still), &options, (history, &twins)).samples_below(FORETOLD);
+        let twins = Twins { coordinates: &self.telling(), perturbation: PERTURBATION, limit };
+        let grown = growth(&self.frame, ground, (q, &still), &options, (history, &twins)).samples_below(limit);
         history.skidded.map_or(grown, |time| grown.min(history.samples_to(time)))
     }
 

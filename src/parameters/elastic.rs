@@ -8,6 +8,7 @@ use super::{ParametersError, RecordRow, RememberedError, SCHEMA};
 use crate::{
     elastic::{
         assembled::{Assembled, AssemblyError},
+        ensemble::Ensemble,
         structure::ElasticStructure,
     },
     excitation::Excitation,
@@ -101,6 +102,9 @@ pub struct OnRecord {
     pub touches_fem: usize,
     /// Largest energy that the finite elements' account misses, over the largest energy.
     pub energy_residual: f64,
+    /// Peaks over motions near the record, where it cannot be foretold to its end.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub near: Option<Ensemble>,
 }
 
 /// What the file holds.
@@ -289,6 +293,7 @@ mod tests {
             landings_reference: 4,
             touches_fem: 9,
             energy_residual: 1e-7,
+            near: None,
         };
         let assessment = ElasticAssessment { accuracy: 0.002, reached: false, measured };
         let written = ElasticParameters { assessment: Some(assessment), on_record: Some(on_record), ..parameters() };

@@ -58,8 +58,8 @@ impl Quantiles {
     }
 }
 
-/// The q-quantile of sorted numbers, linear between the two nearest ranks (Hyndman and Fan 1996, definition 7).
-fn quantile(sorted: &[f64], q: f64) -> Option<f64> {
+/// The q-quantile of sorted numbers, linear between the two nearest ranks (Hyndman and Fan 1996, definition 7); none if that is not finite.
+pub fn quantile(sorted: &[f64], q: f64) -> Option<f64> {
     let rank = q * sorted.len().checked_sub(1)? as f64;
     let (low, share) = (rank.floor() as usize, rank.fract());
     let x = sorted[low];

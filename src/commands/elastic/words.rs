@@ -6,6 +6,7 @@ use super::ElasticRun;
 use crate::{
     elastic::{
         answer::{Compared, ComparedEnd},
+        ensemble::{Ensemble, Spread},
         reference::ReferenceOutcome,
         structure::ElasticStructure,
     },
@@ -119,7 +120,7 @@ pub fn over(compared: &Compared) -> String {
         ComparedEnd::Record => "over all of it".into(),
         ComparedEnd::History => format!("over its first {seconds:.2} s, where it ends"),
         ComparedEnd::Foretold => format!(
-            "over its first {seconds:.2} s; from then on no model foretells this motion one to one, judge it over many records"
+            "over its first {seconds:.2} s; from then on no model foretells this motion one to one: it is to be judged over many"
         ),
         ComparedEnd::Slides => format!(
             "over its first {seconds:.2} s; then a corner lands so flat that it slides on, and what follows depends on friction, which the springs do not have"
@@ -165,7 +166,32 @@ fn on_springs(run: &ElasticRun, on: &OnRecord) -> Vec<String> {
     };
     let over = over(&run.answer.compared);
     lines.push(format!("on its springs {within} (NRMSE), {over}; {} touches", on.touches_fem));
+    lines.extend(on.near.iter().map(|near| nearby(near, run.assembled.structure.body().alpha())));
     lines
+}
+
+/// What motions near the record come to.
+fn nearby(near: &Ensemble, alpha: f64) -> String {
+    let Ensemble { motions, change, rotation_rad, drift_m, overturned } = near;
+    let cell = |value: Option<f64>, unit: f64| value.map_or("overturned".to_string(), |value| short(value / unit, 3));
+    let both = |spread: &Spread, unit: f64| {
+        let [ground, springs] =
+            [0, 1].map(|k| format!("{} and {}", cell(spread.median[k], unit), cell(spread.p90[k], unit)));
+        format!("{ground} on rigid ground, {springs} on springs")
+    };
+    let fallen = match overturned {
+        [0, 0] => String::new(),
+        [reference, fem] => format!("; {reference} overturn on rigid ground, {fem} on springs"),
+    };
+    format!(
+        "over {motions} motions within {} % of the record (median and 90 %): largest rotation over alpha {}; largest drift in mm {}; \
+         distances of Kolmogorov and Smirnov {:.2} and {:.2}{fallen}",
+        brief(1e2 * change, 2),
+        both(rotation_rad, alpha),
+        both(drift_m, 1e-3),
+        rotation_rad.ks_distance,
+        drift_m.ks_distance,
+    )
 }
 
 /// All that the program says, a line each.

@@ -12,9 +12,12 @@ use nalgebra::DVector;
 use super::{ElasticRocking, GroundAcceleration, ReferenceOptions, walk::ReferenceWalk};
 use crate::elastic::Mechanics;
 
-/// A history can be compared one to one while a perturbation has grown less than this: springs within a thousandth of the reference are then
-/// within 3e-5 of it at every landing, which is what a stance of such a give can be.
-pub const FORETOLD: f64 = 30.0;
+/// A history can be foretold while a perturbation has grown less than this: what began as a millionth is then a thousandth of the peak.
+pub const FORETOLD: f64 = 1e3;
+
+/// Springs are tried on motions while it has grown less than this: springs within a thousandth of the reference are then within 3e-5 of it at
+/// every landing.
+pub const TRIED: f64 = 30.0;
 
 /// Perturbation whose growth tells how long a history can be foretold.
 pub const PERTURBATION: f64 = 1e-6;

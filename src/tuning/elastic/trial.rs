@@ -6,7 +6,7 @@ use crate::{
         answer::Reference,
         assembled::{Assembled, Sway, errors},
         fem::{ElasticAnalysis, ElasticHistory, ElasticStart},
-        reference::{ElasticRocking, GroundAcceleration, ReferenceOutcome},
+        reference::{ElasticRocking, GroundAcceleration, ReferenceOutcome, TRIED},
     },
     fem::Control,
     record::Record,
@@ -69,7 +69,7 @@ impl ElasticTrial {
         let Some(q) = model.leaning(lean) else { return ElasticTrialOutcome::Unfit };
         let ground = GroundAcceleration::horizontal(dt, &still);
         let history = model.rock(ground, &q);
-        let foretold = || model.foretold(ground, &q, &history);
+        let foretold = || model.foretold(ground, &q, &history, TRIED);
         Self::found(model, ground, Some(lean), &history, foretold)
     }
 
@@ -82,7 +82,7 @@ impl ElasticTrial {
             let (accel, vertical) = (&accel[..samples], &up[..samples.min(up.len())]);
             let ground = GroundAcceleration { dt: record.dt, accel, vertical };
             let history = model.rock(ground, &q);
-            let foretold = model.foretold(ground, &q, &history);
+            let foretold = model.foretold(ground, &q, &history, TRIED);
             // what comes after it need not be known
             if foretold < samples && history.landings().next().is_some() || samples == record.accel.len() {
                 return Self::found(model, ground, None, &history, || foretold);
