@@ -46,7 +46,7 @@ def over_all(path):
     out = []
     for what in ("theta", "drift"):
         names = [name for name in rows[0] if name.startswith(f"{what}_reference")]
-        both = [(float(r[n]), float(r[n.replace("reference", "fem")])) for n in names for r in rows]
+        both = [(float(r[n]), float(r[n.replace("reference", "fem")])) for n in names for r in rows if r[n] and r[n.replace("reference", "fem")]]
         out.append(math.sqrt(sum((a - b) ** 2 for a, b in both) / sum(a * a for a, _ in both)))
     return out
 

@@ -123,10 +123,18 @@ impl Reference {
     /// # Errors
     /// The structure does not stand.
     pub fn new(assembled: &Assembled, record: &Record) -> Result<Self, AnswerError> {
+        Self::within(assembled, record, FORETOLD)
+    }
+
+    /// The same, foretold for as long as a perturbation grows less than `limit`.
+    ///
+    /// # Errors
+    /// The structure does not stand.
+    pub fn within(assembled: &Assembled, record: &Record, limit: f64) -> Result<Self, AnswerError> {
         let ground = GroundAcceleration { dt: record.dt, accel: &record.accel, vertical: record.up() };
         let q = assembled.upright()?;
         let history = assembled.rock(ground, &q);
-        let foretold = assembled.foretold(ground, &q, &history, FORETOLD);
+        let foretold = assembled.foretold(ground, &q, &history, limit);
         Ok(Self { history, foretold })
     }
 }

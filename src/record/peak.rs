@@ -107,13 +107,17 @@ impl<'a> Stated<'a> {
         {
             return Ok(Peak { value, time });
         }
-        let at = |time: Option<f64>| time.map_or(String::new(), |t| format!(" at {t:.4} s"));
+        // a number of a broken file may have three hundred digits
+        let long = |x: f64, digits: usize| {
+            if x.abs() < 1e9 { format!("{x:.digits$}") } else { format!("{x:.digits$e}") }
+        };
+        let at = |time: Option<f64>| time.map_or(String::new(), |t| format!(" at {} s", long(t, 4)));
         Err(RecordError::Peak {
             file: file.to_owned(),
             line: self.line,
             of: self.of,
             said: format!("{}{}", self.value, at(time)),
-            found: format!("{:.7}{}", found.value, at(found.time.map(|t| start + t))),
+            found: format!("{}{}", long(found.value, 7), at(found.time.map(|t| start + t))),
         })
     }
 
@@ -182,6 +186,8 @@ mod tests {
         for (value, time) in [("2.1", None), ("-2.0", Some("0.10")), ("2.0", Some("0.02")), ("-2.046", None)] {
             assert!(check(&stated(value, time, true), &values).is_err(), "{value} {time:?}");
         }
+        let message = check(&stated("3.5", Some("0.04"), true), &[0.0, 8e300]).unwrap_err().to_string();
+        assert!(message.contains("8.0000000e300") && message.len() < 400, "{message}");
         let message = check(&stated("3.5", Some("0.04"), true), &values).unwrap_err().to_string();
         assert!(
             message.contains("line 3") && message.contains("3.5 at 0.0400 s") && message.contains("-2.04"),
