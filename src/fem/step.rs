@@ -6,9 +6,10 @@ pub(super) use super::iterate::{
     Convergence, EIGENVALUE, Ground, LARGEST, Verdict, complex, embedded, from_modes, modes, stage, times,
 };
 use super::{
-    model::{Contact, Foot, Model, N, State, TH, Vector},
+    model::{Contact, Foot, Model, N, Pose, State, TH, Vector, X, Z},
     newton::{Chains, Matrix},
     radau::{A, C, GAMMA, position_weights, velocity_weights},
+    turning::{self, Turning},
 };
 use crate::scalar::{Scalar, real};
 
@@ -77,6 +78,8 @@ pub(super) struct Request<S> {
     pub extra: usize,
     /// The factor by which an iteration is expected to reduce the error, from the step before; 1 if unknown.
     pub rate: f64,
+    /// The foot that the body turns about, if that counts.
+    pub turning: Option<Turning>,
 }
 
 /// Takes steps of a model.
@@ -134,15 +137,31 @@ impl<'a, S: Scalar> Stepper<'a, S> {
         let real_feet = feet.map(|foot| Foot { contact: foot.contact, anchor: foot.anchor.re() });
         self.condense(hr, &real_feet);
         let Some(shared) = &self.chains else { return false };
-        let real_matrix: &Matrix<f64> =
-            self.matrix.insert(Matrix::new(&shared.real, &self.real, &middle, &real_feet, hr * GAMMA, |x| x));
-        let pair_matrix = Matrix::new(&shared.pair, &self.real, &middle, &real_feet, hr * EIGENVALUE, complex);
+        let (real_root, root) = (hr * GAMMA, hr * EIGENVALUE);
+        let (real_matrix, pair_matrix) = if request.turning.is_some() {
+            let places = [&start.q.map(|x| x.re()), &middle.q];
+            let contact = turning::contact(places.map(|q| self.real.contact(q, &real_feet)));
+            (
+                Matrix::rigid(&shared.real, &self.real, &contact, &real_feet, real_root, |x| x),
+                Matrix::rigid(&shared.pair, &self.real, &contact, &real_feet, root, complex),
+            )
+        } else {
+            (
+                Matrix::new(&shared.real, &self.real, &middle, &real_feet, real_root, |x| x),
+                Matrix::new(&shared.pair, &self.real, &middle, &real_feet, root, complex),
+            )
+        };
+        let real_matrix: &Matrix<f64> = self.matrix.insert(real_matrix);
 
         let model = self.model;
         let masses = model.masses(feet);
         let radius = self.real.body.radius();
         let grounds = C.map(|c| ground.after(h, c));
         let mut convergence = Convergence::new(request.tolerance, self.rounding, request.extra, request.rate);
+        let turning = match real_matrix {
+            Matrix::Rigid(rigid) => request.turning.map(|turning| (turning, rigid.lever[turning.foot])),
+            _ => None,
+        };
         (s.h, s.a) = (h, guess);
         loop {
             for i in 0..3 {
@@ -158,10 +177,17 @@ impl<'a, S: Scalar> Stepper<'a, S> {
             }
 
             let mut residual = [[S::zero(); N]; 3];
+            let mut turned = [[0.0; 2]; 3];
             for i in 0..3 {
-                residual[i] = model.forces(&s.q[i], &s.v[i], feet, grounds[i]);
+                let pose = Pose::of(&s.q[i]);
+                residual[i] = model.forces_at(&pose, &s.q[i], &s.v[i], feet, grounds[i]);
                 for k in 0..N {
                     residual[i][k] -= masses[k] * s.a[i][k];
+                }
+                if let Some((Turning { foot, .. }, lever)) = turning {
+                    let (_, _, px_th, pz_th) = model.foot(foot, &s.q[i], pose.sin, pose.cos);
+                    turned[i] = [px_th.re() - lever[0], pz_th.re() - lever[1]];
+                    residual[i][TH] = turning::moment([residual[i][X], residual[i][Z], residual[i][TH]], turned[i]);
                 }
             }
             let mut r0 = [S::zero(); N];
@@ -173,11 +199,27 @@ impl<'a, S: Scalar> Stepper<'a, S> {
             let w1 = pair_matrix.solve(&shared.pair, &r1, times);
 
             let mut change: f64 = 0.0;
+            let turn = from_modes(w0[TH], w1[TH]);
             for k in 0..N {
-                let length = if k == TH { radius } else { 1.0 };
-                for (a, delta) in s.a.iter_mut().zip(from_modes(w0[k], w1[k])) {
-                    a[k] += delta;
-                    change = change.max((delta.re() * length).abs());
+                let mut delta = from_modes(w0[k], w1[k]);
+                let mut counts = delta.map(|delta| delta.re());
+                match turning {
+                    Some((_, lever)) if k == X || k == Z => {
+                        let carried = turning::carried(turn, [turned[0][k], turned[1][k], turned[2][k]]);
+                        for i in 0..3 {
+                            delta[i] -= carried[i];
+                            counts[i] += lever[k] * turn[i].re();
+                        }
+                    }
+                    Some((Turning { weight, .. }, _)) if k == TH => {
+                        counts = counts.map(|turn| turn * (radius * weight))
+                    }
+                    None if k == TH => counts = counts.map(|turn| turn * radius),
+                    _ => {}
+                }
+                for i in 0..3 {
+                    s.a[i][k] += delta[i];
+                    change = change.max(counts[i].abs());
                 }
             }
             if !convergence.moved(change * (LARGEST * (h * h).re())) {
