@@ -45,6 +45,7 @@ mod slipping;
 mod stance;
 mod step;
 mod strut;
+mod turning;
 
 pub use control::{Control, HistoryOutcome, Work};
 pub use demands::{Demands, QUANTITIES};

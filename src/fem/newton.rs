@@ -81,8 +81,21 @@ impl<T: Num + Copy + Neg<Output = T>> CondensedMatrix<T> {
         if feet.iter().any(|foot| matches!(foot.contact, Contact::Slip(_))) {
             return Self::Slipping(Box::new(Slipping::new(model, state, feet, s, &lift)));
         }
+        Self::rigid(chains, model, &model.contact(&state.q, feet), feet, s, lift)
+    }
+
+    /// Factor for a body whose feet's forces are `contact`.
+    #[inline(always)]
+    pub fn rigid<S: Scalar>(
+        chains: &Chains<T>,
+        model: &Model<S>,
+        contact: &[FootForce<S>; 2],
+        feet: &[Foot<S>; 2],
+        s: T,
+        lift: impl Fn(S) -> T,
+    ) -> Self {
         let closed = feet.map(|foot| foot.closed() || !model.skip_open);
-        Self::Rigid(Rigid::new(chains, &model.contact(&state.q, feet), &model.masses(feet), closed, s, lift))
+        Self::Rigid(Rigid::new(chains, contact, &model.masses(feet), closed, s, lift))
     }
 
     /// Solve for the accelerations' correction; `times` multiplies an entry of the right side by one of the matrix.

@@ -22,6 +22,13 @@ pub(crate) const A2: [[f64; 3]; 3] = [
     [0.318_041_381_743_977_17, 0.181_958_618_256_022_83, 0.0],
 ];
 
+/// Inverse of A squared.
+pub(crate) const A2_INV: [[f64; 3]; 3] = [
+    [4.831_632_475_943_927_0, 6.578_435_211_201_746_2, -0.852_516_921_786_418_29],
+    [-8.445_101_877_868_412_8, -11.498_299_142_610_594, 6.985_850_255_119_751_6],
+    [72.371_937_588_824_311, -37.038_604_255_490_978, 15.666_666_666_666_667],
+];
+
 /// The real eigenvalue of A.
 pub(crate) const GAMMA: f64 = 0.274_888_829_595_677_37;
 /// Real part of the complex pair of A.
@@ -114,7 +121,12 @@ mod tests {
     #[test]
     fn tables_are_consistent() {
         assert_close(product(A, A), A2);
-        assert_close(product(T, T_INV), [[1.0, 0.0, 0.0], [0.0, 1.0, 0.0], [0.0, 0.0, 1.0]]);
+        let unit = [[1.0, 0.0, 0.0], [0.0, 1.0, 0.0], [0.0, 0.0, 1.0]];
+        // entries up to 72
+        for (row, expected) in product(A2_INV, A2).iter().zip(unit) {
+            assert!(row.iter().zip(expected).all(|(x, e)| (x - e).abs() < 1e-14), "{row:?}");
+        }
+        assert_close(product(T, T_INV), unit);
         let lambda = [[GAMMA, 0.0, 0.0], [0.0, ALPHA, BETA], [0.0, -BETA, ALPHA]];
         assert_close(product(T_INV, product(A, T)), lambda);
     }

@@ -26,7 +26,7 @@ pub(super) use account::{Contacts, Scales, StepMeasures};
 use events::{Located, Locating};
 pub(crate) use ground::GroundMotion;
 use met::Met;
-use span::{Softness, Span};
+use span::Span;
 
 /// A history in the making.
 pub(crate) struct Run<'a, S> {
@@ -45,7 +45,8 @@ pub(crate) struct Run<'a, S> {
     spanning: Option<Span>,
     /// By how far the parabola is late at the samples within it [m].
     late: [S; span::MOST],
-    softness: Softness,
+    /// By how much the springs give way under an acceleration of the mass of one [m per m/s2].
+    compliance: f64,
     /// The sample up to which steps over several samples may go: an event comes after it.
     event_by: usize,
     /// The event that the step under way is repeated for.
@@ -108,7 +109,7 @@ impl<'a, S: Scalar> Run<'a, S> {
             here: Ground::still(),
             spanning: None,
             late: [S::zero(); span::MOST],
-            softness: Softness::of(model),
+            compliance: span::compliance(model),
             event_by: usize::MAX,
             locating: None,
             stepper: Stepper::new(model),
@@ -359,13 +360,16 @@ impl<'a, S: Scalar> Run<'a, S> {
     fn request(&self, h: S) -> Request<S> {
         // a share of what presses the feet that the energy account would not notice
         let share = (1e3 * self.control.tolerance).clamp(1e-7, 1e-3);
+        let tolerance = (share * self.compression).max(self.rounding);
+        let spans = self.spanning.is_some();
         Request {
             h,
             ground: self.here,
-            guess: if self.spanning.is_some() { self.pendulum(h) } else { [self.guess; 3] },
-            tolerance: (share * self.compression).max(self.rounding),
+            guess: if spans { self.pendulum(h) } else { [self.guess; 3] },
+            tolerance,
             extra: self.control.extra_iterations,
             rate: self.rate,
+            turning: spans.then(|| self.turning(h.re(), tolerance)),
         }
     }
 

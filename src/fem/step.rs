@@ -6,9 +6,10 @@ pub(super) use super::iterate::{
     Convergence, EIGENVALUE, Ground, IterationVerdict, LARGEST, complex, embedded, from_modes, modes, stage, times,
 };
 use super::{
-    model::{Contact, Foot, Model, N, State, TH, Vector},
+    model::{Contact, Foot, Model, N, Pose, State, TH, Vector, X, Z},
     newton::{Chains, CondensedMatrix},
     radau::{A, C, GAMMA, position_weights, velocity_weights},
+    turning::{self, Turning},
 };
 use crate::scalar::{Scalar, real};
 
@@ -77,6 +78,8 @@ pub(super) struct Request<S> {
     pub extra: usize,
     /// The factor by which an iteration is expected to reduce the error, from the step before; 1 if unknown.
     pub rate: f64,
+    /// The foot that the body turns about, if that counts.
+    pub turning: Option<Turning>,
 }
 
 /// Takes steps of a model.
@@ -101,6 +104,59 @@ struct Shared {
     contact: [Contact; 2],
     real: Chains<f64>,
     pair: Chains<Complex<f64>>,
+}
+
+/// A coordinate's correction at the stages, and what counts of it: of a body that turns about its foot, from the foot's place.
+#[inline(always)]
+fn counted<S: Scalar>(
+    k: usize,
+    mut delta: [S; 3],
+    turn: [S; 3],
+    turning: Option<(Turning, [f64; 2])>,
+    (turned, radius): (&[[f64; 2]; 3], f64),
+) -> ([S; 3], [f64; 3]) {
+    let mut counts = delta.map(|delta| delta.re());
+    match turning {
+        Some((_, lever)) if k == X || k == Z => {
+            let carried = turning::carried(turn, [turned[0][k], turned[1][k], turned[2][k]]);
+            for i in 0..3 {
+                delta[i] -= carried[i];
+                counts[i] += lever[k] * turn[i].re();
+            }
+        }
+        Some((Turning { weight, .. }, _)) if k == TH => counts = counts.map(|turn| turn * (radius * weight)),
+        None if k == TH => counts = counts.map(|turn| turn * radius),
+        _ => {}
+    }
+    (delta, counts)
+}
+
+/// The matrix of the real eigenvalue, and that of the pair.
+type Matrices = (CondensedMatrix<f64>, CondensedMatrix<Complex<f64>>);
+
+impl Shared {
+    /// The matrices half way; of a body that turns about its foot with the forces at the start.
+    #[inline(always)]
+    fn matrices(
+        &self,
+        model: &Model<f64>,
+        (start, middle): (&Vector<f64>, &State<f64>),
+        feet: &[Foot<f64>; 2],
+        turns: bool,
+    ) -> Matrices {
+        let (real, pair) = (self.h * GAMMA, self.h * EIGENVALUE);
+        if turns {
+            let contact = turning::contact([start, &middle.q].map(|q| model.contact(q, feet)));
+            return (
+                CondensedMatrix::rigid(&self.real, model, &contact, feet, real, |x| x),
+                CondensedMatrix::rigid(&self.pair, model, &contact, feet, pair, complex),
+            );
+        }
+        (
+            CondensedMatrix::new(&self.real, model, middle, feet, real, |x| x),
+            CondensedMatrix::new(&self.pair, model, middle, feet, pair, complex),
+        )
+    }
 }
 
 impl<'a, S: Scalar> Stepper<'a, S> {
@@ -134,15 +190,20 @@ impl<'a, S: Scalar> Stepper<'a, S> {
         let real_feet = feet.map(|foot| Foot { contact: foot.contact, anchor: foot.anchor.re() });
         self.condense(hr, &real_feet);
         let Some(shared) = &self.chains else { return false };
-        let real_matrix: &CondensedMatrix<f64> =
-            self.matrix.insert(CondensedMatrix::new(&shared.real, &self.real, &middle, &real_feet, hr * GAMMA, |x| x));
-        let pair_matrix = CondensedMatrix::new(&shared.pair, &self.real, &middle, &real_feet, hr * EIGENVALUE, complex);
+        let start_q = start.q.map(|x| x.re());
+        let (real_matrix, pair_matrix) =
+            shared.matrices(&self.real, (&start_q, &middle), &real_feet, request.turning.is_some());
+        let real_matrix: &CondensedMatrix<f64> = self.matrix.insert(real_matrix);
 
         let model = self.model;
         let masses = model.masses(feet);
         let radius = self.real.body.radius();
         let grounds = C.map(|c| ground.after(h, c));
         let mut convergence = Convergence::new(request.tolerance, self.rounding, request.extra, request.rate);
+        let turning = match real_matrix {
+            CondensedMatrix::Rigid(rigid) => request.turning.map(|turning| (turning, rigid.lever[turning.foot])),
+            _ => None,
+        };
         (s.h, s.a) = (h, guess);
         loop {
             for i in 0..3 {
@@ -158,10 +219,17 @@ impl<'a, S: Scalar> Stepper<'a, S> {
             }
 
             let mut residual = [[S::zero(); N]; 3];
+            let mut turned = [[0.0; 2]; 3];
             for i in 0..3 {
-                residual[i] = model.forces(&s.q[i], &s.v[i], feet, grounds[i]);
+                let pose = Pose::of(&s.q[i]);
+                residual[i] = model.forces_at(&pose, &s.q[i], &s.v[i], feet, grounds[i]);
                 for k in 0..N {
                     residual[i][k] -= masses[k] * s.a[i][k];
+                }
+                if let Some((Turning { foot, .. }, lever)) = turning {
+                    let (_, _, px_th, pz_th) = model.foot(foot, &s.q[i], pose.sin, pose.cos);
+                    turned[i] = [px_th.re() - lever[0], pz_th.re() - lever[1]];
+                    residual[i][TH] = turning::moment([residual[i][X], residual[i][Z], residual[i][TH]], turned[i]);
                 }
             }
             let mut r0 = [S::zero(); N];
@@ -173,11 +241,13 @@ impl<'a, S: Scalar> Stepper<'a, S> {
             let w1 = pair_matrix.solve(&shared.pair, &r1, times);
 
             let mut change: f64 = 0.0;
+            let turn = from_modes(w0[TH], w1[TH]);
             for k in 0..N {
-                let length = if k == TH { radius } else { 1.0 };
-                for (a, delta) in s.a.iter_mut().zip(from_modes(w0[k], w1[k])) {
-                    a[k] += delta;
-                    change = change.max((delta.re() * length).abs());
+                let delta = from_modes(w0[k], w1[k]);
+                let (delta, counts) = counted(k, delta, turn, turning, (&turned, radius));
+                for i in 0..3 {
+                    s.a[i][k] += delta[i];
+                    change = change.max(counts[i].abs());
                 }
             }
             if !convergence.moved(change * (LARGEST * (h * h).re())) {

@@ -60,12 +60,18 @@ pub(super) struct Kernel {
     start: [Lanes; 2],
     slope: [Lanes; 2],
     curve: [Lanes; 2],
+    /// One where the body turns about its foot, and what a turn then counts.
+    turning: Lanes,
+    weight: Lanes,
     real: [Lanes; ENTRIES],
     pair: [[Lanes; ENTRIES]; 2],
     a: [[Lanes; N]; 3],
     q: [[Lanes; N]; 3],
     v: [[Lanes; N]; 3],
     residual: [[Lanes; N]; 3],
+    /// By how much the foot's lever differs at the stages from that of the matrices.
+    turned: [[Lanes; 2]; 3],
+    lever: [Lanes; 2],
     /// Corrections in the eigenvectors of A: the real one, and both parts of the pair.
     w: [[Lanes; N]; 3],
     /// One where the iteration goes on.
@@ -116,12 +122,16 @@ impl Kernel {
             start: [none; 2],
             slope: [none; 2],
             curve: [none; 2],
+            turning: none,
+            weight: [1.0; WIDTH],
             real: [none; ENTRIES],
             pair: [[none; ENTRIES]; 2],
             a: [[none; N]; 3],
             q: [[none; N]; 3],
             v: [[none; N]; 3],
             residual: [[none; N]; 3],
+            turned: [[none; 2]; 3],
+            lever: [none; 2],
             w: [[none; N]; 3],
             active: none,
             steep: none,
@@ -184,6 +194,8 @@ impl Kernel {
             self.slope[k][l] = request.ground.slope[k];
             self.curve[k][l] = request.ground.curve[k];
         }
+        self.turning[l] = f64::from(u8::from(request.turning.is_some()));
+        self.weight[l] = request.turning.map_or(1.0, |turning| turning.weight);
         self.convergence[l] = Some(Convergence::new(request.tolerance, rounding, request.extra, request.rate));
         self.fresh = true;
     }
@@ -249,6 +261,7 @@ impl Kernel {
             }
             for i in 0..3 {
                 self.residuals(i);
+                self.turn(i);
             }
             self.correct();
             for l in 0..WIDTH {

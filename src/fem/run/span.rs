@@ -17,7 +17,7 @@
 //! local error. A step that meets a change of contact, or whose body comes to lie, is refused: the steps up to it end at samples. Contact is
 //! looked for along the parabola; a touch that only what is missing would make is not seen.
 
-use super::{Contacts, Met, Run, StepMeasures, real};
+use super::{Contacts, Met, Run, Scales, StepMeasures, real};
 use crate::{
     fem::{
         control::HistoryOutcome,
@@ -25,6 +25,7 @@ use crate::{
         observer::{Observer, View},
         radau::C,
         step::{Ground, Stages, no_guess},
+        turning::Turning,
     },
     scalar::{GRAVITY, Scalar},
 };
@@ -33,8 +34,8 @@ use std::{f64::consts::FRAC_PI_2, ops::ControlFlow};
 /// Intervals between samples in a step, at most.
 pub(super) const MOST: usize = 32;
 
-/// Omega theta' h^2 of the longest step: beyond, iterations take more time than they save.
-const REACH: f64 = 1.5;
+/// Share of what such a step may miss from which on a turn counts in its iteration.
+const TURN: f64 = 1e-2;
 
 /// Growth from such a step to the next.
 const GROWTH: f64 = 1.6;
@@ -52,23 +53,11 @@ pub(super) struct Span {
     missed: f64,
 }
 
-/// The springs as such a step sees them.
-#[derive(Clone, Copy, Debug)]
-pub(super) struct Softness {
-    /// Circular frequency of the body on the stiffer chain [rad/s].
-    omega: f64,
-    /// By how much the springs give way under an acceleration of the mass of one [m per m/s2].
-    compliance: f64,
-}
-
-impl Softness {
-    pub fn of<S: Scalar>(model: &Model<S>) -> Self {
-        let mass = model.body.mass.re();
-        let chains = [&model.springs.vertical, &model.springs.horizontal];
-        let give = chains.map(|chain| chain.k1.re().recip() + chain.k2.re().recip());
-        let omega = (give[0].min(give[1]) * mass).sqrt().recip();
-        Self { omega, compliance: mass * (give[0] + give[1]) }
-    }
+/// By how much the springs give way under an acceleration of the mass of one [m per m/s2].
+pub(super) fn compliance<S: Scalar>(model: &Model<S>) -> f64 {
+    let chains = [&model.springs.vertical, &model.springs.horizontal];
+    let give = chains.map(|chain| chain.k1.re().recip() + chain.k2.re().recip());
+    model.body.mass.re() * (give[0] + give[1])
 }
 
 impl<S: Scalar> Run<'_, S> {
@@ -86,8 +75,7 @@ impl<S: Scalar> Run<'_, S> {
             self.event_by = usize::MAX;
         }
         let left = (self.motion.accel.len() - 1 - self.interval).min(self.event_by.saturating_sub(self.interval));
-        let size = self.h.min(self.reach());
-        let intervals = ((size / dt) as usize).min(left).min(MOST);
+        let intervals = ((self.h / dt) as usize).min(left).min(MOST);
         if intervals < 2 {
             return None;
         }
@@ -130,7 +118,7 @@ impl<S: Scalar> Run<'_, S> {
                 latest = latest.max(self.late[i].re().abs());
             }
         }
-        let kinks = (h / self.scales.moment).powi(2) * latest + self.softness.compliance * most;
+        let kinks = (h / self.scales.moment).powi(2) * latest + self.compliance * most;
         let missed = kinks / (self.scales.radius * self.scales.alpha);
         let ground = Ground { start: [c0, zero], slope: [c1 / h, zero], curve: [c2 / (h * h), zero] };
         (ground, Span { intervals: n, missed })
@@ -165,10 +153,12 @@ impl<S: Scalar> Run<'_, S> {
         })
     }
 
-    /// The longest step whose iteration converges [s]. While the body turns by d_theta from where the matrix was taken, stiff springs
-    /// push it aside with Omega^2 d_theta for each unit that it is off, and an iteration is off by (Omega h d_theta)^2 of that.
-    fn reach(&self) -> f64 {
-        (REACH / (self.softness.omega * self.state.v[TH].re().abs())).sqrt()
+    /// How it turns about its foot in a step of size h [s], where a displacement of the foot counts from `tolerance` [m] on. A turn counts
+    /// from a share of the error that the step may have, which its rate reaches first.
+    pub(super) fn turning(&self, h: f64, tolerance: f64) -> Turning {
+        let Scales { radius, alpha, moment, .. } = self.scales;
+        let turn = TURN * self.error * radius * alpha * (h / moment).min(1.0);
+        Turning { foot: usize::from(self.feet[1].closed()), weight: (tolerance / turn).min(1.0) }
     }
 
     /// Take note of such a step.

@@ -14,7 +14,8 @@ fn march(model: &Model<f64>, start: State<f64>, feet: &[Foot<f64>; 2], h: f64, n
     let (mut state, mut stepper, mut stages) = (start, Stepper::new(model), Stages::none());
     for i in 0..n {
         let ground = Ground { start: [slope * h * i as f64, 0.0], slope: [slope, 0.0], curve: [0.0; 2] };
-        let request = Request { h, ground, guess: [no_guess(); 3], tolerance: 1e-15, extra: 1, rate: 1.0 };
+        let request =
+            Request { h, ground, guess: [no_guess(); 3], tolerance: 1e-15, extra: 1, rate: 1.0, turning: None };
         assert!(stepper.step(&state, feet, &request, &mut stages), "a linear step converges");
         state = stages.end();
     }
@@ -52,7 +53,8 @@ fn the_estimate_of_the_local_error_is_of_order_four_and_above_the_error() {
     let estimate = |h: f64| {
         let (mut stepper, mut stages) = (Stepper::new(&model), Stages::none());
         let ground = Ground { start: [0.0; 2], slope: [slope, 0.0], curve: [0.0; 2] };
-        let request = Request { h, ground, guess: [no_guess(); 3], tolerance: 1e-15, extra: 1, rate: 1.0 };
+        let request =
+            Request { h, ground, guess: [no_guess(); 3], tolerance: 1e-15, extra: 1, rate: 1.0, turning: None };
         assert!(stepper.step(&start, &feet, &request, &mut stages));
         let missed = stepper.local_error(&start, &feet, &ground, &stages);
         let fine = march(&model, start, &feet, h / 16.0, 16, slope);

@@ -10,11 +10,12 @@ use crate::{
     fem::{
         contact::ContactLaw,
         element::Elements,
-        model::{Contact, Foot, Model, N, Pose, State, TH, Vector},
+        model::{Contact, Foot, FootForce, Model, N, Pose, State, TH, Vector, X, Z},
         newton::{Chains, Rigid},
         radau::{A, C, GAMMA},
         run::{Scales, stays_inside},
         step::{EIGENVALUE, Ground, LARGEST, complex, embedded, error_right, from_modes, modes, stage, times},
+        turning,
     },
     scalar::{in_reach, small_sin_cos},
     spring::{Chain, Springs},
@@ -65,13 +66,35 @@ impl Kernel {
         q
     }
 
+    /// The feet's forces and levers that lane l's matrices are taken with.
+    #[inline(always)]
+    fn contact(
+        &self,
+        l: usize,
+        model: &Model<f64>,
+        feet: &[Foot<f64>; 2],
+        middle: &Vector<f64>,
+    ) -> [FootForce<f64>; 2] {
+        let start = column(&self.q0, l);
+        let [at_start, half_way] =
+            [model.contact_at(&pose(&start), &start, feet), model.contact_at(&pose(middle), middle, feet)];
+        let turns = turning::contact([at_start, half_way]);
+        let turning = self.turning[l] != 0.0;
+        let force = |i: usize| FootForce {
+            horizontal: if turning { turns[i].horizontal } else { half_way[i].horizontal },
+            vertical: if turning { turns[i].vertical } else { half_way[i].vertical },
+            ..half_way[i]
+        };
+        [force(0), force(1)]
+    }
+
     /// Factor the matrices half way.
     #[inline(always)]
     pub(super) fn factor(&mut self) {
         for l in 0..WIDTH {
             let (model, feet, h) = (self.model(l), self.feet(l), self.h[l]);
             let middle: Vector<f64> = self.middle(l);
-            let contact = model.contact_at(&pose(&middle), &middle, &feet);
+            let contact = self.contact(l, &model, &feet, &middle);
             let (masses, closed) = (model.masses(&feet), [feet[0].closed(), feet[1].closed()]);
             let chains = Chains::new(&model, &feet, h * GAMMA, &|x| x);
             let rigid = Rigid::new(&chains, &contact, &masses, closed, h * GAMMA, |x| x);
@@ -79,11 +102,14 @@ impl Kernel {
             for e in 0..ENTRIES {
                 self.real[e][l] = entries[e];
             }
+            let [left, right] = rigid.lever;
+            self.lever[0][l] = if closed[0] { left[0] } else { right[0] };
+            self.lever[1][l] = if closed[0] { left[1] } else { right[1] };
         }
         for l in 0..WIDTH {
             let (model, feet, h) = (self.model(l), self.feet(l), self.h[l]);
             let middle: Vector<f64> = self.middle(l);
-            let contact = model.contact_at(&pose(&middle), &middle, &feet);
+            let contact = self.contact(l, &model, &feet, &middle);
             let (masses, closed) = (model.masses(&feet), [feet[0].closed(), feet[1].closed()]);
             let chains = Chains::new(&model, &feet, h * EIGENVALUE, &complex);
             let rigid = Rigid::new(&chains, &contact, &masses, closed, h * EIGENVALUE, complex);
@@ -127,6 +153,27 @@ impl Kernel {
         }
     }
 
+    /// How the levers differ at stage i, and what that leaves of the moment.
+    #[inline(always)]
+    pub(super) fn turn(&mut self, i: usize) {
+        for l in 0..WIDTH {
+            let model = self.model(l);
+            let q = column(&self.q[i], l);
+            let Pose { sin, cos } = pose(&q);
+            let ((_, _, left_x, left_z), (_, _, right_x, right_z)) =
+                (model.foot(0, &q, sin, cos), model.foot(1, &q, sin, cos));
+            let on_left = self.closed[0][l] != 0.0;
+            let (lever_x, lever_z) = (self.lever[0][l], self.lever[1][l]);
+            let turned =
+                [if on_left { left_x } else { right_x } - lever_x, if on_left { left_z } else { right_z } - lever_z];
+            let [x, z, th] = [self.residual[i][X][l], self.residual[i][Z][l], self.residual[i][TH][l]];
+            let moment = turning::moment([x, z, th], turned);
+            self.residual[i][TH][l] = if self.turning[l] != 0.0 { moment } else { th };
+            self.turned[i][0][l] = turned[0];
+            self.turned[i][1][l] = turned[1];
+        }
+    }
+
     /// Solve for the correction of the accelerations, and add it where the iteration goes on.
     #[inline(always)]
     pub(super) fn correct(&mut self) {
@@ -156,18 +203,37 @@ impl Kernel {
         }
         for l in 0..WIDTH {
             let (mut change, h, active): (f64, f64, bool) = (0.0, self.h[l], self.active[l] != 0.0);
-            let radius = self.scales[0][l];
+            let turning = self.turning[l] != 0.0;
+            let length = self.scales[0][l] * self.weight[l];
+            let turn = self.delta(TH, l);
             coordinates!(K => {
-                let length = if K == TH { radius } else { 1.0 };
-                let delta = from_modes(self.w[0][K][l], Complex::new(self.w[1][K][l], self.w[2][K][l]));
+                let delta = self.delta(K, l);
+                let (delta, counts) = if K == X || K == Z {
+                    // their rows; the remainder only bounds the index where K is neither
+                    let turned = [self.turned[0][K % 2][l], self.turned[1][K % 2][l], self.turned[2][K % 2][l]];
+                    let (carried, lever) = (turning::carried(turn, turned), self.lever[K % 2][l]);
+                    let free = [delta[0] - carried[0], delta[1] - carried[1], delta[2] - carried[2]];
+                    let foot = [delta[0] + turn[0] * lever, delta[1] + turn[1] * lever, delta[2] + turn[2] * lever];
+                    (pick(turning, free, delta), pick(turning, foot, delta))
+                } else if K == TH {
+                    (delta, [delta[0] * length, delta[1] * length, delta[2] * length])
+                } else {
+                    (delta, delta)
+                };
                 coordinates!(I in 0 1 2 => {
                     let a = self.a[I][K][l];
                     self.a[I][K][l] = if active { a + delta[I] } else { a };
-                    change = change.max((delta[I] * length).abs());
+                    change = change.max(counts[I].abs());
                 });
             });
             self.change[l] = change * (LARGEST * (h * h));
         }
+    }
+
+    /// Lane l's corrections of a coordinate at the stages, as the matrices have them.
+    #[inline(always)]
+    fn delta(&self, k: usize, l: usize) -> [f64; 3] {
+        from_modes(self.w[0][k][l], Complex::new(self.w[1][k][l], self.w[2][k][l]))
     }
 
     /// Lane l's residuals of a coordinate at the stages.
@@ -260,4 +326,10 @@ impl Kernel {
 fn pose(q: &Vector<f64>) -> Pose<f64> {
     let (sin, cos) = small_sin_cos(q[TH]);
     Pose { sin, cos }
+}
+
+/// One or the other, without a branch.
+#[inline(always)]
+fn pick(first: bool, [a, b, c]: [f64; 3], [d, e, f]: [f64; 3]) -> [f64; 3] {
+    [if first { a } else { d }, if first { b } else { e }, if first { c } else { f }]
 }
