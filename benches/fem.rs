@@ -18,7 +18,7 @@ use compare::elements::BenchCase;
 fn fem(c: &mut Criterion) {
     let mut group = c.benchmark_group("finite elements");
     group.warm_up_time(Duration::from_millis(300)).measurement_time(Duration::from_secs(2)).sample_size(30);
-    for bench in [BenchCase::arr(), BenchCase::impact()] {
+    for bench in [BenchCase::arr(), BenchCase::damped()] {
         for (name, control) in [("default", Control::default()), ("search", Control::search())] {
             group.bench_function(BenchmarkId::new(bench.name, name), |b| b.iter(|| bench.simulate(black_box(control))));
         }

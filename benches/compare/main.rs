@@ -165,7 +165,7 @@ pub fn measure(effort: &Effort, python: &Path, program: &Path, tell: &dyn Fn(&st
         Measured::add(&mut m.left_out, &mut m.rigid, peers::octave(&problem, &[1e-3, 1e-6], 1));
     }
     tell("finite elements");
-    let benches = [elements::BenchCase::arr(), elements::BenchCase::impact()].map(|bench| (bench.tight(), bench));
+    let benches = [elements::BenchCase::arr(), elements::BenchCase::damped()].map(|bench| (bench.tight(), bench));
     m.elements = benches.iter().map(|(tight, bench)| bench.ladder(&elements::LADDER, tight, few)).collect();
     m.own = m.elements.len();
     m.stiffness = elements::against_stiffness(&[20.0, 80.0, 320.0, 1280.0], few);

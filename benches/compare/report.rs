@@ -100,12 +100,14 @@ fn work_precision(series: &[Series], unit: &str, own: usize) -> String {
     };
     let rows = series.iter().enumerate().flat_map(|(k, series)| {
         series.points.iter().map(move |p| {
-            let slower = if k < own { String::new() } else { ratio(p.seconds, p.error) };
+            // a history that does not get to its end has no error to compare at
+            let whole = p.error.is_finite();
+            let slower = if k < own || !whole { String::new() } else { ratio(p.seconds, p.error) };
             [
                 series.tool.clone(),
                 p.setting.clone(),
                 time(p.seconds),
-                format!("{:.1e}{unit}", p.error),
+                if whole { format!("{:.1e}{unit}", p.error) } else { String::new() },
                 slower,
                 p.note.clone(),
             ]

@@ -40,7 +40,7 @@ pub fn all(rounds: usize) -> Vec<Skip> {
 
 /// The impact springs on El Centro, times a factor, with silence around it [s].
 fn silent(before: f64, factor: f64, after: f64) -> BenchCase {
-    let mut bench = BenchCase::impact();
+    let mut bench = BenchCase::damped();
     let zeros = |seconds: f64| vec![0.0; (seconds / bench.record.dt).round() as usize];
     let shaking: Vec<f64> = bench.record.accel.iter().map(|a| factor * a).collect();
     bench.record.accel = [zeros(before), shaking, zeros(after)].concat();
@@ -69,7 +69,7 @@ impl Observer<f64> for NonStopping<'_> {
 
 /// A push that topples the body, and then half a minute of silence: followed until the fall is certain, or until the body lies flat.
 fn toppled(rounds: usize) -> Skip {
-    let bench = BenchCase::impact();
+    let bench = BenchCase::damped();
     let body = structure().body::<f64>();
     let dt = bench.record.dt;
     let mut accel = vec![4.0; (3.0 / dt) as usize];
@@ -104,7 +104,7 @@ fn toppled(rounds: usize) -> Skip {
 
 /// Chains of a foot in the air, solved with the body or by themselves.
 fn open_foot(rounds: usize) -> Skip {
-    let bench = BenchCase::impact();
+    let bench = BenchCase::damped();
     let [skip, solve] = [true, false].map(|skip_open| Control { skip_open, ..Control::default() });
     let mut with = || drop(black_box(bench.simulate(skip)));
     let mut without = || drop(black_box(bench.simulate(solve)));
@@ -116,7 +116,7 @@ fn open_foot(rounds: usize) -> Skip {
 
 /// Springs from stiff to soft, judged against Housner: abandoned when their running error exceeds the best, or followed.
 fn candidates(rounds: usize) -> Skip {
-    let sets = [BenchCase::arr().springs, BenchCase::impact().springs, BenchCase::plain(160.0).springs];
+    let sets = [BenchCase::arr().springs, BenchCase::damped().springs, BenchCase::plain(160.0).springs];
     let scaled = |chain: Design<f64>, hz: f64| Design { omega_n_hz: hz, ..chain };
     let springs: Vec<Springs<Design<f64>>> = [160.0, 120.0, 80.0, 60.0, 40.0, 30.0]
         .into_iter()
@@ -151,7 +151,7 @@ fn candidates(rounds: usize) -> Skip {
 
 /// A search needs the motion at the samples only, not forces, energies and events.
 fn history(rounds: usize) -> Skip {
-    let bench = BenchCase::impact();
+    let bench = BenchCase::damped();
     let body = structure().body::<f64>();
     let case = Analysis {
         body,
