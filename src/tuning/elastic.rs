@@ -17,7 +17,7 @@ use std::collections::BTreeMap;
 use thiserror::Error;
 
 use self::{
-    design::{CornerSprings, springs},
+    design::{CornerSprings, omega_n_hz, springs},
     suite::{ElasticSuite, Measured},
 };
 use super::ladder::{DECADE, FoundRung, seek};
@@ -76,7 +76,7 @@ pub fn tune(
     ACCURACY.check(accuracy).map_err(|(value, remedy)| ElasticTuneError::Accuracy { value, remedy })?;
     let standing = stand(model).ok_or(ElasticTuneError::Falls)?;
     let landing = landing_speed(&model.structure);
-    let rungs = Rungs::new(accuracy, most_hz, |i| springs(&standing, give(i), landing).omega_n_hz)?;
+    let rungs = Rungs::new(accuracy, most_hz, |i| omega_n_hz(&standing, give(i)))?;
     let suite = ElasticSuite::new(model.clone(), record);
     let of = |i: i64| springs(&standing, give(i), landing);
     Ok(rungs.search(accuracy, of, &|springs| suite.measure(springs, Control::search()), progress))

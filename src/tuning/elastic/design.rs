@@ -35,6 +35,9 @@ use crate::{
 const SCALE: f64 = 0.06;
 const K: (f64, f64) = (0.005, 0.5);
 
+/// By how much W of footings that are alike may differ: rounding.
+const SAME: f64 = 1e-9;
+
 /// Springs under every corner.
 #[derive(Clone, Debug, PartialEq)]
 pub struct CornerSprings {
@@ -105,16 +108,36 @@ pub fn springs(standing: &Standing, give: f64, landing: f64) -> CornerSprings {
     with_k(standing, give, (SCALE * give / share).cbrt().clamp(K.0, K.1))
 }
 
+/// k1 of the vertical units at a give of these alone (N/m).
+fn k1(standing: &Standing, give: f64) -> f64 {
+    let unit: f64 = standing.responses.iter().map(|sway| sway.give([f64::INFINITY, 1.0])).sum();
+    unit / give
+}
+
+/// sqrt(k1/M)/(2 pi) of the springs at a give (Hz).
+pub fn omega_n_hz(standing: &Standing, give: f64) -> f64 {
+    (k1(standing, give) / standing.mass).sqrt() / TAU
+}
+
 /// The same at any K.
 pub fn with_k(standing: &Standing, give: f64, k: f64) -> CornerSprings {
-    let unit: f64 = standing.responses.iter().map(|sway| sway.give([f64::INFINITY, 1.0])).sum();
-    let k1 = unit / give;
-    let of_footing: Vec<Springs<Chain<f64>>> = standing.footings.iter().map(|f| Lands::new(f).springs(k, k1)).collect();
+    let (asked, k1) = (give, k1(standing, give));
+    let mut of_footing: Vec<Springs<Chain<f64>>> = Vec::new();
+    for (i, footing) in standing.footings.iter().enumerate() {
+        // a search each: footings that are alike share one
+        let same = standing.footings[..i].iter().position(|other| alike(other, footing));
+        of_footing.push(same.map_or_else(|| Lands::new(footing).springs(k, k1), |j| of_footing[j]));
+    }
     let count = standing.responses[0].reactions.len();
     let footing = |corner: usize| standing.footings.iter().position(|f| f.corners.contains(&corner)).unwrap_or(0);
     let corners: Vec<_> = (0..count).map(|corner| of_footing[footing(corner)]).collect();
     let give = standing.responses.iter().map(|sway| total_give(sway, &corners)).sum();
-    CornerSprings { corners, k, give, omega_n_hz: (k1 / standing.mass).sqrt() / TAU }
+    CornerSprings { corners, k, give, omega_n_hz: omega_n_hz(standing, asked) }
+}
+
+/// Whether two footings land alike, to rounding.
+fn alike(a: &FootingInertia, b: &FootingInertia) -> bool {
+    a.w.shape() == b.w.shape() && a.width == b.width && (&a.w - &b.w).amax() <= SAME * b.w.amax()
 }
 
 /// Energy of the springs over that of the structure.

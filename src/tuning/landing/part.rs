@@ -100,8 +100,8 @@ mod tests {
         CornerDynamics::of(std::array::from_fn(|i| std::array::from_fn(|j| w(i, j))), 2.0 * b)
     }
 
-    /// Footings of any proportion, at any K: three changes of contact, and less energy left than on the
-    /// universal chain where that has no more.
+    /// Footings of any proportion, at any K: three changes of contact; where both corners stop, less energy left than on the universal chain. Where one
+    /// stops, that chain may leave less, and is touched again.
     #[test]
     fn a_landing_is_over_once_both_corners_have_lifted() {
         for (b, h, stops) in [
@@ -118,8 +118,9 @@ mod tests {
                 let sought = land(&corners, &for_part(&corners, k));
                 assert!(corners.stops() == stops && sought.complete);
                 assert!(sought.changes.iter().sum::<usize>() <= FEWEST, "{b} {h} {k}: {sought:?}");
-                let comes_again = universal.changes.iter().sum::<usize>() > FEWEST;
-                assert!(sought.deviation < universal.deviation || comes_again, "{b} {h} {k}: {sought:?} {universal:?}");
+                if stops {
+                    assert!(sought.deviation < universal.deviation, "{b} {h} {k}: {sought:?} {universal:?}");
+                }
             }
         }
     }
