@@ -121,6 +121,7 @@ impl ElasticRun {
         let on_record = OnRecord {
             compared_s: answer.compared.seconds,
             whole: answer.compared.whole(),
+            foretold_s: reference.foretold_seconds(record.dt),
             // rotations of a structure that stands are rounding
             nrmse_rotation: rotation.filter(|_| reference.history.lifts()),
             nrmse_drift: drift.filter(|_| largest(0, drifts) > ROUNDING * assembled.frame.span()),

@@ -5,7 +5,7 @@ use super::{
     ensemble::Ensemble,
     fem::{ElasticAnalysis, ElasticHistory, ElasticStart},
     frame::{EquilibriumError, Frame},
-    reference::{ElasticRocking, FORETOLD, GroundAcceleration, RestError},
+    reference::{ElasticRocking, FOLLOWED, FORETOLD, GroundAcceleration, RestError},
     rigid::RigidForces,
 };
 use crate::{
@@ -39,10 +39,10 @@ pub enum ComparedEnd {
 }
 
 impl Compared {
-    /// Of a record of so many samples dt apart, of which `foretold` can be foretold, by histories of these lengths.
-    pub fn new(record: &Record, foretold: usize, lengths: &[usize]) -> Self {
+    /// Of a record of so many samples dt apart, of which `followed` can be compared one to one, by histories of these lengths.
+    pub fn new(record: &Record, followed: usize, lengths: &[usize]) -> Self {
         let shortest = lengths.iter().copied().fold(record.len(), usize::min);
-        let samples = foretold.min(shortest);
+        let samples = followed.min(shortest);
         let end = match samples {
             n if n >= record.len() => ComparedEnd::Record,
             n if n >= shortest => ComparedEnd::History,
@@ -63,6 +63,8 @@ pub struct Reference {
     pub history: ElasticRocking,
     /// Samples of it that can be foretold.
     pub foretold: usize,
+    /// Samples that histories are compared over: those, or as many as springs stiff enough follow.
+    pub followed: usize,
 }
 
 /// What a structure does in a ground motion on rigid ground and on its springs.
@@ -135,7 +137,25 @@ impl Reference {
         let q = assembled.upright()?;
         let history = assembled.rock(ground, &q);
         let foretold = assembled.foretold(ground, &q, &history, limit);
-        Ok(Self { history, foretold })
+        Ok(Self { history, foretold, followed: foretold })
+    }
+
+    /// Length that can be foretold, if that is not all of it (s).
+    pub fn foretold_seconds(&self, dt: f64) -> Option<f64> {
+        (self.foretold < self.history.q.len()).then(|| self.foretold.saturating_sub(1) as f64 * dt)
+    }
+
+    /// The same compared over as much as springs stiff enough may follow, a perturbation growing less than [`FOLLOWED`]; none if that is no more.
+    ///
+    /// # Errors
+    /// The structure does not stand.
+    pub fn further(&self, assembled: &Assembled, record: &Record) -> Result<Option<Self>, AnswerError> {
+        if self.foretold >= self.history.q.len() {
+            return Ok(None);
+        }
+        let ground = GroundAcceleration { dt: record.dt, accel: &record.accel, vertical: record.up() };
+        let followed = assembled.foretold(ground, &assembled.upright()?, &self.history, FOLLOWED);
+        Ok((followed > self.followed).then(|| Self { followed, ..self.clone() }))
     }
 }
 
@@ -159,8 +179,8 @@ impl ElasticHistories {
 
     /// Over how much of the record histories of these lengths, beside the reference's, are compared.
     pub fn compared(&self, record: &Record, lengths: &[usize]) -> Compared {
-        let Reference { history, foretold } = &self.reference;
-        let compared = Compared::new(record, *foretold, &[&[history.q.len()], lengths].concat());
+        let Reference { history, followed, .. } = &self.reference;
+        let compared = Compared::new(record, *followed, &[&[history.q.len()], lengths].concat());
         let slides = history.skidded.is_some_and(|time| compared.samples == history.samples_to(time));
         let end = if compared.end == ComparedEnd::Foretold && slides { ComparedEnd::Slides } else { compared.end };
         Compared { end, ..compared }
@@ -191,8 +211,11 @@ impl ElasticAnswer {
         let compared = histories.compared(record, &[]);
         let [reference, fem] = [0, 1].map(|k| histories.sways.iter().map(|pair| pair[k].clone()).collect::<Vec<_>>());
         let errors = errors(&reference, &fem, compared.samples);
-        let parts = matches!(compared.end, ComparedEnd::Foretold | ComparedEnd::Slides);
-        let ensemble = if parts { Ensemble::new(assembled, springs, record)? } else { None };
+        let ensemble = if histories.reference.foretold_seconds(record.dt).is_some() {
+            Ensemble::new(assembled, springs, record)?
+        } else {
+            None
+        };
         // Housner's equation has no members
         let bare = assembled.members == Members::default();
         let rigid = RigidForces::of(&assembled.structure, record).filter(|_| bare);
@@ -207,8 +230,8 @@ mod tests {
     #[test]
     fn a_comparison_ends_with_the_record_a_history_or_what_can_be_foretold() {
         let record = Record::new("made up", 0.01, vec![0.0; 101]).unwrap();
-        let of = |foretold, lengths: &[usize]| {
-            let compared = Compared::new(&record, foretold, lengths);
+        let of = |followed, lengths: &[usize]| {
+            let compared = Compared::new(&record, followed, lengths);
             (compared.samples, compared.end)
         };
         assert_eq!(of(101, &[101]), (101, ComparedEnd::Record));

@@ -43,6 +43,11 @@ use crate::{
 /// piers of 1.5 and 2 Hz, NRMSE against 1e-10: 1e-5 of the rotation, 1e-4 of the drift.
 const TOLERANCE: f64 = 2e-8;
 
+/// How histories are followed unless told otherwise.
+pub fn default_control() -> Control {
+    Control { tolerance: TOLERANCE, ..Control::default() }
+}
+
 /// How the structure stands at t = 0.
 #[derive(Clone, Debug, PartialEq)]
 pub enum ElasticStart {
@@ -102,7 +107,7 @@ impl<'a> ElasticAnalysis<'a> {
         dt: f64,
         accel: &'a [f64],
     ) -> Self {
-        let control = Control { tolerance: TOLERANCE, ..Control::default() };
+        let control = default_control();
         Self { frame, springs, start, dt, accel, vertical: &[], scale: 1.0, control, forces: true }
     }
 

@@ -39,7 +39,7 @@ mod walk;
 
 use nalgebra::DVector;
 
-pub use conditioning::{FORETOLD, Growth, PERTURBATION, TRIED, Twins, growth};
+pub use conditioning::{FOLLOWED, FORETOLD, Growth, PERTURBATION, TRIED, Twins, growth};
 pub use corners::CornerSet;
 pub use hold::{Configuration, CornerContact, HeldMotion};
 pub use rest::{RestError, at_rest};

@@ -84,6 +84,9 @@ pub struct OnRecord {
     pub compared_s: f64,
     /// Whether that is all of it.
     pub whole: bool,
+    /// Length in which a change of a millionth grows to less than a thousandth of the peak, if that is not all of it (s).
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub foretold_s: Option<f64>,
     /// NRMSE of the rotations over that length; none where the reference is not lifted, or the history on springs ends before.
     pub nrmse_rotation: Option<f64>,
     /// NRMSE of the drifts; none where the history on springs ends before.
@@ -284,6 +287,7 @@ mod tests {
         let on_record = OnRecord {
             compared_s: 5.0,
             whole: false,
+            foretold_s: None,
             nrmse_rotation: None,
             nrmse_drift: None,
             peak_ratio_reference: 0.5,

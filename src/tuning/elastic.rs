@@ -4,6 +4,7 @@
 //!   structure -> finite elements -> standing: W, reactions -> springs at a give of the stance (`design`)
 //!                                -> releases, motions, record: the reference, its predictable part (`suite`, `trial`)
 //!   give = 10^(-i/10), the softest rung i that holds with the next above it
+//!                                -> the softest from there on that follow the record to where it grows a change 100,000-fold, if any does
 //! ```
 //!
 //! The accuracy is that of rotations against the reference (NRMSE, median); sways may have five times as much, and so may one history in ten.
@@ -19,11 +20,14 @@ use thiserror::Error;
 use self::{
     design::{CornerSprings, omega_n_hz, springs},
     suite::{ElasticSuite, Measured},
+    trial::ElasticTrial,
 };
 use super::ladder::{DECADE, FoundRung, seek};
 use crate::{
     case::ACCURACY,
-    elastic::{answer::Reference, assembled::Assembled, standing::Standing, structure::ElasticStructure},
+    elastic::{
+        answer::Reference, assembled::Assembled, fem::default_control, standing::Standing, structure::ElasticStructure,
+    },
     fem::Control,
     record::Record,
 };
@@ -34,6 +38,8 @@ const MARGIN: f64 = 0.7;
 const RUNGS: (i64, i64) = (10, 80);
 /// Give over accuracy where the search begins.
 const BEGIN: f64 = 0.1;
+/// Rungs above the softest that hold the accuracy at which the search begins for those that follow the record further: a tenth of the give.
+const STIFFER: i64 = 10;
 
 /// Why an elastic structure cannot be tuned, and what to do.
 #[derive(Debug, Error)]
@@ -59,6 +65,8 @@ pub struct ElasticTuned {
     /// Whether the accuracy asked for is reached; not if there was nothing to measure it on: springs are then those that the search would begin
     /// with.
     pub reached: bool,
+    /// The reference on the record, with as much of it as these springs hold the accuracy over; none without a record.
+    pub reference: Option<Reference>,
 }
 
 /// Springs under every corner of a structure, its members at work, as stiff as `accuracy` (NRMSE of rotations) asks for, at most `most_hz`
@@ -70,16 +78,45 @@ pub fn tune(
     model: &Assembled,
     accuracy: f64,
     most_hz: Option<f64>,
-    record: Option<(&Record, &Reference)>,
+    record: Option<(&Record, Reference)>,
     progress: &dyn Fn(usize, f64),
 ) -> Result<ElasticTuned, ElasticTuneError> {
     ACCURACY.check(accuracy).map_err(|(value, remedy)| ElasticTuneError::Accuracy { value, remedy })?;
     let standing = stand(model).ok_or(ElasticTuneError::Falls)?;
     let landing = landing_speed(&model.structure);
     let rungs = Rungs::new(accuracy, most_hz, |i| omega_n_hz(&standing, give(i)))?;
-    let suite = ElasticSuite::new(model.clone(), record);
+    let (record, reference) = record.unzip();
+    let suite = ElasticSuite::new(model.clone(), record.zip(reference.as_ref()));
     let of = |i: i64| springs(&standing, give(i), landing);
-    Ok(rungs.search(accuracy, of, &|springs| suite.measure(springs, Control::search()), progress))
+    let chosen = rungs.search(accuracy, of, &|springs| suite.measure(springs, Control::search()), progress);
+    let further = || {
+        let (record, reference) = record.zip(reference.as_ref()).filter(|_| chosen.reached)?;
+        let reference = reference.further(model, record).ok()??;
+        let record = ElasticTrial::beside(model, record, &reference).trial();
+        let suite = ElasticSuite { record, ..suite };
+        let stiffer = Rungs { ends: (chosen.rung, rungs.ends.1), guess: (chosen.rung + STIFFER).min(rungs.ends.1) };
+        // the record decides; all else is measured once. What grows so far asks for steps as close as the answer's
+        let alone = |springs: &CornerSprings| suite.measure_record(springs, default_control());
+        let found = stiffer.search(accuracy, of, &alone, progress);
+        let measured = suite.measure(&found.springs, default_control());
+        let reached = found.reached && measured.over(MARGIN * accuracy)? <= 1.0;
+        reached.then_some((ElasticRung { measured, ..found }, reference))
+    };
+    let (chosen, reference) = match further() {
+        Some((found, reference)) => (found, Some(reference)),
+        None => (chosen, reference),
+    };
+    let ElasticRung { springs, measured, reached, .. } = chosen;
+    Ok(ElasticTuned { springs, measured, reached, reference })
+}
+
+/// What a search of the ladder comes to.
+#[derive(Clone, Debug)]
+struct ElasticRung {
+    rung: i64,
+    springs: CornerSprings,
+    measured: Measured,
+    reached: bool,
 }
 
 /// The ladder of springs that may be chosen.
@@ -113,7 +150,7 @@ impl Rungs {
         springs: impl Fn(i64) -> CornerSprings,
         measure: &dyn Fn(&CornerSprings) -> Measured,
         progress: &dyn Fn(usize, f64),
-    ) -> ElasticTuned {
+    ) -> ElasticRung {
         let allowed = MARGIN * accuracy;
         let judged = |i: i64| {
             let springs = springs(i);
@@ -134,7 +171,12 @@ impl Rungs {
         // nothing to measure springs on
         let FoundRung { rung, holds } = found.unwrap_or(FoundRung { rung: self.guess, holds: false });
         let (springs, measured) = seen.remove(&rung).unwrap_or_else(|| judged(rung));
-        ElasticTuned { springs, measured, reached: holds && measured.over(allowed).is_some_and(|over| over <= 1.0) }
+        ElasticRung {
+            rung,
+            springs,
+            measured,
+            reached: holds && measured.over(allowed).is_some_and(|over| over <= 1.0),
+        }
     }
 }
 

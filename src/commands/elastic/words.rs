@@ -166,6 +166,12 @@ fn on_springs(run: &ElasticRun, on: &OnRecord) -> Vec<String> {
     };
     let over = over(&run.answer.compared);
     lines.push(format!("on its springs {within} (NRMSE), {over}; {} touches", on.touches_fem));
+    lines.extend(on.foretold_s.filter(|foretold| on.compared_s > *foretold).map(|foretold| {
+        format!(
+            "conditioning: from t = {foretold:.2} s on a change of a millionth is more than a thousandth of the peak; the springs are stiffer than the accuracy needs up \
+             to there, to follow the record further"
+        )
+    }));
     lines.extend(on.near.iter().map(|near| nearby(near, run.assembled.structure.body().alpha())));
     lines
 }

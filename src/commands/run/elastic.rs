@@ -41,11 +41,11 @@ pub fn run(o: &RunOptions, mut case: ElasticCase) -> Result<(), CommandError> {
     let progress = Progress::new("tuning", o.quiet);
     let tell = |done: usize, error: f64| progress.tell(done, 0, &format!("error {error:.2e}"));
     let record = if o.no_record { None } else { Some(referred(&assembled, case.excitation.used()?)?) };
-    let beside = record.as_ref().map(|(record, reference)| (record, reference));
-    let tuned = tune(&assembled, case.accuracy, case.max_omega_hz, beside, &tell);
+    let (record, reference) = record.unzip();
+    let tuned = tune(&assembled, case.accuracy, case.max_omega_hz, record.as_ref().zip(reference), &tell);
     progress.done();
-    let tuned = tuned.map_err(|e| CommandError::Result(e.to_string()))?;
-    let Some((record, reference)) = record else {
+    let mut tuned = tuned.map_err(|e| CommandError::Result(e.to_string()))?;
+    let Some((record, reference)) = record.zip(tuned.reference.take()) else {
         let parameters = springs_alone(&assembled, &tuned, case.accuracy);
         let folder = Folder::begin(&o.out, "run", &all)?;
         let said = parameters.save_alone(&o.out)?;

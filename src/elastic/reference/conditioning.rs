@@ -15,6 +15,9 @@ use crate::elastic::Mechanics;
 /// A history can be foretold while a perturbation has grown less than this: what began as a millionth is then a thousandth of the peak.
 pub const FORETOLD: f64 = 1e3;
 
+/// Springs stiffer than the accuracy asks for may follow a history on, while it has grown less than this.
+pub const FOLLOWED: f64 = 1e5;
+
 /// Springs are tried on motions, and OpenSees is compared, while it has grown less than this: what is then within a thousandth is within 3e-5 at
 /// every landing.
 pub const TRIED: f64 = 30.0;

@@ -135,6 +135,11 @@ impl ElasticSuite {
         }
     }
 
+    /// Those on the record alone.
+    pub fn measure_record(&self, springs: &CornerSprings, control: Control) -> Measured {
+        Measured { record: self.errors(self.record.as_slice(), springs, control), ..Measured::default() }
+    }
+
     fn errors(&self, trials: &[ElasticTrial], springs: &CornerSprings, control: Control) -> Option<ElasticErrors> {
         let judged: Vec<_> =
             trials.par_iter().with_max_len(1).map(|trial| trial.judge(&self.model, springs, control)).collect();

@@ -94,7 +94,7 @@ impl ElasticTrial {
     /// The same beside a reference that is known.
     pub fn beside(model: &Assembled, record: &Record, reference: &Reference) -> ElasticTrialOutcome {
         let ground = GroundAcceleration { dt: record.dt, accel: &record.accel, vertical: record.up() };
-        Self::found(model, ground, None, &reference.history, || reference.foretold)
+        Self::found(model, ground, None, &reference.history, || reference.followed)
     }
 
     fn found(
