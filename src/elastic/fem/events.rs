@@ -6,29 +6,36 @@ use crate::fem::cubic::{Cubic, NODES};
 /// Steps that locate one event: Newton's method needs two or three.
 const MOST_LOCATED: usize = 40;
 
-/// A corner that closes again this soon after it opened, in units of 1/Omega_n, has hardly left the ground: its horizontal spring does not hold until
-/// it carries weight. It would let go of a part of its horizontal force each time, at an accumulating sequence of instants.
+/// A corner that closes again this soon after it opened, in units of 1/Omega_n, has hardly left the ground: its horizontal spring threw it up. It would
+/// do so again and again, at an accumulating sequence of instants; it slides instead, until it stops.
 const AT_ONCE: f64 = 0.1;
-
-/// Share of the weight that it then carries before it holds.
-const HOLDING: f64 = 1e-4;
 
 /// What a step meets.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) enum ElasticEvent {
     Nothing,
-    /// This corner's compression passes a level [m] at tau in 0..1 of the step, roughly.
+    /// This corner's contact ends at tau in 0..1 of the step, roughly.
     Crossing {
         corner: usize,
-        level: f64,
+        limit: ContactLimit,
         tau: f64,
     },
     /// This corner has passed it at the start.
     AtOnce {
         corner: usize,
+        limit: ContactLimit,
     },
     /// The step is too long to tell.
     Unresolved,
+}
+
+/// What ends a corner's contact, or its flight: something that falls through zero.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(super) enum ContactLimit {
+    /// Its compression, or in the air its height, vanishes.
+    Gap,
+    /// It slides no more.
+    Stop,
 }
 
 /// Where the cubic through values at the nodes first falls below -tolerance, at the zero before that; `None` if it does not.
@@ -51,15 +58,27 @@ impl SpringsRun<'_> {
         (1e-9 * self.compression).max(4.0 * f64::EPSILON * self.scales.span)
     }
 
-    /// Levels of compression that end the contact of this corner, and on which side it then is: the contact lasts while
-    /// sign (compression - level) is positive.
-    fn limits(&self, corner: usize) -> [Option<(f64, f64)>; 2] {
-        match self.feet[corner] {
-            CornerState { closed: false, .. } => [Some((-1.0, 0.0)), None],
-            CornerState { holds: true, .. } => [Some((1.0, 0.0)), None],
-            // sliding
-            CornerState { .. } => [Some((1.0, 0.0)), Some((-1.0, HOLDING * self.compression))],
+    /// What may end this corner's contact.
+    fn limits(&self, corner: usize) -> &'static [ContactLimit] {
+        let CornerState { closed, holds, drag, .. } = self.feet[corner];
+        if closed && !holds && drag != 0.0 { &[ContactLimit::Gap, ContactLimit::Stop] } else { &[ContactLimit::Gap] }
+    }
+
+    /// What is positive while the contact lasts: a length [m], of a velocity that in which it goes in 1/Omega_n.
+    fn left(&self, corner: usize, limit: ContactLimit, q: &[f64], v: &[f64]) -> f64 {
+        let foot = &self.feet[corner];
+        match limit {
+            ContactLimit::Gap if foot.closed => self.model.compression(corner, q),
+            ContactLimit::Gap => -self.model.compression(corner, q),
+            // the force opposes the motion
+            ContactLimit::Stop => -foot.drag * self.model.sliding(corner, q, v) * self.settling,
         }
+    }
+
+    /// Its rate, of a gap; other limits are searched without.
+    fn left_rate(&self, corner: usize, limit: ContactLimit, q: &[f64], v: &[f64]) -> Option<f64> {
+        let sign = if self.feet[corner].closed { 1.0 } else { -1.0 };
+        (limit == ContactLimit::Gap).then(|| sign * self.model.compression_rate(corner, q, v))
     }
 
     /// What the step just taken meets first.
@@ -67,33 +86,37 @@ impl SpringsRun<'_> {
         let (mut first, mut earliest) = (ElasticEvent::Nothing, f64::INFINITY);
         let tolerance = self.gap_tolerance();
         for corner in 0..self.feet.len() {
-            let at = |q: &[f64]| self.model.compression(corner, q);
-            let values = [at(&self.q), at(&s.q[0]), at(&s.q[1]), at(&s.q[2])];
-            for (sign, level) in self.limits(corner).into_iter().flatten() {
-                let inside = values.map(|d| sign * (d - level));
+            for &limit in self.limits(corner) {
+                let at = |q: &[f64], v: &[f64]| self.left(corner, limit, q, v);
+                let inside = [at(&self.q, &self.v), at(&s.q[0], &s.v[0]), at(&s.q[1], &s.v[1]), at(&s.q[2], &s.v[2])];
                 let Some(tau) = first_zero(&inside, tolerance) else { continue };
                 let start = inside[0];
                 if start <= tolerance && tau < 1e-6 {
                     // on the edge: the corner itself knows where it goes, the polynomial may not
-                    let rate = sign * self.model.compression_rate(corner, &self.q, &self.v);
+                    let rate = self.left_rate(corner, limit, &self.q, &self.v).unwrap_or(-f64::INFINITY);
                     if start > -tolerance && rate * s.h * NODES[1] > tolerance {
                         return ElasticEvent::Unresolved;
                     }
                     if start < -tolerance || rate < 0.0 {
-                        return ElasticEvent::AtOnce { corner };
+                        return ElasticEvent::AtOnce { corner, limit };
                     }
                 }
                 if tau < earliest {
-                    (earliest, first) = (tau, ElasticEvent::Crossing { corner, level, tau: tau.max(1e-9) });
+                    (earliest, first) = (tau, ElasticEvent::Crossing { corner, limit, tau: tau.max(1e-9) });
                 }
             }
         }
         first
     }
 
-    /// Repeat the step so that it ends where the compression passes the level: whether it does; `None` if no step converges there.
-    pub fn locate(&mut self, corner: usize, level: f64, whole: f64, tau: f64, s: &mut ElasticStages) -> Option<bool> {
-        let sign = self.limits(corner).into_iter().flatten().find(|l| l.1 == level).map_or(1.0, |l| l.0);
+    /// Repeat the step so that it ends where the contact does: whether it does; `None` if no step converges there.
+    pub fn locate(
+        &mut self,
+        (corner, limit): (usize, ContactLimit),
+        whole: f64,
+        tau: f64,
+        s: &mut ElasticStages,
+    ) -> Option<bool> {
         let (mut low, mut high) = (0.0, f64::INFINITY);
         let mut h = whole * tau;
         for _ in 0..MOST_LOCATED {
@@ -101,12 +124,17 @@ impl SpringsRun<'_> {
             if !self.attempt(h, s) {
                 return None;
             }
-            let gap = self.model.compression(corner, &s.q[2]) - level;
+            let gap = self.left(corner, limit, &s.q[2], &s.v[2]);
             if gap.abs() <= self.gap_tolerance() || h <= 1e-9 * self.settling {
                 return Some(true);
             }
-            let correction = gap / self.model.compression_rate(corner, &s.q[2], &s.v[2]);
-            if sign * gap > 0.0 {
+            // without a rate: to the other side, then by halves
+            let correction = match self.left_rate(corner, limit, &s.q[2], &s.v[2]) {
+                Some(rate) => gap / rate,
+                None if gap > 0.0 && high.is_infinite() => -1e-3 * h,
+                None => f64::INFINITY,
+            };
+            if gap > 0.0 {
                 low = h;
             } else {
                 high = h;
@@ -126,17 +154,23 @@ impl SpringsRun<'_> {
     }
 
     /// A corner's contact after what it met.
-    pub fn changed(&mut self, corner: usize) -> CornerState {
+    pub fn changed(&mut self, corner: usize, limit: ContactLimit) -> CornerState {
         let foot = self.feet[corner];
-        let here = |holds: bool| CornerState { closed: true, holds, anchor: self.model.anchor_here(corner, &self.q) };
-        if foot.closed && !foot.holds && self.model.compression(corner, &self.q) > 0.5 * HOLDING * self.compression {
-            return here(true);
+        let here = CornerState { anchor: self.model.anchor_here(corner, &self.q), ..CornerState::STANDING };
+        if foot.closed && limit == ContactLimit::Stop {
+            return here;
         }
         if foot.closed {
             self.opened[corner] = self.time;
             return CornerState { anchor: foot.anchor, ..CornerState::OPEN };
         }
-        here(self.time - self.opened[corner] >= AT_ONCE * self.settling)
+        // where its spring was let go of
+        let pulled = foot.anchor - here.anchor;
+        let sliding = pulled * self.model.sliding(corner, &self.q, &self.v) < 0.0;
+        if sliding && self.time - self.opened[corner] < AT_ONCE * self.settling {
+            return CornerState { holds: false, drag: pulled.signum(), ..here };
+        }
+        here
     }
 }
 

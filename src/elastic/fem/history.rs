@@ -148,7 +148,7 @@ impl ElasticForces {
         self.worst.enlarge(&self.now);
         let mut sum = [0.0; 2];
         for (i, corner) in self.corners.iter_mut().enumerate() {
-            let force = view.model.contact(i, &view.feet[i], view.q);
+            let force = view.model.contact(i, &view.feet[i], view.q, view.v);
             corner.force(force);
             sum = [sum[0] + force[0], sum[1] + force[1]];
         }
@@ -165,7 +165,7 @@ impl ElasticForces {
     fn sample(&mut self, view: &ElasticView, history: &mut ElasticHistory) {
         let mut sum = [0.0; 2];
         for (i, (since, forces)) in self.corners.iter_mut().zip(&mut history.forces).enumerate() {
-            let force = view.model.contact(i, &view.feet[i], view.q);
+            let force = view.model.contact(i, &view.feet[i], view.q, view.v);
             forces.push(force, since, history.dt);
             sum = [sum[0] + force[0], sum[1] + force[1]];
         }

@@ -8,7 +8,13 @@
 //!                                   m2_v a_z'' = -m2_v a_v - N - k2_v a_z - c_v a_z'
 //! ```
 //!
-//! The law of the rigid body's feet (`fem/model.rs`), p the corner's displacement. Gravity acts on the frame only, so that an open absorber rests at zero.
+//! A corner whose horizontal spring would throw it up, however little it presses, slides: what Coulomb's law tends to as friction grows,
+//!
+//! ```text
+//!   H = +-mu k1_v (d + tau d'),     d = a_z - p_z;     tau = 2 sqrt(m_eff/(mu k1_v)): the force that keeps it down is damped critically
+//! ```
+//!
+//! until it comes to a stop. The law of the rigid body's feet (`fem/model.rs`), p the corner's displacement. Gravity acts on the frame only, so that an open absorber rests at zero.
 
 use nalgebra::DVector;
 
@@ -29,13 +35,18 @@ pub struct CornerState {
     pub holds: bool,
     /// Where its horizontal spring is anchored [m].
     pub anchor: f64,
+    /// Direction of the horizontal force on a corner that slides, 1 or -1; zero of others.
+    pub drag: f64,
 }
+
+/// mu of a corner that slides.
+const FRICTION: f64 = 100.0;
 
 impl CornerState {
     /// In the air.
-    pub const OPEN: Self = Self { closed: false, holds: false, anchor: 0.0 };
+    pub const OPEN: Self = Self { closed: false, holds: false, anchor: 0.0, drag: 0.0 };
     /// On the ground since the structure was built.
-    pub const STANDING: Self = Self { closed: true, holds: true, anchor: 0.0 };
+    pub const STANDING: Self = Self { closed: true, holds: true, anchor: 0.0, drag: 0.0 };
 }
 
 /// Frame and springs, ready to compute with.
@@ -47,6 +58,8 @@ pub(super) struct ElasticModel<'a> {
     /// Number of the frame's coordinates, and with the absorbers.
     pub n: usize,
     pub size: usize,
+    /// tau of each corner [s].
+    damping: Vec<f64>,
 }
 
 /// Index of a corner's horizontal absorber displacement; the vertical one follows.
@@ -58,20 +71,45 @@ pub(super) fn absorber(n: usize, corner: usize) -> usize {
 impl<'a> ElasticModel<'a> {
     pub fn new(frame: &'a Frame, units: &'a [Springs<Chain<f64>>]) -> Self {
         let n = frame.size();
-        Self { frame, units, n, size: n + 2 * units.len() }
+        let tau = |i: usize| 2.0 * (frame.effective_mass(i)[1] / (FRICTION * units[i].vertical.k1)).sqrt();
+        Self { frame, units, n, size: n + 2 * units.len(), damping: (0..units.len()).map(tau).collect() }
     }
 
-    /// Forces of the ground on a corner (H, N) at q.
+    /// What a sliding corner's horizontal force is of its vertical one, where that changes by itself and by its rate.
+    pub fn dragged(&self, i: usize, foot: &CornerState) -> [f64; 2] {
+        let drag = if foot.closed && !foot.holds { FRICTION * foot.drag } else { 0.0 };
+        [drag, drag * self.damping[i]]
+    }
+
+    /// Velocity at which a corner slides over its horizontal absorber [m/s].
+    pub fn sliding(&self, i: usize, q: &[f64], v: &[f64]) -> f64 {
+        let place = &self.frame.places()[i];
+        place.velocity(&place.reach(q), v)[0] - v[absorber(self.n, i)]
+    }
+
+    /// Horizontal force on a closed corner.
     #[inline(always)]
-    pub fn contact(&self, i: usize, foot: &CornerState, q: &[f64]) -> [f64; 2] {
+    fn across(&self, i: usize, foot: &CornerState, (x, compression): (f64, f64), q: &[f64], v: &[f64]) -> f64 {
+        let Springs { vertical, horizontal } = &self.units[i];
+        if foot.holds {
+            return horizontal.k1 * (q[absorber(self.n, i)] + foot.anchor - x);
+        }
+        if foot.drag == 0.0 {
+            return 0.0;
+        }
+        let [of_force, of_rate] = self.dragged(i, foot);
+        vertical.k1 * (of_force * compression + of_rate * self.compression_rate(i, q, v))
+    }
+
+    /// Forces of the ground on a corner (H, N) at q, q'.
+    #[inline(always)]
+    pub fn contact(&self, i: usize, foot: &CornerState, q: &[f64], v: &[f64]) -> [f64; 2] {
         if !foot.closed {
             return [0.0; 2];
         }
-        let Springs { vertical, horizontal } = &self.units[i];
-        let at = absorber(self.n, i);
         let [x, z] = self.frame.places()[i].reach(q).place;
-        let h = if foot.holds { horizontal.k1 * (q[at] + foot.anchor - x) } else { 0.0 };
-        [h, vertical.k1 * (q[at + 1] - z)]
+        let compression = q[absorber(self.n, i) + 1] - z;
+        [self.across(i, foot, (x, compression), q, v), self.units[i].vertical.k1 * compression]
     }
 
     /// Compression of a corner's gap: positive when it presses [m].
@@ -101,10 +139,9 @@ impl<'a> ElasticModel<'a> {
             if foot.closed {
                 let place = &self.frame.places()[i];
                 let reach = place.reach(q);
-                p = vertical.k1 * (q[at + 1] - reach.place[1]);
-                if foot.holds {
-                    h = horizontal.k1 * (q[at] + foot.anchor - reach.place[0]);
-                }
+                let compression = q[at + 1] - reach.place[1];
+                p = vertical.k1 * compression;
+                h = self.across(i, foot, (reach.place[0], compression), q, v);
                 place.push(&reach, [h, p], out);
             }
             out[at] = -(h + horizontal.m2 * ground[0] + horizontal.k2 * q[at] + horizontal.c * v[at]);
@@ -135,8 +172,9 @@ impl<'a> ElasticModel<'a> {
             let at = absorber(n, i);
             twice += horizontal.m2 * v[at] * v[at] + vertical.m2 * v[at + 1] * v[at + 1];
             twice += horizontal.k2 * q[at] * q[at] + vertical.k2 * q[at + 1] * q[at + 1];
-            let [h, p] = self.contact(i, foot, q);
-            twice += h * h / horizontal.k1 + p * p / vertical.k1;
+            let [h, p] = self.contact(i, foot, q, v);
+            let held = if foot.holds { h * h / horizontal.k1 } else { 0.0 };
+            twice += held + p * p / vertical.k1;
         }
         self.frame.kinetic_energy(&v[..n]) + self.frame.stored(&q[..n]) + 0.5 * twice
     }
@@ -151,12 +189,15 @@ impl<'a> ElasticModel<'a> {
         power
     }
 
-    /// Power that dashpots take [W].
-    pub fn dissipation(&self, q: &[f64], v: &[f64]) -> f64 {
+    /// Power that dashpots and sliding take [W].
+    pub fn dissipation(&self, q: &[f64], v: &[f64], feet: &[CornerState]) -> f64 {
         let mut power = self.frame.dissipated(&q[..self.n], &v[..self.n]);
-        for (i, unit) in self.units.iter().enumerate() {
+        for (i, (unit, foot)) in self.units.iter().zip(feet).enumerate() {
             let at = absorber(self.n, i);
             power += unit.horizontal.c * v[at] * v[at] + unit.vertical.c * v[at + 1] * v[at + 1];
+            if foot.closed && !foot.holds && foot.drag != 0.0 {
+                power -= self.contact(i, foot, q, v)[0] * self.sliding(i, q, v);
+            }
         }
         power
     }

@@ -30,7 +30,7 @@ impl Tangent {
             let reach = corner.reach(q);
             self.slopes[i] = reach.slope;
             if let (true, Some(th)) = (foot.closed, corner.rotation()) {
-                let [h, p] = model.contact(i, foot, q);
+                let [h, p] = model.contact(i, foot, q, v);
                 self.k[(th, th)] += h * reach.arm[0] + p * reach.arm[1];
             }
         }
@@ -40,6 +40,8 @@ impl Tangent {
 /// The matrix for one eigenvalue, ready to solve with.
 pub(super) struct FactoredMatrix<T> {
     chains: Vec<[Condensed<T>; 2]>,
+    /// Of every corner that slides, its horizontal force over the vertical one.
+    drags: Vec<T>,
     lu: Lu<T>,
     /// The frame's part before it is factored.
     entries: Vec<T>,
@@ -48,7 +50,12 @@ pub(super) struct FactoredMatrix<T> {
 impl<T: MatrixEntry> FactoredMatrix<T> {
     pub fn new(model: &ElasticModel) -> Self {
         let n = model.n;
-        Self { chains: Vec::with_capacity(model.units.len()), lu: Lu::new(n), entries: vec![T::zero(); n * n] }
+        Self {
+            chains: Vec::with_capacity(model.units.len()),
+            drags: Vec::new(),
+            lu: Lu::new(n),
+            entries: vec![T::zero(); n * n],
+        }
     }
 
     /// Condense the chains for s = h lambda.
@@ -59,6 +66,11 @@ impl<T: MatrixEntry> FactoredMatrix<T> {
                 Condensed::new(horizontal, foot.closed && foot.holds, s, &lift),
                 Condensed::new(vertical, foot.closed, s, &lift),
             ]
+        }));
+        self.drags.clear();
+        self.drags.extend(feet.iter().enumerate().map(|(i, foot)| {
+            let [of_force, of_rate] = model.dragged(i, foot);
+            lift(of_force) + lift(of_rate) / s
         }));
     }
 
@@ -86,11 +98,12 @@ impl<T: MatrixEntry> FactoredMatrix<T> {
             if !feet[i].closed {
                 continue;
             }
-            let [h, v] = &self.chains[i];
+            let ([h, v], drag) = (&self.chains[i], self.drags[i]);
             corner.rows(tangent.slopes[i], |row, gi| {
+                let pushed = lift(gi[1]) + drag * lift(gi[0]);
                 corner.rows(tangent.slopes[i], |column, gj| {
                     let at = row * n + column;
-                    entries[at] = entries[at] + h.stiffness * lift(gi[0] * gj[0]) + v.stiffness * lift(gi[1] * gj[1]);
+                    entries[at] = entries[at] + h.stiffness * lift(gi[0] * gj[0]) + v.stiffness * pushed * lift(gj[1]);
                 });
             });
         }
@@ -110,7 +123,8 @@ impl<T: MatrixEntry> FactoredMatrix<T> {
         for (i, corner) in model.frame.places().iter().enumerate() {
             if feet[i].closed {
                 let (at, [h, v]) = (absorber(n, i), &self.chains[i]);
-                let (from_x, from_z) = (r[at] * h.share, r[at + 1] * v.share);
+                let from_z = r[at + 1] * v.share;
+                let from_x = r[at] * h.share + from_z * self.drags[i];
                 corner.rows(tangent.slopes[i], |row, g| r[row] = r[row] + from_x * lift(g[0]) + from_z * lift(g[1]));
             }
         }
@@ -123,8 +137,9 @@ impl<T: MatrixEntry> FactoredMatrix<T> {
                     moved = [moved[0] + r[row] * lift(g[0]), moved[1] + r[row] * lift(g[1])];
                 });
             }
-            r[at] = (r[at] + h.coupling * moved[0]) * h.pivot;
             r[at + 1] = (r[at + 1] + v.coupling * moved[1]) * v.pivot;
+            let pushed = v.coupling * (r[at + 1] - moved[1]);
+            r[at] = (r[at] + h.coupling * moved[0] - self.drags[i] * pushed) * h.pivot;
         }
     }
 }

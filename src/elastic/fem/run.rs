@@ -5,7 +5,7 @@ use std::f64::consts::FRAC_PI_2;
 use super::{
     ElasticAnalysis, ElasticFinish,
     account::ElasticScales,
-    events::ElasticEvent,
+    events::{ContactLimit, ElasticEvent},
     history::ElasticRecorder,
     model::{CornerState, ElasticModel},
     step::{ElasticRequest, ElasticStages, ElasticStepper},
@@ -135,7 +135,7 @@ impl<'a> SpringsRun<'a> {
             let mut t = 0.0;
             while dt - t > 1e-13 * dt {
                 (self.time, self.here) = (start + t, ground.from(t));
-                if self.work.steps + self.work.rejected >= self.control.most_steps {
+                if self.work.steps + self.work.rejected + self.work.events >= self.control.most_steps {
                     return HistoryOutcome::WorkBound { time: self.time };
                 }
                 if self.h < 1e-14 * dt {
@@ -165,11 +165,11 @@ impl<'a> SpringsRun<'a> {
                 self.refuse(0.25 * h, stages);
                 return 0.0;
             }
-            ElasticEvent::AtOnce { corner } => {
-                self.switch(corner, stages, recorder);
+            ElasticEvent::AtOnce { corner, limit } => {
+                self.switch(corner, limit, stages, recorder);
                 return 0.0;
             }
-            ElasticEvent::Crossing { corner, level, tau } => match self.locate(corner, level, h, tau, stages) {
+            ElasticEvent::Crossing { corner, limit, tau } => match self.locate((corner, limit), h, tau, stages) {
                 Some(true) => {}
                 Some(false) => met = ElasticEvent::Nothing,
                 None => {
@@ -185,8 +185,8 @@ impl<'a> SpringsRun<'a> {
         }
         self.time += stages.h;
         recorder.step(&self.view(), &self.impulses);
-        if let ElasticEvent::Crossing { corner, .. } = met {
-            self.switch(corner, stages, recorder);
+        if let ElasticEvent::Crossing { corner, limit, .. } = met {
+            self.switch(corner, limit, stages, recorder);
         }
         stages.h
     }
@@ -229,9 +229,15 @@ impl<'a> SpringsRun<'a> {
     }
 
     /// A corner touches or lifts now.
-    fn switch(&mut self, corner: usize, stages: &mut ElasticStages, recorder: &mut ElasticRecorder) {
+    fn switch(
+        &mut self,
+        corner: usize,
+        limit: ContactLimit,
+        stages: &mut ElasticStages,
+        recorder: &mut ElasticRecorder,
+    ) {
         let closed = self.feet[corner].closed;
-        self.feet[corner] = self.changed(corner);
+        self.feet[corner] = self.changed(corner, limit);
         let stored = self.model.energy(&self.q, &self.v, &self.feet);
         self.energy.released += self.energy.stored - stored;
         self.energy.stored = stored;

@@ -206,9 +206,9 @@ impl<'a> ElasticStepper<'a> {
         for j in 0..3 {
             let weight = s.h * A[2][j];
             input += weight * self.model.input_power(&s.v[j], ground.after(s.h, C[j]));
-            dissipated += weight * self.model.dissipation(&s.q[j], &s.v[j]);
+            dissipated += weight * self.model.dissipation(&s.q[j], &s.v[j], feet);
             for (i, (foot, impulse)) in feet.iter().zip(impulses.iter_mut()).enumerate() {
-                let [h, p] = self.model.contact(i, foot, &s.q[j]);
+                let [h, p] = self.model.contact(i, foot, &s.q[j], &s.v[j]);
                 (impulse[0], impulse[1]) = (impulse[0] + weight * h, impulse[1] + weight * p);
             }
         }
