@@ -122,6 +122,7 @@ impl ElasticRun {
             compared_s: answer.compared.seconds,
             whole: answer.compared.whole(),
             foretold_s: reference.foretold_seconds(record.dt),
+            softer_omega_n_hz: tuned.softer_hz,
             // rotations of a structure that stands are rounding
             nrmse_rotation: rotation.filter(|_| reference.history.lifts()),
             nrmse_drift: drift.filter(|_| largest(0, drifts) > ROUNDING * assembled.frame.span()),

@@ -87,6 +87,9 @@ pub struct OnRecord {
     /// Length in which a change of a millionth grows to less than a thousandth of the peak, if that is not all of it (s).
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub foretold_s: Option<f64>,
+    /// Omega_n/2 pi of softer springs that hold the accuracy over that length (Hz).
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub softer_omega_n_hz: Option<f64>,
     /// NRMSE of the rotations over that length; none where the reference is not lifted, or the history on springs ends before.
     pub nrmse_rotation: Option<f64>,
     /// NRMSE of the drifts; none where the history on springs ends before.
@@ -288,6 +291,7 @@ mod tests {
             compared_s: 5.0,
             whole: false,
             foretold_s: None,
+            softer_omega_n_hz: None,
             nrmse_rotation: None,
             nrmse_drift: None,
             peak_ratio_reference: 0.5,

@@ -67,6 +67,8 @@ pub struct ElasticTuned {
     pub reached: bool,
     /// The reference on the record, with as much of it as these springs hold the accuracy over; none without a record.
     pub reference: Option<Reference>,
+    /// Omega_n/2 pi of softer springs that hold the accuracy, too, but follow the record less far (Hz).
+    pub softer_hz: Option<f64>,
 }
 
 /// Springs under every corner of a structure, its members at work, as stiff as `accuracy` (NRMSE of rotations) asks for, at most `most_hz`
@@ -102,12 +104,15 @@ pub fn tune(
         let reached = found.reached && measured.over(MARGIN * accuracy)? <= 1.0;
         reached.then_some((ElasticRung { measured, ..found }, reference))
     };
-    let (chosen, reference) = match further() {
-        Some((found, reference)) => (found, Some(reference)),
-        None => (chosen, reference),
+    let (chosen, reference, softer_hz) = match further() {
+        Some((found, reference)) => {
+            let softer = Some(chosen.springs.omega_n_hz).filter(|hz| *hz < found.springs.omega_n_hz);
+            (found, Some(reference), softer)
+        }
+        None => (chosen, reference, None),
     };
     let ElasticRung { springs, measured, reached, .. } = chosen;
-    Ok(ElasticTuned { springs, measured, reached, reference })
+    Ok(ElasticTuned { springs, measured, reached, reference, softer_hz })
 }
 
 /// What a search of the ladder comes to.

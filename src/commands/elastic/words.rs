@@ -166,14 +166,23 @@ fn on_springs(run: &ElasticRun, on: &OnRecord) -> Vec<String> {
     };
     let over = over(&run.answer.compared);
     lines.push(format!("on its springs {within} (NRMSE), {over}; {} touches", on.touches_fem));
-    lines.extend(on.foretold_s.filter(|foretold| on.compared_s > *foretold).map(|foretold| {
-        format!(
-            "conditioning: from t = {foretold:.2} s on a change of a millionth is more than a thousandth of the peak; the springs are stiffer than the accuracy needs up \
-             to there, to follow the record further"
-        )
-    }));
+    lines.extend(further(on));
     lines.extend(on.near.iter().map(|near| nearby(near, run.assembled.structure.body().alpha())));
     lines
+}
+
+/// That springs follow the record beyond what can be foretold, and which ones are enough up to there.
+fn further(on: &OnRecord) -> Option<String> {
+    let foretold = on.foretold_s.filter(|foretold| on.compared_s > *foretold)?;
+    let softer = on.softer_omega_n_hz.map_or(String::new(), |hz| {
+        format!(
+            "; springs of {hz:.0} Hz are enough up to there, with which OpenSees takes fewer steps: --max-hz {:.0}",
+            hz.ceil()
+        )
+    });
+    Some(format!(
+        "conditioning: from t = {foretold:.2} s on a change of a millionth is more than a thousandth of the peak{softer}"
+    ))
 }
 
 /// What motions near the record come to.
