@@ -21,7 +21,8 @@
 //! | `corners` | sets of corners |
 //! | `hold` | accelerations, impacts and displacements with a set of corners held |
 //! | `contact` | which corners stay: after a landing, under forces |
-//! | `dop853` | one step |
+//! | `state` | where it is, what a step leads to |
+//! | `dop853`, `implicit` | one step; the same where the structure is stiff |
 //! | `search` | events within a step |
 //! | `walk`, `events` | from sample to sample, from event to event |
 //! | `rest` | the structure at rest under its weight |
@@ -33,8 +34,10 @@ mod corners;
 mod dop853;
 mod events;
 mod hold;
+mod implicit;
 mod rest;
 mod search;
+mod state;
 mod walk;
 
 use nalgebra::DVector;

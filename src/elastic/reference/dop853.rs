@@ -1,9 +1,8 @@
 //! One step of the Runge-Kutta method of order 8 by Dormand and Prince (Hairer, Norsett & Wanner, Solving Ordinary Differential Equations I,
 //! section II.5 and the code DOP853), for q'' = a(q, q', t) and the work of forces along the way.
 
-use nalgebra::DVector;
 
-use super::hold::force;
+use super::state::{LastStage, Rates, ReferenceState, ReferenceStep, StepTolerance};
 
 /// Stages of a step.
 const STAGES: usize = 12;
@@ -113,47 +112,21 @@ const ERROR: [&[(usize, f64)]; 2] = [
     ],
 ];
 
-/// Where the structure is, and what dampers have taken and the ground put in since the start (J).
-#[derive(Clone, Debug)]
-pub struct ReferenceState {
-    /// Coordinates.
-    pub q: DVector<f64>,
-    /// Their velocities.
-    pub v: DVector<f64>,
-    /// Work: taken by dampers, put in by the ground, taken by sliding.
-    pub work: [f64; 3],
-}
+/// The order of the error estimate in h.
+const ORDER: f64 = 8.0;
 
-/// How it goes on from there.
-#[derive(Clone, Debug)]
-pub struct Rates {
-    /// q''.
-    pub a: DVector<f64>,
-    /// Power: taken by dampers, put in by the ground, taken by sliding (W).
-    pub power: [f64; 3],
-    /// (corner, horizontal, vertical) force of the ground (N).
-    pub forces: Vec<(usize, [f64; 2])>,
-}
-
-impl Rates {
-    /// Force on a corner; zero if it is not on the ground.
-    pub fn force(&self, corner: usize) -> [f64; 2] {
-        force(&self.forces, corner)
-    }
-}
-
-/// The state after a step of length h from a state and its rates, and the error estimate over what `rtol` allows: at most 1 is good. The rates
-/// are functions of the time since the step's start. None where they are not defined.
+/// A step of length h from a state and its rates. These are functions of the time since the step's start. None where they are not defined.
 pub fn step(
     mut rates: impl FnMut(f64, &ReferenceState) -> Option<Rates>,
     start: &ReferenceState,
     first: &Rates,
     h: f64,
     rtol: f64,
-) -> Option<(ReferenceState, f64)> {
+) -> Option<ReferenceStep> {
     let mut velocities = vec![start.v.clone()];
     let mut slopes = vec![first.clone()];
     let mut stage = start.clone();
+    let mut last_place = start.q.clone();
     for (i, row) in A.iter().enumerate() {
         stage.clone_from(start);
         for &(j, a) in *row {
@@ -166,57 +139,32 @@ pub fn step(
         if i + 1 < STAGES {
             slopes.push(rates(h * C[i + 1], &stage)?);
             velocities.push(stage.v.clone());
+            last_place.clone_from(&stage.q);
         }
     }
+    let tolerance = StepTolerance(rtol);
     let mut squares = [0.0; 2];
     for (square, row) in squares.iter_mut().zip(ERROR) {
         let estimate = |of: &dyn Fn(usize) -> f64| row.iter().map(|&(j, e)| e * of(j)).sum::<f64>();
-        // a length or an angle of 1 % and a velocity of 10 % of the unit are the least that errors are compared with
         for (k, (a, b)) in start.q.iter().zip(stage.q.iter()).enumerate() {
-            *square += (estimate(&|j| velocities[j][k]) / (rtol * (0.01 + a.abs().max(b.abs())))).powi(2);
+            *square += (estimate(&|j| velocities[j][k]) / tolerance.place(*a, *b)).powi(2);
         }
         for (k, (a, b)) in start.v.iter().zip(stage.v.iter()).enumerate() {
-            *square += (estimate(&|j| slopes[j].a[k]) / (rtol * (0.1 + a.abs().max(b.abs())))).powi(2);
+            *square += (estimate(&|j| slopes[j].a[k]) / tolerance.velocity(*a, *b)).powi(2);
         }
     }
     let [fifth, third] = squares;
     let below = (fifth + 0.01 * third) * (2 * start.q.len()) as f64;
     let error = if fifth == 0.0 { 0.0 } else { h * fifth / below.sqrt() };
-    error.is_finite().then_some((stage, error))
-}
-
-/// The state at a share of a step, by Hermite's polynomial through q, q', q'' of both ends: good enough to look for events.
-pub fn within(ends: [(&ReferenceState, &Rates); 2], h: f64, share: f64) -> ReferenceState {
-    let [(start, first), (end, last)] = ends;
-    let s = share;
-    let (s2, s3) = (s * s, s * s * s);
-    let (s4, s5) = (s3 * s, s3 * s2);
-    let place = [
-        1.0 - 10.0 * s3 + 15.0 * s4 - 6.0 * s5,
-        10.0 * s3 - 15.0 * s4 + 6.0 * s5,
-        h * (s - 6.0 * s3 + 8.0 * s4 - 3.0 * s5),
-        h * (-4.0 * s3 + 7.0 * s4 - 3.0 * s5),
-        h * h * 0.5 * (s2 - 3.0 * s3 + 3.0 * s4 - s5),
-        h * h * 0.5 * (s3 - 2.0 * s4 + s5),
-    ];
-    let rate = [
-        (-30.0 * s2 + 60.0 * s3 - 30.0 * s4) / h,
-        (30.0 * s2 - 60.0 * s3 + 30.0 * s4) / h,
-        1.0 - 18.0 * s2 + 32.0 * s3 - 15.0 * s4,
-        -12.0 * s2 + 28.0 * s3 - 15.0 * s4,
-        h * 0.5 * (2.0 * s - 9.0 * s2 + 12.0 * s3 - 5.0 * s4),
-        h * 0.5 * (3.0 * s2 - 8.0 * s3 + 5.0 * s4),
-    ];
-    let known = [&start.q, &end.q, &start.v, &end.v, &first.a, &last.a];
-    let sum = |weights: [f64; 6]| {
-        known.iter().zip(weights).fold(DVector::zeros(start.q.len()), |sum, (x, weight)| sum + *x * weight)
-    };
-    let work = std::array::from_fn(|k| start.work[k] + share * (end.work[k] - start.work[k]));
-    ReferenceState { q: sum(place), v: sum(rate), work }
+    let last = LastStage { q: last_place, v: velocities.pop()?, a: slopes.pop()?.a };
+    error.is_finite().then_some(ReferenceStep { state: stage, error, order: ORDER, last: Some(last) })
 }
 
 #[cfg(test)]
 mod tests {
+    use nalgebra::DVector;
+
+    use super::super::state::within;
     use super::*;
 
     /// q'' = -q - 0.1 q' + t: the error of one step falls like h^9, and the estimate is of its size or above.
@@ -235,13 +183,13 @@ mod tests {
         };
         let error = |h: f64| {
             let first = rates(0.0, &start).unwrap();
-            let (end, _) = step(rates, &start, &first, h, 1e-9).unwrap();
+            let end = step(rates, &start, &first, h, 1e-9).unwrap().state;
             (end.q[0] - exact(h)).abs()
         };
         let order = (error(1.6) / error(0.8)).log2();
         assert!((8.5..10.5).contains(&order), "{order} {} {}", error(1.6), error(0.8));
         let first = rates(0.0, &start).unwrap();
-        let (end, estimate) = step(rates, &start, &first, 0.4, 1e-9).unwrap();
+        let ReferenceStep { state: end, error: estimate, .. } = step(rates, &start, &first, 0.4, 1e-9).unwrap();
         assert!(estimate < 1.0 && (end.q[0] - exact(0.4)).abs() < 1e-9, "{estimate}");
         let last = rates(0.4, &end).unwrap();
         let middle = within([(&start, &first), (&end, &last)], 0.4, 0.3);

@@ -3,8 +3,8 @@
 use nalgebra::DVector;
 
 use super::contact::{AT_REST, Landed, land, stay};
-use super::dop853::ReferenceState;
 use super::hold::{Configuration, CornerContact};
+use super::state::ReferenceState;
 use super::walk::{ON_GROUND, ReferenceWalk};
 use super::{CornerSet, Ledger, ReferenceEvent, ReferenceOutcome, Stop, What};
 use crate::elastic::Mechanics;

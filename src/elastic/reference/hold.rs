@@ -134,6 +134,20 @@ impl<'a, M: Mechanics> Configuration<'a, M> {
         corner.jacobian[0].dot(motion) + if with_bias { corner.bias[0] } else { 0.0 }
     }
 
+    /// Derivatives of the accelerations by q and q', but for what moves with M, G and gamma: none of that is stiff.
+    pub fn tangent(&self, ground: [f64; 2], contact: CornerContact) -> Option<[DMatrix<f64>; 2]> {
+        let [by_q, by_v] = self.mechanics.tangent(self.q, self.v, ground);
+        let held = |minus: DMatrix<f64>| {
+            let mut columns = self.mass.solve(&-minus);
+            for mut column in columns.column_iter_mut() {
+                let free = column.clone_owned();
+                column.copy_from(&self.hold(contact, Aim::Acceleration, free, |_, _, _| 0.0)?.motion);
+            }
+            Some(columns)
+        };
+        Some([held(by_q)?, held(by_v)?])
+    }
+
     /// x + M^-1 G' F such that G x = -offset at the corners on the ground.
     fn hold(
         &self,

@@ -1,6 +1,6 @@
 //! Events within a step: where a held corner's vertical force, or a free corner's height, falls to zero.
 
-use super::dop853::within;
+use super::state::within;
 use super::walk::{Moment, ReferenceWalk};
 use crate::elastic::Mechanics;
 
