@@ -1,69 +1,77 @@
-//! The number SCALE in the choice of K for elastic structures (`tuning/elastic/design`): errors of piers with light to heavy footings over
-//! factors on K^3, on releases and motions.
+//! The numbers in the choice of K for elastic structures (`tuning/elastic/design`, `BALANCE`): errors of piers with light to heavy footings and of a
+//! frame, on releases and motions, over both.
 //!
 //! ```sh
 //! cargo bench --bench elastic_stance
 //! ```
 
 use groundspring::{
-    elastic::{
-        assembled::Assembled,
-        structure::{ElasticStructure, PierSpec},
-    },
+    elastic::{assembled::Assembled, standing::Standing, structure::ElasticStructure},
     fem::Control,
     tuning::elastic::{
-        design::{springs, with_k},
+        design::{BALANCE, KBalance, with_k},
         landing_speed, stand,
         suite::ElasticSuite,
     },
 };
 
-/// Factors on the K^3 of the design.
+/// Factors on the scale, and values of the turn.
 const FACTORS: [f64; 5] = [0.1, 0.3, 1.0, 3.0, 10.0];
+const TURNS: [f64; 4] = [0.0, 0.02, 0.05, 0.15];
+const GIVES: [f64; 4] = [1e-3, 1e-4, 1e-5, 1e-6];
+
+/// Mass and footing mass (kg), frequency (Hz) and damping ratio of the piers: 12 m, 4 m wide.
+const PIERS: [(f64, f64, f64, f64); 5] = [
+    (600e3, 60e3, 2.0, 0.02),
+    (600e3, 60e3, 1.5, 0.0),
+    (600e3, 200e3, 2.0, 0.02),
+    (300e3, 300e3, 3.0, 0.02),
+    (200e3, 600e3, 2.0, 0.02),
+];
+const FRAME: &str = "kind = 'frame'\nheight_m = 8.0\nspan_m = 10.0\nfooting_width_m = 2.5\nfooting_height_m = 1.0\nfooting_mass_kg = 30e3\n\
+    beam_mass_kg = 200e3\ncolumn_ea_n = 3e10\ncolumn_ei_nm2 = 4e9\nbeam_ea_n = 4e10\nbeam_ei_nm2 = 8e9\ndamping_ratio = 0.02\n";
+
+/// The error over what an accuracy of 1 allows at one K, and touches a landing.
+fn measure(suite: &ElasticSuite, standing: &Standing, give: f64, k: f64) -> (f64, f64) {
+    let measured = suite.measure(&with_k(standing, give, k), Control::search());
+    let touches = [measured.releases, measured.motions].into_iter().flatten().map(|e| e.touches);
+    (measured.over(1.0).unwrap_or(f64::NAN), touches.fold(0.0, f64::max))
+}
 
 fn main() -> Result<(), Box<dyn std::error::Error>> {
-    let mut logarithms = [0.0; FACTORS.len()];
+    let pier = |(mass, footing, hz, damping): (f64, f64, f64, f64)| {
+        format!(
+            "kind = 'pier'\nheight_m = 12.0\nwidth_m = 4.0\nmass_kg = {mass:?}\nfooting_mass_kg = {footing:?}\nfooting_height_m = 2.0\n\
+             frequency_hz = {hz:?}\ndamping_ratio = {damping:?}\n"
+        )
+    };
+    let structures = PIERS.into_iter().map(pier).chain([FRAME.to_owned()]);
+    let mut logarithms = [[0.0; FACTORS.len()]; TURNS.len()];
     let mut rows = 0.0;
-    for (mass_kg, footing_mass_kg, frequency_hz) in
-        [(600e3, 60e3, 2.0), (600e3, 60e3, 1.5), (600e3, 200e3, 2.0), (200e3, 600e3, 2.0)]
-    {
-        let pier = PierSpec {
-            height_m: 12.0,
-            width_m: 4.0,
-            mass_kg,
-            footing_mass_kg,
-            footing_height_m: 2.0,
-            footing_inertia_kgm2: None,
-            ea_n: None,
-            ei_nm2: None,
-            frequency_hz: Some(frequency_hz),
-            damping_ratio: 0.02,
-            axial_damping_ratio: None,
-            column_mass_kg: 0.0,
-            elements: None,
-        };
-        let structure = ElasticStructure::Pier(pier).checked()?;
+    for text in structures {
+        let structure: ElasticStructure = toml::from_str(&text)?;
+        println!("{}", text.replace('\n', "; "));
         let model = Assembled::new(structure)?;
         let standing = stand(&model).ok_or("does not stand")?;
         let suite = ElasticSuite::new(model, None);
-        for give in [1e-3, 1e-4, 1e-5] {
-            let k = springs(&standing, give, landing_speed(&structure)).k;
-            let measured = FACTORS.map(|factor| {
-                let measured = suite.measure(&with_k(&standing, give, k * f64::cbrt(factor)), Control::search());
-                let touches = [measured.releases, measured.motions].into_iter().flatten().map(|e| e.touches);
-                (measured.over(1.0).unwrap_or(f64::NAN), touches.fold(0.0, f64::max))
-            });
-            let all: Vec<String> =
-                measured.iter().map(|(error, touches)| format!("{error:.1e} ({touches:.1})")).collect();
-            logarithms.iter_mut().zip(measured).for_each(|(sum, (error, _))| *sum += error.ln());
+        for give in GIVES {
             rows += 1.0;
-            println!(
-                "{mass_kg:.0e} kg on {footing_mass_kg:.0e} kg, {frequency_hz} Hz, give {give:.0e}, K {k:.4}; error (touches a landing) at K^3 x {FACTORS:?}: {}",
-                all.join(" ")
-            );
+            for (sums, turn) in logarithms.iter_mut().zip(TURNS) {
+                let mut cells = Vec::new();
+                for (sum, factor) in sums.iter_mut().zip(FACTORS) {
+                    let balance = KBalance { scale: factor * BALANCE.scale, turn };
+                    let k = balance.k(&standing, give, landing_speed(&structure));
+                    let (error, touches) = measure(&suite, &standing, give, k);
+                    *sum += f64::ln(error);
+                    cells.push(format!("K {k:.4}: {error:.1e} ({touches:.1})"));
+                }
+                println!("  give {give:.0e}, turn {turn}; error (touches a landing): {}", cells.join(", "));
+            }
         }
     }
-    let means: Vec<String> = logarithms.iter().map(|sum| format!("{:.1e}", f64::exp(sum / rows))).collect();
-    println!("geometric means at K^3 x {FACTORS:?}: {}", means.join(" "));
+    for (sums, turn) in logarithms.iter().zip(TURNS) {
+        let means: Vec<String> = sums.iter().map(|sum| format!("{:.2e}", f64::exp(sum / rows))).collect();
+        println!("turn {turn}: geometric means at scale {} x {FACTORS:?}: {}", BALANCE.scale, means.join(" "));
+    }
     Ok(())
 }

@@ -154,7 +154,7 @@ impl Reference {
             return Ok(None);
         }
         let ground = GroundAcceleration { dt: record.dt, accel: &record.accel, vertical: record.up() };
-        let followed = assembled.foretold(ground, &assembled.upright()?, &self.history, FOLLOWED);
+        let followed = assembled.grown(ground, &assembled.upright()?, &self.history, FOLLOWED);
         Ok((followed > self.followed).then(|| Self { followed, ..self.clone() }))
     }
 }

@@ -130,7 +130,14 @@ impl Assembled {
         rock(&self.frame, ground, (q, &DVector::zeros(q.len())), &ReferenceOptions::default())
     }
 
-    /// Samples of such a history over which a perturbation grows less than `limit`, at most its own: up to where a corner slides on from a landing.
+    /// Samples of such a history over which a perturbation grows less than `limit`, at most its own.
+    pub fn grown(&self, ground: GroundAcceleration, q: &DVector<f64>, history: &ElasticRocking, limit: f64) -> usize {
+        let (still, options) = (DVector::zeros(q.len()), ReferenceOptions::default());
+        let twins = Twins { coordinates: &self.telling(), perturbation: PERTURBATION, limit };
+        growth(&self.frame, ground, (q, &still), &options, (history, &twins)).samples_below(limit)
+    }
+
+    /// The same, and at most up to where a corner slides on from a landing, which not all springs follow.
     pub fn foretold(
         &self,
         ground: GroundAcceleration,
@@ -138,9 +145,7 @@ impl Assembled {
         history: &ElasticRocking,
         limit: f64,
     ) -> usize {
-        let (still, options) = (DVector::zeros(q.len()), ReferenceOptions::default());
-        let twins = Twins { coordinates: &self.telling(), perturbation: PERTURBATION, limit };
-        let grown = growth(&self.frame, ground, (q, &still), &options, (history, &twins)).samples_below(limit);
+        let grown = self.grown(ground, q, history, limit);
         history.skidded.map_or(grown, |time| grown.min(history.samples_to(time)))
     }
 

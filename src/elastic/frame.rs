@@ -160,13 +160,16 @@ impl Frame {
 
     /// What lands at a corner, [(W)^-1] with W = G M^-1 G' its 2 x 2 block: horizontally and vertically (kg), the structure unstressed.
     pub fn effective_mass(&self, corner: usize) -> [f64; 2] {
-        let place = &self.corners[corner];
-        let q = DVector::zeros(self.size);
-        let [gx, gz] = place.jacobian(q.as_slice(), self.size);
-        let (mx, mz) = (self.cholesky.solve(&gx), self.cholesky.solve(&gz));
-        let (xx, xz, zz) = (gx.dot(&mx), gx.dot(&mz), gz.dot(&mz));
+        let [xx, xz, zz] = self.mobility(corner, &vec![0.0; self.size]);
         let determinant = xx * zz - xz * xz;
         [zz / determinant, xx / determinant]
+    }
+
+    /// W = G M^-1 G' of a corner at q: xx, xz, zz (1/kg).
+    pub fn mobility(&self, corner: usize, q: &[f64]) -> [f64; 3] {
+        let [gx, gz] = self.corners[corner].jacobian(q, self.size);
+        let (mx, mz) = (self.cholesky.solve(&gx), self.cholesky.solve(&gz));
+        [gx.dot(&mx), gx.dot(&mz), gz.dot(&mz)]
     }
 }
 

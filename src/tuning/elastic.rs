@@ -22,7 +22,7 @@ use self::{
     suite::{ElasticSuite, Measured},
     trial::ElasticTrial,
 };
-use super::ladder::{DECADE, FoundRung, seek};
+use super::ladder::{DECADE, seek};
 use crate::{
     case::ACCURACY,
     elastic::{
@@ -38,6 +38,8 @@ const MARGIN: f64 = 0.7;
 const RUNGS: (i64, i64) = (10, 80);
 /// Give over accuracy where the search begins.
 const BEGIN: f64 = 0.1;
+/// Share of the balanced K that is tried where that one does not hold.
+const QUIETER: f64 = 0.3;
 /// Rungs above the softest that hold the accuracy at which the search begins for those that follow the record further: a tenth of the give.
 const STIFFER: i64 = 10;
 
@@ -89,7 +91,7 @@ pub fn tune(
     let rungs = Rungs::new(accuracy, most_hz, |i| omega_n_hz(&standing, give(i)))?;
     let (record, reference) = record.unzip();
     let suite = ElasticSuite::new(model.clone(), record.zip(reference.as_ref()));
-    let of = |i: i64| springs(&standing, give(i), landing);
+    let of = |i: i64, share: f64| springs(&standing, give(i), landing, share);
     let chosen = rungs.search(accuracy, of, &|springs| suite.measure(springs, Control::search()), progress);
     let further = || {
         let (record, reference) = record.zip(reference.as_ref()).filter(|_| chosen.reached)?;
@@ -97,11 +99,11 @@ pub fn tune(
         let record = ElasticTrial::beside(model, record, &reference).trial();
         let suite = ElasticSuite { record, ..suite };
         let stiffer = Rungs { ends: (chosen.rung, rungs.ends.1), guess: (chosen.rung + STIFFER).min(rungs.ends.1) };
-        // the record decides; all else is measured once. What grows so far asks for steps as close as the answer's
-        let alone = |springs: &CornerSprings| suite.measure_record(springs, default_control());
+        // the record decides; all else is measured once
+        let alone = |springs: &CornerSprings| suite.measure_record(springs);
         let found = stiffer.search(accuracy, of, &alone, progress);
         let measured = suite.measure(&found.springs, default_control());
-        let reached = found.reached && measured.over(MARGIN * accuracy)? <= 1.0;
+        let reached = found.reached && measured.over(accuracy)? <= 1.0;
         reached.then_some((ElasticRung { measured, ..found }, reference))
     };
     let (chosen, reference, softer_hz) = match further() {
@@ -148,19 +150,29 @@ impl Rungs {
         Ok(Self { ends: (softest, stiffest), guess: guess.clamp(softest, stiffest) })
     }
 
-    /// The softest that hold an accuracy, by what is measured of them.
+    /// The softest that hold an accuracy, by what is measured of them; `springs` of a rung, at a share of the balanced K.
     fn search(
         &self,
         accuracy: f64,
-        springs: impl Fn(i64) -> CornerSprings,
+        springs: impl Fn(i64, f64) -> CornerSprings,
         measure: &dyn Fn(&CornerSprings) -> Measured,
         progress: &dyn Fn(usize, f64),
     ) -> ElasticRung {
         let allowed = MARGIN * accuracy;
+        // where springs at the balance of K do not hold, ones with less rebound may: a corner that leaves as soon as it has landed keeps it
         let judged = |i: i64| {
-            let springs = springs(i);
-            let measured = measure(&springs);
-            (springs, measured)
+            let of = |share: f64| {
+                let springs = springs(i, share);
+                let measured = measure(&springs);
+                (springs, measured)
+            };
+            let over = |(_, measured): &(CornerSprings, Measured)| measured.over(allowed).unwrap_or(0.0);
+            let balanced = of(1.0);
+            if over(&balanced) <= 1.0 {
+                return balanced;
+            }
+            let quieter = of(QUIETER);
+            if over(&quieter) < over(&balanced) { quieter } else { balanced }
         };
         let mut seen: BTreeMap<i64, (CornerSprings, Measured)> = BTreeMap::new();
         let mut judge = |i: i64| {
@@ -174,14 +186,11 @@ impl Rungs {
         };
         let found = seek(self.ends.0, self.ends.1, self.guess, &mut judge);
         // nothing to measure springs on
-        let FoundRung { rung, holds } = found.unwrap_or(FoundRung { rung: self.guess, holds: false });
+        let rung = found.map_or(self.guess, |found| found.rung);
         let (springs, measured) = seen.remove(&rung).unwrap_or_else(|| judged(rung));
-        ElasticRung {
-            rung,
-            springs,
-            measured,
-            reached: holds && measured.over(allowed).is_some_and(|over| over <= 1.0),
-        }
+        // by what was asked for, not by the margin that is aimed at
+        let reached = found.is_some() && measured.over(accuracy).is_some_and(|over| over <= 1.0);
+        ElasticRung { rung, springs, measured, reached }
     }
 }
 
@@ -206,12 +215,12 @@ mod tests {
     use super::*;
     use crate::tuning::elastic::suite::ElasticErrors;
 
-    fn springs(i: i64) -> CornerSprings {
-        CornerSprings { corners: Vec::new(), k: 0.1, give: give(i), omega_n_hz: 2.0 / give(i).sqrt() }
+    fn springs(i: i64, share: f64) -> CornerSprings {
+        CornerSprings { corners: Vec::new(), k: 0.1 * share, give: give(i), omega_n_hz: 2.0 / give(i).sqrt() }
     }
 
     fn hz(i: i64) -> f64 {
-        springs(i).omega_n_hz
+        springs(i, 1.0).omega_n_hz
     }
 
     #[test]
@@ -242,11 +251,26 @@ mod tests {
         assert!(tuned.reached && tuned.springs.give <= 0.014 && tuned.springs.give > 0.011, "{tuned:?}");
     }
 
+    /// Those at the balance of K leave a landing too fast, whatever their stiffness.
+    #[test]
+    fn springs_with_less_rebound_are_tried_where_the_balanced_ones_do_not_hold() {
+        let errors = |springs: &CornerSprings| {
+            let error = [0.1 * springs.give + 0.02 * springs.k; 2];
+            Measured {
+                releases: Some(ElasticErrors { median: error, p90: error, count: 1, touches: 2.0 }),
+                ..Measured::default()
+            }
+        };
+        let rungs = Rungs::new(0.002, None, hz).unwrap();
+        let tuned = rungs.search(0.002, springs, &errors, &|_, _| ());
+        assert!(tuned.reached && tuned.springs.k < 0.05, "{tuned:?}");
+    }
+
     #[test]
     fn springs_that_nothing_could_be_measured_on_have_not_reached_the_accuracy() {
         let rungs = Rungs::new(0.002, None, hz).unwrap();
         let tuned = rungs.search(0.002, springs, &|_| Measured::default(), &|_, _| panic!("nothing to tell"));
         assert!(!tuned.reached && tuned.measured.nothing());
-        assert_eq!(tuned.springs, springs(37));
+        assert_eq!(tuned.springs, springs(37, 1.0));
     }
 }

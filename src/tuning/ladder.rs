@@ -19,6 +19,8 @@ pub(super) fn seek(first: i64, last: i64, guess: i64, judge: &mut dyn FnMut(i64)
     // everything up to `fails` counts as failing, `holds` holds
     let (mut fails, mut holds): (i64, Option<i64>) = (first - 1, None);
     let mut best: Option<(f64, i64)> = None;
+    // an error that hardly falls, or not yet, is left behind in strides
+    let mut stride = 1;
     let mut next = guess.clamp(first, last);
     for _ in 0..MOST_RUNGS {
         let over = judge(next)?;
@@ -35,7 +37,11 @@ pub(super) fn seek(first: i64, last: i64, guess: i64, judge: &mut dyn FnMut(i64)
             next = match holds {
                 Some(h) if h > next + 1 => (next + rungs.max(1)).min(h - 1),
                 Some(h) => (h + 1).min(last),
-                None => (next + rungs.max(1)).min(last),
+                None => {
+                    let step = rungs.max(stride);
+                    stride *= 2;
+                    (next + step).min(last)
+                }
             };
         } else {
             let h = holds.map_or(next, |h: i64| h.min(next));

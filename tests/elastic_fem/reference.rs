@@ -14,7 +14,13 @@ use groundspring::{
     fem::Control,
     record::Record,
     scalar::GRAVITY,
-    tuning::elastic::{design::springs as springs_of_design, landing_speed, stand, trial::ElasticTrial, tune},
+    tuning::elastic::{
+        design::{springs as springs_of_design, with_k},
+        landing_speed, stand,
+        suite::ElasticSuite,
+        trial::ElasticTrial,
+        tune,
+    },
 };
 use nalgebra::DVector;
 
@@ -121,7 +127,7 @@ fn legs_of_any_stiffness_follow_the_reference() {
         let structure: ElasticStructure = toml::from_str(&spec).unwrap();
         let (alpha, landing) = (structure.body().alpha(), landing_speed(&structure));
         let model = Assembled::new(structure).unwrap();
-        let springs = springs_of_design(&stand(&model).unwrap(), 1e-5, landing);
+        let springs = springs_of_design(&stand(&model).unwrap(), 1e-5, landing, 1.0);
         let trial = ElasticTrial::released(&model, lean * alpha, 0.0125, 9.0).trial().unwrap();
         let judged = trial.judge(&model, &springs, Control::search());
         let [rotation, drift] = judged.errors;
@@ -205,7 +211,7 @@ fn a_corner_that_carries_nothing_slides_as_on_rigid_ground() {
     let reference = model.rock(ground, &model.leaning(lean).unwrap());
     let slips = reference.events.iter().filter(|event| event.what == What::Slip).count();
     assert!(slips >= 1, "{slips}");
-    let springs = springs_of_design(&stand(&model).unwrap(), 3e-6, landing_speed(&structure));
+    let springs = springs_of_design(&stand(&model).unwrap(), 3e-6, landing_speed(&structure), 1.0);
     let start = ElasticStart::Leaning(lean);
     let history = ElasticAnalysis::new(&model.frame, &springs.corners, start, dt, &still).simulate().unwrap();
     let touches = history.contacts.iter().filter(|contact| contact.touches).count();
@@ -216,4 +222,48 @@ fn a_corner_that_carries_nothing_slides_as_on_rigid_ground() {
     assert!(rotation < 1e-4 && drift < 1e-3, "{rotation:e} {drift:e}");
     // sliding takes energy, and the account has it
     assert!(history.energy_residual < 1e-6, "{:e}", history.energy_residual);
+}
+
+/// A footing of a portal that has left the ground altogether lands so flat that stopping it sideways would throw it up: it slides on, on springs
+/// too, and they follow the reference beyond.
+#[test]
+fn a_corner_that_lands_flat_slides_on_springs_as_on_rigid_ground() {
+    let structure: ElasticStructure = toml::from_str(
+        "kind = 'frame'\nheight_m = 7.14\nspan_m = 5.78\nfooting_width_m = 1.46\nfooting_height_m = 0.767\nfooting_mass_kg = 38e3\n\
+         beam_mass_kg = 653e3\ncolumn_ea_n = 4.18e10\ncolumn_ei_nm2 = 1.69e9\nbeam_ea_n = 9.05e9\nbeam_ei_nm2 = 8e9\ndamping_ratio = 0.03\n",
+    )
+    .unwrap();
+    let model = Assembled::new(structure).unwrap();
+    let accel: Vec<f64> = el_centro(401).iter().map(|a| 1.43 * a).collect();
+    let reference = model.rock(GroundAcceleration::horizontal(0.01, &accel), &model.upright().unwrap());
+    let skidded = reference.skidded.unwrap();
+    assert!(skidded < 3.0, "{skidded}");
+    let of_reference = model.sways(reference.q.iter().map(|q| q.as_slice()));
+    let standing = stand(&model).unwrap();
+    let error = |give: f64| {
+        let springs = springs_of_design(&standing, give, landing_speed(&structure), 1.0);
+        let start = ElasticStart::Standing;
+        let history = ElasticAnalysis::new(&model.frame, &springs.corners, start, 0.01, &accel).simulate().unwrap();
+        sway_errors(&of_reference, &model.sways(history.q.iter().map(Vec::as_slice)), accel.len())
+    };
+    let [soft, stiff] = [1e-5, 1e-7].map(error);
+    assert!(soft[0] < 2e-3 && soft[1] < 5e-3, "{soft:?}");
+    assert!(stiff[0] < 0.5 * soft[0] && stiff[1] < 0.5 * soft[1], "{stiff:?} {soft:?}");
+}
+
+/// A touch that a long step suspects beyond its end is none of its events: a history on these springs once never got past one.
+#[test]
+fn histories_on_stiff_springs_get_to_their_end() {
+    let structure: ElasticStructure = toml::from_str(
+        "kind = 'frame'\nheight_m = 8.0\nspan_m = 10.0\nfooting_width_m = 2.5\nfooting_height_m = 1.0\nfooting_mass_kg = 30e3\n\
+         beam_mass_kg = 200e3\ncolumn_ea_n = 3e10\ncolumn_ei_nm2 = 4e9\nbeam_ea_n = 4e10\nbeam_ei_nm2 = 8e9\ndamping_ratio = 0.02\n",
+    )
+    .unwrap();
+    let model = Assembled::new(structure).unwrap();
+    let standing = stand(&model).unwrap();
+    let suite = ElasticSuite::new(model, None);
+    for k in [0.0061, 0.0083] {
+        let motions = suite.measure(&with_k(&standing, 1e-6, k), Control::search()).motions.unwrap();
+        assert!(motions.p90[0] < 0.01 && motions.p90[1] < 0.05, "{k}: {motions:?}");
+    }
 }

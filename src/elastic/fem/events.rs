@@ -139,7 +139,8 @@ impl SpringsRun<'_> {
             } else {
                 high = h;
             }
-            let next = h - correction;
+            // what comes after the step is none of its events
+            let next = (h - correction).min(whole);
             let usable = correction.abs() <= 0.5 * h && next > low && next < high;
             h = if usable {
                 next
@@ -163,6 +164,9 @@ impl SpringsRun<'_> {
         if foot.closed {
             self.opened[corner] = self.time;
             return CornerState { anchor: foot.anchor, ..CornerState::OPEN };
+        }
+        if let Some(drag) = self.model.lands_flat(corner, &self.feet, &self.q, &self.v) {
+            return CornerState { holds: false, drag, ..here };
         }
         // where its spring was let go of
         let pulled = foot.anchor - here.anchor;

@@ -42,6 +42,9 @@ pub struct CornerState {
 /// mu of a corner that slides.
 const FRICTION: f64 = 100.0;
 
+/// A corner lands flat if this share of its fall, or less, is left once it has stopped across.
+const FLAT: f64 = 0.5;
+
 impl CornerState {
     /// In the air.
     pub const OPEN: Self = Self { closed: false, holds: false, anchor: 0.0, drag: 0.0 };
@@ -79,6 +82,19 @@ impl<'a> ElasticModel<'a> {
     pub fn dragged(&self, i: usize, foot: &CornerState) -> [f64; 2] {
         let drag = if foot.closed && !foot.holds { FRICTION * foot.drag } else { 0.0 };
         [drag, drag * self.damping[i]]
+    }
+
+    /// The direction of the force that brakes a corner that lands so flat that its horizontal spring would take most of its fall, or throw it up;
+    /// `None` if it does not, or its footing turns about another.
+    pub fn lands_flat(&self, i: usize, feet: &[CornerState], q: &[f64], v: &[f64]) -> Option<f64> {
+        let nodes = self.frame.footing_nodes();
+        if feet.iter().zip(nodes).any(|(foot, node)| foot.closed && *node == nodes[i]) {
+            return None;
+        }
+        let (slip, fall) = (self.sliding(i, q, v), -self.compression_rate(i, q, v));
+        let [wx, wxz, _] = self.frame.mobility(i, q);
+        // both downwards: it falls, and what of that is left once it has stopped across
+        (fall - wxz / wx * slip > FLAT * fall).then(|| -slip.signum())
     }
 
     /// Velocity at which a corner slides over its horizontal absorber [m/s].

@@ -226,3 +226,24 @@ fn what_does_not_fit_together_is_refused() {
     assert!(refused(&|l| l.nodes[1].mass = f64::NAN).contains("mass of node 1 is NaN"));
     assert!(refused(&|l| l.members.iter_mut().for_each(|m| m.section.line_mass = 0.0)).contains("node 2 has no mass"));
 }
+
+/// A footing's corner moves by its own mass and inertia alone under a column: force F at the arm (a_x, a_z) gives F/m, and a clockwise rotation
+/// (F_x a_z - F_z a_x)/I.
+#[test]
+fn a_corner_of_a_footing_moves_by_its_mass_and_inertia() {
+    let footing = pier(1, None).footing;
+    let frame = pier(1, None).layout().frame().unwrap();
+    let q = vec![0.0; frame.size()];
+    for (corner, ax) in [(0, -0.5 * footing.width), (1, 0.5 * footing.width)] {
+        let az = -footing.centre;
+        // half of the column's mass is the footing's: as the assembled coordinates have it
+        let index = frame.coordinates(0).map(|k| k.unwrap());
+        let (m, inertia) = (frame.mass_matrix()[(index[0], index[0])], frame.mass_matrix()[(index[2], index[2])]);
+        let shift = footing.centre - frame.centre(0)[1];
+        let az = az + shift;
+        let expected = [1.0 / m + az * az / inertia, -ax * az / inertia, 1.0 / m + ax * ax / inertia];
+        for (found, expected) in frame.mobility(corner, &q).into_iter().zip(expected) {
+            assert!((found - expected).abs() < 1e-12 * expected.abs(), "{corner}: {found:e} {expected:e}");
+        }
+    }
+}

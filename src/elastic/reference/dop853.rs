@@ -1,7 +1,6 @@
 //! One step of the Runge-Kutta method of order 8 by Dormand and Prince (Hairer, Norsett & Wanner, Solving Ordinary Differential Equations I,
 //! section II.5 and the code DOP853), for q'' = a(q, q', t) and the work of forces along the way.
 
-
 use super::state::{LastStage, Rates, ReferenceState, ReferenceStep, StepTolerance};
 
 /// Stages of a step.

@@ -44,49 +44,29 @@ pub fn step(
     let real = factored(jacobian, h * GAMMA);
     let pair = factored(jacobian, EIGENVALUE * h);
     let scale = StepTolerance(rtol);
-    // the estimate is two orders below the step's own error
-    let estimated = StepTolerance(0.1 * rtol.powf(2.0 / 3.0));
     let mut a: [DVector<f64>; 3] = std::array::from_fn(|_| first.a.clone());
     let mut stages: [ReferenceState; 3] = std::array::from_fn(|_| start.clone());
     let mut convergence = Convergence::new(CONVERGED, 0.0, 0, 1.0);
     loop {
+        let mut powers = [[0.0; 3]; 3];
+        let mut residual = [(); 3].map(|()| DVector::zeros(n));
         for (i, at) in stages.iter_mut().enumerate() {
             for k in 0..n {
-                (at.q[k], at.v[k]) = stage(i, (start.q[k], start.v[k]), [a[0][k], a[1][k], a[2][k]], h);
+                (at.q[k], at.v[k]) = stage(i, (start.q[k], start.v[k]), a.each_ref().map(|a| a[k]), h);
             }
-        }
-        let mut powers = [[0.0; 3]; 3];
-        let mut residual = a.clone();
-        for i in 0..3 {
-            let Rates { a: should, power, .. } = rates(C[i] * h, &stages[i])?;
-            residual[i] = should - &a[i];
-            powers[i] = power;
+            let should = rates(C[i] * h, at)?;
+            (residual[i], powers[i]) = (should.a - &a[i], should.power);
         }
         match convergence.verdict() {
             IterationVerdict::GoesOn => {}
             IterationVerdict::Failed => return None,
             IterationVerdict::Converged => {
-                let [_, _, mut end] = stages.clone();
-                for k in 0..end.work.len() {
-                    end.work[k] += h * (0..3).map(|i| A[2][i] * powers[i][k]).sum::<f64>();
+                let error = estimate(&stages, (start, first), jacobian, &real, h, rtol)?;
+                let [_, _, mut end] = stages;
+                for (weight, power) in A[2].iter().zip(powers) {
+                    end.work.iter_mut().zip(power).for_each(|(work, power)| *work += h * weight * power);
                 }
-                // the formula's own defect, passed through the same matrix so that stiff components do not dominate it
-                let missed = |of: &dyn Fn(&ReferenceState) -> f64, rate: f64| {
-                    h * GAMMA * rate + embedded(stages.each_ref().map(of), of(start))
-                };
-                let of_q = DVector::from_fn(n, |k, _| missed(&|s| s.q[k], start.v[k]));
-                let mut of_v = DVector::from_fn(n, |k, _| missed(&|s| s.v[k], first.a[k]));
-                of_v.gemv(h * GAMMA, &jacobian[0], &of_q, 1.0);
-                let of_v = real.solve(&of_v)?;
-                let of_q = of_q + &of_v * (h * GAMMA);
-                let share = |k: usize| {
-                    let of_q = of_q[k] / estimated.place(start.q[k], end.q[k]);
-                    let of_v = of_v[k] / estimated.velocity(start.v[k], end.v[k]);
-                    of_q * of_q + of_v * of_v
-                };
-                let squares: f64 = (0..n).map(share).sum();
-                let error = (squares / (2 * n) as f64).sqrt();
-                return error.is_finite().then_some(ReferenceStep { state: end, error, order: ORDER, last: None });
+                return Some(ReferenceStep { state: end, error, order: ORDER, last: None });
             }
         }
         let mut r0 = DVector::zeros(n);
@@ -109,6 +89,37 @@ pub fn step(
             return None;
         }
     }
+}
+
+/// The error over what is allowed: the defect of the formula of order 3, passed through the step's own matrix so that stiff components do not decide
+/// it. It is two orders below the step's own error, and is allowed as much more.
+fn estimate(
+    stages: &[ReferenceState; 3],
+    (start, first): (&ReferenceState, &Rates),
+    [by_q, _]: &[DMatrix<f64>; 2],
+    real: &LU<f64, Dyn, Dyn>,
+    h: f64,
+    rtol: f64,
+) -> Option<f64> {
+    let n = start.q.len();
+    let allowed = StepTolerance(0.1 * rtol.powf(2.0 / 3.0));
+    let defect = |of: &dyn Fn(&ReferenceState) -> f64, rate: f64| {
+        h * GAMMA * rate + embedded(stages.each_ref().map(of), of(start))
+    };
+    let of_q = DVector::from_fn(n, |k, _| defect(&|s| s.q[k], start.v[k]));
+    let mut of_v = DVector::from_fn(n, |k, _| defect(&|s| s.v[k], first.a[k]));
+    of_v.gemv(h * GAMMA, by_q, &of_q, 1.0);
+    let of_v = real.solve(&of_v)?;
+    let of_q = of_q + &of_v * (h * GAMMA);
+    let end = &stages[2];
+    let share = |k: usize| {
+        let of_q = of_q[k] / allowed.place(start.q[k], end.q[k]);
+        let of_v = of_v[k] / allowed.velocity(start.v[k], end.v[k]);
+        of_q * of_q + of_v * of_v
+    };
+    let squares: f64 = (0..n).map(share).sum();
+    let error = (squares / (2 * n) as f64).sqrt();
+    error.is_finite().then_some(error)
 }
 
 #[cfg(test)]

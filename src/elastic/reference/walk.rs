@@ -6,7 +6,8 @@ use super::contact::Rule;
 use super::hold::{Configuration, CornerContact};
 use super::state::{Rates, ReferenceState, ReferenceStep};
 use super::{
-    CornerSet, ElasticRocking, GroundAcceleration, Ledger, ReferenceOptions, ReferenceOutcome, Stop, dop853, implicit, search,
+    CornerSet, ElasticRocking, GroundAcceleration, Ledger, ReferenceOptions, ReferenceOutcome, Stop, dop853, implicit,
+    search,
 };
 use crate::{elastic::Mechanics, scalar::GRAVITY};
 

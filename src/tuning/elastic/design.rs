@@ -11,14 +11,15 @@
 //!
 //! **K** trades what a landing leaves against the stance, as for a rigid body. The footing comes back by v_r, about 0.8 K v, and stays in the
 //! air for 2 v_r m_eff/(M g), since the column presses it down with all of the weight: the sway meanwhile goes on by a phase of order
-//! omega K^2 v m_eff/(M g). A stance softer by 1/K lowers the sway's frequency by give/(2 K). The least sum of both has
+//! omega K^2 v m_eff/(M g). Where the column is about to pull it up, it is gone with v_r: an error of order K. A stance softer by 1/K lowers the
+//! sway's frequency by give/(2 K). The least sum of all three has
 //!
 //! ```text
-//!   K^3 = SCALE give M g/(omega v m_eff),     v: speed at which a corner lands that fell from half of what overturns
+//!   K^2 (K + turn) = scale give M g/(omega v m_eff),     v: speed at which a corner lands that fell from half of what overturns
 //! ```
 //!
-//! with a number that `cargo bench --bench elastic_stance` finds again, on piers of light to heavy footings: the geometric mean of their errors is
-//! flat about its least.
+//! with two numbers (`BALANCE`) that `cargo bench --bench elastic_stance` finds again, on piers of light to heavy footings and a frame: the geometric
+//! mean of their errors is flat about its least.
 
 use std::f64::consts::TAU;
 
@@ -31,9 +32,22 @@ use crate::{
     tuning::landing::{corners::CornerDynamics, part::for_part},
 };
 
-/// See above; the range of K: soft springs bounce on a larger one, and below the least no chain is sought.
-const SCALE: f64 = 0.06;
-const K: (f64, f64) = (0.005, 0.5);
+/// The numbers in the choice of K.
+#[derive(Clone, Copy, Debug)]
+pub struct KBalance {
+    /// Factor on the right side.
+    pub scale: f64,
+    /// K below which errors of order K, not K^2, decide.
+    pub turn: f64,
+}
+
+/// See above.
+pub const BALANCE: KBalance = KBalance { scale: 0.12, turn: 0.05 };
+/// The range of K: soft springs bounce on a larger one, and below the least no chain is sought.
+const K: (f64, f64) = (5e-4, 0.5);
+
+/// Steps of Newton's method: from (x)^(1/3) it halves K at most ten times, then doubles its digits.
+const NEWTON: usize = 30;
 
 /// By how much W of footings that are alike may differ: rounding.
 const SAME: f64 = 1e-9;
@@ -101,11 +115,27 @@ fn outer(w: &DMatrix<f64>, last: usize) -> [[f64; 4]; 4] {
     std::array::from_fn(|i| std::array::from_fn(|j| w[(at(i), at(j))]))
 }
 
-/// Springs of a structure at a give of its vertical k1 alone: the smaller, the stiffer. `landing`: v of the choice of K (m/s).
-pub fn springs(standing: &Standing, give: f64, landing: f64) -> CornerSprings {
-    let lightest = standing.footings.iter().map(|f| Lands::new(f).effective_mass()).fold(f64::INFINITY, f64::min);
-    let share = standing.responses[0].omega * landing * lightest / (standing.mass * GRAVITY);
-    with_k(standing, give, (SCALE * give / share).cbrt().clamp(K.0, K.1))
+/// Springs of a structure at a give of its vertical k1 alone: the smaller, the stiffer. `landing`: v of the choice of K (m/s); `share` of that K.
+pub fn springs(standing: &Standing, give: f64, landing: f64, share: f64) -> CornerSprings {
+    with_k(standing, give, share * BALANCE.k(standing, give, landing))
+}
+
+impl KBalance {
+    /// K of a structure at a give of its vertical k1 alone. `landing`: v (m/s).
+    pub fn k(&self, standing: &Standing, give: f64, landing: f64) -> f64 {
+        let lightest = standing.footings.iter().map(|f| Lands::new(f).effective_mass()).fold(f64::INFINITY, f64::min);
+        let share = standing.responses[0].omega * landing * lightest / (standing.mass * GRAVITY);
+        self.solve(self.scale * give / share).clamp(K.0, K.1)
+    }
+
+    /// K of K^2 (K + turn) = x, by Newton's method from above: the left side is convex.
+    fn solve(&self, x: f64) -> f64 {
+        let mut k = x.cbrt();
+        for _ in 0..NEWTON {
+            k -= (k * k * (k + self.turn) - x) / (k * (3.0 * k + 2.0 * self.turn));
+        }
+        k
+    }
 }
 
 /// k1 of the vertical units at a give of these alone (N/m).

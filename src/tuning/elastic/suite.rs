@@ -9,7 +9,7 @@ use super::{
     trial::{ElasticTrial, ElasticTrialOutcome},
 };
 use crate::{
-    elastic::{answer::Reference, assembled::Assembled},
+    elastic::{answer::Reference, assembled::Assembled, fem::default_control},
     fem::Control,
     record::Record,
     synthetic,
@@ -125,19 +125,19 @@ impl ElasticSuite {
         }
     }
 
-    /// The errors of springs.
+    /// The errors of springs; on the record, which is followed to where it grows a change the most, with steps as close as the answer's.
     pub fn measure(&self, springs: &CornerSprings, control: Control) -> Measured {
         Measured {
             releases: self.errors(&self.releases, springs, control),
             motions: self.errors(&self.motions, springs, control),
-            record: self.errors(self.record.as_slice(), springs, control),
             ill_conditioned: self.ill_conditioned,
+            ..self.measure_record(springs)
         }
     }
 
     /// Those on the record alone.
-    pub fn measure_record(&self, springs: &CornerSprings, control: Control) -> Measured {
-        Measured { record: self.errors(self.record.as_slice(), springs, control), ..Measured::default() }
+    pub fn measure_record(&self, springs: &CornerSprings) -> Measured {
+        Measured { record: self.errors(self.record.as_slice(), springs, default_control()), ..Measured::default() }
     }
 
     fn errors(&self, trials: &[ElasticTrial], springs: &CornerSprings, control: Control) -> Option<ElasticErrors> {

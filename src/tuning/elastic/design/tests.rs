@@ -82,7 +82,9 @@ fn k_falls_with_the_give_and_with_what_lands() {
     let light = standing();
     let heavy = Pier::new([2e5, 12.0, 2.0], [2.0, 0.02], [6e5, 1.0]).with_axial(4e9, 0.02);
     let heavy = Standing::new(&heavy, &DVector::zeros(5)).unwrap();
-    let k = |standing: &Standing, give: f64| springs(standing, give, 0.6).k;
-    assert_relative_eq!(k(&light, 1e-3) / k(&light, 1e-4), 10f64.cbrt(), max_relative = 1e-9);
+    let k = |standing: &Standing, give: f64| springs(standing, give, 0.6, 1.0).k;
+    let side = |give: f64| k(&light, give).powi(2) * (k(&light, give) + BALANCE.turn);
+    assert_relative_eq!(side(1e-3) / side(1e-4), 10.0, max_relative = 1e-9);
+    assert_relative_eq!(side(1e-4) / side(1e-7), 1e3, max_relative = 1e-9);
     assert!(k(&heavy, 1e-4) < 0.5 * k(&light, 1e-4));
 }
