@@ -122,6 +122,7 @@ impl ElasticRun {
             compared_s: answer.compared.seconds,
             whole: answer.compared.whole(),
             foretold_s: reference.foretold_seconds(record.dt),
+            slides_on_s: reference.slides_on(),
             softer_omega_n_hz: tuned.softer_hz,
             // rotations of a structure that stands are rounding
             nrmse_rotation: rotation.filter(|_| reference.history.lifts()),

@@ -145,6 +145,11 @@ impl Reference {
         (self.foretold < self.history.q.len()).then(|| self.foretold.saturating_sub(1) as f64 * dt)
     }
 
+    /// When a corner slides on from a landing, if that is where the part that can be foretold ends (s).
+    pub fn slides_on(&self) -> Option<f64> {
+        self.history.skidded.filter(|time| self.foretold == self.history.samples_to(*time))
+    }
+
     /// The same compared over as much as springs stiff enough may follow, a perturbation growing less than [`FOLLOWED`]; none if that is no more.
     ///
     /// # Errors

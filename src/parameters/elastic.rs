@@ -84,9 +84,13 @@ pub struct OnRecord {
     pub compared_s: f64,
     /// Whether that is all of it.
     pub whole: bool,
-    /// Length in which a change of a millionth grows to less than a thousandth of the peak, if that is not all of it (s).
+    /// Length in which a change of a millionth grows to less than a thousandth of the peak and no corner slides on from a landing, if that is not all
+    /// of it (s).
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub foretold_s: Option<f64>,
+    /// When a corner of the reference lands so flat that it slides on, if that is where this ends (s).
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub slides_on_s: Option<f64>,
     /// Omega_n/2 pi of softer springs that hold the accuracy over that length (Hz).
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub softer_omega_n_hz: Option<f64>,
@@ -291,6 +295,7 @@ mod tests {
             compared_s: 5.0,
             whole: false,
             foretold_s: None,
+            slides_on_s: Some(5.0),
             softer_omega_n_hz: None,
             nrmse_rotation: None,
             nrmse_drift: None,

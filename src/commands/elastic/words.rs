@@ -180,9 +180,14 @@ fn further(on: &OnRecord) -> Option<String> {
             hz.ceil()
         )
     });
-    Some(format!(
-        "conditioning: from t = {foretold:.2} s on a change of a millionth is more than a thousandth of the peak{softer}"
-    ))
+    Some(match on.slides_on_s {
+        Some(time) => format!(
+            "conditioning: at t = {time:.2} s a corner lands so flat that it slides on, by an impulse that depends on friction{softer}"
+        ),
+        None => format!(
+            "conditioning: from t = {foretold:.2} s on a change of a millionth is more than a thousandth of the peak{softer}"
+        ),
+    })
 }
 
 /// What motions near the record come to.
