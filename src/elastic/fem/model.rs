@@ -14,7 +14,8 @@
 //!   H = +-mu k1_v (d + tau d'),     d = a_z - p_z;     tau = 2 sqrt(m_eff/(mu k1_v)): the force that keeps it down is damped critically
 //! ```
 //!
-//! until it comes to a stop. The law of the rigid body's feet (`fem/model.rs`), p the corner's displacement. Gravity acts on the frame only, so that an open absorber rests at zero.
+//! until it comes to a stop. So does one that lands flat, from its touch on (`lands_flat`). The law of the rigid body's feet (`fem/model.rs`), p the
+//! corner's displacement. Gravity acts on the frame only, so that an open absorber rests at zero.
 
 use nalgebra::DVector;
 
