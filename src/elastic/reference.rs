@@ -23,6 +23,7 @@
 //! | `contact` | which corners stay: after a landing, under forces |
 //! | `state` | where it is, what a step leads to |
 //! | `dop853`, `implicit` | one step; the same where the structure is stiff |
+//! | `stiffness` | whether it is |
 //! | `search` | events within a step |
 //! | `walk`, `events` | from sample to sample, from event to event |
 //! | `rest` | the structure at rest under its weight |
@@ -38,6 +39,7 @@ mod implicit;
 mod rest;
 mod search;
 mod state;
+mod stiffness;
 mod walk;
 
 use nalgebra::DVector;

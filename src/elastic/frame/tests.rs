@@ -234,13 +234,11 @@ fn a_corner_of_a_footing_moves_by_its_mass_and_inertia() {
     let footing = pier(1, None).footing;
     let frame = pier(1, None).layout().frame().unwrap();
     let q = vec![0.0; frame.size()];
-    for (corner, ax) in [(0, -0.5 * footing.width), (1, 0.5 * footing.width)] {
-        let az = -footing.centre;
-        // half of the column's mass is the footing's: as the assembled coordinates have it
-        let index = frame.coordinates(0).map(|k| k.unwrap());
-        let (m, inertia) = (frame.mass_matrix()[(index[0], index[0])], frame.mass_matrix()[(index[2], index[2])]);
-        let shift = footing.centre - frame.centre(0)[1];
-        let az = az + shift;
+    // the footing's node, which has its share of the column's mass
+    let mass = |k: usize| frame.mass_matrix()[(k, k)];
+    let [m, _, inertia] = frame.coordinates(0).map(|k| mass(k.unwrap()));
+    let [_, height] = frame.centre(0);
+    for (corner, ax, az) in [(0, -0.5 * footing.width, -height), (1, 0.5 * footing.width, -height)] {
         let expected = [1.0 / m + az * az / inertia, -ax * az / inertia, 1.0 / m + ax * ax / inertia];
         for (found, expected) in frame.mobility(corner, &q).into_iter().zip(expected) {
             assert!((found - expected).abs() < 1e-12 * expected.abs(), "{corner}: {found:e} {expected:e}");

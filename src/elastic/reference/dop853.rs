@@ -1,7 +1,8 @@
 //! One step of the Runge-Kutta method of order 8 by Dormand and Prince (Hairer, Norsett & Wanner, Solving Ordinary Differential Equations I,
 //! section II.5 and the code DOP853), for q'' = a(q, q', t) and the work of forces along the way.
 
-use super::state::{LastStage, Rates, ReferenceState, ReferenceStep, StepTolerance};
+use super::state::{Rates, ReferenceState, ReferenceStep, StepTolerance};
+use super::stiffness::LastStage;
 
 /// Stages of a step.
 const STAGES: usize = 12;
@@ -138,6 +139,8 @@ pub fn step(
         if i + 1 < STAGES {
             slopes.push(rates(h * C[i + 1], &stage)?);
             velocities.push(stage.v.clone());
+        }
+        if i + 2 == STAGES {
             last_place.clone_from(&stage.q);
         }
     }

@@ -2,7 +2,7 @@
 
 use nalgebra::DVector;
 
-use super::hold::force;
+use super::{hold::force, stiffness::LastStage};
 
 /// Where the structure is, and what dampers have taken and the ground put in since the start (J).
 #[derive(Clone, Debug)]
@@ -43,25 +43,6 @@ pub struct ReferenceStep {
     pub order: f64,
     /// Of an explicit step.
     pub last: Option<LastStage>,
-}
-
-/// The last stage of an explicit step, like the result at its end: what the two differ by tells how stiff the equations are.
-#[derive(Clone, Debug)]
-pub struct LastStage {
-    pub q: DVector<f64>,
-    pub v: DVector<f64>,
-    pub a: DVector<f64>,
-}
-
-impl LastStage {
-    /// The fastest rate of the equations, roughly, from the end of the step and its rates (1/s) (Hairer & Wanner, Solving Ordinary Differential Equations
-    /// II, section IV.2).
-    pub fn fastest(&self, end: &ReferenceState, rates: &Rates) -> f64 {
-        let dv = (&end.v - &self.v).norm_squared();
-        let (da, dq) = ((&rates.a - &self.a).norm_squared(), (&end.q - &self.q).norm_squared());
-        let apart = dq + dv;
-        if apart > 0.0 { ((dv + da) / apart).sqrt() } else { 0.0 }
-    }
 }
 
 /// Errors allowed in a step: this share of a coordinate or velocity, of which 1 % and 10 % of the unit are the least that counts.

@@ -5,6 +5,7 @@ use nalgebra::DVector;
 use super::contact::Rule;
 use super::hold::{Configuration, CornerContact};
 use super::state::{Rates, ReferenceState, ReferenceStep};
+use super::stiffness::Stiffness;
 use super::{
     CornerSet, ElasticRocking, GroundAcceleration, Ledger, ReferenceOptions, ReferenceOutcome, Stop, dop853, implicit,
     search,
@@ -17,13 +18,6 @@ pub const ON_GROUND: f64 = 1e-12;
 const ROUNDING: f64 = 1e-9;
 /// Shortest step, as a share of the time step.
 const SHORTEST: f64 = 1e-9;
-
-/// h times the fastest rate beyond which stiffness, not accuracy, has chosen the explicit method's step: it is stable up to 6.1, and as accurate as
-/// asked to about 1 (Hairer & Wanner, Solving Ordinary Differential Equations II, section IV.2).
-const STIFF: f64 = 3.0;
-/// Steps that tell that it is so, and those in a row that tell that it is not.
-const STIFF_STEPS: usize = 15;
-const CALM_STEPS: usize = 6;
 
 /// A state and its rates.
 #[derive(Clone, Debug)]
@@ -54,9 +48,8 @@ pub struct ReferenceWalk<'a, M> {
     interval: usize,
     since: f64,
     h: f64,
-    /// Explicit steps that stiffness cut short since the last event, and others since the last of these.
-    stiff_steps: usize,
-    calm_steps: usize,
+    /// Since the last event.
+    stiffness: Stiffness,
     pub(super) history: ElasticRocking,
 }
 
@@ -99,8 +92,7 @@ impl<'a, M: Mechanics> ReferenceWalk<'a, M> {
             interval: 0,
             since: 0.0,
             h: ground.dt,
-            stiff_steps: 0,
-            calm_steps: 0,
+            stiffness: Stiffness::default(),
             history,
         }
     }
@@ -152,7 +144,7 @@ impl<'a, M: Mechanics> ReferenceWalk<'a, M> {
             };
             self.history.steps += 1;
             if let Some(last) = last {
-                self.tell_stiffness(h * last.fastest(&end.state, &end.rates) > STIFF);
+                self.stiffness.note(h * last.fastest(&end.state, &end.rates));
             }
             let event = search::first(self, &self.now, &end, h);
             // an event's step is short; what the error allows is what counts for the next
@@ -167,24 +159,12 @@ impl<'a, M: Mechanics> ReferenceWalk<'a, M> {
                     self.now = self.advanced(&self.now, crossing.after).ok_or_else(|| self.stop(Stop::Singular))?;
                     self.since += crossing.after;
                     // fast motions that it begins are for the explicit method
-                    self.stiff_steps = 0;
+                    self.stiffness = Stiffness::default();
                     self.happen(crossing.corner)?;
                 }
             }
         }
         Ok(())
-    }
-
-    /// Take note of a step that stiffness cut short, or not.
-    fn tell_stiffness(&mut self, cut: bool) {
-        if cut {
-            (self.stiff_steps, self.calm_steps) = (self.stiff_steps + 1, 0);
-        } else {
-            self.calm_steps += 1;
-            if self.calm_steps == CALM_STEPS {
-                (self.stiff_steps, self.calm_steps) = (0, 0);
-            }
-        }
     }
 
     /// The ground's acceleration at a time since the present.
@@ -223,7 +203,7 @@ impl<'a, M: Mechanics> ReferenceWalk<'a, M> {
     fn step(&self, start: &Moment, h: f64) -> Option<ReferenceStep> {
         let Moment { state, rates } = start;
         let of = |t: f64, state: &ReferenceState| self.rates(t, state);
-        if self.stiff_steps < STIFF_STEPS {
+        if !self.stiffness.found() {
             return dop853::step(of, state, rates, h, self.options.rtol);
         }
         let at = Configuration::new(self.mechanics, &state.q, &state.v)?;
