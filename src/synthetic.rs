@@ -81,13 +81,16 @@ pub fn record(seed: u64, index: usize, p: f64, alpha: f64) -> Record {
 /// Numbers of this suite are drawn from streams that [`record`] does not use.
 const EARTHQUAKES: u64 = 1 << 63;
 
+/// Peak ground acceleration of an earthquake-like motion (g), from and to.
+pub const EARTHQUAKE_PGA_G: (f64, f64) = (0.2, 0.9);
+
 /// Motion `index` of the suite of earthquakes of a seed. It depends on the seed and on the index alone; only the silence
 /// at its end is as long as the structure needs to topple or to come to rest: 8/p, p in 1/s, at least 2 s and at most 60
 /// s.
 pub fn earthquake(seed: u64, index: usize, p: f64) -> Record {
     let mut random = Random::new(seed, EARTHQUAKES | index as u64);
     let dt = if random.sign() > 0.0 { 0.005 } else { 0.01 };
-    let pga = GRAVITY * random.between(0.2, 0.9);
+    let pga = GRAVITY * random.between(EARTHQUAKE_PGA_G.0, EARTHQUAKE_PGA_G.1);
     let motion = noise::Noise {
         omega_g: random.log_between(9.0, 36.0),
         zeta_g: random.between(0.2, 0.6),

@@ -7,6 +7,7 @@ use crate::{
     conditioning::Conditioning,
     fem::{self, History},
     housner::{self, Rocking},
+    motion::shown,
     overturning::{overturned, samples_until},
     structure::Body,
 };
@@ -166,8 +167,10 @@ impl Verdict {
         match errors {
             None => {}
             Some((u, v)) if self.well_conditioned => lines.push(format!(
-                "the motion is well conditioned: over {:.2} s the histories differ by {u:.4} in u and {v:.4} in v (NRMSE)",
-                self.compared_s
+                "the motion is well conditioned: over {:.2} s the histories differ by {} in u and {} in v (NRMSE)",
+                self.compared_s,
+                shown(u),
+                shown(v)
             )),
             Some(_) => lines.push(
                 "this one motion is ILL-CONDITIONED: a small change of structure or record makes another history of it, so that no \

@@ -233,7 +233,7 @@ impl Page<'_> {
                     mean.map(|s| s.count),
                     f64::INFINITY,
                 ),
-                row("the same with its standard error", m.earthquakes_upper, mean.map(|s| s.count), LOOSER),
+                row("the same with twice its standard error", m.earthquakes_upper, mean.map(|s| s.count), LOOSER),
             ];
             out += "<p>Measured in this run against Housner's solution. NRMSE is the root mean square of the difference in the \
                     displacement over the root mean square of Housner's; only motions count that can be followed one to one.</p>\n";

@@ -111,9 +111,14 @@ impl Assessment {
                 format!("{} on the one earthquake-like motion of sensitivity below {PREDICTABLE}", shown(e.value))
             }
             (n, upper) => format!(
-                "{} in the geometric mean of {n} earthquake-like motions of sensitivity below {PREDICTABLE}{}",
+                "{} in the geometric mean of {n} earthquake-like motions of sensitivity below {PREDICTABLE}{}{}",
                 shown(e.value),
-                upper.map_or(String::new(), |x| format!(", {} with its standard error (allowed {looser})", shown(x)))
+                match m.earthquakes_scaled_down {
+                    0 => String::new(),
+                    scaled => format!(" ({scaled} of them scaled down to what the body stands)"),
+                },
+                upper
+                    .map_or(String::new(), |x| format!(", {} with twice its standard error (allowed {looser})", shown(x)))
             ),
         });
         [record, synthetic, earthquakes].into_iter().flatten().collect()

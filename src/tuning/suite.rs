@@ -26,6 +26,8 @@ use crate::{
 /// Motions of each suite that are followed.
 const SYNTHETIC: usize = 24;
 const EARTHQUAKES: usize = 16;
+/// Earthquake-like motions that topple a structure, or cannot be foretold for it, are scaled down to so many times the acceleration that lifts it.
+const MILD: (f64, f64) = (1.2, 6.0);
 /// Motions of each suite that are looked at for them, so many at a time.
 const LOOKED_AT: usize = 480;
 /// The same of the motions that decide between springs which these do not tell apart.
@@ -145,6 +147,10 @@ pub struct Statistic {
     pub count: usize,
 }
 
+fn is_zero(count: &usize) -> bool {
+    *count == 0
+}
+
 /// The error of springs against Housner, measured; `None` where there is no motion to measure it on.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]
 pub struct Accuracy {
@@ -160,11 +166,16 @@ pub struct Accuracy {
     /// Geometric mean over the earthquake-like motions on which Housner's sensitivity is below 150.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub earthquakes_mean: Option<Statistic>,
-    /// The same with its standard error on top: what other earthquakes may well give, and what is held against the accuracy.
+    /// How many of these were scaled down to what the structure stands.
+    #[serde(default, skip_serializing_if = "is_zero")]
+    pub earthquakes_scaled_down: usize,
+    /// The same with twice its standard error on top: more than other earthquakes are likely to give, and what is held against the accuracy.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub earthquakes_upper: Option<f64>,
 }
 
+/// Standard errors of the earthquake-like motions' mean that are held against the accuracy on top of it.
+const ERRORS: i32 = 2;
 /// How much more the 90 % quantile and the earthquake-like motions may have than the accuracy asked for.
 pub const LOOSER: f64 = 5.0;
 
@@ -207,20 +218,34 @@ pub struct Suites {
     record: Option<Trial>,
     synthetic: Vec<Trial>,
     earthquakes: Vec<Trial>,
+    /// How many of the earthquakes, the last ones, are scaled down.
+    scaled_down: usize,
 }
 
 impl Suites {
     /// Of a body that lands with velocity restitution `restitution`, with this record if there is one.
     pub fn new(body: &Body<f64>, restitution: f64, record: Option<&Record>) -> Self {
+        Self::of_seed(SEED, body, restitution, record)
+    }
+
+    /// The same of other motions.
+    pub fn of_seed(seed: u64, body: &Body<f64>, restitution: f64, record: Option<&Record>) -> Self {
         let (p, alpha) = (body.p_squared().sqrt(), body.alpha());
         let well = |record| Trial::new(body, restitution, record, WantedMotion::WellConditioned);
         let standing = |record| Trial::new(body, restitution, record, WantedMotion::WellConditionedWhileItStands);
         let predictable = |record| Trial::new(body, restitution, record, WantedMotion::Predictable);
+        let earthquake = |i| synthetic::earthquake(seed, i, p);
+        let mut earthquakes = first(EARTHQUAKES, 0..LOOKED_AT, |i| predictable(earthquake(i)));
+        let lacking = EARTHQUAKES - earthquakes.len();
+        let mild = first(lacking, 0..LOOKED_AT, |i| predictable(milder(earthquake(i), alpha)?));
+        let scaled_down = mild.len();
+        earthquakes.extend(mild);
         Self {
             body: *body,
             record: record.and_then(|record| standing(record.clone())),
-            synthetic: first(SYNTHETIC, 0..LOOKED_AT, |i| well(synthetic::record(SEED, i, p, alpha))),
-            earthquakes: first(EARTHQUAKES, 0..LOOKED_AT, |i| predictable(synthetic::earthquake(SEED, i, p))),
+            synthetic: first(SYNTHETIC, 0..LOOKED_AT, |i| well(synthetic::record(seed, i, p, alpha))),
+            earthquakes,
+            scaled_down,
         }
     }
 
@@ -234,6 +259,7 @@ impl Suites {
             record: None,
             synthetic: first(MORE, others, |i| well(synthetic::record(SEED, i, p, alpha))),
             earthquakes: Vec::new(),
+            scaled_down: 0,
         }
     }
 
@@ -272,7 +298,8 @@ impl Suites {
                 let errors = errors(&self.earthquakes);
                 let found = geometric_mean(errors.iter().map(|e| e.0));
                 accuracy.earthquakes_mean = statistic(found.map(|(mean, _)| mean), errors.len());
-                accuracy.earthquakes_upper = found.map(|(mean, factor)| mean * factor);
+                accuracy.earthquakes_scaled_down = self.scaled_down;
+                accuracy.earthquakes_upper = found.map(|(mean, factor)| mean * factor.powi(ERRORS));
             }
         }
     }
@@ -303,6 +330,16 @@ fn geometric_mean(errors: impl ExactSizeIterator<Item = f64> + Clone) -> Option<
     (n > 0.0).then(|| (mean.exp(), (variance / n).sqrt().exp()))
 }
 
+/// An earthquake-like motion scaled down: its acceleration, of all that these motions may have, becomes as much of [`MILD`]; `None` where that would
+/// not be less.
+fn milder(motion: Record, alpha: f64) -> Option<Record> {
+    let (least, most) = synthetic::EARTHQUAKE_PGA_G;
+    let pga = motion.pga_g();
+    let share = (pga - least) / (most - least);
+    let factor = alpha.tan() * (MILD.0 + share * (MILD.1 - MILD.0)) / pga;
+    if factor < 1.0 { motion.scaled(factor).ok() } else { None }
+}
+
 /// The first `count` of these motions of a suite that `pick` finds fit; fewer if there are no more.
 fn first(count: usize, motions: Range<usize>, pick: impl Fn(usize) -> Option<Trial> + Sync) -> Vec<Trial> {
     let mut trials: Vec<Trial> = Vec::new();
@@ -328,6 +365,7 @@ mod tests {
             synthetic_median: statistic(1.5e-3),
             synthetic_p90: statistic(4e-3),
             earthquakes_mean: statistic(9e-3),
+            earthquakes_scaled_down: 0,
             earthquakes_upper: Some(1.2e-2),
         };
         assert!((accuracy.over(2e-3) - 1.2).abs() < 1e-12);

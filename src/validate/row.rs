@@ -96,6 +96,8 @@ pub struct Row {
     pub moved_by_0_1_percent_of_restitution: f64,
     /// As `peak_ratio_housner`, with a restitution smaller by 1e-5 of it.
     pub peak_ratio_housner_changed: f64,
+    /// Whether Housner's body overturned with that restitution.
+    pub overturned_housner_changed: bool,
     /// When Housner's pivot would first have to hold the body down (s); none if it presses throughout. A foot lifts there, and
     /// rocking does not hold any more.
     pub pivot_pulls_s: Option<f64>,
@@ -212,6 +214,7 @@ impl Judge {
             housner::RockingOptions { restitution: Some(self.restitution * (1.0 - CHANGE)), ..options.clone() };
         let changes = conditioning.map(|c| c.changes).unwrap_or_default();
         let moved = |k: usize| changes.width[k].max(changes.scale[k]);
+        let changed = housner::solve(body, dt, accel, &changed);
         let error = |x: f64| (outcome == RecordOutcome::Rocked && x.is_finite()).then_some(x);
         Row {
             name: record.name.clone(),
@@ -232,7 +235,8 @@ impl Judge {
             moved_by_0_1_percent: moved(0),
             moved_by_1_percent: moved(1),
             moved_by_0_1_percent_of_restitution: changes.restitution[0],
-            peak_ratio_housner_changed: peak_of(&housner::solve(body, dt, accel, &changed)),
+            peak_ratio_housner_changed: peak_of(&changed),
+            overturned_housner_changed: changed.overturned().is_some(),
             pivot_pulls_s: regime::pivot_pulls(body, dt, accel, rocking),
         }
     }

@@ -30,13 +30,16 @@ fn summary(v: &Validation) -> (Vec<String>, Vec<Vec<String>>) {
         0 => format!("{} of {}", number(m.mean), m.count),
         failed => format!("{} of {}, {failed} failed", number(m.mean), m.count),
     };
-    let lines: [Line; 14] = [
+    let lines: [Line; 15] = [
         ("records".into(), &|s| s.count.to_string()),
         ("KS distance of the peak rotations".into(), &|s| several(s.count, format!("{:.4}", s.ks_distance))),
         ("the same, Housner from himself with e changed by 1e-5".into(), &|s| {
             several(s.count, format!("{:.4}", s.ks_distance_of_housner_changed))
         }),
         ("agreement on overturning".into(), &|s| several(s.count, format!("{:.2} %", 100.0 * s.overturning_agreement))),
+        ("the same, Housner with himself with e changed by 1e-5".into(), &|s| {
+            several(s.count, format!("{:.2} %", 100.0 * s.overturning_agreement_of_housner_changed))
+        }),
         ("overturned in both / Housner only / finite elements only / neither".into(), &|s| overturned(&s.overturning)),
         ("well-conditioned histories compared".into(), &|s| s.nrmse_well_conditioned.count.to_string()),
         ("NRMSE horizontal: median / 90 %".into(), &|s| quantiles(&s.nrmse_well_conditioned)),

@@ -22,6 +22,7 @@ fn row(peaks: (f64, Option<f64>), overturned: (bool, Option<bool>), sensitivity:
         moved_by_1_percent: 1e-2 * sensitivity,
         moved_by_0_1_percent_of_restitution: 1e-2,
         peak_ratio_housner_changed: peaks.0,
+        overturned_housner_changed: overturned.0,
         pivot_pulls_s: None,
     }
 }
@@ -126,6 +127,7 @@ fn suites_are_judged_apart_and_together() {
     rows[1].suite = Suite::Earthquakes;
     rows[2].suite = Suite::Earthquakes;
     rows[2].peak_ratio_housner_changed = 0.6;
+    rows[2].overturned_housner_changed = true;
     let found = Validation::new(rows);
     let suites: Vec<_> = found.suites.iter().map(|(suite, s)| (*suite, s.count)).collect();
     assert_eq!(suites, [(Suite::Files, 1), (Suite::Earthquakes, 2)]);
@@ -133,6 +135,7 @@ fn suites_are_judged_apart_and_together() {
     assert_eq!((found.all.count, earthquakes.nrmse_well_conditioned.count), (3, 2));
     assert_eq!(found.suites[&Suite::Files].ks_distance_of_housner_changed, 0.0);
     assert_eq!(earthquakes.ks_distance_of_housner_changed, 0.5);
+    assert_eq!((earthquakes.overturning_agreement, earthquakes.overturning_agreement_of_housner_changed), (1.0, 0.5));
     let json = serde_json::to_value(&found).unwrap();
     assert!(json["ks_distance"].is_f64() && json["suites"]["earthquakes"]["nrmse_geometric_mean"]["mean"].is_f64());
 }
