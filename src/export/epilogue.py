@@ -31,8 +31,9 @@ def main():
     for name, column, start in checked(settled):
         values = [row[column] - start for row in rows]
         found[name + " max"], found[name + " min"] = max(values), min(values)
-        # 1 % of the largest motion in that direction
-        scale[name + " max"] = scale[name + " min"] = max(abs(EXPECTED[name + " max"]), abs(EXPECTED[name + " min"]))
+        # 1 % of the largest motion in that direction, or of what is none to speak of
+        largest = max(abs(EXPECTED[name + " max"]), abs(EXPECTED[name + " min"]), 1e-3 * RISE)
+        scale[name + " max"] = scale[name + " min"] = largest
     good = all(abs(found[key] - value) <= 0.01 * scale[key] for key, value in EXPECTED.items())
     print(f"OpenSees {ops.version()}, {(SAMPLES - 1) * RECORD_DT:g} s: {steps.report()}; wrote {out}")
     if steps.refused:

@@ -43,7 +43,7 @@ foreach row $rows {
 close $out
 
 # ---------------------------------------------------------------- check
-# 1 % of the largest motion in that direction
+# 1 % of the largest motion in that direction, or of what is none to speak of
 array set want $expected
 array set found [list settled $settled]
 array set scale [list settled [expr {abs($want(settled))}]]
@@ -56,7 +56,7 @@ foreach {name column start} [checked] {
         set least [expr {min($least, $value)}]
     }
     array set found [list "$name max" $most "$name min" $least]
-    set largest [expr {max(abs($want($name max)), abs($want($name min)))}]
+    set largest [expr {max(abs($want($name max)), abs($want($name min)), 1e-3 * $rise)}]
     array set scale [list "$name max" $largest "$name min" $largest]
 }
 set good 1

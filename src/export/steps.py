@@ -31,6 +31,8 @@ class Steps:
     RISE = 0.1
     # A foot that lifts drops a horizontal force at once; the step across it is wrong by that force for all its length.
     DROP = 0.02
+    # The same while all feet stand and none has risen yet: what they miss dies away.
+    STAND = 1e-4
 
     def __init__(self, feet, landing, longest, rise, accuracy=0.002):
         fine = min(1.0, math.sqrt(accuracy / 0.002))   # steps err with their square
@@ -77,7 +79,9 @@ class Steps:
         """Length that the next steps may have by the error of these two of h, s."""
         # TRBDF2 misses h^3/3 of the third derivative, in the fast motions of the springs and the slow one of the body alike.
         missed = h / 3.0 * max(abs(a[3] - 2.0 * b[3] + c[3]) for a, b, c in zip(*states))
-        may = self.accuracy * self.highest * max(self.PAIR, self.RISE * 2.0 * h / self.slow())
+        stands = self.strongest == 0.0 and all(gap[0] <= 0.0 for gaps in states for gap in gaps)
+        least = self.STAND if stands else self.PAIR
+        may = self.accuracy * self.highest * max(least, self.RISE * 2.0 * h / self.slow())
         by_error = 0.9 * h * (may / max(missed, 1e-300)) ** (1.0 / 3.0)
         # Motions faster than a landing (a rotation of little inertia) are not resolved: steps of a landing end them.
         return max(min(self.GROWTH * size, max(by_error, 0.3 * size)), min(2.0 * size, self.first))

@@ -29,6 +29,8 @@ namespace eval steps {
     variable riseShare 0.1
     # A foot that lifts drops a horizontal force at once; the step across it is wrong by that force for all its length.
     variable drop 0.02
+    # What a pair may miss while all feet stand and none has risen yet: it dies away.
+    variable standShare 1e-4
 
     proc start {nodes aLanding aLongest rise {anAccuracy 0.002}} {
         foreach name {feet longest landing accuracy first shortest share allowed strongest highest gaps taken refused late smallest} {
@@ -97,13 +99,15 @@ namespace eval steps {
 
     # Length that the next steps may have by the error of these two of h, s.
     proc grown {states h size} {
-        foreach name {accuracy highest pairShare riseShare growth first} { variable $name }
+        foreach name {accuracy highest pairShare riseShare growth first strongest standShare} { variable $name }
         # TRBDF2 misses h^3/3 of the third derivative, in the fast motions of the springs and the slow one of the body alike.
         set missed 1e-300
         foreach a [lindex $states 0] b [lindex $states 1] c [lindex $states 2] {
             set missed [expr {max($missed, $h / 3.0 * abs([lindex $a 3] - 2.0 * [lindex $b 3] + [lindex $c 3]))}]
         }
-        set may [expr {$accuracy * $highest * max($pairShare, $riseShare * 2.0 * $h / [slow])}]
+        set least [expr {$strongest > 0.0 ? $pairShare : $standShare}]
+        foreach gap [concat {*}$states] { if {[lindex $gap 0] > 0.0} { set least $pairShare } }
+        set may [expr {$accuracy * $highest * max($least, $riseShare * 2.0 * $h / [slow])}]
         set byError [expr {0.9 * $h * pow($may / $missed, 1.0 / 3.0)}]
         # Motions faster than a landing (a rotation of little inertia) are not resolved: steps of a landing end them.
         return [expr {max(min($growth * $size, max($byError, 0.3 * $size)), min(2.0 * $size, $first))}]
