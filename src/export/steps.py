@@ -43,6 +43,7 @@ class Steps:
         self.allowed = self.FIRST * self.shortest
         self.strongest = 0.0                  # acceleration of an open foot on long steps, m/s2
         self.highest = rise                   # a foot has come, m
+        self.blur = 1e-10 * rise              # of a gap, m: what Newton's iteration leaves of it
         self.gaps = self.measure()
         self.taken = self.refused = self.late = 0
         self.smallest = math.inf
@@ -98,7 +99,7 @@ class Steps:
 
     def pair(self, h, size):
         """Two steps of h, at most `size`: TRBDF2 takes one by BDF2 only if it is as long as the one before, to the last digit."""
-        states, met = [self.gaps], 0
+        states, met, far = [self.gaps], 0, 0
         for _ in range(2):
             closed = [gap[0] <= 0.0 for gap in self.gaps]
             if ops.analyze(1, h) != 0:
@@ -110,14 +111,15 @@ class Steps:
             self.taken += 1
             self.gaps = self.measure()
             states.append(self.gaps)
-            met += sum(was != (gap[0] <= 0.0) for was, gap in zip(closed, self.gaps))
+            changed = [abs(gap[0]) for was, gap in zip(closed, self.gaps) if was != (gap[0] <= 0.0)]
+            met, far = met + len(changed), far + sum(opening > self.blur for opening in changed)
         if h >= self.shortest or self.refused:  # the very first are tiny
             self.smallest = min(self.smallest, h)
         self.highest = max(self.highest, *(gap[0] for gap in self.gaps))
         if met:
             self.allowed = self.shortest
             if h > 1.5 * self.shortest:
-                self.late += met
+                self.late += far
         else:
             self.allowed = self.grown(states, h, size)
             self.learn(states[0], h)

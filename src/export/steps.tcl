@@ -33,7 +33,7 @@ namespace eval steps {
     variable standShare 1e-4
 
     proc start {nodes aLanding aLongest rise {anAccuracy 0.002}} {
-        foreach name {feet longest landing accuracy first shortest share allowed strongest highest gaps taken refused late smallest} {
+        foreach name {feet longest landing accuracy first shortest share allowed strongest highest blur gaps taken refused late smallest} {
             variable $name
         }
         variable start
@@ -48,6 +48,7 @@ namespace eval steps {
         set allowed [expr {$start * $shortest}]
         set strongest 0.0 ;# acceleration of an open foot on long steps, m/s2
         set highest $rise ;# a foot has come, m
+        set blur [expr {1e-10 * $rise}] ;# of a gap, m: what Newton's iteration leaves of it
         set gaps [measure]
         set taken 0
         set refused 0
@@ -129,9 +130,10 @@ namespace eval steps {
 
     # Two steps of h, at most `size`: TRBDF2 takes one by BDF2 only if it is as long as the one before, to the last digit.
     proc pair {h size} {
-        foreach name {gaps refused allowed shortest taken smallest late highest} { variable $name }
+        foreach name {gaps refused allowed shortest taken smallest late highest blur} { variable $name }
         set states [list $gaps]
         set met 0
+        set far 0
         for {set k 0} {$k < 2} {incr k} {
             set last $gaps
             if {[analyze 1 $h] != 0} {
@@ -144,13 +146,18 @@ namespace eval steps {
             incr taken
             set gaps [measure]
             lappend states $gaps
-            foreach a $last b $gaps { incr met [expr {([lindex $a 0] <= 0.0) != ([lindex $b 0] <= 0.0)}] }
+            foreach a $last b $gaps {
+                if {([lindex $a 0] <= 0.0) != ([lindex $b 0] <= 0.0)} {
+                    incr met
+                    incr far [expr {abs([lindex $b 0]) > $blur}]
+                }
+            }
         }
         if {$h >= $shortest || $refused} { set smallest [expr {min($smallest, $h)}] } ;# the very first are tiny
         foreach gap $gaps { set highest [expr {max($highest, [lindex $gap 0])}] }
         if {$met > 0} {
             set allowed $shortest
-            if {$h > 1.5 * $shortest} { incr late $met }
+            if {$h > 1.5 * $shortest} { incr late $far }
         } else {
             set allowed [grown $states $h $size]
             learn [lindex $states 0] $h

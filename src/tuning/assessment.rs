@@ -55,7 +55,7 @@ impl Assessment {
     pub(crate) fn new(job: &Job, objective: Objective, accuracy: f64) -> Self {
         let measured = job.tuned.best.accuracy;
         let landing = (objective == Objective::Landing && !job.capped).then(|| limit(job)).flatten();
-        Self { objective, accuracy, reached: measured.over(accuracy) <= 1.0, capped: job.capped, measured, landing }
+        Self { objective, accuracy, reached: measured.reaches(accuracy), capped: job.capped, measured, landing }
     }
 
     /// That the accuracy was not reached, and what to do: to be said before anything else.
@@ -111,14 +111,13 @@ impl Assessment {
                 format!("{} on the one earthquake-like motion of sensitivity below {PREDICTABLE}", shown(e.value))
             }
             (n, upper) => format!(
-                "{} in the geometric mean of {n} earthquake-like motions of sensitivity below {PREDICTABLE}{}{}",
+                "{} in the geometric mean of {n} earthquake-like motions of sensitivity below {PREDICTABLE}{} (allowed {looser}){}",
                 shown(e.value),
                 match m.earthquakes_scaled_down {
                     0 => String::new(),
-                    scaled => format!(" ({scaled} of them scaled down to what the body stands)"),
+                    scaled => format!(", {scaled} of them scaled down to what the body stands"),
                 },
-                upper
-                    .map_or(String::new(), |x| format!(", {} with twice its standard error (allowed {looser})", shown(x)))
+                upper.map_or(String::new(), |x| format!(", {} with three standard errors", shown(x)))
             ),
         });
         [record, synthetic, earthquakes].into_iter().flatten().collect()

@@ -21,7 +21,7 @@ pub const MARGIN: f64 = 0.7;
 /// The softest rung tried, Omega_n/p.
 pub const SOFTEST: f64 = 100.0;
 /// Omega_n/p times the accuracy asked for where the search begins: errors of synthetic motions fall about as 20/(Omega_n/p),
-/// those of earthquake-like ones, with twice their standard error, are about five times what is allowed at 250/(Omega_n/p).
+/// those of earthquake-like ones, with three standard errors, are about five times what is allowed at 250/(Omega_n/p).
 const BEGIN: f64 = 250.0;
 /// An accuracy for which steps over several samples will do.
 const COARSE: f64 = 1e-3;

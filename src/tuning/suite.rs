@@ -169,18 +169,25 @@ pub struct Accuracy {
     /// How many of these were scaled down to what the structure stands.
     #[serde(default, skip_serializing_if = "is_zero")]
     pub earthquakes_scaled_down: usize,
-    /// The same with twice its standard error on top: more than other earthquakes are likely to give, and what is held against the accuracy.
+    /// The same with three standard errors on top: more than other earthquakes are likely to give, and what Omega_n is chosen by.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub earthquakes_upper: Option<f64>,
 }
 
-/// Standard errors of the earthquake-like motions' mean that are held against the accuracy on top of it.
-const ERRORS: i32 = 2;
+/// Standard errors of the earthquake-like motions' mean on top of it that are aimed at: real records err about twice as much as these motions.
+const ERRORS: i32 = 3;
 /// How much more the 90 % quantile and the earthquake-like motions may have than the accuracy asked for.
 pub const LOOSER: f64 = 5.0;
 
 impl Accuracy {
-    /// The largest error, in units of what an accuracy allows: at most 1 if it is reached; 0 if nothing was measured.
+    /// Whether an accuracy is reached: by the record, the synthetic motions and the mean of the earthquake-like ones itself.
+    pub fn reaches(&self, accuracy: f64) -> bool {
+        let earthquakes = self.earthquakes_mean.is_none_or(|mean| mean.value <= LOOSER * accuracy);
+        let others = [JudgedOn::Record, JudgedOn::Synthetic];
+        earthquakes && others.iter().filter_map(|suite| self.over_on(*suite, accuracy)).all(|over| over <= 1.0)
+    }
+
+    /// The largest error, in units of what an accuracy allows: at most 1 if it is surely reached; 0 if nothing was measured.
     pub fn over(&self, accuracy: f64) -> f64 {
         JudgedOn::ALL.iter().filter_map(|suite| self.over_on(*suite, accuracy)).fold(0.0, f64::max)
     }
@@ -369,6 +376,8 @@ mod tests {
             earthquakes_upper: Some(1.2e-2),
         };
         assert!((accuracy.over(2e-3) - 1.2).abs() < 1e-12);
+        // the mean of the earthquake-like motions is within 5 times as much, with its standard errors it is not
+        assert!(accuracy.reaches(2e-3) && !accuracy.reaches(1.7e-3));
         assert_eq!(Accuracy::default().over(2e-3), 0.0);
     }
 

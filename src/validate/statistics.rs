@@ -181,9 +181,8 @@ impl Summary {
         let changed: Vec<f64> = records.iter().map(|row| row.peak_ratio_housner_changed).collect();
         let never_lifted = records.iter().filter(|row| row.outcome == super::RecordOutcome::NeverLifted).count();
         let comparable = records.iter().filter(|row| row.comparable()).count();
-        let share = |of: fn(&Row) -> bool| {
-            records.iter().filter(|row| of(row)).count() as f64 / records.len().max(1) as f64
-        };
+        let share =
+            |of: fn(&Row) -> bool| records.iter().filter(|row| of(row)).count() as f64 / records.len().max(1) as f64;
         Self {
             count: records.len(),
             ks_distance: ks_distance(&housner, &fem),
