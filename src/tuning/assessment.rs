@@ -95,6 +95,7 @@ impl Assessment {
     fn measured_on(&self) -> Vec<String> {
         let m = &self.measured;
         let (allowed, looser) = (shown(self.accuracy), shown(LOOSER * self.accuracy));
+        let on_earthquakes = shown(m.looser_on_earthquakes() * self.accuracy);
         let record = m.record.map(|e| format!("{} on the record, u or v (allowed {allowed})", shown(e)));
         let synthetic = m.synthetic_median.zip(m.synthetic_p90).map(|(median, p90)| match median.count {
             1 => {
@@ -111,7 +112,7 @@ impl Assessment {
                 format!("{} on the one earthquake-like motion of sensitivity below {PREDICTABLE}", shown(e.value))
             }
             (n, upper) => format!(
-                "{} in the geometric mean of {n} earthquake-like motions of sensitivity below {PREDICTABLE}{} (allowed {looser}){}",
+                "{} in the geometric mean of {n} earthquake-like motions of sensitivity below {PREDICTABLE}{} (allowed {on_earthquakes}){}",
                 shown(e.value),
                 match m.earthquakes_scaled_down {
                     0 => String::new(),
