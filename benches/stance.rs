@@ -1,7 +1,7 @@
 //! How the stiffness ratio K trades the landing against the stance: what a history errs for several scales K_0 of K (`K_SCALE` of the landing's
 //! design), on bodies of several slendernesses and Omega_n/p. Errors are those that Omega_n is chosen by, in units of what an accuracy of 1
-//! allows (median of synthetic motions, a fifth of the 90 % quantile and of the geometric mean of earthquake-like ones), on motions of seeds
-//! 5, 6 and 7, which no spring is chosen on.
+//! allows (median of synthetic motions, a fifth of the 90 % quantile, and of the geometric mean of earthquake-like ones with three standard
+//! errors), on motions of seeds 5, 6 and 7, which no spring is chosen on.
 //!
 //! ```sh
 //! cargo bench --bench stance

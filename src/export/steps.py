@@ -31,7 +31,7 @@ class Steps:
     RISE = 0.1
     # A foot that lifts drops a horizontal force at once; the step across it is wrong by that force for all its length.
     DROP = 0.02
-    # The same while all feet stand and none has risen yet: what they miss dies away.
+    # What a pair may miss while all feet stand and none has risen yet, over `rise`: it dies away.
     STAND = 1e-4
 
     def __init__(self, feet, landing, longest, rise, accuracy=0.002):

@@ -29,7 +29,7 @@ namespace eval steps {
     variable riseShare 0.1
     # A foot that lifts drops a horizontal force at once; the step across it is wrong by that force for all its length.
     variable drop 0.02
-    # What a pair may miss while all feet stand and none has risen yet: it dies away.
+    # What a pair may miss while all feet stand and none has risen yet, over the rise: it dies away.
     variable standShare 1e-4
 
     proc start {nodes aLanding aLongest rise {anAccuracy 0.002}} {
