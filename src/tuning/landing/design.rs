@@ -20,7 +20,7 @@
 //! ```
 //!
 //! the fraction for soft springs, where landings on a larger K bounce; K_LEAST below. `cargo bench --bench stance` finds K_SCALE again: the
-//! least error, of those that Omega_n is chosen by, is flat about it.
+//! error that Omega_n is chosen by hardly falls beyond it, while landings on soft springs and of stocky bodies rebound more.
 
 use thiserror::Error;
 
@@ -34,7 +34,7 @@ use crate::{
     structure::Body,
 };
 
-/// K_0 at alpha^3 Omega_n/p = 1: of the scales whose error is within a fifth of the least the one that rebounds least (`benches/stance.rs`).
+/// K_0 at alpha^3 Omega_n/p = 1: of the scales whose error is within a third of the least the one that rebounds least (`benches/stance.rs`).
 const K_SCALE: f64 = 1.3;
 /// The K that ever softer springs tend to.
 const K_LARGEST: f64 = 0.5;
