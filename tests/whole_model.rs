@@ -8,6 +8,7 @@ use groundspring::{
         arr::outer::Bracket,
         follow::{follow, with_restitution},
         job::at,
+        landing::{design::Geometry, universal::universal, weight},
         whole_model::report::{LandingRow, landings},
     },
 };
@@ -43,6 +44,31 @@ fn landings_of_the_design_from_the_geometry_have_housners_restitution() {
                 assert_eq!(rows.len(), 8);
                 println!("{kind} {height} m, {alpha}: {:.4} %", 100.0 * worst(&rows));
                 assert!(worst(&rows) < 1e-4, "{structure:?} {rows:?}");
+            }
+        }
+    }
+}
+
+/// What slender bodies err by on stiff springs is the weight on the old foot (`landing::weight`), where the absorber gives little: on a large K.
+#[test]
+fn landings_on_stiff_springs_err_by_the_weight_on_the_old_foot() {
+    for structure in [
+        Structure::block(1.0, f64::tan(0.05), 1e3).unwrap(),
+        Structure::block(4.0, 4.0 * f64::tan(0.03), 1e4).unwrap(),
+        Structure::a_frame(8.0, 16.0 * f64::tan(0.05), 1e5).unwrap(),
+    ] {
+        let body = with_inertia(structure);
+        for stiffness in [1e5, 3e5] {
+            let geometry = Geometry::of(&body, stiffness).unwrap();
+            let (k, m) = (0.25, geometry.effective_mass());
+            let chain = universal(k);
+            let mut springs = at(&body, stiffness).unwrap();
+            springs.vertical = Design::from_kc(chain.mu * m, k, chain.c * m.sqrt(), springs.vertical.omega_n_hz);
+            for row in rows(&body, 1.0, &springs).into_iter().filter(|row| row.lean >= 0.1) {
+                let expected = weight::restitution_error(geometry.alpha(), geometry.mass_share(), stiffness, row.lean);
+                let ratio = row.restitution_error / expected;
+                println!("{structure:?} {stiffness:.0e} {}: {:.2e}, {ratio:.2} of it", row.lean, expected);
+                assert!((0.75..1.05).contains(&ratio), "{row:?}");
             }
         }
     }

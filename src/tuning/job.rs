@@ -12,19 +12,21 @@ use super::{
         outer::{self, Benchmark, Bracket},
     },
     follow,
-    landing::design::Geometry,
+    landing::{design::Geometry, weight},
     omega::{self, Rung, Tuned},
     suite::Suites,
     whole_model,
 };
 use crate::{
     case::{Case, Objective},
+    compare::LEAST_LEAN,
     fem::Control,
     housner::{self, Rocking},
     motion::Motion,
     record::Record,
     spring::{Design, Springs},
     structure::Body,
+    validate::PREDICTABLE,
 };
 
 /// Stiffest springs that are tried where no cap is given (Hz).
@@ -158,7 +160,7 @@ impl LandingDesign<'_> {
         let said = |rungs: usize, over: f64| progress(rungs, 0, over * omega::MARGIN * tuning.accuracy);
         let stiffest = TAU * CEILING_HZ / p;
         let Some(cap) = tuning.max_omega_hz else {
-            let range = (self.softest(stiffest)?, stiffest);
+            let range = (self.settling(self.softest().min(stiffest), stiffest)?, stiffest);
             let tuned = omega::tune(self.suites, self.body.mass, tuning.accuracy, range, &springs, &said);
             return tuned.map(|tuned| (tuned, false)).ok_or(JobError::NoCandidate);
         };
@@ -170,8 +172,8 @@ impl LandingDesign<'_> {
                 springs
             })
         };
-        let tuned =
-            omega::tune(self.suites, self.body.mass, tuning.accuracy, (omega::SOFTEST, highest), &clipped, &said);
+        let range = (self.softest().min(highest), highest);
+        let tuned = omega::tune(self.suites, self.body.mass, tuning.accuracy, range, &clipped, &said);
         if let Some(tuned) = tuned.as_ref().filter(|tuned| tuned.reached && self.settles(tuned)) {
             return Ok((tuned.clone(), false));
         }
@@ -185,10 +187,19 @@ impl LandingDesign<'_> {
         Ok((best.ok_or(JobError::NoCandidate)?, true))
     }
 
-    /// The least Omega_n/p at which the body settles by no more than is allowed.
-    fn softest(&self, stiffest: f64) -> Result<f64, JobError> {
+    /// The least Omega_n/p at which landings, gentle ones too, err by no more than moves a history of the largest sensitivity that counts as
+    /// predictable by the error aimed at: some motions cannot tell, and chaotic ones, which decide on overturning, hang on it.
+    fn softest(&self) -> f64 {
+        let error = omega::MARGIN * self.case.tuning.accuracy / PREDICTABLE;
+        let by_weight = Geometry::of(&self.body, omega::SOFTEST)
+            .map(|body| weight::stiffness(body.alpha(), body.mass_share(), error, LEAST_LEAN));
+        by_weight.unwrap_or(omega::SOFTEST).max(omega::SOFTEST)
+    }
+
+    /// The least Omega_n/p from `softest` on at which the body settles by no more than is allowed.
+    fn settling(&self, softest: f64, stiffest: f64) -> Result<f64, JobError> {
         let asked_m = self.case.tuning.max_settlement_m;
-        let mut stiffness = omega::SOFTEST;
+        let mut stiffness = softest;
         loop {
             let least_m = at(&self.body, stiffness).map_or(f64::INFINITY, |springs| springs.settlement(self.body.mass));
             if least_m <= asked_m {

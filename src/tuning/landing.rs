@@ -14,3 +14,5 @@ pub mod design;
 pub mod part;
 
 pub mod universal;
+
+pub mod weight;
