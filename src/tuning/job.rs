@@ -160,7 +160,7 @@ impl LandingDesign<'_> {
         let said = |rungs: usize, over: f64| progress(rungs, 0, over * omega::MARGIN * tuning.accuracy);
         let stiffest = TAU * CEILING_HZ / p;
         let Some(cap) = tuning.max_omega_hz else {
-            let range = (self.settling(self.softest().min(stiffest), stiffest)?, stiffest);
+            let range = (self.settling(self.softest(stiffest), stiffest)?, stiffest);
             let tuned = omega::tune(self.suites, self.body.mass, tuning.accuracy, range, &springs, &said);
             return tuned.map(|tuned| (tuned, false)).ok_or(JobError::NoCandidate);
         };
@@ -172,7 +172,7 @@ impl LandingDesign<'_> {
                 springs
             })
         };
-        let range = (self.softest().min(highest), highest);
+        let range = (self.softest(highest), highest);
         let tuned = omega::tune(self.suites, self.body.mass, tuning.accuracy, range, &clipped, &said);
         if let Some(tuned) = tuned.as_ref().filter(|tuned| tuned.reached && self.settles(tuned)) {
             return Ok((tuned.clone(), false));
@@ -188,12 +188,13 @@ impl LandingDesign<'_> {
     }
 
     /// The least Omega_n/p at which landings, gentle ones too, err by no more than moves a history of the largest sensitivity that counts as
-    /// predictable by the error aimed at: some motions cannot tell, and chaotic ones, which decide on overturning, hang on it.
-    fn softest(&self) -> f64 {
+    /// predictable by the error aimed at: few motions cannot tell, and chaotic ones, which decide on overturning, hang on it. No stiffer than the last
+    /// rung up to `stiffest`.
+    fn softest(&self, stiffest: f64) -> f64 {
         let error = omega::MARGIN * self.case.tuning.accuracy / PREDICTABLE;
         let by_weight = Geometry::of(&self.body, omega::SOFTEST)
             .map(|body| weight::stiffness(body.alpha(), body.mass_share(), error, LEAST_LEAN));
-        by_weight.unwrap_or(omega::SOFTEST).max(omega::SOFTEST)
+        by_weight.unwrap_or(omega::SOFTEST).clamp(omega::SOFTEST, omega::last_rung(stiffest).max(omega::SOFTEST))
     }
 
     /// The least Omega_n/p from `softest` on at which the body settles by no more than is allowed.

@@ -23,6 +23,8 @@ pub const SOFTEST: f64 = 100.0;
 /// Omega_n/p times the accuracy asked for where the search begins: errors of synthetic motions fall about as 20/(Omega_n/p),
 /// those of earthquake-like ones, with three standard errors, are about five times what is allowed at 250/(Omega_n/p).
 const BEGIN: f64 = 250.0;
+/// How near an Omega_n/p is to a rung to be it, rungs.
+const ROUNDING: f64 = 1e-9;
 /// An accuracy for which steps over several samples will do.
 const COARSE: f64 = 1e-3;
 /// Error of a softer rung on a suite, over what is allowed, below which a stiffer one is not judged on it again: errors fall with
@@ -83,7 +85,7 @@ pub fn tune(
         progress(seen.len(), least);
         seen.get(&i).map(&over)
     };
-    let (first, last) = (rung(softest).ceil() as i64, rung(stiffest).floor() as i64);
+    let (first, last) = (rung_from(softest), rung_up_to(stiffest));
     let last = last.max(first);
     let found = seek(first, last, rung(begin(accuracy)).round() as i64, &mut judge)?;
     let best = seen.get_mut(&found.rung)?;
@@ -118,6 +120,19 @@ fn in_order(seen: &BTreeMap<i64, Rung>, i: i64, allowed: f64) -> Vec<JudgedOn> {
 /// The Omega_n/p at which a search for this accuracy begins.
 pub fn begin(accuracy: f64) -> f64 {
     BEGIN / accuracy
+}
+
+/// The stiffest Omega_n/p of the ladder up to this one.
+pub fn last_rung(stiffest: f64) -> f64 {
+    stiffness(rung_up_to(stiffest))
+}
+
+fn rung_from(softest: f64) -> i64 {
+    (rung(softest) - ROUNDING).ceil() as i64
+}
+
+fn rung_up_to(stiffest: f64) -> i64 {
+    (rung(stiffest) + ROUNDING).floor() as i64
 }
 
 /// Omega_n/p of a rung, and the rung of an Omega_n/p.
