@@ -4,18 +4,19 @@ use groundspring::{
     case::Case,
     structure::Structure,
     tuning::{
-        job::{CEILING_HZ, Job},
+        job::{CEILING_HZ, Job, at},
+        landing::{corners::CornerDynamics, design::Geometry, plane::land},
         whole_model::report::landings,
     },
     validate::PREDICTABLE,
 };
 
-/// A structure's case without a record that matters, at an accuracy.
-fn tuned(structure: Structure, accuracy: f64) -> Job {
+/// A structure's case without a record that matters, at an accuracy, within a cap.
+fn tuned(structure: Structure, accuracy: f64, cap: Option<f64>) -> Job {
     let mut case = Case { structure, restitution: structure.body::<f64>().restitution(), ..Case::paper().unwrap() };
     case.record = case.record.truncated(5.0);
     case.duration_s = case.record.duration();
-    case.tuning.accuracy = accuracy;
+    (case.tuning.accuracy, case.tuning.max_omega_hz) = (accuracy, cap);
     Job::new(&case, &|_, _, _| {}).unwrap()
 }
 
@@ -31,7 +32,7 @@ fn gentle_landings_of_the_springs_taken_are_as_exact_as_was_asked() {
         Structure::block(0.6, 0.6 * f64::tan(0.25), 1e3).unwrap(),
     ] {
         for accuracy in [0.01, 0.002] {
-            let job = tuned(structure, accuracy);
+            let job = tuned(structure, accuracy, None);
             assert!(job.tuned.reached);
             let rows = landings(&job.body, &job.springs.chains(job.body.mass), job.body.restitution());
             assert_eq!(rows.len(), 8);
@@ -50,8 +51,44 @@ fn no_springs_are_stiffer_than_the_ceiling() {
         Structure::block(0.6, 0.2, 100.0).unwrap(),
         Structure::block(0.2, 0.2 * f64::tan(0.05), 1.0).unwrap(),
     ] {
-        let hz = tuned(structure, 5e-4).springs.vertical.omega_n_hz;
+        let hz = tuned(structure, 5e-4, None).springs.vertical.omega_n_hz;
         println!("{structure:?}: {hz:.0} Hz");
         assert!(hz > CEILING_HZ / 2.0 && hz <= CEILING_HZ, "{hz}");
+    }
+}
+
+/// Below 100 p, too, and where a stocky body's horizontal springs are to be much stiffer than the vertical ones.
+#[test]
+fn no_springs_are_stiffer_than_the_cap() {
+    let slender = Structure::block(0.8, 0.09, 35.0).unwrap();
+    let stocky = Structure::block(1.6, 1.5, 9e3).unwrap();
+    for (structure, cap, reached) in
+        [(slender, 10.0, false), (slender, 160.0, false), (stocky, 160.0, false), (stocky, 6e4, true)]
+    {
+        let job = tuned(structure, 0.002, Some(cap));
+        let hz = [job.springs.vertical, job.springs.horizontal].map(|design| design.omega_n_hz);
+        println!("{structure:?} within {cap} Hz: {hz:?}");
+        assert!(hz.iter().all(|hz| *hz <= cap * (1.0 + 1e-9)), "{hz:?}");
+        assert_eq!(job.tuned.reached, reached);
+    }
+}
+
+/// A body that keeps 0.3 of its speed lands again soon: that is another landing. And the foot leaves the ground as the landing in the stiff limit
+/// says, not as its absorber swings away.
+#[test]
+fn landings_are_followed_one_at_a_time() {
+    for structure in [Structure::block(1.6, 1.5, 9e3).unwrap(), Structure::a_frame(17.0, 3.1, 4.2e5).unwrap()] {
+        let body = structure.body::<f64>();
+        let springs = at(&body, 4e5).unwrap();
+        let geometry = Geometry::of(&body, 4e5).unwrap();
+        let limit = land(&CornerDynamics::rigid(geometry.alpha(), geometry.mass_share()), &springs);
+        for row in landings(&body, &springs.chains(body.mass), body.restitution()) {
+            println!(
+                "{structure:?} {}: {:.1e}, {:.4} {:.4}",
+                row.lean, row.restitution_error, row.rebound, limit.rebound
+            );
+            assert!(row.restitution_error.abs() < 2e-4, "{row:?}");
+            assert!((row.rebound - limit.rebound).abs() < 0.02, "{row:?}");
+        }
     }
 }

@@ -158,13 +158,25 @@ impl LandingDesign<'_> {
         let p = self.body.p_squared().sqrt();
         let springs = |stiffness: f64| at(&self.body, stiffness);
         let said = |rungs: usize, over: f64| progress(rungs, 0, over * omega::MARGIN * tuning.accuracy);
-        let stiffest = TAU * CEILING_HZ / p;
-        let Some(cap) = tuning.max_omega_hz else {
-            let range = (self.settling(self.softest(stiffest), stiffest)?, stiffest);
-            let tuned = omega::tune(self.suites, self.body.mass, tuning.accuracy, range, &springs, &said);
-            return tuned.map(|tuned| (tuned, false)).ok_or(JobError::NoCandidate);
+        // the ladder up to an Omega_n/p, from where landings hold, or from its beginning if none of those rungs does
+        let ladder = |stiffest: f64, springs: &dyn Fn(f64) -> Option<Springs<Design<f64>>>| {
+            let from = |softest: f64| {
+                let range = (softest, stiffest);
+                omega::tune(self.suites, self.body.mass, tuning.accuracy, range, springs, &said)
+            };
+            let soft = self.settling(omega::SOFTEST, stiffest);
+            let tuned = from(self.softest(stiffest).max(soft));
+            if tuned.as_ref().is_some_and(|tuned| tuned.reached) {
+                return tuned;
+            }
+            from(soft).filter(|tuned| tuned.reached).or(tuned)
         };
-        // a cap holds for the stiffest of the springs
+        let Some(cap) = tuning.max_omega_hz else {
+            let stiffest = omega::last_rung(TAU * CEILING_HZ / p);
+            self.settles_at(stiffest)?;
+            return ladder(stiffest, &springs).map(|tuned| (tuned, false)).ok_or(JobError::NoCandidate);
+        };
+        // a cap holds for the stiffest of the springs: those beyond it are clipped, or all are as much softer
         let highest = TAU * cap / p;
         let clipped = |stiffness: f64| {
             springs(stiffness).map(|mut springs| {
@@ -172,19 +184,32 @@ impl LandingDesign<'_> {
                 springs
             })
         };
-        let range = (self.softest(highest), highest);
-        let tuned = omega::tune(self.suites, self.body.mass, tuning.accuracy, range, &clipped, &said);
-        if let Some(tuned) = tuned.as_ref().filter(|tuned| tuned.reached && self.settles(tuned)) {
+        let in_limit = |stiffness| Geometry::of(&self.body, stiffness).is_ok_and(|geometry| geometry.in_stiff_limit());
+        let mut found: Vec<Tuned> = ladder(highest, &clipped).into_iter().collect();
+        if found.iter().all(|tuned| !tuned.reached) {
+            let softer = self.within(cap, highest).filter(|stiffness| in_limit(*stiffness));
+            found.extend(softer.and_then(|stiffness| ladder(stiffness, &springs)));
+        }
+        found.retain(|tuned| self.settles(tuned));
+        if let Some(tuned) = found.iter().find(|tuned| tuned.reached) {
             return Ok((tuned.clone(), false));
         }
-        let stiff = Geometry::of(&self.body, highest).is_ok_and(|geometry| geometry.in_stiff_limit());
-        if let Some(tuned) = tuned.as_ref().filter(|tuned| stiff && self.settles(tuned)) {
-            return Ok((tuned.clone(), true));
+        if found.is_empty() || !in_limit(highest) {
+            found.push(self.followed(cap, progress)?);
         }
-        let followed = self.followed(cap, progress)?;
-        let all = tuned.into_iter().filter(|tuned| self.settles(tuned)).chain([followed]);
-        let best = all.min_by(|a, b| typical(a).total_cmp(&typical(b)));
+        let best = found.into_iter().min_by(|a, b| typical(a).total_cmp(&typical(b)));
         Ok((best.ok_or(JobError::NoCandidate)?, true))
+    }
+
+    /// The stiffest rung up to `highest` whose horizontal springs are below the cap (Hz), too; `None` if clipping does nothing, or none is.
+    fn within(&self, cap: f64, highest: f64) -> Option<f64> {
+        let hz = |stiffness| at(&self.body, stiffness).map(|springs| springs.horizontal.omega_n_hz);
+        let mut stiffness = omega::last_rung(highest);
+        let clips = hz(stiffness)? > cap;
+        while stiffness >= omega::SOFTEST && hz(stiffness)? > cap {
+            stiffness = omega::last_rung(0.99 * stiffness);
+        }
+        (clips && stiffness >= omega::SOFTEST).then_some(stiffness)
     }
 
     /// The least Omega_n/p at which landings, gentle ones too, err by no more than moves a history of the largest sensitivity that counts as
@@ -197,20 +222,24 @@ impl LandingDesign<'_> {
         by_weight.unwrap_or(omega::SOFTEST).clamp(omega::SOFTEST, omega::last_rung(stiffest).max(omega::SOFTEST))
     }
 
-    /// The least Omega_n/p from `softest` on at which the body settles by no more than is allowed.
-    fn settling(&self, softest: f64, stiffest: f64) -> Result<f64, JobError> {
-        let asked_m = self.case.tuning.max_settlement_m;
+    /// The least Omega_n/p from `softest` on at which the body settles by no more than is allowed; `stiffest` if there is none.
+    fn settling(&self, softest: f64, stiffest: f64) -> f64 {
         let mut stiffness = softest;
-        loop {
-            let least_m = at(&self.body, stiffness).map_or(f64::INFINITY, |springs| springs.settlement(self.body.mass));
-            if least_m <= asked_m {
-                return Ok(stiffness);
-            }
-            if stiffness >= stiffest {
-                return Err(JobError::Settlement { asked_m, max_hz: CEILING_HZ, least_m });
-            }
+        while stiffness < stiffest && self.settlement(stiffness) > self.case.tuning.max_settlement_m {
             stiffness = (1.1 * stiffness).min(stiffest);
         }
+        stiffness
+    }
+
+    /// How far the body settles at an Omega_n/p (m).
+    fn settlement(&self, stiffness: f64) -> f64 {
+        at(&self.body, stiffness).map_or(f64::INFINITY, |springs| springs.settlement(self.body.mass))
+    }
+
+    /// Whether the stiffest springs settle by no more than is allowed.
+    fn settles_at(&self, stiffest: f64) -> Result<(), JobError> {
+        let (asked_m, least_m) = (self.case.tuning.max_settlement_m, self.settlement(stiffest));
+        if least_m > asked_m { Err(JobError::Settlement { asked_m, max_hz: CEILING_HZ, least_m }) } else { Ok(()) }
     }
 
     /// The springs within a cap (Hz) that follow best what is judged on, of those followed down from the stiff limit and those

@@ -53,7 +53,7 @@ pub struct Tuned {
     pub reached: bool,
 }
 
-/// Seek Omega_n in a range of Omega_n/p. `springs` gives the inner design at an Omega_n/p; `progress` is told the rungs judged and the least error in
+/// Seek Omega_n in a range of Omega_n/p; `None` if no rung is in it, or none has springs. `springs` gives the inner design at an Omega_n/p; `progress` is told the rungs judged and the least error in
 /// units of what is allowed.
 pub fn tune(
     suites: &Suites,
@@ -86,7 +86,9 @@ pub fn tune(
         seen.get(&i).map(&over)
     };
     let (first, last) = (rung_from(softest), rung_up_to(stiffest));
-    let last = last.max(first);
+    if first > last {
+        return None;
+    }
     let found = seek(first, last, rung(begin(accuracy)).round() as i64, &mut judge)?;
     let best = seen.get_mut(&found.rung)?;
     for suite in JudgedOn::ALL {
