@@ -31,6 +31,8 @@ use crate::{
 #[cfg(feature = "cli")]
 pub use elastic::ElasticDeck;
 use model::DeckModel;
+#[cfg(feature = "cli")]
+pub use model::equal_steps;
 pub use model::{ACCURACY, with_inertia};
 #[cfg(feature = "cli")]
 pub use step_count::deck_steps;

@@ -211,7 +211,7 @@ impl Parameters {
         let mut parameters = Self::new(case.structure, &job.springs).with_members(case.members);
         parameters.restitution = Some(case.restitution).filter(|e| *e != job.body.restitution());
         parameters.landings = landings(&job.body, &parameters.chains(), case.restitution);
-        parameters.assessment = Some(Assessment::new(job, case.tuning.objective, case.tuning.accuracy));
+        parameters.assessment = Some(Assessment::new(job, &case.tuning, case.restitution));
         parameters
     }
 

@@ -23,14 +23,18 @@ use super::{
 use crate::{
     case::{ACCURACY, Case, CaseError, ElasticCase, Limits, MAX_HZ, Objective},
     excitation::Excitation,
-    export::{Expected, with_inertia},
+    export::{Expected, equal_steps, with_inertia},
     front::{self, FrontPoint},
     members::Members,
     parameters::{PaperProcedure, Parameters, RecordRow},
     predictability::{simulate, width_sensitivity},
     record::Record,
     spring::{Design, Springs},
-    tuning::{arr::table_1, job::Job},
+    tuning::{
+        arr::table_1,
+        job::Job,
+        whole_model::{ATTAINABLE, LEANS, is_another},
+    },
 };
 
 /// All that `tune run` can write into its folder, beside figures.
@@ -259,6 +263,13 @@ impl FinishedRun {
         let mut said = table::found(&self.parameters);
         said.extend(self.report.lines().into_iter().chain(self.both.early()));
         said.extend(springs_said(&self.parameters));
+        let steps = equal_steps(&self.parameters, &self.job.record);
+        if steps > MANY_STEPS {
+            said.push(format!(
+                "SAP2000: takes all its steps alike, {:.0} million of them for these springs; --max-hz 160 gives springs for it",
+                steps as f64 / 1e6
+            ));
+        }
         said
     }
 
@@ -283,9 +294,15 @@ fn springs_alone(o: &RunOptions, parameters: &Parameters) -> Result<(), CommandE
     let mut said = table::found(parameters);
     said.extend(springs_said(parameters));
     write!(std::io::stdout(), "{}\n{}\n", table::terminal(parameters), said.join("\n"))?;
-    eprintln!("no record: give one to tune simulate, verify and export\nwritten to {}", o.out.display());
+    eprintln!(
+        "no record: tune simulate, verify and export take El Centro unless you give them one\nwritten to {}",
+        o.out.display()
+    );
     Ok(())
 }
+
+/// Steps of a program that takes all of them alike that are worth a word.
+const MANY_STEPS: usize = 1_000_000;
 
 /// Error of restitution that is worth a warning.
 pub(super) const RESTITUTION_MISSED: f64 = 0.005;
@@ -293,15 +310,38 @@ pub(super) const RESTITUTION_MISSED: f64 = 0.005;
 /// What these springs cannot do.
 fn springs_said(parameters: &Parameters) -> Vec<String> {
     let mut lines = Vec::new();
+    let e = parameters.restitution();
+    let of_equation_2 = e / parameters.structure.body::<f64>().restitution();
+    if !(ATTAINABLE.0..=ATTAINABLE.1).contains(&of_equation_2) {
+        lines.push(format!(
+            "springs: WARNING: restitution {e:.4} is {of_equation_2:.2} of equation 2's, springs can give {} to {} of it; these will not follow Housner",
+            ATTAINABLE.0, ATTAINABLE.1
+        ));
+    }
+    let followed = parameters.landings.len();
+    if followed < LEANS.len() {
+        lines.push(format!(
+            "springs: WARNING: {} of {} landings from {} alpha down to {} alpha came to no end on these springs",
+            LEANS.len() - followed,
+            LEANS.len(),
+            LEANS[0],
+            LEANS[LEANS.len() - 1]
+        ));
+    }
     let errors = || parameters.landings.iter().map(|l| l.restitution_error);
     if errors().any(|e| e.abs() > RESTITUTION_MISSED) {
-        let e = parameters.restitution();
         let (low, high) = errors().fold((f64::INFINITY, f64::NEG_INFINITY), |(low, high), x| (low.min(x), high.max(x)));
+        let another = is_another(&parameters.structure.body(), e);
         lines.push(format!(
-            "springs: WARNING: restitution {e:.4} was asked for, landings have {:.4} to {:.4}; ask for \
-             one nearer to equation 2's, or allow stiffer springs",
+            "springs: WARNING: {}, landings have {:.4} to {:.4}; {}allow stiffer springs",
+            if another {
+                format!("restitution {e:.4} was asked for")
+            } else {
+                format!("equation 2's restitution is {e:.4}")
+            },
             e * (1.0 + low),
-            e * (1.0 + high)
+            e * (1.0 + high),
+            if another { "ask for one nearer to equation 2's, or " } else { "" },
         ));
     }
     lines

@@ -122,15 +122,20 @@ fn heading(p: &Parameters) -> String {
         format!("; record {} ({} samples of {} s, PGA {:.4} g)", r.name, r.samples, r.dt_s, r.pga_g)
     });
     format!(
-        "Ground springs of one foot; {}: centre of mass at {} m, feet {} m apart, {:.4e} kg{record}",
+        "Ground springs of one foot; {}: centre of mass at {} m, feet {} m apart, {} kg{record}",
         match s.kind {
             crate::structure::Kind::AFrame => "A-frame",
             crate::structure::Kind::Block => "block",
         },
-        s.height_m,
-        s.width_m,
-        s.mass_kg
+        six_digits(s.height_m),
+        six_digits(s.width_m),
+        six_digits(s.mass_kg)
     )
+}
+
+/// x to six significant digits: a length in inches is not shown with the rounding of its conversion.
+fn six_digits(x: f64) -> f64 {
+    format!("{x:.5e}").parse().unwrap_or(x)
 }
 
 /// A Markdown table.
@@ -165,7 +170,7 @@ pub(super) fn landing_rows(p: &Parameters) -> Vec<[String; 8]> {
             format!("{:.5}", l.restitution),
             percent(l.restitution_error),
             format!("{:.1} ms", l.air_s * 1e3),
-            format!("{:.2}", l.rebound),
+            format!("{:.3}", l.rebound),
             l.touch_downs.to_string(),
             format!("{:.1e}", l.ringing),
             format!("{:.3} mm", l.settlement_m * 1e3),

@@ -50,6 +50,12 @@ fn even_steps(parameters: &Parameters, dt: f64) -> usize {
     whole(dt / (std::f64::consts::TAU / (STEPS_PER_PERIOD * omega)).min(STEP_BY_ROCKING / body.p_squared().sqrt()))
 }
 
+/// How many equal steps a deck for such a program takes to the record's end.
+#[cfg(feature = "cli")]
+pub fn equal_steps(parameters: &Parameters, record: &Record) -> usize {
+    record.len().saturating_sub(1).saturating_mul(even_steps(parameters, record.dt))
+}
+
 /// Rounded up, but a ratio that is whole but for rounding stays it.
 pub(super) fn whole(ratio: f64) -> usize {
     ((ratio - 1e-9).ceil() as usize).max(1)

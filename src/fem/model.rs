@@ -198,6 +198,13 @@ impl<S: Scalar> Model<S> {
         state.v[az(i)] - state.v[Z] - pz_th * state.v[TH]
     }
 
+    /// Upward velocity of foot i [m/s].
+    pub fn foot_rate(&self, i: usize, state: &State<S>) -> S {
+        let Pose { sin, cos } = Pose::of(&state.q);
+        let pz_th = self.foot(i, &state.q, sin, cos).3;
+        state.v[Z] + pz_th * state.v[TH]
+    }
+
     /// Velocity at which foot i slips over the ground while it does so to this side [m/s].
     pub fn slip_rate(&self, i: usize, q: &Vector<S>, v: &Vector<S>, side: f64) -> S {
         let Pose { sin, cos } = Pose::of(q);

@@ -62,9 +62,9 @@ impl<S: Scalar> View<'_, S> {
         self.model.contact(&self.state.q, self.feet)[i].vertical
     }
 
-    /// Speed at which foot i comes down on its absorber [m/s].
-    pub fn gap_speed(&self, i: usize) -> S {
-        self.model.compression_rate(i, self.state)
+    /// Upward velocity of foot i [m/s].
+    pub fn foot_speed(&self, i: usize) -> S {
+        self.model.foot_rate(i, self.state)
     }
 
     /// Kinetic energy of the body [J].

@@ -4,10 +4,17 @@ use serde::{Deserialize, Serialize};
 
 use super::{
     job::Job,
-    landing::{corners::CornerDynamics, design::Geometry, plane::land},
-    suite::{Accuracy, LOOSER},
+    landing::{corners::CornerDynamics, design::Geometry, plane::land, weight},
+    omega,
+    suite::{Accuracy, JudgedOn, LOOSER},
+    whole_model::is_another,
 };
-use crate::{case::Objective, motion::shown, validate::PREDICTABLE};
+use crate::{
+    case::{Objective, Tuning},
+    compare::LEAST_LEAN,
+    motion::shown,
+    validate::PREDICTABLE,
+};
 
 /// The landing of the springs in the stiff limit, where they follow from the geometry.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
@@ -51,10 +58,12 @@ pub struct Assessment {
 }
 
 impl Assessment {
-    /// Of a job's springs, tuned for this accuracy.
-    pub(crate) fn new(job: &Job, objective: Objective, accuracy: f64) -> Self {
+    /// Of a job's springs, tuned so for a body with this restitution.
+    pub(crate) fn new(job: &Job, tuning: &Tuning, restitution: f64) -> Self {
+        let (objective, accuracy) = (tuning.objective, tuning.accuracy);
         let measured = job.tuned.best.accuracy;
-        let landing = (objective == Objective::Landing && !job.capped).then(|| limit(job)).flatten();
+        let by_landing = objective == Objective::Landing && !job.capped && !is_another(&job.body, restitution);
+        let landing = by_landing.then(|| limit(job)).flatten();
         Self { objective, accuracy, reached: measured.reaches(accuracy), capped: job.capped, measured, landing }
     }
 
@@ -87,8 +96,30 @@ impl Assessment {
                  rebound {:.3} of the landing speed, {} touches and lifts of the landing foot",
                 l.alpha, l.mass_share, l.omega_n_over_p, l.momentum_error, l.rebound, l.contact_changes[0]
             ));
+            lines.push(format!("Omega_n: the softest of the ladder {}", self.decided_by(l)));
         }
         lines
+    }
+
+    /// What springs a rung softer would not hold: that of which the springs taken use most.
+    fn decided_by(&self, l: &LimitRow) -> String {
+        let aimed = omega::MARGIN * self.accuracy;
+        let landings = weight::restitution_error(l.alpha, l.mass_share, l.omega_n_over_p, LEAST_LEAN);
+        let share = |suite| self.measured.over_on(suite, aimed).unwrap_or(0.0);
+        let most = JudgedOn::ALL.into_iter().max_by(|a, b| share(*a).total_cmp(&share(*b)));
+        let on = match most.filter(|suite| share(*suite) > landings * PREDICTABLE / aimed) {
+            None => {
+                return format!(
+                    "on which the weight leaves landings, from {LEAST_LEAN} alpha on, an error of {landings:.0e} at most (theory): it moves a history of \
+                     sensitivity {PREDICTABLE} by no more than {} of the accuracy",
+                    omega::MARGIN
+                );
+            }
+            Some(JudgedOn::Record) => "on the record",
+            Some(JudgedOn::Synthetic) => "on synthetic motions",
+            Some(JudgedOn::Earthquakes) => "on earthquake-like motions, with three standard errors,",
+        };
+        format!("whose error {on} is within {} of what is allowed", omega::MARGIN)
     }
 
     /// Each error with the motions that it was measured on, and how much is allowed there. There are no statistics of one motion.

@@ -5,6 +5,7 @@ use std::fmt::Write;
 use comfy_table::{Table, presets};
 
 use super::CommandError;
+use crate::motion::shown;
 use crate::validate::{
     Confusion, GeometricMean, PREDICTABLE, Quantiles, RecordOutcome, Row, Suite, Summary, Validation,
 };
@@ -20,9 +21,12 @@ fn summary(v: &Validation) -> (Vec<String>, Vec<Vec<String>>) {
     } else {
         sets[0].0 = v.suites.keys().next().map_or("no records", |suite| name(*suite));
     }
-    let number = |x: Option<f64>| x.map_or("-".to_string(), |x| format!("{x:.4}"));
+    let number = |x: Option<f64>| x.map_or("-".to_string(), shown);
     // of one record there are no statistics
     let several = |n: usize, text: String| if n == 1 { "-".to_string() } else { text };
+    // nor of records none of which lifts the body
+    let lifted =
+        |s: &Summary, text: String| if s.never_lifted == s.count { "-".to_string() } else { several(s.count, text) };
     let quantiles = |q: &Quantiles| several(q.count, format!("{} / {}", number(q.median), number(q.p90)));
     let overturned = |c: &Confusion| format!("{} / {} / {} / {}", c.both, c.housner_only, c.fem_only, c.neither);
     let mean = |m: &GeometricMean| match m.failed {
@@ -32,13 +36,13 @@ fn summary(v: &Validation) -> (Vec<String>, Vec<Vec<String>>) {
     };
     let lines: [Line; 15] = [
         ("records".into(), &|s| s.count.to_string()),
-        ("KS distance of the peak rotations".into(), &|s| several(s.count, format!("{:.4}", s.ks_distance))),
+        ("KS distance of the peak rotations".into(), &|s| lifted(s, format!("{:.4}", s.ks_distance))),
         ("the same, Housner from himself with e changed by 1e-5".into(), &|s| {
-            several(s.count, format!("{:.4}", s.ks_distance_of_housner_changed))
+            lifted(s, format!("{:.4}", s.ks_distance_of_housner_changed))
         }),
-        ("agreement on overturning".into(), &|s| several(s.count, format!("{:.2} %", 100.0 * s.overturning_agreement))),
+        ("agreement on overturning".into(), &|s| lifted(s, format!("{:.2} %", 100.0 * s.overturning_agreement))),
         ("the same, Housner with himself with e changed by 1e-5".into(), &|s| {
-            several(s.count, format!("{:.2} %", 100.0 * s.overturning_agreement_of_housner_changed))
+            lifted(s, format!("{:.2} %", 100.0 * s.overturning_agreement_of_housner_changed))
         }),
         ("overturned in both / Housner only / finite elements only / neither".into(), &|s| overturned(&s.overturning)),
         ("well-conditioned histories compared".into(), &|s| s.nrmse_well_conditioned.count.to_string()),

@@ -34,6 +34,9 @@ pub(super) struct Release {
 /// Share of the rise to the next peak over which the growing part is averaged.
 const RISE: (f64, f64) = (0.3, 0.8);
 
+/// A release ends before so many rises after its landing: the next landing is two after it.
+const BEFORE_THE_NEXT: f64 = 1.7;
+
 /// What a landing left.
 pub(super) struct Left<S> {
     /// Share of the energy that is left.
@@ -71,6 +74,8 @@ impl Release {
         let rocking = housner::solve(body, dt, &vec![0.0; samples], &options);
         // the exact fall takes a little longer than the small-angle one
         let landed = rocking.impacts.first().map_or(fall, |impact| impact.time);
+        // a body that keeps little of its speed lands again soon
+        let samples = samples.min(((landed + BEFORE_THE_NEXT * rise) / dt) as usize + 1);
         let at = |share: f64| ((landed + share * rise) / dt).round() as usize;
         let rise = at(RISE.0)..at(RISE.1).min(samples - 1).max(at(RISE.0) + 1);
         let motion = |i: usize| {

@@ -3,7 +3,7 @@
 //! ```text
 //!  restitution   sqrt( E after / E before ), E the energy above that of the body balanced on one foot at theta = 0,
 //!                from the release to the next peak: what equation (2) is compared with
-//!  rebound       fastest lift-off of the landing foot over the speed of its first touch-down
+//!  rebound       fastest upward speed with which the landing foot lifts over that with which it first touches down
 //!  ringing       |N(i+1) - 2 N(i) + N(i-1)| / 4 m g, the largest just before the next impact
 //! ```
 
@@ -34,7 +34,7 @@ pub struct LandingRow {
     pub restitution_error: f64,
     /// Time with both feet in the air (s).
     pub air_s: f64,
-    /// Fastest lift-off of the landing foot over the speed at which it touched down; 0 if it stays.
+    /// Fastest upward speed with which the landing foot lifts, over the speed with which it touched down; 0 if it stays or only sinks.
     pub rebound: f64,
     /// Touch-downs until the next peak; 1 if nothing bounces.
     pub touch_downs: usize,
@@ -128,9 +128,9 @@ impl Observer<f64> for Speeds {
     }
 
     fn event(&mut self, foot: usize, change: Change, view: &View<f64>) {
-        let speed = view.gap_speed(foot).abs();
+        let speed = view.foot_speed(foot);
         match (change, self.landed) {
-            (Change::TouchDown, None) => (self.landed, self.touch_downs) = (Some((foot, speed)), 1),
+            (Change::TouchDown, None) => (self.landed, self.touch_downs) = (Some((foot, -speed)), 1),
             (Change::TouchDown, Some((landed, _))) => self.touch_downs += usize::from(landed == foot),
             (Change::LiftOff, Some((landed, first))) if landed == foot => {
                 self.rebound = self.rebound.max(speed / first);
