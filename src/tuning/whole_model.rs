@@ -48,6 +48,7 @@ const WEIGHT_ASKED: f64 = 400.0;
 /// Relative difference from equation 2 that counts as another.
 const ANOTHER: f64 = 1e-3;
 /// Share of equation 2's restitution that springs can give, from and to.
+#[cfg(feature = "cli")]
 pub const ATTAINABLE: (f64, f64) = (0.9, 1.02);
 /// History error per second in the air beyond what is allowed.
 const WEIGHT_AIR: f64 = 15.0;
