@@ -1,7 +1,7 @@
 //! A whole case: the inner design by the case's objective, Omega_n by the accuracy asked for, and the paper's procedure at the
 //! same Omega_n beside it.
 
-use std::f64::consts::TAU;
+use std::{cmp::Ordering, f64::consts::TAU};
 
 use rayon::prelude::*;
 use thiserror::Error;
@@ -158,18 +158,20 @@ impl LandingDesign<'_> {
         let p = self.body.p_squared().sqrt();
         let springs = |stiffness: f64| at(&self.body, stiffness);
         let said = |rungs: usize, over: f64| progress(rungs, 0, over * omega::MARGIN * tuning.accuracy);
-        // the ladder up to an Omega_n/p, from where landings hold, or from its beginning if none of those rungs does
+        // the ladder up to an Omega_n/p, from where landings hold; if none of those rungs does, the better of that and of the whole ladder
         let ladder = |stiffest: f64, springs: &dyn Fn(f64) -> Option<Springs<Design<f64>>>| {
             let from = |softest: f64| {
                 let range = (softest, stiffest);
                 omega::tune(self.suites, self.body.mass, tuning.accuracy, range, springs, &said)
             };
             let soft = self.settling(omega::SOFTEST, stiffest);
-            let tuned = from(self.softest(stiffest).max(soft));
-            if tuned.as_ref().is_some_and(|tuned| tuned.reached) {
+            let landings_hold = self.softest(stiffest).max(soft);
+            let tuned = from(landings_hold);
+            if landings_hold == soft || tuned.as_ref().is_some_and(|tuned| tuned.reached) {
                 return tuned;
             }
-            from(soft).filter(|tuned| tuned.reached).or(tuned)
+            let over = |tuned: &Tuned| (!tuned.reached, tuned.best.accuracy.over(tuning.accuracy));
+            tuned.into_iter().chain(from(soft)).min_by(|a, b| over(a).partial_cmp(&over(b)).unwrap_or(Ordering::Equal))
         };
         let Some(cap) = tuning.max_omega_hz else {
             let stiffest = omega::last_rung(TAU * CEILING_HZ / p);
@@ -204,12 +206,15 @@ impl LandingDesign<'_> {
     /// The stiffest rung up to `highest` whose horizontal springs are below the cap (Hz), too; `None` if clipping does nothing, or none is.
     fn within(&self, cap: f64, highest: f64) -> Option<f64> {
         let hz = |stiffness| at(&self.body, stiffness).map(|springs| springs.horizontal.omega_n_hz);
-        let mut stiffness = omega::last_rung(highest);
-        let clips = hz(stiffness)? > cap;
-        while stiffness >= omega::SOFTEST && hz(stiffness)? > cap {
+        let last = omega::last_rung(highest);
+        let mut stiffness = last;
+        while hz(stiffness)? > cap {
             stiffness = omega::last_rung(0.99 * stiffness);
+            if stiffness < omega::SOFTEST {
+                return None;
+            }
         }
-        (clips && stiffness >= omega::SOFTEST).then_some(stiffness)
+        (stiffness < last).then_some(stiffness)
     }
 
     /// The least Omega_n/p at which landings, gentle ones too, err by no more than moves a history of the largest sensitivity that counts as
