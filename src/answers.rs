@@ -49,6 +49,22 @@ pub fn both(
     let rocking = housner::solve(body, record.dt, &record.accel, &options);
     let level = record.vertical.as_ref().map(|_| housner::solve(body, record.dt, &record.accel, &level));
     let motion = rocking.motion(body);
+    let answer =
+        |members: &Members<f64>| with_members(body, restitution, springs, members, record, (&rocking, &motion));
+    let WithMembers { history: fem, demands, matched, .. } = answer(&Members::default());
+    let with = (!members.is_none()).then(|| answer(members));
+    Both { rocking, level, housner: motion, fem, matched, demands, with }
+}
+
+/// The finite elements with members through a record, beside Housner's history and its motion.
+pub(crate) fn with_members(
+    body: &Body<f64>,
+    restitution: f64,
+    springs: &Springs<Chain<f64>>,
+    members: &Members<f64>,
+    record: &Record,
+    (rocking, motion): (&Rocking<f64>, &Motion),
+) -> WithMembers {
     let case = fem::Analysis {
         body: *body,
         springs: *springs,
@@ -59,18 +75,10 @@ pub fn both(
         scale: 1.0,
         control: fem::Control::default(),
     };
-    let matched =
-        |history: &fem::History| Match::new(body, record.dt, (&motion, &rocking.impacts), history, restitution);
-    let (fem, mut demands) = case.simulate_with(&Members::default());
-    let rigid = matched(&fem);
-    count(&mut demands, body, record.dt, &fem.landings, rigid.overturned_fem_s);
-    let with = (!members.is_none()).then(|| {
-        let (history, mut demands) = case.simulate_with(members);
-        let matched = matched(&history);
-        count(&mut demands, body, record.dt, &history.landings, matched.overturned_fem_s);
-        WithMembers { members: *members, history, demands, matched }
-    });
-    Both { rocking, level, housner: motion, fem, matched: rigid, demands, with }
+    let (history, mut demands) = case.simulate_with(members);
+    let matched = Match::new(body, record.dt, (motion, &rocking.impacts), &history, restitution);
+    count(&mut demands, body, record.dt, &history.landings, matched.overturned_fem_s);
+    WithMembers { members: *members, history, demands, matched }
 }
 
 /// Both models on the springs and members of a parameter file, and what they say together: peaks, overturning, match.
@@ -104,53 +112,6 @@ impl Both {
             Some(level) => verdict.beside(body, dt, level),
             None => verdict,
         }
-    }
-
-    /// That a body overturned, and up to when the histories are compared.
-    fn overturned(&self) -> Option<String> {
-        let m = &self.matched;
-        let words = |time: Option<f64>| time.map_or("stands".into(), |time| format!("overturns at t = {time:.3} s"));
-        (m.overturned_housner_s.or(m.overturned_fem_s)).map(|_| {
-            format!(
-                "Housner's body {}, the body on its springs {}: compared up to t = {:.3} s only",
-                words(m.overturned_housner_s),
-                words(m.overturned_fem_s),
-                m.duration_s
-            )
-        })
-    }
-
-    /// What to say of histories that overturned, ended before the record did, or took steps that broke their bounds.
-    pub fn early(&self) -> Vec<String> {
-        let said = |name: &str, history: &fem::History| {
-            let (time, why) = match history.outcome {
-                fem::HistoryOutcome::Completed
-                | fem::HistoryOutcome::Stopped { .. }
-                | fem::HistoryOutcome::Overturned { .. } => {
-                    return None;
-                }
-                fem::HistoryOutcome::WorkBound { time } => {
-                    (time, "given up at the bound on steps; use softer or damped springs")
-                }
-                fem::HistoryOutcome::Unstable { time } => (
-                    time,
-                    "the rotation lost its balance: springs too soft for a body with so little rotational inertia, or a lean \
-                     at which a leg would pull; use stiffer springs, or a rotational_inertia_kgm2 above 0.002 m R^2",
-                ),
-            };
-            Some(format!("{name} ends at t = {time:.3} s: {why}; both are compared up to there"))
-        };
-        let overturned = self.overturned();
-        let smallest = |name: &str, history: &fem::History| match history.work.smallest {
-            0 => None,
-            n => Some(format!("{name}: {n} steps were taken at the smallest size, whatever their error")),
-        };
-        let with = self.with.as_ref().map(|with| ("finite element history with members", &with.history));
-        let all = [("finite element history", &self.fem)].into_iter().chain(with);
-        overturned
-            .into_iter()
-            .chain(all.flat_map(|(name, history)| [said(name, history), smallest(name, history)]).flatten())
-            .collect()
     }
 }
 
@@ -190,19 +151,6 @@ fn peaks_until(demands: &mut Demands, dt: f64, overturned: Option<f64>) {
 mod tests {
     use super::*;
     use crate::{fem::QUANTITIES, spring::Design, structure::Structure};
-
-    #[test]
-    fn steps_of_the_smallest_size_are_said_if_there_were_any() {
-        let structure = Structure::paper();
-        let chain = Chain { k1: 1e9, k2: 1e8, m2: 1e5, c: 1e6 };
-        let springs = Springs { vertical: chain, horizontal: chain };
-        let record = Record::new("still", 0.01, vec![0.0; 3]).unwrap();
-        let mut both = both(&structure.body(), 0.98, &springs, &Members::default(), &record);
-        assert_eq!((both.fem.work.smallest, both.early()), (0, Vec::new()));
-        both.fem.work.smallest = 3;
-        let said = "finite element history: 3 steps were taken at the smallest size, whatever their error";
-        assert_eq!(both.early(), [said]);
-    }
 
     /// A pier that falls from 0.3 alpha: its foot carries about its weight while it turns about it, and far more in a landing.
     #[test]

@@ -26,25 +26,18 @@ mod housner;
 mod init;
 mod members;
 mod output;
-mod page;
 mod progress;
 mod record;
-mod report;
 mod response;
 mod run;
 mod simulate;
 mod sweep;
-mod table;
 mod validate;
 mod verify;
 
 // for the Python package
 #[cfg(feature = "internals")]
-pub use {
-    common::{Both, both},
-    report::HousnerReport,
-    run::{FinishedRun, Output},
-};
+pub use run::Output;
 
 /// The version, and what was built with it.
 const VERSION: &str = concat!(env!("CARGO_PKG_VERSION"), " (features: cli, figures)");

@@ -61,6 +61,17 @@ pub use sheet::Sheet;
 #[cfg(test)]
 mod tests;
 
+/// A figure with its name and what it is.
+#[derive(Debug)]
+pub struct Figure {
+    /// Its files' name, without an ending.
+    pub name: &'static str,
+    /// What it is, for a page.
+    pub caption: &'static str,
+    /// As it was drawn.
+    pub sheet: Sheet,
+}
+
 /// Why a figure was not drawn; nothing has been written then.
 #[derive(Debug, Error)]
 #[non_exhaustive]

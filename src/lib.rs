@@ -84,9 +84,13 @@ mod house {
 
     pub mod tuning;
 
+    pub mod results;
+
     pub mod parameters;
 
     pub mod answers;
+
+    pub mod rigid_forces;
 
     pub mod predictability;
 
@@ -103,6 +107,9 @@ mod house {
 
     #[cfg(feature = "figures")]
     pub mod figures;
+
+    #[cfg(feature = "cli")]
+    pub mod report;
 
     #[cfg(feature = "cli")]
     pub mod commands;

@@ -1,4 +1,4 @@
-//! What messages are made of: words of a user's file in one line, shares in percent.
+//! What messages are made of: words of a user's file in one line, shares in percent, quantities with engineering prefixes.
 
 /// Longest piece that is quoted.
 const LONGEST: usize = 200;
@@ -27,9 +27,78 @@ pub(crate) fn percent(share: f64) -> String {
     }
 }
 
+/// A text of at most so many letters: a longer one loses its middle.
+pub(crate) fn shortened(text: &str, most: usize) -> String {
+    let letters: Vec<char> = text.chars().collect();
+    if letters.len() <= most || most < 8 {
+        return text.to_string();
+    }
+    let (head, tail) = ((most - 3) / 2, most - 3 - (most - 3) / 2);
+    letters[..head].iter().collect::<String>() + "..." + &letters[letters.len() - tail..].iter().collect::<String>()
+}
+
+/// x with at most so many significant digits, without zeros at the end of a fraction: 401.2, 0.1, 1.725e16.
+pub(crate) fn significant(x: f64, digits: usize) -> String {
+    if x == 0.0 || !x.is_finite() {
+        return if x == 0.0 { "0".into() } else { "-".into() };
+    }
+    let scientific = format!("{:.*e}", digits.saturating_sub(1), x);
+    let (mantissa, exponent) = scientific.split_once('e').unwrap_or((&scientific, "0"));
+    let exponent: i32 = exponent.parse().unwrap_or(0);
+    let trim = |text: &str| match text.contains('.') {
+        true => text.trim_end_matches('0').trim_end_matches('.').to_string(),
+        false => text.to_string(),
+    };
+    if (-4..6).contains(&exponent) {
+        // rounded to the digits first: 123456 to four is 123500
+        let rounded: f64 = scientific.parse().unwrap_or(x);
+        trim(&format!("{rounded:.*}", (digits as i32 - 1 - exponent).max(0) as usize))
+    } else {
+        format!("{}e{exponent}", trim(mantissa))
+    }
+}
+
+/// A quantity with an engineering prefix and at most four significant digits: 20.35 MN m, 401.2 mm, 680.1 t.
+pub(crate) fn quantity(x: f64, unit: &str) -> String {
+    const PREFIXES: [(f64, &str); 7] =
+        [(1e9, "G"), (1e6, "M"), (1e3, "k"), (1.0, ""), (1e-3, "m"), (1e-6, "u"), (1e-9, "n")];
+    let (x, unit, least) = match unit {
+        // a tonne is what engineers weigh with; no prefix makes a microradian of a rotation
+        "kg" if x.abs() >= 1e3 => return format!("{} t", significant(x * 1e-3, 4)),
+        "kg" | "rad" => return format!("{} {unit}", significant(x, 4)),
+        _ => (x, unit, 1e-9),
+    };
+    if x == 0.0 || !x.is_finite() {
+        return format!("{} {unit}", significant(x, 4));
+    }
+    // rounding may carry: 999.97 N is 1 kN
+    let rounded: f64 = format!("{x:.3e}").parse().unwrap_or(x);
+    let (factor, prefix) = PREFIXES.into_iter().find(|(factor, _)| rounded.abs() >= *factor).unwrap_or((least, "n"));
+    format!("{} {prefix}{unit}", significant(x / factor, 4))
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;
+
+    #[test]
+    fn long_paths_lose_their_middle() {
+        assert_eq!(shortened("out/decks/model.py", 40), "out/decks/model.py");
+        assert_eq!(shortened("a/very/long/way/to/a/file.json", 20), "a/very/l...file.json");
+    }
+
+    #[test]
+    fn numbers_have_few_digits_and_prefixes() {
+        let all = [401.1816, 0.1, 123456.0, 1.7248e16, 2.5e-7, -0.0999960, 0.0];
+        let all = all.map(|x| significant(x, 4));
+        assert_eq!(all, ["401.2", "0.1", "123500", "1.725e16", "2.5e-7", "-0.1", "0"]);
+        assert_eq!(quantity(20.349e6, "N m"), "20.35 MN m");
+        assert_eq!(quantity(0.40118, "m"), "401.2 mm");
+        assert_eq!(quantity(-6.8023e6, "N"), "-6.802 MN");
+        assert_eq!(quantity(999.97, "N"), "1 kN");
+        assert_eq!(quantity(680.1e3, "kg"), "680.1 t");
+        assert_eq!(quantity(0.0, "N"), "0 N");
+    }
 
     #[test]
     fn shares_have_three_digits_or_words() {

@@ -15,6 +15,7 @@ use crate::{
     conditioning::Conditioning,
     members::{Damper, Friction, Members, MembersError, NO_LEGS, Tendon, names_legs},
     message::one_line,
+    results::{DesignForces, FiledFinding, PeakPair},
     scalar::GRAVITY,
     spring::{Chain, ChainRow, Design, Springs},
     structure::{Structure, StructureError},
@@ -28,8 +29,8 @@ use crate::{
 pub use record::{RecordRow, RememberedError};
 
 /// Version of the keys of parameters.json that this program writes. Version 1 had no number, and remembered of the record
-/// only what it was called.
-pub const SCHEMA: u32 = 2;
+/// only what it was called; version 2 had no peaks, design forces and findings.
+pub const SCHEMA: u32 = 3;
 
 /// How sensitive Housner's history of that record is: relative change of u per relative change (`conditioning`).
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
@@ -86,7 +87,7 @@ const DAMPING: (f64, f64) = (0.0, 1e15);
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct Parameters {
-    /// Version of the keys; 2 in what this program writes.
+    /// Version of the keys; 3 in what this program writes.
     #[serde(default = "first")]
     pub schema: u32,
     /// The body.
@@ -134,6 +135,15 @@ pub struct Parameters {
     /// What the run found, for the file.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub verdict: Option<Verdict>,
+    /// Largest displacements of both models on the record.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub peaks: Option<PeakPair>,
+    /// Forces to design with.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub design_forces: Option<DesignForces>,
+    /// What a reader must know besides.
+    #[serde(default, skip_serializing_if = "Vec::is_empty")]
+    pub findings: Vec<FiledFinding>,
 }
 
 /// The one key that is read of a newer file.
@@ -203,6 +213,9 @@ impl Parameters {
             paper_procedure: None,
             table_1: None,
             verdict: None,
+            peaks: None,
+            design_forces: None,
+            findings: Vec::new(),
         }
     }
 

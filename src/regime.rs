@@ -111,6 +111,24 @@ pub fn stockiness(body: &Body<f64>, friction: f64) -> Option<Stocky> {
         .then_some(Stocky { restitution, friction_needed: friction_needed.max(0.0) })
 }
 
+/// Horizontal and vertical force of the ground on Housner's body (N) at the samples of its history: what of it stands between
+/// impacts. Ground accelerations (horizontal, vertical) in m/s2, zero beyond their last sample.
+pub fn ground_forces(body: &Body<f64>, (accel, vertical): (&[f64], &[f64]), rocking: &Rocking<f64>) -> Vec<(f64, f64)> {
+    let weight = body.mass * GRAVITY;
+    let at = |record: &[f64], i: usize| record.get(i).copied().unwrap_or(0.0) / GRAVITY;
+    let force = |(i, (&theta, &rate)): (usize, (&f64, &f64))| {
+        let ground = (at(accel, i), 1.0 + at(vertical, i));
+        let (f, n) = if theta == 0.0 && rate == 0.0 {
+            ground
+        } else {
+            let side = if theta == 0.0 { rate.signum() } else { theta.signum() };
+            forces(body, side, theta, rate, ground)
+        };
+        (weight * f, weight * n)
+    };
+    rocking.theta.iter().zip(&rocking.rate).enumerate().map(force).collect()
+}
+
 /// F and N of a rocking body over its weight m g; the ground has u_g/g and gamma.
 fn forces(body: &Body<f64>, side: f64, theta: f64, rate: f64, (ground, gamma): (f64, f64)) -> (f64, f64) {
     let (sin, cos) = (body.alpha() * side - theta).sin_cos();
@@ -135,39 +153,6 @@ impl Worst {
         } else if horizontal.abs() > self.friction.value * vertical {
             self.friction = TimedPeak { value: horizontal.abs() / vertical, time };
         }
-    }
-}
-
-impl Regime {
-    /// One line for every assumption of pure rocking that this history breaks, with the number and the time.
-    #[cfg(feature = "cli")]
-    pub fn warnings(&self) -> Vec<String> {
-        let mut lines = Vec::new();
-        let TimedPeak { value, time } = self.friction_needed;
-        if value > self.friction {
-            lines.push(format!(
-                "sliding: a friction coefficient of {value:.3} is needed at t = {time:.3} s, {:.3} is available; rocking without sliding does not hold",
-                self.friction
-            ));
-        }
-        if self.landing_friction > self.friction {
-            lines.push(format!(
-                "sliding: a landing needs a friction coefficient of {:.3}, {:.3} is available",
-                self.landing_friction, self.friction
-            ));
-        }
-        if let Some(TimedPeak { value, time }) = self.free_flight {
-            lines.push(format!(
-                "free flight: the pivot lifts at t = {time:.3} s (lowest vertical force {value:.3} of the weight); rocking does not hold from there on"
-            ));
-        }
-        if let Some(Stocky { restitution, friction_needed }) = self.too_stocky {
-            lines.push(format!(
-                "too stocky: landing without bouncing needs a friction coefficient of {friction_needed:.3} and a positive restitution (equation 2 gives {restitution:.3}); {:.3} is available",
-                self.friction
-            ));
-        }
-        lines
     }
 }
 

@@ -7,7 +7,6 @@ use crate::{
     conditioning::Conditioning,
     fem::{self, History},
     housner::{self, Rocking},
-    motion::shown,
     overturning::{overturned, samples_until},
     structure::Body,
 };
@@ -97,21 +96,6 @@ impl Answer {
         // a standing finite element body sways without lifting
         Self { fate, overturned_s, left_ground_s: None, peak_ratio: if fate == Fate::NeverLifted { 0.0 } else { peak } }
     }
-
-    fn words(&self) -> String {
-        let peak = format!("peak theta/alpha {:.3}", self.peak_ratio);
-        match (self.fate, self.overturned_s) {
-            (Fate::NeverLifted, _) => "never lifted".into(),
-            (Fate::Rocked, _) => format!("rocked, {peak}"),
-            (Fate::Overturned, Some(time)) => format!("OVERTURNED at t = {time:.2} s, {peak} until then"),
-            (Fate::Overturned, None) => "OVERTURNED".into(),
-            (Fate::LeftGround, _) => {
-                let time = self.left_ground_s.unwrap_or_default();
-                format!("LEAVES THE GROUND at t = {time:.3} s, where its solution ends; {peak} until then")
-            }
-            (Fate::Failed, _) => format!("has no answer: its history ended early, {peak} until then"),
-        }
-    }
 }
 
 impl Verdict {
@@ -151,34 +135,6 @@ impl Verdict {
             Fate::LeftGround => self.finite_elements.fate != Fate::Failed,
             fate => fate == self.finite_elements.fate,
         }
-    }
-
-    /// A few plain lines for the file.
-    pub fn lines(&self) -> Vec<String> {
-        let mut lines = vec![format!("Housner's body {}", self.housner.words())];
-        if let Some(level) = &self.housner_without_vertical {
-            lines.push(format!("without the vertical component it {}", level.words()));
-        }
-        lines.push(format!("the body on its springs {}", self.finite_elements.words()));
-        if !self.agrees() {
-            lines.push("WARNING: the two models disagree on what the body does".into());
-        }
-        let errors = self.nrmse_horizontal.zip(self.nrmse_vertical);
-        match errors {
-            None => {}
-            Some((u, v)) if self.well_conditioned => lines.push(format!(
-                "the motion is well conditioned: over {:.2} s the histories differ by {} in u and {} in v (NRMSE)",
-                self.compared_s,
-                shown(u),
-                shown(v)
-            )),
-            Some(_) => lines.push(
-                "this one motion is ILL-CONDITIONED: a small change of structure or record makes another history of it, so that no \
-                 model can foretell that of a real structure, whatever its springs; judge them by many motions (tune validate)"
-                    .into(),
-            ),
-        }
-        lines
     }
 }
 

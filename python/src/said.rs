@@ -2,6 +2,7 @@
 
 use std::{ffi::CString, fmt::Display};
 
+use groundspring::results::{FiledFinding, Weight};
 use pyo3::{
     create_exception,
     exceptions::{PyUserWarning, PyValueError},
@@ -33,9 +34,9 @@ pub fn warn(py: Python<'_>, text: impl Display) -> PyResult<()> {
 }
 
 /// Warn of those lines of a report that warn.
-pub fn warn_of<'a>(py: Python<'_>, lines: impl IntoIterator<Item = &'a String>) -> PyResult<()> {
-    let warns = |line: &&String| ["WARNING", "ILL-CONDITIONED"].iter().any(|word| line.contains(word));
-    lines.into_iter().filter(warns).try_for_each(|line| warn(py, line))
+pub fn warn_of<'a>(py: Python<'_>, findings: impl IntoIterator<Item = &'a FiledFinding>) -> PyResult<()> {
+    let grave = findings.into_iter().filter(|finding| finding.weight >= Weight::Warning);
+    grave.map(FiledFinding::line).try_for_each(|line| warn(py, &line))
 }
 
 /// A value as its JSON has it: dicts, lists, numbers.

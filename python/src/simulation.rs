@@ -3,9 +3,15 @@
 use std::{borrow::Cow, sync::Arc};
 
 use groundspring::{
-    commands::{Both, FinishedRun, HousnerReport, both},
+    answers::{Both, both},
     fem::{self, QUANTITIES},
     members::Members,
+    report::{
+        filed,
+        reference::{self, HousnerReport},
+        rigid::RigidRun,
+    },
+    results::FiledFinding,
     verdict::Verdict,
 };
 use numpy::PyArray1;
@@ -29,21 +35,21 @@ pub struct Simulation {
     dt: f64,
     source: Source,
     verdict: Verdict,
-    lines: Vec<String>,
+    findings: Vec<FiledFinding>,
 }
 
 /// Where the histories are.
 enum Source {
     Own(Box<Both>),
-    Tuned(Arc<FinishedRun>),
+    Tuned(Arc<RigidRun>),
 }
 
 impl Simulation {
     /// The histories of a run.
-    pub fn of(structure: Structure, run: Arc<FinishedRun>) -> Self {
+    pub fn of(structure: Structure, run: Arc<RigidRun>) -> Self {
         let dt = run.job.record.dt;
         let verdict = run.both.verdict(&run.job.body, dt, &run.report.conditioning);
-        Self { structure, dt, lines: lines(&verdict, &run.both, &run.report), verdict, source: Source::Tuned(run) }
+        Self { structure, dt, findings: run.parameters.findings.clone(), verdict, source: Source::Tuned(run) }
     }
 
     fn both(&self) -> &Both {
@@ -56,10 +62,6 @@ impl Simulation {
     fn fem(&self) -> &fem::History {
         &self.both().fem
     }
-}
-
-fn lines(verdict: &Verdict, both: &Both, report: &HousnerReport) -> Vec<String> {
-    verdict.lines().into_iter().chain(report.lines()).chain(both.early()).collect()
 }
 
 #[pymethods]
@@ -188,7 +190,7 @@ impl Simulation {
     /// What the program says of the run.
     #[getter]
     fn lines(&self) -> Vec<String> {
-        self.lines.clone()
+        self.findings.iter().map(FiledFinding::line).collect()
     }
 
     /// Base shear and forces in the legs, N; moments, N m; by name.
@@ -244,14 +246,9 @@ pub fn simulate(
         let both = both(&body, e, &springs.chains(), &Members::default(), &record);
         let report = HousnerReport::new(&body, e, &record, &both.rocking, friction);
         let verdict = both.verdict(&body, dt, &report.conditioning);
-        Simulation {
-            structure,
-            dt,
-            lines: lines(&verdict, &both, &report),
-            verdict,
-            source: Source::Own(Box::new(both)),
-        }
+        let findings = filed(reference::all(&structure.core, &record, &both, &report, &verdict));
+        Simulation { structure, dt, findings, verdict, source: Source::Own(Box::new(both)) }
     })?;
-    warn_of(py, &simulation.lines)?;
+    warn_of(py, &simulation.findings)?;
     Ok(simulation)
 }

@@ -4,9 +4,10 @@ use std::{path::PathBuf, sync::Arc};
 
 use groundspring::{
     case::{Case, Objective, Tuning},
-    commands::{FinishedRun, Output},
+    commands::Output,
     excitation::Excitation,
     front, record,
+    report::rigid::RigidRun,
     tuning::job::Job,
 };
 use pyo3::prelude::*;
@@ -21,10 +22,15 @@ use crate::{
     work::interruptible,
 };
 
+/// What the program finds, a line each.
+fn lines(run: &RigidRun) -> Vec<String> {
+    run.parameters.findings.iter().map(|finding| finding.line()).collect()
+}
+
 /// Springs of a structure, and all that `tune run` finds of them.
 #[pyclass(frozen, module = "groundspring")]
 pub struct Tuned {
-    run: Arc<FinishedRun>,
+    run: Arc<RigidRun>,
     structure: Structure,
     histories: Py<Simulation>,
 }
@@ -70,7 +76,7 @@ impl Tuned {
     /// What the program says of the run.
     #[getter]
     fn lines(&self) -> Vec<String> {
-        self.run.said()
+        lines(&self.run)
     }
 
     /// Write what `tune run` writes.
@@ -89,7 +95,7 @@ impl Tuned {
     }
 
     fn __repr__(&self) -> String {
-        format!("Tuned(Omega_n {:.1} Hz)\n{}", self.run.job.springs.vertical.omega_n_hz, self.run.said().join("\n"))
+        format!("Tuned(Omega_n {:.1} Hz)\n{}", self.run.job.springs.vertical.omega_n_hz, lines(&self.run).join("\n"))
     }
 }
 
@@ -128,11 +134,11 @@ pub fn tune(
         let job = Job::new(&case, &|_, _, _| stop.check()).map_err(value_error)?;
         let points = if front { front::front(&job, &|_, _| stop.check()) } else { Vec::new() };
         stop.check();
-        let run = FinishedRun::new(case, job, points, friction);
+        let run = RigidRun::new(case, job, points, friction);
         let run = Arc::new(run);
         let simulation = Simulation::of(structure, run.clone());
         Ok::<_, PyErr>((run, simulation))
     })??;
-    warn_of(py, &run.said())?;
+    warn_of(py, &run.parameters.findings)?;
     Ok(Tuned { run, structure, histories: Py::new(py, simulation)? })
 }

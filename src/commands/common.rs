@@ -5,8 +5,8 @@ use std::{fmt::Write, path::PathBuf};
 use clap::Args;
 
 use super::CommandError;
-pub use crate::answers::{Both, both};
 use crate::{
+    answers::Both,
     case::{Case, LONGEST_S},
     excitation::Excitation,
     record::{ReadOptions, Recording, Units, VerticalFrom},
@@ -85,6 +85,29 @@ impl RecordOptions {
     fn tells_of_a_file(&self) -> bool {
         let said = self.dt.is_some() || self.units.is_some() || self.component.is_some();
         said || self.baseline || self.vertical.is_some()
+    }
+}
+
+/// What the ground offers.
+#[derive(Clone, Copy, Debug, Args)]
+pub struct GroundOptions {
+    /// Friction coefficient between foot and ground, for the warning of sliding [default: 0.5]
+    #[arg(long, value_name = "MU", allow_negative_numbers = true)]
+    pub friction: Option<f64>,
+}
+
+/// Friction coefficient unless one is given.
+const USUAL: f64 = 0.5;
+
+impl GroundOptions {
+    /// The friction coefficient, checked.
+    pub fn friction(&self) -> Result<f64, CommandError> {
+        let friction = self.friction.unwrap_or(USUAL);
+        if friction.is_finite() && friction >= 0.0 {
+            return Ok(friction);
+        }
+        let remedy = "give a friction coefficient, zero or greater";
+        Err(CommandError::Option { option: "friction", value: format!("{friction:?}"), remedy })
     }
 }
 

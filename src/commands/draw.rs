@@ -4,10 +4,11 @@ use std::path::Path;
 
 use rayon::prelude::*;
 
-use super::{CommandError, common::Both, table::FORCES};
+use super::CommandError;
 use crate::{
+    answers::Both,
     case::Case,
-    figures::{self, EventMark, FigureError, Sheet, brief, short},
+    figures::{self, EventMark, Figure, FigureError, Sheet, brief, short},
     front::FrontPoint,
     housner,
     response::{
@@ -18,15 +19,6 @@ use crate::{
     structure::{Kind as BodyKind, Structure},
     tuning::job::Job,
 };
-
-/// A figure of a run.
-pub struct Figure {
-    /// Its files' name, without an ending.
-    pub name: &'static str,
-    /// What it is, for a page.
-    pub caption: &'static str,
-    pub sheet: Sheet,
-}
 
 /// Every figure that a run may leave, and its files.
 macro_rules! figures {
@@ -44,6 +36,9 @@ figures!(
     CANDIDATES = "candidates"
     BEARING = "forces"
 );
+
+/// What forces of the feet are.
+const FORCES: &str = "Foot forces are those of the springs in a landing, not of the structure: they grow with Omega_n.";
 
 /// What figures are drawn from.
 pub struct Pictures<'a> {

@@ -2,14 +2,7 @@
 
 use std::path::Path;
 
-use super::{
-    CommandError,
-    common::csv_row,
-    draw::{self, Figure},
-    export,
-    run::Output,
-    write_file,
-};
+use super::{CommandError, common::csv_row, draw, export, run::Output, write_file};
 use crate::{
     case::ElasticCase,
     elastic::{
@@ -18,19 +11,25 @@ use crate::{
         fem::ElasticHistory,
     },
     export::{ACCURACY, DeckFormat, ElasticDeck, ExportError},
-    motion::peak,
+    figures::Figure,
     parameters::{
         RecordRow,
         elastic::{ElasticAssessment, ElasticParameters, OnRecord},
     },
     record::Record,
+    report::{
+        Run,
+        elastic::{ElasticParts, largest, title},
+        filed,
+        markdown::markdown,
+        page::page,
+    },
     spring::{Chain, Springs},
     tuning::elastic::ElasticTuned,
 };
 
 mod bearing;
 mod demands;
-mod page;
 mod pictures;
 pub(super) mod words;
 
@@ -65,15 +64,6 @@ pub fn springs_alone(assembled: &Assembled, tuned: &ElasticTuned, accuracy: f64)
     }
 }
 
-impl ElasticParameters {
-    /// Write the file and its tables; what to print.
-    pub(super) fn save_alone(&self, out: &Path) -> Result<String, CommandError> {
-        write_file(&out.join("parameters.json"), self.to_json().as_bytes())?;
-        write_file(&out.join("parameters.md"), words::markdown(self).as_bytes())?;
-        Ok(format!("{}\n{}\n", words::markdown(self), words::assessed(self).join("\n")))
-    }
-}
-
 /// The deck that is to find this history, in a format, its steps for an accuracy.
 pub(super) fn deck(
     assembled: &Assembled,
@@ -89,7 +79,7 @@ pub(super) fn deck(
     };
     let motion: Vec<[f64; 2]> = history.q.iter().map(at).collect();
     ElasticDeck {
-        title: &words::title(&assembled.structure),
+        title: &title(&assembled.structure),
         layout: &assembled.layout,
         frame,
         springs,
@@ -115,8 +105,7 @@ impl ElasticRun {
         let alpha = assembled.structure.body().alpha();
         let ElasticHistories { reference, fem, sways, .. } = &answer.histories;
         let [rotations, drifts]: [fn(&Sway) -> &[f64]; 2] = [|sway| &sway.rotation, |sway| &sway.drift];
-        let largest =
-            |k: usize, of: fn(&Sway) -> &[f64]| sways.iter().map(|pair| peak(of(&pair[k])).abs()).fold(0.0, f64::max);
+        let largest = |k: usize, of: fn(&Sway) -> &[f64]| largest(sways, k, of);
         let [rotation, drift] = answer.errors.map(|error| Some(error).filter(|error| error.is_finite()));
         let on_record = OnRecord {
             compared_s: answer.compared.seconds,
@@ -139,36 +128,44 @@ impl ElasticRun {
         let bearing = ForceQuantities::new(&assembled, &answer, record.dt);
         let parameters =
             ElasticParameters { on_record: Some(on_record), ..springs_alone(&assembled, &tuned, case.accuracy) };
-        Self { case, assembled, tuned, record, answer, bearing, parameters }
+        let mut run = Self { case, assembled, tuned, record, answer, bearing, parameters };
+        run.parameters.peaks = Some(run.parts().peaks());
+        run.parameters.findings = filed(run.parts().findings(&run.parameters));
+        run
     }
 
     /// Write everything into a folder, which is there.
     pub fn save(&self, out: &Path, output: Output) -> Result<(), CommandError> {
         let parameters = self.filed(out);
+        let run = self.said(parameters.clone());
         write_file(&out.join("parameters.json"), parameters.to_json().as_bytes())?;
-        let tables = words::markdown(&parameters) + "\n" + &demands::markdown(self);
-        write_file(&out.join("parameters.md"), tables.as_bytes())?;
+        write_file(&out.join("parameters.md"), markdown(&run).as_bytes())?;
+        write_file(&out.join("summary.csv"), summary(&run).csv().as_bytes())?;
         write_file(&out.join("history.csv"), self.history().as_bytes())?;
         write_file(&out.join("members.csv"), demands::csv(self).as_bytes())?;
         export::write_all(&out.join("decks"), |format| self.deck(format))?;
         let figures: Vec<Figure> = if output.figures { pictures::draw(self)? } else { Vec::new() };
         draw::save(out, &figures)?;
         if output.report {
-            let page = page::ElasticPage { run: self, parameters: &parameters, figures: &figures };
-            write_file(&out.join("report.html"), page.html().as_bytes())?;
+            write_file(&out.join("report.html"), page(&run, &figures).as_bytes())?;
         }
         Ok(())
     }
 
-    fn filed(&self, out: &Path) -> ElasticParameters {
-        let record = Some(RecordRow::new(&self.case.excitation, &self.record, out));
-        ElasticParameters { record, ..self.parameters.clone() }
+    /// All that is said of it; `parameters` are those filed.
+    pub fn said(&self, parameters: ElasticParameters) -> Run {
+        self.parts().said(parameters)
     }
 
-    /// For the terminal.
-    pub fn terminal(&self) -> String {
-        let said = words::said(self).join("\n");
-        format!("{}\n{}\n{said}\n", words::markdown(&self.parameters), demands::markdown(self))
+    fn parts(&self) -> ElasticParts<'_> {
+        let Self { case, assembled, record, answer, .. } = self;
+        ElasticParts { case, assembled, record, answer }
+    }
+
+    /// What parameters.json holds in a folder.
+    pub fn filed(&self, out: &Path) -> ElasticParameters {
+        let record = Some(RecordRow::new(&self.case.excitation, &self.record, out));
+        ElasticParameters { record, ..self.parameters.clone() }
     }
 
     fn deck(&self, format: DeckFormat) -> Result<String, ExportError> {

@@ -11,36 +11,39 @@ use clap::Args;
 
 use super::{
     CommandError,
-    common::{self, Both, RecordOptions, history_csv},
+    common::{self, GroundOptions, RecordOptions, history_csv},
     draw::{self, Pictures},
     export, members,
     output::{Folder, check_folder},
-    page::Page,
     progress::Progress,
-    report::{GroundOptions, HousnerReport},
-    table, write_file,
+    write_file,
 };
 use crate::{
+    answers::Both,
     case::{ACCURACY, Case, CaseError, ElasticCase, Limits, MAX_HZ, Objective},
     excitation::Excitation,
-    export::{Expected, equal_steps, with_inertia},
-    front::{self, FrontPoint},
-    members::Members,
-    parameters::{PaperProcedure, Parameters, RecordRow},
+    export::{Expected, with_inertia},
+    figures::Figure,
+    front,
+    parameters::{Parameters, RecordRow},
     predictability::{simulate, width_sensitivity},
     record::Record,
-    spring::{Design, Springs},
-    tuning::{
-        arr::table_1,
-        job::Job,
-        whole_model::{ATTAINABLE, LEANS, is_another},
+    report::{
+        self, Filed, Run,
+        markdown::markdown,
+        page::page,
+        rigid::RigidRun,
+        screen::{Written, screen},
+        summary,
     },
+    tuning::job::Job,
 };
 
 /// All that `tune run` can write into its folder, beside figures.
 const FILES: &[&str] = &[
     "parameters.json",
     "parameters.md",
+    "summary.csv",
     "history.csv",
     "members.csv",
     "report.html",
@@ -93,6 +96,12 @@ pub struct RunOptions {
     /// No progress
     #[arg(long)]
     quiet: bool,
+    /// Print all that report.html has, below the screen
+    #[arg(long, conflicts_with = "json")]
+    verbose: bool,
+    /// Print the run as JSON in place of the screen
+    #[arg(long)]
+    json: bool,
 }
 
 pub fn run(o: &RunOptions) -> Result<(), CommandError> {
@@ -137,15 +146,11 @@ pub fn run(o: &RunOptions) -> Result<(), CommandError> {
     };
 
     if o.no_record {
-        return springs_alone(o, &Parameters::of(&case, &job));
+        return springs_alone(o, &report::rigid::alone(Parameters::of(&case, &job)));
     }
-    let run = FinishedRun::new(case, job, front, friction);
+    let run = RigidRun::new(case, job, front, friction);
     run.save(&o.out, Output { figures: !o.no_figures, report: !o.no_report })?;
-    let (springs, forces) = (table::terminal(&run.filed(&o.out)), run.forces());
-    let said = run.found().join("\n");
-    write!(std::io::stdout(), "{springs}{forces}{}\n{said}\n", table::front_terminal(&run.front))?;
-    eprintln!("{}\nwritten to {}", run.case.excitation.line(), o.out.display());
-    Ok(())
+    o.print(&run.said(run.filed(&o.out)))
 }
 
 impl RunOptions {
@@ -172,49 +177,7 @@ pub struct Output {
     pub report: bool,
 }
 
-/// A job done, and all that is said and saved of it.
-pub struct FinishedRun {
-    pub case: Case,
-    pub job: Job,
-    pub front: Vec<FrontPoint>,
-    /// Both models' answers to the record.
-    pub both: Both,
-    pub report: HousnerReport,
-    /// What `parameters.json` holds, but for the record: where that is to be found depends on the folder.
-    pub parameters: Parameters,
-}
-
-impl FinishedRun {
-    /// Simulate a job's springs, and those of the paper beside them; `friction` of the ground, for the warning of sliding.
-    pub fn new(case: Case, job: Job, front: Vec<FrontPoint>, friction: f64) -> Self {
-        let beside = |springs: &Springs<Design<f64>>| {
-            let other = Parameters::new(case.structure, springs);
-            let none = Members::default();
-            let matched = common::both(&job.body, case.restitution, &other.chains(), &none, &job.record).matched;
-            PaperProcedure { vertical: other.vertical, horizontal: other.horizontal, matched }
-        };
-        let paper = job.paper.as_ref().filter(|_| case.tuning.objective == Objective::Landing);
-        let recovered = table_1::of(&case.structure).filter(|_| job.paper.is_some());
-        let chains = Parameters::new(case.structure, &job.springs).chains();
-        let ((both, mut parameters), ((paper, recovered), report)) = rayon::join(
-            || {
-                let both = common::both(&job.body, case.restitution, &chains, &case.members, &job.record);
-                (both, Parameters::of(&case, &job))
-            },
-            || {
-                let others = || (paper.map(|paper| beside(&paper.tuned.best.springs)), recovered.map(|r| beside(&r)));
-                let report = || HousnerReport::new(&job.body, case.restitution, &job.record, &job.rocking, friction);
-                rayon::join(others, report)
-            },
-        );
-        parameters.matched = Some(both.matched);
-        parameters.match_with_members = both.with.as_ref().map(|with| with.matched);
-        (parameters.paper_procedure, parameters.table_1) = (paper, recovered);
-        parameters.conditioning = Some(report.conditioning.into());
-        parameters.verdict = Some(both.verdict(&job.body, job.record.dt, &report.conditioning));
-        Self { case, job, front, both, report, parameters }
-    }
-
+impl RigidRun {
     /// Write everything into a folder, which is made.
     ///
     /// # Errors
@@ -222,27 +185,27 @@ impl FinishedRun {
     pub fn save(&self, out: &Path, output: Output) -> Result<(), CommandError> {
         let files = files();
         let folder = Folder::begin(out, "run", &files)?;
-        let Self { job, front, both, .. } = self;
+        let Self { job, both, .. } = self;
         let dt = job.record.dt;
         let parameters = self.filed(out);
+        let run = self.said(parameters.clone());
         write_file(&out.join("parameters.json"), parameters.to_json().as_bytes())?;
-        let tables = table::markdown(&parameters) + &self.forces() + &table::front(front);
-        write_file(&out.join("parameters.md"), tables.as_bytes())?;
+        write_file(&out.join("parameters.md"), markdown(&run).as_bytes())?;
+        write_file(&out.join("summary.csv"), summary(&run).csv().as_bytes())?;
         write_file(&out.join("history.csv"), history_csv(dt, both).as_bytes())?;
         let demands = both.with.as_ref().map_or(&both.demands, |with| &with.demands);
         write_file(&out.join("members.csv"), members::csv(dt, demands).as_bytes())?;
         let (decks, pictures) =
-            rayon::join(|| decks(out, &parameters, &job.record, both), || self.pictures(out, &parameters, output));
+            rayon::join(|| decks(out, &parameters, &job.record, both), || self.pictures(out, &run, output));
         decks.and(pictures)?;
         folder.finish()
     }
 
     /// Figures and the page.
-    fn pictures(&self, out: &Path, parameters: &Parameters, output: Output) -> Result<(), CommandError> {
+    fn pictures(&self, out: &Path, run: &Run, output: Output) -> Result<(), CommandError> {
         let Self { case, job, front, both, .. } = self;
         let figures = if output.figures { Pictures { case, job, both, front }.draw()? } else { Vec::new() };
-        let page = || report(out, output.report.then_some(Page { parameters, run: Some(self), figures: &figures }));
-        let (saved, page) = rayon::join(|| draw::save(out, &figures), page);
+        let (saved, page) = rayon::join(|| draw::save(out, &figures), || report(out, output, run, &figures));
         saved.and(page)
     }
 
@@ -251,100 +214,41 @@ impl FinishedRun {
         let record = Some(RecordRow::new(&self.case.excitation, &self.job.record, out));
         Parameters { record, ..self.parameters.clone() }
     }
-
-    /// What to file beside the tables, a line each: an accuracy missed, the verdict, the accuracy, warnings.
-    pub fn said(&self) -> Vec<String> {
-        let warning = self.parameters.assessment.and_then(|assessment| assessment.warning());
-        warning.into_iter().chain(self.found()).collect()
-    }
-
-    /// The same without the accuracy missed, with which the tables begin.
-    fn found(&self) -> Vec<String> {
-        let mut said = table::found(&self.parameters);
-        said.extend(self.report.lines().into_iter().chain(self.both.early()));
-        said.extend(springs_said(&self.parameters));
-        let steps = equal_steps(&self.parameters, &self.job.record);
-        if steps > MANY_STEPS {
-            said.push(format!(
-                "SAP2000: takes all its steps alike, {:.0} million of them for these springs; --max-hz 160 gives springs for it",
-                steps as f64 / 1e6
-            ));
-        }
-        said
-    }
-
-    fn forces(&self) -> String {
-        members::markdown(&self.both.demands, self.both.with.as_ref())
-    }
 }
 
 /// `report.html`, if it is asked for.
-fn report(out: &Path, page: Option<Page<'_>>) -> Result<(), CommandError> {
-    page.map_or(Ok(()), |page| write_file(&out.join("report.html"), page.html().as_bytes()))
+fn report(out: &Path, output: Output, run: &Run, figures: &[Figure]) -> Result<(), CommandError> {
+    if output.report { write_file(&out.join("report.html"), page(run, figures).as_bytes()) } else { Ok(()) }
 }
 
 /// What there is without a record.
-fn springs_alone(o: &RunOptions, parameters: &Parameters) -> Result<(), CommandError> {
+fn springs_alone(o: &RunOptions, run: &Run) -> Result<(), CommandError> {
     let files = files();
     let folder = Folder::begin(&o.out, "run", &files)?;
-    write_file(&o.out.join("parameters.json"), parameters.to_json().as_bytes())?;
-    write_file(&o.out.join("parameters.md"), table::markdown(parameters).as_bytes())?;
-    report(&o.out, (!o.no_report).then_some(Page { parameters, run: None, figures: &[] }))?;
+    let json = match &run.parameters {
+        Filed::Rigid(parameters) => parameters.to_json(),
+        Filed::Elastic(parameters) => parameters.to_json(),
+    };
+    write_file(&o.out.join("parameters.json"), json.as_bytes())?;
+    write_file(&o.out.join("parameters.md"), markdown(run).as_bytes())?;
+    report(&o.out, Output { figures: false, report: !o.no_report }, run, &[])?;
     folder.finish()?;
-    let mut said = table::found(parameters);
-    said.extend(springs_said(parameters));
-    write!(std::io::stdout(), "{}\n{}\n", table::terminal(parameters), said.join("\n"))?;
-    eprintln!(
-        "no record: tune simulate, verify and export take El Centro unless you give them one\nwritten to {}",
-        o.out.display()
-    );
-    Ok(())
+    o.print(run)
 }
 
-/// Steps of a program that takes all of them alike that are worth a word.
-const MANY_STEPS: usize = 1_000_000;
-
-/// Error of restitution that is worth a warning.
-pub(super) const RESTITUTION_MISSED: f64 = 0.005;
-
-/// What these springs cannot do.
-fn springs_said(parameters: &Parameters) -> Vec<String> {
-    let mut lines = Vec::new();
-    let e = parameters.restitution();
-    let of_equation_2 = e / parameters.structure.body::<f64>().restitution();
-    if !(ATTAINABLE.0..=ATTAINABLE.1).contains(&of_equation_2) {
-        lines.push(format!(
-            "springs: WARNING: restitution {e:.4} is {of_equation_2:.2} of equation 2's, springs can give {} to {} of it; these will not follow Housner",
-            ATTAINABLE.0, ATTAINABLE.1
-        ));
+impl RunOptions {
+    /// The screen, or the run as JSON; `--verbose` adds all that the report has.
+    fn print(&self, run: &Run) -> Result<(), CommandError> {
+        if self.json {
+            let json = serde_json::to_string_pretty(run).map_err(|e| CommandError::Result(e.to_string()))?;
+            return Ok(writeln!(std::io::stdout(), "{json}")?);
+        }
+        let folder = self.out.display().to_string();
+        let decks = run.taken.record.is_some();
+        let screen = screen(run, &Written { folder: &folder, report: !self.no_report, decks });
+        let more = if self.verbose { format!("\n{}", markdown(run)) } else { String::new() };
+        Ok(write!(std::io::stdout(), "{screen}{more}")?)
     }
-    let followed = parameters.landings.len();
-    if followed < LEANS.len() {
-        lines.push(format!(
-            "springs: WARNING: {} of {} landings from {} alpha down to {} alpha came to no end on these springs",
-            LEANS.len() - followed,
-            LEANS.len(),
-            LEANS[0],
-            LEANS[LEANS.len() - 1]
-        ));
-    }
-    let errors = || parameters.landings.iter().map(|l| l.restitution_error);
-    if errors().any(|e| e.abs() > RESTITUTION_MISSED) {
-        let (low, high) = errors().fold((f64::INFINITY, f64::NEG_INFINITY), |(low, high), x| (low.min(x), high.max(x)));
-        let another = is_another(&parameters.structure.body(), e);
-        lines.push(format!(
-            "springs: WARNING: {}, landings have {:.4} to {:.4}; {}allow stiffer springs",
-            if another {
-                format!("restitution {e:.4} was asked for")
-            } else {
-                format!("equation 2's restitution is {e:.4}")
-            },
-            e * (1.0 + low),
-            e * (1.0 + high),
-            if another { "ask for one nearer to equation 2's, or " } else { "" },
-        ));
-    }
-    lines
 }
 
 /// The model for other programs. A body without rotational inertia gets some there, and its own history to check against.

@@ -6,13 +6,19 @@ use clap::Args;
 
 use super::{
     CommandError,
-    common::{RecordOptions, both, history_csv, restitution},
+    common::{GroundOptions, RecordOptions, history_csv, restitution},
     members,
     output::file_in,
-    report::{GroundOptions, HousnerReport},
     write_file,
 };
-use crate::parameters::Parameters;
+use crate::{
+    answers::both,
+    parameters::Parameters,
+    report::{
+        filed,
+        reference::{self, HousnerReport},
+    },
+};
 
 /// Options of `tune simulate`.
 #[derive(Debug, Args)]
@@ -53,11 +59,10 @@ pub fn run(o: &SimulateOptions) -> Result<(), CommandError> {
         write_file(path, members::csv(record.dt, demands).as_bytes())?;
     }
     eprintln!("{}", excitation.line());
-    let said = HousnerReport::new(&body, e, &record, &both.rocking, friction);
-    let verdict = both.verdict(&body, record.dt, &said.conditioning).lines();
-    let verdict = verdict.into_iter().map(|line| format!("verdict: {line}"));
-    for line in said.lines().into_iter().chain(both.early()).chain(verdict) {
-        eprintln!("{line}");
+    let housner = HousnerReport::new(&body, e, &record, &both.rocking, friction);
+    let verdict = both.verdict(&body, record.dt, &housner.conditioning);
+    for finding in filed(reference::all(&parameters.structure, &record, &both, &housner, &verdict)) {
+        eprintln!("{}", finding.line());
     }
     let report = members::MembersReport::new(&both.matched, &both.demands, both.with.as_ref());
     let json = serde_json::to_string_pretty(&report).map_err(|e| CommandError::Result(e.to_string()))?;

@@ -48,14 +48,9 @@ pub struct Demands {
 impl Demands {
     /// Find what is largest between these landings, over the first `samples` of the history.
     pub(crate) fn separate(&mut self, body: &Body<f64>, dt: f64, landings: &[Landing], samples: usize) {
-        let rest = MOMENT / body.p_squared().sqrt();
         self.between = Default::default();
-        for (i, row) in self.rows.iter().enumerate().take(samples) {
-            let time = i as f64 * dt;
-            let first = landings.partition_point(|l| l.time < time - dt - rest);
-            if landings.get(first).is_some_and(|l| l.time <= time) {
-                continue;
-            }
+        for i in between_landings(body, dt, landings, samples.min(self.rows.len())) {
+            let (row, time) = (&self.rows[i], i as f64 * dt);
             for (peak, &value) in self.between.iter_mut().zip(row) {
                 if value.abs() > peak.value.abs() {
                     *peak = TimedPeak { value, time };
@@ -63,6 +58,21 @@ impl Demands {
             }
         }
     }
+}
+
+/// Samples, dt (s) apart, that lie later than 0.1/p after every landing: since the sample before none was near.
+pub(crate) fn between_landings(
+    body: &Body<f64>,
+    dt: f64,
+    landings: &[Landing],
+    samples: usize,
+) -> impl Iterator<Item = usize> {
+    let rest = MOMENT / body.p_squared().sqrt();
+    (0..samples).filter(move |&i| {
+        let time = i as f64 * dt;
+        let first = landings.partition_point(|l| l.time < time - dt - rest);
+        landings.get(first).is_none_or(|l| l.time > time)
+    })
 }
 
 /// The forces at one instant.

@@ -15,9 +15,13 @@ use crate::{
     members::{Damper, Members, Tendon},
     message::one_line,
     record::Record,
+    results::{DesignForces, FiledFinding, PeakPair},
     spring::{Chain, Springs},
     tuning::elastic::suite::Measured,
 };
+
+/// The first schema with elastic structures.
+const FIRST: u32 = 2;
 
 /// A spring-absorber unit as it stands in the file.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
@@ -144,6 +148,15 @@ pub struct ElasticParameters {
     /// And on it.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub on_record: Option<OnRecord>,
+    /// Largest displacements of both models on the record.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub peaks: Option<PeakPair>,
+    /// Forces to design with.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub design_forces: Option<DesignForces>,
+    /// What a reader must know besides.
+    #[serde(default, skip_serializing_if = "Vec::is_empty")]
+    pub findings: Vec<FiledFinding>,
 }
 
 impl ElasticParameters {
@@ -165,6 +178,9 @@ impl ElasticParameters {
             springs,
             assessment: None,
             on_record: None,
+            peaks: None,
+            design_forces: None,
+            findings: Vec::new(),
         }
     }
 
@@ -214,9 +230,11 @@ impl ElasticParameters {
             message: one_line(e.to_string().split(" at line").next().unwrap_or_default()),
         })?;
         let value = |message: String| ParametersError::Parse { path: path.into(), line: 1, message };
-        if parameters.schema != SCHEMA {
+        if !(FIRST..=SCHEMA).contains(&parameters.schema) {
             let found = parameters.schema;
-            return Err(value(format!("schema is {found}, this program knows {SCHEMA}; run tune run again")));
+            return Err(value(format!(
+                "schema is {found}, this program reads {FIRST} to {SCHEMA}; run tune run again"
+            )));
         }
         let structure = parameters.structure.checked().map_err(|e| value(e.to_string()))?;
         structure.bears(parameters.members()).map_err(|e| value(e.to_string()))?;

@@ -1,14 +1,11 @@
 //! What the structure bears: on its springs, held to the ground, as a rigid body.
 
-use crate::{
-    elastic::{
-        answer::ElasticAnswer,
-        assembled::Assembled,
-        beam::BeamForces,
-        fem::{ElasticHistory, FrameDemand, resolves},
-        structure::ElasticStructure,
-    },
-    scalar::GRAVITY,
+use crate::elastic::{
+    answer::ElasticAnswer,
+    assembled::Assembled,
+    beam::BeamForces,
+    fem::{ElasticHistory, FrameDemand, resolves},
+    structure::ElasticStructure,
 };
 
 /// Frequency above which forces of the ground are taken to be the springs' (Hz).
@@ -31,8 +28,6 @@ pub struct ForceQuantities {
     pub filtered: Vec<f64>,
     /// Frequency up to which the latter is had (Hz); none where samples are too far apart, it is then the mean between them.
     pub below_hz: Option<f64>,
-    /// (N)
-    pub weight: f64,
 }
 
 impl ForceQuantities {
@@ -43,7 +38,6 @@ impl ForceQuantities {
             ground: ground.peak.iter().map(|force| force[1]).collect(),
             filtered: ground.filtered(1, dt, FILTER_HZ),
             below_hz: resolves(dt, FILTER_HZ).then_some(FILTER_HZ),
-            weight: assembled.frame.total_mass() * GRAVITY,
         }
     }
 }

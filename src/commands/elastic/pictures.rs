@@ -1,11 +1,11 @@
 //! Figures of an elastic structure's run.
 
-use super::{ElasticRun, words};
+use super::{ElasticRun, title as structure_title};
 use crate::{
-    commands::draw::{self, Figure},
+    commands::draw,
     elastic::answer::{Compared, ComparedEnd, ElasticHistories},
     figures::{
-        EventMark, FigureError, brief, prefix, short,
+        EventMark, Figure, FigureError, brief, prefix, short,
         stack::{self, StackFigure, StackQuantity},
     },
 };
@@ -16,7 +16,7 @@ fn title(run: &ElasticRun, what: &str) -> String {
     let (unit, letter) = prefix(run.parameters.omega_n_hz);
     format!(
         "{what}\n{}; {} × {}; Ωₙ/2π = {} {letter}Hz",
-        words::title(&run.assembled.structure),
+        structure_title(&run.assembled.structure),
         excitation.record.name,
         brief(excitation.scale, 4),
         short(run.parameters.omega_n_hz / unit, 3)

@@ -1,13 +1,11 @@
 //! `tune run` of an elastic structure.
 
-use std::io::Write;
-
-use super::{Output, RunOptions, files, threads};
+use super::{Output, RunOptions, files, springs_alone, threads};
 use crate::{
     case::ElasticCase,
     commands::{
         CommandError,
-        elastic::{ElasticRun, springs_alone},
+        elastic::{ElasticRun, springs_alone as alone},
         output::{Folder, check_folder},
         progress::Progress,
     },
@@ -16,6 +14,7 @@ use crate::{
         assembled::Assembled,
     },
     record::Record,
+    report,
     tuning::{elastic::tune, job::JobError},
 };
 
@@ -34,7 +33,6 @@ pub fn run(o: &RunOptions, mut case: ElasticCase) -> Result<(), CommandError> {
     case.accuracy = o.accuracy()?.unwrap_or(case.accuracy);
     check_folder(&o.out)?;
     threads(o.jobs)?;
-    let all = files();
 
     let assembled =
         Assembled::with_members(case.structure, case.members).map_err(|e| CommandError::Result(e.to_string()))?;
@@ -46,25 +44,19 @@ pub fn run(o: &RunOptions, mut case: ElasticCase) -> Result<(), CommandError> {
     progress.done();
     let mut tuned = tuned.map_err(|e| CommandError::Result(e.to_string()))?;
     let Some((record, reference)) = record.zip(tuned.reference.take()) else {
-        let parameters = springs_alone(&assembled, &tuned, case.accuracy);
-        let folder = Folder::begin(&o.out, "run", &all)?;
-        let said = parameters.save_alone(&o.out)?;
-        folder.finish()?;
-        write!(std::io::stdout(), "{said}")?;
-        eprintln!("no record: give one with --record\nwritten to {}", o.out.display());
-        return Ok(());
+        let run = report::elastic::alone(alone(&assembled, &tuned, case.accuracy));
+        return springs_alone(o, &run);
     };
     let progress = Progress::new("history", o.quiet);
     let answer = ElasticAnswer::new(&assembled, &tuned.springs.corners, &record, reference);
     progress.done();
     let answer = answer.map_err(|e| CommandError::Result(e.to_string()))?;
     let run = ElasticRun::new(case, assembled, tuned, record, answer);
+    let all = files();
     let folder = Folder::begin(&o.out, "run", &all)?;
     run.save(&o.out, Output { figures: !o.no_figures, report: !o.no_report })?;
     folder.finish()?;
-    write!(std::io::stdout(), "{}", run.terminal())?;
-    eprintln!("{}\nwritten to {}", run.case.excitation.line(), o.out.display());
-    Ok(())
+    o.print(&run.said(run.filed(&o.out)))
 }
 
 /// A record with what the structure does in it on rigid ground.

@@ -20,6 +20,7 @@ use crate::{
     },
     figures::stack::{self, StackFigure, StackQuantity},
     parameters::elastic::ElasticParameters,
+    report::elastic::title as structure_title,
     verify::{Program, VerifyError, number_before, run_deck},
 };
 
@@ -156,7 +157,7 @@ fn draw(o: &VerifyOptions, assembled: &Assembled, pairs: &[[Sway; 2]], dt: f64) 
             ]
         })
         .collect();
-    let title = format!("The exported model in OpenSees\n{}", words::title(&assembled.structure));
+    let title = format!("The exported model in OpenSees\n{}", structure_title(&assembled.structure));
     let names = ["tune run", "OpenSees"];
     let data = StackFigure { title: &title, t: &t, names: &names, panels: &panels, event: None };
     Ok(stack::draw(&data)?.save(&o.out.join("verify.png"))?)

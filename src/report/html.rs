@@ -2,6 +2,8 @@
 
 use std::fmt::Write;
 
+use super::Table;
+
 /// Text that can stand in a page.
 pub fn escape(text: &str) -> String {
     let mut out = String::with_capacity(text.len());
@@ -51,36 +53,27 @@ pub fn number(text: &str) -> String {
     escape(&text)
 }
 
-/// A table with a head; columns in `own` stand out.
-pub fn table<T: AsRef<[String]>>(
-    head: &[String],
-    rows: impl IntoIterator<Item = T>,
-    own: std::ops::Range<usize>,
-) -> String {
+/// A table; columns in `own` stand out.
+pub fn table(of: &Table, own: std::ops::Range<usize>) -> String {
     let class = |i: usize| if own.contains(&i) { " class=\"own\"" } else { "" };
-    let mut out = String::from("<div class=\"scroll\"><table><thead><tr>");
-    for (i, cell) in head.iter().enumerate() {
-        // writing to a String cannot fail
-        let _ = write!(out, "<th{}>{}</th>", class(i), pretty(cell));
+    let facts = of.head.iter().all(String::is_empty);
+    let mut out = format!("<div class=\"scroll\"><table{}>", if facts { " class=\"facts\"" } else { "" });
+    if !facts {
+        out.push_str("<thead><tr>");
+        for (i, cell) in of.head.iter().enumerate() {
+            // writing to a String cannot fail
+            let _ = write!(out, "<th{}>{}</th>", class(i), pretty(cell));
+        }
+        out.push_str("</tr></thead>");
     }
-    out.push_str("</tr></thead><tbody>\n");
-    for row in rows {
+    out.push_str("<tbody>\n");
+    for row in &of.rows {
         out.push_str("<tr>");
-        for (i, cell) in row.as_ref().iter().enumerate() {
-            let text = if i == 0 { pretty(cell) } else { number(cell) };
+        for (i, cell) in row.iter().enumerate() {
+            let text = if i == 0 { pretty(cell.trim_start()) } else { number(cell) };
             let _ = write!(out, "<td{}>{text}</td>", class(i));
         }
         out.push_str("</tr>\n");
-    }
-    out + "</tbody></table></div>\n"
-}
-
-/// Two columns: what, and its value.
-pub fn facts(rows: &[(&str, String)]) -> String {
-    let mut out = String::from("<div class=\"scroll\"><table class=\"facts\"><tbody>\n");
-    for (name, value) in rows {
-        // writing to a String cannot fail
-        let _ = writeln!(out, "<tr><td>{}</td><td>{}</td></tr>", pretty(name), escape(value));
     }
     out + "</tbody></table></div>\n"
 }
@@ -104,7 +97,8 @@ mod tests {
     fn text_of_others_cannot_be_markup() {
         assert_eq!(escape("<script>\"&\u{7}"), "&lt;script&gt;&quot;&amp; ");
         assert_eq!(json(&"</script>"), "\"\\u003c/script>\"");
-        assert!(!table(&["a<b".into()], [["<i>".to_string()]], 0..0).contains("<i>"));
+        let rows = Table::new(["a<b"]).with([vec!["<i>".to_string()]]);
+        assert!(!table(&rows, 0..0).contains("<i>"));
     }
 
     #[test]

@@ -1,0 +1,179 @@
+//! A run as data, and what is made of it: one renderer each for the terminal, Markdown, HTML and JSON (serde).
+//!
+//! | from | to |
+//! |---|---|
+//! | `rigid::RigidRun`, `elastic::ElasticRun`: histories and springs | [`Run`]: what is said of them |
+//! | [`Run`] | `screen` (at most 30 lines), `markdown`, `page` (HTML), serde (JSON) |
+//!
+//! No renderer knows whether the structure is rigid, and none reads another's words.
+
+pub mod accuracy;
+pub mod displacements;
+pub mod elastic;
+pub mod html;
+pub mod markdown;
+pub mod page;
+pub mod reference;
+pub mod rigid;
+pub mod screen;
+pub mod table;
+
+use serde::Serialize;
+
+use crate::{
+    parameters::{Parameters, elastic::ElasticParameters},
+    results::{DesignForces, FiledFinding, Finding, PeakPair, Weight},
+};
+pub use accuracy::{AccuracyOn, AccuracyReport};
+pub use displacements::{peak_table, summary};
+pub use table::Table;
+
+/// A value the user did not give, and the key that sets it.
+#[derive(Clone, Debug, PartialEq, Serialize)]
+pub struct Assumed {
+    /// What, with its value: "restitution 0.98 by equation 2".
+    pub what: String,
+    /// The key or option that sets it.
+    pub key: String,
+}
+
+/// The case as it was understood.
+#[derive(Clone, Debug, PartialEq, Serialize)]
+pub struct Taken {
+    /// The structure in a few words.
+    pub structure: String,
+    /// More of it: names and values with units.
+    pub facts: Vec<(String, String)>,
+    /// The record, its scale, length, step and peak; none of springs without a record.
+    pub record: Option<String>,
+    /// What was not given.
+    pub assumed: Vec<Assumed>,
+}
+
+/// A spring-absorber unit.
+#[derive(Clone, Debug, PartialEq, Serialize)]
+pub struct Unit {
+    /// Which: "vertical", or with its place where places differ.
+    pub name: String,
+    /// Gap spring k1 (N/m).
+    pub k1_n_per_m: f64,
+    /// Spring k2 under the absorber (N/m).
+    pub k2_n_per_m: f64,
+    /// Absorber's mass m2 (kg).
+    pub m2_kg: f64,
+    /// Dashpot c beside k2 (N s/m).
+    pub c_ns_per_m: f64,
+}
+
+/// Part of a report: text, a table, commands.
+#[derive(Clone, Debug, Default, PartialEq, Serialize)]
+pub struct Section {
+    /// In addresses.
+    pub id: &'static str,
+    /// Its heading.
+    pub title: String,
+    /// Paragraphs above the table.
+    pub text: Vec<String>,
+    /// Its table.
+    pub table: Option<Table>,
+    /// Paragraphs below it.
+    pub notes: Vec<String>,
+    /// Commands to type.
+    pub commands: Vec<String>,
+}
+
+/// parameters.json.
+#[derive(Clone, Debug, PartialEq, Serialize)]
+#[serde(untagged)]
+pub enum Filed {
+    /// Of a rigid body.
+    Rigid(Box<Parameters>),
+    /// Of an elastic structure.
+    Elastic(Box<ElasticParameters>),
+}
+
+/// Everything that is said of a run.
+#[derive(Clone, Debug, PartialEq, Serialize)]
+pub struct Run {
+    /// The case.
+    pub taken: Taken,
+    /// What the springs are compared with: "Housner", "rigid ground".
+    pub reference: &'static str,
+    /// Largest displacements; none without a record.
+    pub peaks: Option<PeakPair>,
+    /// Friction coefficient that the reference needs.
+    pub friction_needed: Option<f64>,
+    /// Forces to design with; none without a record.
+    pub design_forces: Option<DesignForces>,
+    /// "each foot", "each corner".
+    pub springs_at: &'static str,
+    /// The units.
+    pub springs: Vec<Unit>,
+    /// Measured in this run.
+    pub accuracy: Option<AccuracyReport>,
+    /// The answer first, then by weight.
+    pub findings: Vec<FiledFinding>,
+    /// Steps that a program with one fixed step would need for these springs; none without a record.
+    pub fixed_steps: Option<usize>,
+    /// Whether there is a deck for SAP2000.
+    pub sap2000: bool,
+    /// What the report has besides.
+    pub sections: Vec<Section>,
+    /// What parameters.json holds.
+    pub parameters: Filed,
+}
+
+/// Findings for a run: answers first, then what weighs most.
+pub fn filed(findings: impl IntoIterator<Item = Finding>) -> Vec<FiledFinding> {
+    let mut all: Vec<FiledFinding> = findings.into_iter().map(FiledFinding::from).collect();
+    let rank = |weight: Weight| match weight {
+        Weight::Answer => 0,
+        Weight::Fault => 1,
+        Weight::Warning => 2,
+        Weight::Note => 3,
+    };
+    all.sort_by_key(|finding| rank(finding.weight));
+    all
+}
+
+impl Run {
+    /// What the run was asked, in one sentence.
+    pub fn verdict(&self) -> String {
+        let answer = self.findings.iter().find(|finding| finding.weight == Weight::Answer);
+        let graver = self.findings.iter().find(|f| matches!(f.finding, Finding::ModelsDisagree { .. }));
+        match graver.or(answer) {
+            Some(finding) => sentence(&finding.message),
+            None => "Springs without a record: nothing rocked.".into(),
+        }
+    }
+
+    /// All that is to be said besides the verdict, gravest first.
+    pub fn remarks(&self) -> impl Iterator<Item = &FiledFinding> {
+        let told = self.findings.iter().position(|f| matches!(f.finding, Finding::ModelsDisagree { .. }));
+        self.findings
+            .iter()
+            .enumerate()
+            .filter(move |(i, finding)| match told {
+                Some(told) => *i != told && finding.weight != Weight::Answer,
+                None => finding.weight != Weight::Answer,
+            })
+            .map(|(_, finding)| finding)
+    }
+}
+
+impl FiledFinding {
+    /// Message and remedy.
+    pub fn line(&self) -> String {
+        match &self.remedy {
+            Some(remedy) => format!("{}: {remedy}", self.message),
+            None => self.message.clone(),
+        }
+    }
+}
+
+/// With a capital letter and a full stop.
+pub fn sentence(message: &str) -> String {
+    let mut letters = message.chars();
+    let first = letters.next().map(|c| c.to_uppercase().collect::<String>()).unwrap_or_default();
+    format!("{first}{}.", letters.as_str().trim_end_matches('.'))
+}

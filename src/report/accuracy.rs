@@ -1,0 +1,103 @@
+//! How accurate the springs are, measured in the run, and on what.
+
+use serde::Serialize;
+
+use super::Table;
+use crate::message::{percent, significant};
+
+/// An error measured on a record or on a set of motions.
+#[derive(Clone, Debug, PartialEq, Serialize)]
+pub struct AccuracyOn {
+    /// The record, or the set and its statistic.
+    pub on: String,
+    /// Motions.
+    pub count: usize,
+    /// NRMSE of the history: of the displacement, or of the rotation of an elastic structure.
+    pub history: Option<f64>,
+    /// Relative error of the largest displacement, uplift and forces, the largest of them.
+    pub peaks: Option<f64>,
+    /// NRMSE allowed there.
+    pub history_allowed: Option<f64>,
+    /// Error of peaks allowed there.
+    pub peaks_allowed: Option<f64>,
+}
+
+/// What was asked for and what was measured.
+#[derive(Clone, Debug, PartialEq, Serialize)]
+pub struct AccuracyReport {
+    /// NRMSE asked of histories, if the springs were chosen by it.
+    pub history_asked: Option<f64>,
+    /// Error asked of peaks, if the springs were chosen by it.
+    pub peaks_asked: Option<f64>,
+    /// Whether it was reached.
+    pub reached: bool,
+    /// What was measured.
+    pub measured: Vec<AccuracyOn>,
+}
+
+impl AccuracyReport {
+    /// In one sentence, peaks first.
+    pub fn sentence(&self) -> String {
+        let on = |row: &AccuracyOn| {
+            let peaks = row.peaks.map(|peaks| format!("peaks within {}", percent(peaks)));
+            let history = row.history.map(|nrmse| format!("history {}", significant(nrmse, 2)));
+            let both: Vec<String> = peaks.into_iter().chain(history).collect();
+            format!("on {}: {}", row.on, both.join(", "))
+        };
+        let asked = match (self.peaks_asked, self.history_asked) {
+            (Some(peaks), _) => format!("peaks within {}", percent(peaks)),
+            (None, Some(history)) => format!("history {}", significant(history, 3)),
+            (None, None) => "nothing".into(),
+        };
+        let reached = if self.reached { "reached" } else { "NOT reached" };
+        let measured: Vec<String> =
+            self.measured.iter().filter(|row| row.peaks.or(row.history).is_some()).map(on).collect();
+        match measured.is_empty() {
+            true => format!("not measured: no motion can be compared; asked: {asked}"),
+            false => format!("{} (NRMSE); asked: {asked}, {reached}", measured.join("; ")),
+        }
+    }
+
+    /// The same as a table.
+    pub fn table(&self) -> Table {
+        let cell = |x: Option<f64>, words: fn(f64) -> String| x.map_or("-".into(), words);
+        let rows = self.measured.iter().map(|row| {
+            vec![
+                row.on.clone(),
+                row.count.to_string(),
+                cell(row.peaks, percent),
+                cell(row.peaks_allowed, percent),
+                cell(row.history, |x| significant(x, 2)),
+                cell(row.history_allowed, |x| significant(x, 2)),
+            ]
+        });
+        Table::new(["measured on", "motions", "error of peaks", "allowed", "NRMSE of the history", "allowed"])
+            .with(rows)
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn an_accuracy_names_peaks_and_history_and_on_what() {
+        let row = AccuracyOn {
+            on: "this record".into(),
+            count: 1,
+            history: Some(2.2e-5),
+            peaks: Some(1.3e-4),
+            history_allowed: Some(0.002),
+            peaks_allowed: None,
+        };
+        let mut report =
+            AccuracyReport { history_asked: Some(0.002), peaks_asked: None, reached: true, measured: vec![row] };
+        assert_eq!(
+            report.sentence(),
+            "on this record: peaks within 0.013 %, history 2.2e-5 (NRMSE); asked: history 0.002, reached"
+        );
+        assert_eq!(report.table().rows[0][2], "0.013 %");
+        report.measured.clear();
+        assert!(report.sentence().starts_with("not measured"));
+    }
+}

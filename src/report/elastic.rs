@@ -1,0 +1,346 @@
+//! What is said of an elastic structure's run: the structure on rigid ground beside the same on its springs.
+
+use super::{AccuracyOn, AccuracyReport, Assumed, Filed, Run, Section, Table, Taken, Unit, filed};
+use crate::{
+    case::ElasticCase,
+    elastic::{
+        answer::{ElasticAnswer, ElasticHistories},
+        assembled::{Assembled, Sway},
+        ensemble::Ensemble,
+        frame::Frame,
+        reference::ReferenceOutcome,
+        structure::ElasticStructure,
+    },
+    fem::HistoryOutcome,
+    members::{Members, Tendon},
+    message::{quantity, significant},
+    motion::peak,
+    parameters::elastic::{ElasticAssessment, ElasticParameters, OnRecord},
+    record::Record,
+    results::{Ending, Finding, Model, PeakPair, Peaks},
+    tuning::elastic::suite::ElasticErrors,
+};
+
+/// Part of the weight below which the ground's force tells nothing of friction: the structure all but flies.
+const LEAST_PRESS: f64 = 0.05;
+
+/// Time within which touches are one impact (1/p).
+const SAME_IMPACT: f64 = 0.1;
+
+/// What a run is told from.
+pub struct ElasticParts<'a> {
+    /// As it was given.
+    pub case: &'a ElasticCase,
+    /// The structure and its finite elements.
+    pub assembled: &'a Assembled,
+    /// The part of the record that is used, scaled.
+    pub record: &'a Record,
+    /// Both models' answers.
+    pub answer: &'a ElasticAnswer,
+}
+
+/// The structure in a few words.
+pub fn title(structure: &ElasticStructure) -> String {
+    let m = |x: f64| format!("{} m", significant(x, 4));
+    match structure {
+        ElasticStructure::Pier(pier) => format!("pier {} high on a footing of {}", m(pier.height_m), m(pier.width_m)),
+        ElasticStructure::AFrame(frame) => {
+            format!("A-frame with elastic legs {} high, feet {} apart", m(frame.height_m), m(frame.width_m))
+        }
+        ElasticStructure::Frame(frame) => {
+            format!("frame {} high, columns {} apart", m(frame.height_m), m(frame.span_m))
+        }
+    }
+}
+
+/// Height of the highest point (m).
+fn top_height(structure: &ElasticStructure) -> f64 {
+    match structure {
+        ElasticStructure::Pier(pier) => pier.height_m,
+        ElasticStructure::AFrame(frame) => frame.height_m,
+        ElasticStructure::Frame(frame) => frame.height_m,
+    }
+}
+
+impl ElasticParts<'_> {
+    /// Largest displacements of both models, up to where the shorter history ends.
+    pub fn peaks(&self) -> PeakPair {
+        let ElasticHistories { reference, fem, sways, .. } = &self.answer.histories;
+        let n = reference.history.q.len().min(fem.q.len());
+        let frame = &self.assembled.frame;
+        let of = |q: &dyn Fn(usize) -> Vec<f64>, k: usize, impacts: usize| {
+            let mut peaks = Peaks { impacts, ..Peaks::default() };
+            let mut bending: f64 = 0.0;
+            for i in 0..n {
+                let q = q(i);
+                for (watched, pair) in self.assembled.watched.iter().zip(sways) {
+                    let Sway { rotation, drift } = &pair[k];
+                    let [x, ..] = frame.displacement(watched.top, &q);
+                    peaks.top_displacement_m = peaks.top_displacement_m.max(x.abs());
+                    // across the base's axis, which has turned
+                    let across = drift[i] * rotation[i].cos();
+                    peaks.rocking_m = peaks.rocking_m.max((x - across).abs());
+                    bending = bending.max(drift[i].abs());
+                }
+                peaks.uplift_m = peaks.uplift_m.max(uplift(frame, &q));
+            }
+            let drift_ratio = peaks.top_displacement_m / top_height(&self.assembled.structure);
+            Peaks { bending_m: Some(bending), drift_ratio, ..peaks }
+        };
+        let landings = reference.history.landings().map(|event| event.time);
+        let touches = fem.contacts.iter().filter(|contact| contact.touches).map(|c| c.time);
+        let rest = SAME_IMPACT / self.assembled.structure.body().p_squared().sqrt();
+        PeakPair {
+            reference: of(&|i| reference.history.q[i].as_slice().to_vec(), 0, impacts(landings, rest)),
+            springs: of(&|i| fem.q[i].clone(), 1, impacts(touches, rest)),
+            reference_ends_s: None,
+            with_members: None,
+        }
+    }
+
+    /// Friction coefficient that the structure on rigid ground needs: the ground's forces on all corners together.
+    fn friction_needed(&self) -> f64 {
+        let weight = self.assembled.frame.total_mass() * crate::scalar::GRAVITY;
+        let needed = |corners: &Vec<[f64; 2]>| {
+            let (h, n) = corners.iter().fold((0.0, 0.0), |(h, n), force| (h + force[0], n + force[1]));
+            if n > LEAST_PRESS * weight { (h / n).abs() } else { 0.0 }
+        };
+        self.answer.histories.reference.history.forces.iter().map(needed).fold(0.0, f64::max)
+    }
+
+    /// All findings.
+    pub fn findings(&self, parameters: &ElasticParameters) -> Vec<Finding> {
+        let mut all = Vec::new();
+        if let Some(on) = &parameters.on_record {
+            all.extend(self.what_it_does(on));
+            all.extend(foretold(on));
+            let alpha = self.assembled.structure.body().alpha();
+            all.extend(on.near.iter().map(|near| nearby(near, alpha)));
+        }
+        all.extend(springs_findings(parameters));
+        all.extend(parameters.design_forces.iter().flat_map(|forces| forces.withheld()));
+        all
+    }
+
+    fn what_it_does(&self, on: &OnRecord) -> Vec<Finding> {
+        let history = &self.answer.histories.reference.history;
+        let fem = self.answer.histories.fem.outcome;
+        let mut all = Vec::new();
+        let fell = |outcome: HistoryOutcome| match outcome {
+            HistoryOutcome::Overturned { time } => Some(time),
+            _ => None,
+        };
+        let reference_fell = match history.outcome {
+            ReferenceOutcome::Overturned { time } => Some(time),
+            _ => None,
+        };
+        all.push(match (fell(fem), reference_fell) {
+            (Some(time_s), reference_s) => Finding::Overturns { time_s, reference_s },
+            (None, Some(time_s)) => Finding::Overturns { time_s, reference_s: Some(time_s) },
+            (None, None) if !history.lifts() => Finding::NeverLifts {
+                pga_g: self.record.pga_g(),
+                uplift_g: self.assembled.structure.body().alpha().tan(),
+            },
+            _ => Finding::Stands { share_of_overturning: on.peak_ratio_fem, over_s: on.compared_s },
+        });
+        if fell(fem).is_some() != reference_fell.is_some() {
+            let words =
+                |time: Option<f64>| time.map_or("stands".into(), |time| format!("overturns at t = {time:.2} s"));
+            all.push(Finding::ModelsDisagree { reference: words(reference_fell), springs: words(fell(fem)) });
+        }
+        if let ReferenceOutcome::Stopped { time, .. } = history.outcome {
+            all.push(Finding::HistoryEndsEarly { model: Model::Reference, time_s: time, ending: Ending::Stopped });
+        }
+        let (time_s, ending) = match fem {
+            HistoryOutcome::Stopped { time } => (time, Ending::Stopped),
+            HistoryOutcome::WorkBound { time } => (time, Ending::WorkBound),
+            HistoryOutcome::Unstable { time } => (time, Ending::Unstable),
+            HistoryOutcome::Completed | HistoryOutcome::Overturned { .. } => return all,
+        };
+        all.push(Finding::HistoryEndsEarly { model: Model::Springs, time_s, ending });
+        all
+    }
+
+    fn assumed(&self) -> Vec<Assumed> {
+        let mut all = Vec::new();
+        if self.record.vertical.is_none() {
+            all.push(Assumed { what: "no vertical motion".into(), key: "vertical".into() });
+        }
+        all
+    }
+
+    /// All that is said of it; `parameters` are those filed.
+    pub fn said(&self, parameters: ElasticParameters) -> Run {
+        let mut run = alone(parameters);
+        run.taken.record = Some(self.case.excitation.line());
+        run.taken.assumed = self.assumed();
+        run.friction_needed = Some(self.friction_needed());
+        run.sap2000 = self.assembled.members == Members::default() && self.record.vertical.is_none();
+        run.sections.extend(self.comparison(&run));
+        run
+    }
+
+    fn comparison(&self, run: &Run) -> Option<Section> {
+        let Filed::Elastic(parameters) = &run.parameters else { return None };
+        let on = parameters.on_record?;
+        let number = |x: Option<f64>| x.map_or("-".to_string(), |x| significant(x, 2));
+        let rows = [
+            ("NRMSE of the rotation", number(on.nrmse_rotation)),
+            ("NRMSE of the drift", number(on.nrmse_drift)),
+            ("landings on rigid ground", on.landings_reference.to_string()),
+            ("touches on springs", on.touches_fem.to_string()),
+            ("energy residual", format!("{:.1e}", on.energy_residual)),
+        ];
+        let rows = rows.map(|(name, value)| vec![name.to_string(), value]);
+        let over = if on.whole { "all of it" } else { "where it can be compared" };
+        Some(Section {
+            id: "comparison",
+            title: format!("The first {} s of the record: {over}", significant(on.compared_s, 4)),
+            table: Some(Table::new(["on springs, beside rigid ground", ""]).with(rows)),
+            ..Section::default()
+        })
+    }
+}
+
+/// Impacts among touches of corners (s): one that follows the last within `rest` (s) belongs to the same.
+fn impacts(touches: impl Iterator<Item = f64>, rest: f64) -> usize {
+    let (mut last, mut count) = (f64::NEG_INFINITY, 0);
+    for time in touches {
+        count += usize::from(time - last > rest);
+        last = time;
+    }
+    count
+}
+
+/// Height of the highest corner above the ground (m).
+fn uplift(frame: &Frame, q: &[f64]) -> f64 {
+    frame.places().iter().map(|place| place.reach(q).place[1]).fold(0.0, f64::max)
+}
+
+fn foretold(on: &OnRecord) -> Option<Finding> {
+    let (foretold, softer_hz) = (on.foretold_s?, on.softer_omega_n_hz);
+    Some(match on.slides_on_s {
+        Some(time_s) => Finding::SlidesOn { time_s, softer_hz },
+        None => Finding::ForetoldUpTo { time_s: foretold, softer_hz },
+    })
+}
+
+fn nearby(near: &Ensemble, alpha: f64) -> Finding {
+    let ratio = |pair: [Option<f64>; 2]| pair.map(|x| x.map(|x| x / alpha));
+    Finding::NearMotions {
+        motions: near.motions,
+        change: near.change,
+        median_ratio: ratio(near.rotation_rad.median),
+        p90_ratio: ratio(near.rotation_rad.p90),
+        overturned: near.overturned,
+    }
+}
+
+fn springs_findings(parameters: &ElasticParameters) -> Option<Finding> {
+    let a = parameters.assessment.as_ref().filter(|a| !a.reached)?;
+    Some(match a.measured.nothing() {
+        true => Finding::AccuracyNotMeasured,
+        false => Finding::AccuracyMissed { asked: a.accuracy, capped: false },
+    })
+}
+
+fn accuracy(a: &ElasticAssessment) -> AccuracyReport {
+    let m = &a.measured;
+    let on = |on: &str, errors: Option<ElasticErrors>| {
+        let e = errors?;
+        Some(AccuracyOn {
+            on: if e.count == 1 { on.to_string() } else { format!("{} {on} (median)", e.count) },
+            count: e.count,
+            history: Some(e.median[0]).filter(|x| x.is_finite()),
+            peaks: None,
+            history_allowed: Some(a.accuracy),
+            peaks_allowed: None,
+        })
+    };
+    AccuracyReport {
+        history_asked: Some(a.accuracy),
+        peaks_asked: None,
+        reached: a.reached,
+        measured: [on("this record", m.record), on("synthetic motions", m.motions), on("releases", m.releases)]
+            .into_iter()
+            .flatten()
+            .collect(),
+    }
+}
+
+/// Springs without a record.
+pub fn alone(parameters: ElasticParameters) -> Run {
+    let first = parameters.springs.first().copied();
+    let same = parameters
+        .springs
+        .iter()
+        .all(|row| first.is_some_and(|first| (row.vertical, row.horizontal) == (first.vertical, first.horizontal)));
+    let rows = if same { &parameters.springs[..parameters.springs.len().min(1)] } else { &parameters.springs[..] };
+    let unit = |name: String, row: &crate::parameters::elastic::UnitRow| Unit {
+        name,
+        k1_n_per_m: row.k1_n_per_m,
+        k2_n_per_m: row.k2_n_per_m,
+        m2_kg: row.m2_kg,
+        c_ns_per_m: row.c_ns_per_m,
+    };
+    let springs = rows.iter().enumerate().flat_map(|(i, row)| {
+        let name = |way: &str| match same {
+            true => way.to_string(),
+            false => format!("{way}, corner {} at {} m", i + 1, significant(row.x_m, 4)),
+        };
+        [unit(name("vertical"), &row.vertical), unit(name("horizontal"), &row.horizontal)]
+    });
+    let findings = match parameters.findings.is_empty() {
+        true => filed(springs_findings(&parameters)),
+        false => parameters.findings.clone(),
+    };
+    Run {
+        taken: taken(&parameters),
+        reference: "rigid ground",
+        peaks: parameters.peaks,
+        friction_needed: None,
+        design_forces: parameters.design_forces,
+        springs_at: "each corner",
+        springs: springs.collect(),
+        accuracy: parameters.assessment.as_ref().map(accuracy),
+        findings,
+        fixed_steps: None,
+        sap2000: false,
+        sections: Vec::new(),
+        parameters: Filed::Elastic(Box::new(parameters)),
+    }
+}
+
+fn taken(parameters: &ElasticParameters) -> Taken {
+    let structure = &parameters.structure;
+    let body = structure.body();
+    let given = serde_json::to_value(structure).unwrap_or_default();
+    let mut facts: Vec<(String, String)> = given
+        .as_object()
+        .into_iter()
+        .flatten()
+        .filter(|(key, value)| *key != "kind" && !value.is_null())
+        .map(|(key, value)| (key.clone(), value.as_f64().map_or(value.to_string(), |x| significant(x, 4))))
+        .collect();
+    let mut fact = |name: &str, value: String| facts.push((name.to_string(), value));
+    if let Some(damper) = parameters.damper {
+        fact("damper at each corner", format!("{} N s/m", significant(damper.c, 4)));
+    }
+    if let Some(Tendon { stiffness, pretension }) = parameters.tendon {
+        fact("tendon", format!("{} N/m, stressed to {}", significant(stiffness, 4), quantity(pretension, "N")));
+    }
+    fact("slenderness alpha of the rigid body", format!("{} rad", significant(body.alpha(), 4)));
+    fact("frequency p of the rigid body", format!("{} 1/s", significant(body.p_squared().sqrt(), 4)));
+    fact("restitution e of the rigid body, equation 2", significant(body.restitution(), 4));
+    fact("frequency fixed to the ground", format!("{} Hz", significant(structure.frequency_hz(), 4)));
+    fact("its weight shortens the columns by", format!("{} of their length", significant(structure.shortening(), 2)));
+    fact("lifts as a rigid body at g tan alpha", format!("{} g", significant(body.alpha().tan(), 4)));
+    let mass = quantity(structure.mass(), "kg");
+    let text = format!("{}, {mass} in all, {} Hz if fixed", title(structure), significant(structure.frequency_hz(), 3));
+    Taken { structure: text, facts, record: None, assumed: Vec::new() }
+}
+
+/// Largest magnitude of a series of every base.
+pub fn largest(sways: &[[Sway; 2]], k: usize, of: fn(&Sway) -> &[f64]) -> f64 {
+    sways.iter().map(|pair| peak(of(&pair[k])).abs()).fold(0.0, f64::max)
+}

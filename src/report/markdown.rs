@@ -1,0 +1,133 @@
+//! A run as Markdown: parameters.md, and what `--verbose` prints.
+
+use super::{Run, Section, Table, peak_table, sentence};
+use crate::{
+    message::{percent, quantity, significant},
+    results::{DesignForce, ForceName},
+};
+
+/// The whole of it.
+pub fn markdown(run: &Run) -> String {
+    let mut out = format!("# Ground springs: {}\n\n{}\n\n", run.taken.structure, run.verdict());
+    if let Some(record) = &run.taken.record {
+        out.push_str(&format!("- {record}\n"));
+    }
+    for assumed in &run.taken.assumed {
+        out.push_str(&format!("- assumed: {} ({})\n", assumed.what, assumed.key));
+    }
+    if let Some(accuracy) = &run.accuracy {
+        out.push_str(&format!("- accuracy: {}\n", accuracy.sentence()));
+    }
+    for finding in run.remarks() {
+        out.push_str(&format!("- {}\n", finding.line()));
+    }
+    for part in sections(run) {
+        out.push('\n');
+        out.push_str(&section(&part));
+    }
+    out
+}
+
+/// What tables there are, in order: peaks, design forces, springs, accuracy, then what this kind of structure has.
+pub fn sections(run: &Run) -> Vec<Section> {
+    let mut all = vec![Section {
+        id: "case",
+        title: "The case".into(),
+        table: Some(
+            Table::new(["", ""]).with(run.taken.facts.iter().map(|(name, value)| vec![name.clone(), value.clone()])),
+        ),
+        ..Section::default()
+    }];
+    if let Some(table) = peak_table(run) {
+        all.push(Section {
+            id: "peaks",
+            title: "Largest displacements".into(),
+            table: Some(table),
+            ..Section::default()
+        });
+    }
+    if let Some(section) = forces(run) {
+        all.push(section);
+    }
+    all.push(Section {
+        id: "springs",
+        title: format!("The springs at {}", run.springs_at),
+        text: vec![
+            "A numerical contact stiffness, not that of soil. Gap spring k1 between structure and absorber m2, which presses only; k2 \
+             beside the dashpot c between absorber and ground. m2 is a numerical mass, not one to be built."
+                .into(),
+        ],
+        table: Some(springs(run)),
+        ..Section::default()
+    });
+    if let Some(accuracy) = &run.accuracy {
+        all.push(Section {
+            id: "accuracy",
+            title: "Accuracy, and on what".into(),
+            text: vec![
+                format!("{} Measured in this run.", sentence(&accuracy.sentence())),
+                "NRMSE is the root mean square of the difference from the reference over the root mean square of the reference; only \
+                 motions count that can be followed one to one."
+                    .into(),
+            ],
+            table: Some(accuracy.table()),
+            ..Section::default()
+        });
+    }
+    all.extend(run.sections.iter().cloned());
+    all
+}
+
+fn section(part: &Section) -> String {
+    let mut out = format!("## {}\n", part.title);
+    let paragraphs =
+        |out: &mut String, all: &[String]| all.iter().for_each(|text| out.push_str(&format!("\n{text}\n")));
+    paragraphs(&mut out, &part.text);
+    if let Some(table) = &part.table {
+        out.push('\n');
+        out.push_str(&table.markdown());
+    }
+    paragraphs(&mut out, &part.notes);
+    if !part.commands.is_empty() {
+        out.push_str(&format!("\n```sh\n{}\n```\n", part.commands.join("\n")));
+    }
+    out
+}
+
+fn forces(run: &Run) -> Option<Section> {
+    let forces = run.design_forces.as_ref()?;
+    let cell = |x: Option<f64>, name: ForceName| x.map_or("-".into(), |x| quantity(x, name.unit()));
+    let row = |(name, force): (ForceName, DesignForce)| {
+        vec![
+            name.words().to_string(),
+            force.value.map_or("withheld".into(), |x| quantity(x, name.unit())),
+            format!("{} s", significant(force.time_s, 4)),
+            force.change.map_or("not measured".into(), percent),
+            cell(force.rigid, name),
+            cell(force.fixed, name),
+        ]
+    };
+    let head = ["force", "largest", "at", "change with springs or mesh", "rigid body (Housner)", "fixed to the ground"];
+    let below = match forces.below_hz {
+        Some(hz) => format!("Largest of what is slower than {} Hz.", significant(hz, 3)),
+        None => "Largest between impacts: an impact's impulse is not among them.".into(),
+    };
+    Some(Section {
+        id: "forces",
+        title: "Forces to design with".into(),
+        text: vec![format!(
+            "{below} A force is given if it changes by less than 5 % with the springs' stiffness and the mesh, as measured in this run. \
+             Axial force is positive in tension."
+        )],
+        table: Some(Table::new(head).with(forces.all().map(row))),
+        ..Section::default()
+    })
+}
+
+fn springs(run: &Run) -> Table {
+    let row = |unit: &super::Unit| {
+        let cells = [unit.k1_n_per_m, unit.k2_n_per_m, unit.m2_kg, unit.c_ns_per_m].map(|x| significant(x, 5));
+        [vec![unit.name.clone()], cells.into()].concat()
+    };
+    Table::new(["unit", "k1 [N/m]", "k2 [N/m]", "m2 [kg]", "c [N s/m]"]).with(run.springs.iter().map(row))
+}

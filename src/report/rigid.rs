@@ -1,0 +1,350 @@
+//! What is said of a rigid body's run: Housner's body beside the finite elements on their springs.
+
+pub mod tables;
+
+use rayon::join;
+
+use super::{
+    AccuracyOn, AccuracyReport, Assumed, Filed, Run, Section, Taken, Unit, filed,
+    reference::{self, HousnerReport},
+};
+use crate::{
+    answers::{Both, WithMembers, both, with_members},
+    case::{Case, Objective},
+    compare::Match,
+    export::equal_steps,
+    front::FrontPoint,
+    members::Members,
+    message::{quantity, significant},
+    motion::Motion,
+    overturning::samples_until,
+    parameters::{PaperProcedure, Parameters},
+    results::{Finding, PeakPair, Peaks},
+    rigid_forces::design_forces,
+    spring::{Design, Springs},
+    structure::{Kind, Structure},
+    tuning::{
+        arr::table_1,
+        assessment::Assessment,
+        job::Job,
+        suite::LOOSER,
+        whole_model::{ATTAINABLE, LEANS, is_another},
+    },
+};
+
+/// A job done: springs, both models' histories, and what parameters.json holds.
+pub struct RigidRun {
+    /// As it was given.
+    pub case: Case,
+    /// Its springs.
+    pub job: Job,
+    /// Error over the stiffness.
+    pub front: Vec<FrontPoint>,
+    /// Both models' answers to the record.
+    pub both: Both,
+    /// Conditioning and regime.
+    pub report: HousnerReport,
+    /// What `parameters.json` holds, but for the record: where that is to be found depends on the folder.
+    pub parameters: Parameters,
+}
+
+impl RigidRun {
+    /// Simulate a job's springs, and those of the paper beside them; `friction` of the ground, for the warning of sliding.
+    pub fn new(case: Case, job: Job, front: Vec<FrontPoint>, friction: f64) -> Self {
+        let beside = |springs: &Springs<Design<f64>>| {
+            let other = Parameters::new(case.structure, springs);
+            let none = Members::default();
+            let matched = both(&job.body, case.restitution, &other.chains(), &none, &job.record).matched;
+            PaperProcedure { vertical: other.vertical, horizontal: other.horizontal, matched }
+        };
+        let paper = job.paper.as_ref().filter(|_| case.tuning.objective == Objective::Landing);
+        let recovered = table_1::of(&case.structure).filter(|_| job.paper.is_some());
+        let chains = Parameters::new(case.structure, &job.springs).chains();
+        let own = || {
+            let both = both(&job.body, case.restitution, &chains, &case.members, &job.record);
+            (both, Parameters::of(&case, &job))
+        };
+        let others = || (paper.map(|paper| beside(&paper.tuned.best.springs)), recovered.map(|r| beside(&r)));
+        let report = || HousnerReport::new(&job.body, case.restitution, &job.record, &job.rocking, friction);
+        let ((both, mut parameters), ((paper, recovered), report)) = join(own, || join(others, report));
+        parameters.matched = Some(both.matched);
+        parameters.match_with_members = both.with.as_ref().map(|with| with.matched);
+        (parameters.paper_procedure, parameters.table_1) = (paper, recovered);
+        parameters.conditioning = Some(report.conditioning.into());
+        parameters.verdict = Some(both.verdict(&job.body, job.record.dt, &report.conditioning));
+        let kind = case.structure.kind;
+        parameters.peaks = Some(peaks(kind, &job, &both));
+        let softer = softer(&case, &job, &both);
+        parameters.design_forces = Some(design_forces(kind, &job.body, &job.record, &both, softer.as_ref()));
+        let mut run = Self { case, job, front, both, report, parameters };
+        run.parameters.findings = filed(run.findings());
+        run
+    }
+
+    /// All that is said of it; `parameters` are those filed.
+    pub fn said(&self, parameters: Parameters) -> Run {
+        let mut sections = sections(&parameters);
+        sections.extend(self.sections());
+        let record = &self.job.record;
+        Run {
+            taken: Taken {
+                record: Some(self.case.excitation.line()),
+                assumed: self.assumed(),
+                ..taken(&self.case.structure, self.case.restitution)
+            },
+            friction_needed: Some(self.report.friction_needed()),
+            fixed_steps: Some(equal_steps(&parameters, record)),
+            sap2000: record.vertical.is_none() && parameters.members().is_none(),
+            sections,
+            ..alone(parameters)
+        }
+    }
+
+    fn assumed(&self) -> Vec<Assumed> {
+        let mut all = Vec::new();
+        if self.parameters.restitution.is_none() {
+            let e = significant(self.case.restitution, 4);
+            all.push(Assumed { what: format!("restitution {e} by equation 2"), key: "restitution_ratio".into() });
+        }
+        if self.job.record.vertical.is_none() {
+            all.push(Assumed { what: "no vertical motion".into(), key: "vertical".into() });
+        }
+        if self.case.members.friction.is_none() {
+            all.push(Assumed { what: "feet do not slide".into(), key: "[friction]".into() });
+        }
+        all
+    }
+
+    fn findings(&self) -> Vec<Finding> {
+        let parameters = &self.parameters;
+        let mut all = Vec::new();
+        let judged = parameters.assessment.is_some_and(|a| a.reached && a.measured.synthetic_median.is_some());
+        if let Some(verdict) = &parameters.verdict {
+            all.extend(reference::verdict(&self.case.structure, &self.job.record, verdict));
+            all.extend(reference::ill_conditioned(&self.report, verdict, judged));
+        }
+        all.extend(springs_findings(parameters));
+        all.extend(parameters.design_forces.iter().flat_map(|forces| forces.withheld()));
+        all.extend(self.report.findings());
+        all.extend(reference::histories(&self.both));
+        all.extend(self.both.with.as_ref().map(|_| Finding::MembersBeside));
+        all
+    }
+
+    fn sections(&self) -> Vec<Section> {
+        let mut all = Vec::new();
+        let mut columns = vec![("", &self.both.demands)];
+        columns.extend(self.both.with.as_ref().map(|with| ("with members, ", &with.demands)));
+        all.push(Section {
+            id: "elements",
+            title: "Forces of the finite elements".into(),
+            text: vec![
+                "Between landings: later than 0.1/p after the last touch-down. In landings they are forces of the springs and grow \
+                 with Omega_n: not to design with. Axial force is positive in tension; moments are those at the mass."
+                    .into(),
+            ],
+            table: Some(tables::finite_element_forces(&columns)),
+            ..Section::default()
+        });
+        if !self.front.is_empty() {
+            all.push(Section {
+                id: "stiffness",
+                title: "Error over the stiffness".into(),
+                text: vec![
+                    "Error of u against Omega_n, and what stiffness costs. Foot forces are those of the springs."
+                        .into(),
+                ],
+                table: Some(tables::stiffness(&self.front)),
+                ..Section::default()
+            });
+        }
+        all
+    }
+}
+
+/// Springs without a record.
+pub fn alone(parameters: Parameters) -> Run {
+    let units = [("vertical", &parameters.vertical), ("horizontal", &parameters.horizontal)];
+    let unit = |(name, row): (&str, &crate::spring::ChainRow)| Unit {
+        name: name.into(),
+        k1_n_per_m: row.k1_n_per_m,
+        k2_n_per_m: row.k2_n_per_m,
+        m2_kg: row.m2_kg,
+        c_ns_per_m: row.c_ns_per_m,
+    };
+    let findings = match parameters.findings.is_empty() {
+        true => filed(springs_findings(&parameters)),
+        false => parameters.findings.clone(),
+    };
+    let accuracy = parameters.assessment.as_ref().map(accuracy);
+    Run {
+        taken: taken(&parameters.structure, parameters.restitution()),
+        reference: "Housner",
+        peaks: parameters.peaks,
+        friction_needed: None,
+        design_forces: parameters.design_forces,
+        springs_at: "each foot",
+        springs: units.map(unit).into(),
+        accuracy,
+        findings,
+        fixed_steps: None,
+        sap2000: false,
+        sections: sections(&parameters),
+        parameters: Filed::Rigid(Box::new(parameters)),
+    }
+}
+
+/// The structure as it was understood.
+fn taken(structure: &Structure, restitution: f64) -> Taken {
+    let body = structure.body::<f64>();
+    let m = |x: f64| format!("{} m", significant(x, 4));
+    let mass = quantity(structure.mass_kg, "kg");
+    let (height, width) = (m(structure.height_m), m(structure.width_m));
+    let text = match structure.kind {
+        Kind::AFrame => format!("A-frame {height} high, feet {width} apart, {mass} at its apex"),
+        Kind::Block => format!("block {} high, {width} wide, {mass}", m(2.0 * structure.height_m)),
+    };
+    let facts = [
+        ("height h of the centre of mass", height),
+        ("distance 2b of the feet", width),
+        ("mass m", mass),
+        (
+            "rotational inertia about the centre of mass",
+            format!("{} kg m2", significant(structure.rotational_inertia_kgm2, 4)),
+        ),
+        ("slenderness alpha", format!("{} rad", significant(body.alpha(), 4))),
+        ("frequency p", format!("{} 1/s", significant(body.p_squared().sqrt(), 4))),
+        ("restitution e", significant(restitution, 4)),
+        ("lifts at g tan alpha", format!("{} g", significant(body.alpha().tan(), 4))),
+    ];
+    let facts = facts.into_iter().map(|(name, value)| (name.to_string(), value)).collect();
+    Taken { structure: text, facts, record: None, assumed: Vec::new() }
+}
+
+fn peaks(kind: Kind, job: &Job, both: &Both) -> PeakPair {
+    let firm = |firm: Option<usize>, all: usize| firm.unwrap_or(all);
+    let of = |matched: &Match, theta: &[f64], u: Option<&[f64]>, impacts: usize| {
+        let fell = [matched.overturned_housner_s, matched.overturned_fem_s].into_iter().flatten().reduce(f64::min);
+        let n = samples_until(fell, job.record.dt).min(theta.len());
+        Peaks::of_rigid(kind, &job.body, &theta[..n], u.map(|u| &u[..n]), impacts)
+    };
+    let springs =
+        |m: &Match, motion: &Motion| of(m, &motion.theta, Some(&motion.u), firm(m.impacts_fem_firm, m.impacts_fem));
+    let m = &both.matched;
+    PeakPair {
+        reference: of(m, &both.rocking.theta, None, firm(m.impacts_housner_firm, m.impacts_housner)),
+        reference_ends_s: both.rocking.left_ground(),
+        springs: springs(m, &both.fem.motion),
+        with_members: both.with.as_ref().map(|with| springs(&with.matched, &with.history.motion)),
+    }
+}
+
+/// The history with members on springs of a quarter of Omega_n: what tells whether its forces are the springs'.
+fn softer(case: &Case, job: &Job, both: &Both) -> Option<WithMembers> {
+    both.with.as_ref()?;
+    let quarter = |design: &Design<f64>| Design { omega_n_hz: design.omega_n_hz / 4.0, ..*design };
+    let springs = Springs { vertical: quarter(&job.springs.vertical), horizontal: quarter(&job.springs.horizontal) };
+    let (chains, e) = (springs.chains(case.structure.mass_kg), case.restitution);
+    Some(with_members(&job.body, e, &chains, &case.members, &job.record, (&both.rocking, &both.housner)))
+}
+
+/// What these springs cannot do.
+fn springs_findings(parameters: &Parameters) -> Vec<Finding> {
+    let mut all = Vec::new();
+    if let Some(a) = &parameters.assessment {
+        if !a.reached {
+            all.push(Finding::AccuracyMissed { asked: a.accuracy, capped: a.capped });
+        } else if a.measured.record.is_none()
+            && a.measured.synthetic_median.is_none()
+            && a.measured.earthquakes_mean.is_none()
+        {
+            all.push(Finding::AccuracyNotMeasured);
+        }
+    }
+    let e = parameters.restitution();
+    let body = parameters.structure.body::<f64>();
+    let share = e / body.restitution();
+    let (least, most) = ATTAINABLE;
+    if !(least..=most).contains(&share) {
+        all.push(Finding::RestitutionOutOfReach { asked: e, share, least, most });
+    }
+    let finished = parameters.landings.len();
+    if finished < LEANS.len() {
+        all.push(Finding::LandingsUnfinished { finished, all: LEANS.len() });
+    }
+    let errors = || parameters.landings.iter().map(|l| l.restitution_error);
+    if errors().any(|error| error.abs() > RESTITUTION_MISSED) {
+        let (low, high) = errors().fold((f64::INFINITY, f64::NEG_INFINITY), |(low, high), x| (low.min(x), high.max(x)));
+        let [lowest, highest] = [low, high].map(|error| e * (1.0 + error));
+        all.push(Finding::RestitutionMissed { asked: e, lowest, highest, of_equation_2: !is_another(&body, e) });
+    }
+    all
+}
+
+/// Error of restitution that is worth a warning.
+const RESTITUTION_MISSED: f64 = 0.005;
+
+fn accuracy(a: &Assessment) -> AccuracyReport {
+    let m = &a.measured;
+    let on = |on: String, count: usize, value: f64, looser: f64| AccuracyOn {
+        on,
+        count,
+        history: Some(value),
+        peaks: None,
+        history_allowed: Some(looser * a.accuracy),
+        peaks_allowed: None,
+    };
+    let record = m.record.map(|x| on("this record".into(), 1, x, 1.0));
+    let median =
+        m.synthetic_median.map(|s| on(format!("{} synthetic motions (median)", s.count), s.count, s.value, 1.0));
+    let p90 = m.synthetic_p90.map(|s| on("90 % of these".into(), s.count, s.value, LOOSER));
+    let mean = m.earthquakes_mean.map(|s| {
+        let on_what = format!("{} earthquake-like ones (mean)", s.count);
+        on(on_what, s.count, s.value, m.looser_on_earthquakes())
+    });
+    AccuracyReport {
+        history_asked: Some(a.accuracy),
+        peaks_asked: None,
+        reached: a.reached,
+        measured: [record, median, p90, mean].into_iter().flatten().collect(),
+    }
+}
+
+/// What the report has of springs, with or without a record.
+fn sections(p: &Parameters) -> Vec<Section> {
+    let mut all = vec![Section {
+        id: "table1",
+        title: "The springs as in the paper's Table 1".into(),
+        text: vec![
+            "For one foot; every foot has a vertical and a horizontal unit. In a unit the gap spring k1 stands between the foot and \
+             an absorber of mass m2, and the spring k2 and the dashpot c, side by side, between the absorber and the ground. mu = m2/m1 \
+             with the structure's mass m1."
+                .into(),
+            tables::ABSORBER.into(),
+        ],
+        table: Some(tables::springs(p)),
+        ..Section::default()
+    }];
+    if let Some(m) = &p.matched {
+        all.push(Section {
+            id: "comparison",
+            title: format!("The first {} s of the record", significant(m.duration_s, 4)),
+            table: Some(tables::comparison(p)),
+            ..Section::default()
+        });
+    }
+    if !p.landings.is_empty() {
+        let asked = significant(p.restitution(), 4);
+        all.push(Section {
+            id: "landings",
+            title: "Landings without a record".into(),
+            text: vec![format!(
+                "Released at rest from a share of alpha, landed once, up to the next impact. Restitution asked for: {asked}. Ringing is \
+                 a share of the weight."
+            )],
+            table: Some(tables::landings(p)),
+            ..Section::default()
+        });
+    }
+    all
+}

@@ -1,0 +1,149 @@
+//! What `tune run` prints: one screen, the answer first.
+
+use super::{Run, Table, peak_table, sentence};
+use crate::{
+    message::{quantity, shortened, significant},
+    results::{DesignForce, DesignForces, ForceName, Weight},
+};
+
+/// Lines of a screen, and letters of a line.
+pub const LINES: usize = 30;
+pub const WIDTH: usize = 100;
+
+/// Where results are, for the commands that the screen ends with.
+pub struct Written<'a> {
+    /// The folder.
+    pub folder: &'a str,
+    /// Whether report.html was written.
+    pub report: bool,
+    /// Whether decks were.
+    pub decks: bool,
+}
+
+/// The screen: at most [`LINES`] lines of at most [`WIDTH`] letters.
+pub fn screen(run: &Run, written: &Written) -> String {
+    let mut lines = Vec::new();
+    taken(run, &mut lines);
+    lines.push(String::new());
+    wrap(&mut lines, "", &run.verdict());
+    lines.extend(peak_table(run).iter().flat_map(Table::lines));
+    forces(run, &mut lines);
+    springs(run, &mut lines);
+    if let Some(accuracy) = &run.accuracy {
+        wrap(&mut lines, "accuracy  ", &accuracy.sentence());
+    }
+    next(run, written, &mut lines);
+    warnings(run, written, &mut lines);
+    lines.truncate(LINES);
+    lines.join("\n") + "\n"
+}
+
+/// Text behind a name, its further lines below the text; words that do not fit a line are shortened in the middle.
+fn wrap(lines: &mut Vec<String>, name: &str, text: &str) {
+    let indent = name.chars().count();
+    let mut line = name.to_string();
+    let mut empty = true;
+    for word in text.split(' ') {
+        let word = shortened(word, WIDTH - indent);
+        let room = line.chars().count() + usize::from(!empty) + word.chars().count() <= WIDTH;
+        if !room {
+            lines.push(std::mem::replace(&mut line, " ".repeat(indent)));
+            empty = true;
+        }
+        if !empty {
+            line.push(' ');
+        }
+        line.push_str(&word);
+        empty = false;
+    }
+    lines.push(line);
+}
+
+fn taken(run: &Run, lines: &mut Vec<String>) {
+    let fact = |name: &str| run.taken.facts.iter().find(|(fact, _)| fact.starts_with(name)).map(|(_, value)| value);
+    let lifts = fact("lifts").map_or(String::new(), |value| format!("; lifts at {value}"));
+    wrap(lines, "", &format!("{}{lifts}", run.taken.structure));
+    if let Some(record) = &run.taken.record {
+        wrap(lines, "", record);
+    }
+    if !run.taken.assumed.is_empty() {
+        let all: Vec<String> = run.taken.assumed.iter().map(|a| format!("{} ({})", a.what, a.key)).collect();
+        wrap(lines, "assumed: ", &all.join("; "));
+    }
+}
+
+fn forces(run: &Run, lines: &mut Vec<String>) {
+    let Some(forces) = &run.design_forces else { return };
+    let below = forces.below_hz.map_or(String::new(), |hz| format!(" (below {} Hz)", significant(hz, 3)));
+    wrap(lines, &format!("design forces{below}  "), &force_words(forces));
+}
+
+/// The forces in one line; those withheld are named.
+pub fn force_words(forces: &DesignForces) -> String {
+    let cell = |(name, force): (ForceName, DesignForce)| match force.value {
+        Some(value) => format!("{} {}", name.words(), quantity(value.abs(), name.unit())),
+        None => format!("{} withheld", name.words()),
+    };
+    let all: Vec<String> = forces.all().map(cell).collect();
+    all.join("; ")
+}
+
+fn springs(run: &Run, lines: &mut Vec<String>) {
+    const SHOWN: usize = 2;
+    let of = format!("springs at {}", run.springs_at);
+    let mut table = Table::new([of.as_str(), "k1 [N/m]", "k2 [N/m]", "m2 [kg]", "c [N s/m]"]);
+    for unit in run.springs.iter().take(SHOWN) {
+        let cells = [unit.k1_n_per_m, unit.k2_n_per_m, unit.m2_kg, unit.c_ns_per_m].map(|x| significant(x, 4));
+        table.rows.push([vec![format!("  {}", unit.name)], cells.into()].concat());
+    }
+    let mut all = table.lines();
+    let note = match run.springs.len() {
+        n if n > SHOWN => format!("  numerical contact stiffness, not soil; {} more units: parameters.json", n - SHOWN),
+        _ => "  numerical contact stiffness, not soil".to_string(),
+    };
+    if let Some(head) = all.first_mut() {
+        head.push_str("   numerical contact stiffness, not soil");
+        if head.chars().count() > WIDTH || run.springs.len() > SHOWN {
+            *head = head.replace("   numerical contact stiffness, not soil", "");
+            all.push(note);
+        }
+    }
+    lines.extend(all);
+}
+
+fn next(run: &Run, written: &Written, lines: &mut Vec<String>) {
+    let folder = written.folder.trim_end_matches('/');
+    let file = |name: &str| shortened(&format!("{folder}/{name}"), 58);
+    if written.decks {
+        wrap(lines, "OpenSees  ", &format!("python3 {}  (steps follow touches)", file("decks/model_openseespy.py")));
+        wrap(lines, "check it  ", &format!("tune verify --parameters {}", file("parameters.json")));
+    }
+    wrap(lines, "SAP2000   ", "not these springs: programs with one fixed time step need others; none are given yet");
+    if written.report {
+        wrap(lines, "report    ", &file("report.html"));
+    }
+}
+
+fn warnings(run: &Run, written: &Written, lines: &mut Vec<String>) {
+    let all: Vec<_> = run.remarks().filter(|finding| finding.weight >= Weight::Warning).collect();
+    let (mut told, room) = (0, LINES.saturating_sub(lines.len()));
+    let mut printed: Vec<String> = Vec::new();
+    for finding in &all {
+        let mut one = Vec::new();
+        let remedy = finding.remedy.as_ref().map_or(String::new(), |remedy| format!(" {}", sentence(remedy)));
+        wrap(&mut one, "warning   ", &format!("{}{remedy}", sentence(&finding.message)));
+        // the last line is kept for those that do not fit
+        let rest = usize::from(told + 1 < all.len());
+        if printed.len() + one.len() + rest > room {
+            break;
+        }
+        printed.extend(one);
+        told += 1;
+    }
+    if told < all.len() && printed.len() < room {
+        let place = if written.report { "report.html" } else { "parameters.json" };
+        let some = if told == 0 { "warnings" } else { "more" };
+        printed.push(format!("warning   and {} {some}: {place}", all.len() - told));
+    }
+    lines.extend(printed);
+}

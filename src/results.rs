@@ -1,0 +1,9 @@
+//! What a run found, as data: peaks, design forces, findings. Words for them are in `findings` alone; `report` lays them out.
+
+pub mod findings;
+pub mod forces;
+pub mod peaks;
+
+pub use findings::{Ending, FiledFinding, Finding, ForceName, Model, Weight};
+pub use forces::{DesignForce, DesignForces};
+pub use peaks::{PeakPair, Peaks};

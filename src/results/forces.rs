@@ -1,0 +1,110 @@
+//! Forces to design with: those that do not change with the springs or the mesh, measured in the run that gives them.
+
+use serde::{Deserialize, Serialize};
+
+use super::{Finding, ForceName};
+
+/// A largest force, and whether it is the structure's.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+pub struct DesignForce {
+    /// Largest magnitude, with its sign: axial forces are positive in tension (N or N m). None where it does not hold.
+    pub value: Option<f64>,
+    /// When (s).
+    pub time_s: f64,
+    /// Whether it changes by less than 5 % with the springs, and with the mesh where there is one.
+    pub holds: bool,
+    /// The largest change that was measured, as a share; none where nothing could be measured.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub change: Option<f64>,
+    /// The same force of the structure fixed to the ground (N or N m).
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub fixed: Option<f64>,
+    /// Of the rigid body by Housner's equation (N or N m).
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub rigid: Option<f64>,
+}
+
+impl DesignForce {
+    /// A force that was measured to change by this share.
+    pub fn measured(value: f64, time_s: f64, change: Option<f64>) -> Self {
+        let holds = change.is_some_and(|change| change < MOST_CHANGE);
+        Self { value: Some(value).filter(|_| holds), time_s, holds, change, fixed: None, rigid: None }
+    }
+}
+
+/// Largest change of a force that holds.
+pub const MOST_CHANGE: f64 = 0.05;
+
+/// The forces; what does not apply to a structure is absent.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]
+pub struct DesignForces {
+    /// Frequency below which peaks are given (Hz); none where forces are those between landings.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub below_hz: Option<f64>,
+    /// Shear at the foot of the column, the leg or the rigid body.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub column_shear_n: Option<DesignForce>,
+    /// Moment at the foot of the column, of a rigid body about the middle of its base.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub column_base_moment_nm: Option<DesignForce>,
+    /// Axial force of the column, the leg or the rigid body, tension positive.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub axial_n: Option<DesignForce>,
+    /// Moment of a leg at the apex of a rigid A-frame.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub apex_moment_nm: Option<DesignForce>,
+    /// Shear at the sole, footing included.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub sole_shear_n: Option<DesignForce>,
+}
+
+impl DesignForces {
+    /// Every force that applies, with its name.
+    pub fn all(&self) -> impl Iterator<Item = (ForceName, DesignForce)> {
+        [
+            (ForceName::ColumnShear, self.column_shear_n),
+            (ForceName::ColumnBaseMoment, self.column_base_moment_nm),
+            (ForceName::Axial, self.axial_n),
+            (ForceName::ApexMoment, self.apex_moment_nm),
+            (ForceName::SoleShear, self.sole_shear_n),
+        ]
+        .into_iter()
+        .filter_map(|(name, force)| Some((name, force?)))
+    }
+
+    /// A finding for every force that does not hold.
+    pub fn withheld(&self) -> impl Iterator<Item = Finding> {
+        let those = self.all().filter(|(_, force)| !force.holds);
+        those.map(|(name, force)| Finding::ForceWithheld { force: name, change: force.change })
+    }
+}
+
+impl ForceName {
+    /// Its unit.
+    pub fn unit(self) -> &'static str {
+        match self {
+            Self::ColumnBaseMoment | Self::ApexMoment => "N m",
+            _ => "N",
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_force_that_changes_by_a_twentieth_is_withheld_and_said_so() {
+        let holds = DesignForce::measured(1e6, 2.0, Some(0.049));
+        let changes = DesignForce::measured(1e6, 2.0, Some(0.051));
+        assert_eq!((holds.value, holds.holds), (Some(1e6), true));
+        assert_eq!((changes.value, changes.holds), (None, false));
+        assert_eq!(DesignForce::measured(1e6, 2.0, None).value, None);
+        let all = DesignForces { column_shear_n: Some(holds), axial_n: Some(changes), ..DesignForces::default() };
+        let withheld: Vec<_> = all.withheld().collect();
+        assert_eq!(withheld, [Finding::ForceWithheld { force: ForceName::Axial, change: Some(0.051) }]);
+        let json = serde_json::to_value(all).unwrap();
+        assert_eq!(json["column_shear_n"]["value"], 1e6);
+        assert!(json["axial_n"]["value"].is_null() && json.get("sole_shear_n").is_none());
+    }
+}
