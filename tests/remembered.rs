@@ -108,11 +108,7 @@ fn a_body_that_overturns_is_compared_up_to_there() {
     // from rest to alpha: h sin(alpha) + b (1 - cos(alpha)) = 6.1 m is the most that counts
     assert!(found["peak_horizontal_housner_m"].as_f64().unwrap().abs() < 6.1, "{found}");
     assert!(found["nrmse_horizontal"].as_f64().unwrap() < 2.0, "{found}");
-    assert!(said.contains("verdict: Housner's body OVERTURNED at t = "), "{said}");
-    assert!(
-        said.contains(": compared up to t = ") && said.contains("regime: Housner's body overturns at t = "),
-        "{said}"
-    );
+    assert!(said.contains("the structure overturns at t = ") && said.contains("numbers count up to then"), "{said}");
     assert!(!said.contains("inf") && !said.contains("NaN"), "{said}");
 }
 
@@ -123,7 +119,7 @@ fn springs_are_made_without_a_record_and_are_those_that_a_record_too_weak_to_lif
     assert!(stderr(&run).contains("no record"), "{}", stderr(&run));
     let weak = ["run", "--scale", "0.1", "--quiet", "--no-figures", "--no-front", "--out", "weak"];
     let output = tune(dir.path(), &weak);
-    assert!(String::from_utf8_lossy(&output.stdout).contains("never lifted"), "{output:?}");
+    assert!(String::from_utf8_lossy(&output.stdout).contains("does not lift the structure"), "{output:?}");
     let read = |folder: &str| json(&fs::read(dir.path().join(folder).join("parameters.json")).unwrap());
     let (none, weak) = (read("none"), read("weak"));
     for key in ["vertical", "horizontal", "assessment", "landings"] {

@@ -234,13 +234,11 @@ fn simulate_tells_conditioning_and_regime_on_stderr() {
         String::from_utf8(output.stderr).unwrap()
     };
     let stderr = said("0.9");
-    assert!(stderr.contains("conditioning: a change of 1 % in width changes Housner's history by "), "{stderr}");
-    assert!(stderr.contains("regime: pure rocking holds"), "{stderr}");
-    assert!(stderr.contains("conditioning: changes of 0.1 / 1 % move it by "), "{stderr}");
+    assert!(!stderr.contains("slide"), "{stderr}");
     let used =
         "record IELC180 (embedded), scale 1, first 6 s of 39.94 s used: 601 samples of 0.01 s, PGA 0.3129 g at 2.";
     assert!(stderr.contains(used), "{stderr}");
-    assert!(stderr.contains("verdict: Housner's body rocked, peak theta/alpha 0."), "{stderr}");
+    assert!(stderr.contains("the structure rocks and stands: its largest rotation is "), "{stderr}");
     let stderr = said("0.05");
-    assert!(stderr.contains("regime: WARNING: sliding: a friction coefficient of 0."), "{stderr}");
+    assert!(stderr.contains("the feet would slide: friction of 0."), "{stderr}");
 }

@@ -23,6 +23,7 @@ use crate::{
         filed,
         markdown::markdown,
         page::page,
+        summary,
     },
     spring::{Chain, Springs},
     tuning::elastic::ElasticTuned,

@@ -233,6 +233,7 @@ fn springs_alone(o: &RunOptions, run: &Run) -> Result<(), CommandError> {
     write_file(&o.out.join("parameters.md"), markdown(run).as_bytes())?;
     report(&o.out, Output { figures: false, report: !o.no_report }, run, &[])?;
     folder.finish()?;
+    eprintln!("no record: tune simulate, verify and export take El Centro unless you give them one");
     o.print(run)
 }
 
@@ -285,3 +286,6 @@ pub(super) fn threads(jobs: Option<usize>) -> Result<(), CommandError> {
     }
     Ok(())
 }
+
+#[cfg(test)]
+mod tests;

@@ -8,6 +8,12 @@ fn block(height: f64, width: f64) -> Body<f64> {
     Body { mass: 3.0, half_width: width / 2.0, height: height / 2.0, inertia: 3.0 * r2 }
 }
 
+/// Whether nothing speaks against pure rocking.
+fn sound(regime: &Regime) -> bool {
+    let enough = regime.friction >= regime.friction_needed.value.max(regime.landing_friction);
+    enough && regime.free_flight.is_none() && regime.too_stocky.is_none()
+}
+
 /// F and N against m times the finite difference of the centre of mass's displacement, plus ground and gravity; on level ground, and
 /// with a vertical motion that is half the horizontal one, 0.5 s later.
 #[test]
@@ -56,7 +62,7 @@ fn at_rest_the_friction_needed_is_the_ground_acceleration_over_g() {
     let regime = check(&body, 0.01, (&accel, &[]), 1.0, &rocking, 0.5);
     assert!((regime.friction_needed.value - 0.9 / GRAVITY).abs() < 1e-16);
     assert_eq!(regime.friction_needed.time, 0.02);
-    assert!(regime.warnings().is_empty());
+    assert!(sound(&regime));
 }
 
 /// At the start of free rocking (no rate) the A-frame's force lies along its leg: |F|/N = tan(alpha - theta).
@@ -78,8 +84,9 @@ fn el_centro_on_the_papers_frame_rocks_without_warnings() {
     assert!((0.0999..0.11).contains(&regime.friction_needed.value), "{regime:?}");
     assert!((regime.landing_friction - 0.1).abs() < 1e-15);
     assert_eq!((regime.free_flight, regime.too_stocky), (None, None));
-    assert!(regime.warnings().is_empty());
-    assert_eq!(check(&body, record.dt, (&record.accel, &[]), 1.0, &rocking, 0.05).warnings().len(), 3);
+    assert!(sound(&regime));
+    let slippery = check(&body, record.dt, (&record.accel, &[]), 1.0, &rocking, 0.05);
+    assert!(slippery.friction_needed.value > 0.05 && slippery.landing_friction > 0.05 && slippery.too_stocky.is_some());
 }
 
 /// N = 0 where R theta'^2 = g for an upright A-frame leg: a start at that rate and beyond flies.
@@ -93,7 +100,7 @@ fn a_fast_body_leaves_the_ground_where_the_centripetal_force_exceeds_the_weight(
         let rocking = solve(&body, 0.01, &[0.0], &options);
         let regime = check(&body, 0.01, (&[0.0], &[]), 1.0, &rocking, 0.5);
         assert_eq!(regime.free_flight.is_some(), flies);
-        assert_eq!(regime.warnings().iter().filter(|line| line.contains("free flight")).count(), usize::from(flies));
+        assert_eq!(regime.free_flight.is_some(), flies);
     }
 }
 

@@ -15,10 +15,10 @@ use crate::{
     export::equal_steps,
     front::FrontPoint,
     members::Members,
-    message::{quantity, significant},
+    message::{percent, quantity, significant},
     motion::Motion,
     overturning::samples_until,
-    parameters::{PaperProcedure, Parameters},
+    parameters::{ConditioningRow, PaperProcedure, Parameters},
     results::{Finding, PeakPair, Peaks},
     rigid_forces::design_forces,
     spring::{Design, Springs},
@@ -310,6 +310,17 @@ fn accuracy(a: &Assessment) -> AccuracyReport {
     }
 }
 
+/// How far changes of the structure and the record move Housner's history.
+fn conditioning(row: &ConditioningRow) -> Option<String> {
+    let pair = |moved: Option<[f64; 2]>| moved.map(|moved| moved.map(percent).join(" and "));
+    Some(format!(
+        "Changes of 0.1 % and 1 % move Housner's history by {} (width), {} (scale of the record), {} (restitution), as NRMSE.",
+        pair(row.moved_by_width)?,
+        pair(row.moved_by_scale)?,
+        pair(row.moved_by_restitution)?
+    ))
+}
+
 /// What the report has of springs, with or without a record.
 fn sections(p: &Parameters) -> Vec<Section> {
     let mut all = vec![Section {
@@ -329,6 +340,7 @@ fn sections(p: &Parameters) -> Vec<Section> {
         all.push(Section {
             id: "comparison",
             title: format!("The first {} s of the record", significant(m.duration_s, 4)),
+            text: p.conditioning.iter().filter_map(conditioning).collect(),
             table: Some(tables::comparison(p)),
             ..Section::default()
         });

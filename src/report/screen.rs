@@ -32,7 +32,7 @@ pub fn screen(run: &Run, written: &Written) -> String {
     if let Some(accuracy) = &run.accuracy {
         wrap(&mut lines, "accuracy  ", &accuracy.sentence());
     }
-    next(run, written, &mut lines);
+    next(written, &mut lines);
     warnings(run, written, &mut lines);
     lines.truncate(LINES);
     lines.join("\n") + "\n"
@@ -111,7 +111,7 @@ fn springs(run: &Run, lines: &mut Vec<String>) {
     lines.extend(all);
 }
 
-fn next(run: &Run, written: &Written, lines: &mut Vec<String>) {
+fn next(written: &Written, lines: &mut Vec<String>) {
     let folder = written.folder.trim_end_matches('/');
     let file = |name: &str| shortened(&format!("{folder}/{name}"), 58);
     if written.decks {

@@ -34,14 +34,6 @@ fn el_centro_rocks_the_papers_frame_in_both_models() {
     assert!((found.housner.peak_ratio * 0.0996687 * 61.0 - 0.40118).abs() < 2e-3, "{found:?}");
     assert!((found.finite_elements.peak_ratio / found.housner.peak_ratio - 1.0).abs() < 0.01, "{found:?}");
     assert!(found.well_conditioned && found.agrees());
-    let lines = found.lines();
-    assert!(lines[0].starts_with("Housner's body rocked, peak theta/alpha 0.06"), "{lines:?}");
-    assert!(lines[1].starts_with("the body on its springs rocked, peak theta/alpha 0.06"), "{lines:?}");
-    assert!(
-        lines[2].starts_with("the motion is well conditioned: over 20.00 s the histories differ by 0.0"),
-        "{lines:?}"
-    );
-    assert_eq!(lines.len(), 3);
 }
 
 /// A steady push of 0.15 g: the body passes alpha at acosh(3)/p = 4.4 s (small angles).
@@ -56,7 +48,6 @@ fn a_steady_push_overturns_both_and_numbers_end_there() {
     }
     assert!(found.agrees() && (4.3..4.5).contains(&found.compared_s));
     assert!(found.nrmse_horizontal.is_some_and(|x| x < 0.05), "{found:?}");
-    assert!(found.lines()[0].starts_with("Housner's body OVERTURNED at t = 4."), "{:?}", found.lines());
 }
 
 #[test]
@@ -65,11 +56,10 @@ fn a_weak_record_lifts_neither_and_leaves_nothing_to_compare() {
     assert_eq!((found.housner.fate, found.housner.peak_ratio), (Fate::NeverLifted, 0.0));
     assert_eq!((found.finite_elements.fate, found.finite_elements.peak_ratio), (Fate::NeverLifted, 0.0));
     assert_eq!((found.nrmse_horizontal, found.agrees()), (None, true));
-    assert_eq!(found.lines(), ["Housner's body never lifted", "the body on its springs never lifted"]);
 }
 
 #[test]
-fn disagreement_and_ill_conditioning_are_said() {
+fn models_that_differ_disagree() {
     let answer = |fate| Answer { fate, overturned_s: None, left_ground_s: None, peak_ratio: 0.9 };
     let mut verdict = Verdict {
         housner: answer(Fate::Rocked),
@@ -80,10 +70,7 @@ fn disagreement_and_ill_conditioning_are_said() {
         nrmse_vertical: Some(0.3),
         compared_s: 3.45,
     };
-    let lines = verdict.lines();
-    assert_eq!(lines[1], "the body on its springs OVERTURNED at t = 3.46 s, peak theta/alpha 0.900 until then");
-    assert!(lines[2].starts_with("WARNING: the two models disagree"), "{lines:?}");
-    assert!(lines[3].contains("ILL-CONDITIONED"), "{lines:?}");
+    assert!(!verdict.agrees());
     verdict.finite_elements = answer(Fate::Failed);
     assert!(!verdict.agrees());
     let json = serde_json::to_string(&verdict).unwrap();
