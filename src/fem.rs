@@ -51,7 +51,7 @@ pub use control::{Control, HistoryOutcome, Work};
 pub use demands::{Demands, QUANTITIES};
 pub use energy::Energy;
 pub use history::{Account, Forces, History, Recorder};
-pub use landings::Landing;
+pub use landings::{Landing, MOMENT};
 pub use lanes::histories;
 pub use observer::{Change, Observer, View};
 

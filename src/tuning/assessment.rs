@@ -6,13 +6,13 @@ use super::{
     job::Job,
     landing::{corners::CornerDynamics, design::Geometry, plane::land, weight},
     omega,
-    suite::{Accuracy, JudgedOn, LOOSER},
+    suite::{Accuracy, JudgedOn, LOOSER, MeasuredErrors, PeakAccuracy},
     whole_model::is_another,
 };
 use crate::{
-    case::{Objective, Tuning},
+    case::{Asked, Objective, Tuning, Yardstick},
     compare::LEAST_LEAN,
-    motion::shown,
+    motion::{percent, shown},
     validate::PREDICTABLE,
 };
 
@@ -44,14 +44,20 @@ pub struct LimitRow {
 pub struct Assessment {
     /// What the springs follow from.
     pub objective: Objective,
-    /// NRMSE asked for.
+    /// What the error that was asked for is one of.
+    #[serde(default, skip_serializing_if = "Yardstick::is_histories")]
+    pub judged_by: Yardstick,
+    /// Error asked for: NRMSE of histories, or of peaks.
     pub accuracy: f64,
     /// Whether what was measured is within it.
     pub reached: bool,
     /// Whether a cap on Omega_n decided.
     pub capped: bool,
-    /// What was measured.
+    /// What was measured of histories.
     pub measured: Accuracy,
+    /// What was measured of peaks; none in older files.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub measured_peaks: Option<PeakAccuracy>,
     /// The landing in the stiff limit, where the springs follow from the geometry.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub landing: Option<LimitRow>,
@@ -60,20 +66,43 @@ pub struct Assessment {
 impl Assessment {
     /// Of a job's springs, tuned so for a body with this restitution.
     pub(crate) fn new(job: &Job, tuning: &Tuning, restitution: f64) -> Self {
-        let (objective, accuracy) = (tuning.objective, tuning.accuracy);
-        let measured = job.tuned.best.accuracy;
+        let (objective, asked) = (tuning.objective, tuning.asked());
+        let errors = job.tuned.best.errors;
         let by_landing = objective == Objective::Landing && !job.capped && !is_another(&job.body, restitution);
         let landing = by_landing.then(|| limit(job)).flatten();
-        Self { objective, accuracy, reached: measured.reaches(accuracy), capped: job.capped, measured, landing }
+        let MeasuredErrors { histories, peaks } = errors;
+        Self {
+            objective,
+            judged_by: asked.by,
+            accuracy: asked.error,
+            reached: errors.reaches(asked),
+            capped: job.capped,
+            measured: histories,
+            measured_peaks: Some(peaks),
+            landing,
+        }
+    }
+
+    /// What was asked for.
+    pub fn asked(&self) -> Asked {
+        Asked { by: self.judged_by, error: self.accuracy }
+    }
+
+    /// What was measured by the yardstick of what was asked for.
+    pub fn judged(&self) -> &Accuracy {
+        match (self.judged_by, &self.measured_peaks) {
+            (Yardstick::Peaks, Some(peaks)) => &peaks.largest,
+            _ => &self.measured,
+        }
     }
 
     /// That the accuracy was not reached, and what to do: to be said before anything else.
     pub fn warning(&self) -> Option<String> {
         let remedy =
             if self.capped { "raise or drop --max-hz" } else { "ask for less, or judge them by tune validate" };
-        let accuracy = self.accuracy;
+        let accuracy = self.asked_in_words();
         (!self.reached).then(|| {
-            format!("WARNING: the accuracy of {accuracy} was not reached; these are the best springs found within what was allowed: {remedy}")
+            format!("WARNING: the {accuracy} was not reached; these are the best springs found within what was allowed: {remedy}")
         })
     }
 
@@ -86,9 +115,13 @@ impl Assessment {
             on => on.join("; "),
         };
         let mut lines = vec![format!(
-            "accuracy: {} was asked for and {}; error measured (NRMSE of the displacement against Housner's): {measured}",
-            self.accuracy,
+            "accuracy: {} was asked for and {}; {}error measured (NRMSE of the displacement against Housner's): {measured}",
+            match self.judged_by {
+                Yardstick::Histories => self.accuracy.to_string(),
+                Yardstick::Peaks => format!("an error of peaks of {}", percent(self.accuracy)),
+            },
             if self.reached { "reached" } else { "NOT reached" },
+            self.peaks_in_words(),
         )];
         if let Some(l) = &self.landing {
             lines.push(format!(
@@ -101,6 +134,33 @@ impl Assessment {
         lines
     }
 
+    fn asked_in_words(&self) -> String {
+        match self.judged_by {
+            Yardstick::Histories => format!("accuracy of {}", self.accuracy),
+            Yardstick::Peaks => format!("accuracy of peaks of {}", percent(self.accuracy)),
+        }
+    }
+
+    /// The errors of peaks, with what is allowed if they were asked for.
+    fn peaks_in_words(&self) -> String {
+        let Some(PeakAccuracy { largest: m, .. }) = &self.measured_peaks else { return String::new() };
+        let allowed = |looser: f64| match self.judged_by {
+            Yardstick::Peaks => format!(" (allowed {})", percent(looser * self.accuracy)),
+            Yardstick::Histories => String::new(),
+        };
+        let record = m.record.map(|e| format!("{} on the record{}", percent(e), allowed(1.0)));
+        let quantile = |e: f64, of: &str, looser| format!("{} {of}{}", percent(e), allowed(looser));
+        let median = m.synthetic_median.map(|e| quantile(e.value, "in the median of synthetic motions", 1.0));
+        let several = m.synthetic_p90.filter(|e| e.count > 1);
+        let p90 = several.map(|e| quantile(e.value, "for 90 % of them", LOOSER));
+        let looser = m.looser_on_earthquakes();
+        let mean = m.earthquakes_mean.map(|e| quantile(e.value, "in the mean of earthquake-like ones", looser));
+        match [record, median, p90, mean].into_iter().flatten().collect::<Vec<_>>() {
+            all if all.is_empty() => String::new(),
+            all => format!("error of peaks (displacement, uplift, forces between landings): {}; ", all.join(", ")),
+        }
+    }
+
     /// What springs a rung softer would not hold: that of which the springs taken use most.
     fn decided_by(&self, l: &LimitRow) -> String {
         let aimed = omega::MARGIN * self.accuracy;
@@ -111,7 +171,7 @@ impl Assessment {
             omega::MARGIN
         );
         let on = |suite, name: &str| {
-            let share = self.measured.over_on(suite, aimed).unwrap_or(0.0);
+            let share = self.judged().over_on(suite, aimed).unwrap_or(0.0);
             (share, format!("whose error on {name} is within {} of what is allowed", omega::MARGIN))
         };
         let all = [
@@ -132,15 +192,19 @@ impl Assessment {
     /// Each error with the motions that it was measured on, and how much is allowed there. There are no statistics of one motion.
     fn measured_on(&self) -> Vec<String> {
         let m = &self.measured;
-        let (allowed, looser) = (shown(self.accuracy), shown(LOOSER * self.accuracy));
-        let on_earthquakes = shown(m.looser_on_earthquakes() * self.accuracy);
-        let record = m.record.map(|e| format!("{} on the record, u or v (allowed {allowed})", shown(e)));
+        let allowed = |looser: f64| match self.judged_by {
+            Yardstick::Histories => format!(" (allowed {})", shown(looser * self.accuracy)),
+            Yardstick::Peaks => String::new(),
+        };
+        let on_earthquakes = allowed(m.looser_on_earthquakes());
+        let (allowed, looser) = (allowed(1.0), allowed(LOOSER));
+        let record = m.record.map(|e| format!("{} on the record, u or v{allowed}", shown(e)));
         let synthetic = m.synthetic_median.zip(m.synthetic_p90).map(|(median, p90)| match median.count {
             1 => {
-                format!("{} on the one synthetic motion that can be foretold (allowed {allowed})", shown(median.value))
+                format!("{} on the one synthetic motion that can be foretold{allowed}", shown(median.value))
             }
             n => format!(
-                "{} in the median of {n} synthetic motions (allowed {allowed}), {} for 90 % of them (allowed {looser})",
+                "{} in the median of {n} synthetic motions{allowed}, {} for 90 % of them{looser}",
                 shown(median.value),
                 shown(p90.value)
             ),
@@ -150,7 +214,7 @@ impl Assessment {
                 format!("{} on the one earthquake-like motion of sensitivity below {PREDICTABLE}", shown(e.value))
             }
             (n, upper) => format!(
-                "{} in the geometric mean of {n} earthquake-like motions of sensitivity below {PREDICTABLE}{} (allowed {on_earthquakes}){}",
+                "{} in the geometric mean of {n} earthquake-like motions of sensitivity below {PREDICTABLE}{}{on_earthquakes}{}",
                 shown(e.value),
                 match m.earthquakes_scaled_down {
                     0 => String::new(),
@@ -203,8 +267,17 @@ mod tests {
             let measured = Accuracy { record: Some(record), ..Accuracy::default() };
             let landing = LimitRow { omega_n_over_p, ..landing };
             let objective = Objective::Landing;
-            Assessment { objective, accuracy: 2e-3, reached: true, capped: false, measured, landing: Some(landing) }
-                .decided_by(&landing)
+            Assessment {
+                objective,
+                judged_by: Yardstick::Histories,
+                accuracy: 2e-3,
+                reached: true,
+                capped: false,
+                measured,
+                measured_peaks: None,
+                landing: Some(landing),
+            }
+            .decided_by(&landing)
         };
         assert!(said(1.3e-3, 1e6).contains("on the record is within"));
         // landings of alpha 0.1 hold from an Omega_n/p of 1.7e5 on

@@ -4,6 +4,7 @@ use std::fmt::Write;
 
 use super::ElasticRun;
 use crate::{
+    case::Yardstick,
     elastic::{
         answer::{Compared, ComparedEnd},
         ensemble::{Ensemble, Spread},
@@ -13,7 +14,7 @@ use crate::{
     fem::HistoryOutcome,
     figures::{brief, short},
     members::Members,
-    motion::shown,
+    motion::{percent, shown},
     parameters::elastic::{ElasticAssessment, ElasticParameters, OnRecord, UnitRow},
     tuning::elastic::suite::Measured,
 };
@@ -78,7 +79,10 @@ fn missed(a: &ElasticAssessment) -> Option<String> {
              model foretells it); the springs are those that the search begins with"
         }
     };
-    Some(format!("accuracy: {} {what}", a.accuracy))
+    Some(match a.judged_by {
+        Yardstick::Histories => format!("accuracy: {} {what}", a.accuracy),
+        Yardstick::Peaks => format!("accuracy: an error of peaks of {} {what}", percent(a.accuracy)),
+    })
 }
 
 /// What was measured without the record, a line each.
@@ -89,8 +93,13 @@ fn measured(m: &Measured) -> Vec<String> {
     {
         let Some(e) = errors else { continue };
         lines.push(format!(
-            "accuracy: on {on} ({}): NRMSE of rotation {} (median) and {} (90 %), of drift {} and {}; {} touches a landing",
+            "accuracy: on {on} ({}): {}NRMSE of rotation {} (median) and {} (90 %), of drift {} and {}; {} touches a landing",
             e.count,
+            e.peaks.map_or(String::new(), |peaks| format!(
+                "error of peaks (displacement, drift, uplift) {} (median) and {} (90 %), ",
+                percent(peaks.largest[0]),
+                percent(peaks.largest[1])
+            )),
             shown(e.median[0]),
             shown(e.p90[0]),
             shown(e.median[1]),
