@@ -46,8 +46,8 @@ pub use elastic::ElasticCase;
 #[cfg(feature = "cli")]
 pub use limits::Limits;
 pub use limits::{ACCURACY, MAX_HZ, PEAKS};
-pub use yardstick::{Asked, Yardstick};
 pub use structure::StructureSection;
+pub use yardstick::{Asked, Yardstick};
 
 /// What is wrong with a case file, and what to do.
 #[derive(Debug, Error)]
@@ -362,12 +362,7 @@ impl Tuning {
 }
 
 /// What every tuning is asked for.
-fn check_stiffness(
-    path: &str,
-    accuracy: f64,
-    peaks: Option<f64>,
-    max_omega_hz: Option<f64>,
-) -> Result<(), CaseError> {
+fn check_stiffness(path: &str, accuracy: f64, peaks: Option<f64>, max_omega_hz: Option<f64>) -> Result<(), CaseError> {
     let asked = [
         ("tuning.max_omega_hz", max_omega_hz, MAX_HZ),
         ("tuning.accuracy", Some(accuracy), ACCURACY),

@@ -74,7 +74,10 @@ mod tests {
         assert_eq!(asked("accuracy = 0.01"), Asked { by: Yardstick::Histories, error: 0.01 });
         assert_eq!(asked("peaks = 0.02"), Asked { by: Yardstick::Peaks, error: 0.02 });
         let said = read("peaks = 0.02\naccuracy = 0.01").unwrap_err().to_string();
-        assert_eq!(said, "c.toml: tuning.peaks is 0.02 and tuning.accuracy is 0.01; springs are chosen by one of them, leave the other out");
+        assert_eq!(
+            said,
+            "c.toml: tuning.peaks is 0.02 and tuning.accuracy is 0.01; springs are chosen by one of them, leave the other out"
+        );
         let said = read("peaks = 0.0").unwrap_err().to_string();
         assert!(said.starts_with("c.toml: tuning.peaks is 0.0; give an error of peaks between"), "{said}");
     }

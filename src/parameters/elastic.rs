@@ -312,7 +312,8 @@ mod tests {
             energy_residual: 1e-7,
             near: None,
         };
-        let assessment = ElasticAssessment { judged_by: Yardstick::Histories, accuracy: 0.002, reached: false, measured };
+        let assessment =
+            ElasticAssessment { judged_by: Yardstick::Histories, accuracy: 0.002, reached: false, measured };
         let written = ElasticParameters { assessment: Some(assessment), on_record: Some(on_record), ..parameters() };
         let text = written.to_json();
         assert!(text.contains("\"nrmse_rotation\": null"), "{text}");

@@ -275,7 +275,8 @@ mod tests {
     #[test]
     fn springs_that_nothing_could_be_measured_on_have_not_reached_the_accuracy() {
         let rungs = Rungs::new(0.002, None, hz).unwrap();
-        let tuned = rungs.search(Asked::new(0.002, None), springs, &|_| Measured::default(), &|_, _| panic!("nothing to tell"));
+        let tuned =
+            rungs.search(Asked::new(0.002, None), springs, &|_| Measured::default(), &|_, _| panic!("nothing to tell"));
         assert!(!tuned.reached && tuned.measured.nothing());
         assert_eq!(tuned.springs, springs(37, 1.0));
     }

@@ -266,9 +266,8 @@ impl LandingDesign<'_> {
         if judged.len() > 1 {
             let more = self.suites.more(self.case.restitution);
             // no record: what it has to say was counted, and it is one motion
-            let median = |tuned: &Tuned| {
-                more.error_by(asked.by, &tuned.best.springs.chains(self.body.mass), Control::search())
-            };
+            let median =
+                |tuned: &Tuned| more.error_by(asked.by, &tuned.best.springs.chains(self.body.mass), Control::search());
             let medians: Vec<f64> = judged.iter().map(|tuned| median(tuned).unwrap_or(f64::INFINITY)).collect();
             let least = (0..medians.len()).min_by(|a, b| medians[*a].total_cmp(&medians[*b]));
             judged.swap(0, least.unwrap_or(0));
@@ -390,8 +389,7 @@ impl<'a> Procedure<'a> {
             near.map(|candidate| candidate.springs)
         };
         let said = |rungs: usize, over: f64| progress(rungs, 0, over * omega::MARGIN * asked.error);
-        let tuned =
-            omega::tune(suites, body.mass, asked, (omega::SOFTEST, TAU * CEILING_HZ / p), &springs, &said);
+        let tuned = omega::tune(suites, body.mass, asked, (omega::SOFTEST, TAU * CEILING_HZ / p), &springs, &said);
         Ok((tuned.ok_or(JobError::NoCandidate)?, false, Some(found)))
     }
 }

@@ -149,9 +149,8 @@ impl Trial {
 fn errors(trials: &[Trial], body: &Body<f64>, springs: &Springs<Chain<f64>>, control: Control) -> Vec<TrialErrors> {
     let pushes: Vec<Cow<[f64]>> = trials.iter().map(Trial::push).collect();
     let cases: Vec<Analysis<f64>> = trials.iter().map(|trial| trial.case(body, springs, control)).collect();
-    let followed = histories(&cases, |i| {
-        Stream::new(body, &trials[i].theta, &pushes[i]).with_forces(&trials[i].forces)
-    });
+    let followed =
+        histories(&cases, |i| Stream::new(body, &trials[i].theta, &pushes[i]).with_forces(&trials[i].forces));
     let error = |((stream, finish), trial): ((Stream, Finish<f64>), &Trial)| {
         let overturned = match finish.outcome {
             HistoryOutcome::Completed => housner::topples(body, stream.last.0, stream.last.1),

@@ -88,10 +88,7 @@ impl HousnerForces {
             let (now, time) = (velocity(i), i as f64 * dt);
             let first = rocking.impacts.partition_point(|impact| impact.time < time - dt - rest);
             let landed = rocking.impacts.get(first).is_some_and(|impact| impact.time <= time);
-            let still = [
-                0.5 * (accel[i - 1] + accel[i]),
-                GRAVITY + 0.5 * (up(i - 1) + up(i)),
-            ];
+            let still = [0.5 * (accel[i - 1] + accel[i]), GRAVITY + 0.5 * (up(i - 1) + up(i))];
             let housner = [0, 1].map(|k| (now[k] - before[k]) / dt + still[k]);
             rows.push((!landed).then_some(MeanForces { housner, still }));
             before = now;

@@ -169,9 +169,8 @@ impl Judge {
         let answers: Vec<HousnerAnswer> =
             records.par_iter().with_max_len(1).map(|record| self.answer(record)).collect();
         let cases: Vec<fem::Analysis<f64>> = answers.iter().map(|answer| self.case(&answer.record)).collect();
-        let watch = |i: usize| {
-            Stream::new(&self.body, answers[i].standing(), cases[i].accel).with_forces(&answers[i].forces)
-        };
+        let watch =
+            |i: usize| Stream::new(&self.body, answers[i].standing(), cases[i].accel).with_forces(&answers[i].forces);
         let followed = fem::histories(&cases, watch);
         let both = answers.par_iter().with_max_len(1).zip(followed);
         both.map(|(answer, (stream, finish))| self.row(answer, &stream, &finish)).collect()

@@ -56,12 +56,13 @@ fn summary(v: &Validation) -> (Vec<String>, Vec<Vec<String>>) {
         (format!("NRMSE horizontal: geometric mean, sensitivity below {PREDICTABLE}"), &|s| {
             mean(&s.nrmse_geometric_mean)
         }),
-        (format!("error of peaks: geometric mean, sensitivity below {PREDICTABLE}"), &|s| {
-            match s.peaks_geometric_mean {
+        (
+            format!("error of peaks: geometric mean, sensitivity below {PREDICTABLE}"),
+            &|s| match s.peaks_geometric_mean {
                 GeometricMean { count, mean: Some(x), failed: 0 } if count > 1 => format!("{} of {count}", percent(x)),
                 m => mean(&m),
-            }
-        }),
+            },
+        ),
         ("not compared one to one: toppled, ill-conditioned, or in free flight".into(), &|s| {
             s.not_comparable.to_string()
         }),

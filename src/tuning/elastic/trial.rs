@@ -5,8 +5,8 @@ use crate::{
     elastic::{
         answer::Reference,
         assembled::{Assembled, Sway, errors},
-        peaks::{StructurePeaks, StructurePeakErrors},
         fem::{ElasticAnalysis, ElasticHistory, ElasticStart},
+        peaks::{StructurePeakErrors, StructurePeaks},
         reference::{ElasticRocking, GroundAcceleration, ReferenceOutcome, TRIED},
     },
     fem::Control,
@@ -122,7 +122,15 @@ impl ElasticTrial {
         let reference = model.sways(history.q[..samples].iter().map(|q| q.as_slice()));
         let peaks = StructurePeaks::of(model, history.q[..samples].iter().map(|q| q.as_slice()));
         let vertical = vertical[..samples.min(vertical.len())].to_vec();
-        ElasticTrialOutcome::Trial(Self { dt, accel: accel[..samples].to_vec(), vertical, lean, reference, peaks, landings })
+        ElasticTrialOutcome::Trial(Self {
+            dt,
+            accel: accel[..samples].to_vec(),
+            vertical,
+            lean,
+            reference,
+            peaks,
+            landings,
+        })
     }
 
     /// The finite elements' history on springs; as far as it got.
