@@ -19,12 +19,14 @@
 //! [tuning]
 //! objective = "landing"      # or "arr", the paper's
 //! accuracy = 0.002           # of the history against Housner's, NRMSE
+//! # peaks = 0.02             # instead: of the largest displacement, uplift and forces
 //! ```
 
 #[cfg(feature = "cli")]
 mod elastic;
 mod limits;
 mod structure;
+mod yardstick;
 
 use std::path::{Path, PathBuf};
 
@@ -43,8 +45,9 @@ use crate::{
 pub use elastic::ElasticCase;
 #[cfg(feature = "cli")]
 pub use limits::Limits;
-pub use limits::{ACCURACY, MAX_HZ};
+pub use limits::{ACCURACY, MAX_HZ, PEAKS};
 pub use structure::StructureSection;
+pub use yardstick::{Asked, Yardstick};
 
 /// What is wrong with a case file, and what to do.
 #[derive(Debug, Error)]
@@ -69,6 +72,10 @@ pub enum CaseError {
     Members { path: String, source: MembersError },
     #[error("{path}: {key} is {value}; {remedy}")]
     Value { path: String, key: &'static str, value: String, remedy: &'static str },
+    #[error(
+        "{path}: tuning.peaks is {peaks} and tuning.accuracy is {accuracy}; springs are chosen by one of them, leave the other out"
+    )]
+    TwoYardsticks { path: String, peaks: String, accuracy: String },
     #[error(
         "{path}: record.file is not given; record.dt_s, units, component, baseline and vertical tell of a file: name it, or leave them out"
     )]
@@ -117,6 +124,8 @@ pub struct Tuning {
     pub objective: Objective,
     /// Error of the history against Housner's that Omega_n is chosen for, NRMSE.
     pub accuracy: f64,
+    /// Error of the peaks that Omega_n is chosen for instead; not with an accuracy in the same place.
+    pub peaks: Option<f64>,
     /// Stiffest springs allowed, Omega_n/2 pi (Hz); none unless given.
     pub max_omega_hz: Option<f64>,
     /// Largest settlement of the standing body (m); it bounds Omega_n from below.
@@ -134,6 +143,7 @@ impl Default for Tuning {
         Self {
             objective: Objective::Landing,
             accuracy: 0.002,
+            peaks: None,
             max_omega_hz: None,
             max_settlement_m: 0.01,
             mass_ratios_vertical: vec![0.1, 0.3, 1.0, 2.0, 10.0],
@@ -275,6 +285,7 @@ pub fn parse_with(
     #[cfg(feature = "cli")]
     ElasticCase::refuse(path, text)?;
     let file: CaseFile = toml::from_str(text).map_err(|e| parse_error(path, text, &e))?;
+    yardstick::one_of_two(path, text)?;
     let (structure, restitution) = file.structure.checked(path)?;
     let members = Members { damper: file.damper, tendon: file.tendon, friction: file.friction }
         .checked(&structure.body())
@@ -320,10 +331,15 @@ impl RecordSection {
 }
 
 impl Tuning {
+    /// What Omega_n is chosen for.
+    pub fn asked(&self) -> Asked {
+        Asked::new(self.accuracy, self.peaks)
+    }
+
     fn check(&self, path: &str) -> Result<(), CaseError> {
         let value =
             |key, value: f64, remedy| CaseError::Value { path: path.into(), key, value: format!("{value:?}"), remedy };
-        check_stiffness(path, self.accuracy, self.max_omega_hz)?;
+        check_stiffness(path, self.accuracy, self.peaks, self.max_omega_hz)?;
         if self.max_settlement_m.is_nan() || self.max_settlement_m <= 0.0 {
             return Err(value("tuning.max_settlement_m", self.max_settlement_m, "give metres greater than zero"));
         }
@@ -346,8 +362,12 @@ impl Tuning {
 }
 
 /// What every tuning is asked for.
-fn check_stiffness(path: &str, accuracy: f64, max_omega_hz: Option<f64>) -> Result<(), CaseError> {
-    let asked = [("tuning.max_omega_hz", max_omega_hz, MAX_HZ), ("tuning.accuracy", Some(accuracy), ACCURACY)];
+fn check_stiffness(path: &str, accuracy: f64, peaks: Option<f64>, max_omega_hz: Option<f64>) -> Result<(), CaseError> {
+    let asked = [
+        ("tuning.max_omega_hz", max_omega_hz, MAX_HZ),
+        ("tuning.accuracy", Some(accuracy), ACCURACY),
+        ("tuning.peaks", peaks, PEAKS),
+    ];
     for (key, value, limits) in asked {
         let checked = value.map_or(Ok(0.0), |value| limits.check(value));
         checked.map_err(|(value, remedy)| CaseError::Value { path: path.into(), key, value, remedy })?;

@@ -11,6 +11,7 @@
 //! | `fem` | a frame's history on ground springs |
 //! | `assembled` | a structure and its finite elements: rotation and drift, rest, the reference and for how long it can be told |
 //! | `ensemble` | peaks over motions near a record, where no model foretells a history |
+//! | `peaks` | the largest displacement, drift and uplift of a history |
 //! | `rigid`, `answer` | what the rigid body bears; all of them through one record |
 
 pub mod answer;
@@ -20,6 +21,7 @@ pub mod ensemble;
 pub mod fem;
 pub mod frame;
 mod mechanics;
+pub mod peaks;
 mod pier;
 pub mod reference;
 pub mod rigid;

@@ -52,7 +52,7 @@ pub(crate) use demands::between_landings;
 pub use demands::{Demands, QUANTITIES};
 pub use energy::Energy;
 pub use history::{Account, Forces, History, Recorder};
-pub use landings::Landing;
+pub use landings::{Landing, MOMENT};
 pub use lanes::histories;
 pub use observer::{Change, Observer, View};
 

@@ -31,12 +31,14 @@
 //! Histories are never kept. Beside its row a record costs its samples and Housner's rotations, of 64 records at a time, or of 32 for each
 //! thread where that is more.
 
+mod peaks;
 mod row;
 mod statistics;
 mod stream;
 
 use rayon::prelude::*;
 
+pub use peaks::{HousnerForces, PeakErrors};
 pub use row::{RecordOutcome, Row, Suite};
 pub use statistics::{Confusion, GeometricMean, PREDICTABLE, Quantiles, Summary, Validation};
 #[cfg(any(feature = "cli", feature = "internals"))]

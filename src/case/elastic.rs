@@ -18,13 +18,14 @@
 //!
 //! [tuning]
 //! accuracy = 0.002           # of rotations against the reference's, NRMSE
+//! # peaks = 0.02             # instead: of the largest displacement, drift and uplift
 //! ```
 
 use std::path::Path;
 
 use serde::Deserialize;
 
-use super::{CaseError, RecordSection, check_stiffness, parse_error};
+use super::{Asked, CaseError, RecordSection, check_stiffness, parse_error, yardstick};
 use crate::{
     elastic::structure::ElasticStructure,
     excitation::Excitation,
@@ -46,8 +47,8 @@ pub struct ElasticCase {
     pub excitation: Excitation,
     /// What the reader of the record says of it.
     pub notices: Vec<Notice>,
-    /// Error of the rotations against the reference that Omega_n is chosen for, NRMSE.
-    pub accuracy: f64,
+    /// The error against the reference that Omega_n is chosen for: of the rotations (NRMSE), or of peaks.
+    pub asked: Asked,
     /// Stiffest springs allowed, Omega_n/2 pi of all mass (Hz); none unless given.
     pub max_omega_hz: Option<f64>,
 }
@@ -70,12 +71,13 @@ struct ElasticFile {
 #[serde(deny_unknown_fields, default)]
 struct ElasticTuning {
     accuracy: f64,
+    peaks: Option<f64>,
     max_omega_hz: Option<f64>,
 }
 
 impl Default for ElasticTuning {
     fn default() -> Self {
-        Self { accuracy: 0.002, max_omega_hz: None }
+        Self { accuracy: 0.002, peaks: None, max_omega_hz: None }
     }
 }
 
@@ -111,15 +113,16 @@ impl ElasticCase {
         }
         let members = Members { damper: file.damper, tendon: file.tendon, friction: None };
         let members = structure.bears(members).map_err(of_elastic)?;
-        let ElasticTuning { accuracy, max_omega_hz } = file.tuning;
-        check_stiffness(path, accuracy, max_omega_hz)?;
+        yardstick::one_of_two(path, text)?;
+        let ElasticTuning { accuracy, peaks, max_omega_hz } = file.tuning;
+        check_stiffness(path, accuracy, peaks, max_omega_hz)?;
         let mut notices = Vec::new();
         let excitation = file.record.excitation(path, |file: &Path, options| {
             let recording = Recording::read(file, options)?;
             notices = recording.notices();
             Ok(recording.into_record())
         })?;
-        Ok(Self { structure, members, excitation, notices, accuracy, max_omega_hz })
+        Ok(Self { structure, members, excitation, notices, asked: Asked::new(accuracy, peaks), max_omega_hz })
     }
 }
 
@@ -147,7 +150,7 @@ mod tests {
     #[test]
     fn a_case_is_read_and_what_is_wrong_is_named() {
         let case = ElasticCase::parse("pier.toml", PIER).unwrap();
-        assert_eq!((case.accuracy, case.excitation.scale), (0.002, 1.0));
+        assert_eq!((case.asked, case.excitation.scale), (Asked::new(0.002, None), 1.0));
         let said = |more: &str| ElasticCase::parse("pier.toml", &format!("{PIER}{more}")).unwrap_err().to_string();
         assert!(said("[tuning]\naccuracy = 7.0\n").contains("tuning.accuracy is 7.0"));
         let objective = said("[tuning]\nobjective = 'arr'\n");

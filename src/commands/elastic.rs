@@ -4,7 +4,7 @@ use std::path::Path;
 
 use super::{CommandError, common::csv_row, draw, export, run::Output, write_file};
 use crate::{
-    case::ElasticCase,
+    case::{Asked, ElasticCase},
     elastic::{
         answer::{ElasticAnswer, ElasticHistories},
         assembled::{Assembled, Sway},
@@ -54,10 +54,11 @@ pub struct ElasticRun {
 }
 
 /// What is filed of springs without a record.
-pub fn springs_alone(assembled: &Assembled, tuned: &ElasticTuned, accuracy: f64) -> ElasticParameters {
+pub fn springs_alone(assembled: &Assembled, tuned: &ElasticTuned, asked: Asked) -> ElasticParameters {
     let place = |(i, springs): (usize, &Springs<Chain<f64>>)| (assembled.layout.corners[i].place[0], *springs);
     let corners: Vec<_> = tuned.springs.corners.iter().enumerate().map(place).collect();
-    let assessment = ElasticAssessment { accuracy, reached: tuned.reached, measured: tuned.measured };
+    let Asked { by: judged_by, error: accuracy } = asked;
+    let assessment = ElasticAssessment { judged_by, accuracy, reached: tuned.reached, measured: tuned.measured };
     ElasticParameters {
         assessment: Some(assessment),
         ..ElasticParameters::new(assembled.structure, tuned.springs.omega_n_hz, &corners)
@@ -128,7 +129,7 @@ impl ElasticRun {
         };
         let bearing = ForceQuantities::new(&assembled, &answer, record.dt);
         let parameters =
-            ElasticParameters { on_record: Some(on_record), ..springs_alone(&assembled, &tuned, case.accuracy) };
+            ElasticParameters { on_record: Some(on_record), ..springs_alone(&assembled, &tuned, case.asked) };
         let mut run = Self { case, assembled, tuned, record, answer, bearing, parameters };
         run.parameters.peaks = Some(run.parts().peaks());
         run.parameters.findings = filed(run.parts().findings(&run.parameters));

@@ -20,7 +20,7 @@ use super::{
 };
 use crate::{
     answers::Both,
-    case::{ACCURACY, Case, CaseError, ElasticCase, Limits, MAX_HZ, Objective},
+    case::{ACCURACY, Asked, Case, CaseError, ElasticCase, Limits, MAX_HZ, Objective, PEAKS, Yardstick},
     excitation::Excitation,
     export::{Expected, with_inertia},
     figures::Figure,
@@ -78,6 +78,10 @@ pub struct RunOptions {
     /// 0.002, or the case's]
     #[arg(long, value_name = "ERROR", allow_negative_numbers = true)]
     accuracy: Option<f64>,
+    /// Error of the largest displacement, uplift and forces that the stiffness is chosen for instead; a case's accuracy then does not
+    /// count
+    #[arg(long, value_name = "ERROR", allow_negative_numbers = true)]
+    peaks: Option<f64>,
     /// Folder for the results
     #[arg(long, value_name = "DIR", default_value = "out")]
     out: PathBuf,
@@ -127,7 +131,11 @@ pub fn run(o: &RunOptions) -> Result<(), CommandError> {
         case.set_excitation(o.record.excitation(|| common::of_case(&case))?)?;
     }
     case.tuning.max_omega_hz = o.max_hz()?.or(case.tuning.max_omega_hz);
-    case.tuning.accuracy = o.accuracy()?.unwrap_or(case.tuning.accuracy);
+    match o.asked()? {
+        Some(Asked { by: Yardstick::Histories, error }) => (case.tuning.accuracy, case.tuning.peaks) = (error, None),
+        Some(Asked { by: Yardstick::Peaks, error }) => case.tuning.peaks = Some(error),
+        None => {}
+    }
     let friction = o.ground.friction()?;
     check_folder(&o.out)?;
     threads(o.jobs)?;
@@ -159,9 +167,15 @@ impl RunOptions {
         within("max-hz", self.max_hz, &MAX_HZ)
     }
 
-    /// The accuracy asked for, if it is given.
-    fn accuracy(&self) -> Result<Option<f64>, CommandError> {
-        within("accuracy", self.accuracy, &ACCURACY)
+    /// The error asked for, of histories or of peaks, if one is given.
+    fn asked(&self) -> Result<Option<Asked>, CommandError> {
+        let accuracy = within("accuracy", self.accuracy, &ACCURACY)?;
+        let peaks = within("peaks", self.peaks, &PEAKS)?;
+        if let (Some(_), Some(peaks)) = (accuracy, peaks) {
+            let remedy = "springs are chosen by --peaks or by --accuracy, and the other is measured: leave one out";
+            return Err(CommandError::Option { option: "peaks", value: format!("{peaks:?}"), remedy });
+        }
+        Ok(accuracy.or(peaks).map(|accuracy| Asked::new(accuracy, peaks)))
     }
 }
 

@@ -14,7 +14,7 @@
 use super::observer::Change;
 
 /// A moment, in units of 1/p.
-pub(super) const MOMENT: f64 = 0.1;
+pub const MOMENT: f64 = 0.1;
 /// The lean from and to which a rigid body rocks in a moment, share of alpha.
 pub(super) const SLIGHT: f64 = 1e-3;
 

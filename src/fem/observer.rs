@@ -36,6 +36,11 @@ impl<S: Scalar> View<'_, S> {
         self.state.v[X]
     }
 
+    /// Vertical velocity of the centre of mass, positive upwards [m/s].
+    pub fn climb(&self) -> S {
+        self.state.v[Z]
+    }
+
     /// Vertical displacement of the centre of mass from the unstressed position [m].
     pub fn z(&self) -> S {
         self.state.q[Z]

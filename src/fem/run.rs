@@ -45,6 +45,8 @@ pub(crate) struct Run<'a, S> {
     spanning: Option<Span>,
     /// By how far the parabola is late at the samples within it [m].
     late: [S; span::MOST],
+    /// Its rate (m/s).
+    late_rate: [S; span::MOST],
     /// By how much the springs give way under an acceleration of the mass of one [m per m/s2].
     compliance: f64,
     /// The sample up to which steps over several samples may go: an event comes after it.
@@ -109,6 +111,7 @@ impl<'a, S: Scalar> Run<'a, S> {
             here: Ground::still(),
             spanning: None,
             late: [S::zero(); span::MOST],
+            late_rate: [S::zero(); span::MOST],
             compliance: span::compliance(model),
             event_by: usize::MAX,
             locating: None,

@@ -6,6 +6,7 @@ use serde::{Deserialize, Serialize};
 
 use super::{ParametersError, RecordRow, RememberedError, SCHEMA};
 use crate::{
+    case::Yardstick,
     elastic::{
         assembled::{Assembled, AssemblyError},
         ensemble::Ensemble,
@@ -73,7 +74,10 @@ pub struct CornerRow {
 /// What was measured of the springs without the record.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct ElasticAssessment {
-    /// Error asked for, NRMSE of the rotations.
+    /// What the error that was asked for is one of.
+    #[serde(default, skip_serializing_if = "Yardstick::is_histories")]
+    pub judged_by: Yardstick,
+    /// Error asked for: NRMSE of the rotations, or of peaks.
     pub accuracy: f64,
     /// Whether it was reached; not if there was nothing to measure it on.
     pub reached: bool,
@@ -326,7 +330,8 @@ mod tests {
             energy_residual: 1e-7,
             near: None,
         };
-        let assessment = ElasticAssessment { accuracy: 0.002, reached: false, measured };
+        let assessment =
+            ElasticAssessment { judged_by: Yardstick::Histories, accuracy: 0.002, reached: false, measured };
         let written = ElasticParameters { assessment: Some(assessment), on_record: Some(on_record), ..parameters() };
         let text = written.to_json();
         assert!(text.contains("\"nrmse_rotation\": null"), "{text}");

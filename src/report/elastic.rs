@@ -2,7 +2,7 @@
 
 use super::{AccuracyOn, AccuracyReport, Assumed, Filed, Run, Section, Table, Taken, Unit, filed};
 use crate::{
-    case::ElasticCase,
+    case::{ElasticCase, Yardstick},
     elastic::{
         answer::{ElasticAnswer, ElasticHistories},
         assembled::{Assembled, Sway},
@@ -240,31 +240,33 @@ fn springs_findings(parameters: &ElasticParameters) -> Option<Finding> {
     let a = parameters.assessment.as_ref().filter(|a| !a.reached)?;
     Some(match a.measured.nothing() {
         true => Finding::AccuracyNotMeasured,
+        false if a.judged_by == Yardstick::Peaks => Finding::PeaksMissed { asked: a.accuracy, capped: false },
         false => Finding::AccuracyMissed { asked: a.accuracy, capped: false },
     })
 }
 
 fn accuracy(a: &ElasticAssessment) -> AccuracyReport {
     let m = &a.measured;
+    let asked = |by: Yardstick| Some(a.accuracy).filter(|_| a.judged_by == by);
+    let (of_history, of_peaks) = (asked(Yardstick::Histories), asked(Yardstick::Peaks));
+    let finite = |x: f64| Some(x).filter(|x| x.is_finite());
     let on = |on: &str, errors: Option<ElasticErrors>| {
         let e = errors?;
         Some(AccuracyOn {
             on: if e.count == 1 { on.to_string() } else { format!("{} {on} (median)", e.count) },
             count: e.count,
-            history: Some(e.median[0]).filter(|x| x.is_finite()),
-            peaks: None,
-            history_allowed: Some(a.accuracy),
-            peaks_allowed: None,
+            history: finite(e.median[0]),
+            peaks: e.peaks.and_then(|peaks| finite(peaks.largest[0])),
+            history_allowed: of_history,
+            peaks_allowed: of_peaks,
         })
     };
+    let all = [on("this record", m.record), on("synthetic motions", m.motions), on("releases", m.releases)];
     AccuracyReport {
-        history_asked: Some(a.accuracy),
-        peaks_asked: None,
+        history_asked: of_history,
+        peaks_asked: of_peaks,
         reached: a.reached,
-        measured: [on("this record", m.record), on("synthetic motions", m.motions), on("releases", m.releases)]
-            .into_iter()
-            .flatten()
-            .collect(),
+        measured: all.into_iter().flatten().collect(),
     }
 }
 

@@ -10,7 +10,7 @@ use super::{
 };
 use crate::{
     answers::{Both, WithMembers, both, with_members},
-    case::{Case, Objective},
+    case::{Case, Objective, Yardstick},
     compare::Match,
     export::equal_steps,
     front::FrontPoint,
@@ -27,7 +27,7 @@ use crate::{
         arr::table_1,
         assessment::Assessment,
         job::Job,
-        suite::LOOSER,
+        suite::{Accuracy, LOOSER, Statistic},
         whole_model::{ATTAINABLE, LEANS, is_another},
     },
 };
@@ -253,7 +253,10 @@ fn springs_findings(parameters: &Parameters) -> Vec<Finding> {
     let mut all = Vec::new();
     if let Some(a) = &parameters.assessment {
         if !a.reached {
-            all.push(Finding::AccuracyMissed { asked: a.accuracy, capped: a.capped });
+            all.push(match a.judged_by {
+                Yardstick::Histories => Finding::AccuracyMissed { asked: a.accuracy, capped: a.capped },
+                Yardstick::Peaks => Finding::PeaksMissed { asked: a.accuracy, capped: a.capped },
+            });
         } else if a.measured.record.is_none()
             && a.measured.synthetic_median.is_none()
             && a.measured.earthquakes_mean.is_none()
@@ -285,26 +288,29 @@ fn springs_findings(parameters: &Parameters) -> Vec<Finding> {
 const RESTITUTION_MISSED: f64 = 0.005;
 
 fn accuracy(a: &Assessment) -> AccuracyReport {
-    let m = &a.measured;
-    let on = |on: String, count: usize, value: f64, looser: f64| AccuracyOn {
+    let (history, peaks) = (&a.measured, a.measured_peaks.map(|peaks| peaks.largest));
+    let asked = |by: Yardstick| Some(a.accuracy).filter(|_| a.judged_by == by);
+    let (of_history, of_peaks) = (asked(Yardstick::Histories), asked(Yardstick::Peaks));
+    let row = |on: String, count: usize, of: &dyn Fn(&Accuracy) -> Option<f64>, looser: f64| AccuracyOn {
         on,
         count,
-        history: Some(value),
-        peaks: None,
-        history_allowed: Some(looser * a.accuracy),
-        peaks_allowed: None,
+        history: of(history),
+        peaks: peaks.as_ref().and_then(of),
+        history_allowed: of_history.map(|x| looser * x),
+        peaks_allowed: of_peaks.map(|x| looser * x),
     };
-    let record = m.record.map(|x| on("this record".into(), 1, x, 1.0));
-    let median =
-        m.synthetic_median.map(|s| on(format!("{} synthetic motions (median)", s.count), s.count, s.value, 1.0));
-    let p90 = m.synthetic_p90.map(|s| on("90 % of these".into(), s.count, s.value, LOOSER));
-    let mean = m.earthquakes_mean.map(|s| {
-        let on_what = format!("{} earthquake-like ones (mean)", s.count);
-        on(on_what, s.count, s.value, m.looser_on_earthquakes())
-    });
+    let statistics = |of: fn(&Accuracy) -> Option<Statistic>, words: fn(usize) -> String, looser: f64| {
+        let count = of(history).or(peaks.as_ref().and_then(of))?.count;
+        Some(row(words(count), count, &|a| of(a).map(|s| s.value), looser))
+    };
+    let record = history.record.map(|_| row("this record".into(), 1, &|a| a.record, 1.0));
+    let median = statistics(|a| a.synthetic_median, |n| format!("{n} synthetic motions (median)"), 1.0);
+    let p90 = statistics(|a| a.synthetic_p90, |_| "90 % of these".into(), LOOSER);
+    let looser = a.judged().looser_on_earthquakes();
+    let mean = statistics(|a| a.earthquakes_mean, |n| format!("{n} earthquake-like ones (mean)"), looser);
     AccuracyReport {
-        history_asked: Some(a.accuracy),
-        peaks_asked: None,
+        history_asked: of_history,
+        peaks_asked: of_peaks,
         reached: a.reached,
         measured: [record, median, p90, mean].into_iter().flatten().collect(),
     }
@@ -333,6 +339,7 @@ fn sections(p: &Parameters) -> Vec<Section> {
                 .into(),
             tables::ABSORBER.into(),
         ],
+        notes: p.assessment.iter().flat_map(|a| a.design()).flatten().collect(),
         table: Some(tables::springs(p)),
         ..Section::default()
     }];

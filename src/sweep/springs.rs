@@ -164,7 +164,7 @@ fn tune(plan: &Plan, progress: &dyn Fn(usize, usize)) -> Result<Vec<TunedSprings
             restitution: e,
             tuned_on: subject.name.clone(),
             accuracy: plan.springs.accuracy,
-            reached: job.tuned.best.accuracy.reaches(plan.springs.accuracy),
+            reached: job.tuned.best.errors.histories.reaches(plan.springs.accuracy),
             vertical: unit(&job.springs.vertical),
             horizontal: unit(&job.springs.horizontal),
         });

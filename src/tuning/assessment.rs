@@ -6,13 +6,12 @@ use super::{
     job::Job,
     landing::{corners::CornerDynamics, design::Geometry, plane::land, weight},
     omega,
-    suite::{Accuracy, JudgedOn, LOOSER},
+    suite::{Accuracy, JudgedOn, MeasuredErrors, PeakAccuracy},
     whole_model::is_another,
 };
 use crate::{
-    case::{Objective, Tuning},
+    case::{Asked, Objective, Tuning, Yardstick},
     compare::LEAST_LEAN,
-    motion::shown,
     validate::PREDICTABLE,
 };
 
@@ -44,14 +43,20 @@ pub struct LimitRow {
 pub struct Assessment {
     /// What the springs follow from.
     pub objective: Objective,
-    /// NRMSE asked for.
+    /// What the error that was asked for is one of.
+    #[serde(default, skip_serializing_if = "Yardstick::is_histories")]
+    pub judged_by: Yardstick,
+    /// Error asked for: NRMSE of histories, or of peaks.
     pub accuracy: f64,
     /// Whether what was measured is within it.
     pub reached: bool,
     /// Whether a cap on Omega_n decided.
     pub capped: bool,
-    /// What was measured.
+    /// What was measured of histories.
     pub measured: Accuracy,
+    /// What was measured of peaks; none in older files.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub measured_peaks: Option<PeakAccuracy>,
     /// The landing in the stiff limit, where the springs follow from the geometry.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub landing: Option<LimitRow>,
@@ -60,45 +65,45 @@ pub struct Assessment {
 impl Assessment {
     /// Of a job's springs, tuned so for a body with this restitution.
     pub(crate) fn new(job: &Job, tuning: &Tuning, restitution: f64) -> Self {
-        let (objective, accuracy) = (tuning.objective, tuning.accuracy);
-        let measured = job.tuned.best.accuracy;
+        let (objective, asked) = (tuning.objective, tuning.asked());
+        let errors = job.tuned.best.errors;
         let by_landing = objective == Objective::Landing && !job.capped && !is_another(&job.body, restitution);
         let landing = by_landing.then(|| limit(job)).flatten();
-        Self { objective, accuracy, reached: measured.reaches(accuracy), capped: job.capped, measured, landing }
-    }
-
-    /// That the accuracy was not reached, and what to do: to be said before anything else.
-    pub fn warning(&self) -> Option<String> {
-        let remedy =
-            if self.capped { "raise or drop --max-hz" } else { "ask for less, or judge them by tune validate" };
-        let accuracy = self.accuracy;
-        (!self.reached).then(|| {
-            format!("WARNING: the accuracy of {accuracy} was not reached; these are the best springs found within what was allowed: {remedy}")
-        })
-    }
-
-    /// What to file: the accuracy measured, on what, with counts and what is allowed; which springs.
-    pub fn lines(&self) -> Vec<String> {
-        let measured = match self.measured_on() {
-            on if on.is_empty() => {
-                "nothing to measure it on: no motion rocks this body and can be foretold".to_string()
-            }
-            on => on.join("; "),
-        };
-        let mut lines = vec![format!(
-            "accuracy: {} was asked for and {}; error measured (NRMSE of the displacement against Housner's): {measured}",
-            self.accuracy,
-            if self.reached { "reached" } else { "NOT reached" },
-        )];
-        if let Some(l) = &self.landing {
-            lines.push(format!(
-                "springs: by the landing of a body of alpha {:.5} and m R^2/I0 {:.5} at Omega_n/p {:.0}: error of the momentum {:.0e}, \
-                 rebound {:.3} of the landing speed, {} touches and lifts of the landing foot",
-                l.alpha, l.mass_share, l.omega_n_over_p, l.momentum_error, l.rebound, l.contact_changes[0]
-            ));
-            lines.push(format!("Omega_n: {}", self.decided_by(l)));
+        let MeasuredErrors { histories, peaks } = errors;
+        Self {
+            objective,
+            judged_by: asked.by,
+            accuracy: asked.error,
+            reached: errors.reaches(asked),
+            capped: job.capped,
+            measured: histories,
+            measured_peaks: Some(peaks),
+            landing,
         }
-        lines
+    }
+
+    /// What was asked for.
+    pub fn asked(&self) -> Asked {
+        Asked { by: self.judged_by, error: self.accuracy }
+    }
+
+    /// What was measured by the yardstick of what was asked for.
+    pub fn judged(&self) -> &Accuracy {
+        match (self.judged_by, &self.measured_peaks) {
+            (Yardstick::Peaks, Some(peaks)) => &peaks.largest,
+            _ => &self.measured,
+        }
+    }
+
+    /// The landing that the springs follow from, and what decided on Omega_n; none of springs that a search found.
+    pub fn design(&self) -> Option<[String; 2]> {
+        let l = self.landing.as_ref()?;
+        let landing = format!(
+            "The springs follow from the landing of a body of alpha {:.5} and m R^2/I0 {:.5} at Omega_n/p {:.0}: error of the \
+             momentum {:.0e}, rebound {:.3} of the landing speed, {} touches and lifts of the landing foot.",
+            l.alpha, l.mass_share, l.omega_n_over_p, l.momentum_error, l.rebound, l.contact_changes[0]
+        );
+        Some([landing, format!("Omega_n is {}.", self.decided_by(l))])
     }
 
     /// What springs a rung softer would not hold: that of which the springs taken use most.
@@ -111,7 +116,7 @@ impl Assessment {
             omega::MARGIN
         );
         let on = |suite, name: &str| {
-            let share = self.measured.over_on(suite, aimed).unwrap_or(0.0);
+            let share = self.judged().over_on(suite, aimed).unwrap_or(0.0);
             (share, format!("whose error on {name} is within {} of what is allowed", omega::MARGIN))
         };
         let all = [
@@ -127,39 +132,6 @@ impl Assessment {
                 omega::MARGIN
             ),
         }
-    }
-
-    /// Each error with the motions that it was measured on, and how much is allowed there. There are no statistics of one motion.
-    fn measured_on(&self) -> Vec<String> {
-        let m = &self.measured;
-        let (allowed, looser) = (shown(self.accuracy), shown(LOOSER * self.accuracy));
-        let on_earthquakes = shown(m.looser_on_earthquakes() * self.accuracy);
-        let record = m.record.map(|e| format!("{} on the record, u or v (allowed {allowed})", shown(e)));
-        let synthetic = m.synthetic_median.zip(m.synthetic_p90).map(|(median, p90)| match median.count {
-            1 => {
-                format!("{} on the one synthetic motion that can be foretold (allowed {allowed})", shown(median.value))
-            }
-            n => format!(
-                "{} in the median of {n} synthetic motions (allowed {allowed}), {} for 90 % of them (allowed {looser})",
-                shown(median.value),
-                shown(p90.value)
-            ),
-        });
-        let earthquakes = m.earthquakes_mean.map(|e| match (e.count, m.earthquakes_upper) {
-            (1, _) => {
-                format!("{} on the one earthquake-like motion of sensitivity below {PREDICTABLE}", shown(e.value))
-            }
-            (n, upper) => format!(
-                "{} in the geometric mean of {n} earthquake-like motions of sensitivity below {PREDICTABLE}{} (allowed {on_earthquakes}){}",
-                shown(e.value),
-                match m.earthquakes_scaled_down {
-                    0 => String::new(),
-                    scaled => format!(", {scaled} of them scaled down to what the body stands"),
-                },
-                upper.map_or(String::new(), |x| format!(", {} with three standard errors", shown(x)))
-            ),
-        });
-        [record, synthetic, earthquakes].into_iter().flatten().collect()
     }
 }
 
@@ -203,8 +175,17 @@ mod tests {
             let measured = Accuracy { record: Some(record), ..Accuracy::default() };
             let landing = LimitRow { omega_n_over_p, ..landing };
             let objective = Objective::Landing;
-            Assessment { objective, accuracy: 2e-3, reached: true, capped: false, measured, landing: Some(landing) }
-                .decided_by(&landing)
+            Assessment {
+                objective,
+                judged_by: Yardstick::Histories,
+                accuracy: 2e-3,
+                reached: true,
+                capped: false,
+                measured,
+                measured_peaks: None,
+                landing: Some(landing),
+            }
+            .decided_by(&landing)
         };
         assert!(said(1.3e-3, 1e6).contains("on the record is within"));
         // landings of alpha 0.1 hold from an Omega_n/p of 1.7e5 on

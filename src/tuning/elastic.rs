@@ -7,7 +7,8 @@
 //!                                -> the softest from there on that follow the record to where it grows a change 100,000-fold, if any does
 //! ```
 //!
-//! The accuracy is that of rotations against the reference (NRMSE, median); sways may have five times as much, and so may one history in ten.
+//! The accuracy is that of rotations against the reference (NRMSE, median); sways may have five times as much, and so may one history in ten. Or it
+//! is that of peaks: the largest displacement, drift and uplift (`elastic::peaks`), all alike; one history in ten may have five times as much.
 
 pub mod design;
 pub mod suite;
@@ -24,7 +25,7 @@ use self::{
 };
 use super::ladder::{DECADE, seek};
 use crate::{
-    case::ACCURACY,
+    case::{ACCURACY, Asked, PEAKS, Yardstick},
     elastic::{
         answer::Reference, assembled::Assembled, fem::default_control, standing::Standing, structure::ElasticStructure,
     },
@@ -50,8 +51,8 @@ const STIFFER: i64 = 10;
 pub enum ElasticTuneError {
     #[error("structure: it does not stand under its weight; give stiffer members")]
     Falls,
-    #[error("tuning.accuracy is {value}; {remedy}")]
-    Accuracy { value: String, remedy: &'static str },
+    #[error("{key} is {value}; {remedy}")]
+    Accuracy { key: &'static str, value: String, remedy: &'static str },
     #[error(
         "max_omega_hz (--max-hz) is {most_hz:?}, but the softest springs tried for this structure have {:.1} Hz: softer ones give way by more than a tenth of the structure's own deformation; allow at least that, or leave it out",
         (.softest_hz * 10.0).ceil() / 10.0
@@ -73,26 +74,30 @@ pub struct ElasticTuned {
     pub softer_hz: Option<f64>,
 }
 
-/// Springs under every corner of a structure, its members at work, as stiff as `accuracy` (NRMSE of rotations) asks for, at most `most_hz`
+/// Springs under every corner of a structure, its members at work, as stiff as what is `asked` for (NRMSE of rotations, or an error of peaks) needs, at most `most_hz`
 /// (Omega_n/2 pi, Hz); `progress` is told the rungs judged and the least error so far.
 ///
 /// # Errors
 /// A structure that does not stand; an accuracy that is none; springs allowed that are too soft for any.
 pub fn tune(
     model: &Assembled,
-    accuracy: f64,
+    asked: Asked,
     most_hz: Option<f64>,
     record: Option<(&Record, Reference)>,
     progress: &dyn Fn(usize, f64),
 ) -> Result<ElasticTuned, ElasticTuneError> {
-    ACCURACY.check(accuracy).map_err(|(value, remedy)| ElasticTuneError::Accuracy { value, remedy })?;
+    let (key, limits) = match asked.by {
+        Yardstick::Histories => ("tuning.accuracy", ACCURACY),
+        Yardstick::Peaks => ("tuning.peaks", PEAKS),
+    };
+    limits.check(asked.error).map_err(|(value, remedy)| ElasticTuneError::Accuracy { key, value, remedy })?;
     let standing = stand(model).ok_or(ElasticTuneError::Falls)?;
     let landing = landing_speed(&model.structure);
-    let rungs = Rungs::new(accuracy, most_hz, |i| omega_n_hz(&standing, give(i)))?;
+    let rungs = Rungs::new(asked.error, most_hz, |i| omega_n_hz(&standing, give(i)))?;
     let (record, reference) = record.unzip();
     let suite = ElasticSuite::new(model.clone(), record.zip(reference.as_ref()));
     let of = |i: i64, share: f64| springs(&standing, give(i), landing, share);
-    let chosen = rungs.search(accuracy, of, &|springs| suite.measure(springs, Control::search()), progress);
+    let chosen = rungs.search(asked, of, &|springs| suite.measure(springs, Control::search()), progress);
     let further = || {
         let (record, reference) = record.zip(reference.as_ref()).filter(|_| chosen.reached)?;
         let reference = reference.further(model, record).ok()??;
@@ -101,10 +106,10 @@ pub fn tune(
         let stiffer = Rungs { ends: (chosen.rung, rungs.ends.1), guess: (chosen.rung + STIFFER).min(rungs.ends.1) };
         // the record decides; all else is measured once
         let alone = |springs: &CornerSprings| suite.measure_record(springs);
-        let found = stiffer.search(accuracy, of, &alone, progress);
+        let found = stiffer.search(asked, of, &alone, progress);
         let rest = ElasticSuite { record: None, ..suite }.measure(&found.springs, default_control());
         let measured = Measured { record: found.measured.record, ..rest };
-        let reached = found.reached && measured.over(accuracy)? <= 1.0;
+        let reached = found.reached && measured.over(asked)? <= 1.0;
         reached.then_some((ElasticRung { measured, ..found }, reference))
     };
     let (chosen, reference, softer_hz) = match further() {
@@ -151,15 +156,15 @@ impl Rungs {
         Ok(Self { ends: (softest, stiffest), guess: guess.clamp(softest, stiffest) })
     }
 
-    /// The softest that hold an accuracy, by what is measured of them; `springs` of a rung, at a share of the balanced K.
+    /// The softest that hold what is asked for, by what is measured of them; `springs` of a rung, at a share of the balanced K.
     fn search(
         &self,
-        accuracy: f64,
+        asked: Asked,
         springs: impl Fn(i64, f64) -> CornerSprings,
         measure: &dyn Fn(&CornerSprings) -> Measured,
         progress: &dyn Fn(usize, f64),
     ) -> ElasticRung {
-        let allowed = MARGIN * accuracy;
+        let allowed = asked.times(MARGIN);
         // where springs at the balance of K do not hold, ones with less rebound may: a corner that leaves as soon as it has landed keeps it
         let judged = |i: i64| {
             let of = |share: f64| {
@@ -182,7 +187,7 @@ impl Rungs {
             }
             let over = seen.entry(i).or_insert(judged(i)).1.over(allowed)?;
             let least = seen.values().filter_map(|(_, m)| m.over(allowed)).fold(f64::INFINITY, f64::min);
-            progress(seen.len(), least * allowed);
+            progress(seen.len(), least * allowed.error);
             Some(over)
         };
         let found = seek(self.ends.0, self.ends.1, self.guess, &mut judge);
@@ -190,7 +195,7 @@ impl Rungs {
         let rung = found.map_or(self.guess, |found| found.rung);
         let (springs, measured) = seen.remove(&rung).unwrap_or_else(|| judged(rung));
         // by what was asked for, not by the margin that is aimed at
-        let reached = found.is_some() && measured.over(accuracy).is_some_and(|over| over <= 1.0);
+        let reached = found.is_some() && measured.over(asked).is_some_and(|over| over <= 1.0);
         ElasticRung { rung, springs, measured, reached }
     }
 }
@@ -243,12 +248,12 @@ mod tests {
         let errors = |give: f64| {
             let error = [0.1 * give; 2];
             Measured {
-                releases: Some(ElasticErrors { median: error, p90: error, count: 1, touches: 2.0 }),
+                releases: Some(ElasticErrors { median: error, p90: error, count: 1, touches: 2.0, peaks: None }),
                 ..Measured::default()
             }
         };
         let rungs = Rungs::new(0.002, None, hz).unwrap();
-        let tuned = rungs.search(0.002, springs, &|springs| errors(springs.give), &|_, _| ());
+        let tuned = rungs.search(Asked::new(0.002, None), springs, &|springs| errors(springs.give), &|_, _| ());
         assert!(tuned.reached && tuned.springs.give <= 0.014 && tuned.springs.give > 0.011, "{tuned:?}");
     }
 
@@ -258,19 +263,20 @@ mod tests {
         let errors = |springs: &CornerSprings| {
             let error = [0.1 * springs.give + 0.02 * springs.k; 2];
             Measured {
-                releases: Some(ElasticErrors { median: error, p90: error, count: 1, touches: 2.0 }),
+                releases: Some(ElasticErrors { median: error, p90: error, count: 1, touches: 2.0, peaks: None }),
                 ..Measured::default()
             }
         };
         let rungs = Rungs::new(0.002, None, hz).unwrap();
-        let tuned = rungs.search(0.002, springs, &errors, &|_, _| ());
+        let tuned = rungs.search(Asked::new(0.002, None), springs, &errors, &|_, _| ());
         assert!(tuned.reached && tuned.springs.k < 0.05, "{tuned:?}");
     }
 
     #[test]
     fn springs_that_nothing_could_be_measured_on_have_not_reached_the_accuracy() {
         let rungs = Rungs::new(0.002, None, hz).unwrap();
-        let tuned = rungs.search(0.002, springs, &|_| Measured::default(), &|_, _| panic!("nothing to tell"));
+        let tuned =
+            rungs.search(Asked::new(0.002, None), springs, &|_| Measured::default(), &|_, _| panic!("nothing to tell"));
         assert!(!tuned.reached && tuned.measured.nothing());
         assert_eq!(tuned.springs, springs(37, 1.0));
     }

@@ -18,7 +18,7 @@ use super::{
     whole_model,
 };
 use crate::{
-    case::{Case, Objective},
+    case::{Asked, Case, Objective, Yardstick},
     compare::LEAST_LEAN,
     fem::Control,
     housner::{self, Rocking},
@@ -148,21 +148,22 @@ impl LandingDesign<'_> {
     /// The outer loop, and whether a cap decided.
     fn tune(&self, progress: &(dyn Fn(usize, usize, f64) + Sync)) -> Result<(Tuned, bool), JobError> {
         let tuning = &self.case.tuning;
+        let asked = tuning.asked();
         if whole_model::is_another(&self.body, self.case.restitution) {
             let hz = tuning.max_omega_hz.unwrap_or(BOUNCING_HZ);
             let bracket = self.bracket(hz)?;
             let springs = follow::with_restitution(&self.body, self.case.restitution, bracket, progress);
             let springs = springs.ok_or(JobError::NoCandidate)?;
-            return Ok((alone(self.suites, &self.body, tuning.accuracy, springs), tuning.max_omega_hz.is_some()));
+            return Ok((alone(self.suites, &self.body, asked, springs), tuning.max_omega_hz.is_some()));
         }
         let p = self.body.p_squared().sqrt();
         let springs = |stiffness: f64| at(&self.body, stiffness);
-        let said = |rungs: usize, over: f64| progress(rungs, 0, over * omega::MARGIN * tuning.accuracy);
+        let said = |rungs: usize, over: f64| progress(rungs, 0, over * omega::MARGIN * asked.error);
         // the ladder up to an Omega_n/p, from where landings hold; if none of those rungs does, the better of that and of the whole ladder
         let ladder = |stiffest: f64, springs: &dyn Fn(f64) -> Option<Springs<Design<f64>>>| {
             let from = |softest: f64| {
                 let range = (softest, stiffest);
-                omega::tune(self.suites, self.body.mass, tuning.accuracy, range, springs, &said)
+                omega::tune(self.suites, self.body.mass, asked, range, springs, &said)
             };
             let soft = self.settling(omega::SOFTEST, stiffest);
             let landings_hold = self.softest(stiffest).max(soft);
@@ -170,7 +171,7 @@ impl LandingDesign<'_> {
             if landings_hold == soft || tuned.as_ref().is_some_and(|tuned| tuned.reached) {
                 return tuned;
             }
-            let over = |tuned: &Tuned| (!tuned.reached, tuned.best.accuracy.over(tuning.accuracy));
+            let over = |tuned: &Tuned| (!tuned.reached, tuned.best.errors.over(asked));
             tuned.into_iter().chain(from(soft)).min_by(|a, b| over(a).partial_cmp(&over(b)).unwrap_or(Ordering::Equal))
         };
         let Some(cap) = tuning.max_omega_hz else {
@@ -199,6 +200,7 @@ impl LandingDesign<'_> {
         if found.is_empty() || !in_limit(highest) {
             found.push(self.followed(cap, progress)?);
         }
+        let typical = |tuned: &Tuned| typical(tuned, asked.by);
         let best = found.into_iter().min_by(|a, b| typical(a).total_cmp(&typical(b)));
         Ok((best.ok_or(JobError::NoCandidate)?, true))
     }
@@ -221,7 +223,7 @@ impl LandingDesign<'_> {
     /// predictable by the error aimed at: few motions cannot tell, and chaotic ones, which decide on overturning, hang on it. No stiffer than the last
     /// rung up to `stiffest`.
     fn softest(&self, stiffest: f64) -> f64 {
-        let error = omega::MARGIN * self.case.tuning.accuracy / PREDICTABLE;
+        let error = omega::MARGIN * self.case.tuning.asked().error / PREDICTABLE;
         let by_weight = Geometry::of(&self.body, omega::SOFTEST)
             .map(|body| weight::stiffness(body.alpha(), body.mass_share(), error, LEAST_LEAN));
         by_weight.unwrap_or(omega::SOFTEST).clamp(omega::SOFTEST, omega::last_rung(stiffest).max(omega::SOFTEST))
@@ -254,16 +256,18 @@ impl LandingDesign<'_> {
         if self.suites.has_whole_record() {
             found.extend(self.procedure.at(cap, progress).map(|tuned| tuned.best.springs));
         }
-        let judged =
-            found.into_iter().map(|springs| alone(self.suites, &self.body, self.case.tuning.accuracy, springs));
+        let asked = self.case.tuning.asked();
+        let judged = found.into_iter().map(|springs| alone(self.suites, &self.body, asked, springs));
+        let typical = |tuned: &Tuned| typical(tuned, asked.by);
         let mut judged: Vec<Tuned> = judged.filter(|tuned| self.settles(tuned)).collect();
         judged.sort_by(|a, b| typical(a).total_cmp(&typical(b)));
-        let best = judged.first().map_or(f64::INFINITY, typical);
+        let best = judged.first().map_or(f64::INFINITY, &typical);
         judged.retain(|tuned| typical(tuned) <= ALIKE * best);
         if judged.len() > 1 {
             let more = self.suites.more(self.case.restitution);
             // no record: what it has to say was counted, and it is one motion
-            let median = |tuned: &Tuned| more.error(&tuned.best.springs.chains(self.body.mass), Control::search());
+            let median =
+                |tuned: &Tuned| more.error_by(asked.by, &tuned.best.springs.chains(self.body.mass), Control::search());
             let medians: Vec<f64> = judged.iter().map(|tuned| median(tuned).unwrap_or(f64::INFINITY)).collect();
             let least = (0..medians.len()).min_by(|a, b| medians[*a].total_cmp(&medians[*b]));
             judged.swap(0, least.unwrap_or(0));
@@ -287,8 +291,8 @@ impl LandingDesign<'_> {
 }
 
 /// The typical error of springs: the geometric mean of that on the record and of the median of synthetic motions.
-fn typical(tuned: &Tuned) -> f64 {
-    let measured = &tuned.best.accuracy;
+fn typical(tuned: &Tuned, yardstick: Yardstick) -> f64 {
+    let measured = tuned.best.errors.by(yardstick);
     let median = measured.synthetic_median.map(|median| median.value);
     match (measured.record, median) {
         (Some(record), Some(median)) => (record * median).sqrt(),
@@ -297,11 +301,11 @@ fn typical(tuned: &Tuned) -> f64 {
 }
 
 /// Springs that are not the outer loop's.
-fn alone(suites: &Suites, body: &Body<f64>, accuracy: f64, springs: Springs<Design<f64>>) -> Tuned {
+fn alone(suites: &Suites, body: &Body<f64>, asked: Asked, springs: Springs<Design<f64>>) -> Tuned {
     let found = suites.accuracy(&springs.chains(body.mass), Control::search());
     let stiffness = TAU * springs.vertical.omega_n_hz / body.p_squared().sqrt();
-    let best = Rung { stiffness, springs, accuracy: found };
-    Tuned { rungs: vec![best], best, reached: found.over(accuracy) <= 1.0 }
+    let best = Rung { stiffness, springs, errors: found };
+    Tuned { rungs: vec![best], best, reached: found.over(asked) <= 1.0 }
 }
 
 /// The springs that the geometry of a body gives at an Omega_n/p.
@@ -366,6 +370,7 @@ impl<'a> Procedure<'a> {
         progress: &(dyn Fn(usize, usize, f64) + Sync),
     ) -> Result<(Tuned, bool, Option<outer::OmegaSearch>), JobError> {
         let (tuning, body) = (&self.case.tuning, &self.benchmark.body);
+        let asked = tuning.asked();
         if let Some(max_hz) = tuning.max_omega_hz {
             let bracket = Bracket { max_hz, max_settlement: tuning.max_settlement_m };
             let least_m = self.least_settlement(&bracket);
@@ -373,19 +378,18 @@ impl<'a> Procedure<'a> {
                 return Err(JobError::Settlement { asked_m: bracket.max_settlement, max_hz, least_m });
             }
             let found = self.at(max_hz, progress).ok_or(JobError::NoCandidate)?;
-            return Ok((alone(suites, body, tuning.accuracy, found.best.springs), true, Some(found)));
+            return Ok((alone(suites, body, asked, found.best.springs), true, Some(found)));
         }
         let p = body.p_squared().sqrt();
-        let begin = omega::begin(tuning.accuracy) * p / TAU;
+        let begin = omega::begin(asked) * p / TAU;
         let found = self.at(begin, progress).ok_or(JobError::NoCandidate)?;
         let springs = |stiffness: f64| {
             let bracket = Bracket { max_hz: stiffness * p / TAU, max_settlement: f64::INFINITY };
             let near = outer::follow(self.benchmark, &self.vertical, &self.horizontal, bracket, &found, begin);
             near.map(|candidate| candidate.springs)
         };
-        let said = |rungs: usize, over: f64| progress(rungs, 0, over * omega::MARGIN * tuning.accuracy);
-        let tuned =
-            omega::tune(suites, body.mass, tuning.accuracy, (omega::SOFTEST, TAU * CEILING_HZ / p), &springs, &said);
+        let said = |rungs: usize, over: f64| progress(rungs, 0, over * omega::MARGIN * asked.error);
+        let tuned = omega::tune(suites, body.mass, asked, (omega::SOFTEST, TAU * CEILING_HZ / p), &springs, &said);
         Ok((tuned.ok_or(JobError::NoCandidate)?, false, Some(found)))
     }
 }

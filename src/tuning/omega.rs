@@ -9,9 +9,10 @@ use std::collections::BTreeMap;
 
 use super::{
     ladder::{DECADE, seek},
-    suite::{Accuracy, JudgedOn, Suites},
+    suite::{JudgedOn, MeasuredErrors, Suites},
 };
 use crate::{
+    case::{Asked, Yardstick},
     fem::Control,
     spring::{Design, Springs},
 };
@@ -23,6 +24,8 @@ pub const SOFTEST: f64 = 100.0;
 /// Omega_n/p times the accuracy asked for where the search begins: errors of synthetic motions fall about as 20/(Omega_n/p),
 /// those of earthquake-like ones, with three standard errors, are about five times what is allowed at 250/(Omega_n/p).
 const BEGIN: f64 = 250.0;
+/// The same of an error of peaks.
+const BEGIN_PEAKS: f64 = 250.0;
 /// How near an Omega_n/p is to a rung to be it, rungs.
 const ROUNDING: f64 = 1e-9;
 /// An accuracy for which steps over several samples will do.
@@ -38,7 +41,7 @@ pub struct Rung {
     pub stiffness: f64,
     pub springs: Springs<Design<f64>>,
     /// What was measured until the rung was refused or held; everything of the one that is taken.
-    pub accuracy: Accuracy,
+    pub errors: MeasuredErrors,
 }
 
 /// What the outer loop found.
@@ -58,29 +61,29 @@ pub struct Tuned {
 pub fn tune(
     suites: &Suites,
     mass: f64,
-    accuracy: f64,
+    asked: Asked,
     (softest, stiffest): (f64, f64),
     springs: &dyn Fn(f64) -> Option<Springs<Design<f64>>>,
     progress: &dyn Fn(usize, f64),
 ) -> Option<Tuned> {
     let mut seen: BTreeMap<i64, Rung> = BTreeMap::new();
-    let allowed = MARGIN * accuracy;
-    let over = |rung: &Rung| rung.accuracy.over(allowed);
-    let control = control(accuracy);
+    let allowed = asked.times(MARGIN);
+    let over = |rung: &Rung| rung.errors.over(allowed);
+    let control = control(asked.error);
     let mut judge = |i: i64| -> Option<f64> {
         if let Some(rung) = seen.get(&i) {
             return Some(over(rung));
         }
         let stiffness = stiffness(i);
         let springs = springs(stiffness)?;
-        let mut accuracy = Accuracy::default();
+        let mut errors = MeasuredErrors::default();
         for suite in in_order(&seen, i, allowed) {
-            suites.measure(suite, &springs.chains(mass), control, &mut accuracy);
-            if !seen.is_empty() && accuracy.over(allowed) > 1.0 {
+            suites.measure(suite, &springs.chains(mass), control, &mut errors);
+            if !seen.is_empty() && errors.over(allowed) > 1.0 {
                 break;
             }
         }
-        seen.insert(i, Rung { stiffness, springs, accuracy });
+        seen.insert(i, Rung { stiffness, springs, errors });
         let least = seen.values().map(&over).fold(f64::INFINITY, f64::min);
         progress(seen.len(), least);
         seen.get(&i).map(&over)
@@ -89,11 +92,11 @@ pub fn tune(
     if first > last {
         return None;
     }
-    let found = seek(first, last, rung(begin(accuracy)).round() as i64, &mut judge)?;
+    let found = seek(first, last, rung(begin(asked)).round() as i64, &mut judge)?;
     let best = seen.get_mut(&found.rung)?;
     for suite in JudgedOn::ALL {
-        if best.accuracy.over_on(suite, allowed).is_none() {
-            suites.measure(suite, &best.springs.chains(mass), control, &mut best.accuracy);
+        if best.errors.over_on(suite, allowed).is_none() {
+            suites.measure(suite, &best.springs.chains(mass), control, &mut best.errors);
         }
     }
     let (best, reached) = (*best, found.holds && over(best) <= 1.0);
@@ -108,8 +111,8 @@ pub fn control(accuracy: f64) -> Control {
 
 /// The suites that a rung is to be judged on: what decided at the nearest rung first, for it may refuse this one alone; and none on
 /// which a softer rung had so little error that this one will hold.
-fn in_order(seen: &BTreeMap<i64, Rung>, i: i64, allowed: f64) -> Vec<JudgedOn> {
-    let share = |rung: &Rung, suite| rung.accuracy.over_on(suite, allowed);
+fn in_order(seen: &BTreeMap<i64, Rung>, i: i64, allowed: Asked) -> Vec<JudgedOn> {
+    let share = |rung: &Rung, suite| rung.errors.over_on(suite, allowed);
     let softer = |suite: &JudgedOn| seen.range(..i).any(|(_, rung)| share(rung, *suite).is_some_and(|x| x < LITTLE));
     let mut order: Vec<JudgedOn> = JudgedOn::ALL.into_iter().filter(|suite| !softer(suite)).collect();
     if let Some(nearest) = seen.iter().min_by_key(|(j, _)| (*j - i).abs()).map(|(_, rung)| rung) {
@@ -119,9 +122,10 @@ fn in_order(seen: &BTreeMap<i64, Rung>, i: i64, allowed: f64) -> Vec<JudgedOn> {
     order
 }
 
-/// The Omega_n/p at which a search for this accuracy begins.
-pub fn begin(accuracy: f64) -> f64 {
-    BEGIN / accuracy
+/// The Omega_n/p at which a search for this error begins.
+pub fn begin(asked: Asked) -> f64 {
+    let begin = if asked.by == Yardstick::Histories { BEGIN } else { BEGIN_PEAKS };
+    begin / asked.error
 }
 
 /// The stiffest Omega_n/p of the ladder up to this one.

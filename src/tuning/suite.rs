@@ -10,10 +10,11 @@ use std::{borrow::Cow, ops::Range, sync::Arc};
 use rayon::prelude::*;
 
 pub(super) use accuracy::quantile;
-pub use accuracy::{Accuracy, JudgedOn, LOOSER, Statistic};
+pub use accuracy::{Accuracy, JudgedOn, LOOSER, MeasuredErrors, PeakAccuracy, Statistic};
 use accuracy::{ERRORS, geometric_mean};
 
 use crate::{
+    case::Yardstick,
     conditioning::{CHANGES, ILL_CONDITIONED, changes, moved_by_width, sensitivity},
     fem::{Analysis, Control, Finish, HistoryOutcome, Start, histories},
     housner::{self, Rocking, RockingOptions},
@@ -23,7 +24,7 @@ use crate::{
     spring::{Chain, Springs},
     structure::Body,
     synthetic,
-    validate::{PREDICTABLE, Stream, push},
+    validate::{HousnerForces, PREDICTABLE, PeakErrors, Stream, push},
 };
 
 /// Motions of each suite that are followed.
@@ -43,8 +44,17 @@ const SEED: u64 = 1940;
 const SMALL_CHANGE: f64 = 1e-6;
 const BELIED: f64 = 4.0;
 
+/// The errors of one history.
+#[derive(Clone, Copy, Debug)]
+struct TrialErrors {
+    /// NRMSE of u and of v.
+    u: f64,
+    v: f64,
+    peaks: PeakErrors,
+}
+
 /// The errors of a history that says nothing.
-const LOST: (f64, f64) = (f64::INFINITY, f64::INFINITY);
+const LOST: TrialErrors = TrialErrors { u: f64::INFINITY, v: f64::INFINITY, peaks: PeakErrors::LOST };
 
 /// A motion and Housner's answer to it.
 #[derive(Clone, Debug)]
@@ -54,6 +64,8 @@ pub struct Trial {
     vertical: Option<Arc<[f64]>>,
     /// Housner's rotations at the samples, up to overturning if he overturns (rad).
     theta: Vec<f64>,
+    /// The ground's forces on it.
+    forces: HousnerForces,
     overturns: bool,
 }
 
@@ -106,10 +118,11 @@ impl Trial {
         let lands = !rocking.impacts.is_empty();
         let fit = rocks && lands && wanted.holds(body, &record, &options, &rocking) && presses();
         fit.then(|| {
+            let forces = HousnerForces::new(body, record.dt, (&record.accel, record.up()), &rocking);
             let Record { dt, accel, .. } = record;
             let mut theta = rocking.theta;
             theta.truncate(samples_until(overturned, dt));
-            Self { dt, accel, vertical: options.vertical, theta, overturns: overturned.is_some() }
+            Self { dt, accel, vertical: options.vertical, theta, forces, overturns: overturned.is_some() }
         })
     }
 
@@ -131,12 +144,13 @@ impl Trial {
     }
 }
 
-/// NRMSE of u and of v on these springs, of each trial, of a body that overturns up to then; infinite if the history does not get to
+/// The errors on these springs, of each trial, of a body that overturns up to then; infinite if the history does not get to
 /// the record's end, or one body overturns and the other does not.
-fn errors(trials: &[Trial], body: &Body<f64>, springs: &Springs<Chain<f64>>, control: Control) -> Vec<(f64, f64)> {
+fn errors(trials: &[Trial], body: &Body<f64>, springs: &Springs<Chain<f64>>, control: Control) -> Vec<TrialErrors> {
     let pushes: Vec<Cow<[f64]>> = trials.iter().map(Trial::push).collect();
     let cases: Vec<Analysis<f64>> = trials.iter().map(|trial| trial.case(body, springs, control)).collect();
-    let followed = histories(&cases, |i| Stream::new(body, &trials[i].theta, &pushes[i]));
+    let followed =
+        histories(&cases, |i| Stream::new(body, &trials[i].theta, &pushes[i]).with_forces(&trials[i].forces));
     let error = |((stream, finish), trial): ((Stream, Finish<f64>), &Trial)| {
         let overturned = match finish.outcome {
             HistoryOutcome::Completed => housner::topples(body, stream.last.0, stream.last.1),
@@ -147,7 +161,7 @@ fn errors(trials: &[Trial], body: &Body<f64>, springs: &Springs<Chain<f64>>, con
             return LOST;
         }
         let errors = if overturned { stream.upright } else { stream.errors };
-        (errors.horizontal.value(), errors.vertical.value())
+        TrialErrors { u: errors.horizontal.value(), v: errors.vertical.value(), peaks: errors.peaks.errors() }
     };
     followed.into_iter().zip(trials).map(error).collect()
 }
@@ -215,43 +229,84 @@ impl Suites {
     }
 
     /// The error of springs on every suite.
-    pub fn accuracy(&self, springs: &Springs<Chain<f64>>, control: Control) -> Accuracy {
-        let mut accuracy = Accuracy::default();
-        JudgedOn::ALL.iter().for_each(|suite| self.measure(*suite, springs, control, &mut accuracy));
-        accuracy
+    pub fn accuracy(&self, springs: &Springs<Chain<f64>>, control: Control) -> MeasuredErrors {
+        let mut measured = MeasuredErrors::default();
+        JudgedOn::ALL.iter().for_each(|suite| self.measure(*suite, springs, control, &mut measured));
+        measured
     }
 
     /// Add the error of springs on one suite to what was measured.
-    pub fn measure(&self, suite: JudgedOn, springs: &Springs<Chain<f64>>, control: Control, accuracy: &mut Accuracy) {
-        let errors = |trials: &[Trial]| errors(trials, &self.body, springs, control);
-        let statistic = |value: Option<f64>, count| value.map(|value| Statistic { value, count });
+    pub fn measure(
+        &self,
+        suite: JudgedOn,
+        springs: &Springs<Chain<f64>>,
+        control: Control,
+        measured: &mut MeasuredErrors,
+    ) {
+        let MeasuredErrors { histories, peaks } = measured;
         match suite {
             JudgedOn::Record => {
-                accuracy.record = errors(self.record.as_slice()).first().map(|(u, v)| u.max(*v));
+                if let Some(found) = errors(self.record.as_slice(), &self.body, springs, control).first() {
+                    histories.record = Some(found.u.max(found.v));
+                    peaks.largest.record = Some(found.peaks.largest());
+                    peaks.record = Some(found.peaks);
+                }
             }
             JudgedOn::Synthetic => {
-                let mut sorted: Vec<f64> = errors(&self.synthetic).iter().map(|e| e.0).collect();
-                sorted.sort_by(f64::total_cmp);
-                accuracy.synthetic_median = statistic(quantile(&sorted, 0.5), sorted.len());
-                accuracy.synthetic_p90 = statistic(quantile(&sorted, 0.9), sorted.len());
+                let found = errors(&self.synthetic, &self.body, springs, control);
+                quantiles(&found, |e| e.u, histories);
+                quantiles(&found, |e| e.peaks.largest(), &mut peaks.largest);
+                let median = |i: usize| quantile(&sorted(&found, |e| e.peaks.all()[i]), 0.5);
+                peaks.synthetic_median = each(median);
             }
             JudgedOn::Earthquakes => {
-                let errors = errors(&self.earthquakes);
-                let found = geometric_mean(errors.iter().map(|e| e.0));
-                accuracy.earthquakes_mean = statistic(found.map(|(mean, _)| mean), errors.len());
-                accuracy.earthquakes_scaled_down = self.scaled_down;
-                accuracy.earthquakes_upper = found.map(|(mean, factor)| mean * factor.powi(ERRORS));
+                let found = errors(&self.earthquakes, &self.body, springs, control);
+                self.means(&found, |e| e.u, histories);
+                self.means(&found, |e| e.peaks.largest(), &mut peaks.largest);
+                let mean = |i: usize| geometric_mean(found.iter().map(|e| e.peaks.all()[i])).map(|(mean, _)| mean);
+                peaks.earthquakes_mean = each(mean);
             }
         }
     }
 
-    /// The error on the record, or the median of the synthetic motions where it cannot be followed: one number for a figure.
-    pub fn error(&self, springs: &Springs<Chain<f64>>, control: Control) -> Option<f64> {
-        let trials = if self.has_record() { self.record.as_slice() } else { &self.synthetic };
-        let mut errors: Vec<f64> = errors(trials, &self.body, springs, control).iter().map(|e| e.0).collect();
-        errors.sort_by(f64::total_cmp);
-        quantile(&errors, 0.5)
+    fn means(&self, found: &[TrialErrors], of: impl Fn(&TrialErrors) -> f64 + Clone, accuracy: &mut Accuracy) {
+        let mean = geometric_mean(found.iter().map(of));
+        accuracy.earthquakes_mean = mean.map(|(value, _)| Statistic { value, count: found.len() });
+        accuracy.earthquakes_scaled_down = self.scaled_down;
+        accuracy.earthquakes_upper = mean.map(|(mean, factor)| mean * factor.powi(ERRORS));
     }
+
+    /// The error of histories on the record, or the median of the synthetic motions where it cannot be followed: one number for a figure.
+    pub fn error(&self, springs: &Springs<Chain<f64>>, control: Control) -> Option<f64> {
+        self.error_by(Yardstick::Histories, springs, control)
+    }
+
+    /// The same by a yardstick.
+    pub fn error_by(&self, yardstick: Yardstick, springs: &Springs<Chain<f64>>, control: Control) -> Option<f64> {
+        let trials = if self.has_record() { self.record.as_slice() } else { &self.synthetic };
+        let of = |e: &TrialErrors| match yardstick {
+            Yardstick::Histories => e.u,
+            Yardstick::Peaks => e.peaks.largest(),
+        };
+        quantile(&sorted(&errors(trials, &self.body, springs, control), of), 0.5)
+    }
+}
+
+fn sorted(found: &[TrialErrors], of: impl Fn(&TrialErrors) -> f64) -> Vec<f64> {
+    let mut all: Vec<f64> = found.iter().map(of).collect();
+    all.sort_by(f64::total_cmp);
+    all
+}
+
+fn quantiles(found: &[TrialErrors], of: impl Fn(&TrialErrors) -> f64, accuracy: &mut Accuracy) {
+    let sorted = sorted(found, of);
+    let statistic = |q: f64| quantile(&sorted, q).map(|value| Statistic { value, count: sorted.len() });
+    (accuracy.synthetic_median, accuracy.synthetic_p90) = (statistic(0.5), statistic(0.9));
+}
+
+/// A number of every peak; `None` of none.
+fn each(number: impl Fn(usize) -> Option<f64>) -> Option<PeakErrors> {
+    Some(PeakErrors::of([number(0)?, number(1)?, number(2)?, number(3)?]))
 }
 
 /// An earthquake-like motion scaled down: its acceleration, of all that these motions may have, becomes as much of [`MILD`]; `None` where that would

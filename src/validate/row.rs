@@ -5,7 +5,7 @@ use std::{borrow::Cow, f64::consts::FRAC_PI_2};
 use rayon::prelude::*;
 use serde::Serialize;
 
-use super::{Judge, stream::Stream};
+use super::{HousnerForces, Judge, stream::Stream};
 use crate::{
     conditioning::Conditioning,
     fem, housner,
@@ -101,12 +101,26 @@ pub struct Row {
     /// When Housner's pivot would first have to hold the body down (s); none if it presses throughout. A foot lifts there, and
     /// rocking does not hold any more.
     pub pivot_pulls_s: Option<f64>,
+    /// Relative error of the largest |u|; this and the next ones are none where `nrmse_horizontal` is.
+    pub displacement_error: Option<f64>,
+    /// Of the largest uplift of a foot.
+    pub uplift_error: Option<f64>,
+    /// Of the largest base shear between landings.
+    pub base_shear_error: Option<f64>,
+    /// Of the largest vertical force of the ground between landings.
+    pub axial_error: Option<f64>,
 }
 
 impl Row {
     /// Whether one of the models failed.
     pub(crate) fn failed(&self) -> bool {
         matches!(self.outcome, RecordOutcome::HousnerFailed | RecordOutcome::FemFailed)
+    }
+
+    /// The largest of the peaks' errors.
+    pub(crate) fn peak_error(&self) -> Option<f64> {
+        let all = [self.displacement_error, self.uplift_error, self.base_shear_error, self.axial_error];
+        all.into_iter().try_fold(0.0, |largest, error| Some(f64::max(largest, error?)))
     }
 
     /// Whether Housner's body rocked without toppling and its history is well conditioned: NRMSE means something one to one.
@@ -136,6 +150,7 @@ struct HousnerAnswer<'a> {
     record: Cow<'a, Record>,
     options: housner::RockingOptions<f64>,
     rocking: housner::Rocking<f64>,
+    forces: HousnerForces,
     conditioning: Option<Conditioning>,
 }
 
@@ -154,7 +169,8 @@ impl Judge {
         let answers: Vec<HousnerAnswer> =
             records.par_iter().with_max_len(1).map(|record| self.answer(record)).collect();
         let cases: Vec<fem::Analysis<f64>> = answers.iter().map(|answer| self.case(&answer.record)).collect();
-        let watch = |i: usize| Stream::new(&self.body, answers[i].standing(), cases[i].accel);
+        let watch =
+            |i: usize| Stream::new(&self.body, answers[i].standing(), cases[i].accel).with_forces(&answers[i].forces);
         let followed = fem::histories(&cases, watch);
         let both = answers.par_iter().with_max_len(1).zip(followed);
         both.map(|(answer, (stream, finish))| self.row(answer, &stream, &finish)).collect()
@@ -168,7 +184,8 @@ impl Judge {
         let rocking = housner::solve(&self.body, record.dt, &record.accel, &options);
         let lifted = rocking.outcome != housner::RockingOutcome::NeverMoved;
         let conditioning = lifted.then(|| Conditioning::new(&self.body, record.dt, &record.accel, &options));
-        HousnerAnswer { record, options, rocking, conditioning }
+        let forces = HousnerForces::new(&self.body, record.dt, (&record.accel, &[]), &rocking);
+        HousnerAnswer { record, options, rocking, forces, conditioning }
     }
 
     fn case<'a>(&self, record: &'a Record) -> fem::Analysis<'a, f64> {
@@ -185,7 +202,7 @@ impl Judge {
     }
 
     fn row(&self, answer: &HousnerAnswer, stream: &Stream, finish: &fem::Finish<f64>) -> Row {
-        let HousnerAnswer { record, options, rocking, conditioning } = answer;
+        let HousnerAnswer { record, options, rocking, conditioning, .. } = answer;
         let (body, dt, accel) = (&self.body, record.dt, &record.accel[..]);
         let overturned_fem = match finish.outcome {
             fem::HistoryOutcome::Overturned { .. } | fem::HistoryOutcome::Stopped { .. } => Some(true),
@@ -216,6 +233,7 @@ impl Judge {
         let moved = |k: usize| changes.width[k].max(changes.scale[k]);
         let changed = housner::solve(body, dt, accel, &changed);
         let error = |x: f64| (outcome == RecordOutcome::Rocked && x.is_finite()).then_some(x);
+        let peaks = errors.peaks.errors();
         Row {
             name: record.name.clone(),
             outcome,
@@ -238,6 +256,10 @@ impl Judge {
             peak_ratio_housner_changed: peak_of(&changed),
             overturned_housner_changed: changed.overturned().is_some(),
             pivot_pulls_s: regime::pivot_pulls(body, dt, accel, rocking),
+            displacement_error: error(horizontal).and(error(peaks.displacement)),
+            uplift_error: error(horizontal).and(error(peaks.uplift)),
+            base_shear_error: error(horizontal).and(error(peaks.base_shear)),
+            axial_error: error(horizontal).and(error(peaks.axial)),
         }
     }
 }

@@ -106,10 +106,15 @@ pub struct GeometricMean {
 impl GeometricMean {
     /// Of all such rows.
     pub(crate) fn new<'a>(rows: impl IntoIterator<Item = &'a Row>) -> Self {
+        Self::by(rows, |row| row.nrmse_horizontal)
+    }
+
+    /// The same of another error.
+    fn by<'a>(rows: impl IntoIterator<Item = &'a Row>, error: fn(&Row) -> Option<f64>) -> Self {
         let errors: Vec<_> = rows
             .into_iter()
             .filter(|row| row.rocked() && row.sensitivity < PREDICTABLE)
-            .map(|row| row.error(row.nrmse_horizontal))
+            .map(|row| row.error(error(row)))
             .collect();
         let found: Vec<f64> = errors.iter().flatten().map(|error| error.max(f64::MIN_POSITIVE).ln()).collect();
         let mean = (!found.is_empty()).then(|| (found.iter().sum::<f64>() / found.len() as f64).exp());
@@ -136,8 +141,12 @@ pub struct Summary {
     pub nrmse_well_conditioned: Quantiles,
     /// NRMSE of v over the same records.
     pub nrmse_vertical_well_conditioned: Quantiles,
+    /// Relative error of the largest displacement, uplift, base shear and axial force, the worst of them, over the same records.
+    pub peaks_well_conditioned: Quantiles,
     /// NRMSE of u over all records that are not hopeless.
     pub nrmse_geometric_mean: GeometricMean,
+    /// The error of peaks over the same records.
+    pub peaks_geometric_mean: GeometricMean,
     /// Records that never lift Housner's body.
     pub never_lifted: usize,
     /// Records whose histories cannot be compared one to one: toppled, not well conditioned, or with a pivot that would have to pull.
@@ -194,7 +203,9 @@ impl Summary {
             overturning: Confusion::new(records),
             nrmse_well_conditioned: Quantiles::new(records, |row| row.nrmse_horizontal),
             nrmse_vertical_well_conditioned: Quantiles::new(records, |row| row.nrmse_vertical),
+            peaks_well_conditioned: Quantiles::new(records, Row::peak_error),
             nrmse_geometric_mean: GeometricMean::new(records.iter().copied()),
+            peaks_geometric_mean: GeometricMean::by(records.iter().copied(), Row::peak_error),
             never_lifted,
             not_comparable: records.len() - comparable - never_lifted,
             pivot_pulls: records.iter().filter(|row| row.pivot_pulls_s.is_some() && !row.overturned_housner).count(),

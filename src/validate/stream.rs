@@ -7,8 +7,9 @@
 
 use std::{borrow::Cow, ops::ControlFlow};
 
+use super::peaks::{HousnerForces, PeakPairs};
 use crate::{
-    fem::{Observer, View},
+    fem::{Change, Observer, View},
     scalar::GRAVITY,
     structure::Body,
 };
@@ -50,6 +51,8 @@ impl Nrmse {
 pub struct StreamErrors {
     pub horizontal: Nrmse,
     pub vertical: Nrmse,
+    /// Peaks of both.
+    pub peaks: PeakPairs,
     pub samples: usize,
 }
 
@@ -58,6 +61,12 @@ pub struct Stream<'a> {
     body: &'a Body<f64>,
     housner: &'a [f64],
     accel: &'a [f64],
+    /// His forces, where peaks of forces are compared.
+    forces: Option<&'a HousnerForces>,
+    /// When a foot touched the ground last (s).
+    touched: f64,
+    /// Velocities u', v' of the centre of mass at the last sample (m/s).
+    velocity: [f64; 2],
     /// Lean of balance (rad).
     alpha: f64,
     /// Index and size of the largest |u_g| of the rest of the record [m/s2].
@@ -83,6 +92,9 @@ impl<'a> Stream<'a> {
             body,
             housner,
             accel,
+            forces: None,
+            touched: f64::NEG_INFINITY,
+            velocity: [0.0; 2],
             alpha: body.alpha(),
             strongest: None,
             initial_z: 0.0,
@@ -93,6 +105,11 @@ impl<'a> Stream<'a> {
             samples: 0,
             residual: 0.0,
         }
+    }
+
+    /// The same that compares the peaks of forces, too.
+    pub fn with_forces(self, forces: &'a HousnerForces) -> Self {
+        Self { forces: Some(forces), ..self }
     }
 
     /// The largest |u_g| from a sample to the end [m/s2]; looked for anew only when that sample has passed.
@@ -121,21 +138,33 @@ impl Observer<f64> for Stream<'_> {
         if index == 0 {
             self.initial_z = view.z();
         }
-        if let Some(&theta) = self.housner.get(index) {
-            self.errors.horizontal.push(view.x(), self.body.u(theta));
-            self.errors.vertical.push(view.z() - self.initial_z, self.body.v(theta));
+        let theta = view.theta();
+        let lean = if view.presses(0) && view.presses(1) { 0.0 } else { theta };
+        let velocity = [view.speed(), view.climb()];
+        if let Some(&housner) = self.housner.get(index) {
+            let u = self.body.u(housner);
+            self.errors.peaks.motion([view.x(), u], [lean, housner]);
+            if let Some(forces) = self.forces {
+                self.errors.peaks.interval(forces, index, self.touched, [self.velocity, velocity]);
+            }
+            self.errors.horizontal.push(view.x(), u);
+            self.errors.vertical.push(view.z() - self.initial_z, self.body.v(housner));
             self.errors.samples = index + 1;
         }
-        let theta = view.theta();
+        self.velocity = velocity;
         if theta.abs() <= self.alpha {
             self.upright = self.errors;
         }
-        if !(view.presses(0) && view.presses(1)) {
-            self.peak = self.peak.max(theta.abs());
-        }
+        self.peak = self.peak.max(lean.abs());
         self.last = (theta, view.theta_rate());
         self.samples = index + 1;
         self.residual = self.residual.max(view.energy.residual().abs());
         if self.falls_from(index) { ControlFlow::Break(()) } else { ControlFlow::Continue(()) }
+    }
+
+    fn event(&mut self, _: usize, change: Change, view: &View<f64>) {
+        if change == Change::TouchDown {
+            self.touched = view.time;
+        }
     }
 }

@@ -137,3 +137,57 @@ fn the_first_of_several_errors_is_reported() {
     let record = |i: usize| if i == 0 { Record::new("one", 0.01, vec![0.0; 10]).map_err(|_| 0) } else { Err(i) };
     assert_eq!(judge.judge_all(8, record, |_| {}).unwrap_err(), 1);
 }
+
+/// Displacement and uplift by the whole histories; the base shear by the springs' own forces between landings at every step, and by equation (1)
+/// at the samples instead of the momentum between them: for a body at rest u_g, and on a foot R (cos(phi) theta'' + sin(phi) theta'^2) + u_g.
+#[test]
+fn errors_of_peaks_are_those_of_an_independent_calculation() {
+    for (control, width) in [(Control::default(), 0.6), (Control { long_steps: true, ..Control::search() }, 0.6)] {
+        let structure = Structure::block(2.0, width, 1e3).unwrap();
+        let judge = Judge { control, ..judge(&structure) };
+        let body = &judge.body;
+        let p = body.p_squared().sqrt();
+        let record = synthetic::record(1, 4, p, body.alpha());
+        let row = judge.judge(std::slice::from_ref(&record)).remove(0);
+        let rocking = housner::solve(body, record.dt, &record.accel, &housner::RockingOptions::default());
+        let (mut history, mut demands) = fem::Analysis {
+            body: *body,
+            springs: judge.springs,
+            start: fem::Start::Settled,
+            dt: record.dt,
+            accel: &record.accel,
+            vertical: &[],
+            scale: 1.0,
+            control: Control::default(),
+        }
+        .simulate_with(&crate::members::Members::default());
+        let largest = |x: &[f64]| x.iter().fold(0.0, |peak: f64, x| peak.max(x.abs()));
+        let motion = rocking.motion(body);
+        let displacement = (largest(&history.motion.u) / largest(&motion.u) - 1.0).abs();
+        let uplift = (largest(&history.motion.theta).sin() / largest(&motion.theta).sin() - 1.0).abs();
+        let n = history.motion.len();
+        demands.separate(body, record.dt, &std::mem::take(&mut history.landings), n);
+        let landed = |t: f64| {
+            let since = |i: &housner::Impact<f64>| i.time <= t && i.time >= t - record.dt - 0.1 / p;
+            rocking.impacts.iter().any(since)
+        };
+        let shear = |i: usize| {
+            let (theta, rate, ground) = (rocking.theta[i], rocking.rate[i], record.accel[i]);
+            if theta == 0.0 && rate == 0.0 {
+                return ground;
+            }
+            let phi = body.alpha() * theta.signum() - theta;
+            let turn = -p * p * (phi.sin() + ground / 9.81 * phi.cos());
+            body.radius() * (phi.cos() * turn + phi.sin() * rate * rate) + ground
+        };
+        let free = (0..n).filter(|i| !landed(*i as f64 * record.dt));
+        let housner = free.fold(0.0, |peak: f64, i| peak.max(shear(i).abs())) * body.mass;
+        let base_shear = (demands.between[0].value.abs() / housner - 1.0).abs();
+        println!("{row:?}\n{displacement} {uplift} {base_shear}");
+        let tolerance = if control.long_steps { 1e-3 } else { 1e-9 };
+        assert!((row.displacement_error.unwrap() - displacement).abs() < tolerance, "{row:?}");
+        assert!((row.uplift_error.unwrap() - uplift).abs() < tolerance, "{row:?}");
+        // means over a sample's interval beside the largest instant in it
+        assert!((row.base_shear_error.unwrap() - base_shear).abs() < 0.02, "{row:?} {base_shear}");
+    }
+}

@@ -89,6 +89,8 @@ fn values_of_the_wrong_type() {
         ("[tuning]\nobjective = \"best\"\n", "unknown variant `best`"),
         ("[tuning]\naccuracy = 0.0\n", "tuning.accuracy is 0.0; give an error between 1e-5 and 1"),
         ("[tuning]\naccuracy = nan\n", "tuning.accuracy is NaN"),
+        ("[tuning]\npeaks = 0.0\n", "tuning.peaks is 0.0; give an error of peaks between 1e-4 and 1"),
+        ("[tuning]\npeaks = 0.02\naccuracy = 0.01\n", "tuning.peaks is 0.02 and tuning.accuracy is 0.01"),
         (
             "[tuning]\nobjective = \"impact\"\n",
             "line 7: objective \"impact\" is now landing; write objective = \"landing\"",
@@ -114,6 +116,8 @@ fn options_beyond_all_measure_or_given_twice() {
         (&["run", "--duration", "1e9"][..], "--duration is 1000000000.0"),
         (&["run", "--duration", "-1"], "--duration is -1"),
         (&["run", "--duration", "1", "--duration", "2"], "multiple times"),
+        (&["run", "--peaks", "2"], "--peaks is 2.0; give an error of peaks between 1e-4 and 1"),
+        (&["run", "--peaks", "0.02", "--accuracy", "0.01"], "--peaks is 0.02; springs are chosen by"),
         (&["run", "--accuracy", "2"], "--accuracy is 2.0; give an error between 1e-5 and 1"),
         (&["run", "--max-hz", "0"], "--max-hz is 0.0"),
         (&["run", "--max-hz", "1e300"], "--max-hz is 1e300"),

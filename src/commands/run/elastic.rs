@@ -30,7 +30,7 @@ pub fn run(o: &RunOptions, mut case: ElasticCase) -> Result<(), CommandError> {
         case.excitation = o.record.excitation(of_case)?;
     }
     case.max_omega_hz = o.max_hz()?.or(case.max_omega_hz);
-    case.accuracy = o.accuracy()?.unwrap_or(case.accuracy);
+    case.asked = o.asked()?.unwrap_or(case.asked);
     check_folder(&o.out)?;
     threads(o.jobs)?;
 
@@ -40,11 +40,11 @@ pub fn run(o: &RunOptions, mut case: ElasticCase) -> Result<(), CommandError> {
     let tell = |done: usize, error: f64| progress.tell(done, 0, &format!("error {error:.2e}"));
     let record = if o.no_record { None } else { Some(referred(&assembled, case.excitation.used()?)?) };
     let (record, reference) = record.unzip();
-    let tuned = tune(&assembled, case.accuracy, case.max_omega_hz, record.as_ref().zip(reference), &tell);
+    let tuned = tune(&assembled, case.asked, case.max_omega_hz, record.as_ref().zip(reference), &tell);
     progress.done();
     let mut tuned = tuned.map_err(|e| CommandError::Result(e.to_string()))?;
     let Some((record, reference)) = record.zip(tuned.reference.take()) else {
-        let run = report::elastic::alone(alone(&assembled, &tuned, case.accuracy));
+        let run = report::elastic::alone(alone(&assembled, &tuned, case.asked));
         return springs_alone(o, &run);
     };
     let progress = Progress::new("history", o.quiet);

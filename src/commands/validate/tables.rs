@@ -5,7 +5,7 @@ use std::fmt::Write;
 use comfy_table::{Table, presets};
 
 use super::CommandError;
-use crate::motion::shown;
+use crate::motion::{percent, shown};
 use crate::validate::{
     Confusion, GeometricMean, PREDICTABLE, Quantiles, RecordOutcome, Row, Suite, Summary, Validation,
 };
@@ -28,13 +28,15 @@ fn summary(v: &Validation) -> (Vec<String>, Vec<Vec<String>>) {
     let lifted =
         |s: &Summary, text: String| if s.never_lifted == s.count { "-".to_string() } else { several(s.count, text) };
     let quantiles = |q: &Quantiles| several(q.count, format!("{} / {}", number(q.median), number(q.p90)));
+    let part = |x: Option<f64>| x.map_or("-".to_string(), percent);
+    let percents = |q: &Quantiles| several(q.count, format!("{} / {}", part(q.median), part(q.p90)));
     let overturned = |c: &Confusion| format!("{} / {} / {} / {}", c.both, c.housner_only, c.fem_only, c.neither);
     let mean = |m: &GeometricMean| match m.failed {
         0 if m.count < 2 => format!("- of {}", m.count),
         0 => format!("{} of {}", number(m.mean), m.count),
         failed => format!("{} of {}, {failed} failed", number(m.mean), m.count),
     };
-    let lines: [Line; 15] = [
+    let lines: [Line; 17] = [
         ("records".into(), &|s| s.count.to_string()),
         ("KS distance of the peak rotations".into(), &|s| lifted(s, format!("{:.4}", s.ks_distance))),
         ("the same, Housner from himself with e changed by 1e-5".into(), &|s| {
@@ -46,11 +48,21 @@ fn summary(v: &Validation) -> (Vec<String>, Vec<Vec<String>>) {
         }),
         ("overturned in both / Housner only / finite elements only / neither".into(), &|s| overturned(&s.overturning)),
         ("well-conditioned histories compared".into(), &|s| s.nrmse_well_conditioned.count.to_string()),
+        ("error of peaks (displacement, uplift, forces): median / 90 %".into(), &|s| {
+            percents(&s.peaks_well_conditioned)
+        }),
         ("NRMSE horizontal: median / 90 %".into(), &|s| quantiles(&s.nrmse_well_conditioned)),
         ("NRMSE vertical: median / 90 %".into(), &|s| quantiles(&s.nrmse_vertical_well_conditioned)),
         (format!("NRMSE horizontal: geometric mean, sensitivity below {PREDICTABLE}"), &|s| {
             mean(&s.nrmse_geometric_mean)
         }),
+        (
+            format!("error of peaks: geometric mean, sensitivity below {PREDICTABLE}"),
+            &|s| match s.peaks_geometric_mean {
+                GeometricMean { count, mean: Some(x), failed: 0 } if count > 1 => format!("{} of {count}", percent(x)),
+                m => mean(&m),
+            },
+        ),
         ("not compared one to one: toppled, ill-conditioned, or in free flight".into(), &|s| {
             s.not_comparable.to_string()
         }),

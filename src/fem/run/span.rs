@@ -13,6 +13,8 @@
 //!   (I + m R^2) d_theta = -m dX/dtheta D,    D = int int (a - P) dt dt
 //! ```
 //!
+//! and its velocities by the same of D'.
+//!
 //! What is left of the kinks at the step's end is p^2 h^2 of the largest D, and what springs give way under a - P; both are counted as
 //! local error. A step that meets a change of contact, or whose body comes to lie, is refused: the steps up to it end at samples. Contact is
 //! looked for along the parabola; a touch that only what is missing would make is not seen.
@@ -115,6 +117,7 @@ impl<S: Scalar> Run<'_, S> {
             most = most.max((now - (c0 + (c1 + c2 * x) * x)).re().abs());
             if i < n {
                 self.late[i] = place - parabola;
+                self.late_rate[i] = speed - (c0 + (c1 * 0.5 + c2 * (THIRD * x)) * x) * (h * x);
                 latest = latest.max(self.late[i].re().abs());
             }
         }
@@ -200,7 +203,8 @@ impl<S: Scalar> Run<'_, S> {
             let time = (self.interval + i) as f64 * self.motion.dt;
             // forces are those at the end
             observer.step(&self.view(real(time)));
-            let state = self.within(&start, stages, i as f64 / span.intervals as f64, self.late[i]);
+            let late = [self.late[i], self.late_rate[i]];
+            let state = self.within(&start, stages, i as f64 / span.intervals as f64, late);
             let view =
                 View { time: real(time), model: self.model, state: &state, feet: &self.feet, energy: &self.energy };
             if let ControlFlow::Break(()) = observer.sample(self.interval + i, &view) {
@@ -215,17 +219,19 @@ impl<S: Scalar> Run<'_, S> {
     }
 
     /// The state at a sample within the step, at tau of it.
-    fn within(&self, start: &State<S>, stages: &Stages<S>, tau: f64, late: S) -> State<S> {
-        let (mut q, v) = (stages.position(start, tau), stages.velocity(tau));
+    fn within(&self, start: &State<S>, stages: &Stages<S>, tau: f64, late: [S; 2]) -> State<S> {
+        let (mut q, mut v) = (stages.position(start, tau), stages.velocity(tau));
         let foot = usize::from(self.feet[1].closed());
         let (sin, cos) = crate::scalar::sin_cos(q[TH]);
         let (_, _, px_th, pz_th) = self.model.foot(foot, &q, sin, cos);
         let Self { model, scales, .. } = self;
         let inertia = model.rotation + model.translation * (scales.radius * scales.radius);
-        let turn = model.body.mass * px_th * late / inertia;
-        q[TH] += turn;
-        q[X] -= px_th * turn;
-        q[Z] -= pz_th * turn;
+        for (of, late) in [&mut q, &mut v].into_iter().zip(late) {
+            let turn = model.body.mass * px_th * late / inertia;
+            of[TH] += turn;
+            of[X] -= px_th * turn;
+            of[Z] -= pz_th * turn;
+        }
         State { q, v }
     }
 }

@@ -9,7 +9,8 @@ use super::{
     trial::{ElasticTrial, ElasticTrialOutcome},
 };
 use crate::{
-    elastic::{answer::Reference, assembled::Assembled, fem::default_control},
+    case::{Asked, Yardstick},
+    elastic::{answer::Reference, assembled::Assembled, fem::default_control, peaks::StructurePeakErrors},
     fem::Control,
     record::Record,
     synthetic,
@@ -43,6 +44,39 @@ pub struct ElasticErrors {
     pub count: usize,
     /// Touches to a landing of the reference, over all.
     pub touches: f64,
+    /// Of peaks; none in older files.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub peaks: Option<ElasticPeaks>,
+}
+
+/// Errors of peaks over the same histories.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+pub struct ElasticPeaks {
+    /// Of the peak with the largest error, history by history: median, and what 90 % are below.
+    #[serde(deserialize_with = "null_as_infinite")]
+    pub largest: [f64; 2],
+    /// Median of each.
+    pub median: StructurePeakErrors,
+}
+
+impl ElasticPeaks {
+    fn new(all: &[StructurePeakErrors]) -> Option<Self> {
+        let at = |q: f64| {
+            move |mut errors: Vec<f64>| {
+                errors.sort_by(f64::total_cmp);
+                quantile(&errors, q)
+            }
+        };
+        let largest = || all.iter().map(StructurePeakErrors::largest).collect();
+        let median = StructurePeakErrors::each(all, at(0.5))?;
+        Some(Self { largest: [at(0.5)(largest())?, at(0.9)(largest())?], median })
+    }
+
+    /// The larger in units of what is allowed.
+    fn over(&self, error: f64) -> f64 {
+        let [median, p90] = self.largest;
+        (median / error).max(p90 / (LOOSER * error))
+    }
 }
 
 /// JSON has no infinity: it is written as null.
@@ -52,8 +86,12 @@ fn null_as_infinite<'de, D: Deserializer<'de>>(deserializer: D) -> Result<[f64; 
 }
 
 impl ElasticErrors {
-    /// The largest in units of what an accuracy of rotations allows.
-    pub fn over(&self, accuracy: f64) -> f64 {
+    /// The largest in units of what is allowed; infinite where peaks were asked for and not measured.
+    pub fn over(&self, asked: Asked) -> f64 {
+        let accuracy = asked.error;
+        if asked.by == Yardstick::Peaks {
+            return self.peaks.map_or(f64::INFINITY, |peaks| peaks.over(accuracy));
+        }
         let allowed = [accuracy, LOOSER * accuracy];
         let each = (0..2).map(|i| (self.median[i] / allowed[i]).max(self.p90[i] / (LOOSER * allowed[i])));
         each.fold(0.0, f64::max)
@@ -80,9 +118,9 @@ impl Measured {
         self.errors().next().is_none()
     }
 
-    /// The largest error in units of what an accuracy allows; none if nothing was measured.
-    pub fn over(&self, accuracy: f64) -> Option<f64> {
-        self.errors().map(|errors| errors.over(accuracy)).reduce(f64::max)
+    /// The largest error in units of what is allowed; none if nothing was measured.
+    pub fn over(&self, asked: Asked) -> Option<f64> {
+        self.errors().map(|errors| errors.over(asked)).reduce(f64::max)
     }
 }
 
@@ -153,6 +191,8 @@ impl ElasticSuite {
         let landings: usize = trials.iter().map(|trial| trial.landings).sum();
         let touches: usize = judged.iter().map(|judged| judged.touches).sum();
         let touches = touches as f64 / landings as f64;
-        Some(ElasticErrors { median: of(0.5)?, p90: of(0.9)?, count: judged.len(), touches })
+        let peaks: Vec<StructurePeakErrors> = judged.iter().map(|judged| judged.peaks).collect();
+        let peaks = ElasticPeaks::new(&peaks);
+        Some(ElasticErrors { median: of(0.5)?, p90: of(0.9)?, count: judged.len(), touches, peaks })
     }
 }

@@ -6,6 +6,7 @@ use crate::{
         answer::Reference,
         assembled::{Assembled, Sway, errors},
         fem::{ElasticAnalysis, ElasticHistory, ElasticStart},
+        peaks::{StructurePeakErrors, StructurePeaks},
         reference::{ElasticRocking, GroundAcceleration, ReferenceOutcome, TRIED},
     },
     fem::Control,
@@ -31,6 +32,8 @@ pub struct ElasticTrial {
     pub lean: Option<f64>,
     /// The reference over that part.
     pub reference: Vec<Sway>,
+    /// Its peaks.
+    pub peaks: StructurePeaks,
     /// Landings of the reference in it.
     pub landings: usize,
 }
@@ -40,6 +43,8 @@ pub struct ElasticTrial {
 pub struct Judged {
     /// NRMSE of rotations, of sways.
     pub errors: [f64; 2],
+    /// Of peaks.
+    pub peaks: StructurePeakErrors,
     /// Touches of corners over the reference's part.
     pub touches: usize,
 }
@@ -115,8 +120,17 @@ impl ElasticTrial {
             return ElasticTrialOutcome::IllConditioned;
         }
         let reference = model.sways(history.q[..samples].iter().map(|q| q.as_slice()));
+        let peaks = StructurePeaks::of(model, history.q[..samples].iter().map(|q| q.as_slice()));
         let vertical = vertical[..samples.min(vertical.len())].to_vec();
-        ElasticTrialOutcome::Trial(Self { dt, accel: accel[..samples].to_vec(), vertical, lean, reference, landings })
+        ElasticTrialOutcome::Trial(Self {
+            dt,
+            accel: accel[..samples].to_vec(),
+            vertical,
+            lean,
+            reference,
+            peaks,
+            landings,
+        })
     }
 
     /// The finite elements' history on springs; as far as it got.
@@ -135,10 +149,16 @@ impl ElasticTrial {
     /// The errors on springs; infinite where their history does not get as far as the reference.
     pub fn judge(&self, model: &Assembled, springs: &CornerSprings, control: Control) -> Judged {
         let Some(history) = self.follow(model, springs, control) else {
-            return Judged { errors: [f64::INFINITY; 2], touches: 0 };
+            return Judged { errors: [f64::INFINITY; 2], peaks: StructurePeakErrors::LOST, touches: 0 };
         };
         let touches = history.contacts.iter().filter(|contact| contact.touches).count();
         let sways = model.sways(history.q.iter().map(Vec::as_slice));
-        Judged { errors: errors(&self.reference, &sways, self.accel.len()), touches }
+        let errors = errors(&self.reference, &sways, self.accel.len());
+        let peaks = if errors.iter().all(|error| error.is_finite()) {
+            StructurePeaks::of(model, history.q.iter().map(Vec::as_slice)).beside(&self.peaks)
+        } else {
+            StructurePeakErrors::LOST
+        };
+        Judged { errors, peaks, touches }
     }
 }

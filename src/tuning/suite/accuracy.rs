@@ -2,6 +2,11 @@
 
 use serde::{Deserialize, Serialize};
 
+use crate::{
+    case::{Asked, Yardstick},
+    validate::PeakErrors,
+};
+
 /// A statistic of errors (NRMSE of u), and over how many motions.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Statistic {
@@ -74,6 +79,54 @@ impl Accuracy {
                 self.earthquakes_upper.map(|upper| upper / (self.looser_on_earthquakes() * accuracy))
             }
         }
+    }
+}
+
+/// The errors of the largest displacement, uplift and forces between landings (`validate::peaks`), on the same motions.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]
+pub struct PeakAccuracy {
+    /// Of the one with the largest error, motion by motion.
+    pub largest: Accuracy,
+    /// Of each, on the record.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub record: Option<PeakErrors>,
+    /// Of each, median over the synthetic motions.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub synthetic_median: Option<PeakErrors>,
+    /// Of each, geometric mean over the earthquake-like motions.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub earthquakes_mean: Option<PeakErrors>,
+}
+
+/// All that was measured of springs.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct MeasuredErrors {
+    pub histories: Accuracy,
+    pub peaks: PeakAccuracy,
+}
+
+impl MeasuredErrors {
+    /// The errors by a yardstick.
+    pub fn by(&self, yardstick: Yardstick) -> &Accuracy {
+        match yardstick {
+            Yardstick::Histories => &self.histories,
+            Yardstick::Peaks => &self.peaks.largest,
+        }
+    }
+
+    /// Whether what is asked for is reached ([`Accuracy::reaches`]).
+    pub fn reaches(&self, asked: Asked) -> bool {
+        self.by(asked.by).reaches(asked.error)
+    }
+
+    /// The largest error in units of what is allowed ([`Accuracy::over`]).
+    pub fn over(&self, asked: Asked) -> f64 {
+        self.by(asked.by).over(asked.error)
+    }
+
+    /// The same on one suite.
+    pub fn over_on(&self, suite: JudgedOn, asked: Asked) -> Option<f64> {
+        self.by(asked.by).over_on(suite, asked.error)
     }
 }
 
