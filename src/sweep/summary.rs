@@ -96,9 +96,9 @@ pub fn fragility(plan: &Plan, fragility: &Fragility, ida: &Ida) -> Vec<String> {
     said
 }
 
-/// Three significant digits, as short as they come; what is below a thousandth is zero.
+/// Three significant digits, as short as they come.
 fn three_digits(x: f64) -> String {
-    let rounded: f64 = if x.abs() < 1e-3 { 0.0 } else { format!("{x:.2e}").parse().unwrap_or(x) };
+    let rounded: f64 = format!("{x:.2e}").parse().unwrap_or(x);
     rounded.to_string()
 }
 
@@ -131,7 +131,12 @@ fn at_levels(plan: &Plan, fragility: &Fragility, ida: &Ida, member: &FragilityGr
         100.0 * fragility.confidence
     );
     for row in rows {
-        let millimetres = |x: f64| if x.is_finite() { three_digits(1e3 * x) } else { "overturned".into() };
+        let millimetres = |x: f64| match 1e3 * x {
+            0.0 => "0".into(),
+            x if x < 0.1 => "< 0.1".into(),
+            x if x.is_finite() => three_digits(x),
+            _ => "overturned".into(),
+        };
         let both = |a: f64, b: f64| format!("{} / {}", millimetres(a), millimetres(b));
         text += &format!(
             "\n  | {} | {:.1} % | {:.1} to {:.1} % | {:.0} % | {} | {} |",
