@@ -62,6 +62,8 @@ pub fn draw(data: &IdaFigure<'_>) -> Result<Sheet, FigureError> {
     for (i, subject) in data.subjects.iter().enumerate() {
         let top = top + (i / 2) as f64 * (HEIGHT + GAP);
         let (from, to) = if i % 2 == 0 { (left, middle - 40.0) } else { (middle + 75.0, right) };
+        // one structure has the whole width
+        let to = if data.subjects.len() == 1 { right } else { to };
         let frame = PanelFrame { left: from, top, right: to, bottom: top + HEIGHT };
         let panel = Panel { frame, x: levels(subject), y: peaks(subject) };
         panel.axes(&mut canvas, Some(&format!("{}: {}", subject.label, data.level_label)), "peak |θ|/α", 95.0);

@@ -18,12 +18,12 @@ const LANES: usize = 8;
 
 /// The step of one oscillator: (d, v) after it from d, v, and the accelerations at both ends.
 #[derive(Clone, Copy, Debug, Default)]
-struct Step {
+struct OscillatorStep {
     d: [f64; 4],
     v: [f64; 4],
 }
 
-impl Step {
+impl OscillatorStep {
     fn new(period: f64, dt: f64) -> Self {
         let omega = TAU / period;
         let omega_d = omega * (1.0 - ZETA * ZETA).sqrt();
@@ -51,20 +51,20 @@ impl Step {
 pub struct ResponseSpectrum {
     /// (s)
     pub periods: Vec<f64>,
-    steps: Vec<Step>,
+    steps: Vec<OscillatorStep>,
 }
 
 impl ResponseSpectrum {
     /// At periods (s) of motions with the time step dt (s).
     pub fn new(periods: Vec<f64>, dt: f64) -> Self {
-        let steps = periods.iter().map(|period| Step::new(*period, dt)).collect();
+        let steps = periods.iter().map(|period| OscillatorStep::new(*period, dt)).collect();
         Self { periods, steps }
     }
 
     /// Pseudo-acceleration of 5 % damping at the periods (m/s2).
     pub fn of(&self, accel: &[f64]) -> Vec<f64> {
         let peaks = self.steps.chunks(LANES).flat_map(|steps| {
-            let mut lanes = [Step::default(); LANES];
+            let mut lanes = [OscillatorStep::default(); LANES];
             lanes[..steps.len()].copy_from_slice(steps);
             peaks(&lanes, accel).into_iter().take(steps.len())
         });
@@ -73,9 +73,9 @@ impl ResponseSpectrum {
 }
 
 /// Largest |d| of several oscillators, and beyond the motion's end for nothing: what follows it is free and decays.
-fn peaks(steps: &[Step; LANES], accel: &[f64]) -> [f64; LANES] {
+fn peaks(steps: &[OscillatorStep; LANES], accel: &[f64]) -> [f64; LANES] {
     // a column a coefficient, so that the lanes of one lie side by side
-    let column = |of: fn(&Step) -> f64| steps.each_ref().map(of);
+    let column = |of: fn(&OscillatorStep) -> f64| steps.each_ref().map(of);
     let (dd, dv, da, db) = (column(|s| s.d[0]), column(|s| s.d[1]), column(|s| s.d[2]), column(|s| s.d[3]));
     let (vd, vv, va, vb) = (column(|s| s.v[0]), column(|s| s.v[1]), column(|s| s.v[2]), column(|s| s.v[3]));
     let (mut d, mut v, mut peak) = ([0.0_f64; LANES], [0.0_f64; LANES], [0.0_f64; LANES]);
