@@ -23,6 +23,7 @@ mod error;
 pub mod fragility;
 pub mod history;
 pub mod ida;
+pub mod levels;
 pub mod lognormal;
 pub mod manifest;
 pub mod motion;

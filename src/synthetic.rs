@@ -20,12 +20,24 @@
 //! ```text
 //! omega_g = 9 to 36 rad/s    zeta_g = 0.2 to 0.6    PGA = 0.2 to 0.9 g    20 to 60 s    dt = 0.005 or 0.01 s
 //! ```
+//!
+//! A third ([`MotionTarget`]) is like a given motion: it has its response spectrum and its envelope in time.
 
+#[cfg(any(test, feature = "cli", feature = "internals"))]
+mod fft;
+#[cfg(any(test, feature = "cli", feature = "internals"))]
+mod like;
 mod noise;
 mod pulse;
 mod random;
+#[cfg(any(test, feature = "cli", feature = "internals"))]
+mod spectrum;
 
+#[cfg(any(feature = "cli", feature = "internals"))]
+pub use like::{LikeError, MotionTarget};
 pub use pulse::Pulse;
+#[cfg(feature = "internals")]
+pub use spectrum::ResponseSpectrum;
 
 use crate::record::{Record, Source};
 use crate::scalar::GRAVITY;
@@ -98,10 +110,15 @@ pub fn earthquake(seed: u64, index: usize, p: f64) -> Record {
     };
     let mut accel = motion.sampled(dt, &mut random);
     scale_to(pga, &mut accel);
-    let p = if p.is_nan() { 0.0 } else { p.max(0.0) };
-    let silence = (8.0 / p).clamp(2.0, 60.0);
-    accel.resize(accel.len() + (silence / dt).ceil() as usize, 0.0);
+    accel.resize(accel.len() + (silence_s(p) / dt).ceil() as usize, 0.0);
     Record { name: format!("earthquake-{index:04}"), dt, accel, vertical: None, source: Source::Earthquake }
+}
+
+/// Length of the silence behind an earthquake, for a body with p (1/s) to topple or to come to rest: 8/p, at least 2 s
+/// and at most 60 s.
+fn silence_s(p: f64) -> f64 {
+    let p = if p.is_nan() { 0.0 } else { p.max(0.0) };
+    (8.0 / p).clamp(2.0, 60.0)
 }
 
 /// Scale to a peak.

@@ -1,10 +1,11 @@
-//! Peak rotation against the level of the ground motion: single records in grey, quantiles over all of them. A panel a structure.
+//! Peak rotation against the level of the ground motion, both as logarithms: single records in grey, quantiles over all of
+//! them. A panel a structure, each with the ranges in which its body moves and stands.
 
 use super::canvas::Canvas;
 use super::legend::{self, LegendEntry};
 use super::panel::{Panel, PanelFrame};
 use super::scale::Scale;
-use super::style::{self, PALE, Pen, WIDTH};
+use super::style::{self, GREY, PALE, Pen, WIDTH};
 use super::{Check, FigureError, Sheet};
 
 const CHECK: Check = Check("ida");
@@ -28,8 +29,12 @@ pub struct IdaFigure<'a> {
     pub subjects: &'a [IdaSubject],
 }
 
-/// |theta|/alpha at the upper edge: above it all have overturned, or nearly.
-const HIGHEST: f64 = 1.5;
+/// |theta|/alpha at the upper edge: from about here on a body overturns.
+const HIGHEST: f64 = 1.2;
+/// At the lower edge at least; less is no rocking that anyone would see.
+const LOWEST: f64 = 3e-3;
+/// Levels are shown from one of these below the first at which a body moves.
+const BEFORE: f64 = 0.9;
 const HEIGHT: f64 = 480.0;
 const GAP: f64 = 150.0;
 const SHARES: [&str; 3] = ["16 % of records below", "median", "84 %"];
@@ -57,19 +62,51 @@ pub fn draw(data: &IdaFigure<'_>) -> Result<Sheet, FigureError> {
     for (i, subject) in data.subjects.iter().enumerate() {
         let top = top + (i / 2) as f64 * (HEIGHT + GAP);
         let (from, to) = if i % 2 == 0 { (left, middle - 40.0) } else { (middle + 75.0, right) };
-        let x = Scale::log_around(subject.levels.iter().copied(), 2.0);
+        // one structure has the whole width
+        let to = if data.subjects.len() == 1 { right } else { to };
         let frame = PanelFrame { left: from, top, right: to, bottom: top + HEIGHT };
-        let panel = Panel { frame, x, y: Scale::linear(0.0, HIGHEST) };
+        let panel = Panel { frame, x: levels(subject), y: peaks(subject) };
         panel.axes(&mut canvas, Some(&format!("{}: {}", subject.label, data.level_label)), "peak |θ|/α", 95.0);
-        let shown = |values: &[f64]| -> Vec<f64> { values.iter().map(|x| x.min(10.0 * HIGHEST)).collect() };
+        panel.level(&mut canvas, 1.0, Pen::new(GREY, 1.5).dashed());
         for (levels, peaks) in &subject.records {
-            panel.curve(&mut canvas, levels, &shown(peaks), Pen::new(PALE, 1.2));
+            let (x, y) = standing(levels, peaks);
+            panel.curve(&mut canvas, &x, &y, Pen::new(PALE, 1.2));
         }
         for (i, quantile) in subject.quantiles.iter().enumerate() {
-            panel.curve(&mut canvas, &subject.levels, &shown(quantile), pen(i));
+            let (x, y) = standing(&subject.levels, quantile);
+            panel.curve(&mut canvas, &x, &y, pen(i));
         }
     }
     canvas.finish(top + rows as f64 * (HEIGHT + GAP))
+}
+
+/// Peaks of a subject that a body moves by and does not overturn, with their levels.
+fn moving(subject: &IdaSubject) -> impl Iterator<Item = (f64, f64)> {
+    let records = subject.records.iter().flat_map(|(levels, peaks)| levels.iter().zip(peaks));
+    let quantiles = subject.quantiles.iter().flat_map(|quantile| subject.levels.iter().zip(quantile));
+    records.chain(quantiles).map(|(level, peak)| (*level, *peak)).filter(|(_, peak)| (LOWEST..HIGHEST).contains(peak))
+}
+
+/// From the first level at which a body moves to the last at which one moves and stands; all levels if none does.
+fn levels(subject: &IdaSubject) -> Scale {
+    let (low, high) =
+        moving(subject).fold((f64::INFINITY, 0.0_f64), |(low, high), (level, _)| (low.min(level), high.max(level)));
+    if high > low {
+        Scale::log(BEFORE * low, high / BEFORE)
+    } else {
+        Scale::log_around(subject.levels.iter().copied(), 2.0)
+    }
+}
+
+/// From the least of nearly all peaks of the quantiles to where a body overturns, at least a decade.
+fn peaks(subject: &IdaSubject) -> Scale {
+    let low = moving(subject).fold(0.1 * HIGHEST, |low: f64, (_, peak)| low.min(peak));
+    Scale::log(low.max(LOWEST), HIGHEST)
+}
+
+/// A curve as it is drawn: a logarithm shows neither zero nor infinity, so that these lie far outside of the panel.
+fn standing(levels: &[f64], peaks: &[f64]) -> (Vec<f64>, Vec<f64>) {
+    levels.iter().zip(peaks).map(|(level, peak)| (*level, peak.clamp(1e-2 * LOWEST, 10.0 * HIGHEST))).unzip()
 }
 
 fn pen(i: usize) -> Pen {

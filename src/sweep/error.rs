@@ -2,7 +2,7 @@
 
 use thiserror::Error;
 
-use crate::{case::CaseError, record::RecordError, tuning::job::JobError};
+use crate::{case::CaseError, record::RecordError, synthetic::LikeError, tuning::job::JobError};
 
 /// What is wrong with a sweep, where, and what to do.
 #[derive(Debug, Error)]
@@ -15,6 +15,8 @@ pub enum SweepError {
     Spec { path: String, line: usize, message: String },
     #[error(transparent)]
     Record(#[from] RecordError),
+    #[error(transparent)]
+    Like(#[from] LikeError),
     #[error("{record}: has no motion; take the record out of the sweep")]
     Still { record: String },
     #[error("springs of {structure}: {source}")]

@@ -1,12 +1,12 @@
 //! The ground motions of a sweep, each made or read when it is needed.
 
-use std::{f64::consts::TAU, path::PathBuf};
+use std::{f64::consts::TAU, path::PathBuf, sync::Arc};
 
 use super::pulse::PulseShape;
 use crate::{
     record::{Notice, ReadOptions, Record, RecordError, Recording, Source},
     scalar::GRAVITY,
-    synthetic,
+    synthetic::{self, MotionTarget},
 };
 
 /// A pulse's frequency.
@@ -27,8 +27,15 @@ impl Frequency {
     }
 }
 
+/// A motion that others are made like, and what the reader of its file says of it.
+#[derive(Debug)]
+pub struct GivenMotion {
+    pub target: MotionTarget,
+    pub notices: Vec<Notice>,
+}
+
 /// One ground motion.
-#[derive(Clone, Debug, PartialEq)]
+#[derive(Clone, Debug)]
 pub enum SweepMotion {
     ElCentro,
     File(PathBuf),
@@ -36,6 +43,8 @@ pub enum SweepMotion {
     Synthetic(usize),
     /// `synthetic::earthquake` of this index.
     Earthquake(usize),
+    /// Of this index, like the given one.
+    Like(usize, Arc<GivenMotion>),
     /// With a peak of 1 g.
     Pulse {
         shape: PulseShape,
@@ -69,6 +78,7 @@ impl SweepMotion {
             Self::File(path) => path.file_stem().unwrap_or_default().to_string_lossy().into_owned(),
             Self::Synthetic(i) => format!("synthetic-{i:05}"),
             Self::Earthquake(i) => format!("earthquake-{i:05}"),
+            Self::Like(i, given) => format!("like-{}-{i:05}", given.target.name()),
             Self::Pulse { shape, frequency: Frequency::OverP(q) } => format!("{} q {q:.4}", shape.label()),
             Self::Pulse { shape, frequency: Frequency::Hz(f) } => format!("{} {f:.4} Hz", shape.label()),
         }
@@ -101,6 +111,8 @@ impl SweepMotion {
             }
             Self::Synthetic(i) => synthetic::record(making.seed, *i, p, alpha),
             Self::Earthquake(i) => synthetic::earthquake(making.seed, *i, making.p.0),
+            // as long as the given one, which duration_s has cut already
+            Self::Like(i, given) => return Ok(given.target.motion(making.seed, *i, making.p.0)),
             Self::Pulse { shape, frequency } => {
                 let (least, greatest) = match frequency {
                     Frequency::OverP(_) => (p, p),

@@ -153,7 +153,7 @@ impl Plan {
             baseline: records.baseline,
             vertical: records.vertical.clone().map(|from| from.within(source.folder())),
         };
-        let motions = ground::motions(source)?;
+        let motions = ground::motions(source, &read, duration_s)?;
         let ratios = match &sweep.ratios {
             Some(values) => source.all_within("ratios", values, 1e-6, 100.0)?,
             None => vec![0.1, 0.5],
@@ -265,7 +265,12 @@ impl Plan {
         }
         let any = (self.subjects[0].p, self.subjects[0].alpha);
         for motion in &self.motions {
-            if !matches!(motion, SweepMotion::File(_)) {
+            if let SweepMotion::Like(index, given) = motion {
+                text += &format!("{} {:x}", motion.name(), given.target.fingerprint());
+                if *index == 0 {
+                    given.notices.iter().for_each(&mut *notice);
+                }
+            } else if !matches!(motion, SweepMotion::File(_)) {
                 text += &format!("{motion:?}");
             } else {
                 // not where it lies, but what is in it

@@ -26,6 +26,8 @@
 //! el_centro = true
 //! synthetic = 100                     # made for each structure
 //! earthquakes = 100                   # like earthquakes, the same for all structures
+//! like = "floor.csv"                  # made with the response spectrum and the envelope of this record
+//! like_count = 100                    # how many of them
 //! duration_s = 20.0
 //!
 //! [[pulse]]
@@ -129,6 +131,8 @@ pub struct Records {
     pub el_centro: bool,
     pub synthetic: Option<Spanned<usize>>,
     pub earthquakes: Option<Spanned<usize>>,
+    pub like: Option<Spanned<PathBuf>>,
+    pub like_count: Option<Spanned<usize>>,
     pub dt_s: Option<f64>,
     pub units: Option<Units>,
     pub component: Option<String>,

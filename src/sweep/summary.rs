@@ -3,12 +3,13 @@
 use super::{
     compare::Comparison,
     fragility::{Fragility, FragilityGroup, LimitState, MEASURES, subject_name},
-    ida::Ida,
-    plan::Plan,
+    ida::{Ida, IdaPoint},
+    levels,
+    plan::{Measure, Plan},
     reduce::MODELS,
     table::Table,
 };
-use crate::sweep::lognormal::LognormalFit;
+use crate::{scalar::GRAVITY, structure::Kind, sweep::lognormal::LognormalFit};
 
 /// A model in words.
 fn by(model: &str) -> &'static str {
@@ -32,7 +33,7 @@ pub fn head(plan: &Plan) -> String {
 const SPOKEN_OF: usize = 12;
 
 /// A paragraph a structure on overturning, and one on which measure tells most.
-pub fn fragility(plan: &Plan, fragility: &Fragility) -> Vec<String> {
+pub fn fragility(plan: &Plan, fragility: &Fragility, ida: &Ida) -> Vec<String> {
     let mut said = Vec::new();
     let percent = 100.0 * fragility.confidence;
     let spoken_of = |member: &FragilityGroup| member.subject.is_none_or(|subject| subject < SPOKEN_OF);
@@ -75,6 +76,7 @@ pub fn fragility(plan: &Plan, fragility: &Fragility) -> Vec<String> {
             by(MODELS[member.model]),
             pga.n
         ));
+        said.extend(at_levels(plan, fragility, ida, member));
         if member.subject.is_none() {
             said.extend(best_measure(rows()));
         }
@@ -92,6 +94,62 @@ pub fn fragility(plan: &Plan, fragility: &Fragility) -> Vec<String> {
         "Bounds take the histories of one record for one observation, however many levels it was scaled to.".into()
     });
     said
+}
+
+/// Three significant digits, as short as they come.
+fn three_digits(x: f64) -> String {
+    let rounded: f64 = format!("{x:.2e}").parse().unwrap_or(x);
+    rounded.to_string()
+}
+
+/// Rows of levels in all, and at least and at most of one structure.
+const LEVEL_ROWS: usize = 24;
+const ROWS_EACH: (usize, usize) = (3, 10);
+
+/// Where a structure lifts, and a table of what becomes of it at the levels.
+fn at_levels(plan: &Plan, fragility: &Fragility, ida: &Ida, member: &FragilityGroup) -> Option<String> {
+    let subject = &plan.subjects[member.subject?];
+    let mine = |point: &&IdaPoint| {
+        (point.model, Some(point.subject), point.restitution) == (member.model, member.subject, member.restitution)
+    };
+    let groups = fragility.members.iter().filter(|member| member.subject.is_some_and(|i| i < SPOKEN_OF)).count();
+    let most = (LEVEL_ROWS / groups.max(1)).clamp(ROWS_EACH.0, ROWS_EACH.1);
+    let rows = levels::telling(plan, ida.points.iter().filter(mine), fragility.half_width(), most);
+    let measure = match plan.measure {
+        Measure::Scale => "scale",
+        Measure::PgaG => "PGA [g]",
+        Measure::PgaOverUplift => "PGA/(g tan alpha)",
+    };
+    let top = match subject.structure.kind {
+        Kind::Block => "top",
+        Kind::AFrame => "apex",
+    };
+    let mut text = format!(
+        "  It lifts at PGA = g tan(alpha) = {:.3} g.\n\n  | {measure} | P(overturn) | {:.0} % bounds | lifts | {top} moves, median / 84 % [mm] | foot lifts [mm] |\n  \
+         |---|---|---|---|---|---|",
+        subject.uplift() / GRAVITY,
+        100.0 * fragility.confidence
+    );
+    for row in rows {
+        let millimetres = |x: f64| match 1e3 * x {
+            0.0 => "0".into(),
+            x if x < 0.1 => "< 0.1".into(),
+            x if x.is_finite() => three_digits(x),
+            _ => "overturned".into(),
+        };
+        let both = |a: f64, b: f64| format!("{} / {}", millimetres(a), millimetres(b));
+        text += &format!(
+            "\n  | {} | {:.1} % | {:.1} to {:.1} % | {:.0} % | {} | {} |",
+            three_digits(row.level),
+            100.0 * row.overturned,
+            100.0 * row.bounds.0,
+            100.0 * row.bounds.1,
+            100.0 * row.lifted,
+            both(row.median.top_m, row.most.top_m),
+            both(row.median.uplift_m, row.most.uplift_m),
+        );
+    }
+    Some(text + "\n")
 }
 
 /// The measure with the least scatter.

@@ -78,7 +78,7 @@ fn end_of(accel: impl Iterator<Item = f64> + Clone, dt: f64) -> [f64; 2] {
 }
 
 /// Subtract E (c0 + c1 x) so that the ground ends at rest where it began; the weight E is one sample shorter.
-fn rest_at_end(accel: &mut [f64], weight: &[f64], dt: f64) {
+pub(super) fn rest_at_end(accel: &mut [f64], weight: &[f64], dt: f64) {
     let constant = weight.iter().copied().chain([0.0]);
     let linear = weight.iter().enumerate().map(|(i, e)| e * i as f64 / weight.len() as f64).chain([0.0]);
     let [v, d] = end_of(accel.iter().copied(), dt);

@@ -73,3 +73,27 @@ fn shares_and_folders_that_are_none_are_refused() {
     refuses(&files, &["sweep", "none.toml"], &["none.toml", "cannot be read"]);
     refuses(&files, &["sweep", "plan", "sweep.toml", "--slurm", "--time", "2h; rm"], &["--time"]);
 }
+
+#[test]
+fn a_motion_that_no_other_can_be_like_is_refused() {
+    let with = |records: &str| format!("{HEAD}{BLOCK}[records]\n{records}{LEVELS}");
+    sweep(&with("like = \"none.csv\"\n"), &["none.csv"]);
+    sweep(&with("el_centro = true\nlike_count = 5\n"), &["line 10", "like_count without like"]);
+    sweep(&with("like = \"sweep.toml\"\n"), &["sweep.toml"]);
+    let files = |count: &str, motion: &str| {
+        let text = with(&format!("like = \"floor.csv\"\n{count}dt_s = 0.01\nunits = \"g\"\n"));
+        (text, motion.to_string())
+    };
+    let wave: String = (0..400).map(|i| format!("{:.6}\n", (0.2 * f64::from(i)).sin())).collect();
+    for ((text, motion), words) in [
+        (files("", "0.1\n0.2\n0.1\n"), ["floor", "3 samples"]),
+        (files("", &"0.0\n".repeat(400)), ["floor", "no motion"]),
+        (files("like_count = 0\n", &wave), ["line 10", "like_count is 0"]),
+    ] {
+        refuses(
+            &[("sweep.toml", &text), ("floor.csv", &motion)],
+            &["sweep", "sweep.toml", "--quiet", "--out", "results"],
+            &words,
+        );
+    }
+}

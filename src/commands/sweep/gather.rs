@@ -16,6 +16,7 @@ use crate::sweep::{
     compare::Comparison,
     fragility::Fragility,
     ida::Ida,
+    levels,
     manifest::{self, Manifest},
     overturning,
     parts::SweepParts,
@@ -118,13 +119,15 @@ fn histories(
     }
     if plan.kind == SweepKind::Fragility {
         let (ida, fragility) = (Ida::new(parts)?, Fragility::new(parts)?);
-        save("ida.csv", &ida.table(plan))?;
+        let mut table = ida.table(plan);
+        table.columns.extend(levels::columns(plan, &ida, fragility.half_width()).columns);
+        save("ida.csv", &table)?;
         save("fragility.csv", &fragility.table(plan))?;
         if draw {
             figures::ida(plan, &ida, &out.join("ida.png"))?;
             figures::fragility(plan, &fragility, &out.join("fragility.png"))?;
         }
-        said.extend(summary::fragility(plan, &fragility));
+        said.extend(summary::fragility(plan, &fragility, &ida));
     }
     if plan.model.housner() && plan.model.fem() {
         let comparison = Comparison::new(parts)?;

@@ -1,26 +1,37 @@
 //! The ground motions that a sweep file asks for.
 
+use std::{path::Path, sync::Arc};
+
 use toml::Spanned;
 
 use crate::{
-    record::Record,
+    record::{ReadOptions, Record, Recording},
     sweep::{
         SweepError,
-        motion::{Frequency, SweepMotion},
+        motion::{Frequency, GivenMotion, SweepMotion},
         pulse::{Name, PulseShape},
         spec::{PulseSection, SweepKind, SweepSource},
     },
+    synthetic::MotionTarget,
 };
 
 /// Bounds on omega/p and on a frequency [Hz].
 const OMEGA_OVER_P: (f64, f64) = (0.01, 1e3);
 const FREQUENCY_HZ: (f64, f64) = (0.01, 1e3);
 
-/// The motions of a sweep file: files, folder, El Centro, those made, pulses.
+/// Motions made like a given one, unless said.
+const LIKE_COUNT: usize = 100;
+
+/// The motions of a sweep file: files, folder, El Centro, those made, pulses. `read` and `duration_s` say how the one is
+/// read that others are made like.
 ///
 /// # Errors
-/// A folder without records; a pulse that is none, with its line.
-pub fn motions(source: &SweepSource) -> Result<Vec<SweepMotion>, SweepError> {
+/// A folder without records; a pulse that is none, with its line; a motion that no other can be like.
+pub fn motions(
+    source: &SweepSource,
+    read: &ReadOptions,
+    duration_s: Option<f64>,
+) -> Result<Vec<SweepMotion>, SweepError> {
     let records = &source.spec.records;
     let mut motions: Vec<SweepMotion> =
         records.files.iter().map(|file| SweepMotion::File(source.folder().join(file))).collect();
@@ -37,6 +48,17 @@ pub fn motions(source: &SweepSource) -> Result<Vec<SweepMotion>, SweepError> {
     };
     motions.extend((0..count("synthetic", &records.synthetic)?).map(SweepMotion::Synthetic));
     motions.extend((0..count("earthquakes", &records.earthquakes)?).map(SweepMotion::Earthquake));
+    match (&records.like, &records.like_count) {
+        (Some(file), n) => {
+            let given = Arc::new(given(&source.folder().join(file.get_ref()), read, duration_s)?);
+            let n = if n.is_some() { count("like_count", n)? } else { LIKE_COUNT };
+            motions.extend((0..n).map(|i| SweepMotion::Like(i, given.clone())));
+        }
+        (None, Some(n)) => {
+            return Err(source.at(n, "like_count without like; give the record, as like = \"floor.csv\""));
+        }
+        (None, None) => {}
+    }
     let files = motions.len();
     for pulse in &source.spec.pulse {
         of_pulse(source, pulse, &mut motions)?;
@@ -49,6 +71,15 @@ pub fn motions(source: &SweepSource) -> Result<Vec<SweepMotion>, SweepError> {
         return Err(source.at(kind, "an overturning spectrum is of pulses; take [records] out"));
     }
     Ok(motions)
+}
+
+/// The horizontal motion that others are made like.
+fn given(path: &Path, read: &ReadOptions, duration_s: Option<f64>) -> Result<GivenMotion, SweepError> {
+    let recording = Recording::read(path, &ReadOptions { vertical: None, ..read.clone() })?;
+    let notices = recording.notices();
+    let record = recording.into_record();
+    let target = MotionTarget::new(&duration_s.map_or(record.clone(), |duration| record.truncated(duration)))?;
+    Ok(GivenMotion { target, notices })
 }
 
 fn of_pulse(source: &SweepSource, pulse: &PulseSection, motions: &mut Vec<SweepMotion>) -> Result<(), SweepError> {
