@@ -124,7 +124,7 @@ fn named(o: &RecordFileOptions, case: Option<&Case>) -> Result<Vec<(PathBuf, Rea
         return Ok(o.files.iter().map(|file| (file.clone(), asked.clone())).collect());
     };
     match case.excitation.record.source.clone() {
-        Source::File { path, units, component, baseline } => {
+        Source::File { path, units, component, baseline, .. } => {
             let options = ReadOptions {
                 dt: asked.dt.or(Some(case.excitation.record.dt)),
                 units: asked.units.or(Some(units)),
