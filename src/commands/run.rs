@@ -21,7 +21,7 @@ use super::{
     table, write_file,
 };
 use crate::{
-    case::{ACCURACY, Case, CaseError, ElasticCase, Limits, MAX_HZ, Objective},
+    case::{ACCURACY, Case, ElasticCase, Limits, MAX_HZ, Objective, text_of},
     excitation::Excitation,
     export::{Expected, equal_steps, with_inertia},
     front::{self, FrontPoint},
@@ -63,7 +63,7 @@ pub struct RunOptions {
     #[command(flatten)]
     record: RecordOptions,
     /// Springs from the geometry and the synthetic motions alone: no history, no decks
-    #[arg(long, conflicts_with_all = ["record", "dt", "units", "component", "baseline", "vertical", "scale", "duration"])]
+    #[arg(long, conflicts_with_all = ["record", "dt", "units", "component", "column", "baseline", "vertical", "scale", "duration"])]
     no_record: bool,
     #[command(flatten)]
     ground: GroundOptions,
@@ -98,13 +98,11 @@ pub struct RunOptions {
 pub fn run(o: &RunOptions) -> Result<(), CommandError> {
     let mut case = match &o.case {
         Some(path) => {
-            let name = path.display().to_string();
-            let text =
-                std::fs::read_to_string(path).map_err(|source| CaseError::Read { path: name.clone(), source })?;
+            let (name, text, asked) = (path.display().to_string(), text_of(path)?, o.record.of_case());
             if ElasticCase::is(&text) {
-                return elastic::run(o, ElasticCase::parse(&name, &text)?);
+                return elastic::run(o, ElasticCase::parse_asking(&name, &text, &asked)?);
             }
-            Case::parse(&name, &text)?
+            Case::parse_asking(&name, &text, &asked)?
         }
         None => Case::paper()?,
     };
@@ -113,9 +111,11 @@ pub fn run(o: &RunOptions) -> Result<(), CommandError> {
             let remedy = "the paper's procedure tunes on a record; leave one of the two out";
             return Err(CommandError::Option { option: "no-record", value: "objective = \"arr\"".into(), remedy });
         }
+        common::print_doubts(&case.doubts_of_structure());
         case.set_excitation(Excitation::whole(Record::new("none", 0.01, vec![0.0; 2])?))?;
     } else {
-        case.set_excitation(o.record.excitation(|| common::of_case(&case))?)?;
+        case.set_excitation(o.record.excitation_of_case(&case.excitation, &case.notices)?)?;
+        common::print_doubts(&case.doubts());
     }
     case.tuning.max_omega_hz = o.max_hz()?.or(case.tuning.max_omega_hz);
     case.tuning.accuracy = o.accuracy()?.unwrap_or(case.tuning.accuracy);

@@ -98,9 +98,9 @@ impl Recording {
         if is_at2 && format == RecordFormat::Columns {
             return Err(RecordError::NoHeader { file: file.clone() });
         }
-        let parsed = format.parse(file, &text, options).map_err(|error| {
-            if is_case(&text) { RecordError::IsCase { file: file.clone() } } else { error }
-        })?;
+        let parsed = format
+            .parse(file, &text, options)
+            .map_err(|error| if is_case(&text) { RecordError::IsCase { file: file.clone() } } else { error })?;
 
         let stem = path.file_stem().map_or_else(|| file.clone(), |stem| super::label(Path::new(stem)));
         let several = parsed.channels.len() > 1 || parsed.chosen;

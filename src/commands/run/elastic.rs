@@ -7,6 +7,7 @@ use crate::{
     case::ElasticCase,
     commands::{
         CommandError,
+        common::print_doubts,
         elastic::{ElasticRun, springs_alone},
         output::{Folder, check_folder},
         progress::Progress,
@@ -22,13 +23,11 @@ use crate::{
 /// The whole job.
 pub fn run(o: &RunOptions, mut case: ElasticCase) -> Result<(), CommandError> {
     applies(o)?;
-    if !o.no_record {
-        let notices = std::mem::take(&mut case.notices);
-        let of_case = || -> Result<_, CommandError> {
-            notices.iter().for_each(|notice| eprintln!("{notice}"));
-            Ok(case.excitation.clone())
-        };
-        case.excitation = o.record.excitation(of_case)?;
+    if o.no_record {
+        print_doubts(&case.doubts_of_structure());
+    } else {
+        case.excitation = o.record.excitation_of_case(&case.excitation, &case.notices)?;
+        print_doubts(&case.doubts());
     }
     case.max_omega_hz = o.max_hz()?.or(case.max_omega_hz);
     case.accuracy = o.accuracy()?.unwrap_or(case.accuracy);
