@@ -73,11 +73,15 @@ pub(super) fn case_error(path: &str, text: &str, error: &toml::de::Error) -> Cas
         return CaseError::IsJson { path: path() };
     }
     let whole = error.message().lines().next().unwrap_or_default();
-    let of_kind = unknown_key(whole).is_some_and(|(_, near)| near.as_deref() != Some("kind"));
+    let unknown = unknown_key(whole).is_some();
+    if let Some((line, key)) = misspelt_kind(text).filter(|_| unknown) {
+        let message = format!("unknown key \"{}\"; did you mean \"kind\"?", one_line(key));
+        return CaseError::Parse { path: path(), line, message };
+    }
     let missing = match text.parse::<toml::Table>() {
         Ok(file) if missing::is_field(whole).is_some() => missing::sections(&file),
         // without a kind no key of [structure] can be judged
-        Ok(file) if of_kind && missing::no_kind(&file) => missing::sections(&file),
+        Ok(file) if unknown && missing::no_kind(&file) => missing::sections(&file),
         _ => None,
     };
     match missing {
@@ -127,6 +131,13 @@ fn unknown_key(message: &str) -> Option<(String, Option<String>)> {
         distance(a).cmp(&distance(b))
     });
     Some((key, near))
+}
+
+/// The line and the name of a key that stands for `kind`, where there is none: all other keys hang on it.
+fn misspelt_kind(text: &str) -> Option<(usize, &str)> {
+    let keys = || text.lines().enumerate().filter_map(|(i, line)| Some((i + 1, line.split_once('=')?.0.trim())));
+    let near = |(_, key): &(usize, &str)| strsim::damerau_levenshtein(key, "kind") <= 2;
+    keys().find(near).filter(|_| keys().all(|(_, key)| key != "kind"))
 }
 
 /// What to say of a line like `height_m = 1,9`.

@@ -41,7 +41,7 @@ pub(super) fn sections(file: &Table) -> Option<(String, &'static str)> {
     all.extend(section("friction").map(|friction| ("friction", lacks::<Friction<f64>>(friction))));
     if let Some(record) = section("record").filter(|record| !record.contains_key("file")) {
         let told: Vec<&str> = OF_FILE.into_iter().filter(|key| record.contains_key(*key)).collect();
-        let key = format!("file, of which {} tells", told.join(", "));
+        let key = format!("file, for {}", told.join(", "));
         all.extend((!told.is_empty()).then(|| ("record", vec![key])));
     }
     let all = all.iter().filter(|(_, keys)| !keys.is_empty());
@@ -120,7 +120,7 @@ mod tests {
                 "[structure]\nkind = 'aframe'\nheight_m = 1\n[damper]\n[tendon]\npretension_n = 1\n[record]\ndt_s = 0.01\n"
             ),
             "[structure] lacks width_m, mass_kg; [damper] lacks c_ns_per_m; [tendon] lacks stiffness_n_per_m; \
-             [record] lacks file, of which dt_s tells"
+             [record] lacks file, for dt_s"
         );
         assert_eq!(said(""), "[structure] lacks kind (aframe, block, pier or frame), its sizes and its mass");
         assert_eq!(said("[structure]\nkind = 'block'\ntotal_height_ft = 6\nwidth_in = 24\nweight_lb = 900\n"), "");

@@ -98,9 +98,10 @@ impl Recording {
         if is_at2 && format == RecordFormat::Columns {
             return Err(RecordError::NoHeader { file: file.clone() });
         }
-        let parsed = format
-            .parse(file, &text, options)
-            .map_err(|error| if is_case(&text) { RecordError::IsCase { file: file.clone() } } else { error })?;
+        if format == RecordFormat::Columns && is_case(&text) {
+            return Err(RecordError::IsCase { file: file.clone() });
+        }
+        let parsed = format.parse(file, &text, options)?;
 
         let stem = path.file_stem().map_or_else(|| file.clone(), |stem| super::label(Path::new(stem)));
         let several = parsed.channels.len() > 1 || parsed.chosen;
@@ -204,7 +205,9 @@ impl Recording {
         match (&named[..], &directed[..]) {
             ([only], _) | ([], [only]) => Ok(*only),
             _ => {
-                let labels: Vec<String> = self.components.iter().map(Component::label).collect();
+                let labels = self.components.iter().map(Component::label).filter(|label| !label.is_empty());
+                let labels: Vec<String> = labels.collect();
+                let labels = if labels.is_empty() { vec!["one without a name".to_owned()] } else { labels };
                 Err(RecordError::NoComponent {
                     file: self.file.clone(),
                     wanted: quote(wanted),

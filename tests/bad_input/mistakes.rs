@@ -29,7 +29,7 @@ fn all_that_a_case_lacks_at_once() {
     let lacks = |text: &str, words: &str| run_case(text, &[words, add]);
     lacks(
         "[structure]\nkind = \"block\"\ntotal_height_m = 2.0\n[record]\ndt_s = 0.01\nunits = \"g\"\n",
-        "case.toml: [structure] lacks width_m, mass_kg; [record] lacks file, of which dt_s, units tells: add",
+        "case.toml: [structure] lacks width_m, mass_kg; [record] lacks file, for dt_s, units: add",
     );
     lacks(
         "[structure]\nkind = \"block\"\nwidth_m = 0.5\n",
@@ -41,7 +41,7 @@ fn all_that_a_case_lacks_at_once() {
         "[structure] lacks width_m, footing_mass_kg, footing_height_m, damping_ratio, frequency_hz (or ei_nm2); [damper] lacks c_ns_per_m",
     );
     lacks(&PIER.replace("frequency_hz = 2.0\n", ""), "case.toml: [structure] lacks frequency_hz (or ei_nm2): add");
-    lacks(&format!("{PIER}[record]\nvertical = \"auto\"\n"), "[record] lacks file, of which vertical tells");
+    lacks(&format!("{PIER}[record]\nvertical = \"auto\"\n"), "[record] lacks file, for vertical");
     lacks(
         "[structure]\nkind = \"frame\"\nheight_m = 12.0\n",
         "lacks span_m, footing_width_m, footing_height_m, footing_mass_kg",
@@ -133,7 +133,12 @@ fn a_table_of_several_columns() {
         &["--column", "3"],
         &["a.csv: the header speaks of velocity"],
     );
-    run_record("a.at2", &format!("{AT2} 0.1 0.2 0.3 0.2\n"), &["--column", "2"], &["there is no component column 2"]);
+    run_record(
+        "a.at2",
+        &format!("{AT2} 0.1 0.2 0.3 0.2\n"),
+        &["--column", "2"],
+        &["there is no component column 2; it has one without a name"],
+    );
     run_record("a.csv", NAMED, &["--column", "2", "--component", "acc1"], &["cannot be used with"]);
     let both = format!("{STRUCTURE}[record]\nfile = \"a.csv\"\ncolumn = 2\ncomponent = \"acc1\"\n");
     refuses(
