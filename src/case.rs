@@ -49,10 +49,13 @@ use crate::{
 #[cfg(feature = "cli")]
 pub use elastic::ElasticCase;
 pub use error::CaseError;
-pub(crate) use error::{parse_error, text_of};
+#[cfg(feature = "cli")]
+pub(crate) use error::parse_error;
+pub(crate) use error::text_of;
 #[cfg(feature = "cli")]
 pub use limits::Limits;
 pub use limits::{ACCURACY, MAX_HZ};
+#[cfg(feature = "cli")]
 pub(crate) use record::NO_MOTION;
 use record::RecordSection;
 pub use structure::{GivenKeys, StructureSection};

@@ -91,18 +91,17 @@ impl ElasticCase {
         if Self::is(text) { Err(CaseError::OfElastic { path: path.into() }) } else { Ok(()) }
     }
 
-    /// Parse a case file's text and read the record it names; `path` names it in messages and is where its record's path starts.
-    ///
-    /// # Errors
-    /// What is wrong with the file, the structure, the record.
+    /// [`ElasticCase::parse_asking`] with nothing asked.
+    #[cfg(test)]
     pub fn parse(path: &str, text: &str) -> Result<Self, CaseError> {
         Self::parse_asking(path, text, &ReadOptions::default())
     }
 
-    /// The same; what is asked of the record goes before what the case says of it.
+    /// Parse a case file's text and read the record it names; `path` names it in messages and is where its record's path starts.
+    /// What is asked of the record goes before what the case says of it.
     ///
     /// # Errors
-    /// As [`ElasticCase::parse`].
+    /// What is wrong with the file, the structure, the record.
     pub fn parse_asking(path: &str, text: &str, asked: &ReadOptions) -> Result<Self, CaseError> {
         let file: ElasticFile = toml::from_str(text).map_err(|e| case_error(path, text, &e))?;
         missing::none(path, text)?;
