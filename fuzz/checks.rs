@@ -86,7 +86,7 @@ pub fn case(bytes: &[u8]) {
         assert!(!path.as_os_str().is_empty());
         Record::parse("motion.txt", b"0.1\n0.3\n-0.2\n", options)
     };
-    let case: Result<Case, _> = groundspring::case::parse_with("case.toml", text, no_file);
+    let case: Result<Case, _> = groundspring::case::parse_with("case.toml", text, &ReadOptions::default(), no_file);
     match case {
         Ok(case) => {
             checked(&case.record);

@@ -23,66 +23,43 @@
 //! ```
 
 #[cfg(feature = "cli")]
+pub(crate) mod assumptions;
+#[cfg(feature = "cli")]
+pub(crate) mod doubts;
+#[cfg(feature = "cli")]
 mod elastic;
+mod error;
 mod limits;
+mod missing;
+mod record;
 mod structure;
 mod yardstick;
 
-use std::path::{Path, PathBuf};
+use std::path::Path;
 
 use serde::{Deserialize, Serialize};
-use thiserror::Error;
 
 use crate::{
     excitation::Excitation,
-    members::{Damper, Friction, Members, MembersError, NO_LEGS, Tendon, names_legs},
-    message::one_line,
-    record::{Notice, ReadOptions, Record, RecordError, Recording, Units, VerticalFrom},
+    members::{Damper, Friction, Members, Tendon},
+    record::{Notice, ReadOptions, Record, RecordError, Recording},
     response::{bounds::Bounds, target::Target},
-    structure::{Structure, StructureError},
+    structure::Structure,
 };
 #[cfg(feature = "cli")]
 pub use elastic::ElasticCase;
+pub use error::CaseError;
+#[cfg(feature = "cli")]
+pub(crate) use error::parse_error;
+pub(crate) use error::text_of;
 #[cfg(feature = "cli")]
 pub use limits::Limits;
 pub use limits::{ACCURACY, MAX_HZ, PEAKS};
-pub use structure::StructureSection;
+#[cfg(feature = "cli")]
+pub(crate) use record::NO_MOTION;
+use record::RecordSection;
+pub use structure::{GivenKeys, StructureSection};
 pub use yardstick::{Asked, Yardstick};
-
-/// What is wrong with a case file, and what to do.
-#[derive(Debug, Error)]
-#[non_exhaustive]
-#[allow(missing_docs)] // messages say what variants and their fields are
-pub enum CaseError {
-    #[error("{path}: cannot be read ({source}); check the name of the case file")]
-    Read { path: String, source: std::io::Error },
-    #[error("{path}, line {line}: {message}")]
-    Parse { path: String, line: usize, message: String },
-    #[error("{path}: {source}")]
-    Structure { path: String, source: StructureError },
-    #[cfg(feature = "cli")]
-    #[error("{path}: {source}")]
-    Elastic { path: String, source: crate::elastic::structure::ElasticError },
-    #[cfg(feature = "cli")]
-    #[error(
-        "{path}: this is an elastic structure, which `tune run` alone takes; give a rigid body here: kind = \"aframe\" or \"block\""
-    )]
-    OfElastic { path: String },
-    #[error("{path}: {source}")]
-    Members { path: String, source: MembersError },
-    #[error("{path}: {key} is {value}; {remedy}")]
-    Value { path: String, key: &'static str, value: String, remedy: &'static str },
-    #[error(
-        "{path}: tuning.peaks is {peaks} and tuning.accuracy is {accuracy}; springs are chosen by one of them, leave the other out"
-    )]
-    TwoYardsticks { path: String, peaks: String, accuracy: String },
-    #[error(
-        "{path}: record.file is not given; record.dt_s, units, component, baseline and vertical tell of a file: name it, or leave them out"
-    )]
-    NoFile { path: String },
-    #[error(transparent)]
-    Record(#[from] RecordError),
-}
 
 /// What the springs' inner design follows from.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
@@ -93,27 +70,6 @@ pub enum Objective {
     /// The landing of the structure, by its geometry.
     #[default]
     Landing,
-}
-
-#[derive(Clone, Debug, Default, Deserialize)]
-#[serde(deny_unknown_fields, default)]
-struct RecordSection {
-    /// Relative to the case file; the embedded El Centro record unless given.
-    file: Option<PathBuf>,
-    /// Time step (s), where the file does not say.
-    dt_s: Option<f64>,
-    /// "g", "m/s2", "cm/s2" or "mm/s2", where the file does not say.
-    units: Option<Units>,
-    /// Component by name or azimuth, where the file has several; the stronger horizontal one unless given.
-    component: Option<String>,
-    /// Subtract the mean of the samples.
-    baseline: bool,
-    /// "auto", the vertical component of the same file, or the file of one, relative to the case file; none unless given.
-    vertical: Option<VerticalFrom>,
-    /// Factor on the acceleration; 1 unless given.
-    scale: Option<f64>,
-    /// Length to compare over (s); the whole record unless given.
-    duration_s: Option<f64>,
 }
 
 /// The outer loop's settings.
@@ -177,6 +133,8 @@ pub struct Case {
     pub structure: Structure,
     /// Velocity restitution e.
     pub restitution: f64,
+    /// Which of its numbers the case file gave, and which were taken for it.
+    pub given: GivenKeys,
     /// Dampers, a tendon, friction: not tuned for, but simulated with the tuned springs.
     pub members: Members<f64>,
     /// The record as read, its scale, the length asked for: what `record` and `duration_s` come from.
@@ -209,15 +167,23 @@ impl Case {
 
     /// Read a case file and the record it names.
     pub fn read(path: &Path) -> Result<Self, CaseError> {
-        let name = path.display().to_string();
-        let text = std::fs::read_to_string(path).map_err(|source| CaseError::Read { path: name.clone(), source })?;
-        Self::parse(&name, &text)
+        Self::read_asking(path, &ReadOptions::default())
+    }
+
+    /// The same; what is asked of the record goes before what the case says of it.
+    pub fn read_asking(path: &Path, asked: &ReadOptions) -> Result<Self, CaseError> {
+        Self::parse_asking(&path.display().to_string(), &text_of(path)?, asked)
     }
 
     /// Parse a case file's text; `path` names it in messages and is where its record's path starts.
     pub fn parse(path: &str, text: &str) -> Result<Self, CaseError> {
+        Self::parse_asking(path, text, &ReadOptions::default())
+    }
+
+    /// The same; what is asked of the record goes before what the case says of it.
+    pub fn parse_asking(path: &str, text: &str, asked: &ReadOptions) -> Result<Self, CaseError> {
         let mut notices = Vec::new();
-        let case = parse_with(path, text, |file, options| {
+        let case = parse_with(path, text, asked, |file, options| {
             let recording = Recording::read(file, options)?;
             notices = recording.notices();
             Ok(recording.into_record())
@@ -240,6 +206,7 @@ impl Case {
         Ok(Self {
             structure,
             restitution,
+            given: GivenKeys::default(),
             members: Members::default(),
             record: excitation.scaled()?,
             notices: Vec::new(),
@@ -276,58 +243,26 @@ impl Case {
     }
 }
 
-/// [`Case::parse`], the record it names read by `read`.
+/// [`Case::parse_asking`], the record it names read by `read`.
 pub fn parse_with(
     path: &str,
     text: &str,
+    asked: &ReadOptions,
     read: impl FnOnce(&Path, &ReadOptions) -> Result<Record, RecordError>,
 ) -> Result<Case, CaseError> {
     #[cfg(feature = "cli")]
     ElasticCase::refuse(path, text)?;
-    let file: CaseFile = toml::from_str(text).map_err(|e| parse_error(path, text, &e))?;
+    let file: CaseFile = toml::from_str(text).map_err(|e| error::case_error(path, text, &e))?;
+    missing::none(path, text)?;
     yardstick::one_of_two(path, text)?;
     let (structure, restitution) = file.structure.checked(path)?;
+    let given = file.structure.given();
     let members = Members { damper: file.damper, tendon: file.tendon, friction: file.friction }
         .checked(&structure.body())
         .map_err(|source| CaseError::Members { path: path.into(), source })?;
-    let excitation = file.record.excitation(path, read)?;
+    let excitation = file.record.excitation(path, asked, read)?;
     let case = Case::new(path, (structure, restitution), excitation, file.tuning)?;
-    Ok(Case { members, target: file.target.unwrap_or_default(), bounds: file.bounds, ..case })
-}
-
-impl RecordSection {
-    /// The ground motion, its record read by `read`; `path` is where the record's path starts.
-    fn excitation(
-        &self,
-        path: &str,
-        read: impl FnOnce(&Path, &ReadOptions) -> Result<Record, RecordError>,
-    ) -> Result<Excitation, CaseError> {
-        let record = match &self.file {
-            Some(name) => {
-                let folder = Path::new(path).parent().unwrap_or(Path::new(""));
-                let (component, baseline) = (self.component.clone(), self.baseline);
-                let vertical = self.vertical.clone().map(|from| from.within(folder));
-                let options = ReadOptions { dt: self.dt_s, units: self.units, component, baseline, vertical };
-                read(&folder.join(name), &options)?
-            }
-            None if self.tells_of_a_file() => return Err(CaseError::NoFile { path: path.into() }),
-            None => Record::el_centro(),
-        };
-        if let Some(asked) = self.duration_s.filter(|asked| !(*asked > 0.0 && *asked <= LONGEST_S)) {
-            let (key, value) = ("record.duration_s", format!("{asked:?}"));
-            let remedy = "give seconds greater than zero, at most 1e6";
-            return Err(CaseError::Value { path: path.into(), key, value, remedy });
-        }
-        Ok(Excitation { record, scale: self.scale.unwrap_or(1.0), duration_s: self.duration_s })
-    }
-
-    fn tells_of_a_file(&self) -> bool {
-        self.dt_s.is_some()
-            || self.units.is_some()
-            || self.component.is_some()
-            || self.baseline
-            || self.vertical.is_some()
-    }
+    Ok(Case { given, members, target: file.target.unwrap_or_default(), bounds: file.bounds, ..case })
 }
 
 impl Tuning {
@@ -373,46 +308,6 @@ fn check_stiffness(path: &str, accuracy: f64, peaks: Option<f64>, max_omega_hz: 
         checked.map_err(|(value, remedy)| CaseError::Value { path: path.into(), key, value, remedy })?;
     }
     Ok(())
-}
-
-/// The line of the error, and for an unknown key the nearest known one.
-pub(crate) fn parse_error(path: &str, text: &str, error: &toml::de::Error) -> CaseError {
-    let line = error.span().map_or(1, |span| text[..span.start.min(text.len())].matches('\n').count() + 1);
-    let whole = error.message().lines().next().unwrap_or_default();
-    let message = one_line(whole);
-    if message.starts_with("unknown variant `impact`") {
-        let message = "objective \"impact\" is now landing; write objective = \"landing\"".to_string();
-        return CaseError::Parse { path: path.into(), line, message };
-    }
-    if message.starts_with("unknown variant `pier`") || message.starts_with("unknown variant `frame`") {
-        let message =
-            "this kind is an elastic structure, whose case files tune run takes; give \"aframe\" or \"block\" here";
-        return CaseError::Parse { path: path.into(), line, message: message.into() };
-    }
-    if names_legs(&message) {
-        return CaseError::Parse { path: path.into(), line, message: NO_LEGS.into() };
-    }
-    let message = message.replace("expected `aframe` or `block`", "expected `aframe`, `block`, `pier` or `frame`");
-    // of the whole message: all known keys, the nearest one among them
-    let message = match unknown_key(whole) {
-        Some((key, Some(near))) => format!("unknown key \"{}\"; did you mean \"{near}\"?", one_line(&key)),
-        Some((key, None)) => format!("unknown key \"{}\"; remove it", one_line(&key)),
-        None if message.contains(';') => message,
-        None => format!("{message}; mend this line"),
-    };
-    CaseError::Parse { path: path.into(), line, message }
-}
-
-/// From serde's "unknown field `x`, expected one of `a`, `b`": x and the known key nearest to it.
-fn unknown_key(message: &str) -> Option<(String, Option<String>)> {
-    let rest = message.strip_prefix("unknown field ")?;
-    let mut quoted = rest.split('`').skip(1).step_by(2).map(str::to_string);
-    let key = quoted.next()?;
-    let near = quoted.min_by(|a, b| {
-        let distance = |known: &str| strsim::damerau_levenshtein(&key, known);
-        distance(a).cmp(&distance(b))
-    });
-    Some((key, near))
 }
 
 #[cfg(test)]

@@ -138,6 +138,7 @@ pub fn main() -> ExitCode {
             let what = what.join(" ");
             // the nearest right one, where there is one
             let tip = text.lines().map(str::trim).find_map(|line| line.strip_prefix("tip: "));
+            let tip = tip.map(str::to_owned).or_else(|| with_a_point(&what));
             let tip = tip.map_or(String::new(), |tip| format!(" ({tip})"));
             eprintln!("{}{tip}; see tune --help", what.trim_end_matches('.'));
             return ExitCode::from(2);
@@ -167,6 +168,13 @@ pub fn main() -> ExitCode {
             ExitCode::from(if matches!(e, CommandError::Failed(_)) { 1 } else { 2 })
         }
     }
+}
+
+/// What to do about a number with a comma: "invalid value '1,9' for ...".
+fn with_a_point(what: &str) -> Option<String> {
+    let value = what.split('\'').nth(1).filter(|value| value.matches(',').count() == 1)?;
+    let point = value.replace(',', ".");
+    point.parse::<f64>().ok().map(|_| format!("write it with a point: {point}"))
 }
 
 /// Write a whole file or nothing: to a temporary file beside it, then rename. Its folder is made.

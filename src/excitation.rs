@@ -1,5 +1,7 @@
 //! The ground motion of a case: a record, its scale, and how much of it is used.
 
+#[cfg(feature = "cli")]
+use crate::record::{ReadOptions, Source, VerticalFrom};
 use crate::record::{Record, RecordError};
 
 /// A record as it was read, and what is made of it.
@@ -11,6 +13,14 @@ pub struct Excitation {
     pub scale: f64,
     /// Length asked for (s); the whole record unless given.
     pub duration_s: Option<f64>,
+}
+
+/// A vertical component that is left out, beside the horizontal one: peaks of the whole file, scaled.
+#[cfg(feature = "cli")]
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(crate) struct VerticalLeftOut {
+    pub peak_g: f64,
+    pub horizontal_g: f64,
 }
 
 impl Excitation {
@@ -39,6 +49,34 @@ impl Excitation {
     /// A scale that is not finite, or takes the peak above 50 g.
     pub fn used(&self) -> Result<Record, RecordError> {
         Ok(self.scaled()?.truncated(self.duration()))
+    }
+
+    /// The vertical component that the record's file has and that is not used; `None` if there is none, or if it is used.
+    #[cfg(feature = "cli")]
+    pub(crate) fn vertical_left_out(&self) -> Option<VerticalLeftOut> {
+        let Source::File { vertical_left_out_g: Some(peak_g), .. } = self.record.source else { return None };
+        let scale = self.scale.abs();
+        let left_out = VerticalLeftOut { peak_g: scale * peak_g, horizontal_g: scale * self.record.pga_g() };
+        self.record.vertical.is_none().then_some(left_out)
+    }
+
+    /// The same ground motion with the vertical component of the record's file, which is read again; `None` if that is not left
+    /// out.
+    ///
+    /// # Errors
+    /// The file cannot be read any more, or has several vertical components.
+    #[cfg(feature = "cli")]
+    pub(crate) fn with_vertical_left_out(&self) -> Option<Result<Self, RecordError>> {
+        self.vertical_left_out()?;
+        let Source::File { path, units, component, baseline, .. } = &self.record.source else { return None };
+        let options = ReadOptions {
+            dt: Some(self.record.dt),
+            units: Some(*units),
+            component: component.clone(),
+            baseline: *baseline,
+            vertical: Some(VerticalFrom::Auto),
+        };
+        Some(Record::read(path, &options).map(|record| Self { record, ..self.clone() }))
     }
 
     /// One line: which record, from where, its scale, how much of it, and the peak of that part.

@@ -10,6 +10,7 @@
 //! have several components ([`Recording`]): a record is the one asked for, else the stronger horizontal one.
 
 mod at2;
+mod column;
 mod columns;
 mod cosmos;
 mod csmip;
@@ -39,6 +40,7 @@ use std::fs::File;
 use std::io::Read;
 use std::path::Path;
 
+pub use column::TableColumn;
 pub use direction::Direction;
 pub use error::RecordError;
 pub use format::RecordFormat;
@@ -92,7 +94,8 @@ pub struct ReadOptions {
     pub dt: Option<f64>,
     /// Unit of the numbers in the file.
     pub units: Option<Units>,
-    /// Component to take, by name or by azimuth (degrees clockwise from north); the stronger horizontal one unless given.
+    /// Component to take, by name or by azimuth (degrees clockwise from north); the stronger horizontal one unless given. Of a
+    /// table of several columns the one to take: "column 3", or its name in the header.
     pub component: Option<String>,
     /// Subtract the mean of the samples.
     pub baseline: bool,

@@ -21,8 +21,9 @@ pub mod table;
 use serde::Serialize;
 
 use crate::{
+    case::{assumptions::Assumption, doubts::Doubt},
     parameters::{Parameters, elastic::ElasticParameters},
-    results::{DesignForces, FiledFinding, Finding, PeakPair, Weight},
+    results::{DesignForces, FiledFinding, Finding, PeakChange, PeakPair, Weight},
 };
 pub use accuracy::{AccuracyOn, AccuracyReport};
 pub use displacements::{peak_table, summary};
@@ -35,6 +36,40 @@ pub struct Assumed {
     pub what: String,
     /// The key or option that sets it.
     pub key: String,
+}
+
+impl Assumed {
+    fn of(assumption: &Assumption) -> Self {
+        let [what, key] = assumption.told();
+        Self { what, key: key.trim_start_matches("structure.").to_string() }
+    }
+}
+
+/// Doubts as findings; of a vertical component that is left out a finding of its own tells what it would change.
+fn doubts(all: Vec<Doubt>) -> impl Iterator<Item = Finding> {
+    let those = all.into_iter().filter(|doubt| !matches!(doubt, Doubt::VerticalLeftOut { .. }));
+    those.map(|doubt| Finding::Doubt { message: doubt.message(), remedy: doubt.remedy() })
+}
+
+/// What changes from one run to another: top displacement and the design forces that both give.
+fn changes(
+    (peaks, forces): (Option<PeakPair>, Option<DesignForces>),
+    (with_peaks, with_forces): (PeakPair, DesignForces),
+) -> Vec<PeakChange> {
+    let change = |quantity: &str, unit: &str, without: f64, with: f64| PeakChange {
+        quantity: quantity.into(),
+        unit: unit.into(),
+        without,
+        with,
+    };
+    let top = |pair: &PeakPair| pair.springs.top_displacement_m;
+    let top = peaks.map(|peaks| change("top displacement", "m", top(&peaks), top(&with_peaks)));
+    let with: Vec<_> = with_forces.all().collect();
+    let forces = forces.into_iter().flat_map(|forces| forces.all().collect::<Vec<_>>()).filter_map(|(name, force)| {
+        let (_, other) = with.iter().find(|(other, _)| *other == name)?;
+        Some(change(name.words(), name.unit(), force.value?.abs(), other.value?.abs()))
+    });
+    top.into_iter().chain(forces).collect()
 }
 
 /// The case as it was understood.

@@ -108,8 +108,16 @@ fn checked(
     rotational_inertia_kgm2: Option<f64>,
     restitution: Option<f64>,
 ) -> PyResult<Structure> {
-    let restitution_ratio = None;
-    let section =
-        StructureSection { kind, height_m, width_m, mass_kg, rotational_inertia_kgm2, restitution, restitution_ratio };
+    let (restitution_ratio, height_key) = (None, None);
+    let section = StructureSection {
+        kind,
+        height_m,
+        width_m,
+        mass_kg,
+        rotational_inertia_kgm2,
+        restitution,
+        restitution_ratio,
+        height_key,
+    };
     section.checked(name).map(|(core, e)| Structure { core, e }).map_err(value_error)
 }

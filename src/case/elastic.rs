@@ -25,12 +25,12 @@ use std::path::Path;
 
 use serde::Deserialize;
 
-use super::{Asked, CaseError, RecordSection, check_stiffness, parse_error, yardstick};
+use super::{Asked, CaseError, RecordSection, check_stiffness, error::case_error, missing, yardstick};
 use crate::{
     elastic::structure::ElasticStructure,
     excitation::Excitation,
     members::{Damper, Members, Tendon},
-    record::{Notice, Recording},
+    record::{Notice, ReadOptions, Recording},
 };
 
 /// Keys that an A-frame has only if its legs are elastic.
@@ -85,13 +85,7 @@ impl ElasticCase {
     /// Whether a case file's text tells of an elastic structure.
     pub fn is(text: &str) -> bool {
         let Ok(file) = text.parse::<toml::Table>() else { return false };
-        let Some(structure) = file.get("structure").and_then(toml::Value::as_table) else { return false };
-        match structure.get("kind").and_then(toml::Value::as_str) {
-            Some("pier" | "frame") => true,
-            Some("block") | None => false,
-            // an A-frame, or a kind that there is not: the keys tell which kinds are to be named
-            Some(_) => OF_LEGS.iter().any(|key| structure.contains_key(*key)),
-        }
+        file.get("structure").and_then(toml::Value::as_table).is_some_and(is_elastic)
     }
 
     /// Of a text that is to be of a rigid body: says so if it tells of an elastic structure.
@@ -99,12 +93,20 @@ impl ElasticCase {
         if Self::is(text) { Err(CaseError::OfElastic { path: path.into() }) } else { Ok(()) }
     }
 
+    /// [`ElasticCase::parse_asking`] with nothing asked.
+    #[cfg(test)]
+    pub fn parse(path: &str, text: &str) -> Result<Self, CaseError> {
+        Self::parse_asking(path, text, &ReadOptions::default())
+    }
+
     /// Parse a case file's text and read the record it names; `path` names it in messages and is where its record's path starts.
+    /// What is asked of the record goes before what the case says of it.
     ///
     /// # Errors
     /// What is wrong with the file, the structure, the record.
-    pub fn parse(path: &str, text: &str) -> Result<Self, CaseError> {
-        let file: ElasticFile = toml::from_str(text).map_err(|e| parse_error(path, text, &e))?;
+    pub fn parse_asking(path: &str, text: &str, asked: &ReadOptions) -> Result<Self, CaseError> {
+        let file: ElasticFile = toml::from_str(text).map_err(|e| case_error(path, text, &e))?;
+        missing::none(path, text)?;
         let of_elastic = |source| CaseError::Elastic { path: path.into(), source };
         let structure = file.structure.checked().map_err(of_elastic)?;
         if let Some(friction) = file.friction {
@@ -117,12 +119,22 @@ impl ElasticCase {
         let ElasticTuning { accuracy, peaks, max_omega_hz } = file.tuning;
         check_stiffness(path, accuracy, peaks, max_omega_hz)?;
         let mut notices = Vec::new();
-        let excitation = file.record.excitation(path, |file: &Path, options| {
+        let excitation = file.record.excitation(path, asked, |file: &Path, options| {
             let recording = Recording::read(file, options)?;
             notices = recording.notices();
             Ok(recording.into_record())
         })?;
         Ok(Self { structure, members, excitation, notices, asked: Asked::new(accuracy, peaks), max_omega_hz })
+    }
+}
+
+/// Whether a section `[structure]` tells of an elastic structure.
+pub(super) fn is_elastic(structure: &toml::Table) -> bool {
+    match structure.get("kind").and_then(toml::Value::as_str) {
+        Some("pier" | "frame") => true,
+        Some("block") | None => false,
+        // an A-frame, or a kind that there is not: the keys tell which kinds are to be named
+        Some(_) => OF_LEGS.iter().any(|key| structure.contains_key(*key)),
     }
 }
 

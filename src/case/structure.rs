@@ -93,6 +93,25 @@ pub struct StructureSection {
     pub restitution: Option<f64>,
     /// Factor on equation 2's e.
     pub restitution_ratio: Option<f64>,
+    /// The key that gave the height.
+    pub height_key: Option<&'static str>,
+}
+
+/// What a case file gave, where the program would take something by itself.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub struct GivenKeys {
+    /// The key that gave the height, with its unit; none if no case file did.
+    pub height: Option<&'static str>,
+    /// The restitution, or a factor on equation 2's.
+    pub restitution: bool,
+    /// The rotational inertia.
+    pub inertia: bool,
+}
+
+/// How many metres one unit of a key of lengths is; 1 for a key without a unit.
+#[cfg(feature = "cli")]
+pub(super) fn unit_of(key: &str) -> f64 {
+    QUANTITIES.iter().find(|(known, ..)| *known == key).map_or(1.0, |(.., unit)| *unit)
 }
 
 impl<'de> Deserialize<'de> for StructureSection {
@@ -141,7 +160,7 @@ impl<'de> Visitor<'de> for Keys {
         let mut kind = None;
         let (mut inertia, mut restitution, mut ratio) = (None, None, None);
         // each with the key that gave it
-        let mut given: [Option<(&str, f64)>; 4] = [None; 4];
+        let mut given: [Option<(&'static str, f64)>; 4] = [None; 4];
         while let Some(StructureKey(key)) = map.next_key()? {
             match key {
                 "kind" => kind = Some(map.next_value()?),
@@ -149,7 +168,7 @@ impl<'de> Visitor<'de> for Keys {
                 "restitution" => restitution = Some(map.next_value()?),
                 "restitution_ratio" => ratio = Some(map.next_value()?),
                 _ => {
-                    let Some(&(_, quantity, unit)) = QUANTITIES.iter().find(|(known, ..)| *known == key) else {
+                    let Some(&(key, quantity, unit)) = QUANTITIES.iter().find(|(known, ..)| *known == key) else {
                         continue;
                     };
                     let same = quantity.same().iter().find_map(|other| given[*other as usize]);
@@ -180,11 +199,21 @@ impl<'de> Visitor<'de> for Keys {
             rotational_inertia_kgm2: inertia,
             restitution,
             restitution_ratio: ratio,
+            height_key: height.or(total).map(|(key, _)| key),
         })
     }
 }
 
 impl StructureSection {
+    /// What was given, and what not.
+    pub(super) fn given(&self) -> GivenKeys {
+        GivenKeys {
+            height: self.height_key,
+            restitution: self.restitution.is_some() || self.restitution_ratio.is_some(),
+            inertia: self.rotational_inertia_kgm2.is_some(),
+        }
+    }
+
     /// The structure and its velocity restitution; `path` names the file in messages.
     ///
     /// # Errors
@@ -266,6 +295,6 @@ mod tests {
         let near = said("kind = \"block\"\nheight_m = 1.0\nwidht_m = 0.5\nmass_kg = 1.0\n");
         assert_eq!(near, "case.toml, line 4: unknown key \"widht_m\"; did you mean \"width_m\"?");
         let none = said("kind = \"block\"\nheight_m = 1.0\nwidth_m = 0.5\n");
-        assert!(none.contains("missing field `mass_kg`"), "{none}");
+        assert!(none.contains("[structure] lacks mass_kg: add"), "{none}");
     }
 }

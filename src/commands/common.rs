@@ -7,9 +7,9 @@ use clap::Args;
 use super::CommandError;
 use crate::{
     answers::Both,
-    case::{Case, LONGEST_S},
+    case::{LONGEST_S, NO_MOTION},
     excitation::Excitation,
-    record::{ReadOptions, Recording, Units, VerticalFrom},
+    record::{Notice, ReadOptions, Recording, Source, TableColumn, Units, VerticalFrom},
 };
 
 /// Which record, how scaled, how long.
@@ -27,6 +27,9 @@ pub struct RecordOptions {
     /// Component, by name or by azimuth in degrees, of a file with several [default: the stronger horizontal one]
     #[arg(long, value_name = "NAME", allow_hyphen_values = true)]
     pub component: Option<String>,
+    /// Column of a table of several, by number (from 1, times included) or by its name in the header
+    #[arg(long, value_name = "N|NAME", conflicts_with = "component")]
+    pub column: Option<TableColumn>,
     /// Subtract the mean of the samples
     #[arg(long)]
     pub baseline: bool,
@@ -48,43 +51,73 @@ impl RecordOptions {
         &self,
         default: impl FnOnce() -> Result<Excitation, E>,
     ) -> Result<Excitation, CommandError> {
-        if let Some(d) = self.duration.filter(|d| !(*d > 0.0 && *d <= LONGEST_S)) {
-            return Err(CommandError::Option {
-                option: "duration",
-                value: format!("{d:?}"),
-                remedy: "give seconds greater than zero, at most 1e6",
-            });
-        }
+        self.check()?;
         let asked = match &self.record {
             Some(path) => {
-                let (component, baseline) = (self.component.clone(), self.baseline);
-                let vertical = self.vertical.clone();
-                let options = ReadOptions { dt: self.dt, units: self.units, component, baseline, vertical };
-                let recording = Recording::read(path, &options)?;
+                let recording = Recording::read(path, &self.reading())?;
                 recording.notices().iter().for_each(|notice| eprintln!("{notice}"));
                 Excitation::whole(recording.into_record())
             }
-            None if self.tells_of_a_file() => {
-                return Err(CommandError::Option {
-                    option: "record",
-                    value: "not given".into(),
-                    remedy: "--dt, --units, --component, --baseline and --vertical tell of a file: name it with --record",
-                });
-            }
+            None if self.reading() != ReadOptions::default() => return Err(self.no_file()),
             None => default().map_err(Into::into)?,
         };
-        Ok(Excitation {
-            scale: self.scale.unwrap_or(asked.scale),
-            duration_s: self.duration.or(asked.duration_s),
-            ..asked
-        })
+        Ok(self.scaled(asked))
     }
-}
 
-impl RecordOptions {
-    fn tells_of_a_file(&self) -> bool {
-        let said = self.dt.is_some() || self.units.is_some() || self.component.is_some();
-        said || self.baseline || self.vertical.is_some()
+    /// The same of a case, which was read with [`RecordOptions::of_case`]: what is said of a file is said of the case's own unless
+    /// `--record` names another.
+    pub fn excitation_of_case(&self, own: &Excitation, notices: &[Notice]) -> Result<Excitation, CommandError> {
+        let named = matches!(own.record.source, Source::File { .. });
+        if self.record.is_some() || !named {
+            return self.excitation(|| -> Result<_, CommandError> { Ok(own.clone()) });
+        }
+        self.check()?;
+        notices.iter().for_each(|notice| eprintln!("{notice}"));
+        Ok(self.scaled(own.clone()))
+    }
+
+    /// How a case is to read the file that it names: as it says itself where `--record` names another.
+    pub fn of_case(&self) -> ReadOptions {
+        if self.record.is_some() { ReadOptions::default() } else { self.reading() }
+    }
+
+    /// What the options say of a file.
+    fn reading(&self) -> ReadOptions {
+        ReadOptions {
+            dt: self.dt,
+            units: self.units,
+            component: self.component.clone().or_else(|| self.column.as_ref().map(TableColumn::component)),
+            baseline: self.baseline,
+            vertical: self.vertical.clone(),
+        }
+    }
+
+    fn check(&self) -> Result<(), CommandError> {
+        let refuse = |option, value: f64, remedy| {
+            let value = format!("{value:?}");
+            Err(CommandError::Option { option, value, remedy })
+        };
+        match (self.duration, self.scale) {
+            (Some(d), _) if !(d > 0.0 && d <= LONGEST_S) => {
+                refuse("duration", d, "give seconds greater than zero, at most 1e6")
+            }
+            (_, Some(0.0)) => refuse("scale", 0.0, NO_MOTION),
+            _ => Ok(()),
+        }
+    }
+
+    fn no_file(&self) -> CommandError {
+        CommandError::Option {
+            option: "record",
+            value: "not given".into(),
+            remedy: "--dt, --units, --component, --column, --baseline and --vertical tell of a file: name it with --record, or in \
+                     [record] of a case",
+        }
+    }
+
+    fn scaled(&self, asked: Excitation) -> Excitation {
+        let scale = self.scale.unwrap_or(asked.scale);
+        Excitation { scale, duration_s: self.duration.or(asked.duration_s), ..asked }
     }
 }
 
@@ -109,12 +142,6 @@ impl GroundOptions {
         let remedy = "give a friction coefficient, zero or greater";
         Err(CommandError::Option { option: "friction", value: format!("{friction:?}"), remedy })
     }
-}
-
-/// The ground motion of a case; what its reader said goes to stderr.
-pub fn of_case(case: &Case) -> Result<Excitation, CommandError> {
-    case.notices.iter().for_each(|notice| eprintln!("{notice}"));
-    Ok(case.excitation.clone())
 }
 
 /// A velocity restitution from the command line, checked.

@@ -6,7 +6,7 @@ use clap::Args;
 
 use super::{
     CommandError,
-    common::{RecordOptions, csv_row, of_case, restitution},
+    common::{RecordOptions, csv_row, restitution},
     output::file_in,
     write_file,
 };
@@ -39,12 +39,12 @@ pub struct HousnerOptions {
 pub fn run(o: &HousnerOptions) -> Result<(), CommandError> {
     let (structure, e, default) = match &o.case {
         Some(path) => {
-            let case = Case::read(path)?;
+            let case = Case::read_asking(path, &o.record.of_case())?;
             (case.structure, Some(case.restitution), case)
         }
         None => (Structure::paper(), None, Case::paper()?),
     };
-    let excitation = o.record.excitation(|| of_case(&default))?;
+    let excitation = o.record.excitation_of_case(&default.excitation, &default.notices)?;
     let out = o.out.as_deref().map(|path| file_in(path, "housner.csv")).transpose()?;
     let record = excitation.used()?;
     let body = structure.body::<f64>();

@@ -49,7 +49,7 @@ mass_kg = 350e3          # or mass_t, mass_lb, weight_kn, weight_kip
 const BLOCK: &str = "\
 [structure]
 kind = \"block\"           # solid, its centre of mass half way up
-total_height_m = 2.0     # of the whole block; or total_height_ft, total_height_in
+total_height_m = 2.0     # of the whole block, not of its centre of mass; or total_height_ft, total_height_in
 width_m = 0.5            # between the edges that it rocks on; or width_ft, width_in
 mass_kg = 400.0          # or mass_t, mass_lb, weight_kn, weight_lb
 # rotational_inertia_kgm2 = 140.0  # about the centre of mass, where it is not that of a solid block
@@ -108,9 +108,11 @@ const REST: &str = "
 [record]                 # left out: 1940 El Centro, north-south
 # file = \"motion.at2\"    # PEER AT2, GeoNet, COSMOS, CSMIP, K-NET, ESM or columns, beside this file
 # component = \"N\"        # of a file with several; left out: the stronger horizontal one
+# column = 2             # of a table of several columns, counted from 1, or its name in the header
+# vertical = \"auto\"      # the file's vertical component, or another file's; left out: none
 # dt_s = 0.01            # where the file does not say
 # units = \"cm/s2\"        # g, m/s2, cm/s2 or mm/s2, where the file does not say
-scale = 1.0              # factor on the acceleration
+scale = 1.0              # factor on the acceleration, with a decimal point
 # duration_s = 20.0      # left out: the whole record
 
 [tuning]
@@ -180,7 +182,8 @@ mod tests {
 
     /// The text with what is commented out.
     fn used(shape: StructureShape) -> String {
-        let names = ["# file", "# component", "# dt_s", "# units", "# A case"];
+        let of_file = ["# file", "# component", "# column", "# vertical", "# dt_s", "# units"];
+        let names = [&of_file[..], &["# A case"]].concat();
         text(shape)
             .lines()
             .filter(|line| !names.iter().any(|x| line.starts_with(x)))

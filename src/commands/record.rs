@@ -15,7 +15,7 @@ use super::{CommandError, output::check_folder};
 use crate::{
     case::{Case, LONGEST_S},
     figures,
-    record::{ReadOptions, RecordFormat, Recording, Source, Units},
+    record::{ReadOptions, RecordFormat, Recording, Source, TableColumn, Units},
     scalar::GRAVITY,
     structure::Body,
 };
@@ -36,6 +36,9 @@ pub struct RecordFileOptions {
     /// Component to take, by name or by azimuth in degrees [default: the stronger horizontal one]
     #[arg(long, value_name = "NAME", allow_hyphen_values = true)]
     component: Option<String>,
+    /// Column of a table of several, by number (from 1, times included) or by its name in the header
+    #[arg(long, value_name = "N|NAME", conflicts_with = "component")]
+    column: Option<TableColumn>,
     /// Subtract the mean of the samples
     #[arg(long)]
     baseline: bool,
@@ -75,7 +78,8 @@ struct RunInputs {
 }
 
 pub fn run(o: &RecordFileOptions) -> Result<(), CommandError> {
-    let case = o.case.as_deref().map(Case::read).transpose()?;
+    let own = if o.files.is_empty() { o.asked() } else { ReadOptions::default() };
+    let case = o.case.as_deref().map(|path| Case::read_asking(path, &own)).transpose()?;
     let body = case.as_ref().map(|case| case.structure.body::<f64>());
     let duration = case.as_ref().map_or(LONGEST_S, |case| case.excitation.duration_s.unwrap_or(LONGEST_S));
     if let Some(folder) = &o.out {
@@ -116,15 +120,23 @@ pub fn run(o: &RecordFileOptions) -> Result<(), CommandError> {
     }
 }
 
+impl RecordFileOptions {
+    /// What the options say of the files.
+    fn asked(&self) -> ReadOptions {
+        let component = self.component.clone().or_else(|| self.column.as_ref().map(TableColumn::component));
+        let (dt, units, baseline) = (self.dt, self.units, self.baseline);
+        ReadOptions { dt, units, component, baseline, vertical: None }
+    }
+}
+
 /// The files that were named and how to read them; with none named, that of the case, as the case says unless an option does.
 fn named(o: &RecordFileOptions, case: Option<&Case>) -> Result<Vec<(PathBuf, ReadOptions)>, CommandError> {
-    let asked =
-        ReadOptions { dt: o.dt, units: o.units, component: o.component.clone(), baseline: o.baseline, vertical: None };
+    let asked = o.asked();
     let Some(case) = case.filter(|_| o.files.is_empty()) else {
         return Ok(o.files.iter().map(|file| (file.clone(), asked.clone())).collect());
     };
     match case.excitation.record.source.clone() {
-        Source::File { path, units, component, baseline } => {
+        Source::File { path, units, component, baseline, .. } => {
             let options = ReadOptions {
                 dt: asked.dt.or(Some(case.excitation.record.dt)),
                 units: asked.units.or(Some(units)),

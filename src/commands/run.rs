@@ -11,7 +11,7 @@ use clap::Args;
 
 use super::{
     CommandError,
-    common::{self, GroundOptions, RecordOptions, history_csv},
+    common::{GroundOptions, RecordOptions, history_csv},
     draw::{self, Pictures},
     export, members,
     output::{Folder, check_folder},
@@ -20,7 +20,7 @@ use super::{
 };
 use crate::{
     answers::Both,
-    case::{ACCURACY, Asked, Case, CaseError, ElasticCase, Limits, MAX_HZ, Objective, PEAKS, Yardstick},
+    case::{ACCURACY, Asked, Case, ElasticCase, Limits, MAX_HZ, Objective, PEAKS, Yardstick, text_of},
     excitation::Excitation,
     export::{Expected, with_inertia},
     figures::Figure,
@@ -66,7 +66,7 @@ pub struct RunOptions {
     #[command(flatten)]
     record: RecordOptions,
     /// Springs from the geometry and the synthetic motions alone: no history, no decks
-    #[arg(long, conflicts_with_all = ["record", "dt", "units", "component", "baseline", "vertical", "scale", "duration"])]
+    #[arg(long, conflicts_with_all = ["record", "dt", "units", "component", "column", "baseline", "vertical", "scale", "duration"])]
     no_record: bool,
     #[command(flatten)]
     ground: GroundOptions,
@@ -111,13 +111,11 @@ pub struct RunOptions {
 pub fn run(o: &RunOptions) -> Result<(), CommandError> {
     let mut case = match &o.case {
         Some(path) => {
-            let name = path.display().to_string();
-            let text =
-                std::fs::read_to_string(path).map_err(|source| CaseError::Read { path: name.clone(), source })?;
+            let (name, text, asked) = (path.display().to_string(), text_of(path)?, o.record.of_case());
             if ElasticCase::is(&text) {
-                return elastic::run(o, ElasticCase::parse(&name, &text)?);
+                return elastic::run(o, ElasticCase::parse_asking(&name, &text, &asked)?);
             }
-            Case::parse(&name, &text)?
+            Case::parse_asking(&name, &text, &asked)?
         }
         None => Case::paper()?,
     };
@@ -128,7 +126,7 @@ pub fn run(o: &RunOptions) -> Result<(), CommandError> {
         }
         case.set_excitation(Excitation::whole(Record::new("none", 0.01, vec![0.0; 2])?))?;
     } else {
-        case.set_excitation(o.record.excitation(|| common::of_case(&case))?)?;
+        case.set_excitation(o.record.excitation_of_case(&case.excitation, &case.notices)?)?;
     }
     case.tuning.max_omega_hz = o.max_hz()?.or(case.tuning.max_omega_hz);
     match o.asked()? {
@@ -154,7 +152,7 @@ pub fn run(o: &RunOptions) -> Result<(), CommandError> {
     };
 
     if o.no_record {
-        return springs_alone(o, &report::rigid::alone(Parameters::of(&case, &job)));
+        return springs_alone(o, &report::rigid::of_case(&case, Parameters::of(&case, &job)));
     }
     let run = RigidRun::new(case, job, front, friction);
     run.save(&o.out, Output { figures: !o.no_figures, report: !o.no_report })?;

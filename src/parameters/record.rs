@@ -106,7 +106,7 @@ impl SourceRow {
     fn new(source: &Source, folder: &Path) -> Self {
         match source {
             Source::Embedded => Self::Embedded,
-            Source::File { path, units, component, baseline } => Self::File {
+            Source::File { path, units, component, baseline, .. } => Self::File {
                 file: slashes(path),
                 path: slashes(&way(&real(folder), &real(path))),
                 units: *units,

@@ -1,12 +1,13 @@
-//! Columns of text: (time, acceleration), acceleration alone, or bare values in several columns, read row by row. They are
-//! separated by commas, semicolons, tabs or blanks, below any number of header lines; lines that start with #, % or // are
+//! Columns of text: (time, acceleration), acceleration alone, bare values in several columns, read row by row, or a table of
+//! which one column is asked for. They are separated by commas, semicolons, tabs or blanks, below any number of header lines; lines that start with #, % or // are
 //! comments.
 
+use super::column;
 use super::header::{self, is_comment, step_in};
 use super::parsed::{Parsed, Samples, mean};
 use super::text::{lines, number, precision, quote};
 use super::timing::Times;
-use super::{ReadOptions, RecordError, Units, units};
+use super::{Direction, ReadOptions, RecordError, Units, units};
 
 /// From so many rows on, values of one sign are no accelerogram.
 const ONE_SIGN_ROWS: usize = 20;
@@ -17,16 +18,34 @@ const LARGEST_WHOLE: f64 = 5000.0;
 pub(super) fn parse(file: &str, text: &str, options: &ReadOptions) -> Result<Parsed, RecordError> {
     let table = NumberTable::read(file, text)?;
     let names = table.names();
-    let units = units::declared(&table.header, table.header.last().map(|(_, line)| *line));
-    let quantity = header::quantity(&table.header, &names);
+    let asked = options.component.as_deref().filter(|_| table.columns > 1);
+    let Some(wanted) = asked else { return series(file, table, &names, options) };
+    let (table, names) = table.chosen(file, wanted, &names)?;
+    let mut parsed = series(file, table, &names, options)?;
+    parsed.chosen = true;
+    for channel in &mut parsed.channels {
+        (channel.name, channel.direction) = (Some(wanted.trim().to_owned()), Direction::of(wanted));
+    }
+    Ok(parsed)
+}
+
+/// The series that a table of one column, of two, or of bare values holds; `names` of its columns.
+fn series(file: &str, table: NumberTable, names: &[&str], options: &ReadOptions) -> Result<Parsed, RecordError> {
+    let of_columns = || table.header.last().map(|(_, line)| *line);
+    let units = units::declared(&table.header, table.column_name.or_else(of_columns));
+    let quantity = header::quantity(&table.header, names);
     if quantity == Some(header::COUNTS) || table.holds_counts(units.or(options.units)) {
         return Err(RecordError::Counts { file: file.to_owned() });
     }
     let said = || table.header.iter().find_map(|(_, line)| step_in(line));
     let said = || said().map_or((None, 0.0), |(dt, rounding)| (Some(dt), rounding));
+    let mut row_by_row = None;
     let ((dt, dt_rounding), values) = match table.columns {
         0 | 1 => (said(), table.values),
-        _ if table.is_bare(file, options, &names)? => (said(), table.values),
+        _ if table.is_bare(file, options, names)? => {
+            row_by_row = Some(table.columns);
+            (said(), table.values)
+        }
         _ => {
             table.check_times(file, options, quantity)?;
             let step = match table.lines {
@@ -36,7 +55,13 @@ pub(super) fn parse(file: &str, text: &str, options: &ReadOptions) -> Result<Par
             (step, table.values.chunks(2).filter_map(|row| row.get(1).copied()).collect())
         }
     };
-    Ok(Parsed::bare(Samples { units, quantity, dt, dt_rounding, values, ..Samples::default() }))
+    let parsed = Parsed::bare(Samples { units, quantity, dt, dt_rounding, values, ..Samples::default() });
+    Ok(Parsed { row_by_row, ..parsed })
+}
+
+/// Whether a text holds columns of numbers, at least two rows of them.
+pub(super) fn hold_numbers(text: &str) -> bool {
+    NumberTable::read("", text).is_ok_and(|table| table.lines > 1)
 }
 
 /// The numbers of a file, as they stand.
@@ -55,6 +80,8 @@ struct NumberTable<'a> {
     short: Option<(usize, usize)>,
     /// No number has a decimal point.
     whole: bool,
+    /// The name of the column that was chosen.
+    column_name: Option<&'a str>,
 }
 
 impl<'a> NumberTable<'a> {
@@ -146,7 +173,29 @@ impl<'a> NumberTable<'a> {
         if bare {
             return Ok(true);
         }
-        Err(RecordError::TooManyColumns { file: file.to_owned(), line: self.first_line, found: self.columns })
+        let columns = column::list(1, self.columns, names);
+        Err(RecordError::TooManyColumns { file: file.to_owned(), line: self.first_line, found: self.columns, columns })
+    }
+
+    /// The table of the times, if there are any, and the column that is asked for, and the names of both.
+    fn chosen(self, file: &str, wanted: &str, names: &[&'a str]) -> Result<(Self, Vec<&'a str>), RecordError> {
+        let file = || file.to_owned();
+        if let Some((line, found)) = self.short {
+            return Err(RecordError::Ragged { file: file(), line, found, expected: self.columns });
+        }
+        let timed = self.times.run_upwards() || names.first().is_some_and(|name| header::is_time(name));
+        let times = usize::from(timed);
+        let Some(index) = column::find(wanted, self.columns, names).filter(|index| *index >= times) else {
+            let available = column::list(times, self.columns, names);
+            return Err(RecordError::NoComponent { file: file(), wanted: quote(wanted), several: false, available });
+        };
+        let row = |row: &[f64]| [0, index].map(|i| row.get(i).copied().unwrap_or(f64::NAN));
+        let rows = self.values.chunks(self.columns).map(row);
+        let values = if timed { rows.flatten().collect() } else { rows.map(|[_, value]| value).collect() };
+        let kept = if timed { vec![0, index] } else { vec![index] };
+        let names: Vec<&str> = kept.iter().filter_map(|i| names.get(*i).copied()).collect();
+        let column_name = names.last().copied();
+        Ok((Self { columns: kept.len(), values, column_name, ..self }, names))
     }
 
     /// Refuse a first column of two that is no time.

@@ -28,7 +28,7 @@ fn text_lines(line: &str) -> Option<usize> {
 /// All channels of acceleration.
 pub(super) fn parse(file: &str, text: &str) -> Result<Parsed, RecordError> {
     let mut cursor = Cursor::new(file, RecordFormat::Cosmos, text);
-    let mut parsed = Parsed { station: None, channels: Vec::new() };
+    let mut parsed = Parsed::default();
     let mut other = None;
     while cursor.skip_blank() {
         let header = CosmosHeader::read(&mut cursor)?;

@@ -29,7 +29,7 @@ fn is_data_line(line: &str, quantity: &str) -> bool {
 /// All channels.
 pub(super) fn parse(file: &str, text: &str) -> Result<Parsed, RecordError> {
     let mut cursor = Cursor::new(file, RecordFormat::Csmip, text);
-    let mut parsed = Parsed { station: None, channels: Vec::new() };
+    let mut parsed = Parsed::default();
     while cursor.skip_blank() {
         let (station, channel) = read_channel(&mut cursor)?;
         parsed.station = parsed.station.or(station);

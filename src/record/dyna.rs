@@ -85,7 +85,7 @@ pub(super) fn parse(file: &str, text: &str) -> Result<Parsed, RecordError> {
         pga,
         pgv: None,
     };
-    Ok(Parsed { station: header.station(), channels: vec![channel] })
+    Ok(Parsed { station: header.station(), channels: vec![channel], ..Parsed::default() })
 }
 
 /// The lines with keys.

@@ -28,9 +28,11 @@ pub enum RecordError {
     #[error("{file}, line {line}: '{text}' has decimal commas; write decimal points instead")]
     DecimalComma { file: String, line: usize, text: String },
     #[error(
-        "{file}, line {line}: {found} columns; give time and acceleration, or acceleration alone with --dt; bare values in several columns are read row by row with --dt and --units"
+        "{file}, line {line}: {found} columns; choose the acceleration with --column, a number or a name ({columns}; in a case file column in [record]); bare values are read row by row with --dt and --units"
     )]
-    TooManyColumns { file: String, line: usize, found: usize },
+    TooManyColumns { file: String, line: usize, found: usize, columns: String },
+    #[error("{file}: this is a case file, not a ground motion; run it as `tune run {file}`, or name a record here")]
+    IsCase { file: String },
     #[error(
         "{file}, line {line}: {found} columns where the lines before have {expected}; the line is cut or merged: repair it"
     )]
@@ -99,7 +101,7 @@ pub enum RecordError {
     )]
     ForeignUnit { file: String, line: usize, unit: String },
     #[error(
-        "{file}: {} component {wanted}; it has {available}: pass another --component, a name or an azimuth",
+        "{file}: {} component {wanted}; it has {available}: pass another --component (name, azimuth), of a table --column",
         if *.several { "there is more than one" } else { "there is no" }
     )]
     NoComponent { file: String, wanted: String, several: bool, available: String },

@@ -72,6 +72,12 @@ impl RecordFormat {
         }
     }
 
+    /// The format of a text that is a ground motion, by its first lines or by its columns of numbers.
+    pub(crate) fn recognised(text: &str) -> Option<Self> {
+        let format = Self::of(text);
+        (format != Self::Columns || columns::hold_numbers(text)).then_some(format)
+    }
+
     /// What a file of this format holds.
     pub(super) fn parse(self, file: &str, text: &str, options: &ReadOptions) -> Result<Parsed, RecordError> {
         match self {

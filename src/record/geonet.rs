@@ -35,7 +35,7 @@ pub(super) fn is_it(head: &[&str]) -> bool {
 /// All components.
 pub(super) fn parse(file: &str, text: &str) -> Result<Parsed, RecordError> {
     let mut cursor = Cursor::new(file, RecordFormat::GeoNet, text);
-    let mut parsed = Parsed { station: None, channels: Vec::new() };
+    let mut parsed = Parsed::default();
     while cursor.skip_blank() {
         let header = GeonetHeader::read(&mut cursor)?;
         parsed.station = parsed.station.or_else(|| header.station());

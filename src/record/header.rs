@@ -44,6 +44,12 @@ fn first_word(name: &str) -> String {
         .to_owned()
 }
 
+/// Whether a column's name says that it holds times.
+pub(super) fn is_time(name: &str) -> bool {
+    let word = first_word(name);
+    word == "t" || word.starts_with("time") || word.starts_with("zeit")
+}
+
 fn is_abscissa_of_spectrum(name: &str) -> bool {
     let word = first_word(name);
     word.starts_with("period") || word.starts_with("freq") || word == "f" || name.to_ascii_lowercase().contains("hz")

@@ -53,7 +53,7 @@ pub(super) fn parse(file: &str, text: &str) -> Result<Parsed, RecordError> {
     let station = header.value("Station Code").map(|(_, code)| code.to_owned());
     let samples = Samples { units: Some(Units::CentimetrePerSecond2), dt: Some(dt), values, ..Samples::default() };
     let channel = Channel { name, direction, samples, pga, pgv: None };
-    Ok(Parsed { station, channels: vec![channel] })
+    Ok(Parsed { station, channels: vec![channel], ..Parsed::default() })
 }
 
 /// The lines above the numbers.

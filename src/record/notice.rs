@@ -9,6 +9,8 @@ use std::fmt;
 pub enum Notice {
     /// The file has several components and none was asked for.
     Taken { file: String, taken: String, pga_g: f64, others: String },
+    /// Bare values in several columns are one series.
+    RowByRow { file: String, columns: usize, samples: usize },
     /// The file has vertical components alone.
     OnlyVertical { file: String, component: String },
     /// The mean is a large share of the peak.
@@ -40,6 +42,11 @@ impl fmt::Display for Notice {
                 f,
                 "{file}: component {taken} is taken, the stronger horizontal one ({pga_g:.4} g); also there: {others}; \
                  choose with --component"
+            ),
+            Self::RowByRow { file, columns, samples } => write!(
+                f,
+                "{file}: {columns} columns without times are read row by row, as one series of {samples} samples; if each \
+                 column is a component, choose one with --column"
             ),
             Self::OnlyVertical { file, component } => {
                 write!(

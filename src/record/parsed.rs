@@ -4,9 +4,14 @@ use super::peak::Peak;
 use super::{Component, Direction, ReadOptions, Record, RecordError, Units};
 
 /// A file as its reader leaves it.
+#[derive(Default)]
 pub(super) struct Parsed {
     pub station: Option<String>,
     pub channels: Vec<Channel>,
+    /// The file has more columns than the one that was chosen.
+    pub chosen: bool,
+    /// Columns of bare values that were read row by row, where there are several.
+    pub row_by_row: Option<usize>,
 }
 
 /// One component.
@@ -39,7 +44,7 @@ impl Parsed {
     /// A file that knows nothing but its samples.
     pub(super) fn bare(samples: Samples) -> Self {
         let channel = Channel { name: None, direction: Direction::Unknown, samples, pga: None, pgv: None };
-        Self { station: None, channels: vec![channel] }
+        Self { channels: vec![channel], ..Self::default() }
     }
 }
 

@@ -41,6 +41,10 @@ pub struct Recording {
     pub taken: usize,
     /// Whether the component was asked for.
     asked: bool,
+    /// The file is a table of more columns than the one that was chosen.
+    chosen: bool,
+    /// Columns of bare values that were read row by row.
+    row_by_row: Option<usize>,
     /// The vertical component asked for.
     vertical: Option<Record>,
     pub(super) file: String,
@@ -56,16 +60,22 @@ impl Recording {
         let bytes = super::bytes(path)?;
         let without = ReadOptions { vertical: None, ..options.clone() };
         let mut recording = Self::parse(&super::label(path), &bytes, &without)?;
-        let several = recording.components.len() > 1;
+        let several = recording.components.len() > 1 || recording.chosen;
         for component in &mut recording.components {
             component.record.source = Source::File {
                 path: path.into(),
                 units: component.units,
                 component: component.name.clone().filter(|_| several),
                 baseline: options.baseline,
+                vertical_left_out_g: None,
             };
         }
         recording.vertical = recording.check_vertical(options)?;
+        let left_out = recording.vertical_left_out();
+        let taken = &mut recording.components[recording.taken];
+        if let Source::File { vertical_left_out_g, .. } = &mut taken.record.source {
+            *vertical_left_out_g = left_out;
+        }
         Ok(recording)
     }
 
@@ -88,10 +98,13 @@ impl Recording {
         if is_at2 && format == RecordFormat::Columns {
             return Err(RecordError::NoHeader { file: file.clone() });
         }
+        if format == RecordFormat::Columns && is_case(&text) {
+            return Err(RecordError::IsCase { file: file.clone() });
+        }
         let parsed = format.parse(file, &text, options)?;
 
         let stem = path.file_stem().map_or_else(|| file.clone(), |stem| super::label(Path::new(stem)));
-        let several = parsed.channels.len() > 1;
+        let several = parsed.channels.len() > 1 || parsed.chosen;
         let component = |(i, channel): (usize, Channel)| {
             let name = match (&channel.name, several) {
                 (Some(name), true) => format!("{stem} {name}"),
@@ -105,7 +118,9 @@ impl Recording {
             return Err(RecordError::Empty { file: file.clone() });
         }
         let (station, asked) = (parsed.station, options.component.is_some());
-        let mut recording = Self { format, station, components, taken: 0, asked, vertical: None, file: file.clone() };
+        let (chosen, row_by_row) = (parsed.chosen, parsed.row_by_row);
+        let (taken, vertical, file) = (0, None, file.clone());
+        let mut recording = Self { format, station, components, taken, asked, chosen, row_by_row, vertical, file };
         recording.taken = match &options.component {
             Some(wanted) => recording.find(wanted)?,
             None => recording.strongest_horizontal(),
@@ -131,11 +146,24 @@ impl Recording {
         }
     }
 
+    /// Peak of the file's vertical component, if a run does not take it: the strongest of several (g).
+    pub fn vertical_left_out(&self) -> Option<f64> {
+        if self.vertical.is_some() {
+            return None;
+        }
+        let others = self.components.iter().enumerate().filter(|(i, _)| *i != self.taken);
+        let vertical = others.filter(|(_, component)| component.direction == Direction::Vertical);
+        vertical.map(|(_, component)| component.record.pga_g()).max_by(f64::total_cmp)
+    }
+
     /// What the user should know of the record that a run takes.
     pub fn notices(&self) -> Vec<Notice> {
         let taken = self.component();
         let file = || self.file.clone();
         let mut notices = Vec::new();
+        if let Some(columns) = self.row_by_row {
+            notices.push(Notice::RowByRow { file: file(), columns, samples: taken.record.len() });
+        }
         if !self.asked && self.components.len() > 1 {
             let others = self.components.iter().enumerate().filter(|(i, _)| *i != self.taken);
             let others: Vec<String> = others.map(|(_, component)| component.label()).collect();
@@ -177,7 +205,9 @@ impl Recording {
         match (&named[..], &directed[..]) {
             ([only], _) | ([], [only]) => Ok(*only),
             _ => {
-                let labels: Vec<String> = self.components.iter().map(Component::label).collect();
+                let labels = self.components.iter().map(Component::label).filter(|label| !label.is_empty());
+                let labels: Vec<String> = labels.collect();
+                let labels = if labels.is_empty() { vec!["one without a name".to_owned()] } else { labels };
                 Err(RecordError::NoComponent {
                     file: self.file.clone(),
                     wanted: quote(wanted),
@@ -187,6 +217,11 @@ impl Recording {
             }
         }
     }
+}
+
+/// Whether a text is a case file: TOML with a section `[structure]`.
+fn is_case(text: &str) -> bool {
+    text.contains("[structure]") && text.parse::<toml::Table>().is_ok_and(|file| file.contains_key("structure"))
 }
 
 /// A list that keeps a message to one line that can be read.

@@ -24,6 +24,8 @@ pub enum Source {
         component: Option<String>,
         /// Whether the mean of the samples was subtracted.
         baseline: bool,
+        /// Peak of the vertical component that the file has and the record does not (g), of the file as it is.
+        vertical_left_out_g: Option<f64>,
     },
     /// Made from a seed for a structure (`synthetic::record`).
     Synthetic,

@@ -1,6 +1,6 @@
 //! What is said of an elastic structure's run: the structure on rigid ground beside the same on its springs.
 
-use super::{AccuracyOn, AccuracyReport, Assumed, Filed, Run, Section, Table, Taken, Unit, filed};
+use super::{AccuracyOn, AccuracyReport, Assumed, Filed, Run, Section, Table, Taken, Unit, doubts, filed};
 use crate::{
     case::{ElasticCase, Yardstick},
     elastic::{
@@ -117,6 +117,7 @@ impl ElasticParts<'_> {
             let alpha = self.assembled.structure.body().alpha();
             all.extend(on.near.iter().map(|near| nearby(near, alpha)));
         }
+        all.extend(doubts(self.case.doubts()));
         all.extend(springs_findings(parameters));
         all.extend(parameters.design_forces.iter().flat_map(|forces| forces.withheld()));
         all
@@ -162,11 +163,7 @@ impl ElasticParts<'_> {
     }
 
     fn assumed(&self) -> Vec<Assumed> {
-        let mut all = Vec::new();
-        if self.record.vertical.is_none() {
-            all.push(Assumed { what: "no vertical motion".into(), key: "vertical".into() });
-        }
-        all
+        self.case.assumptions().iter().map(Assumed::of).collect()
     }
 
     /// All that is said of it; `parameters` are those filed.
@@ -270,8 +267,15 @@ fn accuracy(a: &ElasticAssessment) -> AccuracyReport {
     }
 }
 
+/// Springs of a case without a record.
+pub fn of_case(case: &ElasticCase, mut parameters: ElasticParameters) -> Run {
+    let doubts = doubts(case.doubts_of_structure()).chain(springs_findings(&parameters));
+    parameters.findings = filed(doubts);
+    alone(parameters)
+}
+
 /// Springs without a record.
-pub fn alone(parameters: ElasticParameters) -> Run {
+fn alone(parameters: ElasticParameters) -> Run {
     let first = parameters.springs.first().copied();
     let same = parameters
         .springs

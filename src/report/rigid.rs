@@ -5,12 +5,12 @@ pub mod tables;
 use rayon::join;
 
 use super::{
-    AccuracyOn, AccuracyReport, Assumed, Filed, Run, Section, Taken, Unit, filed,
+    AccuracyOn, AccuracyReport, Assumed, Filed, Run, Section, Taken, Unit, changes, doubts, filed,
     reference::{self, HousnerReport},
 };
 use crate::{
     answers::{Both, WithMembers, both, with_members},
-    case::{Case, Objective, Yardstick},
+    case::{Case, Objective, Yardstick, doubts::Doubt},
     compare::Match,
     export::equal_steps,
     front::FrontPoint,
@@ -101,16 +101,9 @@ impl RigidRun {
     }
 
     fn assumed(&self) -> Vec<Assumed> {
-        let mut all = Vec::new();
-        if self.parameters.restitution.is_none() {
-            let e = significant(self.case.restitution, 4);
-            all.push(Assumed { what: format!("restitution {e} by equation 2"), key: "restitution_ratio".into() });
-        }
-        if self.job.record.vertical.is_none() {
-            all.push(Assumed { what: "no vertical motion".into(), key: "vertical".into() });
-        }
+        let mut all: Vec<Assumed> = self.case.assumptions().iter().map(Assumed::of).collect();
         if self.case.members.friction.is_none() {
-            all.push(Assumed { what: "feet do not slide".into(), key: "[friction]".into() });
+            all.push(Assumed { what: "feet do not slide".into(), key: "friction.coefficient".into() });
         }
         all
     }
@@ -123,12 +116,32 @@ impl RigidRun {
             all.extend(reference::verdict(&self.case.structure, &self.job.record, verdict));
             all.extend(reference::ill_conditioned(&self.report, verdict, judged));
         }
+        all.extend(self.vertical_left_out());
+        all.extend(doubts(self.case.doubts()));
         all.extend(springs_findings(parameters));
         all.extend(parameters.design_forces.iter().flat_map(|forces| forces.withheld()));
         all.extend(self.report.findings());
         all.extend(reference::histories(&self.both));
         all.extend(self.both.with.as_ref().map(|_| Finding::MembersBeside));
         all
+    }
+
+    /// A vertical component of some size that is left out: what it would change.
+    fn vertical_left_out(&self) -> Option<Finding> {
+        let large = |doubt: Doubt| match doubt {
+            Doubt::VerticalLeftOut { peak_g, horizontal_g } => Some((peak_g, horizontal_g)),
+            _ => None,
+        };
+        let (vertical_g, horizontal_g) = self.case.doubts().into_iter().find_map(large)?;
+        let excitation = self.case.excitation.with_vertical_left_out()?.ok()?;
+        let record = excitation.used().ok()?;
+        let Self { case, job, .. } = self;
+        let chains = self.parameters.chains();
+        let both = both(&job.body, case.restitution, &chains, &Members::default(), &record);
+        let kind = case.structure.kind;
+        let (peaks, forces) = (peaks(kind, job, &both), design_forces(kind, &job.body, &record, &both, None));
+        let changes = changes((self.parameters.peaks, self.parameters.design_forces), (peaks, forces));
+        Some(Finding::VerticalLeftOut { vertical_g, horizontal_g, changes })
     }
 
     fn sections(&self) -> Vec<Section> {
@@ -162,8 +175,15 @@ impl RigidRun {
     }
 }
 
+/// Springs of a case without a record.
+pub fn of_case(case: &Case, mut parameters: Parameters) -> Run {
+    let doubts = doubts(case.doubts_of_structure()).chain(springs_findings(&parameters));
+    parameters.findings = filed(doubts);
+    alone(parameters)
+}
+
 /// Springs without a record.
-pub fn alone(parameters: Parameters) -> Run {
+fn alone(parameters: Parameters) -> Run {
     let units = [("vertical", &parameters.vertical), ("horizontal", &parameters.horizontal)];
     let unit = |(name, row): (&str, &crate::spring::ChainRow)| Unit {
         name: name.into(),

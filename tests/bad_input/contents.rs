@@ -16,7 +16,7 @@ fn cases_and_parameters_in_other_encodings_or_none() {
         (format!("{STRUCTURE}\0"), "c.toml, line 6"),
         (format!("\u{feff}{STRUCTURE}x = 1\n"), "c.toml, line 6: unknown key \"x\""),
         (STRUCTURE.replace('\n', "\r"), "c.toml, line 1"),
-        (String::new(), "missing field `structure`"),
+        (String::new(), "[structure] lacks kind (aframe, block, pier or frame), its sizes and its mass"),
     ] {
         refuses(&[("c.toml", &text)], &["run", "c.toml", "--out", "o"], &[word]);
     }
@@ -99,8 +99,8 @@ fn values_of_the_wrong_type() {
         ("[tuning]\nmax_settlement_m = -1.0\n", "max_settlement_m is -1.0"),
         ("[tuning]\nmass_ratios_horizontal = [1e9]\n", "between 0.001 and 1000"),
         ("[record]\nduration_s = 1e9\n", "duration_s is 1000000000.0"),
-        ("[record]\ndt_s = 0.01\n", "record.file is not given"),
-        ("[record]\nunits = \"g\"\n", "record.file is not given"),
+        ("[record]\ndt_s = 0.01\n", "[record] lacks file"),
+        ("[record]\nunits = \"g\"\n", "[record] lacks file"),
         ("[record]\nunits = \"ft\"\n", "unknown variant `ft`"),
         ("[record]\nfile = \".\"\n", "is a folder"),
         ("restitution = 0.5\nrestitution_ratio = 0.5\n", "not both"),

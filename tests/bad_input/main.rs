@@ -1,7 +1,9 @@
 //! Bad input of every kind: one clear line on stderr, exit code 2, nothing written.
 
 mod contents;
+mod doubts;
 mod files;
+mod mistakes;
 mod options;
 mod sweeps;
 

@@ -108,7 +108,7 @@ fn other_commands_take_the_component_that_is_asked_for() {
         (&["housner", "--record", "site.V2A", "--component", "90"][..], "there is no component 90; it has N28W"),
         (&["housner", "--component", "90"], "name it with --record"),
         (&["housner", "--baseline"], "name it with --record"),
-        (&["housner", "nofile.toml"], "record.file is not given"),
+        (&["housner", "nofile.toml"], "[record] lacks file"),
         (&["record"], "FILE"),
         (&["record", "site.V2A", "--units", "g"], "says its unit is mm/s2"),
     ] {

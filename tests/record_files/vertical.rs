@@ -74,6 +74,11 @@ fn histories_take_it_and_the_line_says_so() {
     let (with, said) = run(&["case.toml", "--record", "site.V2A", "--vertical", "auto"]);
     assert!(said.contains("; vertical site Up, peak 0.6") && with != level, "{said}");
     assert_eq!(run(&["case.toml"]).0, with);
+    // a case that names the record leaves the vertical component out unless an option takes it
+    let text = fs::read_to_string(dir.path().join("case.toml")).unwrap();
+    fs::write(dir.path().join("across.toml"), text.replace("vertical = \"auto\"\n", "")).unwrap();
+    assert_eq!(run(&["across.toml"]).0, level);
+    assert_eq!(run(&["across.toml", "--vertical", "auto"]).0, with);
     let columns = ["sub/case.toml", "--record", "along.txt", "--dt", "0.02"];
     let (with, said) = run(&[&columns[..], &["--vertical", "up.txt"]].concat());
     assert!(said.contains("; vertical up, peak 0.2"), "{said}");
@@ -156,7 +161,7 @@ fn what_does_not_fit_is_refused_in_one_line() {
         assert!(args[0] == "run" || err.lines().count() == 1, "{args:?}: {err}");
     }
     for (section, words) in [
-        ("vertical = \"auto\"\n", "record.file is not given"),
+        ("vertical = \"auto\"\n", "[record] lacks file"),
         ("file = \"along.txt\"\ndt_s = 0.02\nvertical = 3\n", "case.toml, line"),
     ] {
         let structure = "[structure]\nkind = \"block\"\nheight_m = 1.0\nwidth_m = 0.5\nmass_kg = 2400.0\n";

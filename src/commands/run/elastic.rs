@@ -22,12 +22,7 @@ use crate::{
 pub fn run(o: &RunOptions, mut case: ElasticCase) -> Result<(), CommandError> {
     applies(o)?;
     if !o.no_record {
-        let notices = std::mem::take(&mut case.notices);
-        let of_case = || -> Result<_, CommandError> {
-            notices.iter().for_each(|notice| eprintln!("{notice}"));
-            Ok(case.excitation.clone())
-        };
-        case.excitation = o.record.excitation(of_case)?;
+        case.excitation = o.record.excitation_of_case(&case.excitation, &case.notices)?;
     }
     case.max_omega_hz = o.max_hz()?.or(case.max_omega_hz);
     case.asked = o.asked()?.unwrap_or(case.asked);
@@ -44,7 +39,7 @@ pub fn run(o: &RunOptions, mut case: ElasticCase) -> Result<(), CommandError> {
     progress.done();
     let mut tuned = tuned.map_err(|e| CommandError::Result(e.to_string()))?;
     let Some((record, reference)) = record.zip(tuned.reference.take()) else {
-        let run = report::elastic::alone(alone(&assembled, &tuned, case.asked));
+        let run = report::elastic::of_case(&case, alone(&assembled, &tuned, case.asked));
         return springs_alone(o, &run);
     };
     let progress = Progress::new("history", o.quiet);
