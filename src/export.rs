@@ -95,6 +95,9 @@ impl std::str::FromStr for DeckFormat {
     }
 }
 
+/// Rotation at which a body has fallen over (rad): a deck's history ends there.
+const FALLEN: f64 = 1.0;
+
 /// What the deck must find when it runs: taken from our own history, checked by the deck itself.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Expected {
@@ -115,12 +118,22 @@ pub struct Expected {
 impl Expected {
     /// From a history that began settled, and its width sensitivity; at the accuracy [`ACCURACY`].
     pub fn new(history: &History, width_sensitivity: f64) -> Self {
-        let range = |x: &[f64]| x.iter().fold((0.0, 0.0), |(max, min): (f64, f64), &x| (max.max(x), min.min(x)));
+        Self::within(history, width_sensitivity, history.motion.len())
+    }
+
+    /// The same of so many of its samples. It ends where the body has fallen over: another program's would fall through the ground next,
+    /// a little sooner or later than ours.
+    pub fn within(history: &History, width_sensitivity: f64, samples: usize) -> Self {
+        let motion = &history.motion;
+        let fallen = motion.theta.iter().position(|theta| theta.abs() >= FALLEN).map_or(motion.len(), |i| i + 1);
+        let samples = samples.min(fallen);
+        let range =
+            |x: &[f64]| x[..samples].iter().fold((0.0, 0.0), |(max, min): (f64, f64), &x| (max.max(x), min.min(x)));
         Self {
-            samples: history.motion.len(),
+            samples,
             settled: history.initial_z,
-            u: range(&history.motion.u),
-            v: range(&history.motion.v),
+            u: range(&motion.u),
+            v: range(&motion.v),
             width_sensitivity,
             accuracy: ACCURACY,
         }

@@ -29,6 +29,13 @@ impl Motion {
         Self { u: Vec::with_capacity(n), v: Vec::with_capacity(n), theta: Vec::with_capacity(n) }
     }
 
+    /// Its first n samples, or all if it has fewer.
+    #[cfg(feature = "cli")]
+    pub(crate) fn first(&self, n: usize) -> Self {
+        let of = |x: &[f64]| x[..n.min(x.len())].to_vec();
+        Self { u: of(&self.u), v: of(&self.v), theta: of(&self.theta) }
+    }
+
     /// Append one sample.
     pub(crate) fn push(&mut self, u: f64, v: f64, theta: f64) {
         self.u.push(u);

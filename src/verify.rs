@@ -1,5 +1,6 @@
 //! The exported deck, run in OpenSees, beside our own history and Housner's.
 
+mod peaks;
 mod program;
 mod verdict;
 
@@ -16,10 +17,12 @@ use crate::{
     housner,
     motion::{Motion, nrmse},
     parameters::Parameters,
-    predictability::{foretold_until, simulate, slightly_wider},
+    predictability::{foretold_until, simulate, slightly_wider, until_flight},
     record::Record,
 };
+pub use peaks::{ComparedPeak, swings};
 pub use program::Program;
+use verdict::STANDING;
 pub use verdict::{LIMIT, OpenSeesVerdict};
 
 /// Wall time a run may take before it counts as hung: this, and a time per sample of the record (s).
@@ -48,7 +51,7 @@ impl Agreement {
     }
 }
 
-/// Three histories of one case at the record's samples, and how they agree.
+/// Three histories of one case at the record's samples, up to where they can be foretold, and how they agree.
 #[derive(Clone, Debug)]
 pub struct Verification {
     /// Sampling interval (s).
@@ -56,6 +59,10 @@ pub struct Verification {
     pub opensees: Motion,
     pub ours: Motion,
     pub housner: Motion,
+    /// Largest motions of ours and OpenSees'.
+    pub peaks: Vec<ComparedPeak>,
+    /// How often each went from one foot to the other.
+    pub swings: [usize; 2],
     pub opensees_against_ours: Agreement,
     pub opensees_against_housner: Agreement,
     pub ours_against_housner: Agreement,
@@ -128,18 +135,27 @@ pub fn verify(
 
     let changed = slightly_wider(parameters, record);
     let width_sensitivity = nrmse(&changed.u, &history.motion.u);
-    let until = foretold_until(&history.motion, &changed);
+    let foretold = foretold_until(&history.motion, &changed, STANDING * body.half_width)
+        .into_iter()
+        .chain(until_flight(&parameters.structure, record))
+        .filter(|foretold| foretold.samples < history.motion.len())
+        .min_by_key(|foretold| foretold.samples);
     let deck = Deck { parameters, record, program, progress };
-    let expected = Expected::new(&history, width_sensitivity);
+    // what cannot be foretold is not followed: nothing could be judged by it
+    let judged = foretold.map_or(history.motion.len(), |foretold| foretold.samples).max(2);
+    let expected = Expected::within(&history, width_sensitivity, judged);
     let run = deck.run(&expected.with_accuracy(accuracy))?;
-    let ours = history.motion;
-    let verdict = OpenSeesVerdict::new(&run.motion, &ours, &body, record.dt, until);
+    let ours = history.motion.first(expected.samples);
+    let housner = housner.first(expected.samples);
+    let verdict = OpenSeesVerdict::new(&run.motion, &ours, &body, record.dt, foretold);
     let finer = match verdict.within {
         true => None,
         false => Some(deck.run(&expected.with_accuracy(accuracy * FINER))?.motion),
     };
     Ok(Verification {
         dt: record.dt,
+        peaks: ComparedPeak::rigid(&ours, &run.motion, &body),
+        swings: [&ours, &run.motion].map(|motion| swings(&motion.theta, body.half_width.atan2(body.height))),
         opensees_against_ours: Agreement::new(&run.motion, &ours),
         opensees_against_housner: Agreement::new(&run.motion, &housner),
         ours_against_housner: Agreement::new(&ours, &housner),

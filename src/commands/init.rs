@@ -117,7 +117,7 @@ scale = 1.0              # factor on the acceleration, with a decimal point
 
 [tuning]
 accuracy = 0.002         # of the history against the reference's, normalised: sqrt(sum (u - u_r)^2 / sum u_r^2)
-# max_omega_hz = 160.0   # stiffest springs, for programs with fixed time steps; left out: no limit
+# max_omega_hz = 160.0   # stiffest springs allowed, Omega_n / 2 pi; left out: no limit
 ";
 
 /// The text for a shape.

@@ -2,6 +2,7 @@
 
 use crate::{
     motion::{Motion, nrmse, peak},
+    predictability::{Foretold, ForetoldEnd},
     structure::Body,
 };
 
@@ -9,7 +10,7 @@ use crate::{
 pub const LIMIT: f64 = 0.001;
 
 /// Share of the half width below which a motion counts as standing: the error is told against at least that.
-const STANDING: f64 = 1e-3;
+pub(super) const STANDING: f64 = 1e-3;
 
 /// Share of the largest u by which histories that have parted differ.
 const PARTED: f64 = 0.01;
@@ -21,17 +22,20 @@ pub struct OpenSeesVerdict {
     pub error: f64,
     /// Whether it is at most [`LIMIT`].
     pub within: bool,
-    /// Samples judged: all, or those before the history hangs on the width's fifth digit.
+    /// Samples judged: all, or those that can be foretold.
     pub samples: usize,
-    /// Time from which on it does (s).
+    /// Where those end, if that is before the history does (s).
     pub until: Option<f64>,
+    /// Why there.
+    pub end: Option<ForetoldEnd>,
     /// When OpenSees first is off by one hundredth of the largest u (s).
     pub parted: Option<f64>,
 }
 
 impl OpenSeesVerdict {
-    /// `until`: samples that can be foretold, `None` for all.
-    pub fn new(opensees: &Motion, ours: &Motion, body: &Body<f64>, dt: f64, until: Option<usize>) -> Self {
+    /// `foretold`: up to where it can be, `None` for all of it.
+    pub fn new(opensees: &Motion, ours: &Motion, body: &Body<f64>, dt: f64, foretold: Option<Foretold>) -> Self {
+        let until = foretold.map(|foretold| foretold.samples);
         let samples = until.unwrap_or(ours.len()).min(ours.len()).min(opensees.len());
         let (a, b) = (&opensees.u[..samples], &ours.u[..samples]);
         let rms = |x: &[f64]| (x.iter().map(|x| x * x).sum::<f64>() / samples.max(1) as f64).sqrt();
@@ -40,7 +44,8 @@ impl OpenSeesVerdict {
         let far = PARTED * peak(&ours.u).abs().max(least);
         let parted = opensees.u.iter().zip(&ours.u).position(|(a, b)| (a - b).abs() > far);
         let time = |sample: usize| sample as f64 * dt;
-        Self { error, within: error <= LIMIT, samples, until: until.map(time), parted: parted.map(time) }
+        let end = foretold.map(|foretold| foretold.end);
+        Self { error, within: error <= LIMIT, samples, until: until.map(time), end, parted: parted.map(time) }
     }
 }
 
@@ -58,7 +63,8 @@ mod tests {
 
     fn judged(share: f64, from: usize, until: Option<usize>) -> OpenSeesVerdict {
         let [off, ours] = pair(share, from);
-        OpenSeesVerdict::new(&off, &ours, &Structure::paper().body(), 0.01, until)
+        let foretold = until.map(|samples| Foretold { samples, end: ForetoldEnd::Width });
+        OpenSeesVerdict::new(&off, &ours, &Structure::paper().body(), 0.01, foretold)
     }
 
     #[test]

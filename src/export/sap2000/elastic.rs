@@ -13,7 +13,7 @@ const NOTES: &str = "\
 $  6. Beams whose axial and bending damping differ are two frames side by side: _A bears the axial force, _B the moments.
 $  7. Damping of beams is VisStiff of their materials, stiffness-proportional; it must not resist a rotation of the whole structure:
 $     compare a free rocking with and without it. Joints between beam and footing are stiff frames ARM.
-$  8. All steps are alike, and short beside a landing: for a run of bearable length take softer springs, `tune run --max-hz 160`.
+$  8. All steps are alike, and short beside a landing. These springs are not for programs with fixed time steps: none are given yet.
 ";
 
 /// Tables' parts in the making.
