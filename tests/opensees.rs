@@ -173,10 +173,11 @@ fn the_paper_frame_on_springs_of_160_hz_by_the_papers_procedure_agrees() {
     tuned_agrees(Structure::paper(), Objective::Arr, 160.0);
 }
 
+/// On springs this soft for it a lifting foot chatters: its steps are asked for a quarter of the error, too.
 #[test]
 #[ignore = "runs OpenSees, which cargo cannot install: .ci/run installs it and runs this test"]
 fn a_frame_of_5_by_1_5_m_on_table_1_springs_agrees() {
-    agrees(&programs(), frame_of_5_m(), Springs::table_1());
+    agrees_at(ACCURACY / 4.0, &programs(), frame_of_5_m(), Springs::table_1());
 }
 
 #[test]
