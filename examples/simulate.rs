@@ -4,15 +4,12 @@
 //! cargo run --release --example simulate > history.csv
 //! ```
 
-use groundspring::{Design, Parameters, Record, Springs, Structure, compare};
+use groundspring::{Parameters, Record, Springs, Structure, compare};
 
 fn main() -> Result<(), Box<dyn std::error::Error>> {
     let structure = Structure::paper();
-    // the paper's Table 1, as far as its digits survive: mu, K = k2/k1, C = c/(m1 Omega_n), Omega_n / 2 pi (Hz)
-    let springs = Springs {
-        vertical: Design::from_kc(10.2, 9.214, 4.397, 6.2),
-        horizontal: Design::from_kc(10.2, 0.4897, 7.816, 10.0),
-    };
+    // the paper's Table 1, as far as its digits survive
+    let springs = Springs::table_1();
     let parameters = Parameters::new(structure, &springs);
     let record = Record::el_centro().truncated(20.0);
 

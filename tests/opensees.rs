@@ -28,11 +28,6 @@ fn programs() -> Vec<Program> {
     [Program::Python(python.into())].into_iter().chain(tcl).collect()
 }
 
-/// Table 1 as recovered, its ratios at mu = 10.2: 6.2 and 10 Hz.
-fn table_1() -> Springs<Design<f64>> {
-    Springs { vertical: Design::from_kc(10.2, 9.214, 4.4, 6.2), horizontal: Design::from_kc(10.2, 9.214, 4.4, 10.0) }
-}
-
 /// What `tune run --max-hz` finds for the structure on the embedded record.
 fn tuned(structure: Structure, objective: Objective, max_hz: f64) -> Springs<Design<f64>> {
     let mut case = Case::paper().unwrap();
@@ -151,7 +146,7 @@ fn block_of_2_m() -> Structure {
 #[test]
 #[ignore = "runs OpenSees, which cargo cannot install: .ci/run installs it and runs this test"]
 fn the_paper_frame_on_table_1_springs_agrees() {
-    agrees(&programs(), Structure::paper(), table_1());
+    agrees(&programs(), Structure::paper(), Springs::table_1());
 }
 
 #[test]
@@ -178,10 +173,11 @@ fn the_paper_frame_on_springs_of_160_hz_by_the_papers_procedure_agrees() {
     tuned_agrees(Structure::paper(), Objective::Arr, 160.0);
 }
 
+/// On springs this soft for it a lifting foot chatters: its steps are asked for a quarter of the error, too.
 #[test]
 #[ignore = "runs OpenSees, which cargo cannot install: .ci/run installs it and runs this test"]
 fn a_frame_of_5_by_1_5_m_on_table_1_springs_agrees() {
-    agrees(&programs(), frame_of_5_m(), table_1());
+    agrees_at(ACCURACY / 4.0, &programs(), frame_of_5_m(), Springs::table_1());
 }
 
 #[test]
@@ -200,7 +196,7 @@ fn a_frame_of_5_by_1_5_m_on_its_springs_of_160_hz_agrees() {
 #[test]
 #[ignore = "runs OpenSees, which cargo cannot install: .ci/run installs it and runs this test"]
 fn a_block_of_2_by_0_5_m_on_table_1_springs_agrees() {
-    agrees_at(ACCURACY / 4.0, &programs(), block_of_2_m(), table_1());
+    agrees_at(ACCURACY / 4.0, &programs(), block_of_2_m(), Springs::table_1());
 }
 
 #[test]

@@ -31,9 +31,11 @@ pub fn plastic(hz: f64, mass: f64) -> Springs<Chain<f64>> {
     chains((0.3, 0.1, 0.75), (0.3, 0.57, 1.86), hz, mass)
 }
 
-/// The ratios of the paper's Table 1 as recovered, which bounce a lot.
+/// The ratios of the paper's Table 1 as recovered at one Omega_n [Hz] for a mass [kg]: they bounce a lot.
 pub fn table_1(hz: f64, mass: f64) -> Springs<Chain<f64>> {
-    chains((10.2, 9.214, 4.4), (10.2, 9.214, 4.4), hz, mass)
+    let Springs { vertical, horizontal } = Springs::table_1();
+    let at = |design: Design<f64>| Design { omega_n_hz: hz, ..design };
+    Springs { vertical: at(vertical), horizontal: at(horizontal) }.chains(mass)
 }
 
 /// Springs that bounce a little.

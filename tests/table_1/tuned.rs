@@ -1,9 +1,4 @@
-//! What Ma, Butterworth & Davidson (NZSEE Conference 2005) claim of their ground springs, asserted on the tuned set: the
-//! springs of `tune run` without arguments, 20 s of the 1940 El Centro record.
-//!
-//! Context: Beck & Skinner (1974) report for almost the same structure on the same earthquake a peak of 444.5 mm
-//! (17.5 in) and a period of about 3.3 s; the paper marks 3.5 s. Their record is another digitisation of that ground
-//! motion, so the comparison is one of size, not of digits.
+//! The claims of section 6 and Figure 4 on our springs: those of `tune run` without arguments, 20 s of El Centro.
 
 use std::sync::LazyLock;
 
