@@ -9,6 +9,7 @@ use crate::{
     case::CaseError,
     export::ExportError,
     figures::FigureError,
+    message::printable,
     parameters::{ParametersError, RememberedError},
     record::RecordError,
     sweep::SweepError,
@@ -35,6 +36,7 @@ mod run;
 mod simulate;
 mod sweep;
 mod table;
+pub(crate) mod terminal;
 mod validate;
 mod verify;
 
@@ -136,8 +138,8 @@ pub fn main() -> ExitCode {
     let cli = match Cli::try_parse() {
         Ok(cli) => cli,
         Err(e) if !e.use_stderr() => {
-            print!("{e}");
-            return ExitCode::SUCCESS;
+            // help or the version
+            return code(terminal::stdout(e));
         }
         Err(e) => {
             let text = e.to_string();
@@ -146,7 +148,7 @@ pub fn main() -> ExitCode {
             // the nearest right one, where there is one
             let tip = text.lines().map(str::trim).find_map(|line| line.strip_prefix("tip: "));
             let tip = tip.map_or(String::new(), |tip| format!(" ({tip})"));
-            eprintln!("{}{tip}; see tune --help", what.trim_end_matches('.'));
+            terminal::stderr(format_args!("{}{tip}; see tune --help", what.trim_end_matches('.')));
             return ExitCode::from(2);
         }
     };
@@ -164,13 +166,17 @@ pub fn main() -> ExitCode {
         Command::Init(o) => init::run(&o),
         Command::Completions(o) => completions::run(&o),
     };
+    code(result)
+}
+
+/// The exit code of a result, whose error is one line on stderr.
+fn code(result: Result<(), CommandError>) -> ExitCode {
     match result {
+        // all results are there, but what was said of them is not
+        Ok(()) if terminal::stderr_failed() => ExitCode::from(2),
         Ok(()) => ExitCode::SUCCESS,
-        // the reader of a pipe went away: nothing is wrong
-        Err(CommandError::Stdout(e)) if e.kind() == std::io::ErrorKind::BrokenPipe => ExitCode::SUCCESS,
         Err(e) => {
-            let text: String = e.to_string().chars().map(|c| if c.is_control() { ' ' } else { c }).collect();
-            eprintln!("error: {text}");
+            terminal::stderr(format_args!("error: {}", printable(&e.to_string().replace(['\n', '\r'], " "))));
             ExitCode::from(if matches!(e, CommandError::Failed(_)) { 1 } else { 2 })
         }
     }
