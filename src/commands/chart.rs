@@ -1,6 +1,6 @@
 //! `tune chart`: the design from the geometry, to be read off.
 
-use std::{fmt::Write as _, io::Write as _, path::PathBuf};
+use std::{fmt::Write as _, path::PathBuf};
 
 use clap::Args;
 use rayon::prelude::*;
@@ -9,7 +9,7 @@ use super::{
     CommandError,
     output::{Folder, check_folder},
     run::threads,
-    write_file,
+    terminal, write_file,
 };
 use crate::{
     figures,
@@ -63,13 +63,12 @@ pub fn run(o: &ChartOptions) -> Result<(), CommandError> {
     write_file(&o.out.join("chart.csv"), csv(&rows).as_bytes())?;
     draw(o, &rows)?;
     folder.finish()?;
-    writeln!(
-        std::io::stdout(),
-        "{} designs: alpha {:?}, Omega_n/p 1e3 to 1e6; horizontal units: mu 0.3, f 1.8257, xi 3.3333",
+    terminal::stdout(format_args!(
+        "{} designs: alpha {:?}, Omega_n/p 1e3 to 1e6; horizontal units: mu 0.3, f 1.8257, xi 3.3333\n",
         rows.len(),
         o.alpha
-    )?;
-    eprintln!("written to {}", o.out.display());
+    ))?;
+    terminal::stderr(format_args!("written to {}", terminal::shown(&o.out)));
     Ok(())
 }
 

@@ -4,7 +4,7 @@ use std::{fmt::Write, path::PathBuf};
 
 use clap::Args;
 
-use super::CommandError;
+use super::{CommandError, terminal};
 pub use crate::answers::{Both, both};
 use crate::{
     case::{Case, LONGEST_S},
@@ -61,7 +61,7 @@ impl RecordOptions {
                 let vertical = self.vertical.clone();
                 let options = ReadOptions { dt: self.dt, units: self.units, component, baseline, vertical };
                 let recording = Recording::read(path, &options)?;
-                recording.notices().iter().for_each(|notice| eprintln!("{notice}"));
+                recording.notices().iter().for_each(terminal::stderr);
                 Excitation::whole(recording.into_record())
             }
             None if self.tells_of_a_file() => {
@@ -90,7 +90,7 @@ impl RecordOptions {
 
 /// The ground motion of a case; what its reader said goes to stderr.
 pub fn of_case(case: &Case) -> Result<Excitation, CommandError> {
-    case.notices.iter().for_each(|notice| eprintln!("{notice}"));
+    case.notices.iter().for_each(terminal::stderr);
     Ok(case.excitation.clone())
 }
 

@@ -4,7 +4,7 @@ use std::path::{Path, PathBuf};
 
 use clap::Args;
 
-use super::{CommandError, common::RecordOptions, elastic::deck, output::file_in, write_file};
+use super::{CommandError, common::RecordOptions, elastic::deck, output::file_in, terminal, write_file};
 use crate::{
     elastic::fem::{ElasticAnalysis, ElasticStart},
     export::{ACCURACY, DeckFormat, ExportError, deck_of, with_inertia},
@@ -43,7 +43,7 @@ pub fn run(o: &ExportOptions) -> Result<(), CommandError> {
         }
     };
     write_file(&out, deck.as_bytes())?;
-    eprintln!("{line}\nwritten to {}", out.display());
+    terminal::stderr(format_args!("{line}\nwritten to {}", terminal::shown(&out)));
     Ok(())
 }
 
@@ -98,7 +98,7 @@ pub(super) fn write_all(
     for (name, format) in DECKS {
         match text(format) {
             // said, not fatal: the other decks are of use
-            Err(e @ ExportError::Member { .. }) => eprintln!("{name} is left out: {e}"),
+            Err(e @ ExportError::Member { .. }) => terminal::stderr(format_args!("{name} is left out: {e}")),
             deck => write_file(&dir.join(name), deck?.as_bytes())?,
         }
     }

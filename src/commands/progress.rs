@@ -7,6 +7,8 @@ use std::{
 
 use indicatif::{ProgressBar, ProgressStyle};
 
+use super::terminal;
+
 /// Shows how far a piece of work is.
 pub struct Progress {
     bar: Option<ProgressBar>,
@@ -37,7 +39,7 @@ impl Progress {
         }
         let tenth = 10 * done / total.max(1);
         if self.lines && self.tenth.swap(tenth, Ordering::Relaxed) != tenth {
-            eprintln!("{}", line(self.what, done, total, status));
+            terminal::stderr(line(self.what, done, total, status));
         }
     }
 

@@ -1,6 +1,6 @@
 //! `tune simulate`: both models for given springs.
 
-use std::{io::Write, path::PathBuf};
+use std::path::PathBuf;
 
 use clap::Args;
 
@@ -10,7 +10,7 @@ use super::{
     members,
     output::file_in,
     report::{GroundOptions, HousnerReport},
-    write_file,
+    terminal, write_file,
 };
 use crate::parameters::Parameters;
 
@@ -52,15 +52,15 @@ pub fn run(o: &SimulateOptions) -> Result<(), CommandError> {
         let demands = both.with.as_ref().map_or(&both.demands, |with| &with.demands);
         write_file(path, members::csv(record.dt, demands).as_bytes())?;
     }
-    eprintln!("{}", excitation.line());
+    terminal::stderr(excitation.line());
     let said = HousnerReport::new(&body, e, &record, &both.rocking, friction);
     let verdict = both.verdict(&body, record.dt, &said.conditioning).lines();
     let verdict = verdict.into_iter().map(|line| format!("verdict: {line}"));
     for line in said.lines().into_iter().chain(both.early()).chain(verdict) {
-        eprintln!("{line}");
+        terminal::stderr(line);
     }
     let report = members::MembersReport::new(&both.matched, &both.demands, both.with.as_ref());
     let json = serde_json::to_string_pretty(&report).map_err(|e| CommandError::Result(e.to_string()))?;
-    writeln!(std::io::stdout(), "{json}")?;
+    terminal::stdout(format_args!("{json}\n"))?;
     Ok(())
 }

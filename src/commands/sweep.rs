@@ -1,7 +1,6 @@
 //! `tune sweep`: many histories, and what they say together.
 
 use std::{
-    io::Write as _,
     path::{Path, PathBuf},
     sync::atomic::{AtomicU64, Ordering},
     time::Instant,
@@ -9,7 +8,7 @@ use std::{
 
 use clap::{Args, Subcommand};
 
-use super::{CommandError, output::check_folder, progress::Progress, run::threads};
+use super::{CommandError, output::check_folder, progress::Progress, run::threads, terminal};
 use crate::sweep::{
     manifest::Manifest,
     parts::{Share, SweepParts},
@@ -83,9 +82,9 @@ fn begin(plan: &Plan, hash: &str, out: &Path, quiet: bool) -> Result<Option<Spri
     progress.done();
     let springs = springs?;
     for structure in &springs.missed {
-        eprintln!(
+        terminal::stderr(format_args!(
             "springs: WARNING: the accuracy asked for was not reached on {structure}; ask for less, or allow stiffer springs"
-        );
+        ));
     }
     Ok(Some(springs))
 }
@@ -93,7 +92,7 @@ fn begin(plan: &Plan, hash: &str, out: &Path, quiet: bool) -> Result<Option<Spri
 impl SweepRunOptions {
     fn compute(&self, sweep: &Path) -> Result<(), CommandError> {
         let plan = Plan::read(sweep)?;
-        let hash = plan.hash(&mut |notice| eprintln!("{notice}"))?;
+        let hash = plan.hash(&mut |notice| terminal::stderr(notice))?;
         threads(self.jobs)?;
         let springs = begin(&plan, &hash, &self.out, self.quiet)?;
         let parts = SweepParts { plan: &plan, folder: &self.out, hash: &hash };
@@ -112,19 +111,22 @@ impl SweepRunOptions {
         progress.done();
         let seconds = began.elapsed().as_secs_f64();
         if !self.quiet && all > 0 {
-            eprintln!("{all} cells in {}: {:.0} a second", duration(seconds), all as f64 / seconds);
+            terminal::stderr(format_args!(
+                "{all} cells in {}: {:.0} a second",
+                duration(seconds),
+                all as f64 / seconds
+            ));
         }
         if self.shard.is_some() {
-            writeln!(
-                std::io::stdout(),
-                "share {}/{}: {} of {} parts computed now; gather them with: tune sweep gather {} --out {}",
+            terminal::stdout(format_args!(
+                "share {}/{}: {} of {} parts computed now; gather them with: tune sweep gather {} --out {}\n",
                 share.index,
                 share.of,
                 wanted.len(),
                 plan.parts(),
-                sweep.display(),
-                self.out.display()
-            )?;
+                terminal::shown(sweep),
+                terminal::shown(&self.out)
+            ))?;
             return Ok(());
         }
         gather::gather(&parts, !self.no_figures)

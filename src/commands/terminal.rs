@@ -7,11 +7,12 @@
 use std::{
     fmt::Display,
     io::{self, ErrorKind, Write},
+    path::Path,
     sync::atomic::{AtomicBool, Ordering},
 };
 
 use super::CommandError;
-use crate::message::printable_lines;
+use crate::message::{printable, printable_lines};
 
 /// Whether the reader of stdout went away: what follows has no reader.
 static STDOUT_ENDED: AtomicBool = AtomicBool::new(false);
@@ -46,6 +47,11 @@ pub fn stderr(line: impl Display) {
 /// Whether lines for stderr were lost on a full disk or a broken device.
 pub fn stderr_failed() -> bool {
     STDERR_FAILED.load(Ordering::Relaxed)
+}
+
+/// The name of a file as a line can show it.
+pub fn shown(path: &Path) -> String {
+    printable(&path.display().to_string()).into_owned()
 }
 
 /// At once, without the buffer of stdout, which is lost in silence when a process ends.

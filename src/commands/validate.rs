@@ -2,7 +2,7 @@
 
 mod tables;
 
-use std::{collections::HashSet, io::Write, path::PathBuf};
+use std::{collections::HashSet, path::PathBuf};
 
 use clap::Args;
 use rayon::prelude::*;
@@ -14,7 +14,7 @@ use super::{
     output::{Folder, check_folder},
     progress::Progress,
     run::threads,
-    write_file,
+    terminal, write_file,
 };
 use crate::{
     case::LONGEST_S,
@@ -133,12 +133,12 @@ impl RecordsSource {
         for (file, notices) in files.into_iter().zip(notices) {
             match notices {
                 Ok(notices) => {
-                    notices.iter().for_each(|notice| eprintln!("{notice}"));
+                    notices.iter().for_each(terminal::stderr);
                     self.files.push(file);
                 }
                 Err(error) => {
                     let reason = one_line(&error.to_string());
-                    eprintln!("left out: {reason}");
+                    terminal::stderr(format_args!("left out: {reason}"));
                     unread.push(Unread { file: file.display().to_string(), reason });
                 }
             }
@@ -271,11 +271,14 @@ pub fn run(o: &ValidateOptions) -> Result<(), CommandError> {
         draw(o, &parameters, &validation)?;
     }
     folder.finish()?;
-    writeln!(std::io::stdout(), "{line}\n{}", tables::terminal(&validation))?;
+    terminal::stdout(format_args!("{line}\n{}\n", tables::terminal(&validation)))?;
     for name in &validation.all.failed {
-        eprintln!("failed: {name}; see its outcome in {}", o.out.join("validate.csv").display());
+        terminal::stderr(format_args!(
+            "failed: {name}; see its outcome in {}",
+            terminal::shown(&o.out.join("validate.csv"))
+        ));
     }
-    eprintln!("written to {}", o.out.display());
+    terminal::stderr(format_args!("written to {}", terminal::shown(&o.out)));
     Ok(())
 }
 

@@ -2,7 +2,7 @@
 
 mod elastic;
 
-use std::{fmt::Write as _, io::Write, path::PathBuf};
+use std::{fmt::Write as _, path::PathBuf};
 
 use clap::Args;
 use comfy_table::{Table, presets};
@@ -14,7 +14,7 @@ use super::{
     export::{check_accuracy, read},
     output::{Folder, check_folder},
     progress::Progress,
-    write_file,
+    terminal, write_file,
 };
 use crate::{
     export::ACCURACY,
@@ -70,12 +70,12 @@ pub fn run(o: &VerifyOptions) -> Result<(), CommandError> {
     write_file(&o.out.join("verify.csv"), csv(&result).as_bytes())?;
     draw(o, &parameters, &record, &result)?;
     folder.finish()?;
-    write!(std::io::stdout(), "{}", said(&record, &result))?;
-    eprintln!(
+    terminal::stdout(format_args!("{}", said(&record, &result)))?;
+    terminal::stderr(format_args!(
         "{line}
 written to {}",
-        o.out.display()
-    );
+        terminal::shown(&o.out)
+    ));
     if result.verdict.within { Ok(()) } else { Err(CommandError::Failed(refusal(&result))) }
 }
 

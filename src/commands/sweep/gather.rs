@@ -1,14 +1,11 @@
 //! `tune sweep gather`: tables, figures and a summary from the parts.
 
-use std::{
-    io::Write as _,
-    path::{Path, PathBuf},
-};
+use std::path::{Path, PathBuf};
 
 use clap::Args;
 
 use super::{
-    super::{CommandError, write_file},
+    super::{CommandError, terminal, write_file},
     figures,
 };
 use crate::sweep::{
@@ -67,7 +64,7 @@ pub fn run(o: &GatherOptions) -> Result<(), CommandError> {
         if !o.partial || missing.len() == parts {
             return Err(CommandError::Failed(error.to_string()));
         }
-        eprintln!("WARNING: {error}");
+        terminal::stderr(format_args!("WARNING: {error}"));
     }
     gather(&parts, !o.no_figures)
 }
@@ -93,8 +90,8 @@ pub fn gather(parts: &SweepParts, draw: bool) -> Result<(), CommandError> {
     }
     let said = said.join("\n") + "\n";
     write_file(&out.join("summary.md"), said.as_bytes())?;
-    write!(std::io::stdout(), "{said}")?;
-    eprintln!("written to {}", out.display());
+    terminal::stdout(format_args!("{said}"))?;
+    terminal::stderr(format_args!("written to {}", terminal::shown(out)));
     Ok(())
 }
 

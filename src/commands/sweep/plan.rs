@@ -2,14 +2,13 @@
 
 use std::{
     fmt::Write as _,
-    io::Write as _,
     path::{Path, PathBuf},
 };
 
 use clap::Args;
 
 use super::{
-    super::{CommandError, write_file},
+    super::{CommandError, terminal, write_file},
     begin,
     gather::absolute,
 };
@@ -49,12 +48,11 @@ pub fn run(o: &PlanOptions) -> Result<(), CommandError> {
         return Err(CommandError::Option { option: "time", value: format!("{:?}", o.time), remedy });
     }
     let plan = Plan::read(&o.sweep)?;
-    let hash = plan.hash(&mut |notice| eprintln!("{notice}"))?;
+    let hash = plan.hash(&mut |notice| terminal::stderr(notice))?;
     begin(&plan, &hash, &o.out, o.quiet)?;
     let missing = SweepParts { plan: &plan, folder: &o.out, hash: &hash }.missing().len();
-    writeln!(
-        std::io::stdout(),
-        "{} cells: {} motions, {} structures, {} restitutions, {} levels; {} parts of {} cells, {missing} missing; sweep {hash}",
+    terminal::stdout(format_args!(
+        "{} cells: {} motions, {} structures, {} restitutions, {} levels; {} parts of {} cells, {missing} missing; sweep {hash}\n",
         plan.cells(),
         plan.motions.len(),
         plan.subjects.len(),
@@ -62,13 +60,13 @@ pub fn run(o: &PlanOptions) -> Result<(), CommandError> {
         plan.levels.len(),
         plan.parts(),
         plan.part
-    )?;
+    ))?;
     let shares = o.shards.unwrap_or(SHARES).min(plan.parts());
     if let Some(asked) = o.shards.filter(|asked| *asked > shares) {
-        eprintln!(
+        terminal::stderr(format_args!(
             "--shards {asked}: a share has one part of {} cells at least, so there are {shares}; for more, write a smaller part under [sweep]",
             plan.part
-        );
+        ));
     }
     let program = std::env::current_exe().unwrap_or_else(|_| PathBuf::from("tune"));
     let script = Script {
@@ -84,9 +82,9 @@ pub fn run(o: &PlanOptions) -> Result<(), CommandError> {
         write_file(&o.out.join("sweep.sbatch"), script.array().as_bytes())?;
         write_file(&o.out.join("gather.sbatch"), script.gather().as_bytes())?;
         write_file(&o.out.join("submit.sh"), script.submit().as_bytes())?;
-        eprintln!("submit with: sh {}", o.out.join("submit.sh").display());
+        terminal::stderr(format_args!("submit with: sh {}", terminal::shown(&o.out.join("submit.sh"))));
     }
-    eprintln!("written to {}", o.out.display());
+    terminal::stderr(format_args!("written to {}", terminal::shown(&o.out)));
     Ok(())
 }
 

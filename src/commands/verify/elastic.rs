@@ -1,6 +1,6 @@
 //! `tune verify` of an elastic structure's deck.
 
-use std::{fmt::Write as _, io::Write, path::Path};
+use std::{fmt::Write as _, path::Path};
 
 use super::VerifyOptions;
 use crate::{
@@ -11,7 +11,7 @@ use crate::{
         export::check_accuracy,
         output::{Folder, check_folder},
         progress::Progress,
-        write_file,
+        terminal, write_file,
     },
     elastic::{
         answer::{ComparedEnd, ElasticHistories, Reference},
@@ -83,8 +83,8 @@ pub fn run(o: &VerifyOptions, parameters: &ElasticParameters, program: &Program)
     if late > 0 {
         let _ = writeln!(said, "WARNING: {late} touches or lifts of a corner within too long a step of OpenSees");
     }
-    write!(std::io::stdout(), "{said}")?;
-    eprintln!("{}\nwritten to {}", excitation.line(), o.out.display());
+    terminal::stdout(format_args!("{said}"))?;
+    terminal::stderr(format_args!("{}\nwritten to {}", excitation.line(), terminal::shown(&o.out)));
     if within {
         return Ok(());
     }
