@@ -200,7 +200,7 @@ impl Case {
     /// Read a case file and the record it names.
     pub fn read(path: &Path) -> Result<Self, CaseError> {
         let name = path.display().to_string();
-        let text = std::fs::read_to_string(path).map_err(|source| CaseError::Read { path: name.clone(), source })?;
+        let text = crate::input::text(path).map_err(|source| CaseError::Read { path: name.clone(), source })?;
         Self::parse(&name, &text)
     }
 

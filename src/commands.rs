@@ -15,6 +15,7 @@ use crate::{
     sweep::SweepError,
     tuning::{arr::inner::FitError, job::JobError, landing::design::GeometryError},
     verify::VerifyError,
+    whole_file,
 };
 
 mod chart;
@@ -122,6 +123,15 @@ pub enum CommandError {
     NotRegular { path: String },
     #[error("{path}: there is no folder {folder}; make it first, or name another with --out")]
     NoFolder { path: String, folder: String },
+    #[error(
+        "{folder}: tune {command} was stopped while it put its files there, and some are of another run; run it again (or, if you know \
+         that {folder} is of one run, remove UNFINISHED-{command}.txt)"
+    )]
+    Mixed { folder: String, command: &'static str },
+    #[error(
+        "{path}: is not the file that tune run wrote there with the other files of {folder}; run it again, or put yours into a folder of its own"
+    )]
+    OfAnotherRun { path: String, folder: String },
     #[error("cannot write to stdout: {0}")]
     Stdout(#[from] std::io::Error),
     #[error("--{option} is {value}; {remedy}")]
@@ -182,20 +192,13 @@ fn code(result: Result<(), CommandError>) -> ExitCode {
     }
 }
 
-/// Write a whole file or nothing: to a temporary file beside it, then rename. Its folder is made.
+/// Write a whole file or nothing. Its folder is made, and rid of what killed runs left in it.
 fn write_file(path: &Path, bytes: &[u8]) -> Result<(), CommandError> {
-    use std::io::Write;
-    let wrap = |source| CommandError::Write { path: path.display().to_string(), source };
-    let folder = path.parent().filter(|p| !p.as_os_str().is_empty()).unwrap_or(Path::new("."));
-    std::fs::create_dir_all(folder).map_err(wrap)?;
-    let mut file = tempfile::NamedTempFile::new_in(folder).map_err(wrap)?;
-    file.write_all(bytes).map_err(wrap)?;
-    #[cfg(unix)]
-    {
-        use std::os::unix::fs::PermissionsExt;
-        let mode = std::fs::Permissions::from_mode(0o644);
-        file.as_file().set_permissions(mode).map_err(wrap)?;
-    }
-    file.persist(path).map_err(|e| wrap(e.error))?;
-    Ok(())
+    let folder = whole_file::folder(path);
+    let write = || {
+        std::fs::create_dir_all(folder)?;
+        whole_file::tidy(folder);
+        whole_file::write(path, bytes)
+    };
+    write().map_err(|source| CommandError::Write { path: path.display().to_string(), source })
 }

@@ -42,6 +42,11 @@
 mod house {
     pub mod message;
 
+    pub mod input;
+
+    #[cfg(feature = "figures")]
+    pub mod whole_file;
+
     pub mod scalar;
 
     pub mod record;

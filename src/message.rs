@@ -7,7 +7,7 @@ const LONGEST: usize = 200;
 
 /// Whether a character steers a terminal or the reading direction of a page instead of showing: control characters, marks without width,
 /// marks of direction, ends of lines and paragraphs, tags.
-fn is_unprintable(c: char) -> bool {
+pub(crate) fn is_unprintable(c: char) -> bool {
     c.is_control()
         || matches!(c,
             '\u{ad}' | '\u{61c}' | '\u{180e}' | '\u{200b}'..='\u{200f}' | '\u{2028}'..='\u{202e}' | '\u{2060}'..='\u{206f}'

@@ -108,7 +108,7 @@ fn shares_on_other_threads_in_another_order_and_twice_give_the_same_bytes() {
         sweep(dir.path(), "shares", &["--shard", share, "--jobs", "2"]);
     }
     // one part lost, one damaged: both are computed again
-    let part = |i: u32| dir.path().join(format!("shares/parts/part-{i:05}.parquet"));
+    let part = |i: u32| dir.path().join(format!("shares/parts/part-{i:05}-of-00025.parquet"));
     fs::remove_file(part(2)).unwrap();
     let bytes = fs::read(part(4)).unwrap();
     fs::write(part(4), &bytes[..bytes.len() / 2]).unwrap();

@@ -7,6 +7,7 @@ use super::{
     common::csv_row,
     draw::{self, Figure},
     export,
+    output::{Folder, identity},
     run::Output,
     write_file,
 };
@@ -142,9 +143,14 @@ impl ElasticRun {
         Self { case, assembled, tuned, record, answer, bearing, parameters }
     }
 
-    /// Write everything into a folder, which is there.
-    pub fn save(&self, out: &Path, output: Output) -> Result<(), CommandError> {
+    /// Write everything into a folder, which is made; `files` are all that it can be.
+    pub fn save(&self, out: &Path, files: &[&'static str], output: Output) -> Result<(), CommandError> {
+        let excitation = &self.case.excitation;
+        let asked = (excitation.scale, excitation.duration_s, output);
+        let parts: [&dyn std::fmt::Debug; 3] = [&self.parameters, &excitation.record.fingerprint(), &asked];
+        let folder = Folder::begin(out, "run", files, identity(&parts))?;
         let parameters = self.filed(out);
+        let out = folder.path();
         write_file(&out.join("parameters.json"), parameters.to_json().as_bytes())?;
         let tables = words::markdown(&parameters) + "\n" + &demands::markdown(self);
         write_file(&out.join("parameters.md"), tables.as_bytes())?;
@@ -157,7 +163,7 @@ impl ElasticRun {
             let page = page::ElasticPage { run: self, parameters: &parameters, figures: &figures };
             write_file(&out.join("report.html"), page.html().as_bytes())?;
         }
-        Ok(())
+        folder.finish()
     }
 
     fn filed(&self, out: &Path) -> ElasticParameters {

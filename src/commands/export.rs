@@ -4,7 +4,13 @@ use std::path::{Path, PathBuf};
 
 use clap::Args;
 
-use super::{CommandError, common::RecordOptions, elastic::deck, output::file_in, terminal, write_file};
+use super::{
+    CommandError,
+    common::RecordOptions,
+    elastic::deck,
+    output::{file_in, of_one_run},
+    terminal, write_file,
+};
 use crate::{
     elastic::fem::{ElasticAnalysis, ElasticStart},
     export::{ACCURACY, DeckFormat, ExportError, deck_of, with_inertia},
@@ -35,6 +41,7 @@ pub fn run(o: &ExportOptions) -> Result<(), CommandError> {
     let usual = DECKS.iter().find(|(_, format)| *format == o.format).map_or("deck", |(name, _)| name);
     let out = file_in(&o.out, usual)?;
     check_accuracy(o.accuracy)?;
+    of_one_run(&o.parameters)?;
     let (deck, line) = match ElasticParameters::read(&o.parameters)? {
         Some(parameters) => elastic(o, &parameters)?,
         None => {

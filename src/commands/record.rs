@@ -12,6 +12,7 @@ use super::{CommandError, output::check_folder, terminal};
 use crate::{
     case::{Case, LONGEST_S},
     figures,
+    message::printable,
     record::{ReadOptions, RecordFormat, Recording, Source, Units},
     scalar::GRAVITY,
     structure::Body,
@@ -94,8 +95,7 @@ pub fn run(o: &RecordFileOptions) -> Result<(), CommandError> {
         return Err(only.clone().into());
     }
     if o.json {
-        let json = serde_json::to_string_pretty(&reports).map_err(|e| CommandError::Result(e.to_string()))?;
-        terminal::stdout(format_args!("{json}\n"))?;
+        terminal::json(&reports)?;
     } else {
         let texts: Vec<String> = reports.iter().map(FileReport::text).collect();
         terminal::stdout(texts.join("\n"))?;
@@ -172,7 +172,7 @@ impl FileReport {
         let run = &self.run;
         let mut text = format!(
             "{}: {}{station}\n\n{table}\n\ntune run takes {}, {} unless --duration says otherwise: ",
-            self.file,
+            printable(&self.file),
             self.format,
             run.record,
             if run.duration_s < LONGEST_S { format!("its first {} s", run.duration_s) } else { "all of it".into() }

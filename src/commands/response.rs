@@ -34,8 +34,7 @@ pub fn run(o: &ResponseOptions) -> Result<(), CommandError> {
     };
     let fit = fit(o.mu, &target, &bounds)?;
     if o.json {
-        let text = serde_json::to_string_pretty(&fit).map_err(|e| CommandError::Result(e.to_string()))?;
-        return terminal::stdout(format_args!("{text}\n"));
+        return terminal::json(&fit);
     }
     terminal::stdout(table(&fit))
 }

@@ -14,7 +14,7 @@ use super::{
     common::{self, Both, RecordOptions, history_csv},
     draw::{self, Pictures},
     export, members,
-    output::{Folder, check_folder},
+    output::{Folder, check_folder, identity},
     page::Page,
     progress::Progress,
     report::{GroundOptions, HousnerReport},
@@ -99,8 +99,7 @@ pub fn run(o: &RunOptions) -> Result<(), CommandError> {
     let mut case = match &o.case {
         Some(path) => {
             let name = path.display().to_string();
-            let text =
-                std::fs::read_to_string(path).map_err(|source| CaseError::Read { path: name.clone(), source })?;
+            let text = crate::input::text(path).map_err(|source| CaseError::Read { path: name.clone(), source })?;
             if ElasticCase::is(&text) {
                 return elastic::run(o, ElasticCase::parse(&name, &text)?);
             }
@@ -221,10 +220,14 @@ impl FinishedRun {
     /// A file that cannot be written; a deck or a figure that cannot be made.
     pub fn save(&self, out: &Path, output: Output) -> Result<(), CommandError> {
         let files = files();
-        let folder = Folder::begin(out, "run", &files)?;
+        let excitation = &self.case.excitation;
+        let asked = (excitation.scale, excitation.duration_s, output, self.front.len());
+        let parts: [&dyn std::fmt::Debug; 3] = [&self.parameters, &excitation.record.fingerprint(), &asked];
+        let folder = Folder::begin(out, "run", &files, identity(&parts))?;
         let Self { job, front, both, .. } = self;
         let dt = job.record.dt;
         let parameters = self.filed(out);
+        let out = folder.path();
         write_file(&out.join("parameters.json"), parameters.to_json().as_bytes())?;
         let tables = table::markdown(&parameters) + &self.forces() + &table::front(front);
         write_file(&out.join("parameters.md"), tables.as_bytes())?;
@@ -286,10 +289,10 @@ fn report(out: &Path, page: Option<Page<'_>>) -> Result<(), CommandError> {
 /// What there is without a record.
 fn springs_alone(o: &RunOptions, parameters: &Parameters) -> Result<(), CommandError> {
     let files = files();
-    let folder = Folder::begin(&o.out, "run", &files)?;
-    write_file(&o.out.join("parameters.json"), parameters.to_json().as_bytes())?;
-    write_file(&o.out.join("parameters.md"), table::markdown(parameters).as_bytes())?;
-    report(&o.out, (!o.no_report).then_some(Page { parameters, run: None, figures: &[] }))?;
+    let folder = Folder::begin(&o.out, "run", &files, identity(&[parameters, &o.no_report]))?;
+    write_file(&folder.path().join("parameters.json"), parameters.to_json().as_bytes())?;
+    write_file(&folder.path().join("parameters.md"), table::markdown(parameters).as_bytes())?;
+    report(folder.path(), (!o.no_report).then_some(Page { parameters, run: None, figures: &[] }))?;
     folder.finish()?;
     let mut said = table::found(parameters);
     said.extend(springs_said(parameters));

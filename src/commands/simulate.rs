@@ -8,7 +8,7 @@ use super::{
     CommandError,
     common::{RecordOptions, both, history_csv, restitution},
     members,
-    output::file_in,
+    output::{file_in, of_one_run},
     report::{GroundOptions, HousnerReport},
     terminal, write_file,
 };
@@ -36,6 +36,7 @@ pub struct SimulateOptions {
 }
 
 pub fn run(o: &SimulateOptions) -> Result<(), CommandError> {
+    of_one_run(&o.parameters)?;
     let parameters = Parameters::read(&o.parameters)?;
     let excitation = o.record.excitation(|| parameters.excitation(&o.parameters))?;
     let record = excitation.used()?;
@@ -60,7 +61,5 @@ pub fn run(o: &SimulateOptions) -> Result<(), CommandError> {
         terminal::stderr(line);
     }
     let report = members::MembersReport::new(&both.matched, &both.demands, both.with.as_ref());
-    let json = serde_json::to_string_pretty(&report).map_err(|e| CommandError::Result(e.to_string()))?;
-    terminal::stdout(format_args!("{json}\n"))?;
-    Ok(())
+    terminal::json(&report)
 }

@@ -95,9 +95,14 @@ impl SweepRunOptions {
         let hash = plan.hash(&mut |notice| terminal::stderr(notice))?;
         threads(self.jobs)?;
         let springs = begin(&plan, &hash, &self.out, self.quiet)?;
-        let parts = SweepParts { plan: &plan, folder: &self.out, hash: &hash };
+        let parts = SweepParts::new(&plan, &self.out, &hash);
         let share = self.shard.unwrap_or_default();
-        let wanted: Vec<u64> = share.parts(plan.parts()).filter(|part| !parts.is_done(*part)).collect();
+        let missing = parts.missing(share.parts(plan.parts()));
+        for (part, reason) in &missing.unfit {
+            let file = terminal::shown(&parts.path(*part));
+            terminal::stderr(format_args!("{file}: {reason}; part {part} is computed again"));
+        }
+        let wanted = missing.parts;
         let all: u64 = wanted.iter().map(|part| parts.cells(*part)).map(|cells| cells.end - cells.start).sum();
         let progress = Progress::new("sweep", self.quiet);
         let (began, through) = (Instant::now(), AtomicU64::new(0));
@@ -106,7 +111,13 @@ impl SweepRunOptions {
             progress.tell(n as usize, all as usize, &left(n, all, began.elapsed().as_secs_f64()));
         };
         for &part in &wanted {
-            parts.compute(part, springs.as_ref(), &done)?;
+            // another process may work on the same folder
+            if parts.is_done(part) {
+                let cells = parts.cells(part);
+                done(cells.end - cells.start);
+            } else {
+                parts.compute(part, springs.as_ref(), &done)?;
+            }
         }
         progress.done();
         let seconds = began.elapsed().as_secs_f64();

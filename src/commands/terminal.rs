@@ -11,8 +11,10 @@ use std::{
     sync::atomic::{AtomicBool, Ordering},
 };
 
+use serde::Serialize;
+
 use super::CommandError;
-use crate::message::{printable, printable_lines};
+use crate::message::{is_unprintable, printable, printable_lines};
 
 /// Whether the reader of stdout went away: what follows has no reader.
 static STDOUT_ENDED: AtomicBool = AtomicBool::new(false);
@@ -34,6 +36,27 @@ pub fn stdout(text: impl Display) -> Result<(), CommandError> {
         }
         written => Ok(written?),
     }
+}
+
+/// Write a value to stdout as JSON, in which such characters are spelt as JSON spells them.
+///
+/// # Errors
+/// As [`stdout`].
+pub fn json(value: &impl Serialize) -> Result<(), CommandError> {
+    let json = serde_json::to_string_pretty(value).map_err(|e| CommandError::Result(e.to_string()))?;
+    let mut text = String::with_capacity(json.len() + 1);
+    for c in json.chars() {
+        match c {
+            '\n' => text.push('\n'),
+            c if is_unprintable(c) => {
+                let units = c.encode_utf16(&mut [0; 2]).iter().map(|unit| format!("\\u{unit:04x}")).collect::<String>();
+                text.push_str(&units);
+            }
+            c => text.push(c),
+        }
+    }
+    text.push('\n');
+    stdout(text)
 }
 
 /// Write a line to stderr: progress, warnings, errors. What cannot be written is lost, and [`stderr_failed`] from then on.

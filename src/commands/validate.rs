@@ -2,7 +2,10 @@
 
 mod tables;
 
-use std::{collections::HashSet, path::PathBuf};
+use std::{
+    collections::HashSet,
+    path::{Path, PathBuf},
+};
 
 use clap::Args;
 use rayon::prelude::*;
@@ -11,7 +14,7 @@ use serde::Serialize;
 use super::{
     CommandError, common,
     draw::subtitle,
-    output::{Folder, check_folder},
+    output::{Folder, check_folder, identity, of_one_run},
     progress::Progress,
     run::threads,
     terminal, write_file,
@@ -213,6 +216,7 @@ struct ValidationReport<'a> {
 const FILES: &[&str] = &["validate.json", "validate.md", "validate.csv", "validation.png", "validation.svg"];
 
 pub fn run(o: &ValidateOptions) -> Result<(), CommandError> {
+    of_one_run(&o.parameters)?;
     let parameters = Parameters::read(&o.parameters)?;
     let body = parameters.structure.body::<f64>();
     let restitution = common::restitution(o.restitution)?.unwrap_or_else(|| parameters.restitution());
@@ -263,12 +267,12 @@ pub fn run(o: &ValidateOptions) -> Result<(), CommandError> {
     };
     let mut json = serde_json::to_string_pretty(&report).map_err(|e| CommandError::Result(e.to_string()))?;
     json.push('\n');
-    let folder = Folder::begin(&o.out, "validate", FILES)?;
-    write_file(&o.out.join("validate.json"), json.as_bytes())?;
-    write_file(&o.out.join("validate.md"), tables::markdown(&validation, &line).as_bytes())?;
-    write_file(&o.out.join("validate.csv"), &tables::csv(&validation)?)?;
+    let folder = Folder::begin(&o.out, "validate", FILES, identity(&[&json, &o.no_figures]))?;
+    write_file(&folder.path().join("validate.json"), json.as_bytes())?;
+    write_file(&folder.path().join("validate.md"), tables::markdown(&validation, &line).as_bytes())?;
+    write_file(&folder.path().join("validate.csv"), &tables::csv(&validation)?)?;
     if !o.no_figures {
-        draw(o, &parameters, &validation)?;
+        draw(folder.path(), &parameters, &validation)?;
     }
     folder.finish()?;
     terminal::stdout(format_args!("{line}\n{}\n", tables::terminal(&validation)))?;
@@ -282,7 +286,7 @@ pub fn run(o: &ValidateOptions) -> Result<(), CommandError> {
     Ok(())
 }
 
-fn draw(o: &ValidateOptions, parameters: &Parameters, validation: &Validation) -> Result<(), CommandError> {
+fn draw(out: &Path, parameters: &Parameters, validation: &Validation) -> Result<(), CommandError> {
     let rows: Vec<figures::validation::ValidationPoint> = validation
         .records
         .iter()
@@ -307,6 +311,6 @@ fn draw(o: &ValidateOptions, parameters: &Parameters, validation: &Validation) -
         ks_distance: validation.all.ks_distance,
         well_conditioned: ILL_CONDITIONED,
     })?
-    .save(&o.out.join("validation.png"))?;
+    .save(&out.join("validation.png"))?;
     Ok(())
 }

@@ -8,7 +8,7 @@ use crate::{
     commands::{
         CommandError,
         elastic::{ElasticRun, springs_alone},
-        output::{Folder, check_folder},
+        output::{Folder, check_folder, identity},
         progress::Progress,
     },
     elastic::{
@@ -47,8 +47,8 @@ pub fn run(o: &RunOptions, mut case: ElasticCase) -> Result<(), CommandError> {
     let mut tuned = tuned.map_err(|e| CommandError::Result(e.to_string()))?;
     let Some((record, reference)) = record.zip(tuned.reference.take()) else {
         let parameters = springs_alone(&assembled, &tuned, case.accuracy);
-        let folder = Folder::begin(&o.out, "run", &all)?;
-        let said = parameters.save_alone(&o.out)?;
+        let folder = Folder::begin(&o.out, "run", &all, identity(&[&parameters]))?;
+        let said = parameters.save_alone(folder.path())?;
         folder.finish()?;
         write!(std::io::stdout(), "{said}")?;
         eprintln!("no record: give one with --record\nwritten to {}", o.out.display());
@@ -59,9 +59,7 @@ pub fn run(o: &RunOptions, mut case: ElasticCase) -> Result<(), CommandError> {
     progress.done();
     let answer = answer.map_err(|e| CommandError::Result(e.to_string()))?;
     let run = ElasticRun::new(case, assembled, tuned, record, answer);
-    let folder = Folder::begin(&o.out, "run", &all)?;
-    run.save(&o.out, Output { figures: !o.no_figures, report: !o.no_report })?;
-    folder.finish()?;
+    run.save(&o.out, &all, Output { figures: !o.no_figures, report: !o.no_report })?;
     write!(std::io::stdout(), "{}", run.terminal())?;
     eprintln!("{}\nwritten to {}", run.case.excitation.line(), o.out.display());
     Ok(())

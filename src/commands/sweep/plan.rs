@@ -50,7 +50,7 @@ pub fn run(o: &PlanOptions) -> Result<(), CommandError> {
     let plan = Plan::read(&o.sweep)?;
     let hash = plan.hash(&mut |notice| terminal::stderr(notice))?;
     begin(&plan, &hash, &o.out, o.quiet)?;
-    let missing = SweepParts { plan: &plan, folder: &o.out, hash: &hash }.missing().len();
+    let missing = SweepParts::new(&plan, &o.out, &hash).missing(0..plan.parts()).parts.len();
     terminal::stdout(format_args!(
         "{} cells: {} motions, {} structures, {} restitutions, {} levels; {} parts of {} cells, {missing} missing; sweep {hash}\n",
         plan.cells(),
@@ -70,9 +70,9 @@ pub fn run(o: &PlanOptions) -> Result<(), CommandError> {
     }
     let program = std::env::current_exe().unwrap_or_else(|_| PathBuf::from("tune"));
     let script = Script {
-        program: quoted(&program),
-        sweep: quoted(&absolute(&o.sweep)),
-        out: quoted(&absolute(&o.out)),
+        program: quoted(&program)?,
+        sweep: quoted(&absolute(&o.sweep))?,
+        out: quoted(&absolute(&o.out))?,
         shares,
         jobs: o.jobs,
         time: &o.time,
@@ -88,9 +88,14 @@ pub fn run(o: &PlanOptions) -> Result<(), CommandError> {
     Ok(())
 }
 
-/// A word of a shell.
-fn quoted(path: &Path) -> String {
-    format!("'{}'", path.display().to_string().replace('\'', "'\\''"))
+/// A word of a shell, within one line.
+fn quoted(path: &Path) -> Result<String, CommandError> {
+    let name = path.to_str().filter(|name| !name.contains(char::is_control));
+    let name = name.ok_or_else(|| {
+        let path = terminal::shown(path);
+        CommandError::Result(format!("{path}: no list of commands can name it; rename it without control characters"))
+    })?;
+    Ok(format!("'{}'", name.replace('\'', "'\\''")))
 }
 
 /// All that the files for a cluster say.
@@ -119,17 +124,18 @@ impl Script<'_> {
         out
     }
 
+    /// The log stands where it is submitted, which is the folder: `#SBATCH` lines are no shell and quote no name.
+    ///
     /// An array of at most a thousand tasks, as clusters allow by default; each computes every thousandth share from its own on.
     fn array(&self) -> String {
         let tasks = self.shares.min(1000);
         format!(
             "#!/bin/sh\n#SBATCH --job-name=tune-sweep\n#SBATCH --array=1-{tasks}\n#SBATCH --cpus-per-task={}\n#SBATCH --time={}\n\
-             #SBATCH --requeue\n#SBATCH --output={}/slurm-%A_%a.log\n\
+             #SBATCH --requeue\n#SBATCH --output=slurm-%A_%a.log\n\
              # parts are idempotent: a task that is killed or run twice leaves whole files, the same ones\n\
              i=$SLURM_ARRAY_TASK_ID\nwhile [ \"$i\" -le {} ]; do\n    {} || exit 1\n    i=$((i + {tasks}))\ndone\n",
             self.jobs,
             self.time,
-            self.bare(),
             self.shares,
             self.share("\"$i\""),
         )
@@ -138,9 +144,8 @@ impl Script<'_> {
     fn gather(&self) -> String {
         let Self { program, sweep, out, .. } = self;
         format!(
-            "#!/bin/sh\n#SBATCH --job-name=tune-gather\n#SBATCH --time={}\n#SBATCH --output={}/slurm-gather.log\n{program} sweep gather {sweep} --out {out}\n",
+            "#!/bin/sh\n#SBATCH --job-name=tune-gather\n#SBATCH --time={}\n#SBATCH --output=slurm-gather.log\n{program} sweep gather {sweep} --out {out}\n",
             self.time,
-            self.bare(),
         )
     }
 
@@ -150,10 +155,5 @@ impl Script<'_> {
             "#!/bin/sh\nset -e\ncd {}\njob=$(sbatch --parsable sweep.sbatch)\nsbatch --dependency=afterany:\"$job\" gather.sbatch\necho \"array $job\"\n",
             self.out
         )
-    }
-
-    /// #SBATCH lines are no shell: a folder without quotes.
-    fn bare(&self) -> String {
-        self.out.trim_matches('\'').to_string()
     }
 }

@@ -57,9 +57,9 @@ pub fn run(o: &VerifyOptions, parameters: &ElasticParameters, program: &Program)
     let [rotation, drift] = errors(&ours, &ran.motion, compared.samples);
     let pairs: Vec<[Sway; 2]> = ours.into_iter().zip(ran.motion).map(|(ours, opensees)| [ours, opensees]).collect();
     let within = rotation <= LIMIT && drift <= LOOSER * LIMIT;
-    let folder = Folder::begin(&o.out, "verify", &["verify.csv", "verify.png", "verify.svg"])?;
-    write_file(&o.out.join("verify.csv"), csv(&pairs, record.dt).as_bytes())?;
-    draw(o, &assembled, &pairs, record.dt)?;
+    let folder = Folder::begin(&o.out, "verify", super::FILES, super::of(parameters, &record, o.accuracy))?;
+    write_file(&folder.path().join("verify.csv"), csv(&pairs, record.dt).as_bytes())?;
+    draw(folder.path(), &assembled, &pairs, record.dt)?;
     folder.finish()?;
 
     let mut said = format!("OpenSees took {:.1} s and {} steps\n", ran.seconds, number_before(&ran.report, " steps"));
@@ -139,7 +139,7 @@ fn csv(pairs: &[[Sway; 2]], dt: f64) -> String {
     out
 }
 
-fn draw(o: &VerifyOptions, assembled: &Assembled, pairs: &[[Sway; 2]], dt: f64) -> Result<(), CommandError> {
+fn draw(out: &Path, assembled: &Assembled, pairs: &[[Sway; 2]], dt: f64) -> Result<(), CommandError> {
     let n = pairs.first().map_or(0, |pair| pair[0].rotation.len());
     let t: Vec<f64> = (0..n).map(|i| i as f64 * dt).collect();
     let of = |pick: fn(&Sway) -> &[f64]| -> Vec<[&[f64]; 2]> {
@@ -159,5 +159,5 @@ fn draw(o: &VerifyOptions, assembled: &Assembled, pairs: &[[Sway; 2]], dt: f64) 
     let title = format!("The exported model in OpenSees\n{}", words::title(&assembled.structure));
     let names = ["tune run", "OpenSees"];
     let data = StackFigure { title: &title, t: &t, names: &names, panels: &panels, event: None };
-    Ok(stack::draw(&data)?.save(&o.out.join("verify.png"))?)
+    Ok(stack::draw(&data)?.save(&out.join("verify.png"))?)
 }
