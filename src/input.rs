@@ -1,4 +1,5 @@
-//! Files that users name, read whole: regular files of a bounded size. A pipe or a device may never end.
+//! Files that users name, read whole: regular files of a bounded size. A pipe or a device may never
+//! end.
 
 use std::{
     fs::File,

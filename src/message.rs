@@ -1,12 +1,13 @@
-//! What messages are made of: words of a user's file in one line, names in letters that can be seen, shares in percent.
+//! What messages are made of: words of a user's file in one line, names in letters that can be
+//! seen, shares in percent.
 
 use std::borrow::Cow;
 
 /// Longest piece that is quoted.
 const LONGEST: usize = 200;
 
-/// Whether a character steers a terminal or the reading direction of a page instead of showing: control characters, marks without width,
-/// marks of direction, ends of lines and paragraphs, tags.
+/// Whether a character steers a terminal or the reading direction of a page instead of showing:
+/// control characters, marks without width, marks of direction, ends of lines and paragraphs, tags.
 pub(crate) fn is_unprintable(c: char) -> bool {
     c.is_control()
         || matches!(c,
@@ -14,7 +15,8 @@ pub(crate) fn is_unprintable(c: char) -> bool {
             | '\u{feff}' | '\u{fff9}'..='\u{fffb}' | '\u{e0000}'..='\u{e007f}')
 }
 
-/// A name as it can be shown anywhere in one line: characters that steer a terminal or a page are spelt out, as `\u{1b}`.
+/// A name as it can be shown anywhere in one line: characters that steer a terminal or a page are
+/// spelt out, as `\u{1b}`.
 #[cfg_attr(not(feature = "cli"), allow(dead_code))]
 pub(crate) fn printable(name: &str) -> Cow<'_, str> {
     spelt_out(name, is_unprintable)
@@ -43,7 +45,8 @@ pub(crate) fn one_line(text: &str) -> String {
     short
 }
 
-/// A share in percent, three digits: 0.0123 %, 4.57 %, 96.0 %. Beyond a thousand percent a number says no more than that it is large.
+/// A share in percent, three digits: 0.0123 %, 4.57 %, 96.0 %. Beyond a thousand percent a number
+/// says no more than that it is large.
 #[cfg(any(feature = "cli", test))]
 pub(crate) fn percent(share: f64) -> String {
     let x = 100.0 * share;

@@ -1,7 +1,9 @@
-//! Files that are there whole or not at all: written under a temporary name in the same folder, then renamed.
+//! Files that are there whole or not at all: written under a temporary name in the same folder,
+//! then renamed.
 //!
-//! A process holds a lock on the temporary file while it writes. The lock of a process that was killed is gone, and so whoever writes into
-//! the folder next knows that the file has no owner, and removes it. No clock decides.
+//! A process holds a lock on the temporary file while it writes. The lock of a process that was
+//! killed is gone, and so whoever writes into the folder next knows that the file has no owner, and
+//! removes it. No clock decides.
 
 use std::{
     fs::{self, File},
@@ -12,7 +14,8 @@ use std::{
 /// Prefix of names that files have until they are whole.
 pub(crate) const UNFINISHED: &str = ".unfinished-";
 
-/// How often a file is written again that another process took for one without an owner, in the moment between its making and its lock.
+/// How often a file is written again that another process took for one without an owner, in the
+/// moment between its making and its lock.
 const TRIES: usize = 10;
 
 /// Put bytes under a name at once.

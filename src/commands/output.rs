@@ -1,4 +1,5 @@
-//! Where results go: looked at before the work, so that no work is lost and nothing is half written.
+//! Where results go: looked at before the work, so that no work is lost and nothing is half
+//! written.
 
 mod folder;
 
@@ -40,7 +41,8 @@ fn probe(folder: &Path) -> std::io::Result<()> {
     tempfile::tempfile_in(folder).map(drop)
 }
 
-/// A path for a single file: in a folder that is there, or is written as one (`results/`), under the command's own name.
+/// A path for a single file: in a folder that is there, or is written as one (`results/`), under
+/// the command's own name.
 pub(super) fn file_in(path: &Path, name: &str) -> Result<PathBuf, CommandError> {
     let folder = path.is_dir() || path.as_os_str().to_string_lossy().ends_with(std::path::is_separator);
     if !folder {

@@ -50,6 +50,11 @@ impl Progress {
     }
 }
 
+/// The least error so far, as a status; nothing where no springs have one yet.
+pub fn error(least: f64) -> String {
+    if least.is_finite() { format!("error {least:.2e}") } else { String::new() }
+}
+
 /// A line for a pipe.
 fn line(what: &str, done: usize, total: usize, status: &str) -> String {
     let count = if total == 0 { format!("{done} tried") } else { format!("{done}/{total}") };
@@ -65,5 +70,11 @@ mod tests {
     fn a_total_that_is_not_known_is_not_said() {
         assert_eq!(line("tuning", 3, 0, "error 3.7e-4"), "tuning: 3 tried, error 3.7e-4");
         assert_eq!(line("front", 3, 9, ""), "front: 3/9");
+    }
+
+    #[test]
+    fn an_error_that_no_springs_have_is_not_said() {
+        assert_eq!(error(3.7e-4), "error 3.70e-4");
+        assert_eq!([error(f64::INFINITY), error(f64::NAN)], ["", ""]);
     }
 }

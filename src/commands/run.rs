@@ -2,10 +2,7 @@
 
 mod elastic;
 
-use std::{
-    io::Write,
-    path::{Path, PathBuf},
-};
+use std::path::{Path, PathBuf};
 
 use clap::Args;
 
@@ -16,9 +13,9 @@ use super::{
     export, members,
     output::{Folder, check_folder, identity},
     page::Page,
-    progress::Progress,
+    progress::{self, Progress},
     report::{GroundOptions, HousnerReport},
-    table, write_file,
+    table, terminal, write_file,
 };
 use crate::{
     case::{ACCURACY, Case, CaseError, ElasticCase, Limits, MAX_HZ, Objective},
@@ -123,7 +120,7 @@ pub fn run(o: &RunOptions) -> Result<(), CommandError> {
     threads(o.jobs)?;
 
     let progress = Progress::new("tuning", o.quiet);
-    let job = Job::new(&case, &|done, all, error| progress.tell(done, all, &format!("error {error:.2e}")));
+    let job = Job::new(&case, &|done, all, error| progress.tell(done, all, &progress::error(error)));
     progress.done();
     let job = job?;
     let front = if o.no_front || o.no_record {
@@ -142,8 +139,8 @@ pub fn run(o: &RunOptions) -> Result<(), CommandError> {
     run.save(&o.out, Output { figures: !o.no_figures, report: !o.no_report })?;
     let (springs, forces) = (table::terminal(&run.filed(&o.out)), run.forces());
     let said = run.found().join("\n");
-    write!(std::io::stdout(), "{springs}{forces}{}\n{said}\n", table::front_terminal(&run.front))?;
-    eprintln!("{}\nwritten to {}", run.case.excitation.line(), o.out.display());
+    terminal::stdout(format_args!("{springs}{forces}{}\n{said}\n", table::front_terminal(&run.front)))?;
+    terminal::stderr(format_args!("{}\nwritten to {}", run.case.excitation.line(), terminal::shown(&o.out)));
     Ok(())
 }
 
@@ -296,11 +293,11 @@ fn springs_alone(o: &RunOptions, parameters: &Parameters) -> Result<(), CommandE
     folder.finish()?;
     let mut said = table::found(parameters);
     said.extend(springs_said(parameters));
-    write!(std::io::stdout(), "{}\n{}\n", table::terminal(parameters), said.join("\n"))?;
-    eprintln!(
+    terminal::stdout(format_args!("{}\n{}\n", table::terminal(parameters), said.join("\n")))?;
+    terminal::stderr(format_args!(
         "no record: tune simulate, verify and export take El Centro unless you give them one\nwritten to {}",
-        o.out.display()
-    );
+        terminal::shown(&o.out)
+    ));
     Ok(())
 }
 

@@ -1,8 +1,9 @@
 //! The one place that writes to stdout and stderr.
 //!
-//! A reader of a pipe that went away is the end of the output, and nothing is wrong: the command goes on and its files are whole. Any
-//! other failure of stdout is an error of one line, of stderr an exit code alone, and both after the files are written. No control
-//! character of a name gets to a terminal.
+//! A reader of a pipe that went away is the end of the output, and nothing is wrong: the command
+//! goes on and its files are whole. Any other failure of stdout is an error of one line, of stderr
+//! an exit code alone, and both after the files are written. No control character of a name gets to
+//! a terminal.
 
 use std::{
     fmt::Display,
@@ -59,7 +60,8 @@ pub fn json(value: &impl Serialize) -> Result<(), CommandError> {
     stdout(text)
 }
 
-/// Write a line to stderr: progress, warnings, errors. What cannot be written is lost, and [`stderr_failed`] from then on.
+/// Write a line to stderr: progress, warnings, errors. What cannot be written is lost, and
+/// [`stderr_failed`] from then on.
 pub fn stderr(line: impl Display) {
     match write(&mut io::stderr().lock(), &format!("{line}\n")) {
         Err(e) if e.kind() != ErrorKind::BrokenPipe => STDERR_FAILED.store(true, Ordering::Relaxed),

@@ -1,7 +1,9 @@
-//! What the file of a part says of itself: of which sweep it is, which part of how many, how many rows it has, and a checksum.
+//! What the file of a part says of itself: of which sweep it is, which part of how many, how many
+//! rows it has, and a checksum.
 //!
-//! The checksum is FNV-1a of all bytes of the file, with zeros where the checksum itself stands. It is looked at before anything else in the
-//! file is believed. FNV-1a is a bijection of its state for each byte: a file in which one byte differs never has the same.
+//! The checksum is FNV-1a of all bytes of the file, with zeros where the checksum itself stands. It
+//! is looked at before anything else in the file is believed. FNV-1a is a bijection of its state
+//! for each byte: a file in which one byte differs never has the same.
 
 use crate::record::fnv1a;
 
@@ -12,7 +14,8 @@ pub const PARTS: &str = "groundspring.parts";
 pub const ROWS: &str = "groundspring.rows";
 pub const CHECKSUM: &str = "groundspring.checksum";
 
-/// What stands before the digits of the checksum. It is the last of its kind in a file: the metadata stand at the end.
+/// What stands before the digits of the checksum. It is the last of its kind in a file: the
+/// metadata stand at the end.
 const MARK: &[u8] = b"fnv1a64:";
 const DIGITS: usize = 16;
 

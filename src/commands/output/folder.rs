@@ -1,9 +1,11 @@
 //! A folder of results that is of one run.
 //!
-//! A command writes its files into a folder of its own within that of the results, and exchanges them for those of the last run when all are
-//! whole. A run that fails or is killed before has changed nothing. While files are exchanged, `UNFINISHED-run.txt` stands in the folder,
-//! and stays there if the command is killed: then files of two runs may be mixed, and [`of_one_run`] refuses them. `.tune-files.json` holds the
-//! checksum of each file and the identity of the run. No clock decides.
+//! A command writes its files into a folder of its own within that of the results, and exchanges
+//! them for those of the last run when all are whole. A run that fails or is killed before has
+//! changed nothing. While files are exchanged, `UNFINISHED-run.txt` stands in the folder, and stays
+//! there if the command is killed: then files of two runs may be mixed, and [`of_one_run`] refuses
+//! them. `.tune-files.json` holds the checksum of each file and the identity of the run. No clock
+//! decides.
 
 use std::{
     collections::BTreeMap,
@@ -23,7 +25,8 @@ use crate::{
     whole_file::{self, UNFINISHED},
 };
 
-/// A run by what decides its results: FNV-1a of the program's version and of all that is given, in the words of `Debug`.
+/// A run by what decides its results: FNV-1a of the program's version and of all that is given, in
+/// the words of `Debug`.
 pub(in super::super) fn identity(given: &[&dyn Debug]) -> String {
     let given: String = given.iter().map(|value| format!(" {value:?}")).collect();
     format!("{:016x}", fnv1a(format!("{}{given}", env!("CARGO_PKG_VERSION")).bytes()))
@@ -40,7 +43,7 @@ struct WrittenFiles {
 /// As it stands in the folder; an earlier version had the files alone.
 #[derive(Deserialize)]
 #[serde(untagged)]
-enum Filed {
+enum FiledList {
     Now(WrittenFiles),
     Earlier(BTreeMap<String, String>),
 }
@@ -58,16 +61,16 @@ fn mark(command: &str) -> String {
 
 fn written(folder: &Path) -> BTreeMap<String, WrittenFiles> {
     let text = input::text(&folder.join(WRITTEN)).unwrap_or_default();
-    let filed: BTreeMap<String, Filed> = serde_json::from_str(&text).unwrap_or_default();
+    let filed: BTreeMap<String, FiledList> = serde_json::from_str(&text).unwrap_or_default();
     let known = |filed| match filed {
-        Filed::Now(written) => written,
-        Filed::Earlier(files) => WrittenFiles { files, ..WrittenFiles::default() },
+        FiledList::Now(written) => written,
+        FiledList::Earlier(files) => WrittenFiles { files, ..WrittenFiles::default() },
     };
     filed.into_iter().map(|(command, filed)| (command, known(filed))).collect()
 }
 
-/// A folder while a command writes its results. What the command wrote there the last time and does not write again is removed at
-/// the end, unless it was changed since: then it is the user's.
+/// A folder while a command writes its results. What the command wrote there the last time and does
+/// not write again is removed at the end, unless it was changed since: then it is the user's.
 pub(in super::super) struct Folder<'a> {
     path: &'a Path,
     command: &'static str,
@@ -175,7 +178,8 @@ fn tidy(path: &Path) {
     }
 }
 
-/// Whether the file is of the run whose other files stand beside it; a file on its own belongs to nothing and is taken as it is.
+/// Whether the file is of the run whose other files stand beside it; a file on its own belongs to
+/// nothing and is taken as it is.
 ///
 /// # Errors
 /// Files of two runs are mixed there.

@@ -1,7 +1,5 @@
 //! `tune run` of an elastic structure.
 
-use std::io::Write;
-
 use super::{Output, RunOptions, files, threads};
 use crate::{
     case::ElasticCase,
@@ -9,7 +7,8 @@ use crate::{
         CommandError,
         elastic::{ElasticRun, springs_alone},
         output::{Folder, check_folder, identity},
-        progress::Progress,
+        progress::{self, Progress},
+        terminal,
     },
     elastic::{
         answer::{ElasticAnswer, Reference},
@@ -25,7 +24,7 @@ pub fn run(o: &RunOptions, mut case: ElasticCase) -> Result<(), CommandError> {
     if !o.no_record {
         let notices = std::mem::take(&mut case.notices);
         let of_case = || -> Result<_, CommandError> {
-            notices.iter().for_each(|notice| eprintln!("{notice}"));
+            notices.iter().for_each(terminal::stderr);
             Ok(case.excitation.clone())
         };
         case.excitation = o.record.excitation(of_case)?;
@@ -39,7 +38,7 @@ pub fn run(o: &RunOptions, mut case: ElasticCase) -> Result<(), CommandError> {
     let assembled =
         Assembled::with_members(case.structure, case.members).map_err(|e| CommandError::Result(e.to_string()))?;
     let progress = Progress::new("tuning", o.quiet);
-    let tell = |done: usize, error: f64| progress.tell(done, 0, &format!("error {error:.2e}"));
+    let tell = |done: usize, error: f64| progress.tell(done, 0, &progress::error(error));
     let record = if o.no_record { None } else { Some(referred(&assembled, case.excitation.used()?)?) };
     let (record, reference) = record.unzip();
     let tuned = tune(&assembled, case.accuracy, case.max_omega_hz, record.as_ref().zip(reference), &tell);
@@ -50,8 +49,8 @@ pub fn run(o: &RunOptions, mut case: ElasticCase) -> Result<(), CommandError> {
         let folder = Folder::begin(&o.out, "run", &all, identity(&[&parameters]))?;
         let said = parameters.save_alone(folder.path())?;
         folder.finish()?;
-        write!(std::io::stdout(), "{said}")?;
-        eprintln!("no record: give one with --record\nwritten to {}", o.out.display());
+        terminal::stdout(said)?;
+        terminal::stderr(format_args!("no record: give one with --record\nwritten to {}", terminal::shown(&o.out)));
         return Ok(());
     };
     let progress = Progress::new("history", o.quiet);
@@ -60,8 +59,8 @@ pub fn run(o: &RunOptions, mut case: ElasticCase) -> Result<(), CommandError> {
     let answer = answer.map_err(|e| CommandError::Result(e.to_string()))?;
     let run = ElasticRun::new(case, assembled, tuned, record, answer);
     run.save(&o.out, &all, Output { figures: !o.no_figures, report: !o.no_report })?;
-    write!(std::io::stdout(), "{}", run.terminal())?;
-    eprintln!("{}\nwritten to {}", run.case.excitation.line(), o.out.display());
+    terminal::stdout(run.terminal())?;
+    terminal::stderr(format_args!("{}\nwritten to {}", run.case.excitation.line(), terminal::shown(&o.out)));
     Ok(())
 }
 
