@@ -9,11 +9,13 @@ use crate::{
     case::CaseError,
     export::ExportError,
     figures::FigureError,
+    message::printable,
     parameters::{ParametersError, RememberedError},
     record::RecordError,
     sweep::SweepError,
     tuning::{arr::inner::FitError, job::JobError, landing::design::GeometryError},
     verify::VerifyError,
+    whole_file,
 };
 
 mod chart;
@@ -32,6 +34,7 @@ mod response;
 mod run;
 mod simulate;
 mod sweep;
+pub(crate) mod terminal;
 mod validate;
 mod verify;
 
@@ -113,6 +116,15 @@ pub enum CommandError {
     NotRegular { path: String },
     #[error("{path}: there is no folder {folder}; make it first, or name another with --out")]
     NoFolder { path: String, folder: String },
+    #[error(
+        "{folder}: tune {command} was stopped while it put its files there, and some are of another run; run it again (or, if you know \
+         that {folder} is of one run, remove UNFINISHED-{command}.txt)"
+    )]
+    Mixed { folder: String, command: &'static str },
+    #[error(
+        "{path}: is not the file that tune run wrote there with the other files of {folder}; run it again, or put yours into a folder of its own"
+    )]
+    OfAnotherRun { path: String, folder: String },
     #[error("cannot write to stdout: {0}")]
     Stdout(#[from] std::io::Error),
     #[error("--{option} is {value}; {remedy}")]
@@ -129,8 +141,8 @@ pub fn main() -> ExitCode {
     let cli = match Cli::try_parse() {
         Ok(cli) => cli,
         Err(e) if !e.use_stderr() => {
-            print!("{e}");
-            return ExitCode::SUCCESS;
+            // help or the version
+            return code(terminal::stdout(e));
         }
         Err(e) => {
             let text = e.to_string();
@@ -140,7 +152,7 @@ pub fn main() -> ExitCode {
             let tip = text.lines().map(str::trim).find_map(|line| line.strip_prefix("tip: "));
             let tip = tip.map(str::to_owned).or_else(|| with_a_point(&what));
             let tip = tip.map_or(String::new(), |tip| format!(" ({tip})"));
-            eprintln!("{}{tip}; see tune --help", what.trim_end_matches('.'));
+            terminal::stderr(format_args!("{}{tip}; see tune --help", what.trim_end_matches('.')));
             return ExitCode::from(2);
         }
     };
@@ -158,13 +170,17 @@ pub fn main() -> ExitCode {
         Command::Init(o) => init::run(&o),
         Command::Completions(o) => completions::run(&o),
     };
+    code(result)
+}
+
+/// The exit code of a result, whose error is one line on stderr.
+fn code(result: Result<(), CommandError>) -> ExitCode {
     match result {
+        // all results are there, but what was said of them is not
+        Ok(()) if terminal::stderr_failed() => ExitCode::from(2),
         Ok(()) => ExitCode::SUCCESS,
-        // the reader of a pipe went away: nothing is wrong
-        Err(CommandError::Stdout(e)) if e.kind() == std::io::ErrorKind::BrokenPipe => ExitCode::SUCCESS,
         Err(e) => {
-            let text: String = e.to_string().chars().map(|c| if c.is_control() { ' ' } else { c }).collect();
-            eprintln!("error: {text}");
+            terminal::stderr(format_args!("error: {}", printable(&e.to_string().replace(['\n', '\r'], " "))));
             ExitCode::from(if matches!(e, CommandError::Failed(_)) { 1 } else { 2 })
         }
     }
@@ -177,20 +193,13 @@ fn with_a_point(what: &str) -> Option<String> {
     point.parse::<f64>().ok().map(|_| format!("write it with a point: {point}"))
 }
 
-/// Write a whole file or nothing: to a temporary file beside it, then rename. Its folder is made.
+/// Write a whole file or nothing. Its folder is made, and rid of what killed runs left in it.
 fn write_file(path: &Path, bytes: &[u8]) -> Result<(), CommandError> {
-    use std::io::Write;
-    let wrap = |source| CommandError::Write { path: path.display().to_string(), source };
-    let folder = path.parent().filter(|p| !p.as_os_str().is_empty()).unwrap_or(Path::new("."));
-    std::fs::create_dir_all(folder).map_err(wrap)?;
-    let mut file = tempfile::NamedTempFile::new_in(folder).map_err(wrap)?;
-    file.write_all(bytes).map_err(wrap)?;
-    #[cfg(unix)]
-    {
-        use std::os::unix::fs::PermissionsExt;
-        let mode = std::fs::Permissions::from_mode(0o644);
-        file.as_file().set_permissions(mode).map_err(wrap)?;
-    }
-    file.persist(path).map_err(|e| wrap(e.error))?;
-    Ok(())
+    let folder = whole_file::folder(path);
+    let write = || {
+        std::fs::create_dir_all(folder)?;
+        whole_file::tidy(folder);
+        whole_file::write(path, bytes)
+    };
+    write().map_err(|source| CommandError::Write { path: path.display().to_string(), source })
 }

@@ -2,7 +2,10 @@
 
 #[cfg(feature = "cli")]
 use crate::record::{ReadOptions, Source, VerticalFrom};
-use crate::record::{Record, RecordError};
+use crate::{
+    message::printable,
+    record::{Record, RecordError},
+};
 
 /// A record as it was read, and what is made of it.
 #[derive(Clone, Debug, PartialEq)]
@@ -85,7 +88,9 @@ impl Excitation {
         let whole = &self.record;
         let used = whole.truncated(self.duration());
         let from = match &whole.source {
-            crate::record::Source::File { path, units, .. } => format!("{}, in {units}", path.display()),
+            crate::record::Source::File { path, units, .. } => {
+                format!("{}, in {units}", printable(&path.display().to_string()))
+            }
             crate::record::Source::Embedded => "embedded".into(),
             crate::record::Source::Numbers | crate::record::Source::Synthetic | crate::record::Source::Earthquake => {
                 "from no file".into()

@@ -34,6 +34,8 @@
 //! - `cli` (default): the program `tune`. `figures` (default): its figures. The library needs neither: `default-features = false`.
 //! - `internals`: every module public, for this crate's own tests, benches and Python package. No promise of stability whatever.
 
+// what is printed goes through commands/terminal
+#![cfg_attr(not(test), deny(clippy::print_stdout, clippy::print_stderr))]
 // under `internals` a module is public only to be tested
 #![cfg_attr(not(feature = "internals"), warn(missing_docs))]
 
@@ -41,6 +43,11 @@
 #[path = "."]
 mod house {
     pub mod message;
+
+    pub mod input;
+
+    #[cfg(feature = "figures")]
+    pub mod whole_file;
 
     pub mod scalar;
 

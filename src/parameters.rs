@@ -252,8 +252,7 @@ impl Parameters {
     /// Read and check a file.
     pub fn read(path: &Path) -> Result<Self, ParametersError> {
         let name = path.display().to_string();
-        let text =
-            std::fs::read_to_string(path).map_err(|source| ParametersError::Read { path: name.clone(), source })?;
+        let text = crate::input::text(path).map_err(|source| ParametersError::Read { path: name.clone(), source })?;
         Self::parse(&name, &text)
     }
 

@@ -36,8 +36,6 @@ mod timing;
 mod units;
 mod vertical;
 
-use std::fs::File;
-use std::io::Read;
 use std::path::Path;
 
 pub use column::TableColumn;
@@ -227,12 +225,8 @@ fn bytes(path: &Path) -> Result<Vec<u8>, RecordError> {
     }
     let unreadable =
         |error: std::io::Error| RecordError::Unreadable { file: file.clone(), reason: text::quote(&error.to_string()) };
-    let mut bytes = Vec::new();
-    File::open(path).and_then(|f| f.take(FILE_LIMIT + 1).read_to_end(&mut bytes)).map_err(unreadable)?;
-    if bytes.len() as u64 > FILE_LIMIT {
-        return Err(RecordError::TooLarge { file, limit_mb: FILE_LIMIT >> 20 });
-    }
-    Ok(bytes)
+    let bytes = crate::input::bytes(path, FILE_LIMIT).map_err(unreadable)?;
+    bytes.ok_or(RecordError::TooLarge { file, limit_mb: FILE_LIMIT >> 20 })
 }
 
 fn check_step(record: &str, dt: f64) -> Result<(), RecordError> {
@@ -241,7 +235,7 @@ fn check_step(record: &str, dt: f64) -> Result<(), RecordError> {
 
 /// A path for messages of one line.
 fn label(path: &Path) -> String {
-    path.to_string_lossy().chars().map(|c| if c.is_control() { '?' } else { c }).collect()
+    crate::message::printable(&path.to_string_lossy()).into_owned()
 }
 
 #[cfg(test)]

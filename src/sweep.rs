@@ -2,7 +2,7 @@
 //!
 //! ```text
 //! SWEEP.toml -> spec -> plan: cell i = (motion, structure, restitution, level), in that order, the last one fastest
-//!     parts: fixed ranges of cells --(history | overturning)--> rows -> table -> DIR/parts/part-00000.parquet
+//!     parts: fixed ranges of cells --(history | overturning)--> rows -> table -> DIR/parts/part-00000-of-00025.parquet
 //!     springs: tuned once a geometry before the first cell, kept in DIR/springs.json
 //! gather: parts one after another -> fragility, ida, spectrum, compare -> CSV, figures, plain words
 //! ```
@@ -33,6 +33,7 @@ pub mod plan;
 pub mod pulse;
 pub mod reduce;
 pub mod row;
+pub mod seal;
 pub mod spec;
 pub mod springs;
 pub mod summary;

@@ -108,7 +108,7 @@ fn shares_on_other_threads_in_another_order_and_twice_give_the_same_bytes() {
         sweep(dir.path(), "shares", &["--shard", share, "--jobs", "2"]);
     }
     // one part lost, one damaged: both are computed again
-    let part = |i: u32| dir.path().join(format!("shares/parts/part-{i:05}.parquet"));
+    let part = |i: u32| dir.path().join(format!("shares/parts/part-{i:05}-of-00025.parquet"));
     fs::remove_file(part(2)).unwrap();
     let bytes = fs::read(part(4)).unwrap();
     fs::write(part(4), &bytes[..bytes.len() / 2]).unwrap();
@@ -135,4 +135,72 @@ fn another_sweep_in_the_same_folder_is_refused() {
     let said = String::from_utf8(refused.stderr).unwrap();
     assert_eq!(refused.status.code(), Some(2));
     assert!(said.contains("holds another sweep") && said.lines().count() == 1, "{said}");
+}
+
+/// What `tune sweep gather` says of a folder; it must refuse it in one line.
+fn refused(dir: &Path, out: &str) -> String {
+    let args = ["sweep", "gather", "sweep.toml", "--out", out];
+    let gather = tune(dir, &args).stderr(Stdio::piped()).output().unwrap();
+    let said = String::from_utf8(gather.stderr).unwrap();
+    assert!(matches!(gather.status.code(), Some(1 | 2)) && said.lines().count() == 1, "{said}");
+    said
+}
+
+#[test]
+fn a_part_that_is_another_or_has_a_bit_changed_is_refused_and_computed_again() {
+    let dir = begun();
+    let part = |i: u32| dir.path().join(format!("whole/parts/part-{i:05}-of-00025.parquet"));
+    let good = files(&dir.path().join("whole"));
+    fs::copy(part(0), part(3)).unwrap();
+    let said = refused(dir.path(), "whole");
+    assert!(said.contains("1 of 25 parts are missing (3): the file of part 3 is part 0 of 25"), "{said}");
+    let mut bytes = fs::read(part(7)).unwrap();
+    for at in (0..bytes.len()).step_by(97) {
+        bytes[at] ^= 1;
+        fs::write(part(7), &bytes).unwrap();
+        assert!(refused(dir.path(), "whole").contains("the file of part 7 is damaged"), "byte {at}");
+        bytes[at] ^= 1;
+    }
+    bytes[100] ^= 1;
+    fs::write(part(7), &bytes).unwrap();
+    sweep(dir.path(), "whole", &[]);
+    assert_eq!(files(&dir.path().join("whole")), good);
+}
+
+#[test]
+fn two_sweeps_in_one_folder_share_it_and_lose_nothing() {
+    let dir = begun();
+    for pause in [0, 3, 11, 29] {
+        let start = || tune(dir.path(), &["sweep", "sweep.toml", "--out", "both", "--quiet"]).spawn().unwrap();
+        let mut first = start();
+        sleep(Duration::from_millis(pause));
+        let mut second = start();
+        assert!(first.wait().unwrap().success() && second.wait().unwrap().success());
+        same(&dir.path().join("whole"), &dir.path().join("both"));
+        fs::remove_dir_all(dir.path().join("both")).unwrap();
+    }
+}
+
+#[test]
+fn springs_and_manifests_that_a_hand_has_changed_are_refused() {
+    let dir = TempDir::new().unwrap();
+    let text = SWEEP.replace("earthquakes = 40", "").replace("synthetic = 20", "");
+    let text = text.replace("kind = \"fragility\"", "kind = \"compare\"").replace("count = 12", "count = 2");
+    fs::write(dir.path().join("sweep.toml"), text + "[springs]\naccuracy = 0.02\n").unwrap();
+    sweep(dir.path(), "out", &["--no-figures"]);
+    let again = |file: &str, from: &str, to: &str| {
+        let path = dir.path().join("out").join(file);
+        let good = fs::read_to_string(&path).unwrap();
+        let changed = good.replacen(from, to, 1);
+        assert_ne!(good, changed);
+        fs::write(&path, changed).unwrap();
+        let refused = tune(dir.path(), &["sweep", "sweep.toml", "--out", "out"]).stderr(Stdio::piped()).output();
+        let refused = refused.unwrap();
+        let said = String::from_utf8(refused.stderr).unwrap();
+        assert!(refused.status.code() == Some(2) && said.contains(file) && said.lines().count() == 1, "{said}");
+        fs::write(&path, good).unwrap();
+    };
+    again("springs.json", "\"omega_n_hz_over_p\": ", "\"omega_n_hz_over_p\": -");
+    again("manifest.json", "\"cells\": ", "\"cells\": 1");
+    sweep(dir.path(), "out", &["--no-figures"]);
 }

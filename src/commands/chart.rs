@@ -1,15 +1,18 @@
 //! `tune chart`: the design from the geometry, to be read off.
 
-use std::{fmt::Write as _, io::Write as _, path::PathBuf};
+use std::{
+    fmt::Write as _,
+    path::{Path, PathBuf},
+};
 
 use clap::Args;
 use rayon::prelude::*;
 
 use super::{
     CommandError,
-    output::{Folder, check_folder},
+    output::{Folder, check_folder, identity},
     run::threads,
-    write_file,
+    terminal, write_file,
 };
 use crate::{
     figures,
@@ -59,17 +62,16 @@ pub fn run(o: &ChartOptions) -> Result<(), CommandError> {
     }
     let rows: Vec<ChartRow> =
         all.into_par_iter().map(|(kind, geometry)| ChartRow { kind, geometry, springs: geometry.springs() }).collect();
-    let folder = Folder::begin(&o.out, "chart", &["chart.csv", "chart.png", "chart.svg"])?;
-    write_file(&o.out.join("chart.csv"), csv(&rows).as_bytes())?;
-    draw(o, &rows)?;
+    let folder = Folder::begin(&o.out, "chart", &["chart.csv", "chart.png", "chart.svg"], identity(&[&o.alpha]))?;
+    write_file(&folder.path().join("chart.csv"), csv(&rows).as_bytes())?;
+    draw(folder.path(), &rows)?;
     folder.finish()?;
-    writeln!(
-        std::io::stdout(),
-        "{} designs: alpha {:?}, Omega_n/p 1e3 to 1e6; horizontal units: mu 0.3, f 1.8257, xi 3.3333",
+    terminal::stdout(format_args!(
+        "{} designs: alpha {:?}, Omega_n/p 1e3 to 1e6; horizontal units: mu 0.3, f 1.8257, xi 3.3333\n",
         rows.len(),
         o.alpha
-    )?;
-    eprintln!("written to {}", o.out.display());
+    ))?;
+    terminal::stderr(format_args!("written to {}", terminal::shown(&o.out)));
     Ok(())
 }
 
@@ -100,7 +102,7 @@ fn csv(rows: &[ChartRow]) -> String {
     out
 }
 
-fn draw(o: &ChartOptions, rows: &[ChartRow]) -> Result<(), CommandError> {
+fn draw(out: &Path, rows: &[ChartRow]) -> Result<(), CommandError> {
     type Pick = fn(&Springs<Design<f64>>) -> f64;
     let picks: [Pick; 4] =
         [|s| s.vertical.mu, |s| s.vertical.f, |s| s.vertical.xi, |s| s.horizontal.omega_n_hz / s.vertical.omega_n_hz];
@@ -129,7 +131,7 @@ fn draw(o: &ChartOptions, rows: &[ChartRow]) -> Result<(), CommandError> {
         kinds: ["A-frame", "solid block"],
         curves: &curves,
     })?
-    .save(&o.out.join("chart.png"))?;
+    .save(&out.join("chart.png"))?;
     Ok(())
 }
 

@@ -4,7 +4,7 @@ use std::{fmt::Write, path::PathBuf};
 
 use clap::Args;
 
-use super::CommandError;
+use super::{CommandError, terminal};
 use crate::{
     answers::Both,
     case::{LONGEST_S, NO_MOTION},
@@ -55,7 +55,7 @@ impl RecordOptions {
         let asked = match &self.record {
             Some(path) => {
                 let recording = Recording::read(path, &self.reading())?;
-                recording.notices().iter().for_each(|notice| eprintln!("{notice}"));
+                recording.notices().iter().for_each(terminal::stderr);
                 Excitation::whole(recording.into_record())
             }
             None if self.reading() != ReadOptions::default() => return Err(self.no_file()),
@@ -72,7 +72,7 @@ impl RecordOptions {
             return self.excitation(|| -> Result<_, CommandError> { Ok(own.clone()) });
         }
         self.check()?;
-        notices.iter().for_each(|notice| eprintln!("{notice}"));
+        notices.iter().for_each(terminal::stderr);
         Ok(self.scaled(own.clone()))
     }
 

@@ -3,7 +3,7 @@
 use clap::{Args, CommandFactory};
 use clap_complete::{Shell, generate};
 
-use super::{Cli, CommandError};
+use super::{Cli, CommandError, terminal};
 
 /// Options of `tune completions`.
 #[derive(Debug, Args)]
@@ -15,6 +15,5 @@ pub struct CompletionsOptions {
 pub fn run(o: &CompletionsOptions) -> Result<(), CommandError> {
     let mut text = Vec::new();
     generate(o.shell, &mut Cli::command(), "tune", &mut text);
-    std::io::Write::write_all(&mut std::io::stdout(), &text)?;
-    Ok(())
+    terminal::stdout(String::from_utf8_lossy(&text))
 }

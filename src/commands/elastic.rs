@@ -2,7 +2,14 @@
 
 use std::path::Path;
 
-use super::{CommandError, common::csv_row, draw, export, run::Output, write_file};
+use super::{
+    CommandError,
+    common::csv_row,
+    draw, export,
+    output::{Folder, identity},
+    run::Output,
+    write_file,
+};
 use crate::{
     case::{Asked, ElasticCase},
     elastic::{
@@ -136,10 +143,15 @@ impl ElasticRun {
         run
     }
 
-    /// Write everything into a folder, which is there.
-    pub fn save(&self, out: &Path, output: Output) -> Result<(), CommandError> {
+    /// Write everything into a folder, which is made; `files` are all that it can be.
+    pub fn save(&self, out: &Path, files: &[&'static str], output: Output) -> Result<(), CommandError> {
+        let excitation = &self.case.excitation;
+        let asked = (excitation.scale, excitation.duration_s, output);
+        let parts: [&dyn std::fmt::Debug; 3] = [&self.parameters, &excitation.record.fingerprint(), &asked];
+        let folder = Folder::begin(out, "run", files, identity(&parts))?;
         let parameters = self.filed(out);
         let run = self.said(parameters.clone());
+        let out = folder.path();
         write_file(&out.join("parameters.json"), parameters.to_json().as_bytes())?;
         write_file(&out.join("parameters.md"), markdown(&run).as_bytes())?;
         write_file(&out.join("summary.csv"), summary(&run).csv().as_bytes())?;
@@ -151,7 +163,7 @@ impl ElasticRun {
         if output.report {
             write_file(&out.join("report.html"), page(&run, &figures).as_bytes())?;
         }
-        Ok(())
+        folder.finish()
     }
 
     /// All that is said of it; `parameters` are those filed.

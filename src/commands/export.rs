@@ -4,7 +4,13 @@ use std::path::{Path, PathBuf};
 
 use clap::Args;
 
-use super::{CommandError, common::RecordOptions, elastic::deck, output::file_in, write_file};
+use super::{
+    CommandError,
+    common::RecordOptions,
+    elastic::deck,
+    output::{file_in, of_one_run},
+    terminal, write_file,
+};
 use crate::{
     elastic::fem::{ElasticAnalysis, ElasticStart},
     export::{ACCURACY, DeckFormat, ExportError, deck_of, with_inertia},
@@ -35,6 +41,7 @@ pub fn run(o: &ExportOptions) -> Result<(), CommandError> {
     let usual = DECKS.iter().find(|(_, format)| *format == o.format).map_or("deck", |(name, _)| name);
     let out = file_in(&o.out, usual)?;
     check_accuracy(o.accuracy)?;
+    of_one_run(&o.parameters)?;
     let (deck, line) = match ElasticParameters::read(&o.parameters)? {
         Some(parameters) => elastic(o, &parameters)?,
         None => {
@@ -43,7 +50,7 @@ pub fn run(o: &ExportOptions) -> Result<(), CommandError> {
         }
     };
     write_file(&out, deck.as_bytes())?;
-    eprintln!("{line}\nwritten to {}", out.display());
+    terminal::stderr(format_args!("{line}\nwritten to {}", terminal::shown(&out)));
     Ok(())
 }
 
@@ -98,7 +105,7 @@ pub(super) fn write_all(
     for (name, format) in DECKS {
         match text(format) {
             // said, not fatal: the other decks are of use
-            Err(e @ ExportError::Member { .. }) => eprintln!("{name} is left out: {e}"),
+            Err(e @ ExportError::Member { .. }) => terminal::stderr(format_args!("{name} is left out: {e}")),
             deck => write_file(&dir.join(name), deck?.as_bytes())?,
         }
     }

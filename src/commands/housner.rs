@@ -1,6 +1,6 @@
 //! `tune housner`: Housner's solution as CSV, its impacts on stderr or as CSV.
 
-use std::{io::Write, path::PathBuf};
+use std::path::PathBuf;
 
 use clap::Args;
 
@@ -8,7 +8,7 @@ use super::{
     CommandError,
     common::{RecordOptions, csv_row, restitution},
     output::file_in,
-    write_file,
+    terminal, write_file,
 };
 use crate::{
     case::Case,
@@ -70,11 +70,11 @@ pub fn run(o: &HousnerOptions) -> Result<(), CommandError> {
     }
     match &out {
         Some(path) => write_file(path, csv.as_bytes())?,
-        None => std::io::stdout().write_all(csv.as_bytes())?,
+        None => terminal::stdout(csv)?,
     }
     let upright = samples_until(rocking.overturned(), record.dt).min(motion.len());
     let (max, min) = motion.u[..upright].iter().fold((0.0_f64, 0.0_f64), |(a, b), &u| (a.max(u), b.min(u)));
-    eprintln!(
+    terminal::stderr(format_args!(
         "{}\nu {:+.9} / {:+.9} mm, v {:.6} mm, {} impacts{}",
         excitation.line(),
         max * 1e3,
@@ -88,6 +88,6 @@ pub fn run(o: &HousnerOptions) -> Result<(), CommandError> {
                 format!(", leaves the ground at {time:.6} s, where the solution ends"),
             _ => String::new(),
         }
-    );
+    ));
     Ok(())
 }

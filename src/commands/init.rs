@@ -8,7 +8,7 @@ use std::{
 
 use clap::{Args, ValueEnum};
 
-use super::{CommandError, output::file_in};
+use super::{CommandError, output::file_in, terminal};
 
 /// What the file begins with.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
@@ -148,7 +148,7 @@ pub fn run(o: &InitOptions) -> Result<(), CommandError> {
     }
     let mut file = OpenOptions::new().write(true).create_new(true).open(&out).map_err(there)?;
     file.write_all(text(o.shape).as_bytes()).map_err(there)?;
-    eprintln!("written to {path}: edit it, then `tune run {path}`");
+    terminal::stderr(format_args!("written to {path}: edit it, then `tune run {path}`"));
     Ok(())
 }
 

@@ -7,6 +7,8 @@ use std::{
 
 use indicatif::{ProgressBar, ProgressStyle};
 
+use super::terminal;
+
 /// Shows how far a piece of work is.
 pub struct Progress {
     bar: Option<ProgressBar>,
@@ -37,7 +39,7 @@ impl Progress {
         }
         let tenth = 10 * done / total.max(1);
         if self.lines && self.tenth.swap(tenth, Ordering::Relaxed) != tenth {
-            eprintln!("{}", line(self.what, done, total, status));
+            terminal::stderr(line(self.what, done, total, status));
         }
     }
 
@@ -46,6 +48,11 @@ impl Progress {
             bar.finish_and_clear();
         }
     }
+}
+
+/// The least error so far, as a status; nothing where no springs have one yet.
+pub fn error(least: f64) -> String {
+    if least.is_finite() { format!("error {least:.2e}") } else { String::new() }
 }
 
 /// A line for a pipe.
@@ -63,5 +70,11 @@ mod tests {
     fn a_total_that_is_not_known_is_not_said() {
         assert_eq!(line("tuning", 3, 0, "error 3.7e-4"), "tuning: 3 tried, error 3.7e-4");
         assert_eq!(line("front", 3, 9, ""), "front: 3/9");
+    }
+
+    #[test]
+    fn an_error_that_no_springs_have_is_not_said() {
+        assert_eq!(error(3.7e-4), "error 3.70e-4");
+        assert_eq!([error(f64::INFINITY), error(f64::NAN)], ["", ""]);
     }
 }

@@ -2,19 +2,17 @@
 
 mod row;
 
-use std::{
-    io::Write,
-    path::{Path, PathBuf},
-};
+use std::path::{Path, PathBuf};
 
 use clap::Args;
 use comfy_table::{Table, presets};
 use serde::Serialize;
 
-use super::{CommandError, output::check_folder};
+use super::{CommandError, output::check_folder, terminal};
 use crate::{
     case::{Case, LONGEST_S},
     figures,
+    message::printable,
     record::{ReadOptions, RecordFormat, Recording, Source, TableColumn, Units},
     scalar::GRAVITY,
     structure::Body,
@@ -100,19 +98,17 @@ pub fn run(o: &RecordFileOptions) -> Result<(), CommandError> {
     if let ([only], []) = (&bad[..], &reports[..]) {
         return Err(only.clone().into());
     }
-    let mut out = std::io::stdout();
     if o.json {
-        let json = serde_json::to_string_pretty(&reports).map_err(|e| CommandError::Result(e.to_string()))?;
-        writeln!(out, "{json}")?;
+        terminal::json(&reports)?;
     } else {
         let texts: Vec<String> = reports.iter().map(FileReport::text).collect();
-        write!(out, "{}", texts.join("\n"))?;
+        terminal::stdout(texts.join("\n"))?;
     }
     for notice in reports.iter().flat_map(|report| &report.notices) {
-        eprintln!("{notice}");
+        terminal::stderr(notice);
     }
     for error in &bad {
-        eprintln!("error: {error}");
+        terminal::stderr(format_args!("error: {error}"));
     }
     match bad.len() {
         0 => Ok(()),
@@ -188,7 +184,7 @@ impl FileReport {
         let run = &self.run;
         let mut text = format!(
             "{}: {}{station}\n\n{table}\n\ntune run takes {}, {} unless --duration says otherwise: ",
-            self.file,
+            printable(&self.file),
             self.format,
             run.record,
             if run.duration_s < LONGEST_S { format!("its first {} s", run.duration_s) } else { "all of it".into() }

@@ -1,14 +1,14 @@
 //! `tune response`: the inner fit of one mass ratio and its certificate.
 
-use std::{io::Write, path::PathBuf};
+use std::{fmt::Write, path::PathBuf};
 
 use clap::Args;
 
-use super::CommandError;
+use super::{CommandError, terminal};
 use crate::{
     case::Case,
     response::{bounds::Bounds, target::Target},
-    tuning::arr::inner::fit,
+    tuning::arr::inner::{Fit, fit},
 };
 
 /// Options of `tune response`.
@@ -33,31 +33,34 @@ pub fn run(o: &ResponseOptions) -> Result<(), CommandError> {
         None => (Target::default(), Bounds::default()),
     };
     let fit = fit(o.mu, &target, &bounds)?;
-    let mut out = std::io::stdout().lock();
     if o.json {
-        let text = serde_json::to_string_pretty(&fit).map_err(|e| CommandError::Result(e.to_string()))?;
-        writeln!(out, "{text}")?;
-        return Ok(());
+        return terminal::json(&fit);
     }
-    writeln!(out, "mu       {:.6}", fit.mu)?;
-    writeln!(out, "f        {:.6}", fit.f)?;
-    writeln!(out, "xi       {:.6}", fit.xi)?;
-    writeln!(out, "K        {:.6}   = mu f^2 = k2/k1", fit.k)?;
-    writeln!(out, "C        {:.6}   = 2 mu xi = c/(m1 Omega_n)", fit.c)?;
-    writeln!(out, "peak     {:.6}   at g = {:.6}", fit.peak, fit.peak_g)?;
-    writeln!(out, "ARR(0)   {:.6}   = 1 + 1/K", fit.arr_at_zero)?;
+    terminal::stdout(table(&fit))
+}
+
+fn table(fit: &Fit) -> String {
+    let mut out = String::new();
+    // writing to a String cannot fail
+    let _ = writeln!(out, "mu       {:.6}", fit.mu);
+    let _ = writeln!(out, "f        {:.6}", fit.f);
+    let _ = writeln!(out, "xi       {:.6}", fit.xi);
+    let _ = writeln!(out, "K        {:.6}   = mu f^2 = k2/k1", fit.k);
+    let _ = writeln!(out, "C        {:.6}   = 2 mu xi = c/(m1 Omega_n)", fit.c);
+    let _ = writeln!(out, "peak     {:.6}   at g = {:.6}", fit.peak, fit.peak_g);
+    let _ = writeln!(out, "ARR(0)   {:.6}   = 1 + 1/K", fit.arr_at_zero);
     let certificate = &fit.certificate;
-    writeln!(
+    let _ = writeln!(
         out,
         "certificate: KKT residual {:.1e}, {}",
         certificate.residual,
         if certificate.holds() { "optimal" } else { "NOT proven optimal" }
-    )?;
+    );
     for a in &certificate.active {
-        writeln!(out, "  active g {:.6}, ARR {:.6}, multiplier {:.6}", a.g, a.arr, a.multiplier)?;
+        let _ = writeln!(out, "  active g {:.6}, ARR {:.6}, multiplier {:.6}", a.g, a.arr, a.multiplier);
     }
     for b in &certificate.bounds {
-        writeln!(out, "  active bound {}, multiplier {:.6}", b.bound, b.multiplier)?;
+        let _ = writeln!(out, "  active bound {}, multiplier {:.6}", b.bound, b.multiplier);
     }
-    Ok(())
+    out
 }

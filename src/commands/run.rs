@@ -2,10 +2,7 @@
 
 mod elastic;
 
-use std::{
-    io::Write,
-    path::{Path, PathBuf},
-};
+use std::path::{Path, PathBuf};
 
 use clap::Args;
 
@@ -14,9 +11,9 @@ use super::{
     common::{GroundOptions, RecordOptions, history_csv},
     draw::{self, Pictures},
     export, members,
-    output::{Folder, check_folder},
-    progress::Progress,
-    write_file,
+    output::{Folder, check_folder, identity},
+    progress::{self, Progress},
+    terminal, write_file,
 };
 use crate::{
     answers::Both,
@@ -139,7 +136,7 @@ pub fn run(o: &RunOptions) -> Result<(), CommandError> {
     threads(o.jobs)?;
 
     let progress = Progress::new("tuning", o.quiet);
-    let job = Job::new(&case, &|done, all, error| progress.tell(done, all, &format!("error {error:.2e}")));
+    let job = Job::new(&case, &|done, all, error| progress.tell(done, all, &progress::error(error)));
     progress.done();
     let job = job?;
     let front = if o.no_front || o.no_record {
@@ -196,11 +193,15 @@ impl RigidRun {
     /// A file that cannot be written; a deck or a figure that cannot be made.
     pub fn save(&self, out: &Path, output: Output) -> Result<(), CommandError> {
         let files = files();
-        let folder = Folder::begin(out, "run", &files)?;
+        let excitation = &self.case.excitation;
+        let asked = (excitation.scale, excitation.duration_s, output, self.front.len());
+        let parts: [&dyn std::fmt::Debug; 3] = [&self.parameters, &excitation.record.fingerprint(), &asked];
+        let folder = Folder::begin(out, "run", &files, identity(&parts))?;
         let Self { job, both, .. } = self;
         let dt = job.record.dt;
         let parameters = self.filed(out);
         let run = self.said(parameters.clone());
+        let out = folder.path();
         write_file(&out.join("parameters.json"), parameters.to_json().as_bytes())?;
         write_file(&out.join("parameters.md"), markdown(&run).as_bytes())?;
         write_file(&out.join("summary.csv"), summary(&run).csv().as_bytes())?;
@@ -236,16 +237,17 @@ fn report(out: &Path, output: Output, run: &Run, figures: &[Figure]) -> Result<(
 /// What there is without a record.
 fn springs_alone(o: &RunOptions, run: &Run) -> Result<(), CommandError> {
     let files = files();
-    let folder = Folder::begin(&o.out, "run", &files)?;
+    let folder = Folder::begin(&o.out, "run", &files, identity(&[&run.parameters, &o.no_report]))?;
+    let out = folder.path();
     let json = match &run.parameters {
         Filed::Rigid(parameters) => parameters.to_json(),
         Filed::Elastic(parameters) => parameters.to_json(),
     };
-    write_file(&o.out.join("parameters.json"), json.as_bytes())?;
-    write_file(&o.out.join("parameters.md"), markdown(run).as_bytes())?;
-    report(&o.out, Output { figures: false, report: !o.no_report }, run, &[])?;
+    write_file(&out.join("parameters.json"), json.as_bytes())?;
+    write_file(&out.join("parameters.md"), markdown(run).as_bytes())?;
+    report(out, Output { figures: false, report: !o.no_report }, run, &[])?;
     folder.finish()?;
-    eprintln!("no record: tune simulate, verify and export take El Centro unless you give them one");
+    terminal::stderr("no record: tune simulate, verify and export take El Centro unless you give them one");
     o.print(run)
 }
 
@@ -253,14 +255,13 @@ impl RunOptions {
     /// The screen, or the run as JSON; `--verbose` adds all that the report has.
     fn print(&self, run: &Run) -> Result<(), CommandError> {
         if self.json {
-            let json = serde_json::to_string_pretty(run).map_err(|e| CommandError::Result(e.to_string()))?;
-            return Ok(writeln!(std::io::stdout(), "{json}")?);
+            return terminal::json(run);
         }
-        let folder = self.out.display().to_string();
+        let folder = terminal::shown(&self.out);
         let decks = run.taken.record.is_some();
         let screen = screen(run, &Written { folder: &folder, report: !self.no_report, decks });
         let more = if self.verbose { format!("\n{}", markdown(run)) } else { String::new() };
-        Ok(write!(std::io::stdout(), "{screen}{more}")?)
+        terminal::stdout(format_args!("{screen}{more}"))
     }
 }
 

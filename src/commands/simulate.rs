@@ -1,6 +1,6 @@
 //! `tune simulate`: both models for given springs.
 
-use std::{io::Write, path::PathBuf};
+use std::path::PathBuf;
 
 use clap::Args;
 
@@ -8,8 +8,8 @@ use super::{
     CommandError,
     common::{GroundOptions, RecordOptions, history_csv, restitution},
     members,
-    output::file_in,
-    write_file,
+    output::{file_in, of_one_run},
+    terminal, write_file,
 };
 use crate::{
     answers::both,
@@ -42,6 +42,7 @@ pub struct SimulateOptions {
 }
 
 pub fn run(o: &SimulateOptions) -> Result<(), CommandError> {
+    of_one_run(&o.parameters)?;
     let parameters = Parameters::read(&o.parameters)?;
     let excitation = o.record.excitation(|| parameters.excitation(&o.parameters))?;
     let record = excitation.used()?;
@@ -58,14 +59,12 @@ pub fn run(o: &SimulateOptions) -> Result<(), CommandError> {
         let demands = both.with.as_ref().map_or(&both.demands, |with| &with.demands);
         write_file(path, members::csv(record.dt, demands).as_bytes())?;
     }
-    eprintln!("{}", excitation.line());
+    terminal::stderr(excitation.line());
     let housner = HousnerReport::new(&body, e, &record, &both.rocking, friction);
     let verdict = both.verdict(&body, record.dt, &housner.conditioning);
     for finding in filed(reference::all(&parameters.structure, &record, &both, &housner, &verdict)) {
-        eprintln!("{}", finding.line());
+        terminal::stderr(finding.line());
     }
     let report = members::MembersReport::new(&both.matched, &both.demands, both.with.as_ref());
-    let json = serde_json::to_string_pretty(&report).map_err(|e| CommandError::Result(e.to_string()))?;
-    writeln!(std::io::stdout(), "{json}")?;
-    Ok(())
+    terminal::json(&report)
 }

@@ -1,7 +1,6 @@
 //! `tune sweep`: many histories, and what they say together.
 
 use std::{
-    io::Write as _,
     path::{Path, PathBuf},
     sync::atomic::{AtomicU64, Ordering},
     time::Instant,
@@ -9,7 +8,7 @@ use std::{
 
 use clap::{Args, Subcommand};
 
-use super::{CommandError, output::check_folder, progress::Progress, run::threads};
+use super::{CommandError, output::check_folder, progress::Progress, run::threads, terminal};
 use crate::sweep::{
     manifest::Manifest,
     parts::{Share, SweepParts},
@@ -83,9 +82,9 @@ fn begin(plan: &Plan, hash: &str, out: &Path, quiet: bool) -> Result<Option<Spri
     progress.done();
     let springs = springs?;
     for structure in &springs.missed {
-        eprintln!(
+        terminal::stderr(format_args!(
             "springs: WARNING: the accuracy asked for was not reached on {structure}; ask for less, or allow stiffer springs"
-        );
+        ));
     }
     Ok(Some(springs))
 }
@@ -93,12 +92,17 @@ fn begin(plan: &Plan, hash: &str, out: &Path, quiet: bool) -> Result<Option<Spri
 impl SweepRunOptions {
     fn compute(&self, sweep: &Path) -> Result<(), CommandError> {
         let plan = Plan::read(sweep)?;
-        let hash = plan.hash(&mut |notice| eprintln!("{notice}"))?;
+        let hash = plan.hash(&mut |notice| terminal::stderr(notice))?;
         threads(self.jobs)?;
         let springs = begin(&plan, &hash, &self.out, self.quiet)?;
-        let parts = SweepParts { plan: &plan, folder: &self.out, hash: &hash };
+        let parts = SweepParts::new(&plan, &self.out, &hash);
         let share = self.shard.unwrap_or_default();
-        let wanted: Vec<u64> = share.parts(plan.parts()).filter(|part| !parts.is_done(*part)).collect();
+        let missing = parts.missing(share.parts(plan.parts()));
+        for (part, reason) in &missing.unfit {
+            let file = terminal::shown(&parts.path(*part));
+            terminal::stderr(format_args!("{file}: {reason}; part {part} is computed again"));
+        }
+        let wanted = missing.parts;
         let all: u64 = wanted.iter().map(|part| parts.cells(*part)).map(|cells| cells.end - cells.start).sum();
         let progress = Progress::new("sweep", self.quiet);
         let (began, through) = (Instant::now(), AtomicU64::new(0));
@@ -107,24 +111,33 @@ impl SweepRunOptions {
             progress.tell(n as usize, all as usize, &left(n, all, began.elapsed().as_secs_f64()));
         };
         for &part in &wanted {
-            parts.compute(part, springs.as_ref(), &done)?;
+            // another process may work on the same folder
+            if parts.is_done(part) {
+                let cells = parts.cells(part);
+                done(cells.end - cells.start);
+            } else {
+                parts.compute(part, springs.as_ref(), &done)?;
+            }
         }
         progress.done();
         let seconds = began.elapsed().as_secs_f64();
         if !self.quiet && all > 0 {
-            eprintln!("{all} cells in {}: {:.0} a second", duration(seconds), all as f64 / seconds);
+            terminal::stderr(format_args!(
+                "{all} cells in {}: {:.0} a second",
+                duration(seconds),
+                all as f64 / seconds
+            ));
         }
         if self.shard.is_some() {
-            writeln!(
-                std::io::stdout(),
-                "share {}/{}: {} of {} parts computed now; gather them with: tune sweep gather {} --out {}",
+            terminal::stdout(format_args!(
+                "share {}/{}: {} of {} parts computed now; gather them with: tune sweep gather {} --out {}\n",
                 share.index,
                 share.of,
                 wanted.len(),
                 plan.parts(),
-                sweep.display(),
-                self.out.display()
-            )?;
+                terminal::shown(sweep),
+                terminal::shown(&self.out)
+            ))?;
             return Ok(());
         }
         gather::gather(&parts, !self.no_figures)

@@ -2,7 +2,10 @@
 
 mod tables;
 
-use std::{collections::HashSet, io::Write, path::PathBuf};
+use std::{
+    collections::HashSet,
+    path::{Path, PathBuf},
+};
 
 use clap::Args;
 use rayon::prelude::*;
@@ -11,10 +14,10 @@ use serde::Serialize;
 use super::{
     CommandError, common,
     draw::subtitle,
-    output::{Folder, check_folder},
+    output::{Folder, check_folder, identity, of_one_run},
     progress::Progress,
     run::threads,
-    write_file,
+    terminal, write_file,
 };
 use crate::{
     case::LONGEST_S,
@@ -133,12 +136,12 @@ impl RecordsSource {
         for (file, notices) in files.into_iter().zip(notices) {
             match notices {
                 Ok(notices) => {
-                    notices.iter().for_each(|notice| eprintln!("{notice}"));
+                    notices.iter().for_each(terminal::stderr);
                     self.files.push(file);
                 }
                 Err(error) => {
                     let reason = one_line(&error.to_string());
-                    eprintln!("left out: {reason}");
+                    terminal::stderr(format_args!("left out: {reason}"));
                     unread.push(Unread { file: file.display().to_string(), reason });
                 }
             }
@@ -213,6 +216,7 @@ struct ValidationReport<'a> {
 const FILES: &[&str] = &["validate.json", "validate.md", "validate.csv", "validation.png", "validation.svg"];
 
 pub fn run(o: &ValidateOptions) -> Result<(), CommandError> {
+    of_one_run(&o.parameters)?;
     let parameters = Parameters::read(&o.parameters)?;
     let body = parameters.structure.body::<f64>();
     let restitution = common::restitution(o.restitution)?.unwrap_or_else(|| parameters.restitution());
@@ -263,23 +267,26 @@ pub fn run(o: &ValidateOptions) -> Result<(), CommandError> {
     };
     let mut json = serde_json::to_string_pretty(&report).map_err(|e| CommandError::Result(e.to_string()))?;
     json.push('\n');
-    let folder = Folder::begin(&o.out, "validate", FILES)?;
-    write_file(&o.out.join("validate.json"), json.as_bytes())?;
-    write_file(&o.out.join("validate.md"), tables::markdown(&validation, &line).as_bytes())?;
-    write_file(&o.out.join("validate.csv"), &tables::csv(&validation)?)?;
+    let folder = Folder::begin(&o.out, "validate", FILES, identity(&[&json, &o.no_figures]))?;
+    write_file(&folder.path().join("validate.json"), json.as_bytes())?;
+    write_file(&folder.path().join("validate.md"), tables::markdown(&validation, &line).as_bytes())?;
+    write_file(&folder.path().join("validate.csv"), &tables::csv(&validation)?)?;
     if !o.no_figures {
-        draw(o, &parameters, &validation)?;
+        draw(folder.path(), &parameters, &validation)?;
     }
     folder.finish()?;
-    writeln!(std::io::stdout(), "{line}\n{}", tables::terminal(&validation))?;
+    terminal::stdout(format_args!("{line}\n{}\n", tables::terminal(&validation)))?;
     for name in &validation.all.failed {
-        eprintln!("failed: {name}; see its outcome in {}", o.out.join("validate.csv").display());
+        terminal::stderr(format_args!(
+            "failed: {name}; see its outcome in {}",
+            terminal::shown(&o.out.join("validate.csv"))
+        ));
     }
-    eprintln!("written to {}", o.out.display());
+    terminal::stderr(format_args!("written to {}", terminal::shown(&o.out)));
     Ok(())
 }
 
-fn draw(o: &ValidateOptions, parameters: &Parameters, validation: &Validation) -> Result<(), CommandError> {
+fn draw(out: &Path, parameters: &Parameters, validation: &Validation) -> Result<(), CommandError> {
     let rows: Vec<figures::validation::ValidationPoint> = validation
         .records
         .iter()
@@ -304,6 +311,6 @@ fn draw(o: &ValidateOptions, parameters: &Parameters, validation: &Validation) -
         ks_distance: validation.all.ks_distance,
         well_conditioned: ILL_CONDITIONED,
     })?
-    .save(&o.out.join("validation.png"))?;
+    .save(&out.join("validation.png"))?;
     Ok(())
 }

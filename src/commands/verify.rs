@@ -2,7 +2,10 @@
 
 mod elastic;
 
-use std::{fmt::Write as _, io::Write, path::PathBuf};
+use std::{
+    fmt::{Debug, Write as _},
+    path::{Path, PathBuf},
+};
 
 use clap::Args;
 use comfy_table::{Table, presets};
@@ -12,9 +15,9 @@ use super::{
     common::{RecordOptions, csv_row},
     draw::subtitle,
     export::{check_accuracy, read},
-    output::{Folder, check_folder},
+    output::{Folder, check_folder, identity, of_one_run},
     progress::Progress,
-    write_file,
+    terminal, write_file,
 };
 use crate::{
     export::ACCURACY,
@@ -56,6 +59,7 @@ pub fn run(o: &VerifyOptions) -> Result<(), CommandError> {
         Some(command) => Program::Tcl(command.split_whitespace().map(str::to_string).collect()),
         None => Program::Python(o.python.clone()),
     };
+    of_one_run(&o.parameters)?;
     if let Some(parameters) = ElasticParameters::read(&o.parameters)? {
         return elastic::run(o, &parameters, &program);
     }
@@ -67,17 +71,26 @@ pub fn run(o: &VerifyOptions) -> Result<(), CommandError> {
     progress.done();
     let result = result?;
 
-    let folder = Folder::begin(&o.out, "verify", &["verify.csv", "verify.png", "verify.svg"])?;
-    write_file(&o.out.join("verify.csv"), csv(&result).as_bytes())?;
-    draw(o, &parameters, &record, &result)?;
+    let folder = Folder::begin(&o.out, "verify", FILES, of(&parameters, &record, o.accuracy))?;
+    write_file(&folder.path().join("verify.csv"), csv(&result).as_bytes())?;
+    draw(folder.path(), &parameters, &record, &result)?;
     folder.finish()?;
-    write!(std::io::stdout(), "{}", said(&record, &result))?;
-    eprintln!(
+    terminal::stdout(format_args!("{}", said(&record, &result)))?;
+    terminal::stderr(format_args!(
         "{line}
 written to {}",
-        o.out.display()
-    );
+        terminal::shown(&o.out)
+    ));
     if result.verdict.within { Ok(()) } else { Err(CommandError::Failed(refusal(&result))) }
+}
+
+/// All that a verification writes.
+const FILES: &[&str] = &["verify.csv", "verify.png", "verify.svg"];
+
+/// The identity of a verification.
+fn of(parameters: &dyn Debug, record: &Record, accuracy: f64) -> String {
+    let up = record.vertical.as_ref().map(|up| up.as_record(record.dt).fingerprint());
+    identity(&[parameters, &record.fingerprint(), &up, &accuracy])
 }
 
 /// Peaks first, then histories, then how often it swung, for a terminal.
@@ -175,12 +188,7 @@ fn csv(result: &Verification) -> String {
     out
 }
 
-fn draw(
-    o: &VerifyOptions,
-    parameters: &Parameters,
-    record: &Record,
-    result: &Verification,
-) -> Result<(), CommandError> {
+fn draw(out: &Path, parameters: &Parameters, record: &Record, result: &Verification) -> Result<(), CommandError> {
     fn trace<'a>(label: &'a str, motion: &'a Motion) -> Trace<'a> {
         Trace { label, u: &motion.u, v: &motion.v, ..Trace::default() }
     }
@@ -191,5 +199,5 @@ fn draw(
     let title = format!("The exported model in OpenSees\n{of}");
     let reference = trace("Housner", &result.housner);
     let data = HistoryFigure { title: &title, t: &t, reference, others: &others, differences: true };
-    Ok(history::draw(&data)?.save(&o.out.join("verify.png"))?)
+    Ok(history::draw(&data)?.save(&out.join("verify.png"))?)
 }

@@ -1,17 +1,16 @@
 //! A finished picture: its SVG, the PNG that resvg makes of it, and the files of both.
 
-use std::io::Write as _;
 use std::path::Path;
 
 use resvg::{
     tiny_skia::{Color, Pixmap, Transform},
     usvg::{Options, Tree},
 };
-use tempfile::NamedTempFile;
 
 use super::FigureError;
 use super::font;
 use super::plot::Plot;
+use crate::whole_file;
 
 /// A picture, and the numbers of its panels over time.
 #[derive(Clone, Debug)]
@@ -63,27 +62,10 @@ impl Sheet {
         let pixels = self.png()?;
         let files = [(png.to_path_buf(), pixels.as_slice()), (png.with_extension("svg"), self.svg.as_bytes())];
         for (path, bytes) in files {
-            write(&path, bytes).map_err(|source| FigureError::Write { path, source })?;
+            whole_file::write(&path, bytes).map_err(|source| FigureError::Write { path, source })?;
         }
         Ok(())
     }
-}
-
-/// Put the bytes under the name at once.
-fn write(path: &Path, bytes: &[u8]) -> std::io::Result<()> {
-    let folder = match path.parent() {
-        Some(folder) if !folder.as_os_str().is_empty() => folder,
-        _ => Path::new("."),
-    };
-    let mut builder = tempfile::Builder::new();
-    builder.prefix(".figure");
-    // A temporary file is private by default; a picture is for everyone whom the user's mask admits.
-    #[cfg(unix)]
-    builder.permissions(std::os::unix::fs::PermissionsExt::from_mode(0o666));
-    let mut file: NamedTempFile = builder.tempfile_in(folder)?;
-    file.write_all(bytes)?;
-    file.persist(path)?;
-    Ok(())
 }
 
 #[cfg(test)]

@@ -218,8 +218,7 @@ impl ElasticParameters {
     /// It cannot be read; what is wrong with it.
     pub fn read(path: &Path) -> Result<Option<Self>, ParametersError> {
         let name = path.display().to_string();
-        let text =
-            std::fs::read_to_string(path).map_err(|source| ParametersError::Read { path: name.clone(), source })?;
+        let text = crate::input::text(path).map_err(|source| ParametersError::Read { path: name.clone(), source })?;
         if Self::is(&text) { Self::parse(&name, &text).map(Some) } else { Ok(None) }
     }
 

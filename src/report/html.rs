@@ -3,11 +3,12 @@
 use std::fmt::Write;
 
 use super::Table;
+use crate::message::printable_lines;
 
-/// Text that can stand in a page.
+/// Text that can stand in a page; characters that would turn it around are spelt out.
 pub fn escape(text: &str) -> String {
     let mut out = String::with_capacity(text.len());
-    for c in text.chars() {
+    for c in printable_lines(text).chars() {
         match c {
             '&' => out.push_str("&amp;"),
             '<' => out.push_str("&lt;"),

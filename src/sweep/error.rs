@@ -30,9 +30,9 @@ pub enum SweepError {
     #[error("{path}: {reason}; remove the file and run the sweep again, which computes what is missing")]
     Damaged { path: String, reason: String },
     #[error(
-        "{folder}: {missing} of {parts} parts are missing ({first}); run the same tune sweep again, which computes these alone"
+        "{folder}: {missing} of {parts} parts are missing ({first}){unfit}; run the same tune sweep again, which computes these alone"
     )]
-    Missing { folder: String, missing: usize, parts: usize, first: String },
+    Missing { folder: String, missing: usize, parts: usize, first: String, unfit: String },
     #[error("{folder}: no sweep there (no manifest.json); give the folder that tune sweep --out was given")]
     NoSweep { folder: String },
 }

@@ -1,10 +1,6 @@
 //! `manifest.json`: which sweep a folder holds, and files that are there whole or not at all.
 
-use std::{
-    fs::{self, File},
-    io::Write,
-    path::Path,
-};
+use std::{fs, io::ErrorKind, path::Path};
 
 use serde::{Deserialize, Serialize};
 
@@ -13,6 +9,7 @@ use super::{
     plan::{Measure, Plan},
     spec::{SweepKind, SweepModel},
 };
+use crate::{input, message::one_line, whole_file};
 
 /// What a sweep is, for whoever finds its folder.
 #[derive(Clone, Debug, PartialEq, Serialize)]
@@ -66,69 +63,63 @@ impl Manifest {
     /// It holds another sweep, or cannot be written.
     pub fn begin(&self, folder: &Path) -> Result<(), SweepError> {
         let name = || folder.display().to_string();
-        fs::create_dir_all(folder.join("parts")).map_err(|source| SweepError::File { path: name(), source })?;
-        match Self::there(folder)? {
-            Some(there) if there == self.sweep => Ok(()),
-            Some(there) => Err(SweepError::OtherSweep { folder: name(), there, here: self.sweep.clone() }),
-            None => write(&folder.join("manifest.json"), self),
+        let file = |source| SweepError::File { path: name(), source };
+        fs::create_dir_all(folder.join("parts")).map_err(file)?;
+        // of two sweeps that begin at once in an empty folder, one is first
+        let lock = fs::File::open(folder).map_err(file)?;
+        let _ = lock.lock();
+        whole_file::tidy(folder);
+        whole_file::tidy(&folder.join("parts"));
+        match self.is_in(folder) {
+            Err(SweepError::NoSweep { .. }) => whole(&folder.join("manifest.json"), self.text()?.as_bytes()),
+            known => known,
         }
     }
 
-    /// Which sweep a folder holds.
+    /// Whether a folder holds this sweep.
     ///
     /// # Errors
-    /// A manifest that is none.
-    pub fn there(folder: &Path) -> Result<Option<String>, SweepError> {
-        let path = folder.join("manifest.json");
-        let Ok(text) = fs::read_to_string(&path) else { return Ok(None) };
-        let known: ManifestKey = serde_json::from_str(&text)
-            .map_err(|e| SweepError::Damaged { path: path.display().to_string(), reason: e.to_string() })?;
-        Ok(Some(known.sweep))
-    }
-}
-
-/// Write JSON whole.
-///
-/// # Errors
-/// It cannot be written.
-pub fn write(path: &Path, value: &impl Serialize) -> Result<(), SweepError> {
-    let file = |e: std::io::Error| SweepError::File { path: path.display().to_string(), source: e };
-    let mut text = serde_json::to_string_pretty(value).map_err(|e| file(e.into()))?;
-    text.push('\n');
-    whole(path, text.as_bytes())
-}
-
-/// Prefix of names that files have until they are whole.
-pub const UNFINISHED: &str = ".unfinished-";
-
-/// Put bytes under a name at once: a temporary name in the same folder, synced, renamed, and the folder synced, so that a name that is
-/// there has all its bytes even after a crash of the machine.
-///
-/// # Errors
-/// It cannot be written; nothing has the name then.
-pub fn whole(path: &Path, bytes: &[u8]) -> Result<(), SweepError> {
-    let wrap = |source| SweepError::File { path: path.display().to_string(), source };
-    let folder = path.parent().filter(|folder| !folder.as_os_str().is_empty()).unwrap_or(Path::new("."));
-    let mut builder = tempfile::Builder::new();
-    builder.prefix(UNFINISHED);
-    #[cfg(unix)]
-    builder.permissions(std::os::unix::fs::PermissionsExt::from_mode(0o644));
-    let mut file = builder.tempfile_in(folder).map_err(wrap)?;
-    file.write_all(bytes).map_err(wrap)?;
-    file.as_file().sync_all().map_err(wrap)?;
-    file.persist(path).map_err(|e| wrap(e.error))?;
-    #[cfg(unix)]
-    File::open(folder).and_then(|folder| folder.sync_all()).map_err(wrap)?;
-    Ok(())
-}
-
-/// Remove what killed runs left behind. Only when no other can be writing: a sweep that has all its parts.
-pub fn tidy(folder: &Path) {
-    let Ok(entries) = fs::read_dir(folder) else { return };
-    for entry in entries.flatten() {
-        if entry.file_name().to_string_lossy().starts_with(UNFINISHED) {
-            // another may have tidied it up
-            let _ = fs::remove_file(entry.path());
+    /// It holds none, or another; its manifest is not as it was written.
+    pub fn is_in(&self, folder: &Path) -> Result<(), SweepError> {
+        let (path, folder) = (folder.join("manifest.json"), folder.display().to_string());
+        let text = match input::text(&path) {
+            Err(e) if e.kind() == ErrorKind::NotFound => return Err(SweepError::NoSweep { folder }),
+            text => text.map_err(|source| SweepError::File { path: path.display().to_string(), source })?,
+        };
+        if text == self.text()? {
+            return Ok(());
+        }
+        match serde_json::from_str(&text) {
+            Ok(ManifestKey { sweep }) if sweep != self.sweep => {
+                Err(SweepError::OtherSweep { folder, there: one_line(&sweep), here: self.sweep.clone() })
+            }
+            _ => Err(SweepError::Damaged {
+                path: path.display().to_string(),
+                reason: "is not as tune sweep wrote it".into(),
+            }),
         }
     }
+
+    fn text(&self) -> Result<String, SweepError> {
+        json("manifest.json", self)
+    }
+}
+
+/// A value as the text of a JSON file.
+///
+/// # Errors
+/// It has no such text.
+pub fn json(name: &str, value: &impl Serialize) -> Result<String, SweepError> {
+    let text = serde_json::to_string_pretty(value);
+    let text = text.map_err(|e| SweepError::File { path: name.into(), source: e.into() })?;
+    Ok(text + "\n")
+}
+
+/// Put bytes under a name at once and for good.
+///
+/// # Errors
+/// It cannot be written; nothing new has the name then.
+pub fn whole(path: &Path, bytes: &[u8]) -> Result<(), SweepError> {
+    whole_file::write_durably(path, bytes)
+        .map_err(|source| SweepError::File { path: path.display().to_string(), source })
 }

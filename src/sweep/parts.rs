@@ -1,14 +1,19 @@
-//! Parts: fixed ranges of cells, one Parquet file each.
+//! Parts: fixed ranges of cells, one Parquet file each, which proves what it is (`seal`).
 
 use std::{
+    io::ErrorKind,
     ops::Range,
     path::{Path, PathBuf},
     str::FromStr,
 };
 
+use bytes::Bytes;
+
 use super::{
-    SweepError, history, manifest, overturning, plan::Plan, row, spec::SweepKind, springs::SpringsTable, table::Table,
+    SweepError, history, manifest, overturning, plan::Plan, row, seal, spec::SweepKind, springs::SpringsTable,
+    table::Table,
 };
+use crate::{input, message::one_line};
 
 /// Share I of N of a sweep, for machines that share the work: the parts I, I + N, I + 2 N ... from 1.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -46,12 +51,31 @@ pub struct SweepParts<'a> {
     pub plan: &'a Plan,
     pub folder: &'a Path,
     pub hash: &'a str,
+    /// Those that are gathered, all unless said: a reader of [`SweepParts::each`] sees these or none.
+    pub gathered: Option<Vec<u64>>,
 }
 
-impl SweepParts<'_> {
+/// What is not there of a sweep.
+#[derive(Clone, Debug, Default)]
+pub struct MissingParts {
+    /// All that must be computed.
+    pub parts: Vec<u64>,
+    /// Those of them that have a file which is not theirs or was damaged, with the reason.
+    pub unfit: Vec<(u64, String)>,
+}
+
+/// Bytes of a part that no sweep of ours reaches: a million rows have less.
+const MOST_BYTES: u64 = 1 << 30;
+
+impl<'a> SweepParts<'a> {
+    /// All parts of a sweep.
+    pub fn new(plan: &'a Plan, folder: &'a Path, hash: &'a str) -> Self {
+        Self { plan, folder, hash, gathered: None }
+    }
+
     /// File of part i.
     pub fn path(&self, part: u64) -> PathBuf {
-        self.folder.join("parts").join(format!("part-{part:05}.parquet"))
+        self.folder.join("parts").join(format!("part-{part:05}-of-{:05}.parquet", self.plan.parts()))
     }
 
     /// Cells of part i.
@@ -60,14 +84,50 @@ impl SweepParts<'_> {
         from..(from + self.plan.part).min(self.plan.cells())
     }
 
-    /// Whether part i is there and of this sweep.
-    pub fn is_done(&self, part: u64) -> bool {
-        Table::peek(&self.path(part)).is_some_and(|(hash, _)| hash == self.hash)
+    /// The file of part i, if it is there; it is as it was written, and that part of this sweep. Else what is wrong with it.
+    fn load(&self, part: u64) -> Result<Option<Bytes>, String> {
+        let bytes = match input::bytes(&self.path(part), MOST_BYTES) {
+            Err(e) if e.kind() == ErrorKind::NotFound => return Ok(None),
+            Err(e) => return Err(format!("cannot be read ({e})")),
+            Ok(bytes) => Bytes::from(bytes.ok_or("is too large")?),
+        };
+        if !seal::holds(&bytes) {
+            return Err("is damaged: its checksum does not fit".into());
+        }
+        let (metadata, rows) = Table::metadata(bytes.clone()).ok_or("is no Parquet file")?;
+        let is = |key: &str| metadata.get(key).map_or("", String::as_str);
+        if is(seal::SWEEP) != self.hash {
+            return Err(format!("is of another sweep ({})", one_line(is(seal::SWEEP))));
+        }
+        let (number, count) = (part.to_string(), self.plan.parts().to_string());
+        if (is(seal::PART), is(seal::PARTS)) != (&number, &count) {
+            return Err(format!("is part {} of {}", one_line(is(seal::PART)), one_line(is(seal::PARTS))));
+        }
+        let cells = self.cells(part);
+        let cells = cells.end - cells.start;
+        if rows != cells || is(seal::ROWS) != cells.to_string() {
+            return Err(format!("has {rows} rows in place of {cells}"));
+        }
+        Ok(Some(bytes))
     }
 
-    /// Those that are not there.
-    pub fn missing(&self) -> Vec<u64> {
-        (0..self.plan.parts()).filter(|part| !self.is_done(*part)).collect()
+    /// Whether part i is there, whole and of this sweep.
+    pub fn is_done(&self, part: u64) -> bool {
+        matches!(self.load(part), Ok(Some(_)))
+    }
+
+    /// Which of these parts are not there, and why.
+    pub fn missing(&self, parts: impl IntoIterator<Item = u64>) -> MissingParts {
+        let mut missing = MissingParts::default();
+        for part in parts {
+            match self.load(part) {
+                Ok(Some(_)) => continue,
+                Ok(None) => {}
+                Err(reason) => missing.unfit.push((part, reason)),
+            }
+            missing.parts.push(part);
+        }
+        missing
     }
 
     /// Compute part i and write it. `done` is told how many more cells are through.
@@ -88,26 +148,29 @@ impl SweepParts<'_> {
         };
         let path = self.path(part);
         let mut bytes = Vec::new();
-        table.write_parquet(&mut bytes, self.hash).map_err(|e| SweepError::File {
+        let metadata = seal::metadata(self.hash, part, self.plan.parts(), table.rows());
+        table.write_parquet(&mut bytes, &metadata).map_err(|e| SweepError::File {
             path: path.display().to_string(),
             source: std::io::Error::other(e.to_string()),
         })?;
+        seal::seal(&mut bytes);
         manifest::whole(&path, &bytes)
     }
 
-    /// Some columns of every part, one part after another.
+    /// Some columns of every part that is gathered, one part after another.
     ///
     /// # Errors
-    /// A file that cannot be read, or what `take` says.
+    /// A part that is not there or not as it was written, or what `take` says.
     pub fn each(
         &self,
         wanted: &Table,
         mut take: impl FnMut(Table) -> Result<(), SweepError>,
     ) -> Result<(), SweepError> {
-        for part in 0..self.plan.parts() {
-            if self.is_done(part) {
-                take(Table::read_parquet(&self.path(part), wanted)?)?;
-            }
+        let all = || (0..self.plan.parts()).collect();
+        for part in self.gathered.clone().unwrap_or_else(all) {
+            let damaged = |reason: String| SweepError::Damaged { path: self.path(part).display().to_string(), reason };
+            let bytes = self.load(part).map_err(damaged)?.ok_or_else(|| damaged("is not there".into()))?;
+            take(Table::read_parquet(bytes, wanted).map_err(|e| damaged(e.to_string()))?)?;
         }
         Ok(())
     }

@@ -197,7 +197,7 @@ impl SweepSource {
     /// It cannot be read, or a key or a number in it is wrong: with its line.
     pub fn read(path: &Path) -> Result<Self, SweepError> {
         let name = path.display().to_string();
-        let text = std::fs::read_to_string(path).map_err(|source| SweepError::Read { path: name.clone(), source })?;
+        let text = crate::input::text(path).map_err(|source| SweepError::Read { path: name.clone(), source })?;
         Self::parse(name, text)
     }
 

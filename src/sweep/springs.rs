@@ -3,7 +3,7 @@
 //! By similarity the design depends on alpha, m R^2/I0, e and Omega_n/p alone. So of the structures that share the first three the
 //! largest is tuned, whose p is least and for which earthquakes are fastest in units of p; the others take its Omega_n/p.
 
-use std::path::Path;
+use std::{io::ErrorKind, path::Path};
 
 use serde::{Deserialize, Serialize};
 
@@ -11,7 +11,9 @@ use super::{SweepError, manifest, plan::Plan};
 use crate::{
     case::{Case, Tuning},
     excitation::Excitation,
-    record::Record,
+    input,
+    message::one_line,
+    record::{Record, fnv1a},
     spring::{Chain, Design, Springs},
     tuning::job::Job,
 };
@@ -44,7 +46,15 @@ struct TunedSprings {
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 struct Filed {
     sweep: String,
+    /// FNV-1a of the springs as they are written: nobody's hand, and no damage, makes others of them.
+    checksum: String,
     springs: Vec<TunedSprings>,
+}
+
+impl Filed {
+    fn checksum(springs: &[TunedSprings]) -> Result<String, SweepError> {
+        Ok(format!("{:016x}", fnv1a(manifest::json("springs.json", &springs)?.bytes())))
+    }
 }
 
 /// Springs with units of every structure and restitution.
@@ -74,24 +84,29 @@ impl SpringsTable {
     /// A structure that cannot be tuned; a file that cannot be read or written.
     pub fn new(plan: &Plan, folder: &Path, hash: &str, progress: &dyn Fn(usize, usize)) -> Result<Self, SweepError> {
         let path = folder.join("springs.json");
-        let read = || {
-            let text = std::fs::read_to_string(&path).ok()?;
-            serde_json::from_str::<Filed>(&text).ok().filter(|filed| filed.sweep == hash)
+        let damaged = |reason: &str| SweepError::Damaged { path: path.display().to_string(), reason: reason.into() };
+        // what is read back is what every later run will read
+        let read = || -> Result<Option<Filed>, SweepError> {
+            let text = match input::text(&path) {
+                Err(e) if e.kind() == ErrorKind::NotFound => return Ok(None),
+                text => text.map_err(|source| SweepError::File { path: path.display().to_string(), source })?,
+            };
+            let filed: Filed = serde_json::from_str(&text).map_err(|e| damaged(&one_line(&e.to_string())))?;
+            if filed.sweep != hash || filed.checksum != Filed::checksum(&filed.springs)? {
+                return Err(damaged("holds other springs than those that tune sweep tuned"));
+            }
+            Ok(Some(filed))
         };
-        let filed = match read() {
+        let filed = match read()? {
             Some(filed) => filed,
             None => {
-                let filed = Filed { sweep: hash.into(), springs: tune(plan, progress)? };
-                manifest::write(&path, &filed)?;
-                // what is read back is what every later run will read
-                let reason = || "cannot be read back".to_string();
-                read().ok_or_else(|| SweepError::Damaged { path: path.display().to_string(), reason: reason() })?
+                let springs = tune(plan, progress)?;
+                let filed = Filed { sweep: hash.into(), checksum: Filed::checksum(&springs)?, springs };
+                manifest::whole(&path, manifest::json("springs.json", &filed)?.as_bytes())?;
+                read()?.ok_or_else(|| damaged("cannot be read back"))?
             }
         };
-        Self::of_filed(plan, &filed).ok_or_else(|| SweepError::Damaged {
-            path: path.display().to_string(),
-            reason: "springs are missing".into(),
-        })
+        Self::of_filed(plan, &filed).ok_or_else(|| damaged("springs are missing"))
     }
 
     fn of_filed(plan: &Plan, filed: &Filed) -> Option<Self> {

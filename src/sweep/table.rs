@@ -2,7 +2,9 @@
 //!
 //! Parquet: one row group a file, Snappy, no statistics of strings; a missing number is a null. The same table gives the same bytes.
 
-use std::{fmt::Write as _, fs::File, io::Write, path::Path, sync::Arc};
+use std::{collections::BTreeMap, fmt::Write as _, io::Write, sync::Arc};
+
+use bytes::Bytes;
 
 use parquet::{
     basic::{Compression, Encoding},
@@ -17,8 +19,6 @@ use parquet::{
     },
     schema::parser::parse_message_type,
 };
-
-use super::SweepError;
 
 /// Values of one column, one a row.
 #[derive(Clone, Debug, PartialEq)]
@@ -35,9 +35,6 @@ pub enum Column {
 pub struct Table {
     pub columns: Vec<(&'static str, Column)>,
 }
-
-/// Name under which a file says of which sweep it is.
-const SWEEP: &str = "groundspring.sweep";
 
 impl Column {
     fn len(&self) -> usize {
@@ -153,17 +150,22 @@ impl Table {
         }
     }
 
-    /// The Parquet file, of a sweep with this hash.
+    /// The Parquet file, with some metadata.
     ///
     /// # Errors
     /// It cannot be written.
-    pub fn write_parquet(&self, out: impl Write + Send, hash: &str) -> Result<(), ParquetError> {
+    pub fn write_parquet(
+        &self,
+        out: impl Write + Send,
+        metadata: &[(&'static str, String)],
+    ) -> Result<(), ParquetError> {
+        let metadata = metadata.iter().map(|(key, value)| KeyValue::new((*key).to_string(), value.clone()));
         let fields: String = self.columns.iter().map(|(name, column)| column.schema(name)).collect();
         let schema = Arc::new(parse_message_type(&format!("message row {{ {fields} }}"))?);
         let mut properties = WriterProperties::builder()
             .set_compression(Compression::SNAPPY)
             .set_created_by(concat!("groundspring ", env!("CARGO_PKG_VERSION")).into())
-            .set_key_value_metadata(Some(vec![KeyValue::new(SWEEP.to_string(), hash.to_string())]));
+            .set_key_value_metadata(Some(metadata.collect()));
         for (name, column) in &self.columns {
             if !matches!(column, Column::Text(_)) {
                 properties = properties
@@ -185,22 +187,21 @@ impl Table {
         Ok(())
     }
 
-    /// Of which sweep a Parquet file is, and how many rows it has.
-    pub fn peek(path: &Path) -> Option<(String, u64)> {
-        let reader = SerializedFileReader::new(File::open(path).ok()?).ok()?;
+    /// The metadata of a Parquet file, and how many rows it has.
+    pub fn metadata(bytes: Bytes) -> Option<(BTreeMap<String, String>, u64)> {
+        let reader = SerializedFileReader::new(bytes).ok()?;
         let file = reader.metadata().file_metadata();
-        let hash = file.key_value_metadata()?.iter().find(|pair| pair.key == SWEEP)?.value.clone()?;
-        Some((hash, u64::try_from(file.num_rows()).ok()?))
+        let pairs = file.key_value_metadata()?.iter();
+        let pairs = pairs.filter_map(|pair| Some((pair.key.clone(), pair.value.clone()?)));
+        Some((pairs.collect(), u64::try_from(file.num_rows()).ok()?))
     }
 
     /// Some columns of a Parquet file, in the order asked for; a table without rows tells their types.
     ///
     /// # Errors
-    /// The file cannot be read, or does not have them.
-    pub fn read_parquet(path: &Path, wanted: &Self) -> Result<Self, SweepError> {
-        let name = || path.display().to_string();
-        let file = File::open(path).map_err(|source| SweepError::File { path: name(), source })?;
-        read(file, wanted).map_err(|e| SweepError::Damaged { path: name(), reason: e.to_string() })
+    /// The file is none, or does not have them.
+    pub fn read_parquet(bytes: Bytes, wanted: &Self) -> Result<Self, ParquetError> {
+        read(bytes, wanted)
     }
 
     /// The head of the CSV file.
@@ -221,7 +222,7 @@ impl Table {
     }
 }
 
-fn read(file: File, wanted: &Table) -> Result<Table, ParquetError> {
+fn read(file: Bytes, wanted: &Table) -> Result<Table, ParquetError> {
     fn placed<T>(levels: &[i16], values: Vec<T>) -> Vec<Option<T>> {
         let mut values = values.into_iter();
         levels.iter().map(|level| if *level == 0 { None } else { values.next() }).collect()
@@ -291,31 +292,30 @@ mod tests {
         }
     }
 
+    fn parquet() -> Vec<u8> {
+        let mut bytes = Vec::new();
+        table().write_parquet(&mut bytes, &[("sweep", "0123".into())]).unwrap();
+        bytes
+    }
+
     #[test]
     fn what_was_written_is_read_back_to_the_last_bit_and_the_same_table_gives_the_same_bytes() {
-        let dir = tempfile::tempdir().unwrap();
-        let path = dir.path().join("part.parquet");
-        table().write_parquet(File::create(&path).unwrap(), "0123").unwrap();
-        let back = Table::read_parquet(&path, &empty()).unwrap();
+        let bytes = Bytes::from(parquet());
+        let back = Table::read_parquet(bytes.clone(), &empty()).unwrap();
         for (name, column) in table().columns {
             assert_eq!(back.columns.iter().find(|(other, _)| *other == name).unwrap().1, column);
         }
-        assert_eq!(Table::peek(&path), Some(("0123".into(), 3)));
-        let mut again = Vec::new();
-        table().write_parquet(&mut again, "0123").unwrap();
-        assert_eq!(std::fs::read(&path).unwrap(), again);
+        let (metadata, rows) = Table::metadata(bytes.clone()).unwrap();
+        assert_eq!((metadata["sweep"].as_str(), rows), ("0123", 3));
+        assert_eq!(bytes, parquet());
     }
 
     #[test]
     fn a_cut_file_is_no_table() {
-        let dir = tempfile::tempdir().unwrap();
-        let path = dir.path().join("part.parquet");
-        let mut bytes = Vec::new();
-        table().write_parquet(&mut bytes, "0123").unwrap();
+        let bytes = Bytes::from(parquet());
         for cut in [0, 5, bytes.len() / 2, bytes.len() - 1] {
-            std::fs::write(&path, &bytes[..cut]).unwrap();
-            assert_eq!(Table::peek(&path), None);
-            assert!(Table::read_parquet(&path, &empty()).is_err());
+            assert!(Table::metadata(bytes.slice(..cut)).is_none());
+            assert!(Table::read_parquet(bytes.slice(..cut), &empty()).is_err());
         }
     }
 

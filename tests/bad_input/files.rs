@@ -177,3 +177,33 @@ fn an_interpreter_that_runs_no_deck() {
 fn both_interpreters() {
     verify(&["--python", "python3", "--tcl", "OpenSees"], &["--tcl", "--python"]);
 }
+
+/// A pipe waits for ever for a writer, a device never ends.
+#[cfg(unix)]
+#[test]
+fn pipes_and_devices_are_no_files() {
+    let dir = TempDir::new().unwrap();
+    assert!(std::process::Command::new("mkfifo").arg(dir.path().join("pipe")).status().unwrap().success());
+    for name in ["pipe", "/dev/zero"] {
+        for args in [
+            &["run", name][..],
+            &["run", "--record", name],
+            &["record", name],
+            &["simulate", "--parameters", name],
+            &["verify", "--parameters", name],
+            &["housner", name],
+            &["sweep", name],
+        ] {
+            refuses_in(dir.path(), args, &[name, "copy it to a file"]);
+        }
+    }
+}
+
+/// The bytes get to no terminal, and the name stays one that can be read.
+#[cfg(unix)]
+#[test]
+fn a_name_that_would_steer_a_terminal_is_spelt_out() {
+    let name = "a\u{1b}[2J\u{7}\u{202e}.at2";
+    refuses(&[(name, "x")], &["record", name], &["a\\u{1b}[2J\\u{7}\\u{202e}.at2"]);
+    refuses(&[], &["run", name], &["a\\u{1b}[2J\\u{7}\\u{202e}.at2"]);
+}

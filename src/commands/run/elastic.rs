@@ -6,8 +6,8 @@ use crate::{
     commands::{
         CommandError,
         elastic::{ElasticRun, springs_alone as alone},
-        output::{Folder, check_folder},
-        progress::Progress,
+        output::check_folder,
+        progress::{self, Progress},
     },
     elastic::{
         answer::{ElasticAnswer, Reference},
@@ -32,7 +32,7 @@ pub fn run(o: &RunOptions, mut case: ElasticCase) -> Result<(), CommandError> {
     let assembled =
         Assembled::with_members(case.structure, case.members).map_err(|e| CommandError::Result(e.to_string()))?;
     let progress = Progress::new("tuning", o.quiet);
-    let tell = |done: usize, error: f64| progress.tell(done, 0, &format!("error {error:.2e}"));
+    let tell = |done: usize, error: f64| progress.tell(done, 0, &progress::error(error));
     let record = if o.no_record { None } else { Some(referred(&assembled, case.excitation.used()?)?) };
     let (record, reference) = record.unzip();
     let tuned = tune(&assembled, case.asked, case.max_omega_hz, record.as_ref().zip(reference), &tell);
@@ -47,10 +47,7 @@ pub fn run(o: &RunOptions, mut case: ElasticCase) -> Result<(), CommandError> {
     progress.done();
     let answer = answer.map_err(|e| CommandError::Result(e.to_string()))?;
     let run = ElasticRun::new(case, assembled, tuned, record, answer);
-    let all = files();
-    let folder = Folder::begin(&o.out, "run", &all)?;
-    run.save(&o.out, Output { figures: !o.no_figures, report: !o.no_report })?;
-    folder.finish()?;
+    run.save(&o.out, &files(), Output { figures: !o.no_figures, report: !o.no_report })?;
     o.print(&run.said(run.filed(&o.out)))
 }
 

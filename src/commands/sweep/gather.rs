@@ -1,14 +1,15 @@
 //! `tune sweep gather`: tables, figures and a summary from the parts.
 
-use std::{
-    io::Write as _,
-    path::{Path, PathBuf},
-};
+use std::path::{Path, PathBuf};
 
 use clap::Args;
 
 use super::{
-    super::{CommandError, write_file},
+    super::{
+        CommandError,
+        output::{Folder, identity},
+        terminal, write_file,
+    },
     figures,
 };
 use crate::sweep::{
@@ -17,9 +18,9 @@ use crate::sweep::{
     fragility::Fragility,
     ida::Ida,
     levels,
-    manifest::{self, Manifest},
+    manifest::Manifest,
     overturning,
-    parts::SweepParts,
+    parts::{MissingParts, SweepParts},
     plan::Plan,
     row,
     spec::SweepKind,
@@ -43,6 +44,27 @@ pub struct GatherOptions {
     no_figures: bool,
 }
 
+/// All that is gathered.
+const FILES: &[&str] = &[
+    "summary.md",
+    "histories.csv",
+    "overturning.csv",
+    "overturning.png",
+    "overturning.svg",
+    "rocking.csv",
+    "rocking.png",
+    "rocking.svg",
+    "ida.csv",
+    "ida.png",
+    "ida.svg",
+    "fragility.csv",
+    "fragility.png",
+    "fragility.svg",
+    "compare.csv",
+    "compare.png",
+    "compare.svg",
+];
+
 /// Histories up to which they are also written as CSV.
 const CSV_ROWS: u64 = 20_000;
 /// Missing parts that are named.
@@ -52,30 +74,39 @@ pub fn run(o: &GatherOptions) -> Result<(), CommandError> {
     let plan = Plan::read(&o.sweep)?;
     let hash = plan.hash(&mut |_| {})?;
     let folder = o.out.display().to_string();
-    match Manifest::there(&o.out)? {
-        None => return Err(SweepError::NoSweep { folder }.into()),
-        Some(there) if there != hash => return Err(SweepError::OtherSweep { folder, there, here: hash }.into()),
-        Some(_) => {}
-    }
-    let parts = SweepParts { plan: &plan, folder: &o.out, hash: &hash };
-    let missing = parts.missing();
+    Manifest::new(&plan, &hash).is_in(&o.out)?;
+    let mut parts = SweepParts::new(&plan, &o.out, &hash);
+    let all = plan.parts();
+    let MissingParts { parts: missing, unfit } = parts.missing(0..all);
     if !missing.is_empty() {
-        let names: Vec<String> = missing.iter().take(NAMED).map(|part| part.to_string()).collect();
-        let more = if missing.len() > NAMED { ", ..." } else { "" };
-        let first = format!("{}{more}", names.join(", "));
-        let parts = plan.parts() as usize;
-        let error = SweepError::Missing { folder, missing: missing.len(), parts, first };
-        if !o.partial || missing.len() == parts {
+        let first = few(missing.iter().map(u64::to_string), ", ");
+        let unfit = unfit.iter().map(|(part, reason)| format!("the file of part {part} {reason}"));
+        let unfit =
+            Some(few(unfit, "; ")).filter(|unfit| !unfit.is_empty()).map_or(String::new(), |u| format!(": {u}"));
+        let error = SweepError::Missing { folder, missing: missing.len(), parts: all as usize, first, unfit };
+        if !o.partial || missing.len() as u64 == all {
             return Err(CommandError::Failed(error.to_string()));
         }
-        eprintln!("WARNING: {error}");
+        terminal::stderr(format_args!("WARNING: {error}"));
+        parts.gathered = Some((0..all).filter(|part| missing.binary_search(part).is_err()).collect());
     }
     gather(&parts, !o.no_figures)
 }
 
+/// The first of many, in a line.
+fn few(all: impl Iterator<Item = String>, between: &str) -> String {
+    let mut all: Vec<String> = all.take(NAMED + 1).collect();
+    if all.len() > NAMED {
+        all[NAMED] = "...".into();
+    }
+    all.join(between)
+}
+
 /// Write everything that follows from the parts, and print the summary.
 pub fn gather(parts: &SweepParts, draw: bool) -> Result<(), CommandError> {
-    let (plan, out) = (parts.plan, parts.folder);
+    let plan = parts.plan;
+    let folder = Folder::begin(parts.folder, "sweep", FILES, identity(&[&parts.hash, &parts.gathered, &draw]))?;
+    let out = folder.path();
     let save =
         |name: &str, table: &Table| write_file(&out.join(name), (table.csv_head() + &table.csv_rows()).as_bytes());
     let said = if plan.kind == SweepKind::Overturning {
@@ -86,25 +117,23 @@ pub fn gather(parts: &SweepParts, draw: bool) -> Result<(), CommandError> {
         }
         summary::overturning(plan, &table)
     } else {
-        histories(parts, draw, &save)?
+        histories(parts, out, draw, &save)?
     };
-    if parts.missing().is_empty() {
-        manifest::tidy(out);
-        manifest::tidy(&out.join("parts"));
-    }
     let said = said.join("\n") + "\n";
     write_file(&out.join("summary.md"), said.as_bytes())?;
-    write!(std::io::stdout(), "{said}")?;
-    eprintln!("written to {}", out.display());
+    folder.finish()?;
+    terminal::stdout(format_args!("{said}"))?;
+    terminal::stderr(format_args!("written to {}", terminal::shown(parts.folder)));
     Ok(())
 }
 
 fn histories(
     parts: &SweepParts,
+    out: &Path,
     draw: bool,
     save: &dyn Fn(&str, &Table) -> Result<(), CommandError>,
 ) -> Result<Vec<String>, CommandError> {
-    let (plan, out) = (parts.plan, parts.folder);
+    let plan = parts.plan;
     if plan.cells() <= CSV_ROWS {
         save("histories.csv", &whole(parts, &row::table(plan, &[]))?)?;
     }

@@ -2,14 +2,13 @@
 
 use std::{
     fmt::Write as _,
-    io::Write as _,
     path::{Path, PathBuf},
 };
 
 use clap::Args;
 
 use super::{
-    super::{CommandError, write_file},
+    super::{CommandError, terminal, write_file},
     begin,
     gather::absolute,
 };
@@ -49,12 +48,11 @@ pub fn run(o: &PlanOptions) -> Result<(), CommandError> {
         return Err(CommandError::Option { option: "time", value: format!("{:?}", o.time), remedy });
     }
     let plan = Plan::read(&o.sweep)?;
-    let hash = plan.hash(&mut |notice| eprintln!("{notice}"))?;
+    let hash = plan.hash(&mut |notice| terminal::stderr(notice))?;
     begin(&plan, &hash, &o.out, o.quiet)?;
-    let missing = SweepParts { plan: &plan, folder: &o.out, hash: &hash }.missing().len();
-    writeln!(
-        std::io::stdout(),
-        "{} cells: {} motions, {} structures, {} restitutions, {} levels; {} parts of {} cells, {missing} missing; sweep {hash}",
+    let missing = SweepParts::new(&plan, &o.out, &hash).missing(0..plan.parts()).parts.len();
+    terminal::stdout(format_args!(
+        "{} cells: {} motions, {} structures, {} restitutions, {} levels; {} parts of {} cells, {missing} missing; sweep {hash}\n",
         plan.cells(),
         plan.motions.len(),
         plan.subjects.len(),
@@ -62,19 +60,19 @@ pub fn run(o: &PlanOptions) -> Result<(), CommandError> {
         plan.levels.len(),
         plan.parts(),
         plan.part
-    )?;
+    ))?;
     let shares = o.shards.unwrap_or(SHARES).min(plan.parts());
     if let Some(asked) = o.shards.filter(|asked| *asked > shares) {
-        eprintln!(
+        terminal::stderr(format_args!(
             "--shards {asked}: a share has one part of {} cells at least, so there are {shares}; for more, write a smaller part under [sweep]",
             plan.part
-        );
+        ));
     }
     let program = std::env::current_exe().unwrap_or_else(|_| PathBuf::from("tune"));
     let script = Script {
-        program: quoted(&program),
-        sweep: quoted(&absolute(&o.sweep)),
-        out: quoted(&absolute(&o.out)),
+        program: quoted(&program)?,
+        sweep: quoted(&absolute(&o.sweep))?,
+        out: quoted(&absolute(&o.out))?,
         shares,
         jobs: o.jobs,
         time: &o.time,
@@ -84,15 +82,20 @@ pub fn run(o: &PlanOptions) -> Result<(), CommandError> {
         write_file(&o.out.join("sweep.sbatch"), script.array().as_bytes())?;
         write_file(&o.out.join("gather.sbatch"), script.gather().as_bytes())?;
         write_file(&o.out.join("submit.sh"), script.submit().as_bytes())?;
-        eprintln!("submit with: sh {}", o.out.join("submit.sh").display());
+        terminal::stderr(format_args!("submit with: sh {}", terminal::shown(&o.out.join("submit.sh"))));
     }
-    eprintln!("written to {}", o.out.display());
+    terminal::stderr(format_args!("written to {}", terminal::shown(&o.out)));
     Ok(())
 }
 
-/// A word of a shell.
-fn quoted(path: &Path) -> String {
-    format!("'{}'", path.display().to_string().replace('\'', "'\\''"))
+/// A word of a shell, within one line.
+fn quoted(path: &Path) -> Result<String, CommandError> {
+    let name = path.to_str().filter(|name| !name.contains(char::is_control));
+    let name = name.ok_or_else(|| {
+        let path = terminal::shown(path);
+        CommandError::Result(format!("{path}: no list of commands can name it; rename it without control characters"))
+    })?;
+    Ok(format!("'{}'", name.replace('\'', "'\\''")))
 }
 
 /// All that the files for a cluster say.
@@ -121,17 +124,18 @@ impl Script<'_> {
         out
     }
 
+    /// The log stands where it is submitted, which is the folder: `#SBATCH` lines are no shell and quote no name.
+    ///
     /// An array of at most a thousand tasks, as clusters allow by default; each computes every thousandth share from its own on.
     fn array(&self) -> String {
         let tasks = self.shares.min(1000);
         format!(
             "#!/bin/sh\n#SBATCH --job-name=tune-sweep\n#SBATCH --array=1-{tasks}\n#SBATCH --cpus-per-task={}\n#SBATCH --time={}\n\
-             #SBATCH --requeue\n#SBATCH --output={}/slurm-%A_%a.log\n\
+             #SBATCH --requeue\n#SBATCH --output=slurm-%A_%a.log\n\
              # parts are idempotent: a task that is killed or run twice leaves whole files, the same ones\n\
              i=$SLURM_ARRAY_TASK_ID\nwhile [ \"$i\" -le {} ]; do\n    {} || exit 1\n    i=$((i + {tasks}))\ndone\n",
             self.jobs,
             self.time,
-            self.bare(),
             self.shares,
             self.share("\"$i\""),
         )
@@ -140,9 +144,8 @@ impl Script<'_> {
     fn gather(&self) -> String {
         let Self { program, sweep, out, .. } = self;
         format!(
-            "#!/bin/sh\n#SBATCH --job-name=tune-gather\n#SBATCH --time={}\n#SBATCH --output={}/slurm-gather.log\n{program} sweep gather {sweep} --out {out}\n",
+            "#!/bin/sh\n#SBATCH --job-name=tune-gather\n#SBATCH --time={}\n#SBATCH --output=slurm-gather.log\n{program} sweep gather {sweep} --out {out}\n",
             self.time,
-            self.bare(),
         )
     }
 
@@ -152,10 +155,5 @@ impl Script<'_> {
             "#!/bin/sh\nset -e\ncd {}\njob=$(sbatch --parsable sweep.sbatch)\nsbatch --dependency=afterany:\"$job\" gather.sbatch\necho \"array $job\"\n",
             self.out
         )
-    }
-
-    /// #SBATCH lines are no shell: a folder without quotes.
-    fn bare(&self) -> String {
-        self.out.trim_matches('\'').to_string()
     }
 }

@@ -1,6 +1,6 @@
 //! `tune verify` of an elastic structure's deck.
 
-use std::{fmt::Write as _, io::Write, path::Path};
+use std::{fmt::Write as _, path::Path};
 
 use super::VerifyOptions;
 use crate::{
@@ -11,7 +11,7 @@ use crate::{
         export::check_accuracy,
         output::{Folder, check_folder},
         progress::Progress,
-        write_file,
+        terminal, write_file,
     },
     elastic::{
         answer::{ComparedEnd, ElasticHistories, Reference},
@@ -58,9 +58,9 @@ pub fn run(o: &VerifyOptions, parameters: &ElasticParameters, program: &Program)
     let [rotation, drift] = errors(&ours, &ran.motion, compared.samples);
     let pairs: Vec<[Sway; 2]> = ours.into_iter().zip(ran.motion).map(|(ours, opensees)| [ours, opensees]).collect();
     let within = rotation <= LIMIT && drift <= LOOSER * LIMIT;
-    let folder = Folder::begin(&o.out, "verify", &["verify.csv", "verify.png", "verify.svg"])?;
-    write_file(&o.out.join("verify.csv"), csv(&pairs, record.dt).as_bytes())?;
-    draw(o, &assembled, &pairs, record.dt)?;
+    let folder = Folder::begin(&o.out, "verify", super::FILES, super::of(parameters, &record, o.accuracy))?;
+    write_file(&folder.path().join("verify.csv"), csv(&pairs, record.dt).as_bytes())?;
+    draw(folder.path(), &assembled, &pairs, record.dt)?;
     folder.finish()?;
 
     let mut said = format!("OpenSees took {:.1} s and {} steps\n", ran.seconds, number_before(&ran.report, " steps"));
@@ -84,8 +84,8 @@ pub fn run(o: &VerifyOptions, parameters: &ElasticParameters, program: &Program)
     if late > 0 {
         let _ = writeln!(said, "WARNING: {late} touches or lifts of a corner within too long a step of OpenSees");
     }
-    write!(std::io::stdout(), "{said}")?;
-    eprintln!("{}\nwritten to {}", excitation.line(), o.out.display());
+    terminal::stdout(format_args!("{said}"))?;
+    terminal::stderr(format_args!("{}\nwritten to {}", excitation.line(), terminal::shown(&o.out)));
     if within {
         return Ok(());
     }
@@ -140,7 +140,7 @@ fn csv(pairs: &[[Sway; 2]], dt: f64) -> String {
     out
 }
 
-fn draw(o: &VerifyOptions, assembled: &Assembled, pairs: &[[Sway; 2]], dt: f64) -> Result<(), CommandError> {
+fn draw(out: &Path, assembled: &Assembled, pairs: &[[Sway; 2]], dt: f64) -> Result<(), CommandError> {
     let n = pairs.first().map_or(0, |pair| pair[0].rotation.len());
     let t: Vec<f64> = (0..n).map(|i| i as f64 * dt).collect();
     let of = |pick: fn(&Sway) -> &[f64]| -> Vec<[&[f64]; 2]> {
@@ -160,5 +160,5 @@ fn draw(o: &VerifyOptions, assembled: &Assembled, pairs: &[[Sway; 2]], dt: f64) 
     let title = format!("The exported model in OpenSees\n{}", structure_title(&assembled.structure));
     let names = ["tune run", "OpenSees"];
     let data = StackFigure { title: &title, t: &t, names: &names, panels: &panels, event: None };
-    Ok(stack::draw(&data)?.save(&o.out.join("verify.png"))?)
+    Ok(stack::draw(&data)?.save(&out.join("verify.png"))?)
 }
