@@ -3,7 +3,7 @@ use num_dual::{DualNum, HyperDual64};
 use super::*;
 
 fn section() -> BeamSection {
-    BeamSection { axial: 3e6, bending: 2e5, axial_damping: 4e3, bending_damping: 7e2, line_mass: 0.0 }
+    BeamSection { axial_damping: 4e3, bending_damping: 7e2, ..BeamSection::elastic(3e6, 2e5) }
 }
 
 const ENDS: [[f64; 2]; 2] = [[1.0, 2.0], [1.8, 9.0]];

@@ -7,7 +7,7 @@ use crate::{
 };
 
 fn section() -> BeamSection {
-    BeamSection { axial: 8e9, bending: 6e9, axial_damping: 3e7, bending_damping: 2e7, line_mass: 5e3 }
+    BeamSection { axial_damping: 3e7, bending_damping: 2e7, line_mass: 5e3, ..BeamSection::elastic(8e9, 6e9) }
 }
 
 fn pier(elements: usize, inertia: Option<f64>) -> Cantilever {
