@@ -11,11 +11,13 @@
 //! | `fem` | a frame's history on ground springs |
 //! | `assembled` | a structure and its finite elements: rotation and drift, rest, the reference and for how long it can be told |
 //! | `ensemble` | peaks over motions near a record, where no model foretells a history |
+//! | `design_forces` | forces to design for, and whether they are the structure's own |
 //! | `rigid`, `answer` | what the rigid body bears; all of them through one record |
 
 pub mod answer;
 pub mod assembled;
 pub mod beam;
+pub mod design_forces;
 pub mod ensemble;
 pub mod fem;
 pub mod frame;

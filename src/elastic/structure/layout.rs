@@ -27,6 +27,36 @@ impl ElasticStructure {
     }
 }
 
+impl ElasticStructure {
+    /// One column with so many elements and what it carries; none if columns have no mass of their own, and therefore no waves.
+    pub fn column_alone(&self, elements: usize) -> Option<FrameLayout> {
+        match self {
+            Self::Pier(pier) if pier.column_mass_kg > 0.0 => {
+                Some(PierSpec { elements: Some(elements), ..*pier }.finite().layout())
+            }
+            Self::Frame(frame) if frame.column_mass_kg > 0.0 => {
+                let Portal { height, mass, inertia, footing, column, .. } =
+                    PortalSpec { elements: Some(elements), ..*frame }.finite();
+                Some(Cantilever { mass, inertia: Some(inertia), height, footing, column, consistent: false }.layout())
+            }
+            _ => None,
+        }
+    }
+
+    /// The same with twice as many elements to a column; none of columns without mass, which have one.
+    pub fn with_doubled_elements(&self) -> Option<Self> {
+        match self {
+            Self::Pier(pier) if pier.column_mass_kg > 0.0 => {
+                Some(Self::Pier(PierSpec { elements: Some(2 * pier.elements()), ..*pier }))
+            }
+            Self::Frame(frame) if frame.column_mass_kg > 0.0 => {
+                Some(Self::Frame(PortalSpec { elements: Some(2 * frame.elements()), ..*frame }))
+            }
+            _ => None,
+        }
+    }
+}
+
 impl PierSpec {
     fn finite(&self) -> Cantilever {
         let (length, ei, ea) = (self.length(), self.ei(), self.ea());
