@@ -35,6 +35,7 @@ mod pictures;
 pub(super) mod words;
 
 use bearing::ForceQuantities;
+use demands::Instants;
 
 /// Drifts below this share of the structure's size are rounding: there is nothing to compare with them.
 const ROUNDING: f64 = 1e-12;
@@ -149,7 +150,8 @@ impl ElasticRun {
         let tables = words::markdown(&parameters) + "\n" + &demands::markdown(self);
         write_file(&out.join("parameters.md"), tables.as_bytes())?;
         write_file(&out.join("history.csv"), self.history().as_bytes())?;
-        write_file(&out.join("members.csv"), demands::csv(self).as_bytes())?;
+        write_file(&out.join("members.csv"), demands::csv(self, Instants::Samples).as_bytes())?;
+        write_file(&out.join("members_envelopes.csv"), demands::csv(self, Instants::Envelopes).as_bytes())?;
         export::write_all(&out.join("decks"), |format| self.deck(format))?;
         let figures: Vec<Figure> = if output.figures { pictures::draw(self)? } else { Vec::new() };
         draw::save(out, &figures)?;

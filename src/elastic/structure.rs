@@ -15,6 +15,7 @@
 //! | `frame` | two rigid footings with two corners each, a column clamped to each, a beam clamped to both columns |
 
 mod aframe;
+mod assumptions;
 mod layout;
 mod members;
 mod pier;
@@ -25,6 +26,7 @@ use thiserror::Error;
 
 use crate::{members::MembersError, structure::Body};
 pub use aframe::AFrameSpec;
+pub use assumptions::{Assumed, Assumption};
 pub use pier::PierSpec;
 pub use portal::PortalSpec;
 

@@ -4,32 +4,48 @@ use std::fmt::Write;
 
 use super::{
     ElasticRun,
-    bearing::{ForceQuantities, ForceQuantity},
+    bearing::{DRIFT, ForceQuantities, ForceQuantity},
 };
 use crate::{
     commands::common::csv_row,
+    elastic::{
+        design_forces::{DesignForce, ForcePeak},
+        fem::GroundForces,
+    },
     figures::{prefix, short},
     motion::{TimedPeak, peak},
 };
 
 /// Rows of the table: quantity, rocking, fixed, rigid, and what rocking buys.
 pub(super) fn rows(run: &ElasticRun) -> Vec<[String; 5]> {
-    let dt = run.record.dt;
-    let row = |quantity: &ForceQuantity| {
-        let peaks = [0, 1, 2].map(|k| TimedPeak::of(dt, &quantity.series[k]));
-        let cell = |peak: Option<TimedPeak>| {
-            peak.map_or("-".to_string(), |TimedPeak { value, time }| {
-                let (unit, letter) = prefix(value.abs());
-                format!("{} {letter}{} at {time:.2} s", short(value.abs() / unit, 4), quantity.unit)
-            })
-        };
-        let share = match (peaks[0], peaks[1]) {
-            (Some(rocking), Some(fixed)) if fixed.value != 0.0 => format!("{:.2}", (rocking.value / fixed.value).abs()),
-            _ => "-".into(),
-        };
-        [quantity.name.to_string(), cell(peaks[0]), cell(peaks[1]), cell(peaks[2]), share]
+    let amount = |value: f64, time: f64, unit: &str| {
+        let (scale, letter) = prefix(value.abs());
+        format!("{} {letter}{unit} at {time:.2} s", short(value.abs() / scale, 4))
     };
-    run.bearing.quantities.iter().map(row).collect()
+    let buys = |rocking: Option<f64>, fixed: Option<f64>| match (rocking, fixed) {
+        (Some(rocking), Some(fixed)) if fixed != 0.0 => format!("{:.2}", (rocking / fixed).abs()),
+        _ => "-".into(),
+    };
+    let force = |force: &DesignForce| {
+        let unit = force.kind.unit();
+        let beside = |peak: Option<ForcePeak>| peak.map_or("-".into(), |peak| amount(peak.value, peak.time_s, unit));
+        let rocking = match force.value {
+            Some(value) => amount(value, force.time_s, unit),
+            None => format!("withheld: changes by {} %", short(100.0 * force.change(), 2)),
+        };
+        let share = buys(force.value, force.fixed.map(|peak| peak.value));
+        [force.kind.name().to_string(), rocking, beside(force.fixed), beside(force.rigid), share]
+    };
+    let mut rows: Vec<_> = run.answer.design.forces.iter().map(force).collect();
+    let drift = run.bearing.quantities.iter().find(|quantity| quantity.name == DRIFT);
+    if let Some(ForceQuantity { name, unit, series }) = drift {
+        let peaks = [0, 1, 2].map(|k| TimedPeak::of(run.record.dt, &series[k]));
+        let [rocking, fixed, rigid] =
+            peaks.map(|peak| peak.map_or("-".to_string(), |peak| amount(peak.value, peak.time, unit)));
+        let share = buys(peaks[0].map(|peak| peak.value), peaks[1].map(|peak| peak.value));
+        rows.push([(*name).to_string(), rocking, fixed, rigid, share]);
+    }
+    rows
 }
 
 /// Head of the table.
@@ -59,15 +75,33 @@ pub(super) fn about(run: &ElasticRun) -> String {
     };
     let lands = run.answer.histories.fem.contacts.iter().any(|contact| contact.touches);
     let landing = if lands { " in a landing, which is the springs' and grows with Omega_n" } else { "" };
+    let below = run.answer.design.cutoff.as_ref().map_or(String::new(), |cutoff| {
+        format!(
+            "Forces are those below {} Hz, which keeps {} bending modes of the column (up to {} Hz). ",
+            short(cutoff.cutoff_hz, 3),
+            cutoff.modes_hz.len(),
+            short(cutoff.modes_hz.last().copied().unwrap_or(0.0), 3)
+        )
+    });
     format!(
-        "Members' forces are the structure's own, between samples too; those of the rigid body are between impacts. The ground's vertical force \
-         on all corners together reaches {} times the weight{landing}; {filtered}.",
+        "{below}Forces change by less than 5 % when the elements are doubled and Omega_n is divided or multiplied by 4; those that change more \
+         are withheld. Those of the rigid body are between impacts. The ground's vertical force on all corners together reaches {} times the \
+         weight{landing}; {filtered}.",
         share(ground)
     )
 }
 
-/// `members.csv`: at every sample the largest magnitudes since the sample before; axial forces are positive in tension, as in `BeamForces`.
-pub(super) fn csv(run: &ElasticRun) -> String {
+/// What a file of forces holds of every instant.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(super) enum Instants {
+    /// All of them at the same instants: the record's samples.
+    Samples,
+    /// Of each value, the largest magnitude since the sample before.
+    Envelopes,
+}
+
+/// `members.csv` or `members_envelopes.csv`; axial forces are positive in tension, as in `BeamForces`.
+pub(super) fn csv(run: &ElasticRun, instants: Instants) -> String {
     let fem = &run.answer.histories.fem;
     let mut head = vec!["t".to_string(), "base_shear_n".into()];
     for i in 1..=run.assembled.frame.beams() {
@@ -82,11 +116,14 @@ pub(super) fn csv(run: &ElasticRun) -> String {
     let filtered = run.bearing.below_hz.map_or("mean".into(), |hz| format!("below_{hz}_hz"));
     head.push(format!("ground_vertical_{filtered}_n"));
     let mut out = head.join(",") + "\n";
-    for (i, demand) in fem.worst.iter().enumerate() {
+    let at_samples = instants == Instants::Samples;
+    let demands = if at_samples { &fem.demands } else { &fem.worst };
+    let of = |forces: &GroundForces, i: usize| if at_samples { forces.at[i] } else { forces.peak[i] };
+    for (i, demand) in demands.iter().enumerate() {
         let mut row = vec![i as f64 * run.record.dt];
         row.extend(demand.values());
-        row.extend(fem.forces.iter().flat_map(|corner| corner.peak[i]));
-        row.extend([run.bearing.ground[i], run.bearing.filtered[i]]);
+        row.extend(fem.forces.iter().flat_map(|corner| of(corner, i)));
+        row.extend([of(&fem.ground, i)[1], run.bearing.filtered[i]]);
         csv_row(&mut out, &row);
     }
     out
