@@ -56,7 +56,15 @@ fn a_pier_is_tuned_and_what_is_written_agrees_with_itself() {
     let page = read("report.html");
     assert!(page.contains("<h2>What the structure bears</h2>") && !page.contains("src=\"http"));
     decks_are_whole(folder.path());
-    for name in ["history.png", "history.svg", "forces.png", "forces.svg", "members.csv", "members_envelopes.csv", "parameters.md"] {
+    for name in [
+        "history.png",
+        "history.svg",
+        "forces.png",
+        "forces.svg",
+        "members.csv",
+        "members_envelopes.csv",
+        "parameters.md",
+    ] {
         assert!(out.join(name).metadata().unwrap().len() > 300, "{name}");
     }
 

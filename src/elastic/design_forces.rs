@@ -20,11 +20,7 @@ use serde::{Deserialize, Serialize};
 pub use cutoff::Cutoff;
 
 use super::{
-    assembled::Assembled,
-    fem::ElasticHistory,
-    frame::EquilibriumError,
-    rigid::RigidForces,
-    structure::ElasticStructure,
+    assembled::Assembled, fem::ElasticHistory, frame::EquilibriumError, rigid::RigidForces, structure::ElasticStructure,
 };
 use crate::{
     motion::TimedPeak,

@@ -137,7 +137,8 @@ impl<'a> ElasticAnalysis<'a> {
                 (v, q, feet.clone())
             }
         };
-        let mut recorder = history::ElasticRecorder::new(self.frame, (self.dt, self.accel.len()), self.forces, self.parts);
+        let mut recorder =
+            history::ElasticRecorder::new(self.frame, (self.dt, self.accel.len()), self.forces, self.parts);
         let mut run = run::SpringsRun::new(self, &model, (q, v, feet), at_rest);
         let outcome = run.follow(&mut recorder);
         Ok(recorder.finish(run.finish(outcome)))

@@ -73,8 +73,7 @@ fn quantities(assembled: &Assembled, answer: &ElasticAnswer) -> Vec<ForceQuantit
     let rigid = answer.rigid.as_ref();
     let [shear, fixed] = both(&|beam, _| beam.shear);
     let body = rigid.map_or(Vec::new(), |rigid| rigid.shear.clone());
-    let mut all =
-        vec![ForceQuantity { name: ForceKind::ColumnShear.name(), unit: "N", series: [shear, fixed, body] }];
+    let mut all = vec![ForceQuantity { name: ForceKind::ColumnShear.name(), unit: "N", series: [shear, fixed, body] }];
     let [axial, fixed] = both(&|beam, _| beam.axial);
     let body = rigid.map_or(Vec::new(), |rigid| rigid.axial.clone());
     all.push(ForceQuantity { name: ForceKind::Axial.name(), unit: "N", series: [axial, fixed, body] });
@@ -82,7 +81,11 @@ fn quantities(assembled: &Assembled, answer: &ElasticAnswer) -> Vec<ForceQuantit
     if !matches!(assembled.structure, ElasticStructure::AFrame(_)) {
         let [moment, fixed] = both(&|beam, end| beam.moments[end]);
         let body = rigid.map_or(Vec::new(), |rigid| rigid.moment.iter().map(|x| -x).collect());
-        all.push(ForceQuantity { name: ForceKind::ColumnBaseMoment.name(), unit: "N m", series: [moment, fixed, body] });
+        all.push(ForceQuantity {
+            name: ForceKind::ColumnBaseMoment.name(),
+            unit: "N m",
+            series: [moment, fixed, body],
+        });
     }
     let drift = answer.histories.sways.first().map_or(Vec::new(), |pair| pair[1].drift.clone());
     all.push(ForceQuantity { name: DRIFT, unit: "m", series: [drift, answer.fixed_drift.clone(), Vec::new()] });

@@ -58,7 +58,6 @@ pub fn run(o: &RunOptions, mut case: ElasticCase) -> Result<(), CommandError> {
     let answer = ElasticAnswer::new(&assembled, &tuned.springs.corners, &record, reference);
     progress.done();
     let answer = answer.map_err(|e| CommandError::Result(e.to_string()))?;
-    for f in &answer.design.forces { eprintln!("DF {:?} {:?} {:.4e} t {:.2} raw {:.4e} over {:.1} el {:?} soft {:.4} stiff {:.4} cut {:?}", f.kind, f.holds, f.found, f.time_s, f.raw, f.over_s, f.change_by_elements, f.change_by_softer, f.change_by_stiffer, f.cutoff_hz); }
     let run = ElasticRun::new(case, assembled, tuned, record, answer);
     let folder = Folder::begin(&o.out, "run", &all)?;
     run.save(&o.out, Output { figures: !o.no_figures, report: !o.no_report })?;

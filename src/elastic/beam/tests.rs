@@ -41,9 +41,7 @@ fn energy<D: DualNum<f64> + Copy>(y: [D; 6], [ea, ei, ga]: [f64; 3], hinged: [bo
     let (own, other) = (length / (3.0 * ei) + 1.0 / (ga * length), -length / (6.0 * ei) + 1.0 / (ga * length));
     let scale = length / ei;
     let bent = match hinged {
-        [false, false] => {
-            (a * a * own - a * b * (2.0 * other) + b * b * own) * (scale / (own * own - other * other))
-        }
+        [false, false] => (a * a * own - a * b * (2.0 * other) + b * b * own) * (scale / (own * own - other * other)),
         [false, true] => a * a * (scale / own),
         [true, false] => b * b * (scale / own),
         [true, true] => a * 0.0,
@@ -132,7 +130,8 @@ fn a_small_push_meets_the_textbook_s_stiffness() {
 #[test]
 fn a_cantilever_gives_by_bending_and_by_shear() {
     let [_, section] = sections();
-    let k = Beam::new([[0.0, 0.0], [0.0, 7.0]], [[0.0; 2]; 2], [false, false], section).tangent(&[0.0; 6], &[0.0; 6])[0];
+    let k =
+        Beam::new([[0.0, 0.0], [0.0, 7.0]], [[0.0; 2]; 2], [false, false], section).tangent(&[0.0; 6], &[0.0; 6])[0];
     let determinant = k[3][3] * k[5][5] - k[3][5] * k[5][3];
     let (sway, turn) = (k[5][5] / determinant, -k[5][3] / determinant);
     let exact = [343.0 / (3.0 * 2e5) + 7.0 / 5e4, 49.0 / (2.0 * 2e5)];

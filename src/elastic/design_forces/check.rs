@@ -57,12 +57,8 @@ impl Variants {
 
 /// Springs whose landing is the same but so many times as fast.
 fn scaled(springs: &[Springs<Chain<f64>>], factor: f64) -> Vec<Springs<Chain<f64>>> {
-    let chain = |c: &Chain<f64>| Chain {
-        k1: c.k1 * factor * factor,
-        k2: c.k2 * factor * factor,
-        c: c.c * factor,
-        m2: c.m2,
-    };
+    let chain =
+        |c: &Chain<f64>| Chain { k1: c.k1 * factor * factor, k2: c.k2 * factor * factor, c: c.c * factor, m2: c.m2 };
     let both = |s: &Springs<Chain<f64>>| Springs { vertical: chain(&s.vertical), horizontal: chain(&s.horizontal) };
     springs.iter().map(both).collect()
 }

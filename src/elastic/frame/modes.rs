@@ -27,10 +27,10 @@ impl Frame {
 
 /// Frequencies of K with M = L L' (Hz).
 fn of(k: DMatrix<f64>, lower: &DMatrix<f64>) -> Vec<f64> {
-        let half = |m: &DMatrix<f64>| lower.solve_lower_triangular(m).unwrap_or_else(|| m.clone());
-        // L^-1 K L^-T
-        let scaled = half(&half(&k).transpose());
-        let mut squares: Vec<f64> = SymmetricEigen::new(scaled).eigenvalues.iter().copied().collect();
-        squares.sort_by(f64::total_cmp);
-        squares.into_iter().map(|square| square.signum() * square.abs().sqrt() / TAU).collect()
+    let half = |m: &DMatrix<f64>| lower.solve_lower_triangular(m).unwrap_or_else(|| m.clone());
+    // L^-1 K L^-T
+    let scaled = half(&half(&k).transpose());
+    let mut squares: Vec<f64> = SymmetricEigen::new(scaled).eigenvalues.iter().copied().collect();
+    squares.sort_by(f64::total_cmp);
+    squares.into_iter().map(|square| square.signum() * square.abs().sqrt() / TAU).collect()
 }

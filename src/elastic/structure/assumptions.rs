@@ -72,7 +72,12 @@ impl ElasticStructure {
             Self::Pier(pier) => pier.assumptions(),
             Self::AFrame(frame) => {
                 let apex = Assumption::ApexInertia { inertia_kgm2: frame.inertia() };
-                frame.rotational_inertia_kgm2.is_none().then(|| assumed("rotational_inertia_kgm2", apex)).into_iter().collect()
+                frame
+                    .rotational_inertia_kgm2
+                    .is_none()
+                    .then(|| assumed("rotational_inertia_kgm2", apex))
+                    .into_iter()
+                    .collect()
             }
             Self::Frame(frame) => frame.assumptions(),
         }
@@ -119,7 +124,10 @@ impl PortalSpec {
         if self.elements.is_none() && self.column_mass_kg > 0.0 {
             all.push(assumed("elements", Assumption::Elements { count: self.elements() }));
         }
-        all.push(Assumed { key: None, assumption: Assumption::FootingInertia { inertia_kgm2: self.footing_inertia() } });
+        all.push(Assumed {
+            key: None,
+            assumption: Assumption::FootingInertia { inertia_kgm2: self.footing_inertia() },
+        });
         all
     }
 }

@@ -5,8 +5,8 @@ use std::f64::consts::{PI, TAU};
 use serde::{Deserialize, Serialize};
 
 use super::{
-    AXIAL, BENDING, ElasticError, FREQUENCY, LENGTH, MASS, SHEAR_SHARE, check_elements, damping, elements, not_negative, positive,
-    shortens, slender, stands,
+    AXIAL, BENDING, ElasticError, FREQUENCY, LENGTH, MASS, SHEAR_SHARE, check_elements, damping, elements,
+    not_negative, positive, shortens, slender, stands,
 };
 use crate::{scalar::GRAVITY, structure::Body};
 

@@ -141,7 +141,8 @@ fn a_column_with_mass_gives_in_shear_and_says_so() {
         assert_relative_eq!(ElasticStructure::Pier(given).frequency_hz(), 2.0, max_relative = 1e-12);
     }
     assert_eq!(pier().ga(), f64::INFINITY);
-    let keys = |pier: PierSpec| ElasticStructure::Pier(pier).assumptions().iter().filter_map(|a| a.key).collect::<Vec<_>>();
+    let keys =
+        |pier: PierSpec| ElasticStructure::Pier(pier).assumptions().iter().filter_map(|a| a.key).collect::<Vec<_>>();
     assert_eq!(keys(heavy), ["ea_n", "ga_n", "axial_damping_ratio", "elements", "footing_inertia_kgm2"]);
     assert_eq!(keys(PierSpec { ea_n: Some(6e10), ga_n: Some(1e10), ..heavy })[0], "axial_damping_ratio");
     let rigid = ElasticStructure::Pier(pier()).assumptions();
