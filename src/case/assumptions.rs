@@ -22,6 +22,8 @@ pub(crate) enum AssumedQuantity {
     FootingInertia,
     /// EA of a column, of a solid square section with the same EI and E = 30 GPa.
     AxialStiffness,
+    /// GA_s of a column with a mass of its own, of a solid rectangular concrete section of its EA.
+    ShearStiffness,
     /// Ratio to critical damping along a column, as across.
     AxialDamping,
     /// Mass of a column.
@@ -54,6 +56,7 @@ impl AssumedQuantity {
             Self::LeastInertia => "rotational inertia of a mass at a point, 1e-5 m R^2",
             Self::FootingInertia => "rotational inertia of a solid footing",
             Self::AxialStiffness => "column's EA of a solid square section, E = 30 GPa",
+            Self::ShearStiffness => "column's GA_s of a solid section, nu = 0.2",
             Self::AxialDamping => "damping along the column as across",
             Self::ColumnMass => "column's mass",
             Self::Elements => "beam elements to a column",
@@ -107,12 +110,15 @@ impl ElasticCase {
 }
 
 fn of_structure(structure: &ElasticStructure) -> Vec<Assumption> {
-    use AssumedQuantity::{AxialDamping, AxialStiffness, FootingInertia, LeastInertia};
+    use AssumedQuantity::{AxialDamping, AxialStiffness, FootingInertia, LeastInertia, ShearStiffness};
     let mut all = Vec::new();
     match structure {
         ElasticStructure::Pier(pier) => {
             if pier.ea_n.is_none() {
                 all.push(assumption(AxialStiffness, pier.ea(), "N", "structure.ea_n"));
+            }
+            if pier.ga_n.is_none() && pier.column_mass_kg > 0.0 {
+                all.push(assumption(ShearStiffness, pier.ga(), "N", "structure.ga_n"));
             }
             if pier.axial_damping_ratio.is_none() {
                 let ratio = pier.axial_damping_ratio();
@@ -129,7 +135,12 @@ fn of_structure(structure: &ElasticStructure) -> Vec<Assumption> {
                 all.push(assumption(LeastInertia, frame.inertia(), "kg m2", "structure.rotational_inertia_kgm2"));
             }
         }
-        ElasticStructure::Frame(frame) => all.extend(column(frame.column_mass_kg, frame.elements, frame.elements())),
+        ElasticStructure::Frame(frame) => {
+            if frame.column_ga_n.is_none() && frame.column_mass_kg > 0.0 {
+                all.push(assumption(ShearStiffness, frame.column_ga(), "N", "structure.column_ga_n"));
+            }
+            all.extend(column(frame.column_mass_kg, frame.elements, frame.elements()));
+        }
     }
     all
 }
@@ -185,6 +196,10 @@ mod tests {
         let assumed = of("");
         let all = ["ea_n", "axial_damping_ratio", "footing_inertia_kgm2", "column_mass_kg", "record.file"];
         assert_eq!(keys(&assumed), all);
+        // a column with a mass of its own gives in shear
+        let heavy = of("column_mass_kg = 60e3\n");
+        assert_eq!(keys(&heavy)[..2], ["ea_n", "ga_n"]);
+        assert!((heavy[1].value / (heavy[0].value * 5.0 / 6.0 / 2.4) - 1.0).abs() < 1e-12);
         // a square of side a: I = a^4/12, so a^2 = sqrt(12 x 9e9/30e9) m2, EA = 30e9 a^2
         assert!((assumed[0].value / (30e9 * (12.0_f64 * 0.3).sqrt()) - 1.0).abs() < 1e-12);
         assert!((assumed[2].value - 120e3 * (16.0 + 2.25) / 12.0).abs() < 1e-6);

@@ -26,7 +26,7 @@ use crate::{
     record::Record,
     report::{
         Run,
-        elastic::{ElasticParts, largest, title},
+        elastic::{ElasticParts, design_forces, largest, title},
         filed,
         markdown::markdown,
         page::page,
@@ -42,6 +42,7 @@ mod pictures;
 pub(super) mod words;
 
 use bearing::ForceQuantities;
+use demands::Instants;
 
 /// Drifts below this share of the structure's size are rounding: there is nothing to compare with them.
 const ROUNDING: f64 = 1e-12;
@@ -139,6 +140,7 @@ impl ElasticRun {
             ElasticParameters { on_record: Some(on_record), ..springs_alone(&assembled, &tuned, case.asked) };
         let mut run = Self { case, assembled, tuned, record, answer, bearing, parameters };
         run.parameters.peaks = Some(run.parts().peaks());
+        run.parameters.design_forces = Some(design_forces(&run.answer.design));
         run.parameters.findings = filed(run.parts().findings(&run.parameters));
         run
     }
@@ -156,7 +158,8 @@ impl ElasticRun {
         write_file(&out.join("parameters.md"), markdown(&run).as_bytes())?;
         write_file(&out.join("summary.csv"), summary(&run).csv().as_bytes())?;
         write_file(&out.join("history.csv"), self.history().as_bytes())?;
-        write_file(&out.join("members.csv"), demands::csv(self).as_bytes())?;
+        write_file(&out.join("members.csv"), demands::csv(self, Instants::Samples).as_bytes())?;
+        write_file(&out.join("members_envelopes.csv"), demands::csv(self, Instants::Envelopes).as_bytes())?;
         export::write_all(&out.join("decks"), |format| self.deck(format))?;
         let figures: Vec<Figure> = if output.figures { pictures::draw(self)? } else { Vec::new() };
         draw::save(out, &figures)?;
@@ -173,7 +176,7 @@ impl ElasticRun {
 
     fn parts(&self) -> ElasticParts<'_> {
         let Self { case, assembled, record, answer, .. } = self;
-        ElasticParts { case, assembled, record, answer }
+        ElasticParts { case, assembled, record, springs: &self.tuned.springs.corners, answer }
     }
 
     /// What parameters.json holds in a folder.

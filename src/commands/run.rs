@@ -43,6 +43,7 @@ const FILES: &[&str] = &[
     "summary.csv",
     "history.csv",
     "members.csv",
+    "members_envelopes.csv",
     "report.html",
     "decks/model_openseespy.py",
     "decks/model_opensees.tcl",

@@ -2,6 +2,7 @@
 
 use super::{
     assembled::{Assembled, Sway, errors},
+    design_forces::{StructureForces, parts},
     ensemble::Ensemble,
     fem::{ElasticAnalysis, ElasticHistory, ElasticStart},
     frame::{EquilibriumError, Frame},
@@ -97,6 +98,8 @@ pub struct ElasticAnswer {
     /// The rigid body of the same masses, by Housner's equation; none of a frame, whose columns rock side by side, and of a structure
     /// with members.
     pub rigid: Option<RigidForces>,
+    /// Forces to design for, each with whether it is the structure's own.
+    pub design: StructureForces,
 }
 
 /// Why there is no answer.
@@ -110,10 +113,16 @@ pub enum AnswerError {
     RestOnGround(#[from] RestError),
 }
 
-/// The history of a frame through a record, from rest.
-fn follow(frame: &Frame, springs: &[Springs<Chain<f64>>], record: &Record) -> Result<ElasticHistory, EquilibriumError> {
+/// The history of a frame through a record, from rest, its forces finely sampled in so many parts to a time step.
+fn follow(
+    frame: &Frame,
+    springs: &[Springs<Chain<f64>>],
+    record: &Record,
+    parts: usize,
+) -> Result<ElasticHistory, EquilibriumError> {
     ElasticAnalysis {
         vertical: record.up(),
+        parts,
         ..ElasticAnalysis::new(frame, springs, ElasticStart::Standing, record.dt, &record.accel)
     }
     .simulate()
@@ -175,7 +184,7 @@ impl ElasticHistories {
         record: &Record,
         reference: Reference,
     ) -> Result<Self, AnswerError> {
-        let fem = follow(&assembled.frame, springs, record)?;
+        let fem = follow(&assembled.frame, springs, record, parts(&assembled.structure, record.dt))?;
         let of_reference = assembled.sways(reference.history.q.iter().map(|q| q.as_slice()));
         let of_fem = assembled.sways(fem.q.iter().map(Vec::as_slice));
         let sways = of_reference.into_iter().zip(of_fem).map(|(a, b)| [a, b]).collect();
@@ -206,7 +215,7 @@ impl ElasticAnswer {
         let held = || {
             // what holds a frame can hold it fixed
             let frame = assembled.layout.fixed().frame().map_err(|_| EquilibriumError::NoRest { lean: 0.0 })?;
-            let history = follow(&frame, &[], record)?;
+            let history = follow(&frame, &[], record, parts(&assembled.structure, record.dt))?;
             let top = assembled.watched.first().map_or(0, |watched| watched.top);
             let drift = history.q.iter().map(|q| frame.displacement(top, q)[0]).collect();
             Ok::<_, AnswerError>((history, drift))
@@ -224,7 +233,10 @@ impl ElasticAnswer {
         // Housner's equation has no members
         let bare = assembled.members == Members::default();
         let rigid = RigidForces::of(&assembled.structure, record).filter(|_| bare);
-        Ok(Self { histories, compared, errors, fixed, fixed_drift, ensemble, rigid })
+        let foretold = histories.reference.foretold_seconds(record.dt);
+        let design =
+            StructureForces::new((assembled, springs, record), (&histories.fem, &fixed), foretold, rigid.as_ref())?;
+        Ok(Self { histories, compared, errors, fixed, fixed_drift, ensemble, rigid, design })
     }
 }
 

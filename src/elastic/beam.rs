@@ -1,13 +1,16 @@
-//! A plane beam that turns as far as it likes: corotational, Euler-Bernoulli, with rigid arms and hinges at its ends.
+//! A plane beam that turns as far as it likes: corotational, Timoshenko's, with rigid arms and hinges at its ends.
 //!
 //! ```text
 //!   U = EA/(2 L) e^2 + EI/(2 L) sum_ij k_ij f_i f_j       D = eta_A/(2 L) e'^2 + eta_I/(2 L) sum_ij k_ij f_i' f_j'
 //!
 //!   e = l - L         elongation of the chord [m]        l n = p_b - p_a, from end a to end b
 //!   f_i = th_i - beta turn of end i against the chord; beta, th clockwise, from the unstressed place
-//!   k = [4 2; 2 4]    both ends clamped; [3 0; 0 0] with a hinge at b, whose moment 0 is condensed; 0 with two hinges
+//!   k = [4 + Phi, 2 - Phi; 2 - Phi, 4 + Phi]/(1 + Phi)    both ends clamped
+//!   k = [12/(4 + Phi), 0; 0, 0]    with a hinge at b, whose moment 0 is condensed; 0 with two hinges
+//!   Phi = 12 EI/(GA_s L^2)         0 of a beam that is rigid in shear: Euler-Bernoulli's, k = [4 2; 2 4] and 3
 //! ```
 //!
+//! (Przemieniecki, *Theory of Matrix Structural Analysis*, section 5.6: exact where forces act at the ends alone.)
 //! The dashpots are those of a section with viscous stress eta times the strain rate: a rigid motion meets none of them.
 //! y = (x_a, z_a, th_a, x_b, z_b, th_b): displacements of the two nodes [m], clockwise rotations [rad].
 //! Crisfield, *Non-linear Finite Element Analysis of Solids and Structures 1*, section 7.2, with shallow terms left out: OpenSees'
@@ -22,18 +25,25 @@ pub struct BeamSection {
     pub axial: f64,
     /// EI [N m2].
     pub bending: f64,
+    /// GA_s [N]; infinite of a beam that is rigid in shear.
+    pub shear: f64,
     /// eta_A, viscous EA [N s].
     pub axial_damping: f64,
-    /// eta_I, viscous EI [N m2 s].
+    /// eta_I, viscous EI [N m2 s]; that of GA_s is in the same ratio to it.
     pub bending_damping: f64,
     /// Mass of a length [kg/m].
     pub line_mass: f64,
 }
 
 impl BeamSection {
-    /// Without damping or mass.
+    /// Without damping or mass, rigid in shear.
     pub fn elastic(axial: f64, bending: f64) -> Self {
-        Self { axial, bending, axial_damping: 0.0, bending_damping: 0.0, line_mass: 0.0 }
+        Self { axial, bending, shear: f64::INFINITY, axial_damping: 0.0, bending_damping: 0.0, line_mass: 0.0 }
+    }
+
+    /// Phi = 12 EI/(GA_s L^2) of a beam of this length (m): what shear adds to its bending.
+    pub fn shear_ratio(&self, length: f64) -> f64 {
+        12.0 * self.bending / (self.shear * length * length)
     }
 }
 
@@ -84,10 +94,12 @@ impl Beam {
     pub fn new(ends: [[f64; 2]; 2], arms: [[f64; 2]; 2], hinged: [bool; 2], section: BeamSection) -> Self {
         let [[xa, za], [xb, zb]] = ends;
         let length = (xb - xa).hypot(zb - za);
+        let phi = section.shear_ratio(length);
+        let (near, far, alone) = ((4.0 + phi) / (1.0 + phi), (2.0 - phi) / (1.0 + phi), 12.0 / (4.0 + phi));
         let bending = match hinged {
-            [false, false] => [[4.0, 2.0], [2.0, 4.0]],
-            [false, true] => [[3.0, 0.0], [0.0, 0.0]],
-            [true, false] => [[0.0, 0.0], [0.0, 3.0]],
+            [false, false] => [[near, far], [far, near]],
+            [false, true] => [[alone, 0.0], [0.0, 0.0]],
+            [true, false] => [[0.0, 0.0], [0.0, alone]],
             [true, true] => [[0.0; 2]; 2],
         };
         Self { section, length, direction: [(xb - xa) / length, (zb - za) / length], arms, bending }

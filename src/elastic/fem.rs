@@ -13,6 +13,7 @@
 //! | `lu`, `newton`, `step` | one implicit step: matrices with absorbers condensed, iteration, local error |
 //! | `run`, `events`, `account` | the time loop, touches and lifts, step acceptance |
 //! | `demands`, `history`, `filter` | what a run leaves: motion, forces with and without the spikes of landings |
+//! | `series` | forces finely sampled |
 
 mod account;
 mod demands;
@@ -23,12 +24,14 @@ mod lu;
 mod model;
 mod newton;
 mod run;
+mod series;
 mod step;
 
 pub use demands::FrameDemand;
 pub use filter::{low_pass, resolves};
 pub use history::{ContactChange, ElasticHistory, GroundForces};
 pub use model::CornerState;
+pub use series::{BASE_FORCES, FineForces};
 
 use super::{
     frame::{EquilibriumError, Frame},
@@ -87,6 +90,8 @@ pub struct ElasticAnalysis<'a> {
     pub control: Control,
     /// Whether to keep what members bear and what the ground presses with: a history without is quicker.
     pub forces: bool,
+    /// Parts of the time step over whose length means of forces are kept ([`FineForces`]); none are if zero.
+    pub parts: usize,
 }
 
 /// How a run ended, and what it cost.
@@ -108,7 +113,7 @@ impl<'a> ElasticAnalysis<'a> {
         accel: &'a [f64],
     ) -> Self {
         let control = default_control();
-        Self { frame, springs, start, dt, accel, vertical: &[], scale: 1.0, control, forces: true }
+        Self { frame, springs, start, dt, accel, vertical: &[], scale: 1.0, control, forces: true, parts: 0 }
     }
 
     /// Run the case and keep its history.
@@ -132,7 +137,8 @@ impl<'a> ElasticAnalysis<'a> {
                 (v, q, feet.clone())
             }
         };
-        let mut recorder = history::ElasticRecorder::new(self.frame, self.dt, self.accel.len(), self.forces);
+        let mut recorder =
+            history::ElasticRecorder::new(self.frame, (self.dt, self.accel.len()), self.forces, self.parts);
         let mut run = run::SpringsRun::new(self, &model, (q, v, feet), at_rest);
         let outcome = run.follow(&mut recorder);
         Ok(recorder.finish(run.finish(outcome)))

@@ -152,6 +152,12 @@ impl Frame {
         self.elements[i].bases
     }
 
+    /// Beams that end on a footing or on what is held, and which of their ends does.
+    pub fn based_ends(&self) -> Vec<(usize, usize)> {
+        let of = |(i, element): (usize, &BeamElement)| Some((i, element.bases.iter().position(|base| *base)?));
+        self.elements.iter().enumerate().filter_map(of).collect()
+    }
+
     /// Unit vector along beam i's chord, from its first end to its second.
     pub fn direction(&self, i: usize, q: &[f64]) -> [f64; 2] {
         let BeamElement { beam, index, .. } = &self.elements[i];

@@ -3,7 +3,7 @@
 //! ```text
 //!   mass at (x, z) from the pivot of side s:   x = -s b cos theta + h sin theta,   z = s b sin theta + h cos theta
 //!   force on it   F = m (x'' + a_g,  z'' + a_v + g),     x'' = z theta'' - x theta'^2,  z'' = -x theta'' - z theta'^2
-//!   base shear F_x,   axial force -(F . e_2),   moment at the column's foot (F . e_1) L
+//!   base shear F_x,   column shear F . e_1,   axial force -(F . e_2),   moment at the column's foot (F . e_1) L
 //!   e_1 = (cos theta, -sin theta),  e_2 = (sin theta, cos theta)
 //! ```
 //!
@@ -23,6 +23,8 @@ pub struct RigidForces {
     pub theta: Vec<f64>,
     /// Horizontal force on the mass (N).
     pub base_shear: Vec<f64>,
+    /// Force across the column's axis (N); empty of an A-frame.
+    pub shear: Vec<f64>,
     /// Axial force of the column, tension positive (N); empty of an A-frame.
     pub axial: Vec<f64>,
     /// Moment at the foot of the column [N m]; empty of an A-frame.
@@ -59,6 +61,7 @@ impl RigidForces {
             out.base_shear.push(force[0]);
             if let Some(length) = length {
                 out.axial.push(-(force[0] * sin + force[1] * cos));
+                out.shear.push(force[0] * cos - force[1] * sin);
                 out.moment.push((force[0] * cos - force[1] * sin) * length);
             }
         }

@@ -73,6 +73,10 @@ pub enum ElasticError {
         "structure: {member} buckles under the weight, and the tendon if there is one, {load:.3e} N over {critical:.3e} N; give a larger ei_nm2 (N m2) or frequency_hz"
     )]
     Buckles { member: &'static str, load: f64, critical: f64 },
+    #[error(
+        "structure: its column's shear stiffness, {ga:.3e} N, is too soft for the frequency asked for; give a larger ga_n or ea_n (N), or a lower frequency_hz"
+    )]
+    Shear { ga: f64 },
     #[error("structure: elements is {elements}; give 1 to 32 to a column, more than one only with column_mass_kg")]
     Elements { elements: usize },
     #[error(transparent)]
@@ -87,6 +91,12 @@ const BENDING: (f64, f64) = (1e-9, 1e22);
 const FREQUENCY: (f64, f64) = (1e-2, 1e4);
 /// Largest share of its length by which the weight may shorten a member: beyond it no structure is.
 const MOST_SHORTENING: f64 = 0.02;
+/// GA_s over EA of a solid rectangular concrete section: kappa/(2 (1 + nu)) with kappa = 5/6 and nu = 0.2.
+pub const SHEAR_SHARE: f64 = SHEAR_FACTOR / (2.0 * (1.0 + POISSON));
+/// Share of a rectangular section's area that shear acts on.
+pub const SHEAR_FACTOR: f64 = 5.0 / 6.0;
+/// Concrete's ratio of Poisson.
+pub const POISSON: f64 = 0.2;
 /// Elements to a column, and what it has unless said: one without a mass of its own, four with it.
 const MOST_ELEMENTS: usize = 32;
 const SOME_ELEMENTS: usize = 4;

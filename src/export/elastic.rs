@@ -10,7 +10,7 @@ use super::{
     printable, sap2000,
 };
 use crate::{
-    elastic::frame::{Frame, FrameDamper, FrameLayout, FrameTendon, NodePoint},
+    elastic::frame::{Frame, FrameDamper, FrameLayout, FrameMember, FrameTendon, NodePoint},
     record::Record,
     scalar::GRAVITY,
     spring::{Chain, Springs},
@@ -28,6 +28,12 @@ const SWAY: f64 = 0.03;
 const FASTER: f64 = 3.0;
 /// A deck's steps are chosen for this share of the accuracy asked: what they err by at a landing goes on in vibration.
 const SHARE: f64 = 0.25;
+
+/// What stands above the list of springs of beams that give in shear.
+const SHEAR_NOTE: &str = "\
+# Beams that give in shear, too (Timoshenko), by index: EI above is EI/(1 + Phi), Phi = 12 EI/(GA_s L^2), and a spring resists the turn of
+# one end against the other: Phi EI/((1 + Phi) L) (N m/rad), with its dashpot (N m s/rad).
+";
 
 /// What a deck is made from.
 #[derive(Clone, Copy, Debug)]
@@ -114,6 +120,8 @@ impl ElasticDeck<'_> {
             ("NODES", language.lines(self.nodes())),
             ("TOP", (self.top.0 + 1).to_string()),
             ("BEAMS", language.lines(self.beams(language))),
+            ("SHEAR", self.shear(language)),
+            ("SHEAR_SPRINGS", if self.sheared().is_empty() { String::new() } else { language.shear_springs.into() }),
             ("CORNERS", language.lines(self.corners(language))),
             ("DAMPERS", language.lines(self.dampers(language))),
             ("TENDONS", language.lines(self.tendons(language))),
@@ -159,10 +167,32 @@ impl ElasticDeck<'_> {
             let s = &member.section;
             let ahead = |damping: f64, stiffness: f64| if stiffness > 0.0 { damping / stiffness } else { 0.0 };
             let (axial, bending) = (ahead(s.axial_damping, s.axial), ahead(s.bending_damping, s.bending));
-            let numbers = [s.axial, s.bending, axial, bending].map(digits);
+            let bent = s.bending / (1.0 + s.shear_ratio(length(member)));
+            let numbers = [s.axial, bent, axial, bending].map(digits);
             let ends = [a.node.to_string(), b.node.to_string(), self.arm(language, a), self.arm(language, b)];
             [ends, numbers].concat()
         })
+    }
+
+    /// Beams that give in shear, with the stiffness and the dashpot of the spring between the turns of their ends [N m/rad, N m s/rad]:
+    /// k = [4 + Phi, 2 - Phi; 2 - Phi, 4 + Phi]/(1 + Phi) is that of a beam of EI/(1 + Phi), and [1 -1; -1 1] Phi EI/((1 + Phi) L).
+    fn sheared(&self) -> Vec<(usize, [f64; 2])> {
+        let spring = |(i, member): (usize, &FrameMember)| {
+            let (s, l) = (&member.section, length(member));
+            let phi = s.shear_ratio(l);
+            let of = |stiffness: f64| phi * stiffness / ((1.0 + phi) * l);
+            (phi > 0.0).then(|| (i, [of(s.bending), of(s.bending_damping)]))
+        };
+        self.layout.members.iter().enumerate().filter_map(spring).collect()
+    }
+
+    /// Their list, with what it is; nothing if there are none.
+    fn shear(&self, language: &Language) -> String {
+        let springs = self.sheared();
+        if springs.is_empty() {
+            return String::new();
+        }
+        format!("\n{SHEAR_NOTE}{}", language.shear(&springs))
     }
 
     fn corners(&self, language: &Language) -> impl Iterator<Item = Vec<String>> {
@@ -200,6 +230,11 @@ impl ElasticDeck<'_> {
         };
         self.springs.iter().enumerate().map(of).fold(f64::INFINITY, f64::min)
     }
+}
+
+fn length(member: &FrameMember) -> f64 {
+    let [a, b] = member.ends.map(|end| end.place);
+    (b[0] - a[0]).hypot(b[1] - a[1])
 }
 
 /// A number, zero as it is: decks ask whether it is.

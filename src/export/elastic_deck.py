@@ -38,7 +38,7 @@ TOP = @TOP@                    # tag of the node whose motion is checked
 BEAMS = (
 @BEAMS@
 )
-
+@SHEAR@
 # Corners: node, arm from it (m); the spring-absorber units under it, vertical and horizontal: k1, k2 (N/m), c (N s/m), m2 (kg).
 CORNERS = (
 @CORNERS@
@@ -116,7 +116,7 @@ def build():
                 ops.damping("SecStif", tag + part, ahead, "-activateTime", 1e-4 * RECORD_DT)
                 damping = ("-damp", tag + part)
             ops.element("elasticBeamColumn", tag + part, *ends, ea, 1.0, ei, 1, *damping)
-
+@SHEAR_SPRINGS@
     # Friction so high that a pressing corner never slides: the horizontal spring k1 acts whenever the corner presses, and not at
     # all when it is in the air.
     ops.frictionModel("Coulomb", 1, 1e7)

@@ -24,7 +24,7 @@ set top @TOP@ ;# tag of the node whose motion is checked
 set beams {
 @BEAMS@
 }
-
+@SHEAR@
 # Corners: node, arm from it (m); the spring-absorber units under it, vertical and horizontal: k1, k2 (N/m), c (N s/m), m2 (kg).
 set corners {
 @CORNERS@
@@ -154,7 +154,7 @@ proc build {} {
         beam [expr {$tag + 1}] $from $to 0.0 $bending $aheadBending
         incr i
     }
-    # Friction so high that a pressing corner never slides: the horizontal spring k1 acts whenever the corner presses, and not at
+@SHEAR_SPRINGS@    # Friction so high that a pressing corner never slides: the horizontal spring k1 acts whenever the corner presses, and not at
     # all when it is in the air.
     frictionModel Coulomb 1 1e7
     set feet {}

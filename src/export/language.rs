@@ -14,6 +14,11 @@ pub(super) struct Language {
     routine: &'static str,
     solver: &'static str,
     epilogue: &'static str,
+    /// Springs of beams that give in shear, and their list: its head, and its rows' and its own end.
+    #[cfg_attr(not(any(feature = "cli", feature = "internals")), allow(dead_code))]
+    pub shear_springs: &'static str,
+    #[cfg_attr(not(any(feature = "cli", feature = "internals")), allow(dead_code))]
+    pub shear_list: [&'static str; 2],
     /// Around a list, between its items, and after a row of a list of lists.
     #[cfg_attr(not(any(feature = "cli", feature = "internals")), allow(dead_code))]
     // decks of elastic structures have lists
@@ -28,6 +33,8 @@ pub(super) static PYTHON: Language = Language {
     routine: super::STEPS,
     solver: include_str!("solver.py"),
     epilogue: include_str!("epilogue.py"),
+    shear_springs: include_str!("elastic_shear.py"),
+    shear_list: ["SHEAR = {", "}"],
     brackets: ["(", ")"],
     separator: ", ",
     end: ",",
@@ -38,6 +45,8 @@ pub(super) static TCL: Language = Language {
     routine: include_str!("steps.tcl"),
     solver: include_str!("solver.tcl"),
     epilogue: include_str!("epilogue.tcl"),
+    shear_springs: include_str!("elastic_shear.tcl"),
+    shear_list: ["set shear {", "}"],
     brackets: ["{", "}"],
     separator: " ",
     end: "",
@@ -49,6 +58,17 @@ impl Language {
     pub fn list(&self, items: &[String]) -> String {
         let [open, close] = self.brackets;
         format!("{open}{}{close}", items.join(self.separator))
+    }
+
+    /// Beams that give in shear, by index: stiffness and dashpot of the spring that stands for it.
+    #[cfg(any(feature = "cli", feature = "internals"))]
+    pub fn shear(&self, springs: &[(usize, [f64; 2])]) -> String {
+        let [open, close] = self.shear_list;
+        let row = |(beam, [stiffness, damping]): &(usize, [f64; 2])| match self.end {
+            "" => format!("    {{{beam} {} {}}}\n", digits(*stiffness), digits(*damping)),
+            _ => format!("    {beam}: ({}, {}),\n", digits(*stiffness), digits(*damping)),
+        };
+        format!("{open}\n{}{close}\n", springs.iter().map(row).collect::<String>())
     }
 
     /// A list of lists, one a line.

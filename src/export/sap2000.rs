@@ -218,9 +218,10 @@ fn materials(parts: &SapModel) -> Vec<SapTable> {
 
 fn sections(parts: &SapModel) -> SapTable {
     let mut table = SapTable::new("FRAME SECTION PROPERTIES 01 - GENERAL");
-    for SapSection { name, material, axial, bending, .. } in &parts.sections {
+    for SapSection { name, material, axial, bending, shear, .. } in &parts.sections {
         let [area, inertia] = [axial, bending].map(|stiffness| digits(stiffness * KILO / MODULUS));
-        // AS2 = AS3 = 0: no shear deformation
+        // AS2 = AS3 = 0: no shear deformation; G is E/2
+        let sheared = if shear.is_finite() { digits(2.0 * shear * KILO / MODULUS) } else { "0".into() };
         table.add(&[
             ("SectionName", name),
             ("Material", material),
@@ -232,8 +233,8 @@ fn sections(parts: &SapModel) -> SapTable {
             ("I33", &inertia),
             ("I22", &inertia),
             ("I23", &0),
-            ("AS2", &0),
-            ("AS3", &0),
+            ("AS2", &sheared),
+            ("AS3", &sheared),
             ("Color", &"Gray8Dark"),
         ]);
     }

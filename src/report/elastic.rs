@@ -2,10 +2,11 @@
 
 use super::{AccuracyOn, AccuracyReport, Assumed, Filed, Run, Section, Table, Taken, Unit, doubts, filed};
 use crate::{
-    case::{ElasticCase, Yardstick},
+    case::{ElasticCase, Yardstick, doubts::Doubt},
     elastic::{
         answer::{ElasticAnswer, ElasticHistories},
         assembled::{Assembled, Sway},
+        design_forces::{ForceKind, StructureForces, peaks_in},
         ensemble::Ensemble,
         frame::Frame,
         reference::ReferenceOutcome,
@@ -17,7 +18,8 @@ use crate::{
     motion::peak,
     parameters::elastic::{ElasticAssessment, ElasticParameters, OnRecord},
     record::Record,
-    results::{Ending, Finding, Model, PeakPair, Peaks},
+    results::{DesignForce, DesignForces, Ending, Finding, Model, PeakChange, PeakPair, Peaks},
+    spring::{Chain, Springs},
     tuning::elastic::suite::ElasticErrors,
 };
 
@@ -35,6 +37,8 @@ pub struct ElasticParts<'a> {
     pub assembled: &'a Assembled,
     /// The part of the record that is used, scaled.
     pub record: &'a Record,
+    /// Under every corner.
+    pub springs: &'a [Springs<Chain<f64>>],
     /// Both models' answers.
     pub answer: &'a ElasticAnswer,
 }
@@ -117,10 +121,32 @@ impl ElasticParts<'_> {
             let alpha = self.assembled.structure.body().alpha();
             all.extend(on.near.iter().map(|near| nearby(near, alpha)));
         }
+        all.extend(self.vertical_left_out());
         all.extend(doubts(self.case.doubts()));
         all.extend(springs_findings(parameters));
         all.extend(parameters.design_forces.iter().flat_map(|forces| forces.withheld()));
         all
+    }
+
+    /// A vertical component of some size that is left out: what it would change.
+    fn vertical_left_out(&self) -> Option<Finding> {
+        let large = |doubt: Doubt| match doubt {
+            Doubt::VerticalLeftOut { peak_g, horizontal_g } => Some((peak_g, horizontal_g)),
+            _ => None,
+        };
+        let (vertical_g, horizontal_g) = self.case.doubts().into_iter().find_map(large)?;
+        let record = self.case.excitation.with_vertical_left_out()?.ok()?.used().ok()?;
+        let with = peaks_in(self.assembled, self.springs, &record).ok()?;
+        let change = |(kind, with): (ForceKind, f64)| {
+            let without = self.answer.design.get(kind)?.value?.abs();
+            let (quantity, unit) = (kind.name().to_string(), kind.unit().to_string());
+            Some(PeakChange { quantity, unit, without, with: with.abs() })
+        };
+        Some(Finding::VerticalLeftOut {
+            vertical_g,
+            horizontal_g,
+            changes: with.into_iter().filter_map(change).collect(),
+        })
     }
 
     fn what_it_does(&self, on: &OnRecord) -> Vec<Finding> {
@@ -207,6 +233,31 @@ fn impacts(touches: impl Iterator<Item = f64>, rest: f64) -> usize {
         last = time;
     }
     count
+}
+
+/// A run's forces, as parameters.json has them.
+pub fn design_forces(of: &StructureForces) -> DesignForces {
+    let force = |kind: ForceKind| {
+        let force = of.get(kind)?;
+        Some(DesignForce {
+            value: force.value,
+            time_s: force.time_s,
+            holds: force.holds,
+            change: Some(force.change()).filter(|change| change.is_finite()),
+            raw: Some(force.raw),
+            fixed: force.fixed.map(|peak| peak.value),
+            rigid: force.rigid.map(|peak| peak.value),
+        })
+    };
+    DesignForces {
+        below_hz: of.cutoff.as_ref().map(|cutoff| cutoff.cutoff_hz),
+        column_shear_n: force(ForceKind::ColumnShear),
+        column_base_moment_nm: force(ForceKind::ColumnBaseMoment),
+        axial_n: force(ForceKind::Axial),
+        apex_moment_nm: None,
+        sole_shear_n: force(ForceKind::SoleShear),
+        sole_vertical_n: force(ForceKind::SoleVertical),
+    }
 }
 
 /// Height of the highest corner above the ground (m).

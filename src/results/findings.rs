@@ -51,6 +51,7 @@ pub enum ForceName {
     Axial,
     ApexMoment,
     SoleShear,
+    SoleVertical,
 }
 
 impl ForceName {
@@ -62,6 +63,7 @@ impl ForceName {
             Self::Axial => "axial force",
             Self::ApexMoment => "moment at the apex",
             Self::SoleShear => "shear at the sole, footing included",
+            Self::SoleVertical => "vertical force at the sole, footing included",
         }
     }
 }

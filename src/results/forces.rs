@@ -16,6 +16,9 @@ pub struct DesignForce {
     /// The largest change that was measured, as a share; none where nothing could be measured.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub change: Option<f64>,
+    /// Largest magnitude with all that the springs and the mesh add, of an elastic structure (N or N m).
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub raw: Option<f64>,
     /// The same force of the structure fixed to the ground (N or N m).
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub fixed: Option<f64>,
@@ -28,7 +31,7 @@ impl DesignForce {
     /// A force that was measured to change by this share.
     pub fn measured(value: f64, time_s: f64, change: Option<f64>) -> Self {
         let holds = change.is_some_and(|change| change < MOST_CHANGE);
-        Self { value: Some(value).filter(|_| holds), time_s, holds, change, fixed: None, rigid: None }
+        Self { value: Some(value).filter(|_| holds), time_s, holds, change, raw: None, fixed: None, rigid: None }
     }
 }
 
@@ -56,6 +59,9 @@ pub struct DesignForces {
     /// Shear at the sole, footing included.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub sole_shear_n: Option<DesignForce>,
+    /// Vertical force at the sole, footing included, upwards.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub sole_vertical_n: Option<DesignForce>,
 }
 
 impl DesignForces {
@@ -67,6 +73,7 @@ impl DesignForces {
             (ForceName::Axial, self.axial_n),
             (ForceName::ApexMoment, self.apex_moment_nm),
             (ForceName::SoleShear, self.sole_shear_n),
+            (ForceName::SoleVertical, self.sole_vertical_n),
         ]
         .into_iter()
         .filter_map(|(name, force)| Some((name, force?)))

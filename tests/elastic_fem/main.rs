@@ -3,6 +3,7 @@
 mod balance;
 mod common;
 mod demands;
+mod design_forces;
 mod fixed_base;
 mod members;
 mod reference;

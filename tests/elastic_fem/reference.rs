@@ -150,6 +150,7 @@ const PIER: PierSpec = PierSpec {
     footing_height_m: 1.5,
     footing_inertia_kgm2: None,
     ea_n: None,
+    ga_n: None,
     ei_nm2: None,
     frequency_hz: Some(2.0),
     damping_ratio: 0.02,

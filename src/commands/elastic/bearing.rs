@@ -4,12 +4,16 @@ use crate::elastic::{
     answer::ElasticAnswer,
     assembled::Assembled,
     beam::BeamForces,
+    design_forces::ForceKind,
     fem::{ElasticHistory, FrameDemand, resolves},
     structure::ElasticStructure,
 };
 
 /// Frequency above which forces of the ground are taken to be the springs' (Hz).
 const FILTER_HZ: f64 = 20.0;
+
+/// Name of the drift among the quantities.
+pub const DRIFT: &str = "drift";
 
 /// A quantity and how it is had from each model, as largest magnitudes since the sample before.
 pub struct ForceQuantity {
@@ -22,9 +26,7 @@ pub struct ForceQuantity {
 /// What a run's tables and figures of forces are made from.
 pub struct ForceQuantities {
     pub quantities: Vec<ForceQuantity>,
-    /// Vertical force of the ground on all corners together: the largest since the sample before (N).
-    pub ground: Vec<f64>,
-    /// The same without the spikes of landings (N).
+    /// Vertical force of the ground on all corners together, without the spikes of landings (N).
     pub filtered: Vec<f64>,
     /// Frequency up to which the latter is had (Hz); none where samples are too far apart, it is then the mean between them.
     pub below_hz: Option<f64>,
@@ -35,7 +37,6 @@ impl ForceQuantities {
         let ground = &answer.histories.fem.ground;
         Self {
             quantities: quantities(assembled, answer),
-            ground: ground.peak.iter().map(|force| force[1]).collect(),
             filtered: ground.filtered(1, dt, FILTER_HZ),
             below_hz: resolves(dt, FILTER_HZ).then_some(FILTER_HZ),
         }
@@ -49,7 +50,7 @@ fn bases(assembled: &Assembled) -> Vec<(usize, usize)> {
     members.filter_map(|(i, member)| Some((i, member.ends.iter().position(|end| footing(end.node))?))).collect()
 }
 
-/// Shear, axial force and moment at the foot of the columns or legs, the largest of them, and the drift.
+/// Shear, axial force and moment at the base of the columns or legs, the largest of them, unfiltered, and the drift.
 fn quantities(assembled: &Assembled, answer: &ElasticAnswer) -> Vec<ForceQuantity> {
     let bases = bases(assembled);
     let largest = |history: &ElasticHistory, of: &dyn Fn(&BeamForces, usize) -> f64| -> Vec<f64> {
@@ -61,20 +62,23 @@ fn quantities(assembled: &Assembled, answer: &ElasticAnswer) -> Vec<ForceQuantit
     };
     let both = |of: &dyn Fn(&BeamForces, usize) -> f64| [&answer.histories.fem, &answer.fixed].map(|h| largest(h, of));
     let rigid = answer.rigid.as_ref();
-    let [shear, fixed] = [&answer.histories.fem, &answer.fixed]
-        .map(|history| history.worst.iter().map(|demand| demand.base_shear).collect::<Vec<_>>());
-    let body = rigid.map_or(Vec::new(), |rigid| rigid.base_shear.clone());
-    let mut all = vec![ForceQuantity { name: "base shear", unit: "N", series: [shear, fixed, body] }];
+    let [shear, fixed] = both(&|beam, _| beam.shear);
+    let body = rigid.map_or(Vec::new(), |rigid| rigid.shear.clone());
+    let mut all = vec![ForceQuantity { name: ForceKind::ColumnShear.name(), unit: "N", series: [shear, fixed, body] }];
     let [axial, fixed] = both(&|beam, _| beam.axial);
     let body = rigid.map_or(Vec::new(), |rigid| rigid.axial.clone());
-    all.push(ForceQuantity { name: "axial force", unit: "N", series: [axial, fixed, body] });
+    all.push(ForceQuantity { name: ForceKind::Axial.name(), unit: "N", series: [axial, fixed, body] });
     // a leg is hinged at its foot
     if !matches!(assembled.structure, ElasticStructure::AFrame(_)) {
         let [moment, fixed] = both(&|beam, end| beam.moments[end]);
         let body = rigid.map_or(Vec::new(), |rigid| rigid.moment.iter().map(|x| -x).collect());
-        all.push(ForceQuantity { name: "moment at the foot", unit: "N m", series: [moment, fixed, body] });
+        all.push(ForceQuantity {
+            name: ForceKind::ColumnBaseMoment.name(),
+            unit: "N m",
+            series: [moment, fixed, body],
+        });
     }
     let drift = answer.histories.sways.first().map_or(Vec::new(), |pair| pair[1].drift.clone());
-    all.push(ForceQuantity { name: "drift", unit: "m", series: [drift, answer.fixed_drift.clone(), Vec::new()] });
+    all.push(ForceQuantity { name: DRIFT, unit: "m", series: [drift, answer.fixed_drift.clone(), Vec::new()] });
     all
 }

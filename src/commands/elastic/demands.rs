@@ -1,10 +1,19 @@
 //! `members.csv` of an elastic structure.
 
 use super::ElasticRun;
-use crate::commands::common::csv_row;
+use crate::{commands::common::csv_row, elastic::fem::GroundForces};
 
-/// `members.csv`: at every sample the largest magnitudes since the sample before; axial forces are positive in tension, as in `BeamForces`.
-pub(super) fn csv(run: &ElasticRun) -> String {
+/// What a file of forces holds of every instant.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(super) enum Instants {
+    /// All of them at the same instants: the record's samples.
+    Samples,
+    /// Of each value, the largest magnitude since the sample before.
+    Envelopes,
+}
+
+/// `members.csv` or `members_envelopes.csv`; axial forces are positive in tension, as in `BeamForces`.
+pub(super) fn csv(run: &ElasticRun, instants: Instants) -> String {
     let fem = &run.answer.histories.fem;
     let mut head = vec!["t".to_string(), "base_shear_n".into()];
     for i in 1..=run.assembled.frame.beams() {
@@ -19,11 +28,14 @@ pub(super) fn csv(run: &ElasticRun) -> String {
     let filtered = run.bearing.below_hz.map_or("mean".into(), |hz| format!("below_{hz}_hz"));
     head.push(format!("ground_vertical_{filtered}_n"));
     let mut out = head.join(",") + "\n";
-    for (i, demand) in fem.worst.iter().enumerate() {
+    let at_samples = instants == Instants::Samples;
+    let demands = if at_samples { &fem.demands } else { &fem.worst };
+    let of = |forces: &GroundForces, i: usize| if at_samples { forces.at[i] } else { forces.peak[i] };
+    for (i, demand) in demands.iter().enumerate() {
         let mut row = vec![i as f64 * run.record.dt];
         row.extend(demand.values());
-        row.extend(fem.forces.iter().flat_map(|corner| corner.peak[i]));
-        row.extend([run.bearing.ground[i], run.bearing.filtered[i]]);
+        row.extend(fem.forces.iter().flat_map(|corner| of(corner, i)));
+        row.extend([of(&fem.ground, i)[1], run.bearing.filtered[i]]);
         csv_row(&mut out, &row);
     }
     out

@@ -1,6 +1,13 @@
 //! What a run leaves behind.
 
-use super::{ElasticFinish, demands::FrameDemand, filter::low_pass, run::ElasticView};
+use super::{
+    ElasticFinish,
+    demands::FrameDemand,
+    filter::low_pass,
+    run::ElasticView,
+    series::{FineForces, FineRecorder},
+    step::ElasticStages,
+};
 use crate::{
     elastic::frame::{Base, Frame},
     fem::{Account, HistoryOutcome, Work},
@@ -85,6 +92,8 @@ pub struct ElasticHistory {
     pub demands: Vec<FrameDemand>,
     /// Of each value, the largest magnitude since the sample before.
     pub worst: Vec<FrameDemand>,
+    /// Forces finely sampled, of a history that keeps them.
+    pub fine: Option<FineForces>,
     /// Touches and lifts.
     pub contacts: Vec<ContactChange>,
     /// Of energy.
@@ -125,6 +134,7 @@ impl ElasticHistory {
 pub(super) struct ElasticRecorder {
     history: ElasticHistory,
     forces: Option<ElasticForces>,
+    fine: Option<FineRecorder>,
     residual: f64,
 }
 
@@ -176,8 +186,8 @@ impl ElasticForces {
 }
 
 impl ElasticRecorder {
-    /// Of a history of so many samples, with forces or without.
-    pub fn new(frame: &Frame, dt: f64, samples: usize, forces: bool) -> Self {
+    /// Of a history of so many samples, with forces or without, finely sampled in so many parts to a time step or not.
+    pub fn new(frame: &Frame, (dt, samples): (f64, usize), forces: bool, parts: usize) -> Self {
         let room = || Vec::with_capacity(samples);
         let corners = if forces { frame.places().len() } else { 0 };
         Self {
@@ -189,6 +199,7 @@ impl ElasticRecorder {
                 ground: GroundForces::default(),
                 demands: Vec::new(),
                 worst: Vec::new(),
+                fine: None,
                 contacts: Vec::new(),
                 account: Account { input: room(), stored: room(), dissipated: room(), residual: room() },
                 outcome: HistoryOutcome::Completed,
@@ -197,6 +208,7 @@ impl ElasticRecorder {
                 energy_scale: 0.0,
             },
             forces: forces.then(|| ElasticForces::new(frame)),
+            fine: (parts > 0).then(|| FineRecorder::new(frame, dt, samples, parts)),
             residual: 0.0,
         }
     }
@@ -209,6 +221,9 @@ impl ElasticRecorder {
             forces.look(view);
             forces.sample(view, history);
         }
+        if let Some(fine) = &mut self.fine {
+            fine.begin(view);
+        }
         history.q.push(view.q[..n].to_vec());
         history.v.push(view.v[..n].to_vec());
         history.account.push(view.energy);
@@ -216,7 +231,10 @@ impl ElasticRecorder {
     }
 
     /// After a step, with its impulses.
-    pub fn step(&mut self, view: &ElasticView, impulses: &[[f64; 2]]) {
+    pub fn step(&mut self, view: &ElasticView, stages: &ElasticStages, impulses: &[[f64; 2]]) {
+        if let Some(fine) = &mut self.fine {
+            fine.step(view, stages);
+        }
         if let Some(forces) = &mut self.forces {
             forces.step(impulses);
             forces.look(view);
@@ -233,7 +251,9 @@ impl ElasticRecorder {
 
     /// The history, once the run is over.
     pub fn finish(self, finish: ElasticFinish) -> ElasticHistory {
+        let end = self.history.q.len().saturating_sub(1) as f64 * self.history.dt;
         ElasticHistory {
+            fine: self.fine.map(|fine| fine.finish(end)),
             outcome: finish.outcome,
             work: finish.work,
             energy_residual: self.residual / finish.energy_scale,

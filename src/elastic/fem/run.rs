@@ -184,7 +184,7 @@ impl<'a> SpringsRun<'a> {
             return 0.0;
         }
         self.time += stages.h;
-        recorder.step(&self.view(), &self.impulses);
+        recorder.step(&self.view(), stages, &self.impulses);
         if let ElasticEvent::Crossing { corner, limit, .. } = met {
             self.switch(corner, limit, stages, recorder);
         }

@@ -200,10 +200,12 @@ impl FrameLayout {
             self.meets("corner", i, corner)?;
         }
         for (i, member) in self.members.iter().enumerate() {
-            let BeamSection { axial, bending, axial_damping, bending_damping, line_mass } = member.section;
+            let BeamSection { axial, bending, shear, axial_damping, bending_damping, line_mass } = member.section;
             let values = [
                 ("EA", axial, NOT_NEGATIVE),
                 ("EI", bending, NOT_NEGATIVE),
+                // infinite: rigid in shear
+                ("GA", if shear == f64::INFINITY { 1.0 } else { shear }, POSITIVE),
                 ("axial damping", axial_damping, NOT_NEGATIVE),
                 ("bending damping", bending_damping, NOT_NEGATIVE),
                 ("line mass", line_mass, NOT_NEGATIVE),

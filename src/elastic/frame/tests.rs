@@ -7,7 +7,7 @@ use crate::{
 };
 
 fn section() -> BeamSection {
-    BeamSection { axial: 8e9, bending: 6e9, axial_damping: 3e7, bending_damping: 2e7, line_mass: 5e3 }
+    BeamSection { axial_damping: 3e7, bending_damping: 2e7, line_mass: 5e3, ..BeamSection::elastic(8e9, 6e9) }
 }
 
 fn pier(elements: usize, inertia: Option<f64>) -> Cantilever {
@@ -243,5 +243,43 @@ fn a_corner_of_a_footing_moves_by_its_mass_and_inertia() {
         for (found, expected) in frame.mobility(corner, &q).into_iter().zip(expected) {
             assert!((found - expected).abs() < 1e-12 * expected.abs(), "{corner}: {found:e} {expected:e}");
         }
+    }
+}
+
+/// A row of equal beams from the origin upwards: clamped at its foot or hinged at both ends, with nodes that have no mass but theirs.
+fn row(section: BeamSection, length: f64, elements: usize, hinged: bool) -> FrameLayout {
+    let place = |i: usize| [0.0, length * i as f64 / elements as f64];
+    let held = |i: usize| i == 0 || (hinged && i == elements);
+    let nodes = (0..=elements).map(|i| Node { held: held(i), ..Node::body(place(i), 0.0, 0.0) }).collect();
+    let end = |node: usize| NodePoint { node, place: place(node) };
+    let members = (0..elements)
+        .map(|i| FrameMember {
+            ends: [end(i), end(i + 1)],
+            hinged: [hinged && i == 0, hinged && i + 1 == elements],
+            section,
+        })
+        .collect();
+    FrameLayout { nodes, members, ..FrameLayout::default() }
+}
+
+/// Shear alone: f = (2 n - 1)/(4 L) sqrt(GA_s/m). Bending and shear of a beam on two hinges, without rotary inertia:
+/// omega^2 = EI k^4/(m (1 + EI k^2/GA_s)), k = n pi/L (Graff, *Wave Motion in Elastic Solids*, section 3.4).
+#[test]
+fn columns_that_give_in_shear_have_timoshenko_s_frequencies() {
+    use std::f64::consts::{PI, TAU};
+    let (length, ga, line_mass) = (12.0, 2e10, 6e3);
+    let stiff = BeamSection { shear: ga, line_mass, ..BeamSection::elastic(5e10, 1e16) };
+    let sheared = row(stiff, length, 64, false).frame().unwrap().lateral_frequencies();
+    for (n, f) in sheared.iter().take(3).enumerate() {
+        let exact = (2 * n + 1) as f64 / (4.0 * length) * (ga / line_mass).sqrt();
+        assert!((f / exact - 1.0).abs() < 0.01, "{n}: {f} {exact}");
+    }
+    let ei = 8e9;
+    let both = BeamSection { bending: ei, ..stiff };
+    let bent = row(both, length, 64, true).frame().unwrap().lateral_frequencies();
+    for (n, f) in bent.iter().take(3).enumerate() {
+        let k = (n + 1) as f64 * PI / length;
+        let exact = (ei * k.powi(4) / (line_mass * (1.0 + ei * k * k / ga))).sqrt() / TAU;
+        assert!((f / exact - 1.0).abs() < 0.01, "{n}: {f} {exact}");
     }
 }

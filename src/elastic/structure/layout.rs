@@ -4,7 +4,7 @@
 //! pier's column or a portal's, of the mass on it.
 //!
 //! ```text
-//!   column of a pier     eta_I = 2 zeta m omega L^3/3        eta_A = 2 zeta_a sqrt(EA m/L) L
+//!   column of a pier     eta_I = 2 zeta m omega EI/k, which is L^3/3 of the rest if it is rigid in shear        eta_A = 2 zeta_a sqrt(EA m/L) L
 //!   legs of an A-frame   eta/stiffness = 2 zeta/omega        omega: across
 //! ```
 
@@ -27,6 +27,36 @@ impl ElasticStructure {
     }
 }
 
+impl ElasticStructure {
+    /// One column with so many elements and what it carries; none if columns have no mass of their own, and therefore no waves.
+    pub fn column_alone(&self, elements: usize) -> Option<FrameLayout> {
+        match self {
+            Self::Pier(pier) if pier.column_mass_kg > 0.0 => {
+                Some(PierSpec { elements: Some(elements), ..*pier }.finite().layout())
+            }
+            Self::Frame(frame) if frame.column_mass_kg > 0.0 => {
+                let Portal { height, mass, inertia, footing, column, .. } =
+                    PortalSpec { elements: Some(elements), ..*frame }.finite();
+                Some(Cantilever { mass, inertia: Some(inertia), height, footing, column, consistent: false }.layout())
+            }
+            _ => None,
+        }
+    }
+
+    /// The same with twice as many elements to a column; none of columns without mass, which have one.
+    pub fn with_doubled_elements(&self) -> Option<Self> {
+        match self {
+            Self::Pier(pier) if pier.column_mass_kg > 0.0 => {
+                Some(Self::Pier(PierSpec { elements: Some(2 * pier.elements()), ..*pier }))
+            }
+            Self::Frame(frame) if frame.column_mass_kg > 0.0 => {
+                Some(Self::Frame(PortalSpec { elements: Some(2 * frame.elements()), ..*frame }))
+            }
+            _ => None,
+        }
+    }
+}
+
 impl PierSpec {
     fn finite(&self) -> Cantilever {
         let (length, ei, ea) = (self.length(), self.ei(), self.ea());
@@ -34,8 +64,10 @@ impl PierSpec {
         let section = BeamSection {
             axial: ea,
             bending: ei,
+            shear: self.ga(),
             axial_damping: 2.0 * self.axial_damping_ratio() * (ea * self.moving_mass() * length).sqrt(),
-            bending_damping: 2.0 * self.damping_ratio * self.moving_mass() * omega * length.powi(3) / 3.0,
+            bending_damping: 2.0 * self.damping_ratio * self.moving_mass() * omega * length.powi(3) / 3.0
+                * (1.0 + self.shear_flexibility()),
             line_mass: self.column_mass_kg / length,
         };
         Cantilever {
@@ -61,6 +93,7 @@ impl AFrameSpec {
         let section = BeamSection {
             axial: self.ea_n,
             bending: self.ei_nm2,
+            shear: f64::INFINITY,
             axial_damping: share * self.ea_n,
             bending_damping: share * self.ei_nm2,
             line_mass: 0.0,
@@ -83,12 +116,14 @@ impl PortalSpec {
         let section = |ea: f64, ei: f64, length: f64, mass: f64, line_mass: f64| BeamSection {
             axial: ea,
             bending: ei,
+            shear: f64::INFINITY,
             axial_damping: 2.0 * self.damping_ratio * (ea * mass * length).sqrt(),
             bending_damping: share * ei,
             line_mass,
         };
         let length = self.length();
         let column = section(self.column_ea_n, self.column_ei_nm2, length, mass, self.column_mass_kg / length);
+        let column = BeamSection { shear: self.column_ga(), ..column };
         // its two ends against each other: half of the mass at one
         let girder = section(self.beam_ea_n, self.beam_ei_nm2, self.span_m, 0.5 * mass, 0.0);
         Portal {

@@ -5,13 +5,13 @@ use std::f64::consts::{PI, TAU};
 use serde::{Deserialize, Serialize};
 
 use super::{
-    AXIAL, BENDING, ElasticError, FREQUENCY, LENGTH, MASS, check_elements, damping, elements, not_negative, positive,
-    shortens, slender, stands,
+    AXIAL, BENDING, ElasticError, FREQUENCY, LENGTH, MASS, SHEAR_SHARE, check_elements, damping, elements,
+    not_negative, positive, shortens, slender, stands,
 };
 use crate::{scalar::GRAVITY, structure::Body};
 
 /// Young's modulus that a column is taken to have whose EA is not given: concrete's [N/m2].
-const CONCRETE: f64 = 30e9;
+pub const CONCRETE: f64 = 30e9;
 /// Share of a cantilever's mass that moves with its tip (Rayleigh).
 const RAYLEIGH: f64 = 33.0 / 140.0;
 
@@ -35,6 +35,10 @@ pub struct PierSpec {
     /// Axial stiffness times length, EA; that of a solid square concrete column (E = 30 GPa) of the same EI unless given (N).
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub ea_n: Option<f64>,
+    /// Shear stiffness GA_s; of a column with a mass of its own that of a solid concrete section of this EA unless given, of others infinite
+    /// (N).
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub ga_n: Option<f64>,
     /// Bending stiffness EI [N m2].
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub ei_nm2: Option<f64>,
@@ -68,6 +72,7 @@ impl PierSpec {
         for (name, value, range) in [
             ("footing_inertia_kgm2", self.footing_inertia_kgm2, (1e-15, 1e20)),
             ("ea_n", self.ea_n, AXIAL),
+            ("ga_n", self.ga_n, AXIAL),
             ("ei_nm2", self.ei_nm2, BENDING),
             ("frequency_hz", self.frequency_hz, FREQUENCY),
         ] {
@@ -81,6 +86,9 @@ impl PierSpec {
         }
         if self.footing_height_m >= 0.95 * self.height_m {
             return Err(ElasticError::NoColumn { footing: self.footing_height_m, height: self.height_m });
+        }
+        if !(self.ei() > 0.0 && self.ei() <= BENDING.1) {
+            return Err(ElasticError::Shear { ga: self.ga() });
         }
         check_elements(self.elements(), self.column_mass_kg)?;
         slender(self.body().alpha())?;
@@ -106,12 +114,36 @@ impl PierSpec {
         self.footing_inertia_kgm2.unwrap_or(block)
     }
 
-    /// EI [N m2]: by the frequency, that of one corotational element between footing and mass, whose weight takes P/L of its
-    /// stiffness 3 EI/L^3.
+    /// EI [N m2]: by the frequency, that of one corotational element between footing and mass, whose weight takes P/L of its stiffness
+    /// k = 1/(L^3/(3 EI) + L/GA_s).
     pub fn ei(&self) -> f64 {
         let (mass, length) = (self.moving_mass(), self.length());
-        let by_frequency = |f: f64| (mass * (TAU * f).powi(2) + self.load() / length) * length.powi(3) / 3.0;
+        let by_frequency = |f: f64| {
+            let needed = mass * (TAU * f).powi(2) + self.load() / length;
+            let rigid_in_shear = needed * length.powi(3) / 3.0;
+            // GA_s is a share of EA, which is in turn c sqrt(EI) of a square section unless given: L^3/3 u^2 + L/c u = 1/k, u = EI^(-1/2)
+            match (self.ga_n, self.ea_n) {
+                (None, _) if self.column_mass_kg == 0.0 => rigid_in_shear,
+                (None, None) => {
+                    let c = SHEAR_SHARE * (12.0 * CONCRETE).sqrt();
+                    let (a, b) = (length.powi(3) / 3.0, length / c);
+                    ((b + (b * b + 4.0 * a / needed).sqrt()) * needed / 2.0).powi(2)
+                }
+                (Some(ga), _) => rigid_in_shear / (1.0 - needed * length / ga),
+                (None, Some(ea)) => rigid_in_shear / (1.0 - needed * length / (SHEAR_SHARE * ea)),
+            }
+        };
         self.ei_nm2.or(self.frequency_hz.map(by_frequency)).unwrap_or(f64::NAN)
+    }
+
+    /// GA_s (N): as given; of a column with a mass of its own a share of EA; infinite otherwise, as before there are waves to bound.
+    pub fn ga(&self) -> f64 {
+        self.ga_n.unwrap_or_else(|| if self.column_mass_kg > 0.0 { SHEAR_SHARE * self.ea() } else { f64::INFINITY })
+    }
+
+    /// By how much shear makes the column softer across: 3 EI/(GA_s L^2).
+    pub(super) fn shear_flexibility(&self) -> f64 {
+        3.0 * self.ei() / (self.ga() * self.length().powi(2))
     }
 
     /// EA (N): as given, or that of a solid square section of side a with E = 30 GPa: EI = E a^4/12, EA = E a^2.
@@ -141,7 +173,7 @@ impl PierSpec {
 
     pub(super) fn frequency(&self) -> f64 {
         let length = self.length();
-        let stiffness = 3.0 * self.ei() / length.powi(3) - self.load() / length;
+        let stiffness = 3.0 * self.ei() / length.powi(3) / (1.0 + self.shear_flexibility()) - self.load() / length;
         (stiffness / self.moving_mass()).max(0.0).sqrt() / TAU
     }
 

@@ -5,8 +5,8 @@ use std::f64::consts::{PI, TAU};
 use serde::{Deserialize, Serialize};
 
 use super::{
-    AXIAL, BENDING, ElasticError, LENGTH, MASS, aframe::together, check_elements, damping, elements, not_negative,
-    positive, shortens, slender, stands,
+    AXIAL, BENDING, ElasticError, LENGTH, MASS, SHEAR_SHARE, aframe::together, check_elements, damping, elements,
+    not_negative, positive, shortens, slender, stands,
 };
 use crate::{scalar::GRAVITY, structure::Body};
 
@@ -30,6 +30,10 @@ pub struct PortalSpec {
     pub column_ea_n: f64,
     /// Bending stiffness of a column, EI [N m2].
     pub column_ei_nm2: f64,
+    /// Shear stiffness GA_s of a column; of columns with a mass of their own that of a solid concrete section of this EA unless given, of
+    /// others infinite (N).
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub column_ga_n: Option<f64>,
     /// Axial stiffness times length of the beam (N).
     pub beam_ea_n: f64,
     /// Bending stiffness of the beam [N m2].
@@ -55,6 +59,7 @@ impl PortalSpec {
             ("beam_mass_kg", self.beam_mass_kg, MASS),
             ("column_ea_n", self.column_ea_n, AXIAL),
             ("column_ei_nm2", self.column_ei_nm2, BENDING),
+            ("column_ga_n", self.column_ga_n.unwrap_or(1.0), AXIAL),
             ("beam_ea_n", self.beam_ea_n, AXIAL),
             ("beam_ei_nm2", self.beam_ei_nm2, BENDING),
         ] {
@@ -91,6 +96,12 @@ impl PortalSpec {
         self.footing_mass_kg * (self.footing_width_m.powi(2) + self.footing_height_m.powi(2)) / 12.0
     }
 
+    /// GA_s of a column (N): as given; of columns with a mass of their own a share of EA; infinite otherwise.
+    pub fn column_ga(&self) -> f64 {
+        let unless_given = if self.column_mass_kg > 0.0 { SHEAR_SHARE * self.column_ea_n } else { f64::INFINITY };
+        self.column_ga_n.unwrap_or(unless_given)
+    }
+
     /// Mass at a column's top (kg), and its rotational inertia: half of the beam about the column's axis [kg m2].
     pub fn top(&self) -> (f64, f64) {
         let half = 0.5 * self.beam_mass_kg;
@@ -107,11 +118,13 @@ impl PortalSpec {
         0.5 * (self.beam_mass_kg + self.column_mass_kg) * GRAVITY
     }
 
-    /// Clamped columns under an elastic beam: 24 EI/L^3 (1 + 6 g)/(4 + 6 g), g = (EI_b/span)/(EI/L), less the weight's P/L of both.
+    /// Clamped columns under an elastic beam: 24 EI/L^3 (1 + 6 g)/(4 + 6 g), g = (EI_b/span)/(EI/L), in series with their shear, 2 GA_s/L,
+    /// less the weight's P/L of both.
     pub(super) fn frequency(&self) -> f64 {
         let length = self.length();
         let g = self.beam_ei_nm2 / self.span_m / (self.column_ei_nm2 / length);
         let stiffness = 24.0 * self.column_ei_nm2 / length.powi(3) * (1.0 + 6.0 * g) / (4.0 + 6.0 * g);
+        let stiffness = stiffness / (1.0 + stiffness * length / (2.0 * self.column_ga()));
         // 13/35 of a column that is clamped at both ends moves with its top
         let mass = self.beam_mass_kg + 2.0 * 13.0 / 35.0 * self.column_mass_kg;
         ((stiffness - 2.0 * self.load() / length) / mass).max(0.0).sqrt() / TAU

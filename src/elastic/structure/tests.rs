@@ -130,3 +130,15 @@ fn finite_elements_have_the_frequency_of_the_closed_form() {
     // columns' shortening and the rotational inertia of the tops are left out
     assert_relative_eq!(lowest(&portal), portal.frequency_hz(), max_relative = 3e-2);
 }
+
+/// E = 30 GPa, nu = 0.2, 5/6 of the area: GA_s = 5/6 EA/2.4. Cantilevers give by L^3/(3 EI) + L/GA_s.
+#[test]
+fn a_column_with_mass_gives_in_shear() {
+    let heavy = PierSpec { column_mass_kg: 60e3, ..pier() };
+    assert_relative_eq!(heavy.ga(), heavy.ea() * 5.0 / 6.0 / 2.4, max_relative = 1e-12);
+    assert_relative_eq!(ElasticStructure::Pier(heavy).frequency_hz(), 2.0, max_relative = 1e-12);
+    for given in [PierSpec { ea_n: Some(6e10), ..heavy }, PierSpec { ga_n: Some(1e9), ..heavy }] {
+        assert_relative_eq!(ElasticStructure::Pier(given).frequency_hz(), 2.0, max_relative = 1e-12);
+    }
+    assert_eq!(pier().ga(), f64::INFINITY);
+}

@@ -59,6 +59,7 @@ impl Build<'_, '_> {
             name,
             axial: axial * s.axial,
             bending: bending * s.bending,
+            shear: bending * s.shear,
             ahead,
         };
         if (ahead[0] - ahead[1]).abs() <= 1e-12 * ahead[0] {

@@ -33,6 +33,8 @@ pub struct SapSection {
     pub axial: f64,
     /// EI [N m2].
     pub bending: f64,
+    /// GA_s (N); infinite: no shear deformation.
+    pub shear: f64,
     /// Damping over stiffness (s).
     pub ahead: f64,
 }
@@ -43,7 +45,7 @@ impl SapSection {
         let of = |s: &Springs<Chain<f64>>| s.vertical.k1.max(s.vertical.k2).max(s.horizontal.k1).max(s.horizontal.k2);
         let stiffness = RIGID * springs.iter().map(of).fold(0.0, f64::max);
         let (axial, bending) = (stiffness * length, stiffness * length.powi(3) / 3.0);
-        Self { name, material: "RIGID".into(), axial, bending, ahead: 0.0 }
+        Self { name, material: "RIGID".into(), axial, bending, shear: f64::INFINITY, ahead: 0.0 }
     }
 }
 

@@ -1,0 +1,162 @@
+//! Forces finely sampled: means over equal parts of the record's time step, so that a low-pass filter finds all that is slower than its cutoff,
+//! however short a landing is.
+//!
+//! ```text
+//!   mean over a part = 1/b sum over steps of the integral of f over what the step has of the part        b: length of a part
+//!   f within a step of length h: the cubic through its start and its three stages, at 0, c_1 h, c_2 h, h
+//! ```
+//!
+//! A part's mean times its length is the impulse of the force: no landing is between two samples.
+
+use super::{demands::base_forces, run::ElasticView, step::ElasticStages};
+use crate::{elastic::frame::Frame, fem::radau::C};
+
+/// What is sampled at every column's base, in this order: shear across its axis, axial force (tension positive), moment.
+pub const BASE_FORCES: usize = 3;
+
+/// Means of forces over equal parts of the time step.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct FineForces {
+    /// Length of a part (s).
+    pub part_s: f64,
+    /// Of every column's base: shear [N], axial force [N], moment [N m].
+    pub bases: Vec<[Vec<f64>; BASE_FORCES]>,
+    /// Of the ground on all corners together, horizontally and vertically (N).
+    pub sole: [Vec<f64>; 2],
+    /// Largest magnitude of each, unfiltered, with its sign: in the order of `bases`, then `sole`.
+    pub largest: Vec<f64>,
+}
+
+impl FineForces {
+    /// All series, bases first.
+    pub fn series(&self) -> impl Iterator<Item = &Vec<f64>> {
+        self.bases.iter().flatten().chain(&self.sole)
+    }
+
+    fn series_mut(&mut self) -> impl Iterator<Item = &mut Vec<f64>> {
+        self.bases.iter_mut().flatten().chain(&mut self.sole)
+    }
+}
+
+/// Gathers them step by step.
+pub(super) struct FineRecorder {
+    /// Whose bases: beam and end.
+    ends: Vec<(usize, usize)>,
+    forces: FineForces,
+    /// At the start of the step.
+    start: Vec<f64>,
+    started: bool,
+}
+
+impl FineRecorder {
+    /// So many parts to a time step of a record of so many samples.
+    pub fn new(frame: &Frame, dt: f64, samples: usize, parts: usize) -> Self {
+        let ends = frame.based_ends();
+        let length = samples.saturating_sub(1) * parts;
+        let room = || vec![0.0; length];
+        let count = BASE_FORCES * ends.len() + 2;
+        let forces = FineForces {
+            part_s: dt / parts as f64,
+            bases: ends.iter().map(|_| [(); BASE_FORCES].map(|()| room())).collect(),
+            sole: [room(), room()],
+            largest: vec![0.0; count],
+        };
+        Self { ends, forces, start: vec![0.0; count], started: false }
+    }
+
+    /// All forces at q, q'.
+    fn at(&self, view: &ElasticView, q: &[f64], v: &[f64]) -> Vec<f64> {
+        let (model, n) = (view.model, view.model.n);
+        let bases = self.ends.iter().flat_map(|&(beam, end)| base_forces(model.frame, (beam, end), &q[..n], &v[..n]));
+        let mut out: Vec<f64> = bases.collect();
+        let mut sole = [0.0; 2];
+        for (i, foot) in view.feet.iter().enumerate() {
+            let force = model.contact(i, foot, q, v);
+            sole = [sole[0] + force[0], sole[1] + force[1]];
+        }
+        out.extend(sole);
+        out
+    }
+
+    /// Before the first step.
+    pub fn begin(&mut self, view: &ElasticView) {
+        if !self.started {
+            self.start = self.at(view, view.q, view.v);
+            self.started = true;
+        }
+    }
+
+    /// After a step, which ended where the view is.
+    pub fn step(&mut self, view: &ElasticView, stages: &ElasticStages) {
+        let within = [0, 1, 2].map(|j| self.at(view, &stages.q[j], &stages.v[j]));
+        let h = stages.h;
+        let begun = view.time - h;
+        let part = self.forces.part_s;
+        let end = within[2].clone();
+        for (k, largest) in self.forces.largest.iter_mut().enumerate() {
+            if end[k].abs() > largest.abs() {
+                *largest = end[k];
+            }
+        }
+        let curves: Vec<[f64; 4]> =
+            (0..end.len()).map(|k| integral([self.start[k], within[0][k], within[1][k], within[2][k]])).collect();
+        let last = self.forces.sole[0].len().saturating_sub(1);
+        let mut i = ((begun / part + 1e-9).max(0.0) as usize).min(last);
+        let mut from = 0.0;
+        while from < 1.0 {
+            // rounding at the end of a step does not begin another part
+            let edge = ((i + 1) as f64 * part - begun) / h;
+            let to = if edge >= 1.0 - 1e-9 || i == last { 1.0 } else { edge.max(from) };
+            for (series, curve) in self.forces.series_mut().zip(&curves) {
+                if let Some(mean) = series.get_mut(i) {
+                    *mean += h / part * (antiderivative(curve, to) - antiderivative(curve, from));
+                }
+            }
+            (from, i) = (to, (i + 1).min(last));
+        }
+        self.start = end;
+    }
+
+    /// What was gathered, of a history that ended at a time (s).
+    pub fn finish(mut self, end: f64) -> FineForces {
+        let kept = (end / self.forces.part_s).round() as usize;
+        self.forces.series_mut().for_each(|series| series.truncate(kept));
+        self.forces
+    }
+}
+
+/// Coefficients of the integral from 0 of the cubic through values at 0, c_1, c_2, 1: of s, s^2, s^3, s^4.
+fn integral(values: [f64; 4]) -> [f64; 4] {
+    let at = [0.0, C[0], C[1], C[2]];
+    // Newton's divided differences
+    let mut d = values;
+    for order in 1..4 {
+        for i in (order..4).rev() {
+            d[i] = (d[i] - d[i - 1]) / (at[i] - at[i - order]);
+        }
+    }
+    let [a, b] = [at[1], at[2]];
+    // d0 + d1 s + d2 s (s - a) + d3 s (s - a)(s - b)
+    let powers = [d[0], d[1] - d[2] * a + d[3] * a * b, d[2] - d[3] * (a + b), d[3]];
+    [powers[0], powers[1] / 2.0, powers[2] / 3.0, powers[3] / 4.0]
+}
+
+fn antiderivative(c: &[f64; 4], s: f64) -> f64 {
+    s * (c[0] + s * (c[1] + s * (c[2] + s * c[3])))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// x^3 - 2 x^2 + 3 x + 4: its integral to s is s^4/4 - 2 s^3/3 + 3 s^2/2 + 4 s.
+    #[test]
+    fn a_cubic_is_integrated_as_it_is() {
+        let f = |s: f64| s * s * s - 2.0 * s * s + 3.0 * s + 4.0;
+        let curve = integral([f(0.0), f(C[0]), f(C[1]), f(C[2])]);
+        for s in [0.1_f64, 0.5, 1.0] {
+            let exact = s.powi(4) / 4.0 - 2.0 * s.powi(3) / 3.0 + 1.5 * s * s + 4.0 * s;
+            assert!((antiderivative(&curve, s) - exact).abs() < 1e-12);
+        }
+    }
+}
