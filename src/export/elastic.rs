@@ -26,8 +26,10 @@ const SMALL_MOTION: f64 = 0.01;
 /// the step's square.
 const SWAY: f64 = 0.03;
 const FASTER: f64 = 3.0;
-/// A deck's steps are chosen for this share of the accuracy asked: what they err by at a landing goes on in vibration.
-const SHARE: f64 = 0.25;
+/// A deck's steps are chosen for this share of the accuracy asked: what they err by at a landing goes on in vibration, of a column's mass too,
+/// and small errors grow 30-fold before a history is no longer judged. A pier of 14 m with a heavy column in the Kaikoura earthquake: error of
+/// the rotation 4.8e-3 at 1/4, 2.9e-3 at 1/16, 1.36e-3 at 1/64, 7.9e-4 at 1/256.
+const SHARE: f64 = 1.0 / 64.0;
 
 /// What stands above the list of springs of beams that give in shear.
 const SHEAR_NOTE: &str = "\

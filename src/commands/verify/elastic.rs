@@ -2,7 +2,7 @@
 
 use std::{fmt::Write as _, path::Path};
 
-use super::VerifyOptions;
+use super::{VerifyOptions, peaks_table};
 use crate::{
     commands::{
         CommandError,
@@ -16,18 +16,22 @@ use crate::{
     elastic::{
         answer::{ComparedEnd, ElasticHistories, Reference},
         assembled::{Assembled, Sway, errors},
+        fem::ElasticHistory,
         reference::TRIED,
     },
     figures::stack::{self, StackFigure, StackQuantity},
     parameters::elastic::ElasticParameters,
     report::elastic::title as structure_title,
-    verify::{Program, VerifyError, number_before, run_deck},
+    verify::{ComparedPeak, Program, VerifyError, number_before, run_deck},
 };
 
 /// Largest NRMSE of rotation between OpenSees and our own history, while a change of the motion grows less than 30-fold: OpenSees' steps miss more
 /// than ours; of drift, five times that.
 const LIMIT: f64 = 0.002;
 const LOOSER: f64 = 5.0;
+
+/// Share of the structure's span, and rotation (rad), below which nothing moves to speak of.
+const STILL: f64 = 1e-8;
 
 /// Run the deck beside our own history.
 pub fn run(o: &VerifyOptions, parameters: &ElasticParameters, program: &Program) -> Result<(), CommandError> {
@@ -45,33 +49,43 @@ pub fn run(o: &VerifyOptions, parameters: &ElasticParameters, program: &Program)
         let refusal = "verify: nothing can be compared, the history ends with its first sample; give another record";
         return Err(CommandError::Failed(refusal.into()));
     }
-    let text = deck(&assembled, &springs, &record, &histories.fem, (program.format(), o.accuracy))?;
+    // what cannot be foretold is not followed: nothing could be judged by it
+    let samples = part.samples;
+    let ours = ElasticHistory { q: histories.fem.q[..samples.min(histories.fem.q.len())].to_vec(), ..histories.fem };
+    let text = deck(&assembled, &springs, &record, &ours, (program.format(), o.accuracy))?;
     let progress = Progress::new("OpenSees [s]", o.quiet);
-    let samples = histories.fem.q.len();
-    let read = |path: &Path| sways(&assembled, path, samples);
+    let samples = ours.q.len();
+    let read = |path: &Path| configurations(&assembled, path, samples);
     let ran = run_deck(&text, program, (samples, record.dt), &|done, all| progress.tell(done, all, ""), read);
     progress.done();
     let ran = ran?;
 
-    let compared = histories.compared(&record, &[samples]);
-    let ours: Vec<Sway> = histories.sways.into_iter().map(|[_, ours]| ours).collect();
-    let [rotation, drift] = errors(&ours, &ran.motion, compared.samples);
-    let pairs: Vec<[Sway; 2]> = ours.into_iter().zip(ran.motion).map(|(ours, opensees)| [ours, opensees]).collect();
+    let sways = |all: &[Vec<f64>]| assembled.sways(all.iter().map(Vec::as_slice));
+    let (of_ours, of_opensees) = (sways(&ours.q), sways(&ran.motion));
+    let [rotation, drift] = errors(&of_ours, &of_opensees, samples);
+    let peaks = peaks(&assembled, &ours.q, &ran.motion);
+    let pairs: Vec<[Sway; 2]> = of_ours.into_iter().zip(of_opensees).map(|(ours, opensees)| [ours, opensees]).collect();
     let within = rotation <= LIMIT && drift <= LOOSER * LIMIT;
     let folder = Folder::begin(&o.out, "verify", super::FILES, super::of(parameters, &record, o.accuracy))?;
     write_file(&folder.path().join("verify.csv"), csv(&pairs, record.dt).as_bytes())?;
     draw(folder.path(), &assembled, &pairs, record.dt)?;
     folder.finish()?;
 
-    let mut said = format!("OpenSees took {:.1} s and {} steps\n", ran.seconds, number_before(&ran.report, " steps"));
-    let over = match compared.end {
+    let title = format!("{}, {:.2} s", record.name, part.seconds);
+    let mut said = format!(
+        "{}\n\nOpenSees took {:.1} s and {} steps\n",
+        peaks_table(&title, &peaks),
+        ran.seconds,
+        number_before(&ran.report, " steps")
+    );
+    let over = match part.end {
         ComparedEnd::Foretold => {
             format!(
                 "over its first {:.2} s, in which a change of the motion grows less than {TRIED}-fold",
-                compared.seconds
+                part.seconds
             )
         }
-        _ => words::over(&compared),
+        _ => words::over(&part),
     };
     // writing to a String does not fail
     let _ = writeln!(
@@ -95,8 +109,29 @@ pub fn run(o: &VerifyOptions, parameters: &ElasticParameters, program: &Program)
     Err(CommandError::Failed(refusal))
 }
 
-/// Rotations and drifts from the deck's history: t, then x, z, rotation of every node.
-fn sways(assembled: &Assembled, path: &Path, samples: usize) -> Result<Vec<Sway>, VerifyError> {
+/// Displacement of the top, uplift of a corner, rotation and drift; of several bases the largest.
+fn peaks(assembled: &Assembled, ours: &[Vec<f64>], opensees: &[Vec<f64>]) -> Vec<ComparedPeak> {
+    let frame = &assembled.frame;
+    let top = assembled.watched.first().map_or(0, |watched| watched.top);
+    let small = STILL * frame.span();
+    let at_top = |all: &[Vec<f64>]| all.iter().map(|q| frame.displacement(top, q)[0]).collect::<Vec<_>>();
+    let highest = |q: &Vec<f64>| frame.places().iter().map(|corner| corner.reach(q).place[1]).fold(0.0, f64::max);
+    let uplift = |all: &[Vec<f64>]| all.iter().map(highest).collect::<Vec<_>>();
+    let sways = |all: &[Vec<f64>]| assembled.sways(all.iter().map(Vec::as_slice));
+    let joined = |all: &[Vec<f64>], of: fn(Sway) -> Vec<f64>| sways(all).into_iter().flat_map(of).collect::<Vec<_>>();
+    let of = |quantity, pick: fn(Sway) -> Vec<f64>, least| {
+        ComparedPeak::new(quantity, &joined(ours, pick), &joined(opensees, pick), least)
+    };
+    vec![
+        ComparedPeak::new(("top displacement", "m"), &at_top(ours), &at_top(opensees), small),
+        ComparedPeak::new(("uplift", "m"), &uplift(ours), &uplift(opensees), small),
+        of(("rotation", "rad"), |sway| sway.rotation, STILL),
+        of(("drift", "m"), |sway| sway.drift, small),
+    ]
+}
+
+/// Coordinates at every sample from the deck's history: t, then x, z, rotation of every node.
+fn configurations(assembled: &Assembled, path: &Path, samples: usize) -> Result<Vec<Vec<f64>>, VerifyError> {
     let bad = |reason: String| VerifyError::History { path: path.display().to_string(), reason };
     let mut reader = csv::Reader::from_path(path).map_err(|e| bad(e.to_string()))?;
     let nodes = assembled.layout.nodes.len();
@@ -120,7 +155,7 @@ fn sways(assembled: &Assembled, path: &Path, samples: usize) -> Result<Vec<Sway>
     if all.len() != samples {
         return Err(bad(format!("{} samples instead of {samples}", all.len())));
     }
-    Ok(assembled.sways(all.iter().map(Vec::as_slice)))
+    Ok(all)
 }
 
 /// Our own histories and OpenSees', 12 significant digits.
