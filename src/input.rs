@@ -21,7 +21,7 @@ pub(crate) fn bytes(path: &Path, most: u64) -> io::Result<Option<Vec<u8>>> {
         return Err(io::Error::new(io::ErrorKind::IsADirectory, "it is a folder; name a file"));
     }
     if !there.is_file() {
-        return Err(io::Error::other("it is a pipe, a socket or a device; copy it to a file first"));
+        return Err(io::Error::other("a pipe, a socket or a device; copy it to a file"));
     }
     let mut bytes = Vec::new();
     File::open(path)?.take(most + 1).read_to_end(&mut bytes)?;
