@@ -116,7 +116,7 @@ fn a_landing_gives_nine_tenths_of_its_speed_back() {
         [(1.165e8, 0.90676), (1.265e8, 0.90865), (1.655e8, 0.91538), (2.165e8, 0.92294), (2.265e8, 0.92428)]
     {
         let landing = land(9.214, c / (M1 * TAU * 6.2), 10.2).unwrap();
-        // the program's steps are 1e-4 of a period long
+        // five digits are printed; the program's steps are 1e-4/Omega_n long
         assert!((landing.rebound - rebound).abs() < 1e-4, "c = {c:e}: {landing:?}");
     }
 }
