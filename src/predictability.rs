@@ -18,11 +18,9 @@ const CHANGE: f64 = 1e-5;
 
 /// Share of the largest u that the same change moves a history by where it can no longer be foretold: a deck's own error is
 /// some ten times as much there, and grows as fast.
-#[cfg(feature = "cli")]
 const HANGS: f64 = 1e-4;
 
 /// NRMSE of u by a relative change of the width by 1e-5 up to which a history can be foretold to its end.
-#[cfg(feature = "cli")]
 const FORETOLD: f64 = 5e-4;
 
 /// Rotational inertia over m R^2 from which on a body's turning in the air can be foretold: what decks give to a point mass is 1e-5, and a
@@ -30,10 +28,18 @@ const FORETOLD: f64 = 5e-4;
 #[cfg(feature = "cli")]
 const INERTIA_OF_ITS_OWN: f64 = 1e-3;
 
-/// NRMSE of u that a relative change of the width by 1e-5 makes, over the whole of `motion`, the history of the model on
-/// `record`.
+/// From this NRMSE on no steps help: the history is not to be foretold to its end.
+pub const HOPELESS: f64 = 0.5;
+
+/// Error of the part that can be foretold, by the same change of the width, from which on a deck needs finer steps for that part.
+const SENSITIVE_PART: f64 = 1e-3;
+
+/// Share of the half width below which a motion counts as standing: an error is told against at least that.
+pub const STANDING: f64 = 1e-3;
+
+/// [`step_sensitivity`] of `motion`, the history of the model on `record`, to a relative change of the width by 1e-5.
 pub fn width_sensitivity(motion: &Motion, parameters: &Parameters, record: &Record) -> f64 {
-    nrmse(&slightly_wider(parameters, record).u, &motion.u)
+    step_sensitivity(motion, &slightly_wider(parameters, record), 0.5 * parameters.structure.width_m)
 }
 
 /// The history of the model with that change of the width.
@@ -62,24 +68,36 @@ pub struct Foretold {
     pub end: ForetoldEnd,
 }
 
-/// Up to where a history can be foretold, from the history of a body slightly wider, `changed`; `None` if all can. `size` is the least
-/// root mean square of u that an error is told against (m).
+/// Up to where a history can be foretold, from the history of a body slightly wider, `changed`; `None` if all can.
 #[cfg(feature = "cli")]
-pub fn foretold_until(motion: &Motion, changed: &Motion, size: f64) -> Option<Foretold> {
+pub fn foretold_until(motion: &Motion, changed: &Motion) -> Option<Foretold> {
+    let samples = foretold_samples(motion, changed)?;
+    Some(Foretold { samples, end: ForetoldEnd::Width })
+}
+
+/// How many samples that is.
+fn foretold_samples(motion: &Motion, changed: &Motion) -> Option<usize> {
     if nrmse(&changed.u, &motion.u) <= FORETOLD {
         return None;
     }
     let far = HANGS * crate::motion::peak(&motion.u).abs();
-    // no further than the error of all samples so far stays below the same share, told as a program's is
-    let (mut above, mut below) = (0.0, 0.0);
-    let hangs = |(i, (a, b)): (usize, (&f64, &f64))| {
-        above += (a - b).powi(2);
-        below += a.powi(2);
-        let least = (i + 1) as f64 * size * size;
-        (a - b).abs() > far || above > HANGS * HANGS * f64::max(below, least)
-    };
-    let samples = motion.u.iter().zip(&changed.u).enumerate().position(hangs)?;
-    Some(Foretold { samples, end: ForetoldEnd::Width })
+    motion.u.iter().zip(&changed.u).position(|(a, b)| (a - b).abs() > far)
+}
+
+/// NRMSE of u over the first samples, told against at least the motion of a body that stands (`half_width`, m).
+pub fn standing_error(u: &[f64], reference: &[f64], half_width: f64) -> f64 {
+    let rms = (reference.iter().map(|x| x * x).sum::<f64>() / reference.len().max(1) as f64).sqrt();
+    let least = STANDING * half_width;
+    nrmse(u, reference) * if rms < least { rms / least } else { 1.0 }
+}
+
+/// Sensitivity that a deck's steps are chosen by: that to the width. A history that cannot be foretold to its end has steps as asked;
+/// but where its foretold part is sensitive already, it counts as one that can just be foretold: steps help that part.
+pub fn step_sensitivity(motion: &Motion, changed: &Motion, half_width: f64) -> f64 {
+    let whole = nrmse(&changed.u, &motion.u);
+    let part = foretold_samples(motion, changed).unwrap_or(motion.len()).min(changed.len());
+    let sensitive = || standing_error(&changed.u[..part], &motion.u[..part], half_width) > SENSITIVE_PART;
+    if whole > HOPELESS && sensitive() { HOPELESS } else { whole }
 }
 
 /// Up to where a body without rotational inertia of its own stays on the ground for sure: the first sample at which the ground falls as fast as

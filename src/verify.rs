@@ -17,12 +17,11 @@ use crate::{
     housner,
     motion::{Motion, nrmse},
     parameters::Parameters,
-    predictability::{foretold_until, simulate, slightly_wider, until_flight},
+    predictability::{foretold_until, simulate, slightly_wider, step_sensitivity, until_flight},
     record::Record,
 };
 pub use peaks::{ComparedPeak, swings};
 pub use program::Program;
-use verdict::STANDING;
 pub use verdict::{LIMIT, OpenSeesVerdict};
 
 /// Wall time a run may take before it counts as hung: this, and a time per sample of the record (s).
@@ -136,7 +135,7 @@ pub fn verify(
 
     let changed = slightly_wider(parameters, record);
     let width_sensitivity = nrmse(&changed.u, &history.motion.u);
-    let foretold = foretold_until(&history.motion, &changed, STANDING * body.half_width)
+    let foretold = foretold_until(&history.motion, &changed)
         .into_iter()
         .chain(until_flight(&parameters.structure, record))
         .filter(|foretold| foretold.samples < history.motion.len())
@@ -144,7 +143,7 @@ pub fn verify(
     let deck = Deck { parameters, record, program, progress };
     // what cannot be foretold is not followed: nothing could be judged by it
     let judged = foretold.map_or(history.motion.len(), |foretold| foretold.samples).max(2);
-    let expected = Expected::within(&history, width_sensitivity, judged);
+    let expected = Expected::within(&history, step_sensitivity(&history.motion, &changed, body.half_width), judged);
     let run = deck.run(&expected.with_accuracy(accuracy))?;
     let ours = history.motion.first(expected.samples);
     let housner = housner.first(expected.samples);

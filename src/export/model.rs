@@ -4,6 +4,7 @@ use super::{Expected, ExportError, plain::NamedSprings, printable};
 use crate::{
     members::Members,
     parameters::Parameters,
+    predictability::HOPELESS,
     record::Record,
     spring::{Chain, Springs},
     structure::{Body, Structure},
@@ -34,9 +35,6 @@ const TOLERANCE: f64 = 2e-14;
 /// steps' error grows as that does; so many times at most: steps a third as long.
 const TIGHTER: f64 = 15_000.0;
 const TIGHTEST: f64 = 8.0;
-/// From here on no steps help: the history is not to be foretold to its end.
-const HOPELESS: f64 = 0.5;
-
 /// Rise of a foot that counts as a motion, over that at which the body topples.
 const SMALL_MOTION: f64 = 0.01;
 /// Steps per sample where steps follow from the accuracy: a pair, ended by every sample.

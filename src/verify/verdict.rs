@@ -1,16 +1,13 @@
 //! Whether OpenSees is within its limit of our own history.
 
 use crate::{
-    motion::{Motion, nrmse, peak},
-    predictability::{Foretold, ForetoldEnd},
+    motion::{Motion, peak},
+    predictability::{Foretold, ForetoldEnd, STANDING, standing_error},
     structure::Body,
 };
 
 /// Largest NRMSE of u between OpenSees and our own history.
 pub const LIMIT: f64 = 0.001;
-
-/// Share of the half width below which a motion counts as standing: the error is told against at least that.
-pub(super) const STANDING: f64 = 1e-3;
 
 /// Share of the largest u by which histories that have parted differ.
 const PARTED: f64 = 0.01;
@@ -38,10 +35,8 @@ impl OpenSeesVerdict {
         let until = foretold.map(|foretold| foretold.samples);
         let samples = until.unwrap_or(ours.len()).min(ours.len()).min(opensees.len());
         let (a, b) = (&opensees.u[..samples], &ours.u[..samples]);
-        let rms = |x: &[f64]| (x.iter().map(|x| x * x).sum::<f64>() / samples.max(1) as f64).sqrt();
-        let least = STANDING * body.half_width;
-        let error = nrmse(a, b) * if rms(b) < least { rms(b) / least } else { 1.0 };
-        let far = PARTED * peak(&ours.u).abs().max(least);
+        let error = standing_error(a, b, body.half_width);
+        let far = PARTED * peak(&ours.u).abs().max(STANDING * body.half_width);
         let parted = opensees.u.iter().zip(&ours.u).position(|(a, b)| (a - b).abs() > far);
         let time = |sample: usize| sample as f64 * dt;
         let end = foretold.map(|foretold| foretold.end);
