@@ -51,7 +51,6 @@ pub(super) fn sections(file: &Table) -> Option<(String, &'static str)> {
 
 /// What `[structure]` lacks, and the shape that it is.
 fn of_structure(structure: &Table) -> (Vec<String>, &'static str) {
-    let mut structure = structure.clone();
     let mut keys = Vec::new();
     if !structure.contains_key("kind") {
         keys.push("kind (aframe, block, pier or frame)".to_owned());
@@ -62,10 +61,10 @@ fn of_structure(structure: &Table) -> (Vec<String>, &'static str) {
     }
     let kind = structure.get("kind").and_then(Value::as_str).unwrap_or_default().to_owned();
     let (found, shape) = match kind.as_str() {
-        "block" => (lacks::<StructureSection>(&structure), " block"),
+        "block" => (lacks::<StructureSection>(structure), " block"),
         #[cfg(feature = "cli")]
-        _ if super::elastic::is_elastic(&structure) => elastic(&mut structure, &kind),
-        _ => (lacks::<StructureSection>(&structure), ""),
+        _ if super::elastic::is_elastic(structure) => elastic(structure, &kind),
+        _ => (lacks::<StructureSection>(structure), ""),
     };
     let whole = |key: String| if (key.as_str(), shape) == ("height_m", " block") { TOTAL.to_owned() } else { key };
     (found.into_iter().map(whole).collect(), shape)
@@ -75,7 +74,7 @@ fn of_structure(structure: &Table) -> (Vec<String>, &'static str) {
 const TOTAL: &str = "total_height_m (or height_m, of the centre of mass)";
 
 #[cfg(feature = "cli")]
-fn elastic(structure: &mut Table, kind: &str) -> (Vec<String>, &'static str) {
+fn elastic(structure: &Table, kind: &str) -> (Vec<String>, &'static str) {
     let mut keys = lacks::<crate::elastic::structure::ElasticStructure>(structure);
     let bends = ["frequency_hz", "ei_nm2"].iter().any(|key| structure.contains_key(*key));
     if kind == "pier" && !bends {

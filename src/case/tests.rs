@@ -32,7 +32,7 @@ fn a_record_is_used_whole_unless_the_case_says_otherwise() {
 fn every_case_in_the_folder_can_be_read() {
     let folder = Path::new(env!("CARGO_MANIFEST_DIR")).join("tuning");
     let files = std::fs::read_dir(folder).unwrap().map(|entry| entry.unwrap().path());
-    let cases: Vec<PathBuf> = files.filter(|path| path.extension().is_some_and(|e| e == "toml")).collect();
+    let cases: Vec<std::path::PathBuf> = files.filter(|path| path.extension().is_some_and(|e| e == "toml")).collect();
     assert!(cases.len() >= 5, "{cases:?}");
     for path in cases {
         let text = std::fs::read_to_string(&path).unwrap();

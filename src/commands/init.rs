@@ -182,7 +182,7 @@ mod tests {
 
     /// The text with what is commented out.
     fn used(shape: StructureShape) -> String {
-        let of_file = ["# file", "# component", "# column", "# vertical", "# dt_s", "# units"];
+        let of_file = ["# file", "# component", "# column =", "# vertical", "# dt_s", "# units"];
         let names = [&of_file[..], &["# A case"]].concat();
         text(shape)
             .lines()
