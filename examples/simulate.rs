@@ -4,13 +4,11 @@
 //! cargo run --release --example simulate > history.csv
 //! ```
 
-use groundspring::{Parameters, Record, Springs, Structure, compare};
+use groundspring::{Parameters, Record, compare};
 
 fn main() -> Result<(), Box<dyn std::error::Error>> {
-    let structure = Structure::paper();
     // the paper's Table 1, as far as its digits survive
-    let springs = Springs::table_1();
-    let parameters = Parameters::new(structure, &springs);
+    let parameters = Parameters::parse("tuning/table_1.json", include_str!("../tuning/table_1.json"))?;
     let record = Record::el_centro().truncated(20.0);
 
     let (both, verdict) = compare(&parameters, &record);

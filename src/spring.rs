@@ -14,6 +14,7 @@ use serde::{Deserialize, Serialize};
 
 use crate::scalar::{Scalar, real};
 
+#[cfg(any(feature = "cli", feature = "internals"))]
 mod table_1;
 
 /// One chain without units, and its frequency: what the tuner searches.
