@@ -8,6 +8,7 @@
 //! ```
 
 use groundspring::{
+    case::{Asked, Yardstick},
     fem::Control,
     spring::Design,
     structure::Structure,
@@ -54,8 +55,12 @@ fn main() -> Result<(), Box<dyn std::error::Error>> {
                 let mut springs = own;
                 springs.vertical = Design::from_kc(chain.mu * m, k, chain.c * m.sqrt(), own.vertical.omega_n_hz);
                 let springs = springs.chains(body.mass);
-                let found: Vec<f64> =
-                    suites.iter().map(|s| s.accuracy(&springs, Control::search()).over(1.0)).collect();
+                let found: Vec<f64> = suites
+                    .iter()
+                    .map(|s| {
+                        s.accuracy(&springs, Control::search()).over(Asked { by: Yardstick::Histories, error: 1.0 })
+                    })
+                    .collect();
                 let error = geometric_mean(&found);
                 errors.push(error);
                 line += &format!("{error:9.1e}");

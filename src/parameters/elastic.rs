@@ -310,7 +310,13 @@ mod tests {
     /// JSON has no infinity.
     #[test]
     fn errors_that_could_not_be_had_are_read_back() {
-        let errors = ElasticErrors { median: [f64::INFINITY, 0.1], p90: [f64::INFINITY; 2], count: 3, touches: 2.0 };
+        let errors = ElasticErrors {
+            median: [f64::INFINITY, 0.1],
+            p90: [f64::INFINITY; 2],
+            count: 3,
+            touches: 2.0,
+            peaks: None,
+        };
         let measured = Measured { motions: Some(errors), ..Measured::default() };
         let on_record = OnRecord {
             compared_s: 5.0,
