@@ -6,6 +6,7 @@
 //! ```
 
 use groundspring::{
+    case::{Asked, Yardstick},
     elastic::{assembled::Assembled, standing::Standing, structure::ElasticStructure},
     fem::Control,
     tuning::elastic::{
@@ -35,7 +36,7 @@ const FRAME: &str = "kind = 'frame'\nheight_m = 8.0\nspan_m = 10.0\nfooting_widt
 fn measure(suite: &ElasticSuite, standing: &Standing, give: f64, k: f64) -> (f64, f64) {
     let measured = suite.measure(&with_k(standing, give, k), Control::search());
     let touches = [measured.releases, measured.motions].into_iter().flatten().map(|e| e.touches);
-    (measured.over(1.0).unwrap_or(f64::NAN), touches.fold(0.0, f64::max))
+    (measured.over(Asked { by: Yardstick::Histories, error: 1.0 }).unwrap_or(f64::NAN), touches.fold(0.0, f64::max))
 }
 
 fn main() -> Result<(), Box<dyn std::error::Error>> {

@@ -25,7 +25,11 @@ fn main() -> Result<(), Box<dyn std::error::Error>> {
         );
     }
 
-    verdict.lines().iter().for_each(|line| eprintln!("{line}"));
+    let (housner, springs) = (verdict.housner, verdict.finite_elements);
+    eprintln!(
+        "Housner: {:?}, {:.3} of alpha; on springs: {:?}, {:.3}",
+        housner.fate, housner.peak_ratio, springs.fate, springs.peak_ratio
+    );
     let found = &both.matched;
     eprintln!(
         "impacts {} (Housner {}), bounces {}, settlement {:.2} mm, energy account closed to {:.1e}",

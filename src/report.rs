@@ -21,7 +21,10 @@ pub mod table;
 use serde::Serialize;
 
 use crate::{
-    case::{assumptions::Assumption, doubts::Doubt},
+    case::{
+        assumptions::{AssumedQuantity, Assumption},
+        doubts::Doubt,
+    },
     parameters::{Parameters, elastic::ElasticParameters},
     results::{DesignForces, FiledFinding, Finding, PeakChange, PeakPair, Weight},
 };
@@ -39,9 +42,14 @@ pub struct Assumed {
 }
 
 impl Assumed {
-    fn of(assumption: &Assumption) -> Self {
-        let [what, key] = assumption.told();
-        Self { what, key: key.trim_start_matches("structure.").to_string() }
+    /// What was assumed, but for what the line of the record tells.
+    fn all(assumptions: &[Assumption]) -> Vec<Self> {
+        let told = |a: &&Assumption| a.quantity != AssumedQuantity::ElCentro;
+        let one = |assumption: &Assumption| {
+            let [what, key] = assumption.told();
+            Self { what, key: key.trim_start_matches("structure.").to_string() }
+        };
+        assumptions.iter().filter(told).map(one).collect()
     }
 }
 

@@ -12,6 +12,7 @@
 
 use crate::{
     answers::{Both, WithMembers},
+    compare::Match,
     fem::{Demands, History, between_landings},
     housner::Rocking,
     motion::TimedPeak,
@@ -25,7 +26,8 @@ use crate::{
 /// Column shear, moment and axial force: of a block about its base, of an A-frame's legs at the apex.
 type Row = [f64; 3];
 
-/// The forces of a run: of its members' history if it has members, which `softer` follows on springs of a quarter of Omega_n.
+/// The forces of a run. Where Housner's body cannot tell them, with members or beyond the end of his solution, they are those of the history
+/// on springs, which `softer` follows on springs of a quarter of Omega_n.
 pub fn design_forces(
     kind: Kind,
     body: &Body<f64>,
@@ -35,21 +37,24 @@ pub fn design_forces(
 ) -> DesignForces {
     let dt = record.dt;
     let until = |times: [Option<f64>; 2]| samples_until(times.into_iter().flatten().reduce(f64::min), dt);
-    let (sole, rows) = match (&both.with, softer) {
-        (Some(with), Some(softer)) => {
-            let peaks = |with: &WithMembers| {
-                let samples = until([with.matched.overturned_fem_s, None]);
-                let kept = all_between(body, dt, &with.history, samples);
-                on_springs(kind, body, dt, (&with.history, &with.demands), &kept)
+    let (sole, rows) = match softer {
+        Some(softer) => {
+            let peaks = |matched: &Match, history: &History, demands: &Demands| {
+                let kept = all_between(body, dt, history, until([matched.overturned_fem_s, None]));
+                on_springs(kind, body, dt, (history, demands), &kept)
             };
-            let (own, other) = (peaks(with), peaks(softer));
+            let own = match &both.with {
+                Some(with) => peaks(&with.matched, &with.history, &with.demands),
+                None => peaks(&both.matched, &both.fem, &both.demands),
+            };
+            let other = peaks(&softer.matched, &softer.history, &softer.demands);
             let force = |k: usize| {
                 let change = relative(own[k].value, other[k].value);
                 DesignForce::measured(own[k].value, own[k].time, change)
             };
             (force(0), [1, 2, 3].map(force))
         }
-        _ => {
+        None => {
             let samples = until([both.matched.overturned_housner_s, both.matched.overturned_fem_s]);
             let housner = of_housner(kind, body, record, &both.rocking, samples);
             let kept = all_between(body, dt, &both.fem, samples.min(housner.len()));

@@ -52,16 +52,16 @@ impl AssumedQuantity {
     pub(crate) fn words(self) -> &'static str {
         match self {
             Self::Restitution => "restitution by equation 2",
-            Self::SolidInertia => "rotational inertia of a solid block",
-            Self::LeastInertia => "rotational inertia of a mass at a point, 1e-5 m R^2",
-            Self::FootingInertia => "rotational inertia of a solid footing",
-            Self::AxialStiffness => "column's EA of a solid square section, E = 30 GPa",
-            Self::ShearStiffness => "column's GA_s of a solid section, nu = 0.2",
-            Self::AxialDamping => "damping along the column as across",
+            Self::SolidInertia => "inertia of a solid block",
+            Self::LeastInertia => "inertia of a point mass, 1e-5 m R^2,",
+            Self::FootingInertia => "inertia of a solid footing",
+            Self::AxialStiffness => "EA of a square section, E = 30 GPa,",
+            Self::ShearStiffness => "GA_s of a solid section, nu = 0.2,",
+            Self::AxialDamping => "axial damping ratio, as across,",
             Self::ColumnMass => "column's mass",
-            Self::Elements => "beam elements to a column",
+            Self::Elements => "elements to a column",
             Self::ElCentro => "1940 El Centro, north-south, peak",
-            Self::NoVertical => "vertical component of the file left out, peak",
+            Self::NoVertical => "vertical motion left out, peak",
         }
     }
 }
@@ -78,7 +78,7 @@ impl Assumption {
             unit @ ("g" | "kg m2") => format!("{} {unit}", significant(self.value, 4)),
             unit => quantity(self.value, unit),
         };
-        [format!("{} {value}", self.quantity.words()), self.key.into()]
+        [format!("{} = {value}", self.quantity.words()), self.key.into()]
     }
 }
 

@@ -58,6 +58,11 @@ impl AccuracyReport {
         }
     }
 
+    /// The same for a screen: on the record and the set of motions beside it, histories as NRMSE.
+    pub fn short(&self) -> String {
+        Self { measured: self.measured.iter().take(2).cloned().collect(), ..self.clone() }.sentence()
+    }
+
     /// The same as a table.
     pub fn table(&self) -> Table {
         let cell = |x: Option<f64>, words: fn(f64) -> String| x.map_or("-".into(), words);

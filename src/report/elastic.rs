@@ -189,7 +189,7 @@ impl ElasticParts<'_> {
     }
 
     fn assumed(&self) -> Vec<Assumed> {
-        self.case.assumptions().iter().map(Assumed::of).collect()
+        Assumed::all(&self.case.assumptions())
     }
 
     /// All that is said of it; `parameters` are those filed.

@@ -13,10 +13,10 @@ use crate::{
     case::{Case, Objective, Yardstick, doubts::Doubt},
     compare::Match,
     export::equal_steps,
+    fem::History,
     front::FrontPoint,
     members::Members,
     message::{percent, quantity, significant},
-    motion::Motion,
     overturning::samples_until,
     parameters::{ConditioningRow, PaperProcedure, Parameters},
     results::{Finding, PeakPair, Peaks},
@@ -101,7 +101,7 @@ impl RigidRun {
     }
 
     fn assumed(&self) -> Vec<Assumed> {
-        let mut all: Vec<Assumed> = self.case.assumptions().iter().map(Assumed::of).collect();
+        let mut all = Assumed::all(&self.case.assumptions());
         if self.case.members.friction.is_none() {
             all.push(Assumed { what: "feet do not slide".into(), key: "friction.coefficient".into() });
         }
@@ -248,20 +248,27 @@ fn peaks(kind: Kind, job: &Job, both: &Both) -> PeakPair {
         let n = samples_until(fell, job.record.dt).min(theta.len());
         Peaks::of_rigid(kind, &job.body, &theta[..n], u.map(|u| &u[..n]), impacts)
     };
-    let springs =
-        |m: &Match, motion: &Motion| of(m, &motion.theta, Some(&motion.u), firm(m.impacts_fem_firm, m.impacts_fem));
+    let ends = both.rocking.left_ground();
+    let springs = |m: &Match, history: &History| {
+        // beyond the end of Housner's solution there is no energy threshold to count by
+        let impacts = ends.map_or_else(|| firm(m.impacts_fem_firm, m.impacts_fem), |_| history.impacts());
+        of(m, &history.motion.theta, Some(&history.motion.u), impacts)
+    };
     let m = &both.matched;
     PeakPair {
         reference: of(m, &both.rocking.theta, None, firm(m.impacts_housner_firm, m.impacts_housner)),
-        reference_ends_s: both.rocking.left_ground(),
-        springs: springs(m, &both.fem.motion),
-        with_members: both.with.as_ref().map(|with| springs(&with.matched, &with.history.motion)),
+        reference_ends_s: ends,
+        springs: springs(m, &both.fem),
+        with_members: both.with.as_ref().map(|with| springs(&with.matched, &with.history)),
     }
 }
 
-/// The history with members on springs of a quarter of Omega_n: what tells whether its forces are the springs'.
+/// The history on springs of a quarter of Omega_n, where Housner's cannot tell whether forces are the springs': with members, and
+/// beyond where his pivot leaves the ground.
 fn softer(case: &Case, job: &Job, both: &Both) -> Option<WithMembers> {
-    both.with.as_ref()?;
+    if both.with.is_none() && both.rocking.left_ground().is_none() {
+        return None;
+    }
     let quarter = |design: &Design<f64>| Design { omega_n_hz: design.omega_n_hz / 4.0, ..*design };
     let springs = Springs { vertical: quarter(&job.springs.vertical), horizontal: quarter(&job.springs.horizontal) };
     let (chains, e) = (springs.chains(case.structure.mass_kg), case.restitution);

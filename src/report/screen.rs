@@ -10,6 +10,9 @@ use crate::{
 pub const LINES: usize = 30;
 pub const WIDTH: usize = 100;
 
+/// Letters of a file's name in the line of the record.
+const LONGEST_NAME: usize = 48;
+
 /// Where results are, for the commands that the screen ends with.
 pub struct Written<'a> {
     /// The folder.
@@ -23,19 +26,37 @@ pub struct Written<'a> {
 /// The screen: at most [`LINES`] lines of at most [`WIDTH`] letters.
 pub fn screen(run: &Run, written: &Written) -> String {
     let mut lines = Vec::new();
-    taken(run, &mut lines);
+    taken(run, written, &mut lines);
     lines.push(String::new());
     wrap(&mut lines, "", &run.verdict());
     lines.extend(peak_table(run).iter().flat_map(Table::lines));
     forces(run, &mut lines);
     springs(run, &mut lines);
     if let Some(accuracy) = &run.accuracy {
-        wrap(&mut lines, "accuracy  ", &accuracy.sentence());
+        at_most(2, &mut lines, "accuracy  ", &accuracy.short());
     }
     next(written, &mut lines);
+    // a crowded screen needs the room of the empty line
+    let warns = run.remarks().any(|finding| finding.weight >= Weight::Warning);
+    if lines.len() + usize::from(warns) > LINES {
+        lines.retain(|line| !line.is_empty());
+    }
     warnings(run, written, &mut lines);
-    lines.truncate(LINES);
     lines.join("\n") + "\n"
+}
+
+/// The same as [`wrap`], in so many lines: what does not fit is left out.
+fn at_most(most: usize, lines: &mut Vec<String>, name: &str, text: &str) {
+    let mut all = Vec::new();
+    wrap(&mut all, name, text);
+    if all.len() > most {
+        all.truncate(most);
+        if let Some(last) = all.last_mut() {
+            let kept: String = last.chars().take(WIDTH - 4).collect();
+            *last = format!("{} ...", kept.trim_end());
+        }
+    }
+    lines.extend(all);
 }
 
 /// Text behind a name, its further lines below the text; words that do not fit a line are shortened in the middle.
@@ -59,16 +80,28 @@ fn wrap(lines: &mut Vec<String>, name: &str, text: &str) {
     lines.push(line);
 }
 
-fn taken(run: &Run, lines: &mut Vec<String>) {
+fn taken(run: &Run, written: &Written, lines: &mut Vec<String>) {
     let fact = |name: &str| run.taken.facts.iter().find(|(fact, _)| fact.starts_with(name)).map(|(_, value)| value);
     let lifts = fact("lifts").map_or(String::new(), |value| format!("; lifts at {value}"));
-    wrap(lines, "", &format!("{}{lifts}", run.taken.structure));
+    at_most(2, lines, "", &format!("{}{lifts}", run.taken.structure));
     if let Some(record) = &run.taken.record {
-        wrap(lines, "", record);
+        let short: Vec<String> = record.split(' ').map(|word| shortened(word, LONGEST_NAME)).collect();
+        at_most(3, lines, "", &short.join(" "));
     }
-    if !run.taken.assumed.is_empty() {
-        let all: Vec<String> = run.taken.assumed.iter().map(|a| format!("{} ({})", a.what, a.key)).collect();
-        wrap(lines, "assumed: ", &all.join("; "));
+    let all: Vec<String> = run.taken.assumed.iter().map(|a| format!("{} ({})", a.what, a.key)).collect();
+    let place = if written.report { "report.html" } else { "--verbose" };
+    // as many as two lines hold
+    for shown in (1..=all.len()).rev() {
+        let rest = match all.len() - shown {
+            0 => String::new(),
+            n => format!("; and {n} more: {place}"),
+        };
+        let mut some = Vec::new();
+        wrap(&mut some, "assumed: ", &(all[..shown].join("; ") + &rest));
+        if some.len() <= 2 || shown == 1 {
+            lines.extend(some);
+            break;
+        }
     }
 }
 
@@ -84,7 +117,8 @@ pub fn force_words(forces: &DesignForces) -> String {
         Some(value) => format!("{} {}", name.words(), quantity(value.abs(), name.unit())),
         None => format!("{} withheld", name.words()),
     };
-    let all: Vec<String> = forces.all().map(cell).collect();
+    // the report has the vertical force, too
+    let all: Vec<String> = forces.all().filter(|(name, _)| *name != ForceName::SoleVertical).map(cell).collect();
     all.join("; ")
 }
 
@@ -140,7 +174,7 @@ fn warnings(run: &Run, written: &Written, lines: &mut Vec<String>) {
         printed.extend(one);
         told += 1;
     }
-    if told < all.len() && printed.len() < room {
+    if told < all.len() {
         let place = if written.report { "report.html" } else { "parameters.json" };
         let some = if told == 0 { "warnings" } else { "more" };
         printed.push(format!("warning   and {} {some}: {place}", all.len() - told));

@@ -29,6 +29,7 @@ pub fn pier(numbers: &Numbers) -> Cantilever {
     let section = BeamSection {
         axial: axial * length,
         bending,
+        shear: f64::INFINITY,
         axial_damping: 2.0 * 0.02 * (axial * mass).sqrt() * length,
         bending_damping: 2.0 * 0.02 * mass * omega * length.powi(3) / 3.0,
         line_mass: 0.0,

@@ -1,6 +1,7 @@
 //! Against the nonsmooth reference, event-driven with plastic landings, of the same frame.
 
 use groundspring::{
+    case::{Asked, Yardstick},
     elastic::{
         Mechanics,
         answer::{ElasticAnswer, Reference},
@@ -169,7 +170,8 @@ fn springs_are_stiffened_until_they_follow_the_record_to_its_end() {
     let foretold = reference.foretold;
     assert!((1200..1400).contains(&foretold), "{foretold}");
     let accuracy = 0.002;
-    let tuned = tune(&model, accuracy, None, Some((&record, reference)), &|_, _| ()).unwrap();
+    let asked = Asked { by: Yardstick::Histories, error: accuracy };
+    let tuned = tune(&model, asked, None, Some((&record, reference)), &|_, _| ()).unwrap();
     assert!(tuned.reached, "{tuned:?}");
     let reference = tuned.reference.unwrap();
     assert_eq!((reference.foretold, reference.followed), (foretold, record.len()));
@@ -184,7 +186,7 @@ fn springs_are_stiffened_until_they_follow_the_record_to_its_end() {
     // as stiff as is allowed for, no further: up to what can be foretold
     let reference = Reference { followed: foretold, ..answer.histories.reference };
     let softer = tuned.softer_hz.unwrap();
-    let soft = tune(&model, accuracy, Some(softer.ceil()), Some((&record, reference)), &|_, _| ()).unwrap();
+    let soft = tune(&model, asked, Some(softer.ceil()), Some((&record, reference)), &|_, _| ()).unwrap();
     assert!(soft.reached && soft.springs.omega_n_hz == softer && soft.softer_hz.is_none());
     assert_eq!(soft.reference.map(|reference| reference.followed), Some(foretold));
 }
