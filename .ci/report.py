@@ -14,7 +14,7 @@ PAGES = [
     ("stands", 4, 3, "The record does not lift the structure"),
     ("kaikoura", 4, 3, "leaves the ground"),
     ("without_figures", 0, 0, "The structure rocks and stands"),
-    ("without_record", 0, 0, "tuned without a record"),
+    ("without_record", 0, 0, "without a record"),
 ]
 LARGEST = 2_000_000
 

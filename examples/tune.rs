@@ -33,11 +33,13 @@ fn main() -> Result<(), Box<dyn std::error::Error>> {
 
     // what the springs reach, and on what it was measured
     if let Some(assessment) = &springs.assessment {
-        assessment.lines().iter().for_each(|line| println!("{line}"));
+        println!("accuracy {} asked for, reached: {}", assessment.accuracy, assessment.reached);
+        println!("error of the history on this record: {:?}", assessment.measured.record);
     }
     // what the body does on this record, by both models
     let (_, verdict) = compare(&springs, &case.record);
-    verdict.lines().iter().for_each(|line| println!("{line}"));
+    println!("Housner: {:?}; on springs: {:?}", verdict.housner.fate, verdict.finite_elements.fate);
+    println!("NRMSE of u {:?}, over {:.2} s", verdict.nrmse_horizontal, verdict.compared_s);
 
     // the file that every command of `tune` reads, as `tune export --parameters`
     let path = std::env::temp_dir().join("parameters.json");

@@ -1,6 +1,7 @@
 //! The design from the geometry, without units, and the frequency response.
 
 use groundspring::{
+    case::{Asked, Yardstick},
     response::{self, bounds::Bounds, target::Target},
     scalar::GRAVITY,
     spring,
@@ -143,7 +144,8 @@ impl Design {
 #[pyfunction]
 #[pyo3(signature = (alpha, inertia = None, stiffness = None))]
 pub fn design(py: Python<'_>, alpha: Of, inertia: Option<f64>, stiffness: Option<f64>) -> PyResult<Design> {
-    let stiffness = stiffness.unwrap_or_else(|| omega::begin(groundspring::export::ACCURACY));
+    let stiffness = stiffness
+        .unwrap_or_else(|| omega::begin(Asked { by: Yardstick::Histories, error: groundspring::export::ACCURACY }));
     let geometry = match alpha {
         Of::Structure(structure) => Geometry::of(&structure.body(), stiffness),
         Of::Alpha(alpha) => {

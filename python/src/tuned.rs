@@ -24,7 +24,9 @@ use crate::{
 
 /// What the program finds, a line each.
 fn lines(run: &RigidRun) -> Vec<String> {
-    run.parameters.findings.iter().map(|finding| finding.line()).collect()
+    let accuracy = run.said(run.parameters.clone()).accuracy;
+    let accuracy = accuracy.map(|accuracy| format!("accuracy: {}", accuracy.sentence()));
+    run.parameters.findings.iter().map(|finding| finding.line()).chain(accuracy).collect()
 }
 
 /// Springs of a structure, and all that `tune run` finds of them.
