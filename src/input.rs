@@ -28,14 +28,21 @@ pub(crate) fn bytes(path: &Path, most: u64) -> io::Result<Option<Vec<u8>>> {
     Ok((bytes.len() as u64 <= most).then_some(bytes))
 }
 
+/// The bytes of a regular file of at most 16 MB.
+///
+/// # Errors
+/// It is none, is larger, or cannot be read.
+pub(crate) fn bounded(path: &Path) -> io::Result<Vec<u8>> {
+    let bytes = bytes(path, MOST_TEXT)?;
+    bytes.ok_or_else(|| io::Error::other(format!("it has more than {} MB", MOST_TEXT >> 20)))
+}
+
 /// The text of a regular file of at most 16 MB.
 ///
 /// # Errors
 /// It is none, is larger, is no UTF-8, or cannot be read.
 pub(crate) fn text(path: &Path) -> io::Result<String> {
-    let bytes = bytes(path, MOST_TEXT)?;
-    let bytes = bytes.ok_or_else(|| io::Error::other(format!("it has more than {} MB", MOST_TEXT >> 20)))?;
-    String::from_utf8(bytes).map_err(|_| io::Error::new(io::ErrorKind::InvalidData, "it is not UTF-8 text"))
+    String::from_utf8(bounded(path)?).map_err(|_| io::Error::new(io::ErrorKind::InvalidData, "it is not UTF-8 text"))
 }
 
 #[cfg(test)]

@@ -119,7 +119,11 @@ pub fn ground_forces(body: &Body<f64>, (accel, vertical): (&[f64], &[f64]), rock
     let force = |(i, (&theta, &rate)): (usize, (&f64, &f64))| {
         let ground = (at(accel, i), 1.0 + at(vertical, i));
         let (f, n) = if theta == 0.0 && rate == 0.0 {
-            ground
+            // at the instant that lifts it, the body turns about the foot that it leans away on
+            match stands(body, ground) {
+                true => ground,
+                false => forces(body, -ground.0.signum(), theta, rate, ground),
+            }
         } else {
             let side = if theta == 0.0 { rate.signum() } else { theta.signum() };
             forces(body, side, theta, rate, ground)
@@ -127,6 +131,11 @@ pub fn ground_forces(body: &Body<f64>, (accel, vertical): (&[f64], &[f64]), rock
         (weight * f, weight * n)
     };
     rocking.theta.iter().zip(&rocking.rate).enumerate().map(force).collect()
+}
+
+/// Whether a body at rest stays at rest under u_g/g and gamma: |u_g|/g below gamma tan(alpha).
+pub(crate) fn stands(body: &Body<f64>, (ground, gamma): (f64, f64)) -> bool {
+    ground.abs() * body.height <= gamma * body.half_width
 }
 
 /// F and N of a rocking body over its weight m g; the ground has u_g/g and gamma.

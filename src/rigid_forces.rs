@@ -18,8 +18,9 @@ use crate::{
     motion::TimedPeak,
     overturning::samples_until,
     record::Record,
-    regime::ground_forces,
+    regime::{self, ground_forces},
     results::{DesignForce, DesignForces},
+    scalar::GRAVITY,
     structure::{Body, Kind},
 };
 
@@ -92,13 +93,16 @@ fn of_housner(kind: Kind, body: &Body<f64>, record: &Record, rocking: &Rocking<f
     let forces = ground_forces(body, (&record.accel, record.up()), rocking);
     let row = |(i, (f, n)): (usize, (f64, f64))| {
         let (theta, rate) = (rocking.theta[i], rocking.rate[i]);
-        let stands = theta == 0.0 && rate == 0.0;
+        let at = |record: &[f64]| record.get(i).copied().unwrap_or(0.0) / GRAVITY;
+        let ground = (at(&record.accel), 1.0 + at(record.up()));
+        let rests = theta == 0.0 && rate == 0.0;
+        let stands = rests && regime::stands(body, ground);
         let (b, h) = (body.half_width, body.height);
         // forces of the left foot and of the right one
         let feet = if stands {
             let apart = f * h / b;
             [[0.5 * f, 0.5 * (n + apart)], [0.5 * f, 0.5 * (n - apart)]]
-        } else if theta > 0.0 || (theta == 0.0 && rate > 0.0) {
+        } else if theta > 0.0 || (theta == 0.0 && rate > 0.0) || (rests && ground.0 < 0.0) {
             [[0.0; 2], [f, n]]
         } else {
             [[f, n], [0.0; 2]]
@@ -162,7 +166,6 @@ mod tests {
     use crate::{
         answers::both,
         members::Members,
-        scalar::GRAVITY,
         spring::{Design, Springs},
         structure::Structure,
     };

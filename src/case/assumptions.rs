@@ -204,7 +204,7 @@ mod tests {
         assert!((assumed[0].value / (30e9 * (12.0_f64 * 0.3).sqrt()) - 1.0).abs() < 1e-12);
         assert!((assumed[2].value - 120e3 * (16.0 + 2.25) / 12.0).abs() < 1e-6);
         let rest = of("ea_n = 1e11\naxial_damping_ratio = 0.01\nfooting_inertia_kgm2 = 1e5\ncolumn_mass_kg = 9e3\n");
-        assert_eq!((keys(&rest), rest[0].value), (vec!["elements", "record.file"], 4.0));
+        assert_eq!((keys(&rest), rest[1].value), (vec!["ga_n", "elements", "record.file"], 4.0));
     }
 
     #[test]

@@ -58,7 +58,7 @@ pub enum CaseError {
 pub(crate) fn text_of(path: &Path) -> Result<String, CaseError> {
     let name = path.display().to_string();
     let read = |source| CaseError::Read { path: name.clone(), source };
-    String::from_utf8(std::fs::read(path).map_err(read)?).map_err(|bytes| {
+    String::from_utf8(crate::input::bounded(path).map_err(read)?).map_err(|bytes| {
         let text = String::from_utf8_lossy(bytes.as_bytes());
         match RecordFormat::recognised(&text) {
             Some(format) => CaseError::IsRecord { path: name.clone(), format },

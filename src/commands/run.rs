@@ -126,6 +126,9 @@ pub fn run(o: &RunOptions) -> Result<(), CommandError> {
     } else {
         case.set_excitation(o.record.excitation_of_case(&case.excitation, &case.notices)?)?;
     }
+    if !o.no_record {
+        terminal::stderr(case.excitation.line());
+    }
     case.tuning.max_omega_hz = o.max_hz()?.or(case.tuning.max_omega_hz);
     match o.asked()? {
         Some(Asked { by: Yardstick::Histories, error }) => (case.tuning.accuracy, case.tuning.peaks) = (error, None),

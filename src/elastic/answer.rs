@@ -6,10 +6,11 @@ use super::{
     ensemble::Ensemble,
     fem::{ElasticAnalysis, ElasticHistory, ElasticStart},
     frame::{EquilibriumError, Frame},
-    reference::{ElasticRocking, FOLLOWED, FORETOLD, GroundAcceleration, RestError},
+    reference::{ElasticRocking, FOLLOWED, FORETOLD, GroundAcceleration, ReferenceOutcome, RestError},
     rigid::RigidForces,
 };
 use crate::{
+    fem::HistoryOutcome,
     members::Members,
     record::Record,
     spring::{Chain, Springs},
@@ -191,6 +192,14 @@ impl ElasticHistories {
         Ok(Self { reference, fem, sways })
     }
 
+    /// The sample from which on one of the two overturns: its rotation has passed alpha (rad).
+    pub fn falls(&self, alpha: f64) -> Option<usize> {
+        let overturned = matches!(self.reference.history.outcome, ReferenceOutcome::Overturned { .. })
+            || matches!(self.fem.outcome, HistoryOutcome::Overturned { .. });
+        let passed = |sway: &Sway| sway.rotation.iter().position(|rotation| rotation.abs() > alpha);
+        self.sways.iter().flatten().filter_map(passed).min().filter(|_| overturned)
+    }
+
     /// Over how much of the record histories of these lengths, beside the reference's, are compared.
     pub fn compared(&self, record: &Record, lengths: &[usize]) -> Compared {
         let Reference { history, followed, .. } = &self.reference;
@@ -233,7 +242,11 @@ impl ElasticAnswer {
         // Housner's equation has no members
         let bare = assembled.members == Members::default();
         let rigid = RigidForces::of(&assembled.structure, record).filter(|_| bare);
+        // what is borne in a fall is no demand of rocking
+        let alpha = assembled.structure.body().alpha();
         let foretold = histories.reference.foretold_seconds(record.dt);
+        let foretold =
+            foretold.into_iter().chain(histories.falls(alpha).map(|i| i as f64 * record.dt)).reduce(f64::min);
         let design =
             StructureForces::new((assembled, springs, record), (&histories.fem, &fixed), foretold, rigid.as_ref())?;
         Ok(Self { histories, compared, errors, fixed, fixed_drift, ensemble, rigid, design })

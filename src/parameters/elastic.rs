@@ -348,7 +348,7 @@ mod tests {
         let text = parameters().to_json();
         for (from, to, said) in [
             ("\"k1_n_per_m\": 10000000000.0", "\"k1_n_per_m\": 0.0", "row 1"),
-            ("\"schema\": 2", "\"schema\": 9", "schema is 9"),
+            ("\"schema\": 3", "\"schema\": 9", "schema is 9"),
             ("\"x_m\"", "\"y_m\"", "y_m"),
             ("\"height_m\": 12.0", "\"height_m\": -12.0", "height_m"),
         ] {

@@ -121,7 +121,7 @@ fn every_damage_is_an_error_of_one_line_with_place_and_remedy() {
         ("a.csv", "t [s],v [m/s], velocity\n0.00,.1\n0.01,.2\n".into(), "speaks of velocity"),
         ("a.csv", "t,a [g]\n0.00,.1\n".into(), "pass --dt"),
         ("a.csv", "t,a [g]\n0,.1\n2,.1\n4,.1\n".into(), "between 1e-6 and 1 s"),
-        ("a\nb.csv", "t,a\n0.0,\x01".into(), "a?b.csv: not a text file"),
+        ("a\nb.csv", "t,a\n0.0,\x01".into(), "a\\nb.csv: not a text file"),
     ] {
         let message = parse(file, &text).expect_err(&text).to_string();
         assert!(message.contains(words), "{text:?}: {message}");

@@ -71,6 +71,7 @@ impl ElasticParts<'_> {
     pub fn peaks(&self) -> PeakPair {
         let ElasticHistories { reference, fem, sways, .. } = &self.answer.histories;
         let n = reference.history.q.len().min(fem.q.len());
+        let n = self.answer.histories.falls(self.assembled.structure.body().alpha()).map_or(n, |falls| falls.min(n));
         let frame = &self.assembled.frame;
         let of = |q: &dyn Fn(usize) -> Vec<f64>, k: usize, impacts: usize| {
             let mut peaks = Peaks { impacts, ..Peaks::default() };

@@ -96,7 +96,7 @@ mod tests {
 
     #[test]
     fn text_of_others_cannot_be_markup() {
-        assert_eq!(escape("<script>\"&\u{7}"), "&lt;script&gt;&quot;&amp; ");
+        assert_eq!(escape("<script>\"&\u{7}"), "&lt;script&gt;&quot;&amp;\\u{7}");
         assert_eq!(json(&"</script>"), "\"\\u003c/script>\"");
         let rows = Table::new(["a<b"]).with([vec!["<i>".to_string()]]);
         assert!(!table(&rows, 0..0).contains("<i>"));

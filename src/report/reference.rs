@@ -96,6 +96,11 @@ pub fn verdict(structure: &Structure, record: &Record, verdict: &Verdict) -> Vec
         (_, Fate::Failed) => Finding::NoAnswer { model: Model::Springs, time_s: verdict.compared_s },
         _ => Finding::Stands { share_of_overturning: finite_elements.peak_ratio, over_s: verdict.compared_s },
     }];
+    all.extend(
+        verdict
+            .housner_without_vertical
+            .map(|level| Finding::WithoutVertical { does: does(&level), share_of_overturning: level.peak_ratio }),
+    );
     if !verdict.agrees() {
         all.push(Finding::ModelsDisagree { reference: does(housner), springs: does(finite_elements) });
     }

@@ -97,6 +97,10 @@ pub enum Finding {
     PivotLeavesGround {
         time_s: f64,
     },
+    WithoutVertical {
+        does: String,
+        share_of_overturning: f64,
+    },
     // what a comparison is worth
     IllConditioned {
         moved_by_width: f64,
@@ -246,7 +250,10 @@ impl Finding {
             | Self::AccuracyMissed { .. }
             | Self::PeaksMissed { .. }
             | Self::HistoryEndsEarly { .. } => Weight::Fault,
-            Self::ForetoldUpTo { .. } | Self::NearMotions { .. } | Self::MembersBeside => Weight::Note,
+            Self::ForetoldUpTo { .. }
+            | Self::NearMotions { .. }
+            | Self::MembersBeside
+            | Self::WithoutVertical { .. } => Weight::Note,
             _ => Weight::Warning,
         }
     }
@@ -280,6 +287,10 @@ impl Finding {
             Self::PivotLeavesGround { time_s } => {
                 format!("the pivot of Housner's body leaves the ground at t = {}, where his solution ends", s(*time_s))
             }
+            Self::WithoutVertical { does, share_of_overturning } => format!(
+                "without the vertical component it {does}; its largest rotation is {} of overturning",
+                percent_3(*share_of_overturning)
+            ),
             Self::IllConditioned { moved_by_width, springs_judged, .. } => {
                 let judged = if *springs_judged { "; the springs were judged on synthetic motions" } else { "" };
                 format!(
@@ -397,7 +408,9 @@ impl Finding {
     /// What to do, if there is anything to do.
     pub fn remedy(&self) -> Option<String> {
         let text = match self {
-            Self::Stands { .. } | Self::MembersBeside | Self::NearMotions { .. } => return None,
+            Self::Stands { .. } | Self::MembersBeside | Self::NearMotions { .. } | Self::WithoutVertical { .. } => {
+                return None;
+            }
             Self::NeverLifts { .. } => "give a stronger record, or scale it: --scale",
             Self::Overturns { .. } => "scale the record down for the margin: --scale",
             Self::NoAnswer { .. } | Self::HistoryEndsEarly { ending: Ending::WorkBound, .. } => {

@@ -191,6 +191,8 @@ impl MotionTarget {
             let below = (place as usize).min(periods.len() - 2);
             let share = place - below as f64;
             let ln = missing[below] + share * (missing[below + 1] - missing[below]);
+            // longer than all periods: to raise what no spectrum asks for would make the ground drift
+            let ln = if place >= (periods.len() - 1) as f64 { ln.min(0.0) } else { ln };
             // the half that is left out is its mirror image: twice what is there, and the real part
             let both = if k == 0 || k == n / 2 { 1.0 } else { 2.0 };
             *x *= both * ln.clamp(-most, most).exp();

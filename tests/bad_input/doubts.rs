@@ -17,10 +17,26 @@ fn accepts(files: &[(&str, &str)], args: &[&str]) -> String {
     stderr
 }
 
+/// Doubts of a run, as parameters.json has them: message and remedy. The screen warns of them.
 fn doubts(case: &str, more: &[&str]) -> Vec<String> {
+    let dir = TempDir::new().unwrap();
+    for (name, text) in [("case.toml", case), ("a.csv", TABLE)] {
+        fs::write(dir.path().join(name), text).unwrap();
+    }
     let run = ["run", "case.toml", "--quiet", "--no-figures", "--no-front", "--no-report", "--max-hz", "60"];
-    let stderr = accepts(&[("case.toml", case), ("a.csv", TABLE)], &[&run[..], more].concat());
-    stderr.lines().filter(|line| line.starts_with("doubt: ")).map(str::to_owned).collect()
+    let args = [&run[..], more].concat();
+    let output = Command::cargo_bin("tune").unwrap().current_dir(dir.path()).args(args).output().unwrap();
+    assert_eq!(output.status.code(), Some(0), "{output:?}");
+    let filed = fs::read_to_string(dir.path().join("out/parameters.json")).unwrap();
+    let filed: serde_json::Value = serde_json::from_str(&filed).unwrap();
+    let findings = filed["findings"].as_array().unwrap();
+    let doubts: Vec<_> = findings.iter().filter(|finding| finding["finding"] == "doubt").collect();
+    assert!(doubts.iter().all(|doubt| doubt["weight"] == "warning"), "{doubts:?}");
+    assert!(doubts.is_empty() || String::from_utf8_lossy(&output.stdout).contains("warning   "), "{output:?}");
+    let words = |doubt: &&serde_json::Value| {
+        format!("{}; {}", doubt["message"].as_str().unwrap(), doubt["remedy"].as_str().unwrap())
+    };
+    doubts.iter().map(words).collect()
 }
 
 #[test]
@@ -28,10 +44,8 @@ fn doubts_are_warnings() {
     let short = ["--duration", "2"];
     assert_eq!(
         doubts(CABINET, &short),
-        [
-            "doubt: height_m = 1.9, of the centre of mass, makes a block 3.8 m tall; if 1.9 m is its total height, write \
-          total_height_m = 1.9"
-        ]
+        ["height_m = 1.9, of the centre of mass, makes a block 3.8 m tall; if 1.9 m is its total height, write \
+          total_height_m = 1.9"]
     );
     let light = CABINET.replace("1.9", "1.0").replace("400.0", "0.4");
     let found = doubts(&light, &short);
@@ -47,7 +61,7 @@ fn doubts_are_warnings() {
     assert_eq!(
         found,
         [
-            "doubt: 90 s are asked for, the record has 0.03 s; all of it is used; leave the duration out, or give a longer record"
+            "90 s are asked for, the record has 0.03 s; all of it is used; leave the duration out, or give a longer record"
         ]
     );
 }

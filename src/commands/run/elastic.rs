@@ -8,6 +8,7 @@ use crate::{
         elastic::{ElasticRun, springs_alone as alone},
         output::check_folder,
         progress::{self, Progress},
+        terminal,
     },
     elastic::{
         answer::{ElasticAnswer, Reference},
@@ -23,6 +24,9 @@ pub fn run(o: &RunOptions, mut case: ElasticCase) -> Result<(), CommandError> {
     applies(o)?;
     if !o.no_record {
         case.excitation = o.record.excitation_of_case(&case.excitation, &case.notices)?;
+    }
+    if !o.no_record {
+        terminal::stderr(case.excitation.line());
     }
     case.max_omega_hz = o.max_hz()?.or(case.max_omega_hz);
     case.asked = o.asked()?.unwrap_or(case.asked);
