@@ -119,12 +119,12 @@ impl<S: Scalar> Analysis<'_, S> {
         run.finish(outcome)
     }
 
-    fn run<'a>(&self, model: &'a model::Model<S>) -> run::Run<'a, S> {
+    fn run<'a>(&self, model: &'a model::Model<S>) -> run::TimeLoop<'a, S> {
         let start = match self.start {
             Start::Settled => model.settled(),
             Start::Leaning(theta) => model.leaning(theta),
         };
-        run::Run::new(model, start, self.control)
+        run::TimeLoop::new(model, start, self.control)
     }
 
     fn model(&self) -> model::Model<S> {

@@ -128,7 +128,7 @@ pub struct Section {
 /// parameters.json.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 #[serde(untagged)]
-pub enum Filed {
+pub enum FiledParameters {
     /// Of a rigid body.
     Rigid(Box<Parameters>),
     /// Of an elastic structure.
@@ -163,7 +163,7 @@ pub struct Run {
     /// What the report has besides.
     pub sections: Vec<Section>,
     /// What parameters.json holds.
-    pub parameters: Filed,
+    pub parameters: FiledParameters,
 }
 
 /// Findings for a run: answers first, then what weighs most.

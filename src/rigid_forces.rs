@@ -25,7 +25,7 @@ use crate::{
 };
 
 /// Column shear, moment and axial force: of a block about its base, of an A-frame's legs at the apex.
-type Row = [f64; 3];
+type ForceRow = [f64; 3];
 
 /// The forces of a run. Where Housner's body cannot tell them, with members or beyond the end of his solution, they are those of the history
 /// on springs, which `softer` follows on springs of a quarter of Omega_n.
@@ -114,7 +114,7 @@ fn of_housner(kind: Kind, body: &Body<f64>, record: &Record, rocking: &Rocking<f
 }
 
 /// Column shear, moment, axial force for forces (H, N) of the left and the right foot of a body that leans by theta.
-fn rows(kind: Kind, body: &Body<f64>, theta: f64, feet: [[f64; 2]; 2]) -> Row {
+fn rows(kind: Kind, body: &Body<f64>, theta: f64, feet: [[f64; 2]; 2]) -> ForceRow {
     let [[left_h, left_n], [right_h, right_n]] = feet;
     if kind == Kind::Block {
         return [left_h + right_h, (left_n - right_n) * body.half_width, -(left_n + right_n)];

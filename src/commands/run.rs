@@ -26,7 +26,7 @@ use crate::{
     predictability::{simulate, width_sensitivity},
     record::Record,
     report::{
-        self, Filed, Run,
+        self, FiledParameters, Run,
         markdown::markdown,
         page::page,
         rigid::RigidRun,
@@ -244,8 +244,8 @@ fn springs_alone(o: &RunOptions, run: &Run) -> Result<(), CommandError> {
     let folder = Folder::begin(&o.out, "run", &files, identity(&[&run.parameters, &o.no_report]))?;
     let out = folder.path();
     let json = match &run.parameters {
-        Filed::Rigid(parameters) => parameters.to_json(),
-        Filed::Elastic(parameters) => parameters.to_json(),
+        FiledParameters::Rigid(parameters) => parameters.to_json(),
+        FiledParameters::Elastic(parameters) => parameters.to_json(),
     };
     write_file(&out.join("parameters.json"), json.as_bytes())?;
     write_file(&out.join("parameters.md"), markdown(run).as_bytes())?;

@@ -9,7 +9,7 @@ use std::sync::atomic::{AtomicUsize, Ordering};
 
 use rayon::prelude::*;
 
-use super::{Analysis, Finish, control::HistoryOutcome, model::Model, observer::Observer, run::Run, step::Stages};
+use super::{Analysis, Finish, control::HistoryOutcome, model::Model, observer::Observer, run::TimeLoop, step::Stages};
 use kernel::{Kernel, Tried, WIDTH};
 
 /// Follow many cases, each shown to an observer of its own, which `observer` makes for the case of an index. Returned in the
@@ -49,7 +49,7 @@ struct Batch<'a, O, F> {
 /// A history under way.
 struct Lane<'a, O> {
     index: usize,
-    run: Run<'a, f64>,
+    run: TimeLoop<'a, f64>,
     observer: O,
     /// Size of the step to try [s].
     h: f64,

@@ -29,7 +29,7 @@ use met::Met;
 use span::Span;
 
 /// A history in the making.
-pub(crate) struct Run<'a, S> {
+pub(crate) struct TimeLoop<'a, S> {
     pub model: &'a Model<S>,
     motion: GroundMotion<'a, S>,
     /// The interval between two samples that is crossed, or that comes next.
@@ -91,7 +91,7 @@ pub(crate) struct Run<'a, S> {
     pub work: Work,
 }
 
-impl<'a, S: Scalar> Run<'a, S> {
+impl<'a, S: Scalar> TimeLoop<'a, S> {
     pub fn new(model: &'a Model<S>, start: (State<S>, [Foot<S>; 2]), control: Control) -> Self {
         let (state, feet) = start;
         let stored = model.energy(&state, &feet);

@@ -8,7 +8,7 @@ use crate::{
     housner::{self, Rocking},
     record::Record,
     regime::{self, Regime},
-    results::{Ending, Finding, Model},
+    results::{Ending, Finding, FindingModel},
     structure::{Body, Structure},
     verdict::{Answer, Fate, Verdict},
 };
@@ -93,7 +93,7 @@ pub fn verdict(structure: &Structure, record: &Record, verdict: &Verdict) -> Vec
             time_s: finite_elements.overturned_s.unwrap_or(verdict.compared_s),
             reference_s: housner.overturned_s,
         },
-        (_, Fate::Failed) => Finding::NoAnswer { model: Model::Springs, time_s: verdict.compared_s },
+        (_, Fate::Failed) => Finding::NoAnswer { model: FindingModel::Springs, time_s: verdict.compared_s },
         _ => Finding::Stands { share_of_overturning: finite_elements.peak_ratio, over_s: verdict.compared_s },
     }];
     all.extend(
@@ -130,9 +130,9 @@ fn does(answer: &Answer) -> String {
 
 /// Histories that ended before the record did, or took steps that broke their bounds.
 pub fn histories(both: &Both) -> Vec<Finding> {
-    let with = both.with.as_ref().map(|with| (Model::Members, &with.history));
+    let with = both.with.as_ref().map(|with| (FindingModel::Members, &with.history));
     let mut all = Vec::new();
-    for (model, history) in [(Model::Springs, &both.fem)].into_iter().chain(with) {
+    for (model, history) in [(FindingModel::Springs, &both.fem)].into_iter().chain(with) {
         all.extend(ended(model, history));
         if history.work.smallest > 0 {
             all.push(Finding::SmallestSteps { model, steps: history.work.smallest });
@@ -141,7 +141,7 @@ pub fn histories(both: &Both) -> Vec<Finding> {
     all
 }
 
-fn ended(model: Model, history: &fem::History) -> Option<Finding> {
+fn ended(model: FindingModel, history: &fem::History) -> Option<Finding> {
     let (time_s, ending) = match history.outcome {
         HistoryOutcome::WorkBound { time } => (time, Ending::WorkBound),
         HistoryOutcome::Unstable { time } => (time, Ending::Unstable),

@@ -5,7 +5,7 @@ pub mod tables;
 use rayon::join;
 
 use super::{
-    AccuracyOn, AccuracyReport, Assumed, Filed, Run, Section, Taken, Unit, changes, doubts, filed,
+    AccuracyOn, AccuracyReport, Assumed, FiledParameters, Run, Section, Taken, Unit, changes, doubts, filed,
     reference::{self, HousnerReport},
 };
 use crate::{
@@ -210,7 +210,7 @@ fn alone(parameters: Parameters) -> Run {
         fixed_steps: None,
         sap2000: false,
         sections: sections(&parameters),
-        parameters: Filed::Rigid(Box::new(parameters)),
+        parameters: FiledParameters::Rigid(Box::new(parameters)),
     }
 }
 

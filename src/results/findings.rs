@@ -2,7 +2,8 @@
 
 use serde::{Deserialize, Serialize};
 
-use crate::message::{percent, significant};
+mod advice;
+mod message;
 
 /// How much a finding weighs.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Serialize, Deserialize)]
@@ -21,7 +22,7 @@ pub enum Weight {
 /// Which of the two models.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(rename_all = "snake_case")]
-pub enum Model {
+pub enum FindingModel {
     /// Housner's rigid body; an elastic structure on rigid ground with plastic landings.
     Reference,
     /// On its springs.
@@ -87,7 +88,7 @@ pub enum Finding {
         reference_s: Option<f64>,
     },
     NoAnswer {
-        model: Model,
+        model: FindingModel,
         time_s: f64,
     },
     ModelsDisagree {
@@ -168,12 +169,12 @@ pub enum Finding {
         available: f64,
     },
     HistoryEndsEarly {
-        model: Model,
+        model: FindingModel,
         time_s: f64,
         ending: Ending,
     },
     SmallestSteps {
-        model: Model,
+        model: FindingModel,
         steps: usize,
     },
     MembersBeside,
@@ -228,18 +229,6 @@ impl From<Finding> for FiledFinding {
     }
 }
 
-fn on(model: Model) -> &'static str {
-    match model {
-        Model::Reference => "of the reference",
-        Model::Springs => "on the springs",
-        Model::Members => "with members",
-    }
-}
-
-fn s(time: f64) -> String {
-    format!("{} s", significant(time, 4))
-}
-
 impl Finding {
     /// How much it weighs.
     pub fn weight(&self) -> Weight {
@@ -257,244 +246,6 @@ impl Finding {
             _ => Weight::Warning,
         }
     }
-
-    /// In one sentence.
-    pub fn message(&self) -> String {
-        match self {
-            Self::NeverLifts { pga_g, uplift_g } => format!(
-                "the record does not lift the structure: its peak is {} g, uplift takes {} g",
-                significant(*pga_g, 4),
-                significant(*uplift_g, 4)
-            ),
-            Self::Stands { share_of_overturning, .. } => format!(
-                "the structure rocks and stands: its largest rotation is {} of overturning",
-                percent_3(*share_of_overturning)
-            ),
-            Self::Overturns { time_s, reference_s } => match reference_s {
-                Some(reference) => format!(
-                    "the structure overturns at t = {} (in the reference at {}); numbers count up to then",
-                    s(*time_s),
-                    s(*reference)
-                ),
-                None => format!("the structure overturns at t = {}; numbers count up to then", s(*time_s)),
-            },
-            Self::NoAnswer { model, time_s } => {
-                format!("the history {} could not be followed beyond t = {}", on(*model), s(*time_s))
-            }
-            Self::ModelsDisagree { reference, springs } => {
-                format!("the models disagree: the reference {reference}, the structure on its springs {springs}")
-            }
-            Self::PivotLeavesGround { time_s } => {
-                format!("the pivot of Housner's body leaves the ground at t = {}, where his solution ends", s(*time_s))
-            }
-            Self::WithoutVertical { does, share_of_overturning } => format!(
-                "without the vertical component it {does}; its largest rotation is {} of overturning",
-                percent_3(*share_of_overturning)
-            ),
-            Self::IllConditioned { moved_by_width, springs_judged, .. } => {
-                let judged = if *springs_judged { "; the springs were judged on synthetic motions" } else { "" };
-                format!(
-                    "this motion is ill-conditioned: 0.1 % of the width moves it by {}, so no model can foretell it{judged}",
-                    percent_3(*moved_by_width)
-                )
-            }
-            Self::ForetoldUpTo { time_s, .. } => format!(
-                "from t = {} on a change of a millionth grows above a thousandth of the peak: no model foretells it",
-                s(*time_s)
-            ),
-            Self::SlidesOn { time_s, .. } => format!(
-                "at t = {} a corner lands so flat that it slides on, by an impulse that depends on friction",
-                s(*time_s)
-            ),
-            Self::NearMotions { motions, change, median_ratio, p90_ratio, overturned } => {
-                let cell = |x: Option<f64>| x.map_or("overturned".into(), percent_3);
-                let fallen = match overturned {
-                    [0, 0] => String::new(),
-                    [reference, springs] => format!("; {reference} and {springs} overturn"),
-                };
-                format!(
-                    "over {motions} motions within {} of the record the largest rotation is {} and {} of overturning in \
-                     the median, {} and {} for 90 % (rigid ground, springs){fallen}",
-                    percent_3(*change),
-                    cell(median_ratio[0]),
-                    cell(median_ratio[1]),
-                    cell(p90_ratio[0]),
-                    cell(p90_ratio[1]),
-                )
-            }
-            Self::AccuracyMissed { asked, .. } => {
-                format!("the accuracy asked for (history, NRMSE {}) was not reached", significant(*asked, 3))
-            }
-            Self::PeaksMissed { asked, .. } => {
-                format!("the accuracy asked for (peaks within {}) was not reached", percent_3(*asked))
-            }
-            Self::AccuracyNotMeasured => {
-                "the accuracy could not be measured: no motion tried rocks this structure and can be foretold".into()
-            }
-            Self::RestitutionMissed { asked, lowest, highest, .. } => format!(
-                "landings have a restitution of {} to {} where {} is due",
-                significant(*lowest, 4),
-                significant(*highest, 4),
-                significant(*asked, 4)
-            ),
-            Self::RestitutionOutOfReach { asked, share, least, most } => format!(
-                "restitution {} is {} of equation 2's; springs reach {} to {} of it",
-                significant(*asked, 4),
-                significant(*share, 3),
-                significant(*least, 3),
-                significant(*most, 3)
-            ),
-            Self::LandingsUnfinished { finished, all } => {
-                format!("{} of {all} test landings came to no end on these springs", all - finished)
-            }
-            Self::ForceWithheld { force, change } => {
-                let by =
-                    change.map_or("could not be checked".into(), |change| format!("changes by {}", percent_3(change)));
-                format!("{} is withheld: it {by} with the springs or the mesh", force.words())
-            }
-            Self::Sliding { needed, time_s, available } => {
-                let when = time_s.map_or("in a landing".into(), |time| format!("at t = {}", s(time)));
-                format!(
-                    "the feet would slide: friction of {} is needed {when}, {} is available",
-                    significant(*needed, 3),
-                    significant(*available, 3)
-                )
-            }
-            Self::FreeFlight { time_s, .. } => {
-                format!("free flight: the ground would have to pull the pivot down at t = {}", s(*time_s))
-            }
-            Self::TooStocky { restitution, friction_needed, .. } => format!(
-                "the body is too stocky to land without bouncing: friction of {} is needed, equation 2 gives e = {}",
-                significant(*friction_needed, 3),
-                significant(*restitution, 3)
-            ),
-            Self::HistoryEndsEarly { model, time_s, ending } => {
-                let why = match ending {
-                    Ending::WorkBound => "the bound on steps was reached",
-                    Ending::Unstable => "the rotation lost its balance",
-                    Ending::Stopped => "it could not be followed further",
-                };
-                format!("the history {} ends at t = {}: {why}", on(*model), s(*time_s))
-            }
-            Self::SmallestSteps { model, steps } => {
-                format!(
-                    "{steps} steps of the history {} were taken at the smallest size, whatever their error",
-                    on(*model)
-                )
-            }
-            Self::MembersBeside => {
-                "springs are tuned for the structure without its dampers, tendon and friction".into()
-            }
-            Self::VerticalLeftOut { vertical_g, horizontal_g, changes } => {
-                let changed: Vec<String> = changes
-                    .iter()
-                    .map(|c| {
-                        let [with, without] = [c.with, c.without].map(|x| crate::message::quantity(x, &c.unit));
-                        format!("{} {with} instead of {without}", c.quantity)
-                    })
-                    .collect();
-                let changed =
-                    if changed.is_empty() { String::new() } else { format!("; with it {}", changed.join(", ")) };
-                format!(
-                    "the record's vertical component of {} g beside {} g is left out{changed}",
-                    significant(*vertical_g, 3),
-                    significant(*horizontal_g, 3)
-                )
-            }
-            Self::Doubt { message, .. } | Self::DeckMisses { message, .. } => message.clone(),
-        }
-    }
-
-    /// What to do, if there is anything to do.
-    pub fn remedy(&self) -> Option<String> {
-        let text = match self {
-            Self::Stands { .. } | Self::MembersBeside | Self::NearMotions { .. } | Self::WithoutVertical { .. } => {
-                return None;
-            }
-            Self::NeverLifts { .. } => "give a stronger record, or scale it: --scale",
-            Self::Overturns { .. } => "scale the record down for the margin: --scale",
-            Self::NoAnswer { .. } | Self::HistoryEndsEarly { ending: Ending::WorkBound, .. } => {
-                "take softer or more strongly damped springs: --max-hz"
-            }
-            Self::ModelsDisagree { .. } => "vary the scale by 1 %, and judge by many records: tune validate",
-            Self::PivotLeavesGround { .. } => "compare up to that time only",
-            Self::IllConditioned { .. } => "judge by many records: tune validate",
-            Self::ForetoldUpTo { softer_hz, .. } | Self::SlidesOn { softer_hz, .. } => {
-                let hz = (*softer_hz)?;
-                return Some(format!("up to then --max-hz {:.0} is stiff enough, with fewer steps", hz.ceil()));
-            }
-            Self::AccuracyMissed { capped: true, .. } | Self::PeaksMissed { capped: true, .. } => {
-                "raise or drop --max-hz"
-            }
-            Self::AccuracyMissed { .. } | Self::PeaksMissed { .. } => {
-                "ask for less, or judge the springs by many records: tune validate"
-            }
-            Self::AccuracyNotMeasured => "judge the springs on records of your own: tune validate",
-            Self::RestitutionMissed { of_equation_2: true, .. } => "allow stiffer springs: --max-hz",
-            Self::RestitutionMissed { .. } | Self::RestitutionOutOfReach { .. } => {
-                "ask for a restitution nearer to equation 2's"
-            }
-            Self::LandingsUnfinished { .. } => "allow other springs: --max-hz, --accuracy",
-            Self::ForceWithheld { .. } => "take it from a model of your own, or refine: elements, --accuracy",
-            Self::Sliding { .. } => "give a shear key, --friction, or [friction] in the case file",
-            Self::FreeFlight { .. } => "compare up to that time only",
-            Self::TooStocky { .. } => "check height and width; rely on tests for such a body",
-            Self::HistoryEndsEarly { .. } => "take stiffer springs, or rotational_inertia_kgm2 above 0.002 m R^2",
-            Self::SmallestSteps { .. } => "compare with OpenSees: tune verify",
-            Self::VerticalLeftOut { .. } => "--vertical auto includes it",
-            Self::Doubt { remedy, .. } | Self::DeckMisses { remedy, .. } => return Some(remedy.clone()),
-        };
-        Some(text.into())
-    }
-
-    /// What it means, for a report that has the room.
-    pub fn meaning(&self) -> Option<&'static str> {
-        Some(match self {
-            Self::NeverLifts { .. } => {
-                "Nothing rocks, so there is no history to compare. The springs follow from the geometry, and their \
-                 accuracy was measured on synthetic motions."
-            }
-            Self::Overturns { .. } => {
-                "Peaks, errors and forces count up to the time of overturning only; what follows is a fall."
-            }
-            Self::ModelsDisagree { .. } => {
-                "Near the edge of overturning the smallest change decides; elsewhere the springs are too soft."
-            }
-            Self::PivotLeavesGround { .. } => {
-                "His equation holds while the foot presses on the ground. The finite elements go on, without anything to \
-                 compare them with."
-            }
-            Self::IllConditioned { .. } => {
-                "A change far smaller than what is unknown of a real structure makes another history of it. No two models, \
-                 and no two tests, agree on it one to one, whatever the springs."
-            }
-            Self::AccuracyMissed { .. } | Self::PeaksMissed { .. } => {
-                "These are the best springs found within what was allowed; the table of accuracy says by how much they miss."
-            }
-            Self::AccuracyNotMeasured => {
-                "No motion that was tried rocks this structure and can be followed one to one."
-            }
-            Self::RestitutionMissed { .. } | Self::RestitutionOutOfReach { .. } => {
-                "A body on soft springs sways before it lifts and loses less; a restitution other than equation 2's is met \
-                 by a search, not exactly."
-            }
-            Self::Sliding { .. } => {
-                "Housner's body and the springs hold the feet at any force. A real structure would slide, and rock less."
-            }
-            Self::FreeFlight { .. } => {
-                "Housner's equation would have to pull the foot down there; the finite elements let it go."
-            }
-            Self::HistoryEndsEarly { .. } | Self::NoAnswer { .. } => "Both models are compared up to there.",
-            Self::ForceWithheld { .. } => {
-                "A force that grows with the springs or the mesh is the model's, not the structure's."
-            }
-            _ => return None,
-        })
-    }
-}
-
-fn percent_3(share: f64) -> String {
-    percent(share)
 }
 
 #[cfg(test)]

@@ -8,7 +8,7 @@ use super::{
     parts::SweepParts,
     plan::Plan,
     reduce::{self, Histogram},
-    table::{Column, Table},
+    table::{Column, SweepTable},
 };
 
 /// One structure, or all of them.
@@ -107,11 +107,11 @@ impl Comparison {
     }
 
     /// `compare.csv`.
-    pub fn table(&self, plan: &Plan) -> Table {
+    pub fn table(&self, plan: &Plan) -> SweepTable {
         let count = |of: fn(&ComparisonRow) -> u64| Column::Count(self.rows.iter().map(|row| of(row) as i64).collect());
         let real = |of: &dyn Fn(&ComparisonRow) -> Option<f64>| Column::Real(self.rows.iter().map(of).collect());
         let names = self.rows.iter().map(|row| Arc::from(subject_name(plan, row.subject))).collect();
-        Table {
+        SweepTable {
             columns: vec![
                 ("structure", Column::Text(names)),
                 ("histories", count(|row| row.n)),

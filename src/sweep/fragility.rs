@@ -14,7 +14,7 @@ use super::{
     parts::SweepParts,
     plan::Plan,
     reduce::{self, MODELS, Seen},
-    table::{Column, Table},
+    table::{Column, SweepTable},
 };
 
 /// What is asked whether it is exceeded.
@@ -211,7 +211,7 @@ impl Fragility {
     }
 
     /// `fragility.csv`.
-    pub fn table(&self, plan: &Plan) -> Table {
+    pub fn table(&self, plan: &Plan) -> SweepTable {
         let member = |row: &FragilityRow| &self.members[row.member];
         let text =
             |of: &dyn Fn(&FragilityRow) -> String| Column::Text(self.rows.iter().map(|row| of(row).into()).collect());
@@ -229,7 +229,7 @@ impl Fragility {
                 (None, None) => None,
             }
         };
-        Table {
+        SweepTable {
             columns: vec![
                 ("model", text(&|row| MODELS[member(row).model].into())),
                 ("structure", text(&|row| subject_name(plan, member(row).subject))),

@@ -7,7 +7,7 @@ use super::{
     parts::SweepParts,
     plan::Plan,
     reduce::{self, Histogram, MODELS},
-    table::{Column, Table},
+    table::{Column, SweepTable},
 };
 
 /// One structure and restitution at one level, by one model.
@@ -109,13 +109,13 @@ impl Ida {
     }
 
     /// `ida.csv`.
-    pub fn table(&self, plan: &Plan) -> Table {
+    pub fn table(&self, plan: &Plan) -> SweepTable {
         let points = &self.points;
         let count = |of: fn(&IdaPoint) -> u64| Column::Count(points.iter().map(|point| of(point) as i64).collect());
         let real = |of: &dyn Fn(&IdaPoint) -> Option<f64>| Column::Real(points.iter().map(of).collect());
         let text = |of: &dyn Fn(&IdaPoint) -> String| Column::Text(points.iter().map(|p| Arc::from(of(p))).collect());
         let share = |k: u64, n: u64| (n > 0).then(|| k as f64 / n as f64);
-        Table {
+        SweepTable {
             columns: vec![
                 ("model", text(&|point| MODELS[point.model].into())),
                 ("structure", text(&|point| plan.subjects[point.subject].name.clone())),

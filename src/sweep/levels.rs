@@ -15,7 +15,7 @@
 use super::{
     ida::{Ida, IdaPoint},
     plan::Plan,
-    table::{Column, Table},
+    table::{Column, SweepTable},
 };
 use crate::structure::{Body, Kind, Structure};
 
@@ -106,13 +106,13 @@ pub fn telling<'a>(plan: &Plan, points: impl Iterator<Item = &'a IdaPoint>, z: f
 }
 
 /// Columns of `ida.csv` beside those of the peaks: bounds on the share that overturns, displacements of the quantiles.
-pub fn columns(plan: &Plan, ida: &Ida, z: f64) -> Table {
+pub fn columns(plan: &Plan, ida: &Ida, z: f64) -> SweepTable {
     let real = |of: &dyn Fn(&IdaPoint) -> Option<f64>| Column::Real(ida.points.iter().map(of).collect());
     let bounds = |point: &IdaPoint| wilson(point.overturned, point.n, z);
     let at = |point: &IdaPoint, share: f64| {
         Some(LeanDisplacements::new(&plan.subjects[point.subject].structure, point.quantile(share)?))
     };
-    Table {
+    SweepTable {
         columns: vec![
             ("overturned_low", real(&|point| Some(bounds(point)?.0))),
             ("overturned_high", real(&|point| Some(bounds(point)?.1))),

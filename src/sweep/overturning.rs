@@ -25,7 +25,7 @@ use super::{
     plan::{Cell, Plan},
     row::CellOutcome,
     springs::SpringsTable,
-    table::{Column, Table},
+    table::{Column, SweepTable},
 };
 use crate::{
     housner::{self, Rocking},
@@ -222,7 +222,7 @@ impl LonePulse<'_> {
 }
 
 /// Columns that an overturning spectrum has: a row an interval.
-pub fn table(plan: &Plan, rows: &[OverturningRow]) -> Table {
+pub fn table(plan: &Plan, rows: &[OverturningRow]) -> SweepTable {
     let all: Vec<(&OverturningRow, usize, &OverturningInterval)> =
         rows.iter().flat_map(|row| row.intervals.iter().enumerate().map(move |(i, found)| (row, i, found))).collect();
     let subject = |row: &OverturningRow| &plan.subjects[row.cell.subject];
@@ -238,7 +238,7 @@ pub fn table(plan: &Plan, rows: &[OverturningRow]) -> Table {
         other => other.name(),
     };
     let restitution = |row: &OverturningRow| plan.restitution(row.cell.subject, row.cell.restitution);
-    Table {
+    SweepTable {
         columns: vec![
             ("cell", count(&|row, _| row.cell.index as i64)),
             ("structure_index", count(&|row, _| row.cell.subject as i64)),

@@ -11,7 +11,7 @@ use bytes::Bytes;
 
 use super::{
     SweepError, history, manifest, overturning, plan::Plan, row, seal, spec::SweepKind, springs::SpringsTable,
-    table::Table,
+    table::SweepTable,
 };
 use crate::{input, message::one_line};
 
@@ -94,7 +94,7 @@ impl<'a> SweepParts<'a> {
         if !seal::holds(&bytes) {
             return Err("is damaged: its checksum does not fit".into());
         }
-        let (metadata, rows) = Table::metadata(bytes.clone()).ok_or("is no Parquet file")?;
+        let (metadata, rows) = SweepTable::metadata(bytes.clone()).ok_or("is no Parquet file")?;
         let is = |key: &str| metadata.get(key).map_or("", String::as_str);
         if is(seal::SWEEP) != self.hash {
             return Err(format!("is of another sweep ({})", one_line(is(seal::SWEEP))));
@@ -163,14 +163,14 @@ impl<'a> SweepParts<'a> {
     /// A part that is not there or not as it was written, or what `take` says.
     pub fn each(
         &self,
-        wanted: &Table,
-        mut take: impl FnMut(Table) -> Result<(), SweepError>,
+        wanted: &SweepTable,
+        mut take: impl FnMut(SweepTable) -> Result<(), SweepError>,
     ) -> Result<(), SweepError> {
         let all = || (0..self.plan.parts()).collect();
         for part in self.gathered.clone().unwrap_or_else(all) {
             let damaged = |reason: String| SweepError::Damaged { path: self.path(part).display().to_string(), reason };
             let bytes = self.load(part).map_err(damaged)?.ok_or_else(|| damaged("is not there".into()))?;
-            take(Table::read_parquet(bytes, wanted).map_err(|e| damaged(e.to_string()))?)?;
+            take(SweepTable::read_parquet(bytes, wanted).map_err(|e| damaged(e.to_string()))?)?;
         }
         Ok(())
     }

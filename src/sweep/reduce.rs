@@ -4,7 +4,7 @@ use super::{
     SweepError,
     parts::SweepParts,
     plan::{Cell, Plan},
-    table::{Column, Table},
+    table::{Column, SweepTable},
 };
 
 /// The models of a sweep's columns.
@@ -51,7 +51,7 @@ pub fn each(parts: &SweepParts, mut take: impl FnMut(&Seen)) -> Result<(), Sweep
     if models.len() == 2 {
         columns.push(real("nrmse"));
     }
-    parts.each(&Table { columns }, |table| {
+    parts.each(&SweepTable { columns }, |table| {
         let (pga, pgv) = (table.reals("pga_m_per_s2"), table.reals("pgv_m_per_s"));
         let answers = NAMES.map(|[peak, overturned]| (table.reals(peak), table.flags(overturned)));
         let nrmse = table.reals("nrmse");

@@ -4,7 +4,7 @@ use std::sync::Arc;
 
 use super::{
     plan::Plan,
-    table::{Column, Table},
+    table::{Column, SweepTable},
 };
 
 /// How a history ended.
@@ -65,7 +65,7 @@ pub struct HistoryRow {
 }
 
 /// Columns that a sweep of histories has.
-pub fn table(plan: &Plan, rows: &[HistoryRow]) -> Table {
+pub fn table(plan: &Plan, rows: &[HistoryRow]) -> SweepTable {
     let count = |of: fn(&HistoryRow) -> i64| Column::Count(rows.iter().map(of).collect());
     let real = |of: &dyn Fn(&HistoryRow) -> Option<f64>| Column::Real(rows.iter().map(of).collect());
     let names: Vec<Arc<str>> = plan.subjects.iter().map(|subject| subject.name.as_str().into()).collect();
@@ -112,5 +112,5 @@ pub fn table(plan: &Plan, rows: &[HistoryRow]) -> Table {
     if plan.model.housner() && plan.model.fem() {
         columns.push(("nrmse", real(&|row| row.nrmse)));
     }
-    Table { columns }
+    SweepTable { columns }
 }

@@ -7,7 +7,7 @@ use super::{
     levels,
     plan::{Measure, Plan},
     reduce::MODELS,
-    table::Table,
+    table::SweepTable,
 };
 use crate::{scalar::GRAVITY, structure::Kind, sweep::lognormal::LognormalFit};
 
@@ -206,7 +206,7 @@ pub fn compare(comparison: &Comparison) -> Vec<String> {
 }
 
 /// What pulses it takes.
-pub fn overturning(plan: &Plan, table: &Table) -> Vec<String> {
+pub fn overturning(plan: &Plan, table: &SweepTable) -> Vec<String> {
     let (from, to) = (table.reals("from_over_uplift"), table.reals("to_over_uplift"));
     let (structure, pulse, q) = (table.texts("structure"), table.texts("pulse"), table.reals("omega_over_p"));
     let mut said = vec![format!(

@@ -32,7 +32,7 @@ pub enum Column {
 
 /// Columns of one length, each with its name.
 #[derive(Clone, Debug, Default, PartialEq)]
-pub struct Table {
+pub struct SweepTable {
     pub columns: Vec<(&'static str, Column)>,
 }
 
@@ -105,7 +105,7 @@ impl Column {
     }
 }
 
-impl Table {
+impl SweepTable {
     /// Number of rows.
     pub fn rows(&self) -> usize {
         self.columns.first().map_or(0, |(_, column)| column.len())
@@ -222,7 +222,7 @@ impl Table {
     }
 }
 
-fn read(file: Bytes, wanted: &Table) -> Result<Table, ParquetError> {
+fn read(file: Bytes, wanted: &SweepTable) -> Result<SweepTable, ParquetError> {
     fn placed<T>(levels: &[i16], values: Vec<T>) -> Vec<Option<T>> {
         let mut values = values.into_iter();
         levels.iter().map(|level| if *level == 0 { None } else { values.next() }).collect()
@@ -268,9 +268,9 @@ fn read(file: Bytes, wanted: &Table) -> Result<Table, ParquetError> {
 mod tests {
     use super::*;
 
-    fn table() -> Table {
+    fn table() -> SweepTable {
         let text = |words: &[&str]| Column::Text(words.iter().map(|word| Arc::from(*word)).collect());
-        Table {
+        SweepTable {
             columns: vec![
                 ("cell", Column::Count(vec![7, 8, 9])),
                 ("peak", Column::Real(vec![Some(0.1), None, Some(-1.0 / 3.0)])),
@@ -280,9 +280,9 @@ mod tests {
         }
     }
 
-    fn empty() -> Table {
+    fn empty() -> SweepTable {
         let real = |name| (name, Column::Real(Vec::new()));
-        Table {
+        SweepTable {
             columns: vec![
                 ("record", Column::Text(Vec::new())),
                 real("peak"),
@@ -301,11 +301,11 @@ mod tests {
     #[test]
     fn what_was_written_is_read_back_to_the_last_bit_and_the_same_table_gives_the_same_bytes() {
         let bytes = Bytes::from(parquet());
-        let back = Table::read_parquet(bytes.clone(), &empty()).unwrap();
+        let back = SweepTable::read_parquet(bytes.clone(), &empty()).unwrap();
         for (name, column) in table().columns {
             assert_eq!(back.columns.iter().find(|(other, _)| *other == name).unwrap().1, column);
         }
-        let (metadata, rows) = Table::metadata(bytes.clone()).unwrap();
+        let (metadata, rows) = SweepTable::metadata(bytes.clone()).unwrap();
         assert_eq!((metadata["sweep"].as_str(), rows), ("0123", 3));
         assert_eq!(bytes, parquet());
     }
@@ -314,8 +314,8 @@ mod tests {
     fn a_cut_file_is_no_table() {
         let bytes = Bytes::from(parquet());
         for cut in [0, 5, bytes.len() / 2, bytes.len() - 1] {
-            assert!(Table::metadata(bytes.slice(..cut)).is_none());
-            assert!(Table::read_parquet(bytes.slice(..cut), &empty()).is_err());
+            assert!(SweepTable::metadata(bytes.slice(..cut)).is_none());
+            assert!(SweepTable::read_parquet(bytes.slice(..cut), &empty()).is_err());
         }
     }
 

@@ -13,7 +13,7 @@ use crate::{
         motion::SweepMotion,
         plan::{Measure, Plan},
         reduce::{MODELS, models},
-        table::Table,
+        table::SweepTable,
     },
 };
 
@@ -184,7 +184,7 @@ fn frequencies(plan: &Plan, subject: usize, pulse: &str) -> Vec<f64> {
     all
 }
 
-pub fn overturning(plan: &Plan, table: &Table, path: &Path) -> Result<(), CommandError> {
+pub fn overturning(plan: &Plan, table: &SweepTable, path: &Path) -> Result<(), CommandError> {
     let (q, model) = (table.reals("omega_over_p"), table.texts("model"));
     let (from, to, impacts) = (table.reals("from_over_uplift"), table.reals("to_over_uplift"), table.reals("impacts"));
     let (subject, pulse) = (table.counts("structure_index"), table.texts("pulse"));

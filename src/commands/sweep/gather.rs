@@ -25,7 +25,7 @@ use crate::sweep::{
     row,
     spec::SweepKind,
     summary,
-    table::Table,
+    table::SweepTable,
 };
 
 /// Options of `tune sweep gather`.
@@ -108,7 +108,7 @@ pub fn gather(parts: &SweepParts, draw: bool) -> Result<(), CommandError> {
     let folder = Folder::begin(parts.folder, "sweep", FILES, identity(&[&parts.hash, &parts.gathered, &draw]))?;
     let out = folder.path();
     let save =
-        |name: &str, table: &Table| write_file(&out.join(name), (table.csv_head() + &table.csv_rows()).as_bytes());
+        |name: &str, table: &SweepTable| write_file(&out.join(name), (table.csv_head() + &table.csv_rows()).as_bytes());
     let said = if plan.kind == SweepKind::Overturning {
         let table = whole(parts, &overturning::table(plan, &[]))?;
         save("overturning.csv", &table)?;
@@ -131,7 +131,7 @@ fn histories(
     parts: &SweepParts,
     out: &Path,
     draw: bool,
-    save: &dyn Fn(&str, &Table) -> Result<(), CommandError>,
+    save: &dyn Fn(&str, &SweepTable) -> Result<(), CommandError>,
 ) -> Result<Vec<String>, CommandError> {
     let plan = parts.plan;
     if plan.cells() <= CSV_ROWS {
@@ -170,7 +170,7 @@ fn histories(
 }
 
 /// All rows of the parts that are there.
-fn whole(parts: &SweepParts, columns: &Table) -> Result<Table, CommandError> {
+fn whole(parts: &SweepParts, columns: &SweepTable) -> Result<SweepTable, CommandError> {
     let mut all = columns.clone();
     parts.each(columns, |table| {
         all.append(table);

@@ -9,7 +9,7 @@
 use crate::{
     fem::{
         model::{Foot, N, State},
-        run::{Contacts, Run, Scales, StepMeasures},
+        run::{Contacts, Scales, StepMeasures, TimeLoop},
         step::{Convergence, IterationVerdict, Request, Stages},
     },
     spring::{Chain, Springs},
@@ -151,7 +151,7 @@ impl Kernel {
     }
 
     /// Lane l follows this run from now on.
-    pub fn seat(&mut self, l: usize, run: &Run<'_, f64>) {
+    pub fn seat(&mut self, l: usize, run: &TimeLoop<'_, f64>) {
         let (model, scales) = (run.model, &run.scales);
         self.gap_tolerance[l] = run.gap_tolerance();
         let Springs { vertical: v, horizontal: h } = &model.springs;

@@ -1,6 +1,6 @@
 //! What a step does to the energy account, and what it misses.
 
-use super::Run;
+use super::TimeLoop;
 use crate::{
     fem::{
         acceptance::{StepVerdict, TriedStep, allowed_energy, cautious},
@@ -63,7 +63,7 @@ impl Scales {
     }
 }
 
-impl<S: Scalar> Run<'_, S> {
+impl<S: Scalar> TimeLoop<'_, S> {
     /// What a step does to the account, and what it misses.
     pub(super) fn measure(&self, stages: &Stages<S>) -> StepMeasures<S> {
         let stored = self.model.energy(&stages.end(), &self.feet);

@@ -1,6 +1,6 @@
 //! Contact events: located by repeating the step, then the foot switches (where they are met: `met`).
 
-use super::{Run, met::Met};
+use super::{TimeLoop, met::Met};
 use crate::{
     fem::{
         cubic::falls_through_zero,
@@ -90,7 +90,7 @@ pub(super) enum Located<S> {
     Nowhere,
 }
 
-impl<S: Scalar> Run<'_, S> {
+impl<S: Scalar> TimeLoop<'_, S> {
     /// Compression below which a gap counts as zero [m]: a share of the weight's that is far below what a step may miss.
     pub fn gap_tolerance(&self) -> f64 {
         let share = (0.01 * self.control.tolerance).clamp(1e-9, 1e-6);

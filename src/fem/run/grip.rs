@@ -6,7 +6,7 @@
 //!   lasts while s w > 0                                  power lost  mu N s w
 //! ```
 
-use super::Run;
+use super::TimeLoop;
 use crate::{
     fem::{
         model::{Contact, Foot, State},
@@ -23,7 +23,7 @@ const HESITATION: f64 = 1e-6;
 /// Steps tried to locate the change.
 const MOST_TRIALS: usize = 40;
 
-impl<S: Scalar> Run<'_, S> {
+impl<S: Scalar> TimeLoop<'_, S> {
     /// What must stay positive while foot i holds or slips as it does, in units of the hesitation; `None` without friction
     /// or in the air.
     fn grip(&self, foot: usize, state: &State<S>) -> Option<f64> {

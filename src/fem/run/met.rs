@@ -1,6 +1,6 @@
 //! Contact events that a candidate step meets, found on the cubic through each gap's values.
 
-use super::{Run, account::Contacts};
+use super::{TimeLoop, account::Contacts};
 use crate::{
     fem::{
         cubic::{Cubic, NODES, falls_through_zero},
@@ -35,7 +35,7 @@ impl Met {
     }
 }
 
-impl<S: Scalar> Run<'_, S> {
+impl<S: Scalar> TimeLoop<'_, S> {
     /// Whether a foot's contact changes within the step, and where first; `contacts` is what is known of it.
     pub(super) fn met(&self, stages: &Stages<S>, contacts: &Contacts) -> Met {
         if matches!(contacts, Contacts::Unchanged) {
@@ -145,7 +145,7 @@ mod tests {
         // the right foot far above the ground
         (state.q[az(0)], state.q[az(1)]) = (rise(0.0), -1.0);
         let feet = [Foot { contact: Contact::Open, anchor: 0.0 }; 2];
-        let run = Run::new(&model, (state, feet), Control::default());
+        let run = TimeLoop::new(&model, (state, feet), Control::default());
         let mut stages = Stages::none();
         stages.h = 1e-3;
         for (i, tau) in C.into_iter().enumerate() {
@@ -162,7 +162,7 @@ mod tests {
             q[Z] += 0.01 * 0.04 * 1.001;
         }
         state.q[Z] = stages.q[0][Z];
-        let run = Run::new(&model, (state, feet), Control::default());
+        let run = TimeLoop::new(&model, (state, feet), Control::default());
         assert!(matches!(run.met(&stages, &Contacts::Unknown), Met::Nothing));
     }
 }

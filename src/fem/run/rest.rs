@@ -1,7 +1,7 @@
 //! A body at rest on still ground needs no steps: before the record begins to shake, and once its silent tail has let the body
 //! come to rest.
 
-use super::Run;
+use super::TimeLoop;
 use crate::{
     fem::model::{N, TH},
     scalar::{GRAVITY, Scalar},
@@ -11,7 +11,7 @@ use crate::{
 /// share of the compression that its weight causes.
 const NOTHING: f64 = 1e-9;
 
-impl<S: Scalar> Run<'_, S> {
+impl<S: Scalar> TimeLoop<'_, S> {
     /// Whether nothing moves until the next sample. Only for real numbers: a derivative may still move where its value rests.
     pub(super) fn rests(&mut self) -> bool {
         let ground = &self.ground;

@@ -19,7 +19,7 @@
 //! local error. A step that meets a change of contact, or whose body comes to lie, is refused: the steps up to it end at samples. Contact is
 //! looked for along the parabola; a touch that only what is missing would make is not seen.
 
-use super::{Contacts, Met, Run, Scales, StepMeasures, real};
+use super::{Contacts, Met, Scales, StepMeasures, TimeLoop, real};
 use crate::{
     fem::{
         control::HistoryOutcome,
@@ -62,7 +62,7 @@ pub(super) fn compliance<S: Scalar>(model: &Model<S>) -> f64 {
     model.body.mass.re() * (give[0] + give[1])
 }
 
-impl<S: Scalar> Run<'_, S> {
+impl<S: Scalar> TimeLoop<'_, S> {
     /// The step over several samples that begins at this sample, and its size, if there is one.
     pub(super) fn span(&mut self) -> Option<S> {
         let dt = self.motion.dt;

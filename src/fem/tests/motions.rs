@@ -7,7 +7,7 @@ use crate::{
     fem::{
         Analysis, Control, Start, View,
         model::{Model, N, State, TH, X, Z, ax, az},
-        run::{GroundMotion, Run},
+        run::{GroundMotion, TimeLoop},
     },
     scalar::GRAVITY,
     spring::{Chain, Design, Springs},
@@ -99,7 +99,7 @@ fn heave_of_the_standing_body_is_the_two_mass_chain() {
 
     // and followed in time: one period later it is where it began
     let period = std::f64::consts::TAU / slow.sqrt();
-    let mut run = Run::new(&model, (start, feet), Control { tolerance: 1e-13, ..Control::default() });
+    let mut run = TimeLoop::new(&model, (start, feet), Control { tolerance: 1e-13, ..Control::default() });
     let mut last = 0.0;
     let mut observer = |_: usize, view: &View<f64>| {
         last = view.z();
@@ -135,7 +135,7 @@ fn damped_heave_decays_by_the_chain_s_complex_eigenvalue() {
         start.q[az(i)] += (ratio * amplitude).re;
         start.v[az(i)] = (s * ratio * amplitude).re;
     }
-    let mut run = Run::new(&model, (start, feet), Control { tolerance: 1e-13, ..Control::default() });
+    let mut run = TimeLoop::new(&model, (start, feet), Control { tolerance: 1e-13, ..Control::default() });
     let dt = 0.003;
     let mut worst: f64 = 0.0;
     let mut observer = |i: usize, view: &View<f64>| {

@@ -4,7 +4,7 @@ use crate::{
     fem::{
         Control, View,
         model::{Contact, Foot, Model, N, X, Z},
-        run::{GroundMotion, Run},
+        run::{GroundMotion, TimeLoop},
     },
     members::{Damper, Members, Tendon},
     scalar::GRAVITY,
@@ -62,7 +62,7 @@ fn a_body_falling_on_dampers_alone_is_the_exponential() {
     start.q = [0.0; N];
     start.q[Z] = 1.0;
     let feet = [Foot { contact: Contact::Open, anchor: 0.0 }; 2];
-    let mut run = Run::new(&model, (start, feet), Control { tolerance: 1e-13, ..Control::default() });
+    let mut run = TimeLoop::new(&model, (start, feet), Control { tolerance: 1e-13, ..Control::default() });
     let rate = 2.0 * c / body.mass;
     let terminal = GRAVITY / rate;
     let mut worst: f64 = 0.0;

@@ -1,0 +1,226 @@
+//! The words of findings.
+
+use super::{Ending, Finding, FindingModel};
+use crate::message::{percent, quantity, significant};
+
+fn on(model: FindingModel) -> &'static str {
+    match model {
+        FindingModel::Reference => "of the reference",
+        FindingModel::Springs => "on the springs",
+        FindingModel::Members => "with members",
+    }
+}
+
+fn s(time: f64) -> String {
+    format!("{} s", significant(time, 4))
+}
+
+impl Finding {
+    /// In one sentence.
+    pub fn message(&self) -> String {
+        match self {
+            Self::NeverLifts { .. }
+            | Self::Stands { .. }
+            | Self::Overturns { .. }
+            | Self::NoAnswer { .. }
+            | Self::ModelsDisagree { .. }
+            | Self::PivotLeavesGround { .. }
+            | Self::WithoutVertical { .. } => self.outcome(),
+            Self::IllConditioned { .. }
+            | Self::ForetoldUpTo { .. }
+            | Self::SlidesOn { .. }
+            | Self::NearMotions { .. } => self.comparison(),
+            Self::AccuracyMissed { .. }
+            | Self::PeaksMissed { .. }
+            | Self::AccuracyNotMeasured
+            | Self::RestitutionMissed { .. }
+            | Self::RestitutionOutOfReach { .. }
+            | Self::LandingsUnfinished { .. }
+            | Self::ForceWithheld { .. }
+            | Self::MembersBeside => self.springs(),
+            Self::Sliding { .. }
+            | Self::FreeFlight { .. }
+            | Self::TooStocky { .. }
+            | Self::HistoryEndsEarly { .. }
+            | Self::SmallestSteps { .. } => self.regime(),
+            Self::VerticalLeftOut { .. } | Self::Doubt { .. } | Self::DeckMisses { .. } => self.taken(),
+        }
+    }
+
+    /// What the structure does.
+    fn outcome(&self) -> String {
+        match self {
+            Self::NeverLifts { pga_g, uplift_g } => format!(
+                "the record does not lift the structure: its peak is {} g, uplift takes {} g",
+                significant(*pga_g, 4),
+                significant(*uplift_g, 4)
+            ),
+            Self::Stands { share_of_overturning, .. } => format!(
+                "the structure rocks and stands: its largest rotation is {} of overturning",
+                percent(*share_of_overturning)
+            ),
+            Self::Overturns { time_s, reference_s } => match reference_s {
+                Some(reference) => format!(
+                    "the structure overturns at t = {} (in the reference at {}); numbers count up to then",
+                    s(*time_s),
+                    s(*reference)
+                ),
+                None => format!("the structure overturns at t = {}; numbers count up to then", s(*time_s)),
+            },
+            Self::NoAnswer { model, time_s } => {
+                format!("the history {} could not be followed beyond t = {}", on(*model), s(*time_s))
+            }
+            Self::ModelsDisagree { reference, springs } => {
+                format!("the models disagree: the reference {reference}, the structure on its springs {springs}")
+            }
+            Self::PivotLeavesGround { time_s } => {
+                format!("the pivot of Housner's body leaves the ground at t = {}, where his solution ends", s(*time_s))
+            }
+            Self::WithoutVertical { does, share_of_overturning } => format!(
+                "without the vertical component it {does}; its largest rotation is {} of overturning",
+                percent(*share_of_overturning)
+            ),
+            _ => String::new(),
+        }
+    }
+
+    /// What a comparison one to one is worth.
+    fn comparison(&self) -> String {
+        match self {
+            Self::IllConditioned { moved_by_width, springs_judged, .. } => {
+                let judged = if *springs_judged { "; the springs were judged on synthetic motions" } else { "" };
+                format!(
+                    "this motion is ill-conditioned: 0.1 % of the width moves it by {}, so no model can foretell it{judged}",
+                    percent(*moved_by_width)
+                )
+            }
+            Self::ForetoldUpTo { time_s, .. } => format!(
+                "from t = {} on a change of a millionth grows above a thousandth of the peak: no model foretells it",
+                s(*time_s)
+            ),
+            Self::SlidesOn { time_s, .. } => format!(
+                "at t = {} a corner lands so flat that it slides on, by an impulse that depends on friction",
+                s(*time_s)
+            ),
+            Self::NearMotions { motions, change, median_ratio, p90_ratio, overturned } => {
+                let cell = |x: Option<f64>| x.map_or("overturned".into(), percent);
+                let fallen = match overturned {
+                    [0, 0] => String::new(),
+                    [reference, springs] => format!("; {reference} and {springs} overturn"),
+                };
+                format!(
+                    "over {motions} motions within {} of the record the largest rotation is {} and {} of overturning in \
+                     the median, {} and {} for 90 % (rigid ground, springs){fallen}",
+                    percent(*change),
+                    cell(median_ratio[0]),
+                    cell(median_ratio[1]),
+                    cell(p90_ratio[0]),
+                    cell(p90_ratio[1]),
+                )
+            }
+            _ => String::new(),
+        }
+    }
+
+    /// What the springs do not reach.
+    fn springs(&self) -> String {
+        match self {
+            Self::AccuracyMissed { asked, .. } => {
+                format!("the accuracy asked for (history, NRMSE {}) was not reached", significant(*asked, 3))
+            }
+            Self::PeaksMissed { asked, .. } => {
+                format!("the accuracy asked for (peaks within {}) was not reached", percent(*asked))
+            }
+            Self::AccuracyNotMeasured => {
+                "the accuracy could not be measured: no motion tried rocks this structure and can be foretold".into()
+            }
+            Self::RestitutionMissed { asked, lowest, highest, .. } => format!(
+                "landings have a restitution of {} to {} where {} is due",
+                significant(*lowest, 4),
+                significant(*highest, 4),
+                significant(*asked, 4)
+            ),
+            Self::RestitutionOutOfReach { asked, share, least, most } => format!(
+                "restitution {} is {} of equation 2's; springs reach {} to {} of it",
+                significant(*asked, 4),
+                significant(*share, 3),
+                significant(*least, 3),
+                significant(*most, 3)
+            ),
+            Self::LandingsUnfinished { finished, all } => {
+                format!("{} of {all} test landings came to no end on these springs", all - finished)
+            }
+            Self::ForceWithheld { force, change } => {
+                let by =
+                    change.map_or("could not be checked".into(), |change| format!("changes by {}", percent(change)));
+                format!("{} is withheld: it {by} with the springs or the mesh", force.words())
+            }
+            Self::MembersBeside => {
+                "springs are tuned for the structure without its dampers, tendon and friction".into()
+            }
+            _ => String::new(),
+        }
+    }
+
+    /// Whether the models hold.
+    fn regime(&self) -> String {
+        match self {
+            Self::Sliding { needed, time_s, available } => {
+                let when = time_s.map_or("in a landing".into(), |time| format!("at t = {}", s(time)));
+                format!(
+                    "the feet would slide: friction of {} is needed {when}, {} is available",
+                    significant(*needed, 3),
+                    significant(*available, 3)
+                )
+            }
+            Self::FreeFlight { time_s, .. } => {
+                format!("free flight: the ground would have to pull the pivot down at t = {}", s(*time_s))
+            }
+            Self::TooStocky { restitution, friction_needed, .. } => format!(
+                "the body is too stocky to land without bouncing: friction of {} is needed, equation 2 gives e = {}",
+                significant(*friction_needed, 3),
+                significant(*restitution, 3)
+            ),
+            Self::HistoryEndsEarly { model, time_s, ending } => {
+                let why = match ending {
+                    Ending::WorkBound => "the bound on steps was reached",
+                    Ending::Unstable => "the rotation lost its balance",
+                    Ending::Stopped => "it could not be followed further",
+                };
+                format!("the history {} ends at t = {}: {why}", on(*model), s(*time_s))
+            }
+            Self::SmallestSteps { model, steps } => {
+                format!(
+                    "{steps} steps of the history {} were taken at the smallest size, whatever their error",
+                    on(*model)
+                )
+            }
+            _ => String::new(),
+        }
+    }
+
+    /// What was taken, and what was not.
+    fn taken(&self) -> String {
+        match self {
+            Self::VerticalLeftOut { vertical_g, horizontal_g, changes } => {
+                let changed: Vec<String> = changes
+                    .iter()
+                    .map(|c| {
+                        let [with, without] = [c.with, c.without].map(|x| quantity(x, &c.unit));
+                        format!("{} {with} instead of {without}", c.quantity)
+                    })
+                    .collect();
+                let changed =
+                    if changed.is_empty() { String::new() } else { format!("; with it {}", changed.join(", ")) };
+                format!(
+                    "the record's vertical component of {} g beside {} g is left out{changed}",
+                    significant(*vertical_g, 3),
+                    significant(*horizontal_g, 3)
+                )
+            }
+            Self::Doubt { message, .. } | Self::DeckMisses { message, .. } => message.clone(),
+
+            _ => String::new(),
+        }
+    }
+}
