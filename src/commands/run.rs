@@ -68,7 +68,7 @@ pub struct RunOptions {
     no_record: bool,
     #[command(flatten)]
     ground: GroundOptions,
-    /// Stiffest springs allowed, as the frequency Omega_n / 2 pi of the mass on a gap spring; for programs with fixed time steps
+    /// Stiffest springs allowed, as the frequency Omega_n / 2 pi of the mass on a gap spring
     /// [default: none, or the case's]
     #[arg(long, value_name = "HZ", allow_negative_numbers = true)]
     max_hz: Option<f64>,
@@ -126,9 +126,6 @@ pub fn run(o: &RunOptions) -> Result<(), CommandError> {
     } else {
         case.set_excitation(o.record.excitation_of_case(&case.excitation, &case.notices)?)?;
     }
-    if !o.no_record {
-        terminal::stderr(case.excitation.line());
-    }
     case.tuning.max_omega_hz = o.max_hz()?.or(case.tuning.max_omega_hz);
     match o.asked()? {
         Some(Asked { by: Yardstick::Histories, error }) => (case.tuning.accuracy, case.tuning.peaks) = (error, None),
@@ -157,6 +154,7 @@ pub fn run(o: &RunOptions) -> Result<(), CommandError> {
     }
     let run = RigidRun::new(case, job, front, friction);
     run.save(&o.out, Output { figures: !o.no_figures, report: !o.no_report })?;
+    terminal::stderr(run.case.excitation.line());
     o.print(&run.said(run.filed(&o.out)))
 }
 

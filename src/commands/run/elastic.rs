@@ -25,9 +25,6 @@ pub fn run(o: &RunOptions, mut case: ElasticCase) -> Result<(), CommandError> {
     if !o.no_record {
         case.excitation = o.record.excitation_of_case(&case.excitation, &case.notices)?;
     }
-    if !o.no_record {
-        terminal::stderr(case.excitation.line());
-    }
     case.max_omega_hz = o.max_hz()?.or(case.max_omega_hz);
     case.asked = o.asked()?.unwrap_or(case.asked);
     check_folder(&o.out)?;
@@ -52,6 +49,7 @@ pub fn run(o: &RunOptions, mut case: ElasticCase) -> Result<(), CommandError> {
     let answer = answer.map_err(|e| CommandError::Result(e.to_string()))?;
     let run = ElasticRun::new(case, assembled, tuned, record, answer);
     run.save(&o.out, &files(), Output { figures: !o.no_figures, report: !o.no_report })?;
+    terminal::stderr(run.case.excitation.line());
     o.print(&run.said(run.filed(&o.out)))
 }
 
