@@ -1,5 +1,7 @@
 //! What a deck can be expected to find, said before anyone opens the program it is for.
 
+#![allow(dead_code)] // for what is said of a run
+
 use super::{DeckFormat, FALLEN};
 use crate::{
     elastic::answer::{Compared, ComparedEnd},
