@@ -12,6 +12,8 @@
 
 #[cfg(feature = "cli")]
 mod elastic;
+#[cfg(feature = "cli")]
+mod expectation;
 mod language;
 mod model;
 mod opensees;
@@ -30,6 +32,9 @@ use crate::{
 };
 #[cfg(feature = "cli")]
 pub use elastic::ElasticDeck;
+#[cfg(feature = "cli")]
+#[allow(unused_imports)] // for what is said of a run
+pub use expectation::{DeckEnd, DeckExpectation, foretold_rigid};
 use model::DeckModel;
 #[cfg(feature = "cli")]
 pub use model::equal_steps;

@@ -28,11 +28,8 @@ const FORETOLD: f64 = 5e-4;
 #[cfg(feature = "cli")]
 const INERTIA_OF_ITS_OWN: f64 = 1e-3;
 
-/// From this NRMSE on no steps help: the history is not to be foretold to its end.
+/// From this NRMSE on no steps help a history's end; those of its first part are chosen as for one that just can be foretold.
 pub const HOPELESS: f64 = 0.5;
-
-/// Error of the part that can be foretold, by the same change of the width, from which on a deck needs finer steps for that part.
-const SENSITIVE_PART: f64 = 1e-3;
 
 /// Share of the half width below which a motion counts as standing: an error is told against at least that.
 pub const STANDING: f64 = 1e-3;
@@ -96,7 +93,7 @@ pub fn standing_error(u: &[f64], reference: &[f64], half_width: f64) -> f64 {
 pub fn step_sensitivity(motion: &Motion, changed: &Motion, half_width: f64) -> f64 {
     let whole = nrmse(&changed.u, &motion.u);
     let part = foretold_samples(motion, changed).unwrap_or(motion.len()).min(changed.len());
-    let sensitive = || standing_error(&changed.u[..part], &motion.u[..part], half_width) > SENSITIVE_PART;
+    let sensitive = || standing_error(&changed.u[..part], &motion.u[..part], half_width) > HANGS;
     if whole > HOPELESS && sensitive() { HOPELESS } else { whole }
 }
 

@@ -13,11 +13,11 @@ use std::{
 use thiserror::Error;
 
 use crate::{
-    export::{Expected, ExportError, export, with_inertia},
+    export::{Expected, ExportError, export, foretold_rigid, with_inertia},
     housner,
     motion::{Motion, nrmse},
     parameters::Parameters,
-    predictability::{foretold_until, simulate, slightly_wider, step_sensitivity, until_flight},
+    predictability::{simulate, slightly_wider, step_sensitivity},
     record::Record,
 };
 pub use peaks::{ComparedPeak, swings};
@@ -135,11 +135,7 @@ pub fn verify(
 
     let changed = slightly_wider(parameters, record);
     let width_sensitivity = nrmse(&changed.u, &history.motion.u);
-    let foretold = foretold_until(&history.motion, &changed)
-        .into_iter()
-        .chain(until_flight(&parameters.structure, record))
-        .filter(|foretold| foretold.samples < history.motion.len())
-        .min_by_key(|foretold| foretold.samples);
+    let foretold = foretold_rigid(parameters, record, &history.motion, &changed);
     let deck = Deck { parameters, record, program, progress };
     // what cannot be foretold is not followed: nothing could be judged by it
     let judged = foretold.map_or(history.motion.len(), |foretold| foretold.samples).max(2);
