@@ -197,7 +197,7 @@ mod tests {
     #[test]
     fn a_block_that_rocks_carries_its_weight_on_one_corner() {
         let block = Structure::block(2.0, 0.5, 1000.0).unwrap();
-        let pulse = |i: usize| if i < 25 { 4.0 } else { 0.0 };
+        let pulse = |i: usize| if i < 45 { 4.0 * (i as f64 / 20.0).min(1.0) } else { 0.0 };
         let all = forces(&block, 10240.0, (0..1000).map(pulse).collect());
         let (weight, b) = (block.mass_kg * GRAVITY, 0.25);
         let moment = all.column_base_moment_nm.unwrap();

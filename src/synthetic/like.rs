@@ -26,7 +26,7 @@ use crate::record::{Record, Source};
 /// Streams of random numbers that neither of the other suites uses; from bit 40 on the number of the draw.
 const LIKE: u64 = 1 << 62;
 /// Draws of phases at most, and the mismatch of the spectrum at which one is good enough.
-const DRAWS: u64 = 6;
+const DRAWS: u64 = 12;
 const GOOD: f64 = 0.06;
 /// Corrections of a draw, and the largest factor of one.
 const CORRECTIONS: usize = 24;
@@ -65,7 +65,14 @@ pub struct MotionTarget {
     wanted: Vec<f64>,
     /// How many of the periods are promised, the rest lies beyond.
     promised: usize,
+    /// Of the given motion, at rest at its end: from 5 to 95 % of the Arias intensity (s), largest displacement of the ground (m).
+    given: (f64, f64),
 }
+
+/// Shares of the given motion's length from 5 to 95 % of the Arias intensity that a motion may have.
+const LENGTHS: std::ops::RangeInclusive<f64> = 0.8..=1.25;
+/// Largest displacement of the ground, in units of the given motion's.
+const FARTHEST: f64 = 2.5;
 
 impl MotionTarget {
     /// The horizontal motion of a record.
@@ -94,7 +101,8 @@ impl MotionTarget {
             .collect();
         let fourier = Fourier::holding(samples);
         let spectrum = ResponseSpectrum::new(periods, dt);
-        Ok(Self {
+        let mut target = Self {
+            given: (record.measures().duration_5_95_s, 0.0),
             name: name(),
             dt,
             fingerprint: record.fingerprint(),
@@ -104,7 +112,11 @@ impl MotionTarget {
             fourier,
             spectrum,
             promised,
-        })
+        };
+        let mut rested = record.accel.clone();
+        target.rest(&mut rested);
+        target.given.1 = farthest(&rested, dt);
+        Ok(target)
     }
 
     /// Tells motions apart: FNV-1a of the given motion's numbers.
@@ -130,6 +142,8 @@ impl MotionTarget {
         for draw in 0..DRAWS {
             let mut random = Random::new(seed, LIKE | draw << 40 | index as u64);
             let (mismatch, accel) = self.drawn(&mut random);
+            // one of another length, or whose ground wanders, is taken only if there is no better
+            let mismatch = if self.fits(&accel) { mismatch } else { mismatch + 1.0 };
             if best.as_ref().is_none_or(|(least, _)| mismatch < *least) {
                 best = Some((mismatch, accel));
             }
@@ -141,6 +155,13 @@ impl MotionTarget {
         accel.resize(accel.len() + (silence_s(p) / self.dt).ceil() as usize, 0.0);
         let name = format!("like-{}-{index:05}", self.name);
         Record { name, dt: self.dt, accel, vertical: None, source: Source::Synthetic }
+    }
+
+    /// Whether a motion is about as long as the given one and moves the ground not much farther.
+    fn fits(&self, accel: &[f64]) -> bool {
+        let (length, far) = self.given;
+        let made = Record::new("made", self.dt, accel.to_vec()).map(|record| record.measures().duration_5_95_s);
+        made.is_ok_and(|made| LENGTHS.contains(&(made / length))) && farthest(accel, self.dt) <= FARTHEST * far
     }
 
     /// One draw of phases, corrected: its mismatch, and its accelerations.
@@ -211,6 +232,17 @@ impl MotionTarget {
         accel[last] = 0.0;
         rest_at_end(accel, &self.envelope[..last], self.dt);
     }
+}
+
+/// Largest displacement of a ground that begins at rest (m).
+fn farthest(accel: &[f64], dt: f64) -> f64 {
+    let (mut v, mut d, mut most) = (0.0, 0.0, 0.0_f64);
+    for pair in accel.windows(2) {
+        d += dt * v + dt * dt * (2.0 * pair[0] + pair[1]) / 6.0;
+        v += dt * (pair[0] + pair[1]) / 2.0;
+        most = most.max(f64::abs(d));
+    }
+    most
 }
 
 /// The periods that motions with a time step and a duration (s) are matched at, from and to (s).
