@@ -45,7 +45,8 @@ $     force (force = P mu z); the tuned model has a plain spring that lets go wh
 $     table, assign FOOT_GAP to the FOOT links: its horizontal spring then also acts on a lifted foot, which is wrong by
 $     the foot's travel times k1; use it for small rocking only.
 $  2. GeoNonLin of both cases must read 'P-Delta plus Large Displacements': check under Define > Load Cases.
-$  3. The integrator is Hilber-Hughes-Taylor with alpha = -1/3, the most damped SAP2000 offers; halve the step once and compare.
+$  3. The integrator is Hilber-Hughes-Taylor with alpha = -1/3, the most damped SAP2000 offers; springs that
+$     were tuned for steps that follow touches are not for its steps.
 $  4. The mass source must count added masses only.
 $  5. The words for the isolator (LinkType), large displacements (GeoNonLin) and ground acceleration (LoadType) differ between
 $     versions: if the import log names one, set it in the dialog of the FOOT links or of the load cases.

@@ -26,7 +26,9 @@ use crate::record::{Record, Source};
 /// Streams of random numbers that neither of the other suites uses; from bit 40 on the number of the draw.
 const LIKE: u64 = 1 << 62;
 /// Draws of phases at most, and the mismatch of the spectrum at which one is good enough.
-const DRAWS: u64 = 12;
+const DRAWS: u64 = 24;
+/// Mismatch with which no further draw is made: ln of the ratio of spectra, at any period.
+const ENOUGH: f64 = 0.15;
 const GOOD: f64 = 0.06;
 /// Corrections of a draw, and the largest factor of one.
 const CORRECTIONS: usize = 24;
@@ -147,7 +149,7 @@ impl MotionTarget {
             if best.as_ref().is_none_or(|(least, _)| mismatch < *least) {
                 best = Some((mismatch, accel));
             }
-            if best.as_ref().is_some_and(|(least, _)| *least < GOOD) {
+            if best.as_ref().is_some_and(|(least, _)| *least < ENOUGH) {
                 break;
             }
         }
