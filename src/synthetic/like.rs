@@ -28,7 +28,7 @@ const LIKE: u64 = 1 << 62;
 /// Draws of phases at most, and the mismatch of the spectrum at which one is good enough.
 const DRAWS: u64 = 24;
 /// Mismatch with which no further draw is made: ln of the ratio of spectra, at any period.
-const ENOUGH: f64 = 0.15;
+const ENOUGH: f64 = 0.12;
 const GOOD: f64 = 0.06;
 /// Corrections of a draw, and the largest factor of one.
 const CORRECTIONS: usize = 24;
@@ -250,7 +250,7 @@ fn farthest(accel: &[f64], dt: f64) -> f64 {
 /// The periods that motions with a time step and a duration (s) are matched at, from and to (s).
 fn band(dt: f64, duration: f64) -> (f64, f64) {
     let shortest = PERIODS_S.0.max(3.0 * dt);
-    (shortest, PERIODS_S.1.min(duration / 10.0).max(4.0 * shortest))
+    (shortest, PERIODS_S.1.min(duration / 15.0).max(4.0 * shortest))
 }
 
 fn mean(values: &[f64]) -> f64 {

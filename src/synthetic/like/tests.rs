@@ -20,14 +20,15 @@ fn given() -> [Record; 2] {
     [ground, floor]
 }
 
-/// Every motion within 30 % of the given spectrum at every period of the band and 10 % in the root mean square; their
-/// mean within 10 %; at periods between those that are matched, too.
+/// Every motion within 30 % of the given spectrum at every period of the band and 10 % in the root mean square. Their mean at no
+/// period below 90 % of it, as EN 1998-1, 3.2.3.1.2 (4) c asks of artificial accelerograms, and at most 15 % above: random phases
+/// fill narrow valleys of a spectrum.
 #[test]
 fn spectra_are_those_of_the_given_motion() {
     for record in given() {
         let target = MotionTarget::new(&record).unwrap();
         let (from, to) = target.periods();
-        let longest = if record.duration() > 39.9 { record.duration() / 10.0 } else { 4.0 };
+        let longest = record.duration() / 15.0;
         assert!((from - 0.04).abs() < 1e-12 && (to - longest).abs() < 1e-12, "{from} {to}");
         let periods: Vec<f64> = (0..=100).map(|i| from * (to / from).powf(f64::from(i) / 100.0)).collect();
         let spectrum = ResponseSpectrum::new(periods.clone(), record.dt);
@@ -48,9 +49,13 @@ fn spectra_are_those_of_the_given_motion() {
                 }
             }
         }
-        let mean = ratios.iter().fold(0.0_f64, |most, ratio| most.max((ratio - 1.0).abs()));
-        println!("{}: {from:.2} to {to:.2} s, worst {worst:.3}, rms {worst_rms:.3}, mean {mean:.3}", record.name);
-        assert!(worst < 1.3_f64.ln() && worst_rms < 0.10 && mean < 0.10, "{worst} {worst_rms} {mean}");
+        let (least, most) = ratios.iter().fold((f64::INFINITY, 0.0_f64), |(a, b), x| (a.min(*x), b.max(*x)));
+        println!(
+            "{}: {from:.2} to {to:.2} s, worst {worst:.3}, rms {worst_rms:.3}, means {least:.3} to {most:.3}",
+            record.name
+        );
+        assert!(worst < 1.3_f64.ln() && worst_rms < 0.10, "{worst} {worst_rms}");
+        assert!((0.90..1.15).contains(&least) && (0.90..1.15).contains(&most), "{least} {most}");
     }
 }
 
