@@ -39,13 +39,13 @@ impl AccuracyReport {
     /// In one sentence, peaks first.
     pub fn sentence(&self) -> String {
         let on = |row: &AccuracyOn| {
-            let peaks = row.peaks.map(|peaks| format!("peaks within {}", percent(peaks)));
+            let peaks = row.peaks.map(|peaks| format!("peaks within {}", percent(peaks).trim_start_matches("below ")));
             let history = row.history.map(|nrmse| format!("history {}", significant(nrmse, 2)));
             let both: Vec<String> = peaks.into_iter().chain(history).collect();
             format!("on {}: {}", row.on, both.join(", "))
         };
         let asked = match (self.peaks_asked, self.history_asked) {
-            (Some(peaks), _) => format!("peaks within {}", percent(peaks)),
+            (Some(peaks), _) => format!("peaks within {}", percent(peaks).trim_start_matches("below ")),
             (None, Some(history)) => format!("history {}", significant(history, 3)),
             (None, None) => "nothing".into(),
         };

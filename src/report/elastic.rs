@@ -253,7 +253,7 @@ pub fn design_forces(of: &StructureForces) -> DesignForces {
             holds: force.holds,
             change: Some(force.change()).filter(|change| change.is_finite()),
             raw: Some(force.raw),
-            fixed: force.fixed.map(|peak| peak.value),
+            fixed: force.fixed.map(|peak| peak.value).filter(|value| *value != 0.0),
             rigid: force.rigid.map(|peak| peak.value),
         })
     };
