@@ -1,10 +1,10 @@
 //! The ground motion of a case: a record, its scale, and how much of it is used.
 
+use crate::record::{Record, RecordError};
 #[cfg(feature = "cli")]
-use crate::record::{ReadOptions, Source, VerticalFrom};
 use crate::{
     message::printable,
-    record::{Record, RecordError},
+    record::{ReadOptions, Source, VerticalFrom},
 };
 
 /// A record as it was read, and what is made of it.

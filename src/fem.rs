@@ -48,6 +48,7 @@ mod strut;
 mod turning;
 
 pub use control::{Control, HistoryOutcome, Work};
+#[cfg(any(feature = "cli", feature = "internals"))]
 pub(crate) use demands::between_landings;
 pub use demands::{Demands, QUANTITIES};
 pub use energy::Energy;

@@ -91,12 +91,14 @@ mod house {
 
     pub mod tuning;
 
+    #[cfg_attr(not(feature = "cli"), allow(unused_imports, dead_code))] // a run's findings are the program's
     pub mod results;
 
     pub mod parameters;
 
     pub mod answers;
 
+    #[cfg(any(feature = "cli", feature = "internals"))]
     pub mod rigid_forces;
 
     pub mod predictability;

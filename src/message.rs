@@ -47,7 +47,7 @@ pub(crate) fn one_line(text: &str) -> String {
 
 /// A share in percent, three digits: 0.0123 %, 4.57 %, 96.0 %. Beyond a thousand percent a number
 /// says no more than that it is large.
-#[cfg(any(feature = "cli", test))]
+#[cfg_attr(not(feature = "cli"), allow(dead_code))]
 pub(crate) fn percent(share: f64) -> String {
     let x = 100.0 * share;
     let size = x.abs();
@@ -62,6 +62,7 @@ pub(crate) fn percent(share: f64) -> String {
 }
 
 /// A text of at most so many letters: a longer one loses its middle.
+#[cfg_attr(not(feature = "cli"), allow(dead_code))]
 pub(crate) fn shortened(text: &str, most: usize) -> String {
     let letters: Vec<char> = text.chars().collect();
     if letters.len() <= most || most < 8 {
@@ -72,6 +73,7 @@ pub(crate) fn shortened(text: &str, most: usize) -> String {
 }
 
 /// x with at most so many significant digits, without zeros at the end of a fraction: 401.2, 0.1, 1.725e16.
+#[cfg_attr(not(feature = "cli"), allow(dead_code))]
 pub(crate) fn significant(x: f64, digits: usize) -> String {
     if x == 0.0 || !x.is_finite() {
         return if x == 0.0 { "0".into() } else { "-".into() };
@@ -93,6 +95,7 @@ pub(crate) fn significant(x: f64, digits: usize) -> String {
 }
 
 /// A quantity with an engineering prefix and at most four significant digits: 20.35 MN m, 401.2 mm, 680.1 t.
+#[cfg_attr(not(feature = "cli"), allow(dead_code))]
 pub(crate) fn quantity(x: f64, unit: &str) -> String {
     const PREFIXES: [(f64, &str); 7] =
         [(1e9, "G"), (1e6, "M"), (1e3, "k"), (1.0, ""), (1e-3, "m"), (1e-6, "u"), (1e-9, "n")];

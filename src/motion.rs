@@ -78,6 +78,7 @@ pub(crate) fn nrmse_of<'a>(pairs: impl Iterator<Item = (&'a f64, &'a f64)>) -> f
 }
 
 /// A share in percent, with two significant digits, at most two decimals; a dash where there is nothing to compare with.
+#[cfg_attr(not(feature = "cli"), allow(dead_code))]
 pub fn percent(share: f64) -> String {
     let percent = 100.0 * share;
     if !percent.is_finite() {
@@ -88,6 +89,7 @@ pub fn percent(share: f64) -> String {
 }
 
 /// An NRMSE with four decimals, or two significant digits where it is smaller; a dash where there is nothing to compare with.
+#[cfg_attr(not(feature = "cli"), allow(dead_code))]
 pub fn shown(nrmse: f64) -> String {
     if !nrmse.is_finite() {
         return "-".into();

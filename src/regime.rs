@@ -113,6 +113,7 @@ pub fn stockiness(body: &Body<f64>, friction: f64) -> Option<Stocky> {
 
 /// Horizontal and vertical force of the ground on Housner's body (N) at the samples of its history: what of it stands between
 /// impacts. Ground accelerations (horizontal, vertical) in m/s2, zero beyond their last sample.
+#[cfg_attr(not(feature = "cli"), allow(dead_code))]
 pub fn ground_forces(body: &Body<f64>, (accel, vertical): (&[f64], &[f64]), rocking: &Rocking<f64>) -> Vec<(f64, f64)> {
     let weight = body.mass * GRAVITY;
     let at = |record: &[f64], i: usize| record.get(i).copied().unwrap_or(0.0) / GRAVITY;
@@ -134,6 +135,7 @@ pub fn ground_forces(body: &Body<f64>, (accel, vertical): (&[f64], &[f64]), rock
 }
 
 /// Whether a body at rest stays at rest under u_g/g and gamma: |u_g|/g below gamma tan(alpha).
+#[cfg_attr(not(feature = "cli"), allow(dead_code))]
 pub(crate) fn stands(body: &Body<f64>, (ground, gamma): (f64, f64)) -> bool {
     ground.abs() * body.height <= gamma * body.half_width
 }

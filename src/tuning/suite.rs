@@ -9,8 +9,10 @@ use std::{borrow::Cow, ops::Range, sync::Arc};
 
 use rayon::prelude::*;
 
+#[cfg(feature = "cli")]
+pub use accuracy::LOOSER;
 pub(super) use accuracy::quantile;
-pub use accuracy::{Accuracy, JudgedOn, LOOSER, MeasuredErrors, PeakAccuracy, Statistic};
+pub use accuracy::{Accuracy, JudgedOn, MeasuredErrors, PeakAccuracy, Statistic};
 use accuracy::{ERRORS, geometric_mean};
 
 use crate::{
@@ -277,6 +279,7 @@ impl Suites {
     }
 
     /// The error of histories on the record, or the median of the synthetic motions where it cannot be followed: one number for a figure.
+    #[cfg_attr(not(feature = "cli"), allow(dead_code))]
     pub fn error(&self, springs: &Springs<Chain<f64>>, control: Control) -> Option<f64> {
         self.error_by(Yardstick::Histories, springs, control)
     }
