@@ -82,13 +82,9 @@ impl Assessment {
         }
     }
 
-    /// What was asked for.
-    pub fn asked(&self) -> Asked {
-        Asked { by: self.judged_by, error: self.accuracy }
-    }
-
     /// What was measured by the yardstick of what was asked for.
-    pub fn judged(&self) -> &Accuracy {
+    #[cfg_attr(not(feature = "cli"), allow(dead_code))]
+    pub(crate) fn judged(&self) -> &Accuracy {
         match (self.judged_by, &self.measured_peaks) {
             (Yardstick::Peaks, Some(peaks)) => &peaks.largest,
             _ => &self.measured,
@@ -96,7 +92,8 @@ impl Assessment {
     }
 
     /// The landing that the springs follow from, and what decided on Omega_n; none of springs that a search found.
-    pub fn design(&self) -> Option<[String; 2]> {
+    #[cfg_attr(not(feature = "cli"), allow(dead_code))]
+    pub(crate) fn design(&self) -> Option<[String; 2]> {
         let l = self.landing.as_ref()?;
         let landing = format!(
             "The springs follow from the landing of a body of alpha {:.5} and m R^2/I0 {:.5} at Omega_n/p {:.0}: error of the \
@@ -107,6 +104,7 @@ impl Assessment {
     }
 
     /// What springs a rung softer would not hold: that of which the springs taken use most.
+    #[cfg_attr(not(feature = "cli"), allow(dead_code))]
     fn decided_by(&self, l: &LimitRow) -> String {
         let aimed = omega::MARGIN * self.accuracy;
         let error = weight::restitution_error(l.alpha, l.mass_share, l.omega_n_over_p, LEAST_LEAN);

@@ -12,6 +12,7 @@
 //! when all else is right, and it falls with Omega_n alone. Landings of a body of alpha 0.5 err about three times as much.
 
 /// Relative error of the restitution, above 0, of a body that falls from a lean of `lean` alpha: slenderness `alpha` (rad), m R^2/I0 and Omega_n/p.
+#[cfg_attr(not(feature = "cli"), allow(dead_code))]
 pub fn restitution_error(alpha: f64, mass_share: f64, stiffness: f64, lean: f64) -> f64 {
     factor(alpha, mass_share) / hardness(alpha, mass_share, stiffness, lean).powf(4.0 / 3.0)
 }
