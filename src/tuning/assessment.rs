@@ -10,7 +10,7 @@ use super::{
     whole_model::is_another,
 };
 use crate::{
-    case::{Asked, Objective, Tuning, Yardstick},
+    case::{Objective, Tuning, Yardstick},
     compare::LEAST_LEAN,
     validate::PREDICTABLE,
 };
