@@ -59,6 +59,9 @@ mod house {
 
     pub mod structure;
 
+    #[cfg_attr(not(feature = "cli"), allow(unused_imports, dead_code))] // a run's findings are the program's
+    pub mod results;
+
     pub mod spring;
 
     pub mod members;
@@ -90,9 +93,6 @@ mod house {
     pub mod case;
 
     pub mod tuning;
-
-    #[cfg_attr(not(feature = "cli"), allow(unused_imports, dead_code))] // a run's findings are the program's
-    pub mod results;
 
     pub mod parameters;
 

@@ -5,5 +5,5 @@ pub mod forces;
 pub mod peaks;
 
 pub use findings::{Ending, FiledFinding, Finding, FindingModel, ForceName, PeakChange, Weight};
-pub use forces::{DesignForce, DesignForces};
+pub use forces::{DesignForce, DesignForces, MOST_CHANGE, OtherForces};
 pub use peaks::{PeakPair, Peaks};

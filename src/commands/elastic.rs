@@ -140,7 +140,7 @@ impl ElasticRun {
             ElasticParameters { on_record: Some(on_record), ..springs_alone(&assembled, &tuned, case.asked) };
         let mut run = Self { case, assembled, tuned, record, answer, bearing, parameters };
         run.parameters.peaks = Some(run.parts().peaks());
-        run.parameters.design_forces = Some(design_forces(&run.answer.design));
+        run.parameters.design_forces = Some(design_forces(&run.assembled.structure, &run.answer.design));
         run.parameters.findings = filed(run.parts().findings(&run.parameters));
         run
     }

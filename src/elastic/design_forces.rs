@@ -25,12 +25,10 @@ use super::{
 use crate::{
     motion::TimedPeak,
     record::Record,
+    results::{MOST_CHANGE, OtherForces},
     spring::{Chain, Springs},
 };
 use check::{ForcePeaks, Variants};
-
-/// Change at which a force no longer holds.
-pub const HOLDS: f64 = 0.05;
 
 /// What a force is.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
@@ -96,8 +94,8 @@ pub struct StructureForce {
     pub time_s: f64,
     /// Whether it is the structure's own: all changes are below 5 %.
     pub holds: bool,
-    /// What was found, whether it holds or not [N, N m].
-    pub found: f64,
+    /// What was found, whether it holds or not, and what with another mesh and on other springs [N, N m].
+    pub others: OtherForces,
     /// Largest magnitude without a filter [N, N m].
     pub raw: f64,
     /// Frequency below which it is given (Hz); none: as it is.
@@ -105,26 +103,12 @@ pub struct StructureForce {
     pub cutoff_hz: Option<f64>,
     /// Length of the record from its start that the peak is of (s): all of it, or as much as can be foretold.
     pub over_s: f64,
-    /// With the elements doubled; none of columns without mass, which have one.
-    #[serde(default, skip_serializing_if = "Option::is_none")]
-    pub change_by_elements: Option<f64>,
-    /// At Omega_n/4.
-    pub change_by_softer: f64,
-    /// At 4 Omega_n.
-    pub change_by_stiffer: f64,
     /// The structure held to the ground, below the same cutoff.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub fixed: Option<ForcePeak>,
     /// The rigid body by Housner's equation, between impacts.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub rigid: Option<ForcePeak>,
-}
-
-impl StructureForce {
-    /// The largest of its changes.
-    pub fn change(&self) -> f64 {
-        self.change_by_elements.unwrap_or(0.0).max(self.change_by_softer).max(self.change_by_stiffer)
-    }
 }
 
 /// All forces of a run.
@@ -165,25 +149,25 @@ impl StructureForces {
             }
             let over = |seconds: f64| -> Option<StructureForce> {
                 let peak = of(fem, seconds).get(kind)?;
-                let change = |history: &ElasticHistory| {
-                    let other = of(history, seconds).get(kind).map_or(f64::INFINITY, |peak| peak.filtered.value);
-                    (other.abs() - peak.filtered.value.abs()).abs() / peak.filtered.value.abs()
+                let found = peak.filtered.value;
+                let other = |history: &ElasticHistory| of(history, seconds).get(kind).map(|peak| peak.filtered.value);
+                let others = OtherForces {
+                    found,
+                    // a mesh that says nothing changes everything
+                    doubled_elements: variants.doubled.as_ref().map(|finer| other(finer).unwrap_or(f64::INFINITY)),
+                    softer: other(&variants.softer),
+                    stiffer: other(&variants.stiffer),
                 };
-                let by_elements = variants.doubled.as_ref().map(change);
-                let (softer, stiffer) = (change(&variants.softer), change(&variants.stiffer));
-                let holds = by_elements.unwrap_or(0.0).max(softer).max(stiffer) < HOLDS;
+                let holds = others.change() < MOST_CHANGE;
                 Some(StructureForce {
                     kind,
-                    value: holds.then_some(peak.filtered.value),
+                    value: holds.then_some(found),
                     time_s: peak.filtered.time_s,
                     holds,
-                    found: peak.filtered.value,
+                    others,
                     raw: peak.raw,
                     cutoff_hz: peak.cutoff_hz,
                     over_s: seconds,
-                    change_by_elements: by_elements,
-                    change_by_softer: softer,
-                    change_by_stiffer: stiffer,
                     fixed: of(fixed, f64::INFINITY).get(kind).map(|peak| peak.filtered),
                     rigid: rigid.and_then(|rigid| rigid_peak(rigid, kind, record.dt)),
                 })

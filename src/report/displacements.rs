@@ -1,6 +1,6 @@
 //! The table of largest displacements: the reference beside the structure on its springs.
 
-use super::{Run, Table};
+use super::{FiledParameters, Run, Table};
 use crate::{
     message::{percent, quantity, significant},
     results::Peaks,
@@ -71,7 +71,9 @@ pub fn summary(run: &Run) -> Table {
         }
     }
     for (name, force) in run.design_forces.iter().flat_map(|forces| forces.all()) {
-        row(name.words(), name.unit(), force.rigid, force.value);
+        // an elastic structure's reference has no largest force of its own
+        let reference = force.rigid.filter(|_| !matches!(run.parameters, FiledParameters::Elastic(_)));
+        row(name.words(), name.unit(), reference, force.value);
     }
     table
 }

@@ -244,25 +244,32 @@ fn impacts(touches: impl Iterator<Item = f64>, rest: f64) -> usize {
 }
 
 /// A run's forces, as parameters.json has them.
-pub fn design_forces(of: &StructureForces) -> DesignForces {
+pub fn design_forces(structure: &ElasticStructure, of: &StructureForces) -> DesignForces {
     let force = |kind: ForceKind| {
         let force = of.get(kind)?;
         Some(DesignForce {
             value: force.value,
             time_s: force.time_s,
             holds: force.holds,
-            change: Some(force.change()).filter(|change| change.is_finite()),
+            change: Some(force.others.change()).filter(|change| change.is_finite()),
             raw: Some(force.raw),
             fixed: force.fixed.map(|peak| peak.value).filter(|value| *value != 0.0),
             rigid: force.rigid.map(|peak| peak.value),
+            others: Some(force.others),
         })
+    };
+    let column_shear_n = force(ForceKind::ColumnShear);
+    // a leg has no mass and a hinge at its foot
+    let apex_moment_nm = match structure {
+        ElasticStructure::AFrame(frame) => column_shear_n.map(|shear| shear.times(frame.leg_length())),
+        ElasticStructure::Pier(_) | ElasticStructure::Frame(_) => None,
     };
     DesignForces {
         below_hz: of.cutoff.as_ref().map(|cutoff| cutoff.cutoff_hz),
-        column_shear_n: force(ForceKind::ColumnShear),
+        column_shear_n,
         column_base_moment_nm: force(ForceKind::ColumnBaseMoment),
         axial_n: force(ForceKind::Axial),
-        apex_moment_nm: None,
+        apex_moment_nm,
         sole_shear_n: force(ForceKind::SoleShear),
         sole_vertical_n: force(ForceKind::SoleVertical),
     }

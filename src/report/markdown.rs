@@ -1,6 +1,6 @@
 //! A run as Markdown: parameters.md, and what `--verbose` prints.
 
-use super::{Run, Section, Table, peak_table, sentence};
+use super::{FiledParameters, Run, Section, Table, peak_table, sentence};
 use crate::{
     message::{percent, quantity, significant},
     results::{DesignForce, ForceName},
@@ -28,7 +28,7 @@ pub fn markdown(run: &Run) -> String {
     out
 }
 
-/// What tables there are, in order: peaks, design forces, springs, accuracy, then what this kind of structure has.
+/// The tables of a run: peaks, design forces, springs, accuracy, then what this kind of structure has.
 pub fn sections(run: &Run) -> Vec<Section> {
     let mut all = vec![Section {
         id: "case",
@@ -74,6 +74,7 @@ pub fn sections(run: &Run) -> Vec<Section> {
             ..Section::default()
         });
     }
+    all.extend(other_forces(run));
     all.extend(run.sections.iter().cloned());
     all
 }
@@ -110,6 +111,9 @@ fn forces(run: &Run) -> Option<Section> {
     let head = ["force", "largest", "at", "change with springs or mesh", "rigid body (Housner)", "fixed to the ground"];
     let below = match forces.below_hz {
         Some(hz) => format!("Largest of what is slower than {} Hz.", significant(hz, 3)),
+        None if matches!(run.parameters, FiledParameters::Elastic(_)) => {
+            "A column without mass has no waves: its forces are as they are, those of the ground below 20 Hz.".into()
+        }
         None => "Largest between impacts: an impact's impulse is not among them.".into(),
     };
     Some(Section {
@@ -120,6 +124,29 @@ fn forces(run: &Run) -> Option<Section> {
              Axial force is positive in tension."
         )],
         table: Some(Table::new(head).with(forces.all().map(row))),
+        ..Section::default()
+    })
+}
+
+/// What forces were with another mesh and on other springs, by which it is decided whether they are given.
+fn other_forces(run: &Run) -> Option<Section> {
+    let row = |(name, force): (ForceName, DesignForce)| {
+        let others = force.others?;
+        let cell = |x: Option<f64>| x.map_or("-".into(), |x| quantity(x, name.unit()));
+        let held = if force.holds { "holds" } else { "withheld" };
+        let cells = [Some(others.found), others.doubled_elements, others.softer, others.stiffer, force.raw].map(cell);
+        Some([vec![name.words().to_string()], cells.into(), vec![held.into()]].concat())
+    };
+    let rows: Vec<_> = run.design_forces?.all().filter_map(row).collect();
+    let head = ["force", "in this run", "elements doubled", "Omega_n / 4", "4 Omega_n", "unfiltered", ""];
+    (!rows.is_empty()).then(|| Section {
+        id: "other-forces",
+        title: "The same forces with another mesh and on other springs".into(),
+        text: vec![
+            "The largest magnitude over the same time. A force whose magnitude changes by 5 % or more is withheld."
+                .into(),
+        ],
+        table: Some(Table::new(head).with(rows)),
         ..Section::default()
     })
 }

@@ -25,13 +25,62 @@ pub struct DesignForce {
     /// Of the rigid body by Housner's equation (N or N m).
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub rigid: Option<f64>,
+    /// What it is with another mesh and on other springs, of an elastic structure.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub others: Option<OtherForces>,
+}
+
+/// Largest magnitude of a force with another mesh and on other springs, below the same frequency, with its sign (N or
+/// N m). None where that motion says nothing of it.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]
+pub struct OtherForces {
+    /// What was found on the springs of the run, whether it holds or not.
+    pub found: f64,
+    /// With twice as many elements; absent from columns without mass, which have one.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub doubled_elements: Option<f64>,
+    /// On springs of Omega_n/4.
+    pub softer: Option<f64>,
+    /// On springs of 4 Omega_n.
+    pub stiffer: Option<f64>,
+}
+
+impl OtherForces {
+    /// The largest change of the magnitude found, as a share of it; infinite where a motion says nothing.
+    pub fn change(&self) -> f64 {
+        let change = |other: f64| (other.abs() - self.found.abs()).abs() / self.found.abs();
+        let of = |other: Option<f64>| other.map_or(f64::INFINITY, change);
+        let by_elements = self.doubled_elements.map_or(0.0, change);
+        by_elements.max(of(self.softer)).max(of(self.stiffer))
+    }
 }
 
 impl DesignForce {
     /// A force that was measured to change by this share.
     pub fn measured(value: f64, time_s: f64, change: Option<f64>) -> Self {
         let holds = change.is_some_and(|change| change < MOST_CHANGE);
-        Self { value: Some(value).filter(|_| holds), time_s, holds, change, raw: None, fixed: None, rigid: None }
+        Self {
+            value: Some(value).filter(|_| holds),
+            time_s,
+            holds,
+            change,
+            raw: None,
+            fixed: None,
+            rigid: None,
+            others: None,
+        }
+    }
+
+    /// This force times a length (m): the moment at one end of a member without mass that has a hinge at its other end.
+    pub fn times(self, length: f64) -> Self {
+        let by = |x: Option<f64>| x.map(|x| x * length);
+        let others = self.others.map(|others| OtherForces {
+            found: others.found * length,
+            doubled_elements: by(others.doubled_elements),
+            softer: by(others.softer),
+            stiffer: by(others.stiffer),
+        });
+        Self { value: by(self.value), raw: by(self.raw), fixed: by(self.fixed), rigid: by(self.rigid), others, ..self }
     }
 }
 
@@ -99,6 +148,15 @@ impl ForceName {
 #[cfg(test)]
 mod tests {
     use super::*;
+
+    #[test]
+    fn the_largest_change_decides_whatever_the_sign_and_a_motion_that_says_nothing_is_none() {
+        let others = OtherForces { found: -2.0, doubled_elements: Some(2.02), softer: Some(-1.9), stiffer: Some(2.06) };
+        assert!((others.change() - 0.05).abs() < 1e-12);
+        assert!((OtherForces { softer: Some(2.0), ..others }.change() - 0.03).abs() < 1e-12);
+        assert!((OtherForces { softer: Some(2.0), stiffer: Some(2.0), ..others }.change() - 0.01).abs() < 1e-12);
+        assert_eq!(OtherForces { softer: None, ..others }.change(), f64::INFINITY);
+    }
 
     #[test]
     fn a_force_that_changes_by_a_twentieth_is_withheld_and_said_so() {
