@@ -34,7 +34,7 @@ use crate::{
 pub use elastic::ElasticDeck;
 #[cfg(feature = "cli")]
 #[allow(unused_imports)] // for what is said of a run
-pub use expectation::{DeckEnd, DeckExpectation, foretold_rigid};
+pub use expectation::{DeckExpectation, foretold_rigid};
 use model::DeckModel;
 #[cfg(feature = "cli")]
 pub use model::equal_steps;

@@ -8,6 +8,7 @@ use std::{
 use indicatif::{ProgressBar, ProgressStyle};
 
 use super::terminal;
+use crate::message::percent;
 
 /// Shows how far a piece of work is.
 pub struct Progress {
@@ -18,6 +19,11 @@ pub struct Progress {
 }
 
 impl Progress {
+    /// Of `tune run`, whose work is short: on a terminal only.
+    pub fn on_terminal(what: &'static str, quiet: bool) -> Self {
+        Self { lines: false, ..Self::new(what, quiet) }
+    }
+
     pub fn new(what: &'static str, quiet: bool) -> Self {
         let terminal = std::io::stderr().is_terminal();
         let bar = (!quiet && terminal).then(|| {
@@ -52,12 +58,12 @@ impl Progress {
 
 /// The least error so far, as a status; nothing where no springs have one yet.
 pub fn error(least: f64) -> String {
-    if least.is_finite() { format!("error {least:.2e}") } else { String::new() }
+    if least.is_finite() { format!("best error so far {}", percent(least)) } else { String::new() }
 }
 
 /// A line for a pipe.
 fn line(what: &str, done: usize, total: usize, status: &str) -> String {
-    let count = if total == 0 { format!("{done} tried") } else { format!("{done}/{total}") };
+    let count = if total == 0 { format!("{done}") } else { format!("{done}/{total}") };
     let comma = if status.is_empty() { "" } else { ", " };
     format!("{what}: {count}{comma}{status}")
 }
@@ -68,13 +74,13 @@ mod tests {
 
     #[test]
     fn a_total_that_is_not_known_is_not_said() {
-        assert_eq!(line("tuning", 3, 0, "error 3.7e-4"), "tuning: 3 tried, error 3.7e-4");
-        assert_eq!(line("front", 3, 9, ""), "front: 3/9");
+        assert_eq!(line("records", 3, 0, "one"), "records: 3, one");
+        assert_eq!(line("records", 3, 9, ""), "records: 3/9");
     }
 
     #[test]
     fn an_error_that_no_springs_have_is_not_said() {
-        assert_eq!(error(3.7e-4), "error 3.70e-4");
+        assert_eq!(error(3.7e-4), "best error so far 0.037 %");
         assert_eq!([error(f64::INFINITY), error(f64::NAN)], ["", ""]);
     }
 }

@@ -136,14 +136,14 @@ pub fn run(o: &RunOptions) -> Result<(), CommandError> {
     check_folder(&o.out)?;
     threads(o.jobs)?;
 
-    let progress = Progress::new("tuning", o.quiet);
+    let progress = Progress::on_terminal("springs tried", o.quiet);
     let job = Job::new(&case, &|done, all, error| progress.tell(done, all, &progress::error(error)));
     progress.done();
     let job = job?;
     let front = if o.no_front || o.no_record {
         Vec::new()
     } else {
-        let progress = Progress::new("front", o.quiet);
+        let progress = Progress::on_terminal("stiffnesses compared", o.quiet);
         let points = front::front(&job, &|done, all| progress.tell(done, all, ""));
         progress.done();
         points
@@ -154,7 +154,6 @@ pub fn run(o: &RunOptions) -> Result<(), CommandError> {
     }
     let run = RigidRun::new(case, job, front, friction);
     run.save(&o.out, Output { figures: !o.no_figures, report: !o.no_report })?;
-    terminal::stderr(run.case.excitation.line());
     o.print(&run.said(run.filed(&o.out)))
 }
 

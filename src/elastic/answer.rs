@@ -6,7 +6,7 @@ use super::{
     ensemble::Ensemble,
     fem::{ElasticAnalysis, ElasticHistory, ElasticStart},
     frame::{EquilibriumError, Frame},
-    reference::{ElasticRocking, FOLLOWED, FORETOLD, GroundAcceleration, ReferenceOutcome, RestError},
+    reference::{ElasticRocking, FOLLOWED, FORETOLD, GroundAcceleration, ReferenceOutcome, RestError, TRIED},
     rigid::RigidForces,
 };
 use crate::{
@@ -172,6 +172,24 @@ impl Reference {
         let followed = assembled.grown(ground, &assembled.upright()?, &self.history, FOLLOWED);
         Ok((followed > self.followed).then(|| Self { followed, ..self.clone() }))
     }
+
+    /// Samples over which another program's history is compared one to one: a perturbation grows less than [`TRIED`].
+    ///
+    /// # Errors
+    /// The structure does not stand.
+    pub fn tried(&self, assembled: &Assembled, record: &Record) -> Result<usize, AnswerError> {
+        let ground = GroundAcceleration { dt: record.dt, accel: &record.accel, vertical: record.up() };
+        Ok(assembled.foretold(ground, &assembled.upright()?, &self.history, TRIED))
+    }
+
+    /// Over how much of the record histories of these lengths, beside this one, are compared, so many samples being followed.
+    pub fn compared(&self, record: &Record, followed: usize, lengths: &[usize]) -> Compared {
+        let history = &self.history;
+        let compared = Compared::new(record, followed, &[&[history.q.len()], lengths].concat());
+        let slides = history.skidded.is_some_and(|time| compared.samples == history.samples_to(time));
+        let end = if compared.end == ComparedEnd::Foretold && slides { ComparedEnd::Slides } else { compared.end };
+        Compared { end, ..compared }
+    }
 }
 
 impl ElasticHistories {
@@ -202,11 +220,7 @@ impl ElasticHistories {
 
     /// Over how much of the record histories of these lengths, beside the reference's, are compared.
     pub fn compared(&self, record: &Record, lengths: &[usize]) -> Compared {
-        let Reference { history, followed, .. } = &self.reference;
-        let compared = Compared::new(record, *followed, &[&[history.q.len()], lengths].concat());
-        let slides = history.skidded.is_some_and(|time| compared.samples == history.samples_to(time));
-        let end = if compared.end == ComparedEnd::Foretold && slides { ComparedEnd::Slides } else { compared.end };
-        Compared { end, ..compared }
+        self.reference.compared(record, self.reference.followed, lengths)
     }
 }
 

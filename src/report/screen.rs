@@ -8,7 +8,7 @@ use crate::{
 
 /// Lines of a screen, and letters of a line.
 pub const LINES: usize = 30;
-pub const WIDTH: usize = 100;
+pub const WIDTH: usize = 98;
 
 /// Letters of a file's name in the line of the record.
 const LONGEST_NAME: usize = 48;

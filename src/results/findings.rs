@@ -188,10 +188,28 @@ pub enum Finding {
         message: String,
         remedy: String,
     },
-    DeckMisses {
-        message: String,
-        remedy: String,
+    // what `tune verify` judges of the deck
+    DeckJudged {
+        judged_s: f64,
+        record_s: f64,
+        end: DeckEnd,
     },
+}
+
+/// Why a deck's history is judged for less than the record.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(rename_all = "snake_case")]
+pub enum DeckEnd {
+    /// All of the record is judged.
+    Record,
+    /// The body falls over, or our own history ends.
+    History,
+    /// From there on the motion hangs on the fifth digit of the width, or on changes as small.
+    Foretold,
+    /// The ground falls faster than a body that has no rotational inertia of its own.
+    Flight,
+    /// A corner slides on from a landing: what follows depends on friction.
+    Slides,
 }
 
 /// A quantity without and with something that was left out.
@@ -242,6 +260,7 @@ impl Finding {
             Self::ForetoldUpTo { .. }
             | Self::NearMotions { .. }
             | Self::MembersBeside
+            | Self::DeckJudged { .. }
             | Self::WithoutVertical { .. } => Weight::Note,
             _ => Weight::Warning,
         }

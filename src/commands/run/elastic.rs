@@ -8,7 +8,6 @@ use crate::{
         elastic::{ElasticRun, springs_alone as alone},
         output::check_folder,
         progress::{self, Progress},
-        terminal,
     },
     elastic::{
         answer::{ElasticAnswer, Reference},
@@ -32,7 +31,7 @@ pub fn run(o: &RunOptions, mut case: ElasticCase) -> Result<(), CommandError> {
 
     let assembled =
         Assembled::with_members(case.structure, case.members).map_err(|e| CommandError::Result(e.to_string()))?;
-    let progress = Progress::new("tuning", o.quiet);
+    let progress = Progress::on_terminal("springs tried", o.quiet);
     let tell = |done: usize, error: f64| progress.tell(done, 0, &progress::error(error));
     let record = if o.no_record { None } else { Some(referred(&assembled, case.excitation.used()?)?) };
     let (record, reference) = record.unzip();
@@ -43,13 +42,12 @@ pub fn run(o: &RunOptions, mut case: ElasticCase) -> Result<(), CommandError> {
         let run = report::elastic::of_case(&case, alone(&assembled, &tuned, case.asked));
         return springs_alone(o, &run);
     };
-    let progress = Progress::new("history", o.quiet);
+    let progress = Progress::on_terminal("histories and forces", o.quiet);
     let answer = ElasticAnswer::new(&assembled, &tuned.springs.corners, &record, reference);
     progress.done();
     let answer = answer.map_err(|e| CommandError::Result(e.to_string()))?;
     let run = ElasticRun::new(case, assembled, tuned, record, answer);
     run.save(&o.out, &files(), Output { figures: !o.no_figures, report: !o.no_report })?;
-    terminal::stderr(run.case.excitation.line());
     o.print(&run.said(run.filed(&o.out)))
 }
 

@@ -6,7 +6,11 @@ impl Finding {
     /// What to do, if there is anything to do.
     pub fn remedy(&self) -> Option<String> {
         let text = match self {
-            Self::Stands { .. } | Self::MembersBeside | Self::NearMotions { .. } | Self::WithoutVertical { .. } => {
+            Self::Stands { .. }
+            | Self::MembersBeside
+            | Self::NearMotions { .. }
+            | Self::DeckJudged { .. }
+            | Self::WithoutVertical { .. } => {
                 return None;
             }
             Self::NeverLifts { .. } => "give a stronger record, or scale it: --scale",
@@ -40,7 +44,7 @@ impl Finding {
             Self::HistoryEndsEarly { .. } => "take stiffer springs, or rotational_inertia_kgm2 above 0.002 m R^2",
             Self::SmallestSteps { .. } => "compare with OpenSees: tune verify",
             Self::VerticalLeftOut { .. } => "--vertical auto includes it",
-            Self::Doubt { remedy, .. } | Self::DeckMisses { remedy, .. } => return Some(remedy.clone()),
+            Self::Doubt { remedy, .. } => return Some(remedy.clone()),
         };
         Some(text.into())
     }

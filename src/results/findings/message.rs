@@ -1,6 +1,6 @@
 //! The words of findings.
 
-use super::{Ending, Finding, FindingModel};
+use super::{DeckEnd, Ending, Finding, FindingModel};
 use crate::message::{percent, quantity, significant};
 
 fn on(model: FindingModel) -> &'static str {
@@ -43,7 +43,7 @@ impl Finding {
             | Self::TooStocky { .. }
             | Self::HistoryEndsEarly { .. }
             | Self::SmallestSteps { .. } => self.regime(),
-            Self::VerticalLeftOut { .. } | Self::Doubt { .. } | Self::DeckMisses { .. } => self.taken(),
+            Self::VerticalLeftOut { .. } | Self::Doubt { .. } | Self::DeckJudged { .. } => self.taken(),
         }
     }
 
@@ -218,7 +218,21 @@ impl Finding {
                     significant(*horizontal_g, 3)
                 )
             }
-            Self::Doubt { message, .. } | Self::DeckMisses { message, .. } => message.clone(),
+            Self::Doubt { message, .. } => message.clone(),
+            Self::DeckJudged { judged_s, record_s, end } => {
+                let why = match end {
+                    DeckEnd::Record => "",
+                    DeckEnd::History => ": then it falls over, or the history ends",
+                    DeckEnd::Foretold => ": from then on changes of 1e-5 decide, and no two programs agree",
+                    DeckEnd::Flight => ": then the ground falls faster than the body",
+                    DeckEnd::Slides => ": then a corner slides on, and friction decides",
+                };
+                format!(
+                    "tune verify judges the deck over the first {} s of {} s{why}",
+                    significant(*judged_s, 4),
+                    significant(*record_s, 4)
+                )
+            }
 
             _ => String::new(),
         }
