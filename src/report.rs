@@ -11,6 +11,7 @@ pub mod accuracy;
 pub mod displacements;
 pub mod elastic;
 pub mod html;
+pub mod judged;
 pub mod markdown;
 pub mod page;
 pub mod reference;

@@ -2,7 +2,7 @@
 
 mod springs;
 
-use super::{Assumed, FiledParameters, Run, Section, Table, doubts, rigid::deck_judged};
+use super::{Assumed, FiledParameters, Run, Section, Table, doubts, judged};
 use crate::{
     case::{ElasticCase, doubts::Doubt},
     elastic::{
@@ -14,7 +14,6 @@ use crate::{
         reference::ReferenceOutcome,
         structure::ElasticStructure,
     },
-    export::DeckExpectation,
     fem::HistoryOutcome,
     members::Members,
     message::significant,
@@ -130,17 +129,13 @@ impl ElasticParts<'_> {
         all.extend(doubts(self.case.doubts()));
         all.extend(springs_findings(parameters));
         all.extend(parameters.design_forces.iter().flat_map(|forces| forces.withheld()));
-        all.extend(parameters.on_record.as_ref().and_then(|_| self.deck_judged()));
+        all.extend(
+            parameters
+                .on_record
+                .as_ref()
+                .and_then(|_| judged::elastic(self.assembled, &self.answer.histories, self.record)),
+        );
         all
-    }
-
-    /// For how much of the record `tune verify` judges the deck, where that is not all of it.
-    fn deck_judged(&self) -> Option<Finding> {
-        let reference = &self.answer.histories.reference;
-        let followed = reference.tried(self.assembled, self.record).ok()?;
-        let compared = reference.compared(self.record, followed, &[self.answer.histories.fem.q.len()]);
-        let DeckExpectation { samples, end } = DeckExpectation::elastic(&compared);
-        deck_judged(self.record, samples, end)
     }
 
     /// A vertical component of some size that is left out: what it would change.

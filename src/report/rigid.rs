@@ -5,7 +5,7 @@ pub mod tables;
 use rayon::join;
 
 use super::{
-    AccuracyOn, AccuracyReport, Assumed, FiledParameters, Run, Section, Taken, Unit, changes, doubts, filed,
+    AccuracyOn, AccuracyReport, Assumed, FiledParameters, Run, Section, Taken, Unit, changes, doubts, filed, judged,
     reference::{self, HousnerReport},
 };
 use crate::{
@@ -13,16 +13,13 @@ use crate::{
     case::{Case, Objective, Yardstick, doubts::Doubt},
     compare::Match,
     export::equal_steps,
-    export::{DeckExpectation, with_inertia},
     fem::History,
     front::FrontPoint,
     members::Members,
     message::{percent, quantity, significant},
     overturning::samples_until,
     parameters::{ConditioningRow, PaperProcedure, Parameters},
-    predictability::{simulate, slightly_wider},
-    record::Record,
-    results::{DeckEnd, Finding, PeakPair, Peaks},
+    results::{Finding, PeakPair, Peaks},
     rigid_forces::design_forces,
     spring::{Design, Springs},
     structure::{Kind, Structure},
@@ -126,21 +123,8 @@ impl RigidRun {
         all.extend(self.report.findings());
         all.extend(reference::histories(&self.both));
         all.extend(self.both.with.as_ref().map(|_| Finding::MembersBeside));
-        all.extend(self.deck_judged());
+        all.extend(judged::rigid(&self.case.structure, &self.parameters, &self.job.record));
         all
-    }
-
-    /// For how much of the record `tune verify` judges the deck, where that may not be all of it.
-    fn deck_judged(&self) -> Option<Finding> {
-        let verdict = self.parameters.verdict.as_ref()?;
-        let record = &self.job.record;
-        if verdict.well_conditioned && verdict.finite_elements.overturned_s.is_none() && record.vertical.is_none() {
-            return None;
-        }
-        let parameters = &Parameters { structure: with_inertia(&self.case.structure), ..self.parameters.clone() };
-        let (own, changed) = join(|| simulate(parameters, record).motion, || slightly_wider(parameters, record));
-        let DeckExpectation { samples, end } = DeckExpectation::rigid(parameters, record, &own, &changed);
-        deck_judged(record, samples, end)
     }
 
     /// A vertical component of some size that is left out: what it would change.
@@ -190,16 +174,6 @@ impl RigidRun {
         }
         all
     }
-}
-
-/// A deck that is judged for less than the record.
-pub fn deck_judged(record: &Record, samples: usize, end: DeckEnd) -> Option<Finding> {
-    let seconds = |samples: usize| samples.saturating_sub(1) as f64 * record.dt;
-    (end != DeckEnd::Record).then(|| Finding::DeckJudged {
-        judged_s: seconds(samples),
-        record_s: seconds(record.len()),
-        end,
-    })
 }
 
 /// Springs of a case without a record.
