@@ -11,7 +11,7 @@
 //! | `fem` | a frame's history on ground springs |
 //! | `assembled` | a structure and its finite elements: rotation and drift, rest, the reference and for how long it can be told |
 //! | `ensemble` | peaks over motions near a record, where no model foretells a history |
-//! | `peaks` | the largest displacement, drift and uplift of a history |
+//! | `peaks` | the largest displacement, drift and uplift of a history, and their errors |
 //! | `design_forces` | forces to design for, and whether they are the structure's own |
 //! | `rigid`, `answer` | what the rigid body bears; all of them through one record |
 

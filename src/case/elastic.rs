@@ -18,7 +18,7 @@
 //!
 //! [tuning]
 //! accuracy = 0.002           # of rotations against the reference's, NRMSE
-//! # peaks = 0.02             # instead: of the largest displacement, drift and uplift
+//! # peaks = 0.02             # instead: of the largest displacement, drift, uplift and forces of columns
 //! ```
 
 use std::path::Path;

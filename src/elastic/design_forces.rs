@@ -13,10 +13,12 @@
 //! Springs at Omega_n/4 have k1/16, k2/16, c/4 and the same m2: their landing is the same, four times as slow.
 
 mod check;
+mod columns;
 mod cutoff;
 
 use serde::{Deserialize, Serialize};
 
+pub use columns::{COMPARED, ColumnForces, ColumnPeaks, stiffer};
 pub use cutoff::Cutoff;
 
 use super::{
@@ -127,6 +129,13 @@ impl StructureForces {
         self.forces.iter().find(|force| force.kind == kind)
     }
 
+    /// The largest change at 4 Omega_n of what columns bear: their error, as far as it is known. None where one of them is withheld.
+    pub fn error(&self) -> Option<f64> {
+        let of_columns = || self.forces.iter().filter(|force| COMPARED.contains(&force.kind));
+        let changes = of_columns().map(|force| force.others.change_by(force.others.stiffer)).reduce(f64::max);
+        changes.filter(|_| of_columns().all(|force| force.holds))
+    }
+
     /// Of a structure on these springs, through a record; what it did on them and held to the ground, their forces finely sampled
     /// ([`parts`]), and as a rigid body; `foretold_s` if it can be foretold for less than the record's length.
     ///
@@ -199,7 +208,11 @@ pub fn peaks_in(
 
 /// Parts of a record's time step whose means hold what a structure's cutoffs keep.
 pub fn parts(structure: &ElasticStructure, dt: f64) -> usize {
-    let fastest = Cutoff::of(structure).map_or(cutoff::SOLE_HZ, |cutoff| cutoff.cutoff_hz.max(cutoff::SOLE_HZ));
+    parts_below(Cutoff::of(structure).as_ref(), dt)
+}
+
+fn parts_below(cutoff: Option<&Cutoff>, dt: f64) -> usize {
+    let fastest = cutoff.map_or(cutoff::SOLE_HZ, |cutoff| cutoff.cutoff_hz.max(cutoff::SOLE_HZ));
     (dt * fastest * cutoff::PARTS_A_PERIOD).ceil().max(1.0) as usize
 }
 

@@ -1,4 +1,5 @@
-//! What an elastic structure is designed by, beside its reference on rigid ground: the largest displacement, drift and uplift.
+//! What an elastic structure is designed by: the largest displacement, drift and uplift, beside its reference on rigid ground, and the forces
+//! that columns bear, beside springs at 4 Omega_n (`design_forces::ColumnPeaks`).
 //!
 //! ```text
 //!   displacement   max |x| of a top node, against the ground
@@ -31,14 +32,19 @@ pub struct StructurePeakErrors {
     /// Of the uplift of a corner.
     #[serde(deserialize_with = "null_as_infinite")]
     pub uplift: f64,
-    /// Of the design forces, where they were compared.
-    #[serde(default, skip_serializing_if = "Option::is_none")]
+    /// Of the column shear, base moment and axial force with the largest error, where they were compared: beside springs at 4 Omega_n.
+    #[serde(default, skip_serializing_if = "Option::is_none", deserialize_with = "null_as_lost")]
     pub design_forces: Option<f64>,
 }
 
 /// JSON has no infinity: it is written as null.
 fn null_as_infinite<'de, D: Deserializer<'de>>(deserializer: D) -> Result<f64, D::Error> {
     Ok(Option::deserialize(deserializer)?.unwrap_or(f64::INFINITY))
+}
+
+/// The same where there may be nothing: what is absent was not compared.
+fn null_as_lost<'de, D: Deserializer<'de>>(deserializer: D) -> Result<Option<f64>, D::Error> {
+    null_as_infinite(deserializer).map(Some)
 }
 
 impl StructurePeaks {

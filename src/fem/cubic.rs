@@ -23,6 +23,13 @@ const WEIGHTS: [[f64; 3]; 3] = {
     weights
 };
 
+/// Weights at tau in 0..1 of the stages' values less the start's: value = start + sum w_j (V_j - start).
+#[inline(always)]
+pub(crate) fn weights(tau: f64) -> [f64; 3] {
+    let [first, second, third] = WEIGHTS;
+    std::array::from_fn(|j| tau * (first[j] + tau * (second[j] + tau * third[j])))
+}
+
 /// Where `value` falls through zero between two points at which it is known, the first inside and the second not (Illinois): a
 /// value below `edge` counts as none.
 pub(crate) fn falls_through_zero(

@@ -66,11 +66,6 @@ pub(crate) fn position_weights(tau: f64) -> [f64; 3] {
     LAGRANGE.map(|[p0, p1, p2]| tau * (p0 + tau * (p1 / 2.0 + tau * (p2 / 3.0))))
 }
 
-/// Weights of the stages' velocities in the velocity of the collocation polynomial at tau in 0..1.
-pub(crate) fn velocity_weights(tau: f64) -> [f64; 3] {
-    LAGRANGE.map(|[p0, p1, p2]| p0 + tau * (p1 + tau * p2))
-}
-
 #[cfg(test)]
 mod tests {
     use super::*;

@@ -6,9 +6,10 @@ pub(super) use super::iterate::{
     Convergence, EIGENVALUE, Ground, IterationVerdict, LARGEST, complex, embedded, from_modes, modes, stage, times,
 };
 use super::{
+    cubic,
     model::{Contact, Foot, Model, N, Pose, State, TH, Vector, X, Z},
     newton::{Chains, CondensedMatrix},
-    radau::{A, C, GAMMA, position_weights, velocity_weights},
+    radau::{A, C, GAMMA, position_weights},
     turning::{self, Turning},
 };
 use crate::scalar::{Scalar, real};
@@ -51,11 +52,15 @@ impl<S: Scalar> Stages<S> {
         (input, dissipated)
     }
 
-    /// Velocity on the collocation polynomial at tau in 0..1.
-    pub fn velocity(&self, tau: f64) -> Vector<S> {
-        let [w0, w1, w2] = velocity_weights(tau);
+    /// Velocity at tau in 0..1 of the step that began at `start`: the cubic through that and the stages, the integral of their
+    /// accelerations. The slope of [`Stages::position`] leaves out the start: it is a parabola, and errs by h^3 v'''/60 there.
+    pub fn velocity(&self, start: &State<S>, tau: f64) -> Vector<S> {
+        let [w0, w1, w2] = cubic::weights(tau);
         let [v0, v1, v2] = &self.v;
-        std::array::from_fn(|k| v0[k] * w0 + v1[k] * w1 + v2[k] * w2)
+        std::array::from_fn(|k| {
+            let from = start.v[k];
+            from + (v0[k] - from) * w0 + (v1[k] - from) * w1 + (v2[k] - from) * w2
+        })
     }
 
     /// Position on the collocation polynomial at tau in 0..1 of the step that began at `start`.

@@ -48,10 +48,13 @@ pub struct OtherForces {
 impl OtherForces {
     /// The largest change of the magnitude found, as a share of it; infinite where a motion says nothing.
     pub fn change(&self) -> f64 {
-        let change = |other: f64| (other.abs() - self.found.abs()).abs() / self.found.abs();
-        let of = |other: Option<f64>| other.map_or(f64::INFINITY, change);
-        let by_elements = self.doubled_elements.map_or(0.0, change);
-        by_elements.max(of(self.softer)).max(of(self.stiffer))
+        let by_elements = self.doubled_elements.map_or(0.0, |other| self.change_by(Some(other)));
+        by_elements.max(self.change_by(self.softer)).max(self.change_by(self.stiffer))
+    }
+
+    /// The change of the magnitude in one of them, as a share of that found; infinite of one that says nothing.
+    pub fn change_by(&self, other: Option<f64>) -> f64 {
+        other.map_or(f64::INFINITY, |other| (other.abs() - self.found.abs()).abs() / self.found.abs())
     }
 }
 

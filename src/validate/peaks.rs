@@ -44,11 +44,9 @@ impl PeakErrors {
         [self.displacement, self.uplift, self.base_shear, self.axial]
     }
 
-    /// The largest of displacement, uplift and axial force, with which goes the moment at the base, N b on one foot. The base
-    /// shear is measured beside them and does not count: long steps know u' at the samples within them to about a hundredth of
-    /// it, which is no error of the springs.
+    /// The largest of the four. The moment at the base goes with the axial force: it is N b on one foot.
     pub fn largest(&self) -> f64 {
-        [self.displacement, self.uplift, self.axial].into_iter().fold(0.0, f64::max)
+        self.all().into_iter().fold(0.0, f64::max)
     }
 }
 

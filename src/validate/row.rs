@@ -119,7 +119,7 @@ impl Row {
 
     /// The largest of the peaks' errors.
     pub(crate) fn peak_error(&self) -> Option<f64> {
-        let all = [self.displacement_error, self.uplift_error, self.axial_error];
+        let all = [self.displacement_error, self.uplift_error, self.base_shear_error, self.axial_error];
         all.into_iter().try_fold(0.0, |largest, error| Some(f64::max(largest, error?)))
     }
 

@@ -130,7 +130,7 @@ fn legs_of_any_stiffness_follow_the_reference() {
         let model = Assembled::new(structure).unwrap();
         let springs = springs_of_design(&stand(&model).unwrap(), 1e-5, landing, 1.0);
         let trial = ElasticTrial::released(&model, lean * alpha, 0.0125, 9.0).trial().unwrap();
-        let judged = trial.judge(&model, &springs, Control::search());
+        let judged = trial.judge(&model, &springs, None, Control::search());
         let [rotation, drift] = judged.errors;
         let touches = judged.touches as f64 / trial.landings as f64;
         println!(

@@ -14,7 +14,7 @@ use crate::{
 };
 
 /// By what Omega_n is divided and multiplied.
-const FACTOR: f64 = 4.0;
+pub(super) const FACTOR: f64 = 4.0;
 
 /// Histories of the same structure that differ in what is not its own.
 pub(super) struct Variants {
@@ -65,7 +65,7 @@ pub(super) fn follow(
 }
 
 /// Springs whose landing is the same but so many times as fast.
-fn scaled(springs: &[Springs<Chain<f64>>], factor: f64) -> Vec<Springs<Chain<f64>>> {
+pub(super) fn scaled(springs: &[Springs<Chain<f64>>], factor: f64) -> Vec<Springs<Chain<f64>>> {
     let chain =
         |c: &Chain<f64>| Chain { k1: c.k1 * factor * factor, k2: c.k2 * factor * factor, c: c.c * factor, m2: c.m2 };
     let both = |s: &Springs<Chain<f64>>| Springs { vertical: chain(&s.vertical), horizontal: chain(&s.horizontal) };

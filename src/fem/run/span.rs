@@ -220,18 +220,22 @@ impl<S: Scalar> TimeLoop<'_, S> {
 
     /// The state at a sample within the step, at tau of it.
     fn within(&self, start: &State<S>, stages: &Stages<S>, tau: f64, late: [S; 2]) -> State<S> {
-        let (mut q, mut v) = (stages.position(start, tau), stages.velocity(tau));
+        let (mut q, mut v) = (stages.position(start, tau), stages.velocity(start, tau));
         let foot = usize::from(self.feet[1].closed());
         let (sin, cos) = crate::scalar::sin_cos(q[TH]);
         let (_, _, px_th, pz_th) = self.model.foot(foot, &q, sin, cos);
         let Self { model, scales, .. } = self;
         let inertia = model.rotation + model.translation * (scales.radius * scales.radius);
-        for (of, late) in [&mut q, &mut v].into_iter().zip(late) {
-            let turn = model.body.mass * px_th * late / inertia;
-            of[TH] += turn;
-            of[X] -= px_th * turn;
-            of[Z] -= pz_th * turn;
-        }
+        let turn = model.body.mass * px_th * late[0] / inertia;
+        // the lever turns with the body: its rate is (pz_th, -px_th) theta'
+        let (px_rate, pz_rate) = (pz_th * v[TH], -px_th * v[TH]);
+        let turning = model.body.mass * (px_th * late[1] + px_rate * late[0]) / inertia;
+        q[TH] += turn;
+        q[X] -= px_th * turn;
+        q[Z] -= pz_th * turn;
+        v[TH] += turning;
+        v[X] -= px_th * turning + px_rate * turn;
+        v[Z] -= pz_th * turning + pz_rate * turn;
         State { q, v }
     }
 }

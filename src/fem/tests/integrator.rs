@@ -105,6 +105,35 @@ fn free_flight_is_a_parabola() {
     assert!((end.q[2] - 0.02 * t).abs() < 1e-16);
 }
 
+/// In free flight over ground that accelerates by c0 + c1 t + c2 t^2 the velocity is v0 - c0 t - c1 t^2/2 - c2 t^3/3 everywhere in the step.
+/// A slope of the places errs at the start by h^3 v'''/60, that is c2 h^3/30, which 32 samples of this step would take for a force of 1 m/s2.
+#[test]
+fn the_velocity_within_a_step_is_a_cubic_through_its_start() {
+    let (model, mut start, mut feet) = undamped(0.3);
+    feet.iter_mut().for_each(|f| f.contact = Contact::Open);
+    start.v[X] = 0.7;
+    let [c0, c1, c2] = [1.3, -4.0, 9.0];
+    let place_slope = |stages: &Stages<f64>, tau: f64| {
+        let near = |tau: f64| stages.position(&start, tau)[X];
+        (near(tau + 1e-4) - near(tau - 1e-4)) / (2e-4 * stages.h)
+    };
+    for h in [0.32, 0.16] {
+        let ground = Ground { start: [c0, 0.0], slope: [c1, 0.0], curve: [c2, 0.0] };
+        let request =
+            Request { h, ground, guess: [no_guess(); 3], tolerance: 1e-15, extra: 1, rate: 1.0, turning: None };
+        let mut stages = Stages::none();
+        assert!(Stepper::new(&model).step(&start, &feet, &request, &mut stages));
+        for i in 0..=32 {
+            let tau = f64::from(i) / 32.0;
+            let t = tau * h;
+            let exact = 0.7 - t * (c0 + t * (c1 / 2.0 + t * c2 / 3.0));
+            assert!((stages.velocity(&start, tau)[X] - exact).abs() < 1e-13, "{h} {tau}");
+        }
+        let missed = place_slope(&stages, 0.0) - 0.7;
+        assert!((missed.abs() / (c2 * h * h * h / 30.0) - 1.0).abs() < 1e-2, "{missed}");
+    }
+}
+
 #[test]
 fn an_open_absorber_is_the_damped_oscillator() {
     let model = Model::new(&super::body(0.3), &super::springs());

@@ -10,7 +10,10 @@ use super::{
 };
 use crate::{
     case::{Asked, Yardstick},
-    elastic::{answer::Reference, assembled::Assembled, fem::default_control, peaks::StructurePeakErrors},
+    elastic::{
+        answer::Reference, assembled::Assembled, design_forces::ColumnForces, fem::default_control,
+        peaks::StructurePeakErrors,
+    },
     fem::Control,
     record::Record,
     synthetic,
@@ -70,6 +73,15 @@ impl ElasticPeaks {
         let largest = || all.iter().map(StructurePeakErrors::largest).collect();
         let median = StructurePeakErrors::each(all, at(0.5))?;
         Some(Self { largest: [at(0.5)(largest())?, at(0.9)(largest())?], median })
+    }
+
+    /// Of one history, with an error of forces measured elsewhere, if none was measured here.
+    pub fn with_forces(mut self, error: Option<f64>) -> Self {
+        if let (None, Some(error)) = (self.median.design_forces, error) {
+            self.median.design_forces = Some(error);
+            self.largest = self.largest.map(|largest| largest.max(error));
+        }
+        self
     }
 
     /// The larger in units of what is allowed.
@@ -133,6 +145,8 @@ pub struct ElasticSuite {
     pub record: Option<ElasticTrial>,
     /// Releases and motions, the record among them, left out since their reference cannot be predicted.
     pub ill_conditioned: usize,
+    /// How forces are taken, if springs are judged by them, too: it takes a second history of each trial.
+    pub forces: Option<ColumnForces>,
 }
 
 impl ElasticSuite {
@@ -159,8 +173,15 @@ impl ElasticSuite {
             motions: trials(motions, MOTIONS),
             record: record.and_then(ElasticTrialOutcome::trial),
             ill_conditioned,
+            forces: None,
             model,
         }
+    }
+
+    /// The same for a yardstick: by peaks, forces count.
+    pub fn by(self, yardstick: Yardstick) -> Self {
+        let forces = (yardstick == Yardstick::Peaks).then(|| ColumnForces::of(&self.model.structure));
+        Self { forces, ..self }
     }
 
     /// The errors of springs; on the record, which is followed to where it grows a change the most, with steps as close as the answer's.
@@ -179,8 +200,8 @@ impl ElasticSuite {
     }
 
     fn errors(&self, trials: &[ElasticTrial], springs: &CornerSprings, control: Control) -> Option<ElasticErrors> {
-        let judged: Vec<_> =
-            trials.par_iter().with_max_len(1).map(|trial| trial.judge(&self.model, springs, control)).collect();
+        let judge = |trial: &ElasticTrial| trial.judge(&self.model, springs, self.forces.as_ref(), control);
+        let judged: Vec<_> = trials.par_iter().with_max_len(1).map(judge).collect();
         let sorted = |i: usize| {
             let mut errors: Vec<f64> = judged.iter().map(|judged| judged.errors[i]).collect();
             errors.sort_by(f64::total_cmp);

@@ -5,12 +5,14 @@ use crate::{
     elastic::{
         answer::Reference,
         assembled::{Assembled, Sway, errors},
+        design_forces::{ColumnForces, stiffer},
         fem::{ElasticAnalysis, ElasticHistory, ElasticStart},
         peaks::{StructurePeakErrors, StructurePeaks},
         reference::{ElasticRocking, GroundAcceleration, ReferenceOutcome, TRIED},
     },
     fem::Control,
     record::Record,
+    spring::{Chain, Springs},
 };
 
 /// A history is compared if its predictable part is this share of it, or has so many landings.
@@ -133,31 +135,57 @@ impl ElasticTrial {
         })
     }
 
-    /// The finite elements' history on springs; as far as it got.
-    pub fn follow(&self, model: &Assembled, springs: &CornerSprings, control: Control) -> Option<ElasticHistory> {
+    /// The finite elements' history on springs, as far as it got; its forces finely sampled in so many parts to a time step.
+    pub fn follow(
+        &self,
+        model: &Assembled,
+        springs: &[Springs<Chain<f64>>],
+        control: Control,
+        parts: usize,
+    ) -> Option<ElasticHistory> {
         let start = self.lean.map_or(ElasticStart::Standing, ElasticStart::Leaning);
         let vertical = &self.vertical;
         let case = ElasticAnalysis {
             control,
             vertical,
             forces: false,
-            ..ElasticAnalysis::new(&model.frame, &springs.corners, start, self.dt, &self.accel)
+            parts,
+            ..ElasticAnalysis::new(&model.frame, springs, start, self.dt, &self.accel)
         };
         case.simulate().ok()
     }
 
-    /// The errors on springs; infinite where their history does not get as far as the reference.
-    pub fn judge(&self, model: &Assembled, springs: &CornerSprings, control: Control) -> Judged {
-        let Some(history) = self.follow(model, springs, control) else {
-            return Judged { errors: [f64::INFINITY; 2], peaks: StructurePeakErrors::LOST, touches: 0 };
+    /// The errors on springs; infinite where their history does not get as far as the reference. Those of forces, if asked for, beside springs at
+    /// 4 Omega_n.
+    pub fn judge(
+        &self,
+        model: &Assembled,
+        springs: &CornerSprings,
+        forces: Option<&ColumnForces>,
+        control: Control,
+    ) -> Judged {
+        let lost = forces.map(|_| f64::INFINITY);
+        let parts = forces.map_or(0, |forces| forces.parts(self.dt));
+        let Some(history) = self.follow(model, &springs.corners, control, parts) else {
+            let peaks = StructurePeakErrors { design_forces: lost, ..StructurePeakErrors::LOST };
+            return Judged { errors: [f64::INFINITY; 2], peaks, touches: 0 };
         };
         let touches = history.contacts.iter().filter(|contact| contact.touches).count();
         let sways = model.sways(history.q.iter().map(Vec::as_slice));
         let errors = errors(&self.reference, &sways, self.accel.len());
+        let design_forces = || {
+            let forces = forces?;
+            let other = self.follow(model, &stiffer(&springs.corners), control, parts);
+            match other.filter(|other| other.q.len() == history.q.len()) {
+                Some(other) => forces.peaks(&history).error(&forces.peaks(&other)),
+                None => lost,
+            }
+        };
         let peaks = if errors.iter().all(|error| error.is_finite()) {
-            StructurePeaks::of(model, history.q.iter().map(Vec::as_slice)).beside(&self.peaks)
+            let peaks = StructurePeaks::of(model, history.q.iter().map(Vec::as_slice)).beside(&self.peaks);
+            StructurePeakErrors { design_forces: design_forces(), ..peaks }
         } else {
-            StructurePeakErrors::LOST
+            StructurePeakErrors { design_forces: lost, ..StructurePeakErrors::LOST }
         };
         Judged { errors, peaks, touches }
     }
