@@ -96,7 +96,7 @@ impl Case {
             all.push(assumption(quantity, inertia, "kg m2", "structure.rotational_inertia_kgm2"));
         }
         all.extend(of_excitation(&self.excitation));
-        all
+        first_what_weighs_most(all)
     }
 }
 
@@ -105,8 +105,14 @@ impl ElasticCase {
     pub(crate) fn assumptions(&self) -> Vec<Assumption> {
         let mut all = of_structure(&self.structure);
         all.extend(of_excitation(&self.excitation));
-        all
+        first_what_weighs_most(all)
     }
+}
+
+/// A vertical motion that is left out comes first: a screen may have no room for all.
+fn first_what_weighs_most(mut all: Vec<Assumption>) -> Vec<Assumption> {
+    all.sort_by_key(|assumption| assumption.quantity != AssumedQuantity::NoVertical);
+    all
 }
 
 fn of_structure(structure: &ElasticStructure) -> Vec<Assumption> {

@@ -154,6 +154,7 @@ pub fn run(o: &RunOptions) -> Result<(), CommandError> {
     }
     let run = RigidRun::new(case, job, front, friction);
     run.save(&o.out, Output { figures: !o.no_figures, report: !o.no_report })?;
+    terminal::stderr(run.case.excitation.line());
     o.print(&run.said(run.filed(&o.out)))
 }
 

@@ -9,10 +9,16 @@ use crate::{
 /// A row's name, its quantity, and its words.
 type PeakRow = (&'static str, fn(&Peaks) -> Option<f64>, fn(f64) -> String);
 
-const ROWS: [PeakRow; 6] = [
+/// The row of what feet move.
+const MOVED: &str = "  by feet moved";
+/// Share of the top's displacement below which it is not said.
+const NOT_SAID: f64 = 0.02;
+
+const ROWS: [PeakRow; 7] = [
     ("top displacement", |p| Some(p.top_displacement_m), meters),
     ("  by rocking", |p| p.bending_m.map(|_| p.rocking_m), meters),
     ("  by bending", |p| p.bending_m, meters),
+    (MOVED, |p| p.feet_moved_m, meters),
     ("  drift ratio", |p| Some(p.drift_ratio), |x| format!("{} %", significant(1e2 * x, 3))),
     ("uplift", |p| Some(p.uplift_m), meters),
     ("impacts", |p| Some(p.impacts as f64), |x| format!("{x:.0}")),
@@ -34,6 +40,10 @@ pub fn peak_table(run: &Run) -> Option<Table> {
     head.extend(with.map(|_| "with members".into()));
     let row = |(name, of, words): PeakRow| {
         let (a, b) = (of(&pair.reference)?, of(&pair.springs)?);
+        // feet that land where they stood move by the height of the lift times the rotation alone
+        if name == MOVED && a.max(b) < NOT_SAID * pair.reference.top_displacement_m {
+            return None;
+        }
         let difference = match name {
             "impacts" => String::new(),
             _ if pair.reference_ends_s.is_some() => "-".into(),
@@ -62,7 +72,7 @@ pub fn summary(run: &Run) -> Table {
     };
     if let Some(pair) = &run.peaks {
         let springs = pair.with_members.unwrap_or(pair.springs);
-        let units = ["m", "m", "m", "1", "m", "1"];
+        let units = ["m", "m", "m", "m", "1", "m", "1"];
         for ((name, of, _), unit) in ROWS.into_iter().zip(units) {
             let (a, b) = (of(&pair.reference), of(&springs));
             if a.or(b).is_some() {

@@ -78,22 +78,24 @@ impl ElasticParts<'_> {
         let frame = &self.assembled.frame;
         let of = |q: &dyn Fn(usize) -> Vec<f64>, k: usize, impacts: usize| {
             let mut peaks = Peaks { impacts, ..Peaks::default() };
-            let mut bending: f64 = 0.0;
+            let (mut bending, mut moved): (f64, f64) = (0.0, 0.0);
             for i in 0..n {
                 let q = q(i);
+                let feet = feet_moved(frame, &q);
+                moved = moved.max(feet.abs());
                 for (watched, pair) in self.assembled.watched.iter().zip(sways) {
                     let Sway { rotation, drift } = &pair[k];
                     let [x, ..] = frame.displacement(watched.top, &q);
                     peaks.top_displacement_m = peaks.top_displacement_m.max(x.abs());
                     // across the base's axis, which has turned
                     let across = drift[i] * rotation[i].cos();
-                    peaks.rocking_m = peaks.rocking_m.max((x - across).abs());
+                    peaks.rocking_m = peaks.rocking_m.max((x - feet - across).abs());
                     bending = bending.max(drift[i].abs());
                 }
                 peaks.uplift_m = peaks.uplift_m.max(uplift(frame, &q));
             }
             let drift_ratio = peaks.top_displacement_m / top_height(&self.assembled.structure);
-            Peaks { bending_m: Some(bending), drift_ratio, ..peaks }
+            Peaks { bending_m: Some(bending), feet_moved_m: Some(moved), drift_ratio, ..peaks }
         };
         let landings = reference.history.landings().map(|event| event.time);
         let touches = fem.contacts.iter().filter(|contact| contact.touches).map(|c| c.time);
@@ -279,6 +281,12 @@ pub fn design_forces(structure: &ElasticStructure, of: &StructureForces) -> Desi
         sole_shear_n: force(ForceKind::SoleShear),
         sole_vertical_n: force(ForceKind::SoleVertical),
     }
+}
+
+/// Mean horizontal displacement of all corners (m).
+fn feet_moved(frame: &Frame, q: &[f64]) -> f64 {
+    let places = frame.places();
+    places.iter().map(|place| place.reach(q).place[0]).sum::<f64>() / places.len().max(1) as f64
 }
 
 /// Height of the highest corner above the ground (m).

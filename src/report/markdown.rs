@@ -121,7 +121,8 @@ fn forces(run: &Run) -> Option<Section> {
         title: "Forces to design with".into(),
         text: vec![format!(
             "{below} A force is given if it changes by less than 5 % with the springs' stiffness and the mesh, as measured in this run. \
-             Axial force is positive in tension."
+             Column shear and axial force are those at its base; members.csv has all members. Axial force is positive in tension. \
+             Each is the largest by itself, at its own time: they do not act together."
         )],
         table: Some(Table::new(head).with(forces.all().map(row))),
         ..Section::default()

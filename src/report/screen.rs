@@ -2,13 +2,15 @@
 
 use super::{Run, Table, peak_table, sentence};
 use crate::{
-    message::{quantity, shortened, significant},
+    message::{percent, quantity, shortened, significant},
     results::{DesignForce, DesignForces, ForceName, Weight},
 };
 
 /// Lines of a screen, and letters of a line.
 pub const LINES: usize = 30;
 pub const WIDTH: usize = 98;
+/// Lines that one warning may take.
+const LONGEST_WARNING: usize = 3;
 
 /// Letters of a file's name in the line of the record.
 const LONGEST_NAME: usize = 48;
@@ -86,7 +88,7 @@ fn taken(run: &Run, written: &Written, lines: &mut Vec<String>) {
     at_most(2, lines, "", &format!("{}{lifts}", run.taken.structure));
     if let Some(record) = &run.taken.record {
         let short: Vec<String> = record.split(' ').map(|word| shortened(word, LONGEST_NAME)).collect();
-        at_most(3, lines, "", &short.join(" "));
+        at_most(2, lines, "", &short.join(" "));
     }
     let all: Vec<String> = run.taken.assumed.iter().map(|a| format!("{} ({})", a.what, a.key)).collect();
     let place = if written.report { "report.html" } else { "--verbose" };
@@ -115,7 +117,10 @@ fn forces(run: &Run, lines: &mut Vec<String>) {
 pub fn force_words(forces: &DesignForces) -> String {
     let cell = |(name, force): (ForceName, DesignForce)| match force.value {
         Some(value) => format!("{} {}", name.words(), quantity(value.abs(), name.unit())),
-        None => format!("{} withheld", name.words()),
+        None => match force.change {
+            Some(change) => format!("{} withheld: changes by {} with springs or mesh", name.words(), percent(change)),
+            None => format!("{} withheld", name.words()),
+        },
     };
     // the report has the vertical force, too
     let all: Vec<String> = forces.all().filter(|(name, _)| *name != ForceName::SoleVertical).map(cell).collect();
@@ -124,7 +129,7 @@ pub fn force_words(forces: &DesignForces) -> String {
 
 fn springs(run: &Run, lines: &mut Vec<String>) {
     const SHOWN: usize = 2;
-    let of = format!("springs at {}", run.springs_at);
+    let of = format!("springs {}", run.springs_at.replace("each", "per"));
     let mut table = Table::new([of.as_str(), "k1 [N/m]", "k2 [N/m]", "m2 [kg]", "c [N s/m]"]);
     for unit in run.springs.iter().take(SHOWN) {
         let cells = [unit.k1_n_per_m, unit.k2_n_per_m, unit.m2_kg, unit.c_ns_per_m].map(|x| significant(x, 4));
@@ -136,9 +141,9 @@ fn springs(run: &Run, lines: &mut Vec<String>) {
         _ => "  numerical contact stiffness, not soil".to_string(),
     };
     if let Some(head) = all.first_mut() {
-        head.push_str("   numerical contact stiffness, not soil");
+        head.push_str("  numerical contact stiffness, not soil");
         if head.chars().count() > WIDTH || run.springs.len() > SHOWN {
-            *head = head.replace("   numerical contact stiffness, not soil", "");
+            *head = head.replace("  numerical contact stiffness, not soil", "");
             all.push(note);
         }
     }
@@ -160,24 +165,22 @@ fn next(written: &Written, lines: &mut Vec<String>) {
 
 fn warnings(run: &Run, written: &Written, lines: &mut Vec<String>) {
     let all: Vec<_> = run.remarks().filter(|finding| finding.weight >= Weight::Warning).collect();
-    let (mut told, room) = (0, LINES.saturating_sub(lines.len()));
-    let mut printed: Vec<String> = Vec::new();
+    let place = if written.report { "report.html" } else { "parameters.json" };
+    let mut told = 0;
     for finding in &all {
-        let mut one = Vec::new();
-        let remedy = finding.remedy.as_ref().map_or(String::new(), |remedy| format!(" {}", sentence(remedy)));
-        wrap(&mut one, "warning   ", &format!("{}{remedy}", sentence(&finding.message)));
-        // the last line is kept for those that do not fit
-        let rest = usize::from(told + 1 < all.len());
-        if printed.len() + one.len() + rest > room {
+        // a line is kept for those that do not fit, if there is more than one
+        let room = LINES.saturating_sub(lines.len());
+        let rest = usize::from(told + 1 < all.len() && room > 1);
+        if room == rest {
             break;
         }
-        printed.extend(one);
+        let remedy = finding.remedy.as_ref().map_or(String::new(), |remedy| format!(" {}", sentence(remedy)));
+        let text = format!("{}{remedy}", sentence(&finding.message));
+        at_most((room - rest).min(LONGEST_WARNING), lines, "warning   ", &text);
         told += 1;
     }
-    if told < all.len() {
-        let place = if written.report { "report.html" } else { "parameters.json" };
-        let some = if told == 0 { "warnings" } else { "more" };
-        printed.push(format!("warning   and {} {some}: {place}", all.len() - told));
+    let more = all.len() - told;
+    if more > 0 && lines.len() < LINES {
+        lines.push(format!("warning   and {more} more: {place}"));
     }
-    lines.extend(printed);
 }

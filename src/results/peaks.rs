@@ -4,6 +4,7 @@
 //!   top displacement   of the structure's highest point: rocking carries it, bending adds to it
 //!   rocking            what the rotation of the base alone gives that point
 //!   bending            displacement of that point across the axis that turns with the base
+//!   feet moved         mean horizontal displacement of the feet: legs that scissor land elsewhere than they stood
 //!   uplift             of a foot or corner above the ground
 //!   drift ratio        top displacement over the height of that point
 //! ```
@@ -24,6 +25,9 @@ pub struct Peaks {
     /// Its part by bending (m); none of a rigid body.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub bending_m: Option<f64>,
+    /// Its part by feet that land elsewhere than they stood (m); none of a rigid body, whose feet do not.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub feet_moved_m: Option<f64>,
     /// Of a foot (m).
     pub uplift_m: f64,
     /// Top displacement over the height of the top.
@@ -63,7 +67,7 @@ impl Peaks {
         };
         let uplift_m = 2.0 * body.half_width * largest(&mut theta.iter().map(|theta| theta.sin()));
         let drift_ratio = top_displacement_m / height;
-        Self { top_displacement_m, rocking_m, bending_m: None, uplift_m, drift_ratio, impacts }
+        Self { top_displacement_m, rocking_m, bending_m: None, feet_moved_m: None, uplift_m, drift_ratio, impacts }
     }
 }
 

@@ -8,6 +8,7 @@ use crate::{
         elastic::{ElasticRun, springs_alone as alone},
         output::check_folder,
         progress::{self, Progress},
+        terminal,
     },
     elastic::{
         answer::{ElasticAnswer, Reference},
@@ -48,6 +49,7 @@ pub fn run(o: &RunOptions, mut case: ElasticCase) -> Result<(), CommandError> {
     let answer = answer.map_err(|e| CommandError::Result(e.to_string()))?;
     let run = ElasticRun::new(case, assembled, tuned, record, answer);
     run.save(&o.out, &files(), Output { figures: !o.no_figures, report: !o.no_report })?;
+    terminal::stderr(run.case.excitation.line());
     o.print(&run.said(run.filed(&o.out)))
 }
 

@@ -6,7 +6,7 @@ use crate::{
     case::{ElasticCase, Yardstick},
     members::Tendon,
     message::{quantity, significant},
-    parameters::elastic::{ElasticAssessment, ElasticParameters},
+    parameters::elastic::{ElasticAssessment, ElasticParameters, OnRecord},
     results::Finding,
     tuning::elastic::suite::ElasticErrors,
 };
@@ -20,7 +20,7 @@ pub(super) fn springs_findings(parameters: &ElasticParameters) -> Option<Finding
     })
 }
 
-fn accuracy(a: &ElasticAssessment) -> AccuracyReport {
+fn accuracy(a: &ElasticAssessment, on_record: Option<&OnRecord>) -> AccuracyReport {
     let m = &a.measured;
     let asked = |by: Yardstick| Some(a.accuracy).filter(|_| a.judged_by == by);
     let (of_history, of_peaks) = (asked(Yardstick::Histories), asked(Yardstick::Peaks));
@@ -36,7 +36,9 @@ fn accuracy(a: &ElasticAssessment) -> AccuracyReport {
             peaks_allowed: of_peaks,
         })
     };
-    let all = [on("this record", m.record), on("synthetic motions", m.motions), on("releases", m.releases)];
+    let part = on_record.filter(|on| !on.whole).map(|on| significant(on.compared_s, 3));
+    let this = part.map_or("this record".to_string(), |seconds| format!("the first {seconds} s of this record"));
+    let all = [on(&this, m.record), on("synthetic motions", m.motions), on("releases", m.releases)];
     AccuracyReport {
         history_asked: of_history,
         peaks_asked: of_peaks,
@@ -86,7 +88,7 @@ pub(super) fn alone(parameters: ElasticParameters) -> Run {
         design_forces: parameters.design_forces,
         springs_at: "each corner",
         springs: springs.collect(),
-        accuracy: parameters.assessment.as_ref().map(accuracy),
+        accuracy: parameters.assessment.as_ref().map(|a| accuracy(a, parameters.on_record.as_ref())),
         findings,
         fixed_steps: None,
         sap2000: false,

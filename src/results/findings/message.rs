@@ -1,7 +1,10 @@
 //! The words of findings.
 
-use super::{DeckEnd, Ending, Finding, FindingModel};
+use super::{DeckEnd, Ending, Finding, FindingModel, PeakChange};
 use crate::message::{percent, quantity, significant};
+
+/// Quantities that a vertical motion left out changes the most, said in its message; all are in parameters.json.
+const CHANGES_SAID: usize = 2;
 
 fn on(model: FindingModel) -> &'static str {
     match model {
@@ -203,17 +206,18 @@ impl Finding {
     fn taken(&self) -> String {
         match self {
             Self::VerticalLeftOut { vertical_g, horizontal_g, changes } => {
-                let changed: Vec<String> = changes
-                    .iter()
-                    .map(|c| {
-                        let [with, without] = [c.with, c.without].map(|x| quantity(x, &c.unit));
-                        format!("{} {with} instead of {without}", c.quantity)
-                    })
-                    .collect();
+                let mut changes = changes.clone();
+                let ratio = |c: &PeakChange| (c.with / c.without).ln().abs();
+                changes.sort_by(|a, b| ratio(b).total_cmp(&ratio(a)));
+                let changed = changes.iter().take(CHANGES_SAID).map(|c| {
+                    let [with, without] = [c.with, c.without].map(|x| quantity(x, &c.unit));
+                    format!("{} {with} instead of {without}", c.quantity)
+                });
+                let changed: Vec<String> = changed.collect();
                 let changed =
                     if changed.is_empty() { String::new() } else { format!("; with it {}", changed.join(", ")) };
                 format!(
-                    "the record's vertical component of {} g beside {} g is left out{changed}",
+                    "vertical motion of {} g beside {} g is left out{changed}",
                     significant(*vertical_g, 3),
                     significant(*horizontal_g, 3)
                 )
