@@ -294,17 +294,23 @@ mod tests {
 
     #[test]
     fn what_was_left_out_is_told_with_what_it_would_change() {
-        let changes = vec![PeakChange {
-            quantity: "moment at column base".into(),
+        let change = |quantity: &str, without: f64, with: f64| PeakChange {
+            quantity: quantity.into(),
             unit: "N m".into(),
-            without: 10.8e6,
-            with: 20.9e6,
-        }];
+            without,
+            with,
+        };
+        // those that change the most, two of them
+        let changes = vec![
+            change("moment at the apex", 10e6, 10.1e6),
+            change("moment at column base", 10.8e6, 20.9e6),
+            change("another moment", 6e6, 2e6),
+        ];
         let finding = Finding::VerticalLeftOut { vertical_g: 1.84, horizontal_g: 0.99, changes };
         assert_eq!(
             finding.message(),
-            "the record's vertical component of 1.84 g beside 0.99 g is left out; with it moment at column base 20.9 MN m \
-             instead of 10.8 MN m"
+            "vertical motion of 1.84 g beside 0.99 g is left out; with it another moment 2 MN m instead of 6 MN m, \
+             moment at column base 20.9 MN m instead of 10.8 MN m"
         );
     }
 }
