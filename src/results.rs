@@ -5,5 +5,5 @@ pub mod forces;
 pub mod peaks;
 
 pub use findings::{DeckEnd, Ending, FiledFinding, Finding, FindingModel, ForceName, PeakChange, Weight};
-pub use forces::{DesignForce, DesignForces, MOST_CHANGE, OtherForces};
+pub use forces::{DesignForce, DesignForces, ForcesTogether, MOST_CHANGE, OtherForces};
 pub use peaks::{PeakPair, Peaks};

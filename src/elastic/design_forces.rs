@@ -27,7 +27,7 @@ use super::{
 use crate::{
     motion::TimedPeak,
     record::Record,
-    results::{MOST_CHANGE, OtherForces},
+    results::{ForcesTogether, MOST_CHANGE, OtherForces},
     spring::{Chain, Springs},
 };
 use check::{ForcePeaks, Variants};
@@ -42,6 +42,8 @@ pub enum ForceKind {
     ColumnBaseMoment,
     /// In a column at its base, or in a leg; tension positive (N).
     Axial,
+    /// The largest tension there (N).
+    AxialTension,
     /// Horizontal force of the ground on all corners: footings' inertia is in it (N).
     SoleShear,
     /// Vertical force of the ground on all corners, upwards (N).
@@ -50,8 +52,14 @@ pub enum ForceKind {
 
 impl ForceKind {
     /// All of them, in the order in which they are told.
-    pub const ALL: [Self; 5] =
-        [Self::ColumnShear, Self::ColumnBaseMoment, Self::Axial, Self::SoleShear, Self::SoleVertical];
+    pub const ALL: [Self; 6] = [
+        Self::ColumnShear,
+        Self::ColumnBaseMoment,
+        Self::Axial,
+        Self::AxialTension,
+        Self::SoleShear,
+        Self::SoleVertical,
+    ];
 
     /// In words.
     pub fn name(self) -> &'static str {
@@ -59,6 +67,7 @@ impl ForceKind {
             Self::ColumnShear => "column shear",
             Self::ColumnBaseMoment => "moment at column base",
             Self::Axial => "axial force",
+            Self::AxialTension => "tension",
             Self::SoleShear => "shear at the sole, footing included",
             Self::SoleVertical => "vertical force at the sole, footing included",
         }
@@ -96,6 +105,8 @@ pub struct StructureForce {
     pub time_s: f64,
     /// Whether it is the structure's own: all changes are below 5 %.
     pub holds: bool,
+    /// What the same section bears at that time; none of the ground's forces.
+    pub together: Option<ForcesTogether>,
     /// What was found, whether it holds or not, and what with another mesh and on other springs [N, N m].
     pub others: OtherForces,
     /// Largest magnitude without a filter [N, N m].
@@ -173,6 +184,7 @@ impl StructureForces {
                     value: holds.then_some(found),
                     time_s: peak.filtered.time_s,
                     holds,
+                    together: peak.together,
                     others,
                     raw: peak.raw,
                     cutoff_hz: peak.cutoff_hz,
@@ -222,7 +234,7 @@ fn rigid_peak(rigid: &RigidForces, kind: ForceKind, dt: f64) -> Option<ForcePeak
         ForceKind::ColumnShear => &rigid.shear,
         ForceKind::ColumnBaseMoment => &rigid.moment,
         ForceKind::Axial => &rigid.axial,
-        ForceKind::SoleShear | ForceKind::SoleVertical => return None,
+        ForceKind::AxialTension | ForceKind::SoleShear | ForceKind::SoleVertical => return None,
     };
     let peak = TimedPeak::of(dt, series).map(ForcePeak::from)?;
     // on the end of the column, as in the frame

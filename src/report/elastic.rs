@@ -29,6 +29,9 @@ use springs::{alone, springs_findings};
 /// Part of the weight below which the ground's force tells nothing of friction: the structure all but flies.
 const LEAST_PRESS: f64 = 0.05;
 
+/// Share of the largest axial force below which a tension is not said.
+const LEAST_TENSION: f64 = 0.01;
+
 /// Time within which touches are one impact (1/p).
 const SAME_IMPACT: f64 = 0.1;
 
@@ -263,10 +266,15 @@ pub fn design_forces(structure: &ElasticStructure, of: &StructureForces) -> Desi
             raw: Some(force.raw),
             fixed: force.fixed.map(|peak| peak.value).filter(|value| *value != 0.0),
             rigid: force.rigid.map(|peak| peak.value),
+            together: force.together,
             others: Some(force.others),
         })
     };
     let column_shear_n = force(ForceKind::ColumnShear);
+    let axial_n = force(ForceKind::Axial);
+    let found = |force: DesignForce| force.others.map_or(0.0, |others| others.found.abs());
+    let most = axial_n.map_or(0.0, found);
+    let axial_tension_n = force(ForceKind::AxialTension).filter(|tension| found(*tension) > LEAST_TENSION * most);
     // a leg has no mass and a hinge at its foot
     let apex_moment_nm = match structure {
         ElasticStructure::AFrame(frame) => column_shear_n.map(|shear| shear.times(frame.leg_length())),
@@ -276,7 +284,8 @@ pub fn design_forces(structure: &ElasticStructure, of: &StructureForces) -> Desi
         below_hz: of.cutoff.as_ref().map(|cutoff| cutoff.cutoff_hz),
         column_shear_n,
         column_base_moment_nm: force(ForceKind::ColumnBaseMoment),
-        axial_n: force(ForceKind::Axial),
+        axial_n,
+        axial_tension_n,
         apex_moment_nm,
         sole_shear_n: force(ForceKind::SoleShear),
         sole_vertical_n: force(ForceKind::SoleVertical),

@@ -46,9 +46,8 @@ pub fn sections(run: &Run) -> Vec<Section> {
             ..Section::default()
         });
     }
-    if let Some(section) = forces(run) {
-        all.push(section);
-    }
+    all.extend(forces(run));
+    all.extend(together(run));
     all.push(Section {
         id: "springs",
         title: format!("The springs at {}", run.springs_at),
@@ -125,6 +124,28 @@ fn forces(run: &Run) -> Option<Section> {
              Each is the largest by itself, at its own time: they do not act together."
         )],
         table: Some(Table::new(head).with(forces.all().map(row))),
+        ..Section::default()
+    })
+}
+
+/// What acts together with the largest forces of a column: pairs for an interaction diagram.
+fn together(run: &Run) -> Option<Section> {
+    let row = |(name, force): (ForceName, DesignForce)| {
+        let with = force.together.filter(|_| force.holds)?;
+        let cells = [(with.axial_n, "N"), (with.column_base_moment_nm, "N m"), (with.column_shear_n, "N")];
+        let at = format!("{} s", significant(force.time_s, 4));
+        Some([vec![format!("largest {}", name.words()), at], cells.map(|(x, unit)| quantity(x, unit)).into()].concat())
+    };
+    let rows: Vec<_> = run.design_forces?.all().filter_map(row).collect();
+    let head = ["where", "at", "axial force", "moment at column base", "column shear"];
+    (!rows.is_empty()).then(|| Section {
+        id: "together",
+        title: "What acts together at the column's base".into(),
+        text: vec![
+            "At the time of each largest force, below the same frequency; means over parts of the record's time step, so somewhat \
+             less than the largest. Axial force is positive in tension.".into(),
+        ],
+        table: Some(Table::new(head).with(rows)),
         ..Section::default()
     })
 }

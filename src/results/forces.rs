@@ -25,9 +25,23 @@ pub struct DesignForce {
     /// Of the rigid body by Housner's equation (N or N m).
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub rigid: Option<f64>,
+    /// What the same section of an elastic structure's column bears at that time, below the same frequency.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub together: Option<ForcesTogether>,
     /// What it is with another mesh and on other springs, of an elastic structure.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub others: Option<OtherForces>,
+}
+
+/// Forces of one section at one time, with their signs: what acts together. Axial force is positive in tension.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+pub struct ForcesTogether {
+    /// Shear across the column (N).
+    pub column_shear_n: f64,
+    /// Axial force (N).
+    pub axial_n: f64,
+    /// Moment at the column's base [N m].
+    pub column_base_moment_nm: f64,
 }
 
 /// Largest magnitude of a force with another mesh and on other springs, below the same frequency, with its sign (N or
@@ -70,6 +84,7 @@ impl DesignForce {
             raw: None,
             fixed: None,
             rigid: None,
+            together: None,
             others: None,
         }
     }
@@ -105,7 +120,10 @@ pub struct DesignForces {
     /// Axial force of the column, the leg or the rigid body, tension positive.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub axial_n: Option<DesignForce>,
-    /// Moment of a leg at the apex of a rigid A-frame.
+    /// Largest tension of the column of an elastic structure, where there is any.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub axial_tension_n: Option<DesignForce>,
+    /// Moment of a leg at the apex of an A-frame.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub apex_moment_nm: Option<DesignForce>,
     /// Shear at the sole, footing included.
@@ -123,6 +141,7 @@ impl DesignForces {
             (ForceName::ColumnShear, self.column_shear_n),
             (ForceName::ColumnBaseMoment, self.column_base_moment_nm),
             (ForceName::Axial, self.axial_n),
+            (ForceName::AxialTension, self.axial_tension_n),
             (ForceName::ApexMoment, self.apex_moment_nm),
             (ForceName::SoleShear, self.sole_shear_n),
             (ForceName::SoleVertical, self.sole_vertical_n),

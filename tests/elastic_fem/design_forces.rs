@@ -127,6 +127,11 @@ fn a_slow_push_gives_the_forces_of_statics_and_lifts_where_moments_about_the_cor
         let value = force.value.unwrap_or_else(|| panic!("{kind:?} withheld: {force:?}"));
         assert!((value.abs() / expected.abs() - 1.0).abs() < 5e-3, "{kind:?}: {value:e}, by hand {expected:e}");
     }
+    // what acts with the largest shear; and nothing pulls the column
+    let with = below.design.get(ForceKind::ColumnShear).unwrap().together.unwrap();
+    assert!((with.axial_n / (-m * GRAVITY) - 1.0).abs() < 5e-3, "{with:?}");
+    assert!((with.column_base_moment_nm.abs() / forces[1].1 - 1.0).abs() < 5e-3, "{with:?}");
+    assert!(below.design.get(ForceKind::AxialTension).is_none());
 }
 
 /// A footing lands flat and stops; the mass above, which came down at dv = b |theta'|, is stopped by the column: largest axial

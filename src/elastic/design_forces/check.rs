@@ -10,6 +10,7 @@ use crate::{
     },
     motion::TimedPeak,
     record::Record,
+    results::ForcesTogether,
     spring::{Chain, Springs},
 };
 
@@ -79,6 +80,8 @@ pub(super) struct PeakOfForce {
     pub filtered: ForcePeak,
     pub raw: f64,
     pub cutoff_hz: Option<f64>,
+    /// What the section bears at that time.
+    pub together: Option<ForcesTogether>,
 }
 
 /// Those of all forces.
@@ -91,25 +94,40 @@ impl ForcePeaks {
         let part = fine.part_s;
         let kept = (over / part).round().min(1e15) as usize;
         let peak = |series: &[f64], raw: f64, cutoff_hz: Option<f64>, kind: ForceKind| {
-            let smooth = cutoff_hz.map(|hz| low_pass(series, part, hz));
-            let smooth = smooth.as_deref().unwrap_or(series);
+            let smooth = smoothed(series, part, cutoff_hz);
             let peak = TimedPeak::of(part, &smooth[..kept.min(smooth.len())])?;
             // as it is: the largest at any step, not of means
             let value = if cutoff_hz.is_none() && kept >= series.len() { raw } else { peak.value };
-            Some(PeakOfForce { kind, filtered: ForcePeak { value, time_s: peak.time + 0.5 * part }, raw, cutoff_hz })
+            let filtered = ForcePeak { value, time_s: peak.time + 0.5 * part };
+            Some(PeakOfForce { kind, filtered, raw, cutoff_hz, together: None })
         };
         let of_bases = cutoff.map(|cutoff| cutoff.cutoff_hz);
         let of_soles = Some(of_bases.unwrap_or(SOLE_HZ));
-        let kinds = [ForceKind::ColumnShear, ForceKind::Axial, ForceKind::ColumnBaseMoment];
         let mut out: Vec<PeakOfForce> = Vec::new();
-        for (k, kind) in kinds.into_iter().enumerate() {
-            let of_base = |(i, base): (usize, &[Vec<f64>; BASE_FORCES])| {
-                peak(&base[k], fine.largest[BASE_FORCES * i + k], of_bases, kind)
+        for (i, base) in fine.bases.iter().enumerate() {
+            let smooth: Vec<Vec<f64>> = base.iter().map(|series| smoothed(series, part, of_bases)).collect();
+            let together = |of: PeakOfForce| {
+                let at = ((of.filtered.time_s / part - 0.5).round().max(0.0) as usize).min(smooth[0].len() - 1);
+                let [column_shear_n, axial_n, column_base_moment_nm] = [0, 1, 2].map(|k| smooth[k][at]);
+                PeakOfForce { together: Some(ForcesTogether { column_shear_n, axial_n, column_base_moment_nm }), ..of }
             };
-            let all = fine.bases.iter().enumerate().filter_map(of_base);
-            let raw = all.clone().fold(0.0, |most: f64, p| if p.raw.abs() > most.abs() { p.raw } else { most });
-            let most = all.reduce(|a, b| if b.filtered.value.abs() > a.filtered.value.abs() { b } else { a });
-            out.extend(most.map(|most| PeakOfForce { raw, ..most }));
+            let kinds = [ForceKind::ColumnShear, ForceKind::Axial, ForceKind::ColumnBaseMoment];
+            let mut peaks: Vec<PeakOfForce> = kinds
+                .into_iter()
+                .enumerate()
+                .filter_map(|(k, kind)| peak(&base[k], fine.largest[BASE_FORCES * i + k], of_bases, kind))
+                .collect();
+            // of a column that is always pressed there is none
+            let pulled: Vec<f64> = smooth[1].iter().map(|axial| axial.max(0.0)).collect();
+            let tension = TimedPeak::of(part, &pulled[..kept.min(pulled.len())]).filter(|peak| peak.value > 0.0);
+            peaks.extend(tension.map(|peak| PeakOfForce {
+                kind: ForceKind::AxialTension,
+                filtered: ForcePeak { value: peak.value, time_s: peak.time + 0.5 * part },
+                raw: peak.value,
+                cutoff_hz: of_bases,
+                together: None,
+            }));
+            peaks.into_iter().map(together).for_each(|peak| keep_larger(&mut out, peak));
         }
         let soles = fine.largest.len().saturating_sub(2);
         for (k, kind) in [ForceKind::SoleShear, ForceKind::SoleVertical].into_iter().enumerate() {
@@ -120,5 +138,22 @@ impl ForcePeaks {
 
     pub fn get(&self, kind: ForceKind) -> Option<PeakOfForce> {
         self.0.iter().find(|peak| peak.kind == kind).copied()
+    }
+}
+
+/// A series below a frequency (Hz), if there is one.
+fn smoothed(series: &[f64], part: f64, cutoff_hz: Option<f64>) -> Vec<f64> {
+    cutoff_hz.map_or_else(|| series.to_vec(), |hz| low_pass(series, part, hz))
+}
+
+/// Of several bases the one that bears the most counts, and the largest unfiltered value of all.
+fn keep_larger(all: &mut Vec<PeakOfForce>, peak: PeakOfForce) {
+    match all.iter_mut().find(|other| other.kind == peak.kind) {
+        None => all.push(peak),
+        Some(other) => {
+            let raw = if peak.raw.abs() > other.raw.abs() { peak.raw } else { other.raw };
+            let larger = if peak.filtered.value.abs() > other.filtered.value.abs() { peak } else { *other };
+            *other = PeakOfForce { raw, ..larger };
+        }
     }
 }
