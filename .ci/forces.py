@@ -1,6 +1,6 @@
 #!/usr/bin/env python3
 """Design forces of six piers and a portal with 4, 8 and 16 elements (twice 8), on the springs of a run, on
-softer and on stiffer ones: the table of docs/elastic.md.
+softer and on stiffer ones, as a Markdown table.
 
     python3 .ci/forces.py target/release/tune [--only NAME,...] [--elements 4,8]
 

@@ -37,7 +37,7 @@ fn accuracy(a: &ElasticAssessment, on_record: Option<&OnRecord>) -> AccuracyRepo
         })
     };
     let part = on_record.filter(|on| !on.whole).map(|on| significant(on.compared_s, 3));
-    let this = part.map_or("this record".to_string(), |seconds| format!("the first {seconds} s of this record"));
+    let this = part.map_or("this record".to_string(), |seconds| format!("this record to {seconds} s"));
     let all = [on(&this, m.record), on("synthetic motions", m.motions), on("releases", m.releases)];
     AccuracyReport {
         history_asked: of_history,
