@@ -51,7 +51,8 @@ fn agrees_at(accuracy: f64, programs: &[Program], structure: Structure, springs:
         let a = result.opensees_against_ours;
         println!("{program:?}: {} steps, {:.1} s: {a:?}", result.steps, result.seconds);
         println!("a change of 1e-5 in width moves it by {:.1e}", result.width_sensitivity);
-        // to the end of the record, or to where the body falls flat, or to where the verdict says that judging ends
+        // to the end of the record, or to where the body falls flat, or to where the verdict says
+        // that judging ends
         let flat = result.ours.theta.last().is_some_and(|theta| theta.abs() > 1.0);
         let ends = flat || result.verdict.end.is_some();
         assert!(result.opensees.len() == record.len() || ends, "{} samples", result.opensees.len());

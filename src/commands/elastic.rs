@@ -138,7 +138,8 @@ impl ElasticRun {
         let bearing = ForceQuantities::new(&assembled, &answer, record.dt);
         let mut parameters =
             ElasticParameters { on_record: Some(on_record), ..springs_alone(&assembled, &tuned, case.asked) };
-        // the check of design forces on springs at 4 Omega_n is their error, whatever springs were chosen by
+        // the check of design forces on springs at 4 Omega_n is their error, whatever springs were
+        // chosen by
         if let Some(errors) = parameters.assessment.as_mut().and_then(|a| a.measured.record.as_mut()) {
             errors.peaks = errors.peaks.map(|peaks| peaks.with_forces(answer.design.error()));
         }

@@ -173,7 +173,8 @@ impl Reference {
         Ok((followed > self.followed).then(|| Self { followed, ..self.clone() }))
     }
 
-    /// Samples over which another program's history is compared one to one: a perturbation grows less than [`TRIED`].
+    /// Samples over which another program's history is compared one to one: a perturbation grows
+    /// less than [`TRIED`].
     ///
     /// # Errors
     /// The structure does not stand.
@@ -182,7 +183,8 @@ impl Reference {
         Ok(assembled.foretold(ground, &assembled.upright()?, &self.history, TRIED))
     }
 
-    /// Over how much of the record histories of these lengths, beside this one, are compared, so many samples being followed.
+    /// Over how much of the record histories of these lengths, beside this one, are compared, so
+    /// many samples being followed.
     pub fn compared(&self, record: &Record, followed: usize, lengths: &[usize]) -> Compared {
         let history = &self.history;
         let compared = Compared::new(record, followed, &[&[history.q.len()], lengths].concat());

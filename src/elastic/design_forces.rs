@@ -107,7 +107,8 @@ pub struct StructureForce {
     pub holds: bool,
     /// What the same section bears at that time; none of the ground's forces.
     pub together: Option<ForcesTogether>,
-    /// What was found, whether it holds or not, and what with another mesh and on other springs [N, N m].
+    /// What was found, whether it holds or not, and what with another mesh and on other springs [N,
+    /// N m].
     pub others: OtherForces,
     /// Largest magnitude without a filter [N, N m].
     pub raw: f64,
@@ -140,7 +141,8 @@ impl StructureForces {
         self.forces.iter().find(|force| force.kind == kind)
     }
 
-    /// The largest change at 4 Omega_n of what columns bear: their error, as far as it is known. None where one of them is withheld.
+    /// The largest change at 4 Omega_n of what columns bear: their error, as far as it is known.
+    /// None where one of them is withheld.
     pub fn error(&self) -> Option<f64> {
         let of_columns = || self.forces.iter().filter(|force| COMPARED.contains(&force.kind));
         let changes = of_columns().map(|force| force.others.change_by(force.others.stiffer)).reduce(f64::max);
@@ -161,22 +163,22 @@ impl StructureForces {
         let cutoff = Cutoff::of(&assembled.structure);
         let of = |history: &ElasticHistory, over: f64| ForcePeaks::of(history, cutoff.as_ref(), over);
         let variants = Variants::of(assembled, springs, record)?;
-        let force = |kind: ForceKind| {
-            // a leg is hinged at its foot
-            let legs = matches!(assembled.structure, ElasticStructure::AFrame(_));
-            if legs && kind == ForceKind::ColumnBaseMoment {
-                return None;
-            }
-            let over = |seconds: f64| -> Option<StructureForce> {
-                let peak = of(fem, seconds).get(kind)?;
+        let held = of(fixed, f64::INFINITY);
+        // all forces of all motions over the same time
+        let over = |seconds: f64| -> Vec<StructureForce> {
+            let peaks = of(fem, seconds);
+            let finer = variants.doubled.as_ref().map(|finer| of(finer, seconds));
+            let [softer, stiffer] = [&variants.softer, &variants.stiffer].map(|history| of(history, seconds));
+            let value = |peaks: &ForcePeaks, kind: ForceKind| peaks.get(kind).map(|peak| peak.filtered.value);
+            let force = |kind: ForceKind| {
+                let peak = peaks.get(kind)?;
                 let found = peak.filtered.value;
-                let other = |history: &ElasticHistory| of(history, seconds).get(kind).map(|peak| peak.filtered.value);
                 let others = OtherForces {
                     found,
                     // a mesh that says nothing changes everything
-                    doubled_elements: variants.doubled.as_ref().map(|finer| other(finer).unwrap_or(f64::INFINITY)),
-                    softer: other(&variants.softer),
-                    stiffer: other(&variants.stiffer),
+                    doubled_elements: finer.as_ref().map(|finer| value(finer, kind).unwrap_or(f64::INFINITY)),
+                    softer: value(&softer, kind),
+                    stiffer: value(&stiffer, kind),
                 };
                 let holds = others.change() < MOST_CHANGE;
                 Some(StructureForce {
@@ -189,18 +191,25 @@ impl StructureForces {
                     raw: peak.raw,
                     cutoff_hz: peak.cutoff_hz,
                     over_s: seconds,
-                    fixed: of(fixed, f64::INFINITY).get(kind).map(|peak| peak.filtered),
+                    fixed: held.get(kind).map(|peak| peak.filtered),
                     rigid: rigid.and_then(|rigid| rigid_peak(rigid, kind, record.dt)),
                 })
             };
-            let whole = over((record.len().saturating_sub(1)) as f64 * record.dt)?;
-            // beyond what can be foretold motions part, and with them their peaks
-            if whole.holds {
-                return Some(whole);
-            }
-            foretold_s.and_then(over).filter(|part| part.holds).or(Some(whole))
+            // a leg is hinged at its foot
+            let legs = matches!(assembled.structure, ElasticStructure::AFrame(_));
+            let applies = |kind: &ForceKind| !(legs && *kind == ForceKind::ColumnBaseMoment);
+            ForceKind::ALL.into_iter().filter(applies).filter_map(force).collect()
         };
-        Ok(Self { cutoff: cutoff.clone(), forces: ForceKind::ALL.into_iter().filter_map(force).collect() })
+        let mut forces = over((record.len().saturating_sub(1)) as f64 * record.dt);
+        // beyond what can be foretold motions part, and with them their peaks
+        if forces.iter().any(|force| !force.holds) {
+            for part in foretold_s.map(over).into_iter().flatten().filter(|part| part.holds) {
+                if let Some(whole) = forces.iter_mut().find(|whole| whole.kind == part.kind && !whole.holds) {
+                    *whole = part;
+                }
+            }
+        }
+        Ok(Self { cutoff: cutoff.clone(), forces })
     }
 }
 

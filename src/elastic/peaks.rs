@@ -1,5 +1,6 @@
-//! What an elastic structure is designed by: the largest displacement, drift and uplift, beside its reference on rigid ground, and the forces
-//! that columns bear, beside springs at 4 Omega_n (`design_forces::ColumnPeaks`).
+//! What an elastic structure is designed by: the largest displacement, drift and uplift, beside its
+//! reference on rigid ground, and the forces that columns bear, beside springs at 4 Omega_n
+//! (`design_forces::ColumnPeaks`).
 //!
 //! ```text
 //!   displacement   max |x| of a top node, against the ground
@@ -32,7 +33,8 @@ pub struct StructurePeakErrors {
     /// Of the uplift of a corner.
     #[serde(deserialize_with = "null_as_infinite")]
     pub uplift: f64,
-    /// Of the column shear, base moment and axial force with the largest error, where they were compared: beside springs at 4 Omega_n.
+    /// Of the column shear, base moment and axial force with the largest error, where they were
+    /// compared: beside springs at 4 Omega_n.
     #[serde(default, skip_serializing_if = "Option::is_none", deserialize_with = "null_as_lost")]
     pub design_forces: Option<f64>,
 }

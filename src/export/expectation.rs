@@ -34,7 +34,8 @@ impl DeckExpectation {
         }
     }
 
-    /// Of an elastic structure's histories, compared while a change of the motion grows less than 30-fold.
+    /// Of an elastic structure's histories, compared while a change of the motion grows less than
+    /// 30-fold.
     pub fn elastic(compared: &Compared) -> Self {
         let end = match compared.end {
             ComparedEnd::Record => DeckEnd::Record,

@@ -23,7 +23,8 @@ const WEIGHTS: [[f64; 3]; 3] = {
     weights
 };
 
-/// Weights at tau in 0..1 of the stages' values less the start's: value = start + sum w_j (V_j - start).
+/// Weights at tau in 0..1 of the stages' values less the start's: value = start + sum w_j (V_j -
+/// start).
 #[inline(always)]
 pub(crate) fn weights(tau: f64) -> [f64; 3] {
     let [first, second, third] = WEIGHTS;

@@ -52,8 +52,9 @@ impl<S: Scalar> Stages<S> {
         (input, dissipated)
     }
 
-    /// Velocity at tau in 0..1 of the step that began at `start`: the cubic through that and the stages, the integral of their
-    /// accelerations. The slope of [`Stages::position`] leaves out the start: it is a parabola, and errs by h^3 v'''/60 there.
+    /// Velocity at tau in 0..1 of the step that began at `start`: the cubic through that and the
+    /// stages, the integral of their accelerations. The slope of [`Stages::position`] leaves out
+    /// the start: it is a parabola, and errs by h^3 v'''/60 there.
     pub fn velocity(&self, start: &State<S>, tau: f64) -> Vector<S> {
         let [w0, w1, w2] = cubic::weights(tau);
         let [v0, v1, v2] = &self.v;

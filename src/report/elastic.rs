@@ -134,12 +134,7 @@ impl ElasticParts<'_> {
         all.extend(doubts(self.case.doubts()));
         all.extend(springs_findings(parameters));
         all.extend(parameters.design_forces.iter().flat_map(|forces| forces.withheld()));
-        all.extend(
-            parameters
-                .on_record
-                .as_ref()
-                .and_then(|_| judged::elastic(self.assembled, &self.answer.histories, self.record)),
-        );
+        all.extend(judged::elastic(self.assembled, &self.answer.histories, self.record));
         all
     }
 

@@ -28,7 +28,8 @@ pub fn markdown(run: &Run) -> String {
     out
 }
 
-/// The tables of a run: peaks, design forces, springs, accuracy, then what this kind of structure has.
+/// The tables of a run: peaks, design forces, springs, accuracy, then what this kind of structure
+/// has.
 pub fn sections(run: &Run) -> Vec<Section> {
     let mut all = vec![Section {
         id: "case",
@@ -120,7 +121,8 @@ fn forces(run: &Run) -> Option<Section> {
         title: "Forces to design with".into(),
         text: vec![format!(
             "{below} A force is given if it changes by less than 5 % with the springs' stiffness and the mesh, as measured in this run. \
-             Column shear and axial force are those at its base; members.csv has all members. Axial force is positive in tension. \
+             Column shear and axial force are those at its base; members.csv has all members. Axial \
+             force is positive in tension. \
              Each is the largest by itself, at its own time: they do not act together."
         )],
         table: Some(Table::new(head).with(forces.all().map(row))),
@@ -142,15 +144,17 @@ fn together(run: &Run) -> Option<Section> {
         id: "together",
         title: "What acts together at the column's base".into(),
         text: vec![
-            "At the time of each largest force, below the same frequency; means over parts of the record's time step, so somewhat \
-             less than the largest. Axial force is positive in tension.".into(),
+            "At the time of each largest force, below the same frequency; means over parts of the \
+             record's time step, so somewhat less than the largest. Axial force is positive in tension."
+                .into(),
         ],
         table: Some(Table::new(head).with(rows)),
         ..Section::default()
     })
 }
 
-/// What forces were with another mesh and on other springs, by which it is decided whether they are given.
+/// What forces were with another mesh and on other springs, by which it is decided whether they are
+/// given.
 fn other_forces(run: &Run) -> Option<Section> {
     let row = |(name, force): (ForceName, DesignForce)| {
         let others = force.others?;

@@ -110,7 +110,7 @@ fn taken(run: &Run, written: &Written, lines: &mut Vec<String>) {
 fn forces(run: &Run, lines: &mut Vec<String>) {
     let Some(forces) = &run.design_forces else { return };
     let below = forces.below_hz.map_or(String::new(), |hz| format!(" (below {} Hz)", significant(hz, 3)));
-    wrap(lines, &format!("design forces{below}  "), &force_words(forces));
+    at_most(3, lines, &format!("design forces{below}  "), &force_words(forces));
 }
 
 /// The forces in one line; those withheld are named.

@@ -25,7 +25,8 @@ pub struct DesignForce {
     /// Of the rigid body by Housner's equation (N or N m).
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub rigid: Option<f64>,
-    /// What the same section of an elastic structure's column bears at that time, below the same frequency.
+    /// What the same section of an elastic structure's column bears at that time, below the same
+    /// frequency.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub together: Option<ForcesTogether>,
     /// What it is with another mesh and on other springs, of an elastic structure.
@@ -33,7 +34,8 @@ pub struct DesignForce {
     pub others: Option<OtherForces>,
 }
 
-/// Forces of one section at one time, with their signs: what acts together. Axial force is positive in tension.
+/// Forces of one section at one time, with their signs: what acts together. Axial force is positive
+/// in tension.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 pub struct ForcesTogether {
     /// Shear across the column (N).
@@ -44,8 +46,8 @@ pub struct ForcesTogether {
     pub column_base_moment_nm: f64,
 }
 
-/// Largest magnitude of a force with another mesh and on other springs, below the same frequency, with its sign (N or
-/// N m). None where that motion says nothing of it.
+/// Largest magnitude of a force with another mesh and on other springs, below the same frequency,
+/// with its sign (N or N m). None where that motion says nothing of it.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]
 pub struct OtherForces {
     /// What was found on the springs of the run, whether it holds or not.
@@ -60,13 +62,15 @@ pub struct OtherForces {
 }
 
 impl OtherForces {
-    /// The largest change of the magnitude found, as a share of it; infinite where a motion says nothing.
+    /// The largest change of the magnitude found, as a share of it; infinite where a motion says
+    /// nothing.
     pub fn change(&self) -> f64 {
         let by_elements = self.doubled_elements.map_or(0.0, |other| self.change_by(Some(other)));
         by_elements.max(self.change_by(self.softer)).max(self.change_by(self.stiffer))
     }
 
-    /// The change of the magnitude in one of them, as a share of that found; infinite of one that says nothing.
+    /// The change of the magnitude in one of them, as a share of that found; infinite of one that
+    /// says nothing.
     pub fn change_by(&self, other: Option<f64>) -> f64 {
         other.map_or(f64::INFINITY, |other| (other.abs() - self.found.abs()).abs() / self.found.abs())
     }
@@ -89,7 +93,8 @@ impl DesignForce {
         }
     }
 
-    /// This force times a length (m): the moment at one end of a member without mass that has a hinge at its other end.
+    /// This force times a length (m): the moment at one end of a member without mass that has a
+    /// hinge at its other end.
     pub fn times(self, length: f64) -> Self {
         let by = |x: Option<f64>| x.map(|x| x * length);
         let others = self.others.map(|others| OtherForces {

@@ -25,7 +25,8 @@ pub struct Peaks {
     /// Its part by bending (m); none of a rigid body.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub bending_m: Option<f64>,
-    /// Its part by feet that land elsewhere than they stood (m); none of a rigid body, whose feet do not.
+    /// Its part by feet that land elsewhere than they stood (m); none of a rigid body, whose feet
+    /// do not.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub feet_moved_m: Option<f64>,
     /// Of a foot (m).

@@ -7,9 +7,11 @@
 //!                                -> the softest from there on that follow the record to where it grows a change 100,000-fold, if any does
 //! ```
 //!
-//! The accuracy is that of rotations against the reference (NRMSE, median); sways may have five times as much, and so may one history in ten. Or it
-//! is that of peaks: the largest displacement, drift, uplift and forces of columns (`elastic::peaks`), all alike; one history in ten may have five
-//! times as much. Forces are compared only then, for they need a second history of every motion, on springs at 4 Omega_n.
+//! The accuracy is that of rotations against the reference (NRMSE, median); sways may have five
+//! times as much, and so may one history in ten. Or it is that of peaks: the largest displacement,
+//! drift, uplift and forces of columns (`elastic::peaks`), all alike; one history in ten may have
+//! five times as much. Forces are compared only then, for they need a second history of every
+//! motion, on springs at 4 Omega_n.
 
 pub mod design;
 pub mod suite;

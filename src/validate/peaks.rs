@@ -44,7 +44,8 @@ impl PeakErrors {
         [self.displacement, self.uplift, self.base_shear, self.axial]
     }
 
-    /// The largest of the four. The moment at the base goes with the axial force: it is N b on one foot.
+    /// The largest of the four. The moment at the base goes with the axial force: it is N b on one
+    /// foot.
     pub fn largest(&self) -> f64 {
         self.all().into_iter().fold(0.0, f64::max)
     }

@@ -192,8 +192,9 @@ fn errors_of_peaks_are_those_of_an_independent_calculation() {
     }
 }
 
-/// Peaks of motions whose steps go over several samples, beside those whose steps end at every sample: what springs cannot change. With the
-/// slope of the places for a velocity, which is a parabola and not the cubic that it should be, base shears differed by 0.5 to 1.4 %.
+/// Peaks of motions whose steps go over several samples, beside those whose steps end at every
+/// sample: what springs cannot change. With the slope of the places for a velocity, which is a
+/// parabola and not the cubic that it should be, base shears differed by 0.5 to 1.4 %.
 #[test]
 fn long_steps_know_forces_as_well_as_short_ones() {
     let block = |height: f64, width: f64| Structure::block(height, width, 1e3).unwrap();

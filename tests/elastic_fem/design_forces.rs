@@ -98,9 +98,9 @@ fn through(model: &Assembled, accel: Vec<f64>) -> ElasticAnswer {
     ElasticAnswer::new(model, &springs.corners, &record, reference).unwrap()
 }
 
-/// A ground acceleration that grows for 12 s and stays for 3 s: shear m a, moment m (a L + g u) with u = a/omega^2, axial force the
-/// weight above. The base lifts where the moments about a corner are in balance, (m h + m_f h_f/2) a = W b: g tan(alpha) of a
-/// rigid pier.
+/// A ground acceleration that grows for 12 s and stays for 3 s: shear m a, moment m (a L + g u)
+/// with u = a/omega^2, axial force the weight above. The base lifts where the moments about a
+/// corner are in balance, (m h + m_f h_f/2) a = W b: g tan(alpha) of a rigid pier.
 #[test]
 fn a_slow_push_gives_the_forces_of_statics_and_lifts_where_moments_about_the_corner_say() {
     let model = assembled(STIFF);
@@ -134,8 +134,9 @@ fn a_slow_push_gives_the_forces_of_statics_and_lifts_where_moments_about_the_cor
     assert!(below.design.get(ForceKind::AxialTension).is_none());
 }
 
-/// A footing lands flat and stops; the mass above, which came down at dv = b |theta'|, is stopped by the column: largest axial
-/// force W + dv sqrt(k m). The column is soft across, so that it lifts no corner before the axial force is over.
+/// A footing lands flat and stops; the mass above, which came down at dv = b |theta'|, is stopped
+/// by the column: largest axial force W + dv sqrt(k m). The column is soft across, so that it lifts
+/// no corner before the axial force is over.
 #[test]
 fn a_landing_gives_the_column_the_axial_force_of_a_mass_that_is_stopped_by_its_stiffness() {
     let model = assembled(PierSpec { frequency_hz: Some(1.0), ..STIFF });
@@ -158,8 +159,9 @@ fn a_landing_gives_the_column_the_axial_force_of_a_mass_that_is_stopped_by_its_s
     assert!((-value / expected - 1.0).abs() < 0.03, "{value:e}, by hand {expected:e} at {} s", axial.time_s);
 }
 
-/// Springs chosen by peaks on the suite's own motions hold what was asked for on others, beside springs of 16 times their Omega_n: those are not
-/// what they were chosen beside. Median over motions of another seed.
+/// Springs chosen by peaks on the suite's own motions hold what was asked for on others, beside
+/// springs of 16 times their Omega_n: those are not what they were chosen beside. Median over
+/// motions of another seed.
 fn hold_forces_on_other_motions(column_mass_kg: f64, elements: Option<usize>) {
     let pier = PierSpec { column_mass_kg, elements, ..PIER };
     let structure = ElasticStructure::Pier(pier).checked().unwrap();
@@ -196,8 +198,9 @@ fn springs_chosen_by_peaks_hold_forces_of_a_column_with_mass_on_other_motions() 
     hold_forces_on_other_motions(PIER.column_mass_kg, Some(2));
 }
 
-/// What ColumnForces takes from a history of a pier fixed to the ground, its column without mass: the moment at the base is the shear times
-/// the column's length, less what the top's inertia takes, here none: F = m a acts at the top.
+/// What ColumnForces takes from a history of a pier fixed to the ground, its column without mass:
+/// the moment at the base is the shear times the column's length, less what the top's inertia
+/// takes, here none: F = m a acts at the top.
 #[test]
 fn the_moment_at_a_fixed_base_is_the_shear_times_the_length() {
     let stiff = PierSpec { column_mass_kg: 0.0, elements: None, ei_nm2: Some(7.65e13), ..PIER };
@@ -225,9 +228,10 @@ fn the_moment_at_a_fixed_base_is_the_shear_times_the_length() {
     assert!((axial / (450e3 * 9.81) - 1.0).abs() < 1e-2, "{axial}");
 }
 
-/// The pier of tuning/pier.toml beside an independent program: largest forces by `Pier(m=6e5, h=12., b=2., f=2., zeta=.02, mb=6e4,
-/// hb=.75, ka=115.1e9/10.5, za=.02, g=9.80665, chord=10.5)` of reference/flexible_pier.py on 20 s of El Centro in steps of 0.5 ms:
-/// shear across the base's axis k u + c u' 1.7032 MN, moment at the base 17.972 MN m, axial force 20.677 MN.
+/// The pier of tuning/pier.toml beside an independent program: largest forces by `Pier(m=6e5,
+/// h=12., b=2., f=2., zeta=.02, mb=6e4, hb=.75, ka=115.1e9/10.5, za=.02, g=9.80665, chord=10.5)` of
+/// reference/flexible_pier.py on 20 s of El Centro in steps of 0.5 ms: shear across the base's axis
+/// k u + c u' 1.7032 MN, moment at the base 17.972 MN m, axial force 20.677 MN.
 #[test]
 fn a_pier_s_design_forces_are_those_of_an_independent_program() {
     let pier = PierSpec { frequency_hz: Some(2.0), ea_n: Some(115.1e9), axial_damping_ratio: Some(0.02), ..STIFF };

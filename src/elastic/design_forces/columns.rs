@@ -1,12 +1,14 @@
-//! Peaks of what columns bear, one history beside another: what springs are chosen by where peaks are asked for.
+//! Peaks of what columns bear, one history beside another: what springs are chosen by where peaks
+//! are asked for.
 //!
 //! ```text
-//!   column shear, moment at its base, axial force     largest magnitude below the cutoff (`Cutoff`); as they are where columns have no mass
+//!   peak      of column shear, moment at its base and axial force: the largest magnitude below
+//!             the cutoff (`Cutoff`); as it is where columns have no mass
 //!   error     the largest of | peak - peak of the other | / peak of the other
 //! ```
 //!
-//! The other is the same structure on springs of 4 Omega_n (`stiffer`): on rigid ground a landing is an impulse in no time, of which the reference
-//! keeps no means.
+//! The other is the same structure on springs of 4 Omega_n (`stiffer`): on rigid ground a landing
+//! is an impulse in no time, of which the reference keeps no means.
 
 use super::{Cutoff, ForceKind, check, parts_below};
 use crate::{
@@ -25,7 +27,8 @@ pub struct ColumnForces {
     legs: bool,
 }
 
-/// Largest magnitudes over a history [N, N m], in the order of [`COMPARED`]; none of what does not apply.
+/// Largest magnitudes over a history [N, N m], in the order of [`COMPARED`]; none of what does not
+/// apply.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct ColumnPeaks(pub [Option<f64>; 3]);
 
@@ -35,7 +38,8 @@ impl ColumnForces {
         Self { cutoff: Cutoff::of(structure), legs: matches!(structure, ElasticStructure::AFrame(_)) }
     }
 
-    /// Parts of a time step (s) whose means hold what the cutoff keeps: those of a history that these peaks are of.
+    /// Parts of a time step (s) whose means hold what the cutoff keeps: those of a history that
+    /// these peaks are of.
     pub fn parts(&self, dt: f64) -> usize {
         parts_below(self.cutoff.as_ref(), dt)
     }

@@ -105,8 +105,9 @@ fn free_flight_is_a_parabola() {
     assert!((end.q[2] - 0.02 * t).abs() < 1e-16);
 }
 
-/// In free flight over ground that accelerates by c0 + c1 t + c2 t^2 the velocity is v0 - c0 t - c1 t^2/2 - c2 t^3/3 everywhere in the step.
-/// A slope of the places errs at the start by h^3 v'''/60, that is c2 h^3/30, which 32 samples of this step would take for a force of 1 m/s2.
+/// In free flight over ground that accelerates by c0 + c1 t + c2 t^2 the velocity is v0 - c0 t - c1
+/// t^2/2 - c2 t^3/3 everywhere in the step. A slope of the places errs at the start by h^3 v'''/60,
+/// that is c2 h^3/30, which 32 samples of this step would take for a force of 1 m/s2.
 #[test]
 fn the_velocity_within_a_step_is_a_cubic_through_its_start() {
     let (model, mut start, mut feet) = undamped(0.3);

@@ -3,7 +3,8 @@
 use super::{DeckEnd, Ending, Finding, FindingModel, PeakChange};
 use crate::message::{percent, quantity, significant};
 
-/// Quantities that a vertical motion left out changes the most, said in its message; all are in parameters.json.
+/// Quantities that a vertical motion left out changes the most, said in its message; all are in
+/// parameters.json.
 const CHANGES_SAID: usize = 2;
 
 fn on(model: FindingModel) -> &'static str {

@@ -20,9 +20,10 @@ fn given() -> [Record; 2] {
     [ground, floor]
 }
 
-/// Every motion within 30 % of the given spectrum at every period of the band and 10 % in the root mean square. Their mean at no
-/// period below 90 % of it, as EN 1998-1, 3.2.3.1.2 (4) c asks of artificial accelerograms, and at most 15 % above: random phases
-/// fill narrow valleys of a spectrum.
+/// Every motion within 30 % of the given spectrum at every period of the band and 10 % in the root
+/// mean square. Their mean at no period below 90 % of it, as EN 1998-1, 3.2.3.1.2 (4) c asks of
+/// artificial accelerograms, and at most 15 % above: random phases fill narrow valleys of a
+/// spectrum.
 #[test]
 fn spectra_are_those_of_the_given_motion() {
     for record in given() {

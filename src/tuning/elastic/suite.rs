@@ -145,7 +145,8 @@ pub struct ElasticSuite {
     pub record: Option<ElasticTrial>,
     /// Releases and motions, the record among them, left out since their reference cannot be predicted.
     pub ill_conditioned: usize,
-    /// How forces are taken, if springs are judged by them, too: it takes a second history of each trial.
+    /// How forces are taken, if springs are judged by them, too: it takes a second history of each
+    /// trial.
     pub forces: Option<ColumnForces>,
 }
 

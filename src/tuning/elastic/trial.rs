@@ -135,7 +135,8 @@ impl ElasticTrial {
         })
     }
 
-    /// The finite elements' history on springs, as far as it got; its forces finely sampled in so many parts to a time step.
+    /// The finite elements' history on springs, as far as it got; its forces finely sampled in so
+    /// many parts to a time step.
     pub fn follow(
         &self,
         model: &Assembled,
@@ -155,8 +156,8 @@ impl ElasticTrial {
         case.simulate().ok()
     }
 
-    /// The errors on springs; infinite where their history does not get as far as the reference. Those of forces, if asked for, beside springs at
-    /// 4 Omega_n.
+    /// The errors on springs; infinite where their history does not get as far as the reference.
+    /// Those of forces, if asked for, beside springs at 4 Omega_n.
     pub fn judge(
         &self,
         model: &Assembled,
