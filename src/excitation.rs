@@ -97,9 +97,9 @@ impl Excitation {
             }
         };
         let part = if used.len() < whole.len() {
-            format!("first {} s of {} s used", seconds(used.duration()), seconds(whole.duration()))
+            format!("first {} s of {} s", seconds(used.duration()), seconds(whole.duration()))
         } else {
-            format!("all {} s used", seconds(whole.duration()))
+            format!("all {} s", seconds(whole.duration()))
         };
         let vertical = used.vertical.as_ref().map_or_else(String::new, |up| {
             format!("; vertical {}, peak {:.4} g", up.name, up.peak_g() * self.scale.abs())
@@ -145,14 +145,11 @@ mod tests {
         let all = Excitation::whole(ramp());
         assert_eq!(
             all.line(),
-            "record ramp (from no file), scale 1, all 4 s used: 41 samples of 0.1 s, PGA 0.2039 g at 4 s"
+            "record ramp (from no file), scale 1, all 4 s: 41 samples of 0.1 s, PGA 0.2039 g at 4 s"
         );
         let el_centro = Excitation { duration_s: Some(1.5), scale: 2.0, ..Excitation::whole(Record::el_centro()) };
         let line = el_centro.line();
-        assert!(
-            line.starts_with("record IELC180 (embedded), scale 2, first 1.5 s of 39.94 s used: 151 samples"),
-            "{line}"
-        );
+        assert!(line.starts_with("record IELC180 (embedded), scale 2, first 1.5 s of 39.94 s: 151 samples"), "{line}");
         let pga = el_centro.used().unwrap().pga_g();
         assert!(line.contains(&format!("PGA {pga:.4} g at ")) && pga < 2.0 * Record::el_centro().pga_g(), "{line}");
     }

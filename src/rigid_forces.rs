@@ -140,16 +140,13 @@ fn on_springs(
     kept: &[usize],
 ) -> [TimedPeak; 4] {
     let mut peaks = [TimedPeak::default(); 4];
-    let vertical = &history.forces.vertical;
+    let [sum, difference] = &history.forces.both;
     for &i in kept {
         let row = &demands.rows[i];
-        // legs' forces are those of one instant; of a block the feet's, which change slowly between landings
+        // each is that of one instant
         let all = match kind {
             Kind::AFrame => [2, 3, 1].map(|k| if row[k].abs() >= row[k + 3].abs() { row[k] } else { row[k + 3] }),
-            Kind::Block => {
-                let [left, right] = [0, 1].map(|foot| vertical[foot][i]);
-                [row[0], (left - right) * body.half_width, -(left + right)]
-            }
+            Kind::Block => [row[0], difference[i] * body.half_width, -sum[i]],
         };
         for (peak, value) in peaks.iter_mut().zip([row[0], all[0], all[1], all[2]]) {
             if value.abs() > peak.value.abs() {
@@ -191,6 +188,17 @@ mod tests {
         let apex = all.apex_moment_nm.unwrap();
         assert!((apex.value.unwrap().abs() / (weight * 1.05 / 2.0) - 1.0).abs() < 1e-9, "{apex:?}");
         assert!(all.column_base_moment_nm.is_none());
+    }
+
+    /// A block that stands in a ground motion presses on the ground by its weight, however fast the two feet exchange it.
+    #[test]
+    fn a_standing_block_carries_its_weight_whatever_the_ground_does() {
+        let block = Structure::block(1.2, 0.6, 300.0).unwrap();
+        let shake = |i: usize| 2.2 * (std::f64::consts::TAU * 4.0 * 0.01 * i as f64).sin();
+        let all = forces(&block, 10240.0, (0..300).map(shake).collect());
+        let axial = all.axial_n.unwrap();
+        assert!((axial.value.unwrap() / (-300.0 * GRAVITY) - 1.0).abs() < 1e-9, "{axial:?}");
+        assert!(axial.change.unwrap() < 1e-3, "{axial:?}");
     }
 
     /// A block's base moment is at most W b, which it reaches when it lifts; its shear then is m g tan(alpha).

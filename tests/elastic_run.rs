@@ -22,13 +22,17 @@ fn text(bytes: &[u8]) -> String {
 fn a_pier_is_tuned_and_what_is_written_agrees_with_itself() {
     let folder = tempfile::tempdir().unwrap();
     std::fs::write(folder.path().join("pier.toml"), PIER).unwrap();
-    let ran = tune(folder.path(), &["run", "pier.toml", "--quiet"]);
+    // the ground offers less friction than the pier needs
+    let ran = tune(folder.path(), &["run", "pier.toml", "--quiet", "--friction", "0.05"]);
     assert!(ran.status.success(), "{}", text(&ran.stderr));
     let said = text(&ran.stdout);
     assert!(said.contains("The structure rocks and stands") && said.contains("by bending"), "{said}");
     let out = folder.path().join("out");
     let read = |name: &str| std::fs::read_to_string(out.join(name)).unwrap();
     let parameters: Value = serde_json::from_str(&read("parameters.json")).unwrap();
+    let findings = parameters["findings"].as_array().unwrap();
+    let sliding = findings.iter().find(|finding| finding["finding"] == "sliding").unwrap();
+    assert!(sliding["needed"].as_f64().unwrap() > 0.05 && sliding["available"] == 0.05, "{sliding}");
     let on = &parameters["on_record"];
     let assessment = &parameters["assessment"];
     assert_eq!(assessment["reached"], true, "{assessment}");
@@ -78,7 +82,8 @@ fn a_pier_is_tuned_and_what_is_written_agrees_with_itself() {
 
     // again, on one thread: the same bytes; without figures, none are left
     let before = read("parameters.json");
-    let ran = tune(folder.path(), &["run", "pier.toml", "--quiet", "--jobs", "1", "--no-figures"]);
+    let ran =
+        tune(folder.path(), &["run", "pier.toml", "--quiet", "--friction", "0.05", "--jobs", "1", "--no-figures"]);
     assert!(ran.status.success(), "{}", text(&ran.stderr));
     assert_eq!(read("parameters.json"), before);
     assert!(!out.join("history.png").exists());
@@ -88,7 +93,7 @@ fn a_pier_is_tuned_and_what_is_written_agrees_with_itself() {
 
 /// What an elastic structure has no use for.
 fn refuses(folder: &Path) {
-    for option in [&["--friction", "0.3"][..], &["--no-front"]] {
+    for option in [&["--friction", "-0.3"][..], &["--no-front"]] {
         let refused = tune(folder, &[&["run", "pier.toml", "--quiet"], option].concat());
         let line = text(&refused.stderr);
         assert_eq!(refused.status.code(), Some(2), "{line}");

@@ -55,6 +55,8 @@ pub struct ElasticRun {
     /// The part of the record that is used, scaled.
     pub record: Record,
     pub answer: ElasticAnswer,
+    /// The friction coefficient that the ground offers.
+    friction: f64,
     /// What the structure bears.
     bearing: ForceQuantities,
     /// But for the record: where that is to be found depends on the folder.
@@ -111,6 +113,7 @@ impl ElasticRun {
         tuned: ElasticTuned,
         record: Record,
         answer: ElasticAnswer,
+        friction: f64,
     ) -> Self {
         let alpha = assembled.structure.body().alpha();
         let ElasticHistories { reference, fem, sways, .. } = &answer.histories;
@@ -143,7 +146,7 @@ impl ElasticRun {
         if let Some(errors) = parameters.assessment.as_mut().and_then(|a| a.measured.record.as_mut()) {
             errors.peaks = errors.peaks.map(|peaks| peaks.with_forces(answer.design.error()));
         }
-        let mut run = Self { case, assembled, tuned, record, answer, bearing, parameters };
+        let mut run = Self { case, assembled, tuned, record, answer, friction, bearing, parameters };
         run.parameters.peaks = Some(run.parts().peaks());
         run.parameters.design_forces = Some(design_forces(&run.assembled.structure, &run.answer.design));
         run.parameters.findings = filed(run.parts().findings(&run.parameters));
@@ -180,8 +183,8 @@ impl ElasticRun {
     }
 
     fn parts(&self) -> ElasticParts<'_> {
-        let Self { case, assembled, record, answer, .. } = self;
-        ElasticParts { case, assembled, record, springs: &self.tuned.springs.corners, answer }
+        let Self { case, assembled, record, answer, friction, .. } = self;
+        ElasticParts { case, assembled, record, springs: &self.tuned.springs.corners, answer, friction: *friction }
     }
 
     /// What parameters.json holds in a folder.

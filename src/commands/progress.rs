@@ -8,7 +8,7 @@ use std::{
 use indicatif::{ProgressBar, ProgressStyle};
 
 use super::terminal;
-use crate::message::percent;
+use crate::{case::doubts::Doubt, message::percent};
 
 /// Shows how far a piece of work is.
 pub struct Progress {
@@ -53,6 +53,18 @@ impl Progress {
         if let Some(bar) = &self.bar {
             bar.finish_and_clear();
         }
+    }
+}
+
+/// Before long work, on a terminal: the ground motion that was taken, and what to look at again. The
+/// screen at the end has both, too.
+pub fn taken(record: &str, doubts: &[Doubt], quiet: bool) {
+    if quiet || !std::io::stderr().is_terminal() {
+        return;
+    }
+    terminal::stderr(record);
+    for doubt in doubts {
+        terminal::stderr(format_args!("look again: {}; {}", doubt.message(), doubt.remedy()));
     }
 }
 

@@ -136,6 +136,9 @@ pub fn run(o: &RunOptions) -> Result<(), CommandError> {
     check_folder(&o.out)?;
     threads(o.jobs)?;
 
+    if !o.no_record {
+        progress::taken(&case.excitation.line(), &case.doubts(), o.quiet);
+    }
     let progress = Progress::on_terminal("springs tried", o.quiet);
     let job = Job::new(&case, &|done, all, error| progress.tell(done, all, &progress::error(error)));
     progress.done();
@@ -154,7 +157,6 @@ pub fn run(o: &RunOptions) -> Result<(), CommandError> {
     }
     let run = RigidRun::new(case, job, front, friction);
     run.save(&o.out, Output { figures: !o.no_figures, report: !o.no_report })?;
-    terminal::stderr(run.case.excitation.line());
     o.print(&run.said(run.filed(&o.out)))
 }
 

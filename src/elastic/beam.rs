@@ -110,6 +110,11 @@ impl Beam {
         self.length
     }
 
+    /// Unit vector from end a to end b, unstressed.
+    pub fn axis(&self) -> [f64; 2] {
+        self.direction
+    }
+
     /// How it is deformed at y.
     pub(super) fn deformed(&self, y: &[f64; 6]) -> Deformed {
         let (a, b) = (turned(self.arms[0], y[2]), turned(self.arms[1], y[5]));

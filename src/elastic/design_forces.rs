@@ -36,7 +36,7 @@ use check::{ForcePeaks, Variants};
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(rename_all = "snake_case")]
 pub enum ForceKind {
-    /// Across a column's axis, at its base, or a leg's at its foot (N).
+    /// Across a column's axis, where along the column it is largest, or a leg's (N).
     ColumnShear,
     /// At a column's base [N m].
     ColumnBaseMoment,
@@ -105,8 +105,11 @@ pub struct StructureForce {
     pub time_s: f64,
     /// Whether it is the structure's own: all changes are below 5 %.
     pub holds: bool,
-    /// What the same section bears at that time; none of the ground's forces.
+    /// What the column's base bears at that time; none of the ground's forces.
     pub together: Option<ForcesTogether>,
+    /// Where, above the base along the column (m), of a column's shear.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub above_base_m: Option<f64>,
     /// What was found, whether it holds or not, and what with another mesh and on other springs [N,
     /// N m].
     pub others: OtherForces,
@@ -187,6 +190,7 @@ impl StructureForces {
                     time_s: peak.filtered.time_s,
                     holds,
                     together: peak.together,
+                    above_base_m: peak.above_base_m,
                     others,
                     raw: peak.raw,
                     cutoff_hz: peak.cutoff_hz,

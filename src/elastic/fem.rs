@@ -31,7 +31,7 @@ pub use demands::FrameDemand;
 pub use filter::{low_pass, resolves};
 pub use history::{ContactChange, ElasticHistory, GroundForces};
 pub use model::CornerState;
-pub use series::{BASE_FORCES, FineForces};
+pub use series::{FineColumn, FineForces, FineSeries};
 
 use super::{
     frame::{EquilibriumError, Frame},

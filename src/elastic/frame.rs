@@ -47,6 +47,18 @@ struct BeamElement {
     bases: [bool; 2],
 }
 
+/// A column: beams in a straight line from its base.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct FrameColumn {
+    /// From the base up.
+    pub beams: Vec<usize>,
+    /// The end of its first beam that is its base.
+    pub base_end: usize,
+}
+
+/// Sine of the angle below which two beams are one straight line.
+const STRAIGHT: f64 = 1e-6;
+
 /// A node, assembled.
 #[derive(Clone, Copy, Debug)]
 struct FrameBody {
@@ -147,15 +159,45 @@ impl Frame {
         beam.bearing(&gather(index, q), &gather(index, v))
     }
 
+    /// Length of beam i, unstressed (m).
+    pub fn length(&self, i: usize) -> f64 {
+        self.elements[i].beam.length()
+    }
+
     /// Whether beam i's first, and its second, end is on a footing or on a node that is held.
     pub fn bases_of(&self, i: usize) -> [bool; 2] {
         self.elements[i].bases
     }
 
-    /// Beams that end on a footing or on what is held, and which of their ends does.
-    pub fn based_ends(&self) -> Vec<(usize, usize)> {
-        let of = |(i, element): (usize, &BeamElement)| Some((i, element.bases.iter().position(|base| *base)?));
+    /// Columns: every beam that ends on a footing or on what is held, and the beams that go on from it.
+    pub fn columns(&self) -> Vec<FrameColumn> {
+        let of = |(i, element): (usize, &BeamElement)| {
+            let base_end = element.bases.iter().position(|base| *base)?;
+            let mut beams = vec![i];
+            let mut end = 1 - base_end;
+            while let Some((next, begins)) = self.goes_on(beams[beams.len() - 1], end) {
+                beams.push(next);
+                end = 1 - begins;
+            }
+            Some(FrameColumn { beams, base_end })
+        };
         self.elements.iter().enumerate().filter_map(of).collect()
+    }
+
+    /// The beam that goes straight on from an end of beam i, and its end there.
+    fn goes_on(&self, i: usize, end: usize) -> Option<(usize, usize)> {
+        let index = |beam: usize, end: usize| &self.elements[beam].index[3 * end..3 * end + 3];
+        let node = index(i, end);
+        if self.elements[i].bases[end] || node.iter().all(|k| *k == NONE) {
+            return None;
+        }
+        let [x, z] = self.elements[i].beam.axis();
+        let straight = |other: usize| {
+            let [ox, oz] = self.elements[other].beam.axis();
+            (x * oz - z * ox).abs() < STRAIGHT
+        };
+        let others = (0..self.elements.len()).filter(|other| *other != i && straight(*other));
+        others.flat_map(|other| [(other, 0), (other, 1)]).find(|(other, begins)| index(*other, *begins) == node)
     }
 
     /// Unit vector along beam i's chord, from its first end to its second.

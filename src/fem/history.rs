@@ -20,6 +20,8 @@ pub struct Forces {
     pub vertical: [Vec<f64>; 2],
     /// Of the ground on the foot, positive to the right.
     pub horizontal: [Vec<f64>; 2],
+    /// Vertical forces of both feet at one instant: left plus right, left minus right.
+    pub both: [Vec<f64>; 2],
 }
 
 /// The energy account at every sample (J).
@@ -88,6 +90,8 @@ pub struct Recorder {
     forces: Forces,
     /// Largest since the last sample: vertical and horizontal of each foot (N).
     largest: [[f64; 2]; 2],
+    /// The same of both feet together.
+    largest_both: [f64; 2],
     account: Account,
     initial_z: f64,
     residual: f64,
@@ -102,8 +106,9 @@ impl Recorder {
         Self {
             motion: Motion::with_capacity(n),
             events: Events::default(),
-            forces: Forces { vertical: [room(), room()], horizontal: [room(), room()] },
+            forces: Forces { vertical: [room(), room()], horizontal: [room(), room()], both: [room(), room()] },
             largest: [[0.0; 2]; 2],
+            largest_both: [0.0; 2],
             account: Account { input: room(), stored: room(), dissipated: room(), residual: room() },
             initial_z: 0.0,
             residual: 0.0,
@@ -148,17 +153,22 @@ impl Observer<f64> for Recorder {
             self.forces.vertical[i].push(vertical);
             self.forces.horizontal[i].push(horizontal);
         }
+        for (series, largest) in self.forces.both.iter_mut().zip(std::mem::take(&mut self.largest_both)) {
+            series.push(largest);
+        }
         self.account.push(view.energy);
         self.residual = self.residual.max(view.energy.residual().abs());
         ControlFlow::Continue(())
     }
 
     fn step(&mut self, view: &View<f64>) {
-        for (largest, f) in self.largest.iter_mut().zip(view.model.contact(&view.state.q, view.feet)) {
-            for (largest, force) in largest.iter_mut().zip([f.vertical, f.horizontal]) {
-                if force.abs() > largest.abs() {
-                    *largest = force;
-                }
+        let feet = view.model.contact(&view.state.q, view.feet);
+        let [left, right] = [&feet[0], &feet[1]].map(|f| f.vertical);
+        let forces = feet.iter().flat_map(|f| [f.vertical, f.horizontal]).chain([left + right, left - right]);
+        let largest = self.largest.iter_mut().flatten().chain(&mut self.largest_both);
+        for (largest, force) in largest.zip(forces) {
+            if force.abs() > largest.abs() {
+                *largest = force;
             }
         }
     }

@@ -17,10 +17,10 @@ use crate::{
     fem::HistoryOutcome,
     members::Members,
     message::significant,
-    motion::peak,
+    motion::{TimedPeak, peak},
     parameters::elastic::{ElasticParameters, OnRecord},
     record::Record,
-    results::{DesignForce, DesignForces, Ending, Finding, FindingModel, PeakChange, PeakPair, Peaks},
+    results::{DesignForce, DesignForces, Ending, Finding, FindingModel, ForceName, PeakChange, PeakPair, Peaks},
     spring::{Chain, Springs},
 };
 pub use springs::of_case;
@@ -47,6 +47,8 @@ pub struct ElasticParts<'a> {
     pub springs: &'a [Springs<Chain<f64>>],
     /// Both models' answers.
     pub answer: &'a ElasticAnswer,
+    /// The friction coefficient that the ground offers.
+    pub friction: f64,
 }
 
 /// The structure in a few words.
@@ -111,14 +113,17 @@ impl ElasticParts<'_> {
         }
     }
 
-    /// Friction coefficient that the structure on rigid ground needs: the ground's forces on all corners together.
-    fn friction_needed(&self) -> f64 {
+    /// Friction coefficient that the structure on rigid ground needs, and when (s): the ground's
+    /// forces on all corners together.
+    fn friction_needed(&self) -> TimedPeak {
         let weight = self.assembled.frame.total_mass() * crate::scalar::GRAVITY;
         let needed = |corners: &Vec<[f64; 2]>| {
             let (h, n) = corners.iter().fold((0.0, 0.0), |(h, n), force| (h + force[0], n + force[1]));
             if n > LEAST_PRESS * weight { (h / n).abs() } else { 0.0 }
         };
-        self.answer.histories.reference.history.forces.iter().map(needed).fold(0.0, f64::max)
+        let forces = &self.answer.histories.reference.history.forces;
+        let series: Vec<f64> = forces.iter().map(needed).collect();
+        TimedPeak::of(self.record.dt, &series).unwrap_or_default()
     }
 
     /// All findings.
@@ -126,10 +131,16 @@ impl ElasticParts<'_> {
         let mut all = Vec::new();
         if let Some(on) = &parameters.on_record {
             all.extend(self.what_it_does(on));
-            all.extend(foretold(on));
+            all.extend(foretold(on, parameters.design_forces.as_ref()));
             let alpha = self.assembled.structure.body().alpha();
             all.extend(on.near.iter().map(|near| nearby(near, alpha)));
         }
+        let needed = self.friction_needed();
+        all.extend((needed.value > self.friction).then_some(Finding::Sliding {
+            needed: needed.value,
+            time_s: Some(needed.time),
+            available: self.friction,
+        }));
         all.extend(self.vertical_left_out());
         all.extend(doubts(self.case.doubts()));
         all.extend(springs_findings(parameters));
@@ -211,7 +222,7 @@ impl ElasticParts<'_> {
         let mut run = alone(parameters);
         run.taken.record = Some(self.case.excitation.line());
         run.taken.assumed = self.assumed();
-        run.friction_needed = Some(self.friction_needed());
+        run.friction_needed = Some(self.friction_needed().value);
         run.sap2000 = self.assembled.members == Members::default() && self.record.vertical.is_none();
         run.sections.extend(self.comparison(&run));
         run
@@ -224,8 +235,8 @@ impl ElasticParts<'_> {
         let rows = [
             ("NRMSE of the rotation", number(on.nrmse_rotation)),
             ("NRMSE of the drift", number(on.nrmse_drift)),
-            ("landings on rigid ground", on.landings_reference.to_string()),
-            ("touches on springs", on.touches_fem.to_string()),
+            ("landings of corners on rigid ground", on.landings_reference.to_string()),
+            ("landings of corners on springs", on.touches_fem.to_string()),
             ("energy residual", format!("{:.1e}", on.energy_residual)),
         ];
         let rows = rows.map(|(name, value)| vec![name.to_string(), value]);
@@ -262,6 +273,7 @@ pub fn design_forces(structure: &ElasticStructure, of: &StructureForces) -> Desi
             fixed: force.fixed.map(|peak| peak.value).filter(|value| *value != 0.0),
             rigid: force.rigid.map(|peak| peak.value),
             together: force.together,
+            above_base_m: force.above_base_m,
             others: Some(force.others),
         })
     };
@@ -298,11 +310,13 @@ fn uplift(frame: &Frame, q: &[f64]) -> f64 {
     frame.places().iter().map(|place| place.reach(q).place[1]).fold(0.0, f64::max)
 }
 
-fn foretold(on: &OnRecord) -> Option<Finding> {
+fn foretold(on: &OnRecord, forces: Option<&DesignForces>) -> Option<Finding> {
     let (foretold, softer_hz) = (on.foretold_s?, on.softer_omega_n_hz);
+    let late = |(name, force): (ForceName, DesignForce)| (force.holds && force.time_s > foretold).then_some(name);
+    let later_forces = forces.iter().flat_map(|forces| forces.all()).filter_map(late).collect();
     Some(match on.slides_on_s {
-        Some(time_s) => Finding::SlidesOn { time_s, softer_hz },
-        None => Finding::ForetoldUpTo { time_s: foretold, softer_hz },
+        Some(time_s) => Finding::SlidesOn { time_s, softer_hz, later_forces },
+        None => Finding::ForetoldUpTo { time_s: foretold, softer_hz, later_forces },
     })
 }
 
@@ -320,4 +334,25 @@ fn nearby(near: &Ensemble, alpha: f64) -> Finding {
 /// Largest magnitude of a series of every base.
 pub fn largest(sways: &[[Sway; 2]], k: usize, of: fn(&Sway) -> &[f64]) -> f64 {
     sways.iter().map(|pair| peak(of(&pair[k])).abs()).fold(0.0, f64::max)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// A structure that is moved as a whole: its feet move with it, and no corner lifts.
+    #[test]
+    fn feet_of_a_structure_that_has_moved_are_where_they_landed() {
+        let text = "kind = 'aframe'\nheight_m = 24.0\nwidth_m = 6.0\nmass_kg = 3e5\nfoot_mass_kg = 1e4\nea_n = 1e10\n\
+                    ei_nm2 = 1e10\ndamping_ratio = 0.03\n";
+        let structure: ElasticStructure = toml::from_str(text).unwrap();
+        let frame = Assembled::new(structure.checked().unwrap()).unwrap().frame;
+        let mut q = vec![0.0; (0..frame.nodes()).flat_map(|node| frame.coordinates(node)).flatten().count()];
+        assert_eq!([feet_moved(&frame, &q), uplift(&frame, &q)], [0.0; 2]);
+        for [x, ..] in (0..frame.nodes()).map(|node| frame.coordinates(node)) {
+            q[x.unwrap()] += 0.25;
+        }
+        assert!((feet_moved(&frame, &q) - 0.25).abs() < 1e-15);
+        assert_eq!(uplift(&frame, &q), 0.0);
+    }
 }

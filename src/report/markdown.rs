@@ -100,7 +100,7 @@ fn forces(run: &Run) -> Option<Section> {
     let cell = |x: Option<f64>, name: ForceName| x.map_or("-".into(), |x| quantity(x, name.unit()));
     let row = |(name, force): (ForceName, DesignForce)| {
         vec![
-            name.words().to_string(),
+            format!("{}{}", name.words(), height(&force)),
             force.value.map_or("withheld".into(), |x| quantity(x, name.unit())),
             format!("{} s", significant(force.time_s, 4)),
             force.change.map_or("not measured".into(), percent),
@@ -121,13 +121,19 @@ fn forces(run: &Run) -> Option<Section> {
         title: "Forces to design with".into(),
         text: vec![format!(
             "{below} A force is given if it changes by less than 5 % with the springs' stiffness and the mesh, as measured in this run. \
-             Column shear and axial force are those at its base; members.csv has all members. Axial \
-             force is positive in tension. \
+             Column shear is that of the height where it is largest, axial force that at the base; \
+             members.csv has all members. Axial force is positive in tension. \
              Each is the largest by itself, at its own time: they do not act together."
         )],
         table: Some(Table::new(head).with(forces.all().map(row))),
         ..Section::default()
     })
+}
+
+/// Where along the column, in words, if not at its base.
+pub fn height(force: &DesignForce) -> String {
+    let above = force.above_base_m.filter(|above| *above > 0.0);
+    above.map_or(String::new(), |above| format!(", {} m above the base", significant(above, 3)))
 }
 
 /// What acts together with the largest forces of a column: pairs for an interaction diagram.
@@ -145,7 +151,8 @@ fn together(run: &Run) -> Option<Section> {
         title: "What acts together at the column's base".into(),
         text: vec![
             "At the time of each largest force, below the same frequency; means over parts of the \
-             record's time step, so somewhat less than the largest. Axial force is positive in tension."
+             record's time step, so somewhat less than the largest. The largest shear may be higher up \
+             the column. Axial force is positive in tension."
                 .into(),
         ],
         table: Some(Table::new(head).with(rows)),

@@ -1,6 +1,6 @@
 //! What `tune run` prints: one screen, the answer first.
 
-use super::{Run, Table, peak_table, sentence};
+use super::{Run, Table, height, peak_table, sentence};
 use crate::{
     message::{percent, quantity, shortened, significant},
     results::{DesignForce, DesignForces, ForceName, Weight},
@@ -116,7 +116,7 @@ fn forces(run: &Run, lines: &mut Vec<String>) {
 /// The forces in one line; those withheld are named.
 pub fn force_words(forces: &DesignForces) -> String {
     let cell = |(name, force): (ForceName, DesignForce)| match force.value {
-        Some(value) => format!("{} {}", name.words(), quantity(value.abs(), name.unit())),
+        Some(value) => format!("{} {}{}", name.words(), quantity(value.abs(), name.unit()), height(&force)),
         None => match force.change {
             Some(change) => format!("{} withheld: changes by {} with springs or mesh", name.words(), percent(change)),
             None => format!("{} withheld", name.words()),

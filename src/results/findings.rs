@@ -113,10 +113,14 @@ pub enum Finding {
     ForetoldUpTo {
         time_s: f64,
         softer_hz: Option<f64>,
+        #[serde(default, skip_serializing_if = "Vec::is_empty")]
+        later_forces: Vec<ForceName>,
     },
     SlidesOn {
         time_s: f64,
         softer_hz: Option<f64>,
+        #[serde(default, skip_serializing_if = "Vec::is_empty")]
+        later_forces: Vec<ForceName>,
     },
     NearMotions {
         motions: usize,
@@ -259,11 +263,10 @@ impl Finding {
             | Self::AccuracyMissed { .. }
             | Self::PeaksMissed { .. }
             | Self::HistoryEndsEarly { .. } => Weight::Fault,
-            Self::ForetoldUpTo { .. }
-            | Self::NearMotions { .. }
-            | Self::MembersBeside
-            | Self::DeckJudged { .. }
-            | Self::WithoutVertical { .. } => Weight::Note,
+            Self::ForetoldUpTo { later_forces, .. } if later_forces.is_empty() => Weight::Note,
+            Self::NearMotions { .. } | Self::MembersBeside | Self::DeckJudged { .. } | Self::WithoutVertical { .. } => {
+                Weight::Note
+            }
             _ => Weight::Warning,
         }
     }
@@ -292,6 +295,16 @@ mod tests {
         let fault = Finding::AccuracyMissed { asked: 0.002, capped: true };
         assert_eq!((fault.weight(), fault.remedy().unwrap().as_str()), (Weight::Fault, "raise or drop --max-hz"));
         assert!(fault.message().contains("NRMSE 0.002"));
+    }
+
+    #[test]
+    fn a_force_that_comes_after_what_can_be_foretold_makes_a_warning_of_it() {
+        let of = |later_forces: Vec<ForceName>| Finding::ForetoldUpTo { time_s: 9.0, softer_hz: None, later_forces };
+        assert_eq!((of(Vec::new()).weight(), of(Vec::new()).remedy()), (Weight::Note, None));
+        let two = of(vec![ForceName::ColumnShear, ForceName::Axial]);
+        assert_eq!(two.weight(), Weight::Warning);
+        assert!(two.message().ends_with("; column shear and axial force are largest after that"), "{}", two.message());
+        assert!(two.remedy().unwrap().starts_with("design with several records"));
     }
 
     #[test]

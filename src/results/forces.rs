@@ -25,16 +25,19 @@ pub struct DesignForce {
     /// Of the rigid body by Housner's equation (N or N m).
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub rigid: Option<f64>,
-    /// What the same section of an elastic structure's column bears at that time, below the same
-    /// frequency.
+    /// What the base of an elastic structure's column bears at that time, below the same frequency.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub together: Option<ForcesTogether>,
+    /// Where the shear of an elastic structure's column is so large: height above its base, along
+    /// it (m); 0 at the base.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub above_base_m: Option<f64>,
     /// What it is with another mesh and on other springs, of an elastic structure.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub others: Option<OtherForces>,
 }
 
-/// Forces of one section at one time, with their signs: what acts together. Axial force is positive
+/// Forces of a column's base at one time, with their signs: what acts together. Axial force is positive
 /// in tension.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 pub struct ForcesTogether {
@@ -89,6 +92,7 @@ impl DesignForce {
             fixed: None,
             rigid: None,
             together: None,
+            above_base_m: None,
             others: None,
         }
     }
@@ -116,7 +120,7 @@ pub struct DesignForces {
     /// Frequency below which peaks are given (Hz); none where forces are those between landings.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub below_hz: Option<f64>,
-    /// Shear at the foot of the column, the leg or the rigid body.
+    /// Shear of the column, where along it that is largest, of a leg, or at the foot of a rigid body.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub column_shear_n: Option<DesignForce>,
     /// Moment at the foot of the column, of a rigid body about the middle of its base.

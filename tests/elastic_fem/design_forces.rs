@@ -66,6 +66,41 @@ fn a_pier_s_design_forces_hold_and_stay_with_the_elements_doubled_and_on_softer_
     }
 }
 
+/// A pier that stands in a ground acceleration that grows slowly to a: the shear across an element that leans by (x, z)
+/// is what is above its middle times a z + g x, and of all heights the base has the largest.
+#[test]
+fn shear_is_sampled_along_the_column_and_is_what_is_above_times_the_acceleration() {
+    let model = assembled(PierSpec { column_mass_kg: 300e3, ..PIER });
+    let a = 0.5 * 3.2 / 28.0 * GRAVITY;
+    let record =
+        Record::new("made up", 0.01, (0..4000).map(|i| a * (f64::from(i) / 1500.0).min(1.0)).collect()).unwrap();
+    let springs = springs(&stand(&model).unwrap(), 1e-5, landing_speed(&model.structure), 1.0);
+    let analysis = ElasticAnalysis {
+        parts: 1,
+        ..ElasticAnalysis::new(&model.frame, &springs.corners, ElasticStart::Standing, record.dt, &record.accel)
+    };
+    let history = analysis.simulate().unwrap();
+    let (q, fine) = (history.q.last().unwrap(), history.fine.unwrap());
+    let [column] = fine.columns.as_slice() else { panic!("one column") };
+    let length = PIER.height_m - PIER.footing_height_m;
+    let heights: Vec<f64> = std::iter::once(length / 8.0).chain(column.heights.iter().copied()).collect();
+    let series = std::iter::once(&column.base[0]).chain(&column.above);
+    assert_eq!(heights.len(), 4);
+    let beams = &model.frame.columns()[0].beams;
+    for ((series, height), &beam) in series.zip(&heights).zip(beams) {
+        let above = PIER.mass_kg + 300e3 * (1.0 - height / length);
+        let [x, z] = model.frame.direction(beam, q);
+        let expected = above * (a * z + GRAVITY * x.abs());
+        let last = *series.means.last().unwrap();
+        assert!((last.abs() / expected - 1.0).abs() < 1e-3, "{height}: {last} {expected}");
+    }
+    let peaks = ColumnForces::of(&model.structure);
+    assert!(peaks.parts(record.dt) > 1);
+    let push = |i: i32| a * (f64::from(i) / 1500.0).min(1.0);
+    let shear = *through(&model, (0..2000).map(push).collect()).design.get(ForceKind::ColumnShear).unwrap();
+    assert_eq!(shear.above_base_m, Some(0.0), "{shear:?}");
+}
+
 /// Pier of a column without mass, stiff enough that its bending takes no part in a landing.
 const STIFF: PierSpec = PierSpec {
     height_m: 12.0,

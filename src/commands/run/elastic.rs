@@ -8,7 +8,6 @@ use crate::{
         elastic::{ElasticRun, springs_alone as alone},
         output::check_folder,
         progress::{self, Progress},
-        terminal,
     },
     elastic::{
         answer::{ElasticAnswer, Reference},
@@ -27,11 +26,15 @@ pub fn run(o: &RunOptions, mut case: ElasticCase) -> Result<(), CommandError> {
     }
     case.max_omega_hz = o.max_hz()?.or(case.max_omega_hz);
     case.asked = o.asked()?.unwrap_or(case.asked);
+    let friction = o.ground.friction()?;
     check_folder(&o.out)?;
     threads(o.jobs)?;
 
     let assembled =
         Assembled::with_members(case.structure, case.members).map_err(|e| CommandError::Result(e.to_string()))?;
+    if !o.no_record {
+        progress::taken(&case.excitation.line(), &case.doubts(), o.quiet);
+    }
     let progress = Progress::on_terminal("springs tried", o.quiet);
     let tell = |done: usize, error: f64| progress.tell(done, 0, &progress::error(error));
     let record = if o.no_record { None } else { Some(referred(&assembled, case.excitation.used()?)?) };
@@ -47,9 +50,8 @@ pub fn run(o: &RunOptions, mut case: ElasticCase) -> Result<(), CommandError> {
     let answer = ElasticAnswer::new(&assembled, &tuned.springs.corners, &record, reference);
     progress.done();
     let answer = answer.map_err(|e| CommandError::Result(e.to_string()))?;
-    let run = ElasticRun::new(case, assembled, tuned, record, answer);
+    let run = ElasticRun::new(case, assembled, tuned, record, answer, friction);
     run.save(&o.out, &files(), Output { figures: !o.no_figures, report: !o.no_report })?;
-    terminal::stderr(run.case.excitation.line());
     o.print(&run.said(run.filed(&o.out)))
 }
 
@@ -64,13 +66,9 @@ fn referred(assembled: &Assembled, record: Record) -> Result<(Record, Reference)
 
 /// Options that mean nothing for an elastic structure are refused.
 fn applies(o: &RunOptions) -> Result<(), CommandError> {
-    let friction = o.ground.friction.map(|value| format!("{value:?}"));
-    let given = [("friction", friction), ("no-front", o.no_front.then(|| "given".to_string()))];
-    match given.into_iter().find_map(|(option, value)| Some((option, value?))) {
-        Some((option, value)) => {
-            let remedy = "that is for rigid bodies and does nothing for an elastic structure; leave it out";
-            Err(CommandError::Option { option, value, remedy })
-        }
-        None => Ok(()),
+    if o.no_front {
+        let remedy = "that is for rigid bodies and does nothing for an elastic structure; leave it out";
+        return Err(CommandError::Option { option: "no-front", value: "given".to_string(), remedy });
     }
+    Ok(())
 }

@@ -4,7 +4,7 @@ use super::{Cutoff, ForceKind, ForcePeak, cutoff::SOLE_HZ, parts};
 use crate::{
     elastic::{
         assembled::Assembled,
-        fem::{BASE_FORCES, ElasticAnalysis, ElasticHistory, ElasticStart, low_pass},
+        fem::{ElasticAnalysis, ElasticHistory, ElasticStart, FineColumn, FineSeries, low_pass},
         frame::{EquilibriumError, Frame},
         structure::ElasticStructure,
     },
@@ -80,8 +80,10 @@ pub(super) struct PeakOfForce {
     pub filtered: ForcePeak,
     pub raw: f64,
     pub cutoff_hz: Option<f64>,
-    /// What the section bears at that time.
+    /// What the column's base bears at that time.
     pub together: Option<ForcesTogether>,
+    /// Of a shear: where, above the base along the column (m); 0 at the base.
+    pub above_base_m: Option<f64>,
 }
 
 /// Those of all forces.
@@ -91,47 +93,15 @@ impl ForcePeaks {
     /// Of a history, up to a time (s), below the cutoff.
     pub fn of(history: &ElasticHistory, cutoff: Option<&Cutoff>, over: f64) -> Self {
         let Some(fine) = &history.fine else { return Self(Vec::new()) };
-        let part = fine.part_s;
-        let kept = (over / part).round().min(1e15) as usize;
-        let peak = |series: &[f64], raw: f64, cutoff_hz: Option<f64>, kind: ForceKind| {
-            let smooth = smoothed(series, part, cutoff_hz);
-            let peak = TimedPeak::of(part, &smooth[..kept.min(smooth.len())])?;
-            // as it is: the largest at any step, not of means
-            let value = if cutoff_hz.is_none() && kept >= series.len() { raw } else { peak.value };
-            let filtered = ForcePeak { value, time_s: peak.time + 0.5 * part };
-            Some(PeakOfForce { kind, filtered, raw, cutoff_hz, together: None })
-        };
-        let of_bases = cutoff.map(|cutoff| cutoff.cutoff_hz);
-        let of_soles = Some(of_bases.unwrap_or(SOLE_HZ));
+        let of_columns = cutoff.map(|cutoff| cutoff.cutoff_hz);
+        let series = Series { part_s: fine.part_s, over_s: over };
         let mut out: Vec<PeakOfForce> = Vec::new();
-        for (i, base) in fine.bases.iter().enumerate() {
-            let smooth: Vec<Vec<f64>> = base.iter().map(|series| smoothed(series, part, of_bases)).collect();
-            let together = |of: PeakOfForce| {
-                let at = ((of.filtered.time_s / part - 0.5).round().max(0.0) as usize).min(smooth[0].len() - 1);
-                let [column_shear_n, axial_n, column_base_moment_nm] = [0, 1, 2].map(|k| smooth[k][at]);
-                PeakOfForce { together: Some(ForcesTogether { column_shear_n, axial_n, column_base_moment_nm }), ..of }
-            };
-            let kinds = [ForceKind::ColumnShear, ForceKind::Axial, ForceKind::ColumnBaseMoment];
-            let mut peaks: Vec<PeakOfForce> = kinds
-                .into_iter()
-                .enumerate()
-                .filter_map(|(k, kind)| peak(&base[k], fine.largest[BASE_FORCES * i + k], of_bases, kind))
-                .collect();
-            // of a column that is always pressed there is none
-            let pulled: Vec<f64> = smooth[1].iter().map(|axial| axial.max(0.0)).collect();
-            let tension = TimedPeak::of(part, &pulled[..kept.min(pulled.len())]).filter(|peak| peak.value > 0.0);
-            peaks.extend(tension.map(|peak| PeakOfForce {
-                kind: ForceKind::AxialTension,
-                filtered: ForcePeak { value: peak.value, time_s: peak.time + 0.5 * part },
-                raw: peak.value,
-                cutoff_hz: of_bases,
-                together: None,
-            }));
-            peaks.into_iter().map(together).for_each(|peak| keep_larger(&mut out, peak));
+        for column in &fine.columns {
+            series.of_column(column, of_columns).into_iter().for_each(|peak| keep_larger(&mut out, peak));
         }
-        let soles = fine.largest.len().saturating_sub(2);
-        for (k, kind) in [ForceKind::SoleShear, ForceKind::SoleVertical].into_iter().enumerate() {
-            out.extend(peak(&fine.sole[k], fine.largest[soles + k], of_soles, kind));
+        let of_soles = Some(of_columns.unwrap_or(SOLE_HZ));
+        for (sole, kind) in fine.sole.iter().zip([ForceKind::SoleShear, ForceKind::SoleVertical]) {
+            out.extend(series.peak(kind, sole, &series.smooth(sole, of_soles), of_soles));
         }
         Self(out)
     }
@@ -141,12 +111,76 @@ impl ForcePeaks {
     }
 }
 
-/// A series below a frequency (Hz), if there is one.
-fn smoothed(series: &[f64], part: f64, cutoff_hz: Option<f64>) -> Vec<f64> {
-    cutoff_hz.map_or_else(|| series.to_vec(), |hz| low_pass(series, part, hz))
+/// How series are sampled, and up to when their peaks are taken (s).
+#[derive(Clone, Copy)]
+struct Series {
+    part_s: f64,
+    over_s: f64,
 }
 
-/// Of several bases the one that bears the most counts, and the largest unfiltered value of all.
+impl Series {
+    /// A series below a frequency (Hz), if there is one.
+    fn smooth(&self, series: &FineSeries, cutoff_hz: Option<f64>) -> Vec<f64> {
+        cutoff_hz.map_or_else(|| series.means.clone(), |hz| low_pass(&series.means, self.part_s, hz))
+    }
+
+    /// The largest of the samples that count, in the middle of its part.
+    fn largest(&self, smooth: &[f64]) -> Option<ForcePeak> {
+        let kept = (self.over_s / self.part_s).round().min(1e15) as usize;
+        let peak = TimedPeak::of(self.part_s, &smooth[..kept.min(smooth.len())])?;
+        Some(ForcePeak { value: peak.value, time_s: peak.time + 0.5 * self.part_s })
+    }
+
+    /// Of one force, whose series below its cutoff is `smooth`.
+    fn peak(
+        &self,
+        kind: ForceKind,
+        series: &FineSeries,
+        smooth: &[f64],
+        cutoff_hz: Option<f64>,
+    ) -> Option<PeakOfForce> {
+        let mut filtered = self.largest(smooth)?;
+        // as it is: the largest at any step, not of means
+        if cutoff_hz.is_none() && self.over_s >= self.part_s * smooth.len() as f64 {
+            filtered.value = series.largest;
+        }
+        Some(PeakOfForce { kind, filtered, raw: series.largest, cutoff_hz, together: None, above_base_m: None })
+    }
+
+    /// Of all forces of a column, each with what its base bears at that time.
+    fn of_column(&self, column: &FineColumn, cutoff_hz: Option<f64>) -> Vec<PeakOfForce> {
+        let [shear, axial, moment] = &column.base;
+        let base = [shear, axial, moment].map(|series| self.smooth(series, cutoff_hz));
+        let of = |kind, k: usize| self.peak(kind, &column.base[k], &base[k], cutoff_hz);
+        let at_base = of(ForceKind::ColumnShear, 0).map(|peak| PeakOfForce { above_base_m: Some(0.0), ..peak });
+        let above = column.above.iter().zip(&column.heights).filter_map(|(series, height)| {
+            let peak = self.peak(ForceKind::ColumnShear, series, &self.smooth(series, cutoff_hz), cutoff_hz)?;
+            Some(PeakOfForce { above_base_m: Some(*height), ..peak })
+        });
+        // of a column that is always pressed there is none
+        let pulled: Vec<f64> = base[1].iter().map(|axial| axial.max(0.0)).collect();
+        let tension = self.largest(&pulled).filter(|peak| peak.value > 0.0).map(|filtered| PeakOfForce {
+            kind: ForceKind::AxialTension,
+            filtered,
+            raw: filtered.value,
+            cutoff_hz,
+            together: None,
+            above_base_m: None,
+        });
+        let peaks = at_base.into_iter().chain(above);
+        let peaks = peaks.chain(of(ForceKind::Axial, 1)).chain(of(ForceKind::ColumnBaseMoment, 2)).chain(tension);
+        let together = |peak: PeakOfForce| {
+            let at = (peak.filtered.time_s / self.part_s - 0.5).round().max(0.0) as usize;
+            let [column_shear_n, axial_n, column_base_moment_nm] =
+                [0, 1, 2].map(|k| base[k][at.min(base[k].len() - 1)]);
+            PeakOfForce { together: Some(ForcesTogether { column_shear_n, axial_n, column_base_moment_nm }), ..peak }
+        };
+        peaks.map(together).collect()
+    }
+}
+
+/// Of several columns, and of the heights of one, that which bears the most counts, and the largest
+/// unfiltered value of all.
 fn keep_larger(all: &mut Vec<PeakOfForce>, peak: PeakOfForce) {
     match all.iter_mut().find(|other| other.kind == peak.kind) {
         None => all.push(peak),

@@ -1,5 +1,5 @@
-//! Forces finely sampled: means over equal parts of the record's time step, so that a low-pass filter finds all that is slower than its cutoff,
-//! however short a landing is.
+//! Forces finely sampled: means over equal parts of the record's time step, so that a low-pass
+//! filter finds all that is slower than its cutoff, however short a landing is.
 //!
 //! ```text
 //!   mean over a part = 1/b sum over steps of the integral of f over what the step has of the part        b: length of a part
@@ -9,39 +9,61 @@
 //! A part's mean times its length is the impulse of the force: no landing is between two samples.
 
 use super::{demands::base_forces, run::ElasticView, step::ElasticStages};
-use crate::{elastic::frame::Frame, fem::radau::C};
+use crate::{
+    elastic::frame::{Frame, FrameColumn},
+    fem::radau::C,
+};
 
-/// What is sampled at every column's base, in this order: shear across its axis, axial force (tension positive), moment.
-pub const BASE_FORCES: usize = 3;
+/// What is sampled at every column's base, in this order: shear across its axis, axial force
+/// (tension positive), moment.
+const BASE_FORCES: usize = 3;
+
+/// One force.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct FineSeries {
+    /// Means over equal parts [N, N m].
+    pub means: Vec<f64>,
+    /// Largest magnitude at any step, unfiltered, with its sign.
+    pub largest: f64,
+}
+
+/// Forces of one column.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct FineColumn {
+    /// Of its base: shear [N], axial force [N], moment [N m].
+    pub base: [FineSeries; BASE_FORCES],
+    /// Shear of every element above the first (N).
+    pub above: Vec<FineSeries>,
+    /// Of the middle of each of these, above the base along the column (m).
+    pub heights: Vec<f64>,
+}
 
 /// Means of forces over equal parts of the time step.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct FineForces {
     /// Length of a part (s).
     pub part_s: f64,
-    /// Of every column's base: shear [N], axial force [N], moment [N m].
-    pub bases: Vec<[Vec<f64>; BASE_FORCES]>,
+    /// Of every column.
+    pub columns: Vec<FineColumn>,
     /// Of the ground on all corners together, horizontally and vertically (N).
-    pub sole: [Vec<f64>; 2],
-    /// Largest magnitude of each, unfiltered, with its sign: in the order of `bases`, then `sole`.
-    pub largest: Vec<f64>,
+    pub sole: [FineSeries; 2],
 }
 
 impl FineForces {
-    /// All series, bases first.
-    pub fn series(&self) -> impl Iterator<Item = &Vec<f64>> {
-        self.bases.iter().flatten().chain(&self.sole)
+    /// All series, columns first.
+    pub fn series(&self) -> impl Iterator<Item = &FineSeries> {
+        self.columns.iter().flat_map(|column| column.base.iter().chain(&column.above)).chain(&self.sole)
     }
 
-    fn series_mut(&mut self) -> impl Iterator<Item = &mut Vec<f64>> {
-        self.bases.iter_mut().flatten().chain(&mut self.sole)
+    fn series_mut(&mut self) -> impl Iterator<Item = &mut FineSeries> {
+        let columns = self.columns.iter_mut().flat_map(|column| column.base.iter_mut().chain(&mut column.above));
+        columns.chain(&mut self.sole)
     }
 }
 
 /// Gathers them step by step.
 pub(super) struct FineRecorder {
-    /// Whose bases: beam and end.
-    ends: Vec<(usize, usize)>,
+    columns: Vec<FrameColumn>,
     forces: FineForces,
     /// At the start of the step.
     start: Vec<f64>,
@@ -51,24 +73,38 @@ pub(super) struct FineRecorder {
 impl FineRecorder {
     /// So many parts to a time step of a record of so many samples.
     pub fn new(frame: &Frame, dt: f64, samples: usize, parts: usize) -> Self {
-        let ends = frame.based_ends();
-        let length = samples.saturating_sub(1) * parts;
-        let room = || vec![0.0; length];
-        let count = BASE_FORCES * ends.len() + 2;
-        let forces = FineForces {
-            part_s: dt / parts as f64,
-            bases: ends.iter().map(|_| [(); BASE_FORCES].map(|()| room())).collect(),
-            sole: [room(), room()],
-            largest: vec![0.0; count],
+        let columns = frame.columns();
+        let series = || FineSeries { means: vec![0.0; samples.saturating_sub(1) * parts], largest: 0.0 };
+        let of = |column: &FrameColumn| {
+            let mut below = 0.0;
+            let mut heights: Vec<f64> = Vec::new();
+            for &beam in &column.beams {
+                heights.push(below + 0.5 * frame.length(beam));
+                below += frame.length(beam);
+            }
+            heights.remove(0);
+            FineColumn {
+                base: [(); BASE_FORCES].map(|()| series()),
+                above: heights.iter().map(|_| series()).collect(),
+                heights,
+            }
         };
-        Self { ends, forces, start: vec![0.0; count], started: false }
+        let fine = columns.iter().map(of).collect();
+        let forces = FineForces { part_s: dt / parts as f64, columns: fine, sole: [series(), series()] };
+        let count = forces.series().count();
+        Self { columns, forces, start: vec![0.0; count], started: false }
     }
 
-    /// All forces at q, q'.
+    /// All forces at q, q', in the order of the series.
     fn at(&self, view: &ElasticView, q: &[f64], v: &[f64]) -> Vec<f64> {
         let (model, n) = (view.model, view.model.n);
-        let bases = self.ends.iter().flat_map(|&(beam, end)| base_forces(model.frame, (beam, end), &q[..n], &v[..n]));
-        let mut out: Vec<f64> = bases.collect();
+        let (frame, free) = (model.frame, (&q[..n], &v[..n]));
+        let mut out = Vec::with_capacity(self.start.len());
+        for column in &self.columns {
+            let (first, above) = (column.beams[0], &column.beams[1..]);
+            out.extend(base_forces(frame, (first, column.base_end), free.0, free.1));
+            out.extend(above.iter().map(|&beam| frame.bearing(beam, free.0, free.1).shear));
+        }
         let mut sole = [0.0; 2];
         for (i, foot) in view.feet.iter().enumerate() {
             let force = model.contact(i, foot, q, v);
@@ -93,14 +129,14 @@ impl FineRecorder {
         let begun = view.time - h;
         let part = self.forces.part_s;
         let end = within[2].clone();
-        for (k, largest) in self.forces.largest.iter_mut().enumerate() {
-            if end[k].abs() > largest.abs() {
-                *largest = end[k];
+        for (series, end) in self.forces.series_mut().zip(&end) {
+            if end.abs() > series.largest.abs() {
+                series.largest = *end;
             }
         }
         let curves: Vec<[f64; 4]> =
             (0..end.len()).map(|k| integral([self.start[k], within[0][k], within[1][k], within[2][k]])).collect();
-        let last = self.forces.sole[0].len().saturating_sub(1);
+        let last = self.forces.sole[0].means.len().saturating_sub(1);
         let mut i = ((begun / part + 1e-9).max(0.0) as usize).min(last);
         let mut from = 0.0;
         while from < 1.0 {
@@ -108,7 +144,7 @@ impl FineRecorder {
             let edge = ((i + 1) as f64 * part - begun) / h;
             let to = if edge >= 1.0 - 1e-9 || i == last { 1.0 } else { edge.max(from) };
             for (series, curve) in self.forces.series_mut().zip(&curves) {
-                if let Some(mean) = series.get_mut(i) {
+                if let Some(mean) = series.means.get_mut(i) {
                     *mean += h / part * (antiderivative(curve, to) - antiderivative(curve, from));
                 }
             }
@@ -120,7 +156,7 @@ impl FineRecorder {
     /// What was gathered, of a history that ended at a time (s).
     pub fn finish(mut self, end: f64) -> FineForces {
         let kept = (end / self.forces.part_s).round() as usize;
-        self.forces.series_mut().for_each(|series| series.truncate(kept));
+        self.forces.series_mut().for_each(|series| series.means.truncate(kept));
         self.forces
     }
 }

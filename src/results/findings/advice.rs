@@ -21,6 +21,11 @@ impl Finding {
             Self::ModelsDisagree { .. } => "vary the scale by 1 %, and judge by many records: tune validate",
             Self::PivotLeavesGround { .. } => "compare up to that time only",
             Self::IllConditioned { .. } => "judge by many records: tune validate",
+            Self::ForetoldUpTo { later_forces, .. } | Self::SlidesOn { later_forces, .. }
+                if !later_forces.is_empty() =>
+            {
+                "design with several records: those forces are of one motion among many alike"
+            }
             Self::ForetoldUpTo { softer_hz, .. } | Self::SlidesOn { softer_hz, .. } => {
                 let hz = (*softer_hz)?;
                 return Some(format!("up to then --max-hz {:.0} is stiff enough, with fewer steps", hz.ceil()));
@@ -38,7 +43,7 @@ impl Finding {
             }
             Self::LandingsUnfinished { .. } => "allow other springs: --max-hz, --accuracy",
             Self::ForceWithheld { .. } => "take it from a model of your own, or refine: elements, --accuracy",
-            Self::Sliding { .. } => "give a shear key, --friction, or [friction] in the case file",
+            Self::Sliding { .. } => "give it a shear key, or say what the ground offers: --friction",
             Self::FreeFlight { .. } => "compare up to that time only",
             Self::TooStocky { .. } => "check height and width; rely on tests for such a body",
             Self::HistoryEndsEarly { .. } => "take stiffer springs, or rotational_inertia_kgm2 above 0.002 m R^2",

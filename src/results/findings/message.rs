@@ -1,6 +1,6 @@
 //! The words of findings.
 
-use super::{DeckEnd, Ending, Finding, FindingModel, PeakChange};
+use super::{DeckEnd, Ending, Finding, FindingModel, ForceName, PeakChange};
 use crate::message::{percent, quantity, significant};
 
 /// Quantities that a vertical motion left out changes the most, said in its message; all are in
@@ -17,6 +17,16 @@ fn on(model: FindingModel) -> &'static str {
 
 fn s(time: f64) -> String {
     format!("{} s", significant(time, 4))
+}
+
+/// Design forces whose largest value comes after what can be foretold.
+fn later(forces: &[ForceName]) -> String {
+    let names: Vec<&str> = forces.iter().map(|force| force.words()).collect();
+    match names.as_slice() {
+        [] => String::new(),
+        [one] => format!("; {one} is largest after that"),
+        [all @ .., last] => format!("; {} and {last} are largest after that", all.join(", ")),
+    }
 }
 
 impl Finding {
@@ -98,13 +108,15 @@ impl Finding {
                     percent(*moved_by_width)
                 )
             }
-            Self::ForetoldUpTo { time_s, .. } => format!(
-                "from t = {} on a change of a millionth grows above a thousandth of the peak: no model foretells it",
-                s(*time_s)
+            Self::ForetoldUpTo { time_s, later_forces, .. } => format!(
+                "from t = {} on a change of a millionth grows above a thousandth of the peak: no model foretells it{}",
+                s(*time_s),
+                later(later_forces)
             ),
-            Self::SlidesOn { time_s, .. } => format!(
-                "at t = {} a corner lands so flat that it slides on, by an impulse that depends on friction",
-                s(*time_s)
+            Self::SlidesOn { time_s, later_forces, .. } => format!(
+                "at t = {} a corner lands so flat that it slides on, by an impulse that depends on friction{}",
+                s(*time_s),
+                later(later_forces)
             ),
             Self::NearMotions { motions, change, median_ratio, p90_ratio, overturned } => {
                 let cell = |x: Option<f64>| x.map_or("overturned".into(), percent);
