@@ -8,6 +8,7 @@ use clap::Args;
 
 use super::{
     CommandError,
+    bounds::{EffortOptions, ended},
     common::{GroundOptions, RecordOptions, history_csv},
     draw::{self, Pictures},
     export, members,
@@ -33,7 +34,8 @@ use crate::{
         screen::{Written, screen},
         summary,
     },
-    tuning::job::Job,
+    results::NotDone,
+    tuning::job::{Job, MOST_WORK},
 };
 
 /// All that `tune run` can write into its folder, beside figures.
@@ -86,6 +88,8 @@ pub struct RunOptions {
     /// Threads [default: all cores]
     #[arg(long, value_name = "N")]
     jobs: Option<usize>,
+    #[command(flatten)]
+    effort: EffortOptions,
     /// No figures
     #[arg(long)]
     no_figures: bool,
@@ -137,10 +141,13 @@ pub fn run(o: &RunOptions) -> Result<(), CommandError> {
     threads(o.jobs)?;
 
     let progress = Progress::on_terminal("springs tried", o.quiet);
-    let job = Job::new(&case, &|done, all, error| progress.tell(done, all, &progress::error(error)));
+    let effort = o.effort.of(MOST_WORK)?;
+    let job = Job::within(&case, &effort, &|done, all, error| progress.tell(done, all, &progress::error(error)));
     progress.done();
     let job = job?;
-    let front = if o.no_front || o.no_record {
+    let wanted = !o.no_front && !o.no_record;
+    let not_done = if wanted && effort.stopped_from_outside() { vec![NotDone::Front] } else { Vec::new() };
+    let front = if !wanted || !not_done.is_empty() {
         Vec::new()
     } else {
         let progress = Progress::on_terminal("stiffnesses compared", o.quiet);
@@ -150,12 +157,14 @@ pub fn run(o: &RunOptions) -> Result<(), CommandError> {
     };
 
     if o.no_record {
-        return springs_alone(o, &report::rigid::of_case(&case, Parameters::of(&case, &job)));
+        springs_alone(o, &report::rigid::of_case(&case, Parameters::of(&case, &job)))?;
+        return ended(&effort, &o.out);
     }
-    let run = RigidRun::new(case, job, front, friction);
+    let run = RigidRun::new(case, job, (front, not_done), friction);
     run.save(&o.out, Output { figures: !o.no_figures, report: !o.no_report })?;
     terminal::stderr(run.case.excitation.line());
-    o.print(&run.said(run.filed(&o.out)))
+    o.print(&run.said(run.filed(&o.out)))?;
+    ended(&effort, &o.out)
 }
 
 impl RunOptions {

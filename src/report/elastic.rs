@@ -11,7 +11,7 @@ use crate::{
         design_forces::{ForceKind, StructureForces, peaks_in},
         ensemble::Ensemble,
         frame::Frame,
-        reference::ReferenceOutcome,
+        reference::{ReferenceOutcome, Stop},
         structure::ElasticStructure,
     },
     fem::HistoryOutcome,
@@ -129,10 +129,14 @@ impl ElasticParts<'_> {
             all.extend(foretold(on));
             let alpha = self.assembled.structure.body().alpha();
             all.extend(on.near.iter().map(|near| nearby(near, alpha)));
+            let left_out = on.near.map_or(0, |near| near.out_of_work);
+            all.extend((left_out > 0).then_some(Finding::NearMotionsLeftOut { motions: left_out }));
         }
         all.extend(self.vertical_left_out());
         all.extend(doubts(self.case.doubts()));
         all.extend(springs_findings(parameters));
+        // what of the search was cut is there already
+        all.extend(parameters.findings.iter().map(|filed| filed.finding.clone()));
         all.extend(parameters.design_forces.iter().flat_map(|forces| forces.withheld()));
         all.extend(judged::elastic(self.assembled, &self.answer.histories, self.record));
         all
@@ -185,11 +189,11 @@ impl ElasticParts<'_> {
                 |time: Option<f64>| time.map_or("stands".into(), |time| format!("overturns at t = {time:.2} s"));
             all.push(Finding::ModelsDisagree { reference: words(reference_fell), springs: words(fell(fem)) });
         }
-        if let ReferenceOutcome::Stopped { time, .. } = history.outcome {
+        if let ReferenceOutcome::Stopped { time, why } = history.outcome {
             all.push(Finding::HistoryEndsEarly {
                 model: FindingModel::Reference,
                 time_s: time,
-                ending: Ending::Stopped,
+                ending: if why == Stop::Work { Ending::WorkBound } else { Ending::Stopped },
             });
         }
         let (time_s, ending) = match fem {
