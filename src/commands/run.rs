@@ -144,10 +144,13 @@ pub fn run(o: &RunOptions) -> Result<(), CommandError> {
     let effort = o.effort.of(MOST_WORK)?;
     let job = Job::within(&case, &effort, &|done, all, error| progress.tell(done, all, &progress::error(error)));
     progress.done();
-    let job = job?;
+    let mut job = job?;
     let wanted = !o.no_front && !o.no_record;
-    let not_done = if wanted && effort.stopped_from_outside() { vec![NotDone::Front] } else { Vec::new() };
-    let front = if !wanted || !not_done.is_empty() {
+    let left_out = wanted && effort.stopped_from_outside();
+    if left_out {
+        job.not_done.push(NotDone::Front);
+    }
+    let front = if !wanted || left_out {
         Vec::new()
     } else {
         let progress = Progress::on_terminal("stiffnesses compared", o.quiet);
@@ -160,7 +163,7 @@ pub fn run(o: &RunOptions) -> Result<(), CommandError> {
         springs_alone(o, &report::rigid::of_case(&case, Parameters::of(&case, &job)))?;
         return ended(&effort, &o.out);
     }
-    let run = RigidRun::new(case, job, (front, not_done), friction);
+    let run = RigidRun::new(case, job, front, friction);
     run.save(&o.out, Output { figures: !o.no_figures, report: !o.no_report })?;
     terminal::stderr(run.case.excitation.line());
     o.print(&run.said(run.filed(&o.out)))?;

@@ -123,7 +123,8 @@ impl ElasticParts<'_> {
 
     /// All findings.
     pub fn findings(&self, parameters: &ElasticParameters) -> Vec<Finding> {
-        let mut all = Vec::new();
+        // what of the search was cut is there already
+        let mut all: Vec<Finding> = parameters.findings.iter().map(|filed| filed.finding.clone()).collect();
         if let Some(on) = &parameters.on_record {
             all.extend(self.what_it_does(on));
             all.extend(foretold(on));
@@ -135,8 +136,6 @@ impl ElasticParts<'_> {
         all.extend(self.vertical_left_out());
         all.extend(doubts(self.case.doubts()));
         all.extend(springs_findings(parameters));
-        // what of the search was cut is there already
-        all.extend(parameters.findings.iter().map(|filed| filed.finding.clone()));
         all.extend(parameters.design_forces.iter().flat_map(|forces| forces.withheld()));
         all.extend(judged::elastic(self.assembled, &self.answer.histories, self.record));
         all

@@ -19,7 +19,7 @@ use crate::{
     message::{percent, quantity, significant},
     overturning::samples_until,
     parameters::{ConditioningRow, PaperProcedure, Parameters},
-    results::{FiledFinding, Finding, NotDone, PeakPair, Peaks},
+    results::{Finding, PeakPair, Peaks},
     rigid_forces::design_forces,
     spring::{Design, Springs},
     structure::{Kind, Structure},
@@ -40,8 +40,6 @@ pub struct RigidRun {
     pub job: Job,
     /// Error over the stiffness.
     pub front: Vec<FrontPoint>,
-    /// What was left out besides what the search did not do.
-    pub not_done: Vec<NotDone>,
     /// Both models' answers to the record.
     pub both: Both,
     /// Conditioning and regime.
@@ -52,7 +50,7 @@ pub struct RigidRun {
 
 impl RigidRun {
     /// Simulate a job's springs, and those of the paper beside them; `friction` of the ground, for the warning of sliding.
-    pub fn new(case: Case, job: Job, (front, not_done): (Vec<FrontPoint>, Vec<NotDone>), friction: f64) -> Self {
+    pub fn new(case: Case, job: Job, front: Vec<FrontPoint>, friction: f64) -> Self {
         let beside = |springs: &Springs<Design<f64>>| {
             let other = Parameters::new(case.structure, springs);
             let none = Members::default();
@@ -78,7 +76,7 @@ impl RigidRun {
         parameters.peaks = Some(peaks(kind, &job, &both));
         let softer = softer(&case, &job, &both);
         parameters.design_forces = Some(design_forces(kind, &job.body, &job.record, &both, softer.as_ref()));
-        let mut run = Self { case, job, front, not_done, both, report, parameters };
+        let mut run = Self { case, job, front, both, report, parameters };
         run.parameters.findings = filed(run.findings());
         run
     }
@@ -112,7 +110,8 @@ impl RigidRun {
 
     fn findings(&self) -> Vec<Finding> {
         let parameters = &self.parameters;
-        let mut all = Vec::new();
+        // what of the search was cut, first
+        let mut all = self.job.findings(self.case.tuning.asked());
         let judged = parameters.assessment.is_some_and(|a| a.reached && a.measured.synthetic_median.is_some());
         if let Some(verdict) = &parameters.verdict {
             all.extend(reference::verdict(&self.case.structure, &self.job.record, verdict));
@@ -121,7 +120,6 @@ impl RigidRun {
         all.extend(self.vertical_left_out());
         all.extend(doubts(self.case.doubts()));
         all.extend(springs_findings(parameters));
-        all.extend(self.job.findings(self.case.tuning.asked(), &self.not_done));
         all.extend(parameters.design_forces.iter().flat_map(|forces| forces.withheld()));
         all.extend(self.report.findings());
         all.extend(reference::histories(&self.both));
@@ -181,10 +179,10 @@ impl RigidRun {
 
 /// Springs of a case without a record.
 pub fn of_case(case: &Case, mut parameters: Parameters) -> Run {
-    // what was cut is there already
-    let search: Vec<FiledFinding> = std::mem::take(&mut parameters.findings);
-    let doubts = doubts(case.doubts_of_structure()).chain(springs_findings(&parameters));
-    parameters.findings = filed(doubts.chain(search.into_iter().map(|filed| filed.finding)));
+    // what of the search was cut is there already
+    let search = parameters.findings.iter().map(|filed| filed.finding.clone());
+    let found = search.chain(doubts(case.doubts_of_structure())).chain(springs_findings(&parameters));
+    parameters.findings = filed(found);
     alone(parameters)
 }
 

@@ -192,8 +192,8 @@ fn within_reach(record: &Record) -> Result<(), JobError> {
 
 impl Job {
     /// What of the search was cut or not followed to its end.
-    pub fn findings(&self, asked: Asked, more: &[NotDone]) -> Vec<Finding> {
-        let not_done: Vec<NotDone> = self.not_done.iter().chain(more).copied().collect();
+    pub fn findings(&self, asked: Asked) -> Vec<Finding> {
+        let not_done = self.not_done.clone();
         let reached =
             self.tuned.best.errors.measured(asked.by).then(|| self.tuned.best.errors.over(asked) * asked.error);
         let stiffnesses = if reached.is_some() { self.tuned.rungs.len() } else { 0 };

@@ -51,10 +51,10 @@ fn accuracy(a: &ElasticAssessment, on_record: Option<&OnRecord>) -> AccuracyRepo
 
 /// Springs of a case without a record.
 pub fn of_case(case: &ElasticCase, mut parameters: ElasticParameters) -> Run {
-    let doubts = doubts(case.doubts_of_structure()).chain(springs_findings(&parameters));
     // what of the search was cut is there already
     let search = parameters.findings.iter().map(|filed| filed.finding.clone());
-    parameters.findings = filed(doubts.chain(search));
+    let found = search.chain(doubts(case.doubts_of_structure())).chain(springs_findings(&parameters));
+    parameters.findings = filed(found);
     alone(parameters)
 }
 

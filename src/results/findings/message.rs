@@ -177,14 +177,14 @@ impl Finding {
         match self {
             Self::SearchCut { by, not_done, stiffnesses, reached, asked } => {
                 let by = match by {
-                    CutBy::Work => "the bound on its work",
+                    CutBy::Work => "the bound on work",
                     CutBy::TimeLimit => "the time limit",
                     CutBy::Interrupt => "^C",
                 };
                 let missing: Vec<&str> = not_done.iter().map(|what| what.words()).collect();
                 let reached = match reached {
                     Some(error) => format!(
-                        " after {stiffnesses} stiffness{}: error {} where {} was asked for",
+                        " after {stiffnesses} stiffness{}: error {}, asked {}",
                         if *stiffnesses == 1 { "" } else { "es" },
                         significant(*error, 3),
                         significant(*asked, 3)
