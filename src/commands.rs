@@ -140,7 +140,8 @@ pub enum CommandError {
     Failed(String),
 }
 
-/// Parse the arguments and run: exit code 0, or with one line on stderr 2, or 1 where a check failed, or 130 where ^C ended a search.
+/// Parse the arguments and run: exit code 0, or with one line on stderr 2, or 1 where a check
+/// failed, or 130 where ^C ended a search.
 pub fn main() -> ExitCode {
     let cli = match Cli::try_parse() {
         Ok(cli) => cli,

@@ -1,10 +1,12 @@
-//! How much work a search may do: a bound that counts work, so that the same inputs give the same bytes on any machine and any
-//! number of threads; and what stops it from outside.
+//! How much work a search may do: a bound that counts work, so that the same inputs give the same
+//! bytes on any machine and any number of threads; and what stops it from outside.
 //!
 //! ```text
-//!   unit     a step tried of a rigid body's history; steps of elastic structures cost units by their number of coordinates
+//!   unit     a step tried of a rigid body's history; steps of elastic structures cost units by
+//!            their number of coordinates
 //!   spent    sum of all histories so far, each of which has a bound of its own
-//!   asked    between whole candidates alone, one after the other: where it stops does not hang on which thread was first
+//!   asked    between whole candidates alone, one after the other: where it stops does not hang on
+//!            which thread was first
 //! ```
 //!
 //! A time limit and ^C set the same stop. What they cut depends on the machine, and is marked.
@@ -93,7 +95,8 @@ impl Effort {
         self.unfinished.load(Ordering::Relaxed)
     }
 
-    /// Whether to leave out what comes next; it is then noted that something was. To be asked where nothing else is under way.
+    /// Whether to leave out what comes next; it is then noted that something was. To be asked where
+    /// nothing else is under way.
     pub fn stops(&self) -> bool {
         if self.spent() >= self.most {
             self.cut.get_or_init(|| CutBy::Work);
@@ -101,7 +104,8 @@ impl Effort {
         self.stopped()
     }
 
-    /// The same of the time limit and ^C alone, anywhere; of the bound on work only once it was noted.
+    /// The same of the time limit and ^C alone, anywhere; of the bound on work only once it was
+    /// noted.
     pub fn stopped(&self) -> bool {
         if self.cut.get().is_none()
             && let Some(by) = self.signal.now()

@@ -1,4 +1,5 @@
-//! Every job ends: by the bound on work, the same bytes on any number of threads; by a time limit and ^C, and it is marked.
+//! Every job ends: by the bound on work, the same bytes on any number of threads; by a time limit
+//! and ^C, and it is marked.
 
 use std::{
     path::Path,
@@ -7,13 +8,13 @@ use std::{
 
 use groundspring::{
     case::Case,
-    excitation::Excitation,
     record::Record,
     tuning::job::{Job, JobError},
 };
 use serde_json::Value;
 
-/// Light, with the inertia of a heavy one, and another restitution than equation 2's: a search over all parameters.
+/// Light, with the inertia of a heavy one, and another restitution than equation 2's: a search over
+/// all parameters.
 const SLOW: &str = "[structure]\nkind = 'aframe'\nheight_m = 61.0\nwidth_m = 12.2\nmass_kg = 2.0\n\
                     rotational_inertia_kgm2 = 413464.8\nrestitution_ratio = 0.95\n\n[record]\nduration_s = 3.0\n";
 const PIER: &str = include_str!("../tuning/pier.toml");
@@ -99,7 +100,10 @@ fn motions_whose_references_meet_their_bound_are_left_out_and_told() {
     assert!(ran.status.success(), "{}", stderr(&ran));
     let parameters = parameters(folder.path());
     let told = finding(&parameters, "histories_unfinished").unwrap_or_else(|| panic!("{:#}", parameters["findings"]));
-    assert!(told["left_out"] == true && told["histories"].as_u64().unwrap() > 0 && told["remedy"].is_string(), "{told}");
+    assert!(
+        told["left_out"] == true && told["histories"].as_u64().unwrap() > 0 && told["remedy"].is_string(),
+        "{told}"
+    );
     assert_eq!(parameters["springs"].as_array().unwrap().len(), 2);
 }
 
@@ -149,7 +153,7 @@ fn an_interrupt_leaves_whole_results_that_are_marked_and_an_exit_code_of_its_own
 fn what_is_out_of_reach_is_refused_early_with_the_reason() {
     let mut case = Case::paper().unwrap();
     let record = Record::new("long", 0.01, vec![0.1; 2_000_002]).unwrap();
-    case.set_excitation(Excitation::whole(record)).unwrap();
+    (case.record, case.duration_s) = (record, f64::INFINITY);
     let refused = Job::new(&case, &|_, _, _| ()).unwrap_err();
     assert!(matches!(refused, JobError::OutOfReach { steps: 2_000_001, most: 2_000_000, .. }), "{refused}");
 

@@ -101,6 +101,8 @@ pub struct ElasticAnswer {
     pub fixed_drift: Vec<f64>,
     /// Peaks over motions near the record, where it cannot be foretold to its end.
     pub ensemble: Option<Ensemble>,
+    /// Motions near the record that are left out since a history met its bound.
+    pub near_left_out: usize,
     /// The rigid body of the same masses, by Housner's equation; none of a frame, whose columns rock side by side, and of a structure
     /// with members.
     pub rigid: Option<RigidForces>,
@@ -143,7 +145,8 @@ impl Reference {
         Self::within(assembled, record, FORETOLD, MOST_WORK)
     }
 
-    /// The same, foretold for as long as a perturbation grows less than `limit`, by so many units of work a history.
+    /// The same, foretold for as long as a perturbation grows less than `limit`, by so many units
+    /// of work a history.
     ///
     /// # Errors
     /// The structure does not stand.
@@ -270,8 +273,8 @@ impl ElasticAnswer {
         let [reference, fem] = [0, 1].map(|k| histories.sways.iter().map(|pair| pair[k].clone()).collect::<Vec<_>>());
         let errors = errors(&reference, &fem, compared.samples);
         let near = near.filter(|_| histories.reference.foretold_seconds(record.dt).is_some());
-        let ensemble =
-            near.map(|most_work| Ensemble::new(assembled, springs, record, most_work)).transpose()?.flatten();
+        let near = near.map(|most_work| Ensemble::new(assembled, springs, record, most_work)).transpose()?;
+        let (ensemble, near_left_out) = near.unwrap_or_default();
         // Housner's equation has no members
         let bare = assembled.members == Members::default();
         let rigid = RigidForces::of(&assembled.structure, record).filter(|_| bare);
@@ -282,7 +285,7 @@ impl ElasticAnswer {
             foretold.into_iter().chain(histories.falls(alpha).map(|i| i as f64 * record.dt)).reduce(f64::min);
         let design =
             StructureForces::new((assembled, springs, record), (&histories.fem, &fixed), foretold, rigid.as_ref())?;
-        Ok(Self { histories, compared, errors, fixed, fixed_drift, ensemble, rigid, design })
+        Ok(Self { histories, compared, errors, fixed, fixed_drift, ensemble, near_left_out, rigid, design })
     }
 }
 

@@ -71,17 +71,11 @@ pub struct Ensemble {
     pub drift_m: Spread,
     /// Histories that overturn: on rigid ground, on springs.
     pub overturned: [usize; 2],
-    /// Motions left out since a history met its bound.
-    #[serde(default, skip_serializing_if = "is_zero")]
-    pub out_of_work: usize,
-}
-
-fn is_zero(count: &usize) -> bool {
-    *count == 0
 }
 
 impl Ensemble {
-    /// Of a structure through motions near a record, from rest; on rigid ground by so many units of work each.
+    /// Of a structure through motions near a record, from rest; on rigid ground by so many units of
+    /// work each. Beside it, how many motions are left out since a history met its bound.
     ///
     /// # Errors
     /// The structure does not stand.
@@ -90,7 +84,7 @@ impl Ensemble {
         springs: &[Springs<Chain<f64>>],
         record: &Record,
         most_work: u64,
-    ) -> Result<Option<Self>, RestError> {
+    ) -> Result<(Option<Self>, usize), RestError> {
         let q = assembled.upright()?;
         let scale = |i: usize| 1.0 + CHANGE * (2.0 * i as f64 / (MOTIONS - 1) as f64 - 1.0);
         let both = |i: usize| {
@@ -107,7 +101,7 @@ impl Ensemble {
         };
         let pairs: Vec<[Largest; 2]> = all.iter().filter_map(followed).collect();
         let out_of_work = all.iter().filter(|pair| pair.iter().any(|near| matches!(near, Near::OutOfWork))).count();
-        Ok(Self::of(&pairs).map(|ensemble| Self { out_of_work, ..ensemble }))
+        Ok((Self::of(&pairs), out_of_work))
     }
 
     /// Of the peaks on rigid ground and on springs; none if there are none.
@@ -121,7 +115,6 @@ impl Ensemble {
             rotation_rad: spread(0),
             drift_m: spread(1),
             overturned,
-            out_of_work: 0,
         })
     }
 }

@@ -63,8 +63,8 @@ pub(crate) fn step_units(coordinates: usize) -> u64 {
 /// Coordinates of a small structure.
 const SMALL: usize = 12;
 
-/// Steps that a history of a structure of so many coordinates may try: those of the control if it is small, of others as many as cost
-/// the same.
+/// Steps that a history of a structure of so many coordinates may try: those of the control if it
+/// is small, of others as many as cost the same.
 pub(crate) fn most_steps(control: Control, coordinates: usize) -> usize {
     let share = (step_units(SMALL) as f64 / step_units(coordinates) as f64).min(1.0);
     (control.most_steps as f64 * share) as usize

@@ -130,8 +130,8 @@ impl ElasticParts<'_> {
             all.extend(foretold(on));
             let alpha = self.assembled.structure.body().alpha();
             all.extend(on.near.iter().map(|near| nearby(near, alpha)));
-            let left_out = on.near.map_or(0, |near| near.out_of_work);
-            all.extend((left_out > 0).then_some(Finding::NearMotionsLeftOut { motions: left_out }));
+            let motions = self.answer.near_left_out;
+            all.extend((motions > 0).then_some(Finding::NearMotionsLeftOut { motions }));
         }
         all.extend(self.vertical_left_out());
         all.extend(doubts(self.case.doubts()));

@@ -157,7 +157,8 @@ pub enum Finding {
         force: ForceName,
         change: Option<f64>,
     },
-    /// What was cut, after how many stiffnesses, and the error that was reached of what was asked for.
+    /// What was cut, after how many stiffnesses, and the error that was reached of what was asked
+    /// for.
     SearchCut {
         by: CutBy,
         not_done: Vec<NotDone>,

@@ -38,7 +38,8 @@ use crate::{
     results::{Finding, NotDone},
 };
 
-/// Units of work that a search may take unless told otherwise: about a minute and a half on two cores.
+/// Units of work that a search may take unless told otherwise: about a minute and a half on two
+/// cores.
 pub const MOST_WORK: u64 = 240_000_000;
 /// Share of the accuracy asked for that is aimed at.
 const MARGIN: f64 = 0.7;

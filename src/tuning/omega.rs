@@ -117,7 +117,8 @@ pub fn tune(
     Some(Tuned { rungs: seen.into_values().collect(), best, reached })
 }
 
-/// The best rung of a search that was cut; the one that it would have begun with if none was judged.
+/// The best rung of a search that was cut; the one that it would have begun with if none was
+/// judged.
 fn so_far(
     seen: &mut BTreeMap<i64, Rung>,
     guess: i64,

@@ -26,7 +26,8 @@ const SMALLEST: f64 = 2e-3;
 const SEED: u64 = 1963;
 
 /// The best end of all walks within the bounds, after so many evaluations of the cost; it ends sooner where a walk's cost is
-/// at most `enough`, or the effort stops it. The same on any number of threads. `progress` gets the evaluations done, planned, and the least cost.
+/// at most `enough`, or the effort stops it. The same on any number of threads. `progress` gets the
+/// evaluations done, planned, and the least cost.
 pub(super) fn search(
     cost: &(dyn Fn(&[f64]) -> f64 + Sync),
     (low, high): &(Vec<f64>, Vec<f64>),

@@ -28,7 +28,8 @@ use crate::{
     },
 };
 
-/// A history on rigid ground through the record may take one in so many of all units of work, each of the motions near it one in so many.
+/// A history on rigid ground through the record may take one in so many of all units of work, each
+/// of the motions near it one in so many.
 const RECORD: u64 = 12;
 const NEAR: u64 = 120;
 
@@ -86,7 +87,8 @@ fn referred(assembled: &Assembled, record: Record, effort: &Effort) -> Result<(R
     Ok((record, reference))
 }
 
-/// A record that has a step to a sample at least, of which more are needed than a history may take, is refused.
+/// A record that has a step to a sample at least, of which more are needed than a history may take,
+/// is refused.
 fn within_reach(assembled: &Assembled, record: &Record, most_work: u64) -> Result<(), CommandError> {
     let coordinates = assembled.frame.size();
     let by_work = (most_work / reference::step_units(coordinates)) as usize;

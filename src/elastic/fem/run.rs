@@ -37,7 +37,8 @@ pub(super) struct SpringsRun<'a> {
     pub model: &'a ElasticModel<'a>,
     case: &'a ElasticAnalysis<'a>,
     pub control: Control,
-    /// Steps that may be tried: as many as the control has it of a small structure, fewer of one whose steps cost more.
+    /// Steps that may be tried: as many as the control has it of a small structure, fewer of one
+    /// whose steps cost more.
     most_steps: usize,
     pub stepper: ElasticStepper<'a>,
     bases: Vec<Base>,

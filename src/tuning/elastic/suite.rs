@@ -146,7 +146,8 @@ pub struct ElasticSuite {
     pub record: Option<ElasticTrial>,
     /// Releases and motions, the record among them, left out since their reference cannot be predicted.
     pub ill_conditioned: usize,
-    /// Releases and motions, the record among them, left out since their reference met the bound on its work.
+    /// Releases and motions, the record among them, left out since their reference met the bound on
+    /// its work.
     pub out_of_work: usize,
     /// How forces are taken, if springs are judged by them, too: it takes a second history of each
     /// trial.

@@ -41,7 +41,8 @@ impl<'a> Procedure<'a> {
         self.sampled(max_hz, self.case.tuning.candidates, progress)
     }
 
-    /// The same to compare with, at the Omega_n (Hz) of stiff springs: sampled at each pair's stiffest only, which is where the best
+    /// The same to compare with, at the Omega_n (Hz) of stiff springs: sampled at each pair's
+    /// stiffest only, which is where the best
     /// ones are refined from there.
     pub fn beside(&self, max_hz: f64, progress: &(dyn Fn(usize, usize, f64) + Sync)) -> Option<outer::OmegaSearch> {
         self.sampled(max_hz, 0, progress)
