@@ -349,7 +349,13 @@ mod tests {
             }
         };
         let rungs = Rungs::new(0.002, None, hz).unwrap();
-        let tuned = rungs.search(Asked::new(0.002, None), springs, &|springs| errors(springs.give), &|_, _| ());
+        let tuned = rungs.search(
+            Asked::new(0.002, None),
+            springs,
+            &|springs| errors(springs.give),
+            &Effort::unbounded(),
+            &|_, _| (),
+        );
         assert!(tuned.reached && tuned.springs.give <= 0.014 && tuned.springs.give > 0.011, "{tuned:?}");
     }
 
@@ -364,7 +370,7 @@ mod tests {
             }
         };
         let rungs = Rungs::new(0.002, None, hz).unwrap();
-        let tuned = rungs.search(Asked::new(0.002, None), springs, &errors, &|_, _| ());
+        let tuned = rungs.search(Asked::new(0.002, None), springs, &errors, &Effort::unbounded(), &|_, _| ());
         assert!(tuned.reached && tuned.springs.k < 0.05, "{tuned:?}");
     }
 
@@ -372,7 +378,9 @@ mod tests {
     fn springs_that_nothing_could_be_measured_on_have_not_reached_the_accuracy() {
         let rungs = Rungs::new(0.002, None, hz).unwrap();
         let tuned =
-            rungs.search(Asked::new(0.002, None), springs, &|_| Measured::default(), &|_, _| panic!("nothing to tell"));
+            rungs.search(Asked::new(0.002, None), springs, &|_| Measured::default(), &Effort::unbounded(), &|_, _| {
+                panic!("nothing to tell")
+            });
         assert!(!tuned.reached && tuned.measured.nothing());
         assert_eq!(tuned.springs, springs(37, 1.0));
     }

@@ -125,7 +125,7 @@ impl ElasticTrial {
         let Ok(q) = model.upright() else { return ElasticTrialOutcome::Unfit };
         let (accel, up) = (&record.accel, record.up());
         let mut samples = accel.len().div_ceil(PARTS);
-        let mut shorter = None;
+        let mut shorter: Option<(usize, ElasticRocking, usize)> = None;
         loop {
             let (accel, vertical) = (&accel[..samples], &up[..samples.min(up.len())]);
             let ground = GroundAcceleration { dt: record.dt, accel, vertical };
@@ -136,15 +136,23 @@ impl ElasticTrial {
             count(&history, effort);
             if out_of_work(&history) {
                 // the part before is there
-                return shorter.unwrap_or(ElasticTrialOutcome::OutOfWork);
+                let before = shorter.map(|(samples, history, foretold)| {
+                    let ground = GroundAcceleration {
+                        dt: record.dt,
+                        accel: &record.accel[..samples],
+                        vertical: &up[..samples.min(up.len())],
+                    };
+                    Self::found(model, ground, None, &history, || foretold)
+                });
+                let before = before.filter(|found| matches!(found, ElasticTrialOutcome::Trial(_)));
+                return before.unwrap_or(ElasticTrialOutcome::OutOfWork);
             }
             let foretold = model.foretold(ground, &q, &history, TRIED);
             // what comes after it need not be known
             if foretold < samples && history.landings().next().is_some() || samples == record.accel.len() {
                 return Self::found(model, ground, None, &history, || foretold);
             }
-            let found = Self::found(model, ground, None, &history, || foretold);
-            shorter = Some(found).filter(|found| matches!(found, ElasticTrialOutcome::Trial(_)));
+            shorter = Some((samples, history, foretold));
             samples = (2 * samples).min(record.accel.len());
         }
     }
