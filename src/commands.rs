@@ -18,6 +18,7 @@ use crate::{
     whole_file,
 };
 
+mod bounds;
 mod chart;
 mod common;
 mod completions;
@@ -131,12 +132,16 @@ pub enum CommandError {
     Option { option: &'static str, value: String, remedy: &'static str },
     #[error("{0}")]
     Result(String),
+    /// ^C ended the search: the results are there, exit code 130.
+    #[error("^C ended the search; {folder} has the best springs so far, and what was not done")]
+    Interrupted { folder: String },
     /// What was checked is not so: exit code 1.
     #[error("{0}")]
     Failed(String),
 }
 
-/// Parse the arguments and run: exit code 0, or with one line on stderr 2, or 1 where a check failed.
+/// Parse the arguments and run: exit code 0, or with one line on stderr 2, or 1 where a check
+/// failed, or 130 where ^C ended a search.
 pub fn main() -> ExitCode {
     let cli = match Cli::try_parse() {
         Ok(cli) => cli,
@@ -181,7 +186,11 @@ fn code(result: Result<(), CommandError>) -> ExitCode {
         Ok(()) => ExitCode::SUCCESS,
         Err(e) => {
             terminal::stderr(format_args!("error: {}", printable(&e.to_string().replace(['\n', '\r'], " "))));
-            ExitCode::from(if matches!(e, CommandError::Failed(_)) { 1 } else { 2 })
+            ExitCode::from(match e {
+                CommandError::Failed(_) => 1,
+                CommandError::Interrupted { .. } => bounds::INTERRUPTED_CODE,
+                _ => 2,
+            })
         }
     }
 }

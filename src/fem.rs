@@ -60,6 +60,7 @@ pub use observer::{Change, Observer, View};
 use std::ops::ControlFlow;
 
 use crate::{
+    effort::Effort,
     members::Members,
     scalar::Scalar,
     spring::{Chain, Springs},
@@ -100,6 +101,15 @@ pub struct Finish<S> {
     pub energy: Energy<S>,
     /// Largest energy of the history, the scale of its residual [J].
     pub energy_scale: f64,
+}
+
+impl<S> Finish<S> {
+    /// Count what it cost: a step tried is a unit, one of dual numbers as many as it has parts.
+    pub(crate) fn spend(&self, effort: &Effort) {
+        let parts = size_of::<S>() / size_of::<f64>();
+        let tried = (self.work.steps + self.work.rejected + self.work.located) * parts;
+        effort.spend(tried as u64);
+    }
 }
 
 impl<S: Scalar> Analysis<'_, S> {

@@ -10,6 +10,7 @@ use rayon::prelude::*;
 use serde::{Deserialize, Serialize};
 
 use crate::{
+    effort::Effort,
     export::deck_steps,
     fem::{Analysis, Change, Control, Observer, Start, View},
     scalar::GRAVITY,
@@ -77,6 +78,7 @@ fn paper_error(job: &Job, paper: &Paper, hz: f64) -> Option<f64> {
         accel: &job.record.accel,
         vertical: job.record.up(),
         housner: &job.housner,
+        effort: &Effort::unbounded(),
     };
     let bracket = Bracket { max_hz: hz, max_settlement: f64::INFINITY };
     let from = job.springs.vertical.omega_n_hz;

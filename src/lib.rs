@@ -44,6 +44,8 @@
 mod house {
     pub mod message;
 
+    pub mod effort;
+
     pub mod input;
 
     #[cfg(feature = "figures")]

@@ -225,6 +225,7 @@ impl Parameters {
         parameters.restitution = Some(case.restitution).filter(|e| *e != job.body.restitution());
         parameters.landings = landings(&job.body, &parameters.chains(), case.restitution);
         parameters.assessment = Some(Assessment::new(job, &case.tuning, case.restitution));
+        parameters.findings = job.findings(case.tuning.asked()).into_iter().map(FiledFinding::from).collect();
         parameters
     }
 

@@ -4,6 +4,6 @@ pub mod findings;
 pub mod forces;
 pub mod peaks;
 
-pub use findings::{DeckEnd, Ending, FiledFinding, Finding, FindingModel, ForceName, PeakChange, Weight};
+pub use findings::{DeckEnd, Ending, FiledFinding, Finding, FindingModel, ForceName, NotDone, PeakChange, Weight};
 pub use forces::{DesignForce, DesignForces, ForcesTogether, MOST_CHANGE, OtherForces};
 pub use peaks::{PeakPair, Peaks};

@@ -1,6 +1,7 @@
 //! Springs softer than the landing's limit, and springs that are to have another restitution: landings of the whole model.
 
 use groundspring::{
+    effort::Effort,
     fem::{Analysis, Control, Start},
     spring::{Design, Springs},
     structure::{Body, Structure},
@@ -99,7 +100,8 @@ fn bodies_can_be_given_another_restitution() {
     {
         let body = with_inertia(structure);
         let bracket = Bracket { max_hz: 160.0, max_settlement: 0.01 };
-        let springs = with_restitution(&body, ratio * body.restitution(), bracket, &|_, _, _| {}).unwrap();
+        let springs =
+            with_restitution(&body, ratio * body.restitution(), bracket, &Effort::unbounded(), &|_, _, _| {}).unwrap();
         let rows = rows(&body, ratio, &springs);
         println!("{} m, {ratio}: {:.2} %", structure.height_m, 100.0 * worst(&rows));
         assert!(worst(&rows) < 5e-3, "{structure:?} {ratio}: {rows:?}");
@@ -111,7 +113,9 @@ fn bodies_can_be_given_another_restitution() {
 fn a_small_settlement_is_honoured() {
     let body = Structure::block(2.0, 0.5, 1e3).unwrap().body::<f64>();
     for limit in [1e-3, 1e-5] {
-        for springs in follow(&body, body.restitution(), Bracket { max_hz: 160.0, max_settlement: limit }) {
+        for springs in
+            follow(&body, body.restitution(), Bracket { max_hz: 160.0, max_settlement: limit }, &Effort::unbounded())
+        {
             let settlement = springs.settlement(body.mass);
             assert!(settlement < limit * (1.0 + 2e-3), "{settlement:e} {limit:e}");
         }

@@ -7,6 +7,7 @@ use super::{
     elements::{BenchCase, at, structure},
 };
 use groundspring::{
+    effort::Effort,
     fem::{Analysis, Control, Observer, Recorder, Start, View},
     housner,
     motion::nrmse,
@@ -125,7 +126,14 @@ fn candidates(rounds: usize) -> Skip {
     let (body, record) = (structure().body::<f64>(), BenchCase::arr().record);
     let rocking = housner::solve(&body, record.dt, &record.accel, &housner::RockingOptions::default());
     let motion = rocking.motion(&body);
-    let benchmark = Benchmark { body, dt: record.dt, accel: &record.accel, vertical: &[], housner: &motion };
+    let benchmark = Benchmark {
+        body,
+        dt: record.dt,
+        accel: &record.accel,
+        vertical: &[],
+        housner: &motion,
+        effort: &Effort::unbounded(),
+    };
     let best = |abandon: bool| {
         let mut best = (f64::INFINITY, 0);
         for (i, springs) in springs.iter().enumerate() {

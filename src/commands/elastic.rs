@@ -71,6 +71,7 @@ pub fn springs_alone(assembled: &Assembled, tuned: &ElasticTuned, asked: Asked) 
     let assessment = ElasticAssessment { judged_by, accuracy, reached: tuned.reached, measured: tuned.measured };
     ElasticParameters {
         assessment: Some(assessment),
+        findings: filed(tuned.findings(asked)),
         ..ElasticParameters::new(assembled.structure, tuned.springs.omega_n_hz, &corners)
             .with_members(assembled.members)
     }

@@ -8,6 +8,7 @@ use clap::Args;
 
 use super::{
     CommandError,
+    bounds::{EffortOptions, ended},
     common::{GroundOptions, RecordOptions, history_csv},
     draw::{self, Pictures},
     export, members,
@@ -33,7 +34,8 @@ use crate::{
         screen::{Written, screen},
         summary,
     },
-    tuning::job::Job,
+    results::NotDone,
+    tuning::job::{Job, MOST_WORK},
 };
 
 /// All that `tune run` can write into its folder, beside figures.
@@ -86,6 +88,8 @@ pub struct RunOptions {
     /// Threads [default: all cores]
     #[arg(long, value_name = "N")]
     jobs: Option<usize>,
+    #[command(flatten)]
+    effort: EffortOptions,
     /// No figures
     #[arg(long)]
     no_figures: bool,
@@ -140,10 +144,16 @@ pub fn run(o: &RunOptions) -> Result<(), CommandError> {
         progress::taken(&case.excitation.line(), &case.doubts(), o.quiet);
     }
     let progress = Progress::on_terminal("springs tried", o.quiet);
-    let job = Job::new(&case, &|done, all, error| progress.tell(done, all, &progress::error(error)));
+    let effort = o.effort.of(MOST_WORK)?;
+    let job = Job::within(&case, &effort, &|done, all, error| progress.tell(done, all, &progress::error(error)));
     progress.done();
-    let job = job?;
-    let front = if o.no_front || o.no_record {
+    let mut job = job?;
+    let wanted = !o.no_front && !o.no_record;
+    let left_out = wanted && effort.stopped_from_outside();
+    if left_out {
+        job.not_done.push(NotDone::Front);
+    }
+    let front = if !wanted || left_out {
         Vec::new()
     } else {
         let progress = Progress::on_terminal("stiffnesses compared", o.quiet);
@@ -153,11 +163,13 @@ pub fn run(o: &RunOptions) -> Result<(), CommandError> {
     };
 
     if o.no_record {
-        return springs_alone(o, &report::rigid::of_case(&case, Parameters::of(&case, &job)));
+        springs_alone(o, &report::rigid::of_case(&case, Parameters::of(&case, &job)))?;
+        return ended(&effort, &o.out);
     }
     let run = RigidRun::new(case, job, front, friction);
     run.save(&o.out, Output { figures: !o.no_figures, report: !o.no_report })?;
-    o.print(&run.said(run.filed(&o.out)))
+    o.print(&run.said(run.filed(&o.out)))?;
+    ended(&effort, &o.out)
 }
 
 impl RunOptions {

@@ -6,7 +6,9 @@ use super::{
     ensemble::Ensemble,
     fem::{ElasticAnalysis, ElasticHistory, ElasticStart},
     frame::{EquilibriumError, Frame},
-    reference::{ElasticRocking, FOLLOWED, FORETOLD, GroundAcceleration, ReferenceOutcome, RestError, TRIED},
+    reference::{
+        ElasticRocking, FOLLOWED, FORETOLD, GroundAcceleration, MOST_WORK, ReferenceOutcome, RestError, TRIED,
+    },
     rigid::RigidForces,
 };
 use crate::{
@@ -15,6 +17,9 @@ use crate::{
     record::Record,
     spring::{Chain, Springs},
 };
+
+/// Share of a record's work that each of the motions near it may take: one in so many.
+const NEAR: u64 = 10;
 
 /// Over how much of a record two histories are compared.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -96,6 +101,8 @@ pub struct ElasticAnswer {
     pub fixed_drift: Vec<f64>,
     /// Peaks over motions near the record, where it cannot be foretold to its end.
     pub ensemble: Option<Ensemble>,
+    /// Motions near the record that are left out since a history met its bound.
+    pub near_left_out: usize,
     /// The rigid body of the same masses, by Housner's equation; none of a frame, whose columns rock side by side, and of a structure
     /// with members.
     pub rigid: Option<RigidForces>,
@@ -135,17 +142,18 @@ impl Reference {
     /// # Errors
     /// The structure does not stand.
     pub fn new(assembled: &Assembled, record: &Record) -> Result<Self, AnswerError> {
-        Self::within(assembled, record, FORETOLD)
+        Self::within(assembled, record, FORETOLD, MOST_WORK)
     }
 
-    /// The same, foretold for as long as a perturbation grows less than `limit`.
+    /// The same, foretold for as long as a perturbation grows less than `limit`, by so many units
+    /// of work a history.
     ///
     /// # Errors
     /// The structure does not stand.
-    pub fn within(assembled: &Assembled, record: &Record, limit: f64) -> Result<Self, AnswerError> {
+    pub fn within(assembled: &Assembled, record: &Record, limit: f64, most_work: u64) -> Result<Self, AnswerError> {
         let ground = GroundAcceleration { dt: record.dt, accel: &record.accel, vertical: record.up() };
         let q = assembled.upright()?;
-        let history = assembled.rock(ground, &q);
+        let history = assembled.rock(ground, &q, most_work);
         let foretold = assembled.foretold(ground, &q, &history, limit);
         Ok(Self { history, foretold, followed: foretold })
     }
@@ -237,6 +245,20 @@ impl ElasticAnswer {
         record: &Record,
         reference: Reference,
     ) -> Result<Self, AnswerError> {
+        Self::within(assembled, springs, record, reference, Some(MOST_WORK / NEAR))
+    }
+
+    /// The same; motions near the record by so many units of work each, or none of them.
+    ///
+    /// # Errors
+    /// The structure does not stand.
+    pub fn within(
+        assembled: &Assembled,
+        springs: &[Springs<Chain<f64>>],
+        record: &Record,
+        reference: Reference,
+        near: Option<u64>,
+    ) -> Result<Self, AnswerError> {
         let held = || {
             // what holds a frame can hold it fixed
             let frame = assembled.layout.fixed().frame().map_err(|_| EquilibriumError::NoRest { lean: 0.0 })?;
@@ -250,11 +272,9 @@ impl ElasticAnswer {
         let compared = histories.compared(record, &[]);
         let [reference, fem] = [0, 1].map(|k| histories.sways.iter().map(|pair| pair[k].clone()).collect::<Vec<_>>());
         let errors = errors(&reference, &fem, compared.samples);
-        let ensemble = if histories.reference.foretold_seconds(record.dt).is_some() {
-            Ensemble::new(assembled, springs, record)?
-        } else {
-            None
-        };
+        let near = near.filter(|_| histories.reference.foretold_seconds(record.dt).is_some());
+        let near = near.map(|most_work| Ensemble::new(assembled, springs, record, most_work)).transpose()?;
+        let (ensemble, near_left_out) = near.unwrap_or_default();
         // Housner's equation has no members
         let bare = assembled.members == Members::default();
         let rigid = RigidForces::of(&assembled.structure, record).filter(|_| bare);
@@ -265,7 +285,7 @@ impl ElasticAnswer {
             foretold.into_iter().chain(histories.falls(alpha).map(|i| i as f64 * record.dt)).reduce(f64::min);
         let design =
             StructureForces::new((assembled, springs, record), (&histories.fem, &fixed), foretold, rigid.as_ref())?;
-        Ok(Self { histories, compared, errors, fixed, fixed_drift, ensemble, rigid, design })
+        Ok(Self { histories, compared, errors, fixed, fixed_drift, ensemble, near_left_out, rigid, design })
     }
 }
 

@@ -125,14 +125,16 @@ impl Assembled {
         at_rest(&self.frame, &q, CornerSet::NONE.with(pivot), &[fixed]).ok()
     }
 
-    /// From rest at `q` through a motion of rigid ground.
-    pub fn rock(&self, ground: GroundAcceleration, q: &DVector<f64>) -> ElasticRocking {
-        rock(&self.frame, ground, (q, &DVector::zeros(q.len())), &ReferenceOptions::default())
+    /// From rest at `q` through a motion of rigid ground, by so many units of work at most.
+    pub fn rock(&self, ground: GroundAcceleration, q: &DVector<f64>, most_work: u64) -> ElasticRocking {
+        let options = ReferenceOptions { most_work, ..ReferenceOptions::default() };
+        rock(&self.frame, ground, (q, &DVector::zeros(q.len())), &options)
     }
 
     /// Samples of such a history over which a perturbation grows less than `limit`, at most its own.
     pub fn grown(&self, ground: GroundAcceleration, q: &DVector<f64>, history: &ElasticRocking, limit: f64) -> usize {
-        let (still, options) = (DVector::zeros(q.len()), ReferenceOptions::default());
+        let options = ReferenceOptions { most_work: history.most_work, ..ReferenceOptions::default() };
+        let still = DVector::zeros(q.len());
         let twins = Twins { coordinates: &self.telling(), perturbation: PERTURBATION, limit };
         growth(&self.frame, ground, (q, &still), &options, (history, &twins)).samples_below(limit)
     }

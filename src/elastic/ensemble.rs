@@ -15,7 +15,7 @@ use serde::{Deserialize, Serialize};
 use super::{
     assembled::{Assembled, Sway},
     fem::{ElasticAnalysis, ElasticStart},
-    reference::{GroundAcceleration, ReferenceOptions, ReferenceOutcome, RestError, rock},
+    reference::{GroundAcceleration, ReferenceOptions, ReferenceOutcome, RestError, Stop, rock},
 };
 use crate::{
     fem::{Control, HistoryOutcome},
@@ -74,7 +74,8 @@ pub struct Ensemble {
 }
 
 impl Ensemble {
-    /// Of a structure through motions near a record, from rest.
+    /// Of a structure through motions near a record, from rest; on rigid ground by so many units of
+    /// work each. Beside it, how many motions are left out since a history met its bound.
     ///
     /// # Errors
     /// The structure does not stand.
@@ -82,18 +83,25 @@ impl Ensemble {
         assembled: &Assembled,
         springs: &[Springs<Chain<f64>>],
         record: &Record,
-    ) -> Result<Option<Self>, RestError> {
+        most_work: u64,
+    ) -> Result<(Option<Self>, usize), RestError> {
         let q = assembled.upright()?;
         let scale = |i: usize| 1.0 + CHANGE * (2.0 * i as f64 / (MOTIONS - 1) as f64 - 1.0);
         let both = |i: usize| {
             let (reference, fem) = rayon::join(
-                || on_rigid_ground(assembled, &q, record, scale(i)),
+                || on_rigid_ground(assembled, &q, record, (scale(i), most_work)),
                 || on_springs(assembled, springs, record, scale(i)),
             );
-            Some([reference?, fem?])
+            [reference, fem]
         };
-        let pairs: Vec<[Largest; 2]> = (0..MOTIONS).into_par_iter().with_max_len(1).filter_map(both).collect();
-        Ok(Self::of(&pairs))
+        let all: Vec<[Near; 2]> = (0..MOTIONS).into_par_iter().with_max_len(1).map(both).collect();
+        let followed = |pair: &[Near; 2]| match pair {
+            [Near::Peaks(reference), Near::Peaks(fem)] => Some([*reference, *fem]),
+            _ => None,
+        };
+        let pairs: Vec<[Largest; 2]> = all.iter().filter_map(followed).collect();
+        let out_of_work = all.iter().filter(|pair| pair.iter().any(|near| matches!(near, Near::OutOfWork))).count();
+        Ok((Self::of(&pairs), out_of_work))
     }
 
     /// Of the peaks on rigid ground and on springs; none if there are none.
@@ -116,27 +124,35 @@ fn largest(sways: &[Sway]) -> Largest {
     [of(|sway| &sway.rotation), of(|sway| &sway.drift)]
 }
 
-/// None where it cannot be followed.
-fn on_rigid_ground(assembled: &Assembled, q: &DVector<f64>, record: &Record, scale: f64) -> Option<Largest> {
+/// What a history comes to.
+enum Near {
+    Peaks(Largest),
+    OutOfWork,
+    /// It cannot be followed.
+    Lost,
+}
+
+fn on_rigid_ground(assembled: &Assembled, q: &DVector<f64>, record: &Record, (scale, most_work): (f64, u64)) -> Near {
     let ground = GroundAcceleration { dt: record.dt, accel: &record.accel, vertical: record.up() };
-    let options = ReferenceOptions { scale, ..ReferenceOptions::default() };
+    let options = ReferenceOptions { scale, most_work, ..ReferenceOptions::default() };
     let history = rock(&assembled.frame, ground, (q, &DVector::zeros(q.len())), &options);
     match history.outcome {
-        ReferenceOutcome::Completed => Some(largest(&assembled.sways(history.q.iter().map(|q| q.as_slice())))),
-        ReferenceOutcome::Overturned { .. } => Some([f64::INFINITY; 2]),
-        ReferenceOutcome::Stopped { .. } => None,
+        ReferenceOutcome::Completed => Near::Peaks(largest(&assembled.sways(history.q.iter().map(|q| q.as_slice())))),
+        ReferenceOutcome::Overturned { .. } => Near::Peaks([f64::INFINITY; 2]),
+        ReferenceOutcome::Stopped { why: Stop::Work | Stop::Events, .. } => Near::OutOfWork,
+        ReferenceOutcome::Stopped { .. } => Near::Lost,
     }
 }
 
-/// None where it cannot be followed.
-fn on_springs(assembled: &Assembled, springs: &[Springs<Chain<f64>>], record: &Record, scale: f64) -> Option<Largest> {
+fn on_springs(assembled: &Assembled, springs: &[Springs<Chain<f64>>], record: &Record, scale: f64) -> Near {
     let whole = ElasticAnalysis::new(&assembled.frame, springs, ElasticStart::Standing, record.dt, &record.accel);
     let case = ElasticAnalysis { vertical: record.up(), scale, control: Control::search(), forces: false, ..whole };
-    let history = case.simulate().ok()?;
+    let Ok(history) = case.simulate() else { return Near::Lost };
     match history.outcome {
-        HistoryOutcome::Completed => Some(largest(&assembled.sways(history.q.iter().map(Vec::as_slice)))),
-        HistoryOutcome::Overturned { .. } => Some([f64::INFINITY; 2]),
-        _ => None,
+        HistoryOutcome::Completed => Near::Peaks(largest(&assembled.sways(history.q.iter().map(Vec::as_slice)))),
+        HistoryOutcome::Overturned { .. } => Near::Peaks([f64::INFINITY; 2]),
+        HistoryOutcome::WorkBound { .. } => Near::OutOfWork,
+        _ => Near::Lost,
     }
 }
 

@@ -46,9 +46,28 @@ use crate::{
 /// piers of 1.5 and 2 Hz, NRMSE against 1e-10: 1e-5 of the rotation, 1e-4 of the drift.
 const TOLERANCE: f64 = 2e-8;
 
+/// Steps of a history of a small structure before it is given up.
+const MOST_STEPS: usize = 1_000_000;
+
 /// How histories are followed unless told otherwise.
 pub fn default_control() -> Control {
-    Control { tolerance: TOLERANCE, ..Control::default() }
+    Control { tolerance: TOLERANCE, most_steps: MOST_STEPS, ..Control::default() }
+}
+
+/// Units of work of a step tried of a structure of so many coordinates, absorbers among them.
+pub(crate) fn step_units(coordinates: usize) -> u64 {
+    let n = coordinates as u64;
+    5 + n * n / 23
+}
+
+/// Coordinates of a small structure.
+const SMALL: usize = 12;
+
+/// Steps that a history of a structure of so many coordinates may try: those of the control if it
+/// is small, of others as many as cost the same.
+pub(crate) fn most_steps(control: Control, coordinates: usize) -> usize {
+    let share = (step_units(SMALL) as f64 / step_units(coordinates) as f64).min(1.0);
+    (control.most_steps as f64 * share) as usize
 }
 
 /// How the structure stands at t = 0.

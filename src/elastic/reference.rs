@@ -79,6 +79,15 @@ impl<'a> GroundAcceleration<'a> {
     }
 }
 
+/// Units of work that a history may take unless told otherwise.
+pub const MOST_WORK: u64 = 20_000_000;
+
+/// Units of work of a step tried of a structure of so many coordinates.
+pub fn step_units(coordinates: usize) -> u64 {
+    let n = coordinates as u64;
+    12 + 5 * n * n / 16
+}
+
 /// How to solve.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct ReferenceOptions {
@@ -96,6 +105,8 @@ pub struct ReferenceOptions {
     pub overturned_at: f64,
     /// Bound on changes of contact.
     pub max_events: usize,
+    /// Bound on work, in units: of a step by the number of coordinates ([`step_units`]).
+    pub most_work: u64,
 }
 
 impl Default for ReferenceOptions {
@@ -108,6 +119,7 @@ impl Default for ReferenceOptions {
             duration: None,
             overturned_at: std::f64::consts::FRAC_PI_2,
             max_events: 100_000,
+            most_work: MOST_WORK,
         }
     }
 }
@@ -163,6 +175,8 @@ impl ReferenceEvent {
 pub enum Stop {
     /// More events than allowed.
     Events,
+    /// More work than allowed.
+    Work,
     /// Steps became too short: forces grow without bound, or numbers are not finite.
     Step,
     /// M(q) or W is singular: a coordinate without inertia, or a held corner that cannot move.
@@ -237,6 +251,10 @@ pub struct ElasticRocking {
     pub skidded: Option<f64>,
     /// Steps taken.
     pub steps: usize,
+    /// Steps tried.
+    pub tried: usize,
+    /// Units of work that it might take.
+    pub most_work: u64,
 }
 
 impl ElasticRocking {

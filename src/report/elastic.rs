@@ -11,7 +11,7 @@ use crate::{
         design_forces::{ForceKind, StructureForces, peaks_in},
         ensemble::Ensemble,
         frame::Frame,
-        reference::ReferenceOutcome,
+        reference::{ReferenceOutcome, Stop},
         structure::ElasticStructure,
     },
     fem::HistoryOutcome,
@@ -128,12 +128,15 @@ impl ElasticParts<'_> {
 
     /// All findings.
     pub fn findings(&self, parameters: &ElasticParameters) -> Vec<Finding> {
-        let mut all = Vec::new();
+        // what of the search was cut is there already
+        let mut all: Vec<Finding> = parameters.findings.iter().map(|filed| filed.finding.clone()).collect();
         if let Some(on) = &parameters.on_record {
             all.extend(self.what_it_does(on));
             all.extend(foretold(on, parameters.design_forces.as_ref()));
             let alpha = self.assembled.structure.body().alpha();
             all.extend(on.near.iter().map(|near| nearby(near, alpha)));
+            let motions = self.answer.near_left_out;
+            all.extend((motions > 0).then_some(Finding::NearMotionsLeftOut { motions }));
         }
         let needed = self.friction_needed();
         all.extend((needed.value > self.friction).then_some(Finding::Sliding {
@@ -196,11 +199,11 @@ impl ElasticParts<'_> {
                 |time: Option<f64>| time.map_or("stands".into(), |time| format!("overturns at t = {time:.2} s"));
             all.push(Finding::ModelsDisagree { reference: words(reference_fell), springs: words(fell(fem)) });
         }
-        if let ReferenceOutcome::Stopped { time, .. } = history.outcome {
+        if let ReferenceOutcome::Stopped { time, why } = history.outcome {
             all.push(Finding::HistoryEndsEarly {
                 model: FindingModel::Reference,
                 time_s: time,
-                ending: Ending::Stopped,
+                ending: if why == Stop::Work { Ending::WorkBound } else { Ending::Stopped },
             });
         }
         let (time_s, ending) = match fem {

@@ -110,7 +110,8 @@ impl RigidRun {
 
     fn findings(&self) -> Vec<Finding> {
         let parameters = &self.parameters;
-        let mut all = Vec::new();
+        // what of the search was cut, first
+        let mut all = self.job.findings(self.case.tuning.asked());
         let judged = parameters.assessment.is_some_and(|a| a.reached && a.measured.synthetic_median.is_some());
         if let Some(verdict) = &parameters.verdict {
             all.extend(reference::verdict(&self.case.structure, &self.job.record, verdict));
@@ -178,8 +179,10 @@ impl RigidRun {
 
 /// Springs of a case without a record.
 pub fn of_case(case: &Case, mut parameters: Parameters) -> Run {
-    let doubts = doubts(case.doubts_of_structure()).chain(springs_findings(&parameters));
-    parameters.findings = filed(doubts);
+    // what of the search was cut is there already
+    let search = parameters.findings.iter().map(|filed| filed.finding.clone());
+    let found = search.chain(doubts(case.doubts_of_structure())).chain(springs_findings(&parameters));
+    parameters.findings = filed(found);
     alone(parameters)
 }
 

@@ -2,6 +2,8 @@
 
 use serde::{Deserialize, Serialize};
 
+use crate::effort::CutBy;
+
 mod advice;
 mod message;
 
@@ -159,6 +161,24 @@ pub enum Finding {
         force: ForceName,
         change: Option<f64>,
     },
+    /// What was cut, after how many stiffnesses, and the error that was reached of what was asked
+    /// for.
+    SearchCut {
+        by: CutBy,
+        not_done: Vec<NotDone>,
+        stiffnesses: usize,
+        reached: Option<f64>,
+        asked: f64,
+    },
+    /// Histories of the search that met their own bound on steps: they count as not followed.
+    HistoriesUnfinished {
+        histories: usize,
+        left_out: bool,
+    },
+    /// Motions near the record whose histories met their own bound on steps.
+    NearMotionsLeftOut {
+        motions: usize,
+    },
     // whether the models hold
     Sliding {
         needed: f64,
@@ -200,6 +220,35 @@ pub enum Finding {
         record_s: f64,
         end: DeckEnd,
     },
+}
+
+/// What a search that was cut has not done.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(rename_all = "snake_case")]
+pub enum NotDone {
+    /// Other springs.
+    Stiffnesses,
+    /// The paper's procedure to the end, beside them.
+    PaperProcedure,
+    /// The error over the stiffness.
+    Front,
+    /// Springs that follow the record further.
+    Further,
+    /// Peaks over motions near the record.
+    NearMotions,
+}
+
+impl NotDone {
+    /// In words.
+    fn words(self) -> &'static str {
+        match self {
+            Self::Stiffnesses => "other springs",
+            Self::PaperProcedure => "the paper's procedure to its end",
+            Self::Front => "the error over the stiffness",
+            Self::Further => "springs that follow the record further",
+            Self::NearMotions => "motions near the record",
+        }
+    }
 }
 
 /// Why a deck's history is judged for less than the record.

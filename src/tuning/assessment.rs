@@ -74,7 +74,8 @@ impl Assessment {
             objective,
             judged_by: asked.by,
             accuracy: asked.error,
-            reached: errors.reaches(asked),
+            // of a search that was cut before anything was measured nothing is known
+            reached: errors.reaches(asked) && (job.cut.is_none() || errors.measured(asked.by)),
             capped: job.capped,
             measured: histories,
             measured_peaks: Some(peaks),

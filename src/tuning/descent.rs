@@ -27,6 +27,10 @@ pub trait LeastSquares {
     fn bounds(&self) -> (Vec<f64>, Vec<f64>);
     /// A linearised inequality g(z) + row d <= 0, if there is one.
     fn inequality(&self, z: &[f64]) -> Option<(f64, Vec<f64>)>;
+    /// Whether to take no further step, however good it may be.
+    fn stops(&self) -> bool {
+        false
+    }
 }
 
 /// Where the descent ended.
@@ -149,7 +153,7 @@ impl<P: LeastSquares> Solver<Adapter<'_, P>, Iterate> for TrustRegion<'_, P> {
     }
 
     fn terminate(&mut self, _: &Iterate) -> TerminationStatus {
-        if self.radius < SMALLEST {
+        if self.radius < SMALLEST || self.problem.stops() {
             TerminationStatus::Terminated(TerminationReason::SolverConverged)
         } else {
             TerminationStatus::NotTerminated

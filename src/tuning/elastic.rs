@@ -29,13 +29,18 @@ use self::{
 use super::ladder::{DECADE, seek};
 use crate::{
     case::{ACCURACY, Asked, PEAKS, Yardstick},
+    effort::{CutBy, Effort},
     elastic::{
         answer::Reference, assembled::Assembled, fem::default_control, standing::Standing, structure::ElasticStructure,
     },
     fem::Control,
     record::Record,
+    results::{Finding, NotDone},
 };
 
+/// Units of work that a search may take unless told otherwise: about a minute and a half on two
+/// cores.
+pub const MOST_WORK: u64 = 240_000_000;
 /// Share of the accuracy asked for that is aimed at.
 const MARGIN: f64 = 0.7;
 /// Rungs: a give of 0.1 to 1e-8.
@@ -75,6 +80,33 @@ pub struct ElasticTuned {
     pub reference: Option<Reference>,
     /// Omega_n/2 pi of softer springs that hold the accuracy, too, but follow the record less far (Hz).
     pub softer_hz: Option<f64>,
+    /// Rungs judged.
+    pub stiffnesses: usize,
+    /// What cut the search, if anything was left out of it, and what that is.
+    pub cut: Option<CutBy>,
+    pub not_done: Vec<NotDone>,
+    /// Histories on springs that met their own bound on steps.
+    pub unfinished: usize,
+    /// Releases and motions left out since their reference met the bound on its work.
+    pub out_of_work: usize,
+}
+
+impl ElasticTuned {
+    /// What of the search was cut or not followed to its end.
+    pub fn findings(&self, asked: Asked) -> Vec<Finding> {
+        let reached = self.measured.over(asked).map(|over| over * asked.error);
+        let cut = self.cut.filter(|_| !self.not_done.is_empty()).map(|by| Finding::SearchCut {
+            by,
+            not_done: self.not_done.clone(),
+            stiffnesses: self.stiffnesses,
+            reached: reached.filter(|error| error.is_finite()),
+            asked: asked.error,
+        });
+        let unfinished = |histories: usize, left_out: bool| {
+            (histories > 0).then_some(Finding::HistoriesUnfinished { histories, left_out })
+        };
+        cut.into_iter().chain(unfinished(self.unfinished, false)).chain(unfinished(self.out_of_work, true)).collect()
+    }
 }
 
 /// Springs under every corner of a structure, its members at work, as stiff as what is `asked` for (NRMSE of rotations, or an error of peaks) needs, at most `most_hz`
@@ -82,11 +114,26 @@ pub struct ElasticTuned {
 ///
 /// # Errors
 /// A structure that does not stand; an accuracy that is none; springs allowed that are too soft for any.
+#[cfg(feature = "internals")] // for tests
 pub fn tune(
     model: &Assembled,
     asked: Asked,
     most_hz: Option<f64>,
     record: Option<(&Record, Reference)>,
+    progress: &dyn Fn(usize, f64),
+) -> Result<ElasticTuned, ElasticTuneError> {
+    tune_within(model, (asked, most_hz), record, &Effort::of(MOST_WORK, Default::default()), progress)
+}
+
+/// The same within an effort; what that cuts is told, with the best springs so far.
+///
+/// # Errors
+/// As above.
+pub fn tune_within(
+    model: &Assembled,
+    (asked, most_hz): (Asked, Option<f64>),
+    record: Option<(&Record, Reference)>,
+    effort: &Effort,
     progress: &dyn Fn(usize, f64),
 ) -> Result<ElasticTuned, ElasticTuneError> {
     let (key, limits) = match asked.by {
@@ -98,19 +145,33 @@ pub fn tune(
     let landing = landing_speed(&model.structure);
     let rungs = Rungs::new(asked.error, most_hz, |i| omega_n_hz(&standing, give(i)))?;
     let (record, reference) = record.unzip();
-    let suite = ElasticSuite::new(model.clone(), record.zip(reference.as_ref())).by(asked.by);
+    let suite = ElasticSuite::within(model.clone(), record.zip(reference.as_ref()), effort).by(asked.by);
+    let out_of_work = suite.out_of_work;
     let of = |i: i64, share: f64| springs(&standing, give(i), landing, share);
-    let chosen = rungs.search(asked, of, &|springs| suite.measure(springs, Control::search()), progress);
+    let measure = |springs: &CornerSprings| suite.measure_within(springs, (Control::search(), effort));
+    let chosen = rungs.search(asked, of, &measure, effort, progress);
+    let mut not_done = Vec::new();
+    if effort.cut().is_some() {
+        not_done.push(NotDone::Stiffnesses);
+    }
     let further = || {
         let (record, reference) = record.zip(reference.as_ref()).filter(|_| chosen.reached)?;
         let reference = reference.further(model, record).ok()??;
+        if effort.stops() {
+            not_done.push(NotDone::Further);
+            return None;
+        }
         let record = ElasticTrial::beside(model, record, &reference).trial();
         let suite = ElasticSuite { record, ..suite };
         let stiffer = Rungs { ends: (chosen.rung, rungs.ends.1), guess: (chosen.rung + STIFFER).min(rungs.ends.1) };
         // the record decides; all else is measured once
-        let alone = |springs: &CornerSprings| suite.measure_record(springs);
-        let found = stiffer.search(asked, of, &alone, progress);
-        let rest = ElasticSuite { record: None, ..suite }.measure(&found.springs, default_control());
+        let alone = |springs: &CornerSprings| suite.measure_record(springs, effort);
+        let found = stiffer.search(asked, of, &alone, effort, progress);
+        if effort.stops() {
+            not_done.push(NotDone::Further);
+            return None;
+        }
+        let rest = ElasticSuite { record: None, ..suite }.measure_within(&found.springs, (default_control(), effort));
         let measured = Measured { record: found.measured.record, ..rest };
         let reached = found.reached && measured.over(asked)? <= 1.0;
         reached.then_some((ElasticRung { measured, ..found }, reference))
@@ -122,8 +183,20 @@ pub fn tune(
         }
         None => (chosen, reference, None),
     };
-    let ElasticRung { springs, measured, reached, .. } = chosen;
-    Ok(ElasticTuned { springs, measured, reached, reference, softer_hz })
+    let ElasticRung { springs, measured, reached, judged: stiffnesses, .. } = chosen;
+    let (cut, unfinished) = (effort.cut(), effort.unfinished());
+    Ok(ElasticTuned {
+        springs,
+        measured,
+        reached,
+        reference,
+        softer_hz,
+        stiffnesses,
+        cut,
+        not_done,
+        unfinished,
+        out_of_work,
+    })
 }
 
 /// What a search of the ladder comes to.
@@ -133,6 +206,8 @@ struct ElasticRung {
     springs: CornerSprings,
     measured: Measured,
     reached: bool,
+    /// Rungs judged.
+    judged: usize,
 }
 
 /// The ladder of springs that may be chosen.
@@ -165,6 +240,7 @@ impl Rungs {
         asked: Asked,
         springs: impl Fn(i64, f64) -> CornerSprings,
         measure: &dyn Fn(&CornerSprings) -> Measured,
+        effort: &Effort,
         progress: &dyn Fn(usize, f64),
     ) -> ElasticRung {
         let allowed = asked.times(MARGIN);
@@ -188,18 +264,35 @@ impl Rungs {
             if let Some((_, measured)) = seen.get(&i) {
                 return measured.over(allowed);
             }
-            let over = seen.entry(i).or_insert(judged(i)).1.over(allowed)?;
+            // the first rung is judged whatever it costs: its histories have bounds of their own
+            if effort.stopped() || !seen.is_empty() && effort.stops() {
+                return None;
+            }
+            let found = judged(i);
+            // a rung half judged is none
+            if effort.stopped() {
+                return None;
+            }
+            let over = seen.entry(i).or_insert(found).1.over(allowed)?;
             let least = seen.values().filter_map(|(_, m)| m.over(allowed)).fold(f64::INFINITY, f64::min);
             progress(seen.len(), least * allowed.error);
             Some(over)
         };
         let found = seek(self.ends.0, self.ends.1, self.guess, &mut judge);
-        // nothing to measure springs on
-        let rung = found.map_or(self.guess, |found| found.rung);
-        let (springs, measured) = seen.remove(&rung).unwrap_or_else(|| judged(rung));
+        // cut: the best so far; else there is nothing to measure springs on
+        let over = |i: &i64| seen[i].1.over(allowed).unwrap_or(f64::INFINITY);
+        let best = seen.keys().copied().min_by(|a, b| over(a).total_cmp(&over(b)));
+        let rung = found.map(|found| found.rung).or(best).unwrap_or(self.guess);
+        let stiffnesses = seen.len();
+        let unmeasured = || match effort.cut() {
+            Some(_) => (springs(rung, 1.0), Measured::default()),
+            None => judged(rung),
+        };
+        let (springs, measured) = seen.remove(&rung).unwrap_or_else(unmeasured);
         // by what was asked for, not by the margin that is aimed at
-        let reached = found.is_some() && measured.over(asked).is_some_and(|over| over <= 1.0);
-        ElasticRung { rung, springs, measured, reached }
+        let known = found.is_some() || effort.cut().is_some();
+        let reached = known && measured.over(asked).is_some_and(|over| over <= 1.0);
+        ElasticRung { rung, springs, measured, reached, judged: stiffnesses }
     }
 }
 
@@ -256,7 +349,13 @@ mod tests {
             }
         };
         let rungs = Rungs::new(0.002, None, hz).unwrap();
-        let tuned = rungs.search(Asked::new(0.002, None), springs, &|springs| errors(springs.give), &|_, _| ());
+        let tuned = rungs.search(
+            Asked::new(0.002, None),
+            springs,
+            &|springs| errors(springs.give),
+            &Effort::unbounded(),
+            &|_, _| (),
+        );
         assert!(tuned.reached && tuned.springs.give <= 0.014 && tuned.springs.give > 0.011, "{tuned:?}");
     }
 
@@ -271,7 +370,7 @@ mod tests {
             }
         };
         let rungs = Rungs::new(0.002, None, hz).unwrap();
-        let tuned = rungs.search(Asked::new(0.002, None), springs, &errors, &|_, _| ());
+        let tuned = rungs.search(Asked::new(0.002, None), springs, &errors, &Effort::unbounded(), &|_, _| ());
         assert!(tuned.reached && tuned.springs.k < 0.05, "{tuned:?}");
     }
 
@@ -279,7 +378,9 @@ mod tests {
     fn springs_that_nothing_could_be_measured_on_have_not_reached_the_accuracy() {
         let rungs = Rungs::new(0.002, None, hz).unwrap();
         let tuned =
-            rungs.search(Asked::new(0.002, None), springs, &|_| Measured::default(), &|_, _| panic!("nothing to tell"));
+            rungs.search(Asked::new(0.002, None), springs, &|_| Measured::default(), &Effort::unbounded(), &|_, _| {
+                panic!("nothing to tell")
+            });
         assert!(!tuned.reached && tuned.measured.nothing());
         assert_eq!(tuned.springs, springs(37, 1.0));
     }

@@ -18,6 +18,7 @@ use super::{
     whole_model::{Criterion, WholeModel},
 };
 use crate::{
+    effort::Effort,
     fem::Control,
     scalar::{GRAVITY, Scalar, real},
     spring::{Design, Springs},
@@ -53,25 +54,30 @@ const EVALUATIONS: usize = 6000;
 const ENOUGH: f64 = 0.4;
 
 /// Landings and uplifts of a body on springs within a bracket.
-struct LandingsAndUplifts {
+struct LandingsAndUplifts<'a> {
     whole: WholeModel,
     bracket: Bracket,
     control: Control,
+    effort: &'a Effort,
 }
 
-impl LandingsAndUplifts {
+impl<'a> LandingsAndUplifts<'a> {
     /// It depends on the mass only through I_cg/m, so it is that of a body of 1 kg: in whatever unit a mass is given, the same
     /// springs are found.
-    fn new(body: &Body<f64>, restitution: f64, bracket: Bracket, criterion: Criterion) -> Self {
+    fn new(body: &Body<f64>, restitution: f64, (bracket, criterion): (Bracket, Criterion), effort: &'a Effort) -> Self {
         let control = Control { tolerance: 1e-6, most_steps: 8_000, ..Control::default() };
         let body = &Body { mass: 1.0, inertia: body.inertia / body.mass, ..*body };
-        Self { whole: WholeModel::new(body, restitution, bracket.max_hz, criterion), bracket, control }
+        Self { whole: WholeModel::new(body, restitution, bracket.max_hz, criterion), bracket, control, effort }
     }
 }
 
-impl LeastSquares for LandingsAndUplifts {
+impl LeastSquares for LandingsAndUplifts<'_> {
+    fn stops(&self) -> bool {
+        self.effort.stops()
+    }
+
     fn residuals(&self, z: &[f64]) -> Vec<f64> {
-        self.whole.residuals(&springs(z), self.control)
+        self.whole.residuals(&springs(z), self.control, self.effort)
     }
 
     fn gradients(&self, z: &[f64]) -> (Vec<f64>, Vec<Vec<f64>>) {
@@ -82,7 +88,7 @@ impl LeastSquares for LandingsAndUplifts {
             .collect();
         // one iteration more leaves the gradients good to the square of the iteration's rate, about 1e-4: enough for a step
         let control = Control { extra_iterations: 1, tolerance: 1e-5, ..self.control };
-        let found = self.whole.residuals(&springs(&duals), control);
+        let found = self.whole.residuals(&springs(&duals), control, self.effort);
         let rows = found.iter().map(row).collect();
         (found.iter().map(|r| r.re).collect(), rows)
     }
@@ -121,10 +127,14 @@ const STEPS: (u64, u64) = (4, 15);
 /// Springs of at most `bracket.max_hz` for a body that lands with velocity restitution `restitution`, followed down from the
 /// design that its geometry gives: one of each ratio and criterion. Which of them follow histories best is for histories to
 /// say; neither criterion is the better one for every body.
-pub fn follow(body: &Body<f64>, restitution: f64, bracket: Bracket) -> Vec<Springs<Design<f64>>> {
+pub fn follow(body: &Body<f64>, restitution: f64, bracket: Bracket, effort: &Effort) -> Vec<Springs<Design<f64>>> {
     let criteria = [Criterion::Energy, Criterion::GrowingPart];
     let ways: Vec<(f64, Criterion)> = RATIOS.iter().flat_map(|&r| criteria.map(|c| (r, c))).collect();
-    let found: Vec<_> = ways.par_iter().with_max_len(1).map(|way| path(body, restitution, bracket, *way)).collect();
+    // side by side, each with a share of its own
+    let shares: Vec<_> = ways.iter().map(|way| (*way, effort.share(ways.len() as u64))).collect();
+    let one = |(way, share): &(_, Effort)| path(body, restitution, bracket, *way, share);
+    let found: Vec<_> = shares.par_iter().with_max_len(1).map(one).collect();
+    shares.iter().for_each(|(_, share)| effort.join(share));
     found.into_iter().flatten().collect()
 }
 
@@ -134,15 +144,16 @@ pub fn with_restitution(
     body: &Body<f64>,
     restitution: f64,
     bracket: Bracket,
+    effort: &Effort,
     progress: &(dyn Fn(usize, usize, f64) + Sync),
 ) -> Option<Springs<Design<f64>>> {
-    let objective = LandingsAndUplifts::new(body, restitution, bracket, Criterion::Energy);
+    let objective = LandingsAndUplifts::new(body, restitution, (bracket, Criterion::Energy), effort);
     let cost = |z: &[f64]| {
         let error = objective.residuals(z).iter().map(|r| r * r).sum::<f64>().sqrt();
         // a run that did not finish is worse than any other
         if error.is_finite() { error } else { UNFINISHED }
     };
-    let z = search(&cost, &objective.bounds(), EVALUATIONS, ENOUGH, progress)?;
+    let z = search(&cost, &objective.bounds(), EVALUATIONS, ENOUGH, effort, progress)?;
     let end = descend(&objective, &z, 0.3, STEPS.1);
     Some(springs(&end.z))
 }
@@ -153,6 +164,7 @@ fn path(
     restitution: f64,
     bracket: Bracket,
     (ratio, criterion): (f64, Criterion),
+    effort: &Effort,
 ) -> Option<Springs<Design<f64>>> {
     let stiffest = bracket.max_hz * 2f64.powi(HALVINGS);
     let stiffness = TAU * stiffest / ratio / body.p_squared().sqrt();
@@ -166,7 +178,7 @@ fn path(
             found.vertical.omega_n_hz *= 0.5;
             found.horizontal.omega_n_hz *= 0.5;
         }
-        let objective = LandingsAndUplifts::new(body, restitution, here, criterion);
+        let objective = LandingsAndUplifts::new(body, restitution, (here, criterion), effort);
         let steps = if halving == 0 { STEPS.1 } else { STEPS.0 };
         let end = descend(&objective, &logarithms(&found), 0.3, steps);
         (found, error) = (springs(&end.z), end.error);

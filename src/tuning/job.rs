@@ -1,14 +1,15 @@
 //! A whole case: the inner design by the case's objective, Omega_n by the accuracy asked for, and the paper's procedure at the
 //! same Omega_n beside it.
 
+mod procedure;
+
 use std::{cmp::Ordering, f64::consts::TAU};
 
-use rayon::prelude::*;
 use thiserror::Error;
 
 use super::{
     arr::{
-        inner::{Fit, FitError, fit},
+        inner::{Fit, FitError},
         outer::{self, Benchmark, Bracket},
     },
     follow,
@@ -17,18 +18,24 @@ use super::{
     suite::Suites,
     whole_model,
 };
+use procedure::Procedure;
+
 use crate::{
     case::{Asked, Case, Objective, Yardstick},
     compare::LEAST_LEAN,
+    effort::{CutBy, Effort, StopSignal},
     fem::Control,
     housner::{self, Rocking},
     motion::Motion,
     record::Record,
+    results::{Finding, NotDone},
     spring::{Design, Springs},
     structure::Body,
     validate::PREDICTABLE,
 };
 
+/// Units of work that a search may take unless told otherwise: about a minute on two cores.
+pub const MOST_WORK: u64 = 100_000_000;
 /// Stiffest springs that are tried where no cap is given (Hz).
 pub const CEILING_HZ: f64 = 2e5;
 /// Omega_n of springs that are to have another restitution than equation 2's, where no cap is given [Hz]: they must bounce,
@@ -54,6 +61,10 @@ pub enum JobError {
         "tuning.max_settlement_m is {asked_m:?}, but on springs of {max_hz} Hz the body settles by {least_m:.3e} m at least; allow that, or raise --max-hz"
     )]
     Settlement { asked_m: f64, max_hz: f64, least_m: f64 },
+    #[error(
+        "{record}: {steps} steps at least, one to a sample of moving ground, are out of reach: a history may take {most}; shorten it (--duration), or give a record with fewer samples"
+    )]
+    OutOfReach { record: String, steps: usize, most: usize },
     #[error("no candidate followed the record to its end; raise --max-hz or shorten --duration")]
     NoCandidate,
 }
@@ -86,6 +97,11 @@ pub struct Job {
     pub capped: bool,
     /// None where the record cannot be tuned on: it does not lift the structure, or Housner's answer is ill-conditioned.
     pub paper: Option<Paper>,
+    /// What cut the job, if anything was left out of it, and what that is.
+    pub cut: Option<CutBy>,
+    pub not_done: Vec<NotDone>,
+    /// Histories of the search that met their own bound on steps.
+    pub unfinished: usize,
 }
 
 impl Job {
@@ -94,10 +110,23 @@ impl Job {
     /// # Errors
     /// No springs that settle as little as asked for; for the paper's procedure, a record that does not lift the structure.
     pub fn new(case: &Case, progress: &(dyn Fn(usize, usize, f64) + Sync)) -> Result<Self, JobError> {
+        Self::within(case, &Effort::of(MOST_WORK, StopSignal::default()), progress)
+    }
+
+    /// The same within an effort; what that cuts is in `cut`, with the best springs so far.
+    ///
+    /// # Errors
+    /// As above.
+    pub fn within(
+        case: &Case,
+        effort: &Effort,
+        progress: &(dyn Fn(usize, usize, f64) + Sync),
+    ) -> Result<Self, JobError> {
         let record = case.record.truncated(case.duration_s);
         if record.len() < 2 {
             return Err(JobError::TooShort { record: record.name.clone(), samples: record.len() });
         }
+        within_reach(&record)?;
         let body = case.structure.body::<f64>();
         let options = housner::RockingOptions {
             restitution: Some(case.restitution),
@@ -106,19 +135,30 @@ impl Job {
         };
         let rocking = housner::solve(&body, record.dt, &record.accel, &options);
         let housner = rocking.motion(&body);
-        let suites = Suites::new(&body, case.restitution, Some(&record));
+        let suites = Suites::within(&body, case.restitution, Some(&record), effort);
         let lifted = !rocking.uplifts.is_empty();
         let benchmark =
-            Benchmark { body, dt: record.dt, accel: &record.accel, vertical: record.up(), housner: &housner };
+            Benchmark { body, dt: record.dt, accel: &record.accel, vertical: record.up(), housner: &housner, effort };
         let procedure = Procedure::new(case, &benchmark)?;
 
+        let mut not_done = Vec::new();
+        let mut left_out = |what: NotDone| {
+            if effort.cut().is_some() {
+                not_done.push(what);
+            }
+        };
         let (tuned, capped, paper) = match case.tuning.objective {
             Objective::Landing => {
-                let design = LandingDesign { case, body, suites: &suites, procedure: &procedure };
+                let design = LandingDesign { case, body, suites: &suites, procedure: &procedure, effort };
                 let (tuned, capped) = design.tune(progress)?;
+                left_out(NotDone::Stiffnesses);
                 let hz = tuned.best.springs.vertical.omega_n_hz;
                 // on an ill-conditioned record it would tune to noise
-                let paper = if suites.has_whole_record() { procedure.beside(hz, progress) } else { None };
+                let beside = suites.has_whole_record() && !effort.stops();
+                let paper = if beside { procedure.beside(hz, progress) } else { None };
+                if suites.has_whole_record() {
+                    left_out(NotDone::PaperProcedure);
+                }
                 (tuned, capped, paper)
             }
             Objective::Arr if !lifted => {
@@ -128,11 +168,40 @@ impl Job {
                     limit_g: body.half_width / body.height,
                 });
             }
-            Objective::Arr => procedure.tune(&suites, progress)?,
+            Objective::Arr => {
+                let found = procedure.tune(&suites, progress)?;
+                left_out(NotDone::Stiffnesses);
+                found
+            }
         };
         let paper = paper.map(|tuned| Paper { vertical: procedure.vertical, horizontal: procedure.horizontal, tuned });
         let springs = tuned.best.springs;
-        Ok(Self { body, record, rocking, housner, springs, tuned, suites, capped, paper })
+        let (cut, unfinished) = (effort.cut(), effort.unfinished());
+        Ok(Self { body, record, rocking, housner, springs, tuned, suites, capped, paper, cut, not_done, unfinished })
+    }
+}
+
+/// A record whose moving ground has more samples than a history may take steps is refused.
+fn within_reach(record: &Record) -> Result<(), JobError> {
+    let up = record.up();
+    let moves = |i: usize| record.accel[i] != 0.0 || up.get(i).is_some_and(|a| *a != 0.0);
+    let steps = (1..record.len()).filter(|&i| moves(i) || moves(i - 1)).count();
+    let most = Control::default().most_steps;
+    if steps <= most { Ok(()) } else { Err(JobError::OutOfReach { record: record.name.clone(), steps, most }) }
+}
+
+impl Job {
+    /// What of the search was cut or not followed to its end.
+    pub fn findings(&self, asked: Asked) -> Vec<Finding> {
+        let not_done = self.not_done.clone();
+        let reached =
+            self.tuned.best.errors.measured(asked.by).then(|| self.tuned.best.errors.over(asked) * asked.error);
+        let stiffnesses = if reached.is_some() { self.tuned.rungs.len() } else { 0 };
+        let cut = self.cut.filter(|_| !not_done.is_empty());
+        let cut = cut.map(|by| Finding::SearchCut { by, not_done, stiffnesses, reached, asked: asked.error });
+        let unfinished = Some(self.unfinished).filter(|histories| *histories > 0);
+        let unfinished = unfinished.map(|histories| Finding::HistoriesUnfinished { histories, left_out: false });
+        cut.into_iter().chain(unfinished).collect()
     }
 }
 
@@ -142,6 +211,7 @@ struct LandingDesign<'a> {
     body: Body<f64>,
     suites: &'a Suites,
     procedure: &'a Procedure<'a>,
+    effort: &'a Effort,
 }
 
 impl LandingDesign<'_> {
@@ -152,9 +222,9 @@ impl LandingDesign<'_> {
         if whole_model::is_another(&self.body, self.case.restitution) {
             let hz = tuning.max_omega_hz.unwrap_or(BOUNCING_HZ);
             let bracket = self.bracket(hz)?;
-            let springs = follow::with_restitution(&self.body, self.case.restitution, bracket, progress);
+            let springs = follow::with_restitution(&self.body, self.case.restitution, bracket, self.effort, progress);
             let springs = springs.ok_or(JobError::NoCandidate)?;
-            return Ok((alone(self.suites, &self.body, asked, springs), tuning.max_omega_hz.is_some()));
+            return Ok((alone(self.suites, &self.body, asked, springs, self.effort), tuning.max_omega_hz.is_some()));
         }
         let p = self.body.p_squared().sqrt();
         let springs = |stiffness: f64| at(&self.body, stiffness);
@@ -163,12 +233,13 @@ impl LandingDesign<'_> {
         let ladder = |stiffest: f64, springs: &dyn Fn(f64) -> Option<Springs<Design<f64>>>| {
             let from = |softest: f64| {
                 let range = (softest, stiffest);
-                omega::tune(self.suites, self.body.mass, asked, range, springs, &said)
+                omega::tune(self.suites, self.body.mass, asked, (range, self.effort), springs, &said)
             };
             let soft = self.settling(omega::SOFTEST, stiffest);
             let landings_hold = self.softest(stiffest).max(soft);
             let tuned = from(landings_hold);
-            if landings_hold == soft || tuned.as_ref().is_some_and(|tuned| tuned.reached) {
+            let done = landings_hold == soft || tuned.as_ref().is_some_and(|tuned| tuned.reached);
+            if done || tuned.is_some() && self.effort.stops() {
                 return tuned;
             }
             let over = |tuned: &Tuned| (!tuned.reached, tuned.best.errors.over(asked));
@@ -189,7 +260,7 @@ impl LandingDesign<'_> {
         };
         let in_limit = |stiffness| Geometry::of(&self.body, stiffness).is_ok_and(|geometry| geometry.in_stiff_limit());
         let mut found: Vec<Tuned> = ladder(highest, &clipped).into_iter().collect();
-        if found.iter().all(|tuned| !tuned.reached) {
+        if found.iter().all(|tuned| !tuned.reached) && (found.is_empty() || !self.effort.stops()) {
             let softer = self.within(cap, highest).filter(|stiffness| in_limit(*stiffness));
             found.extend(softer.and_then(|stiffness| ladder(stiffness, &springs)));
         }
@@ -197,7 +268,7 @@ impl LandingDesign<'_> {
         if let Some(tuned) = found.iter().find(|tuned| tuned.reached) {
             return Ok((tuned.clone(), false));
         }
-        if found.is_empty() || !in_limit(highest) {
+        if found.is_empty() || !in_limit(highest) && !self.effort.stops() {
             found.push(self.followed(cap, progress)?);
         }
         let typical = |tuned: &Tuned| typical(tuned, asked.by);
@@ -252,19 +323,19 @@ impl LandingDesign<'_> {
     /// The springs within a cap (Hz) that follow best what is judged on, of those followed down from the stiff limit and those
     /// of the paper's procedure: so soft, neither is the better one for every body.
     fn followed(&self, cap: f64, progress: &(dyn Fn(usize, usize, f64) + Sync)) -> Result<Tuned, JobError> {
-        let mut found = follow::follow(&self.body, self.case.restitution, self.bracket(cap)?);
-        if self.suites.has_whole_record() {
+        let mut found = follow::follow(&self.body, self.case.restitution, self.bracket(cap)?, self.effort);
+        if self.suites.has_whole_record() && (found.is_empty() || !self.effort.stops()) {
             found.extend(self.procedure.at(cap, progress).map(|tuned| tuned.best.springs));
         }
         let asked = self.case.tuning.asked();
-        let judged = found.into_iter().map(|springs| alone(self.suites, &self.body, asked, springs));
+        let judged = found.into_iter().map(|springs| alone(self.suites, &self.body, asked, springs, self.effort));
         let typical = |tuned: &Tuned| typical(tuned, asked.by);
         let mut judged: Vec<Tuned> = judged.filter(|tuned| self.settles(tuned)).collect();
         judged.sort_by(|a, b| typical(a).total_cmp(&typical(b)));
         let best = judged.first().map_or(f64::INFINITY, &typical);
         judged.retain(|tuned| typical(tuned) <= ALIKE * best);
-        if judged.len() > 1 {
-            let more = self.suites.more(self.case.restitution);
+        if judged.len() > 1 && !self.effort.stops() {
+            let more = self.suites.more(self.case.restitution, self.effort);
             // no record: what it has to say was counted, and it is one motion
             let median =
                 |tuned: &Tuned| more.error_by(asked.by, &tuned.best.springs.chains(self.body.mass), Control::search());
@@ -301,8 +372,8 @@ fn typical(tuned: &Tuned, yardstick: Yardstick) -> f64 {
 }
 
 /// Springs that are not the outer loop's.
-fn alone(suites: &Suites, body: &Body<f64>, asked: Asked, springs: Springs<Design<f64>>) -> Tuned {
-    let found = suites.accuracy(&springs.chains(body.mass), Control::search());
+fn alone(suites: &Suites, body: &Body<f64>, asked: Asked, springs: Springs<Design<f64>>, effort: &Effort) -> Tuned {
+    let found = suites.accuracy_within(&springs.chains(body.mass), (Control::search(), effort));
     let stiffness = TAU * springs.vertical.omega_n_hz / body.p_squared().sqrt();
     let best = Rung { stiffness, springs, errors: found };
     Tuned { rungs: vec![best], best, reached: found.over(asked) <= 1.0 }
@@ -315,81 +386,4 @@ pub fn at(body: &Body<f64>, stiffness: f64) -> Option<Springs<Design<f64>>> {
     springs.vertical.omega_n_hz *= hz;
     springs.horizontal.omega_n_hz *= hz;
     Some(springs)
-}
-
-/// The paper's procedure on one record.
-struct Procedure<'a> {
-    case: &'a Case,
-    benchmark: &'a Benchmark<'a>,
-    vertical: Vec<Fit>,
-    horizontal: Vec<Fit>,
-}
-
-impl<'a> Procedure<'a> {
-    fn new(case: &'a Case, benchmark: &'a Benchmark<'a>) -> Result<Self, JobError> {
-        let fits = |mus: &[f64]| -> Result<Vec<Fit>, FitError> {
-            let found: Vec<_> = mus.par_iter().map(|&mu| fit(mu, &case.target, &case.bounds)).collect();
-            found.into_iter().collect()
-        };
-        let vertical = fits(&case.tuning.mass_ratios_vertical)?;
-        let horizontal = fits(&case.tuning.mass_ratios_horizontal)?;
-        Ok(Self { case, benchmark, vertical, horizontal })
-    }
-
-    /// Springs up to this Omega_n (Hz), whatever they settle.
-    fn at(&self, max_hz: f64, progress: &(dyn Fn(usize, usize, f64) + Sync)) -> Option<outer::OmegaSearch> {
-        self.sampled(max_hz, self.case.tuning.candidates, progress)
-    }
-
-    /// The same to compare with, at the Omega_n (Hz) of stiff springs: sampled at each pair's stiffest only, which is where the best
-    /// ones are refined from there.
-    fn beside(&self, max_hz: f64, progress: &(dyn Fn(usize, usize, f64) + Sync)) -> Option<outer::OmegaSearch> {
-        self.sampled(max_hz, 0, progress)
-    }
-
-    fn sampled(
-        &self,
-        max_hz: f64,
-        candidates: usize,
-        progress: &(dyn Fn(usize, usize, f64) + Sync),
-    ) -> Option<outer::OmegaSearch> {
-        let bracket = Bracket { max_hz, max_settlement: self.case.tuning.max_settlement_m };
-        let least = self.least_settlement(&bracket);
-        let bracket = Bracket { max_settlement: bracket.max_settlement.max(least), ..bracket };
-        outer::tune(self.benchmark, &self.vertical, &self.horizontal, bracket, candidates, progress)
-    }
-
-    fn least_settlement(&self, bracket: &Bracket) -> f64 {
-        self.vertical.iter().map(|fit| bracket.least_settlement(fit.k)).fold(f64::INFINITY, f64::min)
-    }
-
-    /// Within the case's cap as the paper has it; without one, Omega_n by the accuracy asked for.
-    fn tune(
-        &self,
-        suites: &Suites,
-        progress: &(dyn Fn(usize, usize, f64) + Sync),
-    ) -> Result<(Tuned, bool, Option<outer::OmegaSearch>), JobError> {
-        let (tuning, body) = (&self.case.tuning, &self.benchmark.body);
-        let asked = tuning.asked();
-        if let Some(max_hz) = tuning.max_omega_hz {
-            let bracket = Bracket { max_hz, max_settlement: tuning.max_settlement_m };
-            let least_m = self.least_settlement(&bracket);
-            if least_m > bracket.max_settlement {
-                return Err(JobError::Settlement { asked_m: bracket.max_settlement, max_hz, least_m });
-            }
-            let found = self.at(max_hz, progress).ok_or(JobError::NoCandidate)?;
-            return Ok((alone(suites, body, asked, found.best.springs), true, Some(found)));
-        }
-        let p = body.p_squared().sqrt();
-        let begin = omega::begin(asked) * p / TAU;
-        let found = self.at(begin, progress).ok_or(JobError::NoCandidate)?;
-        let springs = |stiffness: f64| {
-            let bracket = Bracket { max_hz: stiffness * p / TAU, max_settlement: f64::INFINITY };
-            let near = outer::follow(self.benchmark, &self.vertical, &self.horizontal, bracket, &found, begin);
-            near.map(|candidate| candidate.springs)
-        };
-        let said = |rungs: usize, over: f64| progress(rungs, 0, over * omega::MARGIN * asked.error);
-        let tuned = omega::tune(suites, body.mass, asked, (omega::SOFTEST, TAU * CEILING_HZ / p), &springs, &said);
-        Ok((tuned.ok_or(JobError::NoCandidate)?, false, Some(found)))
-    }
 }

@@ -8,11 +8,12 @@
 use std::collections::BTreeMap;
 
 use super::{
-    ladder::{DECADE, seek},
+    ladder::{DECADE, FoundRung, seek},
     suite::{JudgedOn, MeasuredErrors, Suites},
 };
 use crate::{
     case::{Asked, Yardstick},
+    effort::Effort,
     fem::Control,
     spring::{Design, Springs},
 };
@@ -62,7 +63,7 @@ pub fn tune(
     suites: &Suites,
     mass: f64,
     asked: Asked,
-    (softest, stiffest): (f64, f64),
+    ((softest, stiffest), effort): ((f64, f64), &Effort),
     springs: &dyn Fn(f64) -> Option<Springs<Design<f64>>>,
     progress: &dyn Fn(usize, f64),
 ) -> Option<Tuned> {
@@ -74,11 +75,19 @@ pub fn tune(
         if let Some(rung) = seen.get(&i) {
             return Some(over(rung));
         }
+        // the first rung is judged whatever it costs: its histories have bounds of their own
+        if effort.stopped() || !seen.is_empty() && effort.stops() {
+            return None;
+        }
         let stiffness = stiffness(i);
         let springs = springs(stiffness)?;
         let mut errors = MeasuredErrors::default();
         for suite in in_order(&seen, i, allowed) {
-            suites.measure(suite, &springs.chains(mass), control, &mut errors);
+            suites.measure(suite, &springs.chains(mass), (control, effort), &mut errors);
+            // a rung half judged is none
+            if effort.stopped() {
+                return None;
+            }
             if !seen.is_empty() && errors.over(allowed) > 1.0 {
                 break;
             }
@@ -92,15 +101,38 @@ pub fn tune(
     if first > last {
         return None;
     }
-    let found = seek(first, last, rung(begin(asked)).round() as i64, &mut judge)?;
+    let guess = rung(begin(asked)).round() as i64;
+    let found = match seek(first, last, guess, &mut judge) {
+        Some(found) => found,
+        None if effort.cut().is_some() => so_far(&mut seen, guess.clamp(first, last), &over, springs)?,
+        None => return None,
+    };
     let best = seen.get_mut(&found.rung)?;
     for suite in JudgedOn::ALL {
-        if best.errors.over_on(suite, allowed).is_none() {
-            suites.measure(suite, &best.springs.chains(mass), control, &mut best.errors);
+        if best.errors.over_on(suite, allowed).is_none() && !effort.stopped_from_outside() {
+            suites.measure(suite, &best.springs.chains(mass), (control, effort), &mut best.errors);
         }
     }
     let (best, reached) = (*best, found.holds && over(best) <= 1.0);
     Some(Tuned { rungs: seen.into_values().collect(), best, reached })
+}
+
+/// The best rung of a search that was cut; the one that it would have begun with if none was
+/// judged.
+fn so_far(
+    seen: &mut BTreeMap<i64, Rung>,
+    guess: i64,
+    over: &dyn Fn(&Rung) -> f64,
+    springs: &dyn Fn(f64) -> Option<Springs<Design<f64>>>,
+) -> Option<FoundRung> {
+    let least = seen.iter().map(|(i, rung)| (*i, over(rung))).min_by(|a, b| a.1.total_cmp(&b.1));
+    if let Some((rung, over)) = least {
+        return Some(FoundRung { rung, holds: over <= 1.0 });
+    }
+    let stiffness = stiffness(guess);
+    let errors = MeasuredErrors::default();
+    seen.insert(guess, Rung { stiffness, springs: springs(stiffness)?, errors });
+    Some(FoundRung { rung: guess, holds: false })
 }
 
 /// How closely histories are followed to find out whether they are this accurate: steps over several samples, which err by up to

@@ -11,6 +11,8 @@ use rand::{Rng, SeedableRng};
 use rand_chacha::ChaCha8Rng;
 use rayon::prelude::*;
 
+use crate::effort::Effort;
+
 /// Points of a generation.
 const GENERATION: usize = 14;
 /// Random points of which the best is set out from.
@@ -24,12 +26,14 @@ const SMALLEST: f64 = 2e-3;
 const SEED: u64 = 1963;
 
 /// The best end of all walks within the bounds, after so many evaluations of the cost; it ends sooner where a walk's cost is
-/// at most `enough`. The same on any number of threads. `progress` gets the evaluations done, planned, and the least cost.
+/// at most `enough`, or the effort stops it. The same on any number of threads. `progress` gets the
+/// evaluations done, planned, and the least cost.
 pub(super) fn search(
     cost: &(dyn Fn(&[f64]) -> f64 + Sync),
     (low, high): &(Vec<f64>, Vec<f64>),
     evaluations: usize,
     enough: f64,
+    effort: &Effort,
     progress: &(dyn Fn(usize, usize, f64) + Sync),
 ) -> Option<Vec<f64>> {
     let mut random = ChaCha8Rng::seed_from_u64(SEED);
@@ -47,6 +51,9 @@ pub(super) fn search(
     let mut best: Option<(f64, Vec<f64>)> = None;
     let mut done = 0;
     while done < evaluations && best.as_ref().is_none_or(|(cost, _)| *cost > enough) {
+        if best.is_some() && effort.stops() {
+            break;
+        }
         let scattered: Vec<Vec<f64>> = (0..SCATTERED)
             .map(|_| low.iter().zip(high).map(|(&low, &high)| random.random_range(low..=high)).collect())
             .collect();
@@ -63,7 +70,9 @@ pub(super) fn search(
             .build(|z: &DVector<f64>| bounded(z.as_slice()));
         // the options are constants, and valid
         let mut walk = walk.ok()?;
-        let end = walk.run_parallel().overall_best?;
+        // generation by generation: the bound on work is asked for between them
+        while walk.next_parallel().is_none() && !effort.stops() {}
+        let end = walk.overall_best_individual()?.clone();
         done += walk.function_evals();
         let inside: Vec<f64> = end.point.iter().zip(low.iter().zip(high)).map(|(z, (l, h))| z.clamp(*l, *h)).collect();
         if best.as_ref().is_none_or(|(least, _)| end.value < *least) {
@@ -86,7 +95,10 @@ mod tests {
         let bounds = (vec![-4.0; 3], vec![0.9, 4.0, 4.0]);
         let found = |threads| {
             let pool = rayon::ThreadPoolBuilder::new().num_threads(threads).build().unwrap();
-            pool.install(|| search(&cost, &bounds, 4000, 0.0, &|done, all, _| assert!(done <= all))).unwrap()
+            pool.install(|| {
+                search(&cost, &bounds, 4000, 0.0, &Effort::unbounded(), &|done, all, _| assert!(done <= all))
+            })
+            .unwrap()
         };
         let one = found(1);
         assert_eq!(one, found(3));

@@ -18,6 +18,7 @@ use accuracy::{ERRORS, geometric_mean};
 use crate::{
     case::Yardstick,
     conditioning::{CHANGES, ILL_CONDITIONED, changes, moved_by_width, sensitivity},
+    effort::Effort,
     fem::{Analysis, Control, Finish, HistoryOutcome, Start, histories},
     housner::{self, Rocking, RockingOptions},
     overturning::samples_until,
@@ -148,12 +149,19 @@ impl Trial {
 
 /// The errors on these springs, of each trial, of a body that overturns up to then; infinite if the history does not get to
 /// the record's end, or one body overturns and the other does not.
-fn errors(trials: &[Trial], body: &Body<f64>, springs: &Springs<Chain<f64>>, control: Control) -> Vec<TrialErrors> {
+fn errors(
+    trials: &[Trial],
+    body: &Body<f64>,
+    springs: &Springs<Chain<f64>>,
+    (control, effort): (Control, &Effort),
+) -> Vec<TrialErrors> {
     let pushes: Vec<Cow<[f64]>> = trials.iter().map(Trial::push).collect();
     let cases: Vec<Analysis<f64>> = trials.iter().map(|trial| trial.case(body, springs, control)).collect();
     let followed =
         histories(&cases, |i| Stream::new(body, &trials[i].theta, &pushes[i]).with_forces(&trials[i].forces));
     let error = |((stream, finish), trial): ((Stream, Finish<f64>), &Trial)| {
+        finish.spend(effort);
+        effort.judged(matches!(finish.outcome, HistoryOutcome::WorkBound { .. }));
         let overturned = match finish.outcome {
             HistoryOutcome::Completed => housner::topples(body, stream.last.0, stream.last.1),
             HistoryOutcome::Overturned { .. } | HistoryOutcome::Stopped { .. } => true,
@@ -181,40 +189,52 @@ pub struct Suites {
 
 impl Suites {
     /// Of a body that lands with velocity restitution `restitution`, with this record if there is one.
+    #[cfg(feature = "internals")] // for tests
     pub fn new(body: &Body<f64>, restitution: f64, record: Option<&Record>) -> Self {
-        Self::of_seed(SEED, body, restitution, record)
+        Self::within(body, restitution, record, &Effort::unbounded())
+    }
+
+    /// The same: as many motions as are found before it is stopped from outside.
+    pub fn within(body: &Body<f64>, restitution: f64, record: Option<&Record>, effort: &Effort) -> Self {
+        Self::seeded(SEED, body, restitution, record, effort)
     }
 
     /// The same of other motions.
+    #[cfg(feature = "internals")] // for tests
     pub fn of_seed(seed: u64, body: &Body<f64>, restitution: f64, record: Option<&Record>) -> Self {
+        Self::seeded(seed, body, restitution, record, &Effort::unbounded())
+    }
+
+    fn seeded(seed: u64, body: &Body<f64>, restitution: f64, record: Option<&Record>, effort: &Effort) -> Self {
         let (p, alpha) = (body.p_squared().sqrt(), body.alpha());
         let well = |record| Trial::new(body, restitution, record, WantedMotion::WellConditioned);
         let standing = |record| Trial::new(body, restitution, record, WantedMotion::WellConditionedWhileItStands);
         let predictable = |record| Trial::new(body, restitution, record, WantedMotion::Predictable);
         let mild = |record| Trial::new(body, restitution, record, WantedMotion::PredictableWhileItStands);
         let earthquake = |i| synthetic::earthquake(seed, i, p);
-        let mut earthquakes = first(EARTHQUAKES, 0..LOOKED_AT, |i| predictable(earthquake(i)));
-        let mild = first(EARTHQUAKES - earthquakes.len(), 0..LOOKED_AT, |i| mild(milder(earthquake(i), alpha)?));
+        let mut earthquakes = first(EARTHQUAKES, 0..LOOKED_AT, effort, |i| predictable(earthquake(i)));
+        let missing = EARTHQUAKES - earthquakes.len();
+        let mild = first(missing, 0..LOOKED_AT, effort, |i| mild(milder(earthquake(i), alpha)?));
         let scaled_down = mild.len();
         earthquakes.extend(mild);
         Self {
             body: *body,
             record: record.and_then(|record| standing(record.clone())),
-            synthetic: first(SYNTHETIC, 0..LOOKED_AT, |i| well(synthetic::record(seed, i, p, alpha))),
+            synthetic: first(SYNTHETIC, 0..LOOKED_AT, effort, |i| well(synthetic::record(seed, i, p, alpha))),
             earthquakes,
             scaled_down,
         }
     }
 
     /// More synthetic motions, none of which is one of these, to tell springs apart on which these do not decide; nothing else.
-    pub fn more(&self, restitution: f64) -> Self {
+    pub fn more(&self, restitution: f64, effort: &Effort) -> Self {
         let (p, alpha) = (self.body.p_squared().sqrt(), self.body.alpha());
         let well = |record| Trial::new(&self.body, restitution, record, WantedMotion::WellConditioned);
         let others = LOOKED_AT..LOOKED_AT + MORE_LOOKED_AT;
         Self {
             body: self.body,
             record: None,
-            synthetic: first(MORE, others, |i| well(synthetic::record(SEED, i, p, alpha))),
+            synthetic: first(MORE, others, effort, |i| well(synthetic::record(SEED, i, p, alpha))),
             earthquakes: Vec::new(),
             scaled_down: 0,
         }
@@ -231,9 +251,23 @@ impl Suites {
     }
 
     /// The error of springs on every suite.
+    #[cfg(feature = "internals")] // for tests
     pub fn accuracy(&self, springs: &Springs<Chain<f64>>, control: Control) -> MeasuredErrors {
+        self.accuracy_within(springs, (control, &Effort::unbounded()))
+    }
+
+    /// The same, its work counted; nothing more is measured once it is stopped from outside.
+    pub fn accuracy_within(
+        &self,
+        springs: &Springs<Chain<f64>>,
+        (control, effort): (Control, &Effort),
+    ) -> MeasuredErrors {
         let mut measured = MeasuredErrors::default();
-        JudgedOn::ALL.iter().for_each(|suite| self.measure(*suite, springs, control, &mut measured));
+        for suite in JudgedOn::ALL {
+            if !effort.stopped() {
+                self.measure(suite, springs, (control, effort), &mut measured);
+            }
+        }
         measured
     }
 
@@ -242,27 +276,27 @@ impl Suites {
         &self,
         suite: JudgedOn,
         springs: &Springs<Chain<f64>>,
-        control: Control,
+        (control, effort): (Control, &Effort),
         measured: &mut MeasuredErrors,
     ) {
         let MeasuredErrors { histories, peaks } = measured;
         match suite {
             JudgedOn::Record => {
-                if let Some(found) = errors(self.record.as_slice(), &self.body, springs, control).first() {
+                if let Some(found) = errors(self.record.as_slice(), &self.body, springs, (control, effort)).first() {
                     histories.record = Some(found.u.max(found.v));
                     peaks.largest.record = Some(found.peaks.largest());
                     peaks.record = Some(found.peaks);
                 }
             }
             JudgedOn::Synthetic => {
-                let found = errors(&self.synthetic, &self.body, springs, control);
+                let found = errors(&self.synthetic, &self.body, springs, (control, effort));
                 quantiles(&found, |e| e.u, histories);
                 quantiles(&found, |e| e.peaks.largest(), &mut peaks.largest);
                 let median = |i: usize| quantile(&sorted(&found, |e| e.peaks.all()[i]), 0.5);
                 peaks.synthetic_median = each(median);
             }
             JudgedOn::Earthquakes => {
-                let found = errors(&self.earthquakes, &self.body, springs, control);
+                let found = errors(&self.earthquakes, &self.body, springs, (control, effort));
                 self.means(&found, |e| e.u, histories);
                 self.means(&found, |e| e.peaks.largest(), &mut peaks.largest);
                 let mean = |i: usize| geometric_mean(found.iter().map(|e| e.peaks.all()[i])).map(|(mean, _)| mean);
@@ -291,7 +325,8 @@ impl Suites {
             Yardstick::Histories => e.u,
             Yardstick::Peaks => e.peaks.largest(),
         };
-        quantile(&sorted(&errors(trials, &self.body, springs, control), of), 0.5)
+        let found = errors(trials, &self.body, springs, (control, &Effort::unbounded()));
+        quantile(&sorted(&found, of), 0.5)
     }
 }
 
@@ -323,10 +358,15 @@ fn milder(motion: Record, alpha: f64) -> Option<Record> {
 }
 
 /// The first `count` of these motions of a suite that `pick` finds fit; fewer if there are no more.
-fn first(count: usize, motions: Range<usize>, pick: impl Fn(usize) -> Option<Trial> + Sync) -> Vec<Trial> {
+fn first(
+    count: usize,
+    motions: Range<usize>,
+    effort: &Effort,
+    pick: impl Fn(usize) -> Option<Trial> + Sync,
+) -> Vec<Trial> {
     let mut trials: Vec<Trial> = Vec::new();
     let mut begin = motions.start;
-    while trials.len() < count && begin < motions.end {
+    while trials.len() < count && begin < motions.end && !effort.stopped() {
         let end = (begin + (count - trials.len()).max(AT_A_TIME)).min(motions.end);
         trials.par_extend((begin..end).into_par_iter().with_max_len(1).filter_map(&pick));
         begin = end;

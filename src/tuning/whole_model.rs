@@ -31,6 +31,7 @@ use rayon::prelude::*;
 
 use crate::{
     compare::LEAST_LEAN,
+    effort::Effort,
     fem::Control,
     scalar::{Scalar, real},
     spring::{Design, Springs},
@@ -107,7 +108,7 @@ impl WholeModel {
     }
 
     /// All residuals, in a fixed order; infinite where a run did not finish.
-    pub fn residuals<S: Scalar>(&self, springs: &Springs<Design<S>>, control: Control) -> Vec<S> {
+    pub fn residuals<S: Scalar>(&self, springs: &Springs<Design<S>>, control: Control, effort: &Effort) -> Vec<S> {
         let body = Body {
             mass: real(self.body.mass),
             half_width: real(self.body.half_width),
@@ -121,7 +122,7 @@ impl WholeModel {
             .into_par_iter()
             .with_max_len(1)
             .map(|i| match self.releases.get(i) {
-                Some(release) => match release.run(&body, &chains, control) {
+                Some(release) => match release.run(&body, &chains, (control, effort)) {
                     Some(Left { kept, growing, air }) => {
                         let e = if kept.re() > 0.0 { kept.sqrt() / self.restitution } else { S::zero() };
                         let missed = match self.criterion {
@@ -133,7 +134,7 @@ impl WholeModel {
                     }
                     None => vec![real(f64::INFINITY), S::zero()],
                 },
-                None => vec![self.uplifts[i - n].uplift_error(&body, &chains, control) * w_l],
+                None => vec![self.uplifts[i - n].uplift_error(&body, &chains, (control, effort)) * w_l],
             })
             .collect();
         each.into_iter().flatten().collect()

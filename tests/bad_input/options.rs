@@ -37,6 +37,9 @@ fn results_that_cannot_be_written_are_refused_before_the_work() {
 fn options_that_are_no_numbers_or_out_of_range() {
     for (args, word) in [
         (&["run", "--scale", "nan"][..], "NaN"),
+        (&["run", "--work", "0"], "--work is 0.0"),
+        (&["run", "--work", "inf"], "1 is the default"),
+        (&["run", "--time-limit", "-1"], "give seconds above zero"),
         (&["run", "--scale", "1e300"], "above 50 g"),
         (&["run", "--duration", "nan"], "--duration is NaN"),
         (&["run", "--duration", "inf"], "--duration is inf"),

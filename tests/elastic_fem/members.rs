@@ -105,7 +105,7 @@ fn a_pier_with_members_follows_the_reference() {
     assert_eq!(history.outcome, HistoryOutcome::Completed);
     assert!(history.energy_residual < 1e-6, "{:e}", history.energy_residual);
     let sways = |model: &Assembled| {
-        let rocking = model.rock(GroundAcceleration::horizontal(0.01, &accel), &model.upright().unwrap());
+        let rocking = model.rock(GroundAcceleration::horizontal(0.01, &accel), &model.upright().unwrap(), u64::MAX);
         assert!(rocking.landings().count() > 2);
         model.sways(rocking.q.iter().map(|q| q.as_slice()))
     };

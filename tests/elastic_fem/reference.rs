@@ -211,7 +211,7 @@ fn a_corner_that_carries_nothing_slides_as_on_rigid_ground() {
     let lean = 0.7 * structure.body().alpha();
     let (dt, still) = (1e-3, vec![0.0; 3001]);
     let ground = GroundAcceleration::horizontal(dt, &still);
-    let reference = model.rock(ground, &model.leaning(lean).unwrap());
+    let reference = model.rock(ground, &model.leaning(lean).unwrap(), u64::MAX);
     let slips = reference.events.iter().filter(|event| event.what == What::Slip).count();
     assert!(slips >= 1, "{slips}");
     let springs = springs_of_design(&stand(&model).unwrap(), 3e-6, landing_speed(&structure), 1.0);
@@ -238,7 +238,7 @@ fn a_corner_that_lands_flat_slides_on_springs_as_on_rigid_ground() {
     .unwrap();
     let model = Assembled::new(structure).unwrap();
     let accel: Vec<f64> = el_centro(401).iter().map(|a| 1.43 * a).collect();
-    let reference = model.rock(GroundAcceleration::horizontal(0.01, &accel), &model.upright().unwrap());
+    let reference = model.rock(GroundAcceleration::horizontal(0.01, &accel), &model.upright().unwrap(), u64::MAX);
     let skidded = reference.skidded.unwrap();
     assert!(skidded < 3.0, "{skidded}");
     let of_reference = model.sways(reference.q.iter().map(|q| q.as_slice()));

@@ -5,18 +5,32 @@ use crate::{
     case::ElasticCase,
     commands::{
         CommandError,
+        bounds::ended,
         elastic::{ElasticRun, springs_alone as alone},
         output::check_folder,
         progress::{self, Progress},
     },
+    effort::Effort,
     elastic::{
+        Mechanics,
         answer::{ElasticAnswer, Reference},
         assembled::Assembled,
+        fem::{default_control, most_steps},
+        reference::{self, FORETOLD},
     },
     record::Record,
     report,
-    tuning::{elastic::tune, job::JobError},
+    results::NotDone,
+    tuning::{
+        elastic::{MOST_WORK, tune_within},
+        job::JobError,
+    },
 };
+
+/// A history on rigid ground through the record may take one in so many of all units of work, each
+/// of the motions near it one in so many.
+const RECORD: u64 = 12;
+const NEAR: u64 = 120;
 
 /// The whole job.
 pub fn run(o: &RunOptions, mut case: ElasticCase) -> Result<(), CommandError> {
@@ -35,33 +49,61 @@ pub fn run(o: &RunOptions, mut case: ElasticCase) -> Result<(), CommandError> {
     if !o.no_record {
         progress::taken(&case.excitation.line(), &case.doubts(), o.quiet);
     }
+    let effort = o.effort.of(MOST_WORK)?;
     let progress = Progress::on_terminal("springs tried", o.quiet);
     let tell = |done: usize, error: f64| progress.tell(done, 0, &progress::error(error));
-    let record = if o.no_record { None } else { Some(referred(&assembled, case.excitation.used()?)?) };
+    let record = if o.no_record { None } else { Some(referred(&assembled, case.excitation.used()?, &effort)?) };
     let (record, reference) = record.unzip();
-    let tuned = tune(&assembled, case.asked, case.max_omega_hz, record.as_ref().zip(reference), &tell);
+    let asked = (case.asked, case.max_omega_hz);
+    let tuned = tune_within(&assembled, asked, record.as_ref().zip(reference), &effort, &tell);
     progress.done();
     let mut tuned = tuned.map_err(|e| CommandError::Result(e.to_string()))?;
     let Some((record, reference)) = record.zip(tuned.reference.take()) else {
         let run = report::elastic::of_case(&case, alone(&assembled, &tuned, case.asked));
-        return springs_alone(o, &run);
+        springs_alone(o, &run)?;
+        return ended(&effort, &o.out);
     };
     let progress = Progress::on_terminal("histories and forces", o.quiet);
-    let answer = ElasticAnswer::new(&assembled, &tuned.springs.corners, &record, reference);
+    let near = Some(effort.part(NEAR)).filter(|_| !effort.stopped_from_outside());
+    if near.is_none() && reference.foretold_seconds(record.dt).is_some() {
+        tuned.not_done.push(NotDone::NearMotions);
+    }
+    let answer = ElasticAnswer::within(&assembled, &tuned.springs.corners, &record, reference, near);
     progress.done();
     let answer = answer.map_err(|e| CommandError::Result(e.to_string()))?;
     let run = ElasticRun::new(case, assembled, tuned, record, answer, friction);
     run.save(&o.out, &files(), Output { figures: !o.no_figures, report: !o.no_report })?;
-    o.print(&run.said(run.filed(&o.out)))
+    o.print(&run.said(run.filed(&o.out)))?;
+    ended(&effort, &o.out)
 }
 
 /// A record with what the structure does in it on rigid ground.
-fn referred(assembled: &Assembled, record: Record) -> Result<(Record, Reference), CommandError> {
+fn referred(assembled: &Assembled, record: Record, effort: &Effort) -> Result<(Record, Reference), CommandError> {
     if record.len() < 2 {
         return Err(JobError::TooShort { samples: record.len(), record: record.name }.into());
     }
-    let reference = Reference::new(assembled, &record).map_err(|e| CommandError::Result(e.to_string()))?;
+    let most_work = effort.part(RECORD);
+    within_reach(assembled, &record, most_work)?;
+    let reference = Reference::within(assembled, &record, FORETOLD, most_work);
+    let reference = reference.map_err(|e| CommandError::Result(e.to_string()))?;
     Ok((record, reference))
+}
+
+/// A record that has a step to a sample at least, of which more are needed than a history may take,
+/// is refused.
+fn within_reach(assembled: &Assembled, record: &Record, most_work: u64) -> Result<(), CommandError> {
+    let coordinates = assembled.frame.size();
+    let by_work = (most_work / reference::step_units(coordinates)) as usize;
+    let most = by_work.min(most_steps(default_control(), coordinates));
+    let steps = record.len() - 1;
+    if steps <= most {
+        return Ok(());
+    }
+    let remedy = "shorten it (--duration), give the structure fewer elements, or allow more (--work)";
+    Err(CommandError::Result(format!(
+        "{}: {steps} steps at least, one to a sample, are out of reach: a history of this structure may take {most}; {remedy}",
+        record.name
+    )))
 }
 
 /// Options that mean nothing for an elastic structure are refused.

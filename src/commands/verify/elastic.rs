@@ -17,7 +17,7 @@ use crate::{
         answer::{ComparedEnd, ElasticHistories, Reference},
         assembled::{Assembled, Sway, errors},
         fem::ElasticHistory,
-        reference::TRIED,
+        reference::{MOST_WORK, TRIED},
     },
     figures::stack::{self, StackFigure, StackQuantity},
     parameters::elastic::ElasticParameters,
@@ -41,7 +41,7 @@ pub fn run(o: &VerifyOptions, parameters: &ElasticParameters, program: &Program)
     check_accuracy(o.accuracy)?;
     let assembled = parameters.assembled().map_err(|e| CommandError::Result(e.to_string()))?;
     let springs = parameters.chains();
-    let histories = Reference::within(&assembled, &record, TRIED)
+    let histories = Reference::within(&assembled, &record, TRIED, MOST_WORK)
         .and_then(|reference| ElasticHistories::new(&assembled, &springs, &record, reference))
         .map_err(|e| CommandError::Result(e.to_string()))?;
     let part = histories.compared(&record, &[]);

@@ -7,8 +7,10 @@ use super::{
     run::ElasticView,
     series::{FineForces, FineRecorder},
     step::ElasticStages,
+    step_units,
 };
 use crate::{
+    effort::Effort,
     elastic::frame::{Base, Frame},
     fem::{Account, HistoryOutcome, Work},
 };
@@ -109,6 +111,14 @@ pub struct ElasticHistory {
 }
 
 impl ElasticHistory {
+    /// Count what it cost, and whether it met its own bound.
+    pub(crate) fn spend(&self, effort: &Effort) {
+        let tried = (self.work.steps + self.work.rejected + self.work.events) as u64;
+        let coordinates = self.q.first().map_or(0, Vec::len);
+        effort.spend(tried * step_units(coordinates));
+        effort.judged(matches!(self.outcome, HistoryOutcome::WorkBound { .. }));
+    }
+
     /// Rotation of a base at every sample (rad).
     pub fn rotation(&self, frame: &Frame, base: Base) -> Vec<f64> {
         self.q.iter().map(|q| base.rotation(frame, q)).collect()

@@ -8,6 +8,7 @@ use super::{
     events::{ContactLimit, ElasticEvent},
     history::ElasticRecorder,
     model::{CornerState, ElasticModel},
+    most_steps,
     step::{ElasticRequest, ElasticStages, ElasticStepper},
 };
 use crate::{
@@ -36,6 +37,9 @@ pub(super) struct SpringsRun<'a> {
     pub model: &'a ElasticModel<'a>,
     case: &'a ElasticAnalysis<'a>,
     pub control: Control,
+    /// Steps that may be tried: as many as the control has it of a small structure, fewer of one
+    /// whose steps cost more.
+    most_steps: usize,
     pub stepper: ElasticStepper<'a>,
     bases: Vec<Base>,
     pub q: Vec<f64>,
@@ -92,6 +96,7 @@ impl<'a> SpringsRun<'a> {
             model,
             case,
             control: case.control,
+            most_steps: most_steps(case.control, model.n),
             stepper: ElasticStepper::new(model, lengths, rounding),
             bases: Base::all(frame),
             q,
@@ -135,7 +140,7 @@ impl<'a> SpringsRun<'a> {
             let mut t = 0.0;
             while dt - t > 1e-13 * dt {
                 (self.time, self.here) = (start + t, ground.from(t));
-                if self.work.steps + self.work.rejected + self.work.events >= self.control.most_steps {
+                if self.work.steps + self.work.rejected + self.work.events >= self.most_steps {
                     return HistoryOutcome::WorkBound { time: self.time };
                 }
                 if self.h < 1e-14 * dt {

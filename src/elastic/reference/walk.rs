@@ -8,7 +8,7 @@ use super::state::{Rates, ReferenceState, ReferenceStep};
 use super::stiffness::Stiffness;
 use super::{
     CornerSet, ElasticRocking, GroundAcceleration, Ledger, ReferenceOptions, ReferenceOutcome, Stop, dop853, implicit,
-    search,
+    search, step_units,
 };
 use crate::{elastic::Mechanics, scalar::GRAVITY};
 
@@ -51,6 +51,8 @@ pub struct ReferenceWalk<'a, M> {
     /// Since the last event.
     stiffness: Stiffness,
     pub(super) history: ElasticRocking,
+    /// Steps that may be tried.
+    most_steps: u64,
 }
 
 impl<'a, M: Mechanics> ReferenceWalk<'a, M> {
@@ -76,6 +78,8 @@ impl<'a, M: Mechanics> ReferenceWalk<'a, M> {
             pulled: 0.0,
             skidded: None,
             steps: 0,
+            tried: 0,
+            most_work: options.most_work,
         };
         Self {
             mechanics,
@@ -94,6 +98,7 @@ impl<'a, M: Mechanics> ReferenceWalk<'a, M> {
             h: ground.dt,
             stiffness: Stiffness::default(),
             history,
+            most_steps: options.most_work / step_units(q.len()),
         }
     }
 
@@ -132,6 +137,10 @@ impl<'a, M: Mechanics> ReferenceWalk<'a, M> {
         while self.since < self.ground.dt {
             let left = self.ground.dt - self.since;
             let h = if self.h > left * (1.0 - SHORTEST) { left } else { self.h };
+            if self.history.tried as u64 >= self.most_steps {
+                return Err(self.stop(Stop::Work));
+            }
+            self.history.tried += 1;
             let tried = self.step(&self.now, h);
             let factor = tried.as_ref().map_or(0.0, |tried| 0.9 * tried.error.powf(-1.0 / tried.order)).clamp(0.2, 6.0);
             let tried = tried.filter(|tried| tried.error <= 1.0);

@@ -14,6 +14,8 @@ use crate::{
 pub(super) fn springs_findings(parameters: &ElasticParameters) -> Option<Finding> {
     let a = parameters.assessment.as_ref().filter(|a| !a.reached)?;
     Some(match a.measured.nothing() {
+        // of a search that was cut before it measured anything its own finding tells
+        true if parameters.findings.iter().any(|f| matches!(f.finding, Finding::SearchCut { .. })) => return None,
         true => Finding::AccuracyNotMeasured,
         false if a.judged_by == Yardstick::Peaks => Finding::PeaksMissed { asked: a.accuracy, capped: false },
         false => Finding::AccuracyMissed { asked: a.accuracy, capped: false },
@@ -49,8 +51,10 @@ fn accuracy(a: &ElasticAssessment, on_record: Option<&OnRecord>) -> AccuracyRepo
 
 /// Springs of a case without a record.
 pub fn of_case(case: &ElasticCase, mut parameters: ElasticParameters) -> Run {
-    let doubts = doubts(case.doubts_of_structure()).chain(springs_findings(&parameters));
-    parameters.findings = filed(doubts);
+    // what of the search was cut is there already
+    let search = parameters.findings.iter().map(|filed| filed.finding.clone());
+    let found = search.chain(doubts(case.doubts_of_structure())).chain(springs_findings(&parameters));
+    parameters.findings = filed(found);
     alone(parameters)
 }
 

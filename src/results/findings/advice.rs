@@ -1,6 +1,7 @@
 //! What to do about findings, and what they mean.
 
 use super::{Ending, Finding};
+use crate::effort::CutBy;
 
 impl Finding {
     /// What to do, if there is anything to do.
@@ -16,7 +17,7 @@ impl Finding {
             Self::NeverLifts { .. } => "give a stronger record, or scale it: --scale",
             Self::Overturns { .. } => "scale the record down for the margin: --scale",
             Self::NoAnswer { .. } | Self::HistoryEndsEarly { ending: Ending::WorkBound, .. } => {
-                "take softer or more strongly damped springs: --max-hz"
+                "take softer or more strongly damped springs: --max-hz; or a shorter record: --duration"
             }
             Self::ModelsDisagree { .. } => "vary the scale by 1 %, and judge by many records: tune validate",
             Self::PivotLeavesGround { .. } => "compare up to that time only",
@@ -43,6 +44,13 @@ impl Finding {
             }
             Self::LandingsUnfinished { .. } => "allow other springs: --max-hz, --accuracy",
             Self::ForceWithheld { .. } => "take it from a model of your own, or refine: elements, --accuracy",
+            Self::SearchCut { by: CutBy::Work, .. } => "allow more: --work 10; or ask for less: --accuracy, --max-hz",
+            Self::SearchCut { by: CutBy::TimeLimit, .. } => "raise or leave out --time-limit",
+            Self::SearchCut { by: CutBy::Interrupt, .. } => "run it again to its end",
+            Self::HistoriesUnfinished { left_out: true, .. } | Self::NearMotionsLeftOut { .. } => {
+                "allow more: --work 10"
+            }
+            Self::HistoriesUnfinished { .. } => "judge the springs by many records: tune validate",
             Self::Sliding { .. } => "give it a shear key, or say what the ground offers: --friction",
             Self::FreeFlight { .. } => "compare up to that time only",
             Self::TooStocky { .. } => "check height and width; rely on tests for such a body",
@@ -77,6 +85,14 @@ impl Finding {
             }
             Self::AccuracyMissed { .. } | Self::PeaksMissed { .. } => {
                 "These are the best springs found within what was allowed; the table of accuracy says by how much they miss."
+            }
+            Self::SearchCut { .. } => {
+                "The springs are the best of those judged until then. Nothing that was measured of them depends on where the \
+                 search ended."
+            }
+            Self::HistoriesUnfinished { .. } => {
+                "A history has a bound of its own on its steps, so that every search ends; the springs that it was on, or the \
+                 motion, had to be judged without its end."
             }
             Self::AccuracyNotMeasured => {
                 "No motion that was tried rocks this structure and can be followed one to one."

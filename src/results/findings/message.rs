@@ -1,7 +1,10 @@
 //! The words of findings.
 
 use super::{DeckEnd, Ending, Finding, FindingModel, ForceName, PeakChange};
-use crate::message::{percent, quantity, significant};
+use crate::{
+    effort::CutBy,
+    message::{percent, quantity, significant},
+};
 
 /// Quantities that a vertical motion left out changes the most, said in its message; all are in
 /// parameters.json.
@@ -52,6 +55,9 @@ impl Finding {
             | Self::LandingsUnfinished { .. }
             | Self::ForceWithheld { .. }
             | Self::MembersBeside => self.springs(),
+            Self::SearchCut { .. } | Self::HistoriesUnfinished { .. } | Self::NearMotionsLeftOut { .. } => {
+                self.effort()
+            }
             Self::Sliding { .. }
             | Self::FreeFlight { .. }
             | Self::TooStocky { .. }
@@ -173,6 +179,39 @@ impl Finding {
             }
             Self::MembersBeside => {
                 "springs are tuned for the structure without its dampers, tendon and friction".into()
+            }
+            _ => String::new(),
+        }
+    }
+
+    /// What the search did not do.
+    fn effort(&self) -> String {
+        match self {
+            Self::SearchCut { by, not_done, stiffnesses, reached, asked } => {
+                let by = match by {
+                    CutBy::Work => "the bound on work",
+                    CutBy::TimeLimit => "the time limit",
+                    CutBy::Interrupt => "^C",
+                };
+                let missing: Vec<&str> = not_done.iter().map(|what| what.words()).collect();
+                let reached = match reached {
+                    Some(error) => format!(
+                        " after {stiffnesses} stiffness{}: error {}, asked {}",
+                        if *stiffnesses == 1 { "" } else { "es" },
+                        significant(*error, 3),
+                        significant(*asked, 3)
+                    ),
+                    None => ", no error was measured".into(),
+                };
+                format!("{by} ended the search{reached}; not done: {}", missing.join(", "))
+            }
+            Self::HistoriesUnfinished { histories, left_out } => {
+                let of = if *histories == 1 { "history" } else { "histories" };
+                let then = if *left_out { "their motions are left out" } else { "they count as lost" };
+                format!("{histories} {of} of the search met the bound on a history's steps: {then}")
+            }
+            Self::NearMotionsLeftOut { motions } => {
+                format!("{motions} motions near the record met the bound on a history's steps, and are left out")
             }
             _ => String::new(),
         }

@@ -18,6 +18,7 @@ use rayon::prelude::*;
 
 use super::inner::Fit;
 use crate::{
+    effort::Effort,
     fem::{Analysis, Control, Finish, HistoryOutcome, Start, View},
     motion::Motion,
     scalar::GRAVITY,
@@ -49,6 +50,8 @@ pub struct Benchmark<'a> {
     pub vertical: &'a [f64],
     /// Housner's motion, sampled at dt.
     pub housner: &'a Motion,
+    /// What its histories count to.
+    pub effort: &'a Effort,
 }
 
 /// Where Omega_n may lie.
@@ -112,6 +115,7 @@ impl Benchmark<'_> {
             sum += du * du / su + dv * dv / sv;
             if sum > 2.0 * limit * limit { ControlFlow::Break(()) } else { ControlFlow::Continue(()) }
         });
+        finish.spend(self.effort);
         let error = (0.5 * sum).sqrt();
         match finish.outcome {
             HistoryOutcome::Completed => (error, false),
@@ -262,7 +266,8 @@ fn sample(
     let mut candidates: Vec<Candidate> = Vec::with_capacity(total);
     let mut best = f64::INFINITY;
     let (mut rest, mut size) = (plan, FIRST_BATCH);
-    while !rest.is_empty() {
+    // the first batches are judged whatever they cost
+    while !rest.is_empty() && (candidates.len() < BATCH || !benchmark.effort.stops()) {
         let (batch, after) = rest.split_at(size.min(rest.len()));
         (rest, size) = (after, (2 * size).min(BATCH));
         let found: Vec<Candidate> = batch
@@ -291,11 +296,19 @@ fn best_of(
 ) -> Option<OmegaSearch> {
     let mut order: Vec<usize> = (0..candidates.len()).filter(|&i| !candidates[i].abandoned).collect();
     order.sort_by(|&a, &b| candidates[a].error.total_cmp(&candidates[b].error).then(a.cmp(&b)));
-    let refined: Vec<Vec<Candidate>> = order
+    let effort = benchmark.effort;
+    let shares: Vec<(usize, Effort)> = match effort.stopped() {
+        true => Vec::new(),
+        false => order.iter().take(refined).map(|&i| (i, effort.share(refined as u64))).collect(),
+    };
+    let refined: Vec<Vec<Candidate>> = shares
         .par_iter()
-        .take(refined)
-        .map(|&i| refine(benchmark, &plan[i].0, plan[i].1, candidates[i].error, refinements))
+        .map(|(i, share)| {
+            let (pair, x) = &plan[*i];
+            refine(&Benchmark { effort: share, ..*benchmark }, pair, *x, candidates[*i].error, refinements)
+        })
         .collect();
+    shares.iter().for_each(|(_, share)| effort.join(share));
     candidates.extend(refined.into_iter().flatten());
     let chosen = (0..candidates.len())
         .filter(|&i| !candidates[i].abandoned)
@@ -317,6 +330,10 @@ fn refine(benchmark: &Benchmark, pair: &Pair, x: [f64; 2], start: f64, refinemen
         fn cost(&self, x: &Vec<f64>) -> Result<f64, Error> {
             let outside: f64 = x.iter().map(|x| (x - x.clamp(0.0, 1.0)).abs()).sum();
             let springs = self.pair.springs([x[0], x[1]]);
+            if self.benchmark.effort.stops() {
+                // what was not followed leads nowhere
+                return Ok(f64::MAX);
+            }
             let (error, abandoned) = self.benchmark.error(&springs, self.limit, Control::search());
             if let Ok(mut seen) = self.seen.lock() {
                 seen.push(Candidate { springs, error, abandoned });

@@ -6,10 +6,11 @@ use serde::{Deserialize, Deserializer, Serialize};
 
 use super::{
     design::CornerSprings,
-    trial::{ElasticTrial, ElasticTrialOutcome},
+    trial::{ElasticTrial, ElasticTrialOutcome, Judged},
 };
 use crate::{
     case::{Asked, Yardstick},
+    effort::Effort,
     elastic::{
         answer::Reference, assembled::Assembled, design_forces::ColumnForces, fem::default_control,
         peaks::StructurePeakErrors,
@@ -145,6 +146,9 @@ pub struct ElasticSuite {
     pub record: Option<ElasticTrial>,
     /// Releases and motions, the record among them, left out since their reference cannot be predicted.
     pub ill_conditioned: usize,
+    /// Releases and motions, the record among them, left out since their reference met the bound on
+    /// its work.
+    pub out_of_work: usize,
     /// How forces are taken, if springs are judged by them, too: it takes a second history of each
     /// trial.
     pub forces: Option<ColumnForces>,
@@ -152,20 +156,28 @@ pub struct ElasticSuite {
 
 impl ElasticSuite {
     /// Of a structure, with this record and its reference if there is one.
+    #[cfg(feature = "internals")] // for tests
     pub fn new(model: Assembled, record: Option<(&Record, &Reference)>) -> Self {
+        Self::within(model, record, &Effort::unbounded())
+    }
+
+    /// The same, its work counted; less of it once it is stopped from outside.
+    pub fn within(model: Assembled, record: Option<(&Record, &Reference)>, effort: &Effort) -> Self {
         let body = model.structure.body();
         let (p, alpha) = (body.p_squared().sqrt(), body.alpha());
-        let released = |lean: f64| ElasticTrial::released(&model, lean * alpha, RELEASE / p / SAMPLES, RELEASE / p);
+        let times = (RELEASE / p / SAMPLES, RELEASE / p);
+        let released = |lean: f64| ElasticTrial::released_within(&model, lean * alpha, times, effort);
         let releases: Vec<ElasticTrialOutcome> = LEANS.par_iter().with_max_len(1).map(|lean| released(*lean)).collect();
         let motion = |i: usize| match i % 2 {
             0 => synthetic::record(SEED, i / 2, p, alpha),
             _ => synthetic::earthquake(SEED, i / 2, p),
         };
-        let shaken = (0..LOOKED_AT).into_par_iter().with_max_len(1).map(|i| ElasticTrial::shaken(&model, &motion(i)));
-        let motions: Vec<ElasticTrialOutcome> = shaken.collect();
+        let shaken = |i: usize| ElasticTrial::shaken_within(&model, &motion(i), effort);
+        let motions: Vec<ElasticTrialOutcome> = (0..LOOKED_AT).into_par_iter().with_max_len(1).map(shaken).collect();
         let record = record.map(|(record, reference)| ElasticTrial::beside(&model, record, reference));
-        let all = releases.iter().chain(&motions).chain(&record);
-        let ill_conditioned = all.filter(|found| matches!(found, ElasticTrialOutcome::IllConditioned)).count();
+        let all = || releases.iter().chain(&motions).chain(&record);
+        let ill_conditioned = all().filter(|found| matches!(found, ElasticTrialOutcome::IllConditioned)).count();
+        let out_of_work = all().filter(|found| matches!(found, ElasticTrialOutcome::OutOfWork)).count();
         let trials = |found: Vec<ElasticTrialOutcome>, most| {
             found.into_iter().filter_map(ElasticTrialOutcome::trial).take(most).collect()
         };
@@ -174,6 +186,7 @@ impl ElasticSuite {
             motions: trials(motions, MOTIONS),
             record: record.and_then(ElasticTrialOutcome::trial),
             ill_conditioned,
+            out_of_work,
             forces: None,
             model,
         }
@@ -186,22 +199,37 @@ impl ElasticSuite {
     }
 
     /// The errors of springs; on the record, which is followed to where it grows a change the most, with steps as close as the answer's.
+    #[cfg(feature = "internals")] // for tests
     pub fn measure(&self, springs: &CornerSprings, control: Control) -> Measured {
+        self.measure_within(springs, (control, &Effort::unbounded()))
+    }
+
+    /// The same, its work counted; of no worth if it is stopped from outside meanwhile.
+    pub fn measure_within(&self, springs: &CornerSprings, (control, effort): (Control, &Effort)) -> Measured {
         Measured {
-            releases: self.errors(&self.releases, springs, control),
-            motions: self.errors(&self.motions, springs, control),
+            releases: self.errors(&self.releases, springs, (control, effort)),
+            motions: self.errors(&self.motions, springs, (control, effort)),
             ill_conditioned: self.ill_conditioned,
-            ..self.measure_record(springs)
+            ..self.measure_record(springs, effort)
         }
     }
 
     /// Those on the record alone.
-    pub fn measure_record(&self, springs: &CornerSprings) -> Measured {
-        Measured { record: self.errors(self.record.as_slice(), springs, default_control()), ..Measured::default() }
+    pub fn measure_record(&self, springs: &CornerSprings, effort: &Effort) -> Measured {
+        let record = self.errors(self.record.as_slice(), springs, (default_control(), effort));
+        Measured { record, ..Measured::default() }
     }
 
-    fn errors(&self, trials: &[ElasticTrial], springs: &CornerSprings, control: Control) -> Option<ElasticErrors> {
-        let judge = |trial: &ElasticTrial| trial.judge(&self.model, springs, self.forces.as_ref(), control);
+    fn errors(
+        &self,
+        trials: &[ElasticTrial],
+        springs: &CornerSprings,
+        (control, effort): (Control, &Effort),
+    ) -> Option<ElasticErrors> {
+        let judge = |trial: &ElasticTrial| match effort.stopped() {
+            true => Judged::LOST,
+            false => trial.judge_within(&self.model, springs, self.forces.as_ref(), (control, effort)),
+        };
         let judged: Vec<_> = trials.par_iter().with_max_len(1).map(judge).collect();
         let sorted = |i: usize| {
             let mut errors: Vec<f64> = judged.iter().map(|judged| judged.errors[i]).collect();

@@ -2,13 +2,14 @@
 
 use super::design::CornerSprings;
 use crate::{
+    effort::Effort,
     elastic::{
         answer::Reference,
         assembled::{Assembled, Sway, errors},
         design_forces::{ColumnForces, stiffer},
         fem::{ElasticAnalysis, ElasticHistory, ElasticStart},
         peaks::{StructurePeakErrors, StructurePeaks},
-        reference::{ElasticRocking, GroundAcceleration, ReferenceOutcome, TRIED},
+        reference::{ElasticRocking, GroundAcceleration, ReferenceOutcome, Stop, TRIED, step_units},
     },
     fem::Control,
     record::Record,
@@ -51,6 +52,11 @@ pub struct Judged {
     pub touches: usize,
 }
 
+impl Judged {
+    /// Of a history that was not followed.
+    pub const LOST: Self = Self { errors: [f64::INFINITY; 2], peaks: StructurePeakErrors::LOST, touches: 0 };
+}
+
 /// What a motion comes to.
 #[derive(Clone, Debug)]
 pub enum ElasticTrialOutcome {
@@ -58,8 +64,24 @@ pub enum ElasticTrialOutcome {
     Trial(ElasticTrial),
     /// It does not lift the structure, or overturns it, or cannot be followed.
     Unfit,
+    /// Its reference met the bound on its work.
+    OutOfWork,
     /// Its reference cannot be predicted for long enough.
     IllConditioned,
+}
+
+/// A history of the reference may take one in so many of all units.
+const TRIALS: u64 = 90;
+/// Histories of a reference that is tried on: itself and two perturbed ones.
+const TOLD_BY: u64 = 3;
+
+fn count(history: &ElasticRocking, effort: &Effort) {
+    let coordinates = history.q.first().map_or(0, |q| q.len());
+    effort.spend(TOLD_BY * history.tried as u64 * step_units(coordinates));
+}
+
+fn out_of_work(history: &ElasticRocking) -> bool {
+    matches!(history.outcome, ReferenceOutcome::Stopped { why: Stop::Work | Stop::Events, .. })
 }
 
 impl ElasticTrialOutcome {
@@ -71,29 +93,66 @@ impl ElasticTrialOutcome {
 
 impl ElasticTrial {
     /// Let go from a lean.
+    #[cfg(feature = "internals")] // for tests
     pub fn released(model: &Assembled, lean: f64, dt: f64, duration: f64) -> ElasticTrialOutcome {
+        Self::released_within(model, lean, (dt, duration), &Effort::unbounded())
+    }
+
+    /// The same, its work counted.
+    pub fn released_within(
+        model: &Assembled,
+        lean: f64,
+        (dt, duration): (f64, f64),
+        effort: &Effort,
+    ) -> ElasticTrialOutcome {
         let still = vec![0.0; (duration / dt).ceil() as usize + 1];
         let Some(q) = model.leaning(lean) else { return ElasticTrialOutcome::Unfit };
         let ground = GroundAcceleration::horizontal(dt, &still);
-        let history = model.rock(ground, &q);
+        let history = model.rock(ground, &q, effort.part(TRIALS));
+        count(&history, effort);
         let foretold = || model.foretold(ground, &q, &history, TRIED);
         Self::found(model, ground, Some(lean), &history, foretold)
     }
 
     /// From rest through a record.
+    #[cfg(feature = "internals")] // for tests
     pub fn shaken(model: &Assembled, record: &Record) -> ElasticTrialOutcome {
+        Self::shaken_within(model, record, &Effort::unbounded())
+    }
+
+    /// The same, its work counted; unfit once it is stopped from outside.
+    pub fn shaken_within(model: &Assembled, record: &Record, effort: &Effort) -> ElasticTrialOutcome {
         let Ok(q) = model.upright() else { return ElasticTrialOutcome::Unfit };
         let (accel, up) = (&record.accel, record.up());
         let mut samples = accel.len().div_ceil(PARTS);
+        let mut shorter: Option<(usize, ElasticRocking, usize)> = None;
         loop {
             let (accel, vertical) = (&accel[..samples], &up[..samples.min(up.len())]);
             let ground = GroundAcceleration { dt: record.dt, accel, vertical };
-            let history = model.rock(ground, &q);
+            if effort.stopped() {
+                return ElasticTrialOutcome::Unfit;
+            }
+            let history = model.rock(ground, &q, effort.part(TRIALS));
+            count(&history, effort);
+            if out_of_work(&history) {
+                // the part before is there
+                let before = shorter.map(|(samples, history, foretold)| {
+                    let ground = GroundAcceleration {
+                        dt: record.dt,
+                        accel: &record.accel[..samples],
+                        vertical: &up[..samples.min(up.len())],
+                    };
+                    Self::found(model, ground, None, &history, || foretold)
+                });
+                let before = before.filter(|found| matches!(found, ElasticTrialOutcome::Trial(_)));
+                return before.unwrap_or(ElasticTrialOutcome::OutOfWork);
+            }
             let foretold = model.foretold(ground, &q, &history, TRIED);
             // what comes after it need not be known
             if foretold < samples && history.landings().next().is_some() || samples == record.accel.len() {
                 return Self::found(model, ground, None, &history, || foretold);
             }
+            shorter = Some((samples, history, foretold));
             samples = (2 * samples).min(record.accel.len());
         }
     }
@@ -111,6 +170,9 @@ impl ElasticTrial {
         history: &ElasticRocking,
         foretold: impl FnOnce() -> usize,
     ) -> ElasticTrialOutcome {
+        if out_of_work(history) {
+            return ElasticTrialOutcome::OutOfWork;
+        }
         if history.outcome != ReferenceOutcome::Completed || history.landings().next().is_none() {
             return ElasticTrialOutcome::Unfit;
         }
@@ -158,6 +220,7 @@ impl ElasticTrial {
 
     /// The errors on springs; infinite where their history does not get as far as the reference.
     /// Those of forces, if asked for, beside springs at 4 Omega_n.
+    #[cfg(feature = "internals")] // for tests
     pub fn judge(
         &self,
         model: &Assembled,
@@ -165,18 +228,31 @@ impl ElasticTrial {
         forces: Option<&ColumnForces>,
         control: Control,
     ) -> Judged {
+        self.judge_within(model, springs, forces, (control, &Effort::unbounded()))
+    }
+
+    /// The same, its work counted.
+    pub fn judge_within(
+        &self,
+        model: &Assembled,
+        springs: &CornerSprings,
+        forces: Option<&ColumnForces>,
+        (control, effort): (Control, &Effort),
+    ) -> Judged {
         let lost = forces.map(|_| f64::INFINITY);
         let parts = forces.map_or(0, |forces| forces.parts(self.dt));
         let Some(history) = self.follow(model, &springs.corners, control, parts) else {
             let peaks = StructurePeakErrors { design_forces: lost, ..StructurePeakErrors::LOST };
             return Judged { errors: [f64::INFINITY; 2], peaks, touches: 0 };
         };
+        history.spend(effort);
         let touches = history.contacts.iter().filter(|contact| contact.touches).count();
         let sways = model.sways(history.q.iter().map(Vec::as_slice));
         let errors = errors(&self.reference, &sways, self.accel.len());
         let design_forces = || {
             let forces = forces?;
             let other = self.follow(model, &stiffer(&springs.corners), control, parts);
+            other.iter().for_each(|other| other.spend(effort));
             match other.filter(|other| other.q.len() == history.q.len()) {
                 Some(other) => forces.peaks(&history).error(&forces.peaks(&other)),
                 None => lost,

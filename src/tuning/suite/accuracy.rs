@@ -114,6 +114,11 @@ impl MeasuredErrors {
         }
     }
 
+    /// Whether anything was measured by a yardstick.
+    pub fn measured(&self, yardstick: Yardstick) -> bool {
+        JudgedOn::ALL.iter().any(|suite| self.by(yardstick).over_on(*suite, 1.0).is_some())
+    }
+
     /// Whether what is asked for is reached ([`Accuracy::reaches`]).
     pub fn reaches(&self, asked: Asked) -> bool {
         self.by(asked.by).reaches(asked.error)

@@ -10,6 +10,7 @@
 use std::ops::ControlFlow;
 
 use crate::{
+    effort::Effort,
     fem::{Analysis, Change, Control, HistoryOutcome, Observer, Start, View, energy_on_one_foot},
     housner,
     scalar::{Scalar, real},
@@ -88,7 +89,12 @@ impl Release {
     }
 
     /// Release the body on these springs; `None` unless the run finished.
-    pub fn run<S: Scalar>(&self, body: &Body<S>, chains: &Springs<Chain<S>>, control: Control) -> Option<Left<S>> {
+    pub fn run<S: Scalar>(
+        &self,
+        body: &Body<S>,
+        chains: &Springs<Chain<S>>,
+        (control, effort): (Control, &Effort),
+    ) -> Option<Left<S>> {
         let quiet = vec![0.0; self.samples];
         let mut flight = LandingWatch { release: self, since: None, air: S::zero(), growing: S::zero() };
         let case = Analysis {
@@ -102,6 +108,7 @@ impl Release {
             control,
         };
         let finish = case.observe(&mut flight);
+        finish.spend(effort);
         if finish.outcome != HistoryOutcome::Completed {
             return None;
         }

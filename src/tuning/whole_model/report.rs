@@ -17,6 +17,7 @@ use super::{
     landing::{Left, Release, next_peak, quarter},
 };
 use crate::{
+    effort::Effort,
     fem::{Analysis, Change, Control, Observer, Start, View},
     scalar::GRAVITY,
     spring::{Chain, Springs},
@@ -52,7 +53,8 @@ pub fn landings(body: &Body<f64>, chains: &Springs<Chain<f64>>, restitution: f64
 
 fn landing(body: &Body<f64>, chains: &Springs<Chain<f64>>, restitution: f64, lean: f64) -> Option<LandingRow> {
     let control = Control::default();
-    let Left { kept, air: air_s, .. } = Release::new(body, restitution, lean).run(body, chains, control)?;
+    let uncounted = (control, &Effort::unbounded());
+    let Left { kept, air: air_s, .. } = Release::new(body, restitution, lean).run(body, chains, uncounted)?;
     let effective = kept.max(0.0).sqrt();
     let mut speeds = Speeds::default();
     with_next(body, chains, restitution, lean, control, |case| case.observe(&mut speeds));

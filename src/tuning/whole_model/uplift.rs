@@ -11,6 +11,7 @@
 use std::{f64::consts::PI, ops::ControlFlow};
 
 use crate::{
+    effort::Effort,
     fem::{Analysis, Control, HistoryOutcome, Start, View},
     housner,
     scalar::{GRAVITY, Scalar, real},
@@ -63,7 +64,12 @@ impl UpliftRamp {
     }
 
     /// The uplift error, in units of p R alpha / 4; infinite if the run did not finish.
-    pub fn uplift_error<S: Scalar>(&self, body: &Body<S>, chains: &Springs<Chain<S>>, control: Control) -> S {
+    pub fn uplift_error<S: Scalar>(
+        &self,
+        body: &Body<S>,
+        chains: &Springs<Chain<S>>,
+        (control, effort): (Control, &Effort),
+    ) -> S {
         let end = self.accel.len() - 1;
         let (mut from, mut to) = (S::zero(), S::zero());
         let mut observer = |i: usize, view: &View<S>| {
@@ -84,7 +90,9 @@ impl UpliftRamp {
             scale: S::one(),
             control,
         };
-        if case.observe(&mut observer).outcome != HistoryOutcome::Completed {
+        let finish = case.observe(&mut observer);
+        finish.spend(effort);
+        if finish.outcome != HistoryOutcome::Completed {
             return real(f64::INFINITY);
         }
         let p = body.p_squared().sqrt();

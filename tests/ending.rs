@@ -1,0 +1,166 @@
+//! Every job ends: by the bound on work, the same bytes on any number of threads; by a time limit
+//! and ^C, and it is marked.
+
+use std::{
+    path::Path,
+    process::{Command, Output},
+};
+
+use groundspring::{
+    case::Case,
+    record::Record,
+    tuning::job::{Job, JobError},
+};
+use serde_json::Value;
+
+/// Light, with the inertia of a heavy one, and another restitution than equation 2's: a search over
+/// all parameters.
+const SLOW: &str = "[structure]\nkind = 'aframe'\nheight_m = 61.0\nwidth_m = 12.2\nmass_kg = 2.0\n\
+                    rotational_inertia_kgm2 = 413464.8\nrestitution_ratio = 0.95\n\n[record]\nduration_s = 3.0\n";
+const PIER: &str = include_str!("../tuning/pier.toml");
+
+fn command(folder: &Path, arguments: &[&str]) -> Command {
+    let mut command = Command::new(env!("CARGO_BIN_EXE_tune"));
+    command.current_dir(folder).args(["run"]).args(arguments).args(["--quiet", "--no-figures", "--no-report"]);
+    command
+}
+
+fn folder_with(text: &str) -> tempfile::TempDir {
+    let folder = tempfile::tempdir().unwrap();
+    std::fs::write(folder.path().join("case.toml"), text).unwrap();
+    folder
+}
+
+fn stderr(output: &Output) -> String {
+    String::from_utf8_lossy(&output.stderr).into_owned()
+}
+
+/// What is in the folder of the results, which must be whole.
+fn parameters(folder: &Path) -> Value {
+    let out = folder.join("out");
+    let names: Vec<String> =
+        std::fs::read_dir(&out).unwrap().map(|entry| entry.unwrap().file_name().into_string().unwrap()).collect();
+    assert!(names.iter().all(|name| !name.contains("UNFINISHED")), "{names:?}");
+    serde_json::from_slice(&std::fs::read(out.join("parameters.json")).unwrap()).unwrap()
+}
+
+fn finding<'a>(parameters: &'a Value, name: &str) -> Option<&'a Value> {
+    parameters["findings"].as_array()?.iter().find(|finding| finding["finding"] == name)
+}
+
+/// The finding of a search that was cut: a warning with what was not done and what to do.
+fn cut(parameters: &Value, by: &str) {
+    let cut = finding(parameters, "search_cut").unwrap_or_else(|| panic!("{:#}", parameters["findings"]));
+    assert_eq!((cut["by"].as_str(), cut["weight"].as_str()), (Some(by), Some("warning")), "{cut}");
+    assert!(cut["message"].as_str().unwrap().contains("not done: other springs") && cut["remedy"].is_string(), "{cut}");
+}
+
+fn springs(parameters: &Value) -> f64 {
+    parameters["vertical"]["k1_n_per_m"].as_f64().unwrap()
+}
+
+#[test]
+fn a_search_that_meets_its_bound_has_the_same_bytes_on_one_thread_and_on_two() {
+    let results = ["1", "2"].map(|threads| {
+        let folder = folder_with(SLOW);
+        let mut command = command(folder.path(), &["case.toml", "--work", "0.05"]);
+        let ran = command.env("RAYON_NUM_THREADS", threads).output().unwrap();
+        assert!(ran.status.success(), "{}", stderr(&ran));
+        let parameters = parameters(folder.path());
+        cut(&parameters, "work");
+        assert!(springs(&parameters) > 0.0);
+        let files = ["parameters.json", "history.csv", "members.csv", "decks/model_openseespy.py"];
+        let bytes = files.map(|name| std::fs::read(folder.path().join("out").join(name)).unwrap());
+        (bytes, ran.stdout)
+    });
+    assert!(results[0] == results[1]);
+}
+
+#[test]
+fn a_tiny_bound_leaves_the_best_springs_so_far_and_says_what_was_not_done() {
+    let folder = tempfile::tempdir().unwrap();
+    let ran = command(folder.path(), &["--work", "1e-9"]).output().unwrap();
+    assert!(ran.status.success(), "{}", stderr(&ran));
+    let parameters = parameters(folder.path());
+    cut(&parameters, "work");
+    // one rung, measured on all suites
+    let cut = finding(&parameters, "search_cut").unwrap();
+    assert!(cut["stiffnesses"] == 1 && cut["reached"].as_f64().unwrap() > 0.0, "{cut}");
+    assert!(String::from_utf8_lossy(&ran.stdout).contains("The bound on work ended the search after 1 stiffness"));
+    // more work, and nothing is cut
+    let ran = command(folder.path(), &["--work", "10"]).output().unwrap();
+    assert!(ran.status.success(), "{}", stderr(&ran));
+    assert!(finding(&self::parameters(folder.path()), "search_cut").is_none());
+}
+
+#[test]
+fn motions_whose_references_meet_their_bound_are_left_out_and_told() {
+    let folder = folder_with(PIER);
+    let ran = command(folder.path(), &["case.toml", "--work", "0.02", "--duration", "5"]).output().unwrap();
+    assert!(ran.status.success(), "{}", stderr(&ran));
+    let parameters = parameters(folder.path());
+    let told = finding(&parameters, "histories_unfinished").unwrap_or_else(|| panic!("{:#}", parameters["findings"]));
+    assert!(
+        told["left_out"] == true && told["histories"].as_u64().unwrap() > 0 && told["remedy"].is_string(),
+        "{told}"
+    );
+    assert_eq!(parameters["springs"].as_array().unwrap().len(), 2);
+}
+
+#[test]
+fn a_time_limit_ends_a_search_and_is_marked() {
+    for text in [SLOW, PIER, "[structure]\nkind = 'block'\nheight_m = 1.0\nwidth_m = 0.5\nmass_kg = 100.0\n"] {
+        let folder = folder_with(text);
+        let arguments = ["case.toml", "--time-limit", "0.001", "--duration", "3"];
+        let ran = command(folder.path(), &arguments).output().unwrap();
+        assert!(ran.status.success(), "{}", stderr(&ran));
+        let parameters = parameters(folder.path());
+        cut(&parameters, "time_limit");
+        assert_eq!(parameters["assessment"]["reached"], false, "{text}");
+        // what was cut is on the screen, and the springs are those of the file
+        assert!(String::from_utf8_lossy(&ran.stdout).contains("The time limit ended the search"), "{text}");
+        assert!(folder.path().join("out/decks/model_openseespy.py").exists());
+    }
+}
+
+#[cfg(unix)]
+#[test]
+fn an_interrupt_leaves_whole_results_that_are_marked_and_an_exit_code_of_its_own() {
+    use std::{os::unix::process::ExitStatusExt, process::Stdio, time::Duration};
+
+    // however slow the machine: once the program has begun
+    for wait in [0.5, 2.0, 8.0, 30.0] {
+        let folder = folder_with(SLOW);
+        let mut command = command(folder.path(), &["case.toml", "--work", "1e6"]);
+        let child = command.stdout(Stdio::null()).stderr(Stdio::piped()).spawn().unwrap();
+        std::thread::sleep(Duration::from_secs_f64(wait));
+        assert!(Command::new("kill").args(["-INT", &child.id().to_string()]).status().unwrap().success());
+        let ended = child.wait_with_output().unwrap();
+        if ended.status.signal().is_some() {
+            // it had not begun: nothing is there
+            assert!(!folder.path().join("out").exists());
+            continue;
+        }
+        assert_eq!(ended.status.code(), Some(130), "{}", stderr(&ended));
+        assert!(stderr(&ended).contains("error: ^C ended the search; out has the best springs so far"));
+        cut(&parameters(folder.path()), "interrupt");
+        return;
+    }
+    panic!("it never began");
+}
+
+#[test]
+fn what_is_out_of_reach_is_refused_early_with_the_reason() {
+    let mut case = Case::paper().unwrap();
+    let record = Record::new("long", 0.01, vec![0.1; 2_000_002]).unwrap();
+    (case.record, case.duration_s) = (record, f64::INFINITY);
+    let refused = Job::new(&case, &|_, _, _| ()).unwrap_err();
+    assert!(matches!(refused, JobError::OutOfReach { steps: 2_000_001, most: 2_000_000, .. }), "{refused}");
+
+    let folder = folder_with(PIER);
+    let ran = command(folder.path(), &["case.toml", "--work", "1e-4"]).output().unwrap();
+    let said = stderr(&ran);
+    assert_eq!(ran.status.code(), Some(2), "{said}");
+    assert!(said.trim_end().lines().count() == 1 && said.contains("out of reach") && said.contains("--work"), "{said}");
+    assert!(!folder.path().join("out").exists());
+}
