@@ -126,6 +126,7 @@ impl Effort {
     }
 
     /// One in so many of all units, spent or not: the bound of a history.
+    #[cfg(any(feature = "cli", feature = "internals"))] // of elastic structures
     pub fn part(&self, parts: u64) -> u64 {
         self.most / parts
     }
