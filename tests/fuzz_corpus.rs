@@ -9,7 +9,10 @@ use rayon::prelude::*;
 #[path = "../fuzz/checks.rs"]
 mod checks;
 
-fn replay(target: &str, check: fn(&[u8])) {
+/// Of what must hold of any bytes.
+type Check = fn(&[u8]);
+
+fn replay(target: &str, check: Check) {
     let folder = Path::new(env!("CARGO_MANIFEST_DIR")).join("fuzz/corpus").join(target);
     let mut files: Vec<_> = fs::read_dir(&folder).unwrap().map(|entry| entry.unwrap().path()).collect();
     files.sort();
@@ -40,7 +43,7 @@ fn any_text_is_a_parameter_file_that_runs_or_an_error_of_one_line() {
 /// fuzz_corpus mutated -- --nocapture` tries more of them, `MUTATED_SEED=7` that one alone.
 #[test]
 fn mutated_and_random_inputs_are_read_or_refused_in_one_line() {
-    let targets: [(&str, fn(&[u8])); 3] =
+    let targets: [(&str, Check); 3] =
         [("record", checks::record), ("case", checks::case), ("parameters", checks::parameters)];
     let corpora: Vec<Vec<Vec<u8>>> = targets.iter().map(|(target, _)| corpus(target)).collect();
     let number = |name: &str| std::env::var(name).ok().map(|text| text.parse::<u64>().unwrap());

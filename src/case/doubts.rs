@@ -22,6 +22,8 @@ pub enum Doubt {
     TotalHeight { key: &'static str, height: f64, unit: &'static str },
     /// A mean density of no material.
     Density { kg_per_m3: f64, mass_kg: f64, box_m: [f64; 3], least: f64, most: f64 },
+    /// A block so light that its mass may be in tonnes.
+    Tonnes { mass: f64, kg_per_m3: f64 },
     /// Peak ground acceleration of the part used, scaled.
     WeakMotion { pga_g: f64, least_g: f64 },
     /// A vertical component of the record's file is left out that is not small: peaks of the whole file, scaled.
@@ -36,6 +38,9 @@ const DENSITY: [f64; 2] = [5.0, 25_000.0];
 const SOLID: [f64; 2] = [1600.0, 3000.0];
 /// Below it a body is no solid: equipment, furniture, a tank [kg/m3].
 const LIGHT: f64 = 1000.0;
+/// Empty cabinets have more; steel [kg/m3].
+const LIGHTEST: f64 = 30.0;
+const HEAVIEST: f64 = 8000.0;
 /// A light body is seldom higher: it stands in a room (m).
 const ROOM_M: f64 = 2.5;
 /// Weaker ground motions are not felt (g).
@@ -58,7 +63,8 @@ impl Case {
         let body = &self.structure;
         let height = if body.kind == Kind::Block { 2.0 * body.height_m } else { body.height_m };
         let density = density(body.mass_kg, [height, body.width_m, body.width_m]);
-        total_height(body, &self.given).into_iter().chain(density).collect()
+        let height_or_tonnes = || tonnes(body).or_else(|| total_height(body, &self.given));
+        height_or_tonnes().into_iter().chain(density).collect()
     }
 }
 
@@ -95,6 +101,15 @@ fn total_height(body: &Structure, given: &GivenKeys) -> Option<Doubt> {
     let above_a_room = read < LIGHT && total > ROOM_M && body.height_m <= ROOM_M;
     let (height, unit) = (body.height_m / unit_of(key), key.trim_start_matches("height_"));
     (rocks && (half_is_solid || above_a_room)).then_some(Doubt::TotalHeight { key, height, unit })
+}
+
+/// Whether a block is lighter than what stands in rooms, and would not be if its mass were in tonnes.
+fn tonnes(body: &Structure) -> Option<Doubt> {
+    let kg_per_m3 = body.mass_kg / (2.0 * body.height_m * body.width_m.powi(2));
+    let doubted = (DENSITY[0]..LIGHTEST).contains(&kg_per_m3)
+        && (LIGHT..HEAVIEST).contains(&(1e3 * kg_per_m3))
+        && body.kind == Kind::Block;
+    doubted.then_some(Doubt::Tonnes { mass: body.mass_kg, kg_per_m3 })
 }
 
 fn density(mass_kg: f64, box_m: [f64; 3]) -> Option<Doubt> {
@@ -136,6 +151,9 @@ impl Doubt {
                     figures(*kg_per_m3)
                 )
             }
+            Self::Tonnes { mass, kg_per_m3 } => {
+                format!("mass_kg = {} makes a block of {} kg/m3, as deep as wide", figures(*mass), figures(*kg_per_m3))
+            }
             Self::WeakMotion { pga_g, least_g } => {
                 format!("the ground motion has a peak of {} g, below {least_g} g", figures(*pga_g))
             }
@@ -161,6 +179,7 @@ impl Doubt {
                 let height = figures(*height);
                 format!("if {height} {unit} is its total height, write total_{key} = {height}")
             }
+            Self::Tonnes { mass, .. } => format!("if it is {0} t, write mass_kg = {0}e3", figures(*mass)),
             Self::Density { .. } => "check the lengths (m), the mass (kg) and their units".to_owned(),
             Self::WeakMotion { .. } => "check the unit of the record and its scale".to_owned(),
             Self::VerticalLeftOut { .. } => {

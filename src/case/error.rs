@@ -98,6 +98,9 @@ pub(super) fn case_error(path: &str, text: &str, error: &toml::de::Error) -> Cas
 pub(crate) fn parse_error(path: &str, text: &str, error: &toml::de::Error) -> CaseError {
     let line = error.span().map_or(1, |span| text[..span.start.min(text.len())].matches('\n').count() + 1);
     let whole = error.message().lines().next().unwrap_or_default();
+    // of an unknown key where it stands: TOML may name the section's first line
+    let named = |key: &str| text.lines().position(|line| line.split_once('=').is_some_and(|(k, _)| k.trim() == key));
+    let line = unknown_key(whole).and_then(|(key, _)| named(&key)).map_or(line, |i| i + 1);
     let message = one_line(whole);
     if let Some(message) = text.lines().nth(line - 1).and_then(decimal_comma) {
         return CaseError::Parse { path: path.into(), line, message };

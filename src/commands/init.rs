@@ -13,7 +13,7 @@ use super::{CommandError, output::file_in, terminal};
 /// What the file begins with.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
 enum StructureShape {
-    /// Two legs that meet in one mass: a bridge pier, a tower
+    /// Two legs that meet in one mass: a tower, the paper's bridge pier
     #[value(name = "aframe")]
     AFrame,
     /// A solid block: a column, a cabinet, equipment

@@ -40,6 +40,8 @@ pub enum ForceKind {
     ColumnShear,
     /// At a column's base [N m].
     ColumnBaseMoment,
+    /// At a column's top, where it meets a beam [N m].
+    ColumnTopMoment,
     /// In a column at its base, or in a leg; tension positive (N).
     Axial,
     /// The largest tension there (N).
@@ -52,9 +54,10 @@ pub enum ForceKind {
 
 impl ForceKind {
     /// All of them, in the order in which they are told.
-    pub const ALL: [Self; 6] = [
+    pub const ALL: [Self; 7] = [
         Self::ColumnShear,
         Self::ColumnBaseMoment,
+        Self::ColumnTopMoment,
         Self::Axial,
         Self::AxialTension,
         Self::SoleShear,
@@ -66,6 +69,7 @@ impl ForceKind {
         match self {
             Self::ColumnShear => "column shear",
             Self::ColumnBaseMoment => "moment at column base",
+            Self::ColumnTopMoment => "moment at column top",
             Self::Axial => "axial force",
             Self::AxialTension => "tension",
             Self::SoleShear => "shear at the sole, footing included",
@@ -75,7 +79,7 @@ impl ForceKind {
 
     /// Its unit.
     pub fn unit(self) -> &'static str {
-        if self == Self::ColumnBaseMoment { "N m" } else { "N" }
+        if matches!(self, Self::ColumnBaseMoment | Self::ColumnTopMoment) { "N m" } else { "N" }
     }
 }
 
@@ -107,7 +111,7 @@ pub struct StructureForce {
     pub holds: bool,
     /// What the column's base bears at that time; none of the ground's forces.
     pub together: Option<ForcesTogether>,
-    /// Where, above the base along the column (m), of a column's shear.
+    /// Where, above the base along the column (m), of a column's shear: the middle of an element.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub above_base_m: Option<f64>,
     /// What was found, whether it holds or not, and what with another mesh and on other springs [N,
@@ -120,6 +124,9 @@ pub struct StructureForce {
     pub cutoff_hz: Option<f64>,
     /// Length of the record from its start that the peak is of (s): all of it, or as much as can be foretold.
     pub over_s: f64,
+    /// Of a force that holds over that part alone: what it is over the whole record.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub whole_record: Option<OtherForces>,
     /// The structure held to the ground, below the same cutoff.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub fixed: Option<ForcePeak>,
@@ -195,13 +202,15 @@ impl StructureForces {
                     raw: peak.raw,
                     cutoff_hz: peak.cutoff_hz,
                     over_s: seconds,
+                    whole_record: None,
                     fixed: held.get(kind).map(|peak| peak.filtered),
                     rigid: rigid.and_then(|rigid| rigid_peak(rigid, kind, record.dt)),
                 })
             };
             // a leg is hinged at its foot
             let legs = matches!(assembled.structure, ElasticStructure::AFrame(_));
-            let applies = |kind: &ForceKind| !(legs && *kind == ForceKind::ColumnBaseMoment);
+            let moments = [ForceKind::ColumnBaseMoment, ForceKind::ColumnTopMoment];
+            let applies = |kind: &ForceKind| !(legs && moments.contains(kind));
             ForceKind::ALL.into_iter().filter(applies).filter_map(force).collect()
         };
         let mut forces = over((record.len().saturating_sub(1)) as f64 * record.dt);
@@ -209,7 +218,7 @@ impl StructureForces {
         if forces.iter().any(|force| !force.holds) {
             for part in foretold_s.map(over).into_iter().flatten().filter(|part| part.holds) {
                 if let Some(whole) = forces.iter_mut().find(|whole| whole.kind == part.kind && !whole.holds) {
-                    *whole = part;
+                    *whole = StructureForce { whole_record: Some(whole.others), ..part };
                 }
             }
         }
@@ -247,7 +256,9 @@ fn rigid_peak(rigid: &RigidForces, kind: ForceKind, dt: f64) -> Option<ForcePeak
         ForceKind::ColumnShear => &rigid.shear,
         ForceKind::ColumnBaseMoment => &rigid.moment,
         ForceKind::Axial => &rigid.axial,
-        ForceKind::AxialTension | ForceKind::SoleShear | ForceKind::SoleVertical => return None,
+        ForceKind::ColumnTopMoment | ForceKind::AxialTension | ForceKind::SoleShear | ForceKind::SoleVertical => {
+            return None;
+        }
     };
     let peak = TimedPeak::of(dt, series).map(ForcePeak::from)?;
     // on the end of the column, as in the frame

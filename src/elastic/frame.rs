@@ -54,6 +54,8 @@ pub struct FrameColumn {
     pub beams: Vec<usize>,
     /// The end of its first beam that is its base.
     pub base_end: usize,
+    /// The end of its last beam that is its top.
+    pub top_end: usize,
 }
 
 /// Sine of the angle below which two beams are one straight line.
@@ -179,7 +181,7 @@ impl Frame {
                 beams.push(next);
                 end = 1 - begins;
             }
-            Some(FrameColumn { beams, base_end })
+            Some(FrameColumn { beams, base_end, top_end: end })
         };
         self.elements.iter().enumerate().filter_map(of).collect()
     }

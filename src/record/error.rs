@@ -74,7 +74,7 @@ pub enum RecordError {
     #[error("{record}: sample {index} (counted from 0) is {value:?}; every sample must be a finite number")]
     BadSample { record: String, index: usize, value: f64 },
     #[error(
-        "{record}: the peak is {shown:.4} g, above 50 g; the unit is probably wrong: numbers in cm/s2 need --units cm/s2, in m/s2 --units m/s2",
+        "{record}: the peak is {shown:.4} g, above 50 g; the unit or the scale is probably wrong: numbers in cm/s2 need --units cm/s2, in m/s2 --units m/s2",
         shown = .pga_g.min(1e9)
     )]
     HugePeak { record: String, pga_g: f64 },

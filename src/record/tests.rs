@@ -98,7 +98,7 @@ fn every_damage_is_an_error_of_one_line_with_place_and_remedy() {
             "speaks of displacement",
         ),
         ("a.at2", at2.replace("UNITS OF G", "SOMETHING"), "pass --units"),
-        ("a.at2", at2.replace(".3", "341.7"), "above 50 g; the unit is probably wrong"),
+        ("a.at2", at2.replace(".3", "341.7"), "above 50 g; the unit or the scale is probably wrong"),
         ("a.at2", at2.replace('T', "\0"), "not a text file (byte 0 is 0x00)"),
         ("a.at2", String::new(), "holds no samples"),
         ("a.csv", " \n \n".into(), "holds no samples"),

@@ -10,7 +10,7 @@ use crate::{
 type PeakRow = (&'static str, fn(&Peaks) -> Option<f64>, fn(f64) -> String);
 
 /// The row of what feet move.
-const MOVED: &str = "  by feet moved";
+const MOVED: &str = "  by landing elsewhere";
 /// Share of the top's displacement below which it is not said.
 const NOT_SAID: f64 = 0.02;
 

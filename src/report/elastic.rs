@@ -29,6 +29,10 @@ use springs::{alone, springs_findings};
 /// Part of the weight below which the ground's force tells nothing of friction: the structure all but flies.
 const LEAST_PRESS: f64 = 0.05;
 
+/// Share of the largest moment at the base below which that at the top is not said: a mass on a
+/// hinge.
+const LEAST_TOP_MOMENT: f64 = 0.01;
+
 /// Share of the largest axial force below which a tension is not said.
 const LEAST_TENSION: f64 = 0.01;
 
@@ -147,6 +151,7 @@ impl ElasticParts<'_> {
         all.extend(self.vertical_left_out());
         all.extend(doubts(self.case.doubts()));
         all.extend(springs_findings(parameters));
+        all.extend(parameters.design_forces.iter().filter_map(|forces| forces.held_in_part()));
         all.extend(parameters.design_forces.iter().flat_map(|forces| forces.withheld()));
         all.extend(judged::elastic(self.assembled, &self.answer.histories, self.record));
         all
@@ -277,6 +282,8 @@ pub fn design_forces(structure: &ElasticStructure, of: &StructureForces) -> Desi
             rigid: force.rigid.map(|peak| peak.value),
             together: force.together,
             above_base_m: force.above_base_m,
+            over_s: force.whole_record.map(|_| force.over_s),
+            whole_record: force.whole_record,
             others: Some(force.others),
         })
     };
@@ -285,6 +292,9 @@ pub fn design_forces(structure: &ElasticStructure, of: &StructureForces) -> Desi
     let found = |force: DesignForce| force.others.map_or(0.0, |others| others.found.abs());
     let most = axial_n.map_or(0.0, found);
     let axial_tension_n = force(ForceKind::AxialTension).filter(|tension| found(*tension) > LEAST_TENSION * most);
+    let base_moment = force(ForceKind::ColumnBaseMoment).map_or(0.0, found);
+    let column_top_moment_nm =
+        force(ForceKind::ColumnTopMoment).filter(|top| found(*top) > LEAST_TOP_MOMENT * base_moment);
     // a leg has no mass and a hinge at its foot
     let apex_moment_nm = match structure {
         ElasticStructure::AFrame(frame) => column_shear_n.map(|shear| shear.times(frame.leg_length())),
@@ -294,6 +304,7 @@ pub fn design_forces(structure: &ElasticStructure, of: &StructureForces) -> Desi
         below_hz: of.cutoff.as_ref().map(|cutoff| cutoff.cutoff_hz),
         column_shear_n,
         column_base_moment_nm: force(ForceKind::ColumnBaseMoment),
+        column_top_moment_nm,
         axial_n,
         axial_tension_n,
         apex_moment_nm,

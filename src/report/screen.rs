@@ -3,14 +3,17 @@
 use super::{Run, Table, height, peak_table, sentence};
 use crate::{
     message::{percent, quantity, shortened, significant},
-    results::{DesignForce, DesignForces, ForceName, Weight},
+    results::{DesignForce, DesignForces, FiledFinding, Finding, ForceName, Weight},
 };
 
 /// Lines of a screen, and letters of a line.
 pub const LINES: usize = 30;
 pub const WIDTH: usize = 98;
-/// Lines that one warning may take.
+/// Lines that one warning may take, and on a crowded screen.
 const LONGEST_WARNING: usize = 3;
+const LONGEST_OF_MANY: usize = 2;
+/// Lines of the design forces.
+const MOST_FORCE_LINES: usize = 3;
 
 /// Letters of a file's name in the line of the record.
 const LONGEST_NAME: usize = 48;
@@ -110,21 +113,38 @@ fn taken(run: &Run, written: &Written, lines: &mut Vec<String>) {
 fn forces(run: &Run, lines: &mut Vec<String>) {
     let Some(forces) = &run.design_forces else { return };
     let below = forces.below_hz.map_or(String::new(), |hz| format!(" (below {} Hz)", significant(hz, 3)));
-    at_most(3, lines, &format!("design forces{below}  "), &force_words(forces));
+    let name = format!("design forces{below}  ");
+    let all = force_words(forces);
+    // as many as three lines hold
+    for shown in (1..=all.len()).rev() {
+        let rest = if shown < all.len() { "; more in the report" } else { "" };
+        let mut some = Vec::new();
+        wrap(&mut some, &name, &(all[..shown].join("; ") + rest));
+        if some.len() <= MOST_FORCE_LINES || shown == 1 {
+            lines.extend(some);
+            break;
+        }
+    }
 }
 
-/// The forces in one line; those withheld are named.
-pub fn force_words(forces: &DesignForces) -> String {
+/// The forces in words; those withheld are named.
+fn force_words(forces: &DesignForces) -> Vec<String> {
     let cell = |(name, force): (ForceName, DesignForce)| match force.value {
-        Some(value) => format!("{} {}{}", name.words(), quantity(value.abs(), name.unit()), height(&force)),
-        None => match force.change {
-            Some(change) => format!("{} withheld: changes by {} with springs or mesh", name.words(), percent(change)),
-            None => format!("{} withheld", name.words()),
+        Some(value) => {
+            let part = force.over_s.map_or(String::new(), |over| format!(" (to {} s)", significant(over, 3)));
+            format!("{} {}{}{part}", name.words(), quantity(value.abs(), name.unit()), height(&force))
+        }
+        None => match (force.others.and_then(|others| others.range()), force.change) {
+            (Some([low, high]), _) => {
+                let [low, high] = [low, high].map(|x| quantity(x, name.unit()));
+                format!("{} withheld: {low} to {high} with springs and mesh", name.words())
+            }
+            (None, Some(change)) => format!("{} withheld: changes by {} on springs", name.words(), percent(change)),
+            (None, None) => format!("{} withheld", name.words()),
         },
     };
     // the report has the vertical force, too
-    let all: Vec<String> = forces.all().filter(|(name, _)| *name != ForceName::SoleVertical).map(cell).collect();
-    all.join("; ")
+    forces.all().filter(|(name, _)| *name != ForceName::SoleVertical).map(cell).collect()
 }
 
 fn springs(run: &Run, lines: &mut Vec<String>) {
@@ -163,20 +183,40 @@ fn next(written: &Written, lines: &mut Vec<String>) {
     }
 }
 
+/// What changes a design the most is told first.
+fn urgency(finding: &Finding) -> usize {
+    match finding {
+        Finding::Doubt { .. } => 0,
+        Finding::VerticalLeftOut { .. } => 1,
+        Finding::ForcesHeldInPart { .. } => 2,
+        _ => 3,
+    }
+}
+
 fn warnings(run: &Run, written: &Written, lines: &mut Vec<String>) {
-    let all: Vec<_> = run.remarks().filter(|finding| finding.weight >= Weight::Warning).collect();
+    let mut all: Vec<_> = run.remarks().filter(|finding| finding.weight >= Weight::Warning).collect();
+    all.sort_by_key(|filed| (std::cmp::Reverse(filed.weight), urgency(&filed.finding)));
+    let words = |filed: &FiledFinding| {
+        let remedy = filed.remedy.as_ref().map_or(String::new(), |remedy| format!(" {}", sentence(remedy)));
+        format!("{}{remedy}", sentence(&filed.message))
+    };
+    let taken = |filed: &&FiledFinding| {
+        let mut some = Vec::new();
+        at_most(LONGEST_WARNING, &mut some, "warning   ", &words(filed));
+        some.len()
+    };
+    let room = LINES.saturating_sub(lines.len());
+    let longest = if all.iter().map(taken).sum::<usize>() > room { LONGEST_OF_MANY } else { LONGEST_WARNING };
     let place = if written.report { "report.html" } else { "parameters.json" };
     let mut told = 0;
     for finding in &all {
         // a line is kept for those that do not fit, if there is more than one
         let room = LINES.saturating_sub(lines.len());
-        let rest = usize::from(told + 1 < all.len() && room > 1);
-        if room == rest {
+        let rest = usize::from(told + 1 < all.len());
+        if room <= rest {
             break;
         }
-        let remedy = finding.remedy.as_ref().map_or(String::new(), |remedy| format!(" {}", sentence(remedy)));
-        let text = format!("{}{remedy}", sentence(&finding.message));
-        at_most((room - rest).min(LONGEST_WARNING), lines, "warning   ", &text);
+        at_most((room - rest).min(longest), lines, "warning   ", &words(finding));
         told += 1;
     }
     let more = all.len() - told;

@@ -51,6 +51,7 @@ pub enum Ending {
 pub enum ForceName {
     ColumnShear,
     ColumnBaseMoment,
+    ColumnTopMoment,
     Axial,
     AxialTension,
     ApexMoment,
@@ -64,6 +65,7 @@ impl ForceName {
         match self {
             Self::ColumnShear => "column shear",
             Self::ColumnBaseMoment => "moment at column base",
+            Self::ColumnTopMoment => "moment at column top",
             Self::Axial => "axial force",
             Self::AxialTension => "tension",
             Self::ApexMoment => "moment at the apex",
@@ -161,6 +163,10 @@ pub enum Finding {
         force: ForceName,
         change: Option<f64>,
     },
+    ForcesHeldInPart {
+        over_s: f64,
+        changes: Vec<PeakChange>,
+    },
     /// What was cut, after how many stiffnesses, and the error that was reached of what was asked
     /// for.
     SearchCut {
@@ -210,8 +216,11 @@ pub enum Finding {
         changes: Vec<PeakChange>,
     },
     // what was taken
+    // a filed finding has a message and a remedy already
     Doubt {
+        #[serde(rename = "doubt")]
         message: String,
+        #[serde(rename = "advice")]
         remedy: String,
     },
     // what `tune verify` judges of the deck
@@ -322,59 +331,4 @@ impl Finding {
 }
 
 #[cfg(test)]
-mod tests {
-    use super::*;
-
-    #[test]
-    fn a_finding_is_filed_with_its_quantities_and_read_back() {
-        let finding = Finding::Sliding { needed: 0.61, time_s: Some(3.25), available: 0.5 };
-        let filed = FiledFinding::from(finding.clone());
-        let json = serde_json::to_value(&filed).unwrap();
-        assert_eq!(json["finding"], "sliding");
-        assert_eq!(json["needed"], 0.61);
-        assert_eq!(json["weight"], "warning");
-        assert_eq!(json["message"], "the feet would slide: friction of 0.61 is needed at t = 3.25 s, 0.5 is available");
-        assert_eq!(serde_json::from_value::<FiledFinding>(json).unwrap(), filed);
-        assert_eq!(filed.finding, finding);
-    }
-
-    #[test]
-    fn answers_come_first_and_faults_weigh_most() {
-        assert!(Weight::Answer < Weight::Note && Weight::Warning < Weight::Fault);
-        let fault = Finding::AccuracyMissed { asked: 0.002, capped: true };
-        assert_eq!((fault.weight(), fault.remedy().unwrap().as_str()), (Weight::Fault, "raise or drop --max-hz"));
-        assert!(fault.message().contains("NRMSE 0.002"));
-    }
-
-    #[test]
-    fn a_force_that_comes_after_what_can_be_foretold_makes_a_warning_of_it() {
-        let of = |later_forces: Vec<ForceName>| Finding::ForetoldUpTo { time_s: 9.0, softer_hz: None, later_forces };
-        assert_eq!((of(Vec::new()).weight(), of(Vec::new()).remedy()), (Weight::Note, None));
-        let two = of(vec![ForceName::ColumnShear, ForceName::Axial]);
-        assert_eq!(two.weight(), Weight::Warning);
-        assert!(two.message().ends_with("; column shear and axial force are largest after that"), "{}", two.message());
-        assert!(two.remedy().unwrap().starts_with("design with several records"));
-    }
-
-    #[test]
-    fn what_was_left_out_is_told_with_what_it_would_change() {
-        let change = |quantity: &str, without: f64, with: f64| PeakChange {
-            quantity: quantity.into(),
-            unit: "N m".into(),
-            without,
-            with,
-        };
-        // those that change the most, two of them
-        let changes = vec![
-            change("moment at the apex", 10e6, 10.1e6),
-            change("moment at column base", 10.8e6, 20.9e6),
-            change("another moment", 6e6, 2e6),
-        ];
-        let finding = Finding::VerticalLeftOut { vertical_g: 1.84, horizontal_g: 0.99, changes };
-        assert_eq!(
-            finding.message(),
-            "vertical motion of 1.84 g beside 0.99 g is left out; with it another moment 2 MN m instead of 6 MN m, \
-             moment at column base 20.9 MN m instead of 10.8 MN m"
-        );
-    }
-}
+mod tests;

@@ -2,7 +2,7 @@
 
 use serde::{Deserialize, Serialize};
 
-use super::{Finding, ForceName};
+use super::{Finding, ForceName, PeakChange};
 
 /// A largest force, and whether it is the structure's.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
@@ -35,6 +35,13 @@ pub struct DesignForce {
     /// What it is with another mesh and on other springs, of an elastic structure.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub others: Option<OtherForces>,
+    /// Length of the record from its start over which it is the largest and holds (s), where it does
+    /// not hold over all of it.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub over_s: Option<f64>,
+    /// What it is over the whole record then.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub whole_record: Option<OtherForces>,
 }
 
 /// Forces of a column's base at one time, with their signs: what acts together. Axial force is positive
@@ -72,6 +79,14 @@ impl OtherForces {
         by_elements.max(self.change_by(self.softer)).max(self.change_by(self.stiffer))
     }
 
+    /// The least and the largest magnitude of all of them; none where a motion says nothing.
+    pub fn range(&self) -> Option<[f64; 2]> {
+        let others = [Some(self.found), self.doubled_elements.or(Some(self.found)), self.softer, self.stiffer];
+        let all: Option<Vec<f64>> = others.into_iter().map(|x| x.map(f64::abs)).collect();
+        let least_and_most = |[low, high]: [f64; 2], x: f64| [low.min(x), high.max(x)];
+        all.map(|all| all.into_iter().fold([f64::INFINITY, 0.0], least_and_most))
+    }
+
     /// The change of the magnitude in one of them, as a share of that found; infinite of one that
     /// says nothing.
     pub fn change_by(&self, other: Option<f64>) -> f64 {
@@ -94,6 +109,8 @@ impl DesignForce {
             together: None,
             above_base_m: None,
             others: None,
+            over_s: None,
+            whole_record: None,
         }
     }
 
@@ -101,13 +118,22 @@ impl DesignForce {
     /// hinge at its other end.
     pub fn times(self, length: f64) -> Self {
         let by = |x: Option<f64>| x.map(|x| x * length);
-        let others = self.others.map(|others| OtherForces {
+        let all = |others: OtherForces| OtherForces {
             found: others.found * length,
             doubled_elements: by(others.doubled_elements),
             softer: by(others.softer),
             stiffer: by(others.stiffer),
-        });
-        Self { value: by(self.value), raw: by(self.raw), fixed: by(self.fixed), rigid: by(self.rigid), others, ..self }
+        };
+        let (others, whole_record) = (self.others.map(all), self.whole_record.map(all));
+        Self {
+            whole_record,
+            value: by(self.value),
+            raw: by(self.raw),
+            fixed: by(self.fixed),
+            rigid: by(self.rigid),
+            others,
+            ..self
+        }
     }
 }
 
@@ -126,6 +152,9 @@ pub struct DesignForces {
     /// Moment at the foot of the column, of a rigid body about the middle of its base.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub column_base_moment_nm: Option<DesignForce>,
+    /// Moment at the top of the column of an elastic frame, where it meets the beam.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub column_top_moment_nm: Option<DesignForce>,
     /// Axial force of the column, the leg or the rigid body, tension positive.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub axial_n: Option<DesignForce>,
@@ -149,6 +178,7 @@ impl DesignForces {
         [
             (ForceName::ColumnShear, self.column_shear_n),
             (ForceName::ColumnBaseMoment, self.column_base_moment_nm),
+            (ForceName::ColumnTopMoment, self.column_top_moment_nm),
             (ForceName::Axial, self.axial_n),
             (ForceName::AxialTension, self.axial_tension_n),
             (ForceName::ApexMoment, self.apex_moment_nm),
@@ -157,6 +187,17 @@ impl DesignForces {
         ]
         .into_iter()
         .filter_map(|(name, force)| Some((name, force?)))
+    }
+
+    /// A finding of those that hold over a part of the record alone.
+    pub fn held_in_part(&self) -> Option<Finding> {
+        let part = |(name, force): (ForceName, DesignForce)| {
+            let (over_s, whole) = (force.over_s?, force.whole_record?);
+            let (quantity, unit) = (name.words().to_string(), name.unit().to_string());
+            Some((over_s, PeakChange { quantity, unit, without: force.value?.abs(), with: whole.found.abs() }))
+        };
+        let (over, changes): (Vec<f64>, Vec<PeakChange>) = self.all().filter_map(part).unzip();
+        Some(Finding::ForcesHeldInPart { over_s: over.into_iter().reduce(f64::min)?, changes })
     }
 
     /// A finding for every force that does not hold.
@@ -170,7 +211,7 @@ impl ForceName {
     /// Its unit.
     pub fn unit(self) -> &'static str {
         match self {
-            Self::ColumnBaseMoment | Self::ApexMoment => "N m",
+            Self::ColumnBaseMoment | Self::ColumnTopMoment | Self::ApexMoment => "N m",
             _ => "N",
         }
     }

@@ -152,6 +152,8 @@ impl Series {
         let [shear, axial, moment] = &column.base;
         let base = [shear, axial, moment].map(|series| self.smooth(series, cutoff_hz));
         let of = |kind, k: usize| self.peak(kind, &column.base[k], &base[k], cutoff_hz);
+        let top = &column.top_moment;
+        let at_top = self.peak(ForceKind::ColumnTopMoment, top, &self.smooth(top, cutoff_hz), cutoff_hz);
         let at_base = of(ForceKind::ColumnShear, 0).map(|peak| PeakOfForce { above_base_m: Some(0.0), ..peak });
         let above = column.above.iter().zip(&column.heights).filter_map(|(series, height)| {
             let peak = self.peak(ForceKind::ColumnShear, series, &self.smooth(series, cutoff_hz), cutoff_hz)?;
@@ -168,7 +170,8 @@ impl Series {
             above_base_m: None,
         });
         let peaks = at_base.into_iter().chain(above);
-        let peaks = peaks.chain(of(ForceKind::Axial, 1)).chain(of(ForceKind::ColumnBaseMoment, 2)).chain(tension);
+        let peaks = peaks.chain(of(ForceKind::Axial, 1)).chain(of(ForceKind::ColumnBaseMoment, 2)).chain(at_top);
+        let peaks = peaks.chain(tension);
         let together = |peak: PeakOfForce| {
             let at = (peak.filtered.time_s / self.part_s - 0.5).round().max(0.0) as usize;
             let [column_shear_n, axial_n, column_base_moment_nm] =

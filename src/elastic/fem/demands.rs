@@ -16,12 +16,6 @@ pub struct FrameDemand {
     pub bearings: Vec<BeamForces>,
 }
 
-/// What a footing gives the end of a beam that stands on it: shear across the beam's axis, axial force (tension positive), moment.
-pub(super) fn base_forces(frame: &Frame, (beam, end): (usize, usize), q: &[f64], v: &[f64]) -> [f64; 3] {
-    let BeamForces { axial, shear, moments } = frame.bearing(beam, q, v);
-    [shear, axial, moments[end]]
-}
-
 impl FrameDemand {
     pub(super) fn new(frame: &Frame) -> Self {
         Self { base_shear: 0.0, bearings: vec![BeamForces::default(); frame.beams()] }

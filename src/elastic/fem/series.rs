@@ -8,9 +8,12 @@
 //!
 //! A part's mean times its length is the impulse of the force: no landing is between two samples.
 
-use super::{demands::base_forces, run::ElasticView, step::ElasticStages};
+use super::{run::ElasticView, step::ElasticStages};
 use crate::{
-    elastic::frame::{Frame, FrameColumn},
+    elastic::{
+        beam::BeamForces,
+        frame::{Frame, FrameColumn},
+    },
     fem::radau::C,
 };
 
@@ -28,14 +31,31 @@ pub struct FineSeries {
 }
 
 /// Forces of one column.
+///
+/// ```text
+///   an element has one shear and one axial force, those of its middle: half its mass is above it
+///   axial force at the base: N_1 + (N_1 - N_2)/2, which holds the weight of the lower half, too
+/// ```
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct FineColumn {
-    /// Of its base: shear [N], axial force [N], moment [N m].
+    /// Of its base: shear of the first element [N], axial force [N], moment [N m].
     pub base: [FineSeries; BASE_FORCES],
     /// Shear of every element above the first (N).
     pub above: Vec<FineSeries>,
     /// Of the middle of each of these, above the base along the column (m).
     pub heights: Vec<f64>,
+    /// Moment at its top [N m].
+    pub top_moment: FineSeries,
+}
+
+impl FineColumn {
+    fn series(&self) -> impl Iterator<Item = &FineSeries> {
+        self.base.iter().chain(&self.above).chain([&self.top_moment])
+    }
+
+    fn series_mut(&mut self) -> impl Iterator<Item = &mut FineSeries> {
+        self.base.iter_mut().chain(&mut self.above).chain([&mut self.top_moment])
+    }
 }
 
 /// Means of forces over equal parts of the time step.
@@ -52,12 +72,11 @@ pub struct FineForces {
 impl FineForces {
     /// All series, columns first.
     pub fn series(&self) -> impl Iterator<Item = &FineSeries> {
-        self.columns.iter().flat_map(|column| column.base.iter().chain(&column.above)).chain(&self.sole)
+        self.columns.iter().flat_map(FineColumn::series).chain(&self.sole)
     }
 
     fn series_mut(&mut self) -> impl Iterator<Item = &mut FineSeries> {
-        let columns = self.columns.iter_mut().flat_map(|column| column.base.iter_mut().chain(&mut column.above));
-        columns.chain(&mut self.sole)
+        self.columns.iter_mut().flat_map(FineColumn::series_mut).chain(&mut self.sole)
     }
 }
 
@@ -87,6 +106,7 @@ impl FineRecorder {
                 base: [(); BASE_FORCES].map(|()| series()),
                 above: heights.iter().map(|_| series()).collect(),
                 heights,
+                top_moment: series(),
             }
         };
         let fine = columns.iter().map(of).collect();
@@ -101,9 +121,7 @@ impl FineRecorder {
         let (frame, free) = (model.frame, (&q[..n], &v[..n]));
         let mut out = Vec::with_capacity(self.start.len());
         for column in &self.columns {
-            let (first, above) = (column.beams[0], &column.beams[1..]);
-            out.extend(base_forces(frame, (first, column.base_end), free.0, free.1));
-            out.extend(above.iter().map(|&beam| frame.bearing(beam, free.0, free.1).shear));
+            column_forces(frame, column, free, &mut out);
         }
         let mut sole = [0.0; 2];
         for (i, foot) in view.feet.iter().enumerate() {
@@ -159,6 +177,19 @@ impl FineRecorder {
         self.forces.series_mut().for_each(|series| series.means.truncate(kept));
         self.forces
     }
+}
+
+/// A column's forces at q, q', in the order of its series.
+fn column_forces(frame: &Frame, column: &FrameColumn, (q, v): (&[f64], &[f64]), out: &mut Vec<f64>) {
+    let of = |beam: &usize| frame.bearing(*beam, q, v);
+    let elements: Vec<BeamForces> = column.beams.iter().map(of).collect();
+    let (first, last) = (elements[0], elements[elements.len() - 1]);
+    // an element alone tells no more than its middle
+    let second = elements.get(1).unwrap_or(&first);
+    let moment = first.moments[column.base_end];
+    out.extend([first.shear, first.axial + 0.5 * (first.axial - second.axial), moment]);
+    out.extend(elements[1..].iter().map(|element| element.shear));
+    out.push(last.moments[column.top_end]);
 }
 
 /// Coefficients of the integral from 0 of the cubic through values at 0, c_1, c_2, 1: of s, s^2, s^3, s^4.

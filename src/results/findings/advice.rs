@@ -51,12 +51,13 @@ impl Finding {
                 "allow more: --work 10"
             }
             Self::HistoriesUnfinished { .. } => "judge the springs by many records: tune validate",
+            Self::ForcesHeldInPart { .. } => "design for the larger, and by several records",
             Self::Sliding { .. } => "give it a shear key, or say what the ground offers: --friction",
             Self::FreeFlight { .. } => "compare up to that time only",
             Self::TooStocky { .. } => "check height and width; rely on tests for such a body",
             Self::HistoryEndsEarly { .. } => "take stiffer springs, or rotational_inertia_kgm2 above 0.002 m R^2",
             Self::SmallestSteps { .. } => "compare with OpenSees: tune verify",
-            Self::VerticalLeftOut { .. } => "--vertical auto includes it",
+            Self::VerticalLeftOut { .. } => "it is left out here; --vertical auto includes it",
             Self::Doubt { remedy, .. } => return Some(remedy.clone()),
         };
         Some(text.into())

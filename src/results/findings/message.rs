@@ -54,6 +54,7 @@ impl Finding {
             | Self::RestitutionOutOfReach { .. }
             | Self::LandingsUnfinished { .. }
             | Self::ForceWithheld { .. }
+            | Self::ForcesHeldInPart { .. }
             | Self::MembersBeside => self.springs(),
             Self::SearchCut { .. } | Self::HistoriesUnfinished { .. } | Self::NearMotionsLeftOut { .. } => {
                 self.effort()
@@ -177,6 +178,15 @@ impl Finding {
                     change.map_or("could not be checked".into(), |change| format!("changes by {}", percent(change)));
                 format!("{} is withheld: it {by} with the springs or the mesh", force.words())
             }
+            Self::ForcesHeldInPart { over_s, changes } => {
+                let later = changes.iter().map(|c| format!("{} {}", c.quantity, quantity(c.with, &c.unit)));
+                format!(
+                    "design forces are those of the first {} s: over the whole record they change by 5 % or more with \
+                     springs or mesh, and are here {}",
+                    significant(*over_s, 3),
+                    later.collect::<Vec<_>>().join(", ")
+                )
+            }
             Self::MembersBeside => {
                 "springs are tuned for the structure without its dampers, tendon and friction".into()
             }
@@ -263,16 +273,15 @@ impl Finding {
                 changes.sort_by(|a, b| ratio(b).total_cmp(&ratio(a)));
                 let changed = changes.iter().take(CHANGES_SAID).map(|c| {
                     let [with, without] = [c.with, c.without].map(|x| quantity(x, &c.unit));
-                    format!("{} {with} instead of {without}", c.quantity)
+                    format!("{} is {with}, not {without}", c.quantity)
                 });
                 let changed: Vec<String> = changed.collect();
-                let changed =
-                    if changed.is_empty() { String::new() } else { format!("; with it {}", changed.join(", ")) };
-                format!(
-                    "vertical motion of {} g beside {} g is left out{changed}",
-                    significant(*vertical_g, 3),
-                    significant(*horizontal_g, 3)
-                )
+                let [vertical, across] = [vertical_g, horizontal_g].map(|g| significant(*g, 3));
+                if changed.is_empty() {
+                    format!("vertical motion of {vertical} g beside {across} g is left out")
+                } else {
+                    format!("with vertical motion ({vertical} g beside {across} g) {}", changed.join("; "))
+                }
             }
             Self::Doubt { message, .. } => message.clone(),
             Self::DeckJudged { judged_s, record_s, end } => {

@@ -1,0 +1,75 @@
+use super::*;
+
+#[test]
+fn a_finding_is_filed_with_its_quantities_and_read_back() {
+    let finding = Finding::Sliding { needed: 0.61, time_s: Some(3.25), available: 0.5 };
+    let filed = FiledFinding::from(finding.clone());
+    let json = serde_json::to_value(&filed).unwrap();
+    assert_eq!(json["finding"], "sliding");
+    assert_eq!(json["needed"], 0.61);
+    assert_eq!(json["weight"], "warning");
+    assert_eq!(json["message"], "the feet would slide: friction of 0.61 is needed at t = 3.25 s, 0.5 is available");
+    assert_eq!(serde_json::from_value::<FiledFinding>(json).unwrap(), filed);
+    assert_eq!(filed.finding, finding);
+}
+
+#[test]
+fn a_doubt_is_filed_so_that_it_can_be_read_back() {
+    let finding = Finding::Doubt { message: "0.001 g".into(), remedy: "check the unit".into() };
+    let filed = FiledFinding::from(finding);
+    let json = serde_json::to_string(&filed).unwrap();
+    assert_eq!(json.matches("\"message\"").count(), 1, "{json}");
+    assert_eq!(serde_json::from_str::<FiledFinding>(&json).unwrap(), filed);
+}
+
+#[test]
+fn a_force_that_holds_for_a_part_of_the_record_is_told_with_what_the_whole_has() {
+    let changes = vec![PeakChange { quantity: "axial force".into(), unit: "N".into(), without: 4.9e6, with: 13.6e6 }];
+    let finding = Finding::ForcesHeldInPart { over_s: 49.42, changes };
+    assert_eq!(finding.weight(), Weight::Warning);
+    assert_eq!(
+        finding.message(),
+        "design forces are those of the first 49.4 s: over the whole record they change by 5 % or more with springs or \
+         mesh, and are here axial force 13.6 MN"
+    );
+}
+
+#[test]
+fn answers_come_first_and_faults_weigh_most() {
+    assert!(Weight::Answer < Weight::Note && Weight::Warning < Weight::Fault);
+    let fault = Finding::AccuracyMissed { asked: 0.002, capped: true };
+    assert_eq!((fault.weight(), fault.remedy().unwrap().as_str()), (Weight::Fault, "raise or drop --max-hz"));
+    assert!(fault.message().contains("NRMSE 0.002"));
+}
+
+#[test]
+fn a_force_that_comes_after_what_can_be_foretold_makes_a_warning_of_it() {
+    let of = |later_forces: Vec<ForceName>| Finding::ForetoldUpTo { time_s: 9.0, softer_hz: None, later_forces };
+    assert_eq!((of(Vec::new()).weight(), of(Vec::new()).remedy()), (Weight::Note, None));
+    let two = of(vec![ForceName::ColumnShear, ForceName::Axial]);
+    assert_eq!(two.weight(), Weight::Warning);
+    assert!(two.message().ends_with("; column shear and axial force are largest after that"), "{}", two.message());
+    assert!(two.remedy().unwrap().starts_with("design with several records"));
+}
+
+#[test]
+fn what_was_left_out_is_told_with_what_it_would_change() {
+    let change = |quantity: &str, without: f64, with: f64| PeakChange {
+        quantity: quantity.into(),
+        unit: "N m".into(),
+        without,
+        with,
+    };
+    // those that change the most, two of them
+    let changes = vec![
+        change("moment at the apex", 10e6, 10.1e6),
+        change("moment at column base", 10.8e6, 20.9e6),
+        change("another moment", 6e6, 2e6),
+    ];
+    let finding = Finding::VerticalLeftOut { vertical_g: 1.84, horizontal_g: 0.99, changes };
+    assert_eq!(
+        finding.message(),
+        "with vertical motion (1.84 g beside 0.99 g) another moment is 2 MN m, not 6 MN m; moment at column base is \
+         20.9 MN m, not 10.8 MN m"
+    );
+}
