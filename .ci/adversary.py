@@ -185,8 +185,12 @@ def output(home):
         code = subprocess.run([tune, *args], cwd=home, stdout=writer, stderr=subprocess.PIPE)
         os.close(writer)
         check(f"{args} into a closed pipe", code.returncode == 0 and b"anic" not in code.stderr, code)
-    expected = files(home / "a")
-    job = ["run", "a.toml", "--no-front", "--no-figures"]
+    # a file of several components: its reader says on stderr which one is taken
+    record = pathlib.Path(__file__).resolve().parent.parent / "tests/records/20161113_110259_WTMC_20.V2A"
+    job = ["run", "a.toml", "--record", str(record), "--duration", "2", "--no-front", "--no-figures"]
+    noticed = run(home, *job, "--out", "noticed")
+    check("a record with a notice", noticed.returncode == 0 and noticed.stderr, noticed)
+    expected = files(home / "noticed")
     for what in ["stdout", "stderr", "both"]:
         for closed in [False, True]:
             shutil.rmtree(home / "output", ignore_errors=True)
