@@ -83,9 +83,16 @@ fn foretold_samples(motion: &Motion, changed: &Motion) -> Option<usize> {
 
 /// NRMSE of u over the first samples, told against at least the motion of a body that stands (`half_width`, m).
 pub fn standing_error(u: &[f64], reference: &[f64], half_width: f64) -> f64 {
-    let rms = (reference.iter().map(|x| x * x).sum::<f64>() / reference.len().max(1) as f64).sqrt();
-    let least = STANDING * half_width;
-    nrmse(u, reference) * if rms < least { rms / least } else { 1.0 }
+    nrmse(u, reference) * standing_share(reference.iter(), half_width)
+}
+
+/// Share that an error counts by: 1 of a motion that rocks; the root mean square over a thousandth of
+/// the size (m, rad) of one that only stands.
+pub fn standing_share<'a>(motion: impl Iterator<Item = &'a f64>, size: f64) -> f64 {
+    let (sum, count) = motion.fold((0.0, 0), |(sum, count), x| (sum + x * x, count + 1));
+    let rms = (sum / count.max(1) as f64).sqrt();
+    let least = STANDING * size;
+    if rms < least { rms / least } else { 1.0 }
 }
 
 /// Sensitivity that a deck's steps are chosen by: that to the width. A history that cannot be foretold to its end has steps as asked;
@@ -125,4 +132,17 @@ pub fn simulate(parameters: &Parameters, record: &Record) -> History {
     }
     .simulate_with(&parameters.members())
     .0
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn the_error_of_a_motion_that_only_stands_counts_by_a_thousandth_of_its_size() {
+        let share = |motion: &[f64]| standing_share(motion.iter(), 0.2);
+        assert_eq!([share(&[0.01, -0.01]), share(&[])], [1.0, 0.0]);
+        assert!((share(&[1e-8, -1e-8]) / 5e-5 - 1.0).abs() < 1e-12);
+        assert!((share(&[1e-8, -1e-8, 0.0, 0.0]) / (5e-5 / 2.0_f64.sqrt()) - 1.0).abs() < 1e-12);
+    }
 }

@@ -31,7 +31,7 @@ use crate::{
 };
 pub use accuracy::{AccuracyOn, AccuracyReport};
 pub use displacements::{peak_table, summary};
-pub use markdown::height;
+pub use markdown::{force_value, height};
 pub use table::Table;
 
 /// A value the user did not give, and the key that sets it.

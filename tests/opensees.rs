@@ -85,7 +85,7 @@ fn stiff(structure: &Structure, hz: f64) -> Springs<Design<f64>> {
 /// an event in too long a step has run again, with a quarter of the error: that is why the bound is on the median. OpenSees' Tcl
 /// interpreter cannot run twice: its deck tells.
 #[test]
-#[ignore = "runs OpenSees, which cargo cannot install: .ci/run installs it and runs this test"]
+#[ignore = "needs OpenSees (pip install openseespy): cargo test --release --test opensees -- --ignored"]
 fn decks_on_stiff_springs_are_within_their_limit_in_few_steps() {
     let pier = Structure::a_frame(12.0, 2.4, 350e3).unwrap();
     let mut steps = Vec::new();
@@ -111,7 +111,7 @@ fn decks_on_stiff_springs_are_within_their_limit_in_few_steps() {
 /// Springs that the pier of 12 x 2.4 m had once: horizontally k2 is a hundredth of k1, and at its first uplift a foot chatters 70 times.
 /// OpenSees finds another history in other steps; it is refused, and said why.
 #[test]
-#[ignore = "runs OpenSees, which cargo cannot install: .ci/run installs it and runs this test"]
+#[ignore = "needs OpenSees (pip install openseespy): cargo test --release --test opensees -- --ignored"]
 fn springs_on_which_a_lifting_foot_chatters_are_refused() {
     let pier = with_inertia(&Structure::a_frame(12.0, 2.4, 350e3).unwrap());
     let springs = Springs {
@@ -146,75 +146,75 @@ fn block_of_2_m() -> Structure {
 }
 
 #[test]
-#[ignore = "runs OpenSees, which cargo cannot install: .ci/run installs it and runs this test"]
+#[ignore = "needs OpenSees (pip install openseespy): cargo test --release --test opensees -- --ignored"]
 fn the_paper_frame_on_table_1_springs_agrees() {
     agrees(&programs(), Structure::paper(), Springs::table_1());
 }
 
 #[test]
-#[ignore = "runs OpenSees, which cargo cannot install: .ci/run installs it and runs this test"]
+#[ignore = "needs OpenSees (pip install openseespy): cargo test --release --test opensees -- --ignored"]
 fn the_paper_frame_on_its_springs_of_40_hz_agrees() {
     tuned_agrees(Structure::paper(), Objective::Landing, 40.0);
 }
 
 #[test]
-#[ignore = "runs OpenSees, which cargo cannot install: .ci/run installs it and runs this test"]
+#[ignore = "needs OpenSees (pip install openseespy): cargo test --release --test opensees -- --ignored"]
 fn the_paper_frame_on_its_springs_of_160_hz_agrees() {
     tuned_agrees(Structure::paper(), Objective::Landing, 160.0);
 }
 
 #[test]
-#[ignore = "runs OpenSees, which cargo cannot install: .ci/run installs it and runs this test"]
+#[ignore = "needs OpenSees (pip install openseespy): cargo test --release --test opensees -- --ignored"]
 fn the_paper_frame_on_springs_of_40_hz_by_the_papers_procedure_agrees() {
     tuned_agrees(Structure::paper(), Objective::Arr, 40.0);
 }
 
 #[test]
-#[ignore = "runs OpenSees, which cargo cannot install: .ci/run installs it and runs this test"]
+#[ignore = "needs OpenSees (pip install openseespy): cargo test --release --test opensees -- --ignored"]
 fn the_paper_frame_on_springs_of_160_hz_by_the_papers_procedure_agrees() {
     tuned_agrees(Structure::paper(), Objective::Arr, 160.0);
 }
 
 /// On springs this soft for it a lifting foot chatters: its steps are asked for a quarter of the error, too.
 #[test]
-#[ignore = "runs OpenSees, which cargo cannot install: .ci/run installs it and runs this test"]
+#[ignore = "needs OpenSees (pip install openseespy): cargo test --release --test opensees -- --ignored"]
 fn a_frame_of_5_by_1_5_m_on_table_1_springs_agrees() {
     agrees_at(ACCURACY / 4.0, &programs(), frame_of_5_m(), Springs::table_1());
 }
 
 #[test]
-#[ignore = "runs OpenSees, which cargo cannot install: .ci/run installs it and runs this test"]
+#[ignore = "needs OpenSees (pip install openseespy): cargo test --release --test opensees -- --ignored"]
 fn a_frame_of_5_by_1_5_m_on_its_springs_of_40_hz_agrees() {
     tuned_agrees(frame_of_5_m(), Objective::Landing, 40.0);
 }
 
 #[test]
-#[ignore = "runs OpenSees, which cargo cannot install: .ci/run installs it and runs this test"]
+#[ignore = "needs OpenSees (pip install openseespy): cargo test --release --test opensees -- --ignored"]
 fn a_frame_of_5_by_1_5_m_on_its_springs_of_160_hz_agrees() {
     tuned_agrees(frame_of_5_m(), Objective::Landing, 160.0);
 }
 
 /// It topples at 6.4 s, which multiplies whatever its steps miss before: they are asked for a quarter of that.
 #[test]
-#[ignore = "runs OpenSees, which cargo cannot install: .ci/run installs it and runs this test"]
+#[ignore = "needs OpenSees (pip install openseespy): cargo test --release --test opensees -- --ignored"]
 fn a_block_of_2_by_0_5_m_on_table_1_springs_agrees() {
     agrees_at(ACCURACY / 4.0, &programs(), block_of_2_m(), Springs::table_1());
 }
 
 #[test]
-#[ignore = "runs OpenSees, which cargo cannot install: .ci/run installs it and runs this test"]
+#[ignore = "needs OpenSees (pip install openseespy): cargo test --release --test opensees -- --ignored"]
 fn a_block_of_2_by_0_5_m_on_its_springs_of_40_hz_agrees() {
     tuned_agrees(block_of_2_m(), Objective::Landing, 40.0);
 }
 
 #[test]
-#[ignore = "runs OpenSees, which cargo cannot install: .ci/run installs it and runs this test"]
+#[ignore = "needs OpenSees (pip install openseespy): cargo test --release --test opensees -- --ignored"]
 fn a_block_of_2_by_0_5_m_on_its_springs_of_160_hz_agrees() {
     tuned_agrees(block_of_2_m(), Objective::Landing, 160.0);
 }
 
 #[test]
-#[ignore = "runs OpenSees, which cargo cannot install: .ci/run installs it and runs this test"]
+#[ignore = "needs OpenSees (pip install openseespy): cargo test --release --test opensees -- --ignored"]
 fn a_block_of_2_by_0_5_m_on_springs_of_the_papers_procedure_agrees() {
     tuned_agrees(block_of_2_m(), Objective::Arr, 160.0);
 }
@@ -239,20 +239,20 @@ fn agrees_with(members: Members<f64>, duration: f64) {
 }
 
 #[test]
-#[ignore = "runs OpenSees, which cargo cannot install: .ci/run installs it and runs this test"]
+#[ignore = "needs OpenSees (pip install openseespy): cargo test --release --test opensees -- --ignored"]
 fn dampers_across_the_interface_agree() {
     agrees_with(Members { damper: Some(Damper { c: 1e6 }), ..Members::default() }, 20.0);
 }
 
 #[test]
-#[ignore = "runs OpenSees, which cargo cannot install: .ci/run installs it and runs this test"]
+#[ignore = "needs OpenSees (pip install openseespy): cargo test --release --test opensees -- --ignored"]
 fn a_post_tensioned_tendon_agrees() {
     let tendon = Some(Tendon { stiffness: 2e6, pretension: 5e5 });
     agrees_with(Members { tendon, ..Members::default() }, 20.0);
 }
 
 #[test]
-#[ignore = "runs OpenSees, which cargo cannot install: .ci/run installs it and runs this test"]
+#[ignore = "needs OpenSees (pip install openseespy): cargo test --release --test opensees -- --ignored"]
 fn dampers_and_a_tendon_agree() {
     let tendon = Some(Tendon { stiffness: 2e6, pretension: 5e5 });
     agrees_with(Members { damper: Some(Damper { c: 1e6 }), tendon, friction: None }, 20.0);
@@ -303,7 +303,7 @@ fn column(folder: &tempfile::TempDir, file: &str, name: &str) -> Vec<f64> {
 
 /// OpenSees' history of a column of two elements with a mass of its own, beside rigid ground with plastic landings: nearer on stiffer springs.
 #[test]
-#[ignore = "runs OpenSees, which cargo cannot install: .ci/run installs it and runs this test"]
+#[ignore = "needs OpenSees (pip install openseespy): cargo test --release --test opensees -- --ignored"]
 fn a_column_of_several_elements_in_opensees_converges_to_plastic_landings() {
     let column_of_two = "column_mass_kg = 40e3\nelements = 2\n\n[record]\nduration_s = 5.0\n";
     let case = include_str!("../tuning/pier.toml");
@@ -332,7 +332,7 @@ const ELASTIC_FRAME: &str = "[structure]\nkind = 'aframe'\nheight_m = 61.0\nwidt
                              foot_mass_kg = 5e3\nea_n = 6.7e10\nei_nm2 = 1.0e11\ndamping_ratio = 0.02\n";
 
 #[test]
-#[ignore = "runs OpenSees, which cargo cannot install: .ci/run installs it and runs this test"]
+#[ignore = "needs OpenSees (pip install openseespy): cargo test --release --test opensees -- --ignored"]
 fn elastic_structures_agree() {
     let python = &programs()[0];
     elastic_agrees(include_str!("../tuning/pier.toml"), &[], "5", python);
@@ -341,7 +341,7 @@ fn elastic_structures_agree() {
 
 /// The Tcl interpreter that pip installs has no damping objects: without damping it must find what Python finds.
 #[test]
-#[ignore = "runs OpenSees, which cargo cannot install: .ci/run installs it and runs this test"]
+#[ignore = "needs OpenSees (pip install openseespy): cargo test --release --test opensees -- --ignored"]
 fn an_undamped_elastic_structure_agrees_in_every_language() {
     for program in programs() {
         elastic_agrees(
@@ -355,7 +355,7 @@ fn an_undamped_elastic_structure_agrees_in_every_language() {
 
 /// Rocking piers of El Centro's first seconds, damped at their corners and tied down.
 #[test]
-#[ignore = "runs OpenSees, which cargo cannot install: .ci/run installs it and runs this test"]
+#[ignore = "needs OpenSees (pip install openseespy): cargo test --release --test opensees -- --ignored"]
 fn an_elastic_structure_with_dampers_and_a_tendon_agrees_in_every_language() {
     let pier = include_str!("../tuning/pier.toml").replace("damping_ratio = 0.02", "damping_ratio = 0.0");
     let members = "[damper]\nc_ns_per_m = 1e6\n[tendon]\nstiffness_n_per_m = 2e7\npretension_n = 1e6\n";

@@ -51,7 +51,7 @@ impl AssumedQuantity {
     /// What it is and what it was taken for, in a few words.
     pub(crate) fn words(self) -> &'static str {
         match self {
-            Self::Restitution => "restitution by equation 2",
+            Self::Restitution => "Housner's restitution (equation 2)",
             Self::SolidInertia => "inertia of a solid block",
             Self::LeastInertia => "inertia of a point mass, 1e-5 m R^2,",
             Self::FootingInertia => "inertia of a solid footing",

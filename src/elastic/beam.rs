@@ -110,6 +110,11 @@ impl Beam {
         self.length
     }
 
+    /// Mass of a length [kg/m].
+    pub fn line_mass(&self) -> f64 {
+        self.section.line_mass
+    }
+
     /// Unit vector from end a to end b, unstressed.
     pub fn axis(&self) -> [f64; 2] {
         self.direction
@@ -187,6 +192,19 @@ impl Beam {
         let d = self.deformed(y);
         let [axial, a, b] = self.forces(&d, rate);
         BeamForces { axial, shear: (a + b) / d.length, moments: [a, b] }
+    }
+
+    /// Half of its mass times the acceleration of one of its ends, across its chord (N): what the middle's
+    /// shear lacks of that of the end, if the half moves as the end does.
+    ///
+    /// `accel`: y''; `ground`: acceleration of the ground and minus that of gravity (m/s2).
+    pub fn half_inertia(&self, end: usize, [y, rate, accel]: [&[f64; 6]; 3], ground: [f64; 2]) -> f64 {
+        let [x, z] = self.direction(y);
+        let Turned { arm, slope, .. } = turned(self.arms[end], y[TURN[end]]);
+        let (turn, turning) = (rate[TURN[end]], accel[TURN[end]]);
+        let at = |k: usize| ground[k] + accel[3 * end + k] + slope[k] * turning - arm[k] * turn * turn;
+        let across = 0.5 * self.section.line_mass * self.length * (at(0) * z - at(1) * x);
+        if end == 0 { across } else { -across }
     }
 
     /// The force that its two nodes need to hold it so: the slope of its energy, and what its dashpots resist [N, N m].

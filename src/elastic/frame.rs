@@ -161,9 +161,21 @@ impl Frame {
         beam.bearing(&gather(index, q), &gather(index, v))
     }
 
+    /// What beam i's shear lacks of that of one of its ends (N): `Beam::half_inertia`.
+    pub fn half_inertia(&self, i: usize, end: usize, motion: [&[f64]; 3], ground: [f64; 2]) -> f64 {
+        let BeamElement { beam, index, .. } = &self.elements[i];
+        let [y, rate, accel] = motion.map(|x| gather(index, x));
+        beam.half_inertia(end, [&y, &rate, &accel], ground)
+    }
+
     /// Length of beam i, unstressed (m).
     pub fn length(&self, i: usize) -> f64 {
         self.elements[i].beam.length()
+    }
+
+    /// Mass of a length of beam i (kg/m).
+    pub fn line_mass(&self, i: usize) -> f64 {
+        self.elements[i].beam.line_mass()
     }
 
     /// Whether beam i's first, and its second, end is on a footing or on a node that is held.

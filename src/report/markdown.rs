@@ -101,7 +101,7 @@ fn forces(run: &Run) -> Option<Section> {
     let row = |(name, force): (ForceName, DesignForce)| {
         vec![
             format!("{}{}", name.words(), height(&force)),
-            force.value.map_or("withheld".into(), |x| quantity(x, name.unit())),
+            force_value(name, &force),
             format!("{} s", significant(force.time_s, 4)),
             force.change.map_or("not measured".into(), percent),
             cell(force.rigid, name),
@@ -128,6 +128,21 @@ fn forces(run: &Run) -> Option<Section> {
         table: Some(Table::new(head).with(forces.all().map(row))),
         ..Section::default()
     })
+}
+
+/// A force with its sign, and up to when if that is not all of the record; between what it lies if it
+/// does not hold.
+pub fn force_value(name: ForceName, force: &DesignForce) -> String {
+    let newtons = |x: f64| quantity(x, name.unit());
+    let Some(value) = force.value else {
+        return match (force.others.and_then(|others| others.range()), force.change) {
+            (Some([low, high]), _) => format!("withheld: {} to {} with springs and mesh", newtons(low), newtons(high)),
+            (None, Some(change)) => format!("withheld: changes by {} on springs", percent(change)),
+            (None, None) => "withheld".into(),
+        };
+    };
+    let part = force.over_s.map_or(String::new(), |over| format!(" (to {} s)", significant(over, 3)));
+    newtons(value) + &part
 }
 
 /// Where along the column, in words, if not at its base.
@@ -190,4 +205,27 @@ fn springs(run: &Run) -> Table {
         [vec![unit.name.clone()], cells.into()].concat()
     };
     Table::new(["unit", "k1 [N/m]", "k2 [N/m]", "m2 [kg]", "c [N s/m]"]).with(run.springs.iter().map(row))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::results::OtherForces;
+
+    #[test]
+    fn a_force_says_over_how_much_it_holds_or_between_what_it_lies() {
+        let held = DesignForce::measured(-4.937e6, 41.0, Some(0.01));
+        assert_eq!(force_value(ForceName::Axial, &held), "-4.937 MN");
+        let part = DesignForce { over_s: Some(49.42), ..held };
+        assert_eq!(force_value(ForceName::Axial, &part), "-4.937 MN (to 49.4 s)");
+        let changes = DesignForce::measured(2.48e6, 41.0, Some(0.073));
+        assert_eq!(force_value(ForceName::AxialTension, &changes), "withheld: changes by 7.30 % on springs");
+        let others = OtherForces { found: 2.48e6, doubled_elements: None, softer: Some(2.66e6), stiffer: Some(2.5e6) };
+        let between = DesignForce { others: Some(others), ..changes };
+        assert_eq!(
+            force_value(ForceName::AxialTension, &between),
+            "withheld: 2.48 MN to 2.66 MN with springs and mesh"
+        );
+        assert_eq!(force_value(ForceName::Axial, &DesignForce { change: None, ..changes }), "withheld");
+    }
 }

@@ -1,8 +1,8 @@
 //! What `tune run` prints: one screen, the answer first.
 
-use super::{Run, Table, height, peak_table, sentence};
+use super::{Run, Table, force_value, height, peak_table, sentence};
 use crate::{
-    message::{percent, quantity, shortened, significant},
+    message::{shortened, significant},
     results::{DesignForce, DesignForces, FiledFinding, Finding, ForceName, Weight},
 };
 
@@ -129,19 +129,10 @@ fn forces(run: &Run, lines: &mut Vec<String>) {
 
 /// The forces in words; those withheld are named.
 fn force_words(forces: &DesignForces) -> Vec<String> {
-    let cell = |(name, force): (ForceName, DesignForce)| match force.value {
-        Some(value) => {
-            let part = force.over_s.map_or(String::new(), |over| format!(" (to {} s)", significant(over, 3)));
-            format!("{} {}{}{part}", name.words(), quantity(value.abs(), name.unit()), height(&force))
-        }
-        None => match (force.others.and_then(|others| others.range()), force.change) {
-            (Some([low, high]), _) => {
-                let [low, high] = [low, high].map(|x| quantity(x, name.unit()));
-                format!("{} withheld: {low} to {high} with springs and mesh", name.words())
-            }
-            (None, Some(change)) => format!("{} withheld: changes by {} on springs", name.words(), percent(change)),
-            (None, None) => format!("{} withheld", name.words()),
-        },
+    // magnitudes: signs are in the report
+    let magnitude = |force: DesignForce| DesignForce { value: force.value.map(f64::abs), ..force };
+    let cell = |(name, force): (ForceName, DesignForce)| {
+        format!("{} {}{}", name.words(), force_value(name, &magnitude(force)), height(&force))
     };
     // the report has the vertical force, too
     forces.all().filter(|(name, _)| *name != ForceName::SoleVertical).map(cell).collect()

@@ -12,7 +12,7 @@ pub fn over(compared: &Compared) -> String {
             "over its first {seconds:.2} s; from then on no model foretells this motion one to one: it is to be judged over many"
         ),
         ComparedEnd::Slides => format!(
-            "over its first {seconds:.2} s; then a corner lands so flat that it slides on, by an impulse that depends on friction, and these springs do not follow beyond"
+            "over its first {seconds:.2} s; then a corner slides as it lands: how far depends on friction, and these springs follow no further"
         ),
     }
 }

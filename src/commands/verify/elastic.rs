@@ -21,7 +21,7 @@ use crate::{
     },
     figures::stack::{self, StackFigure, StackQuantity},
     parameters::elastic::ElasticParameters,
-    predictability::STANDING,
+    predictability::standing_share,
     report::elastic::title as structure_title,
     verify::{ComparedPeak, Program, VerifyError, number_before, run_deck},
 };
@@ -64,7 +64,9 @@ pub fn run(o: &VerifyOptions, parameters: &ElasticParameters, program: &Program)
     let sways = |all: &[Vec<f64>]| assembled.sways(all.iter().map(Vec::as_slice));
     let (of_ours, of_opensees) = (sways(&ours.q), sways(&ran.motion));
     let [rotation, drift] = errors(&of_ours, &of_opensees, samples);
-    let rotation = rotation * rocking_share(&of_ours, assembled.structure.body().alpha());
+    // one that only stands turns by what its springs give way
+    let rotations = of_ours.iter().flat_map(|sway| &sway.rotation);
+    let rotation = rotation * standing_share(rotations, assembled.structure.body().alpha());
     let peaks = peaks(&assembled, &ours.q, &ran.motion);
     let pairs: Vec<[Sway; 2]> = of_ours.into_iter().zip(of_opensees).map(|(ours, opensees)| [ours, opensees]).collect();
     let within = rotation <= LIMIT && drift <= LOOSER * LIMIT;
@@ -109,15 +111,6 @@ pub fn run(o: &VerifyOptions, parameters: &ElasticParameters, program: &Program)
         "verify: OpenSees is off by {rotation:.1e} in rotation and {drift:.1e} in drift; ask for finer steps with --accuracy, or stiffer springs"
     );
     Err(CommandError::Failed(refusal))
-}
-
-/// Share that an error of the rotation counts by: 1 of a structure that rocks. One that stands turns
-/// by what its springs give way, and is judged by a thousandth of alpha (rad), as rigid bodies are by
-/// that of their half width.
-fn rocking_share(sways: &[Sway], alpha: f64) -> f64 {
-    let rotations = || sways.iter().flat_map(|sway| &sway.rotation);
-    let rms = (rotations().map(|x| x * x).sum::<f64>() / rotations().count().max(1) as f64).sqrt();
-    (rms / (STANDING * alpha)).min(1.0)
 }
 
 /// Displacement of the top, uplift of a corner, rotation and drift; of several bases the largest.
@@ -207,18 +200,4 @@ fn draw(out: &Path, assembled: &Assembled, pairs: &[[Sway; 2]], dt: f64) -> Resu
     let names = ["tune run", "OpenSees"];
     let data = StackFigure { title: &title, t: &t, names: &names, panels: &panels, event: None };
     Ok(stack::draw(&data)?.save(&out.join("verify.png"))?)
-}
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-
-    #[test]
-    fn the_rotation_of_a_structure_that_stands_counts_by_a_thousandth_of_alpha() {
-        let sway = |size: f64| Sway { rotation: vec![size, -size], drift: vec![0.0; 2] };
-        assert_eq!(rocking_share(&[sway(0.01)], 0.2), 1.0);
-        assert!((rocking_share(&[sway(1e-8)], 0.2) / 5e-5 - 1.0).abs() < 1e-12);
-        // of two bases
-        assert!((rocking_share(&[sway(1e-8), sway(0.0)], 0.2) / (5e-5 / 2.0_f64.sqrt()) - 1.0).abs() < 1e-12);
-    }
 }

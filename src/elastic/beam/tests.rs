@@ -1,6 +1,7 @@
 use num_dual::{DualNum, HyperDual64};
 
 use super::*;
+use crate::scalar::GRAVITY;
 
 /// Rigid in shear, and giving in it.
 fn sections() -> [BeamSection; 2] {
@@ -136,4 +137,27 @@ fn a_cantilever_gives_by_bending_and_by_shear() {
     let (sway, turn) = (k[5][5] / determinant, -k[5][3] / determinant);
     let exact = [343.0 / (3.0 * 2e5) + 7.0 / 5e4, 49.0 / (2.0 * 2e5)];
     assert!((sway / exact[0] - 1.0).abs() < 1e-12 && (turn / exact[1] - 1.0).abs() < 1e-12, "{sway} {turn} {exact:?}");
+}
+
+/// The ends' accelerations as second differences of where a motion takes them.
+#[test]
+fn half_of_the_mass_times_an_end_s_acceleration_across_the_chord() {
+    let mass = 3.0 * 0.8_f64.hypot(7.0);
+    let beam = Beam::new(ENDS, ARMS, HINGES[0], BeamSection { line_mass: 3.0, ..section() });
+    let accel = [0.7, -0.2, 1.1, 0.4, 2.0, -0.8];
+    let ground = [0.9, GRAVITY];
+    let end = |p: usize, t: f64| {
+        let y = |k: usize| Y[k] + RATE[k] * t + 0.5 * accel[k] * t * t;
+        let ([x, z], th) = (ARMS[p], y(3 * p + 2));
+        [y(3 * p) + th.cos() * x + th.sin() * z, y(3 * p + 1) + th.cos() * z - th.sin() * x]
+    };
+    let [x, z] = beam.direction(&Y);
+    for (p, sign) in [(0, 1.0), (1, -1.0)] {
+        let h = 1e-4;
+        let [before, now, after] = [-h, 0.0, h].map(|t| end(p, t));
+        let at = |k: usize| (before[k] - 2.0 * now[k] + after[k]) / (h * h) + ground[k];
+        let expected = sign * 0.5 * mass * (at(0) * z - at(1) * x);
+        let found = beam.half_inertia(p, [&Y, &RATE, &accel], ground);
+        assert!((found / expected - 1.0).abs() < 1e-6, "end {p}: {found} {expected}");
+    }
 }

@@ -10,11 +10,9 @@
 
 use super::{run::ElasticView, step::ElasticStages};
 use crate::{
-    elastic::{
-        beam::BeamForces,
-        frame::{Frame, FrameColumn},
-    },
+    elastic::frame::{Frame, FrameColumn},
     fem::radau::C,
+    scalar::GRAVITY,
 };
 
 /// What is sampled at every column's base, in this order: shear across its axis, axial force
@@ -34,15 +32,16 @@ pub struct FineSeries {
 ///
 /// ```text
 ///   an element has one shear and one axial force, those of its middle: half its mass is above it
+///   shear at an end: the middle's and what the half between them needs, m_el a/2 of the end
 ///   axial force at the base: N_1 + (N_1 - N_2)/2, which holds the weight of the lower half, too
 /// ```
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct FineColumn {
-    /// Of its base: shear of the first element [N], axial force [N], moment [N m].
+    /// Of its base: shear [N], axial force [N], moment [N m].
     pub base: [FineSeries; BASE_FORCES],
-    /// Shear of every element above the first (N).
+    /// Shear of every element and of the top; none of a column without mass, whose shear is one (N).
     pub above: Vec<FineSeries>,
-    /// Of the middle of each of these, above the base along the column (m).
+    /// Of the middle of each element and of the top, above the base along the column (m).
     pub heights: Vec<f64>,
     /// Moment at its top [N m].
     pub top_moment: FineSeries,
@@ -101,7 +100,10 @@ impl FineRecorder {
                 heights.push(below + 0.5 * frame.length(beam));
                 below += frame.length(beam);
             }
-            heights.remove(0);
+            heights.push(below);
+            if frame.line_mass(column.beams[0]) == 0.0 {
+                heights.clear();
+            }
             FineColumn {
                 base: [(); BASE_FORCES].map(|()| series()),
                 above: heights.iter().map(|_| series()).collect(),
@@ -115,13 +117,13 @@ impl FineRecorder {
         Self { columns, forces, start: vec![0.0; count], started: false }
     }
 
-    /// All forces at q, q', in the order of the series.
-    fn at(&self, view: &ElasticView, q: &[f64], v: &[f64]) -> Vec<f64> {
+    /// All forces of a motion q, q', q'' over a ground that accelerates, in the order of the series.
+    fn at(&self, view: &ElasticView, [q, v, a]: [&[f64]; 3], ground: [f64; 2]) -> Vec<f64> {
         let (model, n) = (view.model, view.model.n);
-        let (frame, free) = (model.frame, (&q[..n], &v[..n]));
+        let (frame, free) = (model.frame, [&q[..n], &v[..n], &a[..n]]);
         let mut out = Vec::with_capacity(self.start.len());
         for column in &self.columns {
-            column_forces(frame, column, free, &mut out);
+            column_forces(frame, column, (free, ground), &mut out);
         }
         let mut sole = [0.0; 2];
         for (i, foot) in view.feet.iter().enumerate() {
@@ -135,14 +137,15 @@ impl FineRecorder {
     /// Before the first step.
     pub fn begin(&mut self, view: &ElasticView) {
         if !self.started {
-            self.start = self.at(view, view.q, view.v);
+            let still = vec![0.0; view.q.len()];
+            self.start = self.at(view, [view.q, view.v, &still], [0.0; 2]);
             self.started = true;
         }
     }
 
     /// After a step, which ended where the view is.
     pub fn step(&mut self, view: &ElasticView, stages: &ElasticStages) {
-        let within = [0, 1, 2].map(|j| self.at(view, &stages.q[j], &stages.v[j]));
+        let within = [0, 1, 2].map(|j| self.at(view, [&stages.q[j], &stages.v[j], &stages.a[j]], stages.ground[j]));
         let h = stages.h;
         let begun = view.time - h;
         let part = self.forces.part_s;
@@ -179,16 +182,29 @@ impl FineRecorder {
     }
 }
 
-/// A column's forces at q, q', in the order of its series.
-fn column_forces(frame: &Frame, column: &FrameColumn, (q, v): (&[f64], &[f64]), out: &mut Vec<f64>) {
-    let of = |beam: &usize| frame.bearing(*beam, q, v);
-    let elements: Vec<BeamForces> = column.beams.iter().map(of).collect();
-    let (first, last) = (elements[0], elements[elements.len() - 1]);
-    // an element alone tells no more than its middle
-    let second = elements.get(1).unwrap_or(&first);
-    let moment = first.moments[column.base_end];
-    out.extend([first.shear, first.axial + 0.5 * (first.axial - second.axial), moment]);
-    out.extend(elements[1..].iter().map(|element| element.shear));
+/// A column's forces, in the order of its series.
+fn column_forces(frame: &Frame, column: &FrameColumn, motion: ([&[f64]; 3], [f64; 2]), out: &mut Vec<f64>) {
+    let ([q, v, a], [across, up]) = motion;
+    let lacks = |beam, end| frame.half_inertia(beam, end, [q, v, a], [across, up + GRAVITY]);
+    let beams = &column.beams;
+    let (lowest, highest) = (beams[0], beams[beams.len() - 1]);
+    let massive = frame.line_mass(lowest) > 0.0;
+    let first = frame.bearing(lowest, q, v);
+    let axial = out.len() + 1;
+    out.extend([first.shear + lacks(lowest, column.base_end), first.axial, first.moments[column.base_end]]);
+    let mut last = first;
+    for (i, &beam) in beams.iter().enumerate() {
+        last = frame.bearing(beam, q, v);
+        if massive {
+            out.push(last.shear);
+        }
+        if i == 1 {
+            out[axial] += 0.5 * (first.axial - last.axial);
+        }
+    }
+    if massive {
+        out.push(last.shear + lacks(highest, column.top_end));
+    }
     out.push(last.moments[column.top_end]);
 }
 

@@ -22,6 +22,8 @@ pub(super) struct ElasticStages {
     pub a: [Vec<f64>; 3],
     pub q: [Vec<f64>; 3],
     pub v: [Vec<f64>; 3],
+    /// Acceleration of the ground (m/s2).
+    pub ground: [[f64; 2]; 3],
     pub iterations: usize,
     /// Factor by which an iteration reduced the error.
     pub rate: f64,
@@ -30,7 +32,7 @@ pub(super) struct ElasticStages {
 impl ElasticStages {
     pub fn new(size: usize) -> Self {
         let room = || [(); 3].map(|()| vec![0.0; size]);
-        Self { h: 0.0, a: room(), q: room(), v: room(), iterations: 0, rate: 1.0 }
+        Self { h: 0.0, a: room(), q: room(), v: room(), ground: [[0.0; 2]; 3], iterations: 0, rate: 1.0 }
     }
 }
 
@@ -116,9 +118,8 @@ impl<'a> ElasticStepper<'a> {
             return false;
         }
         let model = self.model;
-        let grounds = C.map(|c| ground.after(h, c));
         let mut convergence = Convergence::new(tolerance, self.rounding, 0, rate);
-        s.h = h;
+        (s.h, s.ground) = (h, C.map(|c| ground.after(h, c)));
         loop {
             for i in 0..3 {
                 for k in 0..size {
@@ -130,7 +131,7 @@ impl<'a> ElasticStepper<'a> {
                 IterationVerdict::GoesOn => {}
                 verdict => return verdict == IterationVerdict::Converged,
             }
-            for (i, (residual, ground)) in self.residual.iter_mut().zip(grounds).enumerate() {
+            for (i, (residual, ground)) in self.residual.iter_mut().zip(s.ground).enumerate() {
                 model.forces(&s.q[i], &s.v[i], feet, ground, residual);
                 model.momentum(&s.a[i], &mut self.r0);
                 for (r, m) in residual.iter_mut().zip(&self.r0) {

@@ -111,7 +111,7 @@ impl Finding {
             Self::IllConditioned { moved_by_width, springs_judged, .. } => {
                 let judged = if *springs_judged { "; the springs were judged on synthetic motions" } else { "" };
                 format!(
-                    "this motion is ill-conditioned: 0.1 % of the width moves it by {}, so no model can foretell it{judged}",
+                    "this motion is ill-conditioned: 0.1 % of the width moves it by {}, so no model can foretell it, nor its peaks and forces{judged}",
                     percent(*moved_by_width)
                 )
             }
@@ -121,7 +121,7 @@ impl Finding {
                 later(later_forces)
             ),
             Self::SlidesOn { time_s, later_forces, .. } => format!(
-                "at t = {} a corner lands so flat that it slides on, by an impulse that depends on friction{}",
+                "at t = {} a corner slides as it lands: how far depends on friction, so no model foretells what follows{}",
                 s(*time_s),
                 later(later_forces)
             ),
