@@ -1,21 +1,15 @@
 #!/usr/bin/env python3
-"""A module of the library may use those alone that stand above it in src/lib.rs, so that none depends on itself by way of others: reads
-`crate::` paths and `use` trees of src/, top-level modules only. Tests (`#[cfg(test)]` modules, files named tests) may look anywhere.
+"""No top-level module of a crate depends on itself by way of others: reads `crate::` paths and `use` trees of every crate's src/.
+Between crates Cargo allows no circle. Tests (`#[cfg(test)]` modules, files named tests) may look anywhere.
 
     circles.py
 """
-import pathlib, re, sys
+import graphlib, pathlib, re, sys
 
-SRC = pathlib.Path(__file__).resolve().parent.parent / "src"
-names = re.findall(r"^ *(?:pub )?mod (\w+);", (SRC / "lib.rs").read_text(), re.M)
-
-
-def files(name):
-    yield SRC / f"{name}.rs"
-    yield from (p for p in (SRC / name).rglob("*.rs") if p.stem != "tests" and "tests" not in p.parent.parts)
+ROOT = pathlib.Path(__file__).resolve().parent.parent
 
 
-def used(text, at_top):
+def used(text, at_top, names):
     text = re.sub(r"//.*", "", text.split("#[cfg(test)]\nmod tests {")[0])
     found = set(re.findall(r"crate::(\w+)", text))
     found |= set(re.findall(r"super::(\w+)", text)) if at_top else set()
@@ -31,15 +25,24 @@ def used(text, at_top):
     return found & set(names)
 
 
-graph = {name: set().union(*(used(p.read_text(), p.parent == SRC) for p in files(name) if p.exists())) - {name} for name in names}
+def graph(src):
+    root = next(p for p in (src / "lib.rs", src / "main.rs") if p.exists())
+    names = re.findall(r"^ *(?:pub(?:\(\w+\))? )?mod (\w+);", root.read_text(), re.M)
+
+    def files(name):
+        yield src / f"{name}.rs"
+        yield from (p for p in (src / name).rglob("*.rs") if p.stem != "tests" and "tests" not in p.parent.parts)
+
+    here = lambda name: [p for p in files(name) if p.exists() and p.stem != "tests"]
+    return {name: set().union(*(used(p.read_text(), p.parent == src, names) for p in here(name))) - {name} for name in names}
 
 
-wrong = [
-    f"{name} uses {other}, which stands below it"
-    for place, name in enumerate(names)
-    for other in sorted(graph[name])
-    if names.index(other) > place
-]
-if wrong:
-    sys.exit("src/lib.rs says that each module uses those above it alone: " + "; ".join(wrong))
-print(f"{len(names)} modules, {sum(map(len, graph.values()))} dependencies, each on a module further up in src/lib.rs")
+count = 0
+for src in [ROOT / "src", *sorted(ROOT.glob("crates/*/src"))]:
+    modules = graph(src)
+    count += len(modules)
+    try:
+        graphlib.TopologicalSorter(modules).prepare()
+    except graphlib.CycleError as e:
+        sys.exit(f"{src.relative_to(ROOT)}: these modules use each other in a circle: {' -> '.join(e.args[1])}")
+print(f"{count} modules, no circle")

@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""The histories in tests/elastic/data are those of an independent program, ../shared/reference/flexible_pier.py: run it again with the same
+"""The histories in crates/frames/tests/elastic/data are those of an independent program, ../shared/reference/flexible_pier.py: run it again with the same
 arguments and compare, or write the files. Without it there is nothing to do. El Centro is tuning/records/IELC180.AT2.
 
     elastic.py [--write] [NAME...]
@@ -8,7 +8,7 @@ import pathlib, subprocess, sys
 
 ROOT = pathlib.Path(__file__).resolve().parent.parent
 PROGRAM = ROOT.parent / "shared/reference/flexible_pier.py"
-DATA = ROOT / "tests/elastic/data"
+DATA = ROOT / "crates/frames/tests/elastic/data"
 EVERY = 5  # samples between rows
 FREE = "--th0 0.0975 --end 5"
 QUAKE = f"--record {ROOT}/tuning/records/IELC180.AT2 --end 8"

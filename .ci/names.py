@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""A type name has one meaning: no name of a struct, enum, union, trait or type alias is defined twice in src/, private or public, at the top
+"""A type name has one meaning: no name of a struct, enum, union, trait or type alias is defined twice in the crates, private or public, at the top
 of a file or inside a function. Associated types of an `impl` or a trait are not names of their own. Tests (`#[cfg(test)]` modules, files named
 tests) may call theirs as they like.
 
@@ -23,7 +23,7 @@ def definitions(lines):
 
 
 places = collections.defaultdict(list)
-for path in sorted((ROOT / "src").rglob("*.rs")):
+for path in sorted(p for src in [ROOT / "src", *ROOT.glob("crates/*/src")] for p in src.rglob("*.rs")):
     if path.stem != "tests" and "tests" not in path.parent.parts:
         for name, line in definitions(path.read_text().split("#[cfg(test)]\nmod tests {")[0].splitlines()):
             places[name].append(f"{path.relative_to(ROOT)}:{line}")

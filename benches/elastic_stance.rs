@@ -5,10 +5,10 @@
 //! cargo bench --bench elastic_stance
 //! ```
 
-use groundspring::{
+use dynamics::fem::Control;
+use frames::{assembled::Assembled, standing::Standing, structure::ElasticStructure};
+use springs::{
     case::{Asked, Yardstick},
-    elastic::{assembled::Assembled, standing::Standing, structure::ElasticStructure},
-    fem::Control,
     tuning::elastic::{
         design::{BALANCE, KBalance, with_k},
         landing_speed, stand,

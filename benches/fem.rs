@@ -7,7 +7,7 @@ use std::{
 };
 
 use criterion::{BenchmarkId, Criterion, Throughput, criterion_group, criterion_main};
-use groundspring::fem::{Analysis, Control, Observer, View, histories};
+use dynamics::fem::{Analysis, Control, Observer, View, histories};
 
 #[path = "compare/main.rs"]
 #[cfg_attr(not(test), allow(dead_code))] // its benches alone

@@ -3,7 +3,7 @@
 use std::{hint::black_box, time::Duration};
 
 use criterion::{BenchmarkId, Criterion, criterion_group, criterion_main};
-use groundspring::{
+use springs::{
     case::Case,
     response::{bounds::Bounds, target::Target},
     tuning::{arr::inner::fit, job::Job},

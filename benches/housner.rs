@@ -3,7 +3,7 @@
 use std::{hint::black_box, time::Duration};
 
 use criterion::{Criterion, Throughput, criterion_group, criterion_main};
-use groundspring::housner::{RockingOptions, solve, solve_lanes};
+use rocking::housner::{RockingOptions, solve, solve_lanes};
 
 #[path = "compare/main.rs"]
 #[cfg_attr(not(test), allow(dead_code))] // its history and its peer alone

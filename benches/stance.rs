@@ -7,11 +7,10 @@
 //! cargo bench --bench stance
 //! ```
 
-use groundspring::{
+use dynamics::{fem::Control, spring::Design};
+use rocking::structure::Structure;
+use springs::{
     case::{Asked, Yardstick},
-    fem::Control,
-    spring::Design,
-    structure::Structure,
     tuning::{
         job::at,
         landing::{design::Geometry, universal::universal},

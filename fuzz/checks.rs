@@ -6,13 +6,10 @@
 
 use std::path::Path;
 
-use groundspring::{
-    case::Case,
-    fem,
-    housner::{self, RockingOptions},
-    parameters::Parameters,
-    record::{ReadOptions, Record, Recording, Units},
-};
+use dynamics::fem;
+use rocking::housner::{self, RockingOptions};
+use springs::{case::Case, parameters::Parameters};
+use strong_motion::{ReadOptions, Record, Recording, Units};
 
 /// An error's message is one line a user can read.
 fn clear(error: &dyn std::error::Error) {
@@ -58,7 +55,7 @@ fn whole(recording: &Recording, bytes: &[u8]) {
     }
     for component in &recording.components {
         checked(&component.record);
-        let m = groundspring::record::measures(&component.record);
+        let m = strong_motion::measures(&component.record);
         assert!([m.pga.value, m.pgv.value, m.arias_m_per_s, m.duration_5_95_s].iter().all(|x| x.is_finite()), "{m:?}");
         let options = ReadOptions { component: component.name.clone(), baseline: true, ..ReadOptions::default() };
         if let Err(error) = Recording::parse("a.txt", bytes, &options) {
@@ -86,7 +83,7 @@ pub fn case(bytes: &[u8]) {
         assert!(!path.as_os_str().is_empty());
         Record::parse("motion.txt", b"0.1\n0.3\n-0.2\n", options)
     };
-    let case: Result<Case, _> = groundspring::case::parse_with("case.toml", text, &ReadOptions::default(), no_file);
+    let case: Result<Case, _> = springs::case::parse_with("case.toml", text, &ReadOptions::default(), no_file);
     match case {
         Ok(case) => {
             checked(&case.record);

@@ -1,34 +1,30 @@
 //! What the program `tune` does: one file a subcommand, the words of its options included.
 
-use std::{path::Path, process::ExitCode};
+use std::process::ExitCode;
 
 use clap::{Parser, Subcommand};
 use thiserror::Error;
 
-use crate::{
+use ::sweep::SweepError;
+use decks::{ExportError, verify::VerifyError};
+use figures::FigureError;
+use files::message::printable;
+use run_folder::FolderError;
+use springs::{
     case::CaseError,
-    export::ExportError,
-    figures::FigureError,
-    message::printable,
     parameters::{ParametersError, RememberedError},
-    record::RecordError,
-    sweep::SweepError,
     tuning::{arr::inner::FitError, job::JobError, landing::design::GeometryError},
-    verify::VerifyError,
-    whole_file,
 };
+use strong_motion::RecordError;
 
 mod bounds;
 mod chart;
 mod common;
 mod completions;
-mod draw;
-mod elastic;
 mod export;
 mod housner;
 mod init;
 mod members;
-mod output;
 mod progress;
 mod record;
 mod response;
@@ -38,10 +34,6 @@ mod sweep;
 pub(crate) mod terminal;
 mod validate;
 mod verify;
-
-// for the Python package
-#[cfg(feature = "internals")]
-pub use run::Output;
 
 /// The version, and what was built with it.
 const VERSION: &str = concat!(env!("CARGO_PKG_VERSION"), " (features: cli, figures)");
@@ -107,25 +99,8 @@ pub enum CommandError {
     Sweep(#[from] SweepError),
     #[error(transparent)]
     Verify(#[from] VerifyError),
-    #[error("{path}: cannot be written ({source}); check the folder and its rights")]
-    Write { path: String, source: std::io::Error },
-    #[error("{path}: is a file where a folder is needed; name another with --out")]
-    NotAFolder { path: String },
-    #[error("{path}: is a folder; name a file with --out")]
-    NotAFile { path: String },
-    #[error("{path}: is a device or a pipe, which a file would replace; name a file with --out")]
-    NotRegular { path: String },
-    #[error("{path}: there is no folder {folder}; make it first, or name another with --out")]
-    NoFolder { path: String, folder: String },
-    #[error(
-        "{folder}: tune {command} was stopped while it put its files there, and some are of another run; run it again (or, if you know \
-         that {folder} is of one run, remove UNFINISHED-{command}.txt)"
-    )]
-    Mixed { folder: String, command: &'static str },
-    #[error(
-        "{path}: is not the file that tune run wrote there with the other files of {folder}; run it again, or put yours into a folder of its own"
-    )]
-    OfAnotherRun { path: String, folder: String },
+    #[error(transparent)]
+    Folder(#[from] FolderError),
     #[error("cannot write to stdout: {0}")]
     Stdout(#[from] std::io::Error),
     #[error("--{option} is {value}; {remedy}")]
@@ -200,15 +175,4 @@ fn with_a_point(what: &str) -> Option<String> {
     let value = what.split('\'').nth(1).filter(|value| value.matches(',').count() == 1)?;
     let point = value.replace(',', ".");
     point.parse::<f64>().ok().map(|_| format!("write it with a point: {point}"))
-}
-
-/// Write a whole file or nothing. Its folder is made, and rid of what killed runs left in it.
-fn write_file(path: &Path, bytes: &[u8]) -> Result<(), CommandError> {
-    let folder = whole_file::folder(path);
-    let write = || {
-        std::fs::create_dir_all(folder)?;
-        whole_file::tidy(folder);
-        whole_file::write(path, bytes)
-    };
-    write().map_err(|source| CommandError::Write { path: path.display().to_string(), source })
 }

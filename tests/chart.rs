@@ -2,11 +2,9 @@
 
 use std::{f64::consts::TAU, path::Path, process::Command};
 
-use groundspring::{
-    spring::{Design, Springs},
-    structure::Structure,
-    tuning::whole_model::report::landings,
-};
+use dynamics::spring::{Design, Springs};
+use rocking::structure::Structure;
+use springs::tuning::whole_model::report::landings;
 
 /// A row of chart.csv: kind, alpha, Omega_n/p, and (K, mu, f, xi) of the vertical units, Omega_h/Omega_v.
 struct Row {

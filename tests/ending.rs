@@ -6,12 +6,12 @@ use std::{
     process::{Command, Output},
 };
 
-use groundspring::{
+use serde_json::Value;
+use springs::{
     case::Case,
-    record::Record,
     tuning::job::{Job, JobError},
 };
-use serde_json::Value;
+use strong_motion::Record;
 
 /// Light, with the inertia of a heavy one, and another restitution than equation 2's: a search over
 /// all parameters.

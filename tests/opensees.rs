@@ -4,17 +4,22 @@
 //! OPENSEES_PYTHON, `python3` unless set. The Tcl deck needs OPENSEES_TCL to name an interpreter's command, for example
 //! "python3 -m opensees" (`pip install opensees`) or "OpenSees".
 
-use groundspring::{
-    case::{Case, Objective},
-    export::{ACCURACY, with_inertia},
-    members::{Damper, Members, Tendon},
-    parameters::Parameters,
-    record::Record,
-    spring::{Design, Springs},
-    structure::Structure,
-    tuning::job::Job,
+use decks::{
+    ACCURACY,
     verify::{LIMIT, Program, VerifyError, verify},
+    with_inertia,
 };
+use dynamics::spring::{Design, Springs};
+use rocking::{
+    members::{Damper, Members, Tendon},
+    structure::Structure,
+};
+use springs::{
+    case::{Case, Objective},
+    parameters::Parameters,
+    tuning::job::Job,
+};
+use strong_motion::Record;
 
 /// Largest NRMSE of u, v and theta against our own history.
 const AGREEMENT: f64 = 0.005;

@@ -3,8 +3,8 @@
 use std::{fs, path::Path, process::Output};
 
 use assert_cmd::Command;
-use groundspring::record::Record;
 use serde_json::Value;
+use strong_motion::Record;
 use tempfile::TempDir;
 
 fn tune(dir: &Path, args: &[&str]) -> Output {

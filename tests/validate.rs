@@ -3,13 +3,11 @@
 use std::{fs, path::Path, process::Output};
 
 use assert_cmd::Command;
-use groundspring::{
-    parameters::Parameters,
-    record::Record,
-    spring::{Design, Springs},
-    structure::Structure,
-};
+use dynamics::spring::{Design, Springs};
+use rocking::structure::Structure;
 use serde_json::Value;
+use springs::parameters::Parameters;
+use strong_motion::Record;
 use tempfile::TempDir;
 
 /// A folder with parameters.json (the paper's frame on springs of 160 Hz) and a folder of two records.

@@ -3,14 +3,16 @@
 use std::hint::black_box;
 
 use super::{Point, Series, least};
-use groundspring::{
+use dynamics::{
     fem::{Analysis, Control, History, Start},
-    motion::{Motion, nrmse},
-    parameters::Parameters,
-    record::Record,
     spring::{Design, Springs},
+};
+use rocking::{
+    motion::{Motion, nrmse},
     structure::Structure,
 };
+use springs::parameters::Parameters;
+use strong_motion::Record;
 
 /// The tolerance of the history that errors are told against; the next tighter one confirms it.
 pub const TIGHT: f64 = 1e-12;
@@ -27,7 +29,7 @@ pub struct BenchCase {
 
 /// The paper's structure, with the little rotational inertia that a deck for OpenSees needs.
 pub fn structure() -> Structure {
-    groundspring::export::with_inertia(&Structure::paper())
+    decks::with_inertia(&Structure::paper())
 }
 
 impl BenchCase {

@@ -38,10 +38,8 @@ use std::{
 };
 
 use clap::Parser;
-use groundspring::{
-    figures::precision::{self, PrecisionFigure},
-    tuning::arr::inner::FitError,
-};
+use figures::precision::{self, PrecisionFigure};
+use springs::tuning::arr::inner::FitError;
 
 use self::peers::Stepping;
 use report::Measured;

@@ -10,11 +10,9 @@ use std::{
 use serde::{Deserialize, Serialize};
 
 use super::{Peer, Point, Series, elements, rigid};
-use groundspring::{
-    export::{DeckFormat, Expected, export},
-    motion::Motion,
-    predictability::width_sensitivity,
-};
+use decks::{DeckFormat, Expected, export};
+use rocking::motion::Motion;
+use springs::predictability::width_sensitivity;
 
 /// What housner.py reads.
 #[derive(Serialize)]
@@ -46,7 +44,7 @@ pub fn scipy(problem: &rigid::Problem, python: &Path, rtols: &[f64], rounds: usi
         p2: body.p_squared(),
         alpha: body.alpha(),
         e: body.restitution(),
-        g: groundspring::scalar::GRAVITY,
+        g: rocking::scalar::GRAVITY,
         dt: record.dt,
         accel: &record.accel,
         methods: ["RK45", "DOP853"],
@@ -74,8 +72,7 @@ pub fn octave(problem: &rigid::Problem, rtols: &[f64], rounds: usize) -> Peer {
     let rigid::Problem { body, record, .. } = problem;
     let folder = tempfile::tempdir().map_err(|e| format!("Octave: no temporary folder ({e})"))?;
     let [script, asked, answer] = ["housner.m", "asked.txt", "answer.txt"].map(|name| folder.path().join(name));
-    let mut numbers =
-        vec![body.p_squared(), body.alpha(), body.restitution(), groundspring::scalar::GRAVITY, record.dt];
+    let mut numbers = vec![body.p_squared(), body.alpha(), body.restitution(), rocking::scalar::GRAVITY, record.dt];
     numbers.extend([rounds as f64, rtols.len() as f64]);
     let text = numbers.iter().chain(rtols).chain(&record.accel).fold(String::new(), |mut text, x| {
         // writing to a String cannot fail

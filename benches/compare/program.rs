@@ -8,7 +8,7 @@ use std::{
 };
 
 use super::{least, skips::Skip};
-use groundspring::{
+use springs::{
     response::{bounds::Bounds, target::Target},
     tuning::arr::inner::{FitError, fit},
 };

@@ -3,11 +3,11 @@
 use std::hint::black_box;
 
 use super::{Point, Series, alternate};
-use groundspring::{
+use rocking::{
     housner::{RockingOptions, solve, solve_lanes},
-    record::Record,
     structure::{Body, Structure},
 };
+use strong_motion::Record;
 
 /// Length of the history [s].
 pub const SECONDS: f64 = 20.0;
@@ -47,7 +47,7 @@ impl Problem {
             p2: self.body.p_squared(),
             alpha: self.body.alpha(),
             e: self.body.restitution(),
-            g: groundspring::scalar::GRAVITY,
+            g: rocking::scalar::GRAVITY,
             dt: self.record.dt,
             accel: &self.record.accel,
         }

@@ -6,15 +6,14 @@ use super::{
     alternate,
     elements::{BenchCase, at, structure},
 };
-use groundspring::{
+use dynamics::{
     effort::Effort,
     fem::{Analysis, Control, Observer, Recorder, Start, View},
-    housner,
-    motion::nrmse,
     spring::{Design, Springs},
-    tuning::arr::outer::Benchmark,
-    validate::Stream,
 };
+use rocking::housner;
+use rocking::motion::nrmse;
+use springs::{tuning::arr::outer::Benchmark, validate::Stream};
 
 /// One thing that is skipped.
 #[derive(Clone, Debug)]
@@ -206,7 +205,7 @@ mod tests {
             assert!(a.work.steps + saved < b.work.steps, "{:?} {:?}", a.work, b.work);
             assert!(nrmse(&a.motion.u, &b.motion.u) < 1e-7, "{:e}", nrmse(&a.motion.u, &b.motion.u));
             assert!(nrmse(&a.motion.v, &b.motion.v) < 1e-7);
-            let weight = structure().mass_kg * groundspring::scalar::GRAVITY;
+            let weight = structure().mass_kg * rocking::scalar::GRAVITY;
             let tail = a.motion.len() - 1;
             for foot in 0..2 {
                 let [x, y] = [&a, &b].map(|h| h.forces.vertical[foot][tail]);

@@ -1,14 +1,14 @@
 //! The design from the geometry, without units, and the frequency response.
 
-use groundspring::{
-    case::{Asked, Yardstick},
-    response::{self, bounds::Bounds, target::Target},
-    scalar::GRAVITY,
-    spring,
-    tuning::{arr::inner::fit, landing::design::Geometry, omega},
-};
+use dynamics::spring;
 use numpy::{AllowTypeChange, PyArray1, PyArrayLike1};
 use pyo3::prelude::*;
+use rocking::scalar::GRAVITY;
+use springs::{
+    case::{Asked, Yardstick},
+    response::{self, bounds::Bounds, target::Target},
+    tuning::{arr::inner::fit, landing::design::Geometry, omega},
+};
 
 use crate::{
     Array,
@@ -139,13 +139,13 @@ impl Design {
     }
 }
 
-/// The design from the geometry: alpha [rad], I_cg/(m R^2), Omega_n/p; or a [`Structure`] and Omega_n/p. Omega_n/p is, unless
+/// The design from the geometry: alpha (rad), I_cg/(m R^2), Omega_n/p; or a [`Structure`] and Omega_n/p. Omega_n/p is, unless
 /// given, where `tune` begins to look for an accuracy of 0.002.
 #[pyfunction]
 #[pyo3(signature = (alpha, inertia = None, stiffness = None))]
 pub fn design(py: Python<'_>, alpha: Of, inertia: Option<f64>, stiffness: Option<f64>) -> PyResult<Design> {
-    let stiffness = stiffness
-        .unwrap_or_else(|| omega::begin(Asked { by: Yardstick::Histories, error: groundspring::export::ACCURACY }));
+    let stiffness =
+        stiffness.unwrap_or_else(|| omega::begin(Asked { by: Yardstick::Histories, error: decks::ACCURACY }));
     let geometry = match alpha {
         Of::Structure(structure) => Geometry::of(&structure.body(), stiffness),
         Of::Alpha(alpha) => {

@@ -41,10 +41,10 @@ mod _native {
     };
 
     #[pymodule_export]
-    const STEPS: &str = groundspring::export::STEPS;
+    const STEPS: &str = decks::STEPS;
 
     #[pymodule_export]
-    const GRAVITY: f64 = groundspring::scalar::GRAVITY;
+    const GRAVITY: f64 = rocking::scalar::GRAVITY;
 }
 
 /// What the crate's numbers are called with in Python.
@@ -58,7 +58,7 @@ pub(crate) fn view<'py>(owner: Bound<'py, PyAny>, numbers: &[f64]) -> PyResult<A
     Ok(array)
 }
 
-/// t = i dt of n samples [s].
+/// t = i dt of n samples (s).
 pub(crate) fn times(py: Python<'_>, n: usize, dt: f64) -> Array<'_> {
     numpy::PyArray1::from_iter(py, (0..n).map(|i| i as f64 * dt))
 }

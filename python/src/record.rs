@@ -2,9 +2,10 @@
 
 use std::{borrow::Cow, path::PathBuf};
 
-use groundspring::record::{self as core, Recording, Units};
 use numpy::{AllowTypeChange, PyArrayLike1};
 use pyo3::prelude::*;
+use strong_motion as core;
+use strong_motion::{Recording, Units};
 
 use crate::{
     Array,

@@ -6,14 +6,14 @@ use std::{
     sync::{Arc, OnceLock},
 };
 
-use groundspring::{
-    case::LONGEST_S,
+use numpy::{AllowTypeChange, PyArray1, PyArrayLike1};
+use pyo3::{exceptions::PyIndexError, prelude::*};
+use rocking::{
     housner::{self, Rocking, RockingOptions, RockingOutcome},
     motion::Motion,
     structure::Body,
 };
-use numpy::{AllowTypeChange, PyArray1, PyArrayLike1};
-use pyo3::{exceptions::PyIndexError, prelude::*};
+use springs::case::LONGEST_S;
 
 use crate::{Array, record::Record, said::value_error, structure::Structure, times, view, work::interruptible};
 
@@ -123,7 +123,6 @@ impl History {
             RockingOutcome::LeavesGround { .. } => "leaves_ground",
             RockingOutcome::WorkBound { .. } => "work_bound",
             RockingOutcome::NotFinite { .. } => "not_finite",
-            _ => "unknown",
         }
     }
 
@@ -300,7 +299,7 @@ fn pairs(structures: &[Structure], record: &Record, scales: &[f64], restitution:
     Ok((bodies, options.collect()))
 }
 
-/// A length of history [s], in the program's words if it is none.
+/// A length of history (s), in the program's words if it is none.
 pub fn seconds(given: Option<f64>) -> PyResult<Option<f64>> {
     match given {
         Some(d) if !(d > 0.0 && d <= LONGEST_S) => {

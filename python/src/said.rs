@@ -2,13 +2,13 @@
 
 use std::{ffi::CString, fmt::Display};
 
-use groundspring::results::{FiledFinding, Weight};
 use pyo3::{
     create_exception,
     exceptions::{PyUserWarning, PyValueError},
     prelude::*,
 };
 use serde::Serialize;
+use springs::results::{FiledFinding, Weight};
 
 create_exception!(
     groundspring,

@@ -2,20 +2,20 @@
 
 use std::{borrow::Cow, sync::Arc};
 
-use groundspring::{
+use dynamics::fem::{self, QUANTITIES};
+use numpy::PyArray1;
+use pyo3::{prelude::*, types::PyDict};
+use report::{
+    filed,
+    reference::{self, HousnerReport},
+    rigid::RigidRun,
+};
+use rocking::members::Members;
+use springs::{
     answers::{Both, both},
-    fem::{self, QUANTITIES},
-    members::Members,
-    report::{
-        filed,
-        reference::{self, HousnerReport},
-        rigid::RigidRun,
-    },
     results::FiledFinding,
     verdict::Verdict,
 };
-use numpy::PyArray1;
-use pyo3::{prelude::*, types::PyDict};
 
 use crate::{
     Array,
@@ -165,7 +165,6 @@ impl Simulation {
             fem::HistoryOutcome::Stopped { .. } => "stopped",
             fem::HistoryOutcome::WorkBound { .. } => "work_bound",
             fem::HistoryOutcome::Unstable { .. } => "unstable",
-            _ => "unknown",
         }
     }
 

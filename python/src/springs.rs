@@ -2,8 +2,9 @@
 
 use std::path::PathBuf;
 
-use groundspring::{parameters::Parameters, spring};
+use dynamics::spring;
 use pyo3::prelude::*;
+use springs::parameters::Parameters;
 
 use crate::{said::value_error, structure::Structure};
 

@@ -1,10 +1,8 @@
 //! The rocking structure.
 
-use groundspring::{
-    case::StructureSection,
-    structure::{Body, Kind, Structure as Core},
-};
 use pyo3::prelude::*;
+use rocking::structure::{Body, Kind, Structure as Core};
+use springs::case::StructureSection;
 
 use crate::said::value_error;
 

@@ -2,20 +2,19 @@
 
 use std::{path::PathBuf, sync::Arc};
 
-use groundspring::{
+use pyo3::prelude::*;
+use report::rigid::RigidRun;
+use run_folder::rigid::{Output, save};
+use springs::{
     case::{Case, Objective, Tuning},
-    commands::Output,
-    excitation::Excitation,
-    front, record,
-    report::rigid::RigidRun,
     tuning::job::Job,
 };
-use pyo3::prelude::*;
+use strong_motion::excitation::Excitation;
 
 use crate::{
     record::Record,
     rocking::seconds,
-    said::{plain, value_error, warn_of},
+    said::{plain, value_error, warn, warn_of},
     simulation::Simulation,
     springs::Springs,
     structure::Structure,
@@ -84,7 +83,8 @@ impl Tuned {
     /// Write what `tune run` writes.
     #[pyo3(signature = (folder, figures = true))]
     fn save(&self, py: Python<'_>, folder: PathBuf, figures: bool) -> PyResult<()> {
-        interruptible(py, |_| self.run.save(&folder, Output { figures, report: true }))?.map_err(value_error)
+        let left_out = interruptible(py, |_| save(&self.run, &folder, Output { figures, report: true }))?;
+        left_out.map_err(value_error)?.iter().try_for_each(|deck| warn(py, deck))
     }
 
     fn to_pandas<'py>(slf: &Bound<'py, Self>) -> PyResult<Bound<'py, PyAny>> {
@@ -127,14 +127,14 @@ pub fn tune(
     };
     let duration = seconds(duration)?;
     let record =
-        record.map_or_else(|| Record(record::Record::el_centro()), Record::clone).beside(vertical)?.into_owned();
+        record.map_or_else(|| Record(strong_motion::Record::el_centro()), Record::clone).beside(vertical)?.into_owned();
     let tuning =
         Tuning { objective, accuracy, max_omega_hz: max_hz, max_settlement_m: max_settlement, ..Tuning::default() };
     let excitation = Excitation { record, scale, duration_s: duration };
     let case = Case::new("tune", (structure.core, structure.e), excitation, tuning).map_err(value_error)?;
     let (run, simulation) = interruptible(py, |stop| {
         let job = Job::new(&case, &|_, _, _| stop.check()).map_err(value_error)?;
-        let points = if front { front::front(&job, &|_, _| stop.check()) } else { Vec::new() };
+        let points = if front { report::front::front(&job, &|_, _| stop.check()) } else { Vec::new() };
         stop.check();
         let run = RigidRun::new(case, job, points, friction);
         let run = Arc::new(run);

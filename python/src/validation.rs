@@ -2,13 +2,12 @@
 
 use std::path::PathBuf;
 
-use groundspring::{
-    fem::Control,
-    record::{self, ReadOptions, RecordError},
-    synthetic,
-    validate::{self as core, Judge},
-};
+use dynamics::fem::Control;
 use pyo3::prelude::*;
+use rocking::synthetic;
+use springs::validate::{self as core, Judge};
+
+use strong_motion::{ReadOptions, RecordError};
 
 use crate::{
     record::Record,
@@ -72,7 +71,7 @@ pub fn validate(
 ) -> PyResult<Validation> {
     let restitution = ratio(restitution)?.unwrap_or(structure.e);
     let duration = seconds(duration)?;
-    let own: Vec<record::Record> = match records {
+    let own: Vec<strong_motion::Record> = match records {
         None => Vec::new(),
         Some(Records::Several(several)) => several.iter().map(|record| record.0.clone()).collect(),
         Some(Records::Folder(folder)) => read_folder(py, &folder)?,
@@ -107,10 +106,10 @@ pub fn validate(
 }
 
 /// Every record of a folder, with what its reader says.
-fn read_folder(py: Python<'_>, folder: &std::path::Path) -> PyResult<Vec<record::Record>> {
-    let files = record::list_dir(folder).map_err(value_error)?;
+fn read_folder(py: Python<'_>, folder: &std::path::Path) -> PyResult<Vec<strong_motion::Record>> {
+    let files = strong_motion::list_dir(folder).map_err(value_error)?;
     let read = |file: &PathBuf| {
-        let recording = record::Recording::read(file, &ReadOptions::default()).map_err(value_error)?;
+        let recording = strong_motion::Recording::read(file, &ReadOptions::default()).map_err(value_error)?;
         recording.notices().iter().try_for_each(|notice| warn(py, notice))?;
         Ok(recording.into_record())
     };

@@ -12,7 +12,7 @@ use std::{
 use clap::Args;
 
 use super::{CommandError, terminal};
-use crate::effort::{CutBy, Effort, StopSignal};
+use dynamics::effort::{CutBy, Effort, StopSignal};
 
 /// Whether ^C was pressed.
 static INTERRUPTED: AtomicBool = AtomicBool::new(false);

@@ -8,22 +8,15 @@ use std::{
 use clap::Args;
 use rayon::prelude::*;
 
-use super::{
-    CommandError,
-    output::{Folder, check_folder, identity},
-    run::threads,
-    terminal, write_file,
-};
-use crate::{
-    figures,
-    spring::{Design, Springs},
-    tuning::landing::design::Geometry,
-};
+use super::{CommandError, run::threads, terminal};
+use dynamics::spring::{Design, Springs};
+use run_folder::{folder::Folder, folder::identity, place::check_folder, place::write_file};
+use springs::tuning::landing::design::Geometry;
 
 /// Options of `tune chart`.
 #[derive(Debug, Args)]
 pub struct ChartOptions {
-    /// Slenderness alpha = atan(width / (2 height)) [rad], several with commas
+    /// Slenderness alpha = atan(width / (2 height)) (rad), several with commas
     #[arg(long, value_name = "RAD", value_delimiter = ',', default_values_t = [0.05, 0.1, 0.15, 0.2, 0.3, 0.4, 0.5])]
     alpha: Vec<f64>,
     /// Folder for chart.csv, chart.png and chart.svg
@@ -138,7 +131,7 @@ fn draw(out: &Path, rows: &[ChartRow]) -> Result<(), CommandError> {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::tuning::landing::design::GeometryError;
+    use springs::tuning::landing::design::GeometryError;
 
     #[test]
     fn a_row_holds_the_design() -> Result<(), GeometryError> {

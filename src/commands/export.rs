@@ -4,19 +4,12 @@ use std::path::{Path, PathBuf};
 
 use clap::Args;
 
-use super::{
-    CommandError,
-    common::RecordOptions,
-    elastic::deck,
-    output::{file_in, of_one_run},
-    terminal, write_file,
-};
-use crate::{
-    elastic::fem::{ElasticAnalysis, ElasticStart},
-    export::{ACCURACY, DeckFormat, ExportError, deck_of, with_inertia},
-    parameters::{Parameters, elastic::ElasticParameters},
-    record::Record,
-};
+use super::{CommandError, common::RecordOptions, terminal};
+use decks::{ACCURACY, DeckFormat, deck_of, with_inertia};
+use frames::fem::{ElasticAnalysis, ElasticStart};
+use run_folder::{elastic::deck, folder::of_one_run, models::DECKS, place::file_in, place::write_file};
+use springs::parameters::{Parameters, elastic::ElasticParameters};
+use strong_motion::Record;
 
 /// Options of `tune export`.
 #[derive(Debug, Args)]
@@ -85,29 +78,4 @@ pub(super) fn read(file: &Path, options: &RecordOptions) -> Result<(Parameters, 
     parameters.structure = with_inertia(&parameters.structure);
     let excitation = options.excitation(|| parameters.excitation(file))?;
     Ok((parameters, excitation.used()?, excitation.line()))
-}
-
-/// The decks of `tune run`: name in the folder, format.
-const DECKS: [(&str, DeckFormat); 5] = [
-    ("model_openseespy.py", DeckFormat::OpenSeesPy),
-    ("model_opensees.tcl", DeckFormat::OpenSeesTcl),
-    ("model_sap2000.s2k", DeckFormat::Sap2000),
-    ("springs.csv", DeckFormat::Csv),
-    ("springs.md", DeckFormat::Markdown),
-];
-
-/// Write every deck into a folder, which is made.
-pub(super) fn write_all(
-    dir: &Path,
-    text: impl Fn(DeckFormat) -> Result<String, ExportError>,
-) -> Result<(), CommandError> {
-    std::fs::create_dir_all(dir).map_err(|source| CommandError::Write { path: dir.display().to_string(), source })?;
-    for (name, format) in DECKS {
-        match text(format) {
-            // said, not fatal: the other decks are of use
-            Err(e @ ExportError::Member { .. }) => terminal::stderr(format_args!("{name} is left out: {e}")),
-            deck => write_file(&dir.join(name), deck?.as_bytes())?,
-        }
-    }
-    Ok(())
 }

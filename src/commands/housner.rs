@@ -6,17 +6,17 @@ use clap::Args;
 
 use super::{
     CommandError,
-    common::{RecordOptions, csv_row, restitution},
-    output::file_in,
-    terminal, write_file,
+    common::{RecordOptions, restitution},
+    terminal,
 };
-use crate::{
-    case::Case,
+use rocking::{
     housner::{self, RockingOutcome},
     motion::peak,
     overturning::samples_until,
     structure::Structure,
 };
+use run_folder::{place::file_in, place::write_file, tables::csv_row};
+use springs::case::Case;
 
 /// Options of `tune housner`.
 #[derive(Debug, Args)]

@@ -8,7 +8,9 @@ use std::{
 
 use clap::{Args, ValueEnum};
 
-use super::{CommandError, output::file_in, terminal};
+use super::{CommandError, terminal};
+use run_folder::FolderError;
+use run_folder::place::file_in;
 
 /// What the file begins with.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
@@ -141,7 +143,7 @@ pub fn run(o: &InitOptions) -> Result<(), CommandError> {
         ErrorKind::AlreadyExists => {
             CommandError::Result(format!("{path}: is there already; name another with --out, or remove it"))
         }
-        _ => CommandError::Write { path: path.clone(), source },
+        _ => FolderError::Write { path: path.clone(), source }.into(),
     };
     if let Some(folder) = out.parent() {
         std::fs::create_dir_all(folder).map_err(there)?;
@@ -155,7 +157,7 @@ pub fn run(o: &InitOptions) -> Result<(), CommandError> {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::case::{Case, ElasticCase};
+    use springs::case::{Case, ElasticCase};
 
     #[test]
     fn both_files_are_cases() {

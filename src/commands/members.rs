@@ -1,27 +1,12 @@
 //! Forces in a rigid body's legs, dampers and tendon: as CSV and as JSON.
 
+use dynamics::compare::Match;
 use serde::Serialize;
 use serde_json::{Map, Value, json};
 
-use super::common::csv_row;
-use crate::{
-    answers::WithMembers,
-    compare::Match,
-    fem::{Demands, QUANTITIES},
-    motion::TimedPeak,
-};
-
-/// `members.csv`: forces at the record's samples, each the largest since the sample before.
-pub fn csv(dt: f64, demands: &Demands) -> String {
-    let mut out = format!("t,{}\n", QUANTITIES.join(","));
-    for (i, row) in demands.rows.iter().enumerate() {
-        let mut all = [0.0; QUANTITIES.len() + 1];
-        all[0] = i as f64 * dt;
-        all[1..].copy_from_slice(row);
-        csv_row(&mut out, &all);
-    }
-    out
-}
+use dynamics::fem::{Demands, QUANTITIES};
+use rocking::motion::TimedPeak;
+use springs::answers::WithMembers;
 
 /// Largest forces and their times, as JSON.
 fn forces(peaks: &[TimedPeak; QUANTITIES.len()]) -> Value {
@@ -64,6 +49,8 @@ impl<'a> MembersReport<'a> {
 
 #[cfg(test)]
 mod tests {
+    use run_folder::tables::members_csv;
+
     use super::*;
 
     #[test]
@@ -72,7 +59,7 @@ mod tests {
         demands.rows = vec![[0.0; QUANTITIES.len()]; 2];
         demands.rows[1][0] = -2.5;
         demands.peaks[0] = TimedPeak { value: -2.5, time: 0.013 };
-        let text = csv(0.02, &demands);
+        let text = members_csv(0.02, &demands);
         assert!(text.starts_with("t,base_shear_n,axial_left_n,"));
         assert!(text.lines().nth(2).unwrap().starts_with("0.0200000000000,-2.50000000000,0,"));
         assert_eq!(forces(&demands.peaks)["base_shear_n"]["time_s"], 0.013);

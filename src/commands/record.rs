@@ -8,16 +8,14 @@ use clap::Args;
 use comfy_table::{Table, presets};
 use serde::Serialize;
 
-use super::{CommandError, output::check_folder, terminal};
-use crate::{
-    case::{Case, LONGEST_S},
-    figures,
-    message::printable,
-    record::{ReadOptions, RecordFormat, Recording, Source, TableColumn, Units},
-    scalar::GRAVITY,
-    structure::Body,
-};
+use super::{CommandError, terminal};
+use files::message::printable;
+use rocking::{scalar::GRAVITY, structure::Body};
 use row::ComponentRow;
+use run_folder::FolderError;
+use run_folder::place::check_folder;
+use springs::case::{Case, LONGEST_S};
+use strong_motion::{ReadOptions, RecordFormat, Recording, Source, TableColumn, Units};
 
 /// Options of `tune record`.
 #[derive(Debug, Args)]
@@ -227,7 +225,7 @@ fn draw(folder: &Path, file: &Path, recording: &Recording, body: Option<&Body<f6
         ));
     }
     std::fs::create_dir_all(folder)
-        .map_err(|source| CommandError::Write { path: folder.display().to_string(), source })?;
+        .map_err(|source| FolderError::Write { path: folder.display().to_string(), source })?;
     let stem = file.file_stem().unwrap_or(file.as_os_str());
     let mut name = stem.to_os_string();
     name.push(".png");

@@ -5,7 +5,7 @@ use std::{fmt::Write, path::PathBuf};
 use clap::Args;
 
 use super::{CommandError, terminal};
-use crate::{
+use springs::{
     case::Case,
     response::{bounds::Bounds, target::Target},
     tuning::arr::inner::{Fit, fit},

@@ -2,61 +2,35 @@
 
 mod elastic;
 
-use std::path::{Path, PathBuf};
+use std::path::PathBuf;
 
 use clap::Args;
 
 use super::{
     CommandError,
     bounds::{EffortOptions, ended},
-    common::{GroundOptions, RecordOptions, history_csv},
-    draw::{self, Pictures},
-    export, members,
-    output::{Folder, check_folder, identity},
+    common::{GroundOptions, RecordOptions},
     progress::{self, Progress},
-    terminal, write_file,
+    terminal,
 };
-use crate::{
-    answers::Both,
+use report::{
+    FiledParameters, Run, front,
+    markdown::markdown,
+    rigid::RigidRun,
+    screen::{Written, screen},
+};
+use run_folder::{
+    folder::{Folder, identity},
+    place::{check_folder, write_file},
+    rigid::{Output, filed, files, save, write_report},
+};
+use springs::{
     case::{ACCURACY, Asked, Case, ElasticCase, Limits, MAX_HZ, Objective, PEAKS, Yardstick, text_of},
-    excitation::Excitation,
-    export::{Expected, with_inertia},
-    figures::Figure,
-    front,
-    parameters::{Parameters, RecordRow},
-    predictability::{simulate, width_sensitivity},
-    record::Record,
-    report::{
-        self, FiledParameters, Run,
-        markdown::markdown,
-        page::page,
-        rigid::RigidRun,
-        screen::{Written, screen},
-        summary,
-    },
+    parameters::Parameters,
     results::NotDone,
     tuning::job::{Job, MOST_WORK},
 };
-
-/// All that `tune run` can write into its folder, beside figures.
-const FILES: &[&str] = &[
-    "parameters.json",
-    "parameters.md",
-    "summary.csv",
-    "history.csv",
-    "members.csv",
-    "members_envelopes.csv",
-    "report.html",
-    "decks/model_openseespy.py",
-    "decks/model_opensees.tcl",
-    "decks/model_sap2000.s2k",
-    "decks/springs.csv",
-    "decks/springs.md",
-];
-
-fn files() -> Vec<&'static str> {
-    [FILES, draw::FILES].concat()
-}
+use strong_motion::{Record, excitation::Excitation};
 
 /// Options of `tune run`.
 #[derive(Debug, Args)]
@@ -167,8 +141,8 @@ pub fn run(o: &RunOptions) -> Result<(), CommandError> {
         return ended(&effort, &o.out);
     }
     let run = RigidRun::new(case, job, front, friction);
-    run.save(&o.out, Output { figures: !o.no_figures, report: !o.no_report })?;
-    o.print(&run.said(run.filed(&o.out)))?;
+    saved(save(&run, &o.out, Output { figures: !o.no_figures, report: !o.no_report })?);
+    o.print(&run.said(filed(&run, &o.out)))?;
     ended(&effort, &o.out)
 }
 
@@ -195,59 +169,9 @@ fn within(option: &'static str, given: Option<f64>, limits: &Limits) -> Result<O
     given.map(|value| limits.check(value).map_err(refuse)).transpose()
 }
 
-/// What to write besides tables and decks.
-#[derive(Clone, Copy, Debug)]
-pub struct Output {
-    pub figures: bool,
-    pub report: bool,
-}
-
-impl RigidRun {
-    /// Write everything into a folder, which is made.
-    ///
-    /// # Errors
-    /// A file that cannot be written; a deck or a figure that cannot be made.
-    pub fn save(&self, out: &Path, output: Output) -> Result<(), CommandError> {
-        let files = files();
-        let excitation = &self.case.excitation;
-        let asked = (excitation.scale, excitation.duration_s, output, self.front.len());
-        let parts: [&dyn std::fmt::Debug; 3] = [&self.parameters, &excitation.record.fingerprint(), &asked];
-        let folder = Folder::begin(out, "run", &files, identity(&parts))?;
-        let Self { job, both, .. } = self;
-        let dt = job.record.dt;
-        let parameters = self.filed(out);
-        let run = self.said(parameters.clone());
-        let out = folder.path();
-        write_file(&out.join("parameters.json"), parameters.to_json().as_bytes())?;
-        write_file(&out.join("parameters.md"), markdown(&run).as_bytes())?;
-        write_file(&out.join("summary.csv"), summary(&run).csv().as_bytes())?;
-        write_file(&out.join("history.csv"), history_csv(dt, both).as_bytes())?;
-        let demands = both.with.as_ref().map_or(&both.demands, |with| &with.demands);
-        write_file(&out.join("members.csv"), members::csv(dt, demands).as_bytes())?;
-        let (decks, pictures) =
-            rayon::join(|| decks(out, &parameters, &job.record, both), || self.pictures(out, &run, output));
-        decks.and(pictures)?;
-        folder.finish()
-    }
-
-    /// Figures and the page.
-    fn pictures(&self, out: &Path, run: &Run, output: Output) -> Result<(), CommandError> {
-        let Self { case, job, front, both, .. } = self;
-        let figures = if output.figures { Pictures { case, job, both, front }.draw()? } else { Vec::new() };
-        let (saved, page) = rayon::join(|| draw::save(out, &figures), || report(out, output, run, &figures));
-        saved.and(page)
-    }
-
-    /// `parameters.json` as it stands in a folder.
-    fn filed(&self, out: &Path) -> Parameters {
-        let record = Some(RecordRow::new(&self.case.excitation, &self.job.record, out));
-        Parameters { record, ..self.parameters.clone() }
-    }
-}
-
-/// `report.html`, if it is asked for.
-fn report(out: &Path, output: Output, run: &Run, figures: &[Figure]) -> Result<(), CommandError> {
-    if output.report { write_file(&out.join("report.html"), page(run, figures).as_bytes()) } else { Ok(()) }
+/// Decks that were left out are said: the others are of use.
+fn saved(left_out: Vec<String>) {
+    left_out.into_iter().for_each(terminal::stderr);
 }
 
 /// What there is without a record.
@@ -261,7 +185,7 @@ fn springs_alone(o: &RunOptions, run: &Run) -> Result<(), CommandError> {
     };
     write_file(&out.join("parameters.json"), json.as_bytes())?;
     write_file(&out.join("parameters.md"), markdown(run).as_bytes())?;
-    report(out, Output { figures: false, report: !o.no_report }, run, &[])?;
+    write_report(out, Output { figures: false, report: !o.no_report }, run, &[])?;
     folder.finish()?;
     terminal::stderr("no record: tune simulate, verify and export take El Centro unless you give them one");
     o.print(run)
@@ -279,19 +203,6 @@ impl RunOptions {
         let more = if self.verbose { format!("\n{}", markdown(run)) } else { String::new() };
         terminal::stdout(format_args!("{screen}{more}"))
     }
-}
-
-/// The model for other programs. A body without rotational inertia gets some there, and its own history to check against.
-fn decks(out: &Path, parameters: &Parameters, record: &Record, both: &Both) -> Result<(), CommandError> {
-    let folder = out.join("decks");
-    let structure = with_inertia(&parameters.structure);
-    let given = structure == parameters.structure;
-    let parameters = Parameters { structure, ..parameters.clone() };
-    let own = (!given).then(|| simulate(&parameters, record));
-    let history = own.as_ref().unwrap_or_else(|| both.with.as_ref().map_or(&both.fem, |with| &with.history));
-    let width_sensitivity = width_sensitivity(&history.motion, &parameters, record);
-    let expected = Expected::new(history, width_sensitivity);
-    export::write_all(&folder, |format| crate::export::export(&parameters, record, &expected, format))
 }
 
 /// Threads beyond which a machine only starves.
@@ -315,6 +226,3 @@ pub(super) fn threads(jobs: Option<usize>) -> Result<(), CommandError> {
     }
     Ok(())
 }
-
-#[cfg(test)]
-mod tests;

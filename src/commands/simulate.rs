@@ -6,19 +6,15 @@ use clap::Args;
 
 use super::{
     CommandError,
-    common::{GroundOptions, RecordOptions, history_csv, restitution},
-    members,
-    output::{file_in, of_one_run},
-    terminal, write_file,
+    common::{GroundOptions, RecordOptions, restitution},
+    members, terminal,
 };
-use crate::{
-    answers::both,
-    parameters::Parameters,
-    report::{
-        filed,
-        reference::{self, HousnerReport},
-    },
+use report::{
+    filed,
+    reference::{self, HousnerReport},
 };
+use run_folder::{folder::of_one_run, place::file_in, place::write_file, tables::history_csv};
+use springs::{answers::both, parameters::Parameters};
 
 /// Options of `tune simulate`.
 #[derive(Debug, Args)]
@@ -57,7 +53,7 @@ pub fn run(o: &SimulateOptions) -> Result<(), CommandError> {
     }
     if let Some(path) = &forces {
         let demands = both.with.as_ref().map_or(&both.demands, |with| &with.demands);
-        write_file(path, members::csv(record.dt, demands).as_bytes())?;
+        write_file(path, run_folder::tables::members_csv(record.dt, demands).as_bytes())?;
     }
     terminal::stderr(excitation.line());
     let housner = HousnerReport::new(&body, e, &record, &both.rocking, friction);

@@ -8,8 +8,9 @@ use std::{
 
 use clap::{Args, Subcommand};
 
-use super::{CommandError, output::check_folder, progress::Progress, run::threads, terminal};
-use crate::sweep::{
+use super::{CommandError, progress::Progress, run::threads, terminal};
+use run_folder::place::check_folder;
+use sweep::{
     manifest::Manifest,
     parts::{Share, SweepParts},
     plan::Plan,

@@ -15,7 +15,7 @@ use std::{
 use serde::Serialize;
 
 use super::CommandError;
-use crate::message::{is_unprintable, printable, printable_lines};
+use files::message::{is_unprintable, printable, printable_lines};
 
 /// Whether the reader of stdout went away: what follows has no reader.
 static STDOUT_ENDED: AtomicBool = AtomicBool::new(false);

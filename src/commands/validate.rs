@@ -11,26 +11,19 @@ use clap::Args;
 use rayon::prelude::*;
 use serde::Serialize;
 
-use super::{
-    CommandError, common,
-    draw::subtitle,
-    output::{Folder, check_folder, identity, of_one_run},
-    progress::Progress,
-    run::threads,
-    terminal, write_file,
+use super::{CommandError, common, progress::Progress, run::threads, terminal};
+use dynamics::{fem, spring::ChainRow};
+use files::message::one_line;
+use rocking::{conditioning::ILL_CONDITIONED, structure::Structure, synthetic};
+use run_folder::{
+    folder::Folder, folder::identity, folder::of_one_run, pictures::subtitle, place::check_folder, place::write_file,
 };
-use crate::{
+use springs::{
     case::LONGEST_S,
-    conditioning::ILL_CONDITIONED,
-    fem, figures,
-    message::one_line,
     parameters::Parameters,
-    record::{Notice, ReadOptions, Record, RecordError, Recording, Units},
-    spring::ChainRow,
-    structure::Structure,
-    synthetic,
     validate::{Judge, Validation},
 };
+use strong_motion::{Notice, ReadOptions, Record, RecordError, Recording, Units};
 
 /// Options of `tune validate`.
 #[derive(Debug, Args)]
@@ -94,9 +87,9 @@ struct RecordsSource {
     synthetic: usize,
     earthquakes: usize,
     seed: u64,
-    /// sqrt(m g R/I0) of the structure [1/s].
+    /// sqrt(m g R/I0) of the structure (1/s).
     p: f64,
-    /// Lean of balance [rad].
+    /// Lean of balance (rad).
     alpha: f64,
 }
 

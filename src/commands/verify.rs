@@ -12,22 +12,26 @@ use comfy_table::{Table, presets};
 
 use super::{
     CommandError,
-    common::{RecordOptions, csv_row},
-    draw::subtitle,
+    common::RecordOptions,
     export::{check_accuracy, read},
-    output::{Folder, check_folder, identity, of_one_run},
     progress::Progress,
-    terminal, write_file,
+    terminal,
 };
-use crate::{
-    export::ACCURACY,
-    figures::history::{self, HistoryFigure, Trace},
-    motion::Motion,
-    parameters::{Parameters, elastic::ElasticParameters},
-    predictability::ForetoldEnd,
-    record::Record,
+use decks::{
+    ACCURACY,
     verify::{ComparedPeak, LIMIT, Program, Verification, verify},
 };
+use figures::history::{self, HistoryFigure, Trace};
+use rocking::motion::Motion;
+use run_folder::{
+    folder::Folder, folder::identity, folder::of_one_run, pictures::subtitle, place::check_folder, place::write_file,
+    tables::csv_row,
+};
+use springs::{
+    parameters::{Parameters, elastic::ElasticParameters},
+    predictability::ForetoldEnd,
+};
+use strong_motion::Record;
 
 /// Options of `tune verify`.
 #[derive(Debug, Args)]

@@ -1,6 +1,6 @@
 //! Damaged files of each format: one line that says what is wrong, on which line, and what to do.
 
-use groundspring::record::{ReadOptions, Recording};
+use strong_motion::{ReadOptions, Recording};
 
 use crate::write;
 

@@ -5,7 +5,7 @@
 
 use std::path::{Path, PathBuf};
 
-use groundspring::record::{Direction, ReadOptions, RecordFormat, Recording};
+use strong_motion::{Direction, ReadOptions, RecordFormat, Recording};
 
 /// What a header says of a component: direction, PGA (m/s2) and its time (s).
 type Header = (Direction, f64, Option<f64>);
@@ -54,7 +54,7 @@ fn kaikoura_at_te_mara_farm() {
     let record = recording.into_record();
     assert_eq!(record.name, "20161113_110259_WTMC_20 N28W");
     // the velocity by integration has the peak that GeoNet printed, to what its filter and the mean make
-    let pgv = groundspring::record::measures(&record).pgv;
+    let pgv = strong_motion::measures(&record).pgv;
     assert!((pgv.value + 1.01655).abs() < 0.01 * 1.01655, "{pgv:?}");
     assert!((pgv.time.unwrap() - 5.0 - 46.58).abs() < 0.03, "{pgv:?}");
 }

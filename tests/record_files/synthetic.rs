@@ -1,6 +1,6 @@
 //! Files made in each format come back as the numbers they were made of.
 
-use groundspring::record::{Direction, Notice, ReadOptions, RecordFormat, Recording, Units};
+use strong_motion::{Direction, Notice, ReadOptions, RecordFormat, Recording, Units};
 
 use crate::write::{self, DT, PREPENDED, SAMPLES, peak, rounded, wave};
 

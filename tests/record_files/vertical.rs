@@ -3,8 +3,8 @@
 use std::{fs, path::Path};
 
 use assert_cmd::Command;
-use groundspring::record::{ReadOptions, Record, VerticalFrom};
 use serde_json::Value;
+use strong_motion::{ReadOptions, Record, VerticalFrom};
 use tempfile::TempDir;
 
 use crate::write;

@@ -2,10 +2,10 @@
 
 use std::f64::consts::TAU;
 
-use groundspring::{
+use dynamics::spring::Springs;
+use rocking::structure::Structure;
+use springs::{
     response::{Response, bounds::Bounds, target::Target},
-    spring::Springs,
-    structure::Structure,
     tuning::{
         arr::inner::{Fit, FitOutcome, fit},
         landing::chain::land,

@@ -1,14 +1,16 @@
 //! Table 1's own springs in the finite elements: the sway before uplift, Figure 4, and how far they are from Housner.
 
-use groundspring::{
-    compare::Match,
+use dynamics::compare::Match;
+use dynamics::{
     fem::{Analysis, Control, History, Start},
-    housner::{self, RockingOptions},
-    parameters::Parameters,
-    record::Record,
     spring::{Design, Springs},
+};
+use rocking::{
+    housner::{self, RockingOptions},
     structure::Structure,
 };
+use springs::parameters::Parameters;
+use strong_motion::Record;
 
 fn simulate(springs: &Springs<Design<f64>>, dt: f64, accel: &[f64]) -> History {
     let body = Structure::paper().body();

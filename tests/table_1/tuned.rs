@@ -1,13 +1,10 @@
 //! The claims of section 6 and Figure 4 on our springs: those of `tune run` without arguments, 20 s of El Centro.
 
+use dynamics::compare::Match;
 use std::sync::LazyLock;
 
-use groundspring::{
-    case::Case,
-    compare::Match,
-    fem::{self, Control, History, Start},
-    tuning::job::Job,
-};
+use dynamics::fem::{self, Control, History, Start};
+use springs::{case::Case, tuning::job::Job};
 
 struct Tuned {
     job: Job,

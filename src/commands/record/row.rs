@@ -4,11 +4,8 @@ use std::f64::consts::PI;
 
 use serde::Serialize;
 
-use crate::{
-    record::{Direction, Peak, Recording, Units},
-    scalar::GRAVITY,
-    structure::Body,
-};
+use rocking::{scalar::GRAVITY, structure::Body};
+use strong_motion::{Direction, Peak, Recording, Units};
 
 /// One component. Times are those of the file's header.
 #[derive(Debug, Serialize)]

@@ -1,31 +1,33 @@
 //! `tune run` of an elastic structure.
 
-use super::{Output, RunOptions, files, springs_alone, threads};
-use crate::{
+use super::{RunOptions, saved, springs_alone, threads};
+use crate::commands::{
+    CommandError,
+    bounds::ended,
+    progress::{self, Progress},
+};
+use dynamics::effort::Effort;
+use frames::{
+    Mechanics,
+    answer::{ElasticAnswer, Reference},
+    assembled::Assembled,
+    fem::{default_control, most_steps},
+    reference::{self, FORETOLD},
+};
+use run_folder::{
+    elastic::{ElasticRun, springs_alone as alone},
+    place::check_folder,
+    rigid::{Output, files},
+};
+use springs::{
     case::ElasticCase,
-    commands::{
-        CommandError,
-        bounds::ended,
-        elastic::{ElasticRun, springs_alone as alone},
-        output::check_folder,
-        progress::{self, Progress},
-    },
-    effort::Effort,
-    elastic::{
-        Mechanics,
-        answer::{ElasticAnswer, Reference},
-        assembled::Assembled,
-        fem::{default_control, most_steps},
-        reference::{self, FORETOLD},
-    },
-    record::Record,
-    report,
     results::NotDone,
     tuning::{
         elastic::{MOST_WORK, tune_within},
         job::JobError,
     },
 };
+use strong_motion::Record;
 
 /// A history on rigid ground through the record may take one in so many of all units of work, each
 /// of the motions near it one in so many.
@@ -72,7 +74,7 @@ pub fn run(o: &RunOptions, mut case: ElasticCase) -> Result<(), CommandError> {
     progress.done();
     let answer = answer.map_err(|e| CommandError::Result(e.to_string()))?;
     let run = ElasticRun::new(case, assembled, tuned, record, answer, friction);
-    run.save(&o.out, &files(), Output { figures: !o.no_figures, report: !o.no_report })?;
+    saved(run.save(&o.out, &files(), Output { figures: !o.no_figures, report: !o.no_report })?);
     o.print(&run.said(run.filed(&o.out)))?;
     ended(&effort, &o.out)
 }

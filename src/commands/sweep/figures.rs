@@ -3,18 +3,16 @@
 use std::path::Path;
 
 use super::super::CommandError;
-use crate::{
-    figures::{fragility as probability, ida as levels, overturning as spectra, peaks, rocking as maps},
-    structure::Kind,
-    sweep::{
-        compare::Comparison,
-        fragility::{Fragility, FragilityRow, LimitState, MEASURES},
-        ida::{Ida, IdaPoint},
-        motion::SweepMotion,
-        plan::{Measure, Plan},
-        reduce::{MODELS, models},
-        table::SweepTable,
-    },
+use figures::{fragility as probability, ida as levels, overturning as spectra, peaks, rocking as maps};
+use rocking::structure::Kind;
+use sweep::{
+    compare::Comparison,
+    fragility::{Fragility, FragilityRow, LimitState, MEASURES},
+    ida::{Ida, IdaPoint},
+    motion::SweepMotion,
+    plan::{Measure, Plan},
+    reduce::{MODELS, models},
+    table::SweepTable,
 };
 
 /// Panels beyond which a figure is no figure.
@@ -93,7 +91,7 @@ fn curve(
     half_width: f64,
     observed: Vec<(f64, f64)>,
 ) -> Option<probability::FragilityCurve> {
-    use crate::sweep::lognormal::phi;
+    use sweep::lognormal::phi;
     let (fit, covariance) = (row.probit()?, row.covariance?);
     let x: Vec<f64> = (0..POINTS)
         .map(|i| fit.median() * (fit.beta() * 2.9 * (2.0 * i as f64 / (POINTS - 1) as f64 - 1.0)).exp())

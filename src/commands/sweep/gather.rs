@@ -5,14 +5,15 @@ use std::path::{Path, PathBuf};
 use clap::Args;
 
 use super::{
-    super::{
-        CommandError,
-        output::{Folder, identity},
-        terminal, write_file,
-    },
+    super::{CommandError, terminal},
     figures,
 };
-use crate::sweep::{
+use run_folder::{
+    FolderError,
+    folder::{Folder, identity},
+    place::write_file,
+};
+use sweep::{
     SweepError,
     compare::Comparison,
     fragility::Fragility,
@@ -131,7 +132,7 @@ fn histories(
     parts: &SweepParts,
     out: &Path,
     draw: bool,
-    save: &dyn Fn(&str, &SweepTable) -> Result<(), CommandError>,
+    save: &dyn Fn(&str, &SweepTable) -> Result<(), FolderError>,
 ) -> Result<Vec<String>, CommandError> {
     let plan = parts.plan;
     if plan.cells() <= CSV_ROWS {

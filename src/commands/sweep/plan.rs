@@ -8,11 +8,12 @@ use std::{
 use clap::Args;
 
 use super::{
-    super::{CommandError, terminal, write_file},
+    super::{CommandError, terminal},
     begin,
     gather::absolute,
 };
-use crate::sweep::{parts::SweepParts, plan::Plan};
+use run_folder::place::write_file;
+use sweep::{parts::SweepParts, plan::Plan};
 
 /// Shares unless said.
 const SHARES: u64 = 8;

@@ -5,8 +5,8 @@ use std::fmt::Write;
 use comfy_table::{Table, presets};
 
 use super::CommandError;
-use crate::motion::{percent, shown};
-use crate::validate::{
+use rocking::motion::{percent, shown};
+use springs::validate::{
     Confusion, GeometricMean, PREDICTABLE, Quantiles, RecordOutcome, Row, Suite, Summary, Validation,
 };
 

@@ -3,28 +3,23 @@
 use std::{fmt::Write as _, path::Path};
 
 use super::{VerifyOptions, peaks_table};
-use crate::{
-    commands::{
-        CommandError,
-        common::csv_row,
-        elastic::{deck, words},
-        export::check_accuracy,
-        output::{Folder, check_folder},
-        progress::Progress,
-        terminal, write_file,
-    },
-    elastic::{
-        answer::{ComparedEnd, ElasticHistories, Reference},
-        assembled::{Assembled, Sway, errors},
-        fem::ElasticHistory,
-        reference::{MOST_WORK, TRIED},
-    },
-    figures::stack::{self, StackFigure, StackQuantity},
-    parameters::elastic::ElasticParameters,
-    predictability::standing_share,
-    report::elastic::title as structure_title,
-    verify::{ComparedPeak, Program, VerifyError, number_before, run_deck},
+use crate::commands::{CommandError, export::check_accuracy, progress::Progress, terminal};
+use decks::verify::{ComparedPeak, Program, VerifyError, number_before, run_deck};
+use figures::stack::{self, StackFigure, StackQuantity};
+use frames::{
+    answer::{ComparedEnd, ElasticHistories, Reference},
+    assembled::{Assembled, Sway, errors},
+    fem::ElasticHistory,
+    reference::{MOST_WORK, TRIED},
 };
+use report::elastic::title as structure_title;
+use run_folder::{
+    elastic::{deck, words},
+    folder::Folder,
+    place::{check_folder, write_file},
+    tables::csv_row,
+};
+use springs::{parameters::elastic::ElasticParameters, predictability::standing_share};
 
 /// Largest NRMSE of rotation between OpenSees and our own history, while a change of the motion grows less than 30-fold: OpenSees' steps miss more
 /// than ours; of drift, five times that.

@@ -1,0 +1,243 @@
+//! An elastic structure on its springs as a deck for OpenSees: nodes, corotational beams, stiff arms to the corners.
+
+use std::f64::consts::TAU;
+
+use super::{
+    DeckFormat, ExportError,
+    language::{Language, PYTHON, TCL, record_note},
+    model::{STEPS_PER_PERIOD, digits, whole},
+    plain::{self, NamedSprings},
+    printable, sap2000,
+};
+use dynamics::spring::{Chain, Springs};
+use frames::frame::{Frame, FrameDamper, FrameLayout, FrameMember, FrameTendon, NodePoint};
+use rocking::scalar::GRAVITY;
+use strong_motion::Record;
+
+/// Stiffness of the arms that stand for a rigid footing, over the stiffest gap spring k1: as for a rigid body's legs.
+const ARM_STIFFNESS: f64 = 4.0;
+/// Newton's displacement tolerance over the span of the structure, some twenty times rounding.
+const TOLERANCE: f64 = 2e-14;
+/// Rise of a corner that counts as a motion, over that at which the structure topples.
+const SMALL_MOTION: f64 = 0.01;
+/// Radians of the structure's sway that a step may take: leaning it sways some three times as fast as fixed, and TRBDF2 lags by a twelfth of
+/// the step's square.
+const SWAY: f64 = 0.03;
+const FASTER: f64 = 3.0;
+/// A deck's steps are chosen for this share of the accuracy asked: what they err by at a landing goes on in vibration, of a column's mass too,
+/// and small errors grow 30-fold before a history is no longer judged. Errors of rotation at 1/4, 1/64, 1/256: a pier of 14 m with a heavy
+/// column 4.8e-3, 1.36e-3, 7.9e-4; one of 20 m that hardly lifts under vertical motion -, 6.4e-3, 1.7e-3 (the limit is 2e-3).
+const SHARE: f64 = 1.0 / 256.0;
+
+/// What stands above the list of springs of beams that give in shear.
+const SHEAR_NOTE: &str = "\
+# Beams that give in shear, too (Timoshenko), by index: EI above is EI/(1 + Phi), Phi = 12 EI/(GA_s L^2), and a spring resists the turn of
+# one end against the other: Phi EI/((1 + Phi) L) (N m/rad), with its dashpot (N m s/rad).
+";
+
+/// What a deck is made from.
+#[derive(Clone, Copy, Debug)]
+pub struct ElasticDeck<'a> {
+    /// What the structure is, in a line.
+    pub title: &'a str,
+    /// What it is made of.
+    pub layout: &'a FrameLayout,
+    /// The same, assembled.
+    pub frame: &'a Frame,
+    /// Under every corner.
+    pub springs: &'a [Springs<Chain<f64>>],
+    /// The motion.
+    pub record: &'a Record,
+    /// Samples of it that are followed, the one at t = 0 included.
+    pub samples: usize,
+    /// Node whose motion is checked, and its displacement (x, z) at every sample in our own history (m).
+    pub top: (usize, &'a [[f64; 2]]),
+    /// Lean at which the structure topples (rad).
+    pub alpha: f64,
+    /// Of the structure fixed to the ground, across (Hz).
+    pub frequency_hz: f64,
+    /// Accuracy of the history, as a normalised error: the steps follow from it.
+    pub accuracy: f64,
+}
+
+impl ElasticDeck<'_> {
+    /// The text of the deck.
+    ///
+    /// # Errors
+    /// A member or a vertical motion that the format does not have.
+    pub fn text(&self, format: DeckFormat) -> Result<String, ExportError> {
+        Ok(match format {
+            DeckFormat::OpenSeesPy => self.fill(&PYTHON, include_str!("elastic_deck.py")),
+            DeckFormat::OpenSeesTcl => self.fill(&TCL, include_str!("elastic_deck.tcl")),
+            DeckFormat::Sap2000 => {
+                self.without_members(format)?;
+                sap2000::tables(&sap2000::SapModel::elastic(self))
+            }
+            DeckFormat::Csv => plain::csv(&self.places()),
+            DeckFormat::Markdown => plain::markdown(self.title, &self.places()),
+        })
+    }
+
+    /// The corners from the left, and what is under them.
+    fn places(&self) -> Vec<NamedSprings> {
+        self.springs.iter().enumerate().map(|(i, springs)| (format!("corner {}", i + 1), *springs)).collect()
+    }
+
+    /// Tables leave out what SAP2000's have no word for here.
+    fn without_members(&self, format: DeckFormat) -> Result<(), ExportError> {
+        let left_out = [
+            ("damper", !self.layout.dampers.is_empty()),
+            ("tendon", !self.layout.tendons.is_empty()),
+            ("vertical ground motion", self.record.vertical.is_some()),
+        ];
+        match left_out.into_iter().find(|(_, there)| *there) {
+            Some((name, _)) => Err(ExportError::Member { name, format: format.name() }),
+            None => Ok(()),
+        }
+    }
+
+    /// Where the node that is checked settles (m).
+    pub(super) fn settled(&self) -> f64 {
+        self.top.1.first().map_or(0.0, |start| start[1])
+    }
+
+    /// Its largest displacement towards a side, x or, from where it settled, z (m).
+    pub(super) fn peak(&self, k: usize, sign: f64) -> f64 {
+        let from = if k == 1 { self.settled() } else { 0.0 };
+        self.top.1.iter().map(|at| sign * (at[k] - from)).fold(f64::NEG_INFINITY, f64::max) * sign
+    }
+
+    /// Steps per sample for a program that takes all its steps alike, 40 to a period of what lands.
+    pub(super) fn even_steps(&self) -> usize {
+        whole(self.record.dt / (TAU * self.landing() / STEPS_PER_PERIOD))
+    }
+
+    fn fill(&self, language: &Language, template: &str) -> String {
+        let rise = SMALL_MOTION * self.frame.stance() * self.alpha;
+        let values = [
+            ("TITLE", printable(self.title)),
+            ("GRAVITY", digits(GRAVITY)),
+            ("NODES", language.lines(self.nodes())),
+            ("TOP", (self.top.0 + 1).to_string()),
+            ("BEAMS", language.lines(self.beams(language))),
+            ("SHEAR", self.shear(language)),
+            ("SHEAR_SPRINGS", if self.sheared().is_empty() { String::new() } else { language.shear_springs.into() }),
+            ("CORNERS", language.lines(self.corners(language))),
+            ("DAMPERS", language.lines(self.dampers(language))),
+            ("TENDONS", language.lines(self.tendons(language))),
+            ("LEG", digits(ARM_STIFFNESS)),
+            ("RECORD_DT", digits(self.record.dt)),
+            ("ACCURACY", digits(SHARE * self.accuracy)),
+            ("LANDING", digits(self.landing())),
+            ("RISE", digits(rise)),
+            ("STEPS", self.steps().to_string()),
+            ("SAMPLES", self.samples.to_string()),
+            ("DURATION", format!("{}", (self.samples.saturating_sub(1)) as f64 * self.record.dt)),
+            ("TOLERANCE", digits(TOLERANCE * self.frame.span())),
+            ("SETTLED", digits(self.settled())),
+            ("X_MAX", digits(self.peak(0, 1.0))),
+            ("X_MIN", digits(self.peak(0, -1.0))),
+            ("Z_MAX", digits(self.peak(1, 1.0))),
+            ("Z_MIN", digits(self.peak(1, -1.0))),
+            ("RECORD_NOTE", record_note(self.record)),
+        ];
+        language.fill(template, &values, self.record)
+    }
+
+    /// x, z, mass, rotational inertia of every node.
+    fn nodes(&self) -> impl Iterator<Item = Vec<String>> {
+        let mass = self.frame.mass_matrix();
+        let of = |at: Option<usize>| digits(at.map_or(0.0, |k| mass[(k, k)]));
+        (0..self.layout.nodes.len()).map(move |node| {
+            let ([x, z], [at, _, turn]) = (self.frame.centre(node), self.frame.coordinates(node));
+            vec![digits(x), digits(z), of(at), of(turn)]
+        })
+    }
+
+    /// From a node's centre of mass to a place on it.
+    fn arm(&self, language: &Language, point: &NodePoint) -> String {
+        let [x, z] = self.frame.centre(point.node);
+        // a place on its node is there, to the last digit
+        language.list(&[plain(point.place[0] - x), plain(point.place[1] - z)])
+    }
+
+    fn beams(&self, language: &Language) -> impl Iterator<Item = Vec<String>> {
+        self.layout.members.iter().map(|member| {
+            let [a, b] = &member.ends;
+            let s = &member.section;
+            let ahead = |damping: f64, stiffness: f64| if stiffness > 0.0 { damping / stiffness } else { 0.0 };
+            let (axial, bending) = (ahead(s.axial_damping, s.axial), ahead(s.bending_damping, s.bending));
+            let bent = s.bending / (1.0 + s.shear_ratio(length(member)));
+            let numbers = [s.axial, bent, axial, bending].map(digits);
+            let ends = [a.node.to_string(), b.node.to_string(), self.arm(language, a), self.arm(language, b)];
+            [ends, numbers].concat()
+        })
+    }
+
+    /// Beams that give in shear, with the stiffness and the dashpot of the spring between the turns of their ends [N m/rad, N m s/rad]:
+    /// k = [4 + Phi, 2 - Phi; 2 - Phi, 4 + Phi]/(1 + Phi) is that of a beam of EI/(1 + Phi), and [1 -1; -1 1] Phi EI/((1 + Phi) L).
+    fn sheared(&self) -> Vec<(usize, [f64; 2])> {
+        let spring = |(i, member): (usize, &FrameMember)| {
+            let (s, l) = (&member.section, length(member));
+            let phi = s.shear_ratio(l);
+            let of = |stiffness: f64| phi * stiffness / ((1.0 + phi) * l);
+            (phi > 0.0).then(|| (i, [of(s.bending), of(s.bending_damping)]))
+        };
+        self.layout.members.iter().enumerate().filter_map(spring).collect()
+    }
+
+    /// Their list, with what it is; nothing if there are none.
+    fn shear(&self, language: &Language) -> String {
+        let springs = self.sheared();
+        if springs.is_empty() {
+            return String::new();
+        }
+        format!("\n{SHEAR_NOTE}{}", language.shear(&springs))
+    }
+
+    fn corners(&self, language: &Language) -> impl Iterator<Item = Vec<String>> {
+        let unit = |c: &Chain<f64>| language.list(&[c.k1, c.k2, c.c, c.m2].map(digits));
+        self.layout.corners.iter().zip(self.springs).map(move |(corner, springs)| {
+            let units = [unit(&springs.vertical), unit(&springs.horizontal)];
+            [[corner.node.to_string(), self.arm(language, corner)], units].concat()
+        })
+    }
+
+    fn dampers(&self, language: &Language) -> impl Iterator<Item = Vec<String>> {
+        self.layout.dampers.iter().map(|FrameDamper { at, c: [h, v] }| {
+            vec![at.node.to_string(), self.arm(language, at), digits(*h), digits(*v)]
+        })
+    }
+
+    fn tendons(&self, language: &Language) -> impl Iterator<Item = Vec<String>> {
+        self.layout.tendons.iter().map(|FrameTendon { at, anchor, stiffness, pretension }| {
+            let numbers = [digits(*stiffness), digits(*pretension)];
+            [vec![at.node.to_string(), self.arm(language, at), language.list(&anchor.map(digits))], numbers.to_vec()]
+                .concat()
+        })
+    }
+
+    /// Steps per sample, at least: pairs.
+    fn steps(&self) -> usize {
+        let longest = SWAY / (FASTER * TAU * self.frequency_hz);
+        2 * ((self.record.dt / longest / 2.0).ceil() as usize).max(1)
+    }
+
+    /// What a landing takes: 1/omega of the mass that lands on the vertical k1 (s).
+    fn landing(&self) -> f64 {
+        let of = |(i, springs): (usize, &Springs<Chain<f64>>)| {
+            (self.frame.effective_mass(i)[1] / springs.vertical.k1).sqrt()
+        };
+        self.springs.iter().enumerate().map(of).fold(f64::INFINITY, f64::min)
+    }
+}
+
+fn length(member: &FrameMember) -> f64 {
+    let [a, b] = member.ends.map(|end| end.place);
+    (b[0] - a[0]).hypot(b[1] - a[1])
+}
+
+/// A number, zero as it is: decks ask whether it is.
+fn plain(x: f64) -> String {
+    if x == 0.0 { "0.0".into() } else { digits(x) }
+}

@@ -1,0 +1,111 @@
+//! The languages of OpenSees decks: what all decks in one share, and how it writes lists.
+//!
+//! A deck is a template (numbers, model, what is recorded) around three fragments: the stepping routine, the solver with its loads, and
+//! the epilogue that follows the record and checks the peaks.
+
+use std::fmt::Write;
+
+use super::model::digits;
+use strong_motion::Record;
+
+/// A language and its fragments.
+#[derive(Debug)]
+pub(super) struct Language {
+    routine: &'static str,
+    solver: &'static str,
+    epilogue: &'static str,
+    /// Springs of beams that give in shear, and their list: its head, and its rows' and its own end.
+    pub shear_springs: &'static str,
+    pub shear_list: [&'static str; 2],
+    /// Around a list, between its items, and after a row of a list of lists.
+    // decks of elastic structures have lists
+    brackets: [&'static str; 2],
+    separator: &'static str,
+    end: &'static str,
+}
+
+/// Python, for openseespy.
+pub(super) static PYTHON: Language = Language {
+    routine: super::STEPS,
+    solver: include_str!("solver.py"),
+    epilogue: include_str!("epilogue.py"),
+    shear_springs: include_str!("elastic_shear.py"),
+    shear_list: ["SHEAR = {", "}"],
+    brackets: ["(", ")"],
+    separator: ", ",
+    end: ",",
+};
+
+/// Tcl, for OpenSees' own interpreter.
+pub(super) static TCL: Language = Language {
+    routine: include_str!("steps.tcl"),
+    solver: include_str!("solver.tcl"),
+    epilogue: include_str!("epilogue.tcl"),
+    shear_springs: include_str!("elastic_shear.tcl"),
+    shear_list: ["set shear {", "}"],
+    brackets: ["{", "}"],
+    separator: " ",
+    end: "",
+};
+
+impl Language {
+    /// A list of two items or more.
+    pub(crate) fn list(&self, items: &[String]) -> String {
+        let [open, close] = self.brackets;
+        format!("{open}{}{close}", items.join(self.separator))
+    }
+
+    /// Beams that give in shear, by index: stiffness and dashpot of the spring that stands for it.
+    pub(crate) fn shear(&self, springs: &[(usize, [f64; 2])]) -> String {
+        let [open, close] = self.shear_list;
+        let row = |(beam, [stiffness, damping]): &(usize, [f64; 2])| match self.end {
+            "" => format!("    {{{beam} {} {}}}\n", digits(*stiffness), digits(*damping)),
+            _ => format!("    {beam}: ({}, {}),\n", digits(*stiffness), digits(*damping)),
+        };
+        format!("{open}\n{}{close}\n", springs.iter().map(row).collect::<String>())
+    }
+
+    /// A list of lists, one a line.
+    pub(crate) fn lines(&self, lists: impl Iterator<Item = Vec<String>>) -> String {
+        lists.map(|items| format!("    {}{}", self.list(&items), self.end)).collect::<Vec<_>>().join("\n")
+    }
+
+    /// A template with its fragments, the record and these values in the place of `@NAME@`.
+    pub(crate) fn fill(&self, template: &str, values: &[(&str, String)], record: &Record) -> String {
+        let fragments = [("ROUTINE", self.routine), ("SOLVER", self.solver), ("EPILOGUE", self.epilogue)];
+        let mut text = template.to_string();
+        for (name, fragment) in fragments {
+            text = text.replace(&format!("@{name}@"), fragment.trim_end());
+        }
+        for (name, value) in values {
+            text = text.replace(&format!("@{name}@"), value);
+        }
+        let vertical = record.vertical.as_ref().map_or(String::new(), |vertical| self.samples(&vertical.accel));
+        // last and once: they are most of the text
+        text.replacen("@VERTICAL@", &vertical, 1).replacen("@RECORD@", &self.samples(&record.accel), 1)
+    }
+
+    /// Samples, four a line.
+    fn samples(&self, accel: &[f64]) -> String {
+        let lines = accel.chunks(4).map(|samples| {
+            samples.iter().fold(String::from("   "), |mut line, &a| {
+                // writing to a String does not fail
+                let _ = write!(line, " {}{}", digits(a), self.end);
+                line
+            })
+        });
+        lines.collect::<Vec<_>>().join("\n")
+    }
+}
+
+/// What a record is, for a comment.
+pub(super) fn record_note(record: &Record) -> String {
+    let vertical = record.vertical.as_ref().map_or(String::new(), |v| format!(", vertically {:.4} g", v.peak_g()));
+    format!(
+        "{}: {} samples, dt {} s, peak {:.4} g{vertical}; m/s2, positive to the right",
+        super::printable(&record.name),
+        record.len(),
+        record.dt,
+        record.pga_g()
+    )
+}

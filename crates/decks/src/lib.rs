@@ -1,0 +1,226 @@
+//! Decks: the tuned springs in the engineer's own program.
+//!
+//! | format | what it is |
+//! |---|---|
+//! | [`DeckFormat::OpenSeesPy`] | one Python file for `openseespy` that builds, runs and checks itself |
+//! | [`DeckFormat::OpenSeesTcl`] | the same for OpenSees' Tcl interpreter |
+//! | [`DeckFormat::Sap2000`] | .s2k text tables for File > Import > SAP2000 .s2k Text File |
+//! | [`DeckFormat::Csv`], [`DeckFormat::Markdown`] | k1, k2, m2, c per foot and direction, for everyone else |
+//!
+//! Numbers are written with 17 significant digits, so that a deck holds exactly what was tuned. SI units, except in
+//! SAP2000 where the tables say KN, m.
+
+// what is printed goes through the program's `commands/terminal`
+#![cfg_attr(not(test), deny(clippy::print_stdout, clippy::print_stderr))]
+
+mod elastic;
+mod expectation;
+mod language;
+mod model;
+mod opensees;
+mod plain;
+mod sap2000;
+mod step_count;
+pub mod verify;
+
+use thiserror::Error;
+
+use dynamics::fem::History;
+pub use elastic::ElasticDeck;
+pub use expectation::{DeckExpectation, foretold_rigid};
+use model::DeckModel;
+pub use model::equal_steps;
+pub use model::{ACCURACY, with_inertia};
+use springs::{
+    parameters::Parameters,
+    predictability::{simulate, width_sensitivity},
+};
+pub use step_count::deck_steps;
+use strong_motion::Record;
+
+/// The stepping routine of decks for openseespy: `class Steps`, in need of `math`, `sys` and `ops`.
+pub const STEPS: &str = include_str!("steps.py");
+
+/// What to write.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum DeckFormat {
+    /// Python for openseespy.
+    OpenSeesPy,
+    /// Tcl for OpenSees.
+    OpenSeesTcl,
+    /// SAP2000 text tables.
+    Sap2000,
+    /// k1, k2, m2, c as CSV.
+    Csv,
+    /// The same as Markdown.
+    Markdown,
+}
+
+impl DeckFormat {
+    /// Every format.
+    pub(crate) const ALL: [Self; 5] = [Self::OpenSeesPy, Self::OpenSeesTcl, Self::Sap2000, Self::Csv, Self::Markdown];
+
+    /// Its name on the command line.
+    pub(crate) fn name(self) -> &'static str {
+        match self {
+            Self::OpenSeesPy => "openseespy",
+            Self::OpenSeesTcl => "opensees-tcl",
+            Self::Sap2000 => "sap2000",
+            Self::Csv => "csv",
+            Self::Markdown => "markdown",
+        }
+    }
+
+    /// The ending of its file, without the dot.
+    pub(crate) fn ending(self) -> &'static str {
+        match self {
+            Self::OpenSeesPy => "py",
+            Self::OpenSeesTcl => "tcl",
+            Self::Sap2000 => "s2k",
+            Self::Csv => "csv",
+            Self::Markdown => "md",
+        }
+    }
+}
+
+impl std::str::FromStr for DeckFormat {
+    type Err = ExportError;
+
+    fn from_str(name: &str) -> Result<Self, ExportError> {
+        Self::ALL.into_iter().find(|f| f.name() == name).ok_or_else(|| ExportError::DeckFormat {
+            name: printable(name),
+            known: Self::ALL.map(Self::name).join(", "),
+        })
+    }
+}
+
+/// Rotation at which a body has fallen over (rad): a deck's history ends there.
+const FALLEN: f64 = 1.0;
+
+/// What the deck must find when it runs: taken from our own history, checked by the deck itself.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Expected {
+    /// Number of samples followed, the one at t = 0 included.
+    pub samples: usize,
+    /// Z of the centre of mass, standing settled (negative: the settlement) (m).
+    pub settled: f64,
+    /// Largest and least u (m).
+    pub u: (f64, f64),
+    /// Largest and least v, from the settled position (m).
+    pub v: (f64, f64),
+    /// NRMSE of u that a relative change of the width by 1e-5 makes in the history: the more, the finer are a deck's steps.
+    pub width_sensitivity: f64,
+    /// Accuracy asked of the deck, as a normalised error of its history: its steps follow from it.
+    pub accuracy: f64,
+}
+
+impl Expected {
+    /// From a history that began settled, and its width sensitivity; at the accuracy [`ACCURACY`].
+    pub fn new(history: &History, width_sensitivity: f64) -> Self {
+        Self::within(history, width_sensitivity, history.motion.len())
+    }
+
+    /// The same of so many of its samples. It ends where the body has fallen over: another program's would fall through the ground next,
+    /// a little sooner or later than ours.
+    pub(crate) fn within(history: &History, width_sensitivity: f64, samples: usize) -> Self {
+        let motion = &history.motion;
+        let fallen = motion.theta.iter().position(|theta| theta.abs() >= FALLEN).map_or(motion.len(), |i| i + 1);
+        let samples = samples.min(fallen);
+        let range =
+            |x: &[f64]| x[..samples].iter().fold((0.0, 0.0), |(max, min): (f64, f64), &x| (max.max(x), min.min(x)));
+        Self {
+            samples,
+            settled: history.initial_z,
+            u: range(&motion.u),
+            v: range(&motion.v),
+            width_sensitivity,
+            accuracy: ACCURACY,
+        }
+    }
+
+    /// The same at another accuracy.
+    pub(crate) fn with_accuracy(self, accuracy: f64) -> Self {
+        Self { accuracy, ..self }
+    }
+}
+
+/// What is wrong with an export, and what to do.
+#[derive(Debug, Error)]
+#[allow(missing_docs)] // messages say what variants and their fields are
+pub enum ExportError {
+    #[error("export: format '{name}' is not known; give one of {known}")]
+    DeckFormat { name: String, known: String },
+    #[error(
+        "export: {name} is {value}; give a finite number above zero (dampers and inertia may be zero), as `tune run` writes them"
+    )]
+    Number { name: &'static str, value: f64 },
+    #[error(
+        "export: {name} is not written for {format}; leave it out, or take another --format (SAP2000 tables have no damper, tendon, friction and vertical ground motion)"
+    )]
+    Member { name: &'static str, format: &'static str },
+    #[error(
+        "export: the history to check against has {expected} samples but the record has {record}; use the record that was simulated"
+    )]
+    Samples { expected: usize, record: usize },
+}
+
+/// The text of a deck of these springs on a record, with our own history to check itself against. A body without rotational
+/// inertia gets the least that other programs need (1e-5 m R^2).
+///
+/// # Errors
+/// A member or a vertical motion that the format does not have; numbers that are not finite.
+pub fn deck(parameters: &Parameters, record: &Record, format: DeckFormat) -> Result<String, ExportError> {
+    deck_of(parameters, record, format, ACCURACY)
+}
+
+/// The same; an OpenSees deck's steps for this accuracy of its history, a normalised error.
+pub fn deck_of(
+    parameters: &Parameters,
+    record: &Record,
+    format: DeckFormat,
+    accuracy: f64,
+) -> Result<String, ExportError> {
+    let parameters = &Parameters { structure: with_inertia(&parameters.structure), ..parameters.clone() };
+    let history = simulate(parameters, record);
+    let width_sensitivity = width_sensitivity(&history.motion, parameters, record);
+    export(parameters, record, &Expected::new(&history, width_sensitivity).with_accuracy(accuracy), format)
+}
+
+/// The text of a deck: the model of `parameters` on `record` for another program.
+///
+/// # Errors
+/// Numbers that are not finite; a history longer than the record.
+pub fn export(
+    parameters: &Parameters,
+    record: &Record,
+    expected: &Expected,
+    format: DeckFormat,
+) -> Result<String, ExportError> {
+    let model = DeckModel::new(parameters, record, expected)?;
+    let (members, sap2000) = (&model.members, format == DeckFormat::Sap2000);
+    for (name, left_out) in [
+        ("friction", members.friction.is_some() && sap2000),
+        ("damper", members.damper.is_some() && sap2000),
+        ("tendon", members.tendon.is_some() && sap2000),
+        ("vertical ground motion", record.vertical.is_some() && sap2000),
+    ] {
+        if left_out {
+            return Err(ExportError::Member { name, format: format.name() });
+        }
+    }
+    Ok(match format {
+        DeckFormat::OpenSeesPy => opensees::python(&model),
+        DeckFormat::OpenSeesTcl => opensees::tcl(&model),
+        DeckFormat::Sap2000 => sap2000::tables(&sap2000::SapModel::rigid(&model)),
+        DeckFormat::Csv => plain::csv(&model.places()),
+        DeckFormat::Markdown => plain::markdown(&model.title(), &model.places()),
+    })
+}
+
+/// A name that is harmless inside a comment or a string of any of the programs.
+fn printable(name: &str) -> String {
+    name.chars().map(|c| if c.is_ascii_alphanumeric() || " ._-+".contains(c) { c } else { '_' }).collect()
+}
+
+#[cfg(test)]
+mod tests;

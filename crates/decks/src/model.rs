@@ -1,0 +1,187 @@
+//! What every deck needs besides the parameters: stiff legs, steps, tolerances, each with its rule.
+
+use super::{Expected, ExportError, plain::NamedSprings, printable};
+use dynamics::spring::{Chain, Springs};
+use rocking::{
+    members::Members,
+    structure::{Body, Structure},
+};
+use springs::{parameters::Parameters, predictability::HOPELESS};
+use strong_motion::Record;
+
+/// Rotational inertia, as a share of m R^2, that a deck gives to a body that has none: OpenSees and SAP2000 cannot
+/// solve for a rotation without inertia while both feet are in the air. Ten times more or less
+/// changes 20 s of a 5 m frame by 2e-3 (NRMSE).
+pub(crate) const SMALL_INERTIA: f64 = 1e-5;
+
+/// Stiffness of the legs that stand for a rigid body, over the stiffest gap spring k1, the same along and across. OpenSees
+/// decks take their compliance off that of k1, so that both in series are k1, however soft the legs; a leg a thousand times
+/// stiffer than k1 costs three digits of k1's force, and on springs of 10 kHz Newton's iteration ends in its rounding.
+pub(super) const LEG_STIFFNESS: f64 = 4.0;
+
+/// What a history's error is to be, unless one asks otherwise.
+pub const ACCURACY: f64 = 0.002;
+
+/// For a program that takes all its steps alike: per period of the stiffest Omega_n.
+pub(super) const STEPS_PER_PERIOD: f64 = 40.0;
+/// p times the time step, at most, where all steps are alike.
+const STEP_BY_ROCKING: f64 = 1e-4;
+
+/// Newton's displacement tolerance over R: some twenty times what rounding leaves of it with legs of [`LEG_STIFFNESS`].
+const TOLERANCE: f64 = 2e-14;
+
+/// The accuracy asked is tightened with what a change of the width by 1e-5 does to the history (from 6.7e-5 on), since the
+/// steps' error grows as that does; so many times at most: steps a third as long.
+const TIGHTER: f64 = 15_000.0;
+const TIGHTEST: f64 = 8.0;
+/// Rise of a foot that counts as a motion, over that at which the body topples.
+const SMALL_MOTION: f64 = 0.01;
+/// Steps per sample where steps follow from the accuracy: a pair, ended by every sample.
+pub(super) const A_PAIR: usize = 2;
+
+/// For a program that takes all its steps alike, 1/(40 Omega_n (Hz)) and 1e-4/p.
+fn even_steps(parameters: &Parameters, dt: f64) -> usize {
+    let body = parameters.structure.body::<f64>();
+    let chains = parameters.chains();
+    let omega = (chains.vertical.k1.max(chains.horizontal.k1) / body.mass).sqrt();
+    whole(dt / (std::f64::consts::TAU / (STEPS_PER_PERIOD * omega)).min(STEP_BY_ROCKING / body.p_squared().sqrt()))
+}
+
+/// How many equal steps a deck for such a program takes to the record's end.
+pub fn equal_steps(parameters: &Parameters, record: &Record) -> usize {
+    record.len().saturating_sub(1).saturating_mul(even_steps(parameters, record.dt))
+}
+
+/// Rounded up, but a ratio that is whole but for rounding stays it.
+pub(super) fn whole(ratio: f64) -> usize {
+    ((ratio - 1e-9).ceil() as usize).max(1)
+}
+
+/// The structure as decks hold it: a body without rotational inertia gets `SMALL_INERTIA`. Simulate this one to compare.
+pub fn with_inertia(structure: &Structure) -> Structure {
+    let body = structure.body::<f64>();
+    let small = SMALL_INERTIA * body.mass * body.radius().powi(2);
+    let given = structure.rotational_inertia_kgm2;
+    Structure { rotational_inertia_kgm2: if given > 0.0 { given } else { small }, ..*structure }
+}
+
+/// A deck's numbers.
+pub(super) struct DeckModel<'a> {
+    pub structure: Structure,
+    /// I_cg as written (kg m2).
+    pub inertia: f64,
+    pub springs: Springs<Chain<f64>>,
+    pub members: Members<f64>,
+    /// EA/L and 3EI/L^3 of the legs that stand for the rigid body (N/m).
+    pub leg: f64,
+    /// Newton's displacement tolerance (m).
+    pub tolerance: f64,
+    /// Accuracy that the steps are to have.
+    pub accuracy: f64,
+    /// 1/Omega_n of the vertical k1 (s).
+    pub landing: f64,
+    /// Rise of a foot from which on its motion counts (m).
+    pub rise: f64,
+    /// Steps per sample for a program that takes all its steps alike.
+    pub even_steps: usize,
+    pub record: &'a Record,
+    pub expected: Expected,
+    /// The record's name, harmless in comments.
+    pub record_name: String,
+}
+
+impl<'a> DeckModel<'a> {
+    pub(crate) fn new(parameters: &Parameters, record: &'a Record, expected: &Expected) -> Result<Self, ExportError> {
+        let members = parameters.members();
+        let structure = parameters.structure;
+        let springs = parameters.chains();
+        let Springs { vertical: v, horizontal: h } = springs;
+        for (name, value, may_be_zero) in [
+            ("structure.height_m", structure.height_m, false),
+            ("structure.width_m", structure.width_m, false),
+            ("structure.mass_kg", structure.mass_kg, false),
+            ("structure.rotational_inertia_kgm2", structure.rotational_inertia_kgm2, true),
+            ("vertical.k1_n_per_m", v.k1, false),
+            ("vertical.k2_n_per_m", v.k2, false),
+            ("vertical.m2_kg", v.m2, false),
+            ("vertical.c_ns_per_m", v.c, true),
+            ("horizontal.k1_n_per_m", h.k1, false),
+            ("horizontal.k2_n_per_m", h.k2, false),
+            ("horizontal.m2_kg", h.m2, false),
+            ("horizontal.c_ns_per_m", h.c, true),
+            ("damper.c_ns_per_m", members.damper.map_or(0.0, |d| d.c), true),
+            ("tendon.stiffness_n_per_m", members.tendon.map_or(1.0, |t| t.stiffness), false),
+            ("tendon.pretension_n", members.tendon.map_or(0.0, |t| t.pretension), true),
+        ] {
+            if !(value.is_finite() && (value > 0.0 || may_be_zero && value == 0.0)) {
+                return Err(ExportError::Number { name, value });
+            }
+        }
+        if expected.samples == 0 || expected.samples > record.len() {
+            return Err(ExportError::Samples { expected: expected.samples, record: record.len() });
+        }
+        let leg = LEG_STIFFNESS * v.k1.max(h.k1);
+        let body = structure.body::<f64>();
+        let tighter = if expected.width_sensitivity > HOPELESS {
+            1.0
+        } else {
+            (TIGHTER * expected.width_sensitivity).clamp(1.0, TIGHTEST)
+        };
+        let accuracy = expected.accuracy / tighter;
+        Ok(Self {
+            structure,
+            inertia: with_inertia(&structure).rotational_inertia_kgm2,
+            springs,
+            members,
+            leg,
+            tolerance: TOLERANCE * body.radius(),
+            accuracy,
+            landing: (body.mass / v.k1).sqrt(),
+            rise: SMALL_MOTION * 2.0 * body.half_width * (body.half_width / body.height).atan(),
+            even_steps: even_steps(parameters, record.dt),
+            record,
+            expected: *expected,
+            record_name: printable(&record.name),
+        })
+    }
+
+    pub(crate) fn body(&self) -> Body<f64> {
+        self.structure.body()
+    }
+
+    /// The feet and what is under them.
+    pub(crate) fn places(&self) -> [NamedSprings; 2] {
+        ["left", "right"].map(|foot| (foot.to_string(), self.springs))
+    }
+
+    /// Time of the last sample followed (s).
+    pub(crate) fn duration(&self) -> f64 {
+        (self.expected.samples - 1) as f64 * self.record.dt
+    }
+
+    pub(crate) fn inertia_note(&self) -> &'static str {
+        if self.structure.rotational_inertia_kgm2 > 0.0 {
+            "as given"
+        } else {
+            "1e-5 m R^2, small but not zero, else the rotation is undefined while both feet are in the air"
+        }
+    }
+
+    /// Length at which the tendon begins to pull (m); zero without one.
+    pub(crate) fn slack(&self) -> f64 {
+        let length = self.structure.height_m + self.expected.settled;
+        self.members.tendon.map_or(0.0, |t| length - t.pretension / t.stiffness)
+    }
+
+    pub(crate) fn title(&self) -> String {
+        format!(
+            "Rocking body, h = {} m, 2b = {} m, m = {} kg, on tuned ground springs: {}",
+            self.structure.height_m, self.structure.width_m, self.structure.mass_kg, self.record_name
+        )
+    }
+}
+
+/// 17 significant digits: reads back to the same number.
+pub(super) fn digits(x: f64) -> String {
+    format!("{x:.16e}")
+}

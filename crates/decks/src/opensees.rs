@@ -1,0 +1,75 @@
+//! OpenSees decks: the same model in Python and in Tcl, from two templates that explain every choice in comments.
+
+use super::{
+    language::{Language, PYTHON, TCL, record_note},
+    model::{A_PAIR, DeckModel, LEG_STIFFNESS, digits},
+};
+use rocking::scalar::GRAVITY;
+
+/// The deck for openseespy.
+pub(super) fn python(model: &DeckModel) -> String {
+    fill(&PYTHON, include_str!("deck.py"), model)
+}
+
+/// The deck for OpenSees' Tcl interpreter.
+pub(super) fn tcl(model: &DeckModel) -> String {
+    fill(&TCL, include_str!("deck.tcl"), model)
+}
+
+/// A coefficient of friction at which no pressing foot ever slips, not even in the last microsecond before it lifts: with 1000
+/// a foot that lifts lets its horizontal force go in 20 us instead of at once, and 3 s of a 2 m block are off by 3e-4.
+const HOLDS: f64 = 1e7;
+
+fn accuracy_note(model: &DeckModel) -> String {
+    if model.accuracy < model.expected.accuracy {
+        format!("{} was asked for, and small errors grow in this history", model.expected.accuracy)
+    } else {
+        "the steps follow from it".to_string()
+    }
+}
+
+/// The template with the model's numbers.
+fn fill(language: &Language, template: &str, model: &DeckModel) -> String {
+    let body = model.body();
+    let (v, h) = (&model.springs.vertical, &model.springs.horizontal);
+    let e = &model.expected;
+    let values = [
+        ("TITLE", model.title()),
+        ("GRAVITY", digits(GRAVITY)),
+        ("HEIGHT", digits(body.height)),
+        ("HALF_WIDTH", digits(body.half_width)),
+        ("MASS", digits(body.mass)),
+        ("INERTIA", digits(model.inertia)),
+        ("INERTIA_NOTE", model.inertia_note().to_string()),
+        ("K1_V", digits(v.k1)),
+        ("K2_V", digits(v.k2)),
+        ("C_V", digits(v.c)),
+        ("M2_V", digits(v.m2)),
+        ("K1_H", digits(h.k1)),
+        ("K2_H", digits(h.k2)),
+        ("C_H", digits(h.c)),
+        ("M2_H", digits(h.m2)),
+        ("LEG", digits(model.leg)),
+        ("DAMPER_C", digits(model.members.damper.map_or(0.0, |d| d.c))),
+        ("FRICTION", digits(model.members.friction.map_or(HOLDS, |f| f.coefficient))),
+        ("TENDON_K", digits(model.members.tendon.map_or(0.0, |t| t.stiffness))),
+        ("TENDON_SLACK", digits(model.slack())),
+        ("LEG_RATIO", LEG_STIFFNESS.to_string()),
+        ("TOLERANCE", digits(model.tolerance)),
+        ("RECORD_DT", digits(model.record.dt)),
+        ("ACCURACY", digits(model.accuracy)),
+        ("ACCURACY_NOTE", accuracy_note(model)),
+        ("LANDING", digits(model.landing)),
+        ("RISE", digits(model.rise)),
+        ("STEPS", A_PAIR.to_string()),
+        ("SAMPLES", e.samples.to_string()),
+        ("DURATION", model.duration().to_string()),
+        ("SETTLED", digits(e.settled)),
+        ("U_MAX", digits(e.u.0)),
+        ("U_MIN", digits(e.u.1)),
+        ("V_MAX", digits(e.v.0)),
+        ("V_MIN", digits(e.v.1)),
+        ("RECORD_NOTE", record_note(model.record)),
+    ];
+    language.fill(template, &values, model.record)
+}

@@ -1,0 +1,43 @@
+//! Plain tables: k1, k2, m2 and c under every foot or corner, in both directions.
+
+use std::fmt::Write;
+
+use super::model::digits;
+use dynamics::spring::{Chain, Springs};
+
+/// A foot or corner by name, and the units under it.
+pub(super) type NamedSprings = (String, Springs<Chain<f64>>);
+
+/// Place, direction and numbers of every unit.
+fn rows(places: &[NamedSprings]) -> impl Iterator<Item = [String; 6]> {
+    places.iter().flat_map(|(place, Springs { vertical, horizontal })| {
+        [("vertical", vertical), ("horizontal", horizontal)].map(|(direction, &Chain { k1, k2, m2, c })| {
+            let [k1, k2, m2, c] = [k1, k2, m2, c].map(digits);
+            [place.clone(), direction.to_string(), k1, k2, m2, c]
+        })
+    })
+}
+
+/// One line a unit, SI units in the header.
+pub(super) fn csv(places: &[NamedSprings]) -> String {
+    let mut text = String::from("foot,direction,k1_n_per_m,k2_n_per_m,m2_kg,c_ns_per_m\n");
+    for row in rows(places) {
+        text.push_str(&(row.join(",") + "\n"));
+    }
+    text
+}
+
+/// A table to read and to paste, with the unit's picture.
+pub(super) fn markdown(title: &str, places: &[NamedSprings]) -> String {
+    let mut text = format!("# Ground springs\n\n{title}\n\n");
+    text.push_str(
+        "Under each foot, vertically and horizontally: foot - gap, k1 - m2 - (k2 parallel with c) - ground.\n",
+    );
+    text.push_str("The gaps press and never pull; the horizontal k1 acts only while its foot presses.\n\n");
+    text.push_str("| foot | direction | k1 [N/m] | k2 [N/m] | m2 [kg] | c [N s/m] |\n|---|---|---|---|---|---|\n");
+    for row in rows(places) {
+        // writing to a String cannot fail
+        let _ = writeln!(text, "| {} |", row.join(" | "));
+    }
+    text
+}

@@ -1,0 +1,141 @@
+//! What tables are made from, whatever the structure: joints with masses, frames, feet on their links, a record.
+
+use crate::model::{DeckModel, digits};
+use dynamics::spring::{Chain, Springs};
+use strong_motion::Record;
+
+/// Length of a link over the structure's height: long enough that importing merges no joints. The absorbers do not rotate, so it does not
+/// matter.
+pub(super) const LINK_LENGTH: f64 = 0.01;
+/// Stiffness of frames that stand for a rigid body, over the stiffest spring: nothing takes their compliance off k1 here.
+const RIGID: f64 = 1e4;
+
+/// A joint of the structure.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(crate) struct Joint {
+    pub tag: usize,
+    /// x, z (m).
+    pub place: [f64; 2],
+    /// Zero of a joint without mass (kg).
+    pub mass: f64,
+    /// (kg m2)
+    pub inertia: f64,
+}
+
+/// A frame section, of a material of its own.
+#[derive(Clone, Debug, PartialEq)]
+pub(crate) struct SapSection {
+    pub name: String,
+    pub material: String,
+    /// EA (N).
+    pub axial: f64,
+    /// EI (N m2).
+    pub bending: f64,
+    /// GA_s (N); infinite: no shear deformation.
+    pub shear: f64,
+    /// Damping over stiffness (s).
+    pub ahead: f64,
+}
+
+impl SapSection {
+    /// All but rigid, beside springs as stiff as this, of a frame of this length.
+    pub(crate) fn rigid(name: String, springs: &[Springs<Chain<f64>>], length: f64) -> Self {
+        let of = |s: &Springs<Chain<f64>>| s.vertical.k1.max(s.vertical.k2).max(s.horizontal.k1).max(s.horizontal.k2);
+        let stiffness = RIGID * springs.iter().map(of).fold(0.0, f64::max);
+        let (axial, bending) = (stiffness * length, stiffness * length.powi(3) / 3.0);
+        Self { name, material: "RIGID".into(), axial, bending, shear: f64::INFINITY, ahead: 0.0 }
+    }
+}
+
+/// A frame: its two joints and its section's index.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(crate) struct Bar {
+    pub joints: [usize; 2],
+    pub section: usize,
+}
+
+/// What stands on the ground: a joint, those of its absorber and of the ground below, its unit's index.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(crate) struct FootJoints {
+    pub joint: usize,
+    pub absorber: usize,
+    pub ground: usize,
+    pub unit: usize,
+}
+
+/// Springs, and what is added to the names of their links.
+#[derive(Clone, Debug, PartialEq)]
+pub(crate) struct SpringLinks {
+    pub suffix: String,
+    pub springs: Springs<Chain<f64>>,
+}
+
+/// A model for tables.
+pub(crate) struct SapModel<'a> {
+    pub title: String,
+    /// Notes besides those of all tables, lines that begin with a dollar.
+    pub notes: String,
+    pub joints: Vec<Joint>,
+    pub sections: Vec<SapSection>,
+    pub bars: Vec<Bar>,
+    pub units: Vec<SpringLinks>,
+    pub feet: Vec<FootJoints>,
+    /// Joint whose motion is expected to be this.
+    pub watched: usize,
+    /// Where it settles (m).
+    pub settled: f64,
+    /// Its largest and least displacement, sideways and upwards from where it settled (m).
+    pub peaks: [(f64, f64); 2],
+    /// Of a link (m).
+    pub link: f64,
+    pub record: &'a Record,
+    /// Samples followed, and steps per sample.
+    pub samples: usize,
+    pub even_steps: usize,
+}
+
+impl<'a> SapModel<'a> {
+    /// Of a rigid body: joint 3 the mass, on legs from joints 1 and 2.
+    pub(crate) fn rigid(model: &DeckModel<'a>) -> Self {
+        let body = model.body();
+        let (b, h) = (body.half_width, body.height);
+        let foot = |tag: usize, x: f64| Joint { tag, place: [x, 0.0], mass: 0.0, inertia: 0.0 };
+        let mass = Joint { tag: 3, place: [0.0, h], mass: body.mass, inertia: model.inertia };
+        let e = &model.expected;
+        Self {
+            title: model.title(),
+            notes: String::new(),
+            joints: vec![foot(1, -b), foot(2, b), mass],
+            sections: vec![SapSection::rigid("LEG".into(), &[model.springs], body.radius())],
+            bars: [1, 2].map(|foot| Bar { joints: [foot, 3], section: 0 }).to_vec(),
+            units: vec![SpringLinks { suffix: String::new(), springs: model.springs }],
+            feet: [1, 2].map(|joint| FootJoints { joint, absorber: 10 + joint, ground: 20 + joint, unit: 0 }).to_vec(),
+            watched: 3,
+            settled: e.settled,
+            peaks: [e.u, e.v],
+            link: LINK_LENGTH * h,
+            record: model.record,
+            samples: e.samples,
+            even_steps: model.even_steps,
+        }
+    }
+
+    /// Where a joint of the structure is (m).
+    pub(crate) fn place(&self, tag: usize) -> [f64; 2] {
+        self.joints.iter().find(|joint| joint.tag == tag).map_or([0.0; 2], |joint| joint.place)
+    }
+
+    /// What is expected, as a comment.
+    pub(crate) fn expected(&self) -> String {
+        let [u, v] = self.peaks;
+        format!(
+            "$ Expected at joint {}, m, within 1 % of our own history: settled U3 {}; U1 {} to {}; U3 above settled {} to {}\n",
+            self.watched,
+            digits(self.settled),
+            digits(u.1),
+            digits(u.0),
+            digits(v.1),
+            digits(v.0)
+        )
+    }
+}

@@ -1,0 +1,91 @@
+//! Whether OpenSees is within its limit of our own history.
+
+use rocking::{
+    motion::{Motion, peak},
+    structure::Body,
+};
+use springs::predictability::{Foretold, ForetoldEnd, STANDING, standing_error};
+
+/// Largest NRMSE of u between OpenSees and our own history.
+pub const LIMIT: f64 = 0.001;
+
+/// Share of the largest u by which histories that have parted differ.
+const PARTED: f64 = 0.01;
+
+/// OpenSees against our own history, up to where that can be foretold.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct OpenSeesVerdict {
+    /// NRMSE of u over what is judged.
+    pub error: f64,
+    /// Whether it is at most [`LIMIT`].
+    pub within: bool,
+    /// Samples judged: all, or those that can be foretold.
+    pub samples: usize,
+    /// Where those end, if that is before the history does (s).
+    pub until: Option<f64>,
+    /// Why there.
+    pub end: Option<ForetoldEnd>,
+    /// When OpenSees first is off by one hundredth of the largest u (s).
+    pub parted: Option<f64>,
+}
+
+impl OpenSeesVerdict {
+    /// `foretold`: up to where it can be, `None` for all of it.
+    pub(crate) fn new(opensees: &Motion, ours: &Motion, body: &Body<f64>, dt: f64, foretold: Option<Foretold>) -> Self {
+        let until = foretold.map(|foretold| foretold.samples);
+        let samples = until.unwrap_or(ours.len()).min(ours.len()).min(opensees.len());
+        let (a, b) = (&opensees.u[..samples], &ours.u[..samples]);
+        let error = standing_error(a, b, body.half_width);
+        let far = PARTED * peak(&ours.u).abs().max(STANDING * body.half_width);
+        let parted = opensees.u.iter().zip(&ours.u).position(|(a, b)| (a - b).abs() > far);
+        let time = |sample: usize| sample as f64 * dt;
+        let end = foretold.map(|foretold| foretold.end);
+        Self { error, within: error <= LIMIT, samples, until: until.map(time), end, parted: parted.map(time) }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use rocking::structure::Structure;
+
+    /// A history of 1 m and one that leaves it by the given share from the given sample on.
+    fn pair(share: f64, from: usize) -> [Motion; 2] {
+        let u: Vec<f64> = (0..100).map(|i| if i % 2 == 0 { 1.0 } else { -1.0 }).collect();
+        let off = u.iter().enumerate().map(|(i, u)| if i < from { *u } else { u * (1.0 + share) }).collect();
+        [off, u].map(|u| Motion { v: u.clone(), theta: u.clone(), u })
+    }
+
+    fn judged(share: f64, from: usize, until: Option<usize>) -> OpenSeesVerdict {
+        let [off, ours] = pair(share, from);
+        let foretold = until.map(|samples| Foretold { samples, end: ForetoldEnd::Width });
+        OpenSeesVerdict::new(&off, &ours, &Structure::paper().body(), 0.01, foretold)
+    }
+
+    #[test]
+    fn a_history_off_by_its_limit_passes_and_one_further_off_does_not() {
+        assert!(judged(0.9 * LIMIT, 0, None).within);
+        let far = judged(1.1 * LIMIT, 0, None);
+        assert!(!far.within && (far.error / (1.1 * LIMIT) - 1.0).abs() < 1e-9, "{far:?}");
+        assert_eq!(far.parted, None);
+    }
+
+    #[test]
+    fn what_cannot_be_foretold_is_not_judged_but_the_time_of_parting_is_told() {
+        let verdict = judged(0.5, 60, Some(50));
+        assert!(verdict.within && verdict.samples == 50);
+        assert_eq!((verdict.until, verdict.parted), (Some(0.5), Some(0.6)));
+        assert!(!judged(0.5, 40, Some(50)).within);
+    }
+
+    /// A millimetre of a frame 6.1 m wide to each side is standing: an error of a tenth of that is within 0.001 of a thousandth of the width.
+    #[test]
+    fn a_body_that_stands_is_judged_by_its_width() {
+        let [off, ours] = pair(0.1, 0).map(|m| {
+            let u: Vec<f64> = m.u.iter().map(|u| u * 1e-5).collect();
+            Motion { v: u.clone(), theta: u.clone(), u }
+        });
+        let verdict = OpenSeesVerdict::new(&off, &ours, &Structure::paper().body(), 0.01, None);
+        assert!(verdict.within && verdict.error > 0.0, "{verdict:?}");
+    }
+}

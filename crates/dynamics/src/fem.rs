@@ -1,0 +1,194 @@
+//! The finite element model in the time domain: a rigid body on two feet and their ground springs.
+//!
+//! | file | what |
+//! |---|---|
+//! | `model`, `balance`, `strut` | coordinates, kinematics, contact forces, energies; the rotation that has no inertia, on both feet and on one |
+//! | `stance` | where it stands at first |
+//! | `radau`, `iterate`, `condensed`, `newton`, `step` | one implicit step: tables, iteration, condensed chains and matrix |
+//! | `run`, `acceptance` | the time loop: samples; in `run/`, contact events and step acceptance; which steps hold |
+//! | `control`, `energy`, `observer` | what a run is told, accounts for and shows |
+//! | `element`, `coupled` | dampers, tendon; the Newton matrix of a body with them |
+//! | `demands` | forces in legs, tendon, dampers; base shear |
+//! | `history`, `landings` | what a run leaves behind: motion, forces, energies; impacts and bounces |
+//!
+//! **Why Radau IIA.** Springs of 300 Hz under a body that rocks at 0.3 Hz are stiff, and a body without rotational
+//! inertia makes the rotation algebraic (a differential-algebraic system of index 1): the method must be L-stable and
+//! stiffly accurate. Order 5 closes the energy account to 1e-6 at a step or two per sample once the transients of a landing
+//! have died. Explicit methods chatter, creep and topple the frame; Newmark, HHT and Gauss leave the unresolved modes
+//! ringing. Its cost stays low because each absorber condenses out of the Newton matrix (`newton`).
+//!
+//! **What chooses the step.** The leading error of a Radau step in an oscillation is loss of amplitude, so the energy that a step
+//! fails to account for is one measure of its error; it has a unit, and is what the user is promised. It does not see an error of
+//! phase. So an embedded formula of order three estimates the local error beside it (`step`), and a step must satisfy both.
+
+pub mod acceptance;
+mod balance;
+pub mod condensed;
+mod contact;
+mod control;
+mod coupled;
+pub mod cubic;
+mod demands;
+mod element;
+mod energy;
+mod history;
+pub mod iterate;
+mod landings;
+mod lanes;
+mod model;
+mod newton;
+mod observer;
+#[allow(clippy::excessive_precision)] // tables to 18 digits, as computed
+pub mod radau;
+mod run;
+mod slipping;
+mod stance;
+mod step;
+mod strut;
+mod turning;
+
+pub use control::{Control, HistoryOutcome, Work};
+pub use demands::between_landings;
+pub use demands::{Demands, QUANTITIES};
+pub use energy::Energy;
+pub use history::{Account, Forces, History, Recorder};
+pub use landings::{Landing, MOMENT};
+pub use lanes::histories;
+pub use observer::{Change, Observer, View};
+
+use std::ops::ControlFlow;
+
+use crate::{
+    effort::Effort,
+    spring::{Chain, Springs},
+};
+use rocking::{members::Members, scalar::Scalar, structure::Body};
+
+/// How the body stands at t = 0.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum Start<S> {
+    /// At rest on both feet, settled under its weight.
+    Settled,
+    /// At rest on one settled foot, leaning by theta (rad): free rocking.
+    Leaning(S),
+}
+
+/// What a run is made of.
+#[derive(Clone, Copy, Debug)]
+pub struct Analysis<'a, S> {
+    pub body: Body<S>,
+    pub springs: Springs<Chain<S>>,
+    pub start: Start<S>,
+    /// Sampling interval (s).
+    pub dt: f64,
+    /// Ground acceleration at t = i dt (m/s2), linear in between.
+    pub accel: &'a [f64],
+    /// Vertical ground acceleration at the same times (m/s2), positive upwards, zero beyond its last sample: empty if there is none.
+    pub vertical: &'a [f64],
+    /// Factor on the ground acceleration, both components.
+    pub scale: S,
+    pub control: Control,
+}
+
+/// How a run ended, what it cost, and its energy account.
+#[derive(Clone, Copy, Debug)]
+pub struct Finish<S> {
+    pub outcome: HistoryOutcome,
+    pub work: Work,
+    pub energy: Energy<S>,
+    /// Largest energy of the history, the scale of its residual (J).
+    pub energy_scale: f64,
+}
+
+impl<S> Finish<S> {
+    /// Count what it cost: a step tried is a unit, one of dual numbers as many as it has parts.
+    pub fn spend(&self, effort: &Effort) {
+        let parts = size_of::<S>() / size_of::<f64>();
+        let tried = (self.work.steps + self.work.rejected + self.work.located) * parts;
+        effort.spend(tried as u64);
+    }
+}
+
+impl<S: Scalar> Analysis<'_, S> {
+    /// Run the case, showing every sample and event to `observer`.
+    pub fn observe(&self, observer: &mut impl Observer<S>) -> Finish<S> {
+        self.follow(&self.model(), observer)
+    }
+
+    /// The same with dampers, a tendon or friction.
+    pub(crate) fn observe_with(&self, members: &Members<S>, observer: &mut impl Observer<S>) -> Finish<S> {
+        self.follow(&model::Model::with_members(&self.body, &self.springs, members), observer)
+    }
+
+    fn follow(&self, model: &model::Model<S>, observer: &mut impl Observer<S>) -> Finish<S> {
+        let model = &model::Model { skip_open: self.control.skip_open, ..*model };
+        let mut run = self.run(model);
+        let outcome = run.follow(self.ground(), observer);
+        run.finish(outcome)
+    }
+
+    fn run<'a>(&self, model: &'a model::Model<S>) -> run::TimeLoop<'a, S> {
+        let start = match self.start {
+            Start::Settled => model.settled(),
+            Start::Leaning(theta) => model.leaning(theta),
+        };
+        run::TimeLoop::new(model, start, self.control)
+    }
+
+    fn model(&self) -> model::Model<S> {
+        model::Model { skip_open: self.control.skip_open, ..model::Model::new(&self.body, &self.springs) }
+    }
+
+    fn ground(&self) -> run::GroundMotion<'_, S> {
+        let &Self { dt, accel, vertical, scale, .. } = self;
+        run::GroundMotion { dt, accel, vertical, scale }
+    }
+}
+
+impl Analysis<'_, f64> {
+    /// Run the case and keep its history.
+    pub fn simulate(&self) -> History {
+        let mut recorder = Recorder::new(self.accel.len());
+        let finish = self.observe(&mut recorder);
+        recorder.finish(finish)
+    }
+
+    /// The same with dampers, a tendon or friction, or none of them; and the forces in them.
+    pub fn simulate_with(&self, members: &Members<f64>) -> (History, Demands) {
+        let mut both = HistoryAndForces { recorder: Recorder::new(self.accel.len()), demands: Demands::default() };
+        let finish = self.observe_with(members, &mut both);
+        (both.recorder.finish(finish), both.demands)
+    }
+}
+
+/// Keeps the history and the forces.
+struct HistoryAndForces {
+    recorder: Recorder,
+    demands: Demands,
+}
+
+impl Observer<f64> for HistoryAndForces {
+    fn sample(&mut self, index: usize, view: &View<f64>) -> ControlFlow<()> {
+        let _ = self.demands.sample(index, view);
+        self.recorder.sample(index, view)
+    }
+
+    fn step(&mut self, view: &View<f64>) {
+        self.demands.step(view);
+        self.recorder.step(view);
+    }
+
+    fn event(&mut self, foot: usize, change: Change, view: &View<f64>) {
+        self.recorder.event(foot, change, view);
+    }
+}
+
+/// Energy of the body at rest on one settled foot, not leaning: what a rocking body's energy counts from (J).
+pub fn energy_on_one_foot<S: Scalar>(body: &Body<S>, springs: &Springs<Chain<S>>) -> S {
+    let model = model::Model::new(body, springs);
+    let (state, feet) = model.on_one_foot(S::zero());
+    model.energy(&state, &feet)
+}
+
+#[cfg(test)]
+mod tests;

@@ -1,0 +1,191 @@
+//! The rotation of a body without rotational inertia: it follows the contact forces at once, so it stands where the elastic
+//! energy of the gaps is least,
+//!
+//! ```text
+//!   V(theta) = sum ( N^2/(2 k1_v) + H^2/(2 k1_h) )        V' = - sum ( H dp_x/dtheta + N dp_z/dtheta ) = 0,   V'' > 0
+//! ```
+//!
+//! and when a foot lands or lifts it jumps to the least that is nearest downhill.
+
+use super::model::{Contact, Foot, FootForce, Model, State, TH, Vector, X, Z, ax, az};
+use rocking::scalar::{GRAVITY, Scalar, real};
+
+/// Newton steps from anywhere: V is all but quadratic, so that a few do.
+const STEPS: usize = 6;
+
+/// A Newton step this small ends them (rad): values converged with the step before, derivatives with this one.
+const LAST: f64 = 1e-12;
+
+/// Steps of the guarded descent, where Newton's method alone does not find the least.
+const DESCENT: usize = 60;
+
+/// A step this small has arrived (rad).
+const CLOSE: f64 = 1e-9;
+
+/// Longest step of the descent (rad).
+const LONGEST: f64 = 0.1;
+
+impl<S: Scalar> Model<S> {
+    /// Turn a body without rotational inertia to where no moment acts on it. False if there is no such place downhill:
+    /// the body has lost its balance, and the state means nothing any more.
+    #[must_use]
+    pub(crate) fn turn_to_balance(&self, state: &mut State<S>, feet: &[Foot<S>; 2]) -> bool {
+        if !self.massless() || !(feet[0].closed() || feet[1].closed()) {
+            return true;
+        }
+        // a tendon pulls on the mass and turns nothing; with dampers the rotation cannot jump
+        if self.elements.dampers.is_some() {
+            return true;
+        }
+        let start = state.q[TH];
+        let (before, ..) = self.potential(state, feet);
+        if self.newton(state, feet, before) {
+            return true;
+        }
+        if self.law.slips() {
+            // a slipping foot's force has no potential to go down
+            return state.q[TH].re().is_finite();
+        }
+        state.q[TH] = start;
+        self.descend(state, feet) && self.newton(state, feet, before)
+    }
+
+    /// Whether the rotation stands where V is least, or has inertia and need not.
+    pub(crate) fn in_balance(&self, state: &State<S>, feet: &[Foot<S>; 2]) -> bool {
+        if !self.massless() || !self.is_plain() || !(feet[0].closed() || feet[1].closed()) {
+            return true;
+        }
+        let (_, moment, stiffness) = self.potential(state, feet);
+        stiffness.re() > 0.0 && (moment / stiffness).re().abs() < CLOSE
+    }
+
+    /// The rotation near `theta` at which foot i just touches the ground; `theta` itself if it turns along the ground there.
+    pub(crate) fn where_it_touches(&self, i: usize, q: &Vector<S>, theta: S) -> S {
+        let mut at = *q;
+        at[TH] = theta;
+        for _ in 0..2 {
+            let (compression, slope) = self.compression_and_slope(i, &at);
+            let step = compression / slope;
+            if step.re().abs() > CLOSE {
+                return theta;
+            }
+            at[TH] -= step;
+        }
+        at[TH]
+    }
+
+    /// Give a rotation without inertia the rate at which it stays in balance while body and absorbers move on,
+    ///
+    /// ```text
+    ///   theta' = sum ( H' dp_x/dtheta + N' dp_z/dtheta at theta' = 0 ) / V''
+    /// ```
+    ///
+    /// A step too short to tell would leave it any rate, and a body that then leaves the ground keeps what it has.
+    pub(crate) fn rotate_in_balance(&self, state: &mut State<S>, feet: &[Foot<S>; 2]) {
+        let leans = feet[0].closed() || feet[1].closed();
+        if !self.massless() || !self.is_plain() || !leans {
+            return;
+        }
+        let contact = self.contact(&state.q, feet);
+        let (_, stiffness) = self.moment_and_stiffness(&contact, feet);
+        if stiffness.re() <= 0.0 {
+            return;
+        }
+        let v = &state.v;
+        let moment = |i: usize| {
+            let FootForce { px_th, pz_th, .. } = contact[i];
+            let down = (v[az(i)] - v[Z]) * self.springs.vertical.k1 * pz_th;
+            let along = (v[ax(i)] - v[X]) * self.springs.horizontal.k1 * px_th;
+            match feet[i].contact {
+                Contact::Open => S::zero(),
+                Contact::Slide | Contact::Trail | Contact::Slip(_) => down,
+                Contact::Stick => down + along,
+            }
+        };
+        state.v[TH] = (moment(0) + moment(1)) / stiffness;
+    }
+
+    /// Newton's method from where the body stands; whether it ends at a least of V below `before`.
+    fn newton(&self, state: &mut State<S>, feet: &[Foot<S>; 2], before: S) -> bool {
+        let mut last = f64::INFINITY;
+        for _ in 0..STEPS {
+            let (moment, stiffness) = self.moment_and_stiffness(&self.contact(&state.q, feet), feet);
+            let step = moment / stiffness;
+            last = step.re();
+            state.q[TH] += step;
+            if last.abs() < LAST {
+                break;
+            }
+        }
+        let (after, _, stiffness) = self.potential(state, feet);
+        last.abs() < CLOSE && stiffness.re() > 0.0 && after.re() <= before.re() + self.rounding(before.re())
+    }
+
+    /// By how much rounding may change V where it is `stored` (J): on stiff springs that of the feet's places, a few units in
+    /// the last digit of R times the force; and a billionth of what the standing body stores, where a foot has just touched.
+    fn rounding(&self, stored: f64) -> f64 {
+        let (k_v, k_h) = (self.springs.vertical.k1.re(), self.springs.horizontal.k1.re());
+        let weight = self.body.mass.re() * GRAVITY;
+        let force = (2.0 * stored * k_v.max(k_h)).sqrt();
+        32.0 * f64::EPSILON * self.body.radius().re() * force + 1e-9 * weight * weight / k_v
+    }
+
+    /// Go downhill, never up; whether it ends where V curves upwards.
+    fn descend(&self, state: &mut State<S>, feet: &[Foot<S>; 2]) -> bool {
+        let (mut here, mut moment, mut stiffness) = self.potential(state, feet);
+        for _ in 0..DESCENT {
+            let mut step = moment.re() / stiffness.re().abs();
+            if step.abs() < 1e-6 {
+                return stiffness.re() > 0.0;
+            }
+            step = step.clamp(-LONGEST, LONGEST);
+            let from = state.q[TH];
+            loop {
+                state.q[TH] = from + real::<S>(step);
+                let next = self.potential(state, feet);
+                if next.0.re() < here.re() {
+                    (here, moment, stiffness) = next;
+                    break;
+                }
+                step *= 0.25;
+                if step.abs() < 1e-12 || !step.is_finite() {
+                    return false;
+                }
+            }
+        }
+        false
+    }
+
+    /// V (J), the moment -V' (N m) and the stiffness V'' (N m).
+    fn potential(&self, state: &State<S>, feet: &[Foot<S>; 2]) -> (S, S, S) {
+        let contact = self.contact(&state.q, feet);
+        let (k_v, k_h) = (self.springs.vertical.k1, self.springs.horizontal.k1);
+        let mut twice = S::zero();
+        for (foot, &FootForce { horizontal, vertical, .. }) in feet.iter().zip(&contact) {
+            if foot.closed() {
+                twice += horizontal * horizontal / k_h + vertical * vertical / k_v;
+            }
+        }
+        let (moment, stiffness) = self.moment_and_stiffness(&contact, feet);
+        (twice * 0.5, moment, stiffness)
+    }
+
+    /// The moment -V' (N m) and the stiffness V'' (N m).
+    #[inline(always)]
+    fn moment_and_stiffness(&self, contact: &[FootForce<S>; 2], feet: &[Foot<S>; 2]) -> (S, S) {
+        let (k_v, k_h) = (self.springs.vertical.k1, self.springs.horizontal.k1);
+        let (mut moment, mut stiffness) = (S::zero(), S::zero());
+        for (foot, f) in feet.iter().zip(contact) {
+            if foot.closed() {
+                let &FootForce { px_th, pz_th, horizontal, vertical } = f;
+                moment += horizontal * px_th + vertical * pz_th;
+                let mut share = k_v * pz_th * pz_th + vertical * px_th - horizontal * pz_th;
+                if foot.holds() {
+                    share += k_h * px_th * px_th;
+                }
+                stiffness += share;
+            }
+        }
+        (moment, stiffness)
+    }
+}

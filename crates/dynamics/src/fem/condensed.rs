@@ -1,0 +1,34 @@
+//! A chain's share of a Newton matrix M + s c + s^2 K with s = h lambda, its absorber eliminated: its dynamic stiffness is
+//! s^2 k1 (m2 + s c + s^2 k2) / (m2 + s c + s^2 (k1 + k2)).
+
+use num_traits::Num;
+
+use crate::spring::Chain;
+use rocking::scalar::Scalar;
+
+/// One chain's share of the condensed matrix.
+#[derive(Clone, Copy)]
+pub struct Condensed<T> {
+    /// 1 / (m2 + s c + s^2 (k1 + k2)); k1 only when closed.
+    pub pivot: T,
+    /// s^2 k1; zero when open.
+    pub coupling: T,
+    /// coupling pivot: the share of a force on the absorber that reaches the body.
+    pub share: T,
+    /// The chain's dynamic stiffness times s^2; zero when open.
+    pub stiffness: T,
+}
+
+impl<T: Num + Copy> Condensed<T> {
+    #[inline(always)]
+    pub fn new<S: Scalar>(chain: &Chain<S>, closed: bool, s: T, lift: &impl Fn(S) -> T) -> Self {
+        let base = lift(chain.m2) + s * (lift(chain.c) + s * lift(chain.k2));
+        if closed {
+            let coupling = s * s * lift(chain.k1);
+            let pivot = T::one() / (base + coupling);
+            Self { pivot, coupling, share: coupling * pivot, stiffness: coupling * base * pivot }
+        } else {
+            Self { pivot: T::one() / base, coupling: T::zero(), share: T::zero(), stiffness: T::zero() }
+        }
+    }
+}

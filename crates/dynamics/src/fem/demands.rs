@@ -1,0 +1,119 @@
+//! What the designer needs of a history: forces in the legs, tendon and dampers, and base shear.
+//!
+//! ```text
+//!   leg      F = (H, N) the ground's force on the foot, D from the mass to the foot:
+//!            axial F D/|D| (tension positive)   moment at the mass H D_z - N D_x    shear moment/|D|
+//!   base shear    sum H plus the tendon's horizontal force at its anchor: what the ground gives the body, m (X'' + ug'')
+//! ```
+//!
+//! The legs are those of a rigid A-frame, the lines from the mass to its feet; those of a solid block mean little.
+
+use std::ops::ControlFlow;
+
+use super::{
+    landings::{Landing, MOMENT},
+    observer::{Observer, View},
+};
+use rocking::{motion::TimedPeak, structure::Body};
+
+/// The forces, in the order of their columns: names with units.
+pub const QUANTITIES: [&str; 10] = [
+    "base_shear_n",
+    "axial_left_n",
+    "shear_left_n",
+    "moment_left_nm",
+    "axial_right_n",
+    "shear_right_n",
+    "moment_right_nm",
+    "tendon_n",
+    "damper_left_n",
+    "damper_right_n",
+];
+
+/// One value of each of `QUANTITIES`.
+pub(crate) type DemandRow = [f64; QUANTITIES.len()];
+
+/// The forces of a history.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct Demands {
+    /// For every sample the values of largest magnitude since the sample before.
+    pub rows: Vec<DemandRow>,
+    /// Largest magnitude of each, over all steps: in landings, forces of the springs.
+    pub peaks: [TimedPeak; QUANTITIES.len()],
+    /// Largest magnitude of each between landings: later than 0.1/p after the last touch-down, times those of the samples.
+    pub between: [TimedPeak; QUANTITIES.len()],
+    largest: DemandRow,
+}
+
+impl Demands {
+    /// Find what is largest between these landings, over the first `samples` of the history.
+    pub fn separate(&mut self, body: &Body<f64>, dt: f64, landings: &[Landing], samples: usize) {
+        self.between = Default::default();
+        for i in between_landings(body, dt, landings, samples.min(self.rows.len())) {
+            let (row, time) = (&self.rows[i], i as f64 * dt);
+            for (peak, &value) in self.between.iter_mut().zip(row) {
+                if value.abs() > peak.value.abs() {
+                    *peak = TimedPeak { value, time };
+                }
+            }
+        }
+    }
+}
+
+/// Samples, dt (s) apart, that lie later than 0.1/p after every landing: since the sample before none was near.
+pub fn between_landings(
+    body: &Body<f64>,
+    dt: f64,
+    landings: &[Landing],
+    samples: usize,
+) -> impl Iterator<Item = usize> {
+    let rest = MOMENT / body.p_squared().sqrt();
+    (0..samples).filter(move |&i| {
+        let time = i as f64 * dt;
+        let first = landings.partition_point(|l| l.time < time - dt - rest);
+        landings.get(first).is_none_or(|l| l.time > time)
+    })
+}
+
+/// The forces at one instant.
+pub(super) fn demand(view: &View<f64>) -> DemandRow {
+    let (model, q, v) = (view.model, &view.state.q, &view.state.v);
+    let feet = model.contact(q, view.feet);
+    let [left, right] = feet.map(|f| {
+        let (h, n) = (f.horizontal, f.vertical);
+        // D = (-dp_z/dtheta, dp_x/dtheta)
+        let length = f.px_th.hypot(f.pz_th);
+        let moment = h * f.px_th + n * f.pz_th;
+        [(n * f.px_th - h * f.pz_th) / length, moment / length, moment]
+    });
+    let (mut shear, mut tension, mut dampers) = (feet[0].horizontal + feet[1].horizontal, 0.0, [0.0; 2]);
+    if let Some(tendon) = &model.elements.tendon {
+        shear += tendon.force_on_mass(q)[0];
+        tension = tendon.tension(q);
+    }
+    if let Some(all) = &model.elements.dampers {
+        dampers = all.forces(q, v).map(|(force, _)| force);
+    }
+    [shear, left[0], left[1], left[2], right[0], right[1], right[2], tension, dampers[0], dampers[1]]
+}
+
+impl Observer<f64> for Demands {
+    fn sample(&mut self, index: usize, view: &View<f64>) -> ControlFlow<()> {
+        if index == 0 {
+            self.step(view);
+        }
+        self.rows.push(std::mem::take(&mut self.largest));
+        ControlFlow::Continue(())
+    }
+
+    fn step(&mut self, view: &View<f64>) {
+        for (k, value) in demand(view).into_iter().enumerate() {
+            if value.abs() > self.largest[k].abs() {
+                self.largest[k] = value;
+            }
+            if value.abs() > self.peaks[k].value.abs() {
+                self.peaks[k] = TimedPeak { value, time: view.time };
+            }
+        }
+    }
+}

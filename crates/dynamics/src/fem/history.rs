@@ -1,0 +1,186 @@
+//! What a run leaves behind: the motion, every landing, the feet's forces, the energy account.
+
+use std::ops::ControlFlow;
+
+use super::{
+    Finish,
+    control::{HistoryOutcome, Work},
+    energy::Energy,
+    landings::{ContactEvent, Events, Landing, MOMENT, SLIGHT},
+    model::{TH, X, Z},
+    observer::{Change, Observer, View},
+};
+use rocking::motion::Motion;
+
+/// Contact forces of both feet (left, right) (N): for every sample the force of largest magnitude since the sample
+/// before, since an impact is over long before the next sample.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct Forces {
+    /// Positive while the foot presses.
+    pub vertical: [Vec<f64>; 2],
+    /// Of the ground on the foot, positive to the right.
+    pub horizontal: [Vec<f64>; 2],
+    /// Vertical forces of both feet at one instant: left plus right, left minus right.
+    pub both: [Vec<f64>; 2],
+}
+
+/// The energy account at every sample (J).
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct Account {
+    /// Work of the ground.
+    pub input: Vec<f64>,
+    /// Stored above the initial energy.
+    pub stored: Vec<f64>,
+    /// Dashpots and released springs.
+    pub dissipated: Vec<f64>,
+    /// What the account leaves unexplained.
+    pub residual: Vec<f64>,
+}
+
+impl Account {
+    /// The account at a sample.
+    pub fn push(&mut self, energy: &Energy<f64>) {
+        self.input.push(energy.input);
+        self.stored.push(energy.stored - energy.initial);
+        self.dissipated.push(energy.dissipated + energy.released);
+        self.residual.push(energy.residual());
+    }
+}
+
+/// A whole history of the finite element model.
+#[derive(Clone, Debug)]
+pub struct History {
+    /// Of the centre of mass.
+    pub motion: Motion,
+    /// Every touch-down.
+    pub landings: Vec<Landing>,
+    /// At the feet.
+    pub forces: Forces,
+    /// Of energy.
+    pub account: Account,
+    /// How it ended.
+    pub outcome: HistoryOutcome,
+    /// What it cost.
+    pub work: Work,
+    /// Largest |residual| over the largest energy of the history.
+    pub energy_residual: f64,
+    /// Z of the centre of mass at the start (m); minus the settlement when it stood settled.
+    pub initial_z: f64,
+    /// Total time with both feet in the air (s).
+    pub airborne: f64,
+}
+
+impl History {
+    /// Number of impacts, re-landings of bounces not counted.
+    pub fn impacts(&self) -> usize {
+        self.landings.iter().filter(|l| l.impact).count()
+    }
+
+    /// Number of bounces.
+    pub fn bounces(&self) -> usize {
+        self.landings.iter().filter(|l| l.bounced).count()
+    }
+}
+
+/// An observer that keeps everything.
+#[derive(Clone, Debug)]
+pub struct Recorder {
+    motion: Motion,
+    events: Events,
+    forces: Forces,
+    /// Largest since the last sample: vertical and horizontal of each foot (N).
+    largest: [[f64; 2]; 2],
+    /// The same of both feet together.
+    largest_both: [f64; 2],
+    account: Account,
+    initial_z: f64,
+    residual: f64,
+    /// Time of the last sample (s).
+    end: f64,
+}
+
+impl Recorder {
+    /// With room for n samples.
+    pub fn new(n: usize) -> Self {
+        let room = || Vec::with_capacity(n);
+        Self {
+            motion: Motion::with_capacity(n),
+            events: Events::default(),
+            forces: Forces { vertical: [room(), room()], horizontal: [room(), room()], both: [room(), room()] },
+            largest: [[0.0; 2]; 2],
+            largest_both: [0.0; 2],
+            account: Account { input: room(), stored: room(), dissipated: room(), residual: room() },
+            initial_z: 0.0,
+            residual: 0.0,
+            end: 0.0,
+        }
+    }
+
+    /// The history, once the run is over.
+    pub fn finish(self, finish: Finish<f64>) -> History {
+        let lost = finish.energy.dissipated + finish.energy.released;
+        let (landings, airborne) = self.events.landings(self.end, lost);
+        History {
+            motion: self.motion,
+            landings,
+            forces: self.forces,
+            account: self.account,
+            outcome: finish.outcome,
+            work: finish.work,
+            energy_residual: self.residual / finish.energy_scale,
+            initial_z: self.initial_z,
+            airborne,
+        }
+    }
+}
+
+impl Observer<f64> for Recorder {
+    fn sample(&mut self, index: usize, view: &View<f64>) -> ControlFlow<()> {
+        let q = &view.state.q;
+        if index == 0 {
+            self.initial_z = q[Z];
+            self.events.pressing = [0, 1].map(|i| view.presses(i));
+            let body = &view.model.body;
+            self.events.moment = MOMENT / body.p_squared().sqrt();
+            self.events.slight = body.fall(SLIGHT * body.alpha());
+        }
+        self.end = view.time;
+        self.motion.push(q[X], q[Z] - self.initial_z, q[TH]);
+        if index == 0 {
+            self.step(view);
+        }
+        for (i, [vertical, horizontal]) in std::mem::take(&mut self.largest).into_iter().enumerate() {
+            self.forces.vertical[i].push(vertical);
+            self.forces.horizontal[i].push(horizontal);
+        }
+        for (series, largest) in self.forces.both.iter_mut().zip(std::mem::take(&mut self.largest_both)) {
+            series.push(largest);
+        }
+        self.account.push(view.energy);
+        self.residual = self.residual.max(view.energy.residual().abs());
+        ControlFlow::Continue(())
+    }
+
+    fn step(&mut self, view: &View<f64>) {
+        let feet = view.model.contact(&view.state.q, view.feet);
+        let [left, right] = [&feet[0], &feet[1]].map(|f| f.vertical);
+        let forces = feet.iter().flat_map(|f| [f.vertical, f.horizontal]).chain([left + right, left - right]);
+        let largest = self.largest.iter_mut().flatten().chain(&mut self.largest_both);
+        for (largest, force) in largest.zip(forces) {
+            if force.abs() > largest.abs() {
+                *largest = force;
+            }
+        }
+    }
+
+    fn event(&mut self, foot: usize, change: Change, view: &View<f64>) {
+        self.events.events.push(ContactEvent {
+            time: view.time,
+            foot,
+            change,
+            kinetic: view.body_kinetic(),
+            speed: view.speed(),
+            lost: view.energy.dissipated + view.energy.released,
+        });
+    }
+}

@@ -1,0 +1,359 @@
+//! The discrete model: a plane rigid body on two feet, each foot on a vertical and a horizontal chain.
+//!
+//! ```text
+//!   q = [ X, Z, theta,  ax_L, az_L,  ax_R, az_R ]      body (3), absorber masses of the left and right foot (2 each)
+//!
+//!   foot of side s (-1 left, +1 right), large rotation:
+//!     p_x = X + s b (cos theta - 1) - h sin theta           p_z = Z - s b sin theta + h (1 - cos theta)
+//!   gap, closed while it presses:   N =  k1_v (a_z - p_z)            (> 0: the ground pushes the foot up)
+//!                                   H = -k1_h (p_x - a_x - anchor)   (only while N acts)
+//!   m  X''     = -m ug'' + sum H                m2_h a_x'' = -m2_h ug'' - H - k2_h a_x - c_h a_x'
+//!   m  Z''     = -m (g + vg'') + sum N          m2_v a_z'' = -m2_v vg'' - N - k2_v a_z - c_v a_z'
+//!   I  theta'' = sum ( H dp_x/dtheta + N dp_z/dtheta )
+//! ```
+//!
+//! Displacements are relative to the ground, whose acceleration is (ug'', vg''), vg'' upwards; gravity acts on the body only, so an open absorber rests at zero, as in
+//! the engineer's deck, where the weight is a load on the mass.
+
+pub(crate) use super::contact::{Contact, ContactLaw, Foot, FootForce};
+use super::element::{Dampers, Elements, TendonElement};
+use crate::spring::{Chain, Springs};
+use rocking::{
+    members::{self, Members},
+    scalar::{GRAVITY, Scalar, sin_cos},
+    structure::Body,
+};
+
+/// Number of coordinates.
+pub(crate) const N: usize = 7;
+/// Sides of the two feet: left, right.
+pub(crate) const SIDE: [f64; 2] = [-1.0, 1.0];
+/// Index of the body's horizontal displacement X.
+pub(crate) const X: usize = 0;
+/// Index of the body's vertical displacement Z.
+pub(crate) const Z: usize = 1;
+/// Index of the rotation theta.
+pub(crate) const TH: usize = 2;
+
+/// Index of foot i's horizontal absorber displacement.
+#[inline(always)]
+pub(crate) const fn ax(i: usize) -> usize {
+    3 + 2 * i
+}
+
+/// Index of foot i's vertical absorber displacement.
+#[inline(always)]
+pub(crate) const fn az(i: usize) -> usize {
+    4 + 2 * i
+}
+
+/// A vector of the seven coordinates.
+pub(crate) type Vector<S> = [S; N];
+
+/// Positions and velocities.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct State<S> {
+    pub q: Vector<S>,
+    pub v: Vector<S>,
+}
+
+/// Sine and cosine of the rotation.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Pose<S> {
+    pub sin: S,
+    pub cos: S,
+}
+
+impl<S: Scalar> Pose<S> {
+    /// Of the rotation in these coordinates.
+    #[inline(always)]
+    pub(crate) fn of(q: &Vector<S>) -> Self {
+        let (sin, cos) = sin_cos(q[TH]);
+        Self { sin, cos }
+    }
+}
+
+/// I_cg / (m R^2) below which the rotation counts as massless.
+///
+/// A little rotational inertia on stiff springs makes an undamped oscillator of several kHz (Omega_n R sqrt(m/I_cg)) that
+/// no landing in reality shows: followed exactly it chatters, spins the body and topples it, and every program in use
+/// damps it by the error of its integrator. Its limit is well behaved: the rotation follows the contact forces at once.
+/// The inertia that rocking feels is kept, m R^2 + I_cg, by moving I_cg/R^2 into the inertia of the translation; what is
+/// lost is the share 2 sin^2(alpha) I_cg/(m R^2) of the restitution, less than 1e-3 for any slender body.
+const MASSLESS_ROTATION: f64 = 2e-3;
+
+/// Body and springs, ready to compute with.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Model<S> {
+    pub body: Body<S>,
+    pub springs: Springs<Chain<S>>,
+    /// Inertia of the translation (kg): the mass, and I_cg/R^2 when the rotation is massless.
+    pub translation: S,
+    /// Inertia of the rotation (kg m2); zero when massless.
+    pub rotation: S,
+    /// What a pressing foot can take along the ground.
+    pub law: ContactLaw<S>,
+    /// Dampers, tendon; none of a body on its springs alone.
+    pub elements: Elements<S>,
+    /// Solve nothing for an open foot's contact (`Control::skip_open`).
+    pub skip_open: bool,
+}
+
+impl<S: Scalar> Model<S> {
+    pub(crate) fn new(body: &Body<S>, springs: &Springs<Chain<S>>) -> Self {
+        let r = body.radius();
+        let added = body.inertia / (r * r);
+        let (translation, rotation) = if added.re() < MASSLESS_ROTATION * body.mass.re() {
+            (body.mass + added, S::zero())
+        } else {
+            (body.mass, body.inertia)
+        };
+        let (law, elements) = (ContactLaw::Sticking, Elements::NONE);
+        Self { body: *body, springs: *springs, translation, rotation, law, elements, skip_open: true }
+    }
+
+    /// A body with members on its springs. The tendon is stressed so that its tension in the settled structure is its pretension.
+    pub(crate) fn with_members(body: &Body<S>, springs: &Springs<Chain<S>>, members: &Members<S>) -> Self {
+        let mut model = Self::new(body, springs);
+        if let Some(friction) = members.friction {
+            // while feet slip, nothing but its own inertia holds the rotation
+            (model.translation, model.rotation) = (body.mass, body.inertia);
+            model.law = ContactLaw::Coulomb { coefficient: friction.coefficient };
+            return model;
+        }
+        if let Some(damper) = members.damper.filter(|damper| damper.c.re() > 0.0) {
+            model.elements.dampers = Some(Dampers::new(damper.c, body));
+            if body.inertia.re() > 0.0 {
+                // dampers let a rotation without inertia neither follow the contact forces at once nor keep its rate
+                (model.translation, model.rotation) = (body.mass, body.inertia);
+            }
+        }
+        if let Some(members::Tendon { stiffness, pretension }) = members.tendon {
+            let (state, _) = model.stand(body.mass * GRAVITY + pretension);
+            let slack = body.height + state.q[Z] - pretension / stiffness;
+            model.elements.tendon = Some(TendonElement { stiffness, slack, height: body.height, pretension });
+        }
+        model
+    }
+
+    /// Whether this is the rigid body on feet that hold at any force.
+    #[inline(always)]
+    pub(super) fn is_plain(&self) -> bool {
+        self.elements.is_empty() && !self.law.slips()
+    }
+
+    /// Whether the rotation follows the contact forces without inertia.
+    pub(super) fn massless(&self) -> bool {
+        self.rotation.re() == 0.0
+    }
+
+    /// The model without derivatives.
+    pub(crate) fn real(&self) -> Model<f64> {
+        let chain = |c: &Chain<S>| Chain { k1: c.k1.re(), k2: c.k2.re(), m2: c.m2.re(), c: c.c.re() };
+        let Body { mass, half_width, height, inertia } = self.body;
+        Model {
+            body: Body { mass: mass.re(), half_width: half_width.re(), height: height.re(), inertia: inertia.re() },
+            springs: Springs { vertical: chain(&self.springs.vertical), horizontal: chain(&self.springs.horizontal) },
+            translation: self.translation.re(),
+            rotation: self.rotation.re(),
+            law: self.law.real(),
+            elements: self.elements.real(),
+            skip_open: self.skip_open,
+        }
+    }
+
+    /// Position of foot i relative to where it stood, with the derivatives by theta: (p_x, p_z, dp_x, dp_z).
+    #[inline(always)]
+    pub(crate) fn foot(&self, i: usize, q: &Vector<S>, sin: S, cos: S) -> (S, S, S, S) {
+        let sb = self.body.half_width * SIDE[i];
+        let h = self.body.height;
+        let one_minus_cos = sin * sin / (cos + 1.0);
+        let px = q[X] - sb * one_minus_cos - h * sin;
+        let pz = q[Z] - sb * sin + h * one_minus_cos;
+        (px, pz, -(sb * sin + h * cos), h * sin - sb * cos)
+    }
+
+    /// Compression of foot i's gap, a_z - p_z: positive when the foot presses (m).
+    pub(crate) fn compression(&self, i: usize, q: &Vector<S>) -> S {
+        self.compression_at(&Pose::of(q), i, q)
+    }
+
+    /// The same where the rotation's sine and cosine are known.
+    #[inline(always)]
+    pub(crate) fn compression_at(&self, pose: &Pose<S>, i: usize, q: &Vector<S>) -> S {
+        q[az(i)] - self.foot(i, q, pose.sin, pose.cos).1
+    }
+
+    /// The compression (m) and its derivative by theta (m).
+    pub(crate) fn compression_and_slope(&self, i: usize, q: &Vector<S>) -> (S, S) {
+        let Pose { sin, cos } = Pose::of(q);
+        let (_, pz, _, pz_th) = self.foot(i, q, sin, cos);
+        (q[az(i)] - pz, -pz_th)
+    }
+
+    /// Rate of the compression (m/s).
+    pub(crate) fn compression_rate(&self, i: usize, state: &State<S>) -> S {
+        let Pose { sin, cos } = Pose::of(&state.q);
+        let pz_th = self.foot(i, &state.q, sin, cos).3;
+        state.v[az(i)] - state.v[Z] - pz_th * state.v[TH]
+    }
+
+    /// Upward velocity of foot i (m/s).
+    pub(crate) fn foot_rate(&self, i: usize, state: &State<S>) -> S {
+        let Pose { sin, cos } = Pose::of(&state.q);
+        let pz_th = self.foot(i, &state.q, sin, cos).3;
+        state.v[Z] + pz_th * state.v[TH]
+    }
+
+    /// Velocity at which foot i slips over the ground while it does so to this side (m/s).
+    pub(crate) fn slip_rate(&self, i: usize, q: &Vector<S>, v: &Vector<S>, side: f64) -> S {
+        let Pose { sin, cos } = Pose::of(q);
+        let (_, _, px_th, pz_th) = self.foot(i, q, sin, cos);
+        let Springs { vertical, horizontal } = &self.springs;
+        let compression_rate = v[az(i)] - v[Z] - pz_th * v[TH];
+        let stretch_rate = compression_rate * self.law.coefficient() * vertical.k1 / horizontal.k1 * side;
+        v[X] + px_th * v[TH] - v[ax(i)] - stretch_rate
+    }
+
+    /// Power that friction takes (W).
+    fn friction_loss(&self, q: &Vector<S>, v: &Vector<S>, feet: &[Foot<S>; 2]) -> S {
+        let contact = self.contact(q, feet);
+        let loss = |i: usize| match feet[i].contact {
+            Contact::Slip(side) => -contact[i].horizontal * self.slip_rate(i, q, v, side),
+            _ => S::zero(),
+        };
+        loss(0) + loss(1)
+    }
+
+    /// The anchor that leaves foot i's horizontal spring without force where it stands now (m).
+    pub(crate) fn anchor_here(&self, i: usize, q: &Vector<S>) -> S {
+        let Pose { sin, cos } = Pose::of(q);
+        self.foot(i, q, sin, cos).0 - q[ax(i)]
+    }
+
+    /// Contact forces and kinematics of both feet.
+    #[inline(always)]
+    pub(crate) fn contact(&self, q: &Vector<S>, feet: &[Foot<S>; 2]) -> [FootForce<S>; 2] {
+        self.contact_at(&Pose::of(q), q, feet)
+    }
+
+    /// The same where the rotation's sine and cosine are known.
+    #[inline(always)]
+    pub(crate) fn contact_at(&self, pose: &Pose<S>, q: &Vector<S>, feet: &[Foot<S>; 2]) -> [FootForce<S>; 2] {
+        [self.foot_force(pose, 0, q, &feet[0]), self.foot_force(pose, 1, q, &feet[1])]
+    }
+
+    #[inline(always)]
+    fn foot_force(&self, pose: &Pose<S>, i: usize, q: &Vector<S>, foot: &Foot<S>) -> FootForce<S> {
+        let (px, pz, px_th, pz_th) = self.foot(i, q, pose.sin, pose.cos);
+        let press = || (q[az(i)] - pz) * self.springs.vertical.k1;
+        let vertical = if foot.closed() { press() } else { S::zero() };
+        // the law first: where no foot can slip, lanes of histories must not branch on how one does
+        let horizontal = match (&self.law, foot.contact) {
+            (ContactLaw::Coulomb { .. }, Contact::Slip(side)) => self.law.slipping(press(), side),
+            _ if foot.holds() => (q[ax(i)] + foot.anchor - px) * self.springs.horizontal.k1,
+            _ => S::zero(),
+        };
+        FootForce { px_th, pz_th, horizontal, vertical }
+    }
+
+    /// Forces on the seven coordinates at ground acceleration (ug'', vg'') (m/s2).
+    #[inline(always)]
+    pub(crate) fn forces(&self, q: &Vector<S>, v: &Vector<S>, feet: &[Foot<S>; 2], ground: [S; 2]) -> Vector<S> {
+        self.forces_at(&Pose::of(q), q, v, feet, ground)
+    }
+
+    /// The same where the rotation's sine and cosine are known.
+    #[inline(always)]
+    pub(crate) fn forces_at(
+        &self,
+        pose: &Pose<S>,
+        q: &Vector<S>,
+        v: &Vector<S>,
+        feet: &[Foot<S>; 2],
+        [ground, up]: [S; 2],
+    ) -> Vector<S> {
+        let Springs { vertical, horizontal } = &self.springs;
+        let contact = self.contact_at(pose, q, feet);
+        let [l, r] = &contact;
+        let m = self.body.mass;
+        let mut f = [S::zero(); N];
+        f[X] = l.horizontal + r.horizontal - m * ground;
+        f[Z] = l.vertical + r.vertical - m * (up + GRAVITY);
+        // each foot's part by itself, so that a mirrored case gives the mirrored history to the last bit
+        f[TH] = (l.horizontal * l.px_th + l.vertical * l.pz_th) + (r.horizontal * r.px_th + r.vertical * r.pz_th);
+        for (i, foot) in contact.iter().enumerate() {
+            f[ax(i)] = -(foot.horizontal + horizontal.m2 * ground + horizontal.k2 * q[ax(i)] + horizontal.c * v[ax(i)]);
+            f[az(i)] = -(foot.vertical + vertical.m2 * up + vertical.k2 * q[az(i)] + vertical.c * v[az(i)]);
+        }
+        self.elements.add_forces(q, v, &mut f);
+        f
+    }
+
+    /// Masses of the seven coordinates [kg; kg m2 for theta].
+    pub(crate) fn masses(&self, feet: &[Foot<S>; 2]) -> Vector<S> {
+        let (m, h, v) = (self.translation, self.springs.horizontal.m2, self.springs.vertical.m2);
+        [m, m, self.rotational_inertia(feet), h, v, h, v]
+    }
+
+    /// In free flight a massless rotation keeps its rate, as the limit of a small I_cg does (no moment acts, so the
+    /// value does not matter).
+    fn rotational_inertia(&self, feet: &[Foot<S>; 2]) -> S {
+        // dampers do turn it in flight
+        let free = self.elements.dampers.is_none();
+        if self.massless() && free && !feet[0].closed() && !feet[1].closed() {
+            self.body.mass * self.body.height * self.body.height
+        } else {
+            self.rotation
+        }
+    }
+
+    /// Kinetic energy of the body (J).
+    #[inline(always)]
+    pub(crate) fn body_kinetic(&self, state: &State<S>) -> S {
+        let v = &state.v;
+        (self.translation * (v[X] * v[X] + v[Z] * v[Z]) + self.rotation * v[TH] * v[TH]) * 0.5
+    }
+
+    /// Kinetic, gravitational and elastic energy (J), gravity from the unstressed position.
+    pub(crate) fn energy(&self, state: &State<S>, feet: &[Foot<S>; 2]) -> S {
+        self.energy_at(&Pose::of(&state.q), state, feet)
+    }
+
+    /// The same where the rotation's sine and cosine are known.
+    #[inline(always)]
+    pub(crate) fn energy_at(&self, pose: &Pose<S>, state: &State<S>, feet: &[Foot<S>; 2]) -> S {
+        let Springs { vertical, horizontal } = &self.springs;
+        let (q, v) = (&state.q, &state.v);
+        let contact = self.contact_at(pose, q, feet);
+        let share = |i: usize| {
+            let mut twice = horizontal.m2 * v[ax(i)] * v[ax(i)] + vertical.m2 * v[az(i)] * v[az(i)];
+            twice += horizontal.k2 * q[ax(i)] * q[ax(i)] + vertical.k2 * q[az(i)] * q[az(i)];
+            if feet[i].closed() {
+                let FootForce { horizontal: h, vertical: n, .. } = contact[i];
+                twice += h * h / horizontal.k1 + n * n / vertical.k1;
+            }
+            twice
+        };
+        let twice = self.body_kinetic(state) * 2.0 + self.body.mass * q[Z] * (2.0 * GRAVITY) + (share(0) + share(1));
+        self.elements.add_energy(twice * 0.5, q)
+    }
+
+    /// Power of the base excitation in the moving frame, -ug'' (m X' + sum m2_h a_x') - vg'' (m Z' + sum m2_v a_z') (W).
+    #[inline(always)]
+    pub(crate) fn input_power(&self, v: &Vector<S>, [ground, up]: [S; 2]) -> S {
+        let Springs { vertical, horizontal } = &self.springs;
+        -(self.body.mass * v[X] + horizontal.m2 * (v[ax(0)] + v[ax(1)])) * ground
+            - (self.body.mass * v[Z] + vertical.m2 * (v[az(0)] + v[az(1)])) * up
+    }
+
+    /// Power that the dashpots take, and friction (W).
+    #[inline(always)]
+    pub(crate) fn dissipation(&self, q: &Vector<S>, v: &Vector<S>, feet: &[Foot<S>; 2]) -> S {
+        let Springs { vertical, horizontal } = &self.springs;
+        let springs = horizontal.c * (v[ax(0)] * v[ax(0)] + v[ax(1)] * v[ax(1)])
+            + vertical.c * (v[az(0)] * v[az(0)] + v[az(1)] * v[az(1)]);
+        let taken = if self.law.slips() { springs + self.friction_loss(q, v, feet) } else { springs };
+        self.elements.add_dissipation(taken, q, v)
+    }
+}

@@ -1,0 +1,394 @@
+//! The time loop: steps that end at every sample, and between samples at every contact event (`run/events`); the energy
+//! account accepts them and chooses the next (`run/account`).
+
+mod account;
+mod events;
+mod grip;
+mod ground;
+mod met;
+mod rest;
+mod span;
+
+use std::{f64::consts::FRAC_PI_2, ops::ControlFlow};
+
+pub(super) use super::cubic::stays_inside;
+use super::{
+    Finish,
+    acceptance::allowed_error,
+    control::{Control, HistoryOutcome, Work},
+    energy::Energy,
+    model::{Foot, Model, State, TH, Vector, Z},
+    observer::{Observer, View},
+    step::{Ground, Request, Stages, Stepper, no_guess},
+};
+pub(super) use account::{Contacts, Scales, StepMeasures};
+use events::{Located, Locating};
+pub(crate) use ground::GroundMotion;
+use met::Met;
+use rocking::scalar::{GRAVITY, Scalar, real};
+use span::Span;
+
+/// A history in the making.
+pub(crate) struct TimeLoop<'a, S> {
+    pub model: &'a Model<S>,
+    motion: GroundMotion<'a, S>,
+    /// The interval between two samples that is crossed, or that comes next.
+    interval: usize,
+    /// Whether it is under way.
+    crossing: bool,
+    /// Time since its start (s).
+    t: S,
+    /// Ground acceleration from its start on, and from now on.
+    ground: Ground<S>,
+    here: Ground<S>,
+    /// The step over several samples under way.
+    spanning: Option<Span>,
+    /// By how far the parabola is late at the samples within it (m).
+    late: [S; span::MOST],
+    /// Its rate (m/s).
+    late_rate: [S; span::MOST],
+    /// By how much the springs give way under an acceleration of the mass of one [m per m/s2].
+    compliance: f64,
+    /// The sample up to which steps over several samples may go: an event comes after it.
+    event_by: usize,
+    /// The event that the step under way is repeated for.
+    locating: Option<Locating<S>>,
+    stepper: Stepper<'a, S>,
+    control: Control,
+    state: State<S>,
+    feet: [Foot<S>; 2],
+    energy: Energy<S>,
+    /// Largest energy seen (J), the scale of the account.
+    scale: f64,
+    /// Static compression of k1 under the weight (m), the scale of contact.
+    compression: f64,
+    /// sqrt(compression/g) = 1/Omega_n of the vertical chain (s), the scale of time in contact.
+    settling: f64,
+    /// What rounding makes of a foot's place (m): some units in the last digit of R.
+    rounding: f64,
+    /// The scales of a local error.
+    pub scales: Scales,
+    /// What a step's local error may be, in these scales.
+    error: f64,
+    /// First guess of the next step's acceleration.
+    guess: Vector<S>,
+    /// Factor by which an iteration of the next step is expected to reduce the error; 1 if unknown.
+    rate: f64,
+    /// When each foot last opened (s).
+    opened: [f64; 2],
+    /// Horizontal force that each foot let go when it last opened, over what it then leant on.
+    let_go: [f64; 2],
+    /// What the other foot carried when each foot last opened (N).
+    leant_on: [f64; 2],
+    /// Step size that the energy account asked for (s).
+    h: f64,
+    /// Whether a rotation without inertia is in balance.
+    balanced: bool,
+    /// How often it turned in the event under way.
+    turns: usize,
+    /// The body rests on still ground.
+    resting: bool,
+    pub work: Work,
+}
+
+impl<'a, S: Scalar> TimeLoop<'a, S> {
+    pub(crate) fn new(model: &'a Model<S>, start: (State<S>, [Foot<S>; 2]), control: Control) -> Self {
+        let (state, feet) = start;
+        let stored = model.energy(&state, &feet);
+        let weight = model.body.mass.re() * GRAVITY;
+        let compression = weight / model.springs.vertical.k1.re();
+        // of the standing body: energy at rest, less than a thousandth of which means nothing
+        let settled = model.settled();
+        let rest = model.energy(&settled.0, &settled.1).re();
+        let scale = (stored.re() - rest).abs().max(1e-3 * rest.abs());
+        Self {
+            model,
+            motion: GroundMotion { dt: 0.0, accel: &[], vertical: &[], scale: S::one() },
+            interval: 0,
+            crossing: false,
+            t: S::zero(),
+            ground: Ground::still(),
+            here: Ground::still(),
+            spanning: None,
+            late: [S::zero(); span::MOST],
+            late_rate: [S::zero(); span::MOST],
+            compliance: span::compliance(model),
+            event_by: usize::MAX,
+            locating: None,
+            stepper: Stepper::new(model),
+            control,
+            state,
+            feet,
+            energy: Energy::new(stored),
+            scale,
+            compression,
+            settling: (compression / GRAVITY).sqrt(),
+            rounding: 8.0 * f64::EPSILON * model.body.radius().re(),
+            scales: Scales::of(model),
+            error: allowed_error(control.tolerance),
+            guess: no_guess(),
+            rate: 1.0,
+            opened: [f64::NEG_INFINITY; 2],
+            let_go: [0.0; 2],
+            leant_on: [0.0; 2],
+            h: f64::INFINITY,
+            balanced: state.q[Z].re().is_finite() && model.in_balance(&state, &feet),
+            turns: 0,
+            resting: false,
+            work: Work::default(),
+        }
+    }
+
+    fn view(&self, time: S) -> View<'_, S> {
+        View { time, model: self.model, state: &self.state, feet: &self.feet, energy: &self.energy }
+    }
+
+    /// Follow a motion of the ground to its end.
+    pub(crate) fn follow(&mut self, motion: GroundMotion<'a, S>, observer: &mut impl Observer<S>) -> HistoryOutcome {
+        let begun = self.begin(motion, observer);
+        match begun.and_then(|()| self.plan(observer)) {
+            Ok(h) => self.go_on(h, observer),
+            Err(outcome) => outcome,
+        }
+    }
+
+    /// Go on to the motion's end, with a step of size h (s) first.
+    pub(crate) fn go_on(&mut self, mut h: S, observer: &mut impl Observer<S>) -> HistoryOutcome {
+        let mut stages = Stages::none();
+        loop {
+            let converged = self.attempt(h, &mut stages);
+            let next = match self.tried(converged, &mut stages, None, observer) {
+                Ok(Some(h)) => Ok(h),
+                Ok(None) => self.plan(observer),
+                Err(outcome) => Err(outcome),
+            };
+            match next {
+                Ok(next) => h = next,
+                Err(outcome) => return outcome,
+            }
+        }
+    }
+
+    /// Whether the step that was planned goes over several samples.
+    pub(crate) fn spans(&self) -> bool {
+        self.spanning.is_some()
+    }
+
+    /// Set out on a motion and show the first sample; the outcome if there is nothing to follow.
+    pub(crate) fn begin(
+        &mut self,
+        motion: GroundMotion<'a, S>,
+        observer: &mut impl Observer<S>,
+    ) -> Result<(), HistoryOutcome> {
+        self.motion = motion;
+        if self.motion.accel.is_empty() {
+            return Err(HistoryOutcome::Completed);
+        }
+        self.show_sample(0, observer)
+    }
+
+    fn show_sample(&mut self, index: usize, observer: &mut impl Observer<S>) -> Result<(), HistoryOutcome> {
+        let time = index as f64 * self.motion.dt;
+        self.interval = index;
+        self.crossing = false;
+        match observer.sample(index, &self.view(real(time))) {
+            ControlFlow::Break(()) => Err(HistoryOutcome::Stopped { time }),
+            ControlFlow::Continue(()) => Ok(()),
+        }
+    }
+
+    /// Size of the next step to try, past samples and rests; the outcome once the history has ended.
+    pub(crate) fn plan(&mut self, observer: &mut impl Observer<S>) -> Result<S, HistoryOutcome> {
+        let dt = self.motion.dt;
+        loop {
+            if self.crossing {
+                let left = -self.t + dt;
+                if left.re() > 1e-13 * dt {
+                    return self.next_step(left);
+                }
+                self.show_sample(self.interval + 1, observer)?;
+            }
+            if self.interval + 1 >= self.motion.accel.len() {
+                return Err(HistoryOutcome::Completed);
+            }
+            self.ground = self.motion.ground(self.interval);
+            if self.rests() {
+                observer.step(&self.view(real(self.interval as f64 * dt + dt)));
+                self.show_sample(self.interval + 1, observer)?;
+            } else {
+                self.check(self.start_of_interval())?;
+                if let Some(size) = self.span() {
+                    return Ok(size);
+                }
+                (self.t, self.crossing) = (S::zero(), true);
+            }
+        }
+    }
+
+    /// The next step, `left` being left of the interval between two samples.
+    fn next_step(&mut self, left: S) -> Result<S, HistoryOutcome> {
+        self.check(self.start_of_interval() + self.t.re())?;
+        self.here = self.ground.from(self.t);
+        self.locating = None;
+        Ok(self.next_size(left))
+    }
+
+    /// The outcome if the history can go no further.
+    fn check(&self, time: f64) -> Result<(), HistoryOutcome> {
+        if self.work.steps + self.work.rejected >= self.control.most_steps {
+            return Err(HistoryOutcome::WorkBound { time });
+        }
+        // no step is short enough: where a massless rotation is about to snap its rate has no bound
+        if !self.balanced || self.h < 1e-14 * self.motion.dt {
+            return Err(HistoryOutcome::Unstable { time });
+        }
+        Ok(())
+    }
+
+    fn start_of_interval(&self) -> f64 {
+        self.interval as f64 * self.motion.dt
+    }
+
+    /// Take note of a step that was tried: accept it, refuse it, or ask for the same step with the size that is returned, to find
+    /// the event within it. `measures` are its own, if known.
+    pub(crate) fn tried(
+        &mut self,
+        converged: bool,
+        stages: &mut Stages<S>,
+        measures: Option<&StepMeasures<S>>,
+        observer: &mut impl Observer<S>,
+    ) -> Result<Option<S>, HistoryOutcome> {
+        if converged {
+            self.work.iterations += stages.iterations;
+        }
+        if let Some(span) = self.spanning.take() {
+            self.tried_span(&span, converged, stages, measures, observer)?;
+            return Ok(None);
+        }
+        let h = stages.h.re();
+        if let Some(mut event) = self.locating {
+            match self.locate(&mut event, converged, stages) {
+                Located::Next(size) => {
+                    self.locating = Some(event);
+                    return Ok(Some(size));
+                }
+                // nearer to the event, the step that ends there is easier
+                Located::Nowhere => self.refuse(event.whole * event.tau * 0.5),
+                Located::Here { changes } => {
+                    let met = if changes { event.met() } else { Met::Nothing };
+                    self.accept(stages, measures, &met, observer)?;
+                }
+            }
+            return Ok(None);
+        }
+        if !converged {
+            self.refuse(h * 0.25);
+            return Ok(None);
+        }
+        let mut measures = measures;
+        let mut met = self.met(stages, measures.map_or(&Contacts::Unknown, |m| &m.contacts));
+        if let Met::Grip { foot, tau } = met {
+            if !self.locate_grip(foot, tau, stages) {
+                self.refuse(h * tau * 0.5);
+                return Ok(None);
+            }
+            // where it changes was but estimated: a foot may touch or leave the ground before
+            met = self.crosses(stages, &Contacts::Unknown).or(met);
+            measures = None;
+        }
+        match met {
+            Met::Unresolved => self.refuse(h * 0.25),
+            Met::Crossing { foot, level, tau } => {
+                let event = Locating::new(foot, level, (stages.h, tau));
+                let size = event.h;
+                self.locating = Some(event);
+                return Ok(Some(size));
+            }
+            Met::Nothing | Met::Grip { .. } => self.accept(stages, measures, &met, observer)?,
+        }
+        Ok(None)
+    }
+
+    /// Book the step, if it is accurate enough, and change the contact that changes at its end.
+    fn accept(
+        &mut self,
+        stages: &Stages<S>,
+        measures: Option<&StepMeasures<S>>,
+        met: &Met,
+        observer: &mut impl Observer<S>,
+    ) -> Result<(), HistoryOutcome> {
+        let measured = measures.copied().unwrap_or_else(|| self.measure(stages));
+        if !self.account(stages, &measured) {
+            self.work.rejected += 1;
+            return Ok(());
+        }
+        self.t += stages.h;
+        let t0 = self.start_of_interval();
+        if self.state.q[TH].re().abs() > FRAC_PI_2 {
+            return Err(HistoryOutcome::Overturned { time: t0 + self.t.re() });
+        }
+        let time = real::<S>(t0) + self.t;
+        observer.step(&self.view(time));
+        match *met {
+            Met::Crossing { foot, level, .. } => {
+                (self.turns, self.event_by) = (0, usize::MAX);
+                self.switch(foot, level, time, observer);
+            }
+            Met::Grip { foot, .. } => self.change_grip(foot, time, observer),
+            Met::Nothing | Met::Unresolved => {}
+        }
+        Ok(())
+    }
+
+    /// Count a step that did not converge; try again with size h (s).
+    fn refuse(&mut self, h: f64) {
+        self.work.rejected += 1;
+        self.rate = 1.0;
+        self.h = h;
+    }
+
+    /// The next step: what the account allows, never past the sample, and no sliver left over.
+    fn next_size(&self, left: S) -> S {
+        let l = left.re();
+        if self.h >= 0.999 * l {
+            left
+        } else if self.h > 0.5 * l {
+            left * 0.5
+        } else {
+            real(self.h)
+        }
+    }
+
+    /// What is asked of a step of size h.
+    fn request(&self, h: S) -> Request<S> {
+        // a share of what presses the feet that the energy account would not notice
+        let share = (1e3 * self.control.tolerance).clamp(1e-7, 1e-3);
+        let tolerance = (share * self.compression).max(self.rounding);
+        let spans = self.spanning.is_some();
+        Request {
+            h,
+            ground: self.here,
+            guess: if spans { self.pendulum(h) } else { [self.guess; 3] },
+            tolerance,
+            extra: self.control.extra_iterations,
+            rate: self.rate,
+            turning: spans.then(|| self.turning(h.re(), tolerance)),
+        }
+    }
+
+    /// Hand over what a step of size h needs: start, contacts, what is asked, and what rounding alone may make of an iteration (m).
+    pub(crate) fn ask(&self, h: S, take: impl FnOnce(&State<S>, &[Foot<S>; 2], &Request<S>, f64)) {
+        take(&self.state, &self.feet, &self.request(h), self.stepper.rounding);
+    }
+
+    /// Take a step of size h into `stages`; whether it converges.
+    pub(crate) fn attempt(&mut self, h: S, stages: &mut Stages<S>) -> bool {
+        let request = self.request(h);
+        self.stepper.step(&self.state, &self.feet, &request, stages)
+    }
+
+    /// How it ended, and what it cost.
+    pub(crate) fn finish(&self, outcome: HistoryOutcome) -> Finish<S> {
+        Finish { outcome, work: self.work, energy: self.energy, energy_scale: self.scale }
+    }
+}

@@ -1,0 +1,74 @@
+//! Cases that the stories share.
+
+use dynamics::{
+    fem::{Analysis, Control, History, Start},
+    spring::{Chain, Design, Springs},
+};
+use rocking::structure::Structure;
+use strong_motion::Record;
+
+/// 20 s of El Centro at its 0.01 s.
+pub const SAMPLES: usize = 2001;
+
+/// The paper's structure with I_cg as a share of m R^2.
+pub fn paper(share: f64) -> Structure {
+    let mut structure = Structure::paper();
+    structure.rotational_inertia_kgm2 = share * structure.mass_kg * structure.body::<f64>().radius().powi(2);
+    structure
+}
+
+/// (mu, K, C) of a chain.
+pub type Ratios = (f64, f64, f64);
+
+/// Chains of the given ratios at one Omega_n (Hz) for a mass (kg).
+pub fn chains(vertical: Ratios, horizontal: Ratios, hz: f64, mass: f64) -> Springs<Chain<f64>> {
+    let design = |(mu, k, c)| Design::from_kc(mu, k, c, hz);
+    Springs { vertical: design(vertical), horizontal: design(horizontal) }.chains(mass)
+}
+
+/// Springs that land without rebound.
+pub fn plastic(hz: f64, mass: f64) -> Springs<Chain<f64>> {
+    chains((0.3, 0.1, 0.75), (0.3, 0.57, 1.86), hz, mass)
+}
+
+/// The ratios of the paper's Table 1 as recovered at one Omega_n (Hz) for a mass (kg): they bounce a lot.
+pub fn table_1(hz: f64, mass: f64) -> Springs<Chain<f64>> {
+    let Springs { vertical, horizontal } = Springs::table_1();
+    let at = |design: Design<f64>| Design { omega_n_hz: hz, ..design };
+    Springs { vertical: at(vertical), horizontal: at(horizontal) }.chains(mass)
+}
+
+/// Springs that bounce a little.
+pub fn lively(hz: f64, mass: f64) -> Springs<Chain<f64>> {
+    chains((0.06, 0.41, 1.0), (0.18, 0.86, 6.2), hz, mass)
+}
+
+/// El Centro, 20 s.
+pub fn el_centro() -> Record {
+    let mut record = Record::el_centro();
+    record.accel.truncate(SAMPLES);
+    record
+}
+
+/// A history from rest.
+pub fn settled(structure: &Structure, springs: Springs<Chain<f64>>, record: &Record, control: Control) -> History {
+    let (dt, accel) = (record.dt, &record.accel[..]);
+    Analysis { body: structure.body(), springs, start: Start::Settled, dt, accel, vertical: &[], scale: 1.0, control }
+        .simulate()
+}
+
+/// Free rocking from a lean (rad) for n samples of dt (s).
+pub fn free(structure: &Structure, springs: Springs<Chain<f64>>, lean: f64, dt: f64, n: usize) -> History {
+    let (start, accel) = (Start::Leaning(lean), &vec![0.0; n][..]);
+    Analysis {
+        body: structure.body(),
+        springs,
+        start,
+        dt,
+        accel,
+        vertical: &[],
+        scale: 1.0,
+        control: Control::default(),
+    }
+    .simulate()
+}

@@ -1,0 +1,130 @@
+//! Dampers and a tendon through El Centro.
+
+use dynamics::{
+    fem::{Analysis, Control, Demands, History, Start},
+    spring::{Chain, Springs},
+};
+use rocking::{
+    members::{Damper, Members, Tendon},
+    scalar::GRAVITY,
+    structure::Structure,
+};
+use strong_motion::Record;
+
+use crate::common::{el_centro, free, lively, paper, plastic, settled};
+
+fn run(
+    structure: &Structure,
+    springs: Springs<Chain<f64>>,
+    record: &Record,
+    members: &Members<f64>,
+) -> (History, Demands) {
+    let (dt, accel, control) = (record.dt, &record.accel[..], Control::default());
+    Analysis { body: structure.body(), springs, start: Start::Settled, dt, accel, vertical: &[], scale: 1.0, control }
+        .simulate_with(members)
+}
+
+/// Members worth trying together and alone.
+fn kinds() -> Vec<Members<f64>> {
+    let damper = Some(Damper { c: 1e6 });
+    let tendon = Some(Tendon { stiffness: 2e6, pretension: 5e5 });
+    vec![
+        Members { damper, ..Members::default() },
+        Members { tendon, ..Members::default() },
+        Members { damper, tendon, friction: None },
+    ]
+}
+
+#[test]
+fn without_members_the_history_is_the_rigid_body_s_to_the_last_bit() {
+    let (structure, record) = (paper(1e-5), el_centro());
+    let springs = plastic(80.0, structure.mass_kg);
+    let rigid = settled(&structure, springs, &record, Control::default());
+    let (history, demands) = run(&structure, springs, &record, &Members::default());
+    assert_eq!(history.motion, rigid.motion);
+    assert_eq!(demands.rows.len(), record.accel.len());
+}
+
+#[test]
+fn the_energy_account_closes_with_every_member() {
+    let record = el_centro();
+    for share in [1e-5, 1e-2] {
+        let structure = paper(share);
+        for members in kinds() {
+            let mass = structure.mass_kg;
+            for springs in [plastic(40.0, mass), plastic(160.0, mass), lively(80.0, mass)] {
+                let (history, _) = run(&structure, springs, &record, &members);
+                assert_eq!(history.motion.len(), record.accel.len(), "{members:?} {:?}", history.outcome);
+                assert!(history.energy_residual < 1e-6, "{members:?} {:e}", history.energy_residual);
+                // energy is only lost
+                let lost = &history.account.dissipated;
+                let scale = lost[lost.len() - 1];
+                assert!(lost.windows(2).all(|w| w[1] - w[0] > -1e-9 * scale), "{share} {members:?}");
+            }
+        }
+    }
+}
+
+#[test]
+fn the_mirrored_record_gives_the_mirrored_history() {
+    let mut record = el_centro();
+    record.accel.truncate(1200);
+    let mirrored = Record { accel: record.accel.iter().map(|a| -a).collect(), ..record.clone() };
+    let structure = paper(1e-5);
+    let springs = plastic(80.0, structure.mass_kg);
+    for members in kinds() {
+        let (one, forces) = run(&structure, springs, &record, &members);
+        let (other, mirrored) = run(&structure, springs, &mirrored, &members);
+        assert!(one.motion.u.iter().zip(&other.motion.u).all(|(a, b)| *a == -b), "{members:?}");
+        assert!(one.motion.v.iter().zip(&other.motion.v).all(|(a, b)| a == b), "{members:?}");
+        // axial force of the left leg is that of the right one
+        assert_eq!(forces.peaks[1].value, mirrored.peaks[4].value);
+        assert_eq!(forces.peaks[0].value, -mirrored.peaks[0].value);
+    }
+}
+
+#[test]
+fn dampers_take_energy_out_of_free_rocking() {
+    let structure = paper(1e-5);
+    let springs = plastic(80.0, structure.mass_kg);
+    let lean = 0.5 * structure.body::<f64>().alpha();
+    let still = vec![0.0; 1500];
+    let case = Analysis {
+        body: structure.body(),
+        springs,
+        start: Start::Leaning(lean),
+        dt: 0.01,
+        accel: &still,
+        vertical: &[],
+        scale: 1.0,
+        control: Control::default(),
+    };
+    let members = Members { damper: Some(Damper { c: 1e6 }), ..Members::default() };
+    let (damped, demands) = case.simulate_with(&members);
+    let rigid = free(&structure, springs, lean, 0.01, 1500);
+    let late = |h: &History| h.motion.u[700..].iter().fold(0.0_f64, |m, u| m.max(u.abs()));
+    assert!(late(&damped) < 0.75 * late(&rigid), "{} {}", late(&damped), late(&rigid));
+    assert!(damped.energy_residual < 1e-6);
+    // the corner in the air does the damper's work, up and down
+    assert!(demands.peaks[8].value != 0.0 && demands.peaks[9].value != 0.0);
+}
+
+#[test]
+fn base_shear_is_mass_times_absolute_acceleration_and_legs_carry_the_weight_at_rest() {
+    let structure = paper(1e-5);
+    let springs = plastic(80.0, structure.mass_kg);
+    let still = Record { accel: vec![0.0; 3], ..el_centro() };
+    let (_, demands) = run(&structure, springs, &still, &Members::default());
+    let weight = structure.mass_kg * GRAVITY;
+    let alpha = structure.body::<f64>().alpha();
+    // each foot takes half the weight and no thrust
+    let [shear, axial, _, _, other, ..] = demands.rows[2];
+    assert!(shear.abs() < 1e-9 * weight && axial == other);
+    assert!((axial * 2.0 / alpha.cos() / weight + 1.0).abs() < 1e-6, "{axial}");
+    // a rigid body on one foot under steady ground acceleration, before it moves: H = m ug''
+    let push = 0.05 * GRAVITY;
+    let steady = Record { accel: vec![0.0, push, push, push], dt: 1.0, ..el_centro() };
+    let (_, demands) = run(&structure, springs, &steady, &Members::default());
+    let late = demands.rows[3][0];
+    assert!((late / (structure.mass_kg * push) - 1.0).abs() < 0.2, "{late}");
+}

@@ -1,0 +1,279 @@
+//! Displacement of the centre of mass against time: finite element against Housner, the paper's Figure 4.
+
+use plotters::style::RGBColor;
+use plotters::style::text_anchor::{HPos, VPos};
+
+use super::canvas::{Canvas, Lettering};
+use super::legend::{self, LegendEntry};
+use super::mark::{Mark, MarkShape};
+use super::number::{prefix, short};
+use super::panel::{Panel, PanelFrame, ROW};
+use super::plot::{self, EventMark};
+use super::scale::Scale;
+use super::style::{self, BLACK, NUMBER, Pen, WIDTH};
+use super::{Check, FigureError, Sheet};
+
+const CHECK: Check = Check("history");
+const LEFT: f64 = 150.0;
+const RIGHT: f64 = WIDTH as f64 - 40.0;
+const GUTTER: f64 = 112.0;
+/// Displacements from here on are in millimetres, smaller ones in what suits them (m).
+const MILLIMETRES: f64 = 1e-4;
+/// No displacement is shown larger than at this scale (m).
+const NOTHING: f64 = 1e-9;
+/// An extreme so much smaller than what the panel shows is none.
+const NOUGHT: f64 = 0.01;
+/// Impacts nearer to each other than this are strokes: triangles would be a smear (pixel).
+const CROWDED: f64 = 15.0;
+/// A peak so much smaller than another model's is not told beside it.
+const SMALL: f64 = 0.5;
+/// How far beyond what stands a fall is shown.
+const FALL: f64 = 0.6;
+
+/// One model's history at the samples; it may end before the time axis does.
+#[derive(Clone, Copy, Debug, Default)]
+pub struct Trace<'a> {
+    /// Its name in the legend.
+    pub label: &'a str,
+    /// Horizontal displacement (m).
+    pub u: &'a [f64],
+    /// Vertical displacement (m), from the settled position.
+    pub v: &'a [f64],
+    /// Times of impact (s); empty when they are not known.
+    pub impacts: &'a [f64],
+    /// When it overturned or ended; what follows is a fall, and shown in part.
+    pub end: Option<EventMark<'a>>,
+}
+
+impl Trace<'_> {
+    /// How many of its samples come before its end.
+    fn standing(&self, t: &[f64]) -> usize {
+        self.end.map_or(self.u.len(), |end| t.partition_point(|t| *t <= end.time)).min(self.u.len())
+    }
+}
+
+/// What the figure shows.
+#[derive(Clone, Copy, Debug)]
+pub struct HistoryFigure<'a> {
+    pub title: &'a str,
+    /// Times of the samples, increasing (s).
+    pub t: &'a [f64],
+    /// Housner's history: black, under the others.
+    pub reference: Trace<'a>,
+    /// The finite element history, and those of other programs.
+    pub others: &'a [Trace<'a>],
+    /// A third panel: u of the others less u of the reference.
+    pub differences: bool,
+}
+
+/// A trace and how it is drawn.
+type Drawn<'a> = (Trace<'a>, Pen);
+
+/// Draw the figure.
+///
+/// # Errors
+/// [`FigureError`] for an empty or not finite slice, and for a history longer than the time axis.
+pub fn draw(data: &HistoryFigure<'_>) -> Result<Sheet, FigureError> {
+    check(data)?;
+    let traces: Vec<Drawn> = std::iter::once((data.reference, Pen::new(BLACK, 5.0)))
+        .chain(data.others.iter().enumerate().map(|(i, trace)| (*trace, pen(i))))
+        .collect();
+    let mut canvas = Canvas::default();
+    let mut entries: Vec<LegendEntry> =
+        traces.iter().map(|(trace, pen)| LegendEntry::line(trace.label, *pen)).collect();
+    if traces.iter().any(|(trace, _)| !trace.impacts.is_empty()) {
+        entries.push(LegendEntry::mark("impact (a stroke where close)", impact(BLACK)));
+    }
+    let top = legend::header(&mut canvas, data.title, &entries, LEFT, RIGHT);
+    let x = Scale::linear(data.t[0], data.t[data.t.len() - 1]);
+    let frame = PanelFrame { left: LEFT, top, right: RIGHT, bottom: top + 560.0 };
+    horizontal(&mut canvas, data.t, &traces, x, frame);
+    let frame = PanelFrame { top: frame.bottom + 34.0, bottom: frame.bottom + 350.0, ..frame };
+    vertical(&mut canvas, data.t, &traces, x, frame, !data.differences);
+    let mut bottom = frame.bottom;
+    if data.differences {
+        let frame = PanelFrame { top: bottom + 34.0, bottom: bottom + 330.0, ..frame };
+        differences(&mut canvas, data, x, frame);
+        bottom = frame.bottom;
+    }
+    canvas.finish(bottom + 100.0)
+}
+
+fn check(data: &HistoryFigure<'_>) -> Result<(), FigureError> {
+    CHECK.least("t", data.t.len(), 2)?;
+    CHECK.finite("t", data.t)?;
+    for trace in std::iter::once(&data.reference).chain(data.others) {
+        CHECK.least(trace.label, trace.u.len(), 1)?;
+        if trace.u.len() > data.t.len() {
+            let what = format!("u of {}", trace.label);
+            return Err(FigureError::Length { figure: CHECK.0, what, found: trace.u.len(), wanted: data.t.len() });
+        }
+        CHECK.finite(&format!("u of {}", trace.label), trace.u)?;
+        CHECK.column(&format!("v of {}", trace.label), trace.v, trace.u.len())?;
+        CHECK.finite(&format!("impacts of {}", trace.label), trace.impacts)?;
+    }
+    Ok(())
+}
+
+/// Thinner than the reference, which shows as a dark rim where both agree.
+fn pen(i: usize) -> Pen {
+    let pen = Pen::new(style::series(i), 2.4);
+    if i == 0 { pen } else { pen.dashed() }
+}
+
+fn impact(colour: RGBColor) -> Mark {
+    Mark::new(MarkShape::Triangle, 8.0, colour)
+}
+
+/// A unit of length (m), and its name.
+fn unit((low, high): (f64, f64)) -> (f64, String) {
+    let size = high.max(-low);
+    if size == 0.0 || size >= MILLIMETRES {
+        return (1e-3, "mm".into());
+    }
+    let (unit, letter) = prefix(size);
+    (unit, format!("{letter}m"))
+}
+
+/// The range of one quantity (m): of what stands, and as much of a fall as leaves that legible.
+fn bounds<'a>(t: &[f64], traces: &[Drawn<'a>], of: fn(&Trace<'a>) -> &'a [f64]) -> (f64, f64) {
+    let range = |all: bool| {
+        let values = traces.iter().flat_map(|(trace, _)| {
+            let n = if all { trace.u.len() } else { trace.standing(t) };
+            of(trace)[..n].iter()
+        });
+        values.fold((0.0_f64, 0.0_f64), |(low, high), &x| (low.min(x), high.max(x)))
+    };
+    let ((low, mut high), (least, mut most)) = (range(false), range(true));
+    // what is smaller is rounding, and not to be magnified
+    if high > low && high - low < NOTHING {
+        (high, most) = (low + NOTHING, most.max(low + NOTHING));
+    }
+    let room = FALL * (high - low).max(f64::MIN_POSITIVE);
+    (least.max(low - room), most.min(high + room))
+}
+
+/// The curves of one quantity, and where they end.
+fn curves<'a>(
+    canvas: &mut Canvas,
+    panel: &Panel,
+    label: &str,
+    t: &[f64],
+    traces: &[Drawn<'a>],
+    (of, unit): (fn(&Trace<'a>) -> &'a [f64], f64),
+    told: bool,
+) -> plot::Plot {
+    panel.level(canvas, 0.0, Pen::new(style::AXIS, 1.5));
+    let values: Vec<Vec<f64>> = traces.iter().map(|(trace, _)| of(trace).iter().map(|x| x / unit).collect()).collect();
+    let named: Vec<(&str, &[f64], Pen)> =
+        traces.iter().zip(&values).map(|((trace, pen), values)| (trace.label, values.as_slice(), *pen)).collect();
+    let mut plot = panel.history(canvas, label, t, &named);
+    let ends: Vec<(EventMark, Pen)> =
+        traces.iter().filter_map(|(trace, pen)| Some((trace.end?, Pen { width: 2.4, ..pen.dashed() }))).collect();
+    panel.events(canvas, &mut plot, &ends, told);
+    plot
+}
+
+fn horizontal(canvas: &mut Canvas, t: &[f64], traces: &[Drawn<'_>], x: Scale, frame: PanelFrame) {
+    let (low, high) = bounds(t, traces, |trace| trace.u);
+    let (unit, name) = unit((low, high));
+    let (low, high, label) = (low / unit, high / unit, format!("horizontal, u [{name}]"));
+    let size = high - low;
+    // Room for the numbers of the peaks and the words about ends, and below for the rows of impacts [pixel].
+    let rows = traces.iter().filter(|(trace, _)| !trace.impacts.is_empty()).count() as f64;
+    let ends = traces.iter().filter(|(trace, _)| trace.end.is_some()).count() as f64;
+    let (above, below) = (52.0 + ROW * ends, 52.0 + 25.0 * rows);
+    let pixel = size / (frame.bottom - frame.top - above - below);
+    let panel = Panel { frame, x, y: Scale::linear(low - below * pixel, high + above * pixel) };
+    panel.axes(canvas, None, &label, GUTTER);
+    let mut plot = curves(canvas, &panel, &label, t, traces, (|trace| trace.u, unit), true);
+    peak(canvas, &panel, t, traces, (|trace| trace.u, unit), 1.0);
+    peak(canvas, &panel, t, traces, (|trace| trace.u, unit), -1.0);
+    let impacting = traces.iter().rev().filter(|(trace, _)| !trace.impacts.is_empty());
+    for (row, (trace, pen)) in impacting.enumerate() {
+        let times: Vec<f64> = trace.impacts.iter().copied().filter(|t| (x.low..=x.high).contains(t)).collect();
+        plot.marks.push(plot::Marks::new(&times, *pen));
+        let places: Vec<f64> = times.iter().map(|&time| panel.at(time, 0.0).0).collect();
+        let y = frame.bottom - 13.0 - 25.0 * row as f64;
+        for (i, &place) in places.iter().enumerate() {
+            let near = places[i.saturating_sub(1)..(i + 2).min(places.len())].windows(2).any(|p| p[1] - p[0] < CROWDED);
+            if !near {
+                impact(pen.rgb()).draw(canvas, (place, y));
+            } else if i == 0 || place.round() != places[i - 1].round() {
+                canvas.line(&[(place, y - 9.0), (place, y + 6.0)], Pen { width: 2.0, ..*pen }.full());
+            }
+        }
+    }
+    canvas.keep(plot);
+}
+
+fn vertical(canvas: &mut Canvas, t: &[f64], traces: &[Drawn<'_>], x: Scale, frame: PanelFrame, last: bool) {
+    let (low, high) = bounds(t, traces, |trace| trace.v);
+    let (unit, name) = unit((low, high));
+    let (low, high, label) = (low / unit, high / unit, format!("vertical, v [{name}]"));
+    let size = high - low;
+    let panel = Panel { frame, x, y: Scale::linear(low - 0.05 * size, high + 0.22 * size) };
+    panel.axes(canvas, if last { Some("time [s]") } else { None }, &label, GUTTER);
+    let plot = curves(canvas, &panel, &label, t, traces, (|trace| trace.v, unit), false);
+    peak(canvas, &panel, t, traces, (|trace| trace.v, unit), 1.0);
+    canvas.keep(plot);
+}
+
+fn differences(canvas: &mut Canvas, data: &HistoryFigure<'_>, x: Scale, frame: PanelFrame) {
+    let differences: Vec<Vec<f64>> = data
+        .others
+        .iter()
+        .map(|other| other.u.iter().zip(data.reference.u).map(|(a, b)| (a - b) / 1e-3).collect())
+        .collect();
+    let all = differences.iter().flatten();
+    let (low, high) = all.fold((0.0_f64, 0.0_f64), |(low, high), &x| (low.min(x), high.max(x)));
+    let size = high - low;
+    let panel = Panel { frame, x, y: Scale::linear(low - 0.08 * size, high + 0.08 * size) };
+    let label = format!("Δu to {} [mm]", data.reference.label);
+    panel.axes(canvas, Some("time [s]"), &label, GUTTER);
+    panel.level(canvas, 0.0, Pen::new(style::AXIS, 1.5));
+    let named: Vec<(&str, &[f64], Pen)> =
+        data.others.iter().zip(&differences).enumerate().map(|(i, (o, d))| (o.label, d.as_slice(), pen(i))).collect();
+    let plot = panel.history(canvas, &label, data.t, &named);
+    canvas.keep(plot);
+}
+
+/// Mark every model's extreme on one side, and tell them in one line beyond the outermost, where no curve can be. What only a fall
+/// reaches is no peak.
+fn peak<'a>(
+    canvas: &mut Canvas,
+    panel: &Panel,
+    t: &[f64],
+    traces: &[Drawn<'a>],
+    (of, unit): (fn(&Trace<'a>) -> &'a [f64], f64),
+    side: f64,
+) {
+    let least = NOUGHT * (panel.y.high - panel.y.low);
+    let peak_of = |(trace, pen): &Drawn<'a>| {
+        let standing = trace.standing(t);
+        let values = &of(trace)[..standing];
+        let best = (0..values.len()).fold(0, |best, i| if values[i] * side > values[best] * side { i } else { best });
+        let value = values.get(best).map_or(0.0, |x| x / unit);
+        let falls = trace.end.is_some() && best + 2 >= standing;
+        (value * side > least && !falls).then(|| (t[best], value, pen.rgb()))
+    };
+    let peaks: Vec<(f64, f64, RGBColor)> = traces.iter().filter_map(peak_of).collect();
+    let further = |a: &&(f64, f64, RGBColor), b: &&(f64, f64, RGBColor)| a.1.abs().total_cmp(&b.1.abs());
+    let Some(&(time, value, _)) = peaks.iter().max_by(further) else { return };
+    let mut told: Vec<(String, RGBColor)> = Vec::new();
+    for &(time, own, colour) in peaks.iter().filter(|peak| peak.1.abs() >= SMALL * value.abs()) {
+        let radius = if told.is_empty() { 8.0 } else { 5.0 };
+        Mark::new(MarkShape::Disc, radius, colour).draw(canvas, panel.at(time, own));
+        told.push((short(own, if own.abs() < 100.0 { 3 } else { 4 }), colour));
+    }
+    let lettering = Lettering::new(NUMBER).bold();
+    let gap = 16.0;
+    let length: f64 = told.iter().map(|(text, _)| lettering.length(text) + gap).sum::<f64>() - gap;
+    let at = panel.at(time, value);
+    let mut left = (at.0 - length / 2.0).clamp(panel.frame.left + 8.0, panel.frame.right - length - 4.0);
+    for (text, colour) in told {
+        let along = if side > 0.0 { VPos::Bottom } else { VPos::Top };
+        canvas.text((left, at.1 - 17.0 * side), &text, lettering.colour(colour).at(HPos::Left, along));
+        left += lettering.length(&text) + gap;
+    }
+}

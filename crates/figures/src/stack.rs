@@ -1,0 +1,138 @@
+//! Quantities against time, one panel each above the other.
+
+use super::canvas::Canvas;
+use super::legend::{self, LegendEntry};
+use super::number::prefix;
+use super::panel::{Panel, PanelFrame};
+use super::plot::EventMark;
+use super::scale::Scale;
+use super::style::{self, BLACK, Pen, WIDTH};
+use super::{Check, FigureError, Sheet};
+
+const CHECK: Check = Check("stack");
+/// Heights of a panel and of the gap below it (pixel).
+const TALL: f64 = 380.0;
+const GAP: f64 = 34.0;
+
+/// One quantity: the same curves in every panel, one of them empty where a model has no such thing.
+#[derive(Clone, Copy, Debug)]
+pub struct StackQuantity<'a> {
+    /// As "base shear".
+    pub name: &'a str,
+    /// As "N": a prefix is set before it.
+    pub unit: &'a str,
+    /// As many as [`StackFigure::names`], each at most as long as the times.
+    pub curves: &'a [&'a [f64]],
+}
+
+/// What the figure shows.
+#[derive(Clone, Copy, Debug)]
+pub struct StackFigure<'a> {
+    /// Lines of the title.
+    pub title: &'a str,
+    /// Times, increasing (s).
+    pub t: &'a [f64],
+    /// Names of the curves; the first is black and lies under the others.
+    pub names: &'a [&'a str],
+    /// From above.
+    pub panels: &'a [StackQuantity<'a>],
+    /// A time from which on curves are not to be compared.
+    pub event: Option<EventMark<'a>>,
+}
+
+/// Draw the figure.
+///
+/// # Errors
+/// [`FigureError`] for an empty or not finite slice, or one longer than the times.
+pub fn draw(data: &StackFigure<'_>) -> Result<Sheet, FigureError> {
+    CHECK.least("t", data.t.len(), 2)?;
+    CHECK.finite("t", data.t)?;
+    for panel in data.panels {
+        for (name, curve) in data.names.iter().zip(panel.curves) {
+            let what = format!("{} of {name}", panel.name);
+            CHECK.finite(&what, curve)?;
+            if curve.len() > data.t.len() {
+                return Err(FigureError::Length { figure: CHECK.0, what, found: curve.len(), wanted: data.t.len() });
+            }
+        }
+    }
+    let pens: Vec<Pen> = (0..data.names.len()).map(pen).collect();
+    let mut canvas = Canvas::default();
+    let ending = Pen::new(BLACK, 2.4).dashed();
+    let mut entries: Vec<LegendEntry> =
+        data.names.iter().zip(&pens).map(|(name, pen)| LegendEntry::line(*name, *pen)).collect();
+    entries.extend(data.event.map(|event| LegendEntry::line(event.text, ending)));
+    let (left, right) = (150.0, WIDTH as f64 - 40.0);
+    let mut top = legend::header(&mut canvas, data.title, &entries, left, right);
+    let x = Scale::linear(data.t[0], data.t[data.t.len() - 1]);
+    for (i, quantity) in data.panels.iter().enumerate() {
+        let frame = PanelFrame { left, top, right, bottom: top + TALL };
+        let last = i + 1 == data.panels.len();
+        one(&mut canvas, data, quantity, &pens, (x, frame, last, ending));
+        top += TALL + GAP;
+    }
+    canvas.finish(top - GAP + 100.0)
+}
+
+fn one(
+    canvas: &mut Canvas,
+    data: &StackFigure<'_>,
+    quantity: &StackQuantity<'_>,
+    pens: &[Pen],
+    (x, frame, last, ending): (Scale, PanelFrame, bool, Pen),
+) {
+    let all = quantity.curves.iter().flat_map(|curve| curve.iter().copied());
+    let (low, high) = all.fold((0.0_f64, 0.0_f64), |(low, high), value| (low.min(value), high.max(value)));
+    let size = high.max(-low);
+    let (unit, letter) = if size > 0.0 { prefix(size) } else { (1.0, "") };
+    let room = (0.06 * (high - low) / unit).max(f64::MIN_POSITIVE);
+    let y = if size > 0.0 { Scale::linear(low / unit - room, high / unit + room) } else { Scale::linear(-1.0, 1.0) };
+    let panel = Panel { frame, x, y };
+    let label = format!("{} [{letter}{}]", quantity.name, quantity.unit);
+    panel.axes(canvas, last.then_some("time [s]"), &label, 110.0);
+    panel.level(canvas, 0.0, Pen::new(style::AXIS, 1.5));
+    let scaled: Vec<Vec<f64>> =
+        quantity.curves.iter().map(|curve| curve.iter().map(|value| value / unit).collect()).collect();
+    let curves: Vec<(&str, &[f64], Pen)> = data
+        .names
+        .iter()
+        .zip(&scaled)
+        .zip(pens)
+        .filter(|((_, curve), _)| curve.len() > 1)
+        .map(|((name, curve), pen)| (*name, &curve[..], *pen))
+        .collect();
+    let mut plot = panel.history(canvas, &label, data.t, &curves);
+    let end = data.event.map(|event| (event, ending));
+    panel.events(canvas, &mut plot, end.as_slice(), false);
+    canvas.keep(plot);
+}
+
+/// The first is wide and black, the others thinner and coloured.
+fn pen(i: usize) -> Pen {
+    match i {
+        0 => Pen::new(BLACK, 4.6),
+        1 => Pen::new(style::series(0), 2.4),
+        i => Pen::new(style::series(i - 1), 2.2),
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn panels_share_the_times_and_what_is_too_long_is_refused() {
+        let t: Vec<f64> = (0..100).map(|i| 0.01 * f64::from(i)).collect();
+        let wave: Vec<f64> = t.iter().map(|t| 2e5 * (30.0 * t).sin()).collect();
+        let curves: [&[f64]; 2] = [&wave, &wave[..50]];
+        let panels = [
+            StackQuantity { name: "base shear", unit: "N", curves: &curves },
+            StackQuantity { name: "moment", unit: "N m", curves: &curves },
+        ];
+        let stack = StackFigure { title: "Forces", t: &t, names: &["one", "two"], panels: &panels, event: None };
+        let sheet = draw(&stack).unwrap();
+        assert_eq!(sheet.plots.len(), 2);
+        assert!(sheet.svg.contains("base shear") && sheet.svg.contains("kN"));
+        assert!(draw(&StackFigure { t: &t[..60], ..stack }).is_err());
+    }
+}

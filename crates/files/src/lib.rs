@@ -1,0 +1,8 @@
+//! Files read within bounds and written whole; numbers and paths in words.
+
+// what is printed goes through the program's `commands/terminal`
+#![cfg_attr(not(test), deny(clippy::print_stdout, clippy::print_stderr))]
+
+pub mod input;
+pub mod message;
+pub mod whole_file;

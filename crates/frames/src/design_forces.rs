@@ -1,0 +1,265 @@
+//! Forces that a structure is designed for, and whether they are its own: whether they stay when the mesh and the springs are others.
+//!
+//! ```text
+//!   force = largest magnitude of its low-pass without delay (`fem::low_pass`) at the cutoff       beside it: largest of the force as it is
+//!   cutoff = 1.5 f_3        f_3: third bending mode of the column, fixed at its foot, by 32 elements; its gain there is 0.96
+//!   holds: |force(other) - force| < 5 % of force, other: elements doubled; Omega_n/4; 4 Omega_n
+//! ```
+//!
+//! A landing stops a footing at once. The wave that this sends up a column with a mass of its own is sharper the finer the mesh and the stiffer
+//! the springs: its peak is theirs, its part below a frequency is the structure's. A column without mass has no waves: its forces are given as
+//! they are; those of the ground, impulses of landings in them, below 20 Hz.
+//!
+//! Springs at Omega_n/4 have k1/16, k2/16, c/4 and the same m2: their landing is the same, four times as slow.
+
+mod beside;
+mod check;
+mod columns;
+mod cutoff;
+
+use serde::{Deserialize, Serialize};
+
+pub use beside::{ForcesTogether, MOST_CHANGE, OtherForces};
+pub use columns::{COMPARED, ColumnForces, ColumnPeaks, stiffer};
+pub use cutoff::Cutoff;
+
+use super::{
+    assembled::Assembled, fem::ElasticHistory, frame::EquilibriumError, rigid::RigidForces, structure::ElasticStructure,
+};
+use check::{ForcePeaks, Variants};
+use dynamics::spring::{Chain, Springs};
+use rocking::motion::TimedPeak;
+use strong_motion::Record;
+
+/// What a force is.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(rename_all = "snake_case")]
+pub enum ForceKind {
+    /// Across a column's axis, where along the column it is largest, or a leg's (N).
+    ColumnShear,
+    /// At a column's base (N m).
+    ColumnBaseMoment,
+    /// At a column's top, where it meets a beam (N m).
+    ColumnTopMoment,
+    /// In a column at its base, or in a leg; tension positive (N).
+    Axial,
+    /// The largest tension there (N).
+    AxialTension,
+    /// Horizontal force of the ground on all corners: footings' inertia is in it (N).
+    SoleShear,
+    /// Vertical force of the ground on all corners, upwards (N).
+    SoleVertical,
+}
+
+impl ForceKind {
+    /// All of them, in the order in which they are told.
+    pub(crate) const ALL: [Self; 7] = [
+        Self::ColumnShear,
+        Self::ColumnBaseMoment,
+        Self::ColumnTopMoment,
+        Self::Axial,
+        Self::AxialTension,
+        Self::SoleShear,
+        Self::SoleVertical,
+    ];
+
+    /// In words.
+    pub fn name(self) -> &'static str {
+        match self {
+            Self::ColumnShear => "column shear",
+            Self::ColumnBaseMoment => "moment at column base",
+            Self::ColumnTopMoment => "moment at column top",
+            Self::Axial => "axial force",
+            Self::AxialTension => "tension",
+            Self::SoleShear => "shear at the sole, footing included",
+            Self::SoleVertical => "vertical force at the sole, footing included",
+        }
+    }
+
+    /// Its unit.
+    pub fn unit(self) -> &'static str {
+        if matches!(self, Self::ColumnBaseMoment | Self::ColumnTopMoment) { "N m" } else { "N" }
+    }
+}
+
+/// A peak with its sign, and when it is (s).
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+pub struct ForcePeak {
+    /// [N, N m]
+    pub value: f64,
+    /// (s)
+    pub time_s: f64,
+}
+
+impl From<TimedPeak> for ForcePeak {
+    fn from(peak: TimedPeak) -> Self {
+        Self { value: peak.value, time_s: peak.time }
+    }
+}
+
+/// A force, and by how much it changes with what is not the structure's; changes are shares of it, measured over `over_s`.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+pub struct StructureForce {
+    /// Which.
+    pub kind: ForceKind,
+    /// The force to design for, below the cutoff, with its sign [N, N m]; none if it does not hold.
+    pub value: Option<f64>,
+    /// When (s).
+    pub time_s: f64,
+    /// Whether it is the structure's own: all changes are below 5 %.
+    pub holds: bool,
+    /// What the column's base bears at that time; none of the ground's forces.
+    pub together: Option<ForcesTogether>,
+    /// Where, above the base along the column (m), of a column's shear: the middle of an element.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub above_base_m: Option<f64>,
+    /// What was found, whether it holds or not, and what with another mesh and on other springs [N,
+    /// N m].
+    pub others: OtherForces,
+    /// Largest magnitude without a filter [N, N m].
+    pub raw: f64,
+    /// Frequency below which it is given (Hz); none: as it is.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub cutoff_hz: Option<f64>,
+    /// Length of the record from its start that the peak is of (s): all of it, or as much as can be foretold.
+    pub over_s: f64,
+    /// Of a force that holds over that part alone: what it is over the whole record.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub whole_record: Option<OtherForces>,
+    /// The structure held to the ground, below the same cutoff.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub fixed: Option<ForcePeak>,
+    /// The rigid body by Housner's equation, between impacts.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub rigid: Option<ForcePeak>,
+}
+
+/// All forces of a run.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+pub struct StructureForces {
+    /// Below which column forces are given, and what it keeps; none of columns without mass.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub cutoff: Option<Cutoff>,
+    /// In the order of `ForceKind::ALL`, less what does not apply.
+    pub forces: Vec<StructureForce>,
+}
+
+impl StructureForces {
+    /// One of them.
+    pub fn get(&self, kind: ForceKind) -> Option<&StructureForce> {
+        self.forces.iter().find(|force| force.kind == kind)
+    }
+
+    /// The largest change at 4 Omega_n of what columns bear: their error, as far as it is known.
+    /// None where one of them is withheld.
+    pub fn error(&self) -> Option<f64> {
+        let of_columns = || self.forces.iter().filter(|force| COMPARED.contains(&force.kind));
+        let changes = of_columns().map(|force| force.others.change_by(force.others.stiffer)).reduce(f64::max);
+        changes.filter(|_| of_columns().all(|force| force.holds))
+    }
+
+    /// Of a structure on these springs, through a record; what it did on them and held to the ground, their forces finely sampled
+    /// ([`parts`]), and as a rigid body; `foretold_s` if it can be foretold for less than the record's length.
+    ///
+    /// # Errors
+    /// A structure with its elements doubled or on other springs does not stand.
+    pub(crate) fn new(
+        (assembled, springs, record): (&Assembled, &[Springs<Chain<f64>>], &Record),
+        (fem, fixed): (&ElasticHistory, &ElasticHistory),
+        foretold_s: Option<f64>,
+        rigid: Option<&RigidForces>,
+    ) -> Result<Self, EquilibriumError> {
+        let cutoff = Cutoff::of(&assembled.structure);
+        let of = |history: &ElasticHistory, over: f64| ForcePeaks::of(history, cutoff.as_ref(), over);
+        let variants = Variants::of(assembled, springs, record)?;
+        let held = of(fixed, f64::INFINITY);
+        // all forces of all motions over the same time
+        let over = |seconds: f64| -> Vec<StructureForce> {
+            let peaks = of(fem, seconds);
+            let finer = variants.doubled.as_ref().map(|finer| of(finer, seconds));
+            let [softer, stiffer] = [&variants.softer, &variants.stiffer].map(|history| of(history, seconds));
+            let value = |peaks: &ForcePeaks, kind: ForceKind| peaks.get(kind).map(|peak| peak.filtered.value);
+            let force = |kind: ForceKind| {
+                let peak = peaks.get(kind)?;
+                let found = peak.filtered.value;
+                let others = OtherForces {
+                    found,
+                    // a mesh that says nothing changes everything
+                    doubled_elements: finer.as_ref().map(|finer| value(finer, kind).unwrap_or(f64::INFINITY)),
+                    softer: value(&softer, kind),
+                    stiffer: value(&stiffer, kind),
+                };
+                let holds = others.change() < MOST_CHANGE;
+                Some(StructureForce {
+                    kind,
+                    value: holds.then_some(found),
+                    time_s: peak.filtered.time_s,
+                    holds,
+                    together: peak.together,
+                    above_base_m: peak.above_base_m,
+                    others,
+                    raw: peak.raw,
+                    cutoff_hz: peak.cutoff_hz,
+                    over_s: seconds,
+                    whole_record: None,
+                    fixed: held.get(kind).map(|peak| peak.filtered),
+                    rigid: rigid.and_then(|rigid| rigid_peak(rigid, kind, record.dt)),
+                })
+            };
+            // a leg is hinged at its foot
+            let legs = matches!(assembled.structure, ElasticStructure::AFrame(_));
+            let moments = [ForceKind::ColumnBaseMoment, ForceKind::ColumnTopMoment];
+            let applies = |kind: &ForceKind| !(legs && moments.contains(kind));
+            ForceKind::ALL.into_iter().filter(applies).filter_map(force).collect()
+        };
+        let mut forces = over((record.len().saturating_sub(1)) as f64 * record.dt);
+        // beyond what can be foretold motions part, and with them their peaks
+        if forces.iter().any(|force| !force.holds) {
+            for part in foretold_s.map(over).into_iter().flatten().filter(|part| part.holds) {
+                if let Some(whole) = forces.iter_mut().find(|whole| whole.kind == part.kind && !whole.holds) {
+                    *whole = StructureForce { whole_record: Some(whole.others), ..part };
+                }
+            }
+        }
+        Ok(Self { cutoff: cutoff.clone(), forces })
+    }
+}
+
+/// Peaks of forces through a record on given springs, not checked: what another motion would change.
+///
+/// # Errors
+/// The structure does not stand.
+pub fn peaks_in(
+    assembled: &Assembled,
+    springs: &[Springs<Chain<f64>>],
+    record: &Record,
+) -> Result<Vec<(ForceKind, f64)>, EquilibriumError> {
+    let history = check::follow(&assembled.structure, &assembled.frame, springs, record)?;
+    let peaks = ForcePeaks::of(&history, Cutoff::of(&assembled.structure).as_ref(), f64::INFINITY);
+    Ok(ForceKind::ALL.into_iter().filter_map(|kind| Some((kind, peaks.get(kind)?.filtered.value))).collect())
+}
+
+/// Parts of a record's time step whose means hold what a structure's cutoffs keep.
+pub(crate) fn parts(structure: &ElasticStructure, dt: f64) -> usize {
+    parts_below(Cutoff::of(structure).as_ref(), dt)
+}
+
+fn parts_below(cutoff: Option<&Cutoff>, dt: f64) -> usize {
+    let fastest = cutoff.map_or(cutoff::SOLE_HZ, |cutoff| cutoff.cutoff_hz.max(cutoff::SOLE_HZ));
+    (dt * fastest * cutoff::PARTS_A_PERIOD).ceil().max(1.0) as usize
+}
+
+/// The rigid body's: its shear across the column is its moment over the column's length.
+fn rigid_peak(rigid: &RigidForces, kind: ForceKind, dt: f64) -> Option<ForcePeak> {
+    let series = match kind {
+        ForceKind::ColumnShear => &rigid.shear,
+        ForceKind::ColumnBaseMoment => &rigid.moment,
+        ForceKind::Axial => &rigid.axial,
+        ForceKind::ColumnTopMoment | ForceKind::AxialTension | ForceKind::SoleShear | ForceKind::SoleVertical => {
+            return None;
+        }
+    };
+    let peak = TimedPeak::of(dt, series).map(ForcePeak::from)?;
+    // on the end of the column, as in the frame
+    Some(if kind == ForceKind::ColumnBaseMoment { ForcePeak { value: -peak.value, ..peak } } else { peak })
+}

@@ -1,0 +1,194 @@
+//! The same motion with the elements doubled and on other springs, and peaks of forces.
+
+use super::{Cutoff, ForceKind, ForcePeak, cutoff::SOLE_HZ, parts};
+use crate::{
+    assembled::Assembled,
+    design_forces::ForcesTogether,
+    fem::{ElasticAnalysis, ElasticHistory, ElasticStart, FineColumn, FineSeries, low_pass},
+    frame::{EquilibriumError, Frame},
+    structure::ElasticStructure,
+};
+use dynamics::spring::{Chain, Springs};
+use rocking::motion::TimedPeak;
+use strong_motion::Record;
+
+/// By what Omega_n is divided and multiplied.
+pub(super) const FACTOR: f64 = 4.0;
+
+/// Histories of the same structure that differ in what is not its own.
+pub(super) struct Variants {
+    pub doubled: Option<ElasticHistory>,
+    pub softer: ElasticHistory,
+    pub stiffer: ElasticHistory,
+}
+
+impl Variants {
+    pub(crate) fn of(
+        assembled: &Assembled,
+        springs: &[Springs<Chain<f64>>],
+        record: &Record,
+    ) -> Result<Self, EquilibriumError> {
+        let follow =
+            |frame: &Frame, springs: &[Springs<Chain<f64>>]| follow(&assembled.structure, frame, springs, record);
+        let finer = assembled.structure.with_doubled_elements().map(|structure| {
+            Assembled::with_members(structure, assembled.members).map_err(|_| EquilibriumError::NoRest { lean: 0.0 })
+        });
+        let finer = finer.transpose()?;
+        let (doubled, (softer, stiffer)) = rayon::join(
+            || finer.map(|finer| follow(&finer.frame, springs)).transpose(),
+            || {
+                rayon::join(
+                    || follow(&assembled.frame, &scaled(springs, 1.0 / FACTOR)),
+                    || follow(&assembled.frame, &scaled(springs, FACTOR)),
+                )
+            },
+        );
+        Ok(Self { doubled: doubled?, softer: softer?, stiffer: stiffer? })
+    }
+}
+
+/// A frame of a structure through a record, its forces finely sampled.
+pub(super) fn follow(
+    structure: &ElasticStructure,
+    frame: &Frame,
+    springs: &[Springs<Chain<f64>>],
+    record: &Record,
+) -> Result<ElasticHistory, EquilibriumError> {
+    ElasticAnalysis {
+        vertical: record.up(),
+        forces: false,
+        parts: parts(structure, record.dt),
+        ..ElasticAnalysis::new(frame, springs, ElasticStart::Standing, record.dt, &record.accel)
+    }
+    .simulate()
+}
+
+/// Springs whose landing is the same but so many times as fast.
+pub(super) fn scaled(springs: &[Springs<Chain<f64>>], factor: f64) -> Vec<Springs<Chain<f64>>> {
+    let chain =
+        |c: &Chain<f64>| Chain { k1: c.k1 * factor * factor, k2: c.k2 * factor * factor, c: c.c * factor, m2: c.m2 };
+    let both = |s: &Springs<Chain<f64>>| Springs { vertical: chain(&s.vertical), horizontal: chain(&s.horizontal) };
+    springs.iter().map(both).collect()
+}
+
+/// A force's peaks in one history.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct PeakOfForce {
+    kind: ForceKind,
+    pub filtered: ForcePeak,
+    pub raw: f64,
+    pub cutoff_hz: Option<f64>,
+    /// What the column's base bears at that time.
+    pub together: Option<ForcesTogether>,
+    /// Of a shear: where, above the base along the column (m); 0 at the base.
+    pub above_base_m: Option<f64>,
+}
+
+/// Those of all forces.
+pub(super) struct ForcePeaks(Vec<PeakOfForce>);
+
+impl ForcePeaks {
+    /// Of a history, up to a time (s), below the cutoff.
+    pub(crate) fn of(history: &ElasticHistory, cutoff: Option<&Cutoff>, over: f64) -> Self {
+        let Some(fine) = &history.fine else { return Self(Vec::new()) };
+        let of_columns = cutoff.map(|cutoff| cutoff.cutoff_hz);
+        let series = Series { part_s: fine.part_s, over_s: over };
+        let mut out: Vec<PeakOfForce> = Vec::new();
+        for column in &fine.columns {
+            series.of_column(column, of_columns).into_iter().for_each(|peak| keep_larger(&mut out, peak));
+        }
+        let of_soles = Some(of_columns.unwrap_or(SOLE_HZ));
+        for (sole, kind) in fine.sole.iter().zip([ForceKind::SoleShear, ForceKind::SoleVertical]) {
+            out.extend(series.peak(kind, sole, &series.smooth(sole, of_soles), of_soles));
+        }
+        Self(out)
+    }
+
+    pub(crate) fn get(&self, kind: ForceKind) -> Option<PeakOfForce> {
+        self.0.iter().find(|peak| peak.kind == kind).copied()
+    }
+}
+
+/// How series are sampled, and up to when their peaks are taken (s).
+#[derive(Clone, Copy)]
+struct Series {
+    part_s: f64,
+    over_s: f64,
+}
+
+impl Series {
+    /// A series below a frequency (Hz), if there is one.
+    fn smooth(&self, series: &FineSeries, cutoff_hz: Option<f64>) -> Vec<f64> {
+        cutoff_hz.map_or_else(|| series.means.clone(), |hz| low_pass(&series.means, self.part_s, hz))
+    }
+
+    /// The largest of the samples that count, in the middle of its part.
+    fn largest(&self, smooth: &[f64]) -> Option<ForcePeak> {
+        let kept = (self.over_s / self.part_s).round().min(1e15) as usize;
+        let peak = TimedPeak::of(self.part_s, &smooth[..kept.min(smooth.len())])?;
+        Some(ForcePeak { value: peak.value, time_s: peak.time + 0.5 * self.part_s })
+    }
+
+    /// Of one force, whose series below its cutoff is `smooth`.
+    fn peak(
+        &self,
+        kind: ForceKind,
+        series: &FineSeries,
+        smooth: &[f64],
+        cutoff_hz: Option<f64>,
+    ) -> Option<PeakOfForce> {
+        let mut filtered = self.largest(smooth)?;
+        // as it is: the largest at any step, not of means
+        if cutoff_hz.is_none() && self.over_s >= self.part_s * smooth.len() as f64 {
+            filtered.value = series.largest;
+        }
+        Some(PeakOfForce { kind, filtered, raw: series.largest, cutoff_hz, together: None, above_base_m: None })
+    }
+
+    /// Of all forces of a column, each with what its base bears at that time.
+    fn of_column(&self, column: &FineColumn, cutoff_hz: Option<f64>) -> Vec<PeakOfForce> {
+        let [shear, axial, moment] = &column.base;
+        let base = [shear, axial, moment].map(|series| self.smooth(series, cutoff_hz));
+        let of = |kind, k: usize| self.peak(kind, &column.base[k], &base[k], cutoff_hz);
+        let top = &column.top_moment;
+        let at_top = self.peak(ForceKind::ColumnTopMoment, top, &self.smooth(top, cutoff_hz), cutoff_hz);
+        let at_base = of(ForceKind::ColumnShear, 0).map(|peak| PeakOfForce { above_base_m: Some(0.0), ..peak });
+        let above = column.above.iter().zip(&column.heights).filter_map(|(series, height)| {
+            let peak = self.peak(ForceKind::ColumnShear, series, &self.smooth(series, cutoff_hz), cutoff_hz)?;
+            Some(PeakOfForce { above_base_m: Some(*height), ..peak })
+        });
+        // of a column that is always pressed there is none
+        let pulled: Vec<f64> = base[1].iter().map(|axial| axial.max(0.0)).collect();
+        let tension = self.largest(&pulled).filter(|peak| peak.value > 0.0).map(|filtered| PeakOfForce {
+            kind: ForceKind::AxialTension,
+            filtered,
+            raw: filtered.value,
+            cutoff_hz,
+            together: None,
+            above_base_m: None,
+        });
+        let peaks = at_base.into_iter().chain(above);
+        let peaks = peaks.chain(of(ForceKind::Axial, 1)).chain(of(ForceKind::ColumnBaseMoment, 2)).chain(at_top);
+        let peaks = peaks.chain(tension);
+        let together = |peak: PeakOfForce| {
+            let at = (peak.filtered.time_s / self.part_s - 0.5).round().max(0.0) as usize;
+            let [column_shear_n, axial_n, column_base_moment_nm] =
+                [0, 1, 2].map(|k| base[k][at.min(base[k].len() - 1)]);
+            PeakOfForce { together: Some(ForcesTogether { column_shear_n, axial_n, column_base_moment_nm }), ..peak }
+        };
+        peaks.map(together).collect()
+    }
+}
+
+/// Of several columns, and of the heights of one, that which bears the most counts, and the largest
+/// unfiltered value of all.
+fn keep_larger(all: &mut Vec<PeakOfForce>, peak: PeakOfForce) {
+    match all.iter_mut().find(|other| other.kind == peak.kind) {
+        None => all.push(peak),
+        Some(other) => {
+            let raw = if peak.raw.abs() > other.raw.abs() { peak.raw } else { other.raw };
+            let larger = if peak.filtered.value.abs() > other.filtered.value.abs() { peak } else { *other };
+            *other = PeakOfForce { raw, ..larger };
+        }
+    }
+}

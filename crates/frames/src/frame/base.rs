@@ -1,0 +1,60 @@
+//! What a structure's rigid rotation is: that of a footing, or of the line between the outer feet where they are points.
+
+use super::Frame;
+
+/// What rotates rigidly.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Base {
+    /// A footing, by its node.
+    Footing(usize),
+    /// The line from the first corner to the last.
+    Feet,
+}
+
+impl Base {
+    /// Those of a frame, from left to right; none if it has no corners.
+    pub(crate) fn all(frame: &Frame) -> Vec<Self> {
+        let mut bases = Vec::new();
+        for (corner, &node) in frame.places().iter().zip(frame.footing_nodes()) {
+            let base = if corner.rotation().is_some() { Self::Footing(node) } else { Self::Feet };
+            if !bases.contains(&base) {
+                bases.push(base);
+            }
+        }
+        bases
+    }
+
+    /// Its clockwise rotation (rad).
+    pub fn rotation(self, frame: &Frame, q: &[f64]) -> f64 {
+        self.motion(frame, q).1
+    }
+
+    /// Unstressed origin, displacement of it, rotation.
+    fn motion(self, frame: &Frame, q: &[f64]) -> ([[f64; 2]; 2], f64) {
+        match self {
+            Self::Footing(node) => {
+                let [x, z, th] = frame.displacement(node, q);
+                ([frame.centre(node), [x, z]], th)
+            }
+            Self::Feet => {
+                let ends = [frame.places().first(), frame.places().last()]
+                    .map(|end| end.map_or(([0.0; 2], [0.0; 2]), |end| (end.unstressed, end.reach(q).place)));
+                let [(p, u), (r, w)] = ends;
+                let middle = [0, 1].map(|k| 0.5 * (p[k] + r[k]));
+                let moved = [0, 1].map(|k| 0.5 * (u[k] + w[k]));
+                let (dx, dz) = (r[0] + w[0] - p[0] - u[0], r[1] + w[1] - p[1] - u[1]);
+                ([middle, moved], (-dz).atan2(dx))
+            }
+        }
+    }
+
+    /// A node's displacement relative to what rotates rigidly with the base, in the base's axes: across and along (m).
+    pub fn drift(self, frame: &Frame, node: usize, q: &[f64]) -> [f64; 2] {
+        let ([origin, moved], th) = self.motion(frame, q);
+        let (at, [x, z, _]) = (frame.centre(node), frame.displacement(node, q));
+        let arm = [0, 1].map(|k| at[k] - origin[k]);
+        let now = [arm[0] + x - moved[0], arm[1] + z - moved[1]];
+        let (sin, cos) = th.sin_cos();
+        [now[0] * cos - now[1] * sin - arm[0], now[0] * sin + now[1] * cos - arm[1]]
+    }
+}

@@ -1,0 +1,50 @@
+use super::*;
+use crate::Pier;
+use approx::assert_relative_eq;
+
+fn pier() -> Pier {
+    Pier::new([6e5, 12.0, 2.0], [2.0, 0.02], [1.2e5, 0.75])
+}
+
+fn standing(pier: &Pier) -> Standing {
+    Standing::new(pier, &DVector::zeros(pier.size())).unwrap()
+}
+
+/// With an elastic column what lands is the footing alone, a rigid block: W of one, whatever stands on it.
+#[test]
+fn under_an_elastic_column_the_footing_lands_alone() {
+    let pier = pier().with_axial(4e9, 0.02);
+    let standing = standing(&pier);
+    let [b, h, i] = [pier.half_width, pier.footing_height, pier.footing_inertia];
+    let g = [[1.0, 0.0, -h], [0.0, 1.0, b], [1.0, 0.0, -h], [0.0, 1.0, -b]];
+    for row in 0..4 {
+        for column in 0..4 {
+            let by_hand = (g[row][0] * g[column][0] + g[row][1] * g[column][1]) / pier.footing_mass
+                + g[row][2] * g[column][2] / i;
+            assert!((standing.footings[0].w[(row, column)] - by_hand).abs() < 1e-12 * 1e-3, "{row} {column}");
+        }
+    }
+    assert_relative_eq!(standing.footings[0].width, 4.0, max_relative = 1e-12);
+    assert_relative_eq!(standing.mass, 720e3, max_relative = 1e-12);
+}
+
+/// Of a light footing, k h^2/(2 b^2 k_v) + k/(2 k_h); the weight, displaced by u, adds m g u to the moment k u h.
+#[test]
+fn the_give_of_a_pier_is_that_of_the_formula() {
+    let pier = Pier { footing_mass: 1e-3, footing_inertia: 1e-3, ..pier() };
+    let [sideways, _] = standing(&pier).responses;
+    let (k_h, k_v) = (3e12, 1e12);
+    let arm = 12.0 + pier.mass * rocking::scalar::GRAVITY / pier.stiffness;
+    let formula = pier.stiffness * (arm * arm / (2.0 * 4.0 * k_v) + 0.5 / k_h);
+    assert_relative_eq!(sideways.give([k_h, k_v]), formula, max_relative = 1e-8);
+    assert_relative_eq!(sideways.omega, std::f64::consts::TAU * 2.0, max_relative = 1e-8);
+}
+
+/// Upwards the column's k_a against two springs.
+#[test]
+fn the_give_along_the_column_is_that_of_springs_in_series() {
+    let pier = Pier { footing_mass: 1e-3, footing_inertia: 1e-3, ..pier() }.with_axial(4e9, 0.02);
+    let [_, upwards] = standing(&pier).responses;
+    assert_relative_eq!(upwards.give([3e12, 1e12]), 4e9 / 2e12, max_relative = 1e-6);
+    assert_relative_eq!(upwards.omega, (4e9_f64 / 6e5).sqrt(), max_relative = 1e-6);
+}

@@ -1,0 +1,145 @@
+//! How accurate the springs are, measured in the run, and on what.
+
+use serde::Serialize;
+
+use super::Table;
+use files::message::{percent, significant};
+use springs::{
+    case::Yardstick,
+    tuning::{
+        assessment::Assessment,
+        suite::{Accuracy, LOOSER, Statistic},
+    },
+};
+
+/// An error measured on a record or on a set of motions.
+#[derive(Clone, Debug, PartialEq, Serialize)]
+pub struct AccuracyOn {
+    /// The record, or the set and its statistic.
+    pub on: String,
+    /// Motions.
+    pub count: usize,
+    /// NRMSE of the history: of the displacement, or of the rotation of an elastic structure.
+    pub history: Option<f64>,
+    /// Relative error of the largest displacement, uplift and forces, the largest of them.
+    pub peaks: Option<f64>,
+    /// NRMSE allowed there.
+    pub history_allowed: Option<f64>,
+    /// Error of peaks allowed there.
+    pub peaks_allowed: Option<f64>,
+}
+
+/// What was asked for and what was measured.
+#[derive(Clone, Debug, PartialEq, Serialize)]
+pub struct AccuracyReport {
+    /// NRMSE asked of histories, if the springs were chosen by it.
+    pub history_asked: Option<f64>,
+    /// Error asked of peaks, if the springs were chosen by it.
+    pub peaks_asked: Option<f64>,
+    /// Whether it was reached.
+    pub reached: bool,
+    /// What was measured.
+    pub measured: Vec<AccuracyOn>,
+}
+
+impl AccuracyReport {
+    /// Of a rigid body's springs.
+    pub(crate) fn of_rigid(a: &Assessment) -> Self {
+        let (history, peaks) = (&a.measured, a.measured_peaks.map(|peaks| peaks.largest));
+        let asked = |by: Yardstick| Some(a.accuracy).filter(|_| a.judged_by == by);
+        let (of_history, of_peaks) = (asked(Yardstick::Histories), asked(Yardstick::Peaks));
+        let row = |on: String, count: usize, of: &dyn Fn(&Accuracy) -> Option<f64>, looser: f64| AccuracyOn {
+            on,
+            count,
+            history: of(history),
+            peaks: peaks.as_ref().and_then(of),
+            history_allowed: of_history.map(|x| looser * x),
+            peaks_allowed: of_peaks.map(|x| looser * x),
+        };
+        let statistics = |of: fn(&Accuracy) -> Option<Statistic>, words: fn(usize) -> String, looser: f64| {
+            let count = of(history).or(peaks.as_ref().and_then(of))?.count;
+            Some(row(words(count), count, &|a| of(a).map(|s| s.value), looser))
+        };
+        let record = history.record.map(|_| row("this record".into(), 1, &|a| a.record, 1.0));
+        let median = statistics(|a| a.synthetic_median, |n| format!("{n} synthetic motions (median)"), 1.0);
+        let p90 = statistics(|a| a.synthetic_p90, |_| "90 % of these".into(), LOOSER);
+        let looser = a.judged().looser_on_earthquakes();
+        let mean = statistics(|a| a.earthquakes_mean, |n| format!("{n} earthquake-like ones (mean)"), looser);
+        Self {
+            history_asked: of_history,
+            peaks_asked: of_peaks,
+            reached: a.reached,
+            measured: [record, median, p90, mean].into_iter().flatten().collect(),
+        }
+    }
+
+    /// In one sentence, peaks first.
+    pub fn sentence(&self) -> String {
+        let on = |row: &AccuracyOn| {
+            let peaks = row.peaks.map(|peaks| format!("peaks within {}", percent(peaks).trim_start_matches("below ")));
+            let history = row.history.map(|nrmse| format!("history {}", significant(nrmse, 2)));
+            let both: Vec<String> = peaks.into_iter().chain(history).collect();
+            format!("on {}: {}", row.on, both.join(", "))
+        };
+        let asked = match (self.peaks_asked, self.history_asked) {
+            (Some(peaks), _) => format!("peaks within {}", percent(peaks).trim_start_matches("below ")),
+            (None, Some(history)) => format!("history {}", significant(history, 3)),
+            (None, None) => "nothing".into(),
+        };
+        let reached = if self.reached { "reached" } else { "NOT reached" };
+        let measured: Vec<String> =
+            self.measured.iter().filter(|row| row.peaks.or(row.history).is_some()).map(on).collect();
+        match measured.is_empty() {
+            true => format!("not measured: no motion can be compared; asked: {asked}"),
+            false => format!("{} (NRMSE); asked: {asked}, {reached}", measured.join("; ")),
+        }
+    }
+
+    /// The same for a screen: on the record and the set of motions beside it, histories as NRMSE.
+    pub fn short(&self) -> String {
+        Self { measured: self.measured.iter().take(2).cloned().collect(), ..self.clone() }.sentence()
+    }
+
+    /// The same as a table.
+    pub(crate) fn table(&self) -> Table {
+        let cell = |x: Option<f64>, words: fn(f64) -> String| x.map_or("-".into(), words);
+        let rows = self.measured.iter().map(|row| {
+            vec![
+                row.on.clone(),
+                row.count.to_string(),
+                cell(row.peaks, percent),
+                cell(row.peaks_allowed, percent),
+                cell(row.history, |x| significant(x, 2)),
+                cell(row.history_allowed, |x| significant(x, 2)),
+            ]
+        });
+        Table::new(["measured on", "motions", "error of peaks", "allowed", "NRMSE of the history", "allowed"])
+            .with(rows)
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn an_accuracy_names_peaks_and_history_and_on_what() {
+        let row = AccuracyOn {
+            on: "this record".into(),
+            count: 1,
+            history: Some(2.2e-5),
+            peaks: Some(1.3e-4),
+            history_allowed: Some(0.002),
+            peaks_allowed: None,
+        };
+        let mut report =
+            AccuracyReport { history_asked: Some(0.002), peaks_asked: None, reached: true, measured: vec![row] };
+        assert_eq!(
+            report.sentence(),
+            "on this record: peaks within 0.013 %, history 2.2e-5 (NRMSE); asked: history 0.002, reached"
+        );
+        assert_eq!(report.table().rows[0][2], "0.013 %");
+        report.measured.clear();
+        assert!(report.sentence().starts_with("not measured"));
+    }
+}

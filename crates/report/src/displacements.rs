@@ -1,0 +1,89 @@
+//! The table of largest displacements: the reference beside the structure on its springs.
+
+use super::{FiledParameters, Run, Table};
+use files::message::{percent, quantity, significant};
+use springs::results::Peaks;
+
+/// A row's name, its quantity, and its words.
+type PeakRow = (&'static str, fn(&Peaks) -> Option<f64>, fn(f64) -> String);
+
+/// The row of what feet move.
+const MOVED: &str = "  by landing elsewhere";
+/// Share of the top's displacement below which it is not said.
+const NOT_SAID: f64 = 0.02;
+
+const ROWS: [PeakRow; 7] = [
+    ("top displacement", |p| Some(p.top_displacement_m), meters),
+    ("  by rocking", |p| p.bending_m.map(|_| p.rocking_m), meters),
+    ("  by bending", |p| p.bending_m, meters),
+    (MOVED, |p| p.feet_moved_m, meters),
+    ("  drift ratio", |p| Some(p.drift_ratio), |x| format!("{} %", significant(1e2 * x, 3))),
+    ("uplift", |p| Some(p.uplift_m), meters),
+    ("impacts", |p| Some(p.impacts as f64), |x| format!("{x:.0}")),
+];
+
+fn meters(x: f64) -> String {
+    quantity(x, "m")
+}
+
+/// The table; none of springs without a record.
+pub fn peak_table(run: &Run) -> Option<Table> {
+    let pair = run.peaks.as_ref()?;
+    let with = pair.with_members.as_ref();
+    let reference = match pair.reference_ends_s {
+        Some(end) => format!("{} to {} s", run.reference, significant(end, 3)),
+        None => run.reference.to_string(),
+    };
+    // the parts of a displacement are largest at times of their own, so that they are more than the whole
+    let largest = if pair.reference.bending_m.is_some() { "largest, each by itself" } else { "largest" };
+    let mut head = vec![largest.to_string(), reference, "on springs".into(), "difference".into()];
+    head.extend(with.map(|_| "with members".into()));
+    let row = |(name, of, words): PeakRow| {
+        let (a, b) = (of(&pair.reference)?, of(&pair.springs)?);
+        // feet that land where they stood move by the height of the lift times the rotation alone
+        if name == MOVED && a.max(b) < NOT_SAID * pair.reference.top_displacement_m {
+            return None;
+        }
+        let difference = match name {
+            "impacts" => String::new(),
+            _ if pair.reference_ends_s.is_some() => "-".into(),
+            _ if a > 0.0 => percent(b / a - 1.0),
+            _ => "-".into(),
+        };
+        let mut row = vec![name.to_string(), words(a), words(b), difference];
+        row.extend(with.and_then(of).map(words));
+        Some(row)
+    };
+    let mut table = Table::new(head).with(ROWS.into_iter().filter_map(row));
+    if let Some(needed) = run.friction_needed {
+        let mut row = vec!["friction needed".to_string(), significant(needed, 3)];
+        row.resize(table.head.len(), String::new());
+        table.rows.push(row);
+    }
+    Some(table)
+}
+
+/// `summary.csv`: largest displacements and design forces as plain numbers, SI units; cells of what is withheld are empty.
+pub fn summary(run: &Run) -> Table {
+    let mut table = Table::new(["quantity", "unit", "reference", "on_springs"]);
+    let mut row = |name: &str, unit: &str, reference: Option<f64>, springs: Option<f64>| {
+        let cell = |x: Option<f64>| x.map_or(String::new(), |x| format!("{x:.6e}"));
+        table.rows.push(vec![name.to_string(), unit.to_string(), cell(reference), cell(springs)]);
+    };
+    if let Some(pair) = &run.peaks {
+        let springs = pair.with_members.unwrap_or(pair.springs);
+        let units = ["m", "m", "m", "m", "1", "m", "1"];
+        for ((name, of, _), unit) in ROWS.into_iter().zip(units) {
+            let (a, b) = (of(&pair.reference), of(&springs));
+            if a.or(b).is_some() {
+                row(name.trim(), unit, a, b);
+            }
+        }
+    }
+    for (name, force) in run.design_forces.iter().flat_map(|forces| forces.all()) {
+        // an elastic structure's reference has no largest force of its own
+        let reference = force.rigid.filter(|_| !matches!(run.parameters, FiledParameters::Elastic(_)));
+        row(name.words(), name.unit(), reference, force.value);
+    }
+    table
+}

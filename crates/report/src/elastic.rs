@@ -1,0 +1,376 @@
+//! What is said of an elastic structure's run: the structure on rigid ground beside the same on its springs.
+
+mod springs;
+
+use self::springs::{alone, springs_findings};
+use super::{Assumed, FiledParameters, Run, Section, Table, doubts, judged};
+use ::springs::{
+    case::{ElasticCase, doubts::Doubt},
+    parameters::elastic::{ElasticParameters, OnRecord},
+    results::{DesignForce, DesignForces, Ending, Finding, FindingModel, ForceName, PeakChange, PeakPair, Peaks},
+};
+use dynamics::{
+    fem::HistoryOutcome,
+    spring::{Chain, Springs},
+};
+use files::message::significant;
+use frames::{
+    answer::{ElasticAnswer, ElasticHistories},
+    assembled::{Assembled, Sway},
+    design_forces::{ForceKind, StructureForces, peaks_in},
+    ensemble::Ensemble,
+    frame::Frame,
+    reference::{ReferenceOutcome, Stop},
+    structure::ElasticStructure,
+};
+use rocking::{
+    members::Members,
+    motion::{TimedPeak, peak},
+};
+pub use springs::of_case;
+use strong_motion::Record;
+
+/// Part of the weight below which the ground's force tells nothing of friction: the structure all but flies.
+const LEAST_PRESS: f64 = 0.05;
+
+/// Share of the largest moment at the base below which that at the top is not said: a mass on a
+/// hinge.
+const LEAST_TOP_MOMENT: f64 = 0.01;
+
+/// Share of the largest axial force below which a tension is not said.
+const LEAST_TENSION: f64 = 0.01;
+
+/// Time within which touches are one impact (1/p).
+const SAME_IMPACT: f64 = 0.1;
+
+/// What a run is told from.
+pub struct ElasticParts<'a> {
+    /// As it was given.
+    pub case: &'a ElasticCase,
+    /// The structure and its finite elements.
+    pub assembled: &'a Assembled,
+    /// The part of the record that is used, scaled.
+    pub record: &'a Record,
+    /// Under every corner.
+    pub springs: &'a [Springs<Chain<f64>>],
+    /// Both models' answers.
+    pub answer: &'a ElasticAnswer,
+    /// The friction coefficient that the ground offers.
+    pub friction: f64,
+}
+
+/// The structure in a few words.
+pub fn title(structure: &ElasticStructure) -> String {
+    let m = |x: f64| format!("{} m", significant(x, 4));
+    match structure {
+        ElasticStructure::Pier(pier) => format!("pier {} high on a footing of {}", m(pier.height_m), m(pier.width_m)),
+        ElasticStructure::AFrame(frame) => {
+            format!("A-frame with elastic legs {} high, feet {} apart", m(frame.height_m), m(frame.width_m))
+        }
+        ElasticStructure::Frame(frame) => {
+            format!("frame {} high, columns {} apart", m(frame.height_m), m(frame.span_m))
+        }
+    }
+}
+
+/// Height of the highest point (m).
+fn top_height(structure: &ElasticStructure) -> f64 {
+    match structure {
+        ElasticStructure::Pier(pier) => pier.height_m,
+        ElasticStructure::AFrame(frame) => frame.height_m,
+        ElasticStructure::Frame(frame) => frame.height_m,
+    }
+}
+
+impl ElasticParts<'_> {
+    /// Largest displacements of both models, up to where the shorter history ends.
+    pub fn peaks(&self) -> PeakPair {
+        let ElasticHistories { reference, fem, sways, .. } = &self.answer.histories;
+        let n = reference.history.q.len().min(fem.q.len());
+        let n = self.answer.histories.falls(self.assembled.structure.body().alpha()).map_or(n, |falls| falls.min(n));
+        let frame = &self.assembled.frame;
+        let of = |q: &dyn Fn(usize) -> Vec<f64>, k: usize, impacts: usize| {
+            let mut peaks = Peaks { impacts, ..Peaks::default() };
+            let (mut bending, mut moved): (f64, f64) = (0.0, 0.0);
+            for i in 0..n {
+                let q = q(i);
+                let feet = feet_moved(frame, &q);
+                moved = moved.max(feet.abs());
+                for (watched, pair) in self.assembled.watched.iter().zip(sways) {
+                    let Sway { rotation, drift } = &pair[k];
+                    let [x, ..] = frame.displacement(watched.top, &q);
+                    peaks.top_displacement_m = peaks.top_displacement_m.max(x.abs());
+                    // across the base's axis, which has turned
+                    let across = drift[i] * rotation[i].cos();
+                    peaks.rocking_m = peaks.rocking_m.max((x - feet - across).abs());
+                    bending = bending.max(drift[i].abs());
+                }
+                peaks.uplift_m = peaks.uplift_m.max(uplift(frame, &q));
+            }
+            let drift_ratio = peaks.top_displacement_m / top_height(&self.assembled.structure);
+            Peaks { bending_m: Some(bending), feet_moved_m: Some(moved), drift_ratio, ..peaks }
+        };
+        let landings = reference.history.landings().map(|event| event.time);
+        let touches = fem.contacts.iter().filter(|contact| contact.touches).map(|c| c.time);
+        let rest = SAME_IMPACT / self.assembled.structure.body().p_squared().sqrt();
+        PeakPair {
+            reference: of(&|i| reference.history.q[i].as_slice().to_vec(), 0, impacts(landings, rest)),
+            springs: of(&|i| fem.q[i].clone(), 1, impacts(touches, rest)),
+            reference_ends_s: None,
+            with_members: None,
+        }
+    }
+
+    /// Friction coefficient that the structure on rigid ground needs, and when (s): the ground's
+    /// forces on all corners together.
+    fn friction_needed(&self) -> TimedPeak {
+        let weight = self.assembled.frame.total_mass() * rocking::scalar::GRAVITY;
+        let needed = |corners: &Vec<[f64; 2]>| {
+            let (h, n) = corners.iter().fold((0.0, 0.0), |(h, n), force| (h + force[0], n + force[1]));
+            if n > LEAST_PRESS * weight { (h / n).abs() } else { 0.0 }
+        };
+        let forces = &self.answer.histories.reference.history.forces;
+        let series: Vec<f64> = forces.iter().map(needed).collect();
+        TimedPeak::of(self.record.dt, &series).unwrap_or_default()
+    }
+
+    /// All findings.
+    pub fn findings(&self, parameters: &ElasticParameters) -> Vec<Finding> {
+        // what of the search was cut is there already
+        let mut all: Vec<Finding> = parameters.findings.iter().map(|filed| filed.finding.clone()).collect();
+        if let Some(on) = &parameters.on_record {
+            all.extend(self.what_it_does(on));
+            all.extend(foretold(on, parameters.design_forces.as_ref()));
+            let alpha = self.assembled.structure.body().alpha();
+            all.extend(on.near.iter().map(|near| nearby(near, alpha)));
+            let motions = self.answer.near_left_out;
+            all.extend((motions > 0).then_some(Finding::NearMotionsLeftOut { motions }));
+        }
+        let needed = self.friction_needed();
+        all.extend((needed.value > self.friction).then_some(Finding::Sliding {
+            needed: needed.value,
+            time_s: Some(needed.time),
+            available: self.friction,
+        }));
+        all.extend(self.vertical_left_out());
+        all.extend(doubts(self.case.doubts()));
+        all.extend(springs_findings(parameters));
+        all.extend(parameters.design_forces.iter().filter_map(|forces| forces.held_in_part()));
+        all.extend(parameters.design_forces.iter().flat_map(|forces| forces.withheld()));
+        all.extend(judged::elastic(self.assembled, &self.answer.histories, self.record));
+        all
+    }
+
+    /// A vertical component of some size that is left out: what it would change.
+    fn vertical_left_out(&self) -> Option<Finding> {
+        let large = |doubt: Doubt| match doubt {
+            Doubt::VerticalLeftOut { peak_g, horizontal_g } => Some((peak_g, horizontal_g)),
+            _ => None,
+        };
+        let (vertical_g, horizontal_g) = self.case.doubts().into_iter().find_map(large)?;
+        let record = self.case.excitation.with_vertical_left_out()?.ok()?.used().ok()?;
+        let with = peaks_in(self.assembled, self.springs, &record).ok()?;
+        let change = |(kind, with): (ForceKind, f64)| {
+            let without = self.answer.design.get(kind)?.value?.abs();
+            let (quantity, unit) = (kind.name().to_string(), kind.unit().to_string());
+            Some(PeakChange { quantity, unit, without, with: with.abs() })
+        };
+        Some(Finding::VerticalLeftOut {
+            vertical_g,
+            horizontal_g,
+            changes: with.into_iter().filter_map(change).collect(),
+        })
+    }
+
+    fn what_it_does(&self, on: &OnRecord) -> Vec<Finding> {
+        let history = &self.answer.histories.reference.history;
+        let fem = self.answer.histories.fem.outcome;
+        let mut all = Vec::new();
+        let fell = |outcome: HistoryOutcome| match outcome {
+            HistoryOutcome::Overturned { time } => Some(time),
+            _ => None,
+        };
+        let reference_fell = match history.outcome {
+            ReferenceOutcome::Overturned { time } => Some(time),
+            _ => None,
+        };
+        all.push(match (fell(fem), reference_fell) {
+            (Some(time_s), reference_s) => Finding::Overturns { time_s, reference_s },
+            (None, Some(time_s)) => Finding::Overturns { time_s, reference_s: Some(time_s) },
+            (None, None) if !history.lifts() => Finding::NeverLifts {
+                pga_g: self.record.pga_g(),
+                uplift_g: self.assembled.structure.body().alpha().tan(),
+            },
+            _ => Finding::Stands { share_of_overturning: on.peak_ratio_fem, over_s: on.compared_s },
+        });
+        if fell(fem).is_some() != reference_fell.is_some() {
+            let words =
+                |time: Option<f64>| time.map_or("stands".into(), |time| format!("overturns at t = {time:.2} s"));
+            all.push(Finding::ModelsDisagree { reference: words(reference_fell), springs: words(fell(fem)) });
+        }
+        if let ReferenceOutcome::Stopped { time, why } = history.outcome {
+            all.push(Finding::HistoryEndsEarly {
+                model: FindingModel::Reference,
+                time_s: time,
+                ending: if why == Stop::Work { Ending::WorkBound } else { Ending::Stopped },
+            });
+        }
+        let (time_s, ending) = match fem {
+            HistoryOutcome::Stopped { time } => (time, Ending::Stopped),
+            HistoryOutcome::WorkBound { time } => (time, Ending::WorkBound),
+            HistoryOutcome::Unstable { time } => (time, Ending::Unstable),
+            HistoryOutcome::Completed | HistoryOutcome::Overturned { .. } => return all,
+        };
+        all.push(Finding::HistoryEndsEarly { model: FindingModel::Springs, time_s, ending });
+        all
+    }
+
+    fn assumed(&self) -> Vec<Assumed> {
+        Assumed::all(&self.case.assumptions())
+    }
+
+    /// All that is said of it; `parameters` are those filed.
+    pub fn said(&self, parameters: ElasticParameters) -> Run {
+        let mut run = alone(parameters);
+        run.taken.record = Some(self.case.excitation.line());
+        run.taken.assumed = self.assumed();
+        run.friction_needed = Some(self.friction_needed().value);
+        run.sap2000 = self.assembled.members == Members::default() && self.record.vertical.is_none();
+        run.sections.extend(self.comparison(&run));
+        run
+    }
+
+    fn comparison(&self, run: &Run) -> Option<Section> {
+        let FiledParameters::Elastic(parameters) = &run.parameters else { return None };
+        let on = parameters.on_record?;
+        let number = |x: Option<f64>| x.map_or("-".to_string(), |x| significant(x, 2));
+        let rows = [
+            ("NRMSE of the rotation", number(on.nrmse_rotation)),
+            ("NRMSE of the drift", number(on.nrmse_drift)),
+            ("landings of corners on rigid ground", on.landings_reference.to_string()),
+            ("landings of corners on springs", on.touches_fem.to_string()),
+            ("energy residual", format!("{:.1e}", on.energy_residual)),
+        ];
+        let rows = rows.map(|(name, value)| vec![name.to_string(), value]);
+        let over = if on.whole { "all of it" } else { "where it can be compared" };
+        Some(Section {
+            id: "comparison",
+            title: format!("The first {} s of the record: {over}", significant(on.compared_s, 4)),
+            table: Some(Table::new(["on springs, beside rigid ground", ""]).with(rows)),
+            ..Section::default()
+        })
+    }
+}
+
+/// Impacts among touches of corners (s): one that follows the last within `rest` (s) belongs to the same.
+fn impacts(touches: impl Iterator<Item = f64>, rest: f64) -> usize {
+    let (mut last, mut count) = (f64::NEG_INFINITY, 0);
+    for time in touches {
+        count += usize::from(time - last > rest);
+        last = time;
+    }
+    count
+}
+
+/// A run's forces, as parameters.json has them.
+pub fn design_forces(structure: &ElasticStructure, of: &StructureForces) -> DesignForces {
+    let force = |kind: ForceKind| {
+        let force = of.get(kind)?;
+        Some(DesignForce {
+            value: force.value,
+            time_s: force.time_s,
+            holds: force.holds,
+            change: Some(force.others.change()).filter(|change| change.is_finite()),
+            raw: Some(force.raw),
+            fixed: force.fixed.map(|peak| peak.value).filter(|value| *value != 0.0),
+            rigid: force.rigid.map(|peak| peak.value),
+            together: force.together,
+            above_base_m: force.above_base_m,
+            over_s: force.whole_record.map(|_| force.over_s),
+            whole_record: force.whole_record,
+            others: Some(force.others),
+        })
+    };
+    let column_shear_n = force(ForceKind::ColumnShear);
+    let axial_n = force(ForceKind::Axial);
+    let found = |force: DesignForce| force.others.map_or(0.0, |others| others.found.abs());
+    let most = axial_n.map_or(0.0, found);
+    let axial_tension_n = force(ForceKind::AxialTension).filter(|tension| found(*tension) > LEAST_TENSION * most);
+    let base_moment = force(ForceKind::ColumnBaseMoment).map_or(0.0, found);
+    let column_top_moment_nm =
+        force(ForceKind::ColumnTopMoment).filter(|top| found(*top) > LEAST_TOP_MOMENT * base_moment);
+    // a leg has no mass and a hinge at its foot
+    let apex_moment_nm = match structure {
+        ElasticStructure::AFrame(frame) => column_shear_n.map(|shear| shear.times(frame.leg_length())),
+        ElasticStructure::Pier(_) | ElasticStructure::Frame(_) => None,
+    };
+    DesignForces {
+        below_hz: of.cutoff.as_ref().map(|cutoff| cutoff.cutoff_hz),
+        column_shear_n,
+        column_base_moment_nm: force(ForceKind::ColumnBaseMoment),
+        column_top_moment_nm,
+        axial_n,
+        axial_tension_n,
+        apex_moment_nm,
+        sole_shear_n: force(ForceKind::SoleShear),
+        sole_vertical_n: force(ForceKind::SoleVertical),
+    }
+}
+
+/// Mean horizontal displacement of all corners (m).
+fn feet_moved(frame: &Frame, q: &[f64]) -> f64 {
+    let places = frame.places();
+    places.iter().map(|place| place.reach(q).place[0]).sum::<f64>() / places.len().max(1) as f64
+}
+
+/// Height of the highest corner above the ground (m).
+fn uplift(frame: &Frame, q: &[f64]) -> f64 {
+    frame.places().iter().map(|place| place.reach(q).place[1]).fold(0.0, f64::max)
+}
+
+fn foretold(on: &OnRecord, forces: Option<&DesignForces>) -> Option<Finding> {
+    let (foretold, softer_hz) = (on.foretold_s?, on.softer_omega_n_hz);
+    let late = |(name, force): (ForceName, DesignForce)| (force.holds && force.time_s > foretold).then_some(name);
+    let later_forces = forces.iter().flat_map(|forces| forces.all()).filter_map(late).collect();
+    Some(match on.slides_on_s {
+        Some(time_s) => Finding::SlidesOn { time_s, softer_hz, later_forces },
+        None => Finding::ForetoldUpTo { time_s: foretold, softer_hz, later_forces },
+    })
+}
+
+fn nearby(near: &Ensemble, alpha: f64) -> Finding {
+    let ratio = |pair: [Option<f64>; 2]| pair.map(|x| x.map(|x| x / alpha));
+    Finding::NearMotions {
+        motions: near.motions,
+        change: near.change,
+        median_ratio: ratio(near.rotation_rad.median),
+        p90_ratio: ratio(near.rotation_rad.p90),
+        overturned: near.overturned,
+    }
+}
+
+/// Largest magnitude of a series of every base.
+pub fn largest(sways: &[[Sway; 2]], k: usize, of: fn(&Sway) -> &[f64]) -> f64 {
+    sways.iter().map(|pair| peak(of(&pair[k])).abs()).fold(0.0, f64::max)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// A structure that is moved as a whole: its feet move with it, and no corner lifts.
+    #[test]
+    fn feet_of_a_structure_that_has_moved_are_where_they_landed() {
+        let text = "kind = 'aframe'\nheight_m = 24.0\nwidth_m = 6.0\nmass_kg = 3e5\nfoot_mass_kg = 1e4\nea_n = 1e10\n\
+                    ei_nm2 = 1e10\ndamping_ratio = 0.03\n";
+        let structure: ElasticStructure = toml::from_str(text).unwrap();
+        let frame = Assembled::new(structure.checked().unwrap()).unwrap().frame;
+        let mut q = vec![0.0; (0..frame.nodes()).flat_map(|node| frame.coordinates(node)).flatten().count()];
+        assert_eq!([feet_moved(&frame, &q), uplift(&frame, &q)], [0.0; 2]);
+        for [x, ..] in (0..frame.nodes()).map(|node| frame.coordinates(node)) {
+            q[x.unwrap()] += 0.25;
+        }
+        assert!((feet_moved(&frame, &q) - 0.25).abs() < 1e-15);
+        assert_eq!(uplift(&frame, &q), 0.0);
+    }
+}

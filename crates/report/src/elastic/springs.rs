@@ -1,0 +1,131 @@
+//! What is said of springs alone: of an elastic structure without a record.
+
+use super::super::{AccuracyOn, AccuracyReport, FiledParameters, Run, Taken, Unit, doubts, filed};
+use super::title;
+use files::message::{quantity, significant};
+use rocking::members::Tendon;
+use springs::{
+    case::{ElasticCase, Yardstick},
+    parameters::elastic::{ElasticAssessment, ElasticParameters, OnRecord},
+    results::Finding,
+    tuning::elastic::suite::ElasticErrors,
+};
+
+pub(super) fn springs_findings(parameters: &ElasticParameters) -> Option<Finding> {
+    let a = parameters.assessment.as_ref().filter(|a| !a.reached)?;
+    Some(match a.measured.nothing() {
+        // of a search that was cut before it measured anything its own finding tells
+        true if parameters.findings.iter().any(|f| matches!(f.finding, Finding::SearchCut { .. })) => return None,
+        true => Finding::AccuracyNotMeasured,
+        false if a.judged_by == Yardstick::Peaks => Finding::PeaksMissed { asked: a.accuracy, capped: false },
+        false => Finding::AccuracyMissed { asked: a.accuracy, capped: false },
+    })
+}
+
+fn accuracy(a: &ElasticAssessment, on_record: Option<&OnRecord>) -> AccuracyReport {
+    let m = &a.measured;
+    let asked = |by: Yardstick| Some(a.accuracy).filter(|_| a.judged_by == by);
+    let (of_history, of_peaks) = (asked(Yardstick::Histories), asked(Yardstick::Peaks));
+    let finite = |x: f64| Some(x).filter(|x| x.is_finite());
+    let on = |on: &str, errors: Option<ElasticErrors>| {
+        let e = errors?;
+        Some(AccuracyOn {
+            on: if e.count == 1 { on.to_string() } else { format!("{} {on} (median)", e.count) },
+            count: e.count,
+            history: finite(e.median[0]),
+            peaks: e.peaks.and_then(|peaks| finite(peaks.largest[0])),
+            history_allowed: of_history,
+            peaks_allowed: of_peaks,
+        })
+    };
+    let part = on_record.filter(|on| !on.whole).map(|on| significant(on.compared_s, 3));
+    let this = part.map_or("this record".to_string(), |seconds| format!("this record to {seconds} s"));
+    let all = [on(&this, m.record), on("synthetic motions", m.motions), on("releases", m.releases)];
+    AccuracyReport {
+        history_asked: of_history,
+        peaks_asked: of_peaks,
+        reached: a.reached,
+        measured: all.into_iter().flatten().collect(),
+    }
+}
+
+/// Springs of a case without a record.
+pub fn of_case(case: &ElasticCase, mut parameters: ElasticParameters) -> Run {
+    // what of the search was cut is there already
+    let search = parameters.findings.iter().map(|filed| filed.finding.clone());
+    let found = search.chain(doubts(case.doubts_of_structure())).chain(springs_findings(&parameters));
+    parameters.findings = filed(found);
+    alone(parameters)
+}
+
+/// Springs without a record.
+pub(super) fn alone(parameters: ElasticParameters) -> Run {
+    let first = parameters.springs.first().copied();
+    let same = parameters
+        .springs
+        .iter()
+        .all(|row| first.is_some_and(|first| (row.vertical, row.horizontal) == (first.vertical, first.horizontal)));
+    let rows = if same { &parameters.springs[..parameters.springs.len().min(1)] } else { &parameters.springs[..] };
+    let unit = |name: String, row: &springs::parameters::elastic::UnitRow| Unit {
+        name,
+        k1_n_per_m: row.k1_n_per_m,
+        k2_n_per_m: row.k2_n_per_m,
+        m2_kg: row.m2_kg,
+        c_ns_per_m: row.c_ns_per_m,
+    };
+    let springs = rows.iter().enumerate().flat_map(|(i, row)| {
+        let name = |way: &str| match same {
+            true => way.to_string(),
+            false => format!("{way}, corner {} at {} m", i + 1, significant(row.x_m, 4)),
+        };
+        [unit(name("vertical"), &row.vertical), unit(name("horizontal"), &row.horizontal)]
+    });
+    let findings = match parameters.findings.is_empty() {
+        true => filed(springs_findings(&parameters)),
+        false => parameters.findings.clone(),
+    };
+    Run {
+        taken: taken(&parameters),
+        reference: "rigid ground",
+        peaks: parameters.peaks,
+        friction_needed: None,
+        design_forces: parameters.design_forces,
+        springs_at: "each corner",
+        springs: springs.collect(),
+        accuracy: parameters.assessment.as_ref().map(|a| accuracy(a, parameters.on_record.as_ref())),
+        findings,
+        fixed_steps: None,
+        sap2000: false,
+        sections: Vec::new(),
+        parameters: FiledParameters::Elastic(Box::new(parameters)),
+    }
+}
+
+fn taken(parameters: &ElasticParameters) -> Taken {
+    let structure = &parameters.structure;
+    let body = structure.body();
+    let given = serde_json::to_value(structure).unwrap_or_default();
+    let mut facts: Vec<(String, String)> = given
+        .as_object()
+        .into_iter()
+        .flatten()
+        .filter(|(key, value)| *key != "kind" && !value.is_null())
+        .map(|(key, value)| (key.clone(), value.as_f64().map_or(value.to_string(), |x| significant(x, 4))))
+        .collect();
+    let mut fact = |name: &str, value: String| facts.push((name.to_string(), value));
+    if let Some(damper) = parameters.damper {
+        fact("damper at each corner", format!("{} N s/m", significant(damper.c, 4)));
+    }
+    if let Some(Tendon { stiffness, pretension }) = parameters.tendon {
+        fact("tendon", format!("{} N/m, stressed to {}", significant(stiffness, 4), quantity(pretension, "N")));
+    }
+    fact("slenderness alpha of the rigid body", format!("{} rad", significant(body.alpha(), 4)));
+    fact("frequency p of the rigid body", format!("{} 1/s", significant(body.p_squared().sqrt(), 4)));
+    fact("restitution e of the rigid body, equation 2", significant(body.restitution(), 4));
+    fact("frequency fixed to the ground", format!("{} Hz", significant(structure.frequency_hz(), 4)));
+    fact("its weight shortens the columns by", format!("{} of their length", significant(structure.shortening(), 2)));
+    fact("lifts as a rigid body at g tan alpha", format!("{} g", significant(body.alpha().tan(), 4)));
+    let mass = quantity(structure.mass(), "kg");
+    let text = format!("{}, {mass} in all, {} Hz if fixed", title(structure), significant(structure.frequency_hz(), 3));
+    Taken { structure: text, facts, record: None, assumed: Vec::new() }
+}

@@ -1,0 +1,132 @@
+//! The front: error against Omega_n, of the design from the geometry and of the paper's procedure; and what stiffness costs.
+
+use std::{
+    f64::consts::TAU,
+    ops::ControlFlow,
+    sync::atomic::{AtomicUsize, Ordering},
+};
+
+use rayon::prelude::*;
+use serde::{Deserialize, Serialize};
+
+use decks::deck_steps;
+use dynamics::{
+    effort::Effort,
+    fem::{Analysis, Change, Control, Observer, Start, View},
+    spring::{Design, Springs},
+};
+use rocking::scalar::GRAVITY;
+use springs::tuning::{
+    arr::outer::{self, Benchmark, Bracket},
+    job::{Job, Paper, at},
+};
+
+/// Omega_n of the front's points (Hz); the one that was chosen is added.
+const LADDER_HZ: [f64; 8] = [160.0, 320.0, 640.0, 1280.0, 2560.0, 5120.0, 10240.0, 20480.0];
+
+/// One point of the front.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+pub struct FrontPoint {
+    /// Omega_n of the vertical units (Hz).
+    pub omega_n_hz: f64,
+    /// Whether these springs were chosen.
+    pub chosen: bool,
+    /// NRMSE of u on the springs of the landing: on the record, or the median of the synthetic motions where the record cannot be
+    /// followed one to one.
+    pub landing: Option<f64>,
+    /// The same of the paper's procedure, springs up to this Omega_n.
+    pub arr: Option<f64>,
+    /// Largest vertical foot force on the record, in weights: the springs' force in a landing, not the structure's.
+    pub foot_force_weights: f64,
+    /// Steps that an exported deck takes on the record at least, by its own rule along our history.
+    pub deck_steps: usize,
+}
+
+/// The front of a job.
+pub fn front(job: &Job, progress: &(dyn Fn(usize, usize) + Sync)) -> Vec<FrontPoint> {
+    let chosen = job.springs.vertical.omega_n_hz;
+    let mut ladder: Vec<f64> = LADDER_HZ.into_iter().filter(|hz| (hz / chosen).ln().abs() > 0.05).collect();
+    ladder.push(chosen);
+    ladder.sort_by(f64::total_cmp);
+    let done = AtomicUsize::new(0);
+    progress(0, ladder.len());
+    ladder
+        .par_iter()
+        .with_max_len(1)
+        .filter_map(|&hz| {
+            let springs =
+                if hz == chosen { Some(job.springs) } else { at(&job.body, TAU * hz / job.body.p_squared().sqrt()) };
+            let arr = || job.paper.as_ref().and_then(|paper| paper_error(job, paper, hz));
+            let ours = || springs.map(|springs| (error(job, &springs), cost(job, &springs)));
+            let (arr, ours) = rayon::join(arr, ours);
+            progress(done.fetch_add(1, Ordering::Relaxed) + 1, ladder.len());
+            let (landing, (foot_force_weights, deck_steps)) = ours?;
+            Some(FrontPoint { omega_n_hz: hz, chosen: hz == chosen, landing, arr, foot_force_weights, deck_steps })
+        })
+        .collect()
+}
+
+fn error(job: &Job, springs: &Springs<Design<f64>>) -> Option<f64> {
+    job.suites.error(&springs.chains(job.body.mass), Control::search()).filter(|error| error.is_finite())
+}
+
+fn paper_error(job: &Job, paper: &Paper, hz: f64) -> Option<f64> {
+    let Paper { vertical, horizontal, tuned } = paper;
+    let benchmark = Benchmark {
+        body: job.body,
+        dt: job.record.dt,
+        accel: &job.record.accel,
+        vertical: job.record.up(),
+        housner: &job.housner,
+        effort: &Effort::unbounded(),
+    };
+    let bracket = Bracket { max_hz: hz, max_settlement: f64::INFINITY };
+    let from = job.springs.vertical.omega_n_hz;
+    let springs = if hz == from {
+        tuned.best.springs
+    } else {
+        outer::follow(&benchmark, vertical, horizontal, bracket, tuned, from)?.springs
+    };
+    error(job, &springs)
+}
+
+/// Keeps the largest vertical force of either foot (N), and when contact changed (s).
+struct ForceWatch {
+    largest: f64,
+    changes: Vec<f64>,
+}
+
+impl Observer<f64> for ForceWatch {
+    fn sample(&mut self, _: usize, _: &View<f64>) -> ControlFlow<()> {
+        ControlFlow::Continue(())
+    }
+
+    fn step(&mut self, view: &View<f64>) {
+        self.largest = self.largest.max(view.vertical_force(0)).max(view.vertical_force(1));
+    }
+
+    fn event(&mut self, _: usize, _: Change, view: &View<f64>) {
+        self.changes.push(view.time);
+    }
+}
+
+/// Largest vertical foot force in weights, and a deck's steps, on the record.
+fn cost(job: &Job, springs: &Springs<Design<f64>>) -> (f64, usize) {
+    let case = Analysis {
+        body: job.body,
+        springs: springs.chains(job.body.mass),
+        start: Start::Settled,
+        dt: job.record.dt,
+        accel: &job.record.accel,
+        vertical: job.record.up(),
+        scale: 1.0,
+        // forces at every sample
+        control: Control::search(),
+    };
+    let mut watch = ForceWatch { largest: 0.0, changes: Vec::new() };
+    case.observe(&mut watch);
+    let duration = job.record.len().saturating_sub(1) as f64 * job.record.dt;
+    let landing = (TAU * springs.vertical.omega_n_hz).recip();
+    let steps = deck_steps(&watch.changes, duration, job.record.dt, landing);
+    (watch.largest / (job.body.mass * GRAVITY), steps)
+}

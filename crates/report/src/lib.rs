@@ -1,0 +1,218 @@
+//! A run as data, and what is made of it: one renderer each for the terminal, Markdown, HTML and JSON (serde).
+//!
+//! | from | to |
+//! |---|---|
+//! | `rigid::RigidRun`, `elastic::ElasticRun`: histories and springs | [`Run`]: what is said of them |
+//! | [`Run`] | `screen` (at most 30 lines), `markdown`, `page` (HTML), serde (JSON) |
+//!
+//! No renderer knows whether the structure is rigid, and none reads another's words.
+
+// what is printed goes through the program's `commands/terminal`
+#![cfg_attr(not(test), deny(clippy::print_stdout, clippy::print_stderr))]
+
+pub mod accuracy;
+pub mod displacements;
+pub mod elastic;
+pub mod front;
+pub mod html;
+pub mod judged;
+pub mod markdown;
+pub mod page;
+pub mod reference;
+pub mod rigid;
+pub mod screen;
+pub mod table;
+
+use serde::Serialize;
+
+pub use accuracy::{AccuracyOn, AccuracyReport};
+pub use displacements::{peak_table, summary};
+pub use markdown::{force_value, height};
+use springs::{
+    case::{
+        assumptions::{AssumedQuantity, Assumption},
+        doubts::Doubt,
+    },
+    parameters::{Parameters, elastic::ElasticParameters},
+    results::{DesignForces, FiledFinding, Finding, PeakChange, PeakPair, Weight},
+};
+pub use table::Table;
+
+/// A value the user did not give, and the key that sets it.
+#[derive(Clone, Debug, PartialEq, Serialize)]
+pub struct Assumed {
+    /// What, with its value: "restitution 0.98 by equation 2".
+    pub what: String,
+    /// The key or option that sets it.
+    pub key: String,
+}
+
+impl Assumed {
+    /// What was assumed, but for what the line of the record tells.
+    fn all(assumptions: &[Assumption]) -> Vec<Self> {
+        let told = |a: &&Assumption| a.quantity != AssumedQuantity::ElCentro;
+        let one = |assumption: &Assumption| {
+            let [what, key] = assumption.told();
+            Self { what, key: key.trim_start_matches("structure.").to_string() }
+        };
+        assumptions.iter().filter(told).map(one).collect()
+    }
+}
+
+/// Doubts as findings; of a vertical component that is left out a finding of its own tells what it would change.
+fn doubts(all: Vec<Doubt>) -> impl Iterator<Item = Finding> {
+    let those = all.into_iter().filter(|doubt| !matches!(doubt, Doubt::VerticalLeftOut { .. }));
+    those.map(|doubt| Finding::Doubt { message: doubt.message(), remedy: doubt.remedy() })
+}
+
+/// What changes from one run to another: top displacement and the design forces that both give.
+fn changes(
+    (peaks, forces): (Option<PeakPair>, Option<DesignForces>),
+    (with_peaks, with_forces): (PeakPair, DesignForces),
+) -> Vec<PeakChange> {
+    let change = |quantity: &str, unit: &str, without: f64, with: f64| PeakChange {
+        quantity: quantity.into(),
+        unit: unit.into(),
+        without,
+        with,
+    };
+    let top = |pair: &PeakPair| pair.springs.top_displacement_m;
+    let top = peaks.map(|peaks| change("top displacement", "m", top(&peaks), top(&with_peaks)));
+    let with: Vec<_> = with_forces.all().collect();
+    let forces = forces.into_iter().flat_map(|forces| forces.all().collect::<Vec<_>>()).filter_map(|(name, force)| {
+        let (_, other) = with.iter().find(|(other, _)| *other == name)?;
+        Some(change(name.words(), name.unit(), force.value?.abs(), other.value?.abs()))
+    });
+    top.into_iter().chain(forces).collect()
+}
+
+/// The case as it was understood.
+#[derive(Clone, Debug, PartialEq, Serialize)]
+pub struct Taken {
+    /// The structure in a few words.
+    pub structure: String,
+    /// More of it: names and values with units.
+    pub facts: Vec<(String, String)>,
+    /// The record, its scale, length, step and peak; none of springs without a record.
+    pub record: Option<String>,
+    /// What was not given.
+    pub assumed: Vec<Assumed>,
+}
+
+/// A spring-absorber unit.
+#[derive(Clone, Debug, PartialEq, Serialize)]
+pub struct Unit {
+    /// Which: "vertical", or with its place where places differ.
+    pub name: String,
+    /// Gap spring k1 (N/m).
+    pub k1_n_per_m: f64,
+    /// Spring k2 under the absorber (N/m).
+    pub k2_n_per_m: f64,
+    /// Absorber's mass m2 (kg).
+    pub m2_kg: f64,
+    /// Dashpot c beside k2 (N s/m).
+    pub c_ns_per_m: f64,
+}
+
+/// Part of a report: text, a table, commands.
+#[derive(Clone, Debug, Default, PartialEq, Serialize)]
+pub struct Section {
+    /// In addresses.
+    pub id: &'static str,
+    /// Its heading.
+    pub title: String,
+    /// Paragraphs above the table.
+    pub text: Vec<String>,
+    /// Its table.
+    pub table: Option<Table>,
+    /// Paragraphs below it.
+    pub notes: Vec<String>,
+    /// Commands to type.
+    pub commands: Vec<String>,
+}
+
+/// parameters.json.
+#[derive(Clone, Debug, PartialEq, Serialize)]
+#[serde(untagged)]
+pub enum FiledParameters {
+    /// Of a rigid body.
+    Rigid(Box<Parameters>),
+    /// Of an elastic structure.
+    Elastic(Box<ElasticParameters>),
+}
+
+/// Everything that is said of a run.
+#[derive(Clone, Debug, PartialEq, Serialize)]
+pub struct Run {
+    /// The case.
+    pub taken: Taken,
+    /// What the springs are compared with: "Housner", "rigid ground".
+    pub reference: &'static str,
+    /// Largest displacements; none without a record.
+    pub peaks: Option<PeakPair>,
+    /// Friction coefficient that the reference needs.
+    pub friction_needed: Option<f64>,
+    /// Forces to design with; none without a record.
+    pub design_forces: Option<DesignForces>,
+    /// "each foot", "each corner".
+    pub springs_at: &'static str,
+    /// The units.
+    pub springs: Vec<Unit>,
+    /// Measured in this run.
+    pub accuracy: Option<AccuracyReport>,
+    /// The answer first, then by weight.
+    pub findings: Vec<FiledFinding>,
+    /// Steps that a program with one fixed step would need for these springs; none without a record.
+    pub fixed_steps: Option<usize>,
+    /// Whether there is a deck for SAP2000.
+    pub sap2000: bool,
+    /// What the report has besides.
+    pub sections: Vec<Section>,
+    /// What parameters.json holds.
+    pub parameters: FiledParameters,
+}
+
+/// Findings for a run: answers first, then what weighs most.
+pub fn filed(findings: impl IntoIterator<Item = Finding>) -> Vec<FiledFinding> {
+    let mut all: Vec<FiledFinding> = findings.into_iter().map(FiledFinding::from).collect();
+    let rank = |weight: Weight| match weight {
+        Weight::Answer => 0,
+        Weight::Fault => 1,
+        Weight::Warning => 2,
+        Weight::Note => 3,
+    };
+    all.sort_by_key(|finding| rank(finding.weight));
+    all
+}
+
+impl Run {
+    /// What the run was asked, in one sentence.
+    pub(crate) fn verdict(&self) -> String {
+        let answer = self.findings.iter().find(|finding| finding.weight == Weight::Answer);
+        let graver = self.findings.iter().find(|f| matches!(f.finding, Finding::ModelsDisagree { .. }));
+        match graver.or(answer) {
+            Some(finding) => sentence(&finding.message),
+            None => "Springs without a record: nothing rocked.".into(),
+        }
+    }
+
+    /// All that is to be said besides the verdict, gravest first.
+    pub(crate) fn remarks(&self) -> impl Iterator<Item = &FiledFinding> {
+        let told = self.findings.iter().position(|f| matches!(f.finding, Finding::ModelsDisagree { .. }));
+        self.findings
+            .iter()
+            .enumerate()
+            .filter(move |(i, finding)| match told {
+                Some(told) => *i != told && finding.weight != Weight::Answer,
+                None => finding.weight != Weight::Answer,
+            })
+            .map(|(_, finding)| finding)
+    }
+}
+
+/// With a capital letter and a full stop.
+pub(crate) fn sentence(message: &str) -> String {
+    let mut letters = message.chars();
+    let first = letters.next().map(|c| c.to_uppercase().collect::<String>()).unwrap_or_default();
+    format!("{first}{}.", letters.as_str().trim_end_matches('.'))
+}

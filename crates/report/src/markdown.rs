@@ -1,0 +1,229 @@
+//! A run as Markdown: parameters.md, and what `--verbose` prints.
+
+use super::{FiledParameters, Run, Section, Table, peak_table, sentence};
+use files::message::{percent, quantity, significant};
+use springs::results::{DesignForce, ForceName};
+
+/// The whole of it.
+pub fn markdown(run: &Run) -> String {
+    let mut out = format!("# Ground springs: {}\n\n{}\n\n", run.taken.structure, run.verdict());
+    if let Some(record) = &run.taken.record {
+        out.push_str(&format!("- {record}\n"));
+    }
+    for assumed in &run.taken.assumed {
+        out.push_str(&format!("- assumed: {} ({})\n", assumed.what, assumed.key));
+    }
+    if let Some(accuracy) = &run.accuracy {
+        out.push_str(&format!("- accuracy: {}\n", accuracy.sentence()));
+    }
+    for finding in run.remarks() {
+        out.push_str(&format!("- {}\n", finding.line()));
+    }
+    for part in sections(run) {
+        out.push('\n');
+        out.push_str(&section(&part));
+    }
+    out
+}
+
+/// The tables of a run: peaks, design forces, springs, accuracy, then what this kind of structure
+/// has.
+pub(crate) fn sections(run: &Run) -> Vec<Section> {
+    let mut all = vec![Section {
+        id: "case",
+        title: "The case".into(),
+        table: Some(
+            Table::new(["", ""]).with(run.taken.facts.iter().map(|(name, value)| vec![name.clone(), value.clone()])),
+        ),
+        ..Section::default()
+    }];
+    if let Some(table) = peak_table(run) {
+        all.push(Section {
+            id: "peaks",
+            title: "Largest displacements".into(),
+            table: Some(table),
+            ..Section::default()
+        });
+    }
+    all.extend(forces(run));
+    all.extend(together(run));
+    all.push(Section {
+        id: "springs",
+        title: format!("The springs at {}", run.springs_at),
+        text: vec![
+            "A numerical contact stiffness, not that of soil. Gap spring k1 between structure and absorber m2, which presses only; k2 \
+             beside the dashpot c between absorber and ground. m2 is a numerical mass, not one to be built."
+                .into(),
+        ],
+        table: Some(springs(run)),
+        ..Section::default()
+    });
+    if let Some(accuracy) = &run.accuracy {
+        all.push(Section {
+            id: "accuracy",
+            title: "Accuracy, and on what".into(),
+            text: vec![
+                format!("{} Measured in this run.", sentence(&accuracy.sentence())),
+                "NRMSE is the root mean square of the difference from the reference over the root mean square of the reference; only \
+                 motions count that can be followed one to one."
+                    .into(),
+            ],
+            table: Some(accuracy.table()),
+            ..Section::default()
+        });
+    }
+    all.extend(other_forces(run));
+    all.extend(run.sections.iter().cloned());
+    all
+}
+
+fn section(part: &Section) -> String {
+    let mut out = format!("## {}\n", part.title);
+    let paragraphs =
+        |out: &mut String, all: &[String]| all.iter().for_each(|text| out.push_str(&format!("\n{text}\n")));
+    paragraphs(&mut out, &part.text);
+    if let Some(table) = &part.table {
+        out.push('\n');
+        out.push_str(&table.markdown());
+    }
+    paragraphs(&mut out, &part.notes);
+    if !part.commands.is_empty() {
+        out.push_str(&format!("\n```sh\n{}\n```\n", part.commands.join("\n")));
+    }
+    out
+}
+
+fn forces(run: &Run) -> Option<Section> {
+    let forces = run.design_forces.as_ref()?;
+    let cell = |x: Option<f64>, name: ForceName| x.map_or("-".into(), |x| quantity(x, name.unit()));
+    let row = |(name, force): (ForceName, DesignForce)| {
+        vec![
+            format!("{}{}", name.words(), height(&force)),
+            force_value(name, &force),
+            format!("{} s", significant(force.time_s, 4)),
+            force.change.map_or("not measured".into(), percent),
+            cell(force.rigid, name),
+            cell(force.fixed, name),
+        ]
+    };
+    let head = ["force", "largest", "at", "change with springs or mesh", "rigid body (Housner)", "fixed to the ground"];
+    let below = match forces.below_hz {
+        Some(hz) => format!("Largest of what is slower than {} Hz.", significant(hz, 3)),
+        None if matches!(run.parameters, FiledParameters::Elastic(_)) => {
+            "A column without mass has no waves: its forces are as they are, those of the ground below 20 Hz.".into()
+        }
+        None => "Largest between impacts: an impact's impulse is not among them.".into(),
+    };
+    Some(Section {
+        id: "forces",
+        title: "Forces to design with".into(),
+        text: vec![format!(
+            "{below} A force is given if it changes by less than 5 % with the springs' stiffness and the mesh, as measured in this run. \
+             Column shear is that of the height where it is largest, axial force that at the base; \
+             members.csv has all members. Axial force is positive in tension. \
+             Each is the largest by itself, at its own time: they do not act together."
+        )],
+        table: Some(Table::new(head).with(forces.all().map(row))),
+        ..Section::default()
+    })
+}
+
+/// A force with its sign, and up to when if that is not all of the record; between what it lies if it
+/// does not hold.
+pub fn force_value(name: ForceName, force: &DesignForce) -> String {
+    let newtons = |x: f64| quantity(x, name.unit());
+    let Some(value) = force.value else {
+        return match (force.others.and_then(|others| others.range()), force.change) {
+            (Some([low, high]), _) => format!("withheld: {} to {} with springs and mesh", newtons(low), newtons(high)),
+            (None, Some(change)) => format!("withheld: changes by {} on springs", percent(change)),
+            (None, None) => "withheld".into(),
+        };
+    };
+    let part = force.over_s.map_or(String::new(), |over| format!(" (to {} s)", significant(over, 3)));
+    newtons(value) + &part
+}
+
+/// Where along the column, in words, if not at its base.
+pub fn height(force: &DesignForce) -> String {
+    let above = force.above_base_m.filter(|above| *above > 0.0);
+    above.map_or(String::new(), |above| format!(", {} m above the base", significant(above, 3)))
+}
+
+/// What acts together with the largest forces of a column: pairs for an interaction diagram.
+fn together(run: &Run) -> Option<Section> {
+    let row = |(name, force): (ForceName, DesignForce)| {
+        let with = force.together.filter(|_| force.holds)?;
+        let cells = [(with.axial_n, "N"), (with.column_base_moment_nm, "N m"), (with.column_shear_n, "N")];
+        let at = format!("{} s", significant(force.time_s, 4));
+        Some([vec![format!("largest {}", name.words()), at], cells.map(|(x, unit)| quantity(x, unit)).into()].concat())
+    };
+    let rows: Vec<_> = run.design_forces?.all().filter_map(row).collect();
+    let head = ["where", "at", "axial force", "moment at column base", "column shear"];
+    (!rows.is_empty()).then(|| Section {
+        id: "together",
+        title: "What acts together at the column's base".into(),
+        text: vec![
+            "At the time of each largest force, below the same frequency; means over parts of the \
+             record's time step, so somewhat less than the largest. The largest shear may be higher up \
+             the column. Axial force is positive in tension."
+                .into(),
+        ],
+        table: Some(Table::new(head).with(rows)),
+        ..Section::default()
+    })
+}
+
+/// What forces were with another mesh and on other springs, by which it is decided whether they are
+/// given.
+fn other_forces(run: &Run) -> Option<Section> {
+    let row = |(name, force): (ForceName, DesignForce)| {
+        let others = force.others?;
+        let cell = |x: Option<f64>| x.map_or("-".into(), |x| quantity(x, name.unit()));
+        let held = if force.holds { "holds" } else { "withheld" };
+        let cells = [Some(others.found), others.doubled_elements, others.softer, others.stiffer, force.raw].map(cell);
+        Some([vec![name.words().to_string()], cells.into(), vec![held.into()]].concat())
+    };
+    let rows: Vec<_> = run.design_forces?.all().filter_map(row).collect();
+    let head = ["force", "in this run", "elements doubled", "Omega_n / 4", "4 Omega_n", "unfiltered", ""];
+    (!rows.is_empty()).then(|| Section {
+        id: "other-forces",
+        title: "The same forces with another mesh and on other springs".into(),
+        text: vec![
+            "The largest magnitude over the same time. A force whose magnitude changes by 5 % or more is withheld."
+                .into(),
+        ],
+        table: Some(Table::new(head).with(rows)),
+        ..Section::default()
+    })
+}
+
+fn springs(run: &Run) -> Table {
+    let row = |unit: &super::Unit| {
+        let cells = [unit.k1_n_per_m, unit.k2_n_per_m, unit.m2_kg, unit.c_ns_per_m].map(|x| significant(x, 5));
+        [vec![unit.name.clone()], cells.into()].concat()
+    };
+    Table::new(["unit", "k1 [N/m]", "k2 [N/m]", "m2 [kg]", "c [N s/m]"]).with(run.springs.iter().map(row))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use springs::results::OtherForces;
+
+    #[test]
+    fn a_force_says_over_how_much_it_holds_or_between_what_it_lies() {
+        let held = DesignForce::measured(-4.937e6, 41.0, Some(0.01));
+        assert_eq!(force_value(ForceName::Axial, &held), "-4.937 MN");
+        let part = DesignForce { over_s: Some(49.42), ..held };
+        assert_eq!(force_value(ForceName::Axial, &part), "-4.937 MN (to 49.4 s)");
+        let changes = DesignForce::measured(2.48e6, 41.0, Some(0.073));
+        assert_eq!(force_value(ForceName::AxialTension, &changes), "withheld: changes by 7.30 % on springs");
+        let others = OtherForces { found: 2.48e6, doubled_elements: None, softer: Some(2.66e6), stiffer: Some(2.5e6) };
+        let between = DesignForce { others: Some(others), ..changes };
+        assert_eq!(
+            force_value(ForceName::AxialTension, &between),
+            "withheld: 2.48 MN to 2.66 MN with springs and mesh"
+        );
+        assert_eq!(force_value(ForceName::Axial, &DesignForce { change: None, ..changes }), "withheld");
+    }
+}

@@ -1,0 +1,200 @@
+//! `report.html`: a run on one page that asks no network, to be read, printed and filed.
+
+use std::fmt::Write;
+
+use super::{
+    Run, Section,
+    html::{escape, json, pretty, table, tile},
+    markdown::sections,
+    sentence,
+};
+use figures::Figure;
+use files::message::{percent, quantity};
+use springs::results::{FiledFinding, Weight};
+
+const STYLE: &str = include_str!("style.css");
+const SCRIPT: &str = include_str!("script.js");
+
+/// The whole page.
+pub fn page(run: &Run, drawn: &[Figure]) -> String {
+    let title = escape(&format!("Ground springs: {}", run.taken.structure));
+    let subtitle = escape(run.taken.record.as_deref().unwrap_or("without a record"));
+    let mut parts: Vec<(String, String, String)> = Vec::new();
+    for part in sections(run) {
+        let body = section(&part);
+        parts.push((part.id.to_string(), part.title, body));
+        if part.id == "forces" && !drawn.is_empty() {
+            parts.push(("figures".into(), "Figures".into(), figures(drawn)));
+        }
+    }
+    if !drawn.is_empty() && parts.iter().all(|(id, ..)| id != "figures") {
+        parts.push(("figures".into(), "Figures".into(), figures(drawn)));
+    }
+    parts
+        .extend([programs(run), cite()].into_iter().map(|(id, title, body)| (id.to_string(), title.to_string(), body)));
+    document(&title, &subtitle, &(head(run) + &remarks(run)), &parts)
+}
+
+/// The verdict, what was taken, and a few numbers.
+fn head(run: &Run) -> String {
+    let graver = run.findings.iter().map(|finding| finding.weight).max();
+    let class = match graver {
+        Some(Weight::Fault) => "verdict bad",
+        Some(Weight::Warning) => "verdict care",
+        _ => "verdict",
+    };
+    let mut items: Vec<String> = Vec::new();
+    if !run.taken.assumed.is_empty() {
+        let all: Vec<String> = run.taken.assumed.iter().map(|a| format!("{} ({})", a.what, a.key)).collect();
+        items.push(format!("Assumed: {}.", all.join("; ")));
+    }
+    items.extend(run.accuracy.as_ref().map(|accuracy| format!("Accuracy: {}.", accuracy.sentence())));
+    let items: String = items.iter().map(|text| format!("<li>{}</li>", pretty(text))).collect();
+    format!(
+        "<div class=\"{class}\" id=\"verdict\"><strong>{}</strong><ul>{items}</ul></div>\n<div class=\"tiles\">\n{}</div>\n",
+        pretty(&run.verdict()),
+        tiles(run)
+    )
+}
+
+fn tiles(run: &Run) -> String {
+    let mut out = String::new();
+    if let Some(pair) = &run.peaks {
+        let (shown, reference) = (pair.with_members.unwrap_or(pair.springs), pair.reference);
+        let m = |x: f64| quantity(x, "m");
+        let top = format!("top displacement; {} {}", run.reference, m(reference.top_displacement_m));
+        out += &tile(&m(shown.top_displacement_m), &top);
+        out += &tile(&percent(shown.drift_ratio), "drift ratio: top displacement over height");
+        out += &tile(&m(shown.uplift_m), &format!("uplift; {} {}", run.reference, m(reference.uplift_m)));
+        out += &tile(&shown.impacts.to_string(), &format!("impacts; {} {}", run.reference, reference.impacts));
+    }
+    for (name, force) in run.design_forces.iter().flat_map(|forces| forces.all()) {
+        let value = force.value.map_or("withheld".into(), |value| quantity(value.abs(), name.unit()));
+        out += &tile(&value, name.words());
+    }
+    if let Some(a) = &run.accuracy {
+        let asked = match (a.peaks_asked, a.history_asked) {
+            (Some(peaks), _) => format!("accuracy asked for: peaks within {}", percent(peaks)),
+            (_, Some(history)) => format!("accuracy asked for: history {history}"),
+            _ => "accuracy".into(),
+        };
+        out += &tile(if a.reached { "reached" } else { "not reached" }, &asked);
+    }
+    out
+}
+
+fn remarks(run: &Run) -> String {
+    let one = |finding: &FiledFinding| {
+        let class = if finding.weight == Weight::Note { "advice note" } else { "advice" };
+        let mut body = format!("<b>{}</b>", pretty(&sentence(&finding.message)));
+        if let Some(meaning) = finding.finding.meaning() {
+            let _ = write!(body, "<p>{}</p>", pretty(meaning));
+        }
+        if let Some(remedy) = &finding.remedy {
+            let _ = write!(body, "<p>What to do: {}</p>", pretty(&sentence(remedy)));
+        }
+        format!("<div class=\"{class}\">{body}</div>\n")
+    };
+    run.remarks().map(one).collect()
+}
+
+fn section(part: &Section) -> String {
+    let paragraphs = |all: &[String]| all.iter().map(|text| format!("<p>{}</p>\n", pretty(text))).collect::<String>();
+    let mut out = paragraphs(&part.text);
+    if let Some(rows) = &part.table {
+        let own = if part.id == "table1" { 1..3 } else { 0..0 };
+        out += &table(rows, own);
+    }
+    out += &paragraphs(&part.notes);
+    if !part.commands.is_empty() {
+        let _ = writeln!(out, "<pre>{}</pre>", escape_lines(&part.commands));
+    }
+    out
+}
+
+fn escape_lines(lines: &[String]) -> String {
+    lines.iter().map(|line| escape(line)).collect::<Vec<_>>().join("\n")
+}
+
+/// How to use the springs.
+fn programs(run: &Run) -> (&'static str, &'static str, String) {
+    let body = if run.taken.record.is_none() {
+        "<p>Tuned without a record, so without a deck: <code>tune export --format openseespy --parameters parameters.json --record \
+         FILE --out model.py</code> writes one.</p>\n"
+            .to_string()
+    } else {
+        let sap2000 = if run.sap2000 {
+            "<p><code>decks/model_sap2000.s2k</code> holds the model for SAP2000, but its steps would have to be far shorter than \
+             anyone takes: these springs are not for SAP2000, ETABS or scripts with one fixed time step. None are given yet.</p>\n"
+        } else {
+            "<p>No SAP2000 deck was written: its tables leave vertical motion, dampers, tendons and friction out.</p>\n"
+        };
+        format!(
+            "<p>The deck builds the model, applies gravity, runs the record in steps that follow every touch and lift, and prints its \
+             peaks beside those of this report.</p>\n<pre>pip install openseespy\npython3 decks/model_openseespy.py\ntune verify \
+             --parameters parameters.json     # OpenSees, this history and the reference in one table</pre>\n<p>In a model of your own: a \
+             node for the foot, one for the absorber and a fixed one under it; between foot and absorber a vertical gap spring k₁ that \
+             only presses and a horizontal k₁ that acts while the foot presses; between absorber and ground k₂ beside the dashpot c, in \
+             both directions; m₂ on the absorber. Steps must be shortened towards touches and lifts (<code>class Steps</code> in the \
+             deck can be pasted).</p>\n{sap2000}"
+        )
+    };
+    ("opensees", "In OpenSees and SAP2000", body)
+}
+
+fn cite() -> (&'static str, &'static str, String) {
+    let body = format!(
+        "<p>The method: Q. T. Ma, J. W. Butterworth, B. D. Davidson, <i>Modelling rocking structures using standard finite \
+         elements</i>, New Zealand Society for Earthquake Engineering Conference, 2005. The theory: G. W. Housner, <i>The behavior of \
+         inverted pendulum structures during earthquakes</i>, Bulletin of the Seismological Society of America 53 (2), \
+         1963.</p>\n<p>The program: the groundspring authors, <i>tune: ground springs for rocking structures</i>, version {}.</p>\n",
+        env!("CARGO_PKG_VERSION")
+    );
+    ("cite", "How to cite", body)
+}
+
+/// A page of sections (id, heading, body) below a verdict; title and line are escaped.
+fn document(title: &str, subtitle: &str, verdict: &str, parts: &[(String, String, String)]) -> String {
+    let mut out = format!(
+        "<!DOCTYPE html>\n<html lang=\"en\">\n<head>\n<meta charset=\"utf-8\">\n<meta name=\"viewport\" \
+         content=\"width=device-width, initial-scale=1\">\n<link rel=\"icon\" href=\"data:,\">\n<title>{title}</title>\n\
+         <style>\n{STYLE}</style>\n</head>\n<body>\n<main>\n<h1>{title}</h1>\n<p class=\"sub\">{subtitle}</p>\n<nav>"
+    );
+    for (id, heading, _) in parts {
+        // writing to a String cannot fail
+        let _ = write!(out, "<a href=\"#{id}\">{}</a>", escape(heading));
+    }
+    out.push_str("</nav>\n");
+    out.push_str(verdict);
+    for (id, heading, body) in parts {
+        let _ = write!(out, "<section id=\"{id}\">\n<h2>{}</h2>\n{body}</section>\n", escape(heading));
+    }
+    let version = env!("CARGO_PKG_VERSION");
+    let _ = write!(
+        out,
+        "<footer>Written by tune {version} (crate groundspring). The same numbers: parameters.json, parameters.md, history.csv, \
+         members.csv.</footer>\n</main>\n<script>\n{SCRIPT}</script>\n</body>\n</html>\n"
+    );
+    out
+}
+
+/// Figures with their captions; those over time zoom.
+fn figures(all: &[Figure]) -> String {
+    let mut out = String::new();
+    for figure in all {
+        let svg = figure.sheet.svg.replacen("<svg ", "<svg class=\"sheet\" role=\"img\" ", 1);
+        let (live, numbers) = if figure.sheet.plots.is_empty() {
+            ("", String::new())
+        } else {
+            (" class=\"live\"", format!("<script type=\"application/json\">{}</script>\n", json(&figure.sheet.plots)))
+        };
+        // writing to a String cannot fail
+        let _ = write!(
+            out,
+            "<figure id=\"{}\"{live}>\n{svg}{numbers}<figcaption>{}</figcaption>\n</figure>\n",
+            figure.name,
+            pretty(figure.caption)
+        );
+    }
+    out
+}

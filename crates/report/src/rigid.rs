@@ -1,0 +1,372 @@
+//! What is said of a rigid body's run: Housner's body beside the finite elements on their springs.
+
+pub mod tables;
+
+use super::{
+    AccuracyReport, Assumed, FiledParameters, Run, Section, Taken, Unit, changes, doubts, filed,
+    front::FrontPoint,
+    judged,
+    reference::{self, HousnerReport},
+};
+use decks::equal_steps;
+use dynamics::{
+    compare::Match,
+    fem::History,
+    spring::{Design, Springs},
+};
+use files::message::{percent, quantity, significant};
+use rocking::{
+    members::Members,
+    overturning::samples_until,
+    structure::{Kind, Structure},
+};
+use springs::{
+    answers::{Both, WithMembers, both, with_members},
+    case::{Case, Objective, Yardstick, doubts::Doubt},
+    parameters::{ConditioningRow, PaperProcedure, Parameters},
+    results::{Finding, PeakPair, Peaks},
+    rigid_forces::design_forces,
+    tuning::{
+        arr::table_1,
+        job::Job,
+        whole_model::{ATTAINABLE, LEANS, is_another},
+    },
+};
+
+/// A job done: springs, both models' histories, and what parameters.json holds.
+pub struct RigidRun {
+    /// As it was given.
+    pub case: Case,
+    /// Its springs.
+    pub job: Job,
+    /// Error over the stiffness.
+    pub front: Vec<FrontPoint>,
+    /// Both models' answers to the record.
+    pub both: Both,
+    /// Conditioning and regime.
+    pub report: HousnerReport,
+    /// What `parameters.json` holds, but for the record: where that is to be found depends on the folder.
+    pub parameters: Parameters,
+}
+
+impl RigidRun {
+    /// Simulate a job's springs, and those of the paper beside them; `friction` of the ground, for the warning of sliding.
+    pub fn new(case: Case, job: Job, front: Vec<FrontPoint>, friction: f64) -> Self {
+        let beside = |springs: &Springs<Design<f64>>| {
+            let other = Parameters::new(case.structure, springs);
+            let none = Members::default();
+            let matched = both(&job.body, case.restitution, &other.chains(), &none, &job.record).matched;
+            PaperProcedure { vertical: other.vertical, horizontal: other.horizontal, matched }
+        };
+        let paper = job.paper.as_ref().filter(|_| case.tuning.objective == Objective::Landing);
+        let recovered = table_1::of(&case.structure).filter(|_| job.paper.is_some());
+        let chains = Parameters::new(case.structure, &job.springs).chains();
+        let own = || {
+            let both = both(&job.body, case.restitution, &chains, &case.members, &job.record);
+            (both, Parameters::of(&case, &job))
+        };
+        let others = || (paper.map(|paper| beside(&paper.tuned.best.springs)), recovered.map(|r| beside(&r)));
+        let report = || HousnerReport::new(&job.body, case.restitution, &job.record, &job.rocking, friction);
+        let ((both, mut parameters), ((paper, recovered), report)) = rayon::join(own, || rayon::join(others, report));
+        parameters.matched = Some(both.matched);
+        parameters.match_with_members = both.with.as_ref().map(|with| with.matched);
+        (parameters.paper_procedure, parameters.table_1) = (paper, recovered);
+        parameters.conditioning = Some(report.conditioning.into());
+        parameters.verdict = Some(both.verdict(&job.body, job.record.dt, &report.conditioning));
+        let kind = case.structure.kind;
+        parameters.peaks = Some(peaks(kind, &job, &both));
+        let softer = softer(&case, &job, &both);
+        parameters.design_forces = Some(design_forces(kind, &job.body, &job.record, &both, softer.as_ref()));
+        let mut run = Self { case, job, front, both, report, parameters };
+        run.parameters.findings = filed(run.findings());
+        run
+    }
+
+    /// All that is said of it; `parameters` are those filed.
+    pub fn said(&self, parameters: Parameters) -> Run {
+        let mut sections = sections(&parameters);
+        sections.extend(self.sections());
+        let record = &self.job.record;
+        Run {
+            taken: Taken {
+                record: Some(self.case.excitation.line()),
+                assumed: self.assumed(),
+                ..taken(&self.case.structure, self.case.restitution)
+            },
+            friction_needed: Some(self.report.friction_needed()),
+            fixed_steps: Some(equal_steps(&parameters, record)),
+            sap2000: record.vertical.is_none() && parameters.members().is_none(),
+            sections,
+            ..alone(parameters)
+        }
+    }
+
+    fn assumed(&self) -> Vec<Assumed> {
+        let mut all = Assumed::all(&self.case.assumptions());
+        if self.case.members.friction.is_none() {
+            all.push(Assumed { what: "feet do not slide".into(), key: "friction.coefficient".into() });
+        }
+        all
+    }
+
+    fn findings(&self) -> Vec<Finding> {
+        let parameters = &self.parameters;
+        // what of the search was cut, first
+        let mut all = self.job.findings(self.case.tuning.asked());
+        let judged = parameters.assessment.is_some_and(|a| a.reached && a.measured.synthetic_median.is_some());
+        if let Some(verdict) = &parameters.verdict {
+            all.extend(reference::verdict(&self.case.structure, &self.job.record, verdict));
+            all.extend(reference::ill_conditioned(&self.report, verdict, judged));
+        }
+        all.extend(self.vertical_left_out());
+        all.extend(doubts(self.case.doubts()));
+        all.extend(springs_findings(parameters));
+        all.extend(parameters.design_forces.iter().flat_map(|forces| forces.withheld()));
+        all.extend(self.report.findings());
+        all.extend(reference::histories(&self.both));
+        all.extend(self.both.with.as_ref().map(|_| Finding::MembersBeside));
+        all.extend(judged::rigid(&self.case.structure, &self.parameters, &self.job.record));
+        all
+    }
+
+    /// A vertical component of some size that is left out: what it would change.
+    fn vertical_left_out(&self) -> Option<Finding> {
+        let large = |doubt: Doubt| match doubt {
+            Doubt::VerticalLeftOut { peak_g, horizontal_g } => Some((peak_g, horizontal_g)),
+            _ => None,
+        };
+        let (vertical_g, horizontal_g) = self.case.doubts().into_iter().find_map(large)?;
+        let excitation = self.case.excitation.with_vertical_left_out()?.ok()?;
+        let record = excitation.used().ok()?;
+        let Self { case, job, .. } = self;
+        let chains = self.parameters.chains();
+        let both = both(&job.body, case.restitution, &chains, &Members::default(), &record);
+        let kind = case.structure.kind;
+        let (peaks, forces) = (peaks(kind, job, &both), design_forces(kind, &job.body, &record, &both, None));
+        let changes = changes((self.parameters.peaks, self.parameters.design_forces), (peaks, forces));
+        Some(Finding::VerticalLeftOut { vertical_g, horizontal_g, changes })
+    }
+
+    fn sections(&self) -> Vec<Section> {
+        let mut all = Vec::new();
+        let mut columns = vec![("", &self.both.demands)];
+        columns.extend(self.both.with.as_ref().map(|with| ("with members, ", &with.demands)));
+        all.push(Section {
+            id: "elements",
+            title: "Forces of the finite elements".into(),
+            text: vec![
+                "Between landings: later than 0.1/p after the last touch-down. In landings they are forces of the springs and grow \
+                 with Omega_n: not to design with. Axial force is positive in tension; moments are those at the mass."
+                    .into(),
+            ],
+            table: Some(tables::finite_element_forces(&columns)),
+            ..Section::default()
+        });
+        if !self.front.is_empty() {
+            all.push(Section {
+                id: "stiffness",
+                title: "Error over the stiffness".into(),
+                text: vec![
+                    "Error of u against Omega_n, and what stiffness costs. Foot forces are those of the springs."
+                        .into(),
+                ],
+                table: Some(tables::stiffness(&self.front)),
+                ..Section::default()
+            });
+        }
+        all
+    }
+}
+
+/// Springs of a case without a record.
+pub fn of_case(case: &Case, mut parameters: Parameters) -> Run {
+    // what of the search was cut is there already
+    let search = parameters.findings.iter().map(|filed| filed.finding.clone());
+    let found = search.chain(doubts(case.doubts_of_structure())).chain(springs_findings(&parameters));
+    parameters.findings = filed(found);
+    alone(parameters)
+}
+
+/// Springs without a record.
+fn alone(parameters: Parameters) -> Run {
+    let units = [("vertical", &parameters.vertical), ("horizontal", &parameters.horizontal)];
+    let unit = |(name, row): (&str, &dynamics::spring::ChainRow)| Unit {
+        name: name.into(),
+        k1_n_per_m: row.k1_n_per_m,
+        k2_n_per_m: row.k2_n_per_m,
+        m2_kg: row.m2_kg,
+        c_ns_per_m: row.c_ns_per_m,
+    };
+    let findings = match parameters.findings.is_empty() {
+        true => filed(springs_findings(&parameters)),
+        false => parameters.findings.clone(),
+    };
+    let accuracy = parameters.assessment.as_ref().map(AccuracyReport::of_rigid);
+    Run {
+        taken: taken(&parameters.structure, parameters.restitution()),
+        reference: "Housner",
+        peaks: parameters.peaks,
+        friction_needed: None,
+        design_forces: parameters.design_forces,
+        springs_at: "each foot",
+        springs: units.map(unit).into(),
+        accuracy,
+        findings,
+        fixed_steps: None,
+        sap2000: false,
+        sections: sections(&parameters),
+        parameters: FiledParameters::Rigid(Box::new(parameters)),
+    }
+}
+
+/// The structure as it was understood.
+fn taken(structure: &Structure, restitution: f64) -> Taken {
+    let body = structure.body::<f64>();
+    let m = |x: f64| format!("{} m", significant(x, 4));
+    let mass = quantity(structure.mass_kg, "kg");
+    let (height, width) = (m(structure.height_m), m(structure.width_m));
+    let text = match structure.kind {
+        Kind::AFrame => format!("A-frame {height} high, feet {width} apart, {mass} at its apex"),
+        Kind::Block => format!("block {} high, {width} wide, {mass}", m(2.0 * structure.height_m)),
+    };
+    let facts = [
+        ("height h of the centre of mass", height),
+        ("distance 2b of the feet", width),
+        ("mass m", mass),
+        (
+            "rotational inertia about the centre of mass",
+            format!("{} kg m2", significant(structure.rotational_inertia_kgm2, 4)),
+        ),
+        ("slenderness alpha", format!("{} rad", significant(body.alpha(), 4))),
+        ("frequency p", format!("{} 1/s", significant(body.p_squared().sqrt(), 4))),
+        ("restitution e", significant(restitution, 4)),
+        ("lifts at g tan alpha", format!("{} g", significant(body.alpha().tan(), 4))),
+    ];
+    let facts = facts.into_iter().map(|(name, value)| (name.to_string(), value)).collect();
+    Taken { structure: text, facts, record: None, assumed: Vec::new() }
+}
+
+fn peaks(kind: Kind, job: &Job, both: &Both) -> PeakPair {
+    let firm = |firm: Option<usize>, all: usize| firm.unwrap_or(all);
+    let of = |matched: &Match, theta: &[f64], u: Option<&[f64]>, impacts: usize| {
+        let fell = [matched.overturned_housner_s, matched.overturned_fem_s].into_iter().flatten().reduce(f64::min);
+        let n = samples_until(fell, job.record.dt).min(theta.len());
+        Peaks::of_rigid(kind, &job.body, &theta[..n], u.map(|u| &u[..n]), impacts)
+    };
+    let ends = both.rocking.left_ground();
+    let springs = |m: &Match, history: &History| {
+        // beyond the end of Housner's solution there is no energy threshold to count by
+        let impacts = ends.map_or_else(|| firm(m.impacts_fem_firm, m.impacts_fem), |_| history.impacts());
+        of(m, &history.motion.theta, Some(&history.motion.u), impacts)
+    };
+    let m = &both.matched;
+    PeakPair {
+        reference: of(m, &both.rocking.theta, None, firm(m.impacts_housner_firm, m.impacts_housner)),
+        reference_ends_s: ends,
+        springs: springs(m, &both.fem),
+        with_members: both.with.as_ref().map(|with| springs(&with.matched, &with.history)),
+    }
+}
+
+/// The history on springs of a quarter of Omega_n, where Housner's cannot tell whether forces are the springs': with members, and
+/// beyond where his pivot leaves the ground.
+fn softer(case: &Case, job: &Job, both: &Both) -> Option<WithMembers> {
+    if both.with.is_none() && both.rocking.left_ground().is_none() {
+        return None;
+    }
+    let quarter = |design: &Design<f64>| Design { omega_n_hz: design.omega_n_hz / 4.0, ..*design };
+    let springs = Springs { vertical: quarter(&job.springs.vertical), horizontal: quarter(&job.springs.horizontal) };
+    let (chains, e) = (springs.chains(case.structure.mass_kg), case.restitution);
+    Some(with_members(&job.body, e, &chains, &case.members, &job.record, (&both.rocking, &both.housner)))
+}
+
+/// What these springs cannot do.
+fn springs_findings(parameters: &Parameters) -> Vec<Finding> {
+    let mut all = Vec::new();
+    if let Some(a) = &parameters.assessment {
+        if !a.reached {
+            all.push(match a.judged_by {
+                Yardstick::Histories => Finding::AccuracyMissed { asked: a.accuracy, capped: a.capped },
+                Yardstick::Peaks => Finding::PeaksMissed { asked: a.accuracy, capped: a.capped },
+            });
+        } else if a.measured.record.is_none()
+            && a.measured.synthetic_median.is_none()
+            && a.measured.earthquakes_mean.is_none()
+        {
+            all.push(Finding::AccuracyNotMeasured);
+        }
+    }
+    let e = parameters.restitution();
+    let body = parameters.structure.body::<f64>();
+    let share = e / body.restitution();
+    let (least, most) = ATTAINABLE;
+    if !(least..=most).contains(&share) {
+        all.push(Finding::RestitutionOutOfReach { asked: e, share, least, most });
+    }
+    let finished = parameters.landings.len();
+    if finished < LEANS.len() {
+        all.push(Finding::LandingsUnfinished { finished, all: LEANS.len() });
+    }
+    let errors = || parameters.landings.iter().map(|l| l.restitution_error);
+    if errors().any(|error| error.abs() > RESTITUTION_MISSED) {
+        let (low, high) = errors().fold((f64::INFINITY, f64::NEG_INFINITY), |(low, high), x| (low.min(x), high.max(x)));
+        let [lowest, highest] = [low, high].map(|error| e * (1.0 + error));
+        all.push(Finding::RestitutionMissed { asked: e, lowest, highest, of_equation_2: !is_another(&body, e) });
+    }
+    all
+}
+
+/// Error of restitution that is worth a warning.
+const RESTITUTION_MISSED: f64 = 0.005;
+
+/// How far changes of the structure and the record move Housner's history.
+fn conditioning(row: &ConditioningRow) -> Option<String> {
+    let pair = |moved: Option<[f64; 2]>| moved.map(|moved| moved.map(percent).join(" and "));
+    Some(format!(
+        "Changes of 0.1 % and 1 % move Housner's history by {} (width), {} (scale of the record), {} (restitution), as NRMSE.",
+        pair(row.moved_by_width)?,
+        pair(row.moved_by_scale)?,
+        pair(row.moved_by_restitution)?
+    ))
+}
+
+/// What the report has of springs, with or without a record.
+fn sections(p: &Parameters) -> Vec<Section> {
+    let mut all = vec![Section {
+        id: "table1",
+        title: "The springs as in the paper's Table 1".into(),
+        text: vec![
+            "For one foot; every foot has a vertical and a horizontal unit. In a unit the gap spring k1 stands between the foot and \
+             an absorber of mass m2, and the spring k2 and the dashpot c, side by side, between the absorber and the ground. mu = m2/m1 \
+             with the structure's mass m1."
+                .into(),
+            tables::ABSORBER.into(),
+        ],
+        notes: p.assessment.iter().flat_map(|a| a.design()).flatten().collect(),
+        table: Some(tables::springs(p)),
+        ..Section::default()
+    }];
+    if let Some(m) = &p.matched {
+        all.push(Section {
+            id: "comparison",
+            title: format!("The first {} s of the record", significant(m.duration_s, 4)),
+            text: p.conditioning.iter().filter_map(conditioning).collect(),
+            table: Some(tables::comparison(p)),
+            ..Section::default()
+        });
+    }
+    if !p.landings.is_empty() {
+        let asked = significant(p.restitution(), 4);
+        all.push(Section {
+            id: "landings",
+            title: "Landings without a record".into(),
+            text: vec![format!(
+                "Released at rest from a share of alpha, landed once, up to the next impact. Restitution asked for: {asked}. Ringing is \
+                 a share of the weight."
+            )],
+            table: Some(tables::landings(p)),
+            ..Section::default()
+        });
+    }
+    all
+}

@@ -1,0 +1,279 @@
+//! Rigid rocking: Housner's equation through a record.
+//!
+//! ```text
+//! (1),(3)  theta'' + p^2 [ gamma sin(alpha s - theta) + (u_g/g) cos(alpha s - theta) ] = 0,   s = sgn(theta)
+//! (2)      at theta = 0 (impact) theta' jumps to e theta',   e = 1 - (m R^2/I0)(1 - cos 2 alpha)
+//! ```
+//!
+//! from Ma, Butterworth & Davidson, NZSEE Conference 2005, after Housner (1963).
+//!
+//! | symbol | meaning | unit |
+//! |---|---|---|
+//! | theta | rotation, positive leaning to the right | rad |
+//! | alpha | atan(b/h), the lean of balance | rad |
+//! | p^2 | m g R / I0 | 1/s2 |
+//! | u_g | horizontal ground acceleration, linear between samples | m/s2 |
+//! | gamma | 1 + a_v/g: a_v is the vertical ground acceleration, positive upwards; 1 without it, as in the paper | - |
+//! | e | velocity restitution; the paper's r = e^2 is an energy ratio | - |
+//!
+//! At rest the body stays down until |u_g| > (g + a_v) tan(alpha). With vertical motion a history ends where the pivot's normal force
+//! falls to zero (`contact`); without it the regime's warnings tell. Every step ends at a sample, since the record has a kink there:
+//! the kinks, not a tolerance, decide the accuracy. One Taylor step spans an interval (`series`), impacts are roots of the step's polynomial
+//! (`root`), and all of it is generic in the scalar, so derivatives pass through the events (`walk`).
+
+mod contact;
+mod interval;
+mod lanes;
+mod rest;
+mod root;
+mod series;
+mod walk;
+
+use crate::motion::Motion;
+use crate::scalar::{GRAVITY, Scalar, real};
+use crate::structure::Body;
+use rayon::prelude::*;
+use std::sync::Arc;
+
+/// How to solve.
+#[derive(Clone, Debug)]
+pub struct RockingOptions<S> {
+    /// Factor on the record's acceleration, both components.
+    pub scale: S,
+    /// Vertical ground acceleration at the same times (m/s2), positive upwards; zero after its last sample. None: the ground does
+    /// not move up and down, and the pivot's force is not looked at.
+    pub vertical: Option<Arc<[f64]>>,
+    /// Velocity restitution e, 0 to 1; by equation (2) unless given.
+    pub restitution: Option<S>,
+    /// Stop after this time (s); at the record's end unless given.
+    pub duration: Option<f64>,
+    /// theta (rad) and theta' (rad/s) at t = 0; at rest unless given.
+    pub initial: Option<(S, S)>,
+    /// Bound on steps and impacts in intervals with events, so that no input can hang.
+    pub max_work: usize,
+}
+
+impl<S: Scalar> Default for RockingOptions<S> {
+    fn default() -> Self {
+        Self { scale: S::one(), vertical: None, restitution: None, duration: None, initial: None, max_work: 2_000_000 }
+    }
+}
+
+/// theta = 0: the body lands on its other foot.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Impact<S> {
+    /// (s)
+    pub time: S,
+    /// theta' before the impact (rad/s).
+    pub rate_before: S,
+    /// theta' after it, e times that (rad/s).
+    pub rate_after: S,
+}
+
+/// A resting body leaves the ground.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Uplift<S> {
+    /// (s)
+    pub time: S,
+    /// +1 if it leans to the right, -1 if to the left.
+    pub side: f64,
+}
+
+/// How a history ended.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum RockingOutcome {
+    /// It rocked and did not overturn.
+    Rocked,
+    /// The ground never lifted it.
+    NeverMoved,
+    /// It lay flat (|theta| = pi/2) within the history, which is cut there; or the history ends (with vertical motion also where
+    /// the pivot lets go) with the body beyond alpha, and it would go on falling if the ground stopped.
+    Overturned {
+        /// When |theta| last grew past alpha (s).
+        time: f64,
+    },
+    /// With vertical motion: the pivot's normal force falls to zero while the body is not falling over. The history is cut there,
+    /// for Housner's equation says nothing of what follows.
+    LeavesGround {
+        /// (s)
+        time: f64,
+    },
+    /// More steps and impacts than `Options::max_work`; the history is cut there.
+    WorkBound {
+        /// (s)
+        time: f64,
+    },
+    /// The input or the motion is not finite; the history is cut there.
+    NotFinite {
+        /// (s)
+        time: f64,
+    },
+}
+
+/// A history of rigid rocking.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Rocking<S> {
+    /// theta at the samples t = i dt (rad); shorter than the record if the outcome says so.
+    pub theta: Vec<S>,
+    /// theta' at the samples (rad/s).
+    pub rate: Vec<S>,
+    /// Impacts in order of time; the last of infinitely many before a rest are left out.
+    pub impacts: Vec<Impact<S>>,
+    /// Uplifts from rest in order of time.
+    pub uplifts: Vec<Uplift<S>>,
+    /// How it ended.
+    pub outcome: RockingOutcome,
+}
+
+/// Rock a body on a record: ground accelerations (m/s2) at t = 0, dt, 2 dt ... (s), linear between them.
+///
+/// ```
+/// use rocking::{housner, structure::Structure};
+/// let body = Structure::paper().body::<f64>();
+/// // 0.5 s at 2 m/s2, just above g tan(alpha) = 0.981 m/s2
+/// let accel: Vec<f64> = (0..1000).map(|i| if i < 50 { 2.0 } else { 0.0 }).collect();
+/// let rocking = housner::solve(&body, 0.01, &accel, &housner::RockingOptions::default());
+/// assert_eq!(rocking.uplifts[0].side, -1.0);
+/// assert!(!rocking.impacts.is_empty());
+/// ```
+pub fn solve<S: Scalar>(body: &Body<S>, dt: f64, accel: &[f64], options: &RockingOptions<S>) -> Rocking<S> {
+    let (theta, rate) = start(options);
+    let set = setting(body, dt, accel, options);
+    match options.vertical {
+        None => walk::walk::<S, false>(set, theta, rate),
+        Some(_) => walk::walk::<S, true>(set, theta, rate),
+    }
+}
+
+/// Rock many bodies on one record, or one body on many scales of it, sixteen at a time in lock-step, on every
+/// thread; each result is, bit for bit, that of [`solve`]. The longer of the two lists decides how many there are; the shorter one is repeated from its start.
+/// Options with the same vertical record (clones of one `Arc`) go side by side.
+pub fn solve_lanes(bodies: &[Body<f64>], dt: f64, accel: &[f64], options: &[RockingOptions<f64>]) -> Vec<Rocking<f64>> {
+    if bodies.is_empty() || options.is_empty() {
+        return Vec::new();
+    }
+    let all: Vec<_> = (0..bodies.len().max(options.len()))
+        .map(|i| (i, &bodies[i % bodies.len()], &options[i % options.len()]))
+        .collect();
+    let mut grounds: Vec<Option<&Arc<[f64]>>> = Vec::new();
+    for (_, _, options) in &all {
+        if !grounds.iter().any(|&ground| is_same(ground, options.vertical.as_ref())) {
+            grounds.push(options.vertical.as_ref());
+        }
+    }
+    let mut placed = Vec::with_capacity(all.len());
+    for ground in grounds {
+        let those = all.iter().filter(|(_, _, options)| is_same(ground, options.vertical.as_ref()));
+        let those = those.map(|&(i, body, options)| (i, setting(body, dt, accel, options), start(options)));
+        match ground {
+            None => together::<false>(those, &mut placed),
+            Some(_) => together::<true>(those, &mut placed),
+        }
+    }
+    placed.sort_by_key(|(i, _)| *i);
+    placed.into_iter().map(|(_, rocking)| rocking).collect()
+}
+
+fn is_same(a: Option<&Arc<[f64]>>, b: Option<&Arc<[f64]>>) -> bool {
+    match (a, b) {
+        (None, None) => true,
+        (Some(a), Some(b)) => Arc::ptr_eq(a, b),
+        _ => false,
+    }
+}
+
+/// Walks on one ground in lock-step; each with its place.
+fn together<'a, const V: bool>(
+    those: impl Iterator<Item = (usize, walk::Setting<'a, f64>, (f64, f64))>,
+    placed: &mut Vec<(usize, Rocking<f64>)>,
+) {
+    let mut walks: Vec<_> =
+        those.map(|(i, set, (theta, rate))| (i, walk::Walk::<f64, V>::new(set, theta, rate))).collect();
+    // those that take the same steps side by side
+    walks.sort_by_key(|(_, walk)| walk.pace);
+    let mut chunks = Vec::with_capacity(walks.len().div_ceil(lanes::WIDTH));
+    while !walks.is_empty() {
+        chunks.push(walks.drain(..walks.len().min(lanes::WIDTH)).collect::<Vec<_>>());
+    }
+    let done: Vec<Vec<_>> = chunks
+        .into_par_iter()
+        .with_max_len(1)
+        .map(|chunk| {
+            let (places, together): (Vec<_>, Vec<_>) = chunk.into_iter().unzip();
+            places.into_iter().zip(lanes::walk(together)).collect()
+        })
+        .collect();
+    placed.extend(done.into_iter().flatten());
+}
+
+fn start<S: Scalar>(options: &RockingOptions<S>) -> (S, S) {
+    options.initial.unwrap_or((real(0.0), real(0.0)))
+}
+
+fn setting<'a, S: Scalar>(
+    body: &Body<S>,
+    dt: f64,
+    accel: &'a [f64],
+    options: &'a RockingOptions<S>,
+) -> walk::Setting<'a, S> {
+    let radius = body.radius();
+    walk::Setting {
+        dt,
+        accel: &accel[..samples(dt, accel.len(), options.duration)],
+        vertical: options.vertical.as_deref().unwrap_or_default(),
+        unit: options.scale / GRAVITY,
+        alpha: body.alpha(),
+        sin_alpha: body.half_width / radius,
+        cos_alpha: body.height / radius,
+        lift: body.half_width / body.height,
+        p2: body.p_squared(),
+        arm: radius.re() / GRAVITY,
+        e: options.restitution.unwrap_or_else(|| body.restitution()),
+        max_work: options.max_work,
+    }
+}
+
+/// Whether a body left alone on still ground with this theta (rad) and theta' (rad/s) falls: it is beyond alpha, and what
+/// brings it back is too slow to reach alpha.
+pub fn topples(body: &Body<f64>, theta: f64, rate: f64) -> bool {
+    let options = RockingOptions { initial: Some((theta, rate)), ..RockingOptions::default() };
+    solve(body, 1.0, &[0.0], &options).overturned().is_some()
+}
+
+/// Number of samples up to a duration, the one at its end included.
+fn samples(dt: f64, len: usize, duration: Option<f64>) -> usize {
+    match duration {
+        // a duration that is a multiple of dt but for rounding counts as one
+        Some(duration) => len.min(((duration / dt) * (1.0 + 1e-12)) as usize + 1),
+        None => len,
+    }
+}
+
+impl<S> Rocking<S> {
+    /// When |theta| last grew past alpha, if the body overturned (s).
+    pub fn overturned(&self) -> Option<f64> {
+        match self.outcome {
+            RockingOutcome::Overturned { time } => Some(time),
+            _ => None,
+        }
+    }
+
+    /// When the pivot let go of the ground, if that ended the history (s).
+    pub fn left_ground(&self) -> Option<f64> {
+        match self.outcome {
+            RockingOutcome::LeavesGround { time } => Some(time),
+            _ => None,
+        }
+    }
+}
+
+impl Rocking<f64> {
+    /// The motion of the centre of mass.
+    pub fn motion(&self, body: &Body<f64>) -> Motion {
+        Motion {
+            u: self.theta.iter().map(|&theta| body.u(theta)).collect(),
+            v: self.theta.iter().map(|&theta| body.v(theta)).collect(),
+            theta: self.theta.clone(),
+        }
+    }
+}

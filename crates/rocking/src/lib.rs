@@ -1,0 +1,15 @@
+//! Housner's rocking body: structure, history, overturning, conditioning, synthetic motions.
+
+// what is printed goes through the program's `commands/terminal`
+#![cfg_attr(not(test), deny(clippy::print_stdout, clippy::print_stderr))]
+
+pub mod conditioning;
+pub mod housner;
+pub mod members;
+pub mod motion;
+pub mod overturning;
+pub mod regime;
+pub mod scalar;
+pub mod statistics;
+pub mod structure;
+pub mod synthetic;

@@ -1,0 +1,64 @@
+//! When a body overturned, told in the same way from the rotations of either model.
+
+use crate::{housner::topples, structure::Body};
+
+/// When |theta| last grew past alpha (s), linear between the samples of theta (rad) at t = i dt, if the body lies flat at
+/// the last of them, or leans beyond alpha and would fall if the ground stopped there.
+///
+/// ```
+/// use rocking::{overturning::overturned, structure::Structure};
+/// let body = Structure::paper().body::<f64>(); // alpha = 0.0997
+/// assert_eq!(overturned(&body, 0.5, &[0.0, 0.12, 0.08]), None);
+/// let time = overturned(&body, 0.5, &[0.0, 0.12, 0.05, 0.15, 0.4]).unwrap();
+/// assert!((time - 0.5 * (2.0 + (body.alpha() - 0.05) / 0.1)).abs() < 1e-15);
+/// ```
+pub fn overturned(body: &Body<f64>, dt: f64, theta: &[f64]) -> Option<f64> {
+    let (&last, before) = theta.split_last()?;
+    let alpha = body.alpha();
+    let rate = (last - before.last().unwrap_or(&last)) / dt;
+    if last.abs() <= alpha || !topples(body, last, rate) {
+        return None;
+    }
+    let lean = |theta: f64| theta * last.signum();
+    let Some(i) = theta.iter().rposition(|&theta| lean(theta) <= alpha) else { return Some(0.0) };
+    let (from, to) = (lean(theta[i]), lean(theta[i + 1]));
+    Some((i as f64 + (alpha - from) / (to - from)) * dt)
+}
+
+/// Samples up to a time, if there is one; at least the first.
+pub fn samples_until(time: Option<f64>, dt: f64) -> usize {
+    time.map_or(usize::MAX, |time| (time / dt) as usize + 1)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::{
+        housner::{RockingOptions, solve},
+        structure::Structure,
+    };
+
+    /// Two ways to the same time: the sampled history, and Housner's solution that located it.
+    #[test]
+    fn a_housner_history_overturned_when_its_solution_says() {
+        let body = Structure::paper().body::<f64>();
+        for duration in [7.0, 20.0] {
+            let accel = vec![1.5; (100.0 * duration) as usize];
+            let rocking = solve(&body, 0.01, &accel, &RockingOptions::default());
+            let (found, exact) = (overturned(&body, 0.01, &rocking.theta).unwrap(), rocking.overturned().unwrap());
+            assert!((found - exact).abs() < 1e-4, "{found} {exact}");
+        }
+    }
+
+    #[test]
+    fn a_body_that_comes_back_has_not_overturned() {
+        let body = Structure::paper().body::<f64>();
+        let alpha = body.alpha();
+        // beyond alpha, but fast on its way back: theta' = -0.1 rad/s against p (theta - alpha) = 0.004
+        assert_eq!(overturned(&body, 0.01, &[0.0, 1.1 * alpha + 1e-3, 1.1 * alpha]), None);
+        assert!(overturned(&body, 0.01, &[0.0, 1.1 * alpha + 1e-5, 1.1 * alpha]).is_some());
+        assert_eq!(overturned(&body, 0.01, &[]), None);
+        assert_eq!(overturned(&body, 0.01, &[2.0 * alpha]), Some(0.0));
+        assert_eq!((samples_until(Some(0.035), 0.01), samples_until(None, 0.01)), (4, usize::MAX));
+    }
+}

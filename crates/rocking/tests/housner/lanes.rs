@@ -1,0 +1,61 @@
+//! Structures in lock-step against the same structures one by one: bit for bit.
+
+use rocking::housner::{RockingOptions, RockingOutcome, solve, solve_lanes};
+use rocking::structure::{Body, Structure};
+use strong_motion::Record;
+
+/// Tall and small, frames and blocks: some never move, some rest and lift again, some overturn.
+fn bodies() -> Vec<Body<f64>> {
+    let mut bodies = vec![Structure::paper().body()];
+    for i in 1..20 {
+        let height = 0.3 * 1.4_f64.powi(i);
+        let alpha = 0.06 + 0.013 * f64::from(i);
+        bodies.push(Structure::block(height, height * alpha.tan(), 1.0).unwrap().body());
+        bodies.push(Structure::a_frame(height, height * alpha.tan(), 1.0).unwrap().body());
+    }
+    bodies
+}
+
+#[test]
+fn lanes_give_what_single_walks_give_bit_for_bit() {
+    let accel = Record::el_centro().accel;
+    let options: Vec<RockingOptions<f64>> =
+        [0.6, 1.0, 2.5].map(|scale| RockingOptions { scale, ..RockingOptions::default() }).into_iter().collect();
+    let bodies = bodies();
+    let together = solve_lanes(&bodies, 0.01, &accel, &options);
+    assert_eq!(together.len(), bodies.len());
+    let mut outcomes = [0; 3];
+    for (i, lane) in together.iter().enumerate() {
+        let single = solve(&bodies[i], 0.01, &accel, &options[i % 3]);
+        assert_eq!(*lane, single, "lane {i}");
+        outcomes[match lane.outcome {
+            RockingOutcome::Rocked => 0,
+            RockingOutcome::NeverMoved => 1,
+            _ => 2,
+        }] += 1;
+    }
+    assert!(outcomes.iter().all(|&count| count > 0), "{outcomes:?}");
+}
+
+#[test]
+fn one_body_on_many_scales_and_durations() {
+    let accel = Record::el_centro().accel;
+    let options: Vec<RockingOptions<f64>> = (0..11)
+        .map(|i| RockingOptions {
+            scale: 0.5 + 0.2 * f64::from(i),
+            duration: Some(3.0 * f64::from(i)),
+            ..RockingOptions::default()
+        })
+        .collect();
+    let body = Structure::paper().body::<f64>();
+    for (lane, options) in solve_lanes(&[body], 0.01, &accel, &options).iter().zip(&options) {
+        assert_eq!(*lane, solve(&body, 0.01, &accel, options));
+    }
+}
+
+#[test]
+fn no_body_or_no_sample_gives_nothing() {
+    assert!(solve_lanes(&[], 0.01, &[1.0], &[RockingOptions::default()]).is_empty());
+    let rocking = solve_lanes(&[Structure::paper().body()], 0.01, &[], &[RockingOptions::default()]);
+    assert_eq!((rocking.len(), rocking[0].theta.len()), (1, 0));
+}

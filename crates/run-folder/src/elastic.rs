@@ -1,0 +1,233 @@
+//! What `tune run` leaves of an elastic structure: tables, histories, figures, the deck, the page.
+
+use std::path::Path;
+
+use crate::{
+    FolderError,
+    folder::{Folder, identity},
+    models::write_decks,
+    pictures as rigid_pictures,
+    place::write_file,
+    rigid::Output,
+    tables::csv_row,
+};
+use decks::{ACCURACY, DeckFormat, ElasticDeck, ExportError};
+use dynamics::spring::{Chain, Springs};
+use figures::Figure;
+use frames::{
+    answer::{ElasticAnswer, ElasticHistories},
+    assembled::{Assembled, Sway},
+    fem::ElasticHistory,
+};
+use report::{
+    Run,
+    elastic::{ElasticParts, design_forces, largest, title},
+    filed,
+    markdown::markdown,
+    page::page,
+    summary,
+};
+use springs::{
+    case::{Asked, ElasticCase},
+    parameters::{
+        RecordRow,
+        elastic::{ElasticAssessment, ElasticParameters, OnRecord},
+    },
+    tuning::elastic::ElasticTuned,
+};
+use strong_motion::Record;
+
+mod bearing;
+mod demands;
+mod pictures;
+pub mod words;
+
+use bearing::ForceQuantities;
+use demands::Instants;
+
+/// Drifts below this share of the structure's size are rounding: there is nothing to compare with them.
+const ROUNDING: f64 = 1e-12;
+
+/// A job done.
+pub struct ElasticRun {
+    pub case: ElasticCase,
+    pub assembled: Assembled,
+    pub tuned: ElasticTuned,
+    /// The part of the record that is used, scaled.
+    pub record: Record,
+    pub answer: ElasticAnswer,
+    /// The friction coefficient that the ground offers.
+    friction: f64,
+    /// What the structure bears.
+    bearing: ForceQuantities,
+    /// But for the record: where that is to be found depends on the folder.
+    pub parameters: ElasticParameters,
+}
+
+/// What is filed of springs without a record.
+pub fn springs_alone(assembled: &Assembled, tuned: &ElasticTuned, asked: Asked) -> ElasticParameters {
+    let place = |(i, springs): (usize, &Springs<Chain<f64>>)| (assembled.layout.corners[i].place[0], *springs);
+    let corners: Vec<_> = tuned.springs.corners.iter().enumerate().map(place).collect();
+    let Asked { by: judged_by, error: accuracy } = asked;
+    let assessment = ElasticAssessment { judged_by, accuracy, reached: tuned.reached, measured: tuned.measured };
+    ElasticParameters {
+        assessment: Some(assessment),
+        findings: filed(tuned.findings(asked)),
+        ..ElasticParameters::new(assembled.structure, tuned.springs.omega_n_hz, &corners)
+            .with_members(assembled.members)
+    }
+}
+
+/// The deck that is to find this history, in a format, its steps for an accuracy.
+pub fn deck(
+    assembled: &Assembled,
+    springs: &[Springs<Chain<f64>>],
+    record: &Record,
+    history: &ElasticHistory,
+    (format, accuracy): (DeckFormat, f64),
+) -> Result<String, ExportError> {
+    let (frame, top) = (&assembled.frame, assembled.watched.first().map_or(0, |watched| watched.top));
+    let at = |q: &Vec<f64>| {
+        let [x, z, _] = frame.displacement(top, q);
+        [x, z]
+    };
+    let motion: Vec<[f64; 2]> = history.q.iter().map(at).collect();
+    ElasticDeck {
+        title: &title(&assembled.structure),
+        layout: &assembled.layout,
+        frame,
+        springs,
+        record,
+        samples: motion.len(),
+        top: (top, &motion),
+        alpha: assembled.structure.body().alpha(),
+        frequency_hz: assembled.structure.frequency_hz(),
+        accuracy,
+    }
+    .text(format)
+}
+
+impl ElasticRun {
+    /// All that is said and saved of an answer.
+    pub fn new(
+        case: ElasticCase,
+        assembled: Assembled,
+        tuned: ElasticTuned,
+        record: Record,
+        answer: ElasticAnswer,
+        friction: f64,
+    ) -> Self {
+        let alpha = assembled.structure.body().alpha();
+        let ElasticHistories { reference, fem, sways, .. } = &answer.histories;
+        let [rotations, drifts]: [fn(&Sway) -> &[f64]; 2] = [|sway| &sway.rotation, |sway| &sway.drift];
+        let largest = |k: usize, of: fn(&Sway) -> &[f64]| largest(sways, k, of);
+        let [rotation, drift] = answer.errors.map(|error| Some(error).filter(|error| error.is_finite()));
+        let on_record = OnRecord {
+            compared_s: answer.compared.seconds,
+            whole: answer.compared.whole(),
+            foretold_s: reference.foretold_seconds(record.dt),
+            slides_on_s: reference.slides_on(),
+            softer_omega_n_hz: tuned.softer_hz,
+            // rotations of a structure that stands are rounding
+            nrmse_rotation: rotation.filter(|_| reference.history.lifts()),
+            nrmse_drift: drift.filter(|_| largest(0, drifts) > ROUNDING * assembled.frame.span()),
+            peak_ratio_reference: largest(0, rotations) / alpha,
+            peak_ratio_fem: largest(1, rotations) / alpha,
+            peak_drift_reference_m: largest(0, drifts),
+            peak_drift_fem_m: largest(1, drifts),
+            landings_reference: reference.history.landings().count(),
+            touches_fem: fem.contacts.iter().filter(|contact| contact.touches).count(),
+            energy_residual: fem.energy_residual,
+            near: answer.ensemble,
+        };
+        let bearing = ForceQuantities::new(&assembled, &answer, record.dt);
+        let mut parameters =
+            ElasticParameters { on_record: Some(on_record), ..springs_alone(&assembled, &tuned, case.asked) };
+        // the check of design forces on springs at 4 Omega_n is their error, whatever springs were
+        // chosen by
+        if let Some(errors) = parameters.assessment.as_mut().and_then(|a| a.measured.record.as_mut()) {
+            errors.peaks = errors.peaks.map(|peaks| peaks.with_forces(answer.design.error()));
+        }
+        let mut run = Self { case, assembled, tuned, record, answer, friction, bearing, parameters };
+        run.parameters.peaks = Some(run.parts().peaks());
+        run.parameters.design_forces = Some(design_forces(&run.assembled.structure, &run.answer.design));
+        run.parameters.findings = filed(run.parts().findings(&run.parameters));
+        run
+    }
+
+    /// Write everything into a folder, which is made; `files` are all that it can be.
+    pub fn save(&self, out: &Path, files: &[&'static str], output: Output) -> Result<Vec<String>, FolderError> {
+        let excitation = &self.case.excitation;
+        let asked = (excitation.scale, excitation.duration_s, output);
+        let parts: [&dyn std::fmt::Debug; 3] = [&self.parameters, &excitation.record.fingerprint(), &asked];
+        let folder = Folder::begin(out, "run", files, identity(&parts))?;
+        let parameters = self.filed(out);
+        let run = self.said(parameters.clone());
+        let out = folder.path();
+        write_file(&out.join("parameters.json"), parameters.to_json().as_bytes())?;
+        write_file(&out.join("parameters.md"), markdown(&run).as_bytes())?;
+        write_file(&out.join("summary.csv"), summary(&run).csv().as_bytes())?;
+        write_file(&out.join("history.csv"), self.history().as_bytes())?;
+        write_file(&out.join("members.csv"), demands::csv(self, Instants::Samples).as_bytes())?;
+        write_file(&out.join("members_envelopes.csv"), demands::csv(self, Instants::Envelopes).as_bytes())?;
+        let left_out = write_decks(&out.join("decks"), |format| self.deck(format))?;
+        let figures: Vec<Figure> = if output.figures { pictures::draw(self)? } else { Vec::new() };
+        rigid_pictures::save(out, &figures)?;
+        if output.report {
+            write_file(&out.join("report.html"), page(&run, &figures).as_bytes())?;
+        }
+        folder.finish()?;
+        Ok(left_out)
+    }
+
+    /// All that is said of it; `parameters` are those filed.
+    pub fn said(&self, parameters: ElasticParameters) -> Run {
+        self.parts().said(parameters)
+    }
+
+    fn parts(&self) -> ElasticParts<'_> {
+        let Self { case, assembled, record, answer, friction, .. } = self;
+        ElasticParts { case, assembled, record, springs: &self.tuned.springs.corners, answer, friction: *friction }
+    }
+
+    /// What parameters.json holds in a folder.
+    pub fn filed(&self, out: &Path) -> ElasticParameters {
+        let record = Some(RecordRow::new(&self.case.excitation, &self.record, out));
+        ElasticParameters { record, ..self.parameters.clone() }
+    }
+
+    fn deck(&self, format: DeckFormat) -> Result<String, ExportError> {
+        let corners = &self.tuned.springs.corners;
+        deck(&self.assembled, corners, &self.record, &self.answer.histories.fem, (format, ACCURACY))
+    }
+
+    /// `history.csv`: rotation and drift of every base in the reference and on the springs, uplift of every corner on them.
+    fn history(&self) -> String {
+        let ElasticHistories { fem, sways, .. } = &self.answer.histories;
+        let name = |what: &str, i: usize| if sways.len() > 1 { format!("{what}_{}", i + 1) } else { what.to_string() };
+        let mut head = vec!["t".to_string()];
+        for (i, _) in sways.iter().enumerate() {
+            for model in ["reference", "fem"] {
+                head.extend([name(&format!("theta_{model}"), i), name(&format!("drift_{model}"), i)]);
+            }
+        }
+        let corners = self.assembled.layout.corners.len();
+        head.extend((1..=corners).map(|i| format!("uplift_{i}")));
+        let uplifts: Vec<Vec<f64>> = (0..corners).map(|i| fem.uplift(&self.assembled.frame, i)).collect();
+        let mut out = head.join(",") + "\n";
+        let longest = sways.iter().flatten().map(|sway| sway.rotation.len()).fold(fem.q.len(), usize::max);
+        for sample in 0..longest {
+            // a history may end before the other: its cells are empty then
+            let at = |values: &[f64]| values.get(sample).copied().unwrap_or(f64::NAN);
+            let mut row = vec![sample as f64 * self.record.dt];
+            for pair in sways {
+                for sway in pair {
+                    row.extend([at(&sway.rotation), at(&sway.drift)]);
+                }
+            }
+            row.extend(uplifts.iter().map(|uplift| at(uplift)));
+            csv_row(&mut out, &row);
+        }
+        out
+    }
+}

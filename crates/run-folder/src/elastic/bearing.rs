@@ -1,0 +1,84 @@
+//! What the structure bears: on its springs, held to the ground, as a rigid body.
+
+use frames::{
+    answer::ElasticAnswer,
+    assembled::Assembled,
+    beam::BeamForces,
+    design_forces::ForceKind,
+    fem::{ElasticHistory, FrameDemand, resolves},
+    structure::ElasticStructure,
+};
+
+/// Frequency above which forces of the ground are taken to be the springs' (Hz).
+const FILTER_HZ: f64 = 20.0;
+
+/// Name of the drift among the quantities.
+pub(crate) const DRIFT: &str = "drift";
+
+/// A quantity and how it is had from each model, as largest magnitudes since the sample before.
+pub(crate) struct ForceQuantity {
+    pub name: &'static str,
+    pub unit: &'static str,
+    /// Rocking on springs, fixed to the ground, rigid: empty where a model has none.
+    pub series: [Vec<f64>; 3],
+}
+
+/// What a run's tables and figures of forces are made from.
+pub(crate) struct ForceQuantities {
+    pub quantities: Vec<ForceQuantity>,
+    /// Vertical force of the ground on all corners together, without the spikes of landings (N).
+    pub filtered: Vec<f64>,
+    /// Frequency up to which the latter is had (Hz); none where samples are too far apart, it is then the mean between them.
+    pub below_hz: Option<f64>,
+}
+
+impl ForceQuantities {
+    pub(crate) fn new(assembled: &Assembled, answer: &ElasticAnswer, dt: f64) -> Self {
+        let ground = &answer.histories.fem.ground;
+        Self {
+            quantities: quantities(assembled, answer),
+            filtered: ground.filtered(1, dt, FILTER_HZ),
+            below_hz: resolves(dt, FILTER_HZ).then_some(FILTER_HZ),
+        }
+    }
+}
+
+/// Index of beams that end on a footing, and which end it is, from the left.
+fn bases(assembled: &Assembled) -> Vec<(usize, usize)> {
+    let footing = |node: usize| assembled.frame.footing_nodes().contains(&node);
+    let members = assembled.layout.members.iter().enumerate();
+    members.filter_map(|(i, member)| Some((i, member.ends.iter().position(|end| footing(end.node))?))).collect()
+}
+
+/// Shear, axial force and moment at the base of the columns or legs, the largest of them, unfiltered, and the drift.
+fn quantities(assembled: &Assembled, answer: &ElasticAnswer) -> Vec<ForceQuantity> {
+    let bases = bases(assembled);
+    let largest = |history: &ElasticHistory, of: &dyn Fn(&BeamForces, usize) -> f64| -> Vec<f64> {
+        let at = |demand: &FrameDemand| {
+            let values = bases.iter().map(|&(i, end)| of(&demand.bearings[i], end));
+            values.fold(0.0, |most: f64, value| if value.abs() > most.abs() { value } else { most })
+        };
+        history.worst.iter().map(at).collect()
+    };
+    let both = |of: &dyn Fn(&BeamForces, usize) -> f64| [&answer.histories.fem, &answer.fixed].map(|h| largest(h, of));
+    let rigid = answer.rigid.as_ref();
+    let [shear, fixed] = both(&|beam, _| beam.shear);
+    let body = rigid.map_or(Vec::new(), |rigid| rigid.shear.clone());
+    let mut all = vec![ForceQuantity { name: ForceKind::ColumnShear.name(), unit: "N", series: [shear, fixed, body] }];
+    let [axial, fixed] = both(&|beam, _| beam.axial);
+    let body = rigid.map_or(Vec::new(), |rigid| rigid.axial.clone());
+    all.push(ForceQuantity { name: ForceKind::Axial.name(), unit: "N", series: [axial, fixed, body] });
+    // a leg is hinged at its foot
+    if !matches!(assembled.structure, ElasticStructure::AFrame(_)) {
+        let [moment, fixed] = both(&|beam, end| beam.moments[end]);
+        let body = rigid.map_or(Vec::new(), |rigid| rigid.moment.iter().map(|x| -x).collect());
+        all.push(ForceQuantity {
+            name: ForceKind::ColumnBaseMoment.name(),
+            unit: "N m",
+            series: [moment, fixed, body],
+        });
+    }
+    let drift = answer.histories.sways.first().map_or(Vec::new(), |pair| pair[1].drift.clone());
+    all.push(ForceQuantity { name: DRIFT, unit: "m", series: [drift, answer.fixed_drift.clone(), Vec::new()] });
+    all
+}

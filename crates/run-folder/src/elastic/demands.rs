@@ -1,0 +1,43 @@
+//! `members.csv` of an elastic structure.
+
+use super::ElasticRun;
+use crate::tables::csv_row;
+use frames::fem::GroundForces;
+
+/// What a file of forces holds of every instant.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(super) enum Instants {
+    /// All of them at the same instants: the record's samples.
+    Samples,
+    /// Of each value, the largest magnitude since the sample before.
+    Envelopes,
+}
+
+/// `members.csv` or `members_envelopes.csv`; axial forces are positive in tension, as in `BeamForces`.
+pub(super) fn csv(run: &ElasticRun, instants: Instants) -> String {
+    let fem = &run.answer.histories.fem;
+    let mut head = vec!["t".to_string(), "base_shear_n".into()];
+    for i in 1..=run.assembled.frame.beams() {
+        let names = ["axial", "shear", "moment_start", "moment_end"];
+        let units = ["n", "n", "nm", "nm"];
+        head.extend(names.iter().zip(units).map(|(name, unit)| format!("beam_{i}_{name}_{unit}")));
+    }
+    for i in 1..=fem.forces.len() {
+        head.extend([format!("corner_{i}_horizontal_n"), format!("corner_{i}_vertical_n")]);
+    }
+    head.push("ground_vertical_n".into());
+    let filtered = run.bearing.below_hz.map_or("mean".into(), |hz| format!("below_{hz}_hz"));
+    head.push(format!("ground_vertical_{filtered}_n"));
+    let mut out = head.join(",") + "\n";
+    let at_samples = instants == Instants::Samples;
+    let demands = if at_samples { &fem.demands } else { &fem.worst };
+    let of = |forces: &GroundForces, i: usize| if at_samples { forces.at[i] } else { forces.peak[i] };
+    for (i, demand) in demands.iter().enumerate() {
+        let mut row = vec![i as f64 * run.record.dt];
+        row.extend(demand.values());
+        row.extend(fem.forces.iter().flat_map(|corner| of(corner, i)));
+        row.extend([of(&fem.ground, i)[1], run.bearing.filtered[i]]);
+        csv_row(&mut out, &row);
+    }
+    out
+}

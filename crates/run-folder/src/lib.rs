@@ -1,0 +1,21 @@
+//! The folder of a run: tables, decks, figures, report, exchanged as a whole.
+//!
+//! | module | what |
+//! |---|---|
+//! | `rigid`, `elastic` | all that a run leaves |
+//! | `folder`, `place` | one run a folder; what can be written is found out before the work |
+//! | `tables`, `models`, `pictures` | CSV files, decks, figures |
+
+// what is printed goes through the program's `commands/terminal`
+#![cfg_attr(not(test), deny(clippy::print_stdout, clippy::print_stderr))]
+
+pub mod elastic;
+mod error;
+pub mod folder;
+pub mod models;
+pub mod pictures;
+pub mod place;
+pub mod rigid;
+pub mod tables;
+
+pub use error::FolderError;

@@ -1,0 +1,356 @@
+//! The figures of `tune run`, filled from its results.
+
+use std::path::Path;
+
+use rayon::prelude::*;
+
+use crate::FolderError;
+use dynamics::spring::Design;
+use figures::{EventMark, Figure, FigureError, Sheet, brief, short};
+use report::front::FrontPoint;
+use rocking::{
+    housner,
+    structure::{Kind as BodyKind, Structure},
+};
+use springs::{
+    answers::Both,
+    case::Case,
+    response::{
+        self,
+        target::{Band, BandKind, Target},
+    },
+    tuning::job::Job,
+};
+
+/// Every figure that a run may leave, and its files.
+macro_rules! figures {
+    ($($constant:ident = $name:literal)+) => {
+        $(pub const $constant: &str = $name;)+
+        pub(crate) const FILES: &[&str] = &[$(concat!($name, ".png"), concat!($name, ".svg")),+];
+    };
+}
+figures!(
+    HISTORY = "history"
+    RESPONSE = "response"
+    CONTACT = "contact"
+    ENERGY = "energy"
+    FRONT = "front"
+    CANDIDATES = "candidates"
+    BEARING = "forces"
+);
+
+/// What forces of the feet are.
+const FORCES: &str = "Foot forces are those of the springs in a landing, not of the structure: they grow with Omega_n.";
+
+/// What figures are drawn from.
+pub(crate) struct Pictures<'a> {
+    pub case: &'a Case,
+    pub job: &'a Job,
+    pub both: &'a Both,
+    pub front: &'a [FrontPoint],
+}
+
+impl Pictures<'_> {
+    /// All figures that there are numbers for, drawn side by side.
+    ///
+    /// # Errors
+    /// Numbers that cannot be drawn.
+    pub(crate) fn draw(&self) -> Result<Vec<Figure>, FigureError> {
+        type Draw<'a> = fn(&Pictures<'a>) -> Result<Option<Sheet>, FigureError>;
+        let all: [(&str, &str, Draw); 6] = [
+            (
+                HISTORY,
+                "Displacement of the mass, finite elements over Housner's solution; impacts as triangles.",
+                Self::history,
+            ),
+            (
+                RESPONSE,
+                "Amplitude response ratio of the spring-absorber units (equation 7 of the paper).",
+                Self::response,
+            ),
+            (CONTACT, FORCES, Self::contact),
+            (
+                ENERGY,
+                "Where the energy that the ground brings in goes; the residual is what the account misses.",
+                Self::energy,
+            ),
+            (FRONT, "What stiffer springs gain in accuracy, and what they cost.", Self::front),
+            (CANDIDATES, "Every pair of Ωₙ that the paper's procedure tried.", Self::candidates),
+        ];
+        let drawn =
+            all.par_iter().map(|(name, caption, draw)| Ok(draw(self)?.map(|sheet| Figure { name, caption, sheet })));
+        Ok(drawn.collect::<Result<Vec<_>, FigureError>>()?.into_iter().flatten().collect())
+    }
+
+    /// A title, and below it the structure, the record, its scale and Omega_n.
+    fn title(&self, what: &str) -> String {
+        let excitation = &self.case.excitation;
+        let motions = format!("{} × {}", self.case.record.name, brief(excitation.scale, 4));
+        let hz = self.job.springs.vertical.omega_n_hz;
+        format!("{what}\n{}", subtitle(&self.case.structure, &motions, hz))
+    }
+
+    /// Times of so many samples (s).
+    fn times(&self, n: usize) -> Vec<f64> {
+        (0..n).map(|i| i as f64 * self.job.record.dt).collect()
+    }
+
+    /// When the body on its springs overturned, in words.
+    fn fall(&self) -> Option<(f64, String)> {
+        let time = self.both.matched.overturned_fem_s?;
+        Some((time, format!("overturned at t = {time:.2} s")))
+    }
+
+    /// When Housner's body overturned, or his solution ended otherwise.
+    fn end_of_housner(&self) -> Option<(f64, String)> {
+        let rocking = &self.both.rocking;
+        let time = match rocking.outcome {
+            housner::RockingOutcome::LeavesGround { time } => {
+                return Some((time, format!("Housner: leaves the ground at t = {time:.2} s")));
+            }
+            housner::RockingOutcome::WorkBound { time } | housner::RockingOutcome::NotFinite { time } => {
+                return Some((time, format!("Housner: ends at t = {time:.2} s")));
+            }
+            _ => rocking.overturned()?,
+        };
+        Some((time, format!("Housner: overturned at t = {time:.2} s")))
+    }
+
+    fn history(&self) -> Result<Option<Sheet>, FigureError> {
+        let (housner, fem) = (&self.both.housner, &self.both.fem);
+        let what = match self.case.structure.kind {
+            BodyKind::AFrame => "Displacement of the apex",
+            BodyKind::Block => "Displacement of the centre of mass",
+        };
+        let t = self.times(housner.len().max(fem.motion.len()));
+        let impacts_housner: Vec<f64> = self.both.rocking.impacts.iter().map(|i| i.time).collect();
+        let impacts_fem: Vec<f64> = fem.landings.iter().filter(|l| l.impact).map(|l| l.time).collect();
+        let (end, fall) = (self.end_of_housner(), self.fall());
+        let last = (fem.motion.len().saturating_sub(1)) as f64 * self.job.record.dt;
+        let early = fem.motion.len() < housner.len() && fall.is_none();
+        let fall = fall.map(|(time, _)| (time, format!("finite elements: overturned at t = {time:.2} s")));
+        let fall = fall.or_else(|| early.then(|| (last, format!("finite elements: end at t = {last:.2} s"))));
+        let reference = figures::history::Trace {
+            label: "Housner",
+            u: &housner.u,
+            v: &housner.v,
+            impacts: &impacts_housner,
+            end: event(&end),
+        };
+        let other = figures::history::Trace {
+            label: "finite elements on ground springs",
+            u: &fem.motion.u,
+            v: &fem.motion.v,
+            impacts: &impacts_fem,
+            end: event(&fall),
+        };
+        let title = self.title(what);
+        let data =
+            figures::history::HistoryFigure { title: &title, t: &t, reference, others: &[other], differences: false };
+        figures::history::draw(&data).map(Some)
+    }
+
+    fn response(&self) -> Result<Option<Sheet>, FigureError> {
+        let job = self.job;
+        let g: Vec<f64> = (0..=600).map(|i| 0.02 * f64::powf(1000.0, i as f64 / 600.0)).collect();
+        let arr_of = |d: &Design<f64>| g.iter().map(|&g| response::arr(g, d.mu, d.f, d.xi)).collect::<Vec<_>>();
+        let best = job.paper.as_ref().map(|paper| paper.tuned.best.springs);
+        let mut labels = Vec::new();
+        if best != Some(job.springs) {
+            labels.push((false, "vertical, delivered".to_string(), job.springs.vertical, None));
+            labels.push((true, "horizontal, delivered".to_string(), job.springs.horizontal, None));
+        }
+        if let Some(paper) = &job.paper {
+            let delivered = if best == Some(job.springs) { "delivered" } else { "paper's procedure" };
+            let springs = &paper.tuned.best.springs;
+            for (horizontal, name, d, fits) in [
+                (false, "vertical", springs.vertical, &paper.vertical),
+                (true, "horizontal", springs.horizontal, &paper.horizontal),
+            ] {
+                let fit = fits.iter().find(|fit| (fit.mu, fit.f, fit.xi) == (d.mu, d.f, d.xi));
+                labels.push((horizontal, format!("{name}, {delivered}, μ = {}", d.mu), d, fit));
+            }
+        }
+        // a point that is active at an infinite frequency stands at the right edge, and is said
+        let lowest = lowest_cap(&self.case.target);
+        let end = g[g.len() - 1];
+        let active: Vec<Vec<figures::arr::ActiveMark>> = labels
+            .iter()
+            .map(|(_, _, _, fit)| {
+                let all = fit.iter().flat_map(|fit| &fit.certificate.active);
+                all.map(|a| figures::arr::ActiveMark { g: a.g.min(end), arr: a.arr, multiplier: None }).collect()
+            })
+            .collect();
+        let arr: Vec<Vec<f64>> = labels.iter().map(|(_, _, d, _)| arr_of(d)).collect();
+        let curve = |i: usize| {
+            let (horizontal, label, d, fit) = &labels[i];
+            figures::arr::UnitCurve {
+                label,
+                g: &g,
+                arr: &arr[i],
+                active: &active[i],
+                delivered: *d == job.springs.vertical || *d == job.springs.horizontal,
+                horizontal: *horizontal,
+                cap: fit.filter(|_| lowest).map(|fit| fit.peak),
+            }
+        };
+        let curves: Vec<_> = (0..labels.len()).map(curve).collect();
+        let target: Vec<_> = self.case.target.bands.iter().filter_map(|band| wanted(band, g[0], end)).collect();
+        let mut title = self.title("Frequency response of the ground springs");
+        if labels.iter().filter_map(|label| label.3).flat_map(|fit| &fit.certificate.active).any(|a| a.g > end) {
+            title.push_str("\nPoints active at g beyond the axis stand at its right end.");
+        }
+        figures::arr::draw(&figures::arr::ResponseFigure { title: &title, target: &target, curves: &curves }).map(Some)
+    }
+
+    fn candidates(&self) -> Result<Option<Sheet>, FigureError> {
+        let Some(paper) = &self.job.paper else { return Ok(None) };
+        let tuned = &paper.tuned;
+        let candidates: Vec<_> = tuned
+            .candidates
+            .iter()
+            .map(|c| figures::candidates::CandidateMark {
+                vertical_hz: c.springs.vertical.omega_n_hz,
+                horizontal_hz: c.springs.horizontal.omega_n_hz,
+                error: c.error,
+                abandoned: c.abandoned,
+            })
+            .collect();
+        let delivered = self.job.springs == tuned.candidates[tuned.chosen].springs;
+        let data = figures::candidates::CandidatesFigure {
+            title: &self.title("Every candidate of the paper's procedure"),
+            error_label: "NRMSE of u and v",
+            candidates: &candidates,
+            chosen: Some(tuned.chosen),
+            chosen_label: if delivered { "delivered" } else { "its best, not delivered" },
+        };
+        figures::candidates::draw(&data).map(Some)
+    }
+
+    fn contact(&self) -> Result<Option<Sheet>, FigureError> {
+        let f = &self.both.fem.forces;
+        let t = self.times(f.vertical[0].len());
+        let fall = self.fall();
+        let data = figures::contact::ContactFigure {
+            title: &format!("{}\n{}", self.title("Forces between the feet and the ground"), letters(FORCES)),
+            t: &t,
+            left_vertical: &f.vertical[0],
+            right_vertical: &f.vertical[1],
+            left_horizontal: &f.horizontal[0],
+            right_horizontal: &f.horizontal[1],
+            weight: Some(self.case.structure.mass_kg * rocking::scalar::GRAVITY),
+            end: event(&fall),
+        };
+        figures::contact::draw(&data).map(Some)
+    }
+
+    fn energy(&self) -> Result<Option<Sheet>, FigureError> {
+        let a = &self.both.fem.account;
+        let t = self.times(a.input.len());
+        let fall = self.fall();
+        let data = figures::energy::EnergyFigure {
+            title: &self.title("Energy account of the finite elements"),
+            t: &t,
+            input: &a.input,
+            stored: &a.stored,
+            dissipated: &a.dissipated,
+            residual: &a.residual,
+            end: event(&fall),
+        };
+        figures::energy::draw(&data).map(Some)
+    }
+
+    fn front(&self) -> Result<Option<Sheet>, FigureError> {
+        let front = self.front;
+        let series = |pick: fn(&FrontPoint) -> Option<f64>| -> (Vec<f64>, Vec<f64>) {
+            front.iter().filter_map(|p| pick(p).map(|e| (p.omega_n_hz, e))).unzip()
+        };
+        let (landing, arr) = (series(|p| p.landing), series(|p| p.arr));
+        let named = [("design from the geometry", &landing), ("the paper's procedure", &arr)];
+        let all: Vec<_> = named
+            .into_iter()
+            .filter(|(_, s)| !s.0.is_empty())
+            .map(|(label, s)| figures::front::DesignSeries { label, omega_n_hz: &s.0, error: &s.1 })
+            .collect();
+        if all.is_empty() {
+            return Ok(None);
+        }
+        let mut notes = vec![letters(FORCES)];
+        for (label, s) in named.into_iter().filter(|(_, s)| s.0.len() < front.len()) {
+            let without = front.iter().map(|p| p.omega_n_hz).filter(|hz| !s.0.contains(hz));
+            let without: Vec<String> = without.map(|hz| format!("{hz:.0}")).collect();
+            notes.push(match (s.0.is_empty(), self.job.paper.is_some()) {
+                (true, false) => format!("No point of {label}: it tunes on the record, which must rock the structure and be well conditioned."),
+                _ => format!("No finite error of {label} at {} Hz.", without.join(", ")),
+            });
+        }
+        let cost = |pick: fn(&FrontPoint) -> f64| -> (Vec<f64>, Vec<f64>) {
+            front.iter().map(|p| (p.omega_n_hz, pick(p).max(1.0))).unzip()
+        };
+        let (forces, steps) = (cost(|p| p.foot_force_weights), cost(|p| p.deck_steps as f64));
+        let on = if self.job.suites.has_record() { "on the record" } else { "median of synthetic motions" };
+        let data = figures::front::FrontFigure {
+            title: &self.title("Error against stiffness"),
+            error_label: &format!("NRMSE of u, {on}"),
+            series: &all,
+            chosen_hz: self.job.springs.vertical.omega_n_hz,
+            accuracy: self.case.tuning.accuracy,
+            costs: [
+                figures::front::Cost { label: "foot force [weights]", omega_n_hz: &forces.0, value: &forces.1 },
+                figures::front::Cost { label: "steps of the deck", omega_n_hz: &steps.0, value: &steps.1 },
+            ],
+            notes: &notes,
+        };
+        figures::front::draw(&data).map(Some)
+    }
+}
+
+/// What a figure is of, in a line: the structure, the motions, Omega_n.
+pub fn subtitle(structure: &Structure, motions: &str, omega_n_hz: f64) -> String {
+    let Structure { height_m, width_m, .. } = structure;
+    let body = match structure.kind {
+        BodyKind::AFrame => format!("A-frame {height_m} m high, feet {width_m} m apart"),
+        BodyKind::Block => format!("block with its mass at {height_m} m, {width_m} m wide"),
+    };
+    let (unit, letter) = figures::prefix(omega_n_hz);
+    format!("{body}; {motions}; Ωₙ/2π = {} {letter}Hz", short(omega_n_hz / unit, 3))
+}
+
+/// The field's letter in place of its name.
+fn letters(text: &str) -> String {
+    text.replace("Omega_n", "Ωₙ")
+}
+
+fn event(end: &Option<(f64, String)>) -> Option<EventMark<'_>> {
+    end.as_ref().map(|(time, text)| EventMark { time: *time, text })
+}
+
+/// Whether the target asks for nothing but the lowest cap there is, by a limit that no chain can meet.
+fn lowest_cap(target: &Target) -> bool {
+    target.bands.iter().all(|band| band.kind == BandKind::Cap && band.limit <= 1.0)
+}
+
+/// A target band as the figure shows it: caps that can be met and flat bands.
+fn wanted(band: &Band, low: f64, high: f64) -> Option<figures::arr::TargetBand> {
+    let g = (band.g_low.max(low), band.g_high.unwrap_or(high).min(high));
+    match band.kind {
+        BandKind::Cap => {
+            (band.limit > 1.0).then_some(figures::arr::TargetBand { g, at_least: None, at_most: Some(band.limit) })
+        }
+        BandKind::Rigid => Some(figures::arr::TargetBand {
+            g,
+            at_least: Some(1.0 / (1.0 + band.limit)),
+            at_most: Some(1.0 + band.limit),
+        }),
+        BandKind::Uniform | BandKind::RollOff => None,
+    }
+}
+
+/// Write every figure as PNG and SVG, side by side.
+///
+/// # Errors
+/// A figure that cannot be rasterised or written.
+pub(crate) fn save(dir: &Path, figures: &[Figure]) -> Result<(), FolderError> {
+    let save = |figure: &Figure| figure.sheet.save(&dir.join(figure.name).with_extension("png"));
+    Ok(figures.par_iter().map(save).collect::<Result<(), FigureError>>()?)
+}

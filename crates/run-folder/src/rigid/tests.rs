@@ -1,0 +1,116 @@
+//! The page of runs that go each their own way: what it says, its size, and that it asks for nothing from elsewhere.
+
+use report::screen::{Written, screen};
+use springs::{case::Case, tuning::job::Job};
+use strong_motion::excitation::Excitation;
+
+use super::*;
+
+/// A run of a short stretch of El Centro.
+fn run(scale: f64, toml: Option<&str>) -> RigidRun {
+    let mut case = toml.map_or_else(Case::paper, |text| Case::parse("tuning/test.toml", text)).unwrap();
+    let excitation = Excitation { scale, duration_s: Some(8.0), ..Excitation::whole(Record::el_centro()) };
+    case.set_excitation(excitation).unwrap();
+    case.tuning.max_omega_hz = Some(160.0);
+    case.tuning.accuracy = 0.1;
+    let job = Job::new(&case, &|_, _, _| {}).unwrap();
+    RigidRun::new(case, job, Vec::new(), 0.5)
+}
+
+fn page_of(run: &RigidRun, figures: bool) -> String {
+    let RigidRun { case, job, front, both, .. } = run;
+    let figures = if figures { Pictures { case, job, both, front }.draw().unwrap() } else { Vec::new() };
+    let page = super::page(&run.said(run.parameters.clone()), &figures);
+    assert!(page.len() < 2_000_000, "{} bytes", page.len());
+    // names of vocabularies are no addresses to be asked
+    let asked = page.replace("http://www.w3.org/2000/svg", "");
+    for what in ["http:", "https:", "//cdn", "src=", "@import", "url("] {
+        assert!(!asked.contains(what), "the page names {what}");
+    }
+    for section in ["case", "peaks", "forces", "springs", "accuracy", "opensees", "cite"] {
+        assert!(page.contains(&format!("<section id=\"{section}\">")), "{section}");
+    }
+    page
+}
+
+#[test]
+fn the_page_of_a_frame_that_rocks_has_everything() {
+    let run = run(1.0, None);
+    let page = page_of(&run, true);
+    assert!(page.contains("The structure rocks and stands: its largest rotation is "), "{page}");
+    assert_eq!(page.matches("<figure ").count(), 5);
+    assert_eq!(page.matches(" class=\"live\"").count(), 3);
+    assert!(
+        page.contains("A-frame 61 m high, feet 12.2 m apart")
+            && page.contains("frequency ratio f")
+            && page.contains("NRMSE")
+    );
+    assert_eq!(page, page_of(&run, true));
+}
+
+#[test]
+fn a_frame_that_never_lifts_is_said_to_stand() {
+    let page = page_of(&run(0.1, None), true);
+    assert!(page.contains("The record does not lift the structure"));
+    assert!(page.contains("its peak is 0.03129 g, uplift takes 0.1 g"), "{page}");
+    // numbers of figures are in base 64, where three letters may be any
+    let read = page.split("<script").map(|part| part.rsplit("</script>").next().unwrap_or(part));
+    assert!(read.into_iter().all(|part| !part.contains("NaN")));
+}
+
+#[test]
+fn a_block_that_overturns_is_said_to_and_marked() {
+    let block = "[structure]\nkind = \"block\"\nheight_m = 1.0\nwidth_m = 0.5\nmass_kg = 1000.0\n";
+    let page = page_of(&run(2.5, Some(block)), true);
+    assert!(page.contains("The structure overturns at t = 4.4"));
+    assert!(page.contains("overturned at t = 4.4"));
+}
+
+#[test]
+fn a_page_without_figures_is_whole() {
+    let page = page_of(&run(1.0, None), false);
+    assert!(!page.contains("<figure") && !page.contains("id=\"figures\""));
+    assert!(page.contains("<div class=\"tiles\">") && page.contains("id=\"verdict\""));
+}
+
+/// Digits of a number, without zeros before the first and after the last.
+fn digits(word: &str) -> usize {
+    let number = word.trim_matches(|c: char| !c.is_ascii_digit() && c != '-');
+    let mantissa = number.split(['e', 'E']).next().unwrap_or_default();
+    if mantissa.parse::<f64>().is_err() {
+        return 0;
+    }
+    let all: String = mantissa.chars().filter(char::is_ascii_digit).collect();
+    all.trim_start_matches('0').trim_end_matches('0').len()
+}
+
+/// A screen holds what it must, in its lines, letters and digits.
+fn check_screen(run: &RigidRun, folder: &str) -> String {
+    let said = run.said(run.parameters.clone());
+    let text = screen(&said, &Written { folder, report: true, decks: true });
+    assert!(text.lines().count() <= 30, "{text}");
+    assert!(text.lines().all(|line| line.chars().count() <= 100), "{text}");
+    for line in text.lines().filter(|line| !line.contains('/') && !line.starts_with("record ")) {
+        assert!(line.split_whitespace().all(|word| digits(word) <= 4), "{line}");
+    }
+    for what in
+        ["lifts at ", "assumed: ", "top displacement", "uplift", "design forces", "not soil", "accuracy", "SAP2000"]
+    {
+        assert!(text.contains(what), "{what}: {text}");
+    }
+    text
+}
+
+#[test]
+fn a_screen_has_thirty_lines_of_a_hundred_letters_whatever_the_run() {
+    let long = "a/very/long/way/to/a/folder/whose/name/nobody/can/read/at/once/".repeat(3);
+    let block = "[structure]\nkind = \"block\"\nheight_m = 1.0\nwidth_m = 0.5\nmass_kg = 1000.0\n";
+    for (run, says) in [
+        (run(1.0, None), "The structure rocks and stands"),
+        (run(0.1, None), "The record does not lift the structure"),
+        (run(2.5, Some(block)), "The structure overturns at t = 4.4"),
+    ] {
+        assert!(check_screen(&run, "out").contains(says));
+        check_screen(&run, &long);
+    }
+}

@@ -1,0 +1,341 @@
+//! `parameters.json`: the tuned springs as the engineer keeps them, and how well they follow Housner.
+
+pub mod elastic;
+mod record;
+
+use dynamics::compare::Match;
+use std::path::Path;
+
+use serde::{Deserialize, Serialize};
+use thiserror::Error;
+
+use crate::{
+    case::Case,
+    results::{DesignForces, FiledFinding, PeakPair},
+    tuning::{
+        assessment::Assessment,
+        job::Job,
+        whole_model::report::{LandingRow, landings},
+    },
+    verdict::Verdict,
+};
+use dynamics::spring::{Chain, ChainRow, Design, Springs};
+use files::message::one_line;
+pub use record::{RecordRow, RememberedError};
+use rocking::{
+    conditioning::Conditioning,
+    members::{Damper, Friction, Members, MembersError, NO_LEGS, Tendon, names_legs},
+    scalar::GRAVITY,
+    structure::{Structure, StructureError},
+};
+
+/// Version of the keys of parameters.json that this program writes. Version 1 had no number, and remembered of the record
+/// only what it was called; version 2 had no peaks, design forces and findings.
+pub(crate) const SCHEMA: u32 = 3;
+
+/// How sensitive Housner's history of that record is: relative change of u per relative change (`conditioning`).
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+pub struct ConditioningRow {
+    pub sensitivity_width: f64,
+    pub sensitivity_scale: f64,
+    /// How far finite changes move u, relative to it: each by +-0.1 % and by +-1 %, the larger of both signs.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub moved_by_width: Option<[f64; 2]>,
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub moved_by_scale: Option<[f64; 2]>,
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub moved_by_restitution: Option<[f64; 2]>,
+    /// Whether one of these changes overturns a body that stands otherwise, or the other way round.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub overturning_changes: Option<bool>,
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub well_conditioned: Option<bool>,
+}
+
+impl From<Conditioning> for ConditioningRow {
+    fn from(c: Conditioning) -> Self {
+        Self {
+            sensitivity_width: c.sensitivity.width,
+            sensitivity_scale: c.sensitivity.scale,
+            moved_by_width: Some(c.changes.width),
+            moved_by_scale: Some(c.changes.scale),
+            moved_by_restitution: Some(c.changes.restitution),
+            overturning_changes: Some(c.changes.overturning),
+            well_conditioned: Some(c.well_conditioned()),
+        }
+    }
+}
+
+/// Other springs for the same case and their match: what the paper's procedure (ARR shape, then Omega_n on the record) gives,
+/// or its Table 1.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+pub struct PaperProcedure {
+    pub vertical: ChainRow,
+    pub horizontal: ChainRow,
+    #[serde(rename = "match")]
+    pub matched: Match,
+}
+
+/// Stiffness that a spring may have, in units of the weight over the height: softer ones let the body sink in by
+/// a thousand times its height, stiffer ones are compressed by less than the rounding of it.
+const STIFFNESS: (f64, f64) = (1e-3, 1e15);
+/// Absorber's mass, in units of the structure's.
+const MASS: (f64, f64) = (1e-9, 1e9);
+/// Damping, in units of the mass times sqrt(g/height).
+const DAMPING: (f64, f64) = (0.0, 1e15);
+
+/// Everything in `parameters.json`.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct Parameters {
+    /// Version of the keys; 3 in what this program writes.
+    #[serde(default = "first")]
+    pub schema: u32,
+    /// The body.
+    pub structure: Structure,
+    /// Velocity restitution e that the springs are to have; by equation 2 unless given.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub restitution: Option<f64>,
+    /// The record they were tuned on.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub record: Option<RecordRow>,
+    /// What the springs were tuned for, and how accurate they are.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub assessment: Option<Assessment>,
+    /// The vertical unit at each foot.
+    pub vertical: ChainRow,
+    /// The horizontal unit at each foot.
+    pub horizontal: ChainRow,
+    /// Dampers between feet and ground; the springs are tuned without them.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub damper: Option<Damper<f64>>,
+    /// A tendon.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub tendon: Option<Tendon<f64>>,
+    /// Between feet and ground; without it a pressing foot holds at any force.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub friction: Option<Friction<f64>>,
+    /// The match of the rigid body on the record.
+    #[serde(rename = "match", default, skip_serializing_if = "Option::is_none")]
+    pub matched: Option<Match>,
+    /// How sensitive Housner's history of that record is.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub conditioning: Option<ConditioningRow>,
+    /// The match of the structure with its members, on the same springs.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub match_with_members: Option<Match>,
+    /// Landings from large leans to small, without any record.
+    #[serde(default, skip_serializing_if = "Vec::is_empty")]
+    pub landings: Vec<LandingRow>,
+    /// Beside the springs above, where another objective chose them.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub paper_procedure: Option<PaperProcedure>,
+    /// Table 1 as recovered, beside the paper's own structure.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub table_1: Option<PaperProcedure>,
+    /// What the run found, for the file.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub verdict: Option<Verdict>,
+    /// Largest displacements of both models on the record.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub peaks: Option<PeakPair>,
+    /// Forces to design with.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub design_forces: Option<DesignForces>,
+    /// What a reader must know besides.
+    #[serde(default, skip_serializing_if = "Vec::is_empty")]
+    pub findings: Vec<FiledFinding>,
+}
+
+/// The one key that is read of a newer file.
+#[derive(Deserialize)]
+struct Version {
+    #[serde(default = "first")]
+    schema: u32,
+}
+
+/// The schema of files that do not say.
+fn first() -> u32 {
+    1
+}
+
+/// What is wrong with a parameter file, and what to do.
+#[derive(Debug, Error)]
+#[allow(missing_docs)] // messages say what variants and their fields are
+pub enum ParametersError {
+    #[error("{path}: cannot be read ({source}); give the parameters.json that `tune run` wrote")]
+    Read { path: String, source: std::io::Error },
+    #[error(
+        "{path}: these are springs of an elastic structure, which `tune export` and `tune verify` take and this command does not; give those of a rigid body"
+    )]
+    Elastic { path: String },
+    #[error("{path}: {}, and let `tune run` find its springs", NO_LEGS)]
+    Legs { path: String },
+    #[error("{path}, line {line}: {message}; give a parameters.json as `tune run` writes it")]
+    Parse { path: String, line: usize, message: String },
+    #[error("{path}: {chain}.{name} is {value:?}; give a finite number{bound}")]
+    Value { path: String, chain: &'static str, name: &'static str, value: f64, bound: &'static str },
+    #[error(
+        "{path}: {chain}.{name} is {value:?}, {times:.1e} times {scale}; nothing computed from that means anything, give k1, k2 in N/m, m2 in kg, c in N s/m"
+    )]
+    Absurd { path: String, chain: &'static str, name: &'static str, value: f64, times: f64, scale: &'static str },
+    #[error("{path}: its schema is {schema}, this program reads up to {SCHEMA}; take a newer tune, or tune again")]
+    Schema { path: String, schema: u32 },
+    #[error("{path}: record.{name} is {value:?}; give a finite number greater than zero")]
+    Record { path: String, name: &'static str, value: f64 },
+    #[error("{path}: restitution is {value}; a velocity ratio lies between 0 and 1")]
+    Restitution { path: String, value: f64 },
+    #[error("{path}: {source}")]
+    Structure { path: String, source: StructureError },
+    #[error("{path}: {source}")]
+    Members { path: String, source: MembersError },
+}
+
+impl Parameters {
+    /// Springs for a structure, with nothing said of a record yet.
+    pub fn new(structure: Structure, springs: &Springs<Design<f64>>) -> Self {
+        let m1 = structure.mass_kg;
+        Self {
+            schema: SCHEMA,
+            structure,
+            restitution: None,
+            record: None,
+            assessment: None,
+            vertical: ChainRow::new(&springs.vertical, m1),
+            horizontal: ChainRow::new(&springs.horizontal, m1),
+            damper: None,
+            tendon: None,
+            friction: None,
+            matched: None,
+            conditioning: None,
+            match_with_members: None,
+            landings: Vec::new(),
+            paper_procedure: None,
+            table_1: None,
+            verdict: None,
+            peaks: None,
+            design_forces: None,
+            findings: Vec::new(),
+        }
+    }
+
+    /// What there is to keep of a tuned case whatever the record: the springs, their landings, their accuracy.
+    pub fn of(case: &Case, job: &Job) -> Self {
+        let mut parameters = Self::new(case.structure, &job.springs).with_members(case.members);
+        parameters.restitution = Some(case.restitution).filter(|e| *e != job.body.restitution());
+        parameters.landings = landings(&job.body, &parameters.chains(), case.restitution);
+        parameters.assessment = Some(Assessment::new(job, &case.tuning, case.restitution));
+        parameters.findings = job.findings(case.tuning.asked()).into_iter().map(FiledFinding::from).collect();
+        parameters
+    }
+
+    /// The springs with units; k1, k2, m2 and c of the file rule.
+    pub fn chains(&self) -> Springs<Chain<f64>> {
+        Springs { vertical: self.vertical.chain(), horizontal: self.horizontal.chain() }
+    }
+
+    /// What the structure has besides the rigid body.
+    pub fn members(&self) -> Members<f64> {
+        Members { damper: self.damper, tendon: self.tendon, friction: self.friction }
+    }
+
+    /// The same with these members.
+    pub fn with_members(self, members: Members<f64>) -> Self {
+        let Members { damper, tendon, friction } = members;
+        Self { damper, tendon, friction, ..self }
+    }
+
+    /// Velocity restitution e of Housner's body beside these springs.
+    pub fn restitution(&self) -> f64 {
+        self.restitution.unwrap_or_else(|| self.structure.body::<f64>().restitution())
+    }
+
+    /// Read and check a file.
+    pub fn read(path: &Path) -> Result<Self, ParametersError> {
+        let name = path.display().to_string();
+        let text = files::input::text(path).map_err(|source| ParametersError::Read { path: name.clone(), source })?;
+        Self::parse(&name, &text)
+    }
+
+    /// Parse and check a file's text; `path` names it in messages.
+    ///
+    /// # Errors
+    /// No JSON, a key missing or not known, a number that cannot be.
+    pub fn parse(path: &str, text: &str) -> Result<Self, ParametersError> {
+        // a newer file may have keys that this program does not know
+        if let Ok(Version { schema }) = serde_json::from_str(text)
+            && schema > SCHEMA
+        {
+            return Err(ParametersError::Schema { path: path.to_string(), schema });
+        }
+        if elastic::ElasticParameters::is(text) {
+            return Err(ParametersError::Elastic { path: path.to_string() });
+        }
+        let parameters: Self = serde_json::from_str(text).map_err(|e| {
+            let (path, message) = (path.to_string(), e.to_string());
+            if names_legs(&message) {
+                return ParametersError::Legs { path };
+            }
+            let message = one_line(message.split(" at line").next().unwrap_or_default());
+            ParametersError::Parse { path, line: e.line(), message }
+        })?;
+        parameters.checked(path)
+    }
+
+    fn checked(self, path: &str) -> Result<Self, ParametersError> {
+        if let Some(row) = &self.record
+            && let Some(value) = row.duration_s.filter(|d| *d <= 0.0)
+        {
+            return Err(ParametersError::Record { path: path.to_string(), name: "duration_s", value });
+        }
+        self.structure.checked().map_err(|source| ParametersError::Structure { path: path.to_string(), source })?;
+        if let Some(value) = self.restitution.filter(|e| !(0.0..=1.0).contains(e)) {
+            return Err(ParametersError::Restitution { path: path.to_string(), value });
+        }
+        for (chain, row) in [("vertical", &self.vertical), ("horizontal", &self.horizontal)] {
+            for (name, value, least) in [
+                ("k1_n_per_m", row.k1_n_per_m, f64::MIN_POSITIVE),
+                ("k2_n_per_m", row.k2_n_per_m, f64::MIN_POSITIVE),
+                ("m2_kg", row.m2_kg, f64::MIN_POSITIVE),
+                ("c_ns_per_m", row.c_ns_per_m, 0.0),
+            ] {
+                if !(value.is_finite() && value >= least) {
+                    let bound = if least > 0.0 { " greater than zero" } else { ", zero or greater" };
+                    return Err(ParametersError::Value { path: path.to_string(), chain, name, value, bound });
+                }
+            }
+            self.meaningful(path, chain, row)?;
+        }
+        let members = self.members().checked(&self.structure.body());
+        members.map_err(|source| ParametersError::Members { path: path.to_string(), source })?;
+        Ok(self)
+    }
+
+    /// Springs whose numbers, in units of the structure's own, are within what 16 digits can follow.
+    fn meaningful(&self, path: &str, chain: &'static str, row: &ChainRow) -> Result<(), ParametersError> {
+        let Structure { mass_kg, height_m, .. } = self.structure;
+        // a spring that the weight compresses by the height
+        let k = mass_kg * GRAVITY / height_m;
+        let c = (k * mass_kg).sqrt();
+        for (name, value, unit, scale, (least, most)) in [
+            ("k1_n_per_m", row.k1_n_per_m, k, "the weight over the height", STIFFNESS),
+            ("k2_n_per_m", row.k2_n_per_m, k, "the weight over the height", STIFFNESS),
+            ("m2_kg", row.m2_kg, mass_kg, "the structure's mass", MASS),
+            ("c_ns_per_m", row.c_ns_per_m, c, "the mass times sqrt(g/height)", DAMPING),
+        ] {
+            let times = value / unit;
+            if !(least..=most).contains(&times) {
+                return Err(ParametersError::Absurd { path: path.to_string(), chain, name, value, times, scale });
+            }
+        }
+        Ok(())
+    }
+
+    /// The file's text.
+    pub fn to_json(&self) -> String {
+        // plain numbers and strings always serialise
+        let mut text = serde_json::to_string_pretty(self).unwrap_or_default();
+        text.push('\n');
+        text
+    }
+}

@@ -1,0 +1,344 @@
+//! Findings: what a reader of a run must know beside its numbers. Each is data; its words are made here and nowhere else.
+
+use serde::{Deserialize, Serialize};
+
+use dynamics::effort::CutBy;
+
+mod advice;
+mod message;
+
+/// How much a finding weighs.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Serialize, Deserialize)]
+#[serde(rename_all = "snake_case")]
+pub enum Weight {
+    /// What the run was asked.
+    Answer,
+    /// Good to know.
+    Note,
+    /// Numbers need judgement.
+    Warning,
+    /// Numbers must not be used as they are.
+    Fault,
+}
+
+/// Which of the two models.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(rename_all = "snake_case")]
+pub enum FindingModel {
+    /// Housner's rigid body; an elastic structure on rigid ground with plastic landings.
+    Reference,
+    /// On its springs.
+    Springs,
+    /// On its springs, with dampers, tendon or friction.
+    Members,
+}
+
+/// Why a history ended before its record did.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(rename_all = "snake_case")]
+pub enum Ending {
+    /// The bound on steps was reached.
+    WorkBound,
+    /// The rotation lost its balance.
+    Unstable,
+    /// The numbers overflowed, or no step could be made.
+    Stopped,
+}
+
+/// A design force, by its key in parameters.json.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(rename_all = "snake_case")]
+pub enum ForceName {
+    ColumnShear,
+    ColumnBaseMoment,
+    ColumnTopMoment,
+    Axial,
+    AxialTension,
+    ApexMoment,
+    SoleShear,
+    SoleVertical,
+}
+
+impl ForceName {
+    /// As an engineer says it.
+    pub fn words(self) -> &'static str {
+        match self {
+            Self::ColumnShear => "column shear",
+            Self::ColumnBaseMoment => "moment at column base",
+            Self::ColumnTopMoment => "moment at column top",
+            Self::Axial => "axial force",
+            Self::AxialTension => "tension",
+            Self::ApexMoment => "moment at the apex",
+            Self::SoleShear => "shear at the sole, footing included",
+            Self::SoleVertical => "vertical force at the sole, footing included",
+        }
+    }
+}
+
+/// A finding with its quantities, SI units.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[serde(tag = "finding", rename_all = "snake_case")]
+#[allow(missing_docs)] // `message` says what variants and their fields are
+pub enum Finding {
+    // what the structure does
+    NeverLifts {
+        pga_g: f64,
+        uplift_g: f64,
+    },
+    Stands {
+        share_of_overturning: f64,
+        over_s: f64,
+    },
+    Overturns {
+        time_s: f64,
+        reference_s: Option<f64>,
+    },
+    NoAnswer {
+        model: FindingModel,
+        time_s: f64,
+    },
+    ModelsDisagree {
+        reference: String,
+        springs: String,
+    },
+    PivotLeavesGround {
+        time_s: f64,
+    },
+    WithoutVertical {
+        does: String,
+        share_of_overturning: f64,
+    },
+    // what a comparison is worth
+    IllConditioned {
+        moved_by_width: f64,
+        moved_by_scale: f64,
+        springs_judged: bool,
+    },
+    ForetoldUpTo {
+        time_s: f64,
+        softer_hz: Option<f64>,
+        #[serde(default, skip_serializing_if = "Vec::is_empty")]
+        later_forces: Vec<ForceName>,
+    },
+    SlidesOn {
+        time_s: f64,
+        softer_hz: Option<f64>,
+        #[serde(default, skip_serializing_if = "Vec::is_empty")]
+        later_forces: Vec<ForceName>,
+    },
+    NearMotions {
+        motions: usize,
+        change: f64,
+        median_ratio: [Option<f64>; 2],
+        p90_ratio: [Option<f64>; 2],
+        overturned: [usize; 2],
+    },
+    // how accurate the springs are
+    AccuracyMissed {
+        asked: f64,
+        capped: bool,
+    },
+    PeaksMissed {
+        asked: f64,
+        capped: bool,
+    },
+    AccuracyNotMeasured,
+    RestitutionMissed {
+        asked: f64,
+        lowest: f64,
+        highest: f64,
+        of_equation_2: bool,
+    },
+    RestitutionOutOfReach {
+        asked: f64,
+        share: f64,
+        least: f64,
+        most: f64,
+    },
+    LandingsUnfinished {
+        finished: usize,
+        all: usize,
+    },
+    ForceWithheld {
+        force: ForceName,
+        change: Option<f64>,
+    },
+    ForcesHeldInPart {
+        over_s: f64,
+        changes: Vec<PeakChange>,
+    },
+    /// What was cut, after how many stiffnesses, and the error that was reached of what was asked
+    /// for.
+    SearchCut {
+        by: CutBy,
+        not_done: Vec<NotDone>,
+        stiffnesses: usize,
+        reached: Option<f64>,
+        asked: f64,
+    },
+    /// Histories of the search that met their own bound on steps: they count as not followed.
+    HistoriesUnfinished {
+        histories: usize,
+        left_out: bool,
+    },
+    /// Motions near the record whose histories met their own bound on steps.
+    NearMotionsLeftOut {
+        motions: usize,
+    },
+    // whether the models hold
+    Sliding {
+        needed: f64,
+        time_s: Option<f64>,
+        available: f64,
+    },
+    FreeFlight {
+        time_s: f64,
+        lowest_over_weight: f64,
+    },
+    TooStocky {
+        restitution: f64,
+        friction_needed: f64,
+        available: f64,
+    },
+    HistoryEndsEarly {
+        model: FindingModel,
+        time_s: f64,
+        ending: Ending,
+    },
+    SmallestSteps {
+        model: FindingModel,
+        steps: usize,
+    },
+    MembersBeside,
+    VerticalLeftOut {
+        vertical_g: f64,
+        horizontal_g: f64,
+        changes: Vec<PeakChange>,
+    },
+    // what was taken
+    // a filed finding has a message and a remedy already
+    Doubt {
+        #[serde(rename = "doubt")]
+        message: String,
+        #[serde(rename = "advice")]
+        remedy: String,
+    },
+    // what `tune verify` judges of the deck
+    DeckJudged {
+        judged_s: f64,
+        record_s: f64,
+        end: DeckEnd,
+    },
+}
+
+/// What a search that was cut has not done.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(rename_all = "snake_case")]
+pub enum NotDone {
+    /// Other springs.
+    Stiffnesses,
+    /// The paper's procedure to the end, beside them.
+    PaperProcedure,
+    /// The error over the stiffness.
+    Front,
+    /// Springs that follow the record further.
+    Further,
+    /// Peaks over motions near the record.
+    NearMotions,
+}
+
+impl NotDone {
+    /// In words.
+    fn words(self) -> &'static str {
+        match self {
+            Self::Stiffnesses => "other springs",
+            Self::PaperProcedure => "the paper's procedure to its end",
+            Self::Front => "the error over the stiffness",
+            Self::Further => "springs that follow the record further",
+            Self::NearMotions => "motions near the record",
+        }
+    }
+}
+
+/// Why a deck's history is judged for less than the record.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(rename_all = "snake_case")]
+pub enum DeckEnd {
+    /// All of the record is judged.
+    Record,
+    /// The body falls over, or our own history ends.
+    History,
+    /// From there on the motion hangs on the fifth digit of the width, or on changes as small.
+    Foretold,
+    /// The ground falls faster than a body that has no rotational inertia of its own.
+    Flight,
+    /// A corner slides on from a landing: what follows depends on friction.
+    Slides,
+}
+
+/// A quantity without and with something that was left out.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+pub struct PeakChange {
+    /// What it is, in words.
+    pub quantity: String,
+    /// Unit.
+    pub unit: String,
+    /// As printed.
+    pub without: f64,
+    /// With what was left out.
+    pub with: f64,
+}
+
+/// A finding as parameters.json holds it: its quantities, and the words of this version of the program.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+pub struct FiledFinding {
+    /// How much it weighs.
+    pub weight: Weight,
+    /// In one sentence.
+    pub message: String,
+    /// What to do.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub remedy: Option<String>,
+    /// Its name and quantities.
+    #[serde(flatten)]
+    pub finding: Finding,
+}
+
+impl FiledFinding {
+    /// Message and remedy.
+    pub fn line(&self) -> String {
+        match &self.remedy {
+            Some(remedy) => format!("{}: {remedy}", self.message),
+            None => self.message.clone(),
+        }
+    }
+}
+
+impl From<Finding> for FiledFinding {
+    fn from(finding: Finding) -> Self {
+        let (weight, message, remedy) = (finding.weight(), finding.message(), finding.remedy());
+        Self { weight, message, remedy, finding }
+    }
+}
+
+impl Finding {
+    /// How much it weighs.
+    pub(crate) fn weight(&self) -> Weight {
+        match self {
+            Self::NeverLifts { .. } | Self::Stands { .. } | Self::Overturns { .. } => Weight::Answer,
+            Self::ModelsDisagree { .. }
+            | Self::NoAnswer { .. }
+            | Self::AccuracyMissed { .. }
+            | Self::PeaksMissed { .. }
+            | Self::HistoryEndsEarly { .. } => Weight::Fault,
+            Self::ForetoldUpTo { later_forces, .. } if later_forces.is_empty() => Weight::Note,
+            Self::NearMotions { .. } | Self::MembersBeside | Self::DeckJudged { .. } | Self::WithoutVertical { .. } => {
+                Weight::Note
+            }
+            _ => Weight::Warning,
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests;

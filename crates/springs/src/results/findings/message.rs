@@ -1,0 +1,303 @@
+//! The words of findings.
+
+use super::{DeckEnd, Ending, Finding, FindingModel, ForceName, PeakChange};
+use dynamics::effort::CutBy;
+use files::message::{percent, quantity, significant};
+
+/// Quantities that a vertical motion left out changes the most, said in its message; all are in
+/// parameters.json.
+const CHANGES_SAID: usize = 2;
+
+fn on(model: FindingModel) -> &'static str {
+    match model {
+        FindingModel::Reference => "of the reference",
+        FindingModel::Springs => "on the springs",
+        FindingModel::Members => "with members",
+    }
+}
+
+fn s(time: f64) -> String {
+    format!("{} s", significant(time, 4))
+}
+
+/// Design forces whose largest value comes after what can be foretold.
+fn later(forces: &[ForceName]) -> String {
+    let names: Vec<&str> = forces.iter().map(|force| force.words()).collect();
+    match names.as_slice() {
+        [] => String::new(),
+        [one] => format!("; {one} is largest after that"),
+        [all @ .., last] => format!("; {} and {last} are largest after that", all.join(", ")),
+    }
+}
+
+impl Finding {
+    /// In one sentence.
+    pub(crate) fn message(&self) -> String {
+        match self {
+            Self::NeverLifts { .. }
+            | Self::Stands { .. }
+            | Self::Overturns { .. }
+            | Self::NoAnswer { .. }
+            | Self::ModelsDisagree { .. }
+            | Self::PivotLeavesGround { .. }
+            | Self::WithoutVertical { .. } => self.outcome(),
+            Self::IllConditioned { .. }
+            | Self::ForetoldUpTo { .. }
+            | Self::SlidesOn { .. }
+            | Self::NearMotions { .. } => self.comparison(),
+            Self::AccuracyMissed { .. }
+            | Self::PeaksMissed { .. }
+            | Self::AccuracyNotMeasured
+            | Self::RestitutionMissed { .. }
+            | Self::RestitutionOutOfReach { .. }
+            | Self::LandingsUnfinished { .. }
+            | Self::ForceWithheld { .. }
+            | Self::ForcesHeldInPart { .. }
+            | Self::MembersBeside => self.springs(),
+            Self::SearchCut { .. } | Self::HistoriesUnfinished { .. } | Self::NearMotionsLeftOut { .. } => {
+                self.effort()
+            }
+            Self::Sliding { .. }
+            | Self::FreeFlight { .. }
+            | Self::TooStocky { .. }
+            | Self::HistoryEndsEarly { .. }
+            | Self::SmallestSteps { .. } => self.regime(),
+            Self::VerticalLeftOut { .. } | Self::Doubt { .. } | Self::DeckJudged { .. } => self.taken(),
+        }
+    }
+
+    /// What the structure does.
+    fn outcome(&self) -> String {
+        match self {
+            Self::NeverLifts { pga_g, uplift_g } => format!(
+                "the record does not lift the structure: its peak is {} g, uplift takes {} g",
+                significant(*pga_g, 4),
+                significant(*uplift_g, 4)
+            ),
+            Self::Stands { share_of_overturning, .. } => format!(
+                "the structure rocks and stands: its largest rotation is {} of overturning",
+                percent(*share_of_overturning)
+            ),
+            Self::Overturns { time_s, reference_s } => match reference_s {
+                Some(reference) => format!(
+                    "the structure overturns at t = {} (in the reference at {}); numbers count up to then",
+                    s(*time_s),
+                    s(*reference)
+                ),
+                None => format!("the structure overturns at t = {}; numbers count up to then", s(*time_s)),
+            },
+            Self::NoAnswer { model, time_s } => {
+                format!("the history {} could not be followed beyond t = {}", on(*model), s(*time_s))
+            }
+            Self::ModelsDisagree { reference, springs } => {
+                format!("the models disagree: the reference {reference}, the structure on its springs {springs}")
+            }
+            Self::PivotLeavesGround { time_s } => {
+                format!("the pivot of Housner's body leaves the ground at t = {}, where his solution ends", s(*time_s))
+            }
+            Self::WithoutVertical { does, share_of_overturning } => format!(
+                "without the vertical component it {does}; its largest rotation is {} of overturning",
+                percent(*share_of_overturning)
+            ),
+            _ => String::new(),
+        }
+    }
+
+    /// What a comparison one to one is worth.
+    fn comparison(&self) -> String {
+        match self {
+            Self::IllConditioned { moved_by_width, springs_judged, .. } => {
+                let judged = if *springs_judged { "; the springs were judged on synthetic motions" } else { "" };
+                format!(
+                    "this motion is ill-conditioned: 0.1 % of the width moves it by {}, so no model can foretell it, nor its peaks and forces{judged}",
+                    percent(*moved_by_width)
+                )
+            }
+            Self::ForetoldUpTo { time_s, later_forces, .. } => format!(
+                "from t = {} on a change of a millionth grows above a thousandth of the peak: no model foretells it{}",
+                s(*time_s),
+                later(later_forces)
+            ),
+            Self::SlidesOn { time_s, later_forces, .. } => format!(
+                "at t = {} a corner slides as it lands: how far depends on friction, so no model foretells what follows{}",
+                s(*time_s),
+                later(later_forces)
+            ),
+            Self::NearMotions { motions, change, median_ratio, p90_ratio, overturned } => {
+                let cell = |x: Option<f64>| x.map_or("overturned".into(), percent);
+                let fallen = match overturned {
+                    [0, 0] => String::new(),
+                    [reference, springs] => format!("; {reference} and {springs} overturn"),
+                };
+                format!(
+                    "over {motions} motions within {} of the record the largest rotation is {} and {} of overturning in \
+                     the median, {} and {} for 90 % (rigid ground, springs){fallen}",
+                    percent(*change),
+                    cell(median_ratio[0]),
+                    cell(median_ratio[1]),
+                    cell(p90_ratio[0]),
+                    cell(p90_ratio[1]),
+                )
+            }
+            _ => String::new(),
+        }
+    }
+
+    /// What the springs do not reach.
+    fn springs(&self) -> String {
+        match self {
+            Self::AccuracyMissed { asked, .. } => {
+                format!("the accuracy asked for (history, NRMSE {}) was not reached", significant(*asked, 3))
+            }
+            Self::PeaksMissed { asked, .. } => {
+                format!("the accuracy asked for (peaks within {}) was not reached", percent(*asked))
+            }
+            Self::AccuracyNotMeasured => {
+                "the accuracy could not be measured: no motion tried rocks this structure and can be foretold".into()
+            }
+            Self::RestitutionMissed { asked, lowest, highest, .. } => format!(
+                "landings have a restitution of {} to {} where {} is due",
+                significant(*lowest, 4),
+                significant(*highest, 4),
+                significant(*asked, 4)
+            ),
+            Self::RestitutionOutOfReach { asked, share, least, most } => format!(
+                "restitution {} is {} of equation 2's; springs reach {} to {} of it",
+                significant(*asked, 4),
+                significant(*share, 3),
+                significant(*least, 3),
+                significant(*most, 3)
+            ),
+            Self::LandingsUnfinished { finished, all } => {
+                format!("{} of {all} test landings came to no end on these springs", all - finished)
+            }
+            Self::ForceWithheld { force, change } => {
+                let by =
+                    change.map_or("could not be checked".into(), |change| format!("changes by {}", percent(change)));
+                format!("{} is withheld: it {by} with the springs or the mesh", force.words())
+            }
+            Self::ForcesHeldInPart { over_s, changes } => {
+                let later = changes.iter().map(|c| format!("{} {}", c.quantity, quantity(c.with, &c.unit)));
+                format!(
+                    "design forces are those of the first {} s: over the whole record they change by 5 % or more with \
+                     springs or mesh, and are here {}",
+                    significant(*over_s, 3),
+                    later.collect::<Vec<_>>().join(", ")
+                )
+            }
+            Self::MembersBeside => {
+                "springs are tuned for the structure without its dampers, tendon and friction".into()
+            }
+            _ => String::new(),
+        }
+    }
+
+    /// What the search did not do.
+    fn effort(&self) -> String {
+        match self {
+            Self::SearchCut { by, not_done, stiffnesses, reached, asked } => {
+                let by = match by {
+                    CutBy::Work => "the bound on work",
+                    CutBy::TimeLimit => "the time limit",
+                    CutBy::Interrupt => "^C",
+                };
+                let missing: Vec<&str> = not_done.iter().map(|what| what.words()).collect();
+                let reached = match reached {
+                    Some(error) => format!(
+                        " after {stiffnesses} stiffness{}: error {}, asked {}",
+                        if *stiffnesses == 1 { "" } else { "es" },
+                        significant(*error, 3),
+                        significant(*asked, 3)
+                    ),
+                    None => ", no error was measured".into(),
+                };
+                format!("{by} ended the search{reached}; not done: {}", missing.join(", "))
+            }
+            Self::HistoriesUnfinished { histories, left_out } => {
+                let of = if *histories == 1 { "history" } else { "histories" };
+                let then = if *left_out { "their motions are left out" } else { "they count as lost" };
+                format!("{histories} {of} of the search met the bound on a history's steps: {then}")
+            }
+            Self::NearMotionsLeftOut { motions } => {
+                format!("{motions} motions near the record met the bound on a history's steps, and are left out")
+            }
+            _ => String::new(),
+        }
+    }
+
+    /// Whether the models hold.
+    fn regime(&self) -> String {
+        match self {
+            Self::Sliding { needed, time_s, available } => {
+                let when = time_s.map_or("in a landing".into(), |time| format!("at t = {}", s(time)));
+                format!(
+                    "the feet would slide: friction of {} is needed {when}, {} is available",
+                    significant(*needed, 3),
+                    significant(*available, 3)
+                )
+            }
+            Self::FreeFlight { time_s, .. } => {
+                format!("free flight: the ground would have to pull the pivot down at t = {}", s(*time_s))
+            }
+            Self::TooStocky { restitution, friction_needed, .. } => format!(
+                "the body is too stocky to land without bouncing: friction of {} is needed, equation 2 gives e = {}",
+                significant(*friction_needed, 3),
+                significant(*restitution, 3)
+            ),
+            Self::HistoryEndsEarly { model, time_s, ending } => {
+                let why = match ending {
+                    Ending::WorkBound => "the bound on steps was reached",
+                    Ending::Unstable => "the rotation lost its balance",
+                    Ending::Stopped => "it could not be followed further",
+                };
+                format!("the history {} ends at t = {}: {why}", on(*model), s(*time_s))
+            }
+            Self::SmallestSteps { model, steps } => {
+                format!(
+                    "{steps} steps of the history {} were taken at the smallest size, whatever their error",
+                    on(*model)
+                )
+            }
+            _ => String::new(),
+        }
+    }
+
+    /// What was taken, and what was not.
+    fn taken(&self) -> String {
+        match self {
+            Self::VerticalLeftOut { vertical_g, horizontal_g, changes } => {
+                let mut changes = changes.clone();
+                let ratio = |c: &PeakChange| (c.with / c.without).ln().abs();
+                changes.sort_by(|a, b| ratio(b).total_cmp(&ratio(a)));
+                let changed = changes.iter().take(CHANGES_SAID).map(|c| {
+                    let [with, without] = [c.with, c.without].map(|x| quantity(x, &c.unit));
+                    format!("{} is {with}, not {without}", c.quantity)
+                });
+                let changed: Vec<String> = changed.collect();
+                let [vertical, across] = [vertical_g, horizontal_g].map(|g| significant(*g, 3));
+                if changed.is_empty() {
+                    format!("vertical motion of {vertical} g beside {across} g is left out")
+                } else {
+                    format!("with vertical motion ({vertical} g beside {across} g) {}", changed.join("; "))
+                }
+            }
+            Self::Doubt { message, .. } => message.clone(),
+            Self::DeckJudged { judged_s, record_s, end } => {
+                let why = match end {
+                    DeckEnd::Record => "",
+                    DeckEnd::History => ": then it falls over, or the history ends",
+                    DeckEnd::Foretold => ": from then on changes of 1e-5 decide, and no two programs agree",
+                    DeckEnd::Flight => ": then the ground falls faster than the body",
+                    DeckEnd::Slides => ": then a corner slides on, and friction decides",
+                };
+                format!(
+                    "tune verify judges the deck over the first {} s of {} s{why}",
+                    significant(*judged_s, 4),
+                    significant(*record_s, 4)
+                )
+            }
+
+            _ => String::new(),
+        }
+    }
+}

@@ -1,0 +1,195 @@
+//! Forces to design with: those that do not change with the springs or the mesh, measured in the run that gives them.
+
+use frames::design_forces::{ForcesTogether, MOST_CHANGE, OtherForces};
+use serde::{Deserialize, Serialize};
+
+use super::{Finding, ForceName, PeakChange};
+
+/// A largest force, and whether it is the structure's.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+pub struct DesignForce {
+    /// Largest magnitude, with its sign: axial forces are positive in tension (N or N m). None where it does not hold.
+    pub value: Option<f64>,
+    /// When (s).
+    pub time_s: f64,
+    /// Whether it changes by less than 5 % with the springs, and with the mesh where there is one.
+    pub holds: bool,
+    /// The largest change that was measured, as a share; none where nothing could be measured.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub change: Option<f64>,
+    /// Largest magnitude with all that the springs and the mesh add, of an elastic structure (N or N m).
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub raw: Option<f64>,
+    /// The same force of the structure fixed to the ground (N or N m).
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub fixed: Option<f64>,
+    /// Of the rigid body by Housner's equation (N or N m).
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub rigid: Option<f64>,
+    /// What the base of an elastic structure's column bears at that time, below the same frequency.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub together: Option<ForcesTogether>,
+    /// Where the shear of an elastic structure's column is so large: height above its base, along
+    /// it (m); 0 at the base.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub above_base_m: Option<f64>,
+    /// What it is with another mesh and on other springs, of an elastic structure.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub others: Option<OtherForces>,
+    /// Length of the record from its start over which it is the largest and holds (s), where it does
+    /// not hold over all of it.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub over_s: Option<f64>,
+    /// What it is over the whole record then.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub whole_record: Option<OtherForces>,
+}
+
+impl DesignForce {
+    /// A force that was measured to change by this share.
+    pub fn measured(value: f64, time_s: f64, change: Option<f64>) -> Self {
+        let holds = change.is_some_and(|change| change < MOST_CHANGE);
+        Self {
+            value: Some(value).filter(|_| holds),
+            time_s,
+            holds,
+            change,
+            raw: None,
+            fixed: None,
+            rigid: None,
+            together: None,
+            above_base_m: None,
+            others: None,
+            over_s: None,
+            whole_record: None,
+        }
+    }
+
+    /// This force times a length (m): the moment at one end of a member without mass that has a
+    /// hinge at its other end.
+    pub fn times(self, length: f64) -> Self {
+        let by = |x: Option<f64>| x.map(|x| x * length);
+        let all = |others: OtherForces| OtherForces {
+            found: others.found * length,
+            doubled_elements: by(others.doubled_elements),
+            softer: by(others.softer),
+            stiffer: by(others.stiffer),
+        };
+        let (others, whole_record) = (self.others.map(all), self.whole_record.map(all));
+        Self {
+            whole_record,
+            value: by(self.value),
+            raw: by(self.raw),
+            fixed: by(self.fixed),
+            rigid: by(self.rigid),
+            others,
+            ..self
+        }
+    }
+}
+
+/// The forces; what does not apply to a structure is absent.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]
+pub struct DesignForces {
+    /// Frequency below which peaks are given (Hz); none where forces are those between landings.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub below_hz: Option<f64>,
+    /// Shear of the column, where along it that is largest, of a leg, or at the foot of a rigid body.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub column_shear_n: Option<DesignForce>,
+    /// Moment at the foot of the column, of a rigid body about the middle of its base.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub column_base_moment_nm: Option<DesignForce>,
+    /// Moment at the top of the column of an elastic frame, where it meets the beam.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub column_top_moment_nm: Option<DesignForce>,
+    /// Axial force of the column, the leg or the rigid body, tension positive.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub axial_n: Option<DesignForce>,
+    /// Largest tension of the column of an elastic structure, where there is any.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub axial_tension_n: Option<DesignForce>,
+    /// Moment of a leg at the apex of an A-frame.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub apex_moment_nm: Option<DesignForce>,
+    /// Shear at the sole, footing included.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub sole_shear_n: Option<DesignForce>,
+    /// Vertical force at the sole, footing included, upwards.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub sole_vertical_n: Option<DesignForce>,
+}
+
+impl DesignForces {
+    /// Every force that applies, with its name.
+    pub fn all(&self) -> impl Iterator<Item = (ForceName, DesignForce)> {
+        [
+            (ForceName::ColumnShear, self.column_shear_n),
+            (ForceName::ColumnBaseMoment, self.column_base_moment_nm),
+            (ForceName::ColumnTopMoment, self.column_top_moment_nm),
+            (ForceName::Axial, self.axial_n),
+            (ForceName::AxialTension, self.axial_tension_n),
+            (ForceName::ApexMoment, self.apex_moment_nm),
+            (ForceName::SoleShear, self.sole_shear_n),
+            (ForceName::SoleVertical, self.sole_vertical_n),
+        ]
+        .into_iter()
+        .filter_map(|(name, force)| Some((name, force?)))
+    }
+
+    /// A finding of those that hold over a part of the record alone.
+    pub fn held_in_part(&self) -> Option<Finding> {
+        let part = |(name, force): (ForceName, DesignForce)| {
+            let (over_s, whole) = (force.over_s?, force.whole_record?);
+            let (quantity, unit) = (name.words().to_string(), name.unit().to_string());
+            Some((over_s, PeakChange { quantity, unit, without: force.value?.abs(), with: whole.found.abs() }))
+        };
+        let (over, changes): (Vec<f64>, Vec<PeakChange>) = self.all().filter_map(part).unzip();
+        Some(Finding::ForcesHeldInPart { over_s: over.into_iter().reduce(f64::min)?, changes })
+    }
+
+    /// A finding for every force that does not hold.
+    pub fn withheld(&self) -> impl Iterator<Item = Finding> {
+        let those = self.all().filter(|(_, force)| !force.holds);
+        those.map(|(name, force)| Finding::ForceWithheld { force: name, change: force.change })
+    }
+}
+
+impl ForceName {
+    /// Its unit.
+    pub fn unit(self) -> &'static str {
+        match self {
+            Self::ColumnBaseMoment | Self::ColumnTopMoment | Self::ApexMoment => "N m",
+            _ => "N",
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn the_largest_change_decides_whatever_the_sign_and_a_motion_that_says_nothing_is_none() {
+        let others = OtherForces { found: -2.0, doubled_elements: Some(2.02), softer: Some(-1.9), stiffer: Some(2.06) };
+        assert!((others.change() - 0.05).abs() < 1e-12);
+        assert!((OtherForces { softer: Some(2.0), ..others }.change() - 0.03).abs() < 1e-12);
+        assert!((OtherForces { softer: Some(2.0), stiffer: Some(2.0), ..others }.change() - 0.01).abs() < 1e-12);
+        assert_eq!(OtherForces { softer: None, ..others }.change(), f64::INFINITY);
+    }
+
+    #[test]
+    fn a_force_that_changes_by_a_twentieth_is_withheld_and_said_so() {
+        let holds = DesignForce::measured(1e6, 2.0, Some(0.049));
+        let changes = DesignForce::measured(1e6, 2.0, Some(0.051));
+        assert_eq!((holds.value, holds.holds), (Some(1e6), true));
+        assert_eq!((changes.value, changes.holds), (None, false));
+        assert_eq!(DesignForce::measured(1e6, 2.0, None).value, None);
+        let all = DesignForces { column_shear_n: Some(holds), axial_n: Some(changes), ..DesignForces::default() };
+        let withheld: Vec<_> = all.withheld().collect();
+        assert_eq!(withheld, [Finding::ForceWithheld { force: ForceName::Axial, change: Some(0.051) }]);
+        let json = serde_json::to_value(all).unwrap();
+        assert_eq!(json["column_shear_n"]["value"], 1e6);
+        assert!(json["axial_n"]["value"].is_null() && json.get("sole_shear_n").is_none());
+    }
+}

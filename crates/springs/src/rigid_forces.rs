@@ -1,0 +1,218 @@
+//! Forces of a rigid body to design with: those of Housner's body, which no spring enters, beside the same on springs.
+//!
+//! ```text
+//!   F, N            horizontal and vertical force of the ground on the body (`regime`)
+//!   block           column shear F, axial force -N, moment about the middle of the base (N_left - N_right) b
+//!   A-frame         of a leg, D from the mass to its foot:  axial (H, N).D/|D|,  moment at the apex H D_z - N D_x,
+//!                   shear moment/|D|;  standing, both feet take F/2:  moment W b/2
+//! ```
+//!
+//! An impact's impulse is not among them. A force holds if, later than 0.1/p after every touch-down, its largest value on the
+//! springs is within 5 % of Housner's.
+
+use crate::{
+    answers::{Both, WithMembers},
+    results::{DesignForce, DesignForces},
+};
+use dynamics::compare::Match;
+use dynamics::fem::{Demands, History, between_landings};
+use rocking::{
+    housner::Rocking,
+    motion::TimedPeak,
+    overturning::samples_until,
+    regime::{self, ground_forces},
+    scalar::GRAVITY,
+    structure::{Body, Kind},
+};
+use strong_motion::Record;
+
+/// Column shear, moment and axial force: of a block about its base, of an A-frame's legs at the apex.
+type ForceRow = [f64; 3];
+
+/// The forces of a run. Where Housner's body cannot tell them, with members or beyond the end of his solution, they are those of the history
+/// on springs, which `softer` follows on springs of a quarter of Omega_n.
+pub fn design_forces(
+    kind: Kind,
+    body: &Body<f64>,
+    record: &Record,
+    both: &Both,
+    softer: Option<&WithMembers>,
+) -> DesignForces {
+    let dt = record.dt;
+    let until = |times: [Option<f64>; 2]| samples_until(times.into_iter().flatten().reduce(f64::min), dt);
+    let (sole, rows) = match softer {
+        Some(softer) => {
+            let peaks = |matched: &Match, history: &History, demands: &Demands| {
+                let kept = all_between(body, dt, history, until([matched.overturned_fem_s, None]));
+                on_springs(kind, body, dt, (history, demands), &kept)
+            };
+            let own = match &both.with {
+                Some(with) => peaks(&with.matched, &with.history, &with.demands),
+                None => peaks(&both.matched, &both.fem, &both.demands),
+            };
+            let other = peaks(&softer.matched, &softer.history, &softer.demands);
+            let force = |k: usize| {
+                let change = relative(own[k].value, other[k].value);
+                DesignForce::measured(own[k].value, own[k].time, change)
+            };
+            (force(0), [1, 2, 3].map(force))
+        }
+        None => {
+            let samples = until([both.matched.overturned_housner_s, both.matched.overturned_fem_s]);
+            let housner = of_housner(kind, body, record, &both.rocking, samples);
+            let kept = all_between(body, dt, &both.fem, samples.min(housner.len()));
+            let springs = on_springs(kind, body, dt, (&both.fem, &both.demands), &kept);
+            let force = |k: usize| {
+                let series: Vec<f64> = housner.iter().map(|row| row[k]).collect();
+                let all = TimedPeak::of(dt, &series).unwrap_or_default();
+                let same = kept.iter().map(|&i| series[i].abs()).fold(0.0, f64::max);
+                let change = relative(same, springs[k].value);
+                DesignForce { rigid: Some(all.value), ..DesignForce::measured(all.value, all.time, change) }
+            };
+            (force(0), [1, 2, 3].map(force))
+        }
+    };
+    let [shear, moment, axial] = rows.map(Some);
+    let all = DesignForces { column_shear_n: shear, axial_n: axial, ..DesignForces::default() };
+    match kind {
+        Kind::Block => DesignForces { column_base_moment_nm: moment, ..all },
+        Kind::AFrame => DesignForces { apex_moment_nm: moment, sole_shear_n: Some(sole), ..all },
+    }
+}
+
+/// How far two magnitudes are from each other; none where there is nothing to compare.
+fn relative(value: f64, other: f64) -> Option<f64> {
+    (value != 0.0).then(|| (other.abs() / value.abs() - 1.0).abs()).filter(|change| change.is_finite())
+}
+
+/// Samples that no landing on springs is near to.
+fn all_between(body: &Body<f64>, dt: f64, history: &History, samples: usize) -> Vec<usize> {
+    between_landings(body, dt, &history.landings, samples.min(history.motion.len())).collect()
+}
+
+/// Shear at the sole, and the rows, sample by sample, of Housner's body.
+fn of_housner(kind: Kind, body: &Body<f64>, record: &Record, rocking: &Rocking<f64>, samples: usize) -> Vec<[f64; 4]> {
+    let forces = ground_forces(body, (&record.accel, record.up()), rocking);
+    let row = |(i, (f, n)): (usize, (f64, f64))| {
+        let (theta, rate) = (rocking.theta[i], rocking.rate[i]);
+        let at = |record: &[f64]| record.get(i).copied().unwrap_or(0.0) / GRAVITY;
+        let ground = (at(&record.accel), 1.0 + at(record.up()));
+        let rests = theta == 0.0 && rate == 0.0;
+        let stands = rests && regime::stands(body, ground);
+        let (b, h) = (body.half_width, body.height);
+        // forces of the left foot and of the right one
+        let feet = if stands {
+            let apart = f * h / b;
+            [[0.5 * f, 0.5 * (n + apart)], [0.5 * f, 0.5 * (n - apart)]]
+        } else if theta > 0.0 || (theta == 0.0 && rate > 0.0) || (rests && ground.0 < 0.0) {
+            [[0.0; 2], [f, n]]
+        } else {
+            [[f, n], [0.0; 2]]
+        };
+        let [shear, moment, axial] = rows(kind, body, theta, feet);
+        [f, shear, moment, axial]
+    };
+    forces.into_iter().enumerate().take(samples).map(row).collect()
+}
+
+/// Column shear, moment, axial force for forces (H, N) of the left and the right foot of a body that leans by theta.
+fn rows(kind: Kind, body: &Body<f64>, theta: f64, feet: [[f64; 2]; 2]) -> ForceRow {
+    let [[left_h, left_n], [right_h, right_n]] = feet;
+    if kind == Kind::Block {
+        return [left_h + right_h, (left_n - right_n) * body.half_width, -(left_n + right_n)];
+    }
+    let (sin, cos) = theta.sin_cos();
+    let legs = [(-1.0, feet[0]), (1.0, feet[1])].map(|(side, [h, n])| {
+        // from the mass to the foot, turned clockwise with the body
+        let (x, z) = (side * body.half_width, -body.height);
+        let (dx, dz) = (x * cos + z * sin, z * cos - x * sin);
+        let length = body.radius();
+        let moment = h * dz - n * dx;
+        [moment / length, moment, (h * dx + n * dz) / length]
+    });
+    [0, 1, 2].map(|k| if legs[0][k].abs() >= legs[1][k].abs() { legs[0][k] } else { legs[1][k] })
+}
+
+/// Largest shear at the sole, column shear, moment and axial force of a history on springs, over these samples.
+fn on_springs(
+    kind: Kind,
+    body: &Body<f64>,
+    dt: f64,
+    (history, demands): (&History, &Demands),
+    kept: &[usize],
+) -> [TimedPeak; 4] {
+    let mut peaks = [TimedPeak::default(); 4];
+    let [sum, difference] = &history.forces.both;
+    for &i in kept {
+        let row = &demands.rows[i];
+        // each is that of one instant
+        let all = match kind {
+            Kind::AFrame => [2, 3, 1].map(|k| if row[k].abs() >= row[k + 3].abs() { row[k] } else { row[k + 3] }),
+            Kind::Block => [row[0], difference[i] * body.half_width, -sum[i]],
+        };
+        for (peak, value) in peaks.iter_mut().zip([row[0], all[0], all[1], all[2]]) {
+            if value.abs() > peak.value.abs() {
+                *peak = TimedPeak { value, time: i as f64 * dt };
+            }
+        }
+    }
+    peaks
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::answers::both;
+    use dynamics::spring::{Design, Springs};
+    use rocking::{members::Members, structure::Structure};
+
+    fn forces(structure: &Structure, hz: f64, accel: Vec<f64>) -> DesignForces {
+        let record = Record::new("made up", 0.01, accel).unwrap();
+        let design = Design::from_kc(0.3, 0.1, 0.75, hz);
+        let springs = Springs { vertical: design, horizontal: design }.chains(structure.mass_kg);
+        let body = structure.body();
+        let both = both(&body, body.restitution(), &springs, &Members::default(), &record);
+        design_forces(structure.kind, &body, &record, &both, None)
+    }
+
+    /// Standing under a_g: shear m a_g, axial W; a leg carries a moment of W b/2 at the apex whatever the ground does.
+    #[test]
+    fn a_standing_frame_bears_what_statics_say() {
+        let frame = Structure::a_frame(9.0, 2.1, 120e3).unwrap();
+        let push = |i: usize| 0.5 * (i as f64 / 200.0).min(1.0);
+        let all = forces(&frame, 1280.0, (0..400).map(push).collect());
+        let weight = frame.mass_kg * GRAVITY;
+        let sole = all.sole_shear_n.unwrap();
+        assert!(sole.holds && (sole.value.unwrap().abs() / 60e3 - 1.0).abs() < 1e-6, "{sole:?}");
+        let apex = all.apex_moment_nm.unwrap();
+        assert!((apex.value.unwrap().abs() / (weight * 1.05 / 2.0) - 1.0).abs() < 1e-9, "{apex:?}");
+        assert!(all.column_base_moment_nm.is_none());
+    }
+
+    /// A block that stands in a ground motion presses on the ground by its weight, however fast the two feet exchange it.
+    #[test]
+    fn a_standing_block_carries_its_weight_whatever_the_ground_does() {
+        let block = Structure::block(1.2, 0.6, 300.0).unwrap();
+        let shake = |i: usize| 2.2 * (std::f64::consts::TAU * 4.0 * 0.01 * i as f64).sin();
+        let all = forces(&block, 10240.0, (0..300).map(shake).collect());
+        let axial = all.axial_n.unwrap();
+        assert!((axial.value.unwrap() / (-300.0 * GRAVITY) - 1.0).abs() < 1e-9, "{axial:?}");
+        assert!(axial.change.unwrap() < 1e-3, "{axial:?}");
+    }
+
+    /// A block's base moment is at most W b, which it reaches when it lifts; its shear then is m g tan(alpha).
+    #[test]
+    fn a_block_that_rocks_carries_its_weight_on_one_corner() {
+        let block = Structure::block(2.0, 0.5, 1000.0).unwrap();
+        let pulse = |i: usize| if i < 45 { 4.0 * (i as f64 / 20.0).min(1.0) } else { 0.0 };
+        let all = forces(&block, 10240.0, (0..1000).map(pulse).collect());
+        let (weight, b) = (block.mass_kg * GRAVITY, 0.25);
+        let moment = all.column_base_moment_nm.unwrap();
+        assert!(moment.holds, "{moment:?}");
+        // the weight on a corner, less what the body's fall and turning take, at most plus the centrifugal part
+        assert!((0.8..1.2).contains(&(moment.value.unwrap().abs() / (weight * b))), "{moment:?}");
+        let shear = all.column_shear_n.unwrap();
+        assert!(shear.holds && shear.value.unwrap().abs() < 1.5 * 1000.0 * 4.0, "{shear:?}");
+        assert!(all.axial_n.unwrap().value.unwrap() < 0.0 && all.apex_moment_nm.is_none());
+    }
+}

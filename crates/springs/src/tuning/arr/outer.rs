@@ -1,0 +1,352 @@
+//! The outer loop: Omega_n, vertical and horizontal, by the error of the finite element history against Housner's.
+//!
+//! ```text
+//!  minimise over (Omega_v, Omega_h, families)   J = sum (u - u_H)^2 / sum u_H^2 + sum (v - v_H)^2 / sum v_H^2
+//! ```
+//!
+//! The landscape is rugged: it is sampled first (a low-discrepancy sequence over both frequencies and all pairs of
+//! families, in parallel), then the best few samples are refined by Nelder-Mead. A candidate whose running error
+//! exceeds the best is abandoned. Batches of fixed size make the answer independent of the number of threads.
+
+use std::ops::ControlFlow;
+
+use argmin::{
+    core::{CostFunction, Error, Executor},
+    solver::neldermead::NelderMead,
+};
+use rayon::prelude::*;
+
+use super::inner::Fit;
+use dynamics::{
+    effort::Effort,
+    fem::{Analysis, Control, Finish, HistoryOutcome, Start, View},
+    spring::{Design, Springs},
+};
+use rocking::{motion::Motion, scalar::GRAVITY, structure::Body};
+
+/// Candidates judged against one threshold: more would abandon later, fewer would idle threads. The first batches, which
+/// know no good threshold yet, are smaller.
+const BATCH: usize = 16;
+const FIRST_BATCH: usize = 2;
+/// Samples that are refined.
+const REFINED: usize = 2;
+/// Evaluations of one refinement.
+const REFINEMENTS: u64 = 24;
+
+/// Candidates of another stiffness that `follow` starts from, and evaluations of its refinement.
+const FOLLOWED: usize = 4;
+const FOLLOWING: u64 = 10;
+
+/// What the histories are compared with.
+#[derive(Clone, Copy, Debug)]
+pub struct Benchmark<'a> {
+    pub body: Body<f64>,
+    pub dt: f64,
+    /// Ground acceleration over the length compared (m/s2).
+    pub accel: &'a [f64],
+    /// Its vertical part; empty if there is none.
+    pub vertical: &'a [f64],
+    /// Housner's motion, sampled at dt.
+    pub housner: &'a Motion,
+    /// What its histories count to.
+    pub effort: &'a Effort,
+}
+
+/// Where Omega_n may lie.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Bracket {
+    /// Stiffest springs (Hz).
+    pub max_hz: f64,
+    /// Largest settlement of the standing body (m).
+    pub max_settlement: f64,
+}
+
+/// One evaluated pair of springs.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Candidate {
+    pub springs: Springs<Design<f64>>,
+    /// sqrt(J/2), the mean NRMSE of u and v; what it had reached when abandoned.
+    pub error: f64,
+    pub abandoned: bool,
+}
+
+/// What the outer loop found.
+#[derive(Clone, Debug)]
+pub struct OmegaSearch {
+    pub best: Candidate,
+    /// Index of the best in `candidates`.
+    pub chosen: usize,
+    /// Every evaluation, in a fixed order.
+    pub candidates: Vec<Candidate>,
+}
+
+impl Benchmark<'_> {
+    /// The finite element case of these springs.
+    pub(crate) fn case(&self, springs: &Springs<Design<f64>>, control: Control) -> Analysis<'_, f64> {
+        Analysis {
+            body: self.body,
+            springs: springs.chains(self.body.mass),
+            start: Start::Settled,
+            dt: self.dt,
+            accel: self.accel,
+            vertical: self.vertical,
+            scale: 1.0,
+            control,
+        }
+    }
+
+    /// Mean NRMSE of u and v, sqrt(J/2), abandoned as soon as it exceeds `limit`.
+    pub fn error(&self, springs: &Springs<Design<f64>>, limit: f64, control: Control) -> (f64, bool) {
+        let square = |x: &[f64]| x.iter().map(|x| x * x).sum::<f64>().max(f64::MIN_POSITIVE);
+        let (su, sv) = (square(&self.housner.u), square(&self.housner.v));
+        let case = self.case(springs, control);
+        let (mut sum, mut settled) = (0.0, 0.0);
+        let finish: Finish<f64> = case.observe(&mut |i: usize, view: &View<f64>| {
+            if i == 0 {
+                settled = view.z();
+            }
+            let (Some(&u), Some(&v)) = (self.housner.u.get(i), self.housner.v.get(i)) else {
+                return ControlFlow::Break(());
+            };
+            let (du, dv) = (view.x() - u, view.z() - settled - v);
+            sum += du * du / su + dv * dv / sv;
+            if sum > 2.0 * limit * limit { ControlFlow::Break(()) } else { ControlFlow::Continue(()) }
+        });
+        finish.spend(self.effort);
+        let error = (0.5 * sum).sqrt();
+        match finish.outcome {
+            HistoryOutcome::Completed => (error, false),
+            // toppled, out of work or out of balance: it has not followed to the end
+            HistoryOutcome::Overturned { .. } | HistoryOutcome::WorkBound { .. } | HistoryOutcome::Unstable { .. } => {
+                (f64::INFINITY, false)
+            }
+            HistoryOutcome::Stopped { .. } => (error, error > limit),
+        }
+    }
+}
+
+impl Bracket {
+    /// Least settlement of a body whose vertical chain has the stiffness ratio K = k2/k1: on the stiffest springs (m).
+    pub(crate) fn least_settlement(&self, k: f64) -> f64 {
+        0.5 * GRAVITY * (1.0 + 1.0 / k) / (std::f64::consts::TAU * self.max_hz).powi(2)
+    }
+
+    /// Whether a vertical chain of this K can be stiff enough.
+    fn allows(&self, k: f64) -> bool {
+        self.least_settlement(k) <= self.max_settlement
+    }
+
+    /// Lowest and highest Omega_n (Hz) of a vertical chain of stiffness ratio K = k2/k1.
+    fn vertical(&self, k: f64) -> (f64, f64) {
+        // settlement = g/2 (1 + 1/K) / Omega_n^2
+        let low = (0.5 * GRAVITY * (1.0 + 1.0 / k) / self.max_settlement).sqrt() / std::f64::consts::TAU;
+        (low.max(0.05 * self.max_hz).min(self.max_hz), self.max_hz)
+    }
+
+    fn horizontal(&self) -> (f64, f64) {
+        (0.05 * self.max_hz, self.max_hz)
+    }
+}
+
+/// A pair of families, with frequencies given as fractions 0..1 of their brackets (logarithmic).
+#[derive(Clone, Copy)]
+struct Pair {
+    vertical: Design<f64>,
+    horizontal: Design<f64>,
+    bracket: Bracket,
+}
+
+impl Pair {
+    fn springs(&self, x: [f64; 2]) -> Springs<Design<f64>> {
+        let at = |(low, high): (f64, f64), x: f64| low * (high / low).powf(x.clamp(0.0, 1.0));
+        let (vertical, horizontal) =
+            (at(self.bracket.vertical(self.vertical.k()), x[0]), at(self.bracket.horizontal(), x[1]));
+        Springs {
+            vertical: Design { omega_n_hz: vertical, ..self.vertical },
+            horizontal: Design { omega_n_hz: horizontal, ..self.horizontal },
+        }
+    }
+
+    /// The pair of these springs, and their fractions.
+    fn of(springs: &Springs<Design<f64>>, bracket: Bracket) -> (Self, [f64; 2]) {
+        let pair = Self { vertical: springs.vertical, horizontal: springs.horizontal, bracket };
+        let at = |(low, high): (f64, f64), hz: f64| {
+            if high > low { ((hz / low).ln() / (high / low).ln()).clamp(0.0, 1.0) } else { 1.0 }
+        };
+        let vertical = at(bracket.vertical(pair.vertical.k()), pair.vertical.omega_n_hz);
+        (pair, [vertical, at(bracket.horizontal(), pair.horizontal.omega_n_hz)])
+    }
+}
+
+/// All pairs of families that can be stiff enough.
+fn pairs(vertical: &[Fit], horizontal: &[Fit], bracket: Bracket) -> Vec<Pair> {
+    let design = |fit: &Fit| Design { mu: fit.mu, f: fit.f, xi: fit.xi, omega_n_hz: bracket.max_hz };
+    let pair = |v: &Fit, h: &Fit| Pair { vertical: design(v), horizontal: design(h), bracket };
+    let stiff = vertical.iter().filter(|v| bracket.allows(v.k));
+    stiff.flat_map(|v| horizontal.iter().map(move |h| pair(v, h))).collect()
+}
+
+/// Radical inverse of i in a base: a van der Corput sequence.
+fn radical_inverse(mut i: usize, base: usize) -> f64 {
+    let (mut x, mut digit) = (0.0, 1.0);
+    while i > 0 {
+        digit /= base as f64;
+        x += digit * (i % base) as f64;
+        i /= base;
+    }
+    x
+}
+
+/// Tune Omega_n over all pairs of families.
+///
+/// `progress` is called with the number of evaluations done, the number planned and the least error so far.
+pub(crate) fn tune(
+    benchmark: &Benchmark,
+    vertical: &[Fit],
+    horizontal: &[Fit],
+    bracket: Bracket,
+    samples: usize,
+    progress: &(dyn Fn(usize, usize, f64) + Sync),
+) -> Option<OmegaSearch> {
+    let pairs = pairs(vertical, horizontal, bracket);
+    if pairs.is_empty() {
+        return None;
+    }
+    // stiffer springs follow better as a rule: the square root puts more samples there; the first of each pair is stiffest
+    let plan: Vec<(usize, [f64; 2])> = (0..samples.max(pairs.len()))
+        .map(|i| {
+            let (pair, round) = (i % pairs.len(), i / pairs.len());
+            let at = |base| if round == 0 { 1.0 } else { radical_inverse(round, base).sqrt() };
+            (pair, [at(2), at(3)])
+        })
+        .collect();
+    let total = plan.len() + REFINED * REFINEMENTS as usize;
+    let plan: Vec<(Pair, [f64; 2])> = plan.into_iter().map(|(pair, x)| (pairs[pair], x)).collect();
+    let candidates = sample(benchmark, &plan, total, progress);
+    let tuned = best_of(benchmark, &plan, candidates, REFINED, REFINEMENTS)?;
+    progress(tuned.candidates.len(), tuned.candidates.len(), tuned.best.error);
+    Some(tuned)
+}
+
+/// Follow springs found for another stiffness (`from_hz`) to this bracket's: from the best of them, scaled, and of all pairs
+/// of families at their stiffest.
+pub fn follow(
+    benchmark: &Benchmark,
+    vertical: &[Fit],
+    horizontal: &[Fit],
+    bracket: Bracket,
+    found: &OmegaSearch,
+    from_hz: f64,
+) -> Option<Candidate> {
+    let mut near: Vec<&Candidate> = found.candidates.iter().filter(|c| !c.abandoned && c.error.is_finite()).collect();
+    near.sort_by(|a, b| a.error.total_cmp(&b.error));
+    let scale = |c: &&Candidate| {
+        let mut springs = c.springs;
+        springs.vertical.omega_n_hz *= bracket.max_hz / from_hz;
+        springs.horizontal.omega_n_hz *= bracket.max_hz / from_hz;
+        Pair::of(&springs, bracket)
+    };
+    let stiff = |c: &&&Candidate| bracket.allows(c.springs.vertical.k());
+    let mut plan: Vec<(Pair, [f64; 2])> = near.iter().filter(stiff).take(FOLLOWED).map(scale).collect();
+    plan.extend(pairs(vertical, horizontal, bracket).into_iter().map(|pair| (pair, [1.0; 2])));
+    let candidates = sample(benchmark, &plan, plan.len(), &|_, _, _| {});
+    best_of(benchmark, &plan, candidates, 1, FOLLOWING).map(|tuned| tuned.best)
+}
+
+/// Evaluate a plan, batch by batch.
+fn sample(
+    benchmark: &Benchmark,
+    plan: &[(Pair, [f64; 2])],
+    total: usize,
+    progress: &(dyn Fn(usize, usize, f64) + Sync),
+) -> Vec<Candidate> {
+    let mut candidates: Vec<Candidate> = Vec::with_capacity(total);
+    let mut best = f64::INFINITY;
+    let (mut rest, mut size) = (plan, FIRST_BATCH);
+    // the first batches are judged whatever they cost
+    while !rest.is_empty() && (candidates.len() < BATCH || !benchmark.effort.stops()) {
+        let (batch, after) = rest.split_at(size.min(rest.len()));
+        (rest, size) = (after, (2 * size).min(BATCH));
+        let found: Vec<Candidate> = batch
+            .par_iter()
+            .with_max_len(1)
+            .map(|(pair, x)| {
+                let springs = pair.springs(*x);
+                let (error, abandoned) = benchmark.error(&springs, best, Control::search());
+                Candidate { springs, error, abandoned }
+            })
+            .collect();
+        candidates.extend(found);
+        best = candidates.iter().filter(|c| !c.abandoned).map(|c| c.error).fold(f64::INFINITY, f64::min);
+        progress(candidates.len(), total, best);
+    }
+    candidates
+}
+
+/// Refine the best few candidates of a plan; the best of all.
+fn best_of(
+    benchmark: &Benchmark,
+    plan: &[(Pair, [f64; 2])],
+    mut candidates: Vec<Candidate>,
+    refined: usize,
+    refinements: u64,
+) -> Option<OmegaSearch> {
+    let mut order: Vec<usize> = (0..candidates.len()).filter(|&i| !candidates[i].abandoned).collect();
+    order.sort_by(|&a, &b| candidates[a].error.total_cmp(&candidates[b].error).then(a.cmp(&b)));
+    let effort = benchmark.effort;
+    let shares: Vec<(usize, Effort)> = match effort.stopped() {
+        true => Vec::new(),
+        false => order.iter().take(refined).map(|&i| (i, effort.share(refined as u64))).collect(),
+    };
+    let refined: Vec<Vec<Candidate>> = shares
+        .par_iter()
+        .map(|(i, share)| {
+            let (pair, x) = &plan[*i];
+            refine(&Benchmark { effort: share, ..*benchmark }, pair, *x, candidates[*i].error, refinements)
+        })
+        .collect();
+    shares.iter().for_each(|(_, share)| effort.join(share));
+    candidates.extend(refined.into_iter().flatten());
+    let chosen = (0..candidates.len())
+        .filter(|&i| !candidates[i].abandoned)
+        .min_by(|&a, &b| candidates[a].error.total_cmp(&candidates[b].error).then(a.cmp(&b)))?;
+    Some(OmegaSearch { best: candidates[chosen], chosen, candidates })
+}
+
+/// Nelder-Mead from one sample; every evaluation is kept.
+fn refine(benchmark: &Benchmark, pair: &Pair, x: [f64; 2], start: f64, refinements: u64) -> Vec<Candidate> {
+    struct OuterProblem<'a> {
+        benchmark: &'a Benchmark<'a>,
+        pair: &'a Pair,
+        limit: f64,
+        seen: std::sync::Mutex<Vec<Candidate>>,
+    }
+    impl CostFunction for OuterProblem<'_> {
+        type Param = Vec<f64>;
+        type Output = f64;
+        fn cost(&self, x: &Vec<f64>) -> Result<f64, Error> {
+            let outside: f64 = x.iter().map(|x| (x - x.clamp(0.0, 1.0)).abs()).sum();
+            let springs = self.pair.springs([x[0], x[1]]);
+            if self.benchmark.effort.stops() {
+                // what was not followed leads nowhere
+                return Ok(f64::MAX);
+            }
+            let (error, abandoned) = self.benchmark.error(&springs, self.limit, Control::search());
+            if let Ok(mut seen) = self.seen.lock() {
+                seen.push(Candidate { springs, error, abandoned });
+            }
+            Ok(error + outside)
+        }
+    }
+    let step = |x: f64, d: f64| if x + d > 1.0 { x - d } else { x + d };
+    let simplex = vec![vec![x[0], x[1]], vec![step(x[0], 0.06), x[1]], vec![x[0], step(x[1], 0.06)]];
+    // an error well above the start's cannot help, but its size still steers the simplex
+    let problem = OuterProblem { benchmark, pair, limit: 2.0 * start, seen: Default::default() };
+    let run = NelderMead::new(simplex)
+        .with_sd_tolerance(1e-7)
+        .map(|solver| Executor::new(problem, solver).configure(|state| state.max_iters(refinements)).run());
+    match run {
+        Ok(Ok(mut result)) => result.problem.take_problem().and_then(|p| p.seen.into_inner().ok()).unwrap_or_default(),
+        _ => Vec::new(),
+    }
+}

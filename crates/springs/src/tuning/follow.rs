@@ -1,0 +1,191 @@
+//! Springs softer than the landing's limit: the design followed down in Omega_n/p, on landings and uplifts of the whole model.
+//!
+//! Where a cap keeps Omega_n v_n/g small, gravity takes part in the landing and the stance gives way before it lifts. So the
+//! design from the geometry is only where to begin: it is taken at a stiffness at which it holds, and with every step down,
+//! by a factor of two, all eight parameters are tuned again on the whole model (`whole_model`), from what they were. No record.
+
+use std::f64::consts::TAU;
+
+use nalgebra::SVector;
+use num_dual::{Derivative, DualNum, DualSVec64};
+use rayon::prelude::*;
+
+use super::{
+    arr::outer::Bracket,
+    descent::{LeastSquares, descend},
+    landing::design::Geometry,
+    search::search,
+    whole_model::{Criterion, WholeModel},
+};
+use dynamics::{
+    effort::Effort,
+    fem::Control,
+    spring::{Design, Springs},
+};
+use rocking::{
+    scalar::{GRAVITY, Scalar, real},
+    structure::Body,
+};
+
+type FollowDual = DualSVec64<8>;
+
+/// Stiffness ratio K, damping number C, mass ratio mu: least and largest.
+const K: (f64, f64) = (0.001, LARGEST_K);
+/// The largest K that is tried: it settles least.
+pub(crate) const LARGEST_K: f64 = 30.0;
+const C: (f64, f64) = (0.005, 40.0);
+const MU: (f64, f64) = (0.0025, 40.0);
+/// Least Omega_n, as a share of the largest.
+const SOFTEST: f64 = 0.1;
+
+/// The eight logarithms: Omega_n (Hz), K, C, mu of the vertical and of the horizontal units.
+fn springs<S: Scalar>(z: &[S]) -> Springs<Design<S>> {
+    let design = |z: &[S]| Design::from_kc(z[3].exp(), z[1].exp(), z[2].exp(), z[0].exp());
+    Springs { vertical: design(&z[..4]), horizontal: design(&z[4..]) }
+}
+
+fn logarithms(s: &Springs<Design<f64>>) -> Vec<f64> {
+    let (v, h) = (&s.vertical, &s.horizontal);
+    [v.omega_n_hz, v.k(), v.c(), v.mu, h.omega_n_hz, h.k(), h.c(), h.mu].map(f64::ln).to_vec()
+}
+
+/// Cost of springs on which a run does not finish.
+const UNFINISHED: f64 = 100.0;
+/// Evaluations of a search for another restitution, and the cost that is good enough: 0.1 % in all landings.
+const EVALUATIONS: usize = 6000;
+const ENOUGH: f64 = 0.4;
+
+/// Landings and uplifts of a body on springs within a bracket.
+struct LandingsAndUplifts<'a> {
+    whole: WholeModel,
+    bracket: Bracket,
+    control: Control,
+    effort: &'a Effort,
+}
+
+impl<'a> LandingsAndUplifts<'a> {
+    /// It depends on the mass only through I_cg/m, so it is that of a body of 1 kg: in whatever unit a mass is given, the same
+    /// springs are found.
+    fn new(body: &Body<f64>, restitution: f64, (bracket, criterion): (Bracket, Criterion), effort: &'a Effort) -> Self {
+        let control = Control { tolerance: 1e-6, most_steps: 8_000, ..Control::default() };
+        let body = &Body { mass: 1.0, inertia: body.inertia / body.mass, ..*body };
+        Self { whole: WholeModel::new(body, restitution, bracket.max_hz, criterion), bracket, control, effort }
+    }
+}
+
+impl LeastSquares for LandingsAndUplifts<'_> {
+    fn stops(&self) -> bool {
+        self.effort.stops()
+    }
+
+    fn residuals(&self, z: &[f64]) -> Vec<f64> {
+        self.whole.residuals(&springs(z), self.control, self.effort)
+    }
+
+    fn gradients(&self, z: &[f64]) -> (Vec<f64>, Vec<Vec<f64>>) {
+        let duals: Vec<FollowDual> = z
+            .iter()
+            .enumerate()
+            .map(|(i, &z)| FollowDual::new(z, Derivative::derivative_generic(nalgebra::Const::<8>, nalgebra::U1, i)))
+            .collect();
+        // one iteration more leaves the gradients good to the square of the iteration's rate, about 1e-4: enough for a step
+        let control = Control { extra_iterations: 1, tolerance: 1e-5, ..self.control };
+        let found = self.whole.residuals(&springs(&duals), control, self.effort);
+        let rows = found.iter().map(row).collect();
+        (found.iter().map(|r| r.re).collect(), rows)
+    }
+
+    fn bounds(&self) -> (Vec<f64>, Vec<f64>) {
+        let hz = (SOFTEST * self.bracket.max_hz, self.bracket.max_hz);
+        let pairs = [hz, K, C, MU, hz, K, C, MU];
+        (pairs.iter().map(|p| p.0.ln()).collect(), pairs.iter().map(|p| p.1.ln()).collect())
+    }
+
+    fn inequality(&self, z: &[f64]) -> Option<(f64, Vec<f64>)> {
+        // ln of g/2 (1 + 1/K) / Omega_n^2 over the largest settlement
+        let settlement = |omega: FollowDual, k: FollowDual| {
+            ((k.exp().recip() + 1.0) * (0.5 * GRAVITY) / ((omega.exp() * TAU) * (omega.exp() * TAU))).ln()
+        };
+        let seed = |i: usize, x: f64| {
+            FollowDual::new(x, Derivative::derivative_generic(nalgebra::Const::<8>, nalgebra::U1, i))
+        };
+        let value = settlement(seed(0, z[0]), seed(1, z[1])) - real::<FollowDual>(self.bracket.max_settlement.ln());
+        Some((value.re, row(&value)))
+    }
+}
+
+fn row(x: &FollowDual) -> Vec<f64> {
+    let row: SVector<f64, 8> = x.eps.unwrap_generic(nalgebra::Const::<8>, nalgebra::U1);
+    row.iter().copied().collect()
+}
+
+/// Omega_h/Omega_v from which the way down begins: what the stiff limit likes, and softer verticals that a cap asks for.
+const RATIOS: [f64; 2] = [1.0, 4.0];
+/// Halvings of the stiffness on the way down.
+const HALVINGS: i32 = 3;
+/// Steps of the descent at every stiffness, and at the last.
+const STEPS: (u64, u64) = (4, 15);
+
+/// Springs of at most `bracket.max_hz` for a body that lands with velocity restitution `restitution`, followed down from the
+/// design that its geometry gives: one of each ratio and criterion. Which of them follow histories best is for histories to
+/// say; neither criterion is the better one for every body.
+pub fn follow(body: &Body<f64>, restitution: f64, bracket: Bracket, effort: &Effort) -> Vec<Springs<Design<f64>>> {
+    let criteria = [Criterion::Energy, Criterion::GrowingPart];
+    let ways: Vec<(f64, Criterion)> = RATIOS.iter().flat_map(|&r| criteria.map(|c| (r, c))).collect();
+    // side by side, each with a share of its own
+    let shares: Vec<_> = ways.iter().map(|way| (*way, effort.share(ways.len() as u64))).collect();
+    let one = |(way, share): &(_, Effort)| path(body, restitution, bracket, *way, share);
+    let found: Vec<_> = shares.par_iter().with_max_len(1).map(one).collect();
+    shares.iter().for_each(|(_, share)| effort.join(share));
+    found.into_iter().flatten().collect()
+}
+
+/// Springs for another restitution than equation 2's, by a search and a descent from where it ends. `progress` gets the
+/// evaluations done, planned, and the least cost so far.
+pub fn with_restitution(
+    body: &Body<f64>,
+    restitution: f64,
+    bracket: Bracket,
+    effort: &Effort,
+    progress: &(dyn Fn(usize, usize, f64) + Sync),
+) -> Option<Springs<Design<f64>>> {
+    let objective = LandingsAndUplifts::new(body, restitution, (bracket, Criterion::Energy), effort);
+    let cost = |z: &[f64]| {
+        let error = objective.residuals(z).iter().map(|r| r * r).sum::<f64>().sqrt();
+        // a run that did not finish is worse than any other
+        if error.is_finite() { error } else { UNFINISHED }
+    };
+    let z = search(&cost, &objective.bounds(), EVALUATIONS, ENOUGH, effort, progress)?;
+    let end = descend(&objective, &z, 0.3, STEPS.1);
+    Some(springs(&end.z))
+}
+
+/// One way down.
+fn path(
+    body: &Body<f64>,
+    restitution: f64,
+    bracket: Bracket,
+    (ratio, criterion): (f64, Criterion),
+    effort: &Effort,
+) -> Option<Springs<Design<f64>>> {
+    let stiffest = bracket.max_hz * 2f64.powi(HALVINGS);
+    let stiffness = TAU * stiffest / ratio / body.p_squared().sqrt();
+    let mut found = Geometry::of(body, stiffness).ok()?.springs();
+    found.vertical.omega_n_hz = stiffest / ratio;
+    found.horizontal.omega_n_hz = stiffest;
+    let mut error = f64::INFINITY;
+    for halving in (0..=HALVINGS).rev() {
+        let here = Bracket { max_hz: bracket.max_hz * 2f64.powi(halving), ..bracket };
+        if halving < HALVINGS {
+            found.vertical.omega_n_hz *= 0.5;
+            found.horizontal.omega_n_hz *= 0.5;
+        }
+        let objective = LandingsAndUplifts::new(body, restitution, (here, criterion), effort);
+        let steps = if halving == 0 { STEPS.1 } else { STEPS.0 };
+        let end = descend(&objective, &logarithms(&found), 0.3, steps);
+        (found, error) = (springs(&end.z), end.error);
+    }
+    // the descent sees the limit of the settlement as a plane
+    let settles = found.settlement(1.0) <= bracket.max_settlement * (1.0 + 1e-3);
+    (error.is_finite() && settles).then_some(found)
+}

@@ -1,0 +1,238 @@
+//! The landing of a plane structure on two feet, in the stiff limit.
+//!
+//! ```text
+//!   p'' = W F           p: displacement of the four corner directions (old foot x, z; new foot x, z)
+//!   W = G M^-1 G'       what a unit force at one corner does to the others: all of the structure that a landing feels
+//!   N = k1 (a_z - p_z),  H = k1_h (a_x - p_x)   while the foot presses, else 0 (a foot that lands again is anchored there)
+//!   m2 a'' = -F - k2 a - c a'                   each direction's absorber
+//! ```
+//!
+//! No gravity, no large rotation; mass in units of the structure's, time in 1/Omega_n of the vertical units, the speed at
+//! which the new foot comes down is 1. The problem is positively homogeneous: twice the speed, twice the motion, so that its
+//! outcome holds for every landing in the limit Omega_n v_n >> g. Between changes of contact it is linear and followed
+//! exactly (`linear`); changes are located by Newton's method in the scalar, so that derivatives go through them.
+//!
+//! The structure is anything with a rigid base on two corners: a rigid body, or the footing of an elastic pier (`corners`). What is right
+//! is the plastic landing with impulses J*; how far springs are from it is the energy of the velocities that they add to those after
+//! it, (J - J*)' W (J - J*), over what it takes, J*' W J*.
+//!
+//! Where the new corner alone is stopped, angular momentum about the new foot changes only by the old foot's impulse, H_new = H_before + 2b J_old:
+//! equation 2 holds exactly if and only if J_old = 0.
+
+use super::{
+    chain::FOLLOWED,
+    corners::{CornerDynamics, DIRECTIONS},
+    linear::{SquareMatrix, dot, exponential, times},
+};
+use dynamics::spring::{Design, Springs};
+use rocking::scalar::{Scalar, real};
+
+/// p, a, p', a', and the impulses through the corners.
+const N: usize = 5 * DIRECTIONS;
+const A: usize = DIRECTIONS;
+const RATE: usize = 2 * DIRECTIONS;
+const A_RATE: usize = 3 * DIRECTIONS;
+const IMPULSE: usize = 4 * DIRECTIONS;
+
+/// Steps over the shortest time scale, 1/sqrt(largest stiffness over mass).
+const STEP: f64 = 0.25;
+/// Newton steps at an event.
+const NEWTON: usize = 8;
+/// Changes of contact after which the feet count as chattering without end.
+const MOST_CHANGES: usize = 400;
+/// A foot that carries less than this is at the edge of lifting, in units of m v_n Omega_n.
+const EDGE: f64 = 1e-13;
+
+/// What a landing does.
+#[derive(Clone, Copy, Debug)]
+pub struct PlaneLanding<S> {
+    /// Angular momentum about the new foot over that before: 1 is Housner's, equation 2.
+    pub momentum: S,
+    /// Vertical impulse through the old foot, J_old [m v_n]; never negative.
+    pub old_impulse: S,
+    /// Energy of the velocities that differ from those after the plastic landing, over the energy that it takes.
+    pub deviation: S,
+    /// Fastest speed with which the new foot leaves the ground (v_n).
+    pub rebound: S,
+    /// Time with both feet in the air [1/Omega_n].
+    pub air: S,
+    /// Touches and lifts of the new foot and of the old foot.
+    pub changes: [usize; 2],
+    /// Whether the landing was followed to its stated end: not if the feet chatter.
+    pub complete: bool,
+}
+
+/// Land the structure on units of these designs, whose frequencies count relative to the vertical one's; followed to
+/// [`FOLLOWED`].
+pub fn land<S: Scalar>(corners: &CornerDynamics<S>, springs: &Springs<Design<S>>) -> PlaneLanding<S> {
+    let mut run = LandingRun::new(corners, springs);
+    while run.time.re() < FOLLOWED && run.changes[0] + run.changes[1] < MOST_CHANGES {
+        run.advance();
+    }
+    run.finish(corners)
+}
+
+/// One landing under way.
+struct LandingRun<S> {
+    w: [[S; DIRECTIONS]; DIRECTIONS],
+    /// k1, k2, m2, c of x and z.
+    units: [[S; 4]; 2],
+    y: [S; N],
+    /// Which feet press: old, new.
+    closed: [bool; 2],
+    time: S,
+    step: f64,
+    /// A y and exp(A step) of the present contact.
+    motion: (SquareMatrix<S, N>, SquareMatrix<S, N>),
+    rebound: S,
+    air: S,
+    changes: [usize; 2],
+}
+
+impl<S: Scalar> LandingRun<S> {
+    fn new(corners: &CornerDynamics<S>, springs: &Springs<Design<S>>) -> Self {
+        let ratio = springs.horizontal.omega_n_hz / springs.vertical.omega_n_hz;
+        let unit = |d: &Design<S>, omega: S| {
+            let k1 = omega * omega;
+            [k1, d.k() * k1, d.mu, d.c() * omega]
+        };
+        let units = [unit(&springs.horizontal, ratio), unit(&springs.vertical, S::one())];
+        let fastest = (0..DIRECTIONS)
+            .map(|i| {
+                let [k1, k2, m2, c] = units[i % 2].map(|x| x.re());
+                let of_absorber = (k1 + k2) / m2 + (c / m2).powi(2);
+                (corners.w[i][i].re() * k1).max(of_absorber)
+            })
+            .fold(1.0, f64::max);
+        let mut y = [S::zero(); N];
+        y[RATE + 3] = -S::one();
+        let mut run = Self {
+            w: corners.w,
+            units,
+            y,
+            closed: [true; 2],
+            time: S::zero(),
+            step: STEP / fastest.sqrt(),
+            motion: ([[S::zero(); N]; N], [[S::zero(); N]; N]),
+            rebound: S::zero(),
+            air: S::zero(),
+            changes: [0, 1],
+        };
+        run.take_contact();
+        run
+    }
+
+    /// The motion of the present contact.
+    fn take_contact(&mut self) {
+        let mut a = [[S::zero(); N]; N];
+        for i in 0..DIRECTIONS {
+            let [k1, k2, m2, c] = self.units[i % 2];
+            a[i][RATE + i] = S::one();
+            a[A + i][A_RATE + i] = S::one();
+            a[A_RATE + i][A + i] -= k2 / m2;
+            a[A_RATE + i][A_RATE + i] -= c / m2;
+            if self.closed[i / 2] {
+                // F = k1 (a - p)
+                a[A_RATE + i][A + i] -= k1 / m2;
+                a[A_RATE + i][i] += k1 / m2;
+                a[IMPULSE + i][A + i] = k1;
+                a[IMPULSE + i][i] = -k1;
+                for j in 0..DIRECTIONS {
+                    a[RATE + j][A + i] += self.w[j][i] * k1;
+                    a[RATE + j][i] -= self.w[j][i] * k1;
+                }
+            }
+        }
+        self.motion = (a, exponential(&a, real(self.step)));
+    }
+
+    /// What must stay positive while a foot's contact lasts: its force, or its distance from the absorber.
+    fn lasts(&self, foot: usize, y: &[S; N]) -> (S, S) {
+        let z = 2 * foot + 1;
+        let sign = if self.closed[foot] { 1.0 } else { -1.0 };
+        ((y[A + z] - y[z]) * sign, (y[A_RATE + z] - y[RATE + z]) * sign)
+    }
+
+    /// One step, or up to the next change of contact.
+    fn advance(&mut self) {
+        let left = real::<S>(FOLLOWED) - self.time;
+        let whole = left.re() > self.step;
+        let next =
+            if whole { times(&self.motion.1, &self.y) } else { times(&exponential(&self.motion.0, left), &self.y) };
+        let mut first: Option<(S, [S; N], usize)> = None;
+        for foot in 0..2 {
+            if self.lasts(foot, &next).0.re() >= -EDGE {
+                continue;
+            }
+            let (tau, y) = self.locate(foot, if whole { self.step } else { left.re() });
+            if first.as_ref().is_none_or(|(earliest, ..)| tau.re() < earliest.re()) {
+                first = Some((tau, y, foot));
+            }
+        }
+        let (tau, y, changed) = match first {
+            Some((tau, y, foot)) => (tau, y, Some(foot)),
+            None => (if whole { real(self.step) } else { left }, next, None),
+        };
+        if !self.closed[0] && !self.closed[1] {
+            self.air += tau;
+        }
+        self.time += tau;
+        self.y = y;
+        if let Some(foot) = changed {
+            self.change(foot);
+        }
+    }
+
+    /// When within the step the foot's contact changes, and the state there.
+    fn locate(&self, foot: usize, step: f64) -> (S, [S; N]) {
+        // a foot at the edge that goes the wrong way changes at once
+        if self.lasts(foot, &self.y).0.re() <= EDGE {
+            return (S::zero(), self.y);
+        }
+        let at = |tau: S| times(&exponential(&self.motion.0, tau), &self.y);
+        let (mut low, mut high) = (0.0, step);
+        let mut tau: S = real(0.5 * step);
+        for _ in 0..NEWTON {
+            let (value, rate) = self.lasts(foot, &at(tau));
+            if value.re() > 0.0 {
+                low = tau.re();
+            } else {
+                high = tau.re();
+            }
+            let newton = tau - value / rate;
+            tau = if newton.re() >= low && newton.re() <= high { newton } else { real(0.5 * (low + high)) };
+        }
+        (tau, at(tau))
+    }
+
+    fn change(&mut self, foot: usize) {
+        self.closed[foot] = !self.closed[foot];
+        self.changes[1 - foot] += 1;
+        let (x, z) = (2 * foot, 2 * foot + 1);
+        if self.closed[foot] {
+            // anchored where it lands: only differences of x count
+            self.y[x] = self.y[A + x];
+        } else if foot == 1 && self.y[RATE + z].re() > self.rebound.re() {
+            self.rebound = self.y[RATE + z];
+        }
+        self.take_contact();
+    }
+
+    fn finish(&self, corners: &CornerDynamics<S>) -> PlaneLanding<S> {
+        let old_impulse = self.y[IMPULSE + 1];
+        let beyond: [S; DIRECTIONS] = std::array::from_fn(|i| self.y[IMPULSE + i] - corners.plastic[i]);
+        let energy = |j: &[S; DIRECTIONS]| dot(j, &times(&corners.w, j));
+        PlaneLanding {
+            momentum: old_impulse * corners.width / corners.momentum + 1.0,
+            old_impulse,
+            deviation: energy(&beyond) / energy(&corners.plastic),
+            rebound: self.rebound,
+            air: self.air,
+            changes: [self.changes[0], self.changes[1]],
+            complete: self.time.re() >= FOLLOWED * (1.0 - 1e-12),
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests;

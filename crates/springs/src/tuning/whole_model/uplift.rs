@@ -1,0 +1,105 @@
+//! One uplift: the ground swings from one side to beyond the uplift limit of the other.
+//!
+//! ```text
+//!  ug''/(g tan alpha)  =  0 .. -0.8  in 0.1 s,   -0.8 .. 1.7  in t_r, as a half cosine,   1.7 for a moment more
+//! ```
+//!
+//! A stance of compliance x = ug''/w^2 (w: its swaying) has a velocity of ug'''/w^2 when it lifts, on which it swings, if it
+//! sways undamped, between nothing and twice as much, depending on w t_r. So there are many t_r: those of earthquakes
+//! and, as what is wanted does not depend on the size of a structure alone, some in units of 1/p.
+
+use std::{f64::consts::PI, ops::ControlFlow};
+
+use dynamics::{
+    effort::Effort,
+    fem::{Analysis, Control, HistoryOutcome, Start, View},
+    spring::{Chain, Springs},
+};
+use rocking::{
+    housner,
+    scalar::{GRAVITY, Scalar, real},
+    structure::Body,
+};
+
+/// Durations t_r (s).
+const RAMPS_S: [f64; 5] = [0.045, 0.065, 0.095, 0.14, 0.2];
+/// Durations t_r, in 1/p.
+const RAMPS_P: [f64; 3] = [0.06, 0.12, 0.24];
+/// Ground acceleration before and after, in g tan alpha.
+const SWING: (f64, f64) = (-0.8, 1.7);
+
+/// Ground acceleration from rest through an uplift, and Housner's displacement at its end.
+#[derive(Clone, Debug)]
+pub(super) struct UpliftRamp {
+    dt: f64,
+    accel: Vec<f64>,
+    /// Samples over which the velocity is taken.
+    last: usize,
+    /// Housner's u at both ends of these (m).
+    housner: (f64, f64),
+}
+
+/// The uplifts of a structure.
+pub(super) fn all(body: &Body<f64>) -> Vec<UpliftRamp> {
+    let p = body.p_squared().sqrt();
+    RAMPS_S.iter().copied().chain(RAMPS_P.iter().map(|t| t / p)).map(|tr| UpliftRamp::new(body, tr)).collect()
+}
+
+impl UpliftRamp {
+    fn new(body: &Body<f64>, tr: f64) -> Self {
+        let lift = GRAVITY * body.half_width / body.height;
+        let steps = 6;
+        let dt = tr / steps as f64;
+        let before = (0.1 / dt).ceil() as usize;
+        let after = ((0.08 / dt).ceil() as usize).max(4);
+        let mut accel: Vec<f64> = (0..=before).map(|i| SWING.0 * lift * i as f64 / before as f64).collect();
+        accel.extend((1..=steps).map(|i| {
+            let share = 0.5 * (1.0 - (PI * i as f64 / steps as f64).cos());
+            lift * (SWING.0 + (SWING.1 - SWING.0) * share)
+        }));
+        accel.extend(std::iter::repeat_n(lift * SWING.1, after));
+        let rocking = housner::solve(body, dt, &accel, &housner::RockingOptions::default());
+        let last = ((0.04 / dt).ceil() as usize).clamp(2, after);
+        let end = accel.len() - 1;
+        let u = |i: usize| rocking.theta.get(i).map_or(f64::NAN, |&theta| body.u(theta));
+        Self { dt, last, housner: (u(end - last), u(end)), accel }
+    }
+
+    /// The uplift error, in units of p R alpha / 4; infinite if the run did not finish.
+    pub(crate) fn uplift_error<S: Scalar>(
+        &self,
+        body: &Body<S>,
+        chains: &Springs<Chain<S>>,
+        (control, effort): (Control, &Effort),
+    ) -> S {
+        let end = self.accel.len() - 1;
+        let (mut from, mut to) = (S::zero(), S::zero());
+        let mut observer = |i: usize, view: &View<S>| {
+            if i == end - self.last {
+                from = view.x();
+            } else if i == end {
+                to = view.x();
+            }
+            ControlFlow::Continue(())
+        };
+        let case = Analysis {
+            body: *body,
+            springs: *chains,
+            start: Start::Settled,
+            dt: self.dt,
+            accel: &self.accel,
+            vertical: &[],
+            scale: S::one(),
+            control,
+        };
+        let finish = case.observe(&mut observer);
+        finish.spend(effort);
+        if finish.outcome != HistoryOutcome::Completed {
+            return real(f64::INFINITY);
+        }
+        let p = body.p_squared().sqrt();
+        let (from, to) = (from - self.housner.0, to - self.housner.1);
+        let ahead = (to - from) / (self.last as f64 * self.dt) + p * to;
+        ahead / (p * body.radius() * body.alpha() * 0.25)
+    }
+}

@@ -1,0 +1,72 @@
+//! Piers, springs and a record for these stories.
+
+use std::f64::consts::TAU;
+
+use dynamics::spring::{Chain, Springs};
+use frames::{
+    beam::BeamSection,
+    frame::{Cantilever, Footing, Frame, StraightMember},
+};
+use rocking::scalar::GRAVITY;
+use strong_motion::Record;
+
+/// m, m_b (kg), h_b (m), f (Hz), k_a (N/m) of a pier 12 m high, 4 m wide, damped by 2 % across and along its column.
+pub struct Numbers {
+    pub mass: f64,
+    pub footing: f64,
+    pub centre: f64,
+    pub hz: f64,
+    pub axial: f64,
+}
+
+/// The pier of reference/flexible_pier.py with `--chord`: one element hinged at the mass, kb = 3EI/L = (k + m g/L) L^2.
+pub fn pier(numbers: &Numbers) -> Cantilever {
+    let &Numbers { mass, footing, centre, hz, axial } = numbers;
+    let (height, omega) = (12.0, TAU * hz);
+    let length = height - 2.0 * centre;
+    let bending = (mass * omega * omega + mass * GRAVITY / length) * length.powi(3) / 3.0;
+    let section = BeamSection {
+        axial: axial * length,
+        bending,
+        shear: f64::INFINITY,
+        axial_damping: 2.0 * 0.02 * (axial * mass).sqrt() * length,
+        bending_damping: 2.0 * 0.02 * mass * omega * length.powi(3) / 3.0,
+        line_mass: 0.0,
+    };
+    Cantilever {
+        mass,
+        inertia: None,
+        height,
+        footing: Footing::block(4.0, footing, centre, 2.0 * centre),
+        column: StraightMember { section, elements: 1 },
+        consistent: false,
+    }
+}
+
+pub const MODERATE: Numbers = Numbers { mass: 6e5, footing: 1.2e5, centre: 0.75, hz: 2.0, axial: 8e9 };
+
+/// Springs scaled by what lands at each corner: K 0.05, C_u 0.60, mu_u 0.66; horizontally K 1, C 2, mu 0.3 and `ratio` times the frequency (Hz).
+pub fn springs(frame: &Frame, hz: f64, ratio: f64) -> Vec<Springs<Chain<f64>>> {
+    let chain = |m: f64, hz: f64, k: f64, c: f64, mu: f64| {
+        let omega = TAU * hz;
+        let k1 = m * omega * omega;
+        Chain { k1, k2: k * k1, m2: mu * m, c: c * m * omega }
+    };
+    (0..frame.places().len())
+        .map(|i| {
+            let [x, z] = frame.effective_mass(i);
+            Springs { vertical: chain(z, hz, 0.05, 0.60, 0.66), horizontal: chain(x, ratio * hz, 1.0, 2.0, 0.3) }
+        })
+        .collect()
+}
+
+/// The first samples of El Centro (PEER I-ELC180, dt 0.01 s) (m/s2).
+pub fn el_centro(samples: usize) -> Vec<f64> {
+    Record::el_centro().accel[..samples].to_vec()
+}
+
+/// The NRMSE of histories that must have one length.
+pub fn nrmse(a: &[f64], b: &[f64]) -> f64 {
+    assert_eq!(a.len(), b.len());
+    rocking::motion::nrmse(a, b)
+}

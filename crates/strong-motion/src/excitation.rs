@@ -1,0 +1,146 @@
+//! The ground motion of a case: a record, its scale, and how much of it is used.
+
+use crate::{ReadOptions, Source, VerticalFrom};
+use crate::{Record, RecordError};
+use files::message::printable;
+
+/// A record as it was read, and what is made of it.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Excitation {
+    /// The whole record, unscaled.
+    pub record: Record,
+    /// Factor on its acceleration.
+    pub scale: f64,
+    /// Length asked for (s); the whole record unless given.
+    pub duration_s: Option<f64>,
+}
+
+/// A vertical component that is left out, beside the horizontal one: peaks of the whole file, scaled.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct VerticalLeftOut {
+    pub peak_g: f64,
+    pub horizontal_g: f64,
+}
+
+impl Excitation {
+    /// A record as it is.
+    pub fn whole(record: Record) -> Self {
+        Self { record, scale: 1.0, duration_s: None }
+    }
+
+    /// The whole record, scaled.
+    ///
+    /// # Errors
+    /// The scale is not finite, or takes the peak above 50 g.
+    pub fn scaled(&self) -> Result<Record, RecordError> {
+        if self.scale == 1.0 { Ok(self.record.clone()) } else { self.record.scaled(self.scale) }
+    }
+
+    /// Length used (s): the one asked for, at most the whole record, at least one time step.
+    pub fn duration(&self) -> f64 {
+        let whole = self.record.duration();
+        self.duration_s.map_or(whole, |asked| asked.min(whole)).max(self.record.dt)
+    }
+
+    /// The part used, scaled.
+    ///
+    /// # Errors
+    /// A scale that is not finite, or takes the peak above 50 g.
+    pub fn used(&self) -> Result<Record, RecordError> {
+        Ok(self.scaled()?.truncated(self.duration()))
+    }
+
+    /// The vertical component that the record's file has and that is not used; `None` if there is none, or if it is used.
+    pub fn vertical_left_out(&self) -> Option<VerticalLeftOut> {
+        let Source::File { vertical_left_out_g: Some(peak_g), .. } = self.record.source else { return None };
+        let scale = self.scale.abs();
+        let left_out = VerticalLeftOut { peak_g: scale * peak_g, horizontal_g: scale * self.record.pga_g() };
+        self.record.vertical.is_none().then_some(left_out)
+    }
+
+    /// The same ground motion with the vertical component of the record's file, which is read again; `None` if that is not left
+    /// out.
+    ///
+    /// # Errors
+    /// The file cannot be read any more, or has several vertical components.
+    pub fn with_vertical_left_out(&self) -> Option<Result<Self, RecordError>> {
+        self.vertical_left_out()?;
+        let Source::File { path, units, component, baseline, .. } = &self.record.source else { return None };
+        let options = ReadOptions {
+            dt: Some(self.record.dt),
+            units: Some(*units),
+            component: component.clone(),
+            baseline: *baseline,
+            vertical: Some(VerticalFrom::Auto),
+        };
+        Some(Record::read(path, &options).map(|record| Self { record, ..self.clone() }))
+    }
+
+    /// One line: which record, from where, its scale, how much of it, and the peak of that part.
+    pub fn line(&self) -> String {
+        let whole = &self.record;
+        let used = whole.truncated(self.duration());
+        let from = match &whole.source {
+            crate::Source::File { path, units, .. } => {
+                format!("{}, in {units}", printable(&path.display().to_string()))
+            }
+            crate::Source::Embedded => "embedded".into(),
+            crate::Source::Numbers | crate::Source::Synthetic | crate::Source::Earthquake => "from no file".into(),
+        };
+        let part = if used.len() < whole.len() {
+            format!("first {} s of {} s", seconds(used.duration()), seconds(whole.duration()))
+        } else {
+            format!("all {} s", seconds(whole.duration()))
+        };
+        let vertical = used.vertical.as_ref().map_or_else(String::new, |up| {
+            format!("; vertical {}, peak {:.4} g", up.name, up.peak_g() * self.scale.abs())
+        });
+        format!(
+            "record {} ({from}), scale {}, {part}: {} samples of {} s, PGA {:.4} g at {} s{vertical}",
+            whole.name,
+            self.scale,
+            used.len(),
+            whole.dt,
+            used.pga_g() * self.scale.abs(),
+            seconds(used.pga_time())
+        )
+    }
+}
+
+/// Seconds without the rounding of n dt.
+fn seconds(t: f64) -> f64 {
+    (t * 1e6).round() / 1e6
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn ramp() -> Record {
+        Record::new("ramp", 0.1, (0..=40).map(|i| 0.05 * f64::from(i)).collect()).unwrap()
+    }
+
+    #[test]
+    fn a_record_is_used_whole_and_as_it_is_unless_asked_otherwise() {
+        let all = Excitation::whole(ramp());
+        assert_eq!((all.used().unwrap(), all.duration()), (ramp(), 4.0));
+        let part = Excitation { scale: -2.0, duration_s: Some(1.0), ..all.clone() };
+        assert_eq!(part.used().unwrap(), ramp().truncated(1.0).scaled(-2.0).unwrap());
+        assert_eq!(Excitation { duration_s: Some(9.0), ..all.clone() }.used().unwrap(), ramp());
+        assert!(Excitation { scale: f64::NAN, ..all }.used().is_err());
+    }
+
+    #[test]
+    fn the_line_tells_a_cut_and_the_peak_of_the_part_used() {
+        let all = Excitation::whole(ramp());
+        assert_eq!(
+            all.line(),
+            "record ramp (from no file), scale 1, all 4 s: 41 samples of 0.1 s, PGA 0.2039 g at 4 s"
+        );
+        let el_centro = Excitation { duration_s: Some(1.5), scale: 2.0, ..Excitation::whole(Record::el_centro()) };
+        let line = el_centro.line();
+        assert!(line.starts_with("record IELC180 (embedded), scale 2, first 1.5 s of 39.94 s: 151 samples"), "{line}");
+        let pga = el_centro.used().unwrap().pga_g();
+        assert!(line.contains(&format!("PGA {pga:.4} g at ")) && pga < 2.0 * Record::el_centro().pga_g(), "{line}");
+    }
+}

@@ -1,0 +1,70 @@
+//! What a reader says aloud of a record that it accepts.
+
+use std::fmt;
+
+/// A remark on a record: one line.
+#[derive(Clone, Debug, PartialEq)]
+#[allow(missing_docs)] // messages say what variants and their fields are
+pub enum Notice {
+    /// The file has several components and none was asked for.
+    Taken { file: String, taken: String, pga_g: f64, others: String },
+    /// Bare values in several columns are one series.
+    RowByRow { file: String, columns: usize, samples: usize },
+    /// The file has vertical components alone.
+    OnlyVertical { file: String, component: String },
+    /// The mean is a large share of the peak.
+    Offset { file: String, component: String, share: f64 },
+    /// A peak that few earthquakes reach.
+    Strong { file: String, component: String, pga_g: f64 },
+    /// A peak below what an instrument in a city resolves.
+    Weak { file: String, component: String, pga_g: f64 },
+}
+
+impl Notice {
+    /// A mean above this share of the peak is said: no ground moves on with such an acceleration.
+    pub(crate) const OFFSET_SHARE: f64 = 0.1;
+    /// PGA above this is said (g): no earthquake has been recorded with it.
+    pub(crate) const STRONG_G: f64 = 5.0;
+    /// PGA below this is said (g).
+    pub(crate) const WEAK_G: f64 = 1e-4;
+}
+
+/// "component N28W", or the record where its file names none.
+fn who(component: &str) -> String {
+    if component.is_empty() { "the record".to_owned() } else { format!("component {component}") }
+}
+
+impl fmt::Display for Notice {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match self {
+            Self::Taken { file, taken, pga_g, others } => write!(
+                f,
+                "{file}: component {taken} is taken, the stronger horizontal one ({pga_g:.4} g); also there: {others}; \
+                 choose with --component"
+            ),
+            Self::RowByRow { file, columns, samples } => write!(
+                f,
+                "{file}: {columns} columns without times are read row by row, as one series of {samples} samples; if each \
+                 column is a component, choose one with --column"
+            ),
+            Self::OnlyVertical { file, component } => {
+                write!(
+                    f,
+                    "{file}: component {component} is taken as the horizontal motion; the file has no horizontal one"
+                )
+            }
+            Self::Offset { file, component, share } => write!(
+                f,
+                "{file}: {} has an offset of {:.0} % of its peak; --baseline removes it",
+                who(component),
+                share * 100.0
+            ),
+            Self::Strong { file, component, pga_g } => {
+                write!(f, "{file}: {} has a peak of {pga_g:.3} g, above 5 g; check the unit", who(component))
+            }
+            Self::Weak { file, component, pga_g } => {
+                write!(f, "{file}: {} has a peak of {pga_g:.2e} g, below 1e-4 g; check the unit", who(component))
+            }
+        }
+    }
+}

@@ -1,0 +1,205 @@
+//! The vertical component that goes with a record: from the same file, or from another one.
+
+use std::{
+    fmt,
+    path::{Path, PathBuf},
+    str::FromStr,
+    sync::Arc,
+};
+
+use serde::{Deserialize, Serialize};
+
+use super::text::quote;
+use super::{Component, Direction, ReadOptions, Record, RecordError, Recording, Source};
+use crate::GRAVITY;
+
+/// Where to take the vertical component from: `auto`, or a file.
+#[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(from = "PathBuf", into = "PathBuf")]
+pub enum VerticalFrom {
+    /// The record's own file.
+    Auto,
+    /// This file.
+    File(PathBuf),
+}
+
+impl From<PathBuf> for VerticalFrom {
+    fn from(path: PathBuf) -> Self {
+        if path.as_os_str() == "auto" { Self::Auto } else { Self::File(path) }
+    }
+}
+
+impl From<VerticalFrom> for PathBuf {
+    fn from(from: VerticalFrom) -> Self {
+        match from {
+            VerticalFrom::Auto => "auto".into(),
+            VerticalFrom::File(path) => path,
+        }
+    }
+}
+
+impl FromStr for VerticalFrom {
+    type Err = std::convert::Infallible;
+
+    fn from_str(text: &str) -> Result<Self, Self::Err> {
+        Ok(PathBuf::from(text).into())
+    }
+}
+
+impl VerticalFrom {
+    /// The same, a relative path starting from a folder.
+    #[must_use]
+    pub fn within(self, folder: &Path) -> Self {
+        match self {
+            Self::Auto => Self::Auto,
+            Self::File(path) => Self::File(folder.join(path)),
+        }
+    }
+}
+
+/// Vertical ground acceleration at a record's times.
+#[derive(Clone, Debug)]
+pub struct Vertical {
+    /// The file's name without its ending, and the component's where the file has several.
+    pub name: String,
+    /// Positive upwards (m/s2).
+    pub accel: Arc<[f64]>,
+    /// Where it comes from, as of a [`Record`].
+    pub source: Source,
+}
+
+impl PartialEq for Vertical {
+    fn eq(&self, other: &Self) -> bool {
+        (&self.name, &self.accel) == (&other.name, &other.accel)
+    }
+}
+
+impl Vertical {
+    /// Peak acceleration (g).
+    pub fn peak_g(&self) -> f64 {
+        self.accel.iter().fold(0.0, |peak: f64, a| peak.max(a.abs())) / GRAVITY
+    }
+
+    /// As a record of its own, with the time step given (s).
+    pub fn as_record(&self, dt: f64) -> Record {
+        let (name, source) = (self.name.clone(), self.source.clone());
+        Record { name, dt, accel: self.accel.to_vec(), vertical: None, source }
+    }
+
+    /// The component's numbers, turned upwards where the file counts them downwards.
+    fn of(component: Component) -> Record {
+        let record = component.record;
+        let down = component.name.is_some_and(|name| name.trim().to_ascii_uppercase().starts_with("DOWN"));
+        if down { Record { accel: record.accel.iter().map(|a| -a).collect(), ..record } } else { record }
+    }
+
+    /// The only component of a file that may be vertical, or the one asked for, as a record of its own.
+    ///
+    /// # Errors
+    /// The file is no record, or has no vertical component, or several.
+    pub fn read(path: &Path, options: &ReadOptions) -> Result<Record, RecordError> {
+        let options = ReadOptions { vertical: None, ..options.clone() };
+        let mut recording = Recording::read(path, &options)?;
+        let which = match &recording.components[..] {
+            _ if options.component.is_some() => recording.taken,
+            [only] if matches!(only.direction, Direction::Vertical | Direction::Unknown) => 0,
+            _ => recording.only_vertical()?,
+        };
+        Ok(Self::of(recording.components.swap_remove(which)))
+    }
+}
+
+impl Recording {
+    /// Index of the only vertical component.
+    ///
+    /// # Errors
+    /// There is none, or several.
+    fn only_vertical(&self) -> Result<usize, RecordError> {
+        let mut all = (0..self.components.len()).filter(|&i| self.components[i].direction == Direction::Vertical);
+        match (all.next(), all.next()) {
+            (Some(only), None) => Ok(only),
+            (first, _) => Err(RecordError::NoVertical {
+                file: self.file.clone(),
+                found: if first.is_some() { "several vertical components" } else { "no vertical component" },
+            }),
+        }
+    }
+
+    /// The vertical component asked for, checked against the one that a run takes.
+    pub(super) fn check_vertical(&self, options: &ReadOptions) -> Result<Option<Record>, RecordError> {
+        let vertical = match &options.vertical {
+            None => return Ok(None),
+            Some(VerticalFrom::Auto) => {
+                let which = self.only_vertical()?;
+                if which == self.taken {
+                    return Err(RecordError::NoVertical {
+                        file: self.file.clone(),
+                        found: "one vertical component, which is taken as the horizontal motion,",
+                    });
+                }
+                Self::named(self.components[which].clone())
+            }
+            Some(VerticalFrom::File(path)) => {
+                Vertical::read(path, &ReadOptions { component: None, ..options.clone() })?
+            }
+        };
+        self.component().record.agrees(&vertical)?;
+        Ok(Some(vertical))
+    }
+
+    /// The component of the record's own file, its source one that finds it again.
+    fn named(component: Component) -> Record {
+        let mut record = Vertical::of(component);
+        if let Source::File { component: name @ None, .. } = &mut record.source {
+            *name = Some("up".into());
+        }
+        record
+    }
+}
+
+/// [`Vertical::as_record`], for the Python package.
+pub fn as_record(vertical: &Vertical, dt: f64) -> Record {
+    vertical.as_record(dt)
+}
+
+impl Record {
+    /// Whether another record has its times.
+    fn agrees(&self, other: &Self) -> Result<(), RecordError> {
+        if (self.dt - other.dt).abs() <= 1e-9 * self.dt && self.len() == other.len() {
+            return Ok(());
+        }
+        Err(RecordError::VerticalDiffers {
+            vertical: quote(&other.name),
+            samples: other.len(),
+            dt: other.dt,
+            record_samples: self.len(),
+            record_dt: self.dt,
+        })
+    }
+
+    /// The record with a vertical component, positive upwards.
+    ///
+    /// # Errors
+    /// It has another time step or another number of samples.
+    pub fn with_vertical(self, vertical: Self) -> Result<Self, RecordError> {
+        self.agrees(&vertical)?;
+        let Self { name, accel, source, .. } = vertical;
+        Ok(Self { vertical: Some(Vertical { name, accel: accel.into(), source }), ..self })
+    }
+
+    /// Vertical acceleration at the record's times (m/s2), positive upwards; empty if it has none.
+    pub fn up(&self) -> &[f64] {
+        self.vertical.as_ref().map_or(&[], |vertical| &vertical.accel)
+    }
+
+    /// The same as `housner::RockingOptions` take it.
+    pub fn vertical_accel(&self) -> Option<Arc<[f64]>> {
+        self.vertical.as_ref().map(|vertical| Arc::clone(&vertical.accel))
+    }
+}
+
+impl fmt::Display for Vertical {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        write!(f, "{} ({:.4} g)", quote(&self.name), self.peak_g())
+    }
+}

@@ -1,0 +1,40 @@
+//! Why a sweep ended without its result.
+
+use thiserror::Error;
+
+use rocking::synthetic::LikeError;
+use springs::{case::CaseError, tuning::job::JobError};
+use strong_motion::RecordError;
+
+/// What is wrong with a sweep, where, and what to do.
+#[derive(Debug, Error)]
+pub enum SweepError {
+    #[error("{path}: cannot be read ({source}); check the name of the sweep file")]
+    Read { path: String, source: std::io::Error },
+    #[error(transparent)]
+    Case(#[from] CaseError),
+    #[error("{path}, line {line}: {message}")]
+    Spec { path: String, line: usize, message: String },
+    #[error(transparent)]
+    Record(#[from] RecordError),
+    #[error(transparent)]
+    Like(#[from] LikeError),
+    #[error("{record}: has no motion; take the record out of the sweep")]
+    Still { record: String },
+    #[error("springs of {structure}: {source}")]
+    Springs { structure: String, source: JobError },
+    #[error(
+        "{folder}: holds another sweep ({there}, this one is {here}); name another folder with --out, or remove it"
+    )]
+    OtherSweep { folder: String, there: String, here: String },
+    #[error("{path}: {source}; check the folder, its rights and the room on the disk")]
+    File { path: String, source: std::io::Error },
+    #[error("{path}: {reason}; remove the file and run the sweep again, which computes what is missing")]
+    Damaged { path: String, reason: String },
+    #[error(
+        "{folder}: {missing} of {parts} parts are missing ({first}){unfit}; run the same tune sweep again, which computes these alone"
+    )]
+    Missing { folder: String, missing: usize, parts: usize, first: String, unfit: String },
+    #[error("{folder}: no sweep there (no manifest.json); give the folder that tune sweep --out was given")]
+    NoSweep { folder: String },
+}

@@ -1,0 +1,400 @@
+//! Fragility of a sweep: lognormal fits of rocking, of exceeding given theta/alpha, and of overturning, on four measures of intensity, for
+//! each structure and for all of them together.
+//!
+//! One pass counts outcomes in bins of 0.1 % of each measure, the fits are made from these, and a second pass sums their scores by
+//! record for the bounds (`lognormal`). Histories that failed, or whose pivot let go of the ground, are left out and counted.
+
+use std::collections::HashMap;
+
+use rayon::prelude::*;
+
+use super::{
+    SweepError,
+    lognormal::{Group, LognormalFit, Probit, SymmetricMatrix, quantile, score},
+    parts::SweepParts,
+    plan::Plan,
+    reduce::{self, MODELS, Seen},
+    table::{Column, SweepTable},
+};
+
+/// What is asked whether it is exceeded.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum LimitState {
+    Rocking,
+    /// |theta|/alpha.
+    Ratio(f64),
+    Overturning,
+}
+
+impl LimitState {
+    /// All that a plan asks for.
+    pub fn all(plan: &Plan) -> Vec<Self> {
+        let ratios = plan.ratios.iter().map(|ratio| Self::Ratio(*ratio));
+        std::iter::once(Self::Rocking).chain(ratios).chain([Self::Overturning]).collect()
+    }
+
+    pub fn name(self) -> String {
+        match self {
+            Self::Rocking => "rocking".into(),
+            Self::Ratio(ratio) => format!("theta/alpha > {ratio}"),
+            Self::Overturning => "overturning".into(),
+        }
+    }
+}
+
+/// The measures of intensity, and their units.
+pub const MEASURES: [(&str, &str); 4] =
+    [("PGA", "g"), ("PGV", "m/s"), ("PGA/(g tan alpha)", "-"), ("p PGV/(g tan alpha)", "-")];
+
+/// Width of a bin of ln x.
+const BIN: f64 = 1e-3;
+
+#[derive(Clone, Debug)]
+struct Bin {
+    n: u64,
+    sum_ln: f64,
+    k: Vec<u64>,
+}
+
+/// One structure, or all of them, by one model.
+#[derive(Clone, Debug)]
+pub struct FragilityGroup {
+    /// Index into [`MODELS`].
+    pub model: usize,
+    /// None: all structures together.
+    pub subject: Option<usize>,
+    pub restitution: usize,
+    bins: [HashMap<i32, Bin>; 4],
+    pub excluded: u64,
+    /// The last record that counts, and how many do: one whose histories are all left out says nothing.
+    last: Option<usize>,
+    pub records: usize,
+}
+
+/// A fit with all that the tables say of it.
+#[derive(Clone, Debug)]
+pub struct FragilityRow {
+    pub member: usize,
+    pub state: LimitState,
+    /// Index into [`MEASURES`].
+    pub measure: usize,
+    pub n: u64,
+    pub exceeded: u64,
+    /// The least and the greatest intensity that was computed.
+    pub range: (f64, f64),
+    pub fit: LognormalFit,
+    /// Of (a, b).
+    pub covariance: Option<SymmetricMatrix>,
+}
+
+/// The fragility of a sweep.
+#[derive(Clone, Debug)]
+pub struct Fragility {
+    pub members: Vec<FragilityGroup>,
+    pub rows: Vec<FragilityRow>,
+    pub confidence: f64,
+}
+
+fn measures(plan: &Plan, seen: &Seen) -> [f64; 4] {
+    let subject = &plan.subjects[seen.cell.subject];
+    let uplift = subject.uplift();
+    [seen.pga / rocking::scalar::GRAVITY, seen.pgv, seen.pga / uplift, subject.p * seen.pgv / uplift]
+}
+
+fn bin(x: f64) -> i32 {
+    (x.ln() / BIN).floor() as i32
+}
+
+fn exceeds(state: LimitState, known: &reduce::KnownAnswer) -> bool {
+    match state {
+        LimitState::Rocking => known.peak > 0.0,
+        LimitState::Ratio(ratio) => known.overturned || known.peak > ratio,
+        LimitState::Overturning => known.overturned,
+    }
+}
+
+/// Where the members of a model, structure and restitution stand.
+struct GroupPlaces<'a> {
+    plan: &'a Plan,
+    models: Vec<usize>,
+    /// Structures, and one place more for all of them if there are several.
+    subjects: usize,
+}
+
+impl<'a> GroupPlaces<'a> {
+    fn new(plan: &'a Plan) -> Self {
+        let n = plan.subjects.len();
+        Self { plan, models: reduce::models(plan), subjects: if n > 1 { n + 1 } else { n } }
+    }
+
+    fn members(&self) -> Vec<FragilityGroup> {
+        let mut members = Vec::new();
+        for &model in &self.models {
+            for subject in 0..self.subjects {
+                for restitution in 0..self.plan.restitution_count() {
+                    let subject = (subject < self.plan.subjects.len()).then_some(subject);
+                    let (bins, excluded, records) = (Default::default(), 0, 0);
+                    members.push(FragilityGroup { model, subject, restitution, bins, excluded, last: None, records });
+                }
+            }
+        }
+        members
+    }
+
+    /// The members that a history counts in, each with its model.
+    fn of(&self, seen: &Seen) -> impl Iterator<Item = (usize, usize)> {
+        let (subjects, restitutions) = (self.subjects, self.plan.restitution_count());
+        let (subject, restitution) = (seen.cell.subject, seen.cell.restitution);
+        let pooled = (subjects > self.plan.subjects.len()).then_some(subjects - 1);
+        self.models.clone().into_iter().enumerate().flat_map(move |(place, model)| {
+            let at = move |subject| ((place * subjects + subject) * restitutions + restitution, model);
+            [Some(subject), pooled].into_iter().flatten().map(at)
+        })
+    }
+}
+
+impl Fragility {
+    /// Of the parts that are there.
+    ///
+    /// # Errors
+    /// A part that cannot be read.
+    pub fn new(parts: &SweepParts) -> Result<Self, SweepError> {
+        let plan = parts.plan;
+        let (places, states) = (GroupPlaces::new(plan), LimitState::all(plan));
+        let mut members = places.members();
+        reduce::each(parts, |seen| {
+            let xs = measures(plan, seen);
+            for (place, model) in places.of(seen) {
+                let member = &mut members[place];
+                let Some(known) = &seen.answers[model] else {
+                    member.excluded += 1;
+                    continue;
+                };
+                if member.last != Some(seen.cell.motion) {
+                    member.last = Some(seen.cell.motion);
+                    member.records += 1;
+                }
+                for (bins, x) in member.bins.iter_mut().zip(xs) {
+                    let bin = bins.entry(bin(x)).or_insert_with(|| Bin { n: 0, sum_ln: 0.0, k: vec![0; states.len()] });
+                    bin.n += 1;
+                    bin.sum_ln += x.ln();
+                    for (k, state) in bin.k.iter_mut().zip(&states) {
+                        *k += u64::from(exceeds(*state, known));
+                    }
+                }
+            }
+        })?;
+        let mut rows = fits(&members, &states);
+        bounds(parts, &places, &members, &states, &mut rows)?;
+        Ok(Self { members, rows, confidence: plan.confidence })
+    }
+
+    /// Half the width of the bounds in standard deviations.
+    pub fn half_width(&self) -> f64 {
+        quantile(0.5 + 0.5 * self.confidence)
+    }
+
+    /// Shares observed for a row: geometric means of the intensity and shares of about equally many histories each.
+    pub fn observed(&self, row: &FragilityRow, states: &[LimitState], points: usize) -> Vec<(f64, f64)> {
+        let Some(state) = states.iter().position(|state| *state == row.state) else { return Vec::new() };
+        let sorted = sorted(&self.members[row.member].bins[row.measure]);
+        let wanted = (row.n / points.max(1) as u64).max(1);
+        let (mut found, mut n, mut k, mut sum) = (Vec::new(), 0, 0, 0.0);
+        for bin in sorted {
+            (n, k, sum) = (n + bin.n, k + bin.k[state], sum + bin.sum_ln);
+            if n >= wanted {
+                found.push(((sum / n as f64).exp(), k as f64 / n as f64));
+                (n, k, sum) = (0, 0, 0.0);
+            }
+        }
+        found
+    }
+
+    /// `fragility.csv`.
+    pub fn table(&self, plan: &Plan) -> SweepTable {
+        let member = |row: &FragilityRow| &self.members[row.member];
+        let text =
+            |of: &dyn Fn(&FragilityRow) -> String| Column::Text(self.rows.iter().map(|row| of(row).into()).collect());
+        let count =
+            |of: &dyn Fn(&FragilityRow) -> u64| Column::Count(self.rows.iter().map(|row| of(row) as i64).collect());
+        let real = |of: &dyn Fn(&FragilityRow) -> Option<f64>| Column::Real(self.rows.iter().map(of).collect());
+        let bounds =
+            |of: fn(&ConfidenceBounds) -> f64| real(&|row| row.bounds(self.half_width()).map(|bounds| of(&bounds)));
+        let probit = |of: fn(&Probit) -> f64| real(&|row| row.probit().map(of));
+        let restitution = |row: &FragilityRow| {
+            let member = member(row);
+            match (member.subject, &plan.restitutions) {
+                (_, Some(all)) => Some(all[member.restitution]),
+                (Some(subject), None) => Some(plan.subjects[subject].restitution),
+                (None, None) => None,
+            }
+        };
+        SweepTable {
+            columns: vec![
+                ("model", text(&|row| MODELS[member(row).model].into())),
+                ("structure", text(&|row| subject_name(plan, member(row).subject))),
+                ("restitution", real(&restitution)),
+                ("state", text(&|row| row.state.name())),
+                ("measure", text(&|row| MEASURES[row.measure].0.into())),
+                ("unit", text(&|row| MEASURES[row.measure].1.into())),
+                ("histories", count(&|row| row.n)),
+                ("exceeded", count(&|row| row.exceeded)),
+                ("left_out", count(&|row| member(row).excluded)),
+                ("records", count(&|row| member(row).records as u64)),
+                ("fit", text(&|row| row.said().into())),
+                ("median", real(&|row| row.median())),
+                ("median_low", bounds(|bounds| bounds.median.0)),
+                ("median_high", bounds(|bounds| bounds.median.1)),
+                ("extrapolated", Column::Flag(self.rows.iter().map(|row| Some(row.is_extrapolated())).collect())),
+                ("beta", probit(Probit::beta)),
+                ("beta_low", bounds(|bounds| bounds.beta.0)),
+                ("beta_high", bounds(|bounds| bounds.beta.1)),
+                ("log_likelihood", probit(|fit| fit.log_likelihood)),
+            ],
+        }
+    }
+}
+
+/// A structure's name, or that it is all of them.
+pub(crate) fn subject_name(plan: &Plan, subject: Option<usize>) -> String {
+    subject.map_or("all structures".into(), |subject| plan.subjects[subject].name.clone())
+}
+
+/// Confidence bounds.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(crate) struct ConfidenceBounds {
+    pub median: (f64, f64),
+    pub beta: (f64, f64),
+}
+
+impl FragilityRow {
+    pub fn probit(&self) -> Option<&Probit> {
+        match &self.fit {
+            LognormalFit::Fitted(fit) => Some(fit),
+            _ => None,
+        }
+    }
+
+    /// Whether the median lies outside of what was computed.
+    pub(crate) fn is_extrapolated(&self) -> bool {
+        self.median().is_some_and(|median| !(self.range.0..=self.range.1).contains(&median))
+    }
+
+    /// The median: of a fit, or between what exceeds and what does not.
+    pub(crate) fn median(&self) -> Option<f64> {
+        match &self.fit {
+            LognormalFit::Fitted(fit) => Some(fit.median()),
+            LognormalFit::Separated { below, above } => Some((below * above).sqrt()),
+            _ => None,
+        }
+    }
+
+    /// Bounds at so many standard deviations, of the logarithms.
+    pub(crate) fn bounds(&self, half_width: f64) -> Option<ConfidenceBounds> {
+        let (fit, covariance) = (self.probit()?, self.covariance?);
+        let (ln_median, beta) = fit.deviations(covariance);
+        let around = |x: f64, relative: f64| {
+            let factor = (half_width * relative).exp();
+            (x / factor, x * factor)
+        };
+        Some(ConfidenceBounds { median: around(fit.median(), ln_median), beta: around(fit.beta(), beta / fit.beta()) })
+    }
+
+    pub(crate) fn said(&self) -> &'static str {
+        match self.fit {
+            LognormalFit::Fitted(_) => "fitted",
+            LognormalFit::NoneExceeded => "none exceeds",
+            LognormalFit::AllExceeded => "all exceed",
+            LognormalFit::Separated { .. } => "separated",
+            LognormalFit::Undetermined => "undetermined",
+            LognormalFit::Falling => "falling",
+        }
+    }
+}
+
+fn sorted(bins: &HashMap<i32, Bin>) -> Vec<&Bin> {
+    let mut sorted: Vec<(&i32, &Bin)> = bins.iter().collect();
+    sorted.sort_by_key(|(bin, _)| **bin);
+    sorted.into_iter().map(|(_, bin)| bin).collect()
+}
+
+fn fits(members: &[FragilityGroup], states: &[LimitState]) -> Vec<FragilityRow> {
+    let all: Vec<(usize, usize)> =
+        (0..members.len()).flat_map(|place| (0..MEASURES.len()).map(move |measure| (place, measure))).collect();
+    let of = |(place, measure): (usize, usize)| -> Vec<FragilityRow> {
+        let bins = sorted(&members[place].bins[measure]);
+        let ends = (bins.first(), bins.last());
+        let mean = |bin: Option<&&Bin>| bin.map_or(1.0, |bin| (bin.sum_ln / bin.n as f64).exp());
+        let range = (mean(ends.0), mean(ends.1));
+        let fitted = |(s, state): (usize, &LimitState)| {
+            let group = |bin: &&Bin| Group { ln_x: bin.sum_ln / bin.n as f64, n: bin.n, k: bin.k[s] };
+            let groups: Vec<Group> = bins.iter().map(group).collect();
+            let (n, exceeded) = groups.iter().fold((0, 0), |(n, k), group| (n + group.n, k + group.k));
+            let fit = if n == 0 { LognormalFit::NoneExceeded } else { LognormalFit::new(&groups) };
+            FragilityRow { member: place, state: *state, measure, n, exceeded, range, fit, covariance: None }
+        };
+        states.iter().enumerate().map(fitted).collect()
+    };
+    let rows: Vec<Vec<FragilityRow>> = all.into_par_iter().with_max_len(1).map(of).collect();
+    rows.into_iter().flatten().collect()
+}
+
+/// The second pass: sums of u u^T over records, whose histories come one after the other.
+fn bounds(
+    parts: &SweepParts,
+    places: &GroupPlaces,
+    members: &[FragilityGroup],
+    states: &[LimitState],
+    rows: &mut [FragilityRow],
+) -> Result<(), SweepError> {
+    let fitted: Vec<Option<Probit>> = rows.iter().map(|row| row.probit().copied()).collect();
+    // of each fit and bin: the scores of an outcome that exceeds and of one that does not, times 1 and ln x
+    let table: Vec<HashMap<i32, Vec<[f64; 3]>>> = (0..members.len() * MEASURES.len())
+        .map(|at| {
+            let fits = &fitted[at * states.len()..(at + 1) * states.len()];
+            let bins = &members[at / MEASURES.len()].bins[at % MEASURES.len()];
+            let scores = |bin: &Bin| -> Vec<[f64; 3]> {
+                let ln_x = bin.sum_ln / bin.n as f64;
+                let of = |fit: &Option<Probit>| {
+                    fit.map_or([0.0; 3], |fit| {
+                        let z = fit.a + fit.b * ln_x;
+                        [score(z, true), score(z, false), ln_x]
+                    })
+                };
+                fits.iter().map(of).collect()
+            };
+            bins.iter().map(|(key, bin)| (*key, scores(bin))).collect()
+        })
+        .collect();
+    let (mut sums, mut current) = (vec![[0.0; 3]; rows.len()], vec![[0.0; 2]; rows.len()]);
+    let flush = |current: &mut [[f64; 2]], sums: &mut [SymmetricMatrix]| {
+        for (u, sum) in current.iter_mut().zip(sums) {
+            *sum = [sum[0] + u[0] * u[0], sum[1] + u[0] * u[1], sum[2] + u[1] * u[1]];
+            *u = [0.0; 2];
+        }
+    };
+    let mut motion = None;
+    reduce::each(parts, |seen| {
+        if motion.replace(seen.cell.motion) != Some(seen.cell.motion) {
+            flush(&mut current, &mut sums);
+        }
+        let xs = measures(places.plan, seen);
+        for (place, model) in places.of(seen) {
+            let Some(known) = &seen.answers[model] else { continue };
+            for (measure, x) in xs.iter().enumerate() {
+                let at = place * MEASURES.len() + measure;
+                let Some(scores) = table[at].get(&bin(*x)) else { continue };
+                let current = &mut current[at * states.len()..(at + 1) * states.len()];
+                for ((u, state), [over, under, ln_x]) in current.iter_mut().zip(states).zip(scores) {
+                    let score = if exceeds(*state, known) { over } else { under };
+                    *u = [u[0] + score, u[1] + score * ln_x];
+                }
+            }
+        }
+    })?;
+    flush(&mut current, &mut sums);
+    for (row, scores) in rows.iter_mut().zip(sums) {
+        row.covariance = row.probit().and_then(|fit| fit.covariance(scores, members[row.member].records));
+    }
+    Ok(())
+}

@@ -1,0 +1,217 @@
+//! Histories of a range of cells, by Housner in lock-step, by finite elements side by side.
+
+use std::{borrow::Cow, f64::consts::FRAC_PI_2, ops::Range, sync::Arc};
+
+use rayon::prelude::*;
+
+use super::{
+    SweepError,
+    plan::{Cell, Plan, Subject},
+    row::{CellAnswer, CellOutcome, HistoryRow},
+    springs::SpringsTable,
+};
+use dynamics::{
+    fem,
+    spring::{Chain, Springs},
+};
+use rocking::{
+    housner::{self, Rocking},
+    overturning::samples_until,
+    structure::Body,
+};
+use springs::validate::{Stream, push};
+use strong_motion::Record;
+
+/// Cells that are taken at a time: of Housner's as many as go in lock-step; of finite elements enough to fill the lanes again
+/// where a history ends early.
+const LOCK_STEP: usize = 16;
+const SIDE_BY_SIDE: usize = 64;
+
+/// The rows of a range of cells, in their order. `done` is told how many more are through.
+///
+/// # Errors
+/// A record that cannot be read, or has no motion.
+pub(crate) fn rows(
+    plan: &Plan,
+    springs: Option<&SpringsTable>,
+    cells: Range<u64>,
+    done: &(dyn Fn(u64) + Sync),
+) -> Result<Vec<HistoryRow>, SweepError> {
+    let cells: Vec<Cell> = cells.map(|index| plan.cell(index)).collect();
+    let same = |a: &Cell, b: &Cell| {
+        a.motion == b.motion && (a.subject == b.subject || !plan.motions[a.motion].is_for_structure())
+    };
+    let groups: Vec<&[Cell]> = cells.chunk_by(same).collect();
+    let together = if springs.is_some() { SIDE_BY_SIDE } else { LOCK_STEP };
+    let rows: Vec<Result<Vec<HistoryRow>, SweepError>> = groups
+        .into_par_iter()
+        .with_max_len(1)
+        .map(|group| {
+            let ground = UnscaledGround::new(plan, group[0])?;
+            let rows: Vec<Vec<HistoryRow>> = group
+                .par_chunks(together)
+                .with_max_len(1)
+                .map(|cells| {
+                    let rows = ground.rows(plan, springs, cells);
+                    done(cells.len() as u64);
+                    rows
+                })
+                .collect();
+            Ok(rows.into_iter().flatten().collect())
+        })
+        .collect();
+    Ok(rows.into_iter().collect::<Result<Vec<_>, _>>()?.into_iter().flatten().collect())
+}
+
+/// A ground motion and its peaks, unscaled.
+struct UnscaledGround {
+    record: Record,
+    name: Arc<str>,
+    pga: f64,
+    pgv: f64,
+    vertical: Option<Arc<[f64]>>,
+}
+
+impl UnscaledGround {
+    fn new(plan: &Plan, cell: Cell) -> Result<Self, SweepError> {
+        let Subject { p, alpha, .. } = plan.subjects[cell.subject];
+        let record = plan.motions[cell.motion].record(&plan.making, (p, alpha))?;
+        let measures = record.measures();
+        let (pga, pgv) = (measures.pga.value.abs(), measures.pgv.value.abs());
+        if pga == 0.0 {
+            return Err(SweepError::Still { record: record.name });
+        }
+        let (name, vertical) = (Arc::from(record.name.as_str()), record.vertical_accel());
+        Ok(Self { record, name, pga, pgv, vertical })
+    }
+
+    fn rows(&self, plan: &Plan, springs: Option<&SpringsTable>, cells: &[Cell]) -> Vec<HistoryRow> {
+        let scales: Vec<f64> = cells
+            .iter()
+            .map(|cell| plan.factor(&plan.subjects[cell.subject], plan.levels[cell.level], self.pga))
+            .collect();
+        let bodies: Vec<Body<f64>> = cells.iter().map(|cell| plan.subjects[cell.subject].body).collect();
+        let options: Vec<housner::RockingOptions<f64>> = cells
+            .iter()
+            .zip(&scales)
+            .map(|(cell, &scale)| housner::RockingOptions {
+                scale,
+                vertical: self.vertical.clone(),
+                restitution: Some(plan.restitution(cell.subject, cell.restitution)),
+                ..Default::default()
+            })
+            .collect();
+        let rigid = housner::solve_lanes(&bodies, self.record.dt, &self.record.accel, &options);
+        let fem = springs.map(|springs| {
+            let wanted = cells.iter().zip(&scales).zip(&rigid).map(|((cell, &scale), rigid)| WantedHistory {
+                subject: &plan.subjects[cell.subject],
+                springs: springs.of(cell.subject, cell.restitution),
+                scale,
+                rigid,
+            });
+            elements(&wanted.collect::<Vec<_>>(), &self.record)
+        });
+        let row = |(i, cell): (usize, &Cell)| {
+            let subject = &plan.subjects[cell.subject];
+            let (fem, nrmse) = fem.as_ref().map(|fem| fem[i]).unzip();
+            let nrmse = nrmse.flatten().filter(|_| plan.model.housner());
+            HistoryRow {
+                cell: cell.index,
+                subject: cell.subject,
+                motion: cell.motion,
+                restitution: plan.restitution(cell.subject, cell.restitution),
+                level: plan.levels[cell.level],
+                record: self.name.clone(),
+                scale: scales[i],
+                pga: self.pga * scales[i].abs(),
+                pgv: self.pgv * scales[i].abs(),
+                housner: plan.model.housner().then(|| of_housner(subject, &rigid[i])),
+                fem,
+                nrmse,
+            }
+        };
+        cells.iter().enumerate().map(row).collect()
+    }
+}
+
+/// pi/2 of a body that overturned; it lies, and how far it had fallen at the record's end says nothing.
+fn ratio(subject: &Subject, peak: f64, outcome: CellOutcome) -> Option<f64> {
+    match outcome {
+        CellOutcome::Failed => None,
+        CellOutcome::Overturned => Some(FRAC_PI_2 / subject.alpha),
+        _ => Some(peak / subject.alpha),
+    }
+}
+
+fn of_housner(subject: &Subject, rocking: &Rocking<f64>) -> CellAnswer {
+    let outcome = match rocking.outcome {
+        housner::RockingOutcome::NeverMoved => CellOutcome::NeverLifted,
+        housner::RockingOutcome::Rocked => CellOutcome::Rocked,
+        housner::RockingOutcome::Overturned { .. } => CellOutcome::Overturned,
+        housner::RockingOutcome::LeavesGround { .. } => CellOutcome::LeavesGround,
+        housner::RockingOutcome::WorkBound { .. } | housner::RockingOutcome::NotFinite { .. } => CellOutcome::Failed,
+    };
+    let peak = rocking.theta.iter().fold(0.0, |peak: f64, theta| peak.max(theta.abs()));
+    CellAnswer {
+        outcome,
+        peak: ratio(subject, peak, outcome),
+        impacts: Some(rocking.impacts.len()),
+        overturned_s: rocking.overturned(),
+    }
+}
+
+/// A finite element history that is wanted, and Housner's answer.
+pub(super) struct WantedHistory<'a> {
+    pub subject: &'a Subject,
+    pub springs: Springs<Chain<f64>>,
+    pub scale: f64,
+    pub rigid: &'a Rocking<f64>,
+}
+
+impl WantedHistory<'_> {
+    /// What to say of a history, and its NRMSE against Housner's.
+    fn answer(&self, stream: &Stream, finish: &fem::Finish<f64>) -> (CellAnswer, Option<f64>) {
+        let outcome = match finish.outcome {
+            fem::HistoryOutcome::Overturned { .. } | fem::HistoryOutcome::Stopped { .. } => CellOutcome::Overturned,
+            fem::HistoryOutcome::Completed if housner::topples(&self.subject.body, stream.last.0, stream.last.1) => {
+                CellOutcome::Overturned
+            }
+            fem::HistoryOutcome::Completed if stream.peak == 0.0 => CellOutcome::NeverLifted,
+            fem::HistoryOutcome::Completed => CellOutcome::Rocked,
+            fem::HistoryOutcome::WorkBound { .. } | fem::HistoryOutcome::Unstable { .. } => CellOutcome::Failed,
+        };
+        let outcome = if stream.peak.is_finite() { outcome } else { CellOutcome::Failed };
+        let errors = if outcome == CellOutcome::Overturned { stream.upright } else { stream.errors };
+        let lifted = self.rigid.outcome != housner::RockingOutcome::NeverMoved;
+        let nrmse = errors.horizontal.value();
+        let nrmse = (lifted && outcome != CellOutcome::Failed && nrmse.is_finite()).then_some(nrmse);
+        let peak = ratio(self.subject, stream.peak, outcome);
+        (CellAnswer { outcome, peak, impacts: None, overturned_s: None }, nrmse)
+    }
+}
+
+/// Finite element histories on a record, streamed. The one place where histories on springs are computed.
+pub(super) fn elements(wanted: &[WantedHistory<'_>], record: &Record) -> Vec<(CellAnswer, Option<f64>)> {
+    let scaled = |samples: &[f64], scale: f64| -> Vec<f64> { samples.iter().map(|a| a * scale).collect() };
+    let grounds: Vec<(Vec<f64>, Vec<f64>)> =
+        wanted.iter().map(|w| (scaled(&record.accel, w.scale), scaled(record.up(), w.scale))).collect();
+    let pushes: Vec<Cow<[f64]>> = grounds.iter().map(|(accel, vertical)| push(accel, vertical)).collect();
+    let case = |i: usize| fem::Analysis {
+        body: wanted[i].subject.body,
+        springs: wanted[i].springs,
+        start: fem::Start::Settled,
+        dt: record.dt,
+        accel: &grounds[i].0,
+        vertical: &grounds[i].1,
+        scale: 1.0,
+        // peaks and comparisons alone
+        control: fem::Control { long_steps: true, ..fem::Control::search() },
+    };
+    let cases: Vec<fem::Analysis<f64>> = (0..wanted.len()).map(case).collect();
+    let followed = fem::histories(&cases, |i| {
+        let WantedHistory { subject, rigid, .. } = &wanted[i];
+        let standing = samples_until(rigid.overturned(), record.dt).min(rigid.theta.len());
+        Stream::new(&subject.body, &rigid.theta[..standing], &pushes[i])
+    });
+    followed.iter().zip(wanted).map(|((stream, finish), w)| w.answer(stream, finish)).collect()
+}

@@ -1,0 +1,132 @@
+//! The ground motions of a sweep, each made or read when it is needed.
+
+use std::{f64::consts::TAU, path::PathBuf, sync::Arc};
+
+use super::pulse::PulseShape;
+use rocking::{
+    scalar::GRAVITY,
+    synthetic::{self, MotionTarget},
+};
+use strong_motion::{Notice, ReadOptions, Record, RecordError, Recording, Source};
+
+/// A pulse's frequency.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum Frequency {
+    /// Circular, over p of the structure.
+    OverP(f64),
+    Hz(f64),
+}
+
+impl Frequency {
+    /// For a structure with p (1/s): circular (rad/s).
+    pub fn omega(self, p: f64) -> f64 {
+        match self {
+            Self::OverP(q) => q * p,
+            Self::Hz(hz) => TAU * hz,
+        }
+    }
+}
+
+/// A motion that others are made like, and what the reader of its file says of it.
+#[derive(Debug)]
+pub struct GivenMotion {
+    pub target: MotionTarget,
+    pub notices: Vec<Notice>,
+}
+
+/// One ground motion.
+#[derive(Clone, Debug)]
+pub enum SweepMotion {
+    ElCentro,
+    File(PathBuf),
+    /// `synthetic::record` of this index, made for the structure.
+    Synthetic(usize),
+    /// `synthetic::earthquake` of this index.
+    Earthquake(usize),
+    /// Of this index, like the given one.
+    Like(usize, Arc<GivenMotion>),
+    /// With a peak of 1 g.
+    Pulse {
+        shape: PulseShape,
+        frequency: Frequency,
+    },
+}
+
+/// How motions are read and made.
+#[derive(Clone, Debug)]
+pub struct Making {
+    pub read: ReadOptions,
+    pub seed: u64,
+    pub duration_s: Option<f64>,
+    /// The least and the greatest p of the structures (1/s): silences are long enough for the one, steps fine enough for the other.
+    pub p: (f64, f64),
+}
+
+/// Silence behind a pulse, for a body to topple or to come back in [1/p].
+pub(super) const SILENCE: f64 = 12.0;
+
+impl SweepMotion {
+    /// Whether each structure has its own.
+    pub(crate) fn is_for_structure(&self) -> bool {
+        matches!(self, Self::Synthetic(_) | Self::Pulse { frequency: Frequency::OverP(_), .. })
+    }
+
+    /// Name in tables.
+    pub fn name(&self) -> String {
+        match self {
+            Self::ElCentro => "IELC180".into(),
+            Self::File(path) => path.file_stem().unwrap_or_default().to_string_lossy().into_owned(),
+            Self::Synthetic(i) => format!("synthetic-{i:05}"),
+            Self::Earthquake(i) => format!("earthquake-{i:05}"),
+            Self::Like(i, given) => format!("like-{}-{i:05}", given.target.name()),
+            Self::Pulse { shape, frequency: Frequency::OverP(q) } => format!("{} q {q:.4}", shape.label()),
+            Self::Pulse { shape, frequency: Frequency::Hz(f) } => format!("{} {f:.4} Hz", shape.label()),
+        }
+    }
+
+    /// The record, unscaled, for a structure with p (1/s) and alpha (rad) where each has its own.
+    ///
+    /// # Errors
+    /// A file that cannot be read.
+    pub(crate) fn record(&self, making: &Making, of: (f64, f64)) -> Result<Record, RecordError> {
+        self.told(making, of, &mut |_| {})
+    }
+
+    /// The same; `notice` is told what the reader of a file says of it.
+    ///
+    /// # Errors
+    /// A file that cannot be read.
+    pub(crate) fn told(
+        &self,
+        making: &Making,
+        (p, alpha): (f64, f64),
+        notice: &mut dyn FnMut(&Notice),
+    ) -> Result<Record, RecordError> {
+        let record = match self {
+            Self::ElCentro => Record::el_centro(),
+            Self::File(path) => {
+                let recording = Recording::read(path, &making.read)?;
+                recording.notices().iter().for_each(notice);
+                recording.into_record()
+            }
+            Self::Synthetic(i) => synthetic::record(making.seed, *i, p, alpha),
+            Self::Earthquake(i) => synthetic::earthquake(making.seed, *i, making.p.0),
+            // as long as the given one, which duration_s has cut already
+            Self::Like(i, given) => return Ok(given.target.motion(making.seed, *i, making.p.0)),
+            Self::Pulse { shape, frequency } => {
+                let (least, greatest) = match frequency {
+                    Frequency::OverP(_) => (p, p),
+                    Frequency::Hz(_) => making.p,
+                };
+                let (dt, mut accel) = shape.sampled(frequency.omega(p), GRAVITY, greatest);
+                accel.resize(accel.len() + (SILENCE / (least * dt)).ceil() as usize, 0.0);
+                // its length is the pulse's
+                return Ok(Record { name: self.name(), dt, accel, vertical: None, source: Source::Synthetic });
+            }
+        };
+        Ok(match making.duration_s {
+            Some(duration) => record.truncated(duration),
+            None => record,
+        })
+    }
+}

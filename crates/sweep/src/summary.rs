@@ -1,0 +1,237 @@
+//! What a sweep found, in plain words.
+
+use super::{
+    compare::Comparison,
+    fragility::{Fragility, FragilityGroup, LimitState, MEASURES, subject_name},
+    ida::{Ida, IdaPoint},
+    levels,
+    plan::{Measure, Plan},
+    reduce::MODELS,
+    table::SweepTable,
+};
+use crate::lognormal::LognormalFit;
+use rocking::{scalar::GRAVITY, structure::Kind};
+
+/// A model in words.
+fn by(model: &str) -> &'static str {
+    if model == "fem" { "on springs, by finite elements" } else { "by Housner's equation" }
+}
+
+/// What was computed.
+pub fn head(plan: &Plan) -> String {
+    let counted = |n: usize, one: &str, several: &str| format!("{n} {}", if n == 1 { one } else { several });
+    format!(
+        "{} histories: {}, {}, {}, {}.",
+        plan.cells(),
+        counted(plan.subjects.len(), "structure", "structures"),
+        counted(plan.motions.len(), "ground motion", "ground motions"),
+        counted(plan.restitution_count(), "restitution", "restitutions"),
+        counted(plan.levels.len(), "level", "levels"),
+    )
+}
+
+/// Structures that are spoken of one by one.
+const SPOKEN_OF: usize = 12;
+
+/// A paragraph a structure on overturning, and one on which measure tells most.
+pub fn fragility(plan: &Plan, fragility: &Fragility, ida: &Ida) -> Vec<String> {
+    let mut said = Vec::new();
+    let percent = 100.0 * fragility.confidence;
+    let spoken_of = |member: &FragilityGroup| member.subject.is_none_or(|subject| subject < SPOKEN_OF);
+    for (at, member) in fragility.members.iter().enumerate().filter(|(_, member)| spoken_of(member)) {
+        let rows = || fragility.rows.iter().filter(move |row| row.member == at && row.state == LimitState::Overturning);
+        let Some(pga) = rows().find(|row| row.measure == if member.subject.is_some() { 0 } else { 2 }) else {
+            continue;
+        };
+        let name = subject_name(plan, member.subject);
+        let e = match &plan.restitutions {
+            Some(all) => format!(", e = {}", all[member.restitution]),
+            None => String::new(),
+        };
+        let share = 100.0 * pga.exceeded as f64 / pga.n.max(1) as f64;
+        let (measure, unit) = MEASURES[pga.measure];
+        let unit = if unit == "-" { String::new() } else { format!(" {unit}") };
+        let fit = match (&pga.fit, pga.bounds(fragility.half_width())) {
+            (LognormalFit::Fitted(fit), Some(bounds)) => format!(
+                "half of the motions overturn it at {measure} = {:.3}{unit}{} ({percent:.0} % bounds {:.3} to {:.3}), beta {:.2} ({:.2} to {:.2})",
+                fit.median(),
+                if pga.is_extrapolated() { ", extrapolated beyond the levels" } else { "" },
+                bounds.median.0,
+                bounds.median.1,
+                fit.beta(),
+                bounds.beta.0,
+                bounds.beta.1
+            ),
+            (LognormalFit::NoneExceeded, _) => "no motion overturns it; raise the levels".into(),
+            (LognormalFit::AllExceeded, _) => "every motion overturns it; lower the levels".into(),
+            (LognormalFit::Separated { below, above }, _) => {
+                format!("{measure} alone decides: up to {below:.3}{unit} it stands, from {above:.3}{unit} it overturns")
+            }
+            (LognormalFit::Undetermined, _) => {
+                format!("no fit on {measure}: outcomes are mixed at one level alone; add levels about it")
+            }
+            _ => format!("no fit on {measure}: higher levels overturn it less often"),
+        };
+        said.push(format!(
+            "- {name}{e}, {}: {share:.1} % of {} histories overturn; {fit}.",
+            by(MODELS[member.model]),
+            pga.n
+        ));
+        said.extend(at_levels(plan, fragility, ida, member));
+        if member.subject.is_none() {
+            said.extend(best_measure(rows()));
+        }
+        if member.excluded > 0 {
+            said.push(format!("  {} histories are left out: failed, or the pivot left the ground.", member.excluded));
+        }
+    }
+    if plan.subjects.len() > SPOKEN_OF {
+        said.push("- All structures are in fragility.csv.".into());
+    }
+    let records = fragility.members.first().map_or(0, |member| member.records);
+    said.push(if records < 10 {
+        format!("Bounds rest on {records} records only: take more.")
+    } else {
+        "Bounds take the histories of one record for one observation, however many levels it was scaled to.".into()
+    });
+    said
+}
+
+/// Three significant digits, as short as they come.
+fn three_digits(x: f64) -> String {
+    let rounded: f64 = format!("{x:.2e}").parse().unwrap_or(x);
+    rounded.to_string()
+}
+
+/// Rows of levels in all, and at least and at most of one structure.
+const LEVEL_ROWS: usize = 24;
+const ROWS_EACH: (usize, usize) = (3, 10);
+
+/// Where a structure lifts, and a table of what becomes of it at the levels.
+fn at_levels(plan: &Plan, fragility: &Fragility, ida: &Ida, member: &FragilityGroup) -> Option<String> {
+    let subject = &plan.subjects[member.subject?];
+    let mine = |point: &&IdaPoint| {
+        (point.model, Some(point.subject), point.restitution) == (member.model, member.subject, member.restitution)
+    };
+    let groups = fragility.members.iter().filter(|member| member.subject.is_some_and(|i| i < SPOKEN_OF)).count();
+    let most = (LEVEL_ROWS / groups.max(1)).clamp(ROWS_EACH.0, ROWS_EACH.1);
+    let rows = levels::telling(plan, ida.points.iter().filter(mine), fragility.half_width(), most);
+    let measure = match plan.measure {
+        Measure::Scale => "scale",
+        Measure::PgaG => "PGA [g]",
+        Measure::PgaOverUplift => "PGA/(g tan alpha)",
+    };
+    let top = match subject.structure.kind {
+        Kind::Block => "top",
+        Kind::AFrame => "apex",
+    };
+    let mut text = format!(
+        "  It lifts at PGA = g tan(alpha) = {:.3} g.\n\n  | {measure} | P(overturn) | {:.0} % bounds | lifts | {top} moves, median / 84 % [mm] | foot lifts [mm] |\n  \
+         |---|---|---|---|---|---|",
+        subject.uplift() / GRAVITY,
+        100.0 * fragility.confidence
+    );
+    for row in rows {
+        let millimetres = |x: f64| match 1e3 * x {
+            0.0 => "0".into(),
+            x if x < 0.1 => "< 0.1".into(),
+            x if x.is_finite() => three_digits(x),
+            _ => "overturned".into(),
+        };
+        let both = |a: f64, b: f64| format!("{} / {}", millimetres(a), millimetres(b));
+        text += &format!(
+            "\n  | {} | {:.1} % | {:.1} to {:.1} % | {:.0} % | {} | {} |",
+            three_digits(row.level),
+            100.0 * row.overturned,
+            100.0 * row.bounds.0,
+            100.0 * row.bounds.1,
+            100.0 * row.lifted,
+            both(row.median.top_m, row.most.top_m),
+            both(row.median.uplift_m, row.most.uplift_m),
+        );
+    }
+    Some(text + "\n")
+}
+
+/// The measure with the least scatter.
+fn best_measure<'a>(rows: impl Iterator<Item = &'a super::fragility::FragilityRow>) -> Option<String> {
+    let betas: Vec<(&str, f64)> =
+        rows.filter_map(|row| row.probit().map(|fit| (MEASURES[row.measure].0, fit.beta()))).collect();
+    let (best, beta) = betas.iter().min_by(|a, b| a.1.total_cmp(&b.1))?;
+    let others: Vec<String> =
+        betas.iter().filter(|(name, _)| name != best).map(|(n, b)| format!("{n} {b:.2}")).collect();
+    Some(format!("  Over all structures {best} scatters least: beta {beta:.2} ({}).", others.join(", ")))
+}
+
+/// What overturns over size and slenderness.
+pub fn rocking(plan: &Plan, ida: &Ida) -> Vec<String> {
+    let mut said = Vec::new();
+    let counts = ida.points.iter().fold([0_u64; 4], |[n, lifted, over, out], p| {
+        [n + p.n, lifted + p.lifted, over + p.overturned, out + p.left_out]
+    });
+    let [n, lifted, over, out] = counts;
+    let share = |k: u64| 100.0 * k as f64 / n.max(1) as f64;
+    said.push(format!(
+        "{:.1} % of the bodies are never lifted, {:.1} % rock and come to rest upright, {:.1} % overturn; {out} histories are left out.",
+        share(n - lifted),
+        share(lifted - over),
+        share(over)
+    ));
+    let overturned = ida.points.iter().filter(|p| 2 * p.overturned > p.n);
+    let largest = overturned.max_by(|a, b| plan.subjects[b.subject].p.total_cmp(&plan.subjects[a.subject].p));
+    if let Some(point) = largest {
+        let subject = &plan.subjects[point.subject];
+        said.push(format!("The largest body that overturns: {} (1/p = {:.3} s).", subject.name, 1.0 / subject.p));
+    }
+    said
+}
+
+/// How both models differ.
+pub fn compare(comparison: &Comparison) -> Vec<String> {
+    let Some(all) = comparison.all() else { return Vec::new() };
+    let number = |x: Option<f64>| x.map_or("-".into(), |x| format!("{x:.4}"));
+    vec![format!(
+        "Rigid against springs, {} histories ({} left out): both say the same of overturning in {:.2} % (Housner alone overturns {}, springs alone {}); \
+         peaks of theta/alpha differ by {} (median) and {} (90 %), their distributions by {:.4} (KS); NRMSE of u {} (median), {} (90 %).",
+        all.n,
+        all.left_out,
+        100.0 * all.agreement().unwrap_or(0.0),
+        all.housner_only,
+        all.fem_only,
+        number(all.difference.quantile(0.5)),
+        number(all.difference.quantile(0.9)),
+        all.ks_distance(),
+        number(all.nrmse.quantile(0.5)),
+        number(all.nrmse.quantile(0.9)),
+    )]
+}
+
+/// What pulses it takes.
+pub fn overturning(plan: &Plan, table: &SweepTable) -> Vec<String> {
+    let (from, to) = (table.reals("from_over_uplift"), table.reals("to_over_uplift"));
+    let (structure, pulse, q) = (table.texts("structure"), table.texts("pulse"), table.reals("omega_over_p"));
+    let mut said = vec![format!(
+        "{} pulse frequencies times structures, scanned from {} to {} times g tan(alpha): {} intervals overturn.",
+        plan.cells(),
+        plan.levels[0],
+        plan.levels[plan.levels.len() - 1],
+        table.rows()
+    )];
+    let finite = (0..table.rows()).filter(|row| to[*row].is_some()).count();
+    if finite > 0 {
+        said.push(format!(
+            "{finite} of them have an upper end, above which a stronger pulse leaves the body standing or overturns it otherwise."
+        ));
+    }
+    let least =
+        (0..table.rows()).filter_map(|row| from[row].map(|from| (row, from))).min_by(|a, b| a.1.total_cmp(&b.1));
+    if let Some((row, from)) = least {
+        said.push(format!(
+            "The weakest pulse that overturns: {} on {} at omega/p = {:.3}, {from:.4} g tan(alpha).",
+            pulse[row],
+            structure[row],
+            q[row].unwrap_or(0.0)
+        ));
+    }
+    said
+}

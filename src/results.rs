@@ -1,9 +1,0 @@
-//! What a run found, as data: peaks, design forces, findings. Words for them are in `findings` alone; `report` lays them out.
-
-pub mod findings;
-pub mod forces;
-pub mod peaks;
-
-pub use findings::{DeckEnd, Ending, FiledFinding, Finding, FindingModel, ForceName, NotDone, PeakChange, Weight};
-pub use forces::{DesignForce, DesignForces, ForcesTogether, MOST_CHANGE, OtherForces};
-pub use peaks::{PeakPair, Peaks};
