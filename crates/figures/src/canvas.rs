@@ -8,6 +8,7 @@ use plotters_svg::SVGBackend;
 
 use super::FigureError;
 use super::font::{self, CAPITAL};
+use super::lettering::LetteredLine;
 use super::plot::Plot;
 use super::sheet::Sheet;
 use super::style::{Pen, TEXT, WHITE, WIDTH};
@@ -71,6 +72,19 @@ impl Lettering {
         font::length(text, self.size, self.bold)
     }
 
+    /// A text so set at a point.
+    fn line(self, (x, y): PixelPoint, text: &str) -> LetteredLine {
+        let back = match self.across {
+            HPos::Left => 0.0,
+            HPos::Center => 0.5 * self.length(text),
+            HPos::Right => self.length(text),
+        };
+        let start = if self.upwards { (x + self.drop(), y + back) } else { (x - back, y + self.drop()) };
+        let RGBColor(red, green, blue) = self.colour;
+        let (text, colour) = (text.to_owned(), [red, green, blue]);
+        LetteredLine { text, start, size: self.size, bold: self.bold, upwards: self.upwards, colour }
+    }
+
     /// From the point to the baseline (pixel), across the direction of reading.
     fn drop(self) -> f64 {
         self.size
@@ -86,6 +100,7 @@ impl Lettering {
 #[derive(Default)]
 pub(crate) struct Canvas {
     elements: Vec<SvgElement>,
+    lines: Vec<LetteredLine>,
     plots: Vec<Plot>,
 }
 
@@ -141,6 +156,7 @@ impl Canvas {
         let at = if how.upwards { (x + drop, y) } else { (x, y + drop) };
         // a name may hold what XML may not
         let text: String = text.chars().map(|c| if c.is_control() || c >= '\u{fffe}' { ' ' } else { c }).collect();
+        self.lines.push(how.line((x, y), &text));
         self.elements.push(SvgElement::Text(Text::new(text, fine(at), style)));
     }
 
@@ -179,7 +195,7 @@ impl Canvas {
             width * FINE as u32,
             height * FINE as u32
         );
-        Ok(Sheet { svg: head + body, width, height, plots: self.plots })
+        Ok(Sheet { svg: head + body, width, height, lines: self.lines, plots: self.plots })
     }
 }
 

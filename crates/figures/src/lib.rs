@@ -31,6 +31,7 @@ use thiserror::Error;
 mod canvas;
 mod font;
 mod legend;
+mod lettering;
 mod mark;
 mod number;
 mod panel;

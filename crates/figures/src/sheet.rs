@@ -8,7 +8,7 @@ use resvg::{
 };
 
 use super::FigureError;
-use super::font;
+use super::lettering::LetteredLine;
 use super::plot::Plot;
 use files::whole_file;
 
@@ -20,6 +20,8 @@ pub struct Sheet {
     /// Its size (pixel).
     pub width: u32,
     pub height: u32,
+    /// Its text, for the PNG.
+    pub(crate) lines: Vec<LetteredLine>,
     /// Panels over time, for a page that zooms and tells values.
     pub plots: Vec<Plot>,
 }
@@ -31,11 +33,12 @@ impl Sheet {
     /// [`FigureError::Draw`] for what resvg refuses.
     pub(crate) fn png(&self) -> Result<Vec<u8>, FigureError> {
         let draw = |reason: String| FigureError::Draw { reason };
-        let options = Options { fontdb: font::database(), ..Default::default() };
-        let tree = Tree::from_str(&self.svg, &options).map_err(|e| draw(e.to_string()))?;
+        // its text is left out without fonts
+        let tree = Tree::from_str(&self.svg, &Options::default()).map_err(|e| draw(e.to_string()))?;
         let mut pixels = Pixmap::new(self.width, self.height).ok_or_else(|| draw("no size".into()))?;
         pixels.fill(Color::WHITE);
         resvg::render(&tree, Transform::identity(), &mut pixels.as_mut());
+        self.lines.iter().for_each(|line| line.draw(&mut pixels));
         self.encode(&pixels).map_err(|e| draw(e.to_string()))
     }
 
