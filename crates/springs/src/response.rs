@@ -42,7 +42,7 @@ pub fn arr<S: Scalar>(g: S, mu: S, f: S, xi: S) -> S {
 
 impl<S: Scalar> Response<S> {
     /// From the paper's parameters.
-    pub(crate) fn new(mu: S, f: S, xi: S) -> Self {
+    pub fn new(mu: S, f: S, xi: S) -> Self {
         Self { mu, k: mu * f * f, c: mu * xi * real::<S>(2.0) }
     }
 
