@@ -6,7 +6,7 @@ use criterion::{BenchmarkId, Criterion, criterion_group, criterion_main};
 use springs::{
     case::Case,
     response::{bounds::Bounds, target::Target},
-    tuning::{arr::inner::fit, job::Job},
+    tuning::{job::Job, paper_procedure::inner::fit},
 };
 
 fn inner(c: &mut Criterion) {

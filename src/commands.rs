@@ -13,7 +13,7 @@ use run_folder::FolderError;
 use springs::{
     case::CaseError,
     parameters::{ParametersError, RememberedError},
-    tuning::{arr::inner::FitError, job::JobError, landing::design::GeometryError},
+    tuning::{job::JobError, landing::design::GeometryError, paper_procedure::inner::FitError},
 };
 use strong_motion::RecordError;
 

@@ -10,7 +10,7 @@ use std::{
 use super::{least, skips::Skip};
 use springs::{
     response::{bounds::Bounds, target::Target},
-    tuning::arr::inner::{FitError, fit},
+    tuning::paper_procedure::inner::{FitError, fit},
 };
 
 /// A run of the program.

@@ -13,7 +13,7 @@ use dynamics::{
 };
 use rocking::housner;
 use rocking::motion::nrmse;
-use springs::{tuning::arr::outer::Benchmark, validate::Stream};
+use springs::{tuning::paper_procedure::outer::Benchmark, validate::ComparisonObserver};
 
 /// One thing that is skipped.
 #[derive(Clone, Debug)]
@@ -58,7 +58,7 @@ fn rest(what: &'static str, bench: &BenchCase, rounds: usize) -> Skip {
 }
 
 /// Watches like another observer, but never stops the run.
-struct NonStopping<'a>(Stream<'a>);
+struct NonStopping<'a>(ComparisonObserver<'a>);
 
 impl Observer<f64> for NonStopping<'_> {
     fn sample(&mut self, index: usize, view: &View<f64>) -> ControlFlow<()> {
@@ -85,7 +85,7 @@ fn toppled(rounds: usize) -> Skip {
         scale: 1.0,
         control: Control::default(),
     };
-    let watch = || Stream::new(&body, &theta, &accel);
+    let watch = || ComparisonObserver::new(&body, &theta, &accel);
     let fallen = |last: (f64, f64)| last.0.abs() > body.alpha();
     let mut with = || {
         black_box(case.observe(&mut watch()));

@@ -7,7 +7,7 @@ use rocking::scalar::GRAVITY;
 use springs::{
     case::{Asked, Yardstick},
     response::{self, bounds::Bounds, target::Target},
-    tuning::{arr::inner::fit, landing::design::Geometry, omega},
+    tuning::{landing::design::Geometry, paper_procedure::inner::fit, stiffness_search},
 };
 
 use crate::{
@@ -144,8 +144,8 @@ impl Design {
 #[pyfunction]
 #[pyo3(signature = (alpha, inertia = None, stiffness = None))]
 pub fn design(py: Python<'_>, alpha: Of, inertia: Option<f64>, stiffness: Option<f64>) -> PyResult<Design> {
-    let stiffness =
-        stiffness.unwrap_or_else(|| omega::begin(Asked { by: Yardstick::Histories, error: decks::ACCURACY }));
+    let stiffness = stiffness
+        .unwrap_or_else(|| stiffness_search::begin(Asked { by: Yardstick::Histories, error: decks::ACCURACY }));
     let geometry = match alpha {
         Of::Structure(structure) => Geometry::of(&structure.body(), stiffness),
         Of::Alpha(alpha) => {

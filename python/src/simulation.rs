@@ -12,7 +12,7 @@ use report::{
 };
 use rocking::members::Members;
 use springs::{
-    answers::{Both, both},
+    answers::{ModelComparison, both},
     results::FiledFinding,
     verdict::Verdict,
 };
@@ -40,7 +40,7 @@ pub struct Simulation {
 
 /// Where the histories are.
 enum Source {
-    Own(Box<Both>),
+    Own(Box<ModelComparison>),
     Tuned(Arc<RigidRun>),
 }
 
@@ -52,7 +52,7 @@ impl Simulation {
         Self { structure, dt, findings: run.parameters.findings.clone(), verdict, source: Source::Tuned(run) }
     }
 
-    fn both(&self) -> &Both {
+    fn both(&self) -> &ModelComparison {
         match &self.source {
             Source::Own(both) => both,
             Source::Tuned(run) => &run.both,

@@ -134,7 +134,7 @@ pub fn tune(
     let case = Case::new("tune", (structure.core, structure.e), excitation, tuning).map_err(value_error)?;
     let (run, simulation) = interruptible(py, |stop| {
         let job = Job::new(&case, &|_, _, _| stop.check()).map_err(value_error)?;
-        let points = if front { report::front::front(&job, &|_, _| stop.check()) } else { Vec::new() };
+        let points = if front { report::stiffness_tradeoff::front(&job, &|_, _| stop.check()) } else { Vec::new() };
         stop.check();
         let run = RigidRun::new(case, job, points, friction);
         let run = Arc::new(run);

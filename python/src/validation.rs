@@ -5,7 +5,7 @@ use std::path::PathBuf;
 use dynamics::fem::Control;
 use pyo3::prelude::*;
 use rocking::synthetic;
-use springs::validate::{self as core, Judge};
+use springs::validate::{self as core, Validator};
 
 use strong_motion::{ReadOptions, RecordError};
 
@@ -88,7 +88,7 @@ pub fn validate(
     }
     let body = structure.body();
     let judge =
-        Judge { body, restitution, springs: springs.chains(), duration_s: duration, control: Control::default() };
+        Validator { body, restitution, springs: springs.chains(), duration_s: duration, control: Control::default() };
     let (p, alpha) = (body.p_squared().sqrt(), body.alpha());
     let validation = interruptible(py, |stop| {
         let record = |i: usize| {

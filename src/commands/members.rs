@@ -6,7 +6,7 @@ use serde_json::{Map, Value, json};
 
 use dynamics::fem::{Demands, QUANTITIES};
 use rocking::motion::TimedPeak;
-use springs::answers::WithMembers;
+use springs::answers::MemberHistory;
 
 /// Largest forces and their times, as JSON.
 fn forces(peaks: &[TimedPeak; QUANTITIES.len()]) -> Value {
@@ -36,7 +36,7 @@ struct With<'a> {
 
 impl<'a> MembersReport<'a> {
     /// Of a rigid body's history, and of one with members if there is one.
-    pub fn new(matched: &'a Match, demands: &Demands, with: Option<&'a WithMembers>) -> Self {
+    pub fn new(matched: &'a Match, demands: &Demands, with: Option<&'a MemberHistory>) -> Self {
         let with = with.map(|with| With {
             matched: &with.matched,
             forces: forces(&with.demands.peaks),

@@ -8,7 +8,7 @@ use super::{CommandError, terminal};
 use springs::{
     case::Case,
     response::{bounds::Bounds, target::Target},
-    tuning::arr::inner::{Fit, fit},
+    tuning::paper_procedure::inner::{Fit, fit},
 };
 
 /// Options of `tune response`.

@@ -14,10 +14,11 @@ use super::{
     terminal,
 };
 use report::{
-    FiledParameters, Run, front,
+    FiledParameters, Run,
     markdown::markdown,
     rigid::RigidRun,
     screen::{Written, screen},
+    stiffness_tradeoff,
 };
 use run_folder::{
     folder::{Folder, identity},
@@ -131,7 +132,7 @@ pub fn run(o: &RunOptions) -> Result<(), CommandError> {
         Vec::new()
     } else {
         let progress = Progress::on_terminal("stiffnesses compared", o.quiet);
-        let points = front::front(&job, &|done, all| progress.tell(done, all, ""));
+        let points = stiffness_tradeoff::front(&job, &|done, all| progress.tell(done, all, ""));
         progress.done();
         points
     };

@@ -21,7 +21,7 @@ use run_folder::{
 use springs::{
     case::LONGEST_S,
     parameters::Parameters,
-    validate::{Judge, Validation},
+    validate::{Validation, Validator},
 };
 use strong_motion::{Notice, ReadOptions, Record, RecordError, Recording, Units};
 
@@ -237,7 +237,7 @@ pub fn run(o: &ValidateOptions) -> Result<(), CommandError> {
         return Err(CommandError::Result(format!("no file could be read, of {}; the first: {first}", left_out.len())));
     }
     let line = source.line(left_out.len());
-    let judge = Judge {
+    let judge = Validator {
         body,
         restitution,
         springs: parameters.chains(),

@@ -7,8 +7,8 @@ use rocking::structure::Structure;
 use springs::{
     response::{Response, bounds::Bounds, target::Target},
     tuning::{
-        arr::inner::{Fit, FitOutcome, fit},
         landing::chain::land,
+        paper_procedure::inner::{Fit, FitOutcome, fit},
     },
 };
 

@@ -164,7 +164,7 @@ impl Reference {
 
     /// When a corner slides on from a landing, if that is where the part that can be foretold ends (s).
     pub fn slides_on(&self) -> Option<f64> {
-        self.history.skidded.filter(|time| self.foretold == self.history.samples_to(*time))
+        self.history.first_sliding_landing_s.filter(|time| self.foretold == self.history.samples_to(*time))
     }
 
     /// The same compared over as much as springs stiff enough may follow, a perturbation growing less than [`FOLLOWED`]; none if that is no more.
@@ -195,7 +195,7 @@ impl Reference {
     pub fn compared(&self, record: &Record, followed: usize, lengths: &[usize]) -> Compared {
         let history = &self.history;
         let compared = Compared::new(record, followed, &[&[history.q.len()], lengths].concat());
-        let slides = history.skidded.is_some_and(|time| compared.samples == history.samples_to(time));
+        let slides = history.first_sliding_landing_s.is_some_and(|time| compared.samples == history.samples_to(time));
         let end = if compared.end == ComparedEnd::Foretold && slides { ComparedEnd::Slides } else { compared.end };
         Compared { end, ..compared }
     }

@@ -7,8 +7,8 @@ use super::{
     Mechanics,
     frame::{Base, Frame, FrameError, FrameLayout, FrameTendon},
     reference::{
-        CornerSet, ElasticRocking, GroundAcceleration, PERTURBATION, ReferenceOptions, RestError, Twins, at_rest,
-        growth, rock,
+        CornerSet, ElasticRocking, GroundAcceleration, PERTURBATION, PerturbedPair, ReferenceOptions, RestError,
+        at_rest, growth, rock,
     },
     structure::ElasticStructure,
 };
@@ -140,7 +140,7 @@ impl Assembled {
     ) -> usize {
         let options = ReferenceOptions { most_work: history.most_work, ..ReferenceOptions::default() };
         let still = DVector::zeros(q.len());
-        let twins = Twins { coordinates: &self.telling(), perturbation: PERTURBATION, limit };
+        let twins = PerturbedPair { coordinates: &self.telling(), perturbation: PERTURBATION, limit };
         growth(&self.frame, ground, (q, &still), &options, (history, &twins)).samples_below(limit)
     }
 
@@ -153,7 +153,7 @@ impl Assembled {
         limit: f64,
     ) -> usize {
         let grown = self.grown(ground, q, history, limit);
-        history.skidded.map_or(grown, |time| grown.min(history.samples_to(time)))
+        history.first_sliding_landing_s.map_or(grown, |time| grown.min(history.samples_to(time)))
     }
 
     /// Coordinates whose growth tells of the conditioning: rotations of footings and the tops' displacements.

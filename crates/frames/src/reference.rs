@@ -44,7 +44,7 @@ mod walk;
 
 use nalgebra::DVector;
 
-pub use conditioning::{FOLLOWED, FORETOLD, Growth, PERTURBATION, TRIED, Twins, growth};
+pub use conditioning::{FOLLOWED, FORETOLD, Growth, PERTURBATION, PerturbedPair, TRIED, growth};
 pub use corners::CornerSet;
 pub use hold::{Configuration, CornerContact, HeldMotion};
 pub use rest::{RestError, at_rest};
@@ -248,7 +248,7 @@ pub struct ElasticRocking {
     pub pulled: f64,
     /// Time of the first landing, of any energy to speak of, from which a corner slid on (s): it would have had to be pulled to stop. What follows depends on friction,
     /// which ground springs that hold a corner until it lifts do not have.
-    pub skidded: Option<f64>,
+    pub first_sliding_landing_s: Option<f64>,
     /// Steps taken.
     pub steps: usize,
     /// Steps tried.

@@ -57,7 +57,7 @@ pub use rocking::structure::{Body, Kind, Structure, StructureError};
 #[doc(inline)]
 pub use rocking::synthetic::{earthquake as earthquake_motion, record as synthetic_motion};
 #[doc(inline)]
-pub use springs::answers::{Both, WithMembers, compare, validate};
+pub use springs::answers::{MemberHistory, ModelComparison, compare, validate};
 #[doc(inline)]
 pub use springs::case::{Case, CaseError, Objective, Tuning};
 #[doc(inline)]
@@ -67,7 +67,7 @@ pub use springs::predictability::simulate;
 #[doc(inline)]
 pub use springs::response::Response;
 #[doc(inline)]
-pub use springs::tuning::{arr::inner::FitError, assessment::Assessment, job::JobError};
+pub use springs::tuning::{assessment::Assessment, job::JobError, paper_procedure::inner::FitError};
 #[doc(inline)]
 pub use springs::validate::{Confusion, GeometricMean, Quantiles, RecordOutcome, Row, Suite, Summary, Validation};
 #[doc(inline)]

@@ -13,7 +13,6 @@
 pub mod accuracy;
 pub mod displacements;
 pub mod elastic;
-pub mod front;
 pub mod html;
 pub mod judged;
 pub mod markdown;
@@ -21,6 +20,7 @@ pub mod page;
 pub mod reference;
 pub mod rigid;
 pub mod screen;
+pub mod stiffness_tradeoff;
 pub mod table;
 
 use serde::Serialize;

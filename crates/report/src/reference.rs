@@ -9,7 +9,7 @@ use rocking::{
     structure::{Body, Structure},
 };
 use springs::{
-    answers::Both,
+    answers::ModelComparison,
     results::{Ending, Finding, FindingModel},
     verdict::{Answer, Fate, Verdict},
 };
@@ -75,7 +75,13 @@ impl HousnerReport {
 }
 
 /// All findings on histories of given springs.
-pub fn all(structure: &Structure, record: &Record, both: &Both, report: &HousnerReport, of: &Verdict) -> Vec<Finding> {
+pub fn all(
+    structure: &Structure,
+    record: &Record,
+    both: &ModelComparison,
+    report: &HousnerReport,
+    of: &Verdict,
+) -> Vec<Finding> {
     let mut all = verdict(structure, record, of);
     all.extend(ill_conditioned(report, of, false));
     all.extend(report.findings());
@@ -131,7 +137,7 @@ fn does(answer: &Answer) -> String {
 }
 
 /// Histories that ended before the record did, or took steps that broke their bounds.
-pub fn histories(both: &Both) -> Vec<Finding> {
+pub fn histories(both: &ModelComparison) -> Vec<Finding> {
     let with = both.with.as_ref().map(|with| (FindingModel::Members, &with.history));
     let mut all = Vec::new();
     for (model, history) in [(FindingModel::Springs, &both.fem)].into_iter().chain(with) {

@@ -3,10 +3,9 @@
 pub mod tables;
 
 use super::{
-    AccuracyReport, Assumed, FiledParameters, Run, Section, Taken, Unit, changes, doubts, filed,
-    front::FrontPoint,
-    judged,
+    AccuracyReport, Assumed, FiledParameters, Run, Section, Taken, Unit, changes, doubts, filed, judged,
     reference::{self, HousnerReport},
+    stiffness_tradeoff::TradeoffPoint,
 };
 use decks::equal_steps;
 use dynamics::{
@@ -21,15 +20,15 @@ use rocking::{
     structure::{Kind, Structure},
 };
 use springs::{
-    answers::{Both, WithMembers, both, with_members},
+    answers::{MemberHistory, ModelComparison, both, with_members},
     case::{Case, Objective, Yardstick, doubts::Doubt},
     parameters::{ConditioningRow, PaperProcedure, Parameters},
     results::{Finding, PeakPair, Peaks},
     rigid_forces::design_forces,
     tuning::{
-        arr::table_1,
         job::Job,
-        whole_model::{ATTAINABLE, LEANS, is_another},
+        landing_simulation::{ATTAINABLE, LEANS, differs_from_housner},
+        paper_procedure::table_1,
     },
 };
 
@@ -40,9 +39,9 @@ pub struct RigidRun {
     /// Its springs.
     pub job: Job,
     /// Error over the stiffness.
-    pub front: Vec<FrontPoint>,
+    pub front: Vec<TradeoffPoint>,
     /// Both models' answers to the record.
-    pub both: Both,
+    pub both: ModelComparison,
     /// Conditioning and regime.
     pub report: HousnerReport,
     /// What `parameters.json` holds, but for the record: where that is to be found depends on the folder.
@@ -51,7 +50,7 @@ pub struct RigidRun {
 
 impl RigidRun {
     /// Simulate a job's springs, and those of the paper beside them; `friction` of the ground, for the warning of sliding.
-    pub fn new(case: Case, job: Job, front: Vec<FrontPoint>, friction: f64) -> Self {
+    pub fn new(case: Case, job: Job, front: Vec<TradeoffPoint>, friction: f64) -> Self {
         let beside = |springs: &Springs<Design<f64>>| {
             let other = Parameters::new(case.structure, springs);
             let none = Members::default();
@@ -246,7 +245,7 @@ fn taken(structure: &Structure, restitution: f64) -> Taken {
     Taken { structure: text, facts, record: None, assumed: Vec::new() }
 }
 
-fn peaks(kind: Kind, job: &Job, both: &Both) -> PeakPair {
+fn peaks(kind: Kind, job: &Job, both: &ModelComparison) -> PeakPair {
     let firm = |firm: Option<usize>, all: usize| firm.unwrap_or(all);
     let of = |matched: &Match, theta: &[f64], u: Option<&[f64]>, impacts: usize| {
         let fell = [matched.overturned_housner_s, matched.overturned_fem_s].into_iter().flatten().reduce(f64::min);
@@ -270,7 +269,7 @@ fn peaks(kind: Kind, job: &Job, both: &Both) -> PeakPair {
 
 /// The history on springs of a quarter of Omega_n, where Housner's cannot tell whether forces are the springs': with members, and
 /// beyond where his pivot leaves the ground.
-fn softer(case: &Case, job: &Job, both: &Both) -> Option<WithMembers> {
+fn softer(case: &Case, job: &Job, both: &ModelComparison) -> Option<MemberHistory> {
     if both.with.is_none() && both.rocking.left_ground().is_none() {
         return None;
     }
@@ -311,7 +310,12 @@ fn springs_findings(parameters: &Parameters) -> Vec<Finding> {
     if errors().any(|error| error.abs() > RESTITUTION_MISSED) {
         let (low, high) = errors().fold((f64::INFINITY, f64::NEG_INFINITY), |(low, high), x| (low.min(x), high.max(x)));
         let [lowest, highest] = [low, high].map(|error| e * (1.0 + error));
-        all.push(Finding::RestitutionMissed { asked: e, lowest, highest, of_equation_2: !is_another(&body, e) });
+        all.push(Finding::RestitutionMissed {
+            asked: e,
+            lowest,
+            highest,
+            of_equation_2: !differs_from_housner(&body, e),
+        });
     }
     all
 }

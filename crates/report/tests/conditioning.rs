@@ -6,7 +6,7 @@ use springs::{
     case::{Case, Objective},
     tuning::{
         job::{Job, at},
-        whole_model::report::landings,
+        landing_simulation::report::landings,
     },
 };
 use strong_motion::Record;

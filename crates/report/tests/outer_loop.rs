@@ -7,8 +7,8 @@ use springs::{
     tuning::{
         job::{CEILING_HZ, Job, at},
         landing::{corners::CornerDynamics, design::Geometry, plane::land},
+        landing_simulation::report::landings,
         suite::Suites,
-        whole_model::report::landings,
     },
     validate::PREDICTABLE,
 };

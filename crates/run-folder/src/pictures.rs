@@ -7,13 +7,13 @@ use rayon::prelude::*;
 use crate::FolderError;
 use dynamics::spring::Design;
 use figures::{EventMark, Figure, FigureError, Sheet, brief, short};
-use report::front::FrontPoint;
+use report::stiffness_tradeoff::TradeoffPoint;
 use rocking::{
     housner,
     structure::{Kind as BodyKind, Structure},
 };
 use springs::{
-    answers::Both,
+    answers::ModelComparison,
     case::Case,
     response::{
         self,
@@ -46,8 +46,8 @@ const FORCES: &str = "Foot forces are those of the springs in a landing, not of 
 pub(crate) struct Pictures<'a> {
     pub case: &'a Case,
     pub job: &'a Job,
-    pub both: &'a Both,
-    pub front: &'a [FrontPoint],
+    pub both: &'a ModelComparison,
+    pub front: &'a [TradeoffPoint],
 }
 
 impl Pictures<'_> {
@@ -262,7 +262,7 @@ impl Pictures<'_> {
 
     fn front(&self) -> Result<Option<Sheet>, FigureError> {
         let front = self.front;
-        let series = |pick: fn(&FrontPoint) -> Option<f64>| -> (Vec<f64>, Vec<f64>) {
+        let series = |pick: fn(&TradeoffPoint) -> Option<f64>| -> (Vec<f64>, Vec<f64>) {
             front.iter().filter_map(|p| pick(p).map(|e| (p.omega_n_hz, e))).unzip()
         };
         let (landing, arr) = (series(|p| p.landing), series(|p| p.arr));
@@ -284,7 +284,7 @@ impl Pictures<'_> {
                 _ => format!("No finite error of {label} at {} Hz.", without.join(", ")),
             });
         }
-        let cost = |pick: fn(&FrontPoint) -> f64| -> (Vec<f64>, Vec<f64>) {
+        let cost = |pick: fn(&TradeoffPoint) -> f64| -> (Vec<f64>, Vec<f64>) {
             front.iter().map(|p| (p.omega_n_hz, pick(p).max(1.0))).unzip()
         };
         let (forces, steps) = (cost(|p| p.foot_force_weights), cost(|p| p.deck_steps as f64));

@@ -6,7 +6,7 @@ use decks::{Expected, with_inertia};
 use figures::Figure;
 use report::{Run, markdown::markdown, page::page, rigid::RigidRun, summary};
 use springs::{
-    answers::Both,
+    answers::ModelComparison,
     parameters::{Parameters, RecordRow},
     predictability::{simulate, width_sensitivity},
 };
@@ -100,7 +100,12 @@ pub fn write_report(out: &Path, output: Output, run: &Run, figures: &[Figure]) -
 }
 
 /// The model for other programs. A body without rotational inertia gets some there, and its own history to check against.
-fn decks(out: &Path, parameters: &Parameters, record: &Record, both: &Both) -> Result<Vec<String>, FolderError> {
+fn decks(
+    out: &Path,
+    parameters: &Parameters,
+    record: &Record,
+    both: &ModelComparison,
+) -> Result<Vec<String>, FolderError> {
     let folder = out.join("decks");
     let structure = with_inertia(&parameters.structure);
     let given = structure == parameters.structure;

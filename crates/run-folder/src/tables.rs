@@ -3,10 +3,10 @@
 use std::fmt::Write;
 
 use dynamics::fem::{Demands, QUANTITIES};
-use springs::answers::Both;
+use springs::answers::ModelComparison;
 
 /// `history.csv`: the motions at the record's samples, 12 significant digits; with members three columns more.
-pub fn history_csv(dt: f64, both: &Both) -> String {
+pub fn history_csv(dt: f64, both: &ModelComparison) -> String {
     let mut motions = vec![("housner", &both.housner), ("fem", &both.fem.motion)];
     motions.extend(both.with.as_ref().map(|with| ("members", &with.history.motion)));
     let mut out = String::from("t");

@@ -5,7 +5,7 @@ use std::convert::Infallible;
 
 use crate::{
     parameters::Parameters,
-    validate::{Judge, Validation},
+    validate::{Validation, Validator},
     verdict::Verdict,
 };
 use dynamics::{
@@ -23,7 +23,7 @@ use rocking::{
 use strong_motion::Record;
 
 /// Both models' answers to one record.
-pub struct Both {
+pub struct ModelComparison {
     /// Housner's history.
     pub rocking: Rocking<f64>,
     /// Housner's history without the vertical component, if the record has one.
@@ -37,7 +37,7 @@ pub struct Both {
     /// Forces in the rigid body's history.
     pub demands: fem::Demands,
     /// The same with members, if there are any.
-    pub with: Option<WithMembers>,
+    pub with: Option<MemberHistory>,
 }
 
 /// Run both models over a record; with members, the finite elements once more with them.
@@ -47,7 +47,7 @@ pub fn both(
     springs: &Springs<Chain<f64>>,
     members: &Members<f64>,
     record: &Record,
-) -> Both {
+) -> ModelComparison {
     let level = housner::RockingOptions { restitution: Some(restitution), ..Default::default() };
     let options = housner::RockingOptions { vertical: record.vertical_accel(), ..level.clone() };
     let rocking = housner::solve(body, record.dt, &record.accel, &options);
@@ -55,9 +55,9 @@ pub fn both(
     let motion = rocking.motion(body);
     let answer =
         |members: &Members<f64>| with_members(body, restitution, springs, members, record, (&rocking, &motion));
-    let WithMembers { history: fem, demands, matched, .. } = answer(&Members::default());
+    let MemberHistory { history: fem, demands, matched, .. } = answer(&Members::default());
     let with = (!members.is_none()).then(|| answer(members));
-    Both { rocking, level, housner: motion, fem, matched, demands, with }
+    ModelComparison { rocking, level, housner: motion, fem, matched, demands, with }
 }
 
 /// The finite elements with members through a record, beside Housner's history and its motion.
@@ -68,7 +68,7 @@ pub fn with_members(
     members: &Members<f64>,
     record: &Record,
     (rocking, motion): (&Rocking<f64>, &Motion),
-) -> WithMembers {
+) -> MemberHistory {
     let case = fem::Analysis {
         body: *body,
         springs: *springs,
@@ -82,11 +82,11 @@ pub fn with_members(
     let (history, mut demands) = case.simulate_with(members);
     let matched = Match::new(body, record.dt, (motion, &rocking.impacts), &history, restitution);
     count(&mut demands, body, record.dt, &history.landings, matched.overturned_fem_s);
-    WithMembers { members: *members, history, demands, matched }
+    MemberHistory { members: *members, history, demands, matched }
 }
 
 /// Both models on the springs and members of a parameter file, and what they say together: peaks, overturning, match.
-pub fn compare(parameters: &Parameters, record: &Record) -> (Both, Verdict) {
+pub fn compare(parameters: &Parameters, record: &Record) -> (ModelComparison, Verdict) {
     let (body, e) = (parameters.structure.body(), parameters.restitution());
     let both = both(&body, e, &parameters.chains(), &parameters.members(), record);
     let vertical = record.vertical_accel();
@@ -97,7 +97,7 @@ pub fn compare(parameters: &Parameters, record: &Record) -> (Both, Verdict) {
 
 /// The springs of a parameter file over many records, each as long as it is, on all cores.
 pub fn validate(parameters: &Parameters, records: &[Record]) -> Validation {
-    let judge = Judge {
+    let judge = Validator {
         body: parameters.structure.body(),
         restitution: parameters.restitution(),
         springs: parameters.chains(),
@@ -108,7 +108,7 @@ pub fn validate(parameters: &Parameters, records: &[Record]) -> Validation {
     validation
 }
 
-impl Both {
+impl ModelComparison {
     /// What the histories say together; `dt` in s.
     pub fn verdict(&self, body: &Body<f64>, dt: f64, conditioning: &Conditioning) -> Verdict {
         let verdict = Verdict::new(body, dt, (&self.rocking, &self.fem), &self.matched, conditioning);
@@ -120,7 +120,7 @@ impl Both {
 }
 
 /// A history with members, and what it says.
-pub struct WithMembers {
+pub struct MemberHistory {
     /// What the body has besides.
     pub members: Members<f64>,
     /// The finite element history with them.

@@ -15,7 +15,7 @@ use crate::{
     tuning::{
         assessment::Assessment,
         job::Job,
-        whole_model::report::{LandingRow, landings},
+        landing_simulation::report::{LandingRow, landings},
     },
     verdict::Verdict,
 };

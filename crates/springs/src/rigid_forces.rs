@@ -11,7 +11,7 @@
 //! springs is within 5 % of Housner's.
 
 use crate::{
-    answers::{Both, WithMembers},
+    answers::{MemberHistory, ModelComparison},
     results::{DesignForce, DesignForces},
 };
 use dynamics::compare::Match;
@@ -35,8 +35,8 @@ pub fn design_forces(
     kind: Kind,
     body: &Body<f64>,
     record: &Record,
-    both: &Both,
-    softer: Option<&WithMembers>,
+    both: &ModelComparison,
+    softer: Option<&MemberHistory>,
 ) -> DesignForces {
     let dt = record.dt;
     let until = |times: [Option<f64>; 2]| samples_until(times.into_iter().flatten().reduce(f64::min), dt);

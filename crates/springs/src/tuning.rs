@@ -1,7 +1,7 @@
 //! Finding springs: the inner design (mu, f, xi), by the paper's frequency response or from the geometry; Omega_n; and what
 //! uses them.
 
-pub mod arr;
+pub mod paper_procedure;
 
 pub mod assessment;
 
@@ -9,7 +9,7 @@ pub mod descent;
 
 pub mod elastic;
 
-pub mod follow;
+pub mod capped_springs;
 
 pub mod job;
 
@@ -17,10 +17,10 @@ mod ladder;
 
 pub mod landing;
 
-pub mod omega;
+pub mod stiffness_search;
 
 mod search;
 
 pub mod suite;
 
-pub mod whole_model;
+pub mod landing_simulation;

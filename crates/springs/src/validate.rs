@@ -41,7 +41,7 @@ use rayon::prelude::*;
 pub use peaks::{HousnerForces, PeakErrors};
 pub use row::{RecordOutcome, Row, Suite};
 pub use statistics::{Confusion, GeometricMean, PREDICTABLE, Quantiles, Summary, Validation};
-pub use stream::{Stream, push};
+pub use stream::{ComparisonObserver, push};
 
 use dynamics::{
     fem::Control,
@@ -56,7 +56,7 @@ const BATCH_A_THREAD: usize = 32;
 
 /// The springs under judgement, and what they shall follow.
 #[derive(Clone, Copy, Debug)]
-pub struct Judge {
+pub struct Validator {
     pub body: Body<f64>,
     /// Velocity restitution e of Housner's solution.
     pub restitution: f64,
@@ -66,7 +66,7 @@ pub struct Judge {
     pub control: Control,
 }
 
-impl Judge {
+impl Validator {
     /// Judge n records in parallel. `record(i)` is called once for each i; `done` is told how many records are through. The result
     /// does not depend on the number of threads.
     ///

@@ -8,7 +8,7 @@
 use springs::response::Response;
 use springs::response::bounds::{Bounds, k_min_for_settlement};
 use springs::response::target::{Band, BandKind, Target};
-use springs::tuning::arr::inner::{Fit, FitError, FitOutcome, families, fit};
+use springs::tuning::paper_procedure::inner::{Fit, FitError, FitOutcome, families, fit};
 
 fn minimax(mu: f64) -> Fit {
     fit(mu, &Target::default(), &Bounds::default()).unwrap()

@@ -13,7 +13,7 @@ use super::{
     lognormal::{Group, LognormalFit, Probit, SymmetricMatrix, quantile, score},
     parts::SweepParts,
     plan::Plan,
-    reduce::{self, MODELS, Seen},
+    reduce::{self, MODELS, SeenHistory},
     table::{Column, SweepTable},
 };
 
@@ -95,7 +95,7 @@ pub struct Fragility {
     pub confidence: f64,
 }
 
-fn measures(plan: &Plan, seen: &Seen) -> [f64; 4] {
+fn measures(plan: &Plan, seen: &SeenHistory) -> [f64; 4] {
     let subject = &plan.subjects[seen.cell.subject];
     let uplift = subject.uplift();
     [seen.pga / rocking::scalar::GRAVITY, seen.pgv, seen.pga / uplift, subject.p * seen.pgv / uplift]
@@ -142,7 +142,7 @@ impl<'a> GroupPlaces<'a> {
     }
 
     /// The members that a history counts in, each with its model.
-    fn of(&self, seen: &Seen) -> impl Iterator<Item = (usize, usize)> {
+    fn of(&self, seen: &SeenHistory) -> impl Iterator<Item = (usize, usize)> {
         let (subjects, restitutions) = (self.subjects, self.plan.restitution_count());
         let (subject, restitution) = (seen.cell.subject, seen.cell.restitution);
         let pooled = (subjects > self.plan.subjects.len()).then_some(subjects - 1);

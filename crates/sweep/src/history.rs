@@ -19,7 +19,7 @@ use rocking::{
     overturning::samples_until,
     structure::Body,
 };
-use springs::validate::{Stream, push};
+use springs::validate::{ComparisonObserver, push};
 use strong_motion::Record;
 
 /// Cells that are taken at a time: of Housner's as many as go in lock-step; of finite elements enough to fill the lanes again
@@ -170,7 +170,7 @@ pub(super) struct WantedHistory<'a> {
 
 impl WantedHistory<'_> {
     /// What to say of a history, and its NRMSE against Housner's.
-    fn answer(&self, stream: &Stream, finish: &fem::Finish<f64>) -> (CellAnswer, Option<f64>) {
+    fn answer(&self, stream: &ComparisonObserver, finish: &fem::Finish<f64>) -> (CellAnswer, Option<f64>) {
         let outcome = match finish.outcome {
             fem::HistoryOutcome::Overturned { .. } | fem::HistoryOutcome::Stopped { .. } => CellOutcome::Overturned,
             fem::HistoryOutcome::Completed if housner::topples(&self.subject.body, stream.last.0, stream.last.1) => {
@@ -211,7 +211,7 @@ pub(super) fn elements(wanted: &[WantedHistory<'_>], record: &Record) -> Vec<(Ce
     let followed = fem::histories(&cases, |i| {
         let WantedHistory { subject, rigid, .. } = &wanted[i];
         let standing = samples_until(rigid.overturned(), record.dt).min(rigid.theta.len());
-        Stream::new(&subject.body, &rigid.theta[..standing], &pushes[i])
+        ComparisonObserver::new(&subject.body, &rigid.theta[..standing], &pushes[i])
     });
     followed.iter().zip(wanted).map(|((stream, finish), w)| w.answer(stream, finish)).collect()
 }

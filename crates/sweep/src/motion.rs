@@ -54,7 +54,7 @@ pub enum SweepMotion {
 
 /// How motions are read and made.
 #[derive(Clone, Debug)]
-pub struct Making {
+pub struct MotionSource {
     pub read: ReadOptions,
     pub seed: u64,
     pub duration_s: Option<f64>,
@@ -88,7 +88,7 @@ impl SweepMotion {
     ///
     /// # Errors
     /// A file that cannot be read.
-    pub(crate) fn record(&self, making: &Making, of: (f64, f64)) -> Result<Record, RecordError> {
+    pub(crate) fn record(&self, making: &MotionSource, of: (f64, f64)) -> Result<Record, RecordError> {
         self.told(making, of, &mut |_| {})
     }
 
@@ -98,7 +98,7 @@ impl SweepMotion {
     /// A file that cannot be read.
     pub(crate) fn told(
         &self,
-        making: &Making,
+        making: &MotionSource,
         (p, alpha): (f64, f64),
         notice: &mut dyn FnMut(&Notice),
     ) -> Result<Record, RecordError> {

@@ -9,7 +9,7 @@ use toml::Spanned;
 
 use super::{
     SweepError,
-    motion::{Making, SweepMotion},
+    motion::{MotionSource, SweepMotion},
     spec::{Grid, Kinds, SweepKind, SweepModel, SweepSource},
 };
 use rocking::{
@@ -79,7 +79,7 @@ pub struct Plan {
     pub model: SweepModel,
     pub subjects: Vec<Subject>,
     pub motions: Vec<SweepMotion>,
-    pub making: Making,
+    pub making: MotionSource,
     /// Velocity restitutions for all structures; each structure's own unless given.
     pub restitutions: Option<Vec<f64>>,
     pub measure: Measure,
@@ -123,11 +123,11 @@ impl Plan {
     pub(crate) fn new(source: &SweepSource) -> Result<Self, SweepError> {
         let sweep = &source.spec.sweep;
         let kind = *sweep.kind.get_ref();
-        let default = if kind == SweepKind::Compare { SweepModel::Both } else { SweepModel::Housner };
+        let default = if kind == SweepKind::Compare { SweepModel::ModelComparison } else { SweepModel::Housner };
         let model = sweep.model.as_ref().map_or(default, |model| *model.get_ref());
         if let Some(written) = &sweep.model
             && kind == SweepKind::Compare
-            && model != SweepModel::Both
+            && model != SweepModel::ModelComparison
         {
             return Err(
                 source.at(written, "kind = \"compare\" compares both models; write model = \"both\", or leave it out")
@@ -182,7 +182,7 @@ impl Plan {
             model,
             subjects,
             motions,
-            making: Making { read, seed: sweep.seed, duration_s, p: (least, greatest) },
+            making: MotionSource { read, seed: sweep.seed, duration_s, p: (least, greatest) },
             restitutions,
             measure,
             levels,
@@ -253,7 +253,7 @@ impl Plan {
     /// # Errors
     /// A record that cannot be read, or has no motion.
     pub fn hash(&self, notice: &mut dyn FnMut(&Notice)) -> Result<String, SweepError> {
-        let Making { seed, duration_s, p, .. } = &self.making;
+        let MotionSource { seed, duration_s, p, .. } = &self.making;
         let mut text =
             format!("{} {:?} {:?} {seed} {duration_s:?} {p:?}", env!("CARGO_PKG_VERSION"), self.kind, self.model);
         for subject in &self.subjects {

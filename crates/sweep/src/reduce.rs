@@ -20,7 +20,7 @@ pub(crate) struct KnownAnswer {
 
 /// One history as the reductions see it.
 #[derive(Clone, Copy, Debug)]
-pub(crate) struct Seen {
+pub(crate) struct SeenHistory {
     pub cell: Cell,
     /// [m/s2, m/s]
     pub pga: f64,
@@ -39,7 +39,7 @@ pub fn models(plan: &Plan) -> Vec<usize> {
 ///
 /// # Errors
 /// A part that cannot be read.
-pub(crate) fn each(parts: &SweepParts, mut take: impl FnMut(&Seen)) -> Result<(), SweepError> {
+pub(crate) fn each(parts: &SweepParts, mut take: impl FnMut(&SeenHistory)) -> Result<(), SweepError> {
     let models = models(parts.plan);
     let real = |name: &'static str| (name, Column::Real(Vec::new()));
     let mut columns = vec![("cell", Column::Count(Vec::new())), real("pga_m_per_s2"), real("pgv_m_per_s")];
@@ -60,7 +60,7 @@ pub(crate) fn each(parts: &SweepParts, mut take: impl FnMut(&Seen)) -> Result<()
                 let (peak, overturned) = (peak.get(row).copied()??, overturned.get(row).copied()??);
                 Some(KnownAnswer { peak, overturned })
             };
-            take(&Seen {
+            take(&SeenHistory {
                 cell: parts.plan.cell(cell as u64),
                 pga: pga[row].unwrap_or(0.0),
                 pgv: pgv[row].unwrap_or(0.0),

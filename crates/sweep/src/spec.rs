@@ -74,7 +74,7 @@ pub enum SweepKind {
 pub enum SweepModel {
     Housner,
     Fem,
-    Both,
+    ModelComparison,
 }
 
 impl SweepModel {

@@ -72,15 +72,16 @@ impl<'a, O: Observer<f64>, F: Fn(usize) -> O> Batch<'a, O, F> {
             for (l, lane) in lanes.iter_mut().enumerate().filter(|(_, lane)| lane.is_none()) {
                 *lane = self.begin();
                 match lane {
-                    Some(lane) => kernel.seat(l, &lane.run),
+                    Some(lane) => kernel.assign(l, &lane.run),
                     None => kernel.leave(l),
                 }
             }
             for (l, lane) in lanes.iter_mut().enumerate() {
                 if let Some(lane) = lane.as_mut().filter(|lane| !lane.asked) {
                     lane.asked = true;
-                    lane.run
-                        .ask(lane.h, |state, feet, request, rounding| kernel.ask(l, state, feet, request, rounding));
+                    lane.run.submit(lane.h, |state, feet, request, rounding| {
+                        kernel.submit(l, state, feet, request, rounding)
+                    });
                 }
             }
             match lanes.iter().flatten().count() {
@@ -97,12 +98,12 @@ impl<'a, O: Observer<f64>, F: Fn(usize) -> O> Batch<'a, O, F> {
             }
             for (l, slot) in lanes.iter_mut().enumerate() {
                 let Some(lane) = slot else { continue };
-                let (converged, measures) = match kernel.tell(l, lane.run.spans(), &mut stages) {
+                let (converged, measures) = match kernel.collect_step(l, lane.run.spans(), &mut stages) {
                     Tried::Step(converged, measures) => (converged, Some(measures)),
                     Tried::GoesOn => continue,
                     Tried::Steep => (lane.run.attempt(lane.h, &mut stages), None),
                 };
-                let next = match lane.run.tried(converged, &mut stages, measures.as_ref(), &mut lane.observer) {
+                let next = match lane.run.process_step(converged, &mut stages, measures.as_ref(), &mut lane.observer) {
                     Ok(Some(h)) => Ok(h),
                     Ok(None) => lane.run.plan(&mut lane.observer),
                     Err(outcome) => Err(outcome),

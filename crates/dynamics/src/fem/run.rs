@@ -24,7 +24,7 @@ use super::{
 pub(super) use account::{Contacts, Scales, StepMeasures};
 use events::{Located, Locating};
 pub(crate) use ground::GroundMotion;
-use met::Met;
+use met::StepEvent;
 use rocking::scalar::{GRAVITY, Scalar, real};
 use span::Span;
 
@@ -157,7 +157,7 @@ impl<'a, S: Scalar> TimeLoop<'a, S> {
         let mut stages = Stages::none();
         loop {
             let converged = self.attempt(h, &mut stages);
-            let next = match self.tried(converged, &mut stages, None, observer) {
+            let next = match self.process_step(converged, &mut stages, None, observer) {
                 Ok(Some(h)) => Ok(h),
                 Ok(None) => self.plan(observer),
                 Err(outcome) => Err(outcome),
@@ -251,7 +251,7 @@ impl<'a, S: Scalar> TimeLoop<'a, S> {
 
     /// Take note of a step that was tried: accept it, refuse it, or ask for the same step with the size that is returned, to find
     /// the event within it. `measures` are its own, if known.
-    pub(crate) fn tried(
+    pub(crate) fn process_step(
         &mut self,
         converged: bool,
         stages: &mut Stages<S>,
@@ -275,7 +275,7 @@ impl<'a, S: Scalar> TimeLoop<'a, S> {
                 // nearer to the event, the step that ends there is easier
                 Located::Nowhere => self.refuse(event.whole * event.tau * 0.5),
                 Located::Here { changes } => {
-                    let met = if changes { event.met() } else { Met::Nothing };
+                    let met = if changes { event.met() } else { StepEvent::Nothing };
                     self.accept(stages, measures, &met, observer)?;
                 }
             }
@@ -287,7 +287,7 @@ impl<'a, S: Scalar> TimeLoop<'a, S> {
         }
         let mut measures = measures;
         let mut met = self.met(stages, measures.map_or(&Contacts::Unknown, |m| &m.contacts));
-        if let Met::Grip { foot, tau } = met {
+        if let StepEvent::Grip { foot, tau } = met {
             if !self.locate_grip(foot, tau, stages) {
                 self.refuse(h * tau * 0.5);
                 return Ok(None);
@@ -297,14 +297,14 @@ impl<'a, S: Scalar> TimeLoop<'a, S> {
             measures = None;
         }
         match met {
-            Met::Unresolved => self.refuse(h * 0.25),
-            Met::Crossing { foot, level, tau } => {
+            StepEvent::Unresolved => self.refuse(h * 0.25),
+            StepEvent::Crossing { foot, level, tau } => {
                 let event = Locating::new(foot, level, (stages.h, tau));
                 let size = event.h;
                 self.locating = Some(event);
                 return Ok(Some(size));
             }
-            Met::Nothing | Met::Grip { .. } => self.accept(stages, measures, &met, observer)?,
+            StepEvent::Nothing | StepEvent::Grip { .. } => self.accept(stages, measures, &met, observer)?,
         }
         Ok(None)
     }
@@ -314,7 +314,7 @@ impl<'a, S: Scalar> TimeLoop<'a, S> {
         &mut self,
         stages: &Stages<S>,
         measures: Option<&StepMeasures<S>>,
-        met: &Met,
+        met: &StepEvent,
         observer: &mut impl Observer<S>,
     ) -> Result<(), HistoryOutcome> {
         let measured = measures.copied().unwrap_or_else(|| self.measure(stages));
@@ -330,12 +330,12 @@ impl<'a, S: Scalar> TimeLoop<'a, S> {
         let time = real::<S>(t0) + self.t;
         observer.step(&self.view(time));
         match *met {
-            Met::Crossing { foot, level, .. } => {
+            StepEvent::Crossing { foot, level, .. } => {
                 (self.turns, self.event_by) = (0, usize::MAX);
                 self.switch(foot, level, time, observer);
             }
-            Met::Grip { foot, .. } => self.change_grip(foot, time, observer),
-            Met::Nothing | Met::Unresolved => {}
+            StepEvent::Grip { foot, .. } => self.change_grip(foot, time, observer),
+            StepEvent::Nothing | StepEvent::Unresolved => {}
         }
         Ok(())
     }
@@ -377,7 +377,7 @@ impl<'a, S: Scalar> TimeLoop<'a, S> {
     }
 
     /// Hand over what a step of size h needs: start, contacts, what is asked, and what rounding alone may make of an iteration (m).
-    pub(crate) fn ask(&self, h: S, take: impl FnOnce(&State<S>, &[Foot<S>; 2], &Request<S>, f64)) {
+    pub(crate) fn submit(&self, h: S, take: impl FnOnce(&State<S>, &[Foot<S>; 2], &Request<S>, f64)) {
         take(&self.state, &self.feet, &self.request(h), self.stepper.rounding);
     }
 

@@ -56,7 +56,7 @@ impl Growth {
 
 /// What two histories are told apart by: a perturbation d, in these coordinates, up to a growth.
 #[derive(Clone, Copy, Debug)]
-pub struct Twins<'a> {
+pub struct PerturbedPair<'a> {
     /// Indices of coordinates.
     pub coordinates: &'a [usize],
     /// d.
@@ -71,9 +71,9 @@ pub fn growth(
     ground: GroundAcceleration,
     start: (&DVector<f64>, &DVector<f64>),
     options: &ReferenceOptions,
-    (history, twins): (&ElasticRocking, &Twins),
+    (history, twins): (&ElasticRocking, &PerturbedPair),
 ) -> Growth {
-    let &Twins { coordinates, perturbation: d, limit } = twins;
+    let &PerturbedPair { coordinates, perturbation: d, limit } = twins;
     let peaks: Vec<f64> =
         coordinates.iter().map(|&c| history.q.iter().fold(STILL, |peak, q| f64::max(peak, q[c].abs()))).collect();
     let twin = |options: &ReferenceOptions| {

@@ -67,7 +67,7 @@ impl<M: Mechanics> ReferenceWalk<'_, M> {
         self.note(What::Land, landing, before)?;
         if let Some((corner, sense, energy)) = skidding {
             if energy > SKID * self.history.ledger.largest {
-                self.history.skidded = self.history.skidded.or(Some(self.time()));
+                self.history.first_sliding_landing_s = self.history.first_sliding_landing_s.or(Some(self.time()));
             }
             self.skid(corner, sense)?;
         }

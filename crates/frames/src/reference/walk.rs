@@ -77,7 +77,7 @@ impl<'a, M: Mechanics> ReferenceWalk<'a, M> {
             outcome: ReferenceOutcome::Completed,
             ledger: Ledger { start, ..Ledger::default() },
             pulled: 0.0,
-            skidded: None,
+            first_sliding_landing_s: None,
             steps: 0,
             tried: 0,
             most_work: options.most_work,

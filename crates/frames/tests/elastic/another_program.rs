@@ -4,7 +4,7 @@ use std::path::Path;
 
 use frames::{
     Mechanics, Pier,
-    reference::{ElasticRocking, GroundAcceleration, ReferenceOptions, Twins, growth},
+    reference::{ElasticRocking, GroundAcceleration, PerturbedPair, ReferenceOptions, growth},
 };
 use nalgebra::DVector;
 use strong_motion::Record;
@@ -75,7 +75,7 @@ fn el_centro() {
             ground,
             (&q, &v),
             &options,
-            (&history, &Twins { coordinates: &[2, 3], perturbation: 1e-6, limit: f64::INFINITY }),
+            (&history, &PerturbedPair { coordinates: &[2, 3], perturbation: 1e-6, limit: f64::INFINITY }),
         );
         println!("{name}: growth {:.0} in 8 s", grown.last());
         assert_equal(&history, name, grown.samples_below(GROWN), 6.0);

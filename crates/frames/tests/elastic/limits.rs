@@ -3,7 +3,8 @@
 use frames::{
     Mechanics, Pier,
     reference::{
-        Configuration, CornerContact, CornerSet, GroundAcceleration, ReferenceOptions, Twins, at_rest, growth, rock,
+        Configuration, CornerContact, CornerSet, GroundAcceleration, PerturbedPair, ReferenceOptions, at_rest, growth,
+        rock,
     },
 };
 use nalgebra::DVector;
@@ -186,7 +187,7 @@ fn growth_is_a_property_of_the_history() {
             ground,
             (&q, &v),
             &options,
-            (&history, &Twins { coordinates: &[2, 3], perturbation: d, limit: f64::INFINITY }),
+            (&history, &PerturbedPair { coordinates: &[2, 3], perturbation: d, limit: f64::INFINITY }),
         )
     };
     let (fine, finer) = (at(1e-5), at(1e-6));
@@ -231,7 +232,7 @@ fn a_corner_that_lands_flat_slides_on() {
         let [x, z] = corner.jacobian.each_ref().map(|row| row.dot(&landing.velocity[1]));
         let expected = if slides { -across - w_xx * down / w_xz } else { 0.0 };
         assert!(z.abs() < 1e-9 && (x - expected).abs() < 1e-5 * across.abs(), "{share}: {x} {z}, {expected}");
-        assert_eq!(history.skidded.is_some(), slides);
+        assert_eq!(history.first_sliding_landing_s.is_some(), slides);
         assert_eq!(landing.held.contains(1), !slides);
         assert!(landing.loss() > 0.0);
     }

@@ -1,7 +1,7 @@
 //! Tables of a rigid body's run: the paper's Table 1, the match, landings, forces, error over the stiffness.
 
 use super::super::Table;
-use crate::front::FrontPoint;
+use crate::stiffness_tradeoff::TradeoffPoint;
 use dynamics::compare::Match;
 use dynamics::{
     fem::{Demands, QUANTITIES},
@@ -11,7 +11,7 @@ use files::message::{percent, quantity, significant};
 use rocking::motion::shown;
 use springs::{
     parameters::{PaperProcedure, Parameters},
-    tuning::whole_model::report::LandingRow,
+    tuning::landing_simulation::report::LandingRow,
 };
 
 /// Springs and their match under a heading.
@@ -146,9 +146,9 @@ pub(crate) fn landings(p: &Parameters) -> Table {
 }
 
 /// Error against Omega_n, and what stiffness costs.
-pub(crate) fn stiffness(front: &[FrontPoint]) -> Table {
+pub(crate) fn stiffness(front: &[TradeoffPoint]) -> Table {
     let error = |e: Option<f64>| e.map_or("-".to_string(), shown);
-    let row = |p: &FrontPoint| {
+    let row = |p: &TradeoffPoint| {
         vec![
             format!("{:.0}", p.omega_n_hz),
             error(p.landing),

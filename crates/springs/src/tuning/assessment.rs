@@ -6,9 +6,9 @@ use serde::{Deserialize, Serialize};
 use super::{
     job::Job,
     landing::{corners::CornerDynamics, design::Geometry, plane::land, weight},
-    omega,
+    landing_simulation::differs_from_housner,
+    stiffness_search,
     suite::{Accuracy, JudgedOn, MeasuredErrors, PeakAccuracy},
-    whole_model::is_another,
 };
 use crate::{
     case::{Objective, Tuning, Yardstick},
@@ -67,7 +67,8 @@ impl Assessment {
     pub(crate) fn new(job: &Job, tuning: &Tuning, restitution: f64) -> Self {
         let (objective, asked) = (tuning.objective, tuning.asked());
         let errors = job.tuned.best.errors;
-        let by_landing = objective == Objective::Landing && !job.capped && !is_another(&job.body, restitution);
+        let by_landing =
+            objective == Objective::Landing && !job.capped && !differs_from_housner(&job.body, restitution);
         let landing = by_landing.then(|| limit(job)).flatten();
         let MeasuredErrors { histories, peaks } = errors;
         Self {
@@ -104,16 +105,16 @@ impl Assessment {
 
     /// What springs a rung softer would not hold: that of which the springs taken use most.
     fn decided_by(&self, l: &LimitRow) -> String {
-        let aimed = omega::MARGIN * self.accuracy;
+        let aimed = stiffness_search::MARGIN * self.accuracy;
         let error = weight::restitution_error(l.alpha, l.mass_share, l.omega_n_over_p, LEAST_LEAN);
         let landings = format!(
             "on which the weight leaves landings, from {LEAST_LEAN} alpha on, an error of {error:.0e} at most (theory): it moves a history of \
              sensitivity {PREDICTABLE} by no more than {} of the accuracy",
-            omega::MARGIN
+            stiffness_search::MARGIN
         );
         let on = |suite, name: &str| {
             let share = self.judged().over_on(suite, aimed).unwrap_or(0.0);
-            (share, format!("whose error on {name} is within {} of what is allowed", omega::MARGIN))
+            (share, format!("whose error on {name} is within {} of what is allowed", stiffness_search::MARGIN))
         };
         let all = [
             (error * PREDICTABLE / aimed, landings),
@@ -125,7 +126,7 @@ impl Assessment {
             Some((share, decides)) if share <= 1.0 => format!("the softest of the ladder {decides}"),
             _ => format!(
                 "the best of those tried: none keeps every error, of gentle landings too, within {} of what is allowed",
-                omega::MARGIN
+                stiffness_search::MARGIN
             ),
         }
     }

@@ -9,15 +9,15 @@ use std::{cmp::Ordering, f64::consts::TAU};
 use thiserror::Error;
 
 use super::{
-    arr::{
+    capped_springs,
+    landing::{design::Geometry, weight},
+    landing_simulation,
+    paper_procedure::{
         inner::{Fit, FitError},
         outer::{self, Benchmark, Bracket},
     },
-    follow,
-    landing::{design::Geometry, weight},
-    omega::{self, Rung, Tuned},
+    stiffness_search::{self, Rung, Tuned},
     suite::Suites,
-    whole_model,
 };
 use procedure::Procedure;
 
@@ -219,23 +219,24 @@ impl LandingDesign<'_> {
     fn tune(&self, progress: &(dyn Fn(usize, usize, f64) + Sync)) -> Result<(Tuned, bool), JobError> {
         let tuning = &self.case.tuning;
         let asked = tuning.asked();
-        if whole_model::is_another(&self.body, self.case.restitution) {
+        if landing_simulation::differs_from_housner(&self.body, self.case.restitution) {
             let hz = tuning.max_omega_hz.unwrap_or(BOUNCING_HZ);
             let bracket = self.bracket(hz)?;
-            let springs = follow::with_restitution(&self.body, self.case.restitution, bracket, self.effort, progress);
+            let springs =
+                capped_springs::with_restitution(&self.body, self.case.restitution, bracket, self.effort, progress);
             let springs = springs.ok_or(JobError::NoCandidate)?;
             return Ok((alone(self.suites, &self.body, asked, springs, self.effort), tuning.max_omega_hz.is_some()));
         }
         let p = self.body.p_squared().sqrt();
         let springs = |stiffness: f64| at(&self.body, stiffness);
-        let said = |rungs: usize, over: f64| progress(rungs, 0, over * omega::MARGIN * asked.error);
+        let said = |rungs: usize, over: f64| progress(rungs, 0, over * stiffness_search::MARGIN * asked.error);
         // the ladder up to an Omega_n/p, from where landings hold; if none of those rungs does, the better of that and of the whole ladder
         let ladder = |stiffest: f64, springs: &dyn Fn(f64) -> Option<Springs<Design<f64>>>| {
             let from = |softest: f64| {
                 let range = (softest, stiffest);
-                omega::tune(self.suites, self.body.mass, asked, (range, self.effort), springs, &said)
+                stiffness_search::tune(self.suites, self.body.mass, asked, (range, self.effort), springs, &said)
             };
-            let soft = self.settling(omega::SOFTEST, stiffest);
+            let soft = self.settling(stiffness_search::SOFTEST, stiffest);
             let landings_hold = self.softest(stiffest).max(soft);
             let tuned = from(landings_hold);
             let done = landings_hold == soft || tuned.as_ref().is_some_and(|tuned| tuned.reached);
@@ -246,7 +247,7 @@ impl LandingDesign<'_> {
             tuned.into_iter().chain(from(soft)).min_by(|a, b| over(a).partial_cmp(&over(b)).unwrap_or(Ordering::Equal))
         };
         let Some(cap) = tuning.max_omega_hz else {
-            let stiffest = omega::last_rung(TAU * CEILING_HZ / p);
+            let stiffest = stiffness_search::last_rung(TAU * CEILING_HZ / p);
             self.settles_at(stiffest)?;
             return ladder(stiffest, &springs).map(|tuned| (tuned, false)).ok_or(JobError::NoCandidate);
         };
@@ -279,11 +280,11 @@ impl LandingDesign<'_> {
     /// The stiffest rung up to `highest` whose horizontal springs are below the cap (Hz), too; `None` if clipping does nothing, or none is.
     fn within(&self, cap: f64, highest: f64) -> Option<f64> {
         let hz = |stiffness| at(&self.body, stiffness).map(|springs| springs.horizontal.omega_n_hz);
-        let last = omega::last_rung(highest);
+        let last = stiffness_search::last_rung(highest);
         let mut stiffness = last;
         while hz(stiffness)? > cap {
-            stiffness = omega::last_rung(0.99 * stiffness);
-            if stiffness < omega::SOFTEST {
+            stiffness = stiffness_search::last_rung(0.99 * stiffness);
+            if stiffness < stiffness_search::SOFTEST {
                 return None;
             }
         }
@@ -294,10 +295,12 @@ impl LandingDesign<'_> {
     /// predictable by the error aimed at: few motions cannot tell, and chaotic ones, which decide on overturning, hang on it. No stiffer than the last
     /// rung up to `stiffest`.
     fn softest(&self, stiffest: f64) -> f64 {
-        let error = omega::MARGIN * self.case.tuning.asked().error / PREDICTABLE;
-        let by_weight = Geometry::of(&self.body, omega::SOFTEST)
+        let error = stiffness_search::MARGIN * self.case.tuning.asked().error / PREDICTABLE;
+        let by_weight = Geometry::of(&self.body, stiffness_search::SOFTEST)
             .map(|body| weight::stiffness(body.alpha(), body.mass_share(), error, LEAST_LEAN));
-        by_weight.unwrap_or(omega::SOFTEST).clamp(omega::SOFTEST, omega::last_rung(stiffest).max(omega::SOFTEST))
+        by_weight
+            .unwrap_or(stiffness_search::SOFTEST)
+            .clamp(stiffness_search::SOFTEST, stiffness_search::last_rung(stiffest).max(stiffness_search::SOFTEST))
     }
 
     /// The least Omega_n/p from `softest` on at which the body settles by no more than is allowed; `stiffest` if there is none.
@@ -323,7 +326,7 @@ impl LandingDesign<'_> {
     /// The springs within a cap (Hz) that follow best what is judged on, of those followed down from the stiff limit and those
     /// of the paper's procedure: so soft, neither is the better one for every body.
     fn followed(&self, cap: f64, progress: &(dyn Fn(usize, usize, f64) + Sync)) -> Result<Tuned, JobError> {
-        let mut found = follow::follow(&self.body, self.case.restitution, self.bracket(cap)?, self.effort);
+        let mut found = capped_springs::follow(&self.body, self.case.restitution, self.bracket(cap)?, self.effort);
         if self.suites.has_whole_record() && (found.is_empty() || !self.effort.stops()) {
             found.extend(self.procedure.at(cap, progress).map(|tuned| tuned.best.springs));
         }
@@ -353,7 +356,7 @@ impl LandingDesign<'_> {
     /// A cap (Hz) and the settlement allowed.
     fn bracket(&self, cap: f64) -> Result<Bracket, JobError> {
         let bracket = Bracket { max_hz: cap, max_settlement: self.case.tuning.max_settlement_m };
-        let least_m = bracket.least_settlement(follow::LARGEST_K);
+        let least_m = bracket.least_settlement(capped_springs::LARGEST_K);
         if least_m > bracket.max_settlement {
             return Err(JobError::Settlement { asked_m: bracket.max_settlement, max_hz: cap, least_m });
         }

@@ -16,7 +16,7 @@ use accuracy::{ERRORS, geometric_mean};
 
 use crate::{
     case::Yardstick,
-    validate::{HousnerForces, PREDICTABLE, PeakErrors, Stream, push},
+    validate::{ComparisonObserver, HousnerForces, PREDICTABLE, PeakErrors, push},
 };
 use dynamics::{
     effort::Effort,
@@ -48,7 +48,7 @@ const AT_A_TIME: usize = 8;
 const SEED: u64 = 1940;
 /// A relative change of the width that must not move a predictable history by more than so many times what its sensitivity may.
 const SMALL_CHANGE: f64 = 1e-6;
-const BELIED: f64 = 4.0;
+const MOST_OVER_SENSITIVITY: f64 = 4.0;
 
 /// The errors of one history.
 #[derive(Clone, Copy, Debug)]
@@ -64,7 +64,7 @@ const LOST: TrialErrors = TrialErrors { u: f64::INFINITY, v: f64::INFINITY, peak
 
 /// A motion and Housner's answer to it.
 #[derive(Clone, Debug)]
-pub(crate) struct Trial {
+pub(crate) struct ReferenceMotion {
     dt: f64,
     accel: Vec<f64>,
     vertical: Option<Arc<[f64]>>,
@@ -106,13 +106,13 @@ impl WantedMotion {
                     && changes(body, dt, accel, options).proportionate()
             }
             Self::Predictable | Self::PredictableWhileItStands => {
-                by_width(SMALL_CHANGE) < BELIED * PREDICTABLE && worst() < PREDICTABLE
+                by_width(SMALL_CHANGE) < MOST_OVER_SENSITIVITY * PREDICTABLE && worst() < PREDICTABLE
             }
         }
     }
 }
 
-impl Trial {
+impl ReferenceMotion {
     /// The motion, if Housner's body rocks on it, on a pivot that presses, and its history is as wanted.
     fn new(body: &Body<f64>, restitution: f64, record: Record, wanted: WantedMotion) -> Option<Self> {
         let vertical = record.vertical_accel();
@@ -153,16 +153,17 @@ impl Trial {
 /// The errors on these springs, of each trial, of a body that overturns up to then; infinite if the history does not get to
 /// the record's end, or one body overturns and the other does not.
 fn errors(
-    trials: &[Trial],
+    trials: &[ReferenceMotion],
     body: &Body<f64>,
     springs: &Springs<Chain<f64>>,
     (control, effort): (Control, &Effort),
 ) -> Vec<TrialErrors> {
-    let pushes: Vec<Cow<[f64]>> = trials.iter().map(Trial::push).collect();
+    let pushes: Vec<Cow<[f64]>> = trials.iter().map(ReferenceMotion::push).collect();
     let cases: Vec<Analysis<f64>> = trials.iter().map(|trial| trial.case(body, springs, control)).collect();
-    let followed =
-        histories(&cases, |i| Stream::new(body, &trials[i].theta, &pushes[i]).with_forces(&trials[i].forces));
-    let error = |((stream, finish), trial): ((Stream, Finish<f64>), &Trial)| {
+    let followed = histories(&cases, |i| {
+        ComparisonObserver::new(body, &trials[i].theta, &pushes[i]).with_forces(&trials[i].forces)
+    });
+    let error = |((stream, finish), trial): ((ComparisonObserver, Finish<f64>), &ReferenceMotion)| {
         finish.spend(effort);
         effort.judged(matches!(finish.outcome, HistoryOutcome::WorkBound { .. }));
         let overturned = match finish.outcome {
@@ -183,9 +184,9 @@ fn errors(
 #[derive(Clone, Debug)]
 pub struct Suites {
     body: Body<f64>,
-    record: Option<Trial>,
-    synthetic: Vec<Trial>,
-    earthquakes: Vec<Trial>,
+    record: Option<ReferenceMotion>,
+    synthetic: Vec<ReferenceMotion>,
+    earthquakes: Vec<ReferenceMotion>,
     /// How many of the earthquakes, the last ones, are scaled down.
     scaled_down: usize,
 }
@@ -203,10 +204,11 @@ impl Suites {
 
     fn seeded(seed: u64, body: &Body<f64>, restitution: f64, record: Option<&Record>, effort: &Effort) -> Self {
         let (p, alpha) = (body.p_squared().sqrt(), body.alpha());
-        let well = |record| Trial::new(body, restitution, record, WantedMotion::WellConditioned);
-        let standing = |record| Trial::new(body, restitution, record, WantedMotion::WellConditionedWhileItStands);
-        let predictable = |record| Trial::new(body, restitution, record, WantedMotion::Predictable);
-        let mild = |record| Trial::new(body, restitution, record, WantedMotion::PredictableWhileItStands);
+        let well = |record| ReferenceMotion::new(body, restitution, record, WantedMotion::WellConditioned);
+        let standing =
+            |record| ReferenceMotion::new(body, restitution, record, WantedMotion::WellConditionedWhileItStands);
+        let predictable = |record| ReferenceMotion::new(body, restitution, record, WantedMotion::Predictable);
+        let mild = |record| ReferenceMotion::new(body, restitution, record, WantedMotion::PredictableWhileItStands);
         let earthquake = |i| synthetic::earthquake(seed, i, p);
         let mut earthquakes = first(EARTHQUAKES, 0..LOOKED_AT, effort, |i| predictable(earthquake(i)));
         let missing = EARTHQUAKES - earthquakes.len();
@@ -225,7 +227,7 @@ impl Suites {
     /// More synthetic motions, none of which is one of these, to tell springs apart on which these do not decide; nothing else.
     pub(crate) fn more(&self, restitution: f64, effort: &Effort) -> Self {
         let (p, alpha) = (self.body.p_squared().sqrt(), self.body.alpha());
-        let well = |record| Trial::new(&self.body, restitution, record, WantedMotion::WellConditioned);
+        let well = |record| ReferenceMotion::new(&self.body, restitution, record, WantedMotion::WellConditioned);
         let others = LOOKED_AT..LOOKED_AT + MORE_LOOKED_AT;
         Self {
             body: self.body,
@@ -361,9 +363,9 @@ fn first(
     count: usize,
     motions: Range<usize>,
     effort: &Effort,
-    pick: impl Fn(usize) -> Option<Trial> + Sync,
-) -> Vec<Trial> {
-    let mut trials: Vec<Trial> = Vec::new();
+    pick: impl Fn(usize) -> Option<ReferenceMotion> + Sync,
+) -> Vec<ReferenceMotion> {
+    let mut trials: Vec<ReferenceMotion> = Vec::new();
     let mut begin = motions.start;
     while trials.len() < count && begin < motions.end && !effort.stopped() {
         let end = (begin + (count - trials.len()).max(AT_A_TIME)).min(motions.end);

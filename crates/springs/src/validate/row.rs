@@ -5,7 +5,7 @@ use std::{borrow::Cow, f64::consts::FRAC_PI_2};
 use rayon::prelude::*;
 use serde::Serialize;
 
-use super::{HousnerForces, Judge, stream::Stream};
+use super::{HousnerForces, Validator, stream::ComparisonObserver};
 use dynamics::fem;
 use rocking::{conditioning::Conditioning, housner, overturning::samples_until, regime};
 use strong_motion::{Record, Source};
@@ -158,14 +158,15 @@ impl HousnerAnswer<'_> {
     }
 }
 
-impl Judge {
+impl Validator {
     /// Run both models over records, the finite element histories side by side.
     pub(crate) fn judge(&self, records: &[Record]) -> Vec<Row> {
         let answers: Vec<HousnerAnswer> =
             records.par_iter().with_max_len(1).map(|record| self.answer(record)).collect();
         let cases: Vec<fem::Analysis<f64>> = answers.iter().map(|answer| self.case(&answer.record)).collect();
-        let watch =
-            |i: usize| Stream::new(&self.body, answers[i].standing(), cases[i].accel).with_forces(&answers[i].forces);
+        let watch = |i: usize| {
+            ComparisonObserver::new(&self.body, answers[i].standing(), cases[i].accel).with_forces(&answers[i].forces)
+        };
         let followed = fem::histories(&cases, watch);
         let both = answers.par_iter().with_max_len(1).zip(followed);
         both.map(|(answer, (stream, finish))| self.row(answer, &stream, &finish)).collect()
@@ -196,7 +197,7 @@ impl Judge {
         }
     }
 
-    fn row(&self, answer: &HousnerAnswer, stream: &Stream, finish: &fem::Finish<f64>) -> Row {
+    fn row(&self, answer: &HousnerAnswer, stream: &ComparisonObserver, finish: &fem::Finish<f64>) -> Row {
         let HousnerAnswer { record, options, rocking, conditioning, .. } = answer;
         let (body, dt, accel) = (&self.body, record.dt, &record.accel[..]);
         let overturned_fem = match finish.outcome {

@@ -54,7 +54,7 @@ pub struct StreamErrors {
 }
 
 /// Watches a finite element history beside Housner's rotations at the same samples.
-pub struct Stream<'a> {
+pub struct ComparisonObserver<'a> {
     body: &'a Body<f64>,
     housner: &'a [f64],
     accel: &'a [f64],
@@ -82,7 +82,7 @@ pub struct Stream<'a> {
     pub residual: f64,
 }
 
-impl<'a> Stream<'a> {
+impl<'a> ComparisonObserver<'a> {
     /// Beside Housner's rotations (rad), as far as they shall be compared; `accel` is the record (m/s2).
     pub fn new(body: &'a Body<f64>, housner: &'a [f64], accel: &'a [f64]) -> Self {
         Self {
@@ -130,7 +130,7 @@ impl<'a> Stream<'a> {
     }
 }
 
-impl Observer<f64> for Stream<'_> {
+impl Observer<f64> for ComparisonObserver<'_> {
     fn sample(&mut self, index: usize, view: &View<f64>) -> ControlFlow<()> {
         if index == 0 {
             self.initial_z = view.z();

@@ -6,13 +6,13 @@ use dynamics::{fem, spring::Design};
 use rocking::{housner, structure::Structure, synthetic};
 
 /// Springs that absorb a landing along the leg: rebound 0.12 of the landing velocity for the chain alone.
-fn judge(structure: &Structure) -> Judge {
+fn judge(structure: &Structure) -> Validator {
     let springs = Springs {
         vertical: Design::from_kc(0.3, 0.1, 0.75, 160.0),
         horizontal: Design::from_kc(0.3, 0.57, 1.86, 160.0),
     };
     let body = structure.body::<f64>();
-    Judge {
+    Validator {
         body,
         restitution: body.restitution(),
         springs: springs.chains(structure.mass_kg),
@@ -29,7 +29,7 @@ fn frame() -> Structure {
 
 #[test]
 fn a_row_says_what_the_whole_histories_say() {
-    let judge = Judge { duration_s: Some(10.0), ..judge(&frame()) };
+    let judge = Validator { duration_s: Some(10.0), ..judge(&frame()) };
     let record = Record::el_centro();
     let row = judge.judge(std::slice::from_ref(&record)).remove(0);
 
@@ -146,7 +146,7 @@ fn the_first_of_several_errors_is_reported() {
 fn errors_of_peaks_are_those_of_an_independent_calculation() {
     for (control, width) in [(Control::default(), 0.6), (Control { long_steps: true, ..Control::search() }, 0.6)] {
         let structure = Structure::block(2.0, width, 1e3).unwrap();
-        let judge = Judge { control, ..judge(&structure) };
+        let judge = Validator { control, ..judge(&structure) };
         let body = &judge.body;
         let p = body.p_squared().sqrt();
         let record = synthetic::record(1, 4, p, body.alpha());
@@ -210,7 +210,7 @@ fn long_steps_know_forces_as_well_as_short_ones() {
         let records: Vec<Record> = (0..40).map(|i| synthetic::record(7, i, p, body.alpha())).collect();
         let forces = |long_steps: bool| {
             let control = Control { long_steps, ..Control::search() };
-            let rows = Judge { springs, control, ..judge(&structure) }.judge(&records);
+            let rows = Validator { springs, control, ..judge(&structure) }.judge(&records);
             rows.into_iter().map(|row| row.base_shear_error.zip(row.axial_error)).collect::<Vec<_>>()
         };
         let pairs = forces(true).into_iter().zip(forces(false));

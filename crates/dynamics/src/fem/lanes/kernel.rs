@@ -151,7 +151,7 @@ impl Kernel {
     }
 
     /// Lane l follows this run from now on.
-    pub(crate) fn seat(&mut self, l: usize, run: &TimeLoop<'_, f64>) {
+    pub(crate) fn assign(&mut self, l: usize, run: &TimeLoop<'_, f64>) {
         let (model, scales) = (run.model, &run.scales);
         self.gap_tolerance[l] = run.gap_tolerance();
         let Springs { vertical: v, horizontal: h } = &model.springs;
@@ -174,7 +174,7 @@ impl Kernel {
     }
 
     /// Ask lane l for a step.
-    pub(crate) fn ask(
+    pub(crate) fn submit(
         &mut self,
         l: usize,
         state: &State<f64>,
@@ -208,7 +208,7 @@ impl Kernel {
     }
 
     /// What lane l's step came to; if it converged, its end, and where contacts change or `wholly` all its stages.
-    pub(crate) fn tell(&self, l: usize, wholly: bool, stages: &mut Stages<f64>) -> Tried {
+    pub(crate) fn collect_step(&self, l: usize, wholly: bool, stages: &mut Stages<f64>) -> Tried {
         assert!(l < WIDTH);
         if self.steep[l] != 0.0 {
             return Tried::Steep;

@@ -75,8 +75,8 @@ impl<S: Scalar> TimeLoop<'_, S> {
         let &StepMeasures { stored, input, dissipated, missed, .. } = measures;
         let defect = (stored - self.energy.stored - input + dissipated).re().abs();
         let h = stages.h.re();
-        let tried = TriedStep { h, planned: self.h, settling: self.settling };
-        match tried.verdict([defect, missed], [self.allowed(stored, stages), self.allowed_error(h)]) {
+        let process_step = TriedStep { h, planned: self.h, settling: self.settling };
+        match process_step.verdict([defect, missed], [self.allowed(stored, stages), self.allowed_error(h)]) {
             StepVerdict::Refused(h) => {
                 self.h = h;
                 return false;

@@ -1,6 +1,6 @@
 //! Contact events: located by repeating the step, then the foot switches (where they are met: `met`).
 
-use super::{TimeLoop, met::Met};
+use super::{TimeLoop, met::StepEvent};
 use crate::fem::{
     cubic::falls_through_zero,
     model::{Contact, Foot, TH},
@@ -41,7 +41,7 @@ const HALVED: f64 = 1e-8;
 
 /// Radians within 1/Omega_n: a massless rotation that is let go faster than that was about to snap, and keeps no rate that
 /// means anything.
-const WHIRL: f64 = 100.0;
+const FASTEST_TURN: f64 = 100.0;
 
 /// First step tried after an event, in units of 1/Omega_n: the transient that the event began decides the step, not the
 /// step that the event cut short.
@@ -61,7 +61,7 @@ pub(super) struct Locating<S> {
     low: f64,
     high: f64,
     /// Sizes tried.
-    tried: usize,
+    process_step: usize,
     /// Whether what is tried is taken.
     last: bool,
 }
@@ -69,11 +69,11 @@ pub(super) struct Locating<S> {
 impl<S: Scalar> Locating<S> {
     pub(crate) fn new(foot: usize, level: f64, (whole, tau): (S, f64)) -> Self {
         let (low, high) = (0.0, f64::INFINITY);
-        Self { foot, level, whole: whole.re(), tau, h: whole * tau, low, high, tried: 0, last: false }
+        Self { foot, level, whole: whole.re(), tau, h: whole * tau, low, high, process_step: 0, last: false }
     }
 
-    pub(crate) fn met(&self) -> Met {
-        Met::Crossing { foot: self.foot, level: self.level, tau: self.tau }
+    pub(crate) fn met(&self) -> StepEvent {
+        StepEvent::Crossing { foot: self.foot, level: self.level, tau: self.tau }
     }
 }
 
@@ -113,7 +113,7 @@ impl<S: Scalar> TimeLoop<'_, S> {
             return if converged { Located::Here { changes: true } } else { Located::Nowhere };
         }
         self.work.located += 1;
-        event.tried += 1;
+        event.process_step += 1;
         if !converged {
             return Located::Nowhere;
         }
@@ -151,7 +151,7 @@ impl<S: Scalar> TimeLoop<'_, S> {
         } else {
             return Located::Here { changes: false };
         };
-        if event.tried == MOST_LOCATED { Located::Nowhere } else { Located::Next(event.h) }
+        if event.process_step == MOST_LOCATED { Located::Nowhere } else { Located::Next(event.h) }
     }
 
     /// Change a foot's contact.
@@ -224,7 +224,7 @@ impl<S: Scalar> TimeLoop<'_, S> {
     fn turn(&mut self) -> Option<usize> {
         let start = self.state.q[TH];
         self.turns += 1;
-        let whirls = self.state.v[TH].re().abs() * self.settling > WHIRL;
+        let whirls = self.state.v[TH].re().abs() * self.settling > FASTEST_TURN;
         let flies = !self.feet[0].closed() && !self.feet[1].closed();
         self.balanced = self.turns < MOST_TURNS
             && !(whirls && flies && self.model.massless())

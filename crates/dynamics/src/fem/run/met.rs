@@ -9,7 +9,7 @@ use crate::fem::{
 use rocking::scalar::Scalar;
 
 /// What a candidate step met.
-pub(super) enum Met {
+pub(super) enum StepEvent {
     Nothing,
     /// The compression of this foot's gap passes `level` (m).
     Crossing {
@@ -26,7 +26,7 @@ pub(super) enum Met {
     Unresolved,
 }
 
-impl Met {
+impl StepEvent {
     /// This, or `other` where this is nothing.
     pub(super) fn or(self, other: Self) -> Self {
         if matches!(self, Self::Nothing) { other } else { self }
@@ -35,21 +35,23 @@ impl Met {
 
 impl<S: Scalar> TimeLoop<'_, S> {
     /// Whether a foot's contact changes within the step, and where first; `contacts` is what is known of it.
-    pub(super) fn met(&self, stages: &Stages<S>, contacts: &Contacts) -> Met {
+    pub(super) fn met(&self, stages: &Stages<S>, contacts: &Contacts) -> StepEvent {
         if matches!(contacts, Contacts::Unchanged) {
-            return Met::Nothing;
+            return StepEvent::Nothing;
         }
         match (self.crosses(stages, contacts), self.loses_grip(stages)) {
-            (Met::Unresolved, _) => Met::Unresolved,
-            (Met::Crossing { tau: crossing, .. }, Some((foot, tau))) if tau < crossing => Met::Grip { foot, tau },
-            (Met::Nothing, Some((foot, tau))) => Met::Grip { foot, tau },
+            (StepEvent::Unresolved, _) => StepEvent::Unresolved,
+            (StepEvent::Crossing { tau: crossing, .. }, Some((foot, tau))) if tau < crossing => {
+                StepEvent::Grip { foot, tau }
+            }
+            (StepEvent::Nothing, Some((foot, tau))) => StepEvent::Grip { foot, tau },
             (crossing, _) => crossing,
         }
     }
 
     /// Whether a foot touches or leaves the ground, or begins to hold as it presses, and where first.
-    pub(super) fn crosses(&self, stages: &Stages<S>, contacts: &Contacts) -> Met {
-        let mut first = Met::Nothing;
+    pub(super) fn crosses(&self, stages: &Stages<S>, contacts: &Contacts) -> StepEvent {
+        let mut first = StepEvent::Nothing;
         let mut earliest = f64::INFINITY;
         let gaps = if let Contacts::Gaps(gaps) = contacts { *gaps } else { self.gaps(stages) };
         for (foot, gaps) in gaps.iter().enumerate() {
@@ -72,10 +74,10 @@ impl<S: Scalar> TimeLoop<'_, S> {
                 let k = NODES.iter().rposition(|&node| node < high.0).unwrap_or(0);
                 let low = (NODES[k], inside[k].max(0.0));
                 let moves_in = || self.moves_in(foot, sign) * stages.h.re() > self.gap_tolerance();
-                let Some(tau) = self.first_zero(&cubic, low, high, moves_in) else { return Met::Unresolved };
+                let Some(tau) = self.first_zero(&cubic, low, high, moves_in) else { return StepEvent::Unresolved };
                 if tau < earliest {
                     earliest = tau;
-                    first = Met::Crossing { foot, level, tau };
+                    first = StepEvent::Crossing { foot, level, tau };
                 }
             }
         }
@@ -152,7 +154,7 @@ mod tests {
             stages.v[i][az(0)] = slope(tau) / stages.h;
         }
         match run.met(&stages, &Contacts::Unknown) {
-            Met::Crossing { foot: 0, level, tau } => assert!(level == 0.0 && (tau - 0.2).abs() < 1e-6, "{tau}"),
+            StepEvent::Crossing { foot: 0, level, tau } => assert!(level == 0.0 && (tau - 0.2).abs() < 1e-6, "{tau}"),
             _ => unreachable!("the touch is missed"),
         }
         // a hair lower it does not touch
@@ -161,6 +163,6 @@ mod tests {
         }
         state.q[Z] = stages.q[0][Z];
         let run = TimeLoop::new(&model, (state, feet), Control::default());
-        assert!(matches!(run.met(&stages, &Contacts::Unknown), Met::Nothing));
+        assert!(matches!(run.met(&stages, &Contacts::Unknown), StepEvent::Nothing));
     }
 }

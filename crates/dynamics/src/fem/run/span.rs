@@ -19,7 +19,7 @@
 //! local error. A step that meets a change of contact, or whose body comes to lie, is refused: the steps up to it end at samples. Contact is
 //! looked for along the parabola; a touch that only what is missing would make is not seen.
 
-use super::{Contacts, Met, Scales, StepMeasures, TimeLoop, real};
+use super::{Contacts, Scales, StepEvent, StepMeasures, TimeLoop, real};
 use crate::fem::{
     control::HistoryOutcome,
     model::{Contact, Model, Pose, State, TH, Vector, X, Z},
@@ -180,9 +180,9 @@ impl<S: Scalar> TimeLoop<'_, S> {
         // a body that lies is followed to the sample at which it does
         let flat = stages.end().q[TH].re().abs() > FRAC_PI_2;
         let until = match met {
-            Met::Nothing => flat.then_some(0.5),
-            Met::Crossing { tau, .. } | Met::Grip { tau, .. } => Some(tau),
-            Met::Unresolved => Some(0.25),
+            StepEvent::Nothing => flat.then_some(0.5),
+            StepEvent::Crossing { tau, .. } | StepEvent::Grip { tau, .. } => Some(tau),
+            StepEvent::Unresolved => Some(0.25),
         };
         if let Some(tau) = until {
             self.event_by = self.interval + (tau * span.intervals as f64) as usize;

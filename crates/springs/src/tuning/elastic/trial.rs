@@ -61,7 +61,7 @@ impl Judged {
 #[derive(Clone, Debug)]
 pub enum ElasticTrialOutcome {
     /// A history to compare with.
-    Trial(ElasticTrial),
+    ReferenceMotion(ElasticTrial),
     /// It does not lift the structure, or overturns it, or cannot be followed.
     Unfit,
     /// Its reference met the bound on its work.
@@ -87,7 +87,7 @@ fn out_of_work(history: &ElasticRocking) -> bool {
 impl ElasticTrialOutcome {
     /// The trial, if it is one.
     pub fn trial(self) -> Option<ElasticTrial> {
-        if let Self::Trial(trial) = self { Some(trial) } else { None }
+        if let Self::ReferenceMotion(trial) = self { Some(trial) } else { None }
     }
 }
 
@@ -142,7 +142,7 @@ impl ElasticTrial {
                     };
                     Self::found(model, ground, None, &history, || foretold)
                 });
-                let before = before.filter(|found| matches!(found, ElasticTrialOutcome::Trial(_)));
+                let before = before.filter(|found| matches!(found, ElasticTrialOutcome::ReferenceMotion(_)));
                 return before.unwrap_or(ElasticTrialOutcome::OutOfWork);
             }
             let foretold = model.foretold(ground, &q, &history, TRIED);
@@ -184,7 +184,7 @@ impl ElasticTrial {
         let reference = model.sways(history.q[..samples].iter().map(|q| q.as_slice()));
         let peaks = StructurePeaks::of(model, history.q[..samples].iter().map(|q| q.as_slice()));
         let vertical = vertical[..samples.min(vertical.len())].to_vec();
-        ElasticTrialOutcome::Trial(Self {
+        ElasticTrialOutcome::ReferenceMotion(Self {
             dt,
             accel: accel[..samples].to_vec(),
             vertical,

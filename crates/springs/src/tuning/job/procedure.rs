@@ -8,11 +8,11 @@ use super::{CEILING_HZ, JobError, alone};
 use crate::{
     case::Case,
     tuning::{
-        arr::{
+        paper_procedure::{
             inner::{Fit, FitError, fit},
             outer::{self, Benchmark, Bracket},
         },
-        omega::{self, Tuned},
+        stiffness_search::{self, Tuned},
         suite::Suites,
     },
 };
@@ -86,16 +86,22 @@ impl<'a> Procedure<'a> {
             return Ok((alone(suites, body, asked, found.best.springs, effort), true, Some(found)));
         }
         let p = body.p_squared().sqrt();
-        let begin = omega::begin(asked) * p / TAU;
+        let begin = stiffness_search::begin(asked) * p / TAU;
         let found = self.at(begin, progress).ok_or(JobError::NoCandidate)?;
         let springs = |stiffness: f64| {
             let bracket = Bracket { max_hz: stiffness * p / TAU, max_settlement: f64::INFINITY };
             let near = outer::follow(self.benchmark, &self.vertical, &self.horizontal, bracket, &found, begin);
             near.map(|candidate| candidate.springs)
         };
-        let said = |rungs: usize, over: f64| progress(rungs, 0, over * omega::MARGIN * asked.error);
-        let tuned =
-            omega::tune(suites, body.mass, asked, ((omega::SOFTEST, TAU * CEILING_HZ / p), effort), &springs, &said);
+        let said = |rungs: usize, over: f64| progress(rungs, 0, over * stiffness_search::MARGIN * asked.error);
+        let tuned = stiffness_search::tune(
+            suites,
+            body.mass,
+            asked,
+            ((stiffness_search::SOFTEST, TAU * CEILING_HZ / p), effort),
+            &springs,
+            &said,
+        );
         Ok((tuned.ok_or(JobError::NoCandidate)?, false, Some(found)))
     }
 }

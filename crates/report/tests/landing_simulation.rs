@@ -7,11 +7,11 @@ use dynamics::{
 };
 use rocking::structure::{Body, Structure};
 use springs::tuning::{
-    arr::outer::Bracket,
-    follow::{follow, with_restitution},
+    capped_springs::{follow, with_restitution},
     job::at,
     landing::{design::Geometry, universal::universal, weight},
-    whole_model::report::{LandingRow, landings},
+    landing_simulation::report::{LandingRow, landings},
+    paper_procedure::outer::Bracket,
 };
 
 fn rows(body: &Body<f64>, ratio: f64, springs: &Springs<Design<f64>>) -> Vec<LandingRow> {

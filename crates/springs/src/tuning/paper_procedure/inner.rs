@@ -75,7 +75,7 @@ const SAME: f64 = 0.05;
 /// The springs of mass ratio mu whose response follows the target best.
 ///
 /// ```
-/// use springs::{response::{bounds::Bounds, target::Target}, tuning::arr::inner::fit};
+/// use springs::{response::{bounds::Bounds, target::Target}, tuning::paper_procedure::inner::fit};
 ///
 /// // mu -> 0: K = 1/2 and a largest ARR of 3
 /// let fit = fit(1e-3, &Target::default(), &Bounds::default()).unwrap();

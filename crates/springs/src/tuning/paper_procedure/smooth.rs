@@ -113,7 +113,7 @@ mod tests {
     use super::*;
     use crate::response::bounds::Bounds;
     use crate::response::target::Target;
-    use crate::tuning::arr::excess::{curves, largest, points};
+    use crate::tuning::paper_procedure::excess::{curves, largest, points};
 
     #[test]
     fn the_smooth_objective_lies_just_above_the_largest_excess() {

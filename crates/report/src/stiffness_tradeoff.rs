@@ -17,8 +17,8 @@ use dynamics::{
 };
 use rocking::scalar::GRAVITY;
 use springs::tuning::{
-    arr::outer::{self, Benchmark, Bracket},
     job::{Job, Paper, at},
+    paper_procedure::outer::{self, Benchmark, Bracket},
 };
 
 /// Omega_n of the front's points (Hz); the one that was chosen is added.
@@ -26,7 +26,7 @@ const LADDER_HZ: [f64; 8] = [160.0, 320.0, 640.0, 1280.0, 2560.0, 5120.0, 10240.
 
 /// One point of the front.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
-pub struct FrontPoint {
+pub struct TradeoffPoint {
     /// Omega_n of the vertical units (Hz).
     pub omega_n_hz: f64,
     /// Whether these springs were chosen.
@@ -43,7 +43,7 @@ pub struct FrontPoint {
 }
 
 /// The front of a job.
-pub fn front(job: &Job, progress: &(dyn Fn(usize, usize) + Sync)) -> Vec<FrontPoint> {
+pub fn front(job: &Job, progress: &(dyn Fn(usize, usize) + Sync)) -> Vec<TradeoffPoint> {
     let chosen = job.springs.vertical.omega_n_hz;
     let mut ladder: Vec<f64> = LADDER_HZ.into_iter().filter(|hz| (hz / chosen).ln().abs() > 0.05).collect();
     ladder.push(chosen);
@@ -61,7 +61,7 @@ pub fn front(job: &Job, progress: &(dyn Fn(usize, usize) + Sync)) -> Vec<FrontPo
             let (arr, ours) = rayon::join(arr, ours);
             progress(done.fetch_add(1, Ordering::Relaxed) + 1, ladder.len());
             let (landing, (foot_force_weights, deck_steps)) = ours?;
-            Some(FrontPoint { omega_n_hz: hz, chosen: hz == chosen, landing, arr, foot_force_weights, deck_steps })
+            Some(TradeoffPoint { omega_n_hz: hz, chosen: hz == chosen, landing, arr, foot_force_weights, deck_steps })
         })
         .collect()
 }

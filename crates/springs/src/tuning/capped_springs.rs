@@ -2,7 +2,7 @@
 //!
 //! Where a cap keeps Omega_n v_n/g small, gravity takes part in the landing and the stance gives way before it lifts. So the
 //! design from the geometry is only where to begin: it is taken at a stiffness at which it holds, and with every step down,
-//! by a factor of two, all eight parameters are tuned again on the whole model (`whole_model`), from what they were. No record.
+//! by a factor of two, all eight parameters are tuned again on the whole model (`landing_simulation`), from what they were. No record.
 
 use std::f64::consts::TAU;
 
@@ -11,11 +11,11 @@ use num_dual::{Derivative, DualNum, DualSVec64};
 use rayon::prelude::*;
 
 use super::{
-    arr::outer::Bracket,
     descent::{LeastSquares, descend},
     landing::design::Geometry,
+    landing_simulation::{Criterion, WholeModel},
+    paper_procedure::outer::Bracket,
     search::search,
-    whole_model::{Criterion, WholeModel},
 };
 use dynamics::{
     effort::Effort,

@@ -64,7 +64,7 @@ const AIR_PERIODS: f64 = 1.0;
 const AIR_FREE: f64 = 0.85;
 
 /// Whether this velocity restitution is another than equation 2's.
-pub fn is_another(body: &Body<f64>, restitution: f64) -> bool {
+pub fn differs_from_housner(body: &Body<f64>, restitution: f64) -> bool {
     (restitution / body.restitution() - 1.0).abs() > ANOTHER
 }
 
@@ -95,7 +95,7 @@ pub(crate) struct WholeModel {
 impl WholeModel {
     /// Scenarios of a body that is to land with velocity restitution `restitution` on springs of Omega_n up to `max_hz` (Hz).
     pub(crate) fn new(body: &Body<f64>, restitution: f64, max_hz: f64, criterion: Criterion) -> Self {
-        let another = is_another(body, restitution);
+        let another = differs_from_housner(body, restitution);
         Self {
             criterion,
             body: *body,
