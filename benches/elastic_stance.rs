@@ -1,5 +1,5 @@
-//! The numbers in the choice of K for elastic structures (`tuning/elastic/design`, `BALANCE`): errors of piers with light to heavy footings and of a
-//! frame, on releases and motions, over both.
+//! The numbers in the choice of K for elastic structures (`tuning/elastic/design`, `BALANCE`):
+//! errors of piers with light to heavy footings and of a frame, on releases and motions, over both.
 //!
 //! ```sh
 //! cargo bench --bench elastic_stance

@@ -1,4 +1,5 @@
-//! The finite element history, 20 s of El Centro: the springs of both procedures, and springs of any stiffness.
+//! The finite element history, 20 s of El Centro: the springs of both procedures, and springs of
+//! any stiffness.
 
 use std::{
     hint::black_box,
@@ -32,7 +33,8 @@ fn fem(c: &mut Criterion) {
     group.finish();
 }
 
-/// 64 histories of 20 s of El Centro at scales of 0.8 to 1.3, at an error of 1e-4: one after the other, and in lanes on one thread.
+/// 64 histories of 20 s of El Centro at scales of 0.8 to 1.3, at an error of 1e-4: one after the
+/// other, and in lanes on one thread.
 fn lanes(c: &mut Criterion) {
     let mut group = c.benchmark_group("lanes");
     group.warm_up_time(Duration::from_millis(300)).measurement_time(Duration::from_secs(3)).sample_size(20);
@@ -58,8 +60,8 @@ fn lanes(c: &mut Criterion) {
 /// Rounds of either in turn, so that whatever else the machine does slows all.
 const ROUNDS: usize = 15;
 
-/// Print what a history costs one by one, with steps that end at every sample and with those over several, and side by side; and the
-/// ratios: medians over the rounds.
+/// Print what a history costs one by one, with steps that end at every sample and with those over
+/// several, and side by side; and the ratios: medians over the rounds.
 fn ratio(bench: &BenchCase, cases: &[Analysis<f64>], threads: &rayon::ThreadPool) {
     let seconds = |work: &dyn Fn() -> f64| {
         let began = Instant::now();

@@ -1,7 +1,9 @@
-//! How the stiffness ratio K trades the landing against the stance: what a history errs for several scales K_0 of K (`K_SCALE` of the landing's
-//! design), on bodies of several slendernesses and Omega_n/p. Errors are those that Omega_n is chosen by, in units of what an accuracy of 1
-//! allows (median of synthetic motions, a fifth of the 90 % quantile, and of the geometric mean of earthquake-like ones with three standard
-//! errors), on motions of seeds 5, 6 and 7, which no spring is chosen on.
+//! How the stiffness ratio K trades the landing against the stance: what a history errs for several
+//! scales K_0 of K (`K_SCALE` of the landing's design), on bodies of several slendernesses and
+//! Omega_n/p. Errors are those that Omega_n is chosen by, in units of what an accuracy of 1 allows
+//! (median of synthetic motions, a fifth of the 90 % quantile, and of the geometric mean of
+//! earthquake-like ones with three standard errors), on motions of seeds 5, 6 and 7, which no
+//! spring is chosen on.
 //!
 //! ```sh
 //! cargo bench --bench stance
@@ -12,7 +14,7 @@ use rocking::structure::Structure;
 use springs::{
     case::{Asked, Yardstick},
     tuning::{
-        job::at,
+        landing::design::springs_at_stiffness,
         landing::{design::Geometry, universal::universal},
         suite::Suites,
     },
@@ -46,7 +48,7 @@ fn main() -> Result<(), Box<dyn std::error::Error>> {
         let suites = SEEDS.map(|seed| Suites::of_seed(seed, &body, body.restitution(), None));
         for stiffness in STIFFNESSES {
             let geometry = Geometry::of(&body, stiffness)?;
-            let own = at(&body, stiffness).ok_or("no design")?;
+            let own = springs_at_stiffness(&body, stiffness).ok_or("no design")?;
             let mut line = String::new();
             for (errors, scale) in all.iter_mut().zip(SCALES) {
                 let (k, m) = (geometry.k_of(scale), geometry.effective_mass());

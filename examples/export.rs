@@ -1,4 +1,5 @@
-//! The model for other programs: decks for OpenSees (Python and Tcl), tables for SAP2000, and k1, k2, m2, c for everyone else.
+//! The model for other programs: decks for OpenSees (Python and Tcl), tables for SAP2000, and k1,
+//! k2, m2, c for everyone else.
 //!
 //! ```sh
 //! cargo run --release --example export -- decks       # a folder; one in the temporary folder unless given

@@ -1,4 +1,5 @@
-//! The finite element body on springs that are given, beside Housner's: histories as CSV on stdout, what they say on stderr.
+//! The finite element body on springs that are given, beside Housner's: histories as CSV on stdout,
+//! what they say on stderr.
 //!
 //! ```sh
 //! cargo run --release --example simulate > history.csv

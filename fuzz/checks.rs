@@ -1,6 +1,8 @@
-//! What must hold for any bytes whatever: no panic, no hang, an answer that is checked or an error of one clear line.
+//! What must hold for any bytes whatever: no panic, no hang, an answer that is checked or an error
+//! of one clear line.
 //!
-//! Shared by the fuzz targets and by `tests/fuzz_corpus.rs`, which replays the corpus on every `cargo test`.
+//! Shared by the fuzz targets and by `tests/fuzz_corpus.rs`, which replays the corpus on every
+//! `cargo test`.
 
 #![allow(dead_code)] // each target uses its own check
 
@@ -25,8 +27,8 @@ fn checked(record: &Record) {
     assert!(record.pga_g() <= 50.0, "{} g", record.pga_g());
 }
 
-/// A record file under every combination of what a user may say of it. What was read, written as columns and as AT2, is
-/// read as the same.
+/// A record file under every combination of what a user may say of it. What was read, written as
+/// columns and as AT2, is read as the same.
 pub fn record(bytes: &[u8]) {
     for name in ["a.at2", "a.txt"] {
         for (dt, units) in [

@@ -54,13 +54,16 @@ enum Command {
     Init(init::InitOptions),
     /// Rock the rigid body by Housner's equation; its history as CSV on stdout.
     Housner(housner::HousnerOptions),
-    /// Fit a spring-absorber unit (frequency ratio f, damping ratio xi) of a mass ratio to the wanted frequency response.
+    /// Fit a spring-absorber unit (frequency ratio f, damping ratio xi) of a mass ratio to the
+    /// wanted frequency response.
     Response(response::ResponseOptions),
     /// The design over slenderness and stiffness, for any size and mass, as CSV and figure.
     Chart(chart::ChartOptions),
-    /// Rock the finite elements on given springs, and Housner's body; their match as JSON on stdout.
+    /// Rock the finite elements on given springs, and Housner's body; their match as JSON on
+    /// stdout.
     Simulate(simulate::SimulateOptions),
-    /// Judge given springs over many records: peaks, overturning, histories where they can be compared.
+    /// Judge given springs over many records: peaks, overturning, histories where they can be
+    /// compared.
     Validate(validate::ValidateOptions),
     /// Many histories over structures, records, scales: fragility, overturning and rocking spectra.
     Sweep(sweep::SweepOptions),

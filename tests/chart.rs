@@ -6,7 +6,8 @@ use dynamics::spring::{Design, Springs};
 use rocking::structure::Structure;
 use springs::tuning::landing_simulation::report::landings;
 
-/// A row of chart.csv: kind, alpha, Omega_n/p, and (K, mu, f, xi) of the vertical units, Omega_h/Omega_v.
+/// A row of chart.csv: kind, alpha, Omega_n/p, and (K, mu, f, xi) of the vertical units,
+/// Omega_h/Omega_v.
 struct Row {
     kind: String,
     alpha: f64,
@@ -44,7 +45,8 @@ fn between(points: &[(f64, [f64; 4])], x: f64) -> Option<[f64; 4]> {
     Some(std::array::from_fn(|k| a[k] * (1.0 - w) + b[k] * w))
 }
 
-/// Read off as an engineer would: along Omega_n/p on its logarithmic axis, then between two curves of alpha.
+/// Read off as an engineer would: along Omega_n/p on its logarithmic axis, then between two curves
+/// of alpha.
 fn read_off(rows: &[Row], kind: &str, alpha: f64, stiffness: f64) -> Option<Springs<Design<f64>>> {
     let mut alphas: Vec<f64> = rows.iter().filter(|row| row.kind == kind).map(|row| row.alpha).collect();
     alphas.dedup();
@@ -96,8 +98,8 @@ fn springs_read_off_by_hand_hold_the_landings_within_a_fifth_of_a_per_cent() {
     assert!(read > 70, "{read}");
 }
 
-/// Rows are a tenth of a decade apart; the logarithm of a value bends by less than 0.03 from row to row, so that a straight line
-/// between two rows is right to half a per cent.
+/// Rows are a tenth of a decade apart; the logarithm of a value bends by less than 0.03 from row to
+/// row, so that a straight line between two rows is right to half a per cent.
 #[test]
 fn the_curves_bend_little() {
     let folder = tempfile::tempdir().unwrap();

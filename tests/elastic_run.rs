@@ -40,7 +40,8 @@ fn a_pier_is_tuned_and_what_is_written_agrees_with_itself() {
     assert!(on["nrmse_rotation"].as_f64().unwrap() <= 0.002, "{on}");
     assert!(on["energy_residual"].as_f64().unwrap() < 1e-5, "{on}");
     assert_eq!(parameters["springs"].as_array().unwrap().len(), 2);
-    // what rocking buys: less shear and a smaller moment at the column's base than held to the ground
+    // what rocking buys: less shear and a smaller moment at the column's base than held to the
+    // ground
     for force in ["column_shear_n", "column_base_moment_nm", "axial_n"] {
         let force = &parameters["design_forces"][force];
         assert_eq!(force["holds"], true, "{force}");

@@ -1,4 +1,5 @@
-//! The corpus of the fuzz targets (`fuzz/`), replayed: every input that ever reached new code or failed.
+//! The corpus of the fuzz targets (`fuzz/`), replayed: every input that ever reached new code or
+//! failed.
 
 use std::{fs, path::Path};
 
@@ -39,8 +40,9 @@ fn any_text_is_a_parameter_file_that_runs_or_an_error_of_one_line() {
     replay("parameters", checks::parameters);
 }
 
-/// Inputs made from the corpus and from random bytes, seed by seed: `MUTATED=1000000 cargo test --release --test
-/// fuzz_corpus mutated -- --nocapture` tries more of them, `MUTATED_SEED=7` that one alone.
+/// Inputs made from the corpus and from random bytes, seed by seed: `MUTATED=1000000 cargo test
+/// --release --test fuzz_corpus mutated -- --nocapture` tries more of them, `MUTATED_SEED=7` that
+/// one alone.
 #[test]
 fn mutated_and_random_inputs_are_read_or_refused_in_one_line() {
     let targets: [(&str, Check); 3] =

@@ -1,7 +1,9 @@
-//! The exported decks in OpenSees itself, on El Centro, against our own histories: 20 s, NRMSE of u, v and theta.
+//! The exported decks in OpenSees itself, on El Centro, against our own histories: 20 s, NRMSE of
+//! u, v and theta.
 //!
-//! `cargo test --release --test opensees -- --ignored --nocapture`. The Python deck needs openseespy (`pip install openseespy`; Debian: libblas3 liblapack3) in
-//! OPENSEES_PYTHON, `python3` unless set. The Tcl deck needs OPENSEES_TCL to name an interpreter's command, for example
+//! `cargo test --release --test opensees -- --ignored --nocapture`. The Python deck needs
+//! openseespy (`pip install openseespy`; Debian: libblas3 liblapack3) in OPENSEES_PYTHON, `python3`
+//! unless set. The Tcl deck needs OPENSEES_TCL to name an interpreter's command, for example
 //! "python3 -m opensees" (`pip install opensees`) or "OpenSees".
 
 use decks::{
@@ -72,8 +74,8 @@ fn agrees_at(accuracy: f64, programs: &[Program], structure: Structure, springs:
     }
 }
 
-/// Springs of theory at this Omega_n [Hz]: one vertical chain scaled by the effective mass M = 1 - (m R^2/I0) sin^2 alpha, K by the
-/// stance, horizontals eight times stiffer.
+/// Springs of theory at this Omega_n [Hz]: one vertical chain scaled by the effective mass M = 1 -
+/// (m R^2/I0) sin^2 alpha, K by the stance, horizontals eight times stiffer.
 fn stiff(structure: &Structure, hz: f64) -> Springs<Design<f64>> {
     let body = structure.body::<f64>();
     let (alpha, point) = ((body.half_width / body.height).atan(), body.mass * body.radius().powi(2));
@@ -86,9 +88,10 @@ fn stiff(structure: &Structure, hz: f64) -> Springs<Design<f64>> {
     }
 }
 
-/// Stiffness costs a deck next to nothing: within the limit of `tune verify` in about as many steps at 1 kHz and 40 kHz. A deck that met
-/// an event in too long a step has run again, with a quarter of the error: that is why the bound is on the median. OpenSees' Tcl
-/// interpreter cannot run twice: its deck tells.
+/// Stiffness costs a deck next to nothing: within the limit of `tune verify` in about as many steps
+/// at 1 kHz and 40 kHz. A deck that met an event in too long a step has run again, with a quarter
+/// of the error: that is why the bound is on the median. OpenSees' Tcl interpreter cannot run
+/// twice: its deck tells.
 #[test]
 #[ignore = "needs OpenSees (pip install openseespy): cargo test --release --test opensees -- --ignored"]
 fn decks_on_stiff_springs_are_within_their_limit_in_few_steps() {
@@ -113,8 +116,9 @@ fn decks_on_stiff_springs_are_within_their_limit_in_few_steps() {
     assert!(steps[steps.len() / 2] <= 12_000, "{steps:?}");
 }
 
-/// Springs that the pier of 12 x 2.4 m had once: horizontally k2 is a hundredth of k1, and at its first uplift a foot chatters 70 times.
-/// OpenSees finds another history in other steps; it is refused, and said why.
+/// Springs that the pier of 12 x 2.4 m had once: horizontally k2 is a hundredth of k1, and at its
+/// first uplift a foot chatters 70 times. OpenSees finds another history in other steps; it is
+/// refused, and said why.
 #[test]
 #[ignore = "needs OpenSees (pip install openseespy): cargo test --release --test opensees -- --ignored"]
 fn springs_on_which_a_lifting_foot_chatters_are_refused() {
@@ -180,7 +184,8 @@ fn the_paper_frame_on_springs_of_160_hz_by_the_papers_procedure_agrees() {
     tuned_agrees(Structure::paper(), Objective::Arr, 160.0);
 }
 
-/// On springs this soft for it a lifting foot chatters: its steps are asked for a quarter of the error, too.
+/// On springs this soft for it a lifting foot chatters: its steps are asked for a quarter of the
+/// error, too.
 #[test]
 #[ignore = "needs OpenSees (pip install openseespy): cargo test --release --test opensees -- --ignored"]
 fn a_frame_of_5_by_1_5_m_on_table_1_springs_agrees() {
@@ -199,7 +204,8 @@ fn a_frame_of_5_by_1_5_m_on_its_springs_of_160_hz_agrees() {
     tuned_agrees(frame_of_5_m(), Objective::Landing, 160.0);
 }
 
-/// It topples at 6.4 s, which multiplies whatever its steps miss before: they are asked for a quarter of that.
+/// It topples at 6.4 s, which multiplies whatever its steps miss before: they are asked for a
+/// quarter of that.
 #[test]
 #[ignore = "needs OpenSees (pip install openseespy): cargo test --release --test opensees -- --ignored"]
 fn a_block_of_2_by_0_5_m_on_table_1_springs_agrees() {
@@ -263,7 +269,8 @@ fn dampers_and_a_tendon_agree() {
     agrees_with(Members { damper: Some(Damper { c: 1e6 }), tendon, friction: None }, 20.0);
 }
 
-/// `tune run` of an elastic structure, then `tune verify` in a program; the folder, with both in `out` and in `out/verify`.
+/// `tune run` of an elastic structure, then `tune verify` in a program; the folder, with both in
+/// `out` and in `out/verify`.
 fn elastic_agrees(case: &str, more: &[&str], seconds: &str, program: &Program) -> tempfile::TempDir {
     let folder = tempfile::tempdir().unwrap();
     std::fs::write(folder.path().join("case.toml"), case).unwrap();
@@ -306,7 +313,8 @@ fn column(folder: &tempfile::TempDir, file: &str, name: &str) -> Vec<f64> {
     lines.map(|line| line.split(',').nth(at).unwrap().parse().unwrap()).collect()
 }
 
-/// OpenSees' history of a column of two elements with a mass of its own, beside rigid ground with plastic landings: nearer on stiffer springs.
+/// OpenSees' history of a column of two elements with a mass of its own, beside rigid ground with
+/// plastic landings: nearer on stiffer springs.
 #[test]
 #[ignore = "needs OpenSees (pip install openseespy): cargo test --release --test opensees -- --ignored"]
 fn a_column_of_several_elements_in_opensees_converges_to_plastic_landings() {
@@ -344,7 +352,8 @@ fn elastic_structures_agree() {
     elastic_agrees(ELASTIC_FRAME, &[], "6", python);
 }
 
-/// The Tcl interpreter that pip installs has no damping objects: without damping it must find what Python finds.
+/// The Tcl interpreter that pip installs has no damping objects: without damping it must find what
+/// Python finds.
 #[test]
 #[ignore = "needs OpenSees (pip install openseespy): cargo test --release --test opensees -- --ignored"]
 fn an_undamped_elastic_structure_agrees_in_every_language() {

@@ -98,8 +98,9 @@ fn the_paper_case_keeps_its_20_s_and_any_other_record_is_used_whole() {
     assert!(other.contains("centro.txt, in cm/s2), scale 1, all 12 s: 1201 samples"), "{other}");
 }
 
-/// A steady push of 0.15 g topples the frame, which passes alpha after acosh(3)/p = 4.4 s and lies flat after some 11 s:
-/// nothing after the first is counted, and no number printed is without meaning.
+/// A steady push of 0.15 g topples the frame, which passes alpha after acosh(3)/p = 4.4 s and lies
+/// flat after some 11 s: nothing after the first is counted, and no number printed is without
+/// meaning.
 #[test]
 fn a_body_that_overturns_is_compared_up_to_there() {
     let dir = folder();

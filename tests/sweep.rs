@@ -1,4 +1,5 @@
-//! `tune sweep`: killed and gone on with, cut into shares, on any number of threads, the bytes are the same.
+//! `tune sweep`: killed and gone on with, cut into shares, on any number of threads, the bytes are
+//! the same.
 
 use std::{
     collections::BTreeMap,

@@ -1,5 +1,6 @@
-//! Q. T. Ma, J. W. Butterworth, B. D. Davidson, "Modelling rocking structures using standard finite elements", NZSEE Conference 2005:
-//! Table 1 and Figure 4, every digit that survives, and what springs do that are found here.
+//! Q. T. Ma, J. W. Butterworth, B. D. Davidson, "Modelling rocking structures using standard finite
+//! elements", NZSEE Conference 2005: Table 1 and Figure 4, every digit that survives, and what
+//! springs do that are found here.
 //!
 //! ```text
 //!            m1 = 680.1 t                        one foot, vertically and horizontally:
@@ -10,10 +11,11 @@
 //!          2b = 12.2 m (40 ft)                   ground: El Centro 1940, N-S, the first 20 s
 //! ```
 //!
-//! J. L. Beck, R. I. Skinner, "The seismic response of a reinforced concrete bridge pier designed to step", Earthquake Engineering and
-//! Structural Dynamics 2 (1974) 343-358, had almost the same structure on the same earthquake: peak 444.5 mm (17.5 in), period about
-//! 3.3 s; the paper marks 3.5 s. Their record is another digitisation of that ground motion, so that comparison is one of size, not of
-//! digits. docs/paper.md tells the same in words, with the command of every number.
+//! J. L. Beck, R. I. Skinner, "The seismic response of a reinforced concrete bridge pier designed
+//! to step", Earthquake Engineering and Structural Dynamics 2 (1974) 343-358, had almost the same
+//! structure on the same earthquake: peak 444.5 mm (17.5 in), period about 3.3 s; the paper marks
+//! 3.5 s. Their record is another digitisation of that ground motion, so that comparison is one of
+//! size, not of digits. docs/paper.md tells the same in words, with the command of every number.
 
 #[path = "table_1/digits.rs"]
 mod digits;

@@ -10,7 +10,8 @@ use springs::parameters::Parameters;
 use strong_motion::Record;
 use tempfile::TempDir;
 
-/// A folder with parameters.json (the paper's frame on springs of 160 Hz) and a folder of two records.
+/// A folder with parameters.json (the paper's frame on springs of 160 Hz) and a folder of two
+/// records.
 fn folder() -> TempDir {
     let dir = TempDir::new().unwrap();
     let mut structure = Structure::paper();

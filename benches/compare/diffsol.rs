@@ -1,7 +1,9 @@
-//! Housner's equation by diffsol's explicit Tsit45, stopped at every sample (the record's kinks) and at every impact.
+//! Housner's equation by diffsol's explicit Tsit45, stopped at every sample (the record's kinks)
+//! and at every impact.
 //!
-//! An interval that ends with theta on the other side is taken back and repeated up to the impact, whose time follows by
-//! Newton on the repeated step, so that the impact is as accurate as the step itself.
+//! An interval that ends with theta on the other side is taken back and repeated up to the impact,
+//! whose time follows by Newton on the repeated step, so that the impact is as accurate as the step
+//! itself.
 
 use std::cell::Cell;
 

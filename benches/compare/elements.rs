@@ -40,8 +40,8 @@ impl BenchCase {
         Self { name: "paper's procedure", springs: Springs { vertical, horizontal }, record: el_centro() }
     }
 
-    /// 160 Hz springs, fixed so that times can be compared: stiff, strongly damped horizontal chains, which
-    /// hardly bounce.
+    /// 160 Hz springs, fixed so that times can be compared: stiff, strongly damped horizontal
+    /// chains, which hardly bounce.
     pub fn damped() -> Self {
         let vertical = Design { mu: 0.5158, f: 0.6521, xi: 0.8992, omega_n_hz: 160.0 };
         let horizontal = Design { mu: 0.0272, f: 33.19, xi: 40.06, omega_n_hz: 160.0 };

@@ -15,8 +15,8 @@
 //! | `skips` | what a case does not need, with and without |
 //! | `report`, `targets`, `page` | tables; targets and whether they are met; docs/benchmarks.md |
 //!
-//! Times are the least of several rounds in which the contenders take turns: other work on the machine only ever adds.
-//! What counts is their ratio.
+//! Times are the least of several rounds in which the contenders take turns: other work on the
+//! machine only ever adds. What counts is their ratio.
 
 // without a harness tests are compiled away; tests/compare.rs runs them
 #![cfg_attr(test, allow(unused_imports, dead_code))]
@@ -225,7 +225,8 @@ fn series(drawn: &[Drawn]) -> Vec<precision::ToolSeries<'_>> {
 
 /// `work_precision.png`: one sheet a model.
 fn draw(measured: &Measured, path: &Path) -> Result<(), Box<dyn Error>> {
-    // what has no finite error, as a history that went wrong, is in the table only; no error at all cannot be drawn
+    // what has no finite error, as a history that went wrong, is in the table only; no error at all
+    // cannot be drawn
     let points = |series: &Series| -> Vec<(f64, f64)> {
         let drawn = series.points.iter().filter(|p| p.error > 0.0 && p.error.is_finite());
         drawn.map(|p| (p.error, p.seconds * 1e3)).collect()

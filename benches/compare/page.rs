@@ -1,4 +1,5 @@
-//! docs/benchmarks.md: the tables as a page, and whether the page still has the form of what this program prints.
+//! docs/benchmarks.md: the tables as a page, and whether the page still has the form of what this
+//! program prints.
 
 const INTRO: &str = "# Benchmarks\n\nWritten by `cargo bench --bench compare -- --page docs/benchmarks.md` (`--python` names a Python with SciPy and \
 openseespy; with `--quick` other programs are left out). Times depend on the machine and count as ratios; errors do not.\n\n";
@@ -23,7 +24,8 @@ pub fn page(text: &str) -> String {
     out
 }
 
-/// Whether a page has every title and every head of a table that `text` has; it may have more, as what other programs need.
+/// Whether a page has every title and every head of a table that `text` has; it may have more, as
+/// what other programs need.
 pub fn check(text: &str, there: &str) -> Result<(), String> {
     let form = |page: &str| -> Vec<String> {
         let lines: Vec<&str> = page.lines().collect();

@@ -104,8 +104,8 @@ pub enum Stepping {
     Watched,
 }
 
-/// OpenSees' TRBDF2 on the exported deck, at `steps` per sample. Errors are told against our own tight solution and, in
-/// the note, against OpenSees' own last run, which is to be the finest.
+/// OpenSees' TRBDF2 on the exported deck, at `steps` per sample. Errors are told against our own
+/// tight solution and, in the note, against OpenSees' own last run, which is to be the finest.
 pub fn opensees(
     bench: &elements::BenchCase,
     tight: &Motion,
@@ -149,7 +149,8 @@ pub fn opensees(
     Ok(Series { tool: format!("OpenSees, {told}, {}", bench.name), points: runs.iter().map(point).collect() })
 }
 
-/// "steps seconds file" and the history in the file; "steps seconds" and none if the analysis stopped.
+/// "steps seconds file" and the history in the file; "steps seconds" and none if the analysis
+/// stopped.
 fn read_run(line: &str) -> Option<(usize, f64, Motion)> {
     let mut words = line.splitn(3, ' ');
     let (steps, seconds) = (words.next()?.parse().ok()?, words.next()?.parse().ok()?);

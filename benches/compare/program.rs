@@ -1,4 +1,5 @@
-//! The program as its user starts it: `tune run`, `tune validate`, and the inner fit that both build on.
+//! The program as its user starts it: `tune run`, `tune validate`, and the inner fit that both
+//! build on.
 
 use std::{
     ffi::OsStr,
@@ -43,7 +44,8 @@ pub struct Jobs {
     pub skips: Vec<Skip>,
 }
 
-/// The whole job, with and without what not everyone wants, then its springs judged over ever more records.
+/// The whole job, with and without what not everyone wants, then its springs judged over ever more
+/// records.
 ///
 /// # Errors
 /// The program fails; one line says where.

@@ -32,7 +32,8 @@ impl Problem {
         Self { body: Structure::paper().body(), record: Record::el_centro().truncated(SECONDS), reference }
     }
 
-    /// Largest error of u over the samples that the reference tells [m]; infinite if the history is too short.
+    /// Largest error of u over the samples that the reference tells [m]; infinite if the history is
+    /// too short.
     pub fn error(&self, theta: &[f64]) -> f64 {
         let error = |&(i, reference): &(usize, f64)| {
             theta.get(i).map_or(f64::INFINITY, |&theta| (self.body.u(theta) - self.body.u(reference)).abs())
@@ -116,8 +117,8 @@ pub fn lanes(problem: &Problem, structures: usize, rounds: usize) -> Lanes {
     let options = RockingOptions::default();
     let mut together = || drop(black_box(solve_lanes(&bodies, *dt, accel, std::slice::from_ref(&options))));
     let mut each = || drop(black_box(bodies.iter().map(|body| solve(body, *dt, accel, &options)).collect::<Vec<_>>()));
-    // from within the pool, as a program at work calls it; a call from outside wakes two threads at once, which Linux often
-    // puts on the same core for some milliseconds
+    // from within the pool, as a program at work calls it; a call from outside wakes two threads at
+    // once, which Linux often puts on the same core for some milliseconds
     let times = rayon::scope(|_| alternate(&mut [&mut together, &mut each], rounds));
     Lanes { structures, lanes: times[0] / structures as f64, single: times[1] / structures as f64 }
 }

@@ -1,4 +1,5 @@
-//! What a case does not need is skipped: time with and without each skip, and what the skip changes.
+//! What a case does not need is skipped: time with and without each skip, and what the skip
+//! changes.
 
 use std::{hint::black_box, ops::ControlFlow};
 
@@ -67,7 +68,8 @@ impl Observer<f64> for NonStopping<'_> {
     }
 }
 
-/// A push that topples the body, and then half a minute of silence: followed until the fall is certain, or until the body lies flat.
+/// A push that topples the body, and then half a minute of silence: followed until the fall is
+/// certain, or until the body lies flat.
 fn toppled(rounds: usize) -> Skip {
     let bench = BenchCase::damped();
     let body = structure().body::<f64>();
@@ -114,7 +116,8 @@ fn open_foot(rounds: usize) -> Skip {
     Skip { what: "chains of an open foot", with: times[0], without: times[1], same }
 }
 
-/// Springs from stiff to soft, judged against Housner: abandoned when their running error exceeds the best, or followed.
+/// Springs from stiff to soft, judged against Housner: abandoned when their running error exceeds
+/// the best, or followed.
 fn candidates(rounds: usize) -> Skip {
     let sets = [BenchCase::arr().springs, BenchCase::damped().springs, BenchCase::plain(160.0).springs];
     let scaled = |chain: Design<f64>, hz: f64| Design { omega_n_hz: hz, ..chain };

@@ -376,8 +376,9 @@ class Tuned:
     @property
     def lines(self) -> list[str]:
         """What the program says of the run."""
-    def save(self, folder: _Path, figures: bool = True) -> None:
-        """Write what `tune run` writes: springs, histories, figures, decks."""
+    def save(self, folder: _Path, figures: bool = True) -> list[str]:
+        """Write what `tune run` writes: springs, histories, figures, decks. Decks that a program cannot hold are left
+        out: each is named, with the reason."""
     def to_pandas(self) -> pandas.DataFrame: ...
     def plot(self, axes: Axes | None = None) -> Axes: ...
 

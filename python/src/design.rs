@@ -139,8 +139,8 @@ impl Design {
     }
 }
 
-/// The design from the geometry: alpha (rad), I_cg/(m R^2), Omega_n/p; or a [`Structure`] and Omega_n/p. Omega_n/p is, unless
-/// given, where `tune` begins to look for an accuracy of 0.002.
+/// The design from the geometry: alpha (rad), I_cg/(m R^2), Omega_n/p; or a [`Structure`] and
+/// Omega_n/p. Omega_n/p is, unless given, where `tune` begins to look for an accuracy of 0.002.
 #[pyfunction]
 #[pyo3(signature = (alpha, inertia = None, stiffness = None))]
 pub fn design(py: Python<'_>, alpha: Of, inertia: Option<f64>, stiffness: Option<f64>) -> PyResult<Design> {
@@ -188,7 +188,8 @@ pub fn frequency_response<'py>(
     Ok(PyArray1::from_iter(py, g.as_array().iter().map(|&g| response::arr(g, mu, f, xi))))
 }
 
-/// f and xi of a mass ratio by the paper's frequency response, with the certificate: what `tune response` prints as JSON.
+/// f and xi of a mass ratio by the paper's frequency response, with the certificate: what `tune
+/// response` prints as JSON.
 #[pyfunction]
 pub fn fit_response(py: Python<'_>, mu: f64) -> PyResult<Py<PyAny>> {
     let fit = interruptible(py, |_| fit(mu, &Target::default(), &Bounds::default()))?.map_err(value_error)?;

@@ -1,4 +1,5 @@
-//! The native half of the Python package `groundspring`: what the crate computes, as Python objects.
+//! The native half of the Python package `groundspring`: what the crate computes, as Python
+//! objects.
 //!
 //! | file | what |
 //! |---|---|
@@ -9,8 +10,9 @@
 //! | `design`, `validation` | the design without units, the frequency response; springs judged over many records |
 //! | `work`, `said` | long work that ^C interrupts; errors, warnings, JSON |
 //!
-//! Nothing is computed here. Errors are `ValueError` in the crate's words, warnings `groundspring.GroundspringWarning`. Arrays are
-//! views of the crate's own memory where it has them, and cannot be written to.
+//! Nothing is computed here. Errors are `ValueError` in the crate's words, warnings
+//! `groundspring.GroundspringWarning`. Arrays are views of the crate's own memory where it has
+//! them, and cannot be written to.
 
 mod design;
 mod record;
@@ -52,7 +54,8 @@ pub(crate) type Array<'py> = Bound<'py, numpy::PyArray1<f64>>;
 
 /// A view of numbers that live in `owner`, which must be frozen and own them; not to be written to.
 pub(crate) fn view<'py>(owner: Bound<'py, PyAny>, numbers: &[f64]) -> PyResult<Array<'py>> {
-    // SAFETY: `owner` is kept alive by the array, is frozen, and so neither moves nor changes the numbers
+    // SAFETY: `owner` is kept alive by the array, is frozen, and so neither moves nor changes the
+    // numbers
     let array = unsafe { numpy::PyArray1::borrow_from_array(&numpy::ndarray::ArrayView1::from(numbers), owner) };
     array.getattr("flags")?.setattr("writeable", false)?;
     Ok(array)

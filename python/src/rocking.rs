@@ -39,7 +39,8 @@ impl Solved {
 
     fn peak_ratio(&self) -> f64 {
         if self.rocking.overturned().is_some() {
-            // as in the tables of tune validate and tune sweep: it lies, and how far it had fallen says nothing
+            // as in the tables of tune validate and tune sweep: it lies, and how far it had fallen
+            // says nothing
             return FRAC_PI_2 / self.body.alpha();
         }
         self.rocking.theta.iter().fold(0.0, |peak: f64, x| peak.max(x.abs())) / self.body.alpha()
@@ -132,7 +133,8 @@ impl History {
         self.one().rocking.overturned()
     }
 
-    /// Largest |theta|/alpha, without unit; pi/2 / alpha if it overturned, as in every table of the program.
+    /// Largest |theta|/alpha, without unit; pi/2 / alpha if it overturned, as in every table of the
+    /// program.
     #[getter]
     fn peak_ratio(&self) -> f64 {
         self.one().peak_ratio()
@@ -193,8 +195,8 @@ impl Histories {
     }
 }
 
-/// Housner's solution for a structure on a record; `vertical` holds the vertical ground acceleration at the same times, positive
-/// upwards.
+/// Housner's solution for a structure on a record; `vertical` holds the vertical ground
+/// acceleration at the same times, positive upwards.
 #[pyfunction]
 #[pyo3(signature = (structure, record, vertical = None, scale = 1.0, restitution = None))]
 pub fn rigid_rocking(
@@ -229,7 +231,8 @@ pub enum Scales<'py> {
     Several(PyArrayLike1<'py, f64, AllowTypeChange>),
 }
 
-/// Housner's solutions for several structures, or several scales of the record, or pairs of both, on all cores.
+/// Housner's solutions for several structures, or several scales of the record, or pairs of both,
+/// on all cores.
 #[pyfunction]
 #[pyo3(signature = (structures, record, scales = Scales::One(1.0), restitution = None))]
 pub fn rigid_rocking_many(

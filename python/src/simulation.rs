@@ -180,7 +180,8 @@ impl Simulation {
         plain(py, &self.both().matched)
     }
 
-    /// What the body does in both models, as in `parameters.json`: times in s, rotations over alpha.
+    /// What the body does in both models, as in `parameters.json`: times in s, rotations over
+    /// alpha.
     #[getter]
     fn verdict(&self, py: Python<'_>) -> PyResult<Py<PyAny>> {
         plain(py, &self.verdict)

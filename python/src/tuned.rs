@@ -14,7 +14,7 @@ use strong_motion::excitation::Excitation;
 use crate::{
     record::Record,
     rocking::seconds,
-    said::{plain, value_error, warn, warn_of},
+    said::{plain, value_error, warn_of},
     simulation::Simulation,
     springs::Springs,
     structure::Structure,
@@ -50,13 +50,15 @@ impl Tuned {
         Springs::of(self.structure.core.mass_kg, &self.run.job.springs)
     }
 
-    /// What was asked for, whether it is reached, what was measured and on what, as in `parameters.json`: NRMSE, without unit.
+    /// What was asked for, whether it is reached, what was measured and on what, as in
+    /// `parameters.json`: NRMSE, without unit.
     #[getter]
     fn accuracy(&self, py: Python<'_>) -> PyResult<Py<PyAny>> {
         plain(py, &self.run.parameters.assessment)
     }
 
-    /// What the body does in both models, as in `parameters.json`: times in s, rotations over alpha.
+    /// What the body does in both models, as in `parameters.json`: times in s, rotations over
+    /// alpha.
     #[getter]
     fn verdict(&self, py: Python<'_>) -> PyResult<Py<PyAny>> {
         plain(py, &self.run.parameters.verdict)
@@ -80,11 +82,11 @@ impl Tuned {
         lines(&self.run)
     }
 
-    /// Write what `tune run` writes.
+    /// Write what `tune run` writes; the decks that are left out, each with the reason.
     #[pyo3(signature = (folder, figures = true))]
-    fn save(&self, py: Python<'_>, folder: PathBuf, figures: bool) -> PyResult<()> {
+    fn save(&self, py: Python<'_>, folder: PathBuf, figures: bool) -> PyResult<Vec<String>> {
         let left_out = interruptible(py, |_| save(&self.run, &folder, Output { figures, report: true }))?;
-        left_out.map_err(value_error)?.iter().try_for_each(|deck| warn(py, deck))
+        left_out.map_err(value_error)
     }
 
     fn to_pandas<'py>(slf: &Bound<'py, Self>) -> PyResult<Bound<'py, PyAny>> {

@@ -116,7 +116,8 @@ fn read_folder(py: Python<'_>, folder: &std::path::Path) -> PyResult<Vec<strong_
     files.iter().map(read).collect()
 }
 
-/// The first n motions made for a structure from a seed: Ricker and Mavroeidis-Papageorgiou pulses, filtered noise.
+/// The first n motions made for a structure from a seed: Ricker and Mavroeidis-Papageorgiou pulses,
+/// filtered noise.
 #[pyfunction]
 #[pyo3(signature = (structure, n, seed = 1))]
 pub fn synthetic_records(structure: Structure, n: usize, seed: u64) -> Vec<Record> {
@@ -125,7 +126,8 @@ pub fn synthetic_records(structure: Structure, n: usize, seed: u64) -> Vec<Recor
     (0..n).map(|i| Record(synthetic::record(seed, i, p, alpha))).collect()
 }
 
-/// The first n motions with the frequencies of earthquakes from a seed: filtered noise of soils of 9 to 36 rad/s, 0.2 to 0.9 g.
+/// The first n motions with the frequencies of earthquakes from a seed: filtered noise of soils of
+/// 9 to 36 rad/s, 0.2 to 0.9 g.
 #[pyfunction]
 #[pyo3(signature = (structure, n, seed = 1))]
 pub fn earthquake_records(structure: Structure, n: usize, seed: u64) -> Vec<Record> {

@@ -26,8 +26,8 @@ impl Stop {
         self.0.load(Ordering::Relaxed)
     }
 
-    /// End the work here if ^C was pressed: called where the crate reports its progress, which it cannot be stopped by
-    /// otherwise. No panic is printed.
+    /// End the work here if ^C was pressed: called where the crate reports its progress, which it
+    /// cannot be stopped by otherwise. No panic is printed.
     pub fn check(&self) {
         if self.asked() {
             resume_unwind(Box::new(Stopped));
@@ -35,7 +35,8 @@ impl Stop {
     }
 }
 
-/// Do `work` on another thread until it is done or ^C is pressed; `work` should call [`Stop::check`] now and then.
+/// Do `work` on another thread until it is done or ^C is pressed; `work` should call
+/// [`Stop::check`] now and then.
 pub fn interruptible<T: Send>(py: Python<'_>, work: impl FnOnce(&Stop) -> T + Send) -> PyResult<T> {
     let stop = Stop(AtomicBool::new(false));
     let (slot, ready) = (Mutex::new(None), Condvar::new());

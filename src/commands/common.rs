@@ -11,7 +11,8 @@ use strong_motion::{Notice, ReadOptions, Recording, Source, TableColumn, Units, 
 /// Which record, how scaled, how long.
 #[derive(Clone, Debug, Default, Args)]
 pub struct RecordOptions {
-    /// Ground motion: PEER AT2, GeoNet, COSMOS, CSMIP, K-NET, ESM or columns; that of the case or of the parameters unless given
+    /// Ground motion: PEER AT2, GeoNet, COSMOS, CSMIP, K-NET, ESM or columns; that of the case or
+    /// of the parameters unless given
     #[arg(long, value_name = "FILE")]
     pub record: Option<PathBuf>,
     /// Time step, where the file does not say
@@ -20,29 +21,35 @@ pub struct RecordOptions {
     /// g, m/s2, cm/s2 or mm/s2, where the file does not say
     #[arg(long)]
     pub units: Option<Units>,
-    /// Component, by name or by azimuth in degrees, of a file with several [default: the stronger horizontal one]
+    /// Component, by name or by azimuth in degrees, of a file with several [default: the stronger
+    /// horizontal one]
     #[arg(long, value_name = "NAME", allow_hyphen_values = true)]
     pub component: Option<String>,
-    /// Column of a table of several, by number (from 1, times included) or by its name in the header
+    /// Column of a table of several, by number (from 1, times included) or by its name in the
+    /// header
     #[arg(long, value_name = "N|NAME", conflicts_with = "component")]
     pub column: Option<TableColumn>,
     /// Subtract the mean of the samples
     #[arg(long)]
     pub baseline: bool,
-    /// Vertical component: auto, that of the record's file; or the file of one with the same times [default: none]
+    /// Vertical component: auto, that of the record's file; or the file of one with the same times
+    /// [default: none]
     #[arg(long, value_name = "FILE|auto")]
     pub vertical: Option<VerticalFrom>,
-    /// Factor on the record's acceleration, in place of the case's or the parameters' [default: theirs; 1 with --record]
+    /// Factor on the record's acceleration, in place of the case's or the parameters' [default:
+    /// theirs; 1 with --record]
     #[arg(long, value_name = "FACTOR", allow_negative_numbers = true)]
     pub scale: Option<f64>,
-    /// Length of the history [default: the case's or the parameters'; the whole record with --record]
+    /// Length of the history [default: the case's or the parameters'; the whole record with
+    /// --record]
     #[arg(long, value_name = "SECONDS", allow_negative_numbers = true)]
     pub duration: Option<f64>,
 }
 
 impl RecordOptions {
-    /// The ground motion asked for: `default`, of which a scale or a length given replaces its own; or another record,
-    /// whole and unscaled unless something is given. What its reader says goes to stderr.
+    /// The ground motion asked for: `default`, of which a scale or a length given replaces its own;
+    /// or another record, whole and unscaled unless something is given. What its reader says goes
+    /// to stderr.
     pub fn excitation<E: Into<CommandError>>(
         &self,
         default: impl FnOnce() -> Result<Excitation, E>,
@@ -60,8 +67,8 @@ impl RecordOptions {
         Ok(self.scaled(asked))
     }
 
-    /// The same of a case, which was read with [`RecordOptions::of_case`]: what is said of a file is said of the case's own unless
-    /// `--record` names another.
+    /// The same of a case, which was read with [`RecordOptions::of_case`]: what is said of a file
+    /// is said of the case's own unless `--record` names another.
     pub fn excitation_of_case(&self, own: &Excitation, notices: &[Notice]) -> Result<Excitation, CommandError> {
         let named = matches!(own.record.source, Source::File { .. });
         if self.record.is_some() || !named {
@@ -72,7 +79,8 @@ impl RecordOptions {
         Ok(self.scaled(own.clone()))
     }
 
-    /// How a case is to read the file that it names: as it says itself where `--record` names another.
+    /// How a case is to read the file that it names: as it says itself where `--record` names
+    /// another.
     pub fn of_case(&self) -> ReadOptions {
         if self.record.is_some() { ReadOptions::default() } else { self.reading() }
     }

@@ -47,7 +47,8 @@ pub fn run(o: &ExportOptions) -> Result<(), CommandError> {
     Ok(())
 }
 
-/// The deck of an elastic structure, with our own history to check itself against, and a line that says on which record.
+/// The deck of an elastic structure, with our own history to check itself against, and a line that
+/// says on which record.
 fn elastic(o: &ExportOptions, parameters: &ElasticParameters) -> Result<(String, String), CommandError> {
     let excitation = o.record.excitation(|| parameters.excitation(&o.parameters))?;
     let record = excitation.used()?;
@@ -71,8 +72,8 @@ pub(super) fn check_accuracy(accuracy: f64) -> Result<(), CommandError> {
     Err(CommandError::Option { option: "accuracy", value: accuracy.to_string(), remedy })
 }
 
-/// The model that decks hold, the part of its record that is used, and a line that says which: that of the file unless
-/// given.
+/// The model that decks hold, the part of its record that is used, and a line that says which: that
+/// of the file unless given.
 pub(super) fn read(file: &Path, options: &RecordOptions) -> Result<(Parameters, Record, String), CommandError> {
     let mut parameters = Parameters::read(file)?;
     parameters.structure = with_inertia(&parameters.structure);

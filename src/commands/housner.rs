@@ -21,7 +21,8 @@ use springs::case::Case;
 /// Options of `tune housner`.
 #[derive(Debug, Args)]
 pub struct HousnerOptions {
-    /// Structure and record; the paper's A-frame (all mass at the apex, I_cg = 0) on El Centro unless given
+    /// Structure and record; the paper's A-frame (all mass at the apex, I_cg = 0) on El Centro
+    /// unless given
     case: Option<PathBuf>,
     #[command(flatten)]
     record: RecordOptions,

@@ -57,8 +57,8 @@ impl Progress {
     }
 }
 
-/// Before long work, on a terminal: the ground motion that was taken, and what to look at again. The
-/// screen at the end has both, too.
+/// Before long work, on a terminal: the ground motion that was taken, and what to look at again.
+/// The screen at the end has both, too.
 pub fn taken(record: &str, doubts: &[Doubt], quiet: bool) {
     if quiet || !std::io::stderr().is_terminal() {
         return;

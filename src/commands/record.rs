@@ -32,7 +32,8 @@ pub struct RecordFileOptions {
     /// Component to take, by name or by azimuth in degrees [default: the stronger horizontal one]
     #[arg(long, value_name = "NAME", allow_hyphen_values = true)]
     component: Option<String>,
-    /// Column of a table of several, by number (from 1, times included) or by its name in the header
+    /// Column of a table of several, by number (from 1, times included) or by its name in the
+    /// header
     #[arg(long, value_name = "N|NAME", conflicts_with = "component")]
     column: Option<TableColumn>,
     /// Subtract the mean of the samples
@@ -123,7 +124,8 @@ impl RecordFileOptions {
     }
 }
 
-/// The files that were named and how to read them; with none named, that of the case, as the case says unless an option does.
+/// The files that were named and how to read them; with none named, that of the case, as the case
+/// says unless an option does.
 fn named(o: &RecordFileOptions, case: Option<&Case>) -> Result<Vec<(PathBuf, ReadOptions)>, CommandError> {
     let asked = o.asked();
     let Some(case) = case.filter(|_| o.files.is_empty()) else {

@@ -49,12 +49,12 @@ pub struct RunOptions {
     /// [default: none, or the case's]
     #[arg(long, value_name = "HZ", allow_negative_numbers = true)]
     max_hz: Option<f64>,
-    /// Error of the history against Housner's that the stiffness is chosen for: normalised root mean square error, NRMSE [default:
-    /// 0.002, or the case's]
+    /// Error of the history against Housner's that the stiffness is chosen for: normalised root
+    /// mean square error, NRMSE [default: 0.002, or the case's]
     #[arg(long, value_name = "ERROR", allow_negative_numbers = true)]
     accuracy: Option<f64>,
-    /// Error of the largest displacement, uplift and forces that the stiffness is chosen for instead; a case's accuracy then does not
-    /// count
+    /// Error of the largest displacement, uplift and forces that the stiffness is chosen for
+    /// instead; a case's accuracy then does not count
     #[arg(long, value_name = "ERROR", allow_negative_numbers = true)]
     peaks: Option<f64>,
     /// Folder for the results

@@ -26,13 +26,15 @@ pub struct SimulateOptions {
     record: RecordOptions,
     #[command(flatten)]
     ground: GroundOptions,
-    /// Velocity after an impact over that before, of Housner's body; that of the parameters, or by equation 2, unless given
+    /// Velocity after an impact over that before, of Housner's body; that of the parameters, or by
+    /// equation 2, unless given
     #[arg(long, allow_negative_numbers = true)]
     restitution: Option<f64>,
     /// Write the histories here (CSV); into a folder as history.csv
     #[arg(long, value_name = "FILE")]
     out: Option<PathBuf>,
-    /// Write base shear and the forces in legs, tendon and dampers here (CSV); into a folder as members.csv
+    /// Write base shear and the forces in legs, tendon and dampers here (CSV); into a folder as
+    /// members.csv
     #[arg(long, value_name = "FILE")]
     forces: Option<PathBuf>,
 }

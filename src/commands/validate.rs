@@ -49,11 +49,12 @@ pub struct ValidateOptions {
     /// Factor on the acceleration of the files
     #[arg(long, value_name = "FACTOR", requires = "given", allow_negative_numbers = true)]
     scale: Option<f64>,
-    /// This many records made for the structure: Ricker and Mavroeidis-Papageorgiou pulses, filtered noise
+    /// This many records made for the structure: Ricker and Mavroeidis-Papageorgiou pulses,
+    /// filtered noise
     #[arg(long, value_name = "N", value_parser = clap::value_parser!(u32).range(1..=1_000_000))]
     synthetic: Option<u32>,
-    /// This many records like earthquakes, whatever the structure: filtered noise of soils of 9 to 36 rad/s, 0.2 to 0.9
-    /// g, 20 to 60 s
+    /// This many records like earthquakes, whatever the structure: filtered noise of soils of 9 to
+    /// 36 rad/s, 0.2 to 0.9 g, 20 to 60 s
     #[arg(long, value_name = "N", value_parser = clap::value_parser!(u32).range(1..=1_000_000))]
     earthquakes: Option<u32>,
     /// Seed of the records made
@@ -62,7 +63,8 @@ pub struct ValidateOptions {
     /// Length of each history [default: the whole record]
     #[arg(long, value_name = "SECONDS", allow_negative_numbers = true)]
     duration: Option<f64>,
-    /// Velocity after an impact over that before, of Housner's body; that of the parameters, or by equation 2, unless given
+    /// Velocity after an impact over that before, of Housner's body; that of the parameters, or by
+    /// equation 2, unless given
     #[arg(long, allow_negative_numbers = true)]
     restitution: Option<f64>,
     /// Folder for the results
@@ -79,7 +81,8 @@ pub struct ValidateOptions {
     quiet: bool,
 }
 
-/// Where the records come from: files first, in the order of their names, then those made from the seed, earthquakes last.
+/// Where the records come from: files first, in the order of their names, then those made from the
+/// seed, earthquakes last.
 struct RecordsSource {
     files: Vec<PathBuf>,
     read: ReadOptions,
@@ -113,7 +116,8 @@ impl RecordsSource {
         }
     }
 
-    /// Read every file, keep none. One that cannot be read is left out, and said; what the readers say of the others is printed.
+    /// Read every file, keep none. One that cannot be read is left out, and said; what the readers
+    /// say of the others is printed.
     fn check(&mut self) -> Vec<Unread> {
         let read = |file: &PathBuf| {
             let recording = Recording::read(file, &self.read)?;

@@ -1,4 +1,5 @@
-//! What is doubted is a warning, exit code 0; and what an option says of the file that a case names is done.
+//! What is doubted is a warning, exit code 0; and what an option says of the file that a case names
+//! is done.
 
 use super::*;
 

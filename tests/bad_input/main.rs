@@ -12,7 +12,8 @@ use std::{fs, path::Path};
 use assert_cmd::Command;
 use tempfile::TempDir;
 
-/// Run `tune` in an empty folder with the given files; it must fail cleanly and say each of `words`.
+/// Run `tune` in an empty folder with the given files; it must fail cleanly and say each of
+/// `words`.
 fn refuses(files: &[(&str, &str)], args: &[&str], words: &[&str]) {
     let files: Vec<(&str, &[u8])> = files.iter().map(|(name, text)| (*name, text.as_bytes())).collect();
     refuses_bytes(&files, args, words);

@@ -1,4 +1,5 @@
-//! Mistakes that users make in their first case: one line each that says what, where, and what to do.
+//! Mistakes that users make in their first case: one line each that says what, where, and what to
+//! do.
 
 use super::*;
 

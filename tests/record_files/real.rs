@@ -1,7 +1,7 @@
 //! Real files: every component has the peak and the time that its header gives.
 //!
-//! The files that may not be distributed are looked for in `../shared` beside the repository; the tests on them are left out
-//! where that folder is absent.
+//! The files that may not be distributed are looked for in `../shared` beside the repository; the
+//! tests on them are left out where that folder is absent.
 
 use std::path::{Path, PathBuf};
 
@@ -19,7 +19,8 @@ fn shared(name: &str) -> Option<PathBuf> {
     path.exists().then_some(path)
 }
 
-/// Read a file and compare its components with the printed header; `digit` is half of the last digit there (m/s2).
+/// Read a file and compare its components with the printed header; `digit` is half of the last
+/// digit there (m/s2).
 fn check(path: &Path, format: RecordFormat, dt: f64, headers: &[Header], samples: &[usize], digit: f64) -> Recording {
     let recording = Recording::read(path, &ReadOptions::default()).unwrap_or_else(|error| panic!("{error}"));
     assert_eq!((recording.format, recording.components.len()), (format, headers.len()));
@@ -53,7 +54,8 @@ fn kaikoura_at_te_mara_farm() {
     // 0.99 g of the northern component against 0.81 g
     let record = recording.into_record();
     assert_eq!(record.name, "20161113_110259_WTMC_20 N28W");
-    // the velocity by integration has the peak that GeoNet printed, to what its filter and the mean make
+    // the velocity by integration has the peak that GeoNet printed, to what its filter and the mean
+    // make
     let pgv = strong_motion::measures(&record).pgv;
     assert!((pgv.value + 1.01655).abs() < 0.01 * 1.01655, "{pgv:?}");
     assert!((pgv.time.unwrap() - 5.0 - 46.58).abs() < 0.03, "{pgv:?}");

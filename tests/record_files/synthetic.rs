@@ -166,7 +166,8 @@ fn options_must_agree_with_the_file() {
     }
 }
 
-/// Files as other programs leave them on the way: other line ends, a mark of byte order, tabs, blanks, no last line end.
+/// Files as other programs leave them on the way: other line ends, a mark of byte order, tabs,
+/// blanks, no last line end.
 #[test]
 fn a_file_says_the_same_however_its_lines_end() {
     let files = [

@@ -1,4 +1,5 @@
-//! The vertical component: from the same file or another one, through the commands, remembered; refused where it does not fit.
+//! The vertical component: from the same file or another one, through the commands, remembered;
+//! refused where it does not fit.
 
 use std::{fs, path::Path};
 

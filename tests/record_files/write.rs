@@ -38,7 +38,8 @@ fn rows(out: &mut String, values: &[f64], per_line: usize, width: usize, decimal
     }
 }
 
-/// GeoNet: each component a name and its acceleration, velocity, displacement in mm and s; V1A if `raw`.
+/// GeoNet: each component a name and its acceleration, velocity, displacement in mm and s; V1A if
+/// `raw`.
 pub fn geonet(components: &[(&str, f64)], raw: bool) -> String {
     let mut out = String::new();
     for (name, scale) in components {

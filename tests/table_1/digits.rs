@@ -15,7 +15,8 @@ use springs::{
 /// Mass at the apex, section 4 [kg].
 const M1: f64 = 680.1e3;
 
-/// Table 1, rows Omega_n and k1: k1 = m1 Omega_n^2 gives back every printed digit of both, and so fixes m1.
+/// Table 1, rows Omega_n and k1: k1 = m1 Omega_n^2 gives back every printed digit of both, and so
+/// fixes m1.
 ///
 /// 6.2 Hz and 680.1 t give 1.032e9 N/m; 10 Hz gives 2.685e9 N/m.
 #[test]
@@ -31,8 +32,9 @@ fn both_k1_follow_from_omega_n() {
     }
 }
 
-/// Table 1, row k2, and section 3: k2 = mu f^2 k1. The printed vertical k2 = 9.509e9 is 9.214 times the printed k1; from
-/// the k1 that is not rounded it is 9.5096e9, half a unit of the last digit of mu f^2 away.
+/// Table 1, row k2, and section 3: k2 = mu f^2 k1. The printed vertical k2 = 9.509e9 is 9.214 times
+/// the printed k1; from the k1 that is not rounded it is 9.5096e9, half a unit of the last digit of
+/// mu f^2 away.
 #[test]
 fn the_vertical_k2_follows_from_mu_f_squared() {
     let springs = Springs::table_1();
@@ -40,8 +42,9 @@ fn the_vertical_k2_follows_from_mu_f_squared() {
     assert!((springs.chains(M1).vertical.k2 / 9.509e9 - 1.0).abs() < 1e-4);
 }
 
-/// Table 1, rows k2 and c, as far as digits survive: horizontal k2 1.31e9 to 1.32e9 N/m (or 2.1e9 to 2.3e9), c 3.34e8 N s/m,
-/// vertical c x.65e8 N s/m. In no reading is the horizontal k2 larger than k1: a ratio of 9.214 there would be 2.474e10 N/m.
+/// Table 1, rows k2 and c, as far as digits survive: horizontal k2 1.31e9 to 1.32e9 N/m (or 2.1e9
+/// to 2.3e9), c 3.34e8 N s/m, vertical c x.65e8 N s/m. In no reading is the horizontal k2 larger
+/// than k1: a ratio of 9.214 there would be 2.474e10 N/m.
 #[test]
 fn what_survives_of_the_horizontal_k2_and_of_both_c_is_kept() {
     let chains = Springs::table_1().chains(M1);
@@ -50,8 +53,8 @@ fn what_survives_of_the_horizontal_k2_and_of_both_c_is_kept() {
     assert!((chains.horizontal.c / 3.34e8 - 1.0).abs() < 1e-3, "{:e}", chains.horizontal.c);
 }
 
-/// Section 5.1 and equation 7: the vertical k2/k1 = 9.509e9/1.032e9 = 9.214 is the design of the smallest largest ARR for the mass
-/// ratio mu = 10.2. So the lost mu of Table 1 is 10.2.
+/// Section 5.1 and equation 7: the vertical k2/k1 = 9.509e9/1.032e9 = 9.214 is the design of the
+/// smallest largest ARR for the mass ratio mu = 10.2. So the lost mu of Table 1 is 10.2.
 #[test]
 fn the_vertical_stiffness_ratio_is_the_minimax_design_of_mu_10_2() {
     let minimax = |mu: f64| -> Fit { fit(mu, &Target::default(), &Bounds::default()).unwrap() };
@@ -74,8 +77,8 @@ fn the_vertical_stiffness_ratio_is_the_minimax_design_of_mu_10_2() {
     assert!((fit.k / (low - 1.0) - 1.0).abs() < 2e-3, "{fit:?}");
 }
 
-/// Section 5.1: the response is to be uniform at the low frequencies of rocking, low elsewhere, and high frequencies are to be damped
-/// out. Equation 7: ARR(0) = 1 + 1/K, and ARR tends to 1/g^2.
+/// Section 5.1: the response is to be uniform at the low frequencies of rocking, low elsewhere, and
+/// high frequencies are to be damped out. Equation 7: ARR(0) = 1 + 1/K, and ARR tends to 1/g^2.
 #[test]
 fn the_vertical_response_is_uniform_below_and_falls_above() {
     let design = Springs::table_1().vertical;
@@ -87,7 +90,8 @@ fn the_vertical_response_is_uniform_below_and_falls_above() {
     assert!((response.arr(1e3) * 1e6 - 1.0).abs() < 1e-4);
 }
 
-/// Weight m1 g/2 on k1 and k2 in series: the frame sinks 3.58 mm under its own weight, 8 % of the vertical peak of Figure 4.
+/// Weight m1 g/2 on k1 and k2 in series: the frame sinks 3.58 mm under its own weight, 8 % of the
+/// vertical peak of Figure 4.
 #[test]
 fn the_frame_settles_by_3_58_mm() {
     let by_hand = 0.5 * M1 * 9.81 * (1.0 / 1.032e9 + 1.0 / 9.509e9);
@@ -95,21 +99,23 @@ fn the_frame_settles_by_3_58_mm() {
     assert_eq!(format!("{:.2}", Springs::table_1().settlement(M1) * 1e3), "3.58");
 }
 
-/// Before it lifts the frame sways on its vertical springs with f = Omega_n/(2 pi) sqrt(2K/(1 + K)) b/R: 0.83 Hz. Housner's frame
-/// does not move before it lifts.
+/// Before it lifts the frame sways on its vertical springs with f = Omega_n/(2 pi) sqrt(2K/(1 + K))
+/// b/R: 0.83 Hz. Housner's frame does not move before it lifts.
 #[test]
 fn the_standing_frame_sways_at_0_83_hz() {
     let by_hand = 6.2 * (2.0 * 9.214 / 10.214_f64).sqrt() * 6.1 / 61.0_f64.hypot(6.1);
     assert_eq!(format!("{by_hand:.2}"), "0.83");
-    // the same from k1 and k2 in newtons per metre: two feet 2b apart turn the frame, k_theta = 2 b^2 k, about m1 R^2
+    // the same from k1 and k2 in newtons per metre: two feet 2b apart turn the frame, k_theta = 2
+    // b^2 k, about m1 R^2
     let chain = Springs::table_1().chains(M1).vertical;
     let k_theta = 2.0 * 6.1_f64.powi(2) * chain.in_series();
     let sway = (k_theta / (M1 * (61.0_f64.powi(2) + 6.1_f64.powi(2)))).sqrt() / TAU;
     assert!((sway / by_hand - 1.0).abs() < 1e-4, "{sway} {by_hand}");
 }
 
-/// Along the landing leg: a mass that comes down on Table 1's vertical unit, without gravity, leaves it with 0.907 to 0.924 of its
-/// speed, for every reading of the lost digits of c. Figures of an independent program (matrix exponentials, numpy and scipy).
+/// Along the landing leg: a mass that comes down on Table 1's vertical unit, without gravity,
+/// leaves it with 0.907 to 0.924 of its speed, for every reading of the lost digits of c. Figures
+/// of an independent program (matrix exponentials, numpy and scipy).
 #[test]
 fn a_landing_gives_nine_tenths_of_its_speed_back() {
     for (c, rebound) in
@@ -121,7 +127,8 @@ fn a_landing_gives_nine_tenths_of_its_speed_back() {
     }
 }
 
-/// Equations 2 and 4: r = (1 - 2 sin^2 alpha)^2 is a ratio of energies, 0.961 for 61 x 12.2 m; the ratio of velocities is its root, 0.980.
+/// Equations 2 and 4: r = (1 - 2 sin^2 alpha)^2 is a ratio of energies, 0.961 for 61 x 12.2 m; the
+/// ratio of velocities is its root, 0.980.
 #[test]
 fn r_of_equation_4_is_a_ratio_of_energies() {
     let alpha = (6.1_f64 / 61.0).atan();

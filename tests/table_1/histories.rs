@@ -1,4 +1,5 @@
-//! Table 1's own springs in the finite elements: the sway before uplift, Figure 4, and how far they are from Housner.
+//! Table 1's own springs in the finite elements: the sway before uplift, Figure 4, and how far they
+//! are from Housner.
 
 use dynamics::compare::Match;
 use dynamics::{
@@ -27,8 +28,9 @@ fn on_el_centro(springs: &Springs<Design<f64>>) -> Match {
     Match::new(&body, record.dt, (&rocking.motion(&body), &rocking.impacts), &history, body.restitution())
 }
 
-/// A push of 0.02 g for 0.3 s, a fifth of what lifts the frame (g b/h = 0.1 g): Housner's frame stands still, Table 1's sways at
-/// 0.826 Hz. By hand: 0.829 Hz on the vertical springs; the horizontal ones in series and the weight take 0.3 % off.
+/// A push of 0.02 g for 0.3 s, a fifth of what lifts the frame (g b/h = 0.1 g): Housner's frame
+/// stands still, Table 1's sways at 0.826 Hz. By hand: 0.829 Hz on the vertical springs; the
+/// horizontal ones in series and the weight take 0.3 % off.
 #[test]
 fn a_push_too_weak_to_lift_the_frame_makes_it_sway_at_0_83_hz() {
     let (dt, n) = (0.005, 4000);
@@ -50,8 +52,8 @@ fn a_push_too_weak_to_lift_the_frame_makes_it_sway_at_0_83_hz() {
     assert_eq!(format!("{frequency:.2}"), "0.83");
 }
 
-/// Figure 4. OpenSees 3.7.1 on the same springs, our deck and an independent model with even steps of 2e-4 s: peak 420.5 mm, vertically
-/// 37.2 mm, NRMSE against Housner 0.732 in u and 0.564 in v.
+/// Figure 4. OpenSees 3.7.1 on the same springs, our deck and an independent model with even steps
+/// of 2e-4 s: peak 420.5 mm, vertically 37.2 mm, NRMSE against Housner 0.732 in u and 0.564 in v.
 #[test]
 fn table_1_misses_housner_by_0_73_as_in_opensees() {
     let found = on_el_centro(&Springs::table_1());
@@ -63,7 +65,8 @@ fn table_1_misses_housner_by_0_73_as_in_opensees() {
     assert!((0.85..1.15).contains(&(found.peak_horizontal_fem_m / 0.4445)), "{found:?}");
 }
 
-/// Every reading of the lost digits misses Housner by more than 0.7: the softness of the springs decides, not the digits.
+/// Every reading of the lost digits misses Housner by more than 0.7: the softness of the springs
+/// decides, not the digits.
 #[test]
 fn no_reading_of_the_lost_digits_follows_housner() {
     let own = Springs::table_1();
@@ -83,8 +86,9 @@ fn no_reading_of_the_lost_digits_follows_housner() {
     }
 }
 
-/// Figure 4 marks a vertical peak of "4_.7 mm" (a digit is lost, a 1 or a 2). A rigid frame on one foot is 41.7 mm high when it has moved
-/// by 433 mm, 42.7 mm at 443 mm, and Beck & Skinner's 444.5 mm (17.5 in) goes with 42.8 mm.
+/// Figure 4 marks a vertical peak of "4_.7 mm" (a digit is lost, a 1 or a 2). A rigid frame on one
+/// foot is 41.7 mm high when it has moved by 433 mm, 42.7 mm at 443 mm, and Beck & Skinner's 444.5
+/// mm (17.5 in) goes with 42.8 mm.
 #[test]
 fn the_vertical_peak_of_figure_4_goes_with_beck_and_skinners_horizontal_one() {
     let (h, b) = (61.0_f64, 6.1_f64);
@@ -101,7 +105,8 @@ fn the_vertical_peak_of_figure_4_goes_with_beck_and_skinners_horizontal_one() {
     assert_eq!(rises, ["41.7", "42.7", "42.8"]);
 }
 
-/// `tuning/table_1.json` is for `tune simulate` and `tune verify`: the same springs, I_cg = 1e-5 m R^2.
+/// `tuning/table_1.json` is for `tune simulate` and `tune verify`: the same springs, I_cg = 1e-5 m
+/// R^2.
 #[test]
 fn the_file_of_table_1_has_the_same_springs() {
     let text = include_str!("../../tuning/table_1.json");

@@ -1,4 +1,5 @@
-//! The claims of section 6 and Figure 4 on our springs: those of `tune run` without arguments, 20 s of El Centro.
+//! The claims of section 6 and Figure 4 on our springs: those of `tune run` without arguments, 20 s
+//! of El Centro.
 
 use dynamics::compare::Match;
 use std::sync::LazyLock;
@@ -42,7 +43,8 @@ fn the_peaks_and_the_time_history_follow_housner() {
     assert!(m.nrmse_horizontal < 0.002 && m.nrmse_vertical < 0.002, "{m:?}");
     assert!((m.peak_horizontal_fem_m / m.peak_horizontal_housner_m - 1.0).abs() < 0.01, "{m:?}");
     assert!((m.peak_vertical_fem_m / m.peak_vertical_housner_m - 1.0).abs() < 0.01, "{m:?}");
-    // the body of the model has 1e-5 m R^2 of rotational inertia: the same peak to five digits as without
+    // the body of the model has 1e-5 m R^2 of rotational inertia: the same peak to five digits as
+    // without
     assert!((m.peak_horizontal_housner_m + 0.401181622959).abs() < 1e-4 * 0.4, "{m:?}");
 }
 

@@ -1,4 +1,5 @@
-//! An elastic structure on its springs as a deck for OpenSees: nodes, corotational beams, stiff arms to the corners.
+//! An elastic structure on its springs as a deck for OpenSees: nodes, corotational beams, stiff
+//! arms to the corners.
 
 use std::f64::consts::TAU;
 
@@ -14,19 +15,22 @@ use frames::frame::{Frame, FrameDamper, FrameLayout, FrameMember, FrameTendon, N
 use rocking::scalar::GRAVITY;
 use strong_motion::Record;
 
-/// Stiffness of the arms that stand for a rigid footing, over the stiffest gap spring k1: as for a rigid body's legs.
+/// Stiffness of the arms that stand for a rigid footing, over the stiffest gap spring k1: as for a
+/// rigid body's legs.
 const ARM_STIFFNESS: f64 = 4.0;
 /// Newton's displacement tolerance over the span of the structure, some twenty times rounding.
 const TOLERANCE: f64 = 2e-14;
 /// Rise of a corner that counts as a motion, over that at which the structure topples.
 const SMALL_MOTION: f64 = 0.01;
-/// Radians of the structure's sway that a step may take: leaning it sways some three times as fast as fixed, and TRBDF2 lags by a twelfth of
-/// the step's square.
+/// Radians of the structure's sway that a step may take: leaning it sways some three times as fast
+/// as fixed, and TRBDF2 lags by a twelfth of the step's square.
 const SWAY: f64 = 0.03;
 const FASTER: f64 = 3.0;
-/// A deck's steps are chosen for this share of the accuracy asked: what they err by at a landing goes on in vibration, of a column's mass too,
-/// and small errors grow 30-fold before a history is no longer judged. Errors of rotation at 1/4, 1/64, 1/256: a pier of 14 m with a heavy
-/// column 4.8e-3, 1.36e-3, 7.9e-4; one of 20 m that hardly lifts under vertical motion -, 6.4e-3, 1.7e-3 (the limit is 2e-3).
+/// A deck's steps are chosen for this share of the accuracy asked: what they err by at a landing
+/// goes on in vibration, of a column's mass too, and small errors grow 30-fold before a history is
+/// no longer judged. Errors of rotation at 1/4, 1/64, 1/256: a pier of 14 m with a heavy column
+/// 4.8e-3, 1.36e-3, 7.9e-4; one of 20 m that hardly lifts under vertical motion -, 6.4e-3, 1.7e-3
+/// (the limit is 2e-3).
 const SHARE: f64 = 1.0 / 256.0;
 
 /// What stands above the list of springs of beams that give in shear.
@@ -50,7 +54,8 @@ pub struct ElasticDeck<'a> {
     pub record: &'a Record,
     /// Samples of it that are followed, the one at t = 0 included.
     pub samples: usize,
-    /// Node whose motion is checked, and its displacement (x, z) at every sample in our own history (m).
+    /// Node whose motion is checked, and its displacement (x, z) at every sample in our own history
+    /// (m).
     pub top: (usize, &'a [[f64; 2]]),
     /// Lean at which the structure topples (rad).
     pub alpha: f64,
@@ -174,8 +179,9 @@ impl ElasticDeck<'_> {
         })
     }
 
-    /// Beams that give in shear, with the stiffness and the dashpot of the spring between the turns of their ends [N m/rad, N m s/rad]:
-    /// k = [4 + Phi, 2 - Phi; 2 - Phi, 4 + Phi]/(1 + Phi) is that of a beam of EI/(1 + Phi), and [1 -1; -1 1] Phi EI/((1 + Phi) L).
+    /// Beams that give in shear, with the stiffness and the dashpot of the spring between the turns
+    /// of their ends [N m/rad, N m s/rad]: k = [4 + Phi, 2 - Phi; 2 - Phi, 4 + Phi]/(1 + Phi) is
+    /// that of a beam of EI/(1 + Phi), and [1 -1; -1 1] Phi EI/((1 + Phi) L).
     fn sheared(&self) -> Vec<(usize, [f64; 2])> {
         let spring = |(i, member): (usize, &FrameMember)| {
             let (s, l) = (&member.section, length(member));

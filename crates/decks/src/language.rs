@@ -1,7 +1,8 @@
 //! The languages of OpenSees decks: what all decks in one share, and how it writes lists.
 //!
-//! A deck is a template (numbers, model, what is recorded) around three fragments: the stepping routine, the solver with its loads, and
-//! the epilogue that follows the record and checks the peaks.
+//! A deck is a template (numbers, model, what is recorded) around three fragments: the stepping
+//! routine, the solver with its loads, and the epilogue that follows the record and checks the
+//! peaks.
 
 use std::fmt::Write;
 
@@ -14,7 +15,8 @@ pub(super) struct Language {
     routine: &'static str,
     solver: &'static str,
     epilogue: &'static str,
-    /// Springs of beams that give in shear, and their list: its head, and its rows' and its own end.
+    /// Springs of beams that give in shear, and their list: its head, and its rows' and its own
+    /// end.
     pub shear_springs: &'static str,
     pub shear_list: [&'static str; 2],
     /// Around a list, between its items, and after a row of a list of lists.

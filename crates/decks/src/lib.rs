@@ -7,8 +7,8 @@
 //! | [`DeckFormat::Sap2000`] | .s2k text tables for File > Import > SAP2000 .s2k Text File |
 //! | [`DeckFormat::Csv`], [`DeckFormat::Markdown`] | k1, k2, m2, c per foot and direction, for everyone else |
 //!
-//! Numbers are written with 17 significant digits, so that a deck holds exactly what was tuned. SI units, except in
-//! SAP2000 where the tables say KN, m.
+//! Numbers are written with 17 significant digits, so that a deck holds exactly what was tuned. SI
+//! units, except in SAP2000 where the tables say KN, m.
 
 // what is printed goes through the program's `commands/terminal`
 #![cfg_attr(not(test), deny(clippy::print_stdout, clippy::print_stderr))]
@@ -108,7 +108,8 @@ pub struct Expected {
     pub u: (f64, f64),
     /// Largest and least v, from the settled position (m).
     pub v: (f64, f64),
-    /// NRMSE of u that a relative change of the width by 1e-5 makes in the history: the more, the finer are a deck's steps.
+    /// NRMSE of u that a relative change of the width by 1e-5 makes in the history: the more, the
+    /// finer are a deck's steps.
     pub width_sensitivity: f64,
     /// Accuracy asked of the deck, as a normalised error of its history: its steps follow from it.
     pub accuracy: f64,
@@ -120,8 +121,8 @@ impl Expected {
         Self::within(history, width_sensitivity, history.motion.len())
     }
 
-    /// The same of so many of its samples. It ends where the body has fallen over: another program's would fall through the ground next,
-    /// a little sooner or later than ours.
+    /// The same of so many of its samples. It ends where the body has fallen over: another
+    /// program's would fall through the ground next, a little sooner or later than ours.
     pub(crate) fn within(history: &History, width_sensitivity: f64, samples: usize) -> Self {
         let motion = &history.motion;
         let fallen = motion.theta.iter().position(|theta| theta.abs() >= FALLEN).map_or(motion.len(), |i| i + 1);
@@ -164,8 +165,8 @@ pub enum ExportError {
     Samples { expected: usize, record: usize },
 }
 
-/// The text of a deck of these springs on a record, with our own history to check itself against. A body without rotational
-/// inertia gets the least that other programs need (1e-5 m R^2).
+/// The text of a deck of these springs on a record, with our own history to check itself against. A
+/// body without rotational inertia gets the least that other programs need (1e-5 m R^2).
 ///
 /// # Errors
 /// A member or a vertical motion that the format does not have; numbers that are not finite.

@@ -9,14 +9,15 @@ use rocking::{
 use springs::{parameters::Parameters, predictability::HOPELESS};
 use strong_motion::Record;
 
-/// Rotational inertia, as a share of m R^2, that a deck gives to a body that has none: OpenSees and SAP2000 cannot
-/// solve for a rotation without inertia while both feet are in the air. Ten times more or less
-/// changes 20 s of a 5 m frame by 2e-3 (NRMSE).
+/// Rotational inertia, as a share of m R^2, that a deck gives to a body that has none: OpenSees and
+/// SAP2000 cannot solve for a rotation without inertia while both feet are in the air. Ten times
+/// more or less changes 20 s of a 5 m frame by 2e-3 (NRMSE).
 pub(crate) const SMALL_INERTIA: f64 = 1e-5;
 
-/// Stiffness of the legs that stand for a rigid body, over the stiffest gap spring k1, the same along and across. OpenSees
-/// decks take their compliance off that of k1, so that both in series are k1, however soft the legs; a leg a thousand times
-/// stiffer than k1 costs three digits of k1's force, and on springs of 10 kHz Newton's iteration ends in its rounding.
+/// Stiffness of the legs that stand for a rigid body, over the stiffest gap spring k1, the same
+/// along and across. OpenSees decks take their compliance off that of k1, so that both in series
+/// are k1, however soft the legs; a leg a thousand times stiffer than k1 costs three digits of k1's
+/// force, and on springs of 10 kHz Newton's iteration ends in its rounding.
 pub(super) const LEG_STIFFNESS: f64 = 4.0;
 
 /// What a history's error is to be, unless one asks otherwise.
@@ -27,11 +28,13 @@ pub(super) const STEPS_PER_PERIOD: f64 = 40.0;
 /// p times the time step, at most, where all steps are alike.
 const STEP_BY_ROCKING: f64 = 1e-4;
 
-/// Newton's displacement tolerance over R: some twenty times what rounding leaves of it with legs of [`LEG_STIFFNESS`].
+/// Newton's displacement tolerance over R: some twenty times what rounding leaves of it with legs
+/// of [`LEG_STIFFNESS`].
 const TOLERANCE: f64 = 2e-14;
 
-/// The accuracy asked is tightened with what a change of the width by 1e-5 does to the history (from 6.7e-5 on), since the
-/// steps' error grows as that does; so many times at most: steps a third as long.
+/// The accuracy asked is tightened with what a change of the width by 1e-5 does to the history
+/// (from 6.7e-5 on), since the steps' error grows as that does; so many times at most: steps a
+/// third as long.
 const TIGHTER: f64 = 15_000.0;
 const TIGHTEST: f64 = 8.0;
 /// Rise of a foot that counts as a motion, over that at which the body topples.
@@ -57,7 +60,8 @@ pub(super) fn whole(ratio: f64) -> usize {
     ((ratio - 1e-9).ceil() as usize).max(1)
 }
 
-/// The structure as decks hold it: a body without rotational inertia gets `SMALL_INERTIA`. Simulate this one to compare.
+/// The structure as decks hold it: a body without rotational inertia gets `SMALL_INERTIA`. Simulate
+/// this one to compare.
 pub fn with_inertia(structure: &Structure) -> Structure {
     let body = structure.body::<f64>();
     let small = SMALL_INERTIA * body.mass * body.radius().powi(2);

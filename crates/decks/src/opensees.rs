@@ -1,4 +1,5 @@
-//! OpenSees decks: the same model in Python and in Tcl, from two templates that explain every choice in comments.
+//! OpenSees decks: the same model in Python and in Tcl, from two templates that explain every
+//! choice in comments.
 
 use super::{
     language::{Language, PYTHON, TCL, record_note},
@@ -16,8 +17,9 @@ pub(super) fn tcl(model: &DeckModel) -> String {
     fill(&TCL, include_str!("deck.tcl"), model)
 }
 
-/// A coefficient of friction at which no pressing foot ever slips, not even in the last microsecond before it lifts: with 1000
-/// a foot that lifts lets its horizontal force go in 20 us instead of at once, and 3 s of a 2 m block are off by 3e-4.
+/// A coefficient of friction at which no pressing foot ever slips, not even in the last microsecond
+/// before it lifts: with 1000 a foot that lifts lets its horizontal force go in 20 us instead of at
+/// once, and 3 s of a 2 m block are off by 3e-4.
 const HOLDS: f64 = 1e7;
 
 fn accuracy_note(model: &DeckModel) -> String {

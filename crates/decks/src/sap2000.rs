@@ -5,14 +5,16 @@
 //!      └─ links 1, 2: FOOT ── joints 11, 12 (absorbers, not rotating) ── links 3, 4: GROUND ── joints 21, 22 (fixed)
 //! ```
 //!
-//! So a rigid body; an elastic structure has joints at its nodes, frames between them and FOOT_1, GROUND_1, ... under its corners.
+//! So a rigid body; an elastic structure has joints at its nodes, frames between them and FOOT_1,
+//! GROUND_1, ... under its corners.
 //!
-//! Link axes of a vertical link: local 1 up (U1 vertical), local 2 along +X (U2 horizontal). FOOT is a friction isolator:
-//! its U1 presses and does not pull, its U2 acts only while U1 presses, which a gap link cannot say. GROUND is a linear
-//! link with damping. A gap property FOOT_GAP is defined beside it, not used, for programs or versions without isolators.
+//! Link axes of a vertical link: local 1 up (U1 vertical), local 2 along +X (U2 horizontal). FOOT
+//! is a friction isolator: its U1 presses and does not pull, its U2 acts only while U1 presses,
+//! which a gap link cannot say. GROUND is a linear link with damping. A gap property FOOT_GAP is
+//! defined beside it, not used, for programs or versions without isolators.
 //!
-//! Table and field names are those of SAP2000's own exports as public files and readers show them. What could not be tried
-//! without the program stands in the file's own header.
+//! Table and field names are those of SAP2000's own exports as public files and readers show them.
+//! What could not be tried without the program stands in the file's own header.
 
 mod cases;
 mod elastic;

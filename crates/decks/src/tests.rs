@@ -129,7 +129,8 @@ fn stated(hz: f64, width_sensitivity: f64) -> (f64, f64) {
     (after("STEPS_PER_SAMPLE = "), after("ACCURACY = "))
 }
 
-/// Steps follow from the accuracy while the deck runs, not from stiffness: a pair a sample at most on any springs.
+/// Steps follow from the accuracy while the deck runs, not from stiffness: a pair a sample at most
+/// on any springs.
 #[test]
 fn steps_a_sample_do_not_follow_from_stiffness() {
     for hz in [6.2, 160.0, 1e4, 1e5] {
@@ -137,7 +138,8 @@ fn steps_a_sample_do_not_follow_from_stiffness() {
     }
 }
 
-/// 15,000 times what a change of the width by 1e-5 does, at most 8; nothing where the history is lost.
+/// 15,000 times what a change of the width by 1e-5 does, at most 8; nothing where the history is
+/// lost.
 #[test]
 fn a_history_that_hangs_on_little_is_asked_more_accurately() {
     for (width_sensitivity, tighter) in [(5e-5, 1.0), (2e-4, 3.0), (0.1, 8.0), (0.9, 1.0)] {

@@ -26,11 +26,13 @@ use springs::{
 use strong_motion::Record;
 pub use verdict::{LIMIT, OpenSeesVerdict};
 
-/// Wall time a run may take before it counts as hung: this, and a time per sample of the record (s).
+/// Wall time a run may take before it counts as hung: this, and a time per sample of the record
+/// (s).
 const PATIENCE: f64 = 120.0;
 /// Some hundred times what a sample takes.
 const PATIENCE_PER_SAMPLE: f64 = 0.5;
-/// Where OpenSees is off, it is asked once more at this share of the accuracy: does it agree with itself?
+/// Where OpenSees is off, it is asked once more at this share of the accuracy: does it agree with
+/// itself?
 const FINER: f64 = 1.0 / 16.0;
 
 /// Normalised errors of a motion against another, as [`nrmse`].
@@ -52,7 +54,8 @@ impl Agreement {
     }
 }
 
-/// Three histories of one case at the record's samples, up to where they can be foretold, and how they agree.
+/// Three histories of one case at the record's samples, up to where they can be foretold, and how
+/// they agree.
 #[derive(Clone, Debug)]
 pub struct Verification {
     /// Sampling interval (s).
@@ -71,7 +74,8 @@ pub struct Verification {
     pub within_one_percent: bool,
     /// Whether OpenSees is within its limit, and how it was judged.
     pub verdict: OpenSeesVerdict,
-    /// NRMSE of u between OpenSees in these steps and in finer ones, asked where it is not within its limit.
+    /// NRMSE of u between OpenSees in these steps and in finer ones, asked where it is not within
+    /// its limit.
     pub opensees_against_itself: Option<f64>,
     /// What the deck printed.
     pub report: String,
@@ -81,7 +85,8 @@ pub struct Verification {
     pub seconds: f64,
     /// Steps that OpenSees took.
     pub steps: usize,
-    /// Touches and lifts of a foot that a step met that was too long for them: above zero, OpenSees' history is in doubt.
+    /// Touches and lifts of a foot that a step met that was too long for them: above zero,
+    /// OpenSees' history is in doubt.
     pub late: usize,
 }
 
@@ -112,8 +117,9 @@ pub enum VerifyError {
     Export(#[from] ExportError),
 }
 
-/// Run the deck of `parameters` on `record` in `program` and compare; its steps follow from `accuracy`, a normalised error. All
-/// that the deck writes goes to a temporary folder that is removed. `progress` is told how many seconds of how many OpenSees has done.
+/// Run the deck of `parameters` on `record` in `program` and compare; its steps follow from
+/// `accuracy`, a normalised error. All that the deck writes goes to a temporary folder that is
+/// removed. `progress` is told how many seconds of how many OpenSees has done.
 ///
 /// # Errors
 /// No such program, no OpenSees in it, an analysis that stops or hangs, no temporary folder.
@@ -190,8 +196,8 @@ pub struct DeckRun<T> {
     pub seconds: f64,
 }
 
-/// Run a deck's text that follows so many samples dt (s) apart; `read` takes its history from the file that it writes. All
-/// that the deck writes goes to a temporary folder that is removed.
+/// Run a deck's text that follows so many samples dt (s) apart; `read` takes its history from the
+/// file that it writes. All that the deck writes goes to a temporary folder that is removed.
 pub fn run_deck<T>(
     text: &str,
     program: &Program,

@@ -10,9 +10,10 @@ use rocking::{
     structure::Body,
 };
 
-/// How a finite element history matches Housner's over the same samples, up to the first overturning of the two, or to where
-/// Housner's body leaves the ground: after it there is nothing to compare. A number that is not finite (an NRMSE of a body that Housner's equation never lifts) is
-/// `null` in JSON.
+/// How a finite element history matches Housner's over the same samples, up to the first
+/// overturning of the two, or to where Housner's body leaves the ground: after it there is nothing
+/// to compare. A number that is not finite (an NRMSE of a body that Housner's equation never lifts)
+/// is `null` in JSON.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Match {
     /// Length compared (s).
@@ -41,8 +42,9 @@ pub struct Match {
     pub impacts_housner: usize,
     /// Landings, re-landings of a bounce not counted.
     pub impacts_fem: usize,
-    /// Housner's impacts harder than a fall from 0.02 alpha: what both models count alike, for a body that comes to rest has ever
-    /// more, ever gentler ones by his theory, and sways on its springs.
+    /// Housner's impacts harder than a fall from 0.02 alpha: what both models count alike, for a
+    /// body that comes to rest has ever more, ever gentler ones by his theory, and sways on its
+    /// springs.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub impacts_housner_firm: Option<usize>,
     /// The same of the finite elements.
@@ -52,12 +54,12 @@ pub struct Match {
     pub bounces: usize,
     /// Settlement of the standing body under its weight (m).
     pub settlement_m: f64,
-    /// Largest |e_effective/e - 1| over the landings with more than 1 % of the largest kinetic energy; the last is left out, for
-    /// its losses may not be complete.
+    /// Largest |e_effective/e - 1| over the landings with more than 1 % of the largest kinetic
+    /// energy; the last is left out, for its losses may not be complete.
     #[serde(deserialize_with = "number")]
     pub restitution_error_max: f64,
-    /// The same over impacts above the energy threshold, a fall from 0.02 alpha, for which springs are tuned: gentler ones
-    /// are partly taken by the elastic stance. None if there are none.
+    /// The same over impacts above the energy threshold, a fall from 0.02 alpha, for which springs
+    /// are tuned: gentler ones are partly taken by the elastic stance. None if there are none.
     #[serde(default)]
     pub restitution_error_firm: Option<f64>,
     /// Largest |residual| of the energy account over the largest energy.
@@ -113,11 +115,13 @@ fn number<'de, D: Deserializer<'de>>(from: D) -> Result<f64, D::Error> {
 /// The least lean from which springs are judged, share of alpha.
 pub const LEAST_LEAN: f64 = 0.02;
 
-/// Landings of less than this share of the largest kinetic energy do not count in `restitution_error_max`.
+/// Landings of less than this share of the largest kinetic energy do not count in
+/// `restitution_error_max`.
 const LANDINGS_THAT_MATTER: f64 = 0.01;
 
-/// Kinetic energy of each impact (J), and sqrt(1 - lost/kinetic): the velocity ratio that loses what the landing lost, up to
-/// the next landing. The last is left out, for its losses may not be complete.
+/// Kinetic energy of each impact (J), and sqrt(1 - lost/kinetic): the velocity ratio that loses
+/// what the landing lost, up to the next landing. The last is left out, for its losses may not be
+/// complete.
 fn effective_restitution<'a>(landings: impl Iterator<Item = &'a Landing>) -> Vec<(f64, f64)> {
     let mut all: Vec<(f64, f64)> =
         landings.filter(|l| l.impact).map(|l| (l.kinetic, (1.0 - l.lost / l.kinetic).max(0.0).sqrt())).collect();
@@ -158,8 +162,9 @@ mod tests {
         (body, Match::new(&body, dt, housner, &history, body.restitution()), rocking.overturned().unwrap_or(f64::NAN))
     }
 
-    /// A block that falls from 0.3 alpha lands with e^2 of the energy each time: (1 - |theta|/alpha)^2 - 1 of alpha is what is left, so
-    /// that it takes a count of landings until a fall from less than 0.02 alpha, and infinitely many to rest.
+    /// A block that falls from 0.3 alpha lands with e^2 of the energy each time: (1 -
+    /// |theta|/alpha)^2 - 1 of alpha is what is left, so that it takes a count of landings until a
+    /// fall from less than 0.02 alpha, and infinitely many to rest.
     #[test]
     fn impacts_above_the_threshold_are_as_many_in_both_models() {
         let structure = Structure::block(2.0, 0.5, 1e3).unwrap();
@@ -180,7 +185,8 @@ mod tests {
         assert!(found.impacts_housner > found.impacts_housner_firm.unwrap(), "{found:?}");
     }
 
-    /// alpha is passed at acosh(1 + 1/(x - 1))/p, small angles, x the push over its limit: 1.3170/p for x = 2.
+    /// alpha is passed at acosh(1 + 1/(x - 1))/p, small angles, x the push over its limit: 1.3170/p
+    /// for x = 2.
     #[test]
     fn nothing_counts_after_the_first_overturning() {
         let (body, found, time) = pushed(2.0);

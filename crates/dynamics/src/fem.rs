@@ -11,15 +11,18 @@
 //! | `demands` | forces in legs, tendon, dampers; base shear |
 //! | `history`, `landings` | what a run leaves behind: motion, forces, energies; impacts and bounces |
 //!
-//! **Why Radau IIA.** Springs of 300 Hz under a body that rocks at 0.3 Hz are stiff, and a body without rotational
-//! inertia makes the rotation algebraic (a differential-algebraic system of index 1): the method must be L-stable and
-//! stiffly accurate. Order 5 closes the energy account to 1e-6 at a step or two per sample once the transients of a landing
-//! have died. Explicit methods chatter, creep and topple the frame; Newmark, HHT and Gauss leave the unresolved modes
-//! ringing. Its cost stays low because each absorber condenses out of the Newton matrix (`newton`).
+//! **Why Radau IIA.** Springs of 300 Hz under a body that rocks at 0.3 Hz are stiff, and a body
+//! without rotational inertia makes the rotation algebraic (a differential-algebraic system of
+//! index 1): the method must be L-stable and stiffly accurate. Order 5 closes the energy account to
+//! 1e-6 at a step or two per sample once the transients of a landing have died. Explicit methods
+//! chatter, creep and topple the frame; Newmark, HHT and Gauss leave the unresolved modes ringing.
+//! Its cost stays low because each absorber condenses out of the Newton matrix (`newton`).
 //!
-//! **What chooses the step.** The leading error of a Radau step in an oscillation is loss of amplitude, so the energy that a step
-//! fails to account for is one measure of its error; it has a unit, and is what the user is promised. It does not see an error of
-//! phase. So an embedded formula of order three estimates the local error beside it (`step`), and a step must satisfy both.
+//! **What chooses the step.** The leading error of a Radau step in an oscillation is loss of
+//! amplitude, so the energy that a step fails to account for is one measure of its error; it has a
+//! unit, and is what the user is promised. It does not see an error of phase. So an embedded
+//! formula of order three estimates the local error beside it (`step`), and a step must satisfy
+//! both.
 
 pub mod acceptance;
 mod balance;
@@ -83,7 +86,8 @@ pub struct Analysis<'a, S> {
     pub dt: f64,
     /// Ground acceleration at t = i dt (m/s2), linear in between.
     pub accel: &'a [f64],
-    /// Vertical ground acceleration at the same times (m/s2), positive upwards, zero beyond its last sample: empty if there is none.
+    /// Vertical ground acceleration at the same times (m/s2), positive upwards, zero beyond its
+    /// last sample: empty if there is none.
     pub vertical: &'a [f64],
     /// Factor on the ground acceleration, both components.
     pub scale: S,
@@ -183,7 +187,8 @@ impl Observer<f64> for HistoryAndForces {
     }
 }
 
-/// Energy of the body at rest on one settled foot, not leaning: what a rocking body's energy counts from (J).
+/// Energy of the body at rest on one settled foot, not leaning: what a rocking body's energy counts
+/// from (J).
 pub fn energy_on_one_foot<S: Scalar>(body: &Body<S>, springs: &Springs<Chain<S>>) -> S {
     let model = model::Model::new(body, springs);
     let (state, feet) = model.on_one_foot(S::zero());

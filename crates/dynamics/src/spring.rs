@@ -30,7 +30,8 @@ pub struct Design<S> {
 }
 
 impl<S: Scalar> Design<S> {
-    /// From the stiffness ratio K = k2/k1 = mu f^2 and the damping number C = c/(m1 Omega_n) = 2 mu xi.
+    /// From the stiffness ratio K = k2/k1 = mu f^2 and the damping number C = c/(m1 Omega_n) = 2 mu
+    /// xi.
     pub fn from_kc(mu: S, k: S, c: S, omega_n_hz: S) -> Self {
         Self { mu, f: (k / mu).sqrt(), xi: c / (mu * real::<S>(2.0)), omega_n_hz }
     }
@@ -100,7 +101,8 @@ impl<S: Scalar> Springs<Design<S>> {
         Springs { vertical: self.vertical.chain(m1), horizontal: self.horizontal.chain(m1) }
     }
 
-    /// Settlement of the body standing on both feet, each carrying m1 g/2 on k1 and k2 in series (m).
+    /// Settlement of the body standing on both feet, each carrying m1 g/2 on k1 and k2 in series
+    /// (m).
     pub fn settlement(&self, m1: S) -> S {
         let chain = self.vertical.chain(m1);
         m1 * real::<S>(0.5 * rocking::scalar::GRAVITY) * (chain.k1.recip() + chain.k2.recip())

@@ -1,4 +1,5 @@
-//! Amplitude response ratio against frequency ratio (equation 7 of the paper): target, fits, active points.
+//! Amplitude response ratio against frequency ratio (equation 7 of the paper): target, fits, active
+//! points.
 
 use plotters::style::Color;
 use plotters::style::text_anchor::{HPos, VPos};
@@ -167,7 +168,8 @@ fn bound(canvas: &mut Canvas, panel: &Panel, band: &TargetBand) {
     canvas.text((at.0 + 14.0, at.1 + 12.0), &format!("ARR ≤ {}", brief(most, 4)), how);
 }
 
-/// The lowest cap of every curve that has one, its value at the right; below its line where the next cap is near above.
+/// The lowest cap of every curve that has one, its value at the right; below its line where the
+/// next cap is near above.
 fn lowest(canvas: &mut Canvas, panel: &Panel, curves: &[UnitCurve<'_>]) {
     let caps = || curves.iter().filter_map(|curve| Some((curve, curve.cap?)));
     for (curve, cap) in caps() {
@@ -200,7 +202,8 @@ fn touches(canvas: &mut Canvas, panel: &Panel, curve: &UnitCurve<'_>) {
             (HPos::Center, 0.0)
         };
         let how = Lettering::new(NUMBER).colour(pen(curve).rgb());
-        // The first curve tells its multipliers above, the others below: both stay readable where they touch together.
+        // The first curve tells its multipliers above, the others below: both stay readable where
+        // they touch together.
         let (y, along) = if !curve.horizontal { (at.1 - 22.0, VPos::Bottom) } else { (at.1 + 22.0, VPos::Top) };
         canvas.text((at.0 + shift, y), &short(multiplier, 2), how.at(across, along));
     }

@@ -1,4 +1,5 @@
-//! Error of every sampled candidate against its two frequencies: how rugged the landscape is, and what was chosen.
+//! Error of every sampled candidate against its two frequencies: how rugged the landscape is, and
+//! what was chosen.
 
 use plotters::style::text_anchor::{HPos, VPos};
 
@@ -20,7 +21,8 @@ pub struct CandidateMark {
     pub vertical_hz: f64,
     /// Omega_n of the horizontal chain (Hz).
     pub horizontal_hz: f64,
-    /// Its error; for an abandoned one what it had reached then, a lower bound. May be infinite: drawn at the top.
+    /// Its error; for an abandoned one what it had reached then, a lower bound. May be infinite:
+    /// drawn at the top.
     pub error: f64,
     /// Whether its run was ended before the record's end because it could not win any more.
     pub abandoned: bool,

@@ -1,4 +1,5 @@
-//! A white sheet: what is drawn on it is kept as plotters' elements, and becomes an SVG when its height is known.
+//! A white sheet: what is drawn on it is kept as plotters' elements, and becomes an SVG when its
+//! height is known.
 
 use plotters::drawing::IntoDrawingArea as _;
 use plotters::element::{Circle, PathElement, Polygon, Text};
@@ -16,7 +17,8 @@ use super::style::{Pen, TEXT, WHITE, WIDTH};
 /// A point (pixel).
 pub(crate) type PixelPoint = (f64, f64);
 
-/// Units of plotters' surface in one pixel: its backends take whole numbers, which would make a flat curve jump.
+/// Units of plotters' surface in one pixel: its backends take whole numbers, which would make a
+/// flat curve jump.
 const FINE: f64 = 16.0;
 /// plotters' SVG divides the sizes of fonts by this.
 const EM: f64 = 1.24;
@@ -187,7 +189,8 @@ impl Canvas {
         let (width, height) = (WIDTH as u32, height.round() as u32);
         let mut svg = String::new();
         write(&mut svg, (width, height), &self.elements).map_err(|reason| FigureError::Draw { reason })?;
-        // plotters' head says the size of its surface, and nothing of joins: an impact would be a spike
+        // plotters' head says the size of its surface, and nothing of joins: an impact would be a
+        // spike
         let body = svg.split_once('>').map_or("", |(_, body)| body);
         let head = format!(
             "<svg xmlns=\"http://www.w3.org/2000/svg\" width=\"{width}\" height=\"{height}\" viewBox=\"0 0 {} {}\" \

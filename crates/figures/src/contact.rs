@@ -10,8 +10,9 @@ use super::style::{self, BLUE, GREY, Pen, VERMILLION, WIDTH};
 use super::{Check, FigureError, Sheet};
 
 const CHECK: Check = Check("contact");
-/// An axis ends at so many times the force that is not passed in `USUAL` of the samples, where some go farther: landings on stiff
-/// springs are a thousand weights, and would leave nothing else to see.
+/// An axis ends at so many times the force that is not passed in `USUAL` of the samples, where some
+/// go farther: landings on stiff springs are a thousand weights, and would leave nothing else to
+/// see.
 const BEYOND: f64 = 2.0;
 const USUAL: f64 = 0.95;
 

@@ -1,11 +1,12 @@
-//! The figures' font: DejaVu Sans, cut down to the letters that figures use, and embedded. A size is the font's em (pixel);
-//! capitals and digits stand 0.729 em tall.
+//! The figures' font: DejaVu Sans, cut down to the letters that figures use, and embedded. A size
+//! is the font's em (pixel); capitals and digits stand 0.729 em tall.
 
 use ttf_parser::Face;
 
 /// Height of a capital, in em.
 pub(crate) const CAPITAL: f64 = 0.729;
-/// What an SVG asks for: the embedded font, which only the PNG is sure to get, and fonts of the same width.
+/// What an SVG asks for: the embedded font, which only the PNG is sure to get, and fonts of the
+/// same width.
 pub(crate) const FAMILY: &str = "DejaVu Sans, Verdana, sans-serif";
 
 const FACES: [&[u8]; 2] = [include_bytes!("font/DejaVuSans.ttf"), include_bytes!("font/DejaVuSans-Bold.ttf")];

@@ -1,4 +1,5 @@
-//! Probabilities of exceedance against measures of intensity: fits, their bounds, what was observed. Two panels a row.
+//! Probabilities of exceedance against measures of intensity: fits, their bounds, what was
+//! observed. Two panels a row.
 
 use plotters::style::Color;
 

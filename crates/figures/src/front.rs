@@ -1,4 +1,5 @@
-//! The front: error against Omega_n, of one way to design springs beside others; below, what stiffness costs.
+//! The front: error against Omega_n, of one way to design springs beside others; below, what
+//! stiffness costs.
 
 use plotters::style::text_anchor::{HPos, VPos};
 

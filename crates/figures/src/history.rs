@@ -1,4 +1,5 @@
-//! Displacement of the centre of mass against time: finite element against Housner, the paper's Figure 4.
+//! Displacement of the centre of mass against time: finite element against Housner, the paper's
+//! Figure 4.
 
 use plotters::style::RGBColor;
 use plotters::style::text_anchor::{HPos, VPos};
@@ -179,7 +180,8 @@ fn horizontal(canvas: &mut Canvas, t: &[f64], traces: &[Drawn<'_>], x: Scale, fr
     let (unit, name) = unit((low, high));
     let (low, high, label) = (low / unit, high / unit, format!("horizontal, u [{name}]"));
     let size = high - low;
-    // Room for the numbers of the peaks and the words about ends, and below for the rows of impacts [pixel].
+    // Room for the numbers of the peaks and the words about ends, and below for the rows of impacts
+    // [pixel].
     let rows = traces.iter().filter(|(trace, _)| !trace.impacts.is_empty()).count() as f64;
     let ends = traces.iter().filter(|(trace, _)| trace.end.is_some()).count() as f64;
     let (above, below) = (52.0 + ROW * ends, 52.0 + 25.0 * rows);
@@ -238,8 +240,8 @@ fn differences(canvas: &mut Canvas, data: &HistoryFigure<'_>, x: Scale, frame: P
     canvas.keep(plot);
 }
 
-/// Mark every model's extreme on one side, and tell them in one line beyond the outermost, where no curve can be. What only a fall
-/// reaches is no peak.
+/// Mark every model's extreme on one side, and tell them in one line beyond the outermost, where no
+/// curve can be. What only a fall reaches is no peak.
 fn peak<'a>(
     canvas: &mut Canvas,
     panel: &Panel,

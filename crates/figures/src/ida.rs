@@ -1,5 +1,6 @@
-//! Peak rotation against the level of the ground motion, both as logarithms: single records in grey, quantiles over all of
-//! them. A panel a structure, each with the ranges in which its body moves and stands.
+//! Peak rotation against the level of the ground motion, both as logarithms: single records in
+//! grey, quantiles over all of them. A panel a structure, each with the ranges in which its body
+//! moves and stands.
 
 use super::canvas::Canvas;
 use super::legend::{self, LegendEntry};
@@ -87,7 +88,8 @@ fn moving(subject: &IdaSubject) -> impl Iterator<Item = (f64, f64)> {
     records.chain(quantiles).map(|(level, peak)| (*level, *peak)).filter(|(_, peak)| (LOWEST..HIGHEST).contains(peak))
 }
 
-/// From the first level at which a body moves to the last at which one moves and stands; all levels if none does.
+/// From the first level at which a body moves to the last at which one moves and stands; all levels
+/// if none does.
 fn levels(subject: &IdaSubject) -> Scale {
     let (low, high) =
         moving(subject).fold((f64::INFINITY, 0.0_f64), |(low, high), (level, _)| (low.min(level), high.max(level)));
@@ -98,13 +100,15 @@ fn levels(subject: &IdaSubject) -> Scale {
     }
 }
 
-/// From the least of nearly all peaks of the quantiles to where a body overturns, at least a decade.
+/// From the least of nearly all peaks of the quantiles to where a body overturns, at least a
+/// decade.
 fn peaks(subject: &IdaSubject) -> Scale {
     let low = moving(subject).fold(0.1 * HIGHEST, |low: f64, (_, peak)| low.min(peak));
     Scale::log(low.max(LOWEST), HIGHEST)
 }
 
-/// A curve as it is drawn: a logarithm shows neither zero nor infinity, so that these lie far outside of the panel.
+/// A curve as it is drawn: a logarithm shows neither zero nor infinity, so that these lie far
+/// outside of the panel.
 fn standing(levels: &[f64], peaks: &[f64]) -> (Vec<f64>, Vec<f64>) {
     levels.iter().zip(peaks).map(|(level, peak)| (*level, peak.clamp(1e-2 * LOWEST, 10.0 * HIGHEST))).unzip()
 }

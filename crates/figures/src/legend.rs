@@ -66,8 +66,8 @@ impl LegendEntry {
     }
 }
 
-/// A title, and below it the legend in as many rows as it takes, from `left` to `right`; where the figure may begin
-/// below them (pixel).
+/// A title, and below it the legend in as many rows as it takes, from `left` to `right`; where the
+/// figure may begin below them (pixel).
 pub(crate) fn header(canvas: &mut Canvas, title: &str, entries: &[LegendEntry], left: f64, right: f64) -> f64 {
     let below = self::title(canvas, title, (left, right), 0.0);
     let (mut x, mut y) = (left, below + 8.0);
@@ -82,7 +82,8 @@ pub(crate) fn header(canvas: &mut Canvas, title: &str, entries: &[LegendEntry], 
     if entries.is_empty() { below } else { y + 46.0 }
 }
 
-/// A title between `left` and `right` in a figure whose upper edge is at `y`, remarks below its first line; their height (pixel).
+/// A title between `left` and `right` in a figure whose upper edge is at `y`, remarks below its
+/// first line; their height (pixel).
 pub(crate) fn title(canvas: &mut Canvas, title: &str, (left, right): (f64, f64), y: f64) -> f64 {
     let mut below = 52.0;
     for (i, line) in title.lines().enumerate() {

@@ -105,7 +105,8 @@ mod tests {
         pixels.pixels().iter().enumerate().filter_map(place).collect()
     }
 
-    /// An l stands on its baseline, from which it rises by 0.76 em; upwards, it is turned to the left.
+    /// An l stands on its baseline, from which it rises by 0.76 em; upwards, it is turned to the
+    /// left.
     #[test]
     fn a_letter_stands_on_its_baseline_and_is_turned_to_the_left_upwards() {
         let line = LetteredLine {

@@ -1,9 +1,11 @@
 //! Pictures of the results: plain numbers in, an SVG and a PNG out, no physics.
 //!
-//! Each figure is a module with one input struct of slices and labels and one function `draw(&data)`, which gives a [`Sheet`]: an SVG,
-//! drawn through plotters, which resvg turns into a PNG with an embedded font. A picture is 1600 pixels wide and readable at half that
-//! size. It is written whole or not at all, and the same numbers give the same bytes. Figures share nothing, so a program may draw them
-//! in parallel. The first line of a title is its head, further ones are remarks.
+//! Each figure is a module with one input struct of slices and labels and one function
+//! `draw(&data)`, which gives a [`Sheet`]: an SVG, drawn through plotters, which resvg turns into a
+//! PNG with an embedded font. A picture is 1600 pixels wide and readable at half that size. It is
+//! written whole or not at all, and the same numbers give the same bytes. Figures share nothing, so
+//! a program may draw them in parallel. The first line of a title is its head, further ones are
+//! remarks.
 //!
 //! | module | shows |
 //! |---|---|

@@ -29,7 +29,8 @@ pub fn short(x: f64, digits: usize) -> String {
     }
 }
 
-/// `x` as [`short`] has it, without zeros at the end of a fraction: a bound someone chose, as 0.1 or 4.541.
+/// `x` as [`short`] has it, without zeros at the end of a fraction: a bound someone chose, as 0.1
+/// or 4.541.
 pub fn brief(x: f64, digits: usize) -> String {
     let text = short(x, digits);
     if text.contains('.') && !text.contains('·') {
@@ -47,7 +48,8 @@ pub fn power_of_ten(exponent: i32) -> String {
     format!("10{raised}")
 }
 
-/// A power of a thousand and its prefix, so that the largest value reads as 1 to 1000 (1 and "" for zero).
+/// A power of a thousand and its prefix, so that the largest value reads as 1 to 1000 (1 and "" for
+/// zero).
 pub fn prefix(largest: f64) -> (f64, &'static str) {
     const PREFIXES: [(f64, &str); 7] =
         [(1e9, "G"), (1e6, "M"), (1e3, "k"), (1.0, ""), (1e-3, "m"), (1e-6, "μ"), (1e-9, "n")];

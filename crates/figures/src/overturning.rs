@@ -1,4 +1,5 @@
-//! Overturning spectra: the amplitudes of a pulse that overturn, over its frequency. Two panels a row.
+//! Overturning spectra: the amplitudes of a pulse that overturn, over its frequency. Two panels a
+//! row.
 
 use plotters::style::Color;
 

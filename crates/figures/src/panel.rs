@@ -47,8 +47,8 @@ impl Panel {
         self.at(self.x.clamp(x), self.y.clamp(y))
     }
 
-    /// Grid, axes, numbers and labels; no numbers below when there is no label for x. `gutter` is the distance of the
-    /// y label's middle from the axis (pixel); long numbers push it farther.
+    /// Grid, axes, numbers and labels; no numbers below when there is no label for x. `gutter` is
+    /// the distance of the y label's middle from the axis (pixel); long numbers push it farther.
     pub(crate) fn axes(&self, canvas: &mut Canvas, x_label: Option<&str>, y_label: &str, gutter: f64) {
         let PanelFrame { left, top, right, bottom } = self.frame;
         let (grid, axis) = (Pen::new(GRID, 1.5), Pen::new(AXIS, 2.0));
@@ -97,7 +97,8 @@ impl Panel {
         }
     }
 
-    /// Curves over time, each with its name, and their numbers for a page that zooms; `label` is that of the axis.
+    /// Curves over time, each with its name, and their numbers for a page that zooms; `label` is
+    /// that of the axis.
     pub(crate) fn history(&self, canvas: &mut Canvas, label: &str, t: &[f64], curves: &[(&str, &[f64], Pen)]) -> Plot {
         for (_, values, pen) in curves {
             match values {
@@ -114,7 +115,8 @@ impl Panel {
         }
     }
 
-    /// Times at which something ends: a line each, and its words at the top of the panel if they are wanted.
+    /// Times at which something ends: a line each, and its words at the top of the panel if they
+    /// are wanted.
     pub(crate) fn events(&self, canvas: &mut Canvas, plot: &mut Plot, events: &[(EventMark<'_>, Pen)], told: bool) {
         for (i, (event, pen)) in events.iter().enumerate() {
             self.upright(canvas, event.time, *pen);
@@ -147,7 +149,8 @@ impl Panel {
     }
 }
 
-/// At most four points a pixel column: the first, the lowest, the highest and the last look the same as all of them.
+/// At most four points a pixel column: the first, the lowest, the highest and the last look the
+/// same as all of them.
 fn thin(points: &[PixelPoint]) -> Vec<PixelPoint> {
     let mut kept = Vec::with_capacity(points.len().min(8192));
     for column in points.chunk_by(|a, b| a.0.floor() == b.0.floor()) {

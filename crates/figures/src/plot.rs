@@ -1,13 +1,16 @@
-//! The numbers of a panel over time, for a page that zooms and tells values: what the SVG of the panel shows, at full resolution.
+//! The numbers of a panel over time, for a page that zooms and tells values: what the SVG of the
+//! panel shows, at full resolution.
 
 use serde::Serialize;
 
 use super::style::Pen;
 
-/// Times that a panel keeps at most; of more, the extremes of every curve in as many stretches of time.
+/// Times that a panel keeps at most; of more, the extremes of every curve in as many stretches of
+/// time.
 const MOST: usize = 5000;
 
-/// A curve: as many values as the panel has times, or fewer where it ends early, or one that holds at all times.
+/// A curve: as many values as the panel has times, or fewer where it ends early, or one that holds
+/// at all times.
 #[derive(Clone, Debug, Serialize)]
 pub struct Curve {
     pub name: String,
@@ -93,7 +96,8 @@ impl Plot {
     }
 }
 
-/// Which samples are kept: all of a short history; of a long one the least and the largest of every curve in each stretch.
+/// Which samples are kept: all of a short history; of a long one the least and the largest of every
+/// curve in each stretch.
 fn extremes(n: usize, curves: &[(&str, &[f64], Pen)]) -> Vec<usize> {
     if n <= MOST {
         return (0..n).collect();

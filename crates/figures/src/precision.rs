@@ -60,7 +60,8 @@ fn panel(canvas: &mut Canvas, data: &PrecisionFigure<'_>, y: f64) {
         data.series.iter().enumerate().map(|(i, series)| LegendEntry::both(series.label, pen(i), dot(i))).collect();
     let left = 150.0;
     let top = y + legend::title(canvas, data.title, (left, WIDTH as f64 - 40.0), y);
-    // The legend's column takes what its longest text needs, but leaves the panel more than half of the sheet.
+    // The legend's column takes what its longest text needs, but leaves the panel more than half of
+    // the sheet.
     let text = super::canvas::Lettering::new(LABEL);
     let longest = data.series.iter().map(|series| text.length(series.label)).fold(0.0, f64::max);
     let right = (WIDTH as f64 - 40.0 - longest - 76.0 - 36.0).max(850.0);

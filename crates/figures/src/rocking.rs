@@ -36,7 +36,8 @@ pub struct RockingFigure<'a> {
     pub maps: &'a [Map],
 }
 
-/// Upper ends of the steps of |theta|/alpha, and their colours, from light to dark: told apart in print too.
+/// Upper ends of the steps of |theta|/alpha, and their colours, from light to dark: told apart in
+/// print too.
 const STEPS: [(f64, RGBColor); 6] = [
     (0.0, RGBColor(236, 236, 236)),
     (0.1, RGBColor(222, 235, 247)),

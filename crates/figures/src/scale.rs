@@ -38,7 +38,8 @@ impl Scale {
         }
     }
 
-    /// Logarithmic with room around the positive ones of the values, at least a factor of `least` in all.
+    /// Logarithmic with room around the positive ones of the values, at least a factor of `least`
+    /// in all.
     pub(crate) fn log_around(values: impl IntoIterator<Item = f64>, least: f64) -> Self {
         let (mut low, mut high) = (f64::INFINITY, 0.0_f64);
         for x in values.into_iter().filter(|x| x.is_finite() && *x > 0.0) {
@@ -86,7 +87,8 @@ impl Scale {
         let step =
             decade * [1.0, 2.0, 5.0, 10.0].into_iter().find(|s| s * decade >= raw * (1.0 - 1e-9)).unwrap_or(10.0);
         let decimals = (-(step * (1.0 + 1e-9)).log10().floor()).max(0.0) as usize;
-        // A hundredth of a step is less than two pixels: an axis that ends at 19.99 still tells its 20.
+        // A hundredth of a step is less than two pixels: an axis that ends at 19.99 still tells its
+        // 20.
         let (first, last) = ((self.low / step - 0.01).ceil() as i64, (self.high / step + 0.01).floor() as i64);
         (first..=last).map(|i| i as f64 * step).map(|value| Tick { value, label: fixed(value, decimals) }).collect()
     }

@@ -42,7 +42,8 @@ impl Sheet {
         self.encode(&pixels).map_err(|e| draw(e.to_string()))
     }
 
-    /// Red, green and blue, quickly compressed: a run is waited for, and its figures are of lines and flat areas.
+    /// Red, green and blue, quickly compressed: a run is waited for, and its figures are of lines
+    /// and flat areas.
     fn encode(&self, pixels: &Pixmap) -> Result<Vec<u8>, png::EncodingError> {
         // on white nothing shines through
         let rgb: Vec<u8> = pixels.data().chunks_exact(4).flat_map(|pixel| [pixel[0], pixel[1], pixel[2]]).collect();
@@ -60,7 +61,8 @@ impl Sheet {
     /// Write the PNG under its name and the SVG beside it; each whole or not at all.
     ///
     /// # Errors
-    /// [`FigureError::Write`] when the folder is missing or may not be written to; nothing is left behind then.
+    /// [`FigureError::Write`] when the folder is missing or may not be written to; nothing is left
+    /// behind then.
     pub fn save(&self, png: &Path) -> Result<(), FigureError> {
         let pixels = self.png()?;
         let files = [(png.to_path_buf(), pixels.as_slice()), (png.with_extension("svg"), self.svg.as_bytes())];

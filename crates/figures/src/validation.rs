@@ -1,4 +1,5 @@
-//! Two models over many records: distributions of the peaks, peak against peak, error against conditioning.
+//! Two models over many records: distributions of the peaks, peak against peak, error against
+//! conditioning.
 
 use plotters::style::text_anchor::{HPos, VPos};
 
@@ -132,7 +133,8 @@ fn distributions(canvas: &mut Canvas, data: &ValidationFigure<'_>, frame: PanelF
         let (x, half) = (widest.0, widest.2 / 2.0);
         panel.curve(canvas, &[x, x], &[widest.1 - half, widest.1 + half], Pen::new(BLUE, 5.0));
     }
-    // The lower right corner, up to where toppled bodies stand, lies below any distribution but one of toppled bodies alone.
+    // The lower right corner, up to where toppled bodies stand, lies below any distribution but one
+    // of toppled bodies alone.
     canvas.label((panel.at(0.97, 0.0).0, frame.bottom - 18.0), &told, how);
 }
 
@@ -152,7 +154,8 @@ fn peaks(canvas: &mut Canvas, data: &ValidationFigure<'_>, frame: PanelFrame) {
     }
 }
 
-/// Error against the sensitivity of Housner's own answer: where it is large, no model can follow one to one.
+/// Error against the sensitivity of Housner's own answer: where it is large, no model can follow
+/// one to one.
 fn errors(canvas: &mut Canvas, data: &ValidationFigure<'_>, frame: PanelFrame) {
     let x = Scale::log_around(data.rows.iter().map(|row| row.sensitivity).chain([data.well_conditioned]), 10.0);
     let panel = Panel { frame, x, y: Scale::log_around(data.rows.iter().map(|row| row.nrmse), 10.0) };

@@ -1,5 +1,5 @@
-//! What messages are made of: words of a user's file in one line, names in letters that can be seen, shares in
-//! percent, quantities with engineering prefixes.
+//! What messages are made of: words of a user's file in one line, names in letters that can be
+//! seen, shares in percent, quantities with engineering prefixes.
 
 use std::borrow::Cow;
 
@@ -68,7 +68,8 @@ pub fn shortened(text: &str, most: usize) -> String {
     letters[..head].iter().collect::<String>() + "..." + &letters[letters.len() - tail..].iter().collect::<String>()
 }
 
-/// x with at most so many significant digits, without zeros at the end of a fraction: 401.2, 0.1, 1.725e16.
+/// x with at most so many significant digits, without zeros at the end of a fraction: 401.2, 0.1,
+/// 1.725e16.
 pub fn significant(x: f64, digits: usize) -> String {
     if x == 0.0 || !x.is_finite() {
         return if x == 0.0 { "0".into() } else { "-".into() };
@@ -89,7 +90,8 @@ pub fn significant(x: f64, digits: usize) -> String {
     }
 }
 
-/// A quantity with an engineering prefix and at most four significant digits: 20.35 MN m, 401.2 mm, 680.1 t.
+/// A quantity with an engineering prefix and at most four significant digits: 20.35 MN m, 401.2 mm,
+/// 680.1 t.
 pub fn quantity(x: f64, unit: &str) -> String {
     const PREFIXES: [(f64, &str); 7] =
         [(1e9, "G"), (1e6, "M"), (1e3, "k"), (1.0, ""), (1e-3, "m"), (1e-6, "u"), (1e-9, "n")];

@@ -1,4 +1,5 @@
-//! What an elastic structure does in a ground motion: on rigid ground, on its springs, held to the ground, and as a rigid body.
+//! What an elastic structure does in a ground motion: on rigid ground, on its springs, held to the
+//! ground, and as a rigid body.
 
 use super::{
     assembled::{Assembled, Sway, errors},
@@ -39,14 +40,16 @@ pub enum ComparedEnd {
     Record,
     /// A history that ends before, overturned or not to be followed.
     History,
-    /// What can be foretold: from then on two models of one structure part, and only statistics compare them.
+    /// What can be foretold: from then on two models of one structure part, and only statistics
+    /// compare them.
     Foretold,
     /// A landing from which a corner slides on: what follows depends on friction.
     Slides,
 }
 
 impl Compared {
-    /// Of a record of so many samples dt apart, of which `followed` can be compared one to one, by histories of these lengths.
+    /// Of a record of so many samples dt apart, of which `followed` can be compared one to one, by
+    /// histories of these lengths.
     pub(crate) fn new(record: &Record, followed: usize, lengths: &[usize]) -> Self {
         let shortest = lengths.iter().copied().fold(record.len(), usize::min);
         let samples = followed.min(shortest);
@@ -92,8 +95,8 @@ pub struct ElasticAnswer {
     pub histories: ElasticHistories,
     /// Over how much of the record these two are compared.
     pub compared: Compared,
-    /// NRMSE of the rotations and of the drifts over that; infinite where the springs' history does not get so far, and where it moves
-    /// and the reference does not.
+    /// NRMSE of the rotations and of the drifts over that; infinite where the springs' history does
+    /// not get so far, and where it moves and the reference does not.
     pub errors: [f64; 2],
     /// Held to the ground.
     pub fixed: ElasticHistory,
@@ -103,8 +106,8 @@ pub struct ElasticAnswer {
     pub ensemble: Option<Ensemble>,
     /// Motions near the record that are left out since a history met its bound.
     pub near_left_out: usize,
-    /// The rigid body of the same masses, by Housner's equation; none of a frame, whose columns rock side by side, and of a structure
-    /// with members.
+    /// The rigid body of the same masses, by Housner's equation; none of a frame, whose columns
+    /// rock side by side, and of a structure with members.
     pub rigid: Option<RigidForces>,
     /// Forces to design for, each with whether it is the structure's own.
     pub design: StructureForces,
@@ -120,7 +123,8 @@ pub enum AnswerError {
     RestOnGround(#[from] RestError),
 }
 
-/// The history of a frame through a record, from rest, its forces finely sampled in so many parts to a time step.
+/// The history of a frame through a record, from rest, its forces finely sampled in so many parts
+/// to a time step.
 fn follow(
     frame: &Frame,
     springs: &[Springs<Chain<f64>>],
@@ -162,12 +166,14 @@ impl Reference {
         (self.foretold < self.history.q.len()).then(|| self.foretold.saturating_sub(1) as f64 * dt)
     }
 
-    /// When a corner slides on from a landing, if that is where the part that can be foretold ends (s).
+    /// When a corner slides on from a landing, if that is where the part that can be foretold ends
+    /// (s).
     pub fn slides_on(&self) -> Option<f64> {
         self.history.first_sliding_landing_s.filter(|time| self.foretold == self.history.samples_to(*time))
     }
 
-    /// The same compared over as much as springs stiff enough may follow, a perturbation growing less than [`FOLLOWED`]; none if that is no more.
+    /// The same compared over as much as springs stiff enough may follow, a perturbation growing
+    /// less than [`FOLLOWED`]; none if that is no more.
     ///
     /// # Errors
     /// The structure does not stand.
@@ -227,7 +233,8 @@ impl ElasticHistories {
         self.sways.iter().flatten().filter_map(passed).min().filter(|_| overturned)
     }
 
-    /// Over how much of the record histories of these lengths, beside the reference's, are compared.
+    /// Over how much of the record histories of these lengths, beside the reference's, are
+    /// compared.
     pub fn compared(&self, record: &Record, lengths: &[usize]) -> Compared {
         self.reference.compared(record, self.reference.followed, lengths)
     }

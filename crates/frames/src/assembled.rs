@@ -1,4 +1,5 @@
-//! An elastic structure, assembled: what is watched of it, where it rests, how it rocks on rigid ground and for how long that can be told.
+//! An elastic structure, assembled: what is watched of it, where it rests, how it rocks on rigid
+//! ground and for how long that can be told.
 
 use nalgebra::DVector;
 use thiserror::Error;
@@ -14,11 +15,12 @@ use super::{
 };
 use rocking::{members::Members, motion::nrmse_of};
 
-/// Stiffness of the ground over all mass, on which a leaning structure is looked for before it is put on rigid ground: its weight settles by
-/// g/FIRM, 1e-8 m [1/s2].
+/// Stiffness of the ground over all mass, on which a leaning structure is looked for before it is
+/// put on rigid ground: its weight settles by g/FIRM, 1e-8 m [1/s2].
 const FIRM: f64 = 1e9;
 
-/// Share of its stiffness that a tendon keeps while the structure settles under a tension that is given.
+/// Share of its stiffness that a tendon keeps while the structure settles under a tension that is
+/// given.
 const SOFT: f64 = 1e-9;
 
 /// What is watched: something that turns rigidly, and the node above it.
@@ -73,8 +75,9 @@ impl Assembled {
         Self::of(structure, Members::default(), structure.layout())
     }
 
-    /// Of a structure with dampers and tendons. A tendon has its pretension when the structure stands still on rigid ground, settled under
-    /// its weight and the tendon; on springs and held to the ground it is the same tendon, as long when slack.
+    /// Of a structure with dampers and tendons. A tendon has its pretension when the structure
+    /// stands still on rigid ground, settled under its weight and the tendon; on springs and held
+    /// to the ground it is the same tendon, as long when slack.
     ///
     /// # Errors
     /// Parts that do not fit together; a structure that does not stand under its tendon.
@@ -111,7 +114,8 @@ impl Assembled {
         upright(&self.frame)
     }
 
-    /// At rest on the corners of one side, leaning by `lean` (rad), on rigid ground; not of a frame, which leans as it bends.
+    /// At rest on the corners of one side, leaning by `lean` (rad), on rigid ground; not of a
+    /// frame, which leans as it bends.
     pub fn leaning(&self, lean: f64) -> Option<DVector<f64>> {
         let pivot = usize::from(lean > 0.0);
         let fixed = match self.structure {
@@ -130,7 +134,8 @@ impl Assembled {
         rock(&self.frame, ground, (q, &DVector::zeros(q.len())), &options)
     }
 
-    /// Samples of such a history over which a perturbation grows less than `limit`, at most its own.
+    /// Samples of such a history over which a perturbation grows less than `limit`, at most its
+    /// own.
     pub(crate) fn grown(
         &self,
         ground: GroundAcceleration,
@@ -144,7 +149,8 @@ impl Assembled {
         growth(&self.frame, ground, (q, &still), &options, (history, &twins)).samples_below(limit)
     }
 
-    /// The same, and at most up to where a corner slides on from a landing, which not all springs follow.
+    /// The same, and at most up to where a corner slides on from a landing, which not all springs
+    /// follow.
     pub fn foretold(
         &self,
         ground: GroundAcceleration,
@@ -156,7 +162,8 @@ impl Assembled {
         history.first_sliding_landing_s.map_or(grown, |time| grown.min(history.samples_to(time)))
     }
 
-    /// Coordinates whose growth tells of the conditioning: rotations of footings and the tops' displacements.
+    /// Coordinates whose growth tells of the conditioning: rotations of footings and the tops'
+    /// displacements.
     fn telling(&self) -> Vec<usize> {
         let turn = |base: Base| match base {
             Base::Footing(node) => self.frame.coordinates(node)[2],
@@ -171,8 +178,9 @@ fn upright(frame: &Frame) -> Result<DVector<f64>, RestError> {
     at_rest(frame, &DVector::zeros(frame.size()), all, &[])
 }
 
-/// A layout whose tendons' tension is that of the settled structure, with that of the unstressed one: it settles under that tension, as if by
-/// tendons that keep it, and so lengthens or shortens the real ones.
+/// A layout whose tendons' tension is that of the settled structure, with that of the unstressed
+/// one: it settles under that tension, as if by tendons that keep it, and so lengthens or shortens
+/// the real ones.
 fn stressed(layout: FrameLayout) -> Result<FrameLayout, AssemblyError> {
     if layout.tendons.is_empty() {
         return Ok(layout);
@@ -185,8 +193,8 @@ fn stressed(layout: FrameLayout) -> Result<FrameLayout, AssemblyError> {
     Ok(FrameLayout { tendons, ..layout })
 }
 
-/// NRMSE of the rotations and of the drifts over the first samples, all bases together; infinite where a history does not get so far, and where
-/// it moves and the reference does not.
+/// NRMSE of the rotations and of the drifts over the first samples, all bases together; infinite
+/// where a history does not get so far, and where it moves and the reference does not.
 pub fn errors(reference: &[Sway], others: &[Sway], samples: usize) -> [f64; 2] {
     let of = |pick: fn(&Sway) -> &[f64]| {
         let each = || others.iter().zip(reference).map(|(other, reference)| (pick(other), pick(reference)));

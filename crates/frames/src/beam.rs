@@ -1,4 +1,5 @@
-//! A plane beam that turns as far as it likes: corotational, Timoshenko's, with rigid arms and hinges at its ends.
+//! A plane beam that turns as far as it likes: corotational, Timoshenko's, with rigid arms and
+//! hinges at its ends.
 //!
 //! ```text
 //!   U = EA/(2 L) e^2 + EI/(2 L) sum_ij k_ij f_i f_j       D = eta_A/(2 L) e'^2 + eta_I/(2 L) sum_ij k_ij f_i' f_j'
@@ -10,11 +11,12 @@
 //!   Phi = 12 EI/(GA_s L^2)         0 of a beam that is rigid in shear: Euler-Bernoulli's, k = [4 2; 2 4] and 3
 //! ```
 //!
-//! (Przemieniecki, *Theory of Matrix Structural Analysis*, section 5.6: exact where forces act at the ends alone.)
-//! The dashpots are those of a section with viscous stress eta times the strain rate: a rigid motion meets none of them.
-//! y = (x_a, z_a, th_a, x_b, z_b, th_b): displacements of the two nodes (m), clockwise rotations (rad).
-//! Crisfield, *Non-linear Finite Element Analysis of Solids and Structures 1*, section 7.2, with shallow terms left out: OpenSees'
-//! elasticBeamColumn under the Corotational transformation.
+//! (Przemieniecki, *Theory of Matrix Structural Analysis*, section 5.6: exact where forces act at
+//! the ends alone.) The dashpots are those of a section with viscous stress eta times the strain
+//! rate: a rigid motion meets none of them. y = (x_a, z_a, th_a, x_b, z_b, th_b): displacements of
+//! the two nodes (m), clockwise rotations (rad). Crisfield, *Non-linear Finite Element Analysis of
+//! Solids and Structures 1*, section 7.2, with shallow terms left out: OpenSees' elasticBeamColumn
+//! under the Corotational transformation.
 
 use rocking::scalar::sin_cos;
 
@@ -194,8 +196,8 @@ impl Beam {
         BeamForces { axial, shear: (a + b) / d.length, moments: [a, b] }
     }
 
-    /// Half of its mass times the acceleration of one of its ends, across its chord (N): what the middle's
-    /// shear lacks of that of the end, if the half moves as the end does.
+    /// Half of its mass times the acceleration of one of its ends, across its chord (N): what the
+    /// middle's shear lacks of that of the end, if the half moves as the end does.
     ///
     /// `accel`: y''; `ground`: acceleration of the ground and minus that of gravity (m/s2).
     pub(crate) fn half_inertia(&self, end: usize, [y, rate, accel]: [&[f64; 6]; 3], ground: [f64; 2]) -> f64 {
@@ -207,7 +209,8 @@ impl Beam {
         if end == 0 { across } else { -across }
     }
 
-    /// The force that its two nodes need to hold it so: the slope of its energy, and what its dashpots resist [N, N m].
+    /// The force that its two nodes need to hold it so: the slope of its energy, and what its
+    /// dashpots resist [N, N m].
     pub(crate) fn resistance(&self, y: &[f64; 6], rate: &[f64; 6]) -> [f64; 6] {
         let d = self.deformed(y);
         let [n, a, b] = self.forces(&d, rate);

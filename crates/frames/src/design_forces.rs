@@ -1,4 +1,5 @@
-//! Forces that a structure is designed for, and whether they are its own: whether they stay when the mesh and the springs are others.
+//! Forces that a structure is designed for, and whether they are its own: whether they stay when
+//! the mesh and the springs are others.
 //!
 //! ```text
 //!   force = largest magnitude of its low-pass without delay (`fem::low_pass`) at the cutoff       beside it: largest of the force as it is
@@ -6,11 +7,13 @@
 //!   holds: |force(other) - force| < 5 % of force, other: elements doubled; Omega_n/4; 4 Omega_n
 //! ```
 //!
-//! A landing stops a footing at once. The wave that this sends up a column with a mass of its own is sharper the finer the mesh and the stiffer
-//! the springs: its peak is theirs, its part below a frequency is the structure's. A column without mass has no waves: its forces are given as
-//! they are; those of the ground, impulses of landings in them, below 20 Hz.
+//! A landing stops a footing at once. The wave that this sends up a column with a mass of its own
+//! is sharper the finer the mesh and the stiffer the springs: its peak is theirs, its part below a
+//! frequency is the structure's. A column without mass has no waves: its forces are given as they
+//! are; those of the ground, impulses of landings in them, below 20 Hz.
 //!
-//! Springs at Omega_n/4 have k1/16, k2/16, c/4 and the same m2: their landing is the same, four times as slow.
+//! Springs at Omega_n/4 have k1/16, k2/16, c/4 and the same m2: their landing is the same, four
+//! times as slow.
 
 mod beside;
 mod check;
@@ -97,7 +100,8 @@ impl From<TimedPeak> for ForcePeak {
     }
 }
 
-/// A force, and by how much it changes with what is not the structure's; changes are shares of it, measured over `over_s`.
+/// A force, and by how much it changes with what is not the structure's; changes are shares of it,
+/// measured over `over_s`.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 pub struct StructureForce {
     /// Which.
@@ -121,7 +125,8 @@ pub struct StructureForce {
     /// Frequency below which it is given (Hz); none: as it is.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub cutoff_hz: Option<f64>,
-    /// Length of the record from its start that the peak is of (s): all of it, or as much as can be foretold.
+    /// Length of the record from its start that the peak is of (s): all of it, or as much as can be
+    /// foretold.
     pub over_s: f64,
     /// Of a force that holds over that part alone: what it is over the whole record.
     #[serde(default, skip_serializing_if = "Option::is_none")]
@@ -158,8 +163,9 @@ impl StructureForces {
         changes.filter(|_| of_columns().all(|force| force.holds))
     }
 
-    /// Of a structure on these springs, through a record; what it did on them and held to the ground, their forces finely sampled
-    /// ([`parts`]), and as a rigid body; `foretold_s` if it can be foretold for less than the record's length.
+    /// Of a structure on these springs, through a record; what it did on them and held to the
+    /// ground, their forces finely sampled ([`parts`]), and as a rigid body; `foretold_s` if it can
+    /// be foretold for less than the record's length.
     ///
     /// # Errors
     /// A structure with its elements doubled or on other springs does not stand.
@@ -225,7 +231,8 @@ impl StructureForces {
     }
 }
 
-/// Peaks of forces through a record on given springs, not checked: what another motion would change.
+/// Peaks of forces through a record on given springs, not checked: what another motion would
+/// change.
 ///
 /// # Errors
 /// The structure does not stand.

@@ -1,12 +1,14 @@
-//! What is compared where no model foretells a history: peaks over motions that differ from the record by less than a hundredth.
+//! What is compared where no model foretells a history: peaks over motions that differ from the
+//! record by less than a hundredth.
 //!
 //! ```text
 //!   ground:   (1 + x) times the record, x in even steps from -1 % to 1 %: on rigid ground with plastic landings, and on springs
 //!   compared: median and 90 % of the largest rotation and of the largest drift, and the distance of Kolmogorov and Smirnov
 //! ```
 //!
-//! Histories that part from each other are still drawn from one distribution, if the springs are right: engineers design for that one. Of two
-//! samples of 24 motions each from the same, one in twenty is further apart than 0.39 (Smirnov 1939).
+//! Histories that part from each other are still drawn from one distribution, if the springs are
+//! right: engineers design for that one. Of two samples of 24 motions each from the same, one in
+//! twenty is further apart than 0.39 (Smirnov 1939).
 
 use nalgebra::DVector;
 use rayon::prelude::*;

@@ -1,4 +1,5 @@
-//! Frames on ground springs in the time domain: Radau IIA of order 5 with touches and lifts located, and its energy account.
+//! Frames on ground springs in the time domain: Radau IIA of order 5 with touches and lifts
+//! located, and its energy account.
 //!
 //! ```text
 //!   let frame = pier.layout().frame()?;                      what is held at its base: pier.layout().fixed().frame()?, without springs
@@ -42,8 +43,9 @@ use dynamics::{
     spring::{Chain, Springs},
 };
 
-/// The default of [`Control::tolerance`], at which the account, whose residual it holds below 50 times this, closes to 1e-6. 20 s of El Centro,
-/// piers of 1.5 and 2 Hz, NRMSE against 1e-10: 1e-5 of the rotation, 1e-4 of the drift.
+/// The default of [`Control::tolerance`], at which the account, whose residual it holds below 50
+/// times this, closes to 1e-6. 20 s of El Centro, piers of 1.5 and 2 Hz, NRMSE against 1e-10: 1e-5
+/// of the rotation, 1e-4 of the drift.
 const TOLERANCE: f64 = 2e-8;
 
 /// Steps of a history of a small structure before it is given up.
@@ -75,7 +77,8 @@ pub fn most_steps(control: Control, coordinates: usize) -> usize {
 pub enum ElasticStart {
     /// At rest on all corners, settled under its weight.
     Standing,
-    /// At rest, held at this lean (rad) on its last corner, or on its first if negative, then let go: `Frame::leaning`.
+    /// At rest, held at this lean (rad) on its last corner, or on its first if negative, then let
+    /// go: `Frame::leaning`.
     Leaning(f64),
     /// With these coordinates and velocities, on the corners that are closed.
     State {
@@ -101,15 +104,18 @@ pub struct ElasticAnalysis<'a> {
     pub dt: f64,
     /// Ground acceleration at t = i dt (m/s2), linear in between.
     pub accel: &'a [f64],
-    /// Vertical ground acceleration at the same times (m/s2), upwards, zero beyond its last sample: empty if there is none.
+    /// Vertical ground acceleration at the same times (m/s2), upwards, zero beyond its last sample:
+    /// empty if there is none.
     pub vertical: &'a [f64],
     /// Factor on the ground acceleration, both components.
     pub scale: f64,
     /// How accurately and how long to work.
     pub control: Control,
-    /// Whether to keep what members bear and what the ground presses with: a history without is quicker.
+    /// Whether to keep what members bear and what the ground presses with: a history without is
+    /// quicker.
     pub forces: bool,
-    /// Parts of the time step over whose length means of forces are kept ([`FineForces`]); none are if zero.
+    /// Parts of the time step over whose length means of forces are kept ([`FineForces`]); none are
+    /// if zero.
     pub parts: usize,
 }
 

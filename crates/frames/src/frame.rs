@@ -1,11 +1,13 @@
-//! A plane frame that may rock: nodes, rigid footings with corners, beams, dashpots and tendons; large rotations, constant mass.
+//! A plane frame that may rock: nodes, rigid footings with corners, beams, dashpots and tendons;
+//! large rotations, constant mass.
 //!
 //! ```text
 //!   M q'' = Q(q, q') - M 1_x a_g - M 1_z (g + a_v)      q: x, z of every node that is not held, and its rotation if it turns
 //! ```
 //!
-//! A node is a rigid body; its coordinates are those of its centre of mass, so that M is constant. A footing is a node with corners: two at its
-//! soles, or one where a leg ends in a point. Beams, dashpots, tendons and corners meet a node at places on it.
+//! A node is a rigid body; its coordinates are those of its centre of mass, so that M is constant.
+//! A footing is a node with corners: two at its soles, or one where a leg ends in a point. Beams,
+//! dashpots, tendons and corners meet a node at places on it.
 //!
 //! | file | what |
 //! |---|---|
@@ -101,7 +103,8 @@ impl Frame {
         &self.mass
     }
 
-    /// Diagonal of the rectangle about its unstressed nodes and corners (m): what rotations are measured with.
+    /// Diagonal of the rectangle about its unstressed nodes and corners (m): what rotations are
+    /// measured with.
     pub fn span(&self) -> f64 {
         let places = self.bodies.iter().map(|body| body.centre);
         let corners = self.corners.iter().map(|corner| corner.unstressed);
@@ -183,7 +186,8 @@ impl Frame {
         self.elements[i].bases
     }
 
-    /// Columns: every beam that ends on a footing or on what is held, and the beams that go on from it.
+    /// Columns: every beam that ends on a footing or on what is held, and the beams that go on from
+    /// it.
     pub fn columns(&self) -> Vec<FrameColumn> {
         let of = |(i, element): (usize, &BeamElement)| {
             let base_end = element.bases.iter().position(|base| *base)?;
@@ -220,7 +224,8 @@ impl Frame {
         beam.direction(&gather(index, q))
     }
 
-    /// What lands at a corner, [(W)^-1] with W = G M^-1 G' its 2 x 2 block: horizontally and vertically (kg), the structure unstressed.
+    /// What lands at a corner, [(W)^-1] with W = G M^-1 G' its 2 x 2 block: horizontally and
+    /// vertically (kg), the structure unstressed.
     pub fn effective_mass(&self, corner: usize) -> [f64; 2] {
         let [xx, xz, zz] = self.mobility(corner, &vec![0.0; self.size]);
         let determinant = xx * zz - xz * xz;

@@ -1,4 +1,5 @@
-//! Elastic structures that rock: what they are made of, how they move on rigid ground with plastic landings, and on ground springs.
+//! Elastic structures that rock: what they are made of, how they move on rigid ground with plastic
+//! landings, and on ground springs.
 //!
 //! | file | what |
 //! |---|---|

@@ -5,9 +5,9 @@
 //!   G_i = d(place of corner i)/dq;   its acceleration is G_i q'' + gamma_i,  gamma_i = (dG_i/dt) q'
 //! ```
 //!
-//! Displacements are relative to the ground, whose acceleration is (a_g, a_v), a_v upwards. x to the right, z upwards, rotations
-//! clockwise (to the right) as theta of the rigid body. Every other force is in Q: gravity, ground motion, elastic and damping
-//! forces, and what a changing M does.
+//! Displacements are relative to the ground, whose acceleration is (a_g, a_v), a_v upwards. x to
+//! the right, z upwards, rotations clockwise (to the right) as theta of the rigid body. Every other
+//! force is in Q: gravity, ground motion, elastic and damping forces, and what a changing M does.
 
 use std::borrow::Cow;
 
@@ -32,13 +32,14 @@ pub trait Mechanics {
     /// M(q), symmetric and positive definite [kg, kg m, kg m2].
     fn mass(&self, q: &DVector<f64>) -> DMatrix<f64>;
 
-    /// M(q), factored; `None` if it is not positive definite. A constant M need not be factored again.
+    /// M(q), factored; `None` if it is not positive definite. A constant M need not be factored
+    /// again.
     fn factored_mass(&self, q: &DVector<f64>) -> Option<Cow<'_, Cholesky<f64, Dyn>>> {
         self.mass(q).cholesky().map(Cow::Owned)
     }
 
-    /// All mass (kg): r' M r of a rigid translation r upwards, whose load M r is that of a ground that falls at 1 m/s2. Zero if M is not
-    /// positive definite.
+    /// All mass (kg): r' M r of a rigid translation r upwards, whose load M r is that of a ground
+    /// that falls at 1 m/s2. Zero if M is not positive definite.
     fn whole_mass(&self, q: &DVector<f64>) -> f64 {
         let still = DVector::zeros(self.size());
         let load = self.force(q, &still, [0.0, -1.0]) - self.force(q, &still, [0.0; 2]);
@@ -51,8 +52,8 @@ pub trait Mechanics {
     /// -dQ/dq and -dQ/dq', for implicit steps.
     fn tangent(&self, q: &DVector<f64>, v: &DVector<f64>, ground: [f64; 2]) -> [DMatrix<f64>; 2];
 
-    /// Rigid footing that each corner belongs to. Two corners of one footing cannot move apart: both held, the ground's horizontal force on
-    /// the second is redundant.
+    /// Rigid footing that each corner belongs to. Two corners of one footing cannot move apart:
+    /// both held, the ground's horizontal force on the second is redundant.
     fn footings(&self) -> &[usize];
 
     /// Rotation of a footing, clockwise, zero in the standing structure (rad).

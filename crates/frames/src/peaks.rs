@@ -21,7 +21,8 @@ pub struct StructurePeaks {
     pub uplift: f64,
 }
 
-/// Relative errors of them; infinite, `null` in JSON, where histories on springs do not get as far as the reference.
+/// Relative errors of them; infinite, `null` in JSON, where histories on springs do not get as far
+/// as the reference.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]
 pub struct StructurePeakErrors {
     /// Of the top's displacement.

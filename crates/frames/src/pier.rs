@@ -9,8 +9,9 @@
 //!   dampers       c u', c_a a'
 //! ```
 //!
-//! M depends on q, unlike that of a `Frame`; in return the column may be axially rigid, which no finite element is. The chord is one corotational
-//! element of length L without curvature of its own: k_b = 3 E I/L.
+//! M depends on q, unlike that of a `Frame`; in return the column may be axially rigid, which no
+//! finite element is. The chord is one corotational element of length L without curvature of its
+//! own: k_b = 3 E I/L.
 
 use nalgebra::{DMatrix, DVector};
 use num_dual::Dual64;
@@ -28,7 +29,8 @@ pub struct Axial {
     pub stiffness: f64,
     /// c_a (N s/m).
     pub damping: f64,
-    /// Length L of the corotational element; a linear spring along the footing's axis without it (m).
+    /// Length L of the corotational element; a linear spring along the footing's axis without it
+    /// (m).
     pub chord: Option<f64>,
 }
 
@@ -56,8 +58,9 @@ pub struct Pier {
 }
 
 impl Pier {
-    /// A pier of mass m at height h, of half-width b, with the fixed-base frequency f (Hz) and damping ratio zeta of sqrt(k/m), on a block
-    /// 2 b wide and 2 h_b high of mass m_b. Its column is axially rigid.
+    /// A pier of mass m at height h, of half-width b, with the fixed-base frequency f (Hz) and
+    /// damping ratio zeta of sqrt(k/m), on a block 2 b wide and 2 h_b high of mass m_b. Its column
+    /// is axially rigid.
     pub fn new([m, h, b]: [f64; 3], [f, zeta]: [f64; 2], [m_b, h_b]: [f64; 2]) -> Self {
         let omega = 2.0 * std::f64::consts::PI * f;
         Self {
@@ -73,20 +76,23 @@ impl Pier {
         }
     }
 
-    /// The same pier with the axial stiffness k_a (N/m), damped by the share zeta_a of what is critical for its mass.
+    /// The same pier with the axial stiffness k_a (N/m), damped by the share zeta_a of what is
+    /// critical for its mass.
     #[must_use]
     pub fn with_axial(self, k_a: f64, zeta_a: f64) -> Self {
         let damping = 2.0 * zeta_a * (k_a * self.mass).sqrt();
         Self { axial: Some(Axial { stiffness: k_a, damping, chord: None }), ..self }
     }
 
-    /// The same pier with its column as one corotational element of length L (m); needs axial stiffness, without which nothing changes.
+    /// The same pier with its column as one corotational element of length L (m); needs axial
+    /// stiffness, without which nothing changes.
     #[must_use]
     pub fn with_chord(self, length: f64) -> Self {
         Self { axial: self.axial.map(|axial| Axial { chord: Some(length), ..axial }), ..self }
     }
 
-    /// q of the pier that leans by theta (rad) on one corner, its mass where the column's linear springs hold it; standing at theta = 0.
+    /// q of the pier that leans by theta (rad) on one corner, its mass where the column's linear
+    /// springs hold it; standing at theta = 0.
     pub fn leaning(&self, theta: f64) -> DVector<f64> {
         let (sin, cos) = theta.sin_cos();
         let pivot = self.half_width * theta.signum();
@@ -95,7 +101,8 @@ impl Pier {
         q.into()
     }
 
-    /// Effective k_b = 3 E I/L of a chord of length L: its lateral stiffness and what gravity takes from it (N m).
+    /// Effective k_b = 3 E I/L of a chord of length L: its lateral stiffness and what gravity takes
+    /// from it (N m).
     fn bending(&self, length: f64) -> f64 {
         (self.stiffness + self.mass * GRAVITY / length) * length * length
     }

@@ -8,13 +8,16 @@
 //!             one that stays is pushed, not pulled, and one that does not leaves the ground
 //! ```
 //!
-//! The last corner of a footing may find that it cannot leave: without the ground's horizontal force it would move down. It then slides and is
-//! kept at its height by that force alone, with N = 0: what Coulomb's friction tends to as its coefficient grows. It leaves when the force has
+//! The last corner of a footing may find that it cannot leave: without the ground's horizontal
+//! force it would move down. It then slides and is kept at its height by that force alone, with N =
+//! 0: what Coulomb's friction tends to as its coefficient grows. It leaves when the force has
 //! fallen to zero, or stops when its velocity has.
 //!
-//! (theory: nonsmooth dynamics; the rigid body is the special case that is Housner's equation.) A landing is a projection in the metric of M, so it
-//! never adds energy. Steps end at the record's samples, between which the ground's acceleration is linear, and at events, which are located to
-//! rounding. Held corners are put back to their places at every sample: the drift of an integrator of order 8.
+//! (theory: nonsmooth dynamics; the rigid body is the special case that is Housner's equation.) A
+//! landing is a projection in the metric of M, so it never adds energy. Steps end at the record's
+//! samples, between which the ground's acceleration is linear, and at events, which are located to
+//! rounding. Held corners are put back to their places at every sample: the drift of an integrator
+//! of order 8.
 //!
 //! | file | what |
 //! |---|---|
@@ -91,9 +94,11 @@ pub fn step_units(coordinates: usize) -> u64 {
 /// How to solve.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct ReferenceOptions {
-    /// Whether the last corner of a footing lets go where its force falls to zero; else it is held, pushed or pulled.
+    /// Whether the last corner of a footing lets go where its force falls to zero; else it is held,
+    /// pushed or pulled.
     pub hop: bool,
-    /// Error allowed in a step, relative to a coordinate (at least 0.01 m or rad) and a velocity (at least 0.1 m/s or rad/s).
+    /// Error allowed in a step, relative to a coordinate (at least 0.01 m or rad) and a velocity
+    /// (at least 0.1 m/s or rad/s).
     pub rtol: f64,
     /// Factor on the ground's acceleration.
     pub scale: f64,
@@ -223,7 +228,8 @@ pub struct Ledger {
     pub input: f64,
     /// Largest amount, at any sample, by which the account did not close.
     pub open: f64,
-    /// Largest kinetic energy and change of potential energy at any sample: what `open` is to be compared with.
+    /// Largest kinetic energy and change of potential energy at any sample: what `open` is to be
+    /// compared with.
     pub largest: f64,
 }
 
@@ -246,8 +252,9 @@ pub struct ElasticRocking {
     pub ledger: Ledger,
     /// Largest force that pulled at a corner which could neither press nor leave nor slide (N).
     pub pulled: f64,
-    /// Time of the first landing, of any energy to speak of, from which a corner slid on (s): it would have had to be pulled to stop. What follows depends on friction,
-    /// which ground springs that hold a corner until it lifts do not have.
+    /// Time of the first landing, of any energy to speak of, from which a corner slid on (s): it
+    /// would have had to be pulled to stop. What follows depends on friction, which ground springs
+    /// that hold a corner until it lifts do not have.
     pub first_sliding_landing_s: Option<f64>,
     /// Steps taken.
     pub steps: usize,
@@ -279,7 +286,8 @@ impl ElasticRocking {
     }
 }
 
-/// Follow a structure from coordinates and velocities through the ground's motion. A corner is held at first if it is on the ground and at rest.
+/// Follow a structure from coordinates and velocities through the ground's motion. A corner is held
+/// at first if it is on the ground and at rest.
 pub fn rock(
     mechanics: &impl Mechanics,
     ground: GroundAcceleration,

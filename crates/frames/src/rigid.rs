@@ -1,4 +1,5 @@
-//! What the column of a rigid body bears that rocks by Housner's equation: what an elastic one is compared with.
+//! What the column of a rigid body bears that rocks by Housner's equation: what an elastic one is
+//! compared with.
 //!
 //! ```text
 //!   mass at (x, z) from the pivot of side s:   x = -s b cos theta + h sin theta,   z = s b sin theta + h cos theta
@@ -91,8 +92,9 @@ mod tests {
         assert!(forces.moment.iter().all(|x| (x - 300e3 * 10.5).abs() < 1e-5));
     }
 
-    /// A rocking body's shear is bounded by that which lifts it, times what a body turned to its pivot feels: the ground's acceleration is met
-    /// by the fall. By differences of the mass's own path it is the same.
+    /// A rocking body's shear is bounded by that which lifts it, times what a body turned to its
+    /// pivot feels: the ground's acceleration is met by the fall. By differences of the mass's own
+    /// path it is the same.
     #[test]
     fn the_force_is_the_mass_s_acceleration() {
         let accel: Vec<f64> = (0..2000).map(|i| 3.0 * (f64::from(i) * 1e-3 * 6.0).sin()).collect();

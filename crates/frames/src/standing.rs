@@ -1,4 +1,5 @@
-//! The standing structure as the ground feels it: what lands at each footing, and how stiff springs must be against the structure.
+//! The standing structure as the ground feels it: what lands at each footing, and how stiff springs
+//! must be against the structure.
 //!
 //! ```text
 //!   W = G M^-1 G'                 of a footing's corners: what a unit force at one does to the velocities of all
@@ -6,14 +7,16 @@
 //!   give = sum R_i^2/k_i / u' K u
 //! ```
 //!
-//! The give is the energy of ground springs k_i over that of the structure, to first order the share by which they lower the square of
-//! the fixed structure's frequency: of a mass on a column of lateral stiffness k and height h, k h^2/(2 b^2 k_v) + k/(2 k_h).
+//! The give is the energy of ground springs k_i over that of the structure, to first order the
+//! share by which they lower the square of the fixed structure's frequency: of a mass on a column
+//! of lateral stiffness k and height h, k h^2/(2 b^2 k_v) + k/(2 k_h).
 
 use nalgebra::{DMatrix, DVector, SVD};
 
 use super::Mechanics;
 
-/// Singular values of the constraints below this share of the largest count as redundant constraints.
+/// Singular values of the constraints below this share of the largest count as redundant
+/// constraints.
 const REDUNDANT: f64 = 1e-9;
 
 /// One footing, or a foot without a width.
@@ -56,7 +59,8 @@ pub struct Standing {
 }
 
 impl Standing {
-    /// Of a structure that stands at `q`; `None` if it does not: its stiffness, with the corners held, is not positive.
+    /// Of a structure that stands at `q`; `None` if it does not: its stiffness, with the corners
+    /// held, is not positive.
     pub fn new<T: Mechanics + ?Sized>(structure: &T, q: &DVector<f64>) -> Option<Self> {
         let rest = DVector::zeros(structure.size());
         let mass = structure.factored_mass(q)?;
@@ -95,7 +99,8 @@ fn footings(of_corner: &[usize], w: &DMatrix<f64>, width: impl Fn(&[usize]) -> f
     (0..count).filter(|index| of_corner.contains(index)).map(footing).collect()
 }
 
-/// Distance of a footing's outer corners, from G: a unit rotation lowers one against the other by it.
+/// Distance of a footing's outer corners, from G: a unit rotation lowers one against the other by
+/// it.
 fn width(g: &DMatrix<f64>, corners: &[usize]) -> f64 {
     let (Some(first), Some(last)) = (corners.first(), corners.last()) else { return 0.0 };
     let difference = g.row(2 * first + 1) - g.row(2 * last + 1);

@@ -90,7 +90,8 @@ const BENDING: (f64, f64) = (1e-9, 1e22);
 const FREQUENCY: (f64, f64) = (1e-2, 1e4);
 /// Largest share of its length by which the weight may shorten a member: beyond it no structure is.
 const MOST_SHORTENING: f64 = 0.02;
-/// GA_s over EA of a solid rectangular concrete section: kappa/(2 (1 + nu)) with kappa = 5/6 and nu = 0.2.
+/// GA_s over EA of a solid rectangular concrete section: kappa/(2 (1 + nu)) with kappa = 5/6 and nu
+/// = 0.2.
 pub(crate) const SHEAR_SHARE: f64 = SHEAR_FACTOR / (2.0 * (1.0 + POISSON));
 /// Share of a rectangular section's area that shear acts on.
 pub(crate) const SHEAR_FACTOR: f64 = 5.0 / 6.0;
@@ -104,7 +105,8 @@ impl ElasticStructure {
     /// The structure itself if its numbers can rock.
     ///
     /// # Errors
-    /// A number that is not finite, of the wrong sign, or beyond any structure; a column that buckles under the weight.
+    /// A number that is not finite, of the wrong sign, or beyond any structure; a column that
+    /// buckles under the weight.
     pub fn checked(self) -> Result<Self, ElasticError> {
         match &self {
             Self::Pier(pier) => pier.check()?,
@@ -114,7 +116,8 @@ impl ElasticStructure {
         Ok(self)
     }
 
-    /// The rigid body of the same masses: of a frame, one column's footing and its half of the beam, as they rock side by side.
+    /// The rigid body of the same masses: of a frame, one column's footing and its half of the
+    /// beam, as they rock side by side.
     pub fn body(&self) -> Body<f64> {
         match self {
             Self::Pier(pier) => pier.body(),
@@ -131,7 +134,8 @@ impl ElasticStructure {
         }
     }
 
-    /// Frequency of the structure fixed to the ground, across, under its weight, in closed form (Hz).
+    /// Frequency of the structure fixed to the ground, across, under its weight, in closed form
+    /// (Hz).
     pub fn frequency_hz(&self) -> f64 {
         match self {
             Self::Pier(pier) => pier.frequency(),

@@ -1,8 +1,10 @@
 //! Ground springs that let a finite element program follow Housner's theory of rocking.
 //!
-//! A structure that rocks on its feet loses energy in every impact by a rigid-body rule that finite element programs do not have. Springs,
-//! absorbers and dashpots under its feet, the *ground springs*, make them follow it: a gap spring k1, an absorber mass m2, and a
-//! spring k2 beside a dashpot c (a spring-absorber unit), one vertical and one horizontal at each foot. This library finds them.
+//! A structure that rocks on its feet loses energy in every impact by a rigid-body rule that finite
+//! element programs do not have. Springs, absorbers and dashpots under its feet, the *ground
+//! springs*, make them follow it: a gap spring k1, an absorber mass m2, and a spring k2 beside a
+//! dashpot c (a spring-absorber unit), one vertical and one horizontal at each foot. This library
+//! finds them.
 //!
 //! ```
 //! use groundspring::{Case, DeckFormat, Record, Structure, deck, simulate, tune};
@@ -25,9 +27,10 @@
 //! | see whether they follow Housner | [`compare`] on one record: [`Match`], [`Verdict`]; [`validate`] on many: [`Validation`] |
 //! | use them elsewhere | [`deck`]; [`Chain`] has k1, k2, m2, c, [`Design`] mu, f, xi, Omega_n; [`Response`] is their frequency response |
 //!
-//! Symbols are those of Ma, Butterworth & Davidson, "Modelling rocking structures using standard finite elements", NZSEE Conference
-//! 2005; numbers in brackets, as (7), are its equations. Units are SI throughout; angles in radians; theta > 0 leans to the right, u > 0
-//! is to the right. Formulas are generic in [`Scalar`]: `f64`, or dual numbers to differentiate with.
+//! Symbols are those of Ma, Butterworth & Davidson, "Modelling rocking structures using standard
+//! finite elements", NZSEE Conference 2005; numbers in brackets, as (7), are its equations. Units
+//! are SI throughout; angles in radians; theta > 0 leans to the right, u > 0 is to the right.
+//! Formulas are generic in [`Scalar`]: `f64`, or dual numbers to differentiate with.
 
 // what is printed goes through the program's `commands/terminal`
 #![cfg_attr(not(test), deny(clippy::print_stdout, clippy::print_stderr))]
@@ -80,7 +83,8 @@ pub use strong_motion::{Notice, ReadOptions, Record, RecordError, Source, Units,
 /// Tune the springs of a case: what `tune run` does, without its histories.
 ///
 /// # Errors
-/// No springs that settle as little as asked for; for the paper's procedure, a record that does not lift the structure.
+/// No springs that settle as little as asked for; for the paper's procedure, a record that does not
+/// lift the structure.
 pub fn tune(case: &Case) -> Result<Parameters, JobError> {
     Ok(Parameters::of(case, &springs::tuning::job::Job::new(case, &|_, _, _| ())?))
 }

@@ -34,7 +34,8 @@ pub fn peak_table(run: &Run) -> Option<Table> {
         Some(end) => format!("{} to {} s", run.reference, significant(end, 3)),
         None => run.reference.to_string(),
     };
-    // the parts of a displacement are largest at times of their own, so that they are more than the whole
+    // the parts of a displacement are largest at times of their own, so that they are more than the
+    // whole
     let largest = if pair.reference.bending_m.is_some() { "largest, each by itself" } else { "largest" };
     let mut head = vec![largest.to_string(), reference, "on springs".into(), "difference".into()];
     head.extend(with.map(|_| "with members".into()));
@@ -63,7 +64,8 @@ pub fn peak_table(run: &Run) -> Option<Table> {
     Some(table)
 }
 
-/// `summary.csv`: largest displacements and design forces as plain numbers, SI units; cells of what is withheld are empty.
+/// `summary.csv`: largest displacements and design forces as plain numbers, SI units; cells of what
+/// is withheld are empty.
 pub fn summary(run: &Run) -> Table {
     let mut table = Table::new(["quantity", "unit", "reference", "on_springs"]);
     let mut row = |name: &str, unit: &str, reference: Option<f64>, springs: Option<f64>| {

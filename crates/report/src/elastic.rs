@@ -1,4 +1,5 @@
-//! What is said of an elastic structure's run: the structure on rigid ground beside the same on its springs.
+//! What is said of an elastic structure's run: the structure on rigid ground beside the same on its
+//! springs.
 
 mod springs;
 
@@ -30,7 +31,8 @@ use rocking::{
 pub use springs::of_case;
 use strong_motion::Record;
 
-/// Part of the weight below which the ground's force tells nothing of friction: the structure all but flies.
+/// Part of the weight below which the ground's force tells nothing of friction: the structure all
+/// but flies.
 const LEAST_PRESS: f64 = 0.05;
 
 /// Share of the largest moment at the base below which that at the top is not said: a mass on a
@@ -262,7 +264,8 @@ impl ElasticParts<'_> {
     }
 }
 
-/// Impacts among touches of corners (s): one that follows the last within `rest` (s) belongs to the same.
+/// Impacts among touches of corners (s): one that follows the last within `rest` (s) belongs to the
+/// same.
 fn impacts(touches: impl Iterator<Item = f64>, rest: f64) -> usize {
     let (mut last, mut count) = (f64::NEG_INFINITY, 0);
     for time in touches {

@@ -21,7 +21,8 @@ pub(crate) fn escape(text: &str) -> String {
     out
 }
 
-/// The same with letters in place of what files and terminals spell out, and numbers with a true exponent.
+/// The same with letters in place of what files and terminals spell out, and numbers with a true
+/// exponent.
 pub(crate) fn pretty(text: &str) -> String {
     const LETTERS: [(&str, &str); 14] = [
         ("Omega_n / 2 pi", "Ωₙ/2π"),

@@ -1,4 +1,5 @@
-//! A run as data, and what is made of it: one renderer each for the terminal, Markdown, HTML and JSON (serde).
+//! A run as data, and what is made of it: one renderer each for the terminal, Markdown, HTML and
+//! JSON (serde).
 //!
 //! | from | to |
 //! |---|---|
@@ -59,7 +60,8 @@ impl Assumed {
     }
 }
 
-/// Doubts as findings; of a vertical component that is left out a finding of its own tells what it would change.
+/// Doubts as findings; of a vertical component that is left out a finding of its own tells what it
+/// would change.
 fn doubts(all: Vec<Doubt>) -> impl Iterator<Item = Finding> {
     let those = all.into_iter().filter(|doubt| !matches!(doubt, Doubt::VerticalLeftOut { .. }));
     those.map(|doubt| Finding::Doubt { message: doubt.message(), remedy: doubt.remedy() })
@@ -162,7 +164,8 @@ pub struct Run {
     pub accuracy: Option<AccuracyReport>,
     /// The answer first, then by weight.
     pub findings: Vec<FiledFinding>,
-    /// Steps that a program with one fixed step would need for these springs; none without a record.
+    /// Steps that a program with one fixed step would need for these springs; none without a
+    /// record.
     pub fixed_steps: Option<usize>,
     /// Whether there is a deck for SAP2000.
     pub sap2000: bool,

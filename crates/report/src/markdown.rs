@@ -128,8 +128,8 @@ fn forces(run: &Run) -> Option<Section> {
     })
 }
 
-/// A force with its sign, and up to when if that is not all of the record; between what it lies if it
-/// does not hold.
+/// A force with its sign, and up to when if that is not all of the record; between what it lies if
+/// it does not hold.
 pub fn force_value(name: ForceName, force: &DesignForce) -> String {
     let newtons = |x: f64| quantity(x, name.unit());
     let Some(value) = force.value else {

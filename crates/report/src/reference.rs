@@ -1,5 +1,5 @@
-//! What a reader must know before trusting a comparison with Housner's body: how sensitive its history is, and whether
-//! rocking holds.
+//! What a reader must know before trusting a comparison with Housner's body: how sensitive its
+//! history is, and whether rocking holds.
 
 use dynamics::fem::{self, HistoryOutcome};
 use rocking::{

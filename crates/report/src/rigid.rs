@@ -44,12 +44,14 @@ pub struct RigidRun {
     pub both: ModelComparison,
     /// Conditioning and regime.
     pub report: HousnerReport,
-    /// What `parameters.json` holds, but for the record: where that is to be found depends on the folder.
+    /// What `parameters.json` holds, but for the record: where that is to be found depends on the
+    /// folder.
     pub parameters: Parameters,
 }
 
 impl RigidRun {
-    /// Simulate a job's springs, and those of the paper beside them; `friction` of the ground, for the warning of sliding.
+    /// Simulate a job's springs, and those of the paper beside them; `friction` of the ground, for
+    /// the warning of sliding.
     pub fn new(case: Case, job: Job, front: Vec<TradeoffPoint>, friction: f64) -> Self {
         let beside = |springs: &Springs<Design<f64>>| {
             let other = Parameters::new(case.structure, springs);
@@ -267,8 +269,8 @@ fn peaks(kind: Kind, job: &Job, both: &ModelComparison) -> PeakPair {
     }
 }
 
-/// The history on springs of a quarter of Omega_n, where Housner's cannot tell whether forces are the springs': with members, and
-/// beyond where his pivot leaves the ground.
+/// The history on springs of a quarter of Omega_n, where Housner's cannot tell whether forces are
+/// the springs': with members, and beyond where his pivot leaves the ground.
 fn softer(case: &Case, job: &Job, both: &ModelComparison) -> Option<MemberHistory> {
     if both.with.is_none() && both.rocking.left_ground().is_none() {
         return None;

@@ -62,7 +62,8 @@ fn at_most(most: usize, lines: &mut Vec<String>, name: &str, text: &str) {
     lines.extend(all);
 }
 
-/// Text behind a name, its further lines below the text; words that do not fit a line are shortened in the middle.
+/// Text behind a name, its further lines below the text; words that do not fit a line are shortened
+/// in the middle.
 fn wrap(lines: &mut Vec<String>, name: &str, text: &str) {
     let indent = name.chars().count();
     let mut line = name.to_string();

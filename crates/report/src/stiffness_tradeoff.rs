@@ -1,4 +1,5 @@
-//! The front: error against Omega_n, of the design from the geometry and of the paper's procedure; and what stiffness costs.
+//! The front: error against Omega_n, of the design from the geometry and of the paper's procedure;
+//! and what stiffness costs.
 
 use std::{
     f64::consts::TAU,
@@ -17,7 +18,8 @@ use dynamics::{
 };
 use rocking::scalar::GRAVITY;
 use springs::tuning::{
-    job::{Job, Paper, at},
+    job::{Job, Paper},
+    landing::design::springs_at_stiffness,
     paper_procedure::outer::{self, Benchmark, Bracket},
 };
 
@@ -31,12 +33,13 @@ pub struct TradeoffPoint {
     pub omega_n_hz: f64,
     /// Whether these springs were chosen.
     pub chosen: bool,
-    /// NRMSE of u on the springs of the landing: on the record, or the median of the synthetic motions where the record cannot be
-    /// followed one to one.
+    /// NRMSE of u on the springs of the landing: on the record, or the median of the synthetic
+    /// motions where the record cannot be followed one to one.
     pub landing: Option<f64>,
     /// The same of the paper's procedure, springs up to this Omega_n.
     pub arr: Option<f64>,
-    /// Largest vertical foot force on the record, in weights: the springs' force in a landing, not the structure's.
+    /// Largest vertical foot force on the record, in weights: the springs' force in a landing, not
+    /// the structure's.
     pub foot_force_weights: f64,
     /// Steps that an exported deck takes on the record at least, by its own rule along our history.
     pub deck_steps: usize,
@@ -54,8 +57,11 @@ pub fn front(job: &Job, progress: &(dyn Fn(usize, usize) + Sync)) -> Vec<Tradeof
         .par_iter()
         .with_max_len(1)
         .filter_map(|&hz| {
-            let springs =
-                if hz == chosen { Some(job.springs) } else { at(&job.body, TAU * hz / job.body.p_squared().sqrt()) };
+            let springs = if hz == chosen {
+                Some(job.springs)
+            } else {
+                springs_at_stiffness(&job.body, TAU * hz / job.body.p_squared().sqrt())
+            };
             let arr = || job.paper.as_ref().and_then(|paper| paper_error(job, paper, hz));
             let ours = || springs.map(|springs| (error(job, &springs), cost(job, &springs)));
             let (arr, ours) = rayon::join(arr, ours);

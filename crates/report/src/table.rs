@@ -33,7 +33,8 @@ impl Table {
         out
     }
 
-    /// For a terminal: columns stand under each other, two blanks apart; a line a row, the head first.
+    /// For a terminal: columns stand under each other, two blanks apart; a line a row, the head
+    /// first.
     pub(crate) fn lines(&self) -> Vec<String> {
         let all = || std::iter::once(&self.head).chain(&self.rows);
         let width = |k: usize| all().filter_map(|row| row.get(k)).map(|cell| cell.chars().count()).max().unwrap_or(0);

@@ -4,10 +4,7 @@ use dynamics::spring::{Design, Springs};
 use rocking::structure::Structure;
 use springs::{
     case::{Case, Objective},
-    tuning::{
-        job::{Job, at},
-        landing_simulation::report::landings,
-    },
+    tuning::{job::Job, landing::design::springs_at_stiffness, landing_simulation::report::landings},
 };
 use strong_motion::Record;
 
@@ -22,7 +19,8 @@ fn paper() -> Case {
     case
 }
 
-/// Springs of the design from the geometry, and of the paper's procedure up to 160 Hz or the case's cap.
+/// Springs of the design from the geometry, and of the paper's procedure up to 160 Hz or the case's
+/// cap.
 fn tuned(case: &Case) -> [Springs<Design<f64>>; 2] {
     let tune = |case: &Case| Job::new(case, &|_, _, _| {}).unwrap().springs;
     let mut arr = case.clone();
@@ -33,7 +31,8 @@ fn tuned(case: &Case) -> [Springs<Design<f64>>; 2] {
     [tune(&landing), tune(&arr)]
 }
 
-/// Largest relative difference of mu, f, xi and Omega_n, the frequencies of `other` first multiplied by `time`.
+/// Largest relative difference of mu, f, xi and Omega_n, the frequencies of `other` first
+/// multiplied by `time`.
 fn difference(one: &Springs<Design<f64>>, other: &Springs<Design<f64>>, time: f64) -> f64 {
     let numbers = |s: &Springs<Design<f64>>, time: f64| {
         [s.vertical, s.horizontal].map(|d| [d.mu, d.f, d.xi, d.omega_n_hz * time])
@@ -94,8 +93,8 @@ fn a_mass_in_tonnes_or_pounds_gives_the_same_springs() {
     }
 }
 
-/// Neither the paper's procedure nor the design from the geometry knows a scale; Omega_n of the latter does, for earthquakes have
-/// frequencies of their own.
+/// Neither the paper's procedure nor the design from the geometry knows a scale; Omega_n of the
+/// latter does, for earthquakes have frequencies of their own.
 #[test]
 fn similar_structures_have_similar_springs_by_the_papers_procedure() {
     for structure in [paper().structure, Structure::block(2.0, 0.5, 1e3).unwrap()] {
@@ -131,17 +130,17 @@ fn landings_of_similar_bodies_on_similar_springs_are_similar() {
     }
 }
 
-/// A body of the same slenderness and mass share, at the same Omega_n/p: the same springs to the last digit, whatever its size,
-/// its mass, the record and its scale.
+/// A body of the same slenderness and mass share, at the same Omega_n/p: the same springs to the
+/// last digit, whatever its size, its mass, the record and its scale.
 #[test]
 fn the_design_depends_on_the_geometry_alone() {
     let p = |case: &Case| case.structure.body::<f64>().p_squared().sqrt();
     let case = paper();
     for stiffness in [3e3, 1e5] {
-        let one = at(&case.structure.body(), stiffness).unwrap();
+        let one = springs_at_stiffness(&case.structure.body(), stiffness).unwrap();
         for (length, mass) in [(4.0, 64.0), (1.0 / 64.0, 1e-3), (3.280_839_895, 2.0)] {
             let other = scaled(&case, length, mass);
-            let two = at(&other.structure.body(), stiffness).unwrap();
+            let two = springs_at_stiffness(&other.structure.body(), stiffness).unwrap();
             for (a, b) in [(one.vertical, two.vertical), (one.horizontal, two.horizontal)] {
                 assert_eq!((a.mu, a.f, a.xi), (b.mu, b.f, b.xi));
                 assert!((a.omega_n_hz / p(&case) / (b.omega_n_hz / p(&other)) - 1.0).abs() < 1e-12);

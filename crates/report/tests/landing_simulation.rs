@@ -1,4 +1,5 @@
-//! Springs softer than the landing's limit, and springs that are to have another restitution: landings of the whole model.
+//! Springs softer than the landing's limit, and springs that are to have another restitution:
+//! landings of the whole model.
 
 use dynamics::{
     effort::Effort,
@@ -8,7 +9,7 @@ use dynamics::{
 use rocking::structure::{Body, Structure};
 use springs::tuning::{
     capped_springs::{follow, with_restitution},
-    job::at,
+    landing::design::springs_at_stiffness,
     landing::{design::Geometry, universal::universal, weight},
     landing_simulation::report::{LandingRow, landings},
     paper_procedure::outer::Bracket,
@@ -28,7 +29,8 @@ fn with_inertia(structure: Structure) -> Body<f64> {
     body
 }
 
-/// The design from the geometry, from the stiffness on at which the limit holds: no search, any size, any slenderness.
+/// The design from the geometry, from the stiffness on at which the limit holds: no search, any
+/// size, any slenderness.
 #[test]
 fn landings_of_the_design_from_the_geometry_have_housners_restitution() {
     println!("kind, height, alpha: largest error of e");
@@ -41,7 +43,7 @@ fn landings_of_the_design_from_the_geometry_have_housners_restitution() {
                     _ => Structure::block(2.0 * height, width, 1e4).unwrap(),
                 };
                 let body = with_inertia(structure);
-                let rows = rows(&body, 1.0, &at(&body, 1e5).unwrap());
+                let rows = rows(&body, 1.0, &springs_at_stiffness(&body, 1e5).unwrap());
                 assert_eq!(rows.len(), 8);
                 println!("{kind} {height} m, {alpha}: {:.4} %", 100.0 * worst(&rows));
                 assert!(worst(&rows) < 1e-4, "{structure:?} {rows:?}");
@@ -50,7 +52,8 @@ fn landings_of_the_design_from_the_geometry_have_housners_restitution() {
     }
 }
 
-/// What slender bodies err by on stiff springs is the weight on the old foot (`landing::weight`), where the absorber gives little: on a large K.
+/// What slender bodies err by on stiff springs is the weight on the old foot (`landing::weight`),
+/// where the absorber gives little: on a large K.
 #[test]
 fn landings_on_stiff_springs_err_by_the_weight_on_the_old_foot() {
     for structure in [
@@ -63,7 +66,7 @@ fn landings_on_stiff_springs_err_by_the_weight_on_the_old_foot() {
             let geometry = Geometry::of(&body, stiffness).unwrap();
             let (k, m) = (0.25, geometry.effective_mass());
             let chain = universal(k);
-            let mut springs = at(&body, stiffness).unwrap();
+            let mut springs = springs_at_stiffness(&body, stiffness).unwrap();
             springs.vertical = Design::from_kc(chain.mu * m, k, chain.c * m.sqrt(), springs.vertical.omega_n_hz);
             for row in rows(&body, 1.0, &springs).into_iter().filter(|row| row.lean >= 0.1) {
                 let expected = weight::restitution_error(geometry.alpha(), geometry.mass_share(), stiffness, row.lean);
@@ -78,21 +81,23 @@ fn landings_on_stiff_springs_err_by_the_weight_on_the_old_foot() {
 #[test]
 fn free_rocking_on_stiff_springs_never_creates_energy() {
     let body = with_inertia(Structure::paper());
-    let springs = at(&body, 4e4).unwrap().chains(body.mass);
+    let springs = springs_at_stiffness(&body, 4e4).unwrap().chains(body.mass);
     let accel = vec![0.0; 10001];
     let (start, control) = (Start::Leaning(0.9 * body.alpha()), Control::default());
     let history =
         Analysis { body, springs, start, dt: 0.01, accel: &accel, vertical: &[], scale: 1.0, control }.simulate();
     assert!(history.impacts() > 10);
     let scale = history.account.dissipated.last().unwrap();
-    // a Radau step may misjudge its own dissipation by what the account allows it, 1e-9 of the energy
+    // a Radau step may misjudge its own dissipation by what the account allows it, 1e-9 of the
+    // energy
     let least = history.account.dissipated.windows(2).map(|w| w[1] - w[0]).fold(f64::INFINITY, f64::min) / scale;
     let most = history.account.stored.windows(2).map(|w| w[1] - w[0]).fold(f64::NEG_INFINITY, f64::max) / scale;
     assert!(least > -1e-8 && most < 1e-8, "{least} {most}");
     assert!(history.energy_residual < 1e-6);
 }
 
-/// A search of some seconds each; other bodies and ratios end between 0.01 and 3 %, and the program says so.
+/// A search of some seconds each; other bodies and ratios end between 0.01 and 3 %, and the program
+/// says so.
 #[test]
 fn bodies_can_be_given_another_restitution() {
     for (structure, ratio) in

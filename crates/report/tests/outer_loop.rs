@@ -5,7 +5,8 @@ use rocking::structure::Structure;
 use springs::{
     case::Case,
     tuning::{
-        job::{CEILING_HZ, Job, at},
+        job::{CEILING_HZ, Job},
+        landing::design::springs_at_stiffness,
         landing::{corners::CornerDynamics, design::Geometry, plane::land},
         landing_simulation::report::landings,
         suite::Suites,
@@ -22,8 +23,9 @@ fn tuned(structure: Structure, accuracy: f64, cap: Option<f64>) -> Job {
     Job::new(&case, &|_, _, _| {}).unwrap()
 }
 
-/// What a landing of the whole model errs by, a body not stocky, from any lean down to 0.02 alpha, moves a history of the largest sensitivity that counts as
-/// predictable by no more than the accuracy.
+/// What a landing of the whole model errs by, a body not stocky, from any lean down to 0.02 alpha,
+/// moves a history of the largest sensitivity that counts as predictable by no more than the
+/// accuracy.
 #[test]
 fn gentle_landings_of_the_springs_taken_are_as_exact_as_was_asked() {
     for structure in [
@@ -59,7 +61,8 @@ fn no_springs_are_stiffer_than_the_ceiling() {
     }
 }
 
-/// By peaks no stiffer than by histories of the same error; what was asked for is measured, and so is the other.
+/// By peaks no stiffer than by histories of the same error; what was asked for is measured, and so
+/// is the other.
 #[test]
 fn springs_by_peaks_are_no_stiffer_than_those_by_histories_of_the_same_error() {
     for structure in [
@@ -88,7 +91,8 @@ fn springs_by_peaks_are_no_stiffer_than_those_by_histories_of_the_same_error() {
     }
 }
 
-/// Below 100 p, too, and where a stocky body's horizontal springs are to be much stiffer than the vertical ones.
+/// Below 100 p, too, and where a stocky body's horizontal springs are to be much stiffer than the
+/// vertical ones.
 #[test]
 fn no_springs_are_stiffer_than_the_cap() {
     let slender = Structure::block(0.8, 0.09, 35.0).unwrap();
@@ -104,13 +108,13 @@ fn no_springs_are_stiffer_than_the_cap() {
     }
 }
 
-/// A body that keeps 0.3 of its speed lands again soon: that is another landing. And the foot leaves the ground as the landing in the stiff limit
-/// says, not as its absorber swings away.
+/// A body that keeps 0.3 of its speed lands again soon: that is another landing. And the foot
+/// leaves the ground as the landing in the stiff limit says, not as its absorber swings away.
 #[test]
 fn landings_are_followed_one_at_a_time() {
     for structure in [Structure::block(1.6, 1.5, 9e3).unwrap(), Structure::a_frame(17.0, 3.1, 4.2e5).unwrap()] {
         let body = structure.body::<f64>();
-        let springs = at(&body, 4e5).unwrap();
+        let springs = springs_at_stiffness(&body, 4e5).unwrap();
         let geometry = Geometry::of(&body, 4e5).unwrap();
         let limit = land(&CornerDynamics::rigid(geometry.alpha(), geometry.mass_share()), &springs);
         for row in landings(&body, &springs.chains(body.mass), body.restitution()) {

@@ -4,9 +4,10 @@
 //! sensitivity to x = || du/dln x || / || u ||,   norms over the samples
 //! ```
 //!
-//! for x the width 2b and the record's scale, by one run in dual numbers through uplifts and impacts. At a sensitivity of 3 a change of 0.1 % moves
-//! the history by 0.3 %; at 1000 two models that differ by 0.1 % have nothing in common, and only statistics can be compared.
-//! A width changes alpha, p and (unless it is given) the restitution; I_cg and the height stay.
+//! for x the width 2b and the record's scale, by one run in dual numbers through uplifts and
+//! impacts. At a sensitivity of 3 a change of 0.1 % moves the history by 0.3 %; at 1000 two models
+//! that differ by 0.1 % have nothing in common, and only statistics can be compared. A width
+//! changes alpha, p and (unless it is given) the restitution; I_cg and the height stay.
 
 use nalgebra::Const;
 use num_dual::DualSVec64;
@@ -16,10 +17,12 @@ use crate::motion::nrmse;
 use crate::overturning::samples_until;
 use crate::structure::Body;
 
-/// From this sensitivity on, by the derivative or by finite changes, histories cannot be compared one to one.
+/// From this sensitivity on, by the derivative or by finite changes, histories cannot be compared
+/// one to one.
 pub const ILL_CONDITIONED: f64 = 10.0;
 
-/// Largest sensitivity that is told; beyond it not one digit of a history in double precision is certain.
+/// Largest sensitivity that is told; beyond it not one digit of a history in double precision is
+/// certain.
 pub(crate) const LARGEST: f64 = 1e15;
 
 /// Relative change of the history u per relative change of a parameter.
@@ -41,13 +44,13 @@ impl Sensitivity {
 /// Relative changes of the width, the scale and the restitution.
 pub const CHANGES: [f64; 2] = [1e-3, 1e-2];
 
-/// From this much moved by 0.1 % of the restitution on, histories cannot be compared one to one. The restitution acts
-/// anew at every impact, ten to a hundred times in a history, so it moves a good history more than the width does;
-/// springs miss it by 0.1 % (160 Hz) or less.
+/// From this much moved by 0.1 % of the restitution on, histories cannot be compared one to one.
+/// The restitution acts anew at every impact, ten to a hundred times in a history, so it moves a
+/// good history more than the width does; springs miss it by 0.1 % (160 Hz) or less.
 pub(crate) const MOVED_BY_RESTITUTION: f64 = 0.1;
 
-/// How far finite changes move a history: || u(x (1 + d)) - u(x) || / || u || for |d| = 0.1 % and 1 %, the larger of both
-/// signs, up to the first overturning of the two.
+/// How far finite changes move a history: || u(x (1 + d)) - u(x) || / || u || for |d| = 0.1 % and 1
+/// %, the larger of both signs, up to the first overturning of the two.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct Changes {
     /// By the width 2b.
@@ -61,9 +64,9 @@ pub struct Changes {
 }
 
 impl Changes {
-    /// Whether all is as the derivatives of a well-conditioned history promise: changes of width and scale move it by
-    /// less than [`ILL_CONDITIONED`] times as much, 0.1 % of the restitution by less than `MOVED_BY_RESTITUTION`, and
-    /// nothing decides on overturning.
+    /// Whether all is as the derivatives of a well-conditioned history promise: changes of width
+    /// and scale move it by less than [`ILL_CONDITIONED`] times as much, 0.1 % of the restitution
+    /// by less than `MOVED_BY_RESTITUTION`, and nothing decides on overturning.
     pub fn proportionate(&self) -> bool {
         let within =
             |moved: [f64; 2]| moved.iter().zip(CHANGES).all(|(moved, change)| *moved < ILL_CONDITIONED * change);
@@ -86,14 +89,16 @@ impl Conditioning {
         Self { sensitivity: sensitivity(body, dt, accel, options), changes: changes(body, dt, accel, options) }
     }
 
-    /// Whether a comparison of histories one to one means something: by the derivative and by finite changes.
+    /// Whether a comparison of histories one to one means something: by the derivative and by
+    /// finite changes.
     pub fn well_conditioned(&self) -> bool {
         self.sensitivity.worst() < ILL_CONDITIONED && self.changes.proportionate()
     }
 }
 
-/// How far one relative change of the width moves a history, as in [`Changes`]; `rocking` is the unchanged one. Much cheaper than
-/// all that [`Conditioning`] says, and enough to pass over most histories that are ill-conditioned.
+/// How far one relative change of the width moves a history, as in [`Changes`]; `rocking` is the
+/// unchanged one. Much cheaper than all that [`Conditioning`] says, and enough to pass over most
+/// histories that are ill-conditioned.
 pub fn moved_by_width(
     body: &Body<f64>,
     dt: f64,
@@ -142,8 +147,8 @@ pub fn changes(body: &Body<f64>, dt: f64, accel: &[f64], options: &RockingOption
     }
 }
 
-/// The sensitivity of a history up to its overturning, if it does: record and options as in [`solve`]. A body that never
-/// moves has none: zero.
+/// The sensitivity of a history up to its overturning, if it does: record and options as in
+/// [`solve`]. A body that never moves has none: zero.
 pub fn sensitivity(body: &Body<f64>, dt: f64, accel: &[f64], options: &RockingOptions<f64>) -> Sensitivity {
     type Dual = DualSVec64<2>;
     let real = Dual::from_re;
@@ -243,8 +248,9 @@ mod tests {
         assert!(found.well_conditioned() && !found.changes.overturning);
     }
 
-    /// A block of restitution 0.6 rocks freely until it rests; then the ground pushes it for 3 s with 0.9995 of what
-    /// lifts it. The derivative sees the free rocking alone. 0.1 % more scale, or less width, and it rocks again.
+    /// A block of restitution 0.6 rocks freely until it rests; then the ground pushes it for 3 s
+    /// with 0.9995 of what lifts it. The derivative sees the free rocking alone. 0.1 % more scale,
+    /// or less width, and it rocks again.
     #[test]
     fn a_push_that_all_but_lifts_is_seen_by_finite_changes_alone() {
         let body = Structure::block(2.0, 0.5, 1e3).unwrap().body::<f64>();

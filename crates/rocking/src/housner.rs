@@ -10,16 +10,18 @@
 //! | symbol | meaning | unit |
 //! |---|---|---|
 //! | theta | rotation, positive leaning to the right | rad |
-//! | alpha | atan(b/h), the lean of balance | rad |
+//! | alpha | slenderness angle atan(b/h) | rad |
 //! | p^2 | m g R / I0 | 1/s2 |
 //! | u_g | horizontal ground acceleration, linear between samples | m/s2 |
 //! | gamma | 1 + a_v/g: a_v is the vertical ground acceleration, positive upwards; 1 without it, as in the paper | - |
 //! | e | velocity restitution; the paper's r = e^2 is an energy ratio | - |
 //!
-//! At rest the body stays down until |u_g| > (g + a_v) tan(alpha). With vertical motion a history ends where the pivot's normal force
-//! falls to zero (`contact`); without it the regime's warnings tell. Every step ends at a sample, since the record has a kink there:
-//! the kinks, not a tolerance, decide the accuracy. One Taylor step spans an interval (`series`), impacts are roots of the step's polynomial
-//! (`root`), and all of it is generic in the scalar, so derivatives pass through the events (`walk`).
+//! At rest the body stays down until |u_g| > (g + a_v) tan(alpha). With vertical motion a history
+//! ends where the pivot's normal force falls to zero (`contact`); without it the regime's warnings
+//! tell. Every step ends at a sample, since the record has a kink there: the kinks, not a
+//! tolerance, decide the accuracy. One Taylor step spans an interval (`series`), impacts are roots
+//! of the step's polynomial (`root`), and all of it is generic in the scalar, so derivatives pass
+//! through the events (`walk`).
 
 mod contact;
 mod interval;
@@ -40,8 +42,8 @@ use std::sync::Arc;
 pub struct RockingOptions<S> {
     /// Factor on the record's acceleration, both components.
     pub scale: S,
-    /// Vertical ground acceleration at the same times (m/s2), positive upwards; zero after its last sample. None: the ground does
-    /// not move up and down, and the pivot's force is not looked at.
+    /// Vertical ground acceleration at the same times (m/s2), positive upwards; zero after its last
+    /// sample. None: the ground does not move up and down, and the pivot's force is not looked at.
     pub vertical: Option<Arc<[f64]>>,
     /// Velocity restitution e, 0 to 1; by equation (2) unless given.
     pub restitution: Option<S>,
@@ -86,14 +88,15 @@ pub enum RockingOutcome {
     Rocked,
     /// The ground never lifted it.
     NeverMoved,
-    /// It lay flat (|theta| = pi/2) within the history, which is cut there; or the history ends (with vertical motion also where
-    /// the pivot lets go) with the body beyond alpha, and it would go on falling if the ground stopped.
+    /// It lay flat (|theta| = pi/2) within the history, which is cut there; or the history ends
+    /// (with vertical motion also where the pivot lets go) with the body beyond alpha, and it would
+    /// go on falling if the ground stopped.
     Overturned {
         /// When |theta| last grew past alpha (s).
         time: f64,
     },
-    /// With vertical motion: the pivot's normal force falls to zero while the body is not falling over. The history is cut there,
-    /// for Housner's equation says nothing of what follows.
+    /// With vertical motion: the pivot's normal force falls to zero while the body is not falling
+    /// over. The history is cut there, for Housner's equation says nothing of what follows.
     LeavesGround {
         /// (s)
         time: f64,
@@ -125,7 +128,8 @@ pub struct Rocking<S> {
     pub outcome: RockingOutcome,
 }
 
-/// Rock a body on a record: ground accelerations (m/s2) at t = 0, dt, 2 dt ... (s), linear between them.
+/// Rock a body on a record: ground accelerations (m/s2) at t = 0, dt, 2 dt ... (s), linear between
+/// them.
 ///
 /// ```
 /// use rocking::{housner, structure::Structure};
@@ -145,9 +149,10 @@ pub fn solve<S: Scalar>(body: &Body<S>, dt: f64, accel: &[f64], options: &Rockin
     }
 }
 
-/// Rock many bodies on one record, or one body on many scales of it, sixteen at a time in lock-step, on every
-/// thread; each result is, bit for bit, that of [`solve`]. The longer of the two lists decides how many there are; the shorter one is repeated from its start.
-/// Options with the same vertical record (clones of one `Arc`) go side by side.
+/// Rock many bodies on one record, or one body on many scales of it, sixteen at a time in
+/// lock-step, on every thread; each result is, bit for bit, that of [`solve`]. The longer of the
+/// two lists decides how many there are; the shorter one is repeated from its start. Options with
+/// the same vertical record (clones of one `Arc`) go side by side.
 pub fn solve_lanes(bodies: &[Body<f64>], dt: f64, accel: &[f64], options: &[RockingOptions<f64>]) -> Vec<Rocking<f64>> {
     if bodies.is_empty() || options.is_empty() {
         return Vec::new();
@@ -233,8 +238,8 @@ fn setting<'a, S: Scalar>(
     }
 }
 
-/// Whether a body left alone on still ground with this theta (rad) and theta' (rad/s) falls: it is beyond alpha, and what
-/// brings it back is too slow to reach alpha.
+/// Whether a body left alone on still ground with this theta (rad) and theta' (rad/s) falls: it is
+/// beyond alpha, and what brings it back is too slow to reach alpha.
 pub fn topples(body: &Body<f64>, theta: f64, rate: f64) -> bool {
     let options = RockingOptions { initial: Some((theta, rate)), ..RockingOptions::default() };
     solve(body, 1.0, &[0.0], &options).overturned().is_some()

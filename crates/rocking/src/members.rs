@@ -112,7 +112,8 @@ impl Members<f64> {
     /// The members themselves if their numbers make sense under a body.
     ///
     /// # Errors
-    /// A number that is not finite, or not positive where it must be; a tendon stretched to more than twice its length.
+    /// A number that is not finite, or not positive where it must be; a tendon stretched to more
+    /// than twice its length.
     pub fn checked(self, body: &Body<f64>) -> Result<Self, MembersError> {
         let positive = |name, value: f64| (name, value, value > 0.0, " greater than zero");
         let not_negative = |name, value: f64| (name, value, value >= 0.0, ", zero or greater");
@@ -143,7 +144,8 @@ impl Members<f64> {
         Ok(self)
     }
 
-    /// Members whose numbers, in units of the structure's own, are within what 16 digits can follow.
+    /// Members whose numbers, in units of the structure's own, are within what 16 digits can
+    /// follow.
     fn meaningful(&self, body: &Body<f64>) -> Result<(), MembersError> {
         let (weight, length) = (body.mass * GRAVITY, body.radius());
         let damper = self.damper.filter(|d| d.c > 0.0).map(|d| {

@@ -76,7 +76,8 @@ pub fn nrmse_of<'a>(pairs: impl Iterator<Item = (&'a f64, &'a f64)>) -> f64 {
     if above == 0.0 { 0.0 } else { (above / below).sqrt() }
 }
 
-/// A share in percent, with two significant digits, at most two decimals; a dash where there is nothing to compare with.
+/// A share in percent, with two significant digits, at most two decimals; a dash where there is
+/// nothing to compare with.
 pub fn percent(share: f64) -> String {
     let percent = 100.0 * share;
     if !percent.is_finite() {
@@ -86,7 +87,8 @@ pub fn percent(share: f64) -> String {
     format!("{percent:.decimals$} %")
 }
 
-/// An NRMSE with four decimals, or two significant digits where it is smaller; a dash where there is nothing to compare with.
+/// An NRMSE with four decimals, or two significant digits where it is smaller; a dash where there
+/// is nothing to compare with.
 pub fn shown(nrmse: f64) -> String {
     if !nrmse.is_finite() {
         return "-".into();

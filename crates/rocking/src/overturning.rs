@@ -2,8 +2,9 @@
 
 use crate::{housner::topples, structure::Body};
 
-/// When |theta| last grew past alpha (s), linear between the samples of theta (rad) at t = i dt, if the body lies flat at
-/// the last of them, or leans beyond alpha and would fall if the ground stopped there.
+/// When |theta| last grew past alpha (s), linear between the samples of theta (rad) at t = i dt, if
+/// the body lies flat at the last of them, or leans beyond alpha and would fall if the ground
+/// stopped there.
 ///
 /// ```
 /// use rocking::{overturning::overturned, structure::Structure};
@@ -54,7 +55,8 @@ mod tests {
     fn a_body_that_comes_back_has_not_overturned() {
         let body = Structure::paper().body::<f64>();
         let alpha = body.alpha();
-        // beyond alpha, but fast on its way back: theta' = -0.1 rad/s against p (theta - alpha) = 0.004
+        // beyond alpha, but fast on its way back: theta' = -0.1 rad/s against p (theta - alpha) =
+        // 0.004
         assert_eq!(overturned(&body, 0.01, &[0.0, 1.1 * alpha + 1e-3, 1.1 * alpha]), None);
         assert!(overturned(&body, 0.01, &[0.0, 1.1 * alpha + 1e-5, 1.1 * alpha]).is_some());
         assert_eq!(overturned(&body, 0.01, &[]), None);

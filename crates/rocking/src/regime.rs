@@ -1,4 +1,5 @@
-//! What Housner's solution asks of the contact: whether the body would slide, fly, or bounce instead of rocking.
+//! What Housner's solution asks of the contact: whether the body would slide, fly, or bounce
+//! instead of rocking.
 //!
 //! With phi = alpha s - theta the pivot's forces on the body, horizontal F and vertical N, are
 //!
@@ -7,19 +8,22 @@
 //! N = m ( R [ sin(phi) theta'' - cos(phi) theta'^2 ] + g + a_v )
 //! ```
 //!
-//! and at rest F = m u_g, N = m (g + a_v); a_v is the vertical ground acceleration, if there is any. Without sliding |F|/N is below the friction coefficient; N <= 0 is free flight.
+//! and at rest F = m u_g, N = m (g + a_v); a_v is the vertical ground acceleration, if there is
+//! any. Without sliding |F|/N is below the friction coefficient; N <= 0 is free flight.
 //!
-//! A landing is an impulse (P_x, P_y) at the new foot that stops it. Housner's, which leaves the old foot (the pivot until now)
-//! without impulse, asks for P_x/P_y = h (1 - e)/(b (1 + e)) = m h b/(I_cg + m h^2). The pivot must then rise. An impulse with friction mu at the new
-//! foot lifts the pivot if
+//! A landing is an impulse (P_x, P_y) at the new foot that stops it. Housner's, which leaves the
+//! old foot (the pivot until now) without impulse, asks for P_x/P_y = h (1 - e)/(b (1 + e)) = m h
+//! b/(I_cg + m h^2). The pivot must then rise. An impulse with friction mu at the new foot lifts
+//! the pivot if
 //!
 //! ```text
 //! I_cg - m b^2 + mu m h b >= 0
 //! ```
 //!
-//! (the change of the pivot's vertical velocity, P_y/m - b (P_y b - P_x h)/I_cg, times I_cg m/P_y). Without friction that is I_cg >= m b^2:
-//! H/B >= sqrt(2) for a solid block of height H and width B. With the friction of Housner's own impulse it is e > 0, I_cg > m (b^2 - h^2): H/B > 1/sqrt(2). An
-//! A-frame needs mu >= b/h = tan(alpha), which it needs to lift off anyway.
+//! (the change of the pivot's vertical velocity, P_y/m - b (P_y b - P_x h)/I_cg, times I_cg m/P_y).
+//! Without friction that is I_cg >= m b^2: H/B >= sqrt(2) for a solid block of height H and width
+//! B. With the friction of Housner's own impulse it is e > 0, I_cg > m (b^2 - h^2): H/B >
+//! 1/sqrt(2). An A-frame needs mu >= b/h = tan(alpha), which it needs to lift off anyway.
 
 use crate::housner::Rocking;
 use crate::motion::TimedPeak;
@@ -51,8 +55,9 @@ pub struct Regime {
     pub too_stocky: Option<Stocky>,
 }
 
-/// Check a history against the record (m/s2; horizontal, and vertical, zero beyond its last sample) and scale that made it, at the samples and on either side of each impact, up
-/// to its overturning: what a body asks of the ground while it falls is no question of rocking.
+/// Check a history against the record (m/s2; horizontal, and vertical, zero beyond its last sample)
+/// and scale that made it, at the samples and on either side of each impact, up to its overturning:
+/// what a body asks of the ground while it falls is no question of rocking.
 pub fn check(
     body: &Body<f64>,
     dt: f64,
@@ -97,8 +102,9 @@ pub fn check(
     }
 }
 
-/// When the pivot would first have to hold the body down (s), if ever, up to its overturning; arguments as of [`check`]. The feet of a
-/// finite element model leave the ground there, as real ones do: Housner's equation says nothing of what follows.
+/// When the pivot would first have to hold the body down (s), if ever, up to its overturning;
+/// arguments as of [`check`]. The feet of a finite element model leave the ground there, as real
+/// ones do: Housner's equation says nothing of what follows.
 pub fn pivot_pulls(body: &Body<f64>, dt: f64, accel: &[f64], rocking: &Rocking<f64>) -> Option<f64> {
     check(body, dt, (accel, &[]), 1.0, rocking, f64::INFINITY).free_flight.map(|flight| flight.time)
 }
@@ -111,8 +117,9 @@ pub(crate) fn stockiness(body: &Body<f64>, friction: f64) -> Option<Stocky> {
         .then_some(Stocky { restitution, friction_needed: friction_needed.max(0.0) })
 }
 
-/// Horizontal and vertical force of the ground on Housner's body (N) at the samples of its history: what of it stands between
-/// impacts. Ground accelerations (horizontal, vertical) in m/s2, zero beyond their last sample.
+/// Horizontal and vertical force of the ground on Housner's body (N) at the samples of its history:
+/// what of it stands between impacts. Ground accelerations (horizontal, vertical) in m/s2, zero
+/// beyond their last sample.
 pub fn ground_forces(body: &Body<f64>, (accel, vertical): (&[f64], &[f64]), rocking: &Rocking<f64>) -> Vec<(f64, f64)> {
     let weight = body.mass * GRAVITY;
     let at = |record: &[f64], i: usize| record.get(i).copied().unwrap_or(0.0) / GRAVITY;

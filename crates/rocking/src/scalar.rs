@@ -17,8 +17,8 @@ pub fn real<S: Scalar>(x: f64) -> S {
     S::from(x)
 }
 
-/// Sine and cosine. Of a real number within pi/4 by polynomials in line, good to the last bit or the one before: without a
-/// call, and the same on every machine.
+/// Sine and cosine. Of a real number within pi/4 by polynomials in line, good to the last bit or
+/// the one before: without a call, and the same on every machine.
 #[inline(always)]
 pub fn sin_cos<S: Scalar>(x: S) -> (S, S) {
     match (&x as &dyn Any).downcast_ref::<f64>() {
@@ -36,7 +36,8 @@ pub fn in_reach(x: f64) -> bool {
     x.abs() <= FRAC_PI_4
 }
 
-/// Sine and cosine within pi/4: the polynomials of fdlibm (Sun Microsystems, 1993: k_sin.c, k_cos.c).
+/// Sine and cosine within pi/4: the polynomials of fdlibm (Sun Microsystems, 1993: k_sin.c,
+/// k_cos.c).
 #[inline(always)]
 #[allow(clippy::excessive_precision)] // the tables as published
 pub fn small_sin_cos(x: f64) -> (f64, f64) {

@@ -1,6 +1,7 @@
 //! Statistics of samples.
 
-/// The q-quantile of sorted numbers, linear between the two nearest ranks (Hyndman and Fan 1996, definition 7); none if that is not finite.
+/// The q-quantile of sorted numbers, linear between the two nearest ranks (Hyndman and Fan 1996,
+/// definition 7); none if that is not finite.
 pub fn quantile(sorted: &[f64], q: f64) -> Option<f64> {
     let rank = q * sorted.len().checked_sub(1)? as f64;
     let (low, share) = (rank.floor() as usize, rank.fract());
@@ -9,7 +10,8 @@ pub fn quantile(sorted: &[f64], q: f64) -> Option<f64> {
     x.is_finite().then_some(x)
 }
 
-/// Two-sample Kolmogorov-Smirnov distance: the largest difference of the two empirical distributions; ties are one step.
+/// Two-sample Kolmogorov-Smirnov distance: the largest difference of the two empirical
+/// distributions; ties are one step.
 pub fn ks_distance(a: &[f64], b: &[f64]) -> f64 {
     if a.is_empty() || b.is_empty() {
         return 0.0;

@@ -31,8 +31,8 @@ pub struct Structure {
     pub rotational_inertia_kgm2: f64,
 }
 
-/// I_cg of an A-frame with all mass at its apex, as a share of m R^2: OpenSees and its like need some, and rocking does
-/// not feel so little (1e-5 of p^2).
+/// I_cg of an A-frame with all mass at its apex, as a share of m R^2: OpenSees and its like need
+/// some, and rocking does not feel so little (1e-5 of p^2).
 pub const LEAST_INERTIA: f64 = 1e-5;
 
 /// Lengths that a structure may have, a grain of sand to beyond any tower (m).
@@ -66,7 +66,8 @@ impl Structure {
         Self { kind: Kind::AFrame, height_m, width_m, mass_kg, rotational_inertia_kgm2: 0.0 }.checked()
     }
 
-    /// A checked solid block, `height_m` its whole height H (so h = H/2), `width_m` its whole width.
+    /// A checked solid block, `height_m` its whole height H (so h = H/2), `width_m` its whole
+    /// width.
     pub fn block(height_m: f64, width_m: f64, mass_kg: f64) -> Result<Self, StructureError> {
         Self {
             kind: Kind::Block,

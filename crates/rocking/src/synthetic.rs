@@ -1,27 +1,30 @@
 //! Ground motions made from a seed, scaled to a structure, for statistics over many records.
 //!
-//! Record i of a suite depends on the seed, on i and on the structure's p and alpha, and on nothing else: records can be
-//! made in any order, on any thread. Three kinds alternate: Ricker wavelets ([`Pulse`]), Mavroeidis-Papageorgiou pulses,
-//! and filtered noise (Kanai-Tajimi). Amplitudes and frequencies are drawn relative to the structure,
+//! Record i of a suite depends on the seed, on i and on the structure's p and alpha, and on nothing
+//! else: records can be made in any order, on any thread. Three kinds alternate: Ricker wavelets
+//! ([`Pulse`]), Mavroeidis-Papageorgiou pulses, and filtered noise (Kanai-Tajimi). Amplitudes and
+//! frequencies are drawn relative to the structure,
 //!
 //! ```text
 //! pulses  PGA = 1.1 to 4 g tan(alpha)    omega_p = 2 to 10 p   (p from the body's p^2 = m g R/I0)
 //! noise   PGA = 1.2 to 6 g tan(alpha)    omega_g = 7 to 35 p   10 to 30 s
 //! ```
 //!
-//! because a body first lifts at g tan(alpha) and topples more easily the longer the motion pushes one way, measured in
-//! 1/p: so some records hardly lift it and some, one in ten to one in four, topple it. Frequencies are spread evenly in
-//! their logarithm, amplitudes evenly. A silence of 8/p follows each motion, for the body to topple or to come back in.
+//! because a body first lifts at g tan(alpha) and topples more easily the longer the motion pushes
+//! one way, measured in 1/p: so some records hardly lift it and some, one in ten to one in four,
+//! topple it. Frequencies are spread evenly in their logarithm, amplitudes evenly. A silence of 8/p
+//! follows each motion, for the body to topple or to come back in.
 //!
-//! A second suite ([`earthquake`]) knows nothing of the structure: filtered noise of the frequencies, amplitudes and
-//! lengths of real earthquakes, on which tall structures sway before they lift, and small ones are hardly lifted or
-//! toppled at once.
+//! A second suite ([`earthquake`]) knows nothing of the structure: filtered noise of the
+//! frequencies, amplitudes and lengths of real earthquakes, on which tall structures sway before
+//! they lift, and small ones are hardly lifted or toppled at once.
 //!
 //! ```text
 //! omega_g = 9 to 36 rad/s    zeta_g = 0.2 to 0.6    PGA = 0.2 to 0.9 g    20 to 60 s    dt = 0.005 or 0.01 s
 //! ```
 //!
-//! A third ([`MotionTarget`]) is like a given motion: it has its response spectrum and its envelope in time.
+//! A third ([`MotionTarget`]) is like a given motion: it has its response spectrum and its envelope
+//! in time.
 
 mod fft;
 mod like;
@@ -38,16 +41,18 @@ use crate::scalar::GRAVITY;
 use random::Random;
 use strong_motion::{Record, Source};
 
-/// The first n records of the suite of a seed, for a structure with p (1/s) and alpha (rad): see [`record`].
+/// The first n records of the suite of a seed, for a structure with p (1/s) and alpha (rad): see
+/// [`record`].
 pub fn suite(n: usize, seed: u64, p: f64, alpha: f64) -> impl ExactSizeIterator<Item = Record> + Clone {
     (0..n).map(move |index| record(seed, index, p, alpha))
 }
 
-/// Record `index` of the suite of a seed, for a structure with p (1/s) and alpha (rad), as a checked structure has them.
-/// A p outside 0.02 to 1e4, which is no building and no block, counts as the nearest of these.
+/// Record `index` of the suite of a seed, for a structure with p (1/s) and alpha (rad), as a
+/// checked structure has them. A p outside 0.02 to 1e4, which is no building and no block, counts
+/// as the nearest of these.
 ///
-/// The time step is the largest of the series 1, 2, 5 that is at most 1/(200 p) and 0.02 s; every motion starts at
-/// rest, and its ground velocity ends at zero.
+/// The time step is the largest of the series 1, 2, 5 that is at most 1/(200 p) and 0.02 s; every
+/// motion starts at rest, and its ground velocity ends at zero.
 pub fn record(seed: u64, index: usize, p: f64, alpha: f64) -> Record {
     let p = if p.is_nan() { 0.02 } else { p.clamp(0.02, 1e4) };
     let dt = round_step((1.0 / (200.0 * p)).min(0.02));
@@ -90,9 +95,9 @@ const EARTHQUAKES: u64 = 1 << 63;
 /// Peak ground acceleration of an earthquake-like motion (g), from and to.
 pub const EARTHQUAKE_PGA_G: (f64, f64) = (0.2, 0.9);
 
-/// Motion `index` of the suite of earthquakes of a seed. It depends on the seed and on the index alone; only the silence
-/// at its end is as long as the structure needs to topple or to come to rest: 8/p, p in 1/s, at least 2 s and at most 60
-/// s.
+/// Motion `index` of the suite of earthquakes of a seed. It depends on the seed and on the index
+/// alone; only the silence at its end is as long as the structure needs to topple or to come to
+/// rest: 8/p, p in 1/s, at least 2 s and at most 60 s.
 pub fn earthquake(seed: u64, index: usize, p: f64) -> Record {
     let mut random = Random::new(seed, EARTHQUAKES | index as u64);
     let dt = if random.sign() > 0.0 { 0.005 } else { 0.01 };
@@ -108,8 +113,8 @@ pub fn earthquake(seed: u64, index: usize, p: f64) -> Record {
     Record { name: format!("earthquake-{index:04}"), dt, accel, vertical: None, source: Source::Earthquake }
 }
 
-/// Length of the silence behind an earthquake, for a body with p (1/s) to topple or to come to rest: 8/p, at least 2 s
-/// and at most 60 s.
+/// Length of the silence behind an earthquake, for a body with p (1/s) to topple or to come to
+/// rest: 8/p, at least 2 s and at most 60 s.
 fn silence_s(p: f64) -> f64 {
     let p = if p.is_nan() { 0.0 } else { p.max(0.0) };
     (8.0 / p).clamp(2.0, 60.0)

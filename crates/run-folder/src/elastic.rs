@@ -45,7 +45,8 @@ pub mod words;
 use bearing::ForceQuantities;
 use demands::Instants;
 
-/// Drifts below this share of the structure's size are rounding: there is nothing to compare with them.
+/// Drifts below this share of the structure's size are rounding: there is nothing to compare with
+/// them.
 const ROUNDING: f64 = 1e-12;
 
 /// A job done.
@@ -201,7 +202,8 @@ impl ElasticRun {
         deck(&self.assembled, corners, &self.record, &self.answer.histories.fem, (format, ACCURACY))
     }
 
-    /// `history.csv`: rotation and drift of every base in the reference and on the springs, uplift of every corner on them.
+    /// `history.csv`: rotation and drift of every base in the reference and on the springs, uplift
+    /// of every corner on them.
     fn history(&self) -> String {
         let ElasticHistories { fem, sways, .. } = &self.answer.histories;
         let name = |what: &str, i: usize| if sways.len() > 1 { format!("{what}_{}", i + 1) } else { what.to_string() };

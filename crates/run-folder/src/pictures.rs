@@ -95,7 +95,7 @@ impl Pictures<'_> {
         (0..n).map(|i| i as f64 * self.job.record.dt).collect()
     }
 
-    /// When the body on its springs overturned, in words.
+    /// When the finite element model overturned, in words.
     fn fall(&self) -> Option<(f64, String)> {
         let time = self.both.matched.overturned_fem_s?;
         Some((time, format!("overturned at t = {time:.2} s")))
@@ -325,7 +325,8 @@ fn event(end: &Option<(f64, String)>) -> Option<EventMark<'_>> {
     end.as_ref().map(|(time, text)| EventMark { time: *time, text })
 }
 
-/// Whether the target asks for nothing but the lowest cap there is, by a limit that no chain can meet.
+/// Whether the target asks for nothing but the lowest cap there is, by a limit that no chain can
+/// meet.
 fn lowest_cap(target: &Target) -> bool {
     target.bands.iter().all(|band| band.kind == BandKind::Cap && band.limit <= 1.0)
 }

@@ -51,7 +51,8 @@ pub struct Output {
     pub report: bool,
 }
 
-/// Write everything of a run into a folder, which is made; the decks that are left out, with the reason.
+/// Write everything of a run into a folder, which is made; the decks that are left out, with the
+/// reason.
 ///
 /// # Errors
 /// A file that cannot be written; a deck or a figure that cannot be made.
@@ -99,7 +100,8 @@ pub fn write_report(out: &Path, output: Output, run: &Run, figures: &[Figure]) -
     if output.report { write_file(&out.join("report.html"), page(run, figures).as_bytes()) } else { Ok(()) }
 }
 
-/// The model for other programs. A body without rotational inertia gets some there, and its own history to check against.
+/// The model for other programs. A body without rotational inertia gets some there, and its own
+/// history to check against.
 fn decks(
     out: &Path,
     parameters: &Parameters,

@@ -5,7 +5,8 @@ use std::fmt::Write;
 use dynamics::fem::{Demands, QUANTITIES};
 use springs::answers::ModelComparison;
 
-/// `history.csv`: the motions at the record's samples, 12 significant digits; with members three columns more.
+/// `history.csv`: the motions at the record's samples, 12 significant digits; with members three
+/// columns more.
 pub fn history_csv(dt: f64, both: &ModelComparison) -> String {
     let mut motions = vec![("housner", &both.housner), ("fem", &both.fem.motion)];
     motions.extend(both.with.as_ref().map(|with| ("members", &with.history.motion)));
@@ -15,7 +16,8 @@ pub fn history_csv(dt: f64, both: &ModelComparison) -> String {
         let _ = write!(out, ",u_{name},v_{name},th_{name}");
     }
     out.push('\n');
-    // the finite elements go on where Housner's solution ends because the pivot lets go: his columns are then empty
+    // the finite elements go on where Housner's solution ends because the pivot lets go: his
+    // columns are then empty
     let left = both.rocking.left_ground().is_some();
     let compared = motions.iter().skip(usize::from(left)).map(|(_, motion)| motion.len()).min().unwrap_or(0);
     for i in 0..compared {

@@ -1,4 +1,5 @@
-//! Both models' answers to one record, or to many: Housner's rigid body and the finite elements on ground springs, and what they say together.
+//! Both models' answers to one record, or to many: Housner's rigid body and the finite elements on
+//! ground springs, and what they say together.
 
 use dynamics::compare::Match;
 use std::convert::Infallible;
@@ -85,7 +86,8 @@ pub fn with_members(
     MemberHistory { members: *members, history, demands, matched }
 }
 
-/// Both models on the springs and members of a parameter file, and what they say together: peaks, overturning, match.
+/// Both models on the springs and members of a parameter file, and what they say together: peaks,
+/// overturning, match.
 pub fn compare(parameters: &Parameters, record: &Record) -> (ModelComparison, Verdict) {
     let (body, e) = (parameters.structure.body(), parameters.restitution());
     let both = both(&body, e, &parameters.chains(), &parameters.members(), record);
@@ -137,8 +139,8 @@ fn count(demands: &mut Demands, body: &Body<f64>, dt: f64, landings: &[Landing],
     demands.separate(body, dt, landings, samples_until(overturned, dt));
 }
 
-/// Count the largest forces up to an overturning only, if there is one: those of the fall and of the body on the ground
-/// are no demand of rocking. Times are then those of the samples.
+/// Count the largest forces up to an overturning only, if there is one: those of the fall and of
+/// the body on the ground are no demand of rocking. Times are then those of the samples.
 fn peaks_until(demands: &mut Demands, dt: f64, overturned: Option<f64>) {
     let Some(_) = overturned else { return };
     demands.peaks = Default::default();
@@ -157,7 +159,8 @@ mod tests {
     use dynamics::{fem::QUANTITIES, spring::Design};
     use rocking::structure::Structure;
 
-    /// A pier that falls from 0.3 alpha: its foot carries about its weight while it turns about it, and far more in a landing.
+    /// A pier that falls from 0.3 alpha: its foot carries about its weight while it turns about it,
+    /// and far more in a landing.
     #[test]
     fn forces_between_landings_are_about_the_weight_whatever_the_springs() {
         let structure = Structure::a_frame(9.0, 2.1, 120e3).unwrap();

@@ -1,4 +1,5 @@
-//! Case files: what to tune, on what, within which bounds. TOML; every key has its unit in its name.
+//! Case files: what to tune, on what, within which bounds. TOML; every key has its unit in its
+//! name.
 //!
 //! ```toml
 //! [structure]
@@ -72,7 +73,8 @@ pub struct Tuning {
     pub objective: Objective,
     /// Error of the history against Housner's that Omega_n is chosen for, NRMSE.
     pub accuracy: f64,
-    /// Error of the peaks that Omega_n is chosen for instead; not with an accuracy in the same place.
+    /// Error of the peaks that Omega_n is chosen for instead; not with an accuracy in the same
+    /// place.
     pub peaks: Option<f64>,
     /// Stiffest springs allowed, Omega_n/2 pi (Hz); none unless given.
     pub max_omega_hz: Option<f64>,
@@ -129,7 +131,8 @@ pub struct Case {
     pub given: GivenKeys,
     /// Dampers, a tendon, friction: not tuned for, but simulated with the tuned springs.
     pub members: Members<f64>,
-    /// The record as read, its scale, the length asked for: what `record` and `duration_s` come from.
+    /// The record as read, its scale, the length asked for: what `record` and `duration_s` come
+    /// from.
     pub excitation: Excitation,
     /// The whole record, scaled.
     pub record: Record,
@@ -183,11 +186,12 @@ impl Case {
         Ok(Self { notices, ..case })
     }
 
-    /// A structure without members and its restitution, velocity after an impact over that before, under a ground motion;
-    /// `name` stands for the case file in messages.
+    /// A structure without members and its restitution, velocity after an impact over that before,
+    /// under a ground motion; `name` stands for the case file in messages.
     ///
     /// # Errors
-    /// A setting of `tuning` out of its range; a scale that is not finite, or takes the peak above 50 g.
+    /// A setting of `tuning` out of its range; a scale that is not finite, or takes the peak above
+    /// 50 g.
     pub fn new(
         name: &str,
         (structure, restitution): (Structure, f64),
@@ -212,8 +216,8 @@ impl Case {
 }
 
 impl Case {
-    /// A structure on the whole of a record, everything else by default: restitution by equation 2, an accuracy of 0.002, no
-    /// members.
+    /// A structure on the whole of a record, everything else by default: restitution by equation 2,
+    /// an accuracy of 0.002, no members.
     ///
     /// # Errors
     /// A peak above 50 g.

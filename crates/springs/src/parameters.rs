@@ -1,4 +1,5 @@
-//! `parameters.json`: the tuned springs as the engineer keeps them, and how well they follow Housner.
+//! `parameters.json`: the tuned springs as the engineer keeps them, and how well they follow
+//! Housner.
 
 pub mod elastic;
 mod record;
@@ -29,16 +30,19 @@ use rocking::{
     structure::{Structure, StructureError},
 };
 
-/// Version of the keys of parameters.json that this program writes. Version 1 had no number, and remembered of the record
-/// only what it was called; version 2 had no peaks, design forces and findings.
+/// Version of the keys of parameters.json that this program writes. Version 1 had no number, and
+/// remembered of the record only what it was called; version 2 had no peaks, design forces and
+/// findings.
 pub(crate) const SCHEMA: u32 = 3;
 
-/// How sensitive Housner's history of that record is: relative change of u per relative change (`conditioning`).
+/// How sensitive Housner's history of that record is: relative change of u per relative change
+/// (`conditioning`).
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 pub struct ConditioningRow {
     pub sensitivity_width: f64,
     pub sensitivity_scale: f64,
-    /// How far finite changes move u, relative to it: each by +-0.1 % and by +-1 %, the larger of both signs.
+    /// How far finite changes move u, relative to it: each by +-0.1 % and by +-1 %, the larger of
+    /// both signs.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub moved_by_width: Option<[f64; 2]>,
     #[serde(default, skip_serializing_if = "Option::is_none")]
@@ -66,8 +70,8 @@ impl From<Conditioning> for ConditioningRow {
     }
 }
 
-/// Other springs for the same case and their match: what the paper's procedure (ARR shape, then Omega_n on the record) gives,
-/// or its Table 1.
+/// Other springs for the same case and their match: what the paper's procedure (ARR shape, then
+/// Omega_n on the record) gives, or its Table 1.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 pub struct PaperProcedure {
     pub vertical: ChainRow,
@@ -76,8 +80,9 @@ pub struct PaperProcedure {
     pub matched: Match,
 }
 
-/// Stiffness that a spring may have, in units of the weight over the height: softer ones let the body sink in by
-/// a thousand times its height, stiffer ones are compressed by less than the rounding of it.
+/// Stiffness that a spring may have, in units of the weight over the height: softer ones let the
+/// body sink in by a thousand times its height, stiffer ones are compressed by less than the
+/// rounding of it.
 const STIFFNESS: (f64, f64) = (1e-3, 1e15);
 /// Absorber's mass, in units of the structure's.
 const MASS: (f64, f64) = (1e-9, 1e9);
@@ -219,7 +224,8 @@ impl Parameters {
         }
     }
 
-    /// What there is to keep of a tuned case whatever the record: the springs, their landings, their accuracy.
+    /// What there is to keep of a tuned case whatever the record: the springs, their landings,
+    /// their accuracy.
     pub fn of(case: &Case, job: &Job) -> Self {
         let mut parameters = Self::new(case.structure, &job.springs).with_members(case.members);
         parameters.restitution = Some(case.restitution).filter(|e| *e != job.body.restitution());
@@ -311,7 +317,8 @@ impl Parameters {
         Ok(self)
     }
 
-    /// Springs whose numbers, in units of the structure's own, are within what 16 digits can follow.
+    /// Springs whose numbers, in units of the structure's own, are within what 16 digits can
+    /// follow.
     fn meaningful(&self, path: &str, chain: &'static str, row: &ChainRow) -> Result<(), ParametersError> {
         let Structure { mass_kg, height_m, .. } = self.structure;
         // a spring that the weight compresses by the height

@@ -1,7 +1,8 @@
 //! How far a history can be foretold at all: how sensitive our own is to the width.
 //!
-//! Some histories of rocking hang on so little that two programs agree on them only if both work much more accurately than
-//! anyone needs. A deck's steps become finer where that is so (`export/model`).
+//! Some histories of rocking hang on so little that two programs agree on them only if both work
+//! much more accurately than anyone needs. A deck's steps become finer where that is so
+//! (`export/model`).
 
 use crate::parameters::Parameters;
 use dynamics::fem::{Analysis, Control, History, Start};
@@ -15,24 +16,29 @@ use strong_motion::Record;
 /// Relative change of the width.
 const CHANGE: f64 = 1e-5;
 
-/// Share of the largest u that the same change moves a history by where it can no longer be foretold: a deck's own error is
-/// some ten times as much there, and grows as fast.
+/// Share of the largest u that the same change moves a history by where it can no longer be
+/// foretold: a deck's own error is some ten times as much there, and grows as fast.
 const HANGS: f64 = 1e-4;
 
-/// NRMSE of u by a relative change of the width by 1e-5 up to which a history can be foretold to its end.
+/// NRMSE of u by a relative change of the width by 1e-5 up to which a history can be foretold to
+/// its end.
 const FORETOLD: f64 = 5e-4;
 
-/// Rotational inertia over m R^2 from which on a body's turning in the air can be foretold: what decks give to a point mass is 1e-5, and a
-/// force that a foot lets go within a step turns it by as much more as that is less than one.
+/// Rotational inertia over m R^2 from which on a body's turning in the air can be foretold: what
+/// decks give to a point mass is 1e-5, and a force that a foot lets go within a step turns it by as
+/// much more as that is less than one.
 const INERTIA_OF_ITS_OWN: f64 = 1e-3;
 
-/// From this NRMSE on no steps help a history's end; those of its first part are chosen as for one that just can be foretold.
+/// From this NRMSE on no steps help a history's end; those of its first part are chosen as for one
+/// that just can be foretold.
 pub const HOPELESS: f64 = 0.5;
 
-/// Share of the half width below which a motion counts as standing: an error is told against at least that.
+/// Share of the half width below which a motion counts as standing: an error is told against at
+/// least that.
 pub const STANDING: f64 = 1e-3;
 
-/// [`step_sensitivity`] of `motion`, the history of the model on `record`, to a relative change of the width by 1e-5.
+/// [`step_sensitivity`] of `motion`, the history of the model on `record`, to a relative change of
+/// the width by 1e-5.
 pub fn width_sensitivity(motion: &Motion, parameters: &Parameters, record: &Record) -> f64 {
     step_sensitivity(motion, &slightly_wider(parameters, record), 0.5 * parameters.structure.width_m)
 }
@@ -48,7 +54,8 @@ pub fn slightly_wider(parameters: &Parameters, record: &Record) -> Motion {
 pub enum ForetoldEnd {
     /// A change of the width by 1e-5 moves it by as much as a program's own steps do, or more.
     Width,
-    /// The ground falls away under a body that has no rotational inertia of its own: how it turns in the air is not defined.
+    /// The ground falls away under a body that has no rotational inertia of its own: how it turns
+    /// in the air is not defined.
     Flight,
 }
 
@@ -61,7 +68,8 @@ pub struct Foretold {
     pub end: ForetoldEnd,
 }
 
-/// Up to where a history can be foretold, from the history of a body slightly wider, `changed`; `None` if all can.
+/// Up to where a history can be foretold, from the history of a body slightly wider, `changed`;
+/// `None` if all can.
 pub fn foretold_until(motion: &Motion, changed: &Motion) -> Option<Foretold> {
     let samples = foretold_samples(motion, changed)?;
     Some(Foretold { samples, end: ForetoldEnd::Width })
@@ -76,13 +84,14 @@ fn foretold_samples(motion: &Motion, changed: &Motion) -> Option<usize> {
     motion.u.iter().zip(&changed.u).position(|(a, b)| (a - b).abs() > far)
 }
 
-/// NRMSE of u over the first samples, told against at least the motion of a body that stands (`half_width`, m).
+/// NRMSE of u over the first samples, told against at least the motion of a body that stands
+/// (`half_width`, m).
 pub fn standing_error(u: &[f64], reference: &[f64], half_width: f64) -> f64 {
     nrmse(u, reference) * standing_share(reference.iter(), half_width)
 }
 
-/// Share that an error counts by: 1 of a motion that rocks; the root mean square over a thousandth of
-/// the size (m, rad) of one that only stands.
+/// Share that an error counts by: 1 of a motion that rocks; the root mean square over a thousandth
+/// of the size (m, rad) of one that only stands.
 pub fn standing_share<'a>(motion: impl Iterator<Item = &'a f64>, size: f64) -> f64 {
     let (sum, count) = motion.fold((0.0, 0), |(sum, count), x| (sum + x * x, count + 1));
     let rms = (sum / count.max(1) as f64).sqrt();
@@ -90,8 +99,9 @@ pub fn standing_share<'a>(motion: impl Iterator<Item = &'a f64>, size: f64) -> f
     if rms < least { rms / least } else { 1.0 }
 }
 
-/// Sensitivity that a deck's steps are chosen by: that to the width. A history that cannot be foretold to its end has steps as asked;
-/// but where its foretold part is sensitive already, it counts as one that can just be foretold: steps help that part.
+/// Sensitivity that a deck's steps are chosen by: that to the width. A history that cannot be
+/// foretold to its end has steps as asked; but where its foretold part is sensitive already, it
+/// counts as one that can just be foretold: steps help that part.
 pub fn step_sensitivity(motion: &Motion, changed: &Motion, half_width: f64) -> f64 {
     let whole = nrmse(&changed.u, &motion.u);
     let part = foretold_samples(motion, changed).unwrap_or(motion.len()).min(changed.len());
@@ -99,8 +109,9 @@ pub fn step_sensitivity(motion: &Motion, changed: &Motion, half_width: f64) -> f
     if whole > HOPELESS && sensitive() { HOPELESS } else { whole }
 }
 
-/// Up to where a body without rotational inertia of its own stays on the ground for sure: the first sample at which the ground falls as fast as
-/// bodies do. `None` for other bodies, and where it never does.
+/// Up to where a body without rotational inertia of its own stays on the ground for sure: the first
+/// sample at which the ground falls as fast as bodies do. `None` for other bodies, and where it
+/// never does.
 pub fn until_flight(structure: &Structure, record: &Record) -> Option<Foretold> {
     let body = structure.body::<f64>();
     // rounding of what decks give to a body that has none

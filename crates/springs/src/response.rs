@@ -1,4 +1,5 @@
-//! The frequency response of one chain under the mass: the amplitude response ratio (ARR), equations (5) to (7).
+//! The frequency response of one chain under the mass: the amplitude response ratio (ARR),
+//! equations (5) to (7).
 //!
 //! ```text
 //!  (5)  (k1 - m1 w^2) u1 - k1 u2 = P0 ;   (k1 + k2 + i w c - m2 w^2) u2 - k1 u1 = 0
@@ -8,8 +9,9 @@
 //!               (2 mu xi g)^2 (g^2 - 1)^2 + [mu g^2 (g^2 - f^2) + mu f^2 - g^2 (1 + mu)]^2
 //! ```
 //!
-//! ARR = |u1| / x_st, x_st = P0/k1; the gap counts as closed. mu = m2/m1, f = omega_a/Omega_n, xi = c/(2 m2 Omega_n),
-//! g = omega/Omega_n: no units. Stiffness ratio K = k2/k1 = mu f^2, damping number C = c/(m1 Omega_n) = 2 mu xi.
+//! ARR = |u1| / x_st, x_st = P0/k1; the gap counts as closed. mu = m2/m1, f = omega_a/Omega_n, xi =
+//! c/(2 m2 Omega_n), g = omega/Omega_n: no units. Stiffness ratio K = k2/k1 = mu f^2, damping
+//! number C = c/(m1 Omega_n) = 2 mu xi.
 
 use rocking::scalar::{Scalar, real};
 
@@ -28,9 +30,11 @@ pub struct Response<S> {
     pub c: S,
 }
 
-/// ARR of equation (7) at frequency ratio g, for mass ratio mu, frequency ratio f and damping ratio xi.
+/// ARR of equation (7) at frequency ratio g, for mass ratio mu, frequency ratio f and damping ratio
+/// xi.
 ///
-/// Infinite at a resonance without damping (xi = 0), where it has no derivative; finite everywhere else.
+/// Infinite at a resonance without damping (xi = 0), where it has no derivative; finite everywhere
+/// else.
 ///
 /// ```
 /// // far above resonance only the mass resists: ARR = 1/g^2
@@ -50,8 +54,9 @@ impl<S: Scalar> Response<S> {
     pub fn arr(&self, g: S) -> S {
         let Self { mu, k, c } = *self;
         let one = S::one();
-        // In x = g^2, with (x - 1)(mu x - K) - x for the last bracket, which cancels less; above g = 1 numerator
-        // and denominator are divided by x^2 and x^4, so that no power of a large g overflows.
+        // In x = g^2, with (x - 1)(mu x - K) - x for the last bracket, which cancels less; above g
+        // = 1 numerator and denominator are divided by x^2 and x^4, so that no power of a large g
+        // overflows.
         if g.re() <= 1.0 {
             let x = g * g;
             let above = c * c * x + (one + k - mu * x).powi(2);
@@ -65,12 +70,14 @@ impl<S: Scalar> Response<S> {
         }
     }
 
-    /// ARR at g = 0, whatever the damping: 1 + 1/K, the compliance of k1 and k2 in series over that of k1.
+    /// ARR at g = 0, whatever the damping: 1 + 1/K, the compliance of k1 and k2 in series over that
+    /// of k1.
     pub fn at_zero(&self) -> S {
         S::one() + self.k.recip()
     }
 
-    /// The two fixed points, lower first: the g at which ARR does not depend on the damping, and is 1/|1 - g^2|.
+    /// The two fixed points, lower first: the g at which ARR does not depend on the damping, and is
+    /// 1/|1 - g^2|.
     ///
     /// Roots x = g^2 of 2 mu x^2 - 2 (1 + K + mu) x + 1 + 2 K = 0.
     pub fn fixed_points(&self) -> [S; 2] {
@@ -82,7 +89,8 @@ impl<S: Scalar> Response<S> {
         [((one + k * two) / sum).sqrt(), (sum / (mu * two)).sqrt()]
     }
 
-    /// The two resonances without damping, lower first [-]: zeros of the denominator of (7) at C = 0.
+    /// The two resonances without damping, lower first [-]: zeros of the denominator of (7) at C =
+    /// 0.
     ///
     /// Roots x = g^2 of mu x^2 - (1 + K + mu) x + K = 0.
     pub(crate) fn resonances(&self) -> [S; 2] {
@@ -127,7 +135,8 @@ mod tests {
         for response in cases() {
             for g in G {
                 let oracle = of_equation_5(&response, g);
-                // the 2 x 2 solve loses what cancels in its determinant: at most 1e4 roundings in these cases
+                // the 2 x 2 solve loses what cancels in its determinant: at most 1e4 roundings in
+                // these cases
                 assert_relative_eq!(response.arr(g), oracle, max_relative = 1e-12);
             }
         }
@@ -198,8 +207,8 @@ mod tests {
         assert_relative_eq!(slope[2], -2.0 / (mu * f * f * f), max_relative = 1e-14);
     }
 
-    /// Complex step: the derivative of an analytic function without cancellation. ARR = sqrt(N/D) of (7) continued to
-    /// complex arguments, written out as printed.
+    /// Complex step: the derivative of an analytic function without cancellation. ARR = sqrt(N/D)
+    /// of (7) continued to complex arguments, written out as printed.
     fn printed([g, mu, f, xi]: [Complex64; 4]) -> Complex64 {
         let damping = (2.0 * mu * xi * g).powi(2);
         let above = damping + (1.0 + mu * (f * f - g * g)).powi(2);
@@ -241,7 +250,8 @@ mod tests {
             after[j] += 1e-5;
             before[j] -= 1e-5;
             let difference = (slope(&after) - slope(&before)) / 2e-5;
-            // central differences of step h: relative error h^2 = 1e-10 times third over first derivatives (~100)
+            // central differences of step h: relative error h^2 = 1e-10 times third over first
+            // derivatives (~100)
             assert_relative_eq!(second.column(j).into_owned(), difference, epsilon = 1e-8 * second.norm());
         }
     }

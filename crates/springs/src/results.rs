@@ -1,4 +1,5 @@
-//! What a run found, as data: peaks, design forces, findings. Words for them are in `findings` alone; `report` lays them out.
+//! What a run found, as data: peaks, design forces, findings. Words for them are in `findings`
+//! alone; `report` lays them out.
 
 pub mod findings;
 pub mod forces;

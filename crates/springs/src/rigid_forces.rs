@@ -1,4 +1,5 @@
-//! Forces of a rigid body to design with: those of Housner's body, which no spring enters, beside the same on springs.
+//! Forces of a rigid body to design with: those of Housner's body, which no spring enters, beside
+//! the same on springs.
 //!
 //! ```text
 //!   F, N            horizontal and vertical force of the ground on the body (`regime`)
@@ -7,8 +8,8 @@
 //!                   shear moment/|D|;  standing, both feet take F/2:  moment W b/2
 //! ```
 //!
-//! An impact's impulse is not among them. A force holds if, later than 0.1/p after every touch-down, its largest value on the
-//! springs is within 5 % of Housner's.
+//! An impact's impulse is not among them. A force holds if, later than 0.1/p after every
+//! touch-down, its largest value on the springs is within 5 % of Housner's.
 
 use crate::{
     answers::{MemberHistory, ModelComparison},
@@ -26,11 +27,13 @@ use rocking::{
 };
 use strong_motion::Record;
 
-/// Column shear, moment and axial force: of a block about its base, of an A-frame's legs at the apex.
+/// Column shear, moment and axial force: of a block about its base, of an A-frame's legs at the
+/// apex.
 type ForceRow = [f64; 3];
 
-/// The forces of a run. Where Housner's body cannot tell them, with members or beyond the end of his solution, they are those of the history
-/// on springs, which `softer` follows on springs of a quarter of Omega_n.
+/// The forces of a run. Where Housner's body cannot tell them, with members or beyond the end of
+/// his solution, they are those of the history on springs, which `softer` follows on springs of a
+/// quarter of Omega_n.
 pub fn design_forces(
     kind: Kind,
     body: &Body<f64>,
@@ -115,7 +118,8 @@ fn of_housner(kind: Kind, body: &Body<f64>, record: &Record, rocking: &Rocking<f
     forces.into_iter().enumerate().take(samples).map(row).collect()
 }
 
-/// Column shear, moment, axial force for forces (H, N) of the left and the right foot of a body that leans by theta.
+/// Column shear, moment, axial force for forces (H, N) of the left and the right foot of a body
+/// that leans by theta.
 fn rows(kind: Kind, body: &Body<f64>, theta: f64, feet: [[f64; 2]; 2]) -> ForceRow {
     let [[left_h, left_n], [right_h, right_n]] = feet;
     if kind == Kind::Block {
@@ -133,7 +137,8 @@ fn rows(kind: Kind, body: &Body<f64>, theta: f64, feet: [[f64; 2]; 2]) -> ForceR
     [0, 1, 2].map(|k| if legs[0][k].abs() >= legs[1][k].abs() { legs[0][k] } else { legs[1][k] })
 }
 
-/// Largest shear at the sole, column shear, moment and axial force of a history on springs, over these samples.
+/// Largest shear at the sole, column shear, moment and axial force of a history on springs, over
+/// these samples.
 fn on_springs(
     kind: Kind,
     body: &Body<f64>,
@@ -175,7 +180,8 @@ mod tests {
         design_forces(structure.kind, &body, &record, &both, None)
     }
 
-    /// Standing under a_g: shear m a_g, axial W; a leg carries a moment of W b/2 at the apex whatever the ground does.
+    /// Standing under a_g: shear m a_g, axial W; a leg carries a moment of W b/2 at the apex
+    /// whatever the ground does.
     #[test]
     fn a_standing_frame_bears_what_statics_say() {
         let frame = Structure::a_frame(9.0, 2.1, 120e3).unwrap();
@@ -189,7 +195,8 @@ mod tests {
         assert!(all.column_base_moment_nm.is_none());
     }
 
-    /// A block that stands in a ground motion presses on the ground by its weight, however fast the two feet exchange it.
+    /// A block that stands in a ground motion presses on the ground by its weight, however fast the
+    /// two feet exchange it.
     #[test]
     fn a_standing_block_carries_its_weight_whatever_the_ground_does() {
         let block = Structure::block(1.2, 0.6, 300.0).unwrap();
@@ -200,7 +207,8 @@ mod tests {
         assert!(axial.change.unwrap() < 1e-3, "{axial:?}");
     }
 
-    /// A block's base moment is at most W b, which it reaches when it lifts; its shear then is m g tan(alpha).
+    /// A block's base moment is at most W b, which it reaches when it lifts; its shear then is m g
+    /// tan(alpha).
     #[test]
     fn a_block_that_rocks_carries_its_weight_on_one_corner() {
         let block = Structure::block(2.0, 0.5, 1000.0).unwrap();
@@ -209,7 +217,8 @@ mod tests {
         let (weight, b) = (block.mass_kg * GRAVITY, 0.25);
         let moment = all.column_base_moment_nm.unwrap();
         assert!(moment.holds, "{moment:?}");
-        // the weight on a corner, less what the body's fall and turning take, at most plus the centrifugal part
+        // the weight on a corner, less what the body's fall and turning take, at most plus the
+        // centrifugal part
         assert!((0.8..1.2).contains(&(moment.value.unwrap().abs() / (weight * b))), "{moment:?}");
         let shear = all.column_shear_n.unwrap();
         assert!(shear.holds && shear.value.unwrap().abs() < 1.5 * 1000.0 * 4.0, "{shear:?}");

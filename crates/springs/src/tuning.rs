@@ -1,5 +1,5 @@
-//! Finding springs: the inner design (mu, f, xi), by the paper's frequency response or from the geometry; Omega_n; and what
-//! uses them.
+//! Finding springs: the inner design (mu, f, xi), by the paper's frequency response or from the
+//! geometry; Omega_n; and what uses them.
 
 pub mod paper_procedure;
 

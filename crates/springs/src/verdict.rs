@@ -1,4 +1,5 @@
-//! What a run found, in a form that can be filed: what the body did in both models, and whether the two can be compared.
+//! What a run found, in a form that can be filed: what the body did in both models, and whether the
+//! two can be compared.
 
 use serde::{Deserialize, Serialize};
 
@@ -38,7 +39,8 @@ pub struct Answer {
     /// When Housner's pivot let go of the ground, which ends his solution (s).
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub left_ground_s: Option<f64>,
-    /// Largest |theta|/alpha, of a body that overturned or left the ground up to then; zero if it never lifted.
+    /// Largest |theta|/alpha, of a body that overturned or left the ground up to then; zero if it
+    /// never lifted.
     pub peak_ratio: f64,
 }
 
@@ -126,8 +128,8 @@ impl Verdict {
         Self { housner_without_vertical: Some(Answer::of_housner(body, dt, level)), ..self }
     }
 
-    /// Whether both models say the same: overturned, rocked, or stayed down. Where Housner's body leaves the ground only the finite
-    /// elements say it, and nothing disagrees with them.
+    /// Whether both models say the same: overturned, rocked, or stayed down. Where Housner's body
+    /// leaves the ground only the finite elements say it, and nothing disagrees with them.
     pub fn agrees(&self) -> bool {
         match self.housner.fate {
             Fate::Failed => false,

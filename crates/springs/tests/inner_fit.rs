@@ -1,9 +1,12 @@
-//! The inner fit against closed forms, published-by-hand searches, brute force and its own certificate.
+//! The inner fit against closed forms, published-by-hand searches, brute force and its own
+//! certificate.
 //!
-//! With x = g^2, K = mu f^2, C = 2 mu xi, the default target asks for the smallest largest ARR over all g:
+//! With x = g^2, K = mu f^2, C = 2 mu xi, the default target asks for the smallest largest ARR over
+//! all g:
 //!
 //! - small mu: ARR(0) = 1 + 1/K and the lower fixed point hold it, mu = (2K - 1)(1 + K)^2 / (2K);
-//! - large mu: two peaks near the fixed points hold it, f^2 about (mu - 1)/mu, ARR about sqrt(2 mu).
+//! - large mu: two peaks near the fixed points hold it, f^2 about (mu - 1)/mu, ARR about sqrt(2
+//!   mu).
 
 use springs::response::Response;
 use springs::response::bounds::{Bounds, k_min_for_settlement};
@@ -82,7 +85,8 @@ fn large_mass_ratios_tend_to_equal_fixed_points() {
     assert!((fit.peak / (2.0 * fit.mu).sqrt() - 1.0).abs() < 1e-3, "{}", fit.peak);
 }
 
-/// The certificate is of first order, hence local; a coarse look at the whole plane of K and C finds nothing lower.
+/// The certificate is of first order, hence local; a coarse look at the whole plane of K and C
+/// finds nothing lower.
 #[test]
 fn no_design_on_a_coarse_grid_is_better() {
     let frequencies: Vec<f64> = (0..400).map(|i| 10f64.powf(-2.0 + 0.01 * f64::from(i))).collect();
@@ -94,8 +98,8 @@ fn no_design_on_a_coarse_grid_is_better() {
                 let c = 10f64.powf(-2.0 + f64::from(j) / 15.0);
                 let response = Response { mu, k, c };
                 let peak = frequencies.iter().fold(response.at_zero(), |peak: f64, &g| peak.max(response.arr(g)));
-                // a grid in g sees less than the true peak: by at most half its step, 1.2 %, times the slope there;
-                // no design is seen below the fit by so much
+                // a grid in g sees less than the true peak: by at most half its step, 1.2 %, times
+                // the slope there; no design is seen below the fit by so much
                 assert!(peak > 0.998 * fit.peak, "mu {mu} K {k} C {c}: {peak} < {}", fit.peak);
             }
         }
@@ -156,7 +160,8 @@ fn a_target_of_three_bands_is_certified_and_its_excess_true() {
                 g => ln_arr + 2.0 * g.ln() - 1.2_f64.ln(),
             });
         }
-        // the scan's step in ln g is 3.5e-4; at a peak it misses of order its square, at a band's end its first power
+        // the scan's step in ln g is 3.5e-4; at a peak it misses of order its square, at a band's
+        // end its first power
         assert!(excess <= fit.excess + 1e-12 && excess > fit.excess - 2e-3, "mu {mu}: {excess} {}", fit.excess);
     }
 }

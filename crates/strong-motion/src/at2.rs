@@ -1,4 +1,5 @@
-//! PEER AT2: title lines, a line with NPTS and DT in one of two forms, then the samples, any number to a line.
+//! PEER AT2: title lines, a line with NPTS and DT in one of two forms, then the samples, any number
+//! to a line.
 //!
 //! ```text
 //! ACCELERATION TIME HISTORY IN UNITS OF G
@@ -13,7 +14,8 @@ use super::{RecordError, header, units};
 /// How far down the line with NPTS may stand.
 const HEADER_LINES: usize = 50;
 
-/// The line with NPTS, unless a comment mark says that the file is a table with a header of its own.
+/// The line with NPTS, unless a comment mark says that the file is a table with a header of its
+/// own.
 pub(super) fn header_line(text: &str) -> Option<(usize, &str)> {
     lines(text)
         .take(HEADER_LINES)

@@ -1,4 +1,5 @@
-//! Which column of a table is the acceleration: by its number, counted from 1, or by its name in the header.
+//! Which column of a table is the acceleration: by its number, counted from 1, or by its name in
+//! the header.
 
 use std::{convert::Infallible, str::FromStr};
 
@@ -37,7 +38,8 @@ impl TableColumn {
 /// What a column is called beside its number.
 const WORD: &str = "column";
 
-/// Index of the column that is asked for: "column 3", or a name of the header, with its unit or without.
+/// Index of the column that is asked for: "column 3", or a name of the header, with its unit or
+/// without.
 pub(super) fn find(wanted: &str, columns: usize, names: &[&str]) -> Option<usize> {
     let wanted = wanted.trim();
     let number = wanted.strip_prefix(WORD).and_then(|number| number.trim().parse::<usize>().ok());

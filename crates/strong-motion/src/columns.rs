@@ -1,6 +1,7 @@
-//! Columns of text: (time, acceleration), acceleration alone, bare values in several columns, read row by row, or a table of
-//! which one column is asked for. They are separated by commas, semicolons, tabs or blanks, below any number of header lines; lines that start with #, % or // are
-//! comments.
+//! Columns of text: (time, acceleration), acceleration alone, bare values in several columns, read
+//! row by row, or a table of which one column is asked for. They are separated by commas,
+//! semicolons, tabs or blanks, below any number of header lines; lines that start with #, % or //
+//! are comments.
 
 use super::column;
 use super::header::{self, is_comment, step_in};
@@ -14,7 +15,8 @@ const ONE_SIGN_ROWS: usize = 20;
 /// Whole numbers beyond this are counts: in cm/s2 it is 5 g.
 const LARGEST_WHOLE: f64 = 5000.0;
 
-/// The samples, in the file's own unit; the time step comes from the time column, else from the header.
+/// The samples, in the file's own unit; the time step comes from the time column, else from the
+/// header.
 pub(super) fn parse(file: &str, text: &str, options: &ReadOptions) -> Result<Parsed, RecordError> {
     let table = NumberTable::read(file, text)?;
     let names = table.names();
@@ -88,7 +90,8 @@ impl<'a> NumberTable<'a> {
     fn read(file: &str, text: &'a str) -> Result<Self, RecordError> {
         let file_name = || file.to_owned();
         let mut table = Self { whole: true, ..Self::default() };
-        // Where the first line with a comma and no point stands: evidence of decimal commas if no line ever has a point.
+        // Where the first line with a comma and no point stands: evidence of decimal commas if no
+        // line ever has a point.
         let mut comma: Option<(usize, &str)> = None;
         for (line, content) in lines(text).filter(|(_, content)| !content.is_empty()) {
             if is_comment(content) {
@@ -158,8 +161,8 @@ impl<'a> NumberTable<'a> {
         if names.len() == self.columns { names } else { Vec::new() }
     }
 
-    /// Whether the numbers of several columns are one series, row by row: a time step is given, and the first column is no
-    /// time.
+    /// Whether the numbers of several columns are one series, row by row: a time step is given, and
+    /// the first column is no time.
     fn is_bare(&self, file: &str, options: &ReadOptions, names: &[&str]) -> Result<bool, RecordError> {
         let bare = options.dt.is_some() && names.is_empty() && !self.times.run_upwards();
         if self.columns == 2 && !(bare && self.times.run_to_and_fro()) {
@@ -177,7 +180,8 @@ impl<'a> NumberTable<'a> {
         Err(RecordError::TooManyColumns { file: file.to_owned(), line: self.first_line, found: self.columns, columns })
     }
 
-    /// The table of the times, if there are any, and the column that is asked for, and the names of both.
+    /// The table of the times, if there are any, and the column that is asked for, and the names of
+    /// both.
     fn chosen(self, file: &str, wanted: &str, names: &[&'a str]) -> Result<(Self, Vec<&'a str>), RecordError> {
         let file = || file.to_owned();
         if let Some((line, found)) = self.short {
@@ -232,7 +236,8 @@ impl<'a> NumberTable<'a> {
     }
 }
 
-/// The fields of a line: between semicolons if it has any, else between commas, else between blanks.
+/// The fields of a line: between semicolons if it has any, else between commas, else between
+/// blanks.
 fn fields(content: &str) -> Vec<&str> {
     let clean = |field: &'_ str| field.trim().trim_matches('"').trim().len();
     let separator = [';', ','].into_iter().find(|&c| content.contains(c));
@@ -259,7 +264,8 @@ fn has_decimal_commas(content: &str) -> bool {
     }) && commas > 0
 }
 
-/// A line right above the data that begins with a number and has as many fields is data gone wrong, not a header.
+/// A line right above the data that begins with a number and has as many fields is data gone wrong,
+/// not a header.
 fn damaged_first_line(file: &str, above: Option<&(usize, &str)>, columns: usize) -> Result<(), RecordError> {
     let Some((line, content)) = above.filter(|(_, content)| !is_comment(content)) else { return Ok(()) };
     let fields = fields(content);

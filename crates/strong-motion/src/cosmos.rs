@@ -1,9 +1,12 @@
-//! COSMOS strong-motion format, version 1.20 and alike: V1 (uncorrected) and V2c (corrected), one or several channels a file.
+//! COSMOS strong-motion format, version 1.20 and alike: V1 (uncorrected) and V2c (corrected), one
+//! or several channels a file.
 //!
-//! Each channel: lines of text (the first says how many), a block of integers and one of numbers, comments, each below a
-//! line with its count and Fortran format, then the samples below a line with their count, unit code and format, and a line
-//! that ends the data. Integer 54 is the azimuth or a code for up; number 62 is the time step in ms (number 34 that of the raw
-//! record, which may differ), 64 and 65 are the largest value and its time. Unknown values are written as line 13 says.
+//! Each channel: lines of text (the first says how many), a block of integers and one of numbers,
+//! comments, each below a line with its count and Fortran format, then the samples below a line
+//! with their count, unit code and format, and a line that ends the data. Integer 54 is the azimuth
+//! or a code for up; number 62 is the time step in ms (number 34 that of the raw record, which may
+//! differ), 64 and 65 are the largest value and its time. Unknown values are written as line 13
+//! says.
 
 use super::fortran::{Cursor, FortranFormat, Promise, half_digit};
 use super::parsed::{Channel, Parsed, Samples};
@@ -103,7 +106,8 @@ impl<'a> CosmosHeader<'a> {
         Ok(Self { text, integers, integers_line, numbers, numbers_line, code, unknown })
     }
 
-    /// A number of the header, counted from 1 as in the description of the format, unless it is unknown.
+    /// A number of the header, counted from 1 as in the description of the format, unless it is
+    /// unknown.
     fn real(&self, i: usize) -> Option<(f64, &'a str)> {
         let printed = self.numbers.get(i - 1)?;
         Some((number(printed).filter(|x| x.is_finite() && *x != self.unknown)?, printed))
@@ -138,7 +142,8 @@ impl<'a> CosmosHeader<'a> {
         Some(words.join(" ")).filter(|words| !words.is_empty())
     }
 
-    /// Name and direction: the azimuth or the code of integer 54, else the words of the text, else the channel code.
+    /// Name and direction: the azimuth or the code of integer 54, else the words of the text, else
+    /// the channel code.
     fn component(&self) -> (Option<String>, Direction) {
         // `Sta Chan   1: 340 deg (Rcrdr Chan  1) Location:`; some write `Sta Cha:  1: 340 deg`
         let words = self.text.iter().find_map(|line| line.trim_start().strip_prefix("Sta Cha"));
@@ -181,7 +186,8 @@ struct CosmosSeries<'a> {
 }
 
 impl<'a> CosmosSeries<'a> {
-    /// The next series, if one comes: `7000 acceleration pts, approx 70 secs, units=cm/sec2(04),Format=(8F10.5)`.
+    /// The next series, if one comes: `7000 acceleration pts, approx 70 secs,
+    /// units=cm/sec2(04),Format=(8F10.5)`.
     fn next(cursor: &mut Cursor<'a>) -> Result<Option<Self>, RecordError> {
         let line = cursor.number();
         let Some(text) = cursor.peek() else { return Ok(None) };

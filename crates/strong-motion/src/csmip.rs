@@ -1,7 +1,9 @@
-//! CSMIP .V2 (California's network, CESMD): text lines, 100 integers (16I5), 100 numbers (8F10), then acceleration, velocity
-//! and displacement, each below a line that gives count, time step, unit and format; `/&` ends a channel.
+//! CSMIP .V2 (California's network, CESMD): text lines, 100 integers (16I5), 100 numbers (8F10),
+//! then acceleration, velocity and displacement, each below a line that gives count, time step,
+//! unit and format; `/&` ends a channel.
 //!
-//! The time step in these lines has three decimals; number 53 of the header gives more. Uncorrected files (.V1) are not read.
+//! The time step in these lines has three decimals; number 53 of the header gives more. Uncorrected
+//! files (.V1) are not read.
 
 use super::fortran::{Block, Cursor, FortranFormat, Promise, half_digit};
 use super::parsed::{Channel, Parsed, Samples};

@@ -107,7 +107,8 @@ impl fmt::Display for Direction {
 mod tests {
     use super::*;
 
-    /// The bearings of GeoNet's files beside the degrees of their integer headers (332, 242, 196, 106, 90).
+    /// The bearings of GeoNet's files beside the degrees of their integer headers (332, 242, 196,
+    /// 106, 90).
     #[test]
     fn bearings_and_degrees_are_read() {
         for (words, degrees) in [

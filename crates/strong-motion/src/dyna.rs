@@ -1,4 +1,5 @@
-//! ESM, ITACA and AFAD (DYNA 1.x): lines `KEY: value`, then one value to a line, one component a file.
+//! ESM, ITACA and AFAD (DYNA 1.x): lines `KEY: value`, then one value to a line, one component a
+//! file.
 //!
 //! ```text
 //! SAMPLING_INTERVAL_S: 0.005000

@@ -15,7 +15,8 @@ pub struct Excitation {
     pub duration_s: Option<f64>,
 }
 
-/// A vertical component that is left out, beside the horizontal one: peaks of the whole file, scaled.
+/// A vertical component that is left out, beside the horizontal one: peaks of the whole file,
+/// scaled.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct VerticalLeftOut {
     pub peak_g: f64,
@@ -50,7 +51,8 @@ impl Excitation {
         Ok(self.scaled()?.truncated(self.duration()))
     }
 
-    /// The vertical component that the record's file has and that is not used; `None` if there is none, or if it is used.
+    /// The vertical component that the record's file has and that is not used; `None` if there is
+    /// none, or if it is used.
     pub fn vertical_left_out(&self) -> Option<VerticalLeftOut> {
         let Source::File { vertical_left_out_g: Some(peak_g), .. } = self.record.source else { return None };
         let scale = self.scale.abs();
@@ -58,8 +60,8 @@ impl Excitation {
         self.record.vertical.is_none().then_some(left_out)
     }
 
-    /// The same ground motion with the vertical component of the record's file, which is read again; `None` if that is not left
-    /// out.
+    /// The same ground motion with the vertical component of the record's file, which is read
+    /// again; `None` if that is not left out.
     ///
     /// # Errors
     /// The file cannot be read any more, or has several vertical components.

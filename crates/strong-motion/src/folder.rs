@@ -10,7 +10,8 @@ const EXTENSIONS: [&str; 16] =
     ["at2", "txt", "csv", "dat", "acc", "asc", "v1", "v2", "v1a", "v2a", "v1c", "v2c", "ns", "ew", "ns2", "ew2"];
 
 impl Record {
-    /// The record files of a folder (by their endings, in any case; not of its subfolders), sorted by name.
+    /// The record files of a folder (by their endings, in any case; not of its subfolders), sorted
+    /// by name.
     ///
     /// # Errors
     /// The folder cannot be listed, or holds no such file.

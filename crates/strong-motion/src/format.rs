@@ -71,7 +71,8 @@ impl RecordFormat {
         }
     }
 
-    /// The format of a text that is a ground motion, by its first lines or by its columns of numbers.
+    /// The format of a text that is a ground motion, by its first lines or by its columns of
+    /// numbers.
     pub fn recognised(text: &str) -> Option<Self> {
         let format = Self::of(text);
         (format != Self::Columns || columns::hold_numbers(text)).then_some(format)

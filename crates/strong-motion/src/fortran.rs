@@ -1,4 +1,5 @@
-//! Numbers in fixed formats, as Fortran programs write them: `(8F10.5)` is eight fields of ten characters to a line.
+//! Numbers in fixed formats, as Fortran programs write them: `(8F10.5)` is eight fields of ten
+//! characters to a line.
 
 use super::text::{number, precision, quote, raw_lines};
 use super::{RecordError, RecordFormat};
@@ -22,7 +23,8 @@ impl FortranFormat {
         ((1..=1000).contains(&per_line) && (1..=100).contains(&width)).then_some(Self { per_line, width })
     }
 
-    /// The fields of a line that should hold `expected`: between blanks if that many numbers come out, else by columns.
+    /// The fields of a line that should hold `expected`: between blanks if that many numbers come
+    /// out, else by columns.
     fn fields(self, line: &str, expected: usize) -> Vec<&str> {
         let apart: Vec<&str> = line.split_whitespace().collect();
         if apart.len() == expected && apart.iter().all(|field| number(field).is_some()) {

@@ -1,9 +1,12 @@
-//! GeoNet, New Zealand: V2A (corrected) and V1A (uncorrected), after the description of the formats that GeoNet publishes.
+//! GeoNet, New Zealand: V2A (corrected) and V1A (uncorrected), after the description of the formats
+//! that GeoNet publishes.
 //!
-//! Each component, one after the other: 16 lines of text, 40 integers (10I8), 60 numbers (10F8), then acceleration,
-//! velocity and displacement (10F8) in mm and s; in a V1A file acceleration alone. Integers 34 to 36 count the samples,
-//! number 26 is their time step. The header's clock is that of the uncorrected record, to which a corrected one has
-//! samples prepended: number 22 says how many seconds, and the first sample is that long before zero. A number too long for its eight characters loses its decimals.
+//! Each component, one after the other: 16 lines of text, 40 integers (10I8), 60 numbers (10F8),
+//! then acceleration, velocity and displacement (10F8) in mm and s; in a V1A file acceleration
+//! alone. Integers 34 to 36 count the samples, number 26 is their time step. The header's clock is
+//! that of the uncorrected record, to which a corrected one has samples prepended: number 22 says
+//! how many seconds, and the first sample is that long before zero. A number too long for its eight
+//! characters loses its decimals.
 
 use super::fortran::{Block, Cursor, FortranFormat, Promise, half_digit};
 use super::parsed::{Channel, Parsed, Samples};

@@ -1,4 +1,5 @@
-//! What the words of a free header say of the numbers below them: a quantity that is not acceleration, a time step.
+//! What the words of a free header say of the numbers below them: a quantity that is not
+//! acceleration, a time step.
 
 use super::text::{number, precision};
 use super::units::{self, normalised, occurrences};
@@ -13,8 +14,8 @@ pub(super) fn is_comment(line: &str) -> bool {
     line.starts_with(['#', '%', '!']) || line.starts_with("//")
 }
 
-/// What a header speaks of, when that is not acceleration: by the names of its columns, its lines about the time series or
-/// its unit, or any line where none names acceleration.
+/// What a header speaks of, when that is not acceleration: by the names of its columns, its lines
+/// about the time series or its unit, or any line where none names acceleration.
 pub(super) fn quantity(header: &[(usize, &str)], names: &[&str]) -> Option<&'static str> {
     by_names(names).or_else(|| by_words(header))
 }
@@ -94,7 +95,8 @@ fn by_words(header: &[(usize, &str)]) -> Option<&'static str> {
     })
 }
 
-/// The time step in a header line such as `# dt = 0.01 s`, `SAMPLING_INTERVAL_S: 0.005`, and half its last digit.
+/// The time step in a header line such as `# dt = 0.01 s`, `SAMPLING_INTERVAL_S: 0.005`, and half
+/// its last digit.
 pub(super) fn step_in(line: &str) -> Option<(f64, f64)> {
     let lower = line.to_ascii_lowercase();
     let is_word = |at: usize, name: &str| {

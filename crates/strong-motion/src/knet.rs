@@ -1,4 +1,5 @@
-//! K-NET and KiK-net, Japan (NIED): 17 lines of header, then whole numbers, eight to a line, one component a file.
+//! K-NET and KiK-net, Japan (NIED): 17 lines of header, then whole numbers, eight to a line, one
+//! component a file.
 //!
 //! ```text
 //! Sampling Freq(Hz) 100Hz
@@ -8,8 +9,8 @@
 //!     8009     9006     7998     8001     8009     8007     8002     8005
 //! ```
 //!
-//! The acceleration is the numbers times the scale factor, less their mean over the whole record; the header's largest
-//! acceleration is that of the result, without its sign.
+//! The acceleration is the numbers times the scale factor, less their mean over the whole record;
+//! the header's largest acceleration is that of the result, without its sign.
 
 use super::fortran::Cursor;
 use super::parsed::{Channel, Parsed, Samples, mean};

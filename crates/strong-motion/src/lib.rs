@@ -1,13 +1,15 @@
 //! Ground motions: acceleration at even time steps, from files or embedded.
 //!
-//! A record is the ground acceleration u_g''(t) in m/s2, positive to the right, `accel[i]` at t = i dt, linear between
-//! samples: the kinks at the samples are part of the motion, and solvers step from one to the next. Numbers in g are
-//! turned into m/s2 with g = 9.81 m/s2 ([`GRAVITY`]).
+//! A record is the ground acceleration u_g''(t) in m/s2, positive to the right, `accel[i]` at t = i
+//! dt, linear between samples: the kinks at the samples are part of the motion, and solvers step
+//! from one to the next. Numbers in g are turned into m/s2 with g = 9.81 m/s2 ([`GRAVITY`]).
 //!
-//! Files: PEER AT2, GeoNet V1A and V2A, COSMOS V1 and V2c, CSMIP .V2, K-NET and KiK-net, ESM/ITACA/AFAD, and text columns,
-//! recognised by what they say and not by their names ([`RecordFormat`]). What a file does not say (unit, time step) must be
-//! given; what it says and the user says must agree, and the samples must have the peak that a header gives. A file may
-//! have several components ([`Recording`]): a record is the one asked for, else the stronger horizontal one.
+//! Files: PEER AT2, GeoNet V1A and V2A, COSMOS V1 and V2c, CSMIP .V2, K-NET and KiK-net,
+//! ESM/ITACA/AFAD, and text columns, recognised by what they say and not by their names
+//! ([`RecordFormat`]). What a file does not say (unit, time step) must be given; what it says and
+//! the user says must agree, and the samples must have the peak that a header gives. A file may
+//! have several components ([`Recording`]): a record is the one asked for, else the stronger
+//! horizontal one.
 
 // what is printed goes through the program's `commands/terminal`
 #![cfg_attr(not(test), deny(clippy::print_stdout, clippy::print_stderr))]
@@ -65,7 +67,8 @@ const PGA_LIMIT_G: f64 = 50.0;
 /// Acceleration of gravity (m/s2).
 pub const GRAVITY: f64 = 9.81;
 
-/// A ground motion, linear between its samples. Two are equal if their names and numbers are, wherever they come from.
+/// A ground motion, linear between its samples. Two are equal if their names and numbers are,
+/// wherever they come from.
 #[derive(Clone, Debug)]
 pub struct Record {
     /// Name: the file's, without its ending.
@@ -93,12 +96,14 @@ pub struct ReadOptions {
     pub dt: Option<f64>,
     /// Unit of the numbers in the file.
     pub units: Option<Units>,
-    /// Component to take, by name or by azimuth (degrees clockwise from north); the stronger horizontal one unless given. Of a
-    /// table of several columns the one to take: "column 3", or its name in the header.
+    /// Component to take, by name or by azimuth (degrees clockwise from north); the stronger
+    /// horizontal one unless given. Of a table of several columns the one to take: "column 3", or
+    /// its name in the header.
     pub component: Option<String>,
     /// Subtract the mean of the samples.
     pub baseline: bool,
-    /// Where to take the vertical component from; none unless given. Time step, unit and baseline are those of the record.
+    /// Where to take the vertical component from; none unless given. Time step, unit and baseline
+    /// are those of the record.
     pub vertical: Option<VerticalFrom>,
 }
 
@@ -124,7 +129,8 @@ impl Record {
         Ok(record)
     }
 
-    /// Imperial Valley 1940, El Centro Array #9, component 180 (north-south), PEER processing: 3995 samples, dt 0.01 s.
+    /// Imperial Valley 1940, El Centro Array #9, component 180 (north-south), PEER processing: 3995
+    /// samples, dt 0.01 s.
     pub fn el_centro() -> Self {
         let bytes = include_bytes!("../../../tuning/records/IELC180.AT2");
         // The file is part of the program and a test reads it: the error cannot occur.
@@ -132,16 +138,18 @@ impl Record {
         Self { source: Source::Embedded, ..record.unwrap_or_else(|error| unreachable!("{error}")) }
     }
 
-    /// The record in a file of any supported format; its name is the file's without the ending, and the component's where
-    /// the file has several. [`ReadOptions`] asks for one of them.
+    /// The record in a file of any supported format; its name is the file's without the ending, and
+    /// the component's where the file has several. [`ReadOptions`] asks for one of them.
     ///
     /// # Errors
-    /// The file cannot be read, is no record, is damaged, or does not agree with the options: see [`RecordError`].
+    /// The file cannot be read, is no record, is damaged, or does not agree with the options: see
+    /// [`RecordError`].
     pub fn read(path: &Path, options: &ReadOptions) -> Result<Self, RecordError> {
         Recording::read(path, options).map(Recording::into_record)
     }
 
-    /// The record in the bytes of a file; `file` is the file's path, for the record's name and for messages.
+    /// The record in the bytes of a file; `file` is the file's path, for the record's name and for
+    /// messages.
     ///
     /// # Errors
     /// As [`Record::read`], but for reading the file.
@@ -164,7 +172,8 @@ impl Record {
 
     /// The first `duration_s` seconds: the samples up to that time, at least the first.
     pub fn truncated(&self, duration_s: f64) -> Self {
-        // 1e-6 of a step: 20 s at dt = 0.01 s is 2001 samples although 20/0.01 may round to below 2000
+        // 1e-6 of a step: 20 s at dt = 0.01 s is 2001 samples although 20/0.01 may round to below
+        // 2000
         let steps = (duration_s / self.dt + 1e-6).floor();
         let samples = (steps as usize).saturating_add(1).min(self.accel.len());
         let (name, source) = (self.name.clone(), self.source.clone());

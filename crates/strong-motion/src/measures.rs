@@ -30,8 +30,8 @@ pub struct Measures {
 }
 
 impl Record {
-    /// Ground velocity at the samples (m/s): the integral from rest of the acceleration, linear between samples, less its mean,
-    /// so that the ground is at rest again at the end.
+    /// Ground velocity at the samples (m/s): the integral from rest of the acceleration, linear
+    /// between samples, less its mean, so that the ground is at rest again at the end.
     pub fn velocity(&self) -> Vec<f64> {
         let steps = self.accel.len().saturating_sub(1).max(1) as f64;
         let mut velocity = Vec::with_capacity(self.accel.len());
@@ -93,8 +93,8 @@ pub fn measures(record: &Record) -> Measures {
 mod tests {
     use super::*;
 
-    /// a = A sin(w t) over one period, A = 2, w = 2 pi: v = A/w (1 - cos w t) has the peak 2 A/w at half the period;
-    /// I = pi/(2 g) A^2 T/2.
+    /// a = A sin(w t) over one period, A = 2, w = 2 pi: v = A/w (1 - cos w t) has the peak 2 A/w at
+    /// half the period; I = pi/(2 g) A^2 T/2.
     #[test]
     fn one_sine_has_its_closed_forms() {
         let n = 4000;
@@ -109,8 +109,8 @@ mod tests {
         assert!((m.pulse_period_s - 2.0).abs() < 1e-5, "{m:?}");
     }
 
-    /// A constant acceleration: the Arias intensity grows evenly, 5 to 95 % take 0.9 of the record; the velocity less its
-    /// mean slope is zero.
+    /// A constant acceleration: the Arias intensity grows evenly, 5 to 95 % take 0.9 of the record;
+    /// the velocity less its mean slope is zero.
     #[test]
     fn a_constant_has_its_closed_forms() {
         let m = Record::new("constant", 0.1, vec![3.0; 101]).unwrap().measures();

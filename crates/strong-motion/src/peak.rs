@@ -1,4 +1,5 @@
-//! What a header says of its own peak, and whether the samples have it: the test that a file was read as it was meant.
+//! What a header says of its own peak, and whether the samples have it: the test that a file was
+//! read as it was meant.
 
 use serde::Serialize;
 
@@ -78,7 +79,8 @@ impl<'a> Stated<'a> {
         Some(Self { line, of, value, time, signed: true })
     }
 
-    /// The peak, if the samples have it: its value to half of the last digit printed here and there, its time to one sample.
+    /// The peak, if the samples have it: its value to half of the last digit printed here and
+    /// there, its time to one sample.
     pub(super) fn check(&self, file: &str, clock: Clock, block: &Block) -> Result<Peak, RecordError> {
         self.check_values(file, clock, &block.values, |i| block.half_digit(i))
     }
@@ -127,7 +129,8 @@ impl<'a> Stated<'a> {
     }
 }
 
-/// A printed number without the zeros that fill its field: `-161.962000` was written where three decimals were known.
+/// A printed number without the zeros that fill its field: `-161.962000` was written where three
+/// decimals were known.
 fn significant(printed: &str) -> &str {
     match printed.find('.') {
         Some(point) if printed[point + 1..].bytes().all(|b| b.is_ascii_digit()) => {

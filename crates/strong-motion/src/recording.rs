@@ -15,8 +15,8 @@ pub struct Component {
     pub direction: Direction,
     /// Unit of the numbers in the file, as it says or as was given.
     pub units: Units,
-    /// Time of the first sample on the clock of the header (s): GeoNet's corrected records begin before zero. Times of the
-    /// header's peaks are on this clock.
+    /// Time of the first sample on the clock of the header (s): GeoNet's corrected records begin
+    /// before zero. Times of the header's peaks are on this clock.
     pub start: f64,
     /// Mean of the samples as read (m/s2); the record still has it unless `baseline` was asked for.
     pub offset: f64,
@@ -37,7 +37,8 @@ pub struct Recording {
     pub station: Option<String>,
     /// At least one.
     pub components: Vec<Component>,
-    /// Index of the component that a run takes: the one asked for, else the stronger horizontal one.
+    /// Index of the component that a run takes: the one asked for, else the stronger horizontal
+    /// one.
     pub taken: usize,
     /// Whether the component was asked for.
     asked: bool,
@@ -54,8 +55,8 @@ impl Recording {
     /// The components in a file of any supported format.
     ///
     /// # Errors
-    /// The file cannot be read, is no record, is damaged, does not have the peak that its header gives, or does not agree
-    /// with the options: see [`RecordError`].
+    /// The file cannot be read, is no record, is damaged, does not have the peak that its header
+    /// gives, or does not agree with the options: see [`RecordError`].
     pub fn read(path: &Path, options: &ReadOptions) -> Result<Self, RecordError> {
         let bytes = super::bytes(path)?;
         let without = ReadOptions { vertical: None, ..options.clone() };
@@ -146,7 +147,8 @@ impl Recording {
         }
     }
 
-    /// Peak of the file's vertical component, if a run does not take it: the strongest of several (g).
+    /// Peak of the file's vertical component, if a run does not take it: the strongest of several
+    /// (g).
     pub(crate) fn vertical_left_out(&self) -> Option<f64> {
         if self.vertical.is_some() {
             return None;

@@ -12,8 +12,8 @@ pub enum Source {
     Numbers,
     /// Part of the program: El Centro.
     Embedded,
-    /// A file, as it was named, the unit of its numbers, which of its components it is where it has several, and whether its
-    /// mean was taken off.
+    /// A file, as it was named, the unit of its numbers, which of its components it is where it has
+    /// several, and whether its mean was taken off.
     File {
         /// The file.
         path: PathBuf,
@@ -23,7 +23,8 @@ pub enum Source {
         component: Option<String>,
         /// Whether the mean of the samples was subtracted.
         baseline: bool,
-        /// Peak of the vertical component that the file has and the record does not (g), of the file as it is.
+        /// Peak of the vertical component that the file has and the record does not (g), of the
+        /// file as it is.
         vertical_left_out_g: Option<f64>,
     },
     /// Made from a seed for a structure (`synthetic::record`).
@@ -33,9 +34,9 @@ pub enum Source {
 }
 
 impl Record {
-    /// FNV-1a (64 bit, G. Fowler, L. C. Noll, K.-P. Vo) of dt and the samples, each as the eight bytes of its IEEE 754
-    /// number, least significant first: the same for the same numbers on every machine. It finds a file that was
-    /// replaced, not one that was forged.
+    /// FNV-1a (64 bit, G. Fowler, L. C. Noll, K.-P. Vo) of dt and the samples, each as the eight
+    /// bytes of its IEEE 754 number, least significant first: the same for the same numbers on
+    /// every machine. It finds a file that was replaced, not one that was forged.
     pub fn fingerprint(&self) -> u64 {
         let numbers = std::iter::once(&self.dt).chain(&self.accel);
         fnv1a(numbers.flat_map(|x| x.to_bits().to_le_bytes()))

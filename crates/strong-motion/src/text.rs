@@ -4,8 +4,8 @@ use std::borrow::Cow;
 
 use super::RecordError;
 
-/// The file as text. Bytes that are not UTF-8 (station names in Latin-1) become replacement characters, which no number
-/// survives; control characters mean that this is no text at all.
+/// The file as text. Bytes that are not UTF-8 (station names in Latin-1) become replacement
+/// characters, which no number survives; control characters mean that this is no text at all.
 pub(super) fn decode<'a>(file: &str, bytes: &'a [u8]) -> Result<Cow<'a, str>, RecordError> {
     let bytes = bytes.strip_prefix(b"\xef\xbb\xbf").unwrap_or(bytes);
     let bytes = bytes.strip_suffix(b"\x1a").unwrap_or(bytes); // DOS end-of-file mark
@@ -27,7 +27,8 @@ pub(super) fn raw_lines(text: &str) -> impl Iterator<Item = &str> {
     text.split(end).map(str::trim_end)
 }
 
-/// A number as C, Fortran (`.1E-02`, `1.0D-3`, `1.0-103`) or a spreadsheet prints it; NaN and infinities pass.
+/// A number as C, Fortran (`.1E-02`, `1.0D-3`, `1.0-103`) or a spreadsheet prints it; NaN and
+/// infinities pass.
 pub(super) fn number(token: &str) -> Option<f64> {
     token.parse().ok().or_else(|| fortran(token))
 }
@@ -46,8 +47,8 @@ fn fortran(token: &str) -> Option<f64> {
     (three_digits && mantissa.contains('.')).then(|| format!("{mantissa}e{exponent}").parse().ok())?
 }
 
-/// The numbers of fixed-width fields that touch, `-.123-.456`: split before each sign that follows a digit or a point,
-/// provided that every piece has a decimal point.
+/// The numbers of fixed-width fields that touch, `-.123-.456`: split before each sign that follows
+/// a digit or a point, provided that every piece has a decimal point.
 pub(super) fn touching(token: &str) -> Option<Vec<f64>> {
     let bytes = token.as_bytes();
     let cuts = (1..bytes.len())

@@ -1,8 +1,10 @@
-//! The time column: is it even, apart from the rounding of its printed digits, and what is its step.
+//! The time column: is it even, apart from the rounding of its printed digits, and what is its
+//! step.
 
 use super::RecordError;
 
-/// Unevenness that does not matter, relative to the step: times computed in single precision have it.
+/// Unevenness that does not matter, relative to the step: times computed in single precision have
+/// it.
 const JITTER: f64 = 1e-3;
 
 /// Times as printed, with the lines they stand on.
@@ -10,7 +12,8 @@ const JITTER: f64 = 1e-3;
 pub(super) struct Times {
     times: Vec<f64>,
     lines: Vec<usize>,
-    /// Power of ten of the finest digit in the column, and most significant digits of any number in it.
+    /// Power of ten of the finest digit in the column, and most significant digits of any number in
+    /// it.
     finest: i32,
     significant: i32,
 }
@@ -23,8 +26,8 @@ impl Times {
         self.lines.push(line);
     }
 
-    /// The time step and how far it may be off by the rounding of the printed times (s); at least two times.
-    /// A given step decides where the times are printed too coarsely to show it.
+    /// The time step and how far it may be off by the rounding of the printed times (s); at least
+    /// two times. A given step decides where the times are printed too coarsely to show it.
     pub(super) fn step(&self, file: &str, given: Option<f64>) -> Result<(f64, f64), RecordError> {
         let (Some(first), Some(last)) = (self.times.first(), self.times.last()) else {
             return Err(RecordError::Empty { file: file.to_owned() });
@@ -37,8 +40,8 @@ impl Times {
         if mean > 0.0 && self.spread(mean) <= JITTER * mean {
             return Ok((shortest(mean, accuracy), rounding));
         }
-        // Rounded times lie within one digit of a line; a quarter more is for the line's own error. A missing sample
-        // is a jump by one step, which this allowance stays well below.
+        // Rounded times lie within one digit of a line; a quarter more is for the line's own error.
+        // A missing sample is a jump by one step, which this allowance stays well below.
         let fine = digit < 0.4 * mean;
         let slope = self.slope();
         if fine && self.spread(slope) <= 1.25 * digit {
@@ -55,7 +58,8 @@ impl Times {
         self.times.len() > 2 && self.times.windows(2).all(|pair| pair[1] > pair[0])
     }
 
-    /// They go down often and cross zero, as accelerations do and damaged times do not; at least four of them.
+    /// They go down often and cross zero, as accelerations do and damaged times do not; at least
+    /// four of them.
     pub(super) fn run_to_and_fro(&self) -> bool {
         let falls = self.times.windows(2).filter(|pair| pair[1] < pair[0]).count();
         let both = |sign: f64| self.times.iter().any(|t| t * sign > 0.0);
@@ -74,7 +78,8 @@ impl Times {
         10_f64.powi(self.finest.max(leading - self.significant))
     }
 
-    /// Slope of the least-squares line through the times: rounding of the first and last time does not tilt it (s).
+    /// Slope of the least-squares line through the times: rounding of the first and last time does
+    /// not tilt it (s).
     fn slope(&self) -> f64 {
         let middle = (self.times.len() - 1) as f64 / 2.0;
         let (mut above, mut below) = (0.0, 0.0);

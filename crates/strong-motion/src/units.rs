@@ -68,8 +68,9 @@ impl FromStr for Units {
     }
 }
 
-/// The unit that a file's header declares. Lines that say "unit" speak first, then the line of column names, then any
-/// line that says "accel"; a header that names two units in the same place has declared none.
+/// The unit that a file's header declares. Lines that say "unit" speak first, then the line of
+/// column names, then any line that says "accel"; a header that names two units in the same place
+/// has declared none.
 pub(super) fn declared(header: &[(usize, &str)], column_names: Option<&str>) -> Option<Units> {
     let after_unit = header.iter().filter_map(|(_, line)| {
         let line = normalised(line);
@@ -116,12 +117,14 @@ fn mentions(line: &str, units: Units) -> bool {
     }
 }
 
-/// Whether the line names the unit on its own; after a number it is a quantity ("PGA 0.3 g"), not a declaration.
+/// Whether the line names the unit on its own; after a number it is a quantity ("PGA 0.3 g"), not a
+/// declaration.
 fn is_unit(line: &str, name: &str) -> bool {
     occurrences(line, name).any(|(before, _)| !before.trim_end().ends_with(|c: char| c.is_ascii_digit()))
 }
 
-/// A lone letter g is a unit where units stand: alone, in brackets, after a separator, after "of" or "in".
+/// A lone letter g is a unit where units stand: alone, in brackets, after a separator, after "of"
+/// or "in".
 fn g_is_a_unit(before: &str, after: &str) -> bool {
     let before = before.trim_end();
     let placed = before.is_empty()
@@ -133,7 +136,8 @@ fn g_is_a_unit(before: &str, after: &str) -> bool {
     placed && !after.trim_start().starts_with('=')
 }
 
-/// Every place where the name stands between characters that are no letters or digits: the text before and after it.
+/// Every place where the name stands between characters that are no letters or digits: the text
+/// before and after it.
 pub(super) fn occurrences<'a>(line: &'a str, name: &'a str) -> impl Iterator<Item = (&'a str, &'a str)> {
     line.match_indices(name)
         .map(move |(at, _)| (&line[..at], &line[at + name.len()..]))

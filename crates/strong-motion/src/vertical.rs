@@ -93,7 +93,8 @@ impl Vertical {
         if down { Record { accel: record.accel.iter().map(|a| -a).collect(), ..record } } else { record }
     }
 
-    /// The only component of a file that may be vertical, or the one asked for, as a record of its own.
+    /// The only component of a file that may be vertical, or the one asked for, as a record of its
+    /// own.
     ///
     /// # Errors
     /// The file is no record, or has no vertical component, or several.

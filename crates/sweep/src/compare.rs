@@ -1,4 +1,5 @@
-//! Rigid against springs: how Housner's answers and those of the finite elements differ over a whole sweep.
+//! Rigid against springs: how Housner's answers and those of the finite elements differ over a
+//! whole sweep.
 
 use std::sync::Arc;
 

@@ -1,8 +1,11 @@
-//! Fragility of a sweep: lognormal fits of rocking, of exceeding given theta/alpha, and of overturning, on four measures of intensity, for
-//! each structure and for all of them together.
+//! Fragility of a sweep: lognormal fits of rocking, of exceeding given theta/alpha, and of
+//! overturning, on four measures of intensity, for each structure and for all of them together.
 //!
-//! One pass counts outcomes in bins of 0.1 % of each measure, the fits are made from these, and a second pass sums their scores by
-//! record for the bounds (`lognormal`). Histories that failed, or whose pivot let go of the ground, are left out and counted.
+//! One pass counts outcomes in bins of 0.1 % of each measure, the fits are made from these, and a
+//! second pass sums their scores by record for the bounds (`lognormal`). Histories that failed, or
+//! whose pivot let go of the ground, are left out and counted.
+
+mod row;
 
 use std::collections::HashMap;
 
@@ -16,6 +19,7 @@ use super::{
     reduce::{self, MODELS, SeenHistory},
     table::{Column, SweepTable},
 };
+use row::ConfidenceBounds;
 
 /// What is asked whether it is exceeded.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -66,7 +70,8 @@ pub struct FragilityGroup {
     pub restitution: usize,
     bins: [HashMap<i32, Bin>; 4],
     pub excluded: u64,
-    /// The last record that counts, and how many do: one whose histories are all left out says nothing.
+    /// The last record that counts, and how many do: one whose histories are all left out says
+    /// nothing.
     last: Option<usize>,
     pub records: usize,
 }
@@ -194,7 +199,8 @@ impl Fragility {
         quantile(0.5 + 0.5 * self.confidence)
     }
 
-    /// Shares observed for a row: geometric means of the intensity and shares of about equally many histories each.
+    /// Shares observed for a row: geometric means of the intensity and shares of about equally many
+    /// histories each.
     pub fn observed(&self, row: &FragilityRow, states: &[LimitState], points: usize) -> Vec<(f64, f64)> {
         let Some(state) = states.iter().position(|state| *state == row.state) else { return Vec::new() };
         let sorted = sorted(&self.members[row.member].bins[row.measure]);
@@ -260,58 +266,6 @@ pub(crate) fn subject_name(plan: &Plan, subject: Option<usize>) -> String {
     subject.map_or("all structures".into(), |subject| plan.subjects[subject].name.clone())
 }
 
-/// Confidence bounds.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub(crate) struct ConfidenceBounds {
-    pub median: (f64, f64),
-    pub beta: (f64, f64),
-}
-
-impl FragilityRow {
-    pub fn probit(&self) -> Option<&Probit> {
-        match &self.fit {
-            LognormalFit::Fitted(fit) => Some(fit),
-            _ => None,
-        }
-    }
-
-    /// Whether the median lies outside of what was computed.
-    pub(crate) fn is_extrapolated(&self) -> bool {
-        self.median().is_some_and(|median| !(self.range.0..=self.range.1).contains(&median))
-    }
-
-    /// The median: of a fit, or between what exceeds and what does not.
-    pub(crate) fn median(&self) -> Option<f64> {
-        match &self.fit {
-            LognormalFit::Fitted(fit) => Some(fit.median()),
-            LognormalFit::Separated { below, above } => Some((below * above).sqrt()),
-            _ => None,
-        }
-    }
-
-    /// Bounds at so many standard deviations, of the logarithms.
-    pub(crate) fn bounds(&self, half_width: f64) -> Option<ConfidenceBounds> {
-        let (fit, covariance) = (self.probit()?, self.covariance?);
-        let (ln_median, beta) = fit.deviations(covariance);
-        let around = |x: f64, relative: f64| {
-            let factor = (half_width * relative).exp();
-            (x / factor, x * factor)
-        };
-        Some(ConfidenceBounds { median: around(fit.median(), ln_median), beta: around(fit.beta(), beta / fit.beta()) })
-    }
-
-    pub(crate) fn said(&self) -> &'static str {
-        match self.fit {
-            LognormalFit::Fitted(_) => "fitted",
-            LognormalFit::NoneExceeded => "none exceeds",
-            LognormalFit::AllExceeded => "all exceed",
-            LognormalFit::Separated { .. } => "separated",
-            LognormalFit::Undetermined => "undetermined",
-            LognormalFit::Falling => "falling",
-        }
-    }
-}
-
 fn sorted(bins: &HashMap<i32, Bin>) -> Vec<&Bin> {
     let mut sorted: Vec<(&i32, &Bin)> = bins.iter().collect();
     sorted.sort_by_key(|(bin, _)| **bin);
@@ -348,7 +302,8 @@ fn bounds(
     rows: &mut [FragilityRow],
 ) -> Result<(), SweepError> {
     let fitted: Vec<Option<Probit>> = rows.iter().map(|row| row.probit().copied()).collect();
-    // of each fit and bin: the scores of an outcome that exceeds and of one that does not, times 1 and ln x
+    // of each fit and bin: the scores of an outcome that exceeds and of one that does not, times 1
+    // and ln x
     let table: Vec<HashMap<i32, Vec<[f64; 3]>>> = (0..members.len() * MEASURES.len())
         .map(|at| {
             let fits = &fitted[at * states.len()..(at + 1) * states.len()];

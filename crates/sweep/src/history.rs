@@ -22,8 +22,8 @@ use rocking::{
 use springs::validate::{ComparisonObserver, push};
 use strong_motion::Record;
 
-/// Cells that are taken at a time: of Housner's as many as go in lock-step; of finite elements enough to fill the lanes again
-/// where a history ends early.
+/// Cells that are taken at a time: of Housner's as many as go in lock-step; of finite elements
+/// enough to fill the lanes again where a history ends early.
 const LOCK_STEP: usize = 16;
 const SIDE_BY_SIDE: usize = 64;
 
@@ -134,7 +134,8 @@ impl UnscaledGround {
     }
 }
 
-/// pi/2 of a body that overturned; it lies, and how far it had fallen at the record's end says nothing.
+/// pi/2 of a body that overturned; it lies, and how far it had fallen at the record's end says
+/// nothing.
 fn ratio(subject: &Subject, peak: f64, outcome: CellOutcome) -> Option<f64> {
     match outcome {
         CellOutcome::Failed => None,
@@ -190,7 +191,8 @@ impl WantedHistory<'_> {
     }
 }
 
-/// Finite element histories on a record, streamed. The one place where histories on springs are computed.
+/// Finite element histories on a record, streamed. The one place where histories on springs are
+/// computed.
 pub(super) fn elements(wanted: &[WantedHistory<'_>], record: &Record) -> Vec<(CellAnswer, Option<f64>)> {
     let scaled = |samples: &[f64], scale: f64| -> Vec<f64> { samples.iter().map(|a| a * scale).collect() };
     let grounds: Vec<(Vec<f64>, Vec<f64>)> =

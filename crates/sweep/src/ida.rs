@@ -1,4 +1,5 @@
-//! Incremental dynamic analysis: peak |theta|/alpha against the level, over all records of a structure.
+//! Incremental dynamic analysis: peak |theta|/alpha against the level, over all records of a
+//! structure.
 
 use std::sync::Arc;
 

@@ -1,4 +1,5 @@
-//! What the histories at each level say of a structure: how likely it lifts and overturns, how far its top moves.
+//! What the histories at each level say of a structure: how likely it lifts and overturns, how far
+//! its top moves.
 //!
 //! ```text
 //! share of n motions       k/n
@@ -8,9 +9,9 @@
 //!     top's middle   u = b (1 - cos theta) + H sin theta       foot in the air   2 b sin theta
 //! ```
 //!
-//! At one level every motion is one history, so that histories are independent of each other. H is the height of the
-//! top: twice that of the centre of mass of a block, that of the mass of an A-frame. Displacements grow with the lean,
-//! so their quantiles are those of the lean.
+//! At one level every motion is one history, so that histories are independent of each other. H is
+//! the height of the top: twice that of the centre of mass of a block, that of the mass of an
+//! A-frame. Displacements grow with the lean, so their quantiles are those of the lean.
 
 use super::{
     ida::{Ida, IdaPoint},
@@ -88,8 +89,8 @@ impl LevelAnswer {
     }
 }
 
-/// The levels of one structure and restitution by one model that tell most, at most so many: from the last at which
-/// nothing overturns to the first at which everything does.
+/// The levels of one structure and restitution by one model that tell most, at most so many: from
+/// the last at which nothing overturns to the first at which everything does.
 pub(crate) fn telling<'a>(
     plan: &Plan,
     points: impl Iterator<Item = &'a IdaPoint>,
@@ -110,7 +111,8 @@ pub(crate) fn telling<'a>(
     (0..most).map(|i| all[place(i)].clone()).collect()
 }
 
-/// Columns of `ida.csv` beside those of the peaks: bounds on the share that overturns, displacements of the quantiles.
+/// Columns of `ida.csv` beside those of the peaks: bounds on the share that overturns,
+/// displacements of the quantiles.
 pub fn columns(plan: &Plan, ida: &Ida, z: f64) -> SweepTable {
     let real = |of: &dyn Fn(&IdaPoint) -> Option<f64>| Column::Real(ida.points.iter().map(of).collect());
     let bounds = |point: &IdaPoint| wilson(point.overturned, point.n, z);
@@ -136,8 +138,8 @@ mod tests {
     use super::*;
     use crate::lognormal::quantile;
 
-    /// R. G. Newcombe (1998), "Two-sided confidence intervals for the single proportion", Statistics in Medicine 17,
-    /// table I, method 3: 95 %.
+    /// R. G. Newcombe (1998), "Two-sided confidence intervals for the single proportion",
+    /// Statistics in Medicine 17, table I, method 3: 95 %.
     #[test]
     fn bounds_are_those_printed_for_the_score_method() {
         let z = quantile(0.975);

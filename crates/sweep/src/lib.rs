@@ -1,4 +1,5 @@
-//! Sweeps: thousands of histories over structures, ground motions, scales and restitutions, and what they say together.
+//! Sweeps: thousands of histories over structures, ground motions, scales and restitutions, and
+//! what they say together.
 //!
 //! ```text
 //! SWEEP.toml -> spec -> plan: cell i = (motion, structure, restitution, level), in that order, the last one fastest
@@ -7,9 +8,10 @@
 //! gather: parts one after another -> fragility, ida, spectrum, compare -> CSV, figures, plain words
 //! ```
 //!
-//! The cut into parts belongs to the plan and not to the machine: a part is a function of the sweep alone, is written under a temporary
-//! name, synced and renamed, and is the same file whoever computes it, in whatever order, on any number of threads. So a sweep
-//! that was killed goes on with the parts that are missing, and `--shard I/N` takes every N-th of them.
+//! The cut into parts belongs to the plan and not to the machine: a part is a function of the sweep
+//! alone, is written under a temporary name, synced and renamed, and is the same file whoever
+//! computes it, in whatever order, on any number of threads. So a sweep that was killed goes on
+//! with the parts that are missing, and `--shard I/N` takes every N-th of them.
 //!
 //! | symbol | meaning | unit |
 //! |---|---|---|

@@ -5,17 +5,20 @@
 //! ln L = sum k ln P + (n - k) ln(1 - P)
 //! ```
 //!
-//! J. W. Baker (2015), "Efficient analytical fragility function fitting using dynamic structural analysis", Earthquake Spectra 31(1). ln L is
-//! concave in (a, b), so Newton's method (Fisher scoring) finds its only maximum.
+//! J. W. Baker (2015), "Efficient analytical fragility function fitting using dynamic structural
+//! analysis", Earthquake Spectra 31(1). ln L is concave in (a, b), so Newton's method (Fisher
+//! scoring) finds its only maximum.
 //!
-//! **Bounds.** The histories of one record at many scales are not independent, and bounds that take them to be are far too narrow. With the scores u_j
-//! of record j summed over its histories and the information I, the covariance of (a, b) is
+//! **Bounds.** The histories of one record at many scales are not independent, and bounds that take
+//! them to be are far too narrow. With the scores u_j of record j summed over its histories and the
+//! information I, the covariance of (a, b) is
 //!
 //! ```text
 //! V = I^-1 ( J/(J - 1) sum_j u_j u_j^T ) I^-1
 //! ```
 //!
-//! for J records: K.-Y. Liang and S. L. Zeger (1986), "Longitudinal data analysis using generalized linear models", Biometrika 73(1).
+//! for J records: K.-Y. Liang and S. L. Zeger (1986), "Longitudinal data analysis using generalized
+//! linear models", Biometrika 73(1).
 
 use std::f64::consts::{FRAC_1_SQRT_2, PI, TAU};
 
@@ -48,7 +51,8 @@ pub enum LognormalFit {
     Fitted(Probit),
     NoneExceeded,
     AllExceeded,
-    /// All that exceed lie above all that do not: the median is between the two, no width can be told.
+    /// All that exceed lie above all that do not: the median is between the two, no width can be
+    /// told.
     Separated {
         below: f64,
         above: f64,
@@ -79,7 +83,8 @@ pub(crate) fn quantile(share: f64) -> f64 {
     0.5 * (low + high)
 }
 
-/// Complementary error function: the series of Abramowitz & Stegun 7.1.6 below 2.5, their continued fraction 7.1.14 above.
+/// Complementary error function: the series of Abramowitz & Stegun 7.1.6 below 2.5, their continued
+/// fraction 7.1.14 above.
 fn erfc(x: f64) -> f64 {
     if x < 0.0 {
         return 2.0 - erfc(-x);
@@ -136,7 +141,8 @@ impl LognormalFit {
 }
 
 impl Probit {
-    /// Newton's method from a flat line; the intensities are centred, so that a and b hardly depend on each other on the way.
+    /// Newton's method from a flat line; the intensities are centred, so that a and b hardly depend
+    /// on each other on the way.
     fn new(groups: &[Group]) -> Option<Self> {
         let all: f64 = groups.iter().map(|group| group.n as f64).sum();
         let centre = groups.iter().map(|group| group.ln_x * group.n as f64).sum::<f64>() / all;
@@ -177,8 +183,8 @@ impl Probit {
         1.0 / self.b
     }
 
-    /// Covariance of (a, b) from the scores of records, summed as u u^T, of so many records; as if all outcomes were independent where there
-    /// is one record or none.
+    /// Covariance of (a, b) from the scores of records, summed as u u^T, of so many records; as if
+    /// all outcomes were independent where there is one record or none.
     pub(crate) fn covariance(&self, scores: SymmetricMatrix, records: usize) -> Option<SymmetricMatrix> {
         let [[aa, ab], [_, bb]] = inverse(self.information)?;
         if records < 2 {
@@ -250,8 +256,8 @@ mod tests {
         assert!((quantile(0.95) - 1.644_853_626_951_473).abs() < 1e-13);
     }
 
-    /// Two intensities and two parameters: the fit goes through both shares, and its covariance is that of two independent binomial
-    /// shares, var(z) = P (1 - P)/(n phi(z)^2).
+    /// Two intensities and two parameters: the fit goes through both shares, and its covariance is
+    /// that of two independent binomial shares, var(z) = P (1 - P)/(n phi(z)^2).
     #[test]
     fn two_intensities_are_fitted_exactly() {
         let groups = [Group { ln_x: 0.3, n: 200, k: 30 }, Group { ln_x: 1.1, n: 100, k: 80 }];
@@ -267,9 +273,10 @@ mod tests {
         assert!((fit.deviation_at(covariance, 0.3_f64.exp()).powi(2) / v0 - 1.0).abs() < 1e-8);
     }
 
-    /// A thousand records, each overturned from a capacity of its own, ln of it normal about ln 2 with 0.4 and stretched
-    /// evenly over its quantiles: median 2 and beta 0.4 come back, and the bounds of the median are those of a mean of a thousand, 0.4/sqrt(1000),
-    /// whatever the number of scales.
+    /// A thousand records, each overturned from a capacity of its own, ln of it normal about ln 2
+    /// with 0.4 and stretched evenly over its quantiles: median 2 and beta 0.4 come back, and the
+    /// bounds of the median are those of a mean of a thousand, 0.4/sqrt(1000), whatever the number
+    /// of scales.
     #[test]
     fn capacities_of_records_give_the_deviation_of_their_mean() {
         let levels: Vec<f64> = (0..200).map(|i| -1.0 + 0.02 * f64::from(i)).collect();

@@ -58,7 +58,8 @@ pub struct MotionSource {
     pub read: ReadOptions,
     pub seed: u64,
     pub duration_s: Option<f64>,
-    /// The least and the greatest p of the structures (1/s): silences are long enough for the one, steps fine enough for the other.
+    /// The least and the greatest p of the structures (1/s): silences are long enough for the one,
+    /// steps fine enough for the other.
     pub p: (f64, f64),
 }
 

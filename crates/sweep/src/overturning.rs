@@ -1,8 +1,9 @@
 //! Overturning spectra: the intervals of pulse amplitude that overturn a body.
 //!
-//! Overturning is not monotone in the amplitude, so a spectrum is a set of intervals. A scan over the levels finds cells whose ends differ, and
-//! bisection finds the end of an interval in each. When the pulse is over the ground is still, and what happens then is a matter
-//! of energy: with w = |theta|, per I0,
+//! Overturning is not monotone in the amplitude, so a spectrum is a set of intervals. A scan over
+//! the levels finds cells whose ends differ, and bisection finds the end of an interval in each.
+//! When the pulse is over the ground is still, and what happens then is a matter of energy: with w
+//! = |theta|, per I0,
 //!
 //! ```text
 //! E = w'^2/2 + p^2 [cos(alpha - w) - cos(alpha)],     E_top = p^2 [1 - cos(alpha)]
@@ -11,8 +12,8 @@
 //! back through theta = 0:           overturns on the other side if e^2 E > E_top
 //! ```
 //!
-//! so that Housner's histories end with the pulse and a decision is exact however long the body would take. On springs the record
-//! goes on for 12/p.
+//! so that Housner's histories end with the pulse and a decision is exact however long the body
+//! would take. On springs the record goes on for 12/p.
 
 use std::{ops::Range, sync::Arc};
 
@@ -33,7 +34,8 @@ use rocking::{
 };
 use strong_motion::{Record, Source};
 
-/// An interval of PGA/(g tan alpha) that overturns after one number of impacts; an end is missing where the scan ends first.
+/// An interval of PGA/(g tan alpha) that overturns after one number of impacts; an end is missing
+/// where the scan ends first.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct OverturningInterval {
     pub from: Option<f64>,
@@ -59,7 +61,8 @@ enum OverturningFate {
     Overturns(Option<usize>),
 }
 
-/// Impacts that are told apart: a body that comes to rest and is lifted again within a long pulse has any number of them.
+/// Impacts that are told apart: a body that comes to rest and is lifted again within a long pulse
+/// has any number of them.
 const SEVERAL: usize = 2;
 
 impl OverturningFate {
@@ -68,7 +71,8 @@ impl OverturningFate {
     }
 }
 
-/// Relative width to which an end of an interval is found: by Housner, where the samples of the pulse are off by 1e-5 anyway; on springs.
+/// Relative width to which an end of an interval is found: by Housner, where the samples of the
+/// pulse are off by 1e-5 anyway; on springs.
 const WIDTH: f64 = 1e-7;
 const WIDTH_FEM: f64 = 1e-4;
 /// Amplitudes that go in lock-step.
@@ -133,8 +137,9 @@ fn of_cell(plan: &Plan, springs: Option<&SpringsTable>, cell: Cell) -> Vec<Overt
 /// Changes of fate that are sought between two neighbours of a scan.
 const CHANGES: usize = 16;
 
-/// The overturning intervals of a body under a pulse: scanned at amplitudes (increasing, over g tan alpha), ends by bisection. Neighbours that
-/// overturn after different numbers of impacts are looked between, too: often the body stands in a gap there.
+/// The overturning intervals of a body under a pulse: scanned at amplitudes (increasing, over g tan
+/// alpha), ends by bisection. Neighbours that overturn after different numbers of impacts are
+/// looked between, too: often the body stands in a gap there.
 fn intervals(levels: &[f64], width: f64, fates: &dyn Fn(&[f64]) -> Vec<OverturningFate>) -> Vec<OverturningInterval> {
     let scanned = fates(levels);
     let (Some(&low), Some(&first)) = (levels.first(), scanned.first()) else { return Vec::new() };
@@ -263,8 +268,9 @@ mod tests {
     use super::*;
     use rocking::structure::Structure;
 
-    /// The overturning intervals of PGA/(g tan alpha) of a body with restitution `e` under a pulse with omega = q p, by Housner's equation.
-    /// `levels` are the amplitudes of the scan, increasing.
+    /// The overturning intervals of PGA/(g tan alpha) of a body with restitution `e` under a pulse
+    /// with omega = q p, by Housner's equation. `levels` are the amplitudes of the scan,
+    /// increasing.
     fn spectrum(body: &Body<f64>, e: f64, shape: PulseShape, q: f64, levels: &[f64]) -> Vec<OverturningInterval> {
         let p = body.p_squared().sqrt();
         let uplift = rocking::scalar::GRAVITY * body.half_width / body.height;
@@ -281,7 +287,8 @@ mod tests {
         Structure::block(2.0, 2.0 * alpha.tan(), 1000.0).unwrap().body()
     }
 
-    /// Theory, section 8: the exact equation at alpha 0.2, found by independent programs; 0.1 % is asked for.
+    /// Theory, section 8: the exact equation at alpha 0.2, found by independent programs; 0.1 % is
+    /// asked for.
     #[test]
     fn a_half_sine_overturns_from_the_exact_equations_amplitude() {
         let body = body(0.2);
@@ -303,7 +310,8 @@ mod tests {
         }
     }
 
-    /// Theory, section 8: "a block of alpha 0.2 at q = 2 overturns from about 1.22 to 2.32 and again from 2.355", e = 0.9.
+    /// Theory, section 8: "a block of alpha 0.2 at q = 2 overturns from about 1.22 to 2.32 and
+    /// again from 2.355", e = 0.9.
     #[test]
     fn below_the_upper_branch_lies_an_interval_with_one_impact() {
         let body = body(0.2);
@@ -313,7 +321,8 @@ mod tests {
         assert!((lower.from.unwrap() - 1.22).abs() < 0.01 && (lower.to.unwrap() - 2.32).abs() < 0.01, "{found:?}");
     }
 
-    /// Small angles: q sin(psi) = cos(psi) + exp(-(pi - psi)/q), sin psi = g alpha/a_p; the exact equation tends to it with alpha^2.
+    /// Small angles: q sin(psi) = cos(psi) + exp(-(pi - psi)/q), sin psi = g alpha/a_p; the exact
+    /// equation tends to it with alpha^2.
     #[test]
     fn the_limit_of_slender_bodies_is_the_closed_form() {
         let closed = |q: f64| {

@@ -15,7 +15,8 @@ use super::{
 };
 use files::{input, message::one_line};
 
-/// Share I of N of a sweep, for machines that share the work: the parts I, I + N, I + 2 N ... from 1.
+/// Share I of N of a sweep, for machines that share the work: the parts I, I + N, I + 2 N ... from
+/// 1.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Share {
     pub index: u64,
@@ -51,7 +52,8 @@ pub struct SweepParts<'a> {
     pub plan: &'a Plan,
     pub folder: &'a Path,
     pub hash: &'a str,
-    /// Those that are gathered, all unless said: a reader of [`SweepParts::each`] sees these or none.
+    /// Those that are gathered, all unless said: a reader of [`SweepParts::each`] sees these or
+    /// none.
     pub gathered: Option<Vec<u64>>,
 }
 
@@ -84,7 +86,8 @@ impl<'a> SweepParts<'a> {
         from..(from + self.plan.part).min(self.plan.cells())
     }
 
-    /// The file of part i, if it is there; it is as it was written, and that part of this sweep. Else what is wrong with it.
+    /// The file of part i, if it is there; it is as it was written, and that part of this sweep.
+    /// Else what is wrong with it.
     fn load(&self, part: u64) -> Result<Option<Bytes>, String> {
         let bytes = match input::bytes(&self.path(part), MOST_BYTES) {
             Err(e) if e.kind() == ErrorKind::NotFound => return Ok(None),

@@ -1,4 +1,5 @@
-//! The plan of a sweep: what the file asks for, checked, as a numbered list of cells that is never written out.
+//! The plan of a sweep: what the file asks for, checked, as a numbered list of cells that is never
+//! written out.
 
 mod ground;
 
@@ -247,8 +248,9 @@ impl Plan {
         }
     }
 
-    /// A number that tells sweeps apart: FNV-1a of the program's version, of everything that decides a result, and of the samples of
-    /// every file. `notice` is told what the readers say of the files.
+    /// A number that tells sweeps apart: FNV-1a of the program's version, of everything that
+    /// decides a result, and of the samples of every file. `notice` is told what the readers say of
+    /// the files.
     ///
     /// # Errors
     /// A record that cannot be read, or has no motion.

@@ -1,12 +1,14 @@
-//! Pulses of the ground, by circular frequency omega_p and peak acceleration a_p, sampled so that every kink is a sample.
+//! Pulses of the ground, by circular frequency omega_p and peak acceleration a_p, sampled so that
+//! every kink is a sample.
 //!
 //! ```text
 //! half sine:  a = a_p sin(omega_p t),  0 <= t <= pi/omega_p
 //! sine:       a = a_p sin(omega_p t),  0 <= t <= 2 pi/omega_p
 //! ```
 //!
-//! Ricker wavelets and Mavroeidis-Papageorgiou pulses as in [`rocking::synthetic::Pulse`], scaled to a peak acceleration of a_p: Ricker
-//! (1943), Vassiliou & Makris (2011), Mavroeidis & Papageorgiou (2003).
+//! Ricker wavelets and Mavroeidis-Papageorgiou pulses as in [`rocking::synthetic::Pulse`], scaled
+//! to a peak acceleration of a_p: Ricker (1943), Vassiliou & Makris (2011), Mavroeidis &
+//! Papageorgiou (2003).
 
 use std::f64::consts::{PI, TAU};
 
@@ -41,7 +43,8 @@ pub(crate) enum Name {
     MavroeidisPapageorgiou,
 }
 
-/// Samples to a period of omega_p at least: a chord of the sine is off by (2 pi/800)^2/8 of the peak.
+/// Samples to a period of omega_p at least: a chord of the sine is off by (2 pi/800)^2/8 of the
+/// peak.
 const A_PERIOD: f64 = 800.0;
 /// Samples to a time of 1/p at least.
 const A_RADIAN: f64 = 50.0;
@@ -93,8 +96,9 @@ impl PulseShape {
         }
     }
 
-    /// Time step (s) and accelerations (m/s2) of the pulse with the circular frequency `omega` (rad/s) and the peak `peak` (m/s2), for
-    /// bodies up to `p` (1/s). It begins at t = 0 and ends with its last sample.
+    /// Time step (s) and accelerations (m/s2) of the pulse with the circular frequency `omega`
+    /// (rad/s) and the peak `peak` (m/s2), for bodies up to `p` (1/s). It begins at t = 0 and ends
+    /// with its last sample.
     pub(crate) fn sampled(&self, omega: f64, peak: f64, p: f64) -> (f64, Vec<f64>) {
         let (from, to) = self.range();
         let length = to - from;
@@ -151,8 +155,9 @@ mod tests {
         }
     }
 
-    /// The velocity gained: 2 a_p/omega by a half sine, none by the others but the rounding of chords; the pulse of
-    /// Mavroeidis and Papageorgiou has zero velocity at both its ends (2003, equation 3).
+    /// The velocity gained: 2 a_p/omega by a half sine, none by the others but the rounding of
+    /// chords; the pulse of Mavroeidis and Papageorgiou has zero velocity at both its ends (2003,
+    /// equation 3).
     #[test]
     fn the_velocity_gained_is_the_closed_forms() {
         for shape in ALL {

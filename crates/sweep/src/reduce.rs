@@ -72,8 +72,8 @@ pub(crate) fn each(parts: &SweepParts, mut take: impl FnMut(&SeenHistory)) -> Re
     })
 }
 
-/// Counts in bins of the logarithm, of numbers greater than zero: quantiles to the width of a bin, in memory that does not grow with the
-/// number of numbers.
+/// Counts in bins of the logarithm, of numbers greater than zero: quantiles to the width of a bin,
+/// in memory that does not grow with the number of numbers.
 #[derive(Clone, Debug, Default)]
 pub struct Histogram {
     bins: std::collections::BTreeMap<i32, u64>,
@@ -101,7 +101,8 @@ impl Histogram {
         self.zero + self.infinite + self.bins.values().sum::<u64>()
     }
 
-    /// The number below which a share of all lie, the upper one of two in the middle; infinite where these are.
+    /// The number below which a share of all lie, the upper one of two in the middle; infinite
+    /// where these are.
     pub(crate) fn quantile(&self, share: f64) -> Option<f64> {
         let all = self.count();
         if all == 0 {

@@ -14,7 +14,8 @@ pub enum CellOutcome {
     NeverLifted,
     Rocked,
     Overturned,
-    /// With vertical motion: Housner's pivot lets go, and his equation says nothing of what follows.
+    /// With vertical motion: Housner's pivot lets go, and his equation says nothing of what
+    /// follows.
     LeavesGround,
     /// A bound on work, or a number that is not finite.
     Failed,
@@ -37,7 +38,8 @@ impl CellOutcome {
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct CellAnswer {
     pub outcome: CellOutcome,
-    /// Largest |theta|/alpha; pi/2 / alpha of a body that overturned; none of a history that failed.
+    /// Largest |theta|/alpha; pi/2 / alpha of a body that overturned; none of a history that
+    /// failed.
     pub peak: Option<f64>,
     pub impacts: Option<usize>,
     /// When |theta| last grew past alpha (s).

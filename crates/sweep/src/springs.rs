@@ -1,7 +1,8 @@
 //! Springs of a sweep's structures, tuned once a geometry.
 //!
-//! By similarity the design depends on alpha, m R^2/I0, e and Omega_n/p alone. So of the structures that share the first three the
-//! largest is tuned, whose p is least and for which earthquakes are fastest in units of p; the others take its Omega_n/p.
+//! By similarity the design depends on alpha, m R^2/I0, e and Omega_n/p alone. So of the structures
+//! that share the first three the largest is tuned, whose p is least and for which earthquakes are
+//! fastest in units of p; the others take its Omega_n/p.
 
 use std::{io::ErrorKind, path::Path};
 
@@ -44,7 +45,8 @@ struct TunedSprings {
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 struct Filed {
     sweep: String,
-    /// FNV-1a of the springs as they are written: nobody's hand, and no damage, makes others of them.
+    /// FNV-1a of the springs as they are written: nobody's hand, and no damage, makes others of
+    /// them.
     checksum: String,
     springs: Vec<TunedSprings>,
 }
@@ -76,7 +78,8 @@ impl SpringsKey {
 }
 
 impl SpringsTable {
-    /// The springs of a sweep's folder: those in `springs.json`, else tuned now and put there. `progress`: geometries done, of how many.
+    /// The springs of a sweep's folder: those in `springs.json`, else tuned now and put there.
+    /// `progress`: geometries done, of how many.
     ///
     /// # Errors
     /// A structure that cannot be tuned; a file that cannot be read or written.

@@ -1,6 +1,7 @@
 //! Rows of results as columns, written as Parquet and read back, or written as CSV.
 //!
-//! Parquet: one row group a file, Snappy, no statistics of strings; a missing number is a null. The same table gives the same bytes.
+//! Parquet: one row group a file, Snappy, no statistics of strings; a missing number is a null. The
+//! same table gives the same bytes.
 
 use std::{collections::BTreeMap, fmt::Write as _, io::Write, sync::Arc};
 
@@ -196,7 +197,8 @@ impl SweepTable {
         Some((pairs.collect(), u64::try_from(file.num_rows()).ok()?))
     }
 
-    /// Some columns of a Parquet file, in the order asked for; a table without rows tells their types.
+    /// Some columns of a Parquet file, in the order asked for; a table without rows tells their
+    /// types.
     ///
     /// # Errors
     /// The file is none, or does not have them.

@@ -40,7 +40,8 @@ pub struct ComponentRow {
     pub structure: Option<OnStructure>,
 }
 
-/// What the record is to a structure: rocking has no period, so no spectrum of an oscillator says it.
+/// What the record is to a structure: rocking has no period, so no spectrum of an oscillator says
+/// it.
 #[derive(Debug, Serialize)]
 pub struct OnStructure {
     /// Above 1 the body lifts.

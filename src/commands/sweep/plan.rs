@@ -29,7 +29,8 @@ pub struct PlanOptions {
     /// Shares of the work, no more than there are parts [default: 8]
     #[arg(long, value_name = "N", value_parser = clap::value_parser!(u64).range(1..=100_000))]
     shards: Option<u64>,
-    /// Write sweep.sbatch and gather.sbatch for Slurm, and commands.txt for PyLauncher, GNU parallel and their like
+    /// Write sweep.sbatch and gather.sbatch for Slurm, and commands.txt for PyLauncher, GNU
+    /// parallel and their like
     #[arg(long)]
     slurm: bool,
     /// Threads of a share
@@ -125,9 +126,11 @@ impl Script<'_> {
         out
     }
 
-    /// The log stands where it is submitted, which is the folder: `#SBATCH` lines are no shell and quote no name.
+    /// The log stands where it is submitted, which is the folder: `#SBATCH` lines are no shell and
+    /// quote no name.
     ///
-    /// An array of at most a thousand tasks, as clusters allow by default; each computes every thousandth share from its own on.
+    /// An array of at most a thousand tasks, as clusters allow by default; each computes every
+    /// thousandth share from its own on.
     fn array(&self) -> String {
         let tasks = self.shares.min(1000);
         format!(
@@ -150,7 +153,8 @@ impl Script<'_> {
         )
     }
 
-    /// afterany: a task that died must not keep the others' results waiting; gather says what is missing.
+    /// afterany: a task that died must not keep the others' results waiting; gather says what is
+    /// missing.
     fn submit(&self) -> String {
         format!(
             "#!/bin/sh\nset -e\ncd {}\njob=$(sbatch --parsable sweep.sbatch)\nsbatch --dependency=afterany:\"$job\" gather.sbatch\necho \"array $job\"\n",

@@ -13,7 +13,8 @@ use springs::validate::{
 /// A line of the summary: what it says of each set of records.
 type Line<'a> = (String, &'a dyn Fn(&Summary) -> String);
 
-/// What the records say together, and each suite of several: head, then name and a value for each set.
+/// What the records say together, and each suite of several: head, then name and a value for each
+/// set.
 fn summary(v: &Validation) -> (Vec<String>, Vec<Vec<String>>) {
     let mut sets = vec![("all together", &v.all)];
     if v.suites.len() > 1 {

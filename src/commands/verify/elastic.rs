@@ -21,8 +21,8 @@ use run_folder::{
 };
 use springs::{parameters::elastic::ElasticParameters, predictability::standing_share};
 
-/// Largest NRMSE of rotation between OpenSees and our own history, while a change of the motion grows less than 30-fold: OpenSees' steps miss more
-/// than ours; of drift, five times that.
+/// Largest NRMSE of rotation between OpenSees and our own history, while a change of the motion
+/// grows less than 30-fold: OpenSees' steps miss more than ours; of drift, five times that.
 const LIMIT: f64 = 0.002;
 const LOOSER: f64 = 5.0;
 

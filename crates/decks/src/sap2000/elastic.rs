@@ -4,7 +4,8 @@ use super::parts::{Bar, FootJoints, Joint, LINK_LENGTH, SapModel, SapSection, Sp
 use crate::{elastic::ElasticDeck, printable};
 use frames::{beam, frame::NodePoint};
 
-/// What a frame that stands for axial stiffness alone has of the beam's bending stiffness, and the other way round: a section needs both.
+/// What a frame that stands for axial stiffness alone has of the beam's bending stiffness, and the
+/// other way round: a section needs both.
 const TRACE: f64 = 1e-6;
 
 const NOTES: &str = "\

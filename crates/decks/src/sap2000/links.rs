@@ -81,7 +81,8 @@ fn linear(unit: &SpringLinks, table: &mut SapTable) {
     ]);
 }
 
-/// k1, between foot and absorber, where the program knows no isolator: the horizontal spring acts in the air, too.
+/// k1, between foot and absorber, where the program knows no isolator: the horizontal spring acts
+/// in the air, too.
 fn gap(unit: &SpringLinks, table: &mut SapTable) {
     foot("FOOT_GAP", unit, ("TransOpen", &0), "No", &[], table);
 }
@@ -98,8 +99,9 @@ fn isolator(unit: &SpringLinks, table: &mut SapTable) {
 /// A column of a table and its value.
 type SapField<'a> = (&'a str, &'a dyn Display);
 
-/// k1 of a unit, as `link`: it only presses vertically, with the column that this kind has for it; whether the horizontal spring is nonlinear,
-/// and its columns then. DJ = 0: it sits at the foot, so the foot's rotation does not stretch it.
+/// k1 of a unit, as `link`: it only presses vertically, with the column that this kind has for it;
+/// whether the horizontal spring is nonlinear, and its columns then. DJ = 0: it sits at the foot,
+/// so the foot's rotation does not stretch it.
 fn foot(
     link: &str,
     unit: &SpringLinks,

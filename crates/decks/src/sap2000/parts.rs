@@ -1,13 +1,15 @@
-//! What tables are made from, whatever the structure: joints with masses, frames, feet on their links, a record.
+//! What tables are made from, whatever the structure: joints with masses, frames, feet on their
+//! links, a record.
 
 use crate::model::{DeckModel, digits};
 use dynamics::spring::{Chain, Springs};
 use strong_motion::Record;
 
-/// Length of a link over the structure's height: long enough that importing merges no joints. The absorbers do not rotate, so it does not
-/// matter.
+/// Length of a link over the structure's height: long enough that importing merges no joints. The
+/// absorbers do not rotate, so it does not matter.
 pub(super) const LINK_LENGTH: f64 = 0.01;
-/// Stiffness of frames that stand for a rigid body, over the stiffest spring: nothing takes their compliance off k1 here.
+/// Stiffness of frames that stand for a rigid body, over the stiffest spring: nothing takes their
+/// compliance off k1 here.
 const RIGID: f64 = 1e4;
 
 /// A joint of the structure.
@@ -54,7 +56,8 @@ pub(crate) struct Bar {
     pub section: usize,
 }
 
-/// What stands on the ground: a joint, those of its absorber and of the ground below, its unit's index.
+/// What stands on the ground: a joint, those of its absorber and of the ground below, its unit's
+/// index.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(crate) struct FootJoints {
     pub joint: usize,

@@ -5,7 +5,8 @@ use rocking::{
     structure::Body,
 };
 
-/// Share of alpha that a body must lean beyond, on either side, for a swing to count: less is the tremble of a body at rest.
+/// Share of alpha that a body must lean beyond, on either side, for a swing to count: less is the
+/// tremble of a body at rest.
 const SWING: f64 = 0.01;
 
 /// The largest of a quantity in our own history and in OpenSees'.
@@ -51,7 +52,8 @@ impl ComparedPeak {
 /// Share of the half width, and rotation (rad), below which nothing moves to speak of.
 const SMALL: f64 = 1e-6;
 
-/// How often a body goes from leaning on one side to leaning on the other: its landings that rock it on.
+/// How often a body goes from leaning on one side to leaning on the other: its landings that rock
+/// it on.
 pub fn swings(theta: &[f64], alpha: f64) -> usize {
     let mut side = 0.0;
     let mut count = 0;

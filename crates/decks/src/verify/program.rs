@@ -26,7 +26,8 @@ fn followed(said: &[u8]) -> Option<usize> {
 pub enum Program {
     /// A Python interpreter that has openseespy.
     Python(PathBuf),
-    /// OpenSees' Tcl interpreter: a command and its first arguments, as `OpenSees` or `python3 -m opensees`.
+    /// OpenSees' Tcl interpreter: a command and its first arguments, as `OpenSees` or `python3 -m
+    /// opensees`.
     Tcl(Vec<String>),
 }
 
@@ -65,8 +66,8 @@ impl Program {
         }
     }
 
-    /// Run a deck; its output goes through files, so that no pipe can fill up. `progress` is told how many seconds of the
-    /// record the deck says it has followed.
+    /// Run a deck; its output goes through files, so that no pipe can fill up. `progress` is told
+    /// how many seconds of the record the deck says it has followed.
     pub(super) fn run(&self, deck: &Path, patience: Duration, progress: &dyn Fn(usize)) -> Result<Ran, VerifyError> {
         let logs = [deck.with_extension("out"), deck.with_extension("err")];
         let folder = |path: &Path| {

@@ -1,4 +1,5 @@
-//! What happens around OpenSees, with stand-ins for Python: the runs with OpenSees itself are in tests/opensees.rs.
+//! What happens around OpenSees, with stand-ins for Python: the runs with OpenSees itself are in
+//! tests/opensees.rs.
 
 use std::path::PathBuf;
 
@@ -92,7 +93,8 @@ fn a_cut_history_is_an_error() {
     assert!(said.contains("2 samples instead of 51"), "{said}");
 }
 
-/// The stand-in answers with zeros: the error of zero against any motion is 1, and 1 means nothing was right.
+/// The stand-in answers with zeros: the error of zero against any motion is 1, and 1 means nothing
+/// was right.
 #[cfg(unix)]
 #[test]
 fn a_body_that_never_moves_is_all_wrong() {
@@ -115,7 +117,8 @@ fn a_run_that_hangs_is_stopped() {
     assert!(began.elapsed() < Duration::from_secs(30));
 }
 
-/// Springs of 160 Hz under a 5 m frame: El Centro makes it rock in a way that hangs on the eighth digit of its width.
+/// Springs of 160 Hz under a 5 m frame: El Centro makes it rock in a way that hangs on the eighth
+/// digit of its width.
 #[test]
 fn a_slight_change_of_width_moves_some_histories_and_not_others() {
     let chain = Design::from_kc(1.0, 0.74, 2.05, 107.0);

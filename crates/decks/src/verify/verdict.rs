@@ -78,7 +78,8 @@ mod tests {
         assert!(!judged(0.5, 40, Some(50)).within);
     }
 
-    /// A millimetre of a frame 6.1 m wide to each side is standing: an error of a tenth of that is within 0.001 of a thousandth of the width.
+    /// A millimetre of a frame 6.1 m wide to each side is standing: an error of a tenth of that is
+    /// within 0.001 of a thousandth of the width.
     #[test]
     fn a_body_that_stands_is_judged_by_its_width() {
         let [off, ours] = pair(0.1, 0).map(|m| {

@@ -1,4 +1,5 @@
-//! Step acceptance by the energy account and by the embedded estimate of the local error: what runs of rigid bodies and of elastic frames share.
+//! Step acceptance by the energy account and by the embedded estimate of the local error: what runs
+//! of rigid bodies and of elastic frames share.
 
 use super::energy::Energy;
 use rocking::scalar::Scalar;
@@ -6,21 +7,24 @@ use rocking::scalar::Scalar;
 /// The energy that all steps together may lose or gain, in units of `Control::tolerance`.
 const BUDGET: f64 = 50.0;
 
-/// The local error that a step may have at a tolerance of one. Found on histories of El Centro (61 m frame at 160 Hz to 20 kHz,
-/// two blocks): ten times more and their error no longer follows the tolerance, ten times less and it costs twice the steps.
+/// The local error that a step may have at a tolerance of one. Found on histories of El Centro (61
+/// m frame at 160 Hz to 20 kHz, two blocks): ten times more and their error no longer follows the
+/// tolerance, ten times less and it costs twice the steps.
 const ERROR: f64 = 0.1;
 
 /// A step that may break its bounds, in units of 1/Omega_n.
 const SMALLEST: f64 = 1e-9;
 
-/// What a step's local error may be at a tolerance, but for rounding. The estimate falls as h^4, the energy that a step loses as h^6:
-/// with the power 2/3 both criteria ask for the same steps whatever the tolerance.
+/// What a step's local error may be at a tolerance, but for rounding. The estimate falls as h^4,
+/// the energy that a step loses as h^6: with the power 2/3 both criteria ask for the same steps
+/// whatever the tolerance.
 pub fn allowed_error(tolerance: f64) -> f64 {
     ERROR * tolerance.powf(2.0 / 3.0)
 }
 
-/// Energy that a step to this much stored may lose or gain (J), at an energy allowed to one step: less and less as the account's budget is used
-/// up, so that the residual stays within it however long the history; never less than rounding makes of it.
+/// Energy that a step to this much stored may lose or gain (J), at an energy allowed to one step:
+/// less and less as the account's budget is used up, so that the residual stays within it however
+/// long the history; never less than rounding makes of it.
 #[inline(always)]
 pub fn allowed_energy<S: Scalar>(most: f64, account: &Energy<S>, stored: S) -> f64 {
     let left = (1.0 - account.residual().re().abs() / (BUDGET * most)).max(0.0);
@@ -43,7 +47,8 @@ pub struct TriedStep {
 pub enum StepVerdict {
     /// To be tried again with this size (s).
     Refused(f64),
-    /// It holds; the size to go on with (s), and whether it breaks its bounds as the smallest of steps.
+    /// It holds; the size to go on with (s), and whether it breaks its bounds as the smallest of
+    /// steps.
     Holds { next: f64, breaks: bool },
 }
 
@@ -57,7 +62,8 @@ impl TriedStep {
         // a radau step loses energy as h^6, the estimate falls as h^4
         let factor = if finite { 0.9 * sixth_root(energy).min(error.sqrt().sqrt()) } else { 0.0 };
         let missed = !finite || energy < 1.0 || error < 1.0;
-        // at a force discontinuity no step size satisfies the account: the smallest may break it, but not with a NaN
+        // at a force discontinuity no step size satisfies the account: the smallest may break it,
+        // but not with a NaN
         if missed && (h > SMALLEST * settling || !finite) {
             return StepVerdict::Refused(h * factor.clamp(0.1, 0.9));
         }
@@ -68,20 +74,23 @@ impl TriedStep {
     }
 }
 
-/// The factor by which an iteration of the next step is expected to reduce the error, from this step's: with some caution, to the power 3/4.
+/// The factor by which an iteration of the next step is expected to reduce the error, from this
+/// step's: with some caution, to the power 3/4.
 #[inline]
 pub fn cautious(rate: f64) -> f64 {
     let root = rate.max(f64::EPSILON).sqrt();
     root * root.sqrt()
 }
 
-/// x^(1/6), up to 0.81 % too large: a tenth is left for it and for more. Infinite where a step would grow beyond any use anyway.
+/// x^(1/6), up to 0.81 % too large: a tenth is left for it and for more. Infinite where a step
+/// would grow beyond any use anyway.
 #[inline]
 fn sixth_root(x: f64) -> f64 {
     if x > 1e5 {
         return f64::INFINITY;
     }
-    // a sixth of the exponent, and of the mantissa, which serves as its logarithm; then one step of Newton's method
+    // a sixth of the exponent, and of the mantissa, which serves as its logarithm; then one step of
+    // Newton's method
     let near = f64::from_bits(x.to_bits() / 6 + 1.0_f64.to_bits() / 6 * 5);
     let cube = near * near * near;
     near * (5.0 / 6.0) + x / (6.0 * cube * near * near)

@@ -1,5 +1,5 @@
-//! The rotation of a body without rotational inertia: it follows the contact forces at once, so it stands where the elastic
-//! energy of the gaps is least,
+//! The rotation of a body without rotational inertia: it follows the contact forces at once, so it
+//! stands where the elastic energy of the gaps is least,
 //!
 //! ```text
 //!   V(theta) = sum ( N^2/(2 k1_v) + H^2/(2 k1_h) )        V' = - sum ( H dp_x/dtheta + N dp_z/dtheta ) = 0,   V'' > 0
@@ -13,7 +13,8 @@ use rocking::scalar::{GRAVITY, Scalar, real};
 /// Newton steps from anywhere: V is all but quadratic, so that a few do.
 const STEPS: usize = 6;
 
-/// A Newton step this small ends them (rad): values converged with the step before, derivatives with this one.
+/// A Newton step this small ends them (rad): values converged with the step before, derivatives
+/// with this one.
 const LAST: f64 = 1e-12;
 
 /// Steps of the guarded descent, where Newton's method alone does not find the least.
@@ -26,8 +27,8 @@ const CLOSE: f64 = 1e-9;
 const LONGEST: f64 = 0.1;
 
 impl<S: Scalar> Model<S> {
-    /// Turn a body without rotational inertia to where no moment acts on it. False if there is no such place downhill:
-    /// the body has lost its balance, and the state means nothing any more.
+    /// Turn a body without rotational inertia to where no moment acts on it. False if there is no
+    /// such place downhill: the body has lost its balance, and the state means nothing any more.
     #[must_use]
     pub(crate) fn turn_to_balance(&self, state: &mut State<S>, feet: &[Foot<S>; 2]) -> bool {
         if !self.massless() || !(feet[0].closed() || feet[1].closed()) {
@@ -59,7 +60,8 @@ impl<S: Scalar> Model<S> {
         stiffness.re() > 0.0 && (moment / stiffness).re().abs() < CLOSE
     }
 
-    /// The rotation near `theta` at which foot i just touches the ground; `theta` itself if it turns along the ground there.
+    /// The rotation near `theta` at which foot i just touches the ground; `theta` itself if it
+    /// turns along the ground there.
     pub(crate) fn where_it_touches(&self, i: usize, q: &Vector<S>, theta: S) -> S {
         let mut at = *q;
         at[TH] = theta;
@@ -74,13 +76,15 @@ impl<S: Scalar> Model<S> {
         at[TH]
     }
 
-    /// Give a rotation without inertia the rate at which it stays in balance while body and absorbers move on,
+    /// Give a rotation without inertia the rate at which it stays in balance while body and
+    /// absorbers move on,
     ///
     /// ```text
     ///   theta' = sum ( H' dp_x/dtheta + N' dp_z/dtheta at theta' = 0 ) / V''
     /// ```
     ///
-    /// A step too short to tell would leave it any rate, and a body that then leaves the ground keeps what it has.
+    /// A step too short to tell would leave it any rate, and a body that then leaves the ground
+    /// keeps what it has.
     pub(crate) fn rotate_in_balance(&self, state: &mut State<S>, feet: &[Foot<S>; 2]) {
         let leans = feet[0].closed() || feet[1].closed();
         if !self.massless() || !self.is_plain() || !leans {
@@ -121,8 +125,9 @@ impl<S: Scalar> Model<S> {
         last.abs() < CLOSE && stiffness.re() > 0.0 && after.re() <= before.re() + self.rounding(before.re())
     }
 
-    /// By how much rounding may change V where it is `stored` (J): on stiff springs that of the feet's places, a few units in
-    /// the last digit of R times the force; and a billionth of what the standing body stores, where a foot has just touched.
+    /// By how much rounding may change V where it is `stored` (J): on stiff springs that of the
+    /// feet's places, a few units in the last digit of R times the force; and a billionth of what
+    /// the standing body stores, where a foot has just touched.
     fn rounding(&self, stored: f64) -> f64 {
         let (k_v, k_h) = (self.springs.vertical.k1.re(), self.springs.horizontal.k1.re());
         let weight = self.body.mass.re() * GRAVITY;

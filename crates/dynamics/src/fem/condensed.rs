@@ -1,5 +1,5 @@
-//! A chain's share of a Newton matrix M + s c + s^2 K with s = h lambda, its absorber eliminated: its dynamic stiffness is
-//! s^2 k1 (m2 + s c + s^2 k2) / (m2 + s c + s^2 (k1 + k2)).
+//! A chain's share of a Newton matrix M + s c + s^2 K with s = h lambda, its absorber eliminated:
+//! its dynamic stiffness is s^2 k1 (m2 + s c + s^2 k2) / (m2 + s c + s^2 (k1 + k2)).
 
 use num_traits::Num;
 

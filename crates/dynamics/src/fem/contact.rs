@@ -14,7 +14,8 @@ pub(crate) enum Contact {
     Open,
     /// Pressing too lightly to hold: no horizontal force yet (see `run`).
     Slide,
-    /// Following the ground without any force: the only foot near it, of a body without rotational inertia (see `strut`).
+    /// Following the ground without any force: the only foot near it, of a body without rotational
+    /// inertia (see `strut`).
     Trail,
     /// Pressing, its horizontal spring anchored.
     Stick,
@@ -89,7 +90,8 @@ impl<S: Scalar> ContactLaw<S> {
         }
     }
 
-    /// Force on a foot that presses with N and slips to a side (N); of a slope of N, that of the force.
+    /// Force on a foot that presses with N and slips to a side (N); of a slope of N, that of the
+    /// force.
     #[inline(always)]
     pub(crate) fn slipping(&self, pressing: S, side: f64) -> S {
         match *self {

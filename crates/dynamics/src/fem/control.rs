@@ -3,9 +3,10 @@
 /// How accurately and how long to work.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Control {
-    /// Energy that one step may lose or gain, relative to the largest energy so far: all steps together keep the account's
-    /// residual below 50 times this. Its power 2/3, times 0.1, is the local error that a step may have, of the body's place over
-    /// R alpha and of its momentum over m p R alpha: this is what the error of the history follows.
+    /// Energy that one step may lose or gain, relative to the largest energy so far: all steps
+    /// together keep the account's residual below 50 times this. Its power 2/3, times 0.1, is the
+    /// local error that a step may have, of the body's place over R alpha and of its momentum over
+    /// m p R alpha: this is what the error of the history follows.
     pub tolerance: f64,
     /// Steps per history before it is given up.
     pub most_steps: usize,
@@ -15,8 +16,8 @@ pub struct Control {
     pub skip_rest: bool,
     /// Solve nothing for an open foot's contact.
     pub skip_open: bool,
-    /// Take steps over several samples while the body leans on one foot (`run/span`): for peaks and comparisons. Forces and energies
-    /// at samples within such a step are those at its end.
+    /// Take steps over several samples while the body leans on one foot (`run/span`): for peaks and
+    /// comparisons. Forces and energies at samples within such a step are those at its end.
     pub long_steps: bool,
 }
 
@@ -35,8 +36,8 @@ impl Control {
 }
 
 impl Default for Control {
-    /// 20 s of El Centro, NRMSE of u against a tolerance of 1e-12: 2e-7 at most for the 61 m frame on springs of 160 Hz to 20 kHz, 5e-6
-    /// for a block of alpha 0.24 (`tests/fem/accuracy.rs`).
+    /// 20 s of El Centro, NRMSE of u against a tolerance of 1e-12: 2e-7 at most for the 61 m frame
+    /// on springs of 160 Hz to 20 kHz, 5e-6 for a block of alpha 0.24 (`tests/fem/accuracy.rs`).
     fn default() -> Self {
         Self {
             tolerance: 1e-8,
@@ -69,8 +70,9 @@ pub enum HistoryOutcome {
         /// (s)
         time: f64,
     },
-    /// No balance was found at this time (s): soft springs buckle under a body without rotational inertia, or it leans so far that
-    /// its foot would have to pull. No motion follows from the model after that.
+    /// No balance was found at this time (s): soft springs buckle under a body without rotational
+    /// inertia, or it leans so far that its foot would have to pull. No motion follows from the
+    /// model after that.
     Unstable {
         /// (s)
         time: f64,
@@ -90,6 +92,7 @@ pub struct Work {
     pub events: usize,
     /// Newton iterations.
     pub iterations: usize,
-    /// Steps so small that they were accepted whatever their error: none, unless a force jumps where no event is.
+    /// Steps so small that they were accepted whatever their error: none, unless a force jumps
+    /// where no event is.
     pub smallest: usize,
 }

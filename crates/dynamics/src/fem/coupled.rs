@@ -1,7 +1,8 @@
 //! The Newton matrix of a Radau stage, M + s C + s^2 K, of a body with members.
 //!
-//! As `newton`: absorbers condense into their chains. The members touch the body only: a tendon ties X to Z, and the dampers' turning
-//! levers make the body's 3 x 3 matrix unsymmetric, so that it is factored whole.
+//! As `newton`: absorbers condense into their chains. The members touch the body only: a tendon
+//! ties X to Z, and the dampers' turning levers make the body's 3 x 3 matrix unsymmetric, so that
+//! it is factored whole.
 
 use std::ops::{Add, Neg, Sub};
 
@@ -60,7 +61,8 @@ impl<T: Num + Copy + Neg<Output = T>> Coupled<T> {
         Self { lever: [left.1, right.1], body }
     }
 
-    /// Solve for the accelerations' correction; `times` multiplies an entry of the right side by one of the matrix.
+    /// Solve for the accelerations' correction; `times` multiplies an entry of the right side by
+    /// one of the matrix.
     pub(crate) fn solve<V>(&self, chains: &Chains<T>, r: &[V; N], times: impl Fn(V, T) -> V + Copy) -> [V; N]
     where
         V: Copy + Add<Output = V> + Sub<Output = V>,

@@ -1,13 +1,15 @@
 //! The cubic through a step's values at its start and stages: what a foot's gap does between them.
 //!
-//! The collocation polynomial is a cubic, too, so that this one leaves out no more than what sine and cosine bend within a step.
+//! The collocation polynomial is a cubic, too, so that this one leaves out no more than what sine
+//! and cosine bend within a step.
 
 use super::radau::C;
 
 /// Where a step's values are known: its start and its stages.
 pub const NODES: [f64; 4] = [0.0, C[0], C[1], C[2]];
 
-/// Coefficients by ascending powers of tau, from tau on, for each unit by which a stage's value differs from the start's.
+/// Coefficients by ascending powers of tau, from tau on, for each unit by which a stage's value
+/// differs from the start's.
 const WEIGHTS: [[f64; 3]; 3] = {
     let mut weights = [[0.0; 3]; 3];
     let mut k = 0;
@@ -31,8 +33,8 @@ pub(crate) fn weights(tau: f64) -> [f64; 3] {
     std::array::from_fn(|j| tau * (first[j] + tau * (second[j] + tau * third[j])))
 }
 
-/// Where `value` falls through zero between two points at which it is known, the first inside and the second not (Illinois): a
-/// value below `edge` counts as none.
+/// Where `value` falls through zero between two points at which it is known, the first inside and
+/// the second not (Illinois): a value below `edge` counts as none.
 pub(crate) fn falls_through_zero(
     mut low: (f64, f64),
     mut high: (f64, f64),
@@ -89,8 +91,9 @@ impl Cubic {
         p0 + tau * (p1 + tau * (p2 + tau * p3))
     }
 
-    /// Where it falls through zero between two points, the first inside or at the edge and the second not. What is at the edge and comes in first
-    /// must come back before it falls: `None` if it falls at once.
+    /// Where it falls through zero between two points, the first inside or at the edge and the
+    /// second not. What is at the edge and comes in first must come back before it falls: `None` if
+    /// it falls at once.
     #[inline]
     pub fn falls(&self, mut low: (f64, f64), high: (f64, f64), edge: f64) -> Option<f64> {
         if low.1 <= edge {
@@ -111,7 +114,8 @@ impl Cubic {
     }
 }
 
-/// Whether a foot whose gap takes these values at the nodes, positive inside its limit, stays within it all along.
+/// Whether a foot whose gap takes these values at the nodes, positive inside its limit, stays
+/// within it all along.
 #[inline(always)]
 pub(crate) fn stays_inside(values: &[f64; 4], tolerance: f64) -> bool {
     let cubic = Cubic::through(values);

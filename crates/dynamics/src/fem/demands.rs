@@ -6,7 +6,8 @@
 //!   base shear    sum H plus the tendon's horizontal force at its anchor: what the ground gives the body, m (X'' + ug'')
 //! ```
 //!
-//! The legs are those of a rigid A-frame, the lines from the mass to its feet; those of a solid block mean little.
+//! The legs are those of a rigid A-frame, the lines from the mass to its feet; those of a solid
+//! block mean little.
 
 use std::ops::ControlFlow;
 
@@ -40,7 +41,8 @@ pub struct Demands {
     pub rows: Vec<DemandRow>,
     /// Largest magnitude of each, over all steps: in landings, forces of the springs.
     pub peaks: [TimedPeak; QUANTITIES.len()],
-    /// Largest magnitude of each between landings: later than 0.1/p after the last touch-down, times those of the samples.
+    /// Largest magnitude of each between landings: later than 0.1/p after the last touch-down,
+    /// times those of the samples.
     pub between: [TimedPeak; QUANTITIES.len()],
     largest: DemandRow,
 }
@@ -60,7 +62,8 @@ impl Demands {
     }
 }
 
-/// Samples, dt (s) apart, that lie later than 0.1/p after every landing: since the sample before none was near.
+/// Samples, dt (s) apart, that lie later than 0.1/p after every landing: since the sample before
+/// none was near.
 pub fn between_landings(
     body: &Body<f64>,
     dt: f64,

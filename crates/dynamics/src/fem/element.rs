@@ -1,5 +1,6 @@
-//! Elements between the body and the ground. Each gives its energy, its force on the body's coordinates X, Z, theta, the tangent of that
-//! force and the power it takes; the model adds them up.
+//! Elements between the body and the ground. Each gives its energy, its force on the body's
+//! coordinates X, Z, theta, the tangent of that force and the power it takes; the model adds them
+//! up.
 //!
 //! ```text
 //!   F = -dU/dq + F_d(q, q')      K = -dF/dq      C = -dF/dq'      power taken  P = -F_d . q'

@@ -12,8 +12,8 @@ use super::{
 };
 use rocking::motion::Motion;
 
-/// Contact forces of both feet (left, right) (N): for every sample the force of largest magnitude since the sample
-/// before, since an impact is over long before the next sample.
+/// Contact forces of both feet (left, right) (N): for every sample the force of largest magnitude
+/// since the sample before, since an impact is over long before the next sample.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Forces {
     /// Positive while the foot presses.

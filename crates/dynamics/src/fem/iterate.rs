@@ -1,5 +1,5 @@
-//! What every simplified Newton iteration of a Radau step shares, whatever the model: the ground along the step, stages, the change to
-//! the eigenvectors of A and back, and when it has converged.
+//! What every simplified Newton iteration of a Radau step shares, whatever the model: the ground
+//! along the step, stages, the change to the eigenvectors of A and back, and when it has converged.
 
 use num_complex::Complex;
 
@@ -9,7 +9,8 @@ use rocking::scalar::Scalar;
 /// Iterations before a step counts as diverged.
 const MOST_ITERATIONS: usize = 12;
 
-/// Ground acceleration along a step, horizontal and vertical, by powers of the time since its start.
+/// Ground acceleration along a step, horizontal and vertical, by powers of the time since its
+/// start.
 #[derive(Clone, Copy, Debug)]
 pub struct Ground<S> {
     /// (m/s2)
@@ -63,8 +64,8 @@ pub enum IterationVerdict {
 }
 
 impl Convergence {
-    /// For corrections below `tolerance` (m), or what rounding makes of them (m); `extra` iterations after that. An iteration is expected to
-    /// reduce the error by `rate`, 1 if unknown.
+    /// For corrections below `tolerance` (m), or what rounding makes of them (m); `extra`
+    /// iterations after that. An iteration is expected to reduce the error by `rate`, 1 if unknown.
     pub fn new(tolerance: f64, rounding: f64, extra: usize, rate: f64) -> Self {
         Self { iterations: 0, rate, last: f64::INFINITY, left: None, tolerance, rounding, extra }
     }
@@ -119,7 +120,8 @@ pub fn stage<S: Scalar>(i: usize, (q, v): (S, S), [a0, a1, a2]: [S; 3], h: S) ->
     (q + (v * (h * C[i]) + (a0 * b0 + a1 * b1 + a2 * b2) * (h * h)), v + (a0 * d0 + a1 * d1 + a2 * d2) * h)
 }
 
-/// The residuals of a coordinate at the stages in the eigenvectors of A: the real one, and one of the pair.
+/// The residuals of a coordinate at the stages in the eigenvectors of A: the real one, and one of
+/// the pair.
 #[inline(always)]
 pub fn modes<S: Scalar>([a, b, c]: [S; 3]) -> (S, Complex<S>) {
     let mode = |row: usize| a * T_INV[row][0] + b * T_INV[row][1] + c * T_INV[row][2];
@@ -133,7 +135,8 @@ pub fn from_modes<S: Scalar>(w0: S, w1: Complex<S>) -> [S; 3] {
     [at(T[0]), at(T[1]), at(T[2])]
 }
 
-/// What an iteration's correction of a coordinate counts (m), with h^2: the largest coefficient of A^2 is 0.32.
+/// What an iteration's correction of a coordinate counts (m), with h^2: the largest coefficient of
+/// A^2 is 0.32.
 pub const LARGEST: f64 = 0.32;
 
 /// sum E_i (x_i - x_0) of a coordinate's values at the stages and the start.

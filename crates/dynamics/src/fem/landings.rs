@@ -1,15 +1,18 @@
 //! What the feet's touch-downs and lift-offs mean: impacts, bounces, time in the air.
 //!
-//! Housner's body leans on one foot, lands on the other (the impact) and leans on that one. On springs a landing may
-//! take several touch-downs: the foot may bounce, the old foot may touch again. What is told apart here:
+//! Housner's body leans on one foot, lands on the other (the impact) and leans on that one. On
+//! springs a landing may take several touch-downs: the foot may bounce, the old foot may touch
+//! again. What is told apart here:
 //!
-//! - a *lean* on a foot is the time in which that foot, and for no longer than a moment the other, carries the body
-//!   alone; a moment is 0.1/p (0.25 s for the paper's structure), the time in which a rigid body rocks from and to
-//!   0.1 % of alpha. Shorter leans, and touches of the other foot within a lean, are chatter, unless the body turns back in
-//!   them and falls with more energy than from 0.1 % of alpha: shaken hard, it rocks that fast;
-//! - an *impact* ends a lean: the first touch-down of the other foot, whether the body goes on leaning on that or rests.
-//!   A lean that the history's end cuts short has none;
-//! - a *bounce* is a touch-down of the foot leaned on (or landed on) that opens again within a moment.
+//! - a *lean* on a foot is the time in which that foot, and for no longer than a moment the other,
+//!   carries the body alone; a moment is 0.1/p (0.25 s for the paper's structure), the time in
+//!   which a rigid body rocks from and to 0.1 % of alpha. Shorter leans, and touches of the other
+//!   foot within a lean, are chatter, unless the body turns back in them and falls with more energy
+//!   than from 0.1 % of alpha: shaken hard, it rocks that fast;
+//! - an *impact* ends a lean: the first touch-down of the other foot, whether the body goes on
+//!   leaning on that or rests. A lean that the history's end cuts short has none;
+//! - a *bounce* is a touch-down of the foot leaned on (or landed on) that opens again within a
+//!   moment.
 
 use super::observer::Change;
 
@@ -27,7 +30,8 @@ pub struct Landing {
     pub foot: usize,
     /// Kinetic energy of the body at touch-down (J).
     pub kinetic: f64,
-    /// Of an impact: energy taken by dashpots and let go by springs from it to the next impact, or to the end (J).
+    /// Of an impact: energy taken by dashpots and let go by springs from it to the next impact, or
+    /// to the end (J).
     pub lost: f64,
     /// Whether this foot, landed or leaned on, opened again within 0.1/p.
     pub bounced: bool,
@@ -99,8 +103,8 @@ fn turned(before: Instant, after: Instant) -> bool {
 }
 
 impl Events {
-    /// The landings, and the time with both feet in the air, of a history that ended at `end` (s), `lost` (J) having
-    /// been lost.
+    /// The landings, and the time with both feet in the air, of a history that ended at `end` (s),
+    /// `lost` (J) having been lost.
     pub(crate) fn landings(&self, end: f64, lost: f64) -> (Vec<Landing>, f64) {
         let touch_downs = || self.events.iter().filter(|e| e.change == Change::TouchDown);
         let mut landings: Vec<Landing> = touch_downs()
@@ -175,7 +179,8 @@ impl Events {
         self.joined(lasting)
     }
 
-    /// Leans on the same foot that follow each other within a moment joined, unless the other foot stopped a fall between them.
+    /// Leans on the same foot that follow each other within a moment joined, unless the other foot
+    /// stopped a fall between them.
     fn joined(&self, leans: impl Iterator<Item = Lean>) -> Vec<Lean> {
         let mut joined: Vec<Lean> = Vec::new();
         for lean in leans {
@@ -227,7 +232,8 @@ mod tests {
     const LEFT: usize = 0;
     const RIGHT: usize = 1;
 
-    /// Events from (time, foot, down), a moment of 0.25 s, both feet pressing at first; 1 J is lost every second.
+    /// Events from (time, foot, down), a moment of 0.25 s, both feet pressing at first; 1 J is lost
+    /// every second.
     fn read(changes: &[(f64, usize, bool)], end: f64) -> (Vec<Landing>, f64) {
         at_speeds(changes, |_| 0.0).landings(end, end)
     }
@@ -250,7 +256,8 @@ mod tests {
         events.landings(end, end).0.iter().filter(|l| l.impact).map(|l| (l.time, l.foot)).collect()
     }
 
-    /// Speed of a body that leans on its left foot to 2.02 s, on the right one to 2.12 s, and then on the left.
+    /// Speed of a body that leans on its left foot to 2.02 s, on the right one to 2.12 s, and then
+    /// on the left.
     fn shaken(time: f64) -> f64 {
         if (1.5..2.06).contains(&time) || time > 2.5 { 1.0 } else { -1.0 }
     }
@@ -294,7 +301,8 @@ mod tests {
         read(changes, end).0.iter().filter(|l| l.impact).map(|l| (l.time, l.foot)).collect()
     }
 
-    /// Leans on the left foot from 1 s, lands on the right at 2 s, leans on it from 2.01 s, lands on the left at 3 s.
+    /// Leans on the left foot from 1 s, lands on the right at 2 s, leans on it from 2.01 s, lands
+    /// on the left at 3 s.
     const ROCKING: [(f64, usize, bool); 4] =
         [(1.0, RIGHT, false), (2.0, RIGHT, true), (2.01, LEFT, false), (3.0, LEFT, true)];
 

@@ -1,7 +1,8 @@
 //! Many histories, a few at a time side by side.
 //!
-//! The steps of [`WIDTH`] histories are tried together, in vector registers (`kernel`); each history goes its own way otherwise: its
-//! own time, step size, contacts and events. A history is the same, bit for bit, whether it is followed alone or among others.
+//! The steps of [`WIDTH`] histories are tried together, in vector registers (`kernel`); each
+//! history goes its own way otherwise: its own time, step size, contacts and events. A history is
+//! the same, bit for bit, whether it is followed alone or among others.
 
 mod kernel;
 
@@ -12,10 +13,11 @@ use rayon::prelude::*;
 use super::{Analysis, Finish, control::HistoryOutcome, model::Model, observer::Observer, run::TimeLoop, step::Stages};
 use kernel::{Kernel, Tried, WIDTH};
 
-/// Follow many cases, each shown to an observer of its own, which `observer` makes for the case of an index. Returned in the
-/// order of the cases.
+/// Follow many cases, each shown to an observer of its own, which `observer` makes for the case of
+/// an index. Returned in the order of the cases.
 ///
-/// Each history is the one that [`Analysis::observe`] gives, bit for bit, on any number of threads and any processor.
+/// Each history is the one that [`Analysis::observe`] gives, bit for bit, on any number of threads
+/// and any processor.
 pub fn histories<O: Observer<f64> + Send>(
     cases: &[Analysis<'_, f64>],
     observer: impl Fn(usize) -> O + Sync,

@@ -1,4 +1,5 @@
-//! The discrete model: a plane rigid body on two feet, each foot on a vertical and a horizontal chain.
+//! The discrete model: a plane rigid body on two feet, each foot on a vertical and a horizontal
+//! chain.
 //!
 //! ```text
 //!   q = [ X, Z, theta,  ax_L, az_L,  ax_R, az_R ]      body (3), absorber masses of the left and right foot (2 each)
@@ -12,8 +13,9 @@
 //!   I  theta'' = sum ( H dp_x/dtheta + N dp_z/dtheta )
 //! ```
 //!
-//! Displacements are relative to the ground, whose acceleration is (ug'', vg''), vg'' upwards; gravity acts on the body only, so an open absorber rests at zero, as in
-//! the engineer's deck, where the weight is a load on the mass.
+//! Displacements are relative to the ground, whose acceleration is (ug'', vg''), vg'' upwards;
+//! gravity acts on the body only, so an open absorber rests at zero, as in the engineer's deck,
+//! where the weight is a load on the mass.
 
 pub(crate) use super::contact::{Contact, ContactLaw, Foot, FootForce};
 use super::element::{Dampers, Elements, TendonElement};
@@ -75,11 +77,13 @@ impl<S: Scalar> Pose<S> {
 
 /// I_cg / (m R^2) below which the rotation counts as massless.
 ///
-/// A little rotational inertia on stiff springs makes an undamped oscillator of several kHz (Omega_n R sqrt(m/I_cg)) that
-/// no landing in reality shows: followed exactly it chatters, spins the body and topples it, and every program in use
-/// damps it by the error of its integrator. Its limit is well behaved: the rotation follows the contact forces at once.
-/// The inertia that rocking feels is kept, m R^2 + I_cg, by moving I_cg/R^2 into the inertia of the translation; what is
-/// lost is the share 2 sin^2(alpha) I_cg/(m R^2) of the restitution, less than 1e-3 for any slender body.
+/// A little rotational inertia on stiff springs makes an undamped oscillator of several kHz
+/// (Omega_n R sqrt(m/I_cg)) that no landing in reality shows: followed exactly it chatters, spins
+/// the body and topples it, and every program in use damps it by the error of its integrator. Its
+/// limit is well behaved: the rotation follows the contact forces at once. The inertia that rocking
+/// feels is kept, m R^2 + I_cg, by moving I_cg/R^2 into the inertia of the translation; what is
+/// lost is the share 2 sin^2(alpha) I_cg/(m R^2) of the restitution, less than 1e-3 for any slender
+/// body.
 const MASSLESS_ROTATION: f64 = 2e-3;
 
 /// Body and springs, ready to compute with.
@@ -112,7 +116,8 @@ impl<S: Scalar> Model<S> {
         Self { body: *body, springs: *springs, translation, rotation, law, elements, skip_open: true }
     }
 
-    /// A body with members on its springs. The tendon is stressed so that its tension in the settled structure is its pretension.
+    /// A body with members on its springs. The tendon is stressed so that its tension in the
+    /// settled structure is its pretension.
     pub(crate) fn with_members(body: &Body<S>, springs: &Springs<Chain<S>>, members: &Members<S>) -> Self {
         let mut model = Self::new(body, springs);
         if let Some(friction) = members.friction {
@@ -124,7 +129,8 @@ impl<S: Scalar> Model<S> {
         if let Some(damper) = members.damper.filter(|damper| damper.c.re() > 0.0) {
             model.elements.dampers = Some(Dampers::new(damper.c, body));
             if body.inertia.re() > 0.0 {
-                // dampers let a rotation without inertia neither follow the contact forces at once nor keep its rate
+                // dampers let a rotation without inertia neither follow the contact forces at once
+                // nor keep its rate
                 (model.translation, model.rotation) = (body.mass, body.inertia);
             }
         }
@@ -162,7 +168,8 @@ impl<S: Scalar> Model<S> {
         }
     }
 
-    /// Position of foot i relative to where it stood, with the derivatives by theta: (p_x, p_z, dp_x, dp_z).
+    /// Position of foot i relative to where it stood, with the derivatives by theta: (p_x, p_z,
+    /// dp_x, dp_z).
     #[inline(always)]
     pub(crate) fn foot(&self, i: usize, q: &Vector<S>, sin: S, cos: S) -> (S, S, S, S) {
         let sb = self.body.half_width * SIDE[i];
@@ -280,7 +287,8 @@ impl<S: Scalar> Model<S> {
         let mut f = [S::zero(); N];
         f[X] = l.horizontal + r.horizontal - m * ground;
         f[Z] = l.vertical + r.vertical - m * (up + GRAVITY);
-        // each foot's part by itself, so that a mirrored case gives the mirrored history to the last bit
+        // each foot's part by itself, so that a mirrored case gives the mirrored history to the
+        // last bit
         f[TH] = (l.horizontal * l.px_th + l.vertical * l.pz_th) + (r.horizontal * r.px_th + r.vertical * r.pz_th);
         for (i, foot) in contact.iter().enumerate() {
             f[ax(i)] = -(foot.horizontal + horizontal.m2 * ground + horizontal.k2 * q[ax(i)] + horizontal.c * v[ax(i)]);
@@ -296,8 +304,8 @@ impl<S: Scalar> Model<S> {
         [m, m, self.rotational_inertia(feet), h, v, h, v]
     }
 
-    /// In free flight a massless rotation keeps its rate, as the limit of a small I_cg does (no moment acts, so the
-    /// value does not matter).
+    /// In free flight a massless rotation keeps its rate, as the limit of a small I_cg does (no
+    /// moment acts, so the value does not matter).
     fn rotational_inertia(&self, feet: &[Foot<S>; 2]) -> S {
         // dampers do turn it in flight
         let free = self.elements.dampers.is_none();
@@ -339,7 +347,8 @@ impl<S: Scalar> Model<S> {
         self.elements.add_energy(twice * 0.5, q)
     }
 
-    /// Power of the base excitation in the moving frame, -ug'' (m X' + sum m2_h a_x') - vg'' (m Z' + sum m2_v a_z') (W).
+    /// Power of the base excitation in the moving frame, -ug'' (m X' + sum m2_h a_x') - vg'' (m Z'
+    /// + sum m2_v a_z') (W).
     #[inline(always)]
     pub(crate) fn input_power(&self, v: &Vector<S>, [ground, up]: [S; 2]) -> S {
         let Springs { vertical, horizontal } = &self.springs;

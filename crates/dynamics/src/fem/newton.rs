@@ -1,8 +1,9 @@
 //! The Newton matrix of a Radau stage, M + s c + s^2 K with s = h lambda, condensed to the body.
 //!
-//! Each absorber touches only its own foot, so it is eliminated by one division; what is left of a chain is its dynamic
-//! stiffness s^2 k1 (m2 + s c + s^2 k2) / (m2 + s c + s^2 (k1 + k2)), equation (5) with s^-1 for i omega. The body's
-//! 3 x 3 matrix is an arrow (X and Z meet only in theta), so it too is solved without a general factorisation.
+//! Each absorber touches only its own foot, so it is eliminated by one division; what is left of a
+//! chain is its dynamic stiffness s^2 k1 (m2 + s c + s^2 k2) / (m2 + s c + s^2 (k1 + k2)), equation
+//! (5) with s^-1 for i omega. The body's 3 x 3 matrix is an arrow (X and Z meet only in theta), so
+//! it too is solved without a general factorisation.
 
 use std::ops::{Add, Neg, Sub};
 
@@ -14,7 +15,8 @@ use super::{coupled::Coupled, slipping::Slipping};
 use crate::spring::Springs;
 use rocking::scalar::Scalar;
 
-/// Both feet's chains, horizontal and vertical. They depend on the step's size and on what holds, on nothing else.
+/// Both feet's chains, horizontal and vertical. They depend on the step's size and on what holds,
+/// on nothing else.
 #[derive(Clone, Copy)]
 pub(super) struct Chains<T>(pub [[Condensed<T>; 2]; 2]);
 
@@ -99,7 +101,8 @@ impl<T: Num + Copy + Neg<Output = T>> CondensedMatrix<T> {
         Self::Rigid(Rigid::new(chains, contact, &model.masses(feet), closed, s, lift))
     }
 
-    /// Solve for the accelerations' correction; `times` multiplies an entry of the right side by one of the matrix.
+    /// Solve for the accelerations' correction; `times` multiplies an entry of the right side by
+    /// one of the matrix.
     #[inline(always)]
     pub(crate) fn solve<V>(&self, chains: &Chains<T>, r: &[V; N], times: impl Fn(V, T) -> V + Copy) -> [V; N]
     where
@@ -160,7 +163,8 @@ impl<T: Num + Copy + Neg<Output = T>> Rigid<T> {
         V: Copy + Add<Output = V> + Sub<Output = V> + Zero,
     {
         let (left, right) = (self.reach(chains, 0, r, times), self.reach(chains, 1, r, times));
-        // one sum of both feet first, so that a mirrored case gives the mirrored history to the last bit
+        // one sum of both feet first, so that a mirrored case gives the mirrored history to the
+        // last bit
         let [x, z, th] = [r[X] + (left[X] + right[X]), r[Z] + (left[Z] + right[Z]), r[TH] + (left[TH] + right[TH])];
         let turned = times(x, self.x_th * self.x_inv) + times(z, self.z_th * self.z_inv);
         let th = times(th - turned, self.th_inv);
@@ -202,7 +206,8 @@ impl<T: Num + Copy + Neg<Output = T>> Rigid<T> {
     }
 }
 
-/// A closed foot's share of the body's matrix, [xx, zz, tt, x_th, z_th], and its lever [dp_x/dtheta, dp_z/dtheta].
+/// A closed foot's share of the body's matrix, [xx, zz, tt, x_th, z_th], and its lever
+/// [dp_x/dtheta, dp_z/dtheta].
 #[inline(always)]
 pub(super) fn share<S: Scalar, T: Num + Copy>(
     [h, v]: &[Condensed<T>; 2],
@@ -217,7 +222,8 @@ pub(super) fn share<S: Scalar, T: Num + Copy>(
     ([h.stiffness, v.stiffness, tt, h.stiffness * px, v.stiffness * pz], [px, pz])
 }
 
-/// What of the right side of a closed foot's absorbers, horizontal and vertical, reaches X, Z and theta.
+/// What of the right side of a closed foot's absorbers, horizontal and vertical, reaches X, Z and
+/// theta.
 #[inline(always)]
 pub(super) fn reach<T: Num + Copy, V: Copy + Add<Output = V>>(
     [h, v]: &[Condensed<T>; 2],

@@ -81,7 +81,8 @@ impl<S: Scalar> View<'_, S> {
 pub trait Observer<S: Scalar> {
     /// Called at every sample, the first at t = 0.
     fn sample(&mut self, index: usize, view: &View<S>) -> ControlFlow<()>;
-    /// Called at the end of every accepted step, before an event that ends there changes the contact.
+    /// Called at the end of every accepted step, before an event that ends there changes the
+    /// contact.
     fn step(&mut self, _view: &View<S>) {}
     /// Called right after foot `foot` (0 left, 1 right) changed its contact.
     fn event(&mut self, _foot: usize, _change: Change, _view: &View<S>) {}

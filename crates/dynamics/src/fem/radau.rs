@@ -1,9 +1,9 @@
-//! Radau IIA, three stages, order 5, L-stable and stiffly accurate (Hairer & Wanner, *Solving Ordinary Differential
-//! Equations II*, section IV.5), for second-order systems.
+//! Radau IIA, three stages, order 5, L-stable and stiffly accurate (Hairer & Wanner, *Solving
+//! Ordinary Differential Equations II*, section IV.5), for second-order systems.
 //!
-//! With a step h from (q, v), the stage accelerations a_j give the stages
-//! V_i = v + h sum A_ij a_j and Q_i = q + c_i h v + h^2 sum (A^2)_ij a_j; the last stage is the step's end.
-//! `T` diagonalises A in real form: A T = T Lambda with Lambda = [[GAMMA]] and [[ALPHA, BETA], [-BETA, ALPHA]].
+//! With a step h from (q, v), the stage accelerations a_j give the stages V_i = v + h sum A_ij a_j
+//! and Q_i = q + c_i h v + h^2 sum (A^2)_ij a_j; the last stage is the step's end. `T` diagonalises
+//! A in real form: A T = T Lambda with Lambda = [[GAMMA]] and [[ALPHA, BETA], [-BETA, ALPHA]].
 
 /// Nodes c.
 pub const C: [f64; 3] = [0.155_051_025_721_682_19, 0.644_948_974_278_317_8, 1.0];
@@ -36,8 +36,8 @@ pub(crate) const ALPHA: f64 = 0.162_555_585_202_161_32;
 /// Imaginary part of the complex pair of A.
 pub(crate) const BETA: f64 = 0.184_949_324_407_140_78;
 
-/// Weights of the stages in the embedded formula of order three, GAMMA/3 (-13 - 7 sqrt 6, -13 + 7 sqrt 6, -1); that of the
-/// start is GAMMA.
+/// Weights of the stages in the embedded formula of order three, GAMMA/3 (-13 - 7 sqrt 6, -13 + 7
+/// sqrt 6, -1); that of the start is GAMMA.
 pub(crate) const E: [f64; 3] = [-2.762_305_454_748_599_2, 0.379_935_598_252_728_87, -0.091_629_609_865_225_789];
 
 /// Eigenvectors: the real one, then real and imaginary part of the one of ALPHA + i BETA.
@@ -61,7 +61,8 @@ const LAGRANGE: [[f64; 3]; 3] = [
     [1.0 / 3.0, -8.0 / 3.0, 10.0 / 3.0],
 ];
 
-/// Weights w_j(tau) such that q(tau) = q + h sum w_j V_j, the collocation polynomial at tau in 0..1.
+/// Weights w_j(tau) such that q(tau) = q + h sum w_j V_j, the collocation polynomial at tau in
+/// 0..1.
 pub(crate) fn position_weights(tau: f64) -> [f64; 3] {
     LAGRANGE.map(|[p0, p1, p2]| tau * (p0 + tau * (p1 / 2.0 + tau * (p2 / 3.0))))
 }
@@ -90,8 +91,8 @@ mod tests {
         }
     }
 
-    /// sum E_i (t^k at c_i) + GAMMA k t^(k-1) at 0 = 0 for k = 1 to 3: nothing is missed of a cubic. (The formula's weights
-    /// are GAMMA at the start and b + A^T E at the stages.)
+    /// sum E_i (t^k at c_i) + GAMMA k t^(k-1) at 0 = 0 for k = 1 to 3: nothing is missed of a
+    /// cubic. (The formula's weights are GAMMA at the start and b + A^T E at the stages.)
     #[test]
     fn the_embedded_formula_is_of_order_three() {
         let root6 = 6.0_f64.sqrt();

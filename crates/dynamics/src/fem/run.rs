@@ -1,5 +1,5 @@
-//! The time loop: steps that end at every sample, and between samples at every contact event (`run/events`); the energy
-//! account accepts them and chooses the next (`run/account`).
+//! The time loop: steps that end at every sample, and between samples at every contact event
+//! (`run/events`); the energy account accepts them and chooses the next (`run/account`).
 
 mod account;
 mod events;
@@ -47,7 +47,7 @@ pub(crate) struct TimeLoop<'a, S> {
     late: [S; span::MOST],
     /// Its rate (m/s).
     late_rate: [S; span::MOST],
-    /// By how much the springs give way under an acceleration of the mass of one [m per m/s2].
+    /// Displacement of the mass per unit acceleration on the springs (s2).
     compliance: f64,
     /// The sample up to which steps over several samples may go: an event comes after it.
     event_by: usize,
@@ -197,7 +197,8 @@ impl<'a, S: Scalar> TimeLoop<'a, S> {
         }
     }
 
-    /// Size of the next step to try, past samples and rests; the outcome once the history has ended.
+    /// Size of the next step to try, past samples and rests; the outcome once the history has
+    /// ended.
     pub(crate) fn plan(&mut self, observer: &mut impl Observer<S>) -> Result<S, HistoryOutcome> {
         let dt = self.motion.dt;
         loop {
@@ -249,8 +250,8 @@ impl<'a, S: Scalar> TimeLoop<'a, S> {
         self.interval as f64 * self.motion.dt
     }
 
-    /// Take note of a step that was tried: accept it, refuse it, or ask for the same step with the size that is returned, to find
-    /// the event within it. `measures` are its own, if known.
+    /// Take note of a step that was tried: accept it, refuse it, or ask for the same step with the
+    /// size that is returned, to find the event within it. `measures` are its own, if known.
     pub(crate) fn process_step(
         &mut self,
         converged: bool,
@@ -376,7 +377,8 @@ impl<'a, S: Scalar> TimeLoop<'a, S> {
         }
     }
 
-    /// Hand over what a step of size h needs: start, contacts, what is asked, and what rounding alone may make of an iteration (m).
+    /// Hand over what a step of size h needs: start, contacts, what is asked, and what rounding
+    /// alone may make of an iteration (m).
     pub(crate) fn submit(&self, h: S, take: impl FnOnce(&State<S>, &[Foot<S>; 2], &Request<S>, f64)) {
         take(&self.state, &self.feet, &self.request(h), self.stepper.rounding);
     }

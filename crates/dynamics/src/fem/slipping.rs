@@ -1,7 +1,8 @@
 //! The Newton matrix of a Radau stage, M + s C + s^2 K, while a foot slips on the ground.
 //!
-//! A slipping foot's horizontal force follows its vertical one, H = -+ mu N, which makes the matrix unsymmetric and ties
-//! each of the foot's absorbers to both of its motions. It is factored whole: slipping is rare and short.
+//! A slipping foot's horizontal force follows its vertical one, H = -+ mu N, which makes the matrix
+//! unsymmetric and ties each of the foot's absorbers to both of its motions. It is factored whole:
+//! slipping is rare and short.
 
 use std::ops::Sub;
 
@@ -10,7 +11,8 @@ use num_traits::Num;
 use super::model::{Contact, Foot, Model, N, State, TH, X, Z, ax, az};
 use rocking::scalar::Scalar;
 
-/// Absorbers first, the rotation last: each pivot then has a mass, or stands on what is left of one.
+/// Absorbers first, the rotation last: each pivot then has a mass, or stands on what is left of
+/// one.
 const ORDER: [usize; N] = [ax(0), az(0), ax(1), az(1), X, Z, TH];
 
 /// The matrix as L U in the order of elimination: multipliers below, U on and above the diagonal.
@@ -70,7 +72,8 @@ impl<T: Num + Copy> Slipping<T> {
         Self(lu)
     }
 
-    /// Solve for the accelerations' correction; `times` multiplies an entry of the right side by one of the matrix.
+    /// Solve for the accelerations' correction; `times` multiplies an entry of the right side by
+    /// one of the matrix.
     pub(crate) fn solve<V: Copy + Sub<Output = V>>(&self, r: &[V; N], times: impl Fn(V, T) -> V) -> [V; N] {
         let lu = &self.0;
         let mut d = ORDER.map(|k| r[k]);

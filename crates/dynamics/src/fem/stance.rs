@@ -26,8 +26,9 @@ impl<S: Scalar> Model<S> {
         (State { q, v: [S::zero(); N] }, [foot; 2])
     }
 
-    /// The body at rest leaning by theta on one foot, whatever the other does. The pressing foot's chains carry what they
-    /// carry while a rigid body falls back from there, so that no vibration is started,
+    /// The body at rest leaning by theta on one foot, whatever the other does. The pressing foot's
+    /// chains carry what they carry while a rigid body falls back from there, so that no vibration
+    /// is started,
     ///
     /// ```text
     ///   theta'' = -m g R sin(alpha - theta) / I0      H = m X''      N = m (g + Z'')
@@ -58,7 +59,8 @@ impl<S: Scalar> Model<S> {
         (State { q, v: [S::zero(); N] }, feet)
     }
 
-    /// At rest leaning by theta on one foot, pulled by the tendon, whose pull follows from the place and the place from it.
+    /// At rest leaning by theta on one foot, pulled by the tendon, whose pull follows from the
+    /// place and the place from it.
     fn lean_under_tendon(&self, theta: S) -> (State<S>, [Foot<S>; 2]) {
         let pressing = usize::from(theta.re() > 0.0);
         let Springs { vertical, horizontal } = &self.springs;
@@ -83,7 +85,8 @@ impl<S: Scalar> Model<S> {
         (State { q: [real(f64::NAN); N], v: [S::zero(); N] }, feet)
     }
 
-    /// Force on the pressing foot, horizontal and vertical, while a rigid body falls back from rest under weight and tendon (N).
+    /// Force on the pressing foot, horizontal and vertical, while a rigid body falls back from rest
+    /// under weight and tendon (N).
     fn falling_back(&self, q: &[S; N], pressing: usize) -> (S, S) {
         let pull = self.elements.tendon.map_or([S::zero(); 2], |tendon| tendon.force_on_mass(q));
         let (gx, gz) = (pull[0], pull[1] - self.body.mass * GRAVITY);
@@ -98,8 +101,8 @@ impl<S: Scalar> Model<S> {
         (-gx - thrust * tz, -gz + thrust * tx)
     }
 
-    /// A start for free rocking: at rest `on_one_foot`; a lean of less than the settlement leaves the other foot in the
-    /// ground, and then it presses too.
+    /// A start for free rocking: at rest `on_one_foot`; a lean of less than the settlement leaves
+    /// the other foot in the ground, and then it presses too.
     pub(crate) fn leaning(&self, theta: S) -> (State<S>, [Foot<S>; 2]) {
         let (mut state, mut feet) = self.on_one_foot(theta);
         for (i, foot) in feet.iter_mut().enumerate() {

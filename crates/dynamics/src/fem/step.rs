@@ -41,7 +41,8 @@ impl<S: Scalar> Stages<S> {
         State { q: self.q[2], v: self.v[2] }
     }
 
-    /// Work of the base excitation and dissipation in the dashpots over the step, by the step's own quadrature (J).
+    /// Work of the base excitation and dissipation in the dashpots over the step, by the step's own
+    /// quadrature (J).
     pub(crate) fn work(&self, model: &Model<S>, feet: &[Foot<S>; 2], ground: &Ground<S>) -> (S, S) {
         let (mut input, mut dissipated) = (S::zero(), S::zero());
         for j in 0..3 {
@@ -82,7 +83,8 @@ pub(super) struct Request<S> {
     pub tolerance: f64,
     /// Iterations to add after convergence, so that derivatives converge too.
     pub extra: usize,
-    /// The factor by which an iteration is expected to reduce the error, from the step before; 1 if unknown.
+    /// The factor by which an iteration is expected to reduce the error, from the step before; 1 if
+    /// unknown.
     pub rate: f64,
     /// The foot that the body turns about, if that counts.
     pub turning: Option<Turning>,
@@ -90,13 +92,14 @@ pub(super) struct Request<S> {
 
 /// Takes steps of a model.
 ///
-/// The Newton matrix is one of real numbers whatever the scalar is: the iteration makes derivatives converge as it does values,
-/// by the same factor, and a matrix times a dual number is cheap where two dual numbers are not.
+/// The Newton matrix is one of real numbers whatever the scalar is: the iteration makes derivatives
+/// converge as it does values, by the same factor, and a matrix times a dual number is cheap where
+/// two dual numbers are not.
 pub(super) struct Stepper<'a, S> {
     model: &'a Model<S>,
     real: Model<f64>,
-    /// Correction of an iteration that rounding alone may make (m): a gap rounded by some units in the last digit of R turns the
-    /// body R/b times as far.
+    /// Correction of an iteration that rounding alone may make (m): a gap rounded by some units in
+    /// the last digit of R turns the body R/b times as far.
     pub rounding: f64,
     chains: Option<Shared>,
     /// The real matrix of the last step, for its error.
@@ -112,7 +115,8 @@ struct Shared {
     pair: Chains<Complex<f64>>,
 }
 
-/// A coordinate's correction at the stages, and what counts of it: of a body that turns about its foot, from the foot's place.
+/// A coordinate's correction at the stages, and what counts of it: of a body that turns about its
+/// foot, from the foot's place.
 #[inline(always)]
 fn counted<S: Scalar>(
     k: usize,
@@ -278,18 +282,20 @@ impl<S: Scalar> Stages<S> {
 }
 
 impl<S: Scalar> Stepper<'_, S> {
-    /// What the step just taken from `start` misses, estimated: displacements, and the velocities that go with them.
+    /// What the step just taken from `start` misses, estimated: displacements, and the velocities
+    /// that go with them.
     ///
-    /// Hairer & Wanner, section IV.8, equations (8.17) to (8.19): a formula of order three on the same stages and the start, its
-    /// stiff part filtered by the matrix of the real eigenvalue, here for M q'' = f(q, q', t) with s = h GAMMA,
+    /// Hairer & Wanner, section IV.8, equations (8.17) to (8.19): a formula of order three on the
+    /// same stages and the start, its stiff part filtered by the matrix of the real eigenvalue,
+    /// here for M q'' = f(q, q', t) with s = h GAMMA,
     ///
     /// ```text
     ///   (M + s C + s^2 K) e_q = s^2 f(q_0, -d_q/s, t_0) + M (s q'_0 + d_q + s d_v)      e_v = (e_q - d_q)/s - q'_0
     ///   d_q = sum E_i (Q_i - q_0),  d_v = sum E_i (V_i - q'_0)
     /// ```
     ///
-    /// where the velocity -d_q/s makes of f what s C would add. It needs no acceleration at the start, so that a rotation
-    /// without inertia is no special case.
+    /// where the velocity -d_q/s makes of f what s C would add. It needs no acceleration at the
+    /// start, so that a rotation without inertia is no special case.
     pub(crate) fn local_error(
         &self,
         start: &State<S>,
@@ -329,7 +335,8 @@ pub(super) fn error_right(
     right
 }
 
-/// The acceleration everywhere zero: the guess after an event, when the old accelerations tell nothing.
+/// The acceleration everywhere zero: the guess after an event, when the old accelerations tell
+/// nothing.
 pub(super) fn no_guess<S: Scalar>() -> Vector<S> {
     [real(0.0); N]
 }

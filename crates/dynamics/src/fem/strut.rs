@@ -1,17 +1,19 @@
 //! The only foot near the ground of a body without rotational inertia: a massless strut.
 //!
-//! No moment acts on such a body, so that the force of its only foot passes through the centre of mass: it can but push along
-//! the line e from the foot to the mass, as a strut does, and it pushes once the two come nearer to each other than R. A foot
-//! that touches the ground while they move apart takes no force: held, it would lift at once; lifted, it would touch at once.
-//! In the limit I_cg -> 0 of such chatter neither N nor H is left, and the foot trails: the rotation follows the ground's
-//! surface without force,
+//! No moment acts on such a body, so that the force of its only foot passes through the centre of
+//! mass: it can but push along the line e from the foot to the mass, as a strut does, and it pushes
+//! once the two come nearer to each other than R. A foot that touches the ground while they move
+//! apart takes no force: held, it would lift at once; lifted, it would touch at once. In the limit
+//! I_cg -> 0 of such chatter neither N nor H is left, and the foot trails: the rotation follows the
+//! ground's surface without force,
 //!
 //! ```text
 //!   p_z = a_z      until it presses      e . (v_absorber - v_mass) > 0
 //!                  or the ground recedes from a foot that keeps its rotation rate,  p_z'' > a_z'' at theta'' = 0
 //! ```
 //!
-//! A vertical ground acceleration moves mass and absorber alike (but for I_cg/R^2, less than 2e-3 of the mass, see `model`).
+//! A vertical ground acceleration moves mass and absorber alike (but for I_cg/R^2, less than 2e-3
+//! of the mass, see `model`).
 
 use super::model::{Model, Pose, State, TH, X, Z, ax, az};
 use rocking::scalar::{GRAVITY, Scalar};
@@ -65,7 +67,8 @@ mod tests {
     const Q: [f64; 7] = [0.1, -0.02, 0.03, 0.01, -0.004, 0.002, -0.03];
     const V: [f64; 7] = [0.3, -0.1, 0.2, 0.05, -0.2, 0.07, 0.13];
 
-    /// The distance from the mass to the point under the foot that moves with the absorber, by dual numbers.
+    /// The distance from the mass to the point under the foot that moves with the absorber, by dual
+    /// numbers.
     #[test]
     fn it_presses_as_mass_and_absorber_come_nearer() {
         let model = model::<f64>();
@@ -80,7 +83,8 @@ mod tests {
         }
     }
 
-    /// Foot and absorber in free flight, the rotation rate kept: the gap's second derivative along their motion.
+    /// Foot and absorber in free flight, the rotation rate kept: the gap's second derivative along
+    /// their motion.
     #[test]
     fn it_lifts_as_the_foot_in_flight_leaves_the_ground() {
         let model = model::<f64>();

@@ -1,4 +1,5 @@
-//! Tests of the finite element model against closed forms, limits, dual numbers and dense linear algebra.
+//! Tests of the finite element model against closed forms, limits, dual numbers and dense linear
+//! algebra.
 
 mod forces;
 mod friction;

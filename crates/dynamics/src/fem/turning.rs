@@ -1,18 +1,21 @@
 //! The iteration of a body that turns about its foot.
 //!
-//! Stiff springs hold the foot, not the body, and while the body turns the lever between both turns with it: a matrix taken half way pushes
-//! the body aside with Omega^2 for each unit by which another stage's lever differs. In the foot's place (p_x, p_z) instead of the body's
-//! (X, Z) the springs are the same at all stages,
+//! Stiff springs hold the foot, not the body, and while the body turns the lever between both turns
+//! with it: a matrix taken half way pushes the body aside with Omega^2 for each unit by which
+//! another stage's lever differs. In the foot's place (p_x, p_z) instead of the body's (X, Z) the
+//! springs are the same at all stages,
 //!
 //! ```text
 //!   d(p_x, p_z) = d(X', Z') + L d_theta       d(X', Z') = d(X, Z) + D_i d_theta       r'_theta = r_theta - D_i . (r_X, r_Z)
 //! ```
 //!
-//! with L = dp/dtheta where the matrix is taken and D_i = dp/dtheta at stage i - L: so the matrix solves for (X', Z', theta), whose
-//! displacements at the stages are h^2 A^2 times their accelerations, as those of (X, Z, theta) are. The forces in it are those at the
-//! step's start: half way along the tangent stiff springs carry a million times the weight. What the iteration still leaves
-//! is a turn about the foot, of the order of the turn within the step and of no stiffness: no force comes of it, and it need not be
-//! smaller than a share of what a step may miss.
+//! with L = dp/dtheta where the matrix is taken and D_i = dp/dtheta at stage i - L: so the matrix
+//! solves for (X', Z', theta), whose displacements at the stages are h^2 A^2 times their
+//! accelerations, as those of (X, Z, theta) are. The forces in it are those at the step's start:
+//! half way along the tangent stiff springs carry a million times the weight. What the iteration
+//! still leaves is a turn about the foot, of the order of the turn within the step and of no
+//! stiffness: no force comes of it, and it need not be smaller than a share of what a step may
+//! miss.
 
 use super::{
     contact::FootForce,
@@ -41,7 +44,8 @@ pub(super) fn moment<S: Scalar>([x, z, th]: [S; 3], turned: [f64; 2]) -> S {
     th - (x * turned[0] + z * turned[1])
 }
 
-/// What of a coordinate's accelerations at the stages comes from the turn, whose own are `th`, where the levers differ by `turned`.
+/// What of a coordinate's accelerations at the stages comes from the turn, whose own are `th`,
+/// where the levers differ by `turned`.
 #[inline(always)]
 pub(super) fn carried<S: Scalar>(th: [S; 3], turned: [f64; 3]) -> [S; 3] {
     let at = |i: usize| (th[0] * A2[i][0] + th[1] * A2[i][1] + th[2] * A2[i][2]) * turned[i];
@@ -62,8 +66,9 @@ mod tests {
     };
     use rocking::{scalar::GRAVITY, structure::Structure};
 
-    /// The paper's frame turns about its right foot by 0.02 rad in a step: iterations until the foot's place is known to a thousandth of the
-    /// springs' compression, and by how much the equations of motion then fail at the stages, over the weight.
+    /// The paper's frame turns about its right foot by 0.02 rad in a step: iterations until the
+    /// foot's place is known to a thousandth of the springs' compression, and by how much the
+    /// equations of motion then fail at the stages, over the weight.
     fn iterations(hz: f64, turns: bool) -> Option<(usize, f64)> {
         let body = Structure::paper().body::<f64>();
         let chain = Design::from_kc(0.5, 0.2, 0.92, hz);

@@ -1,7 +1,7 @@
 //! Table 1 of the paper, as far as its digits survive: the one definition.
 //!
-//! `tuning/table_1.json` is the same as a file of parameters, for users of the library and the program;
-//! `tests/table_1.rs` compares the two.
+//! `tuning/table_1.json` is the same as a file of parameters, for users of the library and the
+//! program; `tests/table_1.rs` compares the two.
 //!
 //! The text that survives has lost most of its digits 1 and 2.
 //!
@@ -13,9 +13,9 @@
 //! | c | x.65e8 N s/m, read as 1.165e8 | 3.34e8 N s/m | digits lost |
 //! | mu | lost, 10.2 | lost, 10.2 | vertical k2/k1 = 9.214 is the smallest largest ARR of mu = 10.2 |
 //!
-//! The horizontal k2 is read as 1.3148e9 N/m, the middle of the narrower range. Within that range the
-//! history on El Centro is the same to three digits. Every other reading that was tried is farther
-//! from Housner (docs/paper.md has the table).
+//! The horizontal k2 is read as 1.3148e9 N/m, the middle of the narrower range. Within that range
+//! the history on El Centro is the same to three digits. Every other reading that was tried is
+//! farther from Housner (docs/paper.md has the table).
 
 use super::{Design, Springs};
 

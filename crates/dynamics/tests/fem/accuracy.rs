@@ -41,9 +41,9 @@ fn halving_a_small_rotational_inertia_changes_nothing_that_matters() {
     }
 }
 
-/// The history's error follows the tolerance, against one of 1e-12. On stiff springs under a frame it is small from the start (most
-/// steps end at samples). The last bounds are two to ten times what is measured; a block lands on springs that ring, and passes
-/// on what its impacts add.
+/// The history's error follows the tolerance, against one of 1e-12. On stiff springs under a frame
+/// it is small from the start (most steps end at samples). The last bounds are two to ten times
+/// what is measured; a block lands on springs that ring, and passes on what its impacts add.
 #[test]
 fn the_tolerance_controls_the_error_of_the_history() {
     let (frame, block) = (paper(0.0), Structure::block(2.0, 0.5, 1e3).unwrap());

@@ -31,7 +31,8 @@ pub fn plastic(hz: f64, mass: f64) -> Springs<Chain<f64>> {
     chains((0.3, 0.1, 0.75), (0.3, 0.57, 1.86), hz, mass)
 }
 
-/// The ratios of the paper's Table 1 as recovered at one Omega_n (Hz) for a mass (kg): they bounce a lot.
+/// The ratios of the paper's Table 1 as recovered at one Omega_n (Hz) for a mass (kg): they bounce
+/// a lot.
 pub fn table_1(hz: f64, mass: f64) -> Springs<Chain<f64>> {
     let Springs { vertical, horizontal } = Springs::table_1();
     let at = |design: Design<f64>| Design { omega_n_hz: hz, ..design };

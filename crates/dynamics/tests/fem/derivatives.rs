@@ -12,7 +12,8 @@ use rocking::{
 };
 use std::ops::ControlFlow;
 
-/// mu, K, C, Hz of the vertical, then of the horizontal chain: stiff enough to land fast, soft enough to be felt.
+/// mu, K, C, Hz of the vertical, then of the horizontal chain: stiff enough to land fast, soft
+/// enough to be felt.
 const DESIGN: [f64; 8] = [0.3, 0.1, 0.75, 30.0, 0.3, 0.57, 1.86, 30.0];
 
 /// Horizontal displacement after free rocking on springs of these parameters.

@@ -1,5 +1,6 @@
-//! Edge cases of the finite element model, each against what physics says must happen: continuity where contact only just
-//! changes, closed forms, and Housner's body where stiff springs must give it.
+//! Edge cases of the finite element model, each against what physics says must happen: continuity
+//! where contact only just changes, closed forms, and Housner's body where stiff springs must give
+//! it.
 
 use std::{f64::consts::FRAC_PI_4, ops::ControlFlow};
 
@@ -31,7 +32,8 @@ fn shaken(hz: f64, dt: f64, accel: &[f64]) -> History {
     settled(&block(), plastic(hz, block().mass_kg), &record, Control::default())
 }
 
-/// What every history here promises: numbers, all samples, a closed energy account, no energy from nowhere.
+/// What every history here promises: numbers, all samples, a closed energy account, no energy from
+/// nowhere.
 fn assert_sound(history: &History, samples: usize) {
     let (motion, account) = (&history.motion, &history.account);
     assert_eq!((history.outcome, motion.len()), (HistoryOutcome::Completed, samples));
@@ -57,8 +59,9 @@ fn bisect(mut yes: f64, mut no: f64, passes: impl Fn(f64) -> bool) -> (f64, f64)
     }
 }
 
-/// A falling body is caught by the ground just as its foot comes down: between a push that still lets the foot touch and the
-/// next number, that does not, lies a touch-down at zero velocity. What it does must vanish with the step.
+/// A falling body is caught by the ground just as its foot comes down: between a push that still
+/// lets the foot touch and the next number, that does not, lies a touch-down at zero velocity. What
+/// it does must vanish with the step.
 #[test]
 fn a_touch_down_at_zero_velocity_is_the_same_as_none() {
     let lean = 0.3 * block().body::<f64>().alpha();
@@ -87,9 +90,10 @@ fn a_touch_down_at_zero_velocity_is_the_same_as_none() {
     assert!(coarse < 1e-5 && fine < 0.1 * coarse, "{coarse:e} {fine:e}");
 }
 
-/// A slow pulse, 1 - cos, of 4 s. The elastic stance leans a little before a foot lifts, so the limit lies below g tan(alpha), by
-/// the springs' compliance, 1/Omega_n^2. A foot that lifts lets its horizontal spring go: what that frees, at the edge of
-/// balance, is all that one ulp of ground acceleration changes, less the stiffer the springs.
+/// A slow pulse, 1 - cos, of 4 s. The elastic stance leans a little before a foot lifts, so the
+/// limit lies below g tan(alpha), by the springs' compliance, 1/Omega_n^2. A foot that lifts lets
+/// its horizontal spring go: what that frees, at the edge of balance, is all that one ulp of ground
+/// acceleration changes, less the stiffer the springs.
 #[test]
 fn uplift_begins_at_g_tan_alpha_but_for_the_springs_compliance() {
     let pulse = |peak: f64| -> Vec<f64> {
@@ -165,8 +169,8 @@ fn two_impacts_in_one_sample_are_both_found() {
     }
 }
 
-/// Housner's body has infinitely many impacts before a rest. On springs they end where the hops are as small as the
-/// compliance: the body rests, having lost all that it had.
+/// Housner's body has infinitely many impacts before a rest. On springs they end where the hops are
+/// as small as the compliance: the body rests, having lost all that it had.
 #[test]
 fn ever_smaller_impacts_end_in_rest_and_all_energy_is_accounted_for() {
     let (structure, springs) = (block(), plastic(320.0, 1e3));
@@ -179,7 +183,8 @@ fn ever_smaller_impacts_end_in_rest_and_all_energy_is_accounted_for() {
     let rest = rigid.theta.iter().position(|theta| *theta == 0.0).unwrap();
     assert!(rigid.theta[rest..].iter().all(|theta| *theta == 0.0));
     assert!(history.motion.theta[rest + 100..].iter().all(|theta| theta.abs() < 1e-6 * body.alpha()));
-    // the first impacts are Housner's; the last, of hops no higher than the settlement, are not told apart
+    // the first impacts are Housner's; the last, of hops no higher than the settlement, are not
+    // told apart
     let times: Vec<f64> = history.landings.iter().filter(|l| l.impact).map(|l| l.time).collect();
     assert!(times.len() > 5, "{times:?}");
     for (time, impact) in times.iter().zip(&rigid.impacts).take(5) {
@@ -206,7 +211,8 @@ fn a_record_that_starts_in_strong_motion_gives_housner_s_history() {
     assert!(stiff < 0.02 && stiff < soft / 3.0, "{soft} {stiff}");
 }
 
-/// The mass stands above the foot at theta = alpha whatever the springs: on either side the fall grows as cosh(p t).
+/// The mass stands above the foot at theta = alpha whatever the springs: on either side the fall
+/// grows as cosh(p t).
 #[test]
 fn near_alpha_the_body_stays_long_and_then_decides() {
     for (structure, springs) in [(block(), plastic(320.0, 1e3)), (paper(1e-5), plastic(160.0, 680.1e3))] {
@@ -234,8 +240,9 @@ fn near_alpha_the_body_stays_long_and_then_decides() {
     }
 }
 
-/// An A-frame at alpha = 45 degrees lands along its other leg: e = cos 2 alpha = 0. On springs all but 7 % of the energy goes
-/// at once (the rest swings across the leg, which no chain damps), and the body stays down.
+/// An A-frame at alpha = 45 degrees lands along its other leg: e = cos 2 alpha = 0. On springs all
+/// but 7 % of the energy goes at once (the rest swings across the leg, which no chain damps), and
+/// the body stays down.
 #[test]
 fn a_frame_of_restitution_zero_loses_its_energy_in_the_first_landing() {
     let body = Body { mass: 1e4, half_width: 5.0, height: 5.0, inertia: 0.0 };
@@ -263,7 +270,8 @@ fn a_frame_of_restitution_zero_loses_its_energy_in_the_first_landing() {
     }
 }
 
-/// The other end: e goes to 1 as the body gets slender, and so does what a landing on springs leaves.
+/// The other end: e goes to 1 as the body gets slender, and so does what a landing on springs
+/// leaves.
 #[test]
 fn slender_frames_approach_restitution_one_as_housner_s_do() {
     for alpha in [0.2, 0.1, 0.05_f64] {

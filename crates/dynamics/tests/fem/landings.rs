@@ -9,7 +9,8 @@ use rocking::{
 
 use crate::common::{chains, el_centro, free, lively, paper, plastic, settled, table_1};
 
-/// Housner's rigid frame has 12 impacts in the first 20 s of this record (float128 Taylor reference).
+/// Housner's rigid frame has 12 impacts in the first 20 s of this record (float128 Taylor
+/// reference).
 #[test]
 fn stiff_springs_have_housner_s_twelve_impacts_on_el_centro() {
     let record = el_centro();
@@ -47,7 +48,8 @@ fn losses_of_the_impacts_add_up_to_all_that_was_lost_since_the_first() {
     assert!((lost / all - 1.0).abs() < 1e-6, "{lost} {all}");
 }
 
-/// Shaken hard, a small block leans for less time than it would rock by itself: 18 ms here, between two landings.
+/// Shaken hard, a small block leans for less time than it would rock by itself: 18 ms here, between
+/// two landings.
 #[test]
 fn every_firm_landing_of_a_block_shaken_hard_loses_what_housner_s_does() {
     let structure = Structure::block(0.6, 0.2, 100.0).unwrap();

@@ -1,4 +1,5 @@
-//! Histories side by side are those of each alone, bit for bit; steps over several samples keep the history.
+//! Histories side by side are those of each alone, bit for bit; steps over several samples keep the
+//! history.
 
 use std::ops::ControlFlow;
 
@@ -101,8 +102,8 @@ fn no_case_gives_no_history() {
     assert!(histories(&[], |_| Bits::default()).is_empty());
 }
 
-/// Against histories whose steps end at samples: 20 s of El Centro. The bounds are three to twenty times what is measured; a block
-/// lands on springs that ring, and passes on what its impacts add.
+/// Against histories whose steps end at samples: 20 s of El Centro. The bounds are three to twenty
+/// times what is measured; a block lands on springs that ring, and passes on what its impacts add.
 #[test]
 fn steps_over_several_samples_keep_the_history_and_follow_the_tolerance() {
     let (frame, block) = (paper(0.0), Structure::block(2.0, 0.5, 1e3).unwrap());
@@ -129,7 +130,8 @@ fn steps_over_several_samples_keep_the_history_and_follow_the_tolerance() {
         let (long, short) = (at(1e-4, true), at(1e-4, false));
         assert!(long.work.steps < short.work.steps, "{:?} {:?}", long.work, short.work);
         assert_eq!(long.motion.len(), short.motion.len());
-        // the block's last but one touch, at 12.13 s, is a graze that either may find where the reference does not
+        // the block's last but one touch, at 12.13 s, is a graze that either may find where the
+        // reference does not
         assert!([tight.impacts(), short.impacts()].contains(&long.impacts()), "{}", long.impacts());
         assert_eq!(at(1e-6, true).impacts(), tight.impacts());
     }

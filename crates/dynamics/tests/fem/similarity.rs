@@ -124,7 +124,8 @@ fn quiet_before_a_record_only_shifts_the_history() {
     }
 }
 
-/// u and v of `other` are those of `one` times `length`, but for what rounding does to the steps: 1e-8 of the peak.
+/// u and v of `other` are those of `one` times `length`, but for what rounding does to the steps:
+/// 1e-8 of the peak.
 fn assert_same(one: &History, other: &History, length: f64) {
     let (one, other) = (&one.motion, &other.motion);
     let largest = one.u.iter().fold(0.0_f64, |m, u| m.max(u.abs()));

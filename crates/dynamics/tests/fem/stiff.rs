@@ -1,4 +1,5 @@
-//! Very stiff springs under bodies slender and stocky: every history finishes, whatever the springs do in a landing.
+//! Very stiff springs under bodies slender and stocky: every history finishes, whatever the springs
+//! do in a landing.
 
 use dynamics::{
     fem::{Analysis, Control, History, HistoryOutcome, Start},
@@ -30,8 +31,8 @@ fn frame(alpha: f64, share: f64) -> Structure {
     }
 }
 
-/// One vertical chain for every body, scaled by the mass that lands, M = 1 - (m R^2/I0) sin^2 alpha, under horizontals `rho`
-/// times as stiff.
+/// One vertical chain for every body, scaled by the mass that lands, M = 1 - (m R^2/I0) sin^2
+/// alpha, under horizontals `rho` times as stiff.
 fn landing(structure: &Structure, (mu, k, c): Ratios, rho: f64, hz: f64) -> Springs<Chain<f64>> {
     let body = structure.body::<f64>();
     let point = body.mass * body.radius().powi(2);
@@ -40,7 +41,8 @@ fn landing(structure: &Structure, (mu, k, c): Ratios, rho: f64, hz: f64) -> Spri
     Springs { vertical, horizontal: Design::from_kc(0.3, 1.0, 2.0, rho * hz) }.chains(body.mass)
 }
 
-/// Histories of the first n motions of a suite, with Housner's NRMSE where that body neither rests nor overturns.
+/// Histories of the first n motions of a suite, with Housner's NRMSE where that body neither rests
+/// nor overturns.
 fn suite(structure: &Structure, springs: Springs<Chain<f64>>, n: usize) -> Vec<(History, Option<f64>)> {
     let body = structure.body::<f64>();
     let records = synthetic::suite(n, 1, body.p_squared().sqrt(), body.alpha());
@@ -86,7 +88,8 @@ fn frames_slender_and_stocky_finish_on_springs_of_10_and_200_khz() {
     }
 }
 
-/// The landing's rule needs no slenderness: on a chain that hardly rebounds a frame of 0.4 follows Housner.
+/// The landing's rule needs no slenderness: on a chain that hardly rebounds a frame of 0.4 follows
+/// Housner.
 #[test]
 fn a_stocky_frame_on_a_chain_that_hardly_rebounds_follows_housner() {
     let structure = frame(0.4, 0.0);
@@ -97,8 +100,9 @@ fn a_stocky_frame_on_a_chain_that_hardly_rebounds_follows_housner() {
     assert!(errors.len() >= 10 && median < 1e-3, "{errors:?}");
 }
 
-/// Under more than g/tan(alpha) the ground pulls a stocky frame's foot away from under it: Housner's pivot would have to hold the
-/// body down. Up to that instant the histories are the same, not after it.
+/// Under more than g/tan(alpha) the ground pulls a stocky frame's foot away from under it:
+/// Housner's pivot would have to hold the body down. Up to that instant the histories are the same,
+/// not after it.
 #[test]
 fn a_stocky_frame_follows_housner_until_his_pivot_would_have_to_pull() {
     let structure = frame(0.6, 0.0);

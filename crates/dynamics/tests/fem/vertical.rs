@@ -1,4 +1,5 @@
-//! Vertical ground acceleration: stiff springs follow Housner as well as without it, the account closes, a thrown body flies.
+//! Vertical ground acceleration: stiff springs follow Housner as well as without it, the account
+//! closes, a thrown body flies.
 
 use dynamics::{
     fem::{Analysis, Control, History, HistoryOutcome, Start},
@@ -18,7 +19,8 @@ use crate::common::{lively, plastic, table_1};
 /// Omega_n/p of the springs.
 const STIFF: f64 = 1e5;
 
-/// A chain that hardly rebounds, scaled by the mass that lands, under horizontals 20 times as stiff.
+/// A chain that hardly rebounds, scaled by the mass that lands, under horizontals 20 times as
+/// stiff.
 fn springs(body: &Body<f64>) -> Springs<Chain<f64>> {
     let point = body.mass * body.radius().powi(2);
     let landing = 1.0 - point / (point + body.inertia) * body.alpha().sin().powi(2);
@@ -74,7 +76,8 @@ fn stiff_springs_follow_housner_as_well_with_vertical_motion_as_without() {
     }
 }
 
-/// Springs soft and stiff that bounce or not, a vertical motion of more than 1 g: the account closes whether the body flies or not.
+/// Springs soft and stiff that bounce or not, a vertical motion of more than 1 g: the account
+/// closes whether the body flies or not.
 #[test]
 fn the_energy_account_closes_with_vertical_motion() {
     for structure in [Structure::paper(), Structure::block(2.0, 0.5, 2.4e3).unwrap()] {
@@ -93,7 +96,8 @@ fn the_energy_account_closes_with_vertical_motion() {
     }
 }
 
-/// A ground that falls away for good at 1.5 g under a standing body: from then on it flies, at -g + 1.5 g in the ground's frame.
+/// A ground that falls away for good at 1.5 g under a standing body: from then on it flies, at -g +
+/// 1.5 g in the ground's frame.
 #[test]
 fn a_body_on_a_ground_that_falls_faster_flies() {
     let body = Structure::block(2.0, 0.5, 2.4e3).unwrap().body::<f64>();
@@ -108,7 +112,8 @@ fn a_body_on_a_ground_that_falls_faster_flies() {
     assert!(history.motion.theta.iter().all(|theta| theta.abs() < 1e-12));
 }
 
-/// Constant a_v = kappa g on a standing body: it presses 1 + kappa times as much, once settled there.
+/// Constant a_v = kappa g on a standing body: it presses 1 + kappa times as much, once settled
+/// there.
 #[test]
 fn a_standing_body_presses_as_its_weight_in_the_moving_ground() {
     let body = Structure::block(2.0, 0.5, 2.4e3).unwrap().body::<f64>();

@@ -19,7 +19,8 @@ const Y: [f64; 6] = [0.2, -0.1, 0.5, 1.3, -0.7, 0.9];
 const RATE: [f64; 6] = [0.3, 0.5, -0.4, -1.1, 0.2, 0.7];
 const HINGES: [[bool; 2]; 4] = [[false, false], [false, true], [true, false], [true, true]];
 
-/// Strains from the places of the ends alone: the length between them, and the angles of the chord by the arc tangent.
+/// Strains from the places of the ends alone: the length between them, and the angles of the chord
+/// by the arc tangent.
 fn strains<D: DualNum<f64> + Copy>(y: [D; 6]) -> [D; 3] {
     let place = |p: usize| {
         let ([x, z], th) = (ARMS[p], y[3 * p + 2]);
@@ -50,7 +51,8 @@ fn energy<D: DualNum<f64> + Copy>(y: [D; 6], [ea, ei, ga]: [f64; 3], hinged: [bo
     (e * e * ea + bent * ei) * (0.5 / length)
 }
 
-/// The same beam's energy in hyper-dual numbers, written from its definition, against energy, resistance and tangent.
+/// The same beam's energy in hyper-dual numbers, written from its definition, against energy,
+/// resistance and tangent.
 #[test]
 fn resistance_and_tangent_are_the_slopes_of_the_energy() {
     for (hinged, section) in HINGES.into_iter().flat_map(|hinged| sections().map(|section| (hinged, section))) {
@@ -70,7 +72,8 @@ fn resistance_and_tangent_are_the_slopes_of_the_energy() {
     }
 }
 
-/// Dashpots: d/dt of the strains as slopes of the strains along the motion, Rayleigh's dissipation function, and differences.
+/// Dashpots: d/dt of the strains as slopes of the strains along the motion, Rayleigh's dissipation
+/// function, and differences.
 #[test]
 fn dashpots_resist_the_rates_of_strain_and_their_tangent_is_the_slope_of_that() {
     for (hinged, section) in HINGES.into_iter().flat_map(|hinged| sections().map(|section| (hinged, section))) {
@@ -116,7 +119,8 @@ fn a_rigid_motion_neither_strains_nor_damps() {
 
 #[test]
 fn a_small_push_meets_the_textbook_s_stiffness() {
-    // upright, clamped at its foot: EA/L, 12 EI/L^3 with the head clamped, 3 EI/L^3 with a hinge there
+    // upright, clamped at its foot: EA/L, 12 EI/L^3 with the head clamped, 3 EI/L^3 with a hinge
+    // there
     let upright = |hinged| {
         let beam = Beam::new([[0.0, 0.0], [0.0, 7.0]], [[0.0; 2]; 2], hinged, section());
         beam.tangent(&[0.0; 6], &[0.0; 6])[0]

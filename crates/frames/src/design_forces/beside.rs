@@ -2,8 +2,8 @@
 
 use serde::{Deserialize, Serialize};
 
-/// Forces of a column's base at one time, with their signs: what acts together. Axial force is positive
-/// in tension.
+/// Forces of a column's base at one time, with their signs: what acts together. Axial force is
+/// positive in tension.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 pub struct ForcesTogether {
     /// Shear across the column (N).

@@ -4,13 +4,15 @@ use serde::{Deserialize, Serialize};
 
 use crate::{frame::FrameError, structure::ElasticStructure};
 
-/// Cutoff over the third bending mode: at which a Butterworth filter of order 4, forwards and backwards, has a gain of 1/(1 + 1.5^-8) = 0.96.
+/// Cutoff over the third bending mode: at which a Butterworth filter of order 4, forwards and
+/// backwards, has a gain of 1/(1 + 1.5^-8) = 0.96.
 const ABOVE_THIRD: f64 = 1.5;
 /// Bending modes that are kept.
 const MODES: usize = 3;
 /// Elements by which the modes are found: lumped masses are then within 1 % of the third.
 const ELEMENTS: usize = 32;
-/// Parts to a period of the cutoff over which forces are averaged: a mean then loses (pi/16)^2/6 = 0.6 % of what is at the cutoff.
+/// Parts to a period of the cutoff over which forces are averaged: a mean then loses (pi/16)^2/6 =
+/// 0.6 % of what is at the cutoff.
 pub(crate) const PARTS_A_PERIOD: f64 = 16.0;
 /// For the ground's forces under columns without waves (Hz).
 pub(crate) const SOLE_HZ: f64 = 20.0;
@@ -20,7 +22,8 @@ pub(crate) const SOLE_HZ: f64 = 20.0;
 pub struct Cutoff {
     /// (Hz)
     pub cutoff_hz: f64,
-    /// Bending modes of the column fixed at its foot, its top mass on it, undamped (Hz): all below the cutoff.
+    /// Bending modes of the column fixed at its foot, its top mass on it, undamped (Hz): all below
+    /// the cutoff.
     pub modes_hz: Vec<f64>,
 }
 
@@ -44,8 +47,9 @@ fn bending_modes(structure: &ElasticStructure) -> Option<Result<Vec<f64>, FrameE
 mod tests {
     use super::*;
 
-    /// A cantilever with a tip mass M on a hinge, line mass m: 1 + cos x cosh x + x M/(m L) (cos x sinh x - sin x cosh x) = 0,
-    /// f = x^2/(2 pi L^2) sqrt(EI/m) (Blevins, *Formulas for Natural Frequency and Mode Shape*, table 8-8).
+    /// A cantilever with a tip mass M on a hinge, line mass m: 1 + cos x cosh x + x M/(m L) (cos x
+    /// sinh x - sin x cosh x) = 0, f = x^2/(2 pi L^2) sqrt(EI/m) (Blevins, *Formulas for Natural
+    /// Frequency and Mode Shape*, table 8-8).
     #[test]
     fn three_bending_modes_are_those_of_the_closed_form_and_are_kept() {
         let text = "kind = 'pier'\nheight_m = 14.0\nwidth_m = 3.2\nmass_kg = 450e3\nfooting_mass_kg = 90e3\nfooting_height_m = 1.5\n\

@@ -8,10 +8,12 @@ use rocking::scalar::GRAVITY;
 /// What errors are measured with.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct ElasticScales {
-    /// Half the distance between the outer corners; of a frame without corners a sixteenth of its span (m).
+    /// Half the distance between the outer corners; of a frame without corners a sixteenth of its
+    /// span (m).
     pub length: f64,
     pub span: f64,
-    /// The time in which an error of the rate becomes one of the place: a pendulum's of that span (s).
+    /// The time in which an error of the rate becomes one of the place: a pendulum's of that span
+    /// (s).
     pub moment: f64,
     /// (kg)
     mass: f64,
@@ -35,7 +37,8 @@ impl ElasticScales {
 }
 
 impl SpringsRun<'_> {
-    /// Book the step if the account closes well enough and little is missed; choose the next step's size.
+    /// Book the step if the account closes well enough and little is missed; choose the next step's
+    /// size.
     pub(crate) fn account(&mut self, s: &ElasticStages) -> bool {
         let stored = self.model.energy(&s.q[2], &s.v[2], &self.feet);
         let [input, dissipated] = self.stepper.work(&self.feet, &self.here, s, &mut self.impulses);
@@ -78,7 +81,8 @@ impl SpringsRun<'_> {
         allowed_energy(self.control.tolerance * self.scale, &self.energy, stored).max(self.places(s))
     }
 
-    /// Energy that comes and goes as places are rounded (J): a few units in their last digit times the force.
+    /// Energy that comes and goes as places are rounded (J): a few units in their last digit times
+    /// the force.
     fn places(&self, s: &ElasticStages) -> f64 {
         let (mut place, mut acceleration) = (0.0_f64, 0.0_f64);
         for (k, length) in self.stepper.lengths.iter().enumerate().take(self.model.n) {

@@ -7,7 +7,8 @@
 
 use crate::{beam::BeamForces, frame::Frame};
 
-/// What a structure bears at one instant, or at its worst since the sample before: each value by itself.
+/// What a structure bears at one instant, or at its worst since the sample before: each value by
+/// itself.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct FrameDemand {
     /// Horizontal force of the footings on the beams that end on them (N).

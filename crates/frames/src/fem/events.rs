@@ -6,8 +6,9 @@ use dynamics::fem::cubic::{Cubic, NODES};
 /// Steps that locate one event: Newton's method needs two or three.
 const MOST_LOCATED: usize = 40;
 
-/// A corner that closes again this soon after it opened, in units of 1/Omega_n, has hardly left the ground: its horizontal spring threw it up. It would
-/// do so again and again, at an accumulating sequence of instants; it slides instead, until it stops.
+/// A corner that closes again this soon after it opened, in units of 1/Omega_n, has hardly left the
+/// ground: its horizontal spring threw it up. It would do so again and again, at an accumulating
+/// sequence of instants; it slides instead, until it stops.
 const AT_ONCE: f64 = 0.1;
 
 /// What a step meets.
@@ -38,7 +39,8 @@ pub(super) enum ContactLimit {
     Stop,
 }
 
-/// Where the cubic through values at the nodes first falls below -tolerance, at the zero before that; `None` if it does not.
+/// Where the cubic through values at the nodes first falls below -tolerance, at the zero before
+/// that; `None` if it does not.
 fn first_zero(values: &[f64; 4], tolerance: f64) -> Option<f64> {
     let cubic = Cubic::through(values);
     let at = |t: f64| cubic.at(t);
@@ -64,7 +66,8 @@ impl SpringsRun<'_> {
         if closed && !holds && drag != 0.0 { &[ContactLimit::Gap, ContactLimit::Stop] } else { &[ContactLimit::Gap] }
     }
 
-    /// What is positive while the contact lasts: a length (m), of a velocity that in which it goes in 1/Omega_n.
+    /// What is positive while the contact lasts: a length (m), of a velocity that in which it goes
+    /// in 1/Omega_n.
     fn left(&self, corner: usize, limit: ContactLimit, q: &[f64], v: &[f64]) -> f64 {
         let foot = &self.feet[corner];
         match limit {
@@ -109,7 +112,8 @@ impl SpringsRun<'_> {
         first
     }
 
-    /// Repeat the step so that it ends where the contact does: whether it does; `None` if no step converges there.
+    /// Repeat the step so that it ends where the contact does: whether it does; `None` if no step
+    /// converges there.
     pub(crate) fn locate(
         &mut self,
         (corner, limit): (usize, ContactLimit),

@@ -1,8 +1,9 @@
 //! Forces without the spikes of landings: a low-pass filter without delay.
 //!
-//! Butterworth's of order 4, forwards and backwards, so that it delays nothing, its gain at the stated frequency is 1/2, and at twice
-//! that 1/257 (before the bilinear change of frequency, which is undone at the stated one). Oppenheim and Schafer, *Discrete-Time Signal
-//! Processing*, section 7.1. Series are held at their first and last value beyond their ends.
+//! Butterworth's of order 4, forwards and backwards, so that it delays nothing, its gain at the
+//! stated frequency is 1/2, and at twice that 1/257 (before the bilinear change of frequency, which
+//! is undone at the stated one). Oppenheim and Schafer, *Discrete-Time Signal Processing*, section
+//! 7.1. Series are held at their first and last value beyond their ends.
 
 use std::f64::consts::{FRAC_PI_8, PI};
 
@@ -38,8 +39,8 @@ pub fn resolves(dt: f64, frequency: f64) -> bool {
     frequency > 0.0 && frequency * dt < 0.5
 }
 
-/// The series without what is faster than `frequency` (Hz), samples dt (s) apart. The series itself if its samples do not have that
-/// frequency.
+/// The series without what is faster than `frequency` (Hz), samples dt (s) apart. The series itself
+/// if its samples do not have that frequency.
 pub fn low_pass(series: &[f64], dt: f64, frequency: f64) -> Vec<f64> {
     let mut out = series.to_vec();
     if !resolves(dt, frequency) {

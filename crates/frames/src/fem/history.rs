@@ -28,20 +28,24 @@ pub struct ContactChange {
     pub speed: [f64; 2],
 }
 
-/// Force of the ground on a corner, or on all of them together, horizontally and vertically, sample by sample (N).
+/// Force of the ground on a corner, or on all of them together, horizontally and vertically, sample
+/// by sample (N).
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct GroundForces {
     /// At the sample.
     pub at: Vec<[f64; 2]>,
-    /// The largest magnitudes since the sample before: an impact is over long before the next sample.
+    /// The largest magnitudes since the sample before: an impact is over long before the next
+    /// sample.
     pub peak: Vec<[f64; 2]>,
-    /// The mean since the sample before, that is impulse over time: what impacts leave of themselves.
+    /// The mean since the sample before, that is impulse over time: what impacts leave of
+    /// themselves.
     pub mean: Vec<[f64; 2]>,
 }
 
 impl GroundForces {
-    /// Forces in one direction (0: horizontal, 1: vertical) without the spikes of landings (N): means between samples dt apart, low-pass
-    /// filtered at this frequency (Hz); the means themselves where the samples are too far apart to have it ([`low_pass`]).
+    /// Forces in one direction (0: horizontal, 1: vertical) without the spikes of landings (N):
+    /// means between samples dt apart, low-pass filtered at this frequency (Hz); the means
+    /// themselves where the samples are too far apart to have it ([`low_pass`]).
     pub fn filtered(&self, direction: usize, dt: f64, frequency: f64) -> Vec<f64> {
         let means: Vec<f64> = self.mean.iter().map(|force| force[direction]).collect();
         low_pass(&means, dt, frequency)
@@ -196,7 +200,8 @@ impl ElasticForces {
 }
 
 impl ElasticRecorder {
-    /// Of a history of so many samples, with forces or without, finely sampled in so many parts to a time step or not.
+    /// Of a history of so many samples, with forces or without, finely sampled in so many parts to
+    /// a time step or not.
     pub(crate) fn new(frame: &Frame, (dt, samples): (f64, usize), forces: bool, parts: usize) -> Self {
         let room = || Vec::with_capacity(samples);
         let corners = if forces { frame.places().len() } else { 0 };

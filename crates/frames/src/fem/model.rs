@@ -8,14 +8,16 @@
 //!                                   m2_v a_z'' = -m2_v a_v - N - k2_v a_z - c_v a_z'
 //! ```
 //!
-//! A corner whose horizontal spring would throw it up, however little it presses, slides: what Coulomb's law tends to as friction grows,
+//! A corner whose horizontal spring would throw it up, however little it presses, slides: what
+//! Coulomb's law tends to as friction grows,
 //!
 //! ```text
 //!   H = +-mu k1_v (d + tau d'),     d = a_z - p_z;     tau = 2 sqrt(m_eff/(mu k1_v)): the force that keeps it down is damped critically
 //! ```
 //!
-//! until it comes to a stop. So does one that lands flat, from its touch on (`lands_flat`). The law of the rigid body's feet (`dynamics::fem`), p the
-//! corner's displacement. Gravity acts on the frame only, so that an open absorber rests at zero.
+//! until it comes to a stop. So does one that lands flat, from its touch on (`lands_flat`). The law
+//! of the rigid body's feet (`dynamics::fem`), p the corner's displacement. Gravity acts on the
+//! frame only, so that an open absorber rests at zero.
 
 use nalgebra::DVector;
 
@@ -77,14 +79,16 @@ impl<'a> ElasticModel<'a> {
         Self { frame, units, n, size: n + 2 * units.len(), damping: (0..units.len()).map(tau).collect() }
     }
 
-    /// What a sliding corner's horizontal force is of its vertical one, where that changes by itself and by its rate.
+    /// What a sliding corner's horizontal force is of its vertical one, where that changes by
+    /// itself and by its rate.
     pub(crate) fn dragged(&self, i: usize, foot: &CornerState) -> [f64; 2] {
         let drag = if foot.closed && !foot.holds { FRICTION * foot.drag } else { 0.0 };
         [drag, drag * self.damping[i]]
     }
 
-    /// The direction of the force that brakes a corner that lands so flat that its horizontal spring would take most of its fall, or throw it up;
-    /// `None` if it does not, or its footing turns about another.
+    /// The direction of the force that brakes a corner that lands so flat that its horizontal
+    /// spring would take most of its fall, or throw it up; `None` if it does not, or its footing
+    /// turns about another.
     pub(crate) fn lands_flat(&self, i: usize, feet: &[CornerState], q: &[f64], v: &[f64]) -> Option<f64> {
         let nodes = self.frame.footing_nodes();
         if feet.iter().zip(nodes).any(|(foot, node)| foot.closed && *node == nodes[i]) {
@@ -237,7 +241,8 @@ impl<'a> ElasticModel<'a> {
             *pivot = CornerState::STANDING;
         }
         let q = self.settle(&frame, &feet);
-        // a lean of less than the settlement leaves other corners in the ground, and then they press too
+        // a lean of less than the settlement leaves other corners in the ground, and then they
+        // press too
         for (i, foot) in feet.iter_mut().enumerate() {
             if !foot.closed && self.compression(i, &q) > 0.0 {
                 *foot = CornerState { anchor: self.anchor_here(i, &q), ..CornerState::STANDING };

@@ -1,4 +1,5 @@
-//! The Newton matrix of a Radau stage, M + s C + s^2 K with s = h lambda, absorbers condensed to the frame's n coordinates.
+//! The Newton matrix of a Radau stage, M + s C + s^2 K with s = h lambda, absorbers condensed to
+//! the frame's n coordinates.
 
 use nalgebra::DMatrix;
 
@@ -8,7 +9,8 @@ use super::{
 };
 use dynamics::{fem::condensed::Condensed, spring::Springs};
 
-/// The frame's share of the matrix at one state: -dF/dq with the corners' turning levers, -dF/dq', and the levers.
+/// The frame's share of the matrix at one state: -dF/dq with the corners' turning levers, -dF/dq',
+/// and the levers.
 pub(super) struct Tangent {
     pub k: DMatrix<f64>,
     pub c: DMatrix<f64>,

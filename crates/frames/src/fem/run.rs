@@ -15,8 +15,8 @@ use crate::frame::Base;
 use dynamics::fem::{Control, Energy, HistoryOutcome, Work, iterate::Ground};
 use rocking::scalar::GRAVITY;
 
-/// First step tried after an event, in units of 1/Omega_n: the transient that the event began decides the step, not the
-/// step that the event cut short.
+/// First step tried after an event, in units of 1/Omega_n: the transient that the event began
+/// decides the step, not the step that the event cut short.
 const RESTART: f64 = 0.1;
 
 /// What a run shows.
@@ -47,9 +47,11 @@ pub(super) struct SpringsRun<'a> {
     /// Largest energy seen (J), the scale of the account.
     pub scale: f64,
     pub scales: ElasticScales,
-    /// Compression of the stiffest k1 under the weight (m), the scale of contact; that of what is too small to matter without springs.
+    /// Compression of the stiffest k1 under the weight (m), the scale of contact; that of what is
+    /// too small to matter without springs.
     pub compression: f64,
-    /// 1/Omega_n of the stiffest vertical chain under what lands on it (s), the scale of time in contact.
+    /// 1/Omega_n of the stiffest vertical chain under what lands on it (s), the scale of time in
+    /// contact.
     pub settling: f64,
     /// Step size that the energy account asked for (s).
     pub h: f64,

@@ -37,7 +37,8 @@ pub struct FineSeries {
 pub struct FineColumn {
     /// Of its base: shear (N), axial force (N), moment (N m).
     pub base: [FineSeries; BASE_FORCES],
-    /// Shear of every element and of the top; none of a column without mass, whose shear is one (N).
+    /// Shear of every element and of the top; none of a column without mass, whose shear is one
+    /// (N).
     pub above: Vec<FineSeries>,
     /// Of the middle of each element and of the top, above the base along the column (m).
     pub heights: Vec<f64>,
@@ -115,7 +116,8 @@ impl FineRecorder {
         Self { columns, forces, start: vec![0.0; count], started: false }
     }
 
-    /// All forces of a motion q, q', q'' over a ground that accelerates, in the order of the series.
+    /// All forces of a motion q, q', q'' over a ground that accelerates, in the order of the
+    /// series.
     fn at(&self, view: &ElasticView, [q, v, a]: [&[f64]; 3], ground: [f64; 2]) -> Vec<f64> {
         let (model, n) = (view.model, view.model.n);
         let (frame, free) = (model.frame, [&q[..n], &v[..n], &a[..n]]);
@@ -206,7 +208,8 @@ fn column_forces(frame: &Frame, column: &FrameColumn, motion: ([&[f64]; 3], [f64
     out.push(last.moments[column.top_end]);
 }
 
-/// Coefficients of the integral from 0 of the cubic through values at 0, c_1, c_2, 1: of s, s^2, s^3, s^4.
+/// Coefficients of the integral from 0 of the cubic through values at 0, c_1, c_2, 1: of s, s^2,
+/// s^3, s^4.
 fn integral(values: [f64; 4]) -> [f64; 4] {
     let at = [0.0, C[0], C[1], C[2]];
     // Newton's divided differences

@@ -104,7 +104,8 @@ impl<'a> ElasticStepper<'a> {
         real.factor(model, tangent, feet, s, |x| x) && pair.factor(model, tangent, feet, pair_s, complex)
     }
 
-    /// Take the step from q, q' into `s`, whose accelerations are the first guess; whether the iteration converges.
+    /// Take the step from q, q' into `s`, whose accelerations are the first guess; whether the
+    /// iteration converges.
     pub(crate) fn step(
         &mut self,
         [q, v]: [&[f64]; 2],
@@ -157,8 +158,8 @@ impl<'a> ElasticStepper<'a> {
         }
     }
 
-    /// What the step just taken from q, q' misses, estimated as `dynamics::fem` does: the frame's largest displacement (m), and the largest
-    /// momentum that goes with one (kg m/s).
+    /// What the step just taken from q, q' misses, estimated as `dynamics::fem` does: the frame's
+    /// largest displacement (m), and the largest momentum that goes with one (kg m/s).
     pub(crate) fn local_error(
         &mut self,
         [q, v]: [&[f64]; 2],
@@ -194,7 +195,8 @@ impl<'a> ElasticStepper<'a> {
         [place, momentum]
     }
 
-    /// Work of the ground and of the dashpots over the step, and impulse of every corner, by the step's own quadrature [J, N s].
+    /// Work of the ground and of the dashpots over the step, and impulse of every corner, by the
+    /// step's own quadrature [J, N s].
     pub(crate) fn work(
         &self,
         feet: &[CornerState],

@@ -1,4 +1,5 @@
-//! What a structure's rigid rotation is: that of a footing, or of the line between the outer feet where they are points.
+//! What a structure's rigid rotation is: that of a footing, or of the line between the outer feet
+//! where they are points.
 
 use super::Frame;
 
@@ -48,7 +49,8 @@ impl Base {
         }
     }
 
-    /// A node's displacement relative to what rotates rigidly with the base, in the base's axes: across and along (m).
+    /// A node's displacement relative to what rotates rigidly with the base, in the base's axes:
+    /// across and along (m).
     pub fn drift(self, frame: &Frame, node: usize, q: &[f64]) -> [f64; 2] {
         let ([origin, moved], th) = self.motion(frame, q);
         let (at, [x, z, _]) = (frame.centre(node), frame.displacement(node, q));

@@ -28,7 +28,8 @@ pub struct Footing {
 }
 
 impl Footing {
-    /// A block as wide as its corners are apart, its centre of mass half way up: mass ((2b)^2 + (2 h_b)^2)/12.
+    /// A block as wide as its corners are apart, its centre of mass half way up: mass ((2b)^2 + (2
+    /// h_b)^2)/12.
     pub fn block(width: f64, mass: f64, centre: f64, top: f64) -> Self {
         let inertia = mass * (width * width + 4.0 * centre * centre) / 12.0;
         Self { width, mass, inertia, centre, top }
@@ -52,8 +53,8 @@ pub struct Cantilever {
     pub consistent: bool,
 }
 
-/// An apex mass on two legs, clamped to it and hinged at the feet; each foot is a point mass on one corner. Nodes: 0 and 1 the feet, 2 the
-/// apex, then those along the left and the right leg.
+/// An apex mass on two legs, clamped to it and hinged at the feet; each foot is a point mass on one
+/// corner. Nodes: 0 and 1 the feet, 2 the apex, then those along the left and the right leg.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct LeggedFrame {
     /// At the apex (kg).
@@ -70,8 +71,8 @@ pub struct LeggedFrame {
     pub leg: StraightMember,
 }
 
-/// Two columns on two footings under a girder. Nodes: 0 and 1 the footings, 2 and 3 the corners of the frame, then those along the left
-/// column, the right column, the girder.
+/// Two columns on two footings under a girder. Nodes: 0 and 1 the footings, 2 and 3 the corners of
+/// the frame, then those along the left column, the right column, the girder.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Portal {
     /// Distance between the columns' axes (m).
@@ -91,7 +92,8 @@ pub struct Portal {
 }
 
 impl FrameLayout {
-    /// Add a row of beams from one place to another, with nodes between them that have no mass but theirs.
+    /// Add a row of beams from one place to another, with nodes between them that have no mass but
+    /// theirs.
     fn line(&mut self, from: NodePoint, to: NodePoint, hinged: [bool; 2], column: &StraightMember) {
         let count = column.elements.max(1);
         let mut start = from;

@@ -4,7 +4,8 @@
 //!   Q(q, 0) + sum G_i' (-K_i p_i) + sum_j h_j lambda_j = 0,   h_j q = r_j
 //! ```
 //!
-//! by Newton's method; K_i: springs under a corner that is on the ground; h_j: what is held while it leans.
+//! by Newton's method; K_i: springs under a corner that is on the ground; h_j: what is held while
+//! it leans.
 
 use nalgebra::{DMatrix, DVector};
 use thiserror::Error;
@@ -46,7 +47,8 @@ pub enum EquilibriumError {
 }
 
 impl Frame {
-    /// Where it rests under its weight, upright: on all of its corners with these springs under each of them; or held, without corners.
+    /// Where it rests under its weight, upright: on all of its corners with these springs under
+    /// each of them; or held, without corners.
     ///
     /// # Errors
     /// There is no such place.
@@ -55,8 +57,9 @@ impl Frame {
         self.balance(q, supports, &[]).ok_or(EquilibriumError::NoRest { lean: 0.0 })
     }
 
-    /// Where it rests leaning to the right by `lean` on its last corner alone, held so: the rotation of that corner's footing is the lean; on
-    /// a foot that is a point, the first corner is up by the lean's sine times their distance. To the left, on its first corner, if `lean`
+    /// Where it rests leaning to the right by `lean` on its last corner alone, held so: the
+    /// rotation of that corner's footing is the lean; on a foot that is a point, the first corner
+    /// is up by the lean's sine times their distance. To the left, on its first corner, if `lean`
     /// is negative.
     ///
     /// # Errors

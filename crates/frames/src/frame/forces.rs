@@ -43,7 +43,8 @@ impl FrameTendon {
     }
 }
 
-/// Adds to the upper and lower half of a matrix what a place on a node with a stiffness [xx, xz, zz] adds.
+/// Adds to the upper and lower half of a matrix what a place on a node with a stiffness [xx, xz,
+/// zz] adds.
 fn add_block(place: &PlaceOnNode, slope: [f64; 2], block: [[f64; 2]; 2], out: &mut DMatrix<f64>) {
     place.rows(slope, |i, gi| {
         place.rows(slope, |j, gj| {

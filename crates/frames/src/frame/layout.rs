@@ -12,7 +12,8 @@ pub struct Node {
     pub place: [f64; 2],
     /// (kg); that of beams is added to it.
     pub mass: f64,
-    /// About its centre of mass (kg m2); `None` of a node that does not turn: beams meet it by hinges.
+    /// About its centre of mass (kg m2); `None` of a node that does not turn: beams meet it by
+    /// hinges.
     pub inertia: Option<f64>,
     /// Held where it is.
     pub held: bool,
@@ -85,8 +86,8 @@ pub struct FrameLayout {
     pub dampers: Vec<FrameDamper>,
     /// Tendons.
     pub tendons: Vec<FrameTendon>,
-    /// Beams' mass consistent with linear displacements between nodes, where both of its ends are at the centre of a node: half of it goes
-    /// to each end otherwise.
+    /// Beams' mass consistent with linear displacements between nodes, where both of its ends are
+    /// at the centre of a node: half of it goes to each end otherwise.
     pub consistent: bool,
 }
 
@@ -130,7 +131,8 @@ fn check(what: &'static str, number: usize, values: &[(&'static str, f64, &'stat
 }
 
 impl FrameLayout {
-    /// The same with its footings held: the fixed-base structure. Dampers at what is held have nothing to do; others act, as tendons do.
+    /// The same with its footings held: the fixed-base structure. Dampers at what is held have
+    /// nothing to do; others act, as tendons do.
     pub fn fixed(&self) -> Self {
         let mut fixed = Self { corners: Vec::new(), ..self.clone() };
         for corner in &self.corners {

@@ -1,8 +1,9 @@
 //! Masses: of nodes, and of beams, in halves or consistent with linear displacements.
 //!
-//! Half a beam of mass m, length L on a node adds m/2 at its end and the half's rotational inertia about it, m L^2/24. Off the
-//! node's centre of mass it moves that. Consistent: m/6 [2 1; 1 2] of the displacements, and the rotational inertia m L^2/105 of a
-//! beam whose end alone turns (Przemieniecki, *Theory of Matrix Structural Analysis*, table 11.1).
+//! Half a beam of mass m, length L on a node adds m/2 at its end and the half's rotational inertia
+//! about it, m L^2/24. Off the node's centre of mass it moves that. Consistent: m/6 [2 1; 1 2] of
+//! the displacements, and the rotational inertia m L^2/105 of a beam whose end alone turns
+//! (Przemieniecki, *Theory of Matrix Structural Analysis*, table 11.1).
 
 use nalgebra::{Cholesky, DMatrix, DVector, Dyn};
 
@@ -111,7 +112,8 @@ impl Masses {
                 return Err(FrameError::Massless { node, what });
             }
         }
-        // the ground carries along what is held: half of a beam between pulls at each end whatever the other does
+        // the ground carries along what is held: half of a beam between pulls at each end whatever
+        // the other does
         let mut pull = [DVector::zeros(size), DVector::zeros(size)];
         let lumps = bodies.iter().zip(&self.lumps).map(|(body, lump)| (body, lump.mass));
         let halves = self.coupled.iter().flat_map(|(ends, m)| ends.map(|node| (&bodies[node], 0.5 * m)));

@@ -8,14 +8,15 @@ use super::{Frame, NONE};
 use crate::mechanics::Mechanics;
 
 impl Frame {
-    /// Natural frequencies of small motions about q, undamped, from the lowest (Hz); of a frame that nothing holds some are zero, and of one
-    /// that would fall over, negative.
+    /// Natural frequencies of small motions about q, undamped, from the lowest (Hz); of a frame
+    /// that nothing holds some are zero, and of one that would fall over, negative.
     pub fn frequencies(&self, q: &DVector<f64>) -> Vec<f64> {
         let [k, _] = self.tangent(q, &DVector::zeros(self.size), [0.0; 2]);
         of(k, &self.cholesky.l())
     }
 
-    /// Those of the unstressed frame whose nodes move sideways and turn, but neither rise nor sink (Hz): of a column, its bending modes.
+    /// Those of the unstressed frame whose nodes move sideways and turn, but neither rise nor sink
+    /// (Hz): of a column, its bending modes.
     pub(crate) fn lateral_frequencies(&self) -> Vec<f64> {
         let kept: Vec<usize> =
             self.bodies.iter().flat_map(|body| [body.index[0], body.index[2]]).filter(|&k| k != NONE).collect();

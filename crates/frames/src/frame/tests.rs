@@ -118,7 +118,8 @@ fn a_cantilever_bends_as_the_textbook_says() {
     }
 }
 
-/// P-Delta: k = P/(tan(kappa L)/kappa - L), kappa^2 = P/EI, of a weightless column under P; the error of n elements falls as 1/n^2.
+/// P-Delta: k = P/(tan(kappa L)/kappa - L), kappa^2 = P/EI, of a weightless column under P; the
+/// error of n elements falls as 1/n^2.
 #[test]
 fn gravity_softens_a_column_as_the_stability_functions_say() {
     let (length, ei, load) = (10.5_f64, 1.2e9_f64, 6e5 * GRAVITY);
@@ -144,7 +145,8 @@ fn gravity_softens_a_column_as_the_stability_functions_say() {
     assert!((stiffness / expected - 1.0).abs() < 1e-6, "{stiffness} {expected}");
 }
 
-/// Sway of a portal on fixed bases, 24 EI/h^3 (1 + 6 r)/(4 + 6 r), r the girder's EI/L over the column's.
+/// Sway of a portal on fixed bases, 24 EI/h^3 (1 + 6 r)/(4 + 6 r), r the girder's EI/L over the
+/// column's.
 #[test]
 fn a_portal_sways_as_the_textbook_says() {
     let mut portal = portal();
@@ -157,7 +159,8 @@ fn a_portal_sways_as_the_textbook_says() {
     assert!((stiffness / exact - 1.0).abs() < 1e-3, "{stiffness} {exact}");
 }
 
-/// A uniform cantilever's first frequencies, 1.8751^2, 4.6941^2 sqrt(EI/(m L^4))/(2 pi), from both sorts of mass (Blevins, table 8-1).
+/// A uniform cantilever's first frequencies, 1.8751^2, 4.6941^2 sqrt(EI/(m L^4))/(2 pi), from both
+/// sorts of mass (Blevins, table 8-1).
 #[test]
 fn a_column_s_own_mass_vibrates_as_the_textbook_says() {
     let error = |consistent: bool, elements: usize, mode: usize| {
@@ -189,14 +192,15 @@ fn the_weight_stands_on_the_corners_and_a_lean_is_held() {
     assert!((pressed / (frame.total_mass() * GRAVITY) - 1.0).abs() < 1e-9);
     let q = frame.leaning(-0.1, &supports).unwrap();
     assert!((frame.displacement(0, q.as_slice())[2] + 0.1).abs() < 1e-14);
-    // all of the weight on the left corner, the right footing in the air by some 13 m times the lean
+    // all of the weight on the left corner, the right footing in the air by some 13 m times the
+    // lean
     let [left, .., right] = [0, 1, 2, 3].map(|i| frame.places()[i].reach(q.as_slice()).place);
     assert!((-1e10 * left[1] / (frame.total_mass() * GRAVITY) - 1.0).abs() < 1e-9);
     assert!((right[1] / 13.0 - 0.1).abs() < 1e-3, "{right:?}");
 }
 
-/// A mass on corners b to each side, h above them, that turns freely feels m + m h^2/b^2 of itself under one... of a rigid block: the
-/// effective mass at a corner is that of free-body mechanics.
+/// A mass on corners b to each side, h above them, that turns freely feels m + m h^2/b^2 of itself
+/// under one... of a rigid block: the effective mass at a corner is that of free-body mechanics.
 #[test]
 fn what_lands_is_the_free_body_s_effective_mass() {
     let footing = Footing::block(4.0, 1.2e5, 0.75, 1.5);
@@ -225,8 +229,8 @@ fn what_does_not_fit_together_is_refused() {
     assert!(refused(&|l| l.members.iter_mut().for_each(|m| m.section.line_mass = 0.0)).contains("node 2 has no mass"));
 }
 
-/// A footing's corner moves by its own mass and inertia alone under a column: force F at the arm (a_x, a_z) gives F/m, and a clockwise rotation
-/// (F_x a_z - F_z a_x)/I.
+/// A footing's corner moves by its own mass and inertia alone under a column: force F at the arm
+/// (a_x, a_z) gives F/m, and a clockwise rotation (F_x a_z - F_z a_x)/I.
 #[test]
 fn a_corner_of_a_footing_moves_by_its_mass_and_inertia() {
     let footing = pier(1, None).footing;
@@ -244,7 +248,8 @@ fn a_corner_of_a_footing_moves_by_its_mass_and_inertia() {
     }
 }
 
-/// A row of equal beams from the origin upwards: clamped at its foot or hinged at both ends, with nodes that have no mass but theirs.
+/// A row of equal beams from the origin upwards: clamped at its foot or hinged at both ends, with
+/// nodes that have no mass but theirs.
 fn row(section: BeamSection, length: f64, elements: usize, hinged: bool) -> FrameLayout {
     let place = |i: usize| [0.0, length * i as f64 / elements as f64];
     let held = |i: usize| i == 0 || (hinged && i == elements);
@@ -260,8 +265,9 @@ fn row(section: BeamSection, length: f64, elements: usize, hinged: bool) -> Fram
     FrameLayout { nodes, members, ..FrameLayout::default() }
 }
 
-/// Shear alone: f = (2 n - 1)/(4 L) sqrt(GA_s/m). Bending and shear of a beam on two hinges, without rotary inertia:
-/// omega^2 = EI k^4/(m (1 + EI k^2/GA_s)), k = n pi/L (Graff, *Wave Motion in Elastic Solids*, section 3.4).
+/// Shear alone: f = (2 n - 1)/(4 L) sqrt(GA_s/m). Bending and shear of a beam on two hinges,
+/// without rotary inertia: omega^2 = EI k^4/(m (1 + EI k^2/GA_s)), k = n pi/L (Graff, *Wave Motion
+/// in Elastic Solids*, section 3.4).
 #[test]
 fn columns_that_give_in_shear_have_timoshenko_s_frequencies() {
     use std::f64::consts::{PI, TAU};

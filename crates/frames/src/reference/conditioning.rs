@@ -4,28 +4,32 @@
 //! growth(t) = max over s <= t, coordinates and twins of |q_twin(s) - q(s)| / (peak of |q|, at least 1e-9) / d
 //! ```
 //!
-//! One twin has the ground's acceleration scaled by 1 + d, in the other every landing leaves 1 - d of the velocities. A history that two models
-//! share to within x can be compared up to where the growth times x is what the comparison allows; beyond, only statistics can.
+//! One twin has the ground's acceleration scaled by 1 + d, in the other every landing leaves 1 - d
+//! of the velocities. A history that two models share to within x can be compared up to where the
+//! growth times x is what the comparison allows; beyond, only statistics can.
 
 use nalgebra::DVector;
 
 use super::{ElasticRocking, GroundAcceleration, ReferenceOptions, walk::ReferenceWalk};
 use crate::Mechanics;
 
-/// A history can be foretold while a perturbation has grown less than this: what began as a millionth is then a thousandth of the peak.
+/// A history can be foretold while a perturbation has grown less than this: what began as a
+/// millionth is then a thousandth of the peak.
 pub const FORETOLD: f64 = 1e3;
 
-/// Springs stiffer than the accuracy asks for may follow a history on, while it has grown less than this.
+/// Springs stiffer than the accuracy asks for may follow a history on, while it has grown less than
+/// this.
 pub const FOLLOWED: f64 = 1e5;
 
-/// Springs are tried on motions, and OpenSees is compared, while it has grown less than this: what is then within a thousandth is within 3e-5 at
-/// every landing.
+/// Springs are tried on motions, and OpenSees is compared, while it has grown less than this: what
+/// is then within a thousandth is within 3e-5 at every landing.
 pub const TRIED: f64 = 30.0;
 
 /// Perturbation whose growth tells how long a history can be foretold.
 pub const PERTURBATION: f64 = 1e-6;
 
-/// A coordinate that never becomes larger than this stands still: what two histories differ by is rounding (m or rad).
+/// A coordinate that never becomes larger than this stands still: what two histories differ by is
+/// rounding (m or rad).
 const STILL: f64 = 1e-9;
 
 /// How perturbations grow.
@@ -33,7 +37,8 @@ const STILL: f64 = 1e-9;
 pub struct Growth {
     /// Time step (s).
     pub dt: f64,
-    /// Largest relative separation up to t = i dt, over the perturbation; as long as the shortest of the histories, or up to the limit.
+    /// Largest relative separation up to t = i dt, over the perturbation; as long as the shortest
+    /// of the histories, or up to the limit.
     pub factor: Vec<f64>,
 }
 

@@ -43,14 +43,16 @@ pub(crate) struct Landed {
     pub velocity: DVector<f64>,
     /// Corners that are held.
     pub held: CornerSet,
-    /// A corner that slides on, the sign of the force that brakes it, and the energy that stopping it would have taken (J).
+    /// A corner that slides on, the sign of the force that brakes it, and the energy that stopping
+    /// it would have taken (J).
     pub sliding: Option<(usize, f64, f64)>,
 }
 
 /// A landing of some corners. `touching`: those held before and those that land.
 ///
-/// A corner that comes in flat may be one that would have to be pulled to stop: the impulse that stops it horizontally would throw it up. It is
-/// then stopped vertically only, by the horizontal impulse alone, and slides on: Coulomb's limit of great friction, as in `stay`.
+/// A corner that comes in flat may be one that would have to be pulled to stop: the impulse that
+/// stops it horizontally would throw it up. It is then stopped vertically only, by the horizontal
+/// impulse alone, and slides on: Coulomb's limit of great friction, as in `stay`.
 pub(crate) fn land<M: Mechanics>(
     at: &Configuration<M>,
     ground: [f64; 2],
@@ -102,9 +104,10 @@ fn largest(held: &HeldMotion) -> f64 {
     held.forces.iter().flat_map(|(_, force)| force).fold(0.0, |most, force| most.max(force.abs()))
 }
 
-/// What becomes of corners on the ground: contact, accelerations, and whether all of it is consistent: a held corner is pushed, a sliding one
-/// braked, and one that goes leaves the ground. `resting`: corners that may be held, at rest; `tried`: sets of them in the order of
-/// preference; `sliding`: corners that move along the ground. If nothing is consistent, all that rest stay.
+/// What becomes of corners on the ground: contact, accelerations, and whether all of it is
+/// consistent: a held corner is pushed, a sliding one braked, and one that goes leaves the ground.
+/// `resting`: corners that may be held, at rest; `tried`: sets of them in the order of preference;
+/// `sliding`: corners that move along the ground. If nothing is consistent, all that rest stay.
 pub(crate) fn stay<M: Mechanics>(
     at: &Configuration<M>,
     ground: [f64; 2],

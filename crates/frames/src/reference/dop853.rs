@@ -1,5 +1,6 @@
-//! One step of the Runge-Kutta method of order 8 by Dormand and Prince (Hairer, Norsett & Wanner, Solving Ordinary Differential Equations I,
-//! section II.5 and the code DOP853), for q'' = a(q, q', t) and the work of forces along the way.
+//! One step of the Runge-Kutta method of order 8 by Dormand and Prince (Hairer, Norsett & Wanner,
+//! Solving Ordinary Differential Equations I, section II.5 and the code DOP853), for q'' = a(q, q',
+//! t) and the work of forces along the way.
 
 use super::state::{Rates, ReferenceState, ReferenceStep, StepTolerance};
 use super::stiffness::LastStage;
@@ -115,7 +116,8 @@ const ERROR: [&[(usize, f64)]; 2] = [
 /// The order of the error estimate in h.
 const ORDER: f64 = 8.0;
 
-/// A step of length h from a state and its rates. These are functions of the time since the step's start. None where they are not defined.
+/// A step of length h from a state and its rates. These are functions of the time since the step's
+/// start. None where they are not defined.
 pub(crate) fn step(
     mut rates: impl FnMut(f64, &ReferenceState) -> Option<Rates>,
     start: &ReferenceState,
@@ -169,7 +171,8 @@ mod tests {
     use super::super::state::within;
     use super::*;
 
-    /// q'' = -q - 0.1 q' + t: the error of one step falls like h^9, and the estimate is of its size or above.
+    /// q'' = -q - 0.1 q' + t: the error of one step falls like h^9, and the estimate is of its size
+    /// or above.
     #[test]
     fn the_order_is_eight() {
         let rates = |t: f64, y: &ReferenceState| {

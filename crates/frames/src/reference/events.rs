@@ -11,7 +11,8 @@ use crate::Mechanics;
 
 /// Height and speed at which a corner counts as standing at the start (m, m/s).
 const STANDING: f64 = 1e-9;
-/// Energy at stake where a corner slides on from a landing, as a share of the largest so far, below which it cannot be seen: 1e-4 of velocities.
+/// Energy at stake where a corner slides on from a landing, as a share of the largest so far, below
+/// which it cannot be seen: 1e-4 of velocities.
 const SKID: f64 = 1e-8;
 
 impl<M: Mechanics> ReferenceWalk<'_, M> {
@@ -31,7 +32,8 @@ impl<M: Mechanics> ReferenceWalk<'_, M> {
         self.release()
     }
 
-    /// At a crossing: the corner lifts, comes to rest, or lands with all others that are on the ground.
+    /// At a crossing: the corner lifts, comes to rest, or lands with all others that are on the
+    /// ground.
     pub(super) fn happen(&mut self, corner: usize) -> Result<(), ReferenceOutcome> {
         if self.contact.held.contains(corner) {
             self.choose(CornerSet::NONE.with(corner))
@@ -97,7 +99,8 @@ impl<M: Mechanics> ReferenceWalk<'_, M> {
         let stopped = CornerContact { held: held.and(one), sliding };
         let pressed = at.accelerations(self.ground(0.0), stopped).ok_or(singular)?.force(corner)[1];
         let v = v.clone();
-        // where it cannot stop, its force has fallen to zero too soon after the start of sliding for its velocity to tell
+        // where it cannot stop, its force has fallen to zero too soon after the start of sliding
+        // for its velocity to tell
         if self.now.rates.force(corner)[0] * self.sense[corner] <= self.rounding || pressed < 0.0 {
             self.contact.sliding = sliding;
             self.refresh()?;
@@ -117,7 +120,8 @@ impl<M: Mechanics> ReferenceWalk<'_, M> {
         if self.now.rates.forces.iter().any(pulled) { self.choose(CornerSet::NONE) } else { Ok(()) }
     }
 
-    /// Choose those that stay of the held corners, without those that are to go if that is possible.
+    /// Choose those that stay of the held corners, without those that are to go if that is
+    /// possible.
     fn choose(&mut self, going: CornerSet) -> Result<(), ReferenceOutcome> {
         let ReferenceState { q, v, .. } = &self.now.state;
         let singular = self.stop(Stop::Singular);
@@ -147,7 +151,8 @@ impl<M: Mechanics> ReferenceWalk<'_, M> {
         Ok(())
     }
 
-    /// After a step: corners that are clear of the ground, those that were stuck, footings that have overturned.
+    /// After a step: corners that are clear of the ground, those that were stuck, footings that
+    /// have overturned.
     pub(super) fn look(&mut self) -> Result<(), ReferenceOutcome> {
         for i in self.all.minus(self.contact.all()).minus(self.clear).iter() {
             if self.margin(i, &self.now) > 2.0 * ON_GROUND {
@@ -167,7 +172,8 @@ impl<M: Mechanics> ReferenceWalk<'_, M> {
         Ok(())
     }
 
-    /// Held corners back to their places and at rest: what rounding and the integrator's error moved them by.
+    /// Held corners back to their places and at rest: what rounding and the integrator's error
+    /// moved them by.
     pub(super) fn put_back(&mut self) -> Result<(), ReferenceOutcome> {
         let singular = self.stop(Stop::Singular);
         if !self.contact.all().is_empty() {

@@ -5,11 +5,12 @@
 //!   impact: the same for velocities, without gamma; F is then an impulse
 //! ```
 //!
-//! A corner that slides keeps its height, by a horizontal force alone: G then has its vertical row on the left of M^-1 and its horizontal one on
-//! the right. That is the limit of Coulomb's friction as its coefficient grows: N falls to zero, the friction mu N does not.
+//! A corner that slides keeps its height, by a horizontal force alone: G then has its vertical row
+//! on the left of M^-1 and its horizontal one on the right. That is the limit of Coulomb's friction
+//! as its coefficient grows: N falls to zero, the friction mu N does not.
 //!
-//! A held corner keeps both its coordinates. Two held corners of one footing cannot move apart, so that the horizontal force on the second is
-//! redundant: the first has all of it.
+//! A held corner keeps both its coordinates. Two held corners of one footing cannot move apart, so
+//! that the horizontal force on the second is redundant: the first has all of it.
 
 use std::borrow::Cow;
 
@@ -88,7 +89,8 @@ impl Aim {
 }
 
 impl<'a, M: Mechanics> Configuration<'a, M> {
-    /// None if M is not positive definite: the structure has a coordinate without inertia, or a number is not finite.
+    /// None if M is not positive definite: the structure has a coordinate without inertia, or a
+    /// number is not finite.
     pub fn new(mechanics: &'a M, q: &'a DVector<f64>, v: &'a DVector<f64>) -> Option<Self> {
         Some(Self { mechanics, mass: mechanics.factored_mass(q)?, q, v })
     }
@@ -104,12 +106,14 @@ impl<'a, M: Mechanics> Configuration<'a, M> {
         self.hold(contact, Aim::Velocity, self.v.clone(), |_, _, _| 0.0)
     }
 
-    /// Velocities after an impact that stops held corners, and sliding ones vertically by horizontal impulses alone; impulses.
+    /// Velocities after an impact that stops held corners, and sliding ones vertically by
+    /// horizontal impulses alone; impulses.
     pub fn braked(&self, contact: CornerContact) -> Option<HeldMotion> {
         self.hold(contact, Aim::Braked, self.v.clone(), |_, _, _| 0.0)
     }
 
-    /// The smallest displacement, by M, that takes corners to their places on the ground (x; z = 0), to first order.
+    /// The smallest displacement, by M, that takes corners to their places on the ground (x; z =
+    /// 0), to first order.
     pub(crate) fn shift(&self, contact: CornerContact, anchors: &[f64]) -> Option<HeldMotion> {
         self.hold(contact, Aim::Place, DVector::zeros(self.v.len()), |i, corner, direction| {
             corner.place[direction] - if direction == 0 { anchors[i] } else { 0.0 }
@@ -134,7 +138,8 @@ impl<'a, M: Mechanics> Configuration<'a, M> {
         corner.jacobian[0].dot(motion) + if with_bias { corner.bias[0] } else { 0.0 }
     }
 
-    /// Derivatives of the accelerations by q and q', but for what moves with M, G and gamma: none of that is stiff.
+    /// Derivatives of the accelerations by q and q', but for what moves with M, G and gamma: none
+    /// of that is stiff.
     pub(crate) fn tangent(&self, ground: [f64; 2], contact: CornerContact) -> Option<[DMatrix<f64>; 2]> {
         let [by_q, by_v] = self.mechanics.tangent(self.q, self.v, ground);
         let held = |minus: DMatrix<f64>| {

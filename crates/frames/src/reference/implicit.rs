@@ -1,11 +1,12 @@
-//! One step of the Radau IIA method of order 5 (`fem::radau`), for where stiffness, not accuracy, would limit the steps of the explicit method: a light
-//! node on a stiff, damped member.
+//! One step of the Radau IIA method of order 5 (`fem::radau`), for where stiffness, not accuracy,
+//! would limit the steps of the explicit method: a light node on a stiff, damped member.
 //!
 //! ```text
 //!   q_i = q + c_i h v + h^2 sum (A^2)_ij a_j,   v_i = v + h sum A_ij a_j,   a_i = a(q_i, v_i, t + c_i h)
 //! ```
 //!
-//! by simplified Newton iterations, J = da/dq and da/dv at the start with the corners on the ground held.
+//! by simplified Newton iterations, J = da/dq and da/dv at the start with the corners on the ground
+//! held.
 
 use nalgebra::{DMatrix, DVector, Dyn, LU};
 use num_complex::Complex;
@@ -31,8 +32,8 @@ fn factored<S: nalgebra::ComplexField<RealField = f64>>([by_q, by_v]: &[DMatrix<
     DMatrix::from_fn(n, n, entry).lu()
 }
 
-/// The state after a step of length h, with the embedded estimate of order 3. `jacobian`: da/dq and da/dv. None if the iteration does not converge or
-/// the rates are not defined.
+/// The state after a step of length h, with the embedded estimate of order 3. `jacobian`: da/dq and
+/// da/dv. None if the iteration does not converge or the rates are not defined.
 pub(crate) fn step(
     mut rates: impl FnMut(f64, &ReferenceState) -> Option<Rates>,
     jacobian: &[DMatrix<f64>; 2],
@@ -91,8 +92,9 @@ pub(crate) fn step(
     }
 }
 
-/// The error over what is allowed: the defect of the formula of order 3, passed through the step's own matrix so that stiff components do not decide
-/// it. It is two orders below the step's own error, and is allowed as much more.
+/// The error over what is allowed: the defect of the formula of order 3, passed through the step's
+/// own matrix so that stiff components do not decide it. It is two orders below the step's own
+/// error, and is allowed as much more.
 fn estimate(
     stages: &[ReferenceState; 3],
     (start, first): (&ReferenceState, &Rates),
@@ -126,7 +128,8 @@ fn estimate(
 mod tests {
     use super::*;
 
-    /// q'' = -k (q - cos t) - c q' + cos'', and its Jacobian: q = cos t if it starts there and k or c is large.
+    /// q'' = -k (q - cos t) - c q' + cos'', and its Jacobian: q = cos t if it starts there and k or
+    /// c is large.
     fn towards_a_cosine(k: f64, c: f64) -> (impl Fn(f64, &ReferenceState) -> Option<Rates>, [DMatrix<f64>; 2]) {
         let rates = move |t: f64, y: &ReferenceState| {
             let a = -k * (y.q[0] - t.cos()) - c * (y.v[0] + t.sin()) - t.cos();

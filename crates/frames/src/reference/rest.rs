@@ -1,4 +1,5 @@
-//! A structure at rest under its weight: Q(q, 0) + G' F = 0 with corners, and maybe coordinates, held.
+//! A structure at rest under its weight: Q(q, 0) + G' F = 0 with corners, and maybe coordinates,
+//! held.
 
 use nalgebra::{DMatrix, DVector};
 use thiserror::Error;
@@ -25,8 +26,9 @@ pub enum RestError {
     NotFound,
 }
 
-/// Coordinates of rest near q, with the corners of a set held on the ground where they stand unstressed and the coordinates `fixed` kept as
-/// they are. With one corner held and a footing's rotation fixed, the structure leans.
+/// Coordinates of rest near q, with the corners of a set held on the ground where they stand
+/// unstressed and the coordinates `fixed` kept as they are. With one corner held and a footing's
+/// rotation fixed, the structure leans.
 ///
 /// # Errors
 /// The structure is loose, or too soft for its weight.

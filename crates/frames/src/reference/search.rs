@@ -1,4 +1,5 @@
-//! Events within a step: where a held corner's vertical force, or a free corner's height, falls to zero.
+//! Events within a step: where a held corner's vertical force, or a free corner's height, falls to
+//! zero.
 
 use super::state::within;
 use super::walk::{Moment, ReferenceWalk};
@@ -56,7 +57,8 @@ pub(crate) fn first<M: Mechanics>(walk: &ReferenceWalk<M>, start: &Moment, end: 
     found
 }
 
-/// Share of the step where the parabola through three values, at 0, 1/2 and 1, has its minimum, if that is near zero or below.
+/// Share of the step where the parabola through three values, at 0, 1/2 and 1, has its minimum, if
+/// that is near zero or below.
 fn dip([f0, f1, f2]: [f64; 3]) -> Option<f64> {
     let (a, b) = (2.0 * f0 - 4.0 * f1 + 2.0 * f2, -3.0 * f0 + 4.0 * f1 - f2);
     let share = -b / (2.0 * a);

@@ -45,7 +45,8 @@ pub(crate) struct ReferenceStep {
     pub last: Option<LastStage>,
 }
 
-/// Errors allowed in a step: this share of a coordinate or velocity, of which 1 % and 10 % of the unit are the least that counts.
+/// Errors allowed in a step: this share of a coordinate or velocity, of which 1 % and 10 % of the
+/// unit are the least that counts.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct StepTolerance(pub f64);
 
@@ -61,7 +62,8 @@ impl StepTolerance {
     }
 }
 
-/// The state at a share of a step, by Hermite's polynomial through q, q', q'' of both ends: good enough to look for events.
+/// The state at a share of a step, by Hermite's polynomial through q, q', q'' of both ends: good
+/// enough to look for events.
 pub(crate) fn within(ends: [(&ReferenceState, &Rates); 2], h: f64, share: f64) -> ReferenceState {
     let [(start, first), (end, last)] = ends;
     let s = share;

@@ -1,17 +1,19 @@
-//! Whether stiffness, not accuracy, chooses the steps of the explicit method (Hairer & Wanner, Solving Ordinary Differential Equations II, section
-//! IV.2).
+//! Whether stiffness, not accuracy, chooses the steps of the explicit method (Hairer & Wanner,
+//! Solving Ordinary Differential Equations II, section IV.2).
 
 use nalgebra::DVector;
 
 use super::state::{Rates, ReferenceState};
 
-/// h times the fastest rate beyond which it does: the method is stable up to 6.1, and as accurate as asked to about 1.
+/// h times the fastest rate beyond which it does: the method is stable up to 6.1, and as accurate
+/// as asked to about 1.
 const STIFF: f64 = 3.0;
 /// Steps that tell that it is so, and those in a row that tell that it is not.
 const STIFF_STEPS: usize = 15;
 const CALM_STEPS: usize = 6;
 
-/// The last stage of an explicit step, like the result at its end: what the two differ by tells how stiff the equations are.
+/// The last stage of an explicit step, like the result at its end: what the two differ by tells how
+/// stiff the equations are.
 #[derive(Clone, Debug)]
 pub(crate) struct LastStage {
     pub q: DVector<f64>,

@@ -38,7 +38,8 @@ pub(crate) struct ReferenceWalk<'a, M> {
     pub(super) contact: CornerContact,
     /// Sign of the force on each sliding corner.
     pub(super) sense: Vec<f64>,
-    /// Free corners that have been clear of the ground since they lifted, or have the velocity to be so at once.
+    /// Free corners that have been clear of the ground since they lifted, or have the velocity to
+    /// be so at once.
     pub(super) clear: CornerSet,
     /// Held corners that can neither press nor leave.
     pub(super) stuck: CornerSet,
@@ -227,7 +228,8 @@ impl<'a, M: Mechanics> ReferenceWalk<'a, M> {
         self.all.iter().filter(move |&i| !held.contains(i) || !(self.stuck.contains(i) || rule.bound(held, i)))
     }
 
-    /// What falls to zero at a corner's lift (N), at its landing (m), or at the end of its sliding (either way).
+    /// What falls to zero at a corner's lift (N), at its landing (m), or at the end of its sliding
+    /// (either way).
     pub(crate) fn margin(&self, corner: usize, moment: &Moment) -> f64 {
         let Moment { state, rates } = moment;
         if self.contact.held.contains(corner) {
@@ -241,7 +243,8 @@ impl<'a, M: Mechanics> ReferenceWalk<'a, M> {
         }
     }
 
-    /// Whether a corner's margin may start at zero and grow: it slides, or was let go with a velocity.
+    /// Whether a corner's margin may start at zero and grow: it slides, or was let go with a
+    /// velocity.
     pub(crate) fn begins(&self, corner: usize) -> bool {
         self.contact.sliding.contains(corner) || self.clear.contains(corner)
     }

@@ -10,7 +10,8 @@ fn standing(pier: &Pier) -> Standing {
     Standing::new(pier, &DVector::zeros(pier.size())).unwrap()
 }
 
-/// With an elastic column what lands is the footing alone, a rigid block: W of one, whatever stands on it.
+/// With an elastic column what lands is the footing alone, a rigid block: W of one, whatever stands
+/// on it.
 #[test]
 fn under_an_elastic_column_the_footing_lands_alone() {
     let pier = pier().with_axial(4e9, 0.02);
@@ -28,7 +29,8 @@ fn under_an_elastic_column_the_footing_lands_alone() {
     assert_relative_eq!(standing.mass, 720e3, max_relative = 1e-12);
 }
 
-/// Of a light footing, k h^2/(2 b^2 k_v) + k/(2 k_h); the weight, displaced by u, adds m g u to the moment k u h.
+/// Of a light footing, k h^2/(2 b^2 k_v) + k/(2 k_h); the weight, displaced by u, adds m g u to the
+/// moment k u h.
 #[test]
 fn the_give_of_a_pier_is_that_of_the_formula() {
     let pier = Pier { footing_mass: 1e-3, footing_inertia: 1e-3, ..pier() };

@@ -75,7 +75,8 @@ impl AFrameSpec {
         self.rotational_inertia_kgm2.unwrap_or(least)
     }
 
-    /// Fixed to the ground the legs' axial stiffness holds the apex across, 2 EA/L (b/L)^2, less m g h/L^2 by the weight.
+    /// Fixed to the ground the legs' axial stiffness holds the apex across, 2 EA/L (b/L)^2, less m
+    /// g h/L^2 by the weight.
     pub(super) fn frequency(&self) -> f64 {
         let length = self.leg_length();
         let legs = 2.0 * self.ea_n / length * (0.5 * self.width_m / length).powi(2);
@@ -95,7 +96,8 @@ impl AFrameSpec {
     }
 }
 
-/// Rigid parts (kg, height of the centre in m, inertia about it in kg m2) as one body on feet `half_width` from its middle.
+/// Rigid parts (kg, height of the centre in m, inertia about it in kg m2) as one body on feet
+/// `half_width` from its middle.
 pub(super) fn together(parts: &[(f64, f64, f64)], half_width: f64) -> Body<f64> {
     let mass: f64 = parts.iter().map(|part| part.0).sum();
     let height = parts.iter().map(|part| part.0 * part.1).sum::<f64>() / mass;

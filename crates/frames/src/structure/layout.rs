@@ -1,7 +1,7 @@
 //! What users give, as finite elements.
 //!
-//! Dashpots in the sections give the ratio to critical damping that is asked for: across, of the lowest mode of the fixed structure; along a
-//! pier's column or a portal's, of the mass on it.
+//! Dashpots in the sections give the ratio to critical damping that is asked for: across, of the
+//! lowest mode of the fixed structure; along a pier's column or a portal's, of the mass on it.
 //!
 //! ```text
 //!   column of a pier     eta_I = 2 zeta m omega EI/k, which is L^3/3 of the rest if it is rigid in shear        eta_A = 2 zeta_a sqrt(EA m/L) L
@@ -28,7 +28,8 @@ impl ElasticStructure {
 }
 
 impl ElasticStructure {
-    /// One column with so many elements and what it carries; none if columns have no mass of their own, and therefore no waves.
+    /// One column with so many elements and what it carries; none if columns have no mass of their
+    /// own, and therefore no waves.
     pub(crate) fn column_alone(&self, elements: usize) -> Option<FrameLayout> {
         match self {
             Self::Pier(pier) if pier.column_mass_kg > 0.0 => {
@@ -43,7 +44,8 @@ impl ElasticStructure {
         }
     }
 
-    /// The same with twice as many elements to a column; none of columns without mass, which have one.
+    /// The same with twice as many elements to a column; none of columns without mass, which have
+    /// one.
     pub(crate) fn with_doubled_elements(&self) -> Option<Self> {
         match self {
             Self::Pier(pier) if pier.column_mass_kg > 0.0 => {

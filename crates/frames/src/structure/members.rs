@@ -13,7 +13,8 @@ impl ElasticStructure {
     /// The members themselves if this structure can have them.
     ///
     /// # Errors
-    /// A number that makes no sense; a tendon under which a column would buckle or shorten too much.
+    /// A number that makes no sense; a tendon under which a column would buckle or shorten too
+    /// much.
     pub fn bears(&self, members: Members<f64>) -> Result<Members<f64>, ElasticError> {
         let body = Body { height: self.height(), ..self.body() };
         let members = members.checked(&body)?;
@@ -45,7 +46,8 @@ impl ElasticStructure {
         }
     }
 
-    /// The structure as nodes, footings and beams, with these members; the tendons' tension is that of the unstressed structure.
+    /// The structure as nodes, footings and beams, with these members; the tendons' tension is that
+    /// of the unstressed structure.
     pub(crate) fn layout_with(&self, members: &Members<f64>) -> FrameLayout {
         let mut layout = self.layout();
         if let Some(damper) = members.damper {

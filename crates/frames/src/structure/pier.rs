@@ -15,7 +15,8 @@ pub(crate) const CONCRETE: f64 = 30e9;
 /// Share of a cantilever's mass that moves with its tip (Rayleigh).
 const RAYLEIGH: f64 = 33.0 / 140.0;
 
-/// A pier. Its mass is at height `height_m` above the soles, on a column that stands on the footing.
+/// A pier. Its mass is at height `height_m` above the soles, on a column that stands on the
+/// footing.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct PierSpec {
@@ -29,14 +30,16 @@ pub struct PierSpec {
     pub footing_mass_kg: f64,
     /// Height of the footing; its centre of mass is half way up (m).
     pub footing_height_m: f64,
-    /// Rotational inertia of the footing about its centre of mass; of a solid block unless given (kg m2).
+    /// Rotational inertia of the footing about its centre of mass; of a solid block unless given
+    /// (kg m2).
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub footing_inertia_kgm2: Option<f64>,
-    /// Axial stiffness times length, EA; that of a solid square concrete column (E = 30 GPa) of the same EI unless given (N).
+    /// Axial stiffness times length, EA; that of a solid square concrete column (E = 30 GPa) of the
+    /// same EI unless given (N).
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub ea_n: Option<f64>,
-    /// Shear stiffness GA_s; of a column with a mass of its own that of a solid concrete section of this EA unless given, of others infinite
-    /// (N).
+    /// Shear stiffness GA_s; of a column with a mass of its own that of a solid concrete section of
+    /// this EA unless given, of others infinite (N).
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub ga_n: Option<f64>,
     /// Bending stiffness EI (N m2).
@@ -95,8 +98,8 @@ impl PierSpec {
         self.carries(0.0)
     }
 
-    /// Whether the column carries the weight and a tendon's tension (N). The tendon pulls towards the footing's middle, which takes four times
-    /// as much of it as of a weight to buckle.
+    /// Whether the column carries the weight and a tendon's tension (N). The tendon pulls towards
+    /// the footing's middle, which takes four times as much of it as of a weight to buckle.
     pub(super) fn carries(&self, tension: f64) -> Result<(), ElasticError> {
         let critical = PI * PI * self.ei() / (4.0 * self.length() * self.length());
         stands("the column", self.load() + 0.25 * tension, critical)?;
@@ -114,14 +117,15 @@ impl PierSpec {
         self.footing_inertia_kgm2.unwrap_or(block)
     }
 
-    /// EI (N m2): by the frequency, that of one corotational element between footing and mass, whose weight takes P/L of its stiffness
-    /// k = 1/(L^3/(3 EI) + L/GA_s).
+    /// EI (N m2): by the frequency, that of one corotational element between footing and mass,
+    /// whose weight takes P/L of its stiffness k = 1/(L^3/(3 EI) + L/GA_s).
     pub fn ei(&self) -> f64 {
         let (mass, length) = (self.moving_mass(), self.length());
         let by_frequency = |f: f64| {
             let needed = mass * (TAU * f).powi(2) + self.load() / length;
             let rigid_in_shear = needed * length.powi(3) / 3.0;
-            // GA_s is a share of EA, which is in turn c sqrt(EI) of a square section unless given: L^3/3 u^2 + L/c u = 1/k, u = EI^(-1/2)
+            // GA_s is a share of EA, which is in turn c sqrt(EI) of a square section unless given:
+            // L^3/3 u^2 + L/c u = 1/k, u = EI^(-1/2)
             match (self.ga_n, self.ea_n) {
                 (None, _) if self.column_mass_kg == 0.0 => rigid_in_shear,
                 (None, None) => {
@@ -136,7 +140,8 @@ impl PierSpec {
         self.ei_nm2.or(self.frequency_hz.map(by_frequency)).unwrap_or(f64::NAN)
     }
 
-    /// GA_s (N): as given; of a column with a mass of its own a share of EA; infinite otherwise, as before there are waves to bound.
+    /// GA_s (N): as given; of a column with a mass of its own a share of EA; infinite otherwise, as
+    /// before there are waves to bound.
     pub fn ga(&self) -> f64 {
         self.ga_n.unwrap_or_else(|| if self.column_mass_kg > 0.0 { SHEAR_SHARE * self.ea() } else { f64::INFINITY })
     }
@@ -146,7 +151,8 @@ impl PierSpec {
         3.0 * self.ei() / (self.ga() * self.length().powi(2))
     }
 
-    /// EA (N): as given, or that of a solid square section of side a with E = 30 GPa: EI = E a^4/12, EA = E a^2.
+    /// EA (N): as given, or that of a solid square section of side a with E = 30 GPa: EI = E
+    /// a^4/12, EA = E a^2.
     pub fn ea(&self) -> f64 {
         self.ea_n.unwrap_or_else(|| (12.0 * CONCRETE * self.ei()).sqrt())
     }

@@ -30,8 +30,8 @@ pub struct PortalSpec {
     pub column_ea_n: f64,
     /// Bending stiffness of a column, EI (N m2).
     pub column_ei_nm2: f64,
-    /// Shear stiffness GA_s of a column; of columns with a mass of their own that of a solid concrete section of this EA unless given, of
-    /// others infinite (N).
+    /// Shear stiffness GA_s of a column; of columns with a mass of their own that of a solid
+    /// concrete section of this EA unless given, of others infinite (N).
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub column_ga_n: Option<f64>,
     /// Axial stiffness times length of the beam (N).
@@ -78,9 +78,11 @@ impl PortalSpec {
         self.carries(0.0)
     }
 
-    /// Whether each column carries its weight and its tendon's tension (N), which pulls towards the footing's middle.
+    /// Whether each column carries its weight and its tendon's tension (N), which pulls towards the
+    /// footing's middle.
     pub(super) fn carries(&self, tension: f64) -> Result<(), ElasticError> {
-        // free to sway, as in flight: a cantilever's critical load, on the safe side of the portal's
+        // free to sway, as in flight: a cantilever's critical load, on the safe side of the
+        // portal's
         let critical = PI * PI * self.column_ei_nm2 / (4.0 * self.length() * self.length());
         stands("a column", self.load() + 0.25 * tension, critical)?;
         shortens("a column", self.load() + tension, self.column_ea_n)
@@ -96,13 +98,15 @@ impl PortalSpec {
         self.footing_mass_kg * (self.footing_width_m.powi(2) + self.footing_height_m.powi(2)) / 12.0
     }
 
-    /// GA_s of a column (N): as given; of columns with a mass of their own a share of EA; infinite otherwise.
+    /// GA_s of a column (N): as given; of columns with a mass of their own a share of EA; infinite
+    /// otherwise.
     pub fn column_ga(&self) -> f64 {
         let unless_given = if self.column_mass_kg > 0.0 { SHEAR_SHARE * self.column_ea_n } else { f64::INFINITY };
         self.column_ga_n.unwrap_or(unless_given)
     }
 
-    /// Mass at a column's top (kg), and its rotational inertia: half of the beam about the column's axis (kg m2).
+    /// Mass at a column's top (kg), and its rotational inertia: half of the beam about the column's
+    /// axis (kg m2).
     pub(crate) fn top(&self) -> (f64, f64) {
         let half = 0.5 * self.beam_mass_kg;
         (half, half * (0.5 * self.span_m).powi(2) / 3.0)
@@ -118,8 +122,8 @@ impl PortalSpec {
         0.5 * (self.beam_mass_kg + self.column_mass_kg) * GRAVITY
     }
 
-    /// Clamped columns under an elastic beam: 24 EI/L^3 (1 + 6 g)/(4 + 6 g), g = (EI_b/span)/(EI/L), in series with their shear, 2 GA_s/L,
-    /// less the weight's P/L of both.
+    /// Clamped columns under an elastic beam: 24 EI/L^3 (1 + 6 g)/(4 + 6 g), g =
+    /// (EI_b/span)/(EI/L), in series with their shear, 2 GA_s/L, less the weight's P/L of both.
     pub(super) fn frequency(&self) -> f64 {
         let length = self.length();
         let g = self.beam_ei_nm2 / self.span_m / (self.column_ei_nm2 / length);

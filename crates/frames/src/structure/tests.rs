@@ -102,7 +102,8 @@ fn legs_shorten_by_their_load_over_ea() {
     assert_eq!(frame, structure);
 }
 
-/// The finite elements of each kind, held at their feet: the closed forms' lowest frequency, to what these leave out.
+/// The finite elements of each kind, held at their feet: the closed forms' lowest frequency, to
+/// what these leave out.
 #[test]
 fn finite_elements_have_the_frequency_of_the_closed_form() {
     let lowest = |structure: &ElasticStructure| {
@@ -131,7 +132,8 @@ fn finite_elements_have_the_frequency_of_the_closed_form() {
     assert_relative_eq!(lowest(&portal), portal.frequency_hz(), max_relative = 3e-2);
 }
 
-/// E = 30 GPa, nu = 0.2, 5/6 of the area: GA_s = 5/6 EA/2.4. Cantilevers give by L^3/(3 EI) + L/GA_s.
+/// E = 30 GPa, nu = 0.2, 5/6 of the area: GA_s = 5/6 EA/2.4. Cantilevers give by L^3/(3 EI) +
+/// L/GA_s.
 #[test]
 fn a_column_with_mass_gives_in_shear() {
     let heavy = PierSpec { column_mass_kg: 60e3, ..pier() };

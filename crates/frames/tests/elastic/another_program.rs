@@ -1,4 +1,5 @@
-//! Histories by another program (.ci/elastic.py says which, and how each file was made), at every fifth sample.
+//! Histories by another program (.ci/elastic.py says which, and how each file was made), at every
+//! fifth sample.
 
 use std::path::Path;
 

@@ -46,7 +46,8 @@ fn assert_pushed(structure: &impl Mechanics, history: &ElasticRocking, name: &st
     }
 }
 
-/// Velocities after a landing: held corners at rest, others not into the ground, corners that stayed pushed; nothing else has acted.
+/// Velocities after a landing: held corners at rest, others not into the ground, corners that
+/// stayed pushed; nothing else has acted.
 fn assert_plastic(structure: &impl Mechanics, event: &ReferenceEvent, name: &str) {
     let [before, after] = &event.velocity;
     let speed = before.amax();
@@ -74,7 +75,8 @@ fn assert_plastic(structure: &impl Mechanics, event: &ReferenceEvent, name: &str
         let corner = structure.corner(i, &event.q, before);
         if event.held.contains(i) {
             assert!(corner.jacobian.iter().all(|row| row.dot(after).abs() < 1e-9 * speed), "{name}: {event:?}");
-            // where a row of hops is ended, the last one is stopped: what some 1e-5 m/s and rad/s take
+            // where a row of hops is ended, the last one is stopped: what some 1e-5 m/s and rad/s
+            // take
             let rounding = 1e-6 * largest + 1e-5 * structure.whole_mass(&event.q);
             assert!(event.corners.contains(i) || impact.force(i)[1] > -rounding, "{name}: pulled {event:?}");
         } else if corner.place[1].abs() < 1e-12 {

@@ -1,4 +1,5 @@
-//! The equations of motion of a structure, by finite differences of its energies and places: for every kind of structure the same.
+//! The equations of motion of a structure, by finite differences of its energies and places: for
+//! every kind of structure the same.
 
 use frames::{Mechanics, Pier};
 use nalgebra::{DMatrix, DVector};
@@ -23,7 +24,8 @@ fn unit(n: usize, i: usize) -> DVector<f64> {
     DVector::from_fn(n, |k, _| if k == i { 1.0 } else { 0.0 })
 }
 
-/// Q without dampers is Lagrange's: -(dM/dt) q' + d(q' M q'/2)/dq - dV/dq; `free` is the structure without its dampers.
+/// Q without dampers is Lagrange's: -(dM/dt) q' + d(q' M q'/2)/dq - dV/dq; `free` is the structure
+/// without its dampers.
 fn lagrange(damped: &impl Mechanics, free: &impl Mechanics, q: &DVector<f64>, v: &DVector<f64>) {
     let n = free.size();
     let mass: DMatrix<f64> = difference(q, v, |q| free.mass(q));

@@ -18,7 +18,8 @@ fn held_down() -> ReferenceOptions {
     ReferenceOptions { hop: false, ..ReferenceOptions::tight() }
 }
 
-/// sqrt of the ratio of the potential energies of the rigid body at the second and the first of its turning points.
+/// sqrt of the ratio of the potential energies of the rigid body at the second and the first of its
+/// turning points.
 fn restitution(pier: &Pier, theta: f64, seconds: f64, options: &ReferenceOptions) -> f64 {
     let history = free_rocking(pier, theta, seconds, options);
     let [first, second] = {
@@ -173,7 +174,8 @@ fn a_standing_structure_presses_with_its_weight() {
     assert!((free.motion[1] + 9.81).abs() < 1e-12 && free.force(0) == [0.0; 2]);
 }
 
-/// A well-behaved history grows little, whatever the size of the perturbation; the growth is that of the twins.
+/// A well-behaved history grows little, whatever the size of the perturbation; the growth is that
+/// of the twins.
 #[test]
 fn growth_is_a_property_of_the_history() {
     let pier = heavy();
@@ -198,9 +200,10 @@ fn growth_is_a_property_of_the_history() {
     assert!((fine.predictable(f64::INFINITY) - 4.0).abs() < 1e-9);
 }
 
-/// A footing that flies in sideways on one corner. Of a free footing on an axially elastic column W_xx = 1/m_b + h_b^2/I, W_xz = h_b b'/I, where b'
-/// is the corner's distance from the centre: coming with v_x > -v_z W_xx/W_zx it would have to be pulled to stop. It slides on instead,
-/// v_z = 0 by J_x = -v_z/W_zx alone; slower, it stops.
+/// A footing that flies in sideways on one corner. Of a free footing on an axially elastic column
+/// W_xx = 1/m_b + h_b^2/I, W_xz = h_b b'/I, where b' is the corner's distance from the centre:
+/// coming with v_x > -v_z W_xx/W_zx it would have to be pulled to stop. It slides on instead, v_z =
+/// 0 by J_x = -v_z/W_zx alone; slower, it stops.
 #[test]
 fn a_corner_that_lands_flat_slides_on() {
     let pier = light().with_axial(4e9, 0.02);

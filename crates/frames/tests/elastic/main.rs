@@ -1,4 +1,5 @@
-//! Elastic structures: equations of motion, and the reference on rigid ground against theory and an independent program.
+//! Elastic structures: equations of motion, and the reference on rigid ground against theory and an
+//! independent program.
 
 mod another_program;
 mod energy;

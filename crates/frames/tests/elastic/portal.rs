@@ -1,5 +1,6 @@
-//! A structure with four corners on two footings, for tests: two rigid legs, a spring and a damper between their heads, and a mass halfway
-//! between the heads on a massless link, which couples the legs in M.
+//! A structure with four corners on two footings, for tests: two rigid legs, a spring and a damper
+//! between their heads, and a mass halfway between the heads on a massless link, which couples the
+//! legs in M.
 //!
 //! ```text
 //!   q = (X1, Z1, theta1, X2, Z2, theta2), at the middle of each sole;  heads P_i = (X_i, Z_i) + h e2_i

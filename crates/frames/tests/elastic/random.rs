@@ -40,7 +40,8 @@ impl Random {
         (0..n).map(|i| size * at(0.01 * i as f64)).collect()
     }
 
-    /// Horizontal and vertical motions that make a structure rock: up to eight times what lifts it, some with up to 0.6 g vertically.
+    /// Horizontal and vertical motions that make a structure rock: up to eight times what lifts it,
+    /// some with up to 0.6 g vertically.
     pub fn shake(&mut self, slenderness: f64, n: usize) -> [Vec<f64>; 2] {
         let size = 9.81 * slenderness * self.within(1.0, 8.0);
         let vertical = if self.happens(0.5) { 9.81 * self.within(0.0, 1.2) } else { 0.0 };

@@ -1,4 +1,5 @@
-//! Tables of a rigid body's run: the paper's Table 1, the match, landings, forces, error over the stiffness.
+//! Tables of a rigid body's run: the paper's Table 1, the match, landings, forces, error over the
+//! stiffness.
 
 use super::super::Table;
 use crate::stiffness_tradeoff::TradeoffPoint;

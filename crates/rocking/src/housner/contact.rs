@@ -6,8 +6,8 @@
 //! N/(m g) = gamma + (R/g) ( w'' sin psi - w'^2 cos psi ),   gamma = 1 + a_v/g
 //! ```
 //!
-//! (at rest on both feet: gamma). Within a step it is a power series, as the lean is. Where it falls to zero the equation ends: real
-//! ground does not pull.
+//! (at rest on both feet: gamma). Within a step it is a power series, as the lean is. Where it
+//! falls to zero the equation ends: real ground does not pull.
 
 #![allow(clippy::needless_range_loop)] // as in `series`
 
@@ -20,9 +20,10 @@ pub(crate) fn pressure(at: &StepStart<f64>, ground: &StepGround<f64>, p2: f64, a
     ground.gamma + arm * (second * at.sin - at.rate * at.rate * at.cos)
 }
 
-/// Whether the pivot is pressed throughout a step, by bounds that cost little: |sin psi| <= s = |sin psi_0| + sum |c_k|, so that
-/// N/(m g) >= gamma (1 - share s^2) - share |b| s - arm w'^2. `share` = m R^2/I0 and `arm` = R/(g h^2), w' being per step.
-/// It may say no where [`loss`] finds nothing.
+/// Whether the pivot is pressed throughout a step, by bounds that cost little: |sin psi| <= s =
+/// |sin psi_0| + sum |c_k|, so that N/(m g) >= gamma (1 - share s^2) - share |b| s - arm w'^2.
+/// `share` = m R^2/I0 and `arm` = R/(g h^2), w' being per step. It may say no where [`loss`] finds
+/// nothing.
 #[inline(always)]
 pub(crate) fn surely_presses<const N: usize>(
     c: &[f64; N],
@@ -44,7 +45,8 @@ pub(crate) fn surely_presses<const N: usize>(
     (gamma > 0.0) & (gamma * (1.0 - share * s * s) - share * b * s > arm * slope * slope)
 }
 
-/// Where in a step, x in [0, 1], a pressed pivot's force falls to zero; `c` is the lean's series, `arm` = R/(g h^2).
+/// Where in a step, x in [0, 1], a pressed pivot's force falls to zero; `c` is the lean's series,
+/// `arm` = R/(g h^2).
 pub(crate) fn loss<const N: usize>(
     c: &[f64; N],
     at: &StepStart<f64>,

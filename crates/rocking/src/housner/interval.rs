@@ -1,6 +1,8 @@
-//! An interval with an event, piece by piece: uplift, impacts, rest, passing alpha, loss of contact.
+//! An interval with an event, piece by piece: uplift, impacts, rest, passing alpha, loss of
+//! contact.
 //!
-//! An event's time is solved for in real numbers; its derivative comes from the equation it solves (implicit function theorem).
+//! An event's time is solved for in real numbers; its derivative comes from the equation it solves
+//! (implicit function theorem).
 
 use std::f64::consts::FRAC_PI_2;
 
@@ -60,7 +62,8 @@ impl<S: Scalar> Setting<'_, S> {
             }
             let mut c = series.re();
             if lifting {
-                // at the limit w'' = 0, and its rounding error must not press the body into the ground
+                // at the limit w'' = 0, and its rounding error must not press the body into the
+                // ground
                 c[2] = c[2].max(0.0);
                 lifting = false;
             }
@@ -93,7 +96,8 @@ impl<S: Scalar> Setting<'_, S> {
         true
     }
 
-    /// Carry the state over a piece of length h without an event, `time` (s) the time at a fraction of it; true if the history ends there.
+    /// Carry the state over a piece of length h without an event, `time` (s) the time at a fraction
+    /// of it; true if the history ends there.
     fn end_of_piece<const N: usize>(
         &self,
         state: &mut WalkState<S>,
@@ -120,7 +124,8 @@ impl<S: Scalar> Setting<'_, S> {
         false
     }
 
-    /// After an event exactly at the sample: its time x may move with the parameters, the sample does not.
+    /// After an event exactly at the sample: its time x may move with the parameters, the sample
+    /// does not.
     fn at_sample(&self, state: &mut WalkState<S>, x: S, then: Sample<S>) {
         let late = S::one() - x;
         let late = (late - late.re()) * self.dt;
@@ -129,7 +134,8 @@ impl<S: Scalar> Setting<'_, S> {
         state.at.rate -= force * late;
     }
 
-    /// Where in a piece of the interval, a fraction of its `reach`, the pivot's force falls to zero.
+    /// Where in a piece of the interval, a fraction of its `reach`, the pivot's force falls to
+    /// zero.
     fn loss<const N: usize>(
         &self,
         at: &StepStart<S>,
@@ -146,7 +152,8 @@ impl<S: Scalar> Setting<'_, S> {
         contact::loss(c, &at, &ground, self.arm_of(h * reach))
     }
 
-    /// The pivot lets go at z of a piece of length h (s), at a time (s): the end, which a body that falls over has reached already.
+    /// The pivot lets go at z of a piece of length h (s), at a time (s): the end, which a body that
+    /// falls over has reached already.
     fn leave<const N: usize>(
         &self,
         state: &mut WalkState<S>,
@@ -181,7 +188,8 @@ impl<S: Scalar> Setting<'_, S> {
         state.age = 0;
     }
 
-    /// An impact at fraction x of the interval, w' before it given. True if the body rests until the interval's end.
+    /// An impact at fraction x of the interval, w' before it given. True if the body rests until
+    /// the interval's end.
     fn land(
         &self,
         state: &mut WalkState<S>,

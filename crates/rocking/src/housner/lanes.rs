@@ -1,8 +1,9 @@
 //! Many structures in lock-step on one record.
 //!
-//! A plain step is the same operations for every lane, so that they run side by side in vector registers; a lane whose interval holds
-//! an event, or that rests, takes that interval by itself. No operation is contracted or reordered, so a lane's result is that of the single
-//! walk, bit for bit, on any machine.
+//! A plain step is the same operations for every lane, so that they run side by side in vector
+//! registers; a lane whose interval holds an event, or that rests, takes that interval by itself.
+//! No operation is contracted or reordered, so a lane's result is that of the single walk, bit for
+//! bit, on any machine.
 
 #![allow(clippy::needless_range_loop)] // one index over many arrays
 
@@ -163,8 +164,8 @@ struct Kept {
 }
 
 impl Kept {
-    /// Lane l's samples before `until`, none of them handed over before. Not in line: as vector code it would gather
-    /// numbers from far apart, which is slower than one load after the other.
+    /// Lane l's samples before `until`, none of them handed over before. Not in line: as vector
+    /// code it would gather numbers from far apart, which is slower than one load after the other.
     #[inline(never)]
     fn hand_over<const V: bool>(&mut self, l: usize, walk: &mut Walk<f64, V>, until: usize) {
         let first = self.since[l] % KEPT;
@@ -209,7 +210,8 @@ struct LanePlaces {
     age: [u64; WIDTH],
 }
 
-/// One interval of the record for all lanes: those of which one step takes the whole interval, and those that need new sines after it.
+/// One interval of the record for all lanes: those of which one step takes the whole interval, and
+/// those that need new sines after it.
 #[inline(always)]
 fn step<const V: bool, const N: usize>(
     fixed: &Fixed<N>,

@@ -1,30 +1,34 @@
 //! Leaving the ground, and coming to rest on it.
 //!
-//! Uplift: a resting body stays down until |u_g| > (g + a_v) tan(alpha), then leans away, s = -sgn(u_g). Both sides are linear
-//! between two samples. In terms of gamma = 1 + a_v/g: |u_g|/g > gamma tan(alpha).
+//! Uplift: a resting body stays down until |u_g| > (g + a_v) tan(alpha), then leans away, s =
+//! -sgn(u_g). Both sides are linear between two samples. In terms of gamma = 1 + a_v/g: |u_g|/g >
+//! gamma tan(alpha).
 //!
-//! Rest: with restitution e < 1 and |u_g| < (g + a_v) tan(alpha) the body makes infinitely many ever smaller hops in a finite time.
-//! Near the ground w'' = -d with d between bounds, so a hop that starts at rate v lasts at most 2 v/d_min, is at most v^2/(2 d_min) high,
-//! and ends at a rate of at most v sqrt(d_max/d_min). Hence all hops together last at most
+//! Rest: with restitution e < 1 and |u_g| < (g + a_v) tan(alpha) the body makes infinitely many
+//! ever smaller hops in a finite time. Near the ground w'' = -d with d between bounds, so a hop
+//! that starts at rate v lasts at most 2 v/d_min, is at most v^2/(2 d_min) high, and ends at a rate
+//! of at most v sqrt(d_max/d_min). Hence all hops together last at most
 //!
 //! ```text
 //! 2 v / ( d_min [1 - e sqrt(d_max/d_min)] )
 //! ```
 //!
-//! If that is less than what is left of the interval between two samples, in which |u_g| stays below the limit, the body lies still
-//! at the next sample: nothing is neglected but the list of its last impacts.
+//! If that is less than what is left of the interval between two samples, in which |u_g| stays
+//! below the limit, the body lies still at the next sample: nothing is neglected but the list of
+//! its last impacts.
 
 use crate::scalar::Scalar;
 
-/// Highest hop [in units of alpha] that counts as none when hops do not die out by themselves (e close to 1): rounding of theta.
+/// Highest hop [in units of alpha] that counts as none when hops do not die out by themselves (e
+/// close to 1): rounding of theta.
 const FLOOR: f64 = f64::EPSILON;
 
-/// An excess over the limit this small, relative to it, on the falling side of a peak, is a graze: the hop that
-/// it would make is of the order of its cube.
+/// An excess over the limit this small, relative to it, on the falling side of a peak, is a graze:
+/// the hop that it would make is of the order of its cube.
 const GRAZE: f64 = 4.0 * f64::EPSILON;
 
-/// When and to which side a body resting at fraction x of an interval lifts in what is left of it. u_g/g is a + da x and gamma is
-/// g + dg x, each given as (a, da); lift is tan(alpha).
+/// When and to which side a body resting at fraction x of an interval lifts in what is left of it.
+/// u_g/g is a + da x and gamma is g + dg x, each given as (a, da); lift is tan(alpha).
 pub(crate) fn uplift<S: Scalar>(x: S, (a, da): (S, S), (g, dg): (S, S), lift: S) -> Option<(S, f64)> {
     // the earlier of the two sides: both lift where gamma falls below zero
     let sides = [1.0, -1.0].map(|sign| above(x, (a * sign, da * sign), (g, dg), lift).map(|at| (at, -sign)));
@@ -96,7 +100,8 @@ impl Hop {
         let (least, most) = (self.gamma.0.min(self.gamma.1), self.gamma.0.max(self.gamma.1));
         let d = |(sin, cos): (f64, f64), gamma: f64, a: f64| self.p2 * (gamma * sin + a * cos);
         let d_ground = d(self.ground, least, -peak);
-        // d falls as the body leans out, so that d_min <= d_ground and the ratios below are 1 at least
+        // d falls as the body leans out, so that d_min <= d_ground and the ratios below are 1 at
+        // least
         if d_ground > 0.0 && 2.0 * v < self.left * d_ground * (1.0 - self.e) {
             // twice the height of a hop in the field at the ground as the lean to bound d at
             let lean = v * v / d_ground;
@@ -138,7 +143,8 @@ mod tests {
         assert_eq!(level(0.3, -0.6, 0.1), Some((0.0, -1.0)));
     }
 
-    /// 0.05 + 0.05 x against 0.25 (1 - 0.8 x), and a push of nothing against a ground that falls faster than the body.
+    /// 0.05 + 0.05 x against 0.25 (1 - 0.8 x), and a push of nothing against a ground that falls
+    /// faster than the body.
     #[test]
     fn a_ground_that_moves_down_lifts_the_body_sooner() {
         let (at, side) = uplift(0.0, (0.05, 0.05), (1.0, -0.8), 0.25).unwrap();

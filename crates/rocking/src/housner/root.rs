@@ -1,9 +1,9 @@
 //! The first time in a step at which the lean vanishes.
 //!
-//! Newton's method may step over a short hop: it finds a root, not the first one. Here every step is the root of a
-//! parabola that lies below the lean: with |w''| <= M, w(x + y) >= w + w' y - M y^2/2. So no root is ever passed, and near a
-//! simple root the convergence is that of Newton's method. Mostly the coefficients tell that there is no root, or only one, which any
-//! method finds.
+//! Newton's method may step over a short hop: it finds a root, not the first one. Here every step
+//! is the root of a parabola that lies below the lean: with |w''| <= M, w(x + y) >= w + w' y - M
+//! y^2/2. So no root is ever passed, and near a simple root the convergence is that of Newton's
+//! method. Mostly the coefficients tell that there is no root, or only one, which any method finds.
 
 use super::series::{PowerSeries, value_and_slope};
 use crate::scalar::{Scalar, real};
@@ -11,13 +11,15 @@ use crate::scalar::{Scalar, real};
 /// More steps than a double root needs at a linear rate of 0.6 to reach rounding.
 const MAX_STEPS: usize = 120;
 
-/// What [`impact_time`] may be given as an error of a root, relative to it: two steps on it is below rounding.
+/// What [`impact_time`] may be given as an error of a root, relative to it: two steps on it is
+/// below rounding.
 const CLOSE: f64 = 1e-9;
 
-/// The smallest x in [0, 1] at which sum c_k x^k leaves the positive numbers, if there is one; to [`CLOSE`].
+/// The smallest x in [0, 1] at which sum c_k x^k leaves the positive numbers, if there is one; to
+/// [`CLOSE`].
 ///
-/// Roots at x = 0 are set aside: a lean that starts from zero and grows has left the ground. One that starts
-/// from zero and shrinks returns 0.
+/// Roots at x = 0 are set aside: a lean that starts from zero and grows has left the ground. One
+/// that starts from zero and shrinks returns 0.
 pub(crate) fn first_root<const N: usize>(c: &[f64; N]) -> Option<f64> {
     // w = x^zeros g: the roots of g are the wanted ones
     let zeros = c.iter().position(|&c| c != 0.0)?;
@@ -55,7 +57,8 @@ pub(crate) fn first_root<const N: usize>(c: &[f64; N]) -> Option<f64> {
     root_by_parabolas(&g, bound)
 }
 
-/// The only root of g in [0, 1], where |g''| <= bound, by Newton's method from the root of its first three terms.
+/// The only root of g in [0, 1], where |g''| <= bound, by Newton's method from the root of its
+/// first three terms.
 fn only_root<const N: usize>(g: &[f64; N], bound: f64) -> Option<f64> {
     let root = (g[1] * g[1] - 4.0 * g[0] * g[2]).max(0.0).sqrt();
     let mut x = (2.0 * g[0] / (root - g[1])).clamp(0.0, 1.0);
@@ -94,8 +97,8 @@ fn root_by_parabolas<const N: usize>(g: &[f64; N], bound: f64) -> Option<f64> {
     Some(x)
 }
 
-/// The root z of the lean as a function of the parameters. The first Newton step takes the root to rounding, and each one
-/// after it doubles the order of exact derivatives.
+/// The root z of the lean as a function of the parameters. The first Newton step takes the root to
+/// rounding, and each one after it doubles the order of exact derivatives.
 pub(crate) fn impact_time<S: Scalar, const N: usize>(series: &PowerSeries<S, N>, z: f64) -> S {
     let mut z: S = real(z);
     for _ in 0..=(S::NDERIV + 1).next_power_of_two().ilog2() {
@@ -108,7 +111,8 @@ pub(crate) fn impact_time<S: Scalar, const N: usize>(series: &PowerSeries<S, N>,
     z
 }
 
-/// Where the polynomial, below `level` at 0 and above it at 1, passes it; by bisection, once in a history.
+/// Where the polynomial, below `level` at 0 and above it at 1, passes it; by bisection, once in a
+/// history.
 pub(crate) fn crossing(c: &[f64], level: f64) -> f64 {
     let (mut low, mut high) = (0.0_f64, 1.0_f64);
     for _ in 0..53 {

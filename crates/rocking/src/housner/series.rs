@@ -1,14 +1,16 @@
 //! One Taylor step of Housner's equation.
 //!
-//! With the lean w = |theta| and psi = alpha - w, equations (1) and (3) are the same on both sides of the body:
+//! With the lean w = |theta| and psi = alpha - w, equations (1) and (3) are the same on both sides
+//! of the body:
 //!
 //! ```text
 //! w'' = -p^2 [ gamma sin psi + b cos psi ],   gamma = 1 + a_v/g,   b = s u_g/g,   s = sgn(theta)
 //! ```
 //!
-//! Time runs as x = (t - t0)/h from 0 to 1 over the step, in which gamma = gamma0 + dgamma x and b = b0 + db x (the record is linear
-//! between samples). With w = sum c_k x^k, F = gamma0 sin psi + b0 cos psi and G = gamma0 cos psi - b0 sin psi (so that F and G belong
-//! to each other as sine and cosine do), and because psi' = -w':
+//! Time runs as x = (t - t0)/h from 0 to 1 over the step, in which gamma = gamma0 + dgamma x and b
+//! = b0 + db x (the record is linear between samples). With w = sum c_k x^k, F = gamma0 sin psi +
+//! b0 cos psi and G = gamma0 cos psi - b0 sin psi (so that F and G belong to each other as sine and
+//! cosine do), and because psi' = -w':
 //!
 //! ```text
 //! k F_k = -sum_{j=1..k} j c_j G_{k-j},   k G_k = sum_{j=1..k} j c_j F_{k-j}
@@ -16,7 +18,8 @@
 //! dg = (db gamma0 - dgamma b0)/n,   df = (db b0 + dgamma gamma0)/n
 //! ```
 //!
-//! Without vertical motion gamma0 = 1 and dgamma = 0, which `V`, whether there is any, tells the compiler.
+//! Without vertical motion gamma0 = 1 and dgamma = 0, which `V`, whether there is any, tells the
+//! compiler.
 
 #![allow(clippy::needless_range_loop)] // indices with constant bounds let the compiler unroll early, and run lanes side by side
 
@@ -75,8 +78,8 @@ pub(crate) struct StepStart<S> {
     pub cos: S,
 }
 
-/// The ground under a leaning body over a step: b and gamma at its start, and their changes over it. Without vertical motion gamma
-/// is not looked at.
+/// The ground under a leaning body over a step: b and gamma at its start, and their changes over
+/// it. Without vertical motion gamma is not looked at.
 #[derive(Clone, Copy)]
 pub(crate) struct StepGround<T> {
     pub b: T,
@@ -106,8 +109,8 @@ pub(crate) fn pulls<T: Field, const N: usize>(q: T) -> [T; N] {
 
 /// c_0 to c_{N-1} of a step of length h (s), `pulls` those of its q.
 ///
-/// What the term before has only just given (c_k, F_{k-1}, G_{k-1}) enters each sum last: the terms then follow each other at the
-/// latency of a few operations, not of whole sums.
+/// What the term before has only just given (c_k, F_{k-1}, G_{k-1}) enters each sum last: the terms
+/// then follow each other at the latency of a few operations, not of whole sums.
 #[inline(always)]
 pub(crate) fn coefficients<T: Field, const V: bool, const N: usize>(
     start: &StepStart<T>,
@@ -143,7 +146,8 @@ pub(crate) fn coefficients<T: Field, const V: bool, const N: usize>(
         let (mut sum_f, mut sum_g) = (first * g[k - 1], first * f[k - 1]);
         if k > 2 {
             let (mut mid_f, mut mid_g) = (jc[2] * g[k - 2], jc[2] * f[k - 2]);
-            // constant bounds, and `if` inside, so that loops are unrolled early enough to run lanes side by side
+            // constant bounds, and `if` inside, so that loops are unrolled early enough to run
+            // lanes side by side
             for j in 3..N {
                 if j < k {
                     mid_f = mid_f + jc[j] * g[k - j];
@@ -195,7 +199,8 @@ pub(crate) fn end_slope<T: Field, const N: usize>(c: &[T; N]) -> T {
     c[1] + sum
 }
 
-/// sum c_k x^k and its derivative. Even and odd powers go apart, so that half as many operations wait for each other.
+/// sum c_k x^k and its derivative. Even and odd powers go apart, so that half as many operations
+/// wait for each other.
 #[inline(always)]
 pub(crate) fn value_and_slope<S: Scalar, const N: usize>(c: &[S; N], x: S) -> (S, S) {
     let x2 = x * x;
@@ -230,24 +235,25 @@ pub(crate) struct PowerSeries<S, const N: usize> {
     size: f64,
 }
 
-/// A bound of k |c_{k+2}/c_k| for k near N. The equation's part linear in w gives q (gamma + |b|)/k^2, its trigonometric part
-/// c_1^2/k^2; one 1/k is kept in reserve.
+/// A bound of k |c_{k+2}/c_k| for k near N. The equation's part linear in w gives q (gamma +
+/// |b|)/k^2, its trigonometric part c_1^2/k^2; one 1/k is kept in reserve.
 #[inline(always)]
 fn growth<const V: bool, const N: usize>(c: &[f64; N], ground: &StepGround<f64>, q: f64) -> f64 {
     let gamma = if V { ground.gamma.abs() + ground.dgamma.abs() } else { 1.0 };
     c[1] * c[1] + q * (gamma + ground.b.abs() + ground.db.abs())
 }
 
-/// What truncated terms are measured against: the change of the lean within the step, or where it turns, that within a time
-/// h at its natural rate p w; root = p h.
+/// What truncated terms are measured against: the change of the lean within the step, or where it
+/// turns, that within a time h at its natural rate p w; root = p h.
 #[inline(always)]
 fn size<const N: usize>(c: &[f64; N], root: f64) -> f64 {
     c[1].abs() + c[2].abs() + c[3].abs() + root * c[0].abs()
 }
 
-/// Whether one step takes the whole interval: the truncated terms are below rounding, the lean does not vanish, and passes neither
-/// alpha nor the flat ground at its end w. With the least number of coefficients a motion smaller than a hundredth of alpha counts as
-/// one of that size. root = p h, q = root^2.
+/// Whether one step takes the whole interval: the truncated terms are below rounding, the lean does
+/// not vanish, and passes neither alpha nor the flat ground at its end w. With the least number of
+/// coefficients a motion smaller than a hundredth of alpha counts as one of that size. root = p h,
+/// q = root^2.
 #[inline(always)]
 pub(crate) fn is_plain<const V: bool, const N: usize>(
     c: &[f64; N],

@@ -1,9 +1,11 @@
 //! The walk through a record: rest, uplift, Taylor steps, impacts, rest again.
 //!
-//! A plain interval between two samples is one Taylor step. An interval with an event (uplift, impact, rest, passing
-//! alpha, loss of contact) or too fast for one step is walked piece by piece (`interval`). Control flow is decided on real parts.
+//! A plain interval between two samples is one Taylor step. An interval with an event (uplift,
+//! impact, rest, passing alpha, loss of contact) or too fast for one step is walked piece by piece
+//! (`interval`). Control flow is decided on real parts.
 //!
-//! `V`: whether the ground moves vertically, too. Without it nothing is computed of what that asks for.
+//! `V`: whether the ground moves vertically, too. Without it nothing is computed of what that asks
+//! for.
 
 use std::f64::consts::FRAC_PI_2;
 
@@ -14,7 +16,8 @@ use super::series::{
 use super::{Rocking, RockingOutcome, contact, rest};
 use crate::scalar::{Scalar, real};
 
-/// Sine and cosine are carried from step to step by a rotation, and taken anew after this many steps.
+/// Sine and cosine are carried from step to step by a rotation, and taken anew after this many
+/// steps.
 const REFRESH: u64 = 256;
 
 /// p^2 dt^2 from which on steps take the short series, and the long one.
@@ -98,7 +101,8 @@ pub(crate) struct Walk<'a, S, const V: bool> {
     /// p^2 dt^2.
     pub q: S,
     pub pace: Pace,
-    /// A sample beyond this must be looked at; between two samples below it a resting body stays down.
+    /// A sample beyond this must be looked at; between two samples below it a resting body stays
+    /// down.
     pub quiet: f64,
 }
 
@@ -207,7 +211,8 @@ impl<'a, S: Scalar, const V: bool> Walk<'a, S, V> {
         }
     }
 
-    /// Interval i; false, with the outcome set, if the history ends in it. `tried`: a step at the walk's pace does not take it.
+    /// Interval i; false, with the outcome set, if the history ends in it. `tried`: a step at the
+    /// walk's pace does not take it.
     #[inline(always)]
     pub(crate) fn advance(&mut self, i: usize, now: Sample<S>, then: Sample<S>, tried: bool) -> bool {
         let Self { set, state, out, q, pace, .. } = self;
@@ -248,7 +253,8 @@ pub(crate) fn turns_well(age: u64, change: f64) -> bool {
     age < REFRESH && change.abs() < SMALL
 }
 
-/// Whether a body beyond alpha goes on falling when the ground stops: w'^2/2 against p^2 (1 - cos(w - alpha)).
+/// Whether a body beyond alpha goes on falling when the ground stops: w'^2/2 against p^2 (1 - cos(w
+/// - alpha)).
 pub(crate) fn falls<S: Scalar>(at: &StepStart<S>, alpha: f64, p2: f64) -> bool {
     let (beyond, rate) = (at.w.re() - alpha, at.rate.re());
     beyond > 0.0 && (rate >= 0.0 || rate * rate < 4.0 * p2 * (0.5 * beyond).sin().powi(2))
@@ -277,7 +283,8 @@ impl<S: Scalar> Setting<'_, S> {
         Sample { a: self.unit * accel, gamma: if V { self.unit * vertical + 1.0 } else { S::one() } }
     }
 
-    /// One Taylor step over a whole interval; false, with nothing changed, if the interval needs more than that.
+    /// One Taylor step over a whole interval; false, with nothing changed, if the interval needs
+    /// more than that.
     #[inline(always)]
     fn step<const V: bool, const N: usize>(
         &self,

@@ -14,8 +14,9 @@ fn sound(regime: &Regime) -> bool {
     enough && regime.free_flight.is_none() && regime.too_stocky.is_none()
 }
 
-/// F and N against m times the finite difference of the centre of mass's displacement, plus ground and gravity; on level ground, and
-/// with a vertical motion that is half the horizontal one, 0.5 s later.
+/// F and N against m times the finite difference of the centre of mass's displacement, plus ground
+/// and gravity; on level ground, and with a vertical motion that is half the horizontal one, 0.5 s
+/// later.
 #[test]
 fn forces_are_mass_times_acceleration_of_the_history() {
     let body = Structure::paper().body::<f64>();
@@ -65,7 +66,8 @@ fn at_rest_the_friction_needed_is_the_ground_acceleration_over_g() {
     assert!(sound(&regime));
 }
 
-/// At the start of free rocking (no rate) the A-frame's force lies along its leg: |F|/N = tan(alpha - theta).
+/// At the start of free rocking (no rate) the A-frame's force lies along its leg: |F|/N = tan(alpha
+/// - theta).
 #[test]
 fn an_a_frames_contact_force_points_along_the_leg() {
     let body = Structure::paper().body::<f64>();
@@ -119,7 +121,8 @@ fn with_any_friction_a_solid_block_lands_cleanly_only_above_1_over_sqrt_2() {
     assert!(stocky.restitution < 0.0);
 }
 
-/// Impulse and momentum of Housner's landing by the velocities before and after: (-(1 - e) h, b (1 + e)) m |theta'|.
+/// Impulse and momentum of Housner's landing by the velocities before and after: (-(1 - e) h, b (1
+/// + e)) m |theta'|.
 #[test]
 fn landing_friction_is_the_ratio_of_housners_impulses() {
     for body in [Structure::paper().body::<f64>(), block(2.0, 0.8)] {
@@ -141,7 +144,8 @@ fn what_a_falling_body_asks_of_the_ground_does_not_count() {
     let time = rocking.overturned().unwrap();
     let regime = check(&body, 0.01, (&accel, &[]), 1.0, &rocking, 0.5);
     assert!(regime.friction_needed.time <= time, "{regime:?}");
-    // it stands under twice tan(alpha) for the first sample, and needs less once it leans: see equation 1
+    // it stands under twice tan(alpha) for the first sample, and needs less once it leans: see
+    // equation 1
     assert!((regime.friction_needed.value - 2.0 * body.half_width / body.height).abs() < 1e-12, "{regime:?}");
     assert_eq!(regime.free_flight, None);
     // uncut, the same samples need more

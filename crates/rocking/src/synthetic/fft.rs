@@ -1,12 +1,12 @@
-//! The discrete Fourier transform of 2^k points, by J. W. Cooley and J. W. Tukey (1965), Mathematics of
-//! Computation 19, 297.
+//! The discrete Fourier transform of 2^k points, by J. W. Cooley and J. W. Tukey (1965),
+//! Mathematics of Computation 19, 297.
 //!
 //! ```text
 //! X_k = sum_n x_n exp(-2 pi i k n/N)        x_n = (1/N) sum_k X_k exp(2 pi i k n/N)
 //! ```
 //!
-//! Written here because libraries choose their instructions by the processor that they find: the parts of a sweep
-//! that several machines share must have the same bytes on each of them.
+//! Written here because libraries choose their instructions by the processor that they find: the
+//! parts of a sweep that several machines share must have the same bytes on each of them.
 
 use std::f64::consts::TAU;
 

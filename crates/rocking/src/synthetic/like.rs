@@ -6,12 +6,13 @@
 //! X(f) <- X(f) S_given(1/f)/S(1/f)                until the spectra S of 5 % damping agree
 //! ```
 //!
-//! D. A. Gasparini and E. H. Vanmarcke (1976), "Simulated earthquake motions compatible with prescribed response
-//! spectra", MIT R76-4 (the program SIMQKE), with the correction made to the transform X of the motion under its
-//! envelope instead of A_k (N. C. Tsai 1972, "Spectrum-compatible motions for design purposes", Journal of the
-//! Engineering Mechanics Division, ASCE 98): it converges closer. A part of the phases does not converge, because
-//! the peak of a motion is an accident of its phases: several are drawn, and the closest is kept. The ground ends
-//! at rest where it began, as in [`noise`](super::noise).
+//! D. A. Gasparini and E. H. Vanmarcke (1976), "Simulated earthquake motions compatible with
+//! prescribed response spectra", MIT R76-4 (the program SIMQKE), with the correction made to the
+//! transform X of the motion under its envelope instead of A_k (N. C. Tsai 1972,
+//! "Spectrum-compatible motions for design purposes", Journal of the Engineering Mechanics
+//! Division, ASCE 98): it converges closer. A part of the phases does not converge, because the
+//! peak of a motion is an accident of its phases: several are drawn, and the closest is kept. The
+//! ground ends at rest where it began, as in [`noise`](super::noise).
 //!
 //! What is not kept: how the frequencies of the given motion change with time.
 
@@ -23,7 +24,8 @@ use thiserror::Error;
 use super::{fft::Fourier, noise::rest_at_end, random::Random, silence_s, spectrum::ResponseSpectrum};
 use strong_motion::{Record, Source};
 
-/// Streams of random numbers that neither of the other suites uses; from bit 40 on the number of the draw.
+/// Streams of random numbers that neither of the other suites uses; from bit 40 on the number of
+/// the draw.
 const LIKE: u64 = 1 << 62;
 /// Draws of phases at most, and the mismatch of the spectrum at which one is good enough.
 const DRAWS: u64 = 24;
@@ -35,7 +37,8 @@ const CORRECTIONS: usize = 24;
 const LARGEST_FACTOR: f64 = 2.0;
 /// Periods that are matched (s): from three time steps, to a tenth of the motion.
 const PERIODS_S: (f64, f64) = (0.04, 4.0);
-/// Periods of the band, and how much farther the correction reaches, so that the band's end is no end.
+/// Periods of the band, and how much farther the correction reaches, so that the band's end is no
+/// end.
 const MATCHED: usize = 64;
 const BEYOND: f64 = 1.4;
 /// Samples that a given motion may have.
@@ -67,11 +70,13 @@ pub struct MotionTarget {
     wanted: Vec<f64>,
     /// How many of the periods are promised, the rest lies beyond.
     promised: usize,
-    /// Of the given motion, at rest at its end: from 5 to 95 % of the Arias intensity (s), largest displacement of the ground (m).
+    /// Of the given motion, at rest at its end: from 5 to 95 % of the Arias intensity (s), largest
+    /// displacement of the ground (m).
     given: (f64, f64),
 }
 
-/// Shares of the given motion's length from 5 to 95 % of the Arias intensity that a motion may have.
+/// Shares of the given motion's length from 5 to 95 % of the Arias intensity that a motion may
+/// have.
 const LENGTHS: std::ops::RangeInclusive<f64> = 0.8..=1.25;
 /// Largest displacement of the ground, in units of the given motion's.
 const FARTHEST: f64 = 2.5;
@@ -137,8 +142,9 @@ impl MotionTarget {
         (self.spectrum.periods[0], self.spectrum.periods[self.promised - 1])
     }
 
-    /// Motion `index` of a seed. It depends on the given motion, the seed and the index alone; only the silence at its
-    /// end is as long as a structure with p (1/s) needs, as in [`earthquake`](super::earthquake).
+    /// Motion `index` of a seed. It depends on the given motion, the seed and the index alone; only
+    /// the silence at its end is as long as a structure with p (1/s) needs, as in
+    /// [`earthquake`](super::earthquake).
     pub fn motion(&self, seed: u64, index: usize, p: f64) -> Record {
         let mut best: Option<(f64, Vec<f64>)> = None;
         for draw in 0..DRAWS {
@@ -214,7 +220,8 @@ impl MotionTarget {
             let below = (place as usize).min(periods.len() - 2);
             let share = place - below as f64;
             let ln = missing[below] + share * (missing[below + 1] - missing[below]);
-            // longer than all periods: to raise what no spectrum asks for would make the ground drift
+            // longer than all periods: to raise what no spectrum asks for would make the ground
+            // drift
             let ln = if place >= (periods.len() - 1) as f64 { ln.min(0.0) } else { ln };
             // the half that is left out is its mirror image: twice what is there, and the real part
             let both = if k == 0 || k == n / 2 { 1.0 } else { 2.0 };
@@ -257,8 +264,8 @@ fn mean(values: &[f64]) -> f64 {
     values.iter().sum::<f64>() / values.len() as f64
 }
 
-/// Root of the squares, smoothed by three running means, which together are near a Gaussian; its largest is 1. Half a
-/// width of each: a fiftieth of the motion, at least half a second.
+/// Root of the squares, smoothed by three running means, which together are near a Gaussian; its
+/// largest is 1. Half a width of each: a fiftieth of the motion, at least half a second.
 fn envelope(record: &Record) -> Vec<f64> {
     let half = ((record.duration() / 50.0).max(0.5) / record.dt).ceil() as usize;
     let squares: Vec<f64> = record.accel.iter().map(|a| a * a).collect();
@@ -272,7 +279,8 @@ fn envelope(record: &Record) -> Vec<f64> {
     envelope
 }
 
-/// Roots of the squared Fourier amplitudes, smoothed over a fifth of each frequency; none below `lowest` (Hz).
+/// Roots of the squared Fourier amplitudes, smoothed over a fifth of each frequency; none below
+/// `lowest` (Hz).
 fn amplitudes(record: &Record, fourier: &Fourier, lowest: f64) -> Vec<f64> {
     let mut transform = vec![Complex::new(0.0, 0.0); fourier.len()];
     for (x, a) in transform.iter_mut().zip(&record.accel) {

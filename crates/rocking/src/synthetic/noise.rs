@@ -8,9 +8,10 @@
 //! E(t) = (e x/eps)^b exp(-b x/eps) scaled, x = t/T,   b = -eps ln eta/[1 + eps (ln eps - 1)]
 //! ```
 //!
-//! The soil layer of K. Kanai (1957) and H. Tajimi (1960) with the high pass of R. Clough and J. Penzien (1975); the
-//! envelope of G. R. Saragoni and G. C. Hart (1974) as D. M. Boore (2003), Pure and Applied Geophysics 160, writes it:
-//! peak 1 at x = eps, value eta at x = 1. c0 and c1 make the ground's velocity and displacement zero at the end.
+//! The soil layer of K. Kanai (1957) and H. Tajimi (1960) with the high pass of R. Clough and J.
+//! Penzien (1975); the envelope of G. R. Saragoni and G. C. Hart (1974) as D. M. Boore (2003), Pure
+//! and Applied Geophysics 160, writes it: peak 1 at x = eps, value eta at x = 1. c0 and c1 make the
+//! ground's velocity and displacement zero at the end.
 
 use super::random::Random;
 
@@ -67,7 +68,8 @@ fn envelope(x: f64) -> f64 {
     (x / EPS * (1.0 - x / EPS).exp()).powf(b)
 }
 
-/// Velocity and displacement at the end of an acceleration that is linear between samples, from rest.
+/// Velocity and displacement at the end of an acceleration that is linear between samples, from
+/// rest.
 fn end_of(accel: impl Iterator<Item = f64> + Clone, dt: f64) -> [f64; 2] {
     let (mut velocity, mut displacement) = (0.0, 0.0);
     for (left, right) in accel.clone().zip(accel.skip(1)) {
@@ -77,7 +79,8 @@ fn end_of(accel: impl Iterator<Item = f64> + Clone, dt: f64) -> [f64; 2] {
     [velocity, displacement]
 }
 
-/// Subtract E (c0 + c1 x) so that the ground ends at rest where it began; the weight E is one sample shorter.
+/// Subtract E (c0 + c1 x) so that the ground ends at rest where it began; the weight E is one
+/// sample shorter.
 pub(super) fn rest_at_end(accel: &mut [f64], weight: &[f64], dt: f64) {
     let constant = weight.iter().copied().chain([0.0]);
     let linear = weight.iter().enumerate().map(|(i, e)| e * i as f64 / weight.len() as f64).chain([0.0]);
@@ -91,7 +94,8 @@ pub(super) fn rest_at_end(accel: &mut [f64], weight: &[f64], dt: f64) {
     }
 }
 
-/// (b0 + b1 s + b2 s^2)/(1 + 2 zeta s + s^2), s = i omega/omega_0, by the bilinear transform that is exact at omega_0.
+/// (b0 + b1 s + b2 s^2)/(1 + 2 zeta s + s^2), s = i omega/omega_0, by the bilinear transform that
+/// is exact at omega_0.
 struct Biquad {
     numerator: [f64; 3],
     denominator: [f64; 2],
@@ -131,8 +135,8 @@ mod tests {
         f64::hypot(re, im)
     }
 
-    /// Closed forms: |H|^2 = (1 + 4 zeta^2)/(4 zeta^2) of Kanai-Tajimi at omega_g, 1/(2 zeta_f) of Clough-Penzien at
-    /// omega_f, 1/sqrt 2 of Butterworth at its corner.
+    /// Closed forms: |H|^2 = (1 + 4 zeta^2)/(4 zeta^2) of Kanai-Tajimi at omega_g, 1/(2 zeta_f) of
+    /// Clough-Penzien at omega_f, 1/sqrt 2 of Butterworth at its corner.
     #[test]
     fn filters_have_their_closed_form_gain_at_their_frequency() {
         let (noise, dt) = (Noise { omega_g: 12.0, zeta_g: 0.35, duration: 20.0 }, 0.005);

@@ -1,22 +1,23 @@
-//! Pulses of unit amplitude as functions of x = omega_p t, omega_p = 2 pi/T_p the pulse's circular frequency:
-//! velocity v(x) and acceleration v'(x).
+//! Pulses of unit amplitude as functions of x = omega_p t, omega_p = 2 pi/T_p the pulse's circular
+//! frequency: velocity v(x) and acceleration v'(x).
 //!
 //! ```text
 //! Ricker, symmetric:      v'(x) = (1 - x^2/2) exp(-x^2/4)
 //! Ricker, antisymmetric:  v'(x) = (y^2 - 3) y exp(-y^2/2) / beta,   y = x/sqrt 3, beta = 1.3801
 //! ```
 //!
-//! N. Ricker (1943), Geophysics 8, in the form of M. F. Vassiliou and N. Makris (2011), Bulletin of the Seismological
-//! Society of America 101(2); beta makes the peak acceleration 1.
+//! N. Ricker (1943), Geophysics 8, in the form of M. F. Vassiliou and N. Makris (2011), Bulletin of
+//! the Seismological Society of America 101(2); beta makes the peak acceleration 1.
 //!
 //! ```text
 //! Mavroeidis-Papageorgiou:  v(x) = 1/2 [1 + cos(x/gamma)] cos(x + nu),   |x| <= gamma pi, zero outside
 //! v'(x) = -1/2 { sin(x/gamma)/gamma cos(x + nu) + [1 + cos(x/gamma)] sin(x + nu) }
 //! ```
 //!
-//! G. P. Mavroeidis and A. S. Papageorgiou (2003), "A mathematical representation of near-fault ground motions", Bulletin
-//! of the Seismological Society of America 93(3), 1099-1131: gamma is the number of oscillations, nu their phase. Velocity
-//! and acceleration both vanish at the ends; the ground may end displaced, as it does beside a fault.
+//! G. P. Mavroeidis and A. S. Papageorgiou (2003), "A mathematical representation of near-fault
+//! ground motions", Bulletin of the Seismological Society of America 93(3), 1099-1131: gamma is the
+//! number of oscillations, nu their phase. Velocity and acceleration both vanish at the ends; the
+//! ground may end displaced, as it does beside a fault.
 
 use std::f64::consts::PI;
 
@@ -34,7 +35,8 @@ pub enum Pulse {
 }
 
 impl Pulse {
-    /// Ground velocity over its amplitude (of acceleration/omega_p for the Ricker wavelets) at x = omega_p t.
+    /// Ground velocity over its amplitude (of acceleration/omega_p for the Ricker wavelets) at x =
+    /// omega_p t.
     #[cfg(test)]
     pub(crate) fn velocity<S: Scalar>(&self, x: S) -> S {
         let half = real::<S>(0.5);

@@ -1,5 +1,5 @@
-//! Random numbers that are the same everywhere: ChaCha8, one stream a record, turned into numbers here and not by a
-//! library whose algorithms may change.
+//! Random numbers that are the same everywhere: ChaCha8, one stream a record, turned into numbers
+//! here and not by a library whose algorithms may change.
 
 use std::f64::consts::TAU;
 

@@ -5,9 +5,10 @@
 //! S(T) = w^2 max |d|                   pseudo-acceleration; S -> PGA as T -> 0
 //! ```
 //!
-//! a is linear between the samples, so a step is exact: N. C. Nigam and P. C. Jennings (1969), "Calculation of
-//! response spectra from strong-motion earthquake records", Bulletin of the Seismological Society of America 59(2).
-//! With tau the time in a step, d = D + L tau + exp(-zeta w tau) (A cos w_d tau + B sin w_d tau).
+//! a is linear between the samples, so a step is exact: N. C. Nigam and P. C. Jennings (1969),
+//! "Calculation of response spectra from strong-motion earthquake records", Bulletin of the
+//! Seismological Society of America 59(2). With tau the time in a step, d = D + L tau + exp(-zeta w
+//! tau) (A cos w_d tau + B sin w_d tau).
 
 use std::f64::consts::TAU;
 
@@ -29,7 +30,8 @@ impl OscillatorStep {
         let omega_d = omega * (1.0 - ZETA * ZETA).sqrt();
         let (sin, cos) = (omega_d * dt).sin_cos();
         let decay = (-ZETA * omega * dt).exp();
-        // response to a start (d0, v0) and to the accelerations (a0, a1): linear in each, one at a time
+        // response to a start (d0, v0) and to the accelerations (a0, a1): linear in each, one at a
+        // time
         let after = |d0: f64, v0: f64, a0: f64, a1: f64| {
             let slope = -(a1 - a0) / (dt * omega * omega);
             let level = -a0 / (omega * omega) - 2.0 * ZETA * slope / omega;
@@ -72,7 +74,8 @@ impl ResponseSpectrum {
     }
 }
 
-/// Largest |d| of several oscillators, and beyond the motion's end for nothing: what follows it is free and decays.
+/// Largest |d| of several oscillators, and beyond the motion's end for nothing: what follows it is
+/// free and decays.
 fn peaks(steps: &[OscillatorStep; LANES], accel: &[f64]) -> [f64; LANES] {
     // a column a coefficient, so that the lanes of one lie side by side
     let column = |of: fn(&OscillatorStep) -> f64| steps.each_ref().map(of);
@@ -95,8 +98,8 @@ fn peaks(steps: &[OscillatorStep; LANES], accel: &[f64]) -> [f64; LANES] {
 mod tests {
     use super::*;
 
-    /// A step of acceleration: the first peak of the deflection is 1 + exp(-pi zeta/sqrt(1 - zeta^2)) times the static
-    /// one, at half a damped period.
+    /// A step of acceleration: the first peak of the deflection is 1 + exp(-pi zeta/sqrt(1 -
+    /// zeta^2)) times the static one, at half a damped period.
     #[test]
     fn a_step_overshoots_by_its_closed_form() {
         let (dt, periods) = (1e-3, vec![0.05, 0.2, 1.0, 3.0]);
@@ -108,8 +111,8 @@ mod tests {
         }
     }
 
-    /// At resonance, far from the start, the amplitude is 1/(2 zeta); a sine of samples joined by lines is weaker by
-    /// (sin x/x)^2 with x = w dt/2.
+    /// At resonance, far from the start, the amplitude is 1/(2 zeta); a sine of samples joined by
+    /// lines is weaker by (sin x/x)^2 with x = w dt/2.
     #[test]
     fn a_long_sine_resonates_by_its_closed_form_and_a_stiff_oscillator_follows_the_ground() {
         let dt = 0.005;
@@ -120,7 +123,8 @@ mod tests {
         assert!((found[1] - 1.0).abs() < 1e-3, "{found:?}");
     }
 
-    /// Nine periods, more than go side by side, each as if alone; a motion of no length moves nothing.
+    /// Nine periods, more than go side by side, each as if alone; a motion of no length moves
+    /// nothing.
     #[test]
     fn oscillators_do_not_see_each_other() {
         let accel: Vec<f64> = (0..500).map(|i| (0.1 * f64::from(i * i)).sin()).collect();

@@ -16,8 +16,8 @@ fn bodies() -> Vec<(&'static str, Body<f64>)> {
     .to_vec()
 }
 
-/// Largest |theta|/alpha of Housner's rocking by Runge-Kutta steps, four to a sample, impacts to the nearest step; a body
-/// that leans beyond alpha at the end has toppled: infinite.
+/// Largest |theta|/alpha of Housner's rocking by Runge-Kutta steps, four to a sample, impacts to
+/// the nearest step; a body that leans beyond alpha at the end has toppled: infinite.
 fn peak_rocking(body: &Body<f64>, record: &Record) -> f64 {
     let (p2, alpha, e) = (body.p_squared(), body.alpha(), body.restitution());
     let (mut theta, mut rate, mut peak) = (0.0_f64, 0.0_f64, 0.0_f64);
@@ -97,7 +97,8 @@ fn every_record_passes_the_checks_of_a_record_and_lifts_the_body() {
     }
 }
 
-/// The trapezoidal velocity of a smooth pulse ends within O(dt^2) of zero; the bound is 1e-3 of the peak velocity.
+/// The trapezoidal velocity of a smooth pulse ends within O(dt^2) of zero; the bound is 1e-3 of the
+/// peak velocity.
 #[test]
 fn the_ground_comes_to_rest() {
     for record in suite(300, 11, 1.5, 0.2) {
@@ -166,8 +167,8 @@ fn earthquakes_have_the_amplitudes_and_lengths_of_real_ones_whatever_the_structu
     }
 }
 
-/// The zero crossings of a narrow band come at its frequency: those of Kanai-Tajimi noise lie about omega_g/pi, 3 to 11 a
-/// second.
+/// The zero crossings of a narrow band come at its frequency: those of Kanai-Tajimi noise lie about
+/// omega_g/pi, 3 to 11 a second.
 #[test]
 fn earthquakes_have_real_frequencies_and_are_drawn_apart_from_the_other_suite() {
     for index in 0..20 {

@@ -50,7 +50,8 @@ fn a_peak_at_the_limit_or_one_ulp_beyond_does_no_harm() {
     }
 }
 
-/// Lift-off where the record passes the limit: w'' = p^2 cos(alpha) (|u_g|/g - tan(alpha)) grows from zero, w = c t^3/6.
+/// Lift-off where the record passes the limit: w'' = p^2 cos(alpha) (|u_g|/g - tan(alpha)) grows
+/// from zero, w = c t^3/6.
 #[test]
 fn uplift_inside_a_sample_starts_with_no_acceleration() {
     let body = block();
@@ -60,7 +61,8 @@ fn uplift_inside_a_sample_starts_with_no_acceleration() {
     assert!((rocking.theta[1] / (jerk * 0.005_f64.powi(3) / 6.0) - 1.0).abs() < 1e-4);
 }
 
-/// A half cycle that lands exactly at a sample: the record is chosen so that theta = 0 there (its impact time found first).
+/// A half cycle that lands exactly at a sample: the record is chosen so that theta = 0 there (its
+/// impact time found first).
 #[test]
 fn an_impact_at_a_sample_is_one_impact() {
     let body = block();
@@ -158,7 +160,8 @@ fn near_alpha_the_body_stays_long_and_then_decides() {
     assert!(fall.theta.len() < 3000 && fall.theta.iter().all(|theta| theta.abs() < FRAC_PI_2));
 }
 
-/// Energy decides on level ground: a rate at theta = 0 that just passes the barrier p^2 (1 - cos alpha).
+/// Energy decides on level ground: a rate at theta = 0 that just passes the barrier p^2 (1 - cos
+/// alpha).
 #[test]
 fn overturning_follows_the_energy_barrier() {
     let body = block();
@@ -181,8 +184,8 @@ fn overturning_follows_the_energy_barrier() {
     assert!(matches!(cut.outcome, RockingOutcome::Overturned { .. }));
 }
 
-/// Uplift under a steady push, run backwards in time: the body comes down to theta = 0 and theta' = 0 at one instant, and the push
-/// lifts it as it did.
+/// Uplift under a steady push, run backwards in time: the body comes down to theta = 0 and theta' =
+/// 0 at one instant, and the push lifts it as it did.
 #[test]
 fn a_touch_down_at_zero_velocity_is_followed_by_the_same_uplift() {
     let body = block();

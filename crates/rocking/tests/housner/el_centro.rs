@@ -1,4 +1,5 @@
-//! The paper's A-frame on El Centro, against float128 values of an independent Taylor program (degree 26).
+//! The paper's A-frame on El Centro, against float128 values of an independent Taylor program
+//! (degree 26).
 
 use rocking::housner::{RockingOptions, RockingOutcome, solve};
 use rocking::motion::peak;

@@ -9,20 +9,23 @@ fn slender() -> Body<f64> {
     Body { mass: 1.0, half_width: 10.0 * alpha.tan(), height: 10.0, inertia: 0.0 }
 }
 
-/// Greatest phi = |theta|/alpha of every half cycle, by w'^2/2 + p^2 cos(w - alpha) constant between impacts.
+/// Greatest phi = |theta|/alpha of every half cycle, by w'^2/2 + p^2 cos(w - alpha) constant
+/// between impacts.
 fn amplitudes(body: &Body<f64>, rates: &[f64]) -> Vec<f64> {
     let (alpha, p2) = (body.alpha(), body.p_squared());
     rates
         .iter()
         .map(|rate| {
-            // rate^2/2 = p^2 [cos(phi - alpha) - cos alpha] => sin^2 of half the angle left to alpha
+            // rate^2/2 = p^2 [cos(phi - alpha) - cos alpha] => sin^2 of half the angle left to
+            // alpha
             let half = ((0.5 * alpha).sin().powi(2) - 0.25 * rate * rate / p2).sqrt().asin();
             1.0 - 2.0 * half / alpha
         })
         .collect()
 }
 
-/// e^2 = (99/101)^2 = 0.96079 is the paper's A-frame; the fifth amplitude, 0.378750, needs it unrounded.
+/// e^2 = (99/101)^2 = 0.96079 is the paper's A-frame; the fifth amplitude, 0.378750, needs it
+/// unrounded.
 #[test]
 fn amplitudes_fall_as_in_theory() {
     let body = slender();

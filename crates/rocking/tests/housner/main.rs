@@ -9,7 +9,8 @@ mod reference;
 mod symmetry;
 mod vertical;
 
-/// Four sines that swell for two seconds (g), rounded to 6 digits so that every program reads the same numbers.
+/// Four sines that swell for two seconds (g), rounded to 6 digits so that every program reads the
+/// same numbers.
 fn noise(dt: f64, seconds: f64) -> Vec<f64> {
     let n = (seconds / dt).round() as usize;
     (0..=n)

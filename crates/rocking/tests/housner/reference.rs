@@ -1,7 +1,9 @@
-//! Whole histories against housner_quad (float128): a Taylor program of degree 26 in __float128, with sub-steps.
+//! Whole histories against housner_quad (float128): a Taylor program of degree 26 in __float128,
+//! with sub-steps.
 //!
-//! Literals are rounded from its 25 digits. Where the body comes to rest between them, that program was given a rule of its own:
-//! rest once the rate after an impact is below 1e-18 rad/s and |u_g| < g tan(alpha).
+//! Literals are rounded from its 25 digits. Where the body comes to rest between them, that program
+//! was given a rule of its own: rest once the rate after an impact is below 1e-18 rad/s and |u_g| <
+//! g tan(alpha).
 
 #![allow(clippy::excessive_precision)] // the digits of the reference as it printed them
 
@@ -106,7 +108,8 @@ fn a_small_block_on_el_centro() {
     agree(&rocking, 0.01, &reference, 1e-13);
 }
 
-/// 40 cm high, every fifth sample of the noise, p dt = 0.3: one step in twenty is not enough for an interval.
+/// 40 cm high, every fifth sample of the noise, p dt = 0.3: one step in twenty is not enough for an
+/// interval.
 #[test]
 fn a_tiny_block_at_a_coarse_time_step_until_it_overturns() {
     let coarse: Vec<f64> = noise(0.01, 10.0).into_iter().step_by(5).collect();

@@ -28,7 +28,8 @@ fn quiet_samples_before_a_record_only_shift_the_history() {
     assert!(there.theta[..137].iter().all(|theta| *theta == 0.0));
 }
 
-/// Lengths times 4, time times 2: powers of two, so that nothing but the rounding of trigonometry could differ.
+/// Lengths times 4, time times 2: powers of two, so that nothing but the rounding of trigonometry
+/// could differ.
 #[test]
 fn a_similar_body_on_a_similar_record_has_the_same_angles() {
     let accel = Record::el_centro().accel;

@@ -1,4 +1,5 @@
-//! Vertical ground acceleration: an exact similarity, a case of an independent program, loss of contact.
+//! Vertical ground acceleration: an exact similarity, a case of an independent program, loss of
+//! contact.
 
 use std::f64::consts::PI;
 use std::sync::Arc;
@@ -13,7 +14,8 @@ fn with<S: Clone>(vertical: &[f64], options: &RockingOptions<S>) -> RockingOptio
     RockingOptions { vertical: Some(Arc::from(vertical)), ..options.clone() }
 }
 
-/// El Centro as the vertical component: shifted by 1.3 s, so that it has nothing to do with the horizontal one.
+/// El Centro as the vertical component: shifted by 1.3 s, so that it has nothing to do with the
+/// horizontal one.
 fn vertical(factor: f64) -> Vec<f64> {
     let accel = Record::el_centro().accel;
     accel.iter().cycle().skip(130).take(accel.len()).map(|a| factor * a).collect()
@@ -47,8 +49,8 @@ fn a_constant_vertical_acceleration_is_another_gravity() {
     }
 }
 
-/// A block, alpha 0.2, R = 2 m, a_g = -2.5 sin(2 pi t), a_v = B sin(4 pi t + 0.5) m/s2 over the first second; values of a classical
-/// Runge-Kutta program in Python with steps of 2e-5 s.
+/// A block, alpha 0.2, R = 2 m, a_g = -2.5 sin(2 pi t), a_v = B sin(4 pi t + 0.5) m/s2 over the
+/// first second; values of a classical Runge-Kutta program in Python with steps of 2e-5 s.
 #[test]
 fn a_block_on_a_sine_with_and_without_vertical_motion() {
     let (radius, alpha, dt) = (2.0, 0.2_f64, 2.5e-6);
@@ -119,7 +121,8 @@ fn a_ground_sampled_four_times_finer_gives_the_same_history() {
     }
 }
 
-/// (g + a_v) tan(alpha) with a_v falling linearly: 2 (1 + 10 t) against (9.81 - 60 t)/4 at t = (9.81/4 - 2)/35.
+/// (g + a_v) tan(alpha) with a_v falling linearly: 2 (1 + 10 t) against (9.81 - 60 t)/4 at t =
+/// (9.81/4 - 2)/35.
 #[test]
 fn uplift_is_where_the_falling_limit_is_met() {
     let body = Structure::block(4.0, 1.0, 1.0).unwrap().body::<f64>();
@@ -147,7 +150,8 @@ fn pressure(body: &Body<f64>, (theta, rate): (f64, f64), (a, up): (f64, f64)) ->
     1.0 + (up + body.radius() * (phi.sin() * second - phi.cos() * rate * rate)) / GRAVITY
 }
 
-/// When the pivot's force first falls to zero by classical Runge-Kutta steps of a thousandth of dt, the body not landing before.
+/// When the pivot's force first falls to zero by classical Runge-Kutta steps of a thousandth of dt,
+/// the body not landing before.
 fn leaves(body: &Body<f64>, start: (f64, f64), dt: f64, accel: &[f64], up: &[f64]) -> f64 {
     let (mut theta, mut rate) = start;
     let at = |record: &[f64], x: f64| {

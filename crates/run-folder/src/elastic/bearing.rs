@@ -28,7 +28,8 @@ pub(crate) struct ForceQuantities {
     pub quantities: Vec<ForceQuantity>,
     /// Vertical force of the ground on all corners together, without the spikes of landings (N).
     pub filtered: Vec<f64>,
-    /// Frequency up to which the latter is had (Hz); none where samples are too far apart, it is then the mean between them.
+    /// Frequency up to which the latter is had (Hz); none where samples are too far apart, it is
+    /// then the mean between them.
     pub below_hz: Option<f64>,
 }
 
@@ -50,7 +51,8 @@ fn bases(assembled: &Assembled) -> Vec<(usize, usize)> {
     members.filter_map(|(i, member)| Some((i, member.ends.iter().position(|end| footing(end.node))?))).collect()
 }
 
-/// Shear, axial force and moment at the base of the columns or legs, the largest of them, unfiltered, and the drift.
+/// Shear, axial force and moment at the base of the columns or legs, the largest of them,
+/// unfiltered, and the drift.
 fn quantities(assembled: &Assembled, answer: &ElasticAnswer) -> Vec<ForceQuantity> {
     let bases = bases(assembled);
     let largest = |history: &ElasticHistory, of: &dyn Fn(&BeamForces, usize) -> f64| -> Vec<f64> {

@@ -13,7 +13,8 @@ pub(super) enum Instants {
     Envelopes,
 }
 
-/// `members.csv` or `members_envelopes.csv`; axial forces are positive in tension, as in `BeamForces`.
+/// `members.csv` or `members_envelopes.csv`; axial forces are positive in tension, as in
+/// `BeamForces`.
 pub(super) fn csv(run: &ElasticRun, instants: Instants) -> String {
     let fem = &run.answer.histories.fem;
     let mut head = vec!["t".to_string(), "base_shear_n".into()];

@@ -1,4 +1,5 @@
-//! The page of runs that go each their own way: what it says, its size, and that it asks for nothing from elsewhere.
+//! The page of runs that go each their own way: what it says, its size, and that it asks for
+//! nothing from elsewhere.
 
 use report::screen::{Written, screen};
 use springs::{case::Case, tuning::job::Job};

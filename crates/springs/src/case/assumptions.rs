@@ -1,4 +1,5 @@
-//! What the program took by itself where a case left it out: the quantity, the value, the key that sets it.
+//! What the program took by itself where a case left it out: the quantity, the value, the key that
+//! sets it.
 
 use super::{Case, ElasticCase};
 use files::message::{quantity, significant};
@@ -148,7 +149,8 @@ fn of_structure(structure: &ElasticStructure) -> Vec<Assumption> {
     all
 }
 
-/// Of a column without a mass no mass is told; of one with a mass the elements that it was cut into.
+/// Of a column without a mass no mass is told; of one with a mass the elements that it was cut
+/// into.
 fn column(mass_kg: f64, given: Option<usize>, elements: usize) -> Option<Assumption> {
     match given {
         _ if mass_kg == 0.0 => Some(assumption(AssumedQuantity::ColumnMass, 0.0, "kg", "structure.column_mass_kg")),

@@ -1,12 +1,14 @@
-//! What a user should look at again: numbers that can be right and seldom are. A doubt is a warning, no error.
+//! What a user should look at again: numbers that can be right and seldom are. A doubt is a
+//! warning, no error.
 //!
 //! ```text
 //!   mean density   all mass / (total height x width x depth of the body's box)
 //! ```
 //!
-//! A plane structure has no depth: its box is taken as deep as it is wide between the feet, a frame's as deep as a footing. Depths of
-//! structures differ from that by a factor of four or so, hence limits that lie far apart: 5 kg/m3 is four times the air's, 25,000
-//! beyond the densest metals (osmium, 22,590).
+//! A plane structure has no depth: its box is taken as deep as it is wide between the feet, a
+//! frame's as deep as a footing. Depths of structures differ from that by a factor of four or so,
+//! hence limits that lie far apart: 5 kg/m3 is four times the air's, 25,000 beyond the densest
+//! metals (osmium, 22,590).
 
 use super::{Case, ElasticCase, GivenKeys, structure::unit_of};
 use frames::structure::ElasticStructure;
@@ -16,7 +18,8 @@ use strong_motion::excitation::Excitation;
 /// A doubt and its quantities.
 #[derive(Clone, Debug, PartialEq)]
 pub enum Doubt {
-    /// A block whose `height_m`, that of its centre of mass, may be its total height: the height in the unit of its key.
+    /// A block whose `height_m`, that of its centre of mass, may be its total height: the height in
+    /// the unit of its key.
     TotalHeight { key: &'static str, height: f64, unit: &'static str },
     /// A mean density of no material.
     Density { kg_per_m3: f64, mass_kg: f64, box_m: [f64; 3], least: f64, most: f64 },
@@ -24,7 +27,8 @@ pub enum Doubt {
     Tonnes { mass: f64, kg_per_m3: f64 },
     /// Peak ground acceleration of the part used, scaled.
     WeakMotion { pga_g: f64, least_g: f64 },
-    /// A vertical component of the record's file is left out that is not small: peaks of the whole file, scaled.
+    /// A vertical component of the record's file is left out that is not small: peaks of the whole
+    /// file, scaled.
     VerticalLeftOut { peak_g: f64, horizontal_g: f64 },
     /// More of the record is asked for than there is.
     LongDuration { asked_s: f64, record_s: f64 },
@@ -43,7 +47,8 @@ const HEAVIEST: f64 = 8000.0;
 const ROOM_M: f64 = 2.5;
 /// Weaker ground motions are not felt (g).
 const LEAST_PGA_G: f64 = 0.005;
-/// A vertical component above this share of the horizontal one's peak is not left out without a word.
+/// A vertical component above this share of the horizontal one's peak is not left out without a
+/// word.
 const VERTICAL_SHARE: f64 = 0.5;
 /// Beyond this slenderness a body does not rock (rad), as [`Structure::checked`] has it.
 const STOCKIEST: f64 = 0.9;
@@ -87,8 +92,9 @@ impl ElasticCase {
     }
 }
 
-/// Whether a block's height of the centre of mass looks like its total height: as it is read the block is no solid, and half as high
-/// it would be one; or it is light and would not stand in a room. A block that could not rock if it were half as high is as it is read.
+/// Whether a block's height of the centre of mass looks like its total height: as it is read the
+/// block is no solid, and half as high it would be one; or it is light and would not stand in a
+/// room. A block that could not rock if it were half as high is as it is read.
 fn total_height(body: &Structure, given: &GivenKeys) -> Option<Doubt> {
     let key = given.height.filter(|key| key.starts_with("height_") && body.kind == Kind::Block)?;
     let total = 2.0 * body.height_m;
@@ -101,7 +107,8 @@ fn total_height(body: &Structure, given: &GivenKeys) -> Option<Doubt> {
     (rocks && (half_is_solid || above_a_room)).then_some(Doubt::TotalHeight { key, height, unit })
 }
 
-/// Whether a block is lighter than what stands in rooms, and would not be if its mass were in tonnes.
+/// Whether a block is lighter than what stands in rooms, and would not be if its mass were in
+/// tonnes.
 fn tonnes(body: &Structure) -> Option<Doubt> {
     let kg_per_m3 = body.mass_kg / (2.0 * body.height_m * body.width_m.powi(2));
     let doubted = (DENSITY[0]..LIGHTEST).contains(&kg_per_m3)

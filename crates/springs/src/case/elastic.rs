@@ -44,7 +44,8 @@ pub struct ElasticCase {
     pub excitation: Excitation,
     /// What the reader of the record says of it.
     pub notices: Vec<Notice>,
-    /// The error against the reference that Omega_n is chosen for: of the rotations (NRMSE), or of peaks.
+    /// The error against the reference that Omega_n is chosen for: of the rotations (NRMSE), or of
+    /// peaks.
     pub asked: Asked,
     /// Stiffest springs allowed, Omega_n/2 pi of all mass (Hz); none unless given.
     pub max_omega_hz: Option<f64>,
@@ -95,8 +96,9 @@ impl ElasticCase {
         Self::parse_asking(path, text, &ReadOptions::default())
     }
 
-    /// Parse a case file's text and read the record it names; `path` names it in messages and is where its record's path starts.
-    /// What is asked of the record goes before what the case says of it.
+    /// Parse a case file's text and read the record it names; `path` names it in messages and is
+    /// where its record's path starts. What is asked of the record goes before what the case says
+    /// of it.
     ///
     /// # Errors
     /// What is wrong with the file, the structure, the record.

@@ -137,7 +137,8 @@ fn unknown_key(message: &str) -> Option<(String, Option<String>)> {
     Some((key, near))
 }
 
-/// The line and the name of a key that stands for `kind`, where there is none: all other keys hang on it.
+/// The line and the name of a key that stands for `kind`, where there is none: all other keys hang
+/// on it.
 fn misspelt_kind(text: &str) -> Option<(usize, &str)> {
     let keys = || text.lines().enumerate().filter_map(|(i, line)| Some((i + 1, line.split_once('=')?.0.trim())));
     let near = |(_, key): &(usize, &str)| strsim::damerau_levenshtein(key, "kind") <= 2;

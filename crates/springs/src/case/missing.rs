@@ -28,8 +28,8 @@ pub(super) fn no_kind(file: &Table) -> bool {
     file.get("structure").and_then(Value::as_table).is_some_and(|structure| !structure.contains_key("kind"))
 }
 
-/// "[structure] lacks width_m, mass_kg; [record] lacks file", and the shape that `tune init` is to be asked for; nothing if
-/// nothing is missing.
+/// "[structure] lacks width_m, mass_kg; [record] lacks file", and the shape that `tune init` is to
+/// be asked for; nothing if nothing is missing.
 pub(super) fn sections(file: &Table) -> Option<(String, &'static str)> {
     let section = |name: &str| file.get(name).and_then(Value::as_table);
     let empty = Table::new();
@@ -86,7 +86,8 @@ fn elastic(structure: &Table, kind: &str) -> (Vec<String>, &'static str) {
     (keys, shape)
 }
 
-/// Keys without which a section cannot be read: serde names one, which is then put there, until it names none.
+/// Keys without which a section cannot be read: serde names one, which is then put there, until it
+/// names none.
 fn lacks<T: DeserializeOwned>(section: &Table) -> Vec<String> {
     let mut section = section.clone();
     let mut keys = Vec::new();

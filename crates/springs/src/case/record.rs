@@ -16,13 +16,15 @@ pub(super) struct RecordSection {
     dt_s: Option<f64>,
     /// "g", "m/s2", "cm/s2" or "mm/s2", where the file does not say.
     units: Option<Units>,
-    /// Component by name or azimuth, where the file has several; the stronger horizontal one unless given.
+    /// Component by name or azimuth, where the file has several; the stronger horizontal one unless
+    /// given.
     component: Option<String>,
     /// Column of a table, by number (from 1) or name, where there are several.
     column: Option<TableColumn>,
     /// Subtract the mean of the samples.
     baseline: bool,
-    /// "auto", the vertical component of the same file, or the file of one, relative to the case file; none unless given.
+    /// "auto", the vertical component of the same file, or the file of one, relative to the case
+    /// file; none unless given.
     vertical: Option<VerticalFrom>,
     /// Factor on the acceleration; 1 unless given.
     scale: Option<f64>,
@@ -31,8 +33,8 @@ pub(super) struct RecordSection {
 }
 
 impl RecordSection {
-    /// The ground motion, its record read by `read`; `path` is where the record's path starts. What is asked goes before what the
-    /// section says.
+    /// The ground motion, its record read by `read`; `path` is where the record's path starts. What
+    /// is asked goes before what the section says.
     pub(super) fn excitation(
         &self,
         path: &str,

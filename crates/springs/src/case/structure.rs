@@ -1,4 +1,5 @@
-//! The section `[structure]` of a case file: kind, lengths, mass, in SI or with the unit of the drawing in the key's name.
+//! The section `[structure]` of a case file: kind, lengths, mass, in SI or with the unit of the
+//! drawing in the key's name.
 //!
 //! | quantity | keys | in SI |
 //! |---|---|---|
@@ -259,8 +260,8 @@ mod tests {
         Case::parse("case.toml", &text).map(|case| case.structure).map_err(|e| e.to_string())
     }
 
-    /// The paper's frame as its drawing has it, 200 ft by 40 ft and 1500 kip; foot, inch and pound are exact, so is the comparison
-    /// but for rounding.
+    /// The paper's frame as its drawing has it, 200 ft by 40 ft and 1500 kip; foot, inch and pound
+    /// are exact, so is the comparison but for rounding.
     #[test]
     fn units_of_a_drawing_are_those_of_the_definitions() {
         let si = structure("kind = \"aframe\"\nheight_m = 60.96\nwidth_m = 12.192\nmass_kg = 680388.555\n").unwrap();

@@ -1,4 +1,5 @@
-//! `parameters.json` of an elastic structure: springs under every corner, and what was measured of them.
+//! `parameters.json` of an elastic structure: springs under every corner, and what was measured of
+//! them.
 
 use std::path::Path;
 
@@ -91,17 +92,19 @@ pub struct OnRecord {
     pub compared_s: f64,
     /// Whether that is all of it.
     pub whole: bool,
-    /// Length in which a change of a millionth grows to less than a thousandth of the peak and no corner slides on from a landing, if that is not all
-    /// of it (s).
+    /// Length in which a change of a millionth grows to less than a thousandth of the peak and no
+    /// corner slides on from a landing, if that is not all of it (s).
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub foretold_s: Option<f64>,
-    /// When a corner of the reference lands so flat that it slides on, if that is where this ends (s).
+    /// When a corner of the reference lands so flat that it slides on, if that is where this ends
+    /// (s).
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub slides_on_s: Option<f64>,
     /// Omega_n/2 pi of softer springs that hold the accuracy over that length (Hz).
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub softer_omega_n_hz: Option<f64>,
-    /// NRMSE of the rotations over that length; none where the reference is not lifted, or the history on springs ends before.
+    /// NRMSE of the rotations over that length; none where the reference is not lifted, or the
+    /// history on springs ends before.
     pub nrmse_rotation: Option<f64>,
     /// NRMSE of the drifts; none where the history on springs ends before.
     pub nrmse_drift: Option<f64>,

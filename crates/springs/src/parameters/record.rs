@@ -1,4 +1,5 @@
-//! The record of `parameters.json`: enough of it to have the same ground motion again, or to say why not.
+//! The record of `parameters.json`: enough of it to have the same ground motion again, or to say
+//! why not.
 
 use std::path::{Component, Path, PathBuf};
 
@@ -61,7 +62,8 @@ pub enum SourceRow {
     File {
         /// As the user named it.
         file: String,
-        /// From the folder of parameters.json, or absolute where there is no way from there; with `/`.
+        /// From the folder of parameters.json, or absolute where there is no way from there; with
+        /// `/`.
         path: String,
         /// Of the file's numbers, found in it or given.
         units: Units,
@@ -115,7 +117,8 @@ impl SourceRow {
 }
 
 impl RecordRow {
-    /// The row of a ground motion, for a parameters.json in `folder`; `used` is the part used, scaled.
+    /// The row of a ground motion, for a parameters.json in `folder`; `used` is the part used,
+    /// scaled.
     pub fn new(excitation: &Excitation, used: &Record, folder: &Path) -> Self {
         let record = &excitation.record;
         let vertical = record.vertical.as_ref().zip(used.vertical.as_ref()).map(|(whole, used)| VerticalRow {
@@ -144,7 +147,8 @@ impl RecordRow {
         Ok(Excitation { record, scale, duration_s: self.duration_s })
     }
 
-    /// The record again, whole and unscaled; `parameters` is the path of the file that this row is of.
+    /// The record again, whole and unscaled; `parameters` is the path of the file that this row is
+    /// of.
     fn record(&self, parameters: &Path) -> Result<Record, RememberedError> {
         let source = self.source.as_ref().unwrap_or(&SourceRow::Embedded);
         let record = self.component(parameters, source, (&self.name, self.fnv1a_64.as_ref()), Record::read)?;
@@ -196,8 +200,9 @@ impl RecordRow {
 }
 
 impl Parameters {
-    /// The ground motion that the springs were tuned on; `path` is that of this parameters.json, from which its record's is
-    /// told. A file that remembers no source stands for El Centro, over the length of its match or 20 s.
+    /// The ground motion that the springs were tuned on; `path` is that of this parameters.json,
+    /// from which its record's is told. A file that remembers no source stands for El Centro, over
+    /// the length of its match or 20 s.
     ///
     /// # Errors
     /// The record is not there, has changed, was in no file, or is none any more.
@@ -227,8 +232,8 @@ fn real(path: &Path) -> PathBuf {
     absolute
 }
 
-/// The way from a folder to a file, both as [`real`] has them; the file's own path where nothing but the root is common
-/// to both.
+/// The way from a folder to a file, both as [`real`] has them; the file's own path where nothing
+/// but the root is common to both.
 fn way(folder: &Path, file: &Path) -> PathBuf {
     let common = folder.components().zip(file.components()).take_while(|(a, b)| a == b).count();
     if folder.components().take(common).all(|part| !matches!(part, Component::Normal(_))) {

@@ -56,8 +56,8 @@ pub(crate) struct Region {
 /// The side of the box where nothing was asked.
 const SEARCH_RANGE: &str = "search_range";
 
-/// Smallest K with which a body on two feet settles by at most `settlement_m` (m) under its weight, the vertical
-/// chain at `omega_n_hz` (Hz); for [`Bounds::k_min`].
+/// Smallest K with which a body on two feet settles by at most `settlement_m` (m) under its weight,
+/// the vertical chain at `omega_n_hz` (Hz); for [`Bounds::k_min`].
 pub fn k_min_for_settlement(settlement_m: f64, omega_n_hz: f64) -> Result<f64, BoundsError> {
     use rocking::scalar::GRAVITY;
     use std::f64::consts::TAU;
@@ -79,7 +79,8 @@ pub fn k_min_for_settlement(settlement_m: f64, omega_n_hz: f64) -> Result<f64, B
 impl Bounds {
     /// The box of z at mass ratio mu.
     pub(crate) fn region(&self, mu: f64) -> Result<Region, BoundsError> {
-        // Far beyond any optimum: the minimax has K between 1/2 and about mu, C between 1.8 and about 1.3 sqrt(mu).
+        // Far beyond any optimum: the minimax has K between 1/2 and about mu, C between 1.8 and
+        // about 1.3 sqrt(mu).
         let (least, most) = (1e-4, 1e4 * mu.max(1.0));
         let mut sides = [Side { low: least, low_name: SEARCH_RANGE, high: most, high_name: SEARCH_RANGE }; 2];
         let k = |f: f64| mu * f * f;

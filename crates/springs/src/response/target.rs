@@ -1,5 +1,5 @@
-//! The wanted shape of the response (section 5.1 of the paper): near uniform at the low frequencies of rocking, capped
-//! in between, rolling off above.
+//! The wanted shape of the response (section 5.1 of the paper): near uniform at the low frequencies
+//! of rocking, capped in between, rolling off above.
 //!
 //! A target is a list of bands in g = omega/Omega_n. Each gives, at every g inside, an excess
 //!
@@ -10,9 +10,9 @@
 //!  rigid      w ( |ln ARR| - ln(1 + x) )             ARR is that of rigid ground at rest, 1, within the share x
 //! ```
 //!
-//! and the fit makes the largest excess over all bands and g as small as it can; the target is met when that is zero
-//! or less. The weight w decides which band gives way when not all can be met. The default target is one cap with
-//! limit 1 over all g: it asks for the smallest largest ARR.
+//! and the fit makes the largest excess over all bands and g as small as it can; the target is met
+//! when that is zero or less. The weight w decides which band gives way when not all can be met.
+//! The default target is one cap with limit 1 over all g: it asks for the smallest largest ARR.
 
 use serde::{Deserialize, Serialize};
 use thiserror::Error;

@@ -1,4 +1,5 @@
-//! Findings: what a reader of a run must know beside its numbers. Each is data; its words are made here and nowhere else.
+//! Findings: what a reader of a run must know beside its numbers. Each is data; its words are made
+//! here and nowhere else.
 
 use serde::{Deserialize, Serialize};
 
@@ -289,7 +290,8 @@ pub struct PeakChange {
     pub with: f64,
 }
 
-/// A finding as parameters.json holds it: its quantities, and the words of this version of the program.
+/// A finding as parameters.json holds it: its quantities, and the words of this version of the
+/// program.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct FiledFinding {
     /// How much it weighs.

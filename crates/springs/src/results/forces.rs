@@ -1,4 +1,5 @@
-//! Forces to design with: those that do not change with the springs or the mesh, measured in the run that gives them.
+//! Forces to design with: those that do not change with the springs or the mesh, measured in the
+//! run that gives them.
 
 use frames::design_forces::{ForcesTogether, MOST_CHANGE, OtherForces};
 use serde::{Deserialize, Serialize};
@@ -8,7 +9,8 @@ use super::{Finding, ForceName, PeakChange};
 /// A largest force, and whether it is the structure's.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 pub struct DesignForce {
-    /// Largest magnitude, with its sign: axial forces are positive in tension (N or N m). None where it does not hold.
+    /// Largest magnitude, with its sign: axial forces are positive in tension (N or N m). None
+    /// where it does not hold.
     pub value: Option<f64>,
     /// When (s).
     pub time_s: f64,
@@ -17,7 +19,8 @@ pub struct DesignForce {
     /// The largest change that was measured, as a share; none where nothing could be measured.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub change: Option<f64>,
-    /// Largest magnitude with all that the springs and the mesh add, of an elastic structure (N or N m).
+    /// Largest magnitude with all that the springs and the mesh add, of an elastic structure (N or
+    /// N m).
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub raw: Option<f64>,
     /// The same force of the structure fixed to the ground (N or N m).
@@ -36,8 +39,8 @@ pub struct DesignForce {
     /// What it is with another mesh and on other springs, of an elastic structure.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub others: Option<OtherForces>,
-    /// Length of the record from its start over which it is the largest and holds (s), where it does
-    /// not hold over all of it.
+    /// Length of the record from its start over which it is the largest and holds (s), where it
+    /// does not hold over all of it.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub over_s: Option<f64>,
     /// What it is over the whole record then.
@@ -94,7 +97,8 @@ pub struct DesignForces {
     /// Frequency below which peaks are given (Hz); none where forces are those between landings.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub below_hz: Option<f64>,
-    /// Shear of the column, where along it that is largest, of a leg, or at the foot of a rigid body.
+    /// Shear of the column, where along it that is largest, of a leg, or at the foot of a rigid
+    /// body.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub column_shear_n: Option<DesignForce>,
     /// Moment at the foot of the column, of a rigid body about the middle of its base.

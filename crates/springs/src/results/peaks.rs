@@ -33,11 +33,13 @@ pub struct Peaks {
     pub uplift_m: f64,
     /// Top displacement over the height of the top.
     pub drift_ratio: f64,
-    /// Impacts above the energy threshold: harder than a fall from 0.02 alpha; of an elastic structure, all landings.
+    /// Impacts above the energy threshold: harder than a fall from 0.02 alpha; of an elastic
+    /// structure, all landings.
     pub impacts: usize,
 }
 
-/// The reference (Housner's body; an elastic structure on rigid ground) and the structure on its springs.
+/// The reference (Housner's body; an elastic structure on rigid ground) and the structure on its
+/// springs.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 pub struct PeakPair {
     /// Without springs.
@@ -53,7 +55,8 @@ pub struct PeakPair {
 }
 
 impl Peaks {
-    /// Of a rigid body's rotations (rad). `slip` is what its centre of mass moves besides (m): empty for Housner's.
+    /// Of a rigid body's rotations (rad). `slip` is what its centre of mass moves besides (m):
+    /// empty for Housner's.
     pub fn of_rigid(kind: Kind, body: &Body<f64>, theta: &[f64], u: Option<&[f64]>, impacts: usize) -> Self {
         let height = top_height(kind, body);
         let top = Body { height, ..*body };
@@ -72,7 +75,8 @@ impl Peaks {
     }
 }
 
-/// Height of a rigid body's highest point (m): a solid block is twice as high as its centre of mass.
+/// Height of a rigid body's highest point (m): a solid block is twice as high as its centre of
+/// mass.
 pub(crate) fn top_height(kind: Kind, body: &Body<f64>) -> f64 {
     match kind {
         Kind::AFrame => body.height,
@@ -85,7 +89,8 @@ mod tests {
     use super::*;
     use rocking::structure::Structure;
 
-    /// A block of 2 x 0.5 m that leans by 0.1 about its corner: its top corner line is at (-b, 2h) from the pivot.
+    /// A block of 2 x 0.5 m that leans by 0.1 about its corner: its top corner line is at (-b, 2h)
+    /// from the pivot.
     #[test]
     fn a_leaning_block_moves_its_top_and_lifts_its_foot_as_geometry_says() {
         let block = Structure::block(2.0, 0.5, 100.0).unwrap();

@@ -18,7 +18,8 @@ use crate::{
 /// The landing of the springs in the stiff limit, where they follow from the geometry.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 pub struct LimitRow {
-    /// Slenderness (rad), m R^2/I0 and Omega_n/p: all that the design depends on, rounded to nine digits.
+    /// Slenderness (rad), m R^2/I0 and Omega_n/p: all that the design depends on, rounded to nine
+    /// digits.
     pub alpha: f64,
     pub mass_share: f64,
     pub omega_n_over_p: f64,
@@ -92,7 +93,8 @@ impl Assessment {
         }
     }
 
-    /// The landing that the springs follow from, and what decided on Omega_n; none of springs that a search found.
+    /// The landing that the springs follow from, and what decided on Omega_n; none of springs that
+    /// a search found.
     pub fn design(&self) -> Option<[String; 2]> {
         let l = self.landing.as_ref()?;
         let landing = format!(

@@ -1,8 +1,10 @@
-//! Springs softer than the landing's limit: the design followed down in Omega_n/p, on landings and uplifts of the whole model.
+//! Springs softer than the landing's limit: the design followed down in Omega_n/p, on landings and
+//! uplifts of the whole model.
 //!
-//! Where a cap keeps Omega_n v_n/g small, gravity takes part in the landing and the stance gives way before it lifts. So the
-//! design from the geometry is only where to begin: it is taken at a stiffness at which it holds, and with every step down,
-//! by a factor of two, all eight parameters are tuned again on the whole model (`landing_simulation`), from what they were. No record.
+//! Where a cap keeps Omega_n v_n/g small, gravity takes part in the landing and the stance gives
+//! way before it lifts. So the design from the geometry is only where to begin: it is taken at a
+//! stiffness at which it holds, and with every step down, by a factor of two, all eight parameters
+//! are tuned again on the whole model (`landing_simulation`), from what they were. No record.
 
 use std::f64::consts::TAU;
 
@@ -51,7 +53,8 @@ fn logarithms(s: &Springs<Design<f64>>) -> Vec<f64> {
 
 /// Cost of springs on which a run does not finish.
 const UNFINISHED: f64 = 100.0;
-/// Evaluations of a search for another restitution, and the cost that is good enough: 0.1 % in all landings.
+/// Evaluations of a search for another restitution, and the cost that is good enough: 0.1 % in all
+/// landings.
 const EVALUATIONS: usize = 6000;
 const ENOUGH: f64 = 0.4;
 
@@ -64,8 +67,8 @@ struct LandingsAndUplifts<'a> {
 }
 
 impl<'a> LandingsAndUplifts<'a> {
-    /// It depends on the mass only through I_cg/m, so it is that of a body of 1 kg: in whatever unit a mass is given, the same
-    /// springs are found.
+    /// It depends on the mass only through I_cg/m, so it is that of a body of 1 kg: in whatever
+    /// unit a mass is given, the same springs are found.
     fn new(body: &Body<f64>, restitution: f64, (bracket, criterion): (Bracket, Criterion), effort: &'a Effort) -> Self {
         let control = Control { tolerance: 1e-6, most_steps: 8_000, ..Control::default() };
         let body = &Body { mass: 1.0, inertia: body.inertia / body.mass, ..*body };
@@ -88,7 +91,8 @@ impl LeastSquares for LandingsAndUplifts<'_> {
             .enumerate()
             .map(|(i, &z)| FollowDual::new(z, Derivative::derivative_generic(nalgebra::Const::<8>, nalgebra::U1, i)))
             .collect();
-        // one iteration more leaves the gradients good to the square of the iteration's rate, about 1e-4: enough for a step
+        // one iteration more leaves the gradients good to the square of the iteration's rate, about
+        // 1e-4: enough for a step
         let control = Control { extra_iterations: 1, tolerance: 1e-5, ..self.control };
         let found = self.whole.residuals(&springs(&duals), control, self.effort);
         let rows = found.iter().map(row).collect();
@@ -119,16 +123,18 @@ fn row(x: &FollowDual) -> Vec<f64> {
     row.iter().copied().collect()
 }
 
-/// Omega_h/Omega_v from which the way down begins: what the stiff limit likes, and softer verticals that a cap asks for.
+/// Omega_h/Omega_v from which the way down begins: what the stiff limit likes, and softer verticals
+/// that a cap asks for.
 const RATIOS: [f64; 2] = [1.0, 4.0];
 /// Halvings of the stiffness on the way down.
 const HALVINGS: i32 = 3;
 /// Steps of the descent at every stiffness, and at the last.
 const STEPS: (u64, u64) = (4, 15);
 
-/// Springs of at most `bracket.max_hz` for a body that lands with velocity restitution `restitution`, followed down from the
-/// design that its geometry gives: one of each ratio and criterion. Which of them follow histories best is for histories to
-/// say; neither criterion is the better one for every body.
+/// Springs of at most `bracket.max_hz` for a body that lands with velocity restitution
+/// `restitution`, followed down from the design that its geometry gives: one of each ratio and
+/// criterion. Which of them follow histories best is for histories to say; neither criterion is the
+/// better one for every body.
 pub fn follow(body: &Body<f64>, restitution: f64, bracket: Bracket, effort: &Effort) -> Vec<Springs<Design<f64>>> {
     let criteria = [Criterion::Energy, Criterion::GrowingPart];
     let ways: Vec<(f64, Criterion)> = RATIOS.iter().flat_map(|&r| criteria.map(|c| (r, c))).collect();
@@ -140,8 +146,8 @@ pub fn follow(body: &Body<f64>, restitution: f64, bracket: Bracket, effort: &Eff
     found.into_iter().flatten().collect()
 }
 
-/// Springs for another restitution than equation 2's, by a search and a descent from where it ends. `progress` gets the
-/// evaluations done, planned, and the least cost so far.
+/// Springs for another restitution than equation 2's, by a search and a descent from where it ends.
+/// `progress` gets the evaluations done, planned, and the least cost so far.
 pub fn with_restitution(
     body: &Body<f64>,
     restitution: f64,

@@ -51,7 +51,8 @@ const RUNGS: (i64, i64) = (10, 80);
 const BEGIN: f64 = 0.1;
 /// Share of the balanced K that is tried where that one does not hold.
 const QUIETER: f64 = 0.3;
-/// Rungs above the softest that hold the accuracy at which the search begins for those that follow the record further: a tenth of the give.
+/// Rungs above the softest that hold the accuracy at which the search begins for those that follow
+/// the record further: a tenth of the give.
 const STIFFER: i64 = 10;
 
 /// Why an elastic structure cannot be tuned, and what to do.
@@ -74,12 +75,14 @@ pub enum ElasticTuneError {
 pub struct ElasticTuned {
     pub springs: CornerSprings,
     pub measured: Measured,
-    /// Whether the accuracy asked for is reached; not if there was nothing to measure it on: springs are then those that the search would begin
-    /// with.
+    /// Whether the accuracy asked for is reached; not if there was nothing to measure it on:
+    /// springs are then those that the search would begin with.
     pub reached: bool,
-    /// The reference on the record, with as much of it as these springs hold the accuracy over; none without a record.
+    /// The reference on the record, with as much of it as these springs hold the accuracy over;
+    /// none without a record.
     pub reference: Option<Reference>,
-    /// Omega_n/2 pi of softer springs that hold the accuracy, too, but follow the record less far (Hz).
+    /// Omega_n/2 pi of softer springs that hold the accuracy, too, but follow the record less far
+    /// (Hz).
     pub softer_hz: Option<f64>,
     /// Rungs judged.
     pub stiffnesses: usize,
@@ -110,11 +113,13 @@ impl ElasticTuned {
     }
 }
 
-/// Springs under every corner of a structure, its members at work, as stiff as what is `asked` for (NRMSE of rotations, or an error of peaks) needs, at most `most_hz`
-/// (Omega_n/2 pi, Hz); `progress` is told the rungs judged and the least error so far.
+/// Springs under every corner of a structure, its members at work, as stiff as what is `asked` for
+/// (NRMSE of rotations, or an error of peaks) needs, at most `most_hz` (Omega_n/2 pi, Hz);
+/// `progress` is told the rungs judged and the least error so far.
 ///
 /// # Errors
-/// A structure that does not stand; an accuracy that is none; springs allowed that are too soft for any.
+/// A structure that does not stand; an accuracy that is none; springs allowed that are too soft for
+/// any.
 pub fn tune(
     model: &Assembled,
     asked: Asked,
@@ -234,7 +239,8 @@ impl Rungs {
         Ok(Self { ends: (softest, stiffest), guess: guess.clamp(softest, stiffest) })
     }
 
-    /// The softest that hold what is asked for, by what is measured of them; `springs` of a rung, at a share of the balanced K.
+    /// The softest that hold what is asked for, by what is measured of them; `springs` of a rung,
+    /// at a share of the balanced K.
     fn search(
         &self,
         asked: Asked,
@@ -244,7 +250,8 @@ impl Rungs {
         progress: &dyn Fn(usize, f64),
     ) -> ElasticRung {
         let allowed = asked.times(MARGIN);
-        // where springs at the balance of K do not hold, ones with less rebound may: a corner that leaves as soon as it has landed keeps it
+        // where springs at the balance of K do not hold, ones with less rebound may: a corner that
+        // leaves as soon as it has landed keeps it
         let judged = |i: i64| {
             let of = |share: f64| {
                 let springs = springs(i, share);

@@ -1,5 +1,5 @@
-//! A whole case: the inner design by the case's objective, Omega_n by the accuracy asked for, and the paper's procedure at the
-//! same Omega_n beside it.
+//! A whole case: the inner design by the case's objective, Omega_n by the accuracy asked for, and
+//! the paper's procedure at the same Omega_n beside it.
 
 mod procedure;
 
@@ -10,7 +10,10 @@ use thiserror::Error;
 
 use super::{
     capped_springs,
-    landing::{design::Geometry, weight},
+    landing::{
+        design::{Geometry, springs_at_stiffness},
+        weight,
+    },
     landing_simulation,
     paper_procedure::{
         inner::{Fit, FitError},
@@ -42,10 +45,11 @@ use strong_motion::Record;
 pub const MOST_WORK: u64 = 100_000_000;
 /// Stiffest springs that are tried where no cap is given (Hz).
 pub const CEILING_HZ: f64 = 2e5;
-/// Omega_n of springs that are to have another restitution than equation 2's, where no cap is given (Hz): they must bounce,
-/// and gravity bring them back.
+/// Omega_n of springs that are to have another restitution than equation 2's, where no cap is given
+/// (Hz): they must bounce, and gravity bring them back.
 const BOUNCING_HZ: f64 = 160.0;
-/// Ratio of typical errors up to which springs within a cap are alike on some twenty motions: more motions decide.
+/// Ratio of typical errors up to which springs within a cap are alike on some twenty motions: more
+/// motions decide.
 const ALIKE: f64 = 1.25;
 
 /// Why there are no springs.
@@ -72,7 +76,8 @@ pub enum JobError {
     NoCandidate,
 }
 
-/// What the paper's procedure gives: families of the inner fit, and the outer loop over Omega_n on the record.
+/// What the paper's procedure gives: families of the inner fit, and the outer loop over Omega_n on
+/// the record.
 #[derive(Debug)]
 pub struct Paper {
     pub vertical: Vec<Fit>,
@@ -95,7 +100,8 @@ pub struct Job {
     pub suites: Suites,
     /// Whether a cap on Omega_n decided.
     pub capped: bool,
-    /// None where the record cannot be tuned on: it does not lift the structure, or Housner's answer is ill-conditioned.
+    /// None where the record cannot be tuned on: it does not lift the structure, or Housner's
+    /// answer is ill-conditioned.
     pub paper: Option<Paper>,
     /// What cut the job, if anything was left out of it, and what that is.
     pub cut: Option<CutBy>,
@@ -105,10 +111,12 @@ pub struct Job {
 }
 
 impl Job {
-    /// Tune a case. `progress` gets a count, the planned number (0 if unknown), and the least error so far.
+    /// Tune a case. `progress` gets a count, the planned number (0 if unknown), and the least error
+    /// so far.
     ///
     /// # Errors
-    /// No springs that settle as little as asked for; for the paper's procedure, a record that does not lift the structure.
+    /// No springs that settle as little as asked for; for the paper's procedure, a record that does
+    /// not lift the structure.
     pub fn new(case: &Case, progress: &(dyn Fn(usize, usize, f64) + Sync)) -> Result<Self, JobError> {
         Self::within(case, &Effort::of(MOST_WORK, StopSignal::default()), progress)
     }
@@ -225,12 +233,13 @@ impl LandingDesign<'_> {
             let springs =
                 capped_springs::with_restitution(&self.body, self.case.restitution, bracket, self.effort, progress);
             let springs = springs.ok_or(JobError::NoCandidate)?;
-            return Ok((alone(self.suites, &self.body, asked, springs, self.effort), tuning.max_omega_hz.is_some()));
+            return Ok((evaluate(self.suites, &self.body, asked, springs, self.effort), tuning.max_omega_hz.is_some()));
         }
         let p = self.body.p_squared().sqrt();
-        let springs = |stiffness: f64| at(&self.body, stiffness);
+        let springs = |stiffness: f64| springs_at_stiffness(&self.body, stiffness);
         let said = |rungs: usize, over: f64| progress(rungs, 0, over * stiffness_search::MARGIN * asked.error);
-        // the ladder up to an Omega_n/p, from where landings hold; if none of those rungs does, the better of that and of the whole ladder
+        // the ladder up to an Omega_n/p, from where landings hold; if none of those rungs does, the
+        // better of that and of the whole ladder
         let ladder = |stiffest: f64, springs: &dyn Fn(f64) -> Option<Springs<Design<f64>>>| {
             let from = |softest: f64| {
                 let range = (softest, stiffest);
@@ -251,7 +260,8 @@ impl LandingDesign<'_> {
             self.settles_at(stiffest)?;
             return ladder(stiffest, &springs).map(|tuned| (tuned, false)).ok_or(JobError::NoCandidate);
         };
-        // a cap holds for the stiffest of the springs: those beyond it are clipped, or all are as much softer
+        // a cap holds for the stiffest of the springs: those beyond it are clipped, or all are as
+        // much softer
         let highest = TAU * cap / p;
         let clipped = |stiffness: f64| {
             springs(stiffness).map(|mut springs| {
@@ -277,9 +287,10 @@ impl LandingDesign<'_> {
         Ok((best.ok_or(JobError::NoCandidate)?, true))
     }
 
-    /// The stiffest rung up to `highest` whose horizontal springs are below the cap (Hz), too; `None` if clipping does nothing, or none is.
+    /// The stiffest rung up to `highest` whose horizontal springs are below the cap (Hz), too;
+    /// `None` if clipping does nothing, or none is.
     fn within(&self, cap: f64, highest: f64) -> Option<f64> {
-        let hz = |stiffness| at(&self.body, stiffness).map(|springs| springs.horizontal.omega_n_hz);
+        let hz = |stiffness| springs_at_stiffness(&self.body, stiffness).map(|springs| springs.horizontal.omega_n_hz);
         let last = stiffness_search::last_rung(highest);
         let mut stiffness = last;
         while hz(stiffness)? > cap {
@@ -291,9 +302,9 @@ impl LandingDesign<'_> {
         (stiffness < last).then_some(stiffness)
     }
 
-    /// The least Omega_n/p at which landings, gentle ones too, err by no more than moves a history of the largest sensitivity that counts as
-    /// predictable by the error aimed at: few motions cannot tell, and chaotic ones, which decide on overturning, hang on it. No stiffer than the last
-    /// rung up to `stiffest`.
+    /// Softest Omega_n/p whose gentlest landing error, times 150, stays within the target; no
+    /// stiffer than the last rung up to `stiffest`. 150 is the largest sensitivity of a predictable
+    /// history.
     fn softest(&self, stiffest: f64) -> f64 {
         let error = stiffness_search::MARGIN * self.case.tuning.asked().error / PREDICTABLE;
         let by_weight = Geometry::of(&self.body, stiffness_search::SOFTEST)
@@ -303,7 +314,8 @@ impl LandingDesign<'_> {
             .clamp(stiffness_search::SOFTEST, stiffness_search::last_rung(stiffest).max(stiffness_search::SOFTEST))
     }
 
-    /// The least Omega_n/p from `softest` on at which the body settles by no more than is allowed; `stiffest` if there is none.
+    /// The least Omega_n/p from `softest` on at which the body settles by no more than is allowed;
+    /// `stiffest` if there is none.
     fn settling(&self, softest: f64, stiffest: f64) -> f64 {
         let mut stiffness = softest;
         while stiffness < stiffest && self.settlement(stiffness) > self.case.tuning.max_settlement_m {
@@ -314,7 +326,7 @@ impl LandingDesign<'_> {
 
     /// How far the body settles at an Omega_n/p (m).
     fn settlement(&self, stiffness: f64) -> f64 {
-        at(&self.body, stiffness).map_or(f64::INFINITY, |springs| springs.settlement(self.body.mass))
+        springs_at_stiffness(&self.body, stiffness).map_or(f64::INFINITY, |springs| springs.settlement(self.body.mass))
     }
 
     /// Whether the stiffest springs settle by no more than is allowed.
@@ -323,15 +335,16 @@ impl LandingDesign<'_> {
         if least_m > asked_m { Err(JobError::Settlement { asked_m, max_hz: CEILING_HZ, least_m }) } else { Ok(()) }
     }
 
-    /// The springs within a cap (Hz) that follow best what is judged on, of those followed down from the stiff limit and those
-    /// of the paper's procedure: so soft, neither is the better one for every body.
+    /// The springs within a cap (Hz) that follow best what is judged on, of those followed down
+    /// from the stiff limit and those of the paper's procedure: so soft, neither is the better one
+    /// for every body.
     fn followed(&self, cap: f64, progress: &(dyn Fn(usize, usize, f64) + Sync)) -> Result<Tuned, JobError> {
         let mut found = capped_springs::follow(&self.body, self.case.restitution, self.bracket(cap)?, self.effort);
         if self.suites.has_whole_record() && (found.is_empty() || !self.effort.stops()) {
             found.extend(self.procedure.at(cap, progress).map(|tuned| tuned.best.springs));
         }
         let asked = self.case.tuning.asked();
-        let judged = found.into_iter().map(|springs| alone(self.suites, &self.body, asked, springs, self.effort));
+        let judged = found.into_iter().map(|springs| evaluate(self.suites, &self.body, asked, springs, self.effort));
         let typical = |tuned: &Tuned| typical(tuned, asked.by);
         let mut judged: Vec<Tuned> = judged.filter(|tuned| self.settles(tuned)).collect();
         judged.sort_by(|a, b| typical(a).total_cmp(&typical(b)));
@@ -364,7 +377,8 @@ impl LandingDesign<'_> {
     }
 }
 
-/// The typical error of springs: the geometric mean of that on the record and of the median of synthetic motions.
+/// The typical error of springs: the geometric mean of that on the record and of the median of
+/// synthetic motions.
 fn typical(tuned: &Tuned, yardstick: Yardstick) -> f64 {
     let measured = tuned.best.errors.by(yardstick);
     let median = measured.synthetic_median.map(|median| median.value);
@@ -374,19 +388,10 @@ fn typical(tuned: &Tuned, yardstick: Yardstick) -> f64 {
     }
 }
 
-/// Springs that are not the outer loop's.
-fn alone(suites: &Suites, body: &Body<f64>, asked: Asked, springs: Springs<Design<f64>>, effort: &Effort) -> Tuned {
+/// Springs that are not the outer loop's, with their errors.
+fn evaluate(suites: &Suites, body: &Body<f64>, asked: Asked, springs: Springs<Design<f64>>, effort: &Effort) -> Tuned {
     let found = suites.accuracy_within(&springs.chains(body.mass), (Control::search(), effort));
     let stiffness = TAU * springs.vertical.omega_n_hz / body.p_squared().sqrt();
     let best = Rung { stiffness, springs, errors: found };
     Tuned { rungs: vec![best], best, reached: found.over(asked) <= 1.0 }
-}
-
-/// The springs that the geometry of a body gives at an Omega_n/p.
-pub fn at(body: &Body<f64>, stiffness: f64) -> Option<Springs<Design<f64>>> {
-    let mut springs = Geometry::of(body, stiffness).ok()?.springs();
-    let hz = stiffness * body.p_squared().sqrt() / TAU;
-    springs.vertical.omega_n_hz *= hz;
-    springs.horizontal.omega_n_hz *= hz;
-    Some(springs)
 }

@@ -1,4 +1,5 @@
-//! The softest rung of a ladder of stiffnesses that holds, in few judgements: the errors of springs fall with their stiffness, but for bumps.
+//! The softest rung of a ladder of stiffnesses that holds, in few judgements: the errors of springs
+//! fall with their stiffness, but for bumps.
 
 /// Rungs of the ladder to a factor of ten.
 pub(super) const DECADE: f64 = 10.0;
@@ -13,8 +14,8 @@ pub(super) struct FoundRung {
     pub holds: bool,
 }
 
-/// The softest rung between first and last that holds with the next above it, from a guess; else the best one seen. `judge`
-/// gives the error of a rung over what is allowed.
+/// The softest rung between first and last that holds with the next above it, from a guess; else
+/// the best one seen. `judge` gives the error of a rung over what is allowed.
 pub(super) fn seek(first: i64, last: i64, guess: i64, judge: &mut dyn FnMut(i64) -> Option<f64>) -> Option<FoundRung> {
     // everything up to `fails` counts as failing, `holds` holds
     let (mut fails, mut holds): (i64, Option<i64>) = (first - 1, None);

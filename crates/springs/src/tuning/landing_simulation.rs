@@ -8,20 +8,24 @@
 //!               r = ( du' + p du ) / ( p R alpha / 4 ),  du = u - u_H    uplift begins when, and as fast as, it should
 //! ```
 //!
-//! Springs are in order if no landing misses e by more than 0.2 % or takes longer than t_a in the air, and if the vertical
-//! force has come to rest before the next impact: an absorber that swings on spoils landings that follow each other.
+//! Springs are in order if no landing misses e by more than 0.2 % or takes longer than t_a in the
+//! air, and if the vertical force has come to rest before the next impact: an absorber that swings
+//! on spoils landings that follow each other.
 //!
-//! E is the energy above that of the body balanced on one foot at theta = 0. An elastic stance sways before it lifts, and
-//! this head start (the uplift error) and the error of restitution are all that sets the two models apart to first order. It
-//! is counted by the growing part of what it becomes, for the body on one foot is an inverted pendulum: u' + p u.
-//! Both are in units of the error of a history (a share 1e-3 of e is worth 1 to 2 %, and more the more impacts). Every
-//! residual is generic in the scalar, so its gradient by the springs is exact, through the integrator and its events.
+//! E is the energy above that of the body balanced on one foot at theta = 0. An elastic stance
+//! sways before it lifts, and this head start (the uplift error) and the error of restitution are
+//! all that sets the two models apart to first order. It is counted by the growing part of what it
+//! becomes, for the body on one foot is an inverted pendulum: u' + p u. Both are in units of the
+//! error of a history (a share 1e-3 of e is worth 1 to 2 %, and more the more impacts). Every
+//! residual is generic in the scalar, so its gradient by the springs is exact, through the
+//! integrator and its events.
 //!
-//! **Another restitution than equation 2's.** While a foot lands fast, all forces pass through it, so that the body keeps its
-//! angular momentum about that foot whatever the springs: that is equation 2, and why springs that do not bounce have it.
-//! To have another they must bounce: what they give back adds to the body's energy, and what the horizontal springs hold
-//! when a foot lifts is lost each time. Housner's e times 0.9 to 1.02 can be had so, at the price of up to 0.5 s in the air a
-//! landing.
+//! **Another restitution than equation 2's.** While a foot lands fast, all forces pass through it,
+//! so that the body keeps its angular momentum about that foot whatever the springs: that is
+//! equation 2, and why springs that do not bounce have it. To have another they must bounce: what
+//! they give back adds to the body's energy, and what the horizontal springs hold when a foot lifts
+//! is lost each time. Housner's e times 0.9 to 1.02 can be had so, at the price of up to 0.5 s in
+//! the air a landing.
 
 mod landing;
 pub mod report;
@@ -46,7 +50,8 @@ use uplift::UpliftRamp;
 pub const LEANS: [f64; 8] = [0.9, 0.7, 0.5, 0.3, 0.2, 0.1, 0.05, LEAST_LEAN];
 /// History error per relative error of restitution.
 const WEIGHT_RESTITUTION: f64 = 15.0;
-/// The same where another restitution than equation 2's is asked for: then that goes first, and the feet may bounce for it.
+/// The same where another restitution than equation 2's is asked for: then that goes first, and the
+/// feet may bounce for it.
 const WEIGHT_ASKED: f64 = 400.0;
 /// Relative difference from equation 2 that counts as another.
 const ANOTHER: f64 = 1e-3;
@@ -56,8 +61,8 @@ pub const ATTAINABLE: (f64, f64) = (0.9, 1.02);
 const WEIGHT_AIR: f64 = 15.0;
 /// The same where another restitution is asked for.
 const WEIGHT_AIR_ASKED: f64 = 0.5;
-/// Time in the air that a landing may take (s), or in periods of the stiffest spring allowed, whichever is longer: a softer
-/// spring cannot stop a landing sooner.
+/// Time in the air that a landing may take (s), or in periods of the stiffest spring allowed,
+/// whichever is longer: a softer spring cannot stop a landing sooner.
 const AIR_S: f64 = 0.010;
 const AIR_PERIODS: f64 = 1.0;
 /// The share of it from which on it counts.
@@ -93,7 +98,8 @@ pub(crate) struct WholeModel {
 }
 
 impl WholeModel {
-    /// Scenarios of a body that is to land with velocity restitution `restitution` on springs of Omega_n up to `max_hz` (Hz).
+    /// Scenarios of a body that is to land with velocity restitution `restitution` on springs of
+    /// Omega_n up to `max_hz` (Hz).
     pub(crate) fn new(body: &Body<f64>, restitution: f64, max_hz: f64, criterion: Criterion) -> Self {
         let another = differs_from_housner(body, restitution);
         Self {

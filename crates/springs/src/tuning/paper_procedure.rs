@@ -1,4 +1,5 @@
-//! The paper's inner fit: f and xi of a mass ratio mu by the shape of the frequency response (ARR, equation 7).
+//! The paper's inner fit: f and xi of a mass ratio mu by the shape of the frequency response (ARR,
+//! equation 7).
 
 pub mod certificate;
 

@@ -1,8 +1,10 @@
-//! Springs for another restitution than equation 2's: a search over all eight parameters on single landings, without any record.
+//! Springs for another restitution than equation 2's: a search over all eight parameters on single
+//! landings, without any record.
 //!
-//! Such springs must bounce, and whether a foot bounces once more or not makes the landings rugged in the parameters: a descent
-//! ends in the valley that it starts in. CMA-ES (Hansen and Ostermeier, Evolutionary Computation 9, 2001; the crate `cmaes`)
-//! crosses such ground, from the best of random points, again and again until its evaluations are spent.
+//! Such springs must bounce, and whether a foot bounces once more or not makes the landings rugged
+//! in the parameters: a descent ends in the valley that it starts in. CMA-ES (Hansen and
+//! Ostermeier, Evolutionary Computation 9, 2001; the crate `cmaes`) crosses such ground, from the
+//! best of random points, again and again until its evaluations are spent.
 
 use std::sync::atomic::{AtomicU64, AtomicUsize, Ordering};
 
@@ -25,9 +27,9 @@ const PATIENCE: usize = 50;
 const SMALLEST: f64 = 2e-3;
 const SEED: u64 = 1963;
 
-/// The best end of all walks within the bounds, after so many evaluations of the cost; it ends sooner where a walk's cost is
-/// at most `enough`, or the effort stops it. The same on any number of threads. `progress` gets the
-/// evaluations done, planned, and the least cost.
+/// The best end of all walks within the bounds, after so many evaluations of the cost; it ends
+/// sooner where a walk's cost is at most `enough`, or the effort stops it. The same on any number
+/// of threads. `progress` gets the evaluations done, planned, and the least cost.
 pub(super) fn search(
     cost: &(dyn Fn(&[f64]) -> f64 + Sync),
     (low, high): &(Vec<f64>, Vec<f64>),

@@ -1,9 +1,11 @@
-//! The outer loop: the least Omega_n from which on the error against Housner stays within the accuracy asked for.
+//! The outer loop: the least Omega_n from which on the error against Housner stays within the
+//! accuracy asked for.
 //!
-//! Stiffness costs next to nothing where time steps follow events, and the error falls with it at first order or better; so
-//! Omega_n follows from the accuracy. It is sought on a ladder of Omega_n/p = 10^(i/10), so that the design depends on the
-//! structure and on the rung alone. A rung holds if its errors are within `MARGIN` of what is allowed; the one that is taken
-//! holds, and so does the next stiffer one, and the next softer does not.
+//! Stiffness costs next to nothing where time steps follow events, and the error falls with it at
+//! first order or better; so Omega_n follows from the accuracy. It is sought on a ladder of
+//! Omega_n/p = 10^(i/10), so that the design depends on the structure and on the rung alone. A rung
+//! holds if its errors are within `MARGIN` of what is allowed; the one that is taken holds, and so
+//! does the next stiffer one, and the next softer does not.
 
 use std::collections::BTreeMap;
 
@@ -22,8 +24,9 @@ use dynamics::{
 pub(crate) const MARGIN: f64 = 0.7;
 /// The softest rung tried, Omega_n/p.
 pub(crate) const SOFTEST: f64 = 100.0;
-/// Omega_n/p times the accuracy asked for where the search begins: errors of synthetic motions fall about as 20/(Omega_n/p),
-/// those of earthquake-like ones, with three standard errors, are about five times what is allowed at 250/(Omega_n/p).
+/// Omega_n/p times the accuracy asked for where the search begins: errors of synthetic motions fall
+/// about as 20/(Omega_n/p), those of earthquake-like ones, with three standard errors, are about
+/// five times what is allowed at 250/(Omega_n/p).
 const BEGIN: f64 = 250.0;
 /// The same of an error of peaks.
 const BEGIN_PEAKS: f64 = 250.0;
@@ -31,8 +34,8 @@ const BEGIN_PEAKS: f64 = 250.0;
 const ROUNDING: f64 = 1e-9;
 /// An accuracy for which steps over several samples will do.
 const COARSE: f64 = 1e-3;
-/// Error of a softer rung on a suite, over what is allowed, below which a stiffer one is not judged on it again: errors fall with
-/// stiffness but for bumps of less than a factor of two.
+/// Error of a softer rung on a suite, over what is allowed, below which a stiffer one is not judged
+/// on it again: errors fall with stiffness but for bumps of less than a factor of two.
 const LITTLE: f64 = 0.3;
 
 /// Springs of one Omega_n/p and what was measured of them.
@@ -56,8 +59,9 @@ pub struct Tuned {
     pub reached: bool,
 }
 
-/// Seek Omega_n in a range of Omega_n/p; `None` if no rung is in it, or none has springs. `springs` gives the inner design at an Omega_n/p; `progress` is told the rungs judged and the least error in
-/// units of what is allowed.
+/// Seek Omega_n in a range of Omega_n/p; `None` if no rung is in it, or none has springs. `springs`
+/// gives the inner design at an Omega_n/p; `progress` is told the rungs judged and the least error
+/// in units of what is allowed.
 pub(crate) fn tune(
     suites: &Suites,
     mass: f64,
@@ -134,14 +138,15 @@ fn so_far(
     Some(FoundRung { rung: guess, holds: false })
 }
 
-/// How closely histories are followed to find out whether they are this accurate: steps over several samples, which err by up to
-/// 1e-4, only where much more is allowed.
+/// How closely histories are followed to find out whether they are this accurate: steps over
+/// several samples, which err by up to 1e-4, only where much more is allowed.
 pub(crate) fn control(accuracy: f64) -> Control {
     Control { long_steps: accuracy >= COARSE, ..Control::search() }
 }
 
-/// The suites that a rung is to be judged on: what decided at the nearest rung first, for it may refuse this one alone; and none on
-/// which a softer rung had so little error that this one will hold.
+/// The suites that a rung is to be judged on: what decided at the nearest rung first, for it may
+/// refuse this one alone; and none on which a softer rung had so little error that this one will
+/// hold.
 fn in_order(seen: &BTreeMap<i64, Rung>, i: i64, allowed: Asked) -> Vec<JudgedOn> {
     let share = |rung: &Rung, suite| rung.errors.over_on(suite, allowed);
     let softer = |suite: &JudgedOn| seen.range(..i).any(|(_, rung)| share(rung, *suite).is_some_and(|x| x < LITTLE));

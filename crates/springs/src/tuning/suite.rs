@@ -1,5 +1,5 @@
-//! What springs are judged on: the record at hand where it can be followed, synthetic motions made for the structure, and
-//! earthquake-like motions of real frequencies.
+//! What springs are judged on: the record at hand where it can be followed, synthetic motions made
+//! for the structure, and earthquake-like motions of real frequencies.
 //!
 //! Housner's answers are found once; the springs of every Omega_n are judged against them.
 
@@ -36,7 +36,8 @@ use strong_motion::Record;
 /// Motions of each suite that are followed.
 const SYNTHETIC: usize = 24;
 const EARTHQUAKES: usize = 16;
-/// Earthquake-like motions that topple a structure, or cannot be foretold for it, are scaled down to so many times the acceleration that lifts it.
+/// Earthquake-like motions that topple a structure, or cannot be foretold for it, are scaled down
+/// to so many times the acceleration that lifts it.
 const MILD: (f64, f64) = (1.2, 6.0);
 /// Motions of each suite that are looked at for them, so many at a time.
 const LOOKED_AT: usize = 480;
@@ -46,7 +47,8 @@ const MORE_LOOKED_AT: usize = 480;
 const AT_A_TIME: usize = 8;
 /// Seed of both: not one that `tune validate` takes by itself.
 const SEED: u64 = 1940;
-/// A relative change of the width that must not move a predictable history by more than so many times what its sensitivity may.
+/// A relative change of the width that must not move a predictable history by more than so many
+/// times what its sensitivity may.
 const SMALL_CHANGE: f64 = 1e-6;
 const MOST_OVER_SENSITIVITY: f64 = 4.0;
 
@@ -113,7 +115,8 @@ impl WantedMotion {
 }
 
 impl ReferenceMotion {
-    /// The motion, if Housner's body rocks on it, on a pivot that presses, and its history is as wanted.
+    /// The motion, if Housner's body rocks on it, on a pivot that presses, and its history is as
+    /// wanted.
     fn new(body: &Body<f64>, restitution: f64, record: Record, wanted: WantedMotion) -> Option<Self> {
         let vertical = record.vertical_accel();
         let options = RockingOptions { restitution: Some(restitution), vertical, ..RockingOptions::default() };
@@ -150,8 +153,8 @@ impl ReferenceMotion {
     }
 }
 
-/// The errors on these springs, of each trial, of a body that overturns up to then; infinite if the history does not get to
-/// the record's end, or one body overturns and the other does not.
+/// The errors on these springs, of each trial, of a body that overturns up to then; infinite if the
+/// history does not get to the record's end, or one body overturns and the other does not.
 fn errors(
     trials: &[ReferenceMotion],
     body: &Body<f64>,
@@ -192,7 +195,8 @@ pub struct Suites {
 }
 
 impl Suites {
-    /// Of a body that lands with velocity restitution `restitution`, with this record if there is one: as many motions as are found before it is stopped from outside.
+    /// Of a body that lands with velocity restitution `restitution`, with this record if there is
+    /// one: as many motions as are found before it is stopped from outside.
     pub(crate) fn within(body: &Body<f64>, restitution: f64, record: Option<&Record>, effort: &Effort) -> Self {
         Self::seeded(SEED, body, restitution, record, effort)
     }
@@ -224,7 +228,8 @@ impl Suites {
         }
     }
 
-    /// More synthetic motions, none of which is one of these, to tell springs apart on which these do not decide; nothing else.
+    /// More synthetic motions, none of which is one of these, to tell springs apart on which these
+    /// do not decide; nothing else.
     pub(crate) fn more(&self, restitution: f64, effort: &Effort) -> Self {
         let (p, alpha) = (self.body.p_squared().sqrt(), self.body.alpha());
         let well = |record| ReferenceMotion::new(&self.body, restitution, record, WantedMotion::WellConditioned);
@@ -309,7 +314,8 @@ impl Suites {
         accuracy.earthquakes_upper = mean.map(|(mean, factor)| mean * factor.powi(ERRORS));
     }
 
-    /// The error of histories on the record, or the median of the synthetic motions where it cannot be followed: one number for a figure.
+    /// The error of histories on the record, or the median of the synthetic motions where it cannot
+    /// be followed: one number for a figure.
     pub fn error(&self, springs: &Springs<Chain<f64>>, control: Control) -> Option<f64> {
         self.error_by(Yardstick::Histories, springs, control)
     }
@@ -348,8 +354,8 @@ fn each(number: impl Fn(usize) -> Option<f64>) -> Option<PeakErrors> {
     Some(PeakErrors::of([number(0)?, number(1)?, number(2)?, number(3)?]))
 }
 
-/// An earthquake-like motion scaled down: its acceleration, of all that these motions may have, becomes as much of [`MILD`]; `None` where that would
-/// not be less.
+/// An earthquake-like motion scaled down: its acceleration, of all that these motions may have,
+/// becomes as much of [`MILD`]; `None` where that would not be less.
 fn milder(motion: Record, alpha: f64) -> Option<Record> {
     let (least, most) = synthetic::EARTHQUAKE_PGA_G;
     let pga = motion.pga_g();

@@ -1,4 +1,5 @@
-//! What a history is designed by, beside Housner's: the largest displacement, uplift and forces of the ground between landings.
+//! What a history is designed by, beside Housner's: the largest displacement, uplift and forces of
+//! the ground between landings.
 //!
 //! ```text
 //!   displacement   max |u|
@@ -8,10 +9,12 @@
 //!   error          | peak - peak of Housner | / peak of Housner
 //! ```
 //!
-//! F and N are the momentum that the ground gives the body in an interval, the feet's forces together: on one foot N b is the moment at
-//! the base. They need no spring's force, which a step of a stiff spring knows less well than velocities, and are the same formula in both
-//! models. **Between landings**: no interval counts in which a foot of one of the models has landed, or that begins less than 0.1/p after it.
-//! A landing is an impulse in Housner's theory, and on springs as large a force as they are stiff. A body that overturns is compared up to then.
+//! F and N are the momentum that the ground gives the body in an interval, the feet's forces
+//! together: on one foot N b is the moment at the base. They need no spring's force, which a step
+//! of a stiff spring knows less well than velocities, and are the same formula in both models.
+//! **Between landings**: no interval counts in which a foot of one of the models has landed, or
+//! that begins less than 0.1/p after it. A landing is an impulse in Housner's theory, and on
+//! springs as large a force as they are stiff. A body that overturns is compared up to then.
 
 use serde::{Deserialize, Serialize};
 
@@ -66,12 +69,14 @@ pub struct HousnerForces {
     dt: f64,
     /// How long after a landing forces do not count (s).
     rest: f64,
-    /// Of the interval that ends at a sample; none where he lands in it, or has landed less than that before it.
+    /// Of the interval that ends at a sample; none where he lands in it, or has landed less than
+    /// that before it.
     rows: Vec<Option<MeanForces>>,
 }
 
 impl HousnerForces {
-    /// Of his motion through a record of samples dt apart, horizontal and vertical, zero beyond the latter's end (m/s2).
+    /// Of his motion through a record of samples dt apart, horizontal and vertical, zero beyond the
+    /// latter's end (m/s2).
     pub(crate) fn new(body: &Body<f64>, dt: f64, (accel, up): (&[f64], &[f64]), rocking: &Rocking<f64>) -> Self {
         let rest = MOMENT / body.p_squared().sqrt();
         let velocity = |i: usize| {
@@ -117,14 +122,16 @@ fn raise(pair: &mut [f64; 2], values: [f64; 2]) {
 }
 
 impl PeakPairs {
-    /// Take note of u (m) and theta (rad), the latter of a body with a foot off the ground, of both models at a sample.
+    /// Take note of u (m) and theta (rad), the latter of a body with a foot off the ground, of both
+    /// models at a sample.
     pub(crate) fn motion(&mut self, u: [f64; 2], theta: [f64; 2]) {
         raise(&mut self.displacement, u);
         raise(&mut self.lean, theta);
     }
 
-    /// Take note of the forces in the interval that ends at a sample, where they count: a foot on springs touched the ground last at `touched`
-    /// (s), and the centre of mass had these velocities before it and has them at its end (m/s).
+    /// Take note of the forces in the interval that ends at a sample, where they count: a foot on
+    /// springs touched the ground last at `touched` (s), and the centre of mass had these
+    /// velocities before it and has them at its end (m/s).
     pub(crate) fn interval(&mut self, forces: &HousnerForces, index: usize, touched: f64, velocities: [[f64; 2]; 2]) {
         let Some(Some(row)) = forces.rows.get(index) else { return };
         let begin = index.saturating_sub(1) as f64 * forces.dt;

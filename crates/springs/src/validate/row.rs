@@ -60,10 +60,11 @@ pub struct Row {
     pub duration_s: f64,
     /// Peak ground acceleration, scaled as compared (g).
     pub pga_g: f64,
-    /// Relative change of Housner's u per relative change of width or record scale, whichever is worse.
+    /// Relative change of Housner's u per relative change of width or record scale, whichever is
+    /// worse.
     pub sensitivity: f64,
-    /// sqrt( sum (u - u_H)^2 / sum u_H^2 ), up to the first overturning; none if the record never lifts the body or a
-    /// model failed.
+    /// sqrt( sum (u - u_H)^2 / sum u_H^2 ), up to the first overturning; none if the record never
+    /// lifts the body or a model failed.
     pub nrmse_horizontal: Option<f64>,
     /// The same for v, from the settled position.
     pub nrmse_vertical: Option<f64>,
@@ -77,13 +78,15 @@ pub struct Row {
     pub overturned_fem: Option<bool>,
     /// Impacts of Housner's body.
     pub impacts: usize,
-    /// Largest |residual| of the finite element model's energy account over the largest energy of the history.
+    /// Largest |residual| of the finite element model's energy account over the largest energy of
+    /// the history.
     pub energy_residual: f64,
     /// Where the record comes from.
     pub suite: Suite,
     /// By the derivative and by finite changes; false if the record never lifts Housner's body.
     pub well_conditioned: bool,
-    /// How far a change of 0.1 % and of 1 % in width or scale, whichever is worse, moves Housner's u.
+    /// How far a change of 0.1 % and of 1 % in width or scale, whichever is worse, moves Housner's
+    /// u.
     pub moved_by_0_1_percent: f64,
     /// The same of 1 %.
     pub moved_by_1_percent: f64,
@@ -93,10 +96,11 @@ pub struct Row {
     pub peak_ratio_housner_changed: f64,
     /// Whether Housner's body overturned with that restitution.
     pub overturned_housner_changed: bool,
-    /// When Housner's pivot would first have to hold the body down (s); none if it presses throughout. A foot lifts there, and
-    /// rocking does not hold any more.
+    /// When Housner's pivot would first have to hold the body down (s); none if it presses
+    /// throughout. A foot lifts there, and rocking does not hold any more.
     pub pivot_pulls_s: Option<f64>,
-    /// Relative error of the largest |u|; this and the next ones are none where `nrmse_horizontal` is.
+    /// Relative error of the largest |u|; this and the next ones are none where `nrmse_horizontal`
+    /// is.
     pub displacement_error: Option<f64>,
     /// Of the largest uplift of a foot.
     pub uplift_error: Option<f64>,
@@ -118,7 +122,8 @@ impl Row {
         all.into_iter().try_fold(0.0, |largest, error| Some(f64::max(largest, error?)))
     }
 
-    /// Whether Housner's body rocked without toppling and its history is well conditioned: NRMSE means something one to one.
+    /// Whether Housner's body rocked without toppling and its history is well conditioned: NRMSE
+    /// means something one to one.
     pub fn comparable(&self) -> bool {
         self.rocked() && self.well_conditioned
     }
@@ -129,7 +134,8 @@ impl Row {
         rocked && !self.overturned_housner && self.pivot_pulls_s.is_none()
     }
 
-    /// The NRMSE of a row: at least 1 where one body topples and the other does not, however long they went together.
+    /// The NRMSE of a row: at least 1 where one body topples and the other does not, however long
+    /// they went together.
     pub(crate) fn error(&self, nrmse: Option<f64>) -> Option<f64> {
         if self.agrees() { nrmse } else { nrmse.map(|x| x.max(1.0)) }
     }

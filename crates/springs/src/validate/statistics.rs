@@ -59,11 +59,12 @@ impl Quantiles {
     }
 }
 
-/// Below this sensitivity histories are alike or not, though not one to one: what a geometric mean is taken over.
+/// Below this sensitivity histories are alike or not, though not one to one: what a geometric mean
+/// is taken over.
 pub const PREDICTABLE: f64 = 150.0;
 
-/// The geometric mean of the NRMSE of u over records with a sensitivity below 150 that lift Housner's body
-/// and neither topple it nor ask its pivot to pull.
+/// The geometric mean of the NRMSE of u over records with a sensitivity below 150 that lift
+/// Housner's body and neither topple it nor ask its pivot to pull.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize)]
 pub struct GeometricMean {
     /// How many such records the mean is over.
@@ -100,11 +101,13 @@ pub struct Summary {
     pub count: usize,
     /// Kolmogorov-Smirnov distance of the peak ratios, all records.
     pub ks_distance: f64,
-    /// The same of Housner's peak ratios from his own with a restitution smaller by 1e-5: less than this no model can show.
+    /// The same of Housner's peak ratios from his own with a restitution smaller by 1e-5: less than
+    /// this no model can show.
     pub ks_distance_of_housner_changed: f64,
     /// Share of the records on whose overturning both models agree; a failure is a disagreement.
     pub overturning_agreement: f64,
-    /// The same of Housner's own answers with a restitution smaller by 1e-5: more than this no model can show but by chance.
+    /// The same of Housner's own answers with a restitution smaller by 1e-5: more than this no
+    /// model can show but by chance.
     pub overturning_agreement_of_housner_changed: f64,
     /// Overturning in both models.
     pub overturning: Confusion,
@@ -112,7 +115,8 @@ pub struct Summary {
     pub nrmse_well_conditioned: Quantiles,
     /// NRMSE of v over the same records.
     pub nrmse_vertical_well_conditioned: Quantiles,
-    /// Relative error of the largest displacement, uplift, base shear and axial force, the worst of them, over the same records.
+    /// Relative error of the largest displacement, uplift, base shear and axial force, the worst of
+    /// them, over the same records.
     pub peaks_well_conditioned: Quantiles,
     /// NRMSE of u over all records that are not hopeless.
     pub nrmse_geometric_mean: GeometricMean,
@@ -120,9 +124,11 @@ pub struct Summary {
     pub peaks_geometric_mean: GeometricMean,
     /// Records that never lift Housner's body.
     pub never_lifted: usize,
-    /// Records whose histories cannot be compared one to one: toppled, not well conditioned, or with a pivot that would have to pull.
+    /// Records whose histories cannot be compared one to one: toppled, not well conditioned, or
+    /// with a pivot that would have to pull.
     pub not_comparable: usize,
-    /// Records that do not topple Housner's body but ask his pivot to pull: free flight, where rocking does not hold.
+    /// Records that do not topple Housner's body but ask his pivot to pull: free flight, where
+    /// rocking does not hold.
     pub pivot_pulls: usize,
     /// Names of the records in which a model failed.
     pub failed: Vec<String>,

@@ -1,9 +1,10 @@
 //! What is kept of a finite element history while it runs: sums and peaks, no samples.
 //!
-//! A body beyond alpha by beta, not coming back, falls whatever the ground still does if tan(beta) > max |u_g|/g of the rest
-//! of the record: by equation (1) theta'' = p^2 [sin(beta) - (u_g/g) cos(beta)] then stays on the side of the fall. The
-//! history is stopped there. To follow the fall any further costs a lot and says nothing: from 48 degrees on an A-frame's
-//! leg would have to pull, and a body without rotational inertia flies and spins.
+//! A body beyond alpha by beta, not coming back, falls whatever the ground still does if the
+//! tangent of beta is above max |u_g|/g of the rest of the record: by equation (1) theta'' = p^2
+//! [sin(beta) - (u_g/g) cos(beta)] then stays on the side of the fall. The history is stopped
+//! there. To follow the fall any further costs a lot and says nothing: from 48 degrees on an
+//! A-frame's leg would have to pull, and a body without rotational inertia flies and spins.
 
 use std::{borrow::Cow, ops::ControlFlow};
 
@@ -11,8 +12,9 @@ use super::peaks::{HousnerForces, PeakPairs};
 use dynamics::fem::{Change, Observer, View};
 use rocking::{scalar::GRAVITY, structure::Body};
 
-/// u_g over gamma = 1 + a_v/g at the samples (m/s2): what a body beyond alpha must be able to fall against. It is largest at
-/// samples; without bound where the ground falls faster than the body. `vertical` is empty where there is none.
+/// u_g over gamma = 1 + a_v/g at the samples (m/s2): what a body beyond alpha must be able to fall
+/// against. It is largest at samples; without bound where the ground falls faster than the body.
+/// `vertical` is empty where there is none.
 pub fn push<'a>(accel: &'a [f64], vertical: &[f64]) -> Cow<'a, [f64]> {
     if vertical.is_empty() {
         return Cow::Borrowed(accel);
@@ -37,7 +39,8 @@ impl Nrmse {
         self.below += reference * reference;
     }
 
-    /// As [`rocking::motion::nrmse`]: zero when all differences are, infinite when the reference alone is zero.
+    /// As [`rocking::motion::nrmse`]: zero when all differences are, infinite when the reference
+    /// alone is zero.
     pub fn value(&self) -> f64 {
         if self.above == 0.0 { 0.0 } else { (self.above / self.below).sqrt() }
     }
@@ -70,7 +73,8 @@ pub struct ComparisonObserver<'a> {
     strongest: Option<(usize, f64)>,
     initial_z: f64,
     pub errors: StreamErrors,
-    /// The same up to the last sample at which the body leaned by alpha or less: what a body that topples is judged by.
+    /// The same up to the last sample at which the body leaned by alpha or less: what a body that
+    /// topples is judged by.
     pub upright: StreamErrors,
     /// Largest |theta| while a foot is off the ground (rad).
     pub peak: f64,
@@ -83,7 +87,8 @@ pub struct ComparisonObserver<'a> {
 }
 
 impl<'a> ComparisonObserver<'a> {
-    /// Beside Housner's rotations (rad), as far as they shall be compared; `accel` is the record (m/s2).
+    /// Beside Housner's rotations (rad), as far as they shall be compared; `accel` is the record
+    /// (m/s2).
     pub fn new(body: &'a Body<f64>, housner: &'a [f64], accel: &'a [f64]) -> Self {
         Self {
             body,
@@ -109,7 +114,8 @@ impl<'a> ComparisonObserver<'a> {
         Self { forces: Some(forces), ..self }
     }
 
-    /// The largest |u_g| from a sample to the end (m/s2); looked for anew only when that sample has passed.
+    /// The largest |u_g| from a sample to the end (m/s2); looked for anew only when that sample has
+    /// passed.
     fn strongest_from(&mut self, index: usize) -> f64 {
         match self.strongest {
             Some((at, size)) if at >= index => size,

@@ -5,7 +5,8 @@ use dynamics::compare::Match;
 use dynamics::{fem, spring::Design};
 use rocking::{housner, structure::Structure, synthetic};
 
-/// Springs that absorb a landing along the leg: rebound 0.12 of the landing velocity for the chain alone.
+/// Springs that absorb a landing along the leg: rebound 0.12 of the landing velocity for the chain
+/// alone.
 fn judge(structure: &Structure) -> Validator {
     let springs = Springs {
         vertical: Design::from_kc(0.3, 0.1, 0.75, 160.0),
@@ -59,12 +60,14 @@ fn a_row_says_what_the_whole_histories_say() {
     assert!(row.comparable() && row.agrees());
 }
 
-/// A constant push of 0.15 g, held, is more than g tan alpha = 0.1 g: the body topples whatever the springs.
+/// A constant push of 0.15 g, held, is more than g tan alpha = 0.1 g: the body topples whatever the
+/// springs.
 #[test]
 fn a_body_that_topples_has_the_peak_of_one_that_lies_flat() {
     let judge = judge(&frame());
     let flat = std::f64::consts::FRAC_PI_2 / judge.body.alpha();
-    // it passes alpha at acosh(3)/p = 4.4 s, cannot come back from 6.2 s on and would lie on the ground after some 11 s
+    // it passes alpha at acosh(3)/p = 4.4 s, cannot come back from 6.2 s on and would lie on the
+    // ground after some 11 s
     for duration in [5.0, 20.0] {
         let record = Record::new("push", 0.01, vec![0.15 * 9.81; (100.0 * duration) as usize]).unwrap();
         let row = judge.judge(std::slice::from_ref(&record)).remove(0);
@@ -88,8 +91,9 @@ fn a_record_that_never_lifts_the_body_has_no_peak_and_no_error() {
     assert!(row.agrees() && !row.comparable());
 }
 
-/// The body leans to the right, its mass still left of the right foot, as the ground goes off to the right with 3 g. Beyond
-/// g/tan(0.6) = 1.46 g only a pivot that pulls could take the mass along.
+/// The body leans to the right, its mass still left of the right foot, as the ground goes off to
+/// the right with 3 g. Beyond g/tan(0.6) = 1.46 g only a pivot that pulls could take the mass
+/// along.
 #[test]
 fn a_pivot_that_would_have_to_pull_is_told_and_its_history_not_compared() {
     let judge = judge(&Structure::a_frame(20.0, 40.0 * 0.6f64.tan(), 1e5).unwrap());
@@ -140,8 +144,10 @@ fn the_first_of_several_errors_is_reported() {
     assert_eq!(judge.judge_all(8, record, |_| {}).unwrap_err(), 1);
 }
 
-/// Displacement and uplift by the whole histories; the base shear by the springs' own forces between landings at every step, and by equation (1)
-/// at the samples instead of the momentum between them: for a body at rest u_g, and on a foot R (cos(phi) theta'' + sin(phi) theta'^2) + u_g.
+/// Displacement and uplift by the whole histories; the base shear by the springs' own forces
+/// between landings at every step, and by equation (1) at the samples instead of the momentum
+/// between them: for a body at rest u_g, and on a foot R (cos(phi) theta'' + sin(phi) theta'^2) +
+/// u_g.
 #[test]
 fn errors_of_peaks_are_those_of_an_independent_calculation() {
     for (control, width) in [(Control::default(), 0.6), (Control { long_steps: true, ..Control::search() }, 0.6)] {

@@ -47,7 +47,8 @@ fn history(frame: &Frame, accel: &[f64], vertical: &[f64]) -> ElasticHistory {
     history
 }
 
-/// The energy account closes to 1e-6 of the history's largest energy, both components of the ground at work; and what rocks takes energy in.
+/// The energy account closes to 1e-6 of the history's largest energy, both components of the ground
+/// at work; and what rocks takes energy in.
 #[test]
 fn the_energy_account_closes_whatever_the_frame() {
     let accel = el_centro(1001);
@@ -63,8 +64,8 @@ fn the_energy_account_closes_whatever_the_frame() {
     }
 }
 
-/// What the corners give in impulse, means between samples, is the weight's and the ground's, and the change of the momentum, in both
-/// directions.
+/// What the corners give in impulse, means between samples, is the weight's and the ground's, and
+/// the change of the momentum, in both directions.
 #[test]
 fn the_mean_forces_of_the_corners_balance_the_momentum() {
     let accel = el_centro(801);
@@ -101,7 +102,8 @@ fn a_mirrored_motion_gives_the_mirrored_history() {
     assert_eq!(one.touches(0), other.touches(1));
 }
 
-/// Free flight of nothing: a frame on still ground stays where it settled, its corners bearing its weight.
+/// Free flight of nothing: a frame on still ground stays where it settled, its corners bearing its
+/// weight.
 #[test]
 fn a_standing_frame_stands_still() {
     for layout in [tied(), portal(), legged()] {
@@ -115,7 +117,8 @@ fn a_standing_frame_stands_still() {
     }
 }
 
-/// A lean of less than the settlement leaves both corners pressing; springs that are not one a corner are refused.
+/// A lean of less than the settlement leaves both corners pressing; springs that are not one a
+/// corner are refused.
 #[test]
 fn a_small_lean_stands_on_both_corners_and_a_spring_too_few_is_refused() {
     let frame = pier(&MODERATE).layout().frame().unwrap();

@@ -10,7 +10,8 @@ use frames::{
 use rocking::scalar::GRAVITY;
 use strong_motion::Record;
 
-/// m, m_b (kg), h_b (m), f (Hz), k_a (N/m) of a pier 12 m high, 4 m wide, damped by 2 % across and along its column.
+/// m, m_b (kg), h_b (m), f (Hz), k_a (N/m) of a pier 12 m high, 4 m wide, damped by 2 % across and
+/// along its column.
 pub struct Numbers {
     pub mass: f64,
     pub footing: f64,
@@ -19,7 +20,8 @@ pub struct Numbers {
     pub axial: f64,
 }
 
-/// The pier of reference/flexible_pier.py with `--chord`: one element hinged at the mass, kb = 3EI/L = (k + m g/L) L^2.
+/// The pier of reference/flexible_pier.py with `--chord`: one element hinged at the mass, kb =
+/// 3EI/L = (k + m g/L) L^2.
 pub fn pier(numbers: &Numbers) -> Cantilever {
     let &Numbers { mass, footing, centre, hz, axial } = numbers;
     let (height, omega) = (12.0, TAU * hz);
@@ -45,7 +47,8 @@ pub fn pier(numbers: &Numbers) -> Cantilever {
 
 pub const MODERATE: Numbers = Numbers { mass: 6e5, footing: 1.2e5, centre: 0.75, hz: 2.0, axial: 8e9 };
 
-/// Springs scaled by what lands at each corner: K 0.05, C_u 0.60, mu_u 0.66; horizontally K 1, C 2, mu 0.3 and `ratio` times the frequency (Hz).
+/// Springs scaled by what lands at each corner: K 0.05, C_u 0.60, mu_u 0.66; horizontally K 1, C 2,
+/// mu 0.3 and `ratio` times the frequency (Hz).
 pub fn springs(frame: &Frame, hz: f64, ratio: f64) -> Vec<Springs<Chain<f64>>> {
     let chain = |m: f64, hz: f64, k: f64, c: f64, mu: f64| {
         let omega = TAU * hz;

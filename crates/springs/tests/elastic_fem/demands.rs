@@ -9,8 +9,9 @@ use rocking::{motion::peak, scalar::GRAVITY};
 
 use crate::common::{MODERATE, el_centro, pier, springs};
 
-/// A pier of four elements with its mass, on 1.5 times El Centro: fixed at its base, and free to rock. The weight can hold down no more than
-/// itself times half the width: the base's moment stays near that, where the fixed base bears several times it.
+/// A pier of four elements with its mass, on 1.5 times El Centro: fixed at its base, and free to
+/// rock. The weight can hold down no more than itself times half the width: the base's moment stays
+/// near that, where the fixed base bears several times it.
 #[test]
 fn rocking_caps_the_moment_at_the_base() {
     let mut whole: Cantilever = pier(&MODERATE);
@@ -40,8 +41,9 @@ fn rocking_caps_the_moment_at_the_base() {
     assert!(rotation.iter().any(|th| th.abs() > 2e-3));
 }
 
-/// Landings shed spikes of many times the weight within fractions of a millisecond. Filtered at 20 Hz, what is left is of the weight's size, and
-/// its mean over the history is the mean of the forces.
+/// Landings shed spikes of many times the weight within fractions of a millisecond. Filtered at 20
+/// Hz, what is left is of the weight's size, and its mean over the history is the mean of the
+/// forces.
 #[test]
 fn filtered_foot_forces_have_no_spikes_and_the_same_mean() {
     let frame = pier(&MODERATE).layout().frame().unwrap();
@@ -60,8 +62,9 @@ fn filtered_foot_forces_have_no_spikes_and_the_same_mean() {
     assert!((mean(&filtered) - mean(&means)).abs() < 0.01 * weight);
 }
 
-/// Corners have their largest forces at different instants of a landing: what all of them press with at one instant is less than the sum of these,
-/// and no less than at the sample. Impulses add up.
+/// Corners have their largest forces at different instants of a landing: what all of them press
+/// with at one instant is less than the sum of these, and no less than at the sample. Impulses add
+/// up.
 #[test]
 fn the_ground_s_force_is_that_of_one_instant() {
     let frame = pier(&MODERATE).layout().frame().unwrap();

@@ -66,8 +66,9 @@ fn a_pier_s_design_forces_hold_and_stay_with_the_elements_doubled_and_on_softer_
     }
 }
 
-/// A pier that stands in a ground acceleration that grows slowly to a: the shear across an element that leans by (x, z)
-/// is what is above it times a z + g x, from the base to the top, and the base has the largest.
+/// A pier that stands in a ground acceleration that grows slowly to a: the shear across an element
+/// that leans by (x, z) is what is above it times a z + g x, from the base to the top, and the base
+/// has the largest.
 #[test]
 fn shear_is_sampled_along_the_column_and_is_what_is_above_times_the_acceleration() {
     let model = assembled(PierSpec { column_mass_kg: 300e3, ..PIER });

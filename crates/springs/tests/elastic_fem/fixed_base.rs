@@ -10,7 +10,8 @@ use rocking::{motion::peak, scalar::GRAVITY};
 
 use crate::common::{MODERATE, el_centro, nrmse, pier};
 
-/// u = u0 exp(-zeta w t) (cos w_d t + zeta w/w_d sin w_d t), w^2 = (3EI/L^3 - m g/L)/m: 2 Hz by construction.
+/// u = u0 exp(-zeta w t) (cos w_d t + zeta w/w_d sin w_d t), w^2 = (3EI/L^3 - m g/L)/m: 2 Hz by
+/// construction.
 #[test]
 fn a_pier_let_go_vibrates_as_one_degree_of_freedom_does() {
     let frame = pier(&MODERATE).layout().fixed().frame().unwrap();
@@ -31,8 +32,8 @@ fn a_pier_let_go_vibrates_as_one_degree_of_freedom_does() {
     assert!(history.energy_residual < 1e-6);
 }
 
-/// Base shear is the mass times its whole acceleration, averaged between samples; the base's moment is that times the height, and the
-/// weight's.
+/// Base shear is the mass times its whole acceleration, averaged between samples; the base's moment
+/// is that times the height, and the weight's.
 #[test]
 fn what_the_base_bears_is_what_the_mass_needs() {
     let accel = el_centro(801);

@@ -44,11 +44,13 @@ fn tied(stiffness: f64, pretension: f64) -> Members<f64> {
     Members { tendon: Some(Tendon { stiffness, pretension }), ..Members::default() }
 }
 
-/// At rest, all tendons have the tension given, and the pier's column bears the weight and that: EA e/L = m g + T.
+/// At rest, all tendons have the tension given, and the pier's column bears the weight and that: EA
+/// e/L = m g + T.
 #[test]
 fn a_standing_structure_s_tendons_have_their_pretension() {
     for given in [pier(), portal(), legs()] {
-        // from a tendon as good as dead weight to one that the columns' settlement alone would have left slack
+        // from a tendon as good as dead weight to one that the columns' settlement alone would have
+        // left slack
         for (stiffness, tension) in [(1e4, 2e4), (1e8, 1e6), (1e10, 1e6), (1e8, 0.0)] {
             let model = Assembled::with_members(given, tied(stiffness, tension)).unwrap();
             let standing = model.upright().unwrap();
@@ -72,8 +74,8 @@ fn stiffness_across(frame: &Frame, q: &DVector<f64>) -> f64 {
     1.0 / k.lu().solve(&load).unwrap()[at]
 }
 
-/// Across, a tendon of tension T and length H adds T/H and, by the column's compression over its length L, takes T/L: 3 EI/L^3 -
-/// (m g + T)/L + T/H in all.
+/// Across, a tendon of tension T and length H adds T/H and, by the column's compression over its
+/// length L, takes T/L: 3 EI/L^3 - (m g + T)/L + T/H in all.
 #[test]
 fn a_tendon_s_stiffness_on_a_standing_pier_is_that_of_the_closed_form() {
     let given = pier();
@@ -92,7 +94,8 @@ fn a_tendon_s_stiffness_on_a_standing_pier_is_that_of_the_closed_form() {
     }
 }
 
-/// 6 s of El Centro with dampers and a tendon: the energy account closes, and the finite elements follow the reference with the same members.
+/// 6 s of El Centro with dampers and a tendon: the energy account closes, and the finite elements
+/// follow the reference with the same members.
 #[test]
 fn a_pier_with_members_follows_the_reference() {
     let members = Members { damper: Some(Damper { c: 2e6 }), ..tied(2e7, 1e6) };
@@ -116,8 +119,9 @@ fn a_pier_with_members_follows_the_reference() {
     assert!(errors(&reference, &without, 601)[0] > 0.1);
 }
 
-/// A rigid pier turns about one corner while the damper under the other pulls: I_o th'' + c (2b)^2 th' = M, M = -m g (b - h th), so that
-/// th' = r exp(-d t) + M/(I_o d) (1 - exp(-d t)), d = c (2b)^2/I_o, over a time so short that M stays.
+/// A rigid pier turns about one corner while the damper under the other pulls: I_o th'' + c (2b)^2
+/// th' = M, M = -m g (b - h th), so that th' = r exp(-d t) + M/(I_o d) (1 - exp(-d t)), d = c
+/// (2b)^2/I_o, over a time so short that M stays.
 #[test]
 fn dampers_take_the_rotation_rate_of_the_closed_form() {
     let text = "kind = 'pier'\nheight_m = 12.0\nwidth_m = 4.0\nmass_kg = 600e3\nfooting_mass_kg = 60e3\nfooting_height_m = 1.5\n\
@@ -138,7 +142,8 @@ fn dampers_take_the_rotation_rate_of_the_closed_form() {
     let lever: f64 = 4.0;
     assert_relative_eq!(moment, -c * lever * lever * rate, max_relative = 1e-3);
 
-    // and in time, by the reference: the rate after t, weight's part as of the undamped body over so short a time
+    // and in time, by the reference: the rate after t, weight's part as of the undamped body over
+    // so short a time
     let dt = 1e-3;
     let still = [0.0; 21];
     let after = |model: &Assembled| {

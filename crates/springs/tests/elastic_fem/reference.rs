@@ -39,7 +39,8 @@ fn errors(
     [nrmse(&history.rotation(frame, base), &rotation), nrmse(&history.drift(frame, mass, base), &drift)]
 }
 
-/// Let go at half of alpha, on springs of 10 kHz of what lands: a light, a moderate, a heavy footing.
+/// Let go at half of alpha, on springs of 10 kHz of what lands: a light, a moderate, a heavy
+/// footing.
 #[test]
 fn free_rocking_follows_the_reference() {
     let heavy = Numbers { mass: 2e5, footing: 6e5, centre: 4.0, axial: 4e9, ..MODERATE };
@@ -85,8 +86,9 @@ fn el_centro_follows_the_reference() {
     assert!(4.0 * stiff[0] < soft[0] && 4.0 * stiff[1] < soft[1], "{soft:?} {stiff:?}");
 }
 
-/// 20 s of El Centro, an A-frame of 61 m whose legs shorten by 1e-4 of their length under the weight. A foot lifts as soon as it has landed:
-/// its horizontal spring must have stopped it by then.
+/// 20 s of El Centro, an A-frame of 61 m whose legs shorten by 1e-4 of their length under the
+/// weight. A foot lifts as soon as it has landed: its horizontal spring must have stopped it by
+/// then.
 #[test]
 fn legs_that_give_way_follow_the_reference() {
     let (mass, height, width): (f64, f64, f64) = (680.1e3, 61.0, 12.2);
@@ -112,8 +114,9 @@ fn legs_that_give_way_follow_the_reference() {
     assert!(soft[0] > 5e-2, "{soft:?}");
 }
 
-/// A 61 m A-frame on legs that shorten by 1e-7 to 1e-3 of their length under its weight, let go from leans: on springs of its own it does not
-/// bounce. From 0.2 alpha on legs of 1e-4 the leg in the air springs straight, and its foot comes down at 7.7 m/s across and 0.8 m/s down.
+/// A 61 m A-frame on legs that shorten by 1e-7 to 1e-3 of their length under its weight, let go
+/// from leans: on springs of its own it does not bounce. From 0.2 alpha on legs of 1e-4 the leg in
+/// the air springs straight, and its foot comes down at 7.7 m/s across and 0.8 m/s down.
 #[test]
 fn legs_of_any_stiffness_follow_the_reference() {
     for (shortening, radius, lean) in
@@ -160,8 +163,9 @@ const PIER: PierSpec = PierSpec {
     elements: None,
 };
 
-/// 20 s of El Centro, the pier of 2 Hz on a footing of 200 t: what changes it by a millionth is more than a thousandth of the peak after 12.7 s. Springs
-/// stiffer than the accuracy needs up to there follow it to its end.
+/// 20 s of El Centro, the pier of 2 Hz on a footing of 200 t: what changes it by a millionth is
+/// more than a thousandth of the peak after 12.7 s. Springs stiffer than the accuracy needs up to
+/// there follow it to its end.
 #[test]
 fn springs_are_stiffened_until_they_follow_the_record_to_its_end() {
     let model = Assembled::new(ElasticStructure::Pier(PIER).checked().unwrap()).unwrap();
@@ -191,8 +195,9 @@ fn springs_are_stiffened_until_they_follow_the_record_to_its_end() {
     assert_eq!(soft.reference.map(|reference| reference.followed), Some(foretold));
 }
 
-/// A column of four elements with its own mass, let go at 0.7 of alpha: waves in it relieve the corner it stands on, which slides without carrying anything for
-/// 2 ms. A horizontal spring that held it would throw it up some fifty times.
+/// A column of four elements with its own mass, let go at 0.7 of alpha: waves in it relieve the
+/// corner it stands on, which slides without carrying anything for 2 ms. A horizontal spring that
+/// held it would throw it up some fifty times.
 #[test]
 fn a_corner_that_carries_nothing_slides_as_on_rigid_ground() {
     let column = PierSpec {
@@ -227,8 +232,8 @@ fn a_corner_that_carries_nothing_slides_as_on_rigid_ground() {
     assert!(history.energy_residual < 1e-6, "{:e}", history.energy_residual);
 }
 
-/// A footing of a portal that has left the ground altogether lands so flat that stopping it sideways would throw it up: it slides on, on springs
-/// too, and they follow the reference beyond.
+/// A footing of a portal that has left the ground altogether lands so flat that stopping it
+/// sideways would throw it up: it slides on, on springs too, and they follow the reference beyond.
 #[test]
 fn a_corner_that_lands_flat_slides_on_springs_as_on_rigid_ground() {
     let structure: ElasticStructure = toml::from_str(
@@ -254,7 +259,8 @@ fn a_corner_that_lands_flat_slides_on_springs_as_on_rigid_ground() {
     assert!(stiff[0] < 0.5 * soft[0] && stiff[1] < 0.5 * soft[1], "{stiff:?} {soft:?}");
 }
 
-/// A touch that a long step suspects beyond its end is none of its events: a history on these springs once never got past one.
+/// A touch that a long step suspects beyond its end is none of its events: a history on these
+/// springs once never got past one.
 #[test]
 fn histories_on_stiff_springs_get_to_their_end() {
     let structure: ElasticStructure = toml::from_str(

@@ -1,4 +1,5 @@
-//! Legs without mass that do not give way: the rigid body on two feet, of `fem::Analysis`, on the same springs.
+//! Legs without mass that do not give way: the rigid body on two feet, of `fem::Analysis`, on the
+//! same springs.
 
 use dynamics::{
     fem,
@@ -13,7 +14,8 @@ use rocking::structure::Body;
 
 use crate::common::{el_centro, nrmse};
 
-/// An A-frame of 61 m, 12.2 m wide, 680 t, with some rotational inertia; its legs shorten by a ten-thousandth of what the springs do.
+/// An A-frame of 61 m, 12.2 m wide, 680 t, with some rotational inertia; its legs shorten by a
+/// ten-thousandth of what the springs do.
 #[test]
 fn stiff_legs_with_light_feet_rock_as_the_rigid_body_does() {
     let (mass, height, width): (f64, f64, f64) = (680.1e3, 61.0, 12.2);

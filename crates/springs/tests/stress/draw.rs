@@ -25,8 +25,8 @@ impl Draw {
         self.0.random_range(0..n) == 0
     }
 
-    /// R from 0.1 to 200 m, alpha 0.02 to 0.6, 1 kg to 1e7 kg; a third are solid blocks, the others have an I_cg from
-    /// nothing to m R^2.
+    /// R from 0.1 to 200 m, alpha 0.02 to 0.6, 1 kg to 1e7 kg; a third are solid blocks, the others
+    /// have an I_cg from nothing to m R^2.
     pub fn structure(&mut self) -> Structure {
         loop {
             let (radius, alpha) = (self.log(0.1, 200.0), self.between(0.02, 0.6));
@@ -49,7 +49,8 @@ impl Draw {
         }
     }
 
-    /// 1 to 2000 Hz, mu 1e-3 to 100, K 1e-3 to 100, xi 0 to 100; one in eight has the same chain both ways.
+    /// 1 to 2000 Hz, mu 1e-3 to 100, K 1e-3 to 100, xi 0 to 100; one in eight has the same chain
+    /// both ways.
     pub fn springs(&mut self) -> Springs<Design<f64>> {
         let vertical = self.design();
         let horizontal = if self.one_in(8) { vertical } else { self.design() };

@@ -1,7 +1,8 @@
-//! Random cases of every kind: no panic, no NaN, no hang; every history ends in motion or in a said outcome, its energy
-//! account within its bound.
+//! Random cases of every kind: no panic, no NaN, no hang; every history ends in motion or in a said
+//! outcome, its energy account within its bound.
 //!
-//! `STRESS=100000 cargo test --release --test stress` runs more of them, `STRESS_SEED=7` that one alone.
+//! `STRESS=100000 cargo test --release --test stress` runs more of them, `STRESS_SEED=7` that one
+//! alone.
 
 mod draw;
 
@@ -22,8 +23,8 @@ use rocking::{
     motion::Motion,
 };
 
-/// Steps allowed to one finite element history. A user's may take a hundred times as many; here it is the bound itself
-/// that is under test, and springs of 2 kHz without damping do meet it.
+/// Steps allowed to one finite element history. A user's may take a hundred times as many; here it
+/// is the bound itself that is under test, and springs of 2 kHz without damping do meet it.
 const MOST_STEPS: usize = 20_000;
 
 /// Seeds that once created energy: a foot passed the ground while the other one trailed.

@@ -3,7 +3,8 @@
 use super::super::*;
 use proptest::prelude::*;
 
-/// Whatever the bytes, the reader answers: with a record that passes its own checks, or with one line.
+/// Whatever the bytes, the reader answers: with a record that passes its own checks, or with one
+/// line.
 fn answers(file: &str, bytes: &[u8], options: &ReadOptions) {
     match Record::parse(file, bytes, options) {
         Ok(record) => assert_eq!(Record::new(record.name.clone(), record.dt, record.accel.clone()), Ok(record)),

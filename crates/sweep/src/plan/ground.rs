@@ -20,11 +20,12 @@ const FREQUENCY_HZ: (f64, f64) = (0.01, 1e3);
 /// Motions made like a given one, unless said.
 const LIKE_COUNT: usize = 100;
 
-/// The motions of a sweep file: files, folder, El Centro, those made, pulses. `read` and `duration_s` say how the one is
-/// read that others are made like.
+/// The motions of a sweep file: files, folder, El Centro, those made, pulses. `read` and
+/// `duration_s` say how the one is read that others are made like.
 ///
 /// # Errors
-/// A folder without records; a pulse that is none, with its line; a motion that no other can be like.
+/// A folder without records; a pulse that is none, with its line; a motion that no other can be
+/// like.
 pub(crate) fn motions(
     source: &SweepSource,
     read: &ReadOptions,

@@ -1,4 +1,5 @@
-//! A tendon from the mass to the ground midway between the feet: it pulls along its line once it is longer than l_0.
+//! A tendon from the mass to the ground midway between the feet: it pulls along its line once it is
+//! longer than l_0.
 //!
 //! ```text
 //!   l = hypot(X, h + Z)     T = max(0, k (l - l_0))     U = T^2/(2 k)

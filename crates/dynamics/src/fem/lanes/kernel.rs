@@ -1,8 +1,9 @@
 //! One Radau step of several histories side by side.
 //!
-//! Every loop over lanes is straight arithmetic on the functions that a history alone calls (`step`, `newton`, `model`), which the
-//! compiler turns into vector operations. No operation is contracted or reordered, so that a lane's step is that of the history
-//! alone, bit for bit, on any machine.
+//! Every loop over lanes is straight arithmetic on the functions that a history alone calls
+//! (`step`, `newton`, `model`), which the compiler turns into vector operations. No operation is
+//! contracted or reordered, so that a lane's step is that of the history alone, bit for bit, on any
+//! machine.
 
 #![allow(clippy::needless_range_loop)] // one index over many arrays
 
@@ -17,7 +18,8 @@ use crate::{
 use rocking::structure::Body;
 use rows::{ENTRIES, column};
 
-/// A block for each coordinate, written out: the compiler keeps a loop of many lines as a loop, and then leaves the lanes alone.
+/// A block for each coordinate, written out: the compiler keeps a loop of many lines as a loop, and
+/// then leaves the lanes alone.
 macro_rules! coordinates {
     ($k:ident => $block:block) => {
         coordinates!($k in 0 1 2 3 4 5 6 => $block)
@@ -207,7 +209,8 @@ impl Kernel {
         self.fresh = true;
     }
 
-    /// What lane l's step came to; if it converged, its end, and where contacts change or `wholly` all its stages.
+    /// What lane l's step came to; if it converged, its end, and where contacts change or `wholly`
+    /// all its stages.
     pub(crate) fn collect_step(&self, l: usize, wholly: bool, stages: &mut Stages<f64>) -> Tried {
         assert!(l < WIDTH);
         if self.steep[l] != 0.0 {
@@ -245,7 +248,8 @@ impl Kernel {
         Tried::Step(converged, measures)
     }
 
-    /// Go on with the steps of all lanes, a few iterations: those that need more go on with the next call, beside others' new steps.
+    /// Go on with the steps of all lanes, a few iterations: those that need more go on with the
+    /// next call, beside others' new steps.
     #[inline(always)]
     pub(crate) fn step(&mut self) {
         if self.fresh {

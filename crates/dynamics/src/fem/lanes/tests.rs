@@ -21,7 +21,8 @@ impl Observer<f64> for Bits {
     }
 }
 
-/// A frame without rotational inertia and a block, at an error of 1e-4 and of 1e-8, with steps over several samples and without.
+/// A frame without rotational inertia and a block, at an error of 1e-4 and of 1e-8, with steps over
+/// several samples and without.
 #[test]
 fn avx_512_avx_2_and_no_vectors_at_all_agree_to_the_last_bit() {
     let record = Record::el_centro().truncated(12.0);

@@ -16,7 +16,8 @@ pub(crate) struct StepMeasures<S> {
     /// Work of the base excitation and dissipation over it (J).
     pub input: S,
     pub dissipated: S,
-    /// Its local error by the embedded formula: of the body's place over R alpha, and of its momentum over m p R alpha.
+    /// Its local error by the embedded formula: of the body's place over R alpha, and of its
+    /// momentum over m p R alpha.
     pub missed: f64,
     pub contacts: Contacts,
 }
@@ -70,7 +71,8 @@ impl<S: Scalar> TimeLoop<'_, S> {
         StepMeasures { stored, input, dissipated, missed: self.scales.missed(&local), contacts: Contacts::Unknown }
     }
 
-    /// Book the step if the account closes well enough and little is missed; choose the next step's size.
+    /// Book the step if the account closes well enough and little is missed; choose the next step's
+    /// size.
     pub(super) fn account(&mut self, stages: &Stages<S>, measures: &StepMeasures<S>) -> bool {
         let &StepMeasures { stored, input, dissipated, missed, .. } = measures;
         let defect = (stored - self.energy.stored - input + dissipated).re().abs();
@@ -107,8 +109,9 @@ impl<S: Scalar> TimeLoop<'_, S> {
         allowed_energy(self.control.tolerance * self.scale, &self.energy, stored).max(self.places(stages))
     }
 
-    /// Energy that comes and goes as places are rounded (J): a few units in their last digit times the force. On stiff springs under
-    /// a body far from where it stood, a smaller step does not lose less.
+    /// Energy that comes and goes as places are rounded (J): a few units in their last digit times
+    /// the force. On stiff springs under a body far from where it stood, a smaller step does not
+    /// lose less.
     fn places(&self, stages: &Stages<S>) -> f64 {
         let (q, a) = (&stages.q[2], &stages.a[2]);
         let place = q[X].re().abs() + q[Z].re().abs() + q[TH].re().abs() * self.model.body.radius().re();

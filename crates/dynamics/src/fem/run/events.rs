@@ -1,4 +1,5 @@
-//! Contact events: located by repeating the step, then the foot switches (where they are met: `met`).
+//! Contact events: located by repeating the step, then the foot switches (where they are met:
+//! `met`).
 
 use super::{TimeLoop, met::StepEvent};
 use crate::fem::{
@@ -9,45 +10,52 @@ use crate::fem::{
 };
 use rocking::scalar::{Scalar, real};
 
-/// A foot that closes again this soon after it opened, in units of 1/Omega_n, has hardly left the ground.
+/// A foot that closes again this soon after it opened, in units of 1/Omega_n, has hardly left the
+/// ground.
 const AT_ONCE: f64 = 0.1;
 
-/// Share of what the other foot carries: a lifting foot that lets go of a smaller horizontal force, once it closes again at
-/// once, does not hold.
+/// Share of what the other foot carries: a lifting foot that lets go of a smaller horizontal force,
+/// once it closes again at once, does not hold.
 ///
-/// A foot lifts while its horizontal spring is still loaded. It lets that force go; a body without rotational inertia
-/// turns at once and presses the foot down again, where it holds and takes part of the force back (about a half); soon it
-/// lifts again, and so on, each time with less to let go, at an accumulating sequence of instants. OpenSees goes through
-/// the same sequence as finely as its steps are, and converges to it as they get finer. Once little is let go the foot
-/// slides without a horizontal force until it lifts for good or carries weight.
+/// A foot lifts while its horizontal spring is still loaded. It lets that force go; a body without
+/// rotational inertia turns at once and presses the foot down again, where it holds and takes part
+/// of the force back (about a half); soon it lifts again, and so on, each time with less to let go,
+/// at an accumulating sequence of instants. OpenSees goes through the same sequence as finely as
+/// its steps are, and converges to it as they get finer. Once little is let go the foot slides
+/// without a horizontal force until it lifts for good or carries weight.
 ///
-/// Little is measured by the force that the body leans on, so that a landing of twice the speed goes through twice the
-/// same motion. What is left out is an impulse below a thousandth of the other foot's, over a time that is itself a small
-/// part of the landing: 20 s of El Centro change by 4e-9 (frames up to alpha 0.13) and 1e-4 (0.2, springs that bounce) from a
-/// share of 1e-4 of the weight, by 1e-6 and 2e-2 with one of 1e-2.
+/// Little is measured by the force that the body leans on, so that a landing of twice the speed
+/// goes through twice the same motion. What is left out is an impulse below a thousandth of the
+/// other foot's, over a time that is itself a small part of the landing: 20 s of El Centro change
+/// by 4e-9 (frames up to alpha 0.13) and 1e-4 (0.2, springs that bounce) from a share of 1e-4 of
+/// the weight, by 1e-6 and 2e-2 with one of 1e-2.
 const LET_GO: f64 = 1e-3;
 
 /// What such a sliding foot must carry before it holds, over that share.
 const HOLDING: f64 = 0.1;
 
-/// Steps that locate one event: Newton's method needs two or three, bisection where the gap all but grazes many more.
+/// Steps that locate one event: Newton's method needs two or three, bisection where the gap all but
+/// grazes many more.
 const MOST_LOCATED: usize = 40;
 
-/// Touches and lift-offs of one jump of a massless rotation before it counts as having lost its balance.
+/// Touches and lift-offs of one jump of a massless rotation before it counts as having lost its
+/// balance.
 const MOST_TURNS: usize = 50;
 
-/// Share of such a jump to which the place where a foot touches is found by halving, where it stood at the edge.
+/// Share of such a jump to which the place where a foot touches is found by halving, where it stood
+/// at the edge.
 const HALVED: f64 = 1e-8;
 
-/// Radians within 1/Omega_n: a massless rotation that is let go faster than that was about to snap, and keeps no rate that
-/// means anything.
+/// Radians within 1/Omega_n: a massless rotation that is let go faster than that was about to snap,
+/// and keeps no rate that means anything.
 const FASTEST_TURN: f64 = 100.0;
 
-/// First step tried after an event, in units of 1/Omega_n: the transient that the event began decides the step, not the
-/// step that the event cut short.
+/// First step tried after an event, in units of 1/Omega_n: the transient that the event began
+/// decides the step, not the step that the event cut short.
 pub(super) const RESTART: f64 = 0.1;
 
-/// The event that a step is repeated for, so that it ends where a foot's compression passes a level.
+/// The event that a step is repeated for, so that it ends where a foot's compression passes a
+/// level.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Locating<S> {
     foot: usize,
@@ -81,15 +89,16 @@ impl<S: Scalar> Locating<S> {
 pub(super) enum Located<S> {
     /// It is to be repeated with this size (s).
     Next(S),
-    /// It is taken; whether the foot passes the level there: if the polynomial saw a graze that the step itself does not make, it
-    /// does not.
+    /// It is taken; whether the foot passes the level there: if the polynomial saw a graze that the
+    /// step itself does not make, it does not.
     Here { changes: bool },
     /// No step converges, or none ends there.
     Nowhere,
 }
 
 impl<S: Scalar> TimeLoop<'_, S> {
-    /// Compression below which a gap counts as zero (m): a share of the weight's that is far below what a step may miss.
+    /// Compression below which a gap counts as zero (m): a share of the weight's that is far below
+    /// what a step may miss.
     pub(crate) fn gap_tolerance(&self) -> f64 {
         let share = (0.01 * self.control.tolerance).clamp(1e-9, 1e-6);
         (share * self.compression).max(4e-16 * self.model.body.radius().re())
@@ -220,7 +229,8 @@ impl<S: Scalar> TimeLoop<'_, S> {
         }
     }
 
-    /// Turn a massless rotation to its balance, but no further than to where a foot touches or leaves the ground: that foot.
+    /// Turn a massless rotation to its balance, but no further than to where a foot touches or
+    /// leaves the ground: that foot.
     fn turn(&mut self) -> Option<usize> {
         let start = self.state.q[TH];
         self.turns += 1;
@@ -230,7 +240,8 @@ impl<S: Scalar> TimeLoop<'_, S> {
             && !(whirls && flies && self.model.massless())
             && self.model.turn_to_balance(&mut self.state, &self.feet);
         let end = self.state.q[TH];
-        // feet of a structure with members, and feet that may slip, are met by the steps that follow
+        // feet of a structure with members, and feet that may slip, are met by the steps that
+        // follow
         if !self.balanced || end.re() == start.re() || !self.model.is_plain() {
             return None;
         }

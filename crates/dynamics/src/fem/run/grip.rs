@@ -1,5 +1,5 @@
-//! Friction between foot and ground (optional): a foot that holds slips when |H| reaches mu N, and holds again when its
-//! slipping stops.
+//! Friction between foot and ground (optional): a foot that holds slips when |H| reaches mu N, and
+//! holds again when its slipping stops.
 //!
 //! ```text
 //!   slipping to the side s (+1 right):  H = -s mu N      slip rate  w = d/dt (p_x - a_x) - s mu dN/dt / k1_h
@@ -15,15 +15,16 @@ use crate::fem::{
 };
 use rocking::scalar::{GRAVITY, Scalar};
 
-/// Share of mu times the weight by which the force of a holding foot may exceed its limit, and share of g/Omega_n by which
-/// a slipping foot may turn back: a foot on the edge of slipping must not change its mind within rounding.
+/// Share of mu times the weight by which the force of a holding foot may exceed its limit, and
+/// share of g/Omega_n by which a slipping foot may turn back: a foot on the edge of slipping must
+/// not change its mind within rounding.
 const HESITATION: f64 = 1e-6;
 /// Steps tried to locate the change.
 const MOST_TRIALS: usize = 40;
 
 impl<S: Scalar> TimeLoop<'_, S> {
-    /// What must stay positive while foot i holds or slips as it does, in units of the hesitation; `None` without friction
-    /// or in the air.
+    /// What must stay positive while foot i holds or slips as it does, in units of the hesitation;
+    /// `None` without friction or in the air.
     fn grip(&self, foot: usize, state: &State<S>) -> Option<f64> {
         let mu = self.model.law.coefficient().re();
         match self.feet[foot].contact {
@@ -62,7 +63,8 @@ impl<S: Scalar> TimeLoop<'_, S> {
         changes.min_by(|a, b| a.1.total_cmp(&b.1))
     }
 
-    /// Repeat the step so that it ends where the foot's grip changes (false position); whether that succeeds.
+    /// Repeat the step so that it ends where the foot's grip changes (false position); whether that
+    /// succeeds.
     pub(super) fn locate_grip(&mut self, foot: usize, tau: f64, stages: &mut Stages<S>) -> bool {
         let (mut low, mut high) = (0.0, f64::INFINITY);
         let (whole, mut at) = (stages.h, tau);
@@ -90,8 +92,8 @@ impl<S: Scalar> TimeLoop<'_, S> {
         false
     }
 
-    /// A holding foot begins to slip, or a slipping one holds; its horizontal force stays what it is. Or a trailing one presses
-    /// or lifts.
+    /// A holding foot begins to slip, or a slipping one holds; its horizontal force stays what it
+    /// is. Or a trailing one presses or lifts.
     pub(super) fn change_grip(&mut self, foot: usize, time: S, observer: &mut impl Observer<S>) {
         if self.feet[foot].contact == Contact::Trail {
             self.turns = 0;

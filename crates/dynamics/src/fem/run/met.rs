@@ -34,7 +34,8 @@ impl StepEvent {
 }
 
 impl<S: Scalar> TimeLoop<'_, S> {
-    /// Whether a foot's contact changes within the step, and where first; `contacts` is what is known of it.
+    /// Whether a foot's contact changes within the step, and where first; `contacts` is what is
+    /// known of it.
     pub(super) fn met(&self, stages: &Stages<S>, contacts: &Contacts) -> StepEvent {
         if matches!(contacts, Contacts::Unchanged) {
             return StepEvent::Nothing;
@@ -49,7 +50,8 @@ impl<S: Scalar> TimeLoop<'_, S> {
         }
     }
 
-    /// Whether a foot touches or leaves the ground, or begins to hold as it presses, and where first.
+    /// Whether a foot touches or leaves the ground, or begins to hold as it presses, and where
+    /// first.
     pub(super) fn crosses(&self, stages: &Stages<S>, contacts: &Contacts) -> StepEvent {
         let mut first = StepEvent::Nothing;
         let mut earliest = f64::INFINITY;
@@ -68,7 +70,8 @@ impl<S: Scalar> TimeLoop<'_, S> {
                 let cubic = Cubic::through(&inside);
                 let past = (1..4).find(|&k| inside[k] < -self.gap_tolerance());
                 let high = past.map(|k| (NODES[k], inside[k]));
-                // a node past the level may come after a passage that is over before the node ahead of it
+                // a node past the level may come after a passage that is over before the node ahead
+                // of it
                 let between = self.dip(&cubic, past.map_or(1.0, |k| NODES[k - 1]));
                 let Some(high) = between.or(high) else { continue };
                 let k = NODES.iter().rposition(|&node| node < high.0).unwrap_or(0);
@@ -92,17 +95,17 @@ impl<S: Scalar> TimeLoop<'_, S> {
         [0, 1].map(|foot| [0, 1, 2, 3].map(|k| at(foot, k)))
     }
 
-    /// A passage over before the next node of the step: the point between two nodes, no later than `until`, at which the
-    /// compression is least inside its limit, if that is past it.
+    /// A passage over before the next node of the step: the point between two nodes, no later than
+    /// `until`, at which the compression is least inside its limit, if that is past it.
     fn dip(&self, cubic: &Cubic, until: f64) -> Option<(f64, f64)> {
         let tau = cubic.least();
         let value = cubic.at(tau);
         (tau > 0.0 && tau < until && value < -self.gap_tolerance()).then_some((tau, value))
     }
 
-    /// Where the compression passes its limit between two bracketing points. `None` if the cubic leaves at once
-    /// where the foot itself moves in: it need not begin with the state's velocity, and does not in a step too long for the
-    /// springs.
+    /// Where the compression passes its limit between two bracketing points. `None` if the cubic
+    /// leaves at once where the foot itself moves in: it need not begin with the state's velocity,
+    /// and does not in a step too long for the springs.
     fn first_zero(&self, cubic: &Cubic, low: (f64, f64), high: (f64, f64), moves_in: impl Fn() -> bool) -> Option<f64> {
         let edge = 0.1 * self.gap_tolerance();
         let tau = match cubic.falls(low, high, edge) {
@@ -132,8 +135,8 @@ mod tests {
     };
     use rocking::structure::Structure;
 
-    /// An absorber comes up under a foot in the air and is gone again before the next stage: f = -(tau - 0.2)(tau - 0.6) is
-    /// negative at all nodes.
+    /// An absorber comes up under a foot in the air and is gone again before the next stage: f =
+    /// -(tau - 0.2)(tau - 0.6) is negative at all nodes.
     #[test]
     fn a_touch_between_two_stages_is_found() {
         let body = Structure::paper().body::<f64>();

@@ -1,16 +1,17 @@
-//! A body at rest on still ground needs no steps: before the record begins to shake, and once its silent tail has let the body
-//! come to rest.
+//! A body at rest on still ground needs no steps: before the record begins to shake, and once its
+//! silent tail has let the body come to rest.
 
 use super::TimeLoop;
 use crate::fem::model::{N, TH};
 use rocking::scalar::{GRAVITY, Scalar};
 
-/// Forces and velocities below this, relative to the weight and to g/Omega_n, are none: the body is where it would come to rest, to this
-/// share of the compression that its weight causes.
+/// Forces and velocities below this, relative to the weight and to g/Omega_n, are none: the body is
+/// where it would come to rest, to this share of the compression that its weight causes.
 const NOTHING: f64 = 1e-9;
 
 impl<S: Scalar> TimeLoop<'_, S> {
-    /// Whether nothing moves until the next sample. Only for real numbers: a derivative may still move where its value rests.
+    /// Whether nothing moves until the next sample. Only for real numbers: a derivative may still
+    /// move where its value rests.
     pub(super) fn rests(&mut self) -> bool {
         let ground = &self.ground;
         let silent = ground.start.iter().chain(&ground.slope).all(|x| x.re() == 0.0);

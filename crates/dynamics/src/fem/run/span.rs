@@ -1,13 +1,15 @@
 //! Steps over several samples, while the body leans on one foot.
 //!
-//! A body on one foot answers the ground's kinks by their double integral: it does not feel that the ground acceleration is another
-//! one within the step, as long as its moments are the same. So the step follows the parabola P of the same moments,
+//! A body on one foot answers the ground's kinks by their double integral: it does not feel that
+//! the ground acceleration is another one within the step, as long as its moments are the same. So
+//! the step follows the parabola P of the same moments,
 //!
 //! ```text
 //!   int (a - P) dt = int (a - P) t dt = int (a - P) t^2 dt = 0
 //! ```
 //!
-//! and at a sample within the step the body is where the parabola takes it, turned about its foot by what is missing,
+//! and at a sample within the step the body is where the parabola takes it, turned about its foot
+//! by what is missing,
 //!
 //! ```text
 //!   (I + m R^2) d_theta = -m dX/dtheta D,    D = int int (a - P) dt dt
@@ -15,9 +17,10 @@
 //!
 //! and its velocities by the same of D'.
 //!
-//! What is left of the kinks at the step's end is p^2 h^2 of the largest D, and what springs give way under a - P; both are counted as
-//! local error. A step that meets a change of contact, or whose body comes to lie, is refused: the steps up to it end at samples. Contact is
-//! looked for along the parabola; a touch that only what is missing would make is not seen.
+//! What is left of the kinks at the step's end is p^2 h^2 of the largest D, and what springs give
+//! way under a - P; both are counted as local error. A step that meets a change of contact, or
+//! whose body comes to lie, is refused: the steps up to it end at samples. Contact is looked for
+//! along the parabola; a touch that only what is missing would make is not seen.
 
 use super::{Contacts, Scales, StepEvent, StepMeasures, TimeLoop, real};
 use crate::fem::{
@@ -53,7 +56,7 @@ pub(super) struct Span {
     missed: f64,
 }
 
-/// By how much the springs give way under an acceleration of the mass of one [m per m/s2].
+/// Displacement of the mass per unit acceleration on the springs (s2).
 pub(super) fn compliance<S: Scalar>(model: &Model<S>) -> f64 {
     let chains = [&model.springs.vertical, &model.springs.horizontal];
     let give = chains.map(|chain| chain.k1.re().recip() + chain.k2.re().recip());
@@ -125,7 +128,8 @@ impl<S: Scalar> TimeLoop<'_, S> {
         (ground, Span { intervals: n, missed })
     }
 
-    /// The accelerations at the stages of a step of size h, of a rigid body that turns about its foot,
+    /// The accelerations at the stages of a step of size h, of a rigid body that turns about its
+    /// foot,
     ///
     /// ```text
     ///   (I + m R^2) theta'' = -m (ug'' dX/dtheta + g dZ/dtheta)
@@ -154,8 +158,9 @@ impl<S: Scalar> TimeLoop<'_, S> {
         })
     }
 
-    /// How it turns about its foot in a step of size h (s), where a displacement of the foot counts from `tolerance` (m) on. A turn counts
-    /// from a share of the error that the step may have, which its rate reaches first.
+    /// How it turns about its foot in a step of size h (s), where a displacement of the foot counts
+    /// from `tolerance` (m) on. A turn counts from a share of the error that the step may have,
+    /// which its rate reaches first.
     pub(super) fn turning(&self, h: f64, tolerance: f64) -> Turning {
         let Scales { radius, alpha, moment, .. } = self.scales;
         let turn = TURN * self.error * radius * alpha * (h / moment).min(1.0);

@@ -1,4 +1,5 @@
-//! Friction: its Newton matrix, slipping against closed forms, its energy, and the limit in which feet hold.
+//! Friction: its Newton matrix, slipping against closed forms, its energy, and the limit in which
+//! feet hold.
 
 use nalgebra::SMatrix;
 use num_complex::Complex;
@@ -110,7 +111,8 @@ fn newton_solves_with_the_dense_matrix_while_feet_slip() {
 
 #[test]
 fn a_flat_block_slips_as_far_as_newton_says() {
-    // ground accelerates at a for T, then not at all: the block slides back at (a - mu g), then stops at mu g
+    // ground accelerates at a for T, then not at all: the block slides back at (a - mu g), then
+    // stops at mu g
     let (a, dt, n) = (0.6 * GRAVITY, 1e-3, 200);
     let mut accel = vec![a; n + 1];
     accel.extend(vec![0.0; 600]);
@@ -128,7 +130,8 @@ fn a_flat_block_slips_as_far_as_newton_says() {
         control,
     };
     let history = case.simulate_with(&members(MU)).0;
-    // the last interval of the pulse is a ramp down to zero: speed of the ground by the trapezoidal rule
+    // the last interval of the pulse is a ramp down to zero: speed of the ground by the trapezoidal
+    // rule
     let (pull, hold) = (a - MU * GRAVITY, MU * GRAVITY);
     let t = n as f64 * dt;
     let speed = pull * t + (a / 2.0 - hold) * dt;

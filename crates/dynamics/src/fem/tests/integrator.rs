@@ -22,7 +22,8 @@ fn march(model: &Model<f64>, start: State<f64>, feet: &[Foot<f64>; 2], h: f64, n
 
 #[test]
 fn the_order_on_a_smooth_motion_is_five() {
-    // standing, pushed sideways: elastic rocking, sway and heave of some Hz, with the geometry's nonlinearity
+    // standing, pushed sideways: elastic rocking, sway and heave of some Hz, with the geometry's
+    // nonlinearity
     let (model, mut start, feet) = undamped(0.3);
     start.v[X] = 0.5;
     start.v[Z] = -0.2;
@@ -40,8 +41,8 @@ fn the_order_on_a_smooth_motion_is_five() {
     }
 }
 
-/// What a formula of order three misses falls as h^4, in place and (once divided by h) in velocity; what the step of order five
-/// misses is less.
+/// What a formula of order three misses falls as h^4, in place and (once divided by h) in velocity;
+/// what the step of order five misses is less.
 #[test]
 fn the_estimate_of_the_local_error_is_of_order_four_and_above_the_error() {
     let (model, mut start, feet) = undamped(0.3);

@@ -42,7 +42,8 @@ fn a_leaning_body_begins_to_fall_back_as_a_rigid_body_does() {
             let (side, weight) = (theta.signum(), model.body.mass * GRAVITY);
             assert!(!feet[1 - pressing].closed() && model.compression(1 - pressing, &q) < 0.0);
             assert_eq!(v, [0.0; N]);
-            // theta'' = -p^2 sin(alpha s - theta), the centre of mass turning about the foot; absorbers at rest
+            // theta'' = -p^2 sin(alpha s - theta), the centre of mass turning about the foot;
+            // absorbers at rest
             let f = model.forces(&q, &v, &feet, [0.0; 2]);
             let m = model.masses(&feet);
             let lean = model.body.alpha() - theta.abs();
@@ -64,7 +65,8 @@ fn a_lean_of_less_than_the_settlement_presses_both_feet() {
     assert!(model.compression(0, &state.q) > 0.0);
 }
 
-/// Eigenvalues of K x = w^2 M x for the chain m1 - k1 - m2 - k2 under each of two feet, moving together.
+/// Eigenvalues of K x = w^2 M x for the chain m1 - k1 - m2 - k2 under each of two feet, moving
+/// together.
 fn heave(springs: &Springs<Chain<f64>>, m: f64) -> [f64; 2] {
     let Chain { k1, k2, m2, .. } = springs.vertical;
     let scale = |a: f64, b: f64| 1.0 / (a * b).sqrt();
@@ -110,7 +112,8 @@ fn heave_of_the_standing_body_is_the_two_mass_chain() {
 
 #[test]
 fn damped_heave_decays_by_the_chain_s_complex_eigenvalue() {
-    // s^2 m/2 x1 + k1 (x1 - x2) = 0, (s^2 m2 + s c + k1 + k2) x2 = k1 x1: the root near the undamped one, by Newton
+    // s^2 m/2 x1 + k1 (x1 - x2) = 0, (s^2 m2 + s c + k1 + k2) x2 = k1 x1: the root near the
+    // undamped one, by Newton
     let mut springs = springs();
     springs.vertical.c *= 0.02;
     let model = Model::new(&body(0.3), &springs);
@@ -148,14 +151,16 @@ fn damped_heave_decays_by_the_chain_s_complex_eigenvalue() {
 
 #[test]
 fn elastic_rocking_is_omega_n_root_2k_over_1_plus_k_times_b_over_r() {
-    // All mass in the body, equal chains both ways, light absorbers: each foot is a spring k1 K/(1+K).
+    // All mass in the body, equal chains both ways, light absorbers: each foot is a spring k1
+    // K/(1+K).
     let hz = 50.0;
     let chain = Design::from_kc(1e-6, 0.7, 0.0, hz);
     let body = body(0.0);
     let springs = Springs { vertical: chain, horizontal: chain }.chains(body.mass);
     let model = Model::new(&body, &springs);
     let (start, feet) = model.settled();
-    // dynamic stiffness of the massless rotation: condense theta and the absorbers by a static push on X
+    // dynamic stiffness of the massless rotation: condense theta and the absorbers by a static push
+    // on X
     let push = 1e-3 * body.mass * GRAVITY * body.half_width / body.height;
     let mut state = start;
     for _ in 0..50 {

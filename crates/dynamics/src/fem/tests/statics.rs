@@ -15,7 +15,8 @@ use rocking::{
 
 #[test]
 fn a_tendon_adds_its_moment_to_the_leaning_body_s() {
-    // m g R sin(alpha - theta) plus the tension times its distance from the foot; springs all but rigid
+    // m g R sin(alpha - theta) plus the tension times its distance from the foot; springs all but
+    // rigid
     let body = rocking::structure::Structure::paper().body::<f64>();
     let stiff = Chain { k1: 1e14, k2: 1e14, m2: 1e3, c: 0.0 };
     let springs = Springs { vertical: stiff, horizontal: stiff };

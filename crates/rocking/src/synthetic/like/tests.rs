@@ -60,7 +60,8 @@ fn spectra_are_those_of_the_given_motion() {
     }
 }
 
-/// The time between 5 and 95 % of the Arias intensity within a fifth. The intensity itself is not promised: motions of one spectrum differ in it.
+/// The time between 5 and 95 % of the Arias intensity within a fifth. The intensity itself is not
+/// promised: motions of one spectrum differ in it.
 #[test]
 fn envelopes_are_those_of_the_given_motion() {
     for record in given() {
@@ -75,8 +76,8 @@ fn envelopes_are_those_of_the_given_motion() {
     }
 }
 
-/// The ground comes to rest where it began, and goes no farther on the way than a few times the given ground, its
-/// own drift taken off alike.
+/// The ground comes to rest where it began, and goes no farther on the way than a few times the
+/// given ground, its own drift taken off alike.
 #[test]
 fn the_ground_does_not_drift() {
     for record in given() {

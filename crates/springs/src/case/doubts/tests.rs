@@ -18,7 +18,8 @@ fn a_cabinet_that_would_not_stand_in_a_room_is_doubted() {
     assert_eq!(block("total_height_m = 3.8\nwidth_m = 0.8\nmass_kg = 400.0\n"), []);
 }
 
-/// A transformer of 32 t whose mass is given in tonnes: the doubt of its height has no place beside that.
+/// A transformer of 32 t whose mass is given in tonnes: the doubt of its height has no place beside
+/// that.
 #[test]
 fn a_mass_in_tonnes_is_doubted() {
     let transformer = block("height_m = 1.6\nwidth_m = 1.3\nmass_kg = 32.0\n");

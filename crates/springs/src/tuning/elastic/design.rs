@@ -7,20 +7,23 @@
 //!   k1       by the give of the stance: the energy of springs k1 over the structure's own, under a uniform acceleration (`Standing`)
 //! ```
 //!
-//! The structure's own springs have no part in the landing: they are softer than k1 by the give, which is small.
+//! The structure's own springs have no part in the landing: they are softer than k1 by the give,
+//! which is small.
 //!
-//! **K** trades what a landing leaves against the stance, as for a rigid body. The footing comes back by v_r, about 0.8 K v, and stays in the
-//! air for 2 v_r m_eff/(M g), since the column presses it down with all of the weight: the sway meanwhile goes on by a phase of order
-//! omega K^2 v m_eff/(M g). Where the column is about to pull it up, it is gone with v_r: an error of order K. A stance softer by 1/K lowers the
-//! sway's frequency by give/(2 K). The least sum of all three has
+//! **K** trades what a landing leaves against the stance, as for a rigid body. The footing comes
+//! back by v_r, about 0.8 K v, and stays in the air for 2 v_r m_eff/(M g), since the column presses
+//! it down with all of the weight: the sway meanwhile goes on by a phase of order omega K^2 v
+//! m_eff/(M g). Where the column is about to pull it up, it is gone with v_r: an error of order K.
+//! A stance softer by 1/K lowers the sway's frequency by give/(2 K). The least sum of all three has
 //!
 //! ```text
 //!   K^2 (K + turn) = scale give M g/(omega v m_eff),     v: speed at which a corner lands that fell from half of what overturns
 //! ```
 //!
-//! with two numbers (`BALANCE`) that `cargo bench --bench elastic_stance` finds again, on piers of light to heavy footings and a frame: the geometric
-//! mean of their errors is least about a turn of 0.05 and three times the scale, and a tenth above that at this scale, which is taken: a record that
-//! is followed far grows most what landings leave.
+//! with two numbers (`BALANCE`) that `cargo bench --bench elastic_stance` finds again, on piers of
+//! light to heavy footings and a frame: the geometric mean of their errors is least about a turn of
+//! 0.05 and three times the scale, and a tenth above that at this scale, which is taken: a record
+//! that is followed far grows most what landings leave.
 
 use std::f64::consts::TAU;
 
@@ -58,7 +61,8 @@ pub struct CornerSprings {
     pub corners: Vec<Springs<Chain<f64>>>,
     /// K = k2/k1 of the vertical units.
     pub k: f64,
-    /// Energy of all springs over the structure's, under its weight's worth sideways and upwards together.
+    /// Energy of all springs over the structure's, under its weight's worth sideways and upwards
+    /// together.
     pub give: f64,
     /// sqrt(k1/M)/(2 pi), M all mass, of the vertical units (Hz).
     pub omega_n_hz: f64,
@@ -114,7 +118,8 @@ fn outer(w: &DMatrix<f64>, last: usize) -> [[f64; 4]; 4] {
     std::array::from_fn(|i| std::array::from_fn(|j| w[(at(i), at(j))]))
 }
 
-/// Springs of a structure at a give of its vertical k1 alone: the smaller, the stiffer. `landing`: v of the choice of K (m/s); `share` of that K.
+/// Springs of a structure at a give of its vertical k1 alone: the smaller, the stiffer. `landing`:
+/// v of the choice of K (m/s); `share` of that K.
 pub fn springs(standing: &Standing, give: f64, landing: f64, share: f64) -> CornerSprings {
     with_k(standing, give, share * BALANCE.k(standing, give, landing))
 }

@@ -1,5 +1,6 @@
-//! What springs of an elastic structure are judged on: releases from leans, motions made for the structure, earthquake-like motions, and the
-//! record at hand, each over the part in which the reference can be predicted.
+//! What springs of an elastic structure are judged on: releases from leans, motions made for the
+//! structure, earthquake-like motions, and the record at hand, each over the part in which the
+//! reference can be predicted.
 
 use rayon::prelude::*;
 use serde::{Deserialize, Deserializer, Serialize};
@@ -33,8 +34,8 @@ const SEED: u64 = 1940;
 /// How much more sways and the worst tenth may have than the accuracy asked for.
 pub const LOOSER: f64 = 5.0;
 
-/// Errors of rotations and sways (NRMSE) over several histories; infinite, `null` in JSON, where histories on springs do not get as far as the
-/// reference.
+/// Errors of rotations and sways (NRMSE) over several histories; infinite, `null` in JSON, where
+/// histories on springs do not get as far as the reference.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 pub struct ElasticErrors {
     /// Median of rotations, of sways.
@@ -98,7 +99,8 @@ fn null_as_infinite<'de, D: Deserializer<'de>>(deserializer: D) -> Result<[f64; 
 }
 
 impl ElasticErrors {
-    /// The largest in units of what is allowed; infinite where peaks were asked for and not measured.
+    /// The largest in units of what is allowed; infinite where peaks were asked for and not
+    /// measured.
     pub(crate) fn over(&self, asked: Asked) -> f64 {
         let accuracy = asked.error;
         if asked.by == Yardstick::Peaks {
@@ -143,7 +145,8 @@ pub struct ElasticSuite {
     pub releases: Vec<ElasticTrial>,
     pub motions: Vec<ElasticTrial>,
     pub record: Option<ElasticTrial>,
-    /// Releases and motions, the record among them, left out since their reference cannot be predicted.
+    /// Releases and motions, the record among them, left out since their reference cannot be
+    /// predicted.
     pub ill_conditioned: usize,
     /// Releases and motions, the record among them, left out since their reference met the bound on
     /// its work.
@@ -196,7 +199,8 @@ impl ElasticSuite {
         Self { forces, ..self }
     }
 
-    /// The errors of springs; on the record, which is followed to where it grows a change the most, with steps as close as the answer's.
+    /// The errors of springs; on the record, which is followed to where it grows a change the most,
+    /// with steps as close as the answer's.
     pub fn measure(&self, springs: &CornerSprings, control: Control) -> Measured {
         self.measure_within(springs, (control, &Effort::unbounded()))
     }

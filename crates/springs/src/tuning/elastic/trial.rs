@@ -19,7 +19,8 @@ use strong_motion::Record;
 /// A history is compared if its predictable part is this share of it, or has so many landings.
 const LEAST_SHARE: f64 = 0.2;
 const LEAST_LANDINGS: usize = 3;
-/// A motion is followed over this part of it, then over twice as much, until it can be foretold no further.
+/// A motion is followed over this part of it, then over twice as much, until it can be foretold no
+/// further.
 const PARTS: usize = 4;
 
 /// A motion, a start, and the reference's history.

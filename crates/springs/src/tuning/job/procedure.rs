@@ -4,7 +4,7 @@ use std::f64::consts::TAU;
 
 use rayon::prelude::*;
 
-use super::{CEILING_HZ, JobError, alone};
+use super::{CEILING_HZ, JobError, evaluate};
 use crate::{
     case::Case,
     tuning::{
@@ -83,7 +83,7 @@ impl<'a> Procedure<'a> {
                 return Err(JobError::Settlement { asked_m: bracket.max_settlement, max_hz, least_m });
             }
             let found = self.at(max_hz, progress).ok_or(JobError::NoCandidate)?;
-            return Ok((alone(suites, body, asked, found.best.springs, effort), true, Some(found)));
+            return Ok((evaluate(suites, body, asked, found.best.springs, effort), true, Some(found)));
         }
         let p = body.p_squared().sqrt();
         let begin = stiffness_search::begin(asked) * p / TAU;

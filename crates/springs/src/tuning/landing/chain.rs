@@ -1,18 +1,21 @@
-//! One spring-absorber unit stops a mass: the landing along the foot, in units in which nothing but the design is left.
+//! One spring-absorber unit stops a mass: the landing along the foot, in units in which nothing but
+//! the design is left.
 //!
 //! ```text
 //!   mass 1, speed 1 ─ gap, k1 = 1 ─ mu ─┬─ K ─┬─ ground        x'' = N,   mu a'' = -N - K a - C a'
 //!                                       └─ C ─┘                N = a - x while the two press, else 0
 //! ```
 //!
-//! No gravity, time in 1/Omega_n (theory of the landing in the stiff limit: where Omega_n v_n >> g a landing is over before
-//! gravity or the rotation matter). The mass leaves when N falls to zero, with the speed `rebound`; the absorber swings back
-//! and must not meet it again: `clearance`, the least later distance of the two, must not be negative.
+//! No gravity, time in 1/Omega_n (theory of the landing in the stiff limit: where Omega_n v_n >> g
+//! a landing is over before gravity or the rotation matter). The mass leaves when N falls to zero,
+//! with the speed `rebound`; the absorber swings back and must not meet it again: `clearance`, the
+//! least later distance of the two, must not be negative.
 
 use super::linear::{SquareMatrix, exponential, times};
 use rocking::scalar::{Scalar, real};
 
-/// How long a landing is followed [1/Omega_n]: first lifts come near 2.4, late touches between 8 and 28.
+/// How long a landing is followed [1/Omega_n]: first lifts come near 2.4, late touches between 8
+/// and 28.
 pub const FOLLOWED: f64 = 30.0;
 /// Steps in which signs are looked for [1/Omega_n]: the unit's own periods are a few units long.
 const STEP: f64 = 0.05;
@@ -26,8 +29,8 @@ pub struct ChainLanding<S> {
     pub lift: S,
     /// Speed with which it leaves the ground, positive upwards (v_n).
     pub rebound: S,
-    /// Least distance of mass and absorber after that, until [`FOLLOWED`] [v_n/Omega_n]; negative if the absorber comes back
-    /// and would touch.
+    /// Least distance of mass and absorber after that, until [`FOLLOWED`] [v_n/Omega_n]; negative
+    /// if the absorber comes back and would touch.
     pub clearance: S,
 }
 
@@ -105,9 +108,9 @@ mod tests {
     use super::*;
     use num_dual::Dual64;
 
-    /// An absorber without mass on the dashpot alone: the mass on spring 1 and dashpot C in series, a' = -N/C, so that
-    /// N'' + N'/C + N = 0: with C = 1/(2 zeta), N lasts pi/sqrt(1 - zeta^2) and the mass leaves with
-    /// exp(-zeta pi/sqrt(1 - zeta^2)) of its speed.
+    /// An absorber without mass on the dashpot alone: the mass on spring 1 and dashpot C in series,
+    /// a' = -N/C, so that N'' + N'/C + N = 0: with C = 1/(2 zeta), N lasts pi/sqrt(1 - zeta^2) and
+    /// the mass leaves with exp(-zeta pi/sqrt(1 - zeta^2)) of its speed.
     #[test]
     fn a_maxwell_unit_rebounds_as_in_closed_form() {
         for zeta in [0.1_f64, 0.3, 0.6] {
@@ -129,7 +132,8 @@ mod tests {
         assert!((landing.rebound - 1.0).abs() < 1e-6 && (landing.lift - std::f64::consts::PI).abs() < 1e-6);
     }
 
-    /// Measured by an independent program (matrix exponentials in Python): first lift and its speed.
+    /// Measured by an independent program (matrix exponentials in Python): first lift and its
+    /// speed.
     #[test]
     fn rebounds_are_those_of_an_independent_program() {
         for (k, c, mu, lift, rebound) in

@@ -1,20 +1,22 @@
-//! A structure as the two corners of its base feel it when one lands: W = G M^-1 G', and the plastic landing.
+//! A structure as the two corners of its base feel it when one lands: W = G M^-1 G', and the
+//! plastic landing.
 //!
 //! ```text
 //!   p' = p'_before + W J,   p' = 0 at the new corner: J* = -W_nn^-1 p'_n      unless that pushes the old corner into the ground:
 //!                           p' = 0 at both
 //! ```
 //!
-//! Moreau's plastic impact: no corner is pulled. For the first, angular momentum about the new corner is kept: Housner's equation 2. The
-//! second is that of wide footings under a column, where equation 2 would have the base turn backwards.
+//! Moreau's plastic impact: no corner is pulled. For the first, angular momentum about the new
+//! corner is kept: Housner's equation 2. The second is that of wide footings under a column, where
+//! equation 2 would have the base turn backwards.
 
 use super::linear::dot;
 use rocking::scalar::{Scalar, real};
 
 /// Corner directions: old foot x, z, new foot x, z.
 pub(crate) const DIRECTIONS: usize = 4;
-/// Least I_cg/(m R^2): the limit of a massless rotation. The smaller it is the faster the body turns on its springs, at
-/// Omega_h/sqrt(I_cg/m R^2), without a change of the outcome.
+/// Least I_cg/(m R^2): the limit of a massless rotation. The smaller it is the faster the body
+/// turns on its springs, at Omega_h/sqrt(I_cg/m R^2), without a change of the outcome.
 const LEAST_INERTIA: f64 = 1e-3;
 
 /// The structure as its corners feel it.
@@ -24,24 +26,26 @@ pub struct CornerDynamics<S> {
     pub w: [[S; DIRECTIONS]; DIRECTIONS],
     /// 2b, between the feet (R).
     pub width: S,
-    /// Angular momentum about the new foot before the landing, while the body turns about the old foot and the new foot comes
-    /// down with speed 1 [m R v_n].
+    /// Angular momentum about the new foot before the landing, while the body turns about the old
+    /// foot and the new foot comes down with speed 1 [m R v_n].
     pub momentum: S,
-    /// Rate at which the body turns about the new foot after a landing without impulse at the old one [v_n/R].
+    /// Rate at which the body turns about the new foot after a landing without impulse at the old
+    /// one [v_n/R].
     pub rate: S,
     /// Impulses J* of the plastic landing [m v_n].
     pub plastic: [S; DIRECTIONS],
 }
 
 impl<S: Scalar> CornerDynamics<S> {
-    /// Of a rigid body of slenderness alpha and mass share m R^2/I0; one whose mass is all in one point, m R^2/I0 = 1, as the
-    /// limit of little rotational inertia.
+    /// Of a rigid body of slenderness alpha and mass share m R^2/I0; one whose mass is all in one
+    /// point, m R^2/I0 = 1, as the limit of little rotational inertia.
     pub fn rigid(alpha: S, mass_share: S) -> Self {
         let inertia = mass_share.recip() - 1.0;
         let inertia = if inertia.re() < LEAST_INERTIA { real(LEAST_INERTIA) } else { inertia };
         let (sin, cos) = (alpha.sin(), alpha.cos());
         let (zero, one) = (S::zero(), S::one());
-        // G: (u, v, theta) of the centre of mass to x, z of the old foot (-b, -h) and the new one (b, -h)
+        // G: (u, v, theta) of the centre of mass to x, z of the old foot (-b, -h) and the new one
+        // (b, -h)
         let g = [[one, zero, -cos], [zero, one, sin], [one, zero, -cos], [zero, one, -sin]];
         let w = std::array::from_fn(|i| {
             std::array::from_fn(|j| g[i][0] * g[j][0] + g[i][1] * g[j][1] + g[i][2] * g[j][2] / inertia)
@@ -54,7 +58,8 @@ impl<S: Scalar> CornerDynamics<S> {
 
     /// Of the two corners, `width` apart, of any structure, from W.
     pub(crate) fn of(w: [[S; DIRECTIONS]; DIRECTIONS], width: S) -> Self {
-        // the new corner stops, by itself; the old one goes on at the rate of the body that turns about it
+        // the new corner stops, by itself; the old one goes on at the rate of the body that turns
+        // about it
         let alone = stopped(&w, &[2, 3]);
         let rate = velocity(&w, &alone, 1) / width;
         // what a unit force at the old corner does to it while the new one is held
@@ -63,8 +68,8 @@ impl<S: Scalar> CornerDynamics<S> {
         Self { w, width, momentum, rate, plastic: plastic(&w) }
     }
 
-    /// Mass that the landing corner feels in its direction x or z while it may not move in the other: [(W_new)^-1]_zz. Of a rigid
-    /// body vertically m (1 - (m R^2/I0) sin^2 alpha).
+    /// Mass that the landing corner feels in its direction x or z while it may not move in the
+    /// other: [(W_new)^-1]_zz. Of a rigid body vertically m (1 - (m R^2/I0) sin^2 alpha).
     pub(crate) fn effective_mass(&self) -> [S; 2] {
         let [xx, xz, zz] = [self.w[2][2], self.w[2][3], self.w[3][3]];
         let determinant = xx * zz - xz * xz;
@@ -95,8 +100,8 @@ fn velocity<S: Scalar>(w: &[[S; DIRECTIONS]; DIRECTIONS], impulses: &[S; DIRECTI
     before + dot(&w[direction], impulses)
 }
 
-/// The plastic landing: of the new corner, or of both where the old one would go into the ground. Corners of one footing move alike
-/// horizontally, so that one of them holds both.
+/// The plastic landing: of the new corner, or of both where the old one would go into the ground.
+/// Corners of one footing move alike horizontally, so that one of them holds both.
 fn plastic<S: Scalar>(w: &[[S; DIRECTIONS]; DIRECTIONS]) -> [S; DIRECTIONS] {
     let alone = stopped(w, &[2, 3]);
     if velocity(w, &alone, 1).re() >= 0.0 { alone } else { stopped(w, &[1, 2, 3]) }

@@ -1,26 +1,33 @@
-//! The design of the springs as a function of the geometry: alpha, m R^2/I0 and, through K, Omega_n/p.
+//! The design of the springs as a function of the geometry: alpha, m R^2/I0 and, through K,
+//! Omega_n/p.
 //!
-//! Horizontal units so stiff that they do not lag leave one vertical chain (`chain`), scaled by the effective mass under the
-//! landing foot, the Schur complement of its vertical motion while the body may turn about it:
+//! Horizontal units so stiff that they do not lag leave one vertical chain (`chain`), scaled by the
+//! effective mass under the landing foot, the Schur complement of its vertical motion while the
+//! body may turn about it:
 //!
 //! ```text
 //!   M = 1 - (m R^2/I0) sin^2 alpha          mu = mu_u(K) M,   C = C_u(K) sqrt(M)
 //!   mu_u, C_u: least rebound of the chain whose absorber does not come back to touch
 //! ```
 //!
-//! **Omega_h/Omega_v** is 4, and more for A-frames beyond alpha 0.2: as much as keeps the momentum about the new foot to 2e-6
-//! in the landing of the plane body (`plane`). Neither K_h, C_h nor mu_h matters much; OpenSees likes these.
+//! **Omega_h/Omega_v** is 4, and more for A-frames beyond alpha 0.2: as much as keeps the momentum
+//! about the new foot to 2e-6 in the landing of the plane body (`plane`). Neither K_h, C_h nor mu_h
+//! matters much; OpenSees likes these.
 //!
-//! **K** trades the landing against the stance. A rebound of v_r costs a history about A alpha^3 (v_r/v_n)^2, with v_r/v_n
-//! about 0.8 K; the give of the stance costs B/(alpha^3 (Omega_n/p)^2 K), since the standing body has leant by
-//! (p/Omega_n)^2 (1 + K)/(2 alpha^2 K) of alpha when it lifts. The least sum of both has
+//! **K** trades the landing against the stance. A rebound of v_r costs a history about A alpha^3
+//! (v_r/v_n)^2, with v_r/v_n about 0.8 K; the give of the stance costs B/(alpha^3 (Omega_n/p)^2 K),
+//! since the standing body has leant by (p/Omega_n)^2 (1 + K)/(2 alpha^2 K) of alpha when it lifts.
+//! The least sum of both has
 //!
 //! ```text
 //!   K_0 = K_SCALE (alpha^3 Omega_n/p)^(-2/3),     K^2 = [K_0/(1 + K_0/K_LARGEST)]^2 + K_LEAST^2
 //! ```
 //!
-//! the fraction for soft springs, where landings on a larger K bounce; K_LEAST below. `cargo bench --bench stance` finds K_SCALE again: the
-//! error that Omega_n is chosen by hardly falls beyond it, while landings on soft springs and of stocky bodies rebound more.
+//! the fraction for soft springs, where landings on a larger K bounce; K_LEAST below. `cargo bench
+//! --bench stance` finds K_SCALE again: the error that Omega_n is chosen by hardly falls beyond it,
+//! while landings on soft springs and of stocky bodies rebound more.
+
+use std::f64::consts::TAU;
 
 use thiserror::Error;
 
@@ -32,17 +39,21 @@ use super::{
 use dynamics::spring::{Design, Springs};
 use rocking::structure::Body;
 
-/// K_0 at alpha^3 Omega_n/p = 1: of the scales whose error is within a third of the least the one that rebounds least (`benches/stance.rs`).
+/// K_0 at alpha^3 Omega_n/p = 1: of the scales whose error is within a third of the least the one
+/// that rebounds least (`benches/stance.rs`).
 const K_SCALE: f64 = 1.3;
 /// The K that ever softer springs tend to.
 const K_LARGEST: f64 = 0.5;
-/// The K that ever stiffer springs tend to: below it no damping lets the absorber come back within the time that a landing is followed.
+/// The K that ever stiffer springs tend to: below it no damping lets the absorber come back within
+/// the time that a landing is followed.
 const K_LEAST: f64 = 0.003;
 /// Omega_n v_n/g from which on the stiff limit holds.
 const STIFF_LIMIT: f64 = 100.0;
-/// Omega_n v_n/g from which on all landings, gentle ones too, keep the restitution to 0.2 % (`tests/chart.rs`).
+/// Omega_n v_n/g from which on all landings, gentle ones too, keep the restitution to 0.2 %
+/// (`tests/chart.rs`).
 const LANDINGS_HOLD: f64 = 15.0;
-/// Slenderness, mass share and relative stiffness: all that the design depends on, each rounded to nine digits.
+/// Slenderness, mass share and relative stiffness: all that the design depends on, each rounded to
+/// nine digits.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Geometry {
     alpha: f64,
@@ -139,8 +150,8 @@ impl Geometry {
     }
 }
 
-/// Springs for what lands on these corners, of effective mass `m` vertically in units of its mass, at K; frequencies relative to the
-/// vertical Omega_n.
+/// Springs for what lands on these corners, of effective mass `m` vertically in units of its mass,
+/// at K; frequencies relative to the vertical Omega_n.
 pub(crate) fn for_landing(corners: &CornerDynamics<f64>, m: f64, k: f64) -> Springs<Design<f64>> {
     let Universal { k, c, mu, .. } = universal(k);
     let mut springs = Springs {
@@ -161,8 +172,9 @@ struct Horizontal {
     ratio: f64,
 }
 
-/// The largest error of the momentum about the new foot that the horizontal units may cause; an A-frame's old foot is pressed
-/// while they lag, a block's lifts at once. A share of 1e-3 of e is worth 1 to 2 % of a history.
+/// The largest error of the momentum about the new foot that the horizontal units may cause; an
+/// A-frame's old foot is pressed while they lag, a block's lifts at once. A share of 1e-3 of e is
+/// worth 1 to 2 % of a history.
 const MOMENTUM: f64 = 2e-6;
 
 const HORIZONTAL: Horizontal = Horizontal { k: 1.0, c: 2.0, mu: 0.3, ratio: 4.0 };
@@ -171,6 +183,15 @@ const HORIZONTAL: Horizontal = Horizontal { k: 1.0, c: 2.0, mu: 0.3, ratio: 4.0 
 fn nine_digits(x: f64) -> f64 {
     // a number that was printed can be read
     format!("{x:.8e}").parse().unwrap_or(x)
+}
+
+/// The springs that the geometry of a body gives at an Omega_n/p.
+pub fn springs_at_stiffness(body: &Body<f64>, stiffness: f64) -> Option<Springs<Design<f64>>> {
+    let mut springs = Geometry::of(body, stiffness).ok()?.springs();
+    let hz = stiffness * body.p_squared().sqrt() / TAU;
+    springs.vertical.omega_n_hz *= hz;
+    springs.horizontal.omega_n_hz *= hz;
+    Some(springs)
 }
 
 #[cfg(test)]

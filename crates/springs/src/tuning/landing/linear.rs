@@ -1,7 +1,8 @@
-//! Linear motion y' = A y, exactly: y(t) = exp(A t) y(0), by a Taylor series of A t/2^s and s squarings.
+//! Linear motion y' = A y, exactly: y(t) = exp(A t) y(0), by a Taylor series of A t/2^s and s
+//! squarings.
 //!
-//! Between two changes of contact a landing is linear, and of few coordinates: its matrix exponential is exact to rounding
-//! whatever the stiffness, and generic in the scalar.
+//! Between two changes of contact a landing is linear, and of few coordinates: its matrix
+//! exponential is exact to rounding whatever the stiffness, and generic in the scalar.
 
 use rocking::scalar::{Scalar, real};
 

@@ -1,17 +1,21 @@
 //! Springs for a part of an elastic structure that lands: a footing, a foot.
 //!
-//! **Horizontal units.** Such a part comes in sideways, too, and lifts as soon as it has landed: its horizontal units stop it by then. They are the
-//! unit on which a mass that it holds comes to rest soonest, four equal poles, for the mass that the corner feels across:
+//! **Horizontal units.** Such a part comes in sideways, too, and lifts as soon as it has landed:
+//! its horizontal units stop it by then. They are the unit on which a mass that it holds comes to
+//! rest soonest, four equal poles, for the mass that the corner feels across:
 //!
 //! ```text
 //!   mu s^4 + C s^3 + (1 + K + mu) s^2 + C s + K = mu (s + 1)^4:    K = 1/4, mu = 1/4, C = 1
 //! ```
 //!
-//! **The vertical chain** is sought on the landing itself (`plane`), about the universal one for the mass under the corner: that one knows neither
-//! the horizontal units nor the other corner, and a footing whose landing stops both corners comes to rest as two masses, its heave and its turning,
-//! on the same units. Sought are mu and C with the least energy left in other motions, among the chains on which each corner lifts once and neither
-//! is touched again by its absorber. A chain counts as the worse of itself and of one with a heavier absorber and dashpot: the least energy lies
-//! where the absorber just misses the foot, and under the weight of the structure, which presses the foot back, it then meets it again and again.
+//! **The vertical chain** is sought on the landing itself (`plane`), about the universal one for
+//! the mass under the corner: that one knows neither the horizontal units nor the other corner, and
+//! a footing whose landing stops both corners comes to rest as two masses, its heave and its
+//! turning, on the same units. Sought are mu and C with the least energy left in other motions,
+//! among the chains on which each corner lifts once and neither is touched again by its absorber. A
+//! chain counts as the worse of itself and of one with a heavier absorber and dashpot: the least
+//! energy lies where the absorber just misses the foot, and under the weight of the structure,
+//! which presses the foot back, it then meets it again and again.
 
 use argmin::{
     core::{CostFunction, Error, Executor},
@@ -28,16 +32,18 @@ use dynamics::spring::{Design, Springs};
 /// K = mu and C of the horizontal units.
 const DEAD_K: f64 = 0.25;
 const DEAD_C: f64 = 1.0;
-/// How much faster the horizontal units are: when the foot lifts, 2.3/Omega_n after its touch, they have left 9e-4 of its speed. Twice as fast, they
-/// would cost more touches and follow no better.
+/// How much faster the horizontal units are: when the foot lifts, 2.3/Omega_n after its touch, they
+/// have left 9e-4 of its speed. Twice as fast, they would cost more touches and follow no better.
 const FASTER: f64 = 6.0;
 /// By how much heavier the absorber and the dashpot may come out.
 const HEAVIER: f64 = 1.2;
-/// Touches and lifts of a landing that is over once both corners have lifted: the touch itself and two lifts.
+/// Touches and lifts of a landing that is over once both corners have lifted: the touch itself and
+/// two lifts.
 const FEWEST: usize = 3;
 /// What one change of contact more costs, over the energy left.
 const CHANGE: f64 = 10.0;
-/// Where the search begins: ln of mu and C over those of the universal chain, a triangle of heavier dashpots and lighter absorbers.
+/// Where the search begins: ln of mu and C over those of the universal chain, a triangle of heavier
+/// dashpots and lighter absorbers.
 const STARTS: [[f64; 2]; 3] = [[-0.9, 0.1], [-0.6, 0.1], [-0.9, 0.25]];
 /// Steps of the search, and the spread of the energies at which it ends.
 const STEPS: u64 = 60;
@@ -55,8 +61,8 @@ impl<F: Fn(&[f64]) -> f64> CostFunction for Search<F> {
     }
 }
 
-/// Springs for a part of an elastic structure that lands on these corners, in units of its mass, at K; frequencies relative to the vertical
-/// Omega_n.
+/// Springs for a part of an elastic structure that lands on these corners, in units of its mass, at
+/// K; frequencies relative to the vertical Omega_n.
 pub(crate) fn for_part(corners: &CornerDynamics<f64>, k: f64) -> Springs<Design<f64>> {
     let m = corners.effective_mass()[1];
     // free to turn: the horizontal units are the faster ones
@@ -100,8 +106,9 @@ mod tests {
         CornerDynamics::of(std::array::from_fn(|i| std::array::from_fn(|j| w(i, j))), 2.0 * b)
     }
 
-    /// Footings of any proportion, at any K: three changes of contact; where both corners stop, less energy left than on the universal chain. Where one
-    /// stops, that chain may leave less, and is touched again.
+    /// Footings of any proportion, at any K: three changes of contact; where both corners stop,
+    /// less energy left than on the universal chain. Where one stops, that chain may leave less,
+    /// and is touched again.
     #[test]
     fn a_landing_is_over_once_both_corners_have_lifted() {
         for (b, h, stops) in [

@@ -7,17 +7,21 @@
 //!   m2 a'' = -F - k2 a - c a'                   each direction's absorber
 //! ```
 //!
-//! No gravity, no large rotation; mass in units of the structure's, time in 1/Omega_n of the vertical units, the speed at
-//! which the new foot comes down is 1. The problem is positively homogeneous: twice the speed, twice the motion, so that its
-//! outcome holds for every landing in the limit Omega_n v_n >> g. Between changes of contact it is linear and followed
-//! exactly (`linear`); changes are located by Newton's method in the scalar, so that derivatives go through them.
+//! No gravity, no large rotation; mass in units of the structure's, time in 1/Omega_n of the
+//! vertical units, the speed at which the new foot comes down is 1. The problem is positively
+//! homogeneous: twice the speed, twice the motion, so that its outcome holds for every landing in
+//! the limit Omega_n v_n >> g. Between changes of contact it is linear and followed exactly
+//! (`linear`); changes are located by Newton's method in the scalar, so that derivatives go through
+//! them.
 //!
-//! The structure is anything with a rigid base on two corners: a rigid body, or the footing of an elastic pier (`corners`). What is right
-//! is the plastic landing with impulses J*; how far springs are from it is the energy of the velocities that they add to those after
-//! it, (J - J*)' W (J - J*), over what it takes, J*' W J*.
+//! The structure is anything with a rigid base on two corners: a rigid body, or the footing of an
+//! elastic pier (`corners`). What is right is the plastic landing with impulses J*; how far springs
+//! are from it is the energy of the velocities that they add to those after it, (J - J*)' W (J -
+//! J*), over what it takes, J*' W J*.
 //!
-//! Where the new corner alone is stopped, angular momentum about the new foot changes only by the old foot's impulse, H_new = H_before + 2b J_old:
-//! equation 2 holds exactly if and only if J_old = 0.
+//! Where the new corner alone is stopped, angular momentum about the new foot changes only by the
+//! old foot's impulse, H_new = H_before + 2b J_old: equation 2 holds exactly if and only if J_old =
+//! 0.
 
 use super::{
     chain::FOLLOWED,
@@ -50,7 +54,8 @@ pub struct PlaneLanding<S> {
     pub momentum: S,
     /// Vertical impulse through the old foot, J_old [m v_n]; never negative.
     pub old_impulse: S,
-    /// Energy of the velocities that differ from those after the plastic landing, over the energy that it takes.
+    /// Energy of the velocities that differ from those after the plastic landing, over the energy
+    /// that it takes.
     pub deviation: S,
     /// Fastest speed with which the new foot leaves the ground (v_n).
     pub rebound: S,
@@ -62,8 +67,8 @@ pub struct PlaneLanding<S> {
     pub complete: bool,
 }
 
-/// Land the structure on units of these designs, whose frequencies count relative to the vertical one's; followed to
-/// [`FOLLOWED`].
+/// Land the structure on units of these designs, whose frequencies count relative to the vertical
+/// one's; followed to [`FOLLOWED`].
 pub fn land<S: Scalar>(corners: &CornerDynamics<S>, springs: &Springs<Design<S>>) -> PlaneLanding<S> {
     let mut run = LandingRun::new(corners, springs);
     while run.time.re() < FOLLOWED && run.changes[0] + run.changes[1] < MOST_CHANGES {
@@ -146,7 +151,8 @@ impl<S: Scalar> LandingRun<S> {
         self.motion = (a, exponential(&a, real(self.step)));
     }
 
-    /// What must stay positive while a foot's contact lasts: its force, or its distance from the absorber.
+    /// What must stay positive while a foot's contact lasts: its force, or its distance from the
+    /// absorber.
     fn lasts(&self, foot: usize, y: &[S; N]) -> (S, S) {
         let z = 2 * foot + 1;
         let sign = if self.closed[foot] { 1.0 } else { -1.0 };

@@ -1,5 +1,5 @@
-//! One chain for every landing: C_u(K) and mu_u(K), the least rebound of a mass on a spring-absorber unit whose absorber does not come back
-//! to touch (`chain`).
+//! One chain for every landing: C_u(K) and mu_u(K), the least rebound of a mass on a
+//! spring-absorber unit whose absorber does not come back to touch (`chain`).
 
 use argmin::{
     core::{CostFunction, Error, Executor},
@@ -9,8 +9,8 @@ use num_dual::Dual64;
 
 use super::chain;
 
-/// Least K for which mu_u is sought: below it the rebound hardly depends on mu along the line of chains that graze, so that the least
-/// wanders, and mu_u stays what it is here.
+/// Least K for which mu_u is sought: below it the rebound hardly depends on mu along the line of
+/// chains that graze, so that the least wanders, and mu_u stays what it is here.
 const K_FLAT: f64 = 0.04;
 /// Where mu_u and C_u may lie.
 const MU: (f64, f64) = (0.45, 1.1);
@@ -45,8 +45,8 @@ pub fn universal(k: f64) -> Universal {
     grazing(k, mu)
 }
 
-/// The least damping with which the absorber of this K and mu does not come back: it just grazes (Newton's method with the
-/// derivative of the least distance, within a bracket).
+/// The least damping with which the absorber of this K and mu does not come back: it just grazes
+/// (Newton's method with the derivative of the least distance, within a bracket).
 fn grazing(k: f64, mu: f64) -> Universal {
     let (mut low, mut high) = C;
     let mut c = 0.6;

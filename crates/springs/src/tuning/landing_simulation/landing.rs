@@ -1,11 +1,13 @@
-//! One landing: the body is released at rest from a lean, lands on the other foot and swings to its next peak.
+//! One landing: the body is released at rest from a lean, lands on the other foot and swings to its
+//! next peak.
 //!
 //! ```text
 //!  growing part   (du' + p du) / u_H',  du = u - u_H      averaged over the rise to the next peak
 //! ```
 //!
-//! of the distance from Housner's free rocking: the body on one foot is an inverted pendulum, so that this part of a head start
-//! grows with exp(p t) and the other part dies. It counts what a landing leaves, too fast or too early.
+//! of the distance from Housner's free rocking: the body on one foot is an inverted pendulum, so
+//! that this part of a head start grows with exp(p t) and the other part dies. It counts what a
+//! landing leaves, too fast or too early.
 
 use std::ops::ControlFlow;
 

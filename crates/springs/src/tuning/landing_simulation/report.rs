@@ -34,7 +34,8 @@ pub struct LandingRow {
     pub restitution_error: f64,
     /// Time with both feet in the air (s).
     pub air_s: f64,
-    /// Fastest upward speed with which the landing foot lifts, over the speed with which it touched down; 0 if it stays or only sinks.
+    /// Fastest upward speed with which the landing foot lifts, over the speed with which it touched
+    /// down; 0 if it stays or only sinks.
     pub rebound: f64,
     /// Touch-downs until the next peak; 1 if nothing bounces.
     pub touch_downs: usize,
@@ -44,8 +45,8 @@ pub struct LandingRow {
     pub settlement_m: f64,
 }
 
-/// Landings of a body on these springs, which shall have the velocity restitution `restitution`; one whose run did not
-/// finish is left out.
+/// Landings of a body on these springs, which shall have the velocity restitution `restitution`;
+/// one whose run did not finish is left out.
 pub fn landings(body: &Body<f64>, chains: &Springs<Chain<f64>>, restitution: f64) -> Vec<LandingRow> {
     LEANS.par_iter().with_max_len(1).filter_map(|&lean| landing(body, chains, restitution, lean)).collect()
 }
@@ -98,7 +99,8 @@ fn with_next<T>(
     })
 }
 
-/// Ripple of the vertical force just before the impact after the one that follows a release from `lean`, share of the weight.
+/// Ripple of the vertical force just before the impact after the one that follows a release from
+/// `lean`, share of the weight.
 pub(super) fn ringing(
     body: &Body<f64>,
     chains: &Springs<Chain<f64>>,

@@ -1,14 +1,16 @@
-//! The first-order proof that a fit cannot be bettered nearby, and the Newton iteration that makes it exact.
+//! The first-order proof that a fit cannot be bettered nearby, and the Newton iteration that makes
+//! it exact.
 //!
-//! At a minimum of t(z) = max phi_i(z) in the box there are multipliers lambda_i >= 0 of the active points
-//! (phi_i = t) and nu of the active bounds with
+//! At a minimum of t(z) = max phi_i(z) in the box there are multipliers lambda_i >= 0 of the active
+//! points (phi_i = t) and nu of the active bounds with
 //!
 //! ```text
 //!  sum lambda_i = 1,   sum lambda_i grad phi_i = nu_low - nu_high
 //! ```
 //!
-//! The convex steps of the minimax give the active points and multipliers to the interior-point solver's tolerance;
-//! Newton's method on these equations and phi_i = t, in (z, t, lambda), then takes them to rounding.
+//! The convex steps of the minimax give the active points and multipliers to the interior-point
+//! solver's tolerance; Newton's method on these equations and phi_i = t, in (z, t, lambda), then
+//! takes them to rounding.
 
 use nalgebra::{DMatrix, DVector, Matrix2, Vector2};
 use serde::Serialize;
@@ -40,7 +42,8 @@ pub struct ActiveBound {
     pub multiplier: f64,
 }
 
-/// Active frequencies and bounds, multipliers, and how well they satisfy the conditions of a minimum.
+/// Active frequencies and bounds, multipliers, and how well they satisfy the conditions of a
+/// minimum.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct Certificate {
     pub active: Vec<Active>,
@@ -52,8 +55,8 @@ pub struct Certificate {
 }
 
 impl Certificate {
-    /// Whether the conditions of a minimum are met: the gradients balance to 1e-7 of their size, and the active
-    /// frequencies have one excess to 1e-9 of ln ARR.
+    /// Whether the conditions of a minimum are met: the gradients balance to 1e-7 of their size,
+    /// and the active frequencies have one excess to 1e-9 of ln ARR.
     pub fn holds(&self) -> bool {
         self.residual < 1e-7 && self.spread < 1e-9
     }
@@ -105,7 +108,8 @@ impl Problem<'_> {
                 sum[j] = 0.0;
             }
         }
-        // without any gradient (the target is met at a point that nothing moves) the conditions hold exactly
+        // without any gradient (the target is met at a point that nothing moves) the conditions
+        // hold exactly
         let residual = if size > 0.0 { sum.norm() / size } else { 0.0 };
         Certificate { active: rows, bounds, residual, spread }
     }
@@ -122,8 +126,9 @@ impl Problem<'_> {
         }
     }
 
-    /// Newton's method from near a minimum: the z it reaches with its active points and multipliers, or nothing if
-    /// that is no minimum (a multiplier has the wrong sign, a point has gone) or no better than `z` was.
+    /// Newton's method from near a minimum: the z it reaches with its active points and
+    /// multipliers, or nothing if that is no minimum (a multiplier has the wrong sign, a point has
+    /// gone) or no better than `z` was.
     pub(crate) fn polish(
         &self,
         z: &SearchParameters,
@@ -153,7 +158,8 @@ impl Problem<'_> {
             let shares: Vec<f64> = lambda.iter().map(|l| l.max(0.0) / total).collect();
             let certificate = self.certificate(&z, &active, &shares);
             let wrong = lambda.iter().any(|&l| l < -1e-9);
-            // 1e-9 of ln ARR: far above rounding (1e-15), far below what a different minimum would differ by
+            // 1e-9 of ln ARR: far above rounding (1e-15), far below what a different minimum would
+            // differ by
             let good = !wrong && certificate.holds() && largest(&now) < t_before + 1e-9;
             if good && certificate.residual < best_residual {
                 best_residual = certificate.residual;
@@ -183,7 +189,8 @@ impl Problem<'_> {
         active.iter().map(|point| follow(point, now).map(|index| now[index])).collect()
     }
 
-    /// One Newton step in z, and the new multipliers. Least squares of least norm where points depend on each other.
+    /// One Newton step in z, and the new multipliers. Least squares of least norm where points
+    /// depend on each other.
     fn newton(
         &self,
         z: &SearchParameters,
@@ -192,7 +199,8 @@ impl Problem<'_> {
     ) -> Option<(Vector2<f64>, Vec<f64>)> {
         let n = models.len();
         let top = models.iter().fold(f64::NEG_INFINITY, |top, model| top.max(model.value));
-        // slopes may be 1e-6 (a flat band is flat for any z): in units of the steepest all entries are of order one
+        // slopes may be 1e-6 (a flat band is flat for any z): in units of the steepest all entries
+        // are of order one
         let steepest = models.iter().map(|model| model.slope.norm()).fold(0.0, f64::max);
         let unit = if steepest > 0.0 { steepest } else { 1.0 };
         let w = models.iter().zip(lambda).map(|(model, &l)| model.curvature * (l / unit)).sum::<Matrix2<f64>>();
@@ -216,7 +224,8 @@ impl Problem<'_> {
             matrix[(2, 3 + i)] = 1.0;
         }
         right[2] = 1.0;
-        // elimination keeps the digits of badly scaled rows, which the singular value decomposition loses
+        // elimination keeps the digits of badly scaled rows, which the singular value decomposition
+        // loses
         let solution = match matrix.clone().full_piv_lu().solve(&right) {
             Some(solution) => solution,
             None => matrix.svd(true, true).solve(&right, 1e-12).ok()?,

@@ -1,11 +1,13 @@
-//! By how much a response exceeds the target: one curve over g for each band and side, and the curve's peaks.
+//! By how much a response exceeds the target: one curve over g for each band and side, and the
+//! curve's peaks.
 //!
 //! ```text
 //!  psi(g; z) = w [ s ( ln ARR(g; z) - ref ) - ln limit ],   z = (ln K, ln C),   t(z) = max over curves and g of psi
 //! ```
 //!
-//! At a peak inside its band g follows z (d psi/du = 0, u = ln g), and the peak's value phi(z) has by the implicit
-//! function theorem the gradient psi_z and the Hessian psi_zz - psi_zu psi_uz / psi_uu.
+//! At a peak inside its band g follows z (d psi/du = 0, u = ln g), and the peak's value phi(z) has
+//! by the implicit function theorem the gradient psi_z and the Hessian psi_zz - psi_zu psi_uz /
+//! psi_uu.
 
 use nalgebra::{Matrix2, SVector, Vector2, vector};
 use num_dual::{Dual2SVec64, DualNum, first_derivative, hessian, second_derivative};
@@ -14,8 +16,8 @@ use crate::response::Response;
 use crate::response::target::{BandKind, Target};
 use rocking::scalar::{Scalar, real};
 
-/// The searched parameters z = (ln K, ln C). At fixed mu, ln f and ln xi are half of the first and the second, plus
-/// constants; K and C keep a size near one for every mu.
+/// The searched parameters z = (ln K, ln C). At fixed mu, ln f and ln xi are half of the first and
+/// the second, plus constants; K and C keep a size near one for every mu.
 pub(crate) type SearchParameters = Vector2<f64>;
 
 /// The response of mass ratio mu at parameters z.
@@ -117,8 +119,9 @@ impl BoundSide {
 
     /// The ends of the band and every peak inside it, in the order of g, for mass ratio mu at z.
     ///
-    /// Peaks are bracketed by the sign of d psi/du on a grid that holds the response's own corner frequencies, so a
-    /// resonance however sharp is not stepped over, and found to rounding by Newton's method.
+    /// Peaks are bracketed by the sign of d psi/du on a grid that holds the response's own corner
+    /// frequencies, so a resonance however sharp is not stepped over, and found to rounding by
+    /// Newton's method.
     fn points(&self, index: usize, mu: f64, z: &SearchParameters, out: &mut Vec<ExcessPoint>) {
         let response = response(mu, z);
         let end = |g: f64| ExcessPoint { curve: index, g, inside: false, value: self.at_end(g, &response) };
@@ -157,7 +160,8 @@ impl BoundSide {
         for pair in corners.windows(2) {
             grid.extend((0..=BETWEEN).map(|i| pair[0] + (pair[1] - pair[0]) * i as f64 / BETWEEN as f64));
         }
-        // both ends exactly, not a rounding short of them: a peak just inside an end is bracketed by it
+        // both ends exactly, not a rounding short of them: a peak just inside an end is bracketed
+        // by it
         grid.retain(|&g| g > low && g < high);
         grid.extend([low, high]);
         grid.sort_by(f64::total_cmp);
@@ -203,7 +207,8 @@ impl BoundSide {
         let at = |v: SVector<Dual2SVec64<3>, 3>| self.excess(v[2].exp(), &response(mu, &vector![v[0], v[1]]));
         let (_, slope, second) = hessian(at, &vector![z[0], z[1], point.g.ln()]);
         let (slope, cross) = (slope.fixed_rows::<2>(0).into_owned(), second.fixed_view::<2, 1>(0, 2).into_owned());
-        // psi_uu < 0 at a peak; one that is about to vanish (psi_uu -> 0) keeps a finite, convex model
+        // psi_uu < 0 at a peak; one that is about to vanish (psi_uu -> 0) keeps a finite, convex
+        // model
         let bend = second[(2, 2)].min(-1e-9);
         let curvature = second.fixed_view::<2, 2>(0, 0) - cross * cross.transpose() / bend;
         QuadraticModel { value: point.value, slope, curvature }
@@ -250,7 +255,8 @@ mod tests {
         })
     }
 
-    /// Peaks of ARR are those roots x = g^2 of N'D - ND' where it falls; here by brute force on a fine grid.
+    /// Peaks of ARR are those roots x = g^2 of N'D - ND' where it falls; here by brute force on a
+    /// fine grid.
     #[test]
     fn nothing_on_a_fine_grid_exceeds_the_points() {
         for (mu, z) in designs() {
@@ -318,7 +324,8 @@ mod tests {
                 for j in 0..2 {
                     let [(after, slope_after), (before, slope_before)] =
                         [1.0, -1.0].map(|side| at(z + Vector2::ith(j, side * h)));
-                    // central differences: h^2 = 1e-8 times third derivatives, here up to a few hundred
+                    // central differences: h^2 = 1e-8 times third derivatives, here up to a few
+                    // hundred
                     let scale = 1.0 + model.slope.norm() + model.curvature.norm();
                     let first = (after - before) / (2.0 * h) - model.slope[j];
                     let second = (slope_after - slope_before) / (2.0 * h) - model.curvature.column(j);

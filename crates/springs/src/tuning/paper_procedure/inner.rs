@@ -1,11 +1,13 @@
-//! The inner fit: f and xi of a given mu, so that the frequency response follows the target as closely as it can.
+//! The inner fit: f and xi of a given mu, so that the frequency response follows the target as
+//! closely as it can.
 //!
 //! ```text
 //!  minimise over (f, xi)   t = max over bands and g of the excess      (see `response::target`)
 //! ```
 //!
-//! Stage 1 (`smooth`) minimises a smooth stand-in by L-BFGS from several starts; stage 2 (`minimax`) takes the best
-//! of them to the minimum by convex steps; a certificate of optimality comes with every fit.
+//! Stage 1 (`smooth`) minimises a smooth stand-in by L-BFGS from several starts; stage 2
+//! (`minimax`) takes the best of them to the minimum by convex steps; a certificate of optimality
+//! comes with every fit.
 
 use nalgebra::Vector2;
 use serde::Serialize;
@@ -24,7 +26,8 @@ use crate::response::target::{Target, TargetError};
 pub enum FitOutcome {
     /// A minimum, confirmed by its certificate.
     Converged,
-    /// The best that was found; the certificate's residual tells how far the conditions are from met.
+    /// The best that was found; the certificate's residual tells how far the conditions are from
+    /// met.
     NotConverged,
 }
 
@@ -47,7 +50,8 @@ pub struct Fit {
     pub peak_g: f64,
     /// ARR(0) = 1 + 1/K.
     pub arr_at_zero: f64,
-    /// The largest excess over the target; zero or less if the target is met. ln(peak) for the default target.
+    /// The largest excess over the target; zero or less if the target is met. ln(peak) for the
+    /// default target.
     pub excess: f64,
     pub outcome: FitOutcome,
     /// Convex steps of the minimax.
@@ -104,7 +108,8 @@ pub fn fit(mu: f64, target: &Target, bounds: &Bounds) -> Result<Fit, FitError> {
     let mut best: Option<Minimum> = None;
     for end in &ends {
         let found = minimise(&problem, end);
-        // a later one must be better by more than rounding, so that the order of starts decides ties
+        // a later one must be better by more than rounding, so that the order of starts decides
+        // ties
         if best.as_ref().is_none_or(|best| found.excess < best.excess - 1e-12) {
             best = Some(found);
         }
@@ -119,7 +124,8 @@ pub fn families(mus: &[f64]) -> Result<Vec<Fit>, FitError> {
     mus.par_iter().map(|&mu| fit(mu, &Target::default(), &Bounds::default())).collect()
 }
 
-/// Starts for stage 1: K about the closed forms' (1/2 for small mu, mu - 1 for large) and away from them.
+/// Starts for stage 1: K about the closed forms' (1/2 for small mu, mu - 1 for large) and away from
+/// them.
 fn starts(mu: f64) -> Vec<SearchParameters> {
     let mut out = Vec::new();
     for k in [0.5, 1.0, mu.max(0.1), 4.0, 20.0] {

@@ -6,9 +6,10 @@
 //!                         low <= z + d <= high,  |d| <= Delta
 //! ```
 //!
-//! Each step is a quadratic program for clarabel, whose duals are the lambda of the next; the peaks are found anew
-//! after each step. Two parameters are often held by only two frequencies (both fixed points, or g = 0 and the lower
-//! one): the curvature W of the peaks then fixes the rest, and steps without it (W = 0) would only creep.
+//! Each step is a quadratic program for clarabel, whose duals are the lambda of the next; the peaks
+//! are found anew after each step. Two parameters are often held by only two frequencies (both
+//! fixed points, or g = 0 and the lower one): the curvature W of the peaks then fixes the rest, and
+//! steps without it (W = 0) would only creep.
 
 use clarabel::algebra::CscMatrix;
 use clarabel::solver::{DefaultSettingsBuilder, DefaultSolver, IPSolver, NonnegativeConeT, SolverStatus};
@@ -31,7 +32,8 @@ pub(crate) struct Minimum {
 
 /// Steps before giving up; a usual fit takes 5 to 15.
 const ITERATIONS: usize = 100;
-/// A frequency holds the fit if it has more than this share of the multipliers or of the balance of gradients.
+/// A frequency holds the fit if it has more than this share of the multipliers or of the balance of
+/// gradients.
 const ACTIVE: f64 = 1e-5;
 /// Within this distance of the answer (in ln K, ln C) Newton's method is worth a try.
 const NEAR: f64 = 1e-2;
@@ -68,8 +70,8 @@ pub(crate) fn minimise(problem: &Problem, start: &SearchParameters) -> Minimum {
             break;
         }
         let mut trial = MinimaxTrial::at(problem, &z, &step.d);
-        // Along a curved valley between two peaks the straight step is turned down however short (Maratos); a second
-        // step with what the first did to each peak follows the valley.
+        // Along a curved valley between two peaks the straight step is turned down however short
+        // (Maratos); a second step with what the first did to each peak follows the valley.
         if t - trial.t < 0.75 * step.gain {
             let bent = corrected(&models, &points, &trial.points, &step.d);
             if let Some(second) = convex_step(problem, &z, t, &bent, &convex(w), radius) {
@@ -174,7 +176,8 @@ fn convex_step(
     let mut solver =
         DefaultSolver::new(&quadratic, &[0.0, 0.0, 1.0], &CscMatrix::from(&rows), &right, &cones, settings).ok()?;
     solver.solve();
-    // AlmostSolved: short of 1e-12 but within 1e-4; good enough for a step, the polish does the rest
+    // AlmostSolved: short of 1e-12 but within 1e-4; good enough for a step, the polish does the
+    // rest
     if !matches!(solver.solution.status, SolverStatus::Solved | SolverStatus::AlmostSolved) {
         return None;
     }

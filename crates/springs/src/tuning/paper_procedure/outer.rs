@@ -1,12 +1,14 @@
-//! The outer loop: Omega_n, vertical and horizontal, by the error of the finite element history against Housner's.
+//! The outer loop: Omega_n, vertical and horizontal, by the error of the finite element history
+//! against Housner's.
 //!
 //! ```text
 //!  minimise over (Omega_v, Omega_h, families)   J = sum (u - u_H)^2 / sum u_H^2 + sum (v - v_H)^2 / sum v_H^2
 //! ```
 //!
-//! The landscape is rugged: it is sampled first (a low-discrepancy sequence over both frequencies and all pairs of
-//! families, in parallel), then the best few samples are refined by Nelder-Mead. A candidate whose running error
-//! exceeds the best is abandoned. Batches of fixed size make the answer independent of the number of threads.
+//! The landscape is rugged: it is sampled first (a low-discrepancy sequence over both frequencies
+//! and all pairs of families, in parallel), then the best few samples are refined by Nelder-Mead. A
+//! candidate whose running error exceeds the best is abandoned. Batches of fixed size make the
+//! answer independent of the number of threads.
 
 use std::ops::ControlFlow;
 
@@ -24,8 +26,8 @@ use dynamics::{
 };
 use rocking::{motion::Motion, scalar::GRAVITY, structure::Body};
 
-/// Candidates judged against one threshold: more would abandon later, fewer would idle threads. The first batches, which
-/// know no good threshold yet, are smaller.
+/// Candidates judged against one threshold: more would abandon later, fewer would idle threads. The
+/// first batches, which know no good threshold yet, are smaller.
 const BATCH: usize = 16;
 const FIRST_BATCH: usize = 2;
 /// Samples that are refined.
@@ -126,7 +128,8 @@ impl Benchmark<'_> {
 }
 
 impl Bracket {
-    /// Least settlement of a body whose vertical chain has the stiffness ratio K = k2/k1: on the stiffest springs (m).
+    /// Least settlement of a body whose vertical chain has the stiffness ratio K = k2/k1: on the
+    /// stiffest springs (m).
     pub(crate) fn least_settlement(&self, k: f64) -> f64 {
         0.5 * GRAVITY * (1.0 + 1.0 / k) / (std::f64::consts::TAU * self.max_hz).powi(2)
     }
@@ -199,7 +202,8 @@ fn radical_inverse(mut i: usize, base: usize) -> f64 {
 
 /// Tune Omega_n over all pairs of families.
 ///
-/// `progress` is called with the number of evaluations done, the number planned and the least error so far.
+/// `progress` is called with the number of evaluations done, the number planned and the least error
+/// so far.
 pub(crate) fn tune(
     benchmark: &Benchmark,
     vertical: &[Fit],
@@ -212,7 +216,8 @@ pub(crate) fn tune(
     if pairs.is_empty() {
         return None;
     }
-    // stiffer springs follow better as a rule: the square root puts more samples there; the first of each pair is stiffest
+    // stiffer springs follow better as a rule: the square root puts more samples there; the first
+    // of each pair is stiffest
     let plan: Vec<(usize, [f64; 2])> = (0..samples.max(pairs.len()))
         .map(|i| {
             let (pair, round) = (i % pairs.len(), i / pairs.len());
@@ -228,8 +233,8 @@ pub(crate) fn tune(
     Some(tuned)
 }
 
-/// Follow springs found for another stiffness (`from_hz`) to this bracket's: from the best of them, scaled, and of all pairs
-/// of families at their stiffest.
+/// Follow springs found for another stiffness (`from_hz`) to this bracket's: from the best of them,
+/// scaled, and of all pairs of families at their stiffest.
 pub fn follow(
     benchmark: &Benchmark,
     vertical: &[Fit],

@@ -1,11 +1,13 @@
-//! Stage 1 of the inner fit: a smooth stand-in for the largest excess, minimised by L-BFGS with exact gradients.
+//! Stage 1 of the inner fit: a smooth stand-in for the largest excess, minimised by L-BFGS with
+//! exact gradients.
 //!
 //! ```text
 //!  F(z) = 1/beta ln sum_j exp( beta psi(g_j; z) ),   max psi <= F <= max psi + ln(n)/beta
 //! ```
 //!
-//! The g_j are a fixed grid, and the response's resonances and fixed points, which follow z and so never miss a sharp
-//! peak; all are held inside their band. Bounds are mapped away: z = low + (high - low)/(1 + exp(-q)), q free.
+//! The g_j are a fixed grid, and the response's resonances and fixed points, which follow z and so
+//! never miss a sharp peak; all are held inside their band. Bounds are mapped away: z = low + (high
+//! - low)/(1 + exp(-q)), q free.
 
 use argmin::core::{CostFunction, Error, Executor, Gradient, State};
 use argmin::solver::linesearch::MoreThuenteLineSearch;
@@ -17,9 +19,11 @@ use super::excess::{BoundSide, SearchParameters, response};
 use crate::response::bounds::Region;
 use rocking::scalar::{Scalar, real};
 
-/// Sharpness: F exceeds the largest psi by at most ln(60)/30 = 0.14, near enough to start the minimax from.
+/// Sharpness: F exceeds the largest psi by at most ln(60)/30 = 0.14, near enough to start the
+/// minimax from.
 const BETA: f64 = 30.0;
-/// The fixed grid: 36 points over these decades of g; the optimum's peaks lie between g = 0.1 and 2.
+/// The fixed grid: 36 points over these decades of g; the optimum's peaks lie between g = 0.1 and
+/// 2.
 const GRID: (f64, f64, usize) = (1e-2, 1e2, 36);
 /// L-BFGS needs 10 to 20 iterations; more would polish what the minimax replaces.
 const ITERATIONS: u64 = 30;
@@ -67,7 +71,8 @@ impl Smooth<'_> {
         (0..2).map(|i| (share(i) / (1.0 - share(i))).ln()).collect()
     }
 
-    /// The z that L-BFGS reaches from `start`, and its iterations. Where the line search gives up, what it had.
+    /// The z that L-BFGS reaches from `start`, and its iterations. Where the line search gives up,
+    /// what it had.
     pub(crate) fn minimise(&self, start: &SearchParameters) -> (SearchParameters, u64) {
         let solver = LBFGS::new(MoreThuenteLineSearch::new(), 5).with_tolerance_grad(1e-5);
         let start = self.region.clamp(start);
@@ -138,7 +143,8 @@ mod tests {
         let value = |q: Vector2<f64>| smooth.value(&smooth.z(&q));
         let (_, slope) = gradient(|q| smooth.value(&smooth.z(&q)), &q);
         for j in 0..2 {
-            // five points, h = 1e-3: error of order h^4 = 1e-12 times F's fifth derivative, rounding 1e-13
+            // five points, h = 1e-3: error of order h^4 = 1e-12 times F's fifth derivative,
+            // rounding 1e-13
             let at = |steps: f64| value(q + Vector2::ith(j, 1e-3 * steps));
             let difference = (8.0 * (at(1.0) - at(-1.0)) - (at(2.0) - at(-2.0))) / 12e-3;
             assert!((slope[j] - difference).abs() < 1e-8 * slope.norm(), "{} {difference}", slope[j]);

@@ -18,10 +18,12 @@ fn is_zero(count: &usize) -> bool {
     *count == 0
 }
 
-/// The error of springs against Housner, measured; `None` where there is no motion to measure it on.
+/// The error of springs against Housner, measured; `None` where there is no motion to measure it
+/// on.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]
 pub struct Accuracy {
-    /// NRMSE of u or v, the larger, on the record at hand, if Housner's answer to it is well conditioned.
+    /// NRMSE of u or v, the larger, on the record at hand, if Housner's answer to it is well
+    /// conditioned.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub record: Option<f64>,
     /// Median over the well-conditioned of the synthetic motions made for the structure.
@@ -36,18 +38,22 @@ pub struct Accuracy {
     /// How many of these were scaled down to what the structure stands.
     #[serde(default, skip_serializing_if = "is_zero")]
     pub earthquakes_scaled_down: usize,
-    /// The same with three standard errors on top: more than other earthquakes are likely to give, and what Omega_n is chosen by.
+    /// The same with three standard errors on top: more than other earthquakes are likely to give,
+    /// and what Omega_n is chosen by.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub earthquakes_upper: Option<f64>,
 }
 
-/// Standard errors of the earthquake-like motions' mean on top of it that are aimed at: they are few, and real records differ from them.
+/// Standard errors of the earthquake-like motions' mean on top of it that are aimed at: they are
+/// few, and real records differ from them.
 pub(crate) const ERRORS: i32 = 3;
-/// How much more the 90 % quantile and the earthquake-like motions may have than the accuracy asked for.
+/// How much more the 90 % quantile and the earthquake-like motions may have than the accuracy asked
+/// for.
 pub const LOOSER: f64 = 5.0;
 
 impl Accuracy {
-    /// Whether an accuracy is reached: by the record, the synthetic motions and the mean of the earthquake-like ones itself.
+    /// Whether an accuracy is reached: by the record, the synthetic motions and the mean of the
+    /// earthquake-like ones itself.
     pub fn reaches(&self, accuracy: f64) -> bool {
         let earthquakes =
             self.earthquakes_mean.is_none_or(|mean| mean.value <= self.looser_on_earthquakes() * accuracy);
@@ -55,14 +61,16 @@ impl Accuracy {
         earthquakes && others.iter().filter_map(|suite| self.over_on(*suite, accuracy)).all(|over| over <= 1.0)
     }
 
-    /// How much more than the accuracy the earthquake-like motions may have: [`LOOSER`] as they are, nothing more those scaled down, which are no
-    /// stronger than the synthetic ones; between these in the mean of both.
+    /// How much more than the accuracy the earthquake-like motions may have: [`LOOSER`] as they
+    /// are, nothing more those scaled down, which are no stronger than the synthetic ones; between
+    /// these in the mean of both.
     pub fn looser_on_earthquakes(&self) -> f64 {
         let share = |mean: Statistic| 1.0 - self.earthquakes_scaled_down as f64 / mean.count.max(1) as f64;
         LOOSER.powf(self.earthquakes_mean.map_or(1.0, share))
     }
 
-    /// The largest error, in units of what an accuracy allows: at most 1 if it is surely reached; 0 if nothing was measured.
+    /// The largest error, in units of what an accuracy allows: at most 1 if it is surely reached; 0
+    /// if nothing was measured.
     pub(crate) fn over(&self, accuracy: f64) -> f64 {
         JudgedOn::ALL.iter().filter_map(|suite| self.over_on(*suite, accuracy)).fold(0.0, f64::max)
     }
@@ -82,7 +90,8 @@ impl Accuracy {
     }
 }
 
-/// The errors of the largest displacement, uplift and forces between landings (`validate::peaks`), on the same motions.
+/// The errors of the largest displacement, uplift and forces between landings (`validate::peaks`),
+/// on the same motions.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]
 pub struct PeakAccuracy {
     /// Of the one with the largest error, motion by motion.
@@ -148,15 +157,17 @@ impl JudgedOn {
     pub(crate) const ALL: [Self; 3] = [Self::Record, Self::Synthetic, Self::Earthquakes];
 }
 
-/// The q-quantile of sorted numbers, linear between the two nearest ranks; infinite if it falls on an infinite one.
+/// The q-quantile of sorted numbers, linear between the two nearest ranks; infinite if it falls on
+/// an infinite one.
 pub(crate) fn quantile(sorted: &[f64], q: f64) -> Option<f64> {
     let rank = q * sorted.len().checked_sub(1)? as f64;
     let (low, share) = (rank.floor() as usize, rank.fract());
     Some(if share == 0.0 { sorted[low] } else { sorted[low] * (1.0 - share) + sorted[low + 1] * share })
 }
 
-/// Geometric mean, and the factor of its standard error; a history that lost the motion altogether counts as one that stands
-/// still, lest one decide for all. A factor of e is the spread that few motions are taken to have: it counts as one of them.
+/// Geometric mean, and the factor of its standard error; a history that lost the motion altogether
+/// counts as one that stands still, so that no single motion dominates. A factor of e is the spread
+/// that few motions are taken to have: it counts as one of them.
 pub(crate) fn geometric_mean(errors: impl ExactSizeIterator<Item = f64> + Clone) -> Option<(f64, f64)> {
     let n = errors.len() as f64;
     let logarithms = errors.map(|e| e.clamp(1e-12, 1.0).ln());
@@ -181,7 +192,8 @@ mod tests {
             earthquakes_upper: Some(1.2e-2),
         };
         assert!((accuracy.over(2e-3) - 1.2).abs() < 1e-12);
-        // the mean of the earthquake-like motions is within 5 times as much, with its standard errors it is not
+        // the mean of the earthquake-like motions is within 5 times as much, with its standard
+        // errors it is not
         assert!(accuracy.reaches(2e-3) && !accuracy.reaches(1.7e-3));
         assert_eq!(Accuracy::default().over(2e-3), 0.0);
         // half of them scaled down: sqrt(5) times as much

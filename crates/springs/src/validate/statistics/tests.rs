@@ -44,8 +44,8 @@ fn records_of_free_flight_are_counted_and_not_compared() {
     assert!(all.nrmse_well_conditioned.p90.is_some_and(|p90| (p90 - 0.1).abs() < 1e-15));
 }
 
-/// F_a steps by 1/4 at 1, 2, 3, 4; F_b by 1/5 at 2.5, 3.5, 3.6, 3.7, 5. At x = 2: 2/4 - 0 = 0.5; at 3: 3/4 - 1/5 = 0.55;
-/// at 3.7: 3/4 - 4/5; at 4: 1 - 4/5.
+/// F_a steps by 1/4 at 1, 2, 3, 4; F_b by 1/5 at 2.5, 3.5, 3.6, 3.7, 5. At x = 2: 2/4 - 0 = 0.5; at
+/// 3: 3/4 - 1/5 = 0.55; at 3.7: 3/4 - 4/5; at 4: 1 - 4/5.
 #[test]
 fn the_ks_distance_is_that_of_a_case_worked_by_hand() {
     let (a, b) = ([3.0, 1.0, 4.0, 2.0], [5.0, 3.7, 2.5, 3.5, 3.6]);
@@ -76,7 +76,8 @@ fn overturning_is_counted_in_two_by_two_and_failures_apart() {
     assert_eq!(all.all.overturning, Confusion { both: 1, housner_only: 1, fem_only: 1, neither: 1, failed: 1 });
     assert_eq!(all.all.overturning_agreement, 2.0 / 5.0);
     assert_eq!(all.all.failed, ["made-up"]);
-    // Housner 0.5 0.5 0.9 8 8 against 0.5 0.9 8 8 and the failure beyond: at 0.5 and at 0.9 one in five apart, at 8 too
+    // Housner 0.5 0.5 0.9 8 8 against 0.5 0.9 8 8 and the failure beyond: at 0.5 and at 0.9 one in
+    // five apart, at 8 too
     assert!((all.all.ks_distance - 0.2).abs() < 1e-15);
 }
 

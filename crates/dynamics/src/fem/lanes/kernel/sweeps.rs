@@ -35,7 +35,8 @@ impl Kernel {
             translation: f(12),
             rotation: f(13),
             law: ContactLaw::Sticking,
-            // written out: of a constant the compiler copies the bytes, and then does not see that there are none
+            // written out: of a constant the compiler copies the bytes, and then does not see that
+            // there are none
             elements: Elements { dampers: None, tendon: None },
             skip_open: true,
         }
@@ -299,7 +300,8 @@ impl Kernel {
         (input, model.dissipation(&q, &v, &self.feet(l)) * weight)
     }
 
-    /// The gaps' compressions at the nodes, and whether they leave every contact what it is (`run/met`).
+    /// The gaps' compressions at the nodes, and whether they leave every contact what it is
+    /// (`run/met`).
     #[inline(always)]
     pub(super) fn contacts(&mut self) {
         for l in 0..WIDTH {

@@ -9,8 +9,8 @@ fn standing() -> Standing {
     Standing::new(&pier, &DVector::zeros(5)).unwrap()
 }
 
-/// The units that a free block of half width b and half height h, (b^2 + h^2)/3 = I/m, would have, its mass 1. Across, its corner feels 1/W_xx =
-/// m/(1 + h^2/(I/m)), and stops by four equal poles.
+/// The units that a free block of half width b and half height h, (b^2 + h^2)/3 = I/m, would have,
+/// its mass 1. Across, its corner feels 1/W_xx = m/(1 + h^2/(I/m)), and stops by four equal poles.
 #[test]
 fn units_are_those_of_the_footing_alone() {
     let pier = Pier::new([6e5, 12.0, 2.0], [2.0, 0.02], [6e4, 1.8]).with_axial(4e9, 0.02);

@@ -29,12 +29,14 @@ fn a_rigid_body_is_what_its_w_says() {
     }
 }
 
-/// A wide footing of mass m, width 2b: both corners share its momentum m v/2, and its rotation stops, J_new - J_old = I/(2b) v/2b over b.
+/// A wide footing of mass m, width 2b: both corners share its momentum m v/2, and its rotation
+/// stops, J_new - J_old = I/(2b) v/2b over b.
 #[test]
 fn a_wide_footing_lands_on_both_corners() {
     let body = CornerDynamics::<f64>::rigid(1.2, 0.75);
     let (b, h): (f64, f64) = (1.2_f64.sin(), 1.2_f64.cos());
-    // about the middle of the sole; the body turns at 1/(2b), its centre moves at 1/2 downwards and h/(2b) across
+    // about the middle of the sole; the body turns at 1/(2b), its centre moves at 1/2 downwards and
+    // h/(2b) across
     let inertia = 1.0 / 3.0 + h * h;
     let sum = 0.5;
     let difference = inertia / (2.0 * b) / b;
@@ -43,8 +45,8 @@ fn a_wide_footing_lands_on_both_corners() {
     assert!(body.plastic[1] > 0.0);
 }
 
-/// One chain, scaled by the effective mass, serves what tips over its new corner and what stops on both: what it adds to the plastic
-/// landing falls with K as the square of the chain's own rebound.
+/// One chain, scaled by the effective mass, serves what tips over its new corner and what stops on
+/// both: what it adds to the plastic landing falls with K as the square of the chain's own rebound.
 #[test]
 fn the_universal_chain_lands_rigid_bodies_and_footings() {
     for alpha in [0.1_f64, 0.4, 0.785, 1.0, 1.2, 1.4] {
