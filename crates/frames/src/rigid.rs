@@ -4,11 +4,14 @@
 //! ```text
 //!   mass at (x, z) from the pivot of side s:   x = -s b cos theta + h sin theta,   z = s b sin theta + h cos theta
 //!   force on it   F = m (x'' + a_g,  z'' + a_v + g),     x'' = z theta'' - x theta'^2,  z'' = -x theta'' - z theta'^2
-//!   base shear F_x,   column shear F . e_1,   axial force -(F . e_2),   moment at the column's foot (F . e_1) L
+//!   base shear sum F_x,   column shear sum F . e_1,   axial force -sum F . e_2
+//!   moment at the column's foot   sum (F . e_1) (h - h_f)
 //!   e_1 = (cos theta, -sin theta),  e_2 = (sin theta, cos theta)
 //! ```
 //!
-//! An impact's impulse is not among them: they are forces between impacts.
+//! The sums are over the mass and its column, whose mass stands in halves at the two points of
+//! Gauss's quadrature: exact, as force times height is a square of the height at most. An impact's
+//! impulse is not among them: they are forces between impacts.
 
 use super::structure::ElasticStructure;
 use rocking::{
@@ -22,7 +25,7 @@ use strong_motion::Record;
 pub struct RigidForces {
     /// Lean (rad).
     pub theta: Vec<f64>,
-    /// Horizontal force on the mass (N).
+    /// Horizontal force on all above the footing (N).
     pub base_shear: Vec<f64>,
     /// Force across the column's axis (N); empty of an A-frame.
     pub shear: Vec<f64>,
@@ -35,11 +38,21 @@ pub struct RigidForces {
 impl RigidForces {
     /// Through a record; `None` of a frame, which is not one rigid body.
     pub(crate) fn of(structure: &ElasticStructure, record: &Record) -> Option<Self> {
-        let (mass, h, length) = match structure {
-            ElasticStructure::Pier(pier) => (pier.moving_mass(), pier.height_m, Some(pier.length())),
-            ElasticStructure::AFrame(frame) => (frame.mass_kg, frame.height_m, None),
+        // masses (kg), their heights above the ground and above the column's foot (m)
+        let masses = match structure {
+            ElasticStructure::Pier(pier) => {
+                let (length, foot, half) = (pier.length(), pier.height_m - pier.length(), 0.5 * pier.column_mass_kg);
+                let points = [-1.0, 1.0].map(|side: f64| 0.5 * length * (1.0 + side / 3.0_f64.sqrt()));
+                vec![
+                    (pier.mass_kg, pier.height_m, length),
+                    (half, foot + points[0], points[0]),
+                    (half, foot + points[1], points[1]),
+                ]
+            }
+            ElasticStructure::AFrame(frame) => vec![(frame.mass_kg, frame.height_m, 0.0)],
             ElasticStructure::Frame(_) => return None,
         };
+        let column = matches!(structure, ElasticStructure::Pier(_));
         let body = structure.body();
         let vertical = record.vertical.as_ref().map(|vertical| vertical.accel.clone());
         let options = RockingOptions { vertical: vertical.clone(), ..RockingOptions::default() };
@@ -55,15 +68,20 @@ impl RigidForces {
             let turn =
                 if stands { 0.0 } else { -p2 * ((1.0 + a_v / GRAVITY) * lean.sin() + a_g / GRAVITY * lean.cos()) };
             let (sin, cos) = theta.sin_cos();
-            let (x, z) = (h * sin - s * b * cos, h * cos + s * b * sin);
-            let force =
-                [mass * (z * turn - x * rate * rate + a_g), mass * (-x * turn - z * rate * rate + a_v + GRAVITY)];
+            let (mut force, mut moment) = ([0.0; 2], 0.0);
+            for &(mass, h, arm) in &masses {
+                let (x, z) = (h * sin - s * b * cos, h * cos + s * b * sin);
+                let of =
+                    [mass * (z * turn - x * rate * rate + a_g), mass * (-x * turn - z * rate * rate + a_v + GRAVITY)];
+                force = [force[0] + of[0], force[1] + of[1]];
+                moment += (of[0] * cos - of[1] * sin) * arm;
+            }
             out.theta.push(theta);
             out.base_shear.push(force[0]);
-            if let Some(length) = length {
+            if column {
                 out.axial.push(-(force[0] * sin + force[1] * cos));
                 out.shear.push(force[0] * cos - force[1] * sin);
-                out.moment.push((force[0] * cos - force[1] * sin) * length);
+                out.moment.push(moment);
             }
         }
         Some(out)
@@ -73,6 +91,7 @@ impl RigidForces {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::structure::PierSpec;
 
     fn pier() -> ElasticStructure {
         toml::from_str(
@@ -90,6 +109,19 @@ mod tests {
         assert!(forces.base_shear.iter().all(|x| (x - 300e3).abs() < 1e-6));
         assert!(forces.axial.iter().all(|x| (x + 600e3 * GRAVITY).abs() < 1e-6));
         assert!(forces.moment.iter().all(|x| (x - 300e3 * 10.5).abs() < 1e-5));
+    }
+
+    /// A column's mass is carried, too: at its foot all of it, with half its length as lever.
+    #[test]
+    fn a_column_s_own_mass_is_borne() {
+        let ElasticStructure::Pier(bare) = pier() else { panic!("a pier") };
+        let heavy = ElasticStructure::Pier(PierSpec { column_mass_kg: 90e3, ..bare });
+        let record = Record::new("step", 0.01, vec![0.5; 10]).unwrap();
+        let forces = RigidForces::of(&heavy, &record).unwrap();
+        assert!(forces.base_shear.iter().all(|x| (x - 345e3).abs() < 1e-6));
+        assert!(forces.axial.iter().all(|x| (x + 690e3 * GRAVITY).abs() < 1e-6));
+        let moment = 0.5 * (600e3 * 10.5 + 90e3 * 5.25);
+        assert!(forces.moment.iter().all(|x| (x - moment).abs() < 1e-5));
     }
 
     /// A rocking body's shear is bounded by that which lifts it, times what a body turned to its
