@@ -79,8 +79,11 @@ pub enum Start<S> {
 /// What a run is made of.
 #[derive(Clone, Copy, Debug)]
 pub struct Analysis<'a, S> {
+    /// What rocks.
     pub body: Body<S>,
+    /// Under each foot.
     pub springs: Springs<Chain<S>>,
+    /// How it begins.
     pub start: Start<S>,
     /// Sampling interval (s).
     pub dt: f64,
@@ -91,14 +94,18 @@ pub struct Analysis<'a, S> {
     pub vertical: &'a [f64],
     /// Factor on the ground acceleration, both components.
     pub scale: S,
+    /// How exactly it is followed.
     pub control: Control,
 }
 
 /// How a run ended, what it cost, and its energy account.
 #[derive(Clone, Copy, Debug)]
 pub struct Finish<S> {
+    /// How it ended.
     pub outcome: HistoryOutcome,
+    /// What it cost.
     pub work: Work,
+    /// Energy account at the end.
     pub energy: Energy<S>,
     /// Largest energy of the history, the scale of its residual (J).
     pub energy_scale: f64,

@@ -20,7 +20,7 @@ pub(crate) const PALE: RGBColor = RGBColor(165, 165, 165);
 pub(crate) const AXIS: RGBColor = RGBColor(80, 80, 80);
 pub(crate) const GRID: RGBColor = RGBColor(228, 228, 228);
 
-/// Colours of series, in order; the eighth and later ones start again.
+/// Colours of series by number; the eighth and later ones start again.
 const SERIES: [RGBColor; 7] = [VERMILLION, BLUE, GREEN, PURPLE, ORANGE, SKY, BLACK];
 
 /// The colour of the i-th series.

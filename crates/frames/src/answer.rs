@@ -70,6 +70,7 @@ impl Compared {
 /// What a structure does in a ground motion on rigid ground with plastic landings.
 #[derive(Clone, Debug)]
 pub struct Reference {
+    /// Motion on rigid ground.
     pub history: ElasticRocking,
     /// Samples of it that can be foretold.
     pub foretold: usize,

@@ -16,8 +16,11 @@ use super::assembled::{Assembled, Watched};
 /// Largest magnitudes over a history (m).
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct StructurePeaks {
+    /// Of the top.
     pub displacement: f64,
+    /// Of the top against its base.
     pub drift: f64,
+    /// Of a corner.
     pub uplift: f64,
 }
 

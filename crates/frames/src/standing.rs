@@ -51,6 +51,7 @@ impl FixedResponse {
 /// A structure in its standing configuration.
 #[derive(Clone, Debug)]
 pub struct Standing {
+    /// What lands at each footing.
     pub footings: Vec<FootingInertia>,
     /// Sideways and upwards.
     pub responses: [FixedResponse; 2],

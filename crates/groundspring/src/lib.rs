@@ -34,6 +34,7 @@
 
 // what is printed goes through the program's `commands/terminal`
 #![cfg_attr(not(test), deny(clippy::print_stdout, clippy::print_stderr))]
+#![warn(missing_docs)]
 
 #[doc(inline)]
 pub use decks::{DeckFormat, ExportError, deck};

@@ -2,6 +2,7 @@
 
 // what is printed goes through the program's `commands/terminal`
 #![cfg_attr(not(test), deny(clippy::print_stdout, clippy::print_stderr))]
+#![warn(missing_docs)]
 
 pub mod conditioning;
 pub mod housner;

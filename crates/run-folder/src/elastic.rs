@@ -51,11 +51,15 @@ const ROUNDING: f64 = 1e-12;
 
 /// A job done.
 pub struct ElasticRun {
+    /// What was asked.
     pub case: ElasticCase,
+    /// The structure, ready to compute with.
     pub assembled: Assembled,
+    /// Its springs.
     pub tuned: ElasticTuned,
     /// The part of the record that is used, scaled.
     pub record: Record,
+    /// Histories, forces and errors on the record.
     pub answer: ElasticAnswer,
     /// The friction coefficient that the ground offers.
     friction: f64,

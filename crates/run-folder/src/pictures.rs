@@ -25,7 +25,7 @@ use springs::{
 /// Every figure that a run may leave, and its files.
 macro_rules! figures {
     ($($constant:ident = $name:literal)+) => {
-        $(pub const $constant: &str = $name;)+
+        $(#[doc = concat!("Name of the figure ", $name, ".")] pub const $constant: &str = $name;)+
         pub(crate) const FILES: &[&str] = &[$(concat!($name, ".png"), concat!($name, ".svg")),+];
     };
 }

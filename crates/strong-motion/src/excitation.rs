@@ -19,7 +19,9 @@ pub struct Excitation {
 /// scaled.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct VerticalLeftOut {
+    /// Its peak (g).
     pub peak_g: f64,
+    /// Peak of the horizontal motion (g).
     pub horizontal_g: f64,
 }
 

@@ -36,7 +36,9 @@ pub fn allowed_energy<S: Scalar>(most: f64, account: &Energy<S>, stored: S) -> f
 /// A step of size h (s) where one of `planned` was asked for.
 #[derive(Clone, Copy, Debug)]
 pub struct TriedStep {
+    /// Size of the step (s).
     pub h: f64,
+    /// Size that was planned, before an event cut it (s).
     pub planned: f64,
     /// 1/Omega_n (s).
     pub settling: f64,
@@ -47,9 +49,13 @@ pub struct TriedStep {
 pub enum StepVerdict {
     /// To be tried again with this size (s).
     Refused(f64),
-    /// It holds; the size to go on with (s), and whether it breaks its bounds as the smallest of
-    /// steps.
-    Holds { next: f64, breaks: bool },
+    /// It holds.
+    Holds {
+        /// The size to go on with (s).
+        next: f64,
+        /// Whether it breaks its bounds, as the smallest of steps.
+        breaks: bool,
+    },
 }
 
 impl TriedStep {

@@ -20,6 +20,7 @@ pub struct Condensed<T> {
 }
 
 impl<T: Num + Copy> Condensed<T> {
+    /// Of a chain whose gap is closed or open, for a step of size s.
     #[inline(always)]
     pub fn new<S: Scalar>(chain: &Chain<S>, closed: bool, s: T, lift: &impl Fn(S) -> T) -> Self {
         let base = lift(chain.m2) + s * (lift(chain.c) + s * lift(chain.k2));

@@ -85,6 +85,7 @@ impl Cubic {
         Self([start, power(WEIGHTS[0]), power(WEIGHTS[1]), power(WEIGHTS[2])])
     }
 
+    /// Value at a share tau of the step.
     #[inline(always)]
     pub fn at(&self, tau: f64) -> f64 {
         let [p0, p1, p2, p3] = self.0;

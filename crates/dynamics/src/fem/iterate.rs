@@ -22,6 +22,7 @@ pub struct Ground<S> {
 }
 
 impl<S: Scalar> Ground<S> {
+    /// Ground at rest.
     pub fn still() -> Self {
         let none = [S::zero(); 2];
         Self { start: none, slope: none, curve: none }
@@ -43,6 +44,7 @@ impl<S: Scalar> Ground<S> {
 /// The simplified Newton iteration of one step: how far it is, and whether it has arrived.
 #[derive(Clone, Copy, Debug)]
 pub struct Convergence {
+    /// Iterations taken.
     pub iterations: usize,
     /// Factor by which an iteration reduced the error, measured if there were two.
     pub rate: f64,
@@ -58,8 +60,11 @@ pub struct Convergence {
 /// What becomes of an iteration.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum IterationVerdict {
+    /// Another iteration is needed.
     GoesOn,
+    /// The correction no longer matters.
     Converged,
+    /// It does not converge.
     Failed,
 }
 
@@ -148,6 +153,7 @@ pub fn embedded(stages: [f64; 3], start: f64) -> f64 {
 /// ALPHA + i BETA.
 pub const EIGENVALUE: Complex<f64> = Complex::new(ALPHA, BETA);
 
+/// A real number as a complex one.
 #[inline(always)]
 pub fn complex(x: f64) -> Complex<f64> {
     Complex::new(x, 0.0)

@@ -11,7 +11,9 @@ use rocking::scalar::Scalar;
 /// A foot's change of contact.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Change {
+    /// A foot touches the ground.
     TouchDown,
+    /// A foot leaves it.
     LiftOff,
 }
 
@@ -22,6 +24,7 @@ pub struct View<'a, S> {
     pub(crate) model: &'a Model<S>,
     pub(crate) state: &'a State<S>,
     pub(crate) feet: &'a [Foot<S>; 2],
+    /// Energy account so far.
     pub energy: &'a Energy<S>,
 }
 

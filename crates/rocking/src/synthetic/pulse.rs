@@ -31,7 +31,12 @@ pub enum Pulse {
     /// Third derivative of a Gaussian: two equal peaks of opposite sign.
     RickerAntisymmetric,
     /// Cosine of phase nu (rad) under a raised cosine gamma periods long.
-    MavroeidisPapageorgiou { gamma: f64, nu: f64 },
+    MavroeidisPapageorgiou {
+        /// Oscillations within the envelope.
+        gamma: f64,
+        /// Phase (rad).
+        nu: f64,
+    },
 }
 
 impl Pulse {

@@ -8,7 +8,7 @@
 //!               r = ( du' + p du ) / ( p R alpha / 4 ),  du = u - u_H    uplift begins when, and as fast as, it should
 //! ```
 //!
-//! Springs are in order if no landing misses e by more than 0.2 % or takes longer than t_a in the
+//! Springs pass if no landing misses e by more than 0.2 % or takes longer than t_a in the
 //! air, and if the vertical force has come to rest before the next impact: an absorber that swings
 //! on spoils landings that follow each other.
 //!
