@@ -255,7 +255,8 @@ impl ElasticAnswer {
         Self::within(assembled, springs, record, reference, Some(MOST_WORK / NEAR))
     }
 
-    /// The same; motions near the record by so many units of work each, or none of them.
+    /// The same; motions near the record by so many units of work each. None: neither these nor
+    /// the histories by which forces are checked, so that no force holds.
     ///
     /// # Errors
     /// The structure does not stand.
@@ -279,6 +280,7 @@ impl ElasticAnswer {
         let compared = histories.compared(record, &[]);
         let [reference, fem] = [0, 1].map(|k| histories.sways.iter().map(|pair| pair[k].clone()).collect::<Vec<_>>());
         let errors = errors(&reference, &fem, compared.samples);
+        let checked = near.is_some();
         let near = near.filter(|_| histories.reference.foretold_seconds(record.dt).is_some());
         let near = near.map(|most_work| Ensemble::new(assembled, springs, record, most_work)).transpose()?;
         let (ensemble, near_left_out) = near.unwrap_or_default();
@@ -290,8 +292,13 @@ impl ElasticAnswer {
         let foretold = histories.reference.foretold_seconds(record.dt);
         let foretold =
             foretold.into_iter().chain(histories.falls(alpha).map(|i| i as f64 * record.dt)).reduce(f64::min);
-        let design =
-            StructureForces::new((assembled, springs, record), (&histories.fem, &fixed), foretold, rigid.as_ref())?;
+        let design = StructureForces::new(
+            checked,
+            (assembled, springs, record),
+            (&histories.fem, &fixed),
+            foretold,
+            rigid.as_ref(),
+        )?;
         Ok(Self { histories, compared, errors, fixed, fixed_drift, ensemble, near_left_out, rigid, design })
     }
 }

@@ -11,9 +11,10 @@ use super::{
         CornerSet, ElasticRocking, GroundAcceleration, PERTURBATION, PerturbedPair, ReferenceOptions, RestError,
         at_rest, growth, rock,
     },
+    standing::Standing,
     structure::ElasticStructure,
 };
-use rocking::{members::Members, motion::nrmse_of};
+use rocking::{members::Members, motion::nrmse_of, scalar::GRAVITY};
 
 /// Stiffness of the ground over all mass, on which a leaning structure is looked for before it is
 /// put on rigid ground: its weight settles by g/FIRM, 1e-8 m [1/s2].
@@ -112,6 +113,13 @@ impl Assembled {
     /// There is no such place.
     pub fn upright(&self) -> Result<DVector<f64>, RestError> {
         upright(&self.frame)
+    }
+
+    /// Ground acceleration, slowly applied, at which the first corner lifts (g), by the statics of
+    /// the structure as it gives and sways under its weight; `None` if it does not stand on all of
+    /// its corners.
+    pub fn uplift_g(&self) -> Option<f64> {
+        Some(Standing::new(&self.frame, &self.upright().ok()?)?.uplift()? / GRAVITY)
     }
 
     /// At rest on the corners of one side, leaning by `lean` (rad), on rigid ground; not of a

@@ -165,11 +165,13 @@ impl StructureForces {
 
     /// Of a structure on these springs, through a record; what it did on them and held to the
     /// ground, their forces finely sampled ([`parts`]), and as a rigid body; `foretold_s` if it can
-    /// be foretold for less than the record's length.
+    /// be foretold for less than the record's length. Unless it is `checked` on other springs and
+    /// another mesh no force holds.
     ///
     /// # Errors
     /// A structure with its elements doubled or on other springs does not stand.
     pub(crate) fn new(
+        checked: bool,
         (assembled, springs, record): (&Assembled, &[Springs<Chain<f64>>], &Record),
         (fem, fixed): (&ElasticHistory, &ElasticHistory),
         foretold_s: Option<f64>,
@@ -177,13 +179,16 @@ impl StructureForces {
     ) -> Result<Self, EquilibriumError> {
         let cutoff = Cutoff::of(&assembled.structure);
         let of = |history: &ElasticHistory, over: f64| ForcePeaks::of(history, cutoff.as_ref(), over);
-        let variants = Variants::of(assembled, springs, record)?;
+        let variants = checked.then(|| Variants::of(assembled, springs, record)).transpose()?;
         let held = of(fixed, f64::INFINITY);
         // all forces of all motions over the same time
         let over = |seconds: f64| -> Vec<StructureForce> {
             let peaks = of(fem, seconds);
-            let finer = variants.doubled.as_ref().map(|finer| of(finer, seconds));
-            let [softer, stiffer] = [&variants.softer, &variants.stiffer].map(|history| of(history, seconds));
+            let peaks_of = |pick: fn(&Variants) -> Option<&ElasticHistory>| {
+                variants.as_ref().and_then(pick).map(|history| of(history, seconds))
+            };
+            let finer = peaks_of(|variants| variants.doubled.as_ref());
+            let [softer, stiffer] = [peaks_of(|v| Some(&v.softer)), peaks_of(|v| Some(&v.stiffer))];
             let value = |peaks: &ForcePeaks, kind: ForceKind| peaks.get(kind).map(|peak| peak.filtered.value);
             let force = |kind: ForceKind| {
                 let peak = peaks.get(kind)?;
@@ -192,8 +197,8 @@ impl StructureForces {
                     found,
                     // a mesh that says nothing changes everything
                     doubled_elements: finer.as_ref().map(|finer| value(finer, kind).unwrap_or(f64::INFINITY)),
-                    softer: value(&softer, kind),
-                    stiffer: value(&stiffer, kind),
+                    softer: softer.as_ref().and_then(|softer| value(softer, kind)),
+                    stiffer: stiffer.as_ref().and_then(|stiffer| value(stiffer, kind)),
                 };
                 let holds = others.change() < MOST_CHANGE;
                 Some(StructureForce {

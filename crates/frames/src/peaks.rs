@@ -87,6 +87,13 @@ impl StructurePeakErrors {
     pub const LOST: Self =
         Self { displacement: f64::INFINITY, drift: f64::INFINITY, uplift: f64::INFINITY, design_forces: None };
 
+    /// Which of them is the largest, in words.
+    pub fn worst(&self) -> &'static str {
+        let all = [("displacement", self.displacement), ("bending", self.drift), ("uplift", self.uplift)];
+        let all = all.into_iter().chain(self.design_forces.map(|forces| ("a design force", forces)));
+        all.max_by(|(_, a), (_, b)| a.total_cmp(b)).map_or("", |(name, _)| name)
+    }
+
     /// The largest of them.
     pub fn largest(&self) -> f64 {
         let all = [self.displacement, self.drift, self.uplift];

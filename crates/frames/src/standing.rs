@@ -5,6 +5,7 @@
 //!   W = G M^-1 G'                 of a footing's corners: what a unit force at one does to the velocities of all
 //!   K u = M r + G' R,  G u = 0    the structure fixed to the ground under a uniform acceleration r, sideways or upwards: reactions R
 //!   give = sum R_i^2/k_i / u' K u
+//!   uplift = least N_i of a corner at rest over |R_i| under 1 m/s2 sideways
 //! ```
 //!
 //! The give is the energy of ground springs k_i over that of the structure, to first order the
@@ -51,6 +52,8 @@ impl FixedResponse {
 /// A structure in its standing configuration.
 #[derive(Clone, Debug)]
 pub struct Standing {
+    /// Forces (H, N) of the ground at each corner, at rest (N).
+    pub reactions: Vec<[f64; 2]>,
     /// What lands at each footing.
     pub footings: Vec<FootingInertia>,
     /// Sideways and upwards.
@@ -82,7 +85,19 @@ impl Standing {
             held.response(&stiffness, &structure.mass(q), &(structure.force(q, &rest, ground) - &still))
         };
         let responses = [of([-1.0, 0.0])?, of([0.0, -1.0])?];
-        Some(Self { footings, responses, mass: structure.whole_mass(q) })
+        Some(Self { reactions: held.reactions(&-still), footings, responses, mass: structure.whole_mass(q) })
+    }
+
+    /// Ground acceleration, slowly applied, at which the first corner lifts (m/s2): the vertical
+    /// force at rest over what 1 m/s2 takes off it. `None` if a corner bears nothing at rest.
+    pub fn uplift(&self) -> Option<f64> {
+        let at_rest = self.reactions.iter().map(|[_, n]| *n);
+        let lifted = at_rest.zip(&self.responses[0].reactions).map(|(n, [_, by])| (n, n / by.abs()));
+        let first = lifted.map(|(n, lift)| if n > 0.0 { lift } else { f64::NAN }).reduce(|a, b| {
+            // NaN: a corner without weight decides
+            if a < b || a.is_nan() { a } else { b }
+        });
+        first.filter(|lift| lift.is_finite())
     }
 }
 
@@ -129,14 +144,19 @@ impl HeldFrame {
         Some(Self { free, reactions })
     }
 
+    /// (H, N) of each corner that hold these forces on the coordinates.
+    fn reactions(&self, forces: &DVector<f64>) -> Vec<[f64; 2]> {
+        let all = &self.reactions * forces;
+        (0..all.len() / 2).map(|i| [all[2 * i], all[2 * i + 1]]).collect()
+    }
+
     fn response(&self, stiffness: &DMatrix<f64>, mass: &DMatrix<f64>, load: &DVector<f64>) -> Option<FixedResponse> {
         let reduced = self.free.transpose() * stiffness * &self.free;
         let reduced = 0.5 * (&reduced + reduced.transpose());
         let u = &self.free * reduced.cholesky()?.solve(&(self.free.transpose() * load));
         let forces = stiffness * &u;
         let work = u.dot(&forces);
-        let reactions = &self.reactions * (forces - load);
-        let reactions = (0..reactions.len() / 2).map(|i| [reactions[2 * i], reactions[2 * i + 1]]).collect();
+        let reactions = self.reactions(&(forces - load));
         let omega = (work / u.dot(&(mass * &u))).sqrt();
         Some(FixedResponse { reactions, work, omega })
     }

@@ -8,8 +8,9 @@ use springs::{
     case::Yardstick,
     tuning::{
         assessment::Assessment,
-        suite::{Accuracy, LOOSER, Statistic},
+        suite::{Accuracy, LOOSER, PeakAccuracy, Statistic},
     },
+    validate::PeakErrors,
 };
 
 /// An error measured on a record or on a set of motions.
@@ -23,6 +24,8 @@ pub struct AccuracyOn {
     pub history: Option<f64>,
     /// Relative error of the largest displacement, uplift and forces, the largest of them.
     pub peaks: Option<f64>,
+    /// Which of them that is; none of a share of motions, each of which has its own.
+    pub worst: Option<&'static str>,
     /// NRMSE allowed there.
     pub history_allowed: Option<f64>,
     /// Error of peaks allowed there.
@@ -45,26 +48,31 @@ pub struct AccuracyReport {
 impl AccuracyReport {
     /// Of a rigid body's springs.
     pub(crate) fn of_rigid(a: &Assessment) -> Self {
-        let (history, peaks) = (&a.measured, a.measured_peaks.map(|peaks| peaks.largest));
+        let (history, each) = (&a.measured, a.measured_peaks);
+        let peaks = each.map(|peaks| peaks.largest);
+        let worst = |of: fn(&PeakAccuracy) -> Option<PeakErrors>| each.as_ref().and_then(of).map(|e| e.worst());
         let asked = |by: Yardstick| Some(a.accuracy).filter(|_| a.judged_by == by);
         let (of_history, of_peaks) = (asked(Yardstick::Histories), asked(Yardstick::Peaks));
-        let row = |on: String, count: usize, of: &dyn Fn(&Accuracy) -> Option<f64>, looser: f64| AccuracyOn {
+        let row = |on: String, count: usize, of: &dyn Fn(&Accuracy) -> Option<f64>, looser: f64, worst| AccuracyOn {
             on,
             count,
             history: of(history),
             peaks: peaks.as_ref().and_then(of),
+            worst,
             history_allowed: of_history.map(|x| looser * x),
             peaks_allowed: of_peaks.map(|x| looser * x),
         };
-        let statistics = |of: fn(&Accuracy) -> Option<Statistic>, words: fn(usize) -> String, looser: f64| {
+        let statistics = |of: fn(&Accuracy) -> Option<Statistic>, words: fn(usize) -> String, looser: f64, worst| {
             let count = of(history).or(peaks.as_ref().and_then(of))?.count;
-            Some(row(words(count), count, &|a| of(a).map(|s| s.value), looser))
+            Some(row(words(count), count, &|a| of(a).map(|s| s.value), looser, worst))
         };
-        let record = history.record.map(|_| row("this record".into(), 1, &|a| a.record, 1.0));
-        let median = statistics(|a| a.synthetic_median, |n| format!("{n} synthetic motions (median)"), 1.0);
-        let p90 = statistics(|a| a.synthetic_p90, |_| "90 % of these".into(), LOOSER);
+        let record = history.record.map(|_| row("this record".into(), 1, &|a| a.record, 1.0, worst(|p| p.record)));
+        let words = |n| format!("{n} synthetic motions (median)");
+        let median = statistics(|a| a.synthetic_median, words, 1.0, worst(|p| p.synthetic_median));
+        let p90 = statistics(|a| a.synthetic_p90, |_| "90 % of these".into(), LOOSER, None);
         let looser = a.judged().looser_on_earthquakes();
-        let mean = statistics(|a| a.earthquakes_mean, |n| format!("{n} earthquake-like ones (mean)"), looser);
+        let words = |n| format!("{n} earthquake-like ones (mean)");
+        let mean = statistics(|a| a.earthquakes_mean, words, looser, worst(|p| p.earthquakes_mean));
         Self {
             history_asked: of_history,
             peaks_asked: of_peaks,
@@ -76,28 +84,48 @@ impl AccuracyReport {
     /// In one sentence, peaks first.
     pub fn sentence(&self) -> String {
         let on = |row: &AccuracyOn| {
-            let peaks = row.peaks.map(|peaks| format!("peaks within {}", percent(peaks).trim_start_matches("below ")));
+            let peaks = row.peaks.map(|peaks| format!("peaks within {}", within(peaks, row.worst)));
             let history = row.history.map(|nrmse| format!("history {}", significant(nrmse, 2)));
             let both: Vec<String> = peaks.into_iter().chain(history).collect();
             format!("on {}: {}", row.on, both.join(", "))
         };
-        let asked = match (self.peaks_asked, self.history_asked) {
-            (Some(peaks), _) => format!("peaks within {}", percent(peaks).trim_start_matches("below ")),
-            (None, Some(history)) => format!("history {}", significant(history, 3)),
-            (None, None) => "nothing".into(),
-        };
         let reached = if self.reached { "reached" } else { "NOT reached" };
-        let measured: Vec<String> =
-            self.measured.iter().filter(|row| row.peaks.or(row.history).is_some()).map(on).collect();
+        let measured: Vec<String> = self.measured().map(on).collect();
         match measured.is_empty() {
-            true => format!("not measured: no motion can be compared; asked: {asked}"),
-            false => format!("{} (NRMSE); asked: {asked}, {reached}", measured.join("; ")),
+            true => format!("not measured: no motion can be compared; asked: {}", self.asked()),
+            false => format!("{} (NRMSE); asked: {}, {reached}", measured.join("; "), self.asked()),
         }
     }
 
-    /// The same for a screen: on the record and the set of motions beside it, histories as NRMSE.
+    /// The same for a screen: on the record and the set of motions beside it.
     pub fn short(&self) -> String {
-        Self { measured: self.measured.iter().take(2).cloned().collect(), ..self.clone() }.sentence()
+        let on = |(i, row): (usize, &AccuracyOn)| {
+            let [peaks, nrmse] = if i == 0 { ["peaks within ", "NRMSE "] } else { [""; 2] };
+            let peaks = row.peaks.map(|error| format!("{peaks}{}", within(error, row.worst)));
+            let history = row.history.map(|error| format!("{nrmse}{}", significant(error, 2)));
+            let both: Vec<String> = peaks.into_iter().chain(history).collect();
+            format!("{}: {}", row.on, both.join(", "))
+        };
+        let measured: Vec<String> = self.measured().take(2).enumerate().map(on).collect();
+        match (measured.is_empty(), self.reached) {
+            (true, _) => self.sentence(),
+            (false, true) => format!("{}; as asked", measured.join("; ")),
+            (false, false) => format!("{}; NOT as asked ({})", measured.join("; "), self.asked()),
+        }
+    }
+
+    /// On what anything was measured.
+    fn measured(&self) -> impl Iterator<Item = &AccuracyOn> {
+        self.measured.iter().filter(|row| row.peaks.or(row.history).is_some())
+    }
+
+    /// What was asked for.
+    fn asked(&self) -> String {
+        match (self.peaks_asked, self.history_asked) {
+            (Some(peaks), _) => format!("peaks within {}", within(peaks, None)),
+            (None, Some(history)) => format!("history {}", significant(history, 3)),
+            (None, None) => "nothing".into(),
+        }
     }
 
     /// The same as a table.
@@ -118,6 +146,12 @@ impl AccuracyReport {
     }
 }
 
+/// An error of peaks, and of which one.
+fn within(error: f64, worst: Option<&str>) -> String {
+    let of = worst.map_or(String::new(), |worst| format!(" ({worst})"));
+    format!("{}{of}", percent(error).trim_start_matches("below "))
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;
@@ -129,6 +163,7 @@ mod tests {
             count: 1,
             history: Some(2.2e-5),
             peaks: Some(1.3e-4),
+            worst: Some("uplift"),
             history_allowed: Some(0.002),
             peaks_allowed: None,
         };
@@ -136,8 +171,9 @@ mod tests {
             AccuracyReport { history_asked: Some(0.002), peaks_asked: None, reached: true, measured: vec![row] };
         assert_eq!(
             report.sentence(),
-            "on this record: peaks within 0.013 %, history 2.2e-5 (NRMSE); asked: history 0.002, reached"
+            "on this record: peaks within 0.013 % (uplift), history 2.2e-5 (NRMSE); asked: history 0.002, reached"
         );
+        assert_eq!(report.short(), "this record: peaks within 0.013 % (uplift), NRMSE 2.2e-5; as asked");
         assert_eq!(report.table().rows[0][2], "0.013 %");
         report.measured.clear();
         assert!(report.sentence().starts_with("not measured"));

@@ -51,7 +51,9 @@ pub fn peak_table(run: &Run) -> Option<Table> {
             _ if a > 0.0 => percent(b / a - 1.0),
             _ => "-".into(),
         };
-        let mut row = vec![name.to_string(), words(a), words(b), difference];
+        // a rigid body's are those of some strength
+        let counted = if name == "impacts" && pair.reference.bending_m.is_none() { " (above 0.02 alpha)" } else { "" };
+        let mut row = vec![format!("{name}{counted}"), words(a), words(b), difference];
         row.extend(with.and_then(of).map(words));
         Some(row)
     };
@@ -65,12 +67,12 @@ pub fn peak_table(run: &Run) -> Option<Table> {
 }
 
 /// `summary.csv`: largest displacements and design forces as plain numbers, SI units; cells of what
-/// is withheld are empty.
+/// is withheld are empty. `holds_to_s`: up to when a force counts, if that is not all of the record.
 pub fn summary(run: &Run) -> Table {
-    let mut table = Table::new(["quantity", "unit", "reference", "on_springs"]);
-    let mut row = |name: &str, unit: &str, reference: Option<f64>, springs: Option<f64>| {
+    let mut table = Table::new(["quantity", "unit", "reference", "on_springs", "holds_to_s"]);
+    let mut row = |name: &str, unit: &str, numbers: [Option<f64>; 3]| {
         let cell = |x: Option<f64>| x.map_or(String::new(), |x| format!("{x:.6e}"));
-        table.rows.push(vec![name.to_string(), unit.to_string(), cell(reference), cell(springs)]);
+        table.rows.push([vec![name.to_string(), unit.to_string()], numbers.map(cell).into()].concat());
     };
     if let Some(pair) = &run.peaks {
         let springs = pair.with_members.unwrap_or(pair.springs);
@@ -78,14 +80,14 @@ pub fn summary(run: &Run) -> Table {
         for ((name, of, _), unit) in ROWS.into_iter().zip(units) {
             let (a, b) = (of(&pair.reference), of(&springs));
             if a.or(b).is_some() {
-                row(name.trim(), unit, a, b);
+                row(name.trim(), unit, [a, b, None]);
             }
         }
     }
     for (name, force) in run.design_forces.iter().flat_map(|forces| forces.all()) {
         // an elastic structure's reference has no largest force of its own
         let reference = force.rigid.filter(|_| !matches!(run.parameters, FiledParameters::Elastic(_)));
-        row(name.words(), name.unit(), reference, force.value);
+        row(name.words(), name.unit(), [reference, force.value, force.over_s]);
     }
     table
 }

@@ -42,6 +42,9 @@ const LEAST_TOP_MOMENT: f64 = 0.01;
 /// Share of the largest axial force below which a tension is not said.
 const LEAST_TENSION: f64 = 0.01;
 
+/// Share of the feet's distance above which it is said that they end elsewhere than they began.
+const LEAST_APART: f64 = 1e-3;
+
 /// Time within which touches are one impact (1/p).
 const SAME_IMPACT: f64 = 0.1;
 
@@ -154,6 +157,7 @@ impl ElasticParts<'_> {
             time_s: Some(needed.time),
             available: self.friction,
         }));
+        all.extend(self.feet_apart().map(|apart_m| Finding::FeetApart { apart_m }));
         all.extend(self.vertical_left_out());
         all.extend(doubts(self.case.doubts()));
         all.extend(springs_findings(parameters));
@@ -163,6 +167,19 @@ impl ElasticParts<'_> {
         all
     }
 
+    /// How much further apart the outer feet are at the end of the reference than at its start (m),
+    /// where that is some share of their distance.
+    fn feet_apart(&self) -> Option<f64> {
+        let history = &self.answer.histories.reference.history;
+        let stood = matches!(history.outcome, ReferenceOutcome::Completed);
+        let (first, last) = (history.q.first()?, history.q.last().filter(|_| stood)?);
+        let places = self.assembled.frame.places();
+        let (left, right) = (places.first()?, places.last()?);
+        let apart = |q: &[f64]| right.reach(q).place[0] - left.reach(q).place[0];
+        let moved = apart(last.as_slice()) - apart(first.as_slice());
+        (moved.abs() > LEAST_APART * 2.0 * self.assembled.structure.body().half_width).then_some(moved)
+    }
+
     /// A vertical component of some size that is left out: what it would change.
     fn vertical_left_out(&self) -> Option<Finding> {
         let large = |doubt: Doubt| match doubt {
@@ -170,8 +187,13 @@ impl ElasticParts<'_> {
             _ => None,
         };
         let (vertical_g, horizontal_g) = self.case.doubts().into_iter().find_map(large)?;
-        let record = self.case.excitation.with_vertical_left_out()?.ok()?.used().ok()?;
-        let with = peaks_in(self.assembled, self.springs, &record).ok()?;
+        let with = || {
+            let record = self.case.excitation.with_vertical_left_out()?.ok()?.used().ok()?;
+            peaks_in(self.assembled, self.springs, &record).ok()
+        };
+        // of forces that do not hold there is nothing to compare
+        let checked = self.answer.design.forces.iter().any(|force| force.holds);
+        let with = if checked { with()? } else { Vec::new() };
         let change = |(kind, with): (ForceKind, f64)| {
             let without = self.answer.design.get(kind)?.value?.abs();
             let (quantity, unit) = (kind.name().to_string(), kind.unit().to_string());
@@ -201,9 +223,11 @@ impl ElasticParts<'_> {
             (None, Some(time_s)) => Finding::Overturns { time_s, reference_s: Some(time_s) },
             (None, None) if !history.lifts() => Finding::NeverLifts {
                 pga_g: self.record.pga_g(),
-                uplift_g: self.assembled.structure.body().alpha().tan(),
+                uplift_g: self.assembled.uplift_g().unwrap_or_else(|| self.assembled.structure.body().alpha().tan()),
             },
-            _ => Finding::Stands { share_of_overturning: on.peak_ratio_fem, over_s: on.compared_s },
+            _ => {
+                Finding::Stands { share_of_overturning: on.peak_ratio_fem, over_s: on.compared_s, if_feet_hold: false }
+            }
         });
         if fell(fem).is_some() != reference_fell.is_some() {
             let words =

@@ -36,7 +36,7 @@ use springs::{
         doubts::Doubt,
     },
     parameters::{Parameters, elastic::ElasticParameters},
-    results::{DesignForces, FiledFinding, Finding, PeakChange, PeakPair, Weight},
+    results::{DesignForces, FiledFinding, Finding, ForceName, PeakChange, PeakPair, Weight},
 };
 pub use table::Table;
 
@@ -79,7 +79,9 @@ fn changes(
         without,
         with,
     };
-    let top = |pair: &PeakPair| pair.springs.top_displacement_m;
+    // the reference is the structure's, springs may follow it badly; unless it ends before the record
+    let whole = peaks.iter().chain([&with_peaks]).all(|pair| pair.reference_ends_s.is_none());
+    let top = |pair: &PeakPair| if whole { pair.reference } else { pair.springs }.top_displacement_m;
     let top = peaks.map(|peaks| change("top displacement", "m", top(&peaks), top(&with_peaks)));
     let with: Vec<_> = with_forces.all().collect();
     let forces = forces.into_iter().flat_map(|forces| forces.all().collect::<Vec<_>>()).filter_map(|(name, force)| {
@@ -178,7 +180,14 @@ pub struct Run {
 
 /// Findings for a run: answers first, then what weighs most.
 pub fn filed(findings: impl IntoIterator<Item = Finding>) -> Vec<FiledFinding> {
-    let mut all: Vec<FiledFinding> = findings.into_iter().map(FiledFinding::from).collect();
+    let mut all: Vec<Finding> = findings.into_iter().collect();
+    let slides = all.iter().any(|finding| matches!(finding, Finding::Sliding { .. }));
+    for finding in &mut all {
+        if let Finding::Stands { if_feet_hold, .. } = finding {
+            *if_feet_hold |= slides;
+        }
+    }
+    let mut all: Vec<FiledFinding> = all.into_iter().map(FiledFinding::from).collect();
     let rank = |weight: Weight| match weight {
         Weight::Answer => 0,
         Weight::Fault => 1,
@@ -194,10 +203,21 @@ impl Run {
     pub(crate) fn verdict(&self) -> String {
         let answer = self.findings.iter().find(|finding| finding.weight == Weight::Answer);
         let graver = self.findings.iter().find(|f| matches!(f.finding, Finding::ModelsDisagree { .. }));
-        match graver.or(answer) {
-            Some(finding) => sentence(&finding.message),
-            None => "Springs without a record: nothing rocked.".into(),
-        }
+        let Some(told) = graver.or(answer) else { return "Springs without a record: nothing rocked.".into() };
+        let ill = self.findings.iter().any(|filed| matches!(filed.finding, Finding::IllConditioned { .. }));
+        let doubt = if ill { "; no model foretells this motion" } else { "" };
+        sentence(&format!("{}{doubt}", told.message))
+    }
+
+    /// Whether the motion can be foretold up to a force's largest value.
+    pub(crate) fn foretells(&self, force: ForceName) -> bool {
+        !self.findings.iter().any(|filed| match &filed.finding {
+            Finding::IllConditioned { .. } => true,
+            Finding::ForetoldUpTo { later_forces, .. } | Finding::SlidesOn { later_forces, .. } => {
+                later_forces.contains(&force)
+            }
+            _ => false,
+        })
     }
 
     /// All that is to be said besides the verdict, gravest first.

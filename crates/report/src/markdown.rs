@@ -2,7 +2,7 @@
 
 use super::{FiledParameters, Run, Section, Table, peak_table, sentence};
 use files::message::{percent, quantity, significant};
-use springs::results::{DesignForce, ForceName};
+use springs::results::{DesignForce, ForceName, OtherForces};
 
 /// The whole of it.
 pub fn markdown(run: &Run) -> String {
@@ -41,6 +41,11 @@ pub(crate) fn sections(run: &Run) -> Vec<Section> {
         all.push(Section {
             id: "peaks",
             title: "Largest displacements".into(),
+            text: vec![
+                "Of the highest point, against the ground. By rocking: what the rotation of the base alone moves it; by bending: how far \
+                 it is across the axis of the base. Of several bases the largest counts."
+                    .into(),
+            ],
             table: Some(table),
             ..Section::default()
         });
@@ -97,9 +102,10 @@ fn forces(run: &Run) -> Option<Section> {
     let forces = run.design_forces.as_ref()?;
     let cell = |x: Option<f64>, name: ForceName| x.map_or("-".into(), |x| quantity(x, name.unit()));
     let row = |(name, force): (ForceName, DesignForce)| {
+        let doubt = if force.holds && !run.foretells(name) { ", not foretold" } else { "" };
         vec![
             format!("{}{}", name.words(), height(&force)),
-            force_value(name, &force),
+            force_value(name, &force) + doubt,
             format!("{} s", significant(force.time_s, 4)),
             force.change.map_or("not measured".into(), percent),
             cell(force.rigid, name),
@@ -121,7 +127,8 @@ fn forces(run: &Run) -> Option<Section> {
             "{below} A force is given if it changes by less than 5 % with the springs' stiffness and the mesh, as measured in this run. \
              Column shear is that of the height where it is largest, axial force that at the base; \
              members.csv has all members. Axial force is positive in tension. \
-             Each is the largest by itself, at its own time: they do not act together."
+             Each is the largest by itself, at its own time: they do not act together. \
+             Not foretold: the motion up to that time is one of many alike, and no model tells which."
         )],
         table: Some(Table::new(head).with(forces.all().map(row))),
         ..Section::default()
@@ -139,7 +146,9 @@ pub fn force_value(name: ForceName, force: &DesignForce) -> String {
             (None, None) => "withheld".into(),
         };
     };
-    let part = force.over_s.map_or(String::new(), |over| format!(" (to {} s)", significant(over, 3)));
+    let whole = |whole: OtherForces| format!("; {} over all", newtons(whole.found.abs()));
+    let whole = force.whole_record.map_or(String::new(), whole);
+    let part = force.over_s.map_or(String::new(), |over| format!(" (to {} s{whole})", significant(over, 3)));
     newtons(value) + &part
 }
 
@@ -208,7 +217,6 @@ fn springs(run: &Run) -> Table {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use springs::results::OtherForces;
 
     #[test]
     fn a_force_says_over_how_much_it_holds_or_between_what_it_lies() {
@@ -216,6 +224,9 @@ mod tests {
         assert_eq!(force_value(ForceName::Axial, &held), "-4.937 MN");
         let part = DesignForce { over_s: Some(49.42), ..held };
         assert_eq!(force_value(ForceName::Axial, &part), "-4.937 MN (to 49.4 s)");
+        let whole = OtherForces { found: -13.6e6, ..OtherForces::default() };
+        let part = DesignForce { whole_record: Some(whole), ..part };
+        assert_eq!(force_value(ForceName::Axial, &part), "-4.937 MN (to 49.4 s; 13.6 MN over all)");
         let changes = DesignForce::measured(2.48e6, 41.0, Some(0.073));
         assert_eq!(force_value(ForceName::AxialTension, &changes), "withheld: changes by 7.30 % on springs");
         let others = OtherForces { found: 2.48e6, doubled_elements: None, softer: Some(2.66e6), stiffer: Some(2.5e6) };

@@ -102,7 +102,11 @@ pub(crate) fn verdict(structure: &Structure, record: &Record, verdict: &Verdict)
             reference_s: housner.overturned_s,
         },
         (_, Fate::Failed) => Finding::NoAnswer { model: FindingModel::Springs, time_s: verdict.compared_s },
-        _ => Finding::Stands { share_of_overturning: finite_elements.peak_ratio, over_s: verdict.compared_s },
+        _ => Finding::Stands {
+            share_of_overturning: finite_elements.peak_ratio,
+            over_s: verdict.compared_s,
+            if_feet_hold: false,
+        },
     }];
     all.extend(
         verdict

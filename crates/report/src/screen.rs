@@ -111,9 +111,16 @@ fn taken(run: &Run, written: &Written, lines: &mut Vec<String>) {
 
 fn forces(run: &Run, lines: &mut Vec<String>) {
     let Some(forces) = &run.design_forces else { return };
-    let below = forces.below_hz.map_or(String::new(), |hz| format!(" (below {} Hz)", significant(hz, 3)));
-    let name = format!("design forces{below}  ");
-    let all = force_words(forces);
+    // an asterisk where some are, a word where all are
+    let doubted = |(name, force): (ForceName, DesignForce)| force.holds && !run.foretells(name);
+    let [some, every] = [forces.all().any(doubted), forces.all().all(|(name, _)| !run.foretells(name))];
+    let mark = if some && !every { "*" } else { "" };
+    let below = forces.below_hz.map(|hz| format!("below {} Hz", significant(hz, 3)));
+    let doubt = some.then(|| format!("{mark} not foretold").trim_start().to_string());
+    let of: Vec<String> = below.into_iter().chain(doubt).collect();
+    let of = if of.is_empty() { String::new() } else { format!(" ({})", of.join("; ")) };
+    let name = format!("design forces{of}  ");
+    let all = force_words(forces, |force| if doubted(force) { mark } else { "" });
     // as many as three lines hold
     for shown in (1..=all.len()).rev() {
         let rest = if shown < all.len() { "; more in the report" } else { "" };
@@ -126,12 +133,13 @@ fn forces(run: &Run, lines: &mut Vec<String>) {
     }
 }
 
-/// The forces in words; those withheld are named.
-fn force_words(forces: &DesignForces) -> Vec<String> {
+/// The forces in words, each with its mark; those withheld are named.
+fn force_words<'a>(forces: &DesignForces, mark: impl Fn((ForceName, DesignForce)) -> &'a str) -> Vec<String> {
     // magnitudes: signs are in the report
     let magnitude = |force: DesignForce| DesignForce { value: force.value.map(f64::abs), ..force };
     let cell = |(name, force): (ForceName, DesignForce)| {
-        format!("{} {}{}", name.words(), force_value(name, &magnitude(force)), height(&force))
+        let mark = mark((name, force));
+        format!("{} {}{mark}{}", name.words(), force_value(name, &magnitude(force)), height(&force))
     };
     // the report has the vertical force, too
     forces.all().filter(|(name, _)| *name != ForceName::SoleVertical).map(cell).collect()
@@ -176,10 +184,12 @@ fn next(written: &Written, lines: &mut Vec<String>) {
 /// What changes a design the most is told first.
 fn urgency(finding: &Finding) -> usize {
     match finding {
-        Finding::Doubt { .. } => 0,
-        Finding::VerticalLeftOut { .. } => 1,
-        Finding::ForcesHeldInPart { .. } => 2,
-        _ => 3,
+        Finding::IllConditioned { .. } => 0,
+        Finding::Doubt { .. } => 1,
+        Finding::VerticalLeftOut { .. } => 2,
+        Finding::ForcesHeldInPart { .. } => 3,
+        Finding::FeetApart { .. } => 5,
+        _ => 4,
     }
 }
 

@@ -69,13 +69,15 @@ impl Recording {
                 component: component.name.clone().filter(|_| several),
                 baseline: options.baseline,
                 vertical_left_out_g: None,
+                only_vertical: None,
             };
         }
         recording.vertical = recording.check_vertical(options)?;
         let left_out = recording.vertical_left_out();
         let taken = &mut recording.components[recording.taken];
-        if let Source::File { vertical_left_out_g, .. } = &mut taken.record.source {
-            *vertical_left_out_g = left_out;
+        let only = (!recording.asked && taken.direction == Direction::Vertical).then(|| taken.label());
+        if let Source::File { vertical_left_out_g, only_vertical, .. } = &mut taken.record.source {
+            (*vertical_left_out_g, *only_vertical) = (left_out, only);
         }
         Ok(recording)
     }

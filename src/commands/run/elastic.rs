@@ -67,8 +67,9 @@ pub fn run(o: &RunOptions, mut case: ElasticCase) -> Result<(), CommandError> {
     };
     let progress = Progress::on_terminal("histories and forces", o.quiet);
     let near = Some(effort.part(NEAR)).filter(|_| !effort.stopped_from_outside());
-    if near.is_none() && reference.foretold_seconds(record.dt).is_some() {
-        tuned.not_done.push(NotDone::NearMotions);
+    if near.is_none() {
+        tuned.not_done.push(NotDone::ForceChecks);
+        tuned.not_done.extend(reference.foretold_seconds(record.dt).map(|_| NotDone::NearMotions));
     }
     let answer = ElasticAnswer::within(&assembled, &tuned.springs.corners, &record, reference, near);
     progress.done();

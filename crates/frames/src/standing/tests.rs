@@ -50,3 +50,33 @@ fn the_give_along_the_column_is_that_of_springs_in_series() {
     assert_relative_eq!(upwards.give([3e12, 1e12]), 4e9 / 2e12, max_relative = 1e-6);
     assert_relative_eq!(upwards.omega, (4e9_f64 / 6e5).sqrt(), max_relative = 1e-6);
 }
+
+/// About the edge: (m + m_f) g b = a (m h + m_f h_f) + m g u, where the column gives u = m a/k.
+#[test]
+fn a_pier_lifts_where_statics_say() {
+    let pier = pier();
+    let lift = standing(&pier).uplift().unwrap();
+    let g = rocking::scalar::GRAVITY;
+    let holds = (pier.mass + pier.footing_mass) * g * pier.half_width;
+    let by = pier.mass * pier.height + pier.footing_mass * pier.footing_height + pier.mass.powi(2) * g / pier.stiffness;
+    assert_relative_eq!(lift, holds / by, max_relative = 1e-8);
+}
+
+/// A portal of stiff columns L between footings w wide and t thick, S apart, under a stiff beam of
+/// weight W: under F at the beam each sole bears F L/4 + F t/2 and F L/(2 S) up or down, and its
+/// outer corner bore W/4.
+#[test]
+fn a_portal_lifts_where_statics_say() {
+    let (l, t, w, s, mass) = (8.0, 1.0, 2.5, 9.0, 4e5);
+    let text = format!(
+        "kind = 'frame'\nheight_m = {}\nspan_m = {s}\nfooting_width_m = {w}\nfooting_height_m = {t}\n\
+         footing_mass_kg = 100.0\nbeam_mass_kg = {mass}\ncolumn_ea_n = 1e13\ncolumn_ei_nm2 = 1e12\nbeam_ea_n = 1e15\n\
+         beam_ei_nm2 = 1e15\ndamping_ratio = 0.02\n",
+        l + t
+    );
+    let structure: crate::structure::ElasticStructure = toml::from_str(&text).unwrap();
+    let portal = crate::assembled::Assembled::new(structure.checked().unwrap()).unwrap();
+    let weight = mass * rocking::scalar::GRAVITY;
+    let a_unit = (l / 4.0 + t / 2.0) / w + l / (4.0 * s);
+    assert_relative_eq!(portal.uplift_g().unwrap(), weight / 4.0 / a_unit / weight, max_relative = 2e-3);
+}

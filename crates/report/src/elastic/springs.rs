@@ -34,6 +34,7 @@ fn accuracy(a: &ElasticAssessment, on_record: Option<&OnRecord>) -> AccuracyRepo
             count: e.count,
             history: finite(e.median[0]),
             peaks: e.peaks.and_then(|peaks| finite(peaks.largest[0])),
+            worst: e.peaks.map(|peaks| peaks.median.worst()),
             history_allowed: of_history,
             peaks_allowed: of_peaks,
         })
@@ -124,6 +125,10 @@ fn taken(parameters: &ElasticParameters) -> Taken {
     fact("restitution e of the rigid body, equation 2", significant(body.restitution(), 4));
     fact("frequency fixed to the ground", format!("{} Hz", significant(structure.frequency_hz(), 4)));
     fact("its weight shortens the columns by", format!("{} of their length", significant(structure.shortening(), 2)));
+    let lifts = parameters.assembled().ok().and_then(|assembled| assembled.uplift_g());
+    if let Some(lifts) = lifts {
+        fact("lifts at a steady ground acceleration of", format!("{} g", significant(lifts, 4)));
+    }
     fact("lifts as a rigid body at g tan alpha", format!("{} g", significant(body.alpha().tan(), 4)));
     let mass = quantity(structure.mass(), "kg");
     let text = format!("{}, {mass} in all, {} Hz if fixed", title(structure), significant(structure.frequency_hz(), 3));

@@ -13,7 +13,7 @@
 use super::{Case, ElasticCase, GivenKeys, structure::unit_of};
 use frames::structure::ElasticStructure;
 use rocking::structure::{Kind, Structure};
-use strong_motion::excitation::Excitation;
+use strong_motion::{Source, excitation::Excitation};
 
 /// A doubt and its quantities.
 #[derive(Clone, Debug, PartialEq)]
@@ -30,6 +30,9 @@ pub enum Doubt {
     /// A vertical component of the record's file is left out that is not small: peaks of the whole
     /// file, scaled.
     VerticalLeftOut { peak_g: f64, horizontal_g: f64 },
+    /// The record's file has vertical components alone: this one is taken as the horizontal
+    /// motion.
+    OnlyVertical { component: String },
     /// More of the record is asked for than there is.
     LongDuration { asked_s: f64, record_s: f64 },
 }
@@ -136,7 +139,12 @@ pub(crate) fn of_excitation(excitation: &Excitation) -> Vec<Doubt> {
     let long = long.map(|asked_s| Doubt::LongDuration { asked_s, record_s });
     let vertical = excitation.vertical_left_out().filter(|left| left.peak_g > VERTICAL_SHARE * left.horizontal_g);
     let vertical = vertical.map(|left| Doubt::VerticalLeftOut { peak_g: left.peak_g, horizontal_g: left.horizontal_g });
-    weak.into_iter().chain(long).chain(vertical).collect()
+    let only = match &record.source {
+        Source::File { only_vertical: Some(component), .. } => Some(component.clone()),
+        _ => None,
+    };
+    let only = only.map(|component| Doubt::OnlyVertical { component });
+    only.into_iter().chain(weak).chain(long).chain(vertical).collect()
 }
 
 impl Doubt {
@@ -167,6 +175,11 @@ impl Doubt {
                 figures(*peak_g),
                 figures(*horizontal_g)
             ),
+            Self::OnlyVertical { component } => {
+                format!(
+                    "component {component}, a vertical one, is taken as the horizontal motion: the file has no other"
+                )
+            }
             Self::LongDuration { asked_s, record_s } => {
                 format!(
                     "{} s are asked for, the record has {} s; all of it is used",
@@ -190,6 +203,7 @@ impl Doubt {
             Self::VerticalLeftOut { .. } => {
                 "take it with --vertical auto (vertical = \"auto\" in [record]) and compare".to_owned()
             }
+            Self::OnlyVertical { .. } => "give a file with a horizontal component".to_owned(),
             Self::LongDuration { .. } => "leave the duration out, or give a longer record".to_owned(),
         }
     }

@@ -89,6 +89,9 @@ pub enum Finding {
     Stands {
         share_of_overturning: f64,
         over_s: f64,
+        /// Whether it would need more friction than there is.
+        #[serde(default)]
+        if_feet_hold: bool,
     },
     Overturns {
         time_s: f64,
@@ -211,6 +214,10 @@ pub enum Finding {
         steps: usize,
     },
     MembersBeside,
+    /// Feet that landed elsewhere than they stood leave the structure bent, held by friction.
+    FeetApart {
+        apart_m: f64,
+    },
     VerticalLeftOut {
         vertical_g: f64,
         horizontal_g: f64,
@@ -246,6 +253,8 @@ pub enum NotDone {
     Further,
     /// Peaks over motions near the record.
     NearMotions,
+    /// Whether forces change with the mesh and the springs.
+    ForceChecks,
 }
 
 impl NotDone {
@@ -257,6 +266,7 @@ impl NotDone {
             Self::Front => "the error over the stiffness",
             Self::Further => "springs that follow the record further",
             Self::NearMotions => "motions near the record",
+            Self::ForceChecks => "the check of forces",
         }
     }
 }

@@ -48,6 +48,13 @@ impl PeakErrors {
         [self.displacement, self.uplift, self.base_shear, self.axial]
     }
 
+    /// Which of the four is the largest, in words.
+    pub fn worst(&self) -> &'static str {
+        let names = ["displacement", "uplift", "base shear", "axial force"];
+        let all = names.into_iter().zip(self.all());
+        all.max_by(|(_, a), (_, b)| a.total_cmp(b)).map_or("", |(name, _)| name)
+    }
+
     /// The largest of the four. The moment at the base goes with the axial force: it is N b on one
     /// foot.
     pub(crate) fn largest(&self) -> f64 {

@@ -56,6 +56,7 @@ impl Finding {
             Self::FreeFlight { .. } => "compare up to that time only",
             Self::TooStocky { .. } => "check height and width; rely on tests for such a body",
             Self::HistoryEndsEarly { .. } => "take stiffer springs, or rotational_inertia_kgm2 above 0.002 m R^2",
+            Self::FeetApart { .. } => "tie the feet, or design for what stays: members.csv at its end",
             Self::SmallestSteps { .. } => "compare with OpenSees: tune verify",
             Self::VerticalLeftOut { .. } => "it is left out here; --vertical auto includes it",
             Self::Doubt { remedy, .. } => return Some(remedy.clone()),

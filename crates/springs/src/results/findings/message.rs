@@ -61,6 +61,7 @@ impl Finding {
             | Self::FreeFlight { .. }
             | Self::TooStocky { .. }
             | Self::HistoryEndsEarly { .. }
+            | Self::FeetApart { .. }
             | Self::SmallestSteps { .. } => self.regime(),
             Self::VerticalLeftOut { .. } | Self::Doubt { .. } | Self::DeckJudged { .. } => self.taken(),
         }
@@ -74,8 +75,9 @@ impl Finding {
                 significant(*pga_g, 4),
                 significant(*uplift_g, 4)
             ),
-            Self::Stands { share_of_overturning, .. } => format!(
-                "the structure rocks and stands: its largest rotation is {} of overturning",
+            Self::Stands { share_of_overturning, if_feet_hold, .. } => format!(
+                "the structure rocks and stands{}: its largest rotation is {} of overturning",
+                if *if_feet_hold { ", if its feet hold" } else { "" },
                 percent(*share_of_overturning)
             ),
             Self::Overturns { time_s, reference_s } => match reference_s {
@@ -252,6 +254,11 @@ impl Finding {
                 };
                 format!("the history {} ends at t = {}: {why}", on(*model), s(*time_s))
             }
+            Self::FeetApart { apart_m } => format!(
+                "at the end the feet stand {} {} than at first: friction keeps the structure bent",
+                quantity(apart_m.abs(), "m"),
+                if *apart_m > 0.0 { "further apart" } else { "closer together" }
+            ),
             Self::SmallestSteps { model, steps } => {
                 format!(
                     "{steps} steps of the history {} were taken at the smallest size, whatever their error",
