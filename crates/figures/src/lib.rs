@@ -59,7 +59,7 @@ pub mod rocking;
 pub mod stack;
 pub mod validation;
 
-pub use number::{brief, power_of_ten, prefix, short};
+pub use number::{brief, prefix, short};
 pub use plot::EventMark;
 pub use sheet::Sheet;
 

@@ -1,5 +1,7 @@
 //! Numbers as a reader wants them: a true minus sign, no "-0.0", metric prefixes, powers of ten.
 
+use files::message::power_of_ten;
+
 /// `x` with so many decimals, a typographic minus, and no sign on a zero.
 pub(crate) fn fixed(x: f64, decimals: usize) -> String {
     let text = format!("{x:.decimals$}");
@@ -38,14 +40,6 @@ pub fn brief(x: f64, digits: usize) -> String {
     } else {
         text
     }
-}
-
-/// 10 with a raised exponent.
-pub fn power_of_ten(exponent: i32) -> String {
-    const DIGITS: [char; 10] = ['⁰', '¹', '²', '³', '⁴', '⁵', '⁶', '⁷', '⁸', '⁹'];
-    let raised: String =
-        exponent.to_string().chars().map(|c| c.to_digit(10).map_or('⁻', |digit| DIGITS[digit as usize])).collect();
-    format!("10{raised}")
 }
 
 /// A power of a thousand and its prefix, so that the largest value reads as 1 to 1000 (1 and "" for

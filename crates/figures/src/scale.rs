@@ -1,6 +1,7 @@
 //! One axis: which value stands where, and which values are told.
 
-use super::number::{fixed, power_of_ten};
+use super::number::fixed;
+use files::message::power_of_ten;
 
 /// A value told at the axis.
 #[derive(Clone, Debug, PartialEq)]

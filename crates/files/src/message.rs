@@ -68,6 +68,14 @@ pub fn shortened(text: &str, most: usize) -> String {
     letters[..head].iter().collect::<String>() + "..." + &letters[letters.len() - tail..].iter().collect::<String>()
 }
 
+/// 10 with a raised exponent.
+pub fn power_of_ten(exponent: i32) -> String {
+    const DIGITS: [char; 10] = ['⁰', '¹', '²', '³', '⁴', '⁵', '⁶', '⁷', '⁸', '⁹'];
+    let raised: String =
+        exponent.to_string().chars().map(|c| c.to_digit(10).map_or('⁻', |digit| DIGITS[digit as usize])).collect();
+    format!("10{raised}")
+}
+
 /// x with at most so many significant digits, without zeros at the end of a fraction: 401.2, 0.1,
 /// 1.725e16.
 pub fn significant(x: f64, digits: usize) -> String {

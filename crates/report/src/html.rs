@@ -3,7 +3,7 @@
 use std::fmt::Write;
 
 use super::Table;
-use files::message::printable_lines;
+use files::message::{power_of_ten, printable_lines};
 
 /// Text that can stand in a page; characters that would turn it around are spelt out.
 pub(crate) fn escape(text: &str) -> String {
@@ -48,7 +48,7 @@ pub(crate) fn pretty(text: &str) -> String {
 pub(crate) fn number(text: &str) -> String {
     let power = |(digits, exponent): (&str, &str)| -> Option<String> {
         let (digits, exponent) = (digits.parse::<f64>().ok().map(|_| digits)?, exponent.parse::<i32>().ok()?);
-        Some(format!("{digits}·{}", figures::power_of_ten(exponent)))
+        Some(format!("{digits}·{}", power_of_ten(exponent)))
     };
     let text = text.split_once('e').and_then(power).unwrap_or_else(|| text.to_string());
     let text = if text.starts_with('-') && text.len() > 1 { text.replacen('-', "−", 1) } else { text };
@@ -85,10 +85,9 @@ pub(crate) fn tile(value: &str, what: &str) -> String {
     format!("<div class=\"tile\"><b>{}</b><span>{}</span></div>\n", pretty(value), pretty(what))
 }
 
-/// JSON that can stand in a script element.
-pub(crate) fn json(value: &impl serde::Serialize) -> String {
-    // plain numbers and strings always serialise
-    serde_json::to_string(value).unwrap_or_default().replace('<', "\\u003c")
+/// JSON inside a page: no tag can begin in it.
+pub(crate) fn in_html(json: &str) -> String {
+    json.replace('<', "\\u003c")
 }
 
 #[cfg(test)]
@@ -98,7 +97,7 @@ mod tests {
     #[test]
     fn text_of_others_cannot_be_markup() {
         assert_eq!(escape("<script>\"&\u{7}"), "&lt;script&gt;&quot;&amp;\\u{7}");
-        assert_eq!(json(&"</script>"), "\"\\u003c/script>\"");
+        assert_eq!(in_html("\"</script>\""), "\"\\u003c/script>\"");
         let rows = Table::new(["a<b"]).with([vec!["<i>".to_string()]]);
         assert!(!table(&rows, 0..0).contains("<i>"));
     }

@@ -4,19 +4,31 @@ use std::fmt::Write;
 
 use super::{
     Run, Section,
-    html::{escape, json, pretty, table, tile},
+    html::{escape, in_html, pretty, table, tile},
     markdown::sections,
     sentence,
 };
-use figures::Figure;
 use files::message::{percent, quantity};
 use springs::results::{FiledFinding, Weight};
 
 const STYLE: &str = include_str!("style.css");
 const SCRIPT: &str = include_str!("script.js");
 
+/// A figure as the page has it.
+#[derive(Clone, Debug)]
+pub struct Drawing<'a> {
+    /// In addresses.
+    pub id: &'a str,
+    /// What it is.
+    pub caption: &'a str,
+    /// The picture.
+    pub svg: &'a str,
+    /// Plots over time with their numbers, as JSON, by which the page zooms it; none of others.
+    pub plots: Option<String>,
+}
+
 /// The whole page.
-pub fn page(run: &Run, drawn: &[Figure]) -> String {
+pub fn page(run: &Run, drawn: &[Drawing]) -> String {
     let title = escape(&format!("Ground springs: {}", run.taken.structure));
     let subtitle = escape(run.taken.record.as_deref().unwrap_or("without a record"));
     let mut parts: Vec<(String, String, String)> = Vec::new();
@@ -179,21 +191,22 @@ fn document(title: &str, subtitle: &str, verdict: &str, parts: &[(String, String
 }
 
 /// Figures with their captions; those over time zoom.
-fn figures(all: &[Figure]) -> String {
+fn figures(all: &[Drawing]) -> String {
     let mut out = String::new();
-    for figure in all {
-        let svg = figure.sheet.svg.replacen("<svg ", "<svg class=\"sheet\" role=\"img\" ", 1);
-        let (live, numbers) = if figure.sheet.plots.is_empty() {
-            ("", String::new())
-        } else {
-            (" class=\"live\"", format!("<script type=\"application/json\">{}</script>\n", json(&figure.sheet.plots)))
+    for drawing in all {
+        let svg = drawing.svg.replacen("<svg ", "<svg class=\"sheet\" role=\"img\" ", 1);
+        let (live, numbers) = match &drawing.plots {
+            Some(plots) => {
+                (" class=\"live\"", format!("<script type=\"application/json\">{}</script>\n", in_html(plots)))
+            }
+            None => ("", String::new()),
         };
         // writing to a String cannot fail
         let _ = write!(
             out,
             "<figure id=\"{}\"{live}>\n{svg}{numbers}<figcaption>{}</figcaption>\n</figure>\n",
-            figure.name,
-            pretty(figure.caption)
+            drawing.id,
+            pretty(drawing.caption)
         );
     }
     out

@@ -8,7 +8,7 @@ use crate::{
     models::write_decks,
     pictures as rigid_pictures,
     place::write_file,
-    rigid::Output,
+    rigid::{Output, write_report},
     tables::csv_row,
 };
 use decks::{ACCURACY, DeckFormat, ElasticDeck, ExportError};
@@ -24,7 +24,6 @@ use report::{
     elastic::{ElasticParts, design_forces, largest, title},
     filed,
     markdown::markdown,
-    page::page,
     summary,
 };
 use springs::{
@@ -178,9 +177,7 @@ impl ElasticRun {
         let left_out = write_decks(&out.join("decks"), |format| self.deck(format))?;
         let figures: Vec<Figure> = if output.figures { pictures::draw(self)? } else { Vec::new() };
         rigid_pictures::save(out, &figures)?;
-        if output.report {
-            write_file(&out.join("report.html"), page(&run, &figures).as_bytes())?;
-        }
+        write_report(out, output, &run, &figures)?;
         folder.finish()?;
         Ok(left_out)
     }

@@ -4,7 +4,13 @@ use std::path::Path;
 
 use decks::{Expected, with_inertia};
 use figures::Figure;
-use report::{Run, markdown::markdown, page::page, rigid::RigidRun, summary};
+use report::{
+    Run,
+    markdown::markdown,
+    page::{Drawing, page},
+    rigid::RigidRun,
+    summary,
+};
 use springs::{
     answers::ModelComparison,
     parameters::{Parameters, RecordRow},
@@ -97,7 +103,19 @@ pub fn filed(rigid: &RigidRun, out: &Path) -> Parameters {
 
 /// `report.html`, if it is asked for.
 pub fn write_report(out: &Path, output: Output, run: &Run, figures: &[Figure]) -> Result<(), FolderError> {
-    if output.report { write_file(&out.join("report.html"), page(run, figures).as_bytes()) } else { Ok(()) }
+    if !output.report {
+        return Ok(());
+    }
+    let drawn: Vec<Drawing> = figures.iter().map(drawing).collect();
+    write_file(&out.join("report.html"), page(run, &drawn).as_bytes())
+}
+
+/// A figure for a page.
+pub(crate) fn drawing(figure: &Figure) -> Drawing<'_> {
+    let plots = &figure.sheet.plots;
+    // plain numbers and strings always serialise
+    let plots = (!plots.is_empty()).then(|| serde_json::to_string(plots).unwrap_or_default());
+    Drawing { id: figure.name, caption: figure.caption, svg: &figure.sheet.svg, plots }
 }
 
 /// The model for other programs. A body without rotational inertia gets some there, and its own

@@ -21,6 +21,7 @@ fn run(scale: f64, toml: Option<&str>) -> RigidRun {
 fn page_of(run: &RigidRun, figures: bool) -> String {
     let RigidRun { case, job, front, both, .. } = run;
     let figures = if figures { Pictures { case, job, both, front }.draw().unwrap() } else { Vec::new() };
+    let figures: Vec<Drawing> = figures.iter().map(drawing).collect();
     let page = super::page(&run.said(run.parameters.clone()), &figures);
     assert!(page.len() < 2_000_000, "{} bytes", page.len());
     // names of vocabularies are no addresses to be asked
