@@ -11,6 +11,7 @@
 //! units, except in SAP2000 where the tables say KN, m.
 
 // what is printed goes through the program's `commands/terminal`
+#![warn(missing_docs)]
 #![cfg_attr(not(test), deny(clippy::print_stdout, clippy::print_stderr))]
 
 mod elastic;

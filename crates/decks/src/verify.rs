@@ -38,8 +38,11 @@ const FINER: f64 = 1.0 / 16.0;
 /// Normalised errors of a motion against another, as [`nrmse`].
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Agreement {
+    /// Of the horizontal displacement of the mass.
     pub u: f64,
+    /// Of the vertical one.
     pub v: f64,
+    /// Of the rotation.
     pub theta: f64,
 }
 
@@ -60,15 +63,21 @@ impl Agreement {
 pub struct Verification {
     /// Sampling interval (s).
     pub dt: f64,
+    /// The deck's.
     pub opensees: Motion,
+    /// Our finite elements'.
     pub ours: Motion,
+    /// Housner's.
     pub housner: Motion,
     /// Largest motions of ours and OpenSees'.
     pub peaks: Vec<ComparedPeak>,
     /// How often each went from one foot to the other.
     pub swings: [usize; 2],
+    /// The deck's error beside our finite elements.
     pub opensees_against_ours: Agreement,
+    /// The deck's error beside Housner.
     pub opensees_against_housner: Agreement,
+    /// Our finite elements' error beside Housner.
     pub ours_against_housner: Agreement,
     /// Whether the deck found its peaks within 1 % of ours.
     pub within_one_percent: bool,
@@ -92,6 +101,7 @@ pub struct Verification {
 
 /// Why a deck could not be verified, and what to do.
 #[derive(Debug, Error)]
+#[allow(missing_docs)] // messages say what variants and their fields are
 pub enum VerifyError {
     #[error(
         "verify: {python} cannot load openseespy; install it with `pip install openseespy` (on Debian also `apt install libblas3 liblapack3`), or name another interpreter with --python"
@@ -190,9 +200,13 @@ struct Deck<'a> {
 
 /// A deck's run: its history and what it printed.
 pub struct DeckRun<T> {
+    /// The history.
     pub motion: T,
+    /// Whether the deck found its peaks within 1 % of ours.
     pub good: bool,
+    /// What the deck printed.
     pub report: String,
+    /// Time it took (s).
     pub seconds: f64,
 }
 

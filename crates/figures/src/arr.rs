@@ -29,7 +29,9 @@ pub struct TargetBand {
 /// A frequency at which the fit touches its bound.
 #[derive(Clone, Copy, Debug)]
 pub struct ActiveMark {
+    /// Frequency ratio g.
     pub g: f64,
+    /// Amplitude response ratio there.
     pub arr: f64,
     /// Its multiplier in the optimality conditions, told beside it; `None` tells nothing.
     pub multiplier: Option<f64>,
@@ -38,10 +40,13 @@ pub struct ActiveMark {
 /// One spring-absorber unit's response.
 #[derive(Clone, Copy, Debug)]
 pub struct UnitCurve<'a> {
+    /// In the legend.
     pub label: &'a str,
     /// Frequency ratios, increasing, greater than zero.
     pub g: &'a [f64],
+    /// Amplitude response ratio at these frequencies.
     pub arr: &'a [f64],
+    /// Where it touches its bounds.
     pub active: &'a [ActiveMark],
     /// Whether it is of the springs that were delivered: a full line; others are dashed.
     pub delivered: bool,
@@ -54,8 +59,11 @@ pub struct UnitCurve<'a> {
 /// What the figure shows.
 #[derive(Clone, Copy, Debug)]
 pub struct ResponseFigure<'a> {
+    /// First line: the head; further ones: remarks.
     pub title: &'a str,
+    /// What is wanted.
     pub target: &'a [TargetBand],
+    /// The units.
     pub curves: &'a [UnitCurve<'a>],
 }
 

@@ -31,9 +31,11 @@ pub struct CandidateMark {
 /// What the figure shows.
 #[derive(Clone, Copy, Debug)]
 pub struct CandidatesFigure<'a> {
+    /// First line: the head; further ones: remarks.
     pub title: &'a str,
     /// What the error is, as "NRMSE of u and v".
     pub error_label: &'a str,
+    /// All that were tried.
     pub candidates: &'a [CandidateMark],
     /// Index of the best one.
     pub chosen: Option<usize>,

@@ -16,6 +16,7 @@ pub struct ChartCurve<'a> {
     pub alpha: f64,
     /// Whether it is drawn dashed: the second kind of body.
     pub dashed: bool,
+    /// Omega_n over p.
     pub omega_n_over_p: &'a [f64],
     /// Values of each panel, in the order of `ChartFigure::panels`.
     pub values: [&'a [f64]; 4],
@@ -24,11 +25,13 @@ pub struct ChartCurve<'a> {
 /// What the figure shows.
 #[derive(Clone, Copy, Debug)]
 pub struct ChartFigure<'a> {
+    /// First line: the head; further ones: remarks.
     pub title: &'a str,
     /// What is on the vertical axis of each panel.
     pub panels: [&'a str; 4],
     /// What a full and a dashed line are.
     pub kinds: [&'a str; 2],
+    /// The curves.
     pub curves: &'a [ChartCurve<'a>],
 }
 

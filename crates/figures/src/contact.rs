@@ -19,6 +19,7 @@ const USUAL: f64 = 0.95;
 /// What the figure shows: forces on the body at the times t, one value each.
 #[derive(Clone, Copy, Debug)]
 pub struct ContactFigure<'a> {
+    /// First line: the head; further ones: remarks.
     pub title: &'a str,
     /// Times, increasing (s).
     pub t: &'a [f64],

@@ -16,6 +16,7 @@ const CHECK: Check = Check("energy");
 /// What the figure shows, at the times t, one value each.
 #[derive(Clone, Copy, Debug)]
 pub struct EnergyFigure<'a> {
+    /// First line: the head; further ones: remarks.
     pub title: &'a str,
     /// Times, increasing (s).
     pub t: &'a [f64],

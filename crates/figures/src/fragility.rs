@@ -18,9 +18,13 @@ const CHECK: Check = Check("fragility");
 pub struct FragilityCurve {
     /// Which entry of the legend it is.
     pub entry: usize,
+    /// Intensities.
     pub x: Vec<f64>,
+    /// Probability of exceedance at each.
     pub probability: Vec<f64>,
+    /// Lower bound of it.
     pub low: Vec<f64>,
+    /// Upper bound of it.
     pub high: Vec<f64>,
     /// Intensity and share of histories.
     pub observed: Vec<(f64, f64)>,
@@ -29,16 +33,22 @@ pub struct FragilityCurve {
 /// One measure of intensity.
 #[derive(Clone, Debug)]
 pub struct MeasurePanel {
+    /// Name and unit of the measure.
     pub label: String,
+    /// One a structure and limit state.
     pub curves: Vec<FragilityCurve>,
 }
 
 /// What the figure shows.
 #[derive(Clone, Copy, Debug)]
 pub struct FragilityFigure<'a> {
+    /// First line: the head; further ones: remarks.
     pub title: &'a str,
+    /// The legend, in the order of the curves.
     pub entries: &'a [String],
+    /// The panels.
     pub measures: &'a [MeasurePanel],
+    /// Of the vertical axis.
     pub probability_label: &'a str,
 }
 

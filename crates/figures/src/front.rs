@@ -16,6 +16,7 @@ const CHECK: Check = Check("front");
 /// One way to design springs: an error for each Omega_n, one value each.
 #[derive(Clone, Copy, Debug)]
 pub struct DesignSeries<'a> {
+    /// In the legend.
     pub label: &'a str,
     /// Omega_n of the vertical springs (Hz).
     pub omega_n_hz: &'a [f64],
@@ -26,16 +27,22 @@ pub struct DesignSeries<'a> {
 /// What stiffness costs, one value for each Omega_n.
 #[derive(Clone, Copy, Debug)]
 pub struct Cost<'a> {
+    /// Of the axis.
     pub label: &'a str,
+    /// Omega_n/2 pi (Hz).
     pub omega_n_hz: &'a [f64],
+    /// The cost at each.
     pub value: &'a [f64],
 }
 
 /// What the figure shows.
 #[derive(Clone, Copy, Debug)]
 pub struct FrontFigure<'a> {
+    /// First line: the head; further ones: remarks.
     pub title: &'a str,
+    /// Of the axis of the error.
     pub error_label: &'a str,
+    /// The ways to design.
     pub series: &'a [DesignSeries<'a>],
     /// Omega_n of the springs that were delivered (Hz).
     pub chosen_hz: f64,

@@ -56,6 +56,7 @@ impl Trace<'_> {
 /// What the figure shows.
 #[derive(Clone, Copy, Debug)]
 pub struct HistoryFigure<'a> {
+    /// First line: the head; further ones: remarks.
     pub title: &'a str,
     /// Times of the samples, increasing (s).
     pub t: &'a [f64],

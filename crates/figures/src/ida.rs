@@ -14,9 +14,11 @@ const CHECK: Check = Check("ida");
 /// One structure.
 #[derive(Clone, Debug)]
 pub struct IdaSubject {
+    /// Its name.
     pub label: String,
     /// Levels and peaks |theta|/alpha of single records; infinite where the body overturned.
     pub records: Vec<(Vec<f64>, Vec<f64>)>,
+    /// Intensities.
     pub levels: Vec<f64>,
     /// 16, 50 and 84 % of all records at the levels; infinite where these overturned.
     pub quantiles: [Vec<f64>; 3],
@@ -25,8 +27,11 @@ pub struct IdaSubject {
 /// What the figure shows.
 #[derive(Clone, Copy, Debug)]
 pub struct IdaFigure<'a> {
+    /// First line: the head; further ones: remarks.
     pub title: &'a str,
+    /// Of the axis of the intensity.
     pub level_label: &'a str,
+    /// The structures.
     pub subjects: &'a [IdaSubject],
 }
 

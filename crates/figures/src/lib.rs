@@ -24,6 +24,7 @@
 //! | [`precision`] | run time against error of several tools |
 
 // what is printed goes through the program's `commands/terminal`
+#![warn(missing_docs)]
 #![cfg_attr(not(test), deny(clippy::print_stdout, clippy::print_stderr))]
 
 use std::path::PathBuf;
@@ -79,6 +80,7 @@ pub struct Figure {
 
 /// Why a figure was not drawn; nothing has been written then.
 #[derive(Debug, Error)]
+#[allow(missing_docs)] // messages say what variants and their fields are
 pub enum FigureError {
     #[error("figure {figure}: {what} is empty; give at least {least} values or leave the figure out")]
     Empty { figure: &'static str, what: String, least: usize },

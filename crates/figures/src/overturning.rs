@@ -17,6 +17,7 @@ const CHECK: Check = Check("overturning");
 pub struct AmplitudeInterval {
     /// omega/p.
     pub q: f64,
+    /// Its lower end.
     pub from: f64,
     /// Infinite if it has no upper end.
     pub to: f64,
@@ -27,19 +28,24 @@ pub struct AmplitudeInterval {
 /// One pulse and structure.
 #[derive(Clone, Debug)]
 pub struct Spectrum {
+    /// Its name.
     pub label: String,
     /// Every frequency that was looked at, increasing.
     pub frequencies: Vec<f64>,
+    /// The intervals that overturn.
     pub intervals: Vec<AmplitudeInterval>,
 }
 
 /// What the figure shows.
 #[derive(Clone, Copy, Debug)]
 pub struct OverturningFigure<'a> {
+    /// First line: the head; further ones: remarks.
     pub title: &'a str,
+    /// One a panel.
     pub spectra: &'a [Spectrum],
     /// Frequencies omega/p and amplitudes that were looked at.
     pub frequencies: (f64, f64),
+    /// Least and greatest amplitude shown.
     pub amplitudes: (f64, f64),
 }
 

@@ -15,6 +15,7 @@ const EDGE: f64 = 1.0;
 /// What the figure shows.
 #[derive(Clone, Copy, Debug)]
 pub struct PeaksFigure<'a> {
+    /// First line: the head; further ones: remarks.
     pub title: &'a str,
     /// |theta|/alpha by Housner and on springs; infinite for a body that overturned.
     pub pairs: &'a [(f64, f64)],

@@ -13,6 +13,7 @@ const CHECK: Check = Check("precision");
 /// One tool over a ladder of tolerances or steps.
 #[derive(Clone, Copy, Debug)]
 pub struct ToolSeries<'a> {
+    /// In the legend.
     pub label: &'a str,
     /// (error, time), in the units of the two labels, both greater than zero.
     pub points: &'a [(f64, f64)],
@@ -21,11 +22,13 @@ pub struct ToolSeries<'a> {
 /// What the figure shows.
 #[derive(Clone, Copy, Debug)]
 pub struct PrecisionFigure<'a> {
+    /// First line: the head; further ones: remarks.
     pub title: &'a str,
     /// As "largest error of u (m)".
     pub error_label: &'a str,
     /// As "time (ms)".
     pub time_label: &'a str,
+    /// The tools.
     pub series: &'a [ToolSeries<'a>],
 }
 

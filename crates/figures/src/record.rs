@@ -12,6 +12,7 @@ const CHECK: Check = Check("record");
 /// What the figure shows, at the times t, one value each.
 #[derive(Clone, Copy, Debug)]
 pub struct RecordFigure<'a> {
+    /// First line: the head; further ones: remarks.
     pub title: &'a str,
     /// Times, increasing (s).
     pub t: &'a [f64],

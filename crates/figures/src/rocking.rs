@@ -25,14 +25,18 @@ pub struct RockingBody {
 /// All bodies of one kind.
 #[derive(Clone, Debug)]
 pub struct Map {
+    /// Its name.
     pub label: String,
+    /// The bodies.
     pub bodies: Vec<RockingBody>,
 }
 
 /// What the figure shows.
 #[derive(Clone, Copy, Debug)]
 pub struct RockingFigure<'a> {
+    /// First line: the head; further ones: remarks.
     pub title: &'a str,
+    /// One a kind of body.
     pub maps: &'a [Map],
 }
 

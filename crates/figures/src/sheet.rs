@@ -19,6 +19,7 @@ pub struct Sheet {
     pub svg: String,
     /// Its size (pixel).
     pub width: u32,
+    /// Height of the picture (pixels).
     pub height: u32,
     /// Its text, for the PNG.
     pub(crate) lines: Vec<LetteredLine>,

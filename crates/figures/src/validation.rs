@@ -23,7 +23,9 @@ pub struct ValidationPoint {
     pub peak_housner: f64,
     /// Peak |theta|/alpha by finite elements.
     pub peak_fem: f64,
+    /// Whether Housner's body overturns.
     pub overturned_housner: bool,
+    /// Whether the finite elements overturn.
     pub overturned_fem: bool,
     /// Relative change of Housner's history per relative change of the structure; may be infinite.
     pub sensitivity: f64,
@@ -34,7 +36,9 @@ pub struct ValidationPoint {
 /// What the figure shows.
 #[derive(Clone, Copy, Debug)]
 pub struct ValidationFigure<'a> {
+    /// First line: the head; further ones: remarks.
     pub title: &'a str,
+    /// The records.
     pub rows: &'a [ValidationPoint],
     /// Kolmogorov-Smirnov distance of the two distributions of peaks.
     pub ks_distance: f64,

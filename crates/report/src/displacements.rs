@@ -67,7 +67,8 @@ pub fn peak_table(run: &Run) -> Option<Table> {
 }
 
 /// `summary.csv`: largest displacements and design forces as plain numbers, SI units; cells of what
-/// is withheld are empty. `holds_to_s`: up to when a force counts, if that is not all of the record.
+/// is withheld are empty. `holds_to_s`: up to when a force counts, if that is not all of the
+/// record.
 pub fn summary(run: &Run) -> Table {
     let mut table = Table::new(["quantity", "unit", "reference", "on_springs", "holds_to_s"]);
     let mut row = |name: &str, unit: &str, numbers: [Option<f64>; 3]| {

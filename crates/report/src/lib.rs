@@ -79,7 +79,7 @@ fn changes(
         without,
         with,
     };
-    // the reference is the structure's, springs may follow it badly; unless it ends before the record
+    // the reference's, which springs may follow badly; unless it ends before the record
     let whole = peaks.iter().chain([&with_peaks]).all(|pair| pair.reference_ends_s.is_none());
     let top = |pair: &PeakPair| if whole { pair.reference } else { pair.springs }.top_displacement_m;
     let top = peaks.map(|peaks| change("top displacement", "m", top(&peaks), top(&with_peaks)));

@@ -23,8 +23,11 @@ pub struct ComparisonRow {
     pub left_out: u64,
     /// Overturned in both, in Housner's alone, on springs alone, in neither.
     pub both: u64,
+    /// Histories in which Housner's body overturns alone.
     pub housner_only: u64,
+    /// Histories in which the finite elements overturn alone.
     pub fem_only: u64,
+    /// Histories in which neither overturns.
     pub neither: u64,
     /// |theta|/alpha; infinite for a body that overturned.
     pub peaks: [Histogram; 2],

@@ -8,6 +8,7 @@ use strong_motion::RecordError;
 
 /// What is wrong with a sweep, where, and what to do.
 #[derive(Debug, Error)]
+#[allow(missing_docs)] // messages say what variants and their fields are
 pub enum SweepError {
     #[error("{path}: cannot be read ({source}); check the name of the sweep file")]
     Read { path: String, source: std::io::Error },

@@ -24,9 +24,11 @@ use row::ConfidenceBounds;
 /// What is asked whether it is exceeded.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum LimitState {
+    /// The body lifts.
     Rocking,
     /// |theta|/alpha.
     Ratio(f64),
+    /// The body overturns.
     Overturning,
 }
 
@@ -37,6 +39,7 @@ impl LimitState {
         std::iter::once(Self::Rocking).chain(ratios).chain([Self::Overturning]).collect()
     }
 
+    /// As tables name it.
     pub fn name(self) -> String {
         match self {
             Self::Rocking => "rocking".into(),
@@ -67,26 +70,34 @@ pub struct FragilityGroup {
     pub model: usize,
     /// None: all structures together.
     pub subject: Option<usize>,
+    /// Index of the restitution.
     pub restitution: usize,
     bins: [HashMap<i32, Bin>; 4],
+    /// Histories that count for nothing: the model could not answer.
     pub excluded: u64,
     /// The last record that counts, and how many do: one whose histories are all left out says
     /// nothing.
     last: Option<usize>,
+    /// Motions.
     pub records: usize,
 }
 
 /// A fit with all that the tables say of it.
 #[derive(Clone, Debug)]
 pub struct FragilityRow {
+    /// Index of its group.
     pub member: usize,
+    /// What is exceeded or not.
     pub state: LimitState,
     /// Index into [`MEASURES`].
     pub measure: usize,
+    /// Histories.
     pub n: u64,
+    /// Histories that exceed it.
     pub exceeded: u64,
     /// The least and the greatest intensity that was computed.
     pub range: (f64, f64),
+    /// What they say.
     pub fit: LognormalFit,
     /// Of (a, b).
     pub covariance: Option<SymmetricMatrix>,
@@ -95,8 +106,11 @@ pub struct FragilityRow {
 /// The fragility of a sweep.
 #[derive(Clone, Debug)]
 pub struct Fragility {
+    /// The groups.
     pub members: Vec<FragilityGroup>,
+    /// The fits.
     pub rows: Vec<FragilityRow>,
+    /// Level of the bounds: 0.9 of 90 %.
     pub confidence: f64,
 }
 

@@ -16,11 +16,17 @@ use super::{
 pub struct IdaPoint {
     /// Index into [`MODELS`].
     pub model: usize,
+    /// Index of the structure.
     pub subject: usize,
+    /// Index of the restitution.
     pub restitution: usize,
+    /// Intensity, in what the sweep measures it by.
     pub level: f64,
+    /// Histories.
     pub n: u64,
+    /// Histories in which the body lifts.
     pub lifted: u64,
+    /// Histories in which it overturns.
     pub overturned: u64,
     /// Failed, or the pivot let go: not in n.
     pub left_out: u64,
@@ -31,14 +37,18 @@ pub struct IdaPoint {
 /// Peaks of one record against level, for the figure.
 #[derive(Clone, Debug)]
 pub struct IdaCurve {
+    /// Index of the structure.
     pub subject: usize,
+    /// Intensities.
     pub levels: Vec<f64>,
+    /// Largest theta/alpha at each.
     pub peaks: Vec<f64>,
 }
 
 /// All points of a sweep: by model, structure, restitution, level.
 #[derive(Clone, Debug)]
 pub struct Ida {
+    /// The points.
     pub points: Vec<IdaPoint>,
     /// Of some records, the first model and the first restitution.
     pub curves: Vec<IdaCurve>,

@@ -21,6 +21,7 @@
 //! | q = omega/p | circular frequency of a pulse over p | - |
 
 // what is printed goes through the program's `commands/terminal`
+#![warn(missing_docs)]
 #![cfg_attr(not(test), deny(clippy::print_stdout, clippy::print_stderr))]
 
 pub mod compare;

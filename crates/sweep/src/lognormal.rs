@@ -38,23 +38,31 @@ pub(crate) type SymmetricMatrix = [f64; 3];
 /// Phi(a + b ln x).
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Probit {
+    /// a.
     pub a: f64,
+    /// b.
     pub b: f64,
     /// Expected information.
     pub information: SymmetricMatrix,
+    /// Logarithm of the likelihood.
     pub log_likelihood: f64,
 }
 
 /// What can be said of some outcomes.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum LognormalFit {
+    /// A curve.
     Fitted(Probit),
+    /// No history exceeds.
     NoneExceeded,
+    /// Every history exceeds.
     AllExceeded,
     /// All that exceed lie above all that do not: the median is between the two, no width can be
     /// told.
     Separated {
+        /// Largest intensity that does not exceed.
         below: f64,
+        /// Least intensity that exceeds.
         above: f64,
     },
     /// Outcomes are mixed at one intensity alone: no width can be told.

@@ -14,20 +14,33 @@ use files::{input, message::one_line, whole_file};
 /// What a sweep is, for whoever finds its folder.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct Manifest {
+    /// Name of the program.
     pub program: &'static str,
+    /// Its version.
     pub version: &'static str,
     /// FNV-1a of all that decides the results, the samples of files included.
     pub sweep: String,
+    /// What is asked.
     pub kind: SweepKind,
+    /// By which model.
     pub model: SweepModel,
+    /// Seed of the motions made.
     pub seed: u64,
+    /// Names of the structures.
     pub structures: Vec<String>,
+    /// Number of motions.
     pub motions: usize,
+    /// Number of restitutions.
     pub restitutions: usize,
+    /// What levels are levels of.
     pub measure: Measure,
+    /// The levels.
     pub levels: Vec<f64>,
+    /// Cells in all.
     pub cells: u64,
+    /// Cells to a part.
     pub cells_to_a_part: u64,
+    /// Parts in all.
     pub parts: u64,
 }
 
@@ -38,6 +51,7 @@ struct ManifestKey {
 }
 
 impl Manifest {
+    /// Of a plan, and the hash of its file.
     pub fn new(plan: &Plan, hash: &str) -> Self {
         Self {
             program: "tune",

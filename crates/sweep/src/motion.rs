@@ -14,6 +14,7 @@ use strong_motion::{Notice, ReadOptions, Record, RecordError, Recording, Source}
 pub enum Frequency {
     /// Circular, over p of the structure.
     OverP(f64),
+    /// As it is (Hz).
     Hz(f64),
 }
 
@@ -30,14 +31,18 @@ impl Frequency {
 /// A motion that others are made like, and what the reader of its file says of it.
 #[derive(Debug)]
 pub struct GivenMotion {
+    /// Spectrum and envelope.
     pub target: MotionTarget,
+    /// What its reader says.
     pub notices: Vec<Notice>,
 }
 
 /// One ground motion.
 #[derive(Clone, Debug)]
 pub enum SweepMotion {
+    /// El Centro 1940, north-south.
     ElCentro,
+    /// A file.
     File(PathBuf),
     /// `synthetic::record` of this index, made for the structure.
     Synthetic(usize),
@@ -47,7 +52,9 @@ pub enum SweepMotion {
     Like(usize, Arc<GivenMotion>),
     /// With a peak of 1 g.
     Pulse {
+        /// Its shape.
         shape: PulseShape,
+        /// Its frequency.
         frequency: Frequency,
     },
 }
@@ -55,8 +62,11 @@ pub enum SweepMotion {
 /// How motions are read and made.
 #[derive(Clone, Debug)]
 pub struct MotionSource {
+    /// What is said of files.
     pub read: ReadOptions,
+    /// Of motions that are made.
     pub seed: u64,
+    /// Length used (s); all of it unless given.
     pub duration_s: Option<f64>,
     /// The least and the greatest p of the structures (1/s): silences are long enough for the one,
     /// steps fine enough for the other.

@@ -38,7 +38,9 @@ use strong_motion::{Record, Source};
 /// where the scan ends first.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct OverturningInterval {
+    /// Its lower end.
     pub from: Option<f64>,
+    /// Its upper end.
     pub to: Option<f64>,
     /// Impacts before the body overturns: 0, 1, or 2 for two and more; not counted on springs.
     pub impacts: Option<usize>,
@@ -47,9 +49,13 @@ pub struct OverturningInterval {
 /// The intervals of one cell by one model.
 #[derive(Clone, Debug)]
 pub struct OverturningRow {
+    /// Which.
     pub cell: Cell,
+    /// Frequency of the pulse over p.
     pub omega_over_p: f64,
+    /// Name of the model.
     pub model: &'static str,
+    /// The intervals, from below.
     pub intervals: Vec<OverturningInterval>,
 }
 

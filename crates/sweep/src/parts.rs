@@ -19,7 +19,9 @@ use files::{input, message::one_line};
 /// 1.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Share {
+    /// I.
     pub index: u64,
+    /// N.
     pub of: u64,
 }
 
@@ -49,8 +51,11 @@ impl Share {
 
 /// The parts of a sweep in its folder.
 pub struct SweepParts<'a> {
+    /// The plan.
     pub plan: &'a Plan,
+    /// The folder.
     pub folder: &'a Path,
+    /// Hash of the sweep's file.
     pub hash: &'a str,
     /// Those that are gathered, all unless said: a reader of [`SweepParts::each`] sees these or
     /// none.

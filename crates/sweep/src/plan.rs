@@ -23,8 +23,11 @@ use strong_motion::{Notice, ReadOptions, fnv1a};
 /// One structure of a sweep.
 #[derive(Clone, Debug)]
 pub struct Subject {
+    /// Its name.
     pub name: String,
+    /// As given.
     pub structure: Structure,
+    /// As the models have it.
     pub body: Body<f64>,
     /// Its own velocity restitution.
     pub restitution: f64,
@@ -61,33 +64,47 @@ fn digits(x: f64) -> String {
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize)]
 #[serde(rename_all = "snake_case")]
 pub enum Measure {
+    /// The factor on the acceleration.
     Scale,
+    /// The peak ground acceleration (g).
     PgaG,
+    /// PGA over that which lifts the body, g tan alpha.
     PgaOverUplift,
 }
 
 /// How springs are tuned.
 #[derive(Clone, Copy, Debug)]
 pub struct SpringsAsked {
+    /// Error of the history that is allowed.
     pub accuracy: f64,
+    /// Stiffest springs allowed, Omega_n/2 pi (Hz).
     pub max_omega_hz: Option<f64>,
 }
 
 /// A checked sweep.
 #[derive(Clone, Debug)]
 pub struct Plan {
+    /// What is asked.
     pub kind: SweepKind,
+    /// By which model.
     pub model: SweepModel,
+    /// The structures.
     pub subjects: Vec<Subject>,
+    /// The motions.
     pub motions: Vec<SweepMotion>,
+    /// How motions are read and made.
     pub making: MotionSource,
     /// Velocity restitutions for all structures; each structure's own unless given.
     pub restitutions: Option<Vec<f64>>,
+    /// What levels are levels of.
     pub measure: Measure,
+    /// The levels.
     pub levels: Vec<f64>,
     /// theta/alpha whose exceedance is fitted.
     pub ratios: Vec<f64>,
+    /// Level of confidence bounds.
     pub confidence: f64,
+    /// How springs are tuned.
     pub springs: SpringsAsked,
     /// Cells to a part.
     pub part: u64,
@@ -96,10 +113,15 @@ pub struct Plan {
 /// One cell: a history, or for an overturning spectrum a frequency.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Cell {
+    /// Its number.
     pub index: u64,
+    /// Index of the motion.
     pub motion: usize,
+    /// Index of the structure.
     pub subject: usize,
+    /// Index of the restitution.
     pub restitution: usize,
+    /// Index of the level.
     pub level: usize,
 }
 
@@ -124,11 +146,11 @@ impl Plan {
     pub(crate) fn new(source: &SweepSource) -> Result<Self, SweepError> {
         let sweep = &source.spec.sweep;
         let kind = *sweep.kind.get_ref();
-        let default = if kind == SweepKind::Compare { SweepModel::ModelComparison } else { SweepModel::Housner };
+        let default = if kind == SweepKind::Compare { SweepModel::Both } else { SweepModel::Housner };
         let model = sweep.model.as_ref().map_or(default, |model| *model.get_ref());
         if let Some(written) = &sweep.model
             && kind == SweepKind::Compare
-            && model != SweepModel::ModelComparison
+            && model != SweepModel::Both
         {
             return Err(
                 source.at(written, "kind = \"compare\" compares both models; write model = \"both\", or leave it out")

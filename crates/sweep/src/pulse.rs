@@ -19,7 +19,9 @@ use rocking::synthetic::Pulse;
 /// The shape of a pulse.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum PulseShape {
+    /// Half a sine.
     HalfSine,
+    /// A whole sine.
     Sine,
     /// Symmetric Ricker wavelet, the second derivative of a Gaussian.
     Ricker,
@@ -27,7 +29,9 @@ pub enum PulseShape {
     RickerAntisymmetric,
     /// gamma oscillations of phase nu (rad).
     MavroeidisPapageorgiou {
+        /// Frequency of the carrier over that of the envelope.
         gamma: f64,
+        /// Phase (rad).
         nu: f64,
     },
 }

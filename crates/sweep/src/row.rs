@@ -12,7 +12,9 @@ use super::{
 pub enum CellOutcome {
     /// The ground never lifted the body.
     NeverLifted,
+    /// It rocks and stands.
     Rocked,
+    /// It overturns.
     Overturned,
     /// With vertical motion: Housner's pivot lets go, and his equation says nothing of what
     /// follows.
@@ -37,10 +39,12 @@ impl CellOutcome {
 /// One model's answer.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct CellAnswer {
+    /// How it ended.
     pub outcome: CellOutcome,
     /// Largest |theta|/alpha; pi/2 / alpha of a body that overturned; none of a history that
     /// failed.
     pub peak: Option<f64>,
+    /// Impacts before that.
     pub impacts: Option<usize>,
     /// When |theta| last grew past alpha (s).
     pub overturned_s: Option<f64>,
@@ -49,18 +53,27 @@ pub struct CellAnswer {
 /// One cell of a sweep of histories.
 #[derive(Clone, Debug)]
 pub struct HistoryRow {
+    /// Number of the cell.
     pub cell: u64,
+    /// Index of the structure.
     pub subject: usize,
+    /// Index of the motion.
     pub motion: usize,
+    /// Velocity after an impact over that before.
     pub restitution: f64,
+    /// Intensity, in what the sweep measures it by.
     pub level: f64,
+    /// Name of the motion.
     pub record: Arc<str>,
     /// Factor on the record.
     pub scale: f64,
     /// As scaled [m/s2, m/s].
     pub pga: f64,
+    /// Peak ground velocity (m/s).
     pub pgv: f64,
+    /// Housner's answer.
     pub housner: Option<CellAnswer>,
+    /// The finite elements' answer.
     pub fem: Option<CellAnswer>,
     /// Of the finite elements' u against Housner's, up to the first overturning.
     pub nrmse: Option<f64>,

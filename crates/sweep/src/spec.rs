@@ -72,16 +72,21 @@ pub enum SweepKind {
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(rename_all = "lowercase")]
 pub enum SweepModel {
+    /// Housner's equation.
     Housner,
+    /// Finite elements on springs.
     Fem,
-    ModelComparison,
+    /// Both, beside each other.
+    Both,
 }
 
 impl SweepModel {
+    /// Whether Housner's equation is among them.
     pub fn housner(self) -> bool {
         self != Self::Fem
     }
 
+    /// Whether the finite elements are among them.
     pub fn fem(self) -> bool {
         self != Self::Housner
     }
@@ -248,5 +253,26 @@ impl SweepSource {
             Some(x) => Err(self.at(values, format!("{name} has {x:?}; give numbers from {low:?} to {high:?}"))),
             None => Ok(values.get_ref().all().to_vec()),
         }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use serde::de::value::{Error, StrDeserializer};
+
+    /// Words that users have in their files.
+    #[test]
+    fn words_of_sweep_files_are_those_of_the_documents() {
+        let model = |word| SweepModel::deserialize(StrDeserializer::<Error>::new(word));
+        assert_eq!(model("housner"), Ok(SweepModel::Housner));
+        assert_eq!(model("fem"), Ok(SweepModel::Fem));
+        assert_eq!(model("both"), Ok(SweepModel::Both));
+        let kind = |word| SweepKind::deserialize(StrDeserializer::<Error>::new(word));
+        let words = ["fragility", "overturning", "rocking", "compare"].map(kind);
+        assert_eq!(
+            words.map(Result::unwrap),
+            [SweepKind::Fragility, SweepKind::Overturning, SweepKind::Rocking, SweepKind::Compare]
+        );
     }
 }

@@ -24,16 +24,20 @@ use parquet::{
 /// Values of one column, one a row.
 #[derive(Clone, Debug, PartialEq)]
 pub enum Column {
+    /// Whole numbers.
     Count(Vec<i64>),
     /// None: there is no such number.
     Real(Vec<Option<f64>>),
+    /// Yes, no or nothing.
     Flag(Vec<Option<bool>>),
+    /// Words.
     Text(Vec<Arc<str>>),
 }
 
 /// Columns of one length, each with its name.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct SweepTable {
+    /// The columns.
     pub columns: Vec<(&'static str, Column)>,
 }
 

@@ -11,6 +11,7 @@ pub(crate) struct ConfidenceBounds {
 }
 
 impl FragilityRow {
+    /// The curve, where there is one.
     pub fn probit(&self) -> Option<&Probit> {
         match &self.fit {
             LognormalFit::Fitted(fit) => Some(fit),
