@@ -36,7 +36,7 @@ use springs::{
         doubts::Doubt,
     },
     parameters::{Parameters, elastic::ElasticParameters},
-    results::{DesignForces, FiledFinding, Finding, ForceName, PeakChange, PeakPair, Weight},
+    results::{DeckEnd, DesignForce, DesignForces, FiledFinding, Finding, ForceName, PeakChange, PeakPair, Weight},
 };
 pub use table::Table;
 
@@ -210,9 +210,14 @@ impl Run {
     }
 
     /// Whether the motion can be foretold up to a force's largest value.
-    pub(crate) fn foretells(&self, force: ForceName) -> bool {
+    pub(crate) fn foretells(&self, (force, of): (ForceName, DesignForce)) -> bool {
+        // up to where changes of 1e-5 begin to decide
+        let until = self.findings.iter().find_map(|filed| match filed.finding {
+            Finding::DeckJudged { judged_s, end: DeckEnd::Foretold, .. } => Some(judged_s),
+            _ => None,
+        });
         !self.findings.iter().any(|filed| match &filed.finding {
-            Finding::IllConditioned { .. } => true,
+            Finding::IllConditioned { .. } => until.is_none_or(|until| of.time_s > until),
             Finding::ForetoldUpTo { later_forces, .. } | Finding::SlidesOn { later_forces, .. } => {
                 later_forces.contains(&force)
             }

@@ -42,8 +42,9 @@ pub(crate) fn sections(run: &Run) -> Vec<Section> {
             id: "peaks",
             title: "Largest displacements".into(),
             text: vec![
-                "Of the highest point, against the ground. By rocking: what the rotation of the base alone moves it; by bending: how far \
-                 it is across the axis of the base. Of several bases the largest counts."
+                "Of the highest point, against the ground. By rocking: what the rotation of its base alone moves it; by bending: how far \
+                 it is across the axis of its base; by landing elsewhere: how far the feet of its base are from where they stood. Each is \
+                 the largest of all bases, at its own time."
                     .into(),
             ],
             table: Some(table),
@@ -102,7 +103,7 @@ fn forces(run: &Run) -> Option<Section> {
     let forces = run.design_forces.as_ref()?;
     let cell = |x: Option<f64>, name: ForceName| x.map_or("-".into(), |x| quantity(x, name.unit()));
     let row = |(name, force): (ForceName, DesignForce)| {
-        let doubt = if force.holds && !run.foretells(name) { ", not foretold" } else { "" };
+        let doubt = if force.holds && !run.foretells((name, force)) { ", not foretold" } else { "" };
         vec![
             format!("{}{}", name.words(), height(&force)),
             force_value(name, &force) + doubt,

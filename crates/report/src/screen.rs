@@ -1,6 +1,6 @@
 //! What `tune run` prints: one screen, the answer first.
 
-use super::{Run, Table, force_value, height, peak_table, sentence};
+use super::{FiledParameters, Run, Table, force_value, height, peak_table, sentence};
 use files::message::{shortened, significant};
 use springs::results::{DesignForce, DesignForces, FiledFinding, Finding, ForceName, Weight};
 
@@ -112,10 +112,13 @@ fn taken(run: &Run, written: &Written, lines: &mut Vec<String>) {
 fn forces(run: &Run, lines: &mut Vec<String>) {
     let Some(forces) = &run.design_forces else { return };
     // an asterisk where some are, a word where all are
-    let doubted = |(name, force): (ForceName, DesignForce)| force.holds && !run.foretells(name);
-    let [some, every] = [forces.all().any(doubted), forces.all().all(|(name, _)| !run.foretells(name))];
+    let doubted = |one: (ForceName, DesignForce)| one.1.holds && !run.foretells(one);
+    let [some, every] = [forces.all().any(doubted), forces.all().all(|one| !run.foretells(one))];
     let mark = if some && !every { "*" } else { "" };
-    let below = forces.below_hz.map(|hz| format!("below {} Hz", significant(hz, 3)));
+    let below = match forces.below_hz {
+        Some(hz) => Some(format!("below {} Hz", significant(hz, 3))),
+        None => matches!(run.parameters, FiledParameters::Rigid(_)).then(|| "between impacts".into()),
+    };
     let doubt = some.then(|| format!("{mark} not foretold").trim_start().to_string());
     let of: Vec<String> = below.into_iter().chain(doubt).collect();
     let of = if of.is_empty() { String::new() } else { format!(" ({})", of.join("; ")) };
@@ -172,7 +175,11 @@ fn next(written: &Written, lines: &mut Vec<String>) {
     let folder = written.folder.trim_end_matches('/');
     let file = |name: &str| shortened(&format!("{folder}/{name}"), 58);
     if written.decks {
-        wrap(lines, "OpenSees  ", &format!("python3 {}  (steps follow touches)", file("decks/model_openseespy.py")));
+        wrap(
+            lines,
+            "OpenSees  ",
+            &format!("python3 {}  (it chooses its steps, which follow touches)", file("decks/model_openseespy.py")),
+        );
         wrap(lines, "check it  ", &format!("tune verify --parameters {}", file("parameters.json")));
     }
     wrap(lines, "SAP2000   ", "not these springs: programs with one fixed time step need others; none are given yet");

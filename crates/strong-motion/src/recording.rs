@@ -69,15 +69,15 @@ impl Recording {
                 component: component.name.clone().filter(|_| several),
                 baseline: options.baseline,
                 vertical_left_out_g: None,
-                only_vertical: None,
+                vertical_taken: None,
             };
         }
         recording.vertical = recording.check_vertical(options)?;
         let left_out = recording.vertical_left_out();
         let taken = &mut recording.components[recording.taken];
-        let only = (!recording.asked && taken.direction == Direction::Vertical).then(|| taken.label());
-        if let Source::File { vertical_left_out_g, only_vertical, .. } = &mut taken.record.source {
-            (*vertical_left_out_g, *only_vertical) = (left_out, only);
+        let only = (taken.direction == Direction::Vertical).then(|| taken.label());
+        if let Source::File { vertical_left_out_g, vertical_taken, .. } = &mut taken.record.source {
+            (*vertical_left_out_g, *vertical_taken) = (left_out, only);
         }
         Ok(recording)
     }

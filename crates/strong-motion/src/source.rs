@@ -26,9 +26,8 @@ pub enum Source {
         /// Peak of the vertical component that the file has and the record does not (g), of the
         /// file as it is.
         vertical_left_out_g: Option<f64>,
-        /// The vertical component taken as the horizontal motion since the file has no other and
-        /// none was asked for.
-        only_vertical: Option<String>,
+        /// The component taken as the horizontal motion, if it is a vertical one.
+        vertical_taken: Option<String>,
     },
     /// Made from a seed for a structure (`synthetic::record`).
     Synthetic,

@@ -49,6 +49,15 @@ impl Base {
         }
     }
 
+    /// Mean horizontal displacement of its corners (m): feet that land elsewhere than they stood.
+    pub fn feet_moved(self, frame: &Frame, q: &[f64]) -> f64 {
+        let own = |node: usize| matches!(self, Self::Feet) || self == Self::Footing(node);
+        let corners = frame.places().iter().zip(frame.footing_nodes()).filter(|(_, node)| own(**node));
+        let (sum, count) =
+            corners.fold((0.0, 0), |(sum, count), (place, _)| (sum + place.reach(q).place[0], count + 1));
+        sum / f64::from(count.max(1))
+    }
+
     /// A node's displacement relative to what rotates rigidly with the base, in the base's axes:
     /// across and along (m).
     pub fn drift(self, frame: &Frame, node: usize, q: &[f64]) -> [f64; 2] {

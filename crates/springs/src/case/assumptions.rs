@@ -26,6 +26,8 @@ pub enum AssumedQuantity {
     AxialDamping,
     /// Mass of a column.
     ColumnMass,
+    /// Mass of a frame's beam, half of it at each joint: its weight bends nothing.
+    BeamMassAtJoints,
     /// Beam elements to a column.
     Elements,
     /// Peak of the record itself: El Centro, as no file is named.
@@ -57,6 +59,7 @@ impl AssumedQuantity {
             Self::ShearStiffness => "GA_s of a solid section, nu = 0.2,",
             Self::AxialDamping => "axial damping ratio, as across,",
             Self::ColumnMass => "column's mass",
+            Self::BeamMassAtJoints => "no gravity moments: beam's mass at its joints, each",
             Self::Elements => "elements to a column",
             Self::ElCentro => "1940 El Centro, north-south, peak",
             Self::NoVertical => "vertical motion left out, peak",
@@ -107,14 +110,21 @@ impl ElasticCase {
     }
 }
 
-/// A vertical motion that is left out comes first: a screen may have no room for all.
+/// Gravity moments and a vertical motion that are left out come first: a screen may have no room for
+/// all.
 fn first_what_weighs_most(mut all: Vec<Assumption>) -> Vec<Assumption> {
-    all.sort_by_key(|assumption| assumption.quantity != AssumedQuantity::NoVertical);
+    all.sort_by_key(|assumption| match assumption.quantity {
+        AssumedQuantity::BeamMassAtJoints => 0,
+        AssumedQuantity::NoVertical => 1,
+        _ => 2,
+    });
     all
 }
 
 fn of_structure(structure: &ElasticStructure) -> Vec<Assumption> {
-    use AssumedQuantity::{AxialDamping, AxialStiffness, FootingInertia, LeastInertia, ShearStiffness};
+    use AssumedQuantity::{
+        AxialDamping, AxialStiffness, BeamMassAtJoints, FootingInertia, LeastInertia, ShearStiffness,
+    };
     let mut all = Vec::new();
     match structure {
         ElasticStructure::Pier(pier) => {
@@ -143,6 +153,7 @@ fn of_structure(structure: &ElasticStructure) -> Vec<Assumption> {
             if frame.column_ga_n.is_none() && frame.column_mass_kg > 0.0 {
                 all.push(assumption(ShearStiffness, frame.column_ga(), "N", "structure.column_ga_n"));
             }
+            all.push(assumption(BeamMassAtJoints, 0.5 * frame.beam_mass_kg, "kg", "beam_mass_kg"));
             all.extend(column(frame.column_mass_kg, frame.elements, frame.elements()));
         }
     }

@@ -25,14 +25,15 @@ pub enum Doubt {
     Density { kg_per_m3: f64, mass_kg: f64, box_m: [f64; 3], least: f64, most: f64 },
     /// A block so light that its mass may be in tonnes.
     Tonnes { mass: f64, kg_per_m3: f64 },
-    /// Peak ground acceleration of the part used, scaled.
-    WeakMotion { pga_g: f64, least_g: f64 },
+    /// A column several times as heavy as the mass that it bears.
+    HeavyColumn { column_kg: f64, mass_kg: f64 },
+    /// Peak ground acceleration of the part used, and of the whole record, scaled.
+    WeakMotion { pga_g: f64, least_g: f64, whole_g: f64 },
     /// A vertical component of the record's file is left out that is not small: peaks of the whole
     /// file, scaled.
     VerticalLeftOut { peak_g: f64, horizontal_g: f64 },
-    /// The record's file has vertical components alone: this one is taken as the horizontal
-    /// motion.
-    OnlyVertical { component: String },
+    /// A vertical component is taken as the horizontal motion.
+    VerticalTaken { component: String },
     /// More of the record is asked for than there is.
     LongDuration { asked_s: f64, record_s: f64 },
 }
@@ -48,6 +49,8 @@ const LIGHTEST: f64 = 30.0;
 const HEAVIEST: f64 = 8000.0;
 /// A light body is seldom higher: it stands in a room (m).
 const ROOM_M: f64 = 2.5;
+/// A column is seldom so many times as heavy as what it bears.
+const HEAVY_COLUMN: f64 = 3.0;
 /// Weaker ground motions are not felt (g).
 const LEAST_PGA_G: f64 = 0.005;
 /// A vertical component above this share of the horizontal one's peak is not left out without a
@@ -91,7 +94,12 @@ impl ElasticCase {
                 [frame.height_m, frame.span_m + frame.footing_width_m, frame.footing_width_m]
             }
         };
-        density(self.structure.mass(), box_m).into_iter().collect()
+        let column = match &self.structure {
+            ElasticStructure::Pier(pier) => heavy_column(pier.column_mass_kg, pier.mass_kg),
+            ElasticStructure::Frame(frame) => heavy_column(2.0 * frame.column_mass_kg, frame.beam_mass_kg),
+            ElasticStructure::AFrame(_) => None,
+        };
+        density(self.structure.mass(), box_m).into_iter().chain(column).collect()
     }
 }
 
@@ -127,12 +135,17 @@ fn density(mass_kg: f64, box_m: [f64; 3]) -> Option<Doubt> {
     (!within).then_some(Doubt::Density { kg_per_m3, mass_kg, box_m, least, most })
 }
 
+fn heavy_column(column_kg: f64, mass_kg: f64) -> Option<Doubt> {
+    (column_kg > HEAVY_COLUMN * mass_kg).then_some(Doubt::HeavyColumn { column_kg, mass_kg })
+}
+
 /// Doubts of a ground motion, as it is used.
 pub(crate) fn of_excitation(excitation: &Excitation) -> Vec<Doubt> {
     let record = &excitation.record;
     let used = record.truncated(excitation.duration());
     let pga_g = excitation.scale.abs() * used.pga_g();
-    let weak = (pga_g < LEAST_PGA_G).then_some(Doubt::WeakMotion { pga_g, least_g: LEAST_PGA_G });
+    let whole_g = excitation.scale.abs() * record.pga_g();
+    let weak = (pga_g < LEAST_PGA_G).then_some(Doubt::WeakMotion { pga_g, least_g: LEAST_PGA_G, whole_g });
     let record_s = record.duration();
     // half a step: a length that was rounded is none that is longer
     let long = excitation.duration_s.filter(|asked| *asked > record_s + 0.5 * record.dt);
@@ -140,10 +153,10 @@ pub(crate) fn of_excitation(excitation: &Excitation) -> Vec<Doubt> {
     let vertical = excitation.vertical_left_out().filter(|left| left.peak_g > VERTICAL_SHARE * left.horizontal_g);
     let vertical = vertical.map(|left| Doubt::VerticalLeftOut { peak_g: left.peak_g, horizontal_g: left.horizontal_g });
     let only = match &record.source {
-        Source::File { only_vertical: Some(component), .. } => Some(component.clone()),
+        Source::File { vertical_taken: Some(component), .. } => Some(component.clone()),
         _ => None,
     };
-    let only = only.map(|component| Doubt::OnlyVertical { component });
+    let only = only.map(|component| Doubt::VerticalTaken { component });
     only.into_iter().chain(weak).chain(long).chain(vertical).collect()
 }
 
@@ -167,18 +180,24 @@ impl Doubt {
             Self::Tonnes { mass, kg_per_m3 } => {
                 format!("mass_kg = {} makes a block of {} kg/m3, as deep as wide", figures(*mass), figures(*kg_per_m3))
             }
-            Self::WeakMotion { pga_g, least_g } => {
-                format!("the ground motion has a peak of {} g, below {least_g} g", figures(*pga_g))
+            Self::WeakMotion { pga_g, least_g, whole_g } => {
+                let whole = if whole_g > pga_g {
+                    format!("; the whole record has {} g", figures(*whole_g))
+                } else {
+                    String::new()
+                };
+                format!("the ground motion has a peak of {} g, below {least_g} g{whole}", figures(*pga_g))
             }
             Self::VerticalLeftOut { peak_g, horizontal_g } => format!(
                 "a vertical component of {} g beside {} g across is left out",
                 figures(*peak_g),
                 figures(*horizontal_g)
             ),
-            Self::OnlyVertical { component } => {
-                format!(
-                    "component {component}, a vertical one, is taken as the horizontal motion: the file has no other"
-                )
+            Self::HeavyColumn { column_kg, mass_kg } => {
+                format!("columns of {} kg stand under {} kg", figures(*column_kg), figures(*mass_kg))
+            }
+            Self::VerticalTaken { component } => {
+                format!("component {component}, a vertical one, is taken as the horizontal motion")
             }
             Self::LongDuration { asked_s, record_s } => {
                 format!(
@@ -199,11 +218,15 @@ impl Doubt {
             }
             Self::Tonnes { mass, .. } => format!("if it is {0} t, write mass_kg = {0}e3", figures(*mass)),
             Self::Density { .. } => "check the lengths (m), the mass (kg) and their units".to_owned(),
+            Self::WeakMotion { least_g, whole_g, .. } if whole_g >= least_g => {
+                "use more of the record (--duration, duration_s)".to_owned()
+            }
             Self::WeakMotion { .. } => "check the unit of the record and its scale".to_owned(),
             Self::VerticalLeftOut { .. } => {
                 "take it with --vertical auto (vertical = \"auto\" in [record]) and compare".to_owned()
             }
-            Self::OnlyVertical { .. } => "give a file with a horizontal component".to_owned(),
+            Self::HeavyColumn { .. } => "check the masses (kg) and their units".to_owned(),
+            Self::VerticalTaken { .. } => "choose a horizontal one (--component), or a file that has one".to_owned(),
             Self::LongDuration { .. } => "leave the duration out, or give a longer record".to_owned(),
         }
     }

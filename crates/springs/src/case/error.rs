@@ -114,7 +114,10 @@ pub fn parse_error(path: &str, text: &str, error: &toml::de::Error) -> CaseError
     if names_legs(&message) {
         return CaseError::Parse { path: path.into(), line, message: NO_LEGS.into() };
     }
-    let message = message.replace("expected `aframe` or `block`", "expected `aframe`, `block`, `pier` or `frame`");
+    let kinds = "expected `aframe`, `block`, `pier` or `frame`";
+    let message = ["expected `aframe` or `block`", "expected one of `pier`, `aframe`, `frame`"]
+        .iter()
+        .fold(message, |message, short| message.replace(short, kinds));
     // of the whole message: all known keys, the nearest one among them
     let message = match unknown_key(whole) {
         Some((key, Some(near))) => format!("unknown key \"{}\"; did you mean \"{near}\"?", one_line(&key)),

@@ -21,7 +21,7 @@ impl Finding {
             }
             Self::ModelsDisagree { .. } => "vary the scale by 1 %, and judge by many records: tune validate",
             Self::PivotLeavesGround { .. } => "compare up to that time only",
-            Self::IllConditioned { .. } => "judge by many records: tune validate",
+            Self::IllConditioned { .. } => "design with the statistics of many records: tune sweep",
             Self::ForetoldUpTo { later_forces, .. } | Self::SlidesOn { later_forces, .. }
                 if !later_forces.is_empty() =>
             {
@@ -58,6 +58,7 @@ impl Finding {
             Self::HistoryEndsEarly { .. } => "take stiffer springs, or rotational_inertia_kgm2 above 0.002 m R^2",
             Self::FeetApart { .. } => "tie the feet, or design for what stays: members.csv at its end",
             Self::SmallestSteps { .. } => "compare with OpenSees: tune verify",
+            Self::VerticalLeftOut { changes, .. } if changes.is_empty() => "--vertical auto includes it",
             Self::VerticalLeftOut { .. } => "it is left out here; --vertical auto includes it",
             Self::Doubt { remedy, .. } => return Some(remedy.clone()),
         };

@@ -70,11 +70,14 @@ impl Finding {
     /// What the structure does.
     fn outcome(&self) -> String {
         match self {
-            Self::NeverLifts { pga_g, uplift_g } => format!(
-                "the record does not lift the structure: its peak is {} g, uplift takes {} g",
-                significant(*pga_g, 4),
-                significant(*uplift_g, 4)
-            ),
+            Self::NeverLifts { pga_g, uplift_g } => {
+                let short = if pga_g > uplift_g { " for longer than its peaks last" } else { "" };
+                format!(
+                    "the record does not lift the structure: its peak is {} g, uplift takes {} g{short}",
+                    significant(*pga_g, 4),
+                    significant(*uplift_g, 4)
+                )
+            }
             Self::Stands { share_of_overturning, if_feet_hold, .. } => format!(
                 "the structure rocks and stands{}: its largest rotation is {} of overturning",
                 if *if_feet_hold { ", if its feet hold" } else { "" },
@@ -111,7 +114,7 @@ impl Finding {
             Self::IllConditioned { moved_by_width, springs_judged, .. } => {
                 let judged = if *springs_judged { "; the springs were judged on synthetic motions" } else { "" };
                 format!(
-                    "this motion is ill-conditioned: 0.1 % of the width moves it by {}, so no model can foretell it, nor its peaks and forces{judged}",
+                    "this motion is ill-conditioned: 0.1 % of the width moves it by {}, so no model foretells it to its end{judged}",
                     percent(*moved_by_width)
                 )
             }
@@ -274,7 +277,8 @@ impl Finding {
         match self {
             Self::VerticalLeftOut { vertical_g, horizontal_g, changes } => {
                 let mut changes = changes.clone();
-                let ratio = |c: &PeakChange| (c.with / c.without).ln().abs();
+                // what grows the most first
+                let ratio = |c: &PeakChange| c.with / c.without;
                 changes.sort_by(|a, b| ratio(b).total_cmp(&ratio(a)));
                 let changed = changes.iter().take(CHANGES_SAID).map(|c| {
                     let [with, without] = [c.with, c.without].map(|x| quantity(x, &c.unit));

@@ -60,7 +60,7 @@ fn what_was_left_out_is_told_with_what_it_would_change() {
         without,
         with,
     };
-    // those that change the most, two of them
+    // those that grow the most, two of them
     let changes = vec![
         change("moment at the apex", 10e6, 10.1e6),
         change("moment at column base", 10.8e6, 20.9e6),
@@ -69,7 +69,7 @@ fn what_was_left_out_is_told_with_what_it_would_change() {
     let finding = Finding::VerticalLeftOut { vertical_g: 1.84, horizontal_g: 0.99, changes };
     assert_eq!(
         finding.message(),
-        "with vertical motion (1.84 g beside 0.99 g) another moment is 2 MN m, not 6 MN m; moment at column base is \
-         20.9 MN m, not 10.8 MN m"
+        "with vertical motion (1.84 g beside 0.99 g) moment at column base is 20.9 MN m, not 10.8 MN m; moment at the \
+         apex is 10.1 MN m, not 10 MN m"
     );
 }
