@@ -1,0 +1,239 @@
+//! A history with fixed time steps: the time loop, substeps where the iteration does not arrive,
+//! and what gives up.
+
+use std::ops::ControlFlow;
+
+use thiserror::Error;
+
+use crate::{
+    contact::FixedFoot,
+    integrator::Integrator,
+    iteration::{Iterates, Iteration},
+    kinematics::Kinematics,
+    model::FixedStepModel,
+    rigid::FixedStepBody,
+};
+use frames::frame::EquilibriumError;
+use rocking::motion::Motion;
+
+/// A program's iteration did not arrive, in its shortest step.
+#[derive(Clone, Copy, Debug, PartialEq, Error)]
+#[error(
+    "no convergence at {time:.6} s in a step of {step:.3e} s: softer springs, a shorter step, or an integrator that ends stiff modes (TRBDF2, backward Euler)"
+)]
+pub struct GaveUp {
+    /// End of the last step that held (s).
+    pub time: f64,
+    /// Size of the step that failed (s).
+    pub step: f64,
+}
+
+/// How a history ended.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum FixedStepOutcome {
+    /// It went through.
+    Finished,
+    /// The structure lies on the ground.
+    Fallen {
+        /// When that was seen (s).
+        time: f64,
+    },
+    /// The program gave up.
+    GaveUp(GaveUp),
+}
+
+/// What a history is made of.
+#[derive(Clone, Debug)]
+pub struct FixedStepAnalysis<'a, M> {
+    /// What is stepped.
+    pub model: &'a M,
+    /// How.
+    pub integrator: Integrator,
+    /// Size of all steps (s).
+    pub step: f64,
+    /// The smallest substep: a step whose iteration does not arrive is halved, at most down to
+    /// this, and what follows doubles again up to `step` (s). `step` itself: none.
+    pub least: f64,
+    /// The iteration.
+    pub iteration: Iteration,
+    /// Sampling interval of the record (s).
+    pub dt: f64,
+    /// Ground acceleration at t = i dt (m/s2), linear in between.
+    pub accel: &'a [f64],
+    /// Vertical ground acceleration at the same times (m/s2), upwards, zero beyond its last sample:
+    /// empty if there is none.
+    pub vertical: &'a [f64],
+    /// Factor on the ground acceleration, both components.
+    pub scale: f64,
+}
+
+/// A history at the record's samples.
+#[derive(Clone, Debug)]
+pub struct FixedStepHistory {
+    /// The centre of mass; shorter than the record if the outcome says so.
+    pub motion: Motion,
+    /// How it ended.
+    pub outcome: FixedStepOutcome,
+    /// What it cost.
+    pub work: FixedStepWork,
+}
+
+/// What a history cost.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub struct FixedStepWork {
+    /// Steps that held.
+    pub steps: usize,
+    /// Steps that were given up, and taken shorter if that is allowed.
+    pub failed: usize,
+    /// Iterations, those of failed steps too.
+    pub iterations: usize,
+}
+
+impl FixedStepHistory {
+    /// Nothing if it went through or the structure fell; else why it did not.
+    ///
+    /// # Errors
+    /// The program gave up.
+    pub fn through(&self) -> Result<(), GaveUp> {
+        match self.outcome {
+            FixedStepOutcome::GaveUp(gave_up) => Err(gave_up),
+            _ => Ok(()),
+        }
+    }
+}
+
+/// Part of a step within which times count as equal.
+const SAME: f64 = 1e-6;
+
+impl<'a, M: FixedStepModel> FixedStepAnalysis<'a, M> {
+    /// On horizontal motion, without substeps, its iteration that of scripts.
+    pub fn new(model: &'a M, integrator: Integrator, step: f64, dt: f64, accel: &'a [f64]) -> Self {
+        let iteration = Iteration::SCRIPT;
+        Self { model, integrator, step, least: step, iteration, dt, accel, vertical: &[], scale: 1.0 }
+    }
+
+    /// Ground acceleration (a_g, a_v) at a time (m/s2).
+    #[inline]
+    fn ground(&self, time: f64) -> [f64; 2] {
+        let place = time / self.dt;
+        let i = place as usize;
+        let part = place - i as f64;
+        let at = |values: &[f64]| match values.get(i..i + 2) {
+            Some(&[a, b]) => self.scale * (a + part * (b - a)),
+            // the last sample itself, within rounding; nothing beyond
+            _ if part < SAME => self.scale * values.get(i).copied().unwrap_or(0.0),
+            _ => 0.0,
+        };
+        [at(self.accel), if self.vertical.is_empty() { 0.0 } else { at(self.vertical) }]
+    }
+
+    /// Step through the record from rest, and show the place at every sample; in between steps, on
+    /// the straight line. The observer may end it.
+    ///
+    /// # Errors
+    /// The structure finds no rest to begin from.
+    pub fn follow(
+        &self,
+        mut show: impl FnMut(usize, &M::Vector) -> ControlFlow<()>,
+    ) -> Result<(FixedStepOutcome, FixedStepWork), EquilibriumError> {
+        let (q, feet) = self.model.standing()?;
+        Ok(self.follow_from(Kinematics::at_rest(q), feet, &mut show))
+    }
+
+    /// The same from any motion.
+    pub fn follow_from(
+        &self,
+        mut motion: Kinematics<M::Vector>,
+        mut feet: M::Feet,
+        show: &mut impl FnMut(usize, &M::Vector) -> ControlFlow<()>,
+    ) -> (FixedStepOutcome, FixedStepWork) {
+        let mut work = FixedStepWork::default();
+        let mut iterates = Iterates::new(&motion.q);
+        let mut shown = 0;
+        let last = self.accel.len();
+        let count = ((last.saturating_sub(1)) as f64 * self.dt / self.step - SAME).ceil().max(0.0) as usize;
+        if last > 0 && show(0, &motion.q).is_continue() {
+            shown = 1;
+        }
+        let mut previous = motion.q.clone();
+        let mut size = self.step;
+        for n in 0..count {
+            let (begin, end) = (n as f64 * self.step, (n + 1) as f64 * self.step);
+            previous.as_mut().copy_from_slice(motion.q.as_ref());
+            let held = self.one_step(begin, &mut size, &mut motion, &mut feet, &mut iterates, &mut work);
+            work.iterations = iterates.count;
+            if let Err(gave_up) = held {
+                return (FixedStepOutcome::GaveUp(gave_up), work);
+            }
+            while shown < last && shown as f64 * self.dt <= end + SAME * self.step {
+                let part = ((shown as f64 * self.dt - begin) / self.step).min(1.0);
+                for (a, b) in iterates.change.as_mut().iter_mut().zip(previous.as_ref().iter().zip(motion.q.as_ref())) {
+                    *a = if part > 1.0 - SAME { *b.1 } else { b.0 + part * (b.1 - b.0) };
+                }
+                if show(shown, &iterates.change).is_break() {
+                    return (FixedStepOutcome::Finished, work);
+                }
+                shown += 1;
+            }
+            if self.model.has_fallen(&motion.q) {
+                return (FixedStepOutcome::Fallen { time: end }, work);
+            }
+        }
+        (FixedStepOutcome::Finished, work)
+    }
+
+    /// One step, in substeps of `size` if its iteration does not arrive.
+    #[inline]
+    fn one_step(
+        &self,
+        begin: f64,
+        size: &mut f64,
+        motion: &mut Kinematics<M::Vector>,
+        feet: &mut M::Feet,
+        iterates: &mut Iterates<M::Vector>,
+        work: &mut FixedStepWork,
+    ) -> Result<(), GaveUp> {
+        let mut done = 0.0;
+        while done < self.step * (1.0 - SAME) {
+            let this = size.min(self.step - done);
+            // the same number each time, to the last digit
+            let this = if (this - self.step).abs() <= SAME * self.step { self.step } else { this };
+            let step = motion.step(&self.integrator, this);
+            let ground = self.ground(begin + done + step.forces_at());
+            if iterates.arrives(self.model, &self.iteration, motion, &step, feet, ground) {
+                motion.advance(&step, &iterates.change);
+                if step.forces_at() != step.size {
+                    self.model.meet(&motion.q, feet);
+                }
+                feet.as_mut().iter_mut().for_each(FixedFoot::commit);
+                work.steps += 1;
+                done += this;
+                *size = (2.0 * *size).min(self.step);
+            } else {
+                work.failed += 1;
+                if 0.5 * this < self.least * (1.0 - SAME) {
+                    return Err(GaveUp { time: begin + done, step: this });
+                }
+                feet.as_mut().iter_mut().for_each(FixedFoot::revert);
+                motion.begin_anew();
+                *size = 0.5 * this;
+            }
+        }
+        Ok(())
+    }
+}
+
+impl FixedStepAnalysis<'_, FixedStepBody> {
+    /// The motion of the rigid body's centre of mass at the record's samples.
+    pub fn history(&self) -> FixedStepHistory {
+        let mut motion = Motion::with_capacity(self.accel.len());
+        let ended = self.follow(|_, q| {
+            let [u, v, theta] = self.model.displacement(q);
+            motion.push(u, v, theta);
+            ControlFlow::Continue(())
+        });
+        // a rigid body on springs always stands
+        let (outcome, work) = ended.unwrap_or((FixedStepOutcome::Finished, FixedStepWork::default()));
+        FixedStepHistory { motion, outcome, work }
+    }
+}

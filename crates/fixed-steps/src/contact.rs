@@ -1,0 +1,105 @@
+//! A foot as a program with fixed time steps has it.
+//!
+//! ```text
+//!   d = a_z - p_z, compression of the gap       e = p_x - a_x, how far the foot is from its absorber across
+//!   d < 0   open:    no force; its anchor goes along:  anchor = e
+//!   d >= 0  closed:  N = k1_v d,  H = -k1_h (e - anchor), at most mu N
+//! ```
+//!
+//! decided anew in every trial of the iteration. The law of OpenSees' flatSliderBearing with a gap
+//! without tension as axial material, which our decks use (FlatSliderSimple2d.cpp): the anchor that
+//! counts is the last step's, and a foot that is open in any trial of a step leaves the anchor of
+//! the steps to come where it was then, even if the step ends with it closed.
+
+use dynamics::spring::{Chain, Springs};
+
+/// mu of our decks: a pressing foot does not slide.
+pub const HOLDS: f64 = 1e7;
+
+/// A foot.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct FixedFoot {
+    /// Whether it presses.
+    pub closed: bool,
+    /// Whether its horizontal spring holds; it slides otherwise.
+    pub holds: bool,
+    /// Where its horizontal spring is anchored in this step (m).
+    pub anchor: f64,
+    /// The same in steps to come (m).
+    next: f64,
+}
+
+impl FixedFoot {
+    /// On the ground since the structure was built.
+    pub const STANDING: Self = Self { closed: true, holds: true, anchor: 0.0, next: 0.0 };
+
+    /// On the ground or in the air, its horizontal spring without force at `anchor`.
+    pub fn new(closed: bool, anchor: f64) -> Self {
+        Self { closed, holds: closed, anchor, next: anchor }
+    }
+
+    /// Decide whether it is closed, and holds, in a trial: its gap's compression d and its distance
+    /// across e (m).
+    #[inline(always)]
+    pub fn meet(&mut self, unit: &Springs<Chain<f64>>, d: f64, e: f64) {
+        self.closed = d >= 0.0;
+        if !self.closed {
+            self.holds = false;
+            self.next = e;
+            return;
+        }
+        let (trial, most) = (unit.horizontal.k1 * (e - self.anchor), HOLDS * unit.vertical.k1 * d);
+        self.holds = trial.abs() <= most;
+        if !self.holds {
+            self.next = self.anchor + (trial.abs() - most) / unit.horizontal.k1 * trial.signum();
+        }
+    }
+
+    /// Force of the ground on it (H, N), as it was met (N).
+    #[inline(always)]
+    pub fn force(&self, unit: &Springs<Chain<f64>>, d: f64, e: f64) -> [f64; 2] {
+        if !self.closed {
+            return [0.0; 2];
+        }
+        let (n, along) = (unit.vertical.k1 * d, unit.horizontal.k1 * (self.anchor - e));
+        [if self.holds { along } else { HOLDS * n * along.signum() }, n]
+    }
+
+    /// The step holds.
+    #[inline(always)]
+    pub fn commit(&mut self) {
+        self.anchor = self.next;
+    }
+
+    /// The step is given up, `self` was before it.
+    pub fn revert(&mut self) {
+        self.next = self.anchor;
+    }
+}
+
+/// A spring-absorber unit in one direction, its absorber condensed out of the iteration's matrix.
+///
+/// ```text
+///   (D + k) da - k g'dq = r_a    ->    adds k D/(D + k) g g' to the matrix, and g k/(D + k) r_a to the right side
+///   D: the absorber's own part of the matrix,  k: that of k1 while it acts,  g: row of the foot's place
+/// ```
+#[derive(Clone, Copy, Debug, Default)]
+pub struct CondensedUnit {
+    /// k D/(D + k) (N/m).
+    pub stiffness: f64,
+    /// k/(D + k).
+    pub share: f64,
+    /// 1/(D + k) (m/N).
+    pub give: f64,
+}
+
+impl CondensedUnit {
+    /// Of a unit whose k1 acts or does not.
+    #[inline(always)]
+    pub fn new(chain: &Chain<f64>, acts: bool, weights: &crate::kinematics::TangentWeights) -> Self {
+        let own = weights.mass * chain.m2 + weights.damping * chain.c + weights.stiffness * chain.k2;
+        let k = if acts { weights.stiffness * chain.k1 } else { 0.0 };
+        let give = 1.0 / (own + k);
+        Self { stiffness: k * own * give, share: k * give, give }
+    }
+}

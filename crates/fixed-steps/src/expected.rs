@@ -1,0 +1,98 @@
+//! What springs in a program with fixed time steps err, in parts.
+//!
+//! ```text
+//!   floor    13 p dt                       where in a step a landing falls
+//!   stance   80 (p/(alpha Omega_e))^2      sway before uplift;   Omega_e^2 = k1 k2/((k1 + k2) m)
+//!   rebound  14 alpha^3 (v_r/v_n)^2        what the landing foot gives back
+//! ```
+//!
+//! Medians of the normalised root-mean-square error (NRMSE) of u on motions made for a body, pulses
+//! and noise. The floor: the sign of the weight's moment changes somewhere within the step in which
+//! a foot lands, and what the step's formula makes of that is an error of the rate, relative to the
+//! landing speed, spread evenly over a width of 2 p dt/sqrt(1 - (1 - phi)^2), phi = lean/alpha: its
+//! standard deviation is `landing_scatter`. It grows like exp(p t) until the next landing. A
+//! landing that is resolved, Omega_e dt < 0.3, has less.
+
+use dynamics::spring::{Chain, Springs};
+use rocking::structure::Body;
+
+use crate::integrator::Integrator;
+
+/// Median NRMSE over p dt that no springs come below.
+pub const FLOOR: f64 = 13.0;
+/// Median NRMSE over (p/(alpha Omega_e))^2 by the stance.
+pub const STANCE: f64 = 80.0;
+/// NRMSE over alpha^3 (v_r/v_n)^2 by the rebound: 8 to 20.
+pub const REBOUND: f64 = 14.0;
+/// 90 % quantile over the median, of integrators that end stiff modes and of others.
+const SPREAD: [f64; 2] = [2.9, 4.6];
+
+/// Median NRMSE of u on motions made for the body.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct ExpectedError {
+    /// By the step: no springs do better without touch refinement.
+    pub floor: f64,
+    /// By the sway before uplift.
+    pub stance: f64,
+    /// By what the landing foot gives back.
+    pub rebound: f64,
+    /// All three, as independent errors: the root of their squares' sum, at least the floor.
+    pub median: f64,
+    /// The 90 % quantile.
+    pub ninety: f64,
+}
+
+impl ExpectedError {
+    /// Of a body on these units, stepped by dt (s).
+    pub fn of(body: &Body<f64>, springs: &Springs<Chain<f64>>, dt: f64, integrator: &Integrator) -> Self {
+        let (p, alpha) = (body.p_squared().sqrt(), body.alpha());
+        let omega_e = (springs.vertical.in_series() / body.mass).sqrt();
+        let floor = FLOOR * p * dt;
+        let stance = STANCE * (p / (alpha * omega_e)).powi(2);
+        let k = springs.vertical.k2 / springs.vertical.k1;
+        let rebound = REBOUND * alpha.powi(3) * rebound_ratio(k).powi(2);
+        let median = floor.hypot(stance).hypot(rebound);
+        let spread = SPREAD[usize::from(!integrator.ends_stiff_modes())];
+        Self { floor, stance, rebound, median, ninety: spread * median }
+    }
+}
+
+/// Rebound over the landing speed of a unit whose damping and mass suit its K: about 0.85 K.
+fn rebound_ratio(k: f64) -> f64 {
+    0.85 * k
+}
+
+/// Standard deviation of the rate's error that one landing leaves, relative to the landing speed,
+/// for a body that fell from phi = lean/alpha.
+pub fn landing_scatter(p: f64, dt: f64, phi: f64) -> f64 {
+    2.0 * p * dt / (12.0_f64.sqrt() * (1.0 - (1.0 - phi).powi(2)).sqrt())
+}
+
+/// The step that a median error needs, with any springs: accuracy/(13 p) (s).
+pub fn step_for(body: &Body<f64>, accuracy: f64) -> f64 {
+    accuracy / (FLOOR * body.p_squared().sqrt())
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use approx::assert_relative_eq;
+    use rocking::structure::Structure;
+
+    /// theory, section 10: 1.85, 0.81 and 0.59 p dt.
+    #[test]
+    fn the_scatter_of_a_landing() {
+        for (phi, expected) in [(0.05, 1.85), (0.3, 0.81), (0.8, 0.59)] {
+            assert_relative_eq!(landing_scatter(0.5, 2e-3, phi) / 1e-3, expected, max_relative = 5e-3);
+        }
+    }
+
+    /// theory, section 10: 1.9 ms (61 m), 0.33 ms (block of 1.3 m) for one per cent.
+    #[test]
+    fn the_step_for_an_accuracy() {
+        let frame = Structure::paper().body::<f64>();
+        assert_relative_eq!(step_for(&frame, 0.01), 1.92e-3, max_relative = 1e-2);
+        let block = Structure::block(2.6, 0.7, 1e3).unwrap().body::<f64>();
+        assert_relative_eq!(step_for(&block, 0.01), 0.33e-3, max_relative = 2e-2);
+    }
+}

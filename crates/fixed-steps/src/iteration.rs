@@ -1,0 +1,149 @@
+//! The iteration at a step's end.
+//!
+//! ```text
+//!   Newton's:            (m M + c C + k K(q)) dq = unbalance(q),    K anew in every iteration
+//!   constant stiffness:  the same, K that of the step's begin
+//! ```
+
+use crate::{
+    kinematics::{Kinematics, Step, Trial},
+    model::FixedStepModel,
+};
+
+/// What an iteration has to come below.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum ConvergenceTest {
+    /// Euclidean norm of the last change, metres and radians together: OpenSees' `NormDispIncr`.
+    Increment(f64),
+    /// Euclidean norm of the unbalance, N and N m together: OpenSees' `NormUnbalance`.
+    Unbalance(f64),
+    /// Half the product of the last change and the unbalance it leaves (J): OpenSees' `EnergyIncr`.
+    Energy(f64),
+}
+
+/// How a program iterates.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Iteration {
+    /// At most so many with the stiffness of the step's begin, before Newton's (0: none).
+    pub constant: usize,
+    /// At most so many of Newton's; they begin anew from the step's begin.
+    pub newton: usize,
+    /// When it has arrived.
+    pub test: ConvergenceTest,
+}
+
+impl Iteration {
+    /// As our decks have it for OpenSees: Newton's, 30 at most, to a change of 2e-14 `size`, the
+    /// structure's (m).
+    pub fn tight(size: f64) -> Self {
+        Self { constant: 0, newton: 30, test: ConvergenceTest::Increment(2e-14 * size) }
+    }
+
+    /// As scripts for OpenSees have it: Newton's, 20 at most, to a change of 1e-8 m.
+    pub const SCRIPT: Self = Self { constant: 0, newton: 20, test: ConvergenceTest::Increment(1e-8) };
+
+    /// SAP2000's numbers: 10 with constant stiffness, then 40 of Newton's; to an unbalance of 1e-4
+    /// of this force, the weight for instance (N).
+    pub fn sap2000(force: f64) -> Self {
+        Self { constant: 10, newton: 40, test: ConvergenceTest::Unbalance(1e-4 * force) }
+    }
+}
+
+/// Room for the iteration's vectors, used again in every step.
+#[derive(Clone, Debug)]
+pub(crate) struct Iterates<V> {
+    /// From the step's begin (m, rad).
+    pub change: V,
+    trial: Trial<V>,
+    unbalance: V,
+    increment: V,
+    /// Iterations so far, of all steps.
+    pub count: usize,
+}
+
+impl<V: Clone + AsRef<[f64]> + AsMut<[f64]>> Iterates<V> {
+    pub(crate) fn new(like: &V) -> Self {
+        let trial = Trial { q: like.clone(), v: like.clone(), a: like.clone() };
+        Self { change: like.clone(), trial, unbalance: like.clone(), increment: like.clone(), count: 0 }
+    }
+
+    /// Iterate to the end of a step; whether it has arrived. `feet` are left as the last trial met
+    /// them, `change` is the step's.
+    pub(crate) fn arrives<M: FixedStepModel<Vector = V>>(
+        &mut self,
+        model: &M,
+        how: &Iteration,
+        from: &Kinematics<V>,
+        step: &Step<V>,
+        feet: &mut M::Feet,
+        ground: [f64; 2],
+    ) -> bool {
+        self.phase(model, how, how.constant, false, (from, step), feet, ground)
+            || self.phase(model, how, how.newton, true, (from, step), feet, ground)
+    }
+
+    #[allow(clippy::too_many_arguments)]
+    #[inline(always)]
+    fn phase<M: FixedStepModel<Vector = V>>(
+        &mut self,
+        model: &M,
+        how: &Iteration,
+        most: usize,
+        newton: bool,
+        (from, step): (&Kinematics<V>, &Step<V>),
+        feet: &mut M::Feet,
+        ground: [f64; 2],
+    ) -> bool {
+        if most == 0 {
+            return false;
+        }
+        let weights = step.weights();
+        self.change.as_mut().fill(0.0);
+        self.look(model, from, step, feet, ground);
+        let mut factor = None;
+        for _ in 0..most {
+            if newton || factor.is_none() {
+                factor = model.factor(&self.trial, feet, &weights);
+            }
+            let Some(factor) = &factor else { return false };
+            self.count += 1;
+            self.increment.as_mut().copy_from_slice(self.unbalance.as_ref());
+            model.solve(factor, &mut self.increment);
+            for (change, by) in self.change.as_mut().iter_mut().zip(self.increment.as_ref()) {
+                *change += by;
+            }
+            self.look(model, from, step, feet, ground);
+            let norm = |x: &V| x.as_ref().iter().map(|x| x * x).sum::<f64>().sqrt();
+            let (left, below) = match how.test {
+                ConvergenceTest::Increment(below) => (norm(&self.increment), below),
+                ConvergenceTest::Unbalance(below) => (norm(&self.unbalance), below),
+                ConvergenceTest::Energy(below) => {
+                    let pairs = self.increment.as_ref().iter().zip(self.unbalance.as_ref());
+                    (0.5 * pairs.map(|(x, f)| x * f).sum::<f64>().abs(), below)
+                }
+            };
+            if left <= below {
+                return true;
+            }
+            if !left.is_finite() {
+                return false;
+            }
+        }
+        false
+    }
+
+    /// The trial, its contacts and its unbalance.
+    #[inline(always)]
+    fn look<M: FixedStepModel<Vector = V>>(
+        &mut self,
+        model: &M,
+        from: &Kinematics<V>,
+        step: &Step<V>,
+        feet: &mut M::Feet,
+        ground: [f64; 2],
+    ) {
+        step.trial(from, &self.change, &mut self.trial);
+        model.meet(&self.trial.q, feet);
+        model.unbalance(&self.trial, feet, ground, &mut self.unbalance);
+    }
+}

@@ -1,0 +1,148 @@
+//! A motion at the end of a step, and a trial of the next one.
+
+use crate::integrator::{Integrator, StepFormula};
+
+/// What multiplies M, -dF/dv and -dF/dq in the matrix of the iteration.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct TangentWeights {
+    /// Of M [1/s2].
+    pub mass: f64,
+    /// Of the damping matrix [1/s].
+    pub damping: f64,
+    /// Of the stiffness matrix.
+    pub stiffness: f64,
+}
+
+/// Where a trial of a step takes its forces: place, velocity and acceleration there.
+#[derive(Clone, Debug)]
+pub struct Trial<V> {
+    /// Place (m, rad).
+    pub q: V,
+    /// Velocity (m/s, rad/s).
+    pub v: V,
+    /// Acceleration (m/s2, rad/s2).
+    pub a: V,
+}
+
+/// The motion so far: its last two steps.
+#[derive(Clone, Debug)]
+pub struct Kinematics<V> {
+    /// Place at the last step's end.
+    pub q: V,
+    /// Velocity there.
+    pub v: V,
+    /// Acceleration there.
+    pub a: V,
+    before: [V; 2],
+    equal: usize,
+    last: f64,
+}
+
+/// One step: how v and a follow from q.
+#[derive(Clone, Debug)]
+pub(crate) struct Step<V> {
+    /// v and a at the end if q did not change.
+    v: V,
+    a: V,
+    /// dv/dq and da/dq.
+    rates: [f64; 2],
+    forces_at: f64,
+    inertia_at: f64,
+    pub size: f64,
+}
+
+impl<V: Clone + AsRef<[f64]> + AsMut<[f64]>> Kinematics<V> {
+    /// At rest at q. A program starts without acceleration, whatever the first load.
+    pub fn at_rest(q: V) -> Self {
+        let mut still = q.clone();
+        still.as_mut().fill(0.0);
+        let before = [q.clone(), still.clone()];
+        Self { q, v: still.clone(), a: still, before, equal: 0, last: 0.0 }
+    }
+
+    /// With a velocity and an acceleration.
+    pub fn moving(q: V, v: V, a: V) -> Self {
+        Self { before: [q.clone(), v.clone()], q, v, a, equal: 0, last: 0.0 }
+    }
+
+    /// The next step. One of another size than the last begins a multi-step formula anew.
+    #[inline]
+    pub(crate) fn step(&self, integrator: &Integrator, size: f64) -> Step<V> {
+        let equal = if size == self.last { self.equal } else { 0 };
+        let (mut v, mut a) = (self.v.clone(), self.a.clone());
+        match integrator.formula(equal) {
+            StepFormula::Newmark { gamma, beta, forces_at, inertia_at } => {
+                let ratio = gamma / beta;
+                let (of_v, of_a) = (1.0 - ratio, size * (1.0 - 0.5 * ratio));
+                let (a_of_v, a_of_a) = (-1.0 / (beta * size), 1.0 - 0.5 / beta);
+                for (v, a) in v.as_mut().iter_mut().zip(a.as_mut()) {
+                    (*v, *a) = (of_v * *v + of_a * *a, a_of_v * *v + a_of_a * *a);
+                }
+                let rates = [ratio / size, 1.0 / (beta * size * size)];
+                Step { v, a, rates, forces_at, inertia_at, size }
+            }
+            StepFormula::Bdf2 => {
+                let half = 0.5 / size;
+                let [q_before, v_before] = self.before.each_ref().map(AsRef::as_ref);
+                let now = self.q.as_ref();
+                for (i, (v, a)) in v.as_mut().iter_mut().zip(a.as_mut()).enumerate() {
+                    let v_now = *v;
+                    *v = half * (q_before[i] - now[i]);
+                    *a = half * v_before[i] - 4.0 * half * v_now + 3.0 * half * *v;
+                }
+                let rates = [3.0 * half, 9.0 * half * half];
+                Step { v, a, rates, forces_at: 1.0, inertia_at: 1.0, size }
+            }
+        }
+    }
+
+    /// Take the step that ends `change` from here.
+    #[inline]
+    pub(crate) fn advance(&mut self, step: &Step<V>, change: &V) {
+        self.equal = if step.size == self.last { self.equal + 1 } else { 1 };
+        self.last = step.size;
+        std::mem::swap(&mut self.before[0], &mut self.q);
+        std::mem::swap(&mut self.before[1], &mut self.v);
+        let [of_v, of_a] = step.rates;
+        let change = change.as_ref();
+        let (q, v, a) = (self.q.as_mut(), self.v.as_mut(), self.a.as_mut());
+        for (i, &d) in change.iter().enumerate() {
+            q[i] = self.before[0].as_ref()[i] + d;
+            v[i] = step.v.as_ref()[i] + of_v * d;
+            a[i] = step.a.as_ref()[i] + of_a * d;
+        }
+    }
+
+    /// A step failed: what follows begins a multi-step formula anew.
+    pub(crate) fn begin_anew(&mut self) {
+        self.equal = 0;
+        self.last = 0.0;
+    }
+}
+
+impl<V: Clone + AsRef<[f64]> + AsMut<[f64]>> Step<V> {
+    /// Time at which the forces count, of the step's.
+    pub(crate) fn forces_at(&self) -> f64 {
+        self.forces_at * self.size
+    }
+
+    #[inline]
+    pub(crate) fn weights(&self) -> TangentWeights {
+        let [of_v, of_a] = self.rates;
+        TangentWeights { mass: self.inertia_at * of_a, damping: self.forces_at * of_v, stiffness: self.forces_at }
+    }
+
+    /// Where the forces of the trial that ends `change` from `from` are taken.
+    #[inline]
+    pub(crate) fn trial(&self, from: &Kinematics<V>, change: &V, out: &mut Trial<V>) {
+        let ([of_v, of_a], w, m) = (self.rates, self.forces_at, self.inertia_at);
+        let (change, v, a) = (change.as_ref(), self.v.as_ref(), self.a.as_ref());
+        let (q0, v0, a0) = (from.q.as_ref(), from.v.as_ref(), from.a.as_ref());
+        let (q_out, v_out, a_out) = (out.q.as_mut(), out.v.as_mut(), out.a.as_mut());
+        for (i, &d) in change.iter().enumerate() {
+            q_out[i] = q0[i] + w * d;
+            v_out[i] = (1.0 - w) * v0[i] + w * (v[i] + of_v * d);
+            a_out[i] = (1.0 - m) * a0[i] + m * (a[i] + of_a * d);
+        }
+    }
+}

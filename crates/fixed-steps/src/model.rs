@@ -1,0 +1,46 @@
+//! What a program with fixed time steps steps.
+
+use frames::frame::EquilibriumError;
+
+use crate::{
+    contact::FixedFoot,
+    kinematics::{TangentWeights, Trial},
+};
+
+/// A structure on ground springs.
+///
+/// ```text
+///   M a = Q(q, v, t) + forces of the ground on its feet
+/// ```
+pub trait FixedStepModel {
+    /// Its coordinates: an array or a vector.
+    type Vector: Clone + AsRef<[f64]> + AsMut<[f64]>;
+    /// Its feet: an array or a vector.
+    type Feet: Clone + AsRef<[FixedFoot]> + AsMut<[FixedFoot]>;
+    /// A matrix, ready to solve with.
+    type Factor;
+
+    /// At rest on all feet, settled under its weight.
+    ///
+    /// # Errors
+    /// It finds no rest.
+    fn standing(&self) -> Result<(Self::Vector, Self::Feet), EquilibriumError>;
+
+    /// Decide which feet are closed at q.
+    fn meet(&self, q: &Self::Vector, feet: &mut Self::Feet);
+
+    /// Q + forces of the ground - M a of a trial, at ground acceleration (a_g, a_v) (m/s2), a_v
+    /// upwards; feet as they were met at its place. N, N m.
+    fn unbalance(&self, trial: &Trial<Self::Vector>, feet: &Self::Feet, ground: [f64; 2], out: &mut Self::Vector);
+
+    /// M, C and K at a trial with these weights, factored; `None` if it is singular.
+    fn factor(&self, trial: &Trial<Self::Vector>, feet: &Self::Feet, weights: &TangentWeights) -> Option<Self::Factor>;
+
+    /// The change of place that the matrix makes of an unbalance, in place.
+    fn solve(&self, factor: &Self::Factor, right: &mut Self::Vector);
+
+    /// Whether it lies on the ground, or cannot be followed any more: the history ends.
+    fn has_fallen(&self, _q: &Self::Vector) -> bool {
+        false
+    }
+}

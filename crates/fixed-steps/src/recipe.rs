@@ -1,0 +1,185 @@
+//! Springs for a step and an integrator, in closed form.
+//!
+//! ```text
+//!   foot - gap k1 - m2 - (k2 parallel c) - ground,  vertically and horizontally;  Omega_e^2 = k_e/m, k_e = k1 k2/(k1 + k2)
+//!
+//!   stance   80 (p/(alpha Omega_e))^2       a body on soft springs sways before it lifts
+//!   floor    13 p dt                        a landing falls anywhere within a step
+//! ```
+//!
+//! Both are medians of the normalised root-mean-square error of u against Housner's history, on
+//! motions made for the body. The floor does not depend on the springs, and stiffer springs only
+//! cost convergence; so the stance is given half of the floor:
+//!
+//! ```text
+//!   80 p^2/(alpha^2 Omega_e^2) = 13 p dt/2     ->     k_e = m Omega_e^2 = (160/13) m p/(alpha^2 dt),   160/13 = 12.3: 12
+//!   K = k2/k1 = 1/4:  k_e = k1 K/(1 + K) = k1/5     ->     Omega_n^2 = k1/m = 60 p/(alpha^2 dt),   Omega_n = 7.75 sqrt(p/dt)/alpha
+//! ```
+//!
+//! K = 0.25, C = 0.6 and mu = 0.2 lie near the flat optimum of the landing of a unit by itself
+//! (rebound below a fifth of the landing speed); Omega_h = 4 Omega_v keeps the horizontal units
+//! from lagging behind, without a stiffness that the iteration cannot follow.
+
+use dynamics::spring::{Chain, Design, Springs};
+use rocking::structure::Body;
+use thiserror::Error;
+
+use crate::{
+    expected::ExpectedError,
+    integrator::{Integrator, IntegratorError},
+    iteration::{ConvergenceTest, Iteration},
+};
+use rocking::scalar::GRAVITY;
+
+/// k_e alpha^2 dt/(m p).
+pub const STANCE_STIFFNESS: f64 = 12.0;
+/// K = k2/k1 of all units.
+pub const STIFFNESS_RATIO: f64 = 0.25;
+/// C = c/(m Omega_n) of all units.
+pub const DAMPING_NUMBER: f64 = 0.6;
+/// mu = m2/m of all units.
+pub const MASS_RATIO: f64 = 0.2;
+/// Omega_n of the horizontal units over that of the vertical ones.
+pub const HORIZONTAL_OVER_VERTICAL: f64 = 4.0;
+
+/// I_cg/(m R^2) of a body that has none, where the integrator leaves something of stiff modes: with
+/// less, its rotation is a mode of several kHz that HHT neither resolves nor ends.
+pub const INERTIA_FOR_RINGING: f64 = 1e-3;
+/// The same for integrators that end stiff modes within a few steps: that of our decks.
+pub const LEAST_INERTIA: f64 = rocking::structure::LEAST_INERTIA;
+
+/// Convergence tolerance over g dt^2: see [`FixedStepSprings::iteration`].
+pub const TOLERANCE: f64 = 0.1;
+
+/// Springs for a body in a program with one size of step.
+#[derive(Clone, Copy, Debug)]
+pub struct FixedStepSprings {
+    /// The body as both models are to have it: with the rotational inertia that the program needs.
+    pub body: Body<f64>,
+    /// Under each foot.
+    pub units: Springs<Design<f64>>,
+    /// The program's integrator.
+    pub integrator: Integrator,
+    /// The program's step (s).
+    pub step: f64,
+}
+
+/// No springs follow from these numbers.
+#[derive(Clone, Copy, Debug, PartialEq, Error)]
+pub enum FixedStepSpringsError {
+    /// A step that is none.
+    #[error("step: {step:?} s is no time step; give a finite number greater than zero, for instance 0.001")]
+    Step {
+        /// As given (s).
+        step: f64,
+    },
+    /// An integrator that is unstable.
+    #[error(transparent)]
+    Integrator(#[from] IntegratorError),
+}
+
+impl FixedStepSprings {
+    /// For a body, a step (s) and an integrator.
+    ///
+    /// # Errors
+    /// The step is not positive, or the integrator is unstable.
+    pub fn of(body: &Body<f64>, step: f64, integrator: Integrator) -> Result<Self, FixedStepSpringsError> {
+        if !(step.is_finite() && step > 0.0) {
+            return Err(FixedStepSpringsError::Step { step });
+        }
+        let integrator = integrator.checked()?;
+        let body = with_inertia(body, &integrator);
+        let hz = omega_n(&body, step) / std::f64::consts::TAU;
+        let unit = |hz: f64| Design::from_kc(MASS_RATIO, STIFFNESS_RATIO, DAMPING_NUMBER, hz);
+        let units = Springs { vertical: unit(hz), horizontal: unit(HORIZONTAL_OVER_VERTICAL * hz) };
+        Ok(Self { body, units, integrator, step })
+    }
+
+    /// With units.
+    pub fn chains(&self) -> Springs<Chain<f64>> {
+        self.units.chains(self.body.mass)
+    }
+
+    /// I_cg that both models have (kg m2).
+    pub fn rotational_inertia(&self) -> f64 {
+        self.body.inertia
+    }
+
+    /// What these springs leave of an error on motions made for the body.
+    pub fn expected(&self) -> ExpectedError {
+        ExpectedError::of(&self.body, &self.chains(), self.step, &self.integrator)
+    }
+
+    /// The iteration that goes with them: Newton's, 30 at most, to a change of g dt^2/10.
+    ///
+    /// A foot that lifts drops its horizontal force at once. There are steps at whose end neither a
+    /// foot on the ground nor one in the air fits its own force, and Newton's iteration goes to and
+    /// fro between both, apart by what a weight does within a step, g dt^2. A tighter test stops
+    /// the program there, however many iterations it allows.
+    pub fn iteration(&self) -> Iteration {
+        let below = TOLERANCE * GRAVITY * self.step * self.step;
+        Iteration { constant: 0, newton: 30, test: ConvergenceTest::Increment(below) }
+    }
+}
+
+/// Omega_n of the vertical unit, sqrt(k1/m) (rad/s).
+fn omega_n(body: &Body<f64>, step: f64) -> f64 {
+    let in_series = STANCE_STIFFNESS * body.p_squared().sqrt() / (body.alpha() * body.alpha() * step);
+    (in_series * (1.0 + STIFFNESS_RATIO) / STIFFNESS_RATIO).sqrt()
+}
+
+/// The body with the rotational inertia that an integrator needs, if it has none of its own.
+fn with_inertia(body: &Body<f64>, integrator: &Integrator) -> Body<f64> {
+    let share = if integrator.ends_stiff_modes() { LEAST_INERTIA } else { INERTIA_FOR_RINGING };
+    Body { inertia: body.inertia.max(share * body.mass * body.radius().powi(2)), ..*body }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use approx::assert_relative_eq;
+    use rocking::structure::Structure;
+
+    /// theory, section 10: the paper's frame at 1e-3 s, 247 Hz.
+    #[test]
+    fn the_papers_frame_at_a_millisecond() {
+        let body = Structure::paper().body::<f64>();
+        let springs = FixedStepSprings::of(&body, 1e-3, Integrator::HHT_MOST).unwrap();
+        assert_relative_eq!(springs.units.vertical.omega_n_hz, 247.0, max_relative = 3e-3);
+        assert_relative_eq!(springs.rotational_inertia(), 1e-3 * 680.1e3 * body.radius().powi(2), max_relative = 1e-12);
+        let stable = FixedStepSprings::of(&body, 1e-3, Integrator::Trbdf2).unwrap();
+        assert_relative_eq!(stable.rotational_inertia(), 1e-5 * 680.1e3 * body.radius().powi(2), max_relative = 1e-12);
+    }
+
+    #[test]
+    fn the_closed_form_is_what_it_says() {
+        let body = Structure::block(2.6, 0.7, 1e3).unwrap().body::<f64>();
+        let (p, alpha, step) = (body.p_squared().sqrt(), body.alpha(), 2.5e-4);
+        let springs = FixedStepSprings::of(&body, step, Integrator::Trbdf2).unwrap();
+        assert_eq!(springs.body.inertia, body.inertia);
+        let Springs { vertical, horizontal } = springs.chains();
+        assert_relative_eq!(vertical.in_series(), 12.0 * body.mass * p / (alpha * alpha * step), max_relative = 1e-12);
+        let omega = (vertical.k1 / body.mass).sqrt();
+        assert_relative_eq!(omega, 7.75 * (p / step).sqrt() / alpha, max_relative = 1e-3);
+        assert_relative_eq!(horizontal.k1, 16.0 * vertical.k1, max_relative = 1e-12);
+        for unit in [vertical, horizontal] {
+            let omega = (unit.k1 / body.mass).sqrt();
+            assert_relative_eq!(unit.k2, 0.25 * unit.k1, max_relative = 1e-12);
+            assert_relative_eq!(unit.m2, 0.2 * body.mass, max_relative = 1e-12);
+            assert_relative_eq!(unit.c, 0.6 * body.mass * omega, max_relative = 1e-12);
+        }
+        // the stance is about half of the floor, 12 in place of 160/13
+        let expected = springs.expected();
+        assert_relative_eq!(expected.stance / expected.floor, 0.5 * (160.0 / 13.0) / 12.0, max_relative = 1e-9);
+    }
+
+    #[test]
+    fn what_cannot_be_is_refused() {
+        let body = Structure::paper().body::<f64>();
+        for step in [0.0, -1e-3, f64::NAN, f64::INFINITY] {
+            let error = FixedStepSprings::of(&body, step, Integrator::Trbdf2).unwrap_err();
+            assert!(matches!(error, FixedStepSpringsError::Step { .. }), "{error}");
+        }
+        assert!(FixedStepSprings::of(&body, 1e-3, Integrator::Hht { alpha: 0.9 }).is_err());
+    }
+}
