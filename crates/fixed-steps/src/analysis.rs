@@ -33,7 +33,7 @@ pub struct GaveUp {
 pub enum FixedStepOutcome {
     /// It went through.
     Finished,
-    /// The structure lies on the ground.
+    /// The structure lies on the ground, or falls and cannot be followed.
     Fallen {
         /// When that was seen (s).
         time: f64,
@@ -42,20 +42,39 @@ pub enum FixedStepOutcome {
     GaveUp(GaveUp),
 }
 
-/// What a history is made of.
-#[derive(Clone, Debug)]
-pub struct FixedStepAnalysis<'a, M> {
-    /// What is stepped.
-    pub model: &'a M,
-    /// How.
+/// How a program steps.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct StepSettings {
+    /// Its integrator.
     pub integrator: Integrator,
     /// Size of all steps (s).
     pub step: f64,
     /// The smallest substep: a step whose iteration does not arrive is halved, at most down to
     /// this, and what follows doubles again up to `step` (s). `step` itself: none.
     pub least: f64,
-    /// The iteration.
+    /// The iteration at a step's end.
     pub iteration: Iteration,
+}
+
+impl StepSettings {
+    /// Without substeps, the iteration that of scripts.
+    pub fn new(integrator: Integrator, step: f64) -> Self {
+        Self { integrator, step, least: step, iteration: Iteration::SCRIPT }
+    }
+
+    /// With substeps down to this part of a step: 1/16 for instance.
+    pub fn with_substeps(self, part: f64) -> Self {
+        Self { least: part * self.step, ..self }
+    }
+}
+
+/// What a history is made of.
+#[derive(Clone, Debug)]
+pub struct FixedStepAnalysis<'a, M> {
+    /// What is stepped.
+    pub model: &'a M,
+    /// How.
+    pub settings: StepSettings,
     /// Sampling interval of the record (s).
     pub dt: f64,
     /// Ground acceleration at t = i dt (m/s2), linear in between.
@@ -106,10 +125,9 @@ impl FixedStepHistory {
 const SAME: f64 = 1e-6;
 
 impl<'a, M: FixedStepModel> FixedStepAnalysis<'a, M> {
-    /// On horizontal motion, without substeps, its iteration that of scripts.
-    pub fn new(model: &'a M, integrator: Integrator, step: f64, dt: f64, accel: &'a [f64]) -> Self {
-        let iteration = Iteration::SCRIPT;
-        Self { model, integrator, step, least: step, iteration, dt, accel, vertical: &[], scale: 1.0 }
+    /// On horizontal motion.
+    pub fn new(model: &'a M, settings: StepSettings, dt: f64, accel: &'a [f64]) -> Self {
+        Self { model, settings, dt, accel, vertical: &[], scale: 1.0 }
     }
 
     /// Ground acceleration (a_g, a_v) at a time (m/s2).
@@ -151,22 +169,25 @@ impl<'a, M: FixedStepModel> FixedStepAnalysis<'a, M> {
         let mut iterates = Iterates::new(&motion.q);
         let mut shown = 0;
         let last = self.accel.len();
-        let count = ((last.saturating_sub(1)) as f64 * self.dt / self.step - SAME).ceil().max(0.0) as usize;
+        let count = ((last.saturating_sub(1)) as f64 * self.dt / self.settings.step - SAME).ceil().max(0.0) as usize;
         if last > 0 && show(0, &motion.q).is_continue() {
             shown = 1;
         }
         let mut previous = motion.q.clone();
-        let mut size = self.step;
+        let mut size = self.settings.step;
         for n in 0..count {
-            let (begin, end) = (n as f64 * self.step, (n + 1) as f64 * self.step);
+            let (begin, end) = (n as f64 * self.settings.step, (n + 1) as f64 * self.settings.step);
             previous.as_mut().copy_from_slice(motion.q.as_ref());
             let held = self.one_step(begin, &mut size, &mut motion, &mut feet, &mut iterates, &mut work);
             work.iterations = iterates.count;
             if let Err(gave_up) = held {
+                if self.model.is_falling(&motion.q) {
+                    return (FixedStepOutcome::Fallen { time: gave_up.time }, work);
+                }
                 return (FixedStepOutcome::GaveUp(gave_up), work);
             }
-            while shown < last && shown as f64 * self.dt <= end + SAME * self.step {
-                let part = ((shown as f64 * self.dt - begin) / self.step).min(1.0);
+            while shown < last && shown as f64 * self.dt <= end + SAME * self.settings.step {
+                let part = ((shown as f64 * self.dt - begin) / self.settings.step).min(1.0);
                 for (a, b) in iterates.change.as_mut().iter_mut().zip(previous.as_ref().iter().zip(motion.q.as_ref())) {
                     *a = if part > 1.0 - SAME { *b.1 } else { b.0 + part * (b.1 - b.0) };
                 }
@@ -194,13 +215,14 @@ impl<'a, M: FixedStepModel> FixedStepAnalysis<'a, M> {
         work: &mut FixedStepWork,
     ) -> Result<(), GaveUp> {
         let mut done = 0.0;
-        while done < self.step * (1.0 - SAME) {
-            let this = size.min(self.step - done);
+        while done < self.settings.step * (1.0 - SAME) {
+            let this = size.min(self.settings.step - done);
             // the same number each time, to the last digit
-            let this = if (this - self.step).abs() <= SAME * self.step { self.step } else { this };
-            let step = motion.step(&self.integrator, this);
+            let this =
+                if (this - self.settings.step).abs() <= SAME * self.settings.step { self.settings.step } else { this };
+            let step = motion.step(&self.settings.integrator, this);
             let ground = self.ground(begin + done + step.forces_at());
-            if iterates.arrives(self.model, &self.iteration, motion, &step, feet, ground) {
+            if iterates.arrives(self.model, &self.settings.iteration, motion, &step, feet, ground) {
                 motion.advance(&step, &iterates.change);
                 if step.forces_at() != step.size {
                     self.model.meet(&motion.q, feet);
@@ -208,10 +230,10 @@ impl<'a, M: FixedStepModel> FixedStepAnalysis<'a, M> {
                 feet.as_mut().iter_mut().for_each(FixedFoot::commit);
                 work.steps += 1;
                 done += this;
-                *size = (2.0 * *size).min(self.step);
+                *size = (2.0 * *size).min(self.settings.step);
             } else {
                 work.failed += 1;
-                if 0.5 * this < self.least * (1.0 - SAME) {
+                if 0.5 * this < self.settings.least * (1.0 - SAME) {
                     return Err(GaveUp { time: begin + done, step: this });
                 }
                 feet.as_mut().iter_mut().for_each(FixedFoot::revert);

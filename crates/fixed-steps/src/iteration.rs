@@ -6,7 +6,7 @@
 //! ```
 
 use crate::{
-    kinematics::{Kinematics, Step, Trial},
+    kinematics::{Kinematics, StepKinematics, Trial},
     model::FixedStepModel,
 };
 
@@ -74,7 +74,7 @@ impl<V: Clone + AsRef<[f64]> + AsMut<[f64]>> Iterates<V> {
         model: &M,
         how: &Iteration,
         from: &Kinematics<V>,
-        step: &Step<V>,
+        step: &StepKinematics<V>,
         feet: &mut M::Feet,
         ground: [f64; 2],
     ) -> bool {
@@ -90,7 +90,7 @@ impl<V: Clone + AsRef<[f64]> + AsMut<[f64]>> Iterates<V> {
         how: &Iteration,
         most: usize,
         newton: bool,
-        (from, step): (&Kinematics<V>, &Step<V>),
+        (from, step): (&Kinematics<V>, &StepKinematics<V>),
         feet: &mut M::Feet,
         ground: [f64; 2],
     ) -> bool {
@@ -138,7 +138,7 @@ impl<V: Clone + AsRef<[f64]> + AsMut<[f64]>> Iterates<V> {
         &mut self,
         model: &M,
         from: &Kinematics<V>,
-        step: &Step<V>,
+        step: &StepKinematics<V>,
         feet: &mut M::Feet,
         ground: [f64; 2],
     ) {

@@ -40,7 +40,7 @@ pub struct Kinematics<V> {
 
 /// One step: how v and a follow from q.
 #[derive(Clone, Debug)]
-pub(crate) struct Step<V> {
+pub(crate) struct StepKinematics<V> {
     /// v and a at the end if q did not change.
     v: V,
     a: V,
@@ -67,7 +67,7 @@ impl<V: Clone + AsRef<[f64]> + AsMut<[f64]>> Kinematics<V> {
 
     /// The next step. One of another size than the last begins a multi-step formula anew.
     #[inline]
-    pub(crate) fn step(&self, integrator: &Integrator, size: f64) -> Step<V> {
+    pub(crate) fn step(&self, integrator: &Integrator, size: f64) -> StepKinematics<V> {
         let equal = if size == self.last { self.equal } else { 0 };
         let (mut v, mut a) = (self.v.clone(), self.a.clone());
         match integrator.formula(equal) {
@@ -79,7 +79,7 @@ impl<V: Clone + AsRef<[f64]> + AsMut<[f64]>> Kinematics<V> {
                     (*v, *a) = (of_v * *v + of_a * *a, a_of_v * *v + a_of_a * *a);
                 }
                 let rates = [ratio / size, 1.0 / (beta * size * size)];
-                Step { v, a, rates, forces_at, inertia_at, size }
+                StepKinematics { v, a, rates, forces_at, inertia_at, size }
             }
             StepFormula::Bdf2 => {
                 let half = 0.5 / size;
@@ -91,14 +91,14 @@ impl<V: Clone + AsRef<[f64]> + AsMut<[f64]>> Kinematics<V> {
                     *a = half * v_before[i] - 4.0 * half * v_now + 3.0 * half * *v;
                 }
                 let rates = [3.0 * half, 9.0 * half * half];
-                Step { v, a, rates, forces_at: 1.0, inertia_at: 1.0, size }
+                StepKinematics { v, a, rates, forces_at: 1.0, inertia_at: 1.0, size }
             }
         }
     }
 
     /// Take the step that ends `change` from here.
     #[inline]
-    pub(crate) fn advance(&mut self, step: &Step<V>, change: &V) {
+    pub(crate) fn advance(&mut self, step: &StepKinematics<V>, change: &V) {
         self.equal = if step.size == self.last { self.equal + 1 } else { 1 };
         self.last = step.size;
         std::mem::swap(&mut self.before[0], &mut self.q);
@@ -120,7 +120,7 @@ impl<V: Clone + AsRef<[f64]> + AsMut<[f64]>> Kinematics<V> {
     }
 }
 
-impl<V: Clone + AsRef<[f64]> + AsMut<[f64]>> Step<V> {
+impl<V: Clone + AsRef<[f64]> + AsMut<[f64]>> StepKinematics<V> {
     /// Time at which the forces count, of the step's.
     pub(crate) fn forces_at(&self) -> f64 {
         self.forces_at * self.size

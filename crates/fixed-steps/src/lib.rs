@@ -7,7 +7,7 @@
 //! ```text
 //!   let springs = FixedStepSprings::of(&body, 1e-3, Integrator::Trbdf2)?;
 //!   let model = FixedStepBody::new(&springs.body, &springs.chains());
-//!   let history = FixedStepAnalysis::new(&model, Integrator::Trbdf2, 1e-3, record_dt, &accel).motion();
+//!   let history = FixedStepAnalysis::new(&model, springs.settings(), record_dt, &accel).history();
 //! ```
 //!
 //! | file | what |
@@ -25,6 +25,7 @@
 
 pub mod analysis;
 pub mod contact;
+pub mod elastic;
 pub mod expected;
 pub mod integrator;
 mod integrator_name;
@@ -35,7 +36,8 @@ pub mod model;
 pub mod recipe;
 pub mod rigid;
 
-pub use analysis::{FixedStepAnalysis, FixedStepHistory, FixedStepOutcome, GaveUp};
+pub use analysis::{FixedStepAnalysis, FixedStepHistory, FixedStepOutcome, GaveUp, StepSettings};
+pub use elastic::FixedStepFrame;
 pub use expected::ExpectedError;
 pub use integrator::Integrator;
 pub use iteration::{ConvergenceTest, Iteration};

@@ -12,9 +12,7 @@ use rocking::{
 };
 
 use crate::{
-    analysis::{FixedStepAnalysis, FixedStepOutcome},
-    integrator::Integrator,
-    iteration::Iteration,
+    analysis::{FixedStepAnalysis, FixedStepOutcome, StepSettings},
     rigid::FixedStepBody,
 };
 
@@ -70,20 +68,12 @@ impl WellConditioned {
         Self { body: *body, motions: (0..looked_at).filter_map(reference).take(count).collect() }
     }
 
-    /// The errors of springs with a step (s) and an integrator.
-    pub fn errors(
-        &self,
-        springs: &Springs<Chain<f64>>,
-        integrator: Integrator,
-        step: f64,
-        iteration: Iteration,
-    ) -> ErrorsOverMotions {
+    /// The errors of springs in a program that steps so.
+    pub fn errors(&self, springs: &Springs<Chain<f64>>, settings: StepSettings) -> ErrorsOverMotions {
         let model = FixedStepBody::new(&self.body, springs);
         let mut all = ErrorsOverMotions { errors: Vec::new(), stopped: 0, toppled: 0, steps: 0, iterations: 0 };
         for ReferenceHistory { dt, accel, u } in &self.motions {
-            let analysis =
-                FixedStepAnalysis { iteration, ..FixedStepAnalysis::new(&model, integrator, step, *dt, accel) };
-            let history = analysis.history();
+            let history = FixedStepAnalysis::new(&model, settings, *dt, accel).history();
             all.steps += history.work.steps;
             all.iterations += history.work.iterations;
             match history.outcome {

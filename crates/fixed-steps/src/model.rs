@@ -43,4 +43,10 @@ pub trait FixedStepModel {
     fn has_fallen(&self, _q: &Self::Vector) -> bool {
         false
     }
+
+    /// Whether it leans so far that a program that gives up here has lost a falling structure: its
+    /// foot slides, which no foot of this law can.
+    fn is_falling(&self, _q: &Self::Vector) -> bool {
+        false
+    }
 }

@@ -25,6 +25,7 @@ use rocking::structure::Body;
 use thiserror::Error;
 
 use crate::{
+    analysis::StepSettings,
     expected::ExpectedError,
     integrator::{Integrator, IntegratorError},
     iteration::{ConvergenceTest, Iteration},
@@ -108,6 +109,11 @@ impl FixedStepSprings {
     /// What these springs leave of an error on motions made for the body.
     pub fn expected(&self) -> ExpectedError {
         ExpectedError::of(&self.body, &self.chains(), self.step, &self.integrator)
+    }
+
+    /// How the program is to step: without substeps.
+    pub fn settings(&self) -> StepSettings {
+        StepSettings { iteration: self.iteration(), ..StepSettings::new(self.integrator, self.step) }
     }
 
     /// The iteration that goes with them: Newton's, 30 at most, to a change of g dt^2/10.

@@ -26,6 +26,8 @@ use crate::{
 
 /// Number of coordinates.
 const N: usize = 7;
+/// Lean over alpha beyond which a body falls.
+const FALLING: f64 = 2.0;
 /// Sides of the feet.
 const SIDE: [f64; 2] = [-1.0, 1.0];
 const X: usize = 0;
@@ -191,6 +193,10 @@ impl FixedStepModel for FixedStepBody {
 
     fn has_fallen(&self, q: &[f64; N]) -> bool {
         q[TH].is_nan() || q[TH].abs() >= std::f64::consts::FRAC_PI_2
+    }
+
+    fn is_falling(&self, q: &[f64; N]) -> bool {
+        q[TH].abs() > FALLING * self.body.alpha()
     }
 }
 

@@ -71,7 +71,7 @@ impl Frame {
     }
 
     /// Q at ground acceleration (a_g, a_v), in place of what is in `out`.
-    pub(crate) fn forces(&self, q: &[f64], v: &[f64], [ground, up]: [f64; 2], out: &mut [f64]) {
+    pub fn forces(&self, q: &[f64], v: &[f64], [ground, up]: [f64; 2], out: &mut [f64]) {
         let [mx, mz] = &self.pull;
         for (k, out) in out.iter_mut().enumerate() {
             *out = -(mx[k] * ground + mz[k] * (GRAVITY + up));
@@ -98,7 +98,7 @@ impl Frame {
     }
 
     /// -dQ/dq and -dQ/dq', in place of what is in `k` and `c`.
-    pub(crate) fn slopes(&self, q: &[f64], v: &[f64], k: &mut DMatrix<f64>, c: &mut DMatrix<f64>) {
+    pub fn slopes(&self, q: &[f64], v: &[f64], k: &mut DMatrix<f64>, c: &mut DMatrix<f64>) {
         k.fill(0.0);
         c.fill(0.0);
         for element in &self.elements {
@@ -161,7 +161,7 @@ impl Frame {
 
     /// out = M a.
     #[inline]
-    pub(crate) fn momentum(&self, a: &[f64], out: &mut [f64]) {
+    pub fn momentum(&self, a: &[f64], out: &mut [f64]) {
         if let Some(diagonal) = &self.diagonal {
             for ((out, m), a) in out.iter_mut().zip(diagonal).zip(a) {
                 *out = m * a;

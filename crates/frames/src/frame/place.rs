@@ -67,7 +67,7 @@ impl PlaceOnNode {
 
     /// The nonzero columns of G: index, and entries of rows x and z.
     #[inline(always)]
-    pub(crate) fn rows(&self, slope: [f64; 2], mut each: impl FnMut(usize, [f64; 2])) {
+    pub fn rows(&self, slope: [f64; 2], mut each: impl FnMut(usize, [f64; 2])) {
         let [x, z, th] = self.index;
         if x != NONE {
             each(x, [1.0, 0.0]);
@@ -80,7 +80,7 @@ impl PlaceOnNode {
 
     /// Index of its node's rotation.
     #[inline(always)]
-    pub(crate) fn rotation(&self) -> Option<usize> {
+    pub fn rotation(&self) -> Option<usize> {
         (self.index[2] != NONE).then_some(self.index[2])
     }
 }

@@ -1,0 +1,152 @@
+//! A frame whose corners stand on spring-absorber units, for fixed time steps.
+//!
+//! ```text
+//!   q = [ the frame's n coordinates;  a_x, a_z of every corner's absorbers ]
+//!   M q'' = Q(q, q') + sum G' (H, N)        m2_h a_x'' = -m2_h a_g - H - k2_h a_x - c_h a_x'
+//!                                           m2_v a_z'' = -m2_v a_v - N - k2_v a_z - c_v a_z'
+//! ```
+//!
+//! M, Q and its tangent are the frame's own (`frames::frame`), H and N those of `contact`. One
+//! dense matrix of the frame's coordinates a solution, the absorbers condensed.
+
+use dynamics::spring::{Chain, Springs};
+use frames::{
+    Mechanics,
+    frame::{EquilibriumError, Frame, PlaceOnNode, Support},
+};
+use nalgebra::{DMatrix, DVectorViewMut, Dyn, LU};
+
+use crate::{
+    contact::{CondensedUnit, FixedFoot},
+    kinematics::{TangentWeights, Trial},
+    model::FixedStepModel,
+};
+
+/// A frame on its springs.
+#[derive(Clone, Copy, Debug)]
+pub struct FixedStepFrame<'a> {
+    frame: &'a Frame,
+    /// Under each corner.
+    units: &'a [Springs<Chain<f64>>],
+}
+
+/// The matrix of the iteration, absorbers condensed.
+#[derive(Clone, Debug)]
+pub struct FrameFactor {
+    lu: LU<f64, Dyn, Dyn>,
+    /// Of every corner, horizontal and vertical.
+    units: Vec<[CondensedUnit; 2]>,
+    slopes: Vec<[f64; 2]>,
+}
+
+impl<'a> FixedStepFrame<'a> {
+    /// A frame and the units under its corners; none under a frame that is held.
+    ///
+    /// # Errors
+    /// There are not as many units as corners.
+    pub fn new(frame: &'a Frame, units: &'a [Springs<Chain<f64>>]) -> Result<Self, EquilibriumError> {
+        let (given, needed) = (units.len(), frame.places().len());
+        if given != needed {
+            return Err(EquilibriumError::Mismatch { what: "springs", given, needed });
+        }
+        Ok(Self { frame, units })
+    }
+
+    /// Number of the frame's coordinates, which come first.
+    fn n(&self) -> usize {
+        self.frame.size()
+    }
+
+    /// Every corner with its unit and the index of its horizontal absorber; the vertical one
+    /// follows.
+    fn corners(&self) -> impl Iterator<Item = (usize, &PlaceOnNode, &Springs<Chain<f64>>)> {
+        let n = self.n();
+        self.frame.places().iter().zip(self.units).enumerate().map(move |(i, (place, unit))| (n + 2 * i, place, unit))
+    }
+}
+
+impl FixedStepModel for FixedStepFrame<'_> {
+    type Vector = Vec<f64>;
+    type Feet = Vec<FixedFoot>;
+    type Factor = FrameFactor;
+
+    fn standing(&self) -> Result<(Vec<f64>, Vec<FixedFoot>), EquilibriumError> {
+        let support = |unit: &Springs<Chain<f64>>| Some([unit.horizontal.in_series(), unit.vertical.in_series()]);
+        let supports: Vec<Support> = self.units.iter().map(support).collect();
+        let mut q = self.frame.standing(&supports)?.as_slice().to_vec();
+        for (place, unit) in self.frame.places().iter().zip(self.units) {
+            let share = |chain: &Chain<f64>| chain.k1 / (chain.k1 + chain.k2);
+            let [x, z] = place.reach(&q).place;
+            q.extend([x * share(&unit.horizontal), z * share(&unit.vertical)]);
+        }
+        Ok((q, vec![FixedFoot::STANDING; self.units.len()]))
+    }
+
+    fn meet(&self, q: &Vec<f64>, feet: &mut Vec<FixedFoot>) {
+        for ((at, place, unit), foot) in self.corners().zip(feet) {
+            let [x, z] = place.reach(q).place;
+            foot.meet(unit, q[at + 1] - z, x - q[at]);
+        }
+    }
+
+    fn unbalance(&self, trial: &Trial<Vec<f64>>, feet: &Vec<FixedFoot>, ground: [f64; 2], out: &mut Vec<f64>) {
+        let (Trial { q, v, a }, n) = (trial, self.n());
+        let mut inertia = vec![0.0; n];
+        self.frame.momentum(&a[..n], &mut inertia);
+        self.frame.forces(&q[..n], &v[..n], ground, &mut out[..n]);
+        out.iter_mut().zip(inertia).for_each(|(out, inertia)| *out -= inertia);
+        for ((at, place, unit), foot) in self.corners().zip(feet) {
+            let reach = place.reach(q);
+            let force = foot.force(unit, q[at + 1] - reach.place[1], reach.place[0] - q[at]);
+            place.push(&reach, force, out);
+            for (k, chain) in [&unit.horizontal, &unit.vertical].into_iter().enumerate() {
+                let i = at + k;
+                out[i] = -(force[k] + chain.m2 * (ground[k] + a[i]) + chain.k2 * q[i] + chain.c * v[i]);
+            }
+        }
+    }
+
+    fn factor(&self, trial: &Trial<Vec<f64>>, feet: &Vec<FixedFoot>, weights: &TangentWeights) -> Option<FrameFactor> {
+        let (Trial { q, v, .. }, n) = (trial, self.n());
+        let (mut k, mut c) = (DMatrix::zeros(n, n), DMatrix::zeros(n, n));
+        self.frame.slopes(&q[..n], &v[..n], &mut k, &mut c);
+        let mut matrix = self.frame.mass_matrix() * weights.mass + c * weights.damping + k * weights.stiffness;
+        let (mut units, mut slopes) = (Vec::with_capacity(feet.len()), Vec::with_capacity(feet.len()));
+        for ((at, place, unit), foot) in self.corners().zip(feet) {
+            let reach = place.reach(q);
+            let both = [
+                CondensedUnit::new(&unit.horizontal, foot.closed && foot.holds, weights),
+                CondensedUnit::new(&unit.vertical, foot.closed, weights),
+            ];
+            place.rows(reach.slope, |i, gi| {
+                place.rows(reach.slope, |j, gj| {
+                    matrix[(i, j)] += both[0].stiffness * gi[0] * gj[0] + both[1].stiffness * gi[1] * gj[1];
+                });
+            });
+            if let Some(th) = place.rotation() {
+                let [h, p] = foot.force(unit, q[at + 1] - reach.place[1], reach.place[0] - q[at]);
+                matrix[(th, th)] += weights.stiffness * (h * reach.arm[0] + p * reach.arm[1]);
+            }
+            units.push(both);
+            slopes.push(reach.slope);
+        }
+        let lu = matrix.lu();
+        lu.is_invertible().then_some(FrameFactor { lu, units, slopes })
+    }
+
+    fn solve(&self, factor: &FrameFactor, r: &mut Vec<f64>) {
+        let n = self.n();
+        for ((at, place, _), ([h, v], slope)) in self.corners().zip(factor.units.iter().zip(&factor.slopes)) {
+            let [fx, fz] = [h.share * r[at], v.share * r[at + 1]];
+            place.rows(*slope, |i, g| r[i] += fx * g[0] + fz * g[1]);
+        }
+        // invertible, or `factor` had given none
+        let _ = factor.lu.solve_mut(&mut DVectorViewMut::from_slice(&mut r[..n], n));
+        for ((at, place, _), ([h, v], slope)) in self.corners().zip(factor.units.iter().zip(&factor.slopes)) {
+            let mut moved = [0.0; 2];
+            place.rows(*slope, |i, g| moved = [moved[0] + r[i] * g[0], moved[1] + r[i] * g[1]]);
+            r[at] = h.give * r[at] + h.share * moved[0];
+            r[at + 1] = v.give * r[at + 1] + v.share * moved[1];
+        }
+    }
+}
