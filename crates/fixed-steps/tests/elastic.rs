@@ -1,0 +1,129 @@
+//! An elastic pier in fixed steps beside OpenSees and beside the finite elements that follow events.
+
+use std::ops::ControlFlow;
+
+use dynamics::spring::{Chain, Design, Springs};
+use fixed_steps::{
+    ConvergenceTest, FixedStepAnalysis, FixedStepFrame, FixedStepModel, FixedStepOutcome, Integrator, Iteration,
+    StepSettings,
+    kinematics::{TangentWeights, Trial},
+};
+use frames::{
+    beam::BeamSection,
+    fem::{ElasticAnalysis, ElasticStart},
+    frame::{Cantilever, Footing, Frame, StraightMember},
+};
+use rocking::motion::nrmse;
+
+/// A mass of 600 t on a column of 12 m on a footing of 4 m; 2 Hz, eta_I its dashpot (N m2 s). The
+/// column begins at the footing's centre.
+fn pier(bending_damping: f64) -> Frame {
+    let section = BeamSection { bending_damping, ..BeamSection::elastic(1e10, 4e10) };
+    let footing = Footing::block(4.0, 1.2e5, 0.75, 0.75);
+    let column = StraightMember { section, elements: 1 };
+    Cantilever { mass: 6e5, inertia: None, height: 12.0, footing, column, consistent: false }.layout().frame().unwrap()
+}
+
+fn units() -> Vec<Springs<Chain<f64>>> {
+    let vertical = Design::from_kc(0.3, 0.1, 0.75, 20.0);
+    let horizontal = Design::from_kc(0.3, 0.57, 1.86, 20.0);
+    vec![Springs { vertical, horizontal }.chains(1.2e5); 2]
+}
+
+/// A Ricker wavelet of 7 rad/s about 1 s.
+fn pulse(dt: f64) -> Vec<f64> {
+    let at = |t: f64| {
+        let square = (3.5 * (t - 1.0)).powi(2);
+        4.5 * (1.0 - 2.0 * square) * (-square).exp()
+    };
+    (0..(3.0 / dt) as usize).map(|i| at(i as f64 * dt)).collect()
+}
+
+/// Horizontal displacement of the mass at the samples.
+fn top(frame: &Frame, integrator: Integrator, step: f64, below: f64) -> Vec<f64> {
+    let (units, accel) = (units(), pulse(0.01));
+    let model = FixedStepFrame::new(frame, &units).unwrap();
+    let iteration = Iteration { constant: 0, newton: 30, test: ConvergenceTest::Increment(below) };
+    let settings = StepSettings { iteration, ..StepSettings::new(integrator, step) };
+    let mut u = Vec::new();
+    let (outcome, _) = FixedStepAnalysis::new(&model, settings, 0.01, &accel)
+        .follow(|_, q| {
+            u.push(frame.displacement(1, q)[0]);
+            ControlFlow::Continue(())
+        })
+        .unwrap();
+    assert_eq!(outcome, FixedStepOutcome::Finished, "{integrator}, {step}");
+    u
+}
+
+/// u of the mass, m, by OpenSees 3.7.1 with our deck's elements (`.ci/fixed_steps.py`), steps of
+/// 1e-3 s. Its damping objects act 1/(1 + alpha) times too strongly under HHT: ours are given so.
+#[test]
+fn opensees_has_the_same_history() {
+    for (name, stronger, at) in [
+        ("hht:-0.3333333333333333", 1.5, [(120, -8.603580185e-02), (200, 2.343461341e-02), (290, -9.940471723e-03)]),
+        ("trbdf2", 1.0, [(120, -8.606192839e-02), (200, 2.321859690e-02), (290, -9.540320056e-03)]),
+        ("backward-euler", 1.0, [(120, -8.606027558e-02), (200, 2.322120770e-02), (290, -9.543655567e-03)]),
+    ] {
+        let u = top(&pier(stronger * 1e8), name.parse().unwrap(), 1e-3, 1e-6);
+        for (i, expected) in at {
+            assert!((u[i] - expected).abs() < 2e-5 * 0.08, "{name}, sample {i}: {:e}, {expected:e}", u[i]);
+        }
+    }
+}
+
+/// Short steps come to the history that follows events (`frames::fem`).
+#[test]
+fn short_steps_come_to_what_follows_events() {
+    let (frame, units, accel) = (pier(1e8), units(), pulse(0.01));
+    let history = ElasticAnalysis::new(&frame, &units, ElasticStart::Standing, 0.01, &accel).simulate().unwrap();
+    let events: Vec<f64> = history.q.iter().map(|q| frame.displacement(1, q)[0]).collect();
+    for integrator in [Integrator::HHT_MOST, Integrator::Trbdf2] {
+        let [long, short] = [1e-3, 1e-4].map(|step| nrmse(&top(&frame, integrator, step, 1e-7), &events));
+        assert!(short < 1e-3 && short < 0.5 * long, "{integrator}: {long}, {short}");
+    }
+}
+
+/// It stands still under its weight, and the matrix is the derivative of the unbalance.
+#[test]
+fn it_stands_and_its_matrix_is_the_derivative() {
+    let (frame, units) = (pier(1e8), units());
+    let model = FixedStepFrame::new(&frame, &units).unwrap();
+    let (mut q, mut feet) = model.standing().unwrap();
+    let n = q.len();
+    let mut out = vec![0.0; n];
+    model.meet(&q, &mut feet);
+    model.unbalance(&Trial { q: q.clone(), v: vec![0.0; n], a: vec![0.0; n] }, &feet, [0.0; 2], &mut out);
+    assert!(out.iter().all(|f| f.abs() < 1e-8 * frame.total_mass() * 9.81), "{out:?}");
+
+    // leaning, the left corner in the air
+    for (i, x) in q.iter_mut().enumerate() {
+        *x += 2e-3 * (1.7 * i as f64).sin();
+    }
+    q[2] += 0.01;
+    model.meet(&q, &mut feet);
+    assert!(!feet[0].closed && feet[1].closed, "{feet:?}");
+    let v: Vec<f64> = (0..n).map(|i| 0.1 * (2.3 * i as f64).cos()).collect();
+    let at = Trial { q, v, a: vec![0.3; n] };
+    let weights = TangentWeights { mass: 3e4, damping: 200.0, stiffness: 0.7 };
+    let factor = model.factor(&at, &feet, &weights).unwrap();
+    let direction: Vec<f64> = (0..n).map(|i| (0.9 * i as f64 + 0.4).cos()).collect();
+    let unbalance = |step: f64| {
+        let mut trial = at.clone();
+        for (k, d) in direction.iter().enumerate() {
+            trial.q[k] += step * weights.stiffness * d;
+            trial.v[k] += step * weights.damping * d;
+            trial.a[k] += step * weights.mass * d;
+        }
+        let mut out = vec![0.0; n];
+        model.unbalance(&trial, &feet, [0.5, 0.2], &mut out);
+        out
+    };
+    let (high, low) = (unbalance(1e-6), unbalance(-1e-6));
+    let mut right: Vec<f64> = high.iter().zip(&low).map(|(high, low)| -(high - low) / 2e-6).collect();
+    model.solve(&factor, &mut right);
+    for (found, expected) in right.iter().zip(&direction) {
+        assert!((found - expected).abs() < 1e-5, "{right:?}, {direction:?}");
+    }
+    assert!(FixedStepFrame::new(&frame, &units[..1]).is_err());
+}
