@@ -6,6 +6,7 @@
 //!  "integrator": "trbdf2", "step": 0.001, "tolerance": 1e-12, "dt": 0.01, "accel": [0.0, 0.1]}
 //! {"pier": {"mass": 6e5, "height": 12.0, "width": 4.0, "footing": [1.2e5, 0.75, 1.5], "column": [EA, EI, eta_A, eta_I]}, ...}
 //! {"motions": 4, "seed": 1, "body": [61.0, 6.1, 680100.0, 0.0]}
+//! {"references": 4, "seed": 1, "body": [61.0, 6.1, 680100.0, 680.0]}
 //! {"recipe": "trbdf2", "step": 0.001, "body": [61.0, 6.1, 680100.0, 0.0]}
 //! ```
 
@@ -19,7 +20,7 @@ use std::{
 use dynamics::spring::{Chain, Springs};
 use fixed_steps::{
     ConvergenceTest, FixedStepAnalysis, FixedStepBody, FixedStepFrame, FixedStepModel, FixedStepOutcome,
-    FixedStepSprings, Iteration, StepSettings,
+    FixedStepSprings, Iteration, StepSettings, measured::WellConditioned,
 };
 use frames::{
     beam::BeamSection,
@@ -43,6 +44,7 @@ struct Asked {
     body: Option<[f64; 4]>,
     pier: Option<Pier>,
     motions: Option<usize>,
+    references: Option<usize>,
     seed: Option<u64>,
     recipe: Option<String>,
     vertical: Option<[f64; 4]>,
@@ -68,6 +70,10 @@ fn answer(asked: &Asked) -> Result<Value, Box<dyn Error>> {
             let (p, alpha) = (body.p_squared().sqrt(), body.alpha());
             let all = synthetic::suite(*count, asked.seed.unwrap_or(1), p, alpha);
             Ok(all.map(|record| json!({"name": record.name, "dt": record.dt, "accel": record.accel})).collect())
+        }
+        (Some(body), Asked { references: Some(count), .. }) => {
+            let all = WellConditioned::of_seed(body, asked.seed.unwrap_or(1), *count, 8 * count).motions;
+            Ok(all.into_iter().map(|motion| json!({"dt": motion.dt, "accel": motion.accel, "u": motion.u})).collect())
         }
         (Some(body), Asked { recipe: Some(integrator), step: Some(step), .. }) => {
             let springs = FixedStepSprings::of(body, *step, integrator.parse()?)?;

@@ -79,7 +79,7 @@ mod tests {
     use approx::assert_relative_eq;
     use rocking::structure::Structure;
 
-    /// theory, section 10: 1.85, 0.81 and 0.59 p dt.
+    /// 1.85, 0.81 and 0.59 p dt at leans of 0.05, 0.3 and 0.8 alpha.
     #[test]
     fn the_scatter_of_a_landing() {
         for (phi, expected) in [(0.05, 1.85), (0.3, 0.81), (0.8, 0.59)] {
@@ -87,7 +87,7 @@ mod tests {
         }
     }
 
-    /// theory, section 10: 1.9 ms (61 m), 0.33 ms (block of 1.3 m) for one per cent.
+    /// 1.9 ms (61 m), 0.33 ms (block of 1.3 m) for one per cent.
     #[test]
     fn the_step_for_an_accuracy() {
         let frame = Structure::paper().body::<f64>();

@@ -42,5 +42,5 @@ pub use expected::ExpectedError;
 pub use integrator::Integrator;
 pub use iteration::{ConvergenceTest, Iteration};
 pub use model::FixedStepModel;
-pub use recipe::FixedStepSprings;
+pub use recipe::{FixedStepDesign, FixedStepSprings};
 pub use rigid::FixedStepBody;

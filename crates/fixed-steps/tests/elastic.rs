@@ -1,4 +1,5 @@
-//! An elastic pier in fixed steps beside OpenSees and beside the finite elements that follow events.
+//! An elastic pier in fixed steps, beside OpenSees and beside the finite elements that follow
+//! events.
 
 use std::ops::ControlFlow;
 
