@@ -52,6 +52,9 @@ pub struct StepSettings {
     /// The smallest substep: a step whose iteration does not arrive is halved, at most down to
     /// this, and what follows doubles again up to `step` (s). `step` itself: none.
     pub least: f64,
+    /// Touch refinement: so many substeps in a step within which a gap is about to open or close,
+    /// and in the step after one that did. 1: none.
+    pub at_touches: usize,
     /// The iteration at a step's end.
     pub iteration: Iteration,
 }
@@ -59,12 +62,19 @@ pub struct StepSettings {
 impl StepSettings {
     /// Without substeps, the iteration that of scripts.
     pub fn new(integrator: Integrator, step: f64) -> Self {
-        Self { integrator, step, least: step, iteration: Iteration::SCRIPT }
+        Self { integrator, step, least: step, at_touches: 1, iteration: Iteration::SCRIPT }
     }
 
     /// With substeps down to this part of a step: 1/16 for instance.
     pub fn with_substeps(self, part: f64) -> Self {
         Self { least: part * self.step, ..self }
+    }
+
+    /// With so many substeps in steps at touches, for springs of any stiffness: a program that can
+    /// be scripted sees from the gap and its rate before a step whether it opens or closes within.
+    pub fn with_touches(self, at_touches: usize) -> Self {
+        let at_touches = at_touches.max(1);
+        Self { at_touches, least: self.least.min(self.step / at_touches as f64), ..self }
     }
 }
 
@@ -121,6 +131,15 @@ impl FixedStepHistory {
     }
 }
 
+/// Sizes of steps from one to the next.
+struct Pace {
+    /// Of the next substep (s).
+    size: f64,
+    /// Whether this step is refined for a touch, and whether a contact has changed in it.
+    refined: bool,
+    touched: bool,
+}
+
 /// Part of a step within which times count as equal.
 const SAME: f64 = 1e-6;
 
@@ -174,11 +193,11 @@ impl<'a, M: FixedStepModel> FixedStepAnalysis<'a, M> {
             shown = 1;
         }
         let mut previous = motion.q.clone();
-        let mut size = self.settings.step;
+        let mut pace = Pace { size: self.settings.step, refined: false, touched: false };
         for n in 0..count {
             let (begin, end) = (n as f64 * self.settings.step, (n + 1) as f64 * self.settings.step);
             previous.as_mut().copy_from_slice(motion.q.as_ref());
-            let held = self.one_step(begin, &mut size, &mut motion, &mut feet, &mut iterates, &mut work);
+            let held = self.one_step(begin, &mut pace, &mut motion, &mut feet, &mut iterates, &mut work);
             work.iterations = iterates.count;
             if let Err(gave_up) = held {
                 if self.model.is_falling(&motion.q) {
@@ -203,20 +222,38 @@ impl<'a, M: FixedStepModel> FixedStepAnalysis<'a, M> {
         (FixedStepOutcome::Finished, work)
     }
 
+    /// The longest substep of the step to come.
+    fn longest(&self, pace: &mut Pace, motion: &Kinematics<M::Vector>) -> f64 {
+        let StepSettings { step, at_touches, .. } = self.settings;
+        if at_touches == 1 {
+            return step;
+        }
+        let mut near = pace.touched;
+        self.model.gaps(&motion.q, &motion.v, |d, rate| near |= (d > 0.0) != (d + rate * step > 0.0));
+        pace.touched = false;
+        let longest = if near { step / at_touches as f64 } else { step };
+        if near || pace.refined {
+            pace.size = longest;
+        }
+        pace.refined = near;
+        longest
+    }
+
     /// One step, in substeps of `size` if its iteration does not arrive.
     #[inline]
     fn one_step(
         &self,
         begin: f64,
-        size: &mut f64,
+        pace: &mut Pace,
         motion: &mut Kinematics<M::Vector>,
         feet: &mut M::Feet,
         iterates: &mut Iterates<M::Vector>,
         work: &mut FixedStepWork,
     ) -> Result<(), GaveUp> {
+        let longest = self.longest(pace, motion);
         let mut done = 0.0;
         while done < self.settings.step * (1.0 - SAME) {
-            let this = size.min(self.settings.step - done);
+            let this = pace.size.min(self.settings.step - done);
             // the same number each time, to the last digit
             let this =
                 if (this - self.settings.step).abs() <= SAME * self.settings.step { self.settings.step } else { this };
@@ -227,10 +264,11 @@ impl<'a, M: FixedStepModel> FixedStepAnalysis<'a, M> {
                 if step.forces_at() != step.size {
                     self.model.meet(&motion.q, feet);
                 }
+                pace.touched |= feet.as_ref().iter().any(FixedFoot::has_changed);
                 feet.as_mut().iter_mut().for_each(FixedFoot::commit);
                 work.steps += 1;
                 done += this;
-                *size = (2.0 * *size).min(self.settings.step);
+                pace.size = (2.0 * pace.size).min(longest);
             } else {
                 work.failed += 1;
                 if 0.5 * this < self.settings.least * (1.0 - SAME) {
@@ -238,7 +276,7 @@ impl<'a, M: FixedStepModel> FixedStepAnalysis<'a, M> {
                 }
                 feet.as_mut().iter_mut().for_each(FixedFoot::revert);
                 motion.begin_anew();
-                *size = 0.5 * this;
+                pace.size = 0.5 * this;
             }
         }
         Ok(())

@@ -23,6 +23,8 @@ pub struct FixedFoot {
     pub closed: bool,
     /// Whether its horizontal spring holds; it slides otherwise.
     pub holds: bool,
+    /// Whether it pressed at the last step's end.
+    was: bool,
     /// Where its horizontal spring is anchored in this step (m).
     pub anchor: f64,
     /// The same in steps to come (m).
@@ -31,11 +33,11 @@ pub struct FixedFoot {
 
 impl FixedFoot {
     /// On the ground since the structure was built.
-    pub const STANDING: Self = Self { closed: true, holds: true, anchor: 0.0, next: 0.0 };
+    pub const STANDING: Self = Self { closed: true, holds: true, was: true, anchor: 0.0, next: 0.0 };
 
     /// On the ground or in the air, its horizontal spring without force at `anchor`.
     pub fn new(closed: bool, anchor: f64) -> Self {
-        Self { closed, holds: closed, anchor, next: anchor }
+        Self { closed, holds: closed, was: closed, anchor, next: anchor }
     }
 
     /// Decide whether it is closed, and holds, in a trial: its gap's compression d and its distance
@@ -65,9 +67,16 @@ impl FixedFoot {
         [if self.holds { along } else { HOLDS * n * along.signum() }, n]
     }
 
+    /// Whether it has touched or left the ground since the last step's end.
+    #[inline(always)]
+    pub fn has_changed(&self) -> bool {
+        self.closed != self.was
+    }
+
     /// The step holds.
     #[inline(always)]
     pub fn commit(&mut self) {
+        self.was = self.closed;
         self.anchor = self.next;
     }
 

@@ -149,4 +149,11 @@ impl FixedStepModel for FixedStepFrame<'_> {
             r[at + 1] = v.give * r[at + 1] + v.share * moved[1];
         }
     }
+
+    fn gaps(&self, q: &Vec<f64>, v: &Vec<f64>, mut each: impl FnMut(f64, f64)) {
+        for (at, place, _) in self.corners() {
+            let reach = place.reach(q);
+            each(q[at + 1] - reach.place[1], v[at + 1] - place.velocity(&reach, v)[1]);
+        }
+    }
 }

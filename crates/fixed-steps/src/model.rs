@@ -39,6 +39,9 @@ pub trait FixedStepModel {
     /// The change of place that the matrix makes of an unbalance, in place.
     fn solve(&self, factor: &Self::Factor, right: &mut Self::Vector);
 
+    /// Compression of every gap, above zero while it presses, and its rate [m, m/s].
+    fn gaps(&self, _q: &Self::Vector, _v: &Self::Vector, _each: impl FnMut(f64, f64)) {}
+
     /// Whether it lies on the ground, or cannot be followed any more: the history ends.
     fn has_fallen(&self, _q: &Self::Vector) -> bool {
         false

@@ -77,23 +77,11 @@ impl FixedStepDesign {
         horizontal_over_vertical: 5.0,
     };
 
-    /// For integrators that leave something of stiff modes (HHT, TRBDF2, every other step of which
-    /// is trapezoidal), found and judged likewise: about the recipe's errors, and a third as many
-    /// histories that the program gives up.
-    pub const LEAVING: Self = Self {
-        stance: 5.0,
-        vertical: UnitNumbers { k: 0.165, c: 0.682, mu: 0.333 },
-        horizontal: UnitNumbers { k: 0.238, c: 1.544, mu: 1.05 },
-        horizontal_over_vertical: 6.95,
-    };
-
     /// The one of these that suits an integrator.
     pub fn searched(integrator: &Integrator) -> Self {
-        match integrator {
-            Integrator::Trbdf2 => Self::LEAVING,
-            _ if integrator.ends_stiff_modes() => Self::ENDING,
-            _ => Self::LEAVING,
-        }
+        // every other step of TRBDF2 is trapezoidal
+        let ends = integrator.ends_stiff_modes() && *integrator != Integrator::Trbdf2;
+        if ends { Self::ENDING } else { Self::RECIPE }
     }
 
     /// Omega_n of the vertical unit, sqrt(k1/m) (rad/s).
@@ -102,9 +90,9 @@ impl FixedStepDesign {
         (in_series * (1.0 + self.vertical.k) / self.vertical.k).sqrt()
     }
 
-    /// Both units of a body.
-    fn units(&self, body: &Body<f64>, step: f64) -> Springs<Design<f64>> {
-        let hz = self.omega_n(body, step) / std::f64::consts::TAU;
+    /// Both units, the vertical one of this Omega_n (rad/s).
+    fn units(&self, omega_n: f64) -> Springs<Design<f64>> {
+        let hz = omega_n / std::f64::consts::TAU;
         let unit = |of: &UnitNumbers, hz: f64| Design::from_kc(of.mu, of.k, of.c, hz);
         Springs {
             vertical: unit(&self.vertical, hz),
@@ -112,6 +100,9 @@ impl FixedStepDesign {
         }
     }
 }
+
+/// Omega_n times a substep at touches: a landing, about 1/Omega_n long, is resolved.
+const AT_TOUCHES: f64 = 0.5;
 
 /// I_cg/(m R^2) of a body that has none, where the integrator leaves something of stiff modes: with
 /// less, its rotation is a mode of several kHz that HHT neither resolves nor ends.
@@ -133,6 +124,8 @@ pub struct FixedStepSprings {
     pub integrator: Integrator,
     /// The program's step (s).
     pub step: f64,
+    /// Substeps of a step at touches; 1: none.
+    pub at_touches: usize,
 }
 
 /// No springs follow from these numbers.
@@ -168,12 +161,27 @@ impl FixedStepSprings {
         integrator: Integrator,
         design: &FixedStepDesign,
     ) -> Result<Self, FixedStepSpringsError> {
-        if !(step.is_finite() && step > 0.0) {
-            return Err(FixedStepSpringsError::Step { step });
-        }
-        let integrator = integrator.checked()?;
-        let body = with_inertia(body, &integrator);
-        Ok(Self { body, units: design.units(&body, step), integrator, step })
+        let body = prepared(body, step, integrator)?;
+        let units = design.units(design.omega_n(&body, step));
+        Ok(Self { body, units, integrator, step, at_touches: 1 })
+    }
+
+    /// Springs for a program that takes so many substeps in steps at touches
+    /// ([`StepSettings::with_touches`]): as stiff as these resolve, Omega_n = substeps/(2 dt), so
+    /// that the floor is that of the substep and the stance hardly sways.
+    ///
+    /// # Errors
+    /// The step is not positive, or the integrator is unstable.
+    pub fn refined(
+        body: &Body<f64>,
+        step: f64,
+        integrator: Integrator,
+        design: &FixedStepDesign,
+        at_touches: usize,
+    ) -> Result<Self, FixedStepSpringsError> {
+        let (body, at_touches) = (prepared(body, step, integrator)?, at_touches.max(1));
+        let units = design.units(AT_TOUCHES * at_touches as f64 / step);
+        Ok(Self { body, units, integrator, step, at_touches })
     }
 
     /// With units.
@@ -188,12 +196,18 @@ impl FixedStepSprings {
 
     /// What these springs leave of an error on motions made for the body.
     pub fn expected(&self) -> ExpectedError {
-        ExpectedError::of(&self.body, &self.chains(), self.step, &self.integrator)
+        ExpectedError::of(&self.body, &self.chains(), self.shortest(), &self.integrator)
     }
 
-    /// How the program is to step: without substeps.
+    /// How the program is to step: without substeps but for those at touches.
     pub fn settings(&self) -> StepSettings {
-        StepSettings { iteration: self.iteration(), ..StepSettings::new(self.integrator, self.step) }
+        let settings = StepSettings { iteration: self.iteration(), ..StepSettings::new(self.integrator, self.step) };
+        settings.with_touches(self.at_touches)
+    }
+
+    /// The step at a landing (s).
+    fn shortest(&self) -> f64 {
+        self.step / self.at_touches as f64
     }
 
     /// The iteration that goes with them: Newton's, 30 at most, to a change of g dt^2/10.
@@ -203,9 +217,17 @@ impl FixedStepSprings {
     /// fro between both, apart by what a weight does within a step, g dt^2. A tighter test stops
     /// the program there, however many iterations it allows.
     pub fn iteration(&self) -> Iteration {
-        let below = TOLERANCE * GRAVITY * self.step * self.step;
+        let below = TOLERANCE * GRAVITY * self.shortest().powi(2);
         Iteration { constant: 0, newton: 30, test: ConvergenceTest::Increment(below) }
     }
+}
+
+/// The body as a program can step it.
+fn prepared(body: &Body<f64>, step: f64, integrator: Integrator) -> Result<Body<f64>, FixedStepSpringsError> {
+    if !(step.is_finite() && step > 0.0) {
+        return Err(FixedStepSpringsError::Step { step });
+    }
+    Ok(with_inertia(body, &integrator.checked()?))
 }
 
 /// The body with the rotational inertia that an integrator needs, if it has none of its own.
@@ -259,7 +281,7 @@ mod tests {
             assert_eq!(FixedStepDesign::searched(&integrator), FixedStepDesign::ENDING);
         }
         for integrator in [Integrator::Trbdf2, Integrator::HHT_MOST, Integrator::AVERAGE_ACCELERATION] {
-            assert_eq!(FixedStepDesign::searched(&integrator), FixedStepDesign::LEAVING);
+            assert_eq!(FixedStepDesign::searched(&integrator), FixedStepDesign::RECIPE);
         }
         let body = Structure::paper().body::<f64>();
         let design = FixedStepDesign::ENDING;

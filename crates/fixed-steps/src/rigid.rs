@@ -191,6 +191,15 @@ impl FixedStepModel for FixedStepBody {
         (r[X], r[Z], r[TH]) = (x, z, turn);
     }
 
+    fn gaps(&self, q: &[f64; N], v: &[f64; N], mut each: impl FnMut(f64, f64)) {
+        let turned = q[TH].sin_cos();
+        for i in 0..2 {
+            let FootPlace { place, slope, .. } = self.foot(i, q, turned);
+            let at = absorber(i) + 1;
+            each(q[at] - place[1], v[at] - v[Z] - slope[1] * v[TH]);
+        }
+    }
+
     fn has_fallen(&self, q: &[f64; N]) -> bool {
         q[TH].is_nan() || q[TH].abs() >= std::f64::consts::FRAC_PI_2
     }

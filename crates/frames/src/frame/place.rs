@@ -37,7 +37,7 @@ impl PlaceOnNode {
 
     /// Its velocity (m/s).
     #[inline(always)]
-    pub(crate) fn velocity(&self, reach: &Reach, v: &[f64]) -> [f64; 2] {
+    pub fn velocity(&self, reach: &Reach, v: &[f64]) -> [f64; 2] {
         let [x, z, th] = gather(&self.index, v);
         [x + reach.slope[0] * th, z + reach.slope[1] * th]
     }
