@@ -16,7 +16,7 @@
 //! | `contact` | a foot of such a program: open or closed by the trial, its anchor |
 //! | `model` | what is stepped; in `rigid` the rigid body, in `elastic` a frame |
 //! | `iteration`, `analysis` | the iteration at a step's end; the time loop, substeps, what gives up |
-//! | `recipe`, `expected` | springs in closed form for a step and an integrator; the error they leave |
+//! | `recipe`, `expected`, `rebound` | springs in closed form for a step and an integrator; the error they leave |
 //! | `measured` | the error of springs over many motions |
 
 // what is printed goes through the program's `commands/terminal`
@@ -33,6 +33,7 @@ pub mod iteration;
 pub mod kinematics;
 pub mod measured;
 pub mod model;
+pub mod rebound;
 pub mod recipe;
 pub mod rigid;
 
