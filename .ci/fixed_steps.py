@@ -86,6 +86,30 @@ def as_opensees_damps(case):
     return case | {"pier": case["pier"] | {"column": [*stiffness, stronger * axial, stronger * bending]}}
 
 
+class Touches:
+    """Substeps where a gap is about to open or close, and in the step after one that did."""
+
+    def __init__(self, case):
+        self.body, self.step, self.substeps = case["body"], case["step"], case["at_touches"]
+        self.closed = None
+
+    def gaps(self):
+        """Compression of the gaps, and its rate."""
+        height, half_width = self.body[:2]
+        z, theta, rate_z, rate = ops.nodeDisp(3, 2), -ops.nodeDisp(3, 3), ops.nodeVel(3, 2), -ops.nodeVel(3, 3)
+        for node, side in ((11, -half_width), (12, half_width)):
+            foot = z - side * math.sin(theta) + height * (1 - math.cos(theta))
+            foot_rate = rate_z + (height * math.sin(theta) - side * math.cos(theta)) * rate
+            yield ops.nodeDisp(node, 2) - foot, ops.nodeVel(node, 2) - foot_rate
+
+    def parts(self):
+        gaps = list(self.gaps())
+        closed = [d >= 0 for d, _ in gaps]
+        near = self.closed not in (None, closed) or any((d > 0) != (d + rate * self.step > 0) for d, rate in gaps)
+        self.closed = closed
+        return self.substeps if near else 1
+
+
 def in_opensees(case):
     """u, v, theta at the record's samples; when it stopped, if it did; seconds."""
     model, masses, absorbers, read = (rigid if "body" in case else elastic)(case)
@@ -104,9 +128,11 @@ def in_opensees(case):
 
     rows, stopped, begin = [row()], None, time.time()
     before, shown = rows[0], 1
+    refinement = Touches(case) if case.get("at_touches", 1) > 1 else None
     for n in range(math.ceil((len(accel) - 1) * dt / step - 1e-6)):
         # the same number each time: a multi-step integrator begins anew at every other one
-        if ops.analyze(1, step) != 0:
+        parts = refinement.parts() if refinement else 1
+        if any(ops.analyze(1, step / parts) != 0 for _ in range(parts)):
             stopped = n * step
             break
         now = row()
@@ -238,10 +264,27 @@ def medians(emulator, count, steps):
                   f"| {recipe['median'] / unit:.1f} |", flush=True)
 
 
+def touches(emulator, count, substeps, step=1e-3):
+    """Touch refinement in OpenSees: its errors against Housner, ours on the same motions, both histories beside each other."""
+    print("| body | integrator | error here | in OpenSees | of each other | stopped here / in OpenSees |")
+    print("|---|---|---|---|---|---|")
+    for name, part, _, body in structures():
+        for integrator in ("trbdf2", "backward-euler") if "body" in part else ():
+            recipe = emulator.ask({"recipe": integrator, "step": step, "body": body, "at_touches": substeps})
+            heavy = [*body[:3], recipe["inertia"]]
+            for motion in emulator.ask({"references": count, "seed": 77, "body": heavy}):
+                case = dict(body=heavy, integrator=integrator, step=step, dt=motion["dt"], accel=motion["accel"], at_touches=substeps,
+                            **{key: recipe[key] for key in ("vertical", "horizontal", "tolerance")})
+                ours, theirs = emulator.ask(case), in_opensees(case)
+                print(f"| {name} | {integrator} | {nrmse(ours['u'], motion['u']):.5f} | {nrmse(theirs['u'], motion['u']):.5f} "
+                      f"| {nrmse(ours['u'], theirs['u']):.1e} | {ours['stopped']} / {theirs['stopped']} |", flush=True)
+
+
 def main():
     options = argparse.ArgumentParser()
     options.add_argument("--short", action="store_true", help="one motion, two steps, 6 s")
     options.add_argument("--medians", type=int, default=0)
+    options.add_argument("--touches", type=int, default=0, help="N motions with twenty substeps in steps at touches")
     options.add_argument("--program", default=str(ROOT / "target/release/examples/fixed_steps"))
     options.add_argument("--motions", type=int, default=3)
     options.add_argument("--seed", type=int, default=2005)
@@ -254,6 +297,8 @@ def main():
         asked.motions, asked.seconds, asked.steps = 1, 6.0, (1e-2, 1e-3)
     emulator = Emulator(asked.program)
     os.dup2(os.open(os.devnull, os.O_WRONLY), 2)   # OpenSees tells of every step that fails
+    if asked.touches:
+        return touches(emulator, asked.touches, 20)
     if asked.medians:
         return medians(emulator, asked.medians, asked.steps)
     print("| structure | springs | step (s) | integrator | early | whole | histories | not predictable | both stop | time here / OpenSees (ms) |")

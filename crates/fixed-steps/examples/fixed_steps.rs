@@ -7,7 +7,7 @@
 //! {"pier": {"mass": 6e5, "height": 12.0, "width": 4.0, "footing": [1.2e5, 0.75, 1.5], "column": [EA, EI, eta_A, eta_I]}, ...}
 //! {"motions": 4, "seed": 1, "body": [61.0, 6.1, 680100.0, 0.0]}
 //! {"references": 4, "seed": 1, "body": [61.0, 6.1, 680100.0, 680.0]}
-//! {"recipe": "trbdf2", "step": 0.001, "body": [61.0, 6.1, 680100.0, 0.0]}
+//! {"recipe": "trbdf2", "step": 0.001, "at_touches": 20, "body": [61.0, 6.1, 680100.0, 0.0]}
 //! ```
 
 use std::{
@@ -19,8 +19,8 @@ use std::{
 
 use dynamics::spring::{Chain, Springs};
 use fixed_steps::{
-    ConvergenceTest, FixedStepAnalysis, FixedStepBody, FixedStepFrame, FixedStepModel, FixedStepOutcome,
-    FixedStepSprings, Iteration, StepSettings, measured::WellConditioned,
+    ConvergenceTest, FixedStepAnalysis, FixedStepBody, FixedStepDesign, FixedStepFrame, FixedStepModel,
+    FixedStepOutcome, FixedStepSprings, Iteration, StepSettings, measured::WellConditioned,
 };
 use frames::{
     beam::BeamSection,
@@ -47,6 +47,7 @@ struct Asked {
     references: Option<usize>,
     seed: Option<u64>,
     recipe: Option<String>,
+    at_touches: Option<usize>,
     vertical: Option<[f64; 4]>,
     horizontal: Option<[f64; 4]>,
     integrator: Option<String>,
@@ -76,7 +77,11 @@ fn answer(asked: &Asked) -> Result<Value, Box<dyn Error>> {
             Ok(all.into_iter().map(|motion| json!({"dt": motion.dt, "accel": motion.accel, "u": motion.u})).collect())
         }
         (Some(body), Asked { recipe: Some(integrator), step: Some(step), .. }) => {
-            let springs = FixedStepSprings::of(body, *step, integrator.parse()?)?;
+            let (integrator, design) = (integrator.parse()?, FixedStepDesign::ENDING);
+            let springs = match asked.at_touches {
+                Some(substeps) => FixedStepSprings::refined(body, *step, integrator, &design, substeps)?,
+                None => FixedStepSprings::of(body, *step, integrator)?,
+            };
             let Springs { vertical, horizontal } = springs.chains();
             let unit = |c: Chain<f64>| [c.k1, c.k2, c.m2, c.c];
             let ConvergenceTest::Increment(tolerance) = springs.iteration().test else { return Err("no test".into()) };
@@ -127,6 +132,7 @@ fn history<M: FixedStepModel>(
     let (dt, accel) = asked.dt.zip(asked.accel.as_deref()).ok_or("give dt and accel")?;
     let iteration = Iteration { constant: 0, newton: 30, test: ConvergenceTest::Increment(*tolerance) };
     let settings = StepSettings { iteration, ..StepSettings::new(integrator.parse()?, *step) };
+    let settings = settings.with_touches(asked.at_touches.unwrap_or(1));
     let analysis = FixedStepAnalysis::new(model, settings, dt, accel);
     let begin = Instant::now();
     let mut rows = Vec::with_capacity(accel.len());

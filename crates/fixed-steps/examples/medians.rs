@@ -1,4 +1,4 @@
-//! The error of the springs in closed form, and of searched ones, over p dt, measured on motions
+//! The error of the springs in closed form, and of those that suit the integrator, over p dt, measured on motions
 //! made for a body: median, 90 % quantile, histories that the program gave up, for three bodies,
 //! four integrators, three steps; the same with substeps down to a sixteenth of a step.
 //!
@@ -40,8 +40,8 @@ fn main() -> Result<(), Box<dyn std::error::Error>> {
             let motions = WellConditioned::of_seed(&body, seed, count, LOOKED_AT * count);
             for step in [1e-2, 1e-3, 2.5e-4] {
                 let unit = body.p_squared().sqrt() * step;
-                let designs = [FixedStepDesign::RECIPE, FixedStepDesign::searched(&integrator)];
-                for (which, design) in ["recipe", "searched"].into_iter().zip(designs) {
+                let designs = [FixedStepDesign::RECIPE, FixedStepDesign::suited(&body, step, integrator)?];
+                for (which, design) in ["recipe", "suited"].into_iter().zip(designs) {
                     let springs = FixedStepSprings::designed(&body, step, integrator, &design)?;
                     println!("| {name} | {step} | {unit:.5} | {stepped} | {which} | {}", row(&motions, &springs));
                 }
