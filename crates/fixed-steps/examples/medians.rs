@@ -1,6 +1,7 @@
-//! The error of the springs in closed form, and of those that suit the integrator, over p dt, measured on motions
-//! made for a body: median, 90 % quantile, histories that the program gave up, for three bodies,
-//! four integrators, three steps; the same with substeps down to a sixteenth of a step.
+//! The error of the springs in closed form, and of those that suit the integrator, over p dt,
+//! measured on motions made for a body: median, 90 % quantile, histories that the program gave up,
+//! for three bodies, four integrators, three steps; the same with substeps down to a sixteenth of a
+//! step.
 //!
 //! ```sh
 //! cargo run --release -p fixed-steps --example medians -- [MOTIONS] [SEED]

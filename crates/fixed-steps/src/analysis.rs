@@ -132,7 +132,7 @@ impl FixedStepHistory {
 }
 
 /// Sizes of steps from one to the next.
-struct Pace {
+struct SubstepPace {
     /// Of the next substep (s).
     size: f64,
     /// Whether this step is refined for a touch, and whether a contact has changed in it.
@@ -193,7 +193,7 @@ impl<'a, M: FixedStepModel> FixedStepAnalysis<'a, M> {
             shown = 1;
         }
         let mut previous = motion.q.clone();
-        let mut pace = Pace { size: self.settings.step, refined: false, touched: false };
+        let mut pace = SubstepPace { size: self.settings.step, refined: false, touched: false };
         for n in 0..count {
             let (begin, end) = (n as f64 * self.settings.step, (n + 1) as f64 * self.settings.step);
             previous.as_mut().copy_from_slice(motion.q.as_ref());
@@ -223,7 +223,7 @@ impl<'a, M: FixedStepModel> FixedStepAnalysis<'a, M> {
     }
 
     /// The longest substep of the step to come.
-    fn longest(&self, pace: &mut Pace, motion: &Kinematics<M::Vector>) -> f64 {
+    fn longest(&self, pace: &mut SubstepPace, motion: &Kinematics<M::Vector>) -> f64 {
         let StepSettings { step, at_touches, .. } = self.settings;
         if at_touches == 1 {
             return step;
@@ -244,7 +244,7 @@ impl<'a, M: FixedStepModel> FixedStepAnalysis<'a, M> {
     fn one_step(
         &self,
         begin: f64,
-        pace: &mut Pace,
+        pace: &mut SubstepPace,
         motion: &mut Kinematics<M::Vector>,
         feet: &mut M::Feet,
         iterates: &mut Iterates<M::Vector>,

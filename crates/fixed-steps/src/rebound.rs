@@ -143,8 +143,8 @@ mod tests {
         assert!(resolved(1e-3, 1e-9, 0.5).abs() < 2e-2, "{}", resolved(1e-3, 1e-9, 0.5));
     }
 
-    /// A step that is longer than the landing ends the unit's motion, not the mass's: the integrator
-    /// itself gives back a part, HHT more than there was.
+    /// A step that is longer than the landing ends the unit's motion, not the mass's: the
+    /// integrator itself gives back a part, HHT more than there was.
     #[test]
     fn long_steps_rebound_by_themselves() {
         let of = |integrator: Integrator| {
