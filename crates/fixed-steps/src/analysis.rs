@@ -262,7 +262,8 @@ impl<'a, M: FixedStepModel> FixedStepAnalysis<'a, M> {
             if iterates.arrives(self.model, &self.settings.iteration, motion, &step, feet, ground) {
                 motion.advance(&step, &iterates.change);
                 if step.forces_at() != step.size {
-                    self.model.meet(&motion.q, feet);
+                    let part = step.forces_at() / step.size;
+                    self.model.meet_end(&iterates.trial.q, part, &motion.q, feet);
                 }
                 pace.touched |= feet.as_ref().iter().any(FixedFoot::has_changed);
                 feet.as_mut().iter_mut().for_each(FixedFoot::commit);

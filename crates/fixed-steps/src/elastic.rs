@@ -79,13 +79,31 @@ impl FixedStepModel for FixedStepFrame<'_> {
             let [x, z] = place.reach(&q).place;
             q.extend([x * share(&unit.horizontal), z * share(&unit.vertical)]);
         }
-        Ok((q, vec![FixedFoot::STANDING; self.units.len()]))
+        let foot = |place: &PlaceOnNode| FixedFoot::standing(place.reach(&q).place);
+        let feet = self.frame.places().iter().map(foot).collect();
+        Ok((q, feet))
     }
 
     fn meet(&self, q: &Vec<f64>, feet: &mut Vec<FixedFoot>) {
         for ((at, place, unit), foot) in self.corners().zip(feet) {
             let [x, z] = place.reach(q).place;
             foot.meet(unit, q[at + 1] - z, x - q[at]);
+        }
+    }
+
+    fn meet_after(&self, before: &Vec<f64>, q: &Vec<f64>, feet: &mut Vec<FixedFoot>) {
+        let change: Vec<f64> = q.iter().zip(before).map(|(q, before)| q - before).collect();
+        for ((at, place, unit), foot) in self.corners().zip(feet) {
+            let reach = place.reach(before);
+            let [dx, dz] = place.velocity(&reach, &change);
+            foot.meet(unit, q[at + 1] - reach.place[1] - dz, reach.place[0] + dx - q[at]);
+        }
+    }
+
+    fn meet_end(&self, at: &Vec<f64>, w: f64, q: &Vec<f64>, feet: &mut Vec<FixedFoot>) {
+        for ((absorber, place, unit), foot) in self.corners().zip(feet) {
+            let [x, z] = foot.goes_on(place.reach(at).place, w);
+            foot.meet(unit, q[absorber + 1] - z, x - q[absorber]);
         }
     }
 

@@ -54,7 +54,9 @@ impl Iteration {
 pub(crate) struct Iterates<V> {
     /// From the step's begin (m, rad).
     pub change: V,
-    trial: Trial<V>,
+    /// Where its forces are taken.
+    pub trial: Trial<V>,
+    before: V,
     unbalance: V,
     increment: V,
     /// Iterations so far, of all steps.
@@ -64,7 +66,14 @@ pub(crate) struct Iterates<V> {
 impl<V: Clone + AsRef<[f64]> + AsMut<[f64]>> Iterates<V> {
     pub(crate) fn new(like: &V) -> Self {
         let trial = Trial { q: like.clone(), v: like.clone(), a: like.clone() };
-        Self { change: like.clone(), trial, unbalance: like.clone(), increment: like.clone(), count: 0 }
+        Self {
+            change: like.clone(),
+            trial,
+            before: like.clone(),
+            unbalance: like.clone(),
+            increment: like.clone(),
+            count: 0,
+        }
     }
 
     /// Iterate to the end of a step; whether it has arrived. `feet` are left as the last trial met
@@ -99,7 +108,7 @@ impl<V: Clone + AsRef<[f64]> + AsMut<[f64]>> Iterates<V> {
         }
         let weights = step.weights();
         self.change.as_mut().fill(0.0);
-        self.look(model, from, step, feet, ground);
+        self.look(model, from, step, feet, ground, true);
         let mut factor = None;
         for _ in 0..most {
             if newton || factor.is_none() {
@@ -112,7 +121,7 @@ impl<V: Clone + AsRef<[f64]> + AsMut<[f64]>> Iterates<V> {
             for (change, by) in self.change.as_mut().iter_mut().zip(self.increment.as_ref()) {
                 *change += by;
             }
-            self.look(model, from, step, feet, ground);
+            self.look(model, from, step, feet, ground, false);
             let norm = |x: &V| x.as_ref().iter().map(|x| x * x).sum::<f64>().sqrt();
             let (left, below) = match how.test {
                 ConvergenceTest::Increment(below) => (norm(&self.increment), below),
@@ -141,9 +150,19 @@ impl<V: Clone + AsRef<[f64]> + AsMut<[f64]>> Iterates<V> {
         step: &StepKinematics<V>,
         feet: &mut M::Feet,
         ground: [f64; 2],
+        first: bool,
     ) {
+        self.before.as_mut().copy_from_slice(self.trial.q.as_ref());
         step.trial(from, &self.change, &mut self.trial);
-        model.meet(&self.trial.q, feet);
+        let q = &self.trial.q;
+        if !first {
+            model.meet_after(&self.before, q, feet);
+        } else if step.forces_at() == step.size {
+            model.meet(q, feet);
+        } else {
+            // a foot is where the last step left it
+            model.meet_end(q, f64::INFINITY, q, feet);
+        }
         model.unbalance(&self.trial, feet, ground, &mut self.unbalance);
     }
 }

@@ -29,6 +29,16 @@ pub trait FixedStepModel {
     /// Decide which feet are closed at q.
     fn meet(&self, q: &Self::Vector, feet: &mut Self::Feet);
 
+    /// The same in a trial that follows another one: a foot is a node of its own at the end of a
+    /// leg, and stands where the iteration's linear equations put it, not where the leg turns to.
+    fn meet_after(&self, before: &Self::Vector, q: &Self::Vector, feet: &mut Self::Feet);
+
+    /// The same at the end q of a step whose forces are those of `at`, a part w of the step: the
+    /// foot's own node goes on along a straight line, from where it was at the step's begin (and
+    /// stays there if w is infinite). Contacts do not change that step any more, but the anchors
+    /// that the next one finds.
+    fn meet_end(&self, at: &Self::Vector, w: f64, q: &Self::Vector, feet: &mut Self::Feet);
+
     /// Q + forces of the ground - M a of a trial, at ground acceleration (a_g, a_v) (m/s2), a_v
     /// upwards; feet as they were met at its place. N, N m.
     fn unbalance(&self, trial: &Trial<Self::Vector>, feet: &Self::Feet, ground: [f64; 2], out: &mut Self::Vector);

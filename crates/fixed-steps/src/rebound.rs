@@ -62,6 +62,14 @@ impl FixedStepModel for FallingMass {
         feet[0].closed = q[1] >= q[0];
     }
 
+    fn meet_after(&self, _: &[f64; 2], q: &[f64; 2], feet: &mut [FixedFoot; 1]) {
+        self.meet(q, feet);
+    }
+
+    fn meet_end(&self, _: &[f64; 2], _: f64, q: &[f64; 2], feet: &mut [FixedFoot; 1]) {
+        self.meet(q, feet);
+    }
+
     fn unbalance(&self, trial: &Trial<[f64; 2]>, feet: &[FixedFoot; 1], _: [f64; 2], out: &mut [f64; 2]) {
         let Trial { q, v, a } = trial;
         let press = Self::press(q, feet);

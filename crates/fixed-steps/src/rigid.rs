@@ -104,7 +104,8 @@ impl FixedStepModel for FixedStepBody {
 
     fn standing(&self) -> Result<([f64; N], [FixedFoot; 2]), EquilibriumError> {
         let sunk = -0.5 * self.body.mass * GRAVITY / self.springs.vertical.k2;
-        Ok(([0.0, self.settled(), 0.0, 0.0, sunk, 0.0, sunk], [FixedFoot::STANDING; 2]))
+        let foot = FixedFoot::standing([0.0, self.settled()]);
+        Ok(([0.0, self.settled(), 0.0, 0.0, sunk, 0.0, sunk], [foot; 2]))
     }
 
     #[inline(always)]
@@ -112,6 +113,27 @@ impl FixedStepModel for FixedStepBody {
         let turned = q[TH].sin_cos();
         for (i, foot) in feet.iter_mut().enumerate() {
             let [x, z] = self.foot(i, q, turned).place;
+            let at = absorber(i);
+            foot.meet(&self.springs, q[at + 1] - z, x - q[at]);
+        }
+    }
+
+    #[inline(always)]
+    fn meet_after(&self, before: &[f64; N], q: &[f64; N], feet: &mut [FixedFoot; 2]) {
+        let turned = before[TH].sin_cos();
+        let [dx, dz, turn] = [q[X] - before[X], q[Z] - before[Z], q[TH] - before[TH]];
+        for (i, foot) in feet.iter_mut().enumerate() {
+            let FootPlace { place: [x, z], slope, .. } = self.foot(i, before, turned);
+            let at = absorber(i);
+            let [x, z] = [x + dx + slope[0] * turn, z + dz + slope[1] * turn];
+            foot.meet(&self.springs, q[at + 1] - z, x - q[at]);
+        }
+    }
+
+    fn meet_end(&self, at: &[f64; N], w: f64, q: &[f64; N], feet: &mut [FixedFoot; 2]) {
+        let turned = at[TH].sin_cos();
+        for (i, foot) in feet.iter_mut().enumerate() {
+            let [x, z] = foot.goes_on(self.foot(i, at, turned).place, w);
             let at = absorber(i);
             foot.meet(&self.springs, q[at + 1] - z, x - q[at]);
         }

@@ -25,6 +25,10 @@ impl FixedStepModel for Oscillator {
 
     fn meet(&self, _: &[f64; 1], _: &mut [FixedFoot; 0]) {}
 
+    fn meet_after(&self, _: &[f64; 1], _: &[f64; 1], _: &mut [FixedFoot; 0]) {}
+
+    fn meet_end(&self, _: &[f64; 1], _: f64, _: &[f64; 1], _: &mut [FixedFoot; 0]) {}
+
     fn unbalance(&self, trial: &Trial<[f64; 1]>, _: &[FixedFoot; 0], [ground, _]: [f64; 2], out: &mut [f64; 1]) {
         out[0] = -ground - self.omega * self.omega * trial.q[0] - trial.a[0];
     }
@@ -194,6 +198,10 @@ impl FixedStepModel for LinearChain {
     }
 
     fn meet(&self, _: &[f64; 2], _: &mut [FixedFoot; 0]) {}
+
+    fn meet_after(&self, _: &[f64; 2], _: &[f64; 2], _: &mut [FixedFoot; 0]) {}
+
+    fn meet_end(&self, _: &[f64; 2], _: f64, _: &[f64; 2], _: &mut [FixedFoot; 0]) {}
 
     fn unbalance(&self, trial: &Trial<[f64; 2]>, _: &[FixedFoot; 0], [ground, _]: [f64; 2], out: &mut [f64; 2]) {
         let Chain { k1, k2, m2, c } = self.chain;
