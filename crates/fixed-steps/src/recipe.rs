@@ -223,7 +223,9 @@ impl FixedStepSprings {
         ExpectedError::of(&self.body, &self.chains(), self.shortest(), &self.integrator)
     }
 
-    /// How the program is to step: without substeps but for those at touches.
+    /// How the program is to step: without substeps but for those at touches. One that splits a
+    /// step that fails ([`StepSettings::with_substeps`], down to 1/16) gets stocky bodies through,
+    /// too, of which one history in four stops without.
     pub fn settings(&self) -> StepSettings {
         let settings = StepSettings { iteration: self.iteration(), ..StepSettings::new(self.integrator, self.step) };
         settings.with_touches(self.at_touches)
