@@ -17,7 +17,9 @@ import openseespy.opensees as ops
 
 ROOT = pathlib.Path(__file__).resolve().parent.parent
 GRAVITY = 9.81
-LEG = 4.0          # stiffness of the decks' legs and arms over that of the stiffest gap
+# Stiffness of the decks' legs and arms over that of the stiffest gap. Under HHT a foot, which has no mass, keeps a part alpha/(1 + alpha) of
+# what its leg gave in the step before, and lifts a little elsewhere than a rigid body's: the errors early on are inversely as the legs' stiffness.
+LEG = 4.0
 EARLY, WHOLE = 1e-5, 2e-3
 # OpenSees' damping objects take the change of a force over a step for its rate: first-order accurate, where velocities are second-order. The
 # limits times the step in units of 1e-5 s; without integrators that keep stiff modes, under which such an object rings.
