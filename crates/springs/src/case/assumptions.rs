@@ -110,8 +110,8 @@ impl ElasticCase {
     }
 }
 
-/// Gravity moments and a vertical motion that are left out come first: a screen may have no room for
-/// all.
+/// Gravity moments and a vertical motion that are left out come first: a screen may have no room
+/// for all.
 fn first_what_weighs_most(mut all: Vec<Assumption>) -> Vec<Assumption> {
     all.sort_by_key(|assumption| match assumption.quantity {
         AssumedQuantity::BeamMassAtJoints => 0,
