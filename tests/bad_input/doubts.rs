@@ -58,6 +58,10 @@ fn doubts_are_warnings() {
     assert_eq!(doubts(&plain, &short), [] as [&str; 0]);
     let found = doubts(&plain, &["--duration", "2", "--scale", "0.01"]);
     assert!(found.len() == 1 && found[0].contains("below 0.005 g; check the unit"), "{found:?}");
+    // the part used is weak, the record is not
+    let found = doubts(&plain, &["--duration", "1", "--scale", "0.03"]);
+    let told = "the whole record has 0.009386 g; use more of the record (--duration, duration_s)";
+    assert!(found.len() == 1 && found[0].ends_with(told), "{found:?}");
     let found = doubts(&plain, &["--record", "a.csv", "--column", "a", "--duration", "90"]);
     assert_eq!(
         found,

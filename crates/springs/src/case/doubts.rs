@@ -181,7 +181,7 @@ impl Doubt {
                 format!("mass_kg = {} makes a block of {} kg/m3, as deep as wide", figures(*mass), figures(*kg_per_m3))
             }
             Self::WeakMotion { pga_g, least_g, whole_g } => {
-                let whole = if whole_g > pga_g {
+                let whole = if whole_g >= least_g {
                     format!("; the whole record has {} g", figures(*whole_g))
                 } else {
                     String::new()
