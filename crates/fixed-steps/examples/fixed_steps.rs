@@ -77,7 +77,7 @@ fn answer(asked: &Asked) -> Result<Value, Box<dyn Error>> {
             Ok(all.into_iter().map(|motion| json!({"dt": motion.dt, "accel": motion.accel, "u": motion.u})).collect())
         }
         (Some(body), Asked { recipe: Some(integrator), step: Some(step), .. }) => {
-            let (integrator, design) = (integrator.parse()?, FixedStepDesign::ENDING);
+            let (integrator, design) = (integrator.parse()?, FixedStepDesign::RESOLVED);
             let springs = match asked.at_touches {
                 Some(substeps) => FixedStepSprings::refined(body, *step, integrator, &design, substeps)?,
                 None => FixedStepSprings::of(body, *step, integrator)?,

@@ -27,7 +27,7 @@ fn main() -> Result<(), Box<dyn std::error::Error>> {
             let body = FixedStepSprings::of(&structure.body(), STEP, integrator)?.body;
             let motions = WellConditioned::of_seed(&body, seed, count, 8 * count);
             let even: f64 = motions.motions.iter().map(|m| (m.accel.len() - 1) as f64 * m.dt / STEP).sum();
-            for (which, design) in [("recipe", FixedStepDesign::RECIPE), ("ending", FixedStepDesign::ENDING)] {
+            for (which, design) in [("recipe", FixedStepDesign::RECIPE), ("resolved", FixedStepDesign::RESOLVED)] {
                 for substeps in [10, 20] {
                     let springs = FixedStepSprings::refined(&body, STEP, integrator, &design, substeps)?;
                     let settings = springs.settings().with_substeps(1.0 / (8.0 * substeps as f64));

@@ -32,7 +32,7 @@ fn medians_are_near_the_floor() {
 #[test]
 fn refining_steps_at_touches_breaks_the_floor() {
     for (structure, design, substeps) in [
-        (Structure::paper(), FixedStepDesign::ENDING, 10),
+        (Structure::paper(), FixedStepDesign::RESOLVED, 10),
         (Structure::a_frame(12.0, 2.2, 1e4).unwrap(), FixedStepDesign::RECIPE, 20),
     ] {
         for integrator in [Integrator::Trbdf2, Integrator::BackwardEuler] {
