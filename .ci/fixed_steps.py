@@ -110,12 +110,17 @@ class Touches:
         return self.substeps if near else 1
 
 
+def step(size, least):
+    """One step, or two halves of it down to this size; whether it holds."""
+    return ops.analyze(1, size) == 0 or size > 1.5 * least and step(size / 2, least) and step(size / 2, least)
+
+
 def in_opensees(case):
     """u, v, theta at the record's samples; when it stopped, if it did; seconds."""
     model, masses, absorbers, read = (rigid if "body" in case else elastic)(case)
     model["build"]()
     settled = model["gravity"](masses)
-    dt, accel, step = case["dt"], case["accel"], case["step"]
+    dt, accel, size = case["dt"], case["accel"], case["step"]
     ops.timeSeries("Path", 2, "-dt", dt, "-values", *accel)
     ops.pattern("Plain", 2, 2)
     for node, mass in masses + [(node, case["horizontal"][2]) for node in absorbers]:
@@ -129,15 +134,15 @@ def in_opensees(case):
     rows, stopped, begin = [row()], None, time.time()
     before, shown = rows[0], 1
     refinement = Touches(case) if case.get("at_touches", 1) > 1 else None
-    for n in range(math.ceil((len(accel) - 1) * dt / step - 1e-6)):
+    for n in range(math.ceil((len(accel) - 1) * dt / size - 1e-6)):
         # the same number each time: a multi-step integrator begins anew at every other one
         parts = refinement.parts() if refinement else 1
-        if any(ops.analyze(1, step / parts) != 0 for _ in range(parts)):
-            stopped = n * step
+        if not all(step(size / parts, size / parts / case.get("substeps", 1)) for _ in range(parts)):
+            stopped = n * size
             break
         now = row()
-        while shown < len(accel) and shown * dt <= (n + 1) * step + 1e-6 * step:
-            part = (shown * dt - n * step) / step
+        while shown < len(accel) and shown * dt <= (n + 1) * size + 1e-6 * size:
+            part = (shown * dt - n * size) / size
             rows.append(now if part > 1 - 1e-6 else [a + part * (b - a) for a, b in zip(before, now)])
             shown += 1
         before = now

@@ -50,7 +50,7 @@ fn record_scale_and_duration_are_remembered_until_told_otherwise() {
     assert!(screen(&run).contains(used), "{}", screen(&run));
     let parameters = json(&fs::read(dir.path().join("out/parameters.json")).unwrap());
     let row = &parameters["record"];
-    assert_eq!((&parameters["schema"], &row["scale"], &row["duration_s"]), (&3.into(), &1.5.into(), &8.0.into()));
+    assert_eq!((&parameters["schema"], &row["scale"], &row["duration_s"]), (&4.into(), &1.5.into(), &8.0.into()));
     assert_eq!((&row["source"]["path"], &row["source"]["units"]), (&"../motions/centro.txt".into(), &"cm/s2".into()));
     assert!(parameters["conditioning"]["well_conditioned"].is_boolean());
 

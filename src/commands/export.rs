@@ -5,9 +5,15 @@ use std::path::{Path, PathBuf};
 use clap::Args;
 
 use super::{CommandError, common::RecordOptions, terminal};
-use decks::{ACCURACY, DeckFormat, deck_of, with_inertia};
+use decks::{ACCURACY, DeckFormat, ExportError, Stepping, deck_of, stepped_deck, with_inertia};
 use frames::fem::{ElasticAnalysis, ElasticStart};
-use run_folder::{elastic::deck, folder::of_one_run, models::DECKS, place::file_in, place::write_file};
+use run_folder::{
+    elastic::{deck, stepped_deck as stepped_deck_of},
+    folder::of_one_run,
+    models::DECKS,
+    place::file_in,
+    place::write_file,
+};
 use springs::parameters::{Parameters, elastic::ElasticParameters};
 use strong_motion::Record;
 
@@ -26,6 +32,10 @@ pub struct ExportOptions {
     /// Accuracy of the history (normalised error) that the steps of an OpenSees deck are to have
     #[arg(long, default_value_t = ACCURACY)]
     accuracy: f64,
+    /// events: steps shorten towards touches; even: steps of one size, on the springs for the
+    /// program of `tune run`; touches: even but for substeps at touches, on springs for these
+    #[arg(long, default_value = "events", value_name = "HOW")]
+    stepping: Stepping,
     #[command(flatten)]
     record: RecordOptions,
 }
@@ -39,7 +49,11 @@ pub fn run(o: &ExportOptions) -> Result<(), CommandError> {
         Some(parameters) => elastic(o, &parameters)?,
         None => {
             let (parameters, record, line) = read(&o.parameters, &o.record)?;
-            (deck_of(&parameters, &record, o.format, o.accuracy)?, line)
+            let deck = match o.stepping {
+                Stepping::Events => deck_of(&parameters, &record, o.format, o.accuracy)?,
+                stepping => stepped_deck(&parameters, &record, o.format, stepping)?,
+            };
+            (deck, line)
         }
     };
     write_file(&out, deck.as_bytes())?;
@@ -53,6 +67,14 @@ fn elastic(o: &ExportOptions, parameters: &ElasticParameters) -> Result<(String,
     let excitation = o.record.excitation(|| parameters.excitation(&o.parameters))?;
     let record = excitation.used()?;
     let assembled = parameters.assembled().map_err(|e| CommandError::Result(e.to_string()))?;
+    match (o.stepping, &parameters.program) {
+        (Stepping::Events, _) => {}
+        (Stepping::Even, Some(program)) => {
+            return Ok((stepped_deck_of(&assembled, program, &record, o.format)?, excitation.line()));
+        }
+        (Stepping::Even, None) => return Err(ExportError::NoProgram.into()),
+        (Stepping::Touches, _) => return Err(ExportError::TouchesOfElastic.into()),
+    }
     let springs = parameters.chains();
     let case = ElasticAnalysis {
         vertical: record.up(),

@@ -1,6 +1,7 @@
 //! `tune run`: the whole job.
 
 mod elastic;
+mod program;
 
 use std::path::PathBuf;
 
@@ -13,6 +14,7 @@ use super::{
     progress::{self, Progress},
     terminal,
 };
+use program::ProgramOptions;
 use report::{
     FiledParameters, Run,
     markdown::markdown,
@@ -57,6 +59,8 @@ pub struct RunOptions {
     /// instead; a case's accuracy then does not count
     #[arg(long, value_name = "ERROR", allow_negative_numbers = true)]
     peaks: Option<f64>,
+    #[command(flatten)]
+    program: ProgramOptions,
     /// Folder for the results
     #[arg(long, value_name = "DIR", default_value = "out")]
     out: PathBuf,
@@ -106,6 +110,7 @@ pub fn run(o: &RunOptions) -> Result<(), CommandError> {
         case.set_excitation(o.record.excitation_of_case(&case.excitation, &case.notices)?)?;
     }
     case.tuning.max_omega_hz = o.max_hz()?.or(case.tuning.max_omega_hz);
+    case.program = o.program.over(case.program)?;
     match o.asked()? {
         Some(Asked { by: Yardstick::Histories, error }) => (case.tuning.accuracy, case.tuning.peaks) = (error, None),
         Some(Asked { by: Yardstick::Peaks, error }) => case.tuning.peaks = Some(error),

@@ -177,7 +177,7 @@ fn parameters_of_a_newer_program() {
     let mut all: serde_json::Value = serde_json::from_str(PARAMETERS).unwrap();
     all["schema"] = 99.into();
     all["of_the_future"] = true.into();
-    refuses(&[("p.json", &all.to_string())], USERS[0], &["p.json: its schema is 99", "reads up to 3"]);
+    refuses(&[("p.json", &all.to_string())], USERS[0], &["p.json: its schema is 99", "reads up to 4"]);
 }
 
 #[test]

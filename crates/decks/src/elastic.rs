@@ -9,10 +9,12 @@ use super::{
     model::{STEPS_PER_PERIOD, digits, whole},
     plain::{self, NamedSprings},
     printable, sap2000,
+    stepping::EvenSteps,
 };
 use dynamics::spring::{Chain, Springs};
 use frames::frame::{Frame, FrameDamper, FrameLayout, FrameMember, FrameTendon, NodePoint};
 use rocking::scalar::GRAVITY;
+use springs::parameters::program::{CornerUnits, ProgramRow};
 use strong_motion::Record;
 
 /// Stiffness of the arms that stand for a rigid footing, over the stiffest gap spring k1: as for a
@@ -63,6 +65,9 @@ pub struct ElasticDeck<'a> {
     pub frequency_hz: f64,
     /// Accuracy of the history, as a normalised error: the steps follow from it.
     pub accuracy: f64,
+    /// The program with steps of one size that the springs are for, in place of steps that follow
+    /// touches.
+    pub program: Option<&'a ProgramRow<CornerUnits>>,
 }
 
 impl ElasticDeck<'_> {
@@ -72,15 +77,22 @@ impl ElasticDeck<'_> {
     /// A member or a vertical motion that the format does not have.
     pub fn text(&self, format: DeckFormat) -> Result<String, ExportError> {
         Ok(match format {
-            DeckFormat::OpenSeesPy => self.fill(&PYTHON, include_str!("elastic_deck.py")),
-            DeckFormat::OpenSeesTcl => self.fill(&TCL, include_str!("elastic_deck.tcl")),
+            DeckFormat::OpenSeesPy => self.fill(&PYTHON, include_str!("elastic_deck.py"))?,
+            DeckFormat::OpenSeesTcl => self.fill(&TCL, include_str!("elastic_deck.tcl"))?,
             DeckFormat::Sap2000 => {
                 self.without_members(format)?;
-                sap2000::tables(&sap2000::SapModel::elastic(self))
+                let even = self.even()?;
+                even.iter().try_for_each(EvenSteps::in_tables)?;
+                sap2000::tables(&sap2000::SapModel::elastic(self, even))
             }
             DeckFormat::Csv => plain::csv(&self.places()),
             DeckFormat::Markdown => plain::markdown(self.title, &self.places()),
         })
+    }
+
+    /// Settings of steps of one size, if the springs are for such.
+    fn even(&self) -> Result<Option<EvenSteps>, ExportError> {
+        self.program.map(|row| EvenSteps::new(row, 1)).transpose()
     }
 
     /// The corners from the left, and what is under them.
@@ -117,14 +129,19 @@ impl ElasticDeck<'_> {
         whole(self.record.dt / (TAU * self.landing() / STEPS_PER_PERIOD))
     }
 
-    fn fill(&self, language: &Language, template: &str) -> String {
+    fn fill(&self, language: &Language, template: &str) -> Result<String, ExportError> {
         let rise = SMALL_MOTION * self.frame.stance() * self.alpha;
+        let even = self.even()?;
+        // OpenSees' damping objects act 1/(1 + alpha) times too strongly under HHT: the change of a
+        // force over a step, divided by (1 + alpha) dt
+        let damped = even.map_or(1.0, |even| even.forces_at());
+        let tolerance = even.map_or(TOLERANCE * self.frame.span(), |even| even.tolerance());
         let values = [
             ("TITLE", printable(self.title)),
             ("GRAVITY", digits(GRAVITY)),
             ("NODES", language.lines(self.nodes())),
             ("TOP", (self.top.0 + 1).to_string()),
-            ("BEAMS", language.lines(self.beams(language))),
+            ("BEAMS", language.lines(self.beams(language, damped))),
             ("SHEAR", self.shear(language)),
             ("SHEAR_SPRINGS", if self.sheared().is_empty() { String::new() } else { language.shear_springs.into() }),
             ("CORNERS", language.lines(self.corners(language))),
@@ -138,7 +155,7 @@ impl ElasticDeck<'_> {
             ("STEPS", self.steps().to_string()),
             ("SAMPLES", self.samples.to_string()),
             ("DURATION", format!("{}", (self.samples.saturating_sub(1)) as f64 * self.record.dt)),
-            ("TOLERANCE", digits(TOLERANCE * self.frame.span())),
+            ("TOLERANCE", digits(tolerance)),
             ("SETTLED", digits(self.settled())),
             ("X_MAX", digits(self.peak(0, 1.0))),
             ("X_MIN", digits(self.peak(0, -1.0))),
@@ -146,7 +163,7 @@ impl ElasticDeck<'_> {
             ("Z_MIN", digits(self.peak(1, -1.0))),
             ("RECORD_NOTE", record_note(self.record)),
         ];
-        language.fill(template, &values, self.record)
+        language.fill(template, &values, self.record, even.as_ref())
     }
 
     /// x, z, mass, rotational inertia of every node.
@@ -166,11 +183,12 @@ impl ElasticDeck<'_> {
         language.list(&[plain(point.place[0] - x), plain(point.place[1] - z)])
     }
 
-    fn beams(&self, language: &Language) -> impl Iterator<Item = Vec<String>> {
-        self.layout.members.iter().map(|member| {
+    /// Beams, their damping this many times what it is.
+    fn beams(&self, language: &Language, damped: f64) -> impl Iterator<Item = Vec<String>> {
+        self.layout.members.iter().map(move |member| {
             let [a, b] = &member.ends;
             let s = &member.section;
-            let ahead = |damping: f64, stiffness: f64| if stiffness > 0.0 { damping / stiffness } else { 0.0 };
+            let ahead = |damping: f64, stiffness: f64| if stiffness > 0.0 { damped * damping / stiffness } else { 0.0 };
             let (axial, bending) = (ahead(s.axial_damping, s.axial), ahead(s.bending_damping, s.bending));
             let bent = s.bending / (1.0 + s.shear_ratio(length(member)));
             let numbers = [s.axial, bent, axial, bending].map(digits);

@@ -6,13 +6,18 @@
 
 use std::fmt::Write;
 
-use super::model::digits;
+use super::{ExportError, model::digits, stepping::EvenSteps};
 use strong_motion::Record;
 
 /// A language and its fragments.
 #[derive(Debug)]
 pub(super) struct Language {
     routine: &'static str,
+    /// The same for steps of one size; the lines of its numbers.
+    even: &'static str,
+    even_numbers: [&'static str; 3],
+    /// The call that sets an integrator: its name and numbers.
+    integrator: fn(&[String]) -> String,
     solver: &'static str,
     epilogue: &'static str,
     /// Springs of beams that give in shear, and their list: its head, and its rows' and its own
@@ -29,6 +34,12 @@ pub(super) struct Language {
 /// Python, for openseespy.
 pub(super) static PYTHON: Language = Language {
     routine: super::STEPS,
+    even: include_str!("steps_even.py"),
+    even_numbers: ["STEP = ", "SUBSTEPS = ", "TOUCHES = "],
+    integrator: |arguments| match arguments {
+        [name, numbers @ ..] => format!("analysis({})", [&[format!("\"{name}\"")], numbers].concat().join(", ")),
+        [] => String::new(),
+    },
     solver: include_str!("solver.py"),
     epilogue: include_str!("epilogue.py"),
     shear_springs: include_str!("elastic_shear.py"),
@@ -41,6 +52,9 @@ pub(super) static PYTHON: Language = Language {
 /// Tcl, for OpenSees' own interpreter.
 pub(super) static TCL: Language = Language {
     routine: include_str!("steps.tcl"),
+    even: include_str!("steps_even.tcl"),
+    even_numbers: ["set step ", "set substeps ", "set touches "],
+    integrator: |arguments| format!("solver {{{}}} Transient", arguments.join(" ")),
     solver: include_str!("solver.tcl"),
     epilogue: include_str!("epilogue.tcl"),
     shear_springs: include_str!("elastic_shear.tcl"),
@@ -73,8 +87,21 @@ impl Language {
     }
 
     /// A template with its fragments, the record and these values in the place of `@NAME@`.
-    pub(crate) fn fill(&self, template: &str, values: &[(&str, String)], record: &Record) -> String {
-        let fragments = [("ROUTINE", self.routine), ("SOLVER", self.solver), ("EPILOGUE", self.epilogue)];
+    ///
+    /// # Errors
+    /// Steps of one size by an integrator that OpenSees has not.
+    pub(crate) fn fill(
+        &self,
+        template: &str,
+        values: &[(&str, String)],
+        record: &Record,
+        even: Option<&EvenSteps>,
+    ) -> Result<String, ExportError> {
+        let (routine, epilogue) = match even {
+            Some(even) => (self.even_routine(even), self.even_epilogue(even)?),
+            None => (self.routine.to_string(), self.epilogue.to_string()),
+        };
+        let fragments = [("ROUTINE", routine.as_str()), ("SOLVER", self.solver), ("EPILOGUE", epilogue.as_str())];
         let mut text = template.to_string();
         for (name, fragment) in fragments {
             text = text.replace(&format!("@{name}@"), fragment.trim_end());
@@ -84,7 +111,26 @@ impl Language {
         }
         let vertical = record.vertical.as_ref().map_or(String::new(), |vertical| self.samples(&vertical.accel));
         // last and once: they are most of the text
-        text.replacen("@VERTICAL@", &vertical, 1).replacen("@RECORD@", &self.samples(&record.accel), 1)
+        Ok(text.replacen("@VERTICAL@", &vertical, 1).replacen("@RECORD@", &self.samples(&record.accel), 1))
+    }
+
+    /// The routine of steps of one size, its numbers above it.
+    fn even_routine(&self, even: &EvenSteps) -> String {
+        let [step, substeps, touches] = self.even_numbers;
+        let (number, note) = (digits(even.step), "# s; a step that fails is halved down to one in SUBSTEPS");
+        let note = note.replace("SUBSTEPS", &even.substeps.to_string());
+        format!("{note}\n{step}{number}\n{substeps}{}\n{touches}{}\n\n\n{}", even.substeps, even.touches, self.even)
+    }
+
+    /// The epilogue with the integrator of steps of one size.
+    fn even_epilogue(&self, even: &EvenSteps) -> Result<String, ExportError> {
+        let call = (self.integrator)(&even.in_opensees()?);
+        let lines = self.epilogue.lines().filter(|line| !line.contains("TRBDF2 is L-stable"));
+        let line = |line: &str| match line.contains("TRBDF2") {
+            true => format!("    {call}\n"),
+            false => format!("{line}\n"),
+        };
+        Ok(lines.map(line).collect())
     }
 
     /// Samples, four a line.

@@ -22,6 +22,7 @@ mod opensees;
 mod plain;
 mod sap2000;
 mod step_count;
+mod stepping;
 pub mod verify;
 
 use thiserror::Error;
@@ -32,11 +33,13 @@ pub use expectation::{DeckExpectation, foretold_rigid};
 use model::DeckModel;
 pub use model::equal_steps;
 pub use model::{ACCURACY, with_inertia};
+use rocking::motion::Motion;
 use springs::{
     parameters::Parameters,
     predictability::{simulate, width_sensitivity},
 };
 pub use step_count::deck_steps;
+pub use stepping::{Stepping, corner_history, stepped_deck};
 use strong_motion::Record;
 
 /// The stepping routine of decks for openseespy: `class Steps`, in need of `math`, `sys` and `ops`.
@@ -125,19 +128,16 @@ impl Expected {
     /// The same of so many of its samples. It ends where the body has fallen over: another
     /// program's would fall through the ground next, a little sooner or later than ours.
     pub(crate) fn within(history: &History, width_sensitivity: f64, samples: usize) -> Self {
-        let motion = &history.motion;
+        Self::of_motion(&history.motion, samples, history.initial_z, width_sensitivity)
+    }
+
+    /// The same of a motion from where it stands settled (m).
+    pub(crate) fn of_motion(motion: &Motion, samples: usize, settled: f64, width_sensitivity: f64) -> Self {
         let fallen = motion.theta.iter().position(|theta| theta.abs() >= FALLEN).map_or(motion.len(), |i| i + 1);
         let samples = samples.min(fallen);
         let range =
             |x: &[f64]| x[..samples].iter().fold((0.0, 0.0), |(max, min): (f64, f64), &x| (max.max(x), min.min(x)));
-        Self {
-            samples,
-            settled: history.initial_z,
-            u: range(&motion.u),
-            v: range(&motion.v),
-            width_sensitivity,
-            accuracy: ACCURACY,
-        }
+        Self { samples, settled, u: range(&motion.u), v: range(&motion.v), width_sensitivity, accuracy: ACCURACY }
     }
 
     /// The same at another accuracy.
@@ -160,6 +160,24 @@ pub enum ExportError {
         "export: {name} is not written for {format}; leave it out, or take another --format (SAP2000 tables have no damper, tendon, friction and vertical ground motion)"
     )]
     Member { name: &'static str, format: &'static str },
+    #[error("export: --stepping {name} is not known; give events, even or touches")]
+    Stepping { name: String },
+    #[error(
+        "export: these parameters have no springs for steps of one size; give tune run a program: --for sap2000, etabs or opensees-even, and --step"
+    )]
+    NoProgram,
+    #[error("export: the springs for steps of one size are not made for a {name}; leave it out, or --stepping events")]
+    MemberOfSteps { name: &'static str },
+    #[error("export: tables have no loop for substeps at touches; give --stepping even, or --format openseespy")]
+    TouchesInTables,
+    #[error(
+        "export: integrator {name} is not written for {program}; give tune run another --integrator: hht:-0.333 or newmark, in OpenSees also trbdf2 or backward-euler"
+    )]
+    Integrator { name: String, program: &'static str },
+    #[error("export: substeps at touches are for rigid bodies; give --stepping even, or events")]
+    TouchesOfElastic,
+    #[error("export: {message}")]
+    Steps { message: String },
     #[error(
         "export: the history to check against has {expected} samples but the record has {record}; use the record that was simulated"
     )]
@@ -198,7 +216,12 @@ pub fn export(
     expected: &Expected,
     format: DeckFormat,
 ) -> Result<String, ExportError> {
-    let model = DeckModel::new(parameters, record, expected)?;
+    export_model(&DeckModel::new(parameters, record, expected)?, format)
+}
+
+/// The text of a deck.
+fn export_model(model: &DeckModel, format: DeckFormat) -> Result<String, ExportError> {
+    let record = model.record;
     let (members, sap2000) = (&model.members, format == DeckFormat::Sap2000);
     for (name, left_out) in [
         ("friction", members.friction.is_some() && sap2000),
@@ -211,9 +234,9 @@ pub fn export(
         }
     }
     Ok(match format {
-        DeckFormat::OpenSeesPy => opensees::python(&model),
-        DeckFormat::OpenSeesTcl => opensees::tcl(&model),
-        DeckFormat::Sap2000 => sap2000::tables(&sap2000::SapModel::rigid(&model)),
+        DeckFormat::OpenSeesPy => opensees::python(model)?,
+        DeckFormat::OpenSeesTcl => opensees::tcl(model)?,
+        DeckFormat::Sap2000 => sap2000::tables(&sap2000::SapModel::rigid(model)),
         DeckFormat::Csv => plain::csv(&model.places()),
         DeckFormat::Markdown => plain::markdown(&model.title(), &model.places()),
     })

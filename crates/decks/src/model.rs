@@ -1,6 +1,6 @@
 //! What every deck needs besides the parameters: stiff legs, steps, tolerances, each with its rule.
 
-use super::{Expected, ExportError, plain::NamedSprings, printable};
+use super::{Expected, ExportError, plain::NamedSprings, printable, stepping::EvenSteps};
 use dynamics::spring::{Chain, Springs};
 use rocking::{
     members::Members,
@@ -88,6 +88,8 @@ pub(super) struct DeckModel<'a> {
     pub rise: f64,
     /// Steps per sample for a program that takes all its steps alike.
     pub even_steps: usize,
+    /// Settings of steps of one size, in place of those that follow touches.
+    pub even: Option<EvenSteps>,
     pub record: &'a Record,
     pub expected: Expected,
     /// The record's name, harmless in comments.
@@ -143,6 +145,7 @@ impl<'a> DeckModel<'a> {
             landing: (body.mass / v.k1).sqrt(),
             rise: SMALL_MOTION * 2.0 * body.half_width * (body.half_width / body.height).atan(),
             even_steps: even_steps(parameters, record.dt),
+            even: None,
             record,
             expected: *expected,
             record_name: printable(&record.name),

@@ -2,18 +2,19 @@
 //! choice in comments.
 
 use super::{
+    ExportError,
     language::{Language, PYTHON, TCL, record_note},
     model::{A_PAIR, DeckModel, LEG_STIFFNESS, digits},
 };
 use rocking::scalar::GRAVITY;
 
 /// The deck for openseespy.
-pub(super) fn python(model: &DeckModel) -> String {
+pub(super) fn python(model: &DeckModel) -> Result<String, ExportError> {
     fill(&PYTHON, include_str!("deck.py"), model)
 }
 
 /// The deck for OpenSees' Tcl interpreter.
-pub(super) fn tcl(model: &DeckModel) -> String {
+pub(super) fn tcl(model: &DeckModel) -> Result<String, ExportError> {
     fill(&TCL, include_str!("deck.tcl"), model)
 }
 
@@ -31,7 +32,7 @@ fn accuracy_note(model: &DeckModel) -> String {
 }
 
 /// The template with the model's numbers.
-fn fill(language: &Language, template: &str, model: &DeckModel) -> String {
+fn fill(language: &Language, template: &str, model: &DeckModel) -> Result<String, ExportError> {
     let body = model.body();
     let (v, h) = (&model.springs.vertical, &model.springs.horizontal);
     let e = &model.expected;
@@ -57,7 +58,7 @@ fn fill(language: &Language, template: &str, model: &DeckModel) -> String {
         ("TENDON_K", digits(model.members.tendon.map_or(0.0, |t| t.stiffness))),
         ("TENDON_SLACK", digits(model.slack())),
         ("LEG_RATIO", LEG_STIFFNESS.to_string()),
-        ("TOLERANCE", digits(model.tolerance)),
+        ("TOLERANCE", digits(model.even.map_or(model.tolerance, |even| even.tolerance()))),
         ("RECORD_DT", digits(model.record.dt)),
         ("ACCURACY", digits(model.accuracy)),
         ("ACCURACY_NOTE", accuracy_note(model)),
@@ -73,5 +74,5 @@ fn fill(language: &Language, template: &str, model: &DeckModel) -> String {
         ("V_MIN", digits(e.v.1)),
         ("RECORD_NOTE", record_note(model.record)),
     ];
-    language.fill(template, &values, model.record)
+    language.fill(template, &values, model.record, model.even.as_ref())
 }

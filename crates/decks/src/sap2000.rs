@@ -46,16 +46,27 @@ $     force (force = P mu z); the tuned model has a plain spring that lets go wh
 $     table, assign FOOT_GAP to the FOOT links: its horizontal spring then also acts on a lifted foot, which is wrong by
 $     the foot's travel times k1; use it for small rocking only.
 $  2. GeoNonLin of both cases must read 'P-Delta plus Large Displacements': check under Define > Load Cases.
-$  3. The integrator is Hilber-Hughes-Taylor with alpha = -1/3, the most damped SAP2000 offers; springs that
-$     were tuned for steps that follow touches are not for its steps.
+@STEPS@
 $  4. The mass source must count added masses only.
 $  5. The words for the isolator (LinkType), large displacements (GeoNonLin) and ground acceleration (LoadType) differ between
 $     versions: if the import log names one, set it in the dialog of the FOOT links or of the load cases.
 ";
 
+/// Of springs for the program's steps.
+const FOR_ITS_STEPS: &str = "\
+$  3. The springs are for the load case's step and integrator. Set under Nonlinear Parameters: substeps between DTMax and
+$     DTMin, no iterations with constant stiffness, Newton-Raphson iterations and relative tolerance as in the table:
+$     an emulation of such steps loses histories with a tighter tolerance or with constant stiffness.";
+/// Of springs for steps that follow touches.
+const NOT_FOR_ITS_STEPS: &str = "\
+$  3. The integrator is Hilber-Hughes-Taylor with alpha = -1/3, the most damped SAP2000 offers; springs that
+$     were tuned for steps that follow touches are not for its steps.";
+
 /// The whole file.
 pub(super) fn tables(parts: &SapModel) -> String {
-    let mut text = format!("$ {}\n{NOTES}{}{}\n", parts.title, parts.notes, parts.expected());
+    let steps = if parts.even.is_some() { FOR_ITS_STEPS } else { NOT_FOR_ITS_STEPS };
+    let notes = NOTES.replace("@STEPS@", steps);
+    let mut text = format!("$ {}\n{notes}{}{}\n", parts.title, parts.notes, parts.expected());
     for table in
         [control(), geometry(parts), links(parts), loads(parts), cases(parts), record(parts)].into_iter().flatten()
     {

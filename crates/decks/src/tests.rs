@@ -1,6 +1,7 @@
 //! Decks without the programs they are for: they hold every number, to the last bit, and parse.
 
 mod elastic_tables;
+mod stepping;
 
 use std::{collections::HashMap, process::Command};
 

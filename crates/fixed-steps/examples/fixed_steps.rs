@@ -48,6 +48,7 @@ struct Asked {
     seed: Option<u64>,
     recipe: Option<String>,
     at_touches: Option<usize>,
+    substeps: Option<usize>,
     vertical: Option<[f64; 4]>,
     horizontal: Option<[f64; 4]>,
     integrator: Option<String>,
@@ -77,7 +78,7 @@ fn answer(asked: &Asked) -> Result<Value, Box<dyn Error>> {
             Ok(all.into_iter().map(|motion| json!({"dt": motion.dt, "accel": motion.accel, "u": motion.u})).collect())
         }
         (Some(body), Asked { recipe: Some(integrator), step: Some(step), .. }) => {
-            let (integrator, design) = (integrator.parse()?, FixedStepDesign::RESOLVED);
+            let (integrator, design) = (integrator.parse()?, FixedStepDesign::RECIPE);
             let springs = match asked.at_touches {
                 Some(substeps) => FixedStepSprings::refined(body, *step, integrator, &design, substeps)?,
                 None => FixedStepSprings::of(body, *step, integrator)?,
@@ -132,7 +133,12 @@ fn history<M: FixedStepModel>(
     let (dt, accel) = asked.dt.zip(asked.accel.as_deref()).ok_or("give dt and accel")?;
     let iteration = Iteration { constant: 0, newton: 30, test: ConvergenceTest::Increment(*tolerance) };
     let settings = StepSettings { iteration, ..StepSettings::new(integrator.parse()?, *step) };
-    let settings = settings.with_touches(asked.at_touches.unwrap_or(1));
+    let at_touches = asked.at_touches.unwrap_or(1);
+    let settings = settings.with_touches(at_touches);
+    let settings = match asked.substeps {
+        Some(parts) => settings.with_substeps(1.0 / (parts * at_touches) as f64),
+        None => settings,
+    };
     let analysis = FixedStepAnalysis::new(model, settings, dt, accel);
     let begin = Instant::now();
     let mut rows = Vec::with_capacity(accel.len());

@@ -18,16 +18,16 @@ use rocking::structure::Body;
 
 use crate::{integrator::Integrator, rebound::rebound};
 
-/// Median NRMSE over p dt that springs hardly come below: 9 to 20 by the example `medians` where
-/// neither stance nor rebound shows.
+/// Median NRMSE over p dt that springs hardly come below: 9 to 20 where neither stance nor rebound
+/// shows (example `fixed_step_medians` of the crate `springs`).
 pub const FLOOR: f64 = 13.0;
 /// Median NRMSE over (p/(alpha Omega_e))^2 by the stance.
 pub const STANCE: f64 = 80.0;
 /// NRMSE over alpha^3 (v_r/v_n)^2 by the rebound: 14 to 29 on frames and blocks of 0.1 to 0.45 rad
-/// on the recipe's springs, stepped by 2.5e-4 s (example `medians`).
+/// on the recipe's springs, stepped by 2.5e-4 s (the same example).
 pub const REBOUND: f64 = 20.0;
-/// 90 % quantile over the median, of integrators that end stiff modes and of others (example
-/// `medians`).
+/// 90 % quantile over the median, of integrators that end stiff modes and of others (the same
+/// example).
 const SPREAD: [f64; 2] = [2.9, 4.6];
 
 /// Median NRMSE of u on motions made for the body.

@@ -18,6 +18,7 @@
 //! | `iteration`, `analysis` | the iteration at a step's end; the time loop, substeps, what gives up |
 //! | `recipe`, `expected`, `rebound` | springs in closed form for a step and an integrator; the error they leave |
 //! | `measured` | the error of springs over many motions |
+//! | `program` | programs as users name them, and what they are set to |
 
 // what is printed goes through the program's `commands/terminal`
 #![cfg_attr(not(test), deny(clippy::print_stdout, clippy::print_stderr))]
@@ -33,6 +34,7 @@ pub mod iteration;
 pub mod kinematics;
 pub mod measured;
 pub mod model;
+pub mod program;
 pub mod rebound;
 pub mod recipe;
 pub mod rigid;
@@ -43,5 +45,6 @@ pub use expected::ExpectedError;
 pub use integrator::Integrator;
 pub use iteration::{ConvergenceTest, Iteration};
 pub use model::FixedStepModel;
+pub use program::{FixedStepProgram, ProgramName};
 pub use recipe::{FixedStepDesign, FixedStepSprings};
 pub use rigid::FixedStepBody;

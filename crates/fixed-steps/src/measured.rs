@@ -12,7 +12,7 @@ use rocking::{
 };
 
 use crate::{
-    analysis::{FixedStepAnalysis, FixedStepOutcome, StepSettings},
+    analysis::{FixedStepAnalysis, FixedStepOutcome, FixedStepWork, StepSettings},
     rigid::FixedStepBody,
 };
 
@@ -27,6 +27,41 @@ pub struct ReferenceHistory {
     pub u: Vec<f64>,
 }
 
+/// One history of a program beside Housner's.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct StepErrors {
+    /// How it ended; errors are infinite unless it finished.
+    pub outcome: FixedStepOutcome,
+    /// NRMSE of u.
+    pub history: f64,
+    /// Error of the largest u, relative to it.
+    pub peak: f64,
+    /// What it cost.
+    pub work: FixedStepWork,
+}
+
+impl ReferenceHistory {
+    /// Of a motion, if it rocks the body without toppling it; horizontal motion, equation 2's
+    /// restitution.
+    pub fn new(body: &Body<f64>, dt: f64, accel: Vec<f64>) -> Option<Self> {
+        let rocking = solve(body, dt, &accel, &RockingOptions::default());
+        let stands = rocking.overturned().is_none() && !rocking.impacts.is_empty();
+        stands.then(|| Self { dt, u: rocking.motion(body).u, accel })
+    }
+
+    /// The errors of a model in a program that steps so.
+    pub fn errors(&self, model: &FixedStepBody, settings: StepSettings) -> StepErrors {
+        let history = FixedStepAnalysis::new(model, settings, self.dt, &self.accel).history();
+        let (outcome, work) = (history.outcome, history.work);
+        if outcome != FixedStepOutcome::Finished {
+            return StepErrors { outcome, history: f64::INFINITY, peak: f64::INFINITY, work };
+        }
+        let largest = |u: &[f64]| u.iter().fold(0.0_f64, |most, u| most.max(u.abs()));
+        let (own, due) = (largest(&history.motion.u), largest(&self.u));
+        StepErrors { outcome, history: nrmse(&history.motion.u, &self.u), peak: (own / due - 1.0).abs(), work }
+    }
+}
+
 /// Motions on which histories of a body can be compared one to one.
 #[derive(Clone, Debug)]
 pub struct WellConditioned {
@@ -36,11 +71,13 @@ pub struct WellConditioned {
     pub motions: Vec<ReferenceHistory>,
 }
 
-/// NRMSE of u over the motions.
-#[derive(Clone, Debug, PartialEq)]
+/// Errors over motions.
+#[derive(Clone, Debug, Default, PartialEq)]
 pub struct ErrorsOverMotions {
-    /// Of those that went through, in ascending order.
+    /// NRMSE of u of those that went through, in ascending order.
     pub errors: Vec<f64>,
+    /// Errors of the largest u of the same, in ascending order.
+    pub peaks: Vec<f64>,
     /// How many the program gave up.
     pub stopped: usize,
     /// How many toppled the body, which Housner's equation leaves standing.
@@ -57,13 +94,11 @@ impl WellConditioned {
     /// `looked_at` at most.
     pub fn of_seed(body: &Body<f64>, seed: u64, count: usize, looked_at: usize) -> Self {
         let (p, alpha) = (body.p_squared().sqrt(), body.alpha());
-        let options = RockingOptions::default();
         let reference = |index: usize| {
             let record = synthetic::record(seed, index, p, alpha);
-            let rocking = solve(body, record.dt, &record.accel, &options);
-            let stands = rocking.overturned().is_none() && !rocking.impacts.is_empty();
-            let good = stands && Conditioning::new(body, record.dt, &record.accel, &options).well_conditioned();
-            good.then(|| ReferenceHistory { dt: record.dt, u: rocking.motion(body).u, accel: record.accel })
+            let reference = ReferenceHistory::new(body, record.dt, record.accel)?;
+            let conditioning = Conditioning::new(body, reference.dt, &reference.accel, &RockingOptions::default());
+            conditioning.well_conditioned().then_some(reference)
         };
         Self { body: *body, motions: (0..looked_at).filter_map(reference).take(count).collect() }
     }
@@ -71,27 +106,55 @@ impl WellConditioned {
     /// The errors of springs in a program that steps so.
     pub fn errors(&self, springs: &Springs<Chain<f64>>, settings: StepSettings) -> ErrorsOverMotions {
         let model = FixedStepBody::new(&self.body, springs);
-        let mut all = ErrorsOverMotions { errors: Vec::new(), stopped: 0, toppled: 0, steps: 0, iterations: 0 };
-        for ReferenceHistory { dt, accel, u } in &self.motions {
-            let history = FixedStepAnalysis::new(&model, settings, *dt, accel).history();
-            all.steps += history.work.steps;
-            all.iterations += history.work.iterations;
-            match history.outcome {
-                FixedStepOutcome::Finished => all.errors.push(nrmse(&history.motion.u, u)),
-                FixedStepOutcome::Fallen { .. } => all.toppled += 1,
-                FixedStepOutcome::GaveUp(_) => all.stopped += 1,
-            }
-        }
-        all.errors.sort_by(f64::total_cmp);
-        all
+        ErrorsOverMotions::of(self.motions.iter().map(|motion| motion.errors(&model, settings)))
     }
 }
 
 impl ErrorsOverMotions {
-    /// A quantile over all motions; those that stopped or toppled are worse than any other.
+    /// Of these histories.
+    pub fn of(all: impl IntoIterator<Item = StepErrors>) -> Self {
+        let mut found = Self::default();
+        for StepErrors { outcome, history, peak, work } in all {
+            found.steps += work.steps;
+            found.iterations += work.iterations;
+            match outcome {
+                FixedStepOutcome::Finished => {
+                    found.errors.push(history);
+                    found.peaks.push(peak);
+                }
+                FixedStepOutcome::Fallen { .. } => found.toppled += 1,
+                FixedStepOutcome::GaveUp(_) => found.stopped += 1,
+            }
+        }
+        found.errors.sort_by(f64::total_cmp);
+        found.peaks.sort_by(f64::total_cmp);
+        found
+    }
+
+    /// How many motions.
+    pub fn count(&self) -> usize {
+        self.errors.len() + self.lost()
+    }
+
+    /// How many stopped or toppled.
+    pub fn lost(&self) -> usize {
+        self.stopped + self.toppled
+    }
+
+    /// A quantile of the NRMSE over all motions; those that stopped or toppled are worse than any
+    /// other.
     pub fn quantile(&self, q: f64) -> f64 {
-        let mut all = self.errors.clone();
-        all.extend(std::iter::repeat_n(f64::INFINITY, self.stopped + self.toppled));
+        self.with_lost(&self.errors, q)
+    }
+
+    /// The same of the error of the largest u.
+    pub fn peak_quantile(&self, q: f64) -> f64 {
+        self.with_lost(&self.peaks, q)
+    }
+
+    fn with_lost(&self, sorted: &[f64], q: f64) -> f64 {
+        let mut all = sorted.to_vec();
+        all.extend(std::iter::repeat_n(f64::INFINITY, self.lost()));
         quantile(&all, q).unwrap_or(f64::INFINITY)
     }
 }

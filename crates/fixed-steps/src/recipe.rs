@@ -19,7 +19,8 @@
 //! These numbers with C = 0.6, mu = 0.2 in both directions and Omega_h = 4 Omega_v are
 //! [`FixedStepDesign::RECIPE`]. A step of Omega_e dt above one ends whatever a landing leaves, and
 //! then the numbers of the units hardly matter; below it the rebound of K = 0.25 shows, the more
-//! the stockier the body (`expected`), and others do better ([`FixedStepDesign::suited`]).
+//! the stockier the body (`expected`). Units for the body's own landing, and K by the step, do
+//! better: the crate `springs` has them (`program`).
 
 use dynamics::spring::{Chain, Design, Springs};
 use rocking::structure::Body;
@@ -66,31 +67,6 @@ impl FixedStepDesign {
         horizontal_over_vertical: 4.0,
     };
 
-    /// The landing's own optimum for K = 0.1, of a body of little slenderness: a tenth of the
-    /// recipe's rebound energy, for landings that the step resolves.
-    pub const RESOLVED: Self = Self {
-        stance: 12.0,
-        vertical: UnitNumbers { k: 0.1, c: 0.643, mu: 0.675 },
-        horizontal: UnitNumbers { k: 1.0, c: 2.0, mu: 0.3 },
-        horizontal_over_vertical: 4.0,
-    };
-
-    /// Of these two the one that is expected to err least for a body, a step (s) and an
-    /// integrator. One that leaves something of stiff modes (HHT; TRBDF2, every other step of which
-    /// is trapezoidal) chatters on the second, so that it has to promise half of the error there.
-    ///
-    /// # Errors
-    /// The step is not positive, or the integrator is unstable.
-    pub fn suited(body: &Body<f64>, step: f64, integrator: Integrator) -> Result<Self, FixedStepSpringsError> {
-        let median = |design: Self| {
-            FixedStepSprings::designed(body, step, integrator, &design).map(|springs| springs.expected().median)
-        };
-        let chatters = !integrator.ends_stiff_modes() || integrator == Integrator::Trbdf2;
-        let most = if chatters { 0.5 } else { 1.0 };
-        let better = median(Self::RESOLVED)? < most * median(Self::RECIPE)?;
-        Ok(if better { Self::RESOLVED } else { Self::RECIPE })
-    }
-
     /// Omega_n of the vertical unit, sqrt(k1/m) (rad/s).
     pub fn omega_n(&self, body: &Body<f64>, step: f64) -> f64 {
         let in_series = self.stance * body.p_squared().sqrt() / (body.alpha() * body.alpha() * step);
@@ -119,6 +95,8 @@ pub const LEAST_INERTIA: f64 = rocking::structure::LEAST_INERTIA;
 
 /// Convergence tolerance over g dt^2: see [`FixedStepSprings::iteration`].
 pub const TOLERANCE: f64 = 0.1;
+/// Newton's iterations at most.
+pub const NEWTON: usize = 30;
 
 /// Springs for a body in a program with one size of step.
 #[derive(Clone, Copy, Debug)]
@@ -227,7 +205,7 @@ impl FixedStepSprings {
     /// the program there, however many iterations it allows.
     pub fn iteration(&self) -> Iteration {
         let below = TOLERANCE * GRAVITY * self.shortest().powi(2);
-        Iteration { constant: 0, newton: 30, test: ConvergenceTest::Increment(below) }
+        Iteration { constant: 0, newton: NEWTON, test: ConvergenceTest::Increment(below) }
     }
 }
 
@@ -282,34 +260,6 @@ mod tests {
         // the stance is about half of the floor, 12 in place of 160/13
         let expected = springs.expected();
         assert_relative_eq!(expected.stance / expected.floor, 0.5 * (160.0 / 13.0) / 12.0, max_relative = 1e-9);
-    }
-
-    #[test]
-    fn designs_suit_their_integrators() {
-        let slender = Structure::paper().body::<f64>();
-        let stocky = Structure::block(2.6, 0.7, 1e3).unwrap().body::<f64>();
-        let suited = |body: &Body<f64>, step: f64, integrator: Integrator| {
-            FixedStepDesign::suited(body, step, integrator).unwrap()
-        };
-        let both = |body: &Body<f64>, step: f64, integrators: [Integrator; 2], design: FixedStepDesign| {
-            integrators.iter().for_each(|integrator| assert_eq!(suited(body, step, *integrator), design));
-        };
-        let ending = [Integrator::BackwardEuler, Integrator::GENERALIZED_ALPHA_0];
-        let chattering = [Integrator::Trbdf2, Integrator::HHT_MOST];
-        // in long steps the integrator decides; in short ones the unit, whose rebound shows the
-        // more the stockier the body
-        both(&slender, 1e-2, ending, FixedStepDesign::RECIPE);
-        both(&slender, 2.5e-4, ending, FixedStepDesign::RESOLVED);
-        both(&stocky, 2.5e-4, ending, FixedStepDesign::RESOLVED);
-        both(&slender, 1e-2, chattering, FixedStepDesign::RECIPE);
-        both(&slender, 2.5e-4, chattering, FixedStepDesign::RECIPE);
-        assert_eq!(suited(&stocky, 2.5e-4, Integrator::HHT_MOST), FixedStepDesign::RESOLVED);
-        let springs =
-            FixedStepSprings::designed(&slender, 1e-3, Integrator::BackwardEuler, &FixedStepDesign::RESOLVED).unwrap();
-        let expected = 12.0 * slender.mass * slender.p_squared().sqrt() / (slender.alpha().powi(2) * 1e-3);
-        // the body with a little rotational inertia
-        assert_relative_eq!(springs.chains().vertical.in_series(), expected, max_relative = 1e-4);
-        assert_relative_eq!(springs.units.vertical.k(), 0.1, max_relative = 1e-12);
     }
 
     #[test]

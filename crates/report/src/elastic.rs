@@ -1,7 +1,7 @@
 //! What is said of an elastic structure's run: the structure on rigid ground beside the same on its
 //! springs.
 
-mod springs;
+pub(crate) mod springs;
 
 use self::springs::{alone, springs_findings};
 use super::{Assumed, FiledParameters, Run, Section, Table, doubts, judged};

@@ -19,6 +19,7 @@ pub mod html;
 pub mod judged;
 pub mod markdown;
 pub mod page;
+pub mod program;
 pub mod reference;
 pub mod rigid;
 pub mod screen;
@@ -30,6 +31,7 @@ use serde::Serialize;
 pub use accuracy::{AccuracyOn, AccuracyReport};
 pub use displacements::{peak_table, summary};
 pub use markdown::{force_value, height};
+pub use program::ProgramReport;
 use springs::{
     case::{
         assumptions::{AssumedQuantity, Assumption},
@@ -119,6 +121,17 @@ pub struct Unit {
     pub c_ns_per_m: f64,
 }
 
+/// A unit as parameters.json has it.
+pub(crate) fn unit_of(name: &str, row: &dynamics::spring::ChainRow) -> Unit {
+    Unit {
+        name: name.into(),
+        k1_n_per_m: row.k1_n_per_m,
+        k2_n_per_m: row.k2_n_per_m,
+        m2_kg: row.m2_kg,
+        c_ns_per_m: row.c_ns_per_m,
+    }
+}
+
 /// Part of a report: text, a table, commands.
 #[derive(Clone, Debug, Default, PartialEq, Serialize)]
 pub struct Section {
@@ -163,6 +176,8 @@ pub struct Run {
     pub springs_at: &'static str,
     /// The units.
     pub springs: Vec<Unit>,
+    /// Those for a program with fixed time steps.
+    pub program: Option<ProgramReport>,
     /// Measured in this run.
     pub accuracy: Option<AccuracyReport>,
     /// The answer first, then by weight.

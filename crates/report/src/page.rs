@@ -135,11 +135,20 @@ fn programs(run: &Run) -> (&'static str, &'static str, String) {
          FILE --out model.py</code> writes one.</p>\n"
             .to_string()
     } else {
-        let sap2000 = if run.sap2000 {
-            "<p><code>decks/model_sap2000.s2k</code> holds the model for SAP2000, but its steps would have to be far shorter than \
-             anyone takes: these springs are not for SAP2000, ETABS or scripts with one fixed time step. None are given yet.</p>\n"
-        } else {
-            "<p>No SAP2000 deck was written: its tables leave vertical motion, dampers, tendons and friction out.</p>\n"
+        let sap2000 = match (&run.program, run.sap2000) {
+            (None, _) => format!("<p>SAP2000: {}.</p>\n", escape(crate::screen::NO_PROGRAM)),
+            (Some(program), deck) => {
+                let deck = match deck {
+                    true => {
+                        " <code>decks/model_sap2000.s2k</code> holds the model, these springs and these settings; it could not be \
+                             tried with the program."
+                    }
+                    false => {
+                        " No SAP2000 deck was written: its tables leave vertical motion, dampers, tendons and friction out."
+                    }
+                };
+                format!("<p>{}: {}.{deck}</p>\n", escape(&program.program), escape(&program.line()))
+            }
         };
         format!(
             "<p>The deck builds the model, applies gravity, runs the record in steps that follow every touch and lift, and prints its \

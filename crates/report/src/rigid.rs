@@ -1,11 +1,13 @@
 //! What is said of a rigid body's run: Housner's body beside the finite elements on their springs.
 
+pub mod program;
 pub mod tables;
 
 use super::{
-    AccuracyReport, Assumed, FiledParameters, Run, Section, Taken, Unit, changes, doubts, filed, judged,
+    AccuracyReport, Assumed, FiledParameters, ProgramReport, Run, Section, Taken, changes, doubts, filed, judged,
     reference::{self, HousnerReport},
     stiffness_tradeoff::TradeoffPoint,
+    unit_of,
 };
 use decks::equal_steps;
 use dynamics::{
@@ -122,6 +124,7 @@ impl RigidRun {
         all.extend(self.vertical_left_out());
         all.extend(doubts(self.case.doubts()));
         all.extend(springs_findings(parameters));
+        all.extend(program::findings(&self.case, parameters));
         all.extend(parameters.design_forces.iter().flat_map(|forces| forces.withheld()));
         all.extend(self.report.findings());
         all.extend(reference::histories(&self.both));
@@ -184,20 +187,14 @@ pub fn of_case(case: &Case, mut parameters: Parameters) -> Run {
     // what of the search was cut is there already
     let search = parameters.findings.iter().map(|filed| filed.finding.clone());
     let found = search.chain(doubts(case.doubts_of_structure())).chain(springs_findings(&parameters));
+    let found = found.chain(program::findings(case, &parameters));
     parameters.findings = filed(found);
     alone(parameters)
 }
 
 /// Springs without a record.
 fn alone(parameters: Parameters) -> Run {
-    let units = [("vertical", &parameters.vertical), ("horizontal", &parameters.horizontal)];
-    let unit = |(name, row): (&str, &dynamics::spring::ChainRow)| Unit {
-        name: name.into(),
-        k1_n_per_m: row.k1_n_per_m,
-        k2_n_per_m: row.k2_n_per_m,
-        m2_kg: row.m2_kg,
-        c_ns_per_m: row.c_ns_per_m,
-    };
+    let units = [unit_of("vertical", &parameters.vertical), unit_of("horizontal", &parameters.horizontal)];
     let findings = match parameters.findings.is_empty() {
         true => filed(springs_findings(&parameters)),
         false => parameters.findings.clone(),
@@ -210,7 +207,8 @@ fn alone(parameters: Parameters) -> Run {
         friction_needed: None,
         design_forces: parameters.design_forces,
         springs_at: "each foot",
-        springs: units.map(unit).into(),
+        springs: units.into(),
+        program: ProgramReport::of_rigid(&parameters),
         accuracy,
         findings,
         fixed_steps: None,
@@ -352,6 +350,7 @@ fn sections(p: &Parameters) -> Vec<Section> {
         table: Some(tables::springs(p)),
         ..Section::default()
     }];
+    all.extend(ProgramReport::of_rigid(p).iter().flat_map(|program| [program.section(), program.springs()]));
     if let Some(m) = &p.matched {
         all.push(Section {
             id: "comparison",

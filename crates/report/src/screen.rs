@@ -1,6 +1,6 @@
 //! What `tune run` prints: one screen, the answer first.
 
-use super::{FiledParameters, Run, Table, force_value, height, peak_table, sentence};
+use super::{FiledParameters, Run, Table, Unit, force_value, height, peak_table, sentence};
 use files::message::{shortened, significant};
 use springs::results::{DesignForce, DesignForces, FiledFinding, Finding, ForceName, Weight};
 
@@ -13,6 +13,9 @@ const LONGEST_OF_MANY: usize = 2;
 /// Lines of the design forces.
 const MOST_FORCE_LINES: usize = 3;
 
+/// What is said where no springs suit steps of one size.
+pub(crate) const NO_PROGRAM: &str =
+    "not these springs: programs with steps of one size need others; there are none for this structure";
 /// Letters of a file's name in the line of the record.
 const LONGEST_NAME: usize = 48;
 
@@ -38,7 +41,7 @@ pub fn screen(run: &Run, written: &Written) -> String {
     if let Some(accuracy) = &run.accuracy {
         at_most(2, &mut lines, "accuracy  ", &accuracy.short());
     }
-    next(written, &mut lines);
+    next(run, written, &mut lines);
     // a crowded screen needs the room of the empty line
     let warns = run.remarks().any(|finding| finding.weight >= Weight::Warning);
     if lines.len() + usize::from(warns) > LINES {
@@ -150,39 +153,56 @@ fn force_words<'a>(forces: &DesignForces, mark: impl Fn((ForceName, DesignForce)
 
 fn springs(run: &Run, lines: &mut Vec<String>) {
     const SHOWN: usize = 2;
+    const SAID: &str = "  numerical contact stiffness, not soil";
     let of = format!("springs {}", run.springs_at.replace("each", "per"));
     let mut table = Table::new([of.as_str(), "k1 [N/m]", "k2 [N/m]", "m2 [kg]", "c [N s/m]"]);
-    for unit in run.springs.iter().take(SHOWN) {
-        let cells = [unit.k1_n_per_m, unit.k2_n_per_m, unit.m2_kg, unit.c_ns_per_m].map(|x| significant(x, 4));
-        table.rows.push([vec![format!("  {}", unit.name)], cells.into()].concat());
-    }
+    let steps = run.program.as_ref().map(|program| format!("{} steps", program.steps));
+    let mut add = |of: Option<&str>, units: &[Unit]| {
+        for unit in units.iter().take(SHOWN) {
+            let cells = [unit.k1_n_per_m, unit.k2_n_per_m, unit.m2_kg, unit.c_ns_per_m].map(|x| significant(x, 4));
+            let name = of.map_or(format!("  {}", unit.name), |of| format!("  {of}: {}", unit.name));
+            table.rows.push([vec![name], cells.into()].concat());
+        }
+    };
+    add(steps.as_ref().map(|_| "OpenSees deck"), &run.springs);
+    run.program.iter().for_each(|program| add(steps.as_deref(), &program.units));
     let mut all = table.lines();
     let note = match run.springs.len() {
-        n if n > SHOWN => format!("  numerical contact stiffness, not soil; {} more units: parameters.json", n - SHOWN),
-        _ => "  numerical contact stiffness, not soil".to_string(),
+        n if n > SHOWN => format!("{SAID}; {} more units: parameters.json", n - SHOWN),
+        _ => SAID.to_string(),
     };
     if let Some(head) = all.first_mut() {
-        head.push_str("  numerical contact stiffness, not soil");
-        if head.chars().count() > WIDTH || run.springs.len() > SHOWN {
-            *head = head.replace("  numerical contact stiffness, not soil", "");
+        if head.chars().count() + note.chars().count() <= WIDTH {
+            head.push_str(&note);
+        } else if head.chars().count() + SAID.chars().count() / 2 <= WIDTH && run.springs.len() <= SHOWN {
+            head.push_str("  numerical, not soil");
+        } else {
             all.push(note);
         }
     }
     lines.extend(all);
 }
 
-fn next(written: &Written, lines: &mut Vec<String>) {
+fn next(run: &Run, written: &Written, lines: &mut Vec<String>) {
     let folder = written.folder.trim_end_matches('/');
     let file = |name: &str| shortened(&format!("{folder}/{name}"), 58);
     if written.decks {
-        wrap(
-            lines,
-            "OpenSees  ",
-            &format!("python3 {}  (it chooses its steps, which follow touches)", file("decks/model_openseespy.py")),
-        );
-        wrap(lines, "check it  ", &format!("tune verify --parameters {}", file("parameters.json")));
+        let commands = [
+            format!("python3 {};", file("decks/model_openseespy.py")),
+            format!("tune verify --parameters {}", file("parameters.json")),
+        ];
+        // on one line, if both fit
+        if commands.iter().map(|command| command.chars().count() + 1).sum::<usize>() < WIDTH - 10 {
+            wrap(lines, "OpenSees  ", &commands.join(" "));
+        } else {
+            wrap(lines, "OpenSees  ", commands[0].trim_end_matches(';'));
+            wrap(lines, "check it  ", &commands[1]);
+        }
     }
-    wrap(lines, "SAP2000   ", "not these springs: programs with one fixed time step need others; none are given yet");
+    match &run.program {
+        Some(program) => at_most(3, lines, &format!("{:10}", program.short()), &program.line()),
+        None => wrap(lines, "SAP2000   ", NO_PROGRAM),
+    }
     if written.report {
         wrap(lines, "report    ", &file("report.html"));
     }

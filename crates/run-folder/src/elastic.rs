@@ -11,7 +11,7 @@ use crate::{
     rigid::{Output, write_report},
     tables::csv_row,
 };
-use decks::{ACCURACY, DeckFormat, ElasticDeck, ExportError};
+use decks::{ACCURACY, DeckFormat, ElasticDeck, ExportError, corner_history};
 use dynamics::spring::{Chain, Springs};
 use figures::Figure;
 use frames::{
@@ -31,8 +31,9 @@ use springs::{
     parameters::{
         RecordRow,
         elastic::{ElasticAssessment, ElasticParameters, OnRecord},
+        program::{CornerUnits, ProgramRow},
     },
-    tuning::elastic::ElasticTuned,
+    tuning::elastic::{ElasticTuned, program::ElasticProgramSprings},
 };
 use strong_motion::Record;
 
@@ -77,9 +78,16 @@ pub fn springs_alone(assembled: &Assembled, tuned: &ElasticTuned, asked: Asked) 
     ElasticParameters {
         assessment: Some(assessment),
         findings: filed(tuned.findings(asked)),
+        program: tuned.program.as_ref().map(|program| program_row(assembled, program)),
         ..ElasticParameters::new(assembled.structure, tuned.springs.omega_n_hz, &corners)
             .with_members(assembled.members)
     }
+}
+
+/// Springs for a program with fixed time steps, as they are filed.
+fn program_row(assembled: &Assembled, program: &ElasticProgramSprings) -> ProgramRow<CornerUnits> {
+    let places = assembled.layout.corners.iter().map(|corner| corner.place[0]);
+    ProgramRow::of_corners(program, assembled.structure.mass(), places)
 }
 
 /// The deck that is to find this history, in a format, its steps for an accuracy.
@@ -90,12 +98,36 @@ pub fn deck(
     history: &ElasticHistory,
     (format, accuracy): (DeckFormat, f64),
 ) -> Result<String, ExportError> {
+    deck_of(assembled, (springs, None), record, &history.q, (format, accuracy))
+}
+
+/// The deck for a program with steps of one size, on its springs.
+///
+/// # Errors
+/// As [`deck`]; an integrator that the format has not.
+pub fn stepped_deck(
+    assembled: &Assembled,
+    program: &ProgramRow<CornerUnits>,
+    record: &Record,
+    format: DeckFormat,
+) -> Result<String, ExportError> {
+    let history = corner_history(&assembled.frame, program, record)?;
+    deck_of(assembled, (&program.units.chains(), Some(program)), record, &history, (format, ACCURACY))
+}
+
+fn deck_of(
+    assembled: &Assembled,
+    (springs, program): (&[Springs<Chain<f64>>], Option<&ProgramRow<CornerUnits>>),
+    record: &Record,
+    history: &[Vec<f64>],
+    (format, accuracy): (DeckFormat, f64),
+) -> Result<String, ExportError> {
     let (frame, top) = (&assembled.frame, assembled.watched.first().map_or(0, |watched| watched.top));
     let at = |q: &Vec<f64>| {
         let [x, z, _] = frame.displacement(top, q);
         [x, z]
     };
-    let motion: Vec<[f64; 2]> = history.q.iter().map(at).collect();
+    let motion: Vec<[f64; 2]> = history.iter().map(at).collect();
     ElasticDeck {
         title: &title(&assembled.structure),
         layout: &assembled.layout,
@@ -107,6 +139,7 @@ pub fn deck(
         alpha: assembled.structure.body().alpha(),
         frequency_hz: assembled.structure.frequency_hz(),
         accuracy,
+        program,
     }
     .text(format)
 }
@@ -199,6 +232,12 @@ impl ElasticRun {
     }
 
     fn deck(&self, format: DeckFormat) -> Result<String, ExportError> {
+        // SAP2000 steps alike: the springs for that
+        let for_csi = |row: &&ProgramRow<CornerUnits>| matches!(row.name.as_deref(), Some("sap2000" | "etabs"));
+        let program = self.parameters.program.as_ref().filter(for_csi);
+        if let Some(program) = program.filter(|_| format == DeckFormat::Sap2000) {
+            return stepped_deck(&self.assembled, program, &self.record, format);
+        }
         let corners = &self.tuned.springs.corners;
         deck(&self.assembled, corners, &self.record, &self.answer.histories.fem, (format, ACCURACY))
     }

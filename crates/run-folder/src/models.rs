@@ -25,7 +25,9 @@ pub(crate) fn write_decks(
     for (name, format) in DECKS {
         match text(format) {
             // said, not fatal: the other decks are of use
-            Err(e @ ExportError::Member { .. }) => left_out.push(format!("{name} is left out: {e}")),
+            Err(
+                e @ (ExportError::Member { .. } | ExportError::MemberOfSteps { .. } | ExportError::Integrator { .. }),
+            ) => left_out.push(format!("{name} is left out: {e}")),
             deck => write_file(&dir.join(name), deck?.as_bytes())?,
         }
     }

@@ -2,7 +2,7 @@
 
 use std::path::Path;
 
-use decks::{Expected, with_inertia};
+use decks::{DeckFormat, Expected, Stepping, with_inertia};
 use figures::Figure;
 use report::{
     Run,
@@ -134,7 +134,15 @@ fn decks(
     let history = own.as_ref().unwrap_or_else(|| both.with.as_ref().map_or(&both.fem, |with| &with.history));
     let width_sensitivity = width_sensitivity(&history.motion, &parameters, record);
     let expected = Expected::new(history, width_sensitivity);
-    write_decks(&folder, |format| decks::export(&parameters, record, &expected, format))
+    // SAP2000 steps alike: the springs for that, if there are some
+    let for_its_steps = |format: DeckFormat| {
+        let program = parameters.program.as_ref().filter(|_| format == DeckFormat::Sap2000)?;
+        let csi = matches!(program.name.as_deref(), Some("sap2000" | "etabs"));
+        csi.then(|| decks::stepped_deck(&parameters, record, format, Stepping::Even))
+    };
+    write_decks(&folder, |format| {
+        for_its_steps(format).unwrap_or_else(|| decks::export(&parameters, record, &expected, format))
+    })
 }
 
 #[cfg(test)]

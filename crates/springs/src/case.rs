@@ -21,6 +21,10 @@
 //! objective = "landing"      # or "arr", the paper's
 //! accuracy = 0.002           # of the history against Housner's, NRMSE
 //! # peaks = 0.02             # instead: of the largest displacement, uplift and forces
+//!
+//! [program]                  # springs for a program with fixed time steps: see `program`
+//! for = "sap2000"
+//! step_s = 0.001
 //! ```
 
 pub mod assumptions;
@@ -29,6 +33,7 @@ mod elastic;
 mod error;
 mod limits;
 mod missing;
+pub mod program;
 mod record;
 mod structure;
 mod yardstick;
@@ -42,8 +47,10 @@ pub use elastic::ElasticCase;
 pub use error::CaseError;
 pub use error::parse_error;
 pub use error::text_of;
+use fixed_steps::FixedStepProgram;
 pub use limits::Limits;
 pub use limits::{ACCURACY, MAX_HZ, PEAKS};
+use program::ProgramSection;
 pub use record::NO_MOTION;
 use record::RecordSection;
 use rocking::{
@@ -115,6 +122,7 @@ struct CaseFile {
     record: RecordSection,
     #[serde(default)]
     tuning: Tuning,
+    program: Option<ProgramSection>,
     target: Option<Target>,
     #[serde(default)]
     bounds: Bounds,
@@ -142,6 +150,8 @@ pub struct Case {
     pub duration_s: f64,
     /// The outer loop's settings.
     pub tuning: Tuning,
+    /// A program with fixed time steps that springs are asked for besides.
+    pub program: Option<FixedStepProgram>,
     /// The frequency response wanted by the paper's procedure.
     pub target: Target,
     /// The range of its parameters.
@@ -209,6 +219,7 @@ impl Case {
             duration_s: excitation.duration(),
             excitation,
             tuning,
+            program: None,
             target: Target::default(),
             bounds: Bounds::default(),
         })
@@ -256,7 +267,8 @@ pub fn parse_with(
         .map_err(|source| CaseError::Members { path: path.into(), source })?;
     let excitation = file.record.excitation(path, asked, read)?;
     let case = Case::new(path, (structure, restitution), excitation, file.tuning)?;
-    Ok(Case { given, members, target: file.target.unwrap_or_default(), bounds: file.bounds, ..case })
+    let (program, target) = (ProgramSection::of_case(file.program.as_ref(), path)?, file.target.unwrap_or_default());
+    Ok(Case { given, members, program, target, bounds: file.bounds, ..case })
 }
 
 impl Tuning {

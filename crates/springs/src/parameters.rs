@@ -2,6 +2,7 @@
 //! Housner.
 
 pub mod elastic;
+pub mod program;
 mod record;
 
 use dynamics::compare::Match;
@@ -22,6 +23,7 @@ use crate::{
 };
 use dynamics::spring::{Chain, ChainRow, Design, Springs};
 use files::message::one_line;
+use program::{FootUnits, ProgramRow};
 pub use record::{RecordRow, RememberedError};
 use rocking::{
     conditioning::Conditioning,
@@ -32,8 +34,8 @@ use rocking::{
 
 /// Version of the keys of parameters.json that this program writes. Version 1 had no number, and
 /// remembered of the record only what it was called; version 2 had no peaks, design forces and
-/// findings.
-pub(crate) const SCHEMA: u32 = 3;
+/// findings; version 3 no springs for programs with fixed time steps.
+pub(crate) const SCHEMA: u32 = 4;
 
 /// How sensitive Housner's history of that record is: relative change of u per relative change
 /// (`conditioning`).
@@ -93,7 +95,7 @@ const DAMPING: (f64, f64) = (0.0, 1e15);
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct Parameters {
-    /// Version of the keys; 3 in what this program writes.
+    /// Version of the keys; 4 in what this program writes.
     #[serde(default = "first")]
     pub schema: u32,
     /// The body.
@@ -111,6 +113,9 @@ pub struct Parameters {
     pub vertical: ChainRow,
     /// The horizontal unit at each foot.
     pub horizontal: ChainRow,
+    /// Springs for a program with fixed time steps, in place of those above.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub program: Option<ProgramRow<FootUnits>>,
     /// Dampers between feet and ground; the springs are tuned without them.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub damper: Option<Damper<f64>>,
@@ -208,6 +213,7 @@ impl Parameters {
             assessment: None,
             vertical: ChainRow::new(&springs.vertical, m1),
             horizontal: ChainRow::new(&springs.horizontal, m1),
+            program: None,
             damper: None,
             tendon: None,
             friction: None,
@@ -229,6 +235,7 @@ impl Parameters {
     pub fn of(case: &Case, job: &Job) -> Self {
         let mut parameters = Self::new(case.structure, &job.springs).with_members(case.members);
         parameters.restitution = Some(case.restitution).filter(|e| *e != job.body.restitution());
+        parameters.program = job.program.as_ref().map(ProgramRow::from);
         parameters.landings = landings(&job.body, &parameters.chains(), case.restitution);
         parameters.assessment = Some(Assessment::new(job, &case.tuning, case.restitution));
         parameters.findings = job.findings(case.tuning.asked()).into_iter().map(FiledFinding::from).collect();
@@ -238,6 +245,13 @@ impl Parameters {
     /// The springs with units; k1, k2, m2 and c of the file rule.
     pub fn chains(&self) -> Springs<Chain<f64>> {
         Springs { vertical: self.vertical.chain(), horizontal: self.horizontal.chain() }
+    }
+
+    /// The model for the program with fixed time steps, on its springs, if there is one.
+    pub fn in_program(&self) -> Option<Self> {
+        let row = self.program.as_ref()?;
+        let FootUnits { vertical, horizontal, .. } = row.units;
+        Some(Self { structure: row.units.structure(&self.structure), vertical, horizontal, ..self.clone() })
     }
 
     /// What the structure has besides the rigid body.
@@ -298,7 +312,11 @@ impl Parameters {
         if let Some(value) = self.restitution.filter(|e| !(0.0..=1.0).contains(e)) {
             return Err(ParametersError::Restitution { path: path.to_string(), value });
         }
-        for (chain, row) in [("vertical", &self.vertical), ("horizontal", &self.horizontal)] {
+        let program = self.program.iter();
+        let program = program
+            .flat_map(|p| [("program.vertical", &p.units.vertical), ("program.horizontal", &p.units.horizontal)]);
+        for (chain, row) in [("vertical", &self.vertical), ("horizontal", &self.horizontal)].into_iter().chain(program)
+        {
             for (name, value, least) in [
                 ("k1_n_per_m", row.k1_n_per_m, f64::MIN_POSITIVE),
                 ("k2_n_per_m", row.k2_n_per_m, f64::MIN_POSITIVE),

@@ -11,6 +11,8 @@ pub mod elastic;
 
 pub mod capped_springs;
 
+pub mod fixed_steps;
+
 pub mod job;
 
 mod ladder;

@@ -7,6 +7,7 @@ use crate::commands::{
     progress::{self, Progress},
 };
 use dynamics::effort::Effort;
+use fixed_steps::FixedStepProgram;
 use frames::{
     Mechanics,
     answer::{ElasticAnswer, Reference},
@@ -23,7 +24,7 @@ use springs::{
     case::ElasticCase,
     results::NotDone,
     tuning::{
-        elastic::{MOST_WORK, tune_within},
+        elastic::{ElasticAsked, MOST_WORK, tune_within},
         job::JobError,
     },
 };
@@ -42,6 +43,7 @@ pub fn run(o: &RunOptions, mut case: ElasticCase) -> Result<(), CommandError> {
     }
     case.max_omega_hz = o.max_hz()?.or(case.max_omega_hz);
     case.asked = o.asked()?.unwrap_or(case.asked);
+    case.program = o.program.over(case.program)?;
     let friction = o.ground.friction()?;
     check_folder(&o.out)?;
     threads(o.jobs)?;
@@ -56,7 +58,8 @@ pub fn run(o: &RunOptions, mut case: ElasticCase) -> Result<(), CommandError> {
     let tell = |done: usize, error: f64| progress.tell(done, 0, &progress::error(error));
     let record = if o.no_record { None } else { Some(referred(&assembled, case.excitation.used()?, &effort)?) };
     let (record, reference) = record.unzip();
-    let asked = (case.asked, case.max_omega_hz);
+    let program = case.program.unwrap_or_else(FixedStepProgram::usual);
+    let asked = ElasticAsked { error: case.asked, most_hz: case.max_omega_hz, program };
     let tuned = tune_within(&assembled, asked, record.as_ref().zip(reference), &effort, &tell);
     progress.done();
     let mut tuned = tuned.map_err(|e| CommandError::Result(e.to_string()))?;

@@ -1,7 +1,8 @@
 //! The weight, the ground motion, and the load cases that apply them.
 
 use super::{KILO, SapModel, SapTable};
-use crate::model::digits;
+use crate::{model::digits, stepping::EvenSteps};
+use fixed_steps::Integrator;
 use rocking::scalar::GRAVITY;
 
 pub(super) fn loads(parts: &SapModel) -> Vec<SapTable> {
@@ -28,8 +29,13 @@ pub(super) fn loads(parts: &SapModel) -> Vec<SapTable> {
 }
 
 pub(super) fn cases(parts: &SapModel) -> Vec<SapTable> {
-    let step = parts.record.dt / parts.even_steps as f64;
-    let out_steps = parts.samples.saturating_sub(1) * parts.even_steps;
+    let samples = parts.samples.saturating_sub(1);
+    // on springs for its steps, it shows every sample and steps in between as it is set to
+    let (step, out_steps) = match parts.even {
+        Some(_) => (parts.record.dt, samples),
+        None => (parts.record.dt / parts.even_steps as f64, samples * parts.even_steps),
+    };
+    let settings = CaseSettings::of(parts.even);
     vec![
         SapTable::new("LOAD CASE DEFINITIONS")
             .row(&[("Case", &"GRAVITY"), ("Type", &"NonStatic"), ("InitialCond", &"Zero"), ("RunCase", &"Yes")])
@@ -74,24 +80,69 @@ pub(super) fn cases(parts: &SapModel) -> Vec<SapTable> {
             ("MassCoeff", &0),
             ("StiffCoeff", &0),
         ]),
-        SapTable::new("CASE - DIRECT HISTORY 4 - INTEGRATION PARAMETERS").row(&[
-            ("Case", &"QUAKE"),
-            ("IntMethod", &"HilberHughesTaylor"),
-            ("Gamma", &digits(5.0 / 6.0)),
-            ("Beta", &digits(4.0 / 9.0)),
-            ("Alpha", &digits(-1.0 / 3.0)),
-        ]),
+        settings.integration(),
         SapTable::new("CASE - DIRECT HISTORY 5 - NONLINEAR PARAMETERS").row(&[
             ("Case", &"QUAKE"),
             ("GeoNonLin", &"Large Displ"),
-            ("DTMax", &0),
-            ("DTMin", &0),
-            ("MaxIterCS", &10),
-            ("MaxIterNR", &40),
-            ("ItConvTol", &"0.0001"),
+            ("DTMax", &settings.longest),
+            ("DTMin", &settings.shortest),
+            ("MaxIterCS", &settings.constant),
+            ("MaxIterNR", &settings.newton),
+            ("ItConvTol", &settings.tolerance),
             ("UseEvStep", &"No"),
         ]),
     ]
+}
+
+/// How the program steps.
+struct CaseSettings {
+    integrator: Integrator,
+    /// Substeps (s); 0: as the program has them.
+    longest: String,
+    shortest: String,
+    constant: usize,
+    newton: usize,
+    tolerance: String,
+}
+
+impl CaseSettings {
+    /// On springs for its steps; else as a public generator of such tables has them.
+    fn of(even: Option<EvenSteps>) -> Self {
+        match even {
+            Some(even) => Self {
+                integrator: even.integrator,
+                longest: digits(even.step),
+                shortest: digits(even.step / even.substeps as f64),
+                constant: 0,
+                newton: even.newton,
+                tolerance: even.unbalance.map_or("0.0001".into(), digits),
+            },
+            None => Self {
+                integrator: Integrator::HHT_MOST,
+                longest: "0".into(),
+                shortest: "0".into(),
+                constant: 10,
+                newton: 40,
+                tolerance: "0.0001".into(),
+            },
+        }
+    }
+
+    /// Its integrator: Newmark's method, or Hilber-Hughes-Taylor's; others are refused before.
+    fn integration(&self) -> SapTable {
+        let (method, gamma, beta, alpha) = match self.integrator {
+            Integrator::Newmark { gamma, beta } => ("Newmark", gamma, beta, 0.0),
+            Integrator::Hht { alpha } => ("HilberHughesTaylor", 0.5 - alpha, 0.25 * (1.0 - alpha).powi(2), alpha),
+            _ => ("HilberHughesTaylor", 5.0 / 6.0, 4.0 / 9.0, -1.0 / 3.0),
+        };
+        SapTable::new("CASE - DIRECT HISTORY 4 - INTEGRATION PARAMETERS").row(&[
+            ("Case", &"QUAKE"),
+            ("IntMethod", &method),
+            ("Gamma", &digits(gamma)),
+            ("Beta", &digits(beta)),
+            ("Alpha", &digits(alpha)),
+        ])
+    }
 }
 
 pub(super) fn record(parts: &SapModel) -> Vec<SapTable> {

@@ -1,7 +1,7 @@
 //! An elastic structure for the tables: beams between joints, stiff arms to places off their nodes.
 
 use super::parts::{Bar, FootJoints, Joint, LINK_LENGTH, SapModel, SapSection, SpringLinks};
-use crate::{elastic::ElasticDeck, printable};
+use crate::{elastic::ElasticDeck, printable, stepping::EvenSteps};
 use frames::{beam, frame::NodePoint};
 
 /// What a frame that stands for axial stiffness alone has of the beam's bending stiffness, and the
@@ -12,7 +12,11 @@ const NOTES: &str = "\
 $  6. Beams whose axial and bending damping differ are two frames side by side: _A bears the axial force, _B the moments.
 $  7. Damping of beams is VisStiff of their materials, stiffness-proportional; it must not resist a rotation of the whole structure:
 $     compare a free rocking with and without it. Joints between beam and footing are stiff frames ARM.
-$  8. All steps are alike, and short beside a landing. These springs are not for programs with fixed time steps: none are given yet.
+";
+
+/// Of springs for steps that follow touches.
+const SHORT_STEPS: &str = "\
+$  8. All steps are alike, and short beside a landing: these springs are not for programs with fixed time steps.
 ";
 
 /// Tables' parts in the making.
@@ -71,7 +75,7 @@ impl Build<'_, '_> {
 
 impl<'a> SapModel<'a> {
     /// Of an elastic structure without members of its own: joint i + 1 is node i.
-    pub(crate) fn elastic(deck: &ElasticDeck<'a>) -> Self {
+    pub(crate) fn elastic(deck: &ElasticDeck<'a>, even: Option<EvenSteps>) -> Self {
         let mass = deck.frame.mass_matrix();
         let of = |at: Option<usize>| at.map_or(0.0, |k| mass[(k, k)]);
         let nodes = 0..deck.layout.nodes.len();
@@ -91,7 +95,7 @@ impl<'a> SapModel<'a> {
         let (top, _) = deck.top;
         Self {
             title: printable(deck.title),
-            notes: NOTES.into(),
+            notes: if even.is_some() { NOTES.into() } else { format!("{NOTES}{SHORT_STEPS}") },
             feet: stands.iter().enumerate().map(foot).collect(),
             units: deck.springs.iter().enumerate().map(unit).collect(),
             watched: top + 1,
@@ -100,6 +104,7 @@ impl<'a> SapModel<'a> {
             link: LINK_LENGTH * deck.frame.span(),
             record: deck.record,
             samples: deck.samples,
+            even,
             even_steps: deck.even_steps(),
             joints: build.joints,
             sections: build.sections,

@@ -1,7 +1,10 @@
 //! What tables are made from, whatever the structure: joints with masses, frames, feet on their
 //! links, a record.
 
-use crate::model::{DeckModel, digits};
+use crate::{
+    model::{DeckModel, digits},
+    stepping::EvenSteps,
+};
 use dynamics::spring::{Chain, Springs};
 use strong_motion::Record;
 
@@ -95,6 +98,8 @@ pub(crate) struct SapModel<'a> {
     /// Samples followed, and steps per sample.
     pub samples: usize,
     pub even_steps: usize,
+    /// Settings of the program whose steps the springs are for.
+    pub even: Option<EvenSteps>,
 }
 
 impl<'a> SapModel<'a> {
@@ -120,6 +125,7 @@ impl<'a> SapModel<'a> {
             record: model.record,
             samples: e.samples,
             even_steps: model.even_steps,
+            even: model.even,
         }
     }
 

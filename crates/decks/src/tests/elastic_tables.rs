@@ -44,6 +44,7 @@ fn deck(model: &Assembled, record: &Record) -> Result<String, ExportError> {
         alpha: 0.1,
         frequency_hz: 2.0,
         accuracy: 0.002,
+        program: None,
     }
     .text(DeckFormat::Sap2000)
 }

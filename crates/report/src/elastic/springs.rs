@@ -1,12 +1,12 @@
 //! What is said of springs alone: of an elastic structure without a record.
 
-use super::super::{AccuracyOn, AccuracyReport, FiledParameters, Run, Taken, Unit, doubts, filed};
+use super::super::{AccuracyOn, AccuracyReport, FiledParameters, ProgramReport, Run, Taken, Unit, doubts, filed};
 use super::title;
 use files::message::{quantity, significant};
 use rocking::members::Tendon;
 use springs::{
     case::{ElasticCase, Yardstick},
-    parameters::elastic::{ElasticAssessment, ElasticParameters, OnRecord},
+    parameters::elastic::{CornerRow, ElasticAssessment, ElasticParameters, OnRecord, UnitRow},
     results::Finding,
     tuning::elastic::suite::ElasticErrors,
 };
@@ -61,13 +61,37 @@ pub fn of_case(case: &ElasticCase, mut parameters: ElasticParameters) -> Run {
 
 /// Springs without a record.
 pub(super) fn alone(parameters: ElasticParameters) -> Run {
-    let first = parameters.springs.first().copied();
-    let same = parameters
-        .springs
+    let program = ProgramReport::of_elastic(&parameters);
+    let findings = match parameters.findings.is_empty() {
+        true => filed(springs_findings(&parameters)),
+        false => parameters.findings.clone(),
+    };
+    Run {
+        taken: taken(&parameters),
+        reference: "rigid ground",
+        peaks: parameters.peaks,
+        friction_needed: None,
+        design_forces: parameters.design_forces,
+        springs_at: "each corner",
+        springs: corner_units(&parameters.springs),
+        program: program.clone(),
+        accuracy: parameters.assessment.as_ref().map(|a| accuracy(a, parameters.on_record.as_ref())),
+        findings,
+        fixed_steps: None,
+        sap2000: false,
+        sections: program.iter().flat_map(|program| [program.section(), program.springs()]).collect(),
+        parameters: FiledParameters::Elastic(Box::new(parameters)),
+    }
+}
+
+/// The units under corners: once where all have the same.
+pub(crate) fn corner_units(corners: &[CornerRow]) -> Vec<Unit> {
+    let first = corners.first().copied();
+    let same = corners
         .iter()
         .all(|row| first.is_some_and(|first| (row.vertical, row.horizontal) == (first.vertical, first.horizontal)));
-    let rows = if same { &parameters.springs[..parameters.springs.len().min(1)] } else { &parameters.springs[..] };
-    let unit = |name: String, row: &springs::parameters::elastic::UnitRow| Unit {
+    let rows = if same { &corners[..corners.len().min(1)] } else { corners };
+    let unit = |name: String, row: &UnitRow| Unit {
         name,
         k1_n_per_m: row.k1_n_per_m,
         k2_n_per_m: row.k2_n_per_m,
@@ -81,25 +105,7 @@ pub(super) fn alone(parameters: ElasticParameters) -> Run {
         };
         [unit(name("vertical"), &row.vertical), unit(name("horizontal"), &row.horizontal)]
     });
-    let findings = match parameters.findings.is_empty() {
-        true => filed(springs_findings(&parameters)),
-        false => parameters.findings.clone(),
-    };
-    Run {
-        taken: taken(&parameters),
-        reference: "rigid ground",
-        peaks: parameters.peaks,
-        friction_needed: None,
-        design_forces: parameters.design_forces,
-        springs_at: "each corner",
-        springs: springs.collect(),
-        accuracy: parameters.assessment.as_ref().map(|a| accuracy(a, parameters.on_record.as_ref())),
-        findings,
-        fixed_steps: None,
-        sap2000: false,
-        sections: Vec::new(),
-        parameters: FiledParameters::Elastic(Box::new(parameters)),
-    }
+    springs.collect()
 }
 
 fn taken(parameters: &ElasticParameters) -> Taken {

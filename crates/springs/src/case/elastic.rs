@@ -19,13 +19,18 @@
 //! [tuning]
 //! accuracy = 0.002           # of rotations against the reference's, NRMSE
 //! # peaks = 0.02             # instead: of the largest displacement, drift, uplift and forces of columns
+//!
+//! [program]                  # as for a rigid body
 //! ```
 
 use std::path::Path;
 
 use serde::Deserialize;
 
-use super::{Asked, CaseError, RecordSection, check_stiffness, error::case_error, missing, yardstick};
+use super::{
+    Asked, CaseError, RecordSection, check_stiffness, error::case_error, missing, program::ProgramSection, yardstick,
+};
+use fixed_steps::FixedStepProgram;
 use frames::structure::ElasticStructure;
 use rocking::members::{Damper, Members, Tendon};
 use strong_motion::{Notice, ReadOptions, Recording, excitation::Excitation};
@@ -49,6 +54,8 @@ pub struct ElasticCase {
     pub asked: Asked,
     /// Stiffest springs allowed, Omega_n/2 pi of all mass (Hz); none unless given.
     pub max_omega_hz: Option<f64>,
+    /// A program with fixed time steps that springs are asked for besides.
+    pub program: Option<FixedStepProgram>,
 }
 
 #[derive(Deserialize)]
@@ -63,6 +70,7 @@ struct ElasticFile {
     record: RecordSection,
     #[serde(default)]
     tuning: ElasticTuning,
+    program: Option<ProgramSection>,
 }
 
 #[derive(Deserialize)]
@@ -122,7 +130,9 @@ impl ElasticCase {
             notices = recording.notices();
             Ok(recording.into_record())
         })?;
-        Ok(Self { structure, members, excitation, notices, asked: Asked::new(accuracy, peaks), max_omega_hz })
+        let program = ProgramSection::of_case(file.program.as_ref(), path)?;
+        let asked = Asked::new(accuracy, peaks);
+        Ok(Self { structure, members, excitation, notices, asked, max_omega_hz, program })
     }
 }
 

@@ -32,6 +32,8 @@ pub enum CaseError {
     Members { path: String, source: MembersError },
     #[error("{path}: {key} is {value}; {remedy}")]
     Value { path: String, key: &'static str, value: String, remedy: &'static str },
+    #[error("{path}: program.{key} is {value}; {remedy}")]
+    Program { path: String, key: &'static str, value: String, remedy: String },
     #[error("{path}: {sections}: add what is missing; `tune init{shape}` writes a case with every key explained")]
     Missing { path: String, sections: String, shape: &'static str },
     #[error(

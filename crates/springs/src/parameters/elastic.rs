@@ -5,6 +5,7 @@ use std::path::Path;
 
 use serde::{Deserialize, Serialize};
 
+use super::program::{CornerUnits, ProgramRow};
 use super::{ParametersError, RecordRow, RememberedError, SCHEMA};
 use crate::{
     case::Yardstick,
@@ -69,6 +70,13 @@ pub struct CornerRow {
     pub vertical: UnitRow,
     /// Lying.
     pub horizontal: UnitRow,
+}
+
+impl CornerRow {
+    /// The units with their numbers.
+    pub(crate) fn chains(&self) -> Springs<Chain<f64>> {
+        Springs { vertical: self.vertical.chain(), horizontal: self.horizontal.chain() }
+    }
 }
 
 /// What was measured of the springs without the record.
@@ -148,6 +156,9 @@ pub struct ElasticParameters {
     pub omega_n_hz: f64,
     /// Under every corner, from the left.
     pub springs: Vec<CornerRow>,
+    /// Springs for a program with fixed time steps, in place of these.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub program: Option<ProgramRow<CornerUnits>>,
     /// What was measured without the record.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub assessment: Option<ElasticAssessment>,
@@ -182,6 +193,7 @@ impl ElasticParameters {
             record: None,
             omega_n_hz,
             springs,
+            program: None,
             assessment: None,
             on_record: None,
             peaks: None,
@@ -267,10 +279,7 @@ impl ElasticParameters {
 
     /// Under every corner.
     pub fn chains(&self) -> Vec<Springs<Chain<f64>>> {
-        self.springs
-            .iter()
-            .map(|row| Springs { vertical: row.vertical.chain(), horizontal: row.horizontal.chain() })
-            .collect()
+        self.springs.iter().map(CornerRow::chains).collect()
     }
 
     /// The ground motion again; `path` is that of the file.
@@ -350,7 +359,7 @@ mod tests {
         let text = parameters().to_json();
         for (from, to, said) in [
             ("\"k1_n_per_m\": 10000000000.0", "\"k1_n_per_m\": 0.0", "row 1"),
-            ("\"schema\": 3", "\"schema\": 9", "schema is 9"),
+            ("\"schema\": 4", "\"schema\": 9", "schema is 9"),
             ("\"x_m\"", "\"y_m\"", "y_m"),
             ("\"height_m\": 12.0", "\"height_m\": -12.0", "height_m"),
         ] {

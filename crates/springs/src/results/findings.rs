@@ -163,6 +163,31 @@ pub enum Finding {
         finished: usize,
         all: usize,
     },
+    // springs for a program with fixed time steps
+    /// p dt is beyond what anything is known of.
+    ProgramStepTooLong {
+        step_s: f64,
+        longest_s: f64,
+        asked: bool,
+    },
+    /// Histories that the program does not get through.
+    ProgramLoses {
+        program: String,
+        step_s: f64,
+        lost: usize,
+        histories: usize,
+        asked: bool,
+    },
+    /// The error asked for takes shorter steps, whatever the springs.
+    ProgramStepForAccuracy {
+        step_s: f64,
+        needed_s: f64,
+        accuracy: f64,
+    },
+    /// There are none: of a restitution other than equation 2's.
+    ProgramRestitution {
+        asked: bool,
+    },
     ForceWithheld {
         force: ForceName,
         change: Option<f64>,
@@ -344,6 +369,10 @@ impl Finding {
             | Self::PeaksMissed { .. }
             | Self::HistoryEndsEarly { .. } => Weight::Fault,
             Self::ForetoldUpTo { later_forces, .. } if later_forces.is_empty() => Weight::Note,
+            Self::ProgramStepTooLong { asked: false, .. }
+            | Self::ProgramLoses { asked: false, .. }
+            | Self::ProgramRestitution { asked: false }
+            | Self::ProgramStepForAccuracy { .. } => Weight::Note,
             Self::NearMotions { .. } | Self::MembersBeside | Self::DeckJudged { .. } | Self::WithoutVertical { .. } => {
                 Weight::Note
             }

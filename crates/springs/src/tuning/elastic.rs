@@ -14,6 +14,7 @@
 //! motion, on springs at 4 Omega_n.
 
 pub mod design;
+pub mod program;
 pub mod suite;
 pub mod trial;
 
@@ -23,6 +24,7 @@ use thiserror::Error;
 
 use self::{
     design::{CornerSprings, omega_n_hz, springs},
+    program::ElasticProgramSprings,
     suite::{ElasticSuite, Measured},
     trial::ElasticTrial,
 };
@@ -35,6 +37,7 @@ use dynamics::{
     effort::{CutBy, Effort},
     fem::Control,
 };
+use fixed_steps::FixedStepProgram;
 use frames::{
     answer::Reference, assembled::Assembled, fem::default_control, standing::Standing, structure::ElasticStructure,
 };
@@ -93,6 +96,8 @@ pub struct ElasticTuned {
     pub unfinished: usize,
     /// Releases and motions left out since their reference met the bound on its work.
     pub out_of_work: usize,
+    /// Springs for a program with fixed time steps.
+    pub program: Option<ElasticProgramSprings>,
 }
 
 impl ElasticTuned {
@@ -113,30 +118,27 @@ impl ElasticTuned {
     }
 }
 
-/// Springs under every corner of a structure, its members at work, as stiff as what is `asked` for
-/// (NRMSE of rotations, or an error of peaks) needs, at most `most_hz` (Omega_n/2 pi, Hz);
-/// `progress` is told the rungs judged and the least error so far.
+/// What is asked of springs.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct ElasticAsked {
+    /// NRMSE of rotations, or an error of peaks.
+    pub error: Asked,
+    /// Stiffest allowed, Omega_n/2 pi (Hz).
+    pub most_hz: Option<f64>,
+    /// The program with fixed time steps that springs are made for besides.
+    pub program: FixedStepProgram,
+}
+
+/// Springs under every corner of a structure, its members at work, as stiff as what is asked for
+/// needs, within an effort; what that cuts is told, with the best springs so far. `progress` is
+/// told the rungs judged and the least error so far.
 ///
 /// # Errors
 /// A structure that does not stand; an accuracy that is none; springs allowed that are too soft for
 /// any.
-pub fn tune(
-    model: &Assembled,
-    asked: Asked,
-    most_hz: Option<f64>,
-    record: Option<(&Record, Reference)>,
-    progress: &dyn Fn(usize, f64),
-) -> Result<ElasticTuned, ElasticTuneError> {
-    tune_within(model, (asked, most_hz), record, &Effort::of(MOST_WORK, Default::default()), progress)
-}
-
-/// The same within an effort; what that cuts is told, with the best springs so far.
-///
-/// # Errors
-/// As above.
 pub fn tune_within(
     model: &Assembled,
-    (asked, most_hz): (Asked, Option<f64>),
+    ElasticAsked { error: asked, most_hz, program }: ElasticAsked,
     record: Option<(&Record, Reference)>,
     effort: &Effort,
     progress: &dyn Fn(usize, f64),
@@ -152,6 +154,7 @@ pub fn tune_within(
     let (record, reference) = record.unzip();
     let suite = ElasticSuite::within(model.clone(), record.zip(reference.as_ref()), effort).by(asked.by);
     let out_of_work = suite.out_of_work;
+    let program = ElasticProgramSprings::measured(&suite, program, &model.structure.body(), effort);
     let of = |i: i64, share: f64| springs(&standing, give(i), landing, share);
     let measure = |springs: &CornerSprings| suite.measure_within(springs, (Control::search(), effort));
     let chosen = rungs.search(asked, of, &measure, effort, progress);
@@ -201,6 +204,7 @@ pub fn tune_within(
         not_done,
         unfinished,
         out_of_work,
+        program,
     })
 }
 

@@ -1,27 +1,28 @@
 //! A whole case: the inner design by the case's objective, Omega_n by the accuracy asked for, and
 //! the paper's procedure at the same Omega_n beside it.
 
+mod error;
 mod procedure;
 
 use dynamics::compare::LEAST_LEAN;
 use std::{cmp::Ordering, f64::consts::TAU};
 
-use thiserror::Error;
-
 use super::{
     capped_springs,
+    fixed_steps::ProgramSprings,
     landing::{
         design::{Geometry, springs_at_stiffness},
         weight,
     },
     landing_simulation,
     paper_procedure::{
-        inner::{Fit, FitError},
+        inner::Fit,
         outer::{self, Benchmark, Bracket},
     },
     stiffness_search::{self, Rung, Tuned},
     suite::Suites,
 };
+pub use error::JobError;
 use procedure::Procedure;
 
 use crate::{
@@ -52,30 +53,6 @@ const BOUNCING_HZ: f64 = 160.0;
 /// motions decide.
 const ALIKE: f64 = 1.25;
 
-/// Why there are no springs.
-#[derive(Debug, Error)]
-#[allow(missing_docs)] // messages say what variants and their fields are
-pub enum JobError {
-    #[error(transparent)]
-    Fit(#[from] FitError),
-    #[error(
-        "{record}: PGA {pga_g:.4} g never lifts the structure (it takes {limit_g:.4} g), and the paper's procedure tunes on a record; raise --scale, give another record, or leave objective = \"arr\" out"
-    )]
-    NeverLifts { record: String, pga_g: f64, limit_g: f64 },
-    #[error("{record} holds {samples} sample; a history needs at least two: give another record, or raise --duration")]
-    TooShort { record: String, samples: usize },
-    #[error(
-        "tuning.max_settlement_m is {asked_m:?}, but on springs of {max_hz} Hz the body settles by {least_m:.3e} m at least; allow that, or raise --max-hz"
-    )]
-    Settlement { asked_m: f64, max_hz: f64, least_m: f64 },
-    #[error(
-        "{record}: {steps} steps at least, one to a sample of moving ground, are out of reach: a history may take {most}; shorten it (--duration), or give a record with fewer samples"
-    )]
-    OutOfReach { record: String, steps: usize, most: usize },
-    #[error("no candidate followed the record to its end; raise --max-hz or shorten --duration")]
-    NoCandidate,
-}
-
 /// What the paper's procedure gives: families of the inner fit, and the outer loop over Omega_n on
 /// the record.
 #[derive(Debug)]
@@ -103,6 +80,9 @@ pub struct Job {
     /// None where the record cannot be tuned on: it does not lift the structure, or Housner's
     /// answer is ill-conditioned.
     pub paper: Option<Paper>,
+    /// Springs for a program with fixed time steps; none for a restitution that such springs have
+    /// not.
+    pub program: Option<ProgramSprings>,
     /// What cut the job, if anything was left out of it, and what that is.
     pub cut: Option<CutBy>,
     pub not_done: Vec<NotDone>,
@@ -184,8 +164,24 @@ impl Job {
         };
         let paper = paper.map(|tuned| Paper { vertical: procedure.vertical, horizontal: procedure.horizontal, tuned });
         let springs = tuned.best.springs;
+        let program = ProgramSprings::of_case(case, &body, &suites, effort);
         let (cut, unfinished) = (effort.cut(), effort.unfinished());
-        Ok(Self { body, record, rocking, housner, springs, tuned, suites, capped, paper, cut, not_done, unfinished })
+        let found = Self {
+            body,
+            record,
+            rocking,
+            housner,
+            springs,
+            tuned,
+            suites,
+            capped,
+            paper,
+            program,
+            cut,
+            not_done,
+            unfinished,
+        };
+        Ok(found)
     }
 }
 

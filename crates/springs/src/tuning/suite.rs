@@ -243,6 +243,16 @@ impl Suites {
         }
     }
 
+    /// Sampling intervals (s) and ground accelerations (m/s2) of the motions of a suite.
+    pub(crate) fn motions(&self, on: JudgedOn) -> impl Iterator<Item = (f64, &[f64])> {
+        let trials = match on {
+            JudgedOn::Record => self.record.as_slice(),
+            JudgedOn::Synthetic => &self.synthetic,
+            JudgedOn::Earthquakes => &self.earthquakes,
+        };
+        trials.iter().map(|trial| (trial.dt, trial.accel.as_slice()))
+    }
+
     /// Whether the record is one of the motions judged on.
     pub fn has_record(&self) -> bool {
         self.record.is_some()

@@ -42,6 +42,12 @@ impl Finding {
             Self::RestitutionMissed { .. } | Self::RestitutionOutOfReach { .. } => {
                 "ask for a restitution nearer to equation 2's"
             }
+            Self::ProgramStepTooLong { longest_s, .. } => {
+                return Some(format!("give --step {longest_s:.1e} or less"));
+            }
+            Self::ProgramLoses { .. } => "check that its history ends; else a shorter --step, or --integrator trbdf2",
+            Self::ProgramStepForAccuracy { .. } => "take such steps, or substeps at touches: tune export --stepping",
+            Self::ProgramRestitution { .. } => "leave the restitution out, or follow touches: OpenSees' deck",
             Self::LandingsUnfinished { .. } => "allow other springs: --max-hz, --accuracy",
             Self::ForceWithheld { .. } => "take it from a model of your own, or refine: elements, --accuracy",
             Self::SearchCut { by: CutBy::Work, .. } => "allow more: --work 10; or ask for less: --accuracy, --max-hz",

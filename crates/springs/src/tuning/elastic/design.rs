@@ -155,7 +155,11 @@ pub(crate) fn omega_n_hz(standing: &Standing, give: f64) -> f64 {
 
 /// The same at any K.
 pub fn with_k(standing: &Standing, give: f64, k: f64) -> CornerSprings {
-    let (asked, k1) = (give, k1(standing, give));
+    with_vertical(standing, k1(standing, give), k)
+}
+
+/// Springs of this k1 of the vertical units (N/m), at K.
+pub(super) fn with_vertical(standing: &Standing, k1: f64, k: f64) -> CornerSprings {
     let mut of_footing: Vec<Springs<Chain<f64>>> = Vec::new();
     for (i, footing) in standing.footings.iter().enumerate() {
         // a search each: footings that are alike share one
@@ -166,7 +170,8 @@ pub fn with_k(standing: &Standing, give: f64, k: f64) -> CornerSprings {
     let footing = |corner: usize| standing.footings.iter().position(|f| f.corners.contains(&corner)).unwrap_or(0);
     let corners: Vec<_> = (0..count).map(|corner| of_footing[footing(corner)]).collect();
     let give = standing.responses.iter().map(|sway| total_give(sway, &corners)).sum();
-    CornerSprings { corners, k, give, omega_n_hz: omega_n_hz(standing, asked) }
+    let omega_n_hz = (k1 / standing.mass).sqrt() / TAU;
+    CornerSprings { corners, k, give, omega_n_hz }
 }
 
 /// Whether two footings land alike, to rounding.

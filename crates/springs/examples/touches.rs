@@ -2,13 +2,14 @@
 //! what they cost in steps.
 //!
 //! ```sh
-//! cargo run --release -p fixed-steps --example touches -- [MOTIONS] [SEED]
+//! cargo run --release -p springs --example touches -- [MOTIONS] [SEED]
 //! ```
 
 use std::env;
 
 use fixed_steps::{FixedStepDesign, FixedStepSprings, Integrator, measured::WellConditioned};
 use rocking::structure::Structure;
+use springs::tuning::fixed_steps::design;
 
 const STEP: f64 = 1e-3;
 
@@ -27,8 +28,9 @@ fn main() -> Result<(), Box<dyn std::error::Error>> {
             let body = FixedStepSprings::of(&structure.body(), STEP, integrator)?.body;
             let motions = WellConditioned::of_seed(&body, seed, count, 8 * count);
             let even: f64 = motions.motions.iter().map(|m| (m.accel.len() - 1) as f64 * m.dt / STEP).sum();
-            for (which, design) in [("recipe", FixedStepDesign::RECIPE), ("resolved", FixedStepDesign::RESOLVED)] {
+            for (which, given) in [("recipe", Some(FixedStepDesign::RECIPE)), ("own", None)] {
                 for substeps in [10, 20] {
+                    let design = given.unwrap_or_else(|| design(&body, STEP / substeps as f64));
                     let springs = FixedStepSprings::refined(&body, STEP, integrator, &design, substeps)?;
                     let settings = springs.settings().with_substeps(1.0 / (8.0 * substeps as f64));
                     let errors = motions.errors(&springs.chains(), settings);

@@ -1,16 +1,17 @@
-//! The error of the springs in closed form, and of those that suit the integrator, over p dt,
-//! measured on motions made for a body: median, 90 % quantile, histories that the program gave up,
+//! The error of the recipe of `fixed_steps::recipe` and of the springs of `tuning::fixed_steps`, over
+//! p dt, measured on motions made for a body: median, 90 % quantile, histories that the program gave up,
 //! for three bodies, four integrators, three steps; the same with substeps down to a sixteenth of a
 //! step.
 //!
 //! ```sh
-//! cargo run --release -p fixed-steps --example medians -- [MOTIONS] [SEED]
+//! cargo run --release -p springs --example fixed_step_medians -- [MOTIONS] [SEED]
 //! ```
 
 use std::env;
 
 use fixed_steps::{FixedStepDesign, FixedStepSprings, Integrator, measured::WellConditioned};
 use rocking::structure::{Structure, StructureError};
+use springs::tuning::fixed_steps::design;
 
 /// Motions of a suite that are looked at for one that is well-conditioned.
 const LOOKED_AT: usize = 8;
@@ -41,8 +42,8 @@ fn main() -> Result<(), Box<dyn std::error::Error>> {
             let motions = WellConditioned::of_seed(&body, seed, count, LOOKED_AT * count);
             for step in [1e-2, 1e-3, 2.5e-4] {
                 let unit = body.p_squared().sqrt() * step;
-                let designs = [FixedStepDesign::RECIPE, FixedStepDesign::suited(&body, step, integrator)?];
-                for (which, design) in ["recipe", "suited"].into_iter().zip(designs) {
+                let designs = [FixedStepDesign::RECIPE, design(&body, step)];
+                for (which, design) in ["recipe", "own"].into_iter().zip(designs) {
                     let springs = FixedStepSprings::designed(&body, step, integrator, &design)?;
                     println!("| {name} | {step} | {unit:.5} | {stepped} | {which} | {}", row(&motions, &springs));
                 }

@@ -1,0 +1,243 @@
+//! Decks for programs with steps of one size: their springs, their settings, and what the emulation
+//! of such a program finds of them.
+
+use std::ops::ControlFlow;
+
+use fixed_steps::{
+    FixedStepAnalysis, FixedStepBody, FixedStepFrame, FixedStepHistory, FixedStepSprings, Integrator, StepSettings,
+    iteration::{ConvergenceTest, Iteration},
+    recipe::TOLERANCE,
+};
+use frames::{
+    Mechanics,
+    frame::{EquilibriumError, Frame},
+};
+use nalgebra::DVector;
+use rocking::scalar::GRAVITY;
+use springs::{
+    parameters::{
+        Parameters,
+        program::{CornerUnits, ProgramRow, ProgramTest},
+    },
+    tuning::fixed_steps::design,
+};
+use strong_motion::Record;
+
+use crate::{DeckFormat, Expected, ExportError, export_model, model::DeckModel};
+
+/// How a deck steps.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub enum Stepping {
+    /// Shortened towards touches and lifts, whatever the springs.
+    #[default]
+    Events,
+    /// All alike, on the springs for such a program.
+    Even,
+    /// Alike but for substeps at touches, on springs for these.
+    Touches,
+}
+
+impl Stepping {
+    const ALL: [(&'static str, Self); 3] = [("events", Self::Events), ("even", Self::Even), ("touches", Self::Touches)];
+}
+
+impl std::str::FromStr for Stepping {
+    type Err = ExportError;
+
+    fn from_str(name: &str) -> Result<Self, ExportError> {
+        let found = Self::ALL.into_iter().find(|(known, _)| *known == name);
+        found.map(|(_, stepping)| stepping).ok_or_else(|| ExportError::Stepping { name: crate::printable(name) })
+    }
+}
+
+/// Substeps of a step at touches: with 20 the floor of a step of 1 ms is that of 50 us.
+const AT_TOUCHES: usize = 20;
+
+/// Settings of steps of one size.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(crate) struct EvenSteps {
+    /// (s)
+    pub step: f64,
+    pub integrator: Integrator,
+    /// A step that fails is halved, down to one in so many.
+    pub substeps: usize,
+    /// Substeps of a step at touches; 1: none.
+    pub touches: usize,
+    /// Newton's iterations at most.
+    pub newton: usize,
+    /// Unbalance over weight below which they have arrived, where the program tests that.
+    pub unbalance: Option<f64>,
+}
+
+impl EvenSteps {
+    pub(crate) fn new<U>(row: &ProgramRow<U>, touches: usize) -> Result<Self, ExportError> {
+        let unknown = |_| ExportError::Integrator { name: crate::printable(&row.integrator), program: "any program" };
+        let unbalance = match row.converged {
+            ProgramTest::UnbalanceOverWeight(most) => Some(most),
+            ProgramTest::IncrementM(_) => None,
+        };
+        Ok(Self {
+            step: row.step_s,
+            integrator: row.integrator.parse().map_err(unknown)?,
+            substeps: row.substeps,
+            touches,
+            newton: row.newton_iterations,
+            unbalance,
+        })
+    }
+
+    /// Newton's displacement tolerance (m).
+    pub(crate) fn tolerance(&self) -> f64 {
+        TOLERANCE * GRAVITY * (self.step / self.touches as f64).powi(2)
+    }
+
+    /// As the emulation steps.
+    fn settings(&self, weight: f64) -> StepSettings {
+        let test = match self.unbalance {
+            Some(most) => ConvergenceTest::Unbalance(most * weight),
+            None => ConvergenceTest::Increment(self.tolerance()),
+        };
+        let iteration = Iteration { constant: 0, newton: self.newton, test };
+        let settings = StepSettings { iteration, ..StepSettings::new(self.integrator, self.step) };
+        settings.with_touches(self.touches).with_substeps(1.0 / (self.substeps * self.touches) as f64)
+    }
+
+    /// Where in a step forces are taken: 1 + alpha of HHT, else its end.
+    pub(crate) fn forces_at(&self) -> f64 {
+        match self.integrator {
+            Integrator::Hht { alpha } => 1.0 + alpha,
+            _ => 1.0,
+        }
+    }
+
+    /// Nothing if SAP2000's tables have the integrator.
+    pub(crate) fn in_tables(&self) -> Result<(), ExportError> {
+        match self.integrator {
+            Integrator::Newmark { .. } | Integrator::Hht { .. } => Ok(()),
+            other => Err(ExportError::Integrator { name: other.to_string(), program: "SAP2000" }),
+        }
+    }
+
+    /// OpenSees' arguments of the integrator.
+    pub(crate) fn in_opensees(&self) -> Result<Vec<String>, ExportError> {
+        let number = |x: f64| format!("{x:?}");
+        Ok(match self.integrator {
+            Integrator::Newmark { gamma, beta } => vec!["Newmark".into(), number(gamma), number(beta)],
+            Integrator::Hht { alpha } => vec!["HHT".into(), number(1.0 + alpha)],
+            Integrator::Trbdf2 => vec!["TRBDF2".into()],
+            Integrator::BackwardEuler => vec!["BackwardEuler".into()],
+            Integrator::GeneralizedAlpha { .. } => {
+                return Err(ExportError::Integrator { name: self.integrator.to_string(), program: "OpenSees" });
+            }
+        })
+    }
+}
+
+/// The model for a program with steps of one size, or with substeps at touches: its springs and
+/// settings, and what the emulation finds on a record.
+pub(crate) struct Stepped {
+    pub parameters: Parameters,
+    pub steps: EvenSteps,
+}
+
+impl Stepped {
+    pub(crate) fn new(parameters: &Parameters, stepping: Stepping) -> Result<Self, ExportError> {
+        let (Some(row), Some(program)) = (&parameters.program, parameters.in_program()) else {
+            return Err(ExportError::NoProgram);
+        };
+        let touches = if stepping == Stepping::Touches { AT_TOUCHES } else { 1 };
+        let mut steps = EvenSteps::new(row, touches)?;
+        if touches == 1 {
+            return Ok(Self { parameters: program, steps });
+        }
+        steps.unbalance = None;
+        let (body, substep) = (program.structure.body(), steps.step / touches as f64);
+        let design = design(&body, substep);
+        let springs = FixedStepSprings::refined(&body, steps.step, steps.integrator, &design, touches)
+            .map_err(|e| ExportError::Steps { message: e.to_string() })?;
+        let Parameters { structure, .. } = program;
+        let refined = Parameters::new(structure, &springs.units);
+        let (vertical, horizontal) = (refined.vertical, refined.horizontal);
+        Ok(Self { parameters: Parameters { vertical, horizontal, ..program }, steps })
+    }
+
+    /// The emulation's history on a record.
+    pub(crate) fn history(&self, record: &Record) -> FixedStepHistory {
+        let body = self.parameters.structure.body();
+        let model = FixedStepBody::new(&body, &self.parameters.chains());
+        let settings = self.steps.settings(body.mass * GRAVITY);
+        let analysis = FixedStepAnalysis::new(&model, settings, record.dt, &record.accel);
+        FixedStepAnalysis { vertical: record.up(), ..analysis }.history()
+    }
+
+    fn expected(&self, record: &Record) -> Expected {
+        let motion = self.history(record).motion;
+        let body = self.parameters.structure.body::<f64>();
+        let chains = self.parameters.chains();
+        let settled = -0.5 * body.mass * GRAVITY / chains.vertical.in_series();
+        Expected::of_motion(&motion, motion.len(), settled, 0.0)
+    }
+}
+
+/// The text of a deck for a program with steps of one size.
+///
+/// # Errors
+/// Parameters without springs for such a program; members; an integrator that the program has not;
+/// as [`crate::deck`].
+pub fn stepped_deck(
+    parameters: &Parameters,
+    record: &Record,
+    format: DeckFormat,
+    stepping: Stepping,
+) -> Result<String, ExportError> {
+    if stepping == Stepping::Events {
+        return crate::deck(parameters, record, format);
+    }
+    let members = parameters.members();
+    for (name, there) in [
+        ("friction", members.friction.is_some()),
+        ("damper", members.damper.is_some()),
+        ("tendon", members.tendon.is_some()),
+    ] {
+        if there {
+            return Err(ExportError::MemberOfSteps { name });
+        }
+    }
+    if stepping == Stepping::Touches && format == DeckFormat::Sap2000 {
+        return Err(ExportError::TouchesInTables);
+    }
+    let stepped = Stepped::new(parameters, stepping)?;
+    if format == DeckFormat::Sap2000 {
+        stepped.steps.in_tables()?;
+    }
+    let model = DeckModel::new(&stepped.parameters, record, &stepped.expected(record))?;
+    export_model(&DeckModel { even: Some(stepped.steps), ..model }, format)
+}
+
+/// An elastic structure on its springs for a program with steps of one size, emulated through a
+/// record: its coordinates at every sample, as far as the program gets.
+///
+/// # Errors
+/// An integrator that is not known; as many units as corners are needed.
+pub fn corner_history(
+    frame: &Frame,
+    row: &ProgramRow<CornerUnits>,
+    record: &Record,
+) -> Result<Vec<Vec<f64>>, ExportError> {
+    let failed = |e: EquilibriumError| ExportError::Steps { message: e.to_string() };
+    let springs = row.units.chains();
+    let still = DVector::zeros(frame.size());
+    let weight = frame.whole_mass(&still) * GRAVITY;
+    let model = FixedStepFrame::new(frame, &springs).map_err(failed)?;
+    let settings = EvenSteps::new(row, 1)?.settings(weight);
+    let analysis = FixedStepAnalysis::new(&model, settings, record.dt, &record.accel);
+    let (analysis, size) = (FixedStepAnalysis { vertical: record.up(), ..analysis }, frame.size());
+    let mut all = Vec::with_capacity(record.len());
+    analysis
+        .follow(|_, q| {
+            all.push(q[..size].to_vec());
+            ControlFlow::Continue(())
+        })
+        .map_err(failed)?;
+    Ok(all)
+}

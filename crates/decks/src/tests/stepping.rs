@@ -1,0 +1,83 @@
+//! Decks for programs with steps of one size.
+
+use super::*;
+use dynamics::effort::Effort;
+use fixed_steps::{FixedStepProgram, ProgramName};
+use springs::{
+    parameters::program::ProgramRow,
+    tuning::{fixed_steps::ProgramSprings, suite::Suites},
+};
+
+/// A block with springs for a program.
+fn for_program(name: ProgramName, step: f64) -> Parameters {
+    let body = Structure::block(2.0, 0.5, 500.0).unwrap();
+    let suites = Suites::of_seed(3, &body.body(), body.body::<f64>().restitution(), None);
+    let program = FixedStepProgram::of(name, step);
+    let found = ProgramSprings::measured(&body.body(), program, &suites, false, &Effort::unbounded()).unwrap();
+    Parameters { program: Some(ProgramRow::from(&found)), ..Parameters::new(body, &springs(4000.0)) }
+}
+
+fn text(parameters: &Parameters, format: DeckFormat, stepping: Stepping) -> String {
+    stepped_deck(parameters, &Record::el_centro().truncated(8.0), format, stepping).unwrap()
+}
+
+#[test]
+fn decks_of_even_steps_hold_the_programs_springs_and_settings() {
+    let parameters = for_program(ProgramName::OpenSees, 0.002);
+    let row = parameters.program.clone().unwrap();
+    for (format, integrator, step) in [
+        (DeckFormat::OpenSeesPy, "analysis(\"TRBDF2\")", "STEP = 2.0"),
+        (DeckFormat::OpenSeesTcl, "solver {TRBDF2} Transient", "set step 2.0"),
+    ] {
+        let even = text(&parameters, format, Stepping::Even);
+        let found = numbers_in(&even);
+        for unit in [row.units.vertical, row.units.horizontal] {
+            for number in [unit.k1_n_per_m, unit.k2_n_per_m, unit.m2_kg, unit.c_ns_per_m] {
+                assert!(found.contains(&number), "{format:?}: {number} is missing");
+            }
+        }
+        assert!(even.contains(integrator) && even.contains(step) && !even.contains('@'), "{format:?}");
+        assert!(!found.contains(&parameters.vertical.k1_n_per_m), "{format:?}: springs of the other steps");
+        // stiffer springs where steps are divided at touches
+        let touches = text(&parameters, format, Stepping::Touches);
+        assert!(!numbers_in(&touches).contains(&row.units.vertical.k1_n_per_m) && !touches.contains('@'));
+        // steps that follow touches are those of `deck`
+        let record = Record::el_centro().truncated(8.0);
+        let events = stepped_deck(&parameters, &record, format, Stepping::Events).unwrap();
+        assert_eq!(events, super::super::deck(&parameters, &record, format).unwrap());
+    }
+}
+
+#[test]
+fn sap2000_tables_have_the_load_case_of_the_program() {
+    let parameters = for_program(ProgramName::Sap2000, 0.001);
+    let tables = text(&parameters, DeckFormat::Sap2000, Stepping::Even);
+    let row = tables.lines().find(|line| line.contains("MaxIterCS")).unwrap();
+    for setting in ["DTMax=1.0000000000000000e-3", "DTMin=6.25", "MaxIterCS=0", "MaxIterNR=40", "UseEvStep=No"] {
+        assert!(row.contains(setting), "{setting}: {row}");
+    }
+    assert!(tables.contains("StepSize=1.0000000000000000e-2") && tables.contains("OutSteps=800"));
+    assert!(numbers_in(&tables).iter().any(|x| {
+        let k1 = parameters.program.as_ref().unwrap().units.vertical.k1_n_per_m;
+        (x / (k1 * 1e-3) - 1.0).abs() < 1e-14
+    }));
+}
+
+#[test]
+fn what_has_no_springs_or_no_integrator_for_a_program_is_refused() {
+    let record = Record::el_centro().truncated(1.0);
+    let refused = |parameters: &Parameters, format, stepping| {
+        stepped_deck(parameters, &record, format, stepping).unwrap_err().to_string()
+    };
+    let even = for_program(ProgramName::OpenSees, 0.002);
+    assert!(refused(&super::parameters(), DeckFormat::OpenSeesPy, Stepping::Even).contains("--for sap2000"));
+    assert!(refused(&even, DeckFormat::Sap2000, Stepping::Even).contains("trbdf2 is not written for SAP2000"));
+    assert!(refused(&even, DeckFormat::Sap2000, Stepping::Touches).contains("no loop"));
+    let mut damped = even.clone();
+    damped.damper = Some(rocking::members::Damper { c: 1e3 });
+    assert!(refused(&damped, DeckFormat::OpenSeesPy, Stepping::Even).contains("not made for a damper"));
+    let mut alpha = even;
+    alpha.program.as_mut().unwrap().integrator = "generalized-alpha:0".into();
+    assert!(refused(&alpha, DeckFormat::OpenSeesPy, Stepping::Even).contains("generalized-alpha:0 is not written"));
+    assert!("sometimes".parse::<Stepping>().unwrap_err().to_string().contains("give events, even or touches"));
+}

@@ -1,0 +1,181 @@
+//! Programs with one size of step, as users name them, and what they are set to.
+//!
+//! | program | integrator | iterations at a step's end | test | substeps |
+//! |---|---|---|---|---|
+//! | SAP2000, ETABS | Hilber-Hughes-Taylor, alpha = -1/3 | Newton's, 40 at most; none with constant stiffness | unbalance over weight | down to 1/16 |
+//! | OpenSees | TRBDF2 | Newton's, 30 at most | change of place | down to 1/16 |
+//!
+//! CSI's help ("Time Integration Parameters Form") proposes its Hilber-Hughes-Taylor method with
+//! alpha from 0 to -1/3; -1/3 damps stiff modes most, and without damping them an A-frame on ground
+//! springs never gets through (`.ci/fixed_steps.py`). Iterations with constant stiffness settle on contacts
+//! that are wrong and leave Newton's none to begin from, so that none are to be taken. Neither
+//! program was run: this is what the emulation finds of their settings.
+
+use std::{fmt, str::FromStr};
+
+use thiserror::Error;
+
+use crate::{
+    analysis::StepSettings,
+    integrator::Integrator,
+    iteration::{ConvergenceTest, Iteration},
+    recipe::{NEWTON, TOLERANCE},
+};
+use rocking::scalar::GRAVITY;
+
+/// A program that takes steps of one size.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum ProgramName {
+    /// CSI's SAP2000.
+    Sap2000,
+    /// CSI's ETABS.
+    Etabs,
+    /// OpenSees, in a script with steps of one size.
+    OpenSees,
+}
+
+/// A name that is no program's.
+#[derive(Clone, Debug, PartialEq, Error)]
+#[error("program {name:?}: give sap2000, etabs or opensees-even")]
+pub struct ProgramNameError {
+    /// As given.
+    pub name: String,
+}
+
+impl ProgramName {
+    /// Every program.
+    pub const ALL: [Self; 3] = [Self::Sap2000, Self::Etabs, Self::OpenSees];
+
+    /// As users name it.
+    pub fn key(self) -> &'static str {
+        match self {
+            Self::Sap2000 => "sap2000",
+            Self::Etabs => "etabs",
+            Self::OpenSees => "opensees-even",
+        }
+    }
+
+    /// In words.
+    pub fn words(self) -> &'static str {
+        match self {
+            Self::Sap2000 => "SAP2000",
+            Self::Etabs => "ETABS",
+            Self::OpenSees => "OpenSees with even steps",
+        }
+    }
+
+    /// The integrator that it is to be set to, unless told otherwise.
+    pub fn integrator(self) -> Integrator {
+        match self {
+            Self::Sap2000 | Self::Etabs => Integrator::HHT_MOST,
+            Self::OpenSees => Integrator::Trbdf2,
+        }
+    }
+}
+
+impl fmt::Display for ProgramName {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.write_str(self.key())
+    }
+}
+
+impl FromStr for ProgramName {
+    type Err = ProgramNameError;
+
+    fn from_str(name: &str) -> Result<Self, ProgramNameError> {
+        let lower = name.to_ascii_lowercase();
+        Self::ALL.into_iter().find(|p| p.key() == lower).ok_or_else(|| ProgramNameError { name: name.into() })
+    }
+}
+
+/// A program with fixed time steps.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct FixedStepProgram {
+    /// Which, if it is one of those that are known.
+    pub name: Option<ProgramName>,
+    /// Its integrator.
+    pub integrator: Integrator,
+    /// Its step (s).
+    pub step: f64,
+    /// A step that fails is halved, down to one in so many: 1, 2, 4, ...
+    pub substeps: usize,
+}
+
+/// Substeps of a step unless told otherwise.
+pub const SUBSTEPS: usize = 16;
+/// The step of a program that nobody has told (s).
+pub const USUAL_STEP: f64 = 1e-3;
+/// Newton's iterations of a step at most, as a public generator of SAP2000's tables has them.
+const CSI_NEWTON: usize = 40;
+
+impl FixedStepProgram {
+    /// A program that is known, at this step (s).
+    pub fn of(name: ProgramName, step: f64) -> Self {
+        Self { name: Some(name), integrator: name.integrator(), step, substeps: SUBSTEPS }
+    }
+
+    /// What a run has springs for if nobody says otherwise: SAP2000 at a millisecond.
+    pub fn usual() -> Self {
+        Self::of(ProgramName::Sap2000, USUAL_STEP)
+    }
+
+    /// Whether its test of convergence is an unbalance over the structure's weight.
+    pub fn tests_unbalance(&self) -> bool {
+        matches!(self.name, Some(ProgramName::Sap2000 | ProgramName::Etabs))
+    }
+
+    /// Tolerance of its test on springs of this vertical k1 (N/m) under a mass (kg): the unbalance
+    /// over the structure's weight, or the change of place (m). The first is what the second, g
+    /// dt^2/10, does to k1.
+    pub fn tolerance(&self, k1: f64, mass: f64) -> f64 {
+        let change = TOLERANCE * GRAVITY * self.step.powi(2);
+        if self.tests_unbalance() { k1 * change / (mass * GRAVITY) } else { change }
+    }
+
+    /// How it steps on such springs.
+    pub fn settings(&self, k1: f64, mass: f64) -> StepSettings {
+        let tolerance = self.tolerance(k1, mass);
+        let iteration = if self.tests_unbalance() {
+            let test = ConvergenceTest::Unbalance(tolerance * mass * GRAVITY);
+            Iteration { constant: 0, newton: CSI_NEWTON, test }
+        } else {
+            Iteration { constant: 0, newton: NEWTON, test: ConvergenceTest::Increment(tolerance) }
+        };
+        let settings = StepSettings { iteration, ..StepSettings::new(self.integrator, self.step) };
+        settings.with_substeps(1.0 / self.substeps.max(1) as f64)
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::recipe::FixedStepSprings;
+    use approx::assert_relative_eq;
+    use rocking::structure::Structure;
+
+    #[test]
+    fn programs_are_named_as_users_do() {
+        for name in ProgramName::ALL {
+            assert_eq!(name.to_string().parse(), Ok(name));
+        }
+        assert_eq!("SAP2000".parse(), Ok(ProgramName::Sap2000));
+        assert!("abaqus".parse::<ProgramName>().unwrap_err().to_string().contains("opensees-even"));
+    }
+
+    /// An unbalance of Omega_n^2 dt^2/10 of the weight is a change of g dt^2/10.
+    #[test]
+    fn both_tests_ask_for_the_same() {
+        let body = Structure::paper().body::<f64>();
+        let program = FixedStepProgram::usual();
+        let springs = FixedStepSprings::of(&body, program.step, program.integrator).unwrap();
+        let omega = std::f64::consts::TAU * springs.units.vertical.omega_n_hz;
+        let of = (springs.chains().vertical.k1, springs.body.mass);
+        assert_relative_eq!(program.tolerance(of.0, of.1), 0.1 * (omega * 1e-3).powi(2), max_relative = 1e-9);
+        let settings = program.settings(of.0, of.1);
+        assert_eq!((settings.iteration.constant, settings.iteration.newton), (0, 40));
+        assert_relative_eq!(settings.least, 1e-3 / 16.0, max_relative = 1e-12);
+        let even = FixedStepProgram { name: None, ..program };
+        assert_relative_eq!(even.tolerance(of.0, of.1), 0.1 * GRAVITY * 1e-6, max_relative = 1e-12);
+        assert_eq!(even.settings(of.0, of.1).iteration, springs.iteration());
+    }
+}

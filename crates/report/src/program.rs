@@ -1,0 +1,214 @@
+//! Springs for a program with fixed time steps: what it is to be set to, and what they err.
+
+use serde::Serialize;
+
+use super::{Section, Table, Unit, elastic::springs::corner_units, unit_of};
+use files::message::{percent, quantity, significant};
+use springs::parameters::{
+    Parameters,
+    elastic::ElasticParameters,
+    program::{FootUnits, ProgramErrors, ProgramRow, ProgramTest},
+};
+
+/// Letters of a name in the first column of a screen.
+const NAME: usize = 9;
+
+/// Springs for a program with fixed time steps.
+#[derive(Clone, Debug, PartialEq, Serialize)]
+pub struct ProgramReport {
+    /// The program: "SAP2000".
+    pub program: String,
+    /// Its steps: "1 ms".
+    pub steps: String,
+    /// What it is to be set to, in the order of a dialog.
+    pub set_to: Vec<ProgramSetting>,
+    /// What the springs err there, measured in this run.
+    pub errors: String,
+    /// The units, as the run's own.
+    pub units: Vec<Unit>,
+    /// The same errors in parts and suites.
+    #[serde(skip)]
+    table: Table,
+    /// Why they are stiffer than the closed form has them, if they are.
+    #[serde(skip)]
+    stiffer: Option<&'static str>,
+}
+
+/// A setting of a program.
+#[derive(Clone, Debug, PartialEq, Serialize)]
+pub struct ProgramSetting {
+    /// As a dialog names it.
+    pub name: &'static str,
+    /// What it is to be.
+    pub value: String,
+    /// Both, for a screen.
+    #[serde(skip)]
+    short: String,
+}
+
+impl ProgramSetting {
+    fn new(name: &'static str, value: String, short: String) -> Self {
+        Self { name, value, short }
+    }
+}
+
+impl ProgramReport {
+    /// Of a rigid body's springs, if there are some for a program.
+    pub(crate) fn of_rigid(parameters: &Parameters) -> Option<Self> {
+        let row = parameters.program.as_ref()?;
+        let FootUnits { vertical, horizontal, rotational_inertia_kgm2 } = row.units;
+        let units = [unit_of("vertical", &vertical), unit_of("horizontal", &horizontal)];
+        let given = parameters.structure.rotational_inertia_kgm2;
+        let inertia = (rotational_inertia_kgm2 != given).then(|| {
+            let value = format!("{} kg m2", significant(rotational_inertia_kgm2, 4));
+            ProgramSetting::new("rotational inertia at the mass", value.clone(), format!("inertia {value}"))
+        });
+        Some(Self::new(row, units.into(), inertia, "top"))
+    }
+
+    /// Of an elastic structure's springs.
+    pub(crate) fn of_elastic(parameters: &ElasticParameters) -> Option<Self> {
+        let row = parameters.program.as_ref()?;
+        Some(Self::new(row, corner_units(&row.units.springs), None, "peaks"))
+    }
+
+    fn new<U>(row: &ProgramRow<U>, units: Vec<Unit>, inertia: Option<ProgramSetting>, peaks: &str) -> Self {
+        let tolerance = match row.converged {
+            ProgramTest::UnbalanceOverWeight(x) => {
+                let x = significant(x, 3);
+                ProgramSetting::new("iteration convergence tolerance, relative", x.clone(), format!("tolerance {x}"))
+            }
+            ProgramTest::IncrementM(x) => {
+                let x = format!("{} m", significant(x, 3));
+                ProgramSetting::new("tolerance of a change of place", x.clone(), format!("tolerance {x}"))
+            }
+        };
+        let (integrator, newton, step) = (row.integrator_words(), row.newton_iterations, row.step_s);
+        let least = quantity(step / row.substeps as f64, "s");
+        let mut set_to = vec![
+            ProgramSetting::new("integrator", integrator.clone(), integrator),
+            ProgramSetting::new(
+                "iterations with constant stiffness",
+                "0".into(),
+                format!("iterations 0 constant + {newton} Newton"),
+            ),
+            ProgramSetting::new("Newton-Raphson iterations, at most", newton.to_string(), String::new()),
+            tolerance,
+            ProgramSetting::new("smallest substep", least.clone(), format!("substeps to {least}")),
+        ];
+        set_to.extend(inertia);
+        Self {
+            program: row.program(),
+            steps: quantity(row.step_s, "s"),
+            set_to,
+            errors: errors(row, peaks),
+            units,
+            table: table(row),
+            stiffer: row.stiffer_for_earthquakes.then_some(
+                "Omega_n is twice that of the closed form: on earthquake-like motions, which sway the structure before it lifts, \
+                 such springs are better by more than they lose on pulses, and this integrator ends the motions that they ring in.",
+            ),
+        }
+    }
+
+    /// The program's name, or that there is none, in nine letters.
+    pub(crate) fn short(&self) -> &str {
+        if self.program.chars().count() <= NAME { &self.program } else { "its steps" }
+    }
+
+    /// For a screen.
+    pub(crate) fn line(&self) -> String {
+        let set_to: Vec<String> =
+            self.set_to.iter().map(|s| s.short.clone()).filter(|short| !short.is_empty()).collect();
+        format!("{} steps: {}; {}", self.steps, set_to.join(", "), self.errors)
+    }
+
+    /// For a report.
+    pub(crate) fn section(&self) -> Section {
+        let set_to = self.set_to.iter().map(|s| format!("{}: {}", s.name, s.value)).collect::<Vec<_>>();
+        Section {
+            id: "program",
+            title: format!("Springs for {} with steps of {}", self.program, self.steps),
+            text: vec![
+                format!(
+                    "A program with steps of one size lands somewhere within a step, and errs by 13 p dt in the median whatever its \
+                     springs. These are as stiff, and give back as little of a landing, as the step has use for. Set: {}.",
+                    set_to.join("; ")
+                ),
+                format!(
+                    "Measured by stepping the model as such a program does, beside Housner's history: {}.",
+                    self.errors
+                ),
+            ],
+            table: Some(self.table.clone()),
+            notes: self.stiffer.map(String::from).into_iter().collect(),
+            ..Section::default()
+        }
+    }
+
+    /// k1, k2, m2, c of its units.
+    pub(crate) fn springs(&self) -> Section {
+        let row = |unit: &Unit| {
+            let numbers = [unit.k1_n_per_m, unit.k2_n_per_m, unit.m2_kg, unit.c_ns_per_m];
+            [vec![unit.name.clone()], numbers.map(|x| format!("{x:.4e}")).into()].concat()
+        };
+        Section {
+            id: "program-springs",
+            title: format!("The same, springs at each foot for steps of {}", self.steps),
+            table: Some(
+                Table::new(["unit", "k1 [N/m]", "k2 [N/m]", "m2 [kg]", "c [N s/m]"]).with(self.units.iter().map(row)),
+            ),
+            ..Section::default()
+        }
+    }
+}
+
+/// Largest displacement first: median and what 90 % are below.
+fn errors<U>(row: &ProgramRow<U>, peaks: &str) -> String {
+    let Some(errors) = row.expected.synthetic.or(row.expected.earthquakes) else {
+        return "errors not measured".into();
+    };
+    let cell = |x: Option<f64>| x.map_or("lost".into(), percent);
+    let [median, ninety] = errors.peak;
+    let [nrmse, _] = errors.history;
+    let history = nrmse.map_or(String::new(), |x| format!(", NRMSE {}", significant(x, 2)));
+    let n = errors.histories;
+    let spread = match errors.lost {
+        0 => format!("median of {n}; 90 %: {}", cell(ninety)),
+        lost => format!("median; {lost} of {n} motions lost"),
+    };
+    format!("{peaks} within {}{history} ({spread})", cell(median))
+}
+
+fn table<U>(row: &ProgramRow<U>) -> Table {
+    let expected = &row.expected;
+    let number = |x: f64| significant(x, 2);
+    let cell = |x: Option<f64>| x.map_or("lost".into(), number);
+    let parts = [
+        ("by the step alone, 13 p dt (median)", Some(expected.floor)),
+        ("by the sway before uplift", expected.stance),
+        ("by what a landing gives back", expected.rebound),
+    ];
+    let empty = String::new;
+    let part = |(name, value): (&str, Option<f64>)| {
+        Some(vec![format!("expected {name}"), number(value?), empty(), empty(), empty(), empty()])
+    };
+    let parts = parts.into_iter().filter_map(part);
+    let measured = |name: &str, errors: Option<ProgramErrors>| {
+        errors.map(|e| {
+            let percent = |x: Option<f64>| x.map_or("lost".into(), percent);
+            vec![
+                format!("measured on {} {name}", e.histories),
+                cell(e.history[0]),
+                cell(e.history[1]),
+                percent(e.peak[0]),
+                percent(e.peak[1]),
+                e.lost.to_string(),
+            ]
+        })
+    };
+    let measured =
+        [measured("synthetic motions", expected.synthetic), measured("earthquake-like motions", expected.earthquakes)];
+    Table::new(["error", "history, NRMSE, median", "90 %", "largest displacement, median", "90 %", "lost"])
+        .with(parts.chain(measured.into_iter().flatten()))
+}

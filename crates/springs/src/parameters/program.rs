@@ -1,0 +1,208 @@
+//! Springs for a program with fixed time steps, as parameters.json holds them.
+
+use serde::{Deserialize, Serialize};
+
+use super::elastic::CornerRow;
+use crate::tuning::{elastic::program::ElasticProgramSprings, fixed_steps::ProgramSprings};
+use dynamics::spring::{Chain, ChainRow, Springs};
+use fixed_steps::{FixedStepProgram, Integrator, ProgramName, measured::ErrorsOverMotions};
+use rocking::structure::Structure;
+
+/// Errors of histories of a program beside Housner's, over motions; `null` if so many were lost.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+pub struct ProgramErrors {
+    /// Motions.
+    pub histories: usize,
+    /// Of these, how many the program does not get through, or topples the body in.
+    pub lost: usize,
+    /// NRMSE of u, or of rotations of an elastic structure: median, and what 90 % are below.
+    pub history: [Option<f64>; 2],
+    /// Error of the largest u, relative to it; of an elastic structure that of the displacement,
+    /// drift or uplift with the largest: the same.
+    pub peak: [Option<f64>; 2],
+}
+
+impl From<&ErrorsOverMotions> for ProgramErrors {
+    fn from(errors: &ErrorsOverMotions) -> Self {
+        let finite = |x: f64| x.is_finite().then_some(x);
+        Self {
+            histories: errors.count(),
+            lost: errors.lost(),
+            history: [0.5, 0.9].map(|q| finite(errors.quantile(q))),
+            peak: [0.5, 0.9].map(|q| finite(errors.peak_quantile(q))),
+        }
+    }
+}
+
+/// What springs err in a program.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+pub struct ProgramExpected {
+    /// Median NRMSE by the step, whatever the springs: 13 p dt.
+    pub floor: f64,
+    /// By the sway before uplift; of a rigid body.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub stance: Option<f64>,
+    /// By what a landing foot gives back; of a rigid body.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub rebound: Option<f64>,
+    /// Measured in this run on synthetic motions; of an elastic structure on all that its springs
+    /// are judged on.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub synthetic: Option<ProgramErrors>,
+    /// Measured in this run on earthquake-like motions.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub earthquakes: Option<ProgramErrors>,
+}
+
+/// When an iteration at a step's end has arrived.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+#[serde(rename_all = "snake_case")]
+pub enum ProgramTest {
+    /// Unbalance over the structure's weight below this.
+    UnbalanceOverWeight(f64),
+    /// Change of place below this (m).
+    IncrementM(f64),
+}
+
+/// Under each foot of a rigid body.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+pub struct FootUnits {
+    /// The vertical unit.
+    pub vertical: ChainRow,
+    /// The horizontal unit.
+    pub horizontal: ChainRow,
+    /// I_cg that the model must have (kg m2).
+    pub rotational_inertia_kgm2: f64,
+}
+
+/// Under every corner of an elastic structure, from the left.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+pub struct CornerUnits {
+    /// Each.
+    pub springs: Vec<CornerRow>,
+}
+
+/// Springs for a program with fixed time steps; units as in the springs above it.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+pub struct ProgramRow<U> {
+    /// Which: sap2000, etabs, opensees-even; none: any with this integrator.
+    #[serde(rename = "for", default, skip_serializing_if = "Option::is_none")]
+    pub name: Option<String>,
+    /// Its step (s).
+    pub step_s: f64,
+    /// Its integrator, as `--integrator` takes it.
+    pub integrator: String,
+    /// A step that fails is halved, down to one in so many.
+    pub substeps: usize,
+    /// Newton's iterations of a step, at most.
+    pub newton_iterations: usize,
+    /// When they have arrived.
+    pub converged: ProgramTest,
+    /// The units.
+    #[serde(flatten)]
+    pub units: U,
+    /// Whether they have twice the usual Omega_n, for what they do on earthquake-like motions.
+    #[serde(default)]
+    pub stiffer_for_earthquakes: bool,
+    /// What they err.
+    pub expected: ProgramExpected,
+}
+
+impl<U> ProgramRow<U> {
+    /// Of a program, the stiffest vertical k1 (N/m) and the mass (kg).
+    fn of(program: &FixedStepProgram, (k1, mass): (f64, f64), units: U, expected: ProgramExpected) -> Self {
+        let tolerance = program.tolerance(k1, mass);
+        Self {
+            name: program.name.map(|name| name.key().into()),
+            step_s: program.step,
+            integrator: program.integrator.to_string(),
+            substeps: program.substeps,
+            newton_iterations: program.settings(k1, mass).iteration.newton,
+            converged: match program.tests_unbalance() {
+                true => ProgramTest::UnbalanceOverWeight(tolerance),
+                false => ProgramTest::IncrementM(tolerance),
+            },
+            units,
+            stiffer_for_earthquakes: false,
+            expected,
+        }
+    }
+}
+
+impl From<&ProgramSprings> for ProgramRow<FootUnits> {
+    fn from(of: &ProgramSprings) -> Self {
+        let ProgramSprings { program, springs, expected, .. } = of;
+        let m1 = springs.body.mass;
+        let units = FootUnits {
+            vertical: ChainRow::new(&springs.units.vertical, m1),
+            horizontal: ChainRow::new(&springs.units.horizontal, m1),
+            rotational_inertia_kgm2: springs.rotational_inertia(),
+        };
+        let expected = ProgramExpected {
+            floor: expected.floor,
+            stance: Some(expected.stance),
+            rebound: Some(expected.rebound),
+            synthetic: of.synthetic.as_ref().map(ProgramErrors::from),
+            earthquakes: of.earthquakes.as_ref().map(ProgramErrors::from),
+        };
+        let row = Self::of(program, (springs.chains().vertical.k1, m1), units, expected);
+        Self { stiffer_for_earthquakes: of.stiffer, ..row }
+    }
+}
+
+impl ProgramRow<CornerUnits> {
+    /// Of an elastic structure whose corners stand at these places (m).
+    pub fn of_corners(of: &ElasticProgramSprings, mass: f64, places: impl Iterator<Item = f64>) -> Self {
+        let corners = &of.springs.corners;
+        let k1 = corners.iter().map(|corner| corner.vertical.k1).fold(0.0, f64::max);
+        let row = |(x_m, springs): (f64, &Springs<Chain<f64>>)| CornerRow {
+            x_m,
+            vertical: (&springs.vertical).into(),
+            horizontal: (&springs.horizontal).into(),
+        };
+        let units = CornerUnits { springs: places.zip(corners).map(row).collect() };
+        let expected = ProgramExpected {
+            floor: of.floor,
+            stance: None,
+            rebound: None,
+            synthetic: of.measured.as_ref().map(ProgramErrors::from),
+            earthquakes: None,
+        };
+        Self::of(&of.program, (k1, mass), units, expected)
+    }
+}
+
+impl<U> ProgramRow<U> {
+    /// The program in words.
+    pub fn program(&self) -> String {
+        let known = self.name.as_deref().and_then(|name| name.parse::<ProgramName>().ok());
+        known.map_or_else(|| "a program".into(), |name| name.words().into())
+    }
+
+    /// Its integrator in words: "HHT alpha -1/3".
+    pub fn integrator_words(&self) -> String {
+        match self.integrator.parse::<Integrator>() {
+            Ok(Integrator::Hht { alpha }) if (alpha + 1.0 / 3.0).abs() < 1e-9 => "HHT alpha -1/3".into(),
+            Ok(Integrator::Hht { alpha }) => format!("HHT alpha {alpha}"),
+            Ok(Integrator::Newmark { gamma, beta }) => format!("Newmark gamma {gamma}, beta {beta}"),
+            Ok(Integrator::GeneralizedAlpha { rho_inf }) => format!("generalized alpha, rho_inf {rho_inf}"),
+            Ok(Integrator::Trbdf2) => "TRBDF2".into(),
+            Ok(Integrator::BackwardEuler) => "BackwardEuler".into(),
+            Err(_) => self.integrator.clone(),
+        }
+    }
+}
+
+impl CornerUnits {
+    /// The springs.
+    pub fn chains(&self) -> Vec<Springs<Chain<f64>>> {
+        self.springs.iter().map(CornerRow::chains).collect()
+    }
+}
+
+impl FootUnits {
+    /// The structure as a model for the program must have it.
+    pub fn structure(&self, structure: &Structure) -> Structure {
+        Structure { rotational_inertia_kgm2: self.rotational_inertia_kgm2, ..*structure }
+    }
+}
