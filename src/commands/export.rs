@@ -5,7 +5,7 @@ use std::path::{Path, PathBuf};
 use clap::Args;
 
 use super::{CommandError, common::RecordOptions, terminal};
-use decks::{ACCURACY, DeckFormat, ExportError, Stepping, deck_of, stepped_deck, with_inertia};
+use decks::{ACCURACY, DeckFormat, ExportError, SteppedDeck, Stepping, deck_of, stepped_deck, with_inertia};
 use frames::fem::{ElasticAnalysis, ElasticStart};
 use run_folder::{
     elastic::{deck, stepped_deck as stepped_deck_of},
@@ -49,16 +49,21 @@ pub fn run(o: &ExportOptions) -> Result<(), CommandError> {
         Some(parameters) => elastic(o, &parameters)?,
         None => {
             let (parameters, record, line) = read(&o.parameters, &o.record)?;
-            let deck = match o.stepping {
-                Stepping::Events => deck_of(&parameters, &record, o.format, o.accuracy)?,
-                stepping => stepped_deck(&parameters, &record, o.format, stepping)?,
-            };
-            (deck, line)
+            match o.stepping {
+                Stepping::Events => (deck_of(&parameters, &record, o.format, o.accuracy)?, line),
+                stepping => told(stepped_deck(&parameters, &record, o.format, stepping)?, line),
+            }
         }
     };
     write_file(&out, deck.as_bytes())?;
     terminal::stderr(format_args!("{line}\nwritten to {}", terminal::shown(&out)));
     Ok(())
+}
+
+/// The text of a deck, and what to say of it besides the record.
+fn told(deck: SteppedDeck, record: String) -> (String, String) {
+    let (text, line) = deck.told("the deck");
+    (text, line.map_or(record.clone(), |line| format!("{record}\n{line}")))
 }
 
 /// The deck of an elastic structure, with our own history to check itself against, and a line that
@@ -70,7 +75,8 @@ fn elastic(o: &ExportOptions, parameters: &ElasticParameters) -> Result<(String,
     match (o.stepping, &parameters.program) {
         (Stepping::Events, _) => {}
         (Stepping::Even, Some(program)) => {
-            return Ok((stepped_deck_of(&assembled, program, &record, o.format)?, excitation.line()));
+            let deck = stepped_deck_of(&assembled, program, &record, o.format)?;
+            return Ok(told(deck, excitation.line()));
         }
         (Stepping::Even, None) => return Err(ExportError::NoProgram.into()),
         (Stepping::Touches, _) => return Err(ExportError::TouchesOfElastic.into()),

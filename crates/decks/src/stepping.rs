@@ -4,7 +4,8 @@
 use std::ops::ControlFlow;
 
 use fixed_steps::{
-    FixedStepAnalysis, FixedStepBody, FixedStepFrame, FixedStepHistory, FixedStepSprings, Integrator, StepSettings,
+    FixedStepAnalysis, FixedStepBody, FixedStepFrame, FixedStepHistory, FixedStepOutcome, FixedStepSprings, GaveUp,
+    Integrator, StepSettings,
     iteration::{ConvergenceTest, Iteration},
     recipe::TOLERANCE,
 };
@@ -13,7 +14,7 @@ use frames::{
     frame::{EquilibriumError, Frame},
 };
 use nalgebra::DVector;
-use rocking::scalar::GRAVITY;
+use rocking::{motion::Motion, scalar::GRAVITY};
 use springs::{
     parameters::{
         Parameters,
@@ -170,16 +171,35 @@ impl Stepped {
         FixedStepAnalysis { vertical: record.up(), ..analysis }.history()
     }
 
-    fn expected(&self, record: &Record) -> Expected {
-        let motion = self.history(record).motion;
+    /// What a history is to be found to do.
+    fn expected(&self, motion: &Motion) -> Expected {
         let body = self.parameters.structure.body::<f64>();
         let chains = self.parameters.chains();
         let settled = -0.5 * body.mass * GRAVITY / chains.vertical.in_series();
-        Expected::of_motion(&motion, motion.len(), settled, 0.0)
+        Expected::of_motion(motion, motion.len(), settled, 0.0)
     }
 }
 
-/// The text of a deck for a program with steps of one size.
+/// A deck for a program with steps of one size.
+#[derive(Clone, Debug, PartialEq)]
+pub struct SteppedDeck {
+    /// Its text.
+    pub text: String,
+    /// When the emulation of its steps gives up, which is where the deck ends (s).
+    pub gives_up_s: Option<f64>,
+}
+
+impl SteppedDeck {
+    /// The text, and a line for the user if the deck ends before the record.
+    pub fn told(self, name: &str) -> (String, Option<String>) {
+        let line = self.gives_up_s.map(|time| {
+            format!("{name} ends at {time:.2} s, where the emulation of its steps gives up: take another integrator or a shorter step")
+        });
+        (self.text, line)
+    }
+}
+
+/// The deck for a program with steps of one size.
 ///
 /// # Errors
 /// Parameters without springs for such a program; members; an integrator that the program has not;
@@ -189,9 +209,9 @@ pub fn stepped_deck(
     record: &Record,
     format: DeckFormat,
     stepping: Stepping,
-) -> Result<String, ExportError> {
+) -> Result<SteppedDeck, ExportError> {
     if stepping == Stepping::Events {
-        return crate::deck(parameters, record, format);
+        return Ok(SteppedDeck { text: crate::deck(parameters, record, format)?, gives_up_s: None });
     }
     let members = parameters.members();
     for (name, there) in [
@@ -210,12 +230,18 @@ pub fn stepped_deck(
     if format == DeckFormat::Sap2000 {
         stepped.steps.in_tables()?;
     }
-    let model = DeckModel::new(&stepped.parameters, record, &stepped.expected(record))?;
-    export_model(&DeckModel { even: Some(stepped.steps), ..model }, format)
+    let FixedStepHistory { motion, outcome, .. } = stepped.history(record);
+    let gives_up_s = match outcome {
+        FixedStepOutcome::GaveUp(GaveUp { time, .. }) => Some(time),
+        _ => None,
+    };
+    let model = DeckModel::new(&stepped.parameters, record, &stepped.expected(&motion))?;
+    let text = export_model(&DeckModel { even: Some(stepped.steps), ..model }, format)?;
+    Ok(SteppedDeck { text, gives_up_s })
 }
 
 /// An elastic structure on its springs for a program with steps of one size, emulated through a
-/// record: its coordinates at every sample, as far as the program gets.
+/// record: its coordinates at every sample, and when the program gives up, if it does (s).
 ///
 /// # Errors
 /// An integrator that is not known; as many units as corners are needed.
@@ -223,7 +249,7 @@ pub fn corner_history(
     frame: &Frame,
     row: &ProgramRow<CornerUnits>,
     record: &Record,
-) -> Result<Vec<Vec<f64>>, ExportError> {
+) -> Result<(Vec<Vec<f64>>, Option<f64>), ExportError> {
     let failed = |e: EquilibriumError| ExportError::Steps { message: e.to_string() };
     let springs = row.units.chains();
     let still = DVector::zeros(frame.size());
@@ -233,11 +259,15 @@ pub fn corner_history(
     let analysis = FixedStepAnalysis::new(&model, settings, record.dt, &record.accel);
     let (analysis, size) = (FixedStepAnalysis { vertical: record.up(), ..analysis }, frame.size());
     let mut all = Vec::with_capacity(record.len());
-    analysis
+    let (outcome, _) = analysis
         .follow(|_, q| {
             all.push(q[..size].to_vec());
             ControlFlow::Continue(())
         })
         .map_err(failed)?;
-    Ok(all)
+    let gives_up = match outcome {
+        FixedStepOutcome::GaveUp(GaveUp { time, .. }) => Some(time),
+        _ => None,
+    };
+    Ok((all, gives_up))
 }

@@ -1,15 +1,15 @@
 //! Programs with one size of step, as users name them, and what they are set to.
 //!
-//! | program | integrator | iterations at a step's end | test | substeps |
+//! | program | integrator | Newton's iterations | test | substeps |
 //! |---|---|---|---|---|
-//! | SAP2000, ETABS | Hilber-Hughes-Taylor, alpha = -1/3 | Newton's, 40 at most; none with constant stiffness | unbalance over weight | down to 1/16 |
-//! | OpenSees | TRBDF2 | Newton's, 30 at most | change of place | down to 1/16 |
+//! | SAP2000, ETABS | HHT, alpha = -1/3 | 40 | unbalance over weight | down to 1/16 |
+//! | OpenSees | TRBDF2 | 30 | change of place | down to 1/16 |
 //!
 //! CSI's help ("Time Integration Parameters Form") proposes its Hilber-Hughes-Taylor method with
 //! alpha from 0 to -1/3; -1/3 damps stiff modes most, and without damping them an A-frame on ground
-//! springs never gets through (`.ci/fixed_steps.py`). Iterations with constant stiffness settle on contacts
-//! that are wrong and leave Newton's none to begin from, so that none are to be taken. Neither
-//! program was run: this is what the emulation finds of their settings.
+//! springs never gets through (`.ci/fixed_steps.py`). Iterations with constant stiffness settle on
+//! contacts that are wrong and leave Newton's none to begin from, so that none are to be taken.
+//! Neither program was run: this is what the emulation finds of their settings.
 
 use std::{fmt, str::FromStr};
 

@@ -21,7 +21,7 @@ use frames::{
     design_forces::{ForceKind, StructureForces, peaks_in},
     ensemble::Ensemble,
     frame::Frame,
-    reference::{ReferenceOutcome, Stop},
+    reference::{ReferenceEvent, ReferenceOutcome, Stop, What},
     structure::ElasticStructure,
 };
 use rocking::{
@@ -258,6 +258,9 @@ impl ElasticParts<'_> {
     /// All that is said of it; `parameters` are those filed.
     pub fn said(&self, parameters: ElasticParameters) -> Run {
         let mut run = alone(parameters);
+        let lift = |event: &&ReferenceEvent| event.what == What::Lift;
+        let first = self.answer.histories.reference.history.events.iter().find(lift);
+        run.taken.facts.extend(first.map(|event| super::first_lift(event.time)));
         run.taken.record = Some(self.case.excitation.line());
         run.taken.assumed = self.assumed();
         run.friction_needed = Some(self.friction_needed().value);

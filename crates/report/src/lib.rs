@@ -121,6 +121,11 @@ pub struct Unit {
     pub c_ns_per_m: f64,
 }
 
+/// When a structure first lifts (s), as a fact.
+pub(crate) fn first_lift(time: f64) -> (String, String) {
+    ("first lifts at".into(), format!("{} s", files::message::significant(time, 4)))
+}
+
 /// A unit as parameters.json has it.
 pub(crate) fn unit_of(name: &str, row: &dynamics::spring::ChainRow) -> Unit {
     Unit {

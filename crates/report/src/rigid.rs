@@ -90,17 +90,23 @@ impl RigidRun {
         let mut sections = sections(&parameters);
         sections.extend(self.sections());
         let record = &self.job.record;
+        let (steps, sap2000) =
+            (equal_steps(&parameters, record), record.vertical.is_none() && parameters.members().is_none());
+        let alone = alone(parameters);
+        let mut facts = alone.taken.facts.clone();
+        facts.extend(self.job.rocking.uplifts.first().map(|uplift| super::first_lift(uplift.time)));
         Run {
             taken: Taken {
+                facts,
                 record: Some(self.case.excitation.line()),
                 assumed: self.assumed(),
                 ..taken(&self.case.structure, self.case.restitution)
             },
             friction_needed: Some(self.report.friction_needed()),
-            fixed_steps: Some(equal_steps(&parameters, record)),
-            sap2000: record.vertical.is_none() && parameters.members().is_none(),
+            fixed_steps: Some(steps),
+            sap2000,
             sections,
-            ..alone(parameters)
+            ..alone
         }
     }
 

@@ -89,7 +89,8 @@ fn wrap(lines: &mut Vec<String>, name: &str, text: &str) {
 
 fn taken(run: &Run, written: &Written, lines: &mut Vec<String>) {
     let fact = |name: &str| run.taken.facts.iter().find(|(fact, _)| fact.starts_with(name)).map(|(_, value)| value);
-    let lifts = fact("lifts").map_or(String::new(), |value| format!("; lifts at {value}"));
+    let first = fact("first lifts").map_or(String::new(), |time| format!(", first at {time}"));
+    let lifts = fact("lifts").map_or(String::new(), |value| format!("; lifts at {value}{first}"));
     at_most(2, lines, "", &format!("{}{lifts}", run.taken.structure));
     if let Some(record) = &run.taken.record {
         let short: Vec<String> = record.split(' ').map(|word| shortened(word, LONGEST_NAME)).collect();

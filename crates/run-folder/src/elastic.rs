@@ -5,13 +5,13 @@ use std::path::Path;
 use crate::{
     FolderError,
     folder::{Folder, identity},
-    models::write_decks,
+    models::{SAP2000, write_decks},
     pictures as rigid_pictures,
     place::write_file,
     rigid::{Output, write_report},
     tables::csv_row,
 };
-use decks::{ACCURACY, DeckFormat, ElasticDeck, ExportError, corner_history};
+use decks::{ACCURACY, DeckFormat, ElasticDeck, ExportError, SteppedDeck, corner_history};
 use dynamics::spring::{Chain, Springs};
 use figures::Figure;
 use frames::{
@@ -110,9 +110,10 @@ pub fn stepped_deck(
     program: &ProgramRow<CornerUnits>,
     record: &Record,
     format: DeckFormat,
-) -> Result<String, ExportError> {
-    let history = corner_history(&assembled.frame, program, record)?;
-    deck_of(assembled, (&program.units.chains(), Some(program)), record, &history, (format, ACCURACY))
+) -> Result<SteppedDeck, ExportError> {
+    let (history, gives_up_s) = corner_history(&assembled.frame, program, record)?;
+    let springs = (&program.units.chains()[..], Some(program));
+    Ok(SteppedDeck { text: deck_of(assembled, springs, record, &history, (format, ACCURACY))?, gives_up_s })
 }
 
 fn deck_of(
@@ -231,15 +232,17 @@ impl ElasticRun {
         ElasticParameters { record, ..self.parameters.clone() }
     }
 
-    fn deck(&self, format: DeckFormat) -> Result<String, ExportError> {
+    /// A deck, and a line for the user if it ends before the record.
+    fn deck(&self, format: DeckFormat) -> Result<(String, Option<String>), ExportError> {
         // SAP2000 steps alike: the springs for that
         let for_csi = |row: &&ProgramRow<CornerUnits>| matches!(row.name.as_deref(), Some("sap2000" | "etabs"));
         let program = self.parameters.program.as_ref().filter(for_csi);
         if let Some(program) = program.filter(|_| format == DeckFormat::Sap2000) {
-            return stepped_deck(&self.assembled, program, &self.record, format);
+            return Ok(stepped_deck(&self.assembled, program, &self.record, format)?.told(SAP2000));
         }
         let corners = &self.tuned.springs.corners;
-        deck(&self.assembled, corners, &self.record, &self.answer.histories.fem, (format, ACCURACY))
+        let fem = &self.answer.histories.fem;
+        Ok((deck(&self.assembled, corners, &self.record, fem, (format, ACCURACY))?, None))
     }
 
     /// `history.csv`: rotation and drift of every base in the reference and on the springs, uplift

@@ -21,7 +21,7 @@ use strong_motion::Record;
 use crate::{
     FolderError,
     folder::{Folder, identity},
-    models::write_decks,
+    models::{SAP2000, write_decks},
     pictures::{self, Pictures},
     place::write_file,
     tables::{history_csv, members_csv},
@@ -138,10 +138,11 @@ fn decks(
     let for_its_steps = |format: DeckFormat| {
         let program = parameters.program.as_ref().filter(|_| format == DeckFormat::Sap2000)?;
         let csi = matches!(program.name.as_deref(), Some("sap2000" | "etabs"));
-        csi.then(|| decks::stepped_deck(&parameters, record, format, Stepping::Even))
+        csi.then(|| Ok(decks::stepped_deck(&parameters, record, format, Stepping::Even)?.told(SAP2000)))
     };
     write_decks(&folder, |format| {
-        for_its_steps(format).unwrap_or_else(|| decks::export(&parameters, record, &expected, format))
+        let plain = || Ok((decks::export(&parameters, record, &expected, format)?, None));
+        for_its_steps(format).unwrap_or_else(plain)
     })
 }
 

@@ -1,7 +1,7 @@
-//! The error of the recipe of `fixed_steps::recipe` and of the springs of `tuning::fixed_steps`, over
-//! p dt, measured on motions made for a body: median, 90 % quantile, histories that the program gave up,
-//! for three bodies, four integrators, three steps; the same with substeps down to a sixteenth of a
-//! step.
+//! The error of springs for fixed time steps over p dt, of the recipe (`fixed_steps::recipe`) and of
+//! those of a run (`tuning::fixed_steps`), on motions made for a body: median, 90 % quantile,
+//! histories that the program gave up, for three bodies, four integrators, three steps; the same
+//! with substeps down to a sixteenth of a step.
 //!
 //! ```sh
 //! cargo run --release -p springs --example fixed_step_medians -- [MOTIONS] [SEED]

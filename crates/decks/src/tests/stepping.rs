@@ -18,7 +18,7 @@ fn for_program(name: ProgramName, step: f64) -> Parameters {
 }
 
 fn text(parameters: &Parameters, format: DeckFormat, stepping: Stepping) -> String {
-    stepped_deck(parameters, &Record::el_centro().truncated(8.0), format, stepping).unwrap()
+    stepped_deck(parameters, &Record::el_centro().truncated(8.0), format, stepping).unwrap().text
 }
 
 #[test]
@@ -43,7 +43,7 @@ fn decks_of_even_steps_hold_the_programs_springs_and_settings() {
         assert!(!numbers_in(&touches).contains(&row.units.vertical.k1_n_per_m) && !touches.contains('@'));
         // steps that follow touches are those of `deck`
         let record = Record::el_centro().truncated(8.0);
-        let events = stepped_deck(&parameters, &record, format, Stepping::Events).unwrap();
+        let events = stepped_deck(&parameters, &record, format, Stepping::Events).unwrap().text;
         assert_eq!(events, super::super::deck(&parameters, &record, format).unwrap());
     }
 }

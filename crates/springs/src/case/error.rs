@@ -130,12 +130,20 @@ pub fn parse_error(path: &str, text: &str, error: &toml::de::Error) -> CaseError
     CaseError::Parse { path: path.into(), line, message }
 }
 
+/// The key of a mass.
+const MASS: &str = "mass_kg";
+
 /// From serde's "unknown field `x`, expected one of `a`, `b`": x and the known key nearest to it.
 fn unknown_key(message: &str) -> Option<(String, Option<String>)> {
     let rest = message.strip_prefix("unknown field ")?;
     let mut quoted = rest.split('`').skip(1).step_by(2).map(str::to_string);
     let key = quoted.next()?;
-    let near = quoted.min_by(|a, b| {
+    let known: Vec<String> = quoted.collect();
+    // a mass by its weight, where only masses are taken
+    if key.starts_with("weight") && known.iter().any(|known| known == MASS) {
+        return Some((key, Some(MASS.to_string())));
+    }
+    let near = known.into_iter().min_by(|a, b| {
         let distance = |known: &str| strsim::damerau_levenshtein(&key, known);
         distance(a).cmp(&distance(b))
     });

@@ -1,0 +1,74 @@
+//! Decks of steps of one size in OpenSees itself, beside the emulation that their springs were
+//! judged by. Run as `tests/opensees.rs`.
+
+use std::process::Command;
+
+/// The interpreter of a format, as words: Tcl's only where it is named.
+fn interpreter(format: &str) -> Option<Vec<String>> {
+    let variable = |name: &str| std::env::var(name).ok().filter(|value| !value.is_empty());
+    match format {
+        "openseespy" => Some(vec![variable("OPENSEES_PYTHON").unwrap_or_else(|| "python3".into())]),
+        _ => variable("OPENSEES_TCL").map(|words| words.split_whitespace().map(str::to_string).collect()),
+    }
+}
+
+/// Decks of even steps and of substeps at touches end within 1 % of what our emulation found, which
+/// they check by themselves, in Python and in Tcl; a block, a frame, three integrators.
+#[test]
+#[ignore = "needs OpenSees (pip install openseespy): cargo test --release --test opensees -- --ignored"]
+fn decks_of_even_steps_find_what_the_emulation_found() {
+    let folder = tempfile::tempdir().unwrap();
+    let run = |args: &[&str]| {
+        let out = Command::new(env!("CARGO_BIN_EXE_tune")).args(args).current_dir(&folder).output().unwrap();
+        assert!(out.status.success(), "{args:?}: {}", String::from_utf8_lossy(&out.stderr));
+    };
+    let block =
+        "[structure]\nkind = 'block'\ntotal_height_m = 4.0\nwidth_m = 0.9\nmass_kg = 4e3\n[record]\nscale = 1.5\n";
+    std::fs::write(folder.path().join("block.toml"), block).unwrap();
+    std::fs::write(
+        folder.path().join("frame.toml"),
+        "[structure]\nkind = 'aframe'\nheight_m = 20.0\nwidth_m = 4.4\nmass_kg = 2e5\n",
+    )
+    .unwrap();
+    for (case, integrator) in
+        [("block.toml", "trbdf2"), ("frame.toml", "hht:-0.3333333333333333"), ("frame.toml", "backward-euler")]
+    {
+        run(&[
+            "run",
+            case,
+            "--quiet",
+            "--no-figures",
+            "--no-report",
+            "--duration",
+            "12",
+            "--step",
+            "0.001",
+            "--integrator",
+            integrator,
+        ]);
+        for (stepping, format) in
+            [("even", "openseespy"), ("touches", "openseespy"), ("even", "opensees-tcl"), ("touches", "opensees-tcl")]
+        {
+            run(&[
+                "export",
+                "--parameters",
+                "out/parameters.json",
+                "--format",
+                format,
+                "--stepping",
+                stepping,
+                "--out",
+                "deck",
+            ]);
+            let Some(program) = interpreter(format) else { continue };
+            let name = if folder.path().join("deck").is_dir() { "deck/" } else { "deck" };
+            let out = Command::new(&program[0]).args(&program[1..]).arg(name).current_dir(&folder).output().unwrap();
+            let said = String::from_utf8_lossy(&out.stdout);
+            println!("{case} {integrator} {stepping} {format}: {}", said.lines().next().unwrap_or_default());
+            assert!(
+                out.status.success() && said.contains("within 1 %: yes"),
+                "{case} {integrator} {stepping} {format}: {said}"
+            );
+        }
+    }
+}
