@@ -161,6 +161,8 @@ impl ElasticParts<'_> {
         all.extend(self.vertical_left_out());
         all.extend(doubts(self.case.doubts()));
         all.extend(springs_findings(parameters));
+        let asked = self.case.program.is_some();
+        all.extend(parameters.program.iter().filter_map(|row| super::program::lost(row, asked)));
         all.extend(parameters.design_forces.iter().filter_map(|forces| forces.held_in_part()));
         all.extend(parameters.design_forces.iter().flat_map(|forces| forces.withheld()));
         all.extend(judged::elastic(self.assembled, &self.answer.histories, self.record));

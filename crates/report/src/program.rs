@@ -4,10 +4,14 @@ use serde::Serialize;
 
 use super::{Section, Table, Unit, elastic::springs::corner_units, unit_of};
 use files::message::{percent, quantity, significant};
-use springs::parameters::{
-    Parameters,
-    elastic::ElasticParameters,
-    program::{FootUnits, ProgramErrors, ProgramRow, ProgramTest},
+use springs::{
+    parameters::{
+        Parameters,
+        elastic::ElasticParameters,
+        program::{FootUnits, ProgramErrors, ProgramRow, ProgramTest},
+    },
+    results::Finding,
+    tuning::fixed_steps::THROUGH,
 };
 
 /// Letters of a name in the first column of a screen.
@@ -163,6 +167,14 @@ impl ProgramReport {
     }
 }
 
+/// That a program does not get through one history in twenty.
+pub(crate) fn lost<U>(row: &ProgramRow<U>, asked: bool) -> Option<Finding> {
+    let errors = row.expected.synthetic?;
+    let (lost, histories) = (errors.lost, errors.histories);
+    let many = lost as f64 > (1.0 - THROUGH) * histories as f64;
+    many.then(|| Finding::ProgramLoses { program: row.program(), step_s: row.step_s, lost, histories, asked })
+}
+
 /// Largest displacement first: median and what 90 % are below.
 fn errors<U>(row: &ProgramRow<U>, peaks: &str) -> String {
     let Some(errors) = row.expected.synthetic.or(row.expected.earthquakes) else {
@@ -173,6 +185,9 @@ fn errors<U>(row: &ProgramRow<U>, peaks: &str) -> String {
     let [nrmse, _] = errors.history;
     let history = nrmse.map_or(String::new(), |x| format!(", NRMSE {}", significant(x, 2)));
     let n = errors.histories;
+    if median.is_none() {
+        return format!("NOT to be used: {} of {n} motions lost", errors.lost);
+    }
     let spread = match errors.lost {
         0 => format!("median of {n}; 90 %: {}", cell(ninety)),
         lost => format!("median; {lost} of {n} motions lost"),

@@ -1,14 +1,12 @@
 //! What is to be said of springs for a program with fixed time steps.
 
+use crate::program::lost;
 use fixed_steps::{FixedStepProgram, expected::step_for};
 use springs::{
     case::{Case, Yardstick},
     parameters::Parameters,
     results::Finding,
-    tuning::{
-        fixed_steps::{LONGEST, THROUGH},
-        landing_simulation::differs_from_housner,
-    },
+    tuning::{fixed_steps::LONGEST, landing_simulation::differs_from_housner},
 };
 
 /// Findings; those of a program that nobody asked for are notes.
@@ -24,13 +22,7 @@ pub(super) fn findings(case: &Case, parameters: &Parameters) -> Vec<Finding> {
     if step_s > longest_s {
         return vec![Finding::ProgramStepTooLong { step_s, longest_s, asked }];
     }
-    let mut all = Vec::new();
-    if let Some(errors) = row.expected.synthetic
-        && errors.lost as f64 > (1.0 - THROUGH) * errors.histories as f64
-    {
-        let (lost, histories) = (errors.lost, errors.histories);
-        all.push(Finding::ProgramLoses { program: row.program(), step_s, lost, histories, asked });
-    }
+    let mut all: Vec<Finding> = lost(row, asked).into_iter().collect();
     // of peaks no law is known
     let accuracy = case.tuning.asked();
     let needed_s = step_for(&body, accuracy.error);

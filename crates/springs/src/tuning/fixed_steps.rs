@@ -6,7 +6,7 @@
 //!
 //!   stance  = floor/2  ->  k_e = k1 K/(1 + K) = 12 m p/(alpha^2 dt)
 //!   rebound = floor/2  ->  K = sqrt(13 p dt/(2 20 0.8^2 alpha^3)),  at most 1/4
-//!   units   mu = mu_u(K) M,  C = C_u(K) sqrt(M)  of what lands (`landing`);  horizontally K 1, C 2, mu 0.3, Omega_h = 4 Omega_v
+//!   units   mu = mu_u(K) M,  C = C_u(K) sqrt(M)  of what lands (`landing::design`); Omega_h/Omega_v at least 4, more under stocky frames
 //! ```
 //!
 //! The floor is what springs cannot go below (`fixed_steps::expected`): a stance and a rebound
@@ -24,12 +24,15 @@
 use rayon::prelude::*;
 
 use super::{
-    landing::universal::{Universal, universal},
+    landing::{corners::CornerDynamics, design::for_landing},
     landing_simulation::differs_from_housner,
     suite::{JudgedOn, Suites},
 };
 use crate::case::Case;
-use dynamics::effort::Effort;
+use dynamics::{
+    effort::Effort,
+    spring::{Design, Springs},
+};
 use fixed_steps::{
     ExpectedError, FixedStepBody, FixedStepDesign, FixedStepProgram, FixedStepSprings,
     expected::{FLOOR, REBOUND},
@@ -55,11 +58,14 @@ pub const THROUGH: f64 = 0.95;
 pub fn design(body: &Body<f64>, step: f64) -> FixedStepDesign {
     let floor = FLOOR * body.p_squared().sqrt() * step;
     let k = (floor / (2.0 * REBOUND * body.alpha().powi(3))).sqrt() / REBOUND_OVER_K;
-    let Universal { k, c, mu, .. } = universal(k.clamp(LEAST_K, LARGEST_K));
-    let m = 1.0 - body.mass_share() * body.alpha().sin().powi(2);
+    let corners = CornerDynamics::rigid(body.alpha(), body.mass_share());
+    let effective = 1.0 - body.mass_share() * body.alpha().sin().powi(2);
+    let Springs { vertical, horizontal } = for_landing(&corners, effective, k.clamp(LEAST_K, LARGEST_K));
+    let numbers = |unit: &Design<f64>| UnitNumbers { k: unit.k(), c: unit.c(), mu: unit.mu };
     FixedStepDesign {
-        vertical: UnitNumbers { k, c: c * m.sqrt(), mu: mu * m },
-        horizontal: UnitNumbers { k: 1.0, c: 2.0, mu: 0.3 },
+        vertical: numbers(&vertical),
+        horizontal: numbers(&horizontal),
+        horizontal_over_vertical: horizontal.omega_n_hz / vertical.omega_n_hz,
         ..FixedStepDesign::RECIPE
     }
 }

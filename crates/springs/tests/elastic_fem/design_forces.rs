@@ -2,7 +2,10 @@
 
 use std::f64::consts::TAU;
 
-use dynamics::spring::{Chain, Springs};
+use dynamics::{
+    effort::Effort,
+    spring::{Chain, Springs},
+};
 use frames::{
     answer::{ElasticAnswer, Reference},
     assembled::Assembled,
@@ -16,7 +19,7 @@ use rocking::synthetic;
 use springs::{
     case::Asked,
     results::MOST_CHANGE,
-    tuning::elastic::{design::springs, landing_speed, stand, trial::ElasticTrial, tune},
+    tuning::elastic::{ElasticAsked, design::springs, landing_speed, stand, trial::ElasticTrial, tune_within},
 };
 use strong_motion::Record;
 
@@ -208,7 +211,9 @@ fn hold_forces_on_other_motions(column_mass_kg: f64, elements: Option<usize>) {
     let structure = ElasticStructure::Pier(pier).checked().unwrap();
     let model = Assembled::new(structure).unwrap();
     let error = 0.02;
-    let tuned = tune(&model, Asked::new(0.002, Some(error)), None, None, &|_, _| ()).unwrap();
+    let tuned =
+        tune_within(&model, ElasticAsked::of(Asked::new(0.002, Some(error))), None, &Effort::unbounded(), &|_, _| ())
+            .unwrap();
     assert!(tuned.reached, "{tuned:?}");
     let forces = ColumnForces::of(&structure);
     let stiff = stiffer(&stiffer(&tuned.springs.corners));

@@ -1,6 +1,6 @@
 //! Against the nonsmooth reference, event-driven with plastic landings, of the same frame.
 
-use dynamics::fem::Control;
+use dynamics::{effort::Effort, fem::Control};
 use frames::{
     Mechanics,
     answer::{ElasticAnswer, Reference},
@@ -16,16 +16,25 @@ use rocking::scalar::GRAVITY;
 use springs::{
     case::{Asked, Yardstick},
     tuning::elastic::{
+        ElasticAsked, ElasticTuneError, ElasticTuned,
         design::{springs as springs_of_design, with_k},
         landing_speed, stand,
         suite::ElasticSuite,
         trial::ElasticTrial,
-        tune,
+        tune_within,
     },
 };
 use strong_motion::Record;
 
 use crate::common::{MODERATE, Numbers, el_centro, nrmse, pier, springs};
+
+fn tuned_for(
+    model: &Assembled,
+    asked: ElasticAsked,
+    record: (&Record, Reference),
+) -> Result<ElasticTuned, ElasticTuneError> {
+    tune_within(model, asked, Some(record), &Effort::unbounded(), &|_, _| ())
+}
 
 /// NRMSE of a base's rotation and of a mass's drift from it.
 fn errors(
@@ -175,7 +184,7 @@ fn springs_are_stiffened_until_they_follow_the_record_to_its_end() {
     assert!((1200..1400).contains(&foretold), "{foretold}");
     let accuracy = 0.002;
     let asked = Asked { by: Yardstick::Histories, error: accuracy };
-    let tuned = tune(&model, asked, None, Some((&record, reference)), &|_, _| ()).unwrap();
+    let tuned = tuned_for(&model, ElasticAsked::of(asked), (&record, reference)).unwrap();
     assert!(tuned.reached, "{tuned:?}");
     let reference = tuned.reference.unwrap();
     assert_eq!((reference.foretold, reference.followed), (foretold, record.len()));
@@ -190,7 +199,8 @@ fn springs_are_stiffened_until_they_follow_the_record_to_its_end() {
     // as stiff as is allowed for, no further: up to what can be foretold
     let reference = Reference { followed: foretold, ..answer.histories.reference };
     let softer = tuned.softer_hz.unwrap();
-    let soft = tune(&model, asked, Some(softer.ceil()), Some((&record, reference)), &|_, _| ()).unwrap();
+    let capped = ElasticAsked { most_hz: Some(softer.ceil()), ..ElasticAsked::of(asked) };
+    let soft = tuned_for(&model, capped, (&record, reference)).unwrap();
     assert!(soft.reached && soft.springs.omega_n_hz == softer && soft.softer_hz.is_none());
     assert_eq!(soft.reference.map(|reference| reference.followed), Some(foretold));
 }

@@ -209,7 +209,7 @@ impl Finding {
                 quantity(*step_s, "s")
             ),
             Self::ProgramLoses { program, step_s, lost, histories, .. } => format!(
-                "on the springs for steps of {} {program} loses {lost} of {histories} synthetic histories",
+                "on the springs for steps of {} {program} loses {lost} of {histories} histories",
                 quantity(*step_s, "s")
             ),
             Self::ProgramStepForAccuracy { step_s, needed_s, accuracy } => format!(
