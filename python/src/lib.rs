@@ -36,7 +36,7 @@ mod _native {
         rocking::{Histories, History, rigid_rocking, rigid_rocking_many},
         said::GroundspringWarning,
         simulation::{Simulation, simulate},
-        springs::{Chain, Springs, read_parameters},
+        springs::{_units_for, Chain, Springs, read_parameters},
         structure::Structure,
         tuned::{Tuned, tune},
         validation::{Validation, earthquake_records, synthetic_records, validate},

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import inspect
 import itertools
 import math
 import sys
@@ -40,7 +39,30 @@ def _routine(ops: Any) -> Any:
     """`class Steps` of the decks, from their own source."""
     names: dict[str, Any] = {"math": math, "sys": sys, "ops": ops, "__name__": __name__}
     exec(compile(STEPS, "<steps of the decks>", "exec"), names)
-    return names["Steps"]
+
+    class OwnSteps(names["Steps"]):  # type: ignore[misc]
+        """The decks' steps, which learn how fast a foot moves from long steps alone. Vibrations of a structure of one's own may
+        allow none for a whole run, and every step would be as short as a landing asks: here it is learnt over as long a time in
+        several steps, too."""
+
+        def __init__(self, *arguments: Any, **named: Any) -> None:
+            self.open_since: dict[int, tuple[float, float]] = {}
+            super().__init__(*arguments, **named)
+
+        def learn(self, before: Any, h: float) -> None:
+            super().learn(before, h)
+            now = ops.getTime()
+            for i, ((was, *_), (opening, rate, _, _)) in enumerate(zip(before, self.gaps, strict=True)):
+                if was <= 0.0 or opening <= 0.0:
+                    self.open_since.pop(i, None)
+                    continue
+                since, rate_then = self.open_since.setdefault(i, (now, rate))
+                if now - since >= self.longest:
+                    if self.strongest == 0.0:
+                        self.strongest = abs(rate - rate_then) / (now - since)
+                    self.open_since[i] = now, rate
+
+    return OwnSteps
 
 
 def _topples(ops: Any, feet: Feet) -> float:
@@ -243,9 +265,7 @@ class Stepper:
         pairs = tuple(pair for group in self.groups for pair in group.pairs)
         longest = longest if self.longest is None else self.longest
         routine = _routine(_Watched(self.ops, self._stepped))
-        told = {"landing": self.landing, "longest": longest, "rise": self.rise, "accuracy": self.accuracy}
-        asked = inspect.signature(routine).parameters
-        self.steps = routine(pairs, **{name: value for name, value in told.items() if name in asked})
+        self.steps = routine(pairs, landing=self.landing, longest=longest, rise=self.rise, accuracy=self.accuracy)
 
     def _stepped(self, h: float) -> None:
         if self._watch is not None:
