@@ -9,6 +9,7 @@ from matplotlib.axes import Axes
 
 _Array = npt.NDArray[np.float64]
 _Numbers = Sequence[float] | npt.NDArray[np.floating[Any]] | npt.NDArray[np.integer[Any]]
+_Response = tuple[Sequence[Sequence[float]], float, float]
 _Path = str | PathLike[str]
 
 GRAVITY: float
@@ -178,6 +179,16 @@ class Springs:
     @property
     def settlement(self) -> float:
         """Of the standing body under its weight, m."""
+    def stiffer(self, factor: float) -> Springs:
+        """Springs `factor` times as stiff, which land as these do: k1 and k2 times it, c times its root, m2 as it is."""
+
+def _units_for(
+    mass: float,
+    responses: tuple[_Response, _Response],
+    parts: Sequence[tuple[Sequence[int], Sequence[float], float]],
+    give: float,
+    landing: float,
+) -> tuple[float, float, list[Springs]]: ...
 
 def read_parameters(path: _Path) -> tuple[Structure, Springs]:
     """The structure and the springs of a `parameters.json`."""

@@ -17,12 +17,16 @@ import numpy as np
 import numpy.typing as npt
 
 from .._native import GRAVITY, GroundspringWarning, Springs
-from ._springs_for import FeetSprings
+from ._measure import Model, NotMeasured
+from ._springs_for import FeetSprings, tell_untied
 
 Array = npt.NDArray[np.float64]
 
 HOLDS = 1e7
 """A coefficient of friction at which no pressing foot ever slips, as in the decks."""
+
+HEAVY = 3.0
+"""Mass that springs are for over what lands, from which on it is told: absorbers then weigh more than the foot."""
 
 FIRST_TAG = 1_000_000
 """Tags begin here, or beyond the model's largest: materials and friction models cannot be asked for theirs."""
@@ -49,6 +53,7 @@ class Feet:
         self.units: tuple[int, ...] = ()
         self.bearings: tuple[int, ...] = ()
         self.materials: tuple[int, ...] = ()
+        self.options: dict[str, Any] = {}
         # what the structure gives above the foot is taken off the gap's: both in series are k1
         self.gap_vertical, self.gap_horizontal = (
             np.array([unit.k1 / (1.0 - unit.k1 * compliance) for unit in units])
@@ -83,7 +88,8 @@ class Feet:
 
         It moves along with a foot in the air.
         """
-        return self._relative(1) + self.forces()[:, 0] / self.gap_horizontal
+        anchors: Array = self._relative(1) + self.forces()[:, 0] / self.gap_horizontal
+        return anchors
 
     def pressing(self) -> npt.NDArray[np.bool_]:
         """Whether every foot presses on the ground."""
@@ -92,7 +98,7 @@ class Feet:
     def stored(self) -> Array:
         """Energy in the springs and the absorbers' motion of every foot, J."""
         compressed = np.minimum(self.gaps(), 0.0)
-        energy = 0.5 * self.gap_vertical * compressed**2 + 0.5 * self.forces()[:, 0] ** 2 / self.gap_horizontal
+        energy: Array = 0.5 * self.gap_vertical * compressed**2 + 0.5 * self.forces()[:, 0] ** 2 / self.gap_horizontal
         for k in (0, 1):
             displacement, velocity = self._absorber(k + 1)
             energy += 0.5 * self._k2[k] * displacement**2 + 0.5 * self._m2[k] * velocity**2
@@ -124,23 +130,31 @@ def add_feet(
     compliance: float = 0.0,
     friction: float = HOLDS,
     first_tag: int | None = None,
+    measure: bool = True,
 ) -> Feet:
     """Put spring-absorber units under nodes of a plane frame model.
 
     ops         openseespy.opensees, with a model of ndm 2 and ndf 3
-    nodes       the nodes that stand on the ground, two under a structure that rocks
-    springs     as tuned for the whole structure, or given; each node gets all of them
+    nodes       the nodes that stand on the ground, two or more under a structure that rocks
+    springs     of `springs_for`, one a node; or one for all, as tuned for a rigid body: each node gets all of it
     compliance  m/N: what the structure gives above a node, where that stands for a rigid body; taken off k1's
-    friction    coefficient; unless given a pressing foot never slips
+    friction    coefficient, without unit; unless given a pressing foot never slips
     first_tag   the first of the tags used; beyond the model's own unless given
+    measure     look whether the springs are for what lands; OpenSees' analysis objects are wiped for it. Not done with a
+                compliance, nor in models of more than 3,000 equations
 
     Call it after `ops.rayleigh`, which would damp the absorbers.
 
-    ValueError: a model that is not plane, nodes that are not there or fixed, numbers that mean nothing.
+    ValueError: a model that is not plane, nodes that are not there or fixed, that have feet already, or that have no mass under
+    columns softer than the springs; numbers that mean nothing. GroundspringWarning: springs for three times the mass that lands,
+    or more; three or more feet that nothing holds together.
     """
     nodes = [int(node) for node in nodes]
     _check(ops, nodes, springs, compliance, friction)
+    if measure and compliance == 0.0:
+        _check_lands(ops, nodes, springs)
     feet = Feet(ops, nodes, springs, compliance)
+    feet.options = {"compliance": compliance, "friction": friction, "first_tag": first_tag}
     there = [*ops.getNodeTags(), *ops.getEleTags()]
     free = itertools.count(max([FIRST_TAG, *(tag + 1 for tag in there)]) if first_tag is None else first_tag)
     units = [springs] * len(nodes) if isinstance(springs, Springs) else list(springs)
@@ -218,6 +232,7 @@ def _check(ops: Any, nodes: list[int], springs: Springs | FeetSprings, complianc
         held = sorted({1, 2} & set(ops.getFixedDOFs(node))) if node in fixed else []
         if held:
             raise ValueError(f"add_feet: node {node} is fixed in direction {held[0]}; a foot must be free: take the fix off")
+    _check_bare(ops, nodes)
     for name, value in (("compliance", compliance), ("friction", friction)):
         if not (math.isfinite(value) and value >= 0.0):
             raise ValueError(f"add_feet: {name} is {value!r}; give a finite number, zero or greater")
@@ -231,6 +246,48 @@ def _check(ops: Any, nodes: list[int], springs: Springs | FeetSprings, complianc
             "what the structure gives must be less"
         )
     _check_mass(ops, max(unit.mass for unit in units))
+
+
+def _check_bare(ops: Any, nodes: list[int]) -> None:
+    """Refuse nodes that stand on springs already."""
+    wanted = set(nodes)
+    for element in ops.getEleTags():
+        ends = set(ops.eleNodes(element)) & wanted
+        if ends and ops.eleType(element).startswith("FlatSlider"):
+            raise ValueError(
+                f"add_feet: node {min(ends)} stands on a bearing already (element {element}); a node gets one foot: keep the feet "
+                "that the first call returned, or begin the model anew"
+            )
+
+
+def _check_lands(ops: Any, nodes: list[int], springs: Springs | FeetSprings) -> None:
+    """Refuse feet without mass under soft columns; warn of springs for more than what lands."""
+    units = [springs] * len(nodes) if isinstance(springs, Springs) else list(springs)
+    omega = min(math.sqrt(unit.vertical.k1 / unit.mass) for unit in units)
+    try:
+        model = Model(ops, nodes)
+        lands, massless = model.effective(omega), model.springlike(omega)
+        if isinstance(springs, Springs):  # springs_for has told it
+            tell_untied(model, 3)
+    except NotMeasured:
+        return
+    for node, mass, unit in zip(nodes, lands, units, strict=True):
+        stiffness = mass * omega**2
+        if node in massless and stiffness < 0.5 * unit.vertical.k1:
+            raise ValueError(
+                f"add_feet: node {node} has no mass, and what stands on it gives more ({stiffness:.3g} N/m) than its spring "
+                f"({unit.vertical.k1:.3g} N/m): it would let go and land without end; give it the mass of its base plate or "
+                f"footing, ops.mass({node}, m, m, 0.0), and springs by springs_for"
+            )
+    heavy = [(unit.mass / mass, node, mass, unit) for node, mass, unit in zip(nodes, lands, units, strict=True)]
+    times, node, mass, unit = max(heavy, key=lambda entry: entry[0])
+    if times > HEAVY and isinstance(springs, Springs):
+        text = (
+            f"add_feet: the springs are for {unit.mass:.4g} kg, but {mass:.4g} kg land at node {node}: what stands on it is softer "
+            "than the springs, and does not land with it. The foot will touch and lift again and again, in very many steps; "
+            "take springs_for(ops, nodes)"
+        )
+        warnings.warn(text, GroundspringWarning, stacklevel=3)
 
 
 def _check_mass(ops: Any, mass: float) -> None:

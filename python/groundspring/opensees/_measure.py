@@ -19,6 +19,8 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
+from .._native import GRAVITY
+
 if TYPE_CHECKING:
     from ._feet import Array
 
@@ -136,6 +138,17 @@ class Model:
         parts = [[i for i in range(count) if groups[i] == group] for group in dict.fromkeys(groups)]
         return [sorted(part, key=lambda i: float(self.places[i, 0])) for part in parts]
 
+    def spread(self) -> Array:
+        """How far two neighbouring feet move apart under a foot's share of the weight, m: what ties them gives so much. A column a
+        pair, from the left."""
+        order = [int(i) for i in np.argsort(self.places[:, 0])]
+        # slowly: far below any frequency of the structure, whose rigid motions a pair of forces does not move
+        slow = 1e-3 * self.held()[0].omega
+        w = self.inertia(slow) / slow**2
+        share = GRAVITY * self.total / len(self.nodes)
+        pairs = zip(order, order[1:], strict=False)
+        return np.array([share * (w[2 * i, 2 * i] + w[2 * j, 2 * j] - 2.0 * w[2 * i, 2 * j]) for i, j in pairs])
+
     def landing_speed(self) -> float:
         """At which a foot lands that fell from half of what overturns, as a rigid body's: 2b p alpha sqrt(3)/2, m/s."""
         mass, turn = self.total, self.rigid[2]
@@ -146,7 +159,7 @@ class Model:
         if half <= 0.0 or height <= 0.0:
             raise NotMeasured("the feet are not apart, or the mass is not above them")
         radius = math.hypot(half, height)
-        p = math.sqrt(9.81 / radius / (1.0 + max(inertia, 0.0) / mass / radius**2))
+        p = math.sqrt(GRAVITY / radius / (1.0 + max(inertia, 0.0) / mass / radius**2))
         return 2.0 * half * p * math.atan2(half, height) * math.sqrt(0.75)
 
 
