@@ -8,9 +8,15 @@ use nalgebra::DMatrix;
 use pyo3::prelude::*;
 use springs::{parameters::Parameters, tuning::elastic::design};
 
-use crate::{said::value_error, structure::Structure};
+use crate::{
+    said::value_error,
+    structure::{Structure, hashed},
+};
 
-/// One spring-absorber unit: foot - gap, k1 - m2 - (k2 parallel with c) - ground.
+/// One spring-absorber unit: foot - gap, k1 - absorber m2 - (k2 parallel with dashpot c) -
+/// ground.
+///
+/// k1, k2 in N/m, m2 in kg, c in N s/m.
 #[pyclass(frozen, eq, from_py_object, module = "groundspring")]
 #[derive(Clone, Copy, PartialEq)]
 pub struct Chain(pub spring::Chain<f64>);
@@ -53,20 +59,41 @@ impl Chain {
         self.0.c
     }
 
+    fn __hash__(&self) -> u64 {
+        let c = &self.0;
+        hashed("", [c.k1, c.k2, c.m2, c.c].iter())
+    }
+
+    fn __reduce__<'py>(slf: &Bound<'py, Self>) -> (Bound<'py, PyAny>, (f64, f64, f64, f64)) {
+        let c = &slf.get().0;
+        (slf.get_type().into_any(), (c.k1, c.k2, c.m2, c.c))
+    }
+
+    fn __copy__(slf: Bound<'_, Self>) -> Bound<'_, Self> {
+        slf
+    }
+
+    fn __deepcopy__<'py>(slf: Bound<'py, Self>, _memo: &Bound<'py, PyAny>) -> Bound<'py, Self> {
+        slf
+    }
+
     fn __repr__(&self) -> String {
         let c = &self.0;
         format!("Chain(k1={:?}, k2={:?}, m2={:?}, c={:?})", c.k1, c.k2, c.m2, c.c)
     }
 }
 
-/// The units under each of the two feet of a structure of this mass.
+/// The units under each of the two feet of a structure of this mass, kg.
 #[pyclass(frozen, eq, from_py_object, module = "groundspring")]
 #[derive(Clone, Copy, PartialEq)]
 pub struct Springs {
+    /// Of the structure, kg.
     #[pyo3(get)]
     pub mass: f64,
+    /// The vertical unit of each foot.
     #[pyo3(get)]
     pub vertical: Chain,
+    /// The horizontal unit of each foot.
     #[pyo3(get)]
     pub horizontal: Chain,
 }
@@ -108,8 +135,8 @@ impl Springs {
         self.designs().settlement(self.mass)
     }
 
-    /// Springs `factor` times as stiff, which land as these do: k1 and k2 times it, c times its root,
-    /// m2 as it is. Omega_n grows with the root.
+    /// Springs `factor` times as stiff, which land as these do: k1 and k2 times it, c times its
+    /// root, m2 as it is.
     fn stiffer(&self, factor: f64) -> PyResult<Self> {
         if !(factor.is_finite() && factor > 0.0) {
             return Err(value_error(format!("stiffer: factor is {factor:?}; give a finite number above zero")));
@@ -118,6 +145,35 @@ impl Springs {
             Chain(spring::Chain { k1: k1 * factor, k2: k2 * factor, m2, c: c * factor.sqrt() })
         };
         Ok(Self { mass: self.mass, vertical: unit(self.vertical), horizontal: unit(self.horizontal) })
+    }
+
+    /// Amplitude response ratio of both units (equation 7), without unit, over frequency, Hz.
+    #[pyo3(signature = (axes = None))]
+    fn plot<'py>(slf: &Bound<'py, Self>, axes: Option<Bound<'py, PyAny>>) -> PyResult<Bound<'py, PyAny>> {
+        slf.py().import("groundspring._plots")?.call_method1("springs", (slf, axes))
+    }
+
+    /// For notebooks.
+    fn _repr_html_<'py>(slf: &Bound<'py, Self>) -> PyResult<Bound<'py, PyAny>> {
+        slf.py().import("groundspring._html")?.call_method1("springs", (slf,))
+    }
+
+    fn __hash__(&self) -> u64 {
+        let unit = |c: &spring::Chain<f64>| [c.k1, c.k2, c.m2, c.c];
+        hashed("", [unit(&self.vertical.0), unit(&self.horizontal.0), [self.mass; 4]].as_flattened().iter())
+    }
+
+    fn __reduce__<'py>(slf: &Bound<'py, Self>) -> (Bound<'py, PyAny>, (f64, Chain, Chain)) {
+        let of = slf.get();
+        (slf.get_type().into_any(), (of.mass, of.vertical, of.horizontal))
+    }
+
+    fn __copy__(slf: Bound<'_, Self>) -> Bound<'_, Self> {
+        slf
+    }
+
+    fn __deepcopy__<'py>(slf: Bound<'py, Self>, _memo: &Bound<'py, PyAny>) -> Bound<'py, Self> {
+        slf
     }
 
     fn __repr__(&self) -> String {
@@ -173,8 +229,7 @@ pub fn _units_for(
     };
     let footings = parts.into_iter().map(&mut footing).collect();
     let response = |(reactions, work, omega): Response| FixedResponse { reactions, work, omega };
-    let standing =
-        Standing { reactions: vec![[0.0; 2]; count], footings, responses: responses.map(response), mass };
+    let standing = Standing { reactions: vec![[0.0; 2]; count], footings, responses: responses.map(response), mass };
     let found = design::springs(&standing, give, landing, 1.0);
     let units = found.corners.iter().zip(masses).map(|(units, mass)| {
         let spring::Springs { vertical, horizontal } = *units;
