@@ -11,9 +11,11 @@
 `groundspring.opensees` puts the springs under a model of your own in openseespy.
 
 SI units throughout: m, kg, s, N; angles in radians. theta > 0 leans to the right, u > 0 is to the right, v > 0 up. Errors are
-ValueError, warnings are GroundspringWarning, both in the words of the program `tune`. Arrays of results cannot be written to.
+ValueError, warnings are GroundspringWarning, in words of Python. Arrays of results cannot be written to.
 """
 
+from ._many import rocking
+from ._native import __VERSION as _version
 from ._native import (
     GRAVITY,
     Chain,
@@ -22,6 +24,7 @@ from ._native import (
     Histories,
     History,
     Record,
+    RockingTable,
     Simulation,
     Springs,
     Structure,
@@ -43,7 +46,11 @@ from ._native import (
     validate,
 )
 
+__version__: str = _version
+"""Of the package, which is that of the program."""
+
 __all__ = [
+    "__version__",
     "GRAVITY",
     "Chain",
     "Design",
@@ -51,6 +58,7 @@ __all__ = [
     "Histories",
     "History",
     "Record",
+    "RockingTable",
     "Simulation",
     "Springs",
     "Structure",
@@ -66,6 +74,7 @@ __all__ = [
     "read_record",
     "rigid_rocking",
     "rigid_rocking_many",
+    "rocking",
     "simulate",
     "synthetic_records",
     "tune",

@@ -1,15 +1,20 @@
-from collections.abc import Sequence
+from collections.abc import Callable, Sequence
 from os import PathLike
 from typing import Any, Literal, final, overload
 
 import numpy as np
 import numpy.typing as npt
 import pandas
+import polars as pl
 from matplotlib.axes import Axes
 
 _Array = npt.NDArray[np.float64]
 _Numbers = Sequence[float] | npt.NDArray[np.floating[Any]] | npt.NDArray[np.integer[Any]]
+_Response = tuple[Sequence[Sequence[float]], float, float]
 _Path = str | PathLike[str]
+
+__VERSION: str
+"""Of the package."""
 
 GRAVITY: float
 """9.81 m/s2, throughout."""
@@ -18,16 +23,24 @@ STEPS: str
 """Source of the stepping routine of decks for openseespy."""
 
 class GroundspringWarning(UserWarning):
-    """What the program warns of: in reading a record, in springs, in a comparison."""
+    """What is doubtful: in reading a record, in springs, in a comparison."""
 
 @final
 class Record:
-    """A ground motion: acceleration at even time steps, linear in between.
+    """A ground motion: acceleration at even time steps, linear in between. Equal ones have equal names and numbers.
 
-    ValueError: dt not between 1e-6 and 1 s, no sample, a sample that is not finite, a peak above 50 g.
+    dt     time step, s
+    accel  ground acceleration at t = i dt, positive to the right, in `units`: one row of real numbers
+    name   what it is called
+    units  of accel: "m/s2", "g" (9.81 m/s2), "cm/s2" or "mm/s2"
+
+    ValueError: dt not between 1e-6 and 1 s, no sample, a sample that is not finite, a peak above 50 g; an array of two
+    dimensions, masked, complex, or with units of its own.
     """
 
-    def __new__(cls, dt: float, accel: _Numbers, name: str = "record") -> Record: ...
+    def __new__(
+        cls, dt: float, accel: _Numbers, name: str = "record", *, units: Literal["m/s2", "g", "cm/s2", "mm/s2"] | str = "m/s2"
+    ) -> Record: ...
     @property
     def name(self) -> str:
         """What it is called."""
@@ -59,6 +72,15 @@ class Record:
     def truncated(self, duration: float) -> Record:
         """The samples up to this time, s; at least the first."""
     def __len__(self) -> int: ...
+    def plot(self, axes: Axes | None = None) -> Axes:
+        """Ground acceleration, g, over time, s, with the vertical one if there is one."""
+    def _repr_html_(self) -> str:
+        """For notebooks."""
+    def __eq__(self, other: object, /) -> bool: ...
+    def __hash__(self) -> int: ...
+    def __copy__(self) -> Record: ...
+    def __deepcopy__(self, _memo: Any, /) -> Record: ...
+    def __reduce__(self) -> Any: ...
 
 def read_record(
     path: _Path,
@@ -136,6 +158,11 @@ class Structure:
     @property
     def restitution(self) -> float:
         """Velocity ratio of a landing, without unit."""
+    def __eq__(self, other: object, /) -> bool: ...
+    def __hash__(self) -> int: ...
+    def __copy__(self) -> Structure: ...
+    def __deepcopy__(self, _memo: Any, /) -> Structure: ...
+    def __reduce__(self) -> Any: ...
 
 @final
 class Chain:
@@ -157,6 +184,11 @@ class Chain:
     @property
     def c(self) -> float:
         """Dashpot beside k2, N s/m."""
+    def __eq__(self, other: object, /) -> bool: ...
+    def __hash__(self) -> int: ...
+    def __copy__(self) -> Chain: ...
+    def __deepcopy__(self, _memo: Any, /) -> Chain: ...
+    def __reduce__(self) -> Any: ...
 
 @final
 class Springs:
@@ -178,6 +210,25 @@ class Springs:
     @property
     def settlement(self) -> float:
         """Of the standing body under its weight, m."""
+    def stiffer(self, factor: float) -> Springs:
+        """Springs `factor` times as stiff, which land as these do: k1 and k2 times it, c times its root, m2 as it is."""
+    def plot(self, axes: Axes | None = None) -> Axes:
+        """Amplitude response ratio of both units (equation 7), without unit, over frequency, Hz."""
+    def _repr_html_(self) -> str:
+        """For notebooks."""
+    def __eq__(self, other: object, /) -> bool: ...
+    def __hash__(self) -> int: ...
+    def __copy__(self) -> Springs: ...
+    def __deepcopy__(self, _memo: Any, /) -> Springs: ...
+    def __reduce__(self) -> Any: ...
+
+def _units_for(
+    mass: float,
+    responses: tuple[_Response, _Response],
+    parts: Sequence[tuple[Sequence[int], Sequence[float], float]],
+    give: float,
+    landing: float,
+) -> tuple[float, float, list[Springs]]: ...
 
 def read_parameters(path: _Path) -> tuple[Structure, Springs]:
     """The structure and the springs of a `parameters.json`."""
@@ -218,9 +269,19 @@ class History:
         """When |theta| last grew past alpha, of a body that overturned, s."""
     @property
     def peak_ratio(self) -> float:
-        """Largest |theta|/alpha, without unit; pi/2 / alpha if it overturned, as in every table of the program."""
+        """Largest |theta|/alpha, without unit; pi/2 / alpha if it overturned, as in every table."""
     def __len__(self) -> int: ...
-    def to_pandas(self) -> pandas.DataFrame: ...
+    def to_pandas(self) -> pandas.DataFrame:
+        """u and v, m, theta, rad, rate, rad/s, over time, s."""
+    def plot(self, axes: Axes | None = None) -> Axes:
+        """Rotation, mrad, over time, s, with the impacts."""
+    def _repr_html_(self) -> str:
+        """For notebooks."""
+    def __eq__(self, other: object, /) -> bool: ...
+    def __hash__(self) -> int: ...
+    def __copy__(self) -> History: ...
+    def __deepcopy__(self, _memo: Any, /) -> History: ...
+    def __reduce__(self) -> Any: ...
 
 @final
 class Histories:
@@ -234,6 +295,15 @@ class Histories:
     @property
     def overturned(self) -> npt.NDArray[np.bool_]:
         """Whether each overturned."""
+    def to_pandas(self) -> pandas.DataFrame:
+        """A row a history: outcome, largest |theta|/alpha, impacts, when it overturned, s, samples."""
+    def _repr_html_(self) -> str:
+        """For notebooks."""
+    def __eq__(self, other: object, /) -> bool: ...
+    def __hash__(self) -> int: ...
+    def __copy__(self) -> Histories: ...
+    def __deepcopy__(self, _memo: Any, /) -> Histories: ...
+    def __reduce__(self) -> Any: ...
 
 def rigid_rocking(
     structure: Structure,
@@ -242,7 +312,7 @@ def rigid_rocking(
     scale: float = 1.0,
     restitution: float | None = None,
 ) -> History:
-    """Housner's solution for a structure on a record: to the last bit that of `tune housner`.
+    """Housner's solution for a structure on a record.
 
     vertical  ground acceleration at the same times, positive upwards, if not that of the record; the history ends where the
               ground would have to pull (outcome "leaves_ground")
@@ -253,15 +323,53 @@ def rigid_rocking(
 def rigid_rocking_many(
     structures: Structure | Sequence[Structure],
     record: Record,
-    scales: float | _Numbers = ...,
+    scales: float | _Numbers | None = None,
     restitution: float | None = None,
 ) -> Histories:
     """Housner's solutions on all cores: of several structures, or at several scales, or of as many pairs of both.
 
-    scales  factors on the record; 1 unless given
+    scales  factors on the record, without unit; 1 unless given
 
     ValueError: structures and scales of different number, neither of which is one.
     """
+
+@final
+class RockingTable:
+    """A table of histories, a row each: what `rocking` returns, where its columns are told."""
+
+    @property
+    def columns(self) -> list[str]:
+        """Names of the columns."""
+    def __len__(self) -> int: ...
+    def __getitem__(self, name: str, /) -> Any: ...
+    def __arrow_c_stream__(self, requested_schema: object | None = None) -> Any:
+        """For whoever reads Arrow: `polars.DataFrame(table)`, `pyarrow.table(table)`. The numbers are not copied."""
+    def to_pandas(self) -> pandas.DataFrame:
+        """The table as it is, units as in `rocking`."""
+    def to_polars(self) -> pl.DataFrame:
+        """The same for polars, without a copy."""
+    def _repr_html_(self) -> str:
+        """For notebooks."""
+    def _columns(self) -> list[tuple[str, Any]]:
+        """Names and columns."""
+    def __reduce__(self) -> Any: ...
+
+def rocking(
+    structures: Structure | Sequence[Structure],
+    records: Record | Sequence[Record],
+    scales: float | _Numbers | None = None,
+    *,
+    vertical: Record | Sequence[Record] | None = None,
+    restitution: float | None = None,
+    progress: Callable[[int], object] | None = None,
+) -> RockingTable:
+    """What `groundspring.rocking` calls; progress is told how many histories more are done."""
+
+def _history(filed: Any) -> History: ...
+def _histories(all: list[History]) -> Histories: ...
+def _table(columns: Any) -> RockingTable: ...
+def _design(alpha: float, mass_share: float, stiffness: float) -> Design: ...
+def _unit_design(mu: float, f: float, xi: float, omega_n_hz: float) -> UnitDesign: ...
 
 @final
 class Simulation:
@@ -329,12 +437,19 @@ class Simulation:
         """What the body does in both models, as in `parameters.json`: times in s, rotations over alpha."""
     @property
     def lines(self) -> list[str]:
-        """What the program says of the run."""
+        """What is to be said of the run."""
     @property
     def demands(self) -> dict[str, _Array]:
         """Base shear and forces in the legs, N; moments, N m; by name."""
-    def to_pandas(self) -> pandas.DataFrame: ...
-    def plot(self, axes: Axes | None = None) -> Axes: ...
+    def to_pandas(self) -> pandas.DataFrame:
+        """Both models' motions, m and rad, forces, N, moments, N m, and energies, J, over time, s."""
+    def plot(self, axes: Axes | None = None) -> Axes:
+        """Horizontal displacement, mm, of both models over time, s."""
+    def _repr_html_(self) -> str:
+        """For notebooks."""
+    def __copy__(self) -> Simulation: ...
+    def __deepcopy__(self, _memo: Any, /) -> Simulation: ...
+    def __reduce__(self) -> Any: ...
 
 def simulate(
     structure: Structure,
@@ -345,7 +460,7 @@ def simulate(
     friction: float = 0.5,
     vertical: Record | None = None,
 ) -> Simulation:
-    """Both models on given springs, as `tune simulate`.
+    """Both models on given springs.
 
     friction  coefficient of the ground, without unit, for the warning of sliding
     vertical  ground acceleration at the same times, positive upwards, if not that of the record
@@ -353,7 +468,11 @@ def simulate(
 
 @final
 class Tuned:
-    """Springs of a structure, and all that `tune run` finds of them."""
+    """Springs of a rigid structure, and all that is found of them.
+
+    The springs are for a body that lands as a whole. Under columns that give they are wrong: they throw the foot back, again and
+    again, in a million steps. There `groundspring.opensees.springs_for` has those of what lands.
+    """
 
     @property
     def structure(self) -> Structure:
@@ -375,12 +494,19 @@ class Tuned:
         """All of `parameters.json` but the record; keys end in their units."""
     @property
     def lines(self) -> list[str]:
-        """What the program says of the run."""
+        """What is to be said of the run."""
     def save(self, folder: _Path, figures: bool = True) -> list[str]:
-        """Write what `tune run` writes: springs, histories, figures, decks. Decks that a program cannot hold are left
+        """Write springs, histories, figures, decks. Decks that a program cannot hold are left
         out: each is named, with the reason."""
-    def to_pandas(self) -> pandas.DataFrame: ...
-    def plot(self, axes: Axes | None = None) -> Axes: ...
+    def to_pandas(self) -> pandas.DataFrame:
+        """Those of its histories."""
+    def plot(self, axes: Axes | None = None) -> Axes:
+        """Horizontal displacement, mm, of both models over time, s."""
+    def _repr_html_(self) -> str:
+        """For notebooks."""
+    def __copy__(self) -> Tuned: ...
+    def __deepcopy__(self, _memo: Any, /) -> Tuned: ...
+    def __reduce__(self) -> Any: ...
 
 def tune(
     structure: Structure,
@@ -396,16 +522,16 @@ def tune(
     front: bool = False,
     vertical: Record | None = None,
 ) -> Tuned:
-    """Tune the springs of a structure, as `tune run`.
+    """Tune the springs of a rigid structure; for columns that give see `groundspring.opensees.springs_for`.
 
     record          on which they are judged beside the motions made for the structure; all of El Centro unless given
     accuracy        error of the history against Housner's (NRMSE) that Omega_n is chosen for
     method          "landing": by the geometry; "arr": the paper's procedure, on the record
     scale           factor on the record
     duration        of the record, s; all of it unless given
-    max_hz          stiffest springs, Omega_n/2 pi, for programs with fixed time steps
+    max_hz          stiffest springs, Omega_n/2 pi, Hz, for programs with fixed time steps
     max_settlement  of the standing body, m
-    friction        of the ground, for the warning of sliding
+    friction        coefficient of the ground, without unit, for the warning of sliding
     front           error against stiffness, too
     vertical        ground acceleration at the record's times, positive upwards, if not that of the record
 
@@ -434,6 +560,11 @@ class UnitDesign:
     @property
     def frequency_ratio(self) -> float:
         """Omega_n of the unit over that of the vertical one, without unit."""
+    def __eq__(self, other: object, /) -> bool: ...
+    def __hash__(self) -> int: ...
+    def __copy__(self) -> UnitDesign: ...
+    def __deepcopy__(self, _memo: Any, /) -> UnitDesign: ...
+    def __reduce__(self) -> Any: ...
 
 @final
 class Design:
@@ -459,6 +590,11 @@ class Design:
         """The horizontal unit of each foot."""
     def springs(self, mass: float, radius: float) -> Springs:
         """With units, for a mass, kg, and the distance R from a foot to the centre of mass, m."""
+    def __eq__(self, other: object, /) -> bool: ...
+    def __hash__(self) -> int: ...
+    def __copy__(self) -> Design: ...
+    def __deepcopy__(self, _memo: Any, /) -> Design: ...
+    def __reduce__(self) -> Any: ...
 
 @overload
 def design(alpha: Structure, *, stiffness: float | None = None) -> Design: ...
@@ -473,7 +609,7 @@ def frequency_response(g: _Numbers, mu: float, f: float, xi: float) -> _Array:
     """Amplitude response ratio (equation 7) of a unit at frequency ratios g = omega/Omega_n."""
 
 def fit_response(mu: float) -> dict[str, Any]:
-    """f and xi of a mass ratio by the paper's frequency response, and the certificate: what `tune response --json` prints."""
+    """f and xi of a mass ratio by the paper's frequency response, and the certificate."""
 
 @final
 class Validation:
@@ -482,8 +618,14 @@ class Validation:
     @property
     def summary(self) -> dict[str, Any]:
         """All of `validate.json`: statistics of all records and of each suite, the rows."""
-    def to_pandas(self) -> pandas.DataFrame: ...
+    def to_pandas(self) -> pandas.DataFrame:
+        """A row a record; names end in their units."""
     def __len__(self) -> int: ...
+    def _repr_html_(self) -> str:
+        """For notebooks."""
+    def __copy__(self) -> Validation: ...
+    def __deepcopy__(self, _memo: Any, /) -> Validation: ...
+    def __reduce__(self) -> Any: ...
 
 def validate(
     structure: Structure,
@@ -496,7 +638,7 @@ def validate(
     duration: float | None = None,
     restitution: float | None = None,
 ) -> Validation:
-    """Judge springs over many records, as `tune validate`.
+    """Judge springs over many records.
 
     records      of your own, or a folder of files
     synthetic    so many motions made for the structure
@@ -508,10 +650,10 @@ def validate(
     """
 
 def synthetic_records(structure: Structure, n: int, seed: int = 1) -> list[Record]:
-    """Motions made for a structure: pulses and filtered noise, as `tune validate --synthetic`."""
+    """Motions made for a structure: Ricker and Mavroeidis-Papageorgiou pulses, filtered noise. ^C ends it."""
 
 def earthquake_records(structure: Structure, n: int, seed: int = 1) -> list[Record]:
-    """Motions with the frequencies of earthquakes, as `tune validate --earthquakes`.
+    """Motions with the frequencies of earthquakes: filtered noise of soils of 9 to 36 rad/s, 0.2 to 0.9 g. ^C ends it.
 
     The structure decides how long they are silent at the end.
     """

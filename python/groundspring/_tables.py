@@ -6,8 +6,9 @@ from typing import TYPE_CHECKING, Any
 
 if TYPE_CHECKING:
     import pandas
+    import polars as pl
 
-    from ._native import History, Simulation
+    from ._native import Histories, History, RockingTable, Simulation
 
 
 def _frame(columns: Any, index: Any = None) -> pandas.DataFrame:
@@ -42,3 +43,31 @@ def simulation(of: Simulation) -> pandas.DataFrame:
 def rows(of: list[dict[str, Any]]) -> pandas.DataFrame:
     """A row a record."""
     return _frame(of)
+
+
+def histories(of: Histories) -> pandas.DataFrame:
+    """A row a history: how it ended, its largest |theta|/alpha, its impacts, when it overturned, s."""
+    each = [of[i] for i in range(len(of))]
+    columns = {
+        "outcome": [one.outcome for one in each],
+        "peak_ratio": of.peak_ratio,
+        "impacts": [len(one.impacts) for one in each],
+        "overturned": of.overturned,
+        "overturned_time": [float("nan") if one.overturned is None else one.overturned for one in each],
+        "samples": [len(one) for one in each],
+    }
+    return _frame(columns)
+
+
+def rocking(of: RockingTable) -> pandas.DataFrame:
+    """The table as it is."""
+    return _frame({name: of[name] for name in of.columns})
+
+
+def polars(of: RockingTable) -> pl.DataFrame:
+    """The table as it is, without a copy."""
+    try:
+        import polars
+    except ImportError as error:
+        raise ImportError("to_polars needs polars: pip install polars") from error
+    return polars.DataFrame(of)

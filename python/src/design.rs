@@ -1,7 +1,7 @@
 //! The design from the geometry, without units, and the frequency response.
 
 use dynamics::spring;
-use numpy::{AllowTypeChange, PyArray1, PyArrayLike1};
+use numpy::PyArray1;
 use pyo3::prelude::*;
 use rocking::scalar::GRAVITY;
 use springs::{
@@ -11,10 +11,10 @@ use springs::{
 };
 
 use crate::{
-    Array,
+    Array, numbers,
     said::{plain, value_error},
     springs::Springs,
-    structure::Structure,
+    structure::{Structure, hashed},
     work::interruptible,
 };
 
@@ -59,6 +59,28 @@ impl UnitDesign {
     #[getter]
     fn frequency_ratio(&self) -> f64 {
         self.0.omega_n_hz
+    }
+
+    fn __eq__(&self, other: &Bound<'_, PyAny>) -> bool {
+        other.cast::<Self>().is_ok_and(|other| self.0 == other.get().0)
+    }
+
+    fn __hash__(&self) -> u64 {
+        let d = &self.0;
+        hashed("", [d.mu, d.f, d.xi, d.omega_n_hz].iter())
+    }
+
+    fn __copy__(slf: Bound<'_, Self>) -> Bound<'_, Self> {
+        slf
+    }
+
+    fn __deepcopy__<'py>(slf: Bound<'py, Self>, _memo: &Bound<'py, PyAny>) -> Bound<'py, Self> {
+        slf
+    }
+
+    fn __reduce__<'py>(&self, py: Python<'py>) -> PyResult<(Bound<'py, PyAny>, (f64, f64, f64, f64))> {
+        let d = &self.0;
+        Ok((py.import("groundspring._restore")?.getattr("unit_design")?, (d.mu, d.f, d.xi, d.omega_n_hz)))
     }
 
     fn __repr__(&self) -> String {
@@ -112,7 +134,7 @@ impl Design {
         UnitDesign(self.springs.horizontal)
     }
 
-    /// With units, for a mass and a radius R: p^2 = (m R^2/I0) g/R.
+    /// With units, for a mass, kg, and the distance R from a foot to the centre of mass, m.
     fn springs(&self, mass: f64, radius: f64) -> PyResult<Springs> {
         if let Some((name, value)) =
             [("mass", mass), ("radius", radius)].into_iter().find(|(_, x)| !(x.is_finite() && *x > 0.0))
@@ -127,6 +149,28 @@ impl Design {
         Ok(Springs::of(mass, &springs))
     }
 
+    fn __eq__(&self, other: &Bound<'_, PyAny>) -> bool {
+        other.cast::<Self>().is_ok_and(|other| self.geometry == other.get().geometry)
+    }
+
+    fn __hash__(&self) -> u64 {
+        let g = &self.geometry;
+        hashed("", [g.alpha(), g.mass_share(), g.stiffness()].iter())
+    }
+
+    fn __copy__(slf: Bound<'_, Self>) -> Bound<'_, Self> {
+        slf
+    }
+
+    fn __deepcopy__<'py>(slf: Bound<'py, Self>, _memo: &Bound<'py, PyAny>) -> Bound<'py, Self> {
+        slf
+    }
+
+    fn __reduce__<'py>(&self, py: Python<'py>) -> PyResult<(Bound<'py, PyAny>, (f64, f64, f64))> {
+        let g = &self.geometry;
+        Ok((py.import("groundspring._restore")?.getattr("design")?, (g.alpha(), g.mass_share(), g.stiffness())))
+    }
+
     fn __repr__(&self) -> String {
         format!(
             "Design(alpha={:.6}, inertia={:.6}, stiffness={:.1}, vertical={}, horizontal={})",
@@ -139,8 +183,10 @@ impl Design {
     }
 }
 
-/// The design from the geometry: alpha (rad), I_cg/(m R^2), Omega_n/p; or a [`Structure`] and
-/// Omega_n/p. Omega_n/p is, unless given, where `tune` begins to look for an accuracy of 0.002.
+/// The design from the geometry, without units: alpha in rad, inertia I_cg/(m R^2), 0 unless
+/// given, stiffness Omega_n/p.
+///
+/// Omega_n/p is, unless given, where `tune` begins to look for an accuracy of 0.002.
 #[pyfunction]
 #[pyo3(signature = (alpha, inertia = None, stiffness = None))]
 pub fn design(py: Python<'_>, alpha: Of, inertia: Option<f64>, stiffness: Option<f64>) -> PyResult<Design> {
@@ -163,6 +209,19 @@ pub fn design(py: Python<'_>, alpha: Of, inertia: Option<f64>, stiffness: Option
     Ok(Design { geometry, springs })
 }
 
+/// A design that was pickled: alpha (rad), m R^2/I0, Omega_n/p.
+#[pyfunction]
+pub fn _design(alpha: f64, mass_share: f64, stiffness: f64) -> PyResult<Design> {
+    let geometry = Geometry::new(alpha, mass_share, stiffness).map_err(value_error)?;
+    Ok(Design { geometry, springs: geometry.springs() })
+}
+
+/// A unit that was pickled: mu, f, xi, Omega_n over the vertical one.
+#[pyfunction]
+pub fn _unit_design(mu: f64, f: f64, xi: f64, omega_n_hz: f64) -> UnitDesign {
+    UnitDesign(spring::Design { mu, f, xi, omega_n_hz })
+}
+
 /// What a design is of.
 #[derive(FromPyObject)]
 pub enum Of {
@@ -170,11 +229,11 @@ pub enum Of {
     Alpha(f64),
 }
 
-/// ARR of equation (7) at frequency ratios g = omega/Omega_n.
+/// Amplitude response ratio (equation 7) of a unit at frequency ratios g = omega/Omega_n.
 #[pyfunction]
 pub fn frequency_response<'py>(
     py: Python<'py>,
-    g: PyArrayLike1<'py, f64, AllowTypeChange>,
+    g: &Bound<'py, PyAny>,
     mu: f64,
     f: f64,
     xi: f64,
@@ -185,11 +244,11 @@ pub fn frequency_response<'py>(
             "frequency_response: {name} is {value:?}; give finite mu and f above zero, xi zero or greater"
         )));
     }
-    Ok(PyArray1::from_iter(py, g.as_array().iter().map(|&g| response::arr(g, mu, f, xi))))
+    let g = numbers::one_or_more(g, "g", "frequencies over Omega_n, without unit")?;
+    Ok(PyArray1::from_iter(py, g.into_iter().map(|g| response::arr(g, mu, f, xi))))
 }
 
-/// f and xi of a mass ratio by the paper's frequency response, with the certificate: what `tune
-/// response` prints as JSON.
+/// f and xi of a mass ratio by the paper's frequency response, and the certificate.
 #[pyfunction]
 pub fn fit_response(py: Python<'_>, mu: f64) -> PyResult<Py<PyAny>> {
     let fit = interruptible(py, |_| fit(mu, &Target::default(), &Bounds::default()))?.map_err(value_error)?;

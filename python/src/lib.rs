@@ -8,13 +8,18 @@
 //! | `simulation` | both models on given springs |
 //! | `tuned` | the whole of `tune run` |
 //! | `design`, `validation` | the design without units, the frequency response; springs judged over many records |
-//! | `work`, `said` | long work that ^C interrupts; errors, warnings, JSON |
+//! | `many`, `arrow` | many histories as one table; a table for whoever reads Arrow |
+//! | `numbers` | rows of numbers from Python, checked |
+//! | `work`, `said`, `words` | long work that ^C interrupts; errors, warnings, JSON; in Python's words |
 //!
-//! Nothing is computed here. Errors are `ValueError` in the crate's words, warnings
+//! Nothing is computed here. Errors are `ValueError` in Python's words, warnings
 //! `groundspring.GroundspringWarning`. Arrays are views of the crate's own memory where it has
 //! them, and cannot be written to.
 
+mod arrow;
 mod design;
+mod many;
+mod numbers;
 mod record;
 mod rocking;
 mod said;
@@ -23,6 +28,7 @@ mod springs;
 mod structure;
 mod tuned;
 mod validation;
+mod words;
 mod work;
 
 use pyo3::prelude::*;
@@ -31,12 +37,13 @@ use pyo3::prelude::*;
 mod _native {
     #[pymodule_export]
     use crate::{
-        design::{Design, UnitDesign, design, fit_response, frequency_response},
+        design::{_design, _unit_design, Design, UnitDesign, design, fit_response, frequency_response},
+        many::{_table, RockingTable, rock_all},
         record::{Record, el_centro, read_record},
-        rocking::{Histories, History, rigid_rocking, rigid_rocking_many},
+        rocking::{_histories, _history, Histories, History, rigid_rocking, rigid_rocking_many},
         said::GroundspringWarning,
         simulation::{Simulation, simulate},
-        springs::{Chain, Springs, read_parameters},
+        springs::{_units_for, Chain, Springs, read_parameters},
         structure::Structure,
         tuned::{Tuned, tune},
         validation::{Validation, earthquake_records, synthetic_records, validate},
@@ -46,7 +53,10 @@ mod _native {
     const STEPS: &str = decks::STEPS;
 
     #[pymodule_export]
-    const GRAVITY: f64 = rocking::scalar::GRAVITY;
+    const __VERSION: &str = env!("CARGO_PKG_VERSION");
+
+    #[pymodule_export]
+    const GRAVITY: f64 = ::rocking::scalar::GRAVITY;
 }
 
 /// What the crate's numbers are called with in Python.

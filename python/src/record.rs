@@ -2,20 +2,46 @@
 
 use std::{borrow::Cow, path::PathBuf};
 
-use numpy::{AllowTypeChange, PyArrayLike1};
 use pyo3::prelude::*;
 use strong_motion as core;
 use strong_motion::{Recording, Units};
 
 use crate::{
-    Array,
+    Array, numbers,
     said::{value_error, warn},
+    structure::hashed,
     times, view,
 };
 
-/// A ground motion: acceleration at even time steps, linear in between.
-#[pyclass(frozen, module = "groundspring")]
-#[derive(Clone)]
+/// Scales that a record can be taken at, or an error in the words of the scale or of the record.
+pub fn checked_scales(record: &core::Record, scales: &[f64]) -> PyResult<()> {
+    if let Some((i, scale)) = scales.iter().enumerate().find(|(_, scale)| !scale.is_finite()) {
+        let at = if scales.len() > 1 { format!("scales[{i}]") } else { "scales".to_owned() };
+        return Err(value_error(format!(
+            "{at} is {}; every scale must be a finite number",
+            scale.to_string().to_lowercase()
+        )));
+    }
+    let largest = scales.iter().copied().max_by(|a, b| a.abs().total_cmp(&b.abs()));
+    match largest.filter(|scale| (scale * record.pga_g()).abs() >= 50.0) {
+        Some(scale) => record.scaled(scale).map(|_| ()).map_err(value_error),
+        None => Ok(()),
+    }
+}
+
+/// A ground motion: acceleration at even time steps, linear in between. Equal ones have equal
+/// names and numbers.
+///
+/// dt     time step, s
+/// accel  ground acceleration at t = i dt, positive to the right, in `units`: one row of real
+///        numbers
+/// name   what it is called
+/// units  of accel: "m/s2", "g" (9.81 m/s2), "cm/s2" or "mm/s2"
+///
+/// ValueError: dt not between 1e-6 and 1 s, no sample, a sample that is not finite, a peak
+/// above 50 g; an array of two dimensions, masked, complex, or with units of its own.
+#[pyclass(frozen, eq, from_py_object, module = "groundspring")]
+#[derive(Clone, PartialEq)]
 pub struct Record(pub core::Record);
 
 impl Record {
@@ -29,9 +55,13 @@ impl Record {
 #[pymethods]
 impl Record {
     #[new]
-    #[pyo3(signature = (dt, accel, name = "record"))]
-    fn new(dt: f64, accel: PyArrayLike1<'_, f64, AllowTypeChange>, name: &str) -> PyResult<Self> {
-        let accel = accel.as_array().to_vec();
+    #[pyo3(signature = (dt, accel, name = "record", *, units = "m/s2"))]
+    fn new(dt: f64, accel: &Bound<'_, PyAny>, name: &str, units: &str) -> PyResult<Self> {
+        let factor = units.parse::<Units>().map_err(value_error)?.metres_per_second2();
+        let mut accel = numbers::row(accel, "accel", "accelerations in m/s2, or in the units that are named")?;
+        if factor != 1.0 {
+            accel.iter_mut().for_each(|a| *a *= factor);
+        }
         core::Record::new(name, dt, accel).map(Self).map_err(value_error)
     }
 
@@ -83,20 +113,55 @@ impl Record {
         self.0.vertical.as_ref().map(|up| Self(core::as_record(up, self.0.dt)))
     }
 
+    /// The record with a vertical ground acceleration at the same times, positive upwards.
     fn with_vertical(&self, up: &Self) -> PyResult<Self> {
         Ok(Self(self.beside(Some(up))?.into_owned()))
     }
 
+    /// Every acceleration times a factor, the vertical ones too.
     fn scaled(&self, factor: f64) -> PyResult<Self> {
         self.0.scaled(factor).map(Self).map_err(value_error)
     }
 
+    /// The samples up to this time, s; at least the first.
     fn truncated(&self, duration: f64) -> Self {
         Self(self.0.truncated(duration))
     }
 
+    /// Ground acceleration, g, over time, s, with the vertical one if there is one.
+    #[pyo3(signature = (axes = None))]
+    fn plot<'py>(slf: &Bound<'py, Self>, axes: Option<Bound<'py, PyAny>>) -> PyResult<Bound<'py, PyAny>> {
+        slf.py().import("groundspring._plots")?.call_method1("record", (slf, axes))
+    }
+
     fn __len__(&self) -> usize {
         self.0.len()
+    }
+
+    fn __hash__(&self) -> u64 {
+        let r = &self.0;
+        let up = r.vertical.as_ref().map(|up| core::as_record(up, r.dt));
+        let numbers = r.accel.iter().chain(up.iter().flat_map(|up| &up.accel));
+        hashed(&r.name, std::iter::once(&r.dt).chain(numbers))
+    }
+
+    fn __copy__(slf: Bound<'_, Self>) -> Bound<'_, Self> {
+        slf
+    }
+
+    fn __deepcopy__<'py>(slf: Bound<'py, Self>, _memo: &Bound<'py, PyAny>) -> Bound<'py, Self> {
+        slf
+    }
+
+    fn __reduce__<'py>(slf: &Bound<'py, Self>) -> PyResult<(Bound<'py, PyAny>, Bound<'py, PyAny>)> {
+        let (py, of) = (slf.py(), slf.get());
+        let args = (of.0.dt, Self::accel(slf)?, of.0.name.clone(), of.vertical());
+        Ok((py.import("groundspring._restore")?.getattr("record")?, args.into_pyobject(py)?.into_any()))
+    }
+
+    /// For notebooks.
+    fn _repr_html_<'py>(slf: &Bound<'py, Self>) -> PyResult<Bound<'py, PyAny>> {
+        slf.py().import("groundspring._html")?.call_method1("record", (slf,))
     }
 
     fn __repr__(&self) -> String {
@@ -105,7 +170,17 @@ impl Record {
     }
 }
 
-/// The record in a file of any format that the program reads.
+/// The record in a file: PEER AT2, GeoNet, COSMOS, CSMIP, K-NET, ESM or columns.
+///
+/// component  name or azimuth in degrees, of a file with several; the stronger horizontal one
+///            unless given
+/// dt, units  where the file does not say: s; g, m/s2, cm/s2 or mm/s2
+/// baseline   subtract the mean of the samples
+/// vertical   the file of the vertical component, or "auto": that of the same file; none unless
+///            given
+///
+/// ValueError: the file cannot be read, is no record, is damaged, or does not agree with what
+/// is said of it.
 #[pyfunction]
 #[pyo3(signature = (path, component = None, dt = None, units = None, baseline = false, vertical = None))]
 pub fn read_record(
@@ -126,7 +201,8 @@ pub fn read_record(
     Ok(Record(recording.into_record()))
 }
 
-/// El Centro 1940, north-south, from PEER.
+/// Imperial Valley 1940, El Centro Array #9, component 180 (north-south), PEER: 3995 samples,
+/// dt 0.01 s.
 #[pyfunction]
 pub fn el_centro() -> Record {
     Record(core::Record::el_centro())

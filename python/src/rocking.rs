@@ -6,22 +6,29 @@ use std::{
     sync::{Arc, OnceLock},
 };
 
-use numpy::{AllowTypeChange, PyArray1, PyArrayLike1};
+use numpy::PyArray1;
 use pyo3::{exceptions::PyIndexError, prelude::*};
 use rocking::{
-    housner::{self, Rocking, RockingOptions, RockingOutcome},
+    housner::{self, Impact, Rocking, RockingOptions, RockingOutcome, Uplift},
     motion::Motion,
     structure::Body,
 };
 use springs::case::LONGEST_S;
 
-use crate::{Array, record::Record, said::value_error, structure::Structure, times, view, work::interruptible};
+use crate::{
+    Array, numbers,
+    record::{Record, checked_scales},
+    said::value_error,
+    structure::{Structure, hashed},
+    times, view,
+    work::interruptible,
+};
 
 /// Histories computed between two looks for ^C.
 const AT_A_TIME: usize = 2048;
 
 /// One history and the body that it is of.
-struct Solved {
+pub struct Solved {
     body: Body<f64>,
     dt: f64,
     rocking: Rocking<f64>,
@@ -38,16 +45,104 @@ impl Solved {
     }
 
     fn peak_ratio(&self) -> f64 {
-        if self.rocking.overturned().is_some() {
-            // as in the tables of tune validate and tune sweep: it lies, and how far it had fallen
-            // says nothing
-            return FRAC_PI_2 / self.body.alpha();
-        }
-        self.rocking.theta.iter().fold(0.0, |peak: f64, x| peak.max(x.abs())) / self.body.alpha()
+        let peak = self.rocking.theta.iter().fold(0.0, |peak: f64, x| peak.max(x.abs()));
+        Self::ratio(&self.body, &self.rocking, peak)
+    }
+
+    /// Largest |theta|/alpha of a history whose largest |theta| is `peak` (rad).
+    pub fn ratio(body: &Body<f64>, rocking: &Rocking<f64>, peak: f64) -> f64 {
+        // as in the tables of tune validate and tune sweep: one that overturned lies, and how far it
+        // had fallen says nothing
+        let theta = if rocking.overturned().is_some() { FRAC_PI_2 } else { peak };
+        theta / body.alpha()
+    }
+
+    /// All that it is made of.
+    fn numbers(&self) -> ([f64; 5], [&[f64]; 2], [Vec<f64>; 5], &'static str, Option<f64>) {
+        let (b, r) = (&self.body, &self.rocking);
+        let impacts = |pick: fn(&Impact<f64>) -> f64| r.impacts.iter().map(pick).collect();
+        let uplifts = |pick: fn(&Uplift<f64>) -> f64| r.uplifts.iter().map(pick).collect();
+        let events = [
+            impacts(|i| i.time),
+            impacts(|i| i.rate_before),
+            impacts(|i| i.rate_after),
+            uplifts(|u| u.time),
+            uplifts(|u| u.side),
+        ];
+        let body = [b.mass, b.half_width, b.height, b.inertia, self.dt];
+        (body, [&r.theta, &r.rate], events, ended(&r.outcome), when(&r.outcome))
     }
 }
 
-/// A history of rigid rocking at the record's samples.
+/// The name of an outcome.
+pub fn ended(outcome: &RockingOutcome) -> &'static str {
+    match outcome {
+        RockingOutcome::Rocked => "rocked",
+        RockingOutcome::NeverMoved => "never_lifted",
+        RockingOutcome::Overturned { .. } => "overturned",
+        RockingOutcome::LeavesGround { .. } => "leaves_ground",
+        RockingOutcome::WorkBound { .. } => "work_bound",
+        RockingOutcome::NotFinite { .. } => "not_finite",
+    }
+}
+
+/// When it came to that (s).
+fn when(outcome: &RockingOutcome) -> Option<f64> {
+    match *outcome {
+        RockingOutcome::Rocked | RockingOutcome::NeverMoved => None,
+        RockingOutcome::Overturned { time }
+        | RockingOutcome::LeavesGround { time }
+        | RockingOutcome::WorkBound { time }
+        | RockingOutcome::NotFinite { time } => Some(time),
+    }
+}
+
+/// The outcome of a name.
+fn outcome(name: &str, time: Option<f64>) -> Option<RockingOutcome> {
+    Some(match (name, time) {
+        ("rocked", None) => RockingOutcome::Rocked,
+        ("never_lifted", None) => RockingOutcome::NeverMoved,
+        ("overturned", Some(time)) => RockingOutcome::Overturned { time },
+        ("leaves_ground", Some(time)) => RockingOutcome::LeavesGround { time },
+        ("work_bound", Some(time)) => RockingOutcome::WorkBound { time },
+        ("not_finite", Some(time)) => RockingOutcome::NotFinite { time },
+        _ => return None,
+    })
+}
+
+/// A history as it is pickled: body and dt; theta and rate; times and rates of impacts, times and
+/// sides of uplifts; outcome and its time.
+type Filed<'py> = ([f64; 5], Bound<'py, PyAny>, Bound<'py, PyAny>, [Vec<f64>; 5], String, Option<f64>);
+
+/// A history that was pickled.
+#[pyfunction]
+pub fn _history(filed: Filed<'_>) -> PyResult<History> {
+    let ([mass, half_width, height, inertia, dt], theta, rate, events, name, time) = filed;
+    let [at, before, after, lifted, side] = events;
+    let impacts = at.iter().zip(&before).zip(&after);
+    let impacts = impacts.map(|((&time, &rate_before), &rate_after)| Impact { time, rate_before, rate_after });
+    let uplifts = lifted.iter().zip(&side).map(|(&time, &side)| Uplift { time, side });
+    let rocking = Rocking {
+        theta: numbers::row(&theta, "theta", "rad")?,
+        rate: numbers::row(&rate, "rate", "rad/s")?,
+        impacts: impacts.collect(),
+        uplifts: uplifts.collect(),
+        outcome: outcome(&name, time).ok_or_else(|| value_error(format!("_history: outcome is {name:?}")))?,
+    };
+    Ok(History::new(Body { mass, half_width, height, inertia }, dt, rocking))
+}
+
+/// Histories that were pickled.
+#[pyfunction]
+pub fn _histories(all: Vec<PyRef<'_, History>>) -> Histories {
+    let again = |one: &PyRef<'_, History>| {
+        let Solved { body, dt, rocking, .. } = one.one();
+        Solved::new(*body, *dt, rocking.clone())
+    };
+    Histories(Arc::new(all.iter().map(again).collect()))
+}
+
+/// A history of rigid rocking at the record's samples, cut where the body lies flat.
 #[pyclass(frozen, module = "groundspring")]
 pub struct History {
     all: Arc<Vec<Solved>>,
@@ -117,14 +212,7 @@ impl History {
     /// How it ended.
     #[getter]
     fn outcome(&self) -> &'static str {
-        match self.one().rocking.outcome {
-            RockingOutcome::Rocked => "rocked",
-            RockingOutcome::NeverMoved => "never_lifted",
-            RockingOutcome::Overturned { .. } => "overturned",
-            RockingOutcome::LeavesGround { .. } => "leaves_ground",
-            RockingOutcome::WorkBound { .. } => "work_bound",
-            RockingOutcome::NotFinite { .. } => "not_finite",
-        }
+        ended(&self.one().rocking.outcome)
     }
 
     /// When |theta| last grew past alpha, of a body that overturned, s.
@@ -133,8 +221,7 @@ impl History {
         self.one().rocking.overturned()
     }
 
-    /// Largest |theta|/alpha, without unit; pi/2 / alpha if it overturned, as in every table of the
-    /// program.
+    /// Largest |theta|/alpha, without unit; pi/2 / alpha if it overturned, as in every table.
     #[getter]
     fn peak_ratio(&self) -> f64 {
         self.one().peak_ratio()
@@ -154,12 +241,47 @@ impl History {
         )
     }
 
+    /// u and v, m, theta, rad, rate, rad/s, over time, s.
     fn to_pandas<'py>(slf: &Bound<'py, Self>) -> PyResult<Bound<'py, PyAny>> {
         slf.py().import("groundspring._tables")?.call_method1("motion", (slf,))
     }
+
+    /// Rotation, mrad, over time, s, with the impacts.
+    #[pyo3(signature = (axes = None))]
+    fn plot<'py>(slf: &Bound<'py, Self>, axes: Option<Bound<'py, PyAny>>) -> PyResult<Bound<'py, PyAny>> {
+        slf.py().import("groundspring._plots")?.call_method1("history", (slf, axes))
+    }
+
+    /// For notebooks.
+    fn _repr_html_<'py>(slf: &Bound<'py, Self>) -> PyResult<Bound<'py, PyAny>> {
+        slf.py().import("groundspring._html")?.call_method1("history", (slf,))
+    }
+
+    fn __eq__(&self, other: &Bound<'_, PyAny>) -> bool {
+        other.cast::<Self>().is_ok_and(|other| self.one().numbers() == other.get().one().numbers())
+    }
+
+    fn __hash__(&self) -> u64 {
+        hashed(self.outcome(), self.one().rocking.theta.iter())
+    }
+
+    fn __copy__(slf: Bound<'_, Self>) -> Bound<'_, Self> {
+        slf
+    }
+
+    fn __deepcopy__<'py>(slf: Bound<'py, Self>, _memo: &Bound<'py, PyAny>) -> Bound<'py, Self> {
+        slf
+    }
+
+    fn __reduce__<'py>(slf: &Bound<'py, Self>) -> PyResult<(Bound<'py, PyAny>, (Filed<'py>,))> {
+        let (body, _, events, outcome, time) = slf.get().one().numbers();
+        let (theta, rate) = (Self::theta(slf)?.into_any(), Self::rate(slf)?.into_any());
+        let filed = (body, theta, rate, events, outcome.to_owned(), time);
+        Ok((slf.py().import("groundspring._restore")?.getattr("history")?, (filed,)))
+    }
 }
 
-/// Many histories: a sequence.
+/// Many histories: a sequence of `History`.
 #[pyclass(frozen, sequence, module = "groundspring")]
 pub struct Histories(Arc<Vec<Solved>>);
 
@@ -190,13 +312,56 @@ impl Histories {
         PyArray1::from_iter(py, self.0.iter().map(|solved| solved.rocking.overturned().is_some()))
     }
 
+    /// A row a history: outcome, largest |theta|/alpha, impacts, when it overturned, s,
+    /// samples.
+    fn to_pandas<'py>(slf: &Bound<'py, Self>) -> PyResult<Bound<'py, PyAny>> {
+        slf.py().import("groundspring._tables")?.call_method1("histories", (slf,))
+    }
+
+    /// For notebooks.
+    fn _repr_html_<'py>(slf: &Bound<'py, Self>) -> PyResult<Bound<'py, PyAny>> {
+        slf.py().import("groundspring._html")?.call_method1("histories", (slf,))
+    }
+
+    fn __eq__(&self, other: &Bound<'_, PyAny>) -> bool {
+        let same = |(a, b): (&Solved, &Solved)| a.numbers() == b.numbers();
+        other.cast::<Self>().is_ok_and(|other| {
+            let (a, b) = (&self.0, &other.get().0);
+            a.len() == b.len() && a.iter().zip(b.iter()).all(same)
+        })
+    }
+
+    fn __hash__(&self) -> u64 {
+        hashed("", self.0.iter().filter_map(|solved| solved.rocking.theta.last()))
+    }
+
+    fn __copy__(slf: Bound<'_, Self>) -> Bound<'_, Self> {
+        slf
+    }
+
+    fn __deepcopy__<'py>(slf: Bound<'py, Self>, _memo: &Bound<'py, PyAny>) -> Bound<'py, Self> {
+        slf
+    }
+
+    fn __reduce__<'py>(slf: &Bound<'py, Self>) -> PyResult<(Bound<'py, PyAny>, (Vec<History>,))> {
+        let all = &slf.get().0;
+        let each = (0..all.len()).map(|index| History { all: all.clone(), index });
+        Ok((slf.py().import("groundspring._restore")?.getattr("histories")?, (each.collect(),)))
+    }
+
     fn __repr__(&self) -> String {
-        format!("Histories({})", self.0.len())
+        let overturned = self.0.iter().filter(|solved| solved.rocking.overturned().is_some()).count();
+        format!("Histories({}, {overturned} overturned)", self.0.len())
     }
 }
 
-/// Housner's solution for a structure on a record; `vertical` holds the vertical ground
-/// acceleration at the same times, positive upwards.
+/// Housner's solution for a structure on a record.
+///
+/// vertical  ground acceleration at the same times, positive upwards, if not that of the
+///           record; the history ends where the
+///           ground would have to pull (outcome "leaves_ground")
+///
+/// ValueError: a vertical record of other times; a scale or restitution out of range.
 #[pyfunction]
 #[pyo3(signature = (structure, record, vertical = None, scale = 1.0, restitution = None))]
 pub fn rigid_rocking(
@@ -225,21 +390,19 @@ pub enum Structures {
     Several(Vec<Structure>),
 }
 
-#[derive(FromPyObject)]
-pub enum Scales<'py> {
-    One(f64),
-    Several(PyArrayLike1<'py, f64, AllowTypeChange>),
-}
-
-/// Housner's solutions for several structures, or several scales of the record, or pairs of both,
-/// on all cores.
+/// Housner's solutions on all cores: of several structures, or at several scales, or of as many
+/// pairs of both.
+///
+/// scales  factors on the record, without unit; 1 unless given
+///
+/// ValueError: structures and scales of different number, neither of which is one.
 #[pyfunction]
-#[pyo3(signature = (structures, record, scales = Scales::One(1.0), restitution = None))]
+#[pyo3(signature = (structures, record, scales = None, restitution = None))]
 pub fn rigid_rocking_many(
     py: Python<'_>,
     structures: Structures,
     record: &Record,
-    scales: Scales<'_>,
+    scales: Option<Bound<'_, PyAny>>,
     restitution: Option<f64>,
 ) -> PyResult<Histories> {
     let structures = match structures {
@@ -247,8 +410,8 @@ pub fn rigid_rocking_many(
         Structures::Several(several) => several,
     };
     let scales = match scales {
-        Scales::One(one) => vec![one],
-        Scales::Several(several) => several.as_array().to_vec(),
+        Some(scales) => numbers::one_or_more(&scales, "scales", "factors on the record, without unit")?,
+        None => vec![1.0],
     };
     let (bodies, options) = pairs(&structures, record, &scales, ratio(restitution)?)?;
     let (dt, accel) = (record.0.dt, &record.0.accel[..]);
@@ -280,12 +443,7 @@ fn pairs(structures: &[Structure], record: &Record, scales: &[f64], restitution:
             "rigid_rocking_many: {n} structures and {m} scales; give one of either, or as many of both"
         )));
     }
-    // an impossible scale is refused in the words of the record
-    let pga_g = record.0.pga_g();
-    let worst = scales.iter().find(|s| !s.is_finite()).or(scales.iter().max_by(|a, b| a.abs().total_cmp(&b.abs())));
-    if let Some(&worst) = worst.filter(|s| !(s.is_finite() && (*s * pga_g).abs() < 50.0)) {
-        record.0.scaled(worst).map_err(value_error)?;
-    }
+    checked_scales(&record.0, scales)?;
     let bodies = structures.iter().map(Structure::body).collect();
     // the restitution goes with the structure: as many options as there are of the longer list
     let same_e = structures.windows(2).all(|pair| pair[0].e == pair[1].e);

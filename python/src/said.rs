@@ -10,24 +10,26 @@ use pyo3::{
 use serde::Serialize;
 use springs::results::{FiledFinding, Weight};
 
+use crate::words::in_python;
+
 create_exception!(
     groundspring,
     GroundspringWarning,
     PyUserWarning,
-    "What the program warns of: in reading a record, in springs, in a comparison."
+    "What is doubtful: in reading a record, in springs, in a comparison."
 );
 
-/// One line, as the program prints it.
-fn one_line(text: impl Display) -> String {
-    text.to_string().chars().map(|c| if c.is_control() { ' ' } else { c }).collect()
+/// One line, in Python's words.
+pub fn one_line(text: impl Display) -> String {
+    in_python(&text.to_string().chars().map(|c| if c.is_control() { ' ' } else { c }).collect::<String>())
 }
 
-/// An error in the program's words.
+/// An error in Python's words.
 pub fn value_error(error: impl Display) -> PyErr {
     PyValueError::new_err(one_line(error))
 }
 
-/// A warning in the program's words, at the line of the user's code.
+/// A warning in Python's words, at the line of the user's code.
 pub fn warn(py: Python<'_>, text: impl Display) -> PyResult<()> {
     let text = CString::new(one_line(text)).map_err(value_error)?;
     PyErr::warn(py, &py.get_type::<GroundspringWarning>(), &text, 1)

@@ -4,7 +4,10 @@ use std::{borrow::Cow, sync::Arc};
 
 use dynamics::fem::{self, QUANTITIES};
 use numpy::PyArray1;
-use pyo3::{prelude::*, types::PyDict};
+use pyo3::{
+    prelude::*,
+    types::{PyDict, PyTuple},
+};
 use report::{
     filed,
     reference::{self, HousnerReport},
@@ -21,7 +24,7 @@ use crate::{
     Array,
     record::Record,
     rocking::{History, ratio},
-    said::{plain, value_error, warn_of},
+    said::{one_line, plain, value_error, warn_of},
     springs::Springs,
     structure::Structure,
     times, view,
@@ -29,6 +32,8 @@ use crate::{
 };
 
 /// The finite element history on springs, beside Housner's on the same record.
+///
+/// Forces are, at every sample, those of largest magnitude since the sample before.
 #[pyclass(frozen, module = "groundspring")]
 pub struct Simulation {
     structure: Structure,
@@ -36,6 +41,8 @@ pub struct Simulation {
     source: Source,
     verdict: Verdict,
     findings: Vec<FiledFinding>,
+    /// What it was computed from: arguments of `tune`, or of `simulate`.
+    inputs: Option<Py<PyTuple>>,
 }
 
 /// Where the histories are.
@@ -49,7 +56,19 @@ impl Simulation {
     pub fn of(structure: Structure, run: Arc<RigidRun>) -> Self {
         let dt = run.job.record.dt;
         let verdict = run.both.verdict(&run.job.body, dt, &run.report.conditioning);
-        Self { structure, dt, findings: run.parameters.findings.clone(), verdict, source: Source::Tuned(run) }
+        Self {
+            structure,
+            dt,
+            findings: run.parameters.findings.clone(),
+            verdict,
+            source: Source::Tuned(run),
+            inputs: None,
+        }
+    }
+
+    /// With what it was computed from.
+    pub fn again(self, inputs: Py<PyTuple>) -> Self {
+        Self { inputs: Some(inputs), ..self }
     }
 
     fn both(&self) -> &ModelComparison {
@@ -174,7 +193,8 @@ impl Simulation {
         History::new(self.structure.body(), self.dt, self.both().rocking.clone())
     }
 
-    /// How the two compare: as in `parameters.json`.
+    /// How the two compare, as in `parameters.json`: errors without unit, peaks and settlement
+    /// in m, times in s.
     #[getter(r#match)]
     fn matched(&self, py: Python<'_>) -> PyResult<Py<PyAny>> {
         plain(py, &self.both().matched)
@@ -187,10 +207,10 @@ impl Simulation {
         plain(py, &self.verdict)
     }
 
-    /// What the program says of the run.
+    /// What is to be said of the run.
     #[getter]
     fn lines(&self) -> Vec<String> {
-        self.findings.iter().map(FiledFinding::line).collect()
+        self.findings.iter().map(|finding| one_line(finding.line())).collect()
     }
 
     /// Base shear and forces in the legs, N; moments, N m; by name.
@@ -204,13 +224,38 @@ impl Simulation {
         Ok(all)
     }
 
+    /// Both models' motions, m and rad, forces, N, moments, N m, and energies, J, over time, s.
     fn to_pandas<'py>(slf: &Bound<'py, Self>) -> PyResult<Bound<'py, PyAny>> {
         slf.py().import("groundspring._tables")?.call_method1("simulation", (slf,))
     }
 
+    /// Horizontal displacement, mm, of both models over time, s.
     #[pyo3(signature = (axes = None))]
     fn plot<'py>(slf: &Bound<'py, Self>, axes: Option<Bound<'py, PyAny>>) -> PyResult<Bound<'py, PyAny>> {
         slf.py().import("groundspring._plots")?.call_method1("histories", (slf, axes))
+    }
+
+    /// For notebooks.
+    fn _repr_html_<'py>(slf: &Bound<'py, Self>) -> PyResult<Bound<'py, PyAny>> {
+        slf.py().import("groundspring._html")?.call_method1("simulation", (slf,))
+    }
+
+    /// What it was computed from: computed again when it is unpickled.
+    fn __reduce__<'py>(&self, py: Python<'py>) -> PyResult<(Bound<'py, PyAny>, Option<Py<PyTuple>>)> {
+        let name = match self.source {
+            Source::Own(_) => "simulation",
+            Source::Tuned(_) => "tuned_histories",
+        };
+        let inputs = self.inputs.as_ref().map(|inputs| inputs.clone_ref(py));
+        Ok((py.import("groundspring._restore")?.getattr(name)?, inputs))
+    }
+
+    fn __copy__(slf: Bound<'_, Self>) -> Bound<'_, Self> {
+        slf
+    }
+
+    fn __deepcopy__<'py>(slf: Bound<'py, Self>, _memo: &Bound<'py, PyAny>) -> Bound<'py, Self> {
+        slf
     }
 
     fn __repr__(&self) -> String {
@@ -224,7 +269,10 @@ fn column<'py>(of: &Bound<'py, Simulation>, pick: impl Fn(&fem::History) -> &[f6
     view(of.clone().into_any(), pick(&of.get().both().fem))
 }
 
-/// Both models on a record. `friction` of the ground, for the warning of sliding.
+/// Both models on given springs.
+///
+/// friction  coefficient of the ground, without unit, for the warning of sliding
+/// vertical  ground acceleration at the same times, positive upwards, if not that of the record
 #[pyfunction]
 #[pyo3(signature = (structure, springs, record, scale = 1.0, restitution = None, friction = 0.5, vertical = None))]
 #[allow(clippy::too_many_arguments)]
@@ -241,14 +289,15 @@ pub fn simulate(
     let e = ratio(restitution)?.unwrap_or(structure.e);
     let record = record.beside(vertical)?;
     let record = if scale == 1.0 { record } else { Cow::Owned(record.scaled(scale).map_err(value_error)?) };
+    let inputs = (structure, springs, Record(record.clone().into_owned()), e, friction).into_pyobject(py)?;
     let simulation = interruptible(py, |_| {
         let (body, dt) = (structure.body(), record.dt);
         let both = both(&body, e, &springs.chains(), &Members::default(), &record);
         let report = HousnerReport::new(&body, e, &record, &both.rocking, friction);
         let verdict = both.verdict(&body, dt, &report.conditioning);
         let findings = filed(reference::all(&structure.core, &record, &both, &report, &verdict));
-        Simulation { structure, dt, findings, verdict, source: Source::Own(Box::new(both)) }
+        Simulation { structure, dt, findings, verdict, source: Source::Own(Box::new(both)), inputs: None }
     })?;
     warn_of(py, &simulation.findings)?;
-    Ok(simulation)
+    Ok(simulation.again(inputs.unbind()))
 }

@@ -1,17 +1,30 @@
 //! The rocking structure.
 
+use std::hash::{DefaultHasher, Hash, Hasher};
+
 use pyo3::prelude::*;
 use rocking::structure::{Body, Kind, Structure as Core};
 use springs::case::StructureSection;
 
 use crate::said::value_error;
 
-/// A rigid body on two feet, and the restitution of its landings.
+/// A rigid body on two feet. Made by `aframe` or `block`.
+///
+/// ValueError: numbers that cannot rock.
 #[pyclass(frozen, eq, from_py_object, module = "groundspring")]
 #[derive(Clone, Copy, PartialEq)]
 pub struct Structure {
     pub core: Core,
     pub e: f64,
+}
+
+/// Equal texts and numbers have equal hashes.
+pub fn hashed<'a>(text: &str, numbers: impl Iterator<Item = &'a f64>) -> u64 {
+    let mut hasher = DefaultHasher::new();
+    text.hash(&mut hasher);
+    // -0.0 and 0.0 are equal
+    numbers.for_each(|x| (x + 0.0).to_bits().hash(&mut hasher));
+    hasher.finish()
 }
 
 impl Structure {
@@ -22,12 +35,27 @@ impl Structure {
 
 #[pymethods]
 impl Structure {
+    /// All mass at the apex of two massless legs.
+    ///
+    /// height       of the centre of mass above the feet, m
+    /// width        between the feet, m
+    /// mass         kg
+    /// inertia      about the centre of mass, kg m2; 1e-5 m R^2 unless given, which rocking
+    ///              does not feel
+    /// restitution  velocity ratio of a landing; by equation 2 unless given
     #[staticmethod]
     #[pyo3(signature = (height, width, mass, inertia = None, restitution = None))]
     fn aframe(height: f64, width: f64, mass: f64, inertia: Option<f64>, restitution: Option<f64>) -> PyResult<Self> {
         checked("Structure.aframe", Kind::AFrame, (height, width, mass), inertia, restitution)
     }
 
+    /// A solid block.
+    ///
+    /// height       of the whole block, m: twice that of its centre of mass
+    /// width        m
+    /// mass         kg
+    /// inertia      about the centre of mass, kg m2; m R^2/3 unless given
+    /// restitution  velocity ratio of a landing; by equation 2 unless given
     #[staticmethod]
     #[pyo3(signature = (height, width, mass, inertia = None, restitution = None))]
     fn block(height: f64, width: f64, mass: f64, inertia: Option<f64>, restitution: Option<f64>) -> PyResult<Self> {
@@ -83,6 +111,24 @@ impl Structure {
     #[getter]
     fn restitution(&self) -> f64 {
         self.e
+    }
+
+    fn __hash__(&self) -> u64 {
+        let numbers = [self.height(), self.width(), self.mass(), self.inertia(), self.e];
+        hashed(self.kind(), numbers.iter())
+    }
+
+    fn __reduce__<'py>(&self, py: Python<'py>) -> PyResult<(Bound<'py, PyAny>, Bound<'py, PyAny>)> {
+        let args = (self.kind(), self.height(), self.width(), self.mass(), self.inertia(), self.e);
+        Ok((py.import("groundspring._restore")?.getattr("structure")?, args.into_pyobject(py)?.into_any()))
+    }
+
+    fn __copy__(slf: Bound<'_, Self>) -> Bound<'_, Self> {
+        slf
+    }
+
+    fn __deepcopy__<'py>(slf: Bound<'py, Self>, _memo: &Bound<'py, PyAny>) -> Bound<'py, Self> {
+        slf
     }
 
     fn __repr__(&self) -> String {

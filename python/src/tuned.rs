@@ -2,7 +2,7 @@
 
 use std::{path::PathBuf, sync::Arc};
 
-use pyo3::prelude::*;
+use pyo3::{IntoPyObjectExt, prelude::*, types::PyTuple};
 use report::rigid::RigidRun;
 use run_folder::rigid::{Output, save};
 use springs::{
@@ -14,7 +14,7 @@ use strong_motion::excitation::Excitation;
 use crate::{
     record::Record,
     rocking::seconds,
-    said::{plain, value_error, warn_of},
+    said::{one_line, plain, value_error, warn_of},
     simulation::Simulation,
     springs::Springs,
     structure::Structure,
@@ -28,12 +28,18 @@ fn lines(run: &RigidRun) -> Vec<String> {
     run.parameters.findings.iter().map(|finding| finding.line()).chain(accuracy).collect()
 }
 
-/// Springs of a structure, and all that `tune run` finds of them.
+/// Springs of a rigid structure, and all that is found of them.
+///
+/// The springs are for a body that lands as a whole. Under columns that give they are wrong:
+/// they throw the foot back, again and again, in a million steps. There
+/// `groundspring.opensees.springs_for` has those of what lands.
 #[pyclass(frozen, module = "groundspring")]
 pub struct Tuned {
     run: Arc<RigidRun>,
     structure: Structure,
     histories: Py<Simulation>,
+    /// What it was computed from, in the order of `tune`'s arguments.
+    inputs: Py<PyTuple>,
 }
 
 #[pymethods]
@@ -51,7 +57,7 @@ impl Tuned {
     }
 
     /// What was asked for, whether it is reached, what was measured and on what, as in
-    /// `parameters.json`: NRMSE, without unit.
+    /// `parameters.json`: NRMSE.
     #[getter]
     fn accuracy(&self, py: Python<'_>) -> PyResult<Py<PyAny>> {
         plain(py, &self.run.parameters.assessment)
@@ -76,34 +82,80 @@ impl Tuned {
         plain(py, &self.run.parameters)
     }
 
-    /// What the program says of the run.
+    /// What is to be said of the run.
     #[getter]
     fn lines(&self) -> Vec<String> {
-        lines(&self.run)
+        lines(&self.run).into_iter().map(one_line).collect()
     }
 
-    /// Write what `tune run` writes; the decks that are left out, each with the reason.
+    /// Write springs, histories, figures, decks. Decks that a program cannot hold are left out:
+    /// each is named, with the reason.
     #[pyo3(signature = (folder, figures = true))]
     fn save(&self, py: Python<'_>, folder: PathBuf, figures: bool) -> PyResult<Vec<String>> {
         let left_out = interruptible(py, |_| save(&self.run, &folder, Output { figures, report: true }))?;
         left_out.map_err(value_error)
     }
 
+    /// Those of its histories.
     fn to_pandas<'py>(slf: &Bound<'py, Self>) -> PyResult<Bound<'py, PyAny>> {
         slf.get().histories.bind(slf.py()).call_method0("to_pandas")
     }
 
+    /// Horizontal displacement, mm, of both models over time, s.
     #[pyo3(signature = (axes = None))]
     fn plot<'py>(slf: &Bound<'py, Self>, axes: Option<Bound<'py, PyAny>>) -> PyResult<Bound<'py, PyAny>> {
         slf.get().histories.bind(slf.py()).call_method1("plot", (axes,))
     }
 
+    /// For notebooks.
+    fn _repr_html_<'py>(slf: &Bound<'py, Self>) -> PyResult<Bound<'py, PyAny>> {
+        slf.py().import("groundspring._html")?.call_method1("tuned", (slf,))
+    }
+
+    /// What it was computed from: computed again when it is unpickled.
+    fn __reduce__<'py>(&self, py: Python<'py>) -> PyResult<(Bound<'py, PyAny>, Py<PyTuple>)> {
+        Ok((py.import("groundspring._restore")?.getattr("tuned")?, self.inputs.clone_ref(py)))
+    }
+
+    fn __copy__(slf: Bound<'_, Self>) -> Bound<'_, Self> {
+        slf
+    }
+
+    fn __deepcopy__<'py>(slf: Bound<'py, Self>, _memo: &Bound<'py, PyAny>) -> Bound<'py, Self> {
+        slf
+    }
+
     fn __repr__(&self) -> String {
-        format!("Tuned(Omega_n {:.1} Hz)\n{}", self.run.job.springs.vertical.omega_n_hz, lines(&self.run).join("\n"))
+        let omega = self.run.job.springs.vertical.omega_n_hz;
+        let asked = self.run.parameters.assessment.as_ref().map(|assessment| {
+            let reached = if assessment.reached { "reached" } else { "not reached" };
+            format!(", accuracy {} {reached}", assessment.accuracy)
+        });
+        format!("Tuned(Omega_n {omega:.1} Hz{})", asked.unwrap_or_default())
+    }
+
+    fn __str__(&self) -> String {
+        format!("{}\n{}", self.__repr__(), self.lines().join("\n"))
     }
 }
 
-/// Tune the springs of a structure; on El Centro unless a record is given.
+/// Tune the springs of a rigid structure; for columns that give see
+/// `groundspring.opensees.springs_for`.
+///
+/// record          on which they are judged beside the motions made for the structure; all of
+///                 El Centro unless given
+/// accuracy        error of the history against Housner's (NRMSE) that Omega_n is chosen for
+/// method          "landing": by the geometry; "arr": the paper's procedure, on the record
+/// scale           factor on the record
+/// duration        of the record, s; all of it unless given
+/// max_hz          stiffest springs, Omega_n/2 pi, Hz, for programs with fixed time steps
+/// max_settlement  of the standing body, m
+/// friction        coefficient of the ground, without unit, for the warning of sliding
+/// front           error against stiffness, too
+/// vertical        ground acceleration at the record's times, positive upwards, if not that of
+///                 the record
+///
+/// ValueError: no springs settle as little as asked for; a number out of its range.
 #[pyfunction]
 #[pyo3(signature = (structure, record = None, accuracy = 0.002, method = "landing", *, scale = 1.0, duration = None,
     max_hz = None, max_settlement = 0.01, friction = 0.5, front = false, vertical = None))]
@@ -128,6 +180,22 @@ pub fn tune(
         other => return Err(value_error(format!("method is {other:?}; give \"landing\" or \"arr\", the paper's"))),
     };
     let duration = seconds(duration)?;
+    let inputs = PyTuple::new(
+        py,
+        [
+            structure.into_bound_py_any(py)?,
+            record.cloned().into_bound_py_any(py)?,
+            accuracy.into_bound_py_any(py)?,
+            method.into_bound_py_any(py)?,
+            scale.into_bound_py_any(py)?,
+            duration.into_bound_py_any(py)?,
+            max_hz.into_bound_py_any(py)?,
+            max_settlement.into_bound_py_any(py)?,
+            friction.into_bound_py_any(py)?,
+            front.into_bound_py_any(py)?,
+            vertical.cloned().into_bound_py_any(py)?,
+        ],
+    )?;
     let record =
         record.map_or_else(|| Record(strong_motion::Record::el_centro()), Record::clone).beside(vertical)?.into_owned();
     let tuning =
@@ -144,5 +212,6 @@ pub fn tune(
         Ok::<_, PyErr>((run, simulation))
     })??;
     warn_of(py, &run.parameters.findings)?;
-    Ok(Tuned { run, structure, histories: Py::new(py, simulation)? })
+    let inputs = inputs.unbind();
+    Ok(Tuned { run, structure, histories: Py::new(py, simulation.again(inputs.clone_ref(py)))?, inputs })
 }

@@ -3,7 +3,7 @@
 use std::path::PathBuf;
 
 use dynamics::fem::Control;
-use pyo3::prelude::*;
+use pyo3::{prelude::*, types::PyTuple};
 use rocking::synthetic;
 use springs::validate::{self as core, Validator};
 
@@ -18,31 +18,53 @@ use crate::{
     work::interruptible,
 };
 
-/// What many records say of springs.
+/// What many records say of springs: a row a record.
 #[pyclass(frozen, module = "groundspring")]
-pub struct Validation(core::Validation);
+pub struct Validation {
+    found: core::Validation,
+    /// What it was computed from, in the order of `validate`'s arguments.
+    inputs: Py<PyTuple>,
+}
 
 #[pymethods]
 impl Validation {
     /// All of `validate.json`: statistics of all records and of each suite, the rows.
     #[getter]
     fn summary(&self, py: Python<'_>) -> PyResult<Py<PyAny>> {
-        plain(py, &self.0)
+        plain(py, &self.found)
     }
 
-    /// A row a record.
+    /// A row a record; names end in their units.
     fn to_pandas<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyAny>> {
-        let rows = plain(py, &self.0.records)?;
+        let rows = plain(py, &self.found.records)?;
         py.import("groundspring._tables")?.call_method1("rows", (rows,))
     }
 
+    /// For notebooks.
+    fn _repr_html_<'py>(slf: &Bound<'py, Self>) -> PyResult<Bound<'py, PyAny>> {
+        slf.py().import("groundspring._html")?.call_method1("validation", (slf,))
+    }
+
+    /// What it was computed from: computed again when it is unpickled.
+    fn __reduce__<'py>(&self, py: Python<'py>) -> PyResult<(Bound<'py, PyAny>, Py<PyTuple>)> {
+        Ok((py.import("groundspring._restore")?.getattr("validation")?, self.inputs.clone_ref(py)))
+    }
+
+    fn __copy__(slf: Bound<'_, Self>) -> Bound<'_, Self> {
+        slf
+    }
+
+    fn __deepcopy__<'py>(slf: Bound<'py, Self>, _memo: &Bound<'py, PyAny>) -> Bound<'py, Self> {
+        slf
+    }
+
     fn __len__(&self) -> usize {
-        self.0.records.len()
+        self.found.records.len()
     }
 
     fn __repr__(&self) -> String {
-        let nrmse = self.0.records.iter().filter(|row| row.comparable()).count();
-        format!("Validation({} records, {nrmse} well-conditioned)", self.0.records.len())
+        let nrmse = self.found.records.iter().filter(|row| row.comparable()).count();
+        format!("Validation({} records, {nrmse} well-conditioned)", self.found.records.len())
     }
 }
 
@@ -53,7 +75,15 @@ pub enum Records<'py> {
     Folder(PathBuf),
 }
 
-/// Judge springs over records of one's own, and over motions made from a seed.
+/// Judge springs over many records.
+///
+/// records      of your own, or a folder of files
+/// synthetic    so many motions made for the structure
+/// earthquakes  so many motions like earthquakes
+/// seed         of both
+/// duration     of each, s; all of it unless given
+///
+/// Horizontal motion alone: a record with a vertical component is refused.
 #[pyfunction]
 #[pyo3(signature = (structure, springs, records = None, *, synthetic = 0, earthquakes = 0, seed = 1, duration = None,
     restitution = None))]
@@ -86,6 +116,9 @@ pub fn validate(
     if n == 0 {
         return Err(value_error("validate: there are no records; give some, a folder, or synthetic= or earthquakes="));
     }
+    let shaken: Vec<Record> = own.iter().cloned().map(Record).collect();
+    let inputs =
+        (structure, springs, shaken, synthetic, earthquakes, seed, duration, restitution).into_pyobject(py)?.unbind();
     let body = structure.body();
     let judge =
         Validator { body, restitution, springs: springs.chains(), duration_s: duration, control: Control::default() };
@@ -102,7 +135,7 @@ pub fn validate(
         };
         judge.judge_all(n, record, |_| ())
     })?;
-    validation.map(Validation).map_err(value_error)
+    Ok(Validation { found: validation.map_err(value_error)?, inputs })
 }
 
 /// Every record of a folder, with what its reader says.
@@ -116,21 +149,36 @@ fn read_folder(py: Python<'_>, folder: &std::path::Path) -> PyResult<Vec<strong_
     files.iter().map(read).collect()
 }
 
-/// The first n motions made for a structure from a seed: Ricker and Mavroeidis-Papageorgiou pulses,
-/// filtered noise.
-#[pyfunction]
-#[pyo3(signature = (structure, n, seed = 1))]
-pub fn synthetic_records(structure: Structure, n: usize, seed: u64) -> Vec<Record> {
-    let body = structure.body();
-    let (p, alpha) = (body.p_squared().sqrt(), body.alpha());
-    (0..n).map(|i| Record(synthetic::record(seed, i, p, alpha))).collect()
+/// n records, unless ^C comes first.
+fn made(py: Python<'_>, n: usize, make: impl Fn(usize) -> strong_motion::Record + Sync) -> PyResult<Vec<Record>> {
+    interruptible(py, |stop| {
+        // as they come: n may be more than memory holds
+        let mut all = Vec::new();
+        for i in 0..n {
+            stop.check();
+            all.push(Record(make(i)));
+        }
+        all
+    })
 }
 
-/// The first n motions with the frequencies of earthquakes from a seed: filtered noise of soils of
-/// 9 to 36 rad/s, 0.2 to 0.9 g.
+/// Motions made for a structure: Ricker and Mavroeidis-Papageorgiou pulses, filtered noise. ^C
+/// ends it.
 #[pyfunction]
 #[pyo3(signature = (structure, n, seed = 1))]
-pub fn earthquake_records(structure: Structure, n: usize, seed: u64) -> Vec<Record> {
+pub fn synthetic_records(py: Python<'_>, structure: Structure, n: usize, seed: u64) -> PyResult<Vec<Record>> {
+    let body = structure.body();
+    let (p, alpha) = (body.p_squared().sqrt(), body.alpha());
+    made(py, n, |i| synthetic::record(seed, i, p, alpha))
+}
+
+/// Motions with the frequencies of earthquakes: filtered noise of soils of 9 to 36 rad/s, 0.2
+/// to 0.9 g. ^C ends it.
+///
+/// The structure decides how long they are silent at the end.
+#[pyfunction]
+#[pyo3(signature = (structure, n, seed = 1))]
+pub fn earthquake_records(py: Python<'_>, structure: Structure, n: usize, seed: u64) -> PyResult<Vec<Record>> {
     let p = structure.body().p_squared().sqrt();
-    (0..n).map(|i| Record(synthetic::earthquake(seed, i, p))).collect()
+    made(py, n, |i| synthetic::earthquake(seed, i, p))
 }

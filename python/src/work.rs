@@ -38,6 +38,16 @@ impl Stop {
 /// Do `work` on another thread until it is done or ^C is pressed; `work` should call
 /// [`Stop::check`] now and then.
 pub fn interruptible<T: Send>(py: Python<'_>, work: impl FnOnce(&Stop) -> T + Send) -> PyResult<T> {
+    watched(py, work, |_| Ok(()))
+}
+
+/// The same; `look` is called whenever ^C is looked for, and at the end: it may tell how far the
+/// work has come, and an error of its own ends the work, too.
+pub fn watched<T: Send>(
+    py: Python<'_>,
+    work: impl FnOnce(&Stop) -> T + Send,
+    mut look: impl FnMut(Python<'_>) -> PyResult<()>,
+) -> PyResult<T> {
     let stop = Stop(AtomicBool::new(false));
     let (slot, ready) = (Mutex::new(None), Condvar::new());
     thread::scope(|scope| {
@@ -55,12 +65,12 @@ pub fn interruptible<T: Send>(py: Python<'_>, work: impl FnOnce(&Stop) -> T + Se
             });
             match (result, interrupted.take()) {
                 (Some(_), Some(error)) => return Err(error),
-                (Some(Ok(value)), None) => return Ok(value),
+                (Some(Ok(value)), None) => return look(py).map(|()| value),
                 (Some(Err(panic)), None) => resume_unwind(panic),
                 (None, error) => interrupted = error,
             }
             if interrupted.is_none()
-                && let Err(error) = py.check_signals()
+                && let Err(error) = py.check_signals().and_then(|()| look(py))
             {
                 stop.0.store(true, Ordering::Relaxed);
                 interrupted = Some(error);

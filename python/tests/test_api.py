@@ -171,14 +171,14 @@ def test_records_are_read_with_the_words_of_the_program(tmp_path: Path) -> None:
     [
         (lambda: gs.Structure.aframe(-1.0, 2.0, 3.0), "height_m is -1.0; give a finite number greater than zero"),
         (lambda: gs.Structure.block(1.0, 5.0, 3.0), "slenderness alpha"),
-        (lambda: gs.tune(FRAME, accuracy=5.0), "tuning.accuracy is 5.0; give an error between 1e-5 and 1"),
+        (lambda: gs.tune(FRAME, accuracy=5.0), "accuracy is 5.0; give an error between 1e-5 and 1"),
         (lambda: gs.tune(FRAME, method="x"), 'give "landing" or "arr"'),  # type: ignore[arg-type]
         (lambda: gs.rigid_rocking(FRAME, gs.el_centro(), restitution=2.0), "a velocity ratio lies between 0 and 1"),
         (lambda: gs.rigid_rocking_many([FRAME] * 2, gs.el_centro(), [1.0, 2.0, 3.0]), "2 structures and 3 scales"),
         (lambda: gs.rigid_rocking_many(FRAME, gs.el_centro(), [1.0, math.inf]), "must be a finite number"),
         (lambda: gs.design(2.0), "give a slenderness between 0.005 and 0.9 rad"),
         (lambda: gs.Chain(1.0, 0.0, 1.0, 1.0), "k2 is 0.0; give a finite number above zero"),
-        (lambda: gs.read_parameters("nope.json"), "give the parameters.json that `tune run` wrote"),
+        (lambda: gs.read_parameters("nope.json"), "give the parameters.json that Tuned.save wrote"),
     ],
 )
 def test_errors_are_value_errors_that_say_what_to_do(call: "object", words: str) -> None:

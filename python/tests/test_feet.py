@@ -8,11 +8,27 @@ import pytest
 from conftest import rigid_body
 
 import groundspring as gs
-from groundspring.opensees import StepError, Stepper, add_feet
+from groundspring.opensees import StepError, Stepper, add_feet, springs_for
 
 FRAME = gs.Structure.aframe(12.0, 2.4, 350e3)
 SPRINGS = gs.design(FRAME, stiffness=2e4).springs(FRAME.mass, np.hypot(12.0, 1.2))
 RECORD = gs.el_centro().truncated(4.0)
+
+
+def soft_frame(ops: Any, feet: int = 2, footing: float = 1e3, tied: bool = False) -> list[int]:
+    """One storey of steel columns on footings, beams above, and between the footings if they are tied: the feet."""
+    ops.model("basic", "-ndm", 2, "-ndf", 3)
+    ops.geomTransf("Corotational", 1)
+    for i in range(feet):
+        for node, y, mass in ((1 + i, 0.0, footing), (101 + i, 3.5, 20e3)):
+            ops.node(node, 3.0 * i, y)
+            ops.mass(node, mass, mass, 0.0)
+        ops.element("elasticBeamColumn", 1 + i, 1 + i, 101 + i, 149e-4, 210e9, 2.517e-4, 1)
+        for level in (0, 100) if tied else (100,):
+            if i > 0:
+                ops.element("elasticBeamColumn", 100 + level + i, level + i, level + i + 1, 62.6e-4, 210e9, 1.177e-4, 1)
+    ops.rayleigh(0.0, 0.0, 0.0, 0.003)
+    return list(range(1, feet + 1))
 
 
 def standing(ops: Any, **options: Any) -> Stepper:
@@ -102,7 +118,9 @@ def test_what_cannot_have_feet_is_refused_with_a_reason(ops: Any) -> None:
         add_feet(ops, [1, 2], SPRINGS, compliance=1.0)
     heavy = gs.Springs(1e9, SPRINGS.vertical, SPRINGS.horizontal)
     with pytest.warns(gs.GroundspringWarning, match="check units"):
-        add_feet(ops, [1, 2], heavy)
+        add_feet(ops, [1, 2], heavy, measure=False)
+    ops.wipe()
+    rigid_body(ops, FRAME, SPRINGS)
     ops.fix(1, 1, 0, 0)
     with pytest.raises(ValueError, match="node 1 is fixed in direction 1"):
         add_feet(ops, [1, 2], SPRINGS)
@@ -135,14 +153,44 @@ def test_a_step_that_fails_is_accounted_for(ops: Any) -> None:
     assert len(stepper.history.t) >= 1
 
 
-def test_a_weight_that_is_there_twice_is_warned_of(ops: Any) -> None:
+def test_a_weight_that_is_there_twice_or_not_at_all_is_warned_of(ops: Any) -> None:
+    def stands(load: float) -> Stepper:
+        ops.wipe()
+        give = rigid_body(ops, FRAME, SPRINGS)
+        ops.timeSeries("Linear", 1)
+        ops.pattern("Plain", 1, 1)
+        ops.load(3, 0.0, -load, 0.0)
+        return Stepper(ops, add_feet(ops, [1, 2], SPRINGS, compliance=give))
+
+    weight = FRAME.mass * gs.GRAVITY
+    with pytest.warns(gs.GroundspringWarning, match=r'it is on twice: begin anew and call gravity\("own"\)'):
+        stands(weight).gravity()
+    stands(weight).gravity("own")
+    with pytest.warns(gs.GroundspringWarning, match=r"3.09e.06 N of weight are missing; call gravity\(\)"):
+        stands(0.1 * weight).gravity("own")
+
+
+def test_gravity_is_put_on_once(ops: Any) -> None:
+    stepper = standing(ops)
+    before = stepper.groups[0].forces().copy()
+    for again in (stepper, Stepper(ops, stepper.groups)):
+        with pytest.raises(ValueError, match="the feet carry 3.434e.06 N already, and a second call would put the weight on twice"):
+            again.gravity()
+    assert np.array_equal(stepper.groups[0].forces(), before)
+    stepper.settle()
+    assert stepper.groups[0].forces() == pytest.approx(before, rel=1e-9, abs=1.0)
+    stepper.run(RECORD.truncated(0.1))
+    with pytest.raises(ValueError, match="settle: the model's time is 0.1"):
+        stepper.settle()
+
+
+def test_feet_under_feet_are_refused(ops: Any) -> None:
     give = rigid_body(ops, FRAME, SPRINGS)
-    feet = add_feet(ops, [1, 2], SPRINGS, compliance=give)
-    ops.timeSeries("Linear", 1)
-    ops.pattern("Plain", 1, 1)
-    ops.load(3, 0.0, -FRAME.mass * gs.GRAVITY, 0.0)
-    with pytest.warns(gs.GroundspringWarning, match=r'call gravity\("own"\)'):
-        Stepper(ops, feet).gravity()
+    add_feet(ops, [1, 2], SPRINGS, compliance=give)
+    elements = ops.getEleTags()
+    with pytest.raises(ValueError, match="node 1 stands on a bearing already"):
+        add_feet(ops, [1, 2], SPRINGS, compliance=give)
+    assert ops.getEleTags() == elements
 
 
 def test_a_structure_that_overturns_is_warned_of(ops: Any) -> None:
@@ -153,3 +201,29 @@ def test_a_structure_that_overturns_is_warned_of(ops: Any) -> None:
     with pytest.warns(gs.GroundspringWarning, match="the structure overturned"):
         history = stepper.run(push)
     assert repr(history).startswith("FeetHistory(nodes 1, 2; 330 samples to 3.29 s; largest uplift")
+
+
+def test_a_foot_without_mass_under_a_soft_column_is_refused_in_one_line(ops: Any) -> None:
+    feet = soft_frame(ops, footing=0.0)
+    words = r"node 1 has no mass, and what stands on it gives more .*ops.mass\(1, m, m, 0.0\)"
+    with pytest.raises(ValueError, match=words) as caught:
+        add_feet(ops, feet, gs.design(FRAME, stiffness=2e4).springs(1e3, 12.0))
+    assert "\n" not in str(caught.value)
+    with pytest.raises(ValueError, match="springs_for: node 1 has no mass that lands"):
+        springs_for(ops, feet)
+
+
+def test_springs_for_more_than_lands_are_told_with_their_cause(ops: Any) -> None:
+    feet = soft_frame(ops)
+    springs = gs.design(FRAME, stiffness=1e5).springs(42e3, 3.8)
+    words = "the springs are for 4.2e.04 kg, but 10.. kg land at node 1: .*take springs_for"
+    with pytest.warns(gs.GroundspringWarning, match=words):
+        add_feet(ops, feet, springs)
+
+
+def test_three_feet_that_nothing_ties_are_told_before_the_run(ops: Any) -> None:
+    feet = soft_frame(ops, 3)
+    with pytest.warns(gs.GroundspringWarning, match="3 feet, and what ties them gives .* tie the feet"):
+        springs_for(ops, feet)
+    ops.wipe()
+    add_feet(ops, feet := soft_frame(ops, 3, tied=True), springs_for(ops, feet))

@@ -33,7 +33,7 @@ pub struct UnitsError {
 
 impl Units {
     /// How many m/s2 one unit is.
-    pub(crate) fn metres_per_second2(self) -> f64 {
+    pub fn metres_per_second2(self) -> f64 {
         match self {
             Self::G => GRAVITY,
             Self::MetrePerSecond2 => 1.0,

@@ -17,11 +17,16 @@ import numpy as np
 import numpy.typing as npt
 
 from .._native import GRAVITY, GroundspringWarning, Springs
+from ._measure import Model, NotMeasured
+from ._springs_for import FeetSprings, tell_untied
 
 Array = npt.NDArray[np.float64]
 
 HOLDS = 1e7
 """A coefficient of friction at which no pressing foot ever slips, as in the decks."""
+
+HEAVY = 3.0
+"""Mass that springs are for over what lands, from which on it is told: absorbers then weigh more than the foot."""
 
 FIRST_TAG = 1_000_000
 """Tags begin here, or beyond the model's largest: materials and friction models cannot be asked for theirs."""
@@ -40,17 +45,26 @@ class Feet:
     landing     1/Omega_n of the vertical k1, s: what a landing takes
     """
 
-    def __init__(self, ops: Any, nodes: Sequence[int], springs: Springs, compliance: float) -> None:
+    def __init__(self, ops: Any, nodes: Sequence[int], springs: Springs | FeetSprings, compliance: float) -> None:
         self.ops, self.nodes, self.springs = ops, tuple(nodes), springs
+        each = [springs] * len(self.nodes) if isinstance(springs, Springs) else list(springs)
         self.absorbers: tuple[int, ...] = ()
         self.grounds: tuple[int, ...] = ()
         self.units: tuple[int, ...] = ()
         self.bearings: tuple[int, ...] = ()
         self.materials: tuple[int, ...] = ()
+        self.options: dict[str, Any] = {}
         # what the structure gives above the foot is taken off the gap's: both in series are k1
-        self.gap_vertical = springs.vertical.k1 / (1.0 - springs.vertical.k1 * compliance)
-        self.gap_horizontal = springs.horizontal.k1 / (1.0 - springs.horizontal.k1 * compliance)
-        self.landing = math.sqrt(springs.mass / springs.vertical.k1)
+        self.gap_vertical, self.gap_horizontal = (
+            np.array([unit.k1 / (1.0 - unit.k1 * compliance) for unit in units])
+            for units in ([of.vertical for of in each], [of.horizontal for of in each])
+        )
+        self._k2, self._c, self._m2 = (
+            np.array([[getattr(unit, name) for unit in (of.horizontal, of.vertical)] for of in each]).T
+            for name in ("k2", "c", "m2")
+        )
+        lands = [math.sqrt(of.mass / of.vertical.k1) for of in each] if isinstance(springs, Springs) else springs.landings
+        self.landing = min(lands)
 
     @property
     def pairs(self) -> tuple[tuple[int, int], ...]:
@@ -74,7 +88,8 @@ class Feet:
 
         It moves along with a foot in the air.
         """
-        return self._relative(1) + self.forces()[:, 0] / self.gap_horizontal
+        anchors: Array = self._relative(1) + self.forces()[:, 0] / self.gap_horizontal
+        return anchors
 
     def pressing(self) -> npt.NDArray[np.bool_]:
         """Whether every foot presses on the ground."""
@@ -82,18 +97,18 @@ class Feet:
 
     def stored(self) -> Array:
         """Energy in the springs and the absorbers' motion of every foot, J."""
-        v, h = self.springs.vertical, self.springs.horizontal
         compressed = np.minimum(self.gaps(), 0.0)
-        energy = 0.5 * self.gap_vertical * compressed**2 + 0.5 * self.forces()[:, 0] ** 2 / self.gap_horizontal
-        for dof, unit in ((1, h), (2, v)):
-            displacement, velocity = self._absorber(dof)
-            energy += 0.5 * unit.k2 * displacement**2 + 0.5 * unit.m2 * velocity**2
+        energy: Array = 0.5 * self.gap_vertical * compressed**2 + 0.5 * self.forces()[:, 0] ** 2 / self.gap_horizontal
+        for k in (0, 1):
+            displacement, velocity = self._absorber(k + 1)
+            energy += 0.5 * self._k2[k] * displacement**2 + 0.5 * self._m2[k] * velocity**2
         return energy
 
     def damping(self) -> Array:
         """Power that the dashpots of every foot take, W."""
         (_, across), (_, down) = self._absorber(1), self._absorber(2)
-        return self.springs.horizontal.c * across**2 + self.springs.vertical.c * down**2
+        power: Array = self._c[0] * across**2 + self._c[1] * down**2
+        return power
 
     def _relative(self, dof: int) -> Array:
         disp = self.ops.nodeDisp
@@ -110,61 +125,77 @@ class Feet:
 def add_feet(
     ops: Any,
     nodes: Sequence[int],
-    springs: Springs,
+    springs: Springs | FeetSprings,
     *,
     compliance: float = 0.0,
     friction: float = HOLDS,
     first_tag: int | None = None,
+    measure: bool = True,
 ) -> Feet:
     """Put spring-absorber units under nodes of a plane frame model.
 
     ops         openseespy.opensees, with a model of ndm 2 and ndf 3
-    nodes       the nodes that stand on the ground, two under a structure that rocks
-    springs     as tuned for the whole structure, or given; each node gets all of them
+    nodes       the nodes that stand on the ground, two or more under a structure that rocks
+    springs     of `springs_for`, one a node; or one for all, as tuned for a rigid body: each node gets all of it
     compliance  m/N: what the structure gives above a node, where that stands for a rigid body; taken off k1's
-    friction    coefficient; unless given a pressing foot never slips
+    friction    coefficient, without unit; unless given a pressing foot never slips
     first_tag   the first of the tags used; beyond the model's own unless given
+    measure     look whether the springs are for what lands; OpenSees' analysis objects are wiped for it. Not done with a
+                compliance, nor in models of more than 3,000 equations
 
     Call it after `ops.rayleigh`, which would damp the absorbers.
 
-    ValueError: a model that is not plane, nodes that are not there or fixed, numbers that mean nothing.
+    ValueError: a model that is not plane, nodes that are not there or fixed, that have feet already, or that have no mass under
+    columns softer than the springs; numbers that mean nothing. GroundspringWarning: springs for three times the mass that lands,
+    or more; three or more feet that nothing holds together.
     """
     nodes = [int(node) for node in nodes]
     _check(ops, nodes, springs, compliance, friction)
+    if measure and compliance == 0.0:
+        _check_lands(ops, nodes, springs)
     feet = Feet(ops, nodes, springs, compliance)
+    feet.options = {"compliance": compliance, "friction": friction, "first_tag": first_tag}
     there = [*ops.getNodeTags(), *ops.getEleTags()]
     free = itertools.count(max([FIRST_TAG, *(tag + 1 for tag in there)]) if first_tag is None else first_tag)
-    v, h = springs.vertical, springs.horizontal
+    units = [springs] * len(nodes) if isinstance(springs, Springs) else list(springs)
     # the bearing asks for a moment spring; this one is too weak to be felt (1e-9 of the weight's own moment)
-    moment = 1e-9 * springs.mass * GRAVITY * _radius(ops, nodes)
+    heaviest = max(unit.mass for unit in units)
+    moment = 1e-9 * heaviest * GRAVITY * _radius(ops, nodes)
 
     def material(*arguments: Any) -> int:
         return take(free, lambda tag: ops.uniaxialMaterial(arguments[0], tag, *arguments[1:]))
 
-    across, down = material("Elastic", h.k2, h.c), material("Elastic", v.k2, v.c)
-    # without a trace of tension a foot in the air would be pulled back to where it stood before, which creates energy
-    closed, trace = material("ENT", feet.gap_vertical), material("Elastic", 1e-9 * feet.gap_vertical)
-    gap, turn = material("Parallel", closed, trace), material("Elastic", moment)
-    feet.materials = (across, down, closed, trace, gap, turn)
+    made: list[tuple[Springs, tuple[int, ...]]] = []
+    of_node: list[tuple[int, ...]] = []
+    for unit, gap_vertical in zip(units, feet.gap_vertical, strict=True):
+        known = [tags for other, tags in made if other == unit]
+        if not known:
+            v, h = unit.vertical, unit.horizontal
+            across, down = material("Elastic", h.k2, h.c), material("Elastic", v.k2, v.c)
+            # without a trace of tension a foot in the air would be pulled back to where it stood before, which creates energy
+            closed, trace = material("ENT", gap_vertical), material("Elastic", 1e-9 * gap_vertical)
+            known = [(across, down, closed, trace, material("Parallel", closed, trace), material("Elastic", moment))]
+            made.append((unit, known[0]))
+        of_node.append(known[0])
+    feet.materials = tuple(tag for _, tags in made for tag in tags)
     coulomb = take(free, lambda tag: ops.frictionModel("Coulomb", tag, friction))
 
     # in the order of the decks: OpenSees numbers and adds up by tags, and its rounding follows
     feet.absorbers, feet.grounds, feet.units, feet.bearings = (tuple(next(free) for _ in nodes) for _ in range(4))
-    for node, absorber, ground, unit, bearing in zip(
-        nodes, feet.absorbers, feet.grounds, feet.units, feet.bearings, strict=True
-    ):
+    for i, node in enumerate(nodes):
+        absorber, ground, tags = feet.absorbers[i], feet.grounds[i], of_node[i]
         x, y = ops.nodeCoord(node)
         ops.node(absorber, x, y)
         ops.node(ground, x, y)
         ops.fix(ground, 1, 1, 1)
         # the bearing's axes turn with its first node: the absorber must not rotate
         ops.fix(absorber, 0, 0, 1)
-        ops.mass(absorber, h.m2, v.m2, 0.0)
-        ops.element("zeroLength", unit, ground, absorber, "-mat", across, down, "-dir", 1, 2)
+        ops.mass(absorber, units[i].horizontal.m2, units[i].vertical.m2, 0.0)
+        ops.element("zeroLength", feet.units[i], ground, absorber, "-mat", tags[0], tags[1], "-dir", 1, 2)
         # axial direction up (local x = global y); the horizontal k1 is the bearing's shear stiffness
         ops.element(
-            "flatSliderBearing", bearing, absorber, node, coulomb, feet.gap_horizontal,
-            "-P", gap, "-Mz", turn, "-orient", 0, 1, 0, -1, 0, 0,
+            "flatSliderBearing", feet.bearings[i], absorber, node, coulomb, float(feet.gap_horizontal[i]),
+            "-P", tags[4], "-Mz", tags[5], "-orient", 0, 1, 0, -1, 0, 0,
         )  # fmt: skip
     return feet
 
@@ -181,7 +212,7 @@ def take(free: Iterable[int], make: Callable[[int], Any]) -> int:
     raise ValueError(f"add_feet: OpenSees takes none of a thousand tags up to {tag}; give another first_tag") from last
 
 
-def _check(ops: Any, nodes: list[int], springs: Springs, compliance: float, friction: float) -> None:
+def _check(ops: Any, nodes: list[int], springs: Springs | FeetSprings, compliance: float, friction: float) -> None:
     there = set(ops.getNodeTags())
     if not nodes or len(set(nodes)) < len(nodes):
         raise ValueError(f"add_feet: nodes are {nodes}; give the tags of the nodes that stand on the ground, each once")
@@ -201,26 +232,72 @@ def _check(ops: Any, nodes: list[int], springs: Springs, compliance: float, fric
         held = sorted({1, 2} & set(ops.getFixedDOFs(node))) if node in fixed else []
         if held:
             raise ValueError(f"add_feet: node {node} is fixed in direction {held[0]}; a foot must be free: take the fix off")
+    _check_bare(ops, nodes)
     for name, value in (("compliance", compliance), ("friction", friction)):
         if not (math.isfinite(value) and value >= 0.0):
             raise ValueError(f"add_feet: {name} is {value!r}; give a finite number, zero or greater")
-    stiffest = max(springs.vertical.k1, springs.horizontal.k1)
+    units = [springs] if isinstance(springs, Springs) else list(springs)
+    if len(units) not in (1, len(nodes)):
+        raise ValueError(f"add_feet: springs are for {len(units)} feet, nodes are {nodes}; give one for all or one a node")
+    stiffest = max(max(unit.vertical.k1, unit.horizontal.k1) for unit in units)
     if compliance * stiffest >= 1.0:
         raise ValueError(
             f"add_feet: compliance is {compliance!r} m/N, that of the stiffest k1 {1.0 / stiffest:.3e} m/N; "
             "what the structure gives must be less"
         )
-    _check_mass(ops, springs)
+    _check_mass(ops, max(unit.mass for unit in units))
 
 
-def _check_mass(ops: Any, springs: Springs) -> None:
+def _check_bare(ops: Any, nodes: list[int]) -> None:
+    """Refuse nodes that stand on springs already."""
+    wanted = set(nodes)
+    for element in ops.getEleTags():
+        ends = set(ops.eleNodes(element)) & wanted
+        if ends and ops.eleType(element).startswith("FlatSlider"):
+            raise ValueError(
+                f"add_feet: node {min(ends)} stands on a bearing already (element {element}); a node gets one foot: keep the feet "
+                "that the first call returned, or begin the model anew"
+            )
+
+
+def _check_lands(ops: Any, nodes: list[int], springs: Springs | FeetSprings) -> None:
+    """Refuse feet without mass under soft columns; warn of springs for more than what lands."""
+    units = [springs] * len(nodes) if isinstance(springs, Springs) else list(springs)
+    omega = min(math.sqrt(unit.vertical.k1 / unit.mass) for unit in units)
+    try:
+        model = Model(ops, nodes)
+        lands, massless = model.effective(omega), model.springlike(omega)
+        if isinstance(springs, Springs):  # springs_for has told it
+            tell_untied(model, 3)
+    except NotMeasured:
+        return
+    for node, mass, unit in zip(nodes, lands, units, strict=True):
+        stiffness = mass * omega**2
+        if node in massless and stiffness < 0.5 * unit.vertical.k1:
+            raise ValueError(
+                f"add_feet: node {node} has no mass, and what stands on it gives more ({stiffness:.3g} N/m) than its spring "
+                f"({unit.vertical.k1:.3g} N/m): it would let go and land without end; give it the mass of its base plate or "
+                f"footing, ops.mass({node}, m, m, 0.0), and springs by springs_for"
+            )
+    heavy = [(unit.mass / mass, node, mass, unit) for node, mass, unit in zip(nodes, lands, units, strict=True)]
+    times, node, mass, unit = max(heavy, key=lambda entry: entry[0])
+    if times > HEAVY and isinstance(springs, Springs):
+        text = (
+            f"add_feet: the springs are for {unit.mass:.4g} kg, but {mass:.4g} kg land at node {node}: what stands on it is softer "
+            "than the springs, and does not land with it. The foot will touch and lift again and again, in very many steps; "
+            "take springs_for(ops, nodes)"
+        )
+        warnings.warn(text, GroundspringWarning, stacklevel=3)
+
+
+def _check_mass(ops: Any, mass: float) -> None:
     masses = [ops.nodeMass(node, 2) for node in ops.getNodeTags()]
-    if any(mass < 0.0 for mass in masses):
+    if any(nodal < 0.0 for nodal in masses):
         raise ValueError("add_feet: a nodal mass is negative; masses are positive or zero")
     total = math.fsum(masses)
     # element masses are not seen: too little is no mistake
-    if total > 0.0 and springs.mass > 2.0 * total:
-        text = f"add_feet: WARNING: the springs are for {springs.mass:.4g} kg, the model's nodes carry {total:.4g} kg; check units"
+    if total > 0.0 and mass > 2.0 * total:
+        text = f"add_feet: WARNING: the springs are for {mass:.4g} kg, the model's nodes carry {total:.4g} kg; check units"
         warnings.warn(text, GroundspringWarning, stacklevel=4)
 
 

@@ -2,45 +2,25 @@
 
 from __future__ import annotations
 
-import inspect
 import itertools
 import math
 import sys
 import warnings
-from collections.abc import Callable, Sequence
+from collections.abc import Callable, Mapping, Sequence
 from typing import Any
 
-from .._native import GRAVITY, STEPS, GroundspringWarning, Record
+from .._native import GroundspringWarning, Record
 from ._account import Books
+from ._converged import Convergence, converged
 from ._feet import FIRST_TAG, Feet, _radius, take
 from ._history import FeetHistory, Watch
+from ._springs_for import FeetSprings
+from ._staging import Staging, StepError
+from ._steps import Watched, routine
 
-
-class StepError(RuntimeError):
-    """Newton's iteration gives up however short the step; the message says where the model stands."""
-
-
-class _Watched:
-    """openseespy as the routine sees it: it is told of every step that succeeds."""
-
-    def __init__(self, ops: Any, after: Callable[[float], None]) -> None:
-        self._ops, self._after = ops, after
-
-    def __getattr__(self, name: str) -> Any:
-        return getattr(self._ops, name)
-
-    def analyze(self, count: int, h: float) -> int:
-        code: int = self._ops.analyze(count, h)
-        if code == 0:
-            self._after(h)
-        return code
-
-
-def _routine(ops: Any) -> Any:
-    """`class Steps` of the decks, from their own source."""
-    names: dict[str, Any] = {"math": math, "sys": sys, "ops": ops, "__name__": __name__}
-    exec(compile(STEPS, "<steps of the decks>", "exec"), names)
-    return names["Steps"]
+MANY_STEPS = 50_000
+STEPS_A_SECOND = 20_000.0
+"""Of a motion, from which on a run of many steps is told: landings on springs of springs_for take some thousand."""
 
 
 def _topples(ops: Any, feet: Feet) -> float:
@@ -53,7 +33,7 @@ def _topples(ops: Any, feet: Feet) -> float:
     return float(2.0 * half * math.atan2(half, height))
 
 
-class Stepper:
+class Stepper(Staging):
     """A transient analysis of a model with feet.
 
     ops          openseespy.opensees
@@ -98,51 +78,16 @@ class Stepper:
         nodes = [node for group in self.groups for node in group.nodes]
         self.tolerance = 1e-12 * _radius(ops, nodes) if tolerance is None else tolerance
         self._free = itertools.count(max([FIRST_TAG, *ops.getNodeTags(), *ops.getEleTags()]) + 1)
+        self.given: dict[str, Any] = {"landing": landing, "rise": rise, "tolerance": tolerance, "constraints": constraints}
+        self.given["analysis"] = analysis
         self.steps: Any = None
+        self._from = 0.0
         self.on_step: Callable[[float], None] | None = None
         self._watch: Watch | None = None
         self._books: Books | None = None
         self._weight = False
-
-    def gravity(self, loads: str = "weight", steps: int = 10) -> None:
-        """Let the structure settle under its weight; the time is zero after it.
-
-        loads  "weight": that of every nodal mass but the absorbers', put on here; "own": the model's patterns as they are
-        """
-        ops = self.ops
-        if loads == "weight":
-            series = take(self._free, lambda tag: ops.timeSeries("Linear", tag))
-            ops.pattern("Plain", self._pattern(), series)
-            own = self._absorbers()
-            for node in ops.getNodeTags():
-                mass = ops.nodeMass(node, 2)
-                if mass > 0.0 and node not in own:
-                    ops.load(node, 0.0, -mass * GRAVITY, 0.0)
-            self._weight = True
-        elif loads != "own":
-            raise ValueError(f"gravity: loads is {loads!r}; give \"weight\" or \"own\"")
-        ops.wipeAnalysis()
-        self._solver("LoadControl", 1.0 / steps, kind="Static")
-        if ops.analyze(steps) != 0:
-            raise StepError(f"gravity did not converge at {ops.getTime():.0%} of the load; check that the structure can stand")
-        ops.loadConst("-time", 0.0)
-        ops.wipeAnalysis()
-        self.steps = None
-        if loads == "weight":
-            self._check_weight()
-
-    def _check_weight(self) -> None:
-        """Warn where the feet carry more than the nodal masses weigh."""
-        ops, own = self.ops, self._absorbers()
-        masses = math.fsum(ops.nodeMass(node, 2) for node in ops.getNodeTags() if node not in own)
-        carried = math.fsum(float(group.forces()[:, 1].sum()) for group in self.groups)
-        if carried > 1.01 * masses * GRAVITY:
-            warnings.warn(
-                f"gravity: the feet carry {carried:.4g} N, the nodal masses weigh {masses * GRAVITY:.4g} N; if the model has its "
-                'weight in a pattern of its own, call gravity("own")',
-                GroundspringWarning,
-                stacklevel=3,
-            )
+        self._told = self._began = 0
+        self._known = None
 
     def advance_to(self, t: float) -> None:
         """To time t, s, in steps that end there.
@@ -177,6 +122,7 @@ class Stepper:
         ops = self.ops
         if not any((group.forces()[:, 1] > 0.0).any() for group in self.groups):
             raise ValueError("run: no foot presses on the ground; call stepper.gravity() first")
+        self._check_added()
         dt, start = record.dt, ops.getTime()
         both = record if vertical is None else record.with_vertical(vertical)
         shaken = both if scale == 1.0 else both.scaled(scale)
@@ -186,6 +132,7 @@ class Stepper:
         count = len(record if duration is None else record.truncated(duration))
         if self.steps is None:
             self._begin(0.5 * dt)
+        self._told, self._began, self._from, self.steps.changes = 0, self.steps.taken, start, 0
         watch = self._watch = Watch(self.groups)
         books = Books(ops, self.groups, shaken, start, self._weight) if account else None
         self._books = books
@@ -209,6 +156,60 @@ class Stepper:
         if self.steps is not None and self.steps.late:
             warnings.warn(f"run: {self.report()}", GroundspringWarning, stacklevel=2)
         return self.history
+
+    def converged(
+        self,
+        record: Record,
+        build: Callable[[], object],
+        quantities: Mapping[str, Callable[[], float]] | None = None,
+        *,
+        after: Callable[[], object] | None = None,
+        scale: float = 1.0,
+        duration: float | None = None,
+        vertical: Record | None = None,
+    ) -> Convergence:
+        """Run the record again with accuracy, longest step and the springs' softness halved in turn; what that changes.
+
+        build       makes the model anew, without feet, from `ops.wipe()` on: OpenSees cannot be taken back to where it began
+        quantities  what is compared beside the uplift, by name: functions of the live model, such as
+                    `lambda: ops.nodeDisp(5, 1)`; the largest magnitude over all steps counts
+        after       called after gravity: what comes into the model unstressed
+        scale, duration, vertical   as for `run`
+
+        Feet, gravity and options are those of this stepper. A last run, whose ground shakes by a millionth more, says how much of
+        a change is the motion's own sensitivity. Five runs in all; the model is left as the last one left it.
+
+            print(stepper.converged(record, build, {"roof": lambda: ops.nodeDisp(5, 1)}))
+        """
+        if quantities is not None and not all(map(callable, quantities.values())):
+            raise ValueError("converged: a quantity is not a function; give name: lambda: ops.nodeDisp(5, 1), and its like")
+        options = {"scale": scale, "duration": duration, "vertical": vertical}
+        return converged(self, record, build, quantities, after, **options)
+
+    def _check_count(self) -> None:
+        """Tell of a number of steps out of all proportion, and of its cause, once."""
+        steps = self.steps
+        if steps is None or self._told or steps.taken % 1000 or steps.taken - self._began < MANY_STEPS:
+            return
+        taken, time = steps.taken - self._began, self.ops.getTime() - self._from
+        if taken < STEPS_A_SECOND * time:
+            return
+        self._told = 1
+        changes = steps.changes / max(time, 1e-9)
+        if changes > 200.0 * len(steps.closed):
+            cause = (
+                f"feet touch and lift {changes:.0f} times a second: the springs throw back what lands, as they do if they are for "
+                "more than lands there; take springs_for(ops, nodes)"
+            )
+        elif steps.refused > 0.01 * taken:
+            cause = f"{steps.refused} pairs of steps had to be repeated shorter: look at the structure's own elements"
+        else:
+            cause = (
+                f"parts at the feet vibrate faster than the steps between landings ({self.landing:.1e} s) can pass over; damp "
+                "them, take them for rigid (equalDOF), or ask for less: a larger accuracy, softer springs"
+            )
+        text = f"run: {taken} steps for {time:.3g} s of motion: {cause}"
+        warnings.warn(text, GroundspringWarning, stacklevel=2)
 
     def _check_standing(self) -> None:
         """Warn where a structure fell over."""
@@ -242,16 +243,16 @@ class Stepper:
             self._solver("TRBDF2", kind="Transient")
         pairs = tuple(pair for group in self.groups for pair in group.pairs)
         longest = longest if self.longest is None else self.longest
-        routine = _routine(_Watched(self.ops, self._stepped))
-        told = {"landing": self.landing, "longest": longest, "rise": self.rise, "accuracy": self.accuracy}
-        asked = inspect.signature(routine).parameters
-        self.steps = routine(pairs, **{name: value for name, value in told.items() if name in asked})
+        elastic = any(isinstance(group.springs, FeetSprings) for group in self.groups)
+        make = routine(Watched(self.ops, self._stepped), elastic)
+        self.steps = make(pairs, landing=self.landing, longest=longest, rise=self.rise, accuracy=self.accuracy)
 
     def _stepped(self, h: float) -> None:
         if self._watch is not None:
             self._watch.step(h)
         if self._books is not None:
             self._books.step()
+        self._check_count()
         if self.on_step is not None:
             self.on_step(h)
 
@@ -273,12 +274,6 @@ class Stepper:
         path = ("-dt", record.dt, "-startTime", start, "-values", *values)
         series = take(self._free, lambda tag: ops.timeSeries("Path", tag, *path))
         ops.pattern("UniformExcitation", self._pattern(), direction, "-accel", series)
-
-    def _absorbers(self) -> set[int]:
-        return {absorber for group in self.groups for absorber in group.absorbers}
-
-    def _pattern(self) -> int:
-        return 1 + max([FIRST_TAG, *map(int, self.ops.getPatterns() or [])])
 
     def _account(self) -> str:
         feet = [

@@ -1,0 +1,63 @@
+//! Numbers from Python: a list, an array, anything that numpy takes for one. What is not a row of
+//! real numbers is refused, with what to pass instead.
+
+use numpy::{PyArray1, PyArrayMethods, PyUntypedArray, PyUntypedArrayMethods};
+use pyo3::{prelude::*, types::PyDict};
+
+use crate::said::value_error;
+
+/// A row of numbers called `name`; `what` they are, with their unit.
+pub fn row(of: &Bound<'_, PyAny>, name: &str, what: &str) -> PyResult<Vec<f64>> {
+    let py = of.py();
+    let refused = |found: &str, give: &str| value_error(format!("{name}: {found}; {give}"));
+    let quantity = ["units", "unit"].iter().any(|attribute| of.hasattr(*attribute).unwrap_or(false));
+    if quantity {
+        return Err(refused(
+            "numbers with units of their own",
+            &format!("give plain numbers, {what}: x.to(...).magnitude"),
+        ));
+    }
+    let numpy = py.import("numpy")?;
+    if of.is_instance(&numpy.getattr("ma")?.getattr("MaskedArray")?)? {
+        let masked = numpy.getattr("ma")?.call_method1("is_masked", (of,))?.extract()?;
+        if masked {
+            return Err(refused("a masked array", "fill what is masked: x.filled(0.0), or cut it off"));
+        }
+    }
+    let array = numpy.call_method1("asarray", (of,)).map_err(|_| refused("not a row of numbers", what))?;
+    let untyped = array.cast::<PyUntypedArray>()?;
+    let kind: String = array.getattr("dtype")?.getattr("kind")?.extract()?;
+    match kind.as_str() {
+        "f" | "i" | "u" | "b" => {}
+        "c" => return Err(refused("complex numbers", &format!("give real ones, {what}: x.real"))),
+        _ => {
+            return Err(refused(&format!("an array of {}", array.getattr("dtype")?), &format!("give numbers, {what}")));
+        }
+    }
+    match untyped.ndim() {
+        1 => {}
+        n => {
+            let shape: Vec<String> = untyped.shape().iter().map(ToString::to_string).collect();
+            let give = format!("give one row of numbers, {what}: x[:, 0], or x.ravel()");
+            return Err(refused(&format!("an array of {n} dimensions, shape ({})", shape.join(", ")), &give));
+        }
+    }
+    let options = PyDict::new(py);
+    options.set_item("dtype", "float64")?;
+    let array = numpy.call_method("ascontiguousarray", (array,), Some(&options))?;
+    Ok(array.cast::<PyArray1<f64>>()?.to_vec()?)
+}
+
+/// A number, or a row of them.
+pub fn one_or_more(of: &Bound<'_, PyAny>, name: &str, what: &str) -> PyResult<Vec<f64>> {
+    match of.extract::<f64>() {
+        Ok(one) if !of.hasattr("ndim").unwrap_or(false) => Ok(vec![one]),
+        _ => {
+            let scalar = of.getattr("ndim").ok().and_then(|n| n.extract::<usize>().ok()) == Some(0);
+            match of.extract::<f64>() {
+                Ok(one) if scalar => Ok(vec![one]),
+                _ => row(of, name, what),
+            }
+        }
+    }
+}
