@@ -1,10 +1,8 @@
 //! The decks of a run.
 
-use std::path::Path;
-
 use decks::{DeckFormat, ExportError};
 
-use crate::{FolderError, place::write_file};
+use crate::{FolderError, texts::RunTexts};
 
 /// The decks of `tune run`: name in the folder, format.
 pub const DECKS: [(&str, DeckFormat); 5] = [
@@ -15,19 +13,18 @@ pub const DECKS: [(&str, DeckFormat); 5] = [
     ("springs.md", DeckFormat::Markdown),
 ];
 
-/// Write every deck into a folder, which is made; the decks that are left out, with the reason.
-pub(crate) fn write_decks(
-    dir: &Path,
-    text: impl Fn(DeckFormat) -> Result<String, ExportError>,
-) -> Result<Vec<String>, FolderError> {
-    std::fs::create_dir_all(dir).map_err(|source| FolderError::Write { path: dir.display().to_string(), source })?;
-    let mut left_out = Vec::new();
+/// Every deck; those that cannot be made of the structure are left out, with the reason.
+pub(crate) fn decks(text: impl Fn(DeckFormat) -> Result<String, ExportError>) -> Result<RunTexts, FolderError> {
+    let mut texts = RunTexts::default();
     for (name, format) in DECKS {
         match text(format) {
             // said, not fatal: the other decks are of use
-            Err(e @ ExportError::Member { .. }) => left_out.push(format!("{name} is left out: {e}")),
-            deck => write_file(&dir.join(name), deck?.as_bytes())?,
+            Err(e @ ExportError::Member { .. }) => {
+                let name = name.trim_start_matches("");
+                texts.left_out.push(format!("{name} is left out: {e}"));
+            }
+            deck => texts.files.push((format!("decks/{name}"), deck?)),
         }
     }
-    Ok(left_out)
+    Ok(texts)
 }

@@ -13,7 +13,9 @@
 //! five times as much. Forces are compared only then, for they need a second history of every
 //! motion, on springs at 4 Omega_n.
 
+pub mod at_once;
 pub mod design;
+pub mod referred;
 pub mod suite;
 pub mod trial;
 
