@@ -46,7 +46,7 @@ const LEAST_TENSION: f64 = 0.01;
 const LEAST_APART: f64 = 1e-3;
 
 /// Time within which touches are one impact (1/p).
-const SAME_IMPACT: f64 = 0.1;
+pub const SAME_IMPACT: f64 = 0.1;
 
 /// What a run is told from.
 pub struct ElasticParts<'a> {
@@ -79,7 +79,7 @@ pub fn title(structure: &ElasticStructure) -> String {
 }
 
 /// Height of the highest point (m).
-fn top_height(structure: &ElasticStructure) -> f64 {
+pub fn top_height(structure: &ElasticStructure) -> f64 {
     match structure {
         ElasticStructure::Pier(pier) => pier.height_m,
         ElasticStructure::AFrame(frame) => frame.height_m,
@@ -290,7 +290,7 @@ impl ElasticParts<'_> {
 
 /// Impacts among touches of corners (s): one that follows the last within `rest` (s) belongs to the
 /// same.
-fn impacts(touches: impl Iterator<Item = f64>, rest: f64) -> usize {
+pub fn impacts(touches: impl Iterator<Item = f64>, rest: f64) -> usize {
     let (mut last, mut count) = (f64::NEG_INFINITY, 0);
     for time in touches {
         count += usize::from(time - last > rest);
