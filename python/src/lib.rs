@@ -18,6 +18,7 @@
 
 mod arrow;
 mod design;
+mod histories;
 mod many;
 mod numbers;
 mod record;
@@ -38,9 +39,10 @@ mod _native {
     #[pymodule_export]
     use crate::{
         design::{_design, _unit_design, Design, UnitDesign, design, fit_response, frequency_response},
+        histories::{_histories, Histories},
         many::{_table, RockingTable, rock_all},
         record::{Record, el_centro, read_record},
-        rocking::{_histories, _history, Histories, History, rigid_rocking, rigid_rocking_many},
+        rocking::{_history, History, rigid_rocking, rigid_rocking_many},
         said::GroundspringWarning,
         simulation::{Simulation, simulate},
         springs::{_units_for, Chain, Springs, read_parameters},

@@ -7,7 +7,7 @@ use std::{
 };
 
 use numpy::PyArray1;
-use pyo3::{exceptions::PyIndexError, prelude::*};
+use pyo3::prelude::*;
 use rocking::{
     housner::{self, Impact, Rocking, RockingOptions, RockingOutcome, Uplift},
     motion::Motion,
@@ -16,7 +16,9 @@ use rocking::{
 use springs::case::LONGEST_S;
 
 use crate::{
-    Array, numbers,
+    Array,
+    histories::Histories,
+    numbers,
     record::{Record, checked_scales},
     said::value_error,
     structure::{Structure, hashed},
@@ -29,14 +31,14 @@ const AT_A_TIME: usize = 2048;
 
 /// One history and the body that it is of.
 pub struct Solved {
-    body: Body<f64>,
-    dt: f64,
-    rocking: Rocking<f64>,
+    pub(crate) body: Body<f64>,
+    pub(crate) dt: f64,
+    pub(crate) rocking: Rocking<f64>,
     motion: OnceLock<Motion>,
 }
 
 impl Solved {
-    fn new(body: Body<f64>, dt: f64, rocking: Rocking<f64>) -> Self {
+    pub(crate) fn new(body: Body<f64>, dt: f64, rocking: Rocking<f64>) -> Self {
         Self { body, dt, rocking, motion: OnceLock::new() }
     }
 
@@ -44,21 +46,21 @@ impl Solved {
         self.motion.get_or_init(|| self.rocking.motion(&self.body))
     }
 
-    fn peak_ratio(&self) -> f64 {
+    pub(crate) fn peak_ratio(&self) -> f64 {
         let peak = self.rocking.theta.iter().fold(0.0, |peak: f64, x| peak.max(x.abs()));
         Self::ratio(&self.body, &self.rocking, peak)
     }
 
     /// Largest |theta|/alpha of a history whose largest |theta| is `peak` (rad).
     pub fn ratio(body: &Body<f64>, rocking: &Rocking<f64>, peak: f64) -> f64 {
-        // as in the tables of tune validate and tune sweep: one that overturned lies, and how far it
-        // had fallen says nothing
+        // as in the tables of tune validate and tune sweep: one that overturned lies, and how far
+        // it had fallen says nothing
         let theta = if rocking.overturned().is_some() { FRAC_PI_2 } else { peak };
         theta / body.alpha()
     }
 
     /// All that it is made of.
-    fn numbers(&self) -> ([f64; 5], [&[f64]; 2], [Vec<f64>; 5], &'static str, Option<f64>) {
+    pub(crate) fn numbers(&self) -> ([f64; 5], [&[f64]; 2], [Vec<f64>; 5], &'static str, Option<f64>) {
         let (b, r) = (&self.body, &self.rocking);
         let impacts = |pick: fn(&Impact<f64>) -> f64| r.impacts.iter().map(pick).collect();
         let uplifts = |pick: fn(&Uplift<f64>) -> f64| r.uplifts.iter().map(pick).collect();
@@ -132,16 +134,6 @@ pub fn _history(filed: Filed<'_>) -> PyResult<History> {
     Ok(History::new(Body { mass, half_width, height, inertia }, dt, rocking))
 }
 
-/// Histories that were pickled.
-#[pyfunction]
-pub fn _histories(all: Vec<PyRef<'_, History>>) -> Histories {
-    let again = |one: &PyRef<'_, History>| {
-        let Solved { body, dt, rocking, .. } = one.one();
-        Solved::new(*body, *dt, rocking.clone())
-    };
-    Histories(Arc::new(all.iter().map(again).collect()))
-}
-
 /// A history of rigid rocking at the record's samples, cut where the body lies flat.
 #[pyclass(frozen, module = "groundspring")]
 pub struct History {
@@ -154,7 +146,7 @@ impl History {
         Self { all: Arc::new(vec![Solved::new(body, dt, rocking)]), index: 0 }
     }
 
-    fn one(&self) -> &Solved {
+    pub(crate) fn one(&self) -> &Solved {
         &self.all[self.index]
     }
 }
@@ -278,80 +270,6 @@ impl History {
         let (theta, rate) = (Self::theta(slf)?.into_any(), Self::rate(slf)?.into_any());
         let filed = (body, theta, rate, events, outcome.to_owned(), time);
         Ok((slf.py().import("groundspring._restore")?.getattr("history")?, (filed,)))
-    }
-}
-
-/// Many histories: a sequence of `History`.
-#[pyclass(frozen, sequence, module = "groundspring")]
-pub struct Histories(Arc<Vec<Solved>>);
-
-#[pymethods]
-impl Histories {
-    fn __len__(&self) -> usize {
-        self.0.len()
-    }
-
-    fn __getitem__(&self, index: isize) -> PyResult<History> {
-        let n = self.0.len();
-        let at = if index < 0 { index + n as isize } else { index };
-        if !(0..n as isize).contains(&at) {
-            return Err(PyIndexError::new_err(format!("there are {n} histories, none of index {index}")));
-        }
-        Ok(History { all: self.0.clone(), index: at as usize })
-    }
-
-    /// Largest |theta|/alpha of each, without unit; pi/2 / alpha where the body overturned.
-    #[getter]
-    fn peak_ratio<'py>(&self, py: Python<'py>) -> Array<'py> {
-        PyArray1::from_iter(py, self.0.iter().map(Solved::peak_ratio))
-    }
-
-    /// Whether each overturned.
-    #[getter]
-    fn overturned<'py>(&self, py: Python<'py>) -> Bound<'py, PyArray1<bool>> {
-        PyArray1::from_iter(py, self.0.iter().map(|solved| solved.rocking.overturned().is_some()))
-    }
-
-    /// A row a history: outcome, largest |theta|/alpha, impacts, when it overturned, s,
-    /// samples.
-    fn to_pandas<'py>(slf: &Bound<'py, Self>) -> PyResult<Bound<'py, PyAny>> {
-        slf.py().import("groundspring._tables")?.call_method1("histories", (slf,))
-    }
-
-    /// For notebooks.
-    fn _repr_html_<'py>(slf: &Bound<'py, Self>) -> PyResult<Bound<'py, PyAny>> {
-        slf.py().import("groundspring._html")?.call_method1("histories", (slf,))
-    }
-
-    fn __eq__(&self, other: &Bound<'_, PyAny>) -> bool {
-        let same = |(a, b): (&Solved, &Solved)| a.numbers() == b.numbers();
-        other.cast::<Self>().is_ok_and(|other| {
-            let (a, b) = (&self.0, &other.get().0);
-            a.len() == b.len() && a.iter().zip(b.iter()).all(same)
-        })
-    }
-
-    fn __hash__(&self) -> u64 {
-        hashed("", self.0.iter().filter_map(|solved| solved.rocking.theta.last()))
-    }
-
-    fn __copy__(slf: Bound<'_, Self>) -> Bound<'_, Self> {
-        slf
-    }
-
-    fn __deepcopy__<'py>(slf: Bound<'py, Self>, _memo: &Bound<'py, PyAny>) -> Bound<'py, Self> {
-        slf
-    }
-
-    fn __reduce__<'py>(slf: &Bound<'py, Self>) -> PyResult<(Bound<'py, PyAny>, (Vec<History>,))> {
-        let all = &slf.get().0;
-        let each = (0..all.len()).map(|index| History { all: all.clone(), index });
-        Ok((slf.py().import("groundspring._restore")?.getattr("histories")?, (each.collect(),)))
-    }
-
-    fn __repr__(&self) -> String {
-        let overturned = self.0.iter().filter(|solved| solved.rocking.overturned().is_some()).count();
-        format!("Histories({}, {overturned} overturned)", self.0.len())
     }
 }
 

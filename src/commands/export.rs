@@ -34,8 +34,9 @@ pub struct ExportOptions {
     accuracy: f64,
     /// events: steps shorten towards touches; even: steps of one size, on the springs for the
     /// program of `tune run`; touches: even but for substeps at touches, on springs for these
-    #[arg(long, default_value = "events", value_name = "HOW")]
-    stepping: Stepping,
+    /// [default: even for sap2000 where there are such springs, else events]
+    #[arg(long, value_name = "HOW")]
+    stepping: Option<Stepping>,
     #[command(flatten)]
     record: RecordOptions,
 }
@@ -49,7 +50,7 @@ pub fn run(o: &ExportOptions) -> Result<(), CommandError> {
         Some(parameters) => elastic(o, &parameters)?,
         None => {
             let (parameters, record, line) = read(&o.parameters, &o.record)?;
-            match o.stepping {
+            match stepping(o, parameters.program.as_ref().and_then(|program| program.name.as_deref())) {
                 Stepping::Events => (deck_of(&parameters, &record, o.format, o.accuracy)?, line),
                 stepping => told(stepped_deck(&parameters, &record, o.format, stepping)?, line),
             }
@@ -58,6 +59,12 @@ pub fn run(o: &ExportOptions) -> Result<(), CommandError> {
     write_file(&out, deck.as_bytes())?;
     terminal::stderr(format_args!("{line}\nwritten to {}", terminal::shown(&out)));
     Ok(())
+}
+
+/// How the deck steps, its springs being for a program of this name.
+fn stepping(o: &ExportOptions, program: Option<&str>) -> Stepping {
+    let csi = o.format == DeckFormat::Sap2000 && matches!(program, Some("sap2000" | "etabs"));
+    o.stepping.unwrap_or(if csi { Stepping::Even } else { Stepping::Events })
 }
 
 /// The text of a deck, and what to say of it besides the record.
@@ -72,7 +79,8 @@ fn elastic(o: &ExportOptions, parameters: &ElasticParameters) -> Result<(String,
     let excitation = o.record.excitation(|| parameters.excitation(&o.parameters))?;
     let record = excitation.used()?;
     let assembled = parameters.assembled().map_err(|e| CommandError::Result(e.to_string()))?;
-    match (o.stepping, &parameters.program) {
+    let name = parameters.program.as_ref().and_then(|program| program.name.as_deref());
+    match (stepping(o, name), &parameters.program) {
         (Stepping::Events, _) => {}
         (Stepping::Even, Some(program)) => {
             let deck = stepped_deck_of(&assembled, program, &record, o.format)?;

@@ -5,5 +5,6 @@
 #![warn(missing_docs)]
 
 pub mod input;
+pub mod memory;
 pub mod message;
 pub mod whole_file;

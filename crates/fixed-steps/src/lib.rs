@@ -43,6 +43,7 @@ pub use analysis::{FixedStepAnalysis, FixedStepHistory, FixedStepOutcome, GaveUp
 pub use elastic::FixedStepFrame;
 pub use expected::ExpectedError;
 pub use integrator::Integrator;
+pub use integrator_name::IntegratorNameError;
 pub use iteration::{ConvergenceTest, Iteration};
 pub use model::FixedStepModel;
 pub use program::{FixedStepProgram, ProgramName};

@@ -46,7 +46,7 @@ const LEAST_TENSION: f64 = 0.01;
 const LEAST_APART: f64 = 1e-3;
 
 /// Time within which touches are one impact (1/p).
-const SAME_IMPACT: f64 = 0.1;
+pub const SAME_IMPACT: f64 = 0.1;
 
 /// What a run is told from.
 pub struct ElasticParts<'a> {
@@ -79,7 +79,7 @@ pub fn title(structure: &ElasticStructure) -> String {
 }
 
 /// Height of the highest point (m).
-fn top_height(structure: &ElasticStructure) -> f64 {
+pub fn top_height(structure: &ElasticStructure) -> f64 {
     match structure {
         ElasticStructure::Pier(pier) => pier.height_m,
         ElasticStructure::AFrame(frame) => frame.height_m,
@@ -253,10 +253,6 @@ impl ElasticParts<'_> {
         all
     }
 
-    fn assumed(&self) -> Vec<Assumed> {
-        Assumed::all(&self.case.assumptions())
-    }
-
     /// All that is said of it; `parameters` are those filed.
     pub fn said(&self, parameters: ElasticParameters) -> Run {
         let mut run = alone(parameters);
@@ -264,7 +260,7 @@ impl ElasticParts<'_> {
         let first = self.answer.histories.reference.history.events.iter().find(lift);
         run.taken.facts.extend(first.map(|event| super::first_lift(event.time)));
         run.taken.record = Some(self.case.excitation.line());
-        run.taken.assumed = self.assumed();
+        run.taken.assumed = Assumed::all(&self.case.assumptions());
         run.friction_needed = Some(self.friction_needed().value);
         run.sap2000 = self.assembled.members == Members::default() && self.record.vertical.is_none();
         run.sections.extend(self.comparison(&run));
@@ -295,7 +291,7 @@ impl ElasticParts<'_> {
 
 /// Impacts among touches of corners (s): one that follows the last within `rest` (s) belongs to the
 /// same.
-fn impacts(touches: impl Iterator<Item = f64>, rest: f64) -> usize {
+pub fn impacts(touches: impl Iterator<Item = f64>, rest: f64) -> usize {
     let (mut last, mut count) = (f64::NEG_INFINITY, 0);
     for time in touches {
         count += usize::from(time - last > rest);

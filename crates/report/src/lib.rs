@@ -220,7 +220,7 @@ pub fn filed(findings: impl IntoIterator<Item = Finding>) -> Vec<FiledFinding> {
 
 impl Run {
     /// What the run was asked, in one sentence.
-    pub(crate) fn verdict(&self) -> String {
+    pub fn verdict(&self) -> String {
         let answer = self.findings.iter().find(|finding| finding.weight == Weight::Answer);
         let graver = self.findings.iter().find(|f| matches!(f.finding, Finding::ModelsDisagree { .. }));
         let Some(told) = graver.or(answer) else { return "Springs without a record: nothing rocked.".into() };

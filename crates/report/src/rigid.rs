@@ -1,5 +1,6 @@
 //! What is said of a rigid body's run: Housner's body beside the finite elements on their springs.
 
+pub mod at_once;
 pub mod program;
 pub mod tables;
 
@@ -19,7 +20,7 @@ use files::message::{percent, quantity, significant};
 use rocking::{
     members::Members,
     overturning::samples_until,
-    structure::{Kind, Structure},
+    structure::{Body, Kind, Structure},
 };
 use springs::{
     answers::{MemberHistory, ModelComparison, both, with_members},
@@ -77,7 +78,7 @@ impl RigidRun {
         parameters.conditioning = Some(report.conditioning.into());
         parameters.verdict = Some(both.verdict(&job.body, job.record.dt, &report.conditioning));
         let kind = case.structure.kind;
-        parameters.peaks = Some(peaks(kind, &job, &both));
+        parameters.peaks = Some(peaks(kind, &job.body, job.record.dt, &both));
         let softer = softer(&case, &job, &both);
         parameters.design_forces = Some(design_forces(kind, &job.body, &job.record, &both, softer.as_ref()));
         let mut run = Self { case, job, front, both, report, parameters };
@@ -152,7 +153,8 @@ impl RigidRun {
         let chains = self.parameters.chains();
         let both = both(&job.body, case.restitution, &chains, &Members::default(), &record);
         let kind = case.structure.kind;
-        let (peaks, forces) = (peaks(kind, job, &both), design_forces(kind, &job.body, &record, &both, None));
+        let (peaks, forces) =
+            (peaks(kind, &job.body, record.dt, &both), design_forces(kind, &job.body, &record, &both, None));
         let changes = changes((self.parameters.peaks, self.parameters.design_forces), (peaks, forces));
         Some(Finding::VerticalLeftOut { vertical_g, horizontal_g, changes })
     }
@@ -251,12 +253,13 @@ fn taken(structure: &Structure, restitution: f64) -> Taken {
     Taken { structure: text, facts, record: None, assumed: Vec::new() }
 }
 
-fn peaks(kind: Kind, job: &Job, both: &ModelComparison) -> PeakPair {
+/// Largest displacements of both models, up to an overturning; `dt` is that of the record (s).
+fn peaks(kind: Kind, body: &Body<f64>, dt: f64, both: &ModelComparison) -> PeakPair {
     let firm = |firm: Option<usize>, all: usize| firm.unwrap_or(all);
     let of = |matched: &Match, theta: &[f64], u: Option<&[f64]>, impacts: usize| {
         let fell = [matched.overturned_housner_s, matched.overturned_fem_s].into_iter().flatten().reduce(f64::min);
-        let n = samples_until(fell, job.record.dt).min(theta.len());
-        Peaks::of_rigid(kind, &job.body, &theta[..n], u.map(|u| &u[..n]), impacts)
+        let n = samples_until(fell, dt).min(theta.len());
+        Peaks::of_rigid(kind, body, &theta[..n], u.map(|u| &u[..n]), impacts)
     };
     let ends = both.rocking.left_ground();
     let springs = |m: &Match, history: &History| {

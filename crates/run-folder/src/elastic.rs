@@ -5,11 +5,11 @@ use std::path::Path;
 use crate::{
     FolderError,
     folder::{Folder, identity},
-    models::{SAP2000, write_decks},
+    models::{self, SAP2000},
     pictures as rigid_pictures,
-    place::write_file,
     rigid::{Output, write_report},
     tables::csv_row,
+    texts::RunTexts,
 };
 use decks::{ACCURACY, DeckFormat, ElasticDeck, ExportError, SteppedDeck, corner_history};
 use dynamics::spring::{Chain, Springs};
@@ -24,6 +24,7 @@ use report::{
     elastic::{ElasticParts, design_forces, largest, title},
     filed,
     markdown::markdown,
+    page::page,
     summary,
 };
 use springs::{
@@ -202,18 +203,41 @@ impl ElasticRun {
         let parameters = self.filed(out);
         let run = self.said(parameters.clone());
         let out = folder.path();
-        write_file(&out.join("parameters.json"), parameters.to_json().as_bytes())?;
-        write_file(&out.join("parameters.md"), markdown(&run).as_bytes())?;
-        write_file(&out.join("summary.csv"), summary(&run).csv().as_bytes())?;
-        write_file(&out.join("history.csv"), self.history().as_bytes())?;
-        write_file(&out.join("members.csv"), demands::csv(self, Instants::Samples).as_bytes())?;
-        write_file(&out.join("members_envelopes.csv"), demands::csv(self, Instants::Envelopes).as_bytes())?;
-        let left_out = write_decks(&out.join("decks"), |format| self.deck(format))?;
+        let texts = self.tables_and_decks(&parameters, &run)?;
+        texts.write(out)?;
         let figures: Vec<Figure> = if output.figures { pictures::draw(self)? } else { Vec::new() };
         rigid_pictures::save(out, &figures)?;
         write_report(out, output, &run, &figures)?;
         folder.finish()?;
-        Ok(left_out)
+        Ok(texts.left_out)
+    }
+
+    /// Everything that [`ElasticRun::save`] writes but figures, as texts; `out` is the folder that
+    /// paths start from.
+    ///
+    /// # Errors
+    /// A deck that cannot be made.
+    pub fn texts(&self, out: &Path) -> Result<RunTexts, FolderError> {
+        let parameters = self.filed(out);
+        let run = self.said(parameters.clone());
+        let mut texts = self.tables_and_decks(&parameters, &run)?;
+        texts.files.push(("report.html".into(), page(&run, &[])));
+        Ok(texts)
+    }
+
+    fn tables_and_decks(&self, parameters: &ElasticParameters, run: &Run) -> Result<RunTexts, FolderError> {
+        let files = vec![
+            ("parameters.json", parameters.to_json()),
+            ("parameters.md", markdown(run)),
+            ("summary.csv", summary(run).csv()),
+            ("history.csv", self.history()),
+            ("members.csv", demands::csv(self, Instants::Samples)),
+            ("members_envelopes.csv", demands::csv(self, Instants::Envelopes)),
+        ];
+        let decks = models::decks(|format| self.deck(format))?;
+        let mut files: Vec<_> = files.into_iter().map(|(name, text)| (name.to_string(), text)).collect();
+        files.extend(decks.files);
+        Ok(RunTexts { files, left_out: decks.left_out })
     }
 
     /// All that is said of it; `parameters` are those filed.

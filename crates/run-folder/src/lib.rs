@@ -5,6 +5,7 @@
 //! | `rigid`, `elastic` | all that a run leaves |
 //! | `folder`, `place` | one run a folder; what can be written is found out before the work |
 //! | `tables`, `models`, `pictures` | CSV files, decks, figures |
+//! | `texts` | the files of a run before they are written |
 
 // what is printed goes through the program's `commands/terminal`
 #![cfg_attr(not(test), deny(clippy::print_stdout, clippy::print_stderr))]
@@ -18,5 +19,6 @@ pub mod pictures;
 pub mod place;
 pub mod rigid;
 pub mod tables;
+pub mod texts;
 
 pub use error::FolderError;

@@ -21,10 +21,11 @@ use strong_motion::Record;
 use crate::{
     FolderError,
     folder::{Folder, identity},
-    models::{SAP2000, write_decks},
+    models::{self, SAP2000},
     pictures::{self, Pictures},
     place::write_file,
     tables::{history_csv, members_csv},
+    texts::RunTexts,
 };
 
 /// All that `tune run` can write into its folder, beside figures.
@@ -69,22 +70,49 @@ pub fn save(rigid: &RigidRun, out: &Path, output: Output) -> Result<Vec<String>,
     let parts: [&dyn std::fmt::Debug; 3] = [&rigid.parameters, &excitation.record.fingerprint(), &asked];
     let folder = Folder::begin(out, "run", &files, identity(&parts))?;
     let RigidRun { job, both, .. } = rigid;
-    let dt = job.record.dt;
     let parameters = filed(rigid, out);
     let run = rigid.said(parameters.clone());
     let out = folder.path();
-    write_file(&out.join("parameters.json"), parameters.to_json().as_bytes())?;
-    write_file(&out.join("parameters.md"), markdown(&run).as_bytes())?;
-    write_file(&out.join("summary.csv"), summary(&run).csv().as_bytes())?;
-    write_file(&out.join("history.csv"), history_csv(dt, both).as_bytes())?;
-    let demands = both.with.as_ref().map_or(&both.demands, |with| &with.demands);
-    write_file(&out.join("members.csv"), members_csv(dt, demands).as_bytes())?;
-    let (decks, pictures) =
-        rayon::join(|| decks(out, &parameters, &job.record, both), || draw(rigid, out, &run, output));
-    let left_out = decks?;
+    tables(rigid, &parameters, &run).write(out)?;
+    let written = || {
+        let decks = run_decks(&parameters, &job.record, both)?;
+        decks.write(out).map(|()| decks.left_out)
+    };
+    let (left_out, pictures) = rayon::join(written, || draw(rigid, out, &run, output));
+    let left_out = left_out?;
     pictures?;
     folder.finish()?;
     Ok(left_out)
+}
+
+/// Everything that [`save`] writes but figures, as texts; `out` is the folder that paths start
+/// from.
+///
+/// # Errors
+/// A deck that cannot be made.
+pub fn texts(rigid: &RigidRun, out: &Path) -> Result<RunTexts, FolderError> {
+    let parameters = filed(rigid, out);
+    let run = rigid.said(parameters.clone());
+    let mut texts = tables(rigid, &parameters, &run);
+    let decks = run_decks(&parameters, &rigid.job.record, &rigid.both)?;
+    texts.files.push(("report.html".into(), page(&run, &[])));
+    texts.files.extend(decks.files);
+    Ok(RunTexts { left_out: decks.left_out, ..texts })
+}
+
+/// Parameters and tables.
+fn tables(rigid: &RigidRun, parameters: &Parameters, run: &Run) -> RunTexts {
+    let RigidRun { job, both, .. } = rigid;
+    let dt = job.record.dt;
+    let demands = both.with.as_ref().map_or(&both.demands, |with| &with.demands);
+    let files = vec![
+        ("parameters.json", parameters.to_json()),
+        ("parameters.md", markdown(run)),
+        ("summary.csv", summary(run).csv()),
+        ("history.csv", history_csv(dt, both)),
+        ("members.csv", members_csv(dt, demands)),
+    ];
+    RunTexts { files: files.into_iter().map(|(name, text)| (name.to_string(), text)).collect(), left_out: Vec::new() }
 }
 
 /// Figures and the page.
@@ -120,13 +148,7 @@ pub(crate) fn drawing(figure: &Figure) -> Drawing<'_> {
 
 /// The model for other programs. A body without rotational inertia gets some there, and its own
 /// history to check against.
-fn decks(
-    out: &Path,
-    parameters: &Parameters,
-    record: &Record,
-    both: &ModelComparison,
-) -> Result<Vec<String>, FolderError> {
-    let folder = out.join("decks");
+fn run_decks(parameters: &Parameters, record: &Record, both: &ModelComparison) -> Result<RunTexts, FolderError> {
     let structure = with_inertia(&parameters.structure);
     let given = structure == parameters.structure;
     let parameters = Parameters { structure, ..parameters.clone() };
@@ -140,7 +162,7 @@ fn decks(
         let csi = matches!(program.name.as_deref(), Some("sap2000" | "etabs"));
         csi.then(|| Ok(decks::stepped_deck(&parameters, record, format, Stepping::Even)?.told(SAP2000)))
     };
-    write_decks(&folder, |format| {
+    models::decks(|format| {
         let plain = || Ok((decks::export(&parameters, record, &expected, format)?, None));
         for_its_steps(format).unwrap_or_else(plain)
     })

@@ -1,5 +1,5 @@
-//! The error of springs for fixed time steps over p dt, of the recipe (`fixed_steps::recipe`) and of
-//! those of a run (`tuning::fixed_steps`), on motions made for a body: median, 90 % quantile,
+//! The error of springs for fixed time steps over p dt, of the recipe (`fixed_steps::recipe`) and
+//! of those of a run (`tuning::fixed_steps`), on motions made for a body: median, 90 % quantile,
 //! histories that the program gave up, for three bodies, four integrators, three steps; the same
 //! with substeps down to a sixteenth of a step.
 //!

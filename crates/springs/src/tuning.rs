@@ -5,6 +5,8 @@ pub mod paper_procedure;
 
 pub mod assessment;
 
+pub mod at_once;
+
 pub mod descent;
 
 pub mod elastic;

@@ -6,15 +6,8 @@ use crate::commands::{
     bounds::ended,
     progress::{self, Progress},
 };
-use dynamics::effort::Effort;
 use fixed_steps::FixedStepProgram;
-use frames::{
-    Mechanics,
-    answer::{ElasticAnswer, Reference},
-    assembled::Assembled,
-    fem::{default_control, most_steps},
-    reference::{self, FORETOLD},
-};
+use frames::{answer::ElasticAnswer, assembled::Assembled};
 use run_folder::{
     elastic::{ElasticRun, springs_alone as alone},
     place::check_folder,
@@ -23,17 +16,12 @@ use run_folder::{
 use springs::{
     case::ElasticCase,
     results::NotDone,
-    tuning::{
-        elastic::{ElasticAsked, MOST_WORK, tune_within},
-        job::JobError,
+    tuning::elastic::{
+        ElasticAsked, MOST_WORK,
+        referred::{NEAR, ReferredError, referred},
+        tune_within,
     },
 };
-use strong_motion::Record;
-
-/// A history on rigid ground through the record may take one in so many of all units of work, each
-/// of the motions near it one in so many.
-const RECORD: u64 = 12;
-const NEAR: u64 = 120;
 
 /// The whole job.
 pub fn run(o: &RunOptions, mut case: ElasticCase) -> Result<(), CommandError> {
@@ -56,8 +44,12 @@ pub fn run(o: &RunOptions, mut case: ElasticCase) -> Result<(), CommandError> {
     let effort = o.effort.of(MOST_WORK)?;
     let progress = Progress::on_terminal("springs tried", o.quiet);
     let tell = |done: usize, error: f64| progress.tell(done, 0, &progress::error(error));
-    let record = if o.no_record { None } else { Some(referred(&assembled, case.excitation.used()?, &effort)?) };
-    let (record, reference) = record.unzip();
+    let record = if o.no_record { None } else { Some(case.excitation.used()?) };
+    let reference = record.as_ref().map(|record| referred(&assembled, record, &effort)).transpose();
+    let reference = reference.map_err(|e| match e {
+        ReferredError::TooShort(e) => e.into(),
+        e => CommandError::Result(e.to_string()),
+    })?;
     let program = case.program.unwrap_or_else(FixedStepProgram::usual);
     let asked = ElasticAsked { error: case.asked, most_hz: case.max_omega_hz, program };
     let tuned = tune_within(&assembled, asked, record.as_ref().zip(reference), &effort, &tell);
@@ -81,35 +73,6 @@ pub fn run(o: &RunOptions, mut case: ElasticCase) -> Result<(), CommandError> {
     saved(run.save(&o.out, &files(), Output { figures: !o.no_figures, report: !o.no_report })?);
     o.print(&run.said(run.filed(&o.out)))?;
     ended(&effort, &o.out)
-}
-
-/// A record with what the structure does in it on rigid ground.
-fn referred(assembled: &Assembled, record: Record, effort: &Effort) -> Result<(Record, Reference), CommandError> {
-    if record.len() < 2 {
-        return Err(JobError::TooShort { samples: record.len(), record: record.name }.into());
-    }
-    let most_work = effort.part(RECORD);
-    within_reach(assembled, &record, most_work)?;
-    let reference = Reference::within(assembled, &record, FORETOLD, most_work);
-    let reference = reference.map_err(|e| CommandError::Result(e.to_string()))?;
-    Ok((record, reference))
-}
-
-/// A record that has a step to a sample at least, of which more are needed than a history may take,
-/// is refused.
-fn within_reach(assembled: &Assembled, record: &Record, most_work: u64) -> Result<(), CommandError> {
-    let coordinates = assembled.frame.size();
-    let by_work = (most_work / reference::step_units(coordinates)) as usize;
-    let most = by_work.min(most_steps(default_control(), coordinates));
-    let steps = record.len() - 1;
-    if steps <= most {
-        return Ok(());
-    }
-    let remedy = "shorten it (--duration), give the structure fewer elements, or allow more (--work)";
-    Err(CommandError::Result(format!(
-        "{}: {steps} steps at least, one to a sample, are out of reach: a history of this structure may take {most}; {remedy}",
-        record.name
-    )))
 }
 
 /// Options that mean nothing for an elastic structure are refused.

@@ -13,14 +13,17 @@
 //! five times as much. Forces are compared only then, for they need a second history of every
 //! motion, on springs at 4 Omega_n.
 
+pub mod at_once;
 pub mod design;
+mod error;
 pub mod program;
+pub mod referred;
 pub mod suite;
 pub mod trial;
 
 use std::collections::BTreeMap;
 
-use thiserror::Error;
+pub use error::ElasticTuneError;
 
 use self::{
     design::{CornerSprings, omega_n_hz, springs},
@@ -57,21 +60,6 @@ const QUIETER: f64 = 0.3;
 /// Rungs above the softest that hold the accuracy at which the search begins for those that follow
 /// the record further: a tenth of the give.
 const STIFFER: i64 = 10;
-
-/// Why an elastic structure cannot be tuned, and what to do.
-#[derive(Debug, Error)]
-#[allow(missing_docs)] // messages say what variants and their fields are
-pub enum ElasticTuneError {
-    #[error("structure: it does not stand under its weight; give stiffer members")]
-    Falls,
-    #[error("{key} is {value}; {remedy}")]
-    Accuracy { key: &'static str, value: String, remedy: &'static str },
-    #[error(
-        "max_omega_hz (--max-hz) is {most_hz:?}, but the softest springs tried for this structure have {:.1} Hz: softer ones give way by more than a tenth of the structure's own deformation; allow at least that, or leave it out",
-        (.softest_hz * 10.0).ceil() / 10.0
-    )]
-    TooSoft { most_hz: f64, softest_hz: f64 },
-}
 
 /// Springs of an elastic structure and what was measured of them.
 #[derive(Clone, Debug)]

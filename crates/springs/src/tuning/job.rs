@@ -4,16 +4,12 @@
 mod error;
 mod procedure;
 
-use dynamics::compare::LEAST_LEAN;
 use std::{cmp::Ordering, f64::consts::TAU};
 
 use super::{
-    capped_springs,
+    at_once, capped_springs,
     fixed_steps::ProgramSprings,
-    landing::{
-        design::{Geometry, springs_at_stiffness},
-        weight,
-    },
+    landing::design::{Geometry, springs_at_stiffness},
     landing_simulation,
     paper_procedure::{
         inner::Fit,
@@ -28,7 +24,6 @@ use procedure::Procedure;
 use crate::{
     case::{Asked, Case, Objective, Yardstick},
     results::{Finding, NotDone},
-    validate::PREDICTABLE,
 };
 use dynamics::{
     effort::{CutBy, Effort, StopSignal},
@@ -242,7 +237,7 @@ impl LandingDesign<'_> {
                 stiffness_search::tune(self.suites, self.body.mass, asked, (range, self.effort), springs, &said)
             };
             let soft = self.settling(stiffness_search::SOFTEST, stiffest);
-            let landings_hold = self.softest(stiffest).max(soft);
+            let landings_hold = at_once::softest(&self.body, asked, stiffness_search::last_rung(stiffest)).max(soft);
             let tuned = from(landings_hold);
             let done = landings_hold == soft || tuned.as_ref().is_some_and(|tuned| tuned.reached);
             if done || tuned.is_some() && self.effort.stops() {
@@ -296,18 +291,6 @@ impl LandingDesign<'_> {
             }
         }
         (stiffness < last).then_some(stiffness)
-    }
-
-    /// Softest Omega_n/p whose gentlest landing error, times 150, stays within the target; no
-    /// stiffer than the last rung up to `stiffest`. 150 is the largest sensitivity of a predictable
-    /// history.
-    fn softest(&self, stiffest: f64) -> f64 {
-        let error = stiffness_search::MARGIN * self.case.tuning.asked().error / PREDICTABLE;
-        let by_weight = Geometry::of(&self.body, stiffness_search::SOFTEST)
-            .map(|body| weight::stiffness(body.alpha(), body.mass_share(), error, LEAST_LEAN));
-        by_weight
-            .unwrap_or(stiffness_search::SOFTEST)
-            .clamp(stiffness_search::SOFTEST, stiffness_search::last_rung(stiffest).max(stiffness_search::SOFTEST))
     }
 
     /// The least Omega_n/p from `softest` on at which the body settles by no more than is allowed;

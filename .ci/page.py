@@ -1,0 +1,89 @@
+"""Puts docs/groundspring.html together, or tells whether it is of the sources that are there.
+
+    page.py build PAGE GLUE.js PROGRAM.wasm.gz
+    page.py check PAGE
+"""
+
+import hashlib
+import re
+import sys
+from pathlib import Path
+
+CRATES = "files strong-motion rocking dynamics frames fixed-steps springs decks report run-folder web".split()
+SCRIPTS = ["core.js", "plot.js", "drawing.js", "working.js", "inputs.js", "app.js", "begin.js"]
+FOLDER = Path("crates/web/page")
+LIMIT = 1_500_000
+# without what ends or begins something in HTML
+ALPHABET = "0123456789ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz!#%()*+,-./:;=?@[]^_{|}"
+
+
+def sources():
+    """All that the page is made of."""
+    files = [Path("Cargo.toml"), Path("Cargo.lock"), Path("tuning/paper.toml"), Path("tuning/records/IELC180.AT2")]
+    files += [Path(".ci/page"), Path(".ci/page.py"), *FOLDER.iterdir()]
+    for crate in CRATES:
+        files.append(Path("crates") / crate / "Cargo.toml")
+        found = (Path("crates") / crate / "src").rglob("*")
+        # tests are no part of it
+        files += [f for f in found if f.is_file() and f.name != "tests.rs" and "tests" not in f.parts]
+    return sorted(files)
+
+
+def fingerprint():
+    digest = hashlib.sha256()
+    for file in sources():
+        data = file.read_bytes()
+        digest.update(f"{file.as_posix()} {len(data)}\n".encode())
+        digest.update(data)
+    return digest.hexdigest()[:16]
+
+
+def base85(data):
+    """Five letters to four bytes, lines of 100 letters, after the number of bytes."""
+    padded = data + bytes(-len(data) % 4)
+    letters = []
+    for i in range(0, len(padded), 4):
+        x = int.from_bytes(padded[i : i + 4], "big")
+        five = []
+        for _ in range(5):
+            x, digit = divmod(x, 85)
+            five.append(ALPHABET[digit])
+        letters.extend(reversed(five))
+    text = "".join(letters)
+    lines = [text[i : i + 1000] for i in range(0, len(text), 1000)]
+    return "\n".join([str(len(data)), *lines])
+
+
+def build(page, glue, wasm):
+    script = "\n".join((FOLDER / name).read_text() for name in SCRIPTS)
+    parts = {
+        "/*STYLE*/": (FOLDER / "style.css").read_text(),
+        "/*HASH*/": fingerprint(),
+        "/*GLUE*/": Path(glue).read_text(),
+        "/*WORKER*/": (FOLDER / "worker.js").read_text(),
+        "/*WASM*/": base85(Path(wasm).read_bytes()),
+        "/*SCRIPT*/": f'"use strict";\n{script}',
+    }
+    text = (FOLDER / "index.html").read_text()
+    for mark, part in parts.items():
+        if "</script" in part:
+            sys.exit(f"{mark} ends a script; take that out")
+        before, after = text.split(mark)
+        text = before + part + after
+    Path(page).write_text(text)
+    size = Path(page).stat().st_size
+    print(f"{page}: {size} bytes, sources {parts['/*HASH*/']}")
+    if size > LIMIT:
+        sys.exit(f"{page} is larger than {LIMIT} bytes")
+
+
+def check(page):
+    found = re.search(r"sources <code>(\w+)</code>", Path(page).read_text())
+    now = fingerprint()
+    if not found or found[1] != now:
+        sys.exit(f"{page} is of other sources ({found and found[1]}, not {now}); build it anew with .ci/page")
+    print(f"{page} is of these sources, {now}")
+
+
+if __name__ == "__main__":
+    {"build": build, "check": check}[sys.argv[1]](*sys.argv[2:])

@@ -1,0 +1,50 @@
+//! What is said of a rigid body on springs that were not searched for: within milliseconds, for
+//! where somebody turns the numbers.
+
+use super::{alone, peaks, taken};
+use crate::{Run, doubts, filed, reference, reference::HousnerReport};
+use dynamics::spring::{Design, Springs};
+use springs::{
+    answers::{ModelComparison, both},
+    case::Case,
+    parameters::Parameters,
+    results::Finding,
+};
+use strong_motion::{Record, RecordError};
+
+/// Both models' answers on given springs, and what is said of them.
+pub struct RunAtOnce {
+    /// The part of the record that is used, scaled.
+    pub record: Record,
+    /// Both histories.
+    pub both: ModelComparison,
+    /// Its verdict, peaks and springs; neither design forces nor an accuracy.
+    pub run: Run,
+}
+
+impl RunAtOnce {
+    /// Follow the record with the case's members; `friction` of the ground, for the warning of
+    /// sliding.
+    ///
+    /// # Errors
+    /// A scale that takes the record's peak above 50 g.
+    pub fn new(case: &Case, springs: &Springs<Design<f64>>, friction: f64) -> Result<Self, RecordError> {
+        let (structure, e) = (case.structure, case.restitution);
+        let (body, record) = (structure.body::<f64>(), case.excitation.used()?);
+        let parameters = Parameters::new(structure, springs);
+        let both = both(&body, e, &parameters.chains(), &case.members, &record);
+        let report = HousnerReport::new(&body, e, &record, &both.rocking, friction);
+        let verdict = both.verdict(&body, record.dt, &report.conditioning);
+        let mut findings: Vec<Finding> = reference::all(&structure, &record, &both, &report, &verdict);
+        findings.extend(doubts(case.doubts()));
+        let parameters = Parameters {
+            peaks: Some(peaks(structure.kind, &body, record.dt, &both)),
+            verdict: Some(verdict),
+            findings: filed(findings),
+            ..parameters
+        };
+        let mut run = Run { friction_needed: Some(report.friction_needed()), ..alone(parameters) };
+        run.taken = crate::Taken { record: Some(case.excitation.line()), ..taken(&structure, e) };
+        Ok(Self { record, both, run })
+    }
+}

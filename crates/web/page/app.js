@@ -1,0 +1,239 @@
+// What happens when something changes: at once, at rest, and one after another.
+let module, quick, whole, last, run, spectrum, playing = 0, at = 0;
+let atRest = 0, wanted = false, asking = false, version = 0, lastRecord = null;
+const REST_MS = 300;
+window.measures = { moves: [], tune: 0, memory: () => [quick?.memory ?? 0, whole?.memory ?? 0] };
+
+function changed() {
+  version++;
+  window.measures.from = performance.now();
+  history.replaceState(null, "", toHash());
+  clearTimeout(atRest);
+  if (whole?.busy) whole.restart();
+  run = null;
+  atRest = setTimeout(rest, REST_MS);
+  askAtOnce();
+}
+// a pulse is a file like any other
+async function givePulse(worker) {
+  if (state.rec !== "pulse") return;
+  const { answer } = await quick.call("pulse", state.amp, state.per);
+  const bytes = new TextEncoder().encode(answer);
+  files.set(PULSE, bytes);
+  await worker.call("give_file", PULSE, bytes);
+}
+const missing = () => state.rec === "file" && !files.has(state.file);
+async function askAtOnce() {
+  if (!quick) return;
+  wanted = true;
+  if (asking) return;
+  asking = true;
+  while (wanted) {
+    wanted = false;
+    const began = window.measures.from, of = version;
+    try {
+      if (missing()) throw new Error(state.file ? `This case is of the record ${state.file}: drop that file here.` : "Drop a record, or choose a file.");
+      await givePulse(quick);
+      const { answer, took } = await quick.call("at_once", caseText(), 0.5);
+      last = JSON.parse(answer);
+      if (!run || of === version) { showSaid(last); window.measures.moves.push([performance.now() - began, took]); requestAnimationFrame(() => setTimeout(() => window.measures.moves.at(-1).push(performance.now() - began))); }
+    } catch (error) { if (error.message !== "stopped") showError(error.message); }
+  }
+  asking = false;
+}
+async function askRecord() {
+  lastRecord = null;
+  if (missing()) { $("record-line").textContent = ""; fileOptions(null); return; }
+  try {
+    await givePulse(quick);
+    lastRecord = JSON.parse((await quick.call("read_record", caseText())).answer);
+    $("record-line").textContent = [lastRecord.line, ...lastRecord.notices].join(". ");
+    $("file-error").hidden = true;
+  } catch (error) {
+    $("record-line").textContent = "";
+    if (state.rec === "file") { $("file-error").textContent = error.message; $("file-error").hidden = false; }
+  }
+  fileOptions(lastRecord);
+}
+// at rest: a step to go back to, the whole run, the charts
+async function rest() {
+  if (location.hash !== history.state?.rest) {
+    const hash = toHash();
+    if (restHash !== hash) { history.replaceState(null, "", restHash || hash); history.pushState({ rest: hash }, "", hash); restHash = hash; }
+  }
+  const of = version;
+  askRecord();
+  fixedStep();
+  if (missing() || !module) return;
+  tune(of);
+  charts(of);
+}
+let restHash = "";
+async function tune(of) {
+  const rigid = state.kind === "block" || state.kind === "aframe";
+  $("tune-state").textContent = rigid ? "searching for springs as accurate as asked, a few seconds ..." : "searching for springs as accurate as asked, about ten seconds for a structure that gives ...";
+  $("tuned").replaceChildren();
+  try {
+    whole ??= new Computer(module);
+    if (files.has(state.file)) await whole.call("give_file", state.file, files.get(state.file));
+    await givePulse(whole);
+    const text = caseText(), began = performance.now();
+    const { answer } = await whole.call("tune", text, 0.5);
+    if (of !== version) return;
+    window.measures.tune = performance.now() - began;
+    run = JSON.parse(answer);
+    showSaid(run.said, true);
+    await showTuned(run, text);
+  } catch (error) {
+    if (error.message === "stopped" || of !== version) return;
+    $("tune-state").textContent = "";
+    $("tuned").innerHTML = `<p class="error">${escape(error.message)}</p>`;
+  }
+}
+
+// ---- what is shown
+const WORDS = { overturns: "It falls over", rocks: "It rocks and stands", stays_down: "It does not lift", unknown: "No answer" };
+function showSaid(said, ofRun = false) {
+  const h = said.history, w = said.working;
+  h.rigid = w.frequency_hz === undefined;
+  h.uplift_g = w.uplift_g;
+  h.least = 2e-4 * w.height_m;
+  // beyond the height the top lies on the ground
+  h.limit = said.does === "overturns" ? 1.2 * Math.sin(Math.min(1.5, w.alpha)) * 2 * w.radius_m : undefined;
+  last = said;
+  const box = $("verdict");
+  box.className = `verdict ${said.does}`;
+  const named = state.rec === "elcentro" ? "El Centro 1940" : state.rec === "pulse" ? `a pulse of ${digits(state.amp)} g and ${digits(state.per)} s` : state.file;
+  $("asked").textContent = `A ${KINDS[state.kind].title} ${withUnit(value("h"), LENGTH)} high, ${withUnit(value("w"), LENGTH)} wide, in ${named}${state.scale === 1 ? "" : ` times ${digits(state.scale)}`}:`;
+  $("word").textContent = WORDS[said.does];
+  $("sentence").textContent = said.verdict;
+  const share = said.does === "overturns" ? 1 : (said.share_of_overturning ?? 0);
+  $("gauge-fill").style.width = `${Math.min(100, 100 * share)}%`;
+  $("gauge").setAttribute("aria-label", said.does === "overturns" ? "It overturns" : `Largest rotation: ${digits(100 * share, 3)} % of what overturns it`);
+  const p = said.peaks?.with_members ?? said.peaks?.springs, down = said.does === "stays_down";
+  const small = (x) => (down && x < 1e-5 ? `0 ${unitOf("small").unit}` : withUnit(x, "small", 3));
+  const pga = Math.max(...h.ground.accel_g.map(Math.abs)), until = said.does === "overturns" ? "before it falls" : "";
+  const tiles = [
+    ["largest rotation", said.does === "overturns" ? "100 %" : `${digits(100 * share, 3)} %`, "of overturning"],
+    ["top moves", p ? small(p.top_displacement_m) : "-", until || (p && !down ? `${digits(100 * p.drift_ratio, 3)} % of the height` : "")],
+    ["a foot lifts", p ? small(p.uplift_m) : "-", until],
+    ["impacts", p ? String(p.impacts) : "-", "times a foot lands"],
+    ["lifts at", `${digits(w.uplift_g, 3)} g`, `the ground has ${digits(pga, 3)} g`],
+    ["restitution", `${digits(w.restitution, 3)} (ratio)`, "speed kept in an impact"],
+  ];
+  if (typeof p?.bending_m === "number") tiles.splice(2, 0, ["by bending", small(p.bending_m), "of the column"]);
+  if (typeof said.friction_needed === "number") tiles.push(["friction needed", `${digits(said.friction_needed, 3)} (ratio)`, "not to slide"]);
+  $("tiles").innerHTML = tiles.map(([name, x, more]) => `<div><dt>${name}</dt><dd>${escape(x)}<small>${escape(more) || "&nbsp;"}</small></dd></div>`).join("");
+  $("remarks").innerHTML = said.findings.filter((f) => f.weight !== "answer").map((f) => `<li class="${escape(f.weight)}">${escape(f.message)}${f.remedy ? `; ${escape(f.remedy)}` : ""}</li>`).join("");
+  $("springs").innerHTML = springsTable(said.springs, said.springs_at) + (ofRun ? "" : '<p class="small">From the geometry, at once; the search for the accuracy asked for begins when nothing moves.</p>');
+  $("working").innerHTML = working(said);
+  const end = (h.springs.top.length - 1) * h.step_s;
+  $("time").max = String(end || 1);
+  if (at > end) at = 0;
+  if (!playing && !movedTime) at = peakTime(h);
+  showTime();
+}
+let movedTime = false;
+function peakTime(h) {
+  let most = 0;
+  h.springs.top.forEach((x, i) => { if (Math.abs(x) > Math.abs(h.springs.top[most])) most = i; });
+  const fall = h.limit ? h.springs.top.findIndex((x) => Math.abs(x) > h.limit / 2) : -1;
+  return (fall > 0 ? fall : most) * h.step_s;
+}
+function showTime() {
+  if (!last) return;
+  const h = last.history;
+  $("time").value = String(at);
+  $("time").setAttribute("aria-valuetext", `${at.toFixed(2)} s`);
+  $("now").textContent = `${at.toFixed(2)} s`;
+  plotTop(h, at);
+  plotGround(h, at);
+  drawStructure(h, Math.round(at / h.step_s), last.share_of_overturning ?? 1, last.working.alpha);
+}
+function showError(message) {
+  $("verdict").className = "verdict";
+  $("word").textContent = "No answer yet";
+  $("sentence").textContent = message;
+  $("asked").textContent = "";
+  $("gauge-fill").style.width = "0";
+  for (const id of ["tiles", "remarks", "springs", "tuned", "working", "fixed"]) $(id).replaceChildren();
+  $("tune-state").textContent = "";
+  last = null;
+  for (const id of ["plot-top", "plot-ground", "plot-width", "plot-scale", "plot-spectrum"]) canvasOf(id);
+  drawStructure(null, 0, 1, 1);
+}
+async function showTuned({ accuracy, design_forces, screen, files: names, left_out }, text) {
+  $("tune-state").textContent = accuracy?.reached ? "as accurate as asked" : "the accuracy asked for is not reached";
+  const rows = (accuracy?.measured ?? []).map((a) => `<tr><th scope="row">${escape(a.on)}</th><td>${a.history === null ? "-" : `${E(100 * a.history, 2)} %`}</td><td>${a.peaks === null ? "-" : `${E(100 * a.peaks, 2)} %`}</td></tr>`);
+  $("tuned").innerHTML = `<h3>Their accuracy, measured</h3><div class="scroll" tabindex="0" role="region" aria-label="Accuracy"><table><caption class="hidden">Accuracy of the springs</caption><thead><tr><th scope="col">on</th><th scope="col">history (NRMSE)</th><th scope="col">peaks</th></tr></thead><tbody>${rows.join("")}</tbody></table></div>${forcesTable(design_forces)}<h3>Files <small>the same bytes as <code>tune run case.toml --no-figures --no-front</code></small></h3><ul class="files" id="files"></ul>${left_out.map((l) => `<p class="small">${escape(l)}</p>`).join("")}<details><summary>What the program prints</summary><pre tabindex="0">${escape(screen)}</pre></details>`;
+  const entries = [["case.toml", text]];
+  for (const [name] of names) entries.push([name, (await whole.call("run_file", name)).answer]);
+  const record = state.rec === "pulse" ? PULSE : state.rec === "file" ? state.file : null;
+  if (record) entries.push([record, files.get(record)]);
+  window.runFiles = entries;
+  const save = (name, blob) => { const a = document.createElement("a"); a.href = URL.createObjectURL(blob); a.download = name.split("/").at(-1); a.click(); setTimeout(() => URL.revokeObjectURL(a.href), 5000); };
+  const button = (label, className, act) => { const li = document.createElement("li"), b = document.createElement("button"); b.type = "button"; b.textContent = label; b.className = className; b.addEventListener("click", act); li.append(b); $("files")?.append(li); };
+  button("Download all (zip)", "main", () => save("tune-out.zip", zip(entries)));
+  for (const [name, content] of entries) button(name, "", () => save(name, new Blob([content])));
+}
+async function fixedStep() {
+  if (missing() || !quick) return;
+  if (state.kind === "pier" || state.kind === "frame") { $("fixed").innerHTML = '<p class="small">Springs for fixed steps are given for rigid bodies: choose a block or an A-frame.</p>'; return; }
+  const step = Number($("step").value);
+  try {
+    const f = JSON.parse((await quick.call("fixed_step", caseText(), step, $("integrator").value)).answer);
+    const percent = (x) => `${E(100 * x, 2)} %`;
+    $("fixed").innerHTML = `${springsTable(f.springs, "each foot")}<p class="small">On this record: ${escape(f.outcome)}${f.nrmse === null ? "" : `, error of the history ${percent(f.nrmse)} (NRMSE)`}; largest rotation ${percent(f.peak_ratio[0])} of overturning, Housner's ${percent(f.peak_ratio[1])}. Expected on other motions: median ${percent(f.median)}, nine in ten below ${percent(f.ninety)}; the step alone makes ${percent(f.floor)}. Newton's iteration to increments of ${E(f.tolerance_m, 3)} m; rotational inertia of the model ${E(f.rotational_inertia_kgm2)} kg m². ${E(f.steps)} steps.</p>`;
+  } catch (error) { if (error.message !== "stopped") $("fixed").innerHTML = `<p class="error">${escape(error.message)}</p>`; }
+}
+
+// ---- charts that fill in, a few histories at a time, so that sliders go before
+const spread = (low, high, n, log) => Array.from({ length: n }, (_, i) => (log ? low * (high / low) ** (i / (n - 1)) : low + ((high - low) * i) / (n - 1)));
+async function charts(of) {
+  while (asking) await new Promise((go) => setTimeout(go, 20));
+  const w = last?.working;
+  if (!w) return;
+  const text = caseText(), stale = () => of !== version;
+  const ask = async (items) => JSON.parse((await quick.call("variations", text, JSON.stringify(items))).answer);
+  const fill = async (id, xs, item, options, caption) => {
+    const rows = [];
+    for (let i = 0; i < xs.length; i += 16) {
+      const part = xs.slice(i, i + 16), answers = await ask(part.map(item));
+      if (stale()) return;
+      part.forEach((x, k) => rows.push([x * (options.by ?? 1), answers[k]]));
+      plotShare(id, rows, options);
+      $("else-progress").textContent = `${Math.min(i + 16, xs.length)} of ${xs.length} histories`;
+    }
+    replot[id] = () => plotShare(id, rows, options);
+    caption(rows);
+  };
+  try {
+    const len = unitOf(LENGTH), b = w.half_width_m, widths = spread(0.4, 2.5, 64).filter((f) => { const a = Math.atan((f * b) / w.height_m); return a > 0.006 && a < 0.88; });
+    // the rigid body's own width: of a portal that of one footing
+    const own = value(KINDS[state.kind].width) * len.by;
+    await fill("plot-width", widths, (f) => ({ alpha: Math.atan((f * b) / w.height_m), radius_m: Math.hypot(f * b, w.height_m) }), { own, by: own, xName: `width, ${len.unit}; dashed: as given`, range: [widths[0] * own, widths.at(-1) * own] }, (rows) => {
+      const falls = rows.findLastIndex(([, s]) => s === null);
+      $("width-caption").textContent = falls < 0 ? `No width tried falls (${digits(rows[0][0], 3)} to ${digits(rows.at(-1)[0], 3)} ${len.unit}).` : falls === rows.length - 1 ? `It falls even ${digits(rows[falls][0], 3)} ${len.unit} wide.` : `It stands with every width tried from ${digits(rows[falls + 1][0], 3)} ${len.unit} on; the widest that falls has ${digits(rows[falls][0], 3)} ${len.unit}.`;
+    });
+    if (stale()) return;
+    const range = [0.05, Math.max(3, 2 * state.scale)], scales = spread(...range, 64);
+    await fill("plot-scale", scales, (scale) => ({ scale }), { own: state.scale, xName: "scale of the record, times; dashed: as given", range: [0, range[1]] }, (rows) => {
+      const first = rows.find(([, s]) => s === null);
+      $("scale-caption").textContent = first ? `The weakest that overturns it: ${digits(first[0], 3)} times the record.` : `Nothing up to ${digits(range[1], 3)} times the record overturns it.`;
+    });
+    if (stale()) return;
+    const sizes = spread(Math.max(0.05, w.radius_m / 12), w.radius_m * 12, 48, true), alphas = spread(0.03, Math.min(0.85, Math.max(0.5, 1.5 * w.alpha)), 28);
+    spectrum = { sizes, alphas, rows: [], own: { radius: w.radius_m, alpha: w.alpha } };
+    replot["plot-spectrum"] = () => plotSpectrum(spectrum);
+    for (let j = 0; j < alphas.length; j++) {
+      const row = await ask(sizes.map((radius_m) => ({ alpha: alphas[j], radius_m })));
+      if (stale()) return;
+      spectrum.rows[j] = row;
+      plotSpectrum(spectrum);
+      $("else-progress").textContent = `${(j + 1) * sizes.length} of ${alphas.length * sizes.length} histories`;
+    }
+    $("spectrum-caption").textContent = `The ring: this structure, R = ${withUnit(w.radius_m, LENGTH, 3)}, ${digits((w.alpha * 180) / Math.PI, 3)} degrees. Larger bodies of the same slenderness are harder to overturn.`;
+    $("else-progress").textContent = "";
+  } catch (error) { if (error.message !== "stopped") $("else-progress").textContent = error.message; }
+}
+const replot = {};

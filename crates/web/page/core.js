@@ -1,0 +1,171 @@
+// The state of a case and its case file; the workers that compute; units.
+const $ = (id) => document.getElementById(id);
+const G = 9.81;
+
+// What users set, in SI units: name in the case file, least, most, what it is, unit.
+const LENGTH = "length", MASS = "mass";
+const KINDS = {
+  block: { title: "block", width: "w", fields: {
+    h: { key: "total_height_m", name: "height of the whole block", unit: LENGTH, least: 0.1, most: 60, start: 1.9 },
+    w: { key: "width_m", name: "width", unit: LENGTH, least: 0.03, most: 40, start: 0.5 },
+    m: { key: "mass_kg", name: "mass", unit: MASS, least: 1, most: 1e7, start: 250 } } },
+  aframe: { title: "A-frame", width: "w", fields: {
+    h: { key: "height_m", name: "height of the mass", unit: LENGTH, least: 0.3, most: 200, start: 61 },
+    w: { key: "width_m", name: "between the feet", unit: LENGTH, least: 0.05, most: 80, start: 12.2 },
+    m: { key: "mass_kg", name: "mass at the apex", unit: MASS, least: 1, most: 1e8, start: 680100 } } },
+  pier: { title: "pier", width: "w", fields: {
+    h: { key: "height_m", name: "height of the mass above the sole", unit: LENGTH, least: 2, most: 80, start: 12 },
+    w: { key: "width_m", name: "width of the footing", unit: LENGTH, least: 0.5, most: 30, start: 4 },
+    m: { key: "mass_kg", name: "mass at the top", unit: MASS, least: 1e3, most: 2e7, start: 600000 },
+    mf: { key: "footing_mass_kg", name: "mass of the footing", unit: MASS, least: 100, most: 5e6, start: 60000 },
+    hf: { key: "footing_height_m", name: "height of the footing", unit: LENGTH, least: 0.2, most: 8, start: 1.5 },
+    f: { key: "frequency_hz", name: "frequency if fixed to the ground", unit: "Hz", least: 0.2, most: 20, start: 2 },
+    d: { key: "damping_ratio", name: "damping ratio", unit: "%", least: 0.002, most: 0.2, start: 0.02 } } },
+  frame: { title: "portal frame", width: "w", fields: {
+    h: { key: "height_m", name: "height of the beam's axis", unit: LENGTH, least: 2, most: 60, start: 12 },
+    s: { key: "span_m", name: "between the columns", unit: LENGTH, least: 1, most: 60, start: 10 },
+    w: { key: "footing_width_m", name: "width of each footing", unit: LENGTH, least: 0.3, most: 15, start: 3 },
+    hf: { key: "footing_height_m", name: "height of each footing", unit: LENGTH, least: 0.2, most: 6, start: 1.5 },
+    mf: { key: "footing_mass_kg", name: "mass of each footing", unit: MASS, least: 100, most: 5e6, start: 40000 },
+    m: { key: "beam_mass_kg", name: "mass of the beam and its load", unit: MASS, least: 1e3, most: 2e7, start: 500000 },
+    ea: { key: "column_ea_n", name: "EA of a column", unit: "N", least: 1e7, most: 1e13, start: 3.4e10 },
+    ei: { key: "column_ei_nm2", name: "EI of a column", unit: "N m²", least: 1e6, most: 1e13, start: 3e9 },
+    ba: { key: "beam_ea_n", name: "EA of the beam", unit: "N", least: 1e7, most: 1e13, start: 4e10 },
+    bi: { key: "beam_ei_nm2", name: "EI of the beam", unit: "N m²", least: 1e6, most: 1e13, start: 1e10 },
+    d: { key: "damping_ratio", name: "damping ratio", unit: "%", least: 0.002, most: 0.2, start: 0.02 } } },
+};
+const MOTION = {
+  scale: { name: "scale of the record", unit: "times", least: 0.1, most: 5, start: 1 },
+  amp: { name: "amplitude of the pulse", unit: "g", least: 0.02, most: 3, start: 0.5 },
+  per: { name: "period of the pulse", unit: "s", least: 0.1, most: 6, start: 1 },
+};
+const PULSE = "pulse.txt";
+
+// ---- units
+const FOOT = 0.3048, POUND = 0.45359237;
+const shown = {
+  length: (u) => (u === "ft" ? { by: 1 / FOOT, unit: "ft" } : { by: 1, unit: "m" }),
+  mass: (u) => (u === "ft" ? { by: 1 / POUND, unit: "lb" } : { by: 1, unit: "kg" }),
+  small: (u) => (u === "ft" ? { by: 12 / FOOT, unit: "in" } : { by: 1000, unit: "mm" }),
+  "%": () => ({ by: 100, unit: "%" }),
+};
+const unitOf = (unit) => (shown[unit] ? shown[unit](state.u) : { by: 1, unit: unit === "times" ? "×" : unit });
+// digits that count, without an exponent where that can be read
+function digits(x, n = 4) {
+  if (!Number.isFinite(x)) return "-";
+  if (x === 0) return "0";
+  const a = Math.abs(x);
+  if (a >= 1e7 || a < 1e-4) return x.toExponential(n - 1).replace("e+", "e");
+  const rounded = Number(x.toPrecision(n));
+  return a >= 10000 ? Math.round(rounded).toLocaleString("en-US").replace(/,/g, " ") : String(rounded);
+}
+const withUnit = (x, unit, n = 4) => `${digits(x * unitOf(unit).by, n)} ${unitOf(unit).unit}`;
+
+// ---- state
+const state = { kind: "block", u: "m", rec: "elcentro", scale: 1, amp: 0.5, per: 1, file: "", comp: "", vert: false, dt: "", units: "", values: {} };
+const files = new Map();
+const fields = () => KINDS[state.kind].fields;
+const value = (name) => state.values[name] ?? fields()[name].start;
+
+function toHash() {
+  const q = new URLSearchParams({ kind: state.kind });
+  for (const name of Object.keys(fields())) q.set(name, String(value(name)));
+  q.set("u", state.u);
+  q.set("rec", state.rec);
+  q.set("scale", String(state.scale));
+  if (state.rec === "pulse") { q.set("amp", state.amp); q.set("per", state.per); }
+  if (state.rec === "file") {
+    q.set("file", state.file);
+    for (const k of ["comp", "dt", "units"]) if (state[k]) q.set(k, state[k]);
+    if (state.vert) q.set("vert", "1");
+  }
+  return "#" + q.toString();
+}
+function fromHash(hash) {
+  const q = new URLSearchParams(hash.replace(/^#/, ""));
+  const number = (text, { least, most, start }) => {
+    const x = Number(text);
+    return text !== null && text !== "" && Number.isFinite(x) ? Math.min(most, Math.max(least, x)) : start;
+  };
+  state.kind = KINDS[q.get("kind")] ? q.get("kind") : "block";
+  state.values = {};
+  for (const [name, field] of Object.entries(fields())) state.values[name] = number(q.get(name), field);
+  state.u = q.get("u") === "ft" ? "ft" : "m";
+  state.rec = ["elcentro", "file", "pulse"].includes(q.get("rec")) ? q.get("rec") : "elcentro";
+  for (const k of ["scale", "amp", "per"]) state[k] = number(q.get(k), MOTION[k]);
+  for (const k of ["file", "comp", "dt", "units"]) state[k] = q.get(k) ?? "";
+  state.vert = q.get("vert") === "1";
+}
+
+// ---- the case file: what `tune run` reads
+const toml = (text) => JSON.stringify(text).replace(/\x7f/g, "\\u007f");
+const float = (x) => (/[.e]/.test(String(x)) ? String(x) : `${x}.0`);
+function caseText() {
+  const lines = ["[structure]", `kind = "${state.kind}"`];
+  for (const [name, field] of Object.entries(fields())) lines.push(`${field.key} = ${float(value(name))}`);
+  lines.push("", "[record]");
+  if (state.rec === "file") {
+    lines.push(`file = ${toml(state.file)}`);
+    if (state.comp) lines.push(`component = ${toml(state.comp)}`);
+    if (state.vert) lines.push(`vertical = "auto"`);
+    if (Number(state.dt) > 0) lines.push(`dt_s = ${float(Number(state.dt))}`);
+    if (state.units) lines.push(`units = ${toml(state.units)}`);
+  }
+  if (state.rec === "pulse") lines.push(`file = "${PULSE}"`, `dt_s = ${float(pulseStep(state.per))}`, `units = "g"`);
+  lines.push(`scale = ${float(state.scale)}`, "");
+  return lines.join("\n");
+}
+const pulseStep = (period) => [0.1, 0.05, 0.02, 0.01, 0.005, 0.002, 0.001, 0.0005].find((s) => s <= period / 100) ?? 0.0005;
+
+// ---- the workers
+const ALPHABET = "0123456789ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz!#%()*+,-./:;=?@[]^_{|}";
+function bytesOf85(text) {
+  const place = new Uint8Array(128);
+  for (let i = 0; i < 85; i++) place[ALPHABET.charCodeAt(i)] = i;
+  const bytes = new Uint8Array((text.length / 5) * 4);
+  for (let i = 0, j = 0; i < text.length; i += 5) {
+    let x = 0;
+    for (let k = 0; k < 5; k++) x = x * 85 + place[text.charCodeAt(i + k)];
+    bytes[j++] = x >>> 24; bytes[j++] = x >>> 16; bytes[j++] = x >>> 8; bytes[j++] = x;
+  }
+  return bytes;
+}
+async function compiled() {
+  const [length, ...lines] = $("wasm").textContent.trim().split("\n");
+  const packed = bytesOf85(lines.join("")).subarray(0, Number(length));
+  const stream = new Blob([packed]).stream().pipeThrough(new DecompressionStream("gzip"));
+  return WebAssembly.compile(await new Response(stream).arrayBuffer());
+}
+const source = URL.createObjectURL(new Blob([$("glue").textContent, "\n", $("worker").textContent], { type: "text/javascript" }));
+
+// One worker, its calls in order; what is still waiting is dropped when the worker ends.
+class Computer {
+  constructor(module) { this.module = module; this.waiting = new Map(); this.next = 0; this.memory = 0; this.start(); }
+  start() {
+    this.worker = new Worker(source);
+    this.worker.onmessage = ({ data }) => {
+      const asked = this.waiting.get(data.id);
+      this.waiting.delete(data.id);
+      if (data.memory) this.memory = Math.max(this.memory, data.memory);
+      if (data.crash) { this.end(); this.start(); asked?.reject(new Error("This case stops the program, which is a fault of it: please report the address of this page.")); }
+      else if (data.error !== undefined) asked?.reject(new Error(data.error));
+      else asked?.resolve(data);
+    };
+    this.worker.onerror = () => { this.end(); this.start(); };
+    this.ready = this.call("begin", this.module, [...files]);
+  }
+  end() {
+    this.worker.terminate();
+    for (const { reject } of this.waiting.values()) reject(new Error("stopped"));
+    this.waiting.clear();
+  }
+  restart() { this.end(); this.start(); }
+  get busy() { return this.waiting.size > 0; }
+  call(call, ...args) {
+    const id = this.next++;
+    return new Promise((resolve, reject) => {
+      this.waiting.set(id, { resolve, reject });
+      this.worker.postMessage({ id, call, args });
+    });
+  }
+}

@@ -1,0 +1,86 @@
+// Sliders and numbers, the record's part of the form.
+const places = {};
+// a slider is even in the logarithm
+const toSlide = (x, { least, most }) => Math.log(x / least) / Math.log(most / least);
+const fromSlide = (s, { least, most }) => Number((least * (most / least) ** s).toPrecision(3));
+function field(name, of, get, set) {
+  const unit = unitOf(of.unit), box = document.createElement("div");
+  box.className = "field";
+  const inUnit = (x) => Number((x * unit.by).toPrecision(unit.by === 1 ? 9 : 5));
+  box.innerHTML = `<div class="top"><label for="n-${name}">${of.name}</label><span class="number"><input type="number" id="n-${name}" step="any" min="${digits(of.least * unit.by, 6).replace(/ /g, "")}" max="${digits(of.most * unit.by, 6).replace(/ /g, "")}"><b>${unit.unit}</b></span></div><input type="range" id="s-${name}" min="0" max="1" step="0.002" aria-label="${of.name}, slider">`;
+  const number = box.querySelector("[type=number]"), slider = box.querySelector("[type=range]");
+  const show = (skip) => {
+    if (skip !== number) number.value = String(inUnit(get()));
+    slider.value = String(toSlide(get(), of));
+    slider.setAttribute("aria-valuetext", `${inUnit(get())} ${unit.unit}`);
+  };
+  slider.addEventListener("input", () => { set(fromSlide(Number(slider.value), { least: of.least, most: of.most })); show(slider); changed(); });
+  number.addEventListener("input", () => {
+    const x = Number(number.value) / unit.by;
+    const good = number.value !== "" && x >= of.least * 0.999999 && x <= of.most * 1.000001;
+    number.setAttribute("aria-invalid", String(!good));
+    if (good) { set(Number(x.toPrecision(9))); show(number); changed(); }
+  });
+  number.addEventListener("blur", () => { number.removeAttribute("aria-invalid"); show(); });
+  show();
+  places[name] = show;
+  return box;
+}
+function buildForm() {
+  for (const radio of document.querySelectorAll("[name=kind]")) radio.checked = radio.value === state.kind;
+  for (const radio of document.querySelectorAll("[name=rec]")) radio.checked = radio.value === state.rec;
+  for (const radio of document.querySelectorAll("[name=units]")) radio.checked = radio.value === state.u;
+  const of = (name) => field(name, fields()[name], () => value(name), (x) => (state.values[name] = x));
+  const all = Object.keys(fields()), rest = all.slice(state.kind === "pier" ? 3 : 6);
+  const few = state.kind === "pier" || state.kind === "frame" ? all.slice(0, all.length - rest.length) : all;
+  $("structure").replaceChildren(...few.map(of));
+  if (few.length < all.length) {
+    const more = document.createElement("details");
+    more.innerHTML = "<summary>more of it</summary>";
+    more.append(...rest.map(of));
+    $("structure").append(more);
+  }
+  const motion = (name) => field(name, MOTION[name], () => state[name], (x) => (state[name] = x));
+  $("pulse-part").replaceChildren(motion("amp"), motion("per"));
+  $("record-part").replaceChildren(motion("scale"));
+  $("pulse-part").hidden = state.rec !== "pulse";
+  $("file-part").hidden = state.rec !== "file";
+}
+// what a file has to choose from
+function fileOptions(record) {
+  const box = $("file-options");
+  box.replaceChildren();
+  if (state.rec !== "file" || !files.has(state.file)) return;
+  const select = (label, options, chosen, set) => {
+    const l = document.createElement("label");
+    l.className = "field";
+    l.style.display = "block";
+    l.append(`${label} `);
+    const s = document.createElement("select");
+    for (const [v, t] of options) { const o = document.createElement("option"); o.value = v; o.textContent = t; o.selected = v === chosen; s.append(o); }
+    s.addEventListener("change", () => { set(s.value); changed(); askRecord(); });
+    l.append(s);
+    box.append(l);
+  };
+  const level = record?.components.filter((c) => !c.vertical) ?? [], up = record?.components.filter((c) => c.vertical) ?? [];
+  if (level.length > 1) select("component", [["", "the stronger one"], ...level.map((c) => [c.name, `${c.label}, peak ${digits(c.pga_g, 3)} g`])], state.comp, (v) => (state.comp = v));
+  if (up.length === 1 && level.length) {
+    const l = document.createElement("label");
+    l.className = "field"; l.style.display = "block";
+    const c = document.createElement("input");
+    c.type = "checkbox"; c.checked = state.vert;
+    c.addEventListener("change", () => { state.vert = c.checked; changed(); askRecord(); });
+    l.append(c, ` with its vertical component, peak ${digits(up[0].pga_g, 3)} g`);
+    box.append(l);
+  }
+  if (!record || state.units || state.dt) {
+    select("unit of the numbers", [["", "as the file says"], ["g", "g"], ["m/s2", "m/s²"], ["cm/s2", "cm/s²"], ["mm/s2", "mm/s²"]], state.units, (v) => (state.units = v));
+    const l = document.createElement("label");
+    l.className = "field"; l.style.display = "block";
+    const n = document.createElement("input");
+    n.type = "number"; n.step = "any"; n.min = "0.000001"; n.max = "1"; n.value = state.dt;
+    n.addEventListener("change", () => { state.dt = Number(n.value) > 0 ? n.value : ""; changed(); askRecord(); });
+    l.append("time step ", n, " s (empty: as the file says)");
+    box.append(l);
+  }
+}

@@ -1,0 +1,168 @@
+//! What is there at once, while somebody turns the numbers: histories on springs from the geometry,
+//! and what is said of them.
+//!
+//! Of a rigid body both models' histories; of an elastic structure the one on springs alone, since
+//! that on rigid ground takes ten times as long.
+
+use std::sync::{Mutex, PoisonError};
+
+use crate::{
+    WebError,
+    any_case::AnyCase,
+    said::{Does, PeaksFound, Said, Working, does},
+    series::{HistorySeries, tops},
+};
+use dynamics::{fem::HistoryOutcome, spring::Chain};
+use frames::{
+    assembled::Assembled,
+    fem::{ElasticAnalysis, ElasticHistory, ElasticStart},
+};
+use report::{Taken, Unit, filed, rigid::at_once::RunAtOnce};
+use springs::{
+    case::{Case, ElasticCase},
+    results::{Finding, Peaks},
+    tuning::{
+        at_once::springs_at_once,
+        elastic::{at_once::springs_of_structure, design::CornerSprings},
+    },
+};
+use strong_motion::Record;
+
+pub(crate) fn answer(case: &AnyCase, friction: f64) -> Result<Said, WebError> {
+    match case {
+        AnyCase::Rigid(case) => rigid(case, friction),
+        AnyCase::Elastic(case) => elastic(case),
+    }
+}
+
+fn rigid(case: &Case, friction: f64) -> Result<Said, WebError> {
+    let body = case.structure.body::<f64>();
+    let springs = springs_at_once(&body, case.tuning.asked()).ok_or(WebError::NoSprings)?;
+    let RunAtOnce { record, both, run } = RunAtOnce::new(case, &springs, friction)?;
+    let history = HistorySeries::of_rigid(case.structure.kind, &body, &both, &record);
+    Ok(Said::of(&run, Working::of(&body), history))
+}
+
+/// The springs of the last structure: a search each, whatever the record.
+static LAST: Mutex<Option<(String, CornerSprings)>> = Mutex::new(None);
+
+fn springs_of(case: &ElasticCase, assembled: &Assembled) -> Result<CornerSprings, WebError> {
+    let key = format!("{:?} {:?} {:?}", case.structure, case.members, case.asked);
+    let mut last = LAST.lock().unwrap_or_else(PoisonError::into_inner);
+    if let Some((_, springs)) = last.as_ref().filter(|(known, _)| *known == key) {
+        return Ok(springs.clone());
+    }
+    let springs = springs_of_structure(assembled, case.asked)?;
+    *last = Some((key, springs.clone()));
+    Ok(springs)
+}
+
+fn elastic(case: &ElasticCase) -> Result<Said, WebError> {
+    let assembled = Assembled::with_members(case.structure, case.members)?;
+    let record = case.excitation.used()?;
+    let springs = springs_of(case, &assembled)?;
+    let analysis = ElasticAnalysis {
+        vertical: record.up(),
+        ..ElasticAnalysis::new(&assembled.frame, &springs.corners, ElasticStart::Standing, record.dt, &record.accel)
+    };
+    let fem = analysis.simulate().map_err(frames::answer::AnswerError::from)?;
+    let body = case.structure.body();
+    let uplift_g = assembled.uplift_g().unwrap_or(body.half_width / body.height);
+    let working = Working::of_elastic(&assembled);
+    let found = what_it_does(&assembled, &fem, &record, uplift_g);
+    let (does, share_of_overturning) = does(&found);
+    let findings = filed([found]);
+    let verdict = findings.first().map(|filed| sentence(&filed.message)).unwrap_or_default();
+    let peaks = (!matches!(does, Does::Unknown)).then(|| PeaksFound {
+        reference: None,
+        reference_ends_s: None,
+        springs: peaks(&assembled, &fem),
+        with_members: None,
+    });
+    let taken = Taken {
+        structure: report::elastic::title(&case.structure),
+        facts: Vec::new(),
+        record: Some(case.excitation.line()),
+        assumed: Vec::new(),
+    };
+    let springs = springs.corners.first().map(|s| [unit("vertical", &s.vertical), unit("horizontal", &s.horizontal)]);
+    Ok(Said {
+        verdict,
+        does,
+        share_of_overturning,
+        findings,
+        taken,
+        peaks,
+        friction_needed: None,
+        springs: springs.into_iter().flatten().collect(),
+        springs_at: "each corner of the first footing",
+        working,
+        history: HistorySeries::on_springs(&assembled, &fem, &record),
+    })
+}
+
+pub(crate) fn unit(name: &str, chain: &Chain<f64>) -> Unit {
+    let Chain { k1, k2, m2, c, .. } = *chain;
+    Unit { name: name.into(), k1_n_per_m: k1, k2_n_per_m: k2, m2_kg: m2, c_ns_per_m: c }
+}
+
+/// With a capital letter and a full stop.
+fn sentence(message: &str) -> String {
+    let mut letters = message.chars();
+    let first = letters.next().map(|c| c.to_uppercase().collect::<String>()).unwrap_or_default();
+    format!("{first}{}.", letters.as_str())
+}
+
+fn what_it_does(assembled: &Assembled, fem: &ElasticHistory, record: &Record, uplift_g: f64) -> Finding {
+    let alpha = assembled.structure.body().alpha();
+    let largest = assembled
+        .sways(fem.q.iter().map(Vec::as_slice))
+        .iter()
+        .flat_map(|sway| sway.rotation.clone())
+        .fold(0.0, |most: f64, rotation| most.max(rotation.abs()));
+    match fem.outcome {
+        HistoryOutcome::Overturned { time } => Finding::Overturns { time_s: time, reference_s: None },
+        HistoryOutcome::Completed if record.pga_g() < uplift_g && !fem.contacts.iter().any(|c| c.touches) => {
+            Finding::NeverLifts { pga_g: record.pga_g(), uplift_g }
+        }
+        HistoryOutcome::Completed => {
+            Finding::Stands { share_of_overturning: largest / alpha, over_s: record.duration(), if_feet_hold: false }
+        }
+        HistoryOutcome::Stopped { time } | HistoryOutcome::WorkBound { time } | HistoryOutcome::Unstable { time } => {
+            Finding::NoAnswer { model: springs::results::FindingModel::Springs, time_s: time }
+        }
+    }
+}
+
+/// Largest displacements on springs, up to an overturning.
+fn peaks(assembled: &Assembled, fem: &ElasticHistory) -> Peaks {
+    let alpha = assembled.structure.body().alpha();
+    let sways = assembled.sways(fem.q.iter().map(Vec::as_slice));
+    let fallen = matches!(fem.outcome, HistoryOutcome::Overturned { .. });
+    let falls = sways.iter().filter_map(|s| s.rotation.iter().position(|r| r.abs() > alpha)).min();
+    let n = falls.filter(|_| fallen).unwrap_or(fem.q.len());
+    let largest = |values: &mut dyn Iterator<Item = f64>| values.take(n).fold(0.0, |most: f64, x| most.max(x.abs()));
+    let top_displacement_m = largest(&mut tops(assembled, fem.q.iter().map(Vec::as_slice)));
+    let bending = sways.iter().map(|s| largest(&mut s.drift.iter().copied())).fold(0.0, f64::max);
+    let corners = 0..assembled.layout.corners.len();
+    let uplift_m = corners
+        .map(|i| largest(&mut fem.uplift(&assembled.frame, i).into_iter().map(|x| x.max(0.0))))
+        .fold(0.0, f64::max);
+    // what bending leaves of the top's displacement
+    let mut rocking = tops(assembled, fem.q.iter().map(Vec::as_slice))
+        .zip(sways.iter().take(1).flat_map(|s| s.drift.iter().zip(&s.rotation)))
+        .map(|(top, (drift, rotation))| top - drift * rotation.cos());
+    let height = report::elastic::top_height(&assembled.structure);
+    // touches of corners within a tenth of 1/p are one impact, as in the whole run
+    let rest = report::elastic::SAME_IMPACT / assembled.structure.body().p_squared().sqrt();
+    let touches = fem.contacts.iter().filter(|contact| contact.touches).map(|contact| contact.time);
+    Peaks {
+        top_displacement_m,
+        rocking_m: largest(&mut rocking),
+        bending_m: Some(bending),
+        feet_moved_m: None,
+        uplift_m,
+        drift_ratio: top_displacement_m / height,
+        impacts: report::elastic::impacts(touches, rest),
+    }
+}

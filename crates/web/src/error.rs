@@ -1,0 +1,52 @@
+//! What is wrong, in the program's own line.
+
+use fixed_steps::{integrator::IntegratorError, recipe::FixedStepSpringsError};
+use frames::{answer::AnswerError, assembled::AssemblyError};
+use run_folder::FolderError;
+use springs::{
+    case::CaseError,
+    tuning::{
+        elastic::{ElasticTuneError, referred::ReferredError},
+        job::JobError,
+    },
+};
+use strong_motion::RecordError;
+use thiserror::Error;
+
+/// Why there is no answer.
+#[derive(Debug, Error)]
+#[allow(missing_docs)] // messages say what variants and their fields are
+pub enum WebError {
+    #[error(transparent)]
+    Case(#[from] CaseError),
+    #[error(transparent)]
+    Record(#[from] RecordError),
+    #[error(transparent)]
+    Job(#[from] JobError),
+    #[error(transparent)]
+    Assembly(#[from] AssemblyError),
+    #[error(transparent)]
+    Referred(#[from] ReferredError),
+    #[error(transparent)]
+    Answer(#[from] AnswerError),
+    #[error(transparent)]
+    ElasticTune(#[from] ElasticTuneError),
+    #[error(transparent)]
+    Folder(#[from] FolderError),
+    #[error(transparent)]
+    FixedStep(#[from] FixedStepSpringsError),
+    #[error(transparent)]
+    Integrator(#[from] IntegratorError),
+    #[error(transparent)]
+    IntegratorName(#[from] fixed_steps::IntegratorNameError),
+    #[error("list of variations: {0}")]
+    Variations(#[from] serde_json::Error),
+    #[error("case.toml: {key} is for the program alone, a page does not search so long; leave it out")]
+    ForTheProgram { key: &'static str },
+    #[error("pulse: {name} is {value:?}; give {least} to {most} {unit}")]
+    Pulse { name: &'static str, value: f64, least: f64, most: f64, unit: &'static str },
+    #[error("springs for fixed steps are given for rigid bodies; take a block or an A-frame of the same size")]
+    FixedStepElastic,
+    #[error("there are no springs for this geometry; slenderness alpha is to be between 0.005 and 0.9 rad")]
+    NoSprings,
+}

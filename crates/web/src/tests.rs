@@ -1,0 +1,79 @@
+//! The functions of the page, natively.
+
+use super::*;
+use serde_json::Value;
+
+const FRAME: &str = "[structure]\nkind = \"aframe\"\nheight_m = 61.0\nwidth_m = 12.2\nmass_kg = 680.1e3\n\
+                     [record]\nduration_s = 20.0\n";
+const PIER: &str = "[structure]\nkind = \"pier\"\nheight_m = 12.0\nwidth_m = 4.0\nmass_kg = 600e3\nfooting_mass_kg = 60e3\n\
+                    footing_height_m = 1.5\nfrequency_hz = 2.0\ndamping_ratio = 0.02\n[record]\nduration_s = 20.0\n";
+
+fn parsed(answer: Answer) -> Value {
+    serde_json::from_str(&answer.unwrap()).unwrap()
+}
+
+#[test]
+fn a_frame_is_answered_at_once() {
+    let answer = parsed(at_once(FRAME, 0.5));
+    // the paper: lifts at 0.1 g
+    assert!((answer["working"]["uplift_g"].as_f64().unwrap() - 0.1).abs() < 1e-15);
+    let peaks = &answer["peaks"];
+    let top = |model: &str| peaks[model]["top_displacement_m"].as_f64().unwrap();
+    assert!((top("springs") / top("reference") - 1.0).abs() < 1e-2, "{peaks}");
+    assert!(answer["verdict"].as_str().unwrap().contains("rocks and stands"), "{}", answer["verdict"]);
+}
+
+#[test]
+fn a_pier_is_answered_at_once() {
+    let answer = parsed(at_once(PIER, 0.5));
+    let peaks = &answer["peaks"];
+    // README's table, from the whole run: 386 mm at the top, 16.8 mm by bending
+    let of = |what: &str| peaks["springs"][what].as_f64().unwrap();
+    assert!((of("top_displacement_m") / 0.386 - 1.0).abs() < 2e-2, "{peaks}");
+    assert!((of("bending_m") / 0.0168 - 1.0).abs() < 5e-2, "{peaks}");
+    assert_eq!(answer["history"]["springs"]["bases"].as_array().unwrap().len(), 1);
+}
+
+#[test]
+fn what_a_page_cannot_do_is_refused_in_one_line() {
+    let said = |more: &str| at_once(&format!("{FRAME}[tuning]\n{more}\n"), 0.5).unwrap_err();
+    for more in ["objective = \"arr\"", "max_omega_hz = 160.0"] {
+        let line = said(more);
+        assert!(line.starts_with("case.toml: tuning.") && !line.contains('\n'), "{line}");
+    }
+}
+
+#[test]
+fn a_pulse_is_a_record_with_its_amplitude() {
+    let text = pulse(0.7, 1.2).unwrap();
+    give_file("pulse test.txt", text.as_bytes());
+    let record = format!("file = \"pulse test.txt\"\ndt_s = {}\nunits = \"g\"\n", pulse_step(1.2));
+    let case = format!(
+        "[structure]\nkind = \"block\"\ntotal_height_m = 1.9\nwidth_m = 0.6\nmass_kg = 200.0\n[record]\n{record}"
+    );
+    let answer = parsed(read_record(&case));
+    assert!((answer["pga_g"].as_f64().unwrap() - 0.7).abs() < 1e-3, "{answer}");
+    forget_file("pulse test.txt");
+    assert!(read_record(&case).is_err());
+    assert!(pulse(0.0, 1.0).unwrap_err().contains("amplitude is 0.0; give 0.001 to 10 g"));
+}
+
+/// A wider body rocks less; the body itself is the case's.
+#[test]
+fn variations_are_bodies_on_the_record() {
+    let answer = parsed(variations(FRAME, r#"[{}, {"scale": 1.0}, {"alpha": 0.5}, {"scale": 50.0, "alpha": 0.05}]"#));
+    assert_eq!(answer[0], answer[1]);
+    let own = parsed(at_once(FRAME, 0.5))["share_of_overturning"].as_f64().unwrap();
+    assert!((answer[0].as_f64().unwrap() / own - 1.0).abs() < 1e-2);
+    assert_eq!((answer[2].as_f64(), answer[3].is_null()), (Some(0.0), true));
+}
+
+#[test]
+fn fixed_steps_have_springs_of_rigid_bodies_alone() {
+    let answer = parsed(fixed_step(FRAME, 1e-3, "trbdf2"));
+    // 7.75 sqrt(p/dt)/alpha (`fixed_steps::recipe`)
+    assert!((answer["omega_n_hz"].as_f64().unwrap() - 247.0).abs() < 1.0, "{answer}");
+    assert!(answer["nrmse"].as_f64().unwrap() < 0.1, "{answer}");
+    assert!(fixed_step(PIER, 1e-3, "trbdf2").unwrap_err().contains("rigid bodies"));
+    assert!(fixed_step(FRAME, 0.0, "trbdf2").unwrap_err().contains("no time step"));
+}

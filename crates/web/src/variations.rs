@@ -1,0 +1,59 @@
+//! The case's body at other sizes, slendernesses and scales of its record, by Housner's equation.
+
+use serde::Deserialize;
+
+use crate::{WebError, any_case::AnyCase};
+use rocking::{
+    housner::{RockingOptions, RockingOutcome, solve_lanes},
+    structure::Body,
+};
+
+/// A body and a scale; the case's own where left out.
+#[derive(Deserialize)]
+#[serde(deny_unknown_fields)]
+struct Variation {
+    /// (rad)
+    alpha: Option<f64>,
+    /// R (m).
+    radius_m: Option<f64>,
+    /// Factor on the record of the case, its own scale not counted.
+    scale: Option<f64>,
+}
+
+/// Peak |theta|/alpha of each; none where it overturns, or Housner's equation ends.
+pub(crate) fn answer(case: &AnyCase, asked: &str) -> Result<Vec<Option<f32>>, WebError> {
+    let asked: Vec<Variation> = serde_json::from_str(asked)?;
+    let (own, excitation) = (case.body(), case.excitation());
+    let record = excitation.used()?;
+    let vertical = record.vertical_accel();
+    // the record is scaled already
+    let scale = |asked: f64| if excitation.scale == 0.0 { 0.0 } else { asked / excitation.scale };
+    let body = |v: &Variation| of(&own, v.alpha.unwrap_or(own.alpha()), v.radius_m.unwrap_or(own.radius()));
+    let bodies: Vec<Body<f64>> = asked.iter().map(body).collect();
+    let options = |v: &Variation| RockingOptions {
+        scale: v.scale.map_or(1.0, scale),
+        vertical: vertical.clone(),
+        ..RockingOptions::default()
+    };
+    let options: Vec<_> = asked.iter().map(options).collect();
+    let all = solve_lanes(&bodies, record.dt, &record.accel, &options);
+    let peak = |(body, rocking): (&Body<f64>, &rocking::housner::Rocking<f64>)| match rocking.outcome {
+        RockingOutcome::NeverMoved => Some(0.0),
+        RockingOutcome::Rocked => {
+            Some((rocking.theta.iter().fold(0.0, |most: f64, theta| most.max(theta.abs())) / body.alpha()) as f32)
+        }
+        _ => None,
+    };
+    Ok(bodies.iter().zip(&all).map(peak).collect())
+}
+
+/// A body like another, of this slenderness (rad) and this R (m).
+fn of(like: &Body<f64>, alpha: f64, radius: f64) -> Body<f64> {
+    let (share, mass) = (like.mass_share(), like.mass);
+    Body {
+        mass,
+        half_width: radius * alpha.sin(),
+        height: radius * alpha.cos(),
+        inertia: mass * radius * radius * (1.0 / share - 1.0),
+    }
+}
