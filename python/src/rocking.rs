@@ -137,8 +137,8 @@ pub fn _history(filed: Filed<'_>) -> PyResult<History> {
 /// A history of rigid rocking at the record's samples, cut where the body lies flat.
 #[pyclass(frozen, module = "groundspring")]
 pub struct History {
-    all: Arc<Vec<Solved>>,
-    index: usize,
+    pub(crate) all: Arc<Vec<Solved>>,
+    pub(crate) index: usize,
 }
 
 impl History {
