@@ -54,13 +54,19 @@ def base85(data):
     return "\n".join([str(len(data)), *lines])
 
 
+def dense(text):
+    """Scripts and styles without indentation, blank lines and lines of comment: the sources are for reading."""
+    lines = (line.strip() for line in text.splitlines())
+    return "\n".join(line for line in lines if line and not line.startswith("//"))
+
+
 def build(page, glue, wasm):
-    script = "\n".join((FOLDER / name).read_text() for name in SCRIPTS)
+    script = dense("\n".join((FOLDER / name).read_text() for name in SCRIPTS))
     parts = {
-        "/*STYLE*/": (FOLDER / "style.css").read_text(),
+        "/*STYLE*/": dense((FOLDER / "style.css").read_text()),
         "/*HASH*/": fingerprint(),
-        "/*GLUE*/": Path(glue).read_text(),
-        "/*WORKER*/": (FOLDER / "worker.js").read_text(),
+        "/*GLUE*/": dense(Path(glue).read_text()),
+        "/*WORKER*/": dense((FOLDER / "worker.js").read_text()),
         "/*WASM*/": base85(Path(wasm).read_bytes()),
         "/*SCRIPT*/": f'"use strict";\n{script}',
     }

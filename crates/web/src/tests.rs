@@ -8,7 +8,7 @@ const FRAME: &str = "[structure]\nkind = \"aframe\"\nheight_m = 61.0\nwidth_m = 
 const PIER: &str = "[structure]\nkind = \"pier\"\nheight_m = 12.0\nwidth_m = 4.0\nmass_kg = 600e3\nfooting_mass_kg = 60e3\n\
                     footing_height_m = 1.5\nfrequency_hz = 2.0\ndamping_ratio = 0.02\n[record]\nduration_s = 20.0\n";
 
-fn parsed(answer: Answer) -> Value {
+fn parsed(answer: JsonAnswer) -> Value {
     serde_json::from_str(&answer.unwrap()).unwrap()
 }
 
@@ -71,7 +71,7 @@ fn variations_are_bodies_on_the_record() {
 #[test]
 fn fixed_steps_have_springs_of_rigid_bodies_alone() {
     let answer = parsed(fixed_step(FRAME, 1e-3, "trbdf2"));
-    // 7.75 sqrt(p/dt)/alpha (`fixed_steps::recipe`)
+    // 7.75 sqrt(p/dt)/alpha of the frame: K is 1/4 there (`fixed_steps::recipe`)
     assert!((answer["omega_n_hz"].as_f64().unwrap() - 247.0).abs() < 1.0, "{answer}");
     assert!(answer["nrmse"].as_f64().unwrap() < 0.1, "{answer}");
     assert!(fixed_step(PIER, 1e-3, "trbdf2").unwrap_err().contains("rigid bodies"));
