@@ -78,11 +78,11 @@ fn record_scale_and_duration_are_remembered_until_told_otherwise() {
 #[test]
 fn a_scale_on_the_command_line_replaces_the_cases() {
     let dir = folder();
-    let run = tune(dir.path(), &[&RUN[..], &["out", "--scale", "1.5"]].concat());
+    let run = tune(dir.path(), &[&RUN[..], &["given", "--scale", "1.5"]].concat());
     assert!(screen(&run).contains("scale 1.5, first 8 s of 12 s: 801 samples"), "{}", screen(&run));
     let plain = tune(dir.path(), &[&RUN[..], &["plain"]].concat());
     // the same screen but for the folder in its commands
-    assert_eq!(screen(&run).replace("out/", "F/"), screen(&plain).replace("plain/", "F/"));
+    assert_eq!(screen(&run).replace("given/", "F/"), screen(&plain).replace("plain/", "F/"));
     let doubled = stderr(&tune(dir.path(), &["housner", "case.toml", "--scale", "2", "--out", "h.csv"]));
     assert!(doubled.contains("scale 2, first 8 s of 12 s: 801 samples"), "{doubled}");
 }

@@ -11,6 +11,10 @@ use crate::{
     structure::hashed,
 };
 
+/// Body and time step; theta and its rate; times and rates of impacts, times and sides of uplifts;
+/// how it ended, and when.
+pub(crate) type SolvedNumbers<'a> = ([f64; 5], [&'a [f64]; 2], [Vec<f64>; 5], &'static str, Option<f64>);
+
 /// Many histories: a sequence of `History`.
 #[pyclass(frozen, sequence, module = "groundspring")]
 pub struct Histories(pub(crate) Arc<Vec<Solved>>);

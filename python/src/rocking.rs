@@ -17,7 +17,7 @@ use springs::case::LONGEST_S;
 
 use crate::{
     Array,
-    histories::Histories,
+    histories::{Histories, SolvedNumbers},
     numbers,
     record::{Record, checked_scales},
     said::value_error,
@@ -60,7 +60,7 @@ impl Solved {
     }
 
     /// All that it is made of.
-    pub(crate) fn numbers(&self) -> ([f64; 5], [&[f64]; 2], [Vec<f64>; 5], &'static str, Option<f64>) {
+    pub(crate) fn numbers(&self) -> SolvedNumbers<'_> {
         let (b, r) = (&self.body, &self.rocking);
         let impacts = |pick: fn(&Impact<f64>) -> f64| r.impacts.iter().map(pick).collect();
         let uplifts = |pick: fn(&Uplift<f64>) -> f64| r.uplifts.iter().map(pick).collect();
