@@ -9,14 +9,15 @@ use std::{
 use numpy::PyArray1;
 use pyo3::{exceptions::PyIndexError, prelude::*};
 use rocking::{
-    housner::{self, Impact, Rocking, RockingOptions, RockingOutcome, Uplift},
+    housner::{self, Rocking, RockingOptions, RockingOutcome},
     motion::Motion,
     structure::Body,
 };
-use springs::case::LONGEST_S;
 
 use crate::{
-    Array, numbers,
+    Array,
+    filed::Filed,
+    numbers::{self, ratio},
     record::{Record, checked_scales},
     said::value_error,
     structure::{Structure, hashed},
@@ -29,14 +30,14 @@ const AT_A_TIME: usize = 2048;
 
 /// One history and the body that it is of.
 pub struct Solved {
-    body: Body<f64>,
-    dt: f64,
-    rocking: Rocking<f64>,
+    pub body: Body<f64>,
+    pub dt: f64,
+    pub rocking: Rocking<f64>,
     motion: OnceLock<Motion>,
 }
 
 impl Solved {
-    fn new(body: Body<f64>, dt: f64, rocking: Rocking<f64>) -> Self {
+    pub fn new(body: Body<f64>, dt: f64, rocking: Rocking<f64>) -> Self {
         Self { body, dt, rocking, motion: OnceLock::new() }
     }
 
@@ -51,26 +52,10 @@ impl Solved {
 
     /// Largest |theta|/alpha of a history whose largest |theta| is `peak` (rad).
     pub fn ratio(body: &Body<f64>, rocking: &Rocking<f64>, peak: f64) -> f64 {
-        // as in the tables of tune validate and tune sweep: one that overturned lies, and how far it
-        // had fallen says nothing
+        // as in the tables of tune validate and tune sweep: one that overturned lies, and how far
+        // it had fallen says nothing
         let theta = if rocking.overturned().is_some() { FRAC_PI_2 } else { peak };
         theta / body.alpha()
-    }
-
-    /// All that it is made of.
-    fn numbers(&self) -> ([f64; 5], [&[f64]; 2], [Vec<f64>; 5], &'static str, Option<f64>) {
-        let (b, r) = (&self.body, &self.rocking);
-        let impacts = |pick: fn(&Impact<f64>) -> f64| r.impacts.iter().map(pick).collect();
-        let uplifts = |pick: fn(&Uplift<f64>) -> f64| r.uplifts.iter().map(pick).collect();
-        let events = [
-            impacts(|i| i.time),
-            impacts(|i| i.rate_before),
-            impacts(|i| i.rate_after),
-            uplifts(|u| u.time),
-            uplifts(|u| u.side),
-        ];
-        let body = [b.mass, b.half_width, b.height, b.inertia, self.dt];
-        (body, [&r.theta, &r.rate], events, ended(&r.outcome), when(&r.outcome))
     }
 }
 
@@ -86,62 +71,6 @@ pub fn ended(outcome: &RockingOutcome) -> &'static str {
     }
 }
 
-/// When it came to that (s).
-fn when(outcome: &RockingOutcome) -> Option<f64> {
-    match *outcome {
-        RockingOutcome::Rocked | RockingOutcome::NeverMoved => None,
-        RockingOutcome::Overturned { time }
-        | RockingOutcome::LeavesGround { time }
-        | RockingOutcome::WorkBound { time }
-        | RockingOutcome::NotFinite { time } => Some(time),
-    }
-}
-
-/// The outcome of a name.
-fn outcome(name: &str, time: Option<f64>) -> Option<RockingOutcome> {
-    Some(match (name, time) {
-        ("rocked", None) => RockingOutcome::Rocked,
-        ("never_lifted", None) => RockingOutcome::NeverMoved,
-        ("overturned", Some(time)) => RockingOutcome::Overturned { time },
-        ("leaves_ground", Some(time)) => RockingOutcome::LeavesGround { time },
-        ("work_bound", Some(time)) => RockingOutcome::WorkBound { time },
-        ("not_finite", Some(time)) => RockingOutcome::NotFinite { time },
-        _ => return None,
-    })
-}
-
-/// A history as it is pickled: body and dt; theta and rate; times and rates of impacts, times and
-/// sides of uplifts; outcome and its time.
-type Filed<'py> = ([f64; 5], Bound<'py, PyAny>, Bound<'py, PyAny>, [Vec<f64>; 5], String, Option<f64>);
-
-/// A history that was pickled.
-#[pyfunction]
-pub fn _history(filed: Filed<'_>) -> PyResult<History> {
-    let ([mass, half_width, height, inertia, dt], theta, rate, events, name, time) = filed;
-    let [at, before, after, lifted, side] = events;
-    let impacts = at.iter().zip(&before).zip(&after);
-    let impacts = impacts.map(|((&time, &rate_before), &rate_after)| Impact { time, rate_before, rate_after });
-    let uplifts = lifted.iter().zip(&side).map(|(&time, &side)| Uplift { time, side });
-    let rocking = Rocking {
-        theta: numbers::row(&theta, "theta", "rad")?,
-        rate: numbers::row(&rate, "rate", "rad/s")?,
-        impacts: impacts.collect(),
-        uplifts: uplifts.collect(),
-        outcome: outcome(&name, time).ok_or_else(|| value_error(format!("_history: outcome is {name:?}")))?,
-    };
-    Ok(History::new(Body { mass, half_width, height, inertia }, dt, rocking))
-}
-
-/// Histories that were pickled.
-#[pyfunction]
-pub fn _histories(all: Vec<PyRef<'_, History>>) -> Histories {
-    let again = |one: &PyRef<'_, History>| {
-        let Solved { body, dt, rocking, .. } = one.one();
-        Solved::new(*body, *dt, rocking.clone())
-    };
-    Histories(Arc::new(all.iter().map(again).collect()))
-}
-
 /// A history of rigid rocking at the record's samples, cut where the body lies flat.
 #[pyclass(frozen, module = "groundspring")]
 pub struct History {
@@ -154,7 +83,7 @@ impl History {
         Self { all: Arc::new(vec![Solved::new(body, dt, rocking)]), index: 0 }
     }
 
-    fn one(&self) -> &Solved {
+    pub fn one(&self) -> &Solved {
         &self.all[self.index]
     }
 }
@@ -283,7 +212,7 @@ impl History {
 
 /// Many histories: a sequence of `History`.
 #[pyclass(frozen, sequence, module = "groundspring")]
-pub struct Histories(Arc<Vec<Solved>>);
+pub struct Histories(pub Arc<Vec<Solved>>);
 
 #[pymethods]
 impl Histories {
@@ -458,24 +387,4 @@ fn pairs(structures: &[Structure], record: &Record, scales: &[f64], restitution:
         }
     });
     Ok((bodies, options.collect()))
-}
-
-/// A length of history (s), in the program's words if it is none.
-pub fn seconds(given: Option<f64>) -> PyResult<Option<f64>> {
-    match given {
-        Some(d) if !(d > 0.0 && d <= LONGEST_S) => {
-            Err(value_error(format!("duration is {d:?}; give seconds greater than zero, at most 1e6")))
-        }
-        given => Ok(given),
-    }
-}
-
-/// A velocity ratio, in the program's words if it is none.
-pub fn ratio(given: Option<f64>) -> PyResult<Option<f64>> {
-    match given {
-        Some(e) if !(0.0..=1.0).contains(&e) => {
-            Err(value_error(format!("restitution is {e:?}; a velocity ratio lies between 0 and 1")))
-        }
-        given => Ok(given),
-    }
 }
