@@ -48,7 +48,7 @@ def run(of: dict[str, Any]) -> dict[str, Any]:
     import nbformat
     from nbclient import NotebookClient
 
-    node = nbformat.from_dict(of)
+    node = nbformat.reads(json.dumps(of), as_version=4)
     with tempfile.TemporaryDirectory() as folder:
         NotebookClient(node, timeout=900, resources={"metadata": {"path": folder}}).execute()
     for entry in node.cells:
