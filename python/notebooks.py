@@ -1,12 +1,14 @@
 """The examples as notebooks in docs/notebooks, made from their sources.
 
-    python python/notebooks.py           write them
-    python python/notebooks.py --check   exit 1 if one is not that of its example
+    python python/notebooks.py           write them, run, with what they print and draw (needs nbclient and ipykernel)
+    python python/notebooks.py --check   exit 1 if one is not that of its example, or has no outputs
+    python python/notebooks.py --run     run those that are there, in another folder: exit 1 if one fails
 """
 
 import ast
 import json
 import sys
+import tempfile
 from pathlib import Path
 from typing import Any
 
@@ -41,18 +43,43 @@ def notebook(source: str) -> dict[str, Any]:
     return {"cells": cells, "metadata": {"kernelspec": kernel}, "nbformat": 4, "nbformat_minor": 5}
 
 
+def run(of: dict[str, Any]) -> dict[str, Any]:
+    """With outputs, without what changes from run to run and what OpenSees and this machine say on stderr."""
+    import nbformat
+    from nbclient import NotebookClient
+
+    node = nbformat.reads(json.dumps(of), as_version=4)
+    with tempfile.TemporaryDirectory() as folder:
+        NotebookClient(node, timeout=900, resources={"metadata": {"path": folder}}).execute()
+    for entry in node.cells:
+        entry.metadata = nbformat.from_dict({})
+        if entry.cell_type == "code":
+            entry.outputs = [output for output in entry.outputs if output.get("name") != "stderr"]
+    found: dict[str, Any] = json.loads(nbformat.writes(node))
+    return found | {"metadata": of["metadata"]}
+
+
+def sources(of: dict[str, Any]) -> list[str]:
+    return ["".join(entry["source"]) for entry in of["cells"]]
+
+
 def main() -> int:
     wrong = []
     for example in sorted((HERE / "examples").glob("*.py")):
         path = NOTEBOOKS / f"{example.stem}.ipynb"
-        text = json.dumps(notebook(example.read_text()), indent=1) + "\n"
-        if "--check" not in sys.argv[1:]:
+        made = notebook(example.read_text())
+        if "--check" in sys.argv[1:]:
+            found = json.loads(path.read_text()) if path.exists() else {"cells": []}
+            if sources(found) != sources(made) or not any(entry.get("outputs") for entry in found["cells"]):
+                wrong.append(path.name)
+        elif "--run" in sys.argv[1:]:
+            run(json.loads(path.read_text()))
+            print(f"{path.name} runs")
+        else:
             path.parent.mkdir(parents=True, exist_ok=True)
-            path.write_text(text)
-        elif not path.exists() or path.read_text() != text:
-            wrong.append(path.name)
+            path.write_text(json.dumps(run(made), indent=1) + "\n")
     if wrong:
-        print(f"not those of the examples: {', '.join(wrong)}; run python python/notebooks.py", file=sys.stderr)
+        print(f"not those of the examples, or without outputs: {', '.join(wrong)}; run python python/notebooks.py", file=sys.stderr)
     return len(wrong) > 0
 
 

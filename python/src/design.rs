@@ -18,8 +18,8 @@ use crate::{
     work::interruptible,
 };
 
-/// mu, f, xi, Omega_n/2 pi (Hz).
-type Numbers = (f64, f64, f64, f64);
+/// mu, f, xi, Omega_n over the vertical one.
+type Quadruple = (f64, f64, f64, f64);
 
 /// One spring-absorber unit without units.
 #[pyclass(frozen, module = "groundspring")]
@@ -81,7 +81,7 @@ impl UnitDesign {
         slf
     }
 
-    fn __reduce__<'py>(&self, py: Python<'py>) -> PyResult<(Bound<'py, PyAny>, Numbers)> {
+    fn __reduce__<'py>(&self, py: Python<'py>) -> PyResult<(Bound<'py, PyAny>, Quadruple)> {
         let d = &self.0;
         Ok((py.import("groundspring._restore")?.getattr("unit_design")?, (d.mu, d.f, d.xi, d.omega_n_hz)))
     }

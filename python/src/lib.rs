@@ -4,7 +4,7 @@
 //! | file | what |
 //! |---|---|
 //! | `record`, `structure`, `springs` | what goes in; each object holds one of the crate's |
-//! | `rocking` | Housner's solution, one history or many |
+//! | `rocking`, `filed` | Housner's solution, one history or many; as it is pickled |
 //! | `simulation` | both models on given springs |
 //! | `tuned` | the whole of `tune run` |
 //! | `design`, `validation` | the design without units, the frequency response; springs judged over many records |
@@ -18,7 +18,7 @@
 
 mod arrow;
 mod design;
-mod histories;
+mod filed;
 mod many;
 mod numbers;
 mod record;
@@ -39,10 +39,10 @@ mod _native {
     #[pymodule_export]
     use crate::{
         design::{_design, _unit_design, Design, UnitDesign, design, fit_response, frequency_response},
-        histories::{_histories, Histories},
+        filed::{_histories, _history},
         many::{_table, RockingTable, rock_all},
         record::{Record, el_centro, read_record},
-        rocking::{_history, History, rigid_rocking, rigid_rocking_many},
+        rocking::{Histories, History, rigid_rocking, rigid_rocking_many},
         said::GroundspringWarning,
         simulation::{Simulation, simulate},
         springs::{_units_for, Chain, Springs, read_parameters},

@@ -22,9 +22,9 @@ use rocking::{
 
 use crate::{
     arrow::{ArrowArrayStream, Column, Columns},
-    numbers,
+    numbers::{self, ratio},
     record::{Record, checked_scales},
-    rocking::{Solved, ended, ratio},
+    rocking::{Solved, ended},
     said::value_error,
     structure::Structure,
     work::{self, Stop},

@@ -4,6 +4,8 @@
 use numpy::{PyArray1, PyArrayMethods, PyUntypedArray, PyUntypedArrayMethods};
 use pyo3::{prelude::*, types::PyDict};
 
+use springs::case::LONGEST_S;
+
 use crate::said::value_error;
 
 /// A row of numbers called `name`; `what` they are, with their unit.
@@ -59,5 +61,25 @@ pub fn one_or_more(of: &Bound<'_, PyAny>, name: &str, what: &str) -> PyResult<Ve
                 _ => row(of, name, what),
             }
         }
+    }
+}
+
+/// A length of history (s), in the program's words if it is none.
+pub fn seconds(given: Option<f64>) -> PyResult<Option<f64>> {
+    match given {
+        Some(d) if !(d > 0.0 && d <= LONGEST_S) => {
+            Err(value_error(format!("duration is {d:?}; give seconds greater than zero, at most 1e6")))
+        }
+        given => Ok(given),
+    }
+}
+
+/// A velocity ratio, in the program's words if it is none.
+pub fn ratio(given: Option<f64>) -> PyResult<Option<f64>> {
+    match given {
+        Some(e) if !(0.0..=1.0).contains(&e) => {
+            Err(value_error(format!("restitution is {e:?}; a velocity ratio lies between 0 and 1")))
+        }
+        given => Ok(given),
     }
 }

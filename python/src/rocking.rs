@@ -7,18 +7,17 @@ use std::{
 };
 
 use numpy::PyArray1;
-use pyo3::prelude::*;
+use pyo3::{exceptions::PyIndexError, prelude::*};
 use rocking::{
-    housner::{self, Impact, Rocking, RockingOptions, RockingOutcome, Uplift},
+    housner::{self, Rocking, RockingOptions, RockingOutcome},
     motion::Motion,
     structure::Body,
 };
-use springs::case::LONGEST_S;
 
 use crate::{
     Array,
-    histories::{Histories, SolvedNumbers},
-    numbers,
+    filed::Filed,
+    numbers::{self, ratio},
     record::{Record, checked_scales},
     said::value_error,
     structure::{Structure, hashed},
@@ -31,14 +30,14 @@ const AT_A_TIME: usize = 2048;
 
 /// One history and the body that it is of.
 pub struct Solved {
-    pub(crate) body: Body<f64>,
-    pub(crate) dt: f64,
-    pub(crate) rocking: Rocking<f64>,
+    pub body: Body<f64>,
+    pub dt: f64,
+    pub rocking: Rocking<f64>,
     motion: OnceLock<Motion>,
 }
 
 impl Solved {
-    pub(crate) fn new(body: Body<f64>, dt: f64, rocking: Rocking<f64>) -> Self {
+    pub fn new(body: Body<f64>, dt: f64, rocking: Rocking<f64>) -> Self {
         Self { body, dt, rocking, motion: OnceLock::new() }
     }
 
@@ -46,7 +45,7 @@ impl Solved {
         self.motion.get_or_init(|| self.rocking.motion(&self.body))
     }
 
-    pub(crate) fn peak_ratio(&self) -> f64 {
+    fn peak_ratio(&self) -> f64 {
         let peak = self.rocking.theta.iter().fold(0.0, |peak: f64, x| peak.max(x.abs()));
         Self::ratio(&self.body, &self.rocking, peak)
     }
@@ -57,22 +56,6 @@ impl Solved {
         // it had fallen says nothing
         let theta = if rocking.overturned().is_some() { FRAC_PI_2 } else { peak };
         theta / body.alpha()
-    }
-
-    /// All that it is made of.
-    pub(crate) fn numbers(&self) -> SolvedNumbers<'_> {
-        let (b, r) = (&self.body, &self.rocking);
-        let impacts = |pick: fn(&Impact<f64>) -> f64| r.impacts.iter().map(pick).collect();
-        let uplifts = |pick: fn(&Uplift<f64>) -> f64| r.uplifts.iter().map(pick).collect();
-        let events = [
-            impacts(|i| i.time),
-            impacts(|i| i.rate_before),
-            impacts(|i| i.rate_after),
-            uplifts(|u| u.time),
-            uplifts(|u| u.side),
-        ];
-        let body = [b.mass, b.half_width, b.height, b.inertia, self.dt];
-        (body, [&r.theta, &r.rate], events, ended(&r.outcome), when(&r.outcome))
     }
 }
 
@@ -88,57 +71,11 @@ pub fn ended(outcome: &RockingOutcome) -> &'static str {
     }
 }
 
-/// When it came to that (s).
-fn when(outcome: &RockingOutcome) -> Option<f64> {
-    match *outcome {
-        RockingOutcome::Rocked | RockingOutcome::NeverMoved => None,
-        RockingOutcome::Overturned { time }
-        | RockingOutcome::LeavesGround { time }
-        | RockingOutcome::WorkBound { time }
-        | RockingOutcome::NotFinite { time } => Some(time),
-    }
-}
-
-/// The outcome of a name.
-fn outcome(name: &str, time: Option<f64>) -> Option<RockingOutcome> {
-    Some(match (name, time) {
-        ("rocked", None) => RockingOutcome::Rocked,
-        ("never_lifted", None) => RockingOutcome::NeverMoved,
-        ("overturned", Some(time)) => RockingOutcome::Overturned { time },
-        ("leaves_ground", Some(time)) => RockingOutcome::LeavesGround { time },
-        ("work_bound", Some(time)) => RockingOutcome::WorkBound { time },
-        ("not_finite", Some(time)) => RockingOutcome::NotFinite { time },
-        _ => return None,
-    })
-}
-
-/// A history as it is pickled: body and dt; theta and rate; times and rates of impacts, times and
-/// sides of uplifts; outcome and its time.
-type Filed<'py> = ([f64; 5], Bound<'py, PyAny>, Bound<'py, PyAny>, [Vec<f64>; 5], String, Option<f64>);
-
-/// A history that was pickled.
-#[pyfunction]
-pub fn _history(filed: Filed<'_>) -> PyResult<History> {
-    let ([mass, half_width, height, inertia, dt], theta, rate, events, name, time) = filed;
-    let [at, before, after, lifted, side] = events;
-    let impacts = at.iter().zip(&before).zip(&after);
-    let impacts = impacts.map(|((&time, &rate_before), &rate_after)| Impact { time, rate_before, rate_after });
-    let uplifts = lifted.iter().zip(&side).map(|(&time, &side)| Uplift { time, side });
-    let rocking = Rocking {
-        theta: numbers::row(&theta, "theta", "rad")?,
-        rate: numbers::row(&rate, "rate", "rad/s")?,
-        impacts: impacts.collect(),
-        uplifts: uplifts.collect(),
-        outcome: outcome(&name, time).ok_or_else(|| value_error(format!("_history: outcome is {name:?}")))?,
-    };
-    Ok(History::new(Body { mass, half_width, height, inertia }, dt, rocking))
-}
-
 /// A history of rigid rocking at the record's samples, cut where the body lies flat.
 #[pyclass(frozen, module = "groundspring")]
 pub struct History {
-    pub(crate) all: Arc<Vec<Solved>>,
-    pub(crate) index: usize,
+    all: Arc<Vec<Solved>>,
+    index: usize,
 }
 
 impl History {
@@ -146,7 +83,7 @@ impl History {
         Self { all: Arc::new(vec![Solved::new(body, dt, rocking)]), index: 0 }
     }
 
-    pub(crate) fn one(&self) -> &Solved {
+    pub fn one(&self) -> &Solved {
         &self.all[self.index]
     }
 }
@@ -273,6 +210,80 @@ impl History {
     }
 }
 
+/// Many histories: a sequence of `History`.
+#[pyclass(frozen, sequence, module = "groundspring")]
+pub struct Histories(pub Arc<Vec<Solved>>);
+
+#[pymethods]
+impl Histories {
+    fn __len__(&self) -> usize {
+        self.0.len()
+    }
+
+    fn __getitem__(&self, index: isize) -> PyResult<History> {
+        let n = self.0.len();
+        let at = if index < 0 { index + n as isize } else { index };
+        if !(0..n as isize).contains(&at) {
+            return Err(PyIndexError::new_err(format!("there are {n} histories, none of index {index}")));
+        }
+        Ok(History { all: self.0.clone(), index: at as usize })
+    }
+
+    /// Largest |theta|/alpha of each, without unit; pi/2 / alpha where the body overturned.
+    #[getter]
+    fn peak_ratio<'py>(&self, py: Python<'py>) -> Array<'py> {
+        PyArray1::from_iter(py, self.0.iter().map(Solved::peak_ratio))
+    }
+
+    /// Whether each overturned.
+    #[getter]
+    fn overturned<'py>(&self, py: Python<'py>) -> Bound<'py, PyArray1<bool>> {
+        PyArray1::from_iter(py, self.0.iter().map(|solved| solved.rocking.overturned().is_some()))
+    }
+
+    /// A row a history: outcome, largest |theta|/alpha, impacts, when it overturned, s,
+    /// samples.
+    fn to_pandas<'py>(slf: &Bound<'py, Self>) -> PyResult<Bound<'py, PyAny>> {
+        slf.py().import("groundspring._tables")?.call_method1("histories", (slf,))
+    }
+
+    /// For notebooks.
+    fn _repr_html_<'py>(slf: &Bound<'py, Self>) -> PyResult<Bound<'py, PyAny>> {
+        slf.py().import("groundspring._html")?.call_method1("histories", (slf,))
+    }
+
+    fn __eq__(&self, other: &Bound<'_, PyAny>) -> bool {
+        let same = |(a, b): (&Solved, &Solved)| a.numbers() == b.numbers();
+        other.cast::<Self>().is_ok_and(|other| {
+            let (a, b) = (&self.0, &other.get().0);
+            a.len() == b.len() && a.iter().zip(b.iter()).all(same)
+        })
+    }
+
+    fn __hash__(&self) -> u64 {
+        hashed("", self.0.iter().filter_map(|solved| solved.rocking.theta.last()))
+    }
+
+    fn __copy__(slf: Bound<'_, Self>) -> Bound<'_, Self> {
+        slf
+    }
+
+    fn __deepcopy__<'py>(slf: Bound<'py, Self>, _memo: &Bound<'py, PyAny>) -> Bound<'py, Self> {
+        slf
+    }
+
+    fn __reduce__<'py>(slf: &Bound<'py, Self>) -> PyResult<(Bound<'py, PyAny>, (Vec<History>,))> {
+        let all = &slf.get().0;
+        let each = (0..all.len()).map(|index| History { all: all.clone(), index });
+        Ok((slf.py().import("groundspring._restore")?.getattr("histories")?, (each.collect(),)))
+    }
+
+    fn __repr__(&self) -> String {
+        let overturned = self.0.iter().filter(|solved| solved.rocking.overturned().is_some()).count();
+        format!("Histories({}, {overturned} overturned)", self.0.len())
+    }
+}
+
 /// Housner's solution for a structure on a record.
 ///
 /// vertical  ground acceleration at the same times, positive upwards, if not that of the
@@ -376,24 +387,4 @@ fn pairs(structures: &[Structure], record: &Record, scales: &[f64], restitution:
         }
     });
     Ok((bodies, options.collect()))
-}
-
-/// A length of history (s), in the program's words if it is none.
-pub fn seconds(given: Option<f64>) -> PyResult<Option<f64>> {
-    match given {
-        Some(d) if !(d > 0.0 && d <= LONGEST_S) => {
-            Err(value_error(format!("duration is {d:?}; give seconds greater than zero, at most 1e6")))
-        }
-        given => Ok(given),
-    }
-}
-
-/// A velocity ratio, in the program's words if it is none.
-pub fn ratio(given: Option<f64>) -> PyResult<Option<f64>> {
-    match given {
-        Some(e) if !(0.0..=1.0).contains(&e) => {
-            Err(value_error(format!("restitution is {e:?}; a velocity ratio lies between 0 and 1")))
-        }
-        given => Ok(given),
-    }
 }

@@ -22,8 +22,9 @@ use springs::{
 
 use crate::{
     Array,
+    numbers::ratio,
     record::Record,
-    rocking::{History, ratio},
+    rocking::History,
     said::{one_line, plain, value_error, warn_of},
     springs::Springs,
     structure::Structure,

@@ -196,8 +196,8 @@ pub fn read_parameters(path: PathBuf) -> PyResult<(Structure, Springs)> {
     Ok((structure, Springs { mass, vertical: Chain(vertical), horizontal: Chain(horizontal) }))
 }
 
-/// The standing structure fixed at its feet under 1 m/s2: reactions (H, N) of every foot (N), u' K
-/// u (J), omega (rad/s).
+/// The structure held at its feet under 1 m/s2: reactions (H, N) of every foot (N), u' K u (J),
+/// omega (rad/s).
 type Response = (Vec<[f64; 2]>, f64, f64);
 /// Feet of one rigid part, W by rows (x, z of each; 1/kg), distance of the outer ones (m).
 type Part = (Vec<usize>, Vec<f64>, f64);

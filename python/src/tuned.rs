@@ -12,8 +12,8 @@ use springs::{
 use strong_motion::excitation::Excitation;
 
 use crate::{
+    numbers::seconds,
     record::Record,
-    rocking::seconds,
     said::{one_line, plain, value_error, warn_of},
     simulation::Simulation,
     springs::Springs,

@@ -10,8 +10,8 @@ use springs::validate::{self as core, Validator};
 use strong_motion::{ReadOptions, RecordError};
 
 use crate::{
+    numbers::{ratio, seconds},
     record::Record,
-    rocking::{ratio, seconds},
     said::{plain, value_error, warn},
     springs::Springs,
     structure::Structure,

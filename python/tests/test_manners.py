@@ -182,7 +182,7 @@ def test_a_table_of_many_is_that_of_each_history() -> None:
         overturned = np.nan if one.overturned is None else one.overturned
         assert np.array_equal(table["overturned_time"][row], overturned, equal_nan=True)
     assert list(table["scale"][:3]) == [0.5, 1.0, 3.0] and list(table["structure"]) == [0] * 3 + [1] * 3 + [0] * 3 + [1] * 3
-    with pytest.raises(KeyError, match="there is no column \"nothing\"; there are structure, record"):
+    with pytest.raises(KeyError, match='there is no column "nothing"; there are structure, record'):
         table["nothing"]
     with pytest.raises(ValueError, match="2 records and 3 vertical ones"):
         gs.rocking(BLOCK, records, vertical=[RECORD] * 3)

@@ -1,0 +1,111 @@
+"""The post-tensioned wall of example (f), and a frame on soft columns, on the springs that springs_for gives."""
+
+import math
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+import pytest
+from conftest import load
+from test_feet import soft_frame
+
+import groundspring as gs
+from groundspring.opensees import Stepper, add_feet, springs_for
+
+ROOT = Path(__file__).parent.parent.parent
+wall: Any = load(ROOT / "python" / "examples" / "rocking_wall.py")
+
+
+def kaikoura() -> gs.Record:
+    """15 s about the strongest shaking at Te Mara Farm, 2016."""
+    record = gs.read_record(ROOT / "tests" / "records" / "20161113_110259_WTMC_20.V2A", component=332)
+    peak = int(np.argmax(np.abs(record.accel)))
+    begin, end = peak - round(8.0 / record.dt), peak + round(7.0 / record.dt)
+    return gs.Record(record.dt, record.accel[begin:end], "Kaikoura")
+
+
+RECORDS = {"El Centro x 2": gs.el_centro().truncated(15.0).scaled(2.0), "Kaikoura": kaikoura()}
+
+
+@pytest.mark.parametrize("name", RECORDS)
+def test_the_walls_uplift_does_not_move_on_eight_times_stiffer_springs(name: str, ops: Any) -> None:
+    measured, stiffer = (wall.shake(RECORDS[name], factor) for factor in (1.0, 8.0))
+    uplift, roof = measured.feet.uplift.max(), np.abs(measured.roof).max()
+    print(uplift, roof, measured.stepper.report())
+    assert stiffer.feet.uplift.max() == pytest.approx(uplift, rel=0.02) and uplift > 5e-3
+    assert np.abs(stiffer.roof).max() == pytest.approx(roof, rel=0.02)
+    assert measured.stepper.steps.taken <= 60_000 and measured.stepper.steps.late == 0
+
+
+def two_storeys(ops: Any) -> list[int]:
+    """Example (b), whose feet are not tied."""
+    load(ROOT / "python" / "examples" / "two_storey_frame.py").build()
+    return [1, 2]
+
+
+FRAMES = {"two storeys": two_storeys, "three tied feet": lambda ops: soft_frame(ops, 3, tied=True)}
+
+
+@pytest.mark.parametrize("name", RECORDS)
+@pytest.mark.parametrize("frame", FRAMES)
+def test_the_same_of_frames_on_soft_columns(name: str, frame: str, ops: Any) -> None:
+    uplifts = []
+    for factor in (1.0, 8.0):
+        ops.wipe()
+        nodes = FRAMES[frame](ops)
+        stepper = Stepper(ops, add_feet(ops, nodes, springs_for(ops, nodes).stiffer(factor)), longest=RECORDS[name].dt / 4)
+        stepper.gravity()
+        uplifts.append(stepper.run(RECORDS[name]).uplift.max())
+        assert stepper.steps.taken <= 60_000
+    print(uplifts)
+    assert uplifts[1] == pytest.approx(uplifts[0], rel=0.02) and uplifts[0] > 5e-3
+
+
+def test_the_wall_begins_to_lift_at_the_acceleration_of_statics(ops: Any) -> None:
+    """Under a ramp: sum m_i h_i a = (W + T) b about a toe, the bars without a force yet."""
+    rate = 0.4  # m/s3
+    t = np.arange(0.0, 20.0, 0.01)
+    response = wall.shake(gs.Record(0.01, -rate * t, "ramp"))
+    weight, pull = response.stepper.weight, response.stepper.prestress
+    assert weight == pytest.approx(9.81 * (4 * wall.FLOOR + 2 * wall.TOE), rel=1e-6)
+    moment = wall.FLOOR * sum(wall.STOREY * i for i in range(1, 5))
+    by_hand = (weight + pull) * wall.HALF / moment
+    lifted = int(np.argmax(response.feet.gap.max(axis=1) > 1e-6))
+    assert rate * t[lifted] == pytest.approx(by_hand, rel=0.02)
+    assert abs(response.bar[0]) < 1e-3 and np.abs(response.bar[: lifted - 50]).max() < 0.02 * wall.BAR_AREA * wall.BAR_YIELD
+
+
+def test_the_wall_comes_back_and_its_bars_have_dissipated(ops: Any) -> None:
+    response = wall.shake(wall.with_rest(RECORDS["El Centro x 2"], 5.0))
+    loop = float(np.sum(0.5 * (response.bar[1:] + response.bar[:-1]) * np.diff(response.stretch)))
+    yielded = wall.BAR_AREA * wall.BAR_YIELD
+    assert np.abs(response.bar).max() > yielded and loop > yielded * response.stretch.max()
+    assert np.abs(response.roof[-100:]).max() < 0.02 * np.abs(response.roof).max()
+
+
+def test_what_is_put_in_with_the_length_of_the_unloaded_wall_is_told(ops: Any) -> None:
+    wall.build()
+    stepper = Stepper(ops, add_feet(ops, [wall.LEFT, wall.RIGHT], springs_for(ops, [wall.LEFT, wall.RIGHT])))
+    stepper.gravity()
+    ops.uniaxialMaterial("Steel02", 3, wall.BAR_YIELD, 200e9, 0.02, 18.0, 0.925, 0.15)
+    ops.element("corotTruss", 70, 40, 30, wall.BAR_AREA, 3)
+    with pytest.warns(gs.GroundspringWarning, match=r"element 70 \(CorotTruss\) was put in after gravity\(\) and carries 449"):
+        stepper.run(gs.Record(0.01, np.zeros(3)))
+
+
+def test_halved_steps_and_springs_come_as_a_table(ops: Any) -> None:
+    record = RECORDS["El Centro x 2"].truncated(4.0)
+    wall.build()
+    nodes = [wall.LEFT, wall.RIGHT]
+    stepper = Stepper(ops, add_feet(ops, nodes, springs_for(ops, nodes)), longest=record.dt / 4)
+    stepper.gravity()
+    quantities = {"roof": lambda: ops.nodeDisp(wall.TOP, 1), "tendon": wall.tendon}
+    found = stepper.converged(record, wall.build, quantities, after=wall.dissipaters)
+    print(found)
+    assert found.names == ("uplift", "roof", "tendon") and len(found.rows) == 5
+    assert found.largest < 0.02 and found.sensitivity < 1e-4
+    assert str(found).splitlines()[0].split() == ["steps", "uplift", "roof", "tendon"]
+    assert found.to_pandas().shape == (5, 7) and "\n" not in repr(found) and found._repr_html_().startswith("<table>")
+    assert math.isclose(found.rows[0].values[0], found.to_pandas()["uplift"].iloc[0])
+    with pytest.raises(ValueError, match="a quantity is not a function"):
+        stepper.converged(record, wall.build, {"roof": 1.0})  # type: ignore[dict-item]
