@@ -97,6 +97,7 @@ function showSaid(said, ofRun = false) {
   const h = said.history, w = said.working;
   h.rigid = w.frequency_hz === undefined;
   h.uplift_g = w.uplift_g;
+  h.least = 2e-4 * w.height_m;
   // beyond the height the top lies on the ground
   h.limit = said.does === "overturns" ? 1.2 * Math.sin(Math.min(1.5, w.alpha)) * 2 * w.radius_m : undefined;
   last = said;
@@ -109,11 +110,12 @@ function showSaid(said, ofRun = false) {
   const share = said.does === "overturns" ? 1 : (said.share_of_overturning ?? 0);
   $("gauge-fill").style.width = `${Math.min(100, 100 * share)}%`;
   $("gauge").setAttribute("aria-label", said.does === "overturns" ? "It overturns" : `Largest rotation: ${digits(100 * share, 3)} % of what overturns it`);
-  const p = said.peaks?.with_members ?? said.peaks?.springs, small = (x) => withUnit(x, "small", 3);
+  const p = said.peaks?.with_members ?? said.peaks?.springs, down = said.does === "stays_down";
+  const small = (x) => (down && x < 1e-5 ? `0 ${unitOf("small").unit}` : withUnit(x, "small", 3));
   const pga = Math.max(...h.ground.accel_g.map(Math.abs)), until = said.does === "overturns" ? "before it falls" : "";
   const tiles = [
     ["largest rotation", said.does === "overturns" ? "100 %" : `${digits(100 * share, 3)} %`, "of overturning"],
-    ["top moves", p ? small(p.top_displacement_m) : "-", until || (p && p.drift_ratio ? `${digits(100 * p.drift_ratio, 3)} % of the height` : "")],
+    ["top moves", p ? small(p.top_displacement_m) : "-", until || (p && !down ? `${digits(100 * p.drift_ratio, 3)} % of the height` : "")],
     ["a foot lifts", p ? small(p.uplift_m) : "-", until],
     ["impacts", p ? String(p.impacts) : "-", "times a foot lands"],
     ["lifts at", `${digits(w.uplift_g, 3)} g`, `the ground has ${digits(pga, 3)} g`],
@@ -181,13 +183,14 @@ async function fixedStep() {
   try {
     const f = JSON.parse((await quick.call("fixed_step", caseText(), step, $("integrator").value)).answer);
     const percent = (x) => `${E(100 * x, 2)} %`;
-    $("fixed").innerHTML = `${springsTable(f.springs, "each foot")}<p class="small">On this record: ${escape(f.outcome)}${f.nrmse === null ? "" : `, error of the history ${percent(f.nrmse)} (NRMSE)`}; largest rotation ${percent(f.peak_ratio[0])} of overturning, Housner's ${percent(f.peak_ratio[1])}. Expected on other motions: median ${percent(f.median)}, nine in ten below ${percent(f.ninety)}; the step alone makes ${percent(f.floor)}. Newton's iteration to increments of ${E(f.tolerance_m, 3)} m; rotational inertia of the model ${E(f.rotational_inertia_kgm2)} kg m². ${E(f.steps)} steps.</p>`;
+    $("fixed").innerHTML = `${springsTable(f.springs, "each foot", "Springs for fixed steps")}<p class="small">On this record: ${escape(f.outcome)}${f.nrmse === null ? "" : `, error of the history ${percent(f.nrmse)} (NRMSE)`}; largest rotation ${percent(f.peak_ratio[0])} of overturning, Housner's ${percent(f.peak_ratio[1])}. Expected on other motions: median ${percent(f.median)}, nine in ten below ${percent(f.ninety)}; the step alone makes ${percent(f.floor)}. Newton's iteration to increments of ${E(f.tolerance_m, 3)} m; rotational inertia of the model ${E(f.rotational_inertia_kgm2)} kg m². ${E(f.steps)} steps.</p>`;
   } catch (error) { if (error.message !== "stopped") $("fixed").innerHTML = `<p class="error">${escape(error.message)}</p>`; }
 }
 
 // ---- charts that fill in, a few histories at a time, so that sliders go before
 const spread = (low, high, n, log) => Array.from({ length: n }, (_, i) => (log ? low * (high / low) ** (i / (n - 1)) : low + ((high - low) * i) / (n - 1)));
 async function charts(of) {
+  while (asking) await new Promise((go) => setTimeout(go, 20));
   const w = last?.working;
   if (!w) return;
   const text = caseText(), stale = () => of !== version;

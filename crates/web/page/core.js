@@ -7,7 +7,7 @@ const LENGTH = "length", MASS = "mass";
 const KINDS = {
   block: { title: "block", width: "w", fields: {
     h: { key: "total_height_m", name: "height of the whole block", unit: LENGTH, least: 0.1, most: 60, start: 1.9 },
-    w: { key: "width_m", name: "width", unit: LENGTH, least: 0.03, most: 40, start: 0.6 },
+    w: { key: "width_m", name: "width", unit: LENGTH, least: 0.03, most: 40, start: 0.5 },
     m: { key: "mass_kg", name: "mass", unit: MASS, least: 1, most: 1e7, start: 250 } } },
   aframe: { title: "A-frame", width: "w", fields: {
     h: { key: "height_m", name: "height of the mass", unit: LENGTH, least: 0.3, most: 200, start: 61 },

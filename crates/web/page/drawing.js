@@ -17,7 +17,7 @@ const turned = ([x, y], half, centre, theta) => {
   return [px + (x - px) * c + y * s, y * c - (x - px) * s];
 };
 function drawStructure(history, at, peakShare, alpha) {
-  const svg = $("drawing"), W = 280, H = 330;
+  const svg = $("drawing"), W = 280, H = 340;
   svg.setAttribute("viewBox", `0 0 ${W} ${H}`);
   svg.replaceChildren();
   const v = Object.fromEntries(Object.keys(fields()).map((name) => [name, value(name)]));
@@ -72,7 +72,7 @@ function drawStructure(history, at, peakShare, alpha) {
   svg.append(label);
   const accel = history ? history.ground.accel_g[Math.min(history.ground.accel_g.length - 1, Math.round(at * history.step_s / history.ground.step_s))] : 0;
   const arrow = Math.max(-60, Math.min(60, (accel / Math.max(history?.uplift_g ?? 1, 0.05)) * 22));
-  if (Math.abs(arrow) > 3) svg.append(SVG("path", { d: `M${middle} 318h${arrow.toFixed(1)}m${arrow > 0 ? -6 : 6} -4l${arrow > 0 ? 6 : -6} 4 ${arrow > 0 ? -6 : 6} 4`, stroke: css("--ok"), "stroke-width": 2, fill: "none" }));
-  if (history) text(8, 322, `ground ${digits(accel, 2)} g`, "start");
+  if (Math.abs(arrow) > 3) svg.append(SVG("path", { d: `M${middle} 331h${arrow.toFixed(1)}m${arrow > 0 ? -6 : 6} -4l${arrow > 0 ? 6 : -6} 4 ${arrow > 0 ? -6 : 6} 4`, stroke: css("--ok"), "stroke-width": 2, fill: "none" }));
+  if (history) text(8, 335, `ground ${digits(accel, 2)} g`, "start");
   $("drawing-caption").textContent = `Drawn at scale${history ? `, its motion ${by === 1 ? "as it is" : `${by} times as large`}` : ""}. Under each ${state.kind === "pier" || state.kind === "frame" ? "corner" : "foot"}: ground springs, a numerical contact, not soil.`;
 }

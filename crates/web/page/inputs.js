@@ -6,7 +6,7 @@ const fromSlide = (s, { least, most }) => Number((least * (most / least) ** s).t
 function field(name, of, get, set) {
   const unit = unitOf(of.unit), box = document.createElement("div");
   box.className = "field";
-  const inUnit = (x) => Number((x * unit.by).toPrecision(7));
+  const inUnit = (x) => Number((x * unit.by).toPrecision(unit.by === 1 ? 9 : 5));
   box.innerHTML = `<div class="top"><label for="n-${name}">${of.name}</label><span class="number"><input type="number" id="n-${name}" step="any" min="${digits(of.least * unit.by, 6).replace(/ /g, "")}" max="${digits(of.most * unit.by, 6).replace(/ /g, "")}"><b>${unit.unit}</b></span></div><input type="range" id="s-${name}" min="0" max="1" step="0.002" aria-label="${of.name}, slider">`;
   const number = box.querySelector("[type=number]"), slider = box.querySelector("[type=range]");
   const show = (skip) => {

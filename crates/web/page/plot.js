@@ -65,18 +65,19 @@ function plotTop(history, now) {
   const on = canvasOf("plot-top"), { c } = on, { by, unit } = unitOf("small");
   const all = [...history.springs.top, ...(history.reference?.top ?? [])].map(Math.abs);
   // a body that falls leaves the plot
-  const limit = Math.max(1e-9, Math.min(Math.max(...all), history.limit ?? Infinity)) * by * 1.1;
+  const limit = Math.max(history.least, Math.min(Math.max(...all), history.limit ?? Infinity)) * by * 1.1;
   const end = Math.max(history.ground.step_s * (history.ground.accel_g.length - 1), history.step_s);
-  const { px, py, left, right, top, bottom } = axes(on, { x: [0, end], y: [-limit, limit], xTicks: ticks(0, end, 8), yTicks: ticks(-limit, limit, 5), yName: `top displacement, ${unit}`, bottom: 20 });
+  const { px, py, left, right, top, bottom } = axes(on, { x: [0, end], y: [-limit, limit], xTicks: ticks(0, end, 8), yTicks: ticks(-limit, limit, 5), yName: on.width < 460 ? `top, ${unit}` : `top displacement, ${unit}`, bottom: 20 });
   c.save(); c.beginPath(); c.rect(left, top, right - left, bottom - top); c.clip();
   line(c, seriesPoints(history.springs.top, history.step_s, px, py, by), css("--blue"), { wide: 1.8 });
   if (history.reference) line(c, seriesPoints(history.reference.top, history.step_s, px, py, by), css("--ref"), { dash: [5, 4], wide: 1.3 });
   line(c, [[px(now), top], [px(now), bottom]], css("--ink"), { wide: 1 });
   c.restore();
   c.textBaseline = "top"; c.textAlign = "right";
-  c.fillStyle = css("--blue"); c.fillText("finite elements on springs", right, 0);
-  const w = c.measureText("finite elements on springs").width;
-  if (history.reference) { c.fillStyle = css("--ref"); c.fillText(history.rigid ? "Housner (dashed)" : "rigid ground (dashed)", right - w - 14, 0); }
+  const narrow = on.width < 460, springs = narrow ? "on springs" : "finite elements on springs", other = history.rigid ? "Housner" : "rigid ground";
+  c.fillStyle = css("--blue"); c.fillText(springs, right, 0);
+  const w = c.measureText(springs).width;
+  if (history.reference) { c.fillStyle = css("--ref"); c.fillText(narrow ? other : `${other} (dashed)`, right - w - 10, 0); }
 }
 function plotGround(history, now) {
   const on = canvasOf("plot-ground"), { c } = on, { step_s, accel_g } = history.ground;
