@@ -1,5 +1,5 @@
-//! Files given as bytes, for where there is no file system: a page in a browser. They go before files
-//! of the same path.
+//! Files given as bytes, for where there is no file system: a page in a browser. They go before
+//! files of the same path.
 
 use std::{
     collections::BTreeMap,

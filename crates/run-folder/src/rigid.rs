@@ -85,7 +85,8 @@ pub fn save(rigid: &RigidRun, out: &Path, output: Output) -> Result<Vec<String>,
     Ok(left_out)
 }
 
-/// Everything that [`save`] writes but figures, as texts; `out` is the folder that paths start from.
+/// Everything that [`save`] writes but figures, as texts; `out` is the folder that paths start
+/// from.
 ///
 /// # Errors
 /// A deck that cannot be made.

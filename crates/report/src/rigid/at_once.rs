@@ -1,5 +1,5 @@
-//! What is said of a rigid body on springs that were not searched for: within milliseconds, for where
-//! somebody turns the numbers.
+//! What is said of a rigid body on springs that were not searched for: within milliseconds, for
+//! where somebody turns the numbers.
 
 use super::{alone, peaks, taken};
 use crate::{Run, doubts, filed, reference, reference::HousnerReport};
