@@ -55,7 +55,6 @@ for (let i = 0; i < 5; i++) {
   await page.context().close();
 }
 check(median(firsts) < 1000, `first history drawn after ${median(firsts).toFixed(0)} ms (below 1000)`);
-check(quantile(paints, 0.9) <= Number(process.env.PAINT_MS ?? 60), `slider to paint: median ${median(paints).toFixed(0)} ms, 90 % within ${quantile(paints, 0.9).toFixed(0)} ms (60)`);
 // on a busy machine both take longer: the program itself, on one thread, tells by how much
 const natively = [0, 1, 2].map(() => {
   const dir = fs.mkdtempSync(path.join(os.tmpdir(), "page-")), began = performance.now();
@@ -64,6 +63,8 @@ const natively = [0, 1, 2].map(() => {
   fs.rmSync(dir, { recursive: true });
   return performance.now() - began;
 });
+const paint = Math.max(60, 0.065 * median(natively));
+check(quantile(paints, 0.9) <= paint, `slider to paint: median ${median(paints).toFixed(0)} ms, 90 % within ${quantile(paints, 0.9).toFixed(0)} ms (60; now ${paint.toFixed(0)})`);
 const limit = Math.max(2000, 4 * median(natively));
 check(median(tunes) <= limit, `the whole run: ${median(tunes).toFixed(0)} ms (2000, or four times the program's own on one thread, now ${median(natively).toFixed(0)} ms)`);
 check(Math.max(...memories) <= 32 * 2 ** 20, `memory of one worker: ${(Math.max(...memories) / 2 ** 20).toFixed(1)} MiB (32)`);
