@@ -1,12 +1,12 @@
 #!/usr/bin/env python3
 """What `tune run --step` promises of springs for programs with fixed time steps, beside what OpenSees finds.
 
-    program_springs.py target/release/tune [--motions 48] [--opensees 8] [--only NAME,...]     exit code 1 if a promise is missed
+    program_springs.py target/release/tune [--motions 48] [--opensees 8] [--only NAME,...]
 
-For ten structures that no number in the program was chosen with, three steps and three integrators: springs and promise of `tune run
---no-record`, then the error of the model beside Housner's history on well-conditioned synthetic motions of another seed, emulated and in
-OpenSees at a constant step. Errors are medians of the normalised root mean square of u, in units of p dt. Needs openseespy, and
-`cargo build --release -p fixed-steps --example fixed_steps`.
+Exit code 1 if a promise is missed. For ten structures that no number in the program was chosen with, three
+steps and three integrators: springs and promise of `tune run --no-record`, then the error of the model beside
+Housner's history on well-conditioned synthetic motions of another seed, emulated and in OpenSees at a constant
+step. Errors are medians of the normalised root mean square of u, in units of p dt. Needs openseespy, and `cargo build --release -p fixed-steps --example fixed_steps`.
 """
 import argparse, json, math, os, pathlib, subprocess, sys, tempfile
 
@@ -40,8 +40,9 @@ def tuned(tune, structure, step, integrator):
         case = pathlib.Path(folder) / "case.toml"
         case.write_text("[structure]\n" + "".join(f"{key} = {json.dumps(value)}\n" for key, value in structure.items()))
         out = pathlib.Path(folder) / "out"
-        subprocess.run([tune, "run", case, "--no-record", "--no-report", "--quiet", "--step", str(step), "--integrator", integrator, "--out", out],
-                       check=True, capture_output=True)
+        asked = ["--step", str(step), "--integrator", integrator]
+        command = [tune, "run", case, "--no-record", "--no-report", "--quiet", *asked, "--out", out]
+        subprocess.run(command, check=True, capture_output=True)
         return json.loads((out / "parameters.json").read_text())
 
 

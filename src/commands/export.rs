@@ -14,7 +14,7 @@ use run_folder::{
     place::file_in,
     place::write_file,
 };
-use springs::parameters::{Parameters, elastic::ElasticParameters};
+use springs::parameters::{Parameters, elastic::ElasticParameters, program::ProgramRow};
 use strong_motion::Record;
 
 /// Options of `tune export`.
@@ -50,7 +50,7 @@ pub fn run(o: &ExportOptions) -> Result<(), CommandError> {
         Some(parameters) => elastic(o, &parameters)?,
         None => {
             let (parameters, record, line) = read(&o.parameters, &o.record)?;
-            match stepping(o, parameters.program.as_ref().and_then(|program| program.name.as_deref())) {
+            match stepping(o, parameters.program.as_ref()) {
                 Stepping::Events => (deck_of(&parameters, &record, o.format, o.accuracy)?, line),
                 stepping => told(stepped_deck(&parameters, &record, o.format, stepping)?, line),
             }
@@ -61,9 +61,9 @@ pub fn run(o: &ExportOptions) -> Result<(), CommandError> {
     Ok(())
 }
 
-/// How the deck steps, its springs being for a program of this name.
-fn stepping(o: &ExportOptions, program: Option<&str>) -> Stepping {
-    let csi = o.format == DeckFormat::Sap2000 && matches!(program, Some("sap2000" | "etabs"));
+/// How the deck steps, there being springs for this program.
+fn stepping<U>(o: &ExportOptions, program: Option<&ProgramRow<U>>) -> Stepping {
+    let csi = o.format == DeckFormat::Sap2000 && program.is_some_and(ProgramRow::is_csi);
     o.stepping.unwrap_or(if csi { Stepping::Even } else { Stepping::Events })
 }
 
@@ -79,8 +79,7 @@ fn elastic(o: &ExportOptions, parameters: &ElasticParameters) -> Result<(String,
     let excitation = o.record.excitation(|| parameters.excitation(&o.parameters))?;
     let record = excitation.used()?;
     let assembled = parameters.assembled().map_err(|e| CommandError::Result(e.to_string()))?;
-    let name = parameters.program.as_ref().and_then(|program| program.name.as_deref());
-    match (stepping(o, name), &parameters.program) {
+    match (stepping(o, parameters.program.as_ref()), &parameters.program) {
         (Stepping::Events, _) => {}
         (Stepping::Even, Some(program)) => {
             let deck = stepped_deck_of(&assembled, program, &record, o.format)?;

@@ -193,7 +193,10 @@ impl SteppedDeck {
     /// The text, and a line for the user if the deck ends before the record.
     pub fn told(self, name: &str) -> (String, Option<String>) {
         let line = self.gives_up_s.map(|time| {
-            format!("{name} ends at {time:.2} s, where the emulation of its steps gives up: take another integrator or a shorter step")
+            format!(
+                "{name} ends at {time:.2} s, where the emulation of its steps gives up: take another \
+                 integrator or a shorter step"
+            )
         });
         (self.text, line)
     }

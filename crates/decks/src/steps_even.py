@@ -1,10 +1,11 @@
 class Steps:
     """Steps of one size, as a plain script takes them; a step that Newton's iteration gives up is halved.
 
-    With TOUCHES above 1 a step within which a gap is about to open or close, told from the gap and its rate before it, is
-    taken in so many parts, and so is the step after one in which a contact changed: OpenSees keeps what has converged, so that
-    a step can be divided before it is taken, not after. Always give `analyze` the same number, to the last digit: TRBDF2 and
-    BackwardEuler begin anew with every other one.
+    With TOUCHES above 1 a step within which a gap is about to open or close, told from the gap and
+    its rate before it, is taken in so many parts, and so is the step after one in which a contact
+    changed: OpenSees keeps what has converged, so that a step can be divided before it is taken,
+    not after. Always give `analyze` the same number, to the last digit: TRBDF2 and BackwardEuler
+    begin anew with every other one.
 
     feet      pairs of nodes with a vertical gap between them, closed where the foot is not above the absorber
     taken     steps so far

@@ -1,9 +1,10 @@
 # Steps of one size, as a plain script takes them; a step that Newton's iteration gives up is halved.
 #
-# With touches above 1 a step within which a gap is about to open or close, told from the gap and its rate before it, is taken in so
-# many parts, and so is the step after one in which a contact changed: OpenSees keeps what has converged, so that a step can be divided
-# before it is taken, not after. Always give `analyze` the same number, to the last digit: TRBDF2 and BackwardEuler begin anew with
-# every other one.
+# With touches above 1 a step within which a gap is about to open or close, told from the gap and
+# its rate before it, is taken in so many parts, and so is the step after one in which a contact
+# changed: OpenSees keeps what has converged, so that a step can be divided before it is taken,
+# not after. Always give `analyze` the same number, to the last digit: TRBDF2 and BackwardEuler
+# begin anew with every other one.
 namespace eval steps {
     proc start {nodes landing longest rise {accuracy 0.002}} {
         foreach name {feet size allowed smallest taken refused closed} { variable $name }

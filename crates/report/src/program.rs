@@ -109,8 +109,9 @@ impl ProgramReport {
             units,
             table: table(row),
             stiffer: row.stiffer_for_earthquakes.then_some(
-                "Omega_n is twice that of the closed form: on earthquake-like motions, which sway the structure before it lifts, \
-                 such springs are better by more than they lose on pulses, and this integrator ends the motions that they ring in.",
+                "Omega_n is twice that of the closed form: on earthquake-like motions, which sway the \
+                 structure before it lifts, such springs are better by more than they lose on pulses, \
+                 and this integrator ends the motions that they ring in.",
             ),
         }
     }
@@ -135,8 +136,9 @@ impl ProgramReport {
             title: format!("Springs for {} with steps of {}", self.program, self.steps),
             text: vec![
                 format!(
-                    "A program with steps of one size lands somewhere within a step, and errs by 13 p dt in the median whatever its \
-                     springs. These are as stiff, and give back as little of a landing, as the step has use for. Set: {}.",
+                    "A program with steps of one size lands somewhere within a step, and errs by 13 p dt in \
+                     the median whatever its springs. These are as stiff, and give back as little of a \
+                     landing, as the step has use for. Set: {}.",
                     set_to.join("; ")
                 ),
                 format!(
@@ -172,7 +174,8 @@ pub(crate) fn lost<U>(row: &ProgramRow<U>, asked: bool) -> Option<Finding> {
     let errors = row.expected.synthetic?;
     let (lost, histories) = (errors.lost, errors.histories);
     let many = lost as f64 > (1.0 - THROUGH) * histories as f64;
-    many.then(|| Finding::ProgramLoses { program: row.program(), step_s: row.step_s, lost, histories, asked })
+    let (program, step_s, csi) = (row.program(), row.step_s, row.is_csi());
+    many.then_some(Finding::ProgramLoses { program, step_s, lost, histories, csi, asked })
 }
 
 /// Largest displacement first: median and what 90 % are below.

@@ -4,6 +4,9 @@
 #![cfg_attr(not(test), deny(clippy::print_stdout, clippy::print_stderr))]
 #![warn(missing_docs)]
 
+// the same bits on every machine
+use elementary as _;
+
 pub mod conditioning;
 pub mod housner;
 pub mod members;

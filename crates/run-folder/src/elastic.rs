@@ -259,8 +259,7 @@ impl ElasticRun {
     /// A deck, and a line for the user if it ends before the record.
     fn deck(&self, format: DeckFormat) -> Result<(String, Option<String>), ExportError> {
         // SAP2000 steps alike: the springs for that
-        let for_csi = |row: &&ProgramRow<CornerUnits>| matches!(row.name.as_deref(), Some("sap2000" | "etabs"));
-        let program = self.parameters.program.as_ref().filter(for_csi);
+        let program = self.parameters.program.as_ref().filter(|row| row.is_csi());
         if let Some(program) = program.filter(|_| format == DeckFormat::Sap2000) {
             return Ok(stepped_deck(&self.assembled, program, &self.record, format)?.told(SAP2000));
         }

@@ -159,8 +159,7 @@ fn run_decks(parameters: &Parameters, record: &Record, both: &ModelComparison) -
     // SAP2000 steps alike: the springs for that, if there are some
     let for_its_steps = |format: DeckFormat| {
         let program = parameters.program.as_ref().filter(|_| format == DeckFormat::Sap2000)?;
-        let csi = matches!(program.name.as_deref(), Some("sap2000" | "etabs"));
-        csi.then(|| Ok(decks::stepped_deck(&parameters, record, format, Stepping::Even)?.told(SAP2000)))
+        program.is_csi().then(|| Ok(decks::stepped_deck(&parameters, record, format, Stepping::Even)?.told(SAP2000)))
     };
     models::decks(|format| {
         let plain = || Ok((decks::export(&parameters, record, &expected, format)?, None));

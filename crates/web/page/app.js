@@ -101,11 +101,11 @@ function showSaid(said, ofRun = false) {
   // beyond the height the top lies on the ground
   h.limit = said.does === "overturns" ? 1.2 * Math.sin(Math.min(1.5, w.alpha)) * 2 * w.radius_m : undefined;
   last = said;
-  const box = $("verdict");
-  box.className = `verdict ${said.does}`;
+  const box = $("verdict"), doubt = said.findings.some((f) => f.finding === "ill_conditioned" || f.finding === "models_disagree");
+  box.className = `verdict ${said.does}${doubt ? " doubt" : ""}`;
   const named = state.rec === "elcentro" ? "El Centro 1940" : state.rec === "pulse" ? `a pulse of ${digits(state.amp)} g and ${digits(state.per)} s` : state.file;
-  $("asked").textContent = `A ${KINDS[state.kind].title} ${withUnit(value("h"), LENGTH)} high, ${withUnit(value("w"), LENGTH)} wide, in ${named}${state.scale === 1 ? "" : ` times ${digits(state.scale)}`}:`;
-  $("word").textContent = WORDS[said.does];
+  $("asked").textContent = `${state.kind === "aframe" ? "An" : "A"} ${KINDS[state.kind].title} ${withUnit(value("h"), LENGTH)} high, ${withUnit(value("w"), LENGTH)} wide, in ${named}${state.scale === 1 ? "" : ` times ${digits(state.scale)}`}:`;
+  $("word").textContent = doubt ? `${WORDS[said.does]} here, by chance` : WORDS[said.does];
   $("sentence").textContent = said.verdict;
   const share = said.does === "overturns" ? 1 : (said.share_of_overturning ?? 0);
   $("gauge-fill").style.width = `${Math.min(100, 100 * share)}%`;
@@ -118,7 +118,7 @@ function showSaid(said, ofRun = false) {
     ["top moves", p ? small(p.top_displacement_m) : "-", until || (p && !down ? `${digits(100 * p.drift_ratio, 3)} % of the height` : "")],
     ["a foot lifts", p ? small(p.uplift_m) : "-", until],
     ["impacts", p ? String(p.impacts) : "-", "times a foot lands"],
-    ["lifts at", `${digits(w.uplift_g, 3)} g`, `the ground has ${digits(pga, 3)} g`],
+    ["lifts at", `${digits(w.uplift_g, 3)} g`, `the ground has ${digits(pga, 3)}\u00a0g`],
     ["restitution", `${digits(w.restitution, 3)} (ratio)`, "speed kept in an impact"],
   ];
   if (typeof p?.bending_m === "number") tiles.splice(2, 0, ["by bending", small(p.bending_m), "of the column"]);
@@ -183,7 +183,7 @@ async function fixedStep() {
   try {
     const f = JSON.parse((await quick.call("fixed_step", caseText(), step, $("integrator").value)).answer);
     const percent = (x) => `${E(100 * x, 2)} %`;
-    $("fixed").innerHTML = `${springsTable(f.springs, "each foot")}<p class="small">On this record: ${escape(f.outcome)}${f.nrmse === null ? "" : `, error of the history ${percent(f.nrmse)} (NRMSE)`}; largest rotation ${percent(f.peak_ratio[0])} of overturning, Housner's ${percent(f.peak_ratio[1])}. Expected on other motions: median ${percent(f.median)}, nine in ten below ${percent(f.ninety)}; the step alone makes ${percent(f.floor)}. Newton's iteration to increments of ${E(f.tolerance_m, 3)} m; rotational inertia of the model ${E(f.rotational_inertia_kgm2)} kg m². ${E(f.steps)} steps.</p>`;
+    $("fixed").innerHTML = `${springsTable(f.springs, "each foot", "Springs for fixed steps")}<p class="small">On this record: ${escape(f.outcome)}${f.nrmse === null ? "" : `, error of the history ${percent(f.nrmse)} (NRMSE)`}; largest rotation ${percent(f.peak_ratio[0])} of overturning, Housner's ${percent(f.peak_ratio[1])}. Expected on other motions: median ${percent(f.median)}, nine in ten below ${percent(f.ninety)}; the step alone makes ${percent(f.floor)}. Newton's iteration to increments of ${E(f.tolerance_m, 3)} m; rotational inertia of the model ${E(f.rotational_inertia_kgm2)} kg m². ${E(f.steps)} steps.</p>`;
   } catch (error) { if (error.message !== "stopped") $("fixed").innerHTML = `<p class="error">${escape(error.message)}</p>`; }
 }
 

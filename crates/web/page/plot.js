@@ -82,7 +82,7 @@ function plotTop(history, now) {
 function plotGround(history, now) {
   const on = canvasOf("plot-ground"), { c } = on, { step_s, accel_g } = history.ground;
   const most = Math.max(1e-9, ...accel_g.map(Math.abs)), end = Math.max(step_s * (accel_g.length - 1), step_s);
-  const { px, py, left, right, top, bottom } = axes(on, { x: [0, end], y: [-most * 1.1, most * 1.1], xTicks: ticks(0, end, 8), yTicks: ticks(-most, most, 2), yName: "ground, g", xName: "time, s", bottom: 20 });
+  const { px, py, left, right, top, bottom } = axes(on, { x: [0, end], y: [-most * 1.1, most * 1.1], xTicks: ticks(0, end, 8), yTicks: ticks(-most, most, 2), yName: "ground, g", xName: "time, s", bottom: 33 });
   line(c, seriesPoints(accel_g, step_s, px, py, 1), css("--grey"), { wide: 1 });
   c.save(); c.setLineDash([3, 3]); c.strokeStyle = css("--ok");
   for (const s of [-1, 1]) { const y = py(s * history.uplift_g); if (y > top && y < bottom) { c.beginPath(); c.moveTo(left, y); c.lineTo(right, y); c.stroke(); } }
@@ -95,13 +95,13 @@ function plotGround(history, now) {
 // ---- peaks over one number: rows of [x, share or null]
 function plotShare(id, rows, { own, xName, logX, range }) {
   const on = canvasOf(id), { c } = on;
-  const { px, py, left, right, top, bottom } = axes(on, { x: range, y: [0, 120], xTicks: logX ? logTicks(...range) : ticks(...range, 6), yTicks: [0, 20, 40, 60, 80, 100], xName, yName: "largest rotation, % of overturning", logX });
+  const { px, py, left, right, top, bottom } = axes(on, { x: range, y: [0, 130], xTicks: logX ? logTicks(...range) : ticks(...range, 6), yTicks: [0, 20, 40, 60, 80, 100], xName, yName: "largest rotation, % of overturning", logX });
   c.fillStyle = css("--badbg"); c.fillRect(left, top, right - left, py(100) - top);
-  c.fillStyle = css("--bad"); c.textAlign = "left"; c.textBaseline = "middle"; c.fillText("falls", left + 5, (top + py(100)) / 2);
+  c.fillStyle = css("--bad"); c.textAlign = "left"; c.textBaseline = "middle"; c.fillText("falls", left + 5, py(121));
   line(c, [[px(own), top], [px(own), bottom]], css("--ink"), { dash: [4, 3], wide: 1.2 });
   for (const [x, share] of rows) {
     c.beginPath();
-    if (share === null) { c.fillStyle = css("--bad"); c.arc(px(x), py(110), 3, 0, 7); } else { c.fillStyle = css("--blue"); c.arc(px(x), py(Math.min(100, 100 * share)), 3, 0, 7); }
+    if (share === null) { c.fillStyle = css("--bad"); c.arc(px(x), py(107), 3, 0, 7); } else { c.fillStyle = css("--blue"); c.arc(px(x), py(Math.min(100, 100 * share)), 3, 0, 7); }
     c.fill();
   }
   let part = [];

@@ -22,9 +22,9 @@ function working(said) {
   }
   return `<ol class="work">${rows.join("")}</ol>`;
 }
-function springsTable(springs, at) {
+function springsTable(springs, at, which = "Springs") {
   const row = (s) => `<tr><th scope="row">${escape(s.name)}</th><td>${E(s.k1_n_per_m)}</td><td>${E(s.k2_n_per_m)}</td><td>${E(s.m2_kg)}</td><td>${E(s.c_ns_per_m)}</td></tr>`;
-  return `<div class="scroll" tabindex="0" role="region" aria-label="Springs at ${escape(at)}"><table><caption class="hidden">Springs at ${escape(at)}</caption><thead><tr><th scope="col">at ${escape(at)}</th><th scope="col">k1, N/m</th><th scope="col">k2, N/m</th><th scope="col">m2, kg</th><th scope="col">c, N s/m</th></tr></thead><tbody>${springs.map(row).join("")}</tbody></table></div>`;
+  return `<div class="scroll" tabindex="0" role="region" aria-label="${which} at ${escape(at)}"><table><caption class="hidden">${which} at ${escape(at)}</caption><thead><tr><th scope="col">at ${escape(at)}</th><th scope="col">k1, N/m</th><th scope="col">k2, N/m</th><th scope="col">m2, kg</th><th scope="col">c, N s/m</th></tr></thead><tbody>${springs.map(row).join("")}</tbody></table></div>`;
 }
 const FORCES = [["column_shear_n", "column shear", "N"], ["column_base_moment_nm", "moment at column base", "N m"], ["column_top_moment_nm", "moment at column top", "N m"], ["axial_n", "axial force", "N"], ["axial_tension_n", "tension", "N"], ["apex_moment_nm", "moment at the apex", "N m"], ["sole_shear_n", "shear at the sole, footing included", "N"], ["sole_vertical_n", "vertical force at the sole, footing included", "N"]];
 function forcesTable(forces) {

@@ -15,7 +15,7 @@ use strong_motion::{ReadOptions, Recording, Source};
 
 /// A component of the record's file.
 #[derive(Serialize)]
-struct ComponentShown {
+struct ComponentChoice {
     /// As a case names it: its name, else its azimuth.
     name: String,
     /// Name and direction.
@@ -33,7 +33,7 @@ pub(crate) struct RecordAnswer {
     name: String,
     /// What the program says of the file.
     notices: Vec<String>,
-    components: Vec<ComponentShown>,
+    components: Vec<ComponentChoice>,
     dt_s: f64,
     /// Of the whole record (s).
     duration_s: f64,
@@ -60,14 +60,14 @@ pub(crate) fn read(case: &AnyCase) -> Result<RecordAnswer, WebError> {
 }
 
 /// What the record's file has to choose from; nothing if it comes from none.
-fn components(source: &Source) -> Result<Vec<ComponentShown>, WebError> {
+fn components(source: &Source) -> Result<Vec<ComponentChoice>, WebError> {
     let Source::File { path, component, units, .. } = source else { return Ok(Vec::new()) };
     // of a table whose unit it does not tell one column was taken: there is nothing to choose
     let options = ReadOptions { component: component.clone(), ..ReadOptions::default() };
     let recording = Recording::read(Path::new(path), &options)
         .or_else(|_| Recording::read(Path::new(path), &ReadOptions { units: Some(*units), ..options }));
     let Ok(recording) = recording else { return Ok(Vec::new()) };
-    let row = |(i, component): (usize, &strong_motion::Component)| ComponentShown {
+    let row = |(i, component): (usize, &strong_motion::Component)| ComponentChoice {
         name: component.name.clone().unwrap_or_else(|| component.direction.to_string()),
         label: component.label(),
         vertical: component.direction == strong_motion::Direction::Vertical,

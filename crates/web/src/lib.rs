@@ -40,9 +40,9 @@ use any_case::AnyCase;
 pub use error::WebError;
 
 /// What a function gives: JSON, or one line on what is wrong.
-pub type JsonAnswer = Result<String, String>;
+pub type JsonOrLine = Result<String, String>;
 
-fn json<T: Serialize>(made: Result<T, WebError>) -> JsonAnswer {
+fn json<T: Serialize>(made: Result<T, WebError>) -> JsonOrLine {
     let made = made.map_err(|e| e.to_string())?;
     serde_json::to_string(&made).map_err(|e| e.to_string())
 }
@@ -72,7 +72,7 @@ pub fn forget_file(name: &str) {
 /// # Errors
 /// What is wrong with the case or the record.
 #[cfg_attr(target_family = "wasm", wasm_bindgen)]
-pub fn read_record(case: &str) -> JsonAnswer {
+pub fn read_record(case: &str) -> JsonOrLine {
     json(AnyCase::of(case).and_then(|case| ground::read(&case)))
 }
 
@@ -82,7 +82,7 @@ pub fn read_record(case: &str) -> JsonAnswer {
 /// # Errors
 /// An amplitude or a period out of range.
 #[cfg_attr(target_family = "wasm", wasm_bindgen)]
-pub fn pulse(amplitude_g: f64, period_s: f64) -> JsonAnswer {
+pub fn pulse(amplitude_g: f64, period_s: f64) -> JsonOrLine {
     ground::pulse(amplitude_g, period_s).map_err(|e| e.to_string())
 }
 
@@ -98,7 +98,7 @@ pub fn pulse_step(period_s: f64) -> f64 {
 /// # Errors
 /// What is wrong with the case or the record.
 #[cfg_attr(target_family = "wasm", wasm_bindgen)]
-pub fn at_once(case: &str, friction: f64) -> JsonAnswer {
+pub fn at_once(case: &str, friction: f64) -> JsonOrLine {
     json(AnyCase::of(case).and_then(|case| at_once::answer(&case, friction)))
 }
 
@@ -107,7 +107,7 @@ pub fn at_once(case: &str, friction: f64) -> JsonAnswer {
 /// # Errors
 /// What is wrong with the case or the record; springs that there are none of.
 #[cfg_attr(target_family = "wasm", wasm_bindgen)]
-pub fn tune(case: &str, friction: f64) -> JsonAnswer {
+pub fn tune(case: &str, friction: f64) -> JsonOrLine {
     json(AnyCase::of(case).and_then(|case| run::tune(&case, friction)))
 }
 
@@ -123,7 +123,7 @@ pub fn run_file(name: &str) -> String {
 /// # Errors
 /// What is wrong with the case, the step or the integrator; an elastic structure.
 #[cfg_attr(target_family = "wasm", wasm_bindgen)]
-pub fn fixed_step(case: &str, step: f64, integrator: &str) -> JsonAnswer {
+pub fn fixed_step(case: &str, step: f64, integrator: &str) -> JsonOrLine {
     json(AnyCase::of(case).and_then(|case| fixed_step::answer(&case, step, integrator)))
 }
 
@@ -134,7 +134,7 @@ pub fn fixed_step(case: &str, step: f64, integrator: &str) -> JsonAnswer {
 /// # Errors
 /// What is wrong with the case, the record or the list.
 #[cfg_attr(target_family = "wasm", wasm_bindgen)]
-pub fn variations(case: &str, asked: &str) -> JsonAnswer {
+pub fn variations(case: &str, asked: &str) -> JsonOrLine {
     json(AnyCase::of(case).and_then(|case| variations::answer(&case, asked)))
 }
 

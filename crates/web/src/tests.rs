@@ -8,7 +8,7 @@ const FRAME: &str = "[structure]\nkind = \"aframe\"\nheight_m = 61.0\nwidth_m = 
 const PIER: &str = "[structure]\nkind = \"pier\"\nheight_m = 12.0\nwidth_m = 4.0\nmass_kg = 600e3\nfooting_mass_kg = 60e3\n\
                     footing_height_m = 1.5\nfrequency_hz = 2.0\ndamping_ratio = 0.02\n[record]\nduration_s = 20.0\n";
 
-fn parsed(answer: JsonAnswer) -> Value {
+fn parsed(answer: JsonOrLine) -> Value {
     serde_json::from_str(&answer.unwrap()).unwrap()
 }
 

@@ -2,7 +2,7 @@
 
 use super::*;
 use dynamics::effort::Effort;
-use fixed_steps::{FixedStepProgram, ProgramName};
+use fixed_steps::{FixedStepProgram, Integrator, ProgramName};
 use springs::{
     parameters::program::ProgramRow,
     tuning::{fixed_steps::ProgramSprings, suite::Suites},
@@ -12,7 +12,9 @@ use springs::{
 fn for_program(name: ProgramName, step: f64) -> Parameters {
     let body = Structure::block(2.0, 0.5, 500.0).unwrap();
     let suites = Suites::of_seed(3, &body.body(), body.body::<f64>().restitution(), None);
-    let program = FixedStepProgram::of(name, step);
+    let csi = name == ProgramName::Sap2000;
+    let integrator = if csi { Integrator::HHT_MOST } else { Integrator::Trbdf2 };
+    let program = FixedStepProgram { integrator, ..FixedStepProgram::of(name, step) };
     let found = ProgramSprings::measured(&body.body(), program, &suites, false, &Effort::unbounded()).unwrap();
     Parameters { program: Some(ProgramRow::from(&found)), ..Parameters::new(body, &springs(4000.0)) }
 }

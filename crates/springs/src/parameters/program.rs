@@ -175,8 +175,16 @@ impl ProgramRow<CornerUnits> {
 impl<U> ProgramRow<U> {
     /// The program in words.
     pub fn program(&self) -> String {
-        let known = self.name.as_deref().and_then(|name| name.parse::<ProgramName>().ok());
-        known.map_or_else(|| "a program".into(), |name| name.words().into())
+        self.known().map_or_else(|| "a program".into(), |name| name.words().into())
+    }
+
+    /// Whether it is SAP2000 or ETABS.
+    pub fn is_csi(&self) -> bool {
+        matches!(self.known(), Some(ProgramName::Sap2000 | ProgramName::Etabs))
+    }
+
+    fn known(&self) -> Option<ProgramName> {
+        self.name.as_deref()?.parse().ok()
     }
 
     /// Its integrator in words: "HHT alpha -1/3".

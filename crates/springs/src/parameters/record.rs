@@ -236,7 +236,8 @@ fn real(path: &Path) -> PathBuf {
 /// but the root is common to both.
 fn way(folder: &Path, file: &Path) -> PathBuf {
     let common = folder.components().zip(file.components()).take_while(|(a, b)| a == b).count();
-    if folder.components().take(common).all(|part| !matches!(part, Component::Normal(_))) {
+    // without a root both start from the same folder
+    if folder.has_root() && folder.components().take(common).all(|part| !matches!(part, Component::Normal(_))) {
         return file.to_owned();
     }
     let up = folder.components().skip(common).map(|_| Component::ParentDir);
@@ -338,6 +339,7 @@ mod tests {
             ("/a/b", "/a/b/x", "x"),
             ("/a/b", "/a/x", "../x"),
             ("/a/b", "/c/x", "/c/x"),
+            ("out", "x", "../x"),
         ] {
             assert_eq!(way(Path::new(folder), Path::new(file)), Path::new(expected), "{folder} {file}");
         }

@@ -176,6 +176,9 @@ pub enum Finding {
         step_s: f64,
         lost: usize,
         histories: usize,
+        /// Whether it is SAP2000 or ETABS, which have no integrator that loses fewer.
+        #[serde(default)]
+        csi: bool,
         asked: bool,
     },
     /// The error asked for takes shorter steps, whatever the springs.

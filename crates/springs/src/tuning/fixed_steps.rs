@@ -2,11 +2,14 @@
 //! as little rebound as the step has use for.
 //!
 //! ```text
-//!   error of a history   floor 13 p dt;   stance 80 (p/(alpha Omega_e))^2;   rebound 20 alpha^3 (v_r/v_n)^2,  v_r/v_n about 0.8 K
+//!   error of a history   floor    13 p dt
+//!                        stance   80 (p/(alpha Omega_e))^2
+//!                        rebound  20 alpha^3 (v_r/v_n)^2,   v_r/v_n about 0.8 K
 //!
 //!   stance  = floor/2  ->  k_e = k1 K/(1 + K) = 12 m p/(alpha^2 dt)
 //!   rebound = floor/2  ->  K = sqrt(13 p dt/(2 20 0.8^2 alpha^3)),  at most 1/4
-//!   units   mu = mu_u(K) M,  C = C_u(K) sqrt(M)  of what lands (`landing::design`); Omega_h/Omega_v at least 4, more under stocky frames
+//!   units   mu = mu_u(K) M,  C = C_u(K) sqrt(M)  of what lands (`landing::design`)
+//!           Omega_h/Omega_v at least 4, more under stocky frames
 //! ```
 //!
 //! The floor is what springs cannot go below (`fixed_steps::expected`): a stance and a rebound

@@ -45,7 +45,10 @@ impl Finding {
             Self::ProgramStepTooLong { longest_s, .. } => {
                 return Some(format!("give --step {longest_s:.1e} or less"));
             }
-            Self::ProgramLoses { .. } => "check that its history ends; else a shorter --step, or --integrator trbdf2",
+            Self::ProgramLoses { csi: true, .. } => "check that its history ends; else give a shorter --step",
+            Self::ProgramLoses { .. } => {
+                "check that its history ends; else a shorter --step, or --integrator backward-euler"
+            }
             Self::ProgramStepForAccuracy { .. } => "take such steps, or substeps at touches: tune export --stepping",
             Self::ProgramRestitution { .. } => "leave the restitution out, or follow touches: OpenSees' deck",
             Self::LandingsUnfinished { .. } => "allow other springs: --max-hz, --accuracy",

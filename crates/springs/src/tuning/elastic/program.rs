@@ -1,8 +1,9 @@
 //! Springs of elastic structures for programs with fixed time steps.
 //!
 //! ```text
-//!   k_e  12 (M/n) p/(alpha^2 dt)     vertical, both springs of a unit in series; n bases; M, p, alpha of the rigid body of the same size
-//!   K    1/4, or 1/10                units of what lands at a corner (`landing::part`), as for steps that follow touches
+//!   k_e  12 (M/n) p/(alpha^2 dt)   vertical, both springs of a unit in series; n bases;
+//!                                  M, p, alpha of the rigid body of the same size
+//!   K    1/4, or 1/10              units of what lands at a corner (`landing::part`)
 //! ```
 //!
 //! The stance of the rigid body is taken (`tuning::fixed_steps`): the structure's own give is not

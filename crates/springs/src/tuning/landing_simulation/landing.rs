@@ -54,7 +54,9 @@ pub(super) struct Left<S> {
 
 /// Time from a lean of phi alpha to the upright, or back, by the small-angle theory (s).
 pub(super) fn quarter(phi: f64, p: f64) -> f64 {
-    (1.0 / (1.0 - phi)).acosh() / p
+    // acosh, which the standard library computes itself, and not alike in every version of it
+    let x = 1.0 / (1.0 - phi);
+    (x + ((x - 1.0) * (x + 1.0)).sqrt()).ln() / p
 }
 
 /// The next peak after phi: 1 - sqrt(1 - e^2 [1 - (1 - phi)^2]).
