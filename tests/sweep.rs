@@ -205,3 +205,17 @@ fn springs_and_manifests_that_a_hand_has_changed_are_refused() {
     again("manifest.json", "\"cells\": ", "\"cells\": 1");
     sweep(dir.path(), "out", &["--no-figures"]);
 }
+
+/// A cell of an overturning spectrum has as many rows as it has intervals: its parts are taken as
+/// they were written, and again by a second run.
+#[test]
+fn an_overturning_spectrum_is_gathered_from_parts_of_any_number_of_rows() {
+    let folder = tempfile::tempdir().unwrap();
+    let spec = fs::read_to_string(concat!(env!("CARGO_MANIFEST_DIR"), "/tuning/sweeps/overturning.toml"));
+    let spec = spec.unwrap().replace("count = 120", "count = 24").replace("count = 600", "count = 60");
+    fs::write(folder.path().join("sweep.toml"), spec).unwrap();
+    sweep(folder.path(), "first", &["--no-figures"]);
+    sweep(folder.path(), "second", &["--no-figures"]);
+    sweep(folder.path(), "second", &["--no-figures"]);
+    same(&folder.path().join("first"), &folder.path().join("second"));
+}
