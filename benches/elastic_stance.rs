@@ -36,7 +36,10 @@ const FRAME: &str = "kind = 'frame'\nheight_m = 8.0\nspan_m = 10.0\nfooting_widt
 fn measure(suite: &ElasticSuite, standing: &Standing, give: f64, k: f64) -> (f64, f64) {
     let measured = suite.measure(&with_k(standing, give, k), Control::search());
     let touches = [measured.releases, measured.motions].into_iter().flatten().map(|e| e.touches);
-    (measured.over(Asked { by: Yardstick::Histories, error: 1.0 }).unwrap_or(f64::NAN), touches.fold(0.0, f64::max))
+    (
+        measured.over(Asked { by: Yardstick::Histories, error: 1.0 }).unwrap_or(f64::NAN),
+        touches.fold(0.0, f64::max),
+    )
 }
 
 fn main() -> Result<(), Box<dyn std::error::Error>> {
@@ -66,13 +69,21 @@ fn main() -> Result<(), Box<dyn std::error::Error>> {
                     *sum += f64::ln(error);
                     cells.push(format!("K {k:.4}: {error:.1e} ({touches:.1})"));
                 }
-                println!("  give {give:.0e}, turn {turn}; error (touches a landing): {}", cells.join(", "));
+                println!(
+                    "  give {give:.0e}, turn {turn}; error (touches a landing): {}",
+                    cells.join(", ")
+                );
             }
         }
     }
     for (sums, turn) in logarithms.iter().zip(TURNS) {
-        let means: Vec<String> = sums.iter().map(|sum| format!("{:.2e}", f64::exp(sum / rows))).collect();
-        println!("turn {turn}: geometric means at scale {} x {FACTORS:?}: {}", BALANCE.scale, means.join(" "));
+        let means: Vec<String> =
+            sums.iter().map(|sum| format!("{:.2e}", f64::exp(sum / rows))).collect();
+        println!(
+            "turn {turn}: geometric means at scale {} x {FACTORS:?}: {}",
+            BALANCE.scale,
+            means.join(" ")
+        );
     }
     Ok(())
 }

@@ -18,10 +18,15 @@ use compare::elements::BenchCase;
 
 fn fem(c: &mut Criterion) {
     let mut group = c.benchmark_group("finite elements");
-    group.warm_up_time(Duration::from_millis(300)).measurement_time(Duration::from_secs(2)).sample_size(30);
+    group
+        .warm_up_time(Duration::from_millis(300))
+        .measurement_time(Duration::from_secs(2))
+        .sample_size(30);
     for bench in [BenchCase::arr(), BenchCase::damped()] {
         for (name, control) in [("default", Control::default()), ("search", Control::search())] {
-            group.bench_function(BenchmarkId::new(bench.name, name), |b| b.iter(|| bench.simulate(black_box(control))));
+            group.bench_function(BenchmarkId::new(bench.name, name), |b| {
+                b.iter(|| bench.simulate(black_box(control)))
+            });
         }
     }
     for hz in [20.0, 80.0, 160.0, 320.0, 1280.0] {
@@ -37,11 +42,15 @@ fn fem(c: &mut Criterion) {
 /// other, and in lanes on one thread.
 fn lanes(c: &mut Criterion) {
     let mut group = c.benchmark_group("lanes");
-    group.warm_up_time(Duration::from_millis(300)).measurement_time(Duration::from_secs(3)).sample_size(20);
+    group
+        .warm_up_time(Duration::from_millis(300))
+        .measurement_time(Duration::from_secs(3))
+        .sample_size(20);
     let threads = rayon::ThreadPoolBuilder::new().num_threads(1).build().expect("a thread");
     for bench in [BenchCase::arr(), BenchCase::plain(160.0), BenchCase::plain(10_240.0)] {
         let control = Control { tolerance: 1e-4, long_steps: true, ..Control::default() };
-        let cases: Vec<Analysis<f64>> = (0..64).map(|i| bench.case(0.8 + f64::from(i) / 128.0, control)).collect();
+        let cases: Vec<Analysis<f64>> =
+            (0..64).map(|i| bench.case(0.8 + f64::from(i) / 128.0, control)).collect();
         ratio(&bench, &cases, &threads);
         group.throughput(Throughput::Elements(64));
         let name = format!("{}, {} Hz", bench.name, bench.springs.vertical.omega_n_hz);
@@ -49,7 +58,9 @@ fn lanes(c: &mut Criterion) {
             let control = Control { long_steps: false, ..control };
             b.iter(|| cases.iter().map(|case| peak(&Analysis { control, ..*case })).sum::<f64>())
         });
-        group.bench_function(BenchmarkId::new(&name, "one by one"), |b| b.iter(|| cases.iter().map(peak).sum::<f64>()));
+        group.bench_function(BenchmarkId::new(&name, "one by one"), |b| {
+            b.iter(|| cases.iter().map(peak).sum::<f64>())
+        });
         group.bench_function(BenchmarkId::new(&name, "side by side"), |b| {
             b.iter(|| threads.install(|| histories(black_box(&cases), |_| Peak(0.0))))
         });
@@ -68,12 +79,20 @@ fn ratio(bench: &BenchCase, cases: &[Analysis<f64>], threads: &rayon::ThreadPool
         black_box(work());
         began.elapsed().as_secs_f64() / cases.len() as f64
     };
-    let every =
-        |case: &Analysis<f64>| peak(&Analysis { control: Control { long_steps: false, ..case.control }, ..*case });
+    let every = |case: &Analysis<f64>| {
+        peak(&Analysis { control: Control { long_steps: false, ..case.control }, ..*case })
+    };
     let samples = || cases.iter().map(every).sum();
     let alone = || cases.iter().map(peak).sum();
-    let lanes = || threads.install(|| histories(black_box(cases), |_| Peak(0.0))).iter().map(|(peak, _)| peak.0).sum();
-    let rounds: Vec<[f64; 3]> = (0..ROUNDS).map(|_| [seconds(&samples), seconds(&alone), seconds(&lanes)]).collect();
+    let lanes = || {
+        threads
+            .install(|| histories(black_box(cases), |_| Peak(0.0)))
+            .iter()
+            .map(|(peak, _)| peak.0)
+            .sum()
+    };
+    let rounds: Vec<[f64; 3]> =
+        (0..ROUNDS).map(|_| [seconds(&samples), seconds(&alone), seconds(&lanes)]).collect();
     let median = |of: &dyn Fn(&[f64; 3]) -> f64| {
         let mut all: Vec<f64> = rounds.iter().map(of).collect();
         all.sort_by(f64::total_cmp);

@@ -11,10 +11,15 @@ use springs::{
 
 fn inner(c: &mut Criterion) {
     let mut group = c.benchmark_group("inner fit");
-    group.warm_up_time(Duration::from_millis(300)).measurement_time(Duration::from_secs(2)).sample_size(30);
+    group
+        .warm_up_time(Duration::from_millis(300))
+        .measurement_time(Duration::from_secs(2))
+        .sample_size(30);
     let (target, bounds) = (Target::default(), Bounds::default());
     for mu in [0.1, 1.0, 10.0] {
-        group.bench_function(BenchmarkId::from_parameter(mu), |b| b.iter(|| fit(black_box(mu), &target, &bounds)));
+        group.bench_function(BenchmarkId::from_parameter(mu), |b| {
+            b.iter(|| fit(black_box(mu), &target, &bounds))
+        });
     }
     group.finish();
 }

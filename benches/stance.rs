@@ -30,8 +30,10 @@ fn geometric_mean(x: &[f64]) -> f64 {
 
 fn main() -> Result<(), Box<dyn std::error::Error>> {
     println!("errors for K_0 = {SCALES:?}");
-    let frame = |height: f64, alpha: f64| Structure::a_frame(height, 2.0 * height * alpha.tan(), 1e5);
-    let block = |height: f64, alpha: f64| Structure::block(2.0 * height, 2.0 * height * alpha.tan(), 1e3);
+    let frame =
+        |height: f64, alpha: f64| Structure::a_frame(height, 2.0 * height * alpha.tan(), 1e5);
+    let block =
+        |height: f64, alpha: f64| Structure::block(2.0 * height, 2.0 * height * alpha.tan(), 1e3);
     let mut all = vec![Vec::new(); SCALES.len()];
     for (name, structure) in [
         ("A-frame 20 m, 0.07", frame(20.0, 0.07)?),
@@ -54,12 +56,14 @@ fn main() -> Result<(), Box<dyn std::error::Error>> {
                 let (k, m) = (geometry.k_of(scale), geometry.effective_mass());
                 let chain = universal(k);
                 let mut springs = own;
-                springs.vertical = Design::from_kc(chain.mu * m, k, chain.c * m.sqrt(), own.vertical.omega_n_hz);
+                springs.vertical =
+                    Design::from_kc(chain.mu * m, k, chain.c * m.sqrt(), own.vertical.omega_n_hz);
                 let springs = springs.chains(body.mass);
                 let found: Vec<f64> = suites
                     .iter()
                     .map(|s| {
-                        s.accuracy(&springs, Control::search()).over(Asked { by: Yardstick::Histories, error: 1.0 })
+                        s.accuracy(&springs, Control::search())
+                            .over(Asked { by: Yardstick::Histories, error: 1.0 })
                     })
                     .collect();
                 let error = geometric_mean(&found);
@@ -69,7 +73,8 @@ fn main() -> Result<(), Box<dyn std::error::Error>> {
             println!("{name}, Omega_n/p {stiffness:.0}, own K {:.4}: {line}", geometry.k());
         }
     }
-    let means: Vec<String> = all.iter().map(|errors| format!("{:.2e}", geometric_mean(errors))).collect();
+    let means: Vec<String> =
+        all.iter().map(|errors| format!("{:.2e}", geometric_mean(errors))).collect();
     println!("geometric means: {}", means.join(" "));
     Ok(())
 }

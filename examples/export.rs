@@ -11,7 +11,8 @@ use std::path::PathBuf;
 use groundspring::{Case, DeckFormat, Record, Structure, deck, tune};
 
 fn main() -> Result<(), Box<dyn std::error::Error>> {
-    let folder = std::env::args().nth(1).map_or_else(|| std::env::temp_dir().join("decks"), PathBuf::from);
+    let folder =
+        std::env::args().nth(1).map_or_else(|| std::env::temp_dir().join("decks"), PathBuf::from);
     std::fs::create_dir_all(&folder)?;
 
     // a pier, on the first ten seconds of El Centro

@@ -4,7 +4,9 @@
 //! cargo run --release --example rigid_rocking
 //! ```
 
-use groundspring::{Body, Conditioning, Record, RockingOptions, RockingOutcome, Structure, rock, rock_many};
+use groundspring::{
+    Body, Conditioning, Record, RockingOptions, RockingOutcome, Structure, rock, rock_many,
+};
 
 fn main() -> Result<(), Box<dyn std::error::Error>> {
     // a solid block, by its whole height and width
@@ -24,7 +26,11 @@ fn main() -> Result<(), Box<dyn std::error::Error>> {
         RockingOutcome::Overturned { time } => println!("it overturns at t = {time:.2} s"),
         _ => {
             let peak = rocking.theta.iter().fold(0.0, |peak: f64, theta| peak.max(theta.abs()));
-            println!("it rocks: {} impacts, largest theta/alpha {:.3}", rocking.impacts.len(), peak / body.alpha());
+            println!(
+                "it rocks: {} impacts, largest theta/alpha {:.3}",
+                rocking.impacts.len(),
+                peak / body.alpha()
+            );
         }
     }
     // how much of that hangs on the width and the scale, before a history is compared with another
@@ -33,12 +39,21 @@ fn main() -> Result<(), Box<dyn std::error::Error>> {
 
     // many scales at once, sixteen in lock-step, on all cores
     let scales: Vec<f64> = (1..=300).map(|i| f64::from(i) / 100.0).collect();
-    let options: Vec<_> = scales.iter().map(|&scale| RockingOptions { scale, ..Default::default() }).collect();
+    let options: Vec<_> =
+        scales.iter().map(|&scale| RockingOptions { scale, ..Default::default() }).collect();
     let histories = rock_many(&[body], record.dt, &record.accel, &options);
-    let overturning: Vec<f64> =
-        scales.iter().zip(&histories).filter(|(_, history)| history.overturned().is_some()).map(|(x, _)| *x).collect();
+    let overturning: Vec<f64> = scales
+        .iter()
+        .zip(&histories)
+        .filter(|(_, history)| history.overturned().is_some())
+        .map(|(x, _)| *x)
+        .collect();
     match overturning.first() {
-        Some(least) => println!("least scale that overturns it: {least} ({} of {})", overturning.len(), scales.len()),
+        Some(least) => println!(
+            "least scale that overturns it: {least} ({} of {})",
+            overturning.len(),
+            scales.len()
+        ),
         None => println!("no scale up to 3 overturns it"),
     }
     Ok(())

@@ -9,7 +9,8 @@ use groundspring::{Parameters, Record, compare};
 
 fn main() -> Result<(), Box<dyn std::error::Error>> {
     // the paper's Table 1, as far as its digits survive
-    let parameters = Parameters::parse("tuning/table_1.json", include_str!("../tuning/table_1.json"))?;
+    let parameters =
+        Parameters::parse("tuning/table_1.json", include_str!("../tuning/table_1.json"))?;
     let record = Record::el_centro().truncated(20.0);
 
     let (both, verdict) = compare(&parameters, &record);

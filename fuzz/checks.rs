@@ -38,7 +38,11 @@ pub fn record(bytes: &[u8]) {
             (Some(0.02), None),
             (Some(1e-6), Some(Units::CentimetrePerSecond2)),
         ] {
-            match Recording::parse(name, bytes, &ReadOptions { dt, units, ..ReadOptions::default() }) {
+            match Recording::parse(
+                name,
+                bytes,
+                &ReadOptions { dt, units, ..ReadOptions::default() },
+            ) {
                 Ok(recording) => {
                     whole(&recording, bytes);
                     read_again(&recording.into_record());
@@ -58,8 +62,17 @@ fn whole(recording: &Recording, bytes: &[u8]) {
     for component in &recording.components {
         checked(&component.record);
         let m = strong_motion::measures(&component.record);
-        assert!([m.pga.value, m.pgv.value, m.arias_m_per_s, m.duration_5_95_s].iter().all(|x| x.is_finite()), "{m:?}");
-        let options = ReadOptions { component: component.name.clone(), baseline: true, ..ReadOptions::default() };
+        assert!(
+            [m.pga.value, m.pgv.value, m.arias_m_per_s, m.duration_5_95_s]
+                .iter()
+                .all(|x| x.is_finite()),
+            "{m:?}"
+        );
+        let options = ReadOptions {
+            component: component.name.clone(),
+            baseline: true,
+            ..ReadOptions::default()
+        };
         if let Err(error) = Recording::parse("a.txt", bytes, &options) {
             clear(&error);
         }
@@ -69,7 +82,10 @@ fn whole(recording: &Recording, bytes: &[u8]) {
 fn read_again(record: &Record) {
     let (n, dt) = (record.len(), record.dt);
     let samples: Vec<String> = record.accel.iter().map(|a| format!("{a:e}")).collect();
-    let at2 = format!("ACCELERATION IN UNITS OF M/S/S\nNPTS= {n}, DT= {dt:e} SEC\n{}\n", samples.join(" "));
+    let at2 = format!(
+        "ACCELERATION IN UNITS OF M/S/S\nNPTS= {n}, DT= {dt:e} SEC\n{}\n",
+        samples.join(" ")
+    );
     let columns = format!("# acceleration (m/s2), dt = {dt:e} s\n{}\n", samples.join("\n"));
     for (name, text) in [("b.at2", at2), ("b.txt", columns)] {
         let again = Record::parse(name, text.as_bytes(), &ReadOptions::default());
@@ -85,7 +101,8 @@ pub fn case(bytes: &[u8]) {
         assert!(!path.as_os_str().is_empty());
         Record::parse("motion.txt", b"0.1\n0.3\n-0.2\n", options)
     };
-    let case: Result<Case, _> = springs::case::parse_with("case.toml", text, &ReadOptions::default(), no_file);
+    let case: Result<Case, _> =
+        springs::case::parse_with("case.toml", text, &ReadOptions::default(), no_file);
     match case {
         Ok(case) => {
             checked(&case.record);
@@ -104,12 +121,18 @@ pub fn parameters(bytes: &[u8]) {
         Ok(parameters) => parameters,
         Err(error) => return clear(&error),
     };
-    let again = Parameters::parse("again.json", &parameters.to_json()).unwrap_or_else(|error| panic!("{error}"));
+    let again = Parameters::parse("again.json", &parameters.to_json())
+        .unwrap_or_else(|error| panic!("{error}"));
     assert_eq!(again.chains(), parameters.chains());
 
     let body = parameters.structure.body::<f64>();
     let accel: Vec<f64> = (0..40).map(|i| 6.0 * (0.4 * f64::from(i)).sin()).collect();
-    let rocking = housner::solve(&body, 0.01, &accel, &RockingOptions { max_work: 1000, ..RockingOptions::default() });
+    let rocking = housner::solve(
+        &body,
+        0.01,
+        &accel,
+        &RockingOptions { max_work: 1000, ..RockingOptions::default() },
+    );
     assert!(rocking.theta.iter().all(|theta| theta.is_finite()));
     let case = fem::Analysis {
         body,

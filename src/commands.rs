@@ -129,7 +129,8 @@ pub fn main() -> ExitCode {
         }
         Err(e) => {
             let text = e.to_string();
-            let what: Vec<&str> = text.split("\n\n").next().unwrap_or_default().split_whitespace().collect();
+            let what: Vec<&str> =
+                text.split("\n\n").next().unwrap_or_default().split_whitespace().collect();
             let what = what.join(" ");
             // the nearest right one, where there is one
             let tip = text.lines().map(str::trim).find_map(|line| line.strip_prefix("tip: "));
@@ -163,7 +164,10 @@ fn code(result: Result<(), CommandError>) -> ExitCode {
         Ok(()) if terminal::stderr_failed() => ExitCode::from(2),
         Ok(()) => ExitCode::SUCCESS,
         Err(e) => {
-            terminal::stderr(format_args!("error: {}", printable(&e.to_string().replace(['\n', '\r'], " "))));
+            terminal::stderr(format_args!(
+                "error: {}",
+                printable(&e.to_string().replace(['\n', '\r'], " "))
+            ));
             ExitCode::from(match e {
                 CommandError::Failed(_) => 1,
                 CommandError::Interrupted { .. } => bounds::INTERRUPTED_CODE,

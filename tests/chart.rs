@@ -16,12 +16,17 @@ struct Row {
 }
 
 fn chart(folder: &Path) -> Vec<Row> {
-    let done = Command::new(env!("CARGO_BIN_EXE_tune")).args(["chart", "--out"]).arg(folder).output().unwrap();
+    let done = Command::new(env!("CARGO_BIN_EXE_tune"))
+        .args(["chart", "--out"])
+        .arg(folder)
+        .output()
+        .unwrap();
     assert!(done.status.success(), "{}", String::from_utf8_lossy(&done.stderr));
     let text = std::fs::read_to_string(folder.join("chart.csv")).unwrap();
     let names: Vec<&str> = text.lines().next().unwrap().split(',').collect();
     let column = |name: &str| names.iter().position(|x| *x == name).unwrap();
-    let wanted = ["k", "mu_vertical", "f_vertical", "xi_vertical", "omega_h_over_omega_v"].map(column);
+    let wanted =
+        ["k", "mu_vertical", "f_vertical", "xi_vertical", "omega_h_over_omega_v"].map(column);
     let (kind, alpha, stiffness) = (column("kind"), column("alpha"), column("omega_n_over_p"));
     let row = |line: &str| {
         let cells: Vec<&str> = line.split(',').collect();
@@ -48,7 +53,8 @@ fn between(points: &[(f64, [f64; 4])], x: f64) -> Option<[f64; 4]> {
 /// Read off as an engineer would: along Omega_n/p on its logarithmic axis, then between two curves
 /// of alpha.
 fn read_off(rows: &[Row], kind: &str, alpha: f64, stiffness: f64) -> Option<Springs<Design<f64>>> {
-    let mut alphas: Vec<f64> = rows.iter().filter(|row| row.kind == kind).map(|row| row.alpha).collect();
+    let mut alphas: Vec<f64> =
+        rows.iter().filter(|row| row.kind == kind).map(|row| row.alpha).collect();
     alphas.dedup();
     let along = |alpha: f64| {
         let curve = rows.iter().filter(|row| row.kind == kind && row.alpha == alpha);
@@ -90,7 +96,11 @@ fn springs_read_off_by_hand_hold_the_landings_within_a_fifth_of_a_per_cent() {
                 springs.horizontal.omega_n_hz *= hz;
                 let rows = landings(&body, &springs.chains(body.mass), body.restitution());
                 let worst = rows.iter().map(|row| row.restitution_error.abs()).fold(0.0, f64::max);
-                println!("{kind} {alpha} {stiffness:.1e}: {:.4} % of {}", 100.0 * worst, rows.len());
+                println!(
+                    "{kind} {alpha} {stiffness:.1e}: {:.4} % of {}",
+                    100.0 * worst,
+                    rows.len()
+                );
                 assert!(worst < 2e-3 && rows.len() == 8, "{kind} {alpha} {stiffness}: {rows:?}");
             }
         }
@@ -110,7 +120,10 @@ fn the_curves_bend_little() {
                 let [a, b, c] = [0, 1, 2].map(|i| three[i].values[k].ln());
                 let bend = (a - 2.0 * b + c).abs();
                 let Row { kind, alpha, stiffness, .. } = &three[1];
-                assert!(bend < 0.03, "{kind}, alpha {alpha}, Omega_n/p {stiffness:.2e}, value {k}: {bend}");
+                assert!(
+                    bend < 0.03,
+                    "{kind}, alpha {alpha}, Omega_n/p {stiffness:.2e}, value {k}: {bend}"
+                );
             }
         }
     }

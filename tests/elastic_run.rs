@@ -26,17 +26,26 @@ fn a_pier_is_tuned_and_what_is_written_agrees_with_itself() {
     let ran = tune(folder.path(), &["run", "pier.toml", "--quiet", "--friction", "0.05"]);
     assert!(ran.status.success(), "{}", text(&ran.stderr));
     let said = text(&ran.stdout);
-    assert!(said.contains("The structure rocks and stands") && said.contains("by bending"), "{said}");
+    assert!(
+        said.contains("The structure rocks and stands") && said.contains("by bending"),
+        "{said}"
+    );
     let out = folder.path().join("out");
     let read = |name: &str| std::fs::read_to_string(out.join(name)).unwrap();
     let parameters: Value = serde_json::from_str(&read("parameters.json")).unwrap();
     let findings = parameters["findings"].as_array().unwrap();
     let sliding = findings.iter().find(|finding| finding["finding"] == "sliding").unwrap();
-    assert!(sliding["needed"].as_f64().unwrap() > 0.05 && sliding["available"] == 0.05, "{sliding}");
+    assert!(
+        sliding["needed"].as_f64().unwrap() > 0.05 && sliding["available"] == 0.05,
+        "{sliding}"
+    );
     let on = &parameters["on_record"];
     let assessment = &parameters["assessment"];
     assert_eq!(assessment["reached"], true, "{assessment}");
-    assert!(assessment["measured"]["record"]["median"][0].as_f64().unwrap() <= 0.002, "{assessment}");
+    assert!(
+        assessment["measured"]["record"]["median"][0].as_f64().unwrap() <= 0.002,
+        "{assessment}"
+    );
     assert!(on["nrmse_rotation"].as_f64().unwrap() <= 0.002, "{on}");
     assert!(on["energy_residual"].as_f64().unwrap() < 1e-5, "{on}");
     assert_eq!(parameters["springs"].as_array().unwrap().len(), 2);
@@ -54,9 +63,18 @@ fn a_pier_is_tuned_and_what_is_written_agrees_with_itself() {
     let peaks = &parameters["peaks"]["springs"];
     let number = |key: &str| peaks[key].as_f64().unwrap();
     assert!(number("rocking_m") > 5.0 * number("bending_m") && number("uplift_m") > 0.1, "{peaks}");
-    assert!((number("drift_ratio") * 12.0 / number("top_displacement_m") - 1.0).abs() < 1e-9, "{peaks}");
+    assert!(
+        (number("drift_ratio") * 12.0 / number("top_displacement_m") - 1.0).abs() < 1e-9,
+        "{peaks}"
+    );
     let members = read("members.csv");
-    assert!(members.lines().next().unwrap().ends_with(",ground_vertical_n,ground_vertical_below_20_hz_n"));
+    assert!(
+        members
+            .lines()
+            .next()
+            .unwrap()
+            .ends_with(",ground_vertical_n,ground_vertical_below_20_hz_n")
+    );
     // at first the column stands in compression, under the mass
     let axial: f64 = members.lines().nth(1).unwrap().split(',').nth(2).unwrap().parse().unwrap();
     assert!((axial / (-600e3 * 9.81) - 1.0).abs() < 1e-6, "{axial}");
@@ -83,8 +101,10 @@ fn a_pier_is_tuned_and_what_is_written_agrees_with_itself() {
 
     // again, on one thread: the same bytes; without figures, none are left
     let before = read("parameters.json");
-    let ran =
-        tune(folder.path(), &["run", "pier.toml", "--quiet", "--friction", "0.05", "--jobs", "1", "--no-figures"]);
+    let ran = tune(
+        folder.path(),
+        &["run", "pier.toml", "--quiet", "--friction", "0.05", "--jobs", "1", "--no-figures"],
+    );
     assert!(ran.status.success(), "{}", text(&ran.stderr));
     assert_eq!(read("parameters.json"), before);
     assert!(!out.join("history.png").exists());
@@ -104,11 +124,17 @@ fn refuses(folder: &Path) {
     let refused = tune(folder, &["run", "pier.toml", "--quiet", "--max-hz", "0.5"]);
     let line = text(&refused.stderr);
     assert_eq!(refused.status.code(), Some(2), "{line}");
-    assert!(line.contains("max_omega_hz (--max-hz) is 0.5") && line.trim().lines().count() == 1, "{line}");
+    assert!(
+        line.contains("max_omega_hz (--max-hz) is 0.5") && line.trim().lines().count() == 1,
+        "{line}"
+    );
 
     // a history needs two samples
     std::fs::write(folder.join("one.txt"), "1.0\n").unwrap();
-    let refused = tune(folder, &["run", "pier.toml", "--quiet", "--record", "one.txt", "--dt", "0.01", "--units", "g"]);
+    let refused = tune(
+        folder,
+        &["run", "pier.toml", "--quiet", "--record", "one.txt", "--dt", "0.01", "--units", "g"],
+    );
     let line = text(&refused.stderr);
     assert_eq!(refused.status.code(), Some(2), "{line}");
     assert!(line.contains("needs at least two") && line.trim().lines().count() == 1, "{line}");
@@ -133,8 +159,18 @@ fn decks_are_whole(folder: &Path) {
     ] {
         let deck = std::fs::read_to_string(folder.join("out/decks").join(name)).unwrap();
         assert!(deck.contains(holds) && !deck.contains('@'), "{name}");
-        let ran =
-            tune(folder, &["export", "--parameters", "out/parameters.json", "--format", format, "--out", "again"]);
+        let ran = tune(
+            folder,
+            &[
+                "export",
+                "--parameters",
+                "out/parameters.json",
+                "--format",
+                format,
+                "--out",
+                "again",
+            ],
+        );
         assert!(ran.status.success(), "{}", text(&ran.stderr));
         assert_eq!(std::fs::read_to_string(folder.join("again")).unwrap(), deck, "{format}");
     }
@@ -149,7 +185,11 @@ fn what_cannot_be_is_refused_in_one_line_before_anything_is_written() {
         ("mass_kg = 600e3", "mass_kg = -600e3", "mass_kg"),
         ("mass_kg = 600e3", "mass_kg = nan", "mass_kg"),
         ("width_m = 4.0", "width_m = 400.0", "slenderness"),
-        ("frequency_hz = 2.0", "frequency_hz = 2.0\nei_nm2 = 1e9", "one of ei_nm2 and frequency_hz"),
+        (
+            "frequency_hz = 2.0",
+            "frequency_hz = 2.0\nei_nm2 = 1e9",
+            "one of ei_nm2 and frequency_hz",
+        ),
         ("frequency_hz = 2.0", "ei_nm2 = 1e3", "buckles"),
         ("frequency_hz", "frequenzy_hz", "did you mean \"frequency_hz\""),
         ("damping_ratio = 0.02", "damping_ratio = 2.0", "damping_ratio"),
@@ -158,7 +198,11 @@ fn what_cannot_be_is_refused_in_one_line_before_anything_is_written() {
         ("[record]", "[damper]\nc_ns_per_m = -1.0\n[record]", "damper.c_ns_per_m is -1"),
         ("[record]", "[damper]\nc = 1.0\n[record]", "did you mean \"c_ns_per_m\""),
         ("[record]", "[tendon]\nstiffness_n_per_m = 1e8\n[record]", "pretension_n"),
-        ("[record]", "[tendon]\nstiffness_n_per_m = 0.0\npretension_n = 1.0\n[record]", "stiffness_n_per_m is 0"),
+        (
+            "[record]",
+            "[tendon]\nstiffness_n_per_m = 0.0\npretension_n = 1.0\n[record]",
+            "stiffness_n_per_m is 0",
+        ),
         ("[record]", "[tendon]\nstiffness_n_per_m = 1e9\npretension_n = 4e9\n[record]", "tendon"),
         ("[record]", "[friction]\ncoefficient = 0.5\n[record]", "rigid bodies only"),
     ] {
@@ -178,21 +222,35 @@ fn a_pier_that_overturns_is_told_to() {
     let folder = tempfile::tempdir().unwrap();
     std::fs::write(folder.path().join("pier.toml"), PIER).unwrap();
     // three times what lifts it, for two seconds
-    let pulse: String = (0..600).map(|i| if (100..300).contains(&i) { "0.54\n" } else { "0.0\n" }).collect();
+    let pulse: String =
+        (0..600).map(|i| if (100..300).contains(&i) { "0.54\n" } else { "0.0\n" }).collect();
     std::fs::write(folder.path().join("pulse.txt"), format!("# dt = 0.01\n{pulse}")).unwrap();
-    let options =
-        ["--record", "pulse.txt", "--units", "g", "--accuracy", "0.1", "--no-figures", "--no-report", "--quiet"];
+    let options = [
+        "--record",
+        "pulse.txt",
+        "--units",
+        "g",
+        "--accuracy",
+        "0.1",
+        "--no-figures",
+        "--no-report",
+        "--quiet",
+    ];
     let ran = tune(folder.path(), &[&["run", "pier.toml"], &options[..]].concat());
     assert!(ran.status.success(), "{}", text(&ran.stderr));
     let said = text(&ran.stdout);
-    assert!(said.contains("The structure overturns at t = ") && said.contains("(in the reference at "), "{said}");
+    assert!(
+        said.contains("The structure overturns at t = ") && said.contains("(in the reference at "),
+        "{said}"
+    );
     let out = folder.path().join("out");
     let json = std::fs::read_to_string(out.join("parameters.json")).unwrap();
     let parameters = ElasticParameters::parse("parameters.json", &json).unwrap();
     assert!(!parameters.on_record.unwrap().whole);
     // both models' histories to their ends, cells of the one that ends before are empty
     let history = std::fs::read_to_string(out.join("history.csv")).unwrap();
-    let columns: Vec<Vec<&str>> = history.lines().skip(1).map(|line| line.split(',').collect()).collect();
+    let columns: Vec<Vec<&str>> =
+        history.lines().skip(1).map(|line| line.split(',').collect()).collect();
     let given = |k: usize| columns.iter().filter(|row| !row[k].is_empty()).count();
     assert_eq!(given(1).max(given(3)), columns.len());
     assert!(given(1) < 600 && given(3) < 600 && given(5) == given(3), "{} {}", given(1), given(3));
@@ -203,9 +261,22 @@ fn a_pier_that_overturns_is_told_to() {
 fn of_a_record_without_a_motion_no_landing_and_no_error_is_said() {
     let folder = tempfile::tempdir().unwrap();
     std::fs::write(folder.path().join("pier.toml"), PIER).unwrap();
-    std::fs::write(folder.path().join("still.txt"), "# dt = 0.01\n".to_string() + &"0.0\n".repeat(20)).unwrap();
-    let options =
-        ["--record", "still.txt", "--units", "g", "--accuracy", "0.1", "--no-figures", "--no-report", "--quiet"];
+    std::fs::write(
+        folder.path().join("still.txt"),
+        "# dt = 0.01\n".to_string() + &"0.0\n".repeat(20),
+    )
+    .unwrap();
+    let options = [
+        "--record",
+        "still.txt",
+        "--units",
+        "g",
+        "--accuracy",
+        "0.1",
+        "--no-figures",
+        "--no-report",
+        "--quiet",
+    ];
     let ran = tune(folder.path(), &[&["run", "pier.toml"], &options[..]].concat());
     assert!(ran.status.success(), "{}", text(&ran.stderr));
     let said = text(&ran.stdout);

@@ -21,7 +21,11 @@ const PIER: &str = include_str!("../tuning/pier.toml");
 
 fn command(folder: &Path, arguments: &[&str]) -> Command {
     let mut command = Command::new(env!("CARGO_BIN_EXE_tune"));
-    command.current_dir(folder).args(["run"]).args(arguments).args(["--quiet", "--no-figures", "--no-report"]);
+    command.current_dir(folder).args(["run"]).args(arguments).args([
+        "--quiet",
+        "--no-figures",
+        "--no-report",
+    ]);
     command
 }
 
@@ -38,8 +42,10 @@ fn stderr(output: &Output) -> String {
 /// What is in the folder of the results, which must be whole.
 fn parameters(folder: &Path) -> Value {
     let out = folder.join("out");
-    let names: Vec<String> =
-        std::fs::read_dir(&out).unwrap().map(|entry| entry.unwrap().file_name().into_string().unwrap()).collect();
+    let names: Vec<String> = std::fs::read_dir(&out)
+        .unwrap()
+        .map(|entry| entry.unwrap().file_name().into_string().unwrap())
+        .collect();
     assert!(names.iter().all(|name| !name.contains("UNFINISHED")), "{names:?}");
     serde_json::from_slice(&std::fs::read(out.join("parameters.json")).unwrap()).unwrap()
 }
@@ -50,9 +56,14 @@ fn finding<'a>(parameters: &'a Value, name: &str) -> Option<&'a Value> {
 
 /// The finding of a search that was cut: a warning with what was not done and what to do.
 fn cut(parameters: &Value, by: &str) {
-    let cut = finding(parameters, "search_cut").unwrap_or_else(|| panic!("{:#}", parameters["findings"]));
+    let cut =
+        finding(parameters, "search_cut").unwrap_or_else(|| panic!("{:#}", parameters["findings"]));
     assert_eq!((cut["by"].as_str(), cut["weight"].as_str()), (Some(by), Some("warning")), "{cut}");
-    assert!(cut["message"].as_str().unwrap().contains("not done: other springs") && cut["remedy"].is_string(), "{cut}");
+    assert!(
+        cut["message"].as_str().unwrap().contains("not done: other springs")
+            && cut["remedy"].is_string(),
+        "{cut}"
+    );
 }
 
 fn springs(parameters: &Value) -> f64 {
@@ -86,7 +97,10 @@ fn a_tiny_bound_leaves_the_best_springs_so_far_and_says_what_was_not_done() {
     // one rung, measured on all suites
     let cut = finding(&parameters, "search_cut").unwrap();
     assert!(cut["stiffnesses"] == 1 && cut["reached"].as_f64().unwrap() > 0.0, "{cut}");
-    assert!(String::from_utf8_lossy(&ran.stdout).contains("The bound on work ended the search after 1 stiffness"));
+    assert!(
+        String::from_utf8_lossy(&ran.stdout)
+            .contains("The bound on work ended the search after 1 stiffness")
+    );
     // more work, and nothing is cut
     let ran = command(folder.path(), &["--work", "10"]).output().unwrap();
     assert!(ran.status.success(), "{}", stderr(&ran));
@@ -96,12 +110,17 @@ fn a_tiny_bound_leaves_the_best_springs_so_far_and_says_what_was_not_done() {
 #[test]
 fn motions_whose_references_meet_their_bound_are_left_out_and_told() {
     let folder = folder_with(PIER);
-    let ran = command(folder.path(), &["case.toml", "--work", "0.02", "--duration", "5"]).output().unwrap();
+    let ran = command(folder.path(), &["case.toml", "--work", "0.02", "--duration", "5"])
+        .output()
+        .unwrap();
     assert!(ran.status.success(), "{}", stderr(&ran));
     let parameters = parameters(folder.path());
-    let told = finding(&parameters, "histories_unfinished").unwrap_or_else(|| panic!("{:#}", parameters["findings"]));
+    let told = finding(&parameters, "histories_unfinished")
+        .unwrap_or_else(|| panic!("{:#}", parameters["findings"]));
     assert!(
-        told["left_out"] == true && told["histories"].as_u64().unwrap() > 0 && told["remedy"].is_string(),
+        told["left_out"] == true
+            && told["histories"].as_u64().unwrap() > 0
+            && told["remedy"].is_string(),
         "{told}"
     );
     assert_eq!(parameters["springs"].as_array().unwrap().len(), 2);
@@ -109,7 +128,11 @@ fn motions_whose_references_meet_their_bound_are_left_out_and_told() {
 
 #[test]
 fn a_time_limit_ends_a_search_and_is_marked() {
-    for text in [SLOW, PIER, "[structure]\nkind = 'block'\nheight_m = 1.0\nwidth_m = 0.5\nmass_kg = 100.0\n"] {
+    for text in [
+        SLOW,
+        PIER,
+        "[structure]\nkind = 'block'\nheight_m = 1.0\nwidth_m = 0.5\nmass_kg = 100.0\n",
+    ] {
         let folder = folder_with(text);
         let arguments = ["case.toml", "--time-limit", "0.001", "--duration", "3"];
         let ran = command(folder.path(), &arguments).output().unwrap();
@@ -118,7 +141,10 @@ fn a_time_limit_ends_a_search_and_is_marked() {
         cut(&parameters, "time_limit");
         assert_eq!(parameters["assessment"]["reached"], false, "{text}");
         // what was cut is on the screen, and the springs are those of the file
-        assert!(String::from_utf8_lossy(&ran.stdout).contains("The time limit ended the search"), "{text}");
+        assert!(
+            String::from_utf8_lossy(&ran.stdout).contains("The time limit ended the search"),
+            "{text}"
+        );
         assert!(folder.path().join("out/decks/model_openseespy.py").exists());
     }
 }
@@ -134,7 +160,13 @@ fn an_interrupt_leaves_whole_results_that_are_marked_and_an_exit_code_of_its_own
         let mut command = command(folder.path(), &["case.toml", "--work", "1e6"]);
         let child = command.stdout(Stdio::null()).stderr(Stdio::piped()).spawn().unwrap();
         std::thread::sleep(Duration::from_secs_f64(wait));
-        assert!(Command::new("kill").args(["-INT", &child.id().to_string()]).status().unwrap().success());
+        assert!(
+            Command::new("kill")
+                .args(["-INT", &child.id().to_string()])
+                .status()
+                .unwrap()
+                .success()
+        );
         let ended = child.wait_with_output().unwrap();
         if ended.status.signal().is_some() {
             // it had not begun: nothing is there
@@ -142,7 +174,9 @@ fn an_interrupt_leaves_whole_results_that_are_marked_and_an_exit_code_of_its_own
             continue;
         }
         assert_eq!(ended.status.code(), Some(130), "{}", stderr(&ended));
-        assert!(stderr(&ended).contains("error: ^C ended the search; out has the best springs so far"));
+        assert!(
+            stderr(&ended).contains("error: ^C ended the search; out has the best springs so far")
+        );
         cut(&parameters(folder.path()), "interrupt");
         return;
     }
@@ -155,12 +189,20 @@ fn what_is_out_of_reach_is_refused_early_with_the_reason() {
     let record = Record::new("long", 0.01, vec![0.1; 2_000_002]).unwrap();
     (case.record, case.duration_s) = (record, f64::INFINITY);
     let refused = Job::new(&case, &|_, _, _| ()).unwrap_err();
-    assert!(matches!(refused, JobError::OutOfReach { steps: 2_000_001, most: 2_000_000, .. }), "{refused}");
+    assert!(
+        matches!(refused, JobError::OutOfReach { steps: 2_000_001, most: 2_000_000, .. }),
+        "{refused}"
+    );
 
     let folder = folder_with(PIER);
     let ran = command(folder.path(), &["case.toml", "--work", "1e-4"]).output().unwrap();
     let said = stderr(&ran);
     assert_eq!(ran.status.code(), Some(2), "{said}");
-    assert!(said.trim_end().lines().count() == 1 && said.contains("out of reach") && said.contains("--work"), "{said}");
+    assert!(
+        said.trim_end().lines().count() == 1
+            && said.contains("out of reach")
+            && said.contains("--work"),
+        "{said}"
+    );
     assert!(!folder.path().join("out").exists());
 }

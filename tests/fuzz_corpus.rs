@@ -15,7 +15,8 @@ type Check = fn(&[u8]);
 
 fn replay(target: &str, check: Check) {
     let folder = Path::new(env!("CARGO_MANIFEST_DIR")).join("fuzz/corpus").join(target);
-    let mut files: Vec<_> = fs::read_dir(&folder).unwrap().map(|entry| entry.unwrap().path()).collect();
+    let mut files: Vec<_> =
+        fs::read_dir(&folder).unwrap().map(|entry| entry.unwrap().path()).collect();
     files.sort();
     assert!(files.len() >= 10, "{} has {} inputs", folder.display(), files.len());
     for file in files {
@@ -61,7 +62,8 @@ fn mutated_and_random_inputs_are_read_or_refused_in_one_line() {
     let tried = seeds.end - seeds.start;
     let failed: Vec<u64> = seeds.into_par_iter().filter(fails).collect();
     let memory = fs::read_to_string("/proc/self/status").unwrap_or_default();
-    let peak = memory.lines().find(|line| line.starts_with("VmHWM")).unwrap_or("VmHWM: not known here");
+    let peak =
+        memory.lines().find(|line| line.starts_with("VmHWM")).unwrap_or("VmHWM: not known here");
     println!("{tried} inputs, {} failed; {peak}", failed.len());
     assert!(failed.is_empty(), "seeds that fail, each by MUTATED_SEED: {failed:?}");
 }
@@ -69,20 +71,38 @@ fn mutated_and_random_inputs_are_read_or_refused_in_one_line() {
 /// The inputs of a target, and files of the formats that it reads.
 fn corpus(target: &str) -> Vec<Vec<u8>> {
     let root = Path::new(env!("CARGO_MANIFEST_DIR"));
-    let folders: &[&str] = if target == "record" { &["tests/records", "tuning/records"] } else { &["tuning"] };
-    let listed = |folder: &str| fs::read_dir(root.join(folder)).unwrap().map(|entry| entry.unwrap().path());
-    let wanted = |path: &std::path::PathBuf| path.is_file() && (target == "record" || path.extension().is_some());
-    let mut files: Vec<_> = folders.iter().flat_map(|folder| listed(folder)).filter(wanted).collect();
+    let folders: &[&str] =
+        if target == "record" { &["tests/records", "tuning/records"] } else { &["tuning"] };
+    let listed =
+        |folder: &str| fs::read_dir(root.join(folder)).unwrap().map(|entry| entry.unwrap().path());
+    let wanted = |path: &std::path::PathBuf| {
+        path.is_file() && (target == "record" || path.extension().is_some())
+    };
+    let mut files: Vec<_> =
+        folders.iter().flat_map(|folder| listed(folder)).filter(wanted).collect();
     files.extend(listed(&format!("fuzz/corpus/{target}")));
     files.sort();
     // a file's beginning holds its headers and some numbers
-    let beginning = |path: &std::path::PathBuf| fs::read(path).unwrap().into_iter().take(6000).collect();
+    let beginning =
+        |path: &std::path::PathBuf| fs::read(path).unwrap().into_iter().take(6000).collect();
     files.iter().map(beginning).collect()
 }
 
 /// What numbers of a file may become.
-const NUMBERS: [&str; 12] =
-    ["0", "-1", "1e308", "-1e-308", "nan", "inf", "1e999", "99999999999", "0x10", "1,5", "", "3.0e"];
+const NUMBERS: [&str; 12] = [
+    "0",
+    "-1",
+    "1e308",
+    "-1e-308",
+    "nan",
+    "inf",
+    "1e999",
+    "99999999999",
+    "0x10",
+    "1,5",
+    "",
+    "3.0e",
+];
 
 /// One input: a file of the corpus, changed in one to six places, or random bytes.
 fn input(corpus: &[Vec<u8>], seed: u64) -> Vec<u8> {
@@ -106,15 +126,21 @@ fn input(corpus: &[Vec<u8>], seed: u64) -> Vec<u8> {
             4 => {
                 let other = &corpus[dice.random_range(0..corpus.len())];
                 let from = dice.random_range(0..=other.len());
-                let part = other[from..(from + dice.random_range(1..400)).min(other.len())].to_vec();
+                let part =
+                    other[from..(from + dice.random_range(1..400)).min(other.len())].to_vec();
                 bytes.splice(at..until, part);
             }
             5 if at < bytes.len() => bytes[at] = dice.random(),
             // a number, in place of the next one
             _ => {
                 let digit = |byte: &u8| byte.is_ascii_digit() || b"+-.eE".contains(byte);
-                let Some(begin) = bytes[at..].iter().position(digit).map(|i| at + i) else { continue };
-                let end = bytes[begin..].iter().position(|byte| !digit(byte)).map_or(bytes.len(), |i| begin + i);
+                let Some(begin) = bytes[at..].iter().position(digit).map(|i| at + i) else {
+                    continue;
+                };
+                let end = bytes[begin..]
+                    .iter()
+                    .position(|byte| !digit(byte))
+                    .map_or(bytes.len(), |i| begin + i);
                 bytes.splice(begin..end, NUMBERS[dice.random_range(0..NUMBERS.len())].bytes());
             }
         }

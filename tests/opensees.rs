@@ -30,8 +30,8 @@ const AGREEMENT: f64 = 0.005;
 fn programs() -> Vec<Program> {
     let variable = |name: &str| std::env::var(name).ok().filter(|value| !value.is_empty());
     let python = variable("OPENSEES_PYTHON").unwrap_or_else(|| "python3".into());
-    let tcl =
-        variable("OPENSEES_TCL").map(|command| Program::Tcl(command.split_whitespace().map(str::to_string).collect()));
+    let tcl = variable("OPENSEES_TCL")
+        .map(|command| Program::Tcl(command.split_whitespace().map(str::to_string).collect()));
     [Program::Python(python.into())].into_iter().chain(tcl).collect()
 }
 
@@ -50,7 +50,12 @@ fn agrees(programs: &[Program], structure: Structure, springs: Springs<Design<f6
     agrees_at(ACCURACY, programs, structure, springs);
 }
 
-fn agrees_at(accuracy: f64, programs: &[Program], structure: Structure, springs: Springs<Design<f64>>) {
+fn agrees_at(
+    accuracy: f64,
+    programs: &[Program],
+    structure: Structure,
+    springs: Springs<Design<f64>>,
+) {
     let parameters = Parameters::new(with_inertia(&structure), &springs);
     let record = Record::el_centro().truncated(20.0);
     for program in programs {
@@ -78,7 +83,8 @@ fn agrees_at(accuracy: f64, programs: &[Program], structure: Structure, springs:
 /// (m R^2/I0) sin^2 alpha, K by the stance, horizontals eight times stiffer.
 fn stiff(structure: &Structure, hz: f64) -> Springs<Design<f64>> {
     let body = structure.body::<f64>();
-    let (alpha, point) = ((body.half_width / body.height).atan(), body.mass * body.radius().powi(2));
+    let (alpha, point) =
+        ((body.half_width / body.height).atan(), body.mass * body.radius().powi(2));
     let effective = 1.0 - point / (point + body.inertia) * alpha.sin().powi(2);
     let omega = std::f64::consts::TAU * hz;
     let k = (0.5 * (omega / body.p_squared().sqrt()).powf(-0.55) * alpha.powf(-1.5)).min(0.3);
@@ -104,9 +110,17 @@ fn decks_on_stiff_springs_are_within_their_limit_in_few_steps() {
             let record = Record::el_centro().truncated(20.0);
             for program in programs() {
                 let result = verify(&parameters, &record, ACCURACY, &program, &|_, _| ()).unwrap();
-                println!("{} m, {hz} Hz: {} steps, {:?}", structure.height_m, result.steps, result.verdict);
-                assert!(result.verdict.within && result.verdict.until.is_none(), "{:?}", result.verdict);
-                let told = matches!(program, Program::Tcl(_)) && result.report.contains("ask for more accuracy");
+                println!(
+                    "{} m, {hz} Hz: {} steps, {:?}",
+                    structure.height_m, result.steps, result.verdict
+                );
+                assert!(
+                    result.verdict.within && result.verdict.until.is_none(),
+                    "{:?}",
+                    result.verdict
+                );
+                let told = matches!(program, Program::Tcl(_))
+                    && result.report.contains("ask for more accuracy");
                 assert!(result.late == 0 || told, "{}", result.report);
                 steps.push(result.steps);
             }
@@ -133,7 +147,11 @@ fn springs_on_which_a_lifting_foot_chatters_are_refused() {
         match verify(&parameters, &record, ACCURACY, &program, &|_, _| ()) {
             Ok(result) => {
                 println!("{:?}, itself {:?}", result.verdict, result.opensees_against_itself);
-                assert!(!result.verdict.within && result.opensees_against_itself > Some(LIMIT), "{:?}", result.verdict);
+                assert!(
+                    !result.verdict.within && result.opensees_against_itself > Some(LIMIT),
+                    "{:?}",
+                    result.verdict
+                );
             }
             // a foot that chatters may also leave Newton's iteration without a step: that is said
             Err(error) => assert!(matches!(error, VerifyError::Stopped { .. }), "{error}"),
@@ -238,8 +256,14 @@ fn agrees_with(members: Members<f64>, duration: f64) {
     let springs = Springs { vertical: chain, horizontal: chain };
     let parameters = Parameters::new(Structure::paper(), &springs).with_members(members);
     for program in programs() {
-        let result =
-            verify(&parameters, &Record::el_centro().truncated(duration), ACCURACY, &program, &|_, _| ()).unwrap();
+        let result = verify(
+            &parameters,
+            &Record::el_centro().truncated(duration),
+            ACCURACY,
+            &program,
+            &|_, _| (),
+        )
+        .unwrap();
         let a = result.opensees_against_ours;
         println!("{members:?}: {} steps, {:.1} s: {a:?}", result.steps, result.seconds);
         assert_eq!(result.opensees.len(), (duration * 100.0).round() as usize + 1);
@@ -271,13 +295,22 @@ fn dampers_and_a_tendon_agree() {
 
 /// `tune run` of an elastic structure, then `tune verify` in a program; the folder, with both in
 /// `out` and in `out/verify`.
-fn elastic_agrees(case: &str, more: &[&str], seconds: &str, program: &Program) -> tempfile::TempDir {
+fn elastic_agrees(
+    case: &str,
+    more: &[&str],
+    seconds: &str,
+    program: &Program,
+) -> tempfile::TempDir {
     let folder = tempfile::tempdir().unwrap();
     std::fs::write(folder.path().join("case.toml"), case).unwrap();
     let tune = |arguments: &[&str]| {
         let mut command = std::process::Command::new(env!("CARGO_BIN_EXE_tune"));
-        let out = command.current_dir(folder.path()).args(arguments).arg("--quiet").output().unwrap();
-        (out.status.success(), String::from_utf8(out.stdout).unwrap() + &String::from_utf8(out.stderr).unwrap())
+        let out =
+            command.current_dir(folder.path()).args(arguments).arg("--quiet").output().unwrap();
+        (
+            out.status.success(),
+            String::from_utf8(out.stdout).unwrap() + &String::from_utf8(out.stderr).unwrap(),
+        )
     };
     let ran = tune(&[&["run", "case.toml", "--no-figures", "--no-report"], more].concat());
     assert!(ran.0, "{}", ran.1);
@@ -287,7 +320,9 @@ fn elastic_agrees(case: &str, more: &[&str], seconds: &str, program: &Program) -
     };
     let (option, command) = match program {
         Program::Python(path) => ("--python", absolute(&path.display().to_string())),
-        Program::Tcl(words) => ("--tcl", words.iter().map(|word| absolute(word)).collect::<Vec<_>>().join(" ")),
+        Program::Tcl(words) => {
+            ("--tcl", words.iter().map(|word| absolute(word)).collect::<Vec<_>>().join(" "))
+        }
     };
     let ran = tune(&[
         "verify",
@@ -323,7 +358,8 @@ fn a_column_of_several_elements_in_opensees_converges_to_plastic_landings() {
     let (structure, _) = case.split_once("[record]").unwrap();
     let case = format!("{}\n{column_of_two}", structure.trim_end());
     let errors = ["250", "1000"].map(|hz| {
-        let folder = elastic_agrees(&case, &["--max-hz", hz, "--accuracy", "1e-5"], "4.5", &programs()[0]);
+        let folder =
+            elastic_agrees(&case, &["--max-hz", hz, "--accuracy", "1e-5"], "4.5", &programs()[0]);
         let error = |name: &str| {
             let rigid_ground = column(&folder, "out/history.csv", &format!("{name}_reference"));
             let opensees = column(&folder, "out/verify/verify.csv", &format!("{name}_opensees_1"));
@@ -371,8 +407,10 @@ fn an_undamped_elastic_structure_agrees_in_every_language() {
 #[test]
 #[ignore = "needs OpenSees (pip install openseespy): cargo test --release --test opensees -- --ignored"]
 fn an_elastic_structure_with_dampers_and_a_tendon_agrees_in_every_language() {
-    let pier = include_str!("../tuning/pier.toml").replace("damping_ratio = 0.02", "damping_ratio = 0.0");
-    let members = "[damper]\nc_ns_per_m = 1e6\n[tendon]\nstiffness_n_per_m = 2e7\npretension_n = 1e6\n";
+    let pier =
+        include_str!("../tuning/pier.toml").replace("damping_ratio = 0.02", "damping_ratio = 0.0");
+    let members =
+        "[damper]\nc_ns_per_m = 1e6\n[tendon]\nstiffness_n_per_m = 2e7\npretension_n = 1e6\n";
     for program in programs() {
         elastic_agrees(&format!("{pier}\n{members}"), &[], "4.5", &program);
     }

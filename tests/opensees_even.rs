@@ -8,7 +8,8 @@ fn interpreter(format: &str) -> Option<Vec<String>> {
     let variable = |name: &str| std::env::var(name).ok().filter(|value| !value.is_empty());
     match format {
         "openseespy" => Some(vec![variable("OPENSEES_PYTHON").unwrap_or_else(|| "python3".into())]),
-        _ => variable("OPENSEES_TCL").map(|words| words.split_whitespace().map(str::to_string).collect()),
+        _ => variable("OPENSEES_TCL")
+            .map(|words| words.split_whitespace().map(str::to_string).collect()),
     }
 }
 
@@ -19,20 +20,25 @@ fn interpreter(format: &str) -> Option<Vec<String>> {
 fn decks_of_even_steps_find_what_the_emulation_found() {
     let folder = tempfile::tempdir().unwrap();
     let run = |args: &[&str]| {
-        let out = Command::new(env!("CARGO_BIN_EXE_tune")).args(args).current_dir(&folder).output().unwrap();
+        let out = Command::new(env!("CARGO_BIN_EXE_tune"))
+            .args(args)
+            .current_dir(&folder)
+            .output()
+            .unwrap();
         assert!(out.status.success(), "{args:?}: {}", String::from_utf8_lossy(&out.stderr));
     };
-    let block =
-        "[structure]\nkind = 'block'\ntotal_height_m = 4.0\nwidth_m = 0.9\nmass_kg = 4e3\n[record]\nscale = 1.5\n";
+    let block = "[structure]\nkind = 'block'\ntotal_height_m = 4.0\nwidth_m = 0.9\nmass_kg = 4e3\n[record]\nscale = 1.5\n";
     std::fs::write(folder.path().join("block.toml"), block).unwrap();
     std::fs::write(
         folder.path().join("frame.toml"),
         "[structure]\nkind = 'aframe'\nheight_m = 20.0\nwidth_m = 4.4\nmass_kg = 2e5\n",
     )
     .unwrap();
-    for (case, integrator) in
-        [("block.toml", "trbdf2"), ("frame.toml", "hht:-0.3333333333333333"), ("frame.toml", "backward-euler")]
-    {
+    for (case, integrator) in [
+        ("block.toml", "trbdf2"),
+        ("frame.toml", "hht:-0.3333333333333333"),
+        ("frame.toml", "backward-euler"),
+    ] {
         run(&[
             "run",
             case,
@@ -46,9 +52,12 @@ fn decks_of_even_steps_find_what_the_emulation_found() {
             "--integrator",
             integrator,
         ]);
-        for (stepping, format) in
-            [("even", "openseespy"), ("touches", "openseespy"), ("even", "opensees-tcl"), ("touches", "opensees-tcl")]
-        {
+        for (stepping, format) in [
+            ("even", "openseespy"),
+            ("touches", "openseespy"),
+            ("even", "opensees-tcl"),
+            ("touches", "opensees-tcl"),
+        ] {
             run(&[
                 "export",
                 "--parameters",
@@ -62,9 +71,17 @@ fn decks_of_even_steps_find_what_the_emulation_found() {
             ]);
             let Some(program) = interpreter(format) else { continue };
             let name = if folder.path().join("deck").is_dir() { "deck/" } else { "deck" };
-            let out = Command::new(&program[0]).args(&program[1..]).arg(name).current_dir(&folder).output().unwrap();
+            let out = Command::new(&program[0])
+                .args(&program[1..])
+                .arg(name)
+                .current_dir(&folder)
+                .output()
+                .unwrap();
             let said = String::from_utf8_lossy(&out.stdout);
-            println!("{case} {integrator} {stepping} {format}: {}", said.lines().next().unwrap_or_default());
+            println!(
+                "{case} {integrator} {stepping} {format}: {}",
+                said.lines().next().unwrap_or_default()
+            );
             assert!(
                 out.status.success() && said.contains("within 1 %: yes"),
                 "{case} {integrator} {stepping} {format}: {said}"

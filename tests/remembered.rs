@@ -50,8 +50,14 @@ fn record_scale_and_duration_are_remembered_until_told_otherwise() {
     assert!(screen(&run).contains(used), "{}", screen(&run));
     let parameters = json(&fs::read(dir.path().join("out/parameters.json")).unwrap());
     let row = &parameters["record"];
-    assert_eq!((&parameters["schema"], &row["scale"], &row["duration_s"]), (&4.into(), &1.5.into(), &8.0.into()));
-    assert_eq!((&row["source"]["path"], &row["source"]["units"]), (&"../motions/centro.txt".into(), &"cm/s2".into()));
+    assert_eq!(
+        (&parameters["schema"], &row["scale"], &row["duration_s"]),
+        (&4.into(), &1.5.into(), &8.0.into())
+    );
+    assert_eq!(
+        (&row["source"]["path"], &row["source"]["units"]),
+        (&"../motions/centro.txt".into(), &"cm/s2".into())
+    );
     assert!(parameters["conditioning"]["well_conditioned"].is_boolean());
 
     // from elsewhere, with nothing said
@@ -61,15 +67,29 @@ fn record_scale_and_duration_are_remembered_until_told_otherwise() {
     let output = tune(&elsewhere, &simulate);
     assert!(stderr(&output).contains(used), "{}", stderr(&output));
     let found = json(&output.stdout);
-    for key in ["duration_s", "nrmse_horizontal", "nrmse_vertical", "impacts_fem", "peak_horizontal_fem_m"] {
+    for key in
+        ["duration_s", "nrmse_horizontal", "nrmse_vertical", "impacts_fem", "peak_horizontal_fem_m"]
+    {
         assert_eq!(found[key], parameters["match"][key], "{key}");
     }
-    let export = ["export", "--parameters", "../out/parameters.json", "--format", "markdown", "--out", "springs.md"];
+    let export = [
+        "export",
+        "--parameters",
+        "../out/parameters.json",
+        "--format",
+        "markdown",
+        "--out",
+        "springs.md",
+    ];
     assert!(stderr(&tune(&elsewhere, &export)).contains(used));
 
     // a scale replaces the remembered one, and another record comes whole and unscaled
-    let again = stderr(&tune(&elsewhere, &[&simulate[..], &["--scale", "1", "--duration", "6"]].concat()));
-    assert!(again.contains("centro.txt, in cm/s2), scale 1, first 6 s of 12 s: 601 samples"), "{again}");
+    let again =
+        stderr(&tune(&elsewhere, &[&simulate[..], &["--scale", "1", "--duration", "6"]].concat()));
+    assert!(
+        again.contains("centro.txt, in cm/s2), scale 1, first 6 s of 12 s: 601 samples"),
+        "{again}"
+    );
     let other = ["--record", "../motions/centro.txt", "--dt", "0.01"];
     let other = stderr(&tune(&elsewhere, &[&simulate[..], &other].concat()));
     assert!(other.contains("scale 1, all 12 s: 1201 samples"), "{other}");
@@ -83,7 +103,8 @@ fn a_scale_on_the_command_line_replaces_the_cases() {
     let plain = tune(dir.path(), &[&RUN[..], &["plain"]].concat());
     // the same screen but for the folder in its commands
     assert_eq!(screen(&run).replace("given/", "F/"), screen(&plain).replace("plain/", "F/"));
-    let doubled = stderr(&tune(dir.path(), &["housner", "case.toml", "--scale", "2", "--out", "h.csv"]));
+    let doubled =
+        stderr(&tune(dir.path(), &["housner", "case.toml", "--scale", "2", "--out", "h.csv"]));
     assert!(doubled.contains("scale 2, first 8 s of 12 s: 801 samples"), "{doubled}");
 }
 
@@ -107,14 +128,21 @@ fn a_body_that_overturns_is_compared_up_to_there() {
     tune(dir.path(), &[&RUN[..], &["out"]].concat());
     fs::write(dir.path().join("push.txt"), "1.4715\n".repeat(2000)).unwrap();
     let push = ["--record", "push.txt", "--dt", "0.01", "--units", "m/s2"];
-    let output = tune(dir.path(), &[&["simulate", "--parameters", "out/parameters.json"][..], &push].concat());
+    let output = tune(
+        dir.path(),
+        &[&["simulate", "--parameters", "out/parameters.json"][..], &push].concat(),
+    );
     let (found, said) = (json(&output.stdout), stderr(&output));
     let time = found["overturned_housner_s"].as_f64().unwrap();
     assert!((time - 4.4).abs() < 0.1 && found["duration_s"].as_f64().unwrap() <= time, "{found}");
     // from rest to alpha: h sin(alpha) + b (1 - cos(alpha)) = 6.1 m is the most that counts
     assert!(found["peak_horizontal_housner_m"].as_f64().unwrap().abs() < 6.1, "{found}");
     assert!(found["nrmse_horizontal"].as_f64().unwrap() < 2.0, "{found}");
-    assert!(said.contains("the structure overturns at t = ") && said.contains("numbers count up to then"), "{said}");
+    assert!(
+        said.contains("the structure overturns at t = ")
+            && said.contains("numbers count up to then"),
+        "{said}"
+    );
     assert!(!said.contains("inf") && !said.contains("NaN"), "{said}");
 }
 
@@ -125,8 +153,12 @@ fn springs_are_made_without_a_record_and_are_those_that_a_record_too_weak_to_lif
     assert!(stderr(&run).contains("no record"), "{}", stderr(&run));
     let weak = ["run", "--scale", "0.1", "--quiet", "--no-figures", "--no-front", "--out", "weak"];
     let output = tune(dir.path(), &weak);
-    assert!(String::from_utf8_lossy(&output.stdout).contains("does not lift the structure"), "{output:?}");
-    let read = |folder: &str| json(&fs::read(dir.path().join(folder).join("parameters.json")).unwrap());
+    assert!(
+        String::from_utf8_lossy(&output.stdout).contains("does not lift the structure"),
+        "{output:?}"
+    );
+    let read =
+        |folder: &str| json(&fs::read(dir.path().join(folder).join("parameters.json")).unwrap());
     let (none, weak) = (read("none"), read("weak"));
     for key in ["vertical", "horizontal", "assessment", "landings"] {
         assert_eq!(none[key], weak[key], "{key}");

@@ -88,7 +88,9 @@ fn a_sweep_killed_ten_times_and_gone_on_with_has_the_same_bytes() {
     let dir = begun();
     let mut killed = 0;
     for i in 0_u64..40 {
-        let mut child = tune(dir.path(), &["sweep", "sweep.toml", "--out", "killed", "--quiet"]).spawn().unwrap();
+        let mut child = tune(dir.path(), &["sweep", "sweep.toml", "--out", "killed", "--quiet"])
+            .spawn()
+            .unwrap();
         // moments without a rhythm, from before the first part to after several
         sleep(Duration::from_millis(3 + i * i * 37 % 61));
         child.kill().unwrap();
@@ -121,7 +123,12 @@ fn shares_on_other_threads_in_another_order_and_twice_give_the_same_bytes() {
     let said = String::from_utf8(gather.stderr).unwrap();
     assert!(said.contains("2 of 25 parts are missing (2, 4)"), "{said}");
     sweep(dir.path(), "shares", &["--shard", "1/1"]);
-    assert!(tune(dir.path(), &["sweep", "gather", "sweep.toml", "--out", "shares"]).status().unwrap().success());
+    assert!(
+        tune(dir.path(), &["sweep", "gather", "sweep.toml", "--out", "shares"])
+            .status()
+            .unwrap()
+            .success()
+    );
     same(&dir.path().join("whole"), &dir.path().join("shares"));
 }
 
@@ -131,8 +138,16 @@ fn another_sweep_in_the_same_folder_is_refused() {
     let write = |text: &str| fs::write(dir.path().join("sweep.toml"), text).unwrap();
     write(&SWEEP.replace("earthquakes = 40", "").replace("synthetic = 20", ""));
     sweep(dir.path(), "out", &["--no-figures"]);
-    write(&SWEEP.replace("earthquakes = 40", "").replace("synthetic = 20", "").replace("seed = 5", "seed = 6"));
-    let refused = tune(dir.path(), &["sweep", "sweep.toml", "--out", "out"]).stderr(Stdio::piped()).output().unwrap();
+    write(
+        &SWEEP
+            .replace("earthquakes = 40", "")
+            .replace("synthetic = 20", "")
+            .replace("seed = 5", "seed = 6"),
+    );
+    let refused = tune(dir.path(), &["sweep", "sweep.toml", "--out", "out"])
+        .stderr(Stdio::piped())
+        .output()
+        .unwrap();
     let said = String::from_utf8(refused.stderr).unwrap();
     assert_eq!(refused.status.code(), Some(2));
     assert!(said.contains("holds another sweep") && said.lines().count() == 1, "{said}");
@@ -154,12 +169,18 @@ fn a_part_that_is_another_or_has_a_bit_changed_is_refused_and_computed_again() {
     let good = files(&dir.path().join("whole"));
     fs::copy(part(0), part(3)).unwrap();
     let said = refused(dir.path(), "whole");
-    assert!(said.contains("1 of 25 parts are missing (3): the file of part 3 is part 0 of 25"), "{said}");
+    assert!(
+        said.contains("1 of 25 parts are missing (3): the file of part 3 is part 0 of 25"),
+        "{said}"
+    );
     let mut bytes = fs::read(part(7)).unwrap();
     for at in (0..bytes.len()).step_by(97) {
         bytes[at] ^= 1;
         fs::write(part(7), &bytes).unwrap();
-        assert!(refused(dir.path(), "whole").contains("the file of part 7 is damaged"), "byte {at}");
+        assert!(
+            refused(dir.path(), "whole").contains("the file of part 7 is damaged"),
+            "byte {at}"
+        );
         bytes[at] ^= 1;
     }
     bytes[100] ^= 1;
@@ -172,7 +193,9 @@ fn a_part_that_is_another_or_has_a_bit_changed_is_refused_and_computed_again() {
 fn two_sweeps_in_one_folder_share_it_and_lose_nothing() {
     let dir = begun();
     for pause in [0, 3, 11, 29] {
-        let start = || tune(dir.path(), &["sweep", "sweep.toml", "--out", "both", "--quiet"]).spawn().unwrap();
+        let start = || {
+            tune(dir.path(), &["sweep", "sweep.toml", "--out", "both", "--quiet"]).spawn().unwrap()
+        };
         let mut first = start();
         sleep(Duration::from_millis(pause));
         let mut second = start();
@@ -186,7 +209,9 @@ fn two_sweeps_in_one_folder_share_it_and_lose_nothing() {
 fn springs_and_manifests_that_a_hand_has_changed_are_refused() {
     let dir = TempDir::new().unwrap();
     let text = SWEEP.replace("earthquakes = 40", "").replace("synthetic = 20", "");
-    let text = text.replace("kind = \"fragility\"", "kind = \"compare\"").replace("count = 12", "count = 2");
+    let text = text
+        .replace("kind = \"fragility\"", "kind = \"compare\"")
+        .replace("count = 12", "count = 2");
     fs::write(dir.path().join("sweep.toml"), text + "[springs]\naccuracy = 0.02\n").unwrap();
     sweep(dir.path(), "out", &["--no-figures"]);
     let again = |file: &str, from: &str, to: &str| {
@@ -195,10 +220,15 @@ fn springs_and_manifests_that_a_hand_has_changed_are_refused() {
         let changed = good.replacen(from, to, 1);
         assert_ne!(good, changed);
         fs::write(&path, changed).unwrap();
-        let refused = tune(dir.path(), &["sweep", "sweep.toml", "--out", "out"]).stderr(Stdio::piped()).output();
+        let refused = tune(dir.path(), &["sweep", "sweep.toml", "--out", "out"])
+            .stderr(Stdio::piped())
+            .output();
         let refused = refused.unwrap();
         let said = String::from_utf8(refused.stderr).unwrap();
-        assert!(refused.status.code() == Some(2) && said.contains(file) && said.lines().count() == 1, "{said}");
+        assert!(
+            refused.status.code() == Some(2) && said.contains(file) && said.lines().count() == 1,
+            "{said}"
+        );
         fs::write(&path, good).unwrap();
     };
     again("springs.json", "\"omega_n_hz_over_p\": ", "\"omega_n_hz_over_p\": -");
@@ -211,8 +241,10 @@ fn springs_and_manifests_that_a_hand_has_changed_are_refused() {
 #[test]
 fn an_overturning_spectrum_is_gathered_from_parts_of_any_number_of_rows() {
     let folder = tempfile::tempdir().unwrap();
-    let spec = fs::read_to_string(concat!(env!("CARGO_MANIFEST_DIR"), "/tuning/sweeps/overturning.toml"));
-    let spec = spec.unwrap().replace("count = 120", "count = 24").replace("count = 600", "count = 60");
+    let spec =
+        fs::read_to_string(concat!(env!("CARGO_MANIFEST_DIR"), "/tuning/sweeps/overturning.toml"));
+    let spec =
+        spec.unwrap().replace("count = 120", "count = 24").replace("count = 600", "count = 60");
     fs::write(folder.path().join("sweep.toml"), spec).unwrap();
     sweep(folder.path(), "first", &["--no-figures"]);
     sweep(folder.path(), "second", &["--no-figures"]);

@@ -20,7 +20,8 @@ fn folder() -> TempDir {
         vertical: Design::from_kc(0.3, 0.1, 0.75, 160.0),
         horizontal: Design::from_kc(0.3, 0.57, 1.86, 160.0),
     };
-    fs::write(dir.path().join("parameters.json"), Parameters::new(structure, &springs).to_json()).unwrap();
+    fs::write(dir.path().join("parameters.json"), Parameters::new(structure, &springs).to_json())
+        .unwrap();
     let records = dir.path().join("records");
     fs::create_dir(&records).unwrap();
     let accel = Record::el_centro().truncated(6.0).accel;
@@ -46,7 +47,8 @@ const RECORDS: [&str; 6] = ["--records", "records", "--dt", "0.01", "--units", "
 fn the_results_are_the_same_bytes_whatever_the_number_of_threads() {
     let dir = folder();
     for jobs in ["1", "2"] {
-        let more = ["--synthetic", "6", "--seed", "3", "--duration", "20", "--jobs", jobs, "--out", jobs];
+        let more =
+            ["--synthetic", "6", "--seed", "3", "--duration", "20", "--jobs", jobs, "--out", jobs];
         let output = validate(dir.path(), &[&RECORDS[..], &more].concat());
         assert!(output.status.success(), "{}", String::from_utf8_lossy(&output.stderr));
     }
@@ -59,29 +61,49 @@ fn the_results_are_the_same_bytes_whatever_the_number_of_threads() {
 #[test]
 fn files_come_first_in_the_order_of_their_names_and_the_fields_are_those_promised() {
     let dir = folder();
-    let output = validate(dir.path(), &[&RECORDS[..], &["--synthetic", "1", "--no-figures"]].concat());
+    let output =
+        validate(dir.path(), &[&RECORDS[..], &["--synthetic", "1", "--no-figures"]].concat());
     assert!(output.status.success(), "{}", String::from_utf8_lossy(&output.stderr));
     let stdout = String::from_utf8(output.stdout).unwrap();
     assert!(stdout.contains("KS distance of the peak rotations"), "{stdout}");
     assert!(!dir.path().join("out/validation.png").exists());
 
-    let all: Value = serde_json::from_slice(&fs::read(dir.path().join("out/validate.json")).unwrap()).unwrap();
+    let all: Value =
+        serde_json::from_slice(&fs::read(dir.path().join("out/validate.json")).unwrap()).unwrap();
     let rows = all["records"].as_array().unwrap();
     let names: Vec<&str> = rows.iter().map(|row| row["name"].as_str().unwrap()).collect();
     assert_eq!(names, ["centro", "weak", "ricker-0000"]);
     let (centro, weak) = (&rows[0], &rows[1]);
-    for number in ["pga_g", "sensitivity", "nrmse_horizontal", "nrmse_vertical", "peak_ratio_housner", "peak_ratio_fem"]
-    {
+    for number in [
+        "pga_g",
+        "sensitivity",
+        "nrmse_horizontal",
+        "nrmse_vertical",
+        "peak_ratio_housner",
+        "peak_ratio_fem",
+    ] {
         assert!(centro[number].as_f64().is_some_and(|x| x > 0.0), "{number}: {centro}");
     }
-    assert_eq!((&centro["overturned_housner"], &centro["overturned_fem"]), (&false.into(), &false.into()));
-    assert_eq!((&weak["outcome"], &weak["nrmse_horizontal"]), (&"never_lifted".into(), &Value::Null));
+    assert_eq!(
+        (&centro["overturned_housner"], &centro["overturned_fem"]),
+        (&false.into(), &false.into())
+    );
+    assert_eq!(
+        (&weak["outcome"], &weak["nrmse_horizontal"]),
+        (&"never_lifted".into(), &Value::Null)
+    );
     assert_eq!((&weak["peak_ratio_housner"], &weak["peak_ratio_fem"]), (&0.0.into(), &0.0.into()));
     assert!(all["ks_distance"].is_f64() && all["overturning_agreement"].is_f64());
     assert!(all["nrmse_well_conditioned"]["count"].as_u64().is_some_and(|n| n >= 1));
-    assert!(all["nrmse_well_conditioned"]["median"].is_f64() && all["nrmse_well_conditioned"]["p90"].is_f64());
+    assert!(
+        all["nrmse_well_conditioned"]["median"].is_f64()
+            && all["nrmse_well_conditioned"]["p90"].is_f64()
+    );
     let csv = fs::read_to_string(dir.path().join("out/validate.csv")).unwrap();
-    assert!(csv.starts_with("name,outcome,duration_s,pga_g,sensitivity,nrmse_horizontal,"), "{csv}");
+    assert!(
+        csv.starts_with("name,outcome,duration_s,pga_g,sensitivity,nrmse_horizontal,"),
+        "{csv}"
+    );
     assert_eq!(csv.lines().count(), 4);
 }
 
@@ -105,30 +127,66 @@ fn files_and_folders_are_named_without_an_option_and_what_cannot_be_read_is_said
     fs::write(records.join("zz.txt"), "0.1\n0.2\nx\n").unwrap();
     fs::copy(records.join("weak.txt"), dir.path().join("one.txt")).unwrap();
     // a file that is named twice counts once
-    let more = ["one.txt", "records", "nowhere.at2", "one.txt", "--dt", "0.01", "--units", "g", "--no-figures"];
+    let more = [
+        "one.txt",
+        "records",
+        "nowhere.at2",
+        "one.txt",
+        "--dt",
+        "0.01",
+        "--units",
+        "g",
+        "--no-figures",
+    ];
     let output = validate(dir.path(), &more);
     let stderr = String::from_utf8(output.stderr).unwrap();
     assert!(output.status.success(), "{stderr}");
     let said: Vec<&str> = stderr.lines().filter(|line| line.starts_with("left out: ")).collect();
-    assert!(said.len() == 2 && said[0].contains("zz.txt, line 3") && said[1].contains("nowhere.at2"), "{stderr}");
+    assert!(
+        said.len() == 2 && said[0].contains("zz.txt, line 3") && said[1].contains("nowhere.at2"),
+        "{stderr}"
+    );
     let stdout = String::from_utf8(output.stdout).unwrap();
     assert!(stdout.starts_with("records: 3 from files (2 left out)\n"), "{stdout}");
-    let all: Value = serde_json::from_slice(&fs::read(dir.path().join("out/validate.json")).unwrap()).unwrap();
-    let names: Vec<&str> = all["records"].as_array().unwrap().iter().map(|row| row["name"].as_str().unwrap()).collect();
+    let all: Value =
+        serde_json::from_slice(&fs::read(dir.path().join("out/validate.json")).unwrap()).unwrap();
+    let names: Vec<&str> = all["records"]
+        .as_array()
+        .unwrap()
+        .iter()
+        .map(|row| row["name"].as_str().unwrap())
+        .collect();
     assert_eq!(names, ["one", "centro", "weak"]);
-    let left_out: Vec<&str> =
-        all["left_out"].as_array().unwrap().iter().map(|row| row["file"].as_str().unwrap()).collect();
+    let left_out: Vec<&str> = all["left_out"]
+        .as_array()
+        .unwrap()
+        .iter()
+        .map(|row| row["file"].as_str().unwrap())
+        .collect();
     assert_eq!(left_out, ["records/zz.txt", "nowhere.at2"]);
 }
 
 #[test]
 fn motions_made_beside_files_are_said_to_be() {
     let dir = folder();
-    let more = ["--synthetic", "2", "--earthquakes", "1", "--seed", "7", "--duration", "5", "--no-figures"];
+    let more = [
+        "--synthetic",
+        "2",
+        "--earthquakes",
+        "1",
+        "--seed",
+        "7",
+        "--duration",
+        "5",
+        "--no-figures",
+    ];
     let output = validate(dir.path(), &[&RECORDS[..], &more].concat());
     let stdout = String::from_utf8(output.stdout).unwrap();
     let line = "records: 2 from files, 2 synthetic of seed 7, 1 earthquake-like of seed 7";
-    assert!(stdout.starts_with(&format!("{line}\n")) && stdout.contains("all together"), "{stdout}");
+    assert!(
+        stdout.starts_with(&format!("{line}\n")) && stdout.contains("all together"),
+        "{stdout}"
+    );
     assert!(fs::read_to_string(dir.path().join("out/validate.md")).unwrap().contains(line));
 }
 
@@ -171,7 +229,11 @@ fn a_folder_takes_a_single_result_under_its_usual_name_everywhere() {
         // made where it is written as a folder, used where it is there
         for folder in ["made/", "records"] {
             let output = tune(dir.path(), &[args, more, &["--out", folder]].concat());
-            assert!(output.status.success(), "{args:?}: {}", String::from_utf8_lossy(&output.stderr));
+            assert!(
+                output.status.success(),
+                "{args:?}: {}",
+                String::from_utf8_lossy(&output.stderr)
+            );
             assert!(dir.path().join(folder).join(name).exists(), "{args:?} {folder}");
         }
     }
@@ -196,20 +258,34 @@ fn suites_are_judged_apart_and_the_motions_of_one_do_not_depend_on_the_others() 
         let output = validate(dir.path(), &[more, &suites, &[out, "--no-figures"]].concat());
         assert!(output.status.success(), "{}", String::from_utf8_lossy(&output.stderr));
         let stdout = String::from_utf8(output.stdout).unwrap();
-        for word in ["| synthetic ", "| earthquakes ", "geometric mean, sensitivity below 150", "e changed by 1e-5"] {
+        for word in [
+            "| synthetic ",
+            "| earthquakes ",
+            "geometric mean, sensitivity below 150",
+            "e changed by 1e-5",
+        ] {
             assert!(stdout.contains(word), "{word}: {stdout}");
         }
     }
     let read = |out: &str| -> Value {
-        serde_json::from_slice(&fs::read(dir.path().join(out).join("validate.json")).unwrap()).unwrap()
+        serde_json::from_slice(&fs::read(dir.path().join(out).join("validate.json")).unwrap())
+            .unwrap()
     };
     let (all, made) = (read("all"), read("made"));
     let names = |all: &Value, key: &str| -> Vec<String> {
-        all["records"].as_array().unwrap().iter().map(|row| row[key].as_str().unwrap().to_string()).collect()
+        all["records"]
+            .as_array()
+            .unwrap()
+            .iter()
+            .map(|row| row[key].as_str().unwrap().to_string())
+            .collect()
     };
     let last = ["ricker-0000", "mavroeidis-0001", "earthquake-0000", "earthquake-0001"];
     assert_eq!(names(&all, "name")[2..], last);
-    assert_eq!(names(&all, "suite"), ["files", "files", "synthetic", "synthetic", "earthquakes", "earthquakes"]);
+    assert_eq!(
+        names(&all, "suite"),
+        ["files", "files", "synthetic", "synthetic", "earthquakes", "earthquakes"]
+    );
     assert_eq!(all["records"].as_array().unwrap()[2..], made["records"].as_array().unwrap()[..]);
     for suite in ["synthetic", "earthquakes"] {
         assert_eq!((&all[suite]["count"], &all[suite]["seed"]), (&2.into(), &4.into()));
@@ -217,7 +293,10 @@ fn suites_are_judged_apart_and_the_motions_of_one_do_not_depend_on_the_others() 
         assert_eq!(all["suites"][suite], made["suites"][suite]);
         assert!(all["suites"][suite]["ks_distance_of_housner_changed"].is_f64());
     }
-    assert!(all["suites"]["files"]["nrmse_geometric_mean"]["mean"].is_f64() && made["suites"]["files"].is_null());
+    assert!(
+        all["suites"]["files"]["nrmse_geometric_mean"]["mean"].is_f64()
+            && made["suites"]["files"].is_null()
+    );
     assert_eq!(all["count"], 6);
 }
 
@@ -229,14 +308,19 @@ fn simulate_tells_conditioning_and_regime_on_stderr() {
         let output = tune(dir.path(), &[&args[..], &[friction]].concat());
         assert!(output.status.success());
         // stdout stays the match alone
-        assert!(serde_json::from_slice::<Value>(&output.stdout).unwrap()["nrmse_horizontal"].is_f64());
+        assert!(
+            serde_json::from_slice::<Value>(&output.stdout).unwrap()["nrmse_horizontal"].is_f64()
+        );
         String::from_utf8(output.stderr).unwrap()
     };
     let stderr = said("0.9");
     assert!(!stderr.contains("slide"), "{stderr}");
     let used = "record IELC180 (embedded), scale 1, first 6 s of 39.94 s: 601 samples of 0.01 s, PGA 0.3129 g at 2.";
     assert!(stderr.contains(used), "{stderr}");
-    assert!(stderr.contains("the structure rocks and stands: its largest rotation is "), "{stderr}");
+    assert!(
+        stderr.contains("the structure rocks and stands: its largest rotation is "),
+        "{stderr}"
+    );
     let stderr = said("0.05");
     assert!(stderr.contains("the feet would slide: friction of 0."), "{stderr}");
 }

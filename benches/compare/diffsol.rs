@@ -7,7 +7,10 @@
 
 use std::cell::Cell;
 
-use diffsol::{DiffsolError, NalgebraMat, NalgebraVec, OdeBuilder, OdeEquations, OdeSolverMethod, OdeSolverStopReason};
+use diffsol::{
+    DiffsolError, NalgebraMat, NalgebraVec, OdeBuilder, OdeEquations, OdeSolverMethod,
+    OdeSolverStopReason,
+};
 
 /// A body at rest that is lifted once and then rocks on, and its record.
 #[derive(Clone, Copy, Debug)]
@@ -55,7 +58,9 @@ impl Case<'_> {
         let limit = self.g * self.alpha.tan();
         let n = self.accel.len();
         let mut theta = vec![0.0; n];
-        let Some(lifted) = self.accel.iter().position(|a| a.abs() > limit) else { return Ok(theta) };
+        let Some(lifted) = self.accel.iter().position(|a| a.abs() > limit) else {
+            return Ok(theta);
+        };
         let first = lifted.saturating_sub(1);
         let (a0, a1) = (self.accel[first], self.accel[lifted]);
         let side = -a1.signum();
@@ -83,7 +88,8 @@ impl Case<'_> {
     }
 
     fn interval(&self, i: usize) -> Here {
-        let (a, next) = (self.accel[i] / self.g, self.accel[(i + 1).min(self.accel.len() - 1)] / self.g);
+        let (a, next) =
+            (self.accel[i] / self.g, self.accel[(i + 1).min(self.accel.len() - 1)] / self.g);
         Here { t: i as f64 * self.dt, a, slope: (next - a) / self.dt, side: 0.0 }
     }
 
@@ -123,7 +129,12 @@ impl Case<'_> {
                 t -= correction;
             }
             here.set(Here { side: reached.rate.signum(), ..here.get() });
-            self.place(solver, here, Mark { theta: 0.0, rate: self.e * reached.rate, ..reached }, end - reached.t);
+            self.place(
+                solver,
+                here,
+                Mark { theta: 0.0, rate: self.e * reached.rate, ..reached },
+                end - reached.t,
+            );
         }
     }
 
@@ -145,7 +156,9 @@ impl Case<'_> {
     }
 }
 
-fn mark<'a, E: OdeEquations<T = f64, V = NalgebraVec<f64>> + 'a>(solver: &impl OdeSolverMethod<'a, E>) -> Mark {
+fn mark<'a, E: OdeEquations<T = f64, V = NalgebraVec<f64>> + 'a>(
+    solver: &impl OdeSolverMethod<'a, E>,
+) -> Mark {
     let state = solver.state();
     Mark { t: state.t, theta: state.y[0], rate: state.y[1] }
 }

@@ -36,8 +36,13 @@ impl BenchCase {
     /// 160 Hz springs as the paper's procedure tunes them.
     pub fn arr() -> Self {
         let vertical = Design { mu: 1.0, f: 0.862_809_649, xi: 1.023_922_665, omega_n_hz: 160.0 };
-        let horizontal = Design { mu: 10.0, f: 0.948_312_333, xi: 0.197_421_228, omega_n_hz: 160.0 };
-        Self { name: "paper's procedure", springs: Springs { vertical, horizontal }, record: el_centro() }
+        let horizontal =
+            Design { mu: 10.0, f: 0.948_312_333, xi: 0.197_421_228, omega_n_hz: 160.0 };
+        Self {
+            name: "paper's procedure",
+            springs: Springs { vertical, horizontal },
+            record: el_centro(),
+        }
     }
 
     /// 160 Hz springs, fixed so that times can be compared: stiff, strongly damped horizontal
@@ -45,7 +50,11 @@ impl BenchCase {
     pub fn damped() -> Self {
         let vertical = Design { mu: 0.5158, f: 0.6521, xi: 0.8992, omega_n_hz: 160.0 };
         let horizontal = Design { mu: 0.0272, f: 33.19, xi: 40.06, omega_n_hz: 160.0 };
-        Self { name: "strongly damped", springs: Springs { vertical, horizontal }, record: el_centro() }
+        Self {
+            name: "strongly damped",
+            springs: Springs { vertical, horizontal },
+            record: el_centro(),
+        }
     }
 
     /// The same ratios, which hardly bounce, at any frequency [Hz].
@@ -93,10 +102,17 @@ impl BenchCase {
                 setting: format!("tolerance {tolerance:.0e}"),
                 seconds,
                 error: error(&history.motion, reference),
-                note: format!("{} steps, energy residual {:.0e}", steps(&history), history.energy_residual),
+                note: format!(
+                    "{} steps, energy residual {:.0e}",
+                    steps(&history),
+                    history.energy_residual
+                ),
             }
         };
-        Series { tool: format!("groundspring, {}", self.name), points: tolerances.iter().map(point).collect() }
+        Series {
+            tool: format!("groundspring, {}", self.name),
+            points: tolerances.iter().map(point).collect(),
+        }
     }
 }
 
@@ -162,7 +178,8 @@ mod tests {
     use super::*;
 
     #[test]
-    fn the_default_history_is_within_its_promise_of_the_tight_one_which_the_next_tighter_confirms() {
+    fn the_default_history_is_within_its_promise_of_the_tight_one_which_the_next_tighter_confirms()
+    {
         for bench in [BenchCase::arr(), BenchCase::damped()] {
             let tight = bench.tight();
             assert!(error(&bench.simulate(at(0.1 * TIGHT)).motion, &tight) < 5e-6);

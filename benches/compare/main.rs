@@ -112,7 +112,10 @@ pub struct Series {
 impl Series {
     /// The cheapest point with an error of at most `error`.
     pub fn cheapest(&self, error: f64) -> Option<&Point> {
-        self.points.iter().filter(|p| p.error <= error).min_by(|a, b| a.seconds.total_cmp(&b.seconds))
+        self.points
+            .iter()
+            .filter(|p| p.error <= error)
+            .min_by(|a, b| a.seconds.total_cmp(&b.seconds))
     }
 }
 
@@ -140,7 +143,12 @@ impl Effort {
 
     /// A few minutes.
     pub fn full() -> Self {
-        Self { rounds: [400, 40], programs: true, opensees: &[1, 10, 25, 50, 100, 200], records: &[100, 300, 1000] }
+        Self {
+            rounds: [400, 40],
+            programs: true,
+            opensees: &[1, 10, 25, 50, 100, 200],
+            records: &[100, 300, 1000],
+        }
     }
 }
 
@@ -148,7 +156,12 @@ impl Effort {
 ///
 /// # Errors
 /// An inner fit fails. Tools that are not there, or fail, are told in the result.
-pub fn measure(effort: &Effort, python: &Path, program: &Path, tell: &dyn Fn(&str)) -> Result<Measured, FitError> {
+pub fn measure(
+    effort: &Effort,
+    python: &Path,
+    program: &Path,
+    tell: &dyn Fn(&str),
+) -> Result<Measured, FitError> {
     let [many, few] = effort.rounds;
     let mut m = Measured::default();
     let problem = rigid::Problem::el_centro();
@@ -163,8 +176,10 @@ pub fn measure(effort: &Effort, python: &Path, program: &Path, tell: &dyn Fn(&st
         Measured::add(&mut m.left_out, &mut m.rigid, peers::octave(&problem, &[1e-3, 1e-6], 1));
     }
     tell("finite elements");
-    let benches = [elements::BenchCase::arr(), elements::BenchCase::damped()].map(|bench| (bench.tight(), bench));
-    m.elements = benches.iter().map(|(tight, bench)| bench.ladder(&elements::LADDER, tight, few)).collect();
+    let benches = [elements::BenchCase::arr(), elements::BenchCase::damped()]
+        .map(|bench| (bench.tight(), bench));
+    m.elements =
+        benches.iter().map(|(tight, bench)| bench.ladder(&elements::LADDER, tight, few)).collect();
     m.own = m.elements.len();
     m.stiffness = elements::against_stiffness(&[20.0, 80.0, 320.0, 1280.0], few);
     m.length = elements::against_length(&[5.0, 10.0, 20.0, 40.0], few);
@@ -264,7 +279,12 @@ mod tests {
 
     /// A tool and what it measured: seconds, error.
     pub fn series(tool: &str, points: &[(f64, f64)]) -> Series {
-        let point = |&(seconds, error): &(f64, f64)| Point { setting: "s".into(), seconds, error, note: String::new() };
+        let point = |&(seconds, error): &(f64, f64)| Point {
+            setting: "s".into(),
+            seconds,
+            error,
+            note: String::new(),
+        };
         Series { tool: tool.into(), points: points.iter().map(point).collect() }
     }
 

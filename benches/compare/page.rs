@@ -10,7 +10,9 @@ pub fn page(text: &str) -> String {
     let lines: Vec<&str> = text.lines().collect();
     for (i, line) in lines.iter().enumerate() {
         // the title of a table stands two lines above it
-        if lines.get(i + 2).is_some_and(|next| next.starts_with('|')) && line.chars().next().is_some_and(|c| c != '|') {
+        if lines.get(i + 2).is_some_and(|next| next.starts_with('|'))
+            && line.chars().next().is_some_and(|c| c != '|')
+        {
             out.push_str("\n## ");
             out.push_str(line);
         } else {
@@ -30,7 +32,8 @@ pub fn check(text: &str, there: &str) -> Result<(), String> {
     let form = |page: &str| -> Vec<String> {
         let lines: Vec<&str> = page.lines().collect();
         let head = |(i, line): (usize, &&str)| {
-            let rule = |next: &&str| next.starts_with('|') && next.chars().all(|c| "|-: ".contains(c));
+            let rule =
+                |next: &&str| next.starts_with('|') && next.chars().all(|c| "|-: ".contains(c));
             (line.starts_with("## ") || lines.get(i + 1).is_some_and(rule)).then(|| words(line))
         };
         lines.iter().enumerate().filter_map(head).collect()
@@ -57,7 +60,10 @@ mod tests {
     fn a_page_has_the_form_of_its_text_whatever_the_numbers_and_widths() {
         let text = page(TEXT);
         assert!(text.contains("\n\n## The tool\n\n| a | b |"), "{text}");
-        assert_eq!(check(TEXT, &text.replace("| 1 |", "| 7 |").replace("| a |", "|  a  |")), Ok(()));
+        assert_eq!(
+            check(TEXT, &text.replace("| 1 |", "| 7 |").replace("| a |", "|  a  |")),
+            Ok(())
+        );
     }
 
     #[test]

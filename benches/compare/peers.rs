@@ -53,7 +53,13 @@ pub fn scipy(problem: &rigid::Problem, python: &Path, rtols: &[f64], rounds: usi
     };
     let asked = serde_json::to_vec(&question).map_err(|e| e.to_string());
     let answers: Result<Vec<Answer>, String> = asked
-        .and_then(|stdin| run("SciPy", Command::new(python).args(["-c", include_str!("peers/housner.py")]), &stdin))
+        .and_then(|stdin| {
+            run(
+                "SciPy",
+                Command::new(python).args(["-c", include_str!("peers/housner.py")]),
+                &stdin,
+            )
+        })
         .and_then(|stdout| serde_json::from_slice(&stdout).map_err(|e| format!("SciPy: {e}")));
     let answers = match answers {
         Ok(answers) => answers,
@@ -63,7 +69,9 @@ pub fn scipy(problem: &rigid::Problem, python: &Path, rtols: &[f64], rounds: usi
         let own = answers.iter().filter(|answer| answer.tool == tool);
         own.map(|a| point(problem, a.rtol, a.seconds, &a.theta)).collect()
     };
-    let series = |tool: &str| Ok(Series { tool: format!("{tool}, restarted at every sample"), points: points(tool) });
+    let series = |tool: &str| {
+        Ok(Series { tool: format!("{tool}, restarted at every sample"), points: points(tool) })
+    };
     vec![series("SciPy RK45"), series("SciPy DOP853")]
 }
 
@@ -71,28 +79,49 @@ pub fn scipy(problem: &rigid::Problem, python: &Path, rtols: &[f64], rounds: usi
 pub fn octave(problem: &rigid::Problem, rtols: &[f64], rounds: usize) -> Peer {
     let rigid::Problem { body, record, .. } = problem;
     let folder = tempfile::tempdir().map_err(|e| format!("Octave: no temporary folder ({e})"))?;
-    let [script, asked, answer] = ["housner.m", "asked.txt", "answer.txt"].map(|name| folder.path().join(name));
-    let mut numbers = vec![body.p_squared(), body.alpha(), body.restitution(), rocking::scalar::GRAVITY, record.dt];
+    let [script, asked, answer] =
+        ["housner.m", "asked.txt", "answer.txt"].map(|name| folder.path().join(name));
+    let mut numbers = vec![
+        body.p_squared(),
+        body.alpha(),
+        body.restitution(),
+        rocking::scalar::GRAVITY,
+        record.dt,
+    ];
     numbers.extend([rounds as f64, rtols.len() as f64]);
-    let text = numbers.iter().chain(rtols).chain(&record.accel).fold(String::new(), |mut text, x| {
-        // writing to a String cannot fail
-        let _ = writeln!(text, "{x:?}");
-        text
-    });
+    let text =
+        numbers.iter().chain(rtols).chain(&record.accel).fold(String::new(), |mut text, x| {
+            // writing to a String cannot fail
+            let _ = writeln!(text, "{x:?}");
+            text
+        });
     let folder = |e: std::io::Error| format!("Octave: {e}");
     std::fs::write(&script, include_str!("peers/housner.m")).map_err(folder)?;
     std::fs::write(&asked, text).map_err(folder)?;
     let mut command = Command::new("octave-cli");
-    run("Octave", command.args(["--no-init-file", "--quiet"]).args([&script, &asked, &answer]), &[])?;
+    run(
+        "Octave",
+        command.args(["--no-init-file", "--quiet"]).args([&script, &asked, &answer]),
+        &[],
+    )?;
     let text = std::fs::read_to_string(&answer).map_err(folder)?;
     let numbers: Vec<f64> = text.lines().filter_map(|line| line.trim().parse().ok()).collect();
     let blocks = numbers.chunks(1 + record.len());
-    let points = rtols.iter().zip(blocks).map(|(&rtol, block)| point(problem, rtol, block[0], &block[1..])).collect();
+    let points = rtols
+        .iter()
+        .zip(blocks)
+        .map(|(&rtol, block)| point(problem, rtol, block[0], &block[1..]))
+        .collect();
     Ok(Series { tool: "Octave ode45 with Events".into(), points })
 }
 
 fn point(problem: &rigid::Problem, rtol: f64, seconds: f64, theta: &[f64]) -> Point {
-    Point { setting: format!("rtol {rtol:.0e}"), seconds, error: problem.error(theta), note: String::new() }
+    Point {
+        setting: format!("rtol {rtol:.0e}"),
+        seconds,
+        error: problem.error(theta),
+        note: String::new(),
+    }
 }
 
 /// How OpenSees steps.
@@ -121,8 +150,8 @@ pub fn opensees(
     let width_sensitivity = width_sensitivity(&history.motion, &bench.parameters(), &bench.record);
     let expected = Expected::new(&history, width_sensitivity);
     let folder = tempfile::tempdir().map_err(|e| format!("OpenSees: no temporary folder ({e})"))?;
-    let text =
-        export(&bench.parameters(), &bench.record, &expected, DeckFormat::OpenSeesPy).map_err(|e| e.to_string())?;
+    let text = export(&bench.parameters(), &bench.record, &expected, DeckFormat::OpenSeesPy)
+        .map_err(|e| e.to_string())?;
     let deck = folder.path().join("deck.py");
     std::fs::write(&deck, text).map_err(|e| format!("OpenSees: {e}"))?;
     let mut command = Command::new(python);
@@ -132,7 +161,8 @@ pub fn opensees(
         .arg(word)
         .args(steps.iter().map(usize::to_string));
     let stdout = run("OpenSees", &mut command, &[])?;
-    let runs: Vec<(usize, f64, Motion)> = String::from_utf8_lossy(&stdout).lines().filter_map(read_run).collect();
+    let runs: Vec<(usize, f64, Motion)> =
+        String::from_utf8_lossy(&stdout).lines().filter_map(read_run).collect();
     let Some((_, _, finest)) = runs.last().filter(|run| !run.2.is_empty()) else {
         return Err("OpenSees: the analysis stopped at every time step".into());
     };
@@ -146,7 +176,10 @@ pub fn opensees(
             _ => format!("against its own finest {:.0e}", elements::error(motion, finest)),
         },
     };
-    Ok(Series { tool: format!("OpenSees, {told}, {}", bench.name), points: runs.iter().map(point).collect() })
+    Ok(Series {
+        tool: format!("OpenSees, {told}, {}", bench.name),
+        points: runs.iter().map(point).collect(),
+    })
 }
 
 /// "steps seconds file" and the history in the file; "steps seconds" and none if the analysis
@@ -171,18 +204,24 @@ fn run(tool: &str, command: &mut Command, stdin: &[u8]) -> Result<Vec<u8>, Strin
     let missing = |e| format!("{tool}: {name} cannot be run ({e})");
     // one thread, as we have
     command.envs([("OMP_NUM_THREADS", "1"), ("OPENBLAS_NUM_THREADS", "1")]);
-    let result = command.stdin(Stdio::piped()).stdout(Stdio::piped()).stderr(Stdio::piped()).spawn();
+    let result =
+        command.stdin(Stdio::piped()).stdout(Stdio::piped()).stderr(Stdio::piped()).spawn();
     let mut child = result.map_err(missing)?;
     if let Some(mut pipe) = child.stdin.take() {
         // a tool that is not there does not read; its stderr tells
         let _ = pipe.write_all(stdin);
     }
-    let Output { status, stdout, stderr } = child.wait_with_output().map_err(|e| format!("{tool}: {e}"))?;
+    let Output { status, stdout, stderr } =
+        child.wait_with_output().map_err(|e| format!("{tool}: {e}"))?;
     if status.success() {
         return Ok(stdout);
     }
     let complaint = String::from_utf8_lossy(&stderr);
-    let last = complaint.lines().rev().map(str::trim).find(|l| !l.is_empty() && !l.starts_with("Process 0"));
+    let last = complaint
+        .lines()
+        .rev()
+        .map(str::trim)
+        .find(|l| !l.is_empty() && !l.starts_with("Process 0"));
     Err(format!("{tool}: {}", last.unwrap_or("stopped without a word")))
 }
 
@@ -200,10 +239,16 @@ mod tests {
     #[test]
     fn a_tool_that_is_not_installed_or_fails_is_one_line() {
         let nothing = Path::new("no-such-interpreter");
-        let [Err(reason)] = &scipy(&rigid::Problem::el_centro(), nothing, &[1e-6], 1)[..] else { panic!() };
-        assert!(reason.starts_with("SciPy: no-such-interpreter cannot be run") && reason.lines().count() == 1);
+        let [Err(reason)] = &scipy(&rigid::Problem::el_centro(), nothing, &[1e-6], 1)[..] else {
+            panic!()
+        };
+        assert!(
+            reason.starts_with("SciPy: no-such-interpreter cannot be run")
+                && reason.lines().count() == 1
+        );
         let bench = elements::BenchCase::plain(20.0);
-        let reason = opensees(&bench, &Motion::default(), nothing, Stepping::Even, &[1]).unwrap_err();
+        let reason =
+            opensees(&bench, &Motion::default(), nothing, Stepping::Even, &[1]).unwrap_err();
         assert!(reason.starts_with("OpenSees: no-such-interpreter cannot be run"), "{reason}");
         let failed = run("false", &mut Command::new("false"), &[]);
         assert_eq!(failed, Err("false: stopped without a word".into()));

@@ -57,10 +57,16 @@ pub fn jobs(program: &Path, records: &[usize], rounds: usize) -> Result<Jobs, St
     let mut springs = Vec::new();
     for what in ["run", "run --no-figures", "run --no-front", "run --no-front --no-figures"] {
         jobs.runs.push(fastest(rounds, || run(program, what, &[], out))?);
-        springs.push(std::fs::read(&parameters).map_err(|e| format!("tune {what}: {}: {e}", parameters.display()))?);
+        springs.push(
+            std::fs::read(&parameters)
+                .map_err(|e| format!("tune {what}: {}: {e}", parameters.display()))?,
+        );
     }
-    for (what, without, with) in [("figures (tune run --no-figures)", 0, 1), ("front (tune run --no-front)", 0, 2)] {
-        let same = if springs[without] == springs[with] { "the same bytes" } else { "DIFFERENT bytes" };
+    for (what, without, with) in
+        [("figures (tune run --no-figures)", 0, 1), ("front (tune run --no-front)", 0, 2)]
+    {
+        let same =
+            if springs[without] == springs[with] { "the same bytes" } else { "DIFFERENT bytes" };
         jobs.skips.push(Skip {
             what,
             with: jobs.runs[with].seconds,
@@ -98,7 +104,12 @@ fn run(program: &Path, what: &str, more: &[&OsStr], out: &Path) -> Result<Run, S
     let mut command = Command::new(program);
     command.args(what.split(' ')).args(more).arg("--quiet").arg("--out").arg(out);
     let began = Instant::now();
-    let mut child = command.stdin(Stdio::null()).stdout(Stdio::null()).stderr(Stdio::null()).spawn().map_err(failed)?;
+    let mut child = command
+        .stdin(Stdio::null())
+        .stdout(Stdio::null())
+        .stderr(Stdio::null())
+        .spawn()
+        .map_err(failed)?;
     let mut memory = None;
     loop {
         memory = peak_memory(&child).or(memory);
@@ -126,13 +137,16 @@ mod tests {
     fn a_program_that_fails_or_is_not_there_is_one_line() {
         let reason = jobs(Path::new("no-such-program"), &[1], 1).unwrap_err();
         assert!(reason.starts_with("tune run: ") && reason.lines().count() == 1);
-        assert!(jobs(Path::new("false"), &[1], 1).unwrap_err().starts_with("tune run: exit status"));
+        assert!(
+            jobs(Path::new("false"), &[1], 1).unwrap_err().starts_with("tune run: exit status")
+        );
     }
 
     #[test]
     #[cfg(target_os = "linux")]
     fn a_run_tells_its_time_and_memory() {
-        let run = run(Path::new("sh"), "-c sleep${IFS}0.05;true", &[], Path::new("nowhere")).unwrap();
+        let run =
+            run(Path::new("sh"), "-c sleep${IFS}0.05;true", &[], Path::new("nowhere")).unwrap();
         assert!(run.seconds >= 0.05 && run.memory.is_some_and(|mb| mb > 0.1));
     }
 }

@@ -55,10 +55,17 @@ impl Measured {
         if let Some(lanes) = &self.lanes {
             section("Many structures at once", lanes_table(lanes));
         }
-        let errors = "Finite elements, 160 Hz springs; larger NRMSE of u and v against tolerance 1e-12";
+        let errors =
+            "Finite elements, 160 Hz springs; larger NRMSE of u and v against tolerance 1e-12";
         section(errors, work_precision(&self.elements, "", self.own));
-        section("Cost against stiffness (default tolerance)", costs(&self.stiffness, "Omega_n", "Hz"));
-        section("Cost against length (160 Hz, the same 20 s over and over)", costs(&self.length, "length", "s"));
+        section(
+            "Cost against stiffness (default tolerance)",
+            costs(&self.stiffness, "Omega_n", "Hz"),
+        );
+        section(
+            "Cost against length (160 Hz, the same 20 s over and over)",
+            costs(&self.length, "length", "s"),
+        );
         section("Skipped", skips(&self.skips));
         section("Inner fit with certificate", fits(&self.fits));
         section("The program", runs(&self.runs));
@@ -93,7 +100,11 @@ pub(super) fn time(seconds: f64) -> String {
 fn work_precision(series: &[Series], unit: &str, own: usize) -> String {
     let ours = &series[..own.min(series.len())];
     let ratio = |seconds: f64, error: f64| {
-        let best = ours.iter().filter_map(|s| s.cheapest(error)).map(|p| p.seconds).fold(f64::INFINITY, f64::min);
+        let best = ours
+            .iter()
+            .filter_map(|s| s.cheapest(error))
+            .map(|p| p.seconds)
+            .fold(f64::INFINITY, f64::min);
         let ratio = seconds / best;
         let decimals = if ratio < 10.0 { 1 } else { 0 };
         if ratio > 0.0 { format!("{ratio:.decimals$}") } else { "-".to_string() }
@@ -145,7 +156,10 @@ fn skips(skips: &[Skip]) -> String {
 }
 
 fn fits(fits: &[(f64, f64)]) -> String {
-    table(["mu", "time"], fits.iter().map(|&(mu, seconds)| [mu.to_string(), time(seconds)]).collect())
+    table(
+        ["mu", "time"],
+        fits.iter().map(|&(mu, seconds)| [mu.to_string(), time(seconds)]).collect(),
+    )
 }
 
 fn runs(runs: &[Run]) -> String {
@@ -171,9 +185,14 @@ mod tests {
 
     #[test]
     fn a_peer_is_compared_with_our_cheapest_run_that_is_as_accurate() {
-        let all = [series("ours", &[(1e-3, 1e-3), (2e-3, 1e-6)]), series("peer", &[(1.0, 1e-4), (0.01, 1e-2)])];
+        let all = [
+            series("ours", &[(1e-3, 1e-3), (2e-3, 1e-6)]),
+            series("peer", &[(1.0, 1e-4), (0.01, 1e-2)]),
+        ];
         let text = work_precision(&all, "", 1);
-        let cell = |row: usize| text.lines().nth(row).unwrap().split('|').nth(5).unwrap().trim().to_string();
+        let cell = |row: usize| {
+            text.lines().nth(row).unwrap().split('|').nth(5).unwrap().trim().to_string()
+        };
         // head, rule, two of ours, two of the peer
         assert_eq!((cell(4), cell(5)), ("500".into(), "10".into()));
     }

@@ -29,17 +29,26 @@ impl Problem {
             .filter_map(|line| line.split_once(','))
             .filter_map(|(i, theta)| Some((i.parse().ok()?, theta.parse().ok()?)))
             .collect();
-        Self { body: Structure::paper().body(), record: Record::el_centro().truncated(SECONDS), reference }
+        Self {
+            body: Structure::paper().body(),
+            record: Record::el_centro().truncated(SECONDS),
+            reference,
+        }
     }
 
     /// Largest error of u over the samples that the reference tells [m]; infinite if the history is
     /// too short.
     pub fn error(&self, theta: &[f64]) -> f64 {
         let error = |&(i, reference): &(usize, f64)| {
-            theta.get(i).map_or(f64::INFINITY, |&theta| (self.body.u(theta) - self.body.u(reference)).abs())
+            theta
+                .get(i)
+                .map_or(f64::INFINITY, |&theta| (self.body.u(theta) - self.body.u(reference)).abs())
         };
         // a NaN is no small error
-        self.reference.iter().map(error).fold(0.0, |worst, e| if worst.is_nan() || e <= worst { worst } else { e })
+        self.reference
+            .iter()
+            .map(error)
+            .fold(0.0, |worst, e| if worst.is_nan() || e <= worst { worst } else { e })
     }
 
     /// The same history for diffsol.
@@ -115,8 +124,13 @@ pub fn lanes(problem: &Problem, structures: usize, rounds: usize) -> Lanes {
         })
         .collect();
     let options = RockingOptions::default();
-    let mut together = || drop(black_box(solve_lanes(&bodies, *dt, accel, std::slice::from_ref(&options))));
-    let mut each = || drop(black_box(bodies.iter().map(|body| solve(body, *dt, accel, &options)).collect::<Vec<_>>()));
+    let mut together =
+        || drop(black_box(solve_lanes(&bodies, *dt, accel, std::slice::from_ref(&options))));
+    let mut each = || {
+        drop(black_box(
+            bodies.iter().map(|body| solve(body, *dt, accel, &options)).collect::<Vec<_>>(),
+        ))
+    };
     // from within the pool, as a program at work calls it; a call from outside wakes two threads at
     // once, which Linux often puts on the same core for some milliseconds
     let times = rayon::scope(|_| alternate(&mut [&mut together, &mut each], rounds));

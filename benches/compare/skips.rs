@@ -31,7 +31,11 @@ pub struct Skip {
 pub fn all(rounds: usize) -> Vec<Skip> {
     vec![
         rest("still ground before the record (10 s)", &silent(10.0, 1.0, 0.0), rounds),
-        rest("body at rest in the silent tail (40 s; El Centro times 0.25)", &silent(0.0, 0.25, 40.0), rounds),
+        rest(
+            "body at rest in the silent tail (40 s; El Centro times 0.25)",
+            &silent(0.0, 0.25, 40.0),
+            rounds,
+        ),
         toppled(rounds),
         open_foot(rounds),
         candidates(rounds.div_ceil(8)),
@@ -54,7 +58,8 @@ fn rest(what: &'static str, bench: &BenchCase, rounds: usize) -> Skip {
     let mut without = || drop(black_box(bench.simulate(step)));
     let times = alternate(&mut [&mut with, &mut without], rounds);
     let (a, b) = (bench.simulate(skip), bench.simulate(step));
-    let same = format!("u to {:.0e} (NRMSE), {} impacts", nrmse(&a.motion.u, &b.motion.u), a.impacts());
+    let same =
+        format!("u to {:.0e} (NRMSE), {} impacts", nrmse(&a.motion.u, &b.motion.u), a.impacts());
     Skip { what, with: times[0], without: times[1], same }
 }
 
@@ -101,7 +106,12 @@ fn toppled(rounds: usize) -> Skip {
     case.observe(&mut non_stopping);
     let word = |fallen| if fallen { "topples" } else { "stands" };
     let same = format!("{}, {}", word(fallen(stopped.last)), word(fallen(non_stopping.0.last)));
-    Skip { what: "toppled body (0.4 g for 3 s, then silence)", with: times[0], without: times[1], same }
+    Skip {
+        what: "toppled body (0.4 g for 3 s, then silence)",
+        with: times[0],
+        without: times[1],
+        same,
+    }
 }
 
 /// Chains of a foot in the air, solved with the body or by themselves.
@@ -112,21 +122,29 @@ fn open_foot(rounds: usize) -> Skip {
     let mut without = || drop(black_box(bench.simulate(solve)));
     let times = alternate(&mut [&mut with, &mut without], rounds);
     let (a, b) = (bench.simulate(skip), bench.simulate(solve));
-    let same = format!("u to {:.0e} (NRMSE), {} impacts", nrmse(&a.motion.u, &b.motion.u), a.impacts());
+    let same =
+        format!("u to {:.0e} (NRMSE), {} impacts", nrmse(&a.motion.u, &b.motion.u), a.impacts());
     Skip { what: "chains of an open foot", with: times[0], without: times[1], same }
 }
 
 /// Springs from stiff to soft, judged against Housner: abandoned when their running error exceeds
 /// the best, or followed.
 fn candidates(rounds: usize) -> Skip {
-    let sets = [BenchCase::arr().springs, BenchCase::damped().springs, BenchCase::plain(160.0).springs];
+    let sets =
+        [BenchCase::arr().springs, BenchCase::damped().springs, BenchCase::plain(160.0).springs];
     let scaled = |chain: Design<f64>, hz: f64| Design { omega_n_hz: hz, ..chain };
     let springs: Vec<Springs<Design<f64>>> = [160.0, 120.0, 80.0, 60.0, 40.0, 30.0]
         .into_iter()
-        .flat_map(|hz| sets.map(|s| Springs { vertical: scaled(s.vertical, hz), horizontal: scaled(s.horizontal, hz) }))
+        .flat_map(|hz| {
+            sets.map(|s| Springs {
+                vertical: scaled(s.vertical, hz),
+                horizontal: scaled(s.horizontal, hz),
+            })
+        })
         .collect();
     let (body, record) = (structure().body::<f64>(), BenchCase::arr().record);
-    let rocking = housner::solve(&body, record.dt, &record.accel, &housner::RockingOptions::default());
+    let rocking =
+        housner::solve(&body, record.dt, &record.accel, &housner::RockingOptions::default());
     let motion = rocking.motion(&body);
     let benchmark = Benchmark {
         body,
@@ -156,7 +174,12 @@ fn candidates(rounds: usize) -> Skip {
     let times = alternate(&mut [&mut with, &mut without], rounds);
     let ((a, i), (b, j)) = (best(true), best(false));
     let same = format!("candidates {i} and {j} win with {a:.6} and {b:.6}");
-    Skip { what: "candidates that cannot win (18 springs)", with: times[0], without: times[1], same }
+    Skip {
+        what: "candidates that cannot win (18 springs)",
+        with: times[0],
+        without: times[1],
+        same,
+    }
 }
 
 /// A search needs the motion at the samples only, not forces, energies and events.
@@ -203,10 +226,18 @@ mod tests {
     #[test]
     fn a_resting_body_that_is_skipped_has_the_history_of_one_that_is_followed() {
         for (bench, saved) in [(silent(3.0, 1.0, 0.0), 250), (silent(0.0, 0.25, 20.0), 1000)] {
-            let [a, b] = [true, false].map(|skip_rest| bench.simulate(Control { skip_rest, ..Control::default() }));
-            assert_eq!((a.motion.len(), a.impacts(), a.bounces()), (b.motion.len(), b.impacts(), b.bounces()));
+            let [a, b] = [true, false]
+                .map(|skip_rest| bench.simulate(Control { skip_rest, ..Control::default() }));
+            assert_eq!(
+                (a.motion.len(), a.impacts(), a.bounces()),
+                (b.motion.len(), b.impacts(), b.bounces())
+            );
             assert!(a.work.steps + saved < b.work.steps, "{:?} {:?}", a.work, b.work);
-            assert!(nrmse(&a.motion.u, &b.motion.u) < 1e-7, "{:e}", nrmse(&a.motion.u, &b.motion.u));
+            assert!(
+                nrmse(&a.motion.u, &b.motion.u) < 1e-7,
+                "{:e}",
+                nrmse(&a.motion.u, &b.motion.u)
+            );
             assert!(nrmse(&a.motion.v, &b.motion.v) < 1e-7);
             let weight = structure().mass_kg * rocking::scalar::GRAVITY;
             let tail = a.motion.len() - 1;

@@ -139,8 +139,9 @@ unsafe extern "C" fn get_schema(stream: *mut ArrowArrayStream, out: *mut ArrowSc
     // SAFETY: the consumer hands over a live stream of ours and room for a schema
     unsafe {
         let source = &*(*stream).private_data.cast::<Source>();
-        let child =
-            |(name, column): &(&str, Column)| Box::into_raw(Box::new(schema(column.format(), name, Vec::new())));
+        let child = |(name, column): &(&str, Column)| {
+            Box::into_raw(Box::new(schema(column.format(), name, Vec::new())))
+        };
         ptr::write(out, schema("+s", "", source.columns.all.iter().map(child).collect()));
     }
     0
@@ -150,7 +151,11 @@ unsafe extern "C" fn get_next(stream: *mut ArrowArrayStream, out: *mut ArrowArra
     // SAFETY: as above; an array whose release is null is the end
     unsafe {
         let source = &mut *(*stream).private_data.cast::<Source>();
-        let batch = if std::mem::replace(&mut source.given, true) { ended() } else { batch(&source.columns) };
+        let batch = if std::mem::replace(&mut source.given, true) {
+            ended()
+        } else {
+            batch(&source.columns)
+        };
         ptr::write(out, batch);
     }
     0
@@ -213,7 +218,11 @@ struct ArrayParts {
     children: Vec<*mut ArrowArray>,
 }
 
-fn array(columns: &Arc<Columns>, buffers: Vec<*const c_void>, children: Vec<*mut ArrowArray>) -> ArrowArray {
+fn array(
+    columns: &Arc<Columns>,
+    buffers: Vec<*const c_void>,
+    children: Vec<*mut ArrowArray>,
+) -> ArrowArray {
     let mut parts = Box::new(ArrayParts { _columns: columns.clone(), buffers, children });
     let (n_buffers, n_children) = (parts.buffers.len() as i64, parts.children.len() as i64);
     let (buffers, children) = (parts.buffers.as_mut_ptr(), parts.children.as_mut_ptr());
@@ -232,7 +241,9 @@ fn array(columns: &Arc<Columns>, buffers: Vec<*const c_void>, children: Vec<*mut
 }
 
 fn batch(columns: &Arc<Columns>) -> ArrowArray {
-    let child = |(_, column): &(&str, Column)| Box::into_raw(Box::new(array(columns, column.buffers(), Vec::new())));
+    let child = |(_, column): &(&str, Column)| {
+        Box::into_raw(Box::new(array(columns, column.buffers(), Vec::new())))
+    };
     array(columns, vec![ptr::null()], columns.all.iter().map(child).collect())
 }
 

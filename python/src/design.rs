@@ -83,12 +83,21 @@ impl UnitDesign {
 
     fn __reduce__<'py>(&self, py: Python<'py>) -> PyResult<(Bound<'py, PyAny>, Quadruple)> {
         let d = &self.0;
-        Ok((py.import("groundspring._restore")?.getattr("unit_design")?, (d.mu, d.f, d.xi, d.omega_n_hz)))
+        Ok((
+            py.import("groundspring._restore")?.getattr("unit_design")?,
+            (d.mu, d.f, d.xi, d.omega_n_hz),
+        ))
     }
 
     fn __repr__(&self) -> String {
         let d = &self.0;
-        format!("UnitDesign(mu={:.6}, K={:.6}, C={:.6}, Omega/Omega_v={:.4})", d.mu, d.k(), d.c(), d.omega_n_hz)
+        format!(
+            "UnitDesign(mu={:.6}, K={:.6}, C={:.6}, Omega/Omega_v={:.4})",
+            d.mu,
+            d.k(),
+            d.c(),
+            d.omega_n_hz
+        )
     }
 }
 
@@ -139,10 +148,13 @@ impl Design {
 
     /// With units, for a mass, kg, and the distance R from a foot to the centre of mass, m.
     fn springs(&self, mass: f64, radius: f64) -> PyResult<Springs> {
-        if let Some((name, value)) =
-            [("mass", mass), ("radius", radius)].into_iter().find(|(_, x)| !(x.is_finite() && *x > 0.0))
+        if let Some((name, value)) = [("mass", mass), ("radius", radius)]
+            .into_iter()
+            .find(|(_, x)| !(x.is_finite() && *x > 0.0))
         {
-            return Err(value_error(format!("springs: {name} is {value:?}; give a finite number above zero")));
+            return Err(value_error(format!(
+                "springs: {name} is {value:?}; give a finite number above zero"
+            )));
         }
         let p = (self.geometry.mass_share() * GRAVITY / radius).sqrt();
         let hz = self.geometry.stiffness() * p / std::f64::consts::TAU;
@@ -171,7 +183,10 @@ impl Design {
 
     fn __reduce__<'py>(&self, py: Python<'py>) -> PyResult<(Bound<'py, PyAny>, (f64, f64, f64))> {
         let g = &self.geometry;
-        Ok((py.import("groundspring._restore")?.getattr("design")?, (g.alpha(), g.mass_share(), g.stiffness())))
+        Ok((
+            py.import("groundspring._restore")?.getattr("design")?,
+            (g.alpha(), g.mass_share(), g.stiffness()),
+        ))
     }
 
     fn __repr__(&self) -> String {
@@ -192,9 +207,15 @@ impl Design {
 /// Omega_n/p is, unless given, where `tune` begins to look for an accuracy of 0.002.
 #[pyfunction]
 #[pyo3(signature = (alpha, inertia = None, stiffness = None))]
-pub fn design(py: Python<'_>, alpha: Of, inertia: Option<f64>, stiffness: Option<f64>) -> PyResult<Design> {
-    let stiffness = stiffness
-        .unwrap_or_else(|| stiffness_search::begin(Asked { by: Yardstick::Histories, error: decks::ACCURACY }));
+pub fn design(
+    py: Python<'_>,
+    alpha: Of,
+    inertia: Option<f64>,
+    stiffness: Option<f64>,
+) -> PyResult<Design> {
+    let stiffness = stiffness.unwrap_or_else(|| {
+        stiffness_search::begin(Asked { by: Yardstick::Histories, error: decks::ACCURACY })
+    });
     let geometry = match alpha {
         Of::Structure(structure) => Geometry::of(&structure.body(), stiffness),
         Of::Alpha(alpha) => {
@@ -242,7 +263,8 @@ pub fn frequency_response<'py>(
     xi: f64,
 ) -> PyResult<Array<'py>> {
     let positive = [("mu", mu), ("f", f)].into_iter().find(|(_, x)| !(x.is_finite() && *x > 0.0));
-    if let Some((name, value)) = positive.or((!(xi.is_finite() && xi >= 0.0)).then_some(("xi", xi))) {
+    if let Some((name, value)) = positive.or((!(xi.is_finite() && xi >= 0.0)).then_some(("xi", xi)))
+    {
         return Err(value_error(format!(
             "frequency_response: {name} is {value:?}; give finite mu and f above zero, xi zero or greater"
         )));
@@ -254,6 +276,7 @@ pub fn frequency_response<'py>(
 /// f and xi of a mass ratio by the paper's frequency response, and the certificate.
 #[pyfunction]
 pub fn fit_response(py: Python<'_>, mu: f64) -> PyResult<Py<PyAny>> {
-    let fit = interruptible(py, |_| fit(mu, &Target::default(), &Bounds::default()))?.map_err(value_error)?;
+    let fit = interruptible(py, |_| fit(mu, &Target::default(), &Bounds::default()))?
+        .map_err(value_error)?;
     plain(py, &fit)
 }

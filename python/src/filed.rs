@@ -62,7 +62,8 @@ fn outcome(name: &str, time: Option<f64>) -> Option<RockingOutcome> {
 
 /// A history as it is pickled: body and dt; theta and rate; times and rates of impacts, times and
 /// sides of uplifts; outcome and its time.
-pub type Filed<'py> = ([f64; 5], Bound<'py, PyAny>, Bound<'py, PyAny>, [Vec<f64>; 5], String, Option<f64>);
+pub type Filed<'py> =
+    ([f64; 5], Bound<'py, PyAny>, Bound<'py, PyAny>, [Vec<f64>; 5], String, Option<f64>);
 
 /// A history that was pickled.
 #[pyfunction]
@@ -70,14 +71,19 @@ pub fn _history(filed: Filed<'_>) -> PyResult<History> {
     let ([mass, half_width, height, inertia, dt], theta, rate, events, name, time) = filed;
     let [at, before, after, lifted, side] = events;
     let impacts = at.iter().zip(&before).zip(&after);
-    let impacts = impacts.map(|((&time, &rate_before), &rate_after)| Impact { time, rate_before, rate_after });
+    let impacts = impacts.map(|((&time, &rate_before), &rate_after)| Impact {
+        time,
+        rate_before,
+        rate_after,
+    });
     let uplifts = lifted.iter().zip(&side).map(|(&time, &side)| Uplift { time, side });
     let rocking = Rocking {
         theta: numbers::row(&theta, "theta", "rad")?,
         rate: numbers::row(&rate, "rate", "rad/s")?,
         impacts: impacts.collect(),
         uplifts: uplifts.collect(),
-        outcome: outcome(&name, time).ok_or_else(|| value_error(format!("_history: outcome is {name:?}")))?,
+        outcome: outcome(&name, time)
+            .ok_or_else(|| value_error(format!("_history: outcome is {name:?}")))?,
     };
     Ok(History::new(Body { mass, half_width, height, inertia }, dt, rocking))
 }

@@ -38,7 +38,9 @@ use pyo3::prelude::*;
 mod _native {
     #[pymodule_export]
     use crate::{
-        design::{_design, _unit_design, Design, UnitDesign, design, fit_response, frequency_response},
+        design::{
+            _design, _unit_design, Design, UnitDesign, design, fit_response, frequency_response,
+        },
         filed::{_histories, _history},
         many::{_table, RockingTable, rock_all},
         record::{Record, el_centro, read_record},
@@ -68,7 +70,9 @@ pub(crate) type Array<'py> = Bound<'py, numpy::PyArray1<f64>>;
 pub(crate) fn view<'py>(owner: Bound<'py, PyAny>, numbers: &[f64]) -> PyResult<Array<'py>> {
     // SAFETY: `owner` is kept alive by the array, is frozen, and so neither moves nor changes the
     // numbers
-    let array = unsafe { numpy::PyArray1::borrow_from_array(&numpy::ndarray::ArrayView1::from(numbers), owner) };
+    let array = unsafe {
+        numpy::PyArray1::borrow_from_array(&numpy::ndarray::ArrayView1::from(numbers), owner)
+    };
     array.getattr("flags")?.setattr("writeable", false)?;
     Ok(array)
 }

@@ -97,9 +97,11 @@ impl Asked<'_> {
 
     fn solve(&self, stop: &Stop, done: &AtomicUsize) -> Vec<Row> {
         let each = self.of_a_record();
-        let jobs: Vec<(usize, usize)> =
-            (0..self.records.len()).flat_map(|r| (0..each).step_by(TOGETHER).map(move |from| (r, from))).collect();
-        let verticals: Vec<_> = self.records.iter().map(strong_motion::Record::vertical_accel).collect();
+        let jobs: Vec<(usize, usize)> = (0..self.records.len())
+            .flat_map(|r| (0..each).step_by(TOGETHER).map(move |from| (r, from)))
+            .collect();
+        let verticals: Vec<_> =
+            self.records.iter().map(strong_motion::Record::vertical_accel).collect();
         let solve = |&(r, from): &(usize, usize)| {
             // whatever it has found is dropped by `rocking`, once all threads have come to this
             if stop.asked() {
@@ -107,7 +109,8 @@ impl Asked<'_> {
             }
             let record = &self.records[r];
             let those = from..each.min(from + TOGETHER);
-            let bodies: Vec<_> = those.clone().map(|i| self.structures[self.at(i).0].body()).collect();
+            let bodies: Vec<_> =
+                those.clone().map(|i| self.structures[self.at(i).0].body()).collect();
             let options: Vec<_> = those
                 .map(|i| RockingOptions {
                     scale: self.scales[self.at(i).2],
@@ -118,14 +121,19 @@ impl Asked<'_> {
                 .collect();
             let rocked = housner::solve_lanes(&bodies, record.dt, &record.accel, &options);
             done.fetch_add(rocked.len(), Ordering::Relaxed);
-            bodies.iter().zip(&rocked).map(|(body, rocking)| Row::new(body, record.dt, rocking)).collect()
+            bodies
+                .iter()
+                .zip(&rocked)
+                .map(|(body, rocking)| Row::new(body, record.dt, rocking))
+                .collect()
         };
         jobs.par_iter().map(solve).collect::<Vec<_>>().into_iter().flatten().collect()
     }
 
     fn table(&self, rows: &[Row]) -> Columns {
         let n = rows.len();
-        let place = |pick: fn((usize, usize, usize)) -> usize| (0..n).map(move |i| pick(self.at(i)));
+        let place =
+            |pick: fn((usize, usize, usize)) -> usize| (0..n).map(move |i| pick(self.at(i)));
         let whole = |pick| Column::Whole(place(pick).map(|i| i as i64).collect());
         let real = |pick: fn(&Row) -> f64| Column::Real(rows.iter().map(pick).collect());
         let all = vec![
@@ -169,12 +177,17 @@ impl RockingTable {
         let (py, columns) = (slf.py(), &slf.get().0);
         let Some((_, column)) = columns.all.iter().find(|(column, _)| *column == name) else {
             let names: Vec<_> = columns.all.iter().map(|(name, _)| *name).collect();
-            return Err(PyKeyError::new_err(format!("there is no column {name:?}; there are {}", names.join(", "))));
+            return Err(PyKeyError::new_err(format!(
+                "there is no column {name:?}; there are {}",
+                names.join(", ")
+            )));
         };
         Ok(match column {
             Column::Real(x) => crate::view(slf.clone().into_any(), x)?.into_any(),
             Column::Whole(x) => PyArray1::from_slice(py, x).into_any(),
-            Column::Words(..) => PyList::new(py, (0..columns.rows).filter_map(|i| column.word(i)))?.into_any(),
+            Column::Words(..) => {
+                PyList::new(py, (0..columns.rows).filter_map(|i| column.word(i)))?.into_any()
+            }
         })
     }
 
@@ -202,8 +215,11 @@ impl RockingTable {
     }
 
     fn __repr__(&self) -> String {
-        let outcomes = self.0.all.iter().find(|(name, _)| *name == "outcome").map(|(_, column)| column);
-        let overturned = (0..self.0.rows).filter(|i| outcomes.and_then(|c| c.word(*i)) == Some("overturned")).count();
+        let outcomes =
+            self.0.all.iter().find(|(name, _)| *name == "outcome").map(|(_, column)| column);
+        let overturned = (0..self.0.rows)
+            .filter(|i| outcomes.and_then(|c| c.word(*i)) == Some("overturned"))
+            .count();
         format!("RockingTable({} histories, {overturned} overturned)", self.0.rows)
     }
 
@@ -212,7 +228,9 @@ impl RockingTable {
         slf.py().import("groundspring._html")?.call_method1("rocking", (slf,))
     }
 
-    fn __reduce__<'py>(slf: &Bound<'py, Self>) -> PyResult<(Bound<'py, PyAny>, (Bound<'py, PyAny>,))> {
+    fn __reduce__<'py>(
+        slf: &Bound<'py, Self>,
+    ) -> PyResult<(Bound<'py, PyAny>, (Bound<'py, PyAny>,))> {
         let columns = slf.call_method0("_columns")?;
         Ok((slf.py().import("groundspring._restore")?.getattr("table")?, (columns,)))
     }
@@ -238,7 +256,9 @@ pub fn rock_all(
 ) -> PyResult<RockingTable> {
     let (structures, records) = (structures.all(), records.all());
     let scales = match scales {
-        Some(scales) => numbers::one_or_more(&scales, "scales", "factors on the record, without unit")?,
+        Some(scales) => {
+            numbers::one_or_more(&scales, "scales", "factors on the record, without unit")?
+        }
         None => vec![1.0],
     };
     let records = beside(records, vertical.map(Several::all))?;
@@ -248,7 +268,9 @@ pub fn rock_all(
     let restitution = ratio(restitution)?;
     let asked = Asked { structures: &structures, records: &records, scales: &scales, restitution };
     if asked.count() == 0 {
-        return Err(value_error("rocking: there are no structures, records or scales; give at least one of each"));
+        return Err(value_error(
+            "rocking: there are no structures, records or scales; give at least one of each",
+        ));
     }
     let done = AtomicUsize::new(0);
     let mut told = 0;
@@ -273,11 +295,18 @@ pub fn rock_all(
 }
 
 /// Each record with the vertical one that goes with it: one for all, or as many.
-fn beside(records: Vec<Record>, vertical: Option<Vec<Record>>) -> PyResult<Vec<strong_motion::Record>> {
-    let Some(ups) = vertical else { return Ok(records.into_iter().map(|record| record.0).collect()) };
+fn beside(
+    records: Vec<Record>,
+    vertical: Option<Vec<Record>>,
+) -> PyResult<Vec<strong_motion::Record>> {
+    let Some(ups) = vertical else {
+        return Ok(records.into_iter().map(|record| record.0).collect());
+    };
     if ups.len() != 1 && ups.len() != records.len() {
         let (n, m) = (records.len(), ups.len());
-        return Err(value_error(format!("rocking: {n} records and {m} vertical ones; give one for all, or as many")));
+        return Err(value_error(format!(
+            "rocking: {n} records and {m} vertical ones; give one for all, or as many"
+        )));
     }
     let pairs = records.iter().zip(ups.iter().cycle());
     pairs.map(|(record, up)| Ok(record.beside(Some(up))?.into_owned())).collect()
@@ -315,11 +344,13 @@ pub fn _table(columns: Vec<(String, Bound<'_, PyAny>)>) -> PyResult<RockingTable
             return Err(value_error("_table: columns of different lengths"));
         }
         let column = match kind {
-            Column::Whole(_) => {
-                Column::Whole(numbers::row(of, name, "whole numbers")?.into_iter().map(|x| x as i64).collect())
-            }
+            Column::Whole(_) => Column::Whole(
+                numbers::row(of, name, "whole numbers")?.into_iter().map(|x| x as i64).collect(),
+            ),
             Column::Real(_) => Column::Real(numbers::row(of, name, "numbers")?),
-            Column::Words(..) => Column::words(of.extract::<Vec<String>>()?.iter().map(String::as_str)),
+            Column::Words(..) => {
+                Column::words(of.extract::<Vec<String>>()?.iter().map(String::as_str))
+            }
         };
         all.push((name, column));
     }

@@ -12,7 +12,8 @@ use crate::said::value_error;
 pub fn row(of: &Bound<'_, PyAny>, name: &str, what: &str) -> PyResult<Vec<f64>> {
     let py = of.py();
     let refused = |found: &str, give: &str| value_error(format!("{name}: {found}; {give}"));
-    let quantity = ["units", "unit"].iter().any(|attribute| of.hasattr(*attribute).unwrap_or(false));
+    let quantity =
+        ["units", "unit"].iter().any(|attribute| of.hasattr(*attribute).unwrap_or(false));
     if quantity {
         return Err(refused(
             "numbers with units of their own",
@@ -23,17 +24,24 @@ pub fn row(of: &Bound<'_, PyAny>, name: &str, what: &str) -> PyResult<Vec<f64>> 
     if of.is_instance(&numpy.getattr("ma")?.getattr("MaskedArray")?)? {
         let masked = numpy.getattr("ma")?.call_method1("is_masked", (of,))?.extract()?;
         if masked {
-            return Err(refused("a masked array", "fill what is masked: x.filled(0.0), or cut it off"));
+            return Err(refused(
+                "a masked array",
+                "fill what is masked: x.filled(0.0), or cut it off",
+            ));
         }
     }
-    let array = numpy.call_method1("asarray", (of,)).map_err(|_| refused("not a row of numbers", what))?;
+    let array =
+        numpy.call_method1("asarray", (of,)).map_err(|_| refused("not a row of numbers", what))?;
     let untyped = array.cast::<PyUntypedArray>()?;
     let kind: String = array.getattr("dtype")?.getattr("kind")?.extract()?;
     match kind.as_str() {
         "f" | "i" | "u" | "b" => {}
         "c" => return Err(refused("complex numbers", &format!("give real ones, {what}: x.real"))),
         _ => {
-            return Err(refused(&format!("an array of {}", array.getattr("dtype")?), &format!("give numbers, {what}")));
+            return Err(refused(
+                &format!("an array of {}", array.getattr("dtype")?),
+                &format!("give numbers, {what}"),
+            ));
         }
     }
     match untyped.ndim() {
@@ -41,7 +49,10 @@ pub fn row(of: &Bound<'_, PyAny>, name: &str, what: &str) -> PyResult<Vec<f64>> 
         n => {
             let shape: Vec<String> = untyped.shape().iter().map(ToString::to_string).collect();
             let give = format!("give one row of numbers, {what}: x[:, 0], or x.ravel()");
-            return Err(refused(&format!("an array of {n} dimensions, shape ({})", shape.join(", ")), &give));
+            return Err(refused(
+                &format!("an array of {n} dimensions, shape ({})", shape.join(", ")),
+                &give,
+            ));
         }
     }
     let options = PyDict::new(py);
@@ -67,9 +78,9 @@ pub fn one_or_more(of: &Bound<'_, PyAny>, name: &str, what: &str) -> PyResult<Ve
 /// A length of history (s), in the program's words if it is none.
 pub fn seconds(given: Option<f64>) -> PyResult<Option<f64>> {
     match given {
-        Some(d) if !(d > 0.0 && d <= LONGEST_S) => {
-            Err(value_error(format!("duration is {d:?}; give seconds greater than zero, at most 1e6")))
-        }
+        Some(d) if !(d > 0.0 && d <= LONGEST_S) => Err(value_error(format!(
+            "duration is {d:?}; give seconds greater than zero, at most 1e6"
+        ))),
         given => Ok(given),
     }
 }

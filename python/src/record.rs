@@ -58,7 +58,8 @@ impl Record {
     #[pyo3(signature = (dt, accel, name = "record", *, units = "m/s2"))]
     fn new(dt: f64, accel: &Bound<'_, PyAny>, name: &str, units: &str) -> PyResult<Self> {
         let factor = units.parse::<Units>().map_err(value_error)?.metres_per_second2();
-        let mut accel = numbers::row(accel, "accel", "accelerations in m/s2, or in the units that are named")?;
+        let mut accel =
+            numbers::row(accel, "accel", "accelerations in m/s2, or in the units that are named")?;
         if factor != 1.0 {
             accel.iter_mut().for_each(|a| *a *= factor);
         }
@@ -130,7 +131,10 @@ impl Record {
 
     /// Ground acceleration, g, over time, s, with the vertical one if there is one.
     #[pyo3(signature = (axes = None))]
-    fn plot<'py>(slf: &Bound<'py, Self>, axes: Option<Bound<'py, PyAny>>) -> PyResult<Bound<'py, PyAny>> {
+    fn plot<'py>(
+        slf: &Bound<'py, Self>,
+        axes: Option<Bound<'py, PyAny>>,
+    ) -> PyResult<Bound<'py, PyAny>> {
         slf.py().import("groundspring._plots")?.call_method1("record", (slf, axes))
     }
 
@@ -156,7 +160,10 @@ impl Record {
     fn __reduce__<'py>(slf: &Bound<'py, Self>) -> PyResult<(Bound<'py, PyAny>, Bound<'py, PyAny>)> {
         let (py, of) = (slf.py(), slf.get());
         let args = (of.0.dt, Self::accel(slf)?, of.0.name.clone(), of.vertical());
-        Ok((py.import("groundspring._restore")?.getattr("record")?, args.into_pyobject(py)?.into_any()))
+        Ok((
+            py.import("groundspring._restore")?.getattr("record")?,
+            args.into_pyobject(py)?.into_any(),
+        ))
     }
 
     /// For notebooks.
@@ -194,8 +201,10 @@ pub fn read_record(
 ) -> PyResult<Record> {
     let units = units.map(str::parse::<Units>).transpose().map_err(value_error)?;
     // an azimuth may be given as a number
-    let component = component.map(|component| component.str().map(|s| s.to_string())).transpose()?;
-    let options = core::ReadOptions { dt, units, component, baseline, vertical: vertical.map(Into::into) };
+    let component =
+        component.map(|component| component.str().map(|s| s.to_string())).transpose()?;
+    let options =
+        core::ReadOptions { dt, units, component, baseline, vertical: vertical.map(Into::into) };
     let recording = py.detach(|| Recording::read(&path, &options)).map_err(value_error)?;
     recording.notices().iter().try_for_each(|notice| warn(py, notice))?;
     Ok(Record(recording.into_record()))

@@ -177,7 +177,10 @@ impl History {
 
     /// Rotation, mrad, over time, s, with the impacts.
     #[pyo3(signature = (axes = None))]
-    fn plot<'py>(slf: &Bound<'py, Self>, axes: Option<Bound<'py, PyAny>>) -> PyResult<Bound<'py, PyAny>> {
+    fn plot<'py>(
+        slf: &Bound<'py, Self>,
+        axes: Option<Bound<'py, PyAny>>,
+    ) -> PyResult<Bound<'py, PyAny>> {
         slf.py().import("groundspring._plots")?.call_method1("history", (slf, axes))
     }
 
@@ -224,7 +227,9 @@ impl Histories {
         let n = self.0.len();
         let at = if index < 0 { index + n as isize } else { index };
         if !(0..n as isize).contains(&at) {
-            return Err(PyIndexError::new_err(format!("there are {n} histories, none of index {index}")));
+            return Err(PyIndexError::new_err(format!(
+                "there are {n} histories, none of index {index}"
+            )));
         }
         Ok(History { all: self.0.clone(), index: at as usize })
     }
@@ -279,7 +284,8 @@ impl Histories {
     }
 
     fn __repr__(&self) -> String {
-        let overturned = self.0.iter().filter(|solved| solved.rocking.overturned().is_some()).count();
+        let overturned =
+            self.0.iter().filter(|solved| solved.rocking.overturned().is_some()).count();
         format!("Histories({}, {overturned} overturned)", self.0.len())
     }
 }
@@ -304,10 +310,14 @@ pub fn rigid_rocking(
     let e = ratio(restitution)?.unwrap_or(structure.e);
     // as the program scales: the samples are, so that both agree to the last bit
     let record = record.beside(vertical)?;
-    let record = if scale == 1.0 { record } else { Cow::Owned(record.scaled(scale).map_err(value_error)?) };
+    let record =
+        if scale == 1.0 { record } else { Cow::Owned(record.scaled(scale).map_err(value_error)?) };
     let body = structure.body();
-    let options =
-        RockingOptions { restitution: Some(e), vertical: record.vertical_accel(), ..RockingOptions::default() };
+    let options = RockingOptions {
+        restitution: Some(e),
+        vertical: record.vertical_accel(),
+        ..RockingOptions::default()
+    };
     let rocking = py.detach(|| housner::solve(&body, record.dt, &record.accel, &options));
     Ok(History::new(body, record.dt, rocking))
 }
@@ -339,14 +349,17 @@ pub fn rigid_rocking_many(
         Structures::Several(several) => several,
     };
     let scales = match scales {
-        Some(scales) => numbers::one_or_more(&scales, "scales", "factors on the record, without unit")?,
+        Some(scales) => {
+            numbers::one_or_more(&scales, "scales", "factors on the record, without unit")?
+        }
         None => vec![1.0],
     };
     let (bodies, options) = pairs(&structures, record, &scales, ratio(restitution)?)?;
     let (dt, accel) = (record.0.dt, &record.0.accel[..]);
     let n = bodies.len().max(options.len());
     let solved = interruptible(py, |stop| {
-        let mut all = Vec::with_capacity(if bodies.is_empty() || options.is_empty() { 0 } else { n });
+        let mut all =
+            Vec::with_capacity(if bodies.is_empty() || options.is_empty() { 0 } else { n });
         for from in (0..all.capacity().min(n)).step_by(AT_A_TIME) {
             stop.check();
             let to = n.min(from + AT_A_TIME);
@@ -354,7 +367,9 @@ pub fn rigid_rocking_many(
             let options = if options.len() > 1 { &options[from..to] } else { &options[..] };
             let rocked = housner::solve_lanes(bodies, dt, accel, options);
             let body = bodies.iter().cycle();
-            all.extend(rocked.into_iter().zip(body).map(|(rocking, body)| Solved::new(*body, dt, rocking)));
+            all.extend(
+                rocked.into_iter().zip(body).map(|(rocking, body)| Solved::new(*body, dt, rocking)),
+            );
         }
         all
     })?;
@@ -365,7 +380,12 @@ pub fn rigid_rocking_many(
 type Pairs = (Vec<Body<f64>>, Vec<RockingOptions<f64>>);
 
 /// Bodies and options of one length, or one of length 1.
-fn pairs(structures: &[Structure], record: &Record, scales: &[f64], restitution: Option<f64>) -> PyResult<Pairs> {
+fn pairs(
+    structures: &[Structure],
+    record: &Record,
+    scales: &[f64],
+    restitution: Option<f64>,
+) -> PyResult<Pairs> {
     let (n, m) = (structures.len(), scales.len());
     if n != m && n != 1 && m != 1 {
         return Err(value_error(format!(

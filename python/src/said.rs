@@ -21,7 +21,9 @@ create_exception!(
 
 /// One line, in Python's words.
 pub fn one_line(text: impl Display) -> String {
-    in_python(&text.to_string().chars().map(|c| if c.is_control() { ' ' } else { c }).collect::<String>())
+    in_python(
+        &text.to_string().chars().map(|c| if c.is_control() { ' ' } else { c }).collect::<String>(),
+    )
 }
 
 /// An error in Python's words.
@@ -36,7 +38,10 @@ pub fn warn(py: Python<'_>, text: impl Display) -> PyResult<()> {
 }
 
 /// Warn of those lines of a report that warn.
-pub fn warn_of<'a>(py: Python<'_>, findings: impl IntoIterator<Item = &'a FiledFinding>) -> PyResult<()> {
+pub fn warn_of<'a>(
+    py: Python<'_>,
+    findings: impl IntoIterator<Item = &'a FiledFinding>,
+) -> PyResult<()> {
     let grave = findings.into_iter().filter(|finding| finding.weight >= Weight::Warning);
     grave.map(FiledFinding::line).try_for_each(|line| warn(py, &line))
 }

@@ -232,7 +232,10 @@ impl Simulation {
 
     /// Horizontal displacement, mm, of both models over time, s.
     #[pyo3(signature = (axes = None))]
-    fn plot<'py>(slf: &Bound<'py, Self>, axes: Option<Bound<'py, PyAny>>) -> PyResult<Bound<'py, PyAny>> {
+    fn plot<'py>(
+        slf: &Bound<'py, Self>,
+        axes: Option<Bound<'py, PyAny>>,
+    ) -> PyResult<Bound<'py, PyAny>> {
         slf.py().import("groundspring._plots")?.call_method1("histories", (slf, axes))
     }
 
@@ -242,7 +245,10 @@ impl Simulation {
     }
 
     /// What it was computed from: computed again when it is unpickled.
-    fn __reduce__<'py>(&self, py: Python<'py>) -> PyResult<(Bound<'py, PyAny>, Option<Py<PyTuple>>)> {
+    fn __reduce__<'py>(
+        &self,
+        py: Python<'py>,
+    ) -> PyResult<(Bound<'py, PyAny>, Option<Py<PyTuple>>)> {
         let name = match self.source {
             Source::Own(_) => "simulation",
             Source::Tuned(_) => "tuned_histories",
@@ -261,12 +267,20 @@ impl Simulation {
 
     fn __repr__(&self) -> String {
         let m = &self.both().matched;
-        format!("Simulation({}, NRMSE of u {:.2e}, of v {:.2e})", self.outcome(), m.nrmse_horizontal, m.nrmse_vertical)
+        format!(
+            "Simulation({}, NRMSE of u {:.2e}, of v {:.2e})",
+            self.outcome(),
+            m.nrmse_horizontal,
+            m.nrmse_vertical
+        )
     }
 }
 
 /// A view of numbers of the finite element history.
-fn column<'py>(of: &Bound<'py, Simulation>, pick: impl Fn(&fem::History) -> &[f64]) -> PyResult<Array<'py>> {
+fn column<'py>(
+    of: &Bound<'py, Simulation>,
+    pick: impl Fn(&fem::History) -> &[f64],
+) -> PyResult<Array<'py>> {
     view(of.clone().into_any(), pick(&of.get().both().fem))
 }
 
@@ -289,15 +303,24 @@ pub fn simulate(
 ) -> PyResult<Simulation> {
     let e = ratio(restitution)?.unwrap_or(structure.e);
     let record = record.beside(vertical)?;
-    let record = if scale == 1.0 { record } else { Cow::Owned(record.scaled(scale).map_err(value_error)?) };
-    let inputs = (structure, springs, Record(record.clone().into_owned()), e, friction).into_pyobject(py)?;
+    let record =
+        if scale == 1.0 { record } else { Cow::Owned(record.scaled(scale).map_err(value_error)?) };
+    let inputs =
+        (structure, springs, Record(record.clone().into_owned()), e, friction).into_pyobject(py)?;
     let simulation = interruptible(py, |_| {
         let (body, dt) = (structure.body(), record.dt);
         let both = both(&body, e, &springs.chains(), &Members::default(), &record);
         let report = HousnerReport::new(&body, e, &record, &both.rocking, friction);
         let verdict = both.verdict(&body, dt, &report.conditioning);
         let findings = filed(reference::all(&structure.core, &record, &both, &report, &verdict));
-        Simulation { structure, dt, findings, verdict, source: Source::Own(Box::new(both)), inputs: None }
+        Simulation {
+            structure,
+            dt,
+            findings,
+            verdict,
+            source: Source::Own(Box::new(both)),
+            inputs: None,
+        }
     })?;
     warn_of(py, &simulation.findings)?;
     Ok(simulation.again(inputs.unbind()))

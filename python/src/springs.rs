@@ -25,7 +25,9 @@ pub struct Chain(pub spring::Chain<f64>);
 impl Chain {
     #[new]
     fn new(k1: f64, k2: f64, m2: f64, c: f64) -> PyResult<Self> {
-        let positive = [("k1", k1), ("k2", k2), ("m2", m2)].into_iter().find(|(_, x)| !(x.is_finite() && *x > 0.0));
+        let positive = [("k1", k1), ("k2", k2), ("m2", m2)]
+            .into_iter()
+            .find(|(_, x)| !(x.is_finite() && *x > 0.0));
         let wrong = positive.or((!(c.is_finite() && c >= 0.0)).then_some(("c", c)));
         if let Some((name, value)) = wrong {
             return Err(value_error(format!(
@@ -104,7 +106,10 @@ impl Springs {
     }
 
     pub fn designs(&self) -> spring::Springs<spring::Design<f64>> {
-        spring::Springs { vertical: self.vertical.0.design(self.mass), horizontal: self.horizontal.0.design(self.mass) }
+        spring::Springs {
+            vertical: self.vertical.0.design(self.mass),
+            horizontal: self.horizontal.0.design(self.mass),
+        }
     }
 
     pub fn of(mass: f64, designs: &spring::Springs<spring::Design<f64>>) -> Self {
@@ -118,7 +123,9 @@ impl Springs {
     #[new]
     fn new(mass: f64, vertical: Chain, horizontal: Chain) -> PyResult<Self> {
         if !(mass.is_finite() && mass > 0.0) {
-            return Err(value_error(format!("Springs: mass is {mass:?}; give kg, a finite number above zero")));
+            return Err(value_error(format!(
+                "Springs: mass is {mass:?}; give kg, a finite number above zero"
+            )));
         }
         Ok(Self { mass, vertical, horizontal })
     }
@@ -139,17 +146,26 @@ impl Springs {
     /// root, m2 as it is.
     fn stiffer(&self, factor: f64) -> PyResult<Self> {
         if !(factor.is_finite() && factor > 0.0) {
-            return Err(value_error(format!("stiffer: factor is {factor:?}; give a finite number above zero")));
+            return Err(value_error(format!(
+                "stiffer: factor is {factor:?}; give a finite number above zero"
+            )));
         }
         let unit = |Chain(spring::Chain { k1, k2, m2, c }): Chain| {
             Chain(spring::Chain { k1: k1 * factor, k2: k2 * factor, m2, c: c * factor.sqrt() })
         };
-        Ok(Self { mass: self.mass, vertical: unit(self.vertical), horizontal: unit(self.horizontal) })
+        Ok(Self {
+            mass: self.mass,
+            vertical: unit(self.vertical),
+            horizontal: unit(self.horizontal),
+        })
     }
 
     /// Amplitude response ratio of both units (equation 7), without unit, over frequency, Hz.
     #[pyo3(signature = (axes = None))]
-    fn plot<'py>(slf: &Bound<'py, Self>, axes: Option<Bound<'py, PyAny>>) -> PyResult<Bound<'py, PyAny>> {
+    fn plot<'py>(
+        slf: &Bound<'py, Self>,
+        axes: Option<Bound<'py, PyAny>>,
+    ) -> PyResult<Bound<'py, PyAny>> {
         slf.py().import("groundspring._plots")?.call_method1("springs", (slf, axes))
     }
 
@@ -160,7 +176,12 @@ impl Springs {
 
     fn __hash__(&self) -> u64 {
         let unit = |c: &spring::Chain<f64>| [c.k1, c.k2, c.m2, c.c];
-        hashed("", [unit(&self.vertical.0), unit(&self.horizontal.0), [self.mass; 4]].as_flattened().iter())
+        hashed(
+            "",
+            [unit(&self.vertical.0), unit(&self.horizontal.0), [self.mass; 4]]
+                .as_flattened()
+                .iter(),
+        )
     }
 
     fn __reduce__<'py>(slf: &Bound<'py, Self>) -> (Bound<'py, PyAny>, (f64, Chain, Chain)) {
@@ -215,7 +236,9 @@ pub fn _units_for(
 ) -> PyResult<(f64, f64, Vec<Springs>)> {
     let count = responses[0].0.len();
     let square = |(corners, w, _): &Part| w.len() == 4 * corners.len().pow(2);
-    if parts.iter().any(|part| !square(part) || part.0.iter().any(|i| *i >= count)) || responses[1].0.len() != count {
+    if parts.iter().any(|part| !square(part) || part.0.iter().any(|i| *i >= count))
+        || responses[1].0.len() != count
+    {
         return Err(value_error("_units_for: parts and reactions do not belong together"));
     }
     let mut masses = vec![mass; count];
@@ -229,7 +252,12 @@ pub fn _units_for(
     };
     let footings = parts.into_iter().map(&mut footing).collect();
     let response = |(reactions, work, omega): Response| FixedResponse { reactions, work, omega };
-    let standing = Standing { reactions: vec![[0.0; 2]; count], footings, responses: responses.map(response), mass };
+    let standing = Standing {
+        reactions: vec![[0.0; 2]; count],
+        footings,
+        responses: responses.map(response),
+        mass,
+    };
     let found = design::springs(&standing, give, landing, 1.0);
     let units = found.corners.iter().zip(masses).map(|(units, mass)| {
         let spring::Springs { vertical, horizontal } = *units;

@@ -45,7 +45,13 @@ impl Structure {
     /// restitution  velocity ratio of a landing; by equation 2 unless given
     #[staticmethod]
     #[pyo3(signature = (height, width, mass, inertia = None, restitution = None))]
-    fn aframe(height: f64, width: f64, mass: f64, inertia: Option<f64>, restitution: Option<f64>) -> PyResult<Self> {
+    fn aframe(
+        height: f64,
+        width: f64,
+        mass: f64,
+        inertia: Option<f64>,
+        restitution: Option<f64>,
+    ) -> PyResult<Self> {
         checked("Structure.aframe", Kind::AFrame, (height, width, mass), inertia, restitution)
     }
 
@@ -58,7 +64,13 @@ impl Structure {
     /// restitution  velocity ratio of a landing; by equation 2 unless given
     #[staticmethod]
     #[pyo3(signature = (height, width, mass, inertia = None, restitution = None))]
-    fn block(height: f64, width: f64, mass: f64, inertia: Option<f64>, restitution: Option<f64>) -> PyResult<Self> {
+    fn block(
+        height: f64,
+        width: f64,
+        mass: f64,
+        inertia: Option<f64>,
+        restitution: Option<f64>,
+    ) -> PyResult<Self> {
         checked("Structure.block", Kind::Block, (height / 2.0, width, mass), inertia, restitution)
     }
 
@@ -120,7 +132,10 @@ impl Structure {
 
     fn __reduce__<'py>(&self, py: Python<'py>) -> PyResult<(Bound<'py, PyAny>, Bound<'py, PyAny>)> {
         let args = (self.kind(), self.height(), self.width(), self.mass(), self.inertia(), self.e);
-        Ok((py.import("groundspring._restore")?.getattr("structure")?, args.into_pyobject(py)?.into_any()))
+        Ok((
+            py.import("groundspring._restore")?.getattr("structure")?,
+            args.into_pyobject(py)?.into_any(),
+        ))
     }
 
     fn __copy__(slf: Bound<'_, Self>) -> Bound<'_, Self> {

@@ -92,7 +92,8 @@ impl Tuned {
     /// each is named, with the reason.
     #[pyo3(signature = (folder, figures = true))]
     fn save(&self, py: Python<'_>, folder: PathBuf, figures: bool) -> PyResult<Vec<String>> {
-        let left_out = interruptible(py, |_| save(&self.run, &folder, Output { figures, report: true }))?;
+        let left_out =
+            interruptible(py, |_| save(&self.run, &folder, Output { figures, report: true }))?;
         left_out.map_err(value_error)
     }
 
@@ -103,7 +104,10 @@ impl Tuned {
 
     /// Horizontal displacement, mm, of both models over time, s.
     #[pyo3(signature = (axes = None))]
-    fn plot<'py>(slf: &Bound<'py, Self>, axes: Option<Bound<'py, PyAny>>) -> PyResult<Bound<'py, PyAny>> {
+    fn plot<'py>(
+        slf: &Bound<'py, Self>,
+        axes: Option<Bound<'py, PyAny>>,
+    ) -> PyResult<Bound<'py, PyAny>> {
         slf.get().histories.bind(slf.py()).call_method1("plot", (axes,))
     }
 
@@ -177,7 +181,11 @@ pub fn tune(
     let objective = match method {
         "landing" => Objective::Landing,
         "arr" => Objective::Arr,
-        other => return Err(value_error(format!("method is {other:?}; give \"landing\" or \"arr\", the paper's"))),
+        other => {
+            return Err(value_error(format!(
+                "method is {other:?}; give \"landing\" or \"arr\", the paper's"
+            )));
+        }
     };
     let duration = seconds(duration)?;
     let inputs = PyTuple::new(
@@ -196,15 +204,27 @@ pub fn tune(
             vertical.cloned().into_bound_py_any(py)?,
         ],
     )?;
-    let record =
-        record.map_or_else(|| Record(strong_motion::Record::el_centro()), Record::clone).beside(vertical)?.into_owned();
-    let tuning =
-        Tuning { objective, accuracy, max_omega_hz: max_hz, max_settlement_m: max_settlement, ..Tuning::default() };
+    let record = record
+        .map_or_else(|| Record(strong_motion::Record::el_centro()), Record::clone)
+        .beside(vertical)?
+        .into_owned();
+    let tuning = Tuning {
+        objective,
+        accuracy,
+        max_omega_hz: max_hz,
+        max_settlement_m: max_settlement,
+        ..Tuning::default()
+    };
     let excitation = Excitation { record, scale, duration_s: duration };
-    let case = Case::new("tune", (structure.core, structure.e), excitation, tuning).map_err(value_error)?;
+    let case = Case::new("tune", (structure.core, structure.e), excitation, tuning)
+        .map_err(value_error)?;
     let (run, simulation) = interruptible(py, |stop| {
         let job = Job::new(&case, &|_, _, _| stop.check()).map_err(value_error)?;
-        let points = if front { report::stiffness_tradeoff::front(&job, &|_, _| stop.check()) } else { Vec::new() };
+        let points = if front {
+            report::stiffness_tradeoff::front(&job, &|_, _| stop.check())
+        } else {
+            Vec::new()
+        };
         stop.check();
         let run = RigidRun::new(case, job, points, friction);
         let run = Arc::new(run);
@@ -213,5 +233,10 @@ pub fn tune(
     })??;
     warn_of(py, &run.parameters.findings)?;
     let inputs = inputs.unbind();
-    Ok(Tuned { run, structure, histories: Py::new(py, simulation.again(inputs.clone_ref(py)))?, inputs })
+    Ok(Tuned {
+        run,
+        structure,
+        histories: Py::new(py, simulation.again(inputs.clone_ref(py)))?,
+        inputs,
+    })
 }

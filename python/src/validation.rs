@@ -114,14 +114,22 @@ pub fn validate(
     }
     let n = own.len() + synthetic + earthquakes;
     if n == 0 {
-        return Err(value_error("validate: there are no records; give some, a folder, or synthetic= or earthquakes="));
+        return Err(value_error(
+            "validate: there are no records; give some, a folder, or synthetic= or earthquakes=",
+        ));
     }
     let shaken: Vec<Record> = own.iter().cloned().map(Record).collect();
-    let inputs =
-        (structure, springs, shaken, synthetic, earthquakes, seed, duration, restitution).into_pyobject(py)?.unbind();
+    let inputs = (structure, springs, shaken, synthetic, earthquakes, seed, duration, restitution)
+        .into_pyobject(py)?
+        .unbind();
     let body = structure.body();
-    let judge =
-        Validator { body, restitution, springs: springs.chains(), duration_s: duration, control: Control::default() };
+    let judge = Validator {
+        body,
+        restitution,
+        springs: springs.chains(),
+        duration_s: duration,
+        control: Control::default(),
+    };
     let (p, alpha) = (body.p_squared().sqrt(), body.alpha());
     let validation = interruptible(py, |stop| {
         let record = |i: usize| {
@@ -142,7 +150,8 @@ pub fn validate(
 fn read_folder(py: Python<'_>, folder: &std::path::Path) -> PyResult<Vec<strong_motion::Record>> {
     let files = strong_motion::list_dir(folder).map_err(value_error)?;
     let read = |file: &PathBuf| {
-        let recording = strong_motion::Recording::read(file, &ReadOptions::default()).map_err(value_error)?;
+        let recording =
+            strong_motion::Recording::read(file, &ReadOptions::default()).map_err(value_error)?;
         recording.notices().iter().try_for_each(|notice| warn(py, notice))?;
         Ok(recording.into_record())
     };
@@ -150,7 +159,11 @@ fn read_folder(py: Python<'_>, folder: &std::path::Path) -> PyResult<Vec<strong_
 }
 
 /// n records, unless ^C comes first.
-fn made(py: Python<'_>, n: usize, make: impl Fn(usize) -> strong_motion::Record + Sync) -> PyResult<Vec<Record>> {
+fn made(
+    py: Python<'_>,
+    n: usize,
+    make: impl Fn(usize) -> strong_motion::Record + Sync,
+) -> PyResult<Vec<Record>> {
     interruptible(py, |stop| {
         // as they come: n may be more than memory holds
         let mut all = Vec::new();
@@ -166,7 +179,12 @@ fn made(py: Python<'_>, n: usize, make: impl Fn(usize) -> strong_motion::Record 
 /// ends it.
 #[pyfunction]
 #[pyo3(signature = (structure, n, seed = 1))]
-pub fn synthetic_records(py: Python<'_>, structure: Structure, n: usize, seed: u64) -> PyResult<Vec<Record>> {
+pub fn synthetic_records(
+    py: Python<'_>,
+    structure: Structure,
+    n: usize,
+    seed: u64,
+) -> PyResult<Vec<Record>> {
     let body = structure.body();
     let (p, alpha) = (body.p_squared().sqrt(), body.alpha());
     made(py, n, |i| synthetic::record(seed, i, p, alpha))
@@ -178,7 +196,12 @@ pub fn synthetic_records(py: Python<'_>, structure: Structure, n: usize, seed: u
 /// The structure decides how long they are silent at the end.
 #[pyfunction]
 #[pyo3(signature = (structure, n, seed = 1))]
-pub fn earthquake_records(py: Python<'_>, structure: Structure, n: usize, seed: u64) -> PyResult<Vec<Record>> {
+pub fn earthquake_records(
+    py: Python<'_>,
+    structure: Structure,
+    n: usize,
+    seed: u64,
+) -> PyResult<Vec<Record>> {
     let p = structure.body().p_squared().sqrt();
     made(py, n, |i| synthetic::earthquake(seed, i, p))
 }

@@ -55,7 +55,8 @@ pub fn in_python(text: &str) -> String {
         let (before, option) = rest.split_at(at);
         words.push_str(before);
         let option = &option[2..];
-        let end = option.find(|c: char| !(c.is_ascii_lowercase() || c == '-')).unwrap_or(option.len());
+        let end =
+            option.find(|c: char| !(c.is_ascii_lowercase() || c == '-')).unwrap_or(option.len());
         let name = option[..end].trim_end_matches('-');
         if name.is_empty() {
             words.push_str("--");
@@ -65,8 +66,9 @@ pub fn in_python(text: &str) -> String {
         }
         rest = &option[name.len()..];
         // the value goes on without a space
-        if let Some(value) =
-            rest.strip_prefix(' ').filter(|v| !name.is_empty() && v.starts_with(|c: char| c.is_ascii_digit()))
+        if let Some(value) = rest
+            .strip_prefix(' ')
+            .filter(|v| !name.is_empty() && v.starts_with(|c: char| c.is_ascii_digit()))
         {
             rest = value;
         }

@@ -39,13 +39,25 @@ pub struct EffortOptions {
 impl EffortOptions {
     /// The effort of a job whose default is so many units, watched for ^C from now on.
     pub fn of(&self, units: u64) -> Result<Effort, CommandError> {
-        let refused = |option, value: f64, remedy| CommandError::Option { option, value: format!("{value:?}"), remedy };
+        let refused = |option, value: f64, remedy| CommandError::Option {
+            option,
+            value: format!("{value:?}"),
+            remedy,
+        };
         if !(self.work > 0.0 && self.work.is_finite()) {
-            return Err(refused("work", self.work, "give a number above zero: 1 is the default, 10 ten times as much"));
+            return Err(refused(
+                "work",
+                self.work,
+                "give a number above zero: 1 is the default, 10 ten times as much",
+            ));
         }
         let limit = |seconds: f64| match Duration::try_from_secs_f64(seconds) {
             Ok(limit) if seconds > 0.0 => Ok(limit),
-            _ => Err(refused("time-limit", seconds, "give seconds above zero, or leave it out for none")),
+            _ => Err(refused(
+                "time-limit",
+                seconds,
+                "give seconds above zero, or leave it out for none",
+            )),
         };
         let limit = self.time_limit.map(limit).transpose()?;
         // a limit beyond what clocks count to is none
@@ -63,7 +75,9 @@ fn watch() {
             if INTERRUPTED.swap(true, Ordering::Relaxed) {
                 std::process::exit(INTERRUPTED_CODE.into());
             }
-            terminal::stderr("^C: the search ends, the best springs so far are kept; again to quit at once");
+            terminal::stderr(
+                "^C: the search ends, the best springs so far are kept; again to quit at once",
+            );
         };
         // where it cannot be watched ^C ends the program, as ever
         let _ = ctrlc::set_handler(pressed);
@@ -73,7 +87,9 @@ fn watch() {
 /// The end of a job whose results are in a folder: ^C has an exit code of its own.
 pub fn ended(effort: &Effort, folder: &Path) -> Result<(), CommandError> {
     match effort.cut() {
-        Some(CutBy::Interrupt) => Err(CommandError::Interrupted { folder: terminal::shown(folder) }),
+        Some(CutBy::Interrupt) => {
+            Err(CommandError::Interrupted { folder: terminal::shown(folder) })
+        }
         _ => Ok(()),
     }
 }

@@ -53,9 +53,16 @@ pub fn run(o: &ChartOptions) -> Result<(), CommandError> {
             }
         }
     }
-    let rows: Vec<ChartRow> =
-        all.into_par_iter().map(|(kind, geometry)| ChartRow { kind, geometry, springs: geometry.springs() }).collect();
-    let folder = Folder::begin(&o.out, "chart", &["chart.csv", "chart.png", "chart.svg"], identity(&[&o.alpha]))?;
+    let rows: Vec<ChartRow> = all
+        .into_par_iter()
+        .map(|(kind, geometry)| ChartRow { kind, geometry, springs: geometry.springs() })
+        .collect();
+    let folder = Folder::begin(
+        &o.out,
+        "chart",
+        &["chart.csv", "chart.png", "chart.svg"],
+        identity(&[&o.alpha]),
+    )?;
     write_file(&folder.path().join("chart.csv"), csv(&rows).as_bytes())?;
     draw(folder.path(), &rows)?;
     folder.finish()?;
@@ -97,8 +104,12 @@ fn csv(rows: &[ChartRow]) -> String {
 
 fn draw(out: &Path, rows: &[ChartRow]) -> Result<(), CommandError> {
     type Pick = fn(&Springs<Design<f64>>) -> f64;
-    let picks: [Pick; 4] =
-        [|s| s.vertical.mu, |s| s.vertical.f, |s| s.vertical.xi, |s| s.horizontal.omega_n_hz / s.vertical.omega_n_hz];
+    let picks: [Pick; 4] = [
+        |s| s.vertical.mu,
+        |s| s.vertical.f,
+        |s| s.vertical.xi,
+        |s| s.horizontal.omega_n_hz / s.vertical.omega_n_hz,
+    ];
     // alpha, dashed, Omega_n/p, the values of each panel
     type SlendernessColumn = (f64, bool, Vec<f64>, [Vec<f64>; 4]);
     let columns: Vec<SlendernessColumn> = rows
@@ -138,10 +149,19 @@ mod tests {
         let geometry = Geometry::new(0.1, 1.0, 2e4)?;
         let springs = geometry.springs();
         let text = csv(&[ChartRow { kind: 0, geometry, springs }]);
-        let numbers: Vec<f64> =
-            text.lines().nth(1).unwrap_or("").split(',').skip(1).map(|x| x.parse().unwrap()).collect();
+        let numbers: Vec<f64> = text
+            .lines()
+            .nth(1)
+            .unwrap_or("")
+            .split(',')
+            .skip(1)
+            .map(|x| x.parse().unwrap())
+            .collect();
         assert_eq!(text.lines().next().unwrap().split(',').count(), numbers.len() + 1);
-        assert!((numbers[4] - springs.vertical.mu).abs() < 1e-6 && (numbers[5] - springs.vertical.f).abs() < 1e-6);
+        assert!(
+            (numbers[4] - springs.vertical.mu).abs() < 1e-6
+                && (numbers[5] - springs.vertical.f).abs() < 1e-6
+        );
         Ok(())
     }
 }

@@ -6,7 +6,10 @@ use clap::Args;
 
 use super::{CommandError, terminal};
 use springs::case::{LONGEST_S, NO_MOTION};
-use strong_motion::{Notice, ReadOptions, Recording, Source, TableColumn, Units, VerticalFrom, excitation::Excitation};
+use strong_motion::{
+    Notice, ReadOptions, Recording, Source, TableColumn, Units, VerticalFrom,
+    excitation::Excitation,
+};
 
 /// Which record, how scaled, how long.
 #[derive(Clone, Debug, Default, Args)]
@@ -69,7 +72,11 @@ impl RecordOptions {
 
     /// The same of a case, which was read with [`RecordOptions::of_case`]: what is said of a file
     /// is said of the case's own unless `--record` names another.
-    pub fn excitation_of_case(&self, own: &Excitation, notices: &[Notice]) -> Result<Excitation, CommandError> {
+    pub fn excitation_of_case(
+        &self,
+        own: &Excitation,
+        notices: &[Notice],
+    ) -> Result<Excitation, CommandError> {
         let named = matches!(own.record.source, Source::File { .. });
         if self.record.is_some() || !named {
             return self.excitation(|| -> Result<_, CommandError> { Ok(own.clone()) });
@@ -90,7 +97,10 @@ impl RecordOptions {
         ReadOptions {
             dt: self.dt,
             units: self.units,
-            component: self.component.clone().or_else(|| self.column.as_ref().map(TableColumn::component)),
+            component: self
+                .component
+                .clone()
+                .or_else(|| self.column.as_ref().map(TableColumn::component)),
             baseline: self.baseline,
             vertical: self.vertical.clone(),
         }

@@ -5,7 +5,9 @@ use std::path::{Path, PathBuf};
 use clap::Args;
 
 use super::{CommandError, common::RecordOptions, terminal};
-use decks::{ACCURACY, DeckFormat, ExportError, SteppedDeck, Stepping, deck_of, stepped_deck, with_inertia};
+use decks::{
+    ACCURACY, DeckFormat, ExportError, SteppedDeck, Stepping, deck_of, stepped_deck, with_inertia,
+};
 use frames::fem::{ElasticAnalysis, ElasticStart};
 use run_folder::{
     elastic::{deck, stepped_deck as stepped_deck_of},
@@ -42,7 +44,8 @@ pub struct ExportOptions {
 }
 
 pub fn run(o: &ExportOptions) -> Result<(), CommandError> {
-    let usual = DECKS.iter().find(|(_, format)| *format == o.format).map_or("deck", |(name, _)| name);
+    let usual =
+        DECKS.iter().find(|(_, format)| *format == o.format).map_or("deck", |(name, _)| name);
     let out = file_in(&o.out, usual)?;
     check_accuracy(o.accuracy)?;
     of_one_run(&o.parameters)?;
@@ -75,7 +78,10 @@ fn told(deck: SteppedDeck, record: String) -> (String, String) {
 
 /// The deck of an elastic structure, with our own history to check itself against, and a line that
 /// says on which record.
-fn elastic(o: &ExportOptions, parameters: &ElasticParameters) -> Result<(String, String), CommandError> {
+fn elastic(
+    o: &ExportOptions,
+    parameters: &ElasticParameters,
+) -> Result<(String, String), CommandError> {
     let excitation = o.record.excitation(|| parameters.excitation(&o.parameters))?;
     let record = excitation.used()?;
     let assembled = parameters.assembled().map_err(|e| CommandError::Result(e.to_string()))?;
@@ -91,7 +97,13 @@ fn elastic(o: &ExportOptions, parameters: &ElasticParameters) -> Result<(String,
     let springs = parameters.chains();
     let case = ElasticAnalysis {
         vertical: record.up(),
-        ..ElasticAnalysis::new(&assembled.frame, &springs, ElasticStart::Standing, record.dt, &record.accel)
+        ..ElasticAnalysis::new(
+            &assembled.frame,
+            &springs,
+            ElasticStart::Standing,
+            record.dt,
+            &record.accel,
+        )
     };
     let history = case.simulate().map_err(|e| CommandError::Result(e.to_string()))?;
     let text = deck(&assembled, &springs, &record, &history, (o.format, o.accuracy))?;
@@ -109,7 +121,10 @@ pub(super) fn check_accuracy(accuracy: f64) -> Result<(), CommandError> {
 
 /// The model that decks hold, the part of its record that is used, and a line that says which: that
 /// of the file unless given.
-pub(super) fn read(file: &Path, options: &RecordOptions) -> Result<(Parameters, Record, String), CommandError> {
+pub(super) fn read(
+    file: &Path,
+    options: &RecordOptions,
+) -> Result<(Parameters, Record, String), CommandError> {
     let mut parameters = Parameters::read(file)?;
     parameters.structure = with_inertia(&parameters.structure);
     let excitation = options.excitation(|| parameters.excitation(file))?;

@@ -74,7 +74,8 @@ pub fn run(o: &HousnerOptions) -> Result<(), CommandError> {
         None => terminal::stdout(csv)?,
     }
     let upright = samples_until(rocking.overturned(), record.dt).min(motion.len());
-    let (max, min) = motion.u[..upright].iter().fold((0.0_f64, 0.0_f64), |(a, b), &u| (a.max(u), b.min(u)));
+    let (max, min) =
+        motion.u[..upright].iter().fold((0.0_f64, 0.0_f64), |(a, b), &u| (a.max(u), b.min(u)));
     terminal::stderr(format_args!(
         "{}\nu {:+.9} / {:+.9} mm, v {:.6} mm, {} impacts{}",
         excitation.line(),
@@ -83,7 +84,8 @@ pub fn run(o: &HousnerOptions) -> Result<(), CommandError> {
         peak(&motion.v[..upright]) * 1e3,
         rocking.impacts.len(),
         match rocking.outcome {
-            RockingOutcome::Overturned { time } => format!(", overturned at {time:.3} s (peaks until then)"),
+            RockingOutcome::Overturned { time } =>
+                format!(", overturned at {time:.3} s (peaks until then)"),
             RockingOutcome::NeverMoved => ", never lifted".into(),
             RockingOutcome::LeavesGround { time } =>
                 format!(", leaves the ground at {time:.6} s, where the solution ends"),

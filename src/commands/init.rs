@@ -140,9 +140,9 @@ pub fn run(o: &InitOptions) -> Result<(), CommandError> {
     let out = file_in(&o.out, "case.toml")?;
     let path = out.display().to_string();
     let there = |source: std::io::Error| match source.kind() {
-        ErrorKind::AlreadyExists => {
-            CommandError::Result(format!("{path}: is there already; name another with --out, or remove it"))
-        }
+        ErrorKind::AlreadyExists => CommandError::Result(format!(
+            "{path}: is there already; name another with --out, or remove it"
+        )),
         _ => FolderError::Write { path: path.clone(), source }.into(),
     };
     if let Some(folder) = out.parent() {

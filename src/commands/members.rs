@@ -11,7 +11,13 @@ use springs::answers::MemberHistory;
 /// Largest forces and their times, as JSON.
 fn forces(peaks: &[TimedPeak; QUANTITIES.len()]) -> Value {
     let peak = |k: usize| json!({ "value": peaks[k].value, "time_s": peaks[k].time });
-    Value::Object(QUANTITIES.iter().enumerate().map(|(k, name)| (name.to_string(), peak(k))).collect::<Map<_, _>>())
+    Value::Object(
+        QUANTITIES
+            .iter()
+            .enumerate()
+            .map(|(k, name)| (name.to_string(), peak(k)))
+            .collect::<Map<_, _>>(),
+    )
 }
 
 /// The match and the largest forces of the rigid body, and of the one with members.

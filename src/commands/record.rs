@@ -78,7 +78,8 @@ pub fn run(o: &RecordFileOptions) -> Result<(), CommandError> {
     let own = if o.files.is_empty() { o.asked() } else { ReadOptions::default() };
     let case = o.case.as_deref().map(|path| Case::read_asking(path, &own)).transpose()?;
     let body = case.as_ref().map(|case| case.structure.body::<f64>());
-    let duration = case.as_ref().map_or(LONGEST_S, |case| case.excitation.duration_s.unwrap_or(LONGEST_S));
+    let duration =
+        case.as_ref().map_or(LONGEST_S, |case| case.excitation.duration_s.unwrap_or(LONGEST_S));
     if let Some(folder) = &o.out {
         check_folder(folder)?;
     }
@@ -118,7 +119,8 @@ pub fn run(o: &RecordFileOptions) -> Result<(), CommandError> {
 impl RecordFileOptions {
     /// What the options say of the files.
     fn asked(&self) -> ReadOptions {
-        let component = self.component.clone().or_else(|| self.column.as_ref().map(TableColumn::component));
+        let component =
+            self.component.clone().or_else(|| self.column.as_ref().map(TableColumn::component));
         let (dt, units, baseline) = (self.dt, self.units, self.baseline);
         ReadOptions { dt, units, component, baseline, vertical: None }
     }
@@ -126,7 +128,10 @@ impl RecordFileOptions {
 
 /// The files that were named and how to read them; with none named, that of the case, as the case
 /// says unless an option does.
-fn named(o: &RecordFileOptions, case: Option<&Case>) -> Result<Vec<(PathBuf, ReadOptions)>, CommandError> {
+fn named(
+    o: &RecordFileOptions,
+    case: Option<&Case>,
+) -> Result<Vec<(PathBuf, ReadOptions)>, CommandError> {
     let asked = o.asked();
     let Some(case) = case.filter(|_| o.files.is_empty()) else {
         return Ok(o.files.iter().map(|file| (file.clone(), asked.clone())).collect());
@@ -163,7 +168,9 @@ impl FileReport {
             file: file.display().to_string(),
             format: recording.format,
             station: recording.station.clone(),
-            components: (0..recording.components.len()).map(|i| ComponentRow::new(recording, i, body)).collect(),
+            components: (0..recording.components.len())
+                .map(|i| ComponentRow::new(recording, i, body))
+                .collect(),
             run: RunInputs {
                 record: taken.record.name.clone(),
                 duration_s,
@@ -187,7 +194,11 @@ impl FileReport {
             printable(&self.file),
             self.format,
             run.record,
-            if run.duration_s < LONGEST_S { format!("its first {} s", run.duration_s) } else { "all of it".into() }
+            if run.duration_s < LONGEST_S {
+                format!("its first {} s", run.duration_s)
+            } else {
+                "all of it".into()
+            }
         );
         let whole = self.components.iter().find(|row| row.taken).map_or(0.0, |row| row.pga_g.abs());
         if run.pga_g < whole {
@@ -196,7 +207,10 @@ impl FileReport {
                 run.pga_time_s, run.pga_g
             ));
         } else {
-            text.push_str(&format!("the peak comes {:.2} s after the first sample\n", run.pga_time_s));
+            text.push_str(&format!(
+                "the peak comes {:.2} s after the first sample\n",
+                run.pga_time_s
+            ));
         }
         if let Some(row) = self.components.iter().find(|row| row.start_s != 0.0) {
             let start = row.start_s;
@@ -209,7 +223,12 @@ impl FileReport {
 }
 
 /// The figure of the component that a run takes.
-fn draw(folder: &Path, file: &Path, recording: &Recording, body: Option<&Body<f64>>) -> Result<(), CommandError> {
+fn draw(
+    folder: &Path,
+    file: &Path,
+    recording: &Recording,
+    body: Option<&Body<f64>>,
+) -> Result<(), CommandError> {
     let row = ComponentRow::new(recording, recording.taken, body);
     let record = &recording.component().record;
     let t: Vec<f64> = (0..record.len()).map(|i| i as f64 * record.dt).collect();

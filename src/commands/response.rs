@@ -57,7 +57,11 @@ fn table(fit: &Fit) -> String {
         if certificate.holds() { "optimal" } else { "NOT proven optimal" }
     );
     for a in &certificate.active {
-        let _ = writeln!(out, "  active g {:.6}, ARR {:.6}, multiplier {:.6}", a.g, a.arr, a.multiplier);
+        let _ = writeln!(
+            out,
+            "  active g {:.6}, ARR {:.6}, multiplier {:.6}",
+            a.g, a.arr, a.multiplier
+        );
     }
     for b in &certificate.bounds {
         let _ = writeln!(out, "  active bound {}, multiplier {:.6}", b.bound, b.multiplier);

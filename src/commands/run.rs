@@ -28,7 +28,9 @@ use run_folder::{
     rigid::{Output, filed, files, save, write_report},
 };
 use springs::{
-    case::{ACCURACY, Asked, Case, ElasticCase, Limits, MAX_HZ, Objective, PEAKS, Yardstick, text_of},
+    case::{
+        ACCURACY, Asked, Case, ElasticCase, Limits, MAX_HZ, Objective, PEAKS, Yardstick, text_of,
+    },
     parameters::Parameters,
     results::NotDone,
     tuning::job::{Job, MOST_WORK},
@@ -92,7 +94,8 @@ pub struct RunOptions {
 pub fn run(o: &RunOptions) -> Result<(), CommandError> {
     let mut case = match &o.case {
         Some(path) => {
-            let (name, text, asked) = (path.display().to_string(), text_of(path)?, o.record.of_case());
+            let (name, text, asked) =
+                (path.display().to_string(), text_of(path)?, o.record.of_case());
             if ElasticCase::is(&text) {
                 return elastic::run(o, ElasticCase::parse_asking(&name, &text, &asked)?);
             }
@@ -103,7 +106,11 @@ pub fn run(o: &RunOptions) -> Result<(), CommandError> {
     if o.no_record {
         if case.tuning.objective == Objective::Arr {
             let remedy = "the paper's procedure tunes on a record; leave one of the two out";
-            return Err(CommandError::Option { option: "no-record", value: "objective = \"arr\"".into(), remedy });
+            return Err(CommandError::Option {
+                option: "no-record",
+                value: "objective = \"arr\"".into(),
+                remedy,
+            });
         }
         case.set_excitation(Excitation::whole(Record::new("none", 0.01, vec![0.0; 2])?))?;
     } else {
@@ -112,7 +119,9 @@ pub fn run(o: &RunOptions) -> Result<(), CommandError> {
     case.tuning.max_omega_hz = o.max_hz()?.or(case.tuning.max_omega_hz);
     case.program = o.program.over(case.program)?;
     match o.asked()? {
-        Some(Asked { by: Yardstick::Histories, error }) => (case.tuning.accuracy, case.tuning.peaks) = (error, None),
+        Some(Asked { by: Yardstick::Histories, error }) => {
+            (case.tuning.accuracy, case.tuning.peaks) = (error, None)
+        }
         Some(Asked { by: Yardstick::Peaks, error }) => case.tuning.peaks = Some(error),
         None => {}
     }
@@ -125,7 +134,9 @@ pub fn run(o: &RunOptions) -> Result<(), CommandError> {
     }
     let progress = Progress::on_terminal("springs tried", o.quiet);
     let effort = o.effort.of(MOST_WORK)?;
-    let job = Job::within(&case, &effort, &|done, all, error| progress.tell(done, all, &progress::error(error)));
+    let job = Job::within(&case, &effort, &|done, all, error| {
+        progress.tell(done, all, &progress::error(error))
+    });
     progress.done();
     let mut job = job?;
     let wanted = !o.no_front && !o.no_record;
@@ -164,13 +175,21 @@ impl RunOptions {
         let peaks = within("peaks", self.peaks, &PEAKS)?;
         if let (Some(_), Some(peaks)) = (accuracy, peaks) {
             let remedy = "springs are chosen by --peaks or by --accuracy, and the other is measured: leave one out";
-            return Err(CommandError::Option { option: "peaks", value: format!("{peaks:?}"), remedy });
+            return Err(CommandError::Option {
+                option: "peaks",
+                value: format!("{peaks:?}"),
+                remedy,
+            });
         }
         Ok(accuracy.or(peaks).map(|accuracy| Asked::new(accuracy, peaks)))
     }
 }
 
-fn within(option: &'static str, given: Option<f64>, limits: &Limits) -> Result<Option<f64>, CommandError> {
+fn within(
+    option: &'static str,
+    given: Option<f64>,
+    limits: &Limits,
+) -> Result<Option<f64>, CommandError> {
     let refuse = |(value, remedy)| CommandError::Option { option, value, remedy };
     given.map(|value| limits.check(value).map_err(refuse)).transpose()
 }
@@ -193,7 +212,9 @@ fn springs_alone(o: &RunOptions, run: &Run) -> Result<(), CommandError> {
     write_file(&out.join("parameters.md"), markdown(run).as_bytes())?;
     write_report(out, Output { figures: false, report: !o.no_report }, run, &[])?;
     folder.finish()?;
-    terminal::stderr("no record: tune simulate, verify and export take El Centro unless you give them one");
+    terminal::stderr(
+        "no record: tune simulate, verify and export take El Centro unless you give them one",
+    );
     o.print(run)
 }
 
@@ -225,10 +246,9 @@ pub(super) fn threads(jobs: Option<usize>) -> Result<(), CommandError> {
             let remedy = "give at most 1024 threads";
             return Err(CommandError::Option { option: "jobs", value: n.to_string(), remedy });
         }
-        rayon::ThreadPoolBuilder::new()
-            .num_threads(n)
-            .build_global()
-            .map_err(|e| CommandError::Result(format!("--jobs {n}: {e}; give a smaller number of threads")))?;
+        rayon::ThreadPoolBuilder::new().num_threads(n).build_global().map_err(|e| {
+            CommandError::Result(format!("--jobs {n}: {e}; give a smaller number of threads"))
+        })?;
     }
     Ok(())
 }

@@ -46,7 +46,8 @@ pub fn run(o: &SimulateOptions) -> Result<(), CommandError> {
     let record = excitation.used()?;
     let body = parameters.structure.body::<f64>();
     let e = restitution(o.restitution)?.unwrap_or_else(|| parameters.restitution());
-    let file = |path: &Option<PathBuf>, name| path.as_deref().map(|path| file_in(path, name)).transpose();
+    let file =
+        |path: &Option<PathBuf>, name| path.as_deref().map(|path| file_in(path, name)).transpose();
     let (out, forces) = (file(&o.out, "history.csv")?, file(&o.forces, "members.csv")?);
     let friction = o.ground.friction()?;
     let both = both(&body, e, &parameters.chains(), &parameters.members(), &record);
@@ -60,7 +61,8 @@ pub fn run(o: &SimulateOptions) -> Result<(), CommandError> {
     terminal::stderr(excitation.line());
     let housner = HousnerReport::new(&body, e, &record, &both.rocking, friction);
     let verdict = both.verdict(&body, record.dt, &housner.conditioning);
-    for finding in filed(reference::all(&parameters.structure, &record, &both, &housner, &verdict)) {
+    for finding in filed(reference::all(&parameters.structure, &record, &both, &housner, &verdict))
+    {
         terminal::stderr(finding.line());
     }
     let report = members::MembersReport::new(&both.matched, &both.demands, both.with.as_ref());

@@ -72,14 +72,20 @@ pub fn run(o: &SweepOptions) -> Result<(), CommandError> {
 }
 
 /// The folder of a sweep, begun or gone on with; the springs that it needs.
-fn begin(plan: &Plan, hash: &str, out: &Path, quiet: bool) -> Result<Option<SpringsTable>, CommandError> {
+fn begin(
+    plan: &Plan,
+    hash: &str,
+    out: &Path,
+    quiet: bool,
+) -> Result<Option<SpringsTable>, CommandError> {
     check_folder(out)?;
     Manifest::new(plan, hash).begin(out)?;
     if !plan.model.fem() {
         return Ok(None);
     }
     let progress = Progress::new("springs", quiet);
-    let springs = SpringsTable::new(plan, out, hash, &|done, all| progress.tell(done, all, "geometries"));
+    let springs =
+        SpringsTable::new(plan, out, hash, &|done, all| progress.tell(done, all, "geometries"));
     progress.done();
     let springs = springs?;
     for structure in &springs.missed {
@@ -104,7 +110,8 @@ impl SweepRunOptions {
             terminal::stderr(format_args!("{file}: {reason}; part {part} is computed again"));
         }
         let wanted = missing.parts;
-        let all: u64 = wanted.iter().map(|part| parts.cells(*part)).map(|cells| cells.end - cells.start).sum();
+        let all: u64 =
+            wanted.iter().map(|part| parts.cells(*part)).map(|cells| cells.end - cells.start).sum();
         let progress = Progress::new("sweep", self.quiet);
         let (began, through) = (Instant::now(), AtomicU64::new(0));
         let done = |more: u64| {

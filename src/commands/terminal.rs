@@ -44,13 +44,18 @@ pub fn stdout(text: impl Display) -> Result<(), CommandError> {
 /// # Errors
 /// As [`stdout`].
 pub fn json(value: &impl Serialize) -> Result<(), CommandError> {
-    let json = serde_json::to_string_pretty(value).map_err(|e| CommandError::Result(e.to_string()))?;
+    let json =
+        serde_json::to_string_pretty(value).map_err(|e| CommandError::Result(e.to_string()))?;
     let mut text = String::with_capacity(json.len() + 1);
     for c in json.chars() {
         match c {
             '\n' => text.push('\n'),
             c if is_unprintable(c) => {
-                let units = c.encode_utf16(&mut [0; 2]).iter().map(|unit| format!("\\u{unit:04x}")).collect::<String>();
+                let units = c
+                    .encode_utf16(&mut [0; 2])
+                    .iter()
+                    .map(|unit| format!("\\u{unit:04x}"))
+                    .collect::<String>();
                 text.push_str(&units);
             }
             c => text.push(c),

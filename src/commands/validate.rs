@@ -16,7 +16,8 @@ use dynamics::{fem, spring::ChainRow};
 use files::message::one_line;
 use rocking::{conditioning::ILL_CONDITIONED, structure::Structure, synthetic};
 use run_folder::{
-    folder::Folder, folder::identity, folder::of_one_run, pictures::subtitle, place::check_folder, place::write_file,
+    folder::Folder, folder::identity, folder::of_one_run, pictures::subtitle, place::check_folder,
+    place::write_file,
 };
 use springs::{
     case::LONGEST_S,
@@ -127,7 +128,8 @@ impl RecordsSource {
             }
             Ok(notices)
         };
-        let notices: Vec<Result<Vec<Notice>, RecordError>> = self.files.par_iter().map(read).collect();
+        let notices: Vec<Result<Vec<Notice>, RecordError>> =
+            self.files.par_iter().map(read).collect();
         let mut unread = Vec::new();
         let files = std::mem::take(&mut self.files);
         for (file, notices) in files.into_iter().zip(notices) {
@@ -210,18 +212,24 @@ struct ValidationReport<'a> {
 }
 
 /// All that `tune validate` can write into its folder.
-const FILES: &[&str] = &["validate.json", "validate.md", "validate.csv", "validation.png", "validation.svg"];
+const FILES: &[&str] =
+    &["validate.json", "validate.md", "validate.csv", "validation.png", "validation.svg"];
 
 pub fn run(o: &ValidateOptions) -> Result<(), CommandError> {
     of_one_run(&o.parameters)?;
     let parameters = Parameters::read(&o.parameters)?;
     let body = parameters.structure.body::<f64>();
-    let restitution = common::restitution(o.restitution)?.unwrap_or_else(|| parameters.restitution());
+    let restitution =
+        common::restitution(o.restitution)?.unwrap_or_else(|| parameters.restitution());
     if let Some(duration) = o.duration
         && !(duration > 0.0 && duration <= LONGEST_S)
     {
         let remedy = "give seconds greater than zero, at most 1e6";
-        return Err(CommandError::Option { option: "duration", value: format!("{duration:?}"), remedy });
+        return Err(CommandError::Option {
+            option: "duration",
+            value: format!("{duration:?}"),
+            remedy,
+        });
     }
     check_folder(&o.out)?;
     threads(o.jobs)?;
@@ -238,7 +246,10 @@ pub fn run(o: &ValidateOptions) -> Result<(), CommandError> {
     let left_out = source.check();
     if source.len() == 0 {
         let first = left_out.first().map_or("", |unread| &unread.reason);
-        return Err(CommandError::Result(format!("no file could be read, of {}; the first: {first}", left_out.len())));
+        return Err(CommandError::Result(format!(
+            "no file could be read, of {}; the first: {first}",
+            left_out.len()
+        )));
     }
     let line = source.line(left_out.len());
     let judge = Validator {
@@ -249,7 +260,11 @@ pub fn run(o: &ValidateOptions) -> Result<(), CommandError> {
         control: fem::Control::default(),
     };
     let progress = Progress::new("records", o.quiet);
-    let validation = judge.judge_all(source.len(), |i| source.record(i), |n| progress.tell(n, source.len(), ""))?;
+    let validation = judge.judge_all(
+        source.len(),
+        |i| source.record(i),
+        |n| progress.tell(n, source.len(), ""),
+    )?;
     progress.done();
 
     let report = ValidationReport {
@@ -262,11 +277,15 @@ pub fn run(o: &ValidateOptions) -> Result<(), CommandError> {
         left_out: &left_out,
         validation: &validation,
     };
-    let mut json = serde_json::to_string_pretty(&report).map_err(|e| CommandError::Result(e.to_string()))?;
+    let mut json =
+        serde_json::to_string_pretty(&report).map_err(|e| CommandError::Result(e.to_string()))?;
     json.push('\n');
     let folder = Folder::begin(&o.out, "validate", FILES, identity(&[&json, &o.no_figures]))?;
     write_file(&folder.path().join("validate.json"), json.as_bytes())?;
-    write_file(&folder.path().join("validate.md"), tables::markdown(&validation, &line).as_bytes())?;
+    write_file(
+        &folder.path().join("validate.md"),
+        tables::markdown(&validation, &line).as_bytes(),
+    )?;
     write_file(&folder.path().join("validate.csv"), &tables::csv(&validation)?)?;
     if !o.no_figures {
         draw(folder.path(), &parameters, &validation)?;

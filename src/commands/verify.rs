@@ -24,8 +24,8 @@ use decks::{
 use figures::history::{self, HistoryFigure, Trace};
 use rocking::motion::Motion;
 use run_folder::{
-    folder::Folder, folder::identity, folder::of_one_run, pictures::subtitle, place::check_folder, place::write_file,
-    tables::csv_row,
+    folder::Folder, folder::identity, folder::of_one_run, pictures::subtitle, place::check_folder,
+    place::write_file, tables::csv_row,
 };
 use springs::{
     parameters::{Parameters, elastic::ElasticParameters},
@@ -71,7 +71,9 @@ pub fn run(o: &VerifyOptions) -> Result<(), CommandError> {
     check_folder(&o.out)?;
     check_accuracy(o.accuracy)?;
     let progress = Progress::new("OpenSees [s]", o.quiet);
-    let result = verify(&parameters, &record, o.accuracy, &program, &|done, all| progress.tell(done, all, ""));
+    let result = verify(&parameters, &record, o.accuracy, &program, &|done, all| {
+        progress.tell(done, all, "")
+    });
     progress.done();
     let result = result?;
 
@@ -102,18 +104,29 @@ fn said(record: &Record, result: &Verification) -> String {
     let last = (result.ours.len() - 1) as f64 * result.dt;
     let peaks = peaks_table(&format!("{}, {last:.2} s", record.name), &result.peaks);
     let mut errors = Table::new();
-    errors.load_style(presets::ASCII_MARKDOWN).set_header(["error of the history (NRMSE)", "u", "v", "theta"]);
+    errors.load_style(presets::ASCII_MARKDOWN).set_header([
+        "error of the history (NRMSE)",
+        "u",
+        "v",
+        "theta",
+    ]);
     for (name, a) in [
         ("OpenSees against tune simulate", result.opensees_against_ours),
         ("OpenSees against Housner", result.opensees_against_housner),
         ("tune simulate against Housner", result.ours_against_housner),
     ] {
-        errors.add_row([name.to_string(), format!("{:.2e}", a.u), format!("{:.2e}", a.v), format!("{:.2e}", a.theta)]);
+        errors.add_row([
+            name.to_string(),
+            format!("{:.2e}", a.u),
+            format!("{:.2e}", a.v),
+            format!("{:.2e}", a.theta),
+        ]);
     }
     let [ours, opensees] = result.swings;
     let mut out = format!("{peaks}\n\n{errors}\n\n");
     // writing to a String does not fail
-    let _ = writeln!(out, "swings from foot to foot: {ours} of tune simulate, {opensees} of OpenSees");
+    let _ =
+        writeln!(out, "swings from foot to foot: {ours} of tune simulate, {opensees} of OpenSees");
     let _ = writeln!(out, "OpenSees took {:.1} s and {} steps", result.seconds, result.steps);
     out + &judged(result)
 }
@@ -124,7 +137,8 @@ fn peaks_table(title: &str, peaks: &[ComparedPeak]) -> Table {
     table.load_style(presets::ASCII_MARKDOWN).set_header([title, "tune", "OpenSees", "difference"]);
     for peak in peaks {
         let unit = if peak.unit == "m" { "mm" } else { "mrad" };
-        let difference = peak.difference_percent().map_or("-".into(), |percent| format!("{percent:+.2} %"));
+        let difference =
+            peak.difference_percent().map_or("-".into(), |percent| format!("{percent:+.2} %"));
         let number = |x: f64| format!("{:.3}", x * 1e3);
         let name = format!("peak {} [{unit}]", peak.quantity);
         table.add_row([name, number(peak.ours), number(peak.opensees), difference]);
@@ -152,12 +166,17 @@ fn judged(result: &Verification) -> String {
              of its own: how it turns in the air is not defined"
         ),
     };
-    let _ = writeln!(out, "OpenSees is {whether} {LIMIT} of tune simulate's u: {:.1e}", verdict.error);
+    let _ =
+        writeln!(out, "OpenSees is {whether} {LIMIT} of tune simulate's u: {:.1e}", verdict.error);
     if let Some(parted) = verdict.parted {
         let _ = writeln!(out, "OpenSees first differs by 1 % of the largest u at {parted:.2} s");
     }
     if result.late > 0 {
-        let _ = writeln!(out, "WARNING: {} touches or lifts of a foot within too long a step of OpenSees", result.late);
+        let _ = writeln!(
+            out,
+            "WARNING: {} touches or lifts of a foot within too long a step of OpenSees",
+            result.late
+        );
     }
     out
 }
@@ -182,8 +201,9 @@ fn refusal(result: &Verification) -> String {
 /// All three histories, 12 significant digits; over the length that all have.
 fn csv(result: &Verification) -> String {
     let all = [&result.housner, &result.ours, &result.opensees];
-    let mut out =
-        String::from("t,u_housner,v_housner,th_housner,u_fem,v_fem,th_fem,u_opensees,v_opensees,th_opensees\n");
+    let mut out = String::from(
+        "t,u_housner,v_housner,th_housner,u_fem,v_fem,th_fem,u_opensees,v_opensees,th_opensees\n",
+    );
     for i in 0..all.iter().map(|m| m.len()).min().unwrap_or(0) {
         let mut row = vec![i as f64 * result.dt];
         row.extend(all.iter().flat_map(|m| [m.u[i], m.v[i], m.theta[i]]));
@@ -192,7 +212,12 @@ fn csv(result: &Verification) -> String {
     out
 }
 
-fn draw(out: &Path, parameters: &Parameters, record: &Record, result: &Verification) -> Result<(), CommandError> {
+fn draw(
+    out: &Path,
+    parameters: &Parameters,
+    record: &Record,
+    result: &Verification,
+) -> Result<(), CommandError> {
     fn trace<'a>(label: &'a str, motion: &'a Motion) -> Trace<'a> {
         Trace { label, u: &motion.u, v: &motion.v, ..Trace::default() }
     }
@@ -202,6 +227,7 @@ fn draw(out: &Path, parameters: &Parameters, record: &Record, result: &Verificat
     let of = subtitle(&parameters.structure, &record.name, parameters.vertical.omega_n_hz);
     let title = format!("The exported model in OpenSees\n{of}");
     let reference = trace("Housner", &result.housner);
-    let data = HistoryFigure { title: &title, t: &t, reference, others: &others, differences: true };
+    let data =
+        HistoryFigure { title: &title, t: &t, reference, others: &others, differences: true };
     Ok(history::draw(&data)?.save(&out.join("verify.png"))?)
 }

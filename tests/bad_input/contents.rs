@@ -4,23 +4,40 @@ use super::*;
 
 #[test]
 fn cases_and_parameters_in_other_encodings_or_none() {
-    let utf16 =
-        |text: &str| [0xfeff].into_iter().chain(text.encode_utf16()).flat_map(u16::to_le_bytes).collect::<Vec<u8>>();
+    let utf16 = |text: &str| {
+        [0xfeff]
+            .into_iter()
+            .chain(text.encode_utf16())
+            .flat_map(u16::to_le_bytes)
+            .collect::<Vec<u8>>()
+    };
     let latin1 = [STRUCTURE.as_bytes(), b"# H\xf6he\n"].concat();
     for bytes in [&utf16(STRUCTURE), &latin1] {
-        refuses_bytes(&[("c.toml", bytes)], &["run", "c.toml", "--out", "o"], &["c.toml: cannot be read", "UTF-8"]);
+        refuses_bytes(
+            &[("c.toml", bytes)],
+            &["run", "c.toml", "--out", "o"],
+            &["c.toml: cannot be read", "UTF-8"],
+        );
     }
     let simulate = ["simulate", "--parameters", "p.json"];
-    refuses_bytes(&[("p.json", &utf16(PARAMETERS))], &simulate, &["p.json: cannot be read", "UTF-8"]);
+    refuses_bytes(
+        &[("p.json", &utf16(PARAMETERS))],
+        &simulate,
+        &["p.json: cannot be read", "UTF-8"],
+    );
     for (text, word) in [
         (format!("{STRUCTURE}\0"), "c.toml, line 6"),
         (format!("\u{feff}{STRUCTURE}x = 1\n"), "c.toml, line 6: unknown key \"x\""),
         (STRUCTURE.replace('\n', "\r"), "c.toml, line 1"),
-        (String::new(), "[structure] lacks kind (aframe, block, pier or frame), its sizes and its mass"),
+        (
+            String::new(),
+            "[structure] lacks kind (aframe, block, pier or frame), its sizes and its mass",
+        ),
     ] {
         refuses(&[("c.toml", &text)], &["run", "c.toml", "--out", "o"], &[word]);
     }
-    let doubled = PARAMETERS.trim_end().strip_suffix('}').unwrap().to_owned() + ",\"structure\":{}}";
+    let doubled =
+        PARAMETERS.trim_end().strip_suffix('}').unwrap().to_owned() + ",\"structure\":{}}";
     for (text, word) in [
         (format!("{PARAMETERS}\0"), "trailing characters"),
         (format!("{PARAMETERS}{{}}"), "trailing characters"),
@@ -44,7 +61,12 @@ fn headers_that_cannot_be() {
         (", DT= .01000 SEC", "", "cannot read NPTS and DT"),
         ("ACCELERATION", "VELOCITY", "velocity"),
     ] {
-        run_record("a.at2", &format!("{}0.1 0.2 0.1 0.1\n", AT2.replace(from, to)), &[], &["a.at2", word]);
+        run_record(
+            "a.at2",
+            &format!("{}0.1 0.2 0.1 0.1\n", AT2.replace(from, to)),
+            &[],
+            &["a.at2", word],
+        );
     }
     let whole = format!("{AT2}0.1 0.2 0.1 0.1\n");
     run_record("a.at2", &whole, &["--units", "cm/s2"], &["its unit is g but --units is cm/s2"]);
@@ -89,8 +111,14 @@ fn values_of_the_wrong_type() {
         ("[tuning]\nobjective = \"best\"\n", "unknown variant `best`"),
         ("[tuning]\naccuracy = 0.0\n", "tuning.accuracy is 0.0; give an error between 1e-5 and 1"),
         ("[tuning]\naccuracy = nan\n", "tuning.accuracy is NaN"),
-        ("[tuning]\npeaks = 0.0\n", "tuning.peaks is 0.0; give an error of peaks between 1e-4 and 1"),
-        ("[tuning]\npeaks = 0.02\naccuracy = 0.01\n", "tuning.peaks is 0.02 and tuning.accuracy is 0.01"),
+        (
+            "[tuning]\npeaks = 0.0\n",
+            "tuning.peaks is 0.0; give an error of peaks between 1e-4 and 1",
+        ),
+        (
+            "[tuning]\npeaks = 0.02\naccuracy = 0.01\n",
+            "tuning.peaks is 0.02 and tuning.accuracy is 0.01",
+        ),
         (
             "[tuning]\nobjective = \"impact\"\n",
             "line 7: objective \"impact\" is now landing; write objective = \"landing\"",
@@ -117,7 +145,10 @@ fn options_beyond_all_measure_or_given_twice() {
         (&["run", "--duration", "-1"], "--duration is -1"),
         (&["run", "--duration", "1", "--duration", "2"], "multiple times"),
         (&["run", "--peaks", "2"], "--peaks is 2.0; give an error of peaks between 1e-4 and 1"),
-        (&["run", "--peaks", "0.02", "--accuracy", "0.01"], "--peaks is 0.02; springs are chosen by"),
+        (
+            &["run", "--peaks", "0.02", "--accuracy", "0.01"],
+            "--peaks is 0.02; springs are chosen by",
+        ),
         (&["run", "--accuracy", "2"], "--accuracy is 2.0; give an error between 1e-5 and 1"),
         (&["run", "--max-hz", "0"], "--max-hz is 0.0"),
         (&["run", "--max-hz", "1e300"], "--max-hz is 1e300"),
@@ -136,14 +167,20 @@ fn options_beyond_all_measure_or_given_twice() {
 
 #[test]
 fn a_remembered_record_that_is_missing_or_has_changed() {
-    let file = |path: &str| record_row(serde_json::json!({"kind": "file", "file": path, "path": path, "units": "g"}));
+    let file = |path: &str| {
+        record_row(serde_json::json!({"kind": "file", "file": path, "path": path, "units": "g"}))
+    };
     let (there, missing) = (remembering(file("a.txt")), remembering(file("b.txt")));
     let numbers = remembering(record_row(serde_json::json!({"kind": "numbers"})));
     let embedded = remembering(record_row(serde_json::json!({"kind": "embedded"})));
     for args in USERS {
-        let refuse =
-            |text: &str, words: &[&str]| refuses(&[("p.json", text), ("a.txt", "0.1\n0.3\n-0.2\n")], args, words);
-        refuse(&there, &["p.json: its record a.txt has changed", "not 0123456789abcdef", "--record"]);
+        let refuse = |text: &str, words: &[&str]| {
+            refuses(&[("p.json", text), ("a.txt", "0.1\n0.3\n-0.2\n")], args, words)
+        };
+        refuse(
+            &there,
+            &["p.json: its record a.txt has changed", "not 0123456789abcdef", "--record"],
+        );
         refuse(&missing, &["p.json: its record b.txt is not there", "--record"]);
         refuse(&numbers, &["p.json: its record a was given as numbers", "--record"]);
         refuse(&embedded, &["its record the embedded El Centro has changed"]);
@@ -163,7 +200,10 @@ fn a_remembered_record_that_cannot_be() {
     let mut typed = embedded();
     typed["scale"] = "one".into();
     refuse(&remembering(typed), &["p.json", "expected f64"]);
-    refuse(&remembering(record_row(serde_json::json!({"kind": "cloud"}))), &["unknown variant `cloud`"]);
+    refuse(
+        &remembering(record_row(serde_json::json!({"kind": "cloud"}))),
+        &["unknown variant `cloud`"],
+    );
     let huge = "{\"kind\": \"embedded\"}";
     let text = remembering(serde_json::json!({
         "name": "a", "dt_s": 0.01, "samples": 3, "pga_g": 0.3, "scale": 1e300,
@@ -177,7 +217,11 @@ fn parameters_of_a_newer_program() {
     let mut all: serde_json::Value = serde_json::from_str(PARAMETERS).unwrap();
     all["schema"] = 99.into();
     all["of_the_future"] = true.into();
-    refuses(&[("p.json", &all.to_string())], USERS[0], &["p.json: its schema is 99", "reads up to 4"]);
+    refuses(
+        &[("p.json", &all.to_string())],
+        USERS[0],
+        &["p.json: its schema is 99", "reads up to 4"],
+    );
 }
 
 #[test]
@@ -192,7 +236,8 @@ fn a_scale_for_a_remembered_record_that_cannot_be() {
 
 #[test]
 fn earthquakes_of_no_number() {
-    let validate = |more: &[&'static str]| [&["validate", "--parameters", "p.json"][..], more].concat();
+    let validate =
+        |more: &[&'static str]| [&["validate", "--parameters", "p.json"][..], more].concat();
     let file = [("p.json", PARAMETERS)];
     refuses(&file, &validate(&["--earthquakes", "0"]), &["--earthquakes"]);
     refuses(&file, &validate(&["--earthquakes", "many"]), &["many"]);

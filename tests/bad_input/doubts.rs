@@ -3,16 +3,19 @@
 
 use super::*;
 
-const CABINET: &str = "[structure]\nkind = \"block\"\nheight_m = 1.9\nwidth_m = 0.8\nmass_kg = 400.0\n";
+const CABINET: &str =
+    "[structure]\nkind = \"block\"\nheight_m = 1.9\nwidth_m = 0.8\nmass_kg = 400.0\n";
 
 /// Four samples, the second column twice as strong as the first.
-const TABLE: &str = "t [s],a [g],b [g]\n0.00,0.1,0.2\n0.01,-0.1,-0.2\n0.02,0.05,0.1\n0.03,0.0,0.0\n";
+const TABLE: &str =
+    "t [s],a [g],b [g]\n0.00,0.1,0.2\n0.01,-0.1,-0.2\n0.02,0.05,0.1\n0.03,0.0,0.0\n";
 
 /// stderr of a command that ends well.
 fn accepts(files: &[(&str, &str)], args: &[&str]) -> String {
     let dir = TempDir::new().unwrap();
     files.iter().for_each(|(name, text)| fs::write(dir.path().join(name), text).unwrap());
-    let output = Command::cargo_bin("tune").unwrap().current_dir(dir.path()).args(args).output().unwrap();
+    let output =
+        Command::cargo_bin("tune").unwrap().current_dir(dir.path()).args(args).output().unwrap();
     let stderr = String::from_utf8(output.stderr).unwrap();
     assert_eq!(output.status.code(), Some(0), "{args:?}: {stderr}");
     stderr
@@ -24,16 +27,29 @@ fn doubts(case: &str, more: &[&str]) -> Vec<String> {
     for (name, text) in [("case.toml", case), ("a.csv", TABLE)] {
         fs::write(dir.path().join(name), text).unwrap();
     }
-    let run = ["run", "case.toml", "--quiet", "--no-figures", "--no-front", "--no-report", "--max-hz", "60"];
+    let run = [
+        "run",
+        "case.toml",
+        "--quiet",
+        "--no-figures",
+        "--no-front",
+        "--no-report",
+        "--max-hz",
+        "60",
+    ];
     let args = [&run[..], more].concat();
-    let output = Command::cargo_bin("tune").unwrap().current_dir(dir.path()).args(args).output().unwrap();
+    let output =
+        Command::cargo_bin("tune").unwrap().current_dir(dir.path()).args(args).output().unwrap();
     assert_eq!(output.status.code(), Some(0), "{output:?}");
     let filed = fs::read_to_string(dir.path().join("out/parameters.json")).unwrap();
     let filed: serde_json::Value = serde_json::from_str(&filed).unwrap();
     let findings = filed["findings"].as_array().unwrap();
     let doubts: Vec<_> = findings.iter().filter(|finding| finding["finding"] == "doubt").collect();
     assert!(doubts.iter().all(|doubt| doubt["weight"] == "warning"), "{doubts:?}");
-    assert!(doubts.is_empty() || String::from_utf8_lossy(&output.stdout).contains("warning   "), "{output:?}");
+    assert!(
+        doubts.is_empty() || String::from_utf8_lossy(&output.stdout).contains("warning   "),
+        "{output:?}"
+    );
     let words = |doubt: &&serde_json::Value| {
         format!("{}; {}", doubt["message"].as_str().unwrap(), doubt["remedy"].as_str().unwrap())
     };
@@ -45,13 +61,16 @@ fn doubts_are_warnings() {
     let short = ["--duration", "2"];
     assert_eq!(
         doubts(CABINET, &short),
-        ["height_m = 1.9, of the centre of mass, makes a block 3.8 m tall; if 1.9 m is its total height, write \
-          total_height_m = 1.9"]
+        [
+            "height_m = 1.9, of the centre of mass, makes a block 3.8 m tall; if 1.9 m is its total height, write \
+          total_height_m = 1.9"
+        ]
     );
     let light = CABINET.replace("1.9", "1.0").replace("400.0", "0.4");
     let found = doubts(&light, &short);
     assert!(
-        found.len() == 1 && found[0].contains("mean density of 0.3125 kg/m3, not within 5 to 25000; check"),
+        found.len() == 1
+            && found[0].contains("mean density of 0.3125 kg/m3, not within 5 to 25000; check"),
         "{found:?}"
     );
     let plain = CABINET.replace("1.9", "1.0");
@@ -73,10 +92,14 @@ fn doubts_are_warnings() {
 
 #[test]
 fn a_column_is_taken_by_number_or_name_from_option_or_case() {
-    let peak = |stderr: &str| stderr.lines().find_map(|line| Some(line.split_once("PGA ")?.1[..6].to_owned()));
-    for (args, pga) in
-        [(["--column", "2"], "0.1000"), (["--column", "b"], "0.2000"), (["--component", "column 3"], "0.2000")]
-    {
+    let peak = |stderr: &str| {
+        stderr.lines().find_map(|line| Some(line.split_once("PGA ")?.1[..6].to_owned()))
+    };
+    for (args, pga) in [
+        (["--column", "2"], "0.1000"),
+        (["--column", "b"], "0.2000"),
+        (["--component", "column 3"], "0.2000"),
+    ] {
         let args = [&["housner", "--record", "a.csv"], &args[..]].concat();
         assert_eq!(peak(&accepts(&[("a.csv", TABLE)], &args)).as_deref(), Some(pga), "{args:?}");
     }
@@ -95,8 +118,12 @@ fn bare_values_read_row_by_row_are_said() {
     let values = "0.1 -0.2 0.3\n-0.1 0.2 -0.3\n0.2 -0.1 0.1\n0.1 0.3 0.2\n";
     let options = ["--record", "a.txt", "--dt", "0.01", "--units", "g"];
     let said = accepts(&[("a.txt", values)], &[&["housner"], &options[..]].concat());
-    assert!(said.contains("3 columns without times are read row by row, as one series of 12 samples"), "{said}");
-    let said = accepts(&[("a.txt", values)], &[&["housner", "--column", "3"], &options[..]].concat());
+    assert!(
+        said.contains("3 columns without times are read row by row, as one series of 12 samples"),
+        "{said}"
+    );
+    let said =
+        accepts(&[("a.txt", values)], &[&["housner", "--column", "3"], &options[..]].concat());
     assert!(said.contains(": 4 samples of 0.01 s") && !said.contains("row by row"), "{said}");
 }
 
@@ -104,7 +131,12 @@ fn bare_values_read_row_by_row_are_said() {
 fn options_speak_of_the_file_that_a_case_names() {
     let case = format!("{STRUCTURE}[record]\nfile = \"a.txt\"\n");
     let files = [("case.toml", case.as_str()), ("a.txt", "0.1\n0.3\n-0.2\n")];
-    let said = accepts(&files, &["housner", "case.toml", "--dt", "0.02", "--units", "m/s2", "--baseline"]);
+    let said =
+        accepts(&files, &["housner", "case.toml", "--dt", "0.02", "--units", "m/s2", "--baseline"]);
     assert!(said.contains("(a.txt, in m/s2)") && said.contains("3 samples of 0.02 s"), "{said}");
-    refuses(&files, &["housner", "case.toml", "--dt", "0.02"], &["a.txt: the unit of acceleration is not in the file"]);
+    refuses(
+        &files,
+        &["housner", "case.toml", "--dt", "0.02"],
+        &["a.txt: the unit of acceleration is not in the file"],
+    );
 }

@@ -34,12 +34,22 @@ fn a_nan_in_a_record() {
 
 #[test]
 fn a_word_in_a_record() {
-    run_record("a.txt", "0.1\n0.2\noops\n", &["--dt", "0.01", "--units", "g"], &["a.txt, line 3", "oops"]);
+    run_record(
+        "a.txt",
+        "0.1\n0.2\noops\n",
+        &["--dt", "0.01", "--units", "g"],
+        &["a.txt, line 3", "oops"],
+    );
 }
 
 #[test]
 fn uneven_time_steps() {
-    run_record("a.csv", "0.00,0.1\n0.01,0.2\n0.03,0.1\n0.04,0.0\n", &["--units", "g"], &["a.csv, line 3"]);
+    run_record(
+        "a.csv",
+        "0.00,0.1\n0.01,0.2\n0.03,0.1\n0.04,0.0\n",
+        &["--units", "g"],
+        &["a.csv, line 3"],
+    );
 }
 
 #[test]
@@ -59,12 +69,19 @@ fn wrong_units_make_an_absurd_acceleration() {
 
 #[test]
 fn unknown_units() {
-    refuses(&[("a.txt", "0.1\n")], &["run", "--record", "a.txt", "--dt", "0.01", "--units", "furlong"], &["furlong"]);
+    refuses(
+        &[("a.txt", "0.1\n")],
+        &["run", "--record", "a.txt", "--dt", "0.01", "--units", "furlong"],
+        &["furlong"],
+    );
 }
 
 #[test]
 fn a_negative_mass() {
-    run_case(&STRUCTURE.replace("100.0", "-100.0"), &["case.toml", "mass_kg is -100", "greater than zero"]);
+    run_case(
+        &STRUCTURE.replace("100.0", "-100.0"),
+        &["case.toml", "mass_kg is -100", "greater than zero"],
+    );
 }
 
 #[test]
@@ -74,7 +91,10 @@ fn a_structure_too_stocky_to_rock() {
 
 #[test]
 fn a_height_that_is_not_a_number() {
-    run_case(&STRUCTURE.replace("height_m = 1.0", "height_m = nan"), &["case.toml", "height_m is NaN"]);
+    run_case(
+        &STRUCTURE.replace("height_m = 1.0", "height_m = nan"),
+        &["case.toml", "height_m is NaN"],
+    );
 }
 
 #[test]
@@ -87,7 +107,10 @@ fn an_unknown_key() {
 
 #[test]
 fn a_missing_key() {
-    run_case("[structure]\nkind = \"block\"\nheight_m = 1.0\nwidth_m = 0.5\n", &["case.toml", "mass_kg"]);
+    run_case(
+        "[structure]\nkind = \"block\"\nheight_m = 1.0\nwidth_m = 0.5\n",
+        &["case.toml", "mass_kg"],
+    );
 }
 
 #[test]
@@ -129,7 +152,9 @@ fn parameters_that_are_not_json() {
 
 #[test]
 fn parameters_with_a_spring_of_no_stiffness() {
-    for command in [&["simulate"][..], &["verify"], &["export", "--format", "csv", "--out", "springs.csv"]] {
+    for command in
+        [&["simulate"][..], &["verify"], &["export", "--format", "csv", "--out", "springs.csv"]]
+    {
         let args = [command, &["--parameters", "p.json"]].concat();
         refuses(&[("p.json", &parameters(0.0))], &args, &["p.json", "vertical.k1_n_per_m is 0"]);
     }
@@ -137,7 +162,10 @@ fn parameters_with_a_spring_of_no_stiffness() {
 
 #[test]
 fn a_deck_for_an_unknown_program() {
-    export(&["--format", "nastran", "--out", "deck"], &["nastran", "openseespy, opensees-tcl, sap2000, csv, markdown"]);
+    export(
+        &["--format", "nastran", "--out", "deck"],
+        &["nastran", "openseespy, opensees-tcl, sap2000, csv, markdown"],
+    );
 }
 
 #[test]
@@ -147,7 +175,10 @@ fn a_deck_without_a_format() {
 
 #[test]
 fn a_deck_in_a_folder_that_is_not_there() {
-    export(&["--format", "csv", "--out", "nowhere/deck.csv"], &["nowhere/deck.csv", "there is no folder nowhere"]);
+    export(
+        &["--format", "csv", "--out", "nowhere/deck.csv"],
+        &["nowhere/deck.csv", "there is no folder nowhere"],
+    );
 }
 
 #[test]
@@ -183,7 +214,13 @@ fn both_interpreters() {
 #[test]
 fn pipes_and_devices_are_no_files() {
     let dir = TempDir::new().unwrap();
-    assert!(std::process::Command::new("mkfifo").arg(dir.path().join("pipe")).status().unwrap().success());
+    assert!(
+        std::process::Command::new("mkfifo")
+            .arg(dir.path().join("pipe"))
+            .status()
+            .unwrap()
+            .success()
+    );
     for name in ["pipe", "/dev/zero"] {
         for args in [
             &["run", name][..],

@@ -15,7 +15,8 @@ use tempfile::TempDir;
 /// Run `tune` in an empty folder with the given files; it must fail cleanly and say each of
 /// `words`.
 fn refuses(files: &[(&str, &str)], args: &[&str], words: &[&str]) {
-    let files: Vec<(&str, &[u8])> = files.iter().map(|(name, text)| (*name, text.as_bytes())).collect();
+    let files: Vec<(&str, &[u8])> =
+        files.iter().map(|(name, text)| (*name, text.as_bytes())).collect();
     refuses_bytes(&files, args, words);
 }
 
@@ -24,7 +25,11 @@ fn refuses_bytes(files: &[(&str, &[u8])], args: &[&str], words: &[&str]) {
     let dir = TempDir::new().unwrap();
     for (name, bytes) in files {
         let path = dir.path().join(name);
-        if name.ends_with('/') { fs::create_dir(path).unwrap() } else { fs::write(path, bytes).unwrap() }
+        if name.ends_with('/') {
+            fs::create_dir(path).unwrap()
+        } else {
+            fs::write(path, bytes).unwrap()
+        }
     }
     refuses_in(dir.path(), args, words);
 }
@@ -48,7 +53,8 @@ fn entries(dir: &Path) -> Vec<String> {
     fs::read_dir(dir).unwrap().map(|e| e.unwrap().file_name().into_string().unwrap()).collect()
 }
 
-const STRUCTURE: &str = "[structure]\nkind = \"block\"\nheight_m = 1.0\nwidth_m = 0.5\nmass_kg = 100.0\n";
+const STRUCTURE: &str =
+    "[structure]\nkind = \"block\"\nheight_m = 1.0\nwidth_m = 0.5\nmass_kg = 100.0\n";
 
 const AT2: &str = "PEER\nname\nACCELERATION TIME HISTORY IN UNITS OF G\nNPTS= 4, DT= .01000 SEC\n";
 
@@ -69,8 +75,7 @@ fn parameters(k1: f64) -> String {
             "{{\"mu\":1,\"f\":1,\"xi\":1,\"omega_n_hz\":1,\"k1_n_per_m\":{k1},\"k2_n_per_m\":1e6,\"m2_kg\":10,\"c_ns_per_m\":1e3}}"
         )
     };
-    let structure =
-        "{\"kind\":\"block\",\"height_m\":1,\"width_m\":0.5,\"mass_kg\":100,\"rotational_inertia_kgm2\":35}";
+    let structure = "{\"kind\":\"block\",\"height_m\":1,\"width_m\":0.5,\"mass_kg\":100,\"rotational_inertia_kgm2\":35}";
     format!("{{\"structure\":{structure},\"vertical\":{},\"horizontal\":{}}}", row(k1), row(1e6))
 }
 

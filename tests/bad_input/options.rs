@@ -27,8 +27,16 @@ fn results_that_cannot_be_written_are_refused_before_the_work() {
     let parameters = ("p.json", PARAMETERS);
     let validate = ["validate", "--parameters", "p.json", "--synthetic", "3", "--out", "results"];
     refuses(&[parameters, file[0]], &validate, &["results: is a file"]);
-    refuses(&[parameters, file[0]], &["verify", "--parameters", "p.json", "--out", "results"], &["results: is a file"]);
-    refuses(&[parameters], &["simulate", "--parameters", "p.json", "--out", "x/h.csv"], &["there is no folder x"]);
+    refuses(
+        &[parameters, file[0]],
+        &["verify", "--parameters", "p.json", "--out", "results"],
+        &["results: is a file"],
+    );
+    refuses(
+        &[parameters],
+        &["simulate", "--parameters", "p.json", "--out", "x/h.csv"],
+        &["there is no folder x"],
+    );
     let export = ["export", "--parameters", "p.json", "--format", "csv", "--out", "results/"];
     refuses(&[parameters, file[0]], &export, &["results", "is a file where a folder is needed"]);
 }
@@ -74,7 +82,11 @@ fn options_that_are_no_numbers_or_out_of_range() {
 #[test]
 fn time_steps_that_cannot_be() {
     for dt in ["0", "-0.01", "nan", "1e9"] {
-        refuses(&[("a.txt", "0.1\n0.2\n")], &["run", "--record", "a.txt", "--units", "g", "--dt", dt], &["time step"]);
+        refuses(
+            &[("a.txt", "0.1\n0.2\n")],
+            &["run", "--record", "a.txt", "--units", "g", "--dt", dt],
+            &["time step"],
+        );
     }
 }
 
@@ -82,11 +94,21 @@ fn time_steps_that_cannot_be() {
 fn files_as_other_systems_write_them() {
     let units = ["--units", "g", "--dt", "0.01"];
     run_record("bom.txt", "\u{feff}0.1\r\n0.2\r\nx\r\n", &units, &["bom.txt, line 3", "'x'"]);
-    run_record("german.csv", "Zeit;a [g]\n0,00;0,1\n0,01;0,2\n", &[], &["german.csv, line 2", "decimal commas"]);
+    run_record(
+        "german.csv",
+        "Zeit;a [g]\n0,00;0,1\n0,01;0,2\n",
+        &[],
+        &["german.csv, line 2", "decimal commas"],
+    );
     run_record("wide.txt", "\u{0}1\u{0}", &units, &["not a text file"]);
     run_record("huge.txt", "1e300\n1e300\n", &units, &["above 50 g"]);
     run_record("huger.txt", "1e308\n1e308\n", &units, &["sample 0 (counted from 0) is inf"]);
-    run_record("npts.at2", "x\nIN UNITS OF G\nNPTS= 999999999999, DT= .01\n0.1\n", &[], &["NPTS 999999999999"]);
+    run_record(
+        "npts.at2",
+        "x\nIN UNITS OF G\nNPTS= 999999999999, DT= .01\n0.1\n",
+        &[],
+        &["NPTS 999999999999"],
+    );
 }
 
 #[test]
@@ -155,7 +177,9 @@ fn sizes_that_are_zero_or_not_finite() {
 fn a_settlement_that_no_springs_can_keep() {
     let least = format!("{STRUCTURE}[tuning]\nmax_settlement_m = 1e-12\n");
     run_case(&least, &["max_settlement_m is 1e-12", "springs of 200000 Hz"]);
-    let small = format!("{STRUCTURE}[record]\nscale = 2.0\n[tuning]\nmax_settlement_m = 1e-12\nmax_omega_hz = 160.0\n");
+    let small = format!(
+        "{STRUCTURE}[record]\nscale = 2.0\n[tuning]\nmax_settlement_m = 1e-12\nmax_omega_hz = 160.0\n"
+    );
     run_case(&small, &["max_settlement_m is 1e-12", "5.015e-6 m at least", "--max-hz"]);
     let paper = format!("{small}objective = \"arr\"\n");
     run_case(&paper, &["max_settlement_m is 1e-12", "5.393e-6 m at least"]);
@@ -164,7 +188,11 @@ fn a_settlement_that_no_springs_can_keep() {
 #[test]
 fn springs_and_members_beyond_all_measure() {
     for (path, value, words) in [
-        ("vertical.k1_n_per_m", 1e308, ["vertical.k1_n_per_m is 1e308", "times the weight over the height"]),
+        (
+            "vertical.k1_n_per_m",
+            1e308,
+            ["vertical.k1_n_per_m is 1e308", "times the weight over the height"],
+        ),
         ("horizontal.k2_n_per_m", 1e-300, ["horizontal.k2_n_per_m is 1e-300", "in N/m"]),
         ("vertical.m2_kg", 1e300, ["vertical.m2_kg is 1e300", "times the structure's mass"]),
         ("horizontal.c_ns_per_m", 1e300, ["horizontal.c_ns_per_m is 1e300", "sqrt(g/height)"]),
@@ -178,7 +206,10 @@ fn springs_and_members_beyond_all_measure() {
     }
     for (members, word) in [
         ("[damper]\nc_ns_per_m = 1e300\n", "damper.c_ns_per_m is 1e300"),
-        ("[tendon]\nstiffness_n_per_m = 1e300\npretension_n = 1.0\n", "tendon.stiffness_n_per_m is 1e300"),
+        (
+            "[tendon]\nstiffness_n_per_m = 1e300\npretension_n = 1.0\n",
+            "tendon.stiffness_n_per_m is 1e300",
+        ),
         ("[friction]\ncoefficient = 1e300\n", "friction.coefficient is 1e300"),
     ] {
         run_case(&format!("{STRUCTURE}{members}"), &[word]);
@@ -192,7 +223,8 @@ fn folders_where_files_belong_and_files_where_folders_do() {
     refuses_bytes(&folder, &["run", "d", "--quiet"], &["d: cannot be read"]);
     refuses_bytes(&folder, &["simulate", "--parameters", "d"], &["d: cannot be read"]);
     let both: [(&str, &[u8]); 3] = [("d/", b""), ("f", b"x"), ("p.json", PARAMETERS.as_bytes())];
-    let validate = |records| ["validate", "--parameters", "p.json", "--out", "o", "--records", records];
+    let validate =
+        |records| ["validate", "--parameters", "p.json", "--out", "o", "--records", records];
     refuses_bytes(&both, &validate("f"), &["f: cannot be read"]);
     refuses_bytes(&both, &validate("d"), &["d: no record files"]);
     refuses_bytes(&both, &validate("nowhere"), &["nowhere: cannot be read"]);

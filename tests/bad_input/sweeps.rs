@@ -3,12 +3,17 @@
 use super::refuses;
 
 const HEAD: &str = "[sweep]\nkind = \"fragility\"\n";
-const BLOCK: &str = "[[structure]]\nkind = \"block\"\nheight_m = 1.0\nwidth_m = 0.5\nmass_kg = 100.0\n";
+const BLOCK: &str =
+    "[[structure]]\nkind = \"block\"\nheight_m = 1.0\nwidth_m = 0.5\nmass_kg = 100.0\n";
 const GROUND: &str = "[records]\nel_centro = true\n";
 const LEVELS: &str = "[levels]\nscale = [1.0]\n";
 
 fn sweep(text: &str, words: &[&str]) {
-    refuses(&[("sweep.toml", text)], &["sweep", "sweep.toml", "--quiet", "--out", "results"], words);
+    refuses(
+        &[("sweep.toml", text)],
+        &["sweep", "sweep.toml", "--quiet", "--out", "results"],
+        words,
+    );
 }
 
 #[test]
@@ -17,20 +22,39 @@ fn a_sweep_that_asks_for_nothing_or_twice_is_refused_with_its_line() {
         (format!("{HEAD}{GROUND}{LEVELS}"), ["line 2", "no structure"]),
         (format!("{HEAD}{BLOCK}{LEVELS}"), ["line 2", "no ground motion"]),
         (format!("{HEAD}{BLOCK}{GROUND}"), ["line 2", "no [levels]"]),
-        (format!("{HEAD}{BLOCK}{GROUND}[levels]\nscale = 1.0\npga_g = 0.4\n"), ["line 10", "give one of"]),
+        (
+            format!("{HEAD}{BLOCK}{GROUND}[levels]\nscale = 1.0\npga_g = 0.4\n"),
+            ["line 10", "give one of"],
+        ),
         (format!("{HEAD}{BLOCK}{GROUND}[levels]\nscale = -1.0\n"), ["line 11", "scale has -1.0"]),
         (format!("{HEAD}{BLOCK}{GROUND}[levels]\nscale = []\n"), ["line 11", "0 values"]),
-        (format!("{HEAD}{BLOCK}{GROUND}[levels]\nscales = 1.0\n"), ["line 11", "did you mean \"scale\""]),
-        (format!("{HEAD}restitution = 1.5\n{BLOCK}{GROUND}{LEVELS}"), ["line 3", "restitution has 1.5"]),
-        (format!("{HEAD}model = \"both ways\"\n{BLOCK}{GROUND}{LEVELS}"), ["line 3", "unknown variant"]),
-        (format!("{HEAD}part = 0\n{BLOCK}{GROUND}{LEVELS}"), ["line 3", "1 to 1000000"]),
-        (format!("{HEAD}{BLOCK}[records]\nearthquakes = 0\n{LEVELS}"), ["line 9", "earthquakes is 0"]),
         (
-            format!("{HEAD}{GROUND}{LEVELS}[grid]\nkind = \"block\"\nsize_m = 1.0\nslenderness = 1.2\n"),
+            format!("{HEAD}{BLOCK}{GROUND}[levels]\nscales = 1.0\n"),
+            ["line 11", "did you mean \"scale\""],
+        ),
+        (
+            format!("{HEAD}restitution = 1.5\n{BLOCK}{GROUND}{LEVELS}"),
+            ["line 3", "restitution has 1.5"],
+        ),
+        (
+            format!("{HEAD}model = \"both ways\"\n{BLOCK}{GROUND}{LEVELS}"),
+            ["line 3", "unknown variant"],
+        ),
+        (format!("{HEAD}part = 0\n{BLOCK}{GROUND}{LEVELS}"), ["line 3", "1 to 1000000"]),
+        (
+            format!("{HEAD}{BLOCK}[records]\nearthquakes = 0\n{LEVELS}"),
+            ["line 9", "earthquakes is 0"],
+        ),
+        (
+            format!(
+                "{HEAD}{GROUND}{LEVELS}[grid]\nkind = \"block\"\nsize_m = 1.0\nslenderness = 1.2\n"
+            ),
             ["line 10", "slenderness has 1.2"],
         ),
         (
-            format!("{HEAD}{GROUND}{LEVELS}[grid]\nkind = \"cone\"\nsize_m = 1.0\nslenderness = 0.2\n"),
+            format!(
+                "{HEAD}{GROUND}{LEVELS}[grid]\nkind = \"cone\"\nsize_m = 1.0\nslenderness = 0.2\n"
+            ),
             ["line 8", "aframe"],
         ),
     ] {
@@ -44,12 +68,21 @@ fn pulses_that_are_none_are_refused_with_their_line() {
     sweep(&with("shape = \"square\"\nomega_over_p = 2.0\n"), &["line 9", "unknown variant"]);
     sweep(&with("shape = \"sine\"\n"), &["line 9", "omega_over_p or frequency_hz"]);
     sweep(&with("shape = \"sine\"\nomega_over_p = 0.0\n"), &["line 10", "omega_over_p has 0.0"]);
-    sweep(&with("shape = \"sine\"\ngamma = 2.0\nomega_over_p = 1.0\n"), &["line 9", "take them out"]);
-    sweep(&with("shape = \"mavroeidis-papageorgiou\"\nomega_over_p = 1.0\n"), &["line 9", "needs gamma"]);
-    let spectrum = format!("[sweep]\nkind = \"overturning\"\n{BLOCK}{GROUND}[levels]\npga_over_uplift = [1.0, 2.0]\n");
+    sweep(
+        &with("shape = \"sine\"\ngamma = 2.0\nomega_over_p = 1.0\n"),
+        &["line 9", "take them out"],
+    );
+    sweep(
+        &with("shape = \"mavroeidis-papageorgiou\"\nomega_over_p = 1.0\n"),
+        &["line 9", "needs gamma"],
+    );
+    let spectrum = format!(
+        "[sweep]\nkind = \"overturning\"\n{BLOCK}{GROUND}[levels]\npga_over_uplift = [1.0, 2.0]\n"
+    );
     sweep(&spectrum, &["line 2", "of pulses"]);
-    let scanned =
-        format!("[sweep]\nkind = \"overturning\"\n{BLOCK}[[pulse]]\nshape = \"sine\"\nomega_over_p = 2.0\n{LEVELS}");
+    let scanned = format!(
+        "[sweep]\nkind = \"overturning\"\n{BLOCK}[[pulse]]\nshape = \"sine\"\nomega_over_p = 2.0\n{LEVELS}"
+    );
     sweep(&scanned, &["line 12", "pga_over_uplift"]);
 }
 
@@ -60,7 +93,11 @@ fn records_that_are_not_there_or_do_not_move_are_named() {
     sweep(&with("folder = \"none\"\n"), &["none", "cannot be read"]);
     let still = with("files = [\"still.txt\"]\ndt_s = 0.01\nunits = \"g\"\n");
     let args = ["sweep", "sweep.toml", "--quiet", "--out", "results"];
-    refuses(&[("sweep.toml", &still), ("still.txt", "0\n0\n0\n0\n0\n")], &args, &["still", "no motion"]);
+    refuses(
+        &[("sweep.toml", &still), ("still.txt", "0\n0\n0\n0\n0\n")],
+        &args,
+        &["still", "no motion"],
+    );
 }
 
 #[test]

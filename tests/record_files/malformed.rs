@@ -6,8 +6,11 @@ use crate::write;
 
 /// The text with line `at` (from 1) edited.
 fn edit(text: &str, at: usize, change: impl Fn(&str) -> String) -> String {
-    let lines: Vec<String> =
-        text.lines().enumerate().map(|(i, line)| if i + 1 == at { change(line) } else { line.to_owned() }).collect();
+    let lines: Vec<String> = text
+        .lines()
+        .enumerate()
+        .map(|(i, line)| if i + 1 == at { change(line) } else { line.to_owned() })
+        .collect();
     lines.join("\n")
 }
 
@@ -18,13 +21,21 @@ fn cut(text: &str, at: usize) -> String {
 
 /// The text with a word replaced from line `from` on.
 fn replaced(text: &str, from: usize, word: &str, by: &str) -> String {
-    let lines: Vec<String> =
-        text.lines().enumerate().map(|(i, l)| if i + 1 < from { l.to_owned() } else { l.replace(word, by) }).collect();
+    let lines: Vec<String> = text
+        .lines()
+        .enumerate()
+        .map(|(i, l)| if i + 1 < from { l.to_owned() } else { l.replace(word, by) })
+        .collect();
     lines.join("\n")
 }
 
 fn without(text: &str, at: usize) -> String {
-    text.lines().enumerate().filter(|(i, _)| i + 1 != at).map(|(_, line)| line).collect::<Vec<_>>().join("\n")
+    text.lines()
+        .enumerate()
+        .filter(|(i, _)| i + 1 != at)
+        .map(|(_, line)| line)
+        .collect::<Vec<_>>()
+        .join("\n")
 }
 
 fn line_of(text: &str, words: &str) -> usize {
@@ -54,10 +65,14 @@ fn refused(cases: &[(String, &str)]) {
 fn geonet() {
     let text = write::geonet(&[("N28W", 5000.0), ("Up", 9000.0)], false);
     let component = 26 + 3 * 21;
-    let printed_peak = format!("{:>8}", text.lines().nth(13).unwrap().split_whitespace().nth(2).unwrap());
+    let printed_peak =
+        format!("{:>8}", text.lines().nth(13).unwrap().split_whitespace().nth(2).unwrap());
     refused(&[
         (cut(&text, 10), "line 10: 16 lines of text"),
-        (cut(&text, 40), "line 40: the acceleration samples end after 140 values where line 20 announces 203"),
+        (
+            cut(&text, 40),
+            "line 40: the acceleration samples end after 140 values where line 20 announces 203",
+        ),
         (cut(&text, component - 1), "the displacement samples end after 200"),
         (cut(&text, component + 5), "16 lines of text"),
         (edit(&text, 30, |l| l.replace('.', "x")), "line 30: "),
@@ -69,9 +84,18 @@ fn geonet() {
         (edit(&text, 23, |l| l.replace("0.0200", "0.0000")), "line 23: the time step"),
         (without(&text, 35), "line "),
         (edit(&text, 14, |l| l.replace("peak", "rms")), "line 14: 'Acceleration: peak'"),
-        (edit(&text, 14, |l| l.replace(" at ", " at 9")), "line 14: the header gives the peak acceleration as"),
-        (edit(&text, 15, |l| l.replace("peak ", "peak 1")), "line 15: the header gives the peak velocity"),
-        (replaced(&text, 27, &printed_peak, "   100.0"), "line 14: the header gives the peak acceleration as"),
+        (
+            edit(&text, 14, |l| l.replace(" at ", " at 9")),
+            "line 14: the header gives the peak acceleration as",
+        ),
+        (
+            edit(&text, 15, |l| l.replace("peak ", "peak 1")),
+            "line 15: the header gives the peak velocity",
+        ),
+        (
+            replaced(&text, 27, &printed_peak, "   100.0"),
+            "line 14: the header gives the peak acceleration as",
+        ),
         (edit(&text, component + 1, |_| "Something else".into()), "'Corrected accelerogram'"),
     ]);
 }
@@ -84,9 +108,18 @@ fn cosmos() {
     let at_data = |from: &str, to: &str| edit(&text, data, |line| line.replace(from, to));
     refused(&[
         (cut(&text, 8), "line 8: the lines of text"),
-        (cut(&text, 20), "line 20: the integers of the header end after 60 values where line 14 announces 100"),
-        (cut(&text, reals + 3), "the numbers of the header end after 15 values where line 25 announces 100"),
-        (cut(&text, data), "the acceleration samples end after 0 values where line 49 announces 203"),
+        (
+            cut(&text, 20),
+            "line 20: the integers of the header end after 60 values where line 14 announces 100",
+        ),
+        (
+            cut(&text, reals + 3),
+            "the numbers of the header end after 15 values where line 25 announces 100",
+        ),
+        (
+            cut(&text, data),
+            "the acceleration samples end after 0 values where line 49 announces 203",
+        ),
         (cut(&text, data + 4), "line 53: the acceleration samples end after 32 values"),
         (without(&text, reals), "line 25: Real-header values follow should stand here"),
         (at_data("Format=(8F10.5)", ""), "line 49: '... acceleration pts"),
@@ -98,11 +131,20 @@ fn cosmos() {
         (at_data("203", "195"), "line 74: 8 numbers where 3 are expected"),
         (edit(&text, data + 3, |line| line.replacen('.', ",", 1)), "line 52: "),
         (edit(&text, data + 3, |line| line[..65].into()), "line 52: 7 numbers where 8"),
-        (edit(&text, reals + 13, |line| line.replace(" -", " ")), "line 25: the header gives the peak acceleration"),
-        (edit(&text, reals + 13, |line| line.replace("1.", "9.")), "line 25: the header gives the peak acceleration"),
+        (
+            edit(&text, reals + 13, |line| line.replace(" -", " ")),
+            "line 25: the header gives the peak acceleration",
+        ),
+        (
+            edit(&text, reals + 13, |line| line.replace("1.", "9.")),
+            "line 25: the header gives the peak acceleration",
+        ),
         (edit(&text, data + 26, |line| format!("{line}\n{line}")), "line 76: "),
         (text.replace("End-of-data", "Ende"), "'End-of-data'"),
-        (edit(&text, 1, |line| line.replace("13 text", "xx text")), "line 1: a first line with '(Format v"),
+        (
+            edit(&text, 1, |line| line.replace("13 text", "xx text")),
+            "line 1: a first line with '(Format v",
+        ),
     ]);
 }
 
@@ -150,12 +192,18 @@ fn knet() {
         (change("Memo.", ""), "'Memo.'"),
         (change("100Hz", "Hz"), "line 11: 'Sampling Freq(Hz)' and a number"),
         (change("100Hz", "-100Hz"), "line 11: 'Sampling Freq(Hz)' and a number"),
-        (change("3920(gal)/6182761", "3920/6182761"), "line 14: 'Scale Factor' as in 3920(gal)/6182761"),
+        (
+            change("3920(gal)/6182761", "3920/6182761"),
+            "line 14: 'Scale Factor' as in 3920(gal)/6182761",
+        ),
         (change("/6182761", "/0"), "line 14: 'Scale Factor'"),
         (change("3920(gal)", "2000(gal)"), "line 15: the header gives the peak acceleration as"),
         (without(&text, 14), "line 16: 'Scale Factor'"),
         (without(&text, 15), "line 16: 'Max. Acc. (gal)'"),
-        (change("Max. Acc. (gal)   ", "Max. Acc. (gal)   1"), "line 15: the header gives the peak acceleration as 1"),
+        (
+            change("Max. Acc. (gal)   ", "Max. Acc. (gal)   1"),
+            "line 15: the header gives the peak acceleration as 1",
+        ),
         (change("Duration Time(s)  2", "Duration Time(s)  20"), "where line 12 announces 2000"),
         (edit(&text, 20, |line| line[..50].into()), "line 20: 6 numbers where 8 are expected"),
         (edit(&text, 20, |line| line.replacen('8', "8.", 1)), "8.56' is not a number"),
@@ -170,24 +218,45 @@ fn esm() {
     let change = |from: &str, to: &str| text.replace(from, to);
     refused(&[
         (cut(&text, 10), "'UNITS: cm/s^2' should stand here"),
-        (cut(&text, 16), "line 16: the acceleration samples end after 0 values where line 9 announces 203"),
-        (cut(&text, 100), "line 100: the acceleration samples end after 84 values where line 9 announces 203"),
-        (change("NDATA: 203", "NDATA: 202"), "line 219: the end of the file, after the samples that NDATA announces"),
+        (
+            cut(&text, 16),
+            "line 16: the acceleration samples end after 0 values where line 9 announces 203",
+        ),
+        (
+            cut(&text, 100),
+            "line 100: the acceleration samples end after 84 values where line 9 announces 203",
+        ),
+        (
+            change("NDATA: 203", "NDATA: 202"),
+            "line 219: the end of the file, after the samples that NDATA announces",
+        ),
         (change("NDATA: 203", "NDATA: many"), "line 9: 'NDATA: ' and the number of samples"),
         (change("NDATA: 203", "NDATA: "), "line 9: 'NDATA: ' and the number of samples"),
         (without(&text, 9), "'NDATA: ' and the number of samples"),
-        (change("NDATA: 203", "NDATA: 203\nNDATA: 202"), "line 10: nothing else than what an earlier line says"),
-        (change("UNITS: cm/s^2", "UNITS: m/s^2"), "line 12: the header gives the peak acceleration as"),
+        (
+            change("NDATA: 203", "NDATA: 203\nNDATA: 202"),
+            "line 10: nothing else than what an earlier line says",
+        ),
+        (
+            change("UNITS: cm/s^2", "UNITS: m/s^2"),
+            "line 12: the header gives the peak acceleration as",
+        ),
         (
             change("SAMPLING_INTERVAL_S: 0.020000", "SAMPLING_INTERVAL_S: 0"),
             "line 8: 'SAMPLING_INTERVAL_S: ' and seconds",
         ),
         (change("UNITS: cm/s^2", "UNITS: counts"), "line 11: the unit 'counts'"),
         (change("DATA_TYPE: ACCELERATION", "DATA_TYPE: VELOCITY"), "speaks of velocity"),
-        (change("DATA_TYPE: ACCELERATION", "DATA_TYPE: ACCELERATION RESPONSE SPECTRUM"), "speaks of a spectrum"),
+        (
+            change("DATA_TYPE: ACCELERATION", "DATA_TYPE: ACCELERATION RESPONSE SPECTRUM"),
+            "speaks of a spectrum",
+        ),
         (change("PGA_CM/S^2: ", "PGA_CM/S^2: 1"), "line 12: "),
         (change("PGA_CM/S^2: ", "PGA_CM/S^2: x"), "line 12: a number, or nothing"),
-        (change("TIME_PGA_S: ", "TIME_PGA_S: 1"), "line 12: the header gives the peak acceleration"),
+        (
+            change("TIME_PGA_S: ", "TIME_PGA_S: 1"),
+            "line 12: the header gives the peak acceleration",
+        ),
         (edit(&text, 50, |_| "x".into()), "line 50: the acceleration samples end after 33"),
         (edit(&text, 50, |_| "0.1 0.2".into()), "line 50: 2 numbers where 1"),
         (edit(&text, 50, |_| "0,1".into()), "line 50: '0,1' is not a number"),

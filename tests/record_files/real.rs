@@ -21,17 +21,36 @@ fn shared(name: &str) -> Option<PathBuf> {
 
 /// Read a file and compare its components with the printed header; `digit` is half of the last
 /// digit there (m/s2).
-fn check(path: &Path, format: RecordFormat, dt: f64, headers: &[Header], samples: &[usize], digit: f64) -> Recording {
-    let recording = Recording::read(path, &ReadOptions::default()).unwrap_or_else(|error| panic!("{error}"));
+fn check(
+    path: &Path,
+    format: RecordFormat,
+    dt: f64,
+    headers: &[Header],
+    samples: &[usize],
+    digit: f64,
+) -> Recording {
+    let recording =
+        Recording::read(path, &ReadOptions::default()).unwrap_or_else(|error| panic!("{error}"));
     assert_eq!((recording.format, recording.components.len()), (format, headers.len()));
     for ((component, header), samples) in recording.components.iter().zip(headers).zip(samples) {
         let (direction, value, time) = *header;
         assert_eq!(component.direction, direction);
         let record = &component.record;
-        assert!((record.dt - dt).abs() < 1e-12 && record.len() == *samples, "{} {}", record.dt, record.len());
-        assert!((record.pga() - value.abs()).abs() <= digit * (1.0 + 1e-9), "{} {value}", record.pga());
+        assert!(
+            (record.dt - dt).abs() < 1e-12 && record.len() == *samples,
+            "{} {}",
+            record.dt,
+            record.len()
+        );
+        assert!(
+            (record.pga() - value.abs()).abs() <= digit * (1.0 + 1e-9),
+            "{} {value}",
+            record.pga()
+        );
         if let Some(time) = time {
-            let at = (0..record.len()).find(|&i| (record.accel[i] - value).abs() <= digit * (1.0 + 1e-9)).unwrap();
+            let at = (0..record.len())
+                .find(|&i| (record.accel[i] - value).abs() <= digit * (1.0 + 1e-9))
+                .unwrap();
             assert!((component.start + at as f64 * dt - time).abs() <= dt, "{at} {time}");
         }
     }
@@ -49,7 +68,8 @@ fn kaikoura_at_te_mara_farm() {
     let path = committed("20161113_110259_WTMC_20.V2A");
     let recording = check(&path, RecordFormat::GeoNet, 0.02, &headers, &[8192; 3], 5e-5);
     assert_eq!(recording.station.as_deref(), Some("WTMC Te Mara Farm Waiau"));
-    let velocity: Vec<f64> = recording.components.iter().map(|c| c.header_pgv.unwrap().value).collect();
+    let velocity: Vec<f64> =
+        recording.components.iter().map(|c| c.header_pgv.unwrap().value).collect();
     assert_eq!(velocity, [-1.01655, 0.68643, -0.39493]);
     // 0.99 g of the northern component against 0.81 g
     let record = recording.into_record();
@@ -91,7 +111,8 @@ fn a_csmip_file_of_three_channels() {
         (Vertical, 0.69662, Some(12.06)),
     ];
     let recording = check(&path, RecordFormat::Csmip, 0.02, &headers, &[15050, 15029, 15050], 5e-6);
-    let velocity: Vec<f64> = recording.components.iter().map(|c| c.header_pgv.unwrap().value).collect();
+    let velocity: Vec<f64> =
+        recording.components.iter().map(|c| c.header_pgv.unwrap().value).collect();
     for (found, printed) in velocity.iter().zip([-6.863, -8.141, -5.845]) {
         assert!((found - 0.01 * printed).abs() < 1e-12);
     }

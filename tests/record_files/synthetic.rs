@@ -5,7 +5,8 @@ use strong_motion::{Direction, Notice, ReadOptions, RecordFormat, Recording, Uni
 use crate::write::{self, DT, PREPENDED, SAMPLES, peak, rounded, wave};
 
 fn read(file: &str, text: &str) -> Recording {
-    Recording::parse(file, text.as_bytes(), &ReadOptions::default()).unwrap_or_else(|error| panic!("{error}"))
+    Recording::parse(file, text.as_bytes(), &ReadOptions::default())
+        .unwrap_or_else(|error| panic!("{error}"))
 }
 
 fn same(found: &[f64], expected: impl IntoIterator<Item = f64>) {
@@ -21,9 +22,15 @@ fn geonet_files_have_three_components() {
     for raw in [false, true] {
         let text = write::geonet(&[("N28W", 5000.0), ("S62W", 7000.0), ("Up", 9000.0)], raw);
         let recording = read("x.txt", &text);
-        assert_eq!((recording.format, recording.station.as_deref()), (RecordFormat::GeoNet, Some("TEST Made up Farm")));
+        assert_eq!(
+            (recording.format, recording.station.as_deref()),
+            (RecordFormat::GeoNet, Some("TEST Made up Farm"))
+        );
         let directions: Vec<_> = recording.components.iter().map(|c| c.direction).collect();
-        assert_eq!(directions, [Direction::Azimuth(332.0), Direction::Azimuth(242.0), Direction::Vertical]);
+        assert_eq!(
+            directions,
+            [Direction::Azimuth(332.0), Direction::Azimuth(242.0), Direction::Vertical]
+        );
         for (component, scale) in recording.components.iter().zip([5000.0, 7000.0, 9000.0]) {
             let values = rounded(&wave(scale, 0.3), 1);
             same(&component.record.accel, values.iter().map(|mm| mm * 1e-3));
@@ -32,12 +39,17 @@ fn geonet_files_have_three_components() {
             let header = component.header_pga.unwrap();
             assert_eq!(component.start, if raw { 0.0 } else { -PREPENDED });
             let time = component.start + time;
-            assert!((header.value - value * 1e-3).abs() < 1e-9 && (header.time.unwrap() - time).abs() < 1e-9);
+            assert!(
+                (header.value - value * 1e-3).abs() < 1e-9
+                    && (header.time.unwrap() - time).abs() < 1e-9
+            );
             assert_eq!(component.header_pgv.is_some(), !raw);
         }
         // the stronger horizontal one, said aloud
         assert_eq!(recording.taken, 1);
-        assert!(matches!(&recording.notices()[..], [Notice::Taken { taken, .. }] if taken == "S62W (azimuth 242)"));
+        assert!(
+            matches!(&recording.notices()[..], [Notice::Taken { taken, .. }] if taken == "S62W (azimuth 242)")
+        );
         assert_eq!(recording.into_record().name, "x S62W");
     }
 }
@@ -49,18 +61,24 @@ fn a_component_is_chosen_by_name_or_azimuth() {
         let options = ReadOptions { component: Some(wanted.into()), ..ReadOptions::default() };
         Recording::parse("x.V2A", text.as_bytes(), &options)
     };
-    for (wanted, taken) in [("N28W", 0), ("n28w", 0), ("332", 0), ("-28", 0), ("242.2", 1), ("up", 2), ("vertical", 2)]
+    for (wanted, taken) in
+        [("N28W", 0), ("n28w", 0), ("332", 0), ("-28", 0), ("242.2", 1), ("up", 2), ("vertical", 2)]
     {
         let recording = choose(wanted).unwrap();
         assert_eq!((recording.taken, recording.notices()), (taken, vec![]), "{wanted}");
     }
     for wanted in ["90", "N", "", "?"] {
         let message = choose(wanted).unwrap_err().to_string();
-        assert!(message.contains("no component") && message.contains("S62W (azimuth 242)"), "{message}");
+        assert!(
+            message.contains("no component") && message.contains("S62W (azimuth 242)"),
+            "{message}"
+        );
     }
     let twice = write::csmip(&[("90 Deg", 10.0), ("90 Deg", 20.0), ("360 Deg", 5.0)]);
-    let options = |wanted: &str| ReadOptions { component: Some(wanted.into()), ..ReadOptions::default() };
-    let message = Recording::parse("x.V2", twice.as_bytes(), &options("90")).unwrap_err().to_string();
+    let options =
+        |wanted: &str| ReadOptions { component: Some(wanted.into()), ..ReadOptions::default() };
+    let message =
+        Recording::parse("x.V2", twice.as_bytes(), &options("90")).unwrap_err().to_string();
     assert!(message.contains("more than one component 90"), "{message}");
     assert_eq!(Recording::parse("x.V2", twice.as_bytes(), &options("chan 2")).unwrap().taken, 1);
     assert!(Recording::parse("x", b"# g, dt = 0.01\n0.1\n", &options("90")).is_err());
@@ -75,7 +93,10 @@ fn cosmos_channels_have_the_step_of_the_data_not_of_the_raw_record() {
             (RecordFormat::Cosmos, Some("XX-TEST Test Place"))
         );
         let directions: Vec<_> = recording.components.iter().map(|c| c.direction).collect();
-        assert_eq!(directions, [Direction::Azimuth(0.0), Direction::Azimuth(90.0), Direction::Vertical]);
+        assert_eq!(
+            directions,
+            [Direction::Azimuth(0.0), Direction::Azimuth(90.0), Direction::Vertical]
+        );
         for (component, scale) in recording.components.iter().zip([3.0, 2.0, 4.0]) {
             same(&component.record.accel, rounded(&wave(scale, 0.3), 5).iter().map(|a| a * factor));
             assert!((component.record.dt - DT).abs() < 1e-15);
@@ -85,7 +106,10 @@ fn cosmos_channels_have_the_step_of_the_data_not_of_the_raw_record() {
     // without a code the words tell the azimuth, in both spellings
     let text = write::cosmos(&[(-999, 3.0)], ("cm/sec2", 4));
     assert_eq!(read("x", &text).component().label(), "Chan 1 (azimuth 45)");
-    assert_eq!(read("x", &text.replace("Sta Chan ", "Sta Cha: ")).component().label(), "Chan 1 (azimuth 45)");
+    assert_eq!(
+        read("x", &text.replace("Sta Chan ", "Sta Cha: ")).component().label(),
+        "Chan 1 (azimuth 45)"
+    );
     // a peak known to three decimals, its field filled with zeros
     let (value, _) = peak(&rounded(&wave(3.0, 0.3), 5));
     let coarse = text.replace(&format!("{value:15.6}"), &format!("{value:12.3}000"));
@@ -97,7 +121,10 @@ fn csmip_channels_are_read_by_their_announced_formats() {
     let text = write::csmip(&[("90 Deg", 60.0), ("360 Deg", 80.0), (" Up", 70.0)]);
     for text in [text.replace("\r\n", "\n"), text.clone()] {
         let recording = read("x", &text);
-        assert_eq!((recording.format, recording.station.as_deref()), (RecordFormat::Csmip, Some("12345 Test Place")));
+        assert_eq!(
+            (recording.format, recording.station.as_deref()),
+            (RecordFormat::Csmip, Some("12345 Test Place"))
+        );
         let labels: Vec<String> = recording.components.iter().map(|c| c.label()).collect();
         assert_eq!(labels, ["Chan 1 (azimuth 90)", "Chan 2 (azimuth 0)", "Chan 3 (vertical)"]);
         for (component, scale) in recording.components.iter().zip([60.0, 80.0, 70.0]) {
@@ -120,12 +147,16 @@ fn knet_counts_are_scaled_and_lose_their_mean() {
         ("3", "UD1", Direction::Vertical),
     ] {
         let recording = read("TST001.EW", &write::knet(dir));
-        assert_eq!((recording.format, recording.station.as_deref()), (RecordFormat::KNet, Some("TST001")));
+        assert_eq!(
+            (recording.format, recording.station.as_deref()),
+            (RecordFormat::KNet, Some("TST001"))
+        );
         let component = recording.component();
         assert_eq!((component.name.as_deref(), component.direction), (Some(name), direction));
         assert_eq!(component.record.dt, 0.01);
         same(&component.record.accel, gal.iter().map(|gal| gal * 0.01));
-        let only = recording.notices().iter().any(|notice| matches!(notice, Notice::OnlyVertical { .. }));
+        let only =
+            recording.notices().iter().any(|notice| matches!(notice, Notice::OnlyVertical { .. }));
         assert_eq!(only, direction == Direction::Vertical);
     }
     // newer files spell it without the point
@@ -139,7 +170,10 @@ fn knet_counts_are_scaled_and_lose_their_mean() {
 fn esm_files_have_one_value_a_line() {
     for (stream, direction) in [("HNE", Direction::Azimuth(90.0)), ("HNZ", Direction::Vertical)] {
         let recording = read("x.asc", &write::dyna(stream, -30.0));
-        assert_eq!((recording.format, recording.station.as_deref()), (RecordFormat::Dyna, Some("XX TST Test Place")));
+        assert_eq!(
+            (recording.format, recording.station.as_deref()),
+            (RecordFormat::Dyna, Some("XX TST Test Place"))
+        );
         let component = recording.component();
         assert_eq!((component.name.as_deref(), component.direction), (Some(stream), direction));
         assert_eq!((component.record.dt, component.record.len()), (DT, SAMPLES));
@@ -159,7 +193,9 @@ fn options_must_agree_with_the_file() {
     ] {
         let with = |dt, units| {
             let options = ReadOptions { dt, units, ..ReadOptions::default() };
-            Recording::parse("x", text.as_bytes(), &options).map(|_| ()).map_err(|error| error.to_string())
+            Recording::parse("x", text.as_bytes(), &options)
+                .map(|_| ())
+                .map_err(|error| error.to_string())
         };
         assert!(with(None, Some(Units::MetrePerSecond2)).unwrap_err().contains("says its unit is"));
         assert!(with(Some(0.03), None).unwrap_err().contains("time step is"));
@@ -195,7 +231,10 @@ fn a_file_says_the_same_however_its_lines_end() {
             assert_eq!(found.components.len(), expected.components.len());
             for (found, expected) in found.components.iter().zip(&expected.components) {
                 assert_eq!(found.record.accel, expected.record.accel);
-                assert_eq!((found.record.dt, found.direction), (expected.record.dt, expected.direction));
+                assert_eq!(
+                    (found.record.dt, found.direction),
+                    (expected.record.dt, expected.direction)
+                );
             }
         }
     }
@@ -206,8 +245,11 @@ fn a_file_says_the_same_however_its_lines_end() {
 fn knet_scale_factors_and_rates_are_the_header_s() {
     let (counts, gal) = write::knet_counts();
     let largest = gal.iter().fold(0.0, |most: f64, a| most.max(a.abs()));
-    let (most, mean) = (3920.0 / 6_182_761.0, counts.iter().sum::<i64>() as f64 / counts.len() as f64);
-    for (scale, hz, seconds) in [((2000.0, 8_388_608.0), 200.0, "1"), ((7845.0, 8_223_790.0), 100.0, "2")] {
+    let (most, mean) =
+        (3920.0 / 6_182_761.0, counts.iter().sum::<i64>() as f64 / counts.len() as f64);
+    for (scale, hz, seconds) in
+        [((2000.0, 8_388_608.0), 200.0, "1"), ((7845.0, 8_223_790.0), 100.0, "2")]
+    {
         let factor = scale.0 / scale.1;
         let text = write::knet("4")
             .replace("3920(gal)/6182761", &format!("{}(gal)/{}", scale.0, scale.1))
@@ -226,8 +268,10 @@ fn knet_scale_factors_and_rates_are_the_header_s() {
 fn unknown_keys_of_a_header_are_passed_over() {
     let text = write::dyna("HNE", 30.0);
     let expected = read("x", &text);
-    let more =
-        text.replace("HEADER_FORMAT", "NDBC: 3\nBOGUS: 12.5: x\nLATE_NORMAL_TRIGGERED: \nUSER1:\t7\nHEADER_FORMAT");
+    let more = text.replace(
+        "HEADER_FORMAT",
+        "NDBC: 3\nBOGUS: 12.5: x\nLATE_NORMAL_TRIGGERED: \nUSER1:\t7\nHEADER_FORMAT",
+    );
     assert_eq!(read("x", &more).components[0].record.accel, expected.components[0].record.accel);
     assert_eq!(read("x", &text.replace("PGA_CM/S^2: -", "PGA_CM/S^2: ")).components.len(), 1);
 }

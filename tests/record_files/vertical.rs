@@ -33,13 +33,19 @@ fn folder() -> TempDir {
     put("up.txt", column(&wave(3.0)));
     put("short.txt", column(&wave(3.0)[1..]));
     put("strong.txt", column(&wave(14.0)));
-    let structure = "[structure]\nkind = \"block\"\nheight_m = 1.0\nwidth_m = 0.5\nmass_kg = 2400.0\n";
+    let structure =
+        "[structure]\nkind = \"block\"\nheight_m = 1.0\nwidth_m = 0.5\nmass_kg = 2400.0\n";
     let tuning = "[tuning]\nobjective = \"arr\"\nmax_omega_hz = 60.0\ncandidates = 2\n";
-    put("case.toml", format!("{structure}[record]\nfile = \"site.V2A\"\nvertical = \"auto\"\n{tuning}"));
+    put(
+        "case.toml",
+        format!("{structure}[record]\nfile = \"site.V2A\"\nvertical = \"auto\"\n{tuning}"),
+    );
     fs::create_dir(dir.path().join("sub")).unwrap();
     put(
         "sub/case.toml",
-        format!("{structure}[record]\nfile = \"../along.txt\"\ndt_s = 0.02\nvertical = \"../up.txt\"\n{tuning}"),
+        format!(
+            "{structure}[record]\nfile = \"../along.txt\"\ndt_s = 0.02\nvertical = \"../up.txt\"\n{tuning}"
+        ),
     );
     dir
 }
@@ -48,11 +54,18 @@ fn folder() -> TempDir {
 fn the_vertical_component_of_the_same_file_counts_upwards() {
     let dir = folder();
     let read = |file: &str, component: Option<&str>, vertical: Option<VerticalFrom>| {
-        let options = ReadOptions { component: component.map(Into::into), vertical, ..ReadOptions::default() };
+        let options = ReadOptions {
+            component: component.map(Into::into),
+            vertical,
+            ..ReadOptions::default()
+        };
         Record::read(&dir.path().join(file), &options).unwrap()
     };
     let both = read("site.V2A", None, Some(VerticalFrom::Auto));
-    assert_eq!((both.name.as_str(), both.vertical.as_ref().unwrap().name.as_str()), ("site S62W", "site Up"));
+    assert_eq!(
+        (both.name.as_str(), both.vertical.as_ref().unwrap().name.as_str()),
+        ("site S62W", "site Up")
+    );
     assert_eq!(both.up(), read("site.V2A", Some("up"), None).accel);
     let fallen = read("fallen.V2A", None, Some(VerticalFrom::Auto));
     let down = read("fallen.V2A", Some("down"), None).accel;
@@ -93,20 +106,36 @@ fn histories_take_it_and_the_line_says_so() {
 fn a_run_shows_its_part_and_remembers_it() {
     let dir = folder();
     for case in ["case.toml", "sub/case.toml"] {
-        let (code, out, err) =
-            tune(dir.path(), &["run", case, "--quiet", "--no-figures", "--no-front", "--out", "out"]);
+        let (code, out, err) = tune(
+            dir.path(),
+            &["run", case, "--quiet", "--no-figures", "--no-front", "--out", "out"],
+        );
         assert_eq!(code, 0, "{err}");
         assert!(out.contains("; vertical "), "{out}");
-        assert!(err.contains("model_sap2000.s2k is left out: export: vertical ground motion"), "{err}");
+        assert!(
+            err.contains("model_sap2000.s2k is left out: export: vertical ground motion"),
+            "{err}"
+        );
         let parameters: Value =
-            serde_json::from_slice(&fs::read(dir.path().join("out/parameters.json")).unwrap()).unwrap();
+            serde_json::from_slice(&fs::read(dir.path().join("out/parameters.json")).unwrap())
+                .unwrap();
         assert!(parameters["record"]["vertical"]["pga_g"].as_f64().unwrap() > 0.2);
         let findings = parameters["findings"].as_array().unwrap();
-        assert!(findings.iter().any(|finding| finding["finding"] == "without_vertical"), "{parameters}");
-        assert!(parameters["verdict"]["housner_without_vertical"]["peak_ratio"].is_number(), "{parameters}");
-        let (code, out, err) = tune(&dir.path().join("sub"), &["simulate", "--parameters", "../out/parameters.json"]);
+        assert!(
+            findings.iter().any(|finding| finding["finding"] == "without_vertical"),
+            "{parameters}"
+        );
+        assert!(
+            parameters["verdict"]["housner_without_vertical"]["peak_ratio"].is_number(),
+            "{parameters}"
+        );
+        let (code, out, err) =
+            tune(&dir.path().join("sub"), &["simulate", "--parameters", "../out/parameters.json"]);
         assert_eq!(code, 0, "{err}");
-        assert!(err.contains("; vertical ") && err.contains("without the vertical component it "), "{err}");
+        assert!(
+            err.contains("; vertical ") && err.contains("without the vertical component it "),
+            "{err}"
+        );
         let found: Value = serde_json::from_str(&out).unwrap();
         assert_eq!(found["nrmse_horizontal"], parameters["match"]["nrmse_horizontal"]);
         for deck in ["model_openseespy.py", "model_opensees.tcl"] {
@@ -147,9 +176,18 @@ fn what_does_not_fit_is_refused_in_one_line() {
     let columns = ["housner", "--record", "along.txt", "--dt", "0.02", "--vertical"];
     for (args, words) in [
         (&["housner", "--vertical", "auto"][..], "name it with --record"),
-        (&["housner", "--record", "flat.V2A", "--vertical", "auto"], "flat.V2A: has no vertical component; name the"),
-        (&["housner", "--record", "site.V2A", "--component", "up", "--vertical", "auto"], "taken as the horizontal"),
-        (&["housner", "--record", "site.V2A", "--vertical", "flat.V2A"], "flat.V2A: has no vertical component"),
+        (
+            &["housner", "--record", "flat.V2A", "--vertical", "auto"],
+            "flat.V2A: has no vertical component; name the",
+        ),
+        (
+            &["housner", "--record", "site.V2A", "--component", "up", "--vertical", "auto"],
+            "taken as the horizontal",
+        ),
+        (
+            &["housner", "--record", "site.V2A", "--vertical", "flat.V2A"],
+            "flat.V2A: has no vertical component",
+        ),
         (&["housner", "--record", "site.V2A", "--vertical", "nowhere.V2A"], "nowhere.V2A"),
         (&[&columns[..], &["auto"]].concat(), "along.txt: has no vertical component"),
         (
@@ -167,7 +205,8 @@ fn what_does_not_fit_is_refused_in_one_line() {
         ("vertical = \"auto\"\n", "[record] lacks file"),
         ("file = \"along.txt\"\ndt_s = 0.02\nvertical = 3\n", "case.toml, line"),
     ] {
-        let structure = "[structure]\nkind = \"block\"\nheight_m = 1.0\nwidth_m = 0.5\nmass_kg = 2400.0\n";
+        let structure =
+            "[structure]\nkind = \"block\"\nheight_m = 1.0\nwidth_m = 0.5\nmass_kg = 2400.0\n";
         fs::write(dir.path().join("case.toml"), format!("{structure}[record]\n{section}")).unwrap();
         let (code, _, err) = tune(dir.path(), &["housner", "case.toml"]);
         assert_eq!((code, err.lines().count()), (2, 1), "{err}");

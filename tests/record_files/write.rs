@@ -25,7 +25,8 @@ pub fn rounded(values: &[f64], decimals: usize) -> Vec<f64> {
 
 /// The value of the largest size and its time.
 pub fn peak(values: &[f64]) -> (f64, f64) {
-    let at = (0..values.len()).max_by(|&i, &j| values[i].abs().total_cmp(&values[j].abs())).unwrap();
+    let at =
+        (0..values.len()).max_by(|&i, &j| values[i].abs().total_cmp(&values[j].abs())).unwrap();
     (values[at], at as f64 * DT)
 }
 
@@ -54,21 +55,33 @@ pub fn geonet(components: &[(&str, f64)], raw: bool) -> String {
             "Made up Farm\nInstrument None_1\nResolution: 18-bit\nAccelerogram TEST\nnowhere\n2099 January 01"
         )
         .unwrap();
-        writeln!(out, "Epicentre  42 41 33S\nNumber of points  {n}    Duration {:.2} sec", n as f64 * DT).unwrap();
+        writeln!(
+            out,
+            "Epicentre  42 41 33S\nNumber of points  {n}    Duration {:.2} sec",
+            n as f64 * DT
+        )
+        .unwrap();
         match raw {
-            true => writeln!(out, "Raw readings in units of 1.00 mm/s/s  at intervals of 0.020 s").unwrap(),
+            true => writeln!(out, "Raw readings in units of 1.00 mm/s/s  at intervals of 0.020 s")
+                .unwrap(),
             false => writeln!(out, "Instrument corrected data at 0.020 sec intervals").unwrap(),
         }
         writeln!(out, "Filter\nComponent {name}  Accelerometer Axis").unwrap();
         for (i, (what, unit)) in
-            [("Acceleration:", "mm/s/s"), ("Velocity:", "mm/s"), ("Displacement:", "mm")].into_iter().enumerate()
+            [("Acceleration:", "mm/s/s"), ("Velocity:", "mm/s"), ("Displacement:", "mm")]
+                .into_iter()
+                .enumerate()
         {
             let (value, time) = peak(&series[i]);
             match counts[i] {
                 0 => writeln!(out, "{what} record unevaluated").unwrap(),
                 _ => {
                     let time = time - if raw { 0.0 } else { PREPENDED };
-                    writeln!(out, "{what}  peak {value:8.1} {unit} at {time:6.2} sec     rms  1.0 {unit}").unwrap();
+                    writeln!(
+                        out,
+                        "{what}  peak {value:8.1} {unit} at {time:6.2} sec     rms  1.0 {unit}"
+                    )
+                    .unwrap();
                 }
             }
         }
@@ -100,8 +113,13 @@ pub fn cosmos(channels: &[(i64, f64)], (unit, code): (&str, u32)) -> String {
     for (i, (azimuth, scale)) in channels.iter().enumerate() {
         let values = rounded(&wave(*scale, 0.3), 5);
         let (value, time) = peak(&values);
-        writeln!(out, "Corrected acceleration    (Format v01.20 with 13 text lines) Src: made up").unwrap();
-        writeln!(out, "Record of nothing\nHypocenter:\nOrigin:\nStatn No: 01-1  Code:XX-TEST  Test   Place").unwrap();
+        writeln!(out, "Corrected acceleration    (Format v01.20 with 13 text lines) Src: made up")
+            .unwrap();
+        writeln!(
+            out,
+            "Record of nothing\nHypocenter:\nOrigin:\nStatn No: 01-1  Code:XX-TEST  Test   Place"
+        )
+        .unwrap();
         writeln!(
             out,
             "Coords:\nRecorder:\nRcrd start time:\nSta Chan  {}: 45 deg (Rcrdr Chan  1) Location: roof\nRaw\nProcessed",
@@ -123,7 +141,8 @@ pub fn cosmos(channels: &[(i64, f64)], (unit, code): (&str, u32)) -> String {
         (numbers[33], numbers[61], numbers[62]) = (0.005, 1e3 * DT, SAMPLES as f64 * DT);
         (numbers[63], numbers[64]) = (value, time);
         rows(&mut out, &numbers, 5, 15, 6);
-        writeln!(out, "   2 Comment line(s) follow, each starting with a \"|\":\n| one\n| two").unwrap();
+        writeln!(out, "   2 Comment line(s) follow, each starting with a \"|\":\n| one\n| two")
+            .unwrap();
         writeln!(out, "     {SAMPLES} acceleration pts, approx    4 secs, units={unit}({code:02}),Format=(8F10.5)")
             .unwrap();
         rows(&mut out, &values, 8, 10, 5);
@@ -146,20 +165,27 @@ pub fn csmip(channels: &[(&str, f64)]) -> String {
             "Uncorrected Accelerogram Data             Processed: 01/01/99\nRecord of nothing\n(Origin)\n12345"
         )
         .unwrap();
-        writeln!(out, "Station No. 12345   34.009N, 117.951W\nTest Place                               CGS").unwrap();
+        writeln!(
+            out,
+            "Station No. 12345   34.009N, 117.951W\nTest Place                               CGS"
+        )
+        .unwrap();
         writeln!(out, "Chan  {chan}: {direction}").unwrap();
         out.push_str(&"text\n".repeat(9));
-        let names = [("acceleration", "cm/sec/sec"), ("velocity", "cm/sec"), ("displacement", "cm")];
+        let names =
+            [("acceleration", "cm/sec/sec"), ("velocity", "cm/sec"), ("displacement", "cm")];
         for ((what, unit), values) in names.into_iter().zip(&series) {
             let (value, time) = peak(values);
-            writeln!(out, "Peak {what:>12} = {value:9.3}    {unit}  at  {time:7.3}   sec.").unwrap();
+            writeln!(out, "Peak {what:>12} = {value:9.3}    {unit}  at  {time:7.3}   sec.")
+                .unwrap();
         }
         out.push_str(&"text\n".repeat(5));
         for count in [16, 16, 16, 16, 16, 16, 4] {
             writeln!(out, "{}", "    7".repeat(count)).unwrap();
         }
         for line in 0..13 {
-            let numbers: Vec<f64> = (0..8).map(|j| if (line, j) == (6, 4) { DT } else { 0.5 }).collect();
+            let numbers: Vec<f64> =
+                (0..8).map(|j| if (line, j) == (6, 4) { DT } else { 0.5 }).collect();
             rows(&mut out, &numbers[..if line == 12 { 4 } else { 8 }], 8, 10, 7);
         }
         for ((what, unit), values) in
@@ -178,7 +204,8 @@ pub fn csmip(channels: &[(&str, f64)]) -> String {
 pub fn knet_counts() -> (Vec<i64>, Vec<f64>) {
     let scale = 3920.0 / 6_182_761.0;
     // 204 counts at 100 Hz, 3 s less a little: durations are whole seconds
-    let counts: Vec<i64> = wave(40.0, 0.3)[..200].iter().map(|gal| 8000 + (gal / scale).round() as i64).collect();
+    let counts: Vec<i64> =
+        wave(40.0, 0.3)[..200].iter().map(|gal| 8000 + (gal / scale).round() as i64).collect();
     let mean = counts.iter().sum::<i64>() as f64 / counts.len() as f64;
     let gal = counts.iter().map(|count| (*count as f64 - mean) * scale).collect();
     (counts, gal)
@@ -188,10 +215,13 @@ pub fn knet_counts() -> (Vec<i64>, Vec<f64>) {
 pub fn knet(direction: &str) -> String {
     let (counts, gal) = knet_counts();
     let (value, _) = peak(&gal);
-    let mut out =
-        String::from("Origin Time       2099/01/01 00:00:00\nLat.              38.103\nLong.             142.860\n");
+    let mut out = String::from(
+        "Origin Time       2099/01/01 00:00:00\nLat.              38.103\nLong.             142.860\n",
+    );
     out.push_str("Depth. (km)       24\nMag.              7.0\nStation Code      TST001\nStation Lat.      38.7\n");
-    out.push_str("Station Long.     141.0\nStation Height(m) 40\nRecord Time       2099/01/01 00:00:30\n");
+    out.push_str(
+        "Station Long.     141.0\nStation Height(m) 40\nRecord Time       2099/01/01 00:00:30\n",
+    );
     out.push_str("Sampling Freq(Hz) 100Hz\nDuration Time(s)  2\n");
     writeln!(out, "Dir.              {direction}\nScale Factor      3920(gal)/6182761").unwrap();
     writeln!(out, "Max. Acc. (gal)   {:.3}", value.abs()).unwrap();
@@ -207,10 +237,16 @@ pub fn knet(direction: &str) -> String {
 pub fn dyna(stream: &str, scale: f64) -> String {
     let values = rounded(&wave(scale, 0.3), 6);
     let (value, time) = peak(&values);
-    let mut out =
-        String::from("EVENT_NAME: nothing\nEVENT_ID: 1\nEVENT_TIME_HHMMSS: 23:08:25\nNETWORK: XX\nSTATION_CODE: TST\n");
-    writeln!(out, "STATION_NAME: Test Place\nVS30_M/S: \nSAMPLING_INTERVAL_S: {DT:.6}\nNDATA: {SAMPLES}").unwrap();
-    writeln!(out, "STREAM: {stream}\nUNITS: cm/s^2\nPGA_CM/S^2: {value:.6}\nTIME_PGA_S: {time:.6}").unwrap();
+    let mut out = String::from(
+        "EVENT_NAME: nothing\nEVENT_ID: 1\nEVENT_TIME_HHMMSS: 23:08:25\nNETWORK: XX\nSTATION_CODE: TST\n",
+    );
+    writeln!(
+        out,
+        "STATION_NAME: Test Place\nVS30_M/S: \nSAMPLING_INTERVAL_S: {DT:.6}\nNDATA: {SAMPLES}"
+    )
+    .unwrap();
+    writeln!(out, "STREAM: {stream}\nUNITS: cm/s^2\nPGA_CM/S^2: {value:.6}\nTIME_PGA_S: {time:.6}")
+        .unwrap();
     out.push_str("HEADER_FORMAT: DYNA 1.2\nDATA_TYPE: ACCELERATION\nUSER5: \n");
     rows(&mut out, &values, 1, 0, 6);
     out

@@ -71,7 +71,11 @@ fn the_vertical_stiffness_ratio_is_the_minimax_design_of_mu_10_2() {
     assert_eq!(fit.outcome, FitOutcome::Converged, "{fit:?}");
     assert!(certificate.residual < 1e-7 && certificate.spread < 1e-9, "{fit:?}");
     let sum: f64 = certificate.active.iter().map(|active| active.multiplier).sum();
-    assert!((sum - 1.0).abs() < 1e-12 && certificate.active.iter().all(|active| active.multiplier >= 0.0), "{fit:?}");
+    assert!(
+        (sum - 1.0).abs() < 1e-12
+            && certificate.active.iter().all(|active| active.multiplier >= 0.0),
+        "{fit:?}"
+    );
     assert!(certificate.bounds.iter().all(|bound| bound.multiplier > 0.0), "{fit:?}");
     // large mu in closed form: f^2 = (mu - 1)/mu, K = mu - 1
     assert!((fit.k / (low - 1.0) - 1.0).abs() < 2e-3, "{fit:?}");
@@ -118,9 +122,13 @@ fn the_standing_frame_sways_at_0_83_hz() {
 /// of an independent program (matrix exponentials, numpy and scipy).
 #[test]
 fn a_landing_gives_nine_tenths_of_its_speed_back() {
-    for (c, rebound) in
-        [(1.165e8, 0.90676), (1.265e8, 0.90865), (1.655e8, 0.91538), (2.165e8, 0.92294), (2.265e8, 0.92428)]
-    {
+    for (c, rebound) in [
+        (1.165e8, 0.90676),
+        (1.265e8, 0.90865),
+        (1.655e8, 0.91538),
+        (2.165e8, 0.92294),
+        (2.265e8, 0.92428),
+    ] {
         let landing = land(9.214, c / (M1 * TAU * 6.2), 10.2).unwrap();
         // five digits are printed; the program's steps are 1e-4/Omega_n long
         assert!((landing.rebound - rebound).abs() < 1e-4, "c = {c:e}: {landing:?}");
@@ -133,7 +141,10 @@ fn a_landing_gives_nine_tenths_of_its_speed_back() {
 fn r_of_equation_4_is_a_ratio_of_energies() {
     let alpha = (6.1_f64 / 61.0).atan();
     let r = (1.0 - 2.0 * alpha.sin().powi(2)).powi(2);
-    assert_eq!((format!("{r:.5}"), format!("{:.4}", r.sqrt())), ("0.96079".into(), "0.9802".into()));
+    assert_eq!(
+        (format!("{r:.5}"), format!("{:.4}", r.sqrt())),
+        ("0.96079".into(), "0.9802".into())
+    );
     let e = Structure::paper().body::<f64>().restitution();
     assert!((e * e - r).abs() < 1e-12, "{e} {r}");
 }

@@ -17,7 +17,8 @@ fn simulate(springs: &Springs<Design<f64>>, dt: f64, accel: &[f64]) -> History {
     let body = Structure::paper().body();
     let springs = springs.chains(680.1e3);
     let control = Control::default();
-    Analysis { body, springs, start: Start::Settled, dt, accel, vertical: &[], scale: 1.0, control }.simulate()
+    Analysis { body, springs, start: Start::Settled, dt, accel, vertical: &[], scale: 1.0, control }
+        .simulate()
 }
 
 /// The first 20 s of El Centro beside Housner.
@@ -25,7 +26,13 @@ fn on_el_centro(springs: &Springs<Design<f64>>) -> Match {
     let (body, record) = (Structure::paper().body::<f64>(), Record::el_centro().truncated(20.0));
     let rocking = housner::solve(&body, record.dt, &record.accel, &RockingOptions::default());
     let history = simulate(springs, record.dt, &record.accel);
-    Match::new(&body, record.dt, (&rocking.motion(&body), &rocking.impacts), &history, body.restitution())
+    Match::new(
+        &body,
+        record.dt,
+        (&rocking.motion(&body), &rocking.impacts),
+        &history,
+        body.restitution(),
+    )
 }
 
 /// A push of 0.02 g for 0.3 s, a fifth of what lifts the frame (g b/h = 0.1 g): Housner's frame
@@ -34,7 +41,8 @@ fn on_el_centro(springs: &Springs<Design<f64>>) -> Match {
 #[test]
 fn a_push_too_weak_to_lift_the_frame_makes_it_sway_at_0_83_hz() {
     let (dt, n) = (0.005, 4000);
-    let accel: Vec<f64> = (0..n).map(|i| if (i as f64) * dt < 0.3 { 0.02 * 9.81 } else { 0.0 }).collect();
+    let accel: Vec<f64> =
+        (0..n).map(|i| if (i as f64) * dt < 0.3 { 0.02 * 9.81 } else { 0.0 }).collect();
     let u = simulate(&Springs::table_1(), dt, &accel).motion.u;
     // zeros after the push
     let zeros: Vec<f64> = (100..n - 1)
@@ -58,7 +66,11 @@ fn a_push_too_weak_to_lift_the_frame_makes_it_sway_at_0_83_hz() {
 fn table_1_misses_housner_by_0_73_as_in_opensees() {
     let found = on_el_centro(&Springs::table_1());
     // the two programs agree with each other to 6e-4
-    assert!((found.nrmse_horizontal - 0.732).abs() < 1e-3 && (found.nrmse_vertical - 0.564).abs() < 1e-3, "{found:?}");
+    assert!(
+        (found.nrmse_horizontal - 0.732).abs() < 1e-3
+            && (found.nrmse_vertical - 0.564).abs() < 1e-3,
+        "{found:?}"
+    );
     assert!((found.peak_horizontal_fem_m - 0.4205).abs() < 3e-4, "{found:?}");
     assert!((found.peak_vertical_fem_m - 0.0372).abs() < 1e-4, "{found:?}");
     // its peak is of Beck & Skinner's size though its history is not Housner's
@@ -74,11 +86,17 @@ fn no_reading_of_the_lost_digits_follows_housner() {
     let mut readings = Vec::new();
     for k2 in [1.31e9, 1.32e9, 2.13e9, 2.32e9] {
         for mu in [0.1, 1.0, 10.2] {
-            readings.push(Springs { horizontal: Design::from_kc(mu, k2 / k1, own.horizontal.c(), 10.0), ..own });
+            readings.push(Springs {
+                horizontal: Design::from_kc(mu, k2 / k1, own.horizontal.c(), 10.0),
+                ..own
+            });
         }
     }
     for c in [1.265e8, 1.655e8, 2.165e8] {
-        readings.push(Springs { vertical: Design::from_kc(10.2, 9.214, c / (680.1e3 * omega), 6.2), ..own });
+        readings.push(Springs {
+            vertical: Design::from_kc(10.2, 9.214, c / (680.1e3 * omega), 6.2),
+            ..own
+        });
     }
     for springs in readings {
         let found = on_el_centro(&springs);
@@ -114,7 +132,7 @@ fn the_file_of_table_1_has_the_same_springs() {
     paper.rotational_inertia_kgm2 = 1e-5 * paper.mass_kg * paper.body::<f64>().radius().powi(2);
     let wanted = Parameters::new(paper, &Springs::table_1());
     let read = Parameters::parse("tuning/table_1.json", text).unwrap();
-    let same =
-        (read.structure, read.vertical, read.horizontal) == (wanted.structure, wanted.vertical, wanted.horizontal);
+    let same = (read.structure, read.vertical, read.horizontal)
+        == (wanted.structure, wanted.vertical, wanted.horizontal);
     assert!(same, "the file should be\n{}", wanted.to_json());
 }

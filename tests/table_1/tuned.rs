@@ -54,7 +54,8 @@ fn beck_and_skinners_peak_and_period_are_of_the_same_size() {
     assert!((0.85..1.15).contains(&(peak / 0.4445)), "{peak}");
     // the strong part of the record: successive impacts are half a period apart
     let times = impacts();
-    let halves: Vec<f64> = times.windows(2).map(|w| w[1] - w[0]).filter(|half| *half > 1.4).collect();
+    let halves: Vec<f64> =
+        times.windows(2).map(|w| w[1] - w[0]).filter(|half| *half > 1.4).collect();
     let period = 2.0 * halves.iter().sum::<f64>() / halves.len() as f64;
     assert!((3.0..3.6).contains(&period), "{period}");
 }
@@ -76,7 +77,8 @@ fn no_bounce_lasts() {
     }
     // a quarter of a second after an impact the landed foot carries the weight until the next
     let dt = TUNED.job.record.dt;
-    let times: Vec<f64> = fem.landings.iter().filter(|l| l.impact && l.kinetic > 1e4).map(|l| l.time).collect();
+    let times: Vec<f64> =
+        fem.landings.iter().filter(|l| l.impact && l.kinetic > 1e4).map(|l| l.time).collect();
     for (k, landing) in fem.landings.iter().filter(|l| l.impact && l.kinetic > 1e4).enumerate() {
         let end = times.get(k + 1).copied().unwrap_or(20.0) - 0.05;
         let samples = ((landing.time + 0.25) / dt) as usize..(end / dt) as usize;

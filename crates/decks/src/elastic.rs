@@ -97,7 +97,11 @@ impl ElasticDeck<'_> {
 
     /// The corners from the left, and what is under them.
     fn places(&self) -> Vec<NamedSprings> {
-        self.springs.iter().enumerate().map(|(i, springs)| (format!("corner {}", i + 1), *springs)).collect()
+        self.springs
+            .iter()
+            .enumerate()
+            .map(|(i, springs)| (format!("corner {}", i + 1), *springs))
+            .collect()
     }
 
     /// Tables leave out what SAP2000's have no word for here.
@@ -143,7 +147,14 @@ impl ElasticDeck<'_> {
             ("TOP", (self.top.0 + 1).to_string()),
             ("BEAMS", language.lines(self.beams(language, damped))),
             ("SHEAR", self.shear(language)),
-            ("SHEAR_SPRINGS", if self.sheared().is_empty() { String::new() } else { language.shear_springs.into() }),
+            (
+                "SHEAR_SPRINGS",
+                if self.sheared().is_empty() {
+                    String::new()
+                } else {
+                    language.shear_springs.into()
+                },
+            ),
             ("CORNERS", language.lines(self.corners(language))),
             ("DAMPERS", language.lines(self.dampers(language))),
             ("TENDONS", language.lines(self.tendons(language))),
@@ -188,11 +199,19 @@ impl ElasticDeck<'_> {
         self.layout.members.iter().map(move |member| {
             let [a, b] = &member.ends;
             let s = &member.section;
-            let ahead = |damping: f64, stiffness: f64| if stiffness > 0.0 { damped * damping / stiffness } else { 0.0 };
-            let (axial, bending) = (ahead(s.axial_damping, s.axial), ahead(s.bending_damping, s.bending));
+            let ahead = |damping: f64, stiffness: f64| {
+                if stiffness > 0.0 { damped * damping / stiffness } else { 0.0 }
+            };
+            let (axial, bending) =
+                (ahead(s.axial_damping, s.axial), ahead(s.bending_damping, s.bending));
             let bent = s.bending / (1.0 + s.shear_ratio(length(member)));
             let numbers = [s.axial, bent, axial, bending].map(digits);
-            let ends = [a.node.to_string(), b.node.to_string(), self.arm(language, a), self.arm(language, b)];
+            let ends = [
+                a.node.to_string(),
+                b.node.to_string(),
+                self.arm(language, a),
+                self.arm(language, b),
+            ];
             [ends, numbers].concat()
         })
     }
@@ -236,8 +255,15 @@ impl ElasticDeck<'_> {
     fn tendons(&self, language: &Language) -> impl Iterator<Item = Vec<String>> {
         self.layout.tendons.iter().map(|FrameTendon { at, anchor, stiffness, pretension }| {
             let numbers = [digits(*stiffness), digits(*pretension)];
-            [vec![at.node.to_string(), self.arm(language, at), language.list(&anchor.map(digits))], numbers.to_vec()]
-                .concat()
+            [
+                vec![
+                    at.node.to_string(),
+                    self.arm(language, at),
+                    language.list(&anchor.map(digits)),
+                ],
+                numbers.to_vec(),
+            ]
+            .concat()
         })
     }
 

@@ -21,12 +21,22 @@ pub struct DeckExpectation {
 
 impl DeckExpectation {
     /// Of a rigid body's history, beside that of one slightly wider.
-    pub fn rigid(parameters: &Parameters, record: &Record, motion: &Motion, changed: &Motion) -> Self {
+    pub fn rigid(
+        parameters: &Parameters,
+        record: &Record,
+        motion: &Motion,
+        changed: &Motion,
+    ) -> Self {
         let until = foretold_rigid(parameters, record, motion, changed);
-        let fallen = motion.theta.iter().position(|theta| theta.abs() >= FALLEN).map_or(motion.len(), |i| i + 1);
+        let fallen = motion
+            .theta
+            .iter()
+            .position(|theta| theta.abs() >= FALLEN)
+            .map_or(motion.len(), |i| i + 1);
         match until {
             Some(Foretold { samples, end }) if samples < fallen => {
-                let end = if end == ForetoldEnd::Flight { DeckEnd::Flight } else { DeckEnd::Foretold };
+                let end =
+                    if end == ForetoldEnd::Flight { DeckEnd::Flight } else { DeckEnd::Foretold };
                 Self { samples: samples.max(2), end }
             }
             _ if fallen < record.len() => Self { samples: fallen, end: DeckEnd::History },
@@ -48,7 +58,12 @@ impl DeckExpectation {
 }
 
 /// Up to where a rigid body's history can be foretold, if not to its end.
-pub fn foretold_rigid(parameters: &Parameters, record: &Record, motion: &Motion, changed: &Motion) -> Option<Foretold> {
+pub fn foretold_rigid(
+    parameters: &Parameters,
+    record: &Record,
+    motion: &Motion,
+    changed: &Motion,
+) -> Option<Foretold> {
     foretold_until(motion, changed)
         .into_iter()
         .chain(until_flight(&parameters.structure, record))

@@ -37,7 +37,9 @@ pub(super) static PYTHON: Language = Language {
     even: include_str!("steps_even.py"),
     even_numbers: ["STEP = ", "SUBSTEPS = ", "TOUCHES = "],
     integrator: |arguments| match arguments {
-        [name, numbers @ ..] => format!("analysis({})", [&[format!("\"{name}\"")], numbers].concat().join(", ")),
+        [name, numbers @ ..] => {
+            format!("analysis({})", [&[format!("\"{name}\"")], numbers].concat().join(", "))
+        }
         [] => String::new(),
     },
     solver: include_str!("solver.py"),
@@ -83,7 +85,10 @@ impl Language {
 
     /// A list of lists, one a line.
     pub(crate) fn lines(&self, lists: impl Iterator<Item = Vec<String>>) -> String {
-        lists.map(|items| format!("    {}{}", self.list(&items), self.end)).collect::<Vec<_>>().join("\n")
+        lists
+            .map(|items| format!("    {}{}", self.list(&items), self.end))
+            .collect::<Vec<_>>()
+            .join("\n")
     }
 
     /// A template with its fragments, the record and these values in the place of `@NAME@`.
@@ -101,7 +106,11 @@ impl Language {
             Some(even) => (self.even_routine(even), self.even_epilogue(even)?),
             None => (self.routine.to_string(), self.epilogue.to_string()),
         };
-        let fragments = [("ROUTINE", routine.as_str()), ("SOLVER", self.solver), ("EPILOGUE", epilogue.as_str())];
+        let fragments = [
+            ("ROUTINE", routine.as_str()),
+            ("SOLVER", self.solver),
+            ("EPILOGUE", epilogue.as_str()),
+        ];
         let mut text = template.to_string();
         for (name, fragment) in fragments {
             text = text.replace(&format!("@{name}@"), fragment.trim_end());
@@ -109,17 +118,28 @@ impl Language {
         for (name, value) in values {
             text = text.replace(&format!("@{name}@"), value);
         }
-        let vertical = record.vertical.as_ref().map_or(String::new(), |vertical| self.samples(&vertical.accel));
+        let vertical = record
+            .vertical
+            .as_ref()
+            .map_or(String::new(), |vertical| self.samples(&vertical.accel));
         // last and once: they are most of the text
-        Ok(text.replacen("@VERTICAL@", &vertical, 1).replacen("@RECORD@", &self.samples(&record.accel), 1))
+        Ok(text.replacen("@VERTICAL@", &vertical, 1).replacen(
+            "@RECORD@",
+            &self.samples(&record.accel),
+            1,
+        ))
     }
 
     /// The routine of steps of one size, its numbers above it.
     fn even_routine(&self, even: &EvenSteps) -> String {
         let [step, substeps, touches] = self.even_numbers;
-        let (number, note) = (digits(even.step), "# s; a step that fails is halved down to one in SUBSTEPS");
+        let (number, note) =
+            (digits(even.step), "# s; a step that fails is halved down to one in SUBSTEPS");
         let note = note.replace("SUBSTEPS", &even.substeps.to_string());
-        format!("{note}\n{step}{number}\n{substeps}{}\n{touches}{}\n\n\n{}", even.substeps, even.touches, self.even)
+        format!(
+            "{note}\n{step}{number}\n{substeps}{}\n{touches}{}\n\n\n{}",
+            even.substeps, even.touches, self.even
+        )
     }
 
     /// The epilogue with the integrator of steps of one size.
@@ -148,7 +168,10 @@ impl Language {
 
 /// What a record is, for a comment.
 pub(super) fn record_note(record: &Record) -> String {
-    let vertical = record.vertical.as_ref().map_or(String::new(), |v| format!(", vertically {:.4} g", v.peak_g()));
+    let vertical = record
+        .vertical
+        .as_ref()
+        .map_or(String::new(), |v| format!(", vertically {:.4} g", v.peak_g()));
     format!(
         "{}: {} samples, dt {} s, peak {:.4} g{vertical}; m/s2, positive to the right",
         super::printable(&record.name),

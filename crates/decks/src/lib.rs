@@ -62,7 +62,8 @@ pub enum DeckFormat {
 
 impl DeckFormat {
     /// Every format.
-    pub(crate) const ALL: [Self; 5] = [Self::OpenSeesPy, Self::OpenSeesTcl, Self::Sap2000, Self::Csv, Self::Markdown];
+    pub(crate) const ALL: [Self; 5] =
+        [Self::OpenSeesPy, Self::OpenSeesTcl, Self::Sap2000, Self::Csv, Self::Markdown];
 
     /// Its name on the command line.
     pub(crate) fn name(self) -> &'static str {
@@ -132,12 +133,31 @@ impl Expected {
     }
 
     /// The same of a motion from where it stands settled (m).
-    pub(crate) fn of_motion(motion: &Motion, samples: usize, settled: f64, width_sensitivity: f64) -> Self {
-        let fallen = motion.theta.iter().position(|theta| theta.abs() >= FALLEN).map_or(motion.len(), |i| i + 1);
+    pub(crate) fn of_motion(
+        motion: &Motion,
+        samples: usize,
+        settled: f64,
+        width_sensitivity: f64,
+    ) -> Self {
+        let fallen = motion
+            .theta
+            .iter()
+            .position(|theta| theta.abs() >= FALLEN)
+            .map_or(motion.len(), |i| i + 1);
         let samples = samples.min(fallen);
-        let range =
-            |x: &[f64]| x[..samples].iter().fold((0.0, 0.0), |(max, min): (f64, f64), &x| (max.max(x), min.min(x)));
-        Self { samples, settled, u: range(&motion.u), v: range(&motion.v), width_sensitivity, accuracy: ACCURACY }
+        let range = |x: &[f64]| {
+            x[..samples]
+                .iter()
+                .fold((0.0, 0.0), |(max, min): (f64, f64), &x| (max.max(x), min.min(x)))
+        };
+        Self {
+            samples,
+            settled,
+            u: range(&motion.u),
+            v: range(&motion.v),
+            width_sensitivity,
+            accuracy: ACCURACY,
+        }
     }
 
     /// The same at another accuracy.
@@ -166,9 +186,13 @@ pub enum ExportError {
         "export: these parameters have no springs for steps of one size; give tune run a program: --for sap2000, etabs or opensees-even, and --step"
     )]
     NoProgram,
-    #[error("export: the springs for steps of one size are not made for a {name}; leave it out, or --stepping events")]
+    #[error(
+        "export: the springs for steps of one size are not made for a {name}; leave it out, or --stepping events"
+    )]
     MemberOfSteps { name: &'static str },
-    #[error("export: tables have no loop for substeps at touches; give --stepping even, or --format openseespy")]
+    #[error(
+        "export: tables have no loop for substeps at touches; give --stepping even, or --format openseespy"
+    )]
     TouchesInTables,
     #[error(
         "export: integrator {name} is not written for {program}; give tune run another --integrator: hht:-0.333 or newmark, in OpenSees also trbdf2 or backward-euler"
@@ -189,7 +213,11 @@ pub enum ExportError {
 ///
 /// # Errors
 /// A member or a vertical motion that the format does not have; numbers that are not finite.
-pub fn deck(parameters: &Parameters, record: &Record, format: DeckFormat) -> Result<String, ExportError> {
+pub fn deck(
+    parameters: &Parameters,
+    record: &Record,
+    format: DeckFormat,
+) -> Result<String, ExportError> {
     deck_of(parameters, record, format, ACCURACY)
 }
 
@@ -200,10 +228,16 @@ pub fn deck_of(
     format: DeckFormat,
     accuracy: f64,
 ) -> Result<String, ExportError> {
-    let parameters = &Parameters { structure: with_inertia(&parameters.structure), ..parameters.clone() };
+    let parameters =
+        &Parameters { structure: with_inertia(&parameters.structure), ..parameters.clone() };
     let history = simulate(parameters, record);
     let width_sensitivity = width_sensitivity(&history.motion, parameters, record);
-    export(parameters, record, &Expected::new(&history, width_sensitivity).with_accuracy(accuracy), format)
+    export(
+        parameters,
+        record,
+        &Expected::new(&history, width_sensitivity).with_accuracy(accuracy),
+        format,
+    )
 }
 
 /// The text of a deck: the model of `parameters` on `record` for another program.
@@ -244,7 +278,9 @@ fn export_model(model: &DeckModel, format: DeckFormat) -> Result<String, ExportE
 
 /// A name that is harmless inside a comment or a string of any of the programs.
 fn printable(name: &str) -> String {
-    name.chars().map(|c| if c.is_ascii_alphanumeric() || " ._-+".contains(c) { c } else { '_' }).collect()
+    name.chars()
+        .map(|c| if c.is_ascii_alphanumeric() || " ._-+".contains(c) { c } else { '_' })
+        .collect()
 }
 
 #[cfg(test)]

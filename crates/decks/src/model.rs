@@ -47,7 +47,10 @@ fn even_steps(parameters: &Parameters, dt: f64) -> usize {
     let body = parameters.structure.body::<f64>();
     let chains = parameters.chains();
     let omega = (chains.vertical.k1.max(chains.horizontal.k1) / body.mass).sqrt();
-    whole(dt / (std::f64::consts::TAU / (STEPS_PER_PERIOD * omega)).min(STEP_BY_ROCKING / body.p_squared().sqrt()))
+    whole(
+        dt / (std::f64::consts::TAU / (STEPS_PER_PERIOD * omega))
+            .min(STEP_BY_ROCKING / body.p_squared().sqrt()),
+    )
 }
 
 /// How many equal steps a deck for such a program takes to the record's end.
@@ -97,7 +100,11 @@ pub(super) struct DeckModel<'a> {
 }
 
 impl<'a> DeckModel<'a> {
-    pub(crate) fn new(parameters: &Parameters, record: &'a Record, expected: &Expected) -> Result<Self, ExportError> {
+    pub(crate) fn new(
+        parameters: &Parameters,
+        record: &'a Record,
+        expected: &Expected,
+    ) -> Result<Self, ExportError> {
         let members = parameters.members();
         let structure = parameters.structure;
         let springs = parameters.chains();
@@ -183,7 +190,10 @@ impl<'a> DeckModel<'a> {
     pub(crate) fn title(&self) -> String {
         format!(
             "Rocking body, h = {} m, 2b = {} m, m = {} kg, on tuned ground springs: {}",
-            self.structure.height_m, self.structure.width_m, self.structure.mass_kg, self.record_name
+            self.structure.height_m,
+            self.structure.width_m,
+            self.structure.mass_kg,
+            self.record_name
         )
     }
 }

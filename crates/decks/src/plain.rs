@@ -11,10 +11,12 @@ pub(super) type NamedSprings = (String, Springs<Chain<f64>>);
 /// Place, direction and numbers of every unit.
 fn rows(places: &[NamedSprings]) -> impl Iterator<Item = [String; 6]> {
     places.iter().flat_map(|(place, Springs { vertical, horizontal })| {
-        [("vertical", vertical), ("horizontal", horizontal)].map(|(direction, &Chain { k1, k2, m2, c })| {
-            let [k1, k2, m2, c] = [k1, k2, m2, c].map(digits);
-            [place.clone(), direction.to_string(), k1, k2, m2, c]
-        })
+        [("vertical", vertical), ("horizontal", horizontal)].map(
+            |(direction, &Chain { k1, k2, m2, c })| {
+                let [k1, k2, m2, c] = [k1, k2, m2, c].map(digits);
+                [place.clone(), direction.to_string(), k1, k2, m2, c]
+            },
+        )
     })
 }
 
@@ -33,7 +35,9 @@ pub(super) fn markdown(title: &str, places: &[NamedSprings]) -> String {
     text.push_str(
         "Under each foot, vertically and horizontally: foot - gap, k1 - m2 - (k2 parallel with c) - ground.\n",
     );
-    text.push_str("The gaps press and never pull; the horizontal k1 acts only while its foot presses.\n\n");
+    text.push_str(
+        "The gaps press and never pull; the horizontal k1 acts only while its foot presses.\n\n",
+    );
     text.push_str("| foot | direction | k1 [N/m] | k2 [N/m] | m2 [kg] | c [N s/m] |\n|---|---|---|---|---|---|\n");
     for row in rows(places) {
         // writing to a String cannot fail

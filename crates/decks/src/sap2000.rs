@@ -68,7 +68,9 @@ pub(super) fn tables(parts: &SapModel) -> String {
     let notes = NOTES.replace("@STEPS@", steps);
     let mut text = format!("$ {}\n{notes}{}{}\n", parts.title, parts.notes, parts.expected());
     for table in
-        [control(), geometry(parts), links(parts), loads(parts), cases(parts), record(parts)].into_iter().flatten()
+        [control(), geometry(parts), links(parts), loads(parts), cases(parts), record(parts)]
+            .into_iter()
+            .flatten()
     {
         text.push_str(&table.text);
         text.push('\n');
@@ -171,7 +173,8 @@ fn joints(parts: &SapModel) -> [SapTable; 3] {
         let springs = &parts.units[foot.unit].springs;
         (foot.absorber, springs.horizontal.m2, springs.vertical.m2, 0.0)
     };
-    let all = heavy.map(|j| (j.tag, j.mass, j.mass, j.inertia)).chain(parts.feet.iter().map(absorber));
+    let all =
+        heavy.map(|j| (j.tag, j.mass, j.mass, j.inertia)).chain(parts.feet.iter().map(absorber));
     for (joint, horizontal, vertical, turning) in all {
         masses.add(&[
             ("Joint", &joint),
@@ -234,7 +237,8 @@ fn sections(parts: &SapModel) -> SapTable {
     for SapSection { name, material, axial, bending, shear, .. } in &parts.sections {
         let [area, inertia] = [axial, bending].map(|stiffness| digits(stiffness * KILO / MODULUS));
         // AS2 = AS3 = 0: no shear deformation; G is E/2
-        let sheared = if shear.is_finite() { digits(2.0 * shear * KILO / MODULUS) } else { "0".into() };
+        let sheared =
+            if shear.is_finite() { digits(2.0 * shear * KILO / MODULUS) } else { "0".into() };
         table.add(&[
             ("SectionName", name),
             ("Material", material),

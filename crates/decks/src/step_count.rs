@@ -61,7 +61,8 @@ mod tests {
     /// up as the growth.
     #[test]
     fn an_event_costs_some_fifty_steps() {
-        let steps = deck_steps(&[0.5], 1.0, 0.01, 1e-3) as i64 - deck_steps(&[], 1.0, 0.01, 1e-3) as i64;
+        let steps =
+            deck_steps(&[0.5], 1.0, 0.01, 1e-3) as i64 - deck_steps(&[], 1.0, 0.01, 1e-3) as i64;
         assert!((20..100).contains(&steps), "{steps}");
     }
 }

@@ -4,8 +4,8 @@
 use std::ops::ControlFlow;
 
 use fixed_steps::{
-    FixedStepAnalysis, FixedStepBody, FixedStepFrame, FixedStepHistory, FixedStepOutcome, FixedStepSprings, GaveUp,
-    Integrator, StepSettings,
+    FixedStepAnalysis, FixedStepBody, FixedStepFrame, FixedStepHistory, FixedStepOutcome,
+    FixedStepSprings, GaveUp, Integrator, StepSettings,
     iteration::{ConvergenceTest, Iteration},
     recipe::TOLERANCE,
 };
@@ -39,7 +39,8 @@ pub enum Stepping {
 }
 
 impl Stepping {
-    const ALL: [(&'static str, Self); 3] = [("events", Self::Events), ("even", Self::Even), ("touches", Self::Touches)];
+    const ALL: [(&'static str, Self); 3] =
+        [("events", Self::Events), ("even", Self::Even), ("touches", Self::Touches)];
 }
 
 impl std::str::FromStr for Stepping {
@@ -47,7 +48,9 @@ impl std::str::FromStr for Stepping {
 
     fn from_str(name: &str) -> Result<Self, ExportError> {
         let found = Self::ALL.into_iter().find(|(known, _)| *known == name);
-        found.map(|(_, stepping)| stepping).ok_or_else(|| ExportError::Stepping { name: crate::printable(name) })
+        found
+            .map(|(_, stepping)| stepping)
+            .ok_or_else(|| ExportError::Stepping { name: crate::printable(name) })
     }
 }
 
@@ -72,7 +75,10 @@ pub(crate) struct EvenSteps {
 
 impl EvenSteps {
     pub(crate) fn new<U>(row: &ProgramRow<U>, touches: usize) -> Result<Self, ExportError> {
-        let unknown = |_| ExportError::Integrator { name: crate::printable(&row.integrator), program: "any program" };
+        let unknown = |_| ExportError::Integrator {
+            name: crate::printable(&row.integrator),
+            program: "any program",
+        };
         let unbalance = match row.converged {
             ProgramTest::UnbalanceOverWeight(most) => Some(most),
             ProgramTest::IncrementM(_) => None,
@@ -100,7 +106,9 @@ impl EvenSteps {
         };
         let iteration = Iteration { constant: 0, newton: self.newton, test };
         let settings = StepSettings { iteration, ..StepSettings::new(self.integrator, self.step) };
-        settings.with_touches(self.touches).with_substeps(1.0 / (self.substeps * self.touches) as f64)
+        settings
+            .with_touches(self.touches)
+            .with_substeps(1.0 / (self.substeps * self.touches) as f64)
     }
 
     /// Where in a step forces are taken: 1 + alpha of HHT, else its end.
@@ -123,12 +131,17 @@ impl EvenSteps {
     pub(crate) fn in_opensees(&self) -> Result<Vec<String>, ExportError> {
         let number = |x: f64| format!("{x:?}");
         Ok(match self.integrator {
-            Integrator::Newmark { gamma, beta } => vec!["Newmark".into(), number(gamma), number(beta)],
+            Integrator::Newmark { gamma, beta } => {
+                vec!["Newmark".into(), number(gamma), number(beta)]
+            }
             Integrator::Hht { alpha } => vec!["HHT".into(), number(1.0 + alpha)],
             Integrator::Trbdf2 => vec!["TRBDF2".into()],
             Integrator::BackwardEuler => vec!["BackwardEuler".into()],
             Integrator::GeneralizedAlpha { .. } => {
-                return Err(ExportError::Integrator { name: self.integrator.to_string(), program: "OpenSees" });
+                return Err(ExportError::Integrator {
+                    name: self.integrator.to_string(),
+                    program: "OpenSees",
+                });
             }
         })
     }
@@ -154,8 +167,9 @@ impl Stepped {
         steps.unbalance = None;
         let (body, substep) = (program.structure.body(), steps.step / touches as f64);
         let design = design(&body, substep);
-        let springs = FixedStepSprings::refined(&body, steps.step, steps.integrator, &design, touches)
-            .map_err(|e| ExportError::Steps { message: e.to_string() })?;
+        let springs =
+            FixedStepSprings::refined(&body, steps.step, steps.integrator, &design, touches)
+                .map_err(|e| ExportError::Steps { message: e.to_string() })?;
         let Parameters { structure, .. } = program;
         let refined = Parameters::new(structure, &springs.units);
         let (vertical, horizontal) = (refined.vertical, refined.horizontal);
@@ -214,7 +228,10 @@ pub fn stepped_deck(
     stepping: Stepping,
 ) -> Result<SteppedDeck, ExportError> {
     if stepping == Stepping::Events {
-        return Ok(SteppedDeck { text: crate::deck(parameters, record, format)?, gives_up_s: None });
+        return Ok(SteppedDeck {
+            text: crate::deck(parameters, record, format)?,
+            gives_up_s: None,
+        });
     }
     let members = parameters.members();
     for (name, there) in [

@@ -66,7 +66,9 @@ fn opensees_decks_hold_every_number_to_the_last_bit() {
 #[test]
 fn opensees_decks_hold_the_whole_record_in_order() {
     let accel = Record::el_centro().accel;
-    for (format, begin) in [(DeckFormat::OpenSeesPy, "RECORD = ("), (DeckFormat::OpenSeesTcl, "set record {")] {
+    for (format, begin) in
+        [(DeckFormat::OpenSeesPy, "RECORD = ("), (DeckFormat::OpenSeesTcl, "set record {")]
+    {
         let text = deck(format);
         let rows = text.split(begin).nth(1).unwrap();
         let rows = rows.split([')', '}']).next().unwrap();
@@ -98,7 +100,10 @@ fn a_record_name_cannot_break_out_of_a_comment() {
     record.name = "a\"\"\"\n} ; exit [exec rm x] \\ @K1_V@".into();
     for format in DeckFormat::ALL {
         let text = export(&parameters(), &record, &EXPECTED, format).unwrap();
-        assert!(!text.contains("a\"\"\"") && !text.contains("[exec") && !text.contains("@K1_V@"), "{format:?}");
+        assert!(
+            !text.contains("a\"\"\"") && !text.contains("[exec") && !text.contains("@K1_V@"),
+            "{format:?}"
+        );
     }
 }
 
@@ -122,7 +127,8 @@ fn plain_tables_hold_every_chain_of_both_feet() {
 fn stated(hz: f64, width_sensitivity: f64) -> (f64, f64) {
     let parameters = Parameters::new(Structure::paper(), &springs(hz));
     let expected = Expected { width_sensitivity, ..EXPECTED };
-    let text = export(&parameters, &Record::el_centro(), &expected, DeckFormat::OpenSeesPy).unwrap();
+    let text =
+        export(&parameters, &Record::el_centro(), &expected, DeckFormat::OpenSeesPy).unwrap();
     let after = |name: &str| {
         let line = text.lines().find(|line| line.starts_with(name)).unwrap();
         line[name.len()..].split_whitespace().next().unwrap().parse().unwrap()
@@ -145,17 +151,24 @@ fn steps_a_sample_do_not_follow_from_stiffness() {
 fn a_history_that_hangs_on_little_is_asked_more_accurately() {
     for (width_sensitivity, tighter) in [(5e-5, 1.0), (2e-4, 3.0), (0.1, 8.0), (0.9, 1.0)] {
         let accuracy = stated(1e4, width_sensitivity).1;
-        assert!((accuracy * tighter / 0.002 - 1.0).abs() < 1e-12, "{width_sensitivity}: {accuracy}");
+        assert!(
+            (accuracy * tighter / 0.002 - 1.0).abs() < 1e-12,
+            "{width_sensitivity}: {accuracy}"
+        );
     }
 }
 
 /// Both routines are documented and whole without the deck around them.
 #[test]
 fn the_stepping_routine_is_in_both_decks_as_it_stands() {
-    for (format, routine) in
-        [(DeckFormat::OpenSeesPy, include_str!("steps.py")), (DeckFormat::OpenSeesTcl, include_str!("steps.tcl"))]
-    {
-        assert!(deck(format).contains(routine.trim_end()) && routine.contains("pasted into a script of your own"));
+    for (format, routine) in [
+        (DeckFormat::OpenSeesPy, include_str!("steps.py")),
+        (DeckFormat::OpenSeesTcl, include_str!("steps.tcl")),
+    ] {
+        assert!(
+            deck(format).contains(routine.trim_end())
+                && routine.contains("pasted into a script of your own")
+        );
         assert!(!routine.contains('@'));
     }
 }
@@ -164,10 +177,13 @@ fn the_stepping_routine_is_in_both_decks_as_it_stands() {
 fn numbers_that_make_no_deck_are_refused_in_one_line() {
     let mut p = parameters();
     p.vertical.k1_n_per_m = f64::NAN;
-    let error = export(&p, &Record::el_centro(), &EXPECTED, DeckFormat::Csv).unwrap_err().to_string();
+    let error =
+        export(&p, &Record::el_centro(), &EXPECTED, DeckFormat::Csv).unwrap_err().to_string();
     assert!(error.contains("vertical.k1_n_per_m") && !error.contains('\n'), "{error}");
     let long = Expected { samples: 4000, ..EXPECTED };
-    let error = export(&parameters(), &Record::el_centro(), &long, DeckFormat::Csv).unwrap_err().to_string();
+    let error = export(&parameters(), &Record::el_centro(), &long, DeckFormat::Csv)
+        .unwrap_err()
+        .to_string();
     assert!(error.contains("4000") && error.contains("3995"), "{error}");
     let error = "nastran".parse::<DeckFormat>().unwrap_err().to_string();
     assert!(error.contains("openseespy, opensees-tcl, sap2000, csv, markdown"), "{error}");
@@ -212,7 +228,8 @@ fn sap2000_tables_hold_masses_stiffnesses_weight_and_record_in_kilonewtons() {
     let t = read_s2k(&deck(DeckFormat::Sap2000));
     assert_eq!(t["PROGRAM CONTROL"][0]["CurrUnits"], "KN, m, C");
 
-    let total = |field| t["JOINT ADDED MASS ASSIGNMENTS"].iter().map(|row| number(row, field)).sum::<f64>();
+    let total =
+        |field| t["JOINT ADDED MASS ASSIGNMENTS"].iter().map(|row| number(row, field)).sum::<f64>();
     let close = |a: f64, b: f64| (a / b - 1.0).abs() < 1e-14;
     assert!(close(total("Mass1"), (680.1e3 + 2.0 * p.horizontal.m2_kg) / 1e3));
     assert!(close(total("Mass3"), (680.1e3 + 2.0 * p.vertical.m2_kg) / 1e3));
@@ -248,7 +265,9 @@ fn sap2000_tables_refer_to_what_they_define() {
 
 /// Every name that a table uses is defined in another one.
 fn refers_to_what_it_defines(t: &Tables) {
-    let names = |table: &str, field: &str| t[table].iter().map(|row| row[field].clone()).collect::<Vec<_>>();
+    let names = |table: &str, field: &str| {
+        t[table].iter().map(|row| row[field].clone()).collect::<Vec<_>>()
+    };
     for (table, field, defined_in, key) in [
         ("CONNECTIVITY - FRAME", "JointI", "JOINT COORDINATES", "Joint"),
         ("CONNECTIVITY - FRAME", "JointJ", "JOINT COORDINATES", "Joint"),
@@ -256,10 +275,25 @@ fn refers_to_what_it_defines(t: &Tables) {
         ("CONNECTIVITY - LINK", "JointJ", "JOINT COORDINATES", "Joint"),
         ("LINK PROPERTY ASSIGNMENTS", "Link", "CONNECTIVITY - LINK", "Link"),
         ("LINK PROPERTY ASSIGNMENTS", "LinkProp", "LINK PROPERTY DEFINITIONS 01 - GENERAL", "Link"),
-        ("FRAME SECTION ASSIGNMENTS", "AnalSect", "FRAME SECTION PROPERTIES 01 - GENERAL", "SectionName"),
-        ("FRAME SECTION PROPERTIES 01 - GENERAL", "Material", "MATERIAL PROPERTIES 01 - GENERAL", "Material"),
+        (
+            "FRAME SECTION ASSIGNMENTS",
+            "AnalSect",
+            "FRAME SECTION PROPERTIES 01 - GENERAL",
+            "SectionName",
+        ),
+        (
+            "FRAME SECTION PROPERTIES 01 - GENERAL",
+            "Material",
+            "MATERIAL PROPERTIES 01 - GENERAL",
+            "Material",
+        ),
         ("CASE - STATIC 1 - LOAD ASSIGNMENTS", "LoadName", "LOAD PATTERN DEFINITIONS", "LoadPat"),
-        ("CASE - DIRECT HISTORY 2 - LOAD ASSIGNMENTS", "Function", "FUNCTION - TIME HISTORY - USER", "Name"),
+        (
+            "CASE - DIRECT HISTORY 2 - LOAD ASSIGNMENTS",
+            "Function",
+            "FUNCTION - TIME HISTORY - USER",
+            "Name",
+        ),
     ] {
         let defined = names(defined_in, key);
         for name in names(table, field) {

@@ -115,11 +115,15 @@ pub enum VerifyError {
         "verify: {program} cannot be started ({source}); install Python 3 or name it with --python (a Tcl interpreter with --tcl)"
     )]
     NoProgram { program: String, source: io::Error },
-    #[error("verify: OpenSees did not end within {seconds:.0} s and was stopped; shorten --duration")]
+    #[error(
+        "verify: OpenSees did not end within {seconds:.0} s and was stopped; shorten --duration"
+    )]
     Hung { seconds: f64 },
     #[error("verify: OpenSees stopped ({reason}); try another --duration or stiffer springs")]
     Stopped { reason: String },
-    #[error("verify: {path} is not the history the deck writes ({reason}); run the deck by hand to see why")]
+    #[error(
+        "verify: {path} is not the history the deck writes ({reason}); run the deck by hand to see why"
+    )]
     History { path: String, reason: String },
     #[error("verify: {path}: {source}; check the folder and its permissions")]
     Folder { path: String, source: io::Error },
@@ -141,10 +145,12 @@ pub fn verify(
     progress: &dyn Fn(usize, usize),
 ) -> Result<Verification, VerifyError> {
     // the same body in all three models
-    let parameters = &Parameters { structure: with_inertia(&parameters.structure), ..parameters.clone() };
+    let parameters =
+        &Parameters { structure: with_inertia(&parameters.structure), ..parameters.clone() };
     let body = parameters.structure.body::<f64>();
     let history = simulate(parameters, record);
-    let options = housner::RockingOptions { vertical: record.vertical_accel(), ..Default::default() };
+    let options =
+        housner::RockingOptions { vertical: record.vertical_accel(), ..Default::default() };
     let rocking = housner::solve(&body, record.dt, &record.accel, &options);
     let housner = rocking.motion(&body);
 
@@ -154,7 +160,11 @@ pub fn verify(
     let deck = Deck { parameters, record, program, progress };
     // what cannot be foretold is not followed: nothing could be judged by it
     let judged = foretold.map_or(history.motion.len(), |foretold| foretold.samples).max(2);
-    let expected = Expected::within(&history, step_sensitivity(&history.motion, &changed, body.half_width), judged);
+    let expected = Expected::within(
+        &history,
+        step_sensitivity(&history.motion, &changed, body.half_width),
+        judged,
+    );
     let run = deck.run(&expected.with_accuracy(accuracy))?;
     let ours = history.motion.first(expected.samples);
     let housner = housner.first(expected.samples);
@@ -166,11 +176,13 @@ pub fn verify(
     Ok(Verification {
         dt: record.dt,
         peaks: ComparedPeak::rigid(&ours, &run.motion, &body),
-        swings: [&ours, &run.motion].map(|motion| swings(&motion.theta, body.half_width.atan2(body.height))),
+        swings: [&ours, &run.motion]
+            .map(|motion| swings(&motion.theta, body.half_width.atan2(body.height))),
         opensees_against_ours: Agreement::new(&run.motion, &ours),
         opensees_against_housner: Agreement::new(&run.motion, &housner),
         ours_against_housner: Agreement::new(&ours, &housner),
-        opensees_against_itself: finer.map(|finer| nrmse(&run.motion.u[..verdict.samples], &finer.u)),
+        opensees_against_itself: finer
+            .map(|finer| nrmse(&run.motion.u[..verdict.samples], &finer.u)),
         opensees: run.motion,
         ours,
         housner,

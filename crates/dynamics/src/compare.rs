@@ -68,13 +68,23 @@ pub struct Match {
 
 impl Match {
     /// Compare a history with Housner's motion, both sampled at dt, and his impacts.
-    pub fn new(body: &Body<f64>, dt: f64, rocking: (&Motion, &[Impact<f64>]), fem: &History, restitution: f64) -> Self {
+    pub fn new(
+        body: &Body<f64>,
+        dt: f64,
+        rocking: (&Motion, &[Impact<f64>]),
+        fem: &History,
+        restitution: f64,
+    ) -> Self {
         let (housner, impacts) = rocking;
         let times = [housner, &fem.motion].map(|motion| overturned(body, dt, &motion.theta));
         let until = times.into_iter().flatten().reduce(f64::min);
         let n = housner.len().min(fem.motion.len()).min(samples_until(until, dt));
         // Housner's solution may end before: where its pivot leaves the ground
-        let end = if housner.len() < fem.motion.len() { housner.len() as f64 * dt } else { f64::INFINITY };
+        let end = if housner.len() < fem.motion.len() {
+            housner.len() as f64 * dt
+        } else {
+            f64::INFINITY
+        };
         let end = until.unwrap_or(end).min(end);
         let upright = |l: &&Landing| l.time <= end;
         let before = || fem.landings.iter().filter(upright);
@@ -96,7 +106,9 @@ impl Match {
             peak_vertical_fem_m: peak(&fem.motion.v[..n]),
             impacts_housner: impacts.len(),
             impacts_fem: before().filter(|l| l.impact).count(),
-            impacts_housner_firm: Some(impacts.iter().filter(|impact| kinetic(impact) > firm).count()),
+            impacts_housner_firm: Some(
+                impacts.iter().filter(|impact| kinetic(impact) > firm).count(),
+            ),
             impacts_fem_firm: Some(before().filter(|l| l.impact && l.kinetic > firm).count()),
             bounces: before().filter(|l| l.bounced).count(),
             settlement_m: -fem.initial_z,
@@ -123,8 +135,10 @@ const LANDINGS_THAT_MATTER: f64 = 0.01;
 /// what the landing lost, up to the next landing. The last is left out, for its losses may not be
 /// complete.
 fn effective_restitution<'a>(landings: impl Iterator<Item = &'a Landing>) -> Vec<(f64, f64)> {
-    let mut all: Vec<(f64, f64)> =
-        landings.filter(|l| l.impact).map(|l| (l.kinetic, (1.0 - l.lost / l.kinetic).max(0.0).sqrt())).collect();
+    let mut all: Vec<(f64, f64)> = landings
+        .filter(|l| l.impact)
+        .map(|l| (l.kinetic, (1.0 - l.lost / l.kinetic).max(0.0).sqrt()))
+        .collect();
     all.pop();
     all
 }
@@ -156,10 +170,23 @@ mod tests {
         let accel = vec![share_of_limit * 9.81 * body.half_width / body.height; 1000];
         let rocking = solve(&body, dt, &accel, &RockingOptions::default());
         let (start, control) = (Start::Settled, Control::default());
-        let history =
-            Analysis { body, springs, start, dt, accel: &accel, vertical: &[], scale: 1.0, control }.simulate();
+        let history = Analysis {
+            body,
+            springs,
+            start,
+            dt,
+            accel: &accel,
+            vertical: &[],
+            scale: 1.0,
+            control,
+        }
+        .simulate();
         let housner = (&rocking.motion(&body), &rocking.impacts[..]);
-        (body, Match::new(&body, dt, housner, &history, body.restitution()), rocking.overturned().unwrap_or(f64::NAN))
+        (
+            body,
+            Match::new(&body, dt, housner, &history, body.restitution()),
+            rocking.overturned().unwrap_or(f64::NAN),
+        )
     }
 
     /// A block that falls from 0.3 alpha lands with e^2 of the energy each time: (1 -
@@ -175,13 +202,34 @@ mod tests {
         let design = Design::from_kc(0.3, 0.1, 0.75, 2000.0);
         let springs = Springs { vertical: design, horizontal: design }.chains(body.mass);
         let (start, control) = (Start::Leaning(theta), Control::default());
-        let history =
-            Analysis { body, springs, start, dt, accel: &accel, vertical: &[], scale: 1.0, control }.simulate();
-        let found = Match::new(&body, dt, (&rocking.motion(&body), &rocking.impacts), &history, body.restitution());
+        let history = Analysis {
+            body,
+            springs,
+            start,
+            dt,
+            accel: &accel,
+            vertical: &[],
+            scale: 1.0,
+            control,
+        }
+        .simulate();
+        let found = Match::new(
+            &body,
+            dt,
+            (&rocking.motion(&body), &rocking.impacts),
+            &history,
+            body.restitution(),
+        );
         let energy = |lean: f64| (1.0 - (1.0 - lean).powi(2)) / (1.0 - 0.7f64.powi(2));
         let expected = (energy(0.02).ln() / (2.0 * body.restitution().ln())).ceil() as usize;
-        assert!(found.impacts_housner_firm.unwrap().abs_diff(expected) <= 1, "{found:?}, {expected}");
-        assert!(found.impacts_fem_firm.unwrap().abs_diff(found.impacts_housner_firm.unwrap()) <= 1, "{found:?}");
+        assert!(
+            found.impacts_housner_firm.unwrap().abs_diff(expected) <= 1,
+            "{found:?}, {expected}"
+        );
+        assert!(
+            found.impacts_fem_firm.unwrap().abs_diff(found.impacts_housner_firm.unwrap()) <= 1,
+            "{found:?}"
+        );
         assert!(found.impacts_housner > found.impacts_housner_firm.unwrap(), "{found:?}");
     }
 
@@ -206,7 +254,10 @@ mod tests {
         let (_, found, _) = pushed(0.5);
         assert_eq!(found.nrmse_horizontal, f64::INFINITY);
         let json = serde_json::to_string(&found).unwrap();
-        assert!(json.contains("\"nrmse_horizontal\":null") && !json.contains("overturned"), "{json}");
+        assert!(
+            json.contains("\"nrmse_horizontal\":null") && !json.contains("overturned"),
+            "{json}"
+        );
         assert_eq!(serde_json::from_str::<Match>(&json).unwrap(), found);
     }
 }

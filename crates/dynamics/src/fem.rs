@@ -127,7 +127,11 @@ impl<S: Scalar> Analysis<'_, S> {
     }
 
     /// The same with dampers, a tendon or friction.
-    pub(crate) fn observe_with(&self, members: &Members<S>, observer: &mut impl Observer<S>) -> Finish<S> {
+    pub(crate) fn observe_with(
+        &self,
+        members: &Members<S>,
+        observer: &mut impl Observer<S>,
+    ) -> Finish<S> {
         self.follow(&model::Model::with_members(&self.body, &self.springs, members), observer)
     }
 
@@ -147,7 +151,10 @@ impl<S: Scalar> Analysis<'_, S> {
     }
 
     fn model(&self) -> model::Model<S> {
-        model::Model { skip_open: self.control.skip_open, ..model::Model::new(&self.body, &self.springs) }
+        model::Model {
+            skip_open: self.control.skip_open,
+            ..model::Model::new(&self.body, &self.springs)
+        }
     }
 
     fn ground(&self) -> run::GroundMotion<'_, S> {
@@ -166,7 +173,10 @@ impl Analysis<'_, f64> {
 
     /// The same with dampers, a tendon or friction, or none of them; and the forces in them.
     pub fn simulate_with(&self, members: &Members<f64>) -> (History, Demands) {
-        let mut both = HistoryAndForces { recorder: Recorder::new(self.accel.len()), demands: Demands::default() };
+        let mut both = HistoryAndForces {
+            recorder: Recorder::new(self.accel.len()),
+            demands: Demands::default(),
+        };
         let finish = self.observe_with(members, &mut both);
         (both.recorder.finish(finish), both.demands)
     }

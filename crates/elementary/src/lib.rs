@@ -77,12 +77,19 @@ mod tests {
         for (i, (standard, ours)) in pairs.iter().enumerate() {
             for x in arguments() {
                 let [a, b] = [standard(black_box(x)), ours(black_box(x))];
-                assert!(a.to_bits() == b.to_bits() || a.is_nan() && b.is_nan(), "function {i} of {x:?}: {a:?}, {b:?}");
+                assert!(
+                    a.to_bits() == b.to_bits() || a.is_nan() && b.is_nan(),
+                    "function {i} of {x:?}: {a:?}, {b:?}"
+                );
             }
         }
         for x in arguments() {
             let both = black_box(x).sin_cos();
-            assert_eq!((both.0.to_bits(), both.1.to_bits()), (libm::sin(x).to_bits(), libm::cos(x).to_bits()), "{x:?}");
+            assert_eq!(
+                (both.0.to_bits(), both.1.to_bits()),
+                (libm::sin(x).to_bits(), libm::cos(x).to_bits()),
+                "{x:?}"
+            );
         }
         for (x, y) in arguments().zip(arguments().skip(17)) {
             let [a, b] = [black_box(x.abs()).powf(black_box(0.37)), libm::pow(x.abs(), 0.37)];

@@ -108,12 +108,20 @@ pub fn draw(data: &ResponseFigure<'_>) -> Result<Sheet, FigureError> {
     }
     let (left, right) = (150.0, WIDTH as f64 - 40.0);
     let top = legend::header(&mut canvas, data.title, &entries, left, right);
-    let panel =
-        Panel { frame: PanelFrame { left, top, right, bottom: top + 750.0 }, x: g_axis(data), y: arr_axis(data) };
+    let panel = Panel {
+        frame: PanelFrame { left, top, right, bottom: top + 750.0 },
+        x: g_axis(data),
+        y: arr_axis(data),
+    };
     for band in data.target {
         shade(&mut canvas, &panel, band);
     }
-    panel.axes(&mut canvas, Some("frequency ratio, g = ω/Ωₙ"), "amplitude response ratio, ARR", 105.0);
+    panel.axes(
+        &mut canvas,
+        Some("frequency ratio, g = ω/Ωₙ"),
+        "amplitude response ratio, ARR",
+        105.0,
+    );
     for band in data.target {
         bound(&mut canvas, &panel, band);
     }
@@ -128,7 +136,10 @@ pub fn draw(data: &ResponseFigure<'_>) -> Result<Sheet, FigureError> {
 }
 
 fn pen(curve: &UnitCurve<'_>) -> Pen {
-    let pen = Pen::new(style::series(usize::from(curve.horizontal)), if curve.delivered { 4.5 } else { 2.8 });
+    let pen = Pen::new(
+        style::series(usize::from(curve.horizontal)),
+        if curve.delivered { 4.5 } else { 2.8 },
+    );
     if curve.delivered { pen } else { pen.dashed() }
 }
 
@@ -139,26 +150,46 @@ fn dot(curve: &UnitCurve<'_>) -> Mark {
 
 fn g_axis(data: &ResponseFigure<'_>) -> Scale {
     let all = data.curves.iter().flat_map(|curve| curve.g).copied().filter(|g| *g > 0.0);
-    let (low, high) = all.fold((f64::INFINITY, 0.0_f64), |(low, high), g| (low.min(g), high.max(g)));
+    let (low, high) =
+        all.fold((f64::INFINITY, 0.0_f64), |(low, high), g| (low.min(g), high.max(g)));
     if high > 0.0 { Scale::log(low, high) } else { Scale::log(0.05, 20.0) }
 }
 
 /// The tails of the curves may fall for ever; four decades below the top are enough to see them go.
 fn arr_axis(data: &ResponseFigure<'_>) -> Scale {
     let caps = data.target.iter().filter_map(|band| band.at_most);
-    let all = data.curves.iter().flat_map(|curve| curve.arr).copied().chain(caps).filter(|arr| *arr > 0.0);
-    let (low, high) = all.fold((f64::INFINITY, 0.0_f64), |(low, high), arr| (low.min(arr), high.max(arr)));
-    if high > 0.0 { Scale::log(low.max(high * 1e-4).min(high / 10.0), high * 2.2) } else { Scale::log(0.1, 10.0) }
+    let all = data
+        .curves
+        .iter()
+        .flat_map(|curve| curve.arr)
+        .copied()
+        .chain(caps)
+        .filter(|arr| *arr > 0.0);
+    let (low, high) =
+        all.fold((f64::INFINITY, 0.0_f64), |(low, high), arr| (low.min(arr), high.max(arr)));
+    if high > 0.0 {
+        Scale::log(low.max(high * 1e-4).min(high / 10.0), high * 2.2)
+    } else {
+        Scale::log(0.1, 10.0)
+    }
 }
 
 /// Colour what the target forbids.
 fn shade(canvas: &mut Canvas, panel: &Panel, band: &TargetBand) {
     let colour = SKY.mix(0.22);
     if let Some(most) = band.at_most {
-        canvas.block(panel.at_clamped(band.g.0, panel.y.high), panel.at_clamped(band.g.1, most), colour);
+        canvas.block(
+            panel.at_clamped(band.g.0, panel.y.high),
+            panel.at_clamped(band.g.1, most),
+            colour,
+        );
     }
     if let Some(least) = band.at_least {
-        canvas.block(panel.at_clamped(band.g.0, least), panel.at_clamped(band.g.1, panel.y.low), colour);
+        canvas.block(
+            panel.at_clamped(band.g.0, least),
+            panel.at_clamped(band.g.1, panel.y.low),
+            colour,
+        );
     }
 }
 
@@ -182,10 +213,17 @@ fn lowest(canvas: &mut Canvas, panel: &Panel, curves: &[UnitCurve<'_>]) {
     let caps = || curves.iter().filter_map(|curve| Some((curve, curve.cap?)));
     for (curve, cap) in caps() {
         let colour = pen(curve).rgb();
-        panel.curve(canvas, &[panel.x.low, panel.x.high], &[cap, cap], Pen::new(colour, 1.6).dashed());
+        panel.curve(
+            canvas,
+            &[panel.x.low, panel.x.high],
+            &[cap, cap],
+            Pen::new(colour, 1.6).dashed(),
+        );
         let at = panel.at(panel.x.high, cap);
-        let crowded = caps().any(|(_, other)| (1.0..36.0).contains(&(at.1 - panel.at(panel.x.high, other).1)));
-        let (y, along) = if crowded { (at.1 + 10.0, VPos::Top) } else { (at.1 - 10.0, VPos::Bottom) };
+        let crowded = caps()
+            .any(|(_, other)| (1.0..36.0).contains(&(at.1 - panel.at(panel.x.high, other).1)));
+        let (y, along) =
+            if crowded { (at.1 + 10.0, VPos::Top) } else { (at.1 - 10.0, VPos::Bottom) };
         let how = Lettering::new(NUMBER).colour(colour).at(HPos::Right, along);
         canvas.text((at.0 - 14.0, y), &format!("lowest cap {}", brief(cap, 4)), how);
     }
@@ -204,7 +242,9 @@ fn touches(canvas: &mut Canvas, panel: &Panel, curve: &UnitCurve<'_>) {
         };
         let (across, shift) = if curve.active.iter().any(|other| near(other, 1.0)) {
             (HPos::Right, 14.0)
-        } else if at.0 < panel.frame.left + 60.0 || curve.active.iter().any(|other| near(other, -1.0)) {
+        } else if at.0 < panel.frame.left + 60.0
+            || curve.active.iter().any(|other| near(other, -1.0))
+        {
             (HPos::Left, if at.0 < panel.frame.left + 60.0 { 14.0 } else { -14.0 })
         } else {
             (HPos::Center, 0.0)
@@ -212,7 +252,8 @@ fn touches(canvas: &mut Canvas, panel: &Panel, curve: &UnitCurve<'_>) {
         let how = Lettering::new(NUMBER).colour(pen(curve).rgb());
         // The first curve tells its multipliers above, the others below: both stay readable where
         // they touch together.
-        let (y, along) = if !curve.horizontal { (at.1 - 22.0, VPos::Bottom) } else { (at.1 + 22.0, VPos::Top) };
+        let (y, along) =
+            if !curve.horizontal { (at.1 - 22.0, VPos::Bottom) } else { (at.1 + 22.0, VPos::Top) };
         canvas.text((at.0 + shift, y), &short(multiplier, 2), how.at(across, along));
     }
 }

@@ -49,7 +49,11 @@ pub struct CandidatesFigure<'a> {
 /// [`FigureError`] when there is no candidate, for a NaN, for an index beyond the candidates.
 pub fn draw(data: &CandidatesFigure<'_>) -> Result<Sheet, FigureError> {
     let all = data.candidates;
-    CHECK.least("candidates", all.len().min(data.chosen.map_or(usize::MAX, |i| all.len().saturating_sub(i))), 1)?;
+    CHECK.least(
+        "candidates",
+        all.len().min(data.chosen.map_or(usize::MAX, |i| all.len().saturating_sub(i))),
+        1,
+    )?;
     let frequencies: Vec<f64> = all.iter().flat_map(|c| [c.vertical_hz, c.horizontal_hz]).collect();
     CHECK.finite("frequencies (vertical and horizontal in turn)", &frequencies)?;
     let errors: Vec<f64> = all.iter().map(|c| c.error).collect();
@@ -57,16 +61,23 @@ pub fn draw(data: &CandidatesFigure<'_>) -> Result<Sheet, FigureError> {
 
     let mut canvas = Canvas::default();
     let count = |abandoned: bool| all.iter().filter(|c| c.abandoned == abandoned).count();
-    let mut entries = vec![LegendEntry::mark(format!("run to the end ({})", count(false)), whole())];
+    let mut entries =
+        vec![LegendEntry::mark(format!("run to the end ({})", count(false)), whole())];
     if count(true) > 0 {
-        entries.push(LegendEntry::mark(format!("abandoned, at its lower bound ({})", count(true)), abandoned()));
+        entries.push(LegendEntry::mark(
+            format!("abandoned, at its lower bound ({})", count(true)),
+            abandoned(),
+        ));
     }
     if data.chosen.is_some() {
         entries.push(LegendEntry::mark(data.chosen_label, chosen()));
     }
     let lost = errors.iter().filter(|e| e.is_infinite()).count();
     if lost > 0 {
-        entries.push(LegendEntry::mark(format!("no finite error ({lost}), at the upper edge"), infinite()));
+        entries.push(LegendEntry::mark(
+            format!("no finite error ({lost}), at the upper edge"),
+            infinite(),
+        ));
     }
     let (left, right, gap) = (150.0, WIDTH as f64 - 40.0, 110.0);
     let top = legend::header(&mut canvas, data.title, &entries, left, right);
@@ -75,10 +86,12 @@ pub fn draw(data: &CandidatesFigure<'_>) -> Result<Sheet, FigureError> {
     // Room below all marks for the words about the chosen one.
     let y = Scale::log(y.low / (y.high / y.low).powf(0.07), y.high);
     let x = Scale::log_around(frequencies.iter().copied(), 4.0);
-    for (from, to, axis, first) in
-        [(left, middle - gap / 2.0, "vertical Ωₙ [Hz]", true), (middle + gap / 2.0, right, "horizontal Ωₙ [Hz]", false)]
-    {
-        let panel = Panel { frame: PanelFrame { left: from, top, right: to, bottom: top + 670.0 }, x, y };
+    for (from, to, axis, first) in [
+        (left, middle - gap / 2.0, "vertical Ωₙ [Hz]", true),
+        (middle + gap / 2.0, right, "horizontal Ωₙ [Hz]", false),
+    ] {
+        let panel =
+            Panel { frame: PanelFrame { left: from, top, right: to, bottom: top + 670.0 }, x, y };
         panel.axes(&mut canvas, Some(axis), if first { data.error_label } else { "" }, 110.0);
         let hz = |c: &CandidateMark| if first { c.vertical_hz } else { c.horizontal_hz };
         let best = data.chosen.map(|i| all[i]);
@@ -122,6 +135,7 @@ fn tell(canvas: &mut Canvas, panel: &Panel, hz: f64, error: f64) {
     let text = format!("{} Hz, {}", short(hz, 3), short(error, 2));
     let how = Lettering::new(NUMBER).bold().colour(VERMILLION);
     let on_the_left = at.0 + 16.0 + how.length(&text) > panel.frame.right;
-    let (x, across) = if on_the_left { (at.0 - 12.0, HPos::Right) } else { (at.0 + 12.0, HPos::Left) };
+    let (x, across) =
+        if on_the_left { (at.0 - 12.0, HPos::Right) } else { (at.0 + 12.0, HPos::Left) };
     canvas.text((x, at.1 - 12.0), &text, how.at(across, VPos::Bottom));
 }

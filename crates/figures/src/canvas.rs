@@ -4,7 +4,9 @@
 use plotters::drawing::IntoDrawingArea as _;
 use plotters::element::{Circle, PathElement, Polygon, Text};
 use plotters::style::text_anchor::{HPos, Pos, VPos};
-use plotters::style::{Color, FontDesc, FontFamily, FontStyle, FontTransform, RGBColor, ShapeStyle, TextStyle};
+use plotters::style::{
+    Color, FontDesc, FontFamily, FontStyle, FontTransform, RGBColor, ShapeStyle, TextStyle,
+};
 use plotters_svg::SVGBackend;
 
 use super::FigureError;
@@ -50,7 +52,14 @@ pub(crate) struct Lettering {
 impl Lettering {
     /// Plain text, its left end and the middle of its height at the point.
     pub(crate) fn new(size: f64) -> Self {
-        Self { size, bold: false, upwards: false, colour: TEXT, across: HPos::Left, along: VPos::Center }
+        Self {
+            size,
+            bold: false,
+            upwards: false,
+            colour: TEXT,
+            across: HPos::Left,
+            along: VPos::Center,
+        }
     }
 
     pub(crate) fn bold(self) -> Self {
@@ -81,10 +90,18 @@ impl Lettering {
             HPos::Center => 0.5 * self.length(text),
             HPos::Right => self.length(text),
         };
-        let start = if self.upwards { (x + self.drop(), y + back) } else { (x - back, y + self.drop()) };
+        let start =
+            if self.upwards { (x + self.drop(), y + back) } else { (x - back, y + self.drop()) };
         let RGBColor(red, green, blue) = self.colour;
         let (text, colour) = (text.to_owned(), [red, green, blue]);
-        LetteredLine { text, start, size: self.size, bold: self.bold, upwards: self.upwards, colour }
+        LetteredLine {
+            text,
+            start,
+            size: self.size,
+            bold: self.bold,
+            upwards: self.upwards,
+            colour,
+        }
     }
 
     /// From the point to the baseline (pixel), across the direction of reading.
@@ -118,8 +135,11 @@ fn all_fine(points: &[PixelPoint]) -> Vec<Fine> {
 impl Canvas {
     /// A polyline, full or dashed.
     pub(crate) fn line(&mut self, points: &[PixelPoint], pen: Pen) {
-        let style =
-            ShapeStyle { color: pen.colour, filled: false, stroke_width: (pen.width * FINE).round().max(1.0) as u32 };
+        let style = ShapeStyle {
+            color: pen.colour,
+            filled: false,
+            stroke_width: (pen.width * FINE).round().max(1.0) as u32,
+        };
         let pieces = pen.dash.map_or_else(|| vec![points.to_vec()], |dash| dashes(points, dash));
         for piece in pieces {
             let mut points = all_fine(&piece);
@@ -151,13 +171,15 @@ impl Canvas {
     pub(crate) fn text(&mut self, (x, y): PixelPoint, text: &str, how: Lettering) {
         let face = if how.bold { FontStyle::Bold } else { FontStyle::Normal };
         let turn = if how.upwards { FontTransform::Rotate270 } else { FontTransform::None };
-        let font = FontDesc::new(FontFamily::Name(font::FAMILY), how.size * EM * FINE, face).transform(turn);
+        let font = FontDesc::new(FontFamily::Name(font::FAMILY), how.size * EM * FINE, face)
+            .transform(turn);
         let (color, pos) = (how.colour.to_backend_color(), Pos::new(how.across, VPos::Top));
         let style = TextStyle { font, color, pos };
         let drop = how.drop() - ASCENT * how.size;
         let at = if how.upwards { (x + drop, y) } else { (x, y + drop) };
         // a name may hold what XML may not
-        let text: String = text.chars().map(|c| if c.is_control() || c >= '\u{fffe}' { ' ' } else { c }).collect();
+        let text: String =
+            text.chars().map(|c| if c.is_control() || c >= '\u{fffe}' { ' ' } else { c }).collect();
         self.lines.push(how.line((x, y), &text));
         self.elements.push(SvgElement::Text(Text::new(text, fine(at), style)));
     }
@@ -188,7 +210,8 @@ impl Canvas {
     pub(crate) fn finish(self, height: f64) -> Result<Sheet, FigureError> {
         let (width, height) = (WIDTH as u32, height.round() as u32);
         let mut svg = String::new();
-        write(&mut svg, (width, height), &self.elements).map_err(|reason| FigureError::Draw { reason })?;
+        write(&mut svg, (width, height), &self.elements)
+            .map_err(|reason| FigureError::Draw { reason })?;
         // plotters' head says the size of its surface, and nothing of joins: an impact would be a
         // spike
         let body = svg.split_once('>').map_or("", |(_, body)| body);
@@ -203,11 +226,17 @@ impl Canvas {
 }
 
 /// Everything, on white, as plotters writes it.
-fn write(svg: &mut String, (width, height): (u32, u32), elements: &[SvgElement]) -> Result<(), String> {
+fn write(
+    svg: &mut String,
+    (width, height): (u32, u32),
+    elements: &[SvgElement],
+) -> Result<(), String> {
     let size = (width * FINE as u32, height * FINE as u32);
     let area = SVGBackend::with_string(svg, size).into_drawing_area();
-    let ground = all_fine(&[(0.0, 0.0), (f64::from(width), 0.0), (f64::from(width), f64::from(height))]);
-    let ground = Polygon::new([ground, vec![fine((0.0, f64::from(height)))]].concat(), WHITE.filled());
+    let ground =
+        all_fine(&[(0.0, 0.0), (f64::from(width), 0.0), (f64::from(width), f64::from(height))]);
+    let ground =
+        Polygon::new([ground, vec![fine((0.0, f64::from(height)))]].concat(), WHITE.filled());
     area.draw(&ground).map_err(|e| e.to_string())?;
     for element in elements {
         match element {

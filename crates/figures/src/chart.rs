@@ -50,7 +50,11 @@ pub fn draw(data: &ChartFigure<'_>) -> Result<Sheet, FigureError> {
         CHECK.least(&name, curve.omega_n_over_p.len(), 2)?;
         CHECK.finite(&name, curve.omega_n_over_p)?;
         for (values, panel) in curve.values.into_iter().zip(data.panels) {
-            CHECK.column(&format!("{panel} at alpha {}", curve.alpha), values, curve.omega_n_over_p.len())?;
+            CHECK.column(
+                &format!("{panel} at alpha {}", curve.alpha),
+                values,
+                curve.omega_n_over_p.len(),
+            )?;
         }
     }
     let mut alphas: Vec<f64> = Vec::new();
@@ -60,14 +64,19 @@ pub fn draw(data: &ChartFigure<'_>) -> Result<Sheet, FigureError> {
         }
     }
     let pen = |curve: &ChartCurve| {
-        let pen = Pen::new(style::series(alphas.iter().position(|a| *a == curve.alpha).unwrap_or(0)), 3.0);
+        let pen = Pen::new(
+            style::series(alphas.iter().position(|a| *a == curve.alpha).unwrap_or(0)),
+            3.0,
+        );
         if curve.dashed { pen.dashed() } else { pen }
     };
     let mut canvas = Canvas::default();
     let mut entries: Vec<LegendEntry> = alphas
         .iter()
         .enumerate()
-        .map(|(i, alpha)| LegendEntry::line(format!("\u{3b1} = {alpha}"), Pen::new(style::series(i), 3.0)))
+        .map(|(i, alpha)| {
+            LegendEntry::line(format!("\u{3b1} = {alpha}"), Pen::new(style::series(i), 3.0))
+        })
         .collect();
     entries.push(LegendEntry::line(data.kinds[0], Pen::new(GREY, 3.0)));
     entries.push(LegendEntry::line(data.kinds[1], Pen::new(GREY, 3.0).dashed()));

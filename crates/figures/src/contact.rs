@@ -56,10 +56,14 @@ pub fn draw(data: &ContactFigure<'_>) -> Result<Sheet, FigureError> {
     CHECK.finite("weight", data.weight.as_slice())?;
 
     let mut canvas = Canvas::default();
-    let mut entries = vec![LegendEntry::line("left foot", pens()[0]), LegendEntry::line("right foot", pens()[1])];
+    let mut entries =
+        vec![LegendEntry::line("left foot", pens()[0]), LegendEntry::line("right foot", pens()[1])];
     if let Some(weight) = data.weight {
         let (unit, letter) = prefix(weight);
-        entries.push(LegendEntry::line(format!("weight, {} {letter}N", brief(weight / unit, 3)), level()));
+        entries.push(LegendEntry::line(
+            format!("weight, {} {letter}N", brief(weight / unit, 3)),
+            level(),
+        ));
     }
     entries.extend(data.end.map(|end| LegendEntry::line(end.text, ending())));
     let (left, right) = (150.0, WIDTH as f64 - 40.0);
@@ -108,13 +112,16 @@ struct ForceDirection<'a> {
 impl ForceDirection<'_> {
     /// From and to (N), and the largest force if it lies beyond.
     fn range(&self) -> (f64, f64, Option<f64>) {
-        let mut sizes: Vec<f64> = self.forces.iter().flat_map(|force| force.iter().map(|x| x.abs())).collect();
+        let mut sizes: Vec<f64> =
+            self.forces.iter().flat_map(|force| force.iter().map(|x| x.abs())).collect();
         sizes.sort_unstable_by(f64::total_cmp);
         let usual = sizes[((sizes.len() - 1) as f64 * USUAL) as usize];
-        let (most, end) = (sizes[sizes.len() - 1], BEYOND * usual.max(0.7 * self.weight.unwrap_or(0.0)));
+        let (most, end) =
+            (sizes[sizes.len() - 1], BEYOND * usual.max(0.7 * self.weight.unwrap_or(0.0)));
         let end = if usual > 0.0 && most > 1.5 * end { end } else { most };
         let all = self.forces.iter().flat_map(|force| force.iter().copied()).chain(self.weight);
-        let (low, high) = all.fold((0.0_f64, 0.0_f64), |(low, high), force| (low.min(force), high.max(force)));
+        let (low, high) =
+            all.fold((0.0_f64, 0.0_f64), |(low, high), force| (low.min(force), high.max(force)));
         let end = end.max(self.weight.unwrap_or(0.0));
         (low.max(-end), high.min(end), (most > end).then_some(most))
     }
@@ -131,16 +138,25 @@ impl ForceDirection<'_> {
         let scaled = self.forces.map(|force| force.iter().map(|x| x / unit).collect::<Vec<f64>>());
         let weight = self.weight.map(|weight| [weight / unit]);
         let mut curves: Vec<(&str, &[f64], Pen)> = Vec::new();
-        curves
-            .extend(["left foot", "right foot"].into_iter().zip(&scaled).zip(pens()).map(|((n, f), p)| (n, &f[..], p)));
+        curves.extend(
+            ["left foot", "right foot"]
+                .into_iter()
+                .zip(&scaled)
+                .zip(pens())
+                .map(|((n, f), p)| (n, &f[..], p)),
+        );
         curves.extend(weight.iter().map(|weight| ("weight", &weight[..], level())));
         let mut plot = panel.history(canvas, &label, data.t, &curves);
         let end = data.end.map(|end| (end, ending()));
         panel.events(canvas, &mut plot, end.as_slice(), false);
         if let Some(most) = beyond {
             let (unit, letter) = prefix(most);
-            let weights = data.weight.map_or(String::new(), |w| format!(", {} weights", short(most / w, 3)));
-            panel.remark(canvas, &format!("landings go on to {} {letter}N{weights}", short(most / unit, 3)));
+            let weights =
+                data.weight.map_or(String::new(), |w| format!(", {} weights", short(most / w, 3)));
+            panel.remark(
+                canvas,
+                &format!("landings go on to {} {letter}N{weights}", short(most / unit, 3)),
+            );
         }
         canvas.keep(plot);
     }

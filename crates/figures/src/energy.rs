@@ -40,7 +40,8 @@ pub fn draw(data: &EnergyFigure<'_>) -> Result<Sheet, FigureError> {
     CHECK.least("t", data.t.len(), 2)?;
     CHECK.finite("t", data.t)?;
     let n = data.t.len();
-    let accounts = [("input", data.input), ("stored", data.stored), ("dissipated", data.dissipated)];
+    let accounts =
+        [("input", data.input), ("stored", data.stored), ("dissipated", data.dissipated)];
     for (what, energy) in accounts.into_iter().chain([("residual", data.residual)]) {
         CHECK.column(what, energy, n)?;
     }
@@ -59,7 +60,8 @@ pub fn draw(data: &EnergyFigure<'_>) -> Result<Sheet, FigureError> {
     let x = Scale::linear(data.t[0], data.t[n - 1]);
 
     let all = accounts.iter().flat_map(|(_, energy)| energy.iter().copied());
-    let (low, high) = all.fold((0.0_f64, 0.0_f64), |(low, high), energy| (low.min(energy), high.max(energy)));
+    let (low, high) =
+        all.fold((0.0_f64, 0.0_f64), |(low, high), energy| (low.min(energy), high.max(energy)));
     let (unit, letter) = prefix(high.max(-low));
     let room = 0.06 * (high - low) / unit;
     let y = Scale::linear(if low < 0.0 { low / unit - room } else { 0.0 }, high / unit + room);
@@ -68,9 +70,14 @@ pub fn draw(data: &EnergyFigure<'_>) -> Result<Sheet, FigureError> {
     let label = format!("energy [{letter}J]");
     panel.axes(&mut canvas, None, &label, 110.0);
     panel.level(&mut canvas, 0.0, Pen::new(style::AXIS, 1.5));
-    let scaled = accounts.map(|(_, energy)| energy.iter().map(|energy| energy / unit).collect::<Vec<f64>>());
-    let curves: Vec<(&str, &[f64], Pen)> =
-        names.iter().zip(&scaled).zip(pens).map(|((name, energy), pen)| (*name, &energy[..], pen)).collect();
+    let scaled =
+        accounts.map(|(_, energy)| energy.iter().map(|energy| energy / unit).collect::<Vec<f64>>());
+    let curves: Vec<(&str, &[f64], Pen)> = names
+        .iter()
+        .zip(&scaled)
+        .zip(pens)
+        .map(|((name, energy), pen)| (*name, &energy[..], pen))
+        .collect();
     let mut plot = panel.history(&mut canvas, &label, data.t, &curves);
     let end = data.end.map(|end| (end, ending));
     panel.events(&mut canvas, &mut plot, end.as_slice(), false);

@@ -9,7 +9,8 @@ pub(crate) const CAPITAL: f64 = 0.729;
 /// same width.
 pub(crate) const FAMILY: &str = "DejaVu Sans, Verdana, sans-serif";
 
-const FACES: [&[u8]; 2] = [include_bytes!("font/DejaVuSans.ttf"), include_bytes!("font/DejaVuSans-Bold.ttf")];
+const FACES: [&[u8]; 2] =
+    [include_bytes!("font/DejaVuSans.ttf"), include_bytes!("font/DejaVuSans-Bold.ttf")];
 
 /// The plain face, or the bold one.
 pub(crate) fn face(bold: bool) -> Option<Face<'static>> {
@@ -19,7 +20,8 @@ pub(crate) fn face(bold: bool) -> Option<Face<'static>> {
 /// Length of a line of text (pixel), kerning not counted.
 pub(crate) fn length(text: &str, size: f64, bold: bool) -> f64 {
     let Some(face) = face(bold) else { return 0.0 };
-    let advance = |c| face.glyph_hor_advance(face.glyph_index(c).unwrap_or_default()).unwrap_or_default();
+    let advance =
+        |c| face.glyph_hor_advance(face.glyph_index(c).unwrap_or_default()).unwrap_or_default();
     text.chars().map(|c| f64::from(advance(c))).sum::<f64>() * size / f64::from(face.units_per_em())
 }
 
@@ -32,7 +34,8 @@ mod tests {
         let letters = "0123456789abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ.,:;()[]|/+−–±×·≤≥∝Δ%²³⁰¹⁴⁵⁶⁷⁸⁹⁻Ωₙαθξμωπ₁₂āōé";
         for bold in [false, true] {
             let face = face(bold).unwrap();
-            let missing: String = letters.chars().filter(|&c| face.glyph_index(c).is_none()).collect();
+            let missing: String =
+                letters.chars().filter(|&c| face.glyph_index(c).is_none()).collect();
             assert_eq!(missing, "");
         }
     }

@@ -71,8 +71,12 @@ pub fn draw(data: &FragilityFigure<'_>) -> Result<Sheet, FigureError> {
         }
     }
     let rows = data.measures.len().div_ceil(2);
-    let entries: Vec<LegendEntry> =
-        data.entries.iter().enumerate().map(|(i, name)| LegendEntry::both(name.as_str(), pen(i), dot(i))).collect();
+    let entries: Vec<LegendEntry> = data
+        .entries
+        .iter()
+        .enumerate()
+        .map(|(i, name)| LegendEntry::both(name.as_str(), pen(i), dot(i)))
+        .collect();
     let (left, right) = (150.0, WIDTH as f64 - 40.0);
     let mut canvas = Canvas::default();
     let top = legend::header(&mut canvas, data.title, &entries, left, right);
@@ -81,7 +85,13 @@ pub fn draw(data: &FragilityFigure<'_>) -> Result<Sheet, FigureError> {
     for (i, measure) in data.measures.iter().enumerate() {
         let top = top + (i / 2) as f64 * (HEIGHT + GAP);
         let (from, to) = if i % 2 == 0 { (left, middle - 40.0) } else { (middle + 75.0, right) };
-        one(&mut canvas, data, measure, PanelFrame { left: from, top, right: to, bottom: top + HEIGHT }, i % 2 == 0);
+        one(
+            &mut canvas,
+            data,
+            measure,
+            PanelFrame { left: from, top, right: to, bottom: top + HEIGHT },
+            i % 2 == 0,
+        );
     }
     canvas.finish(height)
 }
@@ -94,12 +104,25 @@ fn dot(i: usize) -> Mark {
     Mark::new(MarkShape::Disc, 5.5, style::series(i))
 }
 
-fn one(canvas: &mut Canvas, data: &FragilityFigure<'_>, measure: &MeasurePanel, frame: PanelFrame, labelled: bool) {
+fn one(
+    canvas: &mut Canvas,
+    data: &FragilityFigure<'_>,
+    measure: &MeasurePanel,
+    frame: PanelFrame,
+    labelled: bool,
+) {
     let x = Scale::log_around(measure.curves.iter().flat_map(|curve| curve.x.iter().copied()), 2.0);
     let panel = Panel { frame, x, y: Scale::linear(0.0, 1.02) };
-    panel.axes(canvas, Some(&measure.label), if labelled { data.probability_label } else { "" }, 95.0);
+    panel.axes(
+        canvas,
+        Some(&measure.label),
+        if labelled { data.probability_label } else { "" },
+        95.0,
+    );
     for curve in &measure.curves {
-        let edge = |p: &[f64]| -> Vec<_> { curve.x.iter().zip(p).map(|(x, p)| panel.at_clamped(*x, *p)).collect() };
+        let edge = |p: &[f64]| -> Vec<_> {
+            curve.x.iter().zip(p).map(|(x, p)| panel.at_clamped(*x, *p)).collect()
+        };
         let mut band = edge(&curve.low);
         band.extend(edge(&curve.high).into_iter().rev());
         canvas.fill(&band, style::series(curve.entry).mix(0.18));

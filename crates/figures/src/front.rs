@@ -61,7 +61,9 @@ pub struct FrontFigure<'a> {
 pub fn draw(data: &FrontFigure<'_>) -> Result<Sheet, FigureError> {
     CHECK.least("series", data.series.len(), 1)?;
     let columns = data.series.iter().map(|s| (s.label, s.omega_n_hz, s.error));
-    for (label, hz, value) in columns.chain(data.costs.iter().map(|c| (c.label, c.omega_n_hz, c.value))) {
+    for (label, hz, value) in
+        columns.chain(data.costs.iter().map(|c| (c.label, c.omega_n_hz, c.value)))
+    {
         CHECK.least(label, hz.len(), 1)?;
         CHECK.finite(&format!("omega_n_hz of {label}"), hz)?;
         CHECK.column(label, value, hz.len())?;
@@ -69,15 +71,23 @@ pub fn draw(data: &FrontFigure<'_>) -> Result<Sheet, FigureError> {
     CHECK.finite("chosen_hz and accuracy", &[data.chosen_hz, data.accuracy])?;
 
     let mut canvas = Canvas::default();
-    let mut entries: Vec<LegendEntry> =
-        data.series.iter().enumerate().map(|(i, s)| LegendEntry::both(s.label, solid(i), dot(i))).collect();
+    let mut entries: Vec<LegendEntry> = data
+        .series
+        .iter()
+        .enumerate()
+        .map(|(i, s)| LegendEntry::both(s.label, solid(i), dot(i)))
+        .collect();
     entries.push(LegendEntry::line("delivered", upright()));
     entries.push(LegendEntry::line("accuracy asked for", level()));
     let (left, right) = (150.0, WIDTH as f64 - 40.0);
     let top = legend::header(&mut canvas, data.title, &entries, left, right);
-    let frequencies = data.series.iter().flat_map(|s| s.omega_n_hz).copied().chain([data.chosen_hz]);
+    let frequencies =
+        data.series.iter().flat_map(|s| s.omega_n_hz).copied().chain([data.chosen_hz]);
     let x = Scale::log_around(frequencies, 4.0);
-    let y = Scale::log_around(data.series.iter().flat_map(|s| s.error).copied().chain([data.accuracy]), 10.0);
+    let y = Scale::log_around(
+        data.series.iter().flat_map(|s| s.error).copied().chain([data.accuracy]),
+        10.0,
+    );
     let panel = Panel { frame: PanelFrame { left, top, right, bottom: top + 680.0 }, x, y };
     panel.axes(&mut canvas, Some("Ωₙ of the vertical springs [Hz]"), data.error_label, 110.0);
     guide(&mut canvas, &panel, data);
@@ -91,9 +101,15 @@ pub fn draw(data: &FrontFigure<'_>) -> Result<Sheet, FigureError> {
         }
     }
     let (middle, gap) = (0.5 * (left + right), 140.0);
-    for (cost, (from, to)) in data.costs.iter().zip([(left, middle - 0.5 * gap), (middle + 0.5 * gap, right)]) {
+    for (cost, (from, to)) in
+        data.costs.iter().zip([(left, middle - 0.5 * gap), (middle + 0.5 * gap, right)])
+    {
         let y = Scale::log_around(cost.value.iter().copied(), 4.0);
-        let panel = Panel { frame: PanelFrame { left: from, top: top + 815.0, right: to, bottom: top + 1090.0 }, x, y };
+        let panel = Panel {
+            frame: PanelFrame { left: from, top: top + 815.0, right: to, bottom: top + 1090.0 },
+            x,
+            y,
+        };
         panel.axes(&mut canvas, Some("Ωₙ [Hz]"), cost.label, 110.0);
         panel.upright(&mut canvas, data.chosen_hz, upright());
         panel.curve(&mut canvas, cost.omega_n_hz, cost.value, solid(0));
@@ -103,7 +119,11 @@ pub fn draw(data: &FrontFigure<'_>) -> Result<Sheet, FigureError> {
     }
     let mut below = top + 1210.0;
     for note in data.notes {
-        canvas.text((left, below), note, Lettering::new(NUMBER).colour(TEXT).at(HPos::Left, VPos::Bottom));
+        canvas.text(
+            (left, below),
+            note,
+            Lettering::new(NUMBER).colour(TEXT).at(HPos::Left, VPos::Bottom),
+        );
         below += 36.0;
     }
     canvas.finish(below)
@@ -129,7 +149,9 @@ fn dot(i: usize) -> Mark {
 fn guide(canvas: &mut Canvas, panel: &Panel, data: &FrontFigure<'_>) {
     let Some(first) = data.series.first() else { return };
     let pairs = first.omega_n_hz.iter().zip(first.error);
-    let constant = pairs.map(|(hz, error)| hz * error).filter(|x| *x > 0.0).fold(f64::INFINITY, f64::min) / 1.5;
+    let constant =
+        pairs.map(|(hz, error)| hz * error).filter(|x| *x > 0.0).fold(f64::INFINITY, f64::min)
+            / 1.5;
     if !constant.is_finite() {
         return;
     }
@@ -137,8 +159,15 @@ fn guide(canvas: &mut Canvas, panel: &Panel, data: &FrontFigure<'_>) {
     panel.curve(canvas, &ends, &ends.map(|hz| constant / hz), Pen::new(GREY, 2.2).dashed());
     // Told where the line is well inside of the frame.
     let told = |share: f64| panel.x.low * (panel.x.high / panel.x.low).powf(share);
-    let inside = [0.12, 0.3, 0.5].map(told).into_iter().find(|hz| (0.1..0.9).contains(&panel.y.share(constant / hz)));
+    let inside = [0.12, 0.3, 0.5]
+        .map(told)
+        .into_iter()
+        .find(|hz| (0.1..0.9).contains(&panel.y.share(constant / hz)));
     let Some(hz) = inside else { return };
     let (x, y) = panel.at(hz, constant / hz);
-    canvas.label((x - 14.0, y + 16.0), "∝ 1/Ωₙ", Lettering::new(NUMBER).colour(GREY).at(HPos::Right, VPos::Top));
+    canvas.label(
+        (x - 14.0, y + 16.0),
+        "∝ 1/Ωₙ",
+        Lettering::new(NUMBER).colour(GREY).at(HPos::Right, VPos::Top),
+    );
 }

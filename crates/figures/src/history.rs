@@ -108,7 +108,12 @@ fn check(data: &HistoryFigure<'_>) -> Result<(), FigureError> {
         CHECK.least(trace.label, trace.u.len(), 1)?;
         if trace.u.len() > data.t.len() {
             let what = format!("u of {}", trace.label);
-            return Err(FigureError::Length { figure: CHECK.0, what, found: trace.u.len(), wanted: data.t.len() });
+            return Err(FigureError::Length {
+                figure: CHECK.0,
+                what,
+                found: trace.u.len(),
+                wanted: data.t.len(),
+            });
         }
         CHECK.finite(&format!("u of {}", trace.label), trace.u)?;
         CHECK.column(&format!("v of {}", trace.label), trace.v, trace.u.len())?;
@@ -166,12 +171,18 @@ fn curves<'a>(
     told: bool,
 ) -> plot::Plot {
     panel.level(canvas, 0.0, Pen::new(style::AXIS, 1.5));
-    let values: Vec<Vec<f64>> = traces.iter().map(|(trace, _)| of(trace).iter().map(|x| x / unit).collect()).collect();
-    let named: Vec<(&str, &[f64], Pen)> =
-        traces.iter().zip(&values).map(|((trace, pen), values)| (trace.label, values.as_slice(), *pen)).collect();
+    let values: Vec<Vec<f64>> =
+        traces.iter().map(|(trace, _)| of(trace).iter().map(|x| x / unit).collect()).collect();
+    let named: Vec<(&str, &[f64], Pen)> = traces
+        .iter()
+        .zip(&values)
+        .map(|((trace, pen), values)| (trace.label, values.as_slice(), *pen))
+        .collect();
     let mut plot = panel.history(canvas, label, t, &named);
-    let ends: Vec<(EventMark, Pen)> =
-        traces.iter().filter_map(|(trace, pen)| Some((trace.end?, Pen { width: 2.4, ..pen.dashed() }))).collect();
+    let ends: Vec<(EventMark, Pen)> = traces
+        .iter()
+        .filter_map(|(trace, pen)| Some((trace.end?, Pen { width: 2.4, ..pen.dashed() })))
+        .collect();
     panel.events(canvas, &mut plot, &ends, told);
     plot
 }
@@ -194,23 +205,34 @@ fn horizontal(canvas: &mut Canvas, t: &[f64], traces: &[Drawn<'_>], x: Scale, fr
     peak(canvas, &panel, t, traces, (|trace| trace.u, unit), -1.0);
     let impacting = traces.iter().rev().filter(|(trace, _)| !trace.impacts.is_empty());
     for (row, (trace, pen)) in impacting.enumerate() {
-        let times: Vec<f64> = trace.impacts.iter().copied().filter(|t| (x.low..=x.high).contains(t)).collect();
+        let times: Vec<f64> =
+            trace.impacts.iter().copied().filter(|t| (x.low..=x.high).contains(t)).collect();
         plot.marks.push(plot::Marks::new(&times, *pen));
         let places: Vec<f64> = times.iter().map(|&time| panel.at(time, 0.0).0).collect();
         let y = frame.bottom - 13.0 - 25.0 * row as f64;
         for (i, &place) in places.iter().enumerate() {
-            let near = places[i.saturating_sub(1)..(i + 2).min(places.len())].windows(2).any(|p| p[1] - p[0] < CROWDED);
+            let near = places[i.saturating_sub(1)..(i + 2).min(places.len())]
+                .windows(2)
+                .any(|p| p[1] - p[0] < CROWDED);
             if !near {
                 impact(pen.rgb()).draw(canvas, (place, y));
             } else if i == 0 || place.round() != places[i - 1].round() {
-                canvas.line(&[(place, y - 9.0), (place, y + 6.0)], Pen { width: 2.0, ..*pen }.full());
+                canvas
+                    .line(&[(place, y - 9.0), (place, y + 6.0)], Pen { width: 2.0, ..*pen }.full());
             }
         }
     }
     canvas.keep(plot);
 }
 
-fn vertical(canvas: &mut Canvas, t: &[f64], traces: &[Drawn<'_>], x: Scale, frame: PanelFrame, last: bool) {
+fn vertical(
+    canvas: &mut Canvas,
+    t: &[f64],
+    traces: &[Drawn<'_>],
+    x: Scale,
+    frame: PanelFrame,
+    last: bool,
+) {
     let (low, high) = bounds(t, traces, |trace| trace.v);
     let (unit, name) = unit((low, high));
     let (low, high, label) = (low / unit, high / unit, format!("vertical, v [{name}]"));
@@ -235,8 +257,13 @@ fn differences(canvas: &mut Canvas, data: &HistoryFigure<'_>, x: Scale, frame: P
     let label = format!("Δu to {} [mm]", data.reference.label);
     panel.axes(canvas, Some("time [s]"), &label, GUTTER);
     panel.level(canvas, 0.0, Pen::new(style::AXIS, 1.5));
-    let named: Vec<(&str, &[f64], Pen)> =
-        data.others.iter().zip(&differences).enumerate().map(|(i, (o, d))| (o.label, d.as_slice(), pen(i))).collect();
+    let named: Vec<(&str, &[f64], Pen)> = data
+        .others
+        .iter()
+        .zip(&differences)
+        .enumerate()
+        .map(|(i, (o, d))| (o.label, d.as_slice(), pen(i)))
+        .collect();
     let plot = panel.history(canvas, &label, data.t, &named);
     canvas.keep(plot);
 }
@@ -255,13 +282,15 @@ fn peak<'a>(
     let peak_of = |(trace, pen): &Drawn<'a>| {
         let standing = trace.standing(t);
         let values = &of(trace)[..standing];
-        let best = (0..values.len()).fold(0, |best, i| if values[i] * side > values[best] * side { i } else { best });
+        let best = (0..values.len())
+            .fold(0, |best, i| if values[i] * side > values[best] * side { i } else { best });
         let value = values.get(best).map_or(0.0, |x| x / unit);
         let falls = trace.end.is_some() && best + 2 >= standing;
         (value * side > least && !falls).then(|| (t[best], value, pen.rgb()))
     };
     let peaks: Vec<(f64, f64, RGBColor)> = traces.iter().filter_map(peak_of).collect();
-    let further = |a: &&(f64, f64, RGBColor), b: &&(f64, f64, RGBColor)| a.1.abs().total_cmp(&b.1.abs());
+    let further =
+        |a: &&(f64, f64, RGBColor), b: &&(f64, f64, RGBColor)| a.1.abs().total_cmp(&b.1.abs());
     let Some(&(time, value, _)) = peaks.iter().max_by(further) else { return };
     let mut told: Vec<(String, RGBColor)> = Vec::new();
     for &(time, own, colour) in peaks.iter().filter(|peak| peak.1.abs() >= SMALL * value.abs()) {
@@ -273,10 +302,15 @@ fn peak<'a>(
     let gap = 16.0;
     let length: f64 = told.iter().map(|(text, _)| lettering.length(text) + gap).sum::<f64>() - gap;
     let at = panel.at(time, value);
-    let mut left = (at.0 - length / 2.0).clamp(panel.frame.left + 8.0, panel.frame.right - length - 4.0);
+    let mut left =
+        (at.0 - length / 2.0).clamp(panel.frame.left + 8.0, panel.frame.right - length - 4.0);
     for (text, colour) in told {
         let along = if side > 0.0 { VPos::Bottom } else { VPos::Top };
-        canvas.text((left, at.1 - 17.0 * side), &text, lettering.colour(colour).at(HPos::Left, along));
+        canvas.text(
+            (left, at.1 - 17.0 * side),
+            &text,
+            lettering.colour(colour).at(HPos::Left, along),
+        );
         left += lettering.length(&text) + gap;
     }
 }

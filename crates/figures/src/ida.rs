@@ -72,7 +72,12 @@ pub fn draw(data: &IdaFigure<'_>) -> Result<Sheet, FigureError> {
         let to = if data.subjects.len() == 1 { right } else { to };
         let frame = PanelFrame { left: from, top, right: to, bottom: top + HEIGHT };
         let panel = Panel { frame, x: levels(subject), y: peaks(subject) };
-        panel.axes(&mut canvas, Some(&format!("{}: {}", subject.label, data.level_label)), "peak |θ|/α", 95.0);
+        panel.axes(
+            &mut canvas,
+            Some(&format!("{}: {}", subject.label, data.level_label)),
+            "peak |θ|/α",
+            95.0,
+        );
         panel.level(&mut canvas, 1.0, Pen::new(GREY, 1.5).dashed());
         for (levels, peaks) in &subject.records {
             let (x, y) = standing(levels, peaks);
@@ -89,15 +94,20 @@ pub fn draw(data: &IdaFigure<'_>) -> Result<Sheet, FigureError> {
 /// Peaks of a subject that a body moves by and does not overturn, with their levels.
 fn moving(subject: &IdaSubject) -> impl Iterator<Item = (f64, f64)> {
     let records = subject.records.iter().flat_map(|(levels, peaks)| levels.iter().zip(peaks));
-    let quantiles = subject.quantiles.iter().flat_map(|quantile| subject.levels.iter().zip(quantile));
-    records.chain(quantiles).map(|(level, peak)| (*level, *peak)).filter(|(_, peak)| (LOWEST..HIGHEST).contains(peak))
+    let quantiles =
+        subject.quantiles.iter().flat_map(|quantile| subject.levels.iter().zip(quantile));
+    records
+        .chain(quantiles)
+        .map(|(level, peak)| (*level, *peak))
+        .filter(|(_, peak)| (LOWEST..HIGHEST).contains(peak))
 }
 
 /// From the first level at which a body moves to the last at which one moves and stands; all levels
 /// if none does.
 fn levels(subject: &IdaSubject) -> Scale {
-    let (low, high) =
-        moving(subject).fold((f64::INFINITY, 0.0_f64), |(low, high), (level, _)| (low.min(level), high.max(level)));
+    let (low, high) = moving(subject).fold((f64::INFINITY, 0.0_f64), |(low, high), (level, _)| {
+        (low.min(level), high.max(level))
+    });
     if high > low {
         Scale::log(BEFORE * low, high / BEFORE)
     } else {
@@ -115,7 +125,11 @@ fn peaks(subject: &IdaSubject) -> Scale {
 /// A curve as it is drawn: a logarithm shows neither zero nor infinity, so that these lie far
 /// outside of the panel.
 fn standing(levels: &[f64], peaks: &[f64]) -> (Vec<f64>, Vec<f64>) {
-    levels.iter().zip(peaks).map(|(level, peak)| (*level, peak.clamp(1e-2 * LOWEST, 10.0 * HIGHEST))).unzip()
+    levels
+        .iter()
+        .zip(peaks)
+        .map(|(level, peak)| (*level, peak.clamp(1e-2 * LOWEST, 10.0 * HIGHEST)))
+        .unzip()
 }
 
 fn pen(i: usize) -> Pen {

@@ -68,7 +68,13 @@ impl LegendEntry {
 
 /// A title, and below it the legend in as many rows as it takes, from `left` to `right`; where the
 /// figure may begin below them (pixel).
-pub(crate) fn header(canvas: &mut Canvas, title: &str, entries: &[LegendEntry], left: f64, right: f64) -> f64 {
+pub(crate) fn header(
+    canvas: &mut Canvas,
+    title: &str,
+    entries: &[LegendEntry],
+    left: f64,
+    right: f64,
+) -> f64 {
     let below = self::title(canvas, title, (left, right), 0.0);
     let (mut x, mut y) = (left, below + 8.0);
     for entry in entries {

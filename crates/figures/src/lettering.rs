@@ -23,7 +23,9 @@ pub(crate) struct LetteredLine {
 impl LetteredLine {
     /// Draw it.
     pub(crate) fn draw(&self, pixels: &mut Pixmap) {
-        let Some(path) = font::face(self.bold).and_then(|face| outline(&face, &self.text)) else { return };
+        let Some(path) = font::face(self.bold).and_then(|face| outline(&face, &self.text)) else {
+            return;
+        };
         let [red, green, blue] = self.colour;
         let mut paint = Paint { anti_alias: true, ..Paint::default() };
         paint.set_color(Color::from_rgba8(red, green, blue, 255));
@@ -82,7 +84,8 @@ impl OutlineBuilder for Pencil {
     }
 
     fn curve_to(&mut self, x1: f32, y1: f32, x2: f32, y2: f32, x: f32, y: f32) {
-        let ((x1, y1), (x2, y2), (x, y)) = (self.point(x1, y1), self.point(x2, y2), self.point(x, y));
+        let ((x1, y1), (x2, y2), (x, y)) =
+            (self.point(x1, y1), self.point(x2, y2), self.point(x, y));
         self.path.cubic_to(x1, y1, x2, y2, x, y);
     }
 
@@ -117,7 +120,8 @@ mod tests {
             upwards: false,
             colour: [0, 0, 0],
         };
-        let range = |values: Vec<u32>| (*values.iter().min().unwrap(), *values.iter().max().unwrap());
+        let range =
+            |values: Vec<u32>| (*values.iter().min().unwrap(), *values.iter().max().unwrap());
         let points = dark(&line);
         assert_eq!(range(points.iter().map(|p| p.1).collect()), (74, 149));
         let turned = dark(&LetteredLine { upwards: true, ..line });
@@ -125,6 +129,9 @@ mod tests {
         // as far from its start along the direction of reading, to the pixel that is half covered
         let (left, right) = range(points.iter().map(|p| p.0).collect());
         let (top, foot) = range(turned.iter().map(|p| p.1).collect());
-        assert!(top.abs_diff(249 - right) <= 1 && foot.abs_diff(249 - left) <= 1, "{left} {right} {top} {foot}");
+        assert!(
+            top.abs_diff(249 - right) <= 1 && foot.abs_diff(249 - left) <= 1,
+            "{left} {right} {top} {foot}"
+        );
     }
 }

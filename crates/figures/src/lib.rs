@@ -82,11 +82,17 @@ pub struct Figure {
 #[derive(Debug, Error)]
 #[allow(missing_docs)] // messages say what variants and their fields are
 pub enum FigureError {
-    #[error("figure {figure}: {what} is empty; give at least {least} values or leave the figure out")]
+    #[error(
+        "figure {figure}: {what} is empty; give at least {least} values or leave the figure out"
+    )]
     Empty { figure: &'static str, what: String, least: usize },
-    #[error("figure {figure}: {what}[{index}] is {value}, which cannot be drawn; remove it or mend what computed it")]
+    #[error(
+        "figure {figure}: {what}[{index}] is {value}, which cannot be drawn; remove it or mend what computed it"
+    )]
     NotFinite { figure: &'static str, what: String, index: usize, value: f64 },
-    #[error("figure {figure}: {what} has {found} values where {wanted} are wanted; give slices of one length")]
+    #[error(
+        "figure {figure}: {what} has {found} values where {wanted} are wanted; give slices of one length"
+    )]
     Length { figure: &'static str, what: String, found: usize, wanted: usize },
     #[error("figure: cannot write {path}: {source}; check that the folder exists and may be written to", path = path.display())]
     Write { path: PathBuf, source: std::io::Error },
@@ -100,7 +106,11 @@ struct Check(&'static str);
 impl Check {
     /// At least `least` values.
     fn least(&self, what: &str, found: usize, least: usize) -> Result<(), FigureError> {
-        if found < least { Err(FigureError::Empty { figure: self.0, what: what.into(), least }) } else { Ok(()) }
+        if found < least {
+            Err(FigureError::Empty { figure: self.0, what: what.into(), least })
+        } else {
+            Ok(())
+        }
     }
 
     /// No NaN and no infinity.
@@ -109,19 +119,32 @@ impl Check {
     }
 
     /// Every value passes.
-    fn each(&self, what: &str, values: &[f64], passes: impl Fn(f64) -> bool) -> Result<(), FigureError> {
+    fn each(
+        &self,
+        what: &str,
+        values: &[f64],
+        passes: impl Fn(f64) -> bool,
+    ) -> Result<(), FigureError> {
         match values.iter().position(|&x| !passes(x)) {
             None => Ok(()),
-            Some(index) => {
-                Err(FigureError::NotFinite { figure: self.0, what: what.into(), index, value: values[index] })
-            }
+            Some(index) => Err(FigureError::NotFinite {
+                figure: self.0,
+                what: what.into(),
+                index,
+                value: values[index],
+            }),
         }
     }
 
     /// As many values as wanted, all finite.
     fn column(&self, what: &str, values: &[f64], wanted: usize) -> Result<(), FigureError> {
         if values.len() != wanted {
-            return Err(FigureError::Length { figure: self.0, what: what.into(), found: values.len(), wanted });
+            return Err(FigureError::Length {
+                figure: self.0,
+                what: what.into(),
+                found: values.len(),
+                wanted,
+            });
         }
         self.finite(what, values)
     }

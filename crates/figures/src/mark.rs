@@ -28,7 +28,13 @@ pub(crate) struct Mark {
 
 /// The shape of the i-th series.
 pub(crate) fn series(i: usize) -> MarkShape {
-    [MarkShape::Disc, MarkShape::Square, MarkShape::Diamond, MarkShape::Triangle, MarkShape::Pennant][i % 5]
+    [
+        MarkShape::Disc,
+        MarkShape::Square,
+        MarkShape::Diamond,
+        MarkShape::Triangle,
+        MarkShape::Pennant,
+    ][i % 5]
 }
 
 impl Mark {
@@ -58,17 +64,21 @@ impl Mark {
         match self.shape {
             MarkShape::Disc => canvas.disc((x, y), radius, colour),
             MarkShape::Square => {
-                canvas.fill(&corners(0.88 * radius, &[(-1.0, -1.0), (1.0, -1.0), (1.0, 1.0), (-1.0, 1.0)]), colour);
+                canvas.fill(
+                    &corners(0.88 * radius, &[(-1.0, -1.0), (1.0, -1.0), (1.0, 1.0), (-1.0, 1.0)]),
+                    colour,
+                );
             }
             MarkShape::Diamond => {
-                canvas.fill(&corners(1.22 * radius, &[(0.0, -1.0), (1.0, 0.0), (0.0, 1.0), (-1.0, 0.0)]), colour);
+                canvas.fill(
+                    &corners(1.22 * radius, &[(0.0, -1.0), (1.0, 0.0), (0.0, 1.0), (-1.0, 0.0)]),
+                    colour,
+                );
             }
-            MarkShape::Triangle => {
-                canvas.fill(&corners(1.3 * radius, &[(0.0, -1.0), (0.87, 0.5), (-0.87, 0.5)]), colour)
-            }
-            MarkShape::Pennant => {
-                canvas.fill(&corners(1.3 * radius, &[(0.0, 1.0), (0.87, -0.5), (-0.87, -0.5)]), colour)
-            }
+            MarkShape::Triangle => canvas
+                .fill(&corners(1.3 * radius, &[(0.0, -1.0), (0.87, 0.5), (-0.87, 0.5)]), colour),
+            MarkShape::Pennant => canvas
+                .fill(&corners(1.3 * radius, &[(0.0, 1.0), (0.87, -0.5), (-0.87, -0.5)]), colour),
         }
     }
 }

@@ -65,8 +65,11 @@ pub fn draw(data: &OverturningFigure<'_>) -> Result<Sheet, FigureError> {
         let from: Vec<f64> = spectrum.intervals.iter().map(|interval| interval.from).collect();
         CHECK.finite("from", &from)?;
     }
-    let mut entries: Vec<LegendEntry> =
-        ENTRIES.iter().enumerate().map(|(i, name)| LegendEntry::patch(*name, colour(i).mix(0.8))).collect();
+    let mut entries: Vec<LegendEntry> = ENTRIES
+        .iter()
+        .enumerate()
+        .map(|(i, name)| LegendEntry::patch(*name, colour(i).mix(0.8)))
+        .collect();
     entries.push(LegendEntry::line("lifts the body", lift()));
     let (left, right) = (150.0, WIDTH as f64 - 40.0);
     let columns = if data.spectra.len() == 1 { 1 } else { 2 };
@@ -81,7 +84,12 @@ pub fn draw(data: &OverturningFigure<'_>) -> Result<Sheet, FigureError> {
             (_, 0) => (left, middle - 40.0),
             _ => (middle + 75.0, right),
         };
-        one(&mut canvas, data, spectrum, PanelFrame { left: from, top, right: to, bottom: top + HEIGHT });
+        one(
+            &mut canvas,
+            data,
+            spectrum,
+            PanelFrame { left: from, top, right: to, bottom: top + HEIGHT },
+        );
     }
     canvas.finish(top + rows as f64 * (HEIGHT + GAP))
 }
@@ -98,7 +106,11 @@ fn one(canvas: &mut Canvas, data: &OverturningFigure<'_>, spectrum: &Spectrum, f
     let q = &spectrum.frequencies;
     let edges = |i: usize| -> (f64, f64) {
         let between = |a: f64, b: f64| (a * b).sqrt();
-        let step = if q.len() > 1 { (q[q.len() - 1] / q[0]).powf(0.5 / (q.len() - 1) as f64) } else { 1.05 };
+        let step = if q.len() > 1 {
+            (q[q.len() - 1] / q[0]).powf(0.5 / (q.len() - 1) as f64)
+        } else {
+            1.05
+        };
         let low = if i == 0 { q[0] / step } else { between(q[i - 1], q[i]) };
         let high = if i + 1 == q.len() { q[i] * step } else { between(q[i], q[i + 1]) };
         (low, high)
@@ -109,7 +121,9 @@ fn one(canvas: &mut Canvas, data: &OverturningFigure<'_>, spectrum: &Spectrum, f
         y: Scale::log(data.amplitudes.0, data.amplitudes.1),
     };
     for interval in &spectrum.intervals {
-        let Some(i) = q.iter().position(|other| (other / interval.q - 1.0).abs() < 1e-9) else { continue };
+        let Some(i) = q.iter().position(|other| (other / interval.q - 1.0).abs() < 1e-9) else {
+            continue;
+        };
         let (from, to) = edges(i);
         let above = if interval.to.is_finite() { interval.to } else { panel.y.high };
         let (a, b) = (panel.at_clamped(from, above), panel.at_clamped(to, interval.from));

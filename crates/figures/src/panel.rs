@@ -49,11 +49,18 @@ impl Panel {
 
     /// Grid, axes, numbers and labels; no numbers below when there is no label for x. `gutter` is
     /// the distance of the y label's middle from the axis (pixel); long numbers push it farther.
-    pub(crate) fn axes(&self, canvas: &mut Canvas, x_label: Option<&str>, y_label: &str, gutter: f64) {
+    pub(crate) fn axes(
+        &self,
+        canvas: &mut Canvas,
+        x_label: Option<&str>,
+        y_label: &str,
+        gutter: f64,
+    ) {
         let PanelFrame { left, top, right, bottom } = self.frame;
         let (grid, axis) = (Pen::new(GRID, 1.5), Pen::new(AXIS, 2.0));
         let number = Lettering::new(NUMBER);
-        let (x_ticks, y_ticks) = (self.x.ticks(right - left, 110.0), self.y.ticks(bottom - top, 60.0));
+        let (x_ticks, y_ticks) =
+            (self.x.ticks(right - left, 110.0), self.y.ticks(bottom - top, 60.0));
         // Whole pixels and a half: a thin upright line is sharp.
         let sharp = |x: f64| x.round() + 0.5;
         for tick in &x_ticks {
@@ -77,21 +84,30 @@ impl Panel {
         let label = Lettering::new(LABEL);
         let longest = y_ticks.iter().map(|tick| number.length(&tick.label)).fold(0.0, f64::max);
         let gutter = gutter.max(14.0 + longest + LABEL);
-        canvas.text((left - gutter, (top + bottom) / 2.0), y_label, label.upwards().at(HPos::Center, VPos::Center));
+        canvas.text(
+            (left - gutter, (top + bottom) / 2.0),
+            y_label,
+            label.upwards().at(HPos::Center, VPos::Center),
+        );
         if let Some(x_label) = x_label {
             for tick in &x_ticks {
                 let x = self.at(tick.value, self.y.low).0;
                 canvas.text((x, bottom + 17.0), &tick.label, number.at(HPos::Center, VPos::Top));
             }
-            canvas.text(((left + right) / 2.0, bottom + 57.0), x_label, label.at(HPos::Center, VPos::Top));
+            canvas.text(
+                ((left + right) / 2.0, bottom + 57.0),
+                x_label,
+                label.at(HPos::Center, VPos::Top),
+            );
         }
     }
 
     /// A curve through the pairs of values, cut at the frame; the shorter of the two slices counts.
     pub(crate) fn curve(&self, canvas: &mut Canvas, xs: &[f64], ys: &[f64], pen: Pen) {
         let points: Vec<PixelPoint> = xs.iter().zip(ys).map(|(&x, &y)| self.at(x, y)).collect();
-        for piece in
-            points.split(|p| !(p.0.is_finite() && p.1.is_finite())).flat_map(|run| clip(&thin(run), self.frame))
+        for piece in points
+            .split(|p| !(p.0.is_finite() && p.1.is_finite()))
+            .flat_map(|run| clip(&thin(run), self.frame))
         {
             canvas.line(&piece, pen);
         }
@@ -99,7 +115,13 @@ impl Panel {
 
     /// Curves over time, each with its name, and their numbers for a page that zooms; `label` is
     /// that of the axis.
-    pub(crate) fn history(&self, canvas: &mut Canvas, label: &str, t: &[f64], curves: &[(&str, &[f64], Pen)]) -> Plot {
+    pub(crate) fn history(
+        &self,
+        canvas: &mut Canvas,
+        label: &str,
+        t: &[f64],
+        curves: &[(&str, &[f64], Pen)],
+    ) -> Plot {
         for (_, values, pen) in curves {
             match values {
                 [constant] => self.level(canvas, *constant, *pen),
@@ -117,7 +139,13 @@ impl Panel {
 
     /// Times at which something ends: a line each, and its words at the top of the panel if they
     /// are wanted.
-    pub(crate) fn events(&self, canvas: &mut Canvas, plot: &mut Plot, events: &[(EventMark<'_>, Pen)], told: bool) {
+    pub(crate) fn events(
+        &self,
+        canvas: &mut Canvas,
+        plot: &mut Plot,
+        events: &[(EventMark<'_>, Pen)],
+        told: bool,
+    ) {
         for (i, (event, pen)) in events.iter().enumerate() {
             self.upright(canvas, event.time, *pen);
             plot.events.push((event.time, event.text.into()));
@@ -128,7 +156,11 @@ impl Panel {
             let (x, length) = (self.at(event.time, self.y.low).0, how.length(event.text));
             let left = x - 14.0 - length > self.frame.left + 10.0;
             let (x, across) = if left { (x - 14.0, HPos::Right) } else { (x + 14.0, HPos::Left) };
-            canvas.label((x, self.frame.top + 12.0 + ROW * i as f64), event.text, how.at(across, VPos::Top));
+            canvas.label(
+                (x, self.frame.top + 12.0 + ROW * i as f64),
+                event.text,
+                how.at(across, VPos::Top),
+            );
         }
     }
 
@@ -240,15 +272,19 @@ mod tests {
     #[test]
     fn a_curve_is_cut_where_it_leaves_and_enters() {
         let pieces = clip(&[(-5.0, 5.0), (5.0, 5.0), (5.0, 15.0), (8.0, 15.0), (8.0, 5.0)], FRAME);
-        assert_eq!(pieces, [vec![(0.0, 5.0), (5.0, 5.0), (5.0, 10.0)], vec![(8.0, 10.0), (8.0, 5.0)]]);
+        assert_eq!(
+            pieces,
+            [vec![(0.0, 5.0), (5.0, 5.0), (5.0, 10.0)], vec![(8.0, 10.0), (8.0, 5.0)]]
+        );
         assert!(clip(&[(-5.0, -1.0), (20.0, -1.0)], FRAME).is_empty());
         assert_eq!(clip(&[(-5.0, -5.0), (15.0, 15.0)], FRAME), [vec![(0.0, 0.0), (10.0, 10.0)]]);
     }
 
     #[test]
     fn thinning_keeps_the_extremes_of_every_pixel_column() {
-        let points: Vec<PixelPoint> =
-            (0..100_000).map(|i| (f64::from(i) * 1e-3, (f64::from(i) * 0.37).sin() * f64::from(i))).collect();
+        let points: Vec<PixelPoint> = (0..100_000)
+            .map(|i| (f64::from(i) * 1e-3, (f64::from(i) * 0.37).sin() * f64::from(i)))
+            .collect();
         let kept = thin(&points);
         assert!(kept.len() <= 400);
         for column in 0..100 {
@@ -256,7 +292,9 @@ mod tests {
                 points
                     .iter()
                     .filter(|p| p.0.floor() == f64::from(column))
-                    .fold((f64::INFINITY, f64::NEG_INFINITY), |(low, high), p| (low.min(p.1), high.max(p.1)))
+                    .fold((f64::INFINITY, f64::NEG_INFINITY), |(low, high), p| {
+                        (low.min(p.1), high.max(p.1))
+                    })
             };
             assert_eq!(extremes(&points), extremes(&kept));
         }

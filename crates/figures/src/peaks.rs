@@ -42,7 +42,11 @@ pub fn draw(data: &PeaksFigure<'_>) -> Result<Sheet, FigureError> {
     let top = legend::header(&mut canvas, data.title, &entries, left, right) + 10.0;
     let (middle, bottom) = (0.5 * (left + right), 750.0);
     let scale = || Scale::linear(0.0, 1.04);
-    let panel = Panel { frame: PanelFrame { left, top, right: middle - 40.0, bottom }, x: scale(), y: scale() };
+    let panel = Panel {
+        frame: PanelFrame { left, top, right: middle - 40.0, bottom },
+        x: scale(),
+        y: scale(),
+    };
     panel.axes(&mut canvas, Some("peak |θ|/α"), "share of histories below", 105.0);
     for (mut peaks, pen) in [(rigid, Pen::new(BLACK, 5.0)), (fem, Pen::new(VERMILLION, 2.6))] {
         peaks.sort_by(f64::total_cmp);
@@ -54,12 +58,17 @@ pub fn draw(data: &PeaksFigure<'_>) -> Result<Sheet, FigureError> {
         }
         panel.curve(&mut canvas, &x, &y, pen);
     }
-    let panel = Panel { frame: PanelFrame { left: middle + 115.0, top, right, bottom }, x: scale(), y: scale() };
+    let panel = Panel {
+        frame: PanelFrame { left: middle + 115.0, top, right, bottom },
+        x: scale(),
+        y: scale(),
+    };
     panel.axes(&mut canvas, Some("Housner, peak |θ|/α"), "finite element, peak |θ|/α", 95.0);
     panel.curve(&mut canvas, &[0.0, 1.04], &[0.0, 1.04], Pen::new(GREY, 2.0).dashed());
     for &(rigid, fem) in data.pairs {
         let over = rigid.is_infinite() || fem.is_infinite();
-        let mark = if over { dot(VERMILLION, MarkShape::Square) } else { dot(BLUE, MarkShape::Disc) };
+        let mark =
+            if over { dot(VERMILLION, MarkShape::Square) } else { dot(BLUE, MarkShape::Disc) };
         mark.draw(&mut canvas, panel.at(rigid.min(EDGE), fem.min(EDGE)));
     }
     canvas.finish(860.0)

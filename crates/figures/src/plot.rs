@@ -32,7 +32,10 @@ pub struct Marks {
 impl Marks {
     /// Marks at these times.
     pub(crate) fn new(times: &[f64], pen: Pen) -> Self {
-        Self { colour: pen.hex(), times: base64(&times.iter().map(|&t| t as f32).collect::<Vec<f32>>()) }
+        Self {
+            colour: pen.hex(),
+            times: base64(&times.iter().map(|&t| t as f32).collect::<Vec<f32>>()),
+        }
     }
 }
 
@@ -70,7 +73,13 @@ impl Plot {
         let pick = |values: &[f64]| -> String {
             match values {
                 [constant] => base64(&[*constant as f32]),
-                _ => base64(&kept.iter().filter_map(|&i| values.get(i)).map(|&x| x as f32).collect::<Vec<f32>>()),
+                _ => base64(
+                    &kept
+                        .iter()
+                        .filter_map(|&i| values.get(i))
+                        .map(|&x| x as f32)
+                        .collect::<Vec<f32>>(),
+                ),
             }
         };
         Self {
@@ -123,7 +132,8 @@ fn base64(values: &[f32]) -> String {
     let bytes: Vec<u8> = values.iter().flat_map(|x| x.to_le_bytes()).collect();
     let mut out = String::with_capacity(bytes.len().div_ceil(3) * 4);
     for group in bytes.chunks(3) {
-        let bits = group.iter().fold(0_u32, |bits, &byte| bits << 8 | u32::from(byte)) << (8 * (3 - group.len()));
+        let bits = group.iter().fold(0_u32, |bits, &byte| bits << 8 | u32::from(byte))
+            << (8 * (3 - group.len()));
         for k in 0..4 {
             let digit = DIGITS[(bits >> (18 - 6 * k) & 63) as usize];
             out.push(if k <= group.len() { char::from(digit) } else { '=' });
@@ -150,8 +160,16 @@ mod tests {
         let mut u: Vec<f64> = (0..100_000).map(|i| (f64::from(i) * 0.01).sin()).collect();
         u[33_333] = 7.0;
         let short = &u[..50_000];
-        let kept = extremes(u.len(), &[("u", &u, Pen::new(BLACK, 1.0)), ("v", short, Pen::new(BLACK, 1.0))]);
-        assert!(kept.len() <= MOST + 2 && kept[0] == 0 && kept[kept.len() - 1] == 99_999 && kept.contains(&33_333));
+        let kept = extremes(
+            u.len(),
+            &[("u", &u, Pen::new(BLACK, 1.0)), ("v", short, Pen::new(BLACK, 1.0))],
+        );
+        assert!(
+            kept.len() <= MOST + 2
+                && kept[0] == 0
+                && kept[kept.len() - 1] == 99_999
+                && kept.contains(&33_333)
+        );
         assert!(kept.windows(2).all(|pair| pair[0] < pair[1]));
         assert_eq!(extremes(10, &[]), (0..10).collect::<Vec<_>>());
     }

@@ -45,7 +45,8 @@ pub fn draw(sheets: &[PrecisionFigure<'_>]) -> Result<Sheet, FigureError> {
         CHECK.least("series", data.series.len(), 1)?;
         for series in data.series {
             CHECK.least(series.label, series.points.len(), 1)?;
-            let numbers: Vec<f64> = series.points.iter().flat_map(|point| [point.0, point.1]).collect();
+            let numbers: Vec<f64> =
+                series.points.iter().flat_map(|point| [point.0, point.1]).collect();
             let what = format!("{} (error and time in turn)", series.label);
             CHECK.each(&what, &numbers, |x| x.is_finite() && x > 0.0)?;
         }
@@ -59,8 +60,12 @@ pub fn draw(sheets: &[PrecisionFigure<'_>]) -> Result<Sheet, FigureError> {
 
 /// One comparison, its upper edge at `y`.
 fn panel(canvas: &mut Canvas, data: &PrecisionFigure<'_>, y: f64) {
-    let entries: Vec<LegendEntry> =
-        data.series.iter().enumerate().map(|(i, series)| LegendEntry::both(series.label, pen(i), dot(i))).collect();
+    let entries: Vec<LegendEntry> = data
+        .series
+        .iter()
+        .enumerate()
+        .map(|(i, series)| LegendEntry::both(series.label, pen(i), dot(i)))
+        .collect();
     let left = 150.0;
     let top = y + legend::title(canvas, data.title, (left, WIDTH as f64 - 40.0), y);
     // The legend's column takes what its longest text needs, but leaves the panel more than half of

@@ -41,7 +41,8 @@ pub fn draw(data: &RecordFigure<'_>) -> Result<Sheet, FigureError> {
     let mut canvas = Canvas::default();
     let (accel, velocity) = (Pen::new(VERMILLION, 2.4), Pen::new(BLUE, 2.8));
     let level = Pen::new(GREY, 2.2).dashed();
-    let mut entries = vec![LegendEntry::line("acceleration", accel), LegendEntry::line("velocity", velocity)];
+    let mut entries =
+        vec![LegendEntry::line("acceleration", accel), LegendEntry::line("velocity", velocity)];
     if data.uplift_g.is_some() {
         entries.push(LegendEntry::line("uplift, ± g tan α", level));
     }
@@ -66,8 +67,11 @@ pub fn draw(data: &RecordFigure<'_>) -> Result<Sheet, FigureError> {
         panel.level(&mut canvas, uplift, level);
     }
 
-    let panel =
-        Panel { frame: PanelFrame { left, top: middle + 34.0, right, bottom }, x, y: symmetric(data.velocity, 0.0) };
+    let panel = Panel {
+        frame: PanelFrame { left, top: middle + 34.0, right, bottom },
+        x,
+        y: symmetric(data.velocity, 0.0),
+    };
     panel.axes(&mut canvas, Some("time from the first sample [s]"), "velocity [m/s]", 110.0);
     panel.level(&mut canvas, 0.0, Pen::new(style::AXIS, 1.5));
     panel.curve(&mut canvas, data.t, data.velocity, velocity);

@@ -64,15 +64,20 @@ pub fn draw(data: &RockingFigure<'_>) -> Result<Sheet, FigureError> {
     CHECK.least("maps", data.maps.len(), 1)?;
     for map in data.maps {
         CHECK.least("bodies", map.bodies.len(), 1)?;
-        let numbers: Vec<f64> = map.bodies.iter().flat_map(|body| [body.period, body.alpha]).collect();
+        let numbers: Vec<f64> =
+            map.bodies.iter().flat_map(|body| [body.period, body.alpha]).collect();
         CHECK.each("period and alpha", &numbers, |x| x.is_finite() && x > 0.0)?;
         let peaks: Vec<f64> = map.bodies.iter().map(|body| body.peak).collect();
         CHECK.each("peak", &peaks, |x| x >= 0.0)?;
     }
-    let names = ["never lifted", "|θ|/α to 0.1", "to 0.25", "to 0.5", "to 1", "above 1", "overturned"];
+    let names =
+        ["never lifted", "|θ|/α to 0.1", "to 0.25", "to 0.5", "to 1", "above 1", "overturned"];
     let colours = STEPS.iter().map(|(_, colour)| *colour).chain([OVERTURNED]);
-    let entries: Vec<LegendEntry> =
-        names.iter().zip(colours).map(|(name, colour)| LegendEntry::patch(*name, colour.into())).collect();
+    let entries: Vec<LegendEntry> = names
+        .iter()
+        .zip(colours)
+        .map(|(name, colour)| LegendEntry::patch(*name, colour.into()))
+        .collect();
     let (left, right) = (150.0, WIDTH as f64 - 40.0);
     let (height, gap) = (620.0, 150.0);
     let mut canvas = Canvas::default();
@@ -111,7 +116,11 @@ fn one(canvas: &mut Canvas, map: &Map, frame: PanelFrame) {
     let alphas = different(map.bodies.iter().map(|body| body.alpha));
     let across = |i: usize| {
         let (from, to) = edges(&logs, i);
-        if logs.len() == 1 { (0.95 * periods[0], 1.05 * periods[0]) } else { (from.exp(), to.exp()) }
+        if logs.len() == 1 {
+            (0.95 * periods[0], 1.05 * periods[0])
+        } else {
+            (from.exp(), to.exp())
+        }
     };
     let x = Scale::log(across(0).0, across(periods.len() - 1).1);
     let y = Scale::linear(edges(&alphas, 0).0, edges(&alphas, alphas.len() - 1).1);
@@ -119,7 +128,9 @@ fn one(canvas: &mut Canvas, map: &Map, frame: PanelFrame) {
     panel.axes(canvas, Some(&format!("{}: 1/p [s]", map.label)), "α [rad]", 105.0);
     let near = |all: &[f64], x: f64| all.iter().position(|other| (other / x - 1.0).abs() < 1e-9);
     for body in &map.bodies {
-        let (Some(i), Some(j)) = (near(&periods, body.period), near(&alphas, body.alpha)) else { continue };
+        let (Some(i), Some(j)) = (near(&periods, body.period), near(&alphas, body.alpha)) else {
+            continue;
+        };
         let (from, to) = across(i);
         let (low, high) = edges(&alphas, j);
         canvas.block(panel.at(from, high), panel.at(to, low), colour(body.peak));

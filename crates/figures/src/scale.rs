@@ -85,13 +85,20 @@ impl Scale {
     fn linear_ticks(&self, most: f64) -> Vec<Tick> {
         let raw = (self.high - self.low) / most;
         let decade = 10_f64.powi(raw.log10().floor() as i32);
-        let step =
-            decade * [1.0, 2.0, 5.0, 10.0].into_iter().find(|s| s * decade >= raw * (1.0 - 1e-9)).unwrap_or(10.0);
+        let step = decade
+            * [1.0, 2.0, 5.0, 10.0]
+                .into_iter()
+                .find(|s| s * decade >= raw * (1.0 - 1e-9))
+                .unwrap_or(10.0);
         let decimals = (-(step * (1.0 + 1e-9)).log10().floor()).max(0.0) as usize;
         // A hundredth of a step is less than two pixels: an axis that ends at 19.99 still tells its
         // 20.
-        let (first, last) = ((self.low / step - 0.01).ceil() as i64, (self.high / step + 0.01).floor() as i64);
-        (first..=last).map(|i| i as f64 * step).map(|value| Tick { value, label: fixed(value, decimals) }).collect()
+        let (first, last) =
+            ((self.low / step - 0.01).ceil() as i64, (self.high / step + 0.01).floor() as i64);
+        (first..=last)
+            .map(|i| i as f64 * step)
+            .map(|value| Tick { value, label: fixed(value, decimals) })
+            .collect()
     }
 
     /// Powers of ten, or 1, 2 and 5 times them where there is room.
@@ -145,7 +152,12 @@ mod tests {
     use super::*;
 
     fn labels(scale: Scale, pixels: f64, apart: f64) -> Vec<String> {
-        scale.ticks(pixels, apart).into_iter().map(|tick| tick.label).filter(|label| !label.is_empty()).collect()
+        scale
+            .ticks(pixels, apart)
+            .into_iter()
+            .map(|tick| tick.label)
+            .filter(|label| !label.is_empty())
+            .collect()
     }
 
     #[test]
@@ -154,8 +166,14 @@ mod tests {
             labels(Scale::linear(0.0, 20.0), 1400.0, 130.0),
             ["0", "2", "4", "6", "8", "10", "12", "14", "16", "18", "20"]
         );
-        assert_eq!(labels(Scale::linear(-0.3, 0.3), 400.0, 60.0), ["−0.3", "−0.2", "−0.1", "0.0", "0.1", "0.2", "0.3"]);
-        assert_eq!(labels(Scale::linear(-433.0, 431.0), 400.0, 60.0), ["−400", "−200", "0", "200", "400"]);
+        assert_eq!(
+            labels(Scale::linear(-0.3, 0.3), 400.0, 60.0),
+            ["−0.3", "−0.2", "−0.1", "0.0", "0.1", "0.2", "0.3"]
+        );
+        assert_eq!(
+            labels(Scale::linear(-433.0, 431.0), 400.0, 60.0),
+            ["−400", "−200", "0", "200", "400"]
+        );
     }
 
     #[test]
@@ -179,8 +197,14 @@ mod tests {
             labels(Scale::log(1e-12, 1e-6), 600.0, 60.0),
             ["10⁻¹²", "10⁻¹¹", "10⁻¹⁰", "10⁻⁹", "10⁻⁸", "10⁻⁷", "10⁻⁶"]
         );
-        assert_eq!(labels(Scale::log(1e-12, 1.0), 400.0, 80.0), ["10⁻¹²", "10⁻⁹", "10⁻⁶", "10⁻³", "10⁰"]);
-        assert_eq!(labels(Scale::log(0.02, 0.06), 600.0, 60.0), ["0.02", "0.03", "0.04", "0.05", "0.06"]);
+        assert_eq!(
+            labels(Scale::log(1e-12, 1.0), 400.0, 80.0),
+            ["10⁻¹²", "10⁻⁹", "10⁻⁶", "10⁻³", "10⁰"]
+        );
+        assert_eq!(
+            labels(Scale::log(0.02, 0.06), 600.0, 60.0),
+            ["0.02", "0.03", "0.04", "0.05", "0.06"]
+        );
     }
 
     #[test]

@@ -35,8 +35,10 @@ impl Sheet {
     pub(crate) fn png(&self) -> Result<Vec<u8>, FigureError> {
         let draw = |reason: String| FigureError::Draw { reason };
         // its text is left out without fonts
-        let tree = Tree::from_str(&self.svg, &Options::default()).map_err(|e| draw(e.to_string()))?;
-        let mut pixels = Pixmap::new(self.width, self.height).ok_or_else(|| draw("no size".into()))?;
+        let tree =
+            Tree::from_str(&self.svg, &Options::default()).map_err(|e| draw(e.to_string()))?;
+        let mut pixels =
+            Pixmap::new(self.width, self.height).ok_or_else(|| draw("no size".into()))?;
         pixels.fill(Color::WHITE);
         resvg::render(&tree, Transform::identity(), &mut pixels.as_mut());
         self.lines.iter().for_each(|line| line.draw(&mut pixels));
@@ -47,7 +49,11 @@ impl Sheet {
     /// and flat areas.
     fn encode(&self, pixels: &Pixmap) -> Result<Vec<u8>, png::EncodingError> {
         // on white nothing shines through
-        let rgb: Vec<u8> = pixels.data().chunks_exact(4).flat_map(|pixel| [pixel[0], pixel[1], pixel[2]]).collect();
+        let rgb: Vec<u8> = pixels
+            .data()
+            .chunks_exact(4)
+            .flat_map(|pixel| [pixel[0], pixel[1], pixel[2]])
+            .collect();
         let mut file = Vec::new();
         let mut encoder = png::Encoder::new(&mut file, self.width, self.height);
         encoder.set_color(png::ColorType::Rgb);
@@ -66,9 +72,13 @@ impl Sheet {
     /// behind then.
     pub fn save(&self, png: &Path) -> Result<(), FigureError> {
         let pixels = self.png()?;
-        let files = [(png.to_path_buf(), pixels.as_slice()), (png.with_extension("svg"), self.svg.as_bytes())];
+        let files = [
+            (png.to_path_buf(), pixels.as_slice()),
+            (png.with_extension("svg"), self.svg.as_bytes()),
+        ];
         for (path, bytes) in files {
-            whole_file::write(&path, bytes).map_err(|source| FigureError::Write { path, source })?;
+            whole_file::write(&path, bytes)
+                .map_err(|source| FigureError::Write { path, source })?;
         }
         Ok(())
     }

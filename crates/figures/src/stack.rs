@@ -52,7 +52,12 @@ pub fn draw(data: &StackFigure<'_>) -> Result<Sheet, FigureError> {
             let what = format!("{} of {name}", panel.name);
             CHECK.finite(&what, curve)?;
             if curve.len() > data.t.len() {
-                return Err(FigureError::Length { figure: CHECK.0, what, found: curve.len(), wanted: data.t.len() });
+                return Err(FigureError::Length {
+                    figure: CHECK.0,
+                    what,
+                    found: curve.len(),
+                    wanted: data.t.len(),
+                });
             }
         }
     }
@@ -82,17 +87,25 @@ fn one(
     (x, frame, last, ending): (Scale, PanelFrame, bool, Pen),
 ) {
     let all = quantity.curves.iter().flat_map(|curve| curve.iter().copied());
-    let (low, high) = all.fold((0.0_f64, 0.0_f64), |(low, high), value| (low.min(value), high.max(value)));
+    let (low, high) =
+        all.fold((0.0_f64, 0.0_f64), |(low, high), value| (low.min(value), high.max(value)));
     let size = high.max(-low);
     let (unit, letter) = if size > 0.0 { prefix(size) } else { (1.0, "") };
     let room = (0.06 * (high - low) / unit).max(f64::MIN_POSITIVE);
-    let y = if size > 0.0 { Scale::linear(low / unit - room, high / unit + room) } else { Scale::linear(-1.0, 1.0) };
+    let y = if size > 0.0 {
+        Scale::linear(low / unit - room, high / unit + room)
+    } else {
+        Scale::linear(-1.0, 1.0)
+    };
     let panel = Panel { frame, x, y };
     let label = format!("{} [{letter}{}]", quantity.name, quantity.unit);
     panel.axes(canvas, last.then_some("time [s]"), &label, 110.0);
     panel.level(canvas, 0.0, Pen::new(style::AXIS, 1.5));
-    let scaled: Vec<Vec<f64>> =
-        quantity.curves.iter().map(|curve| curve.iter().map(|value| value / unit).collect()).collect();
+    let scaled: Vec<Vec<f64>> = quantity
+        .curves
+        .iter()
+        .map(|curve| curve.iter().map(|value| value / unit).collect())
+        .collect();
     let curves: Vec<(&str, &[f64], Pen)> = data
         .names
         .iter()
@@ -129,7 +142,13 @@ mod tests {
             StackQuantity { name: "base shear", unit: "N", curves: &curves },
             StackQuantity { name: "moment", unit: "N m", curves: &curves },
         ];
-        let stack = StackFigure { title: "Forces", t: &t, names: &["one", "two"], panels: &panels, event: None };
+        let stack = StackFigure {
+            title: "Forces",
+            t: &t,
+            names: &["one", "two"],
+            panels: &panels,
+            event: None,
+        };
         let sheet = draw(&stack).unwrap();
         assert_eq!(sheet.plots.len(), 2);
         assert!(sheet.svg.contains("base shear") && sheet.svg.contains("kN"));

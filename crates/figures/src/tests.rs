@@ -37,11 +37,20 @@ fn every_figure_has_its_size_and_ink_on_white() {
         let share = white / picture.pixels().len() as f64;
         assert!((0.5..0.97).contains(&share), "{name}: {share} of the picture is white");
         // The first series' colour is there, so curves were drawn and not only axes.
-        let curve = if matches!(name, "candidates" | "contact" | "energy") { [0, 114, 178] } else { [213, 94, 0] };
+        let curve = if matches!(name, "candidates" | "contact" | "energy") {
+            [0, 114, 178]
+        } else {
+            [213, 94, 0]
+        };
         let drawn = picture.pixels().filter(|pixel| pixel.0 == curve).count();
         assert!(drawn > 500, "{name}: {drawn} pixels of its curve");
-        let edge = picture.enumerate_pixels().filter(|(x, y, _)| *x < 3 || *y < 3 || *x >= 1597 || *y >= height - 3);
-        assert!(edge.into_iter().all(|(_, _, pixel)| pixel.0 == [255; 3]), "{name}: something is cut at the edge");
+        let edge = picture
+            .enumerate_pixels()
+            .filter(|(x, y, _)| *x < 3 || *y < 3 || *x >= 1597 || *y >= height - 3);
+        assert!(
+            edge.into_iter().all(|(_, _, pixel)| pixel.0 == [255; 3]),
+            "{name}: something is cut at the edge"
+        );
     }
 }
 
@@ -54,7 +63,11 @@ fn the_same_numbers_give_the_same_bytes_on_any_thread() {
                 let path = folder.path().join(format!("{name}{turn}.png"));
                 scope.spawn(move || {
                     draw().unwrap().save(&path).unwrap();
-                    [std::fs::read(&path).unwrap(), std::fs::read(path.with_extension("svg")).unwrap()].concat()
+                    [
+                        std::fs::read(&path).unwrap(),
+                        std::fs::read(path.with_extension("svg")).unwrap(),
+                    ]
+                    .concat()
                 })
             });
             running.into_iter().map(|thread| thread.join().unwrap()).collect()
@@ -67,7 +80,8 @@ fn the_same_numbers_give_the_same_bytes_on_any_thread() {
 fn a_missing_folder_is_an_error_and_leaves_nothing() {
     let folder = tempfile::tempdir().unwrap();
     for (_, draw) in FIGURES {
-        let error = draw().unwrap().save(&folder.path().join("missing").join("figure.png")).unwrap_err();
+        let error =
+            draw().unwrap().save(&folder.path().join("missing").join("figure.png")).unwrap_err();
         assert!(matches!(error, FigureError::Write { .. }));
         assert_eq!(error.to_string().lines().count(), 1);
     }
@@ -77,8 +91,20 @@ fn a_missing_folder_is_an_error_and_leaves_nothing() {
 #[test]
 fn empty_or_unequal_or_not_finite_numbers_are_errors() {
     let t = [0.0, 1.0, 2.0];
-    let good = history::Trace { label: "Housner", u: &[0.0, 1.0, 0.5], v: &[0.0, 0.1, 0.0], impacts: &[], end: None };
-    let with = |t, reference| history::HistoryFigure { title: "", t, reference, others: &[], differences: false };
+    let good = history::Trace {
+        label: "Housner",
+        u: &[0.0, 1.0, 0.5],
+        v: &[0.0, 0.1, 0.0],
+        impacts: &[],
+        end: None,
+    };
+    let with = |t, reference| history::HistoryFigure {
+        title: "",
+        t,
+        reference,
+        others: &[],
+        differences: false,
+    };
     let told = |data: &history::HistoryFigure<'_>| history::draw(data).unwrap_err().to_string();
     assert_eq!(
         told(&with(&t, history::Trace { u: &[0.0, f64::NAN, 0.5], ..good })),
@@ -88,7 +114,10 @@ fn empty_or_unequal_or_not_finite_numbers_are_errors() {
         told(&with(&t, history::Trace { v: &[0.0], ..good })),
         "figure history: v of Housner has 1 values where 3 are wanted; give slices of one length"
     );
-    assert_eq!(told(&with(&[], good)), "figure history: t is empty; give at least 2 values or leave the figure out");
+    assert_eq!(
+        told(&with(&[], good)),
+        "figure history: t is empty; give at least 2 values or leave the figure out"
+    );
     let empty: [Result<Sheet, FigureError>; 6] = [
         arr::draw(&arr::ResponseFigure { title: "", target: &[], curves: &[] }),
         candidates::draw(&candidates::CandidatesFigure {
@@ -114,13 +143,23 @@ fn empty_or_unequal_or_not_finite_numbers_are_errors() {
             ks_distance: 0.0,
             well_conditioned: 10.0,
         }),
-        precision::draw(&[precision::PrecisionFigure { title: "", error_label: "", time_label: "", series: &[] }]),
+        precision::draw(&[precision::PrecisionFigure {
+            title: "",
+            error_label: "",
+            time_label: "",
+            series: &[],
+        }]),
     ];
     for result in empty {
         assert!(matches!(result, Err(FigureError::Empty { .. })));
     }
     let points = precision::ToolSeries { label: "tool", points: &[(1e-3, 0.0)] };
-    let data = precision::PrecisionFigure { title: "", error_label: "", time_label: "", series: &[points] };
+    let data = precision::PrecisionFigure {
+        title: "",
+        error_label: "",
+        time_label: "",
+        series: &[points],
+    };
     assert!(matches!(precision::draw(&[data]), Err(FigureError::NotFinite { index: 1, .. })));
 }
 
@@ -129,7 +168,13 @@ fn empty_or_unequal_or_not_finite_numbers_are_errors() {
 fn the_least_data_still_makes_a_picture() {
     let (t, still) = ([0.0, 1.0], [0.0, 0.0]);
     let trace = history::Trace { label: "Housner", u: &still, v: &still, impacts: &[], end: None };
-    let data = history::HistoryFigure { title: "", t: &t, reference: trace, others: &[trace], differences: true };
+    let data = history::HistoryFigure {
+        title: "",
+        t: &t,
+        reference: trace,
+        others: &[trace],
+        differences: true,
+    };
     history::draw(&data).unwrap();
     let data = contact::ContactFigure {
         title: "",
@@ -152,8 +197,12 @@ fn the_least_data_still_makes_a_picture() {
         end: None,
     };
     energy::draw(&data).unwrap();
-    let one =
-        candidates::CandidateMark { vertical_hz: 20.0, horizontal_hz: 30.0, error: f64::INFINITY, abandoned: false };
+    let one = candidates::CandidateMark {
+        vertical_hz: 20.0,
+        horizontal_hz: 30.0,
+        error: f64::INFINITY,
+        abandoned: false,
+    };
     let data = candidates::CandidatesFigure {
         title: "",
         error_label: "",
@@ -170,7 +219,12 @@ fn the_least_data_still_makes_a_picture() {
         sensitivity: f64::INFINITY,
         nrmse: 0.0,
     };
-    let data = validation::ValidationFigure { title: "", rows: &[row], ks_distance: 1.0, well_conditioned: 10.0 };
+    let data = validation::ValidationFigure {
+        title: "",
+        rows: &[row],
+        ks_distance: 1.0,
+        well_conditioned: 10.0,
+    };
     validation::draw(&data).unwrap();
     let series = front::DesignSeries { label: "", omega_n_hz: &[160.0], error: &[0.0] };
     front::draw(&front_of(&[series])).unwrap();

@@ -52,7 +52,8 @@ pub struct ValidationFigure<'a> {
 /// [`FigureError`] when there is no row, for a NaN or a negative peak.
 pub fn draw(data: &ValidationFigure<'_>) -> Result<Sheet, FigureError> {
     CHECK.least("rows", data.rows.len(), 1)?;
-    let column = |of: fn(&ValidationPoint) -> f64| -> Vec<f64> { data.rows.iter().map(of).collect() };
+    let column =
+        |of: fn(&ValidationPoint) -> f64| -> Vec<f64> { data.rows.iter().map(of).collect() };
     for (what, values) in [
         ("peak_housner", column(|row| row.peak_housner)),
         ("peak_fem", column(|row| row.peak_fem)),
@@ -72,9 +73,16 @@ pub fn draw(data: &ValidationFigure<'_>) -> Result<Sheet, FigureError> {
     if data.rows.iter().any(|row| row.overturned_housner || row.overturned_fem) {
         entries.push(LegendEntry::mark("toppled in one or both", toppled()));
     }
-    let lost = data.rows.iter().filter(|row| !(row.nrmse.is_finite() && row.sensitivity.is_finite())).count();
+    let lost = data
+        .rows
+        .iter()
+        .filter(|row| !(row.nrmse.is_finite() && row.sensitivity.is_finite()))
+        .count();
     if lost > 0 {
-        entries.push(LegendEntry::mark(format!("error or sensitivity not finite ({lost}), at the edge"), infinite()));
+        entries.push(LegendEntry::mark(
+            format!("error or sensitivity not finite ({lost}), at the edge"),
+            infinite(),
+        ));
     }
     let (left, right) = (150.0, WIDTH as f64 - 40.0);
     let top = legend::header(&mut canvas, data.title, &entries, left, right);
@@ -82,7 +90,11 @@ pub fn draw(data: &ValidationFigure<'_>) -> Result<Sheet, FigureError> {
     let bottom = top + 590.0;
     distributions(&mut canvas, data, PanelFrame { left, top, right: middle - 40.0, bottom });
     peaks(&mut canvas, data, PanelFrame { left: middle + 115.0, top, right, bottom });
-    errors(&mut canvas, data, PanelFrame { left, top: bottom + 130.0, right, bottom: bottom + 660.0 });
+    errors(
+        &mut canvas,
+        data,
+        PanelFrame { left, top: bottom + 130.0, right, bottom: bottom + 660.0 },
+    );
     canvas.finish(bottom + 760.0)
 }
 
@@ -120,7 +132,9 @@ fn distributions(canvas: &mut Canvas, data: &ValidationFigure<'_>, frame: PanelF
         y.push(1.0);
         panel.curve(canvas, &x, &y, pen);
     }
-    let below = |sorted: &[f64], x: f64| sorted.partition_point(|peak| *peak <= x) as f64 / sorted.len() as f64;
+    let below = |sorted: &[f64], x: f64| {
+        sorted.partition_point(|peak| *peak <= x) as f64 / sorted.len() as f64
+    };
     let mut widest = (0.0, 0.0, 0.0);
     for &x in rigid.iter().chain(&fem) {
         let (a, b) = (below(&rigid, x), below(&fem, x));
@@ -161,8 +175,12 @@ fn peaks(canvas: &mut Canvas, data: &ValidationFigure<'_>, frame: PanelFrame) {
 /// Error against the sensitivity of Housner's own answer: where it is large, no model can follow
 /// one to one.
 fn errors(canvas: &mut Canvas, data: &ValidationFigure<'_>, frame: PanelFrame) {
-    let x = Scale::log_around(data.rows.iter().map(|row| row.sensitivity).chain([data.well_conditioned]), 10.0);
-    let panel = Panel { frame, x, y: Scale::log_around(data.rows.iter().map(|row| row.nrmse), 10.0) };
+    let x = Scale::log_around(
+        data.rows.iter().map(|row| row.sensitivity).chain([data.well_conditioned]),
+        10.0,
+    );
+    let panel =
+        Panel { frame, x, y: Scale::log_around(data.rows.iter().map(|row| row.nrmse), 10.0) };
     panel.axes(canvas, Some("sensitivity of Housner's history"), "NRMSE of u", 110.0);
     panel.upright(canvas, data.well_conditioned, Pen::new(GREY, 2.2).dashed());
     // Well conditioned first, so that the rarer toppled ones stay visible on top.

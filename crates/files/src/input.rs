@@ -47,7 +47,8 @@ pub fn bounded(path: &Path) -> io::Result<Vec<u8>> {
 /// # Errors
 /// It is none, is larger, is no UTF-8, or cannot be read.
 pub fn text(path: &Path) -> io::Result<String> {
-    String::from_utf8(bounded(path)?).map_err(|_| io::Error::new(io::ErrorKind::InvalidData, "it is not UTF-8 text"))
+    String::from_utf8(bounded(path)?)
+        .map_err(|_| io::Error::new(io::ErrorKind::InvalidData, "it is not UTF-8 text"))
 }
 
 #[cfg(test)]

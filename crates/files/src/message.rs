@@ -30,13 +30,15 @@ fn spelt_out(text: &str, unprintable: impl Fn(char) -> bool) -> Cow<'_, str> {
     if !text.contains(&unprintable) {
         return Cow::Borrowed(text);
     }
-    let spell = |c: char| if unprintable(c) { c.escape_default().to_string() } else { c.to_string() };
+    let spell =
+        |c: char| if unprintable(c) { c.escape_default().to_string() } else { c.to_string() };
     Cow::Owned(text.chars().map(spell).collect())
 }
 
 /// The text without what [`printable`] spells out, cut if it is long.
 pub fn one_line(text: &str) -> String {
-    let mut short: String = text.chars().map(|c| if is_unprintable(c) { '?' } else { c }).take(LONGEST).collect();
+    let mut short: String =
+        text.chars().map(|c| if is_unprintable(c) { '?' } else { c }).take(LONGEST).collect();
     if text.chars().nth(LONGEST).is_some() {
         short.push_str("...");
     }
@@ -65,14 +67,19 @@ pub fn shortened(text: &str, most: usize) -> String {
         return text.to_string();
     }
     let (head, tail) = ((most - 3) / 2, most - 3 - (most - 3) / 2);
-    letters[..head].iter().collect::<String>() + "..." + &letters[letters.len() - tail..].iter().collect::<String>()
+    letters[..head].iter().collect::<String>()
+        + "..."
+        + &letters[letters.len() - tail..].iter().collect::<String>()
 }
 
 /// 10 with a raised exponent.
 pub fn power_of_ten(exponent: i32) -> String {
     const DIGITS: [char; 10] = ['⁰', '¹', '²', '³', '⁴', '⁵', '⁶', '⁷', '⁸', '⁹'];
-    let raised: String =
-        exponent.to_string().chars().map(|c| c.to_digit(10).map_or('⁻', |digit| DIGITS[digit as usize])).collect();
+    let raised: String = exponent
+        .to_string()
+        .chars()
+        .map(|c| c.to_digit(10).map_or('⁻', |digit| DIGITS[digit as usize]))
+        .collect();
     format!("10{raised}")
 }
 
@@ -114,7 +121,8 @@ pub fn quantity(x: f64, unit: &str) -> String {
     }
     // rounding may carry: 999.97 N is 1 kN
     let rounded: f64 = format!("{x:.3e}").parse().unwrap_or(x);
-    let (factor, prefix) = PREFIXES.into_iter().find(|(factor, _)| rounded.abs() >= *factor).unwrap_or((least, "n"));
+    let (factor, prefix) =
+        PREFIXES.into_iter().find(|(factor, _)| rounded.abs() >= *factor).unwrap_or((least, "n"));
     format!("{} {prefix}{unit}", significant(x / factor, 4))
 }
 
@@ -146,7 +154,15 @@ mod tests {
         let all = [0.0, 4e-6, -2.34e-4, 0.0457, 0.96, 1.0, 12.0].map(percent);
         assert_eq!(
             all,
-            ["below 0.001 %", "below 0.001 %", "-0.023 %", "4.57 %", "96.0 %", "100 %", "more than 1000 %"]
+            [
+                "below 0.001 %",
+                "below 0.001 %",
+                "-0.023 %",
+                "4.57 %",
+                "96.0 %",
+                "100 %",
+                "more than 1000 %"
+            ]
         );
     }
 
@@ -155,7 +171,10 @@ mod tests {
         assert_eq!(printable("motion.at2"), "motion.at2");
         assert_eq!(printable("Kōbe ü 山"), "Kōbe ü 山");
         let hostile = "a\u{1b}[2Jb\u{7}c\nd\u{202e}e\u{2066}f\u{200f}g\u{feff}h\u{9b}";
-        assert_eq!(printable(hostile), "a\\u{1b}[2Jb\\u{7}c\\nd\\u{202e}e\\u{2066}f\\u{200f}g\\u{feff}h\\u{9b}");
+        assert_eq!(
+            printable(hostile),
+            "a\\u{1b}[2Jb\\u{7}c\\nd\\u{202e}e\\u{2066}f\\u{200f}g\\u{feff}h\\u{9b}"
+        );
         assert_eq!(printable_lines("a\n\tb\r"), "a\n\tb\\r");
         assert_eq!(one_line("a\u{202e}b"), "a?b");
     }

@@ -96,7 +96,8 @@ mod tests {
     #[test]
     fn what_has_no_owner_goes_and_what_is_being_written_stays() {
         let dir = tempfile::tempdir().unwrap();
-        let [orphan, owned] = ["orphan", "owned"].map(|name| dir.path().join(format!("{UNFINISHED}{name}")));
+        let [orphan, owned] =
+            ["orphan", "owned"].map(|name| dir.path().join(format!("{UNFINISHED}{name}")));
         fs::write(&orphan, "half").unwrap();
         let writing = File::create(&owned).unwrap();
         writing.lock().unwrap();
@@ -115,7 +116,10 @@ mod tests {
             let writers: Vec<_> = (0..4)
                 .map(|i| {
                     let folder = dir.path();
-                    scope.spawn(move || (0..100).for_each(|k| write(&folder.join(format!("{i}-{k}")), b"x").unwrap()))
+                    scope.spawn(move || {
+                        (0..100)
+                            .for_each(|k| write(&folder.join(format!("{i}-{k}")), b"x").unwrap())
+                    })
                 })
                 .collect();
             while writers.iter().any(|writer| !writer.is_finished()) {

@@ -19,8 +19,9 @@ use std::{
 
 use dynamics::spring::{Chain, Springs};
 use fixed_steps::{
-    ConvergenceTest, FixedStepAnalysis, FixedStepBody, FixedStepDesign, FixedStepFrame, FixedStepModel,
-    FixedStepOutcome, FixedStepSprings, Iteration, StepSettings, measured::WellConditioned,
+    ConvergenceTest, FixedStepAnalysis, FixedStepBody, FixedStepDesign, FixedStepFrame,
+    FixedStepModel, FixedStepOutcome, FixedStepSprings, Iteration, StepSettings,
+    measured::WellConditioned,
 };
 use frames::{
     beam::BeamSection,
@@ -66,26 +67,41 @@ fn main() -> Result<(), Box<dyn Error>> {
 }
 
 fn answer(asked: &Asked) -> Result<Value, Box<dyn Error>> {
-    let body = asked.body.map(|[height, half_width, mass, inertia]| Body { mass, half_width, height, inertia });
+    let body = asked.body.map(|[height, half_width, mass, inertia]| Body {
+        mass,
+        half_width,
+        height,
+        inertia,
+    });
     match (&body, asked) {
         (Some(body), Asked { motions: Some(count), .. }) => {
             let (p, alpha) = (body.p_squared().sqrt(), body.alpha());
             let all = synthetic::suite(*count, asked.seed.unwrap_or(1), p, alpha);
-            Ok(all.map(|record| json!({"name": record.name, "dt": record.dt, "accel": record.accel})).collect())
+            Ok(all
+                .map(|record| json!({"name": record.name, "dt": record.dt, "accel": record.accel}))
+                .collect())
         }
         (Some(body), Asked { references: Some(count), .. }) => {
-            let all = WellConditioned::of_seed(body, asked.seed.unwrap_or(1), *count, 8 * count).motions;
-            Ok(all.into_iter().map(|motion| json!({"dt": motion.dt, "accel": motion.accel, "u": motion.u})).collect())
+            let all =
+                WellConditioned::of_seed(body, asked.seed.unwrap_or(1), *count, 8 * count).motions;
+            Ok(all
+                .into_iter()
+                .map(|motion| json!({"dt": motion.dt, "accel": motion.accel, "u": motion.u}))
+                .collect())
         }
         (Some(body), Asked { recipe: Some(integrator), step: Some(step), .. }) => {
             let (integrator, design) = (integrator.parse()?, FixedStepDesign::RECIPE);
             let springs = match asked.at_touches {
-                Some(substeps) => FixedStepSprings::refined(body, *step, integrator, &design, substeps)?,
+                Some(substeps) => {
+                    FixedStepSprings::refined(body, *step, integrator, &design, substeps)?
+                }
                 None => FixedStepSprings::of(body, *step, integrator)?,
             };
             let Springs { vertical, horizontal } = springs.chains();
             let unit = |c: Chain<f64>| [c.k1, c.k2, c.m2, c.c];
-            let ConvergenceTest::Increment(tolerance) = springs.iteration().test else { return Err("no test".into()) };
+            let ConvergenceTest::Increment(tolerance) = springs.iteration().test else {
+                return Err("no test".into());
+            };
             Ok(json!({
                 "vertical": unit(vertical), "horizontal": unit(horizontal), "inertia": springs.rotational_inertia(),
                 "tolerance": tolerance, "median": springs.expected().median,
@@ -98,12 +114,18 @@ fn answer(asked: &Asked) -> Result<Value, Box<dyn Error>> {
         (None, Asked { pier: Some(pier), .. }) => {
             let [mass, centre, top] = pier.footing;
             let [axial, bending, axial_damping, bending_damping] = pier.column;
-            let section = BeamSection { axial_damping, bending_damping, ..BeamSection::elastic(axial, bending) };
+            let section = BeamSection {
+                axial_damping,
+                bending_damping,
+                ..BeamSection::elastic(axial, bending)
+            };
             let footing = Footing::block(pier.width, mass, centre, top);
             let column = StraightMember { section, elements: 1 };
             let (mass, height) = (pier.mass, pier.height);
             let frame =
-                Cantilever { mass, inertia: None, height, footing, column, consistent: false }.layout().frame()?;
+                Cantilever { mass, inertia: None, height, footing, column, consistent: false }
+                    .layout()
+                    .frame()?;
             let units = vec![units(asked)?; frame.places().len()];
             let model = FixedStepFrame::new(&frame, &units)?;
             let settled = frame.displacement(1, &model.standing()?.0)[1];
@@ -118,7 +140,8 @@ fn answer(asked: &Asked) -> Result<Value, Box<dyn Error>> {
 
 fn units(asked: &Asked) -> Result<Springs<Chain<f64>>, Box<dyn Error>> {
     let chain = |[k1, k2, m2, c]: [f64; 4]| Chain { k1, k2, m2, c };
-    let (vertical, horizontal) = asked.vertical.zip(asked.horizontal).ok_or("give vertical and horizontal units")?;
+    let (vertical, horizontal) =
+        asked.vertical.zip(asked.horizontal).ok_or("give vertical and horizontal units")?;
     Ok(Springs { vertical: chain(vertical), horizontal: chain(horizontal) })
 }
 
@@ -127,11 +150,15 @@ fn history<M: FixedStepModel>(
     asked: &Asked,
     shown: impl Fn(&M::Vector) -> [f64; 3],
 ) -> Result<Value, Box<dyn Error>> {
-    let Asked { integrator: Some(integrator), step: Some(step), tolerance: Some(tolerance), .. } = asked else {
+    let Asked {
+        integrator: Some(integrator), step: Some(step), tolerance: Some(tolerance), ..
+    } = asked
+    else {
         return Err("give integrator, step and tolerance".into());
     };
     let (dt, accel) = asked.dt.zip(asked.accel.as_deref()).ok_or("give dt and accel")?;
-    let iteration = Iteration { constant: 0, newton: 30, test: ConvergenceTest::Increment(*tolerance) };
+    let iteration =
+        Iteration { constant: 0, newton: 30, test: ConvergenceTest::Increment(*tolerance) };
     let settings = StepSettings { iteration, ..StepSettings::new(integrator.parse()?, *step) };
     let at_touches = asked.at_touches.unwrap_or(1);
     let settings = settings.with_touches(at_touches);

@@ -188,7 +188,9 @@ impl<'a, M: FixedStepModel> FixedStepAnalysis<'a, M> {
         let mut iterates = Iterates::new(&motion.q);
         let mut shown = 0;
         let last = self.accel.len();
-        let count = ((last.saturating_sub(1)) as f64 * self.dt / self.settings.step - SAME).ceil().max(0.0) as usize;
+        let count = ((last.saturating_sub(1)) as f64 * self.dt / self.settings.step - SAME)
+            .ceil()
+            .max(0.0) as usize;
         if last > 0 && show(0, &motion.q).is_continue() {
             shown = 1;
         }
@@ -197,7 +199,8 @@ impl<'a, M: FixedStepModel> FixedStepAnalysis<'a, M> {
         for n in 0..count {
             let (begin, end) = (n as f64 * self.settings.step, (n + 1) as f64 * self.settings.step);
             previous.as_mut().copy_from_slice(motion.q.as_ref());
-            let held = self.one_step(begin, &mut pace, &mut motion, &mut feet, &mut iterates, &mut work);
+            let held =
+                self.one_step(begin, &mut pace, &mut motion, &mut feet, &mut iterates, &mut work);
             work.iterations = iterates.count;
             if let Err(gave_up) = held {
                 if self.model.is_falling(&motion.q) {
@@ -207,7 +210,12 @@ impl<'a, M: FixedStepModel> FixedStepAnalysis<'a, M> {
             }
             while shown < last && shown as f64 * self.dt <= end + SAME * self.settings.step {
                 let part = ((shown as f64 * self.dt - begin) / self.settings.step).min(1.0);
-                for (a, b) in iterates.change.as_mut().iter_mut().zip(previous.as_ref().iter().zip(motion.q.as_ref())) {
+                for (a, b) in iterates
+                    .change
+                    .as_mut()
+                    .iter_mut()
+                    .zip(previous.as_ref().iter().zip(motion.q.as_ref()))
+                {
                     *a = if part > 1.0 - SAME { *b.1 } else { b.0 + part * (b.1 - b.0) };
                 }
                 if show(shown, &iterates.change).is_break() {
@@ -229,7 +237,8 @@ impl<'a, M: FixedStepModel> FixedStepAnalysis<'a, M> {
             return step;
         }
         let mut near = pace.touched;
-        self.model.gaps(&motion.q, &motion.v, |d, rate| near |= (d > 0.0) != (d + rate * step > 0.0));
+        self.model
+            .gaps(&motion.q, &motion.v, |d, rate| near |= (d > 0.0) != (d + rate * step > 0.0));
         pace.touched = false;
         let longest = if near { step / at_touches as f64 } else { step };
         if near || pace.refined {
@@ -255,8 +264,11 @@ impl<'a, M: FixedStepModel> FixedStepAnalysis<'a, M> {
         while done < self.settings.step * (1.0 - SAME) {
             let this = pace.size.min(self.settings.step - done);
             // the same number each time, to the last digit
-            let this =
-                if (this - self.settings.step).abs() <= SAME * self.settings.step { self.settings.step } else { this };
+            let this = if (this - self.settings.step).abs() <= SAME * self.settings.step {
+                self.settings.step
+            } else {
+                this
+            };
             let step = motion.step(&self.settings.integrator, this);
             let ground = self.ground(begin + done + step.forces_at());
             if iterates.arrives(self.model, &self.settings.iteration, motion, &step, feet, ground) {
@@ -294,7 +306,8 @@ impl FixedStepAnalysis<'_, FixedStepBody> {
             ControlFlow::Continue(())
         });
         // a rigid body on springs always stands
-        let (outcome, work) = ended.unwrap_or((FixedStepOutcome::Finished, FixedStepWork::default()));
+        let (outcome, work) =
+            ended.unwrap_or((FixedStepOutcome::Finished, FixedStepWork::default()));
         FixedStepHistory { motion, outcome, work }
     }
 }

@@ -123,8 +123,13 @@ pub struct CondensedUnit {
 impl CondensedUnit {
     /// Of a unit whose k1 acts or does not.
     #[inline(always)]
-    pub fn new(chain: &Chain<f64>, acts: bool, weights: &crate::kinematics::TangentWeights) -> Self {
-        let own = weights.mass * chain.m2 + weights.damping * chain.c + weights.stiffness * chain.k2;
+    pub fn new(
+        chain: &Chain<f64>,
+        acts: bool,
+        weights: &crate::kinematics::TangentWeights,
+    ) -> Self {
+        let own =
+            weights.mass * chain.m2 + weights.damping * chain.c + weights.stiffness * chain.k2;
         let k = if acts { weights.stiffness * chain.k1 } else { 0.0 };
         let give = 1.0 / (own + k);
         Self { stiffness: k * own * give, share: k * give, give }

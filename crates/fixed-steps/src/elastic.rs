@@ -44,7 +44,10 @@ impl<'a> FixedStepFrame<'a> {
     ///
     /// # Errors
     /// There are not as many units as corners.
-    pub fn new(frame: &'a Frame, units: &'a [Springs<Chain<f64>>]) -> Result<Self, EquilibriumError> {
+    pub fn new(
+        frame: &'a Frame,
+        units: &'a [Springs<Chain<f64>>],
+    ) -> Result<Self, EquilibriumError> {
         let (given, needed) = (units.len(), frame.places().len());
         if given != needed {
             return Err(EquilibriumError::Mismatch { what: "springs", given, needed });
@@ -61,7 +64,12 @@ impl<'a> FixedStepFrame<'a> {
     /// follows.
     fn corners(&self) -> impl Iterator<Item = (usize, &PlaceOnNode, &Springs<Chain<f64>>)> {
         let n = self.n();
-        self.frame.places().iter().zip(self.units).enumerate().map(move |(i, (place, unit))| (n + 2 * i, place, unit))
+        self.frame
+            .places()
+            .iter()
+            .zip(self.units)
+            .enumerate()
+            .map(move |(i, (place, unit))| (n + 2 * i, place, unit))
     }
 }
 
@@ -71,7 +79,9 @@ impl FixedStepModel for FixedStepFrame<'_> {
     type Factor = FrameFactor;
 
     fn standing(&self) -> Result<(Vec<f64>, Vec<FixedFoot>), EquilibriumError> {
-        let support = |unit: &Springs<Chain<f64>>| Some([unit.horizontal.in_series(), unit.vertical.in_series()]);
+        let support = |unit: &Springs<Chain<f64>>| {
+            Some([unit.horizontal.in_series(), unit.vertical.in_series()])
+        };
         let supports: Vec<Support> = self.units.iter().map(support).collect();
         let mut q = self.frame.standing(&supports)?.as_slice().to_vec();
         for (place, unit) in self.frame.places().iter().zip(self.units) {
@@ -107,7 +117,13 @@ impl FixedStepModel for FixedStepFrame<'_> {
         }
     }
 
-    fn unbalance(&self, trial: &Trial<Vec<f64>>, feet: &Vec<FixedFoot>, ground: [f64; 2], out: &mut Vec<f64>) {
+    fn unbalance(
+        &self,
+        trial: &Trial<Vec<f64>>,
+        feet: &Vec<FixedFoot>,
+        ground: [f64; 2],
+        out: &mut Vec<f64>,
+    ) {
         let (Trial { q, v, a }, n) = (trial, self.n());
         let mut inertia = vec![0.0; n];
         self.frame.momentum(&a[..n], &mut inertia);
@@ -119,17 +135,25 @@ impl FixedStepModel for FixedStepFrame<'_> {
             place.push(&reach, force, out);
             for (k, chain) in [&unit.horizontal, &unit.vertical].into_iter().enumerate() {
                 let i = at + k;
-                out[i] = -(force[k] + chain.m2 * (ground[k] + a[i]) + chain.k2 * q[i] + chain.c * v[i]);
+                out[i] =
+                    -(force[k] + chain.m2 * (ground[k] + a[i]) + chain.k2 * q[i] + chain.c * v[i]);
             }
         }
     }
 
-    fn factor(&self, trial: &Trial<Vec<f64>>, feet: &Vec<FixedFoot>, weights: &TangentWeights) -> Option<FrameFactor> {
+    fn factor(
+        &self,
+        trial: &Trial<Vec<f64>>,
+        feet: &Vec<FixedFoot>,
+        weights: &TangentWeights,
+    ) -> Option<FrameFactor> {
         let (Trial { q, v, .. }, n) = (trial, self.n());
         let (mut k, mut c) = (DMatrix::zeros(n, n), DMatrix::zeros(n, n));
         self.frame.slopes(&q[..n], &v[..n], &mut k, &mut c);
-        let mut matrix = self.frame.mass_matrix() * weights.mass + c * weights.damping + k * weights.stiffness;
-        let (mut units, mut slopes) = (Vec::with_capacity(feet.len()), Vec::with_capacity(feet.len()));
+        let mut matrix =
+            self.frame.mass_matrix() * weights.mass + c * weights.damping + k * weights.stiffness;
+        let (mut units, mut slopes) =
+            (Vec::with_capacity(feet.len()), Vec::with_capacity(feet.len()));
         for ((at, place, unit), foot) in self.corners().zip(feet) {
             let reach = place.reach(q);
             let both = [
@@ -138,7 +162,8 @@ impl FixedStepModel for FixedStepFrame<'_> {
             ];
             place.rows(reach.slope, |i, gi| {
                 place.rows(reach.slope, |j, gj| {
-                    matrix[(i, j)] += both[0].stiffness * gi[0] * gj[0] + both[1].stiffness * gi[1] * gj[1];
+                    matrix[(i, j)] +=
+                        both[0].stiffness * gi[0] * gj[0] + both[1].stiffness * gi[1] * gj[1];
                 });
             });
             if let Some(th) = place.rotation() {
@@ -154,13 +179,17 @@ impl FixedStepModel for FixedStepFrame<'_> {
 
     fn solve(&self, factor: &FrameFactor, r: &mut Vec<f64>) {
         let n = self.n();
-        for ((at, place, _), ([h, v], slope)) in self.corners().zip(factor.units.iter().zip(&factor.slopes)) {
+        for ((at, place, _), ([h, v], slope)) in
+            self.corners().zip(factor.units.iter().zip(&factor.slopes))
+        {
             let [fx, fz] = [h.share * r[at], v.share * r[at + 1]];
             place.rows(*slope, |i, g| r[i] += fx * g[0] + fz * g[1]);
         }
         // invertible, or `factor` had given none
         let _ = factor.lu.solve_mut(&mut DVectorViewMut::from_slice(&mut r[..n], n));
-        for ((at, place, _), ([h, v], slope)) in self.corners().zip(factor.units.iter().zip(&factor.slopes)) {
+        for ((at, place, _), ([h, v], slope)) in
+            self.corners().zip(factor.units.iter().zip(&factor.slopes))
+        {
             let mut moved = [0.0; 2];
             place.rows(*slope, |i, g| moved = [moved[0] + r[i] * g[0], moved[1] + r[i] * g[1]]);
             r[at] = h.give * r[at] + h.share * moved[0];

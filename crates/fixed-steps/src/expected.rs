@@ -47,12 +47,18 @@ pub struct ExpectedError {
 
 impl ExpectedError {
     /// Of a body on these units, stepped by dt (s).
-    pub fn of(body: &Body<f64>, springs: &Springs<Chain<f64>>, dt: f64, integrator: &Integrator) -> Self {
+    pub fn of(
+        body: &Body<f64>,
+        springs: &Springs<Chain<f64>>,
+        dt: f64,
+        integrator: &Integrator,
+    ) -> Self {
         let (p, alpha) = (body.p_squared().sqrt(), body.alpha());
         let omega_e = (springs.vertical.in_series() / body.mass).sqrt();
         let floor = FLOOR * p * dt;
         let stance = STANCE * (p / (alpha * omega_e)).powi(2);
-        let rebound = REBOUND * alpha.powi(3) * rebound(body, &springs.vertical, dt, integrator).powi(2);
+        let rebound =
+            REBOUND * alpha.powi(3) * rebound(body, &springs.vertical, dt, integrator).powi(2);
         let median = floor.hypot(stance).hypot(rebound);
         let spread = SPREAD[usize::from(!integrator.ends_stiff_modes())];
         Self { floor, stance, rebound, median, ninety: spread * median }
@@ -80,7 +86,11 @@ mod tests {
     #[test]
     fn the_scatter_of_a_landing() {
         for (phi, expected) in [(0.05, 1.85), (0.3, 0.81), (0.8, 0.59)] {
-            assert_relative_eq!(landing_scatter(0.5, 2e-3, phi) / 1e-3, expected, max_relative = 5e-3);
+            assert_relative_eq!(
+                landing_scatter(0.5, 2e-3, phi) / 1e-3,
+                expected,
+                max_relative = 5e-3
+            );
         }
     }
 

@@ -54,13 +54,17 @@ pub enum Integrator {
 #[derive(Clone, Copy, Debug, PartialEq, Error)]
 pub enum IntegratorError {
     /// HHT outside the range in which it is stable.
-    #[error("HHT's alpha is {alpha}; give one from 0 to -0.5: -1/3 damps most (OpenSees' own number is 1 + alpha)")]
+    #[error(
+        "HHT's alpha is {alpha}; give one from 0 to -0.5: -1/3 damps most (OpenSees' own number is 1 + alpha)"
+    )]
     Alpha {
         /// As given.
         alpha: f64,
     },
     /// Newmark's method would be unstable.
-    #[error("Newmark's gamma is {gamma}, beta {beta}; it is stable at any step for gamma >= 1/2, beta >= gamma/2")]
+    #[error(
+        "Newmark's gamma is {gamma}, beta {beta}; it is stable at any step for gamma >= 1/2, beta >= gamma/2"
+    )]
     Newmark {
         /// As given.
         gamma: f64,
@@ -92,7 +96,8 @@ pub(crate) enum StepFormula {
 }
 
 impl StepFormula {
-    const TRAPEZOIDAL: Self = Self::Newmark { gamma: 0.5, beta: 0.25, forces_at: 1.0, inertia_at: 1.0 };
+    const TRAPEZOIDAL: Self =
+        Self::Newmark { gamma: 0.5, beta: 0.25, forces_at: 1.0, inertia_at: 1.0 };
 }
 
 impl Integrator {
@@ -108,7 +113,11 @@ impl Integrator {
     /// of the step's end. Newmark's formulas with w = 1/(1 + rho) and m = 1.
     pub fn opensees_generalized_alpha(rho_inf: f64) -> Self {
         let w = 1.0 / (1.0 + rho_inf);
-        if w == 1.0 { Self::Newmark { gamma: 1.5, beta: 1.0 } } else { Self::Hht { alpha: w - 1.0 } }
+        if w == 1.0 {
+            Self::Newmark { gamma: 1.5, beta: 1.0 }
+        } else {
+            Self::Hht { alpha: w - 1.0 }
+        }
     }
 
     /// The integrator itself if it is stable at any step.
@@ -118,8 +127,12 @@ impl Integrator {
     /// is so for linear modes, with less damping again.
     pub fn checked(self) -> Result<Self, IntegratorError> {
         match self {
-            Self::Hht { alpha } if !(-0.5..=0.0).contains(&alpha) => Err(IntegratorError::Alpha { alpha }),
-            Self::Newmark { gamma, beta } if !(gamma >= 0.5 && beta >= 0.5 * gamma && beta.is_finite()) => {
+            Self::Hht { alpha } if !(-0.5..=0.0).contains(&alpha) => {
+                Err(IntegratorError::Alpha { alpha })
+            }
+            Self::Newmark { gamma, beta }
+                if !(gamma >= 0.5 && beta >= 0.5 * gamma && beta.is_finite()) =>
+            {
                 Err(IntegratorError::Newmark { gamma, beta })
             }
             Self::GeneralizedAlpha { rho_inf } if !(0.0..=1.0).contains(&rho_inf) => {
@@ -132,7 +145,9 @@ impl Integrator {
     /// The formulas of a step that follows `equal` steps of the same size without a break.
     pub(crate) fn formula(&self, equal: usize) -> StepFormula {
         match *self {
-            Self::Newmark { gamma, beta } => StepFormula::Newmark { gamma, beta, forces_at: 1.0, inertia_at: 1.0 },
+            Self::Newmark { gamma, beta } => {
+                StepFormula::Newmark { gamma, beta, forces_at: 1.0, inertia_at: 1.0 }
+            }
             Self::Hht { alpha } => StepFormula::Newmark {
                 gamma: 0.5 - alpha,
                 beta: 0.25 * (1.0 - alpha) * (1.0 - alpha),
@@ -178,7 +193,8 @@ impl Integrator {
 /// Largest eigenvalue of (v dt, a dt^2) over a step that ends at q = 0, as q does in a mode of
 /// infinite stiffness.
 fn newmark_radius(gamma: f64, beta: f64) -> f64 {
-    let [[a, b], [c, d]] = [[1.0 - gamma / beta, 1.0 - 0.5 * gamma / beta], [-1.0 / beta, 1.0 - 0.5 / beta]];
+    let [[a, b], [c, d]] =
+        [[1.0 - gamma / beta, 1.0 - 0.5 * gamma / beta], [-1.0 / beta, 1.0 - 0.5 / beta]];
     let (half_trace, determinant) = (0.5 * (a + d), a * d - b * c);
     let square = half_trace * half_trace - determinant;
     if square >= 0.0 { half_trace.abs() + square.sqrt() } else { determinant.sqrt() }
@@ -193,7 +209,11 @@ mod tests {
     #[test]
     fn stiff_modes_are_damped_as_the_papers_say() {
         assert_eq!(Integrator::AVERAGE_ACCELERATION.stiff_radius(), 1.0);
-        assert!((Integrator::HHT_MOST.stiff_radius() - 0.5).abs() < 1e-7, "{}", Integrator::HHT_MOST.stiff_radius());
+        assert!(
+            (Integrator::HHT_MOST.stiff_radius() - 0.5).abs() < 1e-7,
+            "{}",
+            Integrator::HHT_MOST.stiff_radius()
+        );
         for alpha in [-0.05, -0.1, -0.2, -0.3] {
             // (1 + alpha)/(1 - alpha), a double root
             let radius = Integrator::Hht { alpha }.stiff_radius();
@@ -205,7 +225,10 @@ mod tests {
         // Newmark (1.5, 1), what OpenSees' GeneralizedAlpha of rho_inf 0 is: both eigenvalues are 0
         let same = Integrator::opensees_generalized_alpha(0.0);
         assert!(same.stiff_radius() < 1e-7 && Integrator::Trbdf2.ends_stiff_modes());
-        assert_eq!(Integrator::opensees_generalized_alpha(0.5), Integrator::Hht { alpha: 1.0 / 1.5 - 1.0 });
+        assert_eq!(
+            Integrator::opensees_generalized_alpha(0.5),
+            Integrator::Hht { alpha: 1.0 / 1.5 - 1.0 }
+        );
     }
 
     #[test]

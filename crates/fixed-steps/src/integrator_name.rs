@@ -41,7 +41,8 @@ impl FromStr for Integrator {
         let lower = name.to_ascii_lowercase();
         let mut parts = lower.split(':');
         let head = parts.next().unwrap_or_default();
-        let numbers: Vec<f64> = parts.map(str::parse).collect::<Result<_, _>>().map_err(|_| unknown())?;
+        let numbers: Vec<f64> =
+            parts.map(str::parse).collect::<Result<_, _>>().map_err(|_| unknown())?;
         let integrator = match (head, numbers.as_slice()) {
             ("newmark", []) => Self::AVERAGE_ACCELERATION,
             ("newmark", &[gamma, beta]) => Self::Newmark { gamma, beta },

@@ -40,7 +40,8 @@ impl Iteration {
     }
 
     /// As scripts for OpenSees have it: Newton's, 20 at most, to a change of 1e-8 m.
-    pub const SCRIPT: Self = Self { constant: 0, newton: 20, test: ConvergenceTest::Increment(1e-8) };
+    pub const SCRIPT: Self =
+        Self { constant: 0, newton: 20, test: ConvergenceTest::Increment(1e-8) };
 
     /// SAP2000's numbers: 10 with constant stiffness, then 40 of Newton's; to an unbalance of 1e-4
     /// of this force, the weight for instance (N).

@@ -136,7 +136,11 @@ impl<V: Clone + AsRef<[f64]> + AsMut<[f64]>> StepKinematics<V> {
     #[inline]
     pub(crate) fn weights(&self) -> TangentWeights {
         let [of_v, of_a] = self.rates;
-        TangentWeights { mass: self.inertia_at * of_a, damping: self.forces_at * of_v, stiffness: self.forces_at }
+        TangentWeights {
+            mass: self.inertia_at * of_a,
+            damping: self.forces_at * of_v,
+            stiffness: self.forces_at,
+        }
     }
 
     /// Where the forces of the trial that ends `change` from `from` are taken.

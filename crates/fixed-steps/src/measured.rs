@@ -58,7 +58,12 @@ impl ReferenceHistory {
         }
         let largest = |u: &[f64]| u.iter().fold(0.0_f64, |most, u| most.max(u.abs()));
         let (own, due) = (largest(&history.motion.u), largest(&self.u));
-        StepErrors { outcome, history: nrmse(&history.motion.u, &self.u), peak: (own / due - 1.0).abs(), work }
+        StepErrors {
+            outcome,
+            history: nrmse(&history.motion.u, &self.u),
+            peak: (own / due - 1.0).abs(),
+            work,
+        }
     }
 }
 
@@ -97,14 +102,19 @@ impl WellConditioned {
         let reference = |index: usize| {
             let record = synthetic::record(seed, index, p, alpha);
             let reference = ReferenceHistory::new(body, record.dt, record.accel)?;
-            let conditioning = Conditioning::new(body, reference.dt, &reference.accel, &RockingOptions::default());
+            let conditioning =
+                Conditioning::new(body, reference.dt, &reference.accel, &RockingOptions::default());
             conditioning.well_conditioned().then_some(reference)
         };
         Self { body: *body, motions: (0..looked_at).filter_map(reference).take(count).collect() }
     }
 
     /// The errors of springs in a program that steps so.
-    pub fn errors(&self, springs: &Springs<Chain<f64>>, settings: StepSettings) -> ErrorsOverMotions {
+    pub fn errors(
+        &self,
+        springs: &Springs<Chain<f64>>,
+        settings: StepSettings,
+    ) -> ErrorsOverMotions {
         let model = FixedStepBody::new(&self.body, springs);
         ErrorsOverMotions::of(self.motions.iter().map(|motion| motion.errors(&model, settings)))
     }

@@ -41,10 +41,21 @@ pub trait FixedStepModel {
 
     /// Q + forces of the ground - M a of a trial, at ground acceleration (a_g, a_v) (m/s2), a_v
     /// upwards; feet as they were met at its place. N, N m.
-    fn unbalance(&self, trial: &Trial<Self::Vector>, feet: &Self::Feet, ground: [f64; 2], out: &mut Self::Vector);
+    fn unbalance(
+        &self,
+        trial: &Trial<Self::Vector>,
+        feet: &Self::Feet,
+        ground: [f64; 2],
+        out: &mut Self::Vector,
+    );
 
     /// M, C and K at a trial with these weights, factored; `None` if it is singular.
-    fn factor(&self, trial: &Trial<Self::Vector>, feet: &Self::Feet, weights: &TangentWeights) -> Option<Self::Factor>;
+    fn factor(
+        &self,
+        trial: &Trial<Self::Vector>,
+        feet: &Self::Feet,
+        weights: &TangentWeights,
+    ) -> Option<Self::Factor>;
 
     /// The change of place that the matrix makes of an unbalance, in place.
     fn solve(&self, factor: &Self::Factor, right: &mut Self::Vector);

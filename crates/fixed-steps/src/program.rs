@@ -85,7 +85,10 @@ impl FromStr for ProgramName {
 
     fn from_str(name: &str) -> Result<Self, ProgramNameError> {
         let lower = name.to_ascii_lowercase();
-        Self::ALL.into_iter().find(|p| p.key() == lower).ok_or_else(|| ProgramNameError { name: name.into() })
+        Self::ALL
+            .into_iter()
+            .find(|p| p.key() == lower)
+            .ok_or_else(|| ProgramNameError { name: name.into() })
     }
 }
 
@@ -171,7 +174,11 @@ mod tests {
         let springs = FixedStepSprings::of(&body, program.step, program.integrator).unwrap();
         let omega = std::f64::consts::TAU * springs.units.vertical.omega_n_hz;
         let of = (springs.chains().vertical.k1, springs.body.mass);
-        assert_relative_eq!(program.tolerance(of.0, of.1), 0.1 * (omega * 1e-3).powi(2), max_relative = 1e-9);
+        assert_relative_eq!(
+            program.tolerance(of.0, of.1),
+            0.1 * (omega * 1e-3).powi(2),
+            max_relative = 1e-9
+        );
         let settings = program.settings(of.0, of.1);
         assert_eq!((settings.iteration.constant, settings.iteration.newton), (0, 40));
         assert_relative_eq!(settings.least, 1e-3 / 16.0, max_relative = 1e-12);

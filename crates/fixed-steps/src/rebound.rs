@@ -70,13 +70,24 @@ impl FixedStepModel for FallingMass {
         self.meet(q, feet);
     }
 
-    fn unbalance(&self, trial: &Trial<[f64; 2]>, feet: &[FixedFoot; 1], _: [f64; 2], out: &mut [f64; 2]) {
+    fn unbalance(
+        &self,
+        trial: &Trial<[f64; 2]>,
+        feet: &[FixedFoot; 1],
+        _: [f64; 2],
+        out: &mut [f64; 2],
+    ) {
         let Trial { q, v, a } = trial;
         let press = Self::press(q, feet);
         *out = [press - self.mass * a[0], -press - self.k * q[1] - self.c * v[1] - self.mu * a[1]];
     }
 
-    fn factor(&self, _: &Trial<[f64; 2]>, feet: &[FixedFoot; 1], w: &TangentWeights) -> Option<Matrix2<f64>> {
+    fn factor(
+        &self,
+        _: &Trial<[f64; 2]>,
+        feet: &[FixedFoot; 1],
+        w: &TangentWeights,
+    ) -> Option<Matrix2<f64>> {
         let k1 = if feet[0].closed { w.stiffness } else { 0.0 };
         let own = w.mass * self.mu + w.damping * self.c + w.stiffness * self.k;
         Matrix2::new(w.mass * self.mass + k1, -k1, -k1, own + k1).try_inverse()
@@ -95,7 +106,9 @@ pub fn rebound(body: &Body<f64>, chain: &Chain<f64>, dt: f64, integrator: &Integ
     let mass = 1.0 - body.mass_share() * sin * sin;
     let model = FallingMass { mass, mu: design.mu, k: design.k(), c: design.c() };
     let step = (dt * (chain.k1 / body.mass).sqrt()).max(LENGTH / STEPS);
-    let square = |phase: usize| model.speed(step, (phase as f64 + 0.5) / PHASES as f64, integrator).max(0.0).powi(2);
+    let square = |phase: usize| {
+        model.speed(step, (phase as f64 + 0.5) / PHASES as f64, integrator).max(0.0).powi(2)
+    };
     ((0..PHASES).map(square).sum::<f64>() / PHASES as f64).sqrt()
 }
 
@@ -104,7 +117,8 @@ impl FallingMass {
     fn speed(&self, step: f64, phase: f64, integrator: &Integrator) -> f64 {
         let count = ((LENGTH / step).ceil() + 2.0 * BEFORE) as usize;
         let accel = vec![0.0; count + 1];
-        let iteration = Iteration { constant: 0, newton: 30, test: ConvergenceTest::Increment(1e-9) };
+        let iteration =
+            Iteration { constant: 0, newton: 30, test: ConvergenceTest::Increment(1e-9) };
         let settings = StepSettings { iteration, ..StepSettings::new(*integrator, step) };
         let height = (BEFORE + phase) * step;
         let start = Kinematics::moving([height, 0.0], [-1.0, 0.0], [0.0; 2]);
@@ -157,12 +171,18 @@ mod tests {
     fn long_steps_rebound_by_themselves() {
         let of = |integrator: Integrator| {
             let mass = FallingMass { mass: 1.0, mu: 0.2, k: 0.25, c: 0.6 };
-            let square = |phase: usize| mass.speed(20.0, (phase as f64 + 0.5) / 16.0, &integrator).max(0.0).powi(2);
+            let square = |phase: usize| {
+                mass.speed(20.0, (phase as f64 + 0.5) / 16.0, &integrator).max(0.0).powi(2)
+            };
             ((0..16).map(square).sum::<f64>() / 16.0).sqrt()
         };
-        let [alpha, euler, trbdf2, hht] =
-            [Integrator::GENERALIZED_ALPHA_0, Integrator::BackwardEuler, Integrator::Trbdf2, Integrator::HHT_MOST]
-                .map(of);
+        let [alpha, euler, trbdf2, hht] = [
+            Integrator::GENERALIZED_ALPHA_0,
+            Integrator::BackwardEuler,
+            Integrator::Trbdf2,
+            Integrator::HHT_MOST,
+        ]
+        .map(of);
         assert!(
             alpha < euler && euler < 0.8 && euler < trbdf2 && trbdf2 < hht && hht > 1.2,
             "{alpha} {euler} {trbdf2} {hht}"

@@ -69,7 +69,8 @@ impl FixedStepDesign {
 
     /// Omega_n of the vertical unit, sqrt(k1/m) (rad/s).
     pub fn omega_n(&self, body: &Body<f64>, step: f64) -> f64 {
-        let in_series = self.stance * body.p_squared().sqrt() / (body.alpha() * body.alpha() * step);
+        let in_series =
+            self.stance * body.p_squared().sqrt() / (body.alpha() * body.alpha() * step);
         (in_series * (1.0 + self.vertical.k) / self.vertical.k).sqrt()
     }
 
@@ -117,7 +118,9 @@ pub struct FixedStepSprings {
 #[derive(Clone, Copy, Debug, PartialEq, Error)]
 pub enum FixedStepSpringsError {
     /// A step that is none.
-    #[error("step: {step:?} s is no time step; give a finite number greater than zero, for instance 0.001")]
+    #[error(
+        "step: {step:?} s is no time step; give a finite number greater than zero, for instance 0.001"
+    )]
     Step {
         /// As given (s).
         step: f64,
@@ -132,7 +135,11 @@ impl FixedStepSprings {
     ///
     /// # Errors
     /// The step is not positive, or the integrator is unstable.
-    pub fn of(body: &Body<f64>, step: f64, integrator: Integrator) -> Result<Self, FixedStepSpringsError> {
+    pub fn of(
+        body: &Body<f64>,
+        step: f64,
+        integrator: Integrator,
+    ) -> Result<Self, FixedStepSpringsError> {
         Self::designed(body, step, integrator, &FixedStepDesign::RECIPE)
     }
 
@@ -188,7 +195,10 @@ impl FixedStepSprings {
     /// step that fails ([`StepSettings::with_substeps`], down to 1/16) gets stocky bodies through,
     /// too, of which one history in four stops without.
     pub fn settings(&self) -> StepSettings {
-        let settings = StepSettings { iteration: self.iteration(), ..StepSettings::new(self.integrator, self.step) };
+        let settings = StepSettings {
+            iteration: self.iteration(),
+            ..StepSettings::new(self.integrator, self.step)
+        };
         settings.with_touches(self.at_touches)
     }
 
@@ -210,7 +220,11 @@ impl FixedStepSprings {
 }
 
 /// The body as a program can step it.
-fn prepared(body: &Body<f64>, step: f64, integrator: Integrator) -> Result<Body<f64>, FixedStepSpringsError> {
+fn prepared(
+    body: &Body<f64>,
+    step: f64,
+    integrator: Integrator,
+) -> Result<Body<f64>, FixedStepSpringsError> {
     if !(step.is_finite() && step > 0.0) {
         return Err(FixedStepSpringsError::Step { step });
     }
@@ -235,9 +249,17 @@ mod tests {
         let body = Structure::paper().body::<f64>();
         let springs = FixedStepSprings::of(&body, 1e-3, Integrator::HHT_MOST).unwrap();
         assert_relative_eq!(springs.units.vertical.omega_n_hz, 247.0, max_relative = 3e-3);
-        assert_relative_eq!(springs.rotational_inertia(), 1e-3 * 680.1e3 * body.radius().powi(2), max_relative = 1e-12);
+        assert_relative_eq!(
+            springs.rotational_inertia(),
+            1e-3 * 680.1e3 * body.radius().powi(2),
+            max_relative = 1e-12
+        );
         let stable = FixedStepSprings::of(&body, 1e-3, Integrator::Trbdf2).unwrap();
-        assert_relative_eq!(stable.rotational_inertia(), 1e-5 * 680.1e3 * body.radius().powi(2), max_relative = 1e-12);
+        assert_relative_eq!(
+            stable.rotational_inertia(),
+            1e-5 * 680.1e3 * body.radius().powi(2),
+            max_relative = 1e-12
+        );
     }
 
     #[test]
@@ -247,7 +269,11 @@ mod tests {
         let springs = FixedStepSprings::of(&body, step, Integrator::Trbdf2).unwrap();
         assert_eq!(springs.body.inertia, body.inertia);
         let Springs { vertical, horizontal } = springs.chains();
-        assert_relative_eq!(vertical.in_series(), 12.0 * body.mass * p / (alpha * alpha * step), max_relative = 1e-12);
+        assert_relative_eq!(
+            vertical.in_series(),
+            12.0 * body.mass * p / (alpha * alpha * step),
+            max_relative = 1e-12
+        );
         let omega = (vertical.k1 / body.mass).sqrt();
         assert_relative_eq!(omega, 7.75 * (p / step).sqrt() / alpha, max_relative = 1e-3);
         assert_relative_eq!(horizontal.k1, 16.0 * vertical.k1, max_relative = 1e-12);
@@ -259,7 +285,11 @@ mod tests {
         }
         // the stance is about half of the floor, 12 in place of 160/13
         let expected = springs.expected();
-        assert_relative_eq!(expected.stance / expected.floor, 0.5 * (160.0 / 13.0) / 12.0, max_relative = 1e-9);
+        assert_relative_eq!(
+            expected.stance / expected.floor,
+            0.5 * (160.0 / 13.0) / 12.0,
+            max_relative = 1e-9
+        );
     }
 
     #[test]

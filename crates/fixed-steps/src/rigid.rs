@@ -140,7 +140,13 @@ impl FixedStepModel for FixedStepBody {
     }
 
     #[inline(always)]
-    fn unbalance(&self, trial: &Trial<[f64; N]>, feet: &[FixedFoot; 2], [ground, up]: [f64; 2], out: &mut [f64; N]) {
+    fn unbalance(
+        &self,
+        trial: &Trial<[f64; N]>,
+        feet: &[FixedFoot; 2],
+        [ground, up]: [f64; 2],
+        out: &mut [f64; N],
+    ) {
         let Trial { q, v, a } = trial;
         let Springs { vertical, horizontal } = &self.springs;
         let m = self.body.mass;
@@ -155,14 +161,22 @@ impl FixedStepModel for FixedStepBody {
             out[X] += h;
             out[Z] += n;
             out[TH] += h * slope[0] + n * slope[1];
-            out[at] = -(h + horizontal.m2 * (ground + a[at]) + horizontal.k2 * q[at] + horizontal.c * v[at]);
+            out[at] = -(h
+                + horizontal.m2 * (ground + a[at])
+                + horizontal.k2 * q[at]
+                + horizontal.c * v[at]);
             let at = at + 1;
             out[at] = -(n + vertical.m2 * (up + a[at]) + vertical.k2 * q[at] + vertical.c * v[at]);
         }
     }
 
     #[inline(always)]
-    fn factor(&self, trial: &Trial<[f64; N]>, feet: &[FixedFoot; 2], weights: &TangentWeights) -> Option<BodyFactor> {
+    fn factor(
+        &self,
+        trial: &Trial<[f64; N]>,
+        feet: &[FixedFoot; 2],
+        weights: &TangentWeights,
+    ) -> Option<BodyFactor> {
         let q = &trial.q;
         let Springs { vertical, horizontal } = &self.springs;
         let translation = weights.mass * self.body.mass;

@@ -5,8 +5,8 @@ use std::ops::ControlFlow;
 
 use dynamics::spring::{Chain, Design, Springs};
 use fixed_steps::{
-    ConvergenceTest, FixedStepAnalysis, FixedStepFrame, FixedStepModel, FixedStepOutcome, Integrator, Iteration,
-    StepSettings,
+    ConvergenceTest, FixedStepAnalysis, FixedStepFrame, FixedStepModel, FixedStepOutcome,
+    Integrator, Iteration, StepSettings,
     kinematics::{TangentWeights, Trial},
 };
 use frames::{
@@ -22,7 +22,10 @@ fn pier(bending_damping: f64) -> Frame {
     let section = BeamSection { bending_damping, ..BeamSection::elastic(1e10, 4e10) };
     let footing = Footing::block(4.0, 1.2e5, 0.75, 0.75);
     let column = StraightMember { section, elements: 1 };
-    Cantilever { mass: 6e5, inertia: None, height: 12.0, footing, column, consistent: false }.layout().frame().unwrap()
+    Cantilever { mass: 6e5, inertia: None, height: 12.0, footing, column, consistent: false }
+        .layout()
+        .frame()
+        .unwrap()
 }
 
 fn units() -> Vec<Springs<Chain<f64>>> {
@@ -62,13 +65,25 @@ fn top(frame: &Frame, integrator: Integrator, step: f64, below: f64) -> Vec<f64>
 #[test]
 fn opensees_has_the_same_history() {
     for (name, stronger, at) in [
-        ("hht:-0.3333333333333333", 1.5, [(120, -8.603580185e-02), (200, 2.343461341e-02), (290, -9.940471723e-03)]),
+        (
+            "hht:-0.3333333333333333",
+            1.5,
+            [(120, -8.603580185e-02), (200, 2.343461341e-02), (290, -9.940471723e-03)],
+        ),
         ("trbdf2", 1.0, [(120, -8.606192839e-02), (200, 2.321859690e-02), (290, -9.540320056e-03)]),
-        ("backward-euler", 1.0, [(120, -8.606027558e-02), (200, 2.322120770e-02), (290, -9.543655567e-03)]),
+        (
+            "backward-euler",
+            1.0,
+            [(120, -8.606027558e-02), (200, 2.322120770e-02), (290, -9.543655567e-03)],
+        ),
     ] {
         let u = top(&pier(stronger * 1e8), name.parse().unwrap(), 1e-3, 1e-6);
         for (i, expected) in at {
-            assert!((u[i] - expected).abs() < 2e-5 * 0.08, "{name}, sample {i}: {:e}, {expected:e}", u[i]);
+            assert!(
+                (u[i] - expected).abs() < 2e-5 * 0.08,
+                "{name}, sample {i}: {:e}, {expected:e}",
+                u[i]
+            );
         }
     }
 }
@@ -77,10 +92,13 @@ fn opensees_has_the_same_history() {
 #[test]
 fn short_steps_come_to_what_follows_events() {
     let (frame, units, accel) = (pier(1e8), units(), pulse(0.01));
-    let history = ElasticAnalysis::new(&frame, &units, ElasticStart::Standing, 0.01, &accel).simulate().unwrap();
+    let history = ElasticAnalysis::new(&frame, &units, ElasticStart::Standing, 0.01, &accel)
+        .simulate()
+        .unwrap();
     let events: Vec<f64> = history.q.iter().map(|q| frame.displacement(1, q)[0]).collect();
     for integrator in [Integrator::HHT_MOST, Integrator::Trbdf2] {
-        let [long, short] = [1e-3, 1e-4].map(|step| nrmse(&top(&frame, integrator, step, 1e-7), &events));
+        let [long, short] =
+            [1e-3, 1e-4].map(|step| nrmse(&top(&frame, integrator, step, 1e-7), &events));
         assert!(short < 1e-3 && short < 0.5 * long, "{integrator}: {long}, {short}");
     }
 }
@@ -94,7 +112,12 @@ fn it_stands_and_its_matrix_is_the_derivative() {
     let n = q.len();
     let mut out = vec![0.0; n];
     model.meet(&q, &mut feet);
-    model.unbalance(&Trial { q: q.clone(), v: vec![0.0; n], a: vec![0.0; n] }, &feet, [0.0; 2], &mut out);
+    model.unbalance(
+        &Trial { q: q.clone(), v: vec![0.0; n], a: vec![0.0; n] },
+        &feet,
+        [0.0; 2],
+        &mut out,
+    );
     assert!(out.iter().all(|f| f.abs() < 1e-8 * frame.total_mass() * 9.81), "{out:?}");
 
     // leaning, the left corner in the air
@@ -121,7 +144,8 @@ fn it_stands_and_its_matrix_is_the_derivative() {
         out
     };
     let (high, low) = (unbalance(1e-6), unbalance(-1e-6));
-    let mut right: Vec<f64> = high.iter().zip(&low).map(|(high, low)| -(high - low) / 2e-6).collect();
+    let mut right: Vec<f64> =
+        high.iter().zip(&low).map(|(high, low)| -(high - low) / 2e-6).collect();
     model.solve(&factor, &mut right);
     for (found, expected) in right.iter().zip(&direction) {
         assert!((found - expected).abs() < 1e-5, "{right:?}, {direction:?}");

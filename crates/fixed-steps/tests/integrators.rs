@@ -2,7 +2,8 @@
 
 use dynamics::spring::Chain;
 use fixed_steps::{
-    ConvergenceTest, FixedStepAnalysis, FixedStepModel, FixedStepOutcome, Integrator, Iteration, StepSettings,
+    ConvergenceTest, FixedStepAnalysis, FixedStepModel, FixedStepOutcome, Integrator, Iteration,
+    StepSettings,
     contact::FixedFoot,
     kinematics::{Kinematics, TangentWeights, Trial},
 };
@@ -29,11 +30,22 @@ impl FixedStepModel for Oscillator {
 
     fn meet_end(&self, _: &[f64; 1], _: f64, _: &[f64; 1], _: &mut [FixedFoot; 0]) {}
 
-    fn unbalance(&self, trial: &Trial<[f64; 1]>, _: &[FixedFoot; 0], [ground, _]: [f64; 2], out: &mut [f64; 1]) {
+    fn unbalance(
+        &self,
+        trial: &Trial<[f64; 1]>,
+        _: &[FixedFoot; 0],
+        [ground, _]: [f64; 2],
+        out: &mut [f64; 1],
+    ) {
         out[0] = -ground - self.omega * self.omega * trial.q[0] - trial.a[0];
     }
 
-    fn factor(&self, _: &Trial<[f64; 1]>, _: &[FixedFoot; 0], weights: &TangentWeights) -> Option<f64> {
+    fn factor(
+        &self,
+        _: &Trial<[f64; 1]>,
+        _: &[FixedFoot; 0],
+        weights: &TangentWeights,
+    ) -> Option<f64> {
         Some(weights.mass + weights.stiffness * self.omega * self.omega)
     }
 
@@ -62,10 +74,14 @@ fn free(integrator: Integrator, omega: f64, step: f64, steps: usize) -> Vec<f64>
     let model = Oscillator { omega };
     let start = Kinematics::moving([1.0], [0.0], [-omega * omega]);
     let mut shown = Vec::new();
-    let (outcome, _) = FixedStepAnalysis::new(&model, settings, step, &accel).follow_from(start, [], &mut |_, q| {
-        shown.push(q[0]);
-        std::ops::ControlFlow::Continue(())
-    });
+    let (outcome, _) = FixedStepAnalysis::new(&model, settings, step, &accel).follow_from(
+        start,
+        [],
+        &mut |_, q| {
+            shown.push(q[0]);
+            std::ops::ControlFlow::Continue(())
+        },
+    );
     assert_eq!(outcome, FixedStepOutcome::Finished);
     shown
 }
@@ -76,7 +92,8 @@ fn free(integrator: Integrator, omega: f64, step: f64, steps: usize) -> Vec<f64>
 fn the_trapezoidal_rule_lengthens_the_period_by_what_theory_says() {
     for step in [0.01_f64, 0.3, 2.0] {
         let turn = 2.0 * (0.5 * step).atan();
-        for (n, q) in free(Integrator::AVERAGE_ACCELERATION, 1.0, step, 200).into_iter().enumerate() {
+        for (n, q) in free(Integrator::AVERAGE_ACCELERATION, 1.0, step, 200).into_iter().enumerate()
+        {
             assert!((q - (n as f64 * turn).cos()).abs() < 1e-11, "{step}, {n}: {q}");
         }
     }
@@ -100,7 +117,8 @@ fn hht_and_generalized_alpha_follow_their_amplification_matrices() {
     for (integrator, [w, m], [gamma, beta]) in cases {
         // m A + (1 - m) a + Omega^2 (w (q + v + (1/2 - beta) a + beta A) + (1 - w) q) = 0
         let below = m + square * w * beta;
-        let row = [-square / below, -square * w / below, -(1.0 - m + square * w * (0.5 - beta)) / below];
+        let row =
+            [-square / below, -square * w / below, -(1.0 - m + square * w * (0.5 - beta)) / below];
         let a = Matrix3::new(
             1.0 + beta * row[0],
             1.0 + beta * row[1],
@@ -124,14 +142,21 @@ fn hht_and_generalized_alpha_follow_their_amplification_matrices() {
 /// which is the three-point formula.
 #[test]
 fn all_are_of_second_order() {
-    for integrator in ALL.into_iter().filter(|i| !matches!(i, Integrator::Newmark { gamma: 0.6, .. })) {
-        let error =
-            |step: f64| (free(integrator, 1.0, step, (6.0 / step).round() as usize).last().unwrap() - 6f64.cos()).abs();
+    for integrator in
+        ALL.into_iter().filter(|i| !matches!(i, Integrator::Newmark { gamma: 0.6, .. }))
+    {
+        let error = |step: f64| {
+            (free(integrator, 1.0, step, (6.0 / step).round() as usize).last().unwrap()
+                - 6f64.cos())
+            .abs()
+        };
         let ratio = error(0.01) / error(0.005);
         assert!((3.5..4.5).contains(&ratio), "{integrator}: {ratio}");
     }
     // gamma above one half costs an order
-    let error = |step: f64| (free(ALL[1], 1.0, step, (6.0 / step).round() as usize).last().unwrap() - 6f64.cos()).abs();
+    let error = |step: f64| {
+        (free(ALL[1], 1.0, step, (6.0 / step).round() as usize).last().unwrap() - 6f64.cos()).abs()
+    };
     let ratio = error(0.01) / error(0.005);
     assert!((1.8..2.2).contains(&ratio), "{ratio}");
 }
@@ -147,7 +172,9 @@ fn stiff_modes_end_as_the_spectral_radius_says() {
         // a double or triple root adds n or n^2: 4^(1/150)
         assert!((found / expected - 1.0).abs() < 0.012, "{integrator}: {found}, {expected}");
     }
-    for integrator in [Integrator::Trbdf2, Integrator::BackwardEuler, Integrator::GENERALIZED_ALPHA_0] {
+    for integrator in
+        [Integrator::Trbdf2, Integrator::BackwardEuler, Integrator::GENERALIZED_ALPHA_0]
+    {
         let q = free(integrator, 1e7, 1.0, 8);
         assert!(q[5..].iter().all(|q| q.abs() < 1e-9), "{integrator}: {q:?}");
         assert!(integrator.ends_stiff_modes());
@@ -164,8 +191,11 @@ fn a_linear_chain_under_a_ramp() {
     let (step, steps) = (1e-3, 400);
     let accel: Vec<f64> = (0..=steps).map(|i| i as f64 * step).collect();
     let exact = exact_chain(mass, &chain, step * steps as f64);
-    for integrator in ALL.into_iter().filter(|i| !matches!(i, Integrator::Newmark { gamma: 0.6, .. })) {
-        let iteration = Iteration { constant: 0, newton: 5, test: ConvergenceTest::Increment(1e-14) };
+    for integrator in
+        ALL.into_iter().filter(|i| !matches!(i, Integrator::Newmark { gamma: 0.6, .. }))
+    {
+        let iteration =
+            Iteration { constant: 0, newton: 5, test: ConvergenceTest::Increment(1e-14) };
         let settings = StepSettings { iteration, ..StepSettings::new(integrator, step) };
         let mut last = [0.0; 2];
         let analysis = FixedStepAnalysis::new(&model, settings, step, &accel);
@@ -203,14 +233,25 @@ impl FixedStepModel for LinearChain {
 
     fn meet_end(&self, _: &[f64; 2], _: f64, _: &[f64; 2], _: &mut [FixedFoot; 0]) {}
 
-    fn unbalance(&self, trial: &Trial<[f64; 2]>, _: &[FixedFoot; 0], [ground, _]: [f64; 2], out: &mut [f64; 2]) {
+    fn unbalance(
+        &self,
+        trial: &Trial<[f64; 2]>,
+        _: &[FixedFoot; 0],
+        [ground, _]: [f64; 2],
+        out: &mut [f64; 2],
+    ) {
         let Chain { k1, k2, m2, c } = self.chain;
         let Trial { q: [u, a], v, a: accel } = trial;
         out[0] = -self.mass * (ground + accel[0]) - k1 * (u - a);
         out[1] = k1 * (u - a) - k2 * a - c * v[1] - m2 * accel[1];
     }
 
-    fn factor(&self, _: &Trial<[f64; 2]>, _: &[FixedFoot; 0], w: &TangentWeights) -> Option<Matrix2<f64>> {
+    fn factor(
+        &self,
+        _: &Trial<[f64; 2]>,
+        _: &[FixedFoot; 0],
+        w: &TangentWeights,
+    ) -> Option<Matrix2<f64>> {
         let Chain { k1, k2, m2, c } = self.chain;
         let k = w.stiffness * k1;
         let own = w.mass * m2 + w.damping * c + w.stiffness * k2;
@@ -259,7 +300,8 @@ fn records_are_interpolated() {
     let accel = [0.0, 2.0, -1.0, 0.0];
     let settings = StepSettings::new(Integrator::AVERAGE_ACCELERATION, 0.05);
     let mut shown = Vec::new();
-    let analysis = FixedStepAnalysis { scale: 2.0, ..FixedStepAnalysis::new(&model, settings, 0.1, &accel) };
+    let analysis =
+        FixedStepAnalysis { scale: 2.0, ..FixedStepAnalysis::new(&model, settings, 0.1, &accel) };
     analysis
         .follow(|i, q| {
             shown.push((i, q[0]));

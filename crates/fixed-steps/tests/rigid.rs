@@ -5,8 +5,8 @@ use dynamics::{
     spring::{Chain, Design, Springs},
 };
 use fixed_steps::{
-    ConvergenceTest, FixedStepAnalysis, FixedStepBody, FixedStepOutcome, FixedStepSprings, Integrator, Iteration,
-    StepSettings,
+    ConvergenceTest, FixedStepAnalysis, FixedStepBody, FixedStepOutcome, FixedStepSprings,
+    Integrator, Iteration, StepSettings,
 };
 use rocking::{
     motion::nrmse,
@@ -58,7 +58,8 @@ fn short_steps_come_to_what_follows_events() {
     assert!(events.motion.theta.iter().any(|theta| theta.abs() > 0.2 * body.alpha()));
     for integrator in [Integrator::AVERAGE_ACCELERATION, Integrator::HHT_MOST, Integrator::Trbdf2] {
         let error = |step: f64| {
-            let history = FixedStepAnalysis::new(&model, tight(integrator, step), dt, &accel).history();
+            let history =
+                FixedStepAnalysis::new(&model, tight(integrator, step), dt, &accel).history();
             assert_eq!(history.outcome, FixedStepOutcome::Finished, "{integrator}, {step}");
             nrmse(&history.motion.u, &events.motion.u)
         };
@@ -86,8 +87,14 @@ fn opensees_has_the_same_history() {
 
 /// Sample and u.
 const OPENSEES: [(&str, [(usize, f64); 3]); 4] = [
-    ("newmark:0.5:0.25", [(120, -9.071370381e-02), (200, 1.132591821e-01), (290, -7.010582694e-02)]),
-    ("hht:-0.3333333333333333", [(120, -9.071217777e-02), (200, 1.132287987e-01), (290, -7.004658778e-02)]),
+    (
+        "newmark:0.5:0.25",
+        [(120, -9.071370381e-02), (200, 1.132591821e-01), (290, -7.010582694e-02)],
+    ),
+    (
+        "hht:-0.3333333333333333",
+        [(120, -9.071217777e-02), (200, 1.132287987e-01), (290, -7.004658778e-02)],
+    ),
     ("trbdf2", [(120, -9.071427845e-02), (200, 1.132822857e-01), (290, -7.015346031e-02)]),
     ("backward-euler", [(120, -9.071246545e-02), (200, 1.132200226e-01), (290, -7.001247308e-02)]),
 ];
@@ -100,8 +107,8 @@ fn left_is_right() {
     let mirrored: Vec<f64> = accel.iter().map(|a| -a).collect();
     let springs = FixedStepSprings::of(&body, 1e-3, Integrator::Trbdf2).unwrap();
     let model = FixedStepBody::new(&body, &springs.chains());
-    let [a, b] =
-        [&accel, &mirrored].map(|accel| FixedStepAnalysis::new(&model, springs.settings(), dt, accel).history());
+    let [a, b] = [&accel, &mirrored]
+        .map(|accel| FixedStepAnalysis::new(&model, springs.settings(), dt, accel).history());
     let back: Vec<f64> = b.motion.u.iter().map(|u| -u).collect();
     assert!(nrmse(&back, &a.motion.u) < 1e-6);
     assert!(nrmse(&b.motion.v, &a.motion.v) < 1e-6);
@@ -133,9 +140,13 @@ fn a_slow_push_upwards_sinks_it() {
 /// algorithmic damping a frame does not get through.
 #[test]
 fn giving_up_has_a_time_and_substeps_help() {
-    let body = FixedStepSprings::of(&Structure::a_frame(12.0, 2.2, 1e4).unwrap().body(), 1e-3, Integrator::Trbdf2)
-        .unwrap()
-        .body;
+    let body = FixedStepSprings::of(
+        &Structure::a_frame(12.0, 2.2, 1e4).unwrap().body(),
+        1e-3,
+        Integrator::Trbdf2,
+    )
+    .unwrap()
+    .body;
     let model = FixedStepBody::new(&body, &units(&body, 160.0));
     let dt = 0.01;
     let accel = pulse(3.0, dt);
@@ -145,7 +156,8 @@ fn giving_up_has_a_time_and_substeps_help() {
     assert!(gave_up.time > 0.0 && gave_up.time < 3.0 && gave_up.step == 1e-3, "{gave_up:?}");
     assert!(gave_up.to_string().contains("no convergence at"), "{gave_up}");
     assert_eq!(history.motion.len(), (gave_up.time / dt + 1e-9) as usize + 1);
-    let finer = FixedStepAnalysis::new(&model, settings.with_substeps(1.0 / 1024.0), dt, &accel).history();
+    let finer =
+        FixedStepAnalysis::new(&model, settings.with_substeps(1.0 / 1024.0), dt, &accel).history();
     assert!(finer.motion.len() > history.motion.len() && finer.work.failed > 0, "{:?}", finer.work);
 }
 
@@ -163,7 +175,9 @@ fn iterations_of_both_kinds_arrive_at_the_same_place() {
         Iteration { constant: 0, newton: 40, test: ConvergenceTest::Unbalance(1e-9 * weight) },
         Iteration { constant: 0, newton: 40, test: ConvergenceTest::Energy(1e-18 * weight) },
     ]
-    .map(|iteration| FixedStepAnalysis::new(&model, StepSettings { iteration, ..newton }, dt, &accel).history());
+    .map(|iteration| {
+        FixedStepAnalysis::new(&model, StepSettings { iteration, ..newton }, dt, &accel).history()
+    });
     for history in &all[1..] {
         assert_eq!(history.outcome, FixedStepOutcome::Finished);
         let error = nrmse(&history.motion.u, &all[0].motion.u);

@@ -8,7 +8,8 @@ use super::{
     fem::{ElasticAnalysis, ElasticHistory, ElasticStart},
     frame::{EquilibriumError, Frame},
     reference::{
-        ElasticRocking, FOLLOWED, FORETOLD, GroundAcceleration, MOST_WORK, ReferenceOutcome, RestError, TRIED,
+        ElasticRocking, FOLLOWED, FORETOLD, GroundAcceleration, MOST_WORK, ReferenceOutcome,
+        RestError, TRIED,
     },
     rigid::RigidForces,
 };
@@ -154,8 +155,14 @@ impl Reference {
     ///
     /// # Errors
     /// The structure does not stand.
-    pub fn within(assembled: &Assembled, record: &Record, limit: f64, most_work: u64) -> Result<Self, AnswerError> {
-        let ground = GroundAcceleration { dt: record.dt, accel: &record.accel, vertical: record.up() };
+    pub fn within(
+        assembled: &Assembled,
+        record: &Record,
+        limit: f64,
+        most_work: u64,
+    ) -> Result<Self, AnswerError> {
+        let ground =
+            GroundAcceleration { dt: record.dt, accel: &record.accel, vertical: record.up() };
         let q = assembled.upright()?;
         let history = assembled.rock(ground, &q, most_work);
         let foretold = assembled.foretold(ground, &q, &history, limit);
@@ -170,7 +177,9 @@ impl Reference {
     /// When a corner slides on from a landing, if that is where the part that can be foretold ends
     /// (s).
     pub fn slides_on(&self) -> Option<f64> {
-        self.history.first_sliding_landing_s.filter(|time| self.foretold == self.history.samples_to(*time))
+        self.history
+            .first_sliding_landing_s
+            .filter(|time| self.foretold == self.history.samples_to(*time))
     }
 
     /// The same compared over as much as springs stiff enough may follow, a perturbation growing
@@ -178,11 +187,16 @@ impl Reference {
     ///
     /// # Errors
     /// The structure does not stand.
-    pub fn further(&self, assembled: &Assembled, record: &Record) -> Result<Option<Self>, AnswerError> {
+    pub fn further(
+        &self,
+        assembled: &Assembled,
+        record: &Record,
+    ) -> Result<Option<Self>, AnswerError> {
         if self.foretold >= self.history.q.len() {
             return Ok(None);
         }
-        let ground = GroundAcceleration { dt: record.dt, accel: &record.accel, vertical: record.up() };
+        let ground =
+            GroundAcceleration { dt: record.dt, accel: &record.accel, vertical: record.up() };
         let followed = assembled.grown(ground, &assembled.upright()?, &self.history, FOLLOWED);
         Ok((followed > self.followed).then(|| Self { followed, ..self.clone() }))
     }
@@ -193,7 +207,8 @@ impl Reference {
     /// # Errors
     /// The structure does not stand.
     pub fn tried(&self, assembled: &Assembled, record: &Record) -> Result<usize, AnswerError> {
-        let ground = GroundAcceleration { dt: record.dt, accel: &record.accel, vertical: record.up() };
+        let ground =
+            GroundAcceleration { dt: record.dt, accel: &record.accel, vertical: record.up() };
         Ok(assembled.foretold(ground, &assembled.upright()?, &self.history, TRIED))
     }
 
@@ -202,8 +217,14 @@ impl Reference {
     pub fn compared(&self, record: &Record, followed: usize, lengths: &[usize]) -> Compared {
         let history = &self.history;
         let compared = Compared::new(record, followed, &[&[history.q.len()], lengths].concat());
-        let slides = history.first_sliding_landing_s.is_some_and(|time| compared.samples == history.samples_to(time));
-        let end = if compared.end == ComparedEnd::Foretold && slides { ComparedEnd::Slides } else { compared.end };
+        let slides = history
+            .first_sliding_landing_s
+            .is_some_and(|time| compared.samples == history.samples_to(time));
+        let end = if compared.end == ComparedEnd::Foretold && slides {
+            ComparedEnd::Slides
+        } else {
+            compared.end
+        };
         Compared { end, ..compared }
     }
 }
@@ -219,7 +240,8 @@ impl ElasticHistories {
         record: &Record,
         reference: Reference,
     ) -> Result<Self, AnswerError> {
-        let fem = follow(&assembled.frame, springs, record, parts(&assembled.structure, record.dt))?;
+        let fem =
+            follow(&assembled.frame, springs, record, parts(&assembled.structure, record.dt))?;
         let of_reference = assembled.sways(reference.history.q.iter().map(|q| q.as_slice()));
         let of_fem = assembled.sways(fem.q.iter().map(Vec::as_slice));
         let sways = of_reference.into_iter().zip(of_fem).map(|(a, b)| [a, b]).collect();
@@ -228,8 +250,9 @@ impl ElasticHistories {
 
     /// The sample from which on one of the two overturns: its rotation has passed alpha (rad).
     pub fn falls(&self, alpha: f64) -> Option<usize> {
-        let overturned = matches!(self.reference.history.outcome, ReferenceOutcome::Overturned { .. })
-            || matches!(self.fem.outcome, HistoryOutcome::Overturned { .. });
+        let overturned =
+            matches!(self.reference.history.outcome, ReferenceOutcome::Overturned { .. })
+                || matches!(self.fem.outcome, HistoryOutcome::Overturned { .. });
         let passed = |sway: &Sway| sway.rotation.iter().position(|rotation| rotation.abs() > alpha);
         self.sways.iter().flatten().filter_map(passed).min().filter(|_| overturned)
     }
@@ -269,20 +292,28 @@ impl ElasticAnswer {
     ) -> Result<Self, AnswerError> {
         let held = || {
             // what holds a frame can hold it fixed
-            let frame = assembled.layout.fixed().frame().map_err(|_| EquilibriumError::NoRest { lean: 0.0 })?;
+            let frame = assembled
+                .layout
+                .fixed()
+                .frame()
+                .map_err(|_| EquilibriumError::NoRest { lean: 0.0 })?;
             let history = follow(&frame, &[], record, parts(&assembled.structure, record.dt))?;
             let top = assembled.watched.first().map_or(0, |watched| watched.top);
             let drift = history.q.iter().map(|q| frame.displacement(top, q)[0]).collect();
             Ok::<_, AnswerError>((history, drift))
         };
-        let (histories, held) = rayon::join(|| ElasticHistories::new(assembled, springs, record, reference), held);
+        let (histories, held) =
+            rayon::join(|| ElasticHistories::new(assembled, springs, record, reference), held);
         let (histories, (fixed, fixed_drift)) = (histories?, held?);
         let compared = histories.compared(record, &[]);
-        let [reference, fem] = [0, 1].map(|k| histories.sways.iter().map(|pair| pair[k].clone()).collect::<Vec<_>>());
+        let [reference, fem] =
+            [0, 1].map(|k| histories.sways.iter().map(|pair| pair[k].clone()).collect::<Vec<_>>());
         let errors = errors(&reference, &fem, compared.samples);
         let checked = near.is_some();
         let near = near.filter(|_| histories.reference.foretold_seconds(record.dt).is_some());
-        let near = near.map(|most_work| Ensemble::new(assembled, springs, record, most_work)).transpose()?;
+        let near = near
+            .map(|most_work| Ensemble::new(assembled, springs, record, most_work))
+            .transpose()?;
         let (ensemble, near_left_out) = near.unwrap_or_default();
         // Housner's equation has no members
         let bare = assembled.members == Members::default();
@@ -290,8 +321,10 @@ impl ElasticAnswer {
         // what is borne in a fall is no demand of rocking
         let alpha = assembled.structure.body().alpha();
         let foretold = histories.reference.foretold_seconds(record.dt);
-        let foretold =
-            foretold.into_iter().chain(histories.falls(alpha).map(|i| i as f64 * record.dt)).reduce(f64::min);
+        let foretold = foretold
+            .into_iter()
+            .chain(histories.falls(alpha).map(|i| i as f64 * record.dt))
+            .reduce(f64::min);
         let design = StructureForces::new(
             checked,
             (assembled, springs, record),
@@ -299,7 +332,17 @@ impl ElasticAnswer {
             foretold,
             rigid.as_ref(),
         )?;
-        Ok(Self { histories, compared, errors, fixed, fixed_drift, ensemble, near_left_out, rigid, design })
+        Ok(Self {
+            histories,
+            compared,
+            errors,
+            fixed,
+            fixed_drift,
+            ensemble,
+            near_left_out,
+            rigid,
+            design,
+        })
     }
 }
 

@@ -8,8 +8,8 @@ use super::{
     Mechanics,
     frame::{Base, Frame, FrameError, FrameLayout, FrameTendon},
     reference::{
-        CornerSet, ElasticRocking, GroundAcceleration, PERTURBATION, PerturbedPair, ReferenceOptions, RestError,
-        at_rest, growth, rock,
+        CornerSet, ElasticRocking, GroundAcceleration, PERTURBATION, PerturbedPair,
+        ReferenceOptions, RestError, at_rest, growth, rock,
     },
     standing::Standing,
     structure::ElasticStructure,
@@ -82,19 +82,30 @@ impl Assembled {
     ///
     /// # Errors
     /// Parts that do not fit together; a structure that does not stand under its tendon.
-    pub fn with_members(structure: ElasticStructure, members: Members<f64>) -> Result<Self, AssemblyError> {
+    pub fn with_members(
+        structure: ElasticStructure,
+        members: Members<f64>,
+    ) -> Result<Self, AssemblyError> {
         let layout = stressed(structure.layout_with(&members))?;
         Ok(Self::of(structure, members, layout)?)
     }
 
-    fn of(structure: ElasticStructure, members: Members<f64>, layout: FrameLayout) -> Result<Self, FrameError> {
+    fn of(
+        structure: ElasticStructure,
+        members: Members<f64>,
+        layout: FrameLayout,
+    ) -> Result<Self, FrameError> {
         let frame = layout.frame()?;
         let tops: &[usize] = match structure {
             ElasticStructure::Pier(_) => &[1],
             ElasticStructure::AFrame(_) => &[2],
             ElasticStructure::Frame(_) => &[2, 3],
         };
-        let watched = Base::all(&frame).into_iter().zip(tops).map(|(base, &top)| Watched { base, top }).collect();
+        let watched = Base::all(&frame)
+            .into_iter()
+            .zip(tops)
+            .map(|(base, &top)| Watched { base, top })
+            .collect();
         Ok(Self { structure, members, layout, frame, watched })
     }
 
@@ -137,7 +148,12 @@ impl Assembled {
     }
 
     /// From rest at `q` through a motion of rigid ground, by so many units of work at most.
-    pub fn rock(&self, ground: GroundAcceleration, q: &DVector<f64>, most_work: u64) -> ElasticRocking {
+    pub fn rock(
+        &self,
+        ground: GroundAcceleration,
+        q: &DVector<f64>,
+        most_work: u64,
+    ) -> ElasticRocking {
         let options = ReferenceOptions { most_work, ..ReferenceOptions::default() };
         rock(&self.frame, ground, (q, &DVector::zeros(q.len())), &options)
     }
@@ -151,9 +167,11 @@ impl Assembled {
         history: &ElasticRocking,
         limit: f64,
     ) -> usize {
-        let options = ReferenceOptions { most_work: history.most_work, ..ReferenceOptions::default() };
+        let options =
+            ReferenceOptions { most_work: history.most_work, ..ReferenceOptions::default() };
         let still = DVector::zeros(q.len());
-        let twins = PerturbedPair { coordinates: &self.telling(), perturbation: PERTURBATION, limit };
+        let twins =
+            PerturbedPair { coordinates: &self.telling(), perturbation: PERTURBATION, limit };
         growth(&self.frame, ground, (q, &still), &options, (history, &twins)).samples_below(limit)
     }
 
@@ -177,7 +195,11 @@ impl Assembled {
             Base::Footing(node) => self.frame.coordinates(node)[2],
             Base::Feet => None,
         };
-        self.watched.iter().flat_map(|w| [turn(w.base), self.frame.coordinates(w.top)[0]]).flatten().collect()
+        self.watched
+            .iter()
+            .flat_map(|w| [turn(w.base), self.frame.coordinates(w.top)[0]])
+            .flatten()
+            .collect()
     }
 }
 
@@ -194,10 +216,14 @@ fn stressed(layout: FrameLayout) -> Result<FrameLayout, AssemblyError> {
         return Ok(layout);
     }
     let soft = |tendon: &FrameTendon| FrameTendon { stiffness: SOFT * tendon.stiffness, ..*tendon };
-    let frame = FrameLayout { tendons: layout.tendons.iter().map(soft).collect(), ..layout.clone() }.frame()?;
+    let frame =
+        FrameLayout { tendons: layout.tendons.iter().map(soft).collect(), ..layout.clone() }
+            .frame()?;
     let lengthened = frame.lengthened(upright(&frame)?.as_slice());
     let tendons = layout.tendons.iter().zip(lengthened);
-    let tendons = tendons.map(|(t, by)| FrameTendon { pretension: t.pretension - t.stiffness * by, ..*t }).collect();
+    let tendons = tendons
+        .map(|(t, by)| FrameTendon { pretension: t.pretension - t.stiffness * by, ..*t })
+        .collect();
     Ok(FrameLayout { tendons, ..layout })
 }
 
@@ -205,7 +231,9 @@ fn stressed(layout: FrameLayout) -> Result<FrameLayout, AssemblyError> {
 /// where a history does not get so far, and where it moves and the reference does not.
 pub fn errors(reference: &[Sway], others: &[Sway], samples: usize) -> [f64; 2] {
     let of = |pick: fn(&Sway) -> &[f64]| {
-        let each = || others.iter().zip(reference).map(|(other, reference)| (pick(other), pick(reference)));
+        let each = || {
+            others.iter().zip(reference).map(|(other, reference)| (pick(other), pick(reference)))
+        };
         if each().any(|(other, reference)| other.len() < samples.min(reference.len())) {
             return f64::INFINITY;
         }

@@ -40,7 +40,14 @@ pub struct BeamSection {
 impl BeamSection {
     /// Without damping or mass, rigid in shear.
     pub fn elastic(axial: f64, bending: f64) -> Self {
-        Self { axial, bending, shear: f64::INFINITY, axial_damping: 0.0, bending_damping: 0.0, line_mass: 0.0 }
+        Self {
+            axial,
+            bending,
+            shear: f64::INFINITY,
+            axial_damping: 0.0,
+            bending_damping: 0.0,
+            line_mass: 0.0,
+        }
     }
 
     /// Phi = 12 EI/(GA_s L^2) of a beam of this length (m): what shear adds to its bending.
@@ -93,11 +100,17 @@ const TURN: [usize; 2] = [2, 5];
 
 impl Beam {
     /// Between two ends (x, z) (m), each carried by a node through a rigid arm (m).
-    pub(crate) fn new(ends: [[f64; 2]; 2], arms: [[f64; 2]; 2], hinged: [bool; 2], section: BeamSection) -> Self {
+    pub(crate) fn new(
+        ends: [[f64; 2]; 2],
+        arms: [[f64; 2]; 2],
+        hinged: [bool; 2],
+        section: BeamSection,
+    ) -> Self {
         let [[xa, za], [xb, zb]] = ends;
         let length = (xb - xa).hypot(zb - za);
         let phi = section.shear_ratio(length);
-        let (near, far, alone) = ((4.0 + phi) / (1.0 + phi), (2.0 - phi) / (1.0 + phi), 12.0 / (4.0 + phi));
+        let (near, far, alone) =
+            ((4.0 + phi) / (1.0 + phi), (2.0 - phi) / (1.0 + phi), 12.0 / (4.0 + phi));
         let bending = match hinged {
             [false, false] => [[near, far], [far, near]],
             [false, true] => [[alone, 0.0], [0.0, 0.0]],
@@ -200,11 +213,17 @@ impl Beam {
     /// middle's shear lacks of that of the end, if the half moves as the end does.
     ///
     /// `accel`: y''; `ground`: acceleration of the ground and minus that of gravity (m/s2).
-    pub(crate) fn half_inertia(&self, end: usize, [y, rate, accel]: [&[f64; 6]; 3], ground: [f64; 2]) -> f64 {
+    pub(crate) fn half_inertia(
+        &self,
+        end: usize,
+        [y, rate, accel]: [&[f64; 6]; 3],
+        ground: [f64; 2],
+    ) -> f64 {
         let [x, z] = self.direction(y);
         let Turned { arm, slope, .. } = turned(self.arms[end], y[TURN[end]]);
         let (turn, turning) = (rate[TURN[end]], accel[TURN[end]]);
-        let at = |k: usize| ground[k] + accel[3 * end + k] + slope[k] * turning - arm[k] * turn * turn;
+        let at =
+            |k: usize| ground[k] + accel[3 * end + k] + slope[k] * turning - arm[k] * turn * turn;
         let across = 0.5 * self.section.line_mass * self.length * (at(0) * z - at(1) * x);
         if end == 0 { across } else { -across }
     }
@@ -235,7 +254,8 @@ impl Beam {
         });
         let [along, turning] = d.curvatures();
         // rates of strain change with y as the slopes do
-        let by_rate = |h: &[[f64; 6]; 6]| h.map(|row| (0..6).map(|k| row[k] * rate[k]).sum::<f64>());
+        let by_rate =
+            |h: &[[f64; 6]; 6]| h.map(|row| (0..6).map(|k| row[k] * rate[k]).sum::<f64>());
         let (swing, swerve) = (by_rate(&along), by_rate(&turning));
         let (mut k, mut c) = ([[0.0; 6]; 6], [[0.0; 6]; 6]);
         for i in 0..6 {
@@ -249,7 +269,8 @@ impl Beam {
                 }
                 c[i][j] = (axial_damping * stretch + bending_damping * bend) / self.length;
                 k[i][j] = (axial * stretch + bending * bend) / self.length
-                    + (axial_damping * d.along[i] * swing[j] + bending_damping * turned) / self.length
+                    + (axial_damping * d.along[i] * swing[j] + bending_damping * turned)
+                        / self.length
                     + n * along[i][j]
                     - (a + b) * turning[i][j];
             }

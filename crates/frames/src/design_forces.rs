@@ -27,7 +27,8 @@ pub use columns::{COMPARED, ColumnForces, ColumnPeaks, stiffer};
 pub use cutoff::Cutoff;
 
 use super::{
-    assembled::Assembled, fem::ElasticHistory, frame::EquilibriumError, rigid::RigidForces, structure::ElasticStructure,
+    assembled::Assembled, fem::ElasticHistory, frame::EquilibriumError, rigid::RigidForces,
+    structure::ElasticStructure,
 };
 use check::{ForcePeaks, Variants};
 use dynamics::spring::{Chain, Springs};
@@ -159,7 +160,8 @@ impl StructureForces {
     /// None where one of them is withheld.
     pub fn error(&self) -> Option<f64> {
         let of_columns = || self.forces.iter().filter(|force| COMPARED.contains(&force.kind));
-        let changes = of_columns().map(|force| force.others.change_by(force.others.stiffer)).reduce(f64::max);
+        let changes =
+            of_columns().map(|force| force.others.change_by(force.others.stiffer)).reduce(f64::max);
         changes.filter(|_| of_columns().all(|force| force.holds))
     }
 
@@ -178,7 +180,8 @@ impl StructureForces {
         rigid: Option<&RigidForces>,
     ) -> Result<Self, EquilibriumError> {
         let cutoff = Cutoff::of(&assembled.structure);
-        let of = |history: &ElasticHistory, over: f64| ForcePeaks::of(history, cutoff.as_ref(), over);
+        let of =
+            |history: &ElasticHistory, over: f64| ForcePeaks::of(history, cutoff.as_ref(), over);
         let variants = checked.then(|| Variants::of(assembled, springs, record)).transpose()?;
         let held = of(fixed, f64::INFINITY);
         // all forces of all motions over the same time
@@ -189,14 +192,18 @@ impl StructureForces {
             };
             let finer = peaks_of(|variants| variants.doubled.as_ref());
             let [softer, stiffer] = [peaks_of(|v| Some(&v.softer)), peaks_of(|v| Some(&v.stiffer))];
-            let value = |peaks: &ForcePeaks, kind: ForceKind| peaks.get(kind).map(|peak| peak.filtered.value);
+            let value = |peaks: &ForcePeaks, kind: ForceKind| {
+                peaks.get(kind).map(|peak| peak.filtered.value)
+            };
             let force = |kind: ForceKind| {
                 let peak = peaks.get(kind)?;
                 let found = peak.filtered.value;
                 let others = OtherForces {
                     found,
                     // a mesh that says nothing changes everything
-                    doubled_elements: finer.as_ref().map(|finer| value(finer, kind).unwrap_or(f64::INFINITY)),
+                    doubled_elements: finer
+                        .as_ref()
+                        .map(|finer| value(finer, kind).unwrap_or(f64::INFINITY)),
                     softer: softer.as_ref().and_then(|softer| value(softer, kind)),
                     stiffer: stiffer.as_ref().and_then(|stiffer| value(stiffer, kind)),
                 };
@@ -227,7 +234,9 @@ impl StructureForces {
         // beyond what can be foretold motions part, and with them their peaks
         if forces.iter().any(|force| !force.holds) {
             for part in foretold_s.map(over).into_iter().flatten().filter(|part| part.holds) {
-                if let Some(whole) = forces.iter_mut().find(|whole| whole.kind == part.kind && !whole.holds) {
+                if let Some(whole) =
+                    forces.iter_mut().find(|whole| whole.kind == part.kind && !whole.holds)
+                {
                     *whole = StructureForce { whole_record: Some(whole.others), ..part };
                 }
             }
@@ -248,7 +257,10 @@ pub fn peaks_in(
 ) -> Result<Vec<(ForceKind, f64)>, EquilibriumError> {
     let history = check::follow(&assembled.structure, &assembled.frame, springs, record)?;
     let peaks = ForcePeaks::of(&history, Cutoff::of(&assembled.structure).as_ref(), f64::INFINITY);
-    Ok(ForceKind::ALL.into_iter().filter_map(|kind| Some((kind, peaks.get(kind)?.filtered.value))).collect())
+    Ok(ForceKind::ALL
+        .into_iter()
+        .filter_map(|kind| Some((kind, peaks.get(kind)?.filtered.value)))
+        .collect())
 }
 
 /// Parts of a record's time step whose means hold what a structure's cutoffs keep.
@@ -267,11 +279,18 @@ fn rigid_peak(rigid: &RigidForces, kind: ForceKind, dt: f64) -> Option<ForcePeak
         ForceKind::ColumnShear => &rigid.shear,
         ForceKind::ColumnBaseMoment => &rigid.moment,
         ForceKind::Axial => &rigid.axial,
-        ForceKind::ColumnTopMoment | ForceKind::AxialTension | ForceKind::SoleShear | ForceKind::SoleVertical => {
+        ForceKind::ColumnTopMoment
+        | ForceKind::AxialTension
+        | ForceKind::SoleShear
+        | ForceKind::SoleVertical => {
             return None;
         }
     };
     let peak = TimedPeak::of(dt, series).map(ForcePeak::from)?;
     // on the end of the column, as in the frame
-    Some(if kind == ForceKind::ColumnBaseMoment { ForcePeak { value: -peak.value, ..peak } } else { peak })
+    Some(if kind == ForceKind::ColumnBaseMoment {
+        ForcePeak { value: -peak.value, ..peak }
+    } else {
+        peak
+    })
 }

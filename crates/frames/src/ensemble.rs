@@ -104,15 +104,21 @@ impl Ensemble {
             _ => None,
         };
         let pairs: Vec<[Largest; 2]> = all.iter().filter_map(followed).collect();
-        let out_of_work = all.iter().filter(|pair| pair.iter().any(|near| matches!(near, Near::OutOfWork))).count();
+        let out_of_work = all
+            .iter()
+            .filter(|pair| pair.iter().any(|near| matches!(near, Near::OutOfWork)))
+            .count();
         Ok((Self::of(&pairs), out_of_work))
     }
 
     /// Of the peaks on rigid ground and on springs; none if there are none.
     fn of(pairs: &[[Largest; 2]]) -> Option<Self> {
-        let all = |model: usize, what: usize| pairs.iter().map(|pair| pair[model][what]).collect::<Vec<_>>();
+        let all = |model: usize, what: usize| {
+            pairs.iter().map(|pair| pair[model][what]).collect::<Vec<_>>()
+        };
         let spread = |what: usize| Spread::new(&all(0, what), &all(1, what));
-        let overturned = [0, 1].map(|model| all(model, 0).iter().filter(|peak| peak.is_infinite()).count());
+        let overturned =
+            [0, 1].map(|model| all(model, 0).iter().filter(|peak| peak.is_infinite()).count());
         (!pairs.is_empty()).then(|| Self {
             motions: pairs.len(),
             change: CHANGE,
@@ -124,7 +130,9 @@ impl Ensemble {
 }
 
 fn largest(sways: &[Sway]) -> Largest {
-    let of = |pick: fn(&Sway) -> &[f64]| sways.iter().map(|sway| peak(pick(sway)).abs()).fold(0.0, f64::max);
+    let of = |pick: fn(&Sway) -> &[f64]| {
+        sways.iter().map(|sway| peak(pick(sway)).abs()).fold(0.0, f64::max)
+    };
     [of(|sway| &sway.rotation), of(|sway| &sway.drift)]
 }
 
@@ -136,24 +144,50 @@ enum Near {
     Lost,
 }
 
-fn on_rigid_ground(assembled: &Assembled, q: &DVector<f64>, record: &Record, (scale, most_work): (f64, u64)) -> Near {
+fn on_rigid_ground(
+    assembled: &Assembled,
+    q: &DVector<f64>,
+    record: &Record,
+    (scale, most_work): (f64, u64),
+) -> Near {
     let ground = GroundAcceleration { dt: record.dt, accel: &record.accel, vertical: record.up() };
     let options = ReferenceOptions { scale, most_work, ..ReferenceOptions::default() };
     let history = rock(&assembled.frame, ground, (q, &DVector::zeros(q.len())), &options);
     match history.outcome {
-        ReferenceOutcome::Completed => Near::Peaks(largest(&assembled.sways(history.q.iter().map(|q| q.as_slice())))),
+        ReferenceOutcome::Completed => {
+            Near::Peaks(largest(&assembled.sways(history.q.iter().map(|q| q.as_slice()))))
+        }
         ReferenceOutcome::Overturned { .. } => Near::Peaks([f64::INFINITY; 2]),
         ReferenceOutcome::Stopped { why: Stop::Work | Stop::Events, .. } => Near::OutOfWork,
         ReferenceOutcome::Stopped { .. } => Near::Lost,
     }
 }
 
-fn on_springs(assembled: &Assembled, springs: &[Springs<Chain<f64>>], record: &Record, scale: f64) -> Near {
-    let whole = ElasticAnalysis::new(&assembled.frame, springs, ElasticStart::Standing, record.dt, &record.accel);
-    let case = ElasticAnalysis { vertical: record.up(), scale, control: Control::search(), forces: false, ..whole };
+fn on_springs(
+    assembled: &Assembled,
+    springs: &[Springs<Chain<f64>>],
+    record: &Record,
+    scale: f64,
+) -> Near {
+    let whole = ElasticAnalysis::new(
+        &assembled.frame,
+        springs,
+        ElasticStart::Standing,
+        record.dt,
+        &record.accel,
+    );
+    let case = ElasticAnalysis {
+        vertical: record.up(),
+        scale,
+        control: Control::search(),
+        forces: false,
+        ..whole
+    };
     let Ok(history) = case.simulate() else { return Near::Lost };
     match history.outcome {
-        HistoryOutcome::Completed => Near::Peaks(largest(&assembled.sways(history.q.iter().map(Vec::as_slice)))),
+        HistoryOutcome::Completed => {
+            Near::Peaks(largest(&assembled.sways(history.q.iter().map(Vec::as_slice))))
+        }
         HistoryOutcome::Overturned { .. } => Near::Peaks([f64::INFINITY; 2]),
         HistoryOutcome::WorkBound { .. } => Near::OutOfWork,
         _ => Near::Lost,
@@ -167,13 +201,16 @@ mod tests {
     #[test]
     fn medians_and_distances_are_those_worked_by_hand() {
         let of = |pairs: &[[f64; 2]]| {
-            let pairs: Vec<[Largest; 2]> = pairs.iter().map(|[a, b]| [[*a, 2.0 * a], [*b, 2.0 * b]]).collect();
+            let pairs: Vec<[Largest; 2]> =
+                pairs.iter().map(|[a, b]| [[*a, 2.0 * a], [*b, 2.0 * b]]).collect();
             Ensemble::of(&pairs)
         };
         let ensemble = of(&[[0.3, 0.1], [0.1, 0.2], [0.2, 0.4], [f64::INFINITY, 0.5]]).unwrap();
         assert_eq!((ensemble.motions, ensemble.overturned), (4, [1, 0]));
         let Spread { median, p90, ks_distance } = ensemble.rotation_rad;
-        assert!((median[0].unwrap() - 0.25).abs() < 1e-15 && (median[1].unwrap() - 0.3).abs() < 1e-15);
+        assert!(
+            (median[0].unwrap() - 0.25).abs() < 1e-15 && (median[1].unwrap() - 0.3).abs() < 1e-15
+        );
         // a tenth of the histories on rigid ground overturn
         assert!(p90[0].is_none() && (p90[1].unwrap() - 0.47).abs() < 1e-15);
         // at 0.3: three of four against two of four

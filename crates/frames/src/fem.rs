@@ -138,7 +138,18 @@ impl<'a> ElasticAnalysis<'a> {
         accel: &'a [f64],
     ) -> Self {
         let control = default_control();
-        Self { frame, springs, start, dt, accel, vertical: &[], scale: 1.0, control, forces: true, parts: 0 }
+        Self {
+            frame,
+            springs,
+            start,
+            dt,
+            accel,
+            vertical: &[],
+            scale: 1.0,
+            control,
+            forces: true,
+            parts: 0,
+        }
     }
 
     /// Run the case and keep its history.
@@ -151,7 +162,8 @@ impl<'a> ElasticAnalysis<'a> {
         let still = |(q, feet): (Vec<f64>, Vec<CornerState>)| (vec![0.0; q.len()], q, feet);
         let standing = model.standing();
         // the scale of energies, also of a structure that does not stand
-        let at_rest = standing.as_ref().map_or(0.0, |(q, feet)| model.energy(q, &vec![0.0; q.len()], feet));
+        let at_rest =
+            standing.as_ref().map_or(0.0, |(q, feet)| model.energy(q, &vec![0.0; q.len()], feet));
         let (v, q, feet) = match &self.start {
             ElasticStart::Standing => still(standing?),
             ElasticStart::Leaning(lean) => still(model.leaning(*lean)?),
@@ -162,8 +174,12 @@ impl<'a> ElasticAnalysis<'a> {
                 (v, q, feet.clone())
             }
         };
-        let mut recorder =
-            history::ElasticRecorder::new(self.frame, (self.dt, self.accel.len()), self.forces, self.parts);
+        let mut recorder = history::ElasticRecorder::new(
+            self.frame,
+            (self.dt, self.accel.len()),
+            self.forces,
+            self.parts,
+        );
         let mut run = run::SpringsRun::new(self, &model, (q, v, feet), at_rest);
         let outcome = run.follow(&mut recorder);
         Ok(recorder.finish(run.finish(outcome)))
@@ -173,7 +189,11 @@ impl<'a> ElasticAnalysis<'a> {
         let (n, corners) = (self.frame.size(), self.frame.places().len());
         let mut counts = vec![("springs", self.springs.len(), corners)];
         if let ElasticStart::State { q, v, feet } = &self.start {
-            counts.extend([("coordinates", q.len(), n), ("velocities", v.len(), n), ("feet", feet.len(), corners)]);
+            counts.extend([
+                ("coordinates", q.len(), n),
+                ("velocities", v.len(), n),
+                ("feet", feet.len(), corners),
+            ]);
         }
         match counts.into_iter().find(|(_, given, needed)| given != needed) {
             Some((what, given, needed)) => Err(EquilibriumError::Mismatch { what, given, needed }),

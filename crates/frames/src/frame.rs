@@ -165,7 +165,13 @@ impl Frame {
     }
 
     /// What beam i's shear lacks of that of one of its ends (N): `Beam::half_inertia`.
-    pub(crate) fn half_inertia(&self, i: usize, end: usize, motion: [&[f64]; 3], ground: [f64; 2]) -> f64 {
+    pub(crate) fn half_inertia(
+        &self,
+        i: usize,
+        end: usize,
+        motion: [&[f64]; 3],
+        ground: [f64; 2],
+    ) -> f64 {
         let BeamElement { beam, index, .. } = &self.elements[i];
         let [y, rate, accel] = motion.map(|x| gather(index, x));
         beam.half_inertia(end, [&y, &rate, &accel], ground)
@@ -215,7 +221,9 @@ impl Frame {
             (x * oz - z * ox).abs() < STRAIGHT
         };
         let others = (0..self.elements.len()).filter(|other| *other != i && straight(*other));
-        others.flat_map(|other| [(other, 0), (other, 1)]).find(|(other, begins)| index(*other, *begins) == node)
+        others
+            .flat_map(|other| [(other, 0), (other, 1)])
+            .find(|(other, begins)| index(*other, *begins) == node)
     }
 
     /// Unit vector along beam i's chord, from its first end to its second.

@@ -84,13 +84,19 @@ impl StructurePeaks {
 
 impl StructurePeakErrors {
     /// Of a history that says nothing.
-    pub const LOST: Self =
-        Self { displacement: f64::INFINITY, drift: f64::INFINITY, uplift: f64::INFINITY, design_forces: None };
+    pub const LOST: Self = Self {
+        displacement: f64::INFINITY,
+        drift: f64::INFINITY,
+        uplift: f64::INFINITY,
+        design_forces: None,
+    };
 
     /// Which of them is the largest, in words.
     pub fn worst(&self) -> &'static str {
-        let all = [("displacement", self.displacement), ("bending", self.drift), ("uplift", self.uplift)];
-        let all = all.into_iter().chain(self.design_forces.map(|forces| ("a design force", forces)));
+        let all =
+            [("displacement", self.displacement), ("bending", self.drift), ("uplift", self.uplift)];
+        let all =
+            all.into_iter().chain(self.design_forces.map(|forces| ("a design force", forces)));
         all.max_by(|(_, a), (_, b)| a.total_cmp(b)).map_or("", |(name, _)| name)
     }
 
@@ -120,7 +126,8 @@ mod tests {
     #[test]
     fn errors_are_shares_of_the_reference_and_the_largest_decides() {
         let reference = StructurePeaks { displacement: 2.0, drift: 0.5, uplift: 0.1 };
-        let errors = StructurePeaks { displacement: 2.02, drift: 0.48, uplift: 0.1 }.beside(&reference);
+        let errors =
+            StructurePeaks { displacement: 2.02, drift: 0.48, uplift: 0.1 }.beside(&reference);
         assert!((errors.displacement - 0.01).abs() < 1e-12 && (errors.drift - 0.04).abs() < 1e-12);
         assert!(errors.uplift == 0.0 && errors.largest() == errors.drift);
         let worse = StructurePeakErrors { design_forces: Some(0.2), ..errors };

@@ -96,7 +96,12 @@ impl Pier {
     pub fn leaning(&self, theta: f64) -> DVector<f64> {
         let (sin, cos) = theta.sin_cos();
         let pivot = self.half_width * theta.signum();
-        let mut q = vec![pivot * (1.0 - cos), pivot * sin, theta, self.mass * GRAVITY * sin / self.stiffness];
+        let mut q = vec![
+            pivot * (1.0 - cos),
+            pivot * sin,
+            theta,
+            self.mass * GRAVITY * sin / self.stiffness,
+        ];
         q.extend(self.axial.map(|axial| -self.mass * GRAVITY * cos / axial.stiffness));
         q.into()
     }
@@ -111,7 +116,10 @@ impl Pier {
     fn column<S: Scalar>(&self, u: S, a: S) -> (S, [S; 2]) {
         let k_a = self.axial.map_or(0.0, |axial| axial.stiffness);
         let Some(length) = self.axial.and_then(|axial| axial.chord) else {
-            return (u * u * (0.5 * self.stiffness) + a * a * (0.5 * k_a), [u * self.stiffness, a * k_a]);
+            return (
+                u * u * (0.5 * self.stiffness) + a * a * (0.5 * k_a),
+                [u * self.stiffness, a * k_a],
+            );
         };
         let k_b = self.bending(length);
         let y = a + length;
@@ -125,15 +133,25 @@ impl Pier {
     }
 
     /// Q, in all five coordinates.
-    fn generalised_force<S: Scalar>(&self, q: &[S; SIZE], v: &[S; SIZE], ground: [f64; 2]) -> [S; SIZE] {
+    fn generalised_force<S: Scalar>(
+        &self,
+        q: &[S; SIZE],
+        v: &[S; SIZE],
+        ground: [f64; 2],
+    ) -> [S; SIZE] {
         let (sin, cos) = q[2].sin_cos();
         let (u, y, w) = (q[3], q[4] + self.height, v[2]);
         // inertial acceleration of a body that does not move, in (e1, e2)
         let pull = [-ground[0], -ground[1] - GRAVITY];
         let rest = [cos * pull[0] - sin * pull[1], sin * pull[0] + cos * pull[1]];
-        let on_mass =
-            [(rest[0] - v[4] * w * 2.0 + u * w * w) * self.mass, (rest[1] + v[3] * w * 2.0 + y * w * w) * self.mass];
-        let on_footing = [rest[0] * self.footing_mass, (rest[1] + w * w * self.footing_height) * self.footing_mass];
+        let on_mass = [
+            (rest[0] - v[4] * w * 2.0 + u * w * w) * self.mass,
+            (rest[1] + v[3] * w * 2.0 + y * w * w) * self.mass,
+        ];
+        let on_footing = [
+            rest[0] * self.footing_mass,
+            (rest[1] + w * w * self.footing_height) * self.footing_mass,
+        ];
         let sum = [on_mass[0] + on_footing[0], on_mass[1] + on_footing[1]];
         let (_, column) = self.column(u, q[4]);
         let axial_damping = self.axial.map_or(0.0, |axial| axial.damping);
@@ -169,7 +187,8 @@ impl Mechanics for Pier {
         let dot = |a: [f64; 2], b: [f64; 2]| a[0] * b[0] + a[1] * b[1];
         let n = self.size();
         let mut mass = DMatrix::from_fn(n, n, |i, j| {
-            self.mass * dot(on_mass[i], on_mass[j]) + self.footing_mass * dot(on_footing[i], on_footing[j])
+            self.mass * dot(on_mass[i], on_mass[j])
+                + self.footing_mass * dot(on_footing[i], on_footing[j])
         });
         mass[(2, 2)] += self.footing_inertia;
         mass
@@ -210,7 +229,11 @@ impl Mechanics for Pier {
         (jacobian[0][0], jacobian[0][2]) = (1.0, -x * sin);
         (jacobian[1][1], jacobian[1][2]) = (1.0, -x * cos);
         let half = (0.5 * q[2]).sin();
-        Corner { place: [q[0] - 2.0 * x * half * half, q[1] - x * sin], jacobian, bias: [-x * cos * w2, x * sin * w2] }
+        Corner {
+            place: [q[0] - 2.0 * x * half * half, q[1] - x * sin],
+            jacobian,
+            bias: [-x * cos * w2, x * sin * w2],
+        }
     }
 
     fn potential(&self, q: &DVector<f64>) -> f64 {

@@ -41,8 +41,10 @@ impl RigidForces {
         // masses (kg), their heights above the ground and above the column's foot (m)
         let masses = match structure {
             ElasticStructure::Pier(pier) => {
-                let (length, foot, half) = (pier.length(), pier.height_m - pier.length(), 0.5 * pier.column_mass_kg);
-                let points = [-1.0, 1.0].map(|side: f64| 0.5 * length * (1.0 + side / 3.0_f64.sqrt()));
+                let (length, foot, half) =
+                    (pier.length(), pier.height_m - pier.length(), 0.5 * pier.column_mass_kg);
+                let points =
+                    [-1.0, 1.0].map(|side: f64| 0.5 * length * (1.0 + side / 3.0_f64.sqrt()));
                 vec![
                     (pier.mass_kg, pier.height_m, length),
                     (half, foot + points[0], points[0]),
@@ -65,14 +67,19 @@ impl RigidForces {
             let stands = theta == 0.0 && rate == 0.0;
             let s = if theta != 0.0 { theta.signum() } else { rate.signum() };
             let lean = alpha * s - theta;
-            let turn =
-                if stands { 0.0 } else { -p2 * ((1.0 + a_v / GRAVITY) * lean.sin() + a_g / GRAVITY * lean.cos()) };
+            let turn = if stands {
+                0.0
+            } else {
+                -p2 * ((1.0 + a_v / GRAVITY) * lean.sin() + a_g / GRAVITY * lean.cos())
+            };
             let (sin, cos) = theta.sin_cos();
             let (mut force, mut moment) = ([0.0; 2], 0.0);
             for &(mass, h, arm) in &masses {
                 let (x, z) = (h * sin - s * b * cos, h * cos + s * b * sin);
-                let of =
-                    [mass * (z * turn - x * rate * rate + a_g), mass * (-x * turn - z * rate * rate + a_v + GRAVITY)];
+                let of = [
+                    mass * (z * turn - x * rate * rate + a_g),
+                    mass * (-x * turn - z * rate * rate + a_v + GRAVITY),
+                ];
                 force = [force[0] + of[0], force[1] + of[1]];
                 moment += (of[0] * cos - of[1] * sin) * arm;
             }

@@ -82,17 +82,27 @@ impl Standing {
         let held = HeldFrame::new(&g)?;
         let still = structure.force(q, &rest, [0.0; 2]);
         let of = |ground: [f64; 2]| {
-            held.response(&stiffness, &structure.mass(q), &(structure.force(q, &rest, ground) - &still))
+            held.response(
+                &stiffness,
+                &structure.mass(q),
+                &(structure.force(q, &rest, ground) - &still),
+            )
         };
         let responses = [of([-1.0, 0.0])?, of([0.0, -1.0])?];
-        Some(Self { reactions: held.reactions(&-still), footings, responses, mass: structure.whole_mass(q) })
+        Some(Self {
+            reactions: held.reactions(&-still),
+            footings,
+            responses,
+            mass: structure.whole_mass(q),
+        })
     }
 
     /// Ground acceleration, slowly applied, at which the first corner lifts (m/s2): the vertical
     /// force at rest over what 1 m/s2 takes off it. `None` if a corner bears nothing at rest.
     pub fn uplift(&self) -> Option<f64> {
         let at_rest = self.reactions.iter().map(|[_, n]| *n);
-        let lifted = at_rest.zip(&self.responses[0].reactions).map(|(n, [_, by])| (n, n / by.abs()));
+        let lifted =
+            at_rest.zip(&self.responses[0].reactions).map(|(n, [_, by])| (n, n / by.abs()));
         let first = lifted.map(|(n, lift)| if n > 0.0 { lift } else { f64::NAN }).reduce(|a, b| {
             // NaN: a corner without weight decides
             if a < b || a.is_nan() { a } else { b }
@@ -102,7 +112,11 @@ impl Standing {
 }
 
 /// W of each footing, in the order of their corners.
-fn footings(of_corner: &[usize], w: &DMatrix<f64>, width: impl Fn(&[usize]) -> f64) -> Vec<FootingInertia> {
+fn footings(
+    of_corner: &[usize],
+    w: &DMatrix<f64>,
+    width: impl Fn(&[usize]) -> f64,
+) -> Vec<FootingInertia> {
     let count = of_corner.iter().map(|footing| footing + 1).max().unwrap_or(0);
     let footing = |index: usize| {
         let corners: Vec<usize> = (0..of_corner.len()).filter(|i| of_corner[*i] == index).collect();
@@ -138,7 +152,8 @@ impl HeldFrame {
         let svd = SVD::new_unordered(g.transpose() * g, true, false);
         let u = svd.u?;
         let most = svd.singular_values.max();
-        let idle: Vec<usize> = (0..n).filter(|i| svd.singular_values[*i] <= REDUNDANT * most).collect();
+        let idle: Vec<usize> =
+            (0..n).filter(|i| svd.singular_values[*i] <= REDUNDANT * most).collect();
         let free = DMatrix::from_fn(n, idle.len(), |i, j| u[(i, idle[j])]);
         let reactions = g.transpose().pseudo_inverse(REDUNDANT.sqrt() * most.sqrt()).ok()?;
         Some(Self { free, reactions })
@@ -150,7 +165,12 @@ impl HeldFrame {
         (0..all.len() / 2).map(|i| [all[2 * i], all[2 * i + 1]]).collect()
     }
 
-    fn response(&self, stiffness: &DMatrix<f64>, mass: &DMatrix<f64>, load: &DVector<f64>) -> Option<FixedResponse> {
+    fn response(
+        &self,
+        stiffness: &DMatrix<f64>,
+        mass: &DMatrix<f64>,
+        load: &DVector<f64>,
+    ) -> Option<FixedResponse> {
         let reduced = self.free.transpose() * stiffness * &self.free;
         let reduced = 0.5 * (&reduced + reduced.transpose());
         let u = &self.free * reduced.cholesky()?.solve(&(self.free.transpose() * load));

@@ -48,7 +48,9 @@ pub enum ElasticError {
     NotPositive { name: &'static str, value: f64 },
     #[error("structure: {name} is {value:?}; give a finite number, zero or greater")]
     Negative { name: &'static str, value: f64 },
-    #[error("structure: {name} is {value:?}; give one between {least:e} and {most:e} (in m, kg, N, N m2, Hz)")]
+    #[error(
+        "structure: {name} is {value:?}; give one between {least:e} and {most:e} (in m, kg, N, N m2, Hz)"
+    )]
     Absurd { name: &'static str, value: f64, least: f64, most: f64 },
     #[error("structure: {name} is {value:?}; a ratio to critical damping lies between 0 and 0.5")]
     Damping { name: &'static str, value: f64 },
@@ -58,7 +60,9 @@ pub enum ElasticError {
         "structure: footing_height_m is {footing:?} and height_m {height:?}; the column between them must have a length"
     )]
     NoColumn { footing: f64, height: f64 },
-    #[error("structure: footing_width_m is {width:?} and span_m {span:?}; footings this wide would overlap")]
+    #[error(
+        "structure: footing_width_m is {width:?} and span_m {span:?}; footings this wide would overlap"
+    )]
     Overlap { width: f64, span: f64 },
     #[error(
         "structure: slenderness atan(half the width/height of the centre of mass) is {alpha:.4} rad; rocking needs 0.005 to 0.9 rad: check height_m, width_m and masses"
@@ -76,7 +80,9 @@ pub enum ElasticError {
         "structure: its column's shear stiffness, {ga:.3e} N, is too soft for the frequency asked for; give a larger ga_n or ea_n (N), or a lower frequency_hz"
     )]
     Shear { ga: f64 },
-    #[error("structure: elements is {elements}; give 1 to 32 to a column, more than one only with column_mass_kg")]
+    #[error(
+        "structure: elements is {elements}; give 1 to 32 to a column, more than one only with column_mass_kg"
+    )]
     Elements { elements: usize },
     #[error(transparent)]
     Members(#[from] MembersError),

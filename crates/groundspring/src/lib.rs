@@ -41,14 +41,17 @@ pub use decks::{DeckFormat, ExportError, deck};
 #[doc(inline)]
 pub use dynamics::compare::Match;
 #[doc(inline)]
-pub use dynamics::fem::{Account, Demands, Forces, History, HistoryOutcome, Landing, QUANTITIES, Work};
+pub use dynamics::fem::{
+    Account, Demands, Forces, History, HistoryOutcome, Landing, QUANTITIES, Work,
+};
 #[doc(inline)]
 pub use dynamics::spring::{Chain, ChainRow, Design, Springs};
 #[doc(inline)]
 pub use rocking::conditioning::{Changes, Conditioning, Sensitivity};
 #[doc(inline)]
 pub use rocking::housner::{
-    Impact, Rocking, RockingOptions, RockingOutcome, Uplift, solve as rock, solve_lanes as rock_many,
+    Impact, Rocking, RockingOptions, RockingOutcome, Uplift, solve as rock,
+    solve_lanes as rock_many,
 };
 #[doc(inline)]
 pub use rocking::members::{Damper, Friction, Members, MembersError, Tendon};
@@ -71,15 +74,21 @@ pub use springs::predictability::simulate;
 #[doc(inline)]
 pub use springs::response::Response;
 #[doc(inline)]
-pub use springs::tuning::{assessment::Assessment, job::JobError, paper_procedure::inner::FitError};
+pub use springs::tuning::{
+    assessment::Assessment, job::JobError, paper_procedure::inner::FitError,
+};
 #[doc(inline)]
-pub use springs::validate::{Confusion, GeometricMean, Quantiles, RecordOutcome, Row, Suite, Summary, Validation};
+pub use springs::validate::{
+    Confusion, GeometricMean, Quantiles, RecordOutcome, Row, Suite, Summary, Validation,
+};
 #[doc(inline)]
 pub use springs::verdict::{Answer, Fate, Verdict};
 #[doc(inline)]
 pub use strong_motion::excitation::Excitation;
 #[doc(inline)]
-pub use strong_motion::{Notice, ReadOptions, Record, RecordError, Source, Units, UnitsError, Vertical, VerticalFrom};
+pub use strong_motion::{
+    Notice, ReadOptions, Record, RecordError, Source, Units, UnitsError, Vertical, VerticalFrom,
+};
 
 /// Tune the springs of a case: what `tune run` does, without its histories.
 ///

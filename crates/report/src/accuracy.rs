@@ -50,10 +50,16 @@ impl AccuracyReport {
     pub(crate) fn of_rigid(a: &Assessment) -> Self {
         let (history, each) = (&a.measured, a.measured_peaks);
         let peaks = each.map(|peaks| peaks.largest);
-        let worst = |of: fn(&PeakAccuracy) -> Option<PeakErrors>| each.as_ref().and_then(of).map(|e| e.worst());
+        let worst = |of: fn(&PeakAccuracy) -> Option<PeakErrors>| {
+            each.as_ref().and_then(of).map(|e| e.worst())
+        };
         let asked = |by: Yardstick| Some(a.accuracy).filter(|_| a.judged_by == by);
         let (of_history, of_peaks) = (asked(Yardstick::Histories), asked(Yardstick::Peaks));
-        let row = |on: String, count: usize, of: &dyn Fn(&Accuracy) -> Option<f64>, looser: f64, worst| AccuracyOn {
+        let row = |on: String,
+                   count: usize,
+                   of: &dyn Fn(&Accuracy) -> Option<f64>,
+                   looser: f64,
+                   worst| AccuracyOn {
             on,
             count,
             history: of(history),
@@ -62,11 +68,16 @@ impl AccuracyReport {
             history_allowed: of_history.map(|x| looser * x),
             peaks_allowed: of_peaks.map(|x| looser * x),
         };
-        let statistics = |of: fn(&Accuracy) -> Option<Statistic>, words: fn(usize) -> String, looser: f64, worst| {
+        let statistics = |of: fn(&Accuracy) -> Option<Statistic>,
+                          words: fn(usize) -> String,
+                          looser: f64,
+                          worst| {
             let count = of(history).or(peaks.as_ref().and_then(of))?.count;
             Some(row(words(count), count, &|a| of(a).map(|s| s.value), looser, worst))
         };
-        let record = history.record.map(|_| row("this record".into(), 1, &|a| a.record, 1.0, worst(|p| p.record)));
+        let record = history
+            .record
+            .map(|_| row("this record".into(), 1, &|a| a.record, 1.0, worst(|p| p.record)));
         let words = |n| format!("{n} synthetic motions (median)");
         let median = statistics(|a| a.synthetic_median, words, 1.0, worst(|p| p.synthetic_median));
         let p90 = statistics(|a| a.synthetic_p90, |_| "90 % of these".into(), LOOSER, None);
@@ -141,8 +152,15 @@ impl AccuracyReport {
                 cell(row.history_allowed, |x| significant(x, 2)),
             ]
         });
-        Table::new(["measured on", "motions", "error of peaks", "allowed", "NRMSE of the history", "allowed"])
-            .with(rows)
+        Table::new([
+            "measured on",
+            "motions",
+            "error of peaks",
+            "allowed",
+            "NRMSE of the history",
+            "allowed",
+        ])
+        .with(rows)
     }
 }
 
@@ -167,13 +185,20 @@ mod tests {
             history_allowed: Some(0.002),
             peaks_allowed: None,
         };
-        let mut report =
-            AccuracyReport { history_asked: Some(0.002), peaks_asked: None, reached: true, measured: vec![row] };
+        let mut report = AccuracyReport {
+            history_asked: Some(0.002),
+            peaks_asked: None,
+            reached: true,
+            measured: vec![row],
+        };
         assert_eq!(
             report.sentence(),
             "on this record: peaks within 0.013 % (uplift), history 2.2e-5 (NRMSE); asked: history 0.002, reached"
         );
-        assert_eq!(report.short(), "this record: peaks within 0.013 % (uplift), NRMSE 2.2e-5; as asked");
+        assert_eq!(
+            report.short(),
+            "this record: peaks within 0.013 % (uplift), NRMSE 2.2e-5; as asked"
+        );
         assert_eq!(report.table().rows[0][2], "0.013 %");
         report.measured.clear();
         assert!(report.sentence().starts_with("not measured"));

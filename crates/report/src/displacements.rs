@@ -36,7 +36,8 @@ pub fn peak_table(run: &Run) -> Option<Table> {
     };
     // the parts of a displacement are largest at times of their own, so that they are more than the
     // whole
-    let largest = if pair.reference.bending_m.is_some() { "largest, each by itself" } else { "largest" };
+    let largest =
+        if pair.reference.bending_m.is_some() { "largest, each by itself" } else { "largest" };
     let mut head = vec![largest.to_string(), reference, "on springs".into(), "difference".into()];
     head.extend(with.map(|_| "with members".into()));
     let row = |(name, of, words): PeakRow| {
@@ -52,7 +53,11 @@ pub fn peak_table(run: &Run) -> Option<Table> {
             _ => "-".into(),
         };
         // a rigid body's are those of some strength
-        let counted = if name == "impacts" && pair.reference.bending_m.is_none() { " (above 0.02 alpha)" } else { "" };
+        let counted = if name == "impacts" && pair.reference.bending_m.is_none() {
+            " (above 0.02 alpha)"
+        } else {
+            ""
+        };
         let mut row = vec![format!("{name}{counted}"), words(a), words(b), difference];
         row.extend(with.and_then(of).map(words));
         Some(row)
@@ -73,7 +78,9 @@ pub fn summary(run: &Run) -> Table {
     let mut table = Table::new(["quantity", "unit", "reference", "on_springs", "holds_to_s"]);
     let mut row = |name: &str, unit: &str, numbers: [Option<f64>; 3]| {
         let cell = |x: Option<f64>| x.map_or(String::new(), |x| format!("{x:.6e}"));
-        table.rows.push([vec![name.to_string(), unit.to_string()], numbers.map(cell).into()].concat());
+        table
+            .rows
+            .push([vec![name.to_string(), unit.to_string()], numbers.map(cell).into()].concat());
     };
     if let Some(pair) = &run.peaks {
         let springs = pair.with_members.unwrap_or(pair.springs);
@@ -87,7 +94,8 @@ pub fn summary(run: &Run) -> Table {
     }
     for (name, force) in run.design_forces.iter().flat_map(|forces| forces.all()) {
         // an elastic structure's reference has no largest force of its own
-        let reference = force.rigid.filter(|_| !matches!(run.parameters, FiledParameters::Elastic(_)));
+        let reference =
+            force.rigid.filter(|_| !matches!(run.parameters, FiledParameters::Elastic(_)));
         row(name.words(), name.unit(), [reference, force.value, force.over_s]);
     }
     table

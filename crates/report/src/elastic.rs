@@ -8,7 +8,10 @@ use super::{Assumed, FiledParameters, Run, Section, Table, doubts, judged};
 use ::springs::{
     case::{ElasticCase, doubts::Doubt},
     parameters::elastic::{ElasticParameters, OnRecord},
-    results::{DesignForce, DesignForces, Ending, Finding, FindingModel, ForceName, PeakChange, PeakPair, Peaks},
+    results::{
+        DesignForce, DesignForces, Ending, Finding, FindingModel, ForceName, PeakChange, PeakPair,
+        Peaks,
+    },
 };
 use dynamics::{
     fem::HistoryOutcome,
@@ -68,9 +71,15 @@ pub struct ElasticParts<'a> {
 pub fn title(structure: &ElasticStructure) -> String {
     let m = |x: f64| format!("{} m", significant(x, 4));
     match structure {
-        ElasticStructure::Pier(pier) => format!("pier {} high on a footing of {}", m(pier.height_m), m(pier.width_m)),
+        ElasticStructure::Pier(pier) => {
+            format!("pier {} high on a footing of {}", m(pier.height_m), m(pier.width_m))
+        }
         ElasticStructure::AFrame(frame) => {
-            format!("A-frame with elastic legs {} high, feet {} apart", m(frame.height_m), m(frame.width_m))
+            format!(
+                "A-frame with elastic legs {} high, feet {} apart",
+                m(frame.height_m),
+                m(frame.width_m)
+            )
         }
         ElasticStructure::Frame(frame) => {
             format!("frame {} high, columns {} apart", m(frame.height_m), m(frame.span_m))
@@ -92,7 +101,11 @@ impl ElasticParts<'_> {
     pub fn peaks(&self) -> PeakPair {
         let ElasticHistories { reference, fem, sways, .. } = &self.answer.histories;
         let n = reference.history.q.len().min(fem.q.len());
-        let n = self.answer.histories.falls(self.assembled.structure.body().alpha()).map_or(n, |falls| falls.min(n));
+        let n = self
+            .answer
+            .histories
+            .falls(self.assembled.structure.body().alpha())
+            .map_or(n, |falls| falls.min(n));
         let frame = &self.assembled.frame;
         let of = |q: &dyn Fn(usize) -> Vec<f64>, k: usize, impacts: usize| {
             let mut peaks = Peaks { impacts, ..Peaks::default() };
@@ -119,7 +132,11 @@ impl ElasticParts<'_> {
         let touches = fem.contacts.iter().filter(|contact| contact.touches).map(|c| c.time);
         let rest = SAME_IMPACT / self.assembled.structure.body().p_squared().sqrt();
         PeakPair {
-            reference: of(&|i| reference.history.q[i].as_slice().to_vec(), 0, impacts(landings, rest)),
+            reference: of(
+                &|i| reference.history.q[i].as_slice().to_vec(),
+                0,
+                impacts(landings, rest),
+            ),
             springs: of(&|i| fem.q[i].clone(), 1, impacts(touches, rest)),
             reference_ends_s: None,
             with_members: None,
@@ -131,7 +148,8 @@ impl ElasticParts<'_> {
     fn friction_needed(&self) -> TimedPeak {
         let weight = self.assembled.frame.total_mass() * rocking::scalar::GRAVITY;
         let needed = |corners: &Vec<[f64; 2]>| {
-            let (h, n) = corners.iter().fold((0.0, 0.0), |(h, n), force| (h + force[0], n + force[1]));
+            let (h, n) =
+                corners.iter().fold((0.0, 0.0), |(h, n), force| (h + force[0], n + force[1]));
             if n > LEAST_PRESS * weight { (h / n).abs() } else { 0.0 }
         };
         let forces = &self.answer.histories.reference.history.forces;
@@ -142,7 +160,8 @@ impl ElasticParts<'_> {
     /// All findings.
     pub fn findings(&self, parameters: &ElasticParameters) -> Vec<Finding> {
         // what of the search was cut is there already
-        let mut all: Vec<Finding> = parameters.findings.iter().map(|filed| filed.finding.clone()).collect();
+        let mut all: Vec<Finding> =
+            parameters.findings.iter().map(|filed| filed.finding.clone()).collect();
         if let Some(on) = &parameters.on_record {
             all.extend(self.what_it_does(on));
             all.extend(foretold(on, parameters.design_forces.as_ref()));
@@ -179,7 +198,8 @@ impl ElasticParts<'_> {
         let (left, right) = (places.first()?, places.last()?);
         let apart = |q: &[f64]| right.reach(q).place[0] - left.reach(q).place[0];
         let moved = apart(last.as_slice()) - apart(first.as_slice());
-        (moved.abs() > LEAST_APART * 2.0 * self.assembled.structure.body().half_width).then_some(moved)
+        (moved.abs() > LEAST_APART * 2.0 * self.assembled.structure.body().half_width)
+            .then_some(moved)
     }
 
     /// A vertical component of some size that is left out: what it would change.
@@ -225,16 +245,25 @@ impl ElasticParts<'_> {
             (None, Some(time_s)) => Finding::Overturns { time_s, reference_s: Some(time_s) },
             (None, None) if !history.lifts() => Finding::NeverLifts {
                 pga_g: self.record.pga_g(),
-                uplift_g: self.assembled.uplift_g().unwrap_or_else(|| self.assembled.structure.body().alpha().tan()),
+                uplift_g: self
+                    .assembled
+                    .uplift_g()
+                    .unwrap_or_else(|| self.assembled.structure.body().alpha().tan()),
             },
-            _ => {
-                Finding::Stands { share_of_overturning: on.peak_ratio_fem, over_s: on.compared_s, if_feet_hold: false }
-            }
+            _ => Finding::Stands {
+                share_of_overturning: on.peak_ratio_fem,
+                over_s: on.compared_s,
+                if_feet_hold: false,
+            },
         });
         if fell(fem).is_some() != reference_fell.is_some() {
-            let words =
-                |time: Option<f64>| time.map_or("stands".into(), |time| format!("overturns at t = {time:.2} s"));
-            all.push(Finding::ModelsDisagree { reference: words(reference_fell), springs: words(fell(fem)) });
+            let words = |time: Option<f64>| {
+                time.map_or("stands".into(), |time| format!("overturns at t = {time:.2} s"))
+            };
+            all.push(Finding::ModelsDisagree {
+                reference: words(reference_fell),
+                springs: words(fell(fem)),
+            });
         }
         if let ReferenceOutcome::Stopped { time, why } = history.outcome {
             all.push(Finding::HistoryEndsEarly {
@@ -262,7 +291,8 @@ impl ElasticParts<'_> {
         run.taken.record = Some(self.case.excitation.line());
         run.taken.assumed = Assumed::all(&self.case.assumptions());
         run.friction_needed = Some(self.friction_needed().value);
-        run.sap2000 = self.assembled.members == Members::default() && self.record.vertical.is_none();
+        run.sap2000 =
+            self.assembled.members == Members::default() && self.record.vertical.is_none();
         run.sections.extend(self.comparison(&run));
         run
     }
@@ -323,13 +353,16 @@ pub fn design_forces(structure: &ElasticStructure, of: &StructureForces) -> Desi
     let axial_n = force(ForceKind::Axial);
     let found = |force: DesignForce| force.others.map_or(0.0, |others| others.found.abs());
     let most = axial_n.map_or(0.0, found);
-    let axial_tension_n = force(ForceKind::AxialTension).filter(|tension| found(*tension) > LEAST_TENSION * most);
+    let axial_tension_n =
+        force(ForceKind::AxialTension).filter(|tension| found(*tension) > LEAST_TENSION * most);
     let base_moment = force(ForceKind::ColumnBaseMoment).map_or(0.0, found);
-    let column_top_moment_nm =
-        force(ForceKind::ColumnTopMoment).filter(|top| found(*top) > LEAST_TOP_MOMENT * base_moment);
+    let column_top_moment_nm = force(ForceKind::ColumnTopMoment)
+        .filter(|top| found(*top) > LEAST_TOP_MOMENT * base_moment);
     // a leg has no mass and a hinge at its foot
     let apex_moment_nm = match structure {
-        ElasticStructure::AFrame(frame) => column_shear_n.map(|shear| shear.times(frame.leg_length())),
+        ElasticStructure::AFrame(frame) => {
+            column_shear_n.map(|shear| shear.times(frame.leg_length()))
+        }
         ElasticStructure::Pier(_) | ElasticStructure::Frame(_) => None,
     };
     DesignForces {
@@ -352,7 +385,9 @@ fn uplift(frame: &Frame, q: &[f64]) -> f64 {
 
 fn foretold(on: &OnRecord, forces: Option<&DesignForces>) -> Option<Finding> {
     let (foretold, softer_hz) = (on.foretold_s?, on.softer_omega_n_hz);
-    let late = |(name, force): (ForceName, DesignForce)| (force.holds && force.time_s > foretold).then_some(name);
+    let late = |(name, force): (ForceName, DesignForce)| {
+        (force.holds && force.time_s > foretold).then_some(name)
+    };
     let later_forces = forces.iter().flat_map(|forces| forces.all()).filter_map(late).collect();
     Some(match on.slides_on_s {
         Some(time_s) => Finding::SlidesOn { time_s, softer_hz, later_forces },
@@ -386,9 +421,14 @@ mod tests {
         let text = "kind = 'aframe'\nheight_m = 24.0\nwidth_m = 6.0\nmass_kg = 3e5\nfoot_mass_kg = 1e4\nea_n = 1e10\n\
                     ei_nm2 = 1e10\ndamping_ratio = 0.03\n";
         let structure: ElasticStructure = toml::from_str(text).unwrap();
-        let Assembled { frame, watched, .. } = Assembled::new(structure.checked().unwrap()).unwrap();
+        let Assembled { frame, watched, .. } =
+            Assembled::new(structure.checked().unwrap()).unwrap();
         let feet_moved = |q: &[f64]| watched[0].base.feet_moved(&frame, q);
-        let mut q = vec![0.0; (0..frame.nodes()).flat_map(|node| frame.coordinates(node)).flatten().count()];
+        let mut q =
+            vec![
+                0.0;
+                (0..frame.nodes()).flat_map(|node| frame.coordinates(node)).flatten().count()
+            ];
         assert_eq!([feet_moved(&q), uplift(&frame, &q)], [0.0; 2]);
         for [x, ..] in (0..frame.nodes()).map(|node| frame.coordinates(node)) {
             q[x.unwrap()] += 0.25;

@@ -40,18 +40,21 @@ pub(crate) fn pretty(text: &str) -> String {
         ("N s/m", "N·s/m"),
         ("<=", "≤"),
     ];
-    let text = LETTERS.iter().fold(text.to_string(), |text, (spelt, letter)| text.replace(spelt, letter));
+    let text =
+        LETTERS.iter().fold(text.to_string(), |text, (spelt, letter)| text.replace(spelt, letter));
     escape(&text)
 }
 
 /// 2.7337e15 as 2.7337·10¹⁵; anything else as it is.
 pub(crate) fn number(text: &str) -> String {
     let power = |(digits, exponent): (&str, &str)| -> Option<String> {
-        let (digits, exponent) = (digits.parse::<f64>().ok().map(|_| digits)?, exponent.parse::<i32>().ok()?);
+        let (digits, exponent) =
+            (digits.parse::<f64>().ok().map(|_| digits)?, exponent.parse::<i32>().ok()?);
         Some(format!("{digits}·{}", power_of_ten(exponent)))
     };
     let text = text.split_once('e').and_then(power).unwrap_or_else(|| text.to_string());
-    let text = if text.starts_with('-') && text.len() > 1 { text.replacen('-', "−", 1) } else { text };
+    let text =
+        if text.starts_with('-') && text.len() > 1 { text.replacen('-', "−", 1) } else { text };
     escape(&text)
 }
 
@@ -59,7 +62,8 @@ pub(crate) fn number(text: &str) -> String {
 pub(crate) fn table(of: &Table, own: std::ops::Range<usize>) -> String {
     let class = |i: usize| if own.contains(&i) { " class=\"own\"" } else { "" };
     let facts = of.head.iter().all(String::is_empty);
-    let mut out = format!("<div class=\"scroll\"><table{}>", if facts { " class=\"facts\"" } else { "" });
+    let mut out =
+        format!("<div class=\"scroll\"><table{}>", if facts { " class=\"facts\"" } else { "" });
     if !facts {
         out.push_str("<thead><tr>");
         for (i, cell) in of.head.iter().enumerate() {

@@ -13,18 +13,30 @@ use springs::{
 use strong_motion::Record;
 
 /// Of a rigid body.
-pub(crate) fn rigid(structure: &Structure, parameters: &Parameters, record: &Record) -> Option<Finding> {
+pub(crate) fn rigid(
+    structure: &Structure,
+    parameters: &Parameters,
+    record: &Record,
+) -> Option<Finding> {
     let verdict = parameters.verdict.as_ref()?;
-    if verdict.well_conditioned && verdict.finite_elements.overturned_s.is_none() && record.vertical.is_none() {
+    if verdict.well_conditioned
+        && verdict.finite_elements.overturned_s.is_none()
+        && record.vertical.is_none()
+    {
         return None;
     }
     let parameters = &Parameters { structure: with_inertia(structure), ..parameters.clone() };
-    let (own, changed) = join(|| simulate(parameters, record).motion, || slightly_wider(parameters, record));
+    let (own, changed) =
+        join(|| simulate(parameters, record).motion, || slightly_wider(parameters, record));
     finding(record, DeckExpectation::rigid(parameters, record, &own, &changed))
 }
 
 /// Of an elastic structure.
-pub(crate) fn elastic(assembled: &Assembled, histories: &ElasticHistories, record: &Record) -> Option<Finding> {
+pub(crate) fn elastic(
+    assembled: &Assembled,
+    histories: &ElasticHistories,
+    record: &Record,
+) -> Option<Finding> {
     let followed = histories.reference.tried(assembled, record).ok()?;
     let compared = histories.reference.compared(record, followed, &[histories.fem.q.len()]);
     finding(record, DeckExpectation::elastic(&compared))

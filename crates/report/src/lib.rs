@@ -38,7 +38,10 @@ use springs::{
         doubts::Doubt,
     },
     parameters::{Parameters, elastic::ElasticParameters},
-    results::{DeckEnd, DesignForce, DesignForces, FiledFinding, Finding, ForceName, PeakChange, PeakPair, Weight},
+    results::{
+        DeckEnd, DesignForce, DesignForces, FiledFinding, Finding, ForceName, PeakChange, PeakPair,
+        Weight,
+    },
 };
 pub use table::Table;
 
@@ -83,13 +86,16 @@ fn changes(
     };
     // the reference's, which springs may follow badly; unless it ends before the record
     let whole = peaks.iter().chain([&with_peaks]).all(|pair| pair.reference_ends_s.is_none());
-    let top = |pair: &PeakPair| if whole { pair.reference } else { pair.springs }.top_displacement_m;
+    let top =
+        |pair: &PeakPair| if whole { pair.reference } else { pair.springs }.top_displacement_m;
     let top = peaks.map(|peaks| change("top displacement", "m", top(&peaks), top(&with_peaks)));
     let with: Vec<_> = with_forces.all().collect();
-    let forces = forces.into_iter().flat_map(|forces| forces.all().collect::<Vec<_>>()).filter_map(|(name, force)| {
-        let (_, other) = with.iter().find(|(other, _)| *other == name)?;
-        Some(change(name.words(), name.unit(), force.value?.abs(), other.value?.abs()))
-    });
+    let forces = forces.into_iter().flat_map(|forces| forces.all().collect::<Vec<_>>()).filter_map(
+        |(name, force)| {
+            let (_, other) = with.iter().find(|(other, _)| *other == name)?;
+            Some(change(name.words(), name.unit(), force.value?.abs(), other.value?.abs()))
+        },
+    );
     top.into_iter().chain(forces).collect()
 }
 
@@ -222,9 +228,15 @@ impl Run {
     /// What the run was asked, in one sentence.
     pub fn verdict(&self) -> String {
         let answer = self.findings.iter().find(|finding| finding.weight == Weight::Answer);
-        let graver = self.findings.iter().find(|f| matches!(f.finding, Finding::ModelsDisagree { .. }));
-        let Some(told) = graver.or(answer) else { return "Springs without a record: nothing rocked.".into() };
-        let ill = self.findings.iter().any(|filed| matches!(filed.finding, Finding::IllConditioned { .. }));
+        let graver =
+            self.findings.iter().find(|f| matches!(f.finding, Finding::ModelsDisagree { .. }));
+        let Some(told) = graver.or(answer) else {
+            return "Springs without a record: nothing rocked.".into();
+        };
+        let ill = self
+            .findings
+            .iter()
+            .any(|filed| matches!(filed.finding, Finding::IllConditioned { .. }));
         let doubt = if ill { "; no model foretells this motion" } else { "" };
         sentence(&format!("{}{doubt}", told.message))
     }
@@ -247,7 +259,8 @@ impl Run {
 
     /// All that is to be said besides the verdict, gravest first.
     pub(crate) fn remarks(&self) -> impl Iterator<Item = &FiledFinding> {
-        let told = self.findings.iter().position(|f| matches!(f.finding, Finding::ModelsDisagree { .. }));
+        let told =
+            self.findings.iter().position(|f| matches!(f.finding, Finding::ModelsDisagree { .. }));
         self.findings
             .iter()
             .enumerate()

@@ -29,14 +29,15 @@ pub fn markdown(run: &Run) -> String {
 /// The tables of a run: peaks, design forces, springs, accuracy, then what this kind of structure
 /// has.
 pub(crate) fn sections(run: &Run) -> Vec<Section> {
-    let mut all = vec![Section {
-        id: "case",
-        title: "The case".into(),
-        table: Some(
-            Table::new(["", ""]).with(run.taken.facts.iter().map(|(name, value)| vec![name.clone(), value.clone()])),
-        ),
-        ..Section::default()
-    }];
+    let mut all =
+        vec![Section {
+            id: "case",
+            title: "The case".into(),
+            table: Some(Table::new(["", ""]).with(
+                run.taken.facts.iter().map(|(name, value)| vec![name.clone(), value.clone()]),
+            )),
+            ..Section::default()
+        }];
     if let Some(table) = peak_table(run) {
         all.push(Section {
             id: "peaks",
@@ -85,8 +86,9 @@ pub(crate) fn sections(run: &Run) -> Vec<Section> {
 
 fn section(part: &Section) -> String {
     let mut out = format!("## {}\n", part.title);
-    let paragraphs =
-        |out: &mut String, all: &[String]| all.iter().for_each(|text| out.push_str(&format!("\n{text}\n")));
+    let paragraphs = |out: &mut String, all: &[String]| {
+        all.iter().for_each(|text| out.push_str(&format!("\n{text}\n")))
+    };
     paragraphs(&mut out, &part.text);
     if let Some(table) = &part.table {
         out.push('\n');
@@ -103,7 +105,8 @@ fn forces(run: &Run) -> Option<Section> {
     let forces = run.design_forces.as_ref()?;
     let cell = |x: Option<f64>, name: ForceName| x.map_or("-".into(), |x| quantity(x, name.unit()));
     let row = |(name, force): (ForceName, DesignForce)| {
-        let doubt = if force.holds && !run.foretells((name, force)) { ", not foretold" } else { "" };
+        let doubt =
+            if force.holds && !run.foretells((name, force)) { ", not foretold" } else { "" };
         vec![
             format!("{}{}", name.words(), height(&force)),
             force_value(name, &force) + doubt,
@@ -113,7 +116,14 @@ fn forces(run: &Run) -> Option<Section> {
             cell(force.fixed, name),
         ]
     };
-    let head = ["force", "largest", "at", "change with springs or mesh", "rigid body (Housner)", "fixed to the ground"];
+    let head = [
+        "force",
+        "largest",
+        "at",
+        "change with springs or mesh",
+        "rigid body (Housner)",
+        "fixed to the ground",
+    ];
     let below = match forces.below_hz {
         Some(hz) => format!("Largest of what is slower than {} Hz.", significant(hz, 3)),
         None if matches!(run.parameters, FiledParameters::Elastic(_)) => {
@@ -142,14 +152,18 @@ pub fn force_value(name: ForceName, force: &DesignForce) -> String {
     let newtons = |x: f64| quantity(x, name.unit());
     let Some(value) = force.value else {
         return match (force.others.and_then(|others| others.range()), force.change) {
-            (Some([low, high]), _) => format!("withheld: {} to {} with springs and mesh", newtons(low), newtons(high)),
+            (Some([low, high]), _) => {
+                format!("withheld: {} to {} with springs and mesh", newtons(low), newtons(high))
+            }
             (None, Some(change)) => format!("withheld: changes by {} on springs", percent(change)),
             (None, None) => "withheld".into(),
         };
     };
     let whole = |whole: OtherForces| format!("; {} over all", newtons(whole.found.abs()));
     let whole = force.whole_record.map_or(String::new(), whole);
-    let part = force.over_s.map_or(String::new(), |over| format!(" (to {} s{whole})", significant(over, 3)));
+    let part = force
+        .over_s
+        .map_or(String::new(), |over| format!(" (to {} s{whole})", significant(over, 3)));
     newtons(value) + &part
 }
 
@@ -163,9 +177,16 @@ pub fn height(force: &DesignForce) -> String {
 fn together(run: &Run) -> Option<Section> {
     let row = |(name, force): (ForceName, DesignForce)| {
         let with = force.together.filter(|_| force.holds)?;
-        let cells = [(with.axial_n, "N"), (with.column_base_moment_nm, "N m"), (with.column_shear_n, "N")];
+        let cells =
+            [(with.axial_n, "N"), (with.column_base_moment_nm, "N m"), (with.column_shear_n, "N")];
         let at = format!("{} s", significant(force.time_s, 4));
-        Some([vec![format!("largest {}", name.words()), at], cells.map(|(x, unit)| quantity(x, unit)).into()].concat())
+        Some(
+            [
+                vec![format!("largest {}", name.words()), at],
+                cells.map(|(x, unit)| quantity(x, unit)).into(),
+            ]
+            .concat(),
+        )
     };
     let rows: Vec<_> = run.design_forces?.all().filter_map(row).collect();
     let head = ["where", "at", "axial force", "moment at column base", "column shear"];
@@ -190,11 +211,14 @@ fn other_forces(run: &Run) -> Option<Section> {
         let others = force.others?;
         let cell = |x: Option<f64>| x.map_or("-".into(), |x| quantity(x, name.unit()));
         let held = if force.holds { "holds" } else { "withheld" };
-        let cells = [Some(others.found), others.doubled_elements, others.softer, others.stiffer, force.raw].map(cell);
+        let cells =
+            [Some(others.found), others.doubled_elements, others.softer, others.stiffer, force.raw]
+                .map(cell);
         Some([vec![name.words().to_string()], cells.into(), vec![held.into()]].concat())
     };
     let rows: Vec<_> = run.design_forces?.all().filter_map(row).collect();
-    let head = ["force", "in this run", "elements doubled", "Omega_n / 4", "4 Omega_n", "unfiltered", ""];
+    let head =
+        ["force", "in this run", "elements doubled", "Omega_n / 4", "4 Omega_n", "unfiltered", ""];
     (!rows.is_empty()).then(|| Section {
         id: "other-forces",
         title: "The same forces with another mesh and on other springs".into(),
@@ -209,10 +233,12 @@ fn other_forces(run: &Run) -> Option<Section> {
 
 fn springs(run: &Run) -> Table {
     let row = |unit: &super::Unit| {
-        let cells = [unit.k1_n_per_m, unit.k2_n_per_m, unit.m2_kg, unit.c_ns_per_m].map(|x| significant(x, 5));
+        let cells = [unit.k1_n_per_m, unit.k2_n_per_m, unit.m2_kg, unit.c_ns_per_m]
+            .map(|x| significant(x, 5));
         [vec![unit.name.clone()], cells.into()].concat()
     };
-    Table::new(["unit", "k1 [N/m]", "k2 [N/m]", "m2 [kg]", "c [N s/m]"]).with(run.springs.iter().map(row))
+    Table::new(["unit", "k1 [N/m]", "k2 [N/m]", "m2 [kg]", "c [N s/m]"])
+        .with(run.springs.iter().map(row))
 }
 
 #[cfg(test)]
@@ -229,13 +255,24 @@ mod tests {
         let part = DesignForce { whole_record: Some(whole), ..part };
         assert_eq!(force_value(ForceName::Axial, &part), "-4.937 MN (to 49.4 s; 13.6 MN over all)");
         let changes = DesignForce::measured(2.48e6, 41.0, Some(0.073));
-        assert_eq!(force_value(ForceName::AxialTension, &changes), "withheld: changes by 7.30 % on springs");
-        let others = OtherForces { found: 2.48e6, doubled_elements: None, softer: Some(2.66e6), stiffer: Some(2.5e6) };
+        assert_eq!(
+            force_value(ForceName::AxialTension, &changes),
+            "withheld: changes by 7.30 % on springs"
+        );
+        let others = OtherForces {
+            found: 2.48e6,
+            doubled_elements: None,
+            softer: Some(2.66e6),
+            stiffer: Some(2.5e6),
+        };
         let between = DesignForce { others: Some(others), ..changes };
         assert_eq!(
             force_value(ForceName::AxialTension, &between),
             "withheld: 2.48 MN to 2.66 MN with springs and mesh"
         );
-        assert_eq!(force_value(ForceName::Axial, &DesignForce { change: None, ..changes }), "withheld");
+        assert_eq!(
+            force_value(ForceName::Axial, &DesignForce { change: None, ..changes }),
+            "withheld"
+        );
     }
 }

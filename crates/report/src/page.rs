@@ -42,8 +42,11 @@ pub fn page(run: &Run, drawn: &[Drawing]) -> String {
     if !drawn.is_empty() && parts.iter().all(|(id, ..)| id != "figures") {
         parts.push(("figures".into(), "Figures".into(), figures(drawn)));
     }
-    parts
-        .extend([programs(run), cite()].into_iter().map(|(id, title, body)| (id.to_string(), title.to_string(), body)));
+    parts.extend(
+        [programs(run), cite()]
+            .into_iter()
+            .map(|(id, title, body)| (id.to_string(), title.to_string(), body)),
+    );
     document(&title, &subtitle, &(head(run) + &remarks(run)), &parts)
 }
 
@@ -57,10 +60,13 @@ fn head(run: &Run) -> String {
     };
     let mut items: Vec<String> = Vec::new();
     if !run.taken.assumed.is_empty() {
-        let all: Vec<String> = run.taken.assumed.iter().map(|a| format!("{} ({})", a.what, a.key)).collect();
+        let all: Vec<String> =
+            run.taken.assumed.iter().map(|a| format!("{} ({})", a.what, a.key)).collect();
         items.push(format!("Assumed: {}.", all.join("; ")));
     }
-    items.extend(run.accuracy.as_ref().map(|accuracy| format!("Accuracy: {}.", accuracy.sentence())));
+    items.extend(
+        run.accuracy.as_ref().map(|accuracy| format!("Accuracy: {}.", accuracy.sentence())),
+    );
     let items: String = items.iter().map(|text| format!("<li>{}</li>", pretty(text))).collect();
     format!(
         "<div class=\"{class}\" id=\"verdict\"><strong>{}</strong><ul>{items}</ul></div>\n<div class=\"tiles\">\n{}</div>\n",
@@ -74,14 +80,22 @@ fn tiles(run: &Run) -> String {
     if let Some(pair) = &run.peaks {
         let (shown, reference) = (pair.with_members.unwrap_or(pair.springs), pair.reference);
         let m = |x: f64| quantity(x, "m");
-        let top = format!("top displacement; {} {}", run.reference, m(reference.top_displacement_m));
+        let top =
+            format!("top displacement; {} {}", run.reference, m(reference.top_displacement_m));
         out += &tile(&m(shown.top_displacement_m), &top);
         out += &tile(&percent(shown.drift_ratio), "drift ratio: top displacement over height");
-        out += &tile(&m(shown.uplift_m), &format!("uplift; {} {}", run.reference, m(reference.uplift_m)));
-        out += &tile(&shown.impacts.to_string(), &format!("impacts; {} {}", run.reference, reference.impacts));
+        out += &tile(
+            &m(shown.uplift_m),
+            &format!("uplift; {} {}", run.reference, m(reference.uplift_m)),
+        );
+        out += &tile(
+            &shown.impacts.to_string(),
+            &format!("impacts; {} {}", run.reference, reference.impacts),
+        );
     }
     for (name, force) in run.design_forces.iter().flat_map(|forces| forces.all()) {
-        let value = force.value.map_or("withheld".into(), |value| quantity(value.abs(), name.unit()));
+        let value =
+            force.value.map_or("withheld".into(), |value| quantity(value.abs(), name.unit()));
         out += &tile(&value, name.words());
     }
     if let Some(a) = &run.accuracy {
@@ -111,7 +125,9 @@ fn remarks(run: &Run) -> String {
 }
 
 fn section(part: &Section) -> String {
-    let paragraphs = |all: &[String]| all.iter().map(|text| format!("<p>{}</p>\n", pretty(text))).collect::<String>();
+    let paragraphs = |all: &[String]| {
+        all.iter().map(|text| format!("<p>{}</p>\n", pretty(text))).collect::<String>()
+    };
     let mut out = paragraphs(&part.text);
     if let Some(rows) = &part.table {
         let own = if part.id == "table1" { 1..3 } else { 0..0 };
@@ -175,7 +191,12 @@ fn cite() -> (&'static str, &'static str, String) {
 }
 
 /// A page of sections (id, heading, body) below a verdict; title and line are escaped.
-fn document(title: &str, subtitle: &str, verdict: &str, parts: &[(String, String, String)]) -> String {
+fn document(
+    title: &str,
+    subtitle: &str,
+    verdict: &str,
+    parts: &[(String, String, String)],
+) -> String {
     let mut out = format!(
         "<!DOCTYPE html>\n<html lang=\"en\">\n<head>\n<meta charset=\"utf-8\">\n<meta name=\"viewport\" \
          content=\"width=device-width, initial-scale=1\">\n<link rel=\"icon\" href=\"data:,\">\n<title>{title}</title>\n\
@@ -188,7 +209,8 @@ fn document(title: &str, subtitle: &str, verdict: &str, parts: &[(String, String
     out.push_str("</nav>\n");
     out.push_str(verdict);
     for (id, heading, body) in parts {
-        let _ = write!(out, "<section id=\"{id}\">\n<h2>{}</h2>\n{body}</section>\n", escape(heading));
+        let _ =
+            write!(out, "<section id=\"{id}\">\n<h2>{}</h2>\n{body}</section>\n", escape(heading));
     }
     let version = env!("CARGO_PKG_VERSION");
     let _ = write!(
@@ -205,9 +227,10 @@ fn figures(all: &[Drawing]) -> String {
     for drawing in all {
         let svg = drawing.svg.replacen("<svg ", "<svg class=\"sheet\" role=\"img\" ", 1);
         let (live, numbers) = match &drawing.plots {
-            Some(plots) => {
-                (" class=\"live\"", format!("<script type=\"application/json\">{}</script>\n", in_html(plots)))
-            }
+            Some(plots) => (
+                " class=\"live\"",
+                format!("<script type=\"application/json\">{}</script>\n", in_html(plots)),
+            ),
             None => ("", String::new()),
         };
         // writing to a String cannot fail

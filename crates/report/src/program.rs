@@ -65,7 +65,11 @@ impl ProgramReport {
         let given = parameters.structure.rotational_inertia_kgm2;
         let inertia = (rotational_inertia_kgm2 != given).then(|| {
             let value = format!("{} kg m2", significant(rotational_inertia_kgm2, 4));
-            ProgramSetting::new("rotational inertia at the mass", value.clone(), format!("inertia {value}"))
+            ProgramSetting::new(
+                "rotational inertia at the mass",
+                value.clone(),
+                format!("inertia {value}"),
+            )
         });
         Some(Self::new(row, units.into(), inertia, "top"))
     }
@@ -76,18 +80,32 @@ impl ProgramReport {
         Some(Self::new(row, corner_units(&row.units.springs), None, "peaks"))
     }
 
-    fn new<U>(row: &ProgramRow<U>, units: Vec<Unit>, inertia: Option<ProgramSetting>, peaks: &str) -> Self {
+    fn new<U>(
+        row: &ProgramRow<U>,
+        units: Vec<Unit>,
+        inertia: Option<ProgramSetting>,
+        peaks: &str,
+    ) -> Self {
         let tolerance = match row.converged {
             ProgramTest::UnbalanceOverWeight(x) => {
                 let x = significant(x, 3);
-                ProgramSetting::new("iteration convergence tolerance, relative", x.clone(), format!("tolerance {x}"))
+                ProgramSetting::new(
+                    "iteration convergence tolerance, relative",
+                    x.clone(),
+                    format!("tolerance {x}"),
+                )
             }
             ProgramTest::IncrementM(x) => {
                 let x = format!("{} m", significant(x, 3));
-                ProgramSetting::new("tolerance of a change of place", x.clone(), format!("tolerance {x}"))
+                ProgramSetting::new(
+                    "tolerance of a change of place",
+                    x.clone(),
+                    format!("tolerance {x}"),
+                )
             }
         };
-        let (integrator, newton, step) = (row.integrator_words(), row.newton_iterations, row.step_s);
+        let (integrator, newton, step) =
+            (row.integrator_words(), row.newton_iterations, row.step_s);
         let least = quantity(step / row.substeps as f64, "s");
         let mut set_to = vec![
             ProgramSetting::new("integrator", integrator.clone(), integrator),
@@ -96,7 +114,11 @@ impl ProgramReport {
                 "0".into(),
                 format!("iterations 0 constant + {newton} Newton"),
             ),
-            ProgramSetting::new("Newton-Raphson iterations, at most", newton.to_string(), String::new()),
+            ProgramSetting::new(
+                "Newton-Raphson iterations, at most",
+                newton.to_string(),
+                String::new(),
+            ),
             tolerance,
             ProgramSetting::new("smallest substep", least.clone(), format!("substeps to {least}")),
         ];
@@ -130,7 +152,8 @@ impl ProgramReport {
 
     /// For a report.
     pub(crate) fn section(&self) -> Section {
-        let set_to = self.set_to.iter().map(|s| format!("{}: {}", s.name, s.value)).collect::<Vec<_>>();
+        let set_to =
+            self.set_to.iter().map(|s| format!("{}: {}", s.name, s.value)).collect::<Vec<_>>();
         Section {
             id: "program",
             title: format!("Springs for {} with steps of {}", self.program, self.steps),
@@ -162,7 +185,8 @@ impl ProgramReport {
             id: "program-springs",
             title: format!("The same, springs at each foot for steps of {}", self.steps),
             table: Some(
-                Table::new(["unit", "k1 [N/m]", "k2 [N/m]", "m2 [kg]", "c [N s/m]"]).with(self.units.iter().map(row)),
+                Table::new(["unit", "k1 [N/m]", "k2 [N/m]", "m2 [kg]", "c [N s/m]"])
+                    .with(self.units.iter().map(row)),
             ),
             ..Section::default()
         }
@@ -225,8 +249,17 @@ fn table<U>(row: &ProgramRow<U>) -> Table {
             ]
         })
     };
-    let measured =
-        [measured("synthetic motions", expected.synthetic), measured("earthquake-like motions", expected.earthquakes)];
-    Table::new(["error", "history, NRMSE, median", "90 %", "largest displacement, median", "90 %", "lost"])
-        .with(parts.chain(measured.into_iter().flatten()))
+    let measured = [
+        measured("synthetic motions", expected.synthetic),
+        measured("earthquake-like motions", expected.earthquakes),
+    ];
+    Table::new([
+        "error",
+        "history, NRMSE, median",
+        "90 %",
+        "largest displacement, median",
+        "90 %",
+        "lost",
+    ])
+    .with(parts.chain(measured.into_iter().flatten()))
 }

@@ -30,12 +30,29 @@ pub struct HousnerReport {
 
 impl HousnerReport {
     /// Of a history that `rocking` holds; `friction` is the coefficient that is available.
-    pub fn new(body: &Body<f64>, restitution: f64, record: &Record, rocking: &Rocking<f64>, friction: f64) -> Self {
+    pub fn new(
+        body: &Body<f64>,
+        restitution: f64,
+        record: &Record,
+        rocking: &Rocking<f64>,
+        friction: f64,
+    ) -> Self {
         let vertical = record.vertical_accel();
-        let options = housner::RockingOptions { restitution: Some(restitution), vertical, ..Default::default() };
+        let options = housner::RockingOptions {
+            restitution: Some(restitution),
+            vertical,
+            ..Default::default()
+        };
         Self {
             conditioning: Conditioning::new(body, record.dt, &record.accel, &options),
-            regime: regime::check(body, record.dt, (&record.accel, record.up()), 1.0, rocking, friction),
+            regime: regime::check(
+                body,
+                record.dt,
+                (&record.accel, record.up()),
+                1.0,
+                rocking,
+                friction,
+            ),
             lifted: rocking.outcome != housner::RockingOutcome::NeverMoved,
             left_ground_s: rocking.left_ground(),
         }
@@ -43,7 +60,11 @@ impl HousnerReport {
 
     /// Friction coefficient needed: at rest, rocking, and in a landing.
     pub(crate) fn friction_needed(&self) -> f64 {
-        self.regime.friction_needed.value.max(if self.lifted { self.regime.landing_friction } else { 0.0 })
+        self.regime.friction_needed.value.max(if self.lifted {
+            self.regime.landing_friction
+        } else {
+            0.0
+        })
     }
 
     /// Where pure rocking does not hold.
@@ -101,26 +122,34 @@ pub(crate) fn verdict(structure: &Structure, record: &Record, verdict: &Verdict)
             time_s: finite_elements.overturned_s.unwrap_or(verdict.compared_s),
             reference_s: housner.overturned_s,
         },
-        (_, Fate::Failed) => Finding::NoAnswer { model: FindingModel::Springs, time_s: verdict.compared_s },
+        (_, Fate::Failed) => {
+            Finding::NoAnswer { model: FindingModel::Springs, time_s: verdict.compared_s }
+        }
         _ => Finding::Stands {
             share_of_overturning: finite_elements.peak_ratio,
             over_s: verdict.compared_s,
             if_feet_hold: false,
         },
     }];
-    all.extend(
-        verdict
-            .housner_without_vertical
-            .map(|level| Finding::WithoutVertical { does: does(&level), share_of_overturning: level.peak_ratio }),
-    );
+    all.extend(verdict.housner_without_vertical.map(|level| Finding::WithoutVertical {
+        does: does(&level),
+        share_of_overturning: level.peak_ratio,
+    }));
     if !verdict.agrees() {
-        all.push(Finding::ModelsDisagree { reference: does(housner), springs: does(finite_elements) });
+        all.push(Finding::ModelsDisagree {
+            reference: does(housner),
+            springs: does(finite_elements),
+        });
     }
     all
 }
 
 /// That a lifted body's history cannot be compared one to one.
-pub(crate) fn ill_conditioned(report: &HousnerReport, verdict: &Verdict, springs_judged: bool) -> Option<Finding> {
+pub(crate) fn ill_conditioned(
+    report: &HousnerReport,
+    verdict: &Verdict,
+    springs_judged: bool,
+) -> Option<Finding> {
     let changes = &report.conditioning.changes;
     (report.lifted && !verdict.well_conditioned).then(|| Finding::IllConditioned {
         moved_by_width: changes.width[0],

@@ -5,7 +5,8 @@ pub mod program;
 pub mod tables;
 
 use super::{
-    AccuracyReport, Assumed, FiledParameters, ProgramReport, Run, Section, Taken, changes, doubts, filed, judged,
+    AccuracyReport, Assumed, FiledParameters, ProgramReport, Run, Section, Taken, changes, doubts,
+    filed, judged,
     reference::{self, HousnerReport},
     stiffness_tradeoff::TradeoffPoint,
     unit_of,
@@ -59,7 +60,8 @@ impl RigidRun {
         let beside = |springs: &Springs<Design<f64>>| {
             let other = Parameters::new(case.structure, springs);
             let none = Members::default();
-            let matched = both(&job.body, case.restitution, &other.chains(), &none, &job.record).matched;
+            let matched =
+                both(&job.body, case.restitution, &other.chains(), &none, &job.record).matched;
             PaperProcedure { vertical: other.vertical, horizontal: other.horizontal, matched }
         };
         let paper = job.paper.as_ref().filter(|_| case.tuning.objective == Objective::Landing);
@@ -69,9 +71,13 @@ impl RigidRun {
             let both = both(&job.body, case.restitution, &chains, &case.members, &job.record);
             (both, Parameters::of(&case, &job))
         };
-        let others = || (paper.map(|paper| beside(&paper.tuned.best.springs)), recovered.map(|r| beside(&r)));
-        let report = || HousnerReport::new(&job.body, case.restitution, &job.record, &job.rocking, friction);
-        let ((both, mut parameters), ((paper, recovered), report)) = rayon::join(own, || rayon::join(others, report));
+        let others = || {
+            (paper.map(|paper| beside(&paper.tuned.best.springs)), recovered.map(|r| beside(&r)))
+        };
+        let report =
+            || HousnerReport::new(&job.body, case.restitution, &job.record, &job.rocking, friction);
+        let ((both, mut parameters), ((paper, recovered), report)) =
+            rayon::join(own, || rayon::join(others, report));
         parameters.matched = Some(both.matched);
         parameters.match_with_members = both.with.as_ref().map(|with| with.matched);
         (parameters.paper_procedure, parameters.table_1) = (paper, recovered);
@@ -80,7 +86,8 @@ impl RigidRun {
         let kind = case.structure.kind;
         parameters.peaks = Some(peaks(kind, &job.body, job.record.dt, &both));
         let softer = softer(&case, &job, &both);
-        parameters.design_forces = Some(design_forces(kind, &job.body, &job.record, &both, softer.as_ref()));
+        parameters.design_forces =
+            Some(design_forces(kind, &job.body, &job.record, &both, softer.as_ref()));
         let mut run = Self { case, job, front, both, report, parameters };
         run.parameters.findings = filed(run.findings());
         run
@@ -91,8 +98,10 @@ impl RigidRun {
         let mut sections = sections(&parameters);
         sections.extend(self.sections());
         let record = &self.job.record;
-        let (steps, sap2000) =
-            (equal_steps(&parameters, record), record.vertical.is_none() && parameters.members().is_none());
+        let (steps, sap2000) = (
+            equal_steps(&parameters, record),
+            record.vertical.is_none() && parameters.members().is_none(),
+        );
         let alone = alone(parameters);
         let mut facts = alone.taken.facts.clone();
         facts.extend(self.job.rocking.uplifts.first().map(|uplift| super::first_lift(uplift.time)));
@@ -114,7 +123,10 @@ impl RigidRun {
     fn assumed(&self) -> Vec<Assumed> {
         let mut all = Assumed::all(&self.case.assumptions());
         if self.case.members.friction.is_none() {
-            all.push(Assumed { what: "feet do not slide".into(), key: "friction.coefficient".into() });
+            all.push(Assumed {
+                what: "feet do not slide".into(),
+                key: "friction.coefficient".into(),
+            });
         }
         all
     }
@@ -123,7 +135,9 @@ impl RigidRun {
         let parameters = &self.parameters;
         // what of the search was cut, first
         let mut all = self.job.findings(self.case.tuning.asked());
-        let judged = parameters.assessment.is_some_and(|a| a.reached && a.measured.synthetic_median.is_some());
+        let judged = parameters
+            .assessment
+            .is_some_and(|a| a.reached && a.measured.synthetic_median.is_some());
         if let Some(verdict) = &parameters.verdict {
             all.extend(reference::verdict(&self.case.structure, &self.job.record, verdict));
             all.extend(reference::ill_conditioned(&self.report, verdict, judged));
@@ -153,9 +167,12 @@ impl RigidRun {
         let chains = self.parameters.chains();
         let both = both(&job.body, case.restitution, &chains, &Members::default(), &record);
         let kind = case.structure.kind;
-        let (peaks, forces) =
-            (peaks(kind, &job.body, record.dt, &both), design_forces(kind, &job.body, &record, &both, None));
-        let changes = changes((self.parameters.peaks, self.parameters.design_forces), (peaks, forces));
+        let (peaks, forces) = (
+            peaks(kind, &job.body, record.dt, &both),
+            design_forces(kind, &job.body, &record, &both, None),
+        );
+        let changes =
+            changes((self.parameters.peaks, self.parameters.design_forces), (peaks, forces));
         Some(Finding::VerticalLeftOut { vertical_g, horizontal_g, changes })
     }
 
@@ -194,7 +211,8 @@ impl RigidRun {
 pub fn of_case(case: &Case, mut parameters: Parameters) -> Run {
     // what of the search was cut is there already
     let search = parameters.findings.iter().map(|filed| filed.finding.clone());
-    let found = search.chain(doubts(case.doubts_of_structure())).chain(springs_findings(&parameters));
+    let found =
+        search.chain(doubts(case.doubts_of_structure())).chain(springs_findings(&parameters));
     let found = found.chain(program::findings(case, &parameters));
     parameters.findings = filed(found);
     alone(parameters)
@@ -202,7 +220,8 @@ pub fn of_case(case: &Case, mut parameters: Parameters) -> Run {
 
 /// Springs without a record.
 fn alone(parameters: Parameters) -> Run {
-    let units = [unit_of("vertical", &parameters.vertical), unit_of("horizontal", &parameters.horizontal)];
+    let units =
+        [unit_of("vertical", &parameters.vertical), unit_of("horizontal", &parameters.horizontal)];
     let findings = match parameters.findings.is_empty() {
         true => filed(springs_findings(&parameters)),
         false => parameters.findings.clone(),
@@ -257,19 +276,28 @@ fn taken(structure: &Structure, restitution: f64) -> Taken {
 fn peaks(kind: Kind, body: &Body<f64>, dt: f64, both: &ModelComparison) -> PeakPair {
     let firm = |firm: Option<usize>, all: usize| firm.unwrap_or(all);
     let of = |matched: &Match, theta: &[f64], u: Option<&[f64]>, impacts: usize| {
-        let fell = [matched.overturned_housner_s, matched.overturned_fem_s].into_iter().flatten().reduce(f64::min);
+        let fell = [matched.overturned_housner_s, matched.overturned_fem_s]
+            .into_iter()
+            .flatten()
+            .reduce(f64::min);
         let n = samples_until(fell, dt).min(theta.len());
         Peaks::of_rigid(kind, body, &theta[..n], u.map(|u| &u[..n]), impacts)
     };
     let ends = both.rocking.left_ground();
     let springs = |m: &Match, history: &History| {
         // beyond the end of Housner's solution there is no energy threshold to count by
-        let impacts = ends.map_or_else(|| firm(m.impacts_fem_firm, m.impacts_fem), |_| history.impacts());
+        let impacts =
+            ends.map_or_else(|| firm(m.impacts_fem_firm, m.impacts_fem), |_| history.impacts());
         of(m, &history.motion.theta, Some(&history.motion.u), impacts)
     };
     let m = &both.matched;
     PeakPair {
-        reference: of(m, &both.rocking.theta, None, firm(m.impacts_housner_firm, m.impacts_housner)),
+        reference: of(
+            m,
+            &both.rocking.theta,
+            None,
+            firm(m.impacts_housner_firm, m.impacts_housner),
+        ),
         reference_ends_s: ends,
         springs: springs(m, &both.fem),
         with_members: both.with.as_ref().map(|with| springs(&with.matched, &with.history)),
@@ -283,9 +311,19 @@ fn softer(case: &Case, job: &Job, both: &ModelComparison) -> Option<MemberHistor
         return None;
     }
     let quarter = |design: &Design<f64>| Design { omega_n_hz: design.omega_n_hz / 4.0, ..*design };
-    let springs = Springs { vertical: quarter(&job.springs.vertical), horizontal: quarter(&job.springs.horizontal) };
+    let springs = Springs {
+        vertical: quarter(&job.springs.vertical),
+        horizontal: quarter(&job.springs.horizontal),
+    };
     let (chains, e) = (springs.chains(case.structure.mass_kg), case.restitution);
-    Some(with_members(&job.body, e, &chains, &case.members, &job.record, (&both.rocking, &both.housner)))
+    Some(with_members(
+        &job.body,
+        e,
+        &chains,
+        &case.members,
+        &job.record,
+        (&both.rocking, &both.housner),
+    ))
 }
 
 /// What these springs cannot do.
@@ -294,7 +332,9 @@ fn springs_findings(parameters: &Parameters) -> Vec<Finding> {
     if let Some(a) = &parameters.assessment {
         if !a.reached {
             all.push(match a.judged_by {
-                Yardstick::Histories => Finding::AccuracyMissed { asked: a.accuracy, capped: a.capped },
+                Yardstick::Histories => {
+                    Finding::AccuracyMissed { asked: a.accuracy, capped: a.capped }
+                }
                 Yardstick::Peaks => Finding::PeaksMissed { asked: a.accuracy, capped: a.capped },
             });
         } else if a.measured.record.is_none()
@@ -317,7 +357,8 @@ fn springs_findings(parameters: &Parameters) -> Vec<Finding> {
     }
     let errors = || parameters.landings.iter().map(|l| l.restitution_error);
     if errors().any(|error| error.abs() > RESTITUTION_MISSED) {
-        let (low, high) = errors().fold((f64::INFINITY, f64::NEG_INFINITY), |(low, high), x| (low.min(x), high.max(x)));
+        let (low, high) = errors()
+            .fold((f64::INFINITY, f64::NEG_INFINITY), |(low, high), x| (low.min(x), high.max(x)));
         let [lowest, highest] = [low, high].map(|error| e * (1.0 + error));
         all.push(Finding::RestitutionMissed {
             asked: e,
@@ -359,7 +400,11 @@ fn sections(p: &Parameters) -> Vec<Section> {
         table: Some(tables::springs(p)),
         ..Section::default()
     }];
-    all.extend(ProgramReport::of_rigid(p).iter().flat_map(|program| [program.section(), program.springs()]));
+    all.extend(
+        ProgramReport::of_rigid(p)
+            .iter()
+            .flat_map(|program| [program.section(), program.springs()]),
+    );
     if let Some(m) = &p.matched {
         all.push(Section {
             id: "comparison",

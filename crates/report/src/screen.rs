@@ -14,8 +14,7 @@ const LONGEST_OF_MANY: usize = 2;
 const MOST_FORCE_LINES: usize = 3;
 
 /// What is said where no springs suit steps of one size.
-pub(crate) const NO_PROGRAM: &str =
-    "not these springs: programs with steps of one size need others; there are none for this structure";
+pub(crate) const NO_PROGRAM: &str = "not these springs: programs with steps of one size need others; there are none for this structure";
 /// Letters of a file's name in the line of the record.
 const LONGEST_NAME: usize = 48;
 
@@ -88,15 +87,19 @@ fn wrap(lines: &mut Vec<String>, name: &str, text: &str) {
 }
 
 fn taken(run: &Run, written: &Written, lines: &mut Vec<String>) {
-    let fact = |name: &str| run.taken.facts.iter().find(|(fact, _)| fact.starts_with(name)).map(|(_, value)| value);
+    let fact = |name: &str| {
+        run.taken.facts.iter().find(|(fact, _)| fact.starts_with(name)).map(|(_, value)| value)
+    };
     let first = fact("first lifts").map_or(String::new(), |time| format!(", first at {time}"));
     let lifts = fact("lifts").map_or(String::new(), |value| format!("; lifts at {value}{first}"));
     at_most(2, lines, "", &format!("{}{lifts}", run.taken.structure));
     if let Some(record) = &run.taken.record {
-        let short: Vec<String> = record.split(' ').map(|word| shortened(word, LONGEST_NAME)).collect();
+        let short: Vec<String> =
+            record.split(' ').map(|word| shortened(word, LONGEST_NAME)).collect();
         at_most(2, lines, "", &short.join(" "));
     }
-    let all: Vec<String> = run.taken.assumed.iter().map(|a| format!("{} ({})", a.what, a.key)).collect();
+    let all: Vec<String> =
+        run.taken.assumed.iter().map(|a| format!("{} ({})", a.what, a.key)).collect();
     let place = if written.report { "report.html" } else { "--verbose" };
     // as many as two lines hold
     for shown in (1..=all.len()).rev() {
@@ -121,7 +124,9 @@ fn forces(run: &Run, lines: &mut Vec<String>) {
     let mark = if some && !every { "*" } else { "" };
     let below = match forces.below_hz {
         Some(hz) => Some(format!("below {} Hz", significant(hz, 3))),
-        None => matches!(run.parameters, FiledParameters::Rigid(_)).then(|| "between impacts".into()),
+        None => {
+            matches!(run.parameters, FiledParameters::Rigid(_)).then(|| "between impacts".into())
+        }
     };
     let doubt = some.then(|| format!("{mark} not foretold").trim_start().to_string());
     let of: Vec<String> = below.into_iter().chain(doubt).collect();
@@ -141,7 +146,10 @@ fn forces(run: &Run, lines: &mut Vec<String>) {
 }
 
 /// The forces in words, each with its mark; those withheld are named.
-fn force_words<'a>(forces: &DesignForces, mark: impl Fn((ForceName, DesignForce)) -> &'a str) -> Vec<String> {
+fn force_words<'a>(
+    forces: &DesignForces,
+    mark: impl Fn((ForceName, DesignForce)) -> &'a str,
+) -> Vec<String> {
     // magnitudes: signs are in the report
     let magnitude = |force: DesignForce| DesignForce { value: force.value.map(f64::abs), ..force };
     let cell = |(name, force): (ForceName, DesignForce)| {
@@ -160,7 +168,8 @@ fn springs(run: &Run, lines: &mut Vec<String>) {
     let steps = run.program.as_ref().map(|program| format!("{} steps", program.steps));
     let mut add = |of: Option<&str>, units: &[Unit]| {
         for unit in units.iter().take(SHOWN) {
-            let cells = [unit.k1_n_per_m, unit.k2_n_per_m, unit.m2_kg, unit.c_ns_per_m].map(|x| significant(x, 4));
+            let cells = [unit.k1_n_per_m, unit.k2_n_per_m, unit.m2_kg, unit.c_ns_per_m]
+                .map(|x| significant(x, 4));
             let name = of.map_or(format!("  {}", unit.name), |of| format!("  {of}: {}", unit.name));
             table.rows.push([vec![name], cells.into()].concat());
         }
@@ -175,7 +184,9 @@ fn springs(run: &Run, lines: &mut Vec<String>) {
     if let Some(head) = all.first_mut() {
         if head.chars().count() + note.chars().count() <= WIDTH {
             head.push_str(&note);
-        } else if head.chars().count() + SAID.chars().count() / 2 <= WIDTH && run.springs.len() <= SHOWN {
+        } else if head.chars().count() + SAID.chars().count() / 2 <= WIDTH
+            && run.springs.len() <= SHOWN
+        {
             head.push_str("  numerical, not soil");
         } else {
             all.push(note);
@@ -222,10 +233,12 @@ fn urgency(finding: &Finding) -> usize {
 }
 
 fn warnings(run: &Run, written: &Written, lines: &mut Vec<String>) {
-    let mut all: Vec<_> = run.remarks().filter(|finding| finding.weight >= Weight::Warning).collect();
+    let mut all: Vec<_> =
+        run.remarks().filter(|finding| finding.weight >= Weight::Warning).collect();
     all.sort_by_key(|filed| (std::cmp::Reverse(filed.weight), urgency(&filed.finding)));
     let words = |filed: &FiledFinding| {
-        let remedy = filed.remedy.as_ref().map_or(String::new(), |remedy| format!(" {}", sentence(remedy)));
+        let remedy =
+            filed.remedy.as_ref().map_or(String::new(), |remedy| format!(" {}", sentence(remedy)));
         format!("{}{remedy}", sentence(&filed.message))
     };
     let taken = |filed: &&FiledFinding| {
@@ -234,7 +247,8 @@ fn warnings(run: &Run, written: &Written, lines: &mut Vec<String>) {
         some.len()
     };
     let room = LINES.saturating_sub(lines.len());
-    let longest = if all.iter().map(taken).sum::<usize>() > room { LONGEST_OF_MANY } else { LONGEST_WARNING };
+    let longest =
+        if all.iter().map(taken).sum::<usize>() > room { LONGEST_OF_MANY } else { LONGEST_WARNING };
     let place = if written.report { "report.html" } else { "parameters.json" };
     let mut told = 0;
     for finding in &all {

@@ -48,7 +48,8 @@ pub struct TradeoffPoint {
 /// The front of a job.
 pub fn front(job: &Job, progress: &(dyn Fn(usize, usize) + Sync)) -> Vec<TradeoffPoint> {
     let chosen = job.springs.vertical.omega_n_hz;
-    let mut ladder: Vec<f64> = LADDER_HZ.into_iter().filter(|hz| (hz / chosen).ln().abs() > 0.05).collect();
+    let mut ladder: Vec<f64> =
+        LADDER_HZ.into_iter().filter(|hz| (hz / chosen).ln().abs() > 0.05).collect();
     ladder.push(chosen);
     ladder.sort_by(f64::total_cmp);
     let done = AtomicUsize::new(0);
@@ -67,13 +68,22 @@ pub fn front(job: &Job, progress: &(dyn Fn(usize, usize) + Sync)) -> Vec<Tradeof
             let (arr, ours) = rayon::join(arr, ours);
             progress(done.fetch_add(1, Ordering::Relaxed) + 1, ladder.len());
             let (landing, (foot_force_weights, deck_steps)) = ours?;
-            Some(TradeoffPoint { omega_n_hz: hz, chosen: hz == chosen, landing, arr, foot_force_weights, deck_steps })
+            Some(TradeoffPoint {
+                omega_n_hz: hz,
+                chosen: hz == chosen,
+                landing,
+                arr,
+                foot_force_weights,
+                deck_steps,
+            })
         })
         .collect()
 }
 
 fn error(job: &Job, springs: &Springs<Design<f64>>) -> Option<f64> {
-    job.suites.error(&springs.chains(job.body.mass), Control::search()).filter(|error| error.is_finite())
+    job.suites
+        .error(&springs.chains(job.body.mass), Control::search())
+        .filter(|error| error.is_finite())
 }
 
 fn paper_error(job: &Job, paper: &Paper, hz: f64) -> Option<f64> {

@@ -4,7 +4,9 @@ use dynamics::spring::{Design, Springs};
 use rocking::structure::Structure;
 use springs::{
     case::{Case, Objective},
-    tuning::{job::Job, landing::design::springs_at_stiffness, landing_simulation::report::landings},
+    tuning::{
+        job::Job, landing::design::springs_at_stiffness, landing_simulation::report::landings,
+    },
 };
 use strong_motion::Record;
 
@@ -37,7 +39,8 @@ fn difference(one: &Springs<Design<f64>>, other: &Springs<Design<f64>>, time: f6
     let numbers = |s: &Springs<Design<f64>>, time: f64| {
         [s.vertical, s.horizontal].map(|d| [d.mu, d.f, d.xi, d.omega_n_hz * time])
     };
-    let pairs = numbers(one, 1.0).into_iter().flatten().zip(numbers(other, time).into_iter().flatten());
+    let pairs =
+        numbers(one, 1.0).into_iter().flatten().zip(numbers(other, time).into_iter().flatten());
     pairs.map(|(a, b)| (b / a - 1.0).abs()).fold(0.0, f64::max)
 }
 
@@ -79,13 +82,22 @@ fn quiet_before_the_record_changes_no_springs() {
 #[test]
 fn a_mass_in_tonnes_or_pounds_gives_the_same_springs() {
     for structure in [paper().structure, Structure::block(2.0, 0.5, 1e3).unwrap()] {
-        let case = Case { structure, restitution: structure.body::<f64>().restitution(), ..paper() };
+        let case =
+            Case { structure, restitution: structure.body::<f64>().restitution(), ..paper() };
         let [landing, arr] = tuned(&case);
         for unit in [1e-3, 1.0 / 0.453_592_37] {
             let other = tuned(&scaled(&case, 1.0, unit));
             let design = |d: &Design<f64>| (d.mu, d.f, d.xi);
-            assert_eq!(design(&landing.vertical), design(&other[0].vertical), "masses times {unit}");
-            assert_eq!(design(&landing.horizontal), design(&other[0].horizontal), "masses times {unit}");
+            assert_eq!(
+                design(&landing.vertical),
+                design(&other[0].vertical),
+                "masses times {unit}"
+            );
+            assert_eq!(
+                design(&landing.horizontal),
+                design(&other[0].horizontal),
+                "masses times {unit}"
+            );
             assert!(difference(&landing, &other[0], 1.0) < 1e-12, "masses times {unit}");
             let error = difference(&arr, &other[1], 1.0);
             assert!(error < 1e-12, "masses times {unit}: {error:e}");
@@ -98,7 +110,8 @@ fn a_mass_in_tonnes_or_pounds_gives_the_same_springs() {
 #[test]
 fn similar_structures_have_similar_springs_by_the_papers_procedure() {
     for structure in [paper().structure, Structure::block(2.0, 0.5, 1e3).unwrap()] {
-        let mut case = Case { structure, restitution: structure.body::<f64>().restitution(), ..paper() };
+        let mut case =
+            Case { structure, restitution: structure.body::<f64>().restitution(), ..paper() };
         case.tuning.objective = Objective::Arr;
         case.tuning.max_omega_hz = Some(160.0);
         let tuned = |case: &Case| Job::new(case, &|_, _, _| {}).unwrap().springs;

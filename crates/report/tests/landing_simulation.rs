@@ -67,11 +67,20 @@ fn landings_on_stiff_springs_err_by_the_weight_on_the_old_foot() {
             let (k, m) = (0.25, geometry.effective_mass());
             let chain = universal(k);
             let mut springs = springs_at_stiffness(&body, stiffness).unwrap();
-            springs.vertical = Design::from_kc(chain.mu * m, k, chain.c * m.sqrt(), springs.vertical.omega_n_hz);
+            springs.vertical =
+                Design::from_kc(chain.mu * m, k, chain.c * m.sqrt(), springs.vertical.omega_n_hz);
             for row in rows(&body, 1.0, &springs).into_iter().filter(|row| row.lean >= 0.1) {
-                let expected = weight::restitution_error(geometry.alpha(), geometry.mass_share(), stiffness, row.lean);
+                let expected = weight::restitution_error(
+                    geometry.alpha(),
+                    geometry.mass_share(),
+                    stiffness,
+                    row.lean,
+                );
                 let ratio = row.restitution_error / expected;
-                println!("{structure:?} {stiffness:.0e} {}: {:.2e}, {ratio:.2} of it", row.lean, expected);
+                println!(
+                    "{structure:?} {stiffness:.0e} {}: {:.2e}, {ratio:.2} of it",
+                    row.lean, expected
+                );
                 assert!((0.75..1.05).contains(&ratio), "{row:?}");
             }
         }
@@ -84,14 +93,27 @@ fn free_rocking_on_stiff_springs_never_creates_energy() {
     let springs = springs_at_stiffness(&body, 4e4).unwrap().chains(body.mass);
     let accel = vec![0.0; 10001];
     let (start, control) = (Start::Leaning(0.9 * body.alpha()), Control::default());
-    let history =
-        Analysis { body, springs, start, dt: 0.01, accel: &accel, vertical: &[], scale: 1.0, control }.simulate();
+    let history = Analysis {
+        body,
+        springs,
+        start,
+        dt: 0.01,
+        accel: &accel,
+        vertical: &[],
+        scale: 1.0,
+        control,
+    }
+    .simulate();
     assert!(history.impacts() > 10);
     let scale = history.account.dissipated.last().unwrap();
     // a Radau step may misjudge its own dissipation by what the account allows it, 1e-9 of the
     // energy
-    let least = history.account.dissipated.windows(2).map(|w| w[1] - w[0]).fold(f64::INFINITY, f64::min) / scale;
-    let most = history.account.stored.windows(2).map(|w| w[1] - w[0]).fold(f64::NEG_INFINITY, f64::max) / scale;
+    let least =
+        history.account.dissipated.windows(2).map(|w| w[1] - w[0]).fold(f64::INFINITY, f64::min)
+            / scale;
+    let most =
+        history.account.stored.windows(2).map(|w| w[1] - w[0]).fold(f64::NEG_INFINITY, f64::max)
+            / scale;
     assert!(least > -1e-8 && most < 1e-8, "{least} {most}");
     assert!(history.energy_residual < 1e-6);
 }
@@ -100,13 +122,20 @@ fn free_rocking_on_stiff_springs_never_creates_energy() {
 /// says so.
 #[test]
 fn bodies_can_be_given_another_restitution() {
-    for (structure, ratio) in
-        [(Structure::block(2.0, 0.5, 1e3).unwrap(), 1.02), (Structure::a_frame(5.0, 1.5, 1e4).unwrap(), 1.02)]
-    {
+    for (structure, ratio) in [
+        (Structure::block(2.0, 0.5, 1e3).unwrap(), 1.02),
+        (Structure::a_frame(5.0, 1.5, 1e4).unwrap(), 1.02),
+    ] {
         let body = with_inertia(structure);
         let bracket = Bracket { max_hz: 160.0, max_settlement: 0.01 };
-        let springs =
-            with_restitution(&body, ratio * body.restitution(), bracket, &Effort::unbounded(), &|_, _, _| {}).unwrap();
+        let springs = with_restitution(
+            &body,
+            ratio * body.restitution(),
+            bracket,
+            &Effort::unbounded(),
+            &|_, _, _| {},
+        )
+        .unwrap();
         let rows = rows(&body, ratio, &springs);
         println!("{} m, {ratio}: {:.2} %", structure.height_m, 100.0 * worst(&rows));
         assert!(worst(&rows) < 5e-3, "{structure:?} {ratio}: {rows:?}");
@@ -118,9 +147,12 @@ fn bodies_can_be_given_another_restitution() {
 fn a_small_settlement_is_honoured() {
     let body = Structure::block(2.0, 0.5, 1e3).unwrap().body::<f64>();
     for limit in [1e-3, 1e-5] {
-        for springs in
-            follow(&body, body.restitution(), Bracket { max_hz: 160.0, max_settlement: limit }, &Effort::unbounded())
-        {
+        for springs in follow(
+            &body,
+            body.restitution(),
+            Bracket { max_hz: 160.0, max_settlement: limit },
+            &Effort::unbounded(),
+        ) {
             let settlement = springs.settlement(body.mass);
             assert!(settlement < limit * (1.0 + 2e-3), "{settlement:e} {limit:e}");
         }

@@ -16,7 +16,11 @@ use springs::{
 
 /// A structure's case without a record that matters, at an accuracy, within a cap.
 fn tuned(structure: Structure, accuracy: f64, cap: Option<f64>) -> Job {
-    let mut case = Case { structure, restitution: structure.body::<f64>().restitution(), ..Case::paper().unwrap() };
+    let mut case = Case {
+        structure,
+        restitution: structure.body::<f64>().restitution(),
+        ..Case::paper().unwrap()
+    };
     case.record = case.record.truncated(5.0);
     case.duration_s = case.record.duration();
     (case.tuning.accuracy, case.tuning.max_omega_hz) = (accuracy, cap);
@@ -38,10 +42,14 @@ fn gentle_landings_of_the_springs_taken_are_as_exact_as_was_asked() {
         for accuracy in [0.01, 0.002] {
             let job = tuned(structure, accuracy, None);
             assert!(job.tuned.reached);
-            let rows = landings(&job.body, &job.springs.chains(job.body.mass), job.body.restitution());
+            let rows =
+                landings(&job.body, &job.springs.chains(job.body.mass), job.body.restitution());
             assert_eq!(rows.len(), 8);
             let worst = rows.iter().map(|row| row.restitution_error.abs()).fold(0.0, f64::max);
-            println!("{structure:?} at {accuracy}: {:.0} Hz, {worst:.1e}", job.springs.vertical.omega_n_hz);
+            println!(
+                "{structure:?} at {accuracy}: {:.0} Hz, {worst:.1e}",
+                job.springs.vertical.omega_n_hz
+            );
             assert!(PREDICTABLE * worst < accuracy, "{rows:?}");
         }
     }
@@ -70,7 +78,11 @@ fn springs_by_peaks_are_no_stiffer_than_those_by_histories_of_the_same_error() {
         Structure::block(2.0, 0.4, 1e3).unwrap(),
         Structure::block(0.6, 0.6 * f64::tan(0.25), 1e3).unwrap(),
     ] {
-        let mut case = Case { structure, restitution: structure.body::<f64>().restitution(), ..Case::paper().unwrap() };
+        let mut case = Case {
+            structure,
+            restitution: structure.body::<f64>().restitution(),
+            ..Case::paper().unwrap()
+        };
         case.record = case.record.truncated(5.0);
         case.duration_s = case.record.duration();
         case.tuning.accuracy = 0.02;
@@ -81,11 +93,15 @@ fn springs_by_peaks_are_no_stiffer_than_those_by_histories_of_the_same_error() {
         println!("{structure:?}: {hz:?} {:?}", by_peaks.tuned.best.errors);
         assert!(hz[0] <= hz[1] * (1.0 + 1e-9), "{hz:?}");
         let peaks = by_peaks.tuned.best.errors.peaks.largest;
-        assert!(by_peaks.tuned.reached && peaks.synthetic_median.unwrap().value <= 0.02, "{peaks:?}");
+        assert!(
+            by_peaks.tuned.reached && peaks.synthetic_median.unwrap().value <= 0.02,
+            "{peaks:?}"
+        );
         // other motions
         let body = &by_peaks.body;
         let others = Suites::of_seed(2027, body, body.restitution(), None);
-        let other = others.accuracy(&by_peaks.springs.chains(body.mass), Control::search()).peaks.largest;
+        let other =
+            others.accuracy(&by_peaks.springs.chains(body.mass), Control::search()).peaks.largest;
         println!("on other motions: {other:?}");
         assert!(other.reaches(0.02), "{other:?}");
     }
@@ -97,9 +113,12 @@ fn springs_by_peaks_are_no_stiffer_than_those_by_histories_of_the_same_error() {
 fn no_springs_are_stiffer_than_the_cap() {
     let slender = Structure::block(0.8, 0.09, 35.0).unwrap();
     let stocky = Structure::block(1.6, 1.5, 9e3).unwrap();
-    for (structure, cap, reached) in
-        [(slender, 10.0, false), (slender, 160.0, false), (stocky, 160.0, false), (stocky, 6e4, true)]
-    {
+    for (structure, cap, reached) in [
+        (slender, 10.0, false),
+        (slender, 160.0, false),
+        (stocky, 160.0, false),
+        (stocky, 6e4, true),
+    ] {
         let job = tuned(structure, 0.002, Some(cap));
         let hz = [job.springs.vertical, job.springs.horizontal].map(|design| design.omega_n_hz);
         println!("{structure:?} within {cap} Hz: {hz:?}");
@@ -112,7 +131,9 @@ fn no_springs_are_stiffer_than_the_cap() {
 /// leaves the ground as the landing in the stiff limit says, not as its absorber swings away.
 #[test]
 fn landings_are_followed_one_at_a_time() {
-    for structure in [Structure::block(1.6, 1.5, 9e3).unwrap(), Structure::a_frame(17.0, 3.1, 4.2e5).unwrap()] {
+    for structure in
+        [Structure::block(1.6, 1.5, 9e3).unwrap(), Structure::a_frame(17.0, 3.1, 4.2e5).unwrap()]
+    {
         let body = structure.body::<f64>();
         let springs = springs_at_stiffness(&body, 4e5).unwrap();
         let geometry = Geometry::of(&body, 4e5).unwrap();

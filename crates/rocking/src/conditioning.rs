@@ -68,9 +68,13 @@ impl Changes {
     /// and scale move it by less than [`ILL_CONDITIONED`] times as much, 0.1 % of the restitution
     /// by less than `MOVED_BY_RESTITUTION`, and nothing decides on overturning.
     pub fn proportionate(&self) -> bool {
-        let within =
-            |moved: [f64; 2]| moved.iter().zip(CHANGES).all(|(moved, change)| *moved < ILL_CONDITIONED * change);
-        within(self.width) && within(self.scale) && self.restitution[0] < MOVED_BY_RESTITUTION && !self.overturning
+        let within = |moved: [f64; 2]| {
+            moved.iter().zip(CHANGES).all(|(moved, change)| *moved < ILL_CONDITIONED * change)
+        };
+        within(self.width)
+            && within(self.scale)
+            && self.restitution[0] < MOVED_BY_RESTITUTION
+            && !self.overturning
     }
 }
 
@@ -86,7 +90,10 @@ pub struct Conditioning {
 impl Conditioning {
     /// Of Housner's history: record and options as in [`solve`].
     pub fn new(body: &Body<f64>, dt: f64, accel: &[f64], options: &RockingOptions<f64>) -> Self {
-        Self { sensitivity: sensitivity(body, dt, accel, options), changes: changes(body, dt, accel, options) }
+        Self {
+            sensitivity: sensitivity(body, dt, accel, options),
+            changes: changes(body, dt, accel, options),
+        }
     }
 
     /// Whether a comparison of histories one to one means something: by the derivative and by
@@ -124,21 +131,34 @@ pub fn changes(body: &Body<f64>, dt: f64, accel: &[f64], options: &RockingOption
     let restitution = options.restitution.unwrap_or_else(|| body.restitution());
     let (mut bodies, mut all) = (vec![*body], vec![options.clone()]);
     for change in CHANGES.iter().flat_map(|d| [1.0 + d, 1.0 - d]) {
-        let changed = RockingOptions { restitution: Some((restitution * change).min(1.0)), ..options.clone() };
+        let changed = RockingOptions {
+            restitution: Some((restitution * change).min(1.0)),
+            ..options.clone()
+        };
         bodies.extend([Body { half_width: body.half_width * change, ..*body }, *body, *body]);
-        all.extend([options.clone(), RockingOptions { scale: options.scale * change, ..options.clone() }, changed]);
+        all.extend([
+            options.clone(),
+            RockingOptions { scale: options.scale * change, ..options.clone() },
+            changed,
+        ]);
     }
     let histories = solve_lanes(&bodies, dt, accel, &all);
     let displacements = |i: usize| histories[i].motion(&bodies[i]).u;
     let u = displacements(0);
     let moved_by = |i: usize| {
-        let until = [&histories[0], &histories[i]].into_iter().filter_map(Rocking::overturned).reduce(f64::min);
+        let until = [&histories[0], &histories[i]]
+            .into_iter()
+            .filter_map(Rocking::overturned)
+            .reduce(f64::min);
         let samples = samples_until(until, dt).min(u.len());
         moved(&displacements(i), &u[..samples])
     };
-    let overturns = |rocking: &Rocking<f64>| matches!(rocking.outcome, RockingOutcome::Overturned { .. });
+    let overturns =
+        |rocking: &Rocking<f64>| matches!(rocking.outcome, RockingOutcome::Overturned { .. });
     // history 1 + 6 k + 3 j + what: size k, sign j
-    let largest = |what: usize| [0, 1].map(|k| f64::max(moved_by(1 + 6 * k + what), moved_by(4 + 6 * k + what)));
+    let largest = |what: usize| {
+        [0, 1].map(|k| f64::max(moved_by(1 + 6 * k + what), moved_by(4 + 6 * k + what)))
+    };
     Changes {
         width: largest(0),
         scale: largest(1),
@@ -149,7 +169,12 @@ pub fn changes(body: &Body<f64>, dt: f64, accel: &[f64], options: &RockingOption
 
 /// The sensitivity of a history up to its overturning, if it does: record and options as in
 /// [`solve`]. A body that never moves has none: zero.
-pub fn sensitivity(body: &Body<f64>, dt: f64, accel: &[f64], options: &RockingOptions<f64>) -> Sensitivity {
+pub fn sensitivity(
+    body: &Body<f64>,
+    dt: f64,
+    accel: &[f64],
+    options: &RockingOptions<f64>,
+) -> Sensitivity {
     type Dual = DualSVec64<2>;
     let real = Dual::from_re;
     let dual_body = Body {
@@ -176,7 +201,8 @@ pub fn sensitivity(body: &Body<f64>, dt: f64, accel: &[f64], options: &RockingOp
         above[1] += du[1] * du[1];
     }
     // min takes the number where the derivatives overflowed to a NaN
-    let [width, scale] = above.map(|above| if above == 0.0 { 0.0 } else { (above / below).sqrt().min(LARGEST) });
+    let [width, scale] =
+        above.map(|above| if above == 0.0 { 0.0 } else { (above / below).sqrt().min(LARGEST) });
     Sensitivity { width, scale }
 }
 
@@ -231,15 +257,21 @@ mod tests {
         let body = Structure::paper().body::<f64>();
         let accel = Record::el_centro().accel;
         let found = Conditioning::new(&body, 0.01, &accel, &twenty_seconds());
-        let u = |body: Body<f64>, options: RockingOptions<f64>| solve(&body, 0.01, &accel, &options).motion(&body).u;
+        let u = |body: Body<f64>, options: RockingOptions<f64>| {
+            solve(&body, 0.01, &accel, &options).motion(&body).u
+        };
         let middle = u(body, twenty_seconds());
         for (k, d) in CHANGES.into_iter().enumerate() {
-            let largest = |u: &dyn Fn(f64) -> Vec<f64>| nrmse(&u(1.0 + d), &middle).max(nrmse(&u(1.0 - d), &middle));
-            let width = largest(&|x| u(Body { half_width: body.half_width * x, ..body }, twenty_seconds()));
+            let largest = |u: &dyn Fn(f64) -> Vec<f64>| {
+                nrmse(&u(1.0 + d), &middle).max(nrmse(&u(1.0 - d), &middle))
+            };
+            let width =
+                largest(&|x| u(Body { half_width: body.half_width * x, ..body }, twenty_seconds()));
             let scale = largest(&|x| u(body, RockingOptions { scale: x, ..twenty_seconds() }));
             let e = body.restitution();
-            let restitution =
-                largest(&|x| u(body, RockingOptions { restitution: Some((e * x).min(1.0)), ..twenty_seconds() }));
+            let restitution = largest(&|x| {
+                u(body, RockingOptions { restitution: Some((e * x).min(1.0)), ..twenty_seconds() })
+            });
             assert_eq!([found.changes.width[k], found.changes.scale[k]], [width, scale]);
             assert_eq!(found.changes.restitution[k], restitution);
         }
@@ -263,7 +295,8 @@ mod tests {
         };
         let accel: Vec<f64> = (0..6000).map(|i| push(f64::from(i) * 0.01)).collect();
         let initial = Some((0.3 * body.alpha(), 0.0));
-        let options = RockingOptions { initial, restitution: Some(0.6), ..RockingOptions::default() };
+        let options =
+            RockingOptions { initial, restitution: Some(0.6), ..RockingOptions::default() };
         let found = Conditioning::new(&body, 0.01, &accel, &options);
         assert!(found.sensitivity.worst() < ILL_CONDITIONED, "{found:?}");
         assert!(found.changes.width[0] > 0.1 && found.changes.scale[0] > 0.1, "{found:?}");
@@ -275,10 +308,13 @@ mod tests {
     fn some_motions_of_any_suite_are_well_conditioned_by_the_derivative_alone() {
         let body = Structure::a_frame(20.0, 1.2, 1e5).unwrap().body::<f64>();
         let by_both = |record: Record| {
-            let found = Conditioning::new(&body, record.dt, &record.accel, &RockingOptions::default());
+            let found =
+                Conditioning::new(&body, record.dt, &record.accel, &RockingOptions::default());
             (found.sensitivity.worst() < ILL_CONDITIONED, found.well_conditioned())
         };
-        let all: Vec<_> = crate::synthetic::suite(200, 7, body.p_squared().sqrt(), body.alpha()).map(by_both).collect();
+        let all: Vec<_> = crate::synthetic::suite(200, 7, body.p_squared().sqrt(), body.alpha())
+            .map(by_both)
+            .collect();
         let deceived = all.iter().filter(|(derivative, both)| *derivative && !both).count();
         let good = all.iter().filter(|(_, both)| *both).count();
         assert!(deceived >= 1 && good > 5 * deceived, "{deceived} {good}");
@@ -296,8 +332,14 @@ mod tests {
     #[test]
     fn a_body_near_balance_is_ill_conditioned() {
         let body = Structure::paper().body::<f64>();
-        let options = RockingOptions { initial: Some(((1.0 - 1e-4) * body.alpha(), 0.0)), ..RockingOptions::default() };
+        let options = RockingOptions {
+            initial: Some(((1.0 - 1e-4) * body.alpha(), 0.0)),
+            ..RockingOptions::default()
+        };
         let found = Conditioning::new(&body, 0.01, &[0.0; 3000], &options);
-        assert!(found.sensitivity.worst() > ILL_CONDITIONED && !found.changes.proportionate(), "{found:?}");
+        assert!(
+            found.sensitivity.worst() > ILL_CONDITIONED && !found.changes.proportionate(),
+            "{found:?}"
+        );
     }
 }

@@ -57,7 +57,14 @@ pub struct RockingOptions<S> {
 
 impl<S: Scalar> Default for RockingOptions<S> {
     fn default() -> Self {
-        Self { scale: S::one(), vertical: None, restitution: None, duration: None, initial: None, max_work: 2_000_000 }
+        Self {
+            scale: S::one(),
+            vertical: None,
+            restitution: None,
+            duration: None,
+            initial: None,
+            max_work: 2_000_000,
+        }
     }
 }
 
@@ -140,7 +147,12 @@ pub struct Rocking<S> {
 /// assert_eq!(rocking.uplifts[0].side, -1.0);
 /// assert!(!rocking.impacts.is_empty());
 /// ```
-pub fn solve<S: Scalar>(body: &Body<S>, dt: f64, accel: &[f64], options: &RockingOptions<S>) -> Rocking<S> {
+pub fn solve<S: Scalar>(
+    body: &Body<S>,
+    dt: f64,
+    accel: &[f64],
+    options: &RockingOptions<S>,
+) -> Rocking<S> {
     let (theta, rate) = start(options);
     let set = setting(body, dt, accel, options);
     match options.vertical {
@@ -153,7 +165,12 @@ pub fn solve<S: Scalar>(body: &Body<S>, dt: f64, accel: &[f64], options: &Rockin
 /// lock-step, on every thread; each result is, bit for bit, that of [`solve`]. The longer of the
 /// two lists decides how many there are; the shorter one is repeated from its start. Options with
 /// the same vertical record (clones of one `Arc`) go side by side.
-pub fn solve_lanes(bodies: &[Body<f64>], dt: f64, accel: &[f64], options: &[RockingOptions<f64>]) -> Vec<Rocking<f64>> {
+pub fn solve_lanes(
+    bodies: &[Body<f64>],
+    dt: f64,
+    accel: &[f64],
+    options: &[RockingOptions<f64>],
+) -> Vec<Rocking<f64>> {
     if bodies.is_empty() || options.is_empty() {
         return Vec::new();
     }
@@ -169,7 +186,8 @@ pub fn solve_lanes(bodies: &[Body<f64>], dt: f64, accel: &[f64], options: &[Rock
     let mut placed = Vec::with_capacity(all.len());
     for ground in grounds {
         let those = all.iter().filter(|(_, _, options)| is_same(ground, options.vertical.as_ref()));
-        let those = those.map(|&(i, body, options)| (i, setting(body, dt, accel, options), start(options)));
+        let those =
+            those.map(|&(i, body, options)| (i, setting(body, dt, accel, options), start(options)));
         match ground {
             None => together::<false>(those, &mut placed),
             Some(_) => together::<true>(those, &mut placed),
@@ -192,8 +210,9 @@ fn together<'a, const V: bool>(
     those: impl Iterator<Item = (usize, walk::Setting<'a, f64>, (f64, f64))>,
     placed: &mut Vec<(usize, Rocking<f64>)>,
 ) {
-    let mut walks: Vec<_> =
-        those.map(|(i, set, (theta, rate))| (i, walk::Walk::<f64, V>::new(set, theta, rate))).collect();
+    let mut walks: Vec<_> = those
+        .map(|(i, set, (theta, rate))| (i, walk::Walk::<f64, V>::new(set, theta, rate)))
+        .collect();
     // those that take the same steps side by side
     walks.sort_by_key(|(_, walk)| walk.pace);
     let mut chunks = Vec::with_capacity(walks.len().div_ceil(lanes::WIDTH));

@@ -92,7 +92,9 @@ const RATIO: (f64, f64) = (1e-9, 1e15);
 pub enum MembersError {
     #[error("{name} is {value}; give a finite number{bound}")]
     Value { name: &'static str, value: f64, bound: &'static str },
-    #[error("{name} is {value:?}, {times:.1e} times {unit}; nothing computed from that means anything, check the unit")]
+    #[error(
+        "{name} is {value:?}, {times:.1e} times {unit}; nothing computed from that means anything, check the unit"
+    )]
     Absurd { name: &'static str, value: f64, times: f64, unit: &'static str },
     #[error(
         "friction.coefficient is given together with damper or tendon; slipping is followed for a rigid body only, leave one out"
@@ -119,7 +121,10 @@ impl Members<f64> {
         let not_negative = |name, value: f64| (name, value, value >= 0.0, ", zero or greater");
         let damper = self.damper.map(|d| not_negative("damper.c_ns_per_m", d.c));
         let tendon = self.tendon.map(|t| {
-            [positive("tendon.stiffness_n_per_m", t.stiffness), not_negative("tendon.pretension_n", t.pretension)]
+            [
+                positive("tendon.stiffness_n_per_m", t.stiffness),
+                not_negative("tendon.pretension_n", t.pretension),
+            ]
         });
         let friction = self.friction.map(|f| positive("friction.coefficient", f.coefficient));
         if friction.is_some() && self.any() {
@@ -138,7 +143,11 @@ impl Members<f64> {
         if let Some(t) = self.tendon {
             let most = 0.5 * t.stiffness * body.height;
             if t.pretension > most {
-                return Err(MembersError::Elongation { pretension: t.pretension, height: body.height, most });
+                return Err(MembersError::Elongation {
+                    pretension: t.pretension,
+                    height: body.height,
+                    most,
+                });
             }
         }
         Ok(self)
@@ -152,10 +161,16 @@ impl Members<f64> {
             let unit = body.mass * (GRAVITY / length).sqrt();
             ("damper.c_ns_per_m", d.c, unit, "the mass times sqrt(g/leg's length)")
         });
-        let tendon = self
-            .tendon
-            .map(|t| ("tendon.stiffness_n_per_m", t.stiffness, weight / length, "the weight over the leg's length"));
-        let friction = self.friction.map(|f| ("friction.coefficient", f.coefficient, 1.0, "the weight"));
+        let tendon = self.tendon.map(|t| {
+            (
+                "tendon.stiffness_n_per_m",
+                t.stiffness,
+                weight / length,
+                "the weight over the leg's length",
+            )
+        });
+        let friction =
+            self.friction.map(|f| ("friction.coefficient", f.coefficient, 1.0, "the weight"));
         for (name, value, unit, word) in damper.into_iter().chain(tendon).chain(friction) {
             let times = value / unit;
             if !(RATIO.0..=RATIO.1).contains(&times) {
@@ -170,7 +185,9 @@ impl Members<f64> {
         use crate::scalar::real;
         Members {
             damper: self.damper.map(|d| Damper { c: real(d.c) }),
-            tendon: self.tendon.map(|t| Tendon { stiffness: real(t.stiffness), pretension: real(t.pretension) }),
+            tendon: self
+                .tendon
+                .map(|t| Tendon { stiffness: real(t.stiffness), pretension: real(t.pretension) }),
             friction: self.friction.map(|f| Friction { coefficient: real(f.coefficient) }),
         }
     }
@@ -188,9 +205,14 @@ mod tests {
     #[test]
     fn bad_members_are_named_with_what_to_do() {
         let damper = Members { damper: Some(Damper { c: f64::INFINITY }), ..Members::default() };
-        assert_eq!(message(damper), "damper.c_ns_per_m is inf; give a finite number, zero or greater");
-        let tendon =
-            |stiffness, pretension| Members { tendon: Some(Tendon { stiffness, pretension }), ..Members::default() };
+        assert_eq!(
+            message(damper),
+            "damper.c_ns_per_m is inf; give a finite number, zero or greater"
+        );
+        let tendon = |stiffness, pretension| Members {
+            tendon: Some(Tendon { stiffness, pretension }),
+            ..Members::default()
+        };
         assert!(message(tendon(0.0, 1.0)).starts_with("tendon.stiffness_n_per_m is 0;"));
         assert!(message(tendon(f64::NAN, 1.0)).starts_with("tendon.stiffness_n_per_m is NaN;"));
         assert!(message(tendon(1e5, 1e7)).ends_with("give less than 3.0500e6 N"));

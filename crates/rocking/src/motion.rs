@@ -56,7 +56,11 @@ impl TimedPeak {
     /// Of samples dt (s) apart: the first of the largest; none of no samples.
     pub fn of(dt: f64, series: &[f64]) -> Option<Self> {
         let sample = |(i, &value): (usize, &f64)| Self { value, time: i as f64 * dt };
-        series.iter().enumerate().map(sample).reduce(|a, b| if b.value.abs() > a.value.abs() { b } else { a })
+        series
+            .iter()
+            .enumerate()
+            .map(sample)
+            .reduce(|a, b| if b.value.abs() > a.value.abs() { b } else { a })
     }
 }
 
@@ -83,7 +87,8 @@ pub fn percent(share: f64) -> String {
     if !percent.is_finite() {
         return "-".into();
     }
-    let decimals = if percent > 0.0 { (1.0 - percent.log10().floor()).clamp(0.0, 2.0) as usize } else { 0 };
+    let decimals =
+        if percent > 0.0 { (1.0 - percent.log10().floor()).clamp(0.0, 2.0) as usize } else { 0 };
     format!("{percent:.decimals$} %")
 }
 
@@ -93,7 +98,8 @@ pub fn shown(nrmse: f64) -> String {
     if !nrmse.is_finite() {
         return "-".into();
     }
-    let decimals = if nrmse > 0.0 { (1.0 - nrmse.log10().floor()).clamp(4.0, 9.0) as usize } else { 4 };
+    let decimals =
+        if nrmse > 0.0 { (1.0 - nrmse.log10().floor()).clamp(4.0, 9.0) as usize } else { 4 };
     format!("{nrmse:.decimals$}")
 }
 
@@ -112,7 +118,10 @@ mod tests {
         let scaled: Vec<f64> = reference.iter().map(|x| 1.1 * x).collect();
         assert!((nrmse(&scaled, &reference) - 0.1).abs() < 1e-15);
         assert_eq!(nrmse(&reference, &reference), 0.0);
-        assert_eq!((shown(0.1), shown(nrmse(&reference, &[0.0; 3]))), ("0.1000".into(), "-".into()));
+        assert_eq!(
+            (shown(0.1), shown(nrmse(&reference, &[0.0; 3]))),
+            ("0.1000".into(), "-".into())
+        );
     }
 
     #[test]

@@ -46,7 +46,8 @@ mod tests {
         for duration in [7.0, 20.0] {
             let accel = vec![1.5; (100.0 * duration) as usize];
             let rocking = solve(&body, 0.01, &accel, &RockingOptions::default());
-            let (found, exact) = (overturned(&body, 0.01, &rocking.theta).unwrap(), rocking.overturned().unwrap());
+            let (found, exact) =
+                (overturned(&body, 0.01, &rocking.theta).unwrap(), rocking.overturned().unwrap());
             assert!((found - exact).abs() < 1e-4, "{found} {exact}");
         }
     }

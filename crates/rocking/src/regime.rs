@@ -69,7 +69,8 @@ pub fn check(
     // in g; gamma = 1 + a_v/g beside u_g/g
     let at = |record: &[f64], i: usize| record.get(i).copied().unwrap_or(0.0) * scale / GRAVITY;
     let sample = |i: usize| (at(accel, i), 1.0 + at(vertical, i));
-    let mut worst = Worst { friction: TimedPeak { value: 0.0, time: 0.0 }, lowest: 1.0, flight: None };
+    let mut worst =
+        Worst { friction: TimedPeak { value: 0.0, time: 0.0 }, lowest: 1.0, flight: None };
     let mut impacts = rocking.impacts.iter().peekable();
     let upright = samples_until(rocking.overturned(), dt);
     for (i, (&theta, &rate)) in rocking.theta.iter().zip(&rocking.rate).enumerate().take(upright) {
@@ -77,7 +78,8 @@ pub fn check(
         while let Some(impact) = impacts.next_if(|impact| impact.time <= time) {
             let x = impact.time / dt;
             let k = (x as usize).min(accel.len().saturating_sub(2));
-            let ((a0, g0), (a1, g1)) = (sample(k), sample((k + 1).min(accel.len().saturating_sub(1))));
+            let ((a0, g0), (a1, g1)) =
+                (sample(k), sample((k + 1).min(accel.len().saturating_sub(1))));
             let part = x - k as f64;
             let ground = (a0 + (a1 - a0) * part, g0 + (g1 - g0) * part);
             // the body comes from the side that it moves away from
@@ -96,7 +98,8 @@ pub fn check(
     Regime {
         friction,
         friction_needed: worst.friction,
-        landing_friction: body.mass * body.height * body.half_width / (body.inertia + body.mass * body.height.powi(2)),
+        landing_friction: body.mass * body.height * body.half_width
+            / (body.inertia + body.mass * body.height.powi(2)),
         free_flight: worst.flight.map(|time| TimedPeak { value: worst.lowest, time }),
         too_stocky: stockiness(body, friction),
     }
@@ -105,14 +108,20 @@ pub fn check(
 /// When the pivot would first have to hold the body down (s), if ever, up to its overturning;
 /// arguments as of [`check`]. The feet of a finite element model leave the ground there, as real
 /// ones do: Housner's equation says nothing of what follows.
-pub fn pivot_pulls(body: &Body<f64>, dt: f64, accel: &[f64], rocking: &Rocking<f64>) -> Option<f64> {
+pub fn pivot_pulls(
+    body: &Body<f64>,
+    dt: f64,
+    accel: &[f64],
+    rocking: &Rocking<f64>,
+) -> Option<f64> {
     check(body, dt, (accel, &[]), 1.0, rocking, f64::INFINITY).free_flight.map(|flight| flight.time)
 }
 
 /// The geometry, if it does not land without bouncing under a friction coefficient.
 pub(crate) fn stockiness(body: &Body<f64>, friction: f64) -> Option<Stocky> {
     let restitution = body.restitution();
-    let friction_needed = (body.half_width - body.inertia / (body.mass * body.half_width)) / body.height;
+    let friction_needed =
+        (body.half_width - body.inertia / (body.mass * body.half_width)) / body.height;
     (restitution <= 0.0 || friction_needed > friction)
         .then_some(Stocky { restitution, friction_needed: friction_needed.max(0.0) })
 }
@@ -120,7 +129,11 @@ pub(crate) fn stockiness(body: &Body<f64>, friction: f64) -> Option<Stocky> {
 /// Horizontal and vertical force of the ground on Housner's body (N) at the samples of its history:
 /// what of it stands between impacts. Ground accelerations (horizontal, vertical) in m/s2, zero
 /// beyond their last sample.
-pub fn ground_forces(body: &Body<f64>, (accel, vertical): (&[f64], &[f64]), rocking: &Rocking<f64>) -> Vec<(f64, f64)> {
+pub fn ground_forces(
+    body: &Body<f64>,
+    (accel, vertical): (&[f64], &[f64]),
+    rocking: &Rocking<f64>,
+) -> Vec<(f64, f64)> {
     let weight = body.mass * GRAVITY;
     let at = |record: &[f64], i: usize| record.get(i).copied().unwrap_or(0.0) / GRAVITY;
     let force = |(i, (&theta, &rate)): (usize, (&f64, &f64))| {
@@ -146,7 +159,13 @@ pub fn stands(body: &Body<f64>, (ground, gamma): (f64, f64)) -> bool {
 }
 
 /// F and N of a rocking body over its weight m g; the ground has u_g/g and gamma.
-fn forces(body: &Body<f64>, side: f64, theta: f64, rate: f64, (ground, gamma): (f64, f64)) -> (f64, f64) {
+fn forces(
+    body: &Body<f64>,
+    side: f64,
+    theta: f64,
+    rate: f64,
+    (ground, gamma): (f64, f64),
+) -> (f64, f64) {
     let (sin, cos) = (body.alpha() * side - theta).sin_cos();
     let r = body.radius() / GRAVITY;
     let acceleration = -body.p_squared() * (gamma * sin + ground * cos); // (1), (3)

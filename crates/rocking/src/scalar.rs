@@ -59,7 +59,8 @@ pub fn small_sin_cos(x: f64) -> (f64, f64) {
     ];
     let z = x * x;
     let w = z * z;
-    let polynomial = |p: &[f64; 6]| (p[0] + z * p[1]) + w * ((p[2] + z * p[3]) + w * (p[4] + z * p[5]));
+    let polynomial =
+        |p: &[f64; 6]| (p[0] + z * p[1]) + w * ((p[2] + z * p[3]) + w * (p[4] + z * p[5]));
     let half = 0.5 * z;
     let one = 1.0 - half;
     // what rounding took from 1 - z/2 is put back
@@ -76,7 +77,10 @@ mod tests {
             let x = f64::from(i) * 1.1e-4;
             let (sin, cos) = sin_cos(x);
             let (s, c) = x.sin_cos();
-            assert!((sin - s).abs() <= f64::EPSILON * s.abs() && (cos - c).abs() <= f64::EPSILON * c, "{x}");
+            assert!(
+                (sin - s).abs() <= f64::EPSILON * s.abs() && (cos - c).abs() <= f64::EPSILON * c,
+                "{x}"
+            );
             assert_eq!((-sin, cos), sin_cos(-x));
         }
     }

@@ -48,7 +48,9 @@ pub enum StructureError {
     NotPositive { name: &'static str, value: f64 },
     #[error("structure: {name} is {value:?}; give one between {least:e} and {most:e} (in m, kg)")]
     Absurd { name: &'static str, value: f64, least: f64, most: f64 },
-    #[error("structure: rotational_inertia_kgm2 is {value:?}; give a finite number, zero or greater")]
+    #[error(
+        "structure: rotational_inertia_kgm2 is {value:?}; give a finite number, zero or greater"
+    )]
     Inertia { value: f64 },
     #[error(
         "structure: slenderness alpha = atan(width/(2 height)) is {alpha:.4} rad; rocking needs a body between 0.005 and 0.9 rad: check height_m (of the centre of mass) and width_m"
@@ -63,7 +65,8 @@ pub enum StructureError {
 impl Structure {
     /// A checked A-frame with its mass at the apex.
     pub fn a_frame(height_m: f64, width_m: f64, mass_kg: f64) -> Result<Self, StructureError> {
-        Self { kind: Kind::AFrame, height_m, width_m, mass_kg, rotational_inertia_kgm2: 0.0 }.checked()
+        Self { kind: Kind::AFrame, height_m, width_m, mass_kg, rotational_inertia_kgm2: 0.0 }
+            .checked()
     }
 
     /// A checked solid block, `height_m` its whole height H (so h = H/2), `width_m` its whole
@@ -81,7 +84,13 @@ impl Structure {
 
     /// The paper's model structure: 61 m A-frame, feet 12.2 m apart, 680.1 t at the apex.
     pub fn paper() -> Self {
-        Self { kind: Kind::AFrame, height_m: 61.0, width_m: 12.2, mass_kg: 680.1e3, rotational_inertia_kgm2: 0.0 }
+        Self {
+            kind: Kind::AFrame,
+            height_m: 61.0,
+            width_m: 12.2,
+            mass_kg: 680.1e3,
+            rotational_inertia_kgm2: 0.0,
+        }
     }
 
     /// The structure itself if its numbers can rock.
@@ -213,8 +222,16 @@ mod tests {
         let (r, a) = (body.radius(), body.alpha());
         for theta in [-0.05_f64, -1e-3, 0.0, 0.02, 0.3] {
             let s = if theta < 0.0 { -1.0 } else { 1.0 };
-            assert_relative_eq!(body.u(theta), r * (a.sin() * s - (a * s - theta).sin()), epsilon = 1e-12);
-            assert_relative_eq!(body.v(theta), r * ((a * s - theta).cos() - a.cos()), epsilon = 1e-12);
+            assert_relative_eq!(
+                body.u(theta),
+                r * (a.sin() * s - (a * s - theta).sin()),
+                epsilon = 1e-12
+            );
+            assert_relative_eq!(
+                body.v(theta),
+                r * ((a * s - theta).cos() - a.cos()),
+                epsilon = 1e-12
+            );
             // E = m g R (cos(alpha - |theta|) - cos(alpha)): what equation 1's free motion keeps
             let energy = body.mass * GRAVITY * r * ((a - theta.abs()).cos() - a.cos());
             assert_relative_eq!(body.fall(theta), energy, max_relative = 1e-9, epsilon = 1e-3);

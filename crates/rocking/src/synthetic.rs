@@ -43,7 +43,12 @@ use strong_motion::{Record, Source};
 
 /// The first n records of the suite of a seed, for a structure with p (1/s) and alpha (rad): see
 /// [`record`].
-pub fn suite(n: usize, seed: u64, p: f64, alpha: f64) -> impl ExactSizeIterator<Item = Record> + Clone {
+pub fn suite(
+    n: usize,
+    seed: u64,
+    p: f64,
+    alpha: f64,
+) -> impl ExactSizeIterator<Item = Record> + Clone {
     (0..n).map(move |index| record(seed, index, p, alpha))
 }
 
@@ -67,7 +72,8 @@ pub fn record(seed: u64, index: usize, p: f64, alpha: f64) -> Record {
                 (0, 0) => ("ricker", Pulse::RickerSymmetric),
                 (0, _) => ("ricker", Pulse::RickerAntisymmetric),
                 _ => {
-                    let (gamma, nu) = (random.between(1.0, 3.0), random.between(0.0, std::f64::consts::TAU));
+                    let (gamma, nu) =
+                        (random.between(1.0, 3.0), random.between(0.0, std::f64::consts::TAU));
                     ("mavroeidis", Pulse::MavroeidisPapageorgiou { gamma, nu })
                 }
             };
@@ -86,7 +92,13 @@ pub fn record(seed: u64, index: usize, p: f64, alpha: f64) -> Record {
     scale_to(pga, &mut accel);
     let silence = (8.0 / (p * dt)).ceil() as usize;
     accel.resize(accel.len() + silence, 0.0);
-    Record { name: format!("{kind}-{index:04}"), dt, accel, vertical: None, source: Source::Synthetic }
+    Record {
+        name: format!("{kind}-{index:04}"),
+        dt,
+        accel,
+        vertical: None,
+        source: Source::Synthetic,
+    }
 }
 
 /// Numbers of this suite are drawn from streams that [`record`] does not use.
@@ -110,7 +122,13 @@ pub fn earthquake(seed: u64, index: usize, p: f64) -> Record {
     let mut accel = motion.sampled(dt, &mut random);
     scale_to(pga, &mut accel);
     accel.resize(accel.len() + (silence_s(p) / dt).ceil() as usize, 0.0);
-    Record { name: format!("earthquake-{index:04}"), dt, accel, vertical: None, source: Source::Earthquake }
+    Record {
+        name: format!("earthquake-{index:04}"),
+        dt,
+        accel,
+        vertical: None,
+        source: Source::Earthquake,
+    }
 }
 
 /// Length of the silence behind an earthquake, for a body with p (1/s) to topple or to come to
@@ -132,7 +150,8 @@ fn scale_to(pga: f64, accel: &mut [f64]) {
 fn round_step(x: f64) -> f64 {
     let decade = x.log10().floor() as i32;
     let unit = 10_f64.powi(-decade);
-    let digit = [5.0, 2.0].into_iter().find(|digit| digit / unit <= x * (1.0 + 1e-12)).unwrap_or(1.0);
+    let digit =
+        [5.0, 2.0].into_iter().find(|digit| digit / unit <= x * (1.0 + 1e-12)).unwrap_or(1.0);
     digit / unit
 }
 

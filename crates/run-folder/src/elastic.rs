@@ -71,11 +71,18 @@ pub struct ElasticRun {
 }
 
 /// What is filed of springs without a record.
-pub fn springs_alone(assembled: &Assembled, tuned: &ElasticTuned, asked: Asked) -> ElasticParameters {
-    let place = |(i, springs): (usize, &Springs<Chain<f64>>)| (assembled.layout.corners[i].place[0], *springs);
+pub fn springs_alone(
+    assembled: &Assembled,
+    tuned: &ElasticTuned,
+    asked: Asked,
+) -> ElasticParameters {
+    let place = |(i, springs): (usize, &Springs<Chain<f64>>)| {
+        (assembled.layout.corners[i].place[0], *springs)
+    };
     let corners: Vec<_> = tuned.springs.corners.iter().enumerate().map(place).collect();
     let Asked { by: judged_by, error: accuracy } = asked;
-    let assessment = ElasticAssessment { judged_by, accuracy, reached: tuned.reached, measured: tuned.measured };
+    let assessment =
+        ElasticAssessment { judged_by, accuracy, reached: tuned.reached, measured: tuned.measured };
     ElasticParameters {
         assessment: Some(assessment),
         findings: filed(tuned.findings(asked)),
@@ -114,7 +121,10 @@ pub fn stepped_deck(
 ) -> Result<SteppedDeck, ExportError> {
     let (history, gives_up_s) = corner_history(&assembled.frame, program, record)?;
     let springs = (&program.units.chains()[..], Some(program));
-    Ok(SteppedDeck { text: deck_of(assembled, springs, record, &history, (format, ACCURACY))?, gives_up_s })
+    Ok(SteppedDeck {
+        text: deck_of(assembled, springs, record, &history, (format, ACCURACY))?,
+        gives_up_s,
+    })
 }
 
 fn deck_of(
@@ -124,7 +134,8 @@ fn deck_of(
     history: &[Vec<f64>],
     (format, accuracy): (DeckFormat, f64),
 ) -> Result<String, ExportError> {
-    let (frame, top) = (&assembled.frame, assembled.watched.first().map_or(0, |watched| watched.top));
+    let (frame, top) =
+        (&assembled.frame, assembled.watched.first().map_or(0, |watched| watched.top));
     let at = |q: &Vec<f64>| {
         let [x, z, _] = frame.displacement(top, q);
         [x, z]
@@ -158,9 +169,11 @@ impl ElasticRun {
     ) -> Self {
         let alpha = assembled.structure.body().alpha();
         let ElasticHistories { reference, fem, sways, .. } = &answer.histories;
-        let [rotations, drifts]: [fn(&Sway) -> &[f64]; 2] = [|sway| &sway.rotation, |sway| &sway.drift];
+        let [rotations, drifts]: [fn(&Sway) -> &[f64]; 2] =
+            [|sway| &sway.rotation, |sway| &sway.drift];
         let largest = |k: usize, of: fn(&Sway) -> &[f64]| largest(sways, k, of);
-        let [rotation, drift] = answer.errors.map(|error| Some(error).filter(|error| error.is_finite()));
+        let [rotation, drift] =
+            answer.errors.map(|error| Some(error).filter(|error| error.is_finite()));
         let on_record = OnRecord {
             compared_s: answer.compared.seconds,
             whole: answer.compared.whole(),
@@ -180,25 +193,37 @@ impl ElasticRun {
             near: answer.ensemble,
         };
         let bearing = ForceQuantities::new(&assembled, &answer, record.dt);
-        let mut parameters =
-            ElasticParameters { on_record: Some(on_record), ..springs_alone(&assembled, &tuned, case.asked) };
+        let mut parameters = ElasticParameters {
+            on_record: Some(on_record),
+            ..springs_alone(&assembled, &tuned, case.asked)
+        };
         // the check of design forces on springs at 4 Omega_n is their error, whatever springs were
         // chosen by
-        if let Some(errors) = parameters.assessment.as_mut().and_then(|a| a.measured.record.as_mut()) {
+        if let Some(errors) =
+            parameters.assessment.as_mut().and_then(|a| a.measured.record.as_mut())
+        {
             errors.peaks = errors.peaks.map(|peaks| peaks.with_forces(answer.design.error()));
         }
-        let mut run = Self { case, assembled, tuned, record, answer, friction, bearing, parameters };
+        let mut run =
+            Self { case, assembled, tuned, record, answer, friction, bearing, parameters };
         run.parameters.peaks = Some(run.parts().peaks());
-        run.parameters.design_forces = Some(design_forces(&run.assembled.structure, &run.answer.design));
+        run.parameters.design_forces =
+            Some(design_forces(&run.assembled.structure, &run.answer.design));
         run.parameters.findings = filed(run.parts().findings(&run.parameters));
         run
     }
 
     /// Write everything into a folder, which is made; `files` are all that it can be.
-    pub fn save(&self, out: &Path, files: &[&'static str], output: Output) -> Result<Vec<String>, FolderError> {
+    pub fn save(
+        &self,
+        out: &Path,
+        files: &[&'static str],
+        output: Output,
+    ) -> Result<Vec<String>, FolderError> {
         let excitation = &self.case.excitation;
         let asked = (excitation.scale, excitation.duration_s, output);
-        let parts: [&dyn std::fmt::Debug; 3] = [&self.parameters, &excitation.record.fingerprint(), &asked];
+        let parts: [&dyn std::fmt::Debug; 3] =
+            [&self.parameters, &excitation.record.fingerprint(), &asked];
         let folder = Folder::begin(out, "run", files, identity(&parts))?;
         let parameters = self.filed(out);
         let run = self.said(parameters.clone());
@@ -225,7 +250,11 @@ impl ElasticRun {
         Ok(texts)
     }
 
-    fn tables_and_decks(&self, parameters: &ElasticParameters, run: &Run) -> Result<RunTexts, FolderError> {
+    fn tables_and_decks(
+        &self,
+        parameters: &ElasticParameters,
+        run: &Run,
+    ) -> Result<RunTexts, FolderError> {
         let files = vec![
             ("parameters.json", parameters.to_json()),
             ("parameters.md", markdown(run)),
@@ -235,7 +264,8 @@ impl ElasticRun {
             ("members_envelopes.csv", demands::csv(self, Instants::Envelopes)),
         ];
         let decks = models::decks(|format| self.deck(format))?;
-        let mut files: Vec<_> = files.into_iter().map(|(name, text)| (name.to_string(), text)).collect();
+        let mut files: Vec<_> =
+            files.into_iter().map(|(name, text)| (name.to_string(), text)).collect();
         files.extend(decks.files);
         Ok(RunTexts { files, left_out: decks.left_out })
     }
@@ -247,7 +277,14 @@ impl ElasticRun {
 
     fn parts(&self) -> ElasticParts<'_> {
         let Self { case, assembled, record, answer, friction, .. } = self;
-        ElasticParts { case, assembled, record, springs: &self.tuned.springs.corners, answer, friction: *friction }
+        ElasticParts {
+            case,
+            assembled,
+            record,
+            springs: &self.tuned.springs.corners,
+            answer,
+            friction: *friction,
+        }
     }
 
     /// What parameters.json holds in a folder.
@@ -272,18 +309,25 @@ impl ElasticRun {
     /// of every corner on them.
     fn history(&self) -> String {
         let ElasticHistories { fem, sways, .. } = &self.answer.histories;
-        let name = |what: &str, i: usize| if sways.len() > 1 { format!("{what}_{}", i + 1) } else { what.to_string() };
+        let name = |what: &str, i: usize| {
+            if sways.len() > 1 { format!("{what}_{}", i + 1) } else { what.to_string() }
+        };
         let mut head = vec!["t".to_string()];
         for (i, _) in sways.iter().enumerate() {
             for model in ["reference", "fem"] {
-                head.extend([name(&format!("theta_{model}"), i), name(&format!("drift_{model}"), i)]);
+                head.extend([
+                    name(&format!("theta_{model}"), i),
+                    name(&format!("drift_{model}"), i),
+                ]);
             }
         }
         let corners = self.assembled.layout.corners.len();
         head.extend((1..=corners).map(|i| format!("uplift_{i}")));
-        let uplifts: Vec<Vec<f64>> = (0..corners).map(|i| fem.uplift(&self.assembled.frame, i)).collect();
+        let uplifts: Vec<Vec<f64>> =
+            (0..corners).map(|i| fem.uplift(&self.assembled.frame, i)).collect();
         let mut out = head.join(",") + "\n";
-        let longest = sways.iter().flatten().map(|sway| sway.rotation.len()).fold(fem.q.len(), usize::max);
+        let longest =
+            sways.iter().flatten().map(|sway| sway.rotation.len()).fold(fem.q.len(), usize::max);
         for sample in 0..longest {
             // a history may end before the other: its cells are empty then
             let at = |values: &[f64]| values.get(sample).copied().unwrap_or(f64::NAN);

@@ -112,8 +112,10 @@ impl<'a> Folder<'a> {
         let _ = lock.as_ref().map(File::lock);
         let mut all = written(self.path);
         let before = all.remove(self.command).unwrap_or_default().files;
-        let there = |folder: &Path, name: &'static str| Some((name, fingerprint(&folder.join(name))?));
-        let now: BTreeMap<_, _> = self.files.iter().filter_map(|name| there(self.own.path(), name)).collect();
+        let there =
+            |folder: &Path, name: &'static str| Some((name, fingerprint(&folder.join(name))?));
+        let now: BTreeMap<_, _> =
+            self.files.iter().filter_map(|name| there(self.own.path(), name)).collect();
         let stale = self.files.iter().filter(|name| !now.contains_key(*name));
         let stale: Vec<_> = stale
             .filter_map(|name| there(self.path, name))
@@ -130,7 +132,9 @@ impl<'a> Folder<'a> {
             "tune {} was stopped while it put its files into this folder: some are of another run. Run it again.\n",
             self.command
         );
-        let save = |path: &Path, text: &str| whole_file::write(path, text.as_bytes()).map_err(|e| cannot(path, e));
+        let save = |path: &Path, text: &str| {
+            whole_file::write(path, text.as_bytes()).map_err(|e| cannot(path, e))
+        };
         save(&mark, &text)?;
         save(&self.path.join(WRITTEN), &list)?;
         for name in now.keys() {
@@ -192,11 +196,17 @@ pub fn of_one_run(file: &Path) -> Result<(), FolderError> {
     }
     let Some(own) = file.file_name().and_then(|name| name.to_str()) else { return Ok(()) };
     let Some(run) = written(folder).remove(COMMAND) else { return Ok(()) };
-    let as_written = |name: &str, print: &String| fingerprint(&folder.join(name)).as_ref() == Some(print);
+    let as_written =
+        |name: &str, print: &String| fingerprint(&folder.join(name)).as_ref() == Some(print);
     match run.files.get(own) {
         Some(print) if !as_written(own, print) => {
-            let others = || run.files.iter().any(|(name, print)| name != own && as_written(name, print));
-            if others() { Err(FolderError::OfAnotherRun { path: name, folder: folder_name }) } else { Ok(()) }
+            let others =
+                || run.files.iter().any(|(name, print)| name != own && as_written(name, print));
+            if others() {
+                Err(FolderError::OfAnotherRun { path: name, folder: folder_name })
+            } else {
+                Ok(())
+            }
         }
         _ => Ok(()),
     }
@@ -208,7 +218,8 @@ fn cannot(path: &Path, source: io::Error) -> FolderError {
 
 /// FNV-1a of a file; `None` if it is none.
 fn fingerprint(path: &PathBuf) -> Option<String> {
-    let bytes = path.metadata().is_ok_and(|there| there.is_file()).then(|| fs::read(path).ok())??;
+    let bytes =
+        path.metadata().is_ok_and(|there| there.is_file()).then(|| fs::read(path).ok())??;
     Some(format!("{:016x}", fnv1a(bytes.into_iter())))
 }
 

@@ -25,7 +25,9 @@ pub(crate) fn decks(
         match text(format) {
             // said, not fatal: the other decks are of use
             Err(
-                e @ (ExportError::Member { .. } | ExportError::MemberOfSteps { .. } | ExportError::Integrator { .. }),
+                e @ (ExportError::Member { .. }
+                | ExportError::MemberOfSteps { .. }
+                | ExportError::Integrator { .. }),
             ) => texts.left_out.push(format!("{name} is left out: {e}")),
             deck => {
                 let (text, line) = deck?;

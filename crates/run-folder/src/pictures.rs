@@ -77,8 +77,9 @@ impl Pictures<'_> {
             (FRONT, "What stiffer springs gain in accuracy, and what they cost.", Self::front),
             (CANDIDATES, "Every pair of Ωₙ that the paper's procedure tried.", Self::candidates),
         ];
-        let drawn =
-            all.par_iter().map(|(name, caption, draw)| Ok(draw(self)?.map(|sheet| Figure { name, caption, sheet })));
+        let drawn = all.par_iter().map(|(name, caption, draw)| {
+            Ok(draw(self)?.map(|sheet| Figure { name, caption, sheet }))
+        });
         Ok(drawn.collect::<Result<Vec<_>, FigureError>>()?.into_iter().flatten().collect())
     }
 
@@ -108,7 +109,8 @@ impl Pictures<'_> {
             housner::RockingOutcome::LeavesGround { time } => {
                 return Some((time, format!("Housner: leaves the ground at t = {time:.2} s")));
             }
-            housner::RockingOutcome::WorkBound { time } | housner::RockingOutcome::NotFinite { time } => {
+            housner::RockingOutcome::WorkBound { time }
+            | housner::RockingOutcome::NotFinite { time } => {
                 return Some((time, format!("Housner: ends at t = {time:.2} s")));
             }
             _ => rocking.overturned()?,
@@ -124,12 +126,15 @@ impl Pictures<'_> {
         };
         let t = self.times(housner.len().max(fem.motion.len()));
         let impacts_housner: Vec<f64> = self.both.rocking.impacts.iter().map(|i| i.time).collect();
-        let impacts_fem: Vec<f64> = fem.landings.iter().filter(|l| l.impact).map(|l| l.time).collect();
+        let impacts_fem: Vec<f64> =
+            fem.landings.iter().filter(|l| l.impact).map(|l| l.time).collect();
         let (end, fall) = (self.end_of_housner(), self.fall());
         let last = (fem.motion.len().saturating_sub(1)) as f64 * self.job.record.dt;
         let early = fem.motion.len() < housner.len() && fall.is_none();
-        let fall = fall.map(|(time, _)| (time, format!("finite elements: overturned at t = {time:.2} s")));
-        let fall = fall.or_else(|| early.then(|| (last, format!("finite elements: end at t = {last:.2} s"))));
+        let fall =
+            fall.map(|(time, _)| (time, format!("finite elements: overturned at t = {time:.2} s")));
+        let fall = fall
+            .or_else(|| early.then(|| (last, format!("finite elements: end at t = {last:.2} s"))));
         let reference = figures::history::Trace {
             label: "Housner",
             u: &housner.u,
@@ -145,15 +150,22 @@ impl Pictures<'_> {
             end: event(&fall),
         };
         let title = self.title(what);
-        let data =
-            figures::history::HistoryFigure { title: &title, t: &t, reference, others: &[other], differences: false };
+        let data = figures::history::HistoryFigure {
+            title: &title,
+            t: &t,
+            reference,
+            others: &[other],
+            differences: false,
+        };
         figures::history::draw(&data).map(Some)
     }
 
     fn response(&self) -> Result<Option<Sheet>, FigureError> {
         let job = self.job;
         let g: Vec<f64> = (0..=600).map(|i| 0.02 * f64::powf(1000.0, i as f64 / 600.0)).collect();
-        let arr_of = |d: &Design<f64>| g.iter().map(|&g| response::arr(g, d.mu, d.f, d.xi)).collect::<Vec<_>>();
+        let arr_of = |d: &Design<f64>| {
+            g.iter().map(|&g| response::arr(g, d.mu, d.f, d.xi)).collect::<Vec<_>>()
+        };
         let best = job.paper.as_ref().map(|paper| paper.tuned.best.springs);
         let mut labels = Vec::new();
         if best != Some(job.springs) {
@@ -161,7 +173,8 @@ impl Pictures<'_> {
             labels.push((true, "horizontal, delivered".to_string(), job.springs.horizontal, None));
         }
         if let Some(paper) = &job.paper {
-            let delivered = if best == Some(job.springs) { "delivered" } else { "paper's procedure" };
+            let delivered =
+                if best == Some(job.springs) { "delivered" } else { "paper's procedure" };
             let springs = &paper.tuned.best.springs;
             for (horizontal, name, d, fits) in [
                 (false, "vertical", springs.vertical, &paper.vertical),
@@ -178,7 +191,12 @@ impl Pictures<'_> {
             .iter()
             .map(|(_, _, _, fit)| {
                 let all = fit.iter().flat_map(|fit| &fit.certificate.active);
-                all.map(|a| figures::arr::ActiveMark { g: a.g.min(end), arr: a.arr, multiplier: None }).collect()
+                all.map(|a| figures::arr::ActiveMark {
+                    g: a.g.min(end),
+                    arr: a.arr,
+                    multiplier: None,
+                })
+                .collect()
             })
             .collect();
         let arr: Vec<Vec<f64>> = labels.iter().map(|(_, _, d, _)| arr_of(d)).collect();
@@ -195,12 +213,23 @@ impl Pictures<'_> {
             }
         };
         let curves: Vec<_> = (0..labels.len()).map(curve).collect();
-        let target: Vec<_> = self.case.target.bands.iter().filter_map(|band| wanted(band, g[0], end)).collect();
+        let target: Vec<_> =
+            self.case.target.bands.iter().filter_map(|band| wanted(band, g[0], end)).collect();
         let mut title = self.title("Frequency response of the ground springs");
-        if labels.iter().filter_map(|label| label.3).flat_map(|fit| &fit.certificate.active).any(|a| a.g > end) {
+        if labels
+            .iter()
+            .filter_map(|label| label.3)
+            .flat_map(|fit| &fit.certificate.active)
+            .any(|a| a.g > end)
+        {
             title.push_str("\nPoints active at g beyond the axis stand at its right end.");
         }
-        figures::arr::draw(&figures::arr::ResponseFigure { title: &title, target: &target, curves: &curves }).map(Some)
+        figures::arr::draw(&figures::arr::ResponseFigure {
+            title: &title,
+            target: &target,
+            curves: &curves,
+        })
+        .map(Some)
     }
 
     fn candidates(&self) -> Result<Option<Sheet>, FigureError> {
@@ -232,7 +261,11 @@ impl Pictures<'_> {
         let t = self.times(f.vertical[0].len());
         let fall = self.fall();
         let data = figures::contact::ContactFigure {
-            title: &format!("{}\n{}", self.title("Forces between the feet and the ground"), letters(FORCES)),
+            title: &format!(
+                "{}\n{}",
+                self.title("Forces between the feet and the ground"),
+                letters(FORCES)
+            ),
             t: &t,
             left_vertical: &f.vertical[0],
             right_vertical: &f.vertical[1],
@@ -288,7 +321,11 @@ impl Pictures<'_> {
             front.iter().map(|p| (p.omega_n_hz, pick(p).max(1.0))).unzip()
         };
         let (forces, steps) = (cost(|p| p.foot_force_weights), cost(|p| p.deck_steps as f64));
-        let on = if self.job.suites.has_record() { "on the record" } else { "median of synthetic motions" };
+        let on = if self.job.suites.has_record() {
+            "on the record"
+        } else {
+            "median of synthetic motions"
+        };
         let data = figures::front::FrontFigure {
             title: &self.title("Error against stiffness"),
             error_label: &format!("NRMSE of u, {on}"),
@@ -296,8 +333,16 @@ impl Pictures<'_> {
             chosen_hz: self.job.springs.vertical.omega_n_hz,
             accuracy: self.case.tuning.accuracy,
             costs: [
-                figures::front::Cost { label: "foot force [weights]", omega_n_hz: &forces.0, value: &forces.1 },
-                figures::front::Cost { label: "steps of the deck", omega_n_hz: &steps.0, value: &steps.1 },
+                figures::front::Cost {
+                    label: "foot force [weights]",
+                    omega_n_hz: &forces.0,
+                    value: &forces.1,
+                },
+                figures::front::Cost {
+                    label: "steps of the deck",
+                    omega_n_hz: &steps.0,
+                    value: &steps.1,
+                },
             ],
             notes: &notes,
         };
@@ -335,9 +380,11 @@ fn lowest_cap(target: &Target) -> bool {
 fn wanted(band: &Band, low: f64, high: f64) -> Option<figures::arr::TargetBand> {
     let g = (band.g_low.max(low), band.g_high.unwrap_or(high).min(high));
     match band.kind {
-        BandKind::Cap => {
-            (band.limit > 1.0).then_some(figures::arr::TargetBand { g, at_least: None, at_most: Some(band.limit) })
-        }
+        BandKind::Cap => (band.limit > 1.0).then_some(figures::arr::TargetBand {
+            g,
+            at_least: None,
+            at_most: Some(band.limit),
+        }),
         BandKind::Rigid => Some(figures::arr::TargetBand {
             g,
             at_least: Some(1.0 / (1.0 + band.limit)),

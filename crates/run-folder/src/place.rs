@@ -43,7 +43,8 @@ fn probe(folder: &Path) -> std::io::Result<()> {
 /// A path for a single file: in a folder that is there, or is written as one (`results/`), under
 /// the command's own name.
 pub fn file_in(path: &Path, name: &str) -> Result<PathBuf, FolderError> {
-    let folder = path.is_dir() || path.as_os_str().to_string_lossy().ends_with(std::path::is_separator);
+    let folder =
+        path.is_dir() || path.as_os_str().to_string_lossy().ends_with(std::path::is_separator);
     if !folder {
         check_file(path)?;
         return Ok(path.to_path_buf());

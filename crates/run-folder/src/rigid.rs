@@ -67,7 +67,8 @@ pub fn save(rigid: &RigidRun, out: &Path, output: Output) -> Result<Vec<String>,
     let files = files();
     let excitation = &rigid.case.excitation;
     let asked = (excitation.scale, excitation.duration_s, output, rigid.front.len());
-    let parts: [&dyn std::fmt::Debug; 3] = [&rigid.parameters, &excitation.record.fingerprint(), &asked];
+    let parts: [&dyn std::fmt::Debug; 3] =
+        [&rigid.parameters, &excitation.record.fingerprint(), &asked];
     let folder = Folder::begin(out, "run", &files, identity(&parts))?;
     let RigidRun { job, both, .. } = rigid;
     let parameters = filed(rigid, out);
@@ -112,14 +113,19 @@ fn tables(rigid: &RigidRun, parameters: &Parameters, run: &Run) -> RunTexts {
         ("history.csv", history_csv(dt, both)),
         ("members.csv", members_csv(dt, demands)),
     ];
-    RunTexts { files: files.into_iter().map(|(name, text)| (name.to_string(), text)).collect(), left_out: Vec::new() }
+    RunTexts {
+        files: files.into_iter().map(|(name, text)| (name.to_string(), text)).collect(),
+        left_out: Vec::new(),
+    }
 }
 
 /// Figures and the page.
 fn draw(rigid: &RigidRun, out: &Path, run: &Run, output: Output) -> Result<(), FolderError> {
     let RigidRun { case, job, front, both, .. } = rigid;
-    let figures = if output.figures { Pictures { case, job, both, front }.draw()? } else { Vec::new() };
-    let (saved, page) = rayon::join(|| pictures::save(out, &figures), || write_report(out, output, run, &figures));
+    let figures =
+        if output.figures { Pictures { case, job, both, front }.draw()? } else { Vec::new() };
+    let (saved, page) =
+        rayon::join(|| pictures::save(out, &figures), || write_report(out, output, run, &figures));
     saved.and(page)
 }
 
@@ -130,7 +136,12 @@ pub fn filed(rigid: &RigidRun, out: &Path) -> Parameters {
 }
 
 /// `report.html`, if it is asked for.
-pub fn write_report(out: &Path, output: Output, run: &Run, figures: &[Figure]) -> Result<(), FolderError> {
+pub fn write_report(
+    out: &Path,
+    output: Output,
+    run: &Run,
+    figures: &[Figure],
+) -> Result<(), FolderError> {
     if !output.report {
         return Ok(());
     }
@@ -148,18 +159,25 @@ pub(crate) fn drawing(figure: &Figure) -> Drawing<'_> {
 
 /// The model for other programs. A body without rotational inertia gets some there, and its own
 /// history to check against.
-fn run_decks(parameters: &Parameters, record: &Record, both: &ModelComparison) -> Result<RunTexts, FolderError> {
+fn run_decks(
+    parameters: &Parameters,
+    record: &Record,
+    both: &ModelComparison,
+) -> Result<RunTexts, FolderError> {
     let structure = with_inertia(&parameters.structure);
     let given = structure == parameters.structure;
     let parameters = Parameters { structure, ..parameters.clone() };
     let own = (!given).then(|| simulate(&parameters, record));
-    let history = own.as_ref().unwrap_or_else(|| both.with.as_ref().map_or(&both.fem, |with| &with.history));
+    let history =
+        own.as_ref().unwrap_or_else(|| both.with.as_ref().map_or(&both.fem, |with| &with.history));
     let width_sensitivity = width_sensitivity(&history.motion, &parameters, record);
     let expected = Expected::new(history, width_sensitivity);
     // SAP2000 steps alike: the springs for that, if there are some
     let for_its_steps = |format: DeckFormat| {
         let program = parameters.program.as_ref().filter(|_| format == DeckFormat::Sap2000)?;
-        program.is_csi().then(|| Ok(decks::stepped_deck(&parameters, record, format, Stepping::Even)?.told(SAP2000)))
+        program.is_csi().then(|| {
+            Ok(decks::stepped_deck(&parameters, record, format, Stepping::Even)?.told(SAP2000))
+        })
     };
     models::decks(|format| {
         let plain = || Ok((decks::export(&parameters, record, &expected, format)?, None));

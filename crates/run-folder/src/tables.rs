@@ -19,11 +19,13 @@ pub fn history_csv(dt: f64, both: &ModelComparison) -> String {
     // the finite elements go on where Housner's solution ends because the pivot lets go: his
     // columns are then empty
     let left = both.rocking.left_ground().is_some();
-    let compared = motions.iter().skip(usize::from(left)).map(|(_, motion)| motion.len()).min().unwrap_or(0);
+    let compared =
+        motions.iter().skip(usize::from(left)).map(|(_, motion)| motion.len()).min().unwrap_or(0);
     for i in 0..compared {
         out.push_str(&digits_12(i as f64 * dt));
         for (_, motion) in &motions {
-            let row = (i < motion.len()).then(|| [motion.u[i], motion.v[i], motion.theta[i]].map(digits_12));
+            let row = (i < motion.len())
+                .then(|| [motion.u[i], motion.v[i], motion.theta[i]].map(digits_12));
             let _ = write!(out, ",{}", row.map_or(",,".into(), |row| row.join(",")));
         }
         out.push('\n');
@@ -49,7 +51,11 @@ fn digits_12(x: f64) -> String {
         return "0".into();
     }
     let exponent = x.abs().log10().floor() as i32;
-    if (-4..12).contains(&exponent) { format!("{x:.*}", (11 - exponent).max(0) as usize) } else { format!("{x:.11e}") }
+    if (-4..12).contains(&exponent) {
+        format!("{x:.*}", (11 - exponent).max(0) as usize)
+    } else {
+        format!("{x:.11e}")
+    }
 }
 
 /// `members.csv`: forces at the record's samples, each the largest since the sample before.

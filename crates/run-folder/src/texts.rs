@@ -16,6 +16,8 @@ pub struct RunTexts {
 impl RunTexts {
     /// Write them into a folder, which is made.
     pub(crate) fn write(&self, folder: &Path) -> Result<(), FolderError> {
-        self.files.iter().try_for_each(|(name, text)| write_file(&folder.join(name), text.as_bytes()))
+        self.files
+            .iter()
+            .try_for_each(|(name, text)| write_file(&folder.join(name), text.as_bytes()))
     }
 }

@@ -34,7 +34,9 @@ fn main() -> Result<(), Box<dyn std::error::Error>> {
         ("BackwardEuler", Integrator::BackwardEuler),
         ("HHT -1/3", Integrator::HHT_MOST),
     ];
-    println!("| body | dt (s) | p dt | integrator | springs | median | 90 % | stopped | with substeps | expected |");
+    println!(
+        "| body | dt (s) | p dt | integrator | springs | median | 90 % | stopped | with substeps | expected |"
+    );
     println!("|---|---|---|---|---|---|---|---|---|---|");
     for (name, structure) in bodies()? {
         for (stepped, integrator) in integrators {
@@ -45,7 +47,10 @@ fn main() -> Result<(), Box<dyn std::error::Error>> {
                 let designs = [FixedStepDesign::RECIPE, design(&body, step)];
                 for (which, design) in ["recipe", "own"].into_iter().zip(designs) {
                     let springs = FixedStepSprings::designed(&body, step, integrator, &design)?;
-                    println!("| {name} | {step} | {unit:.5} | {stepped} | {which} | {}", row(&motions, &springs));
+                    println!(
+                        "| {name} | {step} | {unit:.5} | {stepped} | {which} | {}",
+                        row(&motions, &springs)
+                    );
                 }
             }
         }
@@ -57,7 +62,8 @@ fn main() -> Result<(), Box<dyn std::error::Error>> {
 fn row(motions: &WellConditioned, springs: &FixedStepSprings) -> String {
     let (chains, settings) = (springs.chains(), springs.settings());
     let unit = springs.body.p_squared().sqrt() * springs.step;
-    let [plain, finer] = [settings, settings.with_substeps(1.0 / 16.0)].map(|s| motions.errors(&chains, s));
+    let [plain, finer] =
+        [settings, settings.with_substeps(1.0 / 16.0)].map(|s| motions.errors(&chains, s));
     format!(
         "{:.1} | {:.1} | {} of {} | {:.1}, {:.1}, {} | {:.1} |",
         plain.quantile(0.5) / unit,

@@ -17,7 +17,9 @@ fn main() -> Result<(), Box<dyn std::error::Error>> {
     let mut numbers = env::args().skip(1);
     let count = numbers.next().map_or(Ok(24), |n| n.parse())?;
     let seed = numbers.next().map_or(Ok(77), |n| n.parse())?;
-    println!("| body | integrator | springs | substeps | median | 90 % | stopped | steps | expected |");
+    println!(
+        "| body | integrator | springs | substeps | median | 90 % | stopped | steps | expected |"
+    );
     println!("|---|---|---|---|---|---|---|---|---|");
     for (name, structure) in [
         ("frame 61 m", Structure::paper()),
@@ -27,11 +29,13 @@ fn main() -> Result<(), Box<dyn std::error::Error>> {
         for integrator in [Integrator::Trbdf2, Integrator::BackwardEuler, Integrator::HHT_MOST] {
             let body = FixedStepSprings::of(&structure.body(), STEP, integrator)?.body;
             let motions = WellConditioned::of_seed(&body, seed, count, 8 * count);
-            let even: f64 = motions.motions.iter().map(|m| (m.accel.len() - 1) as f64 * m.dt / STEP).sum();
+            let even: f64 =
+                motions.motions.iter().map(|m| (m.accel.len() - 1) as f64 * m.dt / STEP).sum();
             for (which, given) in [("recipe", Some(FixedStepDesign::RECIPE)), ("own", None)] {
                 for substeps in [10, 20] {
                     let design = given.unwrap_or_else(|| design(&body, STEP / substeps as f64));
-                    let springs = FixedStepSprings::refined(&body, STEP, integrator, &design, substeps)?;
+                    let springs =
+                        FixedStepSprings::refined(&body, STEP, integrator, &design, substeps)?;
                     let settings = springs.settings().with_substeps(1.0 / (8.0 * substeps as f64));
                     let errors = motions.errors(&springs.chains(), settings);
                     println!(

@@ -52,10 +52,12 @@ pub fn both(
     let level = housner::RockingOptions { restitution: Some(restitution), ..Default::default() };
     let options = housner::RockingOptions { vertical: record.vertical_accel(), ..level.clone() };
     let rocking = housner::solve(body, record.dt, &record.accel, &options);
-    let level = record.vertical.as_ref().map(|_| housner::solve(body, record.dt, &record.accel, &level));
+    let level =
+        record.vertical.as_ref().map(|_| housner::solve(body, record.dt, &record.accel, &level));
     let motion = rocking.motion(body);
-    let answer =
-        |members: &Members<f64>| with_members(body, restitution, springs, members, record, (&rocking, &motion));
+    let answer = |members: &Members<f64>| {
+        with_members(body, restitution, springs, members, record, (&rocking, &motion))
+    };
     let MemberHistory { history: fem, demands, matched, .. } = answer(&Members::default());
     let with = (!members.is_none()).then(|| answer(members));
     ModelComparison { rocking, level, housner: motion, fem, matched, demands, with }
@@ -93,7 +95,11 @@ pub fn compare(parameters: &Parameters, record: &Record) -> (ModelComparison, Ve
     let both = both(&body, e, &parameters.chains(), &parameters.members(), record);
     let vertical = record.vertical_accel();
     let options = housner::RockingOptions { restitution: Some(e), vertical, ..Default::default() };
-    let verdict = both.verdict(&body, record.dt, &Conditioning::new(&body, record.dt, &record.accel, &options));
+    let verdict = both.verdict(
+        &body,
+        record.dt,
+        &Conditioning::new(&body, record.dt, &record.accel, &options),
+    );
     (both, verdict)
 }
 
@@ -106,14 +112,16 @@ pub fn validate(parameters: &Parameters, records: &[Record]) -> Validation {
         duration_s: None,
         control: fem::Control::default(),
     };
-    let Ok(validation) = judge.judge_all(records.len(), |i| Ok::<_, Infallible>(records[i].clone()), |_| ());
+    let Ok(validation) =
+        judge.judge_all(records.len(), |i| Ok::<_, Infallible>(records[i].clone()), |_| ());
     validation
 }
 
 impl ModelComparison {
     /// What the histories say together; `dt` in s.
     pub fn verdict(&self, body: &Body<f64>, dt: f64, conditioning: &Conditioning) -> Verdict {
-        let verdict = Verdict::new(body, dt, (&self.rocking, &self.fem), &self.matched, conditioning);
+        let verdict =
+            Verdict::new(body, dt, (&self.rocking, &self.fem), &self.matched, conditioning);
         match &self.level {
             Some(level) => verdict.beside(body, dt, level),
             None => verdict,
@@ -134,7 +142,13 @@ pub struct MemberHistory {
 }
 
 /// The largest forces of a history, those between its landings apart, up to an overturning.
-fn count(demands: &mut Demands, body: &Body<f64>, dt: f64, landings: &[Landing], overturned: Option<f64>) {
+fn count(
+    demands: &mut Demands,
+    body: &Body<f64>,
+    dt: f64,
+    landings: &[Landing],
+    overturned: Option<f64>,
+) {
     peaks_until(demands, dt, overturned);
     demands.separate(body, dt, landings, samples_until(overturned, dt));
 }
@@ -164,16 +178,20 @@ mod tests {
     #[test]
     fn forces_between_landings_are_about_the_weight_whatever_the_springs() {
         let structure = Structure::a_frame(9.0, 2.1, 120e3).unwrap();
-        let record = Record::new("pulse", 0.01, (0..1000).map(|i| if i < 25 { 4.0 } else { 0.0 }).collect()).unwrap();
+        let record =
+            Record::new("pulse", 0.01, (0..1000).map(|i| if i < 25 { 4.0 } else { 0.0 }).collect())
+                .unwrap();
         for hz in [320.0, 1280.0] {
             let design = Design::from_kc(0.3, 0.1, 0.75, hz);
-            let springs = Springs { vertical: design, horizontal: design }.chains(structure.mass_kg);
+            let springs =
+                Springs { vertical: design, horizontal: design }.chains(structure.mass_kg);
             let both = both(&structure.body(), 0.97, &springs, &Members::default(), &record);
             assert!(both.fem.impacts() > 3);
             let weight = structure.mass_kg * rocking::scalar::GRAVITY;
             // the leg carries m g R cos(alpha - theta) less the centrifugal force, in compression
             for k in [1, 4] {
-                let [all, between] = [both.demands.peaks, both.demands.between].map(|peaks| -peaks[k].value / weight);
+                let [all, between] = [both.demands.peaks, both.demands.between]
+                    .map(|peaks| -peaks[k].value / weight);
                 assert!((0.95..1.3).contains(&between) && all > 10.0, "{hz} Hz: {between}, {all}");
             }
         }

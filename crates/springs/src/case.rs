@@ -267,7 +267,8 @@ pub fn parse_with(
         .map_err(|source| CaseError::Members { path: path.into(), source })?;
     let excitation = file.record.excitation(path, asked, read)?;
     let case = Case::new(path, (structure, restitution), excitation, file.tuning)?;
-    let (program, target) = (ProgramSection::of_case(file.program.as_ref(), path)?, file.target.unwrap_or_default());
+    let (program, target) =
+        (ProgramSection::of_case(file.program.as_ref(), path)?, file.target.unwrap_or_default());
     Ok(Case { given, members, program, target, bounds: file.bounds, ..case })
 }
 
@@ -278,14 +279,26 @@ impl Tuning {
     }
 
     fn check(&self, path: &str) -> Result<(), CaseError> {
-        let value =
-            |key, value: f64, remedy| CaseError::Value { path: path.into(), key, value: format!("{value:?}"), remedy };
+        let value = |key, value: f64, remedy| CaseError::Value {
+            path: path.into(),
+            key,
+            value: format!("{value:?}"),
+            remedy,
+        };
         check_stiffness(path, self.accuracy, self.peaks, self.max_omega_hz)?;
         if self.max_settlement_m.is_nan() || self.max_settlement_m <= 0.0 {
-            return Err(value("tuning.max_settlement_m", self.max_settlement_m, "give metres greater than zero"));
+            return Err(value(
+                "tuning.max_settlement_m",
+                self.max_settlement_m,
+                "give metres greater than zero",
+            ));
         }
         if !(1..=1_000_000).contains(&self.candidates) {
-            return Err(value("tuning.candidates", self.candidates as f64, "give a number from 1 to 1000000"));
+            return Err(value(
+                "tuning.candidates",
+                self.candidates as f64,
+                "give a number from 1 to 1000000",
+            ));
         }
         for (key, list) in [
             ("tuning.mass_ratios_vertical", &self.mass_ratios_vertical),
@@ -303,7 +316,12 @@ impl Tuning {
 }
 
 /// What every tuning is asked for.
-fn check_stiffness(path: &str, accuracy: f64, peaks: Option<f64>, max_omega_hz: Option<f64>) -> Result<(), CaseError> {
+fn check_stiffness(
+    path: &str,
+    accuracy: f64,
+    peaks: Option<f64>,
+    max_omega_hz: Option<f64>,
+) -> Result<(), CaseError> {
     let asked = [
         ("tuning.max_omega_hz", max_omega_hz, MAX_HZ),
         ("tuning.accuracy", Some(accuracy), ACCURACY),
@@ -311,7 +329,12 @@ fn check_stiffness(path: &str, accuracy: f64, peaks: Option<f64>, max_omega_hz: 
     ];
     for (key, value, limits) in asked {
         let checked = value.map_or(Ok(0.0), |value| limits.check(value));
-        checked.map_err(|(value, remedy)| CaseError::Value { path: path.into(), key, value, remedy })?;
+        checked.map_err(|(value, remedy)| CaseError::Value {
+            path: path.into(),
+            key,
+            value,
+            remedy,
+        })?;
     }
     Ok(())
 }

@@ -188,8 +188,17 @@ pub enum ParametersError {
     #[error(
         "{path}: {chain}.{name} is {value:?}, {times:.1e} times {scale}; nothing computed from that means anything, give k1, k2 in N/m, m2 in kg, c in N s/m"
     )]
-    Absurd { path: String, chain: &'static str, name: &'static str, value: f64, times: f64, scale: &'static str },
-    #[error("{path}: its schema is {schema}, this program reads up to {SCHEMA}; take a newer tune, or tune again")]
+    Absurd {
+        path: String,
+        chain: &'static str,
+        name: &'static str,
+        value: f64,
+        times: f64,
+        scale: &'static str,
+    },
+    #[error(
+        "{path}: its schema is {schema}, this program reads up to {SCHEMA}; take a newer tune, or tune again"
+    )]
     Schema { path: String, schema: u32 },
     #[error("{path}: record.{name} is {value:?}; give a finite number greater than zero")]
     Record { path: String, name: &'static str, value: f64 },
@@ -238,7 +247,8 @@ impl Parameters {
         parameters.program = job.program.as_ref().map(ProgramRow::from);
         parameters.landings = landings(&job.body, &parameters.chains(), case.restitution);
         parameters.assessment = Some(Assessment::new(job, &case.tuning, case.restitution));
-        parameters.findings = job.findings(case.tuning.asked()).into_iter().map(FiledFinding::from).collect();
+        parameters.findings =
+            job.findings(case.tuning.asked()).into_iter().map(FiledFinding::from).collect();
         parameters
     }
 
@@ -251,7 +261,12 @@ impl Parameters {
     pub fn in_program(&self) -> Option<Self> {
         let row = self.program.as_ref()?;
         let FootUnits { vertical, horizontal, .. } = row.units;
-        Some(Self { structure: row.units.structure(&self.structure), vertical, horizontal, ..self.clone() })
+        Some(Self {
+            structure: row.units.structure(&self.structure),
+            vertical,
+            horizontal,
+            ..self.clone()
+        })
     }
 
     /// What the structure has besides the rigid body.
@@ -273,7 +288,8 @@ impl Parameters {
     /// Read and check a file.
     pub fn read(path: &Path) -> Result<Self, ParametersError> {
         let name = path.display().to_string();
-        let text = files::input::text(path).map_err(|source| ParametersError::Read { path: name.clone(), source })?;
+        let text = files::input::text(path)
+            .map_err(|source| ParametersError::Read { path: name.clone(), source })?;
         Self::parse(&name, &text)
     }
 
@@ -306,16 +322,25 @@ impl Parameters {
         if let Some(row) = &self.record
             && let Some(value) = row.duration_s.filter(|d| *d <= 0.0)
         {
-            return Err(ParametersError::Record { path: path.to_string(), name: "duration_s", value });
+            return Err(ParametersError::Record {
+                path: path.to_string(),
+                name: "duration_s",
+                value,
+            });
         }
-        self.structure.checked().map_err(|source| ParametersError::Structure { path: path.to_string(), source })?;
+        self.structure
+            .checked()
+            .map_err(|source| ParametersError::Structure { path: path.to_string(), source })?;
         if let Some(value) = self.restitution.filter(|e| !(0.0..=1.0).contains(e)) {
             return Err(ParametersError::Restitution { path: path.to_string(), value });
         }
         let program = self.program.iter();
-        let program = program
-            .flat_map(|p| [("program.vertical", &p.units.vertical), ("program.horizontal", &p.units.horizontal)]);
-        for (chain, row) in [("vertical", &self.vertical), ("horizontal", &self.horizontal)].into_iter().chain(program)
+        let program = program.flat_map(|p| {
+            [("program.vertical", &p.units.vertical), ("program.horizontal", &p.units.horizontal)]
+        });
+        for (chain, row) in [("vertical", &self.vertical), ("horizontal", &self.horizontal)]
+            .into_iter()
+            .chain(program)
         {
             for (name, value, least) in [
                 ("k1_n_per_m", row.k1_n_per_m, f64::MIN_POSITIVE),
@@ -324,8 +349,15 @@ impl Parameters {
                 ("c_ns_per_m", row.c_ns_per_m, 0.0),
             ] {
                 if !(value.is_finite() && value >= least) {
-                    let bound = if least > 0.0 { " greater than zero" } else { ", zero or greater" };
-                    return Err(ParametersError::Value { path: path.to_string(), chain, name, value, bound });
+                    let bound =
+                        if least > 0.0 { " greater than zero" } else { ", zero or greater" };
+                    return Err(ParametersError::Value {
+                        path: path.to_string(),
+                        chain,
+                        name,
+                        value,
+                        bound,
+                    });
                 }
             }
             self.meaningful(path, chain, row)?;
@@ -337,7 +369,12 @@ impl Parameters {
 
     /// Springs whose numbers, in units of the structure's own, are within what 16 digits can
     /// follow.
-    fn meaningful(&self, path: &str, chain: &'static str, row: &ChainRow) -> Result<(), ParametersError> {
+    fn meaningful(
+        &self,
+        path: &str,
+        chain: &'static str,
+        row: &ChainRow,
+    ) -> Result<(), ParametersError> {
         let Structure { mass_kg, height_m, .. } = self.structure;
         // a spring that the weight compresses by the height
         let k = mass_kg * GRAVITY / height_m;
@@ -350,7 +387,14 @@ impl Parameters {
         ] {
             let times = value / unit;
             if !(least..=most).contains(&times) {
-                return Err(ParametersError::Absurd { path: path.to_string(), chain, name, value, times, scale });
+                return Err(ParametersError::Absurd {
+                    path: path.to_string(),
+                    chain,
+                    name,
+                    value,
+                    times,
+                    scale,
+                });
             }
         }
         Ok(())

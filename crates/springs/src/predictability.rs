@@ -40,12 +40,19 @@ pub const STANDING: f64 = 1e-3;
 /// [`step_sensitivity`] of `motion`, the history of the model on `record`, to a relative change of
 /// the width by 1e-5.
 pub fn width_sensitivity(motion: &Motion, parameters: &Parameters, record: &Record) -> f64 {
-    step_sensitivity(motion, &slightly_wider(parameters, record), 0.5 * parameters.structure.width_m)
+    step_sensitivity(
+        motion,
+        &slightly_wider(parameters, record),
+        0.5 * parameters.structure.width_m,
+    )
 }
 
 /// The history of the model with that change of the width.
 pub fn slightly_wider(parameters: &Parameters, record: &Record) -> Motion {
-    let structure = Structure { width_m: parameters.structure.width_m * (1.0 + CHANGE), ..parameters.structure };
+    let structure = Structure {
+        width_m: parameters.structure.width_m * (1.0 + CHANGE),
+        ..parameters.structure
+    };
     simulate(&Parameters { structure, ..parameters.clone() }, record).motion
 }
 

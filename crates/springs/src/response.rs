@@ -116,7 +116,9 @@ mod tests {
     const G: [f64; 7] = [0.0, 1e-3, 0.3, 0.95, 1.0, 1.7, 30.0];
 
     fn cases() -> impl Iterator<Item = Response<f64>> {
-        MU.into_iter().flat_map(|mu| K.into_iter().flat_map(move |k| C.into_iter().map(move |c| Response { mu, k, c })))
+        MU.into_iter().flat_map(|mu| {
+            K.into_iter().flat_map(move |k| C.into_iter().map(move |c| Response { mu, k, c }))
+        })
     }
 
     /// |u1| k1/P0 of the complex system (5) with m1 = k1 = P0 = 1.
@@ -124,8 +126,12 @@ mod tests {
         let Response { mu, k, c } = *response;
         let i = Complex64::i();
         let off = Complex64::from(-1.0);
-        let system =
-            Matrix2::new(Complex64::from(1.0 - w * w), off, off, Complex64::from(1.0 + k - mu * w * w) + i * w * c);
+        let system = Matrix2::new(
+            Complex64::from(1.0 - w * w),
+            off,
+            off,
+            Complex64::from(1.0 + k - mu * w * w) + i * w * c,
+        );
         let load = Vector2::new(Complex64::from(1.0), Complex64::from(0.0));
         system.lu().solve(&load).unwrap()[0].norm()
     }
@@ -147,7 +153,11 @@ mod tests {
         let (mu, f, xi) = (0.3_f64, 1.7, 2.5);
         let by_kc = Response { mu, k: mu * f * f, c: 2.0 * mu * xi };
         assert_relative_eq!(arr(0.8, mu, f, xi), by_kc.arr(0.8), max_relative = 1e-15);
-        assert_relative_eq!(Response::new(mu, f, 0.0).at_zero(), 1.0 + 1.0 / (mu * f * f), max_relative = 1e-15);
+        assert_relative_eq!(
+            Response::new(mu, f, 0.0).at_zero(),
+            1.0 + 1.0 / (mu * f * f),
+            max_relative = 1e-15
+        );
     }
 
     #[test]
@@ -175,9 +185,14 @@ mod tests {
             for g in response.fixed_points() {
                 let expected = 1.0 / (1.0 - g * g).abs();
                 // |1 - g^2| cancels where the upper point lies close to g = 1 (large mu)
-                let tolerance = 1e-14 * expected.max(1.0 / expected) * (1.0 + response.k.max(response.mu));
+                let tolerance =
+                    1e-14 * expected.max(1.0 / expected) * (1.0 + response.k.max(response.mu));
                 for c in [1e-3, 0.1, 1.0, 30.0, 1e4] {
-                    assert_relative_eq!(Response { c, ..response }.arr(g), expected, max_relative = tolerance);
+                    assert_relative_eq!(
+                        Response { c, ..response }.arr(g),
+                        expected,
+                        max_relative = tolerance
+                    );
                 }
             }
         }
@@ -198,7 +213,8 @@ mod tests {
 
     #[test]
     fn the_derivatives_at_rest_are_finite_and_right() {
-        let at_rest = |z: nalgebra::SVector<num_dual::DualSVec64<4>, 4>| arr(z[0], z[1], z[2], z[3]);
+        let at_rest =
+            |z: nalgebra::SVector<num_dual::DualSVec64<4>, 4>| arr(z[0], z[1], z[2], z[3]);
         let (mu, f) = (0.1, 2.3);
         let (_, slope) = gradient(at_rest, &nalgebra::vector![0.0, mu, f, 9.0]);
         // 1 + 1/(mu f^2): nothing by g and xi
@@ -222,16 +238,23 @@ mod tests {
             for g in [0.2, 0.8, 1.3, 5.0] {
                 let Response { mu, k, c } = response;
                 let z = nalgebra::vector![g, mu, (k / mu).sqrt(), c / (2.0 * mu)];
-                let (value, slope) =
-                    gradient(|z: nalgebra::SVector<num_dual::DualSVec64<4>, 4>| arr(z[0], z[1], z[2], z[3]), &z);
+                let (value, slope) = gradient(
+                    |z: nalgebra::SVector<num_dual::DualSVec64<4>, 4>| arr(z[0], z[1], z[2], z[3]),
+                    &z,
+                );
                 for j in 0..4 {
                     let step = 1e-30 * z[j];
-                    let mut arguments: [Complex64; 4] = std::array::from_fn(|i| Complex64::from(z[i]));
+                    let mut arguments: [Complex64; 4] =
+                        std::array::from_fn(|i| Complex64::from(z[i]));
                     arguments[j].im = step;
                     let oracle = printed(arguments).im / step;
                     // a slope that is all but zero is judged on the scale of the value
                     let scale = oracle.abs().max(1e-6 * value / z[j]);
-                    assert!((slope[j] - oracle).abs() <= 1e-8 * scale, "{response:?} {g} {j}: {} {oracle}", slope[j]);
+                    assert!(
+                        (slope[j] - oracle).abs() <= 1e-8 * scale,
+                        "{response:?} {g} {j}: {} {oracle}",
+                        slope[j]
+                    );
                 }
             }
         }
@@ -240,10 +263,16 @@ mod tests {
     #[test]
     fn hessians_agree_with_differences_of_gradients() {
         let z = nalgebra::vector![0.8, 0.3, 1.7, 2.5];
-        let (_, _, second) =
-            hessian(|z: nalgebra::SVector<num_dual::Dual2SVec64<4>, 4>| arr(z[0], z[1], z[2], z[3]), &z);
+        let (_, _, second) = hessian(
+            |z: nalgebra::SVector<num_dual::Dual2SVec64<4>, 4>| arr(z[0], z[1], z[2], z[3]),
+            &z,
+        );
         let slope = |z: &nalgebra::SVector<f64, 4>| {
-            gradient(|z: nalgebra::SVector<num_dual::DualSVec64<4>, 4>| arr(z[0], z[1], z[2], z[3]), z).1
+            gradient(
+                |z: nalgebra::SVector<num_dual::DualSVec64<4>, 4>| arr(z[0], z[1], z[2], z[3]),
+                z,
+            )
+            .1
         };
         for j in 0..4 {
             let (mut after, mut before) = (z, z);
@@ -252,7 +281,11 @@ mod tests {
             let difference = (slope(&after) - slope(&before)) / 2e-5;
             // central differences of step h: relative error h^2 = 1e-10 times third over first
             // derivatives (~100)
-            assert_relative_eq!(second.column(j).into_owned(), difference, epsilon = 1e-8 * second.norm());
+            assert_relative_eq!(
+                second.column(j).into_owned(),
+                difference,
+                epsilon = 1e-8 * second.norm()
+            );
         }
     }
 }

@@ -5,7 +5,9 @@ pub mod findings;
 pub mod forces;
 pub mod peaks;
 
-pub use findings::{DeckEnd, Ending, FiledFinding, Finding, FindingModel, ForceName, NotDone, PeakChange, Weight};
+pub use findings::{
+    DeckEnd, Ending, FiledFinding, Finding, FindingModel, ForceName, NotDone, PeakChange, Weight,
+};
 pub use forces::{DesignForce, DesignForces};
 pub use frames::design_forces::{ForcesTogether, MOST_CHANGE, OtherForces};
 pub use peaks::{PeakPair, Peaks};

@@ -42,7 +42,8 @@ pub fn design_forces(
     softer: Option<&MemberHistory>,
 ) -> DesignForces {
     let dt = record.dt;
-    let until = |times: [Option<f64>; 2]| samples_until(times.into_iter().flatten().reduce(f64::min), dt);
+    let until =
+        |times: [Option<f64>; 2]| samples_until(times.into_iter().flatten().reduce(f64::min), dt);
     let (sole, rows) = match softer {
         Some(softer) => {
             let peaks = |matched: &Match, history: &History, demands: &Demands| {
@@ -70,7 +71,10 @@ pub fn design_forces(
                 let all = TimedPeak::of(dt, &series).unwrap_or_default();
                 let same = kept.iter().map(|&i| series[i].abs()).fold(0.0, f64::max);
                 let change = relative(same, springs[k].value);
-                DesignForce { rigid: Some(all.value), ..DesignForce::measured(all.value, all.time, change) }
+                DesignForce {
+                    rigid: Some(all.value),
+                    ..DesignForce::measured(all.value, all.time, change)
+                }
             };
             (force(0), [1, 2, 3].map(force))
         }
@@ -85,7 +89,9 @@ pub fn design_forces(
 
 /// How far two magnitudes are from each other; none where there is nothing to compare.
 fn relative(value: f64, other: f64) -> Option<f64> {
-    (value != 0.0).then(|| (other.abs() / value.abs() - 1.0).abs()).filter(|change| change.is_finite())
+    (value != 0.0)
+        .then(|| (other.abs() / value.abs() - 1.0).abs())
+        .filter(|change| change.is_finite())
 }
 
 /// Samples that no landing on springs is near to.
@@ -94,7 +100,13 @@ fn all_between(body: &Body<f64>, dt: f64, history: &History, samples: usize) -> 
 }
 
 /// Shear at the sole, and the rows, sample by sample, of Housner's body.
-fn of_housner(kind: Kind, body: &Body<f64>, record: &Record, rocking: &Rocking<f64>, samples: usize) -> Vec<[f64; 4]> {
+fn of_housner(
+    kind: Kind,
+    body: &Body<f64>,
+    record: &Record,
+    rocking: &Rocking<f64>,
+    samples: usize,
+) -> Vec<[f64; 4]> {
     let forces = ground_forces(body, (&record.accel, record.up()), rocking);
     let row = |(i, (f, n)): (usize, (f64, f64))| {
         let (theta, rate) = (rocking.theta[i], rocking.rate[i]);
@@ -152,7 +164,8 @@ fn on_springs(
         let row = &demands.rows[i];
         // each is that of one instant
         let all = match kind {
-            Kind::AFrame => [2, 3, 1].map(|k| if row[k].abs() >= row[k + 3].abs() { row[k] } else { row[k + 3] }),
+            Kind::AFrame => [2, 3, 1]
+                .map(|k| if row[k].abs() >= row[k + 3].abs() { row[k] } else { row[k + 3] }),
             Kind::Block => [row[0], difference[i] * body.half_width, -sum[i]],
         };
         for (peak, value) in peaks.iter_mut().zip([row[0], all[0], all[1], all[2]]) {

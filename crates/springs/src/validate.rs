@@ -91,7 +91,8 @@ impl Validator {
         let batch = BATCH.max(BATCH_A_THREAD * rayon::current_num_threads());
         for begin in (0..n).step_by(batch) {
             let end = (begin + batch).min(n);
-            let read: Vec<Result<Record, E>> = (begin..end).into_par_iter().with_max_len(1).map(&record).collect();
+            let read: Vec<Result<Record, E>> =
+                (begin..end).into_par_iter().with_max_len(1).map(&record).collect();
             let records = read.into_iter().collect::<Result<Vec<Record>, E>>()?;
             rows.extend(self.judge(&records));
             done(end);

@@ -73,7 +73,8 @@ impl Answer {
             housner::RockingOutcome::Rocked => Fate::Rocked,
             housner::RockingOutcome::Overturned { .. } => Fate::Overturned,
             housner::RockingOutcome::LeavesGround { .. } => Fate::LeftGround,
-            housner::RockingOutcome::WorkBound { .. } | housner::RockingOutcome::NotFinite { .. } => Fate::Failed,
+            housner::RockingOutcome::WorkBound { .. }
+            | housner::RockingOutcome::NotFinite { .. } => Fate::Failed,
         };
         let left_ground_s = rocking.left_ground();
         Self { left_ground_s, ..Self::new(body, dt, fate, rocking.overturned(), &rocking.theta) }
@@ -84,18 +85,32 @@ impl Answer {
         let time = overturned(body, dt, theta);
         let fate = match history.outcome {
             _ if time.is_some() => Fate::Overturned,
-            fem::HistoryOutcome::WorkBound { .. } | fem::HistoryOutcome::Unstable { .. } => Fate::Failed,
+            fem::HistoryOutcome::WorkBound { .. } | fem::HistoryOutcome::Unstable { .. } => {
+                Fate::Failed
+            }
             _ if history.landings.is_empty() && history.airborne == 0.0 => Fate::NeverLifted,
             _ => Fate::Rocked,
         };
         Self::new(body, dt, fate, time, theta)
     }
 
-    fn new(body: &Body<f64>, dt: f64, fate: Fate, overturned_s: Option<f64>, theta: &[f64]) -> Self {
+    fn new(
+        body: &Body<f64>,
+        dt: f64,
+        fate: Fate,
+        overturned_s: Option<f64>,
+        theta: &[f64],
+    ) -> Self {
         let standing = samples_until(overturned_s, dt).min(theta.len());
-        let peak = theta[..standing].iter().fold(0.0, |peak: f64, x| peak.max(x.abs())) / body.alpha();
+        let peak =
+            theta[..standing].iter().fold(0.0, |peak: f64, x| peak.max(x.abs())) / body.alpha();
         // a standing finite element body sways without lifting
-        Self { fate, overturned_s, left_ground_s: None, peak_ratio: if fate == Fate::NeverLifted { 0.0 } else { peak } }
+        Self {
+            fate,
+            overturned_s,
+            left_ground_s: None,
+            peak_ratio: if fate == Fate::NeverLifted { 0.0 } else { peak },
+        }
     }
 }
 

@@ -22,7 +22,11 @@ fn assert_certified(fit: &Fit) {
     assert_eq!(fit.outcome, FitOutcome::Converged, "{fit:?}");
     assert!(certificate.residual < 1e-7 && certificate.spread < 1e-9, "{fit:?}");
     let sum: f64 = certificate.active.iter().map(|active| active.multiplier).sum();
-    assert!((sum - 1.0).abs() < 1e-12 && certificate.active.iter().all(|active| active.multiplier >= 0.0), "{fit:?}");
+    assert!(
+        (sum - 1.0).abs() < 1e-12
+            && certificate.active.iter().all(|active| active.multiplier >= 0.0),
+        "{fit:?}"
+    );
     assert!(certificate.bounds.iter().all(|bound| bound.multiplier > 0.0), "{fit:?}");
 }
 
@@ -97,7 +101,9 @@ fn no_design_on_a_coarse_grid_is_better() {
                 let k = 10f64.powf(-2.0 + f64::from(i) / 15.0);
                 let c = 10f64.powf(-2.0 + f64::from(j) / 15.0);
                 let response = Response { mu, k, c };
-                let peak = frequencies.iter().fold(response.at_zero(), |peak: f64, &g| peak.max(response.arr(g)));
+                let peak = frequencies
+                    .iter()
+                    .fold(response.at_zero(), |peak: f64, &g| peak.max(response.arr(g)));
                 // a grid in g sees less than the true peak: by at most half its step, 1.2 %, times
                 // the slope there; no design is seen below the fit by so much
                 assert!(peak > 0.998 * fit.peak, "mu {mu} K {k} C {c}: {peak} < {}", fit.peak);
@@ -108,7 +114,9 @@ fn no_design_on_a_coarse_grid_is_better() {
 
 #[test]
 fn a_smallest_k_holds_and_its_multiplier_is_the_price() {
-    let at = |k_min: f64| fit(0.3, &Target::default(), &Bounds { k_min: Some(k_min), ..Bounds::default() }).unwrap();
+    let at = |k_min: f64| {
+        fit(0.3, &Target::default(), &Bounds { k_min: Some(k_min), ..Bounds::default() }).unwrap()
+    };
     let held = at(2.0);
     assert_certified(&held);
     assert!((held.k - 2.0).abs() < 1e-12);
@@ -122,7 +130,8 @@ fn a_smallest_k_holds_and_its_multiplier_is_the_price() {
 #[test]
 fn a_settlement_bound_is_kept() {
     let k_min = k_min_for_settlement(3.5e-3, 6.2).unwrap();
-    let fit = fit(10.0, &Target::default(), &Bounds { k_min: Some(k_min), ..Bounds::default() }).unwrap();
+    let fit =
+        fit(10.0, &Target::default(), &Bounds { k_min: Some(k_min), ..Bounds::default() }).unwrap();
     assert_certified(&fit);
     assert!(k_min > 9.0 && (fit.k / k_min - 1.0).abs() < 1e-12, "{k_min} {}", fit.k);
 }
@@ -162,7 +171,11 @@ fn a_target_of_three_bands_is_certified_and_its_excess_true() {
         }
         // the scan's step in ln g is 3.5e-4; at a peak it misses of order its square, at a band's
         // end its first power
-        assert!(excess <= fit.excess + 1e-12 && excess > fit.excess - 2e-3, "mu {mu}: {excess} {}", fit.excess);
+        assert!(
+            excess <= fit.excess + 1e-12 && excess > fit.excess - 2e-3,
+            "mu {mu}: {excess} {}",
+            fit.excess
+        );
     }
 }
 
@@ -177,6 +190,9 @@ fn families_come_in_order_and_the_same_bytes_each_time() {
 #[test]
 fn senseless_mass_ratios_are_refused() {
     for mu in [0.0, -1.0, f64::NAN, f64::INFINITY] {
-        assert!(matches!(fit(mu, &Target::default(), &Bounds::default()), Err(FitError::Mu { .. })));
+        assert!(matches!(
+            fit(mu, &Target::default(), &Bounds::default()),
+            Err(FitError::Mu { .. })
+        ));
     }
 }

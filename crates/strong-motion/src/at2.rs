@@ -19,7 +19,9 @@ const HEADER_LINES: usize = 50;
 pub(super) fn header_line(text: &str) -> Option<(usize, &str)> {
     lines(text)
         .take(HEADER_LINES)
-        .find(|(_, line)| line.split(|c: char| !c.is_alphanumeric()).any(|word| word.eq_ignore_ascii_case("NPTS")))
+        .find(|(_, line)| {
+            line.split(|c: char| !c.is_alphanumeric()).any(|word| word.eq_ignore_ascii_case("NPTS"))
+        })
         .filter(|(_, line)| !header::is_comment(line))
 }
 
@@ -35,7 +37,9 @@ pub(super) fn parse(file: &str, text: &str) -> Result<Parsed, RecordError> {
     let mut values = Vec::new();
     let mut last = at;
     for (line, content) in lines(text).skip(at) {
-        for token in content.split(|c: char| c.is_whitespace() || c == ',').filter(|token| !token.is_empty()) {
+        for token in
+            content.split(|c: char| c.is_whitespace() || c == ',').filter(|token| !token.is_empty())
+        {
             let before = values.len();
             match number(token) {
                 Some(value) => values.push(value),
@@ -52,7 +56,13 @@ pub(super) fn parse(file: &str, text: &str) -> Result<Parsed, RecordError> {
         }
     }
     if values.len() as u64 != npts {
-        return Err(RecordError::Count { file: file(), line: last, found: values.len(), header_line: at, npts });
+        return Err(RecordError::Count {
+            file: file(),
+            line: last,
+            found: values.len(),
+            header_line: at,
+            npts,
+        });
     }
     let samples = Samples {
         units: units::declared(&titles, None),
@@ -74,7 +84,10 @@ fn npts_and_dt(line: &str) -> Option<(u64, &str)> {
     let numeric = |token: &'_ str| number(token).is_some();
     let after = |name: &str| {
         let at = tokens.iter().position(|token| token.eq_ignore_ascii_case(name))?;
-        tokens.get(at + 1).map(|token| token.trim_end_matches(|c: char| c.is_ascii_alphabetic())).filter(|t| numeric(t))
+        tokens
+            .get(at + 1)
+            .map(|token| token.trim_end_matches(|c: char| c.is_ascii_alphabetic()))
+            .filter(|t| numeric(t))
     };
     let (npts, dt) = match (after("NPTS"), after("DT")) {
         (Some(npts), Some(dt)) => (npts, dt),
@@ -105,7 +118,13 @@ mod tests {
         ] {
             assert_eq!(npts_and_dt(line), Some((npts, dt)), "{line}");
         }
-        for line in ["NPTS, DT", "NPTS= 4000", "NPTS= 0, DT= .01", "NPTS= 3.5, DT= .01", "NPTS= -4, DT= .01"] {
+        for line in [
+            "NPTS, DT",
+            "NPTS= 4000",
+            "NPTS= 0, DT= .01",
+            "NPTS= 3.5, DT= .01",
+            "NPTS= -4, DT= .01",
+        ] {
             assert_eq!(npts_and_dt(line), None, "{line}");
         }
     }

@@ -47,7 +47,8 @@ pub(super) fn find(wanted: &str, columns: usize, names: &[&str]) -> Option<usize
         return number.checked_sub(1).filter(|index| *index < columns);
     }
     let bare = |name: &str| name.split(['[', '(']).next().unwrap_or(name).trim().to_owned();
-    let is = |name: &&str| name.eq_ignore_ascii_case(wanted) || bare(name).eq_ignore_ascii_case(wanted);
+    let is =
+        |name: &&str| name.eq_ignore_ascii_case(wanted) || bare(name).eq_ignore_ascii_case(wanted);
     let mut found = (0..names.len()).filter(|i| is(&names[*i]));
     // a name that two columns have says nothing
     found.next().filter(|_| found.next().is_none())

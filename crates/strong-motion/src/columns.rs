@@ -32,7 +32,12 @@ pub(super) fn parse(file: &str, text: &str, options: &ReadOptions) -> Result<Par
 }
 
 /// The series that a table of one column, of two, or of bare values holds; `names` of its columns.
-fn series(file: &str, table: NumberTable, names: &[&str], options: &ReadOptions) -> Result<Parsed, RecordError> {
+fn series(
+    file: &str,
+    table: NumberTable,
+    names: &[&str],
+    options: &ReadOptions,
+) -> Result<Parsed, RecordError> {
     let of_columns = || table.header.last().map(|(_, line)| *line);
     let units = units::declared(&table.header, table.column_name.or_else(of_columns));
     let quantity = header::quantity(&table.header, names);
@@ -52,12 +57,15 @@ fn series(file: &str, table: NumberTable, names: &[&str], options: &ReadOptions)
             table.check_times(file, options, quantity)?;
             let step = match table.lines {
                 0 | 1 => said(),
-                _ => table.times.step(file, options.dt).map(|(dt, rounding)| (Some(dt), rounding))?,
+                _ => {
+                    table.times.step(file, options.dt).map(|(dt, rounding)| (Some(dt), rounding))?
+                }
             };
             (step, table.values.chunks(2).filter_map(|row| row.get(1).copied()).collect())
         }
     };
-    let parsed = Parsed::bare(Samples { units, quantity, dt, dt_rounding, values, ..Samples::default() });
+    let parsed =
+        Parsed::bare(Samples { units, quantity, dt, dt_rounding, values, ..Samples::default() });
     Ok(Parsed { row_by_row, ..parsed })
 }
 
@@ -103,7 +111,11 @@ impl<'a> NumberTable<'a> {
             let fields = fields(content);
             if let Some(bad) = fields.iter().find(|field| number(field).is_none()) {
                 if has_decimal_commas(content) {
-                    return Err(RecordError::DecimalComma { file: file_name(), line, text: quote(content) });
+                    return Err(RecordError::DecimalComma {
+                        file: file_name(),
+                        line,
+                        text: quote(content),
+                    });
                 }
                 if table.columns == 0 {
                     table.header.push((line, content));
@@ -133,7 +145,8 @@ impl<'a> NumberTable<'a> {
     /// One row of numbers.
     fn push(&mut self, file: &str, line: usize, fields: &[&str]) -> Result<(), RecordError> {
         let file = || file.to_owned();
-        let ragged = |line, found| RecordError::Ragged { file: file(), line, found, expected: self.columns };
+        let ragged =
+            |line, found| RecordError::Ragged { file: file(), line, found, expected: self.columns };
         if let Some((line, found)) = self.short {
             return Err(ragged(line, found));
         }
@@ -144,7 +157,9 @@ impl<'a> NumberTable<'a> {
         for field in fields {
             match number(field).filter(|value| value.is_finite()) {
                 Some(value) => self.values.push(value),
-                None => return Err(RecordError::NotFinite { file: file(), line, text: quote(field) }),
+                None => {
+                    return Err(RecordError::NotFinite { file: file(), line, text: quote(field) });
+                }
             }
         }
         if let [time, _, ..] = fields {
@@ -163,13 +178,21 @@ impl<'a> NumberTable<'a> {
 
     /// Whether the numbers of several columns are one series, row by row: a time step is given, and
     /// the first column is no time.
-    fn is_bare(&self, file: &str, options: &ReadOptions, names: &[&str]) -> Result<bool, RecordError> {
+    fn is_bare(
+        &self,
+        file: &str,
+        options: &ReadOptions,
+        names: &[&str],
+    ) -> Result<bool, RecordError> {
         let bare = options.dt.is_some() && names.is_empty() && !self.times.run_upwards();
         if self.columns == 2 && !(bare && self.times.run_to_and_fro()) {
             return match self.short {
-                Some((line, found)) => {
-                    Err(RecordError::Ragged { file: file.to_owned(), line, found, expected: self.columns })
-                }
+                Some((line, found)) => Err(RecordError::Ragged {
+                    file: file.to_owned(),
+                    line,
+                    found,
+                    expected: self.columns,
+                }),
                 None => Ok(false),
             };
         }
@@ -177,25 +200,43 @@ impl<'a> NumberTable<'a> {
             return Ok(true);
         }
         let columns = column::list(1, self.columns, names);
-        Err(RecordError::TooManyColumns { file: file.to_owned(), line: self.first_line, found: self.columns, columns })
+        Err(RecordError::TooManyColumns {
+            file: file.to_owned(),
+            line: self.first_line,
+            found: self.columns,
+            columns,
+        })
     }
 
     /// The table of the times, if there are any, and the column that is asked for, and the names of
     /// both.
-    fn chosen(self, file: &str, wanted: &str, names: &[&'a str]) -> Result<(Self, Vec<&'a str>), RecordError> {
+    fn chosen(
+        self,
+        file: &str,
+        wanted: &str,
+        names: &[&'a str],
+    ) -> Result<(Self, Vec<&'a str>), RecordError> {
         let file = || file.to_owned();
         if let Some((line, found)) = self.short {
             return Err(RecordError::Ragged { file: file(), line, found, expected: self.columns });
         }
-        let timed = self.times.run_upwards() || names.first().is_some_and(|name| header::is_time(name));
+        let timed =
+            self.times.run_upwards() || names.first().is_some_and(|name| header::is_time(name));
         let times = usize::from(timed);
-        let Some(index) = column::find(wanted, self.columns, names).filter(|index| *index >= times) else {
+        let Some(index) = column::find(wanted, self.columns, names).filter(|index| *index >= times)
+        else {
             let available = column::list(times, self.columns, names);
-            return Err(RecordError::NoComponent { file: file(), wanted: quote(wanted), several: false, available });
+            return Err(RecordError::NoComponent {
+                file: file(),
+                wanted: quote(wanted),
+                several: false,
+                available,
+            });
         };
         let row = |row: &[f64]| [0, index].map(|i| row.get(i).copied().unwrap_or(f64::NAN));
         let rows = self.values.chunks(self.columns).map(row);
-        let values = if timed { rows.flatten().collect() } else { rows.map(|[_, value]| value).collect() };
+        let values =
+            if timed { rows.flatten().collect() } else { rows.map(|[_, value]| value).collect() };
         let kept = if timed { vec![0, index] } else { vec![index] };
         let names: Vec<&str> = kept.iter().filter_map(|i| names.get(*i).copied()).collect();
         let column_name = names.last().copied();
@@ -228,11 +269,16 @@ impl<'a> NumberTable<'a> {
 
     /// Whole numbers that are too large for an acceleration, or far off zero.
     fn holds_counts(&self, units: Option<Units>) -> bool {
-        if !self.whole || self.columns == 2 || self.values.len() < 3 || units == Some(Units::MillimetrePerSecond2) {
+        if !self.whole
+            || self.columns == 2
+            || self.values.len() < 3
+            || units == Some(Units::MillimetrePerSecond2)
+        {
             return false;
         }
         let peak = self.values.iter().fold(0.0, |peak: f64, value| peak.max(value.abs()));
-        peak > LARGEST_WHOLE || self.values.len() >= ONE_SIGN_ROWS && mean(&self.values).abs() > 0.5 * peak
+        peak > LARGEST_WHOLE
+            || self.values.len() >= ONE_SIGN_ROWS && mean(&self.values).abs() > 0.5 * peak
     }
 }
 
@@ -242,7 +288,9 @@ fn fields(content: &str) -> Vec<&str> {
     let clean = |field: &'_ str| field.trim().trim_matches('"').trim().len();
     let separator = [';', ','].into_iter().find(|&c| content.contains(c));
     let mut fields: Vec<&str> = match separator {
-        Some(separator) => content.split(separator).map(|field| field.trim().trim_matches('"').trim()).collect(),
+        Some(separator) => {
+            content.split(separator).map(|field| field.trim().trim_matches('"').trim()).collect()
+        }
         None => content.split_whitespace().map(|field| field.trim_matches('"')).collect(),
     };
     // a separator at the end of the line opens no column
@@ -254,8 +302,10 @@ fn fields(content: &str) -> Vec<&str> {
 
 /// Several tokens (between semicolons or blanks), all of them like `0,01`.
 fn has_decimal_commas(content: &str) -> bool {
-    let mut tokens = content.split(|c: char| c == ';' || c.is_whitespace()).filter(|token| !token.is_empty());
-    let decimal = |token: &str| token.matches(',').count() == 1 && number(&token.replace(',', ".")).is_some();
+    let mut tokens =
+        content.split(|c: char| c == ';' || c.is_whitespace()).filter(|token| !token.is_empty());
+    let decimal =
+        |token: &str| token.matches(',').count() == 1 && number(&token.replace(',', ".")).is_some();
     let plain = |token: &str| number(token).is_some();
     let mut commas = 0;
     tokens.all(|token| {
@@ -266,8 +316,14 @@ fn has_decimal_commas(content: &str) -> bool {
 
 /// A line right above the data that begins with a number and has as many fields is data gone wrong,
 /// not a header.
-fn damaged_first_line(file: &str, above: Option<&(usize, &str)>, columns: usize) -> Result<(), RecordError> {
-    let Some((line, content)) = above.filter(|(_, content)| !is_comment(content)) else { return Ok(()) };
+fn damaged_first_line(
+    file: &str,
+    above: Option<&(usize, &str)>,
+    columns: usize,
+) -> Result<(), RecordError> {
+    let Some((line, content)) = above.filter(|(_, content)| !is_comment(content)) else {
+        return Ok(());
+    };
     let fields = fields(content);
     match fields.iter().find(|field| number(field).is_none()) {
         Some(bad) if fields.len() == columns && number(fields[0]).is_some() => {

@@ -54,7 +54,9 @@ pub(super) fn parse(file: &str, text: &str) -> Result<Parsed, RecordError> {
 
 /// `End-of-data for ...` or `/&`; nothing at the end of the file.
 fn end_of_data(cursor: &mut Cursor) -> Result<(), RecordError> {
-    let Some(line) = cursor.peek().map(str::trim_start).filter(|line| !line.is_empty()) else { return Ok(()) };
+    let Some(line) = cursor.peek().map(str::trim_start).filter(|line| !line.is_empty()) else {
+        return Ok(());
+    };
     if line.to_ascii_lowercase().starts_with("end-of-data") || line.starts_with("/&") {
         cursor.advance();
         return Ok(());
@@ -78,7 +80,9 @@ impl<'a> CosmosHeader<'a> {
     fn read(cursor: &mut Cursor<'a>) -> Result<Self, RecordError> {
         let first = cursor.number();
         let lines = cursor.peek().and_then(text_lines);
-        let lines = lines.ok_or_else(|| cursor.not(first, "a first line with '(Format v... with ... text lines)'"))?;
+        let lines = lines.ok_or_else(|| {
+            cursor.not(first, "a first line with '(Format v... with ... text lines)'")
+        })?;
         let text = cursor.take(lines, "the lines of text that the first line announces")?;
         let integers_line = cursor.number();
         let promise = announced(cursor, "integers of the header", "Integer-header values follow")?;
@@ -90,7 +94,9 @@ impl<'a> CosmosHeader<'a> {
         let wanted = "'... Comment line(s) follow'";
         let comments = cursor.line(wanted)?;
         let count = comments.split_whitespace().next().and_then(|n| n.parse().ok());
-        let count = count.filter(|_| comments.contains("omment")).ok_or_else(|| cursor.not(comments_line, wanted))?;
+        let count = count
+            .filter(|_| comments.contains("omment"))
+            .ok_or_else(|| cursor.not(comments_line, wanted))?;
         let comments = cursor.take(count, "the comments that were announced")?;
         if let Some(i) = comments.iter().position(|line| !line.trim_start().starts_with('|')) {
             return Err(cursor.not(comments_line + 1 + i, "a comment, which begins with '|',"));
@@ -100,8 +106,9 @@ impl<'a> CosmosHeader<'a> {
             words.split('.').nth(1)
         });
         let unknown = text.iter().find(|line| line.contains("unknown/unspecified"));
-        let unknown =
-            unknown.and_then(|line| number(line.split_once(':')?.1.split([' ', ',']).find(|w| !w.is_empty())?));
+        let unknown = unknown.and_then(|line| {
+            number(line.split_once(':')?.1.split([' ', ',']).find(|w| !w.is_empty())?)
+        });
         let unknown = unknown.unwrap_or(-999.0);
         Ok(Self { text, integers, integers_line, numbers, numbers_line, code, unknown })
     }
@@ -123,14 +130,19 @@ impl<'a> CosmosHeader<'a> {
         let (dt, half) = match (self.real(62), self.real(34)) {
             (Some((ms, printed)), _) if ms > 0.0 => (ms * 1e-3, half_digit(printed) * 1e-3),
             (_, Some((s, printed))) if s > 0.0 => (s, half_digit(printed)),
-            _ => return Err(cursor.not(self.numbers_line, "numbers of the header with a time step (number 62)")),
+            _ => {
+                return Err(cursor
+                    .not(self.numbers_line, "numbers of the header with a time step (number 62)"));
+            }
         };
         // whole seconds are printed, rounded in one way or another
         let length = data.promise.count as f64 * dt;
         match data.seconds {
-            Some(seconds) if (length - seconds).abs() > 1.5 + 0.01 * seconds + dt => {
-                Err(cursor.not(data.promise.line, "the length in seconds that number 62 of the header makes"))
-            }
+            Some(seconds) if (length - seconds).abs() > 1.5 + 0.01 * seconds + dt => Err(cursor
+                .not(
+                    data.promise.line,
+                    "the length in seconds that number 62 of the header makes",
+                )),
             _ => Ok((dt, half)),
         }
     }
@@ -166,10 +178,18 @@ impl<'a> CosmosHeader<'a> {
 }
 
 /// A line such as ` 100 Integer-header values follow on  10 lines, Format= (10I8)`.
-fn announced(cursor: &mut Cursor, what: &'static str, words: &'static str) -> Result<Promise, RecordError> {
+fn announced(
+    cursor: &mut Cursor,
+    what: &'static str,
+    words: &'static str,
+) -> Result<Promise, RecordError> {
     let line = cursor.number();
     let text = cursor.line(words)?;
-    let count = text.split_whitespace().next().and_then(|n| n.parse().ok()).filter(|_| text.contains(words));
+    let count = text
+        .split_whitespace()
+        .next()
+        .and_then(|n| n.parse().ok())
+        .filter(|_| text.contains(words));
     match (count, FortranFormat::parse(text)) {
         (Some(count), Some(layout)) => Ok(Promise { what, count, layout, line }),
         _ => Err(cursor.not(line, words)),
@@ -192,7 +212,9 @@ impl<'a> CosmosSeries<'a> {
         let line = cursor.number();
         let Some(text) = cursor.peek() else { return Ok(None) };
         let lower = text.to_ascii_lowercase();
-        let Some(count) = text.split_whitespace().next().and_then(|n| n.parse().ok()) else { return Ok(None) };
+        let Some(count) = text.split_whitespace().next().and_then(|n| n.parse().ok()) else {
+            return Ok(None);
+        };
         let wanted = "'... acceleration pts, ..., units=..., Format=...'";
         let quantity = match () {
             () if lower.contains("veloc") => "velocity",
@@ -205,17 +227,26 @@ impl<'a> CosmosSeries<'a> {
             "velocity" => "velocity samples",
             _ => "displacement samples",
         };
-        let unit = lower.find("units=").map(|at| &text[at + 6..]).and_then(|rest| rest.split([',', ' ']).next());
+        let unit = lower
+            .find("units=")
+            .map(|at| &text[at + 6..])
+            .and_then(|rest| rest.split([',', ' ']).next());
         let (Some(unit), Some(layout), 1..) = (unit, FortranFormat::parse(text), count) else {
             return Err(cursor.not(line, wanted));
         };
-        let seconds = lower.split_once("approx").and_then(|(_, rest)| number(rest.split_whitespace().next()?));
+        let seconds = lower
+            .split_once("approx")
+            .and_then(|(_, rest)| number(rest.split_whitespace().next()?));
         cursor.advance();
         Ok(Some(Self { promise: Promise { what, count, layout, line }, quantity, seconds, unit }))
     }
 
     /// The channel, unless the series is not of acceleration.
-    fn channel(&self, cursor: &mut Cursor<'a>, header: &CosmosHeader<'a>) -> Result<Option<Channel>, RecordError> {
+    fn channel(
+        &self,
+        cursor: &mut Cursor<'a>,
+        header: &CosmosHeader<'a>,
+    ) -> Result<Option<Channel>, RecordError> {
         let (dt, half) = header.step(cursor, self)?;
         let block = cursor.block(self.promise)?;
         if self.quantity != "acceleration" {
@@ -227,14 +258,21 @@ impl<'a> CosmosSeries<'a> {
             let time = header.real(65).map(|(_, time)| time);
             Stated { line, of: "acceleration", value, time, signed: true }
         });
-        let pga: Option<Peak> =
-            pga.map(|stated| stated.check(cursor.file, Clock::from_first(dt), &block)).transpose()?;
+        let pga: Option<Peak> = pga
+            .map(|stated| stated.check(cursor.file, Clock::from_first(dt), &block))
+            .transpose()?;
         if header.integer(54).is_some_and(|code| !(0..=3000).contains(&code)) {
-            return Err(cursor.not(header.integers_line + 6, "an azimuth or a code of direction as integer 54"));
+            return Err(cursor
+                .not(header.integers_line + 6, "an azimuth or a code of direction as integer 54"));
         }
         let (name, direction) = header.component();
-        let samples =
-            Samples { units: Some(units), dt: Some(dt), dt_rounding: half, values: block.values, ..Samples::default() };
+        let samples = Samples {
+            units: Some(units),
+            dt: Some(dt),
+            dt_rounding: half,
+            values: block.values,
+            ..Samples::default()
+        };
         Ok(Some(Channel { name, direction, samples, pga, pgv: None }))
     }
 

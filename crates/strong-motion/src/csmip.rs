@@ -18,7 +18,10 @@ const NUMBER_LINES: usize = 13;
 
 /// Whether the first lines are those of a CSMIP file.
 pub(super) fn is_it(head: &[&str]) -> bool {
-    let first = head.iter().find(|line| !line.is_empty()).map_or(String::new(), |line| line.to_ascii_lowercase());
+    let first = head
+        .iter()
+        .find(|line| !line.is_empty())
+        .map_or(String::new(), |line| line.to_ascii_lowercase());
     first.contains("corrected accelerogram") || head.iter().any(|line| is_data_line(line, "accel"))
 }
 
@@ -48,13 +51,21 @@ struct CsmipHeader<'a> {
 
 fn read_channel(cursor: &mut Cursor) -> Result<(Option<String>, Channel), RecordError> {
     let header = CsmipHeader::read(cursor)?;
-    let announced = CsmipSeries::announced(cursor, "accel", "'... points of accel data equally spaced at ...'")?;
+    let announced = CsmipSeries::announced(
+        cursor,
+        "accel",
+        "'... points of accel data equally spaced at ...'",
+    )?;
     let step = header.step(announced.step, announced.step_rounding);
     let (values, pga) = announced.read(cursor, step.0, header.peak("acceleration"))?;
     let mut pgv = None;
     for (quantity, of) in [("veloc", "velocity"), ("displ", "displacement")] {
         if cursor.peek().is_some_and(|line| is_data_line(line, quantity)) {
-            let announced = CsmipSeries::announced(cursor, quantity, "'... points of ... data equally spaced at ...'")?;
+            let announced = CsmipSeries::announced(
+                cursor,
+                quantity,
+                "'... points of ... data equally spaced at ...'",
+            )?;
             let cm = announced.unit.to_ascii_lowercase().contains("cm");
             let (_, peak) = announced.read(cursor, step.0, header.peak(of))?;
             if of == "velocity" && cm {
@@ -87,7 +98,10 @@ impl<'a> CsmipHeader<'a> {
         while let Some(text) = cursor.peek().filter(|text| !is_data_line(text, "accel")) {
             let lower = text.to_ascii_lowercase();
             if lower.contains("points") && lower.contains("units of g") {
-                return Err(RecordError::Uncorrected { file: cursor.file.to_owned(), line: cursor.number() });
+                return Err(RecordError::Uncorrected {
+                    file: cursor.file.to_owned(),
+                    line: cursor.number(),
+                });
             }
             if lines.len() == HEADER_LINES {
                 break;
@@ -110,7 +124,10 @@ impl<'a> CsmipHeader<'a> {
     fn step(&self, announced: f64, rounding: f64) -> (f64, f64) {
         let numbers = &self.lines[self.lines.len().saturating_sub(NUMBER_LINES)..];
         let (row, column) = (52 / NUMBERS.per_line, 52 % NUMBERS.per_line * NUMBERS.width);
-        let field = numbers.get(row).and_then(|line| line.get(column..column + NUMBERS.width)).map(str::trim);
+        let field = numbers
+            .get(row)
+            .and_then(|line| line.get(column..column + NUMBERS.width))
+            .map(str::trim);
         match field.and_then(|field| Some((number(field)?, half_digit(field)))) {
             Some((dt, half)) if (dt - announced).abs() <= rounding + 1e-9 => (dt, half),
             _ => (announced, rounding),
@@ -131,7 +148,8 @@ impl<'a> CsmipHeader<'a> {
 
     /// The words after `Station No.` or `Station Id.`, and the line below them.
     fn station(&self) -> Option<String> {
-        let is_station = |line: &str| line.trim_start().to_ascii_lowercase().starts_with("station ");
+        let is_station =
+            |line: &str| line.trim_start().to_ascii_lowercase().starts_with("station ");
         let at = self.lines.iter().position(|line| is_station(line))?;
         let code = self.lines[at].split_whitespace().nth(2)?;
         let name = self.lines.get(at + 1).map_or("", |line| line.get(..40).unwrap_or(line).trim());
@@ -148,7 +166,11 @@ struct CsmipSeries<'a> {
 }
 
 impl<'a> CsmipSeries<'a> {
-    fn announced(cursor: &mut Cursor<'a>, quantity: &str, wanted: &'static str) -> Result<Self, RecordError> {
+    fn announced(
+        cursor: &mut Cursor<'a>,
+        quantity: &str,
+        wanted: &'static str,
+    ) -> Result<Self, RecordError> {
         let line = cursor.number();
         let text = cursor.line(wanted)?;
         let bad = || cursor.not(line, wanted);
@@ -160,7 +182,12 @@ impl<'a> CsmipSeries<'a> {
             "veloc" => "velocity samples",
             _ => "displacement samples",
         };
-        let count = text.split_whitespace().next().and_then(|n| n.parse().ok()).filter(|n| *n > 0).ok_or_else(bad)?;
+        let count = text
+            .split_whitespace()
+            .next()
+            .and_then(|n| n.parse().ok())
+            .filter(|n| *n > 0)
+            .ok_or_else(bad)?;
         let layout = FortranFormat::parse(text).ok_or_else(bad)?;
         // older files write in capitals
         let at = text.to_ascii_lowercase().find(" at ").ok_or_else(bad)?;
@@ -171,9 +198,18 @@ impl<'a> CsmipSeries<'a> {
         let unit = unit.split_whitespace().next().unwrap_or("");
         let unit = unit.trim_end_matches(['.', ',']);
         if quantity == "accel" && unit.parse() != Ok(Units::CentimetrePerSecond2) {
-            return Err(RecordError::ForeignUnit { file: cursor.file.to_owned(), line, unit: quote(unit) });
+            return Err(RecordError::ForeignUnit {
+                file: cursor.file.to_owned(),
+                line,
+                unit: quote(unit),
+            });
         }
-        Ok(Self { promise: Promise { what, count, layout, line }, step, step_rounding: half_digit(printed), unit })
+        Ok(Self {
+            promise: Promise { what, count, layout, line },
+            step,
+            step_rounding: half_digit(printed),
+            unit,
+        })
     }
 
     fn read(
@@ -183,7 +219,9 @@ impl<'a> CsmipSeries<'a> {
         stated: Option<Stated>,
     ) -> Result<(Vec<f64>, Option<Peak>), RecordError> {
         let block: Block = cursor.block(self.promise)?;
-        let peak = stated.map(|stated| stated.check(cursor.file, Clock::from_first(dt), &block)).transpose()?;
+        let peak = stated
+            .map(|stated| stated.check(cursor.file, Clock::from_first(dt), &block))
+            .transpose()?;
         Ok((block.values, peak))
     }
 }

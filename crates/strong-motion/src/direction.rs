@@ -29,14 +29,16 @@ impl Direction {
         let words = words.trim().to_ascii_uppercase();
         let first = words.split(|c: char| c.is_whitespace() || c == ',').next().unwrap_or("");
         match first {
-            "UP" | "DOWN" | "VERT" | "VERT." | "VERTICAL" | "UD" | "U-D" | "UPDO" | "UPDOWN" | "Z" | "V" => {
+            "UP" | "DOWN" | "VERT" | "VERT." | "VERTICAL" | "UD" | "U-D" | "UPDO" | "UPDOWN"
+            | "Z" | "V" => {
                 return Self::Vertical;
             }
             "N" | "NS" | "N-S" | "NORTH" => return Self::azimuth(0.0),
             "E" | "EW" | "E-W" | "WE" | "EAST" => return Self::azimuth(90.0),
             "S" | "SOUTH" => return Self::azimuth(180.0),
             "W" | "WEST" => return Self::azimuth(270.0),
-            "H1" | "H2" | "RADIAL" | "RADL" | "TRANSVERSE" | "TRAN" | "LONG" | "LONGITUDINAL" | "TANG" => {
+            "H1" | "H2" | "RADIAL" | "RADL" | "TRANSVERSE" | "TRAN" | "LONG" | "LONGITUDINAL"
+            | "TANG" => {
                 return Self::Horizontal;
             }
             _ => {}
@@ -52,7 +54,9 @@ impl Direction {
     /// Whether two directions are known and agree, azimuths to half a degree.
     pub(super) fn same(self, other: Self) -> bool {
         match (self, other) {
-            (Self::Azimuth(a), Self::Azimuth(b)) => ((a - b + 180.0).rem_euclid(360.0) - 180.0).abs() <= 0.5,
+            (Self::Azimuth(a), Self::Azimuth(b)) => {
+                ((a - b + 180.0).rem_euclid(360.0) - 180.0).abs() <= 0.5
+            }
             (Self::Vertical, Self::Vertical) => true,
             _ => false,
         }
@@ -83,7 +87,8 @@ fn bearing(text: &str) -> Option<f64> {
         'W' => true,
         _ => return None,
     };
-    let angle: f64 = text.get(1..text.len() - 1)?.trim().parse().ok().filter(|a| (0.0..=90.0).contains(a))?;
+    let angle: f64 =
+        text.get(1..text.len() - 1)?.trim().parse().ok().filter(|a| (0.0..=90.0).contains(a))?;
     Some(match (from_south, to_west) {
         (false, false) => angle,
         (true, false) => 180.0 - angle,

@@ -19,8 +19,15 @@ use super::text::{number, quote};
 use super::{Direction, RecordError, RecordFormat, Units};
 
 /// Keys that no other format has.
-const KEYS: [&str; 7] =
-    ["NDATA:", "STREAM:", "HEADER_FORMAT:", "STATION_CODE:", "EVENT_ID:", "DATABASE_VERSION:", "PGA_CM/S^2:"];
+const KEYS: [&str; 7] = [
+    "NDATA:",
+    "STREAM:",
+    "HEADER_FORMAT:",
+    "STATION_CODE:",
+    "EVENT_ID:",
+    "DATABASE_VERSION:",
+    "PGA_CM/S^2:",
+];
 
 /// Whether the first lines are those of such a file.
 pub(super) fn is_it(head: &[&str]) -> bool {
@@ -63,15 +70,25 @@ pub(super) fn parse(file: &str, text: &str) -> Result<Parsed, RecordError> {
             }
             // some give the size alone; a minus is meant
             let signed = value.starts_with('-');
-            let stated = Stated { line, of: "acceleration", value, time: time.map(|(_, time)| time), signed };
+            let stated = Stated {
+                line,
+                of: "acceleration",
+                value,
+                time: time.map(|(_, time)| time),
+                signed,
+            };
             // whatever the samples are in, the header's peak is in cm/s2
-            let factor = units.metres_per_second2() / Units::CentimetrePerSecond2.metres_per_second2();
+            let factor =
+                units.metres_per_second2() / Units::CentimetrePerSecond2.metres_per_second2();
             let values: Vec<f64> = block.values.iter().map(|a| a * factor).collect();
-            Some(stated.check_values(file, Clock::from_first(dt), &values, |i| block.half_digit(i) * factor)?)
+            Some(stated.check_values(file, Clock::from_first(dt), &values, |i| {
+                block.half_digit(i) * factor
+            })?)
         }
         None => None,
     };
-    let component = header.value("STREAM").or_else(|| header.value("COMPONENT")).map_or("", |(_, name)| name);
+    let component =
+        header.value("STREAM").or_else(|| header.value("COMPONENT")).map_or("", |(_, name)| name);
     let samples = Samples {
         units: Some(units),
         dt: Some(dt),
@@ -102,7 +119,10 @@ impl<'a> DynaHeader<'a> {
     fn read(cursor: &mut Cursor<'a>) -> Self {
         let mut entries = Vec::new();
         while let Some(text) = cursor.peek() {
-            let Some((key, value)) = text.split_once(':').filter(|_| number(text.trim()).is_none()) else { break };
+            let Some((key, value)) = text.split_once(':').filter(|_| number(text.trim()).is_none())
+            else {
+                break;
+            };
             entries.push((cursor.number(), key.trim(), value.trim()));
             cursor.advance();
         }
@@ -115,20 +135,36 @@ impl<'a> DynaHeader<'a> {
         entry.map(|(line, _, value)| (*line, *value))
     }
 
-    fn need(&self, key: &str, wanted: &'static str, cursor: &Cursor) -> Result<(usize, &'a str), RecordError> {
+    fn need(
+        &self,
+        key: &str,
+        wanted: &'static str,
+        cursor: &Cursor,
+    ) -> Result<(usize, &'a str), RecordError> {
         let (line, value) = self.value(key).ok_or_else(|| {
-            let line = self.entries.iter().find(|(_, name, _)| *name == key).map_or(self.end, |(line, ..)| *line);
+            let line = self
+                .entries
+                .iter()
+                .find(|(_, name, _)| *name == key)
+                .map_or(self.end, |(line, ..)| *line);
             cursor.not(line, wanted)
         })?;
         // said twice, it must be the same
-        match self.entries.iter().find(|(_, name, other)| *name == key && !other.is_empty() && *other != value) {
-            Some((other, ..)) => Err(cursor.not(*other, "nothing else than what an earlier line says")),
+        match self
+            .entries
+            .iter()
+            .find(|(_, name, other)| *name == key && !other.is_empty() && *other != value)
+        {
+            Some((other, ..)) => {
+                Err(cursor.not(*other, "nothing else than what an earlier line says"))
+            }
             None => Ok((line, value)),
         }
     }
 
     fn check_quantity(&self, file: &str) -> Result<(), RecordError> {
-        let words = self.value("DATA_TYPE").map_or(String::new(), |(_, words)| words.to_ascii_lowercase());
+        let words =
+            self.value("DATA_TYPE").map_or(String::new(), |(_, words)| words.to_ascii_lowercase());
         let quantity = match () {
             () if words.contains("spectrum") => "a spectrum",
             () if words.contains("velocity") => "velocity",

@@ -16,11 +16,17 @@ pub enum RecordError {
         "{file}: larger than {limit_mb} MB; a record is text of a few MB at most: check that this is the right file"
     )]
     TooLarge { file: String, limit_mb: u64 },
-    #[error("{file}: not a text file (byte {byte} is 0x{value:02x}); export the record as plain UTF-8 text")]
+    #[error(
+        "{file}: not a text file (byte {byte} is 0x{value:02x}); export the record as plain UTF-8 text"
+    )]
     Binary { file: String, byte: usize, value: u8 },
-    #[error("{file}: holds no samples; give an accelerogram: PEER AT2, GeoNet, COSMOS, CSMIP, K-NET, ESM, or columns")]
+    #[error(
+        "{file}: holds no samples; give an accelerogram: PEER AT2, GeoNet, COSMOS, CSMIP, K-NET, ESM, or columns"
+    )]
     Empty { file: String },
-    #[error("{file}, line {line}: '{text}' is not a number; correct it, or start a comment line with #")]
+    #[error(
+        "{file}, line {line}: '{text}' is not a number; correct it, or start a comment line with #"
+    )]
     NotANumber { file: String, line: usize, text: String },
     #[error("{file}, line {line}: '{text}' is not a finite number; repair or cut the record there")]
     NotFinite { file: String, line: usize, text: String },
@@ -30,7 +36,9 @@ pub enum RecordError {
         "{file}, line {line}: {found} columns; choose the acceleration with --column, a number or a name ({columns}; in a case file column in [record]); bare values are read row by row with --dt and --units"
     )]
     TooManyColumns { file: String, line: usize, found: usize, columns: String },
-    #[error("{file}: this is a case file, not a ground motion; run it as `tune run {file}`, or name a record here")]
+    #[error(
+        "{file}: this is a case file, not a ground motion; run it as `tune run {file}`, or name a record here"
+    )]
     IsCase { file: String },
     #[error(
         "{file}, line {line}: {found} columns where the lines before have {expected}; the line is cut or merged: repair it"
@@ -44,13 +52,17 @@ pub enum RecordError {
         "{file}: no line with NPTS and DT near the top; an AT2 file says 'NPTS= 4000, DT= .01000 SEC' on its fourth line"
     )]
     NoHeader { file: String },
-    #[error("{file}, line {line}: cannot read NPTS and DT from '{text}'; write 'NPTS= 4000, DT= .01000 SEC'")]
+    #[error(
+        "{file}, line {line}: cannot read NPTS and DT from '{text}'; write 'NPTS= 4000, DT= .01000 SEC'"
+    )]
     BadHeader { file: String, line: usize, text: String },
     #[error(
         "{file}, line {line}: the file ends after {found} samples but its header (line {header_line}) says NPTS {npts}; the file is cut or damaged: fetch it again or correct NPTS"
     )]
     Count { file: String, line: usize, found: usize, header_line: usize, npts: u64 },
-    #[error("{file}: the file's time step is {file_dt:?} s but --dt is {given:?} s; drop --dt or correct one of them")]
+    #[error(
+        "{file}: the file's time step is {file_dt:?} s but --dt is {given:?} s; drop --dt or correct one of them"
+    )]
     StepDiffers { file: String, file_dt: f64, given: f64 },
     #[error(
         "{file}: the file says its unit is {file_units} but --units is {given}; drop --units or correct one of them"
@@ -67,10 +79,18 @@ pub enum RecordError {
     #[error(
         "{vertical}: the vertical component has {samples} samples of {dt:?} s, the record {record_samples} of {record_dt:?} s; resample or cut it to the record's times"
     )]
-    VerticalDiffers { vertical: String, samples: usize, dt: f64, record_samples: usize, record_dt: f64 },
+    VerticalDiffers {
+        vertical: String,
+        samples: usize,
+        dt: f64,
+        record_samples: usize,
+        record_dt: f64,
+    },
     #[error("{record}: the time step is {dt:?} s; it must be between 1e-6 and 1 s")]
     BadStep { record: String, dt: f64 },
-    #[error("{record}: sample {index} (counted from 0) is {value:?}; every sample must be a finite number")]
+    #[error(
+        "{record}: sample {index} (counted from 0) is {value:?}; every sample must be a finite number"
+    )]
     BadSample { record: String, index: usize, value: f64 },
     #[error(
         "{record}: the peak is {shown:.4} g, above 50 g; the unit or the scale is probably wrong: numbers in cm/s2 need --units cm/s2, in m/s2 --units m/s2",
@@ -84,8 +104,17 @@ pub enum RecordError {
     #[error(
         "{file}, line {line}: the {what} end after {found} values where line {header_line} announces {said}; the file is cut or damaged: fetch it again"
     )]
-    Short { file: String, line: usize, what: &'static str, found: usize, said: u64, header_line: usize },
-    #[error("{file}, line {line}: an uncorrected CSMIP file (.V1); fetch the corrected one (.V2) of the same record")]
+    Short {
+        file: String,
+        line: usize,
+        what: &'static str,
+        found: usize,
+        said: u64,
+        header_line: usize,
+    },
+    #[error(
+        "{file}, line {line}: an uncorrected CSMIP file (.V1); fetch the corrected one (.V2) of the same record"
+    )]
     Uncorrected { file: String, line: usize },
     #[error(
         "{file}, line {line}: {found} numbers where {expected} are expected; the line is cut or merged: fetch the file again"

@@ -56,9 +56,12 @@ impl Excitation {
     /// The vertical component that the record's file has and that is not used; `None` if there is
     /// none, or if it is used.
     pub fn vertical_left_out(&self) -> Option<VerticalLeftOut> {
-        let Source::File { vertical_left_out_g: Some(peak_g), .. } = self.record.source else { return None };
+        let Source::File { vertical_left_out_g: Some(peak_g), .. } = self.record.source else {
+            return None;
+        };
         let scale = self.scale.abs();
-        let left_out = VerticalLeftOut { peak_g: scale * peak_g, horizontal_g: scale * self.record.pga_g() };
+        let left_out =
+            VerticalLeftOut { peak_g: scale * peak_g, horizontal_g: scale * self.record.pga_g() };
         self.record.vertical.is_none().then_some(left_out)
     }
 
@@ -69,7 +72,9 @@ impl Excitation {
     /// The file cannot be read any more, or has several vertical components.
     pub fn with_vertical_left_out(&self) -> Option<Result<Self, RecordError>> {
         self.vertical_left_out()?;
-        let Source::File { path, units, component, baseline, .. } = &self.record.source else { return None };
+        let Source::File { path, units, component, baseline, .. } = &self.record.source else {
+            return None;
+        };
         let options = ReadOptions {
             dt: Some(self.record.dt),
             units: Some(*units),
@@ -89,7 +94,9 @@ impl Excitation {
                 format!("{}, in {units}", printable(&path.display().to_string()))
             }
             crate::Source::Embedded => "embedded".into(),
-            crate::Source::Numbers | crate::Source::Synthetic | crate::Source::Earthquake => "from no file".into(),
+            crate::Source::Numbers | crate::Source::Synthetic | crate::Source::Earthquake => {
+                "from no file".into()
+            }
         };
         let part = if used.len() < whole.len() {
             format!("first {} s of {} s", seconds(used.duration()), seconds(whole.duration()))
@@ -141,10 +148,23 @@ mod tests {
             all.line(),
             "record ramp (from no file), scale 1, all 4 s: 41 samples of 0.1 s, PGA 0.2039 g at 4 s"
         );
-        let el_centro = Excitation { duration_s: Some(1.5), scale: 2.0, ..Excitation::whole(Record::el_centro()) };
+        let el_centro = Excitation {
+            duration_s: Some(1.5),
+            scale: 2.0,
+            ..Excitation::whole(Record::el_centro())
+        };
         let line = el_centro.line();
-        assert!(line.starts_with("record IELC180 (embedded), scale 2, first 1.5 s of 39.94 s: 151 samples"), "{line}");
+        assert!(
+            line.starts_with(
+                "record IELC180 (embedded), scale 2, first 1.5 s of 39.94 s: 151 samples"
+            ),
+            "{line}"
+        );
         let pga = el_centro.used().unwrap().pga_g();
-        assert!(line.contains(&format!("PGA {pga:.4} g at ")) && pga < 2.0 * Record::el_centro().pga_g(), "{line}");
+        assert!(
+            line.contains(&format!("PGA {pga:.4} g at "))
+                && pga < 2.0 * Record::el_centro().pga_g(),
+            "{line}"
+        );
     }
 }

@@ -79,7 +79,12 @@ impl RecordFormat {
     }
 
     /// What a file of this format holds.
-    pub(super) fn parse(self, file: &str, text: &str, options: &ReadOptions) -> Result<Parsed, RecordError> {
+    pub(super) fn parse(
+        self,
+        file: &str,
+        text: &str,
+        options: &ReadOptions,
+    ) -> Result<Parsed, RecordError> {
         match self {
             Self::Peer => at2::parse(file, text),
             Self::GeoNet => geonet::parse(file, text),

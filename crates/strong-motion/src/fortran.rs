@@ -20,7 +20,8 @@ impl FortranFormat {
         let per_line = if letter == 0 { 1 } else { inside[..letter].trim().parse().ok()? };
         let width = &inside[letter + 1..];
         let width: usize = width[..width.find(|c: char| !c.is_ascii_digit())?].parse().ok()?;
-        ((1..=1000).contains(&per_line) && (1..=100).contains(&width)).then_some(Self { per_line, width })
+        ((1..=1000).contains(&per_line) && (1..=100).contains(&width))
+            .then_some(Self { per_line, width })
     }
 
     /// The fields of a line that should hold `expected`: between blanks if that many numbers come
@@ -31,10 +32,14 @@ impl FortranFormat {
             return apart;
         }
         let columns: Option<Vec<&str>> = (0..line.len().div_ceil(self.width))
-            .map(|i| line.get(i * self.width..((i + 1) * self.width).min(line.len())).map(str::trim))
+            .map(|i| {
+                line.get(i * self.width..((i + 1) * self.width).min(line.len())).map(str::trim)
+            })
             .collect();
         columns
-            .filter(|fields| fields.len() == expected && fields.iter().all(|field| number(field).is_some()))
+            .filter(|fields| {
+                fields.len() == expected && fields.iter().all(|field| number(field).is_some())
+            })
             .unwrap_or(apart)
     }
 }
@@ -110,7 +115,11 @@ impl<'a> Cursor<'a> {
     }
 
     /// The next lines, all of which should be `wanted`.
-    pub(super) fn take(&mut self, count: usize, wanted: &'static str) -> Result<Vec<&'a str>, RecordError> {
+    pub(super) fn take(
+        &mut self,
+        count: usize,
+        wanted: &'static str,
+    ) -> Result<Vec<&'a str>, RecordError> {
         let from = self.at;
         let to = from.saturating_add(count);
         if to > self.lines.len() {
@@ -123,8 +132,11 @@ impl<'a> Cursor<'a> {
     /// Something else stands on a line (from 1) where `wanted` should be.
     pub(super) fn not(&self, line: usize, wanted: &'static str) -> RecordError {
         let found = self.lines.get(line.saturating_sub(1)).map_or("", |line| line.trim());
-        let found =
-            if found.is_empty() { "an empty line or the end".to_owned() } else { format!("'{}'", quote(found)) };
+        let found = if found.is_empty() {
+            "an empty line or the end".to_owned()
+        } else {
+            format!("'{}'", quote(found))
+        };
         RecordError::Layout { file: self.file.to_owned(), line, format: self.format, wanted, found }
     }
 
@@ -161,11 +173,16 @@ impl<'a> Cursor<'a> {
     }
 
     /// The next line of a block, its number and how many numbers it should hold.
-    fn next_row(&mut self, promise: Promise, found: usize) -> Result<(usize, &'a str, usize), RecordError> {
+    fn next_row(
+        &mut self,
+        promise: Promise,
+        found: usize,
+    ) -> Result<(usize, &'a str, usize), RecordError> {
         let line = self.number();
         let text = self.peek().unwrap_or("");
         // a block is over where a word or nothing stands; NaN is a number gone wrong
-        let word = text.trim_start().starts_with(|c: char| c.is_ascii_alphabetic() || "/|".contains(c));
+        let word =
+            text.trim_start().starts_with(|c: char| c.is_ascii_alphabetic() || "/|".contains(c));
         let first_number = text.split_whitespace().next().and_then(number);
         if text.trim().is_empty() || word && first_number.is_none() {
             let (file, line) = (self.file.to_owned(), line.min(self.lines.len()));
@@ -193,8 +210,14 @@ mod tests {
     fn formats_are_read_from_the_lines_that_announce_them() {
         let layout = |per_line, width| Some(FortranFormat { per_line, width });
         for (line, expected) in [
-            (" 15050 points of accel data equally spaced at  .020 sec, in cm/sec2. (8f10.6)", layout(8, 10)),
-            ("   42000 acceleration pts, approx  210 secs, units=cm/sec2(04),Format=(1E15.6)", layout(1, 15)),
+            (
+                " 15050 points of accel data equally spaced at  .020 sec, in cm/sec2. (8f10.6)",
+                layout(8, 10),
+            ),
+            (
+                "   42000 acceleration pts, approx  210 secs, units=cm/sec2(04),Format=(1E15.6)",
+                layout(1, 15),
+            ),
             (" 100 Integer-header values follow on  10 lines, Format= (10I8)", layout(10, 8)),
             ("Format=(1P5E14.6)", layout(5, 14)),
             ("(E15.6)", layout(1, 15)),
@@ -210,9 +233,15 @@ mod tests {
     #[test]
     fn touching_fields_are_cut_by_columns_and_loose_ones_by_blanks() {
         let layout = FortranFormat { per_line: 3, width: 8 };
-        assert_eq!(layout.fields(" -5505.9-11026.4 -6529.3", 3), ["-5505.9", "-11026.4", "-6529.3"]);
+        assert_eq!(
+            layout.fields(" -5505.9-11026.4 -6529.3", 3),
+            ["-5505.9", "-11026.4", "-6529.3"]
+        );
         assert_eq!(layout.fields("1 2\t3", 3), ["1", "2", "3"]);
-        assert_eq!(layout.fields("12345678123456781234.678", 3), ["12345678", "12345678", "1234.678"]);
+        assert_eq!(
+            layout.fields("12345678123456781234.678", 3),
+            ["12345678", "12345678", "1234.678"]
+        );
         // neither: what blanks part is reported
         assert_eq!(layout.fields("1 2", 3), ["1", "2"]);
     }
@@ -231,7 +260,10 @@ mod tests {
         };
         assert_eq!(block("  1.  2.  3.\n  4.  5.\nEND"), Ok((vec![1.0, 2.0, 3.0, 4.0, 5.0], 3)));
         for (text, words) in [
-            ("  1.  2.  3.\n", "line 2: the acceleration samples end after 3 values where line 1 announces 5"),
+            (
+                "  1.  2.  3.\n",
+                "line 2: the acceleration samples end after 3 values where line 1 announces 5",
+            ),
             ("  1.  2.  3.\nEND", "line 2: the acceleration samples end after 3"),
             ("  1.  2.  3.\n  4.", "line 2: 1 numbers where 2"),
             ("  1.  2.  3.  4.\n", "line 1: 4 numbers where 3"),

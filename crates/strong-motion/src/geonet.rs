@@ -26,13 +26,17 @@ const SERIES: [(&str, &str, &str); 3] = [
 
 /// Whether the first lines are those of a GeoNet file.
 pub(super) fn is_it(head: &[&str]) -> bool {
-    let first = head.iter().find(|line| !line.is_empty()).map_or(String::new(), |line| line.to_ascii_lowercase());
+    let first = head
+        .iter()
+        .find(|line| !line.is_empty())
+        .map_or(String::new(), |line| line.to_ascii_lowercase());
     first.contains("corrected accelerogram")
         && (first.contains("gns science")
-            || head
-                .iter()
-                .take(TEXT_LINES + 1)
-                .any(|line| line.starts_with("Component ") || line.starts_with("Site ") || line.contains("mm/s/s")))
+            || head.iter().take(TEXT_LINES + 1).any(|line| {
+                line.starts_with("Component ")
+                    || line.starts_with("Site ")
+                    || line.contains("mm/s/s")
+            }))
 }
 
 /// All components.
@@ -62,9 +66,14 @@ struct GeonetHeader<'a> {
 impl<'a> GeonetHeader<'a> {
     fn read(cursor: &mut Cursor<'a>) -> Result<Self, RecordError> {
         let line = cursor.number();
-        let text = cursor.take(TEXT_LINES, "16 lines of text, from 'Corrected accelerogram' to 'Displacement:',")?;
+        let text = cursor.take(
+            TEXT_LINES,
+            "16 lines of text, from 'Corrected accelerogram' to 'Displacement:',",
+        )?;
         if !text[0].to_ascii_lowercase().contains("corrected accelerogram") {
-            return Err(cursor.not(line, "'Corrected accelerogram', the first line of a component,"));
+            return Err(
+                cursor.not(line, "'Corrected accelerogram', the first line of a component,")
+            );
         }
         let unit = text.iter().position(|line| line.contains("mm/s/s"));
         if unit.is_none() {
@@ -72,23 +81,29 @@ impl<'a> GeonetHeader<'a> {
         }
         let integers_line = cursor.number();
         let promise = |what, count, line| Promise { what, count, layout: NUMBERS, line };
-        let integers =
-            cursor.header(Promise { layout: INTEGERS, ..promise("integers of the header", 40, integers_line) })?;
+        let integers = cursor.header(Promise {
+            layout: INTEGERS,
+            ..promise("integers of the header", 40, integers_line)
+        })?;
         let numbers_line = cursor.number();
         let numbers = cursor.header(promise("numbers of the header", 60, numbers_line))?;
 
         let counts_line = integers_line + 3;
         let count = |i: usize| integers[i].parse::<u64>().ok();
         let counts = match (count(33), count(34), count(35)) {
-            (Some(acceleration @ 1..), Some(velocity), Some(displacement)) => [acceleration, velocity, displacement],
+            (Some(acceleration @ 1..), Some(velocity), Some(displacement)) => {
+                [acceleration, velocity, displacement]
+            }
             _ => return Err(cursor.not(counts_line, "the counts of samples, integers 34 to 36,")),
         };
         let dt = number(numbers[25]).filter(|dt| dt.is_finite() && *dt > 0.0);
         let dt = dt.ok_or_else(|| cursor.not(numbers_line + 2, "the time step, number 26,"))?;
         let prepended = number(numbers[21]).filter(|s| (0.0..=1e4).contains(s));
-        let prepended = prepended.ok_or_else(|| cursor.not(numbers_line + 2, "the seconds prepended, number 22,"))?;
+        let prepended = prepended
+            .ok_or_else(|| cursor.not(numbers_line + 2, "the seconds prepended, number 22,"))?;
         let clock = Clock { start: -prepended, dt };
-        let header = Self { text, line, counts, counts_line, clock, dt_rounding: half_digit(numbers[25]) };
+        let header =
+            Self { text, line, counts, counts_line, clock, dt_rounding: half_digit(numbers[25]) };
         header.agrees_with_its_text(cursor)?;
         Ok(header)
     }
@@ -102,11 +117,16 @@ impl<'a> GeonetHeader<'a> {
                 rest.split_whitespace().next().and_then(number)
             };
             if after("number of points").is_some_and(|n| n != self.counts[0] as f64) {
-                return Err(cursor.not(self.line + i, "the number of samples that integer 34 of the header gives"));
+                return Err(cursor.not(
+                    self.line + i,
+                    "the number of samples that integer 34 of the header gives",
+                ));
             }
             let step = after("data at").or_else(|| after("intervals of"));
             if step.is_some_and(|dt| (dt - self.clock.dt).abs() > 5e-4 + self.dt_rounding) {
-                return Err(cursor.not(self.line + i, "the time step that number 26 of the header gives"));
+                return Err(
+                    cursor.not(self.line + i, "the time step that number 26 of the header gives")
+                );
             }
         }
         Ok(())
@@ -119,7 +139,8 @@ impl<'a> GeonetHeader<'a> {
     }
 
     fn channel(&self, cursor: &mut Cursor<'a>) -> Result<Channel, RecordError> {
-        let component = self.text.iter().find_map(|line| line.strip_prefix("Component")).map_or("", str::trim);
+        let component =
+            self.text.iter().find_map(|line| line.strip_prefix("Component")).map_or("", str::trim);
         let (acceleration, pga) = self.series(cursor, 0)?;
         let (_, pgv) = self.series(cursor, 1)?;
         self.series(cursor, 2)?;
@@ -140,9 +161,18 @@ impl<'a> GeonetHeader<'a> {
     }
 
     /// One series, with the peak that the text gives.
-    fn series(&self, cursor: &mut Cursor<'a>, i: usize) -> Result<(Block<'a>, Option<Peak>), RecordError> {
+    fn series(
+        &self,
+        cursor: &mut Cursor<'a>,
+        i: usize,
+    ) -> Result<(Block<'a>, Option<Peak>), RecordError> {
         let (what, of, name) = SERIES[i];
-        let block = cursor.block(Promise { what, count: self.counts[i], layout: NUMBERS, line: self.counts_line })?;
+        let block = cursor.block(Promise {
+            what,
+            count: self.counts[i],
+            layout: NUMBERS,
+            line: self.counts_line,
+        })?;
         let line = self.text.iter().position(|line| line.starts_with(name));
         let stated = line.and_then(|at| Stated::find(self.line + at, of, self.text[at], "peak"));
         match stated {
@@ -150,7 +180,9 @@ impl<'a> GeonetHeader<'a> {
                 let peak = stated.check(cursor.file, self.clock, &block)?;
                 Ok((block, Some(peak)))
             }
-            None if i == 0 => Err(cursor.not(self.line + 13, "'Acceleration: peak' with its value and time")),
+            None if i == 0 => {
+                Err(cursor.not(self.line + 13, "'Acceleration: peak' with its value and time"))
+            }
             _ => Ok((block, None)),
         }
     }

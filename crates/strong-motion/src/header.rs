@@ -24,15 +24,22 @@ fn by_names(names: &[&str]) -> Option<&'static str> {
     let (first, last) = (names.first()?, names.last()?);
     if units::declared(&[], Some(last)).is_some() {
         // PSA [g] over a period is in the unit of an acceleration
-        return (names.len() > 1 && is_abscissa_of_spectrum(first) || is_ordinate(last)).then_some(SPECTRUM);
+        return (names.len() > 1 && is_abscissa_of_spectrum(first) || is_ordinate(last))
+            .then_some(SPECTRUM);
     }
     let word = first_word(last);
     match () {
-        () if names.len() > 1 && is_abscissa_of_spectrum(first) || is_ordinate(last) => Some(SPECTRUM),
+        () if names.len() > 1 && is_abscissa_of_spectrum(first) || is_ordinate(last) => {
+            Some(SPECTRUM)
+        }
         () if word.starts_with("count") => Some(COUNTS),
         () if word.starts_with("acc") => None,
-        () if word.starts_with("vel") || word == "v" || has_unit(last, &VELOCITY_UNITS) => Some(VELOCITY),
-        () if word.starts_with("dis") || in_brackets(last, &["m", "cm", "mm", "in"]) => Some(DISPLACEMENT),
+        () if word.starts_with("vel") || word == "v" || has_unit(last, &VELOCITY_UNITS) => {
+            Some(VELOCITY)
+        }
+        () if word.starts_with("dis") || in_brackets(last, &["m", "cm", "mm", "in"]) => {
+            Some(DISPLACEMENT)
+        }
         () => None,
     }
 }
@@ -53,11 +60,15 @@ pub(super) fn is_time(name: &str) -> bool {
 
 fn is_abscissa_of_spectrum(name: &str) -> bool {
     let word = first_word(name);
-    word.starts_with("period") || word.starts_with("freq") || word == "f" || name.to_ascii_lowercase().contains("hz")
+    word.starts_with("period")
+        || word.starts_with("freq")
+        || word == "f"
+        || name.to_ascii_lowercase().contains("hz")
 }
 
 fn is_ordinate(name: &str) -> bool {
-    ["sa", "psa", "sv", "psv", "sd", "spectral", "fas", "fourier"].contains(&first_word(name).as_str())
+    ["sa", "psa", "sv", "psv", "sd", "spectral", "fas", "fourier"]
+        .contains(&first_word(name).as_str())
 }
 
 const VELOCITY_UNITS: [&str; 6] = ["m/s", "cm/s", "mm/s", "in/s", "ft/s", "km/h"];
@@ -69,30 +80,38 @@ fn has_unit(text: &str, names: &[&str]) -> bool {
 }
 
 fn in_brackets(name: &str, names: &[&str]) -> bool {
-    let inside = name.split_once(['[', '(']).and_then(|(_, rest)| rest.split_once([']', ')'])).map(|(unit, _)| unit);
+    let inside = name
+        .split_once(['[', '('])
+        .and_then(|(_, rest)| rest.split_once([']', ')']))
+        .map(|(unit, _)| unit);
     inside.is_some_and(|unit| names.contains(&unit.trim().to_ascii_lowercase().as_str()))
 }
 
 fn by_words(header: &[(usize, &str)]) -> Option<&'static str> {
     let lower: Vec<String> = header.iter().map(|(_, line)| line.to_ascii_lowercase()).collect();
-    let any = |words: &[&str]| lower.iter().any(|line| words.iter().any(|word| line.contains(word)));
+    let any =
+        |words: &[&str]| lower.iter().any(|line| words.iter().any(|word| line.contains(word)));
     if any(&["response spectrum", "spectral accel", "fourier spectrum", "fourier ampl"])
         && !any(&["match", "compatible", "accelerogram", "time history", "time series"])
     {
         return Some(SPECTRUM);
     }
-    let about = |line: &&String| ["unit", "series", "history"].iter().any(|word| line.contains(word));
+    let about =
+        |line: &&String| ["unit", "series", "history"].iter().any(|word| line.contains(word));
     let about: Vec<&String> = lower.iter().filter(about).collect();
     let said = [VELOCITY, DISPLACEMENT].into_iter().find(|word| {
         let only = lower.iter().any(|line| line.contains(word)) && !any(&["acc"]);
-        only || about.iter().any(|line| line.contains(word)) && !about.iter().any(|line| line.contains("acc"))
+        only || about.iter().any(|line| line.contains(word))
+            && !about.iter().any(|line| line.contains("acc"))
     });
     // "units: cm/s" and no word of what it is the unit of
     let unit_lines = || lower.iter().filter(|line| line.contains("unit"));
-    said.or_else(|| unit_lines().any(|line| has_unit(line, &VELOCITY_UNITS)).then_some(VELOCITY)).or_else(|| {
-        let counts = unit_lines().any(|line| line.contains("count")) && units::declared(header, None).is_none();
-        counts.then_some(COUNTS)
-    })
+    said.or_else(|| unit_lines().any(|line| has_unit(line, &VELOCITY_UNITS)).then_some(VELOCITY))
+        .or_else(|| {
+            let counts = unit_lines().any(|line| line.contains("count"))
+                && units::declared(header, None).is_none();
+            counts.then_some(COUNTS)
+        })
 }
 
 /// The time step in a header line such as `# dt = 0.01 s`, `SAMPLING_INTERVAL_S: 0.005`, and half
@@ -103,13 +122,19 @@ pub(super) fn step_in(line: &str) -> Option<(f64, f64)> {
         !lower[..at].ends_with(|c: char| c.is_alphanumeric())
             && !lower[at + name.len()..].starts_with(|c: char| c.is_alphanumeric())
     };
-    let after = ["dt", "delta_t", "sampling_interval_s", "sampling interval", "time step", "timestep"]
-        .into_iter()
-        .find_map(|name| {
-            lower.match_indices(name).find(|&(at, _)| is_word(at, name)).map(|(at, _)| &lower[at + name.len()..])
-        })?;
+    let after =
+        ["dt", "delta_t", "sampling_interval_s", "sampling interval", "time step", "timestep"]
+            .into_iter()
+            .find_map(|name| {
+                lower
+                    .match_indices(name)
+                    .find(|&(at, _)| is_word(at, name))
+                    .map(|(at, _)| &lower[at + name.len()..])
+            })?;
     let token = after
-        .split(|c: char| c.is_whitespace() || matches!(c, '=' | ':' | ',' | ';' | '(' | ')' | '[' | ']'))
+        .split(|c: char| {
+            c.is_whitespace() || matches!(c, '=' | ':' | ',' | ';' | '(' | ')' | '[' | ']')
+        })
         .map(|token| token.trim_end_matches("sec").trim_end_matches('s'))
         .find(|token| !token.is_empty())?;
     let dt = number(token).filter(|dt| dt.is_finite() && *dt > 0.0)?;

@@ -19,7 +19,8 @@ use super::text::{number, quote};
 use super::{Direction, RecordError, RecordFormat, Units};
 
 /// Words that lines of the header begin with.
-const KEYS: [&str; 6] = ["Sampling Freq", "Scale Factor", "Max. Acc.", "Max Acc.", "Station Code", "Last Correction"];
+const KEYS: [&str; 6] =
+    ["Sampling Freq", "Scale Factor", "Max. Acc.", "Max Acc.", "Station Code", "Last Correction"];
 /// Numbers to a line.
 const PER_LINE: usize = 8;
 /// How far down the header may reach.
@@ -45,14 +46,20 @@ pub(super) fn parse(file: &str, text: &str) -> Result<Parsed, RecordError> {
     let values: Vec<f64> = counts.iter().map(|count| (count - offset) * scale).collect();
     let pga = match header.value("Max. Acc.").or_else(|| header.value("Max Acc.")) {
         Some((line, printed)) if number(printed).is_some() => {
-            let stated = Stated { line, of: "acceleration", value: printed, time: None, signed: false };
+            let stated =
+                Stated { line, of: "acceleration", value: printed, time: None, signed: false };
             Some(stated.check_values(file, Clock::from_first(dt), &values, |_| 0.0)?)
         }
         _ => return Err(cursor.not(header.end, "'Max. Acc. (gal)' above it")),
     };
     let (name, direction) = header.component();
     let station = header.value("Station Code").map(|(_, code)| code.to_owned());
-    let samples = Samples { units: Some(Units::CentimetrePerSecond2), dt: Some(dt), values, ..Samples::default() };
+    let samples = Samples {
+        units: Some(Units::CentimetrePerSecond2),
+        dt: Some(dt),
+        values,
+        ..Samples::default()
+    };
     let channel = Channel { name, direction, samples, pga, pgv: None };
     Ok(Parsed { station, channels: vec![channel], ..Parsed::default() })
 }
@@ -96,23 +103,31 @@ impl<'a> KnetHeader<'a> {
     /// A positive number at the head of a value.
     fn number(&self, key: &str, wanted: &'static str, cursor: &Cursor) -> Result<f64, RecordError> {
         let (line, value) = self.value(key).ok_or_else(|| cursor.not(self.end, wanted))?;
-        positive(value.trim_end_matches(|c: char| c.is_ascii_alphabetic())).ok_or_else(|| cursor.not(line, wanted))
+        positive(value.trim_end_matches(|c: char| c.is_ascii_alphabetic()))
+            .ok_or_else(|| cursor.not(line, wanted))
     }
 
     /// `3920(gal)/6182761` in gal a count.
     fn scale(&self, cursor: &Cursor) -> Result<f64, RecordError> {
         let wanted = "'Scale Factor' as in 3920(gal)/6182761";
-        let (line, value) = self.value("Scale Factor").ok_or_else(|| cursor.not(self.end, wanted))?;
-        let parts = value
-            .split_once("(gal)")
-            .and_then(|(gal, counts)| Some(positive(gal)? / positive(counts.trim().strip_prefix('/')?)?));
+        let (line, value) =
+            self.value("Scale Factor").ok_or_else(|| cursor.not(self.end, wanted))?;
+        let parts = value.split_once("(gal)").and_then(|(gal, counts)| {
+            Some(positive(gal)? / positive(counts.trim().strip_prefix('/')?)?)
+        });
         parts.filter(|scale| scale.is_finite()).ok_or_else(|| cursor.not(line, wanted))
     }
 
     /// As many numbers as the duration in whole seconds asks for.
-    fn check_duration(&self, cursor: &Cursor, found: usize, frequency: f64) -> Result<(), RecordError> {
+    fn check_duration(
+        &self,
+        cursor: &Cursor,
+        found: usize,
+        frequency: f64,
+    ) -> Result<(), RecordError> {
         let Some((line, value)) = self.value("Duration Time") else { return Ok(()) };
-        let seconds = positive(value).ok_or_else(|| cursor.not(line, "'Duration Time(s)' and a number"))?;
+        let seconds =
+            positive(value).ok_or_else(|| cursor.not(line, "'Duration Time(s)' and a number"))?;
         let said = seconds * frequency;
         // whole seconds: there may be samples of one more, never fewer
         if (-0.5..frequency).contains(&(found as f64 - said)) {
@@ -120,7 +135,14 @@ impl<'a> KnetHeader<'a> {
         }
         let (file, what) = (cursor.file.to_owned(), "samples");
         let end = cursor.number().saturating_sub(1);
-        Err(RecordError::Short { file, line: end, what, found, said: said as u64, header_line: line })
+        Err(RecordError::Short {
+            file,
+            line: end,
+            what,
+            found,
+            said: said as u64,
+            header_line: line,
+        })
     }
 
     /// `N-S`, or KiK-net's number of the channel: 1 to 3 in the borehole, 4 to 6 at the surface.
@@ -160,7 +182,12 @@ fn counts(cursor: &mut Cursor) -> Result<Vec<f64>, RecordError> {
             return Err(RecordError::Fields { file, line, found, expected: PER_LINE });
         }
         if fields.len() > PER_LINE {
-            return Err(RecordError::Fields { file, line, found: fields.len(), expected: PER_LINE });
+            return Err(RecordError::Fields {
+                file,
+                line,
+                found: fields.len(),
+                expected: PER_LINE,
+            });
         }
         short = (fields.len() < PER_LINE).then_some((line, fields.len()));
         for field in fields {

@@ -86,7 +86,8 @@ pub struct Record {
 
 impl PartialEq for Record {
     fn eq(&self, other: &Self) -> bool {
-        (&self.name, self.dt, &self.accel, &self.vertical) == (&other.name, other.dt, &other.accel, &other.vertical)
+        (&self.name, self.dt, &self.accel, &self.vertical)
+            == (&other.name, other.dt, &other.accel, &other.vertical)
     }
 }
 
@@ -121,7 +122,11 @@ impl Record {
             return Err(RecordError::Empty { file: name() });
         }
         if let Some(index) = record.accel.iter().position(|a| !a.is_finite()) {
-            return Err(RecordError::BadSample { record: name(), index, value: record.accel[index] });
+            return Err(RecordError::BadSample {
+                record: name(),
+                index,
+                value: record.accel[index],
+            });
         }
         let pga_g = record.pga_g();
         if pga_g > PGA_LIMIT_G {
@@ -163,9 +168,11 @@ impl Record {
     /// # Errors
     /// The factor is not finite, or takes the peak above 50 g.
     pub fn scaled(&self, factor: f64) -> Result<Self, RecordError> {
-        let scaled = Self::new(self.name.clone(), self.dt, self.accel.iter().map(|a| a * factor).collect())?;
+        let scaled =
+            Self::new(self.name.clone(), self.dt, self.accel.iter().map(|a| a * factor).collect())?;
         let vertical = self.vertical.as_ref().map(|up| {
-            let scaled = Self::new(up.name.clone(), self.dt, up.accel.iter().map(|a| a * factor).collect())?;
+            let scaled =
+                Self::new(up.name.clone(), self.dt, up.accel.iter().map(|a| a * factor).collect())?;
             Ok::<_, RecordError>(Vertical { accel: scaled.accel.into(), ..up.clone() })
         });
         Ok(Self { source: self.source.clone(), vertical: vertical.transpose()?, ..scaled })
@@ -179,8 +186,10 @@ impl Record {
         let samples = (steps as usize).saturating_add(1).min(self.accel.len());
         let (name, source) = (self.name.clone(), self.source.clone());
         let vertical = self.vertical.as_ref();
-        let vertical =
-            vertical.map(|up| Vertical { accel: up.accel[..samples.min(up.accel.len())].into(), ..up.clone() });
+        let vertical = vertical.map(|up| Vertical {
+            accel: up.accel[..samples.min(up.accel.len())].into(),
+            ..up.clone()
+        });
         Self { name, dt: self.dt, accel: self.accel[..samples].to_vec(), vertical, source }
     }
 
@@ -234,14 +243,20 @@ fn bytes(path: &Path) -> Result<Vec<u8>, RecordError> {
     if path.is_dir() {
         return Err(RecordError::Folder { file });
     }
-    let unreadable =
-        |error: std::io::Error| RecordError::Unreadable { file: file.clone(), reason: text::quote(&error.to_string()) };
+    let unreadable = |error: std::io::Error| RecordError::Unreadable {
+        file: file.clone(),
+        reason: text::quote(&error.to_string()),
+    };
     let bytes = files::input::bytes(path, FILE_LIMIT).map_err(unreadable)?;
     bytes.ok_or(RecordError::TooLarge { file, limit_mb: FILE_LIMIT >> 20 })
 }
 
 fn check_step(record: &str, dt: f64) -> Result<(), RecordError> {
-    if (1e-6..=1.0).contains(&dt) { Ok(()) } else { Err(RecordError::BadStep { record: text::quote(record), dt }) }
+    if (1e-6..=1.0).contains(&dt) {
+        Ok(())
+    } else {
+        Err(RecordError::BadStep { record: text::quote(record), dt })
+    }
 }
 
 /// A path for messages of one line.

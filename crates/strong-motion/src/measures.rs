@@ -59,7 +59,11 @@ impl Record {
             arias_m_per_s: arias,
             duration_5_95_s: duration,
             offset: parsed::mean(&self.accel),
-            pulse_period_s: if pga.value == 0.0 { 0.0 } else { 2.0 * PI * (pgv.value / pga.value).abs() },
+            pulse_period_s: if pga.value == 0.0 {
+                0.0
+            } else {
+                2.0 * PI * (pgv.value / pga.value).abs()
+            },
         }
     }
 

@@ -60,10 +60,18 @@ impl fmt::Display for Notice {
                 share * 100.0
             ),
             Self::Strong { file, component, pga_g } => {
-                write!(f, "{file}: {} has a peak of {pga_g:.3} g, above 5 g; check the unit", who(component))
+                write!(
+                    f,
+                    "{file}: {} has a peak of {pga_g:.3} g, above 5 g; check the unit",
+                    who(component)
+                )
             }
             Self::Weak { file, component, pga_g } => {
-                write!(f, "{file}: {} has a peak of {pga_g:.2e} g, below 1e-4 g; check the unit", who(component))
+                write!(
+                    f,
+                    "{file}: {} has a peak of {pga_g:.2e} g, below 1e-4 g; check the unit",
+                    who(component)
+                )
             }
         }
     }

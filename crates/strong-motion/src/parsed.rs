@@ -43,7 +43,8 @@ pub(super) struct Samples {
 impl Parsed {
     /// A file that knows nothing but its samples.
     pub(super) fn bare(samples: Samples) -> Self {
-        let channel = Channel { name: None, direction: Direction::Unknown, samples, pga: None, pgv: None };
+        let channel =
+            Channel { name: None, direction: Direction::Unknown, samples, pga: None, pgv: None };
         Self { channels: vec![channel], ..Self::default() }
     }
 }
@@ -58,7 +59,8 @@ impl Channel {
     ) -> Result<Component, RecordError> {
         let (dt, units) = (self.samples.step(file, options)?, self.samples.unit(file, options)?);
         let factor = units.metres_per_second2();
-        let mut accel: Vec<f64> = self.samples.values.into_iter().map(|value| value * factor).collect();
+        let mut accel: Vec<f64> =
+            self.samples.values.into_iter().map(|value| value * factor).collect();
         let offset = mean(&accel);
         if options.baseline {
             accel.iter_mut().for_each(|a| *a -= offset);
@@ -88,7 +90,9 @@ impl Samples {
             return Err(RecordError::Empty { file: file() });
         }
         match (self.dt, options.dt) {
-            (Some(file_dt), Some(given)) if (file_dt - given).abs() > self.dt_rounding + 1e-9 * file_dt => {
+            (Some(file_dt), Some(given))
+                if (file_dt - given).abs() > self.dt_rounding + 1e-9 * file_dt =>
+            {
                 Err(RecordError::StepDiffers { file: file(), file_dt, given })
             }
             // within the rounding of the file's digits the user's step is the sharper one

@@ -68,8 +68,9 @@ pub(super) struct Stated<'a> {
 impl<'a> Stated<'a> {
     /// From the words of a line: the number after `name`, the number after "at".
     pub(super) fn find(line: usize, of: &'static str, words: &'a str, name: &str) -> Option<Self> {
-        let mut tokens =
-            words.split(|c: char| c.is_whitespace() || c == '=' || c == ',').filter(|token| !token.is_empty());
+        let mut tokens = words
+            .split(|c: char| c.is_whitespace() || c == '=' || c == ',')
+            .filter(|token| !token.is_empty());
         tokens.by_ref().find(|token| token.eq_ignore_ascii_case(name))?;
         let value = tokens.by_ref().find(|token| number(token).is_some())?;
         let time = tokens
@@ -81,7 +82,12 @@ impl<'a> Stated<'a> {
 
     /// The peak, if the samples have it: its value to half of the last digit printed here and
     /// there, its time to one sample.
-    pub(super) fn check(&self, file: &str, clock: Clock, block: &Block) -> Result<Peak, RecordError> {
+    pub(super) fn check(
+        &self,
+        file: &str,
+        clock: Clock,
+        block: &Block,
+    ) -> Result<Peak, RecordError> {
         self.check_values(file, clock, &block.values, |i| block.half_digit(i))
     }
 
@@ -95,13 +101,17 @@ impl<'a> Stated<'a> {
     ) -> Result<Peak, RecordError> {
         let value = number(self.value).unwrap_or(f64::NAN);
         let time = self.time.and_then(number);
-        let tolerance = |i: usize| half_digit(significant(self.value)) + half_digit_of(i) + SINGLE * value.abs();
+        let tolerance = |i: usize| {
+            half_digit(significant(self.value)) + half_digit_of(i) + SINGLE * value.abs()
+        };
         let same_size = |i: usize| (values[i].abs() - value.abs()).abs() <= tolerance(i);
         let same = |i: usize| same_size(i) && (!self.signed || values[i] * value >= 0.0);
         let found = Peak::of(values, dt);
         let largest = (found.time.unwrap_or(0.0) / dt).round() as usize;
         // the peak may be reached more than once; the header names one of these
-        let near = |i: usize| time.is_none_or(|t| (start + i as f64 * dt - t).abs() <= self.time_tolerance(dt));
+        let near = |i: usize| {
+            time.is_none_or(|t| (start + i as f64 * dt - t).abs() <= self.time_tolerance(dt))
+        };
         if value.is_finite()
             && largest < values.len()
             && same_size(largest)
@@ -113,7 +123,8 @@ impl<'a> Stated<'a> {
         let long = |x: f64, digits: usize| {
             if x.abs() < 1e9 { format!("{x:.digits$}") } else { format!("{x:.digits$e}") }
         };
-        let at = |time: Option<f64>| time.map_or(String::new(), |t| format!(" at {} s", long(t, 4)));
+        let at =
+            |time: Option<f64>| time.map_or(String::new(), |t| format!(" at {} s", long(t, 4)));
         Err(RecordError::Peak {
             file: file.to_owned(),
             line: self.line,
@@ -167,9 +178,24 @@ mod tests {
     #[test]
     fn peaks_are_found_in_the_lines_of_headers() {
         for (line, name, value, time) in [
-            ("Acceleration:  peak  -9733.1 mm/s/s at  44.88 sec     rms    719.0 mm/s/s", "peak", "-9733.1", "44.88"),
-            ("Peak acceleration =    82.584    cm/sec/sec  at   14.840   sec.", "acceleration", "82.584", "14.840"),
-            ("Peak displacement =     -.836        cm      at   17.580   sec.", "displacement", "-.836", "17.580"),
+            (
+                "Acceleration:  peak  -9733.1 mm/s/s at  44.88 sec     rms    719.0 mm/s/s",
+                "peak",
+                "-9733.1",
+                "44.88",
+            ),
+            (
+                "Peak acceleration =    82.584    cm/sec/sec  at   14.840   sec.",
+                "acceleration",
+                "82.584",
+                "14.840",
+            ),
+            (
+                "Peak displacement =     -.836        cm      at   17.580   sec.",
+                "displacement",
+                "-.836",
+                "17.580",
+            ),
         ] {
             let stated = Stated::find(1, "acceleration", line, name).unwrap();
             assert_eq!((stated.value, stated.time), (value, Some(time)), "{line}");
@@ -180,20 +206,29 @@ mod tests {
     #[test]
     fn value_time_and_sign_must_be_the_header_s() {
         let values = [0.0, 1.0, -2.04, 2.04, 0.5];
-        let stated = |value, time, signed| Stated { line: 3, of: "acceleration", value, time, signed };
-        assert_eq!(check(&stated("-2.0", Some("0.04"), true), &values), Ok(Peak { value: -2.0, time: Some(0.04) }));
+        let stated =
+            |value, time, signed| Stated { line: 3, of: "acceleration", value, time, signed };
+        assert_eq!(
+            check(&stated("-2.0", Some("0.04"), true), &values),
+            Ok(Peak { value: -2.0, time: Some(0.04) })
+        );
         assert!(check(&stated("2.0", Some("0.06"), true), &values).is_ok());
         assert!(check(&stated("2.0", None, false), &values).is_ok());
         // one sample off, as headers that count from dt are
         assert!(check(&stated("-2.04", Some("0.060"), true), &values).is_ok());
-        for (value, time) in [("2.1", None), ("-2.0", Some("0.10")), ("2.0", Some("0.02")), ("-2.046", None)] {
+        for (value, time) in
+            [("2.1", None), ("-2.0", Some("0.10")), ("2.0", Some("0.02")), ("-2.046", None)]
+        {
             assert!(check(&stated(value, time, true), &values).is_err(), "{value} {time:?}");
         }
-        let message = check(&stated("3.5", Some("0.04"), true), &[0.0, 8e300]).unwrap_err().to_string();
+        let message =
+            check(&stated("3.5", Some("0.04"), true), &[0.0, 8e300]).unwrap_err().to_string();
         assert!(message.contains("8.0000000e300") && message.len() < 400, "{message}");
         let message = check(&stated("3.5", Some("0.04"), true), &values).unwrap_err().to_string();
         assert!(
-            message.contains("line 3") && message.contains("3.5 at 0.0400 s") && message.contains("-2.04"),
+            message.contains("line 3")
+                && message.contains("3.5 at 0.0400 s")
+                && message.contains("-2.04"),
             "{message}"
         );
     }

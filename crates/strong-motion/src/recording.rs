@@ -4,7 +4,10 @@ use std::path::Path;
 
 use super::parsed::Channel;
 use super::text::{self, quote};
-use super::{Direction, Notice, Peak, ReadOptions, Record, RecordError, RecordFormat, Source, Units, Vertical};
+use super::{
+    Direction, Notice, Peak, ReadOptions, Record, RecordError, RecordFormat, Source, Units,
+    Vertical,
+};
 
 /// One component of a file, in SI units.
 #[derive(Clone, Debug, PartialEq)]
@@ -106,7 +109,8 @@ impl Recording {
         }
         let parsed = format.parse(file, &text, options)?;
 
-        let stem = path.file_stem().map_or_else(|| file.clone(), |stem| super::label(Path::new(stem)));
+        let stem =
+            path.file_stem().map_or_else(|| file.clone(), |stem| super::label(Path::new(stem)));
         let several = parsed.channels.len() > 1 || parsed.chosen;
         let component = |(i, channel): (usize, Channel)| {
             let name = match (&channel.name, several) {
@@ -116,14 +120,20 @@ impl Recording {
             };
             channel.into_component(file, &name, options)
         };
-        let components = parsed.channels.into_iter().enumerate().map(component).collect::<Result<Vec<_>, _>>()?;
+        let components = parsed
+            .channels
+            .into_iter()
+            .enumerate()
+            .map(component)
+            .collect::<Result<Vec<_>, _>>()?;
         if components.is_empty() {
             return Err(RecordError::Empty { file: file.clone() });
         }
         let (station, asked) = (parsed.station, options.component.is_some());
         let (chosen, row_by_row) = (parsed.chosen, parsed.row_by_row);
         let (taken, vertical, file) = (0, None, file.clone());
-        let mut recording = Self { format, station, components, taken, asked, chosen, row_by_row, vertical, file };
+        let mut recording =
+            Self { format, station, components, taken, asked, chosen, row_by_row, vertical, file };
         recording.taken = match &options.component {
             Some(wanted) => recording.find(wanted)?,
             None => recording.strongest_horizontal(),
@@ -187,7 +197,9 @@ impl Recording {
 
     /// The strongest of the components that are not vertical, else the strongest.
     fn strongest_horizontal(&self) -> usize {
-        let rank = |component: &Component| (component.direction != Direction::Vertical, component.record.pga());
+        let rank = |component: &Component| {
+            (component.direction != Direction::Vertical, component.record.pga())
+        };
         let mut best = 0;
         for (i, component) in self.components.iter().enumerate() {
             if rank(component) > rank(&self.components[best]) {
@@ -203,15 +215,18 @@ impl Recording {
             (0..self.components.len()).filter(|&i| test(&self.components[i])).collect()
         };
         let wanted = wanted.trim();
-        let named = by(&|c| c.name.as_deref().is_some_and(|name| name.eq_ignore_ascii_case(wanted)));
+        let named =
+            by(&|c| c.name.as_deref().is_some_and(|name| name.eq_ignore_ascii_case(wanted)));
         let degrees = wanted.parse().map_or_else(|_| Direction::of(wanted), Direction::azimuth);
         let directed = by(&|c| c.direction.same(degrees));
         match (&named[..], &directed[..]) {
             ([only], _) | ([], [only]) => Ok(*only),
             _ => {
-                let labels = self.components.iter().map(Component::label).filter(|label| !label.is_empty());
+                let labels =
+                    self.components.iter().map(Component::label).filter(|label| !label.is_empty());
                 let labels: Vec<String> = labels.collect();
-                let labels = if labels.is_empty() { vec!["one without a name".to_owned()] } else { labels };
+                let labels =
+                    if labels.is_empty() { vec!["one without a name".to_owned()] } else { labels };
                 Err(RecordError::NoComponent {
                     file: self.file.clone(),
                     wanted: quote(wanted),
@@ -225,12 +240,17 @@ impl Recording {
 
 /// Whether a text is a case file: TOML with a section `[structure]`.
 fn is_case(text: &str) -> bool {
-    text.contains("[structure]") && text.parse::<toml::Table>().is_ok_and(|file| file.contains_key("structure"))
+    text.contains("[structure]")
+        && text.parse::<toml::Table>().is_ok_and(|file| file.contains_key("structure"))
 }
 
 /// A list that keeps a message to one line that can be read.
 fn shorten(list: String) -> String {
-    if list.chars().count() <= 160 { list } else { list.chars().take(160).chain("...".chars()).collect() }
+    if list.chars().count() <= 160 {
+        list
+    } else {
+        list.chars().take(160).chain("...".chars()).collect()
+    }
 }
 
 impl Component {
@@ -253,7 +273,11 @@ impl Component {
         // one sample is its own mean
         if self.record.len() > 1 && still.abs() > Notice::OFFSET_SHARE * pga {
             let share = still.abs() / pga;
-            notices.push(Notice::Offset { file: file.clone(), component: component.clone(), share });
+            notices.push(Notice::Offset {
+                file: file.clone(),
+                component: component.clone(),
+                share,
+            });
         }
         if pga_g > Notice::STRONG_G {
             notices.push(Notice::Strong { file, component, pga_g });

@@ -20,10 +20,17 @@ fn el_centro_is_the_peer_record() {
 
 #[test]
 fn both_at2_headers_any_columns_and_line_ends_give_the_same_record() {
-    let titles = "PEER STRONG MOTION DATABASE RECORD\nSOMEWHERE\nACCELERATION TIME HISTORY IN UNITS OF G\n";
-    let expected = Record::new("x", 0.01, [0.1, -0.2, 0.3, 0.25].map(|g| g * GRAVITY).to_vec()).unwrap();
+    let titles =
+        "PEER STRONG MOTION DATABASE RECORD\nSOMEWHERE\nACCELERATION TIME HISTORY IN UNITS OF G\n";
+    let expected =
+        Record::new("x", 0.01, [0.1, -0.2, 0.3, 0.25].map(|g| g * GRAVITY).to_vec()).unwrap();
     for header in ["NPTS=  4, DT= .01000 SEC", "  4   0.0100  NPTS, DT", "NPTS=4, DT=.01 SEC,"] {
-        for data in [".1 -.2 .3 .25", "1.0E-01 -.2E+00\n\n  .3D+00   0.25\n", ".1,-.2,.3,.25\n", " .1-.2+.3+.25"] {
+        for data in [
+            ".1 -.2 .3 .25",
+            "1.0E-01 -.2E+00\n\n  .3D+00   0.25\n",
+            ".1,-.2,.3,.25\n",
+            " .1-.2+.3+.25",
+        ] {
             let text = format!("{titles}{header}\n{data}");
             for text in [text.replace('\n', "\r\n"), text.replace('\n', "\r"), text] {
                 assert_eq!(parse("folder/x.at2", &text).as_ref(), Ok(&expected), "{text:?}");
@@ -54,7 +61,10 @@ fn one_column_needs_the_time_step_and_the_unit() {
     let text = "0.1\n-0.2\n";
     assert_eq!(parse("x", text), Err(RecordError::NoStep { file: "x".into() }));
     let options = ReadOptions { dt: Some(0.01), ..ReadOptions::default() };
-    assert_eq!(Record::parse("x", text.as_bytes(), &options), Err(RecordError::NoUnits { file: "x".into() }));
+    assert_eq!(
+        Record::parse("x", text.as_bytes(), &options),
+        Err(RecordError::NoUnits { file: "x".into() })
+    );
     let options = ReadOptions { units: Some(Units::G), ..options };
     let record = Record::parse("x", text.as_bytes(), &options).unwrap();
     assert_eq!(record.accel, [0.1 * GRAVITY, -0.2 * GRAVITY]);
@@ -63,10 +73,18 @@ fn one_column_needs_the_time_step_and_the_unit() {
 #[test]
 fn what_the_file_says_and_the_user_says_must_agree() {
     let text = "UNITS OF G\nNPTS= 2, DT= .0039 SEC\n.1 .2\n";
-    let read =
-        |dt, units| Record::parse("x.at2", text.as_bytes(), &ReadOptions { dt, units, ..ReadOptions::default() });
+    let read = |dt, units| {
+        Record::parse(
+            "x.at2",
+            text.as_bytes(),
+            &ReadOptions { dt, units, ..ReadOptions::default() },
+        )
+    };
     assert!(matches!(read(Some(0.01), None), Err(RecordError::StepDiffers { .. })));
-    assert!(matches!(read(None, Some(Units::MetrePerSecond2)), Err(RecordError::UnitsDiffer { .. })));
+    assert!(matches!(
+        read(None, Some(Units::MetrePerSecond2)),
+        Err(RecordError::UnitsDiffer { .. })
+    ));
     // 1/256 s printed with four decimals: the user's is the sharper one
     assert_eq!(read(Some(0.00390625), Some(Units::G)).unwrap().dt, 0.00390625);
     assert!(matches!(read(Some(0.0), None), Err(RecordError::BadStep { .. })));
@@ -84,21 +102,34 @@ fn every_damage_is_an_error_of_one_line_with_place_and_remedy() {
         ),
         ("a.at2", at2.replace(".3 .4", ".3 .4 .5"), "line 6: the file ends after 5 samples"),
         ("a.at2", at2.replace("NPTS= 4,", "NPTS= 999999999999,"), "says NPTS 999999999999"),
-        ("a.at2", at2.replace("NPTS= 4,", "NPTS= 99999999999999999999999,"), "line 4: cannot read NPTS and DT"),
+        (
+            "a.at2",
+            at2.replace("NPTS= 4,", "NPTS= 99999999999999999999999,"),
+            "line 4: cannot read NPTS and DT",
+        ),
         ("a.at2", at2.replace("DT= .01", "DT= -.01"), "line 4: cannot read NPTS and DT"),
         ("a.at2", at2.replace("DT= .01", "DT= 5."), "between 1e-6 and 1 s"),
         ("a.at2", at2.replace("NPTS", "SAMPLES"), "no line with NPTS and DT"),
         ("a.at2", at2.replace(".3", "NaN"), "line 6: 'NaN' is not a finite number"),
         ("a.at2", at2.replace(".3", "1e999"), "line 6: '1e999' is not a finite number"),
         ("a.at2", at2.replace(".3", "*******"), "line 6: '*******' is not a number"),
-        ("a.at2", at2.replace("ACCELERATION IN UNITS OF G", "VELOCITY IN UNITS OF CM/S"), "speaks of velocity"),
         (
             "a.at2",
-            at2.replace("T\n", "ACCELEROGRAPH 7\n").replace("ACCELERATION IN", "DISPLACEMENT TIME SERIES IN"),
+            at2.replace("ACCELERATION IN UNITS OF G", "VELOCITY IN UNITS OF CM/S"),
+            "speaks of velocity",
+        ),
+        (
+            "a.at2",
+            at2.replace("T\n", "ACCELEROGRAPH 7\n")
+                .replace("ACCELERATION IN", "DISPLACEMENT TIME SERIES IN"),
             "speaks of displacement",
         ),
         ("a.at2", at2.replace("UNITS OF G", "SOMETHING"), "pass --units"),
-        ("a.at2", at2.replace(".3", "341.7"), "above 50 g; the unit or the scale is probably wrong"),
+        (
+            "a.at2",
+            at2.replace(".3", "341.7"),
+            "above 50 g; the unit or the scale is probably wrong",
+        ),
         ("a.at2", at2.replace('T', "\0"), "not a text file (byte 0 is 0x00)"),
         ("a.at2", String::new(), "holds no samples"),
         ("a.csv", " \n \n".into(), "holds no samples"),
@@ -111,7 +142,11 @@ fn every_damage_is_an_error_of_one_line_with_place_and_remedy() {
         ("a.csv", "t,a [g]\n0.00,.1\n0.01,nan\n".into(), "line 3: 'nan' is not a finite number"),
         ("a.csv", "t,a [g]\n0.00,.1\n0.01,x\n".into(), "line 3: 'x' is not a number"),
         ("a.csv", "t,a [g]\n0.00,x\n0.01,.1\n0.02,.1\n".into(), "line 2: 'x' is not a number"),
-        ("a.csv", "t,a [g]\n0.00,.1\n0.01\n".into(), "line 3: 1 columns where the lines before have 2"),
+        (
+            "a.csv",
+            "t,a [g]\n0.00,.1\n0.01\n".into(),
+            "line 3: 1 columns where the lines before have 2",
+        ),
         ("a.csv", "t,a [g]\n0.00,.1\n0.01,\n".into(), "line 3: 1 columns"),
         ("a.csv", "t,a [g],b\n0.00,.1,1\n".into(), "line 2: 3 columns"),
         ("a.csv", "t;a [g]\n0,00;0,1\n0,01;0,2\n".into(), "line 2: '0,00;0,1' has decimal commas"),
@@ -132,46 +167,95 @@ fn every_damage_is_an_error_of_one_line_with_place_and_remedy() {
 /// Tables that are not records say so, and are never half read.
 #[test]
 fn misreadings_are_refused() {
-    let given = ReadOptions { dt: Some(0.01), units: Some(Units::CentimetrePerSecond2), ..ReadOptions::default() };
+    let given = ReadOptions {
+        dt: Some(0.01),
+        units: Some(Units::CentimetrePerSecond2),
+        ..ReadOptions::default()
+    };
     let rows = |row: &dyn Fn(usize) -> String| (1..40).map(row).collect::<String>();
     let wave = |i: usize| (i as f64).sin();
     for (text, words) in [
         ("a,b,c\n1,2,3\n".to_owned(), "line 2: 3 columns"),
-        (rows(&|i| format!("{:.2} {:.3} {:.3}\n", 0.01 * i as f64, wave(i), wave(2 * i))), "line 1: 3 columns"),
+        (
+            rows(&|i| format!("{:.2} {:.3} {:.3}\n", 0.01 * i as f64, wave(i), wave(2 * i))),
+            "line 1: 3 columns",
+        ),
         (rows(&|i| format!("{i} {:.3}\n", wave(i))), "line 1: the first column counts rows"),
-        (rows(&|i| format!("{}.0,{:.3}\n", i - 1, wave(i))), "line 1: the first column counts rows"),
-        (rows(&|i| format!("{:.2},{:.3}\n", 0.01 * i as f64, 2.0 + wave(i))), "never changes its sign"),
-        (rows(&|i| format!("{:.4},{:.3}\n", 0.01 * 1.2_f64.powi(i as i32), 2.0 + wave(i))), "never changes its sign"),
-        (format!("Period (s),Sa (g)\n{}", rows(&|i| format!("{:.2},{:.3}\n", 0.01 * i as f64, wave(i)))), "a spectrum"),
-        (format!("t,v [m/s]\n{}", rows(&|i| format!("{:.2},{:.3}\n", 0.01 * i as f64, wave(i)))), "speaks of velocity"),
+        (
+            rows(&|i| format!("{}.0,{:.3}\n", i - 1, wave(i))),
+            "line 1: the first column counts rows",
+        ),
+        (
+            rows(&|i| format!("{:.2},{:.3}\n", 0.01 * i as f64, 2.0 + wave(i))),
+            "never changes its sign",
+        ),
+        (
+            rows(&|i| format!("{:.4},{:.3}\n", 0.01 * 1.2_f64.powi(i as i32), 2.0 + wave(i))),
+            "never changes its sign",
+        ),
+        (
+            format!(
+                "Period (s),Sa (g)\n{}",
+                rows(&|i| format!("{:.2},{:.3}\n", 0.01 * i as f64, wave(i)))
+            ),
+            "a spectrum",
+        ),
+        (
+            format!("t,v [m/s]\n{}", rows(&|i| format!("{:.2},{:.3}\n", 0.01 * i as f64, wave(i)))),
+            "speaks of velocity",
+        ),
         (
             format!("t,d [cm]\n{}", rows(&|i| format!("{:.2},{:.3}\n", 0.01 * i as f64, wave(i)))),
             "speaks of displacement",
         ),
-        (format!("# units: cm/s\n{}", rows(&|i| format!("{:.3}\n", wave(i)))), "speaks of velocity"),
-        (rows(&|i| format!("{} {} {}\n", 8000 + i % 7, 8000 + i % 5, 8000 - i % 3)), "counts of a digitiser"),
-        (format!("# unit: counts\n{}", rows(&|i| format!("{:.3}\n", wave(i)))), "counts of a digitiser"),
-        (format!("# unit: m/s2\n{}", rows(&|i| format!("{:.3}\n", wave(i)))), "the file says its unit is m/s2"),
+        (
+            format!("# units: cm/s\n{}", rows(&|i| format!("{:.3}\n", wave(i)))),
+            "speaks of velocity",
+        ),
+        (
+            rows(&|i| format!("{} {} {}\n", 8000 + i % 7, 8000 + i % 5, 8000 - i % 3)),
+            "counts of a digitiser",
+        ),
+        (
+            format!("# unit: counts\n{}", rows(&|i| format!("{:.3}\n", wave(i)))),
+            "counts of a digitiser",
+        ),
+        (
+            format!("# unit: m/s2\n{}", rows(&|i| format!("{:.3}\n", wave(i)))),
+            "the file says its unit is m/s2",
+        ),
     ] {
         let message = Record::parse("x.csv", text.as_bytes(), &given).expect_err(&text).to_string();
         assert!(message.contains(words), "{}: {message}", &text[..30]);
     }
     let utf16: Vec<u8> = "t,a [g]\n0,1\n".encode_utf16().flat_map(u16::to_le_bytes).collect();
-    assert!(matches!(Record::parse("x.csv", &utf16, &ReadOptions::default()), Err(RecordError::Binary { .. })));
+    assert!(matches!(
+        Record::parse("x.csv", &utf16, &ReadOptions::default()),
+        Err(RecordError::Binary { .. })
+    ));
 }
 
 #[test]
 fn bare_values_in_several_columns_are_read_row_by_row() {
-    let given = ReadOptions { dt: Some(0.01), units: Some(Units::MetrePerSecond2), ..ReadOptions::default() };
+    let given = ReadOptions {
+        dt: Some(0.01),
+        units: Some(Units::MetrePerSecond2),
+        ..ReadOptions::default()
+    };
     let expected = [0.1, -0.2, 0.3, 0.4, -0.5, 0.6, -0.7, 0.8];
-    for text in ["title\n0.1 -0.2 0.3\n0.4 -0.5 0.6\n-0.7 0.8\n", "0.1,-0.2,0.3,0.4\n-0.5,0.6,-0.7,0.8\n"] {
+    for text in
+        ["title\n0.1 -0.2 0.3\n0.4 -0.5 0.6\n-0.7 0.8\n", "0.1,-0.2,0.3,0.4\n-0.5,0.6,-0.7,0.8\n"]
+    {
         assert_eq!(Record::parse("x", text.as_bytes(), &given).unwrap().accel, expected, "{text}");
     }
     let two = "0.1 -0.2\n0.3 0.4\n-0.5 0.6\n-0.7 0.8\n0.2 0.1\n-0.1";
     assert_eq!(Record::parse("x", two.as_bytes(), &given).unwrap().len(), 11);
     assert!(matches!(parse("x", two), Err(RecordError::Ragged { line: 6, .. })));
     let cut = "0.1 -0.2 0.3\n0.4 -0.5\n-0.7 0.8 0.9\n";
-    assert!(matches!(Record::parse("x", cut.as_bytes(), &given), Err(RecordError::Ragged { line: 2, .. })));
+    assert!(matches!(
+        Record::parse("x", cut.as_bytes(), &given),
+        Err(RecordError::Ragged { line: 2, .. })
+    ));
 }
 
 #[test]
@@ -182,7 +266,9 @@ fn an_offset_is_said_and_removed_when_asked() {
         Recording::parse("x.txt", text.as_bytes(), &options).unwrap()
     };
     let plain = read(false);
-    assert!(matches!(plain.notices()[..], [Notice::Offset { share, .. }] if (share - 1.0 / 1.5).abs() < 1e-12));
+    assert!(
+        matches!(plain.notices()[..], [Notice::Offset { share, .. }] if (share - 1.0 / 1.5).abs() < 1e-12)
+    );
     let removed = read(true);
     assert_eq!((removed.notices(), removed.component().offset), (vec![], 1.0));
     assert_eq!(removed.into_record().accel, [0.5, -0.5, 0.25, -0.25]);
@@ -202,7 +288,10 @@ fn peaks_that_earthquakes_do_not_have_are_said() {
 #[test]
 fn records_are_checked_scaled_cut_and_interpolated() {
     let record = Record::new("r", 0.5, vec![0.0, 1.0, -3.0]).unwrap();
-    assert_eq!((record.pga(), record.duration(), record.len(), record.is_empty()), (3.0, 1.0, 3, false));
+    assert_eq!(
+        (record.pga(), record.duration(), record.len(), record.is_empty()),
+        (3.0, 1.0, 3, false)
+    );
     assert_eq!(record.scaled(-2.0).unwrap().accel, [0.0, -2.0, 6.0]);
     assert_eq!(record.truncated(0.5).accel, [0.0, 1.0]);
     assert_eq!(record.truncated(0.0).len(), 1);
@@ -235,7 +324,8 @@ fn a_folder_is_read_in_order_and_a_bad_file_does_not_end_it() {
     }
     std::fs::create_dir(folder.path().join("sub.csv")).unwrap();
     let files = Record::list_dir(folder.path()).unwrap();
-    let names: Vec<_> = files.iter().map(|path| path.file_name().unwrap().to_str().unwrap()).collect();
+    let names: Vec<_> =
+        files.iter().map(|path| path.file_name().unwrap().to_str().unwrap()).collect();
     assert_eq!(names, ["a.csv", "b.txt", "c.AT2"]);
     let read: Vec<_> = files.iter().map(|path| Record::read(path, &options)).collect();
     assert_eq!(read[0].as_ref().unwrap().name, "a");

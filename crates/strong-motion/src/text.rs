@@ -9,7 +9,8 @@ use super::RecordError;
 pub(super) fn decode<'a>(file: &str, bytes: &'a [u8]) -> Result<Cow<'a, str>, RecordError> {
     let bytes = bytes.strip_prefix(b"\xef\xbb\xbf").unwrap_or(bytes);
     let bytes = bytes.strip_suffix(b"\x1a").unwrap_or(bytes); // DOS end-of-file mark
-    let allowed = |b: u8| b >= 0x20 && b != 0x7f || matches!(b, b'\t' | b'\n' | b'\r' | 0x0b | 0x0c);
+    let allowed =
+        |b: u8| b >= 0x20 && b != 0x7f || matches!(b, b'\t' | b'\n' | b'\r' | 0x0b | 0x0c);
     match bytes.iter().position(|&b| !allowed(b)) {
         Some(byte) => Err(RecordError::Binary { file: file.to_owned(), byte, value: bytes[byte] }),
         None => Ok(String::from_utf8_lossy(bytes)),
@@ -44,15 +45,17 @@ fn fortran(token: &str) -> Option<f64> {
     let at = token.rfind(['+', '-'])?;
     let (mantissa, exponent) = token.split_at(at);
     let three_digits = exponent.len() == 4 && exponent[1..].bytes().all(|b| b.is_ascii_digit());
-    (three_digits && mantissa.contains('.')).then(|| format!("{mantissa}e{exponent}").parse().ok())?
+    (three_digits && mantissa.contains('.'))
+        .then(|| format!("{mantissa}e{exponent}").parse().ok())?
 }
 
 /// The numbers of fixed-width fields that touch, `-.123-.456`: split before each sign that follows
 /// a digit or a point, provided that every piece has a decimal point.
 pub(super) fn touching(token: &str) -> Option<Vec<f64>> {
     let bytes = token.as_bytes();
-    let cuts = (1..bytes.len())
-        .filter(|&i| matches!(bytes[i], b'+' | b'-') && (bytes[i - 1].is_ascii_digit() || bytes[i - 1] == b'.'));
+    let cuts = (1..bytes.len()).filter(|&i| {
+        matches!(bytes[i], b'+' | b'-') && (bytes[i - 1].is_ascii_digit() || bytes[i - 1] == b'.')
+    });
     let mut numbers = Vec::new();
     let mut start = 0;
     for end in cuts.chain([bytes.len()]) {
@@ -70,13 +73,15 @@ pub(super) fn precision(token: &str) -> (i32, i32) {
         None => (token, 0),
     };
     let decimals = mantissa.find('.').map_or(0, |at| mantissa.len() - at - 1);
-    let significant = mantissa.bytes().filter(u8::is_ascii_digit).skip_while(|&b| b == b'0').count();
+    let significant =
+        mantissa.bytes().filter(u8::is_ascii_digit).skip_while(|&b| b == b'0').count();
     (exponent - decimals.min(400) as i32, significant.min(400) as i32)
 }
 
 /// A piece of a file, fit for a message of one line.
 pub(super) fn quote(text: &str) -> String {
-    let mut short: String = text.chars().map(|c| if c.is_control() { '?' } else { c }).take(48).collect();
+    let mut short: String =
+        text.chars().map(|c| if c.is_control() { '?' } else { c }).take(48).collect();
     if text.chars().nth(48).is_some() {
         short.push_str("...");
     }
@@ -129,7 +134,10 @@ mod tests {
 
     #[test]
     fn control_characters_mean_a_binary_file() {
-        assert!(matches!(decode("x", b"ab\0c"), Err(RecordError::Binary { byte: 2, value: 0, .. })));
+        assert!(matches!(
+            decode("x", b"ab\0c"),
+            Err(RecordError::Binary { byte: 2, value: 0, .. })
+        ));
         assert_eq!(decode("x", b"\xef\xbb\xbf1\x1a").unwrap(), "1");
         assert_eq!(decode("x", b"caf\xe9").unwrap(), "caf\u{fffd}");
     }

@@ -48,7 +48,11 @@ impl Times {
             return Ok((shortest(slope, accuracy), rounding));
         }
         match given {
-            Some(dt) if !fine && !is_multiple(dt, digit) && self.spread(dt) <= 1.000_001 * digit => Ok((dt, rounding)),
+            Some(dt)
+                if !fine && !is_multiple(dt, digit) && self.spread(dt) <= 1.000_001 * digit =>
+            {
+                Ok((dt, rounding))
+            }
             _ => Err(self.uneven(file)),
         }
     }
@@ -94,7 +98,8 @@ impl Times {
     /// Range of t_i - i dt, less what floating point cannot resolve (s).
     fn spread(&self, dt: f64) -> f64 {
         let offsets = self.times.iter().enumerate().map(|(i, t)| t - i as f64 * dt);
-        let (low, high) = offsets.fold((f64::INFINITY, f64::NEG_INFINITY), |(low, high), x| (low.min(x), high.max(x)));
+        let (low, high) = offsets
+            .fold((f64::INFINITY, f64::NEG_INFINITY), |(low, high), x| (low.min(x), high.max(x)));
         let largest = self.times.iter().fold(0.0, |largest: f64, t| largest.max(t.abs()));
         (high - low) - 8.0 * f64::EPSILON * largest
     }
@@ -157,23 +162,29 @@ mod tests {
             |t| format!("{t:.5e}"),
             |t| format!("{}", t as f32),
         ] {
-            let (step, rounding) = times((0..2000).map(|i| print(f64::from(i) * dt))).step("x", None).unwrap();
+            let (step, rounding) =
+                times((0..2000).map(|i| print(f64::from(i) * dt))).step("x", None).unwrap();
             assert!((step - dt).abs() <= rounding && rounding < 1e-3 * dt, "{} {step}", print(dt));
         }
     }
 
     #[test]
     fn steps_come_out_as_people_write_them() {
-        let (step, _) = times((0..4000).map(|i| format!("{}", f64::from(i) * 0.01))).step("x", None).unwrap();
+        let (step, _) =
+            times((0..4000).map(|i| format!("{}", f64::from(i) * 0.01))).step("x", None).unwrap();
         assert_eq!(step, 0.01);
-        let (step, _) = times((1..=4000).map(|i| format!("{:.2}", f64::from(i) * 0.02))).step("x", None).unwrap();
+        let (step, _) = times((1..=4000).map(|i| format!("{:.2}", f64::from(i) * 0.02)))
+            .step("x", None)
+            .unwrap();
         assert_eq!(step, 0.02);
     }
 
     #[test]
     fn a_missing_sample_is_found_on_its_line_however_times_are_printed() {
         for decimals in 2..9 {
-            let printed = (0..1000).filter(|&i| i != 700).map(|i| format!("{:.decimals$}", f64::from(i) * 0.01));
+            let printed = (0..1000)
+                .filter(|&i| i != 700)
+                .map(|i| format!("{:.decimals$}", f64::from(i) * 0.01));
             let times = times(printed);
             for given in [None, Some(0.01)] {
                 match times.step("x", given) {

@@ -75,10 +75,16 @@ pub(super) fn declared(header: &[(usize, &str)], column_names: Option<&str>) -> 
     let after_unit = header.iter().filter_map(|(_, line)| {
         let line = normalised(line);
         let at = line.find("unit")?;
-        Some(line[at + 4..].trim_start_matches('s').trim_start_matches([' ', ':', '=', '/']).to_owned())
+        Some(
+            line[at + 4..]
+                .trim_start_matches('s')
+                .trim_start_matches([' ', ':', '=', '/'])
+                .to_owned(),
+        )
     });
     let named = column_names.into_iter().map(normalised);
-    let accelerations = header.iter().map(|(_, line)| normalised(line)).filter(|line| line.contains("accel"));
+    let accelerations =
+        header.iter().map(|(_, line)| normalised(line)).filter(|line| line.contains("accel"));
     [mentioned(after_unit), mentioned(named), mentioned(accelerations)]
         .into_iter()
         .find(|units| !units.is_empty())
@@ -89,7 +95,12 @@ pub(super) fn declared(header: &[(usize, &str)], column_names: Option<&str>) -> 
 fn mentioned(lines: impl Iterator<Item = String>) -> Vec<Units> {
     let mut found = Vec::new();
     for line in lines {
-        for units in [Units::G, Units::MetrePerSecond2, Units::CentimetrePerSecond2, Units::MillimetrePerSecond2] {
+        for units in [
+            Units::G,
+            Units::MetrePerSecond2,
+            Units::CentimetrePerSecond2,
+            Units::MillimetrePerSecond2,
+        ] {
             if mentions(&line, units) && !found.contains(&units) {
                 found.push(units);
             }
@@ -100,7 +111,12 @@ fn mentioned(lines: impl Iterator<Item = String>) -> Vec<Units> {
 
 /// One spelling for all: lower case, "sec" as "s", no power signs, "_" as "/" (as in accel_m_s2).
 pub(super) fn normalised(text: &str) -> String {
-    text.to_lowercase().replace("sec", "s").replace("**", "").replace('^', "").replace('²', "2").replace('_', "/")
+    text.to_lowercase()
+        .replace("sec", "s")
+        .replace("**", "")
+        .replace('^', "")
+        .replace('²', "2")
+        .replace('_', "/")
 }
 
 fn mentions(line: &str, units: Units) -> bool {
@@ -120,7 +136,8 @@ fn mentions(line: &str, units: Units) -> bool {
 /// Whether the line names the unit on its own; after a number it is a quantity ("PGA 0.3 g"), not a
 /// declaration.
 fn is_unit(line: &str, name: &str) -> bool {
-    occurrences(line, name).any(|(before, _)| !before.trim_end().ends_with(|c: char| c.is_ascii_digit()))
+    occurrences(line, name)
+        .any(|(before, _)| !before.trim_end().ends_with(|c: char| c.is_ascii_digit()))
 }
 
 /// A lone letter g is a unit where units stand: alone, in brackets, after a separator, after "of"
@@ -138,10 +155,15 @@ fn g_is_a_unit(before: &str, after: &str) -> bool {
 
 /// Every place where the name stands between characters that are no letters or digits: the text
 /// before and after it.
-pub(super) fn occurrences<'a>(line: &'a str, name: &'a str) -> impl Iterator<Item = (&'a str, &'a str)> {
-    line.match_indices(name)
-        .map(move |(at, _)| (&line[..at], &line[at + name.len()..]))
-        .filter(|(before, after)| !before.ends_with(char::is_alphanumeric) && !after.starts_with(char::is_alphanumeric))
+pub(super) fn occurrences<'a>(
+    line: &'a str,
+    name: &'a str,
+) -> impl Iterator<Item = (&'a str, &'a str)> {
+    line.match_indices(name).map(move |(at, _)| (&line[..at], &line[at + name.len()..])).filter(
+        |(before, after)| {
+            !before.ends_with(char::is_alphanumeric) && !after.starts_with(char::is_alphanumeric)
+        },
+    )
 }
 
 #[cfg(test)]
@@ -157,7 +179,12 @@ mod tests {
     fn headers_of_real_files_name_their_unit() {
         assert_eq!(of_header("ACCELERATION TIME HISTORY IN UNITS OF G"), Some(G));
         assert_eq!(of_header("ACCELERATION TIME SERIES IN UNITS OF G"), Some(G));
-        assert_eq!(of_header("ACCELERATION TIME HISTORY IN UNITS OF G. FILTER POINTS: HP=0.2 Hz LP=15.0 Hz"), Some(G));
+        assert_eq!(
+            of_header(
+                "ACCELERATION TIME HISTORY IN UNITS OF G. FILTER POINTS: HP=0.2 Hz LP=15.0 Hz"
+            ),
+            Some(G)
+        );
         assert_eq!(of_header("ACCELERATION IN UNITS OF CM/S/S"), Some(Cm));
         assert_eq!(of_header("ACCELERATION IN UNITS OF CM/SEC**2"), Some(Cm));
         assert_eq!(of_header("ACCELERATION IN UNITS OF M/S/S"), Some(M));

@@ -89,8 +89,13 @@ impl Vertical {
     /// The component's numbers, turned upwards where the file counts them downwards.
     fn of(component: Component) -> Record {
         let record = component.record;
-        let down = component.name.is_some_and(|name| name.trim().to_ascii_uppercase().starts_with("DOWN"));
-        if down { Record { accel: record.accel.iter().map(|a| -a).collect(), ..record } } else { record }
+        let down =
+            component.name.is_some_and(|name| name.trim().to_ascii_uppercase().starts_with("DOWN"));
+        if down {
+            Record { accel: record.accel.iter().map(|a| -a).collect(), ..record }
+        } else {
+            record
+        }
     }
 
     /// The only component of a file that may be vertical, or the one asked for, as a record of its
@@ -116,18 +121,26 @@ impl Recording {
     /// # Errors
     /// There is none, or several.
     fn only_vertical(&self) -> Result<usize, RecordError> {
-        let mut all = (0..self.components.len()).filter(|&i| self.components[i].direction == Direction::Vertical);
+        let mut all = (0..self.components.len())
+            .filter(|&i| self.components[i].direction == Direction::Vertical);
         match (all.next(), all.next()) {
             (Some(only), None) => Ok(only),
             (first, _) => Err(RecordError::NoVertical {
                 file: self.file.clone(),
-                found: if first.is_some() { "several vertical components" } else { "no vertical component" },
+                found: if first.is_some() {
+                    "several vertical components"
+                } else {
+                    "no vertical component"
+                },
             }),
         }
     }
 
     /// The vertical component asked for, checked against the one that a run takes.
-    pub(super) fn check_vertical(&self, options: &ReadOptions) -> Result<Option<Record>, RecordError> {
+    pub(super) fn check_vertical(
+        &self,
+        options: &ReadOptions,
+    ) -> Result<Option<Record>, RecordError> {
         let vertical = match &options.vertical {
             None => return Ok(None),
             Some(VerticalFrom::Auto) => {

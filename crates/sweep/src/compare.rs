@@ -86,7 +86,9 @@ impl Comparison {
                     (false, true) => row.fem_only += 1,
                     (false, false) => row.neither += 1,
                 }
-                let peak = |known: reduce::KnownAnswer| if known.overturned { f64::INFINITY } else { known.peak };
+                let peak = |known: reduce::KnownAnswer| {
+                    if known.overturned { f64::INFINITY } else { known.peak }
+                };
                 let pair = [peak(rigid), peak(fem)];
                 for (peaks, peak) in row.peaks.iter_mut().zip(pair) {
                     peaks.add(peak);
@@ -112,9 +114,14 @@ impl Comparison {
 
     /// `compare.csv`.
     pub fn table(&self, plan: &Plan) -> SweepTable {
-        let count = |of: fn(&ComparisonRow) -> u64| Column::Count(self.rows.iter().map(|row| of(row) as i64).collect());
-        let real = |of: &dyn Fn(&ComparisonRow) -> Option<f64>| Column::Real(self.rows.iter().map(of).collect());
-        let names = self.rows.iter().map(|row| Arc::from(subject_name(plan, row.subject))).collect();
+        let count = |of: fn(&ComparisonRow) -> u64| {
+            Column::Count(self.rows.iter().map(|row| of(row) as i64).collect())
+        };
+        let real = |of: &dyn Fn(&ComparisonRow) -> Option<f64>| {
+            Column::Real(self.rows.iter().map(of).collect())
+        };
+        let names =
+            self.rows.iter().map(|row| Arc::from(subject_name(plan, row.subject))).collect();
         SweepTable {
             columns: vec![
                 ("structure", Column::Text(names)),

@@ -30,12 +30,16 @@ pub enum SweepError {
     OtherSweep { folder: String, there: String, here: String },
     #[error("{path}: {source}; check the folder, its rights and the room on the disk")]
     File { path: String, source: std::io::Error },
-    #[error("{path}: {reason}; remove the file and run the sweep again, which computes what is missing")]
+    #[error(
+        "{path}: {reason}; remove the file and run the sweep again, which computes what is missing"
+    )]
     Damaged { path: String, reason: String },
     #[error(
         "{folder}: {missing} of {parts} parts are missing ({first}){unfit}; run the same tune sweep again, which computes these alone"
     )]
     Missing { folder: String, missing: usize, parts: usize, first: String, unfit: String },
-    #[error("{folder}: no sweep there (no manifest.json); give the folder that tune sweep --out was given")]
+    #[error(
+        "{folder}: no sweep there (no manifest.json); give the folder that tune sweep --out was given"
+    )]
     NoSweep { folder: String },
 }

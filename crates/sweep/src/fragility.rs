@@ -117,7 +117,12 @@ pub struct Fragility {
 fn measures(plan: &Plan, seen: &SeenHistory) -> [f64; 4] {
     let subject = &plan.subjects[seen.cell.subject];
     let uplift = subject.uplift();
-    [seen.pga / rocking::scalar::GRAVITY, seen.pgv, seen.pga / uplift, subject.p * seen.pgv / uplift]
+    [
+        seen.pga / rocking::scalar::GRAVITY,
+        seen.pgv,
+        seen.pga / uplift,
+        subject.p * seen.pgv / uplift,
+    ]
 }
 
 fn bin(x: f64) -> i32 {
@@ -153,7 +158,15 @@ impl<'a> GroupPlaces<'a> {
                 for restitution in 0..self.plan.restitution_count() {
                     let subject = (subject < self.plan.subjects.len()).then_some(subject);
                     let (bins, excluded, records) = (Default::default(), 0, 0);
-                    members.push(FragilityGroup { model, subject, restitution, bins, excluded, last: None, records });
+                    members.push(FragilityGroup {
+                        model,
+                        subject,
+                        restitution,
+                        bins,
+                        excluded,
+                        last: None,
+                        records,
+                    });
                 }
             }
         }
@@ -166,7 +179,8 @@ impl<'a> GroupPlaces<'a> {
         let (subject, restitution) = (seen.cell.subject, seen.cell.restitution);
         let pooled = (subjects > self.plan.subjects.len()).then_some(subjects - 1);
         self.models.clone().into_iter().enumerate().flat_map(move |(place, model)| {
-            let at = move |subject| ((place * subjects + subject) * restitutions + restitution, model);
+            let at =
+                move |subject| ((place * subjects + subject) * restitutions + restitution, model);
             [Some(subject), pooled].into_iter().flatten().map(at)
         })
     }
@@ -194,7 +208,11 @@ impl Fragility {
                     member.records += 1;
                 }
                 for (bins, x) in member.bins.iter_mut().zip(xs) {
-                    let bin = bins.entry(bin(x)).or_insert_with(|| Bin { n: 0, sum_ln: 0.0, k: vec![0; states.len()] });
+                    let bin = bins.entry(bin(x)).or_insert_with(|| Bin {
+                        n: 0,
+                        sum_ln: 0.0,
+                        k: vec![0; states.len()],
+                    });
                     bin.n += 1;
                     bin.sum_ln += x.ln();
                     for (k, state) in bin.k.iter_mut().zip(&states) {
@@ -215,8 +233,15 @@ impl Fragility {
 
     /// Shares observed for a row: geometric means of the intensity and shares of about equally many
     /// histories each.
-    pub fn observed(&self, row: &FragilityRow, states: &[LimitState], points: usize) -> Vec<(f64, f64)> {
-        let Some(state) = states.iter().position(|state| *state == row.state) else { return Vec::new() };
+    pub fn observed(
+        &self,
+        row: &FragilityRow,
+        states: &[LimitState],
+        points: usize,
+    ) -> Vec<(f64, f64)> {
+        let Some(state) = states.iter().position(|state| *state == row.state) else {
+            return Vec::new();
+        };
         let sorted = sorted(&self.members[row.member].bins[row.measure]);
         let wanted = (row.n / points.max(1) as u64).max(1);
         let (mut found, mut n, mut k, mut sum) = (Vec::new(), 0, 0, 0.0);
@@ -233,13 +258,18 @@ impl Fragility {
     /// `fragility.csv`.
     pub fn table(&self, plan: &Plan) -> SweepTable {
         let member = |row: &FragilityRow| &self.members[row.member];
-        let text =
-            |of: &dyn Fn(&FragilityRow) -> String| Column::Text(self.rows.iter().map(|row| of(row).into()).collect());
-        let count =
-            |of: &dyn Fn(&FragilityRow) -> u64| Column::Count(self.rows.iter().map(|row| of(row) as i64).collect());
-        let real = |of: &dyn Fn(&FragilityRow) -> Option<f64>| Column::Real(self.rows.iter().map(of).collect());
-        let bounds =
-            |of: fn(&ConfidenceBounds) -> f64| real(&|row| row.bounds(self.half_width()).map(|bounds| of(&bounds)));
+        let text = |of: &dyn Fn(&FragilityRow) -> String| {
+            Column::Text(self.rows.iter().map(|row| of(row).into()).collect())
+        };
+        let count = |of: &dyn Fn(&FragilityRow) -> u64| {
+            Column::Count(self.rows.iter().map(|row| of(row) as i64).collect())
+        };
+        let real = |of: &dyn Fn(&FragilityRow) -> Option<f64>| {
+            Column::Real(self.rows.iter().map(of).collect())
+        };
+        let bounds = |of: fn(&ConfidenceBounds) -> f64| {
+            real(&|row| row.bounds(self.half_width()).map(|bounds| of(&bounds)))
+        };
         let probit = |of: fn(&Probit) -> f64| real(&|row| row.probit().map(of));
         let restitution = |row: &FragilityRow| {
             let member = member(row);
@@ -265,7 +295,10 @@ impl Fragility {
                 ("median", real(&|row| row.median())),
                 ("median_low", bounds(|bounds| bounds.median.0)),
                 ("median_high", bounds(|bounds| bounds.median.1)),
-                ("extrapolated", Column::Flag(self.rows.iter().map(|row| Some(row.is_extrapolated())).collect())),
+                (
+                    "extrapolated",
+                    Column::Flag(self.rows.iter().map(|row| Some(row.is_extrapolated())).collect()),
+                ),
                 ("beta", probit(Probit::beta)),
                 ("beta_low", bounds(|bounds| bounds.beta.0)),
                 ("beta_high", bounds(|bounds| bounds.beta.1)),
@@ -287,19 +320,31 @@ fn sorted(bins: &HashMap<i32, Bin>) -> Vec<&Bin> {
 }
 
 fn fits(members: &[FragilityGroup], states: &[LimitState]) -> Vec<FragilityRow> {
-    let all: Vec<(usize, usize)> =
-        (0..members.len()).flat_map(|place| (0..MEASURES.len()).map(move |measure| (place, measure))).collect();
+    let all: Vec<(usize, usize)> = (0..members.len())
+        .flat_map(|place| (0..MEASURES.len()).map(move |measure| (place, measure)))
+        .collect();
     let of = |(place, measure): (usize, usize)| -> Vec<FragilityRow> {
         let bins = sorted(&members[place].bins[measure]);
         let ends = (bins.first(), bins.last());
         let mean = |bin: Option<&&Bin>| bin.map_or(1.0, |bin| (bin.sum_ln / bin.n as f64).exp());
         let range = (mean(ends.0), mean(ends.1));
         let fitted = |(s, state): (usize, &LimitState)| {
-            let group = |bin: &&Bin| Group { ln_x: bin.sum_ln / bin.n as f64, n: bin.n, k: bin.k[s] };
+            let group =
+                |bin: &&Bin| Group { ln_x: bin.sum_ln / bin.n as f64, n: bin.n, k: bin.k[s] };
             let groups: Vec<Group> = bins.iter().map(group).collect();
-            let (n, exceeded) = groups.iter().fold((0, 0), |(n, k), group| (n + group.n, k + group.k));
+            let (n, exceeded) =
+                groups.iter().fold((0, 0), |(n, k), group| (n + group.n, k + group.k));
             let fit = if n == 0 { LognormalFit::NoneExceeded } else { LognormalFit::new(&groups) };
-            FragilityRow { member: place, state: *state, measure, n, exceeded, range, fit, covariance: None }
+            FragilityRow {
+                member: place,
+                state: *state,
+                measure,
+                n,
+                exceeded,
+                range,
+                fit,
+                covariance: None,
+            }
         };
         states.iter().enumerate().map(fitted).collect()
     };
@@ -354,7 +399,8 @@ fn bounds(
                 let at = place * MEASURES.len() + measure;
                 let Some(scores) = table[at].get(&bin(*x)) else { continue };
                 let current = &mut current[at * states.len()..(at + 1) * states.len()];
-                for ((u, state), [over, under, ln_x]) in current.iter_mut().zip(states).zip(scores) {
+                for ((u, state), [over, under, ln_x]) in current.iter_mut().zip(states).zip(scores)
+                {
                     let score = if exceeds(*state, known) { over } else { under };
                     *u = [u[0] + score, u[1] + score * ln_x];
                 }
@@ -363,7 +409,8 @@ fn bounds(
     })?;
     flush(&mut current, &mut sums);
     for (row, scores) in rows.iter_mut().zip(sums) {
-        row.covariance = row.probit().and_then(|fit| fit.covariance(scores, members[row.member].records));
+        row.covariance =
+            row.probit().and_then(|fit| fit.covariance(scores, members[row.member].records));
     }
     Ok(())
 }

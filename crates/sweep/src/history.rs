@@ -39,7 +39,8 @@ pub(crate) fn rows(
 ) -> Result<Vec<HistoryRow>, SweepError> {
     let cells: Vec<Cell> = cells.map(|index| plan.cell(index)).collect();
     let same = |a: &Cell, b: &Cell| {
-        a.motion == b.motion && (a.subject == b.subject || !plan.motions[a.motion].is_for_structure())
+        a.motion == b.motion
+            && (a.subject == b.subject || !plan.motions[a.motion].is_for_structure())
     };
     let groups: Vec<&[Cell]> = cells.chunk_by(same).collect();
     let together = if springs.is_some() { SIDE_BY_SIDE } else { LOCK_STEP };
@@ -88,9 +89,12 @@ impl UnscaledGround {
     fn rows(&self, plan: &Plan, springs: Option<&SpringsTable>, cells: &[Cell]) -> Vec<HistoryRow> {
         let scales: Vec<f64> = cells
             .iter()
-            .map(|cell| plan.factor(&plan.subjects[cell.subject], plan.levels[cell.level], self.pga))
+            .map(|cell| {
+                plan.factor(&plan.subjects[cell.subject], plan.levels[cell.level], self.pga)
+            })
             .collect();
-        let bodies: Vec<Body<f64>> = cells.iter().map(|cell| plan.subjects[cell.subject].body).collect();
+        let bodies: Vec<Body<f64>> =
+            cells.iter().map(|cell| plan.subjects[cell.subject].body).collect();
         let options: Vec<housner::RockingOptions<f64>> = cells
             .iter()
             .zip(&scales)
@@ -103,11 +107,13 @@ impl UnscaledGround {
             .collect();
         let rigid = housner::solve_lanes(&bodies, self.record.dt, &self.record.accel, &options);
         let fem = springs.map(|springs| {
-            let wanted = cells.iter().zip(&scales).zip(&rigid).map(|((cell, &scale), rigid)| WantedHistory {
-                subject: &plan.subjects[cell.subject],
-                springs: springs.of(cell.subject, cell.restitution),
-                scale,
-                rigid,
+            let wanted = cells.iter().zip(&scales).zip(&rigid).map(|((cell, &scale), rigid)| {
+                WantedHistory {
+                    subject: &plan.subjects[cell.subject],
+                    springs: springs.of(cell.subject, cell.restitution),
+                    scale,
+                    rigid,
+                }
             });
             elements(&wanted.collect::<Vec<_>>(), &self.record)
         });
@@ -150,7 +156,9 @@ fn of_housner(subject: &Subject, rocking: &Rocking<f64>) -> CellAnswer {
         housner::RockingOutcome::Rocked => CellOutcome::Rocked,
         housner::RockingOutcome::Overturned { .. } => CellOutcome::Overturned,
         housner::RockingOutcome::LeavesGround { .. } => CellOutcome::LeavesGround,
-        housner::RockingOutcome::WorkBound { .. } | housner::RockingOutcome::NotFinite { .. } => CellOutcome::Failed,
+        housner::RockingOutcome::WorkBound { .. } | housner::RockingOutcome::NotFinite { .. } => {
+            CellOutcome::Failed
+        }
     };
     let peak = rocking.theta.iter().fold(0.0, |peak: f64, theta| peak.max(theta.abs()));
     CellAnswer {
@@ -171,21 +179,33 @@ pub(super) struct WantedHistory<'a> {
 
 impl WantedHistory<'_> {
     /// What to say of a history, and its NRMSE against Housner's.
-    fn answer(&self, stream: &ComparisonObserver, finish: &fem::Finish<f64>) -> (CellAnswer, Option<f64>) {
+    fn answer(
+        &self,
+        stream: &ComparisonObserver,
+        finish: &fem::Finish<f64>,
+    ) -> (CellAnswer, Option<f64>) {
         let outcome = match finish.outcome {
-            fem::HistoryOutcome::Overturned { .. } | fem::HistoryOutcome::Stopped { .. } => CellOutcome::Overturned,
-            fem::HistoryOutcome::Completed if housner::topples(&self.subject.body, stream.last.0, stream.last.1) => {
+            fem::HistoryOutcome::Overturned { .. } | fem::HistoryOutcome::Stopped { .. } => {
+                CellOutcome::Overturned
+            }
+            fem::HistoryOutcome::Completed
+                if housner::topples(&self.subject.body, stream.last.0, stream.last.1) =>
+            {
                 CellOutcome::Overturned
             }
             fem::HistoryOutcome::Completed if stream.peak == 0.0 => CellOutcome::NeverLifted,
             fem::HistoryOutcome::Completed => CellOutcome::Rocked,
-            fem::HistoryOutcome::WorkBound { .. } | fem::HistoryOutcome::Unstable { .. } => CellOutcome::Failed,
+            fem::HistoryOutcome::WorkBound { .. } | fem::HistoryOutcome::Unstable { .. } => {
+                CellOutcome::Failed
+            }
         };
         let outcome = if stream.peak.is_finite() { outcome } else { CellOutcome::Failed };
-        let errors = if outcome == CellOutcome::Overturned { stream.upright } else { stream.errors };
+        let errors =
+            if outcome == CellOutcome::Overturned { stream.upright } else { stream.errors };
         let lifted = self.rigid.outcome != housner::RockingOutcome::NeverMoved;
         let nrmse = errors.horizontal.value();
-        let nrmse = (lifted && outcome != CellOutcome::Failed && nrmse.is_finite()).then_some(nrmse);
+        let nrmse =
+            (lifted && outcome != CellOutcome::Failed && nrmse.is_finite()).then_some(nrmse);
         let peak = ratio(self.subject, stream.peak, outcome);
         (CellAnswer { outcome, peak, impacts: None, overturned_s: None }, nrmse)
     }
@@ -193,11 +213,18 @@ impl WantedHistory<'_> {
 
 /// Finite element histories on a record, streamed. The one place where histories on springs are
 /// computed.
-pub(super) fn elements(wanted: &[WantedHistory<'_>], record: &Record) -> Vec<(CellAnswer, Option<f64>)> {
-    let scaled = |samples: &[f64], scale: f64| -> Vec<f64> { samples.iter().map(|a| a * scale).collect() };
-    let grounds: Vec<(Vec<f64>, Vec<f64>)> =
-        wanted.iter().map(|w| (scaled(&record.accel, w.scale), scaled(record.up(), w.scale))).collect();
-    let pushes: Vec<Cow<[f64]>> = grounds.iter().map(|(accel, vertical)| push(accel, vertical)).collect();
+pub(super) fn elements(
+    wanted: &[WantedHistory<'_>],
+    record: &Record,
+) -> Vec<(CellAnswer, Option<f64>)> {
+    let scaled =
+        |samples: &[f64], scale: f64| -> Vec<f64> { samples.iter().map(|a| a * scale).collect() };
+    let grounds: Vec<(Vec<f64>, Vec<f64>)> = wanted
+        .iter()
+        .map(|w| (scaled(&record.accel, w.scale), scaled(record.up(), w.scale)))
+        .collect();
+    let pushes: Vec<Cow<[f64]>> =
+        grounds.iter().map(|(accel, vertical)| push(accel, vertical)).collect();
     let case = |i: usize| fem::Analysis {
         body: wanted[i].subject.body,
         springs: wanted[i].springs,

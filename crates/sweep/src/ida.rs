@@ -73,7 +73,8 @@ impl Ida {
     pub fn new(parts: &SweepParts) -> Result<Self, SweepError> {
         let plan = parts.plan;
         let models = reduce::models(plan);
-        let (subjects, restitutions, levels) = (plan.subjects.len(), plan.restitution_count(), plan.levels.len());
+        let (subjects, restitutions, levels) =
+            (plan.subjects.len(), plan.restitution_count(), plan.levels.len());
         let mut points = Vec::new();
         for &model in &models {
             for subject in 0..subjects {
@@ -81,7 +82,17 @@ impl Ida {
                     points.extend(plan.levels.iter().map(|&level| {
                         let (n, lifted, overturned, left_out) = (0, 0, 0, 0);
                         let peaks = Histogram::default();
-                        IdaPoint { model, subject, restitution, level, n, lifted, overturned, left_out, peaks }
+                        IdaPoint {
+                            model,
+                            subject,
+                            restitution,
+                            level,
+                            n,
+                            lifted,
+                            overturned,
+                            left_out,
+                            peaks,
+                        }
                     }));
                 }
             }
@@ -92,7 +103,9 @@ impl Ida {
         reduce::each(parts, |seen| {
             let cell = seen.cell;
             for (place, &model) in models.iter().enumerate() {
-                let at = ((place * subjects + cell.subject) * restitutions + cell.restitution) * levels + cell.level;
+                let at = ((place * subjects + cell.subject) * restitutions + cell.restitution)
+                    * levels
+                    + cell.level;
                 let point = &mut points[at];
                 let Some(known) = &seen.answers[model] else {
                     point.left_out += 1;
@@ -103,11 +116,16 @@ impl Ida {
                 point.overturned += u64::from(known.overturned);
                 let peak = if known.overturned { f64::INFINITY } else { known.peak };
                 point.peaks.add(peak);
-                let wanted = place == 0 && cell.restitution == 0 && cell.subject < SUBJECTS && levels > 1;
+                let wanted =
+                    place == 0 && cell.restitution == 0 && cell.subject < SUBJECTS && levels > 1;
                 if wanted && cell.motion.is_multiple_of(stride) {
                     let key = (cell.motion, cell.subject);
                     if last.replace(key) != Some(key) {
-                        curves.push(IdaCurve { subject: cell.subject, levels: Vec::new(), peaks: Vec::new() });
+                        curves.push(IdaCurve {
+                            subject: cell.subject,
+                            levels: Vec::new(),
+                            peaks: Vec::new(),
+                        });
                     }
                     if let Some(curve) = curves.last_mut() {
                         curve.levels.push(point.level);
@@ -122,9 +140,14 @@ impl Ida {
     /// `ida.csv`.
     pub fn table(&self, plan: &Plan) -> SweepTable {
         let points = &self.points;
-        let count = |of: fn(&IdaPoint) -> u64| Column::Count(points.iter().map(|point| of(point) as i64).collect());
-        let real = |of: &dyn Fn(&IdaPoint) -> Option<f64>| Column::Real(points.iter().map(of).collect());
-        let text = |of: &dyn Fn(&IdaPoint) -> String| Column::Text(points.iter().map(|p| Arc::from(of(p))).collect());
+        let count = |of: fn(&IdaPoint) -> u64| {
+            Column::Count(points.iter().map(|point| of(point) as i64).collect())
+        };
+        let real =
+            |of: &dyn Fn(&IdaPoint) -> Option<f64>| Column::Real(points.iter().map(of).collect());
+        let text = |of: &dyn Fn(&IdaPoint) -> String| {
+            Column::Text(points.iter().map(|p| Arc::from(of(p))).collect())
+        };
         let share = |k: u64, n: u64| (n > 0).then(|| k as f64 / n as f64);
         SweepTable {
             columns: vec![
@@ -132,7 +155,10 @@ impl Ida {
                 ("structure", text(&|point| plan.subjects[point.subject].name.clone())),
                 ("alpha", real(&|point| Some(plan.subjects[point.subject].alpha))),
                 ("p_per_s", real(&|point| Some(plan.subjects[point.subject].p))),
-                ("restitution", real(&|point| Some(plan.restitution(point.subject, point.restitution)))),
+                (
+                    "restitution",
+                    real(&|point| Some(plan.restitution(point.subject, point.restitution))),
+                ),
                 ("level", real(&|point| Some(point.level))),
                 ("histories", count(|point| point.n)),
                 ("left_out", count(|point| point.left_out)),

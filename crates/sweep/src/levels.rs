@@ -41,7 +41,10 @@ impl LeanDisplacements {
             Kind::Block => 2.0 * body.height,
             Kind::AFrame => body.height,
         };
-        Self { top_m: Body { height, ..body }.u(theta), uplift_m: 2.0 * body.half_width * theta.sin() }
+        Self {
+            top_m: Body { height, ..body }.u(theta),
+            uplift_m: 2.0 * body.half_width * theta.sin(),
+        }
     }
 }
 
@@ -97,13 +100,15 @@ pub(crate) fn telling<'a>(
     z: f64,
     most: usize,
 ) -> Vec<LevelAnswer> {
-    let mut all: Vec<LevelAnswer> = points.filter_map(|point| LevelAnswer::new(plan, point, z)).collect();
+    let mut all: Vec<LevelAnswer> =
+        points.filter_map(|point| LevelAnswer::new(plan, point, z)).collect();
     all.sort_by(|a, b| a.level.total_cmp(&b.level));
     let most = most.max(2);
     if all.len() <= most {
         return all;
     }
-    let from = all.iter().position(|row| row.overturned > 0.0).unwrap_or(all.len()).saturating_sub(1);
+    let from =
+        all.iter().position(|row| row.overturned > 0.0).unwrap_or(all.len()).saturating_sub(1);
     let from = from.min(all.len() - most);
     let to = all.iter().rposition(|row| row.overturned < 1.0).map_or(0, |last| last + 1);
     let to = to.clamp(from + most - 1, all.len() - 1);
@@ -114,10 +119,14 @@ pub(crate) fn telling<'a>(
 /// Columns of `ida.csv` beside those of the peaks: bounds on the share that overturns,
 /// displacements of the quantiles.
 pub fn columns(plan: &Plan, ida: &Ida, z: f64) -> SweepTable {
-    let real = |of: &dyn Fn(&IdaPoint) -> Option<f64>| Column::Real(ida.points.iter().map(of).collect());
+    let real =
+        |of: &dyn Fn(&IdaPoint) -> Option<f64>| Column::Real(ida.points.iter().map(of).collect());
     let bounds = |point: &IdaPoint| wilson(point.overturned, point.n, z);
     let at = |point: &IdaPoint, share: f64| {
-        Some(LeanDisplacements::new(&plan.subjects[point.subject].structure, point.quantile(share)?))
+        Some(LeanDisplacements::new(
+            &plan.subjects[point.subject].structure,
+            point.quantile(share)?,
+        ))
     };
     SweepTable {
         columns: vec![
@@ -143,9 +152,12 @@ mod tests {
     #[test]
     fn bounds_are_those_printed_for_the_score_method() {
         let z = quantile(0.975);
-        for (k, n, low, high) in
-            [(81, 263, 0.2553, 0.3662), (15, 148, 0.0624, 0.1605), (0, 20, 0.0, 0.1611), (1, 29, 0.0061, 0.1718)]
-        {
+        for (k, n, low, high) in [
+            (81, 263, 0.2553, 0.3662),
+            (15, 148, 0.0624, 0.1605),
+            (0, 20, 0.0, 0.1611),
+            (1, 29, 0.0061, 0.1718),
+        ] {
             let (a, b) = wilson(k, n, z).unwrap();
             assert!((a - low).abs() < 5.1e-5 && (b - high).abs() < 5.1e-5, "{k}/{n}: {a} {b}");
         }
@@ -160,13 +172,17 @@ mod tests {
         for ratio in [0.0, 0.1, 0.5, 1.0] {
             let (sin, cos) = (ratio * alpha).sin_cos();
             // clockwise about (b, 0): (x, y) -> (b + (x - b) cos + y sin, y cos - (x - b) sin)
-            let turned = |x: f64, y: f64| (0.3 + (x - 0.3) * cos + y * sin, y * cos - (x - 0.3) * sin);
+            let turned =
+                |x: f64, y: f64| (0.3 + (x - 0.3) * cos + y * sin, y * cos - (x - 0.3) * sin);
             let moved = LeanDisplacements::new(&block, ratio);
             assert!((moved.top_m - turned(0.0, 1.9).0).abs() < 1e-14, "{ratio}");
             assert!((moved.uplift_m - turned(-0.3, 0.0).1).abs() < 1e-14, "{ratio}");
         }
         let frame = Structure::a_frame(61.0, 12.2, 1e5).unwrap();
-        assert_eq!(LeanDisplacements::new(&frame, 0.3).top_m, frame.body::<f64>().u(0.3 * frame.body::<f64>().alpha()));
+        assert_eq!(
+            LeanDisplacements::new(&frame, 0.3).top_m,
+            frame.body::<f64>().u(0.3 * frame.body::<f64>().alpha())
+        );
         assert_eq!(LeanDisplacements::new(&block, f64::INFINITY).top_m, f64::INFINITY);
     }
 }

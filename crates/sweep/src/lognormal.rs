@@ -124,16 +124,24 @@ pub(crate) fn score(z: f64, exceeds: bool) -> f64 {
 impl LognormalFit {
     /// The fit to groups, in any order.
     pub(crate) fn new(groups: &[Group]) -> Self {
-        let (n, k): (u64, u64) = groups.iter().fold((0, 0), |(n, k), group| (n + group.n, k + group.k));
+        let (n, k): (u64, u64) =
+            groups.iter().fold((0, 0), |(n, k), group| (n + group.n, k + group.k));
         if k == 0 {
             return Self::NoneExceeded;
         }
         if k == n {
             return Self::AllExceeded;
         }
-        let over = groups.iter().filter(|group| group.k > 0).map(|group| group.ln_x).fold(f64::INFINITY, f64::min);
-        let under =
-            groups.iter().filter(|group| group.k < group.n).map(|group| group.ln_x).fold(f64::NEG_INFINITY, f64::max);
+        let over = groups
+            .iter()
+            .filter(|group| group.k > 0)
+            .map(|group| group.ln_x)
+            .fold(f64::INFINITY, f64::min);
+        let under = groups
+            .iter()
+            .filter(|group| group.k < group.n)
+            .map(|group| group.ln_x)
+            .fold(f64::NEG_INFINITY, f64::max);
         // one intensity, to rounding: the likelihood rises for ever with the slope
         if (under - over).abs() < 1e-9 {
             return Self::Undetermined;
@@ -193,7 +201,11 @@ impl Probit {
 
     /// Covariance of (a, b) from the scores of records, summed as u u^T, of so many records; as if
     /// all outcomes were independent where there is one record or none.
-    pub(crate) fn covariance(&self, scores: SymmetricMatrix, records: usize) -> Option<SymmetricMatrix> {
+    pub(crate) fn covariance(
+        &self,
+        scores: SymmetricMatrix,
+        records: usize,
+    ) -> Option<SymmetricMatrix> {
         let [[aa, ab], [_, bb]] = inverse(self.information)?;
         if records < 2 {
             return Some([aa, ab, bb]);
@@ -255,9 +267,12 @@ mod tests {
     /// Abramowitz & Stegun, tables 26.1 and 26.5.
     #[test]
     fn the_normal_distribution_has_its_printed_values() {
-        for (z, printed) in
-            [(0.0, 0.5), (1.0, 0.841_344_746_068_543), (2.0, 0.977_249_868_051_821), (-3.0, 0.001_349_898_031_630)]
-        {
+        for (z, printed) in [
+            (0.0, 0.5),
+            (1.0, 0.841_344_746_068_543),
+            (2.0, 0.977_249_868_051_821),
+            (-3.0, 0.001_349_898_031_630),
+        ] {
             assert!((phi(z) - printed).abs() < 2e-15, "{z}: {}", phi(z));
         }
         assert!((phi(-6.0) / 9.865_876_450_377e-10 - 1.0).abs() < 1e-12);
@@ -291,7 +306,8 @@ mod tests {
         let capacities: Vec<f64> =
             (0..1000).map(|j| 2_f64.ln() + 0.4 * quantile((f64::from(j) + 0.5) / 1000.0)).collect();
         let below = |ln_x: f64| capacities.iter().filter(|c| **c < ln_x).count() as u64;
-        let groups: Vec<Group> = levels.iter().map(|&ln_x| Group { ln_x, n: 1000, k: below(ln_x) }).collect();
+        let groups: Vec<Group> =
+            levels.iter().map(|&ln_x| Group { ln_x, n: 1000, k: below(ln_x) }).collect();
         let LognormalFit::Fitted(fit) = LognormalFit::new(&groups) else { panic!() };
         assert!((fit.median() - 2.0).abs() < 0.01 && (fit.beta() - 0.4).abs() < 0.005, "{fit:?}");
         let mut scores = [0.0; 3];
@@ -314,8 +330,14 @@ mod tests {
         let group = |ln_x: f64, k: u64| Group { ln_x, n: 10, k };
         assert_eq!(LognormalFit::new(&[group(0.0, 0), group(1.0, 0)]), LognormalFit::NoneExceeded);
         assert_eq!(LognormalFit::new(&[group(0.0, 10)]), LognormalFit::AllExceeded);
-        assert!(matches!(LognormalFit::new(&[group(0.0, 0), group(1.0, 10)]), LognormalFit::Separated { .. }));
-        assert_eq!(LognormalFit::new(&[group(0.0, 0), group(1.0, 5), group(2.0, 10)]), LognormalFit::Undetermined);
+        assert!(matches!(
+            LognormalFit::new(&[group(0.0, 0), group(1.0, 10)]),
+            LognormalFit::Separated { .. }
+        ));
+        assert_eq!(
+            LognormalFit::new(&[group(0.0, 0), group(1.0, 5), group(2.0, 10)]),
+            LognormalFit::Undetermined
+        );
         assert_eq!(LognormalFit::new(&[group(1.0, 3)]), LognormalFit::Undetermined);
         assert_eq!(LognormalFit::new(&[group(0.0, 8), group(1.0, 2)]), LognormalFit::Falling);
     }

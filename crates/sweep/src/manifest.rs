@@ -85,7 +85,9 @@ impl Manifest {
         whole_file::tidy(folder);
         whole_file::tidy(&folder.join("parts"));
         match self.is_in(folder) {
-            Err(SweepError::NoSweep { .. }) => whole(&folder.join("manifest.json"), self.text()?.as_bytes()),
+            Err(SweepError::NoSweep { .. }) => {
+                whole(&folder.join("manifest.json"), self.text()?.as_bytes())
+            }
             known => known,
         }
     }
@@ -97,16 +99,21 @@ impl Manifest {
     pub fn is_in(&self, folder: &Path) -> Result<(), SweepError> {
         let (path, folder) = (folder.join("manifest.json"), folder.display().to_string());
         let text = match input::text(&path) {
-            Err(e) if e.kind() == ErrorKind::NotFound => return Err(SweepError::NoSweep { folder }),
-            text => text.map_err(|source| SweepError::File { path: path.display().to_string(), source })?,
+            Err(e) if e.kind() == ErrorKind::NotFound => {
+                return Err(SweepError::NoSweep { folder });
+            }
+            text => text
+                .map_err(|source| SweepError::File { path: path.display().to_string(), source })?,
         };
         if text == self.text()? {
             return Ok(());
         }
         match serde_json::from_str(&text) {
-            Ok(ManifestKey { sweep }) if sweep != self.sweep => {
-                Err(SweepError::OtherSweep { folder, there: one_line(&sweep), here: self.sweep.clone() })
-            }
+            Ok(ManifestKey { sweep }) if sweep != self.sweep => Err(SweepError::OtherSweep {
+                folder,
+                there: one_line(&sweep),
+                here: self.sweep.clone(),
+            }),
             _ => Err(SweepError::Damaged {
                 path: path.display().to_string(),
                 reason: "is not as tune sweep wrote it".into(),

@@ -90,8 +90,12 @@ impl SweepMotion {
             Self::Synthetic(i) => format!("synthetic-{i:05}"),
             Self::Earthquake(i) => format!("earthquake-{i:05}"),
             Self::Like(i, given) => format!("like-{}-{i:05}", given.target.name()),
-            Self::Pulse { shape, frequency: Frequency::OverP(q) } => format!("{} q {q:.4}", shape.label()),
-            Self::Pulse { shape, frequency: Frequency::Hz(f) } => format!("{} {f:.4} Hz", shape.label()),
+            Self::Pulse { shape, frequency: Frequency::OverP(q) } => {
+                format!("{} q {q:.4}", shape.label())
+            }
+            Self::Pulse { shape, frequency: Frequency::Hz(f) } => {
+                format!("{} {f:.4} Hz", shape.label())
+            }
         }
     }
 
@@ -99,7 +103,11 @@ impl SweepMotion {
     ///
     /// # Errors
     /// A file that cannot be read.
-    pub(crate) fn record(&self, making: &MotionSource, of: (f64, f64)) -> Result<Record, RecordError> {
+    pub(crate) fn record(
+        &self,
+        making: &MotionSource,
+        of: (f64, f64),
+    ) -> Result<Record, RecordError> {
         self.told(making, of, &mut |_| {})
     }
 
@@ -132,7 +140,13 @@ impl SweepMotion {
                 let (dt, mut accel) = shape.sampled(frequency.omega(p), GRAVITY, greatest);
                 accel.resize(accel.len() + (SILENCE / (least * dt)).ceil() as usize, 0.0);
                 // its length is the pulse's
-                return Ok(Record { name: self.name(), dt, accel, vertical: None, source: Source::Synthetic });
+                return Ok(Record {
+                    name: self.name(),
+                    dt,
+                    accel,
+                    vertical: None,
+                    source: Source::Synthetic,
+                });
             }
         };
         Ok(match making.duration_s {

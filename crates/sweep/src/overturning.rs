@@ -109,14 +109,17 @@ pub(crate) fn rows(
 
 fn of_cell(plan: &Plan, springs: Option<&SpringsTable>, cell: Cell) -> Vec<OverturningRow> {
     let subject = &plan.subjects[cell.subject];
-    let SweepMotion::Pulse { shape, frequency } = &plan.motions[cell.motion] else { return Vec::new() };
+    let SweepMotion::Pulse { shape, frequency } = &plan.motions[cell.motion] else {
+        return Vec::new();
+    };
     let omega = frequency.omega(subject.p);
     // an amplitude of 1 lifts the body
     let (dt, accel) = shape.sampled(omega, subject.uplift(), subject.p);
     let e = plan.restitution(cell.subject, cell.restitution);
     let mut rows = Vec::new();
-    let mut add =
-        |model, intervals| rows.push(OverturningRow { cell, omega_over_p: omega / subject.p, model, intervals });
+    let mut add = |model, intervals| {
+        rows.push(OverturningRow { cell, omega_over_p: omega / subject.p, model, intervals })
+    };
     if plan.model.housner() {
         let pulse = LonePulse { body: &subject.body, e, dt, accel: &accel };
         add("housner", intervals(&plan.levels, WIDTH, &|amplitudes| pulse.fates(amplitudes)));
@@ -124,15 +127,25 @@ fn of_cell(plan: &Plan, springs: Option<&SpringsTable>, cell: Cell) -> Vec<Overt
     if let Some(springs) = springs {
         let springs = springs.of(cell.subject, cell.restitution);
         let mut accel = accel;
-        accel.resize(accel.len() + (super::motion::SILENCE / (subject.p * dt)).ceil() as usize, 0.0);
-        let record = Record { name: shape.name().into(), dt, accel, vertical: None, source: Source::Synthetic };
+        accel
+            .resize(accel.len() + (super::motion::SILENCE / (subject.p * dt)).ceil() as usize, 0.0);
+        let record = Record {
+            name: shape.name().into(),
+            dt,
+            accel,
+            vertical: None,
+            source: Source::Synthetic,
+        };
         let still = housner::solve(&subject.body, dt, &[0.0], &housner::RockingOptions::default());
         let wanted = |&scale: &f64| WantedHistory { subject, springs, scale, rigid: &still };
         let fates = |amplitudes: &[f64]| {
-            let found = history::elements(&amplitudes.iter().map(wanted).collect::<Vec<_>>(), &record);
+            let found =
+                history::elements(&amplitudes.iter().map(wanted).collect::<Vec<_>>(), &record);
             found
                 .iter()
-                .map(|(answer, _)| OverturningFate::new(answer.outcome == CellOutcome::Overturned, None))
+                .map(|(answer, _)| {
+                    OverturningFate::new(answer.outcome == CellOutcome::Overturned, None)
+                })
                 .collect()
         };
         add("fem", intervals(&plan.levels, WIDTH_FEM, &fates));
@@ -146,7 +159,11 @@ const CHANGES: usize = 16;
 /// The overturning intervals of a body under a pulse: scanned at amplitudes (increasing, over g tan
 /// alpha), ends by bisection. Neighbours that overturn after different numbers of impacts are
 /// looked between, too: often the body stands in a gap there.
-fn intervals(levels: &[f64], width: f64, fates: &dyn Fn(&[f64]) -> Vec<OverturningFate>) -> Vec<OverturningInterval> {
+fn intervals(
+    levels: &[f64],
+    width: f64,
+    fates: &dyn Fn(&[f64]) -> Vec<OverturningFate>,
+) -> Vec<OverturningInterval> {
     let scanned = fates(levels);
     let (Some(&low), Some(&first)) = (levels.first(), scanned.first()) else { return Vec::new() };
     // each stretch of one fate: where it begins
@@ -179,7 +196,11 @@ fn intervals(levels: &[f64], width: f64, fates: &dyn Fn(&[f64]) -> Vec<Overturni
     for (i, (from, fate)) in stretches.iter().enumerate() {
         if let OverturningFate::Overturns(impacts) = fate {
             let from = (i > 0).then_some(*from);
-            found.push(OverturningInterval { from, to: stretches.get(i + 1).map(|(to, _)| *to), impacts: *impacts });
+            found.push(OverturningInterval {
+                from,
+                to: stretches.get(i + 1).map(|(to, _)| *to),
+                impacts: *impacts,
+            });
         }
     }
     found
@@ -195,13 +216,18 @@ struct LonePulse<'a> {
 
 impl LonePulse<'_> {
     fn fates(&self, amplitudes: &[f64]) -> Vec<OverturningFate> {
-        let options =
-            |scale: &f64| housner::RockingOptions { scale: *scale, restitution: Some(self.e), ..Default::default() };
+        let options = |scale: &f64| housner::RockingOptions {
+            scale: *scale,
+            restitution: Some(self.e),
+            ..Default::default()
+        };
         let solve = |chunk: &[f64]| {
             let options: Vec<housner::RockingOptions<f64>> = chunk.iter().map(options).collect();
             match &options[..] {
                 [one] => vec![housner::solve(self.body, self.dt, self.accel, one)],
-                all => housner::solve_lanes(std::slice::from_ref(self.body), self.dt, self.accel, all),
+                all => {
+                    housner::solve_lanes(std::slice::from_ref(self.body), self.dt, self.accel, all)
+                }
             }
         };
         let rocked: Vec<Vec<_>> = amplitudes.chunks(TOGETHER).map(solve).collect();
@@ -234,21 +260,26 @@ impl LonePulse<'_> {
 
 /// Columns that an overturning spectrum has: a row an interval.
 pub fn table(plan: &Plan, rows: &[OverturningRow]) -> SweepTable {
-    let all: Vec<(&OverturningRow, usize, &OverturningInterval)> =
-        rows.iter().flat_map(|row| row.intervals.iter().enumerate().map(move |(i, found)| (row, i, found))).collect();
+    let all: Vec<(&OverturningRow, usize, &OverturningInterval)> = rows
+        .iter()
+        .flat_map(|row| row.intervals.iter().enumerate().map(move |(i, found)| (row, i, found)))
+        .collect();
     let subject = |row: &OverturningRow| &plan.subjects[row.cell.subject];
-    let count =
-        |of: &dyn Fn(&OverturningRow, usize) -> i64| Column::Count(all.iter().map(|(row, i, _)| of(row, *i)).collect());
+    let count = |of: &dyn Fn(&OverturningRow, usize) -> i64| {
+        Column::Count(all.iter().map(|(row, i, _)| of(row, *i)).collect())
+    };
     let real = |of: &dyn Fn(&OverturningRow, &OverturningInterval) -> Option<f64>| {
         Column::Real(all.iter().map(|(row, _, found)| of(row, found)).collect())
     };
-    let text =
-        |of: &dyn Fn(&OverturningRow) -> String| Column::Text(all.iter().map(|(row, ..)| Arc::from(of(row))).collect());
+    let text = |of: &dyn Fn(&OverturningRow) -> String| {
+        Column::Text(all.iter().map(|(row, ..)| Arc::from(of(row))).collect())
+    };
     let pulse = |row: &OverturningRow| match &plan.motions[row.cell.motion] {
         SweepMotion::Pulse { shape, .. } => shape.label(),
         other => other.name(),
     };
-    let restitution = |row: &OverturningRow| plan.restitution(row.cell.subject, row.cell.restitution);
+    let restitution =
+        |row: &OverturningRow| plan.restitution(row.cell.subject, row.cell.restitution);
     SweepTable {
         columns: vec![
             ("cell", count(&|row, _| row.cell.index as i64)),
@@ -277,7 +308,13 @@ mod tests {
     /// The overturning intervals of PGA/(g tan alpha) of a body with restitution `e` under a pulse
     /// with omega = q p, by Housner's equation. `levels` are the amplitudes of the scan,
     /// increasing.
-    fn spectrum(body: &Body<f64>, e: f64, shape: PulseShape, q: f64, levels: &[f64]) -> Vec<OverturningInterval> {
+    fn spectrum(
+        body: &Body<f64>,
+        e: f64,
+        shape: PulseShape,
+        q: f64,
+        levels: &[f64],
+    ) -> Vec<OverturningInterval> {
         let p = body.p_squared().sqrt();
         let uplift = rocking::scalar::GRAVITY * body.half_width / body.height;
         let (dt, accel) = shape.sampled(q * p, uplift, p);
@@ -299,9 +336,18 @@ mod tests {
     fn a_half_sine_overturns_from_the_exact_equations_amplitude() {
         let body = body(0.2);
         for (q, exact) in [(1.0, 1.3217), (2.0, 1.8013), (5.0, 3.2960), (10.0, 5.805)] {
-            let found = spectrum(&body, body.restitution(), PulseShape::HalfSine, q, &levels(1.0, 12.0, 300));
+            let found = spectrum(
+                &body,
+                body.restitution(),
+                PulseShape::HalfSine,
+                q,
+                &levels(1.0, 12.0, 300),
+            );
             println!("half sine q {q}: {found:?}");
-            assert!(found.iter().any(|i| (i.from.unwrap() / exact - 1.0).abs() < 2e-4), "q {q}: {found:?}");
+            assert!(
+                found.iter().any(|i| (i.from.unwrap() / exact - 1.0).abs() < 2e-4),
+                "q {q}: {found:?}"
+            );
         }
     }
 
@@ -309,7 +355,8 @@ mod tests {
     fn one_sine_overturns_without_impact_from_the_exact_equations_amplitude() {
         let body = body(0.2);
         for (q, exact) in [(2.0, 2.3549), (3.0, 3.6526), (5.0, 7.2759)] {
-            let found = spectrum(&body, body.restitution(), PulseShape::Sine, q, &levels(1.0, 12.0, 600));
+            let found =
+                spectrum(&body, body.restitution(), PulseShape::Sine, q, &levels(1.0, 12.0, 600));
             println!("sine q {q}: {found:?}");
             let upper = found.iter().find(|i| i.impacts == Some(0)).unwrap();
             assert!((upper.from.unwrap() / exact - 1.0).abs() < 2e-4, "q {q}: {found:?}");
@@ -324,7 +371,10 @@ mod tests {
         let found = spectrum(&body, 0.9, PulseShape::Sine, 2.0, &levels(1.0, 12.0, 300));
         println!("{found:?}");
         let lower = found.iter().find(|i| i.impacts == Some(1)).unwrap();
-        assert!((lower.from.unwrap() - 1.22).abs() < 0.01 && (lower.to.unwrap() - 2.32).abs() < 0.01, "{found:?}");
+        assert!(
+            (lower.from.unwrap() - 1.22).abs() < 0.01 && (lower.to.unwrap() - 2.32).abs() < 0.01,
+            "{found:?}"
+        );
     }
 
     /// Small angles: q sin(psi) = cos(psi) + exp(-(pi - psi)/q), sin psi = g alpha/a_p; the exact
@@ -332,7 +382,8 @@ mod tests {
     #[test]
     fn the_limit_of_slender_bodies_is_the_closed_form() {
         let closed = |q: f64| {
-            let f = |psi: f64| q * psi.sin() - psi.cos() - (-(std::f64::consts::PI - psi) / q).exp();
+            let f =
+                |psi: f64| q * psi.sin() - psi.cos() - (-(std::f64::consts::PI - psi) / q).exp();
             let (mut low, mut high) = (1e-6, std::f64::consts::FRAC_PI_2);
             for _ in 0..100 {
                 let middle = 0.5 * (low + high);
@@ -360,11 +411,17 @@ mod tests {
             long.resize(accel.len() + (25.0 / (p * dt)) as usize, 0.0);
             let pulse = LonePulse { body: &body, e: 0.9, dt, accel: &accel };
             for amplitude in levels(1.05, 9.0, 60) {
-                let options =
-                    housner::RockingOptions { scale: amplitude, restitution: Some(0.9), ..Default::default() };
+                let options = housner::RockingOptions {
+                    scale: amplitude,
+                    restitution: Some(0.9),
+                    ..Default::default()
+                };
                 let rocking = housner::solve(&body, dt, &long, &options);
                 let fate = pulse.fates(&[amplitude])[0];
-                let shown = OverturningFate::new(rocking.overturned().is_some(), Some(rocking.impacts.len()));
+                let shown = OverturningFate::new(
+                    rocking.overturned().is_some(),
+                    Some(rocking.impacts.len()),
+                );
                 assert_eq!(fate, shown, "{shape:?} {amplitude}");
             }
         }

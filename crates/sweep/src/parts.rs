@@ -10,8 +10,8 @@ use std::{
 use bytes::Bytes;
 
 use super::{
-    SweepError, history, manifest, overturning, plan::Plan, row, seal, spec::SweepKind, springs::SpringsTable,
-    table::SweepTable,
+    SweepError, history, manifest, overturning, plan::Plan, row, seal, spec::SweepKind,
+    springs::SpringsTable, table::SweepTable,
 };
 use files::{input, message::one_line};
 
@@ -37,7 +37,8 @@ impl FromStr for Share {
     fn from_str(text: &str) -> Result<Self, String> {
         let wrong = || format!("{text} is no share; give I/N with I from 1 to N, as 3/8");
         let (index, of) = text.split_once('/').ok_or_else(wrong)?;
-        let (index, of) = (index.trim().parse().map_err(|_| wrong())?, of.trim().parse().map_err(|_| wrong())?);
+        let (index, of) =
+            (index.trim().parse().map_err(|_| wrong())?, of.trim().parse().map_err(|_| wrong())?);
         if index >= 1 && index <= of { Ok(Self { index, of }) } else { Err(wrong()) }
     }
 }
@@ -82,7 +83,9 @@ impl<'a> SweepParts<'a> {
 
     /// File of part i.
     pub fn path(&self, part: u64) -> PathBuf {
-        self.folder.join("parts").join(format!("part-{part:05}-of-{:05}.parquet", self.plan.parts()))
+        self.folder
+            .join("parts")
+            .join(format!("part-{part:05}-of-{:05}.parquet", self.plan.parts()))
     }
 
     /// Cells of part i.
@@ -109,14 +112,21 @@ impl<'a> SweepParts<'a> {
         }
         let (number, count) = (part.to_string(), self.plan.parts().to_string());
         if (is(seal::PART), is(seal::PARTS)) != (&number, &count) {
-            return Err(format!("is part {} of {}", one_line(is(seal::PART)), one_line(is(seal::PARTS))));
+            return Err(format!(
+                "is part {} of {}",
+                one_line(is(seal::PART)),
+                one_line(is(seal::PARTS))
+            ));
         }
         let cells = self.cells(part);
         let cells = cells.end - cells.start;
         // a cell of an overturning spectrum has a row for every interval: none, one or more
         let fits = self.plan.kind == SweepKind::Overturning || rows == cells;
         if !fits || is(seal::ROWS) != rows.to_string() {
-            return Err(format!("has {rows} rows, its seal says {}, for {cells} cells", one_line(is(seal::ROWS))));
+            return Err(format!(
+                "has {rows} rows, its seal says {}, for {cells} cells",
+                one_line(is(seal::ROWS))
+            ));
         }
         Ok(Some(bytes))
     }
@@ -178,8 +188,12 @@ impl<'a> SweepParts<'a> {
     ) -> Result<(), SweepError> {
         let all = || (0..self.plan.parts()).collect();
         for part in self.gathered.clone().unwrap_or_else(all) {
-            let damaged = |reason: String| SweepError::Damaged { path: self.path(part).display().to_string(), reason };
-            let bytes = self.load(part).map_err(damaged)?.ok_or_else(|| damaged("is not there".into()))?;
+            let damaged = |reason: String| SweepError::Damaged {
+                path: self.path(part).display().to_string(),
+                reason,
+            };
+            let bytes =
+                self.load(part).map_err(damaged)?.ok_or_else(|| damaged("is not there".into()))?;
             take(SweepTable::read_parquet(bytes, wanted).map_err(|e| damaged(e.to_string()))?)?;
         }
         Ok(())
@@ -192,7 +206,8 @@ mod tests {
 
     #[test]
     fn shares_cover_all_parts_once() {
-        let mut all: Vec<u64> = (1..=3).flat_map(|index| Share { index, of: 3 }.parts(10)).collect();
+        let mut all: Vec<u64> =
+            (1..=3).flat_map(|index| Share { index, of: 3 }.parts(10)).collect();
         all.sort_unstable();
         assert_eq!(all, (0..10).collect::<Vec<_>>());
         assert_eq!(Share { index: 8, of: 8 }.parts(5).count(), 0);

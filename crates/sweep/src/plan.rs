@@ -146,15 +146,17 @@ impl Plan {
     pub(crate) fn new(source: &SweepSource) -> Result<Self, SweepError> {
         let sweep = &source.spec.sweep;
         let kind = *sweep.kind.get_ref();
-        let default = if kind == SweepKind::Compare { SweepModel::Both } else { SweepModel::Housner };
+        let default =
+            if kind == SweepKind::Compare { SweepModel::Both } else { SweepModel::Housner };
         let model = sweep.model.as_ref().map_or(default, |model| *model.get_ref());
         if let Some(written) = &sweep.model
             && kind == SweepKind::Compare
             && model != SweepModel::Both
         {
-            return Err(
-                source.at(written, "kind = \"compare\" compares both models; write model = \"both\", or leave it out")
-            );
+            return Err(source.at(
+                written,
+                "kind = \"compare\" compares both models; write model = \"both\", or leave it out",
+            ));
         }
         let subjects = subjects(source)?;
         let restitutions = match &sweep.restitution {
@@ -212,7 +214,13 @@ impl Plan {
             ratios,
             confidence: within("confidence", &sweep.confidence, 0.5, 0.999, 0.9)?,
             springs: SpringsAsked {
-                accuracy: within("accuracy", &springs.accuracy, ACCURACY.least, ACCURACY.most, 0.002)?,
+                accuracy: within(
+                    "accuracy",
+                    &springs.accuracy,
+                    ACCURACY.least,
+                    ACCURACY.most,
+                    0.002,
+                )?,
                 max_omega_hz,
             },
             part,
@@ -278,12 +286,17 @@ impl Plan {
     /// A record that cannot be read, or has no motion.
     pub fn hash(&self, notice: &mut dyn FnMut(&Notice)) -> Result<String, SweepError> {
         let MotionSource { seed, duration_s, p, .. } = &self.making;
-        let mut text =
-            format!("{} {:?} {:?} {seed} {duration_s:?} {p:?}", env!("CARGO_PKG_VERSION"), self.kind, self.model);
+        let mut text = format!(
+            "{} {:?} {:?} {seed} {duration_s:?} {p:?}",
+            env!("CARGO_PKG_VERSION"),
+            self.kind,
+            self.model
+        );
         for subject in &self.subjects {
             text += &format!("{:?} {:?}", subject.structure, subject.restitution);
         }
-        text += &format!("{:?} {:?} {:?} {}", self.restitutions, self.measure, self.levels, self.part);
+        text +=
+            &format!("{:?} {:?} {:?} {}", self.restitutions, self.measure, self.levels, self.part);
         if self.model.fem() {
             text += &format!("{:?}", self.springs);
         }
@@ -326,7 +339,10 @@ fn subjects(source: &SweepSource) -> Result<Vec<Subject>, SweepError> {
         of_grid(source, grid, &mut subjects)?;
     }
     if subjects.is_empty() {
-        return Err(source.at(&source.spec.sweep.kind, "no structure; give [[structure]] as in a case file, or [grid]"));
+        return Err(source.at(
+            &source.spec.sweep.kind,
+            "no structure; give [[structure]] as in a case file, or [grid]",
+        ));
     }
     Ok(subjects)
 }
@@ -336,7 +352,11 @@ fn reason(path: &str, message: &str) -> String {
     message.strip_prefix(&format!("{path}: ")).unwrap_or(message).to_string()
 }
 
-fn of_grid(source: &SweepSource, grid: &Spanned<Grid>, subjects: &mut Vec<Subject>) -> Result<(), SweepError> {
+fn of_grid(
+    source: &SweepSource,
+    grid: &Spanned<Grid>,
+    subjects: &mut Vec<Subject>,
+) -> Result<(), SweepError> {
     let Grid { kind, size_m, slenderness } = grid.get_ref();
     let kinds = match kind {
         Kinds::One(kind) => std::slice::from_ref(kind),
@@ -359,7 +379,8 @@ fn of_grid(source: &SweepSource, grid: &Spanned<Grid>, subjects: &mut Vec<Subjec
                         structure::Kind::Block => m_r2 / 3.0,
                     },
                 };
-                let structure = structure.checked().map_err(|e| source.at(slenderness, e.to_string()))?;
+                let structure =
+                    structure.checked().map_err(|e| source.at(slenderness, e.to_string()))?;
                 subjects.push(Subject::new(structure, structure.body::<f64>().restitution()));
             }
         }
@@ -381,7 +402,9 @@ fn levels(source: &SweepSource, kind: SweepKind) -> Result<(Measure, Vec<f64>), 
         (Measure::PgaG, "pga_g", &all.pga_g, 50.0),
         (Measure::PgaOverUplift, "pga_over_uplift", &all.pga_over_uplift, 1e4),
     ];
-    let mut given = given.into_iter().filter_map(|(m, name, values, most)| values.as_ref().map(|v| (m, name, v, most)));
+    let mut given = given
+        .into_iter()
+        .filter_map(|(m, name, values, most)| values.as_ref().map(|v| (m, name, v, most)));
     let (Some((measure, name, values, most)), None) = (given.next(), given.next()) else {
         return Err(source.at(section, "levels: give one of scale, pga_g and pga_over_uplift"));
     };

@@ -68,7 +68,9 @@ impl PulseShape {
     /// What tells it from others of its name.
     pub fn label(&self) -> String {
         match self {
-            Self::MavroeidisPapageorgiou { gamma, nu } => format!("{} gamma {gamma} nu {nu}", self.name()),
+            Self::MavroeidisPapageorgiou { gamma, nu } => {
+                format!("{} gamma {gamma} nu {nu}", self.name())
+            }
             _ => self.name().into(),
         }
     }
@@ -88,7 +90,9 @@ impl PulseShape {
             Self::HalfSine | Self::Sine => None,
             Self::Ricker => Some(Pulse::RickerSymmetric),
             Self::RickerAntisymmetric => Some(Pulse::RickerAntisymmetric),
-            Self::MavroeidisPapageorgiou { gamma, nu } => Some(Pulse::MavroeidisPapageorgiou { gamma, nu }),
+            Self::MavroeidisPapageorgiou { gamma, nu } => {
+                Some(Pulse::MavroeidisPapageorgiou { gamma, nu })
+            }
         }
     }
 
@@ -152,7 +156,10 @@ mod tests {
                 let (dt, accel) = shape.sampled(omega, 2.5, p);
                 let peak = accel.iter().fold(0.0, |peak: f64, a| peak.max(a.abs()));
                 assert!((peak - 2.5).abs() < 1e-12, "{shape:?} {peak}");
-                assert!(dt <= TAU / omega / A_PERIOD * 1.0001 && dt * p <= 1.0001 / A_RADIAN, "{shape:?} {dt}");
+                assert!(
+                    dt <= TAU / omega / A_PERIOD * 1.0001 && dt * p <= 1.0001 / A_RADIAN,
+                    "{shape:?} {dt}"
+                );
                 let (from, to) = shape.range();
                 assert!((dt * (accel.len() - 1) as f64 * omega - (to - from)).abs() < 1e-9);
             }

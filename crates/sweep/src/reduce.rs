@@ -32,18 +32,28 @@ pub(crate) struct SeenHistory {
 
 /// Which models a plan has, as indices into [`MODELS`].
 pub fn models(plan: &Plan) -> Vec<usize> {
-    [plan.model.housner(), plan.model.fem()].iter().enumerate().filter(|(_, has)| **has).map(|(i, _)| i).collect()
+    [plan.model.housner(), plan.model.fem()]
+        .iter()
+        .enumerate()
+        .filter(|(_, has)| **has)
+        .map(|(i, _)| i)
+        .collect()
 }
 
 /// Show every history that is there to `take`, in the order of cells.
 ///
 /// # Errors
 /// A part that cannot be read.
-pub(crate) fn each(parts: &SweepParts, mut take: impl FnMut(&SeenHistory)) -> Result<(), SweepError> {
+pub(crate) fn each(
+    parts: &SweepParts,
+    mut take: impl FnMut(&SeenHistory),
+) -> Result<(), SweepError> {
     let models = models(parts.plan);
     let real = |name: &'static str| (name, Column::Real(Vec::new()));
-    let mut columns = vec![("cell", Column::Count(Vec::new())), real("pga_m_per_s2"), real("pgv_m_per_s")];
-    const NAMES: [[&str; 2]; 2] = [["housner_peak", "housner_overturned"], ["fem_peak", "fem_overturned"]];
+    let mut columns =
+        vec![("cell", Column::Count(Vec::new())), real("pga_m_per_s2"), real("pgv_m_per_s")];
+    const NAMES: [[&str; 2]; 2] =
+        [["housner_peak", "housner_overturned"], ["fem_peak", "fem_overturned"]];
     for &model in &models {
         columns.push(real(NAMES[model][0]));
         columns.push((NAMES[model][1], Column::Flag(Vec::new())));
@@ -128,7 +138,8 @@ impl Histogram {
         let mut below = [self.zero, other.zero].map(|n| n as f64);
         let distance = |below: [f64; 2]| (below[0] / all[0] - below[1] / all[1]).abs();
         let mut worst = distance(below);
-        let bins: std::collections::BTreeSet<i32> = self.bins.keys().chain(other.bins.keys()).copied().collect();
+        let bins: std::collections::BTreeSet<i32> =
+            self.bins.keys().chain(other.bins.keys()).copied().collect();
         for bin in bins {
             for (below, h) in below.iter_mut().zip([self, other]) {
                 *below += h.bins.get(&bin).copied().unwrap_or(0) as f64;
@@ -154,7 +165,10 @@ mod tests {
         }
         histogram.add(f64::INFINITY);
         histogram.add(0.0);
-        assert_eq!((histogram.quantile(0.0), histogram.quantile(1.0)), (Some(0.0), Some(f64::INFINITY)));
+        assert_eq!(
+            (histogram.quantile(0.0), histogram.quantile(1.0)),
+            (Some(0.0), Some(f64::INFINITY))
+        );
         assert_eq!(Histogram::default().quantile(0.5), None);
     }
 

@@ -82,8 +82,10 @@ pub struct HistoryRow {
 /// Columns that a sweep of histories has.
 pub fn table(plan: &Plan, rows: &[HistoryRow]) -> SweepTable {
     let count = |of: fn(&HistoryRow) -> i64| Column::Count(rows.iter().map(of).collect());
-    let real = |of: &dyn Fn(&HistoryRow) -> Option<f64>| Column::Real(rows.iter().map(of).collect());
-    let names: Vec<Arc<str>> = plan.subjects.iter().map(|subject| subject.name.as_str().into()).collect();
+    let real =
+        |of: &dyn Fn(&HistoryRow) -> Option<f64>| Column::Real(rows.iter().map(of).collect());
+    let names: Vec<Arc<str>> =
+        plan.subjects.iter().map(|subject| subject.name.as_str().into()).collect();
     let subject = |row: &HistoryRow| &plan.subjects[row.subject];
     let mut columns = vec![
         ("cell", count(|row| row.cell as i64)),
@@ -103,25 +105,39 @@ pub fn table(plan: &Plan, rows: &[HistoryRow]) -> SweepTable {
     ];
     type AnswerOf = fn(&HistoryRow) -> Option<CellAnswer>;
     let models: [(_, AnswerOf, [&'static str; 3]); 2] = [
-        (plan.model.housner(), |row| row.housner, ["housner_outcome", "housner_overturned", "housner_peak"]),
+        (
+            plan.model.housner(),
+            |row| row.housner,
+            ["housner_outcome", "housner_overturned", "housner_peak"],
+        ),
         (plan.model.fem(), |row| row.fem, ["fem_outcome", "fem_overturned", "fem_peak"]),
     ];
     for (i, (asked, of, [outcome, overturned, peak])) in models.into_iter().enumerate() {
         if !asked {
             continue;
         }
-        let word = |row: &HistoryRow| Arc::from(of(row).map_or(CellOutcome::Failed, |answer| answer.outcome).name());
+        let word = |row: &HistoryRow| {
+            Arc::from(of(row).map_or(CellOutcome::Failed, |answer| answer.outcome).name())
+        };
         let known = |row: &HistoryRow| {
-            of(row).filter(|a| !matches!(a.outcome, CellOutcome::Failed | CellOutcome::LeavesGround))
+            of(row)
+                .filter(|a| !matches!(a.outcome, CellOutcome::Failed | CellOutcome::LeavesGround))
         };
         columns.push((outcome, Column::Text(rows.iter().map(word).collect())));
-        let flags = rows.iter().map(|row| known(row).map(|a| a.outcome == CellOutcome::Overturned)).collect();
+        let flags = rows
+            .iter()
+            .map(|row| known(row).map(|a| a.outcome == CellOutcome::Overturned))
+            .collect();
         columns.push((overturned, Column::Flag(flags)));
         columns.push((peak, real(&|row| of(row).and_then(|a| a.peak))));
         // on springs neither is kept
         if i == 0 {
-            columns.push(("housner_impacts", real(&|row| of(row).and_then(|a| a.impacts).map(|n| n as f64))));
-            columns.push(("housner_overturned_s", real(&|row| of(row).and_then(|a| a.overturned_s))));
+            columns.push((
+                "housner_impacts",
+                real(&|row| of(row).and_then(|a| a.impacts).map(|n| n as f64)),
+            ));
+            columns
+                .push(("housner_overturned_s", real(&|row| of(row).and_then(|a| a.overturned_s))));
         }
     }
     if plan.model.housner() && plan.model.fem() {

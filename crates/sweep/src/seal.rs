@@ -20,7 +20,12 @@ const MARK: &[u8] = b"fnv1a64:";
 const DIGITS: usize = 16;
 
 /// The metadata of a part, with zeros for the checksum.
-pub(crate) fn metadata(sweep: &str, part: u64, parts: u64, rows: usize) -> Vec<(&'static str, String)> {
+pub(crate) fn metadata(
+    sweep: &str,
+    part: u64,
+    parts: u64,
+    rows: usize,
+) -> Vec<(&'static str, String)> {
     let zeros = format!("{}{}", String::from_utf8_lossy(MARK), "0".repeat(DIGITS));
     vec![
         (SWEEP, sweep.to_string()),
@@ -38,7 +43,8 @@ fn digits(bytes: &[u8]) -> Option<std::ops::Range<usize>> {
 }
 
 fn checksum(bytes: &[u8], digits: &std::ops::Range<usize>) -> String {
-    let zeroed = bytes.iter().enumerate().map(|(i, byte)| if digits.contains(&i) { b'0' } else { *byte });
+    let zeroed =
+        bytes.iter().enumerate().map(|(i, byte)| if digits.contains(&i) { b'0' } else { *byte });
     format!("{:016x}", fnv1a(zeroed))
 }
 
@@ -52,7 +58,8 @@ pub(crate) fn seal(bytes: &mut [u8]) {
 
 /// Whether a file is as it was written.
 pub(crate) fn holds(bytes: &[u8]) -> bool {
-    digits(bytes).is_some_and(|digits| bytes[digits.clone()] == *checksum(bytes, &digits).as_bytes())
+    digits(bytes)
+        .is_some_and(|digits| bytes[digits.clone()] == *checksum(bytes, &digits).as_bytes())
 }
 
 #[cfg(test)]

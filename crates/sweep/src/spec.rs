@@ -200,7 +200,8 @@ impl SweepSource {
     /// It cannot be read, or a key or a number in it is wrong: with its line.
     pub(crate) fn read(path: &Path) -> Result<Self, SweepError> {
         let name = path.display().to_string();
-        let text = files::input::text(path).map_err(|source| SweepError::Read { path: name.clone(), source })?;
+        let text = files::input::text(path)
+            .map_err(|source| SweepError::Read { path: name.clone(), source })?;
         Self::parse(name, text)
     }
 
@@ -229,7 +230,13 @@ impl SweepSource {
     ///
     /// # Errors
     /// It is not, or not finite.
-    pub(crate) fn within(&self, name: &str, value: &Spanned<f64>, low: f64, high: f64) -> Result<f64, SweepError> {
+    pub(crate) fn within(
+        &self,
+        name: &str,
+        value: &Spanned<f64>,
+        low: f64,
+        high: f64,
+    ) -> Result<f64, SweepError> {
         let x = *value.get_ref();
         if (low..=high).contains(&x) {
             Ok(x)
@@ -250,7 +257,10 @@ impl SweepSource {
         high: f64,
     ) -> Result<Vec<f64>, SweepError> {
         match values.get_ref().outside(low, high) {
-            Some(x) => Err(self.at(values, format!("{name} has {x:?}; give numbers from {low:?} to {high:?}"))),
+            Some(x) => {
+                Err(self
+                    .at(values, format!("{name} has {x:?}; give numbers from {low:?} to {high:?}")))
+            }
             None => Ok(values.get_ref().all().to_vec()),
         }
     }

@@ -73,7 +73,10 @@ struct SpringsKey([String; 3]);
 impl SpringsKey {
     fn new(plan: &Plan, subject: usize, restitution: usize) -> Self {
         let body = &plan.subjects[subject].body;
-        Self([body.alpha(), body.mass_share(), plan.restitution(subject, restitution)].map(|x| format!("{x:.8e}")))
+        Self(
+            [body.alpha(), body.mass_share(), plan.restitution(subject, restitution)]
+                .map(|x| format!("{x:.8e}")),
+        )
     }
 }
 
@@ -83,16 +86,28 @@ impl SpringsTable {
     ///
     /// # Errors
     /// A structure that cannot be tuned; a file that cannot be read or written.
-    pub fn new(plan: &Plan, folder: &Path, hash: &str, progress: &dyn Fn(usize, usize)) -> Result<Self, SweepError> {
+    pub fn new(
+        plan: &Plan,
+        folder: &Path,
+        hash: &str,
+        progress: &dyn Fn(usize, usize),
+    ) -> Result<Self, SweepError> {
         let path = folder.join("springs.json");
-        let damaged = |reason: &str| SweepError::Damaged { path: path.display().to_string(), reason: reason.into() };
+        let damaged = |reason: &str| SweepError::Damaged {
+            path: path.display().to_string(),
+            reason: reason.into(),
+        };
         // what is read back is what every later run will read
         let read = || -> Result<Option<Filed>, SweepError> {
             let text = match input::text(&path) {
                 Err(e) if e.kind() == ErrorKind::NotFound => return Ok(None),
-                text => text.map_err(|source| SweepError::File { path: path.display().to_string(), source })?,
+                text => text.map_err(|source| SweepError::File {
+                    path: path.display().to_string(),
+                    source,
+                })?,
             };
-            let filed: Filed = serde_json::from_str(&text).map_err(|e| damaged(&one_line(&e.to_string())))?;
+            let filed: Filed =
+                serde_json::from_str(&text).map_err(|e| damaged(&one_line(&e.to_string())))?;
             if filed.sweep != hash || filed.checksum != Filed::checksum(&filed.springs)? {
                 return Err(damaged("holds other springs than those that tune sweep tuned"));
             }
@@ -102,7 +117,8 @@ impl SpringsTable {
             Some(filed) => filed,
             None => {
                 let springs = tune(plan, progress)?;
-                let filed = Filed { sweep: hash.into(), checksum: Filed::checksum(&springs)?, springs };
+                let filed =
+                    Filed { sweep: hash.into(), checksum: Filed::checksum(&springs)?, springs };
                 manifest::whole(&path, manifest::json("springs.json", &filed)?.as_bytes())?;
                 read()?.ok_or_else(|| damaged("cannot be read back"))?
             }
@@ -116,7 +132,8 @@ impl SpringsTable {
         for subject in 0..plan.subjects.len() {
             for restitution in 0..plan.restitution_count() {
                 let key = SpringsKey::new(plan, subject, restitution);
-                let tuned = filed.springs.get(keys.iter().position(|(other, ..)| *other == key)?)?;
+                let tuned =
+                    filed.springs.get(keys.iter().position(|(other, ..)| *other == key)?)?;
                 let subject = &plan.subjects[subject];
                 let design = |unit: &DimensionlessChain| Design {
                     mu: unit.mu,
@@ -124,11 +141,19 @@ impl SpringsTable {
                     xi: unit.xi,
                     omega_n_hz: unit.omega_n_hz_over_p * subject.p,
                 };
-                let springs = Springs { vertical: design(&tuned.vertical), horizontal: design(&tuned.horizontal) };
+                let springs = Springs {
+                    vertical: design(&tuned.vertical),
+                    horizontal: design(&tuned.horizontal),
+                };
                 chains.push(springs.chains(subject.structure.mass_kg));
             }
         }
-        let missed = filed.springs.iter().filter(|tuned| !tuned.reached).map(|tuned| tuned.tuned_on.clone()).collect();
+        let missed = filed
+            .springs
+            .iter()
+            .filter(|tuned| !tuned.reached)
+            .map(|tuned| tuned.tuned_on.clone())
+            .collect();
         Some(Self { chains, restitutions: plan.restitution_count(), missed })
     }
 
@@ -145,7 +170,9 @@ fn keys(plan: &Plan) -> Vec<(SpringsKey, usize, usize)> {
         for restitution in 0..plan.restitution_count() {
             let key = SpringsKey::new(plan, subject, restitution);
             match keys.iter_mut().find(|(other, ..)| *other == key) {
-                Some((_, largest, _)) if plan.subjects[subject].p < plan.subjects[*largest].p => *largest = subject,
+                Some((_, largest, _)) if plan.subjects[subject].p < plan.subjects[*largest].p => {
+                    *largest = subject
+                }
                 Some(_) => {}
                 None => keys.push((key, subject, restitution)),
             }
@@ -163,8 +190,11 @@ fn tune(plan: &Plan, progress: &dyn Fn(usize, usize)) -> Result<Vec<TunedSprings
         let subject = &plan.subjects[*subject];
         // no record: nothing is tuned to one
         let still = Record::new("none", 0.01, vec![0.0; 2])?;
-        let tuning =
-            Tuning { accuracy: plan.springs.accuracy, max_omega_hz: plan.springs.max_omega_hz, ..Tuning::default() };
+        let tuning = Tuning {
+            accuracy: plan.springs.accuracy,
+            max_omega_hz: plan.springs.max_omega_hz,
+            ..Tuning::default()
+        };
         let case = Case::new("sweep", (subject.structure, e), Excitation::whole(still), tuning)?;
         let job = Job::new(&case, &|_, _, _| {})
             .map_err(|source| SweepError::Springs { structure: subject.name.clone(), source })?;

@@ -19,7 +19,8 @@ fn by(model: &str) -> &'static str {
 
 /// What was computed.
 pub fn head(plan: &Plan) -> String {
-    let counted = |n: usize, one: &str, several: &str| format!("{n} {}", if n == 1 { one } else { several });
+    let counted =
+        |n: usize, one: &str, several: &str| format!("{n} {}", if n == 1 { one } else { several });
     format!(
         "{} histories: {}, {}, {}, {}.",
         plan.cells(),
@@ -37,10 +38,19 @@ const SPOKEN_OF: usize = 12;
 pub fn fragility(plan: &Plan, fragility: &Fragility, ida: &Ida) -> Vec<String> {
     let mut said = Vec::new();
     let percent = 100.0 * fragility.confidence;
-    let spoken_of = |member: &FragilityGroup| member.subject.is_none_or(|subject| subject < SPOKEN_OF);
-    for (at, member) in fragility.members.iter().enumerate().filter(|(_, member)| spoken_of(member)) {
-        let rows = || fragility.rows.iter().filter(move |row| row.member == at && row.state == LimitState::Overturning);
-        let Some(pga) = rows().find(|row| row.measure == if member.subject.is_some() { 0 } else { 2 }) else {
+    let spoken_of =
+        |member: &FragilityGroup| member.subject.is_none_or(|subject| subject < SPOKEN_OF);
+    for (at, member) in fragility.members.iter().enumerate().filter(|(_, member)| spoken_of(member))
+    {
+        let rows = || {
+            fragility
+                .rows
+                .iter()
+                .filter(move |row| row.member == at && row.state == LimitState::Overturning)
+        };
+        let Some(pga) =
+            rows().find(|row| row.measure == if member.subject.is_some() { 0 } else { 2 })
+        else {
             continue;
         };
         let name = subject_name(plan, member.subject);
@@ -65,10 +75,14 @@ pub fn fragility(plan: &Plan, fragility: &Fragility, ida: &Ida) -> Vec<String> {
             (LognormalFit::NoneExceeded, _) => "no motion overturns it; raise the levels".into(),
             (LognormalFit::AllExceeded, _) => "every motion overturns it; lower the levels".into(),
             (LognormalFit::Separated { below, above }, _) => {
-                format!("{measure} alone decides: up to {below:.3}{unit} it stands, from {above:.3}{unit} it overturns")
+                format!(
+                    "{measure} alone decides: up to {below:.3}{unit} it stands, from {above:.3}{unit} it overturns"
+                )
             }
             (LognormalFit::Undetermined, _) => {
-                format!("no fit on {measure}: outcomes are mixed at one level alone; add levels about it")
+                format!(
+                    "no fit on {measure}: outcomes are mixed at one level alone; add levels about it"
+                )
             }
             _ => format!("no fit on {measure}: higher levels overturn it less often"),
         };
@@ -82,7 +96,10 @@ pub fn fragility(plan: &Plan, fragility: &Fragility, ida: &Ida) -> Vec<String> {
             said.extend(best_measure(rows()));
         }
         if member.excluded > 0 {
-            said.push(format!("  {} histories are left out: failed, or the pivot left the ground.", member.excluded));
+            said.push(format!(
+                "  {} histories are left out: failed, or the pivot left the ground.",
+                member.excluded
+            ));
         }
     }
     if plan.subjects.len() > SPOKEN_OF {
@@ -108,12 +125,22 @@ const LEVEL_ROWS: usize = 24;
 const ROWS_EACH: (usize, usize) = (3, 10);
 
 /// Where a structure lifts, and a table of what becomes of it at the levels.
-fn at_levels(plan: &Plan, fragility: &Fragility, ida: &Ida, member: &FragilityGroup) -> Option<String> {
+fn at_levels(
+    plan: &Plan,
+    fragility: &Fragility,
+    ida: &Ida,
+    member: &FragilityGroup,
+) -> Option<String> {
     let subject = &plan.subjects[member.subject?];
     let mine = |point: &&IdaPoint| {
-        (point.model, Some(point.subject), point.restitution) == (member.model, member.subject, member.restitution)
+        (point.model, Some(point.subject), point.restitution)
+            == (member.model, member.subject, member.restitution)
     };
-    let groups = fragility.members.iter().filter(|member| member.subject.is_some_and(|i| i < SPOKEN_OF)).count();
+    let groups = fragility
+        .members
+        .iter()
+        .filter(|member| member.subject.is_some_and(|i| i < SPOKEN_OF))
+        .count();
     let most = (LEVEL_ROWS / groups.max(1)).clamp(ROWS_EACH.0, ROWS_EACH.1);
     let rows = levels::telling(plan, ida.points.iter().filter(mine), fragility.half_width(), most);
     let measure = match plan.measure {
@@ -154,13 +181,19 @@ fn at_levels(plan: &Plan, fragility: &Fragility, ida: &Ida, member: &FragilityGr
 }
 
 /// The measure with the least scatter.
-fn best_measure<'a>(rows: impl Iterator<Item = &'a super::fragility::FragilityRow>) -> Option<String> {
-    let betas: Vec<(&str, f64)> =
-        rows.filter_map(|row| row.probit().map(|fit| (MEASURES[row.measure].0, fit.beta()))).collect();
+fn best_measure<'a>(
+    rows: impl Iterator<Item = &'a super::fragility::FragilityRow>,
+) -> Option<String> {
+    let betas: Vec<(&str, f64)> = rows
+        .filter_map(|row| row.probit().map(|fit| (MEASURES[row.measure].0, fit.beta())))
+        .collect();
     let (best, beta) = betas.iter().min_by(|a, b| a.1.total_cmp(&b.1))?;
     let others: Vec<String> =
         betas.iter().filter(|(name, _)| name != best).map(|(n, b)| format!("{n} {b:.2}")).collect();
-    Some(format!("  Over all structures {best} scatters least: beta {beta:.2} ({}).", others.join(", ")))
+    Some(format!(
+        "  Over all structures {best} scatters least: beta {beta:.2} ({}).",
+        others.join(", ")
+    ))
 }
 
 /// What overturns over size and slenderness.
@@ -178,10 +211,15 @@ pub fn rocking(plan: &Plan, ida: &Ida) -> Vec<String> {
         share(over)
     ));
     let overturned = ida.points.iter().filter(|p| 2 * p.overturned > p.n);
-    let largest = overturned.max_by(|a, b| plan.subjects[b.subject].p.total_cmp(&plan.subjects[a.subject].p));
+    let largest =
+        overturned.max_by(|a, b| plan.subjects[b.subject].p.total_cmp(&plan.subjects[a.subject].p));
     if let Some(point) = largest {
         let subject = &plan.subjects[point.subject];
-        said.push(format!("The largest body that overturns: {} (1/p = {:.3} s).", subject.name, 1.0 / subject.p));
+        said.push(format!(
+            "The largest body that overturns: {} (1/p = {:.3} s).",
+            subject.name,
+            1.0 / subject.p
+        ));
     }
     said
 }
@@ -209,7 +247,8 @@ pub fn compare(comparison: &Comparison) -> Vec<String> {
 /// What pulses it takes.
 pub fn overturning(plan: &Plan, table: &SweepTable) -> Vec<String> {
     let (from, to) = (table.reals("from_over_uplift"), table.reals("to_over_uplift"));
-    let (structure, pulse, q) = (table.texts("structure"), table.texts("pulse"), table.reals("omega_over_p"));
+    let (structure, pulse, q) =
+        (table.texts("structure"), table.texts("pulse"), table.reals("omega_over_p"));
     let mut said = vec![format!(
         "{} pulse frequencies times structures, scanned from {} to {} times g tan(alpha): {} intervals overturn.",
         plan.cells(),
@@ -223,8 +262,9 @@ pub fn overturning(plan: &Plan, table: &SweepTable) -> Vec<String> {
             "{finite} of them have an upper end, above which a stronger pulse leaves the body standing or overturns it otherwise."
         ));
     }
-    let least =
-        (0..table.rows()).filter_map(|row| from[row].map(|from| (row, from))).min_by(|a, b| a.1.total_cmp(&b.1));
+    let least = (0..table.rows())
+        .filter_map(|row| from[row].map(|from| (row, from)))
+        .min_by(|a, b| a.1.total_cmp(&b.1));
     if let Some((row, from)) = least {
         said.push(format!(
             "The weakest pulse that overturns: {} on {} at omega/p = {:.3}, {from:.4} g tan(alpha).",

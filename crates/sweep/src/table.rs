@@ -164,8 +164,10 @@ impl SweepTable {
         out: impl Write + Send,
         metadata: &[(&'static str, String)],
     ) -> Result<(), ParquetError> {
-        let metadata = metadata.iter().map(|(key, value)| KeyValue::new((*key).to_string(), value.clone()));
-        let fields: String = self.columns.iter().map(|(name, column)| column.schema(name)).collect();
+        let metadata =
+            metadata.iter().map(|(key, value)| KeyValue::new((*key).to_string(), value.clone()));
+        let fields: String =
+            self.columns.iter().map(|(name, column)| column.schema(name)).collect();
         let schema = Arc::new(parse_message_type(&format!("message row {{ {fields} }}"))?);
         let mut properties = WriterProperties::builder()
             .set_compression(Compression::SNAPPY)
@@ -220,7 +222,8 @@ impl SweepTable {
     pub fn csv_rows(&self) -> String {
         let mut out = String::new();
         for row in 0..self.rows() {
-            let cells: Vec<String> = self.columns.iter().map(|(_, column)| column.cell(row)).collect();
+            let cells: Vec<String> =
+                self.columns.iter().map(|(_, column)| column.cell(row)).collect();
             // writing to a String cannot fail
             let _ = writeln!(out, "{}", cells.join(","));
         }
@@ -239,7 +242,8 @@ fn read(file: Bytes, wanted: &SweepTable) -> Result<SweepTable, ParquetError> {
         let group = reader.get_row_group(group)?;
         let rows = usize::try_from(group.metadata().num_rows()).unwrap_or(0);
         for (name, column) in &mut table.columns {
-            let there = group.metadata().columns().iter().position(|c| c.column_path().string() == *name);
+            let there =
+                group.metadata().columns().iter().position(|c| c.column_path().string() == *name);
             let index = there.ok_or_else(|| ParquetError::General(format!("no column {name}")))?;
             let mut levels = Vec::new();
             match (group.get_column_reader(index)?, column) {
@@ -275,7 +279,8 @@ mod tests {
     use super::*;
 
     fn table() -> SweepTable {
-        let text = |words: &[&str]| Column::Text(words.iter().map(|word| Arc::from(*word)).collect());
+        let text =
+            |words: &[&str]| Column::Text(words.iter().map(|word| Arc::from(*word)).collect());
         SweepTable {
             columns: vec![
                 ("cell", Column::Count(vec![7, 8, 9])),
@@ -329,6 +334,9 @@ mod tests {
     fn csv_quotes_what_must_be() {
         let table = table();
         assert_eq!(table.csv_head(), "cell,peak,over,record\n");
-        assert_eq!(table.csv_rows(), "7,0.1,,a\n8,,true,\"b, \"\"c\"\"\"\n9,-0.3333333333333333,false,a\n");
+        assert_eq!(
+            table.csv_rows(),
+            "7,0.1,,a\n8,,true,\"b, \"\"c\"\"\"\n9,-0.3333333333333333,false,a\n"
+        );
     }
 }

@@ -69,7 +69,9 @@ impl Range {
         let Self { from, to, count, spacing } = *self;
         let rises = to > from;
         if !(2..=MOST).contains(&count) || !rises {
-            return Err(format!("from {from:?} to {to:?} in {count}; give to greater than from, count 2 to {MOST}"));
+            return Err(format!(
+                "from {from:?} to {to:?} in {count}; give to greater than from, count 2 to {MOST}"
+            ));
         }
         let steps = (count - 1) as f64;
         let share = |i: usize| i as f64 / steps;
@@ -79,7 +81,9 @@ impl Range {
             Spacing::Log => from * (to / from).powf(share(i)),
         };
         match spacing {
-            Spacing::Log if from <= 0.0 => Err(format!("from {from:?}; a logarithm wants numbers greater than zero")),
+            Spacing::Log if from <= 0.0 => {
+                Err(format!("from {from:?}; a logarithm wants numbers greater than zero"))
+            }
             _ => Ok((0..count).map(value).collect()),
         }
     }

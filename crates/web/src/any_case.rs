@@ -48,7 +48,10 @@ impl AnyCase {
         let refused = [
             ("tuning.objective = \"arr\"", case.tuning.objective == Objective::Arr),
             ("tuning.max_omega_hz", case.tuning.max_omega_hz.is_some()),
-            ("structure.restitution", differs_from_housner(&case.structure.body(), case.restitution)),
+            (
+                "structure.restitution",
+                differs_from_housner(&case.structure.body(), case.restitution),
+            ),
         ];
         match refused.into_iter().find(|(_, is)| *is) {
             Some((key, _)) => Err(WebError::ForTheProgram { key }),

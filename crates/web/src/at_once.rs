@@ -63,7 +63,13 @@ fn elastic(case: &ElasticCase) -> Result<Said, WebError> {
     let springs = springs_of(case, &assembled)?;
     let analysis = ElasticAnalysis {
         vertical: record.up(),
-        ..ElasticAnalysis::new(&assembled.frame, &springs.corners, ElasticStart::Standing, record.dt, &record.accel)
+        ..ElasticAnalysis::new(
+            &assembled.frame,
+            &springs.corners,
+            ElasticStart::Standing,
+            record.dt,
+            &record.accel,
+        )
     };
     let fem = analysis.simulate().map_err(frames::answer::AnswerError::from)?;
     let body = case.structure.body();
@@ -85,7 +91,10 @@ fn elastic(case: &ElasticCase) -> Result<Said, WebError> {
         record: Some(case.excitation.line()),
         assumed: Vec::new(),
     };
-    let springs = springs.corners.first().map(|s| [unit("vertical", &s.vertical), unit("horizontal", &s.horizontal)]);
+    let springs = springs
+        .corners
+        .first()
+        .map(|s| [unit("vertical", &s.vertical), unit("horizontal", &s.horizontal)]);
     Ok(Said {
         verdict,
         does,
@@ -113,7 +122,12 @@ fn sentence(message: &str) -> String {
     format!("{first}{}.", letters.as_str())
 }
 
-fn what_it_does(assembled: &Assembled, fem: &ElasticHistory, record: &Record, uplift_g: f64) -> Finding {
+fn what_it_does(
+    assembled: &Assembled,
+    fem: &ElasticHistory,
+    record: &Record,
+    uplift_g: f64,
+) -> Finding {
     let alpha = assembled.structure.body().alpha();
     let largest = assembled
         .sways(fem.q.iter().map(Vec::as_slice))
@@ -121,14 +135,22 @@ fn what_it_does(assembled: &Assembled, fem: &ElasticHistory, record: &Record, up
         .flat_map(|sway| sway.rotation.clone())
         .fold(0.0, |most: f64, rotation| most.max(rotation.abs()));
     match fem.outcome {
-        HistoryOutcome::Overturned { time } => Finding::Overturns { time_s: time, reference_s: None },
-        HistoryOutcome::Completed if record.pga_g() < uplift_g && !fem.contacts.iter().any(|c| c.touches) => {
+        HistoryOutcome::Overturned { time } => {
+            Finding::Overturns { time_s: time, reference_s: None }
+        }
+        HistoryOutcome::Completed
+            if record.pga_g() < uplift_g && !fem.contacts.iter().any(|c| c.touches) =>
+        {
             Finding::NeverLifts { pga_g: record.pga_g(), uplift_g }
         }
-        HistoryOutcome::Completed => {
-            Finding::Stands { share_of_overturning: largest / alpha, over_s: record.duration(), if_feet_hold: false }
-        }
-        HistoryOutcome::Stopped { time } | HistoryOutcome::WorkBound { time } | HistoryOutcome::Unstable { time } => {
+        HistoryOutcome::Completed => Finding::Stands {
+            share_of_overturning: largest / alpha,
+            over_s: record.duration(),
+            if_feet_hold: false,
+        },
+        HistoryOutcome::Stopped { time }
+        | HistoryOutcome::WorkBound { time }
+        | HistoryOutcome::Unstable { time } => {
             Finding::NoAnswer { model: springs::results::FindingModel::Springs, time_s: time }
         }
     }
@@ -141,7 +163,9 @@ fn peaks(assembled: &Assembled, fem: &ElasticHistory) -> Peaks {
     let fallen = matches!(fem.outcome, HistoryOutcome::Overturned { .. });
     let falls = sways.iter().filter_map(|s| s.rotation.iter().position(|r| r.abs() > alpha)).min();
     let n = falls.filter(|_| fallen).unwrap_or(fem.q.len());
-    let largest = |values: &mut dyn Iterator<Item = f64>| values.take(n).fold(0.0, |most: f64, x| most.max(x.abs()));
+    let largest = |values: &mut dyn Iterator<Item = f64>| {
+        values.take(n).fold(0.0, |most: f64, x| most.max(x.abs()))
+    };
     let top_displacement_m = largest(&mut tops(assembled, fem.q.iter().map(Vec::as_slice)));
     let bending = sways.iter().map(|s| largest(&mut s.drift.iter().copied())).fold(0.0, f64::max);
     let corners = 0..assembled.layout.corners.len();

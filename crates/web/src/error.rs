@@ -41,12 +41,18 @@ pub enum WebError {
     IntegratorName(#[from] fixed_steps::IntegratorNameError),
     #[error("list of variations: {0}")]
     Variations(#[from] serde_json::Error),
-    #[error("case.toml: {key} is for the program alone, a page does not search so long; leave it out")]
+    #[error(
+        "case.toml: {key} is for the program alone, a page does not search so long; leave it out"
+    )]
     ForTheProgram { key: &'static str },
     #[error("pulse: {name} is {value:?}; give {least} to {most} {unit}")]
     Pulse { name: &'static str, value: f64, least: f64, most: f64, unit: &'static str },
-    #[error("springs for fixed steps are given for rigid bodies; take a block or an A-frame of the same size")]
+    #[error(
+        "springs for fixed steps are given for rigid bodies; take a block or an A-frame of the same size"
+    )]
     FixedStepElastic,
-    #[error("there are no springs for this geometry; slenderness alpha is to be between 0.005 and 0.9 rad")]
+    #[error(
+        "there are no springs for this geometry; slenderness alpha is to be between 0.005 and 0.9 rad"
+    )]
     NoSprings,
 }

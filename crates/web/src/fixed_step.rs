@@ -3,7 +3,9 @@
 use serde::Serialize;
 
 use crate::{WebError, any_case::AnyCase, at_once::unit};
-use fixed_steps::{FixedStepAnalysis, FixedStepBody, FixedStepOutcome, FixedStepSprings, Integrator};
+use fixed_steps::{
+    FixedStepAnalysis, FixedStepBody, FixedStepOutcome, FixedStepSprings, Integrator,
+};
 use report::Unit;
 use rocking::{
     housner::{RockingOptions, solve},
@@ -35,7 +37,11 @@ pub(crate) struct FixedStepAnswer {
     outcome: String,
 }
 
-pub(crate) fn answer(case: &AnyCase, step: f64, integrator: &str) -> Result<FixedStepAnswer, WebError> {
+pub(crate) fn answer(
+    case: &AnyCase,
+    step: f64,
+    integrator: &str,
+) -> Result<FixedStepAnswer, WebError> {
     let AnyCase::Rigid(case) = case else { return Err(WebError::FixedStepElastic) };
     let integrator: Integrator = integrator.parse()?;
     let body = case.structure.body::<f64>();
@@ -49,8 +55,11 @@ pub(crate) fn answer(case: &AnyCase, step: f64, integrator: &str) -> Result<Fixe
         ..FixedStepAnalysis::new(&model, settings, record.dt, &record.accel)
     };
     let history = analysis.history();
-    let options =
-        RockingOptions { restitution: Some(case.restitution), vertical: record.vertical_accel(), ..Default::default() };
+    let options = RockingOptions {
+        restitution: Some(case.restitution),
+        vertical: record.vertical_accel(),
+        ..Default::default()
+    };
     let housner = solve(&springs.body, record.dt, &record.accel, &options).motion(&springs.body);
     let expected = springs.expected();
     let tolerance_m = fixed_steps::recipe::TOLERANCE * rocking::scalar::GRAVITY * step.powi(2);

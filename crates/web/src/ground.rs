@@ -64,8 +64,9 @@ fn components(source: &Source) -> Result<Vec<ComponentChoice>, WebError> {
     let Source::File { path, component, units, .. } = source else { return Ok(Vec::new()) };
     // of a table whose unit it does not tell one column was taken: there is nothing to choose
     let options = ReadOptions { component: component.clone(), ..ReadOptions::default() };
-    let recording = Recording::read(Path::new(path), &options)
-        .or_else(|_| Recording::read(Path::new(path), &ReadOptions { units: Some(*units), ..options }));
+    let recording = Recording::read(Path::new(path), &options).or_else(|_| {
+        Recording::read(Path::new(path), &ReadOptions { units: Some(*units), ..options })
+    });
     let Ok(recording) = recording else { return Ok(Vec::new()) };
     let row = |(i, component): (usize, &strong_motion::Component)| ComponentChoice {
         name: component.name.clone().unwrap_or_else(|| component.direction.to_string()),
@@ -89,7 +90,10 @@ const PERIODS: (f64, f64) = (0.05, 20.0);
 /// Time step of a pulse (s): a hundredth of its period, rounded to a power of ten or half of one.
 pub(crate) fn pulse_step(period_s: f64) -> f64 {
     let asked = period_s / TO_A_PERIOD;
-    [0.1, 0.05, 0.02, 0.01, 0.005, 0.002, 0.001, 0.0005].into_iter().find(|step| *step <= asked).unwrap_or(0.0005)
+    [0.1, 0.05, 0.02, 0.01, 0.005, 0.002, 0.001, 0.0005]
+        .into_iter()
+        .find(|step| *step <= asked)
+        .unwrap_or(0.0005)
 }
 
 pub(crate) fn pulse(amplitude_g: f64, period_s: f64) -> Result<String, WebError> {

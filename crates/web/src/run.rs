@@ -90,10 +90,12 @@ fn of_elastic(case: &ElasticCase, friction: f64) -> Result<(Run, Said, RunTexts)
     let reference = referred(&assembled, &record, &effort)?;
     let program = case.program.unwrap_or_else(FixedStepProgram::usual);
     let asked = ElasticAsked { error: case.asked, most_hz: case.max_omega_hz, program };
-    let mut tuned = tune_within(&assembled, asked, Some((&record, reference)), &effort, &|_, _| {})?;
+    let mut tuned =
+        tune_within(&assembled, asked, Some((&record, reference)), &effort, &|_, _| {})?;
     let Some(reference) = tuned.reference.take() else { return Err(WebError::NoSprings) };
     let near = Some(effort.part(NEAR));
-    let answer = ElasticAnswer::within(&assembled, &tuned.springs.corners, &record, reference, near)?;
+    let answer =
+        ElasticAnswer::within(&assembled, &tuned.springs.corners, &record, reference, near)?;
     let run = ElasticRun::new(case.clone(), assembled, tuned, record, answer, friction);
     let out = Path::new(FOLDER);
     let told = run.said(run.filed(out));

@@ -101,7 +101,8 @@ impl Said {
     /// Of a run.
     pub(crate) fn of(run: &Run, working: Working, history: HistorySeries) -> Self {
         let answer = run.findings.iter().find(|filed| filed.weight == Weight::Answer);
-        let (does, share_of_overturning) = answer.map_or((Does::Unknown, None), |filed| does(&filed.finding));
+        let (does, share_of_overturning) =
+            answer.map_or((Does::Unknown, None), |filed| does(&filed.finding));
         let peaks = run.peaks.map(|pair| PeaksFound {
             reference: Some(pair.reference),
             reference_ends_s: pair.reference_ends_s,

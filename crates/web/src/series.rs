@@ -46,7 +46,12 @@ pub(crate) struct HistorySeries {
 }
 
 impl HistorySeries {
-    pub(crate) fn of_rigid(kind: Kind, body: &Body<f64>, both: &ModelComparison, record: &Record) -> Self {
+    pub(crate) fn of_rigid(
+        kind: Kind,
+        body: &Body<f64>,
+        both: &ModelComparison,
+        record: &Record,
+    ) -> Self {
         let fem = both.with.as_ref().map_or(&both.fem, |with| &with.history);
         let thin = Thinning::of(record.len());
         // the top of a block is as far above its centre of mass as that above the ground
@@ -54,7 +59,10 @@ impl HistorySeries {
         let of = |motion: &Motion| {
             let top = motion.u.iter().zip(&motion.theta).map(|(u, theta)| u + above * theta.sin());
             let rotation = thin.series(motion.theta.iter().copied());
-            ModelSeries { bases: vec![BaseSeries { rotation, drift: Vec::new() }], top: thin.series(top) }
+            ModelSeries {
+                bases: vec![BaseSeries { rotation, drift: Vec::new() }],
+                top: thin.series(top),
+            }
         };
         Self {
             step_s: thin.step(record.dt),
@@ -73,12 +81,21 @@ impl HistorySeries {
         Self { step_s: thin.step(record.dt), reference: None, springs, ground }
     }
 
-    pub(crate) fn of_elastic(assembled: &Assembled, answer: &ElasticAnswer, record: &Record) -> Self {
+    pub(crate) fn of_elastic(
+        assembled: &Assembled,
+        answer: &ElasticAnswer,
+        record: &Record,
+    ) -> Self {
         let reference = &answer.histories.reference.history.q;
         let thin = Thinning::of(record.len());
-        let sways: Vec<Sway> = answer.histories.sways.iter().map(|[reference, _]| reference.clone()).collect();
-        let reference = model(&sways, tops(assembled, reference.iter().map(|q| q.as_slice())), thin);
-        Self { reference: Some(reference), ..Self::on_springs(assembled, &answer.histories.fem, record) }
+        let sways: Vec<Sway> =
+            answer.histories.sways.iter().map(|[reference, _]| reference.clone()).collect();
+        let reference =
+            model(&sways, tops(assembled, reference.iter().map(|q| q.as_slice())), thin);
+        Self {
+            reference: Some(reference),
+            ..Self::on_springs(assembled, &answer.histories.fem, record)
+        }
     }
 }
 

@@ -20,7 +20,11 @@ fn a_frame_is_answered_at_once() {
     let peaks = &answer["peaks"];
     let top = |model: &str| peaks[model]["top_displacement_m"].as_f64().unwrap();
     assert!((top("springs") / top("reference") - 1.0).abs() < 1e-2, "{peaks}");
-    assert!(answer["verdict"].as_str().unwrap().contains("rocks and stands"), "{}", answer["verdict"]);
+    assert!(
+        answer["verdict"].as_str().unwrap().contains("rocks and stands"),
+        "{}",
+        answer["verdict"]
+    );
 }
 
 #[test]
@@ -61,7 +65,10 @@ fn a_pulse_is_a_record_with_its_amplitude() {
 /// A wider body rocks less; the body itself is the case's.
 #[test]
 fn variations_are_bodies_on_the_record() {
-    let answer = parsed(variations(FRAME, r#"[{}, {"scale": 1.0}, {"alpha": 0.5}, {"scale": 50.0, "alpha": 0.05}]"#));
+    let answer = parsed(variations(
+        FRAME,
+        r#"[{}, {"scale": 1.0}, {"alpha": 0.5}, {"scale": 50.0, "alpha": 0.05}]"#,
+    ));
     assert_eq!(answer[0], answer[1]);
     let own = parsed(at_once(FRAME, 0.5))["share_of_overturning"].as_f64().unwrap();
     assert!((answer[0].as_f64().unwrap() / own - 1.0).abs() < 1e-2);

@@ -37,12 +37,17 @@ impl Thinning {
 
     /// Of so many values the one of largest magnitude.
     pub(crate) fn extremes(self, values: &[f64], unit: f64) -> Vec<f32> {
-        let largest = |part: &[f64]| part.iter().fold(0.0, |most: f64, x| if x.abs() > most.abs() { *x } else { most });
+        let largest = |part: &[f64]| {
+            part.iter().fold(0.0, |most: f64, x| if x.abs() > most.abs() { *x } else { most })
+        };
         values.chunks(self.every).map(|part| (largest(part) / unit) as f32).collect()
     }
 
     pub(crate) fn ground(accel: &[f64], dt: f64) -> GroundSeries {
         let thin = Self::of(accel.len());
-        GroundSeries { step_s: thin.step(dt), accel_g: thin.extremes(accel, rocking::scalar::GRAVITY) }
+        GroundSeries {
+            step_s: thin.step(dt),
+            accel_g: thin.extremes(accel, rocking::scalar::GRAVITY),
+        }
     }
 }

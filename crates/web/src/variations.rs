@@ -28,7 +28,9 @@ pub(crate) fn answer(case: &AnyCase, asked: &str) -> Result<Vec<Option<f32>>, We
     let vertical = record.vertical_accel();
     // the record is scaled already
     let scale = |asked: f64| if excitation.scale == 0.0 { 0.0 } else { asked / excitation.scale };
-    let body = |v: &Variation| of(&own, v.alpha.unwrap_or(own.alpha()), v.radius_m.unwrap_or(own.radius()));
+    let body = |v: &Variation| {
+        of(&own, v.alpha.unwrap_or(own.alpha()), v.radius_m.unwrap_or(own.radius()))
+    };
     let bodies: Vec<Body<f64>> = asked.iter().map(body).collect();
     let options = |v: &Variation| RockingOptions {
         scale: v.scale.map_or(1.0, scale),
@@ -37,13 +39,15 @@ pub(crate) fn answer(case: &AnyCase, asked: &str) -> Result<Vec<Option<f32>>, We
     };
     let options: Vec<_> = asked.iter().map(options).collect();
     let all = solve_lanes(&bodies, record.dt, &record.accel, &options);
-    let peak = |(body, rocking): (&Body<f64>, &rocking::housner::Rocking<f64>)| match rocking.outcome {
-        RockingOutcome::NeverMoved => Some(0.0),
-        RockingOutcome::Rocked => {
-            Some((rocking.theta.iter().fold(0.0, |most: f64, theta| most.max(theta.abs())) / body.alpha()) as f32)
-        }
-        _ => None,
-    };
+    let peak =
+        |(body, rocking): (&Body<f64>, &rocking::housner::Rocking<f64>)| match rocking.outcome {
+            RockingOutcome::NeverMoved => Some(0.0),
+            RockingOutcome::Rocked => Some(
+                (rocking.theta.iter().fold(0.0, |most: f64, theta| most.max(theta.abs()))
+                    / body.alpha()) as f32,
+            ),
+            _ => None,
+        };
     Ok(bodies.iter().zip(&all).map(peak).collect())
 }
 

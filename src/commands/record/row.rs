@@ -63,7 +63,11 @@ impl ComponentRow {
             OnStructure {
                 pga_over_g_tan_alpha: m.pga.value.abs() / g_tan,
                 p_pgv_over_g_tan_alpha: p * m.pgv.value.abs() / g_tan,
-                pulse_omega_over_p: if m.pulse_period_s > 0.0 { 2.0 * PI / (m.pulse_period_s * p) } else { 0.0 },
+                pulse_omega_over_p: if m.pulse_period_s > 0.0 {
+                    2.0 * PI / (m.pulse_period_s * p)
+                } else {
+                    0.0
+                },
             }
         });
         Self {

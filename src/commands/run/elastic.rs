@@ -36,8 +36,8 @@ pub fn run(o: &RunOptions, mut case: ElasticCase) -> Result<(), CommandError> {
     check_folder(&o.out)?;
     threads(o.jobs)?;
 
-    let assembled =
-        Assembled::with_members(case.structure, case.members).map_err(|e| CommandError::Result(e.to_string()))?;
+    let assembled = Assembled::with_members(case.structure, case.members)
+        .map_err(|e| CommandError::Result(e.to_string()))?;
     if !o.no_record {
         progress::taken(&case.excitation.line(), &case.doubts(), o.quiet);
     }
@@ -66,7 +66,8 @@ pub fn run(o: &RunOptions, mut case: ElasticCase) -> Result<(), CommandError> {
         tuned.not_done.push(NotDone::ForceChecks);
         tuned.not_done.extend(reference.foretold_seconds(record.dt).map(|_| NotDone::NearMotions));
     }
-    let answer = ElasticAnswer::within(&assembled, &tuned.springs.corners, &record, reference, near);
+    let answer =
+        ElasticAnswer::within(&assembled, &tuned.springs.corners, &record, reference, near);
     progress.done();
     let answer = answer.map_err(|e| CommandError::Result(e.to_string()))?;
     let run = ElasticRun::new(case, assembled, tuned, record, answer, friction);
@@ -78,8 +79,13 @@ pub fn run(o: &RunOptions, mut case: ElasticCase) -> Result<(), CommandError> {
 /// Options that mean nothing for an elastic structure are refused.
 fn applies(o: &RunOptions) -> Result<(), CommandError> {
     if o.no_front {
-        let remedy = "that is for rigid bodies and does nothing for an elastic structure; leave it out";
-        return Err(CommandError::Option { option: "no-front", value: "given".to_string(), remedy });
+        let remedy =
+            "that is for rigid bodies and does nothing for an elastic structure; leave it out";
+        return Err(CommandError::Option {
+            option: "no-front",
+            value: "given".to_string(),
+            remedy,
+        });
     }
     Ok(())
 }

@@ -28,7 +28,10 @@ pub struct ProgramOptions {
 
 impl ProgramOptions {
     /// The program asked for: what is given here, and of the case's what is not.
-    pub fn over(&self, of_case: Option<FixedStepProgram>) -> Result<Option<FixedStepProgram>, CommandError> {
+    pub fn over(
+        &self,
+        of_case: Option<FixedStepProgram>,
+    ) -> Result<Option<FixedStepProgram>, CommandError> {
         let Self { name, step, integrator, substeps } = self.clone();
         let given = ProgramSection { name, step_s: step, integrator, substeps };
         if given.is_empty() {

@@ -3,7 +3,9 @@
 use std::path::Path;
 
 use super::super::CommandError;
-use figures::{fragility as probability, ida as levels, overturning as spectra, peaks, rocking as maps};
+use figures::{
+    fragility as probability, ida as levels, overturning as spectra, peaks, rocking as maps,
+};
 use rocking::structure::Kind;
 use sweep::{
     compare::Comparison,
@@ -38,13 +40,23 @@ pub fn fragility(plan: &Plan, fragility: &Fragility, path: &Path) -> Result<(), 
     let measure = |index: usize, curves: Vec<probability::FragilityCurve>| {
         let (name, unit) = MEASURES[index];
         let unit = if unit == "-" { String::new() } else { format!(" [{unit}]") };
-        probability::MeasurePanel { label: format!("{}{unit}", name.replace("alpha", "α")), curves }
+        probability::MeasurePanel {
+            label: format!("{}{unit}", name.replace("alpha", "α")), curves
+        }
     };
     let model = if MODELS[first] == "fem" { "finite elements" } else { "Housner" };
-    let who = if several { format!("all {} structures", plan.subjects.len()) } else { plan.subjects[0].name.clone() };
-    let names: Vec<String> = states.iter().map(|state| state.name().replace("theta/alpha", "|θ|/α")).collect();
+    let who = if several {
+        format!("all {} structures", plan.subjects.len())
+    } else {
+        plan.subjects[0].name.clone()
+    };
+    let names: Vec<String> =
+        states.iter().map(|state| state.name().replace("theta/alpha", "|θ|/α")).collect();
     // curves of the rows for which there is an entry of the legend, a panel a measure
-    let save = |what: String, names: &[String], entry: &dyn Fn(&FragilityRow) -> Option<usize>, path: &Path| {
+    let save = |what: String,
+                names: &[String],
+                entry: &dyn Fn(&FragilityRow) -> Option<usize>,
+                path: &Path| {
         let rows = |index: usize| fragility.rows.iter().filter(move |row| row.measure == index);
         let curves = |index: usize| rows(index).filter_map(|row| curve(row, entry(row)?)).collect();
         let measures: Vec<probability::MeasurePanel> = (0..MEASURES.len())
@@ -64,16 +76,20 @@ pub fn fragility(plan: &Plan, fragility: &Fragility, path: &Path) -> Result<(), 
         };
         Ok(probability::draw(&data)?.save(path)?)
     };
-    let state = |row: &FragilityRow| states.iter().position(|state| main(row) && *state == row.state);
+    let state =
+        |row: &FragilityRow| states.iter().position(|state| main(row) && *state == row.state);
     save(format!("Fragility, {who}"), &names, &state, path)?;
     if !several {
         return Ok(());
     }
     let shown = plan.subjects.len().min(PANELS);
-    let names: Vec<String> = plan.subjects.iter().take(shown).map(|subject| subject.name.clone()).collect();
+    let names: Vec<String> =
+        plan.subjects.iter().take(shown).map(|subject| subject.name.clone()).collect();
     let alone = |row: &FragilityRow| {
         let member = of(row);
-        let overturning = row.state == LimitState::Overturning && member.model == first && member.restitution == 0;
+        let overturning = row.state == LimitState::Overturning
+            && member.model == first
+            && member.restitution == 0;
         member.subject.filter(|subject| overturning && *subject < shown)
     };
     let each = path.with_file_name("fragility_structures.png");
@@ -94,16 +110,29 @@ fn curve(
     use sweep::lognormal::phi;
     let (fit, covariance) = (row.probit()?, row.covariance?);
     let x: Vec<f64> = (0..POINTS)
-        .map(|i| fit.median() * (fit.beta() * 2.9 * (2.0 * i as f64 / (POINTS - 1) as f64 - 1.0)).exp())
+        .map(|i| {
+            fit.median() * (fit.beta() * 2.9 * (2.0 * i as f64 / (POINTS - 1) as f64 - 1.0)).exp()
+        })
         .filter(|x| (row.range.0 / BEYOND..=row.range.1 * BEYOND).contains(x))
         .collect();
     if x.len() < 2 {
         return None;
     }
     let at = |side: f64| -> Vec<f64> {
-        x.iter().map(|x| phi(fit.a + fit.b * x.ln() + side * half_width * fit.deviation_at(covariance, *x))).collect()
+        x.iter()
+            .map(|x| {
+                phi(fit.a + fit.b * x.ln() + side * half_width * fit.deviation_at(covariance, *x))
+            })
+            .collect()
     };
-    Some(probability::FragilityCurve { entry, probability: at(0.0), low: at(-1.0), high: at(1.0), observed, x })
+    Some(probability::FragilityCurve {
+        entry,
+        probability: at(0.0),
+        low: at(-1.0),
+        high: at(1.0),
+        observed,
+        x,
+    })
 }
 
 fn level_label(plan: &Plan) -> &'static str {
@@ -127,7 +156,8 @@ pub fn ida(plan: &Plan, ida: &Ida, path: &Path) -> Result<(), CommandError> {
                 .iter()
                 .filter(|p| p.subject == i && p.model == first && p.restitution == 0 && p.n > 0)
                 .collect();
-            let quantile = |share: f64| points.iter().filter_map(|point| point.quantile(share)).collect();
+            let quantile =
+                |share: f64| points.iter().filter_map(|point| point.quantile(share)).collect();
             levels::IdaSubject {
                 label: subject.name.clone(),
                 records: ida
@@ -145,9 +175,14 @@ pub fn ida(plan: &Plan, ida: &Ida, path: &Path) -> Result<(), CommandError> {
     if subjects.is_empty() {
         return Ok(());
     }
-    let title = format!("Peak rotation against {}, {} motions", level_label(plan), plan.motions.len());
-    Ok(levels::draw(&levels::IdaFigure { title: &title, level_label: level_label(plan), subjects: &subjects })?
-        .save(path)?)
+    let title =
+        format!("Peak rotation against {}, {} motions", level_label(plan), plan.motions.len());
+    Ok(levels::draw(&levels::IdaFigure {
+        title: &title,
+        level_label: level_label(plan),
+        subjects: &subjects,
+    })?
+    .save(path)?)
 }
 
 /// The spectra of a plan: structure, pulse and model.
@@ -163,9 +198,9 @@ fn spectra_of(plan: &Plan) -> impl Iterator<Item = (usize, String, &'static str)
     let models = models(plan);
     (0..plan.subjects.len()).flat_map(move |subject| {
         let (pulses, models) = (pulses.clone(), models.clone());
-        pulses
-            .into_iter()
-            .flat_map(move |pulse| models.clone().into_iter().map(move |model| (subject, pulse.clone(), MODELS[model])))
+        pulses.into_iter().flat_map(move |pulse| {
+            models.clone().into_iter().map(move |model| (subject, pulse.clone(), MODELS[model]))
+        })
     })
 }
 
@@ -173,7 +208,9 @@ fn spectra_of(plan: &Plan) -> impl Iterator<Item = (usize, String, &'static str)
 fn frequencies(plan: &Plan, subject: usize, pulse: &str) -> Vec<f64> {
     let p = plan.subjects[subject].p;
     let of = |motion: &SweepMotion| match motion {
-        SweepMotion::Pulse { shape, frequency } if shape.label() == pulse => Some(frequency.omega(p) / p),
+        SweepMotion::Pulse { shape, frequency } if shape.label() == pulse => {
+            Some(frequency.omega(p) / p)
+        }
         _ => None,
     };
     let mut all: Vec<f64> = plan.motions.iter().filter_map(of).collect();
@@ -184,14 +221,23 @@ fn frequencies(plan: &Plan, subject: usize, pulse: &str) -> Vec<f64> {
 
 pub fn overturning(plan: &Plan, table: &SweepTable, path: &Path) -> Result<(), CommandError> {
     let (q, model) = (table.reals("omega_over_p"), table.texts("model"));
-    let (from, to, impacts) = (table.reals("from_over_uplift"), table.reals("to_over_uplift"), table.reals("impacts"));
+    let (from, to, impacts) =
+        (table.reals("from_over_uplift"), table.reals("to_over_uplift"), table.reals("impacts"));
     let (subject, pulse) = (table.counts("structure_index"), table.texts("pulse"));
     let (low, high) = (plan.levels[0], plan.levels[plan.levels.len() - 1]);
     let e = table.reals("restitution");
     let mut spectra = Vec::new();
     for (index, name, kind) in spectra_of(plan).take(PANELS) {
-        let which = if plan.subjects.len() > 1 { format!(", structure {}", index + 1) } else { String::new() };
-        let how = if plan.model.housner() && plan.model.fem() { format!(", {kind}") } else { String::new() };
+        let which = if plan.subjects.len() > 1 {
+            format!(", structure {}", index + 1)
+        } else {
+            String::new()
+        };
+        let how = if plan.model.housner() && plan.model.fem() {
+            format!(", {kind}")
+        } else {
+            String::new()
+        };
         let frequencies = frequencies(plan, index, &name);
         // of the first restitution
         let mine = |row: &usize| {
@@ -207,7 +253,11 @@ pub fn overturning(plan: &Plan, table: &SweepTable, path: &Path) -> Result<(), C
             impacts: impacts[row].unwrap_or(0.0) as usize,
         };
         let intervals = (0..table.rows()).filter(mine).map(interval).collect();
-        spectra.push(spectra::Spectrum { label: format!("{name}{which}{how}"), frequencies, intervals });
+        spectra.push(spectra::Spectrum {
+            label: format!("{name}{which}{how}"),
+            frequencies,
+            intervals,
+        });
     }
     let all = || spectra.iter().flat_map(|spectrum| spectrum.frequencies.iter().copied());
     let frequencies = (all().fold(f64::INFINITY, f64::min), all().fold(0.0, f64::max));
@@ -216,7 +266,8 @@ pub fn overturning(plan: &Plan, table: &SweepTable, path: &Path) -> Result<(), C
         all => format!("Pulses that overturn, {} structures", all.len()),
     };
     let amplitudes = (0.9 * low, high);
-    let data = spectra::OverturningFigure { title: &title, spectra: &spectra, frequencies, amplitudes };
+    let data =
+        spectra::OverturningFigure { title: &title, spectra: &spectra, frequencies, amplitudes };
     Ok(spectra::draw(&data)?.save(path)?)
 }
 
@@ -232,9 +283,14 @@ pub fn rocking(plan: &Plan, ida: &Ida, path: &Path) -> Result<(), CommandError> 
         };
         let body = |point: &IdaPoint| {
             let subject = &plan.subjects[point.subject];
-            Some(maps::RockingBody { period: 1.0 / subject.p, alpha: subject.alpha, peak: point.quantile(0.5)? })
+            Some(maps::RockingBody {
+                period: 1.0 / subject.p,
+                alpha: subject.alpha,
+                peak: point.quantile(0.5)?,
+            })
         };
-        let bodies: Vec<maps::RockingBody> = ida.points.iter().filter(mine).filter_map(body).collect();
+        let bodies: Vec<maps::RockingBody> =
+            ida.points.iter().filter(mine).filter_map(body).collect();
         if !bodies.is_empty() {
             maps_found.push(maps::Map { label: name.into(), bodies });
         }
@@ -254,6 +310,7 @@ pub fn compare(comparison: &Comparison, path: &Path) -> Result<(), CommandError>
     if comparison.sample.is_empty() {
         return Ok(());
     }
-    let title = format!("Rigid against springs, {} histories", comparison.all().map_or(0, |row| row.n));
+    let title =
+        format!("Rigid against springs, {} histories", comparison.all().map_or(0, |row| row.n));
     Ok(peaks::draw(&peaks::PeaksFigure { title: &title, pairs: &comparison.sample })?.save(path)?)
 }

@@ -82,14 +82,22 @@ pub fn run(o: &GatherOptions) -> Result<(), CommandError> {
     if !missing.is_empty() {
         let first = few(missing.iter().map(u64::to_string), ", ");
         let unfit = unfit.iter().map(|(part, reason)| format!("the file of part {part} {reason}"));
-        let unfit =
-            Some(few(unfit, "; ")).filter(|unfit| !unfit.is_empty()).map_or(String::new(), |u| format!(": {u}"));
-        let error = SweepError::Missing { folder, missing: missing.len(), parts: all as usize, first, unfit };
+        let unfit = Some(few(unfit, "; "))
+            .filter(|unfit| !unfit.is_empty())
+            .map_or(String::new(), |u| format!(": {u}"));
+        let error = SweepError::Missing {
+            folder,
+            missing: missing.len(),
+            parts: all as usize,
+            first,
+            unfit,
+        };
         if !o.partial || missing.len() as u64 == all {
             return Err(CommandError::Failed(error.to_string()));
         }
         terminal::stderr(format_args!("WARNING: {error}"));
-        parts.gathered = Some((0..all).filter(|part| missing.binary_search(part).is_err()).collect());
+        parts.gathered =
+            Some((0..all).filter(|part| missing.binary_search(part).is_err()).collect());
     }
     gather(&parts, !o.no_figures)
 }
@@ -106,10 +114,16 @@ fn few(all: impl Iterator<Item = String>, between: &str) -> String {
 /// Write everything that follows from the parts, and print the summary.
 pub fn gather(parts: &SweepParts, draw: bool) -> Result<(), CommandError> {
     let plan = parts.plan;
-    let folder = Folder::begin(parts.folder, "sweep", FILES, identity(&[&parts.hash, &parts.gathered, &draw]))?;
+    let folder = Folder::begin(
+        parts.folder,
+        "sweep",
+        FILES,
+        identity(&[&parts.hash, &parts.gathered, &draw]),
+    )?;
     let out = folder.path();
-    let save =
-        |name: &str, table: &SweepTable| write_file(&out.join(name), (table.csv_head() + &table.csv_rows()).as_bytes());
+    let save = |name: &str, table: &SweepTable| {
+        write_file(&out.join(name), (table.csv_head() + &table.csv_rows()).as_bytes())
+    };
     let said = if plan.kind == SweepKind::Overturning {
         let table = whole(parts, &overturning::table(plan, &[]))?;
         save("overturning.csv", &table)?;

@@ -47,7 +47,11 @@ pub struct PlanOptions {
 pub fn run(o: &PlanOptions) -> Result<(), CommandError> {
     if o.time.is_empty() || !o.time.chars().all(|c| c.is_ascii_digit() || c == ':' || c == '-') {
         let remedy = "give minutes, or hours:minutes:seconds, as 02:00:00";
-        return Err(CommandError::Option { option: "time", value: format!("{:?}", o.time), remedy });
+        return Err(CommandError::Option {
+            option: "time",
+            value: format!("{:?}", o.time),
+            remedy,
+        });
     }
     let plan = Plan::read(&o.sweep)?;
     let hash = plan.hash(&mut |notice| terminal::stderr(notice))?;
@@ -84,7 +88,10 @@ pub fn run(o: &PlanOptions) -> Result<(), CommandError> {
         write_file(&o.out.join("sweep.sbatch"), script.array().as_bytes())?;
         write_file(&o.out.join("gather.sbatch"), script.gather().as_bytes())?;
         write_file(&o.out.join("submit.sh"), script.submit().as_bytes())?;
-        terminal::stderr(format_args!("submit with: sh {}", terminal::shown(&o.out.join("submit.sh"))));
+        terminal::stderr(format_args!(
+            "submit with: sh {}",
+            terminal::shown(&o.out.join("submit.sh"))
+        ));
     }
     terminal::stderr(format_args!("written to {}", terminal::shown(&o.out)));
     Ok(())
@@ -95,7 +102,9 @@ fn quoted(path: &Path) -> Result<String, CommandError> {
     let name = path.to_str().filter(|name| !name.contains(char::is_control));
     let name = name.ok_or_else(|| {
         let path = terminal::shown(path);
-        CommandError::Result(format!("{path}: no list of commands can name it; rename it without control characters"))
+        CommandError::Result(format!(
+            "{path}: no list of commands can name it; rename it without control characters"
+        ))
     })?;
     Ok(format!("'{}'", name.replace('\'', "'\\''")))
 }
@@ -113,7 +122,9 @@ struct Script<'a> {
 impl Script<'_> {
     fn share(&self, index: &str) -> String {
         let Self { program, sweep, out, shares, jobs, .. } = self;
-        format!("{program} sweep {sweep} --out {out} --shard {index}/{shares} --jobs {jobs} --quiet")
+        format!(
+            "{program} sweep {sweep} --out {out} --shard {index}/{shares} --jobs {jobs} --quiet"
+        )
     }
 
     /// A line a share, then none to gather: launchers run lines in any order.

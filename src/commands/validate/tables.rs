@@ -7,7 +7,8 @@ use comfy_table::{Table, presets};
 use super::CommandError;
 use rocking::motion::{percent, shown};
 use springs::validate::{
-    Confusion, GeometricMean, PREDICTABLE, Quantiles, RecordOutcome, Row, Suite, Summary, Validation,
+    Confusion, GeometricMean, PREDICTABLE, Quantiles, RecordOutcome, Row, Suite, Summary,
+    Validation,
 };
 
 /// A line of the summary: what it says of each set of records.
@@ -26,12 +27,16 @@ fn summary(v: &Validation) -> (Vec<String>, Vec<Vec<String>>) {
     // of one record there are no statistics
     let several = |n: usize, text: String| if n == 1 { "-".to_string() } else { text };
     // nor of records none of which lifts the body
-    let lifted =
-        |s: &Summary, text: String| if s.never_lifted == s.count { "-".to_string() } else { several(s.count, text) };
-    let quantiles = |q: &Quantiles| several(q.count, format!("{} / {}", number(q.median), number(q.p90)));
+    let lifted = |s: &Summary, text: String| {
+        if s.never_lifted == s.count { "-".to_string() } else { several(s.count, text) }
+    };
+    let quantiles =
+        |q: &Quantiles| several(q.count, format!("{} / {}", number(q.median), number(q.p90)));
     let part = |x: Option<f64>| x.map_or("-".to_string(), percent);
-    let percents = |q: &Quantiles| several(q.count, format!("{} / {}", part(q.median), part(q.p90)));
-    let overturned = |c: &Confusion| format!("{} / {} / {} / {}", c.both, c.housner_only, c.fem_only, c.neither);
+    let percents =
+        |q: &Quantiles| several(q.count, format!("{} / {}", part(q.median), part(q.p90)));
+    let overturned =
+        |c: &Confusion| format!("{} / {} / {} / {}", c.both, c.housner_only, c.fem_only, c.neither);
     let mean = |m: &GeometricMean| match m.failed {
         0 if m.count < 2 => format!("- of {}", m.count),
         0 => format!("{} of {}", number(m.mean), m.count),
@@ -39,40 +44,54 @@ fn summary(v: &Validation) -> (Vec<String>, Vec<Vec<String>>) {
     };
     let lines: [Line; 17] = [
         ("records".into(), &|s| s.count.to_string()),
-        ("KS distance of the peak rotations".into(), &|s| lifted(s, format!("{:.4}", s.ks_distance))),
+        ("KS distance of the peak rotations".into(), &|s| {
+            lifted(s, format!("{:.4}", s.ks_distance))
+        }),
         ("the same, Housner from himself with e changed by 1e-5".into(), &|s| {
             lifted(s, format!("{:.4}", s.ks_distance_of_housner_changed))
         }),
-        ("agreement on overturning".into(), &|s| lifted(s, format!("{:.2} %", 100.0 * s.overturning_agreement))),
+        ("agreement on overturning".into(), &|s| {
+            lifted(s, format!("{:.2} %", 100.0 * s.overturning_agreement))
+        }),
         ("the same, Housner with himself with e changed by 1e-5".into(), &|s| {
             lifted(s, format!("{:.2} %", 100.0 * s.overturning_agreement_of_housner_changed))
         }),
-        ("overturned in both / Housner only / finite elements only / neither".into(), &|s| overturned(&s.overturning)),
-        ("well-conditioned histories compared".into(), &|s| s.nrmse_well_conditioned.count.to_string()),
+        ("overturned in both / Housner only / finite elements only / neither".into(), &|s| {
+            overturned(&s.overturning)
+        }),
+        ("well-conditioned histories compared".into(), &|s| {
+            s.nrmse_well_conditioned.count.to_string()
+        }),
         ("error of peaks (displacement, uplift, forces): median / 90 %".into(), &|s| {
             percents(&s.peaks_well_conditioned)
         }),
         ("NRMSE horizontal: median / 90 %".into(), &|s| quantiles(&s.nrmse_well_conditioned)),
-        ("NRMSE vertical: median / 90 %".into(), &|s| quantiles(&s.nrmse_vertical_well_conditioned)),
+        ("NRMSE vertical: median / 90 %".into(), &|s| {
+            quantiles(&s.nrmse_vertical_well_conditioned)
+        }),
         (format!("NRMSE horizontal: geometric mean, sensitivity below {PREDICTABLE}"), &|s| {
             mean(&s.nrmse_geometric_mean)
         }),
-        (
-            format!("error of peaks: geometric mean, sensitivity below {PREDICTABLE}"),
-            &|s| match s.peaks_geometric_mean {
-                GeometricMean { count, mean: Some(x), failed: 0 } if count > 1 => format!("{} of {count}", percent(x)),
-                m => mean(&m),
-            },
-        ),
+        (format!("error of peaks: geometric mean, sensitivity below {PREDICTABLE}"), &|s| match s
+            .peaks_geometric_mean
+        {
+            GeometricMean { count, mean: Some(x), failed: 0 } if count > 1 => {
+                format!("{} of {count}", percent(x))
+            }
+            m => mean(&m),
+        }),
         ("not compared one to one: toppled, ill-conditioned, or in free flight".into(), &|s| {
             s.not_comparable.to_string()
         }),
-        ("in free flight: Housner's pivot would have to pull".into(), &|s| s.pivot_pulls.to_string()),
+        ("in free flight: Housner's pivot would have to pull".into(), &|s| {
+            s.pivot_pulls.to_string()
+        }),
         ("never lifted".into(), &|s| s.never_lifted.to_string()),
         ("failed".into(), &|s| s.failed.len().to_string()),
         ("largest energy residual".into(), &|s| format!("{:.1e}", s.energy_residual_max)),
     ];
-    let head = [""].into_iter().chain(sets.iter().map(|(name, _)| *name)).map(str::to_string).collect();
+    let head =
+        [""].into_iter().chain(sets.iter().map(|(name, _)| *name)).map(str::to_string).collect();
     let rows = lines.iter().map(|(name, value)| {
         let values = sets.iter().map(|(_, summary)| value(summary));
         [name.clone()].into_iter().chain(values).collect()
@@ -116,7 +135,11 @@ fn cells(row: &Row) -> [String; 12] {
         // the name comes from a file: it must not end the cell
         row.name.replace('|', "\\|"),
         format!("{:.4}", row.pga_g),
-        if row.sensitivity < 1e4 { format!("{:.2}", row.sensitivity) } else { format!("{:.1e}", row.sensitivity) },
+        if row.sensitivity < 1e4 {
+            format!("{:.2}", row.sensitivity)
+        } else {
+            format!("{:.1e}", row.sensitivity)
+        },
         format!("{:.4} / {:.4}", row.moved_by_0_1_percent, row.moved_by_1_percent),
         yes(row.well_conditioned),
         number(row.nrmse_horizontal, missing),
@@ -141,7 +164,12 @@ pub fn markdown(v: &Validation, line: &str) -> String {
         // writing to a String cannot fail
         let _ = writeln!(out, "| {} |", line.join(" | "));
     }
-    let _ = write!(out, "\n| {} |\n{}|\n", HEAD.map(|h| h.replace('|', "\\|")).join(" | "), "|---".repeat(HEAD.len()));
+    let _ = write!(
+        out,
+        "\n| {} |\n{}|\n",
+        HEAD.map(|h| h.replace('|', "\\|")).join(" | "),
+        "|---".repeat(HEAD.len())
+    );
     for row in &v.records {
         let _ = writeln!(out, "| {} |", cells(row).join(" | "));
     }
@@ -166,9 +194,11 @@ pub fn terminal(v: &Validation) -> String {
     table.add_rows(lines);
     let mut out = table.to_string();
     for row in v.records.iter().filter(|_| v.records.len() == 1) {
-        let cells = HEAD.iter().zip(cells(row)).skip(1).map(|(head, cell)| format!("{head} {cell}"));
+        let cells =
+            HEAD.iter().zip(cells(row)).skip(1).map(|(head, cell)| format!("{head} {cell}"));
         // writing to a String cannot fail
-        let _ = write!(out, "\none record, no statistics: {}", cells.collect::<Vec<_>>().join("; "));
+        let _ =
+            write!(out, "\none record, no statistics: {}", cells.collect::<Vec<_>>().join("; "));
     }
     out
 }

@@ -30,7 +30,11 @@ const LOOSER: f64 = 5.0;
 const STILL: f64 = 1e-8;
 
 /// Run the deck beside our own history.
-pub fn run(o: &VerifyOptions, parameters: &ElasticParameters, program: &Program) -> Result<(), CommandError> {
+pub fn run(
+    o: &VerifyOptions,
+    parameters: &ElasticParameters,
+    program: &Program,
+) -> Result<(), CommandError> {
     let excitation = o.record.excitation(|| parameters.excitation(&o.parameters))?;
     let record = excitation.used()?;
     check_folder(&o.out)?;
@@ -47,12 +51,21 @@ pub fn run(o: &VerifyOptions, parameters: &ElasticParameters, program: &Program)
     }
     // what cannot be foretold is not followed: nothing could be judged by it
     let samples = part.samples;
-    let ours = ElasticHistory { q: histories.fem.q[..samples.min(histories.fem.q.len())].to_vec(), ..histories.fem };
+    let ours = ElasticHistory {
+        q: histories.fem.q[..samples.min(histories.fem.q.len())].to_vec(),
+        ..histories.fem
+    };
     let text = deck(&assembled, &springs, &record, &ours, (program.format(), o.accuracy))?;
     let progress = Progress::new("OpenSees [s]", o.quiet);
     let samples = ours.q.len();
     let read = |path: &Path| configurations(&assembled, path, samples);
-    let ran = run_deck(&text, program, (samples, record.dt), &|done, all| progress.tell(done, all, ""), read);
+    let ran = run_deck(
+        &text,
+        program,
+        (samples, record.dt),
+        &|done, all| progress.tell(done, all, ""),
+        read,
+    );
     progress.done();
     let ran = ran?;
 
@@ -63,9 +76,11 @@ pub fn run(o: &VerifyOptions, parameters: &ElasticParameters, program: &Program)
     let rotations = of_ours.iter().flat_map(|sway| &sway.rotation);
     let rotation = rotation * standing_share(rotations, assembled.structure.body().alpha());
     let peaks = peaks(&assembled, &ours.q, &ran.motion);
-    let pairs: Vec<[Sway; 2]> = of_ours.into_iter().zip(of_opensees).map(|(ours, opensees)| [ours, opensees]).collect();
+    let pairs: Vec<[Sway; 2]> =
+        of_ours.into_iter().zip(of_opensees).map(|(ours, opensees)| [ours, opensees]).collect();
     let within = rotation <= LIMIT && drift <= LOOSER * LIMIT;
-    let folder = Folder::begin(&o.out, "verify", super::FILES, super::of(parameters, &record, o.accuracy))?;
+    let folder =
+        Folder::begin(&o.out, "verify", super::FILES, super::of(parameters, &record, o.accuracy))?;
     write_file(&folder.path().join("verify.csv"), csv(&pairs, record.dt).as_bytes())?;
     draw(folder.path(), &assembled, &pairs, record.dt)?;
     folder.finish()?;
@@ -95,7 +110,10 @@ pub fn run(o: &VerifyOptions, parameters: &ElasticParameters, program: &Program)
     );
     let late = number_before(&ran.report, " touches or lifts");
     if late > 0 {
-        let _ = writeln!(said, "WARNING: {late} touches or lifts of a corner within too long a step of OpenSees");
+        let _ = writeln!(
+            said,
+            "WARNING: {late} touches or lifts of a corner within too long a step of OpenSees"
+        );
     }
     terminal::stdout(format_args!("{said}"))?;
     terminal::stderr(format_args!("{}\nwritten to {}", excitation.line(), terminal::shown(&o.out)));
@@ -113,11 +131,16 @@ fn peaks(assembled: &Assembled, ours: &[Vec<f64>], opensees: &[Vec<f64>]) -> Vec
     let frame = &assembled.frame;
     let top = assembled.watched.first().map_or(0, |watched| watched.top);
     let small = STILL * frame.span();
-    let at_top = |all: &[Vec<f64>]| all.iter().map(|q| frame.displacement(top, q)[0]).collect::<Vec<_>>();
-    let highest = |q: &Vec<f64>| frame.places().iter().map(|corner| corner.reach(q).place[1]).fold(0.0, f64::max);
+    let at_top =
+        |all: &[Vec<f64>]| all.iter().map(|q| frame.displacement(top, q)[0]).collect::<Vec<_>>();
+    let highest = |q: &Vec<f64>| {
+        frame.places().iter().map(|corner| corner.reach(q).place[1]).fold(0.0, f64::max)
+    };
     let uplift = |all: &[Vec<f64>]| all.iter().map(highest).collect::<Vec<_>>();
     let sways = |all: &[Vec<f64>]| assembled.sways(all.iter().map(Vec::as_slice));
-    let joined = |all: &[Vec<f64>], of: fn(Sway) -> Vec<f64>| sways(all).into_iter().flat_map(of).collect::<Vec<_>>();
+    let joined = |all: &[Vec<f64>], of: fn(Sway) -> Vec<f64>| {
+        sways(all).into_iter().flat_map(of).collect::<Vec<_>>()
+    };
     let of = |quantity, pick: fn(Sway) -> Vec<f64>, least| {
         ComparedPeak::new(quantity, &joined(ours, pick), &joined(opensees, pick), least)
     };
@@ -130,7 +153,11 @@ fn peaks(assembled: &Assembled, ours: &[Vec<f64>], opensees: &[Vec<f64>]) -> Vec
 }
 
 /// Coordinates at every sample from the deck's history: t, then x, z, rotation of every node.
-fn configurations(assembled: &Assembled, path: &Path, samples: usize) -> Result<Vec<Vec<f64>>, VerifyError> {
+fn configurations(
+    assembled: &Assembled,
+    path: &Path,
+    samples: usize,
+) -> Result<Vec<Vec<f64>>, VerifyError> {
     let bad = |reason: String| VerifyError::History { path: path.display().to_string(), reason };
     let mut reader = csv::Reader::from_path(path).map_err(|e| bad(e.to_string()))?;
     let nodes = assembled.layout.nodes.len();
@@ -166,15 +193,24 @@ fn csv(pairs: &[[Sway; 2]], dt: f64) -> String {
         }
     }
     let mut out = head.join(",") + "\n";
-    for sample in 0..pairs.first().map_or(0, |pair| pair[0].rotation.len().min(pair[1].rotation.len())) {
+    for sample in
+        0..pairs.first().map_or(0, |pair| pair[0].rotation.len().min(pair[1].rotation.len()))
+    {
         let mut row = vec![sample as f64 * dt];
-        row.extend(pairs.iter().flatten().flat_map(|sway| [sway.rotation[sample], sway.drift[sample]]));
+        row.extend(
+            pairs.iter().flatten().flat_map(|sway| [sway.rotation[sample], sway.drift[sample]]),
+        );
         csv_row(&mut out, &row);
     }
     out
 }
 
-fn draw(out: &Path, assembled: &Assembled, pairs: &[[Sway; 2]], dt: f64) -> Result<(), CommandError> {
+fn draw(
+    out: &Path,
+    assembled: &Assembled,
+    pairs: &[[Sway; 2]],
+    dt: f64,
+) -> Result<(), CommandError> {
     let n = pairs.first().map_or(0, |pair| pair[0].rotation.len());
     let t: Vec<f64> = (0..n).map(|i| i as f64 * dt).collect();
     let of = |pick: fn(&Sway) -> &[f64]| -> Vec<[&[f64]; 2]> {
@@ -191,7 +227,8 @@ fn draw(out: &Path, assembled: &Assembled, pairs: &[[Sway; 2]], dt: f64) -> Resu
             ]
         })
         .collect();
-    let title = format!("The exported model in OpenSees\n{}", structure_title(&assembled.structure));
+    let title =
+        format!("The exported model in OpenSees\n{}", structure_title(&assembled.structure));
     let names = ["tune run", "OpenSees"];
     let data = StackFigure { title: &title, t: &t, names: &names, panels: &panels, event: None };
     Ok(stack::draw(&data)?.save(&out.join("verify.png"))?)

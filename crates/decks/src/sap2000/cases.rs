@@ -38,8 +38,18 @@ pub(super) fn cases(parts: &SapModel) -> Vec<SapTable> {
     let settings = CaseSettings::of(parts.even);
     vec![
         SapTable::new("LOAD CASE DEFINITIONS")
-            .row(&[("Case", &"GRAVITY"), ("Type", &"NonStatic"), ("InitialCond", &"Zero"), ("RunCase", &"Yes")])
-            .row(&[("Case", &"QUAKE"), ("Type", &"NonDirHist"), ("InitialCond", &"GRAVITY"), ("RunCase", &"Yes")]),
+            .row(&[
+                ("Case", &"GRAVITY"),
+                ("Type", &"NonStatic"),
+                ("InitialCond", &"Zero"),
+                ("RunCase", &"Yes"),
+            ])
+            .row(&[
+                ("Case", &"QUAKE"),
+                ("Type", &"NonDirHist"),
+                ("InitialCond", &"GRAVITY"),
+                ("RunCase", &"Yes"),
+            ]),
         SapTable::new("CASE - STATIC 1 - LOAD ASSIGNMENTS").row(&[
             ("Case", &"GRAVITY"),
             ("LoadType", &"Load pattern"),
@@ -132,7 +142,9 @@ impl CaseSettings {
     fn integration(&self) -> SapTable {
         let (method, gamma, beta, alpha) = match self.integrator {
             Integrator::Newmark { gamma, beta } => ("Newmark", gamma, beta, 0.0),
-            Integrator::Hht { alpha } => ("HilberHughesTaylor", 0.5 - alpha, 0.25 * (1.0 - alpha).powi(2), alpha),
+            Integrator::Hht { alpha } => {
+                ("HilberHughesTaylor", 0.5 - alpha, 0.25 * (1.0 - alpha).powi(2), alpha)
+            }
             _ => ("HilberHughesTaylor", 5.0 / 6.0, 4.0 / 9.0, -1.0 / 3.0),
         };
         SapTable::new("CASE - DIRECT HISTORY 4 - INTEGRATION PARAMETERS").row(&[
@@ -149,7 +161,11 @@ pub(super) fn record(parts: &SapModel) -> Vec<SapTable> {
     let mut table = SapTable::new("FUNCTION - TIME HISTORY - USER");
     for (i, &a) in parts.record.accel.iter().enumerate() {
         let time = i as f64 * parts.record.dt;
-        table = table.row(&[("Name", &"GROUND_MOTION"), ("Time", &digits(time)), ("Value", &digits(a))]);
+        table = table.row(&[
+            ("Name", &"GROUND_MOTION"),
+            ("Time", &digits(time)),
+            ("Value", &digits(a)),
+        ]);
     }
     vec![table]
 }

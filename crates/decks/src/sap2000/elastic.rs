@@ -33,7 +33,8 @@ impl Build<'_, '_> {
     /// The joint at a place on a node, on an arm if that is off it.
     fn joint(&mut self, point: &NodePoint) -> usize {
         let known = self.joints.iter().zip(&self.owners);
-        let mut known = known.filter(|(joint, owner)| **owner == point.node && joint.place == point.place);
+        let mut known =
+            known.filter(|(joint, owner)| **owner == point.node && joint.place == point.place);
         if let Some((joint, _)) = known.next() {
             return joint.tag;
         }
@@ -54,7 +55,8 @@ impl Build<'_, '_> {
 
     /// Beam i between two joints.
     fn beam(&mut self, i: usize, joints: [usize; 2], s: &beam::BeamSection) {
-        let share = |damping: f64, stiffness: f64| if stiffness > 0.0 { damping / stiffness } else { 0.0 };
+        let share =
+            |damping: f64, stiffness: f64| if stiffness > 0.0 { damping / stiffness } else { 0.0 };
         let ahead = [share(s.axial_damping, s.axial), share(s.bending_damping, s.bending)];
         let name = format!("BEAM_{}", i + 1);
         let of = |name: String, [axial, bending]: [f64; 2], ahead: f64| SapSection {
@@ -84,14 +86,24 @@ impl<'a> SapModel<'a> {
             Joint { tag: node + 1, place: deck.frame.centre(node), mass: of(x), inertia: of(turn) }
         };
         let joints: Vec<Joint> = nodes.clone().map(joint).collect();
-        let mut build = Build { deck, joints, owners: nodes.collect(), sections: Vec::new(), bars: Vec::new() };
+        let mut build =
+            Build { deck, joints, owners: nodes.collect(), sections: Vec::new(), bars: Vec::new() };
         for (i, member) in deck.layout.members.iter().enumerate() {
             let ends = [build.joint(&member.ends[0]), build.joint(&member.ends[1])];
             build.beam(i, ends, &member.section);
         }
-        let stands: Vec<usize> = deck.layout.corners.iter().map(|corner| build.joint(corner)).collect();
-        let foot = |(i, &joint): (usize, &usize)| FootJoints { joint, absorber: 1001 + i, ground: 2001 + i, unit: i };
-        let unit = |(i, springs): (usize, &_)| SpringLinks { suffix: format!("_{}", i + 1), springs: *springs };
+        let stands: Vec<usize> =
+            deck.layout.corners.iter().map(|corner| build.joint(corner)).collect();
+        let foot = |(i, &joint): (usize, &usize)| FootJoints {
+            joint,
+            absorber: 1001 + i,
+            ground: 2001 + i,
+            unit: i,
+        };
+        let unit = |(i, springs): (usize, &_)| SpringLinks {
+            suffix: format!("_{}", i + 1),
+            springs: *springs,
+        };
         let (top, _) = deck.top;
         Self {
             title: printable(deck.title),

@@ -70,7 +70,13 @@ fn kilo(x: f64) -> String {
 /// k2 beside c, between absorber and ground.
 fn linear(unit: &SpringLinks, table: &mut SapTable) {
     let (link, Springs { vertical: v, horizontal: h }) = (name("GROUND", unit), &unit.springs);
-    table.add(&[("Link", &link), ("DOF", &"U1"), ("Fixed", &"No"), ("TransKE", &kilo(v.k2)), ("TransCE", &kilo(v.c))]);
+    table.add(&[
+        ("Link", &link),
+        ("DOF", &"U1"),
+        ("Fixed", &"No"),
+        ("TransKE", &kilo(v.k2)),
+        ("TransCE", &kilo(v.c)),
+    ]);
     table.add(&[
         ("Link", &link),
         ("DOF", &"U2"),

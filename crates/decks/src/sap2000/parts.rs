@@ -45,7 +45,9 @@ pub(crate) struct SapSection {
 impl SapSection {
     /// All but rigid, beside springs as stiff as this, of a frame of this length.
     pub(crate) fn rigid(name: String, springs: &[Springs<Chain<f64>>], length: f64) -> Self {
-        let of = |s: &Springs<Chain<f64>>| s.vertical.k1.max(s.vertical.k2).max(s.horizontal.k1).max(s.horizontal.k2);
+        let of = |s: &Springs<Chain<f64>>| {
+            s.vertical.k1.max(s.vertical.k2).max(s.horizontal.k1).max(s.horizontal.k2)
+        };
         let stiffness = RIGID * springs.iter().map(of).fold(0.0, f64::max);
         let (axial, bending) = (stiffness * length, stiffness * length.powi(3) / 3.0);
         Self { name, material: "RIGID".into(), axial, bending, shear: f64::INFINITY, ahead: 0.0 }
@@ -117,7 +119,14 @@ impl<'a> SapModel<'a> {
             sections: vec![SapSection::rigid("LEG".into(), &[model.springs], body.radius())],
             bars: [1, 2].map(|foot| Bar { joints: [foot, 3], section: 0 }).to_vec(),
             units: vec![SpringLinks { suffix: String::new(), springs: model.springs }],
-            feet: [1, 2].map(|joint| FootJoints { joint, absorber: 10 + joint, ground: 20 + joint, unit: 0 }).to_vec(),
+            feet: [1, 2]
+                .map(|joint| FootJoints {
+                    joint,
+                    absorber: 10 + joint,
+                    ground: 20 + joint,
+                    unit: 0,
+                })
+                .to_vec(),
             watched: 3,
             settled: e.settled,
             peaks: [e.u, e.v],

@@ -26,7 +26,9 @@ fn structure(text: &str) -> ElasticStructure {
 fn springs(corners: usize) -> Vec<Springs<Chain<f64>>> {
     let chain = |x: f64| Chain { k1: 1e10 * x, k2: 7e8 * x, m2: 2e4 * x, c: 3e7 * x };
     let of = |i: usize| 1.0 + 0.1 * i as f64;
-    (0..corners).map(|i| Springs { vertical: chain(of(i)), horizontal: chain(3.0 * of(i)) }).collect()
+    (0..corners)
+        .map(|i| Springs { vertical: chain(of(i)), horizontal: chain(3.0 * of(i)) })
+        .collect()
 }
 
 fn deck(model: &Assembled, record: &Record) -> Result<String, ExportError> {
@@ -64,7 +66,9 @@ fn masses_and_weights_are_the_structure_s() {
     for text in [PIER, LEGS, PORTAL] {
         let (model, t) = tables(text);
         let total = model.frame.total_mass();
-        let sum = |table: &str, field: &str| t[table].iter().map(|row| number(row, field)).sum::<f64>() * 1e3;
+        let sum = |table: &str, field: &str| {
+            t[table].iter().map(|row| number(row, field)).sum::<f64>() * 1e3
+        };
         let springs = springs(model.frame.places().len());
         let absorbers: f64 = springs.iter().map(|s| s.vertical.m2).sum();
         assert!(close(sum("JOINT LOADS - FORCE", "F3"), -total * GRAVITY));
@@ -79,20 +83,35 @@ fn every_corner_has_links_of_its_own_springs_at_its_place() {
     for text in [PIER, LEGS, PORTAL] {
         let (model, t) = tables(text);
         let find = |table: &str, keys: &[(&str, &str)]| {
-            let fits = |row: &&std::collections::HashMap<String, String>| keys.iter().all(|(k, v)| row[*k] == *v);
+            let fits = |row: &&std::collections::HashMap<String, String>| {
+                keys.iter().all(|(k, v)| row[*k] == *v)
+            };
             t[table].iter().find(fits).unwrap_or_else(|| panic!("{table} {keys:?}"))
         };
-        for (i, (springs, corner)) in springs(model.frame.places().len()).iter().zip(&model.layout.corners).enumerate()
+        for (i, (springs, corner)) in
+            springs(model.frame.places().len()).iter().zip(&model.layout.corners).enumerate()
         {
             let named = |link: &str| format!("{link}_{}", i + 1);
             for (dof, unit) in [("U1", springs.vertical), ("U2", springs.horizontal)] {
                 let of = |table: &str, link: &str, field: &str| {
                     1e3 * number(find(table, &[("Link", &named(link)), ("DOF", dof)]), field)
                 };
-                assert!(close(of("LINK PROPERTY DEFINITIONS 08 - SLIDING ISOLATOR", "FOOT", "TransK"), unit.k1));
-                assert!(close(of("LINK PROPERTY DEFINITIONS 05 - GAP", "FOOT_GAP", "TransKE"), unit.k1));
-                assert!(close(of("LINK PROPERTY DEFINITIONS 02 - LINEAR", "GROUND", "TransKE"), unit.k2));
-                assert!(close(of("LINK PROPERTY DEFINITIONS 02 - LINEAR", "GROUND", "TransCE"), unit.c));
+                assert!(close(
+                    of("LINK PROPERTY DEFINITIONS 08 - SLIDING ISOLATOR", "FOOT", "TransK"),
+                    unit.k1
+                ));
+                assert!(close(
+                    of("LINK PROPERTY DEFINITIONS 05 - GAP", "FOOT_GAP", "TransKE"),
+                    unit.k1
+                ));
+                assert!(close(
+                    of("LINK PROPERTY DEFINITIONS 02 - LINEAR", "GROUND", "TransKE"),
+                    unit.k2
+                ));
+                assert!(close(
+                    of("LINK PROPERTY DEFINITIONS 02 - LINEAR", "GROUND", "TransCE"),
+                    unit.c
+                ));
             }
             let link = &find("LINK PROPERTY ASSIGNMENTS", &[("LinkProp", &named("FOOT"))])["Link"];
             let ends = find("CONNECTIVITY - LINK", &[("Link", link)]);
@@ -117,14 +136,26 @@ fn frames_side_by_side_are_the_beam() {
         for (i, member) in model.layout.members.iter().enumerate() {
             let name = format!("BEAM_{}", i + 1);
             let parts = t["FRAME SECTION PROPERTIES 01 - GENERAL"].iter().filter(|row| {
-                row["SectionName"].strip_prefix(&name).is_some_and(|rest| ["", "_A", "_B"].contains(&rest))
+                row["SectionName"]
+                    .strip_prefix(&name)
+                    .is_some_and(|rest| ["", "_A", "_B"].contains(&rest))
             });
             let mut sums = [0.0; 4];
             for part in parts {
                 let material = &part["Material"];
                 let modulus = 1e3
-                    * number(of("MATERIAL PROPERTIES 02 - BASIC MECHANICAL PROPERTIES", "Material", material), "E1");
-                let ahead = number(of("MATERIAL PROPERTIES 06 - DAMPING PARAMETERS", "Material", material), "VisStiff");
+                    * number(
+                        of(
+                            "MATERIAL PROPERTIES 02 - BASIC MECHANICAL PROPERTIES",
+                            "Material",
+                            material,
+                        ),
+                        "E1",
+                    );
+                let ahead = number(
+                    of("MATERIAL PROPERTIES 06 - DAMPING PARAMETERS", "Material", material),
+                    "VisStiff",
+                );
                 for (k, field) in ["Area", "I33"].into_iter().enumerate() {
                     let stiffness = modulus * number(part, field);
                     sums[k] += stiffness;

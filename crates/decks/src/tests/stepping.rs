@@ -15,8 +15,13 @@ fn for_program(name: ProgramName, step: f64) -> Parameters {
     let csi = name == ProgramName::Sap2000;
     let integrator = if csi { Integrator::HHT_MOST } else { Integrator::Trbdf2 };
     let program = FixedStepProgram { integrator, ..FixedStepProgram::of(name, step) };
-    let found = ProgramSprings::measured(&body.body(), program, &suites, false, &Effort::unbounded()).unwrap();
-    Parameters { program: Some(ProgramRow::from(&found)), ..Parameters::new(body, &springs(4000.0)) }
+    let found =
+        ProgramSprings::measured(&body.body(), program, &suites, false, &Effort::unbounded())
+            .unwrap();
+    Parameters {
+        program: Some(ProgramRow::from(&found)),
+        ..Parameters::new(body, &springs(4000.0))
+    }
 }
 
 fn text(parameters: &Parameters, format: DeckFormat, stepping: Stepping) -> String {
@@ -38,11 +43,20 @@ fn decks_of_even_steps_hold_the_programs_springs_and_settings() {
                 assert!(found.contains(&number), "{format:?}: {number} is missing");
             }
         }
-        assert!(even.contains(integrator) && even.contains(step) && !even.contains('@'), "{format:?}");
-        assert!(!found.contains(&parameters.vertical.k1_n_per_m), "{format:?}: springs of the other steps");
+        assert!(
+            even.contains(integrator) && even.contains(step) && !even.contains('@'),
+            "{format:?}"
+        );
+        assert!(
+            !found.contains(&parameters.vertical.k1_n_per_m),
+            "{format:?}: springs of the other steps"
+        );
         // stiffer springs where steps are divided at touches
         let touches = text(&parameters, format, Stepping::Touches);
-        assert!(!numbers_in(&touches).contains(&row.units.vertical.k1_n_per_m) && !touches.contains('@'));
+        assert!(
+            !numbers_in(&touches).contains(&row.units.vertical.k1_n_per_m)
+                && !touches.contains('@')
+        );
         // steps that follow touches are those of `deck`
         let record = Record::el_centro().truncated(8.0);
         let events = stepped_deck(&parameters, &record, format, Stepping::Events).unwrap().text;
@@ -55,7 +69,9 @@ fn sap2000_tables_have_the_load_case_of_the_program() {
     let parameters = for_program(ProgramName::Sap2000, 0.001);
     let tables = text(&parameters, DeckFormat::Sap2000, Stepping::Even);
     let row = tables.lines().find(|line| line.contains("MaxIterCS")).unwrap();
-    for setting in ["DTMax=1.0000000000000000e-3", "DTMin=6.25", "MaxIterCS=0", "MaxIterNR=40", "UseEvStep=No"] {
+    for setting in
+        ["DTMax=1.0000000000000000e-3", "DTMin=6.25", "MaxIterCS=0", "MaxIterNR=40", "UseEvStep=No"]
+    {
         assert!(row.contains(setting), "{setting}: {row}");
     }
     assert!(tables.contains("StepSize=1.0000000000000000e-2") && tables.contains("OutSteps=800"));
@@ -72,14 +88,31 @@ fn what_has_no_springs_or_no_integrator_for_a_program_is_refused() {
         stepped_deck(parameters, &record, format, stepping).unwrap_err().to_string()
     };
     let even = for_program(ProgramName::OpenSees, 0.002);
-    assert!(refused(&super::parameters(), DeckFormat::OpenSeesPy, Stepping::Even).contains("--for sap2000"));
-    assert!(refused(&even, DeckFormat::Sap2000, Stepping::Even).contains("trbdf2 is not written for SAP2000"));
+    assert!(
+        refused(&super::parameters(), DeckFormat::OpenSeesPy, Stepping::Even)
+            .contains("--for sap2000")
+    );
+    assert!(
+        refused(&even, DeckFormat::Sap2000, Stepping::Even)
+            .contains("trbdf2 is not written for SAP2000")
+    );
     assert!(refused(&even, DeckFormat::Sap2000, Stepping::Touches).contains("no loop"));
     let mut damped = even.clone();
     damped.damper = Some(rocking::members::Damper { c: 1e3 });
-    assert!(refused(&damped, DeckFormat::OpenSeesPy, Stepping::Even).contains("not made for a damper"));
+    assert!(
+        refused(&damped, DeckFormat::OpenSeesPy, Stepping::Even).contains("not made for a damper")
+    );
     let mut alpha = even;
     alpha.program.as_mut().unwrap().integrator = "generalized-alpha:0".into();
-    assert!(refused(&alpha, DeckFormat::OpenSeesPy, Stepping::Even).contains("generalized-alpha:0 is not written"));
-    assert!("sometimes".parse::<Stepping>().unwrap_err().to_string().contains("give events, even or touches"));
+    assert!(
+        refused(&alpha, DeckFormat::OpenSeesPy, Stepping::Even)
+            .contains("generalized-alpha:0 is not written")
+    );
+    assert!(
+        "sometimes"
+            .parse::<Stepping>()
+            .unwrap_err()
+            .to_string()
+            .contains("give events, even or touches")
+    );
 }

@@ -26,14 +26,21 @@ pub struct ComparedPeak {
 
 impl ComparedPeak {
     /// From the two histories of a quantity.
-    pub fn new((quantity, unit): (&'static str, &'static str), ours: &[f64], opensees: &[f64], least: f64) -> Self {
+    pub fn new(
+        (quantity, unit): (&'static str, &'static str),
+        ours: &[f64],
+        opensees: &[f64],
+        least: f64,
+    ) -> Self {
         Self { quantity, unit, ours: peak(ours), opensees: peak(opensees), least }
     }
 
     /// Displacement of the mass, uplift of a foot and rotation of a rigid body.
     pub(crate) fn rigid(ours: &Motion, opensees: &Motion, body: &Body<f64>) -> Vec<Self> {
         let width = 2.0 * body.half_width;
-        let uplift = |motion: &Motion| motion.theta.iter().map(|theta| width * theta.sin().abs()).collect::<Vec<_>>();
+        let uplift = |motion: &Motion| {
+            motion.theta.iter().map(|theta| width * theta.sin().abs()).collect::<Vec<_>>()
+        };
         let small = SMALL * body.half_width;
         vec![
             Self::new(("top displacement", "m"), &ours.u, &opensees.u, small),
@@ -71,7 +78,9 @@ mod tests {
     #[test]
     fn a_sine_of_five_periods_swings_nine_times_and_its_tremble_does_not_count() {
         let sine = |amplitude: f64| -> Vec<f64> {
-            (0..500).map(|i| amplitude * (std::f64::consts::TAU * (f64::from(i) + 0.5) / 100.0).sin()).collect()
+            (0..500)
+                .map(|i| amplitude * (std::f64::consts::TAU * (f64::from(i) + 0.5) / 100.0).sin())
+                .collect()
         };
         assert_eq!(swings(&sine(0.1), 0.2), 9);
         assert_eq!(swings(&sine(0.001), 0.2), 0);
@@ -79,7 +88,9 @@ mod tests {
 
     #[test]
     fn the_difference_of_peaks_has_a_sign_and_rest_has_none() {
-        let of = |ours: &[f64], opensees: &[f64]| ComparedPeak::new(("top displacement", "m"), ours, opensees, 1e-6);
+        let of = |ours: &[f64], opensees: &[f64]| {
+            ComparedPeak::new(("top displacement", "m"), ours, opensees, 1e-6)
+        };
         let difference = of(&[0.0, -2.0, 1.0], &[0.0, -1.98, 1.5]).difference_percent().unwrap();
         assert!((difference + 1.0).abs() < 1e-12);
         assert_eq!(of(&[1e-9], &[2e-9]).difference_percent(), None);

@@ -18,7 +18,10 @@ const TELL: Duration = Duration::from_millis(500);
 
 /// The last line like "12 s of 20 s" in what the deck said: 12.
 fn followed(said: &[u8]) -> Option<usize> {
-    String::from_utf8_lossy(said).lines().rev().find_map(|line| line.split_once(" s of ")?.0.parse().ok())
+    String::from_utf8_lossy(said)
+        .lines()
+        .rev()
+        .find_map(|line| line.split_once(" s of ")?.0.parse().ok())
 }
 
 /// What runs the deck.
@@ -68,13 +71,19 @@ impl Program {
 
     /// Run a deck; its output goes through files, so that no pipe can fill up. `progress` is told
     /// how many seconds of the record the deck says it has followed.
-    pub(super) fn run(&self, deck: &Path, patience: Duration, progress: &dyn Fn(usize)) -> Result<Ran, VerifyError> {
+    pub(super) fn run(
+        &self,
+        deck: &Path,
+        patience: Duration,
+        progress: &dyn Fn(usize),
+    ) -> Result<Ran, VerifyError> {
         let logs = [deck.with_extension("out"), deck.with_extension("err")];
         let folder = |path: &Path| {
             let path = path.display().to_string();
             move |source| VerifyError::Folder { path, source }
         };
-        let [out, err] = [&logs[0], &logs[1]].map(|path| fs::File::create(path).map_err(folder(path)));
+        let [out, err] =
+            [&logs[0], &logs[1]].map(|path| fs::File::create(path).map_err(folder(path)));
         let mut child = self
             .command()
             .arg(deck)
@@ -91,7 +100,11 @@ impl Program {
                 Ok(None) if began.elapsed() < patience => {
                     if told.elapsed() > TELL {
                         told = Instant::now();
-                        fs::read(&logs[1]).ok().and_then(|bytes| followed(&bytes)).into_iter().for_each(progress);
+                        fs::read(&logs[1])
+                            .ok()
+                            .and_then(|bytes| followed(&bytes))
+                            .into_iter()
+                            .for_each(progress);
                     }
                     std::thread::sleep(Duration::from_millis(20));
                 }
@@ -103,15 +116,21 @@ impl Program {
                 }
             }
         };
-        let text = |path: &PathBuf| fs::read(path).map(|bytes| String::from_utf8_lossy(&bytes).into_owned());
+        let text = |path: &PathBuf| {
+            fs::read(path).map(|bytes| String::from_utf8_lossy(&bytes).into_owned())
+        };
         let report = text(&logs[0]).map_err(folder(&logs[0]))?;
         let complaint = text(&logs[1]).map_err(folder(&logs[1]))?;
         match status.code() {
-            Some(code @ (0 | 1)) if report.contains("within 1 %:") => Ok(Ran { good: code == 0, report }),
+            Some(code @ (0 | 1)) if report.contains("within 1 %:") => {
+                Ok(Ran { good: code == 0, report })
+            }
             Some(NO_OPENSEES) if matches!(self, Self::Python(_)) => {
                 Err(VerifyError::NoOpenSees { python: self.name() })
             }
-            _ if complaint.contains("No module named opensees") => Err(VerifyError::NoTcl { command: self.name() }),
+            _ if complaint.contains("No module named opensees") => {
+                Err(VerifyError::NoTcl { command: self.name() })
+            }
             _ => {
                 let reason = complaint
                     .lines()
@@ -131,7 +150,10 @@ mod tests {
 
     #[test]
     fn the_last_second_that_the_deck_names_is_told() {
-        assert_eq!(followed(b"WARNING: failed of 3 s\n1 s of 20 s\n2 s of 20 s\nNewton cycles\n"), Some(2));
+        assert_eq!(
+            followed(b"WARNING: failed of 3 s\n1 s of 20 s\n2 s of 20 s\nNewton cycles\n"),
+            Some(2)
+        );
         assert_eq!(followed(b"WARNING\n"), None);
     }
 }

@@ -40,8 +40,11 @@ fn stand_in(folder: &Path, script: &str) -> PathBuf {
 
 #[test]
 fn a_python_that_is_not_there_is_named_in_one_line() {
-    for program in [Program::Python("/nowhere/python3".into()), Program::Tcl(vec!["/nowhere/python3".into()])] {
-        let error = verify(&parameters(), &half_a_second(), ACCURACY, &program, &|_, _| ()).unwrap_err();
+    for program in
+        [Program::Python("/nowhere/python3".into()), Program::Tcl(vec!["/nowhere/python3".into()])]
+    {
+        let error =
+            verify(&parameters(), &half_a_second(), ACCURACY, &program, &|_, _| ()).unwrap_err();
         let said = error.to_string();
         assert!(matches!(error, VerifyError::NoProgram { .. }));
         assert!(said.contains("/nowhere/python3") && !said.contains('\n'), "{said}");
@@ -54,7 +57,10 @@ fn without_openseespy_one_line_says_how_to_install_it() {
     let error = with_stand_in("exit 3").unwrap_err();
     let said = error.to_string();
     assert!(matches!(error, VerifyError::NoOpenSees { .. }));
-    assert!(said.contains("pip install openseespy") && said.contains("libblas3 liblapack3"), "{said}");
+    assert!(
+        said.contains("pip install openseespy") && said.contains("libblas3 liblapack3"),
+        "{said}"
+    );
     assert!(!said.contains('\n'), "{said}");
 }
 
@@ -64,17 +70,23 @@ fn without_the_package_opensees_one_line_says_how_to_install_it() {
     let folder = tempfile::tempdir().unwrap();
     let python = stand_in(folder.path(), "echo 'python3: No module named opensees' >&2; exit 1");
     let program = Program::Tcl(vec![python.display().to_string(), "-m".into(), "opensees".into()]);
-    let said = verify(&parameters(), &half_a_second(), ACCURACY, &program, &|_, _| ()).unwrap_err().to_string();
+    let said = verify(&parameters(), &half_a_second(), ACCURACY, &program, &|_, _| ())
+        .unwrap_err()
+        .to_string();
     assert!(said.contains("pip install opensees") && !said.contains('\n'), "{said}");
 }
 
 #[cfg(unix)]
 #[test]
 fn an_analysis_that_stops_gives_its_last_words() {
-    let error =
-        with_stand_in("echo first >&2; echo 'no convergence at 1.5 s' >&2; echo Process 0 Terminating >&2; exit 2");
+    let error = with_stand_in(
+        "echo first >&2; echo 'no convergence at 1.5 s' >&2; echo Process 0 Terminating >&2; exit 2",
+    );
     let said = error.unwrap_err().to_string();
-    assert!(said.contains("no convergence at 1.5 s") && !said.contains("first") && !said.contains('\n'), "{said}");
+    assert!(
+        said.contains("no convergence at 1.5 s") && !said.contains("first") && !said.contains('\n'),
+        "{said}"
+    );
 }
 
 #[cfg(unix)]
@@ -87,8 +99,7 @@ fn a_deck_that_writes_no_history_is_an_error() {
 #[cfg(unix)]
 #[test]
 fn a_cut_history_is_an_error() {
-    let script =
-        r#"printf 't,u,v,th\n0,0,0,0\n0.01,1e-3,0,0\n' > "${1%.py}_history.csv"; echo 'within 1 %: no'; exit 1"#;
+    let script = r#"printf 't,u,v,th\n0,0,0,0\n0.01,1e-3,0,0\n' > "${1%.py}_history.csv"; echo 'within 1 %: no'; exit 1"#;
     let said = with_stand_in(script).unwrap_err().to_string();
     assert!(said.contains("2 samples instead of 51"), "{said}");
 }
@@ -111,8 +122,10 @@ fn a_run_that_hangs_is_stopped() {
     let folder = tempfile::tempdir().unwrap();
     let python = stand_in(folder.path(), "exec sleep 60");
     let began = Instant::now();
-    let error =
-        Program::Python(python).run(&folder.path().join("deck.py"), Duration::from_millis(100), &|_| ()).err().unwrap();
+    let error = Program::Python(python)
+        .run(&folder.path().join("deck.py"), Duration::from_millis(100), &|_| ())
+        .err()
+        .unwrap();
     assert!(matches!(error, VerifyError::Hung { .. }));
     assert!(began.elapsed() < Duration::from_secs(30));
 }
@@ -125,8 +138,10 @@ fn a_slight_change_of_width_moves_some_histories_and_not_others() {
     let soft = Design { omega_n_hz: 21.7, ..chain };
     let springs = Springs { vertical: chain, horizontal: soft };
     let record = Record::el_centro().truncated(10.0);
-    let width_sensitivity = |p: &Parameters| width_sensitivity(&simulate(p, &record).motion, p, &record);
-    let frame = Parameters::new(with_inertia(&Structure::a_frame(5.0, 1.5, 1000.0).unwrap()), &springs);
+    let width_sensitivity =
+        |p: &Parameters| width_sensitivity(&simulate(p, &record).motion, p, &record);
+    let frame =
+        Parameters::new(with_inertia(&Structure::a_frame(5.0, 1.5, 1000.0).unwrap()), &springs);
     assert!(width_sensitivity(&frame) > 0.01, "{}", width_sensitivity(&frame));
     let paper = width_sensitivity(&parameters());
     assert!(paper > 1e-6 && paper < 5e-4, "{paper}");

@@ -31,7 +31,13 @@ pub struct OpenSeesVerdict {
 
 impl OpenSeesVerdict {
     /// `foretold`: up to where it can be, `None` for all of it.
-    pub(crate) fn new(opensees: &Motion, ours: &Motion, body: &Body<f64>, dt: f64, foretold: Option<Foretold>) -> Self {
+    pub(crate) fn new(
+        opensees: &Motion,
+        ours: &Motion,
+        body: &Body<f64>,
+        dt: f64,
+        foretold: Option<Foretold>,
+    ) -> Self {
         let until = foretold.map(|foretold| foretold.samples);
         let samples = until.unwrap_or(ours.len()).min(ours.len()).min(opensees.len());
         let (a, b) = (&opensees.u[..samples], &ours.u[..samples]);
@@ -40,7 +46,14 @@ impl OpenSeesVerdict {
         let parted = opensees.u.iter().zip(&ours.u).position(|(a, b)| (a - b).abs() > far);
         let time = |sample: usize| sample as f64 * dt;
         let end = foretold.map(|foretold| foretold.end);
-        Self { error, within: error <= LIMIT, samples, until: until.map(time), end, parted: parted.map(time) }
+        Self {
+            error,
+            within: error <= LIMIT,
+            samples,
+            until: until.map(time),
+            end,
+            parted: parted.map(time),
+        }
     }
 }
 
@@ -52,7 +65,11 @@ mod tests {
     /// A history of 1 m and one that leaves it by the given share from the given sample on.
     fn pair(share: f64, from: usize) -> [Motion; 2] {
         let u: Vec<f64> = (0..100).map(|i| if i % 2 == 0 { 1.0 } else { -1.0 }).collect();
-        let off = u.iter().enumerate().map(|(i, u)| if i < from { *u } else { u * (1.0 + share) }).collect();
+        let off = u
+            .iter()
+            .enumerate()
+            .map(|(i, u)| if i < from { *u } else { u * (1.0 + share) })
+            .collect();
         [off, u].map(|u| Motion { v: u.clone(), theta: u.clone(), u })
     }
 

@@ -123,9 +123,15 @@ mod tests {
         assert!((next / (1e-3 * 0.9 * 0.5_f64.powf(1.0 / 6.0)) - 1.0).abs() < 8.1e-3, "{next}");
         assert_eq!(tried.verdict([f64::NAN, 0.0], [1.0, 1.0]), StepVerdict::Refused(1e-4));
         let smallest = TriedStep { h: 1e-10, ..tried };
-        assert!(matches!(smallest.verdict([2.0, 0.0], [1.0, 1.0]), StepVerdict::Holds { breaks: true, .. }));
+        assert!(matches!(
+            smallest.verdict([2.0, 0.0], [1.0, 1.0]),
+            StepVerdict::Holds { breaks: true, .. }
+        ));
         // cut short by a sample: what was planned still holds
         let cut = TriedStep { h: 1e-4, ..tried };
-        assert_eq!(cut.verdict([1.0, 1.0], [1.0, 1.0]), StepVerdict::Holds { next: 1e-3, breaks: false });
+        assert_eq!(
+            cut.verdict([1.0, 1.0], [1.0, 1.0]),
+            StepVerdict::Holds { next: 1e-3, breaks: false }
+        );
     }
 }

@@ -113,7 +113,8 @@ impl<S: Scalar> Model<S> {
     fn newton(&self, state: &mut State<S>, feet: &[Foot<S>; 2], before: S) -> bool {
         let mut last = f64::INFINITY;
         for _ in 0..STEPS {
-            let (moment, stiffness) = self.moment_and_stiffness(&self.contact(&state.q, feet), feet);
+            let (moment, stiffness) =
+                self.moment_and_stiffness(&self.contact(&state.q, feet), feet);
             let step = moment / stiffness;
             last = step.re();
             state.q[TH] += step;
@@ -122,7 +123,9 @@ impl<S: Scalar> Model<S> {
             }
         }
         let (after, _, stiffness) = self.potential(state, feet);
-        last.abs() < CLOSE && stiffness.re() > 0.0 && after.re() <= before.re() + self.rounding(before.re())
+        last.abs() < CLOSE
+            && stiffness.re() > 0.0
+            && after.re() <= before.re() + self.rounding(before.re())
     }
 
     /// By how much rounding may change V where it is `stored` (J): on stiff springs that of the

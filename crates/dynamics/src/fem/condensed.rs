@@ -29,7 +29,12 @@ impl<T: Num + Copy> Condensed<T> {
             let pivot = T::one() / (base + coupling);
             Self { pivot, coupling, share: coupling * pivot, stiffness: coupling * base * pivot }
         } else {
-            Self { pivot: T::one() / base, coupling: T::zero(), share: T::zero(), stiffness: T::zero() }
+            Self {
+                pivot: T::one() / base,
+                coupling: T::zero(),
+                share: T::zero(),
+                stiffness: T::zero(),
+            }
         }
     }
 }

@@ -41,7 +41,8 @@ impl<T: Num + Copy + Neg<Output = T>> Coupled<T> {
         }
         for element in model.elements.each() {
             let tangent = element.tangent(&state.q, &state.v);
-            for (row, (k, c)) in body.iter_mut().zip(tangent.stiffness.iter().zip(&tangent.damping)) {
+            for (row, (k, c)) in body.iter_mut().zip(tangent.stiffness.iter().zip(&tangent.damping))
+            {
                 for j in 0..3 {
                     row[j] = row[j] + (s * s * lift(k[j]) + s * lift(c[j]));
                 }
@@ -63,7 +64,12 @@ impl<T: Num + Copy + Neg<Output = T>> Coupled<T> {
 
     /// Solve for the accelerations' correction; `times` multiplies an entry of the right side by
     /// one of the matrix.
-    pub(crate) fn solve<V>(&self, chains: &Chains<T>, r: &[V; N], times: impl Fn(V, T) -> V + Copy) -> [V; N]
+    pub(crate) fn solve<V>(
+        &self,
+        chains: &Chains<T>,
+        r: &[V; N],
+        times: impl Fn(V, T) -> V + Copy,
+    ) -> [V; N]
     where
         V: Copy + Add<Output = V> + Sub<Output = V>,
     {

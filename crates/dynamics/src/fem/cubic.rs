@@ -143,7 +143,11 @@ mod tests {
             let cubic = Cubic::through(&values);
             for (node, value) in NODES.into_iter().zip(values) {
                 // the weights reach 12
-                assert!((cubic.at(node) - value).abs() < 1e-14 * 10.0, "{} {value}", cubic.at(node));
+                assert!(
+                    (cubic.at(node) - value).abs() < 1e-14 * 10.0,
+                    "{} {value}",
+                    cubic.at(node)
+                );
             }
         }
     }
@@ -154,7 +158,8 @@ mod tests {
         for values in SAMPLES {
             let cubic = Cubic::through(&values);
             let grid = || (1..100_000).map(|i| f64::from(i) * 1e-5);
-            let (lowest, at) = grid().map(|tau| (cubic.at(tau), tau)).min_by(|a, b| a.0.total_cmp(&b.0)).unwrap();
+            let (lowest, at) =
+                grid().map(|tau| (cubic.at(tau), tau)).min_by(|a, b| a.0.total_cmp(&b.0)).unwrap();
             let tau = cubic.least();
             if (1e-4..1.0 - 1e-4).contains(&at) {
                 assert!((tau - at).abs() < 1e-4, "{tau} {at}");

@@ -89,7 +89,8 @@ pub(super) fn demand(view: &View<f64>) -> DemandRow {
         let moment = h * f.px_th + n * f.pz_th;
         [(n * f.px_th - h * f.pz_th) / length, moment / length, moment]
     });
-    let (mut shear, mut tension, mut dampers) = (feet[0].horizontal + feet[1].horizontal, 0.0, [0.0; 2]);
+    let (mut shear, mut tension, mut dampers) =
+        (feet[0].horizontal + feet[1].horizontal, 0.0, [0.0; 2]);
     if let Some(tendon) = &model.elements.tendon {
         shear += tendon.force_on_mass(q)[0];
         tension = tendon.tension(q);
@@ -97,7 +98,10 @@ pub(super) fn demand(view: &View<f64>) -> DemandRow {
     if let Some(all) = &model.elements.dampers {
         dampers = all.forces(q, v).map(|(force, _)| force);
     }
-    [shear, left[0], left[1], left[2], right[0], right[1], right[2], tension, dampers[0], dampers[1]]
+    [
+        shear, left[0], left[1], left[2], right[0], right[1], right[2], tension, dampers[0],
+        dampers[1],
+    ]
 }
 
 impl Observer<f64> for Demands {

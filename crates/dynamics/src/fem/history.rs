@@ -106,10 +106,19 @@ impl Recorder {
         Self {
             motion: Motion::with_capacity(n),
             events: Events::default(),
-            forces: Forces { vertical: [room(), room()], horizontal: [room(), room()], both: [room(), room()] },
+            forces: Forces {
+                vertical: [room(), room()],
+                horizontal: [room(), room()],
+                both: [room(), room()],
+            },
             largest: [[0.0; 2]; 2],
             largest_both: [0.0; 2],
-            account: Account { input: room(), stored: room(), dissipated: room(), residual: room() },
+            account: Account {
+                input: room(),
+                stored: room(),
+                dissipated: room(),
+                residual: room(),
+            },
             initial_z: 0.0,
             residual: 0.0,
             end: 0.0,
@@ -149,11 +158,14 @@ impl Observer<f64> for Recorder {
         if index == 0 {
             self.step(view);
         }
-        for (i, [vertical, horizontal]) in std::mem::take(&mut self.largest).into_iter().enumerate() {
+        for (i, [vertical, horizontal]) in std::mem::take(&mut self.largest).into_iter().enumerate()
+        {
             self.forces.vertical[i].push(vertical);
             self.forces.horizontal[i].push(horizontal);
         }
-        for (series, largest) in self.forces.both.iter_mut().zip(std::mem::take(&mut self.largest_both)) {
+        for (series, largest) in
+            self.forces.both.iter_mut().zip(std::mem::take(&mut self.largest_both))
+        {
             series.push(largest);
         }
         self.account.push(view.energy);
@@ -164,7 +176,10 @@ impl Observer<f64> for Recorder {
     fn step(&mut self, view: &View<f64>) {
         let feet = view.model.contact(&view.state.q, view.feet);
         let [left, right] = [&feet[0], &feet[1]].map(|f| f.vertical);
-        let forces = feet.iter().flat_map(|f| [f.vertical, f.horizontal]).chain([left + right, left - right]);
+        let forces = feet
+            .iter()
+            .flat_map(|f| [f.vertical, f.horizontal])
+            .chain([left + right, left - right]);
         let largest = self.largest.iter_mut().flatten().chain(&mut self.largest_both);
         for (largest, force) in largest.zip(forces) {
             if force.abs() > largest.abs() {

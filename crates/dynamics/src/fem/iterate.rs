@@ -99,7 +99,8 @@ impl Convergence {
         self.iterations += 1;
         // once converged, or as far as rounding lets it, what is left may well grow
         let rounded = self.iterations > 5 && change <= self.rounding;
-        let grows = self.left.is_none() && !rounded && self.iterations > 3 && change > 2.0 * self.last;
+        let grows =
+            self.left.is_none() && !rounded && self.iterations > 3 && change > 2.0 * self.last;
         if !change.is_finite() || grows {
             return false;
         }
@@ -107,11 +108,14 @@ impl Convergence {
         if self.last.is_finite() {
             self.rate = (change / self.last).min(1.0);
         }
-        let missing = if self.rate < 1.0 { change * self.rate / (1.0 - self.rate) } else { f64::INFINITY };
+        let missing =
+            if self.rate < 1.0 { change * self.rate / (1.0 - self.rate) } else { f64::INFINITY };
         self.last = change;
         self.left = match self.left {
             Some(n) => Some(n - 1),
-            None if rounded || change <= self.tolerance || missing <= self.tolerance => Some(self.extra),
+            None if rounded || change <= self.tolerance || missing <= self.tolerance => {
+                Some(self.extra)
+            }
             None => None,
         };
         true
@@ -122,7 +126,10 @@ impl Convergence {
 #[inline(always)]
 pub fn stage<S: Scalar>(i: usize, (q, v): (S, S), [a0, a1, a2]: [S; 3], h: S) -> (S, S) {
     let ([b0, b1, b2], [d0, d1, d2]) = (A2[i], A[i]);
-    (q + (v * (h * C[i]) + (a0 * b0 + a1 * b1 + a2 * b2) * (h * h)), v + (a0 * d0 + a1 * d1 + a2 * d2) * h)
+    (
+        q + (v * (h * C[i]) + (a0 * b0 + a1 * b1 + a2 * b2) * (h * h)),
+        v + (a0 * d0 + a1 * d1 + a2 * d2) * h,
+    )
 }
 
 /// The residuals of a coordinate at the stages in the eigenvectors of A: the real one, and one of

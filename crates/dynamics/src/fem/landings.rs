@@ -168,14 +168,18 @@ impl Events {
     /// The leans in order of time, chatter removed.
     fn leans(&self, end: f64) -> Vec<Lean> {
         let alone = self.spans(end).filter_map(|ContactSpan { from, to, pressing }| {
-            (pressing[0] != pressing[1]).then_some(Lean { foot: usize::from(pressing[1]), from, to })
+            (pressing[0] != pressing[1]).then_some(Lean {
+                foot: usize::from(pressing[1]),
+                from,
+                to,
+            })
         });
         // interruptions of a lean that the other foot did not take over
         let leans = self.joined(alone);
         // a lean that the record's end cut short may still have become one
-        let lasting = leans
-            .into_iter()
-            .filter(|l| l.to.time - l.from.time >= self.moment || l.to.time == end || l.falls(self.slight));
+        let lasting = leans.into_iter().filter(|l| {
+            l.to.time - l.from.time >= self.moment || l.to.time == end || l.falls(self.slight)
+        });
         self.joined(lasting)
     }
 
@@ -200,7 +204,8 @@ impl Events {
     /// Mark the touch-downs of the foot leaned on that opened again within a moment.
     fn mark_bounces(&self, landings: &mut [Landing]) {
         let lift_offs = |foot: usize| -> Vec<f64> {
-            let of_foot = self.events.iter().filter(|e| e.foot == foot && e.change == Change::LiftOff);
+            let of_foot =
+                self.events.iter().filter(|e| e.foot == foot && e.change == Change::LiftOff);
             of_foot.map(|e| e.time).collect()
         };
         let lift_offs = [lift_offs(0), lift_offs(1)];
@@ -219,7 +224,9 @@ impl Events {
                 on = Some(landings[i].foot);
             }
             let Landing { foot, time, .. } = landings[i];
-            let Some(opens) = opened(foot, time).filter(|opens| opens - time < self.moment) else { continue };
+            let Some(opens) = opened(foot, time).filter(|opens| opens - time < self.moment) else {
+                continue;
+            };
             landings[i].bounced = on == Some(foot) && next_impact[i] > opens;
         }
     }
@@ -284,7 +291,8 @@ mod tests {
 
     #[test]
     fn a_foot_that_stops_a_fall_and_opens_again_has_landed() {
-        let changes = [(1.0, RIGHT, false), (2.0, RIGHT, true), (2.1, RIGHT, false), (3.0, RIGHT, true)];
+        let changes =
+            [(1.0, RIGHT, false), (2.0, RIGHT, true), (2.1, RIGHT, false), (3.0, RIGHT, true)];
         assert_eq!(impacts_of(&at_speeds(&changes, shaken), 9.0), [(2.0, RIGHT), (3.0, RIGHT)]);
         assert_eq!(impacts(&changes, 9.0), [(3.0, RIGHT)]);
     }
@@ -331,10 +339,16 @@ mod tests {
     #[test]
     fn a_bouncing_foot_lands_once() {
         let mut changes = ROCKING.to_vec();
-        changes.splice(3..3, [(2.02, RIGHT, false), (2.05, RIGHT, true), (2.06, RIGHT, false), (2.07, RIGHT, true)]);
+        changes.splice(
+            3..3,
+            [(2.02, RIGHT, false), (2.05, RIGHT, true), (2.06, RIGHT, false), (2.07, RIGHT, true)],
+        );
         assert_eq!(impacts(&changes, 9.0), [(2.0, RIGHT), (3.0, LEFT)]);
         let (landings, airborne) = read(&changes, 9.0);
-        assert_eq!(landings.iter().map(|l| l.bounced).collect::<Vec<_>>(), [true, true, false, false]);
+        assert_eq!(
+            landings.iter().map(|l| l.bounced).collect::<Vec<_>>(),
+            [true, true, false, false]
+        );
         assert!((airborne - 0.04).abs() < 1e-15 && (landings[0].airborne - 0.04).abs() < 1e-15);
     }
 
@@ -364,22 +378,28 @@ mod tests {
 
     #[test]
     fn a_rest_between_two_leans_on_one_foot_is_an_impact() {
-        let changes = [(1.0, RIGHT, false), (2.0, RIGHT, true), (4.0, RIGHT, false), (5.0, RIGHT, true)];
+        let changes =
+            [(1.0, RIGHT, false), (2.0, RIGHT, true), (4.0, RIGHT, false), (5.0, RIGHT, true)];
         assert_eq!(impacts(&changes, 9.0), [(2.0, RIGHT), (5.0, RIGHT)]);
     }
 
     #[test]
     fn a_landing_out_of_the_air_is_an_impact() {
-        let changes = [(1.0, RIGHT, false), (1.98, LEFT, false), (2.0, RIGHT, true), (3.0, LEFT, true)];
+        let changes =
+            [(1.0, RIGHT, false), (1.98, LEFT, false), (2.0, RIGHT, true), (3.0, LEFT, true)];
         assert_eq!(impacts(&changes, 9.0), [(2.0, RIGHT), (3.0, LEFT)]);
         let (landings, airborne) = read(&changes, 9.0);
         assert!((airborne - 0.02).abs() < 1e-15);
-        assert!(landings.iter().all(|l| l.airborne == 0.0), "the flight comes before the first impact");
+        assert!(
+            landings.iter().all(|l| l.airborne == 0.0),
+            "the flight comes before the first impact"
+        );
     }
 
     #[test]
     fn a_flutter_of_the_standing_body_is_no_impact() {
-        let changes = [(1.0, RIGHT, false), (1.02, RIGHT, true), (1.5, LEFT, false), (1.53, LEFT, true)];
+        let changes =
+            [(1.0, RIGHT, false), (1.02, RIGHT, true), (1.5, LEFT, false), (1.53, LEFT, true)];
         assert_eq!(impacts(&changes, 9.0), []);
     }
 }

@@ -10,7 +10,10 @@ use std::sync::atomic::{AtomicUsize, Ordering};
 
 use rayon::prelude::*;
 
-use super::{Analysis, Finish, control::HistoryOutcome, model::Model, observer::Observer, run::TimeLoop, step::Stages};
+use super::{
+    Analysis, Finish, control::HistoryOutcome, model::Model, observer::Observer, run::TimeLoop,
+    step::Stages,
+};
 use kernel::{Kernel, Tried, WIDTH};
 
 /// Follow many cases, each shown to an observer of its own, which `observer` makes for the case of
@@ -29,7 +32,13 @@ pub fn histories<O: Observer<f64> + Send>(
         .into_par_iter()
         .with_max_len(1)
         .flat_map_iter(|_| {
-            let mut batch = Batch { cases, models: &models, next: &next, observer: &observer, done: Vec::new() };
+            let mut batch = Batch {
+                cases,
+                models: &models,
+                next: &next,
+                observer: &observer,
+                done: Vec::new(),
+            };
             batch.follow();
             batch.done
         })
@@ -100,12 +109,18 @@ impl<'a, O: Observer<f64>, F: Fn(usize) -> O> Batch<'a, O, F> {
             }
             for (l, slot) in lanes.iter_mut().enumerate() {
                 let Some(lane) = slot else { continue };
-                let (converged, measures) = match kernel.collect_step(l, lane.run.spans(), &mut stages) {
-                    Tried::Step(converged, measures) => (converged, Some(measures)),
-                    Tried::GoesOn => continue,
-                    Tried::Steep => (lane.run.attempt(lane.h, &mut stages), None),
-                };
-                let next = match lane.run.process_step(converged, &mut stages, measures.as_ref(), &mut lane.observer) {
+                let (converged, measures) =
+                    match kernel.collect_step(l, lane.run.spans(), &mut stages) {
+                        Tried::Step(converged, measures) => (converged, Some(measures)),
+                        Tried::GoesOn => continue,
+                        Tried::Steep => (lane.run.attempt(lane.h, &mut stages), None),
+                    };
+                let next = match lane.run.process_step(
+                    converged,
+                    &mut stages,
+                    measures.as_ref(),
+                    &mut lane.observer,
+                ) {
                     Ok(Some(h)) => Ok(h),
                     Ok(None) => lane.run.plan(&mut lane.observer),
                     Err(outcome) => Err(outcome),
@@ -127,7 +142,13 @@ impl<'a, O: Observer<f64>, F: Fn(usize) -> O> Batch<'a, O, F> {
         loop {
             let index = self.next.fetch_add(1, Ordering::Relaxed);
             let (case, model) = (self.cases.get(index)?, &self.models[index]);
-            let mut lane = Lane { index, run: case.run(model), observer: (self.observer)(index), h: 0.0, asked: false };
+            let mut lane = Lane {
+                index,
+                run: case.run(model),
+                observer: (self.observer)(index),
+                h: 0.0,
+                asked: false,
+            };
             let begun = lane.run.begin(case.ground(), &mut lane.observer);
             match begun.and_then(|()| lane.run.plan(&mut lane.observer)) {
                 Ok(h) if case.control.side_by_side() => return Some(Lane { h, ..lane }),

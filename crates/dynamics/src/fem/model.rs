@@ -113,12 +113,24 @@ impl<S: Scalar> Model<S> {
             (body.mass, body.inertia)
         };
         let (law, elements) = (ContactLaw::Sticking, Elements::NONE);
-        Self { body: *body, springs: *springs, translation, rotation, law, elements, skip_open: true }
+        Self {
+            body: *body,
+            springs: *springs,
+            translation,
+            rotation,
+            law,
+            elements,
+            skip_open: true,
+        }
     }
 
     /// A body with members on its springs. The tendon is stressed so that its tension in the
     /// settled structure is its pretension.
-    pub(crate) fn with_members(body: &Body<S>, springs: &Springs<Chain<S>>, members: &Members<S>) -> Self {
+    pub(crate) fn with_members(
+        body: &Body<S>,
+        springs: &Springs<Chain<S>>,
+        members: &Members<S>,
+    ) -> Self {
         let mut model = Self::new(body, springs);
         if let Some(friction) = members.friction {
             // while feet slip, nothing but its own inertia holds the rotation
@@ -137,7 +149,8 @@ impl<S: Scalar> Model<S> {
         if let Some(members::Tendon { stiffness, pretension }) = members.tendon {
             let (state, _) = model.stand(body.mass * GRAVITY + pretension);
             let slack = body.height + state.q[Z] - pretension / stiffness;
-            model.elements.tendon = Some(TendonElement { stiffness, slack, height: body.height, pretension });
+            model.elements.tendon =
+                Some(TendonElement { stiffness, slack, height: body.height, pretension });
         }
         model
     }
@@ -155,11 +168,20 @@ impl<S: Scalar> Model<S> {
 
     /// The model without derivatives.
     pub(crate) fn real(&self) -> Model<f64> {
-        let chain = |c: &Chain<S>| Chain { k1: c.k1.re(), k2: c.k2.re(), m2: c.m2.re(), c: c.c.re() };
+        let chain =
+            |c: &Chain<S>| Chain { k1: c.k1.re(), k2: c.k2.re(), m2: c.m2.re(), c: c.c.re() };
         let Body { mass, half_width, height, inertia } = self.body;
         Model {
-            body: Body { mass: mass.re(), half_width: half_width.re(), height: height.re(), inertia: inertia.re() },
-            springs: Springs { vertical: chain(&self.springs.vertical), horizontal: chain(&self.springs.horizontal) },
+            body: Body {
+                mass: mass.re(),
+                half_width: half_width.re(),
+                height: height.re(),
+                inertia: inertia.re(),
+            },
+            springs: Springs {
+                vertical: chain(&self.springs.vertical),
+                horizontal: chain(&self.springs.horizontal),
+            },
             translation: self.translation.re(),
             rotation: self.rotation.re(),
             law: self.law.real(),
@@ -218,7 +240,8 @@ impl<S: Scalar> Model<S> {
         let (_, _, px_th, pz_th) = self.foot(i, q, sin, cos);
         let Springs { vertical, horizontal } = &self.springs;
         let compression_rate = v[az(i)] - v[Z] - pz_th * v[TH];
-        let stretch_rate = compression_rate * self.law.coefficient() * vertical.k1 / horizontal.k1 * side;
+        let stretch_rate =
+            compression_rate * self.law.coefficient() * vertical.k1 / horizontal.k1 * side;
         v[X] + px_th * v[TH] - v[ax(i)] - stretch_rate
     }
 
@@ -246,7 +269,12 @@ impl<S: Scalar> Model<S> {
 
     /// The same where the rotation's sine and cosine are known.
     #[inline(always)]
-    pub(crate) fn contact_at(&self, pose: &Pose<S>, q: &Vector<S>, feet: &[Foot<S>; 2]) -> [FootForce<S>; 2] {
+    pub(crate) fn contact_at(
+        &self,
+        pose: &Pose<S>,
+        q: &Vector<S>,
+        feet: &[Foot<S>; 2],
+    ) -> [FootForce<S>; 2] {
         [self.foot_force(pose, 0, q, &feet[0]), self.foot_force(pose, 1, q, &feet[1])]
     }
 
@@ -266,7 +294,13 @@ impl<S: Scalar> Model<S> {
 
     /// Forces on the seven coordinates at ground acceleration (ug'', vg'') (m/s2).
     #[inline(always)]
-    pub(crate) fn forces(&self, q: &Vector<S>, v: &Vector<S>, feet: &[Foot<S>; 2], ground: [S; 2]) -> Vector<S> {
+    pub(crate) fn forces(
+        &self,
+        q: &Vector<S>,
+        v: &Vector<S>,
+        feet: &[Foot<S>; 2],
+        ground: [S; 2],
+    ) -> Vector<S> {
         self.forces_at(&Pose::of(q), q, v, feet, ground)
     }
 
@@ -289,10 +323,17 @@ impl<S: Scalar> Model<S> {
         f[Z] = l.vertical + r.vertical - m * (up + GRAVITY);
         // each foot's part by itself, so that a mirrored case gives the mirrored history to the
         // last bit
-        f[TH] = (l.horizontal * l.px_th + l.vertical * l.pz_th) + (r.horizontal * r.px_th + r.vertical * r.pz_th);
+        f[TH] = (l.horizontal * l.px_th + l.vertical * l.pz_th)
+            + (r.horizontal * r.px_th + r.vertical * r.pz_th);
         for (i, foot) in contact.iter().enumerate() {
-            f[ax(i)] = -(foot.horizontal + horizontal.m2 * ground + horizontal.k2 * q[ax(i)] + horizontal.c * v[ax(i)]);
-            f[az(i)] = -(foot.vertical + vertical.m2 * up + vertical.k2 * q[az(i)] + vertical.c * v[az(i)]);
+            f[ax(i)] = -(foot.horizontal
+                + horizontal.m2 * ground
+                + horizontal.k2 * q[ax(i)]
+                + horizontal.c * v[ax(i)]);
+            f[az(i)] = -(foot.vertical
+                + vertical.m2 * up
+                + vertical.k2 * q[az(i)]
+                + vertical.c * v[az(i)]);
         }
         self.elements.add_forces(q, v, &mut f);
         f
@@ -343,7 +384,9 @@ impl<S: Scalar> Model<S> {
             }
             twice
         };
-        let twice = self.body_kinetic(state) * 2.0 + self.body.mass * q[Z] * (2.0 * GRAVITY) + (share(0) + share(1));
+        let twice = self.body_kinetic(state) * 2.0
+            + self.body.mass * q[Z] * (2.0 * GRAVITY)
+            + (share(0) + share(1));
         self.elements.add_energy(twice * 0.5, q)
     }
 
@@ -362,7 +405,8 @@ impl<S: Scalar> Model<S> {
         let Springs { vertical, horizontal } = &self.springs;
         let springs = horizontal.c * (v[ax(0)] * v[ax(0)] + v[ax(1)] * v[ax(1)])
             + vertical.c * (v[az(0)] * v[az(0)] + v[az(1)] * v[az(1)]);
-        let taken = if self.law.slips() { springs + self.friction_loss(q, v, feet) } else { springs };
+        let taken =
+            if self.law.slips() { springs + self.friction_loss(q, v, feet) } else { springs };
         self.elements.add_dissipation(taken, q, v)
     }
 }

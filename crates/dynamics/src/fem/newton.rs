@@ -22,10 +22,21 @@ pub(super) struct Chains<T>(pub [[Condensed<T>; 2]; 2]);
 
 impl<T: Num + Copy> Chains<T> {
     #[inline(always)]
-    pub(crate) fn new<S: Scalar>(model: &Model<S>, feet: &[Foot<S>; 2], s: T, lift: &impl Fn(S) -> T) -> Self {
+    pub(crate) fn new<S: Scalar>(
+        model: &Model<S>,
+        feet: &[Foot<S>; 2],
+        s: T,
+        lift: &impl Fn(S) -> T,
+    ) -> Self {
         let Springs { vertical: v, horizontal: h } = &model.springs;
-        let left = [Condensed::new(h, feet[0].holds(), s, lift), Condensed::new(v, feet[0].closed(), s, lift)];
-        let right = [Condensed::new(h, feet[1].holds(), s, lift), Condensed::new(v, feet[1].closed(), s, lift)];
+        let left = [
+            Condensed::new(h, feet[0].holds(), s, lift),
+            Condensed::new(v, feet[0].closed(), s, lift),
+        ];
+        let right = [
+            Condensed::new(h, feet[1].holds(), s, lift),
+            Condensed::new(v, feet[1].closed(), s, lift),
+        ];
         Self([left, right])
     }
 }
@@ -104,7 +115,12 @@ impl<T: Num + Copy + Neg<Output = T>> CondensedMatrix<T> {
     /// Solve for the accelerations' correction; `times` multiplies an entry of the right side by
     /// one of the matrix.
     #[inline(always)]
-    pub(crate) fn solve<V>(&self, chains: &Chains<T>, r: &[V; N], times: impl Fn(V, T) -> V + Copy) -> [V; N]
+    pub(crate) fn solve<V>(
+        &self,
+        chains: &Chains<T>,
+        r: &[V; N],
+        times: impl Fn(V, T) -> V + Copy,
+    ) -> [V; N]
     where
         V: Copy + Add<Output = V> + Sub<Output = V> + Zero,
     {
@@ -158,14 +174,23 @@ impl<T: Num + Copy + Neg<Output = T>> Rigid<T> {
 
     /// Solve for the accelerations' correction.
     #[inline(always)]
-    pub(crate) fn solve<V>(&self, chains: &Chains<T>, r: &[V; N], times: impl Fn(V, T) -> V + Copy) -> [V; N]
+    pub(crate) fn solve<V>(
+        &self,
+        chains: &Chains<T>,
+        r: &[V; N],
+        times: impl Fn(V, T) -> V + Copy,
+    ) -> [V; N]
     where
         V: Copy + Add<Output = V> + Sub<Output = V> + Zero,
     {
         let (left, right) = (self.reach(chains, 0, r, times), self.reach(chains, 1, r, times));
         // one sum of both feet first, so that a mirrored case gives the mirrored history to the
         // last bit
-        let [x, z, th] = [r[X] + (left[X] + right[X]), r[Z] + (left[Z] + right[Z]), r[TH] + (left[TH] + right[TH])];
+        let [x, z, th] = [
+            r[X] + (left[X] + right[X]),
+            r[Z] + (left[Z] + right[Z]),
+            r[TH] + (left[TH] + right[TH]),
+        ];
         let turned = times(x, self.x_th * self.x_inv) + times(z, self.z_th * self.z_inv);
         let th = times(th - turned, self.th_inv);
         let x = times(x - times(th, self.x_th), self.x_inv);
@@ -176,7 +201,13 @@ impl<T: Num + Copy + Neg<Output = T>> Rigid<T> {
     }
 
     #[inline(always)]
-    fn reach<V>(&self, chains: &Chains<T>, i: usize, r: &[V; N], times: impl Fn(V, T) -> V + Copy) -> [V; 3]
+    fn reach<V>(
+        &self,
+        chains: &Chains<T>,
+        i: usize,
+        r: &[V; N],
+        times: impl Fn(V, T) -> V + Copy,
+    ) -> [V; 3]
     where
         V: Copy + Add<Output = V> + Sub<Output = V> + Zero,
     {

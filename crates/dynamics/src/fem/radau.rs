@@ -38,7 +38,8 @@ pub(crate) const BETA: f64 = 0.184_949_324_407_140_78;
 
 /// Weights of the stages in the embedded formula of order three, GAMMA/3 (-13 - 7 sqrt 6, -13 + 7
 /// sqrt 6, -1); that of the start is GAMMA.
-pub(crate) const E: [f64; 3] = [-2.762_305_454_748_599_2, 0.379_935_598_252_728_87, -0.091_629_609_865_225_789];
+pub(crate) const E: [f64; 3] =
+    [-2.762_305_454_748_599_2, 0.379_935_598_252_728_87, -0.091_629_609_865_225_789];
 
 /// Eigenvectors: the real one, then real and imaginary part of the one of ALPHA + i BETA.
 pub(crate) const T: [[f64; 3]; 3] = [

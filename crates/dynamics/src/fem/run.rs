@@ -92,7 +92,11 @@ pub(crate) struct TimeLoop<'a, S> {
 }
 
 impl<'a, S: Scalar> TimeLoop<'a, S> {
-    pub(crate) fn new(model: &'a Model<S>, start: (State<S>, [Foot<S>; 2]), control: Control) -> Self {
+    pub(crate) fn new(
+        model: &'a Model<S>,
+        start: (State<S>, [Foot<S>; 2]),
+        control: Control,
+    ) -> Self {
         let (state, feet) = start;
         let stored = model.energy(&state, &feet);
         let weight = model.body.mass.re() * GRAVITY;
@@ -144,7 +148,11 @@ impl<'a, S: Scalar> TimeLoop<'a, S> {
     }
 
     /// Follow a motion of the ground to its end.
-    pub(crate) fn follow(&mut self, motion: GroundMotion<'a, S>, observer: &mut impl Observer<S>) -> HistoryOutcome {
+    pub(crate) fn follow(
+        &mut self,
+        motion: GroundMotion<'a, S>,
+        observer: &mut impl Observer<S>,
+    ) -> HistoryOutcome {
         let begun = self.begin(motion, observer);
         match begun.and_then(|()| self.plan(observer)) {
             Ok(h) => self.go_on(h, observer),
@@ -187,7 +195,11 @@ impl<'a, S: Scalar> TimeLoop<'a, S> {
         self.show_sample(0, observer)
     }
 
-    fn show_sample(&mut self, index: usize, observer: &mut impl Observer<S>) -> Result<(), HistoryOutcome> {
+    fn show_sample(
+        &mut self,
+        index: usize,
+        observer: &mut impl Observer<S>,
+    ) -> Result<(), HistoryOutcome> {
         let time = index as f64 * self.motion.dt;
         self.interval = index;
         self.crossing = false;
@@ -305,7 +317,9 @@ impl<'a, S: Scalar> TimeLoop<'a, S> {
                 self.locating = Some(event);
                 return Ok(Some(size));
             }
-            StepEvent::Nothing | StepEvent::Grip { .. } => self.accept(stages, measures, &met, observer)?,
+            StepEvent::Nothing | StepEvent::Grip { .. } => {
+                self.accept(stages, measures, &met, observer)?
+            }
         }
         Ok(None)
     }
@@ -379,7 +393,11 @@ impl<'a, S: Scalar> TimeLoop<'a, S> {
 
     /// Hand over what a step of size h needs: start, contacts, what is asked, and what rounding
     /// alone may make of an iteration (m).
-    pub(crate) fn submit(&self, h: S, take: impl FnOnce(&State<S>, &[Foot<S>; 2], &Request<S>, f64)) {
+    pub(crate) fn submit(
+        &self,
+        h: S,
+        take: impl FnOnce(&State<S>, &[Foot<S>; 2], &Request<S>, f64),
+    ) {
         take(&self.state, &self.feet, &self.request(h), self.stepper.rounding);
     }
 

@@ -33,7 +33,8 @@ impl<T: Num + Copy> Slipping<T> {
         }
         let s2 = s * s;
         for (i, f) in model.contact(&state.q, feet).iter().enumerate() {
-            for (k, chain) in [(ax(i), &model.springs.horizontal), (az(i), &model.springs.vertical)] {
+            for (k, chain) in [(ax(i), &model.springs.horizontal), (az(i), &model.springs.vertical)]
+            {
                 matrix[k][k] = matrix[k][k] + s * (lift(chain.c) + s * lift(chain.k2));
             }
             if !feet[i].closed() {
@@ -51,14 +52,17 @@ impl<T: Num + Copy> Slipping<T> {
             }
             for k in 0..N {
                 let turn = of_h[k] * f.px_th + of_n[k] * f.pz_th;
-                let rows = [(X, of_h[k]), (Z, of_n[k]), (TH, turn), (ax(i), -of_h[k]), (az(i), -of_n[k])];
+                let rows =
+                    [(X, of_h[k]), (Z, of_n[k]), (TH, turn), (ax(i), -of_h[k]), (az(i), -of_n[k])];
                 for (row, slope) in rows {
                     matrix[row][k] = matrix[row][k] + s2 * lift(slope);
                 }
             }
-            matrix[TH][TH] = matrix[TH][TH] + s2 * lift(f.vertical * f.px_th - f.horizontal * f.pz_th);
+            matrix[TH][TH] =
+                matrix[TH][TH] + s2 * lift(f.vertical * f.px_th - f.horizontal * f.pz_th);
         }
-        let mut lu: [[T; N]; N] = std::array::from_fn(|i| std::array::from_fn(|j| matrix[ORDER[i]][ORDER[j]]));
+        let mut lu: [[T; N]; N] =
+            std::array::from_fn(|i| std::array::from_fn(|j| matrix[ORDER[i]][ORDER[j]]));
         for k in 0..N {
             let pivot = lu[k];
             for row in &mut lu[k + 1..] {
@@ -74,7 +78,11 @@ impl<T: Num + Copy> Slipping<T> {
 
     /// Solve for the accelerations' correction; `times` multiplies an entry of the right side by
     /// one of the matrix.
-    pub(crate) fn solve<V: Copy + Sub<Output = V>>(&self, r: &[V; N], times: impl Fn(V, T) -> V) -> [V; N] {
+    pub(crate) fn solve<V: Copy + Sub<Output = V>>(
+        &self,
+        r: &[V; N],
+        times: impl Fn(V, T) -> V,
+    ) -> [V; N] {
         let lu = &self.0;
         let mut d = ORDER.map(|k| r[k]);
         for i in 0..N {

@@ -55,7 +55,8 @@ impl<S: Scalar> Model<S> {
         q[X] = -px;
         q[Z] = q[az(pressing)] - n / vertical.k1 - pz;
         let mut feet = [Foot { contact: Contact::Open, anchor: S::zero() }; 2];
-        feet[pressing] = Foot { contact: Contact::Stick, anchor: h / horizontal.k1 - q[ax(pressing)] };
+        feet[pressing] =
+            Foot { contact: Contact::Stick, anchor: h / horizontal.k1 - q[ax(pressing)] };
         (State { q, v: [S::zero(); N] }, feet)
     }
 
@@ -71,7 +72,8 @@ impl<S: Scalar> Model<S> {
             let (h, n) = self.falling_back(&q, pressing);
             q[ax(pressing)] = -h / horizontal.k2;
             q[az(pressing)] = -n / vertical.k2;
-            feet[pressing] = Foot { contact: Contact::Stick, anchor: h / horizontal.k1 - q[ax(pressing)] };
+            feet[pressing] =
+                Foot { contact: Contact::Stick, anchor: h / horizontal.k1 - q[ax(pressing)] };
             let Pose { sin, cos } = Pose::of(&q);
             let (px, pz, ..) = self.foot(pressing, &q, sin, cos);
             let (dx, dz) = (-px, q[az(pressing)] - n / vertical.k1 - pz);

@@ -3,7 +3,8 @@
 use num_complex::Complex;
 
 pub(super) use super::iterate::{
-    Convergence, EIGENVALUE, Ground, IterationVerdict, LARGEST, complex, embedded, from_modes, modes, stage, times,
+    Convergence, EIGENVALUE, Ground, IterationVerdict, LARGEST, complex, embedded, from_modes,
+    modes, stage, times,
 };
 use super::{
     cubic,
@@ -134,7 +135,9 @@ fn counted<S: Scalar>(
                 counts[i] += lever[k] * turn[i].re();
             }
         }
-        Some((Turning { weight, .. }, _)) if k == TH => counts = counts.map(|turn| turn * (radius * weight)),
+        Some((Turning { weight, .. }, _)) if k == TH => {
+            counts = counts.map(|turn| turn * (radius * weight))
+        }
         None if k == TH => counts = counts.map(|turn| turn * radius),
         _ => {}
     }
@@ -215,9 +218,12 @@ impl<'a, S: Scalar> Stepper<'a, S> {
         let masses = model.masses(feet);
         let radius = self.real.body.radius();
         let grounds = C.map(|c| ground.after(h, c));
-        let mut convergence = Convergence::new(request.tolerance, self.rounding, request.extra, request.rate);
+        let mut convergence =
+            Convergence::new(request.tolerance, self.rounding, request.extra, request.rate);
         let turning = match real_matrix {
-            CondensedMatrix::Rigid(rigid) => request.turning.map(|turning| (turning, rigid.lever[turning.foot])),
+            CondensedMatrix::Rigid(rigid) => {
+                request.turning.map(|turning| (turning, rigid.lever[turning.foot]))
+            }
             _ => None,
         };
         (s.h, s.a) = (h, guess);
@@ -240,7 +246,10 @@ impl<'a, S: Scalar> Stepper<'a, S> {
                 if let Some((Turning { foot, .. }, lever)) = turning {
                     let (_, _, px_th, pz_th) = model.foot(foot, &s.q[i], pose.sin, pose.cos);
                     turned[i] = [px_th.re() - lever[0], pz_th.re() - lever[1]];
-                    residual[i][TH] = turning::moment([residual[i][X], residual[i][Z], residual[i][TH]], turned[i]);
+                    residual[i][TH] = turning::moment(
+                        [residual[i][X], residual[i][Z], residual[i][TH]],
+                        turned[i],
+                    );
                 }
             }
             let mut r0 = [S::zero(); N];
@@ -311,7 +320,8 @@ impl<S: Scalar> Stepper<'_, S> {
         let d_q = std::array::from_fn(|k| embedded([0, 1, 2].map(|i| s.q[i][k].re()), q[k]));
         let d_v = std::array::from_fn(|k| embedded([0, 1, 2].map(|i| s.v[i][k].re()), v[k]));
         let feet = feet.map(|foot| Foot { contact: foot.contact, anchor: foot.anchor.re() });
-        let forces = self.real.forces(&q, &d_q.map(|d: f64| -d * per), &feet, ground.start.map(|a| a.re()));
+        let forces =
+            self.real.forces(&q, &d_q.map(|d: f64| -d * per), &feet, ground.start.map(|a| a.re()));
         let right = error_right(root, &forces, &self.real.masses(&feet), &v, &d_q, &d_v);
         let e_q = matrix.solve(&shared.real, &right, |x, t| x * t);
         State { q: e_q, v: std::array::from_fn(|k| (e_q[k] - d_q[k]) * per - v[k]) }

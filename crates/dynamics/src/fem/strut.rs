@@ -59,8 +59,14 @@ mod tests {
 
     fn model<S: Scalar>() -> Model<S> {
         let real = |x: f64| S::from(x);
-        let chain = |k1: f64| Chain { k1: real(k1), k2: real(0.3 * k1), m2: real(40.0), c: real(2e3) };
-        let body = Body { mass: real(100.0), half_width: real(1.2), height: real(2.5), inertia: real(0.0) };
+        let chain =
+            |k1: f64| Chain { k1: real(k1), k2: real(0.3 * k1), m2: real(40.0), c: real(2e3) };
+        let body = Body {
+            mass: real(100.0),
+            half_width: real(1.2),
+            height: real(2.5),
+            inertia: real(0.0),
+        };
         Model::new(&body, &Springs { vertical: chain(1e6), horizontal: chain(3e6) })
     }
 
@@ -75,7 +81,8 @@ mod tests {
         for i in 0..2 {
             let (sin, cos) = Q[TH].sin_cos();
             let (_, _, px_th, pz_th) = model.foot(i, &Q, sin, cos);
-            let (x, z) = (Dual64::new(pz_th, V[X] - V[ax(i)]), Dual64::new(-px_th, V[Z] - V[az(i)]));
+            let (x, z) =
+                (Dual64::new(pz_th, V[X] - V[ax(i)]), Dual64::new(-px_th, V[Z] - V[az(i)]));
             let distance = (x * x + z * z).sqrt();
             assert!((distance.re - model.body.radius()).abs() < 1e-12);
             let press = model.strut(i, &State { q: Q, v: V }).press;
@@ -92,7 +99,8 @@ mod tests {
         let (forces, masses) = (model.forces(&Q, &V, &feet, [0.0; 2]), model.masses(&feet));
         for i in 0..feet.len() {
             let moving = |t: f64| {
-                let q = std::array::from_fn(|k| Q[k] + V[k] * t + 0.5 * forces[k] / masses[k] * t * t);
+                let q =
+                    std::array::from_fn(|k| Q[k] + V[k] * t + 0.5 * forces[k] / masses[k] * t * t);
                 model.compression(i, &q)
             };
             let t = 1e-4;
@@ -113,7 +121,10 @@ mod tests {
             feet[i].contact = Contact::Trail;
             assert!(model.turn_to_balance(&mut state, &feet));
             let force = model.contact(&state.q, &feet)[i];
-            assert!(force.horizontal == 0.0 && force.vertical.abs() < 1e-9 * 100.0 * GRAVITY, "{force:?}");
+            assert!(
+                force.horizontal == 0.0 && force.vertical.abs() < 1e-9 * 100.0 * GRAVITY,
+                "{force:?}"
+            );
             assert!(!feet[i].presses());
             model.rotate_in_balance(&mut state, &feet);
             assert!(model.compression_rate(i, &state).abs() < 1e-14);

@@ -37,7 +37,10 @@ fn contacts() -> Vec<[Foot<f64>; 2]> {
 
 /// A state far from any symmetry: leaning, pressed, moving.
 fn state() -> State<f64> {
-    State { q: [0.11, -0.02, 0.031, 0.004, -0.011, -0.003, -0.017], v: [0.3, -0.1, 0.02, 0.05, -0.2, 0.07, 0.13] }
+    State {
+        q: [0.11, -0.02, 0.031, 0.004, -0.011, -0.003, -0.017],
+        v: [0.3, -0.1, 0.02, 0.05, -0.2, 0.07, 0.13],
+    }
 }
 
 /// Standing at rest on springs without damping.

@@ -72,7 +72,8 @@ mod tests {
     fn iterations(hz: f64, turns: bool) -> Option<(usize, f64)> {
         let body = Structure::paper().body::<f64>();
         let chain = Design::from_kc(0.5, 0.2, 0.92, hz);
-        let model = Model::new(&body, &Springs { vertical: chain, horizontal: chain }.chains(body.mass));
+        let model =
+            Model::new(&body, &Springs { vertical: chain, horizontal: chain }.chains(body.mass));
         let (mut state, feet) = model.on_one_foot(0.03);
         let Pose { sin, cos } = Pose::of(&state.q);
         let (_, _, px_th, pz_th) = model.foot(1, &state.q, sin, cos);
@@ -95,7 +96,8 @@ mod tests {
         let masses = model.masses(&feet);
         let mut worst: f64 = 0.0;
         for (i, c) in C.into_iter().enumerate() {
-            let forces = model.forces(&stages.q[i], &stages.v[i], &feet, request.ground.after(request.h, c));
+            let forces =
+                model.forces(&stages.q[i], &stages.v[i], &feet, request.ground.after(request.h, c));
             for k in 0..N {
                 let length = if k == TH { body.radius() } else { 1.0 };
                 worst = worst.max(((forces[k] - masses[k] * stages.a[i][k]) / length).abs());

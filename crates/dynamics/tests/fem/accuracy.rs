@@ -11,8 +11,10 @@ fn halving_the_tolerance_changes_el_centro_by_less_than_a_thousandth() {
     for springs in [plastic(160.0, structure.mass_kg), lively(160.0, structure.mass_kg)] {
         let control = Control::default();
         let half = Control { tolerance: 0.5 * control.tolerance, ..control };
-        let (whole, half) =
-            (settled(&structure, springs, &record, control), settled(&structure, springs, &record, half));
+        let (whole, half) = (
+            settled(&structure, springs, &record, control),
+            settled(&structure, springs, &record, half),
+        );
         let change = nrmse(&half.motion.u, &whole.motion.u);
         assert!(change < 1e-3, "{change}");
     }
@@ -63,7 +65,10 @@ fn the_tolerance_controls_the_error_of_the_history() {
         };
         let tight = at(1e-12);
         let errors = [1e-5, 1e-7, 1e-9].map(|tolerance| nrmse(&at(tolerance), &tight));
-        assert!(errors.windows(2).all(|pair| pair[1] < pair[0]) && errors[2] < errors[0] / 4.0, "{errors:?}");
+        assert!(
+            errors.windows(2).all(|pair| pair[1] < pair[0]) && errors[2] < errors[0] / 4.0,
+            "{errors:?}"
+        );
         assert!(errors[0] < 1e-3 && errors[2] < last, "{errors:?}");
     }
 }

@@ -13,7 +13,8 @@ pub const SAMPLES: usize = 2001;
 /// The paper's structure with I_cg as a share of m R^2.
 pub fn paper(share: f64) -> Structure {
     let mut structure = Structure::paper();
-    structure.rotational_inertia_kgm2 = share * structure.mass_kg * structure.body::<f64>().radius().powi(2);
+    structure.rotational_inertia_kgm2 =
+        share * structure.mass_kg * structure.body::<f64>().radius().powi(2);
     structure
 }
 
@@ -52,14 +53,34 @@ pub fn el_centro() -> Record {
 }
 
 /// A history from rest.
-pub fn settled(structure: &Structure, springs: Springs<Chain<f64>>, record: &Record, control: Control) -> History {
+pub fn settled(
+    structure: &Structure,
+    springs: Springs<Chain<f64>>,
+    record: &Record,
+    control: Control,
+) -> History {
     let (dt, accel) = (record.dt, &record.accel[..]);
-    Analysis { body: structure.body(), springs, start: Start::Settled, dt, accel, vertical: &[], scale: 1.0, control }
-        .simulate()
+    Analysis {
+        body: structure.body(),
+        springs,
+        start: Start::Settled,
+        dt,
+        accel,
+        vertical: &[],
+        scale: 1.0,
+        control,
+    }
+    .simulate()
 }
 
 /// Free rocking from a lean (rad) for n samples of dt (s).
-pub fn free(structure: &Structure, springs: Springs<Chain<f64>>, lean: f64, dt: f64, n: usize) -> History {
+pub fn free(
+    structure: &Structure,
+    springs: Springs<Chain<f64>>,
+    lean: f64,
+    dt: f64,
+    n: usize,
+) -> History {
     let (start, accel) = (Start::Leaning(lean), &vec![0.0; n][..]);
     Analysis {
         body: structure.body(),

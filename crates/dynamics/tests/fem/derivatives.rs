@@ -19,11 +19,14 @@ const DESIGN: [f64; 8] = [0.3, 0.1, 0.75, 30.0, 0.3, 0.57, 1.86, 30.0];
 /// Horizontal displacement after free rocking on springs of these parameters.
 fn end<S: Scalar>(parameters: [S; 8], share: f64, duration: f64, control: Control) -> S {
     let mut structure = Structure::paper();
-    structure.rotational_inertia_kgm2 = share * structure.mass_kg * structure.body::<f64>().radius().powi(2);
+    structure.rotational_inertia_kgm2 =
+        share * structure.mass_kg * structure.body::<f64>().radius().powi(2);
     let body: Body<S> = structure.body();
     let [mu, k, c, hz, mu_h, k_h, c_h, hz_h] = parameters;
-    let springs =
-        Springs { vertical: Design::from_kc(mu, k, c, hz), horizontal: Design::from_kc(mu_h, k_h, c_h, hz_h) };
+    let springs = Springs {
+        vertical: Design::from_kc(mu, k, c, hz),
+        horizontal: Design::from_kc(mu_h, k_h, c_h, hz_h),
+    };
     let accel = vec![0.0; 201];
     let dt = duration / 200.0;
     let mut last = S::zero();
@@ -67,7 +70,10 @@ fn assert_derivatives(share: f64, duration: f64) {
         let e = 2e-4;
         let slope = (8.0 * (at(e) - at(-e)) - (at(2.0 * e) - at(-2.0 * e))) / (12.0 * e);
         let exact = gradient[i] * DESIGN[i];
-        assert!((slope - exact).abs() < 1e-5 * scale, "I_cg {share}, parameter {i}: {slope} {exact} of {scale}");
+        assert!(
+            (slope - exact).abs() < 1e-5 * scale,
+            "I_cg {share}, parameter {i}: {slope} {exact} of {scale}"
+        );
     }
 }
 

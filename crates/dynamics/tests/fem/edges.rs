@@ -28,7 +28,13 @@ const LIMIT: f64 = 0.25 * GRAVITY;
 
 /// The block from rest on plastic springs.
 fn shaken(hz: f64, dt: f64, accel: &[f64]) -> History {
-    let record = Record { name: "made up".into(), dt, accel: accel.to_vec(), vertical: None, source: Source::Numbers };
+    let record = Record {
+        name: "made up".into(),
+        dt,
+        accel: accel.to_vec(),
+        vertical: None,
+        source: Source::Numbers,
+    };
     settled(&block(), plastic(hz, block().mass_kg), &record, Control::default())
 }
 
@@ -70,11 +76,13 @@ fn a_touch_down_at_zero_velocity_is_the_same_as_none() {
     let error = |samples: u16| {
         let dt = 0.9 / f64::from(samples);
         let run = |push: f64| {
-            let accel: Vec<f64> =
-                (0..samples).map(|i| if f64::from(i) * dt < 0.5 * fall { 0.0 } else { -push }).collect();
+            let accel: Vec<f64> = (0..samples)
+                .map(|i| if f64::from(i) * dt < 0.5 * fall { 0.0 } else { -push })
+                .collect();
             let (body, springs) = (block().body(), plastic(160.0, 1e3));
             let (start, control) = (Start::Leaning(lean), Control::default());
-            Analysis { body, springs, start, dt, accel: &accel, vertical: &[], scale: 1.0, control }.simulate()
+            Analysis { body, springs, start, dt, accel: &accel, vertical: &[], scale: 1.0, control }
+                .simulate()
         };
         // the left foot is in the air at first
         let touch = |h: &History| h.landings.iter().find(|l| l.foot == 0).copied();
@@ -109,7 +117,8 @@ fn uplift_begins_at_g_tan_alpha_but_for_the_springs_compliance() {
         let (one, other) = (run(above), run(below));
         assert_sound(&one, 401);
         assert_sound(&other, 401);
-        let change = one.motion.theta.iter().zip(&other.motion.theta).map(|(a, b)| (a - b).abs() / alpha);
+        let change =
+            one.motion.theta.iter().zip(&other.motion.theta).map(|(a, b)| (a - b).abs() / alpha);
         changes.push(change.fold(0.0, f64::max));
         missing.push(1.0 - above / LIMIT);
     }
@@ -156,14 +165,19 @@ fn a_landing_at_a_sample_is_one_landing() {
 fn two_impacts_in_one_sample_are_both_found() {
     let (structure, springs) = (block(), plastic(320.0, 1e3));
     let lean = 0.03 * structure.body::<f64>().alpha();
-    let (coarse, fine) = (free(&structure, springs, lean, 1.0, 3), free(&structure, springs, lean, 0.01, 201));
+    let (coarse, fine) =
+        (free(&structure, springs, lean, 1.0, 3), free(&structure, springs, lean, 0.01, 201));
     assert_sound(&coarse, 3);
     assert_sound(&fine, 201);
-    let times = |h: &History| h.landings.iter().filter(|l| l.impact).map(|l| l.time).collect::<Vec<_>>();
+    let times =
+        |h: &History| h.landings.iter().filter(|l| l.impact).map(|l| l.time).collect::<Vec<_>>();
     let (coarse_times, fine_times) = (times(&coarse), times(&fine));
     assert!(fine_times.iter().filter(|t| **t < 1.0).count() >= 2, "{fine_times:?}");
     assert_eq!(coarse_times.len(), fine_times.len());
-    assert!(coarse_times.iter().zip(&fine_times).all(|(a, b)| (a - b).abs() < 1e-4), "{coarse_times:?} {fine_times:?}");
+    assert!(
+        coarse_times.iter().zip(&fine_times).all(|(a, b)| (a - b).abs() < 1e-4),
+        "{coarse_times:?} {fine_times:?}"
+    );
     for i in 0..3 {
         assert!((coarse.motion.theta[i] - fine.motion.theta[100 * i]).abs() < 1e-4 * lean);
     }
@@ -182,7 +196,9 @@ fn ever_smaller_impacts_end_in_rest_and_all_energy_is_accounted_for() {
     let rigid = housner::solve(&body, 0.01, &[0.0; 1501], &options);
     let rest = rigid.theta.iter().position(|theta| *theta == 0.0).unwrap();
     assert!(rigid.theta[rest..].iter().all(|theta| *theta == 0.0));
-    assert!(history.motion.theta[rest + 100..].iter().all(|theta| theta.abs() < 1e-6 * body.alpha()));
+    assert!(
+        history.motion.theta[rest + 100..].iter().all(|theta| theta.abs() < 1e-6 * body.alpha())
+    );
     // the first impacts are Housner's; the last, of hops no higher than the settlement, are not
     // told apart
     let times: Vec<f64> = history.landings.iter().filter(|l| l.impact).map(|l| l.time).collect();
@@ -215,7 +231,9 @@ fn a_record_that_starts_in_strong_motion_gives_housner_s_history() {
 /// grows as cosh(p t).
 #[test]
 fn near_alpha_the_body_stays_long_and_then_decides() {
-    for (structure, springs) in [(block(), plastic(320.0, 1e3)), (paper(1e-5), plastic(160.0, 680.1e3))] {
+    for (structure, springs) in
+        [(block(), plastic(320.0, 1e3)), (paper(1e-5), plastic(160.0, 680.1e3))]
+    {
         let body = structure.body::<f64>();
         let (alpha, p) = (body.alpha(), body.p_squared().sqrt());
         let (dt, n) = (0.1 / p, 400);
@@ -257,8 +275,17 @@ fn a_frame_of_restitution_zero_loses_its_energy_in_the_first_landing() {
     for hz in [40.0, 160.0, 640.0] {
         let (springs, start) = (chains(ratios, ratios, hz, body.mass), Start::Leaning(lean));
         let control = Control::default();
-        let history =
-            Analysis { body, springs, start, dt: 0.01, accel: &accel, vertical: &[], scale: 1.0, control }.simulate();
+        let history = Analysis {
+            body,
+            springs,
+            start,
+            dt: 0.01,
+            accel: &accel,
+            vertical: &[],
+            scale: 1.0,
+            control,
+        }
+        .simulate();
         assert_sound(&history, 300);
         let first = &history.landings[0];
         assert!(first.impact && (first.time / landing - 1.0).abs() < 0.01, "{first:?} {landing}");
@@ -304,7 +331,8 @@ fn equal_vertical_and_horizontal_springs_are_no_special_case() {
     let error = nrmse(&history.motion.u, &rigid.motion(&body).u);
     assert!(error < 0.05, "{error}");
     let nearly = Chain { k1: springs.horizontal.k1 * (1.0 + 1e-9), ..springs.horizontal };
-    let beside = settled(&structure, Springs { horizontal: nearly, ..springs }, &record, Control::default());
+    let beside =
+        settled(&structure, Springs { horizontal: nearly, ..springs }, &record, Control::default());
     let change = nrmse(&beside.motion.u, &history.motion.u);
     assert!(change < 1e-5, "{change:e}");
 }
@@ -315,7 +343,8 @@ fn without_dampers_nothing_is_dissipated() {
     for share in [0.0, 1e-2] {
         let structure = paper(share);
         let design = |mu, k| Design::from_kc(mu, k, 0.0, 40.0);
-        let springs = Springs { vertical: design(0.3, 1.0), horizontal: design(0.3, 0.57) }.chains(structure.mass_kg);
+        let springs = Springs { vertical: design(0.3, 1.0), horizontal: design(0.3, 0.57) }
+            .chains(structure.mass_kg);
         let record = el_centro();
         let (mut samples, mut released) = (0, 0.0);
         let case = Analysis {
@@ -346,7 +375,8 @@ fn without_dampers_nothing_is_dissipated() {
 fn records_of_no_sample_one_and_two() {
     for (start, theta) in [(Start::Settled, 0.0), (Start::Leaning(0.1), 0.1)] {
         for n in 0..3 {
-            let (body, springs, accel) = (block().body(), table_1(160.0, 1e3), vec![3.0 * LIMIT; n]);
+            let (body, springs, accel) =
+                (block().body(), table_1(160.0, 1e3), vec![3.0 * LIMIT; n]);
             let history = Analysis {
                 body,
                 springs,
@@ -362,7 +392,9 @@ fn records_of_no_sample_one_and_two() {
             assert_eq!((history.impacts(), history.bounces()), (0, 0));
             let first = history.motion.theta.first();
             assert!(first.is_none_or(|first| (first - theta).abs() < 1e-12), "{first:?}");
-            assert!(history.energy_residual < 1e-6 && history.motion.u.iter().all(|u| u.is_finite()));
+            assert!(
+                history.energy_residual < 1e-6 && history.motion.u.iter().all(|u| u.is_finite())
+            );
             // pushed for 0.01 s: the rigid body leans to the left by p^2 (3 - 1) sin(alpha) t^2/2
             if let (Start::Settled, [_, then]) = (start, &history.motion.theta[..]) {
                 let body = block().body::<f64>();

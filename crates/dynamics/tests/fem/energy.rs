@@ -25,8 +25,11 @@ fn the_account_closes_on_el_centro_for_springs_soft_and_stiff() {
         let structure = paper(share);
         for hz in [40.0, 80.0, 160.0, 320.0] {
             let m = structure.mass_kg;
-            for (name, springs) in [("plastic", plastic(hz, m)), ("lively", lively(hz, m)), ("table 1", table_1(hz, m))]
-            {
+            for (name, springs) in [
+                ("plastic", plastic(hz, m)),
+                ("lively", lively(hz, m)),
+                ("table 1", table_1(hz, m)),
+            ] {
                 let history = settled(&structure, springs, &record, Control::default());
                 assert_closes(&history, &format!("{name} {hz} Hz, I_cg {share} m R^2"));
             }
@@ -67,7 +70,8 @@ fn the_account_closes_for_blocks_and_frames_on_pulses_and_noise() {
 fn a_long_history_keeps_the_same_bound() {
     // undamped rotation of a kHz: hundreds of thousands of steps
     let structure = paper(1e-2);
-    let history = settled(&structure, table_1(40.0, structure.mass_kg), &el_centro(), Control::default());
+    let history =
+        settled(&structure, table_1(40.0, structure.mass_kg), &el_centro(), Control::default());
     assert!(history.work.steps > 50_000);
     assert_closes(&history, "undamped rotation");
 }

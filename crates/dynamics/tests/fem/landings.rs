@@ -30,7 +30,8 @@ fn stiff_springs_have_housner_s_twelve_impacts_on_el_centro() {
 fn springs_that_rebound_bounce_and_plastic_ones_do_not() {
     let structure = paper(0.0);
     let run = |springs| free(&structure, springs, 0.05, 0.01, 1000);
-    let (dead, live) = (run(plastic(160.0, structure.mass_kg)), run(table_1(160.0, structure.mass_kg)));
+    let (dead, live) =
+        (run(plastic(160.0, structure.mass_kg)), run(table_1(160.0, structure.mass_kg)));
     assert_eq!((dead.bounces(), dead.airborne), (0, 0.0));
     assert!(live.bounces() > 3 && live.airborne > 0.1, "{} {}", live.bounces(), live.airborne);
 }
@@ -57,7 +58,8 @@ fn every_firm_landing_of_a_block_shaken_hard_loses_what_housner_s_does() {
     let mut record = el_centro();
     record.accel.iter_mut().for_each(|a| *a *= 1.5);
     let history = settled(&structure, springs, &record, Control::default());
-    let short: Vec<_> = history.landings.iter().filter(|l| l.impact && (4.67..4.70).contains(&l.time)).collect();
+    let short: Vec<_> =
+        history.landings.iter().filter(|l| l.impact && (4.67..4.70).contains(&l.time)).collect();
     assert_eq!(short.iter().map(|l| l.foot).collect::<Vec<_>>(), [0, 1], "{short:?}");
     let body = structure.body::<f64>();
     let rocking = housner::solve(&body, record.dt, &record.accel, &RockingOptions::default());
@@ -70,5 +72,8 @@ fn every_firm_landing_of_a_block_shaken_hard_loses_what_housner_s_does() {
     let weak: Vec<f64> = record.accel.iter().map(|a| 0.01 * a).collect();
     record.accel = weak;
     let still = settled(&structure, springs, &record, Control::default());
-    assert_eq!(Match::new(&body, record.dt, housner, &still, body.restitution()).restitution_error_firm, None);
+    assert_eq!(
+        Match::new(&body, record.dt, housner, &still, body.restitution()).restitution_error_firm,
+        None
+    );
 }

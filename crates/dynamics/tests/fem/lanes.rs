@@ -22,8 +22,14 @@ struct Bits(Vec<u64>);
 
 impl Observer<f64> for Bits {
     fn sample(&mut self, index: usize, view: &View<f64>) -> ControlFlow<()> {
-        let shown =
-            [view.x(), view.z(), view.theta(), view.theta_rate(), view.energy.residual(), view.vertical_force(0)];
+        let shown = [
+            view.x(),
+            view.z(),
+            view.theta(),
+            view.theta_rate(),
+            view.energy.residual(),
+            view.vertical_force(0),
+        ];
         self.0.push(index as u64);
         self.0.extend(shown.map(f64::to_bits));
         ControlFlow::Continue(())
@@ -74,9 +80,19 @@ fn a_history_is_the_same_to_the_last_bit_in_any_company_and_on_any_number_of_thr
                 skip_open: i % 7 != 6,
                 ..Control::search()
             };
-            let start = if i % 9 == 5 { Start::Leaning(0.6 * body.alpha()) } else { Start::Settled };
+            let start =
+                if i % 9 == 5 { Start::Leaning(0.6 * body.alpha()) } else { Start::Settled };
             let vertical: &[f64] = if i % 5 == 4 { &up } else { &[] };
-            Analysis { body, springs, start, dt: record.dt, accel: &record.accel, vertical, scale: 1.0, control }
+            Analysis {
+                body,
+                springs,
+                start,
+                dt: record.dt,
+                accel: &record.accel,
+                vertical,
+                scale: 1.0,
+                control,
+            }
         })
         .collect();
     let alone: Vec<_> = cases
@@ -120,8 +136,17 @@ fn steps_over_several_samples_keep_the_history_and_follow_the_tolerance() {
         let at = |tolerance: f64, long_steps: bool| {
             let control = Control { tolerance, long_steps, ..Control::default() };
             let (start, dt, accel) = (Start::Settled, record.dt, &record.accel[..]);
-            Analysis { body: structure.body(), springs, start, dt, accel, vertical: &[], scale: 1.0, control }
-                .simulate()
+            Analysis {
+                body: structure.body(),
+                springs,
+                start,
+                dt,
+                accel,
+                vertical: &[],
+                scale: 1.0,
+                control,
+            }
+            .simulate()
         };
         let tight = at(1e-12, false);
         let error = |tolerance| nrmse(&at(tolerance, true).motion.u, &tight.motion.u);

@@ -20,8 +20,17 @@ fn run(
     members: &Members<f64>,
 ) -> (History, Demands) {
     let (dt, accel, control) = (record.dt, &record.accel[..], Control::default());
-    Analysis { body: structure.body(), springs, start: Start::Settled, dt, accel, vertical: &[], scale: 1.0, control }
-        .simulate_with(members)
+    Analysis {
+        body: structure.body(),
+        springs,
+        start: Start::Settled,
+        dt,
+        accel,
+        vertical: &[],
+        scale: 1.0,
+        control,
+    }
+    .simulate_with(members)
 }
 
 /// Members worth trying together and alone.
@@ -54,12 +63,24 @@ fn the_energy_account_closes_with_every_member() {
             let mass = structure.mass_kg;
             for springs in [plastic(40.0, mass), plastic(160.0, mass), lively(80.0, mass)] {
                 let (history, _) = run(&structure, springs, &record, &members);
-                assert_eq!(history.motion.len(), record.accel.len(), "{members:?} {:?}", history.outcome);
-                assert!(history.energy_residual < 1e-6, "{members:?} {:e}", history.energy_residual);
+                assert_eq!(
+                    history.motion.len(),
+                    record.accel.len(),
+                    "{members:?} {:?}",
+                    history.outcome
+                );
+                assert!(
+                    history.energy_residual < 1e-6,
+                    "{members:?} {:e}",
+                    history.energy_residual
+                );
                 // energy is only lost
                 let lost = &history.account.dissipated;
                 let scale = lost[lost.len() - 1];
-                assert!(lost.windows(2).all(|w| w[1] - w[0] > -1e-9 * scale), "{share} {members:?}");
+                assert!(
+                    lost.windows(2).all(|w| w[1] - w[0] > -1e-9 * scale),
+                    "{share} {members:?}"
+                );
             }
         }
     }

@@ -77,7 +77,9 @@ fn other_units_change_a_history_by_rounding_only() {
     let structure = paper(0.0);
     let one = scaled(&structure, plastic, &record, 1.0, 1.0);
     // feet and short tons, tonnes, pounds
-    for (length, mass) in [(3.280_839_895, 1.0 / 907.184_74), (1.0, 1e-3), (1.0, 1.0 / 0.453_592_37)] {
+    for (length, mass) in
+        [(3.280_839_895, 1.0 / 907.184_74), (1.0, 1e-3), (1.0, 1.0 / 0.453_592_37)]
+    {
         let other = scaled(&structure, plastic, &record, length, mass);
         assert_same(&one, &other, length);
     }
@@ -90,9 +92,13 @@ fn a_record_file_in_g_or_centimetres_gives_the_same_history() {
     let structure = paper(1e-5);
     let springs = plastic(80.0, structure.mass_kg);
     let one = settled(&structure, springs, &record, Control::default());
-    for (header, unit) in [("UNITS OF G", 9.81), ("UNITS OF M/S/S", 1.0), ("UNITS OF CM/S/S", 0.01)] {
+    for (header, unit) in [("UNITS OF G", 9.81), ("UNITS OF M/S/S", 1.0), ("UNITS OF CM/S/S", 0.01)]
+    {
         let numbers: Vec<String> = record.accel.iter().map(|a| format!("{:e}", a / unit)).collect();
-        let text = format!("a\nb\nACCELERATION IN {header}\nNPTS= 600, DT= .01 SEC\n{}\n", numbers.join(" "));
+        let text = format!(
+            "a\nb\nACCELERATION IN {header}\nNPTS= 600, DT= .01 SEC\n{}\n",
+            numbers.join(" ")
+        );
         let read = Record::parse("a.at2", text.as_bytes(), &ReadOptions::default()).unwrap();
         assert_same(&one, &settled(&structure, springs, &read, Control::default()), 1.0);
     }
@@ -105,7 +111,8 @@ fn quiet_before_a_record_only_shifts_the_history() {
     record.accel.truncate(1000);
     // the quiet must not become a ramp
     record.accel[0] = 0.0;
-    let shifted = Record { accel: [vec![0.0; 137], record.accel.clone()].concat(), ..record.clone() };
+    let shifted =
+        Record { accel: [vec![0.0; 137], record.accel.clone()].concat(), ..record.clone() };
     for share in [0.0, 1e-2] {
         let structure = paper(share);
         for make in [plastic, lively] as [Make; 2] {

@@ -43,16 +43,30 @@ fn landing(structure: &Structure, (mu, k, c): Ratios, rho: f64, hz: f64) -> Spri
 
 /// Histories of the first n motions of a suite, with Housner's NRMSE where that body neither rests
 /// nor overturns.
-fn suite(structure: &Structure, springs: Springs<Chain<f64>>, n: usize) -> Vec<(History, Option<f64>)> {
+fn suite(
+    structure: &Structure,
+    springs: Springs<Chain<f64>>,
+    n: usize,
+) -> Vec<(History, Option<f64>)> {
     let body = structure.body::<f64>();
     let records = synthetic::suite(n, 1, body.p_squared().sqrt(), body.alpha());
     let run = |record: strong_motion::Record| {
         let control = Control { most_steps: 500_000, ..Control::default() };
         let (dt, accel) = (record.dt, &record.accel[..]);
-        let history =
-            Analysis { body, springs, start: Start::Settled, dt, accel, vertical: &[], scale: 1.0, control }.simulate();
+        let history = Analysis {
+            body,
+            springs,
+            start: Start::Settled,
+            dt,
+            accel,
+            vertical: &[],
+            scale: 1.0,
+            control,
+        }
+        .simulate();
         let rocking = housner::solve(&body, dt, accel, &RockingOptions::default());
-        let rocked = rocking.outcome == housner::RockingOutcome::Rocked && history.outcome == HistoryOutcome::Completed;
+        let rocked = rocking.outcome == housner::RockingOutcome::Rocked
+            && history.outcome == HistoryOutcome::Completed;
         let error = rocked.then(|| nrmse(&history.motion.u, &rocking.motion(&body).u));
         (history, error)
     };
@@ -71,10 +85,17 @@ fn frames_slender_and_stocky_finish_on_springs_of_10_and_200_khz() {
                     landing(&structure, LIVE, 2.0, hz),
                 ];
                 for springs in all {
-                    for (i, (history, _)) in suite(&structure, springs, 12).into_iter().enumerate() {
-                        let ended =
-                            matches!(history.outcome, HistoryOutcome::Completed | HistoryOutcome::Overturned { .. });
-                        assert!(ended, "alpha {alpha}, I_cg {share}, {hz} Hz, motion {i}: {:?}", history.outcome);
+                    for (i, (history, _)) in suite(&structure, springs, 12).into_iter().enumerate()
+                    {
+                        let ended = matches!(
+                            history.outcome,
+                            HistoryOutcome::Completed | HistoryOutcome::Overturned { .. }
+                        );
+                        assert!(
+                            ended,
+                            "alpha {alpha}, I_cg {share}, {hz} Hz, motion {i}: {:?}",
+                            history.outcome
+                        );
                         assert!(
                             history.energy_residual < 1e-6,
                             "{alpha} {share} {hz} {i} {:?} {:e}",
@@ -113,12 +134,23 @@ fn a_stocky_frame_follows_housner_until_his_pivot_would_have_to_pull() {
         let rocking = housner::solve(&body, dt, accel, &RockingOptions::default());
         let Some(time) = regime::pivot_pulls(&body, dt, accel, &rocking) else { continue };
         let control = Control::default();
-        let history =
-            Analysis { body, springs, start: Start::Settled, dt, accel, vertical: &[], scale: 1.0, control }.simulate();
+        let history = Analysis {
+            body,
+            springs,
+            start: Start::Settled,
+            dt,
+            accel,
+            vertical: &[],
+            scale: 1.0,
+            control,
+        }
+        .simulate();
         let (u, reference) = (&history.motion.u, &rocking.motion(&body).u);
         let until = (time / dt) as usize + 1;
         before.push(nrmse(&u[..until], &reference[..until]));
-        if rocking.outcome == housner::RockingOutcome::Rocked && history.outcome == HistoryOutcome::Completed {
+        if rocking.outcome == housner::RockingOutcome::Rocked
+            && history.outcome == HistoryOutcome::Completed
+        {
             whole.push(nrmse(u, reference));
         }
     }

@@ -29,7 +29,13 @@ fn springs(body: &Body<f64>) -> Springs<Chain<f64>> {
     Springs { vertical, horizontal: Design::from_kc(0.3, 1.0, 2.0, 20.0 * hz) }.chains(body.mass)
 }
 
-fn simulate(body: Body<f64>, springs: Springs<Chain<f64>>, dt: f64, accel: &[f64], vertical: &[f64]) -> History {
+fn simulate(
+    body: Body<f64>,
+    springs: Springs<Chain<f64>>,
+    dt: f64,
+    accel: &[f64],
+    vertical: &[f64],
+) -> History {
     let (start, control) = (Start::Settled, Control::default());
     Analysis { body, springs, start, dt, accel, vertical, scale: 1.0, control }.simulate()
 }
@@ -41,7 +47,9 @@ fn motions(body: &Body<f64>, n: usize, peak: f64) -> Vec<(f64, Vec<f64>, Vec<f64
         .zip(suite(4))
         .map(|(horizontal, vertical)| {
             let factor = peak / vertical.pga_g();
-            let up = (0..horizontal.len()).map(|i| factor * vertical.at(i as f64 * horizontal.dt)).collect();
+            let up = (0..horizontal.len())
+                .map(|i| factor * vertical.at(i as f64 * horizontal.dt))
+                .collect();
             (horizontal.dt, horizontal.accel, up)
         })
         .collect()
@@ -55,12 +63,13 @@ fn stiff_springs_follow_housner_as_well_with_vertical_motion_as_without() {
         let (mut with, mut without) = (Vec::new(), Vec::new());
         for (dt, accel, up) in motions(&body, 100, 0.6) {
             for (vertical, errors) in [(&up[..], &mut with), (&[][..], &mut without)] {
-                let options = RockingOptions { vertical: Some(vertical.into()), ..RockingOptions::default() };
+                let options =
+                    RockingOptions { vertical: Some(vertical.into()), ..RockingOptions::default() };
                 let rocking = housner::solve(&body, dt, &accel, &options);
                 let history = simulate(body, springs, dt, &accel, vertical);
                 assert!(history.energy_residual < 1e-6, "{:e}", history.energy_residual);
-                let rocked =
-                    rocking.outcome == housner::RockingOutcome::Rocked && history.outcome == HistoryOutcome::Completed;
+                let rocked = rocking.outcome == housner::RockingOutcome::Rocked
+                    && history.outcome == HistoryOutcome::Completed;
                 if rocked && Conditioning::new(&body, dt, &accel, &options).well_conditioned() {
                     errors.push(nrmse(&history.motion.u, &rocking.motion(&body).u));
                 }
@@ -72,7 +81,10 @@ fn stiff_springs_follow_housner_as_well_with_vertical_motion_as_without() {
         println!("{with:?}\n{without:?}");
         let median = |errors: &[f64]| errors[errors.len() / 2];
         assert!(with.len() > 10 && without.len() > 10, "{} {}", with.len(), without.len());
-        assert!(median(&with) < 1e-3 && median(&with) < 2.0 * median(&without), "{with:?} {without:?}");
+        assert!(
+            median(&with) < 1e-3 && median(&with) < 2.0 * median(&without),
+            "{with:?} {without:?}"
+        );
     }
 }
 
@@ -85,7 +97,9 @@ fn the_energy_account_closes_with_vertical_motion() {
         let stiff = 160.0 * (63.0 / body.radius()).sqrt();
         let mut flights = 0;
         for (dt, accel, up) in motions(&body, 8, 1.4) {
-            for springs in [plastic(stiff, body.mass), lively(stiff, body.mass), table_1(stiff, body.mass)] {
+            for springs in
+                [plastic(stiff, body.mass), lively(stiff, body.mass), table_1(stiff, body.mass)]
+            {
                 let history = simulate(body, springs, dt, &accel, &up);
                 let residual = history.energy_residual;
                 assert!(residual < 1e-6, "{residual:e} {:?}", history.outcome);
@@ -102,7 +116,8 @@ fn the_energy_account_closes_with_vertical_motion() {
 fn a_body_on_a_ground_that_falls_faster_flies() {
     let body = Structure::block(2.0, 0.5, 2.4e3).unwrap().body::<f64>();
     let (dt, n) = (1e-3, 201);
-    let history = simulate(body, plastic(2e3, body.mass), dt, &vec![0.0; n], &vec![-1.5 * GRAVITY; n]);
+    let history =
+        simulate(body, plastic(2e3, body.mass), dt, &vec![0.0; n], &vec![-1.5 * GRAVITY; n]);
     assert_eq!(history.outcome, HistoryOutcome::Completed);
     assert!(history.airborne > 0.19, "{}", history.airborne);
     let v = |i: usize| history.motion.v[i];
@@ -122,6 +137,10 @@ fn a_standing_body_presses_as_its_weight_in_the_moving_ground() {
     let up: Vec<f64> = (0..n).map(|i| 0.7 * GRAVITY * (i as f64 / 1000.0).min(1.0)).collect();
     let history = simulate(body, plastic(100.0, body.mass), 1e-3, &vec![0.0; n], &up);
     for foot in &history.forces.vertical {
-        assert!((foot[n - 1] / (0.5 * 1.7 * body.mass * GRAVITY) - 1.0).abs() < 1e-6, "{}", foot[n - 1]);
+        assert!(
+            (foot[n - 1] / (0.5 * 1.7 * body.mass * GRAVITY) - 1.0).abs() < 1e-6,
+            "{}",
+            foot[n - 1]
+        );
     }
 }

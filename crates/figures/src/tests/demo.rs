@@ -22,7 +22,11 @@ fn rocking(t: &[f64], scale: f64, late: f64) -> (Vec<f64>, Vec<f64>) {
         .iter()
         .map(|t| {
             let t = t - late;
-            scale * 0.4 * (-0.09 * t).exp() * (1.0 - (-t * t / 2.0).exp()) * (2.0 * t - 0.03 * t * t).sin()
+            scale
+                * 0.4
+                * (-0.09 * t).exp()
+                * (1.0 - (-t * t / 2.0).exp())
+                * (2.0 * t - 0.03 * t * t).sin()
         })
         .collect();
     let v = u.iter().map(|u| 0.1 * u.abs() - 0.02 * u * u).collect();
@@ -41,7 +45,13 @@ fn draw_history(three: bool) -> Result<Sheet, FigureError> {
     let (z, z1) = (zeros(&t, &u), zeros(&t, &u1));
     let others = [
         history::Trace { label: "finite element", u: &u1, v: &v1, impacts: &z1, end: None },
-        history::Trace { label: "OpenSees", u: &u2[..1900], v: &v2[..1900], impacts: &[], end: None },
+        history::Trace {
+            label: "OpenSees",
+            u: &u2[..1900],
+            v: &v2[..1900],
+            impacts: &[],
+            end: None,
+        },
     ];
     let data = history::HistoryFigure {
         title: "Apex displacement, 61 × 12.2 m A-frame, El Centro 1940 N-S",
@@ -57,7 +67,8 @@ fn draw_history(three: bool) -> Result<Sheet, FigureError> {
 fn ratio(mu: f64, k: f64, c: f64, g: f64) -> f64 {
     let (x, f2, damping) = (g * g, k / mu, (c * g).powi(2));
     let above = damping + (1.0 + mu * (f2 - x)).powi(2);
-    let below = damping * (x - 1.0).powi(2) + (mu * x * (x - f2) + mu * f2 - x * (1.0 + mu)).powi(2);
+    let below =
+        damping * (x - 1.0).powi(2) + (mu * x * (x - f2) + mu * f2 - x * (1.0 + mu)).powi(2);
     (above / below).sqrt()
 }
 
@@ -65,10 +76,16 @@ fn draw_arr() -> Result<Sheet, FigureError> {
     let g: Vec<f64> = (0..2000).map(|i| 0.05 * 400_f64.powf(f64::from(i) / 1999.0)).collect();
     let vertical: Vec<f64> = g.iter().map(|&g| ratio(10.0, 8.993, 3.948, g)).collect();
     let horizontal: Vec<f64> = g.iter().map(|&g| ratio(0.1, 0.52254, 1.8395, g)).collect();
-    let tops = (1..g.len() - 1).filter(|&i| vertical[i] > vertical[i - 1] && vertical[i] > vertical[i + 1]);
-    let active: Vec<arr::ActiveMark> =
-        tops.map(|i| arr::ActiveMark { g: g[i], arr: vertical[i], multiplier: Some(0.487) }).collect();
-    let one = [arr::ActiveMark { g: 0.05, arr: ratio(0.1, 0.52254, 1.8395, 0.05), multiplier: Some(1.0) }];
+    let tops = (1..g.len() - 1)
+        .filter(|&i| vertical[i] > vertical[i - 1] && vertical[i] > vertical[i + 1]);
+    let active: Vec<arr::ActiveMark> = tops
+        .map(|i| arr::ActiveMark { g: g[i], arr: vertical[i], multiplier: Some(0.487) })
+        .collect();
+    let one = [arr::ActiveMark {
+        g: 0.05,
+        arr: ratio(0.1, 0.52254, 1.8395, 0.05),
+        multiplier: Some(1.0),
+    }];
     let data = arr::ResponseFigure {
         title: "Frequency response of the springs",
         target: &[
@@ -104,7 +121,8 @@ fn draw_candidates() -> Result<Sheet, FigureError> {
     let all: Vec<candidates::CandidateMark> = (0..400)
         .map(|_| {
             let (v, h) = (5.0 * 32_f64.powf(dice.roll()), 5.0 * 32_f64.powf(dice.roll()));
-            let error = (1.2 / v + 0.9 / h) * (1.0 + 0.5 * (9.0 * (v.ln() + 2.0 * h.ln())).sin()) + 0.01 * dice.roll();
+            let error = (1.2 / v + 0.9 / h) * (1.0 + 0.5 * (9.0 * (v.ln() + 2.0 * h.ln())).sin())
+                + 0.01 * dice.roll();
             let abandoned = error > 0.08 && dice.roll() < 0.8;
             candidates::CandidateMark {
                 vertical_hz: v,
@@ -114,7 +132,9 @@ fn draw_candidates() -> Result<Sheet, FigureError> {
             }
         })
         .collect();
-    let chosen = (0..all.len()).filter(|&i| !all[i].abandoned).min_by(|&a, &b| all[a].error.total_cmp(&all[b].error));
+    let chosen = (0..all.len())
+        .filter(|&i| !all[i].abandoned)
+        .min_by(|&a, &b| all[a].error.total_cmp(&all[b].error));
     let data = candidates::CandidatesFigure {
         title: "Every sampled pair of Ωₙ",
         error_label: "error, NRMSE of u and v",
@@ -135,7 +155,11 @@ fn draw_front() -> Result<Sheet, FigureError> {
         title: "Error against stiffness",
         error_label: "NRMSE of u, on the record",
         series: &[
-            front::DesignSeries { label: "design from the geometry", omega_n_hz: &hz, error: &ours },
+            front::DesignSeries {
+                label: "design from the geometry",
+                omega_n_hz: &hz,
+                error: &ours,
+            },
             front::DesignSeries { label: "the paper's procedure", omega_n_hz: &hz, error: &paper },
         ],
         chosen_hz: 500.0,
@@ -154,14 +178,17 @@ fn draw_contact() -> Result<Sheet, FigureError> {
     let (u, _) = rocking(&t, 1.0, 0.0);
     let weight = 680.1e3 * 9.81;
     let share: Vec<f64> = u.iter().map(|u| 0.5 + 0.5 * (40.0 * u).tanh()).collect();
-    let ring: Vec<f64> = t.iter().zip(&u).map(|(t, u)| (60.0 * t).sin() * (-30.0 * u.abs()).exp()).collect();
+    let ring: Vec<f64> =
+        t.iter().zip(&u).map(|(t, u)| (60.0 * t).sin() * (-30.0 * u.abs()).exp()).collect();
     let force = |of: &dyn Fn(f64, f64) -> f64| -> Vec<f64> {
         share.iter().zip(&ring).map(|(&share, &ring)| of(share, ring)).collect()
     };
     let data = contact::ContactFigure {
         title: "Forces between the feet and the ground",
         t: &t,
-        left_vertical: &force(&|share, ring| (weight * (1.0 - share) * (1.0 + 0.3 * ring)).max(0.0)),
+        left_vertical: &force(&|share, ring| {
+            (weight * (1.0 - share) * (1.0 + 0.3 * ring)).max(0.0)
+        }),
         right_vertical: &force(&|share, ring| (weight * share * (1.0 + 0.3 * ring)).max(0.0)),
         left_horizontal: &force(&|share, ring| 0.1 * weight * (1.0 - share) * (1.0 + ring)),
         right_horizontal: &force(&|share, ring| -0.1 * weight * share * (1.0 + ring)),
@@ -174,7 +201,8 @@ fn draw_contact() -> Result<Sheet, FigureError> {
 fn draw_energy() -> Result<Sheet, FigureError> {
     let t = times(2001);
     let dissipated: Vec<f64> = t.iter().map(|t| 4.1e5 * (1.0 - (-0.2 * t).exp())).collect();
-    let stored: Vec<f64> = t.iter().map(|t| 1.9e5 * (0.9 * t).sin().powi(2) * (-0.1 * t).exp()).collect();
+    let stored: Vec<f64> =
+        t.iter().map(|t| 1.9e5 * (0.9 * t).sin().powi(2) * (-0.1 * t).exp()).collect();
     let residual: Vec<f64> = t.iter().map(|t| 0.02 * (7.0 * t).sin() * t.min(3.0)).collect();
     let input: Vec<f64> = (0..t.len()).map(|i| stored[i] + dissipated[i] + residual[i]).collect();
     let data = energy::EnergyFigure {
@@ -218,7 +246,9 @@ fn draw_validation() -> Result<Sheet, FigureError> {
 
 fn draw_precision() -> Result<Sheet, FigureError> {
     let ladder = |base: f64, order: f64, first: f64, n: i32| -> Vec<(f64, f64)> {
-        (0..n).map(|i| (first * 10_f64.powi(-i * 2), base * 10_f64.powf(f64::from(2 * i) / order))).collect()
+        (0..n)
+            .map(|i| (first * 10_f64.powi(-i * 2), base * 10_f64.powf(f64::from(2 * i) / order)))
+            .collect()
     };
     let data = precision::PrecisionFigure {
         title: "Housner, 20 s of El Centro: time against error",
@@ -242,9 +272,17 @@ fn draw_record() -> Result<Sheet, FigureError> {
     let envelope = |t: f64| (-(t - 6.0).powi(2) / 9.0).exp();
     let accel: Vec<f64> = t.iter().map(|t| 0.4 * envelope(*t) * (9.0 * t).sin()).collect();
     let velocity: Vec<f64> = t.iter().map(|t| -0.45 * envelope(*t) * (9.0 * t).cos()).collect();
-    let notes = ["PGA 0.4 g, PGV 0.45 m/s, pulse period 0.7 s".to_owned(), "a second line".to_owned()];
+    let notes =
+        ["PGA 0.4 g, PGV 0.45 m/s, pulse period 0.7 s".to_owned(), "a second line".to_owned()];
     let (title, uplift_g) = ("A burst", Some(0.2));
-    record::draw(&record::RecordFigure { title, t: &t, accel_g: &accel, velocity: &velocity, uplift_g, notes: &notes })
+    record::draw(&record::RecordFigure {
+        title,
+        t: &t,
+        accel_g: &accel,
+        velocity: &velocity,
+        uplift_g,
+        notes: &notes,
+    })
 }
 
 /// Every figure: its name, and how to draw it.

@@ -5,7 +5,8 @@ use rocking::scalar::GRAVITY;
 
 /// Rigid in shear, and giving in it.
 fn sections() -> [BeamSection; 2] {
-    let section = BeamSection { axial_damping: 4e3, bending_damping: 7e2, ..BeamSection::elastic(3e6, 2e5) };
+    let section =
+        BeamSection { axial_damping: 4e3, bending_damping: 7e2, ..BeamSection::elastic(3e6, 2e5) };
     [section, BeamSection { shear: 5e4, ..section }]
 }
 
@@ -40,10 +41,14 @@ fn energy<D: DualNum<f64> + Copy>(y: [D; 6], [ea, ei, ga]: [f64; 3], hinged: [bo
     let [e, a, b] = strains(y);
     let length = 0.8_f64.hypot(7.0);
     // the inverse of its flexibility: L/(6 EI) [2 -1; -1 2] + 1/(GA L) [1 1; 1 1]
-    let (own, other) = (length / (3.0 * ei) + 1.0 / (ga * length), -length / (6.0 * ei) + 1.0 / (ga * length));
+    let (own, other) =
+        (length / (3.0 * ei) + 1.0 / (ga * length), -length / (6.0 * ei) + 1.0 / (ga * length));
     let scale = length / ei;
     let bent = match hinged {
-        [false, false] => (a * a * own - a * b * (2.0 * other) + b * b * own) * (scale / (own * own - other * other)),
+        [false, false] => {
+            (a * a * own - a * b * (2.0 * other) + b * b * own)
+                * (scale / (own * own - other * other))
+        }
         [false, true] => a * a * (scale / own),
         [true, false] => b * b * (scale / own),
         [true, true] => a * 0.0,
@@ -55,14 +60,17 @@ fn energy<D: DualNum<f64> + Copy>(y: [D; 6], [ea, ei, ga]: [f64; 3], hinged: [bo
 /// resistance and tangent.
 #[test]
 fn resistance_and_tangent_are_the_slopes_of_the_energy() {
-    for (hinged, section) in HINGES.into_iter().flat_map(|hinged| sections().map(|section| (hinged, section))) {
+    for (hinged, section) in
+        HINGES.into_iter().flat_map(|hinged| sections().map(|section| (hinged, section)))
+    {
         let beam = Beam::new(ENDS, ARMS, hinged, section);
         let still = [0.0; 6];
         let (force, [stiffness, _]) = (beam.resistance(&Y, &still), beam.tangent(&Y, &still));
         for (i, row) in stiffness.iter().enumerate() {
             for (j, stiffness) in row.iter().enumerate() {
                 let seed = |k: usize, at: usize| f64::from(u8::from(k == at));
-                let y = std::array::from_fn(|k| HyperDual64::new(Y[k], seed(k, i), seed(k, j), 0.0));
+                let y =
+                    std::array::from_fn(|k| HyperDual64::new(Y[k], seed(k, i), seed(k, j), 0.0));
                 let u = energy(y, [3e6, 2e5, section.shear], hinged);
                 assert!((u.re - beam.energy(&Y)).abs() < 1e-12 * u.re);
                 assert!((u.eps1 - force[i]).abs() < 1e-12 * 3e6, "{i}: {} {}", u.eps1, force[i]);
@@ -76,7 +84,9 @@ fn resistance_and_tangent_are_the_slopes_of_the_energy() {
 /// function, and differences.
 #[test]
 fn dashpots_resist_the_rates_of_strain_and_their_tangent_is_the_slope_of_that() {
-    for (hinged, section) in HINGES.into_iter().flat_map(|hinged| sections().map(|section| (hinged, section))) {
+    for (hinged, section) in
+        HINGES.into_iter().flat_map(|hinged| sections().map(|section| (hinged, section)))
+    {
         let beam = Beam::new(ENDS, ARMS, hinged, section);
         let force = |y: &[f64; 6], rate: &[f64; 6]| beam.resistance(y, rate);
         let [k, c] = beam.tangent(&Y, &RATE);
@@ -127,7 +137,10 @@ fn a_small_push_meets_the_textbook_s_stiffness() {
     };
     let clamped = upright([false, false]);
     assert!((clamped[4][4] - 3e6 / 7.0).abs() < 1e-9);
-    assert!((clamped[3][3] - 12.0 * 2e5 / 343.0).abs() < 1e-9 && (clamped[5][5] - 4.0 * 2e5 / 7.0).abs() < 1e-9);
+    assert!(
+        (clamped[3][3] - 12.0 * 2e5 / 343.0).abs() < 1e-9
+            && (clamped[5][5] - 4.0 * 2e5 / 7.0).abs() < 1e-9
+    );
     assert!((upright([false, true])[3][3] - 3.0 * 2e5 / 343.0).abs() < 1e-9);
 }
 
@@ -135,12 +148,15 @@ fn a_small_push_meets_the_textbook_s_stiffness() {
 #[test]
 fn a_cantilever_gives_by_bending_and_by_shear() {
     let [_, section] = sections();
-    let k =
-        Beam::new([[0.0, 0.0], [0.0, 7.0]], [[0.0; 2]; 2], [false, false], section).tangent(&[0.0; 6], &[0.0; 6])[0];
+    let k = Beam::new([[0.0, 0.0], [0.0, 7.0]], [[0.0; 2]; 2], [false, false], section)
+        .tangent(&[0.0; 6], &[0.0; 6])[0];
     let determinant = k[3][3] * k[5][5] - k[3][5] * k[5][3];
     let (sway, turn) = (k[5][5] / determinant, -k[5][3] / determinant);
     let exact = [343.0 / (3.0 * 2e5) + 7.0 / 5e4, 49.0 / (2.0 * 2e5)];
-    assert!((sway / exact[0] - 1.0).abs() < 1e-12 && (turn / exact[1] - 1.0).abs() < 1e-12, "{sway} {turn} {exact:?}");
+    assert!(
+        (sway / exact[0] - 1.0).abs() < 1e-12 && (turn / exact[1] - 1.0).abs() < 1e-12,
+        "{sway} {turn} {exact:?}"
+    );
 }
 
 /// The ends' accelerations as second differences of where a motion takes them.

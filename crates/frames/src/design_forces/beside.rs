@@ -42,7 +42,12 @@ impl OtherForces {
 
     /// The least and the largest magnitude of all of them; none where a motion says nothing.
     pub fn range(&self) -> Option<[f64; 2]> {
-        let others = [Some(self.found), self.doubled_elements.or(Some(self.found)), self.softer, self.stiffer];
+        let others = [
+            Some(self.found),
+            self.doubled_elements.or(Some(self.found)),
+            self.softer,
+            self.stiffer,
+        ];
         let all: Option<Vec<f64>> = others.into_iter().map(|x| x.map(f64::abs)).collect();
         let least_and_most = |[low, high]: [f64; 2], x: f64| [low.min(x), high.max(x)];
         all.map(|all| all.into_iter().fold([f64::INFINITY, 0.0], least_and_most))
@@ -51,6 +56,8 @@ impl OtherForces {
     /// The change of the magnitude in one of them, as a share of that found; infinite of one that
     /// says nothing.
     pub(crate) fn change_by(&self, other: Option<f64>) -> f64 {
-        other.map_or(f64::INFINITY, |other| (other.abs() - self.found.abs()).abs() / self.found.abs())
+        other.map_or(f64::INFINITY, |other| {
+            (other.abs() - self.found.abs()).abs() / self.found.abs()
+        })
     }
 }

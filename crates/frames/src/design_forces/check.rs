@@ -28,10 +28,12 @@ impl Variants {
         springs: &[Springs<Chain<f64>>],
         record: &Record,
     ) -> Result<Self, EquilibriumError> {
-        let follow =
-            |frame: &Frame, springs: &[Springs<Chain<f64>>]| follow(&assembled.structure, frame, springs, record);
+        let follow = |frame: &Frame, springs: &[Springs<Chain<f64>>]| {
+            follow(&assembled.structure, frame, springs, record)
+        };
         let finer = assembled.structure.with_doubled_elements().map(|structure| {
-            Assembled::with_members(structure, assembled.members).map_err(|_| EquilibriumError::NoRest { lean: 0.0 })
+            Assembled::with_members(structure, assembled.members)
+                .map_err(|_| EquilibriumError::NoRest { lean: 0.0 })
         });
         let finer = finer.transpose()?;
         let (doubled, (softer, stiffer)) = rayon::join(
@@ -65,9 +67,16 @@ pub(super) fn follow(
 
 /// Springs whose landing is the same but so many times as fast.
 pub(super) fn scaled(springs: &[Springs<Chain<f64>>], factor: f64) -> Vec<Springs<Chain<f64>>> {
-    let chain =
-        |c: &Chain<f64>| Chain { k1: c.k1 * factor * factor, k2: c.k2 * factor * factor, c: c.c * factor, m2: c.m2 };
-    let both = |s: &Springs<Chain<f64>>| Springs { vertical: chain(&s.vertical), horizontal: chain(&s.horizontal) };
+    let chain = |c: &Chain<f64>| Chain {
+        k1: c.k1 * factor * factor,
+        k2: c.k2 * factor * factor,
+        c: c.c * factor,
+        m2: c.m2,
+    };
+    let both = |s: &Springs<Chain<f64>>| Springs {
+        vertical: chain(&s.vertical),
+        horizontal: chain(&s.horizontal),
+    };
     springs.iter().map(both).collect()
 }
 
@@ -95,7 +104,10 @@ impl ForcePeaks {
         let series = Series { part_s: fine.part_s, over_s: over };
         let mut out: Vec<PeakOfForce> = Vec::new();
         for column in &fine.columns {
-            series.of_column(column, of_columns).into_iter().for_each(|peak| keep_larger(&mut out, peak));
+            series
+                .of_column(column, of_columns)
+                .into_iter()
+                .for_each(|peak| keep_larger(&mut out, peak));
         }
         let of_soles = Some(of_columns.unwrap_or(SOLE_HZ));
         for (sole, kind) in fine.sole.iter().zip([ForceKind::SoleShear, ForceKind::SoleVertical]) {
@@ -119,7 +131,8 @@ struct Series {
 impl Series {
     /// A series below a frequency (Hz), if there is one.
     fn smooth(&self, series: &FineSeries, cutoff_hz: Option<f64>) -> Vec<f64> {
-        cutoff_hz.map_or_else(|| series.means.clone(), |hz| low_pass(&series.means, self.part_s, hz))
+        cutoff_hz
+            .map_or_else(|| series.means.clone(), |hz| low_pass(&series.means, self.part_s, hz))
     }
 
     /// The largest of the samples that count, in the middle of its part.
@@ -142,7 +155,14 @@ impl Series {
         if cutoff_hz.is_none() && self.over_s >= self.part_s * smooth.len() as f64 {
             filtered.value = series.largest;
         }
-        Some(PeakOfForce { kind, filtered, raw: series.largest, cutoff_hz, together: None, above_base_m: None })
+        Some(PeakOfForce {
+            kind,
+            filtered,
+            raw: series.largest,
+            cutoff_hz,
+            together: None,
+            above_base_m: None,
+        })
     }
 
     /// Of all forces of a column, each with what its base bears at that time.
@@ -151,30 +171,44 @@ impl Series {
         let base = [shear, axial, moment].map(|series| self.smooth(series, cutoff_hz));
         let of = |kind, k: usize| self.peak(kind, &column.base[k], &base[k], cutoff_hz);
         let top = &column.top_moment;
-        let at_top = self.peak(ForceKind::ColumnTopMoment, top, &self.smooth(top, cutoff_hz), cutoff_hz);
-        let at_base = of(ForceKind::ColumnShear, 0).map(|peak| PeakOfForce { above_base_m: Some(0.0), ..peak });
+        let at_top =
+            self.peak(ForceKind::ColumnTopMoment, top, &self.smooth(top, cutoff_hz), cutoff_hz);
+        let at_base = of(ForceKind::ColumnShear, 0)
+            .map(|peak| PeakOfForce { above_base_m: Some(0.0), ..peak });
         let above = column.above.iter().zip(&column.heights).filter_map(|(series, height)| {
-            let peak = self.peak(ForceKind::ColumnShear, series, &self.smooth(series, cutoff_hz), cutoff_hz)?;
+            let peak = self.peak(
+                ForceKind::ColumnShear,
+                series,
+                &self.smooth(series, cutoff_hz),
+                cutoff_hz,
+            )?;
             Some(PeakOfForce { above_base_m: Some(*height), ..peak })
         });
         // of a column that is always pressed there is none
         let pulled: Vec<f64> = base[1].iter().map(|axial| axial.max(0.0)).collect();
-        let tension = self.largest(&pulled).filter(|peak| peak.value > 0.0).map(|filtered| PeakOfForce {
-            kind: ForceKind::AxialTension,
-            filtered,
-            raw: filtered.value,
-            cutoff_hz,
-            together: None,
-            above_base_m: None,
-        });
+        let tension =
+            self.largest(&pulled).filter(|peak| peak.value > 0.0).map(|filtered| PeakOfForce {
+                kind: ForceKind::AxialTension,
+                filtered,
+                raw: filtered.value,
+                cutoff_hz,
+                together: None,
+                above_base_m: None,
+            });
         let peaks = at_base.into_iter().chain(above);
-        let peaks = peaks.chain(of(ForceKind::Axial, 1)).chain(of(ForceKind::ColumnBaseMoment, 2)).chain(at_top);
+        let peaks = peaks
+            .chain(of(ForceKind::Axial, 1))
+            .chain(of(ForceKind::ColumnBaseMoment, 2))
+            .chain(at_top);
         let peaks = peaks.chain(tension);
         let together = |peak: PeakOfForce| {
             let at = (peak.filtered.time_s / self.part_s - 0.5).round().max(0.0) as usize;
             let [column_shear_n, axial_n, column_base_moment_nm] =
                 [0, 1, 2].map(|k| base[k][at.min(base[k].len() - 1)]);
-            PeakOfForce { together: Some(ForcesTogether { column_shear_n, axial_n, column_base_moment_nm }), ..peak }
+            PeakOfForce {
+                together: Some(ForcesTogether { column_shear_n, axial_n, column_base_moment_nm }),
+                ..peak
+            }
         };
         peaks.map(together).collect()
     }
@@ -187,7 +221,8 @@ fn keep_larger(all: &mut Vec<PeakOfForce>, peak: PeakOfForce) {
         None => all.push(peak),
         Some(other) => {
             let raw = if peak.raw.abs() > other.raw.abs() { peak.raw } else { other.raw };
-            let larger = if peak.filtered.value.abs() > other.filtered.value.abs() { peak } else { *other };
+            let larger =
+                if peak.filtered.value.abs() > other.filtered.value.abs() { peak } else { *other };
             *other = PeakOfForce { raw, ..larger };
         }
     }

@@ -15,7 +15,8 @@ use crate::{fem::ElasticHistory, structure::ElasticStructure};
 use dynamics::spring::{Chain, Springs};
 
 /// What is compared, in this order.
-pub const COMPARED: [ForceKind; 3] = [ForceKind::ColumnShear, ForceKind::ColumnBaseMoment, ForceKind::Axial];
+pub const COMPARED: [ForceKind; 3] =
+    [ForceKind::ColumnShear, ForceKind::ColumnBaseMoment, ForceKind::Axial];
 
 /// How forces of a structure's columns are taken from its histories.
 #[derive(Clone, Debug)]
@@ -33,7 +34,10 @@ pub struct ColumnPeaks(pub [Option<f64>; 3]);
 impl ColumnForces {
     /// Of a structure.
     pub fn of(structure: &ElasticStructure) -> Self {
-        Self { cutoff: Cutoff::of(structure), legs: matches!(structure, ElasticStructure::AFrame(_)) }
+        Self {
+            cutoff: Cutoff::of(structure),
+            legs: matches!(structure, ElasticStructure::AFrame(_)),
+        }
     }
 
     /// Parts of a time step (s) whose means hold what the cutoff keeps: those of a history that
@@ -46,7 +50,8 @@ impl ColumnForces {
     pub fn peaks(&self, history: &ElasticHistory) -> ColumnPeaks {
         let all = check::ForcePeaks::of(history, self.cutoff.as_ref(), f64::INFINITY);
         let applies = |kind: ForceKind| !(self.legs && kind == ForceKind::ColumnBaseMoment);
-        let peak = |kind: ForceKind| Some(all.get(kind).filter(|_| applies(kind))?.filtered.value.abs());
+        let peak =
+            |kind: ForceKind| Some(all.get(kind).filter(|_| applies(kind))?.filtered.value.abs());
         ColumnPeaks(COMPARED.map(peak))
     }
 }

@@ -58,7 +58,9 @@ mod tests {
         let cutoff = Cutoff::of(&structure).unwrap();
         let (length, line): (f64, f64) = (12.5, 79e3 / 12.5);
         let ratio = 450e3 / 79e3;
-        let f = |x: f64| 1.0 + x.cos() * x.cosh() + x * ratio * (x.cos() * x.sinh() - x.sin() * x.cosh());
+        let f = |x: f64| {
+            1.0 + x.cos() * x.cosh() + x * ratio * (x.cos() * x.sinh() - x.sin() * x.cosh())
+        };
         let mut roots = Vec::new();
         let mut x: f64 = 0.01;
         while roots.len() < 3 {
@@ -74,7 +76,8 @@ mod tests {
         }
         assert_eq!(cutoff.modes_hz.len(), 3);
         for (mode, root) in cutoff.modes_hz.iter().zip(roots) {
-            let exact = root * root / (std::f64::consts::TAU * length * length) * (7.65e9 / line).sqrt();
+            let exact =
+                root * root / (std::f64::consts::TAU * length * length) * (7.65e9 / line).sqrt();
             assert!((mode / exact - 1.0).abs() < 0.01, "{mode} {exact}");
             assert!(*mode < cutoff.cutoff_hz);
         }

@@ -2,7 +2,9 @@
 
 use super::{model::ElasticModel, run::SpringsRun, step::ElasticStages};
 use crate::frame::Frame;
-pub use dynamics::fem::acceptance::{StepVerdict, TriedStep, allowed_energy, allowed_error, cautious};
+pub use dynamics::fem::acceptance::{
+    StepVerdict, TriedStep, allowed_energy, allowed_error, cautious,
+};
 use rocking::scalar::GRAVITY;
 
 /// What errors are measured with.
@@ -66,19 +68,22 @@ impl SpringsRun<'_> {
 
     /// What the step misses.
     fn missed(&mut self, s: &ElasticStages) -> f64 {
-        let [place, momentum] = self.stepper.local_error([&self.q, &self.v], &self.feet, &self.here, s);
+        let [place, momentum] =
+            self.stepper.local_error([&self.q, &self.v], &self.feet, &self.here, s);
         place.max(momentum / self.scales.mass * self.scales.moment) / self.scales.length
     }
 
     /// What that error may be; never less than rounding makes of it.
     fn allowed_error(&self, h: f64) -> f64 {
-        let rounding = 8.0 * f64::EPSILON * self.scales.span * (1.0 + self.scales.moment / h) / self.scales.length;
+        let rounding = 8.0 * f64::EPSILON * self.scales.span * (1.0 + self.scales.moment / h)
+            / self.scales.length;
         allowed_error(self.control.tolerance).max(rounding)
     }
 
     /// Energy that this step may lose or gain (J).
     fn allowed(&self, stored: f64, s: &ElasticStages) -> f64 {
-        allowed_energy(self.control.tolerance * self.scale, &self.energy, stored).max(self.places(s))
+        allowed_energy(self.control.tolerance * self.scale, &self.energy, stored)
+            .max(self.places(s))
     }
 
     /// Energy that comes and goes as places are rounded (J): a few units in their last digit times

@@ -38,7 +38,8 @@ impl FrameDemand {
 
     /// The values, in the order in which `FrameDemand::values_mut` gives them.
     pub fn values(&self) -> impl Iterator<Item = f64> + '_ {
-        let bearings = self.bearings.iter().flat_map(|b| [b.axial, b.shear, b.moments[0], b.moments[1]]);
+        let bearings =
+            self.bearings.iter().flat_map(|b| [b.axial, b.shear, b.moments[0], b.moments[1]]);
         std::iter::once(self.base_shear).chain(bearings)
     }
 

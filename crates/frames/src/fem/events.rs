@@ -47,7 +47,9 @@ fn first_zero(values: &[f64; 4], tolerance: f64) -> Option<f64> {
     let mut start = 0.0;
     for end in [cubic.least(), 1.0].into_iter().filter(|end| *end > 0.0 && *end <= 1.0) {
         if at(end) < -tolerance {
-            return Some(cubic.falls((start, at(start)), (end, at(end)), 0.1 * tolerance).unwrap_or(start));
+            return Some(
+                cubic.falls((start, at(start)), (end, at(end)), 0.1 * tolerance).unwrap_or(start),
+            );
         }
         start = end;
     }
@@ -63,7 +65,11 @@ impl SpringsRun<'_> {
     /// What may end this corner's contact.
     fn limits(&self, corner: usize) -> &'static [ContactLimit] {
         let CornerState { closed, holds, drag, .. } = self.feet[corner];
-        if closed && !holds && drag != 0.0 { &[ContactLimit::Gap, ContactLimit::Stop] } else { &[ContactLimit::Gap] }
+        if closed && !holds && drag != 0.0 {
+            &[ContactLimit::Gap, ContactLimit::Stop]
+        } else {
+            &[ContactLimit::Gap]
+        }
     }
 
     /// What is positive while the contact lasts: a length (m), of a velocity that in which it goes
@@ -91,12 +97,18 @@ impl SpringsRun<'_> {
         for corner in 0..self.feet.len() {
             for &limit in self.limits(corner) {
                 let at = |q: &[f64], v: &[f64]| self.left(corner, limit, q, v);
-                let inside = [at(&self.q, &self.v), at(&s.q[0], &s.v[0]), at(&s.q[1], &s.v[1]), at(&s.q[2], &s.v[2])];
+                let inside = [
+                    at(&self.q, &self.v),
+                    at(&s.q[0], &s.v[0]),
+                    at(&s.q[1], &s.v[1]),
+                    at(&s.q[2], &s.v[2]),
+                ];
                 let Some(tau) = first_zero(&inside, tolerance) else { continue };
                 let start = inside[0];
                 if start <= tolerance && tau < 1e-6 {
                     // on the edge: the corner itself knows where it goes, the polynomial may not
-                    let rate = self.left_rate(corner, limit, &self.q, &self.v).unwrap_or(-f64::INFINITY);
+                    let rate =
+                        self.left_rate(corner, limit, &self.q, &self.v).unwrap_or(-f64::INFINITY);
                     if start > -tolerance && rate * s.h * NODES[1] > tolerance {
                         return ElasticEvent::Unresolved;
                     }
@@ -105,7 +117,8 @@ impl SpringsRun<'_> {
                     }
                 }
                 if tau < earliest {
-                    (earliest, first) = (tau, ElasticEvent::Crossing { corner, limit, tau: tau.max(1e-9) });
+                    (earliest, first) =
+                        (tau, ElasticEvent::Crossing { corner, limit, tau: tau.max(1e-9) });
                 }
             }
         }
@@ -161,7 +174,10 @@ impl SpringsRun<'_> {
     /// A corner's contact after what it met.
     pub(crate) fn changed(&mut self, corner: usize, limit: ContactLimit) -> CornerState {
         let foot = self.feet[corner];
-        let here = CornerState { anchor: self.model.anchor_here(corner, &self.q), ..CornerState::STANDING };
+        let here = CornerState {
+            anchor: self.model.anchor_here(corner, &self.q),
+            ..CornerState::STANDING
+        };
         if foot.closed && limit == ContactLimit::Stop {
             return here;
         }

@@ -18,7 +18,10 @@ impl FilterSection {
     fn new(w: f64, damping: f64) -> Self {
         let scale = 1.0 / (1.0 + 2.0 * damping * w + w * w);
         let b = w * w * scale;
-        Self { b: [b, 2.0 * b, b], a: [2.0 * (w * w - 1.0) * scale, (1.0 - 2.0 * damping * w + w * w) * scale] }
+        Self {
+            b: [b, 2.0 * b, b],
+            a: [2.0 * (w * w - 1.0) * scale, (1.0 - 2.0 * damping * w + w * w) * scale],
+        }
     }
 
     /// In place, from a past in which everything was the first value.
@@ -65,7 +68,8 @@ mod tests {
     fn what_is_slow_passes_and_what_is_fast_does_not() {
         let (dt, n) = (0.005, 4000);
         let gain = |frequency: f64| {
-            let wave: Vec<f64> = (0..n).map(|i| (2.0 * PI * frequency * i as f64 * dt).sin()).collect();
+            let wave: Vec<f64> =
+                (0..n).map(|i| (2.0 * PI * frequency * i as f64 * dt).sin()).collect();
             let out = low_pass(&wave, dt, 10.0);
             let middle = n / 4..3 * n / 4;
             let (mut power, mut whole) = (0.0, 0.0);
@@ -79,7 +83,11 @@ mod tests {
         for frequency in [1.0, 5.0, 10.0, 20.0] {
             let ratio = (PI * frequency * dt).tan() / (PI * 10.0 * dt).tan();
             let exact = 1.0 / (1.0 + ratio.powi(8));
-            assert!((gain(frequency) - exact).abs() < 1e-3, "{frequency}: {} {exact}", gain(frequency));
+            assert!(
+                (gain(frequency) - exact).abs() < 1e-3,
+                "{frequency}: {} {exact}",
+                gain(frequency)
+            );
         }
         assert!(low_pass(&[2.5; 50], dt, 10.0).iter().all(|x| (x - 2.5).abs() < 1e-12));
         assert_eq!(low_pass(&[1.0, 2.0], dt, 200.0), [1.0, 2.0]);

@@ -163,7 +163,12 @@ struct ElasticForces {
 impl ElasticForces {
     fn new(frame: &Frame) -> Self {
         let corners = vec![Since::default(); frame.places().len()];
-        Self { corners, ground: Since::default(), now: FrameDemand::new(frame), worst: FrameDemand::new(frame) }
+        Self {
+            corners,
+            ground: Since::default(),
+            now: FrameDemand::new(frame),
+            worst: FrameDemand::new(frame),
+        }
     }
 
     fn look(&mut self, view: &ElasticView) {
@@ -202,7 +207,12 @@ impl ElasticForces {
 impl ElasticRecorder {
     /// Of a history of so many samples, with forces or without, finely sampled in so many parts to
     /// a time step or not.
-    pub(crate) fn new(frame: &Frame, (dt, samples): (f64, usize), forces: bool, parts: usize) -> Self {
+    pub(crate) fn new(
+        frame: &Frame,
+        (dt, samples): (f64, usize),
+        forces: bool,
+        parts: usize,
+    ) -> Self {
         let room = || Vec::with_capacity(samples);
         let corners = if forces { frame.places().len() } else { 0 };
         Self {
@@ -216,7 +226,12 @@ impl ElasticRecorder {
                 worst: Vec::new(),
                 fine: None,
                 contacts: Vec::new(),
-                account: Account { input: room(), stored: room(), dissipated: room(), residual: room() },
+                account: Account {
+                    input: room(),
+                    stored: room(),
+                    dissipated: room(),
+                    residual: room(),
+                },
                 outcome: HistoryOutcome::Completed,
                 work: Work::default(),
                 energy_residual: 0.0,
@@ -246,7 +261,12 @@ impl ElasticRecorder {
     }
 
     /// After a step, with its impulses.
-    pub(crate) fn step(&mut self, view: &ElasticView, stages: &ElasticStages, impulses: &[[f64; 2]]) {
+    pub(crate) fn step(
+        &mut self,
+        view: &ElasticView,
+        stages: &ElasticStages,
+        impulses: &[[f64; 2]],
+    ) {
         if let Some(fine) = &mut self.fine {
             fine.step(view, stages);
         }

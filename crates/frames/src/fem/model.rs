@@ -75,8 +75,16 @@ pub(super) fn absorber(n: usize, corner: usize) -> usize {
 impl<'a> ElasticModel<'a> {
     pub(crate) fn new(frame: &'a Frame, units: &'a [Springs<Chain<f64>>]) -> Self {
         let n = frame.size();
-        let tau = |i: usize| 2.0 * (frame.effective_mass(i)[1] / (FRICTION * units[i].vertical.k1)).sqrt();
-        Self { frame, units, n, size: n + 2 * units.len(), damping: (0..units.len()).map(tau).collect() }
+        let tau = |i: usize| {
+            2.0 * (frame.effective_mass(i)[1] / (FRICTION * units[i].vertical.k1)).sqrt()
+        };
+        Self {
+            frame,
+            units,
+            n,
+            size: n + 2 * units.len(),
+            damping: (0..units.len()).map(tau).collect(),
+        }
     }
 
     /// What a sliding corner's horizontal force is of its vertical one, where that changes by
@@ -89,7 +97,13 @@ impl<'a> ElasticModel<'a> {
     /// The direction of the force that brakes a corner that lands so flat that its horizontal
     /// spring would take most of its fall, or throw it up; `None` if it does not, or its footing
     /// turns about another.
-    pub(crate) fn lands_flat(&self, i: usize, feet: &[CornerState], q: &[f64], v: &[f64]) -> Option<f64> {
+    pub(crate) fn lands_flat(
+        &self,
+        i: usize,
+        feet: &[CornerState],
+        q: &[f64],
+        v: &[f64],
+    ) -> Option<f64> {
         let nodes = self.frame.footing_nodes();
         if feet.iter().zip(nodes).any(|(foot, node)| foot.closed && *node == nodes[i]) {
             return None;
@@ -108,7 +122,14 @@ impl<'a> ElasticModel<'a> {
 
     /// Horizontal force on a closed corner.
     #[inline(always)]
-    fn across(&self, i: usize, foot: &CornerState, (x, compression): (f64, f64), q: &[f64], v: &[f64]) -> f64 {
+    fn across(
+        &self,
+        i: usize,
+        foot: &CornerState,
+        (x, compression): (f64, f64),
+        q: &[f64],
+        v: &[f64],
+    ) -> f64 {
         let Springs { vertical, horizontal } = &self.units[i];
         if foot.holds {
             return horizontal.k1 * (q[absorber(self.n, i)] + foot.anchor - x);
@@ -149,10 +170,18 @@ impl<'a> ElasticModel<'a> {
     }
 
     /// Forces on all coordinates.
-    pub(crate) fn forces(&self, q: &[f64], v: &[f64], feet: &[CornerState], ground: [f64; 2], out: &mut [f64]) {
+    pub(crate) fn forces(
+        &self,
+        q: &[f64],
+        v: &[f64],
+        feet: &[CornerState],
+        ground: [f64; 2],
+        out: &mut [f64],
+    ) {
         let n = self.n;
         self.frame.forces(&q[..n], &v[..n], ground, &mut out[..n]);
-        for (i, (foot, Springs { vertical, horizontal })) in feet.iter().zip(self.units).enumerate() {
+        for (i, (foot, Springs { vertical, horizontal })) in feet.iter().zip(self.units).enumerate()
+        {
             let at = absorber(n, i);
             let (mut h, mut p) = (0.0, 0.0);
             if foot.closed {
@@ -163,8 +192,10 @@ impl<'a> ElasticModel<'a> {
                 h = self.across(i, foot, (reach.place[0], compression), q, v);
                 place.push(&reach, [h, p], out);
             }
-            out[at] = -(h + horizontal.m2 * ground[0] + horizontal.k2 * q[at] + horizontal.c * v[at]);
-            out[at + 1] = -(p + vertical.m2 * ground[1] + vertical.k2 * q[at + 1] + vertical.c * v[at + 1]);
+            out[at] =
+                -(h + horizontal.m2 * ground[0] + horizontal.k2 * q[at] + horizontal.c * v[at]);
+            out[at + 1] =
+                -(p + vertical.m2 * ground[1] + vertical.k2 * q[at + 1] + vertical.c * v[at + 1]);
         }
     }
 
@@ -187,7 +218,8 @@ impl<'a> ElasticModel<'a> {
     pub(crate) fn energy(&self, q: &[f64], v: &[f64], feet: &[CornerState]) -> f64 {
         let n = self.n;
         let mut twice = 0.0;
-        for (i, (foot, Springs { vertical, horizontal })) in feet.iter().zip(self.units).enumerate() {
+        for (i, (foot, Springs { vertical, horizontal })) in feet.iter().zip(self.units).enumerate()
+        {
             let at = absorber(n, i);
             twice += horizontal.m2 * v[at] * v[at] + vertical.m2 * v[at + 1] * v[at + 1];
             twice += horizontal.k2 * q[at] * q[at] + vertical.k2 * q[at + 1] * q[at + 1];
@@ -223,7 +255,10 @@ impl<'a> ElasticModel<'a> {
 
     /// Stiffness under each corner, standing.
     pub(crate) fn supports(&self) -> Vec<Support> {
-        self.units.iter().map(|unit| Some([unit.horizontal.in_series(), unit.vertical.in_series()])).collect()
+        self.units
+            .iter()
+            .map(|unit| Some([unit.horizontal.in_series(), unit.vertical.in_series()]))
+            .collect()
     }
 
     /// Standing still on all corners.
@@ -233,7 +268,10 @@ impl<'a> ElasticModel<'a> {
     }
 
     /// Held at a lean on the last corner, or the first.
-    pub(crate) fn leaning(&self, lean: f64) -> Result<(Vec<f64>, Vec<CornerState>), EquilibriumError> {
+    pub(crate) fn leaning(
+        &self,
+        lean: f64,
+    ) -> Result<(Vec<f64>, Vec<CornerState>), EquilibriumError> {
         let frame = self.frame.leaning(lean, &self.supports())?;
         let mut feet = vec![CornerState::OPEN; self.units.len()];
         let pivot = if lean > 0.0 { feet.last_mut() } else { feet.first_mut() };
@@ -257,7 +295,11 @@ impl<'a> ElasticModel<'a> {
         for ((foot, unit), corner) in feet.iter().zip(self.units).zip(self.frame.places()) {
             let [x, z] = corner.reach(frame.as_slice()).place;
             let share = |chain: &Chain<f64>| chain.k1 / (chain.k1 + chain.k2);
-            let along = if foot.closed && foot.holds { (x - foot.anchor) * share(&unit.horizontal) } else { 0.0 };
+            let along = if foot.closed && foot.holds {
+                (x - foot.anchor) * share(&unit.horizontal)
+            } else {
+                0.0
+            };
             q.extend([along, if foot.closed { z * share(&unit.vertical) } else { 0.0 }]);
         }
         q

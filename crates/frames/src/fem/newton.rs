@@ -21,11 +21,21 @@ pub(super) struct Tangent {
 impl Tangent {
     pub(crate) fn new(model: &ElasticModel) -> Self {
         let n = model.n;
-        Self { k: DMatrix::zeros(n, n), c: DMatrix::zeros(n, n), slopes: vec![[0.0; 2]; model.units.len()] }
+        Self {
+            k: DMatrix::zeros(n, n),
+            c: DMatrix::zeros(n, n),
+            slopes: vec![[0.0; 2]; model.units.len()],
+        }
     }
 
     /// Take it at q, q'.
-    pub(crate) fn take(&mut self, model: &ElasticModel, q: &[f64], v: &[f64], feet: &[CornerState]) {
+    pub(crate) fn take(
+        &mut self,
+        model: &ElasticModel,
+        q: &[f64],
+        v: &[f64],
+        feet: &[CornerState],
+    ) {
         let n = model.n;
         model.frame.slopes(&q[..n], &v[..n], &mut self.k, &mut self.c);
         for (i, (foot, corner)) in feet.iter().zip(model.frame.places()).enumerate() {
@@ -61,14 +71,22 @@ impl<T: MatrixEntry> FactoredMatrix<T> {
     }
 
     /// Condense the chains for s = h lambda.
-    pub(crate) fn condense(&mut self, model: &ElasticModel, feet: &[CornerState], s: T, lift: impl Fn(f64) -> T) {
+    pub(crate) fn condense(
+        &mut self,
+        model: &ElasticModel,
+        feet: &[CornerState],
+        s: T,
+        lift: impl Fn(f64) -> T,
+    ) {
         self.chains.clear();
-        self.chains.extend(feet.iter().zip(model.units).map(|(foot, Springs { vertical, horizontal })| {
-            [
-                Condensed::new(horizontal, foot.closed && foot.holds, s, &lift),
-                Condensed::new(vertical, foot.closed, s, &lift),
-            ]
-        }));
+        self.chains.extend(feet.iter().zip(model.units).map(
+            |(foot, Springs { vertical, horizontal })| {
+                [
+                    Condensed::new(horizontal, foot.closed && foot.holds, s, &lift),
+                    Condensed::new(vertical, foot.closed, s, &lift),
+                ]
+            },
+        ));
         self.drags.clear();
         self.drags.extend(feet.iter().enumerate().map(|(i, foot)| {
             let [of_force, of_rate] = model.dragged(i, foot);
@@ -92,7 +110,8 @@ impl<T: MatrixEntry> FactoredMatrix<T> {
         for i in 0..n {
             for j in 0..n {
                 let at = (i, j);
-                self.entries[i * n + j] = lift(mass[at]) + s * lift(tangent.c[at]) + s2 * lift(tangent.k[at]);
+                self.entries[i * n + j] =
+                    lift(mass[at]) + s * lift(tangent.c[at]) + s2 * lift(tangent.k[at]);
             }
         }
         let entries = &mut self.entries;
@@ -105,7 +124,9 @@ impl<T: MatrixEntry> FactoredMatrix<T> {
                 let pushed = lift(gi[1]) + drag * lift(gi[0]);
                 corner.rows(tangent.slopes[i], |column, gj| {
                     let at = row * n + column;
-                    entries[at] = entries[at] + h.stiffness * lift(gi[0] * gj[0]) + v.stiffness * pushed * lift(gj[1]);
+                    entries[at] = entries[at]
+                        + h.stiffness * lift(gi[0] * gj[0])
+                        + v.stiffness * pushed * lift(gj[1]);
                 });
             });
         }
@@ -127,7 +148,9 @@ impl<T: MatrixEntry> FactoredMatrix<T> {
                 let (at, [h, v]) = (absorber(n, i), &self.chains[i]);
                 let from_z = r[at + 1] * v.share;
                 let from_x = r[at] * h.share + from_z * self.drags[i];
-                corner.rows(tangent.slopes[i], |row, g| r[row] = r[row] + from_x * lift(g[0]) + from_z * lift(g[1]));
+                corner.rows(tangent.slopes[i], |row, g| {
+                    r[row] = r[row] + from_x * lift(g[0]) + from_z * lift(g[1])
+                });
             }
         }
         self.lu.solve(r);

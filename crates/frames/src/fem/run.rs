@@ -88,7 +88,8 @@ impl<'a> SpringsRun<'a> {
             .fold(f64::INFINITY, f64::min)
             .min((scales.length / GRAVITY).sqrt());
         let stored = model.energy(&q, &v, &feet);
-        let scale = (stored - at_rest).abs().max(1e-3 * at_rest.abs()).max(1e-12 * weight * scales.length);
+        let scale =
+            (stored - at_rest).abs().max(1e-3 * at_rest.abs()).max(1e-12 * weight * scales.length);
         let lengths = scales.lengths(model);
         let rounding = 8.0 * f64::EPSILON * scales.span * scales.span / scales.length;
         let corners = feet.len();
@@ -150,7 +151,11 @@ impl<'a> SpringsRun<'a> {
             }
             self.time = start + dt;
             recorder.sample(&self.view());
-            if self.bases.iter().any(|base| base.rotation(self.model.frame, &self.q).abs() > FRAC_PI_2) {
+            if self
+                .bases
+                .iter()
+                .any(|base| base.rotation(self.model.frame, &self.q).abs() > FRAC_PI_2)
+            {
                 return HistoryOutcome::Overturned { time: self.time };
             }
         }
@@ -158,7 +163,12 @@ impl<'a> SpringsRun<'a> {
     }
 
     /// Take a step, of at most `left`; by how much time has moved on: zero if it was refused.
-    fn advance(&mut self, left: f64, stages: &mut ElasticStages, recorder: &mut ElasticRecorder) -> f64 {
+    fn advance(
+        &mut self,
+        left: f64,
+        stages: &mut ElasticStages,
+        recorder: &mut ElasticRecorder,
+    ) -> f64 {
         let h = self.next_size(left);
         if !self.attempt(h, stages) {
             self.refuse(0.25 * h, stages);
@@ -174,14 +184,16 @@ impl<'a> SpringsRun<'a> {
                 self.switch(corner, limit, stages, recorder);
                 return 0.0;
             }
-            ElasticEvent::Crossing { corner, limit, tau } => match self.locate((corner, limit), h, tau, stages) {
-                Some(true) => {}
-                Some(false) => met = ElasticEvent::Nothing,
-                None => {
-                    self.refuse(0.5 * h * tau, stages);
-                    return 0.0;
+            ElasticEvent::Crossing { corner, limit, tau } => {
+                match self.locate((corner, limit), h, tau, stages) {
+                    Some(true) => {}
+                    Some(false) => met = ElasticEvent::Nothing,
+                    None => {
+                        self.refuse(0.5 * h * tau, stages);
+                        return 0.0;
+                    }
                 }
-            },
+            }
             ElasticEvent::Nothing => {}
         }
         if !self.account(stages) {

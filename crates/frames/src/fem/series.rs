@@ -91,7 +91,8 @@ impl FineRecorder {
     /// So many parts to a time step of a record of so many samples.
     pub(crate) fn new(frame: &Frame, dt: f64, samples: usize, parts: usize) -> Self {
         let columns = frame.columns();
-        let series = || FineSeries { means: vec![0.0; samples.saturating_sub(1) * parts], largest: 0.0 };
+        let series =
+            || FineSeries { means: vec![0.0; samples.saturating_sub(1) * parts], largest: 0.0 };
         let of = |column: &FrameColumn| {
             let mut below = 0.0;
             let mut heights: Vec<f64> = Vec::new();
@@ -111,7 +112,8 @@ impl FineRecorder {
             }
         };
         let fine = columns.iter().map(of).collect();
-        let forces = FineForces { part_s: dt / parts as f64, columns: fine, sole: [series(), series()] };
+        let forces =
+            FineForces { part_s: dt / parts as f64, columns: fine, sole: [series(), series()] };
         let count = forces.series().count();
         Self { columns, forces, start: vec![0.0; count], started: false }
     }
@@ -145,7 +147,8 @@ impl FineRecorder {
 
     /// After a step, which ended where the view is.
     pub(crate) fn step(&mut self, view: &ElasticView, stages: &ElasticStages) {
-        let within = [0, 1, 2].map(|j| self.at(view, [&stages.q[j], &stages.v[j], &stages.a[j]], stages.ground[j]));
+        let within = [0, 1, 2]
+            .map(|j| self.at(view, [&stages.q[j], &stages.v[j], &stages.a[j]], stages.ground[j]));
         let h = stages.h;
         let begun = view.time - h;
         let part = self.forces.part_s;
@@ -155,8 +158,9 @@ impl FineRecorder {
                 series.largest = *end;
             }
         }
-        let curves: Vec<[f64; 4]> =
-            (0..end.len()).map(|k| integral([self.start[k], within[0][k], within[1][k], within[2][k]])).collect();
+        let curves: Vec<[f64; 4]> = (0..end.len())
+            .map(|k| integral([self.start[k], within[0][k], within[1][k], within[2][k]]))
+            .collect();
         let last = self.forces.sole[0].means.len().saturating_sub(1);
         let mut i = ((begun / part + 1e-9).max(0.0) as usize).min(last);
         let mut from = 0.0;
@@ -183,7 +187,12 @@ impl FineRecorder {
 }
 
 /// A column's forces, in the order of its series.
-fn column_forces(frame: &Frame, column: &FrameColumn, motion: ([&[f64]; 3], [f64; 2]), out: &mut Vec<f64>) {
+fn column_forces(
+    frame: &Frame,
+    column: &FrameColumn,
+    motion: ([&[f64]; 3], [f64; 2]),
+    out: &mut Vec<f64>,
+) {
     let ([q, v, a], [across, up]) = motion;
     let lacks = |beam, end| frame.half_inertia(beam, end, [q, v, a], [across, up + GRAVITY]);
     let beams = &column.beams;
@@ -191,7 +200,11 @@ fn column_forces(frame: &Frame, column: &FrameColumn, motion: ([&[f64]; 3], [f64
     let massive = frame.line_mass(lowest) > 0.0;
     let first = frame.bearing(lowest, q, v);
     let axial = out.len() + 1;
-    out.extend([first.shear + lacks(lowest, column.base_end), first.axial, first.moments[column.base_end]]);
+    out.extend([
+        first.shear + lacks(lowest, column.base_end),
+        first.axial,
+        first.moments[column.base_end],
+    ]);
     let mut last = first;
     for (i, &beam) in beams.iter().enumerate() {
         last = frame.bearing(beam, q, v);

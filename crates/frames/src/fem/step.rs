@@ -8,7 +8,8 @@ use super::{
 };
 use dynamics::fem::{
     iterate::{
-        Convergence, EIGENVALUE, Ground, IterationVerdict, LARGEST, complex, embedded, from_modes, modes, stage,
+        Convergence, EIGENVALUE, Ground, IterationVerdict, LARGEST, complex, embedded, from_modes,
+        modes, stage,
     },
     radau::{A, C, GAMMA},
 };
@@ -32,7 +33,15 @@ pub(super) struct ElasticStages {
 impl ElasticStages {
     pub(crate) fn new(size: usize) -> Self {
         let room = || [(); 3].map(|()| vec![0.0; size]);
-        Self { h: 0.0, a: room(), q: room(), v: room(), ground: [[0.0; 2]; 3], iterations: 0, rate: 1.0 }
+        Self {
+            h: 0.0,
+            a: room(),
+            q: room(),
+            v: room(),
+            ground: [[0.0; 2]; 3],
+            iterations: 0,
+            rate: 1.0,
+        }
     }
 }
 
@@ -101,7 +110,8 @@ impl<'a> ElasticStepper<'a> {
             condensed.1.extend_from_slice(feet);
         }
         tangent.take(model, mq, mv, feet);
-        real.factor(model, tangent, feet, s, |x| x) && pair.factor(model, tangent, feet, pair_s, complex)
+        real.factor(model, tangent, feet, s, |x| x)
+            && pair.factor(model, tangent, feet, pair_s, complex)
     }
 
     /// Take the step from q, q' into `s`, whose accelerations are the first guess; whether the
@@ -124,7 +134,8 @@ impl<'a> ElasticStepper<'a> {
         loop {
             for i in 0..3 {
                 for k in 0..size {
-                    (s.q[i][k], s.v[i][k]) = stage(i, (q[k], v[k]), [s.a[0][k], s.a[1][k], s.a[2][k]], h);
+                    (s.q[i][k], s.v[i][k]) =
+                        stage(i, (q[k], v[k]), [s.a[0][k], s.a[1][k], s.a[2][k]], h);
                 }
             }
             (s.iterations, s.rate) = (convergence.iterations, convergence.rate);

@@ -38,8 +38,9 @@ impl Base {
                 ([frame.centre(node), [x, z]], th)
             }
             Self::Feet => {
-                let ends = [frame.places().first(), frame.places().last()]
-                    .map(|end| end.map_or(([0.0; 2], [0.0; 2]), |end| (end.unstressed, end.reach(q).place)));
+                let ends = [frame.places().first(), frame.places().last()].map(|end| {
+                    end.map_or(([0.0; 2], [0.0; 2]), |end| (end.unstressed, end.reach(q).place))
+                });
                 let [(p, u), (r, w)] = ends;
                 let middle = [0, 1].map(|k| 0.5 * (p[k] + r[k]));
                 let moved = [0, 1].map(|k| 0.5 * (u[k] + w[k]));
@@ -52,9 +53,10 @@ impl Base {
     /// Mean horizontal displacement of its corners (m): feet that land elsewhere than they stood.
     pub fn feet_moved(self, frame: &Frame, q: &[f64]) -> f64 {
         let own = |node: usize| matches!(self, Self::Feet) || self == Self::Footing(node);
-        let corners = frame.places().iter().zip(frame.footing_nodes()).filter(|(_, node)| own(**node));
-        let (sum, count) =
-            corners.fold((0.0, 0), |(sum, count), (place, _)| (sum + place.reach(q).place[0], count + 1));
+        let corners =
+            frame.places().iter().zip(frame.footing_nodes()).filter(|(_, node)| own(**node));
+        let (sum, count) = corners
+            .fold((0.0, 0), |(sum, count), (place, _)| (sum + place.reach(q).place[0], count + 1));
         sum / f64::from(count.max(1))
     }
 

@@ -130,7 +130,12 @@ impl Cantilever {
         let base = layout.stand(&self.footing, 0.0);
         let place = [0.0, self.height];
         layout.nodes.push(Node { place, mass: self.mass, inertia: self.inertia, held: false });
-        layout.line(base, NodePoint { node: 1, place }, [false, self.inertia.is_none()], &self.column);
+        layout.line(
+            base,
+            NodePoint { node: 1, place },
+            [false, self.inertia.is_none()],
+            &self.column,
+        );
         layout
     }
 }
@@ -147,7 +152,12 @@ impl LeggedFrame {
         };
         layout.nodes.push(Node::body(apex, self.mass, self.inertia));
         for (node, place) in feet.into_iter().enumerate() {
-            layout.line(NodePoint { node: 2, place: apex }, NodePoint { node, place }, [false, true], &self.leg);
+            layout.line(
+                NodePoint { node: 2, place: apex },
+                NodePoint { node, place },
+                [false, true],
+                &self.leg,
+            );
         }
         layout
     }

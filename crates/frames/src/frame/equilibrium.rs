@@ -64,7 +64,11 @@ impl Frame {
     ///
     /// # Errors
     /// There is no such place.
-    pub(crate) fn leaning(&self, lean: f64, supports: &[Support]) -> Result<DVector<f64>, EquilibriumError> {
+    pub(crate) fn leaning(
+        &self,
+        lean: f64,
+        supports: &[Support],
+    ) -> Result<DVector<f64>, EquilibriumError> {
         let mut lone = vec![None; supports.len()];
         let pivot = if lean > 0.0 { supports.len().saturating_sub(1) } else { 0 };
         if let Some(support) = supports.get(pivot) {
@@ -74,7 +78,9 @@ impl Frame {
         let mut q = DVector::zeros(self.size);
         for step in 0..=(steps as usize) {
             let lean = lean * step as f64 / steps;
-            q = self.balance(q, &lone, &[self.hold(pivot, lean)]).ok_or(EquilibriumError::NoRest { lean })?;
+            q = self
+                .balance(q, &lone, &[self.hold(pivot, lean)])
+                .ok_or(EquilibriumError::NoRest { lean })?;
         }
         Ok(q)
     }
@@ -117,7 +123,9 @@ impl Frame {
                 let force = [-kx * reach.place[0], -kz * reach.place[1]];
                 corner.push(&reach, force, &mut right.as_mut_slice()[..n]);
                 corner.rows(reach.slope, |i, gi| {
-                    corner.rows(reach.slope, |j, gj| matrix[(i, j)] += kx * gi[0] * gj[0] + kz * gi[1] * gj[1]);
+                    corner.rows(reach.slope, |j, gj| {
+                        matrix[(i, j)] += kx * gi[0] * gj[0] + kz * gi[1] * gj[1]
+                    });
                 });
                 if let Some(th) = corner.rotation() {
                     matrix[(th, th)] += force[0] * reach.arm[0] + force[1] * reach.arm[1];

@@ -20,7 +20,8 @@ struct TendonPull {
 
 impl FrameTendon {
     fn length(&self, [x, z]: [f64; 2]) -> ([f64; 2], f64) {
-        let [dx, dz] = [self.anchor[0] - self.at.place[0] - x, self.anchor[1] - self.at.place[1] - z];
+        let [dx, dz] =
+            [self.anchor[0] - self.at.place[0] - x, self.anchor[1] - self.at.place[1] - z];
         let length = dx.hypot(dz);
         ([dx / length, dz / length], length)
     }
@@ -57,8 +58,9 @@ fn add_block(place: &PlaceOnNode, slope: [f64; 2], block: [[f64; 2]; 2], out: &m
 impl Frame {
     /// Tension of every tendon (N).
     pub fn tensions(&self, q: &[f64]) -> Vec<f64> {
-        let tension =
-            |(place, tendon): &(PlaceOnNode, FrameTendon)| tendon.pull(place.reach(q).place).map_or(0.0, |p| p.tension);
+        let tension = |(place, tendon): &(PlaceOnNode, FrameTendon)| {
+            tendon.pull(place.reach(q).place).map_or(0.0, |p| p.tension)
+        };
         self.tendons.iter().map(tension).collect()
     }
 
@@ -77,7 +79,8 @@ impl Frame {
             *out = -(mx[k] * ground + mz[k] * (GRAVITY + up));
         }
         for element in &self.elements {
-            let force = element.beam.resistance(&gather(&element.index, q), &gather(&element.index, v));
+            let force =
+                element.beam.resistance(&gather(&element.index, q), &gather(&element.index, v));
             for (k, f) in element.index.into_iter().zip(force) {
                 if k != NONE {
                     out[k] -= f;
@@ -102,9 +105,12 @@ impl Frame {
         k.fill(0.0);
         c.fill(0.0);
         for element in &self.elements {
-            let [ke, ce] = element.beam.tangent(&gather(&element.index, q), &gather(&element.index, v));
+            let [ke, ce] =
+                element.beam.tangent(&gather(&element.index, q), &gather(&element.index, v));
             for (i, &row) in element.index.iter().enumerate().filter(|(_, row)| **row != NONE) {
-                for (j, &column) in element.index.iter().enumerate().filter(|(_, column)| **column != NONE) {
+                for (j, &column) in
+                    element.index.iter().enumerate().filter(|(_, column)| **column != NONE)
+                {
                     k[(row, column)] += ke[i][j];
                     c[(row, column)] += ce[i][j];
                 }
@@ -117,15 +123,20 @@ impl Frame {
             let ([x, z], rate) = (place.velocity(&reach, v), gather(&place.index, v)[2]);
             let (slope, arm) = (reach.slope, reach.arm);
             // G turns: the velocity changes by -arm th', the force's moment by force x -arm
-            place.rows(slope, |i, g| k[(i, th)] -= (g[0] * cx * arm[0] + g[1] * cz * arm[1]) * rate);
+            place
+                .rows(slope, |i, g| k[(i, th)] -= (g[0] * cx * arm[0] + g[1] * cz * arm[1]) * rate);
             k[(th, th)] -= cx * x * arm[0] + cz * z * arm[1];
         }
         for (place, tendon) in &self.tendons {
             let reach = place.reach(q);
-            let Some(TendonPull { tension, towards: [x, z], length }) = tendon.pull(reach.place) else { continue };
+            let Some(TendonPull { tension, towards: [x, z], length }) = tendon.pull(reach.place)
+            else {
+                continue;
+            };
             let across = tension / length;
             let along = tendon.stiffness - across;
-            let block = [[across + along * x * x, along * x * z], [along * x * z, across + along * z * z]];
+            let block =
+                [[across + along * x * x, along * x * z], [along * x * z, across + along * z * z]];
             add_block(place, reach.slope, block, k);
             if let Some(th) = place.rotation() {
                 k[(th, th)] += tension * (x * reach.arm[0] + z * reach.arm[1]);
@@ -136,8 +147,13 @@ impl Frame {
     /// Energy above that of the unstressed structure (J).
     pub(crate) fn stored(&self, q: &[f64]) -> f64 {
         let weight: f64 = self.pull[1].iter().zip(q).map(|(m, z)| m * z).sum();
-        let beams: f64 = self.elements.iter().map(|element| element.beam.energy(&gather(&element.index, q))).sum();
-        let tendons: f64 = self.tendons.iter().map(|(place, tendon)| tendon.energy(place.reach(q).place)).sum();
+        let beams: f64 = self
+            .elements
+            .iter()
+            .map(|element| element.beam.energy(&gather(&element.index, q)))
+            .sum();
+        let tendons: f64 =
+            self.tendons.iter().map(|(place, tendon)| tendon.energy(place.reach(q).place)).sum();
         GRAVITY * weight + beams + tendons
     }
 
@@ -181,7 +197,9 @@ impl Frame {
         let twice: f64 = match &self.diagonal {
             Some(diagonal) => diagonal.iter().zip(v).map(|(m, v)| m * v * v).sum(),
             None => {
-                let along = |column: nalgebra::DVectorView<f64>| column.iter().zip(v).map(|(m, v)| m * v).sum::<f64>();
+                let along = |column: nalgebra::DVectorView<f64>| {
+                    column.iter().zip(v).map(|(m, v)| m * v).sum::<f64>()
+                };
                 self.mass.column_iter().zip(v).map(|(column, v)| v * along(column)).sum()
             }
         };
@@ -224,7 +242,8 @@ impl Mechanics for Frame {
     }
 
     fn rotation(&self, footing: usize, q: &DVector<f64>) -> f64 {
-        let base = if self.bodies[footing].index[2] == NONE { Base::Feet } else { Base::Footing(footing) };
+        let base =
+            if self.bodies[footing].index[2] == NONE { Base::Feet } else { Base::Footing(footing) };
         base.rotation(self, q.as_slice())
     }
 

@@ -98,7 +98,13 @@ pub enum FrameError {
     #[error("frame: {what} {number} names node {node}, but there are {nodes}")]
     NoNode { what: &'static str, number: usize, node: usize, nodes: usize },
     #[error("frame: {quantity} of {what} {number} is {value:?}; give a finite number{least}")]
-    Value { what: &'static str, number: usize, quantity: &'static str, value: f64, least: &'static str },
+    Value {
+        what: &'static str,
+        number: usize,
+        quantity: &'static str,
+        value: f64,
+        least: &'static str,
+    },
     #[error(
         "frame: {what} {number} meets node {node} off its place, and that does not turn: give it rotational inertia"
     )]
@@ -116,7 +122,11 @@ pub enum FrameError {
 const POSITIVE: &str = " greater than zero";
 const NOT_NEGATIVE: &str = ", zero or greater";
 
-fn check(what: &'static str, number: usize, values: &[(&'static str, f64, &'static str)]) -> Result<(), FrameError> {
+fn check(
+    what: &'static str,
+    number: usize,
+    values: &[(&'static str, f64, &'static str)],
+) -> Result<(), FrameError> {
     for &(quantity, value, least) in values {
         let fits = match least {
             POSITIVE => value > 0.0,
@@ -170,13 +180,19 @@ impl FrameLayout {
         };
         let element = |member: &FrameMember| {
             let [a, b] = [&member.ends[0], &member.ends[1]].map(place);
-            let beam = Beam::new([a.unstressed, b.unstressed], [a.arm, b.arm], member.hinged, member.section);
+            let beam = Beam::new(
+                [a.unstressed, b.unstressed],
+                [a.arm, b.arm],
+                member.hinged,
+                member.section,
+            );
             let mut index = [NONE; 6];
             index[..3].copy_from_slice(&a.index);
             index[3..].copy_from_slice(&b.index);
-            let bases = member
-                .ends
-                .map(|end| self.nodes[end.node].held || self.corners.iter().any(|corner| corner.node == end.node));
+            let bases = member.ends.map(|end| {
+                self.nodes[end.node].held
+                    || self.corners.iter().any(|corner| corner.node == end.node)
+            });
             BeamElement { beam, index, bases }
         };
         let elements = self.members.iter().map(element).collect();
@@ -186,22 +202,40 @@ impl FrameLayout {
         let tendons = self.tendons.iter().map(|tendon| (place(&tendon.at), *tendon)).collect();
         let (mass, cholesky, pull, total) = masses.matrix(&bodies, size)?;
         let diagonal = masses.lumped().then(|| mass.diagonal().as_slice().to_vec());
-        Ok(Frame { size, bodies, elements, corners, footings, dampers, tendons, mass, diagonal, cholesky, pull, total })
+        Ok(Frame {
+            size,
+            bodies,
+            elements,
+            corners,
+            footings,
+            dampers,
+            tendons,
+            mass,
+            diagonal,
+            cholesky,
+            pull,
+            total,
+        })
     }
 
     fn checked(&self) -> Result<(), FrameError> {
         for (i, node) in self.nodes.iter().enumerate() {
             let [x, z] = node.place;
             let inertia = node.inertia.unwrap_or(0.0);
-            let values =
-                [("mass", node.mass, NOT_NEGATIVE), ("inertia", inertia, NOT_NEGATIVE), ("x", x, ""), ("z", z, "")];
+            let values = [
+                ("mass", node.mass, NOT_NEGATIVE),
+                ("inertia", inertia, NOT_NEGATIVE),
+                ("x", x, ""),
+                ("z", z, ""),
+            ];
             check("node", i, &values)?;
         }
         for (i, corner) in self.corners.iter().enumerate() {
             self.meets("corner", i, corner)?;
         }
         for (i, member) in self.members.iter().enumerate() {
-            let BeamSection { axial, bending, shear, axial_damping, bending_damping, line_mass } = member.section;
+            let BeamSection { axial, bending, shear, axial_damping, bending_damping, line_mass } =
+                member.section;
             let values = [
                 ("EA", axial, NOT_NEGATIVE),
                 ("EI", bending, NOT_NEGATIVE),
@@ -226,17 +260,30 @@ impl FrameLayout {
         }
         for (i, damper) in self.dampers.iter().enumerate() {
             self.meets("damper", i, &damper.at)?;
-            check("damper", i, &[("c", damper.c[0], NOT_NEGATIVE), ("c", damper.c[1], NOT_NEGATIVE)])?;
+            check(
+                "damper",
+                i,
+                &[("c", damper.c[0], NOT_NEGATIVE), ("c", damper.c[1], NOT_NEGATIVE)],
+            )?;
         }
         for (i, tendon) in self.tendons.iter().enumerate() {
             self.meets("tendon", i, &tendon.at)?;
-            check("tendon", i, &[("stiffness", tendon.stiffness, POSITIVE), ("pretension", tendon.pretension, "")])?;
+            check(
+                "tendon",
+                i,
+                &[("stiffness", tendon.stiffness, POSITIVE), ("pretension", tendon.pretension, "")],
+            )?;
         }
         Ok(())
     }
 
     /// Whether a place is on a node that can carry it.
-    fn meets(&self, what: &'static str, number: usize, point: &NodePoint) -> Result<(), FrameError> {
+    fn meets(
+        &self,
+        what: &'static str,
+        number: usize,
+        point: &NodePoint,
+    ) -> Result<(), FrameError> {
         let nodes = self.nodes.len();
         let Some(node) = self.nodes.get(point.node) else {
             return Err(FrameError::NoNode { what, number, node: point.node, nodes });

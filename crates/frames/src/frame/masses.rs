@@ -45,7 +45,11 @@ impl Masses {
         let mut lumps: Vec<Lump> = layout
             .nodes
             .iter()
-            .map(|node| Lump { centre: node.place, mass: node.mass, inertia: node.inertia.unwrap_or(0.0) })
+            .map(|node| Lump {
+                centre: node.place,
+                mass: node.mass,
+                inertia: node.inertia.unwrap_or(0.0),
+            })
             .collect();
         // a node met by beams at its centre alone
         let mut central = vec![true; layout.nodes.len()];
@@ -60,7 +64,8 @@ impl Masses {
             let consistent = layout.consistent && central[a.node] && central[b.node];
             let inertia = mass * length * length / if consistent { 105.0 } else { 24.0 };
             for (end, hinged) in [a, b].into_iter().zip(member.hinged) {
-                let inertia = if hinged || node(end.node).inertia.is_none() { 0.0 } else { inertia };
+                let inertia =
+                    if hinged || node(end.node).inertia.is_none() { 0.0 } else { inertia };
                 lumps[end.node].add(end.place, if consistent { 0.0 } else { 0.5 * mass }, inertia);
                 if consistent {
                     lumps[end.node].inertia += inertia;
@@ -108,7 +113,9 @@ impl Masses {
         }
         for (node, body) in bodies.iter().enumerate() {
             let named = [(body.index[0], "mass"), (body.index[2], "rotational inertia")];
-            if let Some((_, what)) = named.into_iter().find(|&(k, _)| k != NONE && mass[(k, k)] <= 0.0) {
+            if let Some((_, what)) =
+                named.into_iter().find(|&(k, _)| k != NONE && mass[(k, k)] <= 0.0)
+            {
                 return Err(FrameError::Massless { node, what });
             }
         }
@@ -116,7 +123,8 @@ impl Masses {
         // the other does
         let mut pull = [DVector::zeros(size), DVector::zeros(size)];
         let lumps = bodies.iter().zip(&self.lumps).map(|(body, lump)| (body, lump.mass));
-        let halves = self.coupled.iter().flat_map(|(ends, m)| ends.map(|node| (&bodies[node], 0.5 * m)));
+        let halves =
+            self.coupled.iter().flat_map(|(ends, m)| ends.map(|node| (&bodies[node], 0.5 * m)));
         for (body, m) in lumps.chain(halves) {
             for k in 0..2 {
                 if body.index[k] != NONE {
@@ -125,7 +133,8 @@ impl Masses {
             }
         }
         let total = pull[0].sum();
-        let cholesky = Cholesky::new(mass.clone()).ok_or(FrameError::Massless { node: 0, what: "mass" })?;
+        let cholesky =
+            Cholesky::new(mass.clone()).ok_or(FrameError::Massless { node: 0, what: "mass" })?;
         Ok((mass, cholesky, pull, total))
     }
 }

@@ -18,8 +18,12 @@ impl Frame {
     /// Those of the unstressed frame whose nodes move sideways and turn, but neither rise nor sink
     /// (Hz): of a column, its bending modes.
     pub(crate) fn lateral_frequencies(&self) -> Vec<f64> {
-        let kept: Vec<usize> =
-            self.bodies.iter().flat_map(|body| [body.index[0], body.index[2]]).filter(|&k| k != NONE).collect();
+        let kept: Vec<usize> = self
+            .bodies
+            .iter()
+            .flat_map(|body| [body.index[0], body.index[2]])
+            .filter(|&k| k != NONE)
+            .collect();
         let [k, _] = self.tangent(&DVector::zeros(self.size), &DVector::zeros(self.size), [0.0; 2]);
         let part = |m: &DMatrix<f64>| m.select_rows(&kept).select_columns(&kept);
         nalgebra::Cholesky::new(part(&self.mass)).map_or(Vec::new(), |mass| of(part(&k), &mass.l()))

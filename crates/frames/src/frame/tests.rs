@@ -5,7 +5,12 @@ use crate::{beam::BeamSection, mechanics::Mechanics};
 use rocking::scalar::GRAVITY;
 
 fn section() -> BeamSection {
-    BeamSection { axial_damping: 3e7, bending_damping: 2e7, line_mass: 5e3, ..BeamSection::elastic(8e9, 6e9) }
+    BeamSection {
+        axial_damping: 3e7,
+        bending_damping: 2e7,
+        line_mass: 5e3,
+        ..BeamSection::elastic(8e9, 6e9)
+    }
 }
 
 fn pier(elements: usize, inertia: Option<f64>) -> Cantilever {
@@ -35,9 +40,18 @@ fn frames() -> Vec<Frame> {
         tied.dampers.push(FrameDamper { at: corner, c: [2e5, 7e5] });
     }
     let legs = StraightMember { section: section(), elements: 2 };
-    let legged = LeggedFrame { mass: 6e5, inertia: 1e5, height: 12.0, width: 5.0, foot_mass: 3e3, leg: legs };
+    let legged = LeggedFrame {
+        mass: 6e5,
+        inertia: 1e5,
+        height: 12.0,
+        width: 5.0,
+        foot_mass: 3e3,
+        leg: legs,
+    };
     let consistent = Cantilever { consistent: true, ..pier(4, Some(1e5)) };
-    [tied, legged.layout(), portal().layout(), consistent.layout()].map(|l| l.frame().unwrap()).to_vec()
+    [tied, legged.layout(), portal().layout(), consistent.layout()]
+        .map(|l| l.frame().unwrap())
+        .to_vec()
 }
 
 /// A state out of the ordinary, the same on every machine.
@@ -63,10 +77,12 @@ fn forces_and_tangent_are_the_slopes_of_the_energies() {
         };
         let h = 1e-6;
         for j in 0..n {
-            let slope = (frame.potential(&bump(&q, j, h)) - frame.potential(&bump(&q, j, -h))) / (2.0 * h);
+            let slope =
+                (frame.potential(&bump(&q, j, h)) - frame.potential(&bump(&q, j, -h))) / (2.0 * h);
             assert!((slope + force[j]).abs() < 1e-7 * scale, "{j}: {slope} {}", force[j]);
             let by = |q: [&DVector<f64>; 2], v: [&DVector<f64>; 2]| {
-                (frame.force(q[0], v[0], [0.3, 0.7]) - frame.force(q[1], v[1], [0.3, 0.7])) / (2.0 * h)
+                (frame.force(q[0], v[0], [0.3, 0.7]) - frame.force(q[1], v[1], [0.3, 0.7]))
+                    / (2.0 * h)
             };
             let by_q = by([&bump(&q, j, h), &bump(&q, j, -h)], [&v, &v]);
             let by_v = by([&q, &q], [&bump(&v, j, h), &bump(&v, j, -h)]);
@@ -90,7 +106,9 @@ fn corners_move_as_their_jacobians_say() {
             let at = |t: f64| frame.corner(i, &(&q + &v * t), &v).place;
             let (before, now, after) = (at(-h), frame.corner(i, &q, &v), at(h));
             for k in 0..2 {
-                assert!(((after[k] - before[k]) / (2.0 * h) - now.jacobian[k].dot(&v)).abs() < 1e-7);
+                assert!(
+                    ((after[k] - before[k]) / (2.0 * h) - now.jacobian[k].dot(&v)).abs() < 1e-7
+                );
                 let bent = (after[k] - 2.0 * now.place[k] + before[k]) / (h * h);
                 assert!((bent - now.bias[k]).abs() < 1e-6, "{bent} {}", now.bias[k]);
             }
@@ -114,7 +132,10 @@ fn a_cantilever_bends_as_the_textbook_says() {
         let weightless = DVector::zeros(frame.size());
         let (length, ei) = (10.5_f64, 6e9);
         let deflection = flexibility(&frame, &weightless, 1);
-        assert!((deflection / (length.powi(3) / (3.0 * ei)) - 1.0).abs() < 1e-10, "{elements} {deflection}");
+        assert!(
+            (deflection / (length.powi(3) / (3.0 * ei)) - 1.0).abs() < 1e-10,
+            "{elements} {deflection}"
+        );
     }
 }
 
@@ -150,7 +171,8 @@ fn gravity_softens_a_column_as_the_stability_functions_say() {
 #[test]
 fn a_portal_sways_as_the_textbook_says() {
     let mut portal = portal();
-    (portal.column.section, portal.girder.section) = (BeamSection::elastic(1e14, 6e9), BeamSection::elastic(1e14, 2e9));
+    (portal.column.section, portal.girder.section) =
+        (BeamSection::elastic(1e14, 6e9), BeamSection::elastic(1e14, 2e9));
     (portal.column.elements, portal.girder.elements) = (1, 1);
     let frame = portal.layout().fixed().frame().unwrap();
     let (height, r) = (6.0_f64, (2e9 / 10.0) / (6e9 / 6.0));
@@ -168,10 +190,15 @@ fn a_column_s_own_mass_vibrates_as_the_textbook_says() {
         (pier.mass, pier.consistent) = (0.0, consistent);
         let frame = pier.layout().fixed().frame().unwrap();
         let root = [1.875_104_07_f64, 4.694_091_13][mode];
-        let exact = root * root * (6e9_f64 / (5e3 * 10.5_f64.powi(4))).sqrt() / std::f64::consts::TAU;
+        let exact =
+            root * root * (6e9_f64 / (5e3 * 10.5_f64.powi(4))).sqrt() / std::f64::consts::TAU;
         let q = DVector::zeros(frame.size());
         // vibration along the column is elsewhere
-        frame.frequencies(&q).into_iter().map(|f| (f / exact - 1.0).abs()).fold(f64::INFINITY, f64::min)
+        frame
+            .frequencies(&q)
+            .into_iter()
+            .map(|f| (f / exact - 1.0).abs())
+            .fold(f64::INFINITY, f64::min)
     };
     for (consistent, mode) in [(false, 0), (false, 1), (true, 0), (true, 1)] {
         let (coarse, fine) = (error(consistent, 8, mode), error(consistent, 16, mode));
@@ -188,7 +215,8 @@ fn the_weight_stands_on_the_corners_and_a_lean_is_held() {
     let frame = portal.layout().frame().unwrap();
     let supports = vec![Some([1e10, 1e10]); 4];
     let q = frame.standing(&supports).unwrap();
-    let pressed: f64 = frame.places().iter().map(|corner| -1e10 * corner.reach(q.as_slice()).place[1]).sum();
+    let pressed: f64 =
+        frame.places().iter().map(|corner| -1e10 * corner.reach(q.as_slice()).place[1]).sum();
     assert!((pressed / (frame.total_mass() * GRAVITY) - 1.0).abs() < 1e-9);
     let q = frame.leaning(-0.1, &supports).unwrap();
     assert!((frame.displacement(0, q.as_slice())[2] + 0.1).abs() < 1e-14);
@@ -212,7 +240,9 @@ fn what_lands_is_the_free_body_s_effective_mass() {
     let (m, i, b, h) = (footing.mass, footing.inertia, 2.0, 0.75);
     let (xx, zz, xz) = (1.0 / m + h * h / i, 1.0 / m + b * b / i, h * b / i);
     let determinant = xx * zz - xz * xz;
-    assert!((x * determinant / zz - 1.0).abs() < 1e-12 && (z * determinant / xx - 1.0).abs() < 1e-12);
+    assert!(
+        (x * determinant / zz - 1.0).abs() < 1e-12 && (z * determinant / xx - 1.0).abs() < 1e-12
+    );
 }
 
 #[test]
@@ -226,7 +256,10 @@ fn what_does_not_fit_together_is_refused() {
     assert!(refused(&|l| l.members[1].ends[1].place[0] = 1.0).contains("off its place"));
     assert!(refused(&|l| l.corners[0].node = 9).contains("names node 9"));
     assert!(refused(&|l| l.nodes[1].mass = f64::NAN).contains("mass of node 1 is NaN"));
-    assert!(refused(&|l| l.members.iter_mut().for_each(|m| m.section.line_mass = 0.0)).contains("node 2 has no mass"));
+    assert!(
+        refused(&|l| l.members.iter_mut().for_each(|m| m.section.line_mass = 0.0))
+            .contains("node 2 has no mass")
+    );
 }
 
 /// A footing's corner moves by its own mass and inertia alone under a column: force F at the arm
@@ -240,10 +273,15 @@ fn a_corner_of_a_footing_moves_by_its_mass_and_inertia() {
     let mass = |k: usize| frame.mass_matrix()[(k, k)];
     let [m, _, inertia] = frame.coordinates(0).map(|k| mass(k.unwrap()));
     let [_, height] = frame.centre(0);
-    for (corner, ax, az) in [(0, -0.5 * footing.width, -height), (1, 0.5 * footing.width, -height)] {
-        let expected = [1.0 / m + az * az / inertia, -ax * az / inertia, 1.0 / m + ax * ax / inertia];
+    for (corner, ax, az) in [(0, -0.5 * footing.width, -height), (1, 0.5 * footing.width, -height)]
+    {
+        let expected =
+            [1.0 / m + az * az / inertia, -ax * az / inertia, 1.0 / m + ax * ax / inertia];
         for (found, expected) in frame.mobility(corner, &q).into_iter().zip(expected) {
-            assert!((found - expected).abs() < 1e-12 * expected.abs(), "{corner}: {found:e} {expected:e}");
+            assert!(
+                (found - expected).abs() < 1e-12 * expected.abs(),
+                "{corner}: {found:e} {expected:e}"
+            );
         }
     }
 }
@@ -253,7 +291,8 @@ fn a_corner_of_a_footing_moves_by_its_mass_and_inertia() {
 fn row(section: BeamSection, length: f64, elements: usize, hinged: bool) -> FrameLayout {
     let place = |i: usize| [0.0, length * i as f64 / elements as f64];
     let held = |i: usize| i == 0 || (hinged && i == elements);
-    let nodes = (0..=elements).map(|i| Node { held: held(i), ..Node::body(place(i), 0.0, 0.0) }).collect();
+    let nodes =
+        (0..=elements).map(|i| Node { held: held(i), ..Node::body(place(i), 0.0, 0.0) }).collect();
     let end = |node: usize| NodePoint { node, place: place(node) };
     let members = (0..elements)
         .map(|i| FrameMember {

@@ -79,8 +79,10 @@ pub fn growth(
     (history, twins): (&ElasticRocking, &PerturbedPair),
 ) -> Growth {
     let &PerturbedPair { coordinates, perturbation: d, limit } = twins;
-    let peaks: Vec<f64> =
-        coordinates.iter().map(|&c| history.q.iter().fold(STILL, |peak, q| f64::max(peak, q[c].abs()))).collect();
+    let peaks: Vec<f64> = coordinates
+        .iter()
+        .map(|&c| history.q.iter().fold(STILL, |peak, q| f64::max(peak, q[c].abs())))
+        .collect();
     let twin = |options: &ReferenceOptions| {
         let (mut most, mut factor) = (0.0, Vec::with_capacity(history.q.len()));
         let apart = |q: &DVector<f64>| {
@@ -101,5 +103,8 @@ pub fn growth(
         || twin(&ReferenceOptions { scale: options.scale * (1.0 + d), ..*options }),
         || twin(&ReferenceOptions { kept: options.kept * (1.0 - d), ..*options }),
     );
-    Growth { dt: ground.dt, factor: scaled.iter().zip(&landed).map(|(a, b)| f64::max(*a, *b)).collect() }
+    Growth {
+        dt: ground.dt,
+        factor: scaled.iter().zip(&landed).map(|(a, b)| f64::max(*a, *b)).collect(),
+    }
 }

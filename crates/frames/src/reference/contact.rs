@@ -62,22 +62,34 @@ pub(crate) fn land<M: Mechanics>(
 ) -> Option<Landed> {
     let speed = landing.iter().map(|i| -at.rise(i, at.v, false)).fold(0.0, f64::max);
     let good = |kept: CornerSet, after: &HeldMotion| {
-        let pushed = |i: usize| rule.bound(kept, i) || after.force(i)[1] >= -ROUNDING * largest(after);
+        let pushed =
+            |i: usize| rule.bound(kept, i) || after.force(i)[1] >= -ROUNDING * largest(after);
         kept.iter().all(pushed)
-            && touching.minus(kept).iter().all(|i| at.rise(i, &after.motion, false) >= -ROUNDING * speed)
+            && touching
+                .minus(kept)
+                .iter()
+                .all(|i| at.rise(i, &after.motion, false) >= -ROUNDING * speed)
     };
-    let tried = touching.subsets().into_iter().filter(|kept| kept.meets(landing) && rule.allows(*kept, touching));
+    let tried = touching
+        .subsets()
+        .into_iter()
+        .filter(|kept| kept.meets(landing) && rule.allows(*kept, touching));
     let found = tried
         .filter_map(|kept| Some((kept, at.impact(CornerContact::held(kept))?)))
         .find(|(kept, after)| good(*kept, after));
     let braked = |i: usize| {
-        let contact = CornerContact { held: touching.minus(landing), sliding: CornerSet::NONE.with(i) };
+        let contact =
+            CornerContact { held: touching.minus(landing), sliding: CornerSet::NONE.with(i) };
         let after = at.braked(contact)?;
         let (slip, force) = (at.slip(i, &after.motion, false), after.force(i)[0]);
         let good = good(contact.held, &after) && slip * force <= 0.0;
         let stopped = at.impact(CornerContact::held(contact.held.with(i)))?;
         let energy = at.mechanics.kinetic(at.q, at.v) - at.mechanics.kinetic(at.q, &stopped.motion);
-        good.then(|| Landed { velocity: after.motion, held: contact.held, sliding: Some((i, -slip.signum(), energy)) })
+        good.then(|| Landed {
+            velocity: after.motion,
+            held: contact.held,
+            sliding: Some((i, -slip.signum(), energy)),
+        })
     };
     let (kept, after) = match found {
         Some(found) => found,
@@ -115,7 +127,8 @@ pub(crate) fn stay<M: Mechanics>(
     tried: &[CornerSet],
     rule: &Rule,
 ) -> Option<(CornerContact, HeldMotion, bool)> {
-    let on_footing = |i: usize, set: CornerSet| set.iter().any(|k| rule.footings[k] == rule.footings[i]);
+    let on_footing =
+        |i: usize, set: CornerSet| set.iter().any(|k| rule.footings[k] == rule.footings[i]);
     let sinks = |i: &usize, held: &HeldMotion| at.rise(*i, &held.motion, true) < -ROUNDING_A;
     // first without new sliding, then with
     for slips in [false, true] {
@@ -124,18 +137,25 @@ pub(crate) fn stay<M: Mechanics>(
             let mut contact = CornerContact { held: kept, sliding };
             let Some(mut held) = at.accelerations(ground, contact) else { continue };
             let new: CornerSet = free.iter().filter(|i| sinks(i, &held)).collect();
-            if slips && !new.is_empty() && !new.iter().any(|i| on_footing(i, kept.and(sliding).and(new.without(i)))) {
+            if slips
+                && !new.is_empty()
+                && !new.iter().any(|i| on_footing(i, kept.and(sliding).and(new.without(i))))
+            {
                 contact.sliding = sliding.and(new);
                 let Some(then) = at.accelerations(ground, contact) else { continue };
                 held = then;
                 // friction brakes
-                let driven = |i: usize| at.slip(i, &held.motion, true) * held.force(i)[0].signum() > ROUNDING_A;
+                let driven = |i: usize| {
+                    at.slip(i, &held.motion, true) * held.force(i)[0].signum() > ROUNDING_A
+                };
                 if new.iter().any(driven) {
                     continue;
                 }
             }
             let pushed = |i: usize| rule.bound(kept, i) || held.force(i)[1] >= -rule.rounding;
-            if kept.iter().all(pushed) && !resting.minus(contact.all()).iter().any(|i| sinks(&i, &held)) {
+            if kept.iter().all(pushed)
+                && !resting.minus(contact.all()).iter().any(|i| sinks(&i, &held))
+            {
                 return Some((contact, held, true));
             }
         }

@@ -161,7 +161,12 @@ pub(crate) fn step(
     let below = (fifth + 0.01 * third) * (2 * start.q.len()) as f64;
     let error = if fifth == 0.0 { 0.0 } else { h * fifth / below.sqrt() };
     let last = LastStage { q: last_place, v: velocities.pop()?, a: slopes.pop()?.a };
-    error.is_finite().then_some(ReferenceStep { state: stage, error, order: ORDER, last: Some(last) })
+    error.is_finite().then_some(ReferenceStep {
+        state: stage,
+        error,
+        order: ORDER,
+        last: Some(last),
+    })
 }
 
 #[cfg(test)]
@@ -177,9 +182,17 @@ mod tests {
     fn the_order_is_eight() {
         let rates = |t: f64, y: &ReferenceState| {
             let a = t - y.q[0] - 0.1 * y.v[0];
-            Some(Rates { a: DVector::from_element(1, a), power: [0.1 * y.v[0] * y.v[0], 0.0, 0.0], forces: vec![] })
+            Some(Rates {
+                a: DVector::from_element(1, a),
+                power: [0.1 * y.v[0] * y.v[0], 0.0, 0.0],
+                forces: vec![],
+            })
         };
-        let start = ReferenceState { q: DVector::from_element(1, 1.0), v: DVector::zeros(1), work: [0.0; 3] };
+        let start = ReferenceState {
+            q: DVector::from_element(1, 1.0),
+            v: DVector::zeros(1),
+            work: [0.0; 3],
+        };
         // q = t - 0.1 + exp(-t/20)(A cos + B sin)
         let exact = |t: f64| {
             let w = (1.0_f64 - 0.0025).sqrt();
@@ -194,7 +207,8 @@ mod tests {
         let order = (error(1.6) / error(0.8)).log2();
         assert!((8.5..10.5).contains(&order), "{order} {} {}", error(1.6), error(0.8));
         let first = rates(0.0, &start).unwrap();
-        let ReferenceStep { state: end, error: estimate, .. } = step(rates, &start, &first, 0.4, 1e-9).unwrap();
+        let ReferenceStep { state: end, error: estimate, .. } =
+            step(rates, &start, &first, 0.4, 1e-9).unwrap();
         assert!(estimate < 1.0 && (end.q[0] - exact(0.4)).abs() < 1e-9, "{estimate}");
         let last = rates(0.4, &end).unwrap();
         let middle = within([(&start, &first), (&end, &last)], 0.4, 0.3);

@@ -69,7 +69,8 @@ impl<M: Mechanics> ReferenceWalk<'_, M> {
         self.note(What::Land, landing, before)?;
         if let Some((corner, sense, energy)) = skidding {
             if energy > SKID * self.history.ledger.largest {
-                self.history.first_sliding_landing_s = self.history.first_sliding_landing_s.or(Some(self.time()));
+                self.history.first_sliding_landing_s =
+                    self.history.first_sliding_landing_s.or(Some(self.time()));
             }
             self.skid(corner, sense)?;
         }
@@ -116,7 +117,9 @@ impl<M: Mechanics> ReferenceWalk<'_, M> {
     /// Held corners that would have to be pulled are let go.
     pub(super) fn release(&mut self) -> Result<(), ReferenceOutcome> {
         let rule = self.rule();
-        let pulled = |&(i, force): &(usize, [f64; 2])| force[1] < -self.rounding && !rule.bound(self.contact.held, i);
+        let pulled = |&(i, force): &(usize, [f64; 2])| {
+            force[1] < -self.rounding && !rule.bound(self.contact.held, i)
+        };
         if self.now.rates.forces.iter().any(pulled) { self.choose(CornerSet::NONE) } else { Ok(()) }
     }
 
@@ -129,7 +132,8 @@ impl<M: Mechanics> ReferenceWalk<'_, M> {
         let was = self.contact;
         let mut tried = was.held.minus(going).subsets();
         tried.reverse();
-        let (contact, forces, consistent) = stay(&at, self.ground(0.0), was, &tried, &self.rule()).ok_or(singular)?;
+        let (contact, forces, consistent) =
+            stay(&at, self.ground(0.0), was, &tried, &self.rule()).ok_or(singular)?;
         if !consistent {
             // it can neither press nor leave nor slide: held, and looked at again
             let pulls = |i: &usize| self.margin(*i, &self.now) <= self.rounding;
@@ -166,7 +170,12 @@ impl<M: Mechanics> ReferenceWalk<'_, M> {
             self.release()?;
         }
         let turned = |&footing: &usize| self.mechanics.rotation(footing, &self.now.state.q).abs();
-        if self.mechanics.footings().iter().any(|footing| turned(footing) >= self.options.overturned_at) {
+        if self
+            .mechanics
+            .footings()
+            .iter()
+            .any(|footing| turned(footing) >= self.options.overturned_at)
+        {
             return Err(ReferenceOutcome::Overturned { time: self.time() });
         }
         Ok(())
@@ -180,7 +189,9 @@ impl<M: Mechanics> ReferenceWalk<'_, M> {
             let ReferenceState { q, v, .. } = &self.now.state;
             let at = Configuration::new(self.mechanics, q, v).ok_or(singular)?;
             let q = q + at.shift(self.contact, &self.anchors).ok_or(singular)?.motion;
-            let v = Configuration::new(self.mechanics, &q, v).and_then(|at| at.impact(self.contact)).ok_or(singular)?;
+            let v = Configuration::new(self.mechanics, &q, v)
+                .and_then(|at| at.impact(self.contact))
+                .ok_or(singular)?;
             (self.now.state.q, self.now.state.v) = (q, v.motion);
         }
         self.refresh()
@@ -188,13 +199,15 @@ impl<M: Mechanics> ReferenceWalk<'_, M> {
 
     /// Rates of the present state.
     pub(super) fn refresh(&mut self) -> Result<(), ReferenceOutcome> {
-        self.now.rates = self.rates(0.0, &self.now.state).ok_or_else(|| self.stop(Stop::Singular))?;
+        self.now.rates =
+            self.rates(0.0, &self.now.state).ok_or_else(|| self.stop(Stop::Singular))?;
         Ok(())
     }
 
     fn anchor(&mut self, corners: CornerSet) {
         for i in corners.iter() {
-            self.anchors[i] = self.mechanics.corner(i, &self.now.state.q, &self.now.state.v).place[0];
+            self.anchors[i] =
+                self.mechanics.corner(i, &self.now.state.q, &self.now.state.v).place[0];
         }
     }
 
@@ -203,7 +216,12 @@ impl<M: Mechanics> ReferenceWalk<'_, M> {
         self.mechanics.kinetic(q, v) + self.mechanics.potential(q)
     }
 
-    fn note(&mut self, what: What, corners: CornerSet, before: DVector<f64>) -> Result<(), ReferenceOutcome> {
+    fn note(
+        &mut self,
+        what: What,
+        corners: CornerSet,
+        before: DVector<f64>,
+    ) -> Result<(), ReferenceOutcome> {
         let after = self.now.state.v.clone();
         let energy = [self.energy(&before), self.energy(&after)];
         let q = self.now.state.q.clone();
@@ -218,7 +236,11 @@ impl<M: Mechanics> ReferenceWalk<'_, M> {
             energy,
         };
         self.history.events.push(event);
-        if self.history.events.len() > self.options.max_events { Err(self.stop(Stop::Events)) } else { Ok(()) }
+        if self.history.events.len() > self.options.max_events {
+            Err(self.stop(Stop::Events))
+        } else {
+            Ok(())
+        }
     }
 
     /// Keep the present state, which is a sample's.
@@ -230,7 +252,9 @@ impl<M: Mechanics> ReferenceWalk<'_, M> {
         }
         let (kinetic, potential) = (self.mechanics.kinetic(q, v), self.mechanics.potential(q));
         let ledger = &self.history.ledger;
-        let open = (kinetic + potential + work[0] + work[2] + ledger.landings - work[1] - ledger.start).abs();
+        let open =
+            (kinetic + potential + work[0] + work[2] + ledger.landings - work[1] - ledger.start)
+                .abs();
         self.history.ledger = Ledger {
             kinetic,
             potential,

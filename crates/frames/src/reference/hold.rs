@@ -140,13 +140,18 @@ impl<'a, M: Mechanics> Configuration<'a, M> {
 
     /// Derivatives of the accelerations by q and q', but for what moves with M, G and gamma: none
     /// of that is stiff.
-    pub(crate) fn tangent(&self, ground: [f64; 2], contact: CornerContact) -> Option<[DMatrix<f64>; 2]> {
+    pub(crate) fn tangent(
+        &self,
+        ground: [f64; 2],
+        contact: CornerContact,
+    ) -> Option<[DMatrix<f64>; 2]> {
         let [by_q, by_v] = self.mechanics.tangent(self.q, self.v, ground);
         let held = |minus: DMatrix<f64>| {
             let mut columns = self.mass.solve(&-minus);
             for mut column in columns.column_iter_mut() {
                 let free = column.clone_owned();
-                column.copy_from(&self.hold(contact, Aim::Acceleration, free, |_, _, _| 0.0)?.motion);
+                column
+                    .copy_from(&self.hold(contact, Aim::Acceleration, free, |_, _, _| 0.0)?.motion);
             }
             Some(columns)
         };
@@ -170,7 +175,8 @@ impl<'a, M: Mechanics> Configuration<'a, M> {
         for i in contact.all().iter() {
             let corner = self.mechanics.corner(i, self.q, self.v);
             let slides = contact.sliding.contains(i);
-            let alone = !contact.held.iter().take_while(|&k| k < i).any(|k| footings[k] == footings[i]);
+            let alone =
+                !contact.held.iter().take_while(|&k| k < i).any(|k| footings[k] == footings[i]);
             for direction in [1, 0].into_iter().take(if alone && !slides { 2 } else { 1 }) {
                 gap.push(corner.jacobian[direction].dot(&x) + offset(i, &corner, direction));
                 let force = if slides && friction { 0 } else { direction };

@@ -23,7 +23,10 @@ const ORDER: f64 = 4.0;
 const CONVERGED: f64 = 0.1;
 
 /// I - z J_v - z^2 J_q, factored.
-fn factored<S: nalgebra::ComplexField<RealField = f64>>([by_q, by_v]: &[DMatrix<f64>; 2], z: S) -> LU<S, Dyn, Dyn> {
+fn factored<S: nalgebra::ComplexField<RealField = f64>>(
+    [by_q, by_v]: &[DMatrix<f64>; 2],
+    z: S,
+) -> LU<S, Dyn, Dyn> {
     let n = by_q.nrows();
     let entry = |i: usize, j: usize| {
         let unit = if i == j { S::one() } else { S::zero() };
@@ -53,7 +56,8 @@ pub(crate) fn step(
         let mut residual = [(); 3].map(|()| DVector::zeros(n));
         for (i, at) in stages.iter_mut().enumerate() {
             for k in 0..n {
-                (at.q[k], at.v[k]) = stage(i, (start.q[k], start.v[k]), a.each_ref().map(|a| a[k]), h);
+                (at.q[k], at.v[k]) =
+                    stage(i, (start.q[k], start.v[k]), a.each_ref().map(|a| a[k]), h);
             }
             let should = rates(C[i] * h, at)?;
             (residual[i], powers[i]) = (should.a - &a[i], should.power);
@@ -65,7 +69,10 @@ pub(crate) fn step(
                 let error = estimate(&stages, (start, first), jacobian, &real, h, rtol)?;
                 let [_, _, mut end] = stages;
                 for (weight, power) in A[2].iter().zip(powers) {
-                    end.work.iter_mut().zip(power).for_each(|(work, power)| *work += h * weight * power);
+                    end.work
+                        .iter_mut()
+                        .zip(power)
+                        .for_each(|(work, power)| *work += h * weight * power);
                 }
                 return Some(ReferenceStep { state: end, error, order: ORDER, last: None });
             }
@@ -80,7 +87,8 @@ pub(crate) fn step(
         }
         let mut change: f64 = 0.0;
         for k in 0..n {
-            let (q, v) = (scale.place(start.q[k], start.q[k]), scale.velocity(start.v[k], start.v[k]));
+            let (q, v) =
+                (scale.place(start.q[k], start.q[k]), scale.velocity(start.v[k], start.v[k]));
             for (a, delta) in a.iter_mut().zip(from_modes(r0[k], r1[k])) {
                 a[k] += delta;
                 change = change.max((h * delta / v).abs()).max((h * h * delta / q).abs());
@@ -130,17 +138,28 @@ mod tests {
 
     /// q'' = -k (q - cos t) - c q' + cos'', and its Jacobian: q = cos t if it starts there and k or
     /// c is large.
-    fn towards_a_cosine(k: f64, c: f64) -> (impl Fn(f64, &ReferenceState) -> Option<Rates>, [DMatrix<f64>; 2]) {
+    fn towards_a_cosine(
+        k: f64,
+        c: f64,
+    ) -> (impl Fn(f64, &ReferenceState) -> Option<Rates>, [DMatrix<f64>; 2]) {
         let rates = move |t: f64, y: &ReferenceState| {
             let a = -k * (y.q[0] - t.cos()) - c * (y.v[0] + t.sin()) - t.cos();
-            Some(Rates { a: DVector::from_element(1, a), power: [y.v[0] * y.v[0], 0.0, 0.0], forces: vec![] })
+            Some(Rates {
+                a: DVector::from_element(1, a),
+                power: [y.v[0] * y.v[0], 0.0, 0.0],
+                forces: vec![],
+            })
         };
         (rates, [-k, -c].map(|x| DMatrix::from_element(1, 1, x)))
     }
 
     fn one(h: f64, k: f64, c: f64) -> ReferenceStep {
         let (rates, jacobian) = towards_a_cosine(k, c);
-        let start = ReferenceState { q: DVector::from_element(1, 1.0), v: DVector::zeros(1), work: [0.0; 3] };
+        let start = ReferenceState {
+            q: DVector::from_element(1, 1.0),
+            v: DVector::zeros(1),
+            work: [0.0; 3],
+        };
         let first = rates(0.0, &start).unwrap();
         step(rates, &jacobian, (&start, &first), h, 1e-9).unwrap()
     }
@@ -151,7 +170,12 @@ mod tests {
         let order = (error(0.4) / error(0.2)).log2();
         assert!((5.7..6.5).contains(&order), "{order}");
         let taken = one(0.05, 1.0, 0.1);
-        assert!(taken.error < 1.0 && error(0.05) < 1e-9 * 0.01, "{} {:e}", taken.error, error(0.05));
+        assert!(
+            taken.error < 1.0 && error(0.05) < 1e-9 * 0.01,
+            "{} {:e}",
+            taken.error,
+            error(0.05)
+        );
         // work: the integral of sin^2
         let work = 0.5 * 0.05 - 0.25 * (0.1_f64).sin();
         assert!((taken.state.work[0] - work).abs() < 1e-9, "{:e}", taken.state.work[0] - work);
@@ -162,6 +186,9 @@ mod tests {
     fn stiffness_does_not_limit_the_step() {
         let taken = one(0.01, 1e8, 1e6);
         assert!(taken.error < 1.0, "{}", taken.error);
-        assert!((taken.state.q[0] - 0.01_f64.cos()).abs() < 1e-9 && (taken.state.v[0] + 0.01_f64.sin()).abs() < 1e-9);
+        assert!(
+            (taken.state.q[0] - 0.01_f64.cos()).abs() < 1e-9
+                && (taken.state.v[0] + 0.01_f64.sin()).abs() < 1e-9
+        );
     }
 }

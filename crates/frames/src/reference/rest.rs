@@ -66,8 +66,13 @@ pub fn at_rest(
             (false, true) => rows[i - n][j],
             (false, false) => 0.0,
         });
-        let right = DVector::from_fn(n + r, |i, _| if i < n { force[i] / unit } else { -gaps[i - n] });
-        let solution = matrix.lu().solve(&right).filter(|x| x.iter().all(|x| x.is_finite())).ok_or(RestError::Loose)?;
+        let right =
+            DVector::from_fn(n + r, |i, _| if i < n { force[i] / unit } else { -gaps[i - n] });
+        let solution = matrix
+            .lu()
+            .solve(&right)
+            .filter(|x| x.iter().all(|x| x.is_finite()))
+            .ok_or(RestError::Loose)?;
         let step = solution.rows(0, n);
         q += step;
 

@@ -19,7 +19,12 @@ const TRIALS: usize = 60;
 const ROUNDING: f64 = 1e-15;
 
 /// The first event within a step of length h from `start` to `end`.
-pub(crate) fn first<M: Mechanics>(walk: &ReferenceWalk<M>, start: &Moment, end: &Moment, h: f64) -> Option<Crossing> {
+pub(crate) fn first<M: Mechanics>(
+    walk: &ReferenceWalk<M>,
+    start: &Moment,
+    end: &Moment,
+    h: f64,
+) -> Option<Crossing> {
     let ends = [(&start.state, &start.rates), (&end.state, &end.rates)];
     let inside = |share: f64| walk.moment(share * h, within(ends, h, share));
     let middle = inside(0.5)?;
@@ -43,7 +48,8 @@ pub(crate) fn first<M: Mechanics>(walk: &ReferenceWalk<M>, start: &Moment, end: 
         let Some([low, high]) = bracket.map(|b| b.map(|share| share * h)) else { continue };
         // one that has not crossed at the first crossing so far comes later
         let earlier = |best: &Crossing| {
-            high <= best.after || walk.advanced(start, best.after).is_some_and(|moment| f(&moment) < 0.0)
+            high <= best.after
+                || walk.advanced(start, best.after).is_some_and(|moment| f(&moment) < 0.0)
         };
         let high = match &found {
             Some(best) if !earlier(best) => continue,
@@ -62,7 +68,8 @@ pub(crate) fn first<M: Mechanics>(walk: &ReferenceWalk<M>, start: &Moment, end: 
 fn dip([f0, f1, f2]: [f64; 3]) -> Option<f64> {
     let (a, b) = (2.0 * f0 - 4.0 * f1 + 2.0 * f2, -3.0 * f0 + 4.0 * f1 - f2);
     let share = -b / (2.0 * a);
-    (a > 0.0 && share > 0.0 && share < 1.0 && f0 - b * b / (4.0 * a) <= 0.1 * f0.min(f2)).then_some(share)
+    (a > 0.0 && share > 0.0 && share < 1.0 && f0 - b * b / (4.0 * a) <= 0.1 * f0.min(f2))
+        .then_some(share)
 }
 
 /// Where f falls through zero between low and high, by the Illinois method; None if it does not.

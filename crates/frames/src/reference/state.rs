@@ -87,7 +87,10 @@ pub(crate) fn within(ends: [(&ReferenceState, &Rates); 2], h: f64, share: f64) -
     ];
     let known = [&start.q, &end.q, &start.v, &end.v, &first.a, &last.a];
     let sum = |weights: [f64; 6]| {
-        known.iter().zip(weights).fold(DVector::zeros(start.q.len()), |sum, (x, weight)| sum + *x * weight)
+        known
+            .iter()
+            .zip(weights)
+            .fold(DVector::zeros(start.q.len()), |sum, (x, weight)| sum + *x * weight)
     };
     let work = std::array::from_fn(|k| start.work[k] + share * (end.work[k] - start.work[k]));
     ReferenceState { q: sum(place), v: sum(rate), work }

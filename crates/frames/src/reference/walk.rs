@@ -7,8 +7,8 @@ use super::hold::{Configuration, CornerContact};
 use super::state::{Rates, ReferenceState, ReferenceStep};
 use super::stiffness::Stiffness;
 use super::{
-    CornerSet, ElasticRocking, GroundAcceleration, Ledger, ReferenceOptions, ReferenceOutcome, Stop, dop853, implicit,
-    search, step_units,
+    CornerSet, ElasticRocking, GroundAcceleration, Ledger, ReferenceOptions, ReferenceOutcome,
+    Stop, dop853, implicit, search, step_units,
 };
 use crate::Mechanics;
 use rocking::scalar::GRAVITY;
@@ -112,7 +112,10 @@ impl<'a, M: Mechanics> ReferenceWalk<'a, M> {
         self.history
     }
 
-    fn follow(&mut self, go_on: &mut impl FnMut(&DVector<f64>) -> bool) -> Result<(), ReferenceOutcome> {
+    fn follow(
+        &mut self,
+        go_on: &mut impl FnMut(&DVector<f64>) -> bool,
+    ) -> Result<(), ReferenceOutcome> {
         if self.mechanics.footings().len() > CornerSet::MOST {
             return Err(self.stop(Stop::Corners));
         }
@@ -144,9 +147,14 @@ impl<'a, M: Mechanics> ReferenceWalk<'a, M> {
             }
             self.history.tried += 1;
             let tried = self.step(&self.now, h);
-            let factor = tried.as_ref().map_or(0.0, |tried| 0.9 * tried.error.powf(-1.0 / tried.order)).clamp(0.2, 6.0);
+            let factor = tried
+                .as_ref()
+                .map_or(0.0, |tried| 0.9 * tried.error.powf(-1.0 / tried.order))
+                .clamp(0.2, 6.0);
             let tried = tried.filter(|tried| tried.error <= 1.0);
-            let Some((end, last)) = tried.and_then(|tried| Some((self.moment(h, tried.state)?, tried.last))) else {
+            let Some((end, last)) =
+                tried.and_then(|tried| Some((self.moment(h, tried.state)?, tried.last)))
+            else {
                 self.h = h * factor.min(0.5);
                 if self.h < SHORTEST * self.ground.dt {
                     return Err(self.stop(Stop::Step));
@@ -167,7 +175,9 @@ impl<'a, M: Mechanics> ReferenceWalk<'a, M> {
                     self.look()?;
                 }
                 Some(crossing) => {
-                    self.now = self.advanced(&self.now, crossing.after).ok_or_else(|| self.stop(Stop::Singular))?;
+                    self.now = self
+                        .advanced(&self.now, crossing.after)
+                        .ok_or_else(|| self.stop(Stop::Singular))?;
                     self.since += crossing.after;
                     // fast motions that it begins are for the explicit method
                     self.stiffness = Stiffness::default();
@@ -181,9 +191,11 @@ impl<'a, M: Mechanics> ReferenceWalk<'a, M> {
     /// The ground's acceleration at a time since the present.
     pub(super) fn ground(&self, t: f64) -> [f64; 2] {
         let share = (self.since + t) / self.ground.dt;
-        [self.ground.accel, self.ground.vertical].map(|accel| match accel.get(self.interval..self.interval + 2) {
-            Some(ends) => self.options.scale * (ends[0] + share * (ends[1] - ends[0])),
-            None => 0.0,
+        [self.ground.accel, self.ground.vertical].map(|accel| {
+            match accel.get(self.interval..self.interval + 2) {
+                Some(ends) => self.options.scale * (ends[0] + share * (ends[1] - ends[0])),
+                None => 0.0,
+            }
         })
     }
 
@@ -191,8 +203,10 @@ impl<'a, M: Mechanics> ReferenceWalk<'a, M> {
         let (q, v, ground) = (&state.q, &state.v, self.ground(t));
         let at = Configuration::new(self.mechanics, q, v)?;
         let held = at.accelerations(ground, self.contact)?;
-        let slid: f64 = self.contact.sliding.iter().map(|i| -held.force(i)[0] * at.slip(i, v, false)).sum();
-        let power = [self.mechanics.dissipation(q, v), self.mechanics.input_power(q, v, ground), slid];
+        let slid: f64 =
+            self.contact.sliding.iter().map(|i| -held.force(i)[0] * at.slip(i, v, false)).sum();
+        let power =
+            [self.mechanics.dissipation(q, v), self.mechanics.input_power(q, v, ground), slid];
         Some(Rates { a: held.motion, power, forces: held.forces })
     }
 
@@ -225,7 +239,9 @@ impl<'a, M: Mechanics> ReferenceWalk<'a, M> {
     /// Corners at which something may happen.
     pub(crate) fn watched(&self) -> impl Iterator<Item = usize> {
         let (rule, held) = (self.rule(), self.contact.held);
-        self.all.iter().filter(move |&i| !held.contains(i) || !(self.stuck.contains(i) || rule.bound(held, i)))
+        self.all
+            .iter()
+            .filter(move |&i| !held.contains(i) || !(self.stuck.contains(i) || rule.bound(held, i)))
     }
 
     /// What falls to zero at a corner's lift (N), at its landing (m), or at the end of its sliding

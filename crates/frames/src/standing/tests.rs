@@ -22,7 +22,10 @@ fn under_an_elastic_column_the_footing_lands_alone() {
         for column in 0..4 {
             let by_hand = (g[row][0] * g[column][0] + g[row][1] * g[column][1]) / pier.footing_mass
                 + g[row][2] * g[column][2] / i;
-            assert!((standing.footings[0].w[(row, column)] - by_hand).abs() < 1e-12 * 1e-3, "{row} {column}");
+            assert!(
+                (standing.footings[0].w[(row, column)] - by_hand).abs() < 1e-12 * 1e-3,
+                "{row} {column}"
+            );
         }
     }
     assert_relative_eq!(standing.footings[0].width, 4.0, max_relative = 1e-12);
@@ -58,7 +61,9 @@ fn a_pier_lifts_where_statics_say() {
     let lift = standing(&pier).uplift().unwrap();
     let g = rocking::scalar::GRAVITY;
     let holds = (pier.mass + pier.footing_mass) * g * pier.half_width;
-    let by = pier.mass * pier.height + pier.footing_mass * pier.footing_height + pier.mass.powi(2) * g / pier.stiffness;
+    let by = pier.mass * pier.height
+        + pier.footing_mass * pier.footing_height
+        + pier.mass.powi(2) * g / pier.stiffness;
     assert_relative_eq!(lift, holds / by, max_relative = 1e-8);
 }
 
@@ -78,5 +83,9 @@ fn a_portal_lifts_where_statics_say() {
     let portal = crate::assembled::Assembled::new(structure.checked().unwrap()).unwrap();
     let weight = mass * rocking::scalar::GRAVITY;
     let a_unit = (l / 4.0 + t / 2.0) / w + l / (4.0 * s);
-    assert_relative_eq!(portal.uplift_g().unwrap(), weight / 4.0 / a_unit / weight, max_relative = 2e-3);
+    assert_relative_eq!(
+        portal.uplift_g().unwrap(),
+        weight / 4.0 / a_unit / weight,
+        max_relative = 2e-3
+    );
 }

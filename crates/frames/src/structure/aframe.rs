@@ -4,7 +4,10 @@ use std::f64::consts::{PI, TAU};
 
 use serde::{Deserialize, Serialize};
 
-use super::{AXIAL, BENDING, ElasticError, LENGTH, MASS, damping, not_negative, positive, shortens, slender, stands};
+use super::{
+    AXIAL, BENDING, ElasticError, LENGTH, MASS, damping, not_negative, positive, shortens, slender,
+    stands,
+};
 use rocking::{
     scalar::GRAVITY,
     structure::{Body, LEAST_INERTIA},
@@ -56,7 +59,11 @@ impl AFrameSpec {
         let critical = PI * PI * self.ei_nm2 / self.leg_length().powi(2);
         // leaning, the frame stands on one foot: a leg carries all
         stands("a leg", self.mass_kg * GRAVITY + tension, critical)?;
-        shortens("a leg", self.leg_load() + 0.5 * tension * self.leg_length() / self.height_m, self.ea_n)
+        shortens(
+            "a leg",
+            self.leg_load() + 0.5 * tension * self.leg_length() / self.height_m,
+            self.ea_n,
+        )
     }
 
     /// Length of a leg (m).

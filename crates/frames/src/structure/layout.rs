@@ -38,7 +38,17 @@ impl ElasticStructure {
             Self::Frame(frame) if frame.column_mass_kg > 0.0 => {
                 let Portal { height, mass, inertia, footing, column, .. } =
                     PortalSpec { elements: Some(elements), ..*frame }.finite();
-                Some(Cantilever { mass, inertia: Some(inertia), height, footing, column, consistent: false }.layout())
+                Some(
+                    Cantilever {
+                        mass,
+                        inertia: Some(inertia),
+                        height,
+                        footing,
+                        column,
+                        consistent: false,
+                    }
+                    .layout(),
+                )
             }
             _ => None,
         }
@@ -67,8 +77,11 @@ impl PierSpec {
             axial: ea,
             bending: ei,
             shear: self.ga(),
-            axial_damping: 2.0 * self.axial_damping_ratio() * (ea * self.moving_mass() * length).sqrt(),
-            bending_damping: 2.0 * self.damping_ratio * self.moving_mass() * omega * length.powi(3) / 3.0
+            axial_damping: 2.0
+                * self.axial_damping_ratio()
+                * (ea * self.moving_mass() * length).sqrt(),
+            bending_damping: 2.0 * self.damping_ratio * self.moving_mass() * omega * length.powi(3)
+                / 3.0
                 * (1.0 + self.shear_flexibility()),
             line_mass: self.column_mass_kg / length,
         };
@@ -124,7 +137,13 @@ impl PortalSpec {
             line_mass,
         };
         let length = self.length();
-        let column = section(self.column_ea_n, self.column_ei_nm2, length, mass, self.column_mass_kg / length);
+        let column = section(
+            self.column_ea_n,
+            self.column_ei_nm2,
+            length,
+            mass,
+            self.column_mass_kg / length,
+        );
         let column = BeamSection { shear: self.column_ga(), ..column };
         // its two ends against each other: half of the mass at one
         let girder = section(self.beam_ea_n, self.beam_ei_nm2, self.span_m, 0.5 * mass, 0.0);

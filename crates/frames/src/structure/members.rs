@@ -51,11 +51,16 @@ impl ElasticStructure {
     pub(crate) fn layout_with(&self, members: &Members<f64>) -> FrameLayout {
         let mut layout = self.layout();
         if let Some(damper) = members.damper {
-            layout.dampers = layout.corners.iter().map(|&at| FrameDamper { at, c: [0.0, damper.c] }).collect();
+            layout.dampers =
+                layout.corners.iter().map(|&at| FrameDamper { at, c: [0.0, damper.c] }).collect();
         }
         if let Some(tendon) = members.tendon {
-            let of =
-                |(at, anchor)| FrameTendon { at, anchor, stiffness: tendon.stiffness, pretension: tendon.pretension };
+            let of = |(at, anchor)| FrameTendon {
+                at,
+                anchor,
+                stiffness: tendon.stiffness,
+                pretension: tendon.pretension,
+            };
             layout.tendons = self.tied().into_iter().map(of).collect();
         }
         layout

@@ -5,8 +5,8 @@ use std::f64::consts::{PI, TAU};
 use serde::{Deserialize, Serialize};
 
 use super::{
-    AXIAL, BENDING, ElasticError, FREQUENCY, LENGTH, MASS, SHEAR_SHARE, check_elements, damping, elements,
-    not_negative, positive, shortens, slender, stands,
+    AXIAL, BENDING, ElasticError, FREQUENCY, LENGTH, MASS, SHEAR_SHARE, check_elements, damping,
+    elements, not_negative, positive, shortens, slender, stands,
 };
 use rocking::{scalar::GRAVITY, structure::Body};
 
@@ -88,7 +88,10 @@ impl PierSpec {
             return Err(ElasticError::Bending { both: self.ei_nm2.is_some() });
         }
         if self.footing_height_m >= 0.95 * self.height_m {
-            return Err(ElasticError::NoColumn { footing: self.footing_height_m, height: self.height_m });
+            return Err(ElasticError::NoColumn {
+                footing: self.footing_height_m,
+                height: self.height_m,
+            });
         }
         if !(self.ei() > 0.0 && self.ei() <= BENDING.1) {
             return Err(ElasticError::Shear { ga: self.ga() });
@@ -113,7 +116,8 @@ impl PierSpec {
 
     /// Rotational inertia of the footing about its centre of mass (kg m2).
     pub fn footing_inertia(&self) -> f64 {
-        let block = self.footing_mass_kg * (self.width_m.powi(2) + self.footing_height_m.powi(2)) / 12.0;
+        let block =
+            self.footing_mass_kg * (self.width_m.powi(2) + self.footing_height_m.powi(2)) / 12.0;
         self.footing_inertia_kgm2.unwrap_or(block)
     }
 
@@ -143,7 +147,9 @@ impl PierSpec {
     /// GA_s (N): as given; of a column with a mass of its own a share of EA; infinite otherwise, as
     /// before there are waves to bound.
     pub fn ga(&self) -> f64 {
-        self.ga_n.unwrap_or_else(|| if self.column_mass_kg > 0.0 { SHEAR_SHARE * self.ea() } else { f64::INFINITY })
+        self.ga_n.unwrap_or_else(|| {
+            if self.column_mass_kg > 0.0 { SHEAR_SHARE * self.ea() } else { f64::INFINITY }
+        })
     }
 
     /// By how much shear makes the column softer across: 3 EI/(GA_s L^2).
@@ -179,7 +185,8 @@ impl PierSpec {
 
     pub(super) fn frequency(&self) -> f64 {
         let length = self.length();
-        let stiffness = 3.0 * self.ei() / length.powi(3) / (1.0 + self.shear_flexibility()) - self.load() / length;
+        let stiffness = 3.0 * self.ei() / length.powi(3) / (1.0 + self.shear_flexibility())
+            - self.load() / length;
         (stiffness / self.moving_mass()).max(0.0).sqrt() / TAU
     }
 

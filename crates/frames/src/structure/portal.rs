@@ -5,8 +5,8 @@ use std::f64::consts::{PI, TAU};
 use serde::{Deserialize, Serialize};
 
 use super::{
-    AXIAL, BENDING, ElasticError, LENGTH, MASS, SHEAR_SHARE, aframe::together, check_elements, damping, elements,
-    not_negative, positive, shortens, slender, stands,
+    AXIAL, BENDING, ElasticError, LENGTH, MASS, SHEAR_SHARE, aframe::together, check_elements,
+    damping, elements, not_negative, positive, shortens, slender, stands,
 };
 use rocking::{scalar::GRAVITY, structure::Body};
 
@@ -68,7 +68,10 @@ impl PortalSpec {
         not_negative("column_mass_kg", self.column_mass_kg, MASS.1)?;
         damping("damping_ratio", self.damping_ratio)?;
         if self.footing_height_m >= 0.95 * self.height_m {
-            return Err(ElasticError::NoColumn { footing: self.footing_height_m, height: self.height_m });
+            return Err(ElasticError::NoColumn {
+                footing: self.footing_height_m,
+                height: self.height_m,
+            });
         }
         if self.footing_width_m > self.span_m {
             return Err(ElasticError::Overlap { width: self.footing_width_m, span: self.span_m });
@@ -101,7 +104,8 @@ impl PortalSpec {
     /// GA_s of a column (N): as given; of columns with a mass of their own a share of EA; infinite
     /// otherwise.
     pub fn column_ga(&self) -> f64 {
-        let unless_given = if self.column_mass_kg > 0.0 { SHEAR_SHARE * self.column_ea_n } else { f64::INFINITY };
+        let unless_given =
+            if self.column_mass_kg > 0.0 { SHEAR_SHARE * self.column_ea_n } else { f64::INFINITY };
         self.column_ga_n.unwrap_or(unless_given)
     }
 
@@ -127,7 +131,8 @@ impl PortalSpec {
     pub(super) fn frequency(&self) -> f64 {
         let length = self.length();
         let g = self.beam_ei_nm2 / self.span_m / (self.column_ei_nm2 / length);
-        let stiffness = 24.0 * self.column_ei_nm2 / length.powi(3) * (1.0 + 6.0 * g) / (4.0 + 6.0 * g);
+        let stiffness =
+            24.0 * self.column_ei_nm2 / length.powi(3) * (1.0 + 6.0 * g) / (4.0 + 6.0 * g);
         let stiffness = stiffness / (1.0 + stiffness * length / (2.0 * self.column_ga()));
         // 13/35 of a column that is clamped at both ends moves with its top
         let mass = self.beam_mass_kg + 2.0 * 13.0 / 35.0 * self.column_mass_kg;

@@ -40,7 +40,11 @@ fn without_ea_a_column_is_square_and_of_concrete() {
     let pier = PierSpec { frequency_hz: None, ei_nm2: Some(30e9 * a.powi(4) / 12.0), ..pier() };
     assert_relative_eq!(pier.ea(), 30e9 * a * a, max_relative = 1e-12);
     // 600 t x 9.81 m/s2 over EA
-    assert_relative_eq!(ElasticStructure::Pier(pier).shortening(), 5.886e6 / (30e9 * 3.24), max_relative = 1e-12);
+    assert_relative_eq!(
+        ElasticStructure::Pier(pier).shortening(),
+        5.886e6 / (30e9 * 3.24),
+        max_relative = 1e-12
+    );
 }
 
 #[test]
@@ -77,13 +81,21 @@ fn what_no_structure_can_be_is_refused_in_one_line() {
         ("600e3", "nan", "mass_kg"),
         ("width_m = 4.0", "width_m = 90.0", "slenderness"),
         ("damping_ratio = 0.02", "damping_ratio = 2.0", "damping"),
-        ("frequency_hz = 2.0", "frequency_hz = 2.0\nei_nm2 = 1e10", "one of ei_nm2 and frequency_hz"),
+        (
+            "frequency_hz = 2.0",
+            "frequency_hz = 2.0\nei_nm2 = 1e10",
+            "one of ei_nm2 and frequency_hz",
+        ),
         ("frequency_hz = 2.0", "", "one of ei_nm2 and frequency_hz"),
         ("frequency_hz = 2.0", "frequency_hz = 2.0\nea_n = 1e6", "ea_n"),
         ("frequency_hz = 2.0", "ei_nm2 = 1e6", "buckles"),
         ("footing_height_m = 1.5", "footing_height_m = 12.0", "footing_height_m"),
         ("frequency_hz = 2.0", "frequency_hz = 2.0\nelements = 8", "elements"),
-        ("frequency_hz = 2.0", "frequency_hz = 2.0\ncolumn_mass_kg = 1e4\nelements = 800", "elements"),
+        (
+            "frequency_hz = 2.0",
+            "frequency_hz = 2.0\ncolumn_mass_kg = 1e4\nelements = 800",
+            "elements",
+        ),
         ("frequency_hz = 2.0", "frequency_hz = 2.0\ncolour = 3", "colour"),
     ] {
         let message = read(&PIER.replace(from, to)).expect_err(to);
@@ -116,7 +128,10 @@ fn finite_elements_have_the_frequency_of_the_closed_form() {
     for (structure, within) in [
         // P-Delta of the shortened column
         (ElasticStructure::Pier(pier), 1e-3),
-        (ElasticStructure::Pier(PierSpec { column_mass_kg: 60e3, elements: Some(8), ..pier }), 5e-3),
+        (
+            ElasticStructure::Pier(PierSpec { column_mass_kg: 60e3, elements: Some(8), ..pier }),
+            5e-3,
+        ),
     ] {
         assert_relative_eq!(lowest(&structure), structure.frequency_hz(), max_relative = within);
     }
@@ -140,7 +155,11 @@ fn a_column_with_mass_gives_in_shear() {
     assert_relative_eq!(heavy.ga(), heavy.ea() * 5.0 / 6.0 / 2.4, max_relative = 1e-12);
     assert_relative_eq!(ElasticStructure::Pier(heavy).frequency_hz(), 2.0, max_relative = 1e-12);
     for given in [PierSpec { ea_n: Some(6e10), ..heavy }, PierSpec { ga_n: Some(1e9), ..heavy }] {
-        assert_relative_eq!(ElasticStructure::Pier(given).frequency_hz(), 2.0, max_relative = 1e-12);
+        assert_relative_eq!(
+            ElasticStructure::Pier(given).frequency_hz(),
+            2.0,
+            max_relative = 1e-12
+        );
     }
     assert_eq!(pier().ga(), f64::INFINITY);
 }

@@ -20,19 +20,31 @@ const GROWN: f64 = 1e4;
 
 /// (theta, u) of a file.
 fn rows(name: &str) -> Vec<[f64; 2]> {
-    let path = Path::new(env!("CARGO_MANIFEST_DIR")).join("tests/elastic/data").join(name).with_extension("csv");
+    let path = Path::new(env!("CARGO_MANIFEST_DIR"))
+        .join("tests/elastic/data")
+        .join(name)
+        .with_extension("csv");
     let mut reader = csv::Reader::from_path(path).unwrap();
-    reader.deserialize().map(|row| row.unwrap()).map(|(_, theta, u): (f64, f64, f64)| [theta, u]).collect()
+    reader
+        .deserialize()
+        .map(|row| row.unwrap())
+        .map(|(_, theta, u): (f64, f64, f64)| [theta, u])
+        .collect()
 }
 
 /// Equal to [`SHARE`] of the peaks in the first `samples`; at least so many seconds of it.
 fn assert_equal(history: &ElasticRocking, name: &str, samples: usize, seconds: f64) {
     let rows = rows(name);
     let compared = samples.div_ceil(EVERY).min(rows.len());
-    assert!(((compared - 1) * EVERY) as f64 * 0.01 >= seconds - 1e-9, "{name}: {compared} rows of {}", rows.len());
+    assert!(
+        ((compared - 1) * EVERY) as f64 * 0.01 >= seconds - 1e-9,
+        "{name}: {compared} rows of {}",
+        rows.len()
+    );
     for k in 0..2 {
         let peak = rows.iter().fold(0.0, |peak: f64, row| peak.max(row[k].abs()));
-        let error = |(i, row): (usize, &[f64; 2])| (history.q[EVERY * i][2 + k] - row[k]).abs() / peak;
+        let error =
+            |(i, row): (usize, &[f64; 2])| (history.q[EVERY * i][2 + k] - row[k]).abs() / peak;
         let worst = rows[..compared].iter().enumerate().map(error).fold(0.0, f64::max);
         println!("{name}: {worst:.1e} over {compared} rows");
         assert!(worst < SHARE, "{name}: {worst}");
@@ -76,7 +88,10 @@ fn el_centro() {
             ground,
             (&q, &v),
             &options,
-            (&history, &PerturbedPair { coordinates: &[2, 3], perturbation: 1e-6, limit: f64::INFINITY }),
+            (
+                &history,
+                &PerturbedPair { coordinates: &[2, 3], perturbation: 1e-6, limit: f64::INFINITY },
+            ),
         );
         println!("{name}: growth {:.0} in 8 s", grown.last());
         assert_equal(&history, name, grown.samples_below(GROWN), 6.0);

@@ -3,8 +3,8 @@
 use frames::{
     Mechanics,
     reference::{
-        Configuration, CornerContact, CornerSet, ElasticRocking, GroundAcceleration, ReferenceEvent, ReferenceOptions,
-        ReferenceOutcome, What, at_rest, rock,
+        Configuration, CornerContact, CornerSet, ElasticRocking, GroundAcceleration,
+        ReferenceEvent, ReferenceOptions, ReferenceOutcome, What, at_rest, rock,
     },
 };
 use nalgebra::DVector;
@@ -21,16 +21,31 @@ fn weight(structure: &impl Mechanics, q: &DVector<f64>) -> f64 {
 fn assert_sound(structure: &impl Mechanics, history: &ElasticRocking, name: &str) {
     // of a structure that never moves, what lifting it by a micrometre takes
     let scale = history.ledger.largest.max(1e-6 * weight(structure, &history.q[0]));
-    assert!(!matches!(history.outcome, ReferenceOutcome::Stopped { .. }), "{name}: {:?}", history.outcome);
+    assert!(
+        !matches!(history.outcome, ReferenceOutcome::Stopped { .. }),
+        "{name}: {:?}",
+        history.outcome
+    );
     assert!(history.ledger.open < 1e-6 * scale, "{name}: {:?}", history.ledger);
-    assert!(history.ledger.damped >= 0.0 && history.ledger.slid >= -1e-12 * scale, "{name}: {:?}", history.ledger);
+    assert!(
+        history.ledger.damped >= 0.0 && history.ledger.slid >= -1e-12 * scale,
+        "{name}: {:?}",
+        history.ledger
+    );
     for event in &history.events {
         assert!(event.loss() >= -1e-12 * scale, "{name}: {event:?}");
     }
-    assert!(history.pulled <= 1e-6 * weight(structure, &history.q[0]), "{name}: {}", history.pulled);
+    assert!(
+        history.pulled <= 1e-6 * weight(structure, &history.q[0]),
+        "{name}: {}",
+        history.pulled
+    );
     for (q, v) in history.q.iter().zip(&history.v) {
         for i in 0..structure.footings().len() {
-            assert!(structure.corner(i, q, v).place[1] > -1e-9, "{name}: corner {i} below the ground");
+            assert!(
+                structure.corner(i, q, v).place[1] > -1e-9,
+                "{name}: corner {i} below the ground"
+            );
         }
     }
 }
@@ -63,22 +78,35 @@ fn assert_plastic(structure: &impl Mechanics, event: &ReferenceEvent, name: &str
         let braked = at.braked(CornerContact { held: event.held, sliding }).unwrap();
         for i in sliding.iter() {
             // the ground brakes it, and would have to pull to stop it
-            assert!(at.slip(i, &braked.motion, false) * braked.force(i)[0] <= 0.0, "{name}: {event:?}");
+            assert!(
+                at.slip(i, &braked.motion, false) * braked.force(i)[0] <= 0.0,
+                "{name}: {event:?}"
+            );
             let stopped = at.impact(CornerContact::held(event.held.with(i))).unwrap();
             assert!(stopped.force(i)[1] < 0.0, "{name}: {event:?}");
         }
         braked
     };
     assert!((&impact.motion - after).amax() < 1e-7 * speed, "{name}: {event:?}");
-    let largest = impact.forces.iter().flat_map(|(_, force)| force).fold(0.0, |most: f64, force| most.max(force.abs()));
+    let largest = impact
+        .forces
+        .iter()
+        .flat_map(|(_, force)| force)
+        .fold(0.0, |most: f64, force| most.max(force.abs()));
     for i in 0..structure.footings().len() {
         let corner = structure.corner(i, &event.q, before);
         if event.held.contains(i) {
-            assert!(corner.jacobian.iter().all(|row| row.dot(after).abs() < 1e-9 * speed), "{name}: {event:?}");
+            assert!(
+                corner.jacobian.iter().all(|row| row.dot(after).abs() < 1e-9 * speed),
+                "{name}: {event:?}"
+            );
             // where a row of hops is ended, the last one is stopped: what some 1e-5 m/s and rad/s
             // take
             let rounding = 1e-6 * largest + 1e-5 * structure.whole_mass(&event.q);
-            assert!(event.corners.contains(i) || impact.force(i)[1] > -rounding, "{name}: pulled {event:?}");
+            assert!(
+                event.corners.contains(i) || impact.force(i)[1] > -rounding,
+                "{name}: pulled {event:?}"
+            );
         } else if corner.place[1].abs() < 1e-12 {
             assert!(corner.jacobian[1].dot(after) > -1e-8 * speed, "{name}: {event:?}");
         }
@@ -93,14 +121,20 @@ fn energy_never_grows_in_random_piers() {
     for case in 0..40 {
         let pier = random.pier();
         let [accel, vertical] = random.shake(slenderness(&pier), 601);
-        let (q, v) =
-            (at_rest(&pier, &DVector::zeros(pier.size()), (0..2).collect(), &[]).unwrap(), DVector::zeros(pier.size()));
+        let (q, v) = (
+            at_rest(&pier, &DVector::zeros(pier.size()), (0..2).collect(), &[]).unwrap(),
+            DVector::zeros(pier.size()),
+        );
         let ground = GroundAcceleration { dt: 0.01, accel: &accel, vertical: &vertical };
         let history = rock(&pier, ground, (&q, &v), &ReferenceOptions::default());
         assert_sound(&pier, &history, &format!("case {case}"));
         assert_pushed(&pier, &history, &format!("case {case}"));
         events += history.events.len();
-        hops += history.events.iter().filter(|event| event.what == What::Lift && event.held.is_empty()).count();
+        hops += history
+            .events
+            .iter()
+            .filter(|event| event.what == What::Lift && event.held.is_empty())
+            .count();
         slips += history.events.iter().filter(|event| event.what == What::Slip).count();
     }
     println!("{events} events, {hops} hops, {slips} slips");
@@ -146,8 +180,12 @@ fn both_footings_of_a_symmetrical_portal_land_at_once() {
     let mut random = Random::new(5);
     let accel = random.motion(601, 9.0);
     let start = DVector::zeros(6);
-    let history =
-        rock(&portal, GroundAcceleration::horizontal(0.01, &accel), (&start, &start), &ReferenceOptions::default());
+    let history = rock(
+        &portal,
+        GroundAcceleration::horizontal(0.01, &accel),
+        (&start, &start),
+        &ReferenceOptions::default(),
+    );
     assert!(history.landings().count() > 4);
     for q in &history.q {
         for i in 0..3 {
@@ -159,7 +197,9 @@ fn both_footings_of_a_symmetrical_portal_land_at_once() {
 /// Heavy wide footings land many times on the way to rest: a row of hops without end is ended.
 #[test]
 fn rocking_comes_to_rest() {
-    for pier in [crate::piers::heavy(), crate::piers::heavy().with_axial(8e9, 0.02), crate::piers::light()] {
+    for pier in
+        [crate::piers::heavy(), crate::piers::heavy().with_axial(8e9, 0.02), crate::piers::light()]
+    {
         let history = crate::piers::free_rocking(&pier, 0.02, 20.0, &ReferenceOptions::default());
         assert_eq!(history.outcome, ReferenceOutcome::Completed);
         assert!(history.events.len() < 2000, "{}", history.events.len());
@@ -177,6 +217,8 @@ fn a_history_ends_in_one_of_three_ways() {
     assert!(matches!(outcome, ReferenceOutcome::Overturned { time } if time > 0.5), "{outcome:?}");
     let few = ReferenceOptions { max_events: 2, ..ReferenceOptions::default() };
     let history = crate::piers::free_rocking(&pier, 0.0975, 5.0, &few);
-    assert!(matches!(history.outcome, ReferenceOutcome::Stopped { .. }) && history.events.len() == 3);
+    assert!(
+        matches!(history.outcome, ReferenceOutcome::Stopped { .. }) && history.events.len() == 3
+    );
     assert!(history.q.len() < 300);
 }

@@ -39,7 +39,10 @@ fn lagrange(damped: &impl Mechanics, free: &impl Mechanics, q: &DVector<f64>, v:
     // dampers take what they say, and nothing at rest
     let dampers = damped.force(q, v, still) - &force;
     let taken = damped.dissipation(q, v);
-    assert!((dampers.dot(v) + taken).abs() <= 1e-9 * taken.max(1e-9 * force.dot(v).abs()), "{taken}");
+    assert!(
+        (dampers.dot(v) + taken).abs() <= 1e-9 * taken.max(1e-9 * force.dot(v).abs()),
+        "{taken}"
+    );
     // the ground's share is its power
     let ground = [1.3, -0.7];
     let power = (free.force(q, v, ground) - force).dot(v);
@@ -61,8 +64,12 @@ fn kinematics(structure: &impl Mechanics, q: &DVector<f64>, v: &DVector<f64>) {
         for direction in 0..2 {
             let row = &corner.jacobian[direction];
             for j in 0..n {
-                let column = difference(q, &unit(n, j), |q| structure.corner(i, q, v).place[direction]);
-                assert!((row[j] - column).abs() < 1e-8 * (1.0 + row.amax()), "corner {i} {direction} {j}");
+                let column =
+                    difference(q, &unit(n, j), |q| structure.corner(i, q, v).place[direction]);
+                assert!(
+                    (row[j] - column).abs() < 1e-8 * (1.0 + row.amax()),
+                    "corner {i} {direction} {j}"
+                );
             }
             let bias = difference(q, v, |q| structure.corner(i, q, v).jacobian[direction].dot(v));
             assert!((corner.bias[direction] - bias).abs() < 1e-8 * (1.0 + bias.abs()));
@@ -79,7 +86,9 @@ fn piers_of_every_column_obey_lagrange() {
         let axial = pier.axial.map(|axial| frames::Axial { damping: 0.0, ..axial });
         Pier { damping: 0.0, axial, ..*pier }
     };
-    for pier in [light(), light().with_axial(4e8, 0.1), light().with_axial(4e8, 0.1).with_chord(11.0)] {
+    for pier in
+        [light(), light().with_axial(4e8, 0.1), light().with_axial(4e8, 0.1).with_chord(11.0)]
+    {
         for _ in 0..20 {
             let scales = [0.5, 0.5, 0.6, 0.5, 0.2];
             let q = DVector::from_fn(pier.size(), |i, _| random.within(-scales[i], scales[i]));
@@ -115,7 +124,8 @@ fn a_pier_on_one_corner_has_the_energies_of_theory() {
         let arm = pivot - u;
         let (m, m_b, h, h_b) = (pier.mass, pier.footing_mass, pier.height, pier.footing_height);
         let about_corner = pier.footing_inertia + m_b * (pivot * pivot + h_b * h_b);
-        let kinetic = 0.5 * m * ((du + h * w).powi(2) + (arm * w).powi(2)) + 0.5 * about_corner * w * w;
+        let kinetic =
+            0.5 * m * ((du + h * w).powi(2) + (arm * w).powi(2)) + 0.5 * about_corner * w * w;
         let potential = m * g * (arm * sin + h * (cos - 1.0))
             + m_b * g * (pivot * sin + h_b * (cos - 1.0))
             + 0.5 * pier.stiffness * u * u;

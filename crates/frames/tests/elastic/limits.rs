@@ -3,8 +3,8 @@
 use frames::{
     Mechanics, Pier,
     reference::{
-        Configuration, CornerContact, CornerSet, GroundAcceleration, PerturbedPair, ReferenceOptions, at_rest, growth,
-        rock,
+        Configuration, CornerContact, CornerSet, GroundAcceleration, PerturbedPair,
+        ReferenceOptions, at_rest, growth, rock,
     },
 };
 use nalgebra::DVector;
@@ -25,18 +25,23 @@ fn restitution(pier: &Pier, theta: f64, seconds: f64, options: &ReferenceOptions
     let [first, second] = {
         let landings: Vec<f64> = history.landings().map(|event| event.time).collect();
         // a landing at the other side of zero follows the peak
-        let crossing = landings.iter().find(|&&time| time > landings[0] + 0.5).expect("a second landing");
+        let crossing =
+            landings.iter().find(|&&time| time > landings[0] + 0.5).expect("a second landing");
         [landings[0], *crossing]
     };
     let between = |(i, _): &(usize, &DVector<f64>)| (first..second).contains(&(0.01 * *i as f64));
-    let samples: Vec<_> = history.q.iter().enumerate().filter(between).map(|(_, q)| q[2].abs()).collect();
+    let samples: Vec<_> =
+        history.q.iter().enumerate().filter(between).map(|(_, q)| q[2].abs()).collect();
     // the peak between samples, by a parabola
-    let i = (1..samples.len() - 1).max_by(|&a, &b| samples[a].total_cmp(&samples[b])).expect("samples");
+    let i =
+        (1..samples.len() - 1).max_by(|&a, &b| samples[a].total_cmp(&samples[b])).expect("samples");
     let (a, b, c) = (samples[i - 1], samples[i], samples[i + 1]);
     let peak = b - (c - a).powi(2) / (8.0 * (a - 2.0 * b + c));
     let potential = |theta: f64| {
-        let (moment, first) =
-            (pier.mass * pier.height + pier.footing_mass * pier.footing_height, pier.mass + pier.footing_mass);
+        let (moment, first) = (
+            pier.mass * pier.height + pier.footing_mass * pier.footing_height,
+            pier.mass + pier.footing_mass,
+        );
         first * pier.half_width * theta.sin() + moment * (theta.cos() - 1.0)
     };
     (potential(peak) / potential(theta)).sqrt()
@@ -46,7 +51,9 @@ fn restitution(pier: &Pier, theta: f64, seconds: f64, options: &ReferenceOptions
 fn inertias(pier: &Pier) -> [f64; 2] {
     let sum = |sign: f64| {
         let about = |m: f64, h: f64| m * (h * h + sign * pier.half_width * pier.half_width);
-        pier.footing_inertia + about(pier.mass, pier.height) + about(pier.footing_mass, pier.footing_height)
+        pier.footing_inertia
+            + about(pier.mass, pier.height)
+            + about(pier.footing_mass, pier.footing_height)
     };
     [sum(-1.0), sum(1.0)]
 }
@@ -62,13 +69,17 @@ fn a_stiff_pier_that_lands_on_one_corner_has_housners_restitution() {
     let [after, before] = inertias(&heavy());
     let housner = after / before;
     assert!((housner - 0.85965).abs() < 5e-6, "{housner}");
-    let errors = [80.0, 320.0].map(|hz| restitution(&at_hertz(&heavy(), hz), 0.15, 4.0, &held_down()) / housner - 1.0);
+    let errors = [80.0, 320.0]
+        .map(|hz| restitution(&at_hertz(&heavy(), hz), 0.15, 4.0, &held_down()) / housner - 1.0);
     println!("Housner's e {housner}, relative errors at 80 and 320 Hz {errors:?}");
     assert!(errors[1].abs() < 1e-3 && errors[1].abs() < 0.5 * errors[0].abs(), "{errors:?}");
     // reported, not bounded
     let hopping = restitution(&at_hertz(&heavy(), 320.0), 0.15, 4.0, &ReferenceOptions::tight());
     let axial = at_hertz(&heavy(), 80.0).with_axial(4e12, 0.02);
-    println!("with hops {hopping}; with k_a = 4e12 N/m {}", restitution(&axial, 0.15, 4.0, &ReferenceOptions::tight()));
+    println!(
+        "with hops {hopping}; with k_a = 4e12 N/m {}",
+        restitution(&axial, 0.15, 4.0, &ReferenceOptions::tight())
+    );
 }
 
 /// e = m h^2/(m R^2 + I_b0) where both corners stop.
@@ -76,7 +87,8 @@ fn a_stiff_pier_that_lands_on_one_corner_has_housners_restitution() {
 fn a_stiff_pier_that_lands_on_both_corners_has_the_two_corner_restitution() {
     let pier = light();
     let expected = pier.mass * pier.height.powi(2) / inertias(&pier)[1];
-    let errors = [80.0, 320.0].map(|hz| restitution(&at_hertz(&pier, hz), 0.0975, 6.0, &held_down()) / expected - 1.0);
+    let errors = [80.0, 320.0]
+        .map(|hz| restitution(&at_hertz(&pier, hz), 0.0975, 6.0, &held_down()) / expected - 1.0);
     println!("two-corner e {expected}, relative errors at 80 and 320 Hz {errors:?}");
     assert!(errors[1].abs() < 1e-3 && errors[1].abs() < 0.5 * errors[0].abs(), "{errors:?}");
 }
@@ -107,8 +119,10 @@ fn impacts_follow_the_formula() {
         let [before, after] = &landing.velocity;
         let u = landing.q[3];
         let arm = b + side * u;
-        let above = pier.footing_inertia + m_b * (pier.footing_height.powi(2) - b * b) - m * (b * b - u * u);
-        let below = pier.footing_inertia + m_b * (b * b + pier.footing_height.powi(2)) + m * arm * arm;
+        let above = pier.footing_inertia + m_b * (pier.footing_height.powi(2) - b * b)
+            - m * (b * b - u * u);
+        let below =
+            pier.footing_inertia + m_b * (b * b + pier.footing_height.powi(2)) + m * arm * arm;
         let r = (above / below).max(0.0);
         assert!((after[2] - r * before[2]).abs() < 1e-8 * before[2].abs(), "{r} {before} {after}");
         let sway = before[3] + h * (before[2] - after[2]);
@@ -125,7 +139,8 @@ fn a_mirror_image_rocks_as_the_image_of_what_it_mirrors() {
     let accel = random.motion(600, 4.0);
     let mirrored: Vec<f64> = accel.iter().map(|a| -a).collect();
     let pier = light().with_axial(2e9, 0.02);
-    let [one, other] = [&accel, &mirrored].map(|accel| shaken(&pier, accel, 5.99, &ReferenceOptions::default()));
+    let [one, other] =
+        [&accel, &mirrored].map(|accel| shaken(&pier, accel, 5.99, &ReferenceOptions::default()));
     assert!(one.events.len() > 10 && one.events.len() == other.events.len());
     for (a, b) in one.q.iter().zip(&other.q) {
         for (i, sign) in [-1.0, 1.0, -1.0, -1.0, 1.0].into_iter().enumerate() {
@@ -160,7 +175,8 @@ fn a_standing_structure_presses_with_its_weight() {
     let (pier, v) = (light(), DVector::zeros(4));
     let q = DVector::zeros(4);
     let at = Configuration::new(&pier, &q, &v).unwrap();
-    let held = at.accelerations([0.0; 2], CornerContact::held(CornerSet::from_iter([0, 1]))).unwrap();
+    let held =
+        at.accelerations([0.0; 2], CornerContact::held(CornerSet::from_iter([0, 1]))).unwrap();
     let mass = pier.mass + pier.footing_mass;
     let weight = 9.81 * mass;
     // in whatever configuration
@@ -168,7 +184,10 @@ fn a_standing_structure_presses_with_its_weight() {
         assert!((pier.whole_mass(&q) / mass - 1.0).abs() < 1e-12, "{}", pier.whole_mass(&q));
     }
     for i in 0..2 {
-        assert!((held.force(i)[1] / (0.5 * weight) - 1.0).abs() < 1e-12 && held.force(i)[0].abs() < 1e-9 * weight);
+        assert!(
+            (held.force(i)[1] / (0.5 * weight) - 1.0).abs() < 1e-12
+                && held.force(i)[0].abs() < 1e-9 * weight
+        );
     }
     let free = at.accelerations([0.0; 2], CornerContact::default()).unwrap();
     assert!((free.motion[1] + 9.81).abs() < 1e-12 && free.force(0) == [0.0; 2]);
@@ -189,7 +208,10 @@ fn growth_is_a_property_of_the_history() {
             ground,
             (&q, &v),
             &options,
-            (&history, &PerturbedPair { coordinates: &[2, 3], perturbation: d, limit: f64::INFINITY }),
+            (
+                &history,
+                &PerturbedPair { coordinates: &[2, 3], perturbation: d, limit: f64::INFINITY },
+            ),
         )
     };
     let (fine, finer) = (at(1e-5), at(1e-6));
@@ -215,8 +237,10 @@ fn a_corner_that_lands_flat_slides_on() {
         q[1] += 1e-9 - pier.corner(1, &q, &still).place[1];
         let (sin, cos) = lean.sin_cos();
         // from the footing's centre to the corner
-        let arm =
-            [pier.half_width * cos - pier.footing_height * sin, -pier.half_width * sin - pier.footing_height * cos];
+        let arm = [
+            pier.half_width * cos - pier.footing_height * sin,
+            -pier.half_width * sin - pier.footing_height * cos,
+        ];
         let (m, inertia) = (pier.footing_mass, pier.footing_inertia);
         let (w_xx, w_xz) = (1.0 / m + arm[1] * arm[1] / inertia, -arm[0] * arm[1] / inertia);
         let down = -0.5;
@@ -234,7 +258,10 @@ fn a_corner_that_lands_flat_slides_on() {
         let corner = pier.corner(1, &landing.q, &landing.velocity[1]);
         let [x, z] = corner.jacobian.each_ref().map(|row| row.dot(&landing.velocity[1]));
         let expected = if slides { -across - w_xx * down / w_xz } else { 0.0 };
-        assert!(z.abs() < 1e-9 && (x - expected).abs() < 1e-5 * across.abs(), "{share}: {x} {z}, {expected}");
+        assert!(
+            z.abs() < 1e-9 && (x - expected).abs() < 1e-5 * across.abs(),
+            "{share}: {x} {z}, {expected}"
+        );
         assert_eq!(history.first_sliding_landing_s.is_some(), slides);
         assert_eq!(landing.held.contains(1), !slides);
         assert!(landing.loss() > 0.0);

@@ -17,13 +17,28 @@ pub fn heavy() -> Pier {
 }
 
 /// Let go at a lean (rad) and followed for some seconds at dt = 0.01 s.
-pub fn free_rocking(pier: &Pier, theta: f64, seconds: f64, options: &ReferenceOptions) -> ElasticRocking {
+pub fn free_rocking(
+    pier: &Pier,
+    theta: f64,
+    seconds: f64,
+    options: &ReferenceOptions,
+) -> ElasticRocking {
     let (q, v) = (pier.leaning(theta), DVector::zeros(pier.size()));
-    rock(pier, GroundAcceleration::still(0.01), (&q, &v), &ReferenceOptions { duration: Some(seconds), ..*options })
+    rock(
+        pier,
+        GroundAcceleration::still(0.01),
+        (&q, &v),
+        &ReferenceOptions { duration: Some(seconds), ..*options },
+    )
 }
 
 /// From rest through a record at dt = 0.01 s.
-pub fn shaken(pier: &Pier, accel: &[f64], seconds: f64, options: &ReferenceOptions) -> ElasticRocking {
+pub fn shaken(
+    pier: &Pier,
+    accel: &[f64],
+    seconds: f64,
+    options: &ReferenceOptions,
+) -> ElasticRocking {
     let (q, v) = (pier.leaning(0.0), DVector::zeros(pier.size()));
     rock(
         pier,

@@ -60,7 +60,13 @@ impl Portal {
     fn masses(&self, q: &DVector<f64>, v: &DVector<f64>) -> Vec<(f64, Place)> {
         let head = |i| Self::on_leg(i, [0.0, self.height], q, v);
         let footing = |i| (self.footings[i], Self::on_leg(i, [0.0, self.footing_height], q, v));
-        vec![(self.head, head(0)), (self.head, head(1)), (self.link, mean(head(0), head(1))), footing(0), footing(1)]
+        vec![
+            (self.head, head(0)),
+            (self.head, head(1)),
+            (self.link, mean(head(0), head(1))),
+            footing(0),
+            footing(1),
+        ]
     }
 
     /// Stretch between the heads and its gradient.
@@ -98,7 +104,8 @@ impl Mechanics for Portal {
     fn force(&self, q: &DVector<f64>, v: &DVector<f64>, ground: [f64; 2]) -> DVector<f64> {
         let mut force = DVector::zeros(6);
         for (m, (rows, bias)) in self.masses(q, v) {
-            force += m * ((-ground[0] - bias[0]) * &rows[0] + (-ground[1] - 9.81 - bias[1]) * &rows[1]);
+            force +=
+                m * ((-ground[0] - bias[0]) * &rows[0] + (-ground[1] - 9.81 - bias[1]) * &rows[1]);
         }
         let (stretch, gradient) = self.stretch(q);
         let tension = self.stiffness * stretch + self.damping * gradient.dot(v);
@@ -108,7 +115,8 @@ impl Mechanics for Portal {
     fn tangent(&self, q: &DVector<f64>, v: &DVector<f64>, ground: [f64; 2]) -> [DMatrix<f64>; 2] {
         let step = 1e-6;
         let by = |f: &dyn Fn(f64, usize) -> DVector<f64>| {
-            let columns: Vec<_> = (0..6).map(|j| (f(-step, j) - f(step, j)) * (0.5 / step)).collect();
+            let columns: Vec<_> =
+                (0..6).map(|j| (f(-step, j) - f(step, j)) * (0.5 / step)).collect();
             DMatrix::from_columns(&columns)
         };
         let moved = |x: &DVector<f64>, by: f64, j: usize| {
@@ -116,7 +124,10 @@ impl Mechanics for Portal {
             x[j] += by;
             x
         };
-        [by(&|s, j| self.force(&moved(q, s, j), v, ground)), by(&|s, j| self.force(q, &moved(v, s, j), ground))]
+        [
+            by(&|s, j| self.force(&moved(q, s, j), v, ground)),
+            by(&|s, j| self.force(q, &moved(v, s, j), ground)),
+        ]
     }
 
     fn footings(&self) -> &[usize] {
@@ -128,7 +139,8 @@ impl Mechanics for Portal {
     }
 
     fn corner(&self, i: usize, q: &DVector<f64>, v: &DVector<f64>) -> Corner {
-        let (leg, xi) = (i / 2, if i.is_multiple_of(2) { -self.half_width } else { self.half_width });
+        let (leg, xi) =
+            (i / 2, if i.is_multiple_of(2) { -self.half_width } else { self.half_width });
         let (jacobian, bias) = Self::on_leg(leg, [xi, 0.0], q, v);
         let (sin, cos) = q[3 * leg + 2].sin_cos();
         Corner { place: [q[3 * leg] + xi * (cos - 1.0), q[3 * leg + 1] - xi * sin], jacobian, bias }
@@ -147,7 +159,8 @@ impl Mechanics for Portal {
     }
 
     fn input_power(&self, q: &DVector<f64>, v: &DVector<f64>, ground: [f64; 2]) -> f64 {
-        let along = |rows: &[DVector<f64>; 2]| ground[0] * rows[0].dot(v) + ground[1] * rows[1].dot(v);
+        let along =
+            |rows: &[DVector<f64>; 2]| ground[0] * rows[0].dot(v) + ground[1] * rows[1].dot(v);
         -self.masses(q, v).iter().map(|(m, (rows, _))| m * along(rows)).sum::<f64>()
     }
 }

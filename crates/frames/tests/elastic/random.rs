@@ -25,18 +25,26 @@ impl Random {
         let h = self.within(3.0, 30.0);
         let (b, m) = (h * self.within(0.08, 0.5), self.within(5e4, 1e6));
         let dynamics = [self.within(0.7, 12.0), self.within(0.0, 0.08)];
-        let pier = Pier::new([m, h, b], dynamics, [m * self.within(0.02, 3.0), b * self.within(0.05, 1.0)]);
+        let pier = Pier::new(
+            [m, h, b],
+            dynamics,
+            [m * self.within(0.02, 3.0), b * self.within(0.05, 1.0)],
+        );
         if self.happens(0.4) {
             return pier;
         }
-        let pier = pier.with_axial(pier.stiffness * 10_f64.powf(self.within(1.0, 3.0)), self.within(0.0, 0.1));
+        let pier = pier
+            .with_axial(pier.stiffness * 10_f64.powf(self.within(1.0, 3.0)), self.within(0.0, 0.1));
         if self.happens(0.5) { pier.with_chord(h * self.within(0.6, 1.0)) } else { pier }
     }
 
     /// n samples at 0.01 s of six sines that swell for a second, at most of a given size (m/s2).
     pub fn motion(&mut self, n: usize, size: f64) -> Vec<f64> {
-        let sines: Vec<_> = (0..6).map(|_| (self.within(1.0, 30.0), self.within(0.0, 6.3))).collect();
-        let at = |t: f64| sines.iter().map(|(w, phase)| (w * t + phase).sin()).sum::<f64>() / 6.0 * t.min(1.0);
+        let sines: Vec<_> =
+            (0..6).map(|_| (self.within(1.0, 30.0), self.within(0.0, 6.3))).collect();
+        let at = |t: f64| {
+            sines.iter().map(|(w, phase)| (w * t + phase).sin()).sum::<f64>() / 6.0 * t.min(1.0)
+        };
         (0..n).map(|i| size * at(0.01 * i as f64)).collect()
     }
 

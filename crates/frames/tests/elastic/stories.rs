@@ -73,7 +73,9 @@ fn v2_a_heavy_footing_lands_on_one_corner() {
 /// The default tolerance costs less and is good to 1e-7 of the peaks.
 #[test]
 fn the_default_tolerance_follows_the_tight_one() {
-    for (pier, theta) in [(light(), 0.0975), (heavy(), 0.15), (light().with_axial(4e9, 0.02), 0.0975)] {
+    for (pier, theta) in
+        [(light(), 0.0975), (heavy(), 0.15), (light().with_axial(4e9, 0.02), 0.0975)]
+    {
         let tight = free_rocking(&pier, theta, 4.0, &ReferenceOptions::tight());
         let quick = free_rocking(&pier, theta, 4.0, &ReferenceOptions::default());
         for i in [2, 3] {

@@ -1,6 +1,8 @@
 //! What is said of springs alone: of an elastic structure without a record.
 
-use super::super::{AccuracyOn, AccuracyReport, FiledParameters, ProgramReport, Run, Taken, Unit, doubts, filed};
+use super::super::{
+    AccuracyOn, AccuracyReport, FiledParameters, ProgramReport, Run, Taken, Unit, doubts, filed,
+};
 use super::title;
 use files::message::{quantity, significant};
 use rocking::members::Tendon;
@@ -15,9 +17,17 @@ pub(super) fn springs_findings(parameters: &ElasticParameters) -> Option<Finding
     let a = parameters.assessment.as_ref().filter(|a| !a.reached)?;
     Some(match a.measured.nothing() {
         // of a search that was cut before it measured anything its own finding tells
-        true if parameters.findings.iter().any(|f| matches!(f.finding, Finding::SearchCut { .. })) => return None,
+        true if parameters
+            .findings
+            .iter()
+            .any(|f| matches!(f.finding, Finding::SearchCut { .. })) =>
+        {
+            return None;
+        }
         true => Finding::AccuracyNotMeasured,
-        false if a.judged_by == Yardstick::Peaks => Finding::PeaksMissed { asked: a.accuracy, capped: false },
+        false if a.judged_by == Yardstick::Peaks => {
+            Finding::PeaksMissed { asked: a.accuracy, capped: false }
+        }
         false => Finding::AccuracyMissed { asked: a.accuracy, capped: false },
     })
 }
@@ -40,7 +50,8 @@ fn accuracy(a: &ElasticAssessment, on_record: Option<&OnRecord>) -> AccuracyRepo
         })
     };
     let part = on_record.filter(|on| !on.whole).map(|on| significant(on.compared_s, 3));
-    let this = part.map_or("this record".to_string(), |seconds| format!("this record to {seconds} s"));
+    let this =
+        part.map_or("this record".to_string(), |seconds| format!("this record to {seconds} s"));
     let all = [on(&this, m.record), on("synthetic motions", m.motions), on("releases", m.releases)];
     AccuracyReport {
         history_asked: of_history,
@@ -54,7 +65,8 @@ fn accuracy(a: &ElasticAssessment, on_record: Option<&OnRecord>) -> AccuracyRepo
 pub fn of_case(case: &ElasticCase, mut parameters: ElasticParameters) -> Run {
     // what of the search was cut is there already
     let search = parameters.findings.iter().map(|filed| filed.finding.clone());
-    let found = search.chain(doubts(case.doubts_of_structure())).chain(springs_findings(&parameters));
+    let found =
+        search.chain(doubts(case.doubts_of_structure())).chain(springs_findings(&parameters));
     parameters.findings = filed(found);
     alone(parameters)
 }
@@ -75,11 +87,17 @@ pub(super) fn alone(parameters: ElasticParameters) -> Run {
         springs_at: "each corner",
         springs: corner_units(&parameters.springs),
         program: program.clone(),
-        accuracy: parameters.assessment.as_ref().map(|a| accuracy(a, parameters.on_record.as_ref())),
+        accuracy: parameters
+            .assessment
+            .as_ref()
+            .map(|a| accuracy(a, parameters.on_record.as_ref())),
         findings,
         fixed_steps: None,
         sap2000: false,
-        sections: program.iter().flat_map(|program| [program.section(), program.springs()]).collect(),
+        sections: program
+            .iter()
+            .flat_map(|program| [program.section(), program.springs()])
+            .collect(),
         parameters: FiledParameters::Elastic(Box::new(parameters)),
     }
 }
@@ -87,9 +105,11 @@ pub(super) fn alone(parameters: ElasticParameters) -> Run {
 /// The units under corners: once where all have the same.
 pub(crate) fn corner_units(corners: &[CornerRow]) -> Vec<Unit> {
     let first = corners.first().copied();
-    let same = corners
-        .iter()
-        .all(|row| first.is_some_and(|first| (row.vertical, row.horizontal) == (first.vertical, first.horizontal)));
+    let same = corners.iter().all(|row| {
+        first.is_some_and(|first| {
+            (row.vertical, row.horizontal) == (first.vertical, first.horizontal)
+        })
+    });
     let rows = if same { &corners[..corners.len().min(1)] } else { corners };
     let unit = |name: String, row: &UnitRow| Unit {
         name,
@@ -117,26 +137,47 @@ fn taken(parameters: &ElasticParameters) -> Taken {
         .into_iter()
         .flatten()
         .filter(|(key, value)| *key != "kind" && !value.is_null())
-        .map(|(key, value)| (key.clone(), value.as_f64().map_or(value.to_string(), |x| significant(x, 4))))
+        .map(|(key, value)| {
+            (key.clone(), value.as_f64().map_or(value.to_string(), |x| significant(x, 4)))
+        })
         .collect();
     let mut fact = |name: &str, value: String| facts.push((name.to_string(), value));
     if let Some(damper) = parameters.damper {
         fact("damper at each corner", format!("{} N s/m", significant(damper.c, 4)));
     }
     if let Some(Tendon { stiffness, pretension }) = parameters.tendon {
-        fact("tendon", format!("{} N/m, stressed to {}", significant(stiffness, 4), quantity(pretension, "N")));
+        fact(
+            "tendon",
+            format!("{} N/m, stressed to {}", significant(stiffness, 4), quantity(pretension, "N")),
+        );
     }
     fact("slenderness alpha of the rigid body", format!("{} rad", significant(body.alpha(), 4)));
-    fact("frequency p of the rigid body", format!("{} 1/s", significant(body.p_squared().sqrt(), 4)));
+    fact(
+        "frequency p of the rigid body",
+        format!("{} 1/s", significant(body.p_squared().sqrt(), 4)),
+    );
     fact("restitution e of the rigid body, equation 2", significant(body.restitution(), 4));
-    fact("frequency fixed to the ground", format!("{} Hz", significant(structure.frequency_hz(), 4)));
-    fact("its weight shortens the columns by", format!("{} of their length", significant(structure.shortening(), 2)));
+    fact(
+        "frequency fixed to the ground",
+        format!("{} Hz", significant(structure.frequency_hz(), 4)),
+    );
+    fact(
+        "its weight shortens the columns by",
+        format!("{} of their length", significant(structure.shortening(), 2)),
+    );
     let lifts = parameters.assembled().ok().and_then(|assembled| assembled.uplift_g());
     if let Some(lifts) = lifts {
         fact("lifts at a steady ground acceleration of", format!("{} g", significant(lifts, 4)));
     }
-    fact("lifts as a rigid body at g tan alpha", format!("{} g", significant(body.alpha().tan(), 4)));
+    fact(
+        "lifts as a rigid body at g tan alpha",
+        format!("{} g", significant(body.alpha().tan(), 4)),
+    );
     let mass = quantity(structure.mass(), "kg");
-    let text = format!("{}, {mass} in all, {} Hz if fixed", title(structure), significant(structure.frequency_hz(), 3));
+    let text = format!(
+        "{}, {mass} in all, {} Hz if fixed",
+        title(structure),
+        significant(structure.frequency_hz(), 3)
+    );
     Taken { structure: text, facts, record: None, assumed: Vec::new() }
 }

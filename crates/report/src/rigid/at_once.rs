@@ -28,14 +28,19 @@ impl RunAtOnce {
     ///
     /// # Errors
     /// A scale that takes the record's peak above 50 g.
-    pub fn new(case: &Case, springs: &Springs<Design<f64>>, friction: f64) -> Result<Self, RecordError> {
+    pub fn new(
+        case: &Case,
+        springs: &Springs<Design<f64>>,
+        friction: f64,
+    ) -> Result<Self, RecordError> {
         let (structure, e) = (case.structure, case.restitution);
         let (body, record) = (structure.body::<f64>(), case.excitation.used()?);
         let parameters = Parameters::new(structure, springs);
         let both = both(&body, e, &parameters.chains(), &case.members, &record);
         let report = HousnerReport::new(&body, e, &record, &both.rocking, friction);
         let verdict = both.verdict(&body, record.dt, &report.conditioning);
-        let mut findings: Vec<Finding> = reference::all(&structure, &record, &both, &report, &verdict);
+        let mut findings: Vec<Finding> =
+            reference::all(&structure, &record, &both, &report, &verdict);
         findings.extend(doubts(case.doubts()));
         let parameters = Parameters {
             peaks: Some(peaks(structure.kind, &body, record.dt, &both)),

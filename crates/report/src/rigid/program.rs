@@ -17,7 +17,8 @@ pub(super) fn findings(case: &Case, parameters: &Parameters) -> Vec<Finding> {
         let other = differs_from_housner(&body, case.restitution);
         return other.then_some(Finding::ProgramRestitution { asked }).into_iter().collect();
     };
-    let FixedStepProgram { step: step_s, .. } = case.program.unwrap_or_else(FixedStepProgram::usual);
+    let FixedStepProgram { step: step_s, .. } =
+        case.program.unwrap_or_else(FixedStepProgram::usual);
     let longest_s = LONGEST / body.p_squared().sqrt();
     if step_s > longest_s {
         return vec![Finding::ProgramStepTooLong { step_s, longest_s, asked }];

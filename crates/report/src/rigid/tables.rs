@@ -31,9 +31,13 @@ fn columns(p: &Parameters) -> Vec<SpringsColumn<'_>> {
         horizontal: &p.horizontal,
         matched: p.matched.as_ref(),
     };
-    let others = [("paper's procedure, same Omega_n", &p.paper_procedure), ("Table 1 as recovered", &p.table_1)];
-    let others =
-        others.into_iter().filter_map(|(heading, other)| Some(SpringsColumn::beside(heading, other.as_ref()?)));
+    let others = [
+        ("paper's procedure, same Omega_n", &p.paper_procedure),
+        ("Table 1 as recovered", &p.table_1),
+    ];
+    let others = others
+        .into_iter()
+        .filter_map(|(heading, other)| Some(SpringsColumn::beside(heading, other.as_ref()?)));
     std::iter::once(own).chain(others).collect()
 }
 
@@ -98,14 +102,20 @@ pub(crate) fn comparison(p: &Parameters) -> Table {
     let count = |x: Option<usize>| x.map_or("-".to_string(), |n| n.to_string());
     let none = String::new;
     let rows = vec![
-        row("peak horizontal displacement", mm(m.peak_horizontal_housner_m), &|m| mm(m.peak_horizontal_fem_m)),
-        row("peak vertical displacement", mm(m.peak_vertical_housner_m), &|m| mm(m.peak_vertical_fem_m)),
+        row("peak horizontal displacement", mm(m.peak_horizontal_housner_m), &|m| {
+            mm(m.peak_horizontal_fem_m)
+        }),
+        row("peak vertical displacement", mm(m.peak_vertical_housner_m), &|m| {
+            mm(m.peak_vertical_fem_m)
+        }),
         row("impacts harder than a fall from 0.02 alpha", count(m.impacts_housner_firm), &|m| {
             count(m.impacts_fem_firm)
         }),
-        row("all, with the tremble of a body coming to rest", m.impacts_housner.to_string(), &|m| {
-            m.impacts_fem.to_string()
-        }),
+        row(
+            "all, with the tremble of a body coming to rest",
+            m.impacts_housner.to_string(),
+            &|m| m.impacts_fem.to_string(),
+        ),
         row("NRMSE horizontal", none(), &|m| shown(m.nrmse_horizontal)),
         row("NRMSE vertical", none(), &|m| shown(m.nrmse_vertical)),
         row("largest error of restitution", none(), &|m| percent(m.restitution_error_max)),
@@ -177,7 +187,10 @@ pub(crate) fn finite_element_forces(columns: &[(&str, &Demands)]) -> Table {
         head.extend([format!("{name}between landings"), format!("{name}in landings")]);
     }
     let row = |(k, name): (usize, &&str)| {
-        let peaks: Vec<_> = columns.iter().flat_map(|(_, demands)| [demands.between[k], demands.peaks[k]]).collect();
+        let peaks: Vec<_> = columns
+            .iter()
+            .flat_map(|(_, demands)| [demands.between[k], demands.peaks[k]])
+            .collect();
         let (what, unit) = name.rsplit_once('_')?;
         let unit = if unit == "nm" { "N m" } else { "N" };
         let cell = |peak: &rocking::motion::TimedPeak| match peak.value {

@@ -65,7 +65,12 @@ pub(crate) fn loss<const N: usize>(
 }
 
 /// N/(m g) over the step as a power series.
-fn series<const N: usize>(c: &[f64; N], at: &StepStart<f64>, ground: &StepGround<f64>, arm: f64) -> [f64; N] {
+fn series<const N: usize>(
+    c: &[f64; N],
+    at: &StepStart<f64>,
+    ground: &StepGround<f64>,
+    arm: f64,
+) -> [f64; N] {
     // k S_k = -sum j c_j C_{k-j}, k C_k = sum j c_j S_{k-j}, as F and G of the lean's series
     let (mut sin, mut cos) = ([at.sin; N], [at.cos; N]);
     for k in 1..N {
@@ -97,7 +102,11 @@ mod tests {
     const P2: f64 = 3.0;
     const ARM: f64 = 0.2;
 
-    fn step(ground: &StepGround<f64>, rate: f64, h: f64) -> (StepStart<f64>, PowerSeries<f64, LONG>) {
+    fn step(
+        ground: &StepGround<f64>,
+        rate: f64,
+        h: f64,
+    ) -> (StepStart<f64>, PowerSeries<f64, LONG>) {
         let (sin, cos) = 0.13_f64.sin_cos();
         let at = StepStart { w: 0.07, rate, sin, cos };
         (at, PowerSeries::new::<true>(&at, h, ground, P2 * h * h))
@@ -112,7 +121,11 @@ mod tests {
         for x in [0.0, 0.3, 0.7, 1.0] {
             let (w, slope) = lean.at(x);
             let (sin, cos) = (0.2 - w).sin_cos();
-            let here = StepGround { b: ground.b + ground.db * x, gamma: ground.gamma + ground.dgamma * x, ..ground };
+            let here = StepGround {
+                b: ground.b + ground.db * x,
+                gamma: ground.gamma + ground.dgamma * x,
+                ..ground
+            };
             let expected = pressure(&StepStart { w, rate: slope / h, sin, cos }, &here, P2, ARM);
             assert!((value_and_slope(&n, x).0 - expected).abs() < 1e-13, "{x}");
         }
@@ -130,7 +143,8 @@ mod tests {
             let sure = surely_presses(&lean.c, at.sin, &ground, P2 * ARM, ARM / (h * h));
             assert!(!(sure && found.is_some()), "{i}");
             if let Some(x) = found {
-                let (value, slope) = value_and_slope(&series(&lean.c, &at, &ground, ARM / (h * h)), x);
+                let (value, slope) =
+                    value_and_slope(&series(&lean.c, &at, &ground, ARM / (h * h)), x);
                 assert!(value.abs() < 1e-14 && slope < 0.0, "{x} {value:e}");
                 lost += 1;
             }

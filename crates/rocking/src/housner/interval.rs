@@ -33,7 +33,8 @@ impl<S: Scalar> Setting<'_, S> {
             if !state.rocking {
                 let lift = rest::uplift(x, (a0, da), (g0, dg), self.lift);
                 let release = if V { rest::release(x.re(), g0.re(), dg.re()) } else { None };
-                if let Some(at) = release.filter(|&at| lift.is_none_or(|(lift, _)| at <= lift.re())) {
+                if let Some(at) = release.filter(|&at| lift.is_none_or(|(lift, _)| at <= lift.re()))
+                {
                     out.outcome = RockingOutcome::LeavesGround { time: start + at * self.dt };
                     return false;
                 }
@@ -71,7 +72,14 @@ impl<S: Scalar> Setting<'_, S> {
             if V && let Some(z) = self.loss(&state.at, &c, &ground.re(), h.re(), reach)
                 && impact.is_none_or(|impact| z < impact)
             {
-                self.leave(state, &c, z, start + (x.re() + left.re() * reach * z) * self.dt, h.re() * reach, out);
+                self.leave(
+                    state,
+                    &c,
+                    z,
+                    start + (x.re() + left.re() * reach * z) * self.dt,
+                    h.re() * reach,
+                    out,
+                );
                 return false;
             }
             match impact {
@@ -201,7 +209,11 @@ impl<S: Scalar> Setting<'_, S> {
         // theta' jumps to e theta' and keeps its sign: s, and with it w', turns round
         let before = rate * state.side;
         let after = before * self.e; // (2)
-        out.impacts.push(Impact { time: x * self.dt + start, rate_before: before, rate_after: after });
+        out.impacts.push(Impact {
+            time: x * self.dt + start,
+            rate_before: before,
+            rate_after: after,
+        });
         self.ground(state, -state.side, -(rate * self.e));
         let hop = rest::Hop {
             rate: state.at.rate.re(),

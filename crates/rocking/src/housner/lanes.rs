@@ -9,7 +9,9 @@
 
 use std::{array, mem::swap};
 
-use super::series::{LEAST, SHORT, StepGround, StepStart, change, coefficients, end_slope, is_plain, pulls, turned};
+use super::series::{
+    LEAST, SHORT, StepGround, StepStart, change, coefficients, end_slope, is_plain, pulls, turned,
+};
 use super::walk::{Pace, Sample, Walk, turns_well};
 use super::{Rocking, contact};
 
@@ -26,7 +28,9 @@ type Mask = u64;
 pub(crate) fn walk<const V: bool>(walks: Vec<Walk<f64, V>>) -> Vec<Rocking<f64>> {
     #[cfg(target_arch = "x86_64")]
     {
-        if std::arch::is_x86_feature_detected!("avx512f") && std::arch::is_x86_feature_detected!("avx512dq") {
+        if std::arch::is_x86_feature_detected!("avx512f")
+            && std::arch::is_x86_feature_detected!("avx512dq")
+        {
             // SAFETY: the processor has what the function was compiled for
             return unsafe { walk_avx512(walks) };
         }
@@ -60,8 +64,13 @@ fn at_pace<const V: bool>(walks: Vec<Walk<f64, V>>) -> Vec<Rocking<f64>> {
 
 /// Lanes of another pace go by themselves.
 #[inline(always)]
-fn lock_step<const V: bool, const N: usize>(pace: Pace, mut walks: Vec<Walk<f64, V>>) -> Vec<Rocking<f64>> {
-    let Some(longest) = walks.iter().max_by_key(|walk| walk.set.accel.len()) else { return Vec::new() };
+fn lock_step<const V: bool, const N: usize>(
+    pace: Pace,
+    mut walks: Vec<Walk<f64, V>>,
+) -> Vec<Rocking<f64>> {
+    let Some(longest) = walks.iter().max_by_key(|walk| walk.set.accel.len()) else {
+        return Vec::new();
+    };
     let (accel, vertical, dt) = (longest.set.accel, longest.set.vertical, longest.set.dt);
     let up = |i: usize| if V { vertical.get(i).copied().unwrap_or(0.0) } else { 0.0 };
     let shortest = walks.iter().map(|walk| walk.set.accel.len()).min().unwrap_or(0);
@@ -194,7 +203,10 @@ impl<const N: usize> Fixed<N> {
     /// The ground as lane l has it, from the record's numbers: horizontal, vertical (m/s2).
     #[inline(always)]
     fn sample<const V: bool>(&self, l: usize, (accel, vertical): (f64, f64)) -> Sample<f64> {
-        Sample { a: self.unit[l] * accel, gamma: if V { self.unit[l] * vertical + 1.0 } else { 1.0 } }
+        Sample {
+            a: self.unit[l] * accel,
+            gamma: if V { self.unit[l] * vertical + 1.0 } else { 1.0 },
+        }
     }
 }
 
@@ -231,7 +243,12 @@ fn step<const V: bool, const N: usize>(
             gamma: now.gamma,
             dgamma: next.gamma - now.gamma,
         };
-        let c = coefficients::<_, V, N>(&start, fixed.dt, &ground, &array::from_fn(|k| fixed.pulls[k][l]));
+        let c = coefficients::<_, V, N>(
+            &start,
+            fixed.dt,
+            &ground,
+            &array::from_fn(|k| fixed.pulls[k][l]),
+        );
         let change = change(&c);
         let w = start.w + change;
         let (sin, cos) = turned(start.sin, start.cos, change);
@@ -241,7 +258,8 @@ fn step<const V: bool, const N: usize>(
         to.cos[l] = cos;
         to.sign[l] = at.sign[l];
         to.age[l] = at.age[l] + 1;
-        let mut plain = is_plain::<V, N>(&c, &ground, (fixed.q[l], fixed.root[l]), w, fixed.alpha[l]);
+        let mut plain =
+            is_plain::<V, N>(&c, &ground, (fixed.q[l], fixed.root[l]), w, fixed.alpha[l]);
         if V {
             plain &= contact::surely_presses(&c, start.sin, &ground, fixed.share[l], fixed.arm[l]);
         }
@@ -269,7 +287,8 @@ impl LanePlaces {
 
     fn leave<const V: bool>(&self, l: usize, walk: &mut Walk<f64, V>) {
         let state = &mut walk.state;
-        state.at = StepStart { w: self.w[l], rate: self.rate[l], sin: self.sin[l], cos: self.cos[l] };
+        state.at =
+            StepStart { w: self.w[l], rate: self.rate[l], sin: self.sin[l], cos: self.cos[l] };
         state.age = self.age[l];
     }
 }

@@ -29,10 +29,19 @@ const GRAZE: f64 = 4.0 * f64::EPSILON;
 
 /// When and to which side a body resting at fraction x of an interval lifts in what is left of it.
 /// u_g/g is a + da x and gamma is g + dg x, each given as (a, da); lift is tan(alpha).
-pub(crate) fn uplift<S: Scalar>(x: S, (a, da): (S, S), (g, dg): (S, S), lift: S) -> Option<(S, f64)> {
+pub(crate) fn uplift<S: Scalar>(
+    x: S,
+    (a, da): (S, S),
+    (g, dg): (S, S),
+    lift: S,
+) -> Option<(S, f64)> {
     // the earlier of the two sides: both lift where gamma falls below zero
-    let sides = [1.0, -1.0].map(|sign| above(x, (a * sign, da * sign), (g, dg), lift).map(|at| (at, -sign)));
-    sides.into_iter().flatten().reduce(|first, other| if other.0.re() < first.0.re() { other } else { first })
+    let sides = [1.0, -1.0]
+        .map(|sign| above(x, (a * sign, da * sign), (g, dg), lift).map(|at| (at, -sign)));
+    sides
+        .into_iter()
+        .flatten()
+        .reduce(|first, other| if other.0.re() < first.0.re() { other } else { first })
 }
 
 /// Where a + da x is above the limit lift (g + dg x), from x on.

@@ -92,7 +92,12 @@ impl<S: Scalar> StepGround<S> {
     /// Real parts.
     #[inline(always)]
     pub(crate) fn re(&self) -> StepGround<f64> {
-        StepGround { b: self.b.re(), db: self.db.re(), gamma: self.gamma.re(), dgamma: self.dgamma.re() }
+        StepGround {
+            b: self.b.re(),
+            db: self.db.re(),
+            gamma: self.gamma.re(),
+            dgamma: self.dgamma.re(),
+        }
     }
 }
 
@@ -126,7 +131,8 @@ pub(crate) fn coefficients<T: Field, const V: bool, const N: usize>(
         let dg = db / (b0 * b0 + 1.0);
         (dg, dg * b0)
     };
-    let (sin, cos) = if V { (gamma0 * start.sin, gamma0 * start.cos) } else { (start.sin, start.cos) };
+    let (sin, cos) =
+        if V { (gamma0 * start.sin, gamma0 * start.cos) } else { (start.sin, start.cos) };
     let mut f = [sin + b0 * start.cos; N];
     let mut g = [cos - b0 * start.sin; N];
     let mut c = [start.w; N];
@@ -281,7 +287,12 @@ pub(crate) fn is_plain<const V: bool, const N: usize>(
 impl<S: Scalar, const N: usize> PowerSeries<S, N> {
     /// The series of a step of length h (s), q = p^2 h^2.
     #[inline(always)]
-    pub(crate) fn new<const V: bool>(start: &StepStart<S>, h: S, ground: &StepGround<S>, q: S) -> Self {
+    pub(crate) fn new<const V: bool>(
+        start: &StepStart<S>,
+        h: S,
+        ground: &StepGround<S>,
+        q: S,
+    ) -> Self {
         let c = coefficients::<S, V, N>(start, h, ground, &pulls(q));
         let re = real_parts(&c);
         let (growth, size) = (growth::<V, N>(&re, &ground.re(), q.re()), size(&re, q.re().sqrt()));
@@ -350,10 +361,13 @@ mod tests {
     /// w'' of the series against the right hand side, at points of the step.
     fn satisfies<const V: bool>(ground: &StepGround<f64>) {
         let (alpha, h, p2) = (0.2, 0.05, 2.9);
-        let series = PowerSeries::<_, SHORT>::new::<V>(&start(alpha, 0.07, 0.3), h, ground, p2 * h * h);
+        let series =
+            PowerSeries::<_, SHORT>::new::<V>(&start(alpha, 0.07, 0.3), h, ground, p2 * h * h);
         for x in [0.0, 0.05, 0.1] {
             let (w, _) = series.at(x);
-            let second: f64 = (2..SHORT).map(|k| (k * (k - 1)) as f64 * series.c[k] * f64::powi(x, k as i32 - 2)).sum();
+            let second: f64 = (2..SHORT)
+                .map(|k| (k * (k - 1)) as f64 * series.c[k] * f64::powi(x, k as i32 - 2))
+                .sum();
             let (gamma, b) = (ground.gamma + ground.dgamma * x, ground.b + ground.db * x);
             let force = -p2 * (gamma * (alpha - w).sin() + b * (alpha - w).cos());
             assert_relative_eq!(second / (h * h), force, max_relative = 1e-12);
@@ -371,7 +385,10 @@ mod tests {
     fn a_level_ground_that_does_not_move_up_gives_the_same_series_either_way() {
         let (at, ground, h) = (start(0.2, 0.07, 0.3), level(0.15, -0.4), 0.05);
         let without = PowerSeries::<_, LONG>::new::<false>(&at, h, &ground, 2.9 * h * h);
-        assert_eq!(PowerSeries::<_, LONG>::new::<true>(&at, h, &ground, 2.9 * h * h).c[..4], without.c[..4]);
+        assert_eq!(
+            PowerSeries::<_, LONG>::new::<true>(&at, h, &ground, 2.9 * h * h).c[..4],
+            without.c[..4]
+        );
     }
 
     /// Two half steps against one whole step: the truncated terms are where `reach` says they are.
@@ -381,7 +398,8 @@ mod tests {
         let step = |at: &StepStart<f64>, h: f64, ground: &StepGround<f64>| {
             PowerSeries::<_, SHORT>::new::<true>(at, h, ground, p2 * h * h)
         };
-        let ground = |gamma, b, part: f64| StepGround { b, db: db * part, gamma, dgamma: 0.03 * part };
+        let ground =
+            |gamma, b, part: f64| StepGround { b, db: db * part, gamma, dgamma: 0.03 * part };
         let whole = step(&start(alpha, 0.07, 0.3), h, &ground(0.8, b0, 1.0));
         assert_eq!(whole.reach(), 1.0);
         let k = h / 2.0;

@@ -10,8 +10,8 @@
 use std::f64::consts::FRAC_PI_2;
 
 use super::series::{
-    LEAST, LONG, SHORT, SMALL, StepGround, StepStart, change, coefficients, end_slope, is_plain, pulls, real_parts,
-    turned,
+    LEAST, LONG, SHORT, SMALL, StepGround, StepStart, change, coefficients, end_slope, is_plain,
+    pulls, real_parts, turned,
 };
 use super::{Rocking, RockingOutcome, contact, rest};
 use crate::scalar::{Scalar, real};
@@ -191,7 +191,9 @@ impl<'a, S: Scalar, const V: bool> Walk<'a, S, V> {
     /// Lie still at sample i for as long as the record is quiet; the last such sample.
     pub(crate) fn lie(&mut self, i: usize) -> usize {
         let accel = self.set.accel;
-        if i + 1 == accel.len() || !(self.is_quiet(i) || self.set.is_grazing(self.ground(i), self.ground(i + 1))) {
+        if i + 1 == accel.len()
+            || !(self.is_quiet(i) || self.set.is_grazing(self.ground(i), self.ground(i + 1)))
+        {
             return i;
         }
         let still = (i + 1..accel.len()).take_while(|&i| self.is_quiet(i)).count();
@@ -214,7 +216,13 @@ impl<'a, S: Scalar, const V: bool> Walk<'a, S, V> {
     /// Interval i; false, with the outcome set, if the history ends in it. `tried`: a step at the
     /// walk's pace does not take it.
     #[inline(always)]
-    pub(crate) fn advance(&mut self, i: usize, now: Sample<S>, then: Sample<S>, tried: bool) -> bool {
+    pub(crate) fn advance(
+        &mut self,
+        i: usize,
+        now: Sample<S>,
+        then: Sample<S>,
+        tried: bool,
+    ) -> bool {
         let Self { set, state, out, q, pace, .. } = self;
         let ends = (now, then);
         let steps = state.rocking && !tried;
@@ -225,10 +233,12 @@ impl<'a, S: Scalar, const V: bool> Walk<'a, S, V> {
                     || set.interval::<V, SHORT>(state, i, ends, out)
             }
             Pace::Walk => {
-                (steps && set.step::<V, SHORT>(state, *q, ends)) || set.interval::<V, SHORT>(state, i, ends, out)
+                (steps && set.step::<V, SHORT>(state, *q, ends))
+                    || set.interval::<V, SHORT>(state, i, ends, out)
             }
             Pace::Fast => {
-                (steps && set.step::<V, LONG>(state, *q, ends)) || set.interval::<V, LONG>(state, i, ends, out)
+                (steps && set.step::<V, LONG>(state, *q, ends))
+                    || set.interval::<V, LONG>(state, i, ends, out)
             }
         }
     }
@@ -280,7 +290,10 @@ impl<S: Scalar> Setting<'_, S> {
     /// The ground at an instant from the record's numbers (m/s2).
     #[inline(always)]
     pub(crate) fn sample<const V: bool>(&self, accel: f64, vertical: f64) -> Sample<S> {
-        Sample { a: self.unit * accel, gamma: if V { self.unit * vertical + 1.0 } else { S::one() } }
+        Sample {
+            a: self.unit * accel,
+            gamma: if V { self.unit * vertical + 1.0 } else { S::one() },
+        }
     }
 
     /// One Taylor step over a whole interval; false, with nothing changed, if the interval needs
@@ -294,13 +307,26 @@ impl<S: Scalar> Setting<'_, S> {
     ) -> bool {
         let at = &state.at;
         let (side, da) = (state.side, then.a - now.a);
-        let ground = StepGround { b: now.a * side, db: da * side, gamma: now.gamma, dgamma: then.gamma - now.gamma };
+        let ground = StepGround {
+            b: now.a * side,
+            db: da * side,
+            gamma: now.gamma,
+            dgamma: then.gamma - now.gamma,
+        };
         let c = coefficients::<S, V, N>(at, real(self.dt), &ground, &pulls(q));
         let change = change(&c);
         let w = at.w + change;
         let (re, ground) = (real_parts(&c), ground.re());
-        let plain = is_plain::<V, N>(&re, &ground, (q.re(), q.re().sqrt()), w.re(), self.alpha.re())
-            && (!V || contact::surely_presses(&re, at.sin.re(), &ground, self.share(), self.arm_of(self.dt)));
+        let plain =
+            is_plain::<V, N>(&re, &ground, (q.re(), q.re().sqrt()), w.re(), self.alpha.re())
+                && (!V
+                    || contact::surely_presses(
+                        &re,
+                        at.sin.re(),
+                        &ground,
+                        self.share(),
+                        self.arm_of(self.dt),
+                    ));
         if plain {
             state.at.w = w;
             state.at.rate = end_slope(&c) * (1.0 / self.dt);
@@ -337,7 +363,8 @@ impl<S: Scalar> Setting<'_, S> {
     /// The sample now is above the limit, but `rest::uplift` calls that a graze.
     fn is_grazing(&self, now: Sample<S>, then: Sample<S>) -> bool {
         let rest = |now: S, then: S| (now, then - now);
-        rest::uplift(S::zero(), rest(now.a, then.a), rest(now.gamma, then.gamma), self.lift).is_none()
+        rest::uplift(S::zero(), rest(now.a, then.a), rest(now.gamma, then.gamma), self.lift)
+            .is_none()
             && now.gamma.re() > 0.0
     }
 }

@@ -23,7 +23,8 @@ fn forces_are_mass_times_acceleration_of_the_history() {
     let record = Record::el_centro();
     let finely = |accel: &[f64], factor: f64| -> Vec<f64> {
         let between = accel.windows(2).take(800);
-        let fine = between.flat_map(|p| (0..10).map(|k| factor * (p[0] + (p[1] - p[0]) * f64::from(k) / 10.0)));
+        let fine = between
+            .flat_map(|p| (0..10).map(|k| factor * (p[0] + (p[1] - p[0]) * f64::from(k) / 10.0)));
         fine.collect()
     };
     let (fine, up) = (finely(&record.accel, 1.0), finely(&record.accel[50..], 0.5));
@@ -32,19 +33,29 @@ fn forces_are_mass_times_acceleration_of_the_history() {
     forces_are_those_of(&body, dt, &fine, &up, Some(up[..].into()));
 }
 
-fn forces_are_those_of(body: &Body<f64>, dt: f64, fine: &[f64], up: &[f64], vertical: Option<std::sync::Arc<[f64]>>) {
+fn forces_are_those_of(
+    body: &Body<f64>,
+    dt: f64,
+    fine: &[f64],
+    up: &[f64],
+    vertical: Option<std::sync::Arc<[f64]>>,
+) {
     let rocking = solve(body, dt, fine, &RockingOptions { vertical, ..RockingOptions::default() });
     let motion = rocking.motion(body);
     let mut compared = 0;
     for i in (10..7990).filter(|i| i % 10 == 5) {
-        let same_side = motion.theta[i - 2..=i + 2].iter().all(|theta| theta * motion.theta[i] > 0.0);
+        let same_side =
+            motion.theta[i - 2..=i + 2].iter().all(|theta| theta * motion.theta[i] > 0.0);
         if !same_side {
             continue;
         }
-        let second =
-            |x: &[f64]| (-x[i - 2] + 16.0 * x[i - 1] - 30.0 * x[i] + 16.0 * x[i + 1] - x[i + 2]) / (12.0 * dt * dt);
+        let second = |x: &[f64]| {
+            (-x[i - 2] + 16.0 * x[i - 1] - 30.0 * x[i] + 16.0 * x[i + 1] - x[i + 2])
+                / (12.0 * dt * dt)
+        };
         let ground = (fine[i] / GRAVITY, 1.0 + up[i] / GRAVITY);
-        let (f, n) = forces(body, motion.theta[i].signum(), motion.theta[i], rocking.rate[i], ground);
+        let (f, n) =
+            forces(body, motion.theta[i].signum(), motion.theta[i], rocking.rate[i], ground);
         // the differences lose 1e-16 m / dt^2
         assert!((f - (second(&motion.u) + fine[i]) / GRAVITY).abs() < 1e-9);
         assert!((n - (second(&motion.v) + up[i] + GRAVITY) / GRAVITY).abs() < 1e-9);
@@ -88,7 +99,11 @@ fn el_centro_on_the_papers_frame_rocks_without_warnings() {
     assert_eq!((regime.free_flight, regime.too_stocky), (None, None));
     assert!(sound(&regime));
     let slippery = check(&body, record.dt, (&record.accel, &[]), 1.0, &rocking, 0.05);
-    assert!(slippery.friction_needed.value > 0.05 && slippery.landing_friction > 0.05 && slippery.too_stocky.is_some());
+    assert!(
+        slippery.friction_needed.value > 0.05
+            && slippery.landing_friction > 0.05
+            && slippery.too_stocky.is_some()
+    );
 }
 
 /// N = 0 where R theta'^2 = g for an upright A-frame leg: a start at that rate and beyond flies.
@@ -146,11 +161,15 @@ fn what_a_falling_body_asks_of_the_ground_does_not_count() {
     assert!(regime.friction_needed.time <= time, "{regime:?}");
     // it stands under twice tan(alpha) for the first sample, and needs less once it leans: see
     // equation 1
-    assert!((regime.friction_needed.value - 2.0 * body.half_width / body.height).abs() < 1e-12, "{regime:?}");
+    assert!(
+        (regime.friction_needed.value - 2.0 * body.half_width / body.height).abs() < 1e-12,
+        "{regime:?}"
+    );
     assert_eq!(regime.free_flight, None);
     // uncut, the same samples need more
     let uncut = Rocking { outcome: RockingOutcome::Rocked, ..rocking };
     assert!(
-        check(&body, 0.01, (&accel, &[]), 1.0, &uncut, 0.5).friction_needed.value > 1.5 * regime.friction_needed.value
+        check(&body, 0.01, (&accel, &[]), 1.0, &uncut, 0.5).friction_needed.value
+            > 1.5 * regime.friction_needed.value
     );
 }

@@ -23,7 +23,11 @@ impl Fourier {
     /// Of the least power of two that holds so many points, at least two.
     pub(super) fn holding(points: usize) -> Self {
         let n = points.next_power_of_two().max(2);
-        Self { roots: (0..n / 2).map(|k| Complex::from_polar(1.0, -TAU * k as f64 / n as f64)).collect() }
+        Self {
+            roots: (0..n / 2)
+                .map(|k| Complex::from_polar(1.0, -TAU * k as f64 / n as f64))
+                .collect(),
+        }
     }
 
     /// N.
@@ -46,7 +50,9 @@ impl Fourier {
             let stride = n / (2 * half);
             for block in x.chunks_exact_mut(2 * half) {
                 let (low, high) = block.split_at_mut(half);
-                for ((a, b), root) in low.iter_mut().zip(high).zip(self.roots.iter().step_by(stride)) {
+                for ((a, b), root) in
+                    low.iter_mut().zip(high).zip(self.roots.iter().step_by(stride))
+                {
                     let turned = *b * root;
                     (*a, *b) = (*a + turned, *a - turned);
                 }
@@ -74,8 +80,9 @@ mod tests {
             let fourier = Fourier::holding(points);
             let n = fourier.len();
             assert!(n >= points && n.is_power_of_two());
-            let x: Vec<Complex<f64>> =
-                (0..n).map(|i| Complex::new((1.7 * i as f64).sin(), (0.3 * (i * i) as f64).cos())).collect();
+            let x: Vec<Complex<f64>> = (0..n)
+                .map(|i| Complex::new((1.7 * i as f64).sin(), (0.3 * (i * i) as f64).cos()))
+                .collect();
             let mut transformed = x.clone();
             fourier.forward(&mut transformed);
             for (k, value) in transformed.iter().enumerate() {

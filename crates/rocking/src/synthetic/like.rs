@@ -21,7 +21,9 @@ use std::f64::consts::TAU;
 use num_complex::Complex;
 use thiserror::Error;
 
-use super::{fft::Fourier, noise::rest_at_end, random::Random, silence_s, spectrum::ResponseSpectrum};
+use super::{
+    fft::Fourier, noise::rest_at_end, random::Random, silence_s, spectrum::ResponseSpectrum,
+};
 use strong_motion::{Record, Source};
 
 /// Streams of random numbers that neither of the other suites uses; from bit 40 on the number of
@@ -50,7 +52,9 @@ const SAMPLES: (usize, usize) = (200, 400_000);
 pub enum LikeError {
     #[error("{record}: has no motion; give a record that has")]
     Still { record: String },
-    #[error("{record}: {samples} samples; motions like it need {least} to {most}: give a longer record, or duration_s")]
+    #[error(
+        "{record}: {samples} samples; motions like it need {least} to {most}: give a longer record, or duration_s"
+    )]
     Samples { record: String, samples: usize, least: usize, most: usize },
 }
 
@@ -168,8 +172,10 @@ impl MotionTarget {
     /// Whether a motion is about as long as the given one and moves the ground not much farther.
     fn fits(&self, accel: &[f64]) -> bool {
         let (length, far) = self.given;
-        let made = Record::new("made", self.dt, accel.to_vec()).map(|record| record.measures().duration_5_95_s);
-        made.is_ok_and(|made| LENGTHS.contains(&(made / length))) && farthest(accel, self.dt) <= FARTHEST * far
+        let made = Record::new("made", self.dt, accel.to_vec())
+            .map(|record| record.measures().duration_5_95_s);
+        made.is_ok_and(|made| LENGTHS.contains(&(made / length)))
+            && farthest(accel, self.dt) <= FARTHEST * far
     }
 
     /// One draw of phases, corrected: its mismatch, and its accelerations.
@@ -179,14 +185,16 @@ impl MotionTarget {
             *x = Complex::from_polar(*amplitude, random.between(0.0, TAU));
         }
         self.fourier.inverse(&mut transform);
-        let mut accel: Vec<f64> = transform.iter().zip(&self.envelope).map(|(x, e)| x.re * e).collect();
+        let mut accel: Vec<f64> =
+            transform.iter().zip(&self.envelope).map(|(x, e)| x.re * e).collect();
         self.rest(&mut accel);
         let offset = mean(&self.missing(&accel)).exp();
         accel.iter_mut().for_each(|a| *a *= offset);
         let (mut least, mut kept) = (f64::INFINITY, accel.clone());
         for _ in 0..CORRECTIONS {
             let missing = self.missing(&accel);
-            let mismatch = missing[..self.promised].iter().fold(0.0, |most: f64, ln| most.max(ln.abs()));
+            let mismatch =
+                missing[..self.promised].iter().fold(0.0, |most: f64, ln| most.max(ln.abs()));
             if mismatch < least {
                 (least, kept) = (mismatch, accel.clone());
             }
@@ -201,12 +209,17 @@ impl MotionTarget {
     /// ln(S_given/S) at the periods.
     fn missing(&self, accel: &[f64]) -> Vec<f64> {
         let there = self.spectrum.of(accel);
-        self.wanted.iter().zip(there).map(|(wanted, there)| (wanted / there.max(f64::MIN_POSITIVE)).ln()).collect()
+        self.wanted
+            .iter()
+            .zip(there)
+            .map(|(wanted, there)| (wanted / there.max(f64::MIN_POSITIVE)).ln())
+            .collect()
     }
 
     /// The transform times S_given/S, between the periods and beyond them by their logarithms.
     fn correct(&self, accel: &mut [f64], missing: &[f64], transform: &mut [Complex<f64>]) {
-        for (x, a) in transform.iter_mut().zip(accel.iter().copied().chain(std::iter::repeat(0.0))) {
+        for (x, a) in transform.iter_mut().zip(accel.iter().copied().chain(std::iter::repeat(0.0)))
+        {
             *x = Complex::new(a, 0.0);
         }
         self.fourier.forward(transform);
@@ -269,7 +282,9 @@ fn mean(values: &[f64]) -> f64 {
 fn envelope(record: &Record) -> Vec<f64> {
     let half = ((record.duration() / 50.0).max(0.5) / record.dt).ceil() as usize;
     let squares: Vec<f64> = record.accel.iter().map(|a| a * a).collect();
-    let smooth = (0..3).fold(squares, |values, _| running_mean(&values, |i| (i.saturating_sub(half), i + half + 1)));
+    let smooth = (0..3).fold(squares, |values, _| {
+        running_mean(&values, |i| (i.saturating_sub(half), i + half + 1))
+    });
     let most = smooth.iter().fold(0.0, |most: f64, x| most.max(*x));
     // running sums leave a rounding error where the motion is zero
     let mut envelope: Vec<f64> = smooth.iter().map(|x| (x / most).max(0.0).sqrt()).collect();
@@ -291,7 +306,11 @@ fn amplitudes(record: &Record, fourier: &Fourier, lowest: f64) -> Vec<f64> {
     let around = |k: usize| ((0.9 * k as f64) as usize, (1.1 * k as f64).ceil() as usize + 1);
     let frequency = |k: usize| k as f64 / (fourier.len() as f64 * record.dt);
     let smooth = running_mean(&squares, around);
-    smooth.iter().enumerate().map(|(k, x)| if frequency(k) < lowest { 0.0 } else { x.max(0.0).sqrt() }).collect()
+    smooth
+        .iter()
+        .enumerate()
+        .map(|(k, x)| if frequency(k) < lowest { 0.0 } else { x.max(0.0).sqrt() })
+        .collect()
 }
 
 /// Means of the values from and to before an index, as far as there are any.

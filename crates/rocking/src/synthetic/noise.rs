@@ -48,7 +48,8 @@ impl Noise {
     }
 
     fn filters(&self, dt: f64) -> [Biquad; 4] {
-        let kanai_tajimi = Biquad::new(self.omega_g, dt, [1.0, 2.0 * self.zeta_g, 0.0], self.zeta_g);
+        let kanai_tajimi =
+            Biquad::new(self.omega_g, dt, [1.0, 2.0 * self.zeta_g, 0.0], self.zeta_g);
         let clough_penzien = Biquad::new(HIGH_PASS * self.omega_g, dt, [0.0, 0.0, 1.0], 0.6);
         // poles of the Butterworth filter of order 4: damping ratios cos(pi/8), cos(3 pi/8)
         let [first, second] = [1.0_f64, 3.0].map(|k| {
@@ -83,7 +84,8 @@ fn end_of(accel: impl Iterator<Item = f64> + Clone, dt: f64) -> [f64; 2] {
 /// sample shorter.
 pub(super) fn rest_at_end(accel: &mut [f64], weight: &[f64], dt: f64) {
     let constant = weight.iter().copied().chain([0.0]);
-    let linear = weight.iter().enumerate().map(|(i, e)| e * i as f64 / weight.len() as f64).chain([0.0]);
+    let linear =
+        weight.iter().enumerate().map(|(i, e)| e * i as f64 / weight.len() as f64).chain([0.0]);
     let [v, d] = end_of(accel.iter().copied(), dt);
     let [v0, d0] = end_of(constant.clone(), dt);
     let [v1, d1] = end_of(linear.clone(), dt);
@@ -105,10 +107,15 @@ struct Biquad {
 impl Biquad {
     fn new(omega_0: f64, dt: f64, [b0, b1, b2]: [f64; 3], zeta: f64) -> Self {
         let k = 1.0 / (omega_0 * dt / 2.0).tan(); // s -> k (1 - 1/z)/(1 + 1/z)
-        let expand =
-            |c0: f64, c1: f64, c2: f64| [c0 + k * (c1 + k * c2), 2.0 * (c0 - k * k * c2), c0 - k * (c1 - k * c2)];
+        let expand = |c0: f64, c1: f64, c2: f64| {
+            [c0 + k * (c1 + k * c2), 2.0 * (c0 - k * k * c2), c0 - k * (c1 - k * c2)]
+        };
         let [a0, a1, a2] = expand(1.0, 2.0 * zeta, 1.0);
-        Self { numerator: expand(b0, b1, b2).map(|b| b / a0), denominator: [a1 / a0, a2 / a0], memory: [0.0; 2] }
+        Self {
+            numerator: expand(b0, b1, b2).map(|b| b / a0),
+            denominator: [a1 / a0, a2 / a0],
+            memory: [0.0; 2],
+        }
     }
 
     fn next(&mut self, x: f64) -> f64 {
@@ -127,7 +134,8 @@ mod tests {
     fn gain(mut filters: Vec<Biquad>, omega: f64, dt: f64) -> f64 {
         let (mut re, mut im) = (0.0, 0.0);
         for i in 0..200_000 {
-            let y = filters.iter_mut().fold(if i == 0 { 1.0 } else { 0.0 }, |x, filter| filter.next(x));
+            let y =
+                filters.iter_mut().fold(if i == 0 { 1.0 } else { 0.0 }, |x, filter| filter.next(x));
             let phase = omega * dt * f64::from(i);
             re += y * phase.cos();
             im += y * phase.sin();
@@ -186,7 +194,8 @@ mod tests {
             let n = accel.len();
             let share = |low: f64, high: f64| {
                 let step = std::f64::consts::TAU / (n as f64 * dt);
-                let bins = (0..n / 2).map(|k| k as f64 * step).filter(|omega| (low..high).contains(omega));
+                let bins =
+                    (0..n / 2).map(|k| k as f64 * step).filter(|omega| (low..high).contains(omega));
                 bins.map(power).sum::<f64>() / n as f64 / total
             };
             assert!(share(0.0, 0.24) < 2e-3, "low: {}", share(0.0, 0.24));

@@ -69,7 +69,8 @@ impl Pulse {
             }
             Self::MavroeidisPapageorgiou { gamma, nu } if x.re().abs() <= gamma * PI => {
                 let (window, carrier) = (x / gamma, x + nu);
-                -(window.sin() / gamma * carrier.cos() + (window.cos() + 1.0) * carrier.sin()) * half
+                -(window.sin() / gamma * carrier.cos() + (window.cos() + 1.0) * carrier.sin())
+                    * half
             }
             Self::MavroeidisPapageorgiou { .. } => S::zero(),
         }
@@ -87,7 +88,9 @@ impl Pulse {
     /// Accelerations of the whole pulse at time steps dt (s), omega_p in rad/s.
     pub(super) fn sampled(&self, omega_p: f64, dt: f64) -> Vec<f64> {
         let half_length = (self.half_length() / (omega_p * dt)).ceil();
-        (0..=2 * half_length as usize).map(|i| self.acceleration(omega_p * dt * (i as f64 - half_length))).collect()
+        (0..=2 * half_length as usize)
+            .map(|i| self.acceleration(omega_p * dt * (i as f64 - half_length)))
+            .collect()
     }
 }
 
@@ -122,7 +125,8 @@ mod tests {
                 }
                 // fourth-order central difference: error h^4 v^(5)/30, rounding 1e-16/h
                 let (h, v) = (1e-3, |x| pulse.velocity::<f64>(x));
-                let difference = (8.0 * (v(x + h) - v(x - h)) - (v(x + 2.0 * h) - v(x - 2.0 * h))) / (12.0 * h);
+                let difference =
+                    (8.0 * (v(x + h) - v(x - h)) - (v(x + 2.0 * h) - v(x - 2.0 * h))) / (12.0 * h);
                 assert!((pulse.acceleration(x) - difference).abs() < 1e-11, "{pulse:?} at {x}");
             }
         }
@@ -132,7 +136,10 @@ mod tests {
     fn velocity_and_acceleration_vanish_at_the_ends() {
         for pulse in pulses() {
             for x in [-pulse.half_length(), pulse.half_length()] {
-                assert!(pulse.velocity(x).abs() < 1e-8 && pulse.acceleration(x).abs() < 1e-8, "{pulse:?} at {x}");
+                assert!(
+                    pulse.velocity(x).abs() < 1e-8 && pulse.acceleration(x).abs() < 1e-8,
+                    "{pulse:?} at {x}"
+                );
             }
         }
     }
@@ -141,10 +148,15 @@ mod tests {
     #[test]
     fn ricker_wavelets_peak_at_one() {
         assert_eq!(format!("{:.4}", antisymmetric_peak()), "1.3801");
-        for (pulse, at) in [(Pulse::RickerSymmetric, 0.0), (Pulse::RickerAntisymmetric, -(9.0 - 54_f64.sqrt()).sqrt())]
-        {
+        for (pulse, at) in [
+            (Pulse::RickerSymmetric, 0.0),
+            (Pulse::RickerAntisymmetric, -(9.0 - 54_f64.sqrt()).sqrt()),
+        ] {
             assert!((pulse.acceleration(at) - 1.0).abs() < 1e-15);
-            assert!((-3000..3000).all(|i| pulse.acceleration(f64::from(i) * 0.004).abs() <= 1.0 + 1e-15));
+            assert!(
+                (-3000..3000)
+                    .all(|i| pulse.acceleration(f64::from(i) * 0.004).abs() <= 1.0 + 1e-15)
+            );
         }
     }
 

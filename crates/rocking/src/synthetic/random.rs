@@ -58,8 +58,13 @@ mod tests {
             }
         }
         // four standard errors of each mean: sqrt(1/n), sqrt(2/n), sqrt(15/n), sqrt(96/n)
-        for ((moment, exact), variance) in moments.into_iter().zip([0.0, 1.0, 0.0, 3.0]).zip([1.0, 2.0, 15.0, 96.0]) {
-            assert!((moment - exact).abs() < 4.0 * (variance / f64::from(n)).sqrt(), "{moment} {exact}");
+        for ((moment, exact), variance) in
+            moments.into_iter().zip([0.0, 1.0, 0.0, 3.0]).zip([1.0, 2.0, 15.0, 96.0])
+        {
+            assert!(
+                (moment - exact).abs() < 4.0 * (variance / f64::from(n)).sqrt(),
+                "{moment} {exact}"
+            );
         }
     }
 

@@ -38,7 +38,10 @@ impl OscillatorStep {
             let a = d0 - level;
             let b = (v0 - slope + ZETA * omega * a) / omega_d;
             let d = level + slope * dt + decay * (a * cos + b * sin);
-            let v = slope + decay * ((omega_d * b - ZETA * omega * a) * cos - (omega_d * a + ZETA * omega * b) * sin);
+            let v = slope
+                + decay
+                    * ((omega_d * b - ZETA * omega * a) * cos
+                        - (omega_d * a + ZETA * omega * b) * sin);
             (d, v)
         };
         let units = [after(1.0, 0.0, 0.0, 0.0), after(0.0, 1.0, 0.0, 0.0)];
@@ -79,8 +82,10 @@ impl ResponseSpectrum {
 fn peaks(steps: &[OscillatorStep; LANES], accel: &[f64]) -> [f64; LANES] {
     // a column a coefficient, so that the lanes of one lie side by side
     let column = |of: fn(&OscillatorStep) -> f64| steps.each_ref().map(of);
-    let (dd, dv, da, db) = (column(|s| s.d[0]), column(|s| s.d[1]), column(|s| s.d[2]), column(|s| s.d[3]));
-    let (vd, vv, va, vb) = (column(|s| s.v[0]), column(|s| s.v[1]), column(|s| s.v[2]), column(|s| s.v[3]));
+    let (dd, dv, da, db) =
+        (column(|s| s.d[0]), column(|s| s.d[1]), column(|s| s.d[2]), column(|s| s.d[3]));
+    let (vd, vv, va, vb) =
+        (column(|s| s.v[0]), column(|s| s.v[1]), column(|s| s.v[2]), column(|s| s.v[3]));
     let (mut d, mut v, mut peak) = ([0.0_f64; LANES], [0.0_f64; LANES], [0.0_f64; LANES]);
     for pair in accel.windows(2) {
         let (a, b) = (pair[0], pair[1]);
@@ -119,7 +124,10 @@ mod tests {
         let accel: Vec<f64> = (0..40_000).map(|i| (TAU * f64::from(i) * dt).sin()).collect();
         let found = ResponseSpectrum::new(vec![1.0, 0.01], dt).of(&accel);
         let x = std::f64::consts::PI * dt;
-        assert!((found[0] / ((x.sin() / x).powi(2) / (2.0 * ZETA)) - 1.0).abs() < 2e-4, "{found:?}");
+        assert!(
+            (found[0] / ((x.sin() / x).powi(2) / (2.0 * ZETA)) - 1.0).abs() < 2e-4,
+            "{found:?}"
+        );
         assert!((found[1] - 1.0).abs() < 1e-3, "{found:?}");
     }
 

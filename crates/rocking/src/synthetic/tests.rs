@@ -32,9 +32,13 @@ fn peak_rocking(body: &Body<f64>, record: &Record) -> f64 {
                     continue;
                 }
             }
-            let s = [theta, rate, -ground(step)].into_iter().find(|x| *x != 0.0).map_or(1.0, f64::signum);
+            let s = [theta, rate, -ground(step)]
+                .into_iter()
+                .find(|x| *x != 0.0)
+                .map_or(1.0, f64::signum);
             let f = |theta: f64, t: f64| {
-                -p2 * ((alpha * s - theta).sin() + ground(step + t) / GRAVITY * (alpha * s - theta).cos())
+                -p2 * ((alpha * s - theta).sin()
+                    + ground(step + t) / GRAVITY * (alpha * s - theta).cos())
             };
             let k1 = (rate, f(theta, 0.0));
             let k2 = (rate + h / 2.0 * k1.1, f(theta + h / 2.0 * k1.0, 0.5));
@@ -61,22 +65,36 @@ fn outcomes_are_a_mix_from_hardly_lifting_to_toppling() {
         let (p, alpha) = (body.p_squared().sqrt(), body.alpha());
         let solved = (0..n).into_par_iter().map(|index| {
             let record = record(42, index, p, alpha);
-            let rocking = housner::solve(&body, record.dt, &record.accel, &housner::RockingOptions::default());
-            (peak_rocking(&body, &record), matches!(rocking.outcome, housner::RockingOutcome::Overturned { .. }))
+            let rocking = housner::solve(
+                &body,
+                record.dt,
+                &record.accel,
+                &housner::RockingOptions::default(),
+            );
+            (
+                peak_rocking(&body, &record),
+                matches!(rocking.outcome, housner::RockingOutcome::Overturned { .. }),
+            )
         });
         let (peaks, overturned): (Vec<f64>, Vec<bool>) = solved.unzip();
         // the two solvers differ where a body hangs in the balance
-        let agree =
-            peaks.iter().zip(&overturned).filter(|(peak, overturned)| peak.is_infinite() == **overturned).count();
+        let agree = peaks
+            .iter()
+            .zip(&overturned)
+            .filter(|(peak, overturned)| peak.is_infinite() == **overturned)
+            .count();
         assert!(agree * 100 >= n * 97, "{name}: {agree} of {n} alike");
         let share = |low: f64, high: f64, kind: &[usize]| {
-            let of_kind: Vec<f64> = (0..n).filter(|i| kind.contains(&(i % 3))).map(|i| peaks[i]).collect();
-            of_kind.iter().filter(|peak| (low..high).contains(peak)).count() as f64 / of_kind.len() as f64
+            let of_kind: Vec<f64> =
+                (0..n).filter(|i| kind.contains(&(i % 3))).map(|i| peaks[i]).collect();
+            of_kind.iter().filter(|peak| (low..high).contains(peak)).count() as f64
+                / of_kind.len() as f64
         };
         let all = [0, 1, 2];
         let toppled_of = |kind: &[usize]| 1.0 - share(0.0, f64::INFINITY, kind);
         let toppled = all.map(|kind| toppled_of(&[kind]));
-        let classes = [(0.0, 0.1), (0.1, 0.4), (0.4, f64::MAX)].map(|(low, high)| share(low, high, &all));
+        let classes =
+            [(0.0, 0.1), (0.1, 0.4), (0.4, f64::MAX)].map(|(low, high)| share(low, high, &all));
         assert!((0.1..=0.25).contains(&toppled_of(&all)), "{name}");
         assert!(toppled.iter().all(|share| (0.01..0.4).contains(share)), "{name}: {toppled:?}");
         assert!(classes.iter().all(|share| *share > 0.1), "{name}: {classes:?}");
@@ -88,11 +106,23 @@ fn every_record_passes_the_checks_of_a_record_and_lifts_the_body() {
     for (name, body) in bodies() {
         let uplift = GRAVITY * body.alpha().tan();
         for record in suite(60, 3, body.p_squared().sqrt(), body.alpha()) {
-            let (low, high) = if record.name.starts_with("noise") { (1.2, 6.0) } else { (1.1, 4.0) };
+            let (low, high) =
+                if record.name.starts_with("noise") { (1.2, 6.0) } else { (1.1, 4.0) };
             let amplitude = record.pga() / uplift;
-            assert!((low * (1.0 - 1e-12)..=high).contains(&amplitude), "{name} {} {amplitude}", record.name);
-            assert!(record.accel[0].abs() < 1e-6 * uplift && record.accel.last() == Some(&0.0), "{}", record.name);
-            assert_eq!(Record::new(record.name.clone(), record.dt, record.accel.clone()), Ok(record));
+            assert!(
+                (low * (1.0 - 1e-12)..=high).contains(&amplitude),
+                "{name} {} {amplitude}",
+                record.name
+            );
+            assert!(
+                record.accel[0].abs() < 1e-6 * uplift && record.accel.last() == Some(&0.0),
+                "{}",
+                record.name
+            );
+            assert_eq!(
+                Record::new(record.name.clone(), record.dt, record.accel.clone()),
+                Ok(record)
+            );
         }
     }
 }
@@ -136,7 +166,14 @@ fn pulses_scale_with_the_structure() {
 
 #[test]
 fn time_steps_are_round() {
-    for (x, step) in [(0.02, 0.02), (0.0126, 0.01), (0.005, 0.005), (4.2e-4, 2e-4), (0.0099, 0.005), (1e-3, 1e-3)] {
+    for (x, step) in [
+        (0.02, 0.02),
+        (0.0126, 0.01),
+        (0.005, 0.005),
+        (4.2e-4, 2e-4),
+        (0.0099, 0.005),
+        (1e-3, 1e-3),
+    ] {
         assert_eq!(round_step(x), step);
     }
     for p in [f64::NAN, 0.0, 1e9, f64::INFINITY] {
@@ -148,12 +185,21 @@ fn time_steps_are_round() {
 fn earthquakes_have_the_amplitudes_and_lengths_of_real_ones_whatever_the_structure() {
     let all: Vec<Record> = (0..200).map(|index| earthquake(3, index, 1.7)).collect();
     for record in &all {
-        assert!((0.2 * (1.0 - 1e-12)..0.9).contains(&record.pga_g()), "{} {}", record.name, record.pga_g());
+        assert!(
+            (0.2 * (1.0 - 1e-12)..0.9).contains(&record.pga_g()),
+            "{} {}",
+            record.name,
+            record.pga_g()
+        );
         assert!([0.005, 0.01].contains(&record.dt) && record.source == Source::Earthquake);
-        let silence = record.accel.iter().rev().take_while(|a| **a == 0.0).count() as f64 * record.dt;
+        let silence =
+            record.accel.iter().rev().take_while(|a| **a == 0.0).count() as f64 * record.dt;
         assert!((8.0 / 1.7..8.0 / 1.7 + 0.03).contains(&silence), "{silence}");
         assert!((20.0..60.1).contains(&(record.duration() - silence)), "{}", record.duration());
-        assert_eq!(Record::new(record.name.clone(), record.dt, record.accel.clone()).as_ref(), Ok(record));
+        assert_eq!(
+            Record::new(record.name.clone(), record.dt, record.accel.clone()).as_ref(),
+            Ok(record)
+        );
     }
     let mean = all.iter().map(Record::pga_g).sum::<f64>() / 200.0;
     // four standard errors: 0.7/sqrt(12)/sqrt(200)
@@ -173,7 +219,8 @@ fn earthquakes_have_the_amplitudes_and_lengths_of_real_ones_whatever_the_structu
 fn earthquakes_have_real_frequencies_and_are_drawn_apart_from_the_other_suite() {
     for index in 0..20 {
         let record = earthquake(5, index, 1.0);
-        let crossings = record.accel.windows(2).filter(|pair| pair[0] * pair[1] < 0.0).count() as f64;
+        let crossings =
+            record.accel.windows(2).filter(|pair| pair[0] * pair[1] < 0.0).count() as f64;
         let rate = crossings / (record.duration() - 8.0);
         assert!((2.0..16.0).contains(&rate), "{rate}");
         assert_ne!(earthquake(6, index, 1.0).accel, record.accel);

@@ -33,7 +33,8 @@ fn wide<S: DualNum<f64> + Copy>(body: Body<f64>, relative: S) -> Body<S> {
 fn theta_by_width_on_el_centro_through_twelve_impacts() {
     let body = Structure::paper().body::<f64>();
     let accel = Record::el_centro().accel;
-    let dual_options = RockingOptions { duration: Some(20.0), ..RockingOptions::<Dual64>::default() };
+    let dual_options =
+        RockingOptions { duration: Some(20.0), ..RockingOptions::<Dual64>::default() };
     let dual = solve(&wide(body, Dual64::new(0.0, 1.0)), 0.01, &accel, &dual_options);
     let options = RockingOptions { duration: Some(20.0), ..RockingOptions::default() };
     let expected = differences(|x| solve(&wide(body, x), 0.01, &accel, &options).theta, 1e-5);
@@ -51,10 +52,13 @@ fn theta_by_width_on_el_centro_through_twelve_impacts() {
 fn theta_by_scale_on_el_centro_of_a_solid_block() {
     let body = Structure::block(4.0, 1.0, 100.0).unwrap().body::<f64>();
     let accel = &Record::el_centro().accel[..600];
-    let run = |scale: f64| solve(&body, 0.01, accel, &RockingOptions { scale, ..RockingOptions::default() });
+    let run = |scale: f64| {
+        solve(&body, 0.01, accel, &RockingOptions { scale, ..RockingOptions::default() })
+    };
     let dual_body = Structure::block(4.0, 1.0, 100.0).unwrap().body::<Dual64>();
     let options = RockingOptions { scale: Dual64::new(1.5, 1.0), ..RockingOptions::default() };
-    let exact: Vec<f64> = solve(&dual_body, 0.01, accel, &options).theta.iter().map(|theta| theta.eps).collect();
+    let exact: Vec<f64> =
+        solve(&dual_body, 0.01, accel, &options).theta.iter().map(|theta| theta.eps).collect();
     let expected = differences(|x| run(1.5 + x).theta, 1e-5);
     assert!(run(1.5).impacts.len() > 3);
     let error = relative_error(&exact, &expected);
@@ -68,11 +72,20 @@ fn impact_and_uplift_times_carry_derivatives() {
     let options = RockingOptions { duration: Some(20.0), ..RockingOptions::<Dual64>::default() };
     let dual = solve(&wide(body, Dual64::new(0.0, 1.0)), 0.01, &accel, &options);
     let run = |x: f64| {
-        solve(&wide(body, x), 0.01, &accel, &RockingOptions { duration: Some(20.0), ..RockingOptions::default() })
+        solve(
+            &wide(body, x),
+            0.01,
+            &accel,
+            &RockingOptions { duration: Some(20.0), ..RockingOptions::default() },
+        )
     };
     let expected = differences(|x| run(x).impacts.iter().map(|impact| impact.time).collect(), 1e-5);
     for (impact, expected) in dual.impacts.iter().zip(&expected) {
-        assert!((impact.time.eps - expected).abs() < 1e-5 * (1.0 + expected.abs()), "{} {expected}", impact.time.eps);
+        assert!(
+            (impact.time.eps - expected).abs() < 1e-5 * (1.0 + expected.abs()),
+            "{} {expected}",
+            impact.time.eps
+        );
     }
     let expected = differences(|x| vec![run(x).uplifts[0].time], 1e-5)[0];
     assert!((dual.uplifts[0].time.eps - expected).abs() < 1e-8 * expected.abs());
@@ -82,7 +95,12 @@ fn impact_and_uplift_times_carry_derivatives() {
 fn a_quarter_period_differentiates_as_its_closed_form() {
     // small angles: t = acosh(1/(1 - phi))/p; dt/dphi = 1/(p (1 - phi) sqrt(1 - (1 - phi)^2))
     let alpha = 1e-4_f64;
-    let body = Body { mass: lift(1.0), half_width: lift(10.0 * alpha), height: lift(10.0), inertia: lift(0.0) };
+    let body = Body {
+        mass: lift(1.0),
+        half_width: lift(10.0 * alpha),
+        height: lift(10.0),
+        inertia: lift(0.0),
+    };
     let phi = 0.4_f64;
     let theta = Dual64::new(phi, 1.0) * body.alpha().re;
     let options = RockingOptions { initial: Some((theta, lift(0.0))), ..RockingOptions::default() };

@@ -29,7 +29,8 @@ fn ground_below_the_limit_never_moves_the_body() {
 
 #[test]
 fn a_record_starting_in_strong_motion_lifts_the_body_at_once() {
-    let rocking = solve(&block(), 0.01, &[2.0 * LIMIT, 2.0 * LIMIT, 0.0], &RockingOptions::default());
+    let rocking =
+        solve(&block(), 0.01, &[2.0 * LIMIT, 2.0 * LIMIT, 0.0], &RockingOptions::default());
     assert_eq!((rocking.uplifts[0].time, rocking.uplifts[0].side), (0.0, -1.0));
     // theta'' = -p^2 (2 - 1) sin(alpha) at first
     let body = block();
@@ -39,9 +40,12 @@ fn a_record_starting_in_strong_motion_lifts_the_body_at_once() {
 
 #[test]
 fn a_peak_at_the_limit_or_one_ulp_beyond_does_no_harm() {
-    for peak in [LIMIT.next_down(), LIMIT, LIMIT.next_up(), LIMIT * (1.0 + 1e-15), LIMIT * (1.0 + 1e-12)] {
+    for peak in
+        [LIMIT.next_down(), LIMIT, LIMIT.next_up(), LIMIT * (1.0 + 1e-15), LIMIT * (1.0 + 1e-12)]
+    {
         for sign in [1.0, -1.0] {
-            let accel = [0.0, 0.5, 1.0, 0.5, 0.0, -0.5, -1.0, -1.0, 0.0, 0.0].map(|x| sign * x * peak);
+            let accel =
+                [0.0, 0.5, 1.0, 0.5, 0.0, -0.5, -1.0, -1.0, 0.0, 0.0].map(|x| sign * x * peak);
             let rocking = solve(&block(), 0.01, &accel, &RockingOptions::default());
             assert_eq!(rocking.theta.len(), accel.len());
             assert!(rocking.theta.iter().all(|theta| theta.abs() < 1e-9), "{peak}");
@@ -55,7 +59,8 @@ fn a_peak_at_the_limit_or_one_ulp_beyond_does_no_harm() {
 #[test]
 fn uplift_inside_a_sample_starts_with_no_acceleration() {
     let body = block();
-    let rocking = solve(&body, 0.01, &[0.0, -2.0 * LIMIT, -2.0 * LIMIT], &RockingOptions::default());
+    let rocking =
+        solve(&body, 0.01, &[0.0, -2.0 * LIMIT, -2.0 * LIMIT], &RockingOptions::default());
     assert!((rocking.uplifts[0].time - 0.005).abs() < 1e-17);
     let jerk = body.p_squared() * body.alpha().cos() * 0.5 / 0.01;
     assert!((rocking.theta[1] / (jerk * 0.005_f64.powi(3) / 6.0) - 1.0).abs() < 1e-4);
@@ -66,11 +71,15 @@ fn uplift_inside_a_sample_starts_with_no_acceleration() {
 #[test]
 fn an_impact_at_a_sample_is_one_impact() {
     let body = block();
-    let start = |phi: f64| RockingOptions { initial: Some((phi * body.alpha(), 0.0)), ..RockingOptions::default() };
+    let start = |phi: f64| RockingOptions {
+        initial: Some((phi * body.alpha(), 0.0)),
+        ..RockingOptions::default()
+    };
     let quarter = solve(&body, 0.01, &[0.0; 200], &start(0.5)).impacts[0].time;
     for nudge in [-1e-15, -1e-16, 0.0, 1e-16, 1e-15] {
         let rocking = solve(&body, (quarter + nudge) / 40.0, &[0.0; 100], &start(0.5));
-        let near = rocking.impacts.iter().filter(|impact| (impact.time - quarter).abs() < 1e-12).count();
+        let near =
+            rocking.impacts.iter().filter(|impact| (impact.time - quarter).abs() < 1e-12).count();
         assert_eq!(near, 1);
         assert!(rocking.theta[40].abs() < 1e-14);
         assert!(rocking.theta[60] < -1e-3);
@@ -81,7 +90,11 @@ fn an_impact_at_a_sample_is_one_impact() {
 fn two_impacts_in_one_sample_are_both_found() {
     // down at 1e-4 rad with hops of 2 v/d: a coarse sample holds several
     let body = block();
-    let options = RockingOptions { initial: Some((1e-4, 0.0)), restitution: Some(0.8), ..RockingOptions::default() };
+    let options = RockingOptions {
+        initial: Some((1e-4, 0.0)),
+        restitution: Some(0.8),
+        ..RockingOptions::default()
+    };
     let coarse = solve(&body, 0.05, &[0.0; 20], &options);
     let fine = solve(&body, 0.0005, &[0.0; 2000], &options);
     let in_second = |time: f64| (0.05..0.1).contains(&time);
@@ -131,8 +144,11 @@ fn restitution_zero_rests_at_the_first_landing_and_lifts_again() {
 fn restitution_one_keeps_its_energy_over_hundreds_of_impacts() {
     let body = block();
     let (alpha, p2) = (body.alpha(), body.p_squared());
-    let options =
-        RockingOptions { initial: Some((0.2 * alpha, 0.0)), restitution: Some(1.0), ..RockingOptions::default() };
+    let options = RockingOptions {
+        initial: Some((0.2 * alpha, 0.0)),
+        restitution: Some(1.0),
+        ..RockingOptions::default()
+    };
     let rocking = solve(&body, 0.02, &vec![0.0; 20_000], &options);
     assert!(rocking.impacts.len() > 200);
     let first = rocking.impacts[0].rate_after.abs();
@@ -147,14 +163,16 @@ fn restitution_one_keeps_its_energy_over_hundreds_of_impacts() {
 fn near_alpha_the_body_stays_long_and_then_decides() {
     let body = block();
     let alpha = body.alpha();
-    let below = RockingOptions { initial: Some((alpha * (1.0 - 1e-9), 0.0)), ..RockingOptions::default() };
+    let below =
+        RockingOptions { initial: Some((alpha * (1.0 - 1e-9), 0.0)), ..RockingOptions::default() };
     let back = solve(&body, 0.01, &[0.0; 3000], &below);
     assert!(!back.impacts.is_empty());
     assert!(matches!(back.outcome, RockingOutcome::Rocked));
     // 1e-9 alpha cosh(p t) = alpha
     let p = body.p_squared().sqrt();
     assert!((back.impacts[0].time * p / 2e9_f64.ln() - 1.0).abs() < 0.01);
-    let beyond = RockingOptions { initial: Some((-alpha * (1.0 + 1e-9), 0.0)), ..RockingOptions::default() };
+    let beyond =
+        RockingOptions { initial: Some((-alpha * (1.0 + 1e-9), 0.0)), ..RockingOptions::default() };
     let fall = solve(&body, 0.01, &[0.0; 3000], &beyond);
     assert_eq!(fall.outcome, RockingOutcome::Overturned { time: 0.0 });
     assert!(fall.theta.len() < 3000 && fall.theta.iter().all(|theta| theta.abs() < FRAC_PI_2));
@@ -176,8 +194,11 @@ fn overturning_follows_the_energy_barrier() {
     let i = (time / 0.01) as usize;
     assert!(over.theta[i] < body.alpha() && over.theta[i + 1] >= body.alpha());
     // a history that ends beyond alpha, still falling
-    let options =
-        RockingOptions { initial: Some((0.0, barrier * 1.1)), duration: Some(0.9), ..RockingOptions::default() };
+    let options = RockingOptions {
+        initial: Some((0.0, barrier * 1.1)),
+        duration: Some(0.9),
+        ..RockingOptions::default()
+    };
     let cut = solve(&body, 0.01, &[0.0; 3000], &options);
     assert_eq!(cut.theta.len(), 91);
     assert!(cut.theta[90] > body.alpha());
@@ -191,13 +212,22 @@ fn a_touch_down_at_zero_velocity_is_followed_by_the_same_uplift() {
     let body = block();
     for push in [2.0 * LIMIT, -2.0 * LIMIT] {
         let up = solve(&body, 0.01, &[push; 51], &RockingOptions::default());
-        let back = RockingOptions { initial: Some((up.theta[50], -up.rate[50])), ..RockingOptions::default() };
+        let back = RockingOptions {
+            initial: Some((up.theta[50], -up.rate[50])),
+            ..RockingOptions::default()
+        };
         let there_and_back = solve(&body, 0.01, &[push; 101], &back);
         assert_eq!(there_and_back.outcome, RockingOutcome::Rocked);
         for k in 0..=50 {
             let scale = up.theta[50].abs();
-            assert!((there_and_back.theta[50 - k] - up.theta[k]).abs() < 1e-14 * scale, "{k} before");
-            assert!((there_and_back.theta[50 + k] - up.theta[k]).abs() < 1e-13 * scale, "{k} after");
+            assert!(
+                (there_and_back.theta[50 - k] - up.theta[k]).abs() < 1e-14 * scale,
+                "{k} before"
+            );
+            assert!(
+                (there_and_back.theta[50 + k] - up.theta[k]).abs() < 1e-13 * scale,
+                "{k} after"
+            );
         }
         assert!(there_and_back.impacts.iter().all(|impact| impact.rate_before.abs() < 1e-7));
     }
@@ -232,9 +262,13 @@ fn elastic_hops_too_small_to_end_stop_at_the_work_bound() {
 #[test]
 fn numbers_that_are_not_finite_are_an_outcome() {
     for bad in [f64::NAN, f64::INFINITY] {
-        let rocking = solve(&block(), 0.01, &[0.0, 2.0 * LIMIT, bad, 0.0, 0.0], &RockingOptions::default());
+        let rocking =
+            solve(&block(), 0.01, &[0.0, 2.0 * LIMIT, bad, 0.0, 0.0], &RockingOptions::default());
         assert!(
-            matches!(rocking.outcome, RockingOutcome::NotFinite { .. } | RockingOutcome::Overturned { .. }),
+            matches!(
+                rocking.outcome,
+                RockingOutcome::NotFinite { .. } | RockingOutcome::Overturned { .. }
+            ),
             "{:?}",
             rocking.outcome
         );

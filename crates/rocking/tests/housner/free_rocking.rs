@@ -36,7 +36,9 @@ fn amplitudes_fall_as_in_theory() {
     };
     let rocking = solve(&body, 0.01, &[0.0; 4000], &options);
     let rates: Vec<f64> = rocking.impacts.iter().map(|impact| impact.rate_after).collect();
-    for (phi, expected) in amplitudes(&body, &rates).iter().zip([0.4714, 0.4453, 0.4214, 0.3993, 0.3787]) {
+    for (phi, expected) in
+        amplitudes(&body, &rates).iter().zip([0.4714, 0.4453, 0.4214, 0.3993, 0.3787])
+    {
         assert_eq!(format!("{phi:.4}"), format!("{expected:.4}"));
     }
     assert!(rates.len() > 5);
@@ -57,7 +59,11 @@ fn the_period_is_4_over_p_acosh_1_over_1_minus_phi() {
         let period = 4.0 / p * (1.0 / (1.0 - phi)).acosh();
         for (k, impact) in rocking.impacts.iter().enumerate().take(6) {
             let expected = period * (0.25 + 0.5 * k as f64);
-            assert!((impact.time / expected - 1.0).abs() < 2e-8, "{phi} {k}: {} {expected}", impact.time);
+            assert!(
+                (impact.time / expected - 1.0).abs() < 2e-8,
+                "{phi} {k}: {} {expected}",
+                impact.time
+            );
         }
     }
 }
@@ -77,17 +83,24 @@ fn the_block_of_the_theory_has_p_1_70980_and_a_period_of_3_08096_s() {
         inertia: radius * radius / 3.0,
         mass: 1.0,
     };
-    let options =
-        RockingOptions { initial: Some((0.5 * alpha, 0.0)), restitution: Some(1.0), ..RockingOptions::default() };
+    let options = RockingOptions {
+        initial: Some((0.5 * alpha, 0.0)),
+        restitution: Some(1.0),
+        ..RockingOptions::default()
+    };
     let rocking = solve(&body, 0.01, &[0.0; 1000], &options);
-    assert_eq!(format!("{:.5}", 2.0 * (rocking.impacts[1].time - rocking.impacts[0].time)), "3.08096");
+    assert_eq!(
+        format!("{:.5}", 2.0 * (rocking.impacts[1].time - rocking.impacts[0].time)),
+        "3.08096"
+    );
 }
 
 #[test]
 fn energy_is_constant_between_impacts_and_falls_by_r_at_each() {
     let body = Structure::block(2.0, 0.5, 100.0).unwrap().body::<f64>();
     let (alpha, p2, e) = (body.alpha(), body.p_squared(), body.restitution());
-    let options = RockingOptions { initial: Some((-0.9 * alpha, 0.0)), ..RockingOptions::default() };
+    let options =
+        RockingOptions { initial: Some((-0.9 * alpha, 0.0)), ..RockingOptions::default() };
     let (dt, n) = (0.02, 800);
     let rocking = solve(&body, dt, &vec![0.0; n], &options);
     let mut level = p2 * ((0.1 * alpha).cos() - alpha.cos());
@@ -101,7 +114,10 @@ fn energy_is_constant_between_impacts_and_falls_by_r_at_each() {
             level *= e * e;
         }
         let energy = 0.5 * rate * rate + p2 * ((theta.abs() - alpha).cos() - alpha.cos());
-        assert!((energy - level).abs() < 2e-14 * p2 * alpha * alpha, "sample {i}: {energy} {level}");
+        assert!(
+            (energy - level).abs() < 2e-14 * p2 * alpha * alpha,
+            "sample {i}: {energy} {level}"
+        );
     }
     assert!(rocking.impacts.len() > 20);
 }

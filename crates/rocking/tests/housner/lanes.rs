@@ -19,8 +19,10 @@ fn bodies() -> Vec<Body<f64>> {
 #[test]
 fn lanes_give_what_single_walks_give_bit_for_bit() {
     let accel = Record::el_centro().accel;
-    let options: Vec<RockingOptions<f64>> =
-        [0.6, 1.0, 2.5].map(|scale| RockingOptions { scale, ..RockingOptions::default() }).into_iter().collect();
+    let options: Vec<RockingOptions<f64>> = [0.6, 1.0, 2.5]
+        .map(|scale| RockingOptions { scale, ..RockingOptions::default() })
+        .into_iter()
+        .collect();
     let bodies = bodies();
     let together = solve_lanes(&bodies, 0.01, &accel, &options);
     assert_eq!(together.len(), bodies.len());
@@ -56,6 +58,7 @@ fn one_body_on_many_scales_and_durations() {
 #[test]
 fn no_body_or_no_sample_gives_nothing() {
     assert!(solve_lanes(&[], 0.01, &[1.0], &[RockingOptions::default()]).is_empty());
-    let rocking = solve_lanes(&[Structure::paper().body()], 0.01, &[], &[RockingOptions::default()]);
+    let rocking =
+        solve_lanes(&[Structure::paper().body()], 0.01, &[], &[RockingOptions::default()]);
     assert_eq!((rocking.len(), rocking[0].theta.len()), (1, 0));
 }

@@ -27,7 +27,8 @@ fn agree(rocking: &Rocking<f64>, dt: f64, reference: &[(f64, f64)], tolerance: f
 
 #[test]
 fn the_papers_frame_on_el_centro() {
-    let rocking = solve(&body(6.1, 61.0, 1.0), 0.01, &Record::el_centro().accel, &RockingOptions::default());
+    let rocking =
+        solve(&body(6.1, 61.0, 1.0), 0.01, &Record::el_centro().accel, &RockingOptions::default());
     let reference = [
         (5.0, 4.6911533147641060474975924e-3),
         (10.0, -5.1432040599407297874283211e-3),
@@ -39,7 +40,8 @@ fn the_papers_frame_on_el_centro() {
 
 #[test]
 fn the_papers_frame_on_noise_with_eighteen_impacts() {
-    let rocking = solve(&body(6.1, 61.0, 1.0), 0.01, &in_si(&noise(0.01, 10.0)), &RockingOptions::default());
+    let rocking =
+        solve(&body(6.1, 61.0, 1.0), 0.01, &in_si(&noise(0.01, 10.0)), &RockingOptions::default());
     let reference = [
         (2.0, -4.3925914800682702603747970e-3),
         (4.0, 1.1516204545341678206408391e-5),
@@ -63,9 +65,13 @@ fn the_papers_frame_on_noise_with_eighteen_impacts() {
 #[test]
 fn a_solid_block_on_a_coarse_half_sine() {
     let pulse: Vec<f64> = (0..=80)
-        .map(
-            |i| if i <= 10 { (0.45e6 * (std::f64::consts::PI * f64::from(i) / 10.0).sin()).round() / 1e6 } else { 0.0 },
-        )
+        .map(|i| {
+            if i <= 10 {
+                (0.45e6 * (std::f64::consts::PI * f64::from(i) / 10.0).sin()).round() / 1e6
+            } else {
+                0.0
+            }
+        })
         .collect();
     let rocking = solve(&body(0.25, 1.0, 0.75), 0.05, &in_si(&pulse), &RockingOptions::default());
     let reference = [
@@ -76,7 +82,12 @@ fn a_solid_block_on_a_coarse_half_sine() {
         (4.0, 9.8268582596968669967603127e-3),
     ];
     agree(&rocking, 0.05, &reference, 2e-15);
-    let impacts = [1.19329497545653445765, 1.92774700688760565597, 2.55904056500307393619, 3.11070802620724495669];
+    let impacts = [
+        1.19329497545653445765,
+        1.92774700688760565597,
+        2.55904056500307393619,
+        3.11070802620724495669,
+    ];
     for (impact, time) in rocking.impacts.iter().zip(impacts) {
         assert!((impact.time - time).abs() < 1e-14);
     }
@@ -84,7 +95,8 @@ fn a_solid_block_on_a_coarse_half_sine() {
 
 #[test]
 fn a_block_that_rests_and_lifts_again() {
-    let rocking = solve(&body(0.25, 1.0, 0.75), 0.01, &in_si(&noise(0.01, 10.0)), &RockingOptions::default());
+    let rocking =
+        solve(&body(0.25, 1.0, 0.75), 0.01, &in_si(&noise(0.01, 10.0)), &RockingOptions::default());
     assert!(rocking.uplifts.len() > 1);
     let reference = [
         (2.0, 1.4964729463827091964726032e-2),
@@ -98,7 +110,12 @@ fn a_block_that_rests_and_lifts_again() {
 
 #[test]
 fn a_small_block_on_el_centro() {
-    let rocking = solve(&body(0.125, 0.5, 0.75), 0.01, &Record::el_centro().accel, &RockingOptions::default());
+    let rocking = solve(
+        &body(0.125, 0.5, 0.75),
+        0.01,
+        &Record::el_centro().accel,
+        &RockingOptions::default(),
+    );
     let reference = [
         (3.0, 1.7029312761129117021427735e-2),
         (5.0, 2.8184768047915924198898630e-2),
@@ -121,7 +138,9 @@ fn a_tiny_block_at_a_coarse_time_step_until_it_overturns() {
         (2.25, 7.1659618804601975666240788e-1),
     ];
     agree(&rocking, 0.05, &reference, 1e-14);
-    let RockingOutcome::Overturned { time } = rocking.outcome else { panic!("{:?}", rocking.outcome) };
+    let RockingOutcome::Overturned { time } = rocking.outcome else {
+        panic!("{:?}", rocking.outcome)
+    };
     // between the samples of the reference where |theta| is below and above alpha = 0.245
     assert!((2.0..2.25).contains(&time));
     assert!(rocking.theta.len() < coarse.len());

@@ -33,10 +33,18 @@ fn quiet_samples_before_a_record_only_shift_the_history() {
 #[test]
 fn a_similar_body_on_a_similar_record_has_the_same_angles() {
     let accel = Record::el_centro().accel;
-    let small =
-        solve(&Structure::block(3.0, 0.7, 1.0).unwrap().body::<f64>(), 0.01, &accel, &RockingOptions::default());
-    let large =
-        solve(&Structure::block(12.0, 2.8, 64.0).unwrap().body::<f64>(), 0.02, &accel, &RockingOptions::default());
+    let small = solve(
+        &Structure::block(3.0, 0.7, 1.0).unwrap().body::<f64>(),
+        0.01,
+        &accel,
+        &RockingOptions::default(),
+    );
+    let large = solve(
+        &Structure::block(12.0, 2.8, 64.0).unwrap().body::<f64>(),
+        0.02,
+        &accel,
+        &RockingOptions::default(),
+    );
     assert_eq!(small.impacts.len(), large.impacts.len());
     for (a, b) in small.theta.iter().zip(&large.theta) {
         assert!((a - b).abs() < 1e-13);
@@ -63,7 +71,12 @@ fn a_record_file_in_g_or_centimetres_gives_the_same_history() {
 fn a_mass_in_tonnes_gives_the_same_history() {
     let accel = Record::el_centro().accel;
     let run = |mass| {
-        solve(&Structure::block(3.0, 0.7, mass).unwrap().body::<f64>(), 0.01, &accel, &RockingOptions::default())
+        solve(
+            &Structure::block(3.0, 0.7, mass).unwrap().body::<f64>(),
+            0.01,
+            &accel,
+            &RockingOptions::default(),
+        )
     };
     let (kilograms, tonnes) = (run(2500.0), run(2.5));
     assert_eq!(kilograms.impacts.len(), tonnes.impacts.len());
@@ -81,8 +94,10 @@ fn a_record_sampled_four_times_finer_gives_the_same_history() {
         .chain(coarse.last().copied())
         .collect();
     // 0.04 s: p dt = 0.2
-    let there = solve(&body, 0.04, &coarse, &RockingOptions { scale: 0.68, ..RockingOptions::default() });
-    let here = solve(&body, 0.01, &fine, &RockingOptions { scale: 0.68, ..RockingOptions::default() });
+    let there =
+        solve(&body, 0.04, &coarse, &RockingOptions { scale: 0.68, ..RockingOptions::default() });
+    let here =
+        solve(&body, 0.01, &fine, &RockingOptions { scale: 0.68, ..RockingOptions::default() });
     assert!(here.impacts.len() > 10, "{} {:?}", here.impacts.len(), here.outcome);
     for (a, b) in there.theta.iter().zip(here.theta.iter().step_by(4)) {
         assert!((a - b).abs() < 1e-12, "{a} {b}");

@@ -29,16 +29,32 @@ fn a_constant_vertical_acceleration_is_another_gravity() {
     for kappa in [-0.4, 0.3, 1.2] {
         let constant = vec![kappa * GRAVITY; accel.len()];
         let scale = 1.1 * (1.0 + kappa);
-        let there =
-            solve(&body, 0.01, &accel, &with(&constant, &RockingOptions { scale, ..RockingOptions::default() }));
+        let there = solve(
+            &body,
+            0.01,
+            &accel,
+            &with(&constant, &RockingOptions { scale, ..RockingOptions::default() }),
+        );
         // the scale is on both components
         let vertical: Vec<f64> = constant.iter().map(|a| a / scale).collect();
-        let here = solve(&body, 0.01, &accel, &with(&vertical, &RockingOptions { scale, ..RockingOptions::default() }));
+        let here = solve(
+            &body,
+            0.01,
+            &accel,
+            &with(&vertical, &RockingOptions { scale, ..RockingOptions::default() }),
+        );
         let dt = 0.01 * f64::sqrt(1.0 + kappa);
-        let level =
-            solve(&body, dt, &accel, &RockingOptions { scale: scale / (1.0 + kappa), ..RockingOptions::default() });
+        let level = solve(
+            &body,
+            dt,
+            &accel,
+            &RockingOptions { scale: scale / (1.0 + kappa), ..RockingOptions::default() },
+        );
         assert!(level.impacts.len() > 5, "{kappa} {}", level.impacts.len());
-        assert_eq!((here.impacts.len(), here.outcome), (level.impacts.len(), RockingOutcome::Rocked));
+        assert_eq!(
+            (here.impacts.len(), here.outcome),
+            (level.impacts.len(), RockingOutcome::Rocked)
+        );
         for (a, b) in here.theta.iter().zip(&level.theta) {
             assert!((a - b).abs() < 1e-13, "{kappa}: {a} {b}");
         }
@@ -65,7 +81,10 @@ fn a_block_on_a_sine_with_and_without_vertical_motion() {
         (0..=n).map(|i| if i <= 400_000 { f(f64::from(i) * dt) } else { 0.0 }).collect()
     };
     let accel = sampled(&|t| -2.5 * (2.0 * PI * t).sin());
-    let options = RockingOptions { restitution: Some(1.0 - 1.5 * alpha.sin().powi(2)), ..RockingOptions::default() };
+    let options = RockingOptions {
+        restitution: Some(1.0 - 1.5 * alpha.sin().powi(2)),
+        ..RockingOptions::default()
+    };
     let cases = [
         (0.0, 0.1463786, [0.5798270, 1.5757455], (0.2171948, -0.2499408)),
         (2.0, 0.1695078, [0.6197615, 1.9622997], (0.3677347, -0.4325412)),
@@ -80,7 +99,10 @@ fn a_block_on_a_sine_with_and_without_vertical_motion() {
         }
         let most = found.theta.iter().fold(0.0, |a: f64, &b| a.max(b)) / alpha;
         let least = found.theta.iter().fold(0.0, |a: f64, &b| a.min(b)) / alpha;
-        assert!((most - peaks.0).abs() < 1e-6 && (least - peaks.1).abs() < 1e-6, "{b}: {most} {least}");
+        assert!(
+            (most - peaks.0).abs() < 1e-6 && (least - peaks.1).abs() < 1e-6,
+            "{b}: {most} {least}"
+        );
     }
 }
 
@@ -102,7 +124,9 @@ fn a_ground_that_does_not_move_up_gives_the_same_history() {
 fn a_ground_sampled_four_times_finer_gives_the_same_history() {
     let body = Structure::block(0.6, 0.12, 1.0).unwrap().body::<f64>();
     let fine = |coarse: &[f64]| -> Vec<f64> {
-        let between = coarse.windows(2).flat_map(|p| [0.0, 0.25, 0.5, 0.75].map(|x| p[0] + (p[1] - p[0]) * x));
+        let between = coarse
+            .windows(2)
+            .flat_map(|p| [0.0, 0.25, 0.5, 0.75].map(|x| p[0] + (p[1] - p[0]) * x));
         between.chain(coarse.last().copied()).collect()
     };
     let (accel, up) = (Record::el_centro().accel[..700].to_vec(), vertical(0.9)[..700].to_vec());
@@ -128,7 +152,11 @@ fn uplift_is_where_the_falling_limit_is_met() {
     let body = Structure::block(4.0, 1.0, 1.0).unwrap().body::<f64>();
     let (accel, up) = ([-2.0, -4.0], [0.0, -6.0]);
     let found = solve(&body, 0.1, &accel, &with(&up, &RockingOptions::default()));
-    assert!((found.uplifts[0].time - (9.81 / 4.0 - 2.0) / 35.0).abs() < 1e-16, "{:?}", found.uplifts);
+    assert!(
+        (found.uplifts[0].time - (9.81 / 4.0 - 2.0) / 35.0).abs() < 1e-16,
+        "{:?}",
+        found.uplifts
+    );
     assert_eq!(found.uplifts[0].side, 1.0);
 }
 
@@ -137,7 +165,9 @@ fn a_body_at_rest_leaves_a_ground_that_falls_faster_than_it() {
     let body = Structure::block(4.0, 1.0, 1.0).unwrap().body::<f64>();
     let up = [0.0, -5.0, -15.0, -15.0, 0.0];
     let found = solve(&body, 0.1, &[0.0; 5], &with(&up, &RockingOptions::default()));
-    let RockingOutcome::LeavesGround { time } = found.outcome else { panic!("{:?}", found.outcome) };
+    let RockingOutcome::LeavesGround { time } = found.outcome else {
+        panic!("{:?}", found.outcome)
+    };
     assert!((time - (0.1 + 0.1 * 4.81 / 10.0)).abs() < 1e-15, "{time}");
     assert_eq!(found.theta, [0.0; 2]);
     assert_eq!(found.left_ground(), Some(time));
@@ -160,7 +190,8 @@ fn leaves(body: &Body<f64>, start: (f64, f64), dt: f64, accel: &[f64], up: &[f64
     };
     let force = |theta: f64, x: f64| {
         let phi = body.alpha() * theta.signum() - theta;
-        -body.p_squared() * ((1.0 + at(up, x) / GRAVITY) * phi.sin() + at(accel, x) / GRAVITY * phi.cos())
+        -body.p_squared()
+            * ((1.0 + at(up, x) / GRAVITY) * phi.sin() + at(accel, x) / GRAVITY * phi.cos())
     };
     let h = dt / 1000.0;
     let mut before = f64::NAN;
@@ -184,15 +215,20 @@ fn leaves(body: &Body<f64>, start: (f64, f64), dt: f64, accel: &[f64], up: &[f64
 
 #[test]
 fn loss_of_contact_is_located_as_a_fine_integration_finds_it() {
-    for structure in [Structure::block(2.0, 0.6, 1.0).unwrap(), Structure::a_frame(3.0, 0.9, 1.0).unwrap()] {
+    for structure in
+        [Structure::block(2.0, 0.6, 1.0).unwrap(), Structure::a_frame(3.0, 0.9, 1.0).unwrap()]
+    {
         let body = structure.body::<f64>();
         let start = (-0.15 * body.alpha(), -0.4);
         // down to -1.4 g within 0.3 s, pushing about at 0.2 g
-        let up: Vec<f64> = (0..40).map(|i| -1.4 * GRAVITY * (PI * f64::from(i) / 30.0).sin()).collect();
+        let up: Vec<f64> =
+            (0..40).map(|i| -1.4 * GRAVITY * (PI * f64::from(i) / 30.0).sin()).collect();
         let accel: Vec<f64> = (0..40).map(|i| 0.2 * GRAVITY * (0.7 * f64::from(i)).sin()).collect();
         let options = RockingOptions { initial: Some(start), ..RockingOptions::default() };
         let found = solve(&body, 0.02, &accel, &with(&up, &options));
-        let RockingOutcome::LeavesGround { time } = found.outcome else { panic!("{:?}", found.outcome) };
+        let RockingOutcome::LeavesGround { time } = found.outcome else {
+            panic!("{:?}", found.outcome)
+        };
         let expected = leaves(&body, start, 0.02, &accel, &up);
         assert!((time - expected).abs() < 1e-9, "{time} {expected}");
         assert!(found.impacts.is_empty() && found.theta.len() == (time / 0.02) as usize + 1);
@@ -206,7 +242,9 @@ fn histories_end_where_the_force_at_the_samples_says_and_not_before() {
     let mut ended = [0; 2];
     for i in 0..40 {
         let height = 0.4 * 1.1_f64.powi(i);
-        let body = Structure::block(height, height * (0.15 + 0.01 * f64::from(i % 10)), 1.0).unwrap().body::<f64>();
+        let body = Structure::block(height, height * (0.15 + 0.01 * f64::from(i % 10)), 1.0)
+            .unwrap()
+            .body::<f64>();
         let up = vertical(1.2 + 0.1 * f64::from(i));
         let found = solve(&body, 0.01, &accel, &with(&up, &RockingOptions::default()));
         let force = |i: usize| pressure(&body, (found.theta[i], found.rate[i]), (accel[i], up[i]));
@@ -225,7 +263,8 @@ fn histories_end_where_the_force_at_the_samples_says_and_not_before() {
 #[test]
 fn lanes_give_what_single_walks_give_bit_for_bit_with_vertical_motion() {
     let accel = Record::el_centro().accel;
-    let ups: Vec<Option<Arc<[f64]>>> = vec![Some(vertical(0.8).into()), None, Some(vertical(3.6).into())];
+    let ups: Vec<Option<Arc<[f64]>>> =
+        vec![Some(vertical(0.8).into()), None, Some(vertical(3.6).into())];
     let bodies: Vec<Body<f64>> = (0..60)
         .map(|i| {
             let height = 0.3 * 1.12_f64.powi(i);
@@ -255,7 +294,12 @@ fn derivatives_pass_through_uplifts_and_impacts_with_vertical_motion() {
     let run = |width: f64, scale: f64| -> Rocking<f64> {
         let body = structure.body::<f64>();
         let body = Body { half_width: body.half_width * (1.0 + width), ..body };
-        solve(&body, 0.01, &accel, &with(&up, &RockingOptions { scale, ..RockingOptions::default() }))
+        solve(
+            &body,
+            0.01,
+            &accel,
+            &with(&up, &RockingOptions { scale, ..RockingOptions::default() }),
+        )
     };
     let dual = |width: f64, scale: f64| {
         let body = structure.body::<Dual64>();
@@ -264,7 +308,10 @@ fn derivatives_pass_through_uplifts_and_impacts_with_vertical_motion() {
             &body,
             0.01,
             &accel,
-            &with(&up, &RockingOptions { scale: Dual64::new(1.5, scale), ..RockingOptions::default() }),
+            &with(
+                &up,
+                &RockingOptions { scale: Dual64::new(1.5, scale), ..RockingOptions::default() },
+            ),
         )
     };
     let differences = |f: &dyn Fn(f64) -> Vec<f64>| -> Vec<f64> {
@@ -272,7 +319,9 @@ fn derivatives_pass_through_uplifts_and_impacts_with_vertical_motion() {
         (0..a.len()).map(|i| (a[i] - 8.0 * b[i] + 8.0 * c[i] - d[i]) / 12e-5).collect()
     };
     assert!(run(0.0, 1.5).impacts.len() > 3 && run(0.0, 1.5).outcome == RockingOutcome::Rocked);
-    let theta = |rocking: Rocking<Dual64>| -> Vec<f64> { rocking.theta.iter().map(|theta| theta.eps).collect() };
+    let theta = |rocking: Rocking<Dual64>| -> Vec<f64> {
+        rocking.theta.iter().map(|theta| theta.eps).collect()
+    };
     for (exact, expected) in [
         (theta(dual(1.0, 0.0)), differences(&|x| run(x, 1.5).theta)),
         (theta(dual(0.0, 1.0)), differences(&|x| run(0.0, 1.5 + x).theta)),

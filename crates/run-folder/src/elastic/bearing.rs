@@ -48,7 +48,9 @@ impl ForceQuantities {
 fn bases(assembled: &Assembled) -> Vec<(usize, usize)> {
     let footing = |node: usize| assembled.frame.footing_nodes().contains(&node);
     let members = assembled.layout.members.iter().enumerate();
-    members.filter_map(|(i, member)| Some((i, member.ends.iter().position(|end| footing(end.node))?))).collect()
+    members
+        .filter_map(|(i, member)| Some((i, member.ends.iter().position(|end| footing(end.node))?)))
+        .collect()
 }
 
 /// Shear, axial force and moment at the base of the columns or legs, the largest of them,
@@ -62,14 +64,24 @@ fn quantities(assembled: &Assembled, answer: &ElasticAnswer) -> Vec<ForceQuantit
         };
         history.worst.iter().map(at).collect()
     };
-    let both = |of: &dyn Fn(&BeamForces, usize) -> f64| [&answer.histories.fem, &answer.fixed].map(|h| largest(h, of));
+    let both = |of: &dyn Fn(&BeamForces, usize) -> f64| {
+        [&answer.histories.fem, &answer.fixed].map(|h| largest(h, of))
+    };
     let rigid = answer.rigid.as_ref();
     let [shear, fixed] = both(&|beam, _| beam.shear);
     let body = rigid.map_or(Vec::new(), |rigid| rigid.shear.clone());
-    let mut all = vec![ForceQuantity { name: ForceKind::ColumnShear.name(), unit: "N", series: [shear, fixed, body] }];
+    let mut all = vec![ForceQuantity {
+        name: ForceKind::ColumnShear.name(),
+        unit: "N",
+        series: [shear, fixed, body],
+    }];
     let [axial, fixed] = both(&|beam, _| beam.axial);
     let body = rigid.map_or(Vec::new(), |rigid| rigid.axial.clone());
-    all.push(ForceQuantity { name: ForceKind::Axial.name(), unit: "N", series: [axial, fixed, body] });
+    all.push(ForceQuantity {
+        name: ForceKind::Axial.name(),
+        unit: "N",
+        series: [axial, fixed, body],
+    });
     // a leg is hinged at its foot
     if !matches!(assembled.structure, ElasticStructure::AFrame(_)) {
         let [moment, fixed] = both(&|beam, end| beam.moments[end]);
@@ -81,6 +93,10 @@ fn quantities(assembled: &Assembled, answer: &ElasticAnswer) -> Vec<ForceQuantit
         });
     }
     let drift = answer.histories.sways.first().map_or(Vec::new(), |pair| pair[1].drift.clone());
-    all.push(ForceQuantity { name: DRIFT, unit: "m", series: [drift, answer.fixed_drift.clone(), Vec::new()] });
+    all.push(ForceQuantity {
+        name: DRIFT,
+        unit: "m",
+        series: [drift, answer.fixed_drift.clone(), Vec::new()],
+    });
     all
 }

@@ -32,7 +32,8 @@ pub(super) fn csv(run: &ElasticRun, instants: Instants) -> String {
     let mut out = head.join(",") + "\n";
     let at_samples = instants == Instants::Samples;
     let demands = if at_samples { &fem.demands } else { &fem.worst };
-    let of = |forces: &GroundForces, i: usize| if at_samples { forces.at[i] } else { forces.peak[i] };
+    let of =
+        |forces: &GroundForces, i: usize| if at_samples { forces.at[i] } else { forces.peak[i] };
     for (i, demand) in demands.iter().enumerate() {
         let mut row = vec![i as f64 * run.record.dt];
         row.extend(demand.values());

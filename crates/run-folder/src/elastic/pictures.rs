@@ -32,7 +32,11 @@ fn history(run: &ElasticRun) -> Result<Figure, FigureError> {
     let t: Vec<f64> = (0..n).map(|i| i as f64 * run.record.dt).collect();
     let several = sways.len() > 1;
     let label = |what: &str, i: usize| {
-        if several { format!("{what}, {}", if i == 0 { "left" } else { "right" }) } else { what.to_string() }
+        if several {
+            format!("{what}, {}", if i == 0 { "left" } else { "right" })
+        } else {
+            what.to_string()
+        }
     };
     let mut names = Vec::new();
     let mut curves: Vec<[&[f64]; 2]> = Vec::new();
@@ -42,21 +46,30 @@ fn history(run: &ElasticRun) -> Result<Figure, FigureError> {
         names.push((label("drift", i), "m"));
         curves.push([&reference.drift, &fem.drift]);
     }
-    let panels: Vec<StackQuantity> =
-        names.iter().zip(&curves).map(|((name, unit), curves)| StackQuantity { name, unit, curves }).collect();
+    let panels: Vec<StackQuantity> = names
+        .iter()
+        .zip(&curves)
+        .map(|((name, unit), curves)| StackQuantity { name, unit, curves })
+        .collect();
     let Compared { seconds, end, .. } = run.answer.compared;
     let text = match end {
         ComparedEnd::Record => None,
-        ComparedEnd::History => Some(format!("the history on rigid ground ends at t = {seconds:.2} s")),
-        ComparedEnd::Slides => Some(format!("at t = {seconds:.2} s a corner lands sliding: friction decides")),
-        ComparedEnd::Foretold => Some(format!("from t = {seconds:.2} s on no model foretells this motion")),
+        ComparedEnd::History => {
+            Some(format!("the history on rigid ground ends at t = {seconds:.2} s"))
+        }
+        ComparedEnd::Slides => {
+            Some(format!("at t = {seconds:.2} s a corner lands sliding: friction decides"))
+        }
+        ComparedEnd::Foretold => {
+            Some(format!("from t = {seconds:.2} s on no model foretells this motion"))
+        }
     };
     let event = text.as_ref().map(|text| EventMark { time: seconds, text });
     let title = title(run, "Rotation on the ground, and drift without it");
     let names = ["rigid ground, plastic landings", "finite elements on ground springs"];
-    let sheet = stack::draw(&StackFigure { title: &title, t: &t, names: &names, panels: &panels, event })?;
-    let caption =
-        "Rotation of the footing (of the line between the feet), and drift of the mass without the rigid rotation.";
+    let sheet =
+        stack::draw(&StackFigure { title: &title, t: &t, names: &names, panels: &panels, event })?;
+    let caption = "Rotation of the footing (of the line between the feet), and drift of the mass without the rigid rotation.";
     Ok(Figure { name: draw::HISTORY, caption, sheet })
 }
 
@@ -85,10 +98,15 @@ fn forces(run: &ElasticRun) -> Result<Figure, FigureError> {
     let panels: Vec<StackQuantity> = quantities
         .iter()
         .zip(&curves)
-        .map(|(quantity, curves)| StackQuantity { name: quantity.name, unit: quantity.unit, curves })
+        .map(|(quantity, curves)| StackQuantity {
+            name: quantity.name,
+            unit: quantity.unit,
+            curves,
+        })
         .collect();
     let title = title(run, "What rocking buys");
-    let sheet = stack::draw(&StackFigure { title: &title, t: &t, names, panels: &panels, event: None })?;
+    let sheet =
+        stack::draw(&StackFigure { title: &title, t: &t, names, panels: &panels, event: None })?;
     Ok(Figure {
         name: draw::BEARING,
         caption: "What the structure bears when it rocks, and held to the ground.",

@@ -62,7 +62,10 @@ fn a_list_that_was_tampered_with_names_no_file_of_others() {
 fn the_list_of_an_earlier_version_is_known() {
     let dir = tempfile::tempdir().unwrap();
     fs::write(dir.path().join("b.csv"), "old").unwrap();
-    let list = format!("{{\"run\": {{\"b.csv\": \"{}\"}}}}", fingerprint(&dir.path().join("b.csv")).unwrap());
+    let list = format!(
+        "{{\"run\": {{\"b.csv\": \"{}\"}}}}",
+        fingerprint(&dir.path().join("b.csv")).unwrap()
+    );
     fs::write(dir.path().join(WRITTEN), list).unwrap();
     run(dir.path(), &["a.csv"], "");
     assert_eq!(left(dir.path()), ["a.csv"]);
@@ -110,7 +113,12 @@ fn files_whose_times_lie_in_the_future_are_exchanged_like_others() {
     run(dir.path(), FILES, "old");
     let later = std::time::SystemTime::now() + std::time::Duration::from_secs(86_400 * 365);
     for name in FILES {
-        File::options().append(true).open(dir.path().join(name)).unwrap().set_modified(later).unwrap();
+        File::options()
+            .append(true)
+            .open(dir.path().join(name))
+            .unwrap()
+            .set_modified(later)
+            .unwrap();
     }
     run(dir.path(), FILES, "new");
     assert_eq!(left(dir.path()), FILES);

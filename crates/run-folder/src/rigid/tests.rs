@@ -9,8 +9,10 @@ use super::*;
 
 /// A run of a short stretch of El Centro.
 fn run(scale: f64, toml: Option<&str>) -> RigidRun {
-    let mut case = toml.map_or_else(Case::paper, |text| Case::parse("tuning/test.toml", text)).unwrap();
-    let excitation = Excitation { scale, duration_s: Some(8.0), ..Excitation::whole(Record::el_centro()) };
+    let mut case =
+        toml.map_or_else(Case::paper, |text| Case::parse("tuning/test.toml", text)).unwrap();
+    let excitation =
+        Excitation { scale, duration_s: Some(8.0), ..Excitation::whole(Record::el_centro()) };
     case.set_excitation(excitation).unwrap();
     case.tuning.max_omega_hz = Some(160.0);
     case.tuning.accuracy = 0.1;
@@ -20,7 +22,8 @@ fn run(scale: f64, toml: Option<&str>) -> RigidRun {
 
 fn page_of(run: &RigidRun, figures: bool) -> String {
     let RigidRun { case, job, front, both, .. } = run;
-    let figures = if figures { Pictures { case, job, both, front }.draw().unwrap() } else { Vec::new() };
+    let figures =
+        if figures { Pictures { case, job, both, front }.draw().unwrap() } else { Vec::new() };
     let figures: Vec<Drawing> = figures.iter().map(drawing).collect();
     let page = super::page(&run.said(run.parameters.clone()), &figures);
     assert!(page.len() < 2_000_000, "{} bytes", page.len());
@@ -95,9 +98,16 @@ fn check_screen(run: &RigidRun, folder: &str) -> String {
     for line in text.lines().filter(|line| !line.contains('/') && !line.starts_with("record ")) {
         assert!(line.split_whitespace().all(|word| digits(word) <= 4), "{line}");
     }
-    for what in
-        ["lifts at ", "assumed: ", "top displacement", "uplift", "design forces", "not soil", "accuracy", "SAP2000"]
-    {
+    for what in [
+        "lifts at ",
+        "assumed: ",
+        "top displacement",
+        "uplift",
+        "design forces",
+        "not soil",
+        "accuracy",
+        "SAP2000",
+    ] {
         assert!(text.contains(what), "{what}: {text}");
     }
     text

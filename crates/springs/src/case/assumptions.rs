@@ -67,7 +67,12 @@ impl AssumedQuantity {
     }
 }
 
-fn assumption(quantity: AssumedQuantity, value: f64, unit: &'static str, key: &'static str) -> Assumption {
+fn assumption(
+    quantity: AssumedQuantity,
+    value: f64,
+    unit: &'static str,
+    key: &'static str,
+) -> Assumption {
     Assumption { quantity, value, unit, key }
 }
 
@@ -92,7 +97,8 @@ impl Case {
             all.push(assumption(Restitution, self.restitution, "", "structure.restitution"));
         }
         if !self.given.inertia {
-            let quantity = if self.structure.kind == Kind::Block { SolidInertia } else { LeastInertia };
+            let quantity =
+                if self.structure.kind == Kind::Block { SolidInertia } else { LeastInertia };
             let inertia = self.structure.rotational_inertia_kgm2;
             all.push(assumption(quantity, inertia, "kg m2", "structure.rotational_inertia_kgm2"));
         }
@@ -123,7 +129,8 @@ fn first_what_weighs_most(mut all: Vec<Assumption>) -> Vec<Assumption> {
 
 fn of_structure(structure: &ElasticStructure) -> Vec<Assumption> {
     use AssumedQuantity::{
-        AxialDamping, AxialStiffness, BeamMassAtJoints, FootingInertia, LeastInertia, ShearStiffness,
+        AxialDamping, AxialStiffness, BeamMassAtJoints, FootingInertia, LeastInertia,
+        ShearStiffness,
     };
     let mut all = Vec::new();
     match structure {
@@ -140,18 +147,33 @@ fn of_structure(structure: &ElasticStructure) -> Vec<Assumption> {
             }
             if pier.footing_inertia_kgm2.is_none() {
                 let inertia = pier.footing_inertia();
-                all.push(assumption(FootingInertia, inertia, "kg m2", "structure.footing_inertia_kgm2"));
+                all.push(assumption(
+                    FootingInertia,
+                    inertia,
+                    "kg m2",
+                    "structure.footing_inertia_kgm2",
+                ));
             }
             all.extend(column(pier.column_mass_kg, pier.elements, pier.elements()));
         }
         ElasticStructure::AFrame(frame) => {
             if frame.rotational_inertia_kgm2.is_none() {
-                all.push(assumption(LeastInertia, frame.inertia(), "kg m2", "structure.rotational_inertia_kgm2"));
+                all.push(assumption(
+                    LeastInertia,
+                    frame.inertia(),
+                    "kg m2",
+                    "structure.rotational_inertia_kgm2",
+                ));
             }
         }
         ElasticStructure::Frame(frame) => {
             if frame.column_ga_n.is_none() && frame.column_mass_kg > 0.0 {
-                all.push(assumption(ShearStiffness, frame.column_ga(), "N", "structure.column_ga_n"));
+                all.push(assumption(
+                    ShearStiffness,
+                    frame.column_ga(),
+                    "N",
+                    "structure.column_ga_n",
+                ));
             }
             all.push(assumption(BeamMassAtJoints, 0.5 * frame.beam_mass_kg, "kg", "beam_mass_kg"));
             all.extend(column(frame.column_mass_kg, frame.elements, frame.elements()));
@@ -164,8 +186,12 @@ fn of_structure(structure: &ElasticStructure) -> Vec<Assumption> {
 /// into.
 fn column(mass_kg: f64, given: Option<usize>, elements: usize) -> Option<Assumption> {
     match given {
-        _ if mass_kg == 0.0 => Some(assumption(AssumedQuantity::ColumnMass, 0.0, "kg", "structure.column_mass_kg")),
-        None => Some(assumption(AssumedQuantity::Elements, elements as f64, "", "structure.elements")),
+        _ if mass_kg == 0.0 => {
+            Some(assumption(AssumedQuantity::ColumnMass, 0.0, "kg", "structure.column_mass_kg"))
+        }
+        None => {
+            Some(assumption(AssumedQuantity::Elements, elements as f64, "", "structure.elements"))
+        }
         Some(_) => None,
     }
 }
@@ -178,7 +204,8 @@ pub(crate) fn of_excitation(excitation: &Excitation) -> Vec<Assumption> {
         assumption(AssumedQuantity::ElCentro, peak_g, "g", "record.file")
     });
     let vertical = excitation.vertical_left_out();
-    let vertical = vertical.map(|left| assumption(AssumedQuantity::NoVertical, left.peak_g, "g", "record.vertical"));
+    let vertical = vertical
+        .map(|left| assumption(AssumedQuantity::NoVertical, left.peak_g, "g", "record.vertical"));
     record.into_iter().chain(vertical).collect()
 }
 
@@ -208,9 +235,17 @@ mod tests {
     fn what_a_pier_leaves_out_is_told_with_its_value() {
         let pier = "[structure]\nkind = 'pier'\nheight_m = 12.0\nwidth_m = 4.0\nmass_kg = 600e3\nfooting_mass_kg = 120e3\n\
                     footing_height_m = 1.5\nei_nm2 = 9e9\ndamping_ratio = 0.02\n";
-        let of = |more: &str| ElasticCase::parse("pier.toml", &format!("{pier}{more}")).unwrap().assumptions();
+        let of = |more: &str| {
+            ElasticCase::parse("pier.toml", &format!("{pier}{more}")).unwrap().assumptions()
+        };
         let assumed = of("");
-        let all = ["ea_n", "axial_damping_ratio", "footing_inertia_kgm2", "column_mass_kg", "record.file"];
+        let all = [
+            "ea_n",
+            "axial_damping_ratio",
+            "footing_inertia_kgm2",
+            "column_mass_kg",
+            "record.file",
+        ];
         assert_eq!(keys(&assumed), all);
         // a column with a mass of its own gives in shear
         let heavy = of("column_mass_kg = 60e3\n");
@@ -219,15 +254,19 @@ mod tests {
         // a square of side a: I = a^4/12, so a^2 = sqrt(12 x 9e9/30e9) m2, EA = 30e9 a^2
         assert!((assumed[0].value / (30e9 * (12.0_f64 * 0.3).sqrt()) - 1.0).abs() < 1e-12);
         assert!((assumed[2].value - 120e3 * (16.0 + 2.25) / 12.0).abs() < 1e-6);
-        let rest = of("ea_n = 1e11\naxial_damping_ratio = 0.01\nfooting_inertia_kgm2 = 1e5\ncolumn_mass_kg = 9e3\n");
+        let rest = of(
+            "ea_n = 1e11\naxial_damping_ratio = 0.01\nfooting_inertia_kgm2 = 1e5\ncolumn_mass_kg = 9e3\n",
+        );
         assert_eq!((keys(&rest), rest[1].value), (vec!["ga_n", "elements", "record.file"], 4.0));
     }
 
     #[test]
     fn a_vertical_component_that_is_left_out_is_told_with_its_peak() {
-        let file = concat!(env!("CARGO_MANIFEST_DIR"), "/../../tests/records/20161113_110259_WTMC_20.V2A");
+        let file =
+            concat!(env!("CARGO_MANIFEST_DIR"), "/../../tests/records/20161113_110259_WTMC_20.V2A");
         let with = |more: &str| {
-            let body = "[structure]\nkind = 'aframe'\nheight_m = 12.0\nwidth_m = 2.4\nmass_kg = 3e5\n";
+            let body =
+                "[structure]\nkind = 'aframe'\nheight_m = 12.0\nwidth_m = 2.4\nmass_kg = 3e5\n";
             Case::parse("case.toml", &format!("{body}[record]\nfile = '{file}'\n{more}")).unwrap()
         };
         // the file's own header: 1.84 g upwards beside 0.99 g

@@ -96,7 +96,9 @@ impl ElasticCase {
         };
         let column = match &self.structure {
             ElasticStructure::Pier(pier) => heavy_column(pier.column_mass_kg, pier.mass_kg),
-            ElasticStructure::Frame(frame) => heavy_column(2.0 * frame.column_mass_kg, frame.beam_mass_kg),
+            ElasticStructure::Frame(frame) => {
+                heavy_column(2.0 * frame.column_mass_kg, frame.beam_mass_kg)
+            }
             ElasticStructure::AFrame(_) => None,
         };
         density(self.structure.mass(), box_m).into_iter().chain(column).collect()
@@ -145,13 +147,19 @@ pub(crate) fn of_excitation(excitation: &Excitation) -> Vec<Doubt> {
     let used = record.truncated(excitation.duration());
     let pga_g = excitation.scale.abs() * used.pga_g();
     let whole_g = excitation.scale.abs() * record.pga_g();
-    let weak = (pga_g < LEAST_PGA_G).then_some(Doubt::WeakMotion { pga_g, least_g: LEAST_PGA_G, whole_g });
+    let weak =
+        (pga_g < LEAST_PGA_G).then_some(Doubt::WeakMotion { pga_g, least_g: LEAST_PGA_G, whole_g });
     let record_s = record.duration();
     // half a step: a length that was rounded is none that is longer
     let long = excitation.duration_s.filter(|asked| *asked > record_s + 0.5 * record.dt);
     let long = long.map(|asked_s| Doubt::LongDuration { asked_s, record_s });
-    let vertical = excitation.vertical_left_out().filter(|left| left.peak_g > VERTICAL_SHARE * left.horizontal_g);
-    let vertical = vertical.map(|left| Doubt::VerticalLeftOut { peak_g: left.peak_g, horizontal_g: left.horizontal_g });
+    let vertical = excitation
+        .vertical_left_out()
+        .filter(|left| left.peak_g > VERTICAL_SHARE * left.horizontal_g);
+    let vertical = vertical.map(|left| Doubt::VerticalLeftOut {
+        peak_g: left.peak_g,
+        horizontal_g: left.horizontal_g,
+    });
     let only = match &record.source {
         Source::File { vertical_taken: Some(component), .. } => Some(component.clone()),
         _ => None,
@@ -166,7 +174,9 @@ impl Doubt {
         match self {
             Self::TotalHeight { key, height, unit } => {
                 let (height, total) = (figures(*height), figures(2.0 * height));
-                format!("{key} = {height}, of the centre of mass, makes a block {total} {unit} tall")
+                format!(
+                    "{key} = {height}, of the centre of mass, makes a block {total} {unit} tall"
+                )
             }
             Self::Density { kg_per_m3, mass_kg, box_m, least, most } => {
                 let [height, width, depth] = box_m.map(figures);
@@ -178,7 +188,11 @@ impl Doubt {
                 )
             }
             Self::Tonnes { mass, kg_per_m3 } => {
-                format!("mass_kg = {} makes a block of {} kg/m3, as deep as wide", figures(*mass), figures(*kg_per_m3))
+                format!(
+                    "mass_kg = {} makes a block of {} kg/m3, as deep as wide",
+                    figures(*mass),
+                    figures(*kg_per_m3)
+                )
             }
             Self::WeakMotion { pga_g, least_g, whole_g } => {
                 let whole = if whole_g >= least_g {
@@ -186,7 +200,10 @@ impl Doubt {
                 } else {
                     String::new()
                 };
-                format!("the ground motion has a peak of {} g, below {least_g} g{whole}", figures(*pga_g))
+                format!(
+                    "the ground motion has a peak of {} g, below {least_g} g{whole}",
+                    figures(*pga_g)
+                )
             }
             Self::VerticalLeftOut { peak_g, horizontal_g } => format!(
                 "a vertical component of {} g beside {} g across is left out",
@@ -194,7 +211,11 @@ impl Doubt {
                 figures(*horizontal_g)
             ),
             Self::HeavyColumn { column_kg, mass_kg } => {
-                format!("columns of {} kg stand under {} kg", figures(*column_kg), figures(*mass_kg))
+                format!(
+                    "columns of {} kg stand under {} kg",
+                    figures(*column_kg),
+                    figures(*mass_kg)
+                )
             }
             Self::VerticalTaken { component } => {
                 format!("component {component}, a vertical one, is taken as the horizontal motion")
@@ -216,18 +237,27 @@ impl Doubt {
                 let height = figures(*height);
                 format!("if {height} {unit} is its total height, write total_{key} = {height}")
             }
-            Self::Tonnes { mass, .. } => format!("if it is {0} t, write mass_kg = {0}e3", figures(*mass)),
-            Self::Density { .. } => "check the lengths (m), the mass (kg) and their units".to_owned(),
+            Self::Tonnes { mass, .. } => {
+                format!("if it is {0} t, write mass_kg = {0}e3", figures(*mass))
+            }
+            Self::Density { .. } => {
+                "check the lengths (m), the mass (kg) and their units".to_owned()
+            }
             Self::WeakMotion { least_g, whole_g, .. } if whole_g >= least_g => {
                 "use more of the record (--duration, duration_s)".to_owned()
             }
             Self::WeakMotion { .. } => "check the unit of the record and its scale".to_owned(),
             Self::VerticalLeftOut { .. } => {
-                "take it with --vertical auto (vertical = \"auto\" in [record]) and compare".to_owned()
+                "take it with --vertical auto (vertical = \"auto\" in [record]) and compare"
+                    .to_owned()
             }
             Self::HeavyColumn { .. } => "check the masses (kg) and their units".to_owned(),
-            Self::VerticalTaken { .. } => "choose a horizontal one (--component), or a file that has one".to_owned(),
-            Self::LongDuration { .. } => "leave the duration out, or give a longer record".to_owned(),
+            Self::VerticalTaken { .. } => {
+                "choose a horizontal one (--component), or a file that has one".to_owned()
+            }
+            Self::LongDuration { .. } => {
+                "leave the duration out, or give a longer record".to_owned()
+            }
         }
     }
 }

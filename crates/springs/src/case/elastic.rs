@@ -28,7 +28,8 @@ use std::path::Path;
 use serde::Deserialize;
 
 use super::{
-    Asked, CaseError, RecordSection, check_stiffness, error::case_error, missing, program::ProgramSection, yardstick,
+    Asked, CaseError, RecordSection, check_stiffness, error::case_error, missing,
+    program::ProgramSection, yardstick,
 };
 use fixed_steps::FixedStepProgram;
 use frames::structure::ElasticStructure;
@@ -117,7 +118,12 @@ impl ElasticCase {
         let structure = file.structure.checked().map_err(of_elastic)?;
         if let Some(friction) = file.friction {
             let remedy = "slipping is followed for rigid bodies only, leave it out";
-            return Err(CaseError::Value { path: path.into(), key: "friction", value: friction.to_string(), remedy });
+            return Err(CaseError::Value {
+                path: path.into(),
+                key: "friction",
+                value: friction.to_string(),
+                remedy,
+            });
         }
         let members = Members { damper: file.damper, tendon: file.tendon, friction: None };
         let members = structure.bears(members).map_err(of_elastic)?;
@@ -171,7 +177,9 @@ mod tests {
     fn a_case_is_read_and_what_is_wrong_is_named() {
         let case = ElasticCase::parse("pier.toml", PIER).unwrap();
         assert_eq!((case.asked, case.excitation.scale), (Asked::new(0.002, None), 1.0));
-        let said = |more: &str| ElasticCase::parse("pier.toml", &format!("{PIER}{more}")).unwrap_err().to_string();
+        let said = |more: &str| {
+            ElasticCase::parse("pier.toml", &format!("{PIER}{more}")).unwrap_err().to_string()
+        };
         assert!(said("[tuning]\naccuracy = 7.0\n").contains("tuning.accuracy is 7.0"));
         let objective = said("[tuning]\nobjective = 'arr'\n");
         assert!(objective.contains("objective"), "{objective}");

@@ -34,13 +34,17 @@ pub enum CaseError {
     Value { path: String, key: &'static str, value: String, remedy: &'static str },
     #[error("{path}: program.{key} is {value}; {remedy}")]
     Program { path: String, key: &'static str, value: String, remedy: String },
-    #[error("{path}: {sections}: add what is missing; `tune init{shape}` writes a case with every key explained")]
+    #[error(
+        "{path}: {sections}: add what is missing; `tune init{shape}` writes a case with every key explained"
+    )]
     Missing { path: String, sections: String, shape: &'static str },
     #[error(
         "{path}: this is a ground motion ({format}), not a case file; give it with --record, or name it in [record] of a case: file = \"{path}\""
     )]
     IsRecord { path: String, format: RecordFormat },
-    #[error("{path}: this is JSON, not a case file (TOML); give springs that were tuned with --parameters {path}")]
+    #[error(
+        "{path}: this is JSON, not a case file (TOML); give springs that were tuned with --parameters {path}"
+    )]
     IsJson { path: String },
     #[error(
         "{path}: tuning.peaks is {peaks} and tuning.accuracy is {accuracy}; springs are chosen by one of them, leave the other out"
@@ -61,7 +65,9 @@ pub fn text_of(path: &Path) -> Result<String, CaseError> {
         let text = String::from_utf8_lossy(bytes.as_bytes());
         match RecordFormat::recognised(&text) {
             Some(format) => CaseError::IsRecord { path: name.clone(), format },
-            None => read(std::io::Error::new(std::io::ErrorKind::InvalidData, "it is not valid UTF-8")),
+            None => {
+                read(std::io::Error::new(std::io::ErrorKind::InvalidData, "it is not valid UTF-8"))
+            }
         }
     })
 }
@@ -95,22 +101,27 @@ pub(super) fn case_error(path: &str, text: &str, error: &toml::de::Error) -> Cas
 
 /// The line of the error, and for an unknown key the nearest known one.
 pub fn parse_error(path: &str, text: &str, error: &toml::de::Error) -> CaseError {
-    let line = error.span().map_or(1, |span| text[..span.start.min(text.len())].matches('\n').count() + 1);
+    let line =
+        error.span().map_or(1, |span| text[..span.start.min(text.len())].matches('\n').count() + 1);
     let whole = error.message().lines().next().unwrap_or_default();
     // of an unknown key where it stands: TOML may name the section's first line
-    let named = |key: &str| text.lines().position(|line| line.split_once('=').is_some_and(|(k, _)| k.trim() == key));
+    let named = |key: &str| {
+        text.lines().position(|line| line.split_once('=').is_some_and(|(k, _)| k.trim() == key))
+    };
     let line = unknown_key(whole).and_then(|(key, _)| named(&key)).map_or(line, |i| i + 1);
     let message = one_line(whole);
     if let Some(message) = text.lines().nth(line - 1).and_then(decimal_comma) {
         return CaseError::Parse { path: path.into(), line, message };
     }
     if message.starts_with("unknown variant `impact`") {
-        let message = "objective \"impact\" is now landing; write objective = \"landing\"".to_string();
+        let message =
+            "objective \"impact\" is now landing; write objective = \"landing\"".to_string();
         return CaseError::Parse { path: path.into(), line, message };
     }
-    if message.starts_with("unknown variant `pier`") || message.starts_with("unknown variant `frame`") {
-        let message =
-            "this kind is an elastic structure, whose case files tune run takes; give \"aframe\" or \"block\" here";
+    if message.starts_with("unknown variant `pier`")
+        || message.starts_with("unknown variant `frame`")
+    {
+        let message = "this kind is an elastic structure, whose case files tune run takes; give \"aframe\" or \"block\" here";
         return CaseError::Parse { path: path.into(), line, message: message.into() };
     }
     if names_legs(&message) {
@@ -122,7 +133,9 @@ pub fn parse_error(path: &str, text: &str, error: &toml::de::Error) -> CaseError
         .fold(message, |message, short| message.replace(short, kinds));
     // of the whole message: all known keys, the nearest one among them
     let message = match unknown_key(whole) {
-        Some((key, Some(near))) => format!("unknown key \"{}\"; did you mean \"{near}\"?", one_line(&key)),
+        Some((key, Some(near))) => {
+            format!("unknown key \"{}\"; did you mean \"{near}\"?", one_line(&key))
+        }
         Some((key, None)) => format!("unknown key \"{}\"; remove it", one_line(&key)),
         None if message.contains(';') => message,
         None => format!("{message}; mend this line"),
@@ -153,7 +166,11 @@ fn unknown_key(message: &str) -> Option<(String, Option<String>)> {
 /// The line and the name of a key that stands for `kind`, where there is none: all other keys hang
 /// on it.
 fn misspelt_kind(text: &str) -> Option<(usize, &str)> {
-    let keys = || text.lines().enumerate().filter_map(|(i, line)| Some((i + 1, line.split_once('=')?.0.trim())));
+    let keys = || {
+        text.lines()
+            .enumerate()
+            .filter_map(|(i, line)| Some((i + 1, line.split_once('=')?.0.trim())))
+    };
     let near = |(_, key): &(usize, &str)| strsim::damerau_levenshtein(key, "kind") <= 2;
     keys().find(near).filter(|_| keys().all(|(_, key)| key != "kind"))
 }
@@ -162,15 +179,24 @@ fn misspelt_kind(text: &str) -> Option<(usize, &str)> {
 fn decimal_comma(line: &str) -> Option<String> {
     let (key, value) = line.split_once('=')?;
     let value = value.split('#').next()?.trim();
-    let (whole, decimals) = value.split_once(',').filter(|(_, decimals)| !decimals.contains(','))?;
+    let (whole, decimals) =
+        value.split_once(',').filter(|(_, decimals)| !decimals.contains(','))?;
     let point = format!("{whole}.{decimals}");
     let digits = |text: &str| !text.is_empty() && text.bytes().all(|b| b.is_ascii_digit());
-    let is_number = digits(whole.trim_start_matches(['+', '-'])) && decimals.starts_with(|c: char| c.is_ascii_digit());
+    let is_number = digits(whole.trim_start_matches(['+', '-']))
+        && decimals.starts_with(|c: char| c.is_ascii_digit());
     point.parse::<f64>().ok().filter(|_| is_number)?;
     // three digits may be thousands
-    let or = if digits(decimals) && decimals.len() == 3 { format!(", or {whole}{decimals}") } else { String::new() };
+    let or = if digits(decimals) && decimals.len() == 3 {
+        format!(", or {whole}{decimals}")
+    } else {
+        String::new()
+    };
     let (key, value) = (one_line(key.trim()), one_line(value));
-    Some(format!("{key} is {value}, a number with a comma; write it with a point: {}{or}", one_line(&point)))
+    Some(format!(
+        "{key} is {value}, a number with a comma; write it with a point: {}{or}",
+        one_line(&point)
+    ))
 }
 
 #[cfg(test)]
@@ -183,7 +209,16 @@ mod tests {
         assert_eq!(said, "height_m is 1,9, a number with a comma; write it with a point: 1.9");
         assert!(decimal_comma("mass_kg=-1,5e3").unwrap().ends_with(": -1.5e3"));
         assert!(decimal_comma("mass_kg = 680,100").unwrap().ends_with(": 680.100, or 680100"));
-        for fine in ["x = [1, 9]", "x = [1,9]", "x = 1,2,3", "x = \"1,9\"", "x = 1, 9", "x 1,9", "x = ,9", "x = 1,"] {
+        for fine in [
+            "x = [1, 9]",
+            "x = [1,9]",
+            "x = 1,2,3",
+            "x = \"1,9\"",
+            "x = 1, 9",
+            "x 1,9",
+            "x = ,9",
+            "x = 1,",
+        ] {
             assert_eq!(decimal_comma(fine), None, "{fine}");
         }
     }

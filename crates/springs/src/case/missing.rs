@@ -25,7 +25,9 @@ pub(super) fn is_field(message: &str) -> Option<&str> {
 
 /// Whether no kind of structure is given.
 pub(super) fn no_kind(file: &Table) -> bool {
-    file.get("structure").and_then(Value::as_table).is_some_and(|structure| !structure.contains_key("kind"))
+    file.get("structure")
+        .and_then(Value::as_table)
+        .is_some_and(|structure| !structure.contains_key("kind"))
 }
 
 /// "[structure] lacks width_m, mass_kg; [record] lacks file", and the shape that `tune init` is to
@@ -45,7 +47,8 @@ pub(super) fn sections(file: &Table) -> Option<(String, &'static str)> {
         all.extend((!told.is_empty()).then(|| ("record", vec![key])));
     }
     let all = all.iter().filter(|(_, keys)| !keys.is_empty());
-    let all: Vec<String> = all.map(|(name, keys)| format!("[{name}] lacks {}", keys.join(", "))).collect();
+    let all: Vec<String> =
+        all.map(|(name, keys)| format!("[{name}] lacks {}", keys.join(", "))).collect();
     (!all.is_empty()).then(|| (all.join("; "), shape))
 }
 
@@ -65,7 +68,9 @@ fn of_structure(structure: &Table) -> (Vec<String>, &'static str) {
         _ if super::elastic::is_elastic(structure) => elastic(structure, &kind),
         _ => (lacks::<StructureSection>(structure), ""),
     };
-    let whole = |key: String| if (key.as_str(), shape) == ("height_m", " block") { TOTAL.to_owned() } else { key };
+    let whole = |key: String| {
+        if (key.as_str(), shape) == ("height_m", " block") { TOTAL.to_owned() } else { key }
+    };
     (found.into_iter().map(whole).collect(), shape)
 }
 
@@ -120,20 +125,34 @@ mod tests {
             "[structure] lacks width_m, mass_kg; [damper] lacks c_ns_per_m; [tendon] lacks stiffness_n_per_m; \
              [record] lacks file, for dt_s"
         );
-        assert_eq!(said(""), "[structure] lacks kind (aframe, block, pier or frame), its sizes and its mass");
-        assert_eq!(said("[structure]\nkind = 'block'\ntotal_height_ft = 6\nwidth_in = 24\nweight_lb = 900\n"), "");
+        assert_eq!(
+            said(""),
+            "[structure] lacks kind (aframe, block, pier or frame), its sizes and its mass"
+        );
+        assert_eq!(
+            said(
+                "[structure]\nkind = 'block'\ntotal_height_ft = 6\nwidth_in = 24\nweight_lb = 900\n"
+            ),
+            ""
+        );
     }
 
     /// What each kind cannot be without, as docs/elastic.md has it.
     #[test]
     fn each_kind_has_its_own_keys() {
         for (kind, keys) in [
-            ("kind = 'block'\n", "total_height_m (or height_m, of the centre of mass), width_m, mass_kg"),
+            (
+                "kind = 'block'\n",
+                "total_height_m (or height_m, of the centre of mass), width_m, mass_kg",
+            ),
             (
                 "kind = 'pier'\n",
                 "height_m, width_m, mass_kg, footing_mass_kg, footing_height_m, damping_ratio, frequency_hz (or ei_nm2)",
             ),
-            ("kind = 'aframe'\nea_n = 1\n", "height_m, width_m, mass_kg, ei_nm2, foot_mass_kg, damping_ratio"),
+            (
+                "kind = 'aframe'\nea_n = 1\n",
+                "height_m, width_m, mass_kg, ei_nm2, foot_mass_kg, damping_ratio",
+            ),
             (
                 "kind = 'frame'\n",
                 "height_m, span_m, footing_width_m, footing_height_m, footing_mass_kg, beam_mass_kg, column_ea_n, \

@@ -18,7 +18,8 @@ use fixed_steps::{
 };
 
 /// Of a program's time step (s).
-pub const STEP: Limits = Limits { least: 1e-6, most: 0.1, remedy: "give a time step between 1e-6 and 0.1 s, as 0.001" };
+pub const STEP: Limits =
+    Limits { least: 1e-6, most: 0.1, remedy: "give a time step between 1e-6 and 0.1 s, as 0.001" };
 /// Of the substeps of a step that fails.
 const SUBSTEP_LIMITS: (usize, usize) = (1, 4096);
 /// What to give for a program or an integrator that is none.
@@ -66,14 +67,21 @@ impl ProgramSection {
     /// A name, a step, an integrator, a number of substeps that cannot be.
     pub fn checked(&self) -> Result<FixedStepProgram, ProgramMistake> {
         let name = match &self.name {
-            Some(name) => Some(name.parse::<ProgramName>().map_err(|_| ("for", quoted(name), NAMES.to_string()))?),
+            Some(name) => Some(
+                name.parse::<ProgramName>()
+                    .map_err(|_| ("for", quoted(name), NAMES.to_string()))?,
+            ),
             None => self.integrator.is_none().then_some(ProgramName::Sap2000),
         };
-        let step = STEP.check(self.step_s.unwrap_or(USUAL_STEP)).map_err(|(v, remedy)| ("step_s", v, remedy.into()))?;
+        let step = STEP
+            .check(self.step_s.unwrap_or(USUAL_STEP))
+            .map_err(|(v, remedy)| ("step_s", v, remedy.into()))?;
         let integrator = match (&self.integrator, name) {
             (Some(given), _) => given.parse::<Integrator>().map_err(|e| {
                 let remedy = e.to_string();
-                let remedy = remedy.split_once(": ").map_or(remedy.clone(), |(_, remedy)| remedy.to_string());
+                let remedy = remedy
+                    .split_once(": ")
+                    .map_or(remedy.clone(), |(_, remedy)| remedy.to_string());
                 ("integrator", quoted(given), remedy)
             })?,
             (None, name) => name.unwrap_or(ProgramName::Sap2000).integrator(),
@@ -81,7 +89,11 @@ impl ProgramSection {
         let substeps = self.substeps.unwrap_or(SUBSTEPS);
         let (least, most) = SUBSTEP_LIMITS;
         if !(least..=most).contains(&substeps) {
-            return Err(("substeps", substeps.to_string(), format!("give a number from {least} to {most}")));
+            return Err((
+                "substeps",
+                substeps.to_string(),
+                format!("give a number from {least} to {most}"),
+            ));
         }
         Ok(FixedStepProgram { name, integrator, step, substeps })
     }
@@ -90,8 +102,12 @@ impl ProgramSection {
     ///
     /// # Errors
     /// As above.
-    pub(super) fn of_case(section: Option<&Self>, path: &str) -> Result<Option<FixedStepProgram>, CaseError> {
-        let mistake = |(key, value, remedy)| CaseError::Program { path: path.into(), key, value, remedy };
+    pub(super) fn of_case(
+        section: Option<&Self>,
+        path: &str,
+    ) -> Result<Option<FixedStepProgram>, CaseError> {
+        let mistake =
+            |(key, value, remedy)| CaseError::Program { path: path.into(), key, value, remedy };
         section.map(|section| section.checked().map_err(mistake)).transpose()
     }
 }
@@ -111,9 +127,11 @@ mod tests {
         let read = |program: &str| Case::parse("c.toml", &format!("{body}{program}"));
         assert_eq!(read("").unwrap().program, None);
         assert_eq!(read("[program]\n").unwrap().program, Some(FixedStepProgram::usual()));
-        let program = read("[program]\nfor = 'opensees-even'\nstep_s = 0.002\n").unwrap().program.unwrap();
+        let program =
+            read("[program]\nfor = 'opensees-even'\nstep_s = 0.002\n").unwrap().program.unwrap();
         assert_eq!(program, FixedStepProgram::of(ProgramName::OpenSees, 0.002));
-        let program = read("[program]\nintegrator = 'hht:-0.1'\nsubsteps = 1\n").unwrap().program.unwrap();
+        let program =
+            read("[program]\nintegrator = 'hht:-0.1'\nsubsteps = 1\n").unwrap().program.unwrap();
         assert_eq!((program.name, program.integrator), (None, Integrator::Hht { alpha: -0.1 }));
         assert_eq!((program.step, program.substeps), (1e-3, 1));
         for (wrong, told) in [

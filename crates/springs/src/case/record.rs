@@ -5,7 +5,9 @@ use std::path::{Path, PathBuf};
 use serde::Deserialize;
 
 use super::{CaseError, LONGEST_S};
-use strong_motion::{ReadOptions, Record, RecordError, TableColumn, Units, VerticalFrom, excitation::Excitation};
+use strong_motion::{
+    ReadOptions, Record, RecordError, TableColumn, Units, VerticalFrom, excitation::Excitation,
+};
 
 #[derive(Clone, Debug, Default, Deserialize)]
 #[serde(deny_unknown_fields, default)]
@@ -54,7 +56,8 @@ impl RecordSection {
 
     /// How to read the file; paths start at a folder.
     fn options(&self, folder: &Path, asked: &ReadOptions) -> ReadOptions {
-        let own = self.component.clone().or_else(|| self.column.as_ref().map(TableColumn::component));
+        let own =
+            self.component.clone().or_else(|| self.column.as_ref().map(TableColumn::component));
         let vertical = self.vertical.clone().map(|from| from.within(folder));
         ReadOptions {
             dt: asked.dt.or(self.dt_s),
@@ -66,8 +69,11 @@ impl RecordSection {
     }
 
     fn check(&self, path: &str) -> Result<(), CaseError> {
-        let refuse = |key, value: String, remedy| Err(CaseError::Value { path: path.into(), key, value, remedy });
-        if let Some(asked) = self.duration_s.filter(|asked| !(*asked > 0.0 && *asked <= LONGEST_S)) {
+        let refuse = |key, value: String, remedy| {
+            Err(CaseError::Value { path: path.into(), key, value, remedy })
+        };
+        if let Some(asked) = self.duration_s.filter(|asked| !(*asked > 0.0 && *asked <= LONGEST_S))
+        {
             let remedy = "give seconds greater than zero, at most 1e6";
             return refuse("record.duration_s", format!("{asked:?}"), remedy);
         }

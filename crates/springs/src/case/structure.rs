@@ -70,7 +70,8 @@ const QUANTITIES: [(&str, KeyQuantity, f64); 16] = [
 /// All keys, for the message about one that is none of them.
 const KEYS: [&str; 4 + QUANTITIES.len()] = {
     let mut keys = [""; 4 + QUANTITIES.len()];
-    [keys[0], keys[1], keys[2], keys[3]] = ["kind", "rotational_inertia_kgm2", "restitution", "restitution_ratio"];
+    [keys[0], keys[1], keys[2], keys[3]] =
+        ["kind", "rotational_inertia_kgm2", "restitution", "restitution_ratio"];
     let mut i = 0;
     while i < QUANTITIES.len() {
         keys[4 + i] = QUANTITIES[i].0;
@@ -168,12 +169,17 @@ impl<'de> Visitor<'de> for Keys {
                 "restitution" => restitution = Some(map.next_value()?),
                 "restitution_ratio" => ratio = Some(map.next_value()?),
                 _ => {
-                    let Some(&(key, quantity, unit)) = QUANTITIES.iter().find(|(known, ..)| *known == key) else {
+                    let Some(&(key, quantity, unit)) =
+                        QUANTITIES.iter().find(|(known, ..)| *known == key)
+                    else {
                         continue;
                     };
                     let same = quantity.same().iter().find_map(|other| given[*other as usize]);
-                    let clash = same.map(|(first, _)| format!("{first} and {key} give the same; leave one out"));
-                    given[quantity as usize] = Some((key, unit * map.next_value_seed(Number { clash })?));
+                    let clash = same.map(|(first, _)| {
+                        format!("{first} and {key} give the same; leave one out")
+                    });
+                    given[quantity as usize] =
+                        Some((key, unit * map.next_value_seed(Number { clash })?));
                 }
             }
         }
@@ -189,8 +195,9 @@ impl<'de> Visitor<'de> for Keys {
             }
             (None, None, _) => return Err(A::Error::missing_field("height_m")),
         };
-        let need =
-            |given: Option<(&str, f64)>, name| given.map(|(_, x)| x).ok_or_else(|| A::Error::missing_field(name));
+        let need = |given: Option<(&str, f64)>, name| {
+            given.map(|(_, x)| x).ok_or_else(|| A::Error::missing_field(name))
+        };
         Ok(StructureSection {
             kind,
             height_m,
@@ -228,24 +235,37 @@ impl StructureSection {
             rotational_inertia_kgm2: 0.0,
         };
         let m_r2 = self.mass_kg * (self.height_m.powi(2) + self.width_m.powi(2) / 4.0);
-        structure.rotational_inertia_kgm2 = self.rotational_inertia_kgm2.unwrap_or(match self.kind {
-            Kind::AFrame => LEAST_INERTIA * m_r2,
-            Kind::Block => m_r2 / 3.0,
-        });
+        structure.rotational_inertia_kgm2 =
+            self.rotational_inertia_kgm2.unwrap_or(match self.kind {
+                Kind::AFrame => LEAST_INERTIA * m_r2,
+                Kind::Block => m_r2 / 3.0,
+            });
         let structure = structure.checked().map_err(wrap)?;
         let housner = structure.body::<f64>().restitution();
-        let value =
-            |key, value: f64, remedy| CaseError::Value { path: path.into(), key, value: format!("{value:?}"), remedy };
+        let value = |key, value: f64, remedy| CaseError::Value {
+            path: path.into(),
+            key,
+            value: format!("{value:?}"),
+            remedy,
+        };
         let restitution = match (self.restitution, self.restitution_ratio) {
             (None, None) => housner,
             (Some(e), None) => e,
             (None, Some(ratio)) => ratio * housner,
             (Some(e), Some(_)) => {
-                return Err(value("structure.restitution", e, "give restitution or restitution_ratio, not both"));
+                return Err(value(
+                    "structure.restitution",
+                    e,
+                    "give restitution or restitution_ratio, not both",
+                ));
             }
         };
         if !(0.0..=1.0).contains(&restitution) {
-            return Err(value("structure.restitution", restitution, "a velocity ratio lies between 0 and 1"));
+            return Err(value(
+                "structure.restitution",
+                restitution,
+                "a velocity ratio lies between 0 and 1",
+            ));
         }
         Ok((structure, restitution))
     }
@@ -264,7 +284,10 @@ mod tests {
     /// are exact, so is the comparison but for rounding.
     #[test]
     fn units_of_a_drawing_are_those_of_the_definitions() {
-        let si = structure("kind = \"aframe\"\nheight_m = 60.96\nwidth_m = 12.192\nmass_kg = 680388.555\n").unwrap();
+        let si = structure(
+            "kind = \"aframe\"\nheight_m = 60.96\nwidth_m = 12.192\nmass_kg = 680388.555\n",
+        )
+        .unwrap();
         for given in [
             "height_ft = 200.0\nwidth_in = 480\nweight_kip = 1500\n",
             "height_in = 2400\nwidth_ft = 40\nmass_lb = 1.5e6\n",
@@ -272,23 +295,39 @@ mod tests {
             "height_m = 60.96\nwidth_m = 12.192\nmass_t = 680.388555\n",
         ] {
             let found = structure(&format!("kind = \"aframe\"\n{given}")).unwrap();
-            let pairs = [(found.height_m, si.height_m), (found.width_m, si.width_m), (found.mass_kg, si.mass_kg)];
+            let pairs = [
+                (found.height_m, si.height_m),
+                (found.width_m, si.width_m),
+                (found.mass_kg, si.mass_kg),
+            ];
             assert!(pairs.iter().all(|(a, b)| (a / b - 1.0).abs() < 1e-9), "{given}: {found:?}");
         }
     }
 
     #[test]
     fn a_cabinet_is_given_by_its_whole_height() {
-        let whole = structure("kind = \"block\"\ntotal_height_in = 80\nwidth_in = 24\nweight_lb = 900\n").unwrap();
-        assert!((whole.height_m - 1.016).abs() < 1e-12 && (whole.mass_kg - 408.233133).abs() < 1e-9, "{whole:?}");
+        let whole =
+            structure("kind = \"block\"\ntotal_height_in = 80\nwidth_in = 24\nweight_lb = 900\n")
+                .unwrap();
+        assert!(
+            (whole.height_m - 1.016).abs() < 1e-12 && (whole.mass_kg - 408.233133).abs() < 1e-9,
+            "{whole:?}"
+        );
     }
 
     #[test]
     fn what_is_given_twice_or_not_at_all_is_named() {
         let said = |section: &str| structure(section).unwrap_err();
-        let twice = said("kind = \"block\"\nheight_m = 1.0\ntotal_height_m = 2.0\nwidth_m = 0.5\nmass_kg = 1.0\n");
-        assert_eq!(twice, "case.toml, line 4: height_m and total_height_m give the same; leave one out");
-        let twice = said("kind = \"block\"\nheight_m = 1.0\nheight_ft = 3.0\nwidth_m = 0.5\nmass_kg = 1.0\n");
+        let twice = said(
+            "kind = \"block\"\nheight_m = 1.0\ntotal_height_m = 2.0\nwidth_m = 0.5\nmass_kg = 1.0\n",
+        );
+        assert_eq!(
+            twice,
+            "case.toml, line 4: height_m and total_height_m give the same; leave one out"
+        );
+        let twice = said(
+            "kind = \"block\"\nheight_m = 1.0\nheight_ft = 3.0\nwidth_m = 0.5\nmass_kg = 1.0\n",
+        );
         assert_eq!(twice, "case.toml, line 3: height_ft and height_m give the same; leave one out");
         let frame = said("kind = \"aframe\"\ntotal_height_m = 2.0\nwidth_m = 0.5\nmass_kg = 1.0\n");
         assert!(frame.contains("total_height_m is for a block"), "{frame}");

@@ -1,6 +1,7 @@
 use super::*;
 
-const STRUCTURE: &str = "[structure]\nkind = \"block\"\nheight_m = 1.0\nwidth_m = 0.5\nmass_kg = 100.0\n";
+const STRUCTURE: &str =
+    "[structure]\nkind = \"block\"\nheight_m = 1.0\nwidth_m = 0.5\nmass_kg = 100.0\n";
 
 fn message(extra: &str) -> String {
     Case::parse("case.toml", &format!("{STRUCTURE}{extra}")).unwrap_err().to_string()
@@ -32,7 +33,8 @@ fn a_record_is_used_whole_unless_the_case_says_otherwise() {
 fn every_case_in_the_folder_can_be_read() {
     let folder = Path::new(env!("CARGO_MANIFEST_DIR")).join("../../tuning");
     let files = std::fs::read_dir(folder).unwrap().map(|entry| entry.unwrap().path());
-    let cases: Vec<std::path::PathBuf> = files.filter(|path| path.extension().is_some_and(|e| e == "toml")).collect();
+    let cases: Vec<std::path::PathBuf> =
+        files.filter(|path| path.extension().is_some_and(|e| e == "toml")).collect();
     assert!(cases.len() >= 5, "{cases:?}");
     for path in cases {
         let text = std::fs::read_to_string(&path).unwrap();
@@ -70,7 +72,9 @@ fn a_restitution_ratio_multiplies_equation_2() {
 
 #[test]
 fn friction_is_read_and_goes_alone() {
-    let members = Case::parse("case.toml", &format!("{STRUCTURE}[friction]\ncoefficient = 0.4\n")).unwrap().members;
+    let members = Case::parse("case.toml", &format!("{STRUCTURE}[friction]\ncoefficient = 0.4\n"))
+        .unwrap()
+        .members;
     assert_eq!(members.friction, Some(Friction { coefficient: 0.4 }));
     let both = message("[friction]\ncoefficient = 0.4\n[damper]\nc_ns_per_m = 1.0\n");
     assert!(both.starts_with("case.toml: friction.coefficient is given together"), "{both}");
@@ -78,7 +82,8 @@ fn friction_is_read_and_goes_alone() {
 
 #[test]
 fn members_are_read_and_checked() {
-    let text = "[damper]\nc_ns_per_m = 3e5\n[tendon]\nstiffness_n_per_m = 4e5\npretension_n = 5e4\n";
+    let text =
+        "[damper]\nc_ns_per_m = 3e5\n[tendon]\nstiffness_n_per_m = 4e5\npretension_n = 5e4\n";
     let members = Case::parse("case.toml", &format!("{STRUCTURE}{text}")).unwrap().members;
     assert_eq!(members.damper, Some(Damper { c: 3e5 }));
     assert_eq!(members.tendon, Some(Tendon { stiffness: 4e5, pretension: 5e4 }));
@@ -96,7 +101,13 @@ fn members_are_read_and_checked() {
 
 #[test]
 fn bad_values_are_named() {
-    assert!(message("[tuning]\nmass_ratios_vertical = [-1.0]\n").contains("tuning.mass_ratios_vertical is -1"));
+    assert!(
+        message("[tuning]\nmass_ratios_vertical = [-1.0]\n")
+            .contains("tuning.mass_ratios_vertical is -1")
+    );
     assert!(message("[record]\nduration_s = nan\n").contains("record.duration_s is NaN"));
-    assert!(message("[tuning]\nmax_omega_hz = \"stiff\"\n").starts_with("case.toml, line 7: invalid type"));
+    assert!(
+        message("[tuning]\nmax_omega_hz = \"stiff\"\n")
+            .starts_with("case.toml, line 7: invalid type")
+    );
 }

@@ -67,7 +67,8 @@ mod tests {
 
     #[test]
     fn a_case_asks_for_one_error_of_histories_or_of_peaks() {
-        let body = "[structure]\nkind = 'block'\nheight_m = 1.0\nwidth_m = 0.4\nmass_kg = 1e3\n[tuning]\n";
+        let body =
+            "[structure]\nkind = 'block'\nheight_m = 1.0\nwidth_m = 0.4\nmass_kg = 1e3\n[tuning]\n";
         let read = |tuning: &str| Case::parse("c.toml", &format!("{body}{tuning}"));
         let asked = |tuning: &str| read(tuning).unwrap().tuning.asked();
         assert_eq!(asked(""), Asked { by: Yardstick::Histories, error: 0.002 });
@@ -79,6 +80,9 @@ mod tests {
             "c.toml: tuning.peaks is 0.02 and tuning.accuracy is 0.01; springs are chosen by one of them, leave the other out"
         );
         let said = read("peaks = 0.0").unwrap_err().to_string();
-        assert!(said.starts_with("c.toml: tuning.peaks is 0.0; give an error of peaks between"), "{said}");
+        assert!(
+            said.starts_with("c.toml: tuning.peaks is 0.0; give an error of peaks between"),
+            "{said}"
+        );
     }
 }

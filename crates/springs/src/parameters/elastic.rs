@@ -178,7 +178,11 @@ pub struct ElasticParameters {
 
 impl ElasticParameters {
     /// Springs under corners at these places.
-    pub fn new(structure: ElasticStructure, omega_n_hz: f64, corners: &[(f64, Springs<Chain<f64>>)]) -> Self {
+    pub fn new(
+        structure: ElasticStructure,
+        omega_n_hz: f64,
+        corners: &[(f64, Springs<Chain<f64>>)],
+    ) -> Self {
         let row = |(x, springs): &(f64, Springs<Chain<f64>>)| CornerRow {
             x_m: *x,
             vertical: (&springs.vertical).into(),
@@ -232,7 +236,8 @@ impl ElasticParameters {
     /// It cannot be read; what is wrong with it.
     pub fn read(path: &Path) -> Result<Option<Self>, ParametersError> {
         let name = path.display().to_string();
-        let text = files::input::text(path).map_err(|source| ParametersError::Read { path: name.clone(), source })?;
+        let text = files::input::text(path)
+            .map_err(|source| ParametersError::Read { path: name.clone(), source })?;
         if Self::is(&text) { Self::parse(&name, &text).map(Some) } else { Ok(None) }
     }
 
@@ -246,7 +251,8 @@ impl ElasticParameters {
             line: e.line(),
             message: one_line(e.to_string().split(" at line").next().unwrap_or_default()),
         })?;
-        let value = |message: String| ParametersError::Parse { path: path.into(), line: 1, message };
+        let value =
+            |message: String| ParametersError::Parse { path: path.into(), line: 1, message };
         if !(FIRST..=SCHEMA).contains(&parameters.schema) {
             let found = parameters.schema;
             return Err(value(format!(
@@ -262,7 +268,9 @@ impl ElasticParameters {
                 "springs has {found} rows, the structure {corners} corners; run tune run again"
             )));
         }
-        if let Some(i) = parameters.springs.iter().position(|row| !row.vertical.good() || !row.horizontal.good()) {
+        if let Some(i) =
+            parameters.springs.iter().position(|row| !row.vertical.good() || !row.horizontal.good())
+        {
             return Err(value(format!(
                 "springs, row {}: k1, k2 and m2 must be finite and above zero, c zero or more; run tune run again",
                 i + 1
@@ -346,9 +354,17 @@ mod tests {
             energy_residual: 1e-7,
             near: None,
         };
-        let assessment =
-            ElasticAssessment { judged_by: Yardstick::Histories, accuracy: 0.002, reached: false, measured };
-        let written = ElasticParameters { assessment: Some(assessment), on_record: Some(on_record), ..parameters() };
+        let assessment = ElasticAssessment {
+            judged_by: Yardstick::Histories,
+            accuracy: 0.002,
+            reached: false,
+            measured,
+        };
+        let written = ElasticParameters {
+            assessment: Some(assessment),
+            on_record: Some(on_record),
+            ..parameters()
+        };
         let text = written.to_json();
         assert!(text.contains("\"nrmse_rotation\": null"), "{text}");
         assert_eq!(ElasticParameters::parse("p.json", &text).unwrap(), written);
@@ -364,7 +380,9 @@ mod tests {
             ("\"height_m\": 12.0", "\"height_m\": -12.0", "height_m"),
         ] {
             assert!(text.contains(from), "{from}: {text}");
-            let error = ElasticParameters::parse("p.json", &text.replacen(from, to, 1)).unwrap_err().to_string();
+            let error = ElasticParameters::parse("p.json", &text.replacen(from, to, 1))
+                .unwrap_err()
+                .to_string();
             // the line is said once, in front
             assert!(error.contains(said) && error.matches("line ").count() == 1, "{error}");
         }

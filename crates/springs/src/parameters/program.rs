@@ -110,7 +110,12 @@ pub struct ProgramRow<U> {
 
 impl<U> ProgramRow<U> {
     /// Of a program, the stiffest vertical k1 (N/m) and the mass (kg).
-    fn of(program: &FixedStepProgram, (k1, mass): (f64, f64), units: U, expected: ProgramExpected) -> Self {
+    fn of(
+        program: &FixedStepProgram,
+        (k1, mass): (f64, f64),
+        units: U,
+        expected: ProgramExpected,
+    ) -> Self {
         let tolerance = program.tolerance(k1, mass);
         Self {
             name: program.name.map(|name| name.key().into()),
@@ -152,7 +157,11 @@ impl From<&ProgramSprings> for ProgramRow<FootUnits> {
 
 impl ProgramRow<CornerUnits> {
     /// Of an elastic structure whose corners stand at these places (m).
-    pub fn of_corners(of: &ElasticProgramSprings, mass: f64, places: impl Iterator<Item = f64>) -> Self {
+    pub fn of_corners(
+        of: &ElasticProgramSprings,
+        mass: f64,
+        places: impl Iterator<Item = f64>,
+    ) -> Self {
         let corners = &of.springs.corners;
         let k1 = corners.iter().map(|corner| corner.vertical.k1).fold(0.0, f64::max);
         let row = |(x_m, springs): (f64, &Springs<Chain<f64>>)| CornerRow {
@@ -190,10 +199,16 @@ impl<U> ProgramRow<U> {
     /// Its integrator in words: "HHT alpha -1/3".
     pub fn integrator_words(&self) -> String {
         match self.integrator.parse::<Integrator>() {
-            Ok(Integrator::Hht { alpha }) if (alpha + 1.0 / 3.0).abs() < 1e-9 => "HHT alpha -1/3".into(),
+            Ok(Integrator::Hht { alpha }) if (alpha + 1.0 / 3.0).abs() < 1e-9 => {
+                "HHT alpha -1/3".into()
+            }
             Ok(Integrator::Hht { alpha }) => format!("HHT alpha {alpha}"),
-            Ok(Integrator::Newmark { gamma, beta }) => format!("Newmark gamma {gamma}, beta {beta}"),
-            Ok(Integrator::GeneralizedAlpha { rho_inf }) => format!("generalized alpha, rho_inf {rho_inf}"),
+            Ok(Integrator::Newmark { gamma, beta }) => {
+                format!("Newmark gamma {gamma}, beta {beta}")
+            }
+            Ok(Integrator::GeneralizedAlpha { rho_inf }) => {
+                format!("generalized alpha, rho_inf {rho_inf}")
+            }
             Ok(Integrator::Trbdf2) => "TRBDF2".into(),
             Ok(Integrator::BackwardEuler) => "BackwardEuler".into(),
             Err(_) => self.integrator.clone(),

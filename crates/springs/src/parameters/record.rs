@@ -8,7 +8,9 @@ use thiserror::Error;
 
 use super::Parameters;
 use files::message::one_line;
-use strong_motion::{ReadOptions, Record, RecordError, Source, Units, Vertical, excitation::Excitation};
+use strong_motion::{
+    ReadOptions, Record, RecordError, Source, Units, Vertical, excitation::Excitation,
+};
 
 /// Length that files which remember no record stand for, unless they hold a match (s).
 const FORMER_DURATION_S: f64 = 20.0;
@@ -121,12 +123,13 @@ impl RecordRow {
     /// scaled.
     pub fn new(excitation: &Excitation, used: &Record, folder: &Path) -> Self {
         let record = &excitation.record;
-        let vertical = record.vertical.as_ref().zip(used.vertical.as_ref()).map(|(whole, used)| VerticalRow {
-            name: whole.name.clone(),
-            pga_g: used.peak_g(),
-            fnv1a_64: hexadecimal(whole.as_record(record.dt).fingerprint()),
-            source: SourceRow::new(&whole.source, folder),
-        });
+        let vertical =
+            record.vertical.as_ref().zip(used.vertical.as_ref()).map(|(whole, used)| VerticalRow {
+                name: whole.name.clone(),
+                pga_g: used.peak_g(),
+                fnv1a_64: hexadecimal(whole.as_record(record.dt).fingerprint()),
+                source: SourceRow::new(&whole.source, folder),
+            });
         Self {
             name: record.name.clone(),
             dt_s: record.dt,
@@ -151,10 +154,16 @@ impl RecordRow {
     /// of.
     fn record(&self, parameters: &Path) -> Result<Record, RememberedError> {
         let source = self.source.as_ref().unwrap_or(&SourceRow::Embedded);
-        let record = self.component(parameters, source, (&self.name, self.fnv1a_64.as_ref()), Record::read)?;
+        let record =
+            self.component(parameters, source, (&self.name, self.fnv1a_64.as_ref()), Record::read)?;
         let Some(row) = &self.vertical else { return Ok(record) };
         let remembered = (row.name.as_str(), Some(&row.fnv1a_64));
-        Ok(record.with_vertical(self.component(parameters, &row.source, remembered, Vertical::read)?)?)
+        Ok(record.with_vertical(self.component(
+            parameters,
+            &row.source,
+            remembered,
+            Vertical::read,
+        )?)?)
     }
 
     /// A component again by its source, read by `read`; its name and hash are remembered.
@@ -169,20 +178,36 @@ impl RecordRow {
         let (record, file) = match source {
             SourceRow::Embedded => (Record::el_centro(), "the embedded El Centro".to_string()),
             SourceRow::Numbers => {
-                return Err(RememberedError::NoFile { parameters: name(), name: one_line(called), dt_s: self.dt_s });
+                return Err(RememberedError::NoFile {
+                    parameters: name(),
+                    name: one_line(called),
+                    dt_s: self.dt_s,
+                });
             }
             SourceRow::File { file, path, units, component, baseline } => {
                 let (component, baseline) = (component.clone(), *baseline);
-                let options =
-                    ReadOptions { dt: Some(self.dt_s), units: Some(*units), component, baseline, vertical: None };
+                let options = ReadOptions {
+                    dt: Some(self.dt_s),
+                    units: Some(*units),
+                    component,
+                    baseline,
+                    vertical: None,
+                };
                 let here = parameters.parent().unwrap_or(Path::new("")).join(path);
                 let there = [here.as_path(), Path::new(file)].into_iter().find(|p| p.exists());
-                let missing =
-                    || RememberedError::Missing { parameters: name(), file: one_line(file), path: one_line(path) };
+                let missing = || RememberedError::Missing {
+                    parameters: name(),
+                    file: one_line(file),
+                    path: one_line(path),
+                };
                 match read(there.ok_or_else(missing)?, &options) {
                     Err(RecordError::StepDiffers { .. } | RecordError::UnitsDiffer { .. }) => {
                         let change = "it says another time step or unit".to_string();
-                        return Err(RememberedError::Changed { parameters: name(), file: one_line(file), change });
+                        return Err(RememberedError::Changed {
+                            parameters: name(),
+                            file: one_line(file),
+                            change,
+                        });
                     }
                     record => (record?, one_line(file)),
                 }
@@ -191,7 +216,8 @@ impl RecordRow {
         let found = hexadecimal(record.fingerprint());
         match hash {
             Some(remembered) if *remembered != found => {
-                let change = format!("the hash of its numbers is {found}, not {}", one_line(remembered));
+                let change =
+                    format!("the hash of its numbers is {found}, not {}", one_line(remembered));
                 Err(RememberedError::Changed { parameters: name(), file, change })
             }
             _ => Ok(record),
@@ -237,7 +263,9 @@ fn real(path: &Path) -> PathBuf {
 fn way(folder: &Path, file: &Path) -> PathBuf {
     let common = folder.components().zip(file.components()).take_while(|(a, b)| a == b).count();
     // without a root both start from the same folder
-    if folder.has_root() && folder.components().take(common).all(|part| !matches!(part, Component::Normal(_))) {
+    if folder.has_root()
+        && folder.components().take(common).all(|part| !matches!(part, Component::Normal(_)))
+    {
         return file.to_owned();
     }
     let up = folder.components().skip(common).map(|_| Component::ParentDir);
@@ -247,7 +275,11 @@ fn way(folder: &Path, file: &Path) -> PathBuf {
 /// A path as every system reads it.
 fn slashes(path: &Path) -> String {
     let text = path.to_string_lossy();
-    if std::path::MAIN_SEPARATOR == '/' { text.into_owned() } else { text.replace(std::path::MAIN_SEPARATOR, "/") }
+    if std::path::MAIN_SEPARATOR == '/' {
+        text.into_owned()
+    } else {
+        text.replace(std::path::MAIN_SEPARATOR, "/")
+    }
 }
 
 #[cfg(test)]
@@ -288,9 +320,18 @@ mod tests {
         let named = file.display().to_string();
         assert_eq!(
             row.source,
-            Some(SourceRow::File { file: named, path: way, units: Units::G, component: None, baseline: false })
+            Some(SourceRow::File {
+                file: named,
+                path: way,
+                units: Units::G,
+                component: None,
+                baseline: false
+            })
         );
-        assert_eq!((row.scale, row.duration_s, row.pga_time_s), (Some(1.5), Some(0.02), Some(0.02)));
+        assert_eq!(
+            (row.scale, row.duration_s, row.pga_time_s),
+            (Some(1.5), Some(0.02), Some(0.02))
+        );
 
         std::fs::rename(dir.path().join("old"), dir.path().join("new")).unwrap();
         std::fs::create_dir(dir.path().join("new/out/run")).unwrap();
@@ -302,7 +343,10 @@ mod tests {
         let file = dir.path().join("new/motions/a.txt");
         std::fs::write(&file, "0.1\n0.3\n-0.21\n").unwrap();
         let changed = written.excitation(&path).unwrap_err().to_string();
-        assert!(changed.contains("a.txt has changed since the springs were tuned (the hash of its"), "{changed}");
+        assert!(
+            changed.contains("a.txt has changed since the springs were tuned (the hash of its"),
+            "{changed}"
+        );
         std::fs::write(&file, "# units: cm/s2\n0.1\n0.3\n-0.2\n").unwrap();
         assert!(matches!(written.excitation(&path), Err(RememberedError::Changed { .. })));
         std::fs::remove_file(&file).unwrap();
@@ -312,10 +356,15 @@ mod tests {
     #[test]
     fn the_embedded_record_is_remembered_as_such_and_numbers_are_said_to_be_nowhere() {
         let el_centro = Excitation { scale: 2.0, ..Excitation::whole(Record::el_centro()) };
-        let found = again(&parameters(&el_centro, Path::new("out"))).excitation(Path::new("p.json")).unwrap();
+        let found = again(&parameters(&el_centro, Path::new("out")))
+            .excitation(Path::new("p.json"))
+            .unwrap();
         assert_eq!(found, Excitation { duration_s: Some(el_centro.duration()), ..el_centro });
         let made = Excitation::whole(Record::new("made", 0.01, vec![1.0; 10]).unwrap());
-        let error = parameters(&made, Path::new("out")).excitation(Path::new("p.json")).unwrap_err().to_string();
+        let error = parameters(&made, Path::new("out"))
+            .excitation(Path::new("p.json"))
+            .unwrap_err()
+            .to_string();
         assert_eq!(
             error,
             "p.json: its record made was given as numbers and is in no file; save it as a column of accelerations, in Python \
@@ -329,7 +378,10 @@ mod tests {
         let old = Parameters::parse("p.json", text).unwrap();
         assert_eq!((old.schema, old.assessment), (1, None));
         let found = old.excitation(Path::new("p.json")).unwrap();
-        assert_eq!((&found.record, found.scale, found.duration_s), (&Record::el_centro(), 1.0, Some(20.0)));
+        assert_eq!(
+            (&found.record, found.scale, found.duration_s),
+            (&Record::el_centro(), 1.0, Some(20.0))
+        );
     }
 
     #[test]
@@ -341,7 +393,11 @@ mod tests {
             ("/a/b", "/c/x", "/c/x"),
             ("out", "x", "../x"),
         ] {
-            assert_eq!(way(Path::new(folder), Path::new(file)), Path::new(expected), "{folder} {file}");
+            assert_eq!(
+                way(Path::new(folder), Path::new(file)),
+                Path::new(expected),
+                "{folder} {file}"
+            );
         }
     }
 }

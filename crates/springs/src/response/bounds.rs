@@ -37,7 +37,14 @@ pub enum BoundsError {
     #[error(
         "bounds: nothing lies between {low_name} ({quantity} >= {low:.6}) and {high_name} ({quantity} <= {high:.6}) for mu = {mu}; loosen one of them"
     )]
-    Empty { quantity: &'static str, low_name: &'static str, low: f64, high_name: &'static str, high: f64, mu: f64 },
+    Empty {
+        quantity: &'static str,
+        low_name: &'static str,
+        low: f64,
+        high_name: &'static str,
+        high: f64,
+        mu: f64,
+    },
     #[error(
         "bounds: a settlement of {settlement_m} m is less than the gap springs alone give at {omega_n_hz} Hz, {least_m:.3e} m; allow more or raise Omega_n"
     )]
@@ -82,11 +89,14 @@ impl Bounds {
         // Far beyond any optimum: the minimax has K between 1/2 and about mu, C between 1.8 and
         // about 1.3 sqrt(mu).
         let (least, most) = (1e-4, 1e4 * mu.max(1.0));
-        let mut sides = [Side { low: least, low_name: SEARCH_RANGE, high: most, high_name: SEARCH_RANGE }; 2];
+        let mut sides =
+            [Side { low: least, low_name: SEARCH_RANGE, high: most, high_name: SEARCH_RANGE }; 2];
         let k = |f: f64| mu * f * f;
         let c = |xi: f64| 2.0 * mu * xi;
         let given = |name, value: Option<f64>| match value {
-            Some(value) if !(value.is_finite() && value > 0.0) => Err(BoundsError::NotPositive { name, value }),
+            Some(value) if !(value.is_finite() && value > 0.0) => {
+                Err(BoundsError::NotPositive { name, value })
+            }
             other => Ok(other),
         };
         if let Some(f) = given("f_min", self.f_min)? {
@@ -104,7 +114,8 @@ impl Bounds {
         if let Some(xi) = given("xi_max", self.xi_max)? {
             sides[1].lower(c(xi), "xi_max");
         }
-        for (Side { low, low_name, high, high_name }, quantity) in sides.into_iter().zip(["K", "C"]) {
+        for (Side { low, low_name, high, high_name }, quantity) in sides.into_iter().zip(["K", "C"])
+        {
             if low > high {
                 return Err(BoundsError::Empty { quantity, low_name, low, high_name, high, mu });
             }
@@ -174,7 +185,10 @@ mod tests {
         let bounds = Bounds { f_max: Some(1.0), k_min: Some(3.0), ..Bounds::default() };
         assert!(bounds.region(4.0).is_ok());
         let error = bounds.region(2.0).unwrap_err();
-        assert!(matches!(error, BoundsError::Empty { low_name: "k_min", high_name: "f_max", .. }), "{error}");
+        assert!(
+            matches!(error, BoundsError::Empty { low_name: "k_min", high_name: "f_max", .. }),
+            "{error}"
+        );
         let error = Bounds { xi_max: Some(f64::NAN), ..Bounds::default() }.region(1.0).unwrap_err();
         assert!(matches!(error, BoundsError::NotPositive { name: "xi_max", .. }));
     }

@@ -65,7 +65,9 @@ fn one() -> f64 {
 /// What is wrong with a target, and what to do. Bands count from 1.
 #[derive(Clone, Debug, PartialEq, Error)]
 pub enum TargetError {
-    #[error("target: it has no band; give at least one [[target.bands]], or leave the target out for the default cap")]
+    #[error(
+        "target: it has no band; give at least one [[target.bands]], or leave the target out for the default cap"
+    )]
     Empty,
     #[error(
         "target: band {band} runs from g_low = {g_low} to g_high = {g_high}; give 0 <= g_low < g_high (leave g_high out for no end)"
@@ -73,16 +75,28 @@ pub enum TargetError {
     Range { band: usize, g_low: f64, g_high: f64 },
     #[error("target: band {band} has {name} = {value}; give a finite number greater than zero")]
     NotPositive { band: usize, name: &'static str, value: f64 },
-    #[error("target: band {band} is a roll_off from g_low = 0, where limit / g^2 has no meaning; give g_low > 0")]
+    #[error(
+        "target: band {band} is a roll_off from g_low = 0, where limit / g^2 has no meaning; give g_low > 0"
+    )]
     RollOffFromZero { band: usize },
-    #[error("target: band {band} is {kind} without an end, but ARR falls to zero as g grows; give g_high")]
+    #[error(
+        "target: band {band} is {kind} without an end, but ARR falls to zero as g grows; give g_high"
+    )]
     FlatWithoutEnd { band: usize, kind: &'static str },
 }
 
 impl Default for Target {
     /// The flat cap: make the largest ARR over all g as small as possible.
     fn default() -> Self {
-        Self { bands: vec![Band { g_low: 0.0, g_high: None, kind: BandKind::Cap, limit: 1.0, weight: 1.0 }] }
+        Self {
+            bands: vec![Band {
+                g_low: 0.0,
+                g_high: None,
+                kind: BandKind::Cap,
+                limit: 1.0,
+                weight: 1.0,
+            }],
+        }
     }
 }
 
@@ -112,8 +126,12 @@ impl Band {
         }
         match self.kind {
             BandKind::RollOff if g_low == 0.0 => Err(TargetError::RollOffFromZero { band }),
-            BandKind::Uniform if g_high.is_infinite() => Err(TargetError::FlatWithoutEnd { band, kind: "uniform" }),
-            BandKind::Rigid if g_high.is_infinite() => Err(TargetError::FlatWithoutEnd { band, kind: "rigid" }),
+            BandKind::Uniform if g_high.is_infinite() => {
+                Err(TargetError::FlatWithoutEnd { band, kind: "uniform" })
+            }
+            BandKind::Rigid if g_high.is_infinite() => {
+                Err(TargetError::FlatWithoutEnd { band, kind: "rigid" })
+            }
             _ => Ok(()),
         }
     }
@@ -137,8 +155,15 @@ mod tests {
             limit = 4.0
         ";
         let target: Target = toml::from_str(text).unwrap();
-        let uniform = Band { g_low: 0.0, g_high: Some(0.2), kind: BandKind::Uniform, limit: 0.05, weight: 2.0 };
-        let roll_off = Band { g_low: 2.0, g_high: None, kind: BandKind::RollOff, limit: 4.0, weight: 1.0 };
+        let uniform = Band {
+            g_low: 0.0,
+            g_high: Some(0.2),
+            kind: BandKind::Uniform,
+            limit: 0.05,
+            weight: 2.0,
+        };
+        let roll_off =
+            Band { g_low: 2.0, g_high: None, kind: BandKind::RollOff, limit: 4.0, weight: 1.0 };
         assert_eq!(target.clone().checked().unwrap().bands, [uniform, roll_off]);
         let back: Target = toml::from_str(&toml::to_string(&target).unwrap()).unwrap();
         assert_eq!(back, target);
@@ -146,7 +171,9 @@ mod tests {
 
     #[test]
     fn an_unknown_key_is_an_error() {
-        let error = toml::from_str::<Target>("[[bands]]\nkind = \"cap\"\nlimit = 2.0\ng_hihg = 1.0").unwrap_err();
+        let error =
+            toml::from_str::<Target>("[[bands]]\nkind = \"cap\"\nlimit = 2.0\ng_hihg = 1.0")
+                .unwrap_err();
         assert!(error.to_string().contains("g_hihg"), "{error}");
     }
 
@@ -155,11 +182,29 @@ mod tests {
         let good = Target::default().bands[0];
         let check = |band: Band| Target { bands: vec![good, band] }.checked().unwrap_err();
         assert_eq!(Target { bands: vec![] }.checked().unwrap_err(), TargetError::Empty);
-        assert!(matches!(check(Band { g_high: Some(0.0), ..good }), TargetError::Range { band: 2, .. }));
-        assert!(matches!(check(Band { g_low: f64::NAN, ..good }), TargetError::Range { band: 2, .. }));
-        assert!(matches!(check(Band { limit: 0.0, ..good }), TargetError::NotPositive { name: "limit", .. }));
-        assert!(matches!(check(Band { weight: -1.0, ..good }), TargetError::NotPositive { name: "weight", .. }));
-        assert_eq!(check(Band { kind: BandKind::RollOff, ..good }), TargetError::RollOffFromZero { band: 2 });
-        assert!(matches!(check(Band { kind: BandKind::Rigid, ..good }), TargetError::FlatWithoutEnd { band: 2, .. }));
+        assert!(matches!(
+            check(Band { g_high: Some(0.0), ..good }),
+            TargetError::Range { band: 2, .. }
+        ));
+        assert!(matches!(
+            check(Band { g_low: f64::NAN, ..good }),
+            TargetError::Range { band: 2, .. }
+        ));
+        assert!(matches!(
+            check(Band { limit: 0.0, ..good }),
+            TargetError::NotPositive { name: "limit", .. }
+        ));
+        assert!(matches!(
+            check(Band { weight: -1.0, ..good }),
+            TargetError::NotPositive { name: "weight", .. }
+        ));
+        assert_eq!(
+            check(Band { kind: BandKind::RollOff, ..good }),
+            TargetError::RollOffFromZero { band: 2 }
+        );
+        assert!(matches!(
+            check(Band { kind: BandKind::Rigid, ..good }),
+            TargetError::FlatWithoutEnd { band: 2, .. }
+        ));
     }
 }

@@ -365,7 +365,9 @@ impl Finding {
     /// How much it weighs.
     pub(crate) fn weight(&self) -> Weight {
         match self {
-            Self::NeverLifts { .. } | Self::Stands { .. } | Self::Overturns { .. } => Weight::Answer,
+            Self::NeverLifts { .. } | Self::Stands { .. } | Self::Overturns { .. } => {
+                Weight::Answer
+            }
             Self::ModelsDisagree { .. }
             | Self::NoAnswer { .. }
             | Self::AccuracyMissed { .. }
@@ -376,9 +378,10 @@ impl Finding {
             | Self::ProgramLoses { asked: false, .. }
             | Self::ProgramRestitution { asked: false }
             | Self::ProgramStepForAccuracy { .. } => Weight::Note,
-            Self::NearMotions { .. } | Self::MembersBeside | Self::DeckJudged { .. } | Self::WithoutVertical { .. } => {
-                Weight::Note
-            }
+            Self::NearMotions { .. }
+            | Self::MembersBeside
+            | Self::DeckJudged { .. }
+            | Self::WithoutVertical { .. } => Weight::Note,
             _ => Weight::Warning,
         }
     }

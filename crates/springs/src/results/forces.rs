@@ -146,7 +146,10 @@ impl DesignForces {
         let part = |(name, force): (ForceName, DesignForce)| {
             let (over_s, whole) = (force.over_s?, force.whole_record?);
             let (quantity, unit) = (name.words().to_string(), name.unit().to_string());
-            Some((over_s, PeakChange { quantity, unit, without: force.value?.abs(), with: whole.found.abs() }))
+            Some((
+                over_s,
+                PeakChange { quantity, unit, without: force.value?.abs(), with: whole.found.abs() },
+            ))
         };
         let (over, changes): (Vec<f64>, Vec<PeakChange>) = self.all().filter_map(part).unzip();
         Some(Finding::ForcesHeldInPart { over_s: over.into_iter().reduce(f64::min)?, changes })
@@ -175,10 +178,18 @@ mod tests {
 
     #[test]
     fn the_largest_change_decides_whatever_the_sign_and_a_motion_that_says_nothing_is_none() {
-        let others = OtherForces { found: -2.0, doubled_elements: Some(2.02), softer: Some(-1.9), stiffer: Some(2.06) };
+        let others = OtherForces {
+            found: -2.0,
+            doubled_elements: Some(2.02),
+            softer: Some(-1.9),
+            stiffer: Some(2.06),
+        };
         assert!((others.change() - 0.05).abs() < 1e-12);
         assert!((OtherForces { softer: Some(2.0), ..others }.change() - 0.03).abs() < 1e-12);
-        assert!((OtherForces { softer: Some(2.0), stiffer: Some(2.0), ..others }.change() - 0.01).abs() < 1e-12);
+        assert!(
+            (OtherForces { softer: Some(2.0), stiffer: Some(2.0), ..others }.change() - 0.01).abs()
+                < 1e-12
+        );
         assert_eq!(OtherForces { softer: None, ..others }.change(), f64::INFINITY);
     }
 
@@ -189,9 +200,16 @@ mod tests {
         assert_eq!((holds.value, holds.holds), (Some(1e6), true));
         assert_eq!((changes.value, changes.holds), (None, false));
         assert_eq!(DesignForce::measured(1e6, 2.0, None).value, None);
-        let all = DesignForces { column_shear_n: Some(holds), axial_n: Some(changes), ..DesignForces::default() };
+        let all = DesignForces {
+            column_shear_n: Some(holds),
+            axial_n: Some(changes),
+            ..DesignForces::default()
+        };
         let withheld: Vec<_> = all.withheld().collect();
-        assert_eq!(withheld, [Finding::ForceWithheld { force: ForceName::Axial, change: Some(0.051) }]);
+        assert_eq!(
+            withheld,
+            [Finding::ForceWithheld { force: ForceName::Axial, change: Some(0.051) }]
+        );
         let json = serde_json::to_value(all).unwrap();
         assert_eq!(json["column_shear_n"]["value"], 1e6);
         assert!(json["axial_n"]["value"].is_null() && json.get("sole_shear_n").is_none());

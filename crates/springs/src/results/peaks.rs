@@ -57,10 +57,18 @@ pub struct PeakPair {
 impl Peaks {
     /// Of a rigid body's rotations (rad). `slip` is what its centre of mass moves besides (m):
     /// empty for Housner's.
-    pub fn of_rigid(kind: Kind, body: &Body<f64>, theta: &[f64], u: Option<&[f64]>, impacts: usize) -> Self {
+    pub fn of_rigid(
+        kind: Kind,
+        body: &Body<f64>,
+        theta: &[f64],
+        u: Option<&[f64]>,
+        impacts: usize,
+    ) -> Self {
         let height = top_height(kind, body);
         let top = Body { height, ..*body };
-        let largest = |values: &mut dyn Iterator<Item = f64>| values.fold(0.0, |most: f64, x| most.max(x.abs()));
+        let largest = |values: &mut dyn Iterator<Item = f64>| {
+            values.fold(0.0, |most: f64, x| most.max(x.abs()))
+        };
         let rocking_m = largest(&mut theta.iter().map(|&theta| top.u(theta)));
         let top_displacement_m = match u {
             Some(u) => {
@@ -71,7 +79,15 @@ impl Peaks {
         };
         let uplift_m = 2.0 * body.half_width * largest(&mut theta.iter().map(|theta| theta.sin()));
         let drift_ratio = top_displacement_m / height;
-        Self { top_displacement_m, rocking_m, bending_m: None, feet_moved_m: None, uplift_m, drift_ratio, impacts }
+        Self {
+            top_displacement_m,
+            rocking_m,
+            bending_m: None,
+            feet_moved_m: None,
+            uplift_m,
+            drift_ratio,
+            impacts,
+        }
     }
 }
 

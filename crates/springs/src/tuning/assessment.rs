@@ -68,8 +68,9 @@ impl Assessment {
     pub(crate) fn new(job: &Job, tuning: &Tuning, restitution: f64) -> Self {
         let (objective, asked) = (tuning.objective, tuning.asked());
         let errors = job.tuned.best.errors;
-        let by_landing =
-            objective == Objective::Landing && !job.capped && !differs_from_housner(&job.body, restitution);
+        let by_landing = objective == Objective::Landing
+            && !job.capped
+            && !differs_from_housner(&job.body, restitution);
         let landing = by_landing.then(|| limit(job)).flatten();
         let MeasuredErrors { histories, peaks } = errors;
         Self {
@@ -100,7 +101,12 @@ impl Assessment {
         let landing = format!(
             "The springs follow from the landing of a body of alpha {:.5} and m R^2/I0 {:.5} at Omega_n/p {:.0}: error of the \
              momentum {:.0e}, rebound {:.3} of the landing speed, {} touches and lifts of the landing foot.",
-            l.alpha, l.mass_share, l.omega_n_over_p, l.momentum_error, l.rebound, l.contact_changes[0]
+            l.alpha,
+            l.mass_share,
+            l.omega_n_over_p,
+            l.momentum_error,
+            l.rebound,
+            l.contact_changes[0]
         );
         Some([landing, format!("Omega_n is {}.", self.decided_by(l))])
     }
@@ -116,7 +122,13 @@ impl Assessment {
         );
         let on = |suite, name: &str| {
             let share = self.judged().over_on(suite, aimed).unwrap_or(0.0);
-            (share, format!("whose error on {name} is within {} of what is allowed", stiffness_search::MARGIN))
+            (
+                share,
+                format!(
+                    "whose error on {name} is within {} of what is allowed",
+                    stiffness_search::MARGIN
+                ),
+            )
         };
         let all = [
             (error * PREDICTABLE / aimed, landings),
@@ -125,7 +137,9 @@ impl Assessment {
             on(JudgedOn::Earthquakes, "earthquake-like motions, with three standard errors,"),
         ];
         match all.into_iter().max_by(|a, b| a.0.total_cmp(&b.0)) {
-            Some((share, decides)) if share <= 1.0 => format!("the softest of the ladder {decides}"),
+            Some((share, decides)) if share <= 1.0 => {
+                format!("the softest of the ladder {decides}")
+            }
             _ => format!(
                 "the best of those tried: none keeps every error, of gentle landings too, within {} of what is allowed",
                 stiffness_search::MARGIN

@@ -40,10 +40,13 @@ mod tests {
 
     #[test]
     fn the_gentlest_landing_holds_the_error_asked_for() {
-        for (structure, error) in [(Structure::paper(), 0.002), (Structure::block(2.0, 0.5, 1e3).unwrap(), 0.01)] {
+        for (structure, error) in
+            [(Structure::paper(), 0.002), (Structure::block(2.0, 0.5, 1e3).unwrap(), 0.01)]
+        {
             let body = structure.body::<f64>();
             let springs = springs_at_once(&body, Asked::new(error, None)).unwrap();
-            let stiffness = std::f64::consts::TAU * springs.vertical.omega_n_hz / body.p_squared().sqrt();
+            let stiffness =
+                std::f64::consts::TAU * springs.vertical.omega_n_hz / body.p_squared().sqrt();
             let landing = restitution_error(body.alpha(), body.mass_share(), stiffness, LEAST_LEAN);
             assert!(landing * PREDICTABLE <= 0.7 * error * (1.0 + 1e-9), "{landing}");
         }

@@ -69,10 +69,20 @@ struct LandingsAndUplifts<'a> {
 impl<'a> LandingsAndUplifts<'a> {
     /// It depends on the mass only through I_cg/m, so it is that of a body of 1 kg: in whatever
     /// unit a mass is given, the same springs are found.
-    fn new(body: &Body<f64>, restitution: f64, (bracket, criterion): (Bracket, Criterion), effort: &'a Effort) -> Self {
+    fn new(
+        body: &Body<f64>,
+        restitution: f64,
+        (bracket, criterion): (Bracket, Criterion),
+        effort: &'a Effort,
+    ) -> Self {
         let control = Control { tolerance: 1e-6, most_steps: 8_000, ..Control::default() };
         let body = &Body { mass: 1.0, inertia: body.inertia / body.mass, ..*body };
-        Self { whole: WholeModel::new(body, restitution, bracket.max_hz, criterion), bracket, control, effort }
+        Self {
+            whole: WholeModel::new(body, restitution, bracket.max_hz, criterion),
+            bracket,
+            control,
+            effort,
+        }
     }
 }
 
@@ -89,7 +99,12 @@ impl LeastSquares for LandingsAndUplifts<'_> {
         let duals: Vec<FollowDual> = z
             .iter()
             .enumerate()
-            .map(|(i, &z)| FollowDual::new(z, Derivative::derivative_generic(nalgebra::Const::<8>, nalgebra::U1, i)))
+            .map(|(i, &z)| {
+                FollowDual::new(
+                    z,
+                    Derivative::derivative_generic(nalgebra::Const::<8>, nalgebra::U1, i),
+                )
+            })
             .collect();
         // one iteration more leaves the gradients good to the square of the iteration's rate, about
         // 1e-4: enough for a step
@@ -108,12 +123,18 @@ impl LeastSquares for LandingsAndUplifts<'_> {
     fn inequality(&self, z: &[f64]) -> Option<(f64, Vec<f64>)> {
         // ln of g/2 (1 + 1/K) / Omega_n^2 over the largest settlement
         let settlement = |omega: FollowDual, k: FollowDual| {
-            ((k.exp().recip() + 1.0) * (0.5 * GRAVITY) / ((omega.exp() * TAU) * (omega.exp() * TAU))).ln()
+            ((k.exp().recip() + 1.0) * (0.5 * GRAVITY)
+                / ((omega.exp() * TAU) * (omega.exp() * TAU)))
+                .ln()
         };
         let seed = |i: usize, x: f64| {
-            FollowDual::new(x, Derivative::derivative_generic(nalgebra::Const::<8>, nalgebra::U1, i))
+            FollowDual::new(
+                x,
+                Derivative::derivative_generic(nalgebra::Const::<8>, nalgebra::U1, i),
+            )
         };
-        let value = settlement(seed(0, z[0]), seed(1, z[1])) - real::<FollowDual>(self.bracket.max_settlement.ln());
+        let value = settlement(seed(0, z[0]), seed(1, z[1]))
+            - real::<FollowDual>(self.bracket.max_settlement.ln());
         Some((value.re, row(&value)))
     }
 }
@@ -135,9 +156,15 @@ const STEPS: (u64, u64) = (4, 15);
 /// `restitution`, followed down from the design that its geometry gives: one of each ratio and
 /// criterion. Which of them follow histories best is for histories to say; neither criterion is the
 /// better one for every body.
-pub fn follow(body: &Body<f64>, restitution: f64, bracket: Bracket, effort: &Effort) -> Vec<Springs<Design<f64>>> {
+pub fn follow(
+    body: &Body<f64>,
+    restitution: f64,
+    bracket: Bracket,
+    effort: &Effort,
+) -> Vec<Springs<Design<f64>>> {
     let criteria = [Criterion::Energy, Criterion::GrowingPart];
-    let ways: Vec<(f64, Criterion)> = RATIOS.iter().flat_map(|&r| criteria.map(|c| (r, c))).collect();
+    let ways: Vec<(f64, Criterion)> =
+        RATIOS.iter().flat_map(|&r| criteria.map(|c| (r, c))).collect();
     // side by side, each with a share of its own
     let shares: Vec<_> = ways.iter().map(|way| (*way, effort.share(ways.len() as u64))).collect();
     let one = |(way, share): &(_, Effort)| path(body, restitution, bracket, *way, share);
@@ -155,7 +182,8 @@ pub fn with_restitution(
     effort: &Effort,
     progress: &(dyn Fn(usize, usize, f64) + Sync),
 ) -> Option<Springs<Design<f64>>> {
-    let objective = LandingsAndUplifts::new(body, restitution, (bracket, Criterion::Energy), effort);
+    let objective =
+        LandingsAndUplifts::new(body, restitution, (bracket, Criterion::Energy), effort);
     let cost = |z: &[f64]| {
         let error = objective.residuals(z).iter().map(|r| r * r).sum::<f64>().sqrt();
         // a run that did not finish is worse than any other

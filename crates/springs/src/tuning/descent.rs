@@ -10,8 +10,8 @@
 //! += (dr - J d) d' / d'd. It is taken anew when that no longer gains.
 
 use argmin::core::{
-    CostFunction, Error, Executor, IterState, Jacobian, KV, Problem, Solver, State, TerminationReason,
-    TerminationStatus,
+    CostFunction, Error, Executor, IterState, Jacobian, KV, Problem, Solver, State,
+    TerminationReason, TerminationStatus,
 };
 use clarabel::{
     algebra::CscMatrix,
@@ -163,9 +163,15 @@ impl<P: LeastSquares> Solver<Adapter<'_, P>, Iterate> for TrustRegion<'_, P> {
 }
 
 /// Descend from z for at most `iterations`.
-pub(crate) fn descend<P: LeastSquares>(problem: &P, z: &[f64], radius: f64, iterations: u64) -> Descent {
+pub(crate) fn descend<P: LeastSquares>(
+    problem: &P,
+    z: &[f64],
+    radius: f64,
+    iterations: u64,
+) -> Descent {
     let (low, high) = problem.bounds();
-    let start: Vec<f64> = z.iter().zip(low.iter().zip(&high)).map(|(z, (l, h))| z.clamp(*l, *h)).collect();
+    let start: Vec<f64> =
+        z.iter().zip(low.iter().zip(&high)).map(|(z, (l, h))| z.clamp(*l, *h)).collect();
     let stuck = |z: Vec<f64>| {
         let error = sum_of_squares(&problem.residuals(&z)).sqrt();
         Descent { z, error }
@@ -184,7 +190,13 @@ pub(crate) fn descend<P: LeastSquares>(problem: &P, z: &[f64], radius: f64, iter
 }
 
 /// The step's quadratic programme; `None` unless solved.
-fn programme<P: LeastSquares>(problem: &P, z: &[f64], r: &[f64], j: &[Vec<f64>], radius: f64) -> Option<Vec<f64>> {
+fn programme<P: LeastSquares>(
+    problem: &P,
+    z: &[f64],
+    r: &[f64],
+    j: &[Vec<f64>],
+    radius: f64,
+) -> Option<Vec<f64>> {
     let n = z.len();
     let (low, high) = problem.bounds();
     let mut hessian = vec![vec![0.0; n]; n];

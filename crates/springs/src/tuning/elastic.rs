@@ -42,7 +42,8 @@ use dynamics::{
 };
 use fixed_steps::FixedStepProgram;
 use frames::{
-    answer::Reference, assembled::Assembled, fem::default_control, standing::Standing, structure::ElasticStructure,
+    answer::Reference, assembled::Assembled, fem::default_control, standing::Standing,
+    structure::ElasticStructure,
 };
 use strong_motion::Record;
 
@@ -102,7 +103,10 @@ impl ElasticTuned {
         let unfinished = |histories: usize, left_out: bool| {
             (histories > 0).then_some(Finding::HistoriesUnfinished { histories, left_out })
         };
-        cut.into_iter().chain(unfinished(self.unfinished, false)).chain(unfinished(self.out_of_work, true)).collect()
+        cut.into_iter()
+            .chain(unfinished(self.unfinished, false))
+            .chain(unfinished(self.out_of_work, true))
+            .collect()
     }
 }
 
@@ -142,16 +146,22 @@ pub fn tune_within(
         Yardstick::Histories => ("tuning.accuracy", ACCURACY),
         Yardstick::Peaks => ("tuning.peaks", PEAKS),
     };
-    limits.check(asked.error).map_err(|(value, remedy)| ElasticTuneError::Accuracy { key, value, remedy })?;
+    limits.check(asked.error).map_err(|(value, remedy)| ElasticTuneError::Accuracy {
+        key,
+        value,
+        remedy,
+    })?;
     let standing = stand(model).ok_or(ElasticTuneError::Falls)?;
     let landing = landing_speed(&model.structure);
     let rungs = Rungs::new(asked.error, most_hz, |i| omega_n_hz(&standing, give(i)))?;
     let (record, reference) = record.unzip();
-    let suite = ElasticSuite::within(model.clone(), record.zip(reference.as_ref()), effort).by(asked.by);
+    let suite =
+        ElasticSuite::within(model.clone(), record.zip(reference.as_ref()), effort).by(asked.by);
     let out_of_work = suite.out_of_work;
     let program = ElasticProgramSprings::measured(&suite, program, &model.structure.body(), effort);
     let of = |i: i64, share: f64| springs(&standing, give(i), landing, share);
-    let measure = |springs: &CornerSprings| suite.measure_within(springs, (Control::search(), effort));
+    let measure =
+        |springs: &CornerSprings| suite.measure_within(springs, (Control::search(), effort));
     let chosen = rungs.search(asked, of, &measure, effort, progress);
     let mut not_done = Vec::new();
     if effort.cut().is_some() {
@@ -166,7 +176,10 @@ pub fn tune_within(
         }
         let record = ElasticTrial::beside(model, record, &reference).trial();
         let suite = ElasticSuite { record, ..suite };
-        let stiffer = Rungs { ends: (chosen.rung, rungs.ends.1), guess: (chosen.rung + STIFFER).min(rungs.ends.1) };
+        let stiffer = Rungs {
+            ends: (chosen.rung, rungs.ends.1),
+            guess: (chosen.rung + STIFFER).min(rungs.ends.1),
+        };
         // the record decides; all else is measured once
         let alone = |springs: &CornerSprings| suite.measure_record(springs, effort);
         let found = stiffer.search(asked, of, &alone, effort, progress);
@@ -174,14 +187,16 @@ pub fn tune_within(
             not_done.push(NotDone::Further);
             return None;
         }
-        let rest = ElasticSuite { record: None, ..suite }.measure_within(&found.springs, (default_control(), effort));
+        let rest = ElasticSuite { record: None, ..suite }
+            .measure_within(&found.springs, (default_control(), effort));
         let measured = Measured { record: found.measured.record, ..rest };
         let reached = found.reached && measured.over(asked)? <= 1.0;
         reached.then_some((ElasticRung { measured, ..found }, reference))
     };
     let (chosen, reference, softer_hz) = match further() {
         Some((found, reference)) => {
-            let softer = Some(chosen.springs.omega_n_hz).filter(|hz| *hz < found.springs.omega_n_hz);
+            let softer =
+                Some(chosen.springs.omega_n_hz).filter(|hz| *hz < found.springs.omega_n_hz);
             (found, Some(reference), softer)
         }
         None => (chosen, reference, None),
@@ -225,7 +240,11 @@ struct Rungs {
 
 impl Rungs {
     /// For an accuracy, up to a frequency; `hz` is that of a rung (Hz).
-    fn new(accuracy: f64, most_hz: Option<f64>, hz: impl Fn(i64) -> f64) -> Result<Self, ElasticTuneError> {
+    fn new(
+        accuracy: f64,
+        most_hz: Option<f64>,
+        hz: impl Fn(i64) -> f64,
+    ) -> Result<Self, ElasticTuneError> {
         let (softest, stiffest) = RUNGS;
         let softest_hz = hz(softest);
         if let Some(most_hz) = most_hz.filter(|hz| *hz < softest_hz) {
@@ -257,7 +276,8 @@ impl Rungs {
                 let measured = measure(&springs);
                 (springs, measured)
             };
-            let over = |(_, measured): &(CornerSprings, Measured)| measured.over(allowed).unwrap_or(0.0);
+            let over =
+                |(_, measured): &(CornerSprings, Measured)| measured.over(allowed).unwrap_or(0.0);
             let balanced = of(1.0);
             if over(&balanced) <= 1.0 {
                 return balanced;
@@ -280,7 +300,8 @@ impl Rungs {
                 return None;
             }
             let over = seen.entry(i).or_insert(found).1.over(allowed)?;
-            let least = seen.values().filter_map(|(_, m)| m.over(allowed)).fold(f64::INFINITY, f64::min);
+            let least =
+                seen.values().filter_map(|(_, m)| m.over(allowed)).fold(f64::INFINITY, f64::min);
             progress(seen.len(), least * allowed.error);
             Some(over)
         };
@@ -324,7 +345,12 @@ mod tests {
     use crate::tuning::elastic::suite::ElasticErrors;
 
     fn springs(i: i64, share: f64) -> CornerSprings {
-        CornerSprings { corners: Vec::new(), k: 0.1 * share, give: give(i), omega_n_hz: 2.0 / give(i).sqrt() }
+        CornerSprings {
+            corners: Vec::new(),
+            k: 0.1 * share,
+            give: give(i),
+            omega_n_hz: 2.0 / give(i).sqrt(),
+        }
     }
 
     fn hz(i: i64) -> f64 {
@@ -335,10 +361,16 @@ mod tests {
     fn springs_softer_than_any_rung_are_refused_and_others_bound_the_search() {
         let softest = hz(RUNGS.0);
         let refused = Rungs::new(0.002, Some(0.9 * softest), hz).unwrap_err();
-        assert!(matches!(refused, ElasticTuneError::TooSoft { softest_hz, .. } if softest_hz == softest), "{refused}");
+        assert!(
+            matches!(refused, ElasticTuneError::TooSoft { softest_hz, .. } if softest_hz == softest),
+            "{refused}"
+        );
         for most in [softest, 1.5 * softest, 1e3 * softest] {
             let rungs = Rungs::new(1e-5, Some(most), hz).unwrap();
-            assert!(hz(rungs.ends.1) <= most * (1.0 + 1e-12) && hz(rungs.ends.1 + 1) > most, "{most} {rungs:?}");
+            assert!(
+                hz(rungs.ends.1) <= most * (1.0 + 1e-12) && hz(rungs.ends.1 + 1) > most,
+                "{most} {rungs:?}"
+            );
             assert!(rungs.guess <= rungs.ends.1);
         }
         assert_eq!(Rungs::new(0.002, None, hz).unwrap(), Rungs { ends: RUNGS, guess: 37 });
@@ -350,7 +382,13 @@ mod tests {
         let errors = |give: f64| {
             let error = [0.1 * give; 2];
             Measured {
-                releases: Some(ElasticErrors { median: error, p90: error, count: 1, touches: 2.0, peaks: None }),
+                releases: Some(ElasticErrors {
+                    median: error,
+                    p90: error,
+                    count: 1,
+                    touches: 2.0,
+                    peaks: None,
+                }),
                 ..Measured::default()
             }
         };
@@ -362,7 +400,10 @@ mod tests {
             &Effort::unbounded(),
             &|_, _| (),
         );
-        assert!(tuned.reached && tuned.springs.give <= 0.014 && tuned.springs.give > 0.011, "{tuned:?}");
+        assert!(
+            tuned.reached && tuned.springs.give <= 0.014 && tuned.springs.give > 0.011,
+            "{tuned:?}"
+        );
     }
 
     /// Those at the balance of K leave a landing too fast, whatever their stiffness.
@@ -371,22 +412,37 @@ mod tests {
         let errors = |springs: &CornerSprings| {
             let error = [0.1 * springs.give + 0.02 * springs.k; 2];
             Measured {
-                releases: Some(ElasticErrors { median: error, p90: error, count: 1, touches: 2.0, peaks: None }),
+                releases: Some(ElasticErrors {
+                    median: error,
+                    p90: error,
+                    count: 1,
+                    touches: 2.0,
+                    peaks: None,
+                }),
                 ..Measured::default()
             }
         };
         let rungs = Rungs::new(0.002, None, hz).unwrap();
-        let tuned = rungs.search(Asked::new(0.002, None), springs, &errors, &Effort::unbounded(), &|_, _| ());
+        let tuned = rungs.search(
+            Asked::new(0.002, None),
+            springs,
+            &errors,
+            &Effort::unbounded(),
+            &|_, _| (),
+        );
         assert!(tuned.reached && tuned.springs.k < 0.05, "{tuned:?}");
     }
 
     #[test]
     fn springs_that_nothing_could_be_measured_on_have_not_reached_the_accuracy() {
         let rungs = Rungs::new(0.002, None, hz).unwrap();
-        let tuned =
-            rungs.search(Asked::new(0.002, None), springs, &|_| Measured::default(), &Effort::unbounded(), &|_, _| {
-                panic!("nothing to tell")
-            });
+        let tuned = rungs.search(
+            Asked::new(0.002, None),
+            springs,
+            &|_| Measured::default(),
+            &Effort::unbounded(),
+            &|_, _| panic!("nothing to tell"),
+        );
         assert!(!tuned.reached && tuned.measured.nothing());
         assert_eq!(tuned.springs, springs(37, 1.0));
     }

@@ -63,7 +63,8 @@ pub fn design(body: &Body<f64>, step: f64) -> FixedStepDesign {
     let k = (floor / (2.0 * REBOUND * body.alpha().powi(3))).sqrt() / REBOUND_OVER_K;
     let corners = CornerDynamics::rigid(body.alpha(), body.mass_share());
     let effective = 1.0 - body.mass_share() * body.alpha().sin().powi(2);
-    let Springs { vertical, horizontal } = for_landing(&corners, effective, k.clamp(LEAST_K, LARGEST_K));
+    let Springs { vertical, horizontal } =
+        for_landing(&corners, effective, k.clamp(LEAST_K, LARGEST_K));
     let numbers = |unit: &Design<f64>| UnitNumbers { k: unit.k(), c: unit.c(), mu: unit.mu };
     FixedStepDesign {
         vertical: numbers(&vertical),
@@ -102,7 +103,9 @@ impl ProgramSuites {
     fn of(body: &Body<f64>, suites: &Suites, earthquakes: bool) -> Self {
         let of = |on: JudgedOn| {
             let motions: Vec<_> = suites.motions(on).collect();
-            let answers = motions.into_par_iter().map(|(dt, accel)| ReferenceHistory::new(body, dt, accel.to_vec()));
+            let answers = motions
+                .into_par_iter()
+                .map(|(dt, accel)| ReferenceHistory::new(body, dt, accel.to_vec()));
             answers.flatten().collect()
         };
         let earthquakes = if earthquakes { of(JudgedOn::Earthquakes) } else { Vec::new() };
@@ -117,7 +120,8 @@ impl ProgramSuites {
     ) -> ErrorsOverMotions {
         let model = FixedStepBody::new(&springs.body, &springs.chains());
         let settings = program.settings(springs.chains().vertical.k1, springs.body.mass);
-        let all: Vec<_> = motions.par_iter().map(|motion| motion.errors(&model, settings)).collect();
+        let all: Vec<_> =
+            motions.par_iter().map(|motion| motion.errors(&model, settings)).collect();
         ErrorsOverMotions::of(all)
     }
 }
@@ -125,7 +129,12 @@ impl ProgramSuites {
 impl ProgramSprings {
     /// Springs for the program that a case asks for, or for the usual one; none for a restitution
     /// other than equation 2's, which such springs do not have.
-    pub(crate) fn of_case(case: &Case, body: &Body<f64>, suites: &Suites, effort: &Effort) -> Option<Self> {
+    pub(crate) fn of_case(
+        case: &Case,
+        body: &Body<f64>,
+        suites: &Suites,
+        effort: &Effort,
+    ) -> Option<Self> {
         if differs_from_housner(body, case.restitution) {
             return None;
         }
@@ -180,7 +189,9 @@ impl ProgramSprings {
 
     /// Share of the synthetic motions that the program does not get through.
     fn share_lost(&self) -> f64 {
-        self.synthetic.as_ref().map_or(0.0, |errors| errors.lost() as f64 / errors.count().max(1) as f64)
+        self.synthetic
+            .as_ref()
+            .map_or(0.0, |errors| errors.lost() as f64 / errors.count().max(1) as f64)
     }
 
     fn measure(&mut self, motions: &ProgramSuites) {
@@ -193,7 +204,9 @@ impl ProgramSprings {
 
     /// Median errors on both suites, multiplied.
     fn on_both(&self) -> f64 {
-        let median = |errors: &Option<ErrorsOverMotions>| errors.as_ref().map_or(1.0, |errors| errors.quantile(0.5));
+        let median = |errors: &Option<ErrorsOverMotions>| {
+            errors.as_ref().map_or(1.0, |errors| errors.quantile(0.5))
+        };
         median(&self.synthetic) * median(&self.earthquakes)
     }
 }
@@ -212,9 +225,17 @@ mod tests {
         for step in [2.5e-4, 1e-3] {
             let k = design(&body, step).vertical.k;
             let rebound = REBOUND * body.alpha().powi(3) * (REBOUND_OVER_K * k).powi(2);
-            assert_relative_eq!(rebound, 0.5 * FLOOR * body.p_squared().sqrt() * step, max_relative = 1e-9);
+            assert_relative_eq!(
+                rebound,
+                0.5 * FLOOR * body.p_squared().sqrt() * step,
+                max_relative = 1e-9
+            );
         }
-        assert_relative_eq!(design(&Structure::paper().body(), 1e-3).vertical.k, LARGEST_K, max_relative = 1e-12);
+        assert_relative_eq!(
+            design(&Structure::paper().body(), 1e-3).vertical.k,
+            LARGEST_K,
+            max_relative = 1e-12
+        );
     }
 
     /// The emulated rebound of the units in short steps is what the closed form counts on, within a
@@ -224,8 +245,14 @@ mod tests {
         let body = Structure::block(2.0, 1.0, 1e3).unwrap().body::<f64>();
         for step in [2.5e-5, 1e-4] {
             let design = design(&body, step);
-            let springs = FixedStepSprings::designed(&body, step, Integrator::Trbdf2, &design).unwrap();
-            let found = fixed_steps::rebound::rebound(&body, &springs.chains().vertical, 1e-7, &Integrator::Trbdf2);
+            let springs =
+                FixedStepSprings::designed(&body, step, Integrator::Trbdf2, &design).unwrap();
+            let found = fixed_steps::rebound::rebound(
+                &body,
+                &springs.chains().vertical,
+                1e-7,
+                &Integrator::Trbdf2,
+            );
             let counted = REBOUND_OVER_K * design.vertical.k;
             assert!((found / counted - 1.0).abs() < 0.5, "{found} {counted}");
         }
@@ -236,10 +263,15 @@ mod tests {
         let body = Structure::block(0.3, 0.1, 10.0).unwrap().body::<f64>();
         let suites = Suites::of_seed(7, &body, body.restitution(), None);
         let program = FixedStepProgram::of(ProgramName::OpenSees, 1e-2);
-        let found = ProgramSprings::measured(&body, program, &suites, true, &Effort::unbounded()).unwrap();
+        let found =
+            ProgramSprings::measured(&body, program, &suites, true, &Effort::unbounded()).unwrap();
         assert!(found.synthetic.is_none() && found.earthquakes.is_none());
         let program = FixedStepProgram { step: 1e-3, ..program };
-        let found = ProgramSprings::measured(&body, program, &suites, false, &Effort::unbounded()).unwrap();
-        assert!(found.synthetic.is_some_and(|errors| errors.count() > 12) && found.earthquakes.is_none());
+        let found =
+            ProgramSprings::measured(&body, program, &suites, false, &Effort::unbounded()).unwrap();
+        assert!(
+            found.synthetic.is_some_and(|errors| errors.count() > 12)
+                && found.earthquakes.is_none()
+        );
     }
 }

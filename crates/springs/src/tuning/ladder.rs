@@ -16,7 +16,12 @@ pub(super) struct FoundRung {
 
 /// The softest rung between first and last that holds with the next above it, from a guess; else
 /// the best one seen. `judge` gives the error of a rung over what is allowed.
-pub(super) fn seek(first: i64, last: i64, guess: i64, judge: &mut dyn FnMut(i64) -> Option<f64>) -> Option<FoundRung> {
+pub(super) fn seek(
+    first: i64,
+    last: i64,
+    guess: i64,
+    judge: &mut dyn FnMut(i64) -> Option<f64>,
+) -> Option<FoundRung> {
     // everything up to `fails` counts as failing, `holds` holds
     let (mut fails, mut holds): (i64, Option<i64>) = (first - 1, None);
     let mut best: Option<(f64, i64)> = None;

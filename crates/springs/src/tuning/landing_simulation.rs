@@ -100,7 +100,12 @@ pub(crate) struct WholeModel {
 impl WholeModel {
     /// Scenarios of a body that is to land with velocity restitution `restitution` on springs of
     /// Omega_n up to `max_hz` (Hz).
-    pub(crate) fn new(body: &Body<f64>, restitution: f64, max_hz: f64, criterion: Criterion) -> Self {
+    pub(crate) fn new(
+        body: &Body<f64>,
+        restitution: f64,
+        max_hz: f64,
+        criterion: Criterion,
+    ) -> Self {
         let another = differs_from_housner(body, restitution);
         Self {
             criterion,
@@ -136,17 +141,26 @@ impl WholeModel {
             .map(|i| match self.releases.get(i) {
                 Some(release) => match release.run(&body, &chains, (control, effort)) {
                     Some(Left { kept, growing, air }) => {
-                        let e = if kept.re() > 0.0 { kept.sqrt() / self.restitution } else { S::zero() };
+                        let e = if kept.re() > 0.0 {
+                            kept.sqrt() / self.restitution
+                        } else {
+                            S::zero()
+                        };
                         let missed = match self.criterion {
                             Criterion::Energy => e - 1.0,
                             Criterion::GrowingPart => growing,
                         };
                         let air = air - AIR_FREE * self.air_s;
-                        vec![missed * w_e, if air.re() > 0.0 { air * self.weight_air } else { S::zero() }]
+                        vec![
+                            missed * w_e,
+                            if air.re() > 0.0 { air * self.weight_air } else { S::zero() },
+                        ]
                     }
                     None => vec![real(f64::INFINITY), S::zero()],
                 },
-                None => vec![self.uplifts[i - n].uplift_error(&body, &chains, (control, effort)) * w_l],
+                None => {
+                    vec![self.uplifts[i - n].uplift_error(&body, &chains, (control, effort)) * w_l]
+                }
             })
             .collect();
         each.into_iter().flatten().collect()

@@ -44,10 +44,15 @@ pub(super) fn search(
     let least = AtomicU64::new(f64::INFINITY.to_bits());
     // outside the bounds: the cost at the nearest point inside, and more
     let bounded = |z: &[f64]| {
-        let inside: Vec<f64> = z.iter().zip(low.iter().zip(high)).map(|(z, (l, h))| z.clamp(*l, *h)).collect();
+        let inside: Vec<f64> =
+            z.iter().zip(low.iter().zip(high)).map(|(z, (l, h))| z.clamp(*l, *h)).collect();
         let cost = cost(&inside) + inside.iter().zip(z).map(|(a, b)| (a - b).powi(2)).sum::<f64>();
         let least = f64::from_bits(least.fetch_min(cost.to_bits(), Ordering::Relaxed)).min(cost);
-        progress((counted.fetch_add(1, Ordering::Relaxed) + 1).min(evaluations), evaluations, least);
+        progress(
+            (counted.fetch_add(1, Ordering::Relaxed) + 1).min(evaluations),
+            evaluations,
+            least,
+        );
         cost
     };
     let mut best: Option<(f64, Vec<f64>)> = None;
@@ -57,7 +62,9 @@ pub(super) fn search(
             break;
         }
         let scattered: Vec<Vec<f64>> = (0..SCATTERED)
-            .map(|_| low.iter().zip(high).map(|(&low, &high)| random.random_range(low..=high)).collect())
+            .map(|_| {
+                low.iter().zip(high).map(|(&low, &high)| random.random_range(low..=high)).collect()
+            })
             .collect();
         let costs: Vec<f64> = scattered.par_iter().with_max_len(1).map(|z| bounded(z)).collect();
         let first = (0..SCATTERED).min_by(|&a, &b| costs[a].total_cmp(&costs[b])).unwrap_or(0);
@@ -76,7 +83,8 @@ pub(super) fn search(
         while walk.next_parallel().is_none() && !effort.stops() {}
         let end = walk.overall_best_individual()?.clone();
         done += walk.function_evals();
-        let inside: Vec<f64> = end.point.iter().zip(low.iter().zip(high)).map(|(z, (l, h))| z.clamp(*l, *h)).collect();
+        let inside: Vec<f64> =
+            end.point.iter().zip(low.iter().zip(high)).map(|(z, (l, h))| z.clamp(*l, *h)).collect();
         if best.as_ref().is_none_or(|(least, _)| end.value < *least) {
             best = Some((end.value, inside));
         }
@@ -92,13 +100,19 @@ mod tests {
     #[test]
     fn it_finds_the_deepest_of_many_valleys_on_any_number_of_threads() {
         let cost = |z: &[f64]| {
-            z.iter().map(|z| (z - 1.0).powi(2) + 0.3 * (1.0 - (std::f64::consts::TAU * (z - 1.0)).cos())).sum::<f64>()
+            z.iter()
+                .map(|z| {
+                    (z - 1.0).powi(2) + 0.3 * (1.0 - (std::f64::consts::TAU * (z - 1.0)).cos())
+                })
+                .sum::<f64>()
         };
         let bounds = (vec![-4.0; 3], vec![0.9, 4.0, 4.0]);
         let found = |threads| {
             let pool = rayon::ThreadPoolBuilder::new().num_threads(threads).build().unwrap();
             pool.install(|| {
-                search(&cost, &bounds, 4000, 0.0, &Effort::unbounded(), &|done, all, _| assert!(done <= all))
+                search(&cost, &bounds, 4000, 0.0, &Effort::unbounded(), &|done, all, _| {
+                    assert!(done <= all)
+                })
             })
             .unwrap()
         };

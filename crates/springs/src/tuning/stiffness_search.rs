@@ -107,7 +107,9 @@ pub(crate) fn tune(
     let guess = rung(begin(asked)).round() as i64;
     let found = match seek(first, last, guess, &mut judge) {
         Some(found) => found,
-        None if effort.cut().is_some() => so_far(&mut seen, guess.clamp(first, last), &over, springs)?,
+        None if effort.cut().is_some() => {
+            so_far(&mut seen, guess.clamp(first, last), &over, springs)?
+        }
         None => return None,
     };
     let best = seen.get_mut(&found.rung)?;
@@ -149,8 +151,11 @@ pub(crate) fn control(accuracy: f64) -> Control {
 /// hold.
 fn in_order(seen: &BTreeMap<i64, Rung>, i: i64, allowed: Asked) -> Vec<JudgedOn> {
     let share = |rung: &Rung, suite| rung.errors.over_on(suite, allowed);
-    let softer = |suite: &JudgedOn| seen.range(..i).any(|(_, rung)| share(rung, *suite).is_some_and(|x| x < LITTLE));
-    let mut order: Vec<JudgedOn> = JudgedOn::ALL.into_iter().filter(|suite| !softer(suite)).collect();
+    let softer = |suite: &JudgedOn| {
+        seen.range(..i).any(|(_, rung)| share(rung, *suite).is_some_and(|x| x < LITTLE))
+    };
+    let mut order: Vec<JudgedOn> =
+        JudgedOn::ALL.into_iter().filter(|suite| !softer(suite)).collect();
     if let Some(nearest) = seen.iter().min_by_key(|(j, _)| (*j - i).abs()).map(|(_, rung)| rung) {
         let least = |suite: &JudgedOn| share(nearest, *suite).unwrap_or(0.0);
         order.sort_by(|a, b| least(b).total_cmp(&least(a)));

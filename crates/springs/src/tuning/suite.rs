@@ -62,7 +62,8 @@ struct TrialErrors {
 }
 
 /// The errors of a history that says nothing.
-const LOST: TrialErrors = TrialErrors { u: f64::INFINITY, v: f64::INFINITY, peaks: PeakErrors::LOST };
+const LOST: TrialErrors =
+    TrialErrors { u: f64::INFINITY, v: f64::INFINITY, peaks: PeakErrors::LOST };
 
 /// A motion and Housner's answer to it.
 #[derive(Clone, Debug)]
@@ -97,9 +98,16 @@ impl WantedMotion {
     }
 
     /// Whether Housner's history `rocking` is so; the cheapest grounds to refuse it first.
-    fn holds(self, body: &Body<f64>, record: &Record, options: &RockingOptions<f64>, rocking: &Rocking<f64>) -> bool {
+    fn holds(
+        self,
+        body: &Body<f64>,
+        record: &Record,
+        options: &RockingOptions<f64>,
+        rocking: &Rocking<f64>,
+    ) -> bool {
         let Record { dt, ref accel, .. } = *record;
-        let by_width = |change: f64| moved_by_width(body, dt, accel, options, rocking, change) / change;
+        let by_width =
+            |change: f64| moved_by_width(body, dt, accel, options, rocking, change) / change;
         let worst = || sensitivity(body, dt, accel, options).worst();
         match self {
             Self::WellConditioned | Self::WellConditionedWhileItStands => {
@@ -108,7 +116,8 @@ impl WantedMotion {
                     && changes(body, dt, accel, options).proportionate()
             }
             Self::Predictable | Self::PredictableWhileItStands => {
-                by_width(SMALL_CHANGE) < MOST_OVER_SENSITIVITY * PREDICTABLE && worst() < PREDICTABLE
+                by_width(SMALL_CHANGE) < MOST_OVER_SENSITIVITY * PREDICTABLE
+                    && worst() < PREDICTABLE
             }
         }
     }
@@ -117,9 +126,18 @@ impl WantedMotion {
 impl ReferenceMotion {
     /// The motion, if Housner's body rocks on it, on a pivot that presses, and its history is as
     /// wanted.
-    fn new(body: &Body<f64>, restitution: f64, record: Record, wanted: WantedMotion) -> Option<Self> {
+    fn new(
+        body: &Body<f64>,
+        restitution: f64,
+        record: Record,
+        wanted: WantedMotion,
+    ) -> Option<Self> {
         let vertical = record.vertical_accel();
-        let options = RockingOptions { restitution: Some(restitution), vertical, ..RockingOptions::default() };
+        let options = RockingOptions {
+            restitution: Some(restitution),
+            vertical,
+            ..RockingOptions::default()
+        };
         let rocking = housner::solve(body, record.dt, &record.accel, &options);
         let overturned = rocking.overturned().filter(|_| wanted.may_topple());
         let rocks = rocking.outcome == housner::RockingOutcome::Rocked || overturned.is_some();
@@ -127,11 +145,19 @@ impl ReferenceMotion {
         let lands = !rocking.impacts.is_empty();
         let fit = rocks && lands && wanted.holds(body, &record, &options, &rocking) && presses();
         fit.then(|| {
-            let forces = HousnerForces::new(body, record.dt, (&record.accel, record.up()), &rocking);
+            let forces =
+                HousnerForces::new(body, record.dt, (&record.accel, record.up()), &rocking);
             let Record { dt, accel, .. } = record;
             let mut theta = rocking.theta;
             theta.truncate(samples_until(overturned, dt));
-            Self { dt, accel, vertical: options.vertical, theta, forces, overturns: overturned.is_some() }
+            Self {
+                dt,
+                accel,
+                vertical: options.vertical,
+                theta,
+                forces,
+                overturns: overturned.is_some(),
+            }
         })
     }
 
@@ -139,7 +165,12 @@ impl ReferenceMotion {
         push(&self.accel, self.vertical.as_deref().unwrap_or_default())
     }
 
-    fn case(&self, body: &Body<f64>, springs: &Springs<Chain<f64>>, control: Control) -> Analysis<'_, f64> {
+    fn case(
+        &self,
+        body: &Body<f64>,
+        springs: &Springs<Chain<f64>>,
+        control: Control,
+    ) -> Analysis<'_, f64> {
         Analysis {
             body: *body,
             springs: *springs,
@@ -162,24 +193,30 @@ fn errors(
     (control, effort): (Control, &Effort),
 ) -> Vec<TrialErrors> {
     let pushes: Vec<Cow<[f64]>> = trials.iter().map(ReferenceMotion::push).collect();
-    let cases: Vec<Analysis<f64>> = trials.iter().map(|trial| trial.case(body, springs, control)).collect();
+    let cases: Vec<Analysis<f64>> =
+        trials.iter().map(|trial| trial.case(body, springs, control)).collect();
     let followed = histories(&cases, |i| {
         ComparisonObserver::new(body, &trials[i].theta, &pushes[i]).with_forces(&trials[i].forces)
     });
-    let error = |((stream, finish), trial): ((ComparisonObserver, Finish<f64>), &ReferenceMotion)| {
-        finish.spend(effort);
-        effort.judged(matches!(finish.outcome, HistoryOutcome::WorkBound { .. }));
-        let overturned = match finish.outcome {
-            HistoryOutcome::Completed => housner::topples(body, stream.last.0, stream.last.1),
-            HistoryOutcome::Overturned { .. } | HistoryOutcome::Stopped { .. } => true,
-            _ => return LOST,
+    let error =
+        |((stream, finish), trial): ((ComparisonObserver, Finish<f64>), &ReferenceMotion)| {
+            finish.spend(effort);
+            effort.judged(matches!(finish.outcome, HistoryOutcome::WorkBound { .. }));
+            let overturned = match finish.outcome {
+                HistoryOutcome::Completed => housner::topples(body, stream.last.0, stream.last.1),
+                HistoryOutcome::Overturned { .. } | HistoryOutcome::Stopped { .. } => true,
+                _ => return LOST,
+            };
+            if overturned != trial.overturns {
+                return LOST;
+            }
+            let errors = if overturned { stream.upright } else { stream.errors };
+            TrialErrors {
+                u: errors.horizontal.value(),
+                v: errors.vertical.value(),
+                peaks: errors.peaks.errors(),
+            }
         };
-        if overturned != trial.overturns {
-            return LOST;
-        }
-        let errors = if overturned { stream.upright } else { stream.errors };
-        TrialErrors { u: errors.horizontal.value(), v: errors.vertical.value(), peaks: errors.peaks.errors() }
-    };
     followed.into_iter().zip(trials).map(error).collect()
 }
 
@@ -197,7 +234,12 @@ pub struct Suites {
 impl Suites {
     /// Of a body that lands with velocity restitution `restitution`, with this record if there is
     /// one: as many motions as are found before it is stopped from outside.
-    pub(crate) fn within(body: &Body<f64>, restitution: f64, record: Option<&Record>, effort: &Effort) -> Self {
+    pub(crate) fn within(
+        body: &Body<f64>,
+        restitution: f64,
+        record: Option<&Record>,
+        effort: &Effort,
+    ) -> Self {
         Self::seeded(SEED, body, restitution, record, effort)
     }
 
@@ -206,15 +248,32 @@ impl Suites {
         Self::seeded(seed, body, restitution, record, &Effort::unbounded())
     }
 
-    fn seeded(seed: u64, body: &Body<f64>, restitution: f64, record: Option<&Record>, effort: &Effort) -> Self {
+    fn seeded(
+        seed: u64,
+        body: &Body<f64>,
+        restitution: f64,
+        record: Option<&Record>,
+        effort: &Effort,
+    ) -> Self {
         let (p, alpha) = (body.p_squared().sqrt(), body.alpha());
-        let well = |record| ReferenceMotion::new(body, restitution, record, WantedMotion::WellConditioned);
-        let standing =
-            |record| ReferenceMotion::new(body, restitution, record, WantedMotion::WellConditionedWhileItStands);
-        let predictable = |record| ReferenceMotion::new(body, restitution, record, WantedMotion::Predictable);
-        let mild = |record| ReferenceMotion::new(body, restitution, record, WantedMotion::PredictableWhileItStands);
+        let well =
+            |record| ReferenceMotion::new(body, restitution, record, WantedMotion::WellConditioned);
+        let standing = |record| {
+            ReferenceMotion::new(
+                body,
+                restitution,
+                record,
+                WantedMotion::WellConditionedWhileItStands,
+            )
+        };
+        let predictable =
+            |record| ReferenceMotion::new(body, restitution, record, WantedMotion::Predictable);
+        let mild = |record| {
+            ReferenceMotion::new(body, restitution, record, WantedMotion::PredictableWhileItStands)
+        };
         let earthquake = |i| synthetic::earthquake(seed, i, p);
-        let mut earthquakes = first(EARTHQUAKES, 0..LOOKED_AT, effort, |i| predictable(earthquake(i)));
+        let mut earthquakes =
+            first(EARTHQUAKES, 0..LOOKED_AT, effort, |i| predictable(earthquake(i)));
         let missing = EARTHQUAKES - earthquakes.len();
         let mild = first(missing, 0..LOOKED_AT, effort, |i| mild(milder(earthquake(i), alpha)?));
         let scaled_down = mild.len();
@@ -222,7 +281,9 @@ impl Suites {
         Self {
             body: *body,
             record: record.and_then(|record| standing(record.clone())),
-            synthetic: first(SYNTHETIC, 0..LOOKED_AT, effort, |i| well(synthetic::record(seed, i, p, alpha))),
+            synthetic: first(SYNTHETIC, 0..LOOKED_AT, effort, |i| {
+                well(synthetic::record(seed, i, p, alpha))
+            }),
             earthquakes,
             scaled_down,
         }
@@ -232,7 +293,9 @@ impl Suites {
     /// do not decide; nothing else.
     pub(crate) fn more(&self, restitution: f64, effort: &Effort) -> Self {
         let (p, alpha) = (self.body.p_squared().sqrt(), self.body.alpha());
-        let well = |record| ReferenceMotion::new(&self.body, restitution, record, WantedMotion::WellConditioned);
+        let well = |record| {
+            ReferenceMotion::new(&self.body, restitution, record, WantedMotion::WellConditioned)
+        };
         let others = LOOKED_AT..LOOKED_AT + MORE_LOOKED_AT;
         Self {
             body: self.body,
@@ -294,7 +357,9 @@ impl Suites {
         let MeasuredErrors { histories, peaks } = measured;
         match suite {
             JudgedOn::Record => {
-                if let Some(found) = errors(self.record.as_slice(), &self.body, springs, (control, effort)).first() {
+                if let Some(found) =
+                    errors(self.record.as_slice(), &self.body, springs, (control, effort)).first()
+                {
                     histories.record = Some(found.u.max(found.v));
                     peaks.largest.record = Some(found.peaks.largest());
                     peaks.record = Some(found.peaks);
@@ -311,13 +376,20 @@ impl Suites {
                 let found = errors(&self.earthquakes, &self.body, springs, (control, effort));
                 self.means(&found, |e| e.u, histories);
                 self.means(&found, |e| e.peaks.largest(), &mut peaks.largest);
-                let mean = |i: usize| geometric_mean(found.iter().map(|e| e.peaks.all()[i])).map(|(mean, _)| mean);
+                let mean = |i: usize| {
+                    geometric_mean(found.iter().map(|e| e.peaks.all()[i])).map(|(mean, _)| mean)
+                };
                 peaks.earthquakes_mean = each(mean);
             }
         }
     }
 
-    fn means(&self, found: &[TrialErrors], of: impl Fn(&TrialErrors) -> f64 + Clone, accuracy: &mut Accuracy) {
+    fn means(
+        &self,
+        found: &[TrialErrors],
+        of: impl Fn(&TrialErrors) -> f64 + Clone,
+        accuracy: &mut Accuracy,
+    ) {
         let mean = geometric_mean(found.iter().map(of));
         accuracy.earthquakes_mean = mean.map(|(value, _)| Statistic { value, count: found.len() });
         accuracy.earthquakes_scaled_down = self.scaled_down;
@@ -355,7 +427,8 @@ fn sorted(found: &[TrialErrors], of: impl Fn(&TrialErrors) -> f64) -> Vec<f64> {
 
 fn quantiles(found: &[TrialErrors], of: impl Fn(&TrialErrors) -> f64, accuracy: &mut Accuracy) {
     let sorted = sorted(found, of);
-    let statistic = |q: f64| quantile(&sorted, q).map(|value| Statistic { value, count: sorted.len() });
+    let statistic =
+        |q: f64| quantile(&sorted, q).map(|value| Statistic { value, count: sorted.len() });
     (accuracy.synthetic_median, accuracy.synthetic_p90) = (statistic(0.5), statistic(0.9));
 }
 

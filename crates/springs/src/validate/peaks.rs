@@ -84,7 +84,12 @@ pub struct HousnerForces {
 impl HousnerForces {
     /// Of his motion through a record of samples dt apart, horizontal and vertical, zero beyond the
     /// latter's end (m/s2).
-    pub(crate) fn new(body: &Body<f64>, dt: f64, (accel, up): (&[f64], &[f64]), rocking: &Rocking<f64>) -> Self {
+    pub(crate) fn new(
+        body: &Body<f64>,
+        dt: f64,
+        (accel, up): (&[f64], &[f64]),
+        rocking: &Rocking<f64>,
+    ) -> Self {
         let rest = MOMENT / body.p_squared().sqrt();
         let velocity = |i: usize| {
             let (theta, rate) = (rocking.theta[i], rocking.rate[i]);
@@ -139,7 +144,13 @@ impl PeakPairs {
     /// Take note of the forces in the interval that ends at a sample, where they count: a foot on
     /// springs touched the ground last at `touched` (s), and the centre of mass had these
     /// velocities before it and has them at its end (m/s).
-    pub(crate) fn interval(&mut self, forces: &HousnerForces, index: usize, touched: f64, velocities: [[f64; 2]; 2]) {
+    pub(crate) fn interval(
+        &mut self,
+        forces: &HousnerForces,
+        index: usize,
+        touched: f64,
+        velocities: [[f64; 2]; 2],
+    ) {
         let Some(Some(row)) = forces.rows.get(index) else { return };
         let begin = index.saturating_sub(1) as f64 * forces.dt;
         if touched >= begin - forces.rest {
@@ -153,7 +164,9 @@ impl PeakPairs {
 
     /// The errors; that of forces nothing where none could be compared.
     pub(crate) fn errors(&self) -> PeakErrors {
-        let relative = |[fem, housner]: [f64; 2]| if fem == housner { 0.0 } else { (fem / housner - 1.0).abs() };
+        let relative = |[fem, housner]: [f64; 2]| {
+            if fem == housner { 0.0 } else { (fem / housner - 1.0).abs() }
+        };
         let uplift = self.lean.map(|theta| theta.min(std::f64::consts::FRAC_PI_2).sin());
         PeakErrors::of([self.displacement, uplift, self.forces[0], self.forces[1]].map(relative))
     }

@@ -118,7 +118,8 @@ impl Row {
 
     /// The largest of the peaks' errors.
     pub(crate) fn peak_error(&self) -> Option<f64> {
-        let all = [self.displacement_error, self.uplift_error, self.base_shear_error, self.axial_error];
+        let all =
+            [self.displacement_error, self.uplift_error, self.base_shear_error, self.axial_error];
         all.into_iter().try_fold(0.0, |largest, error| Some(f64::max(largest, error?)))
     }
 
@@ -169,9 +170,11 @@ impl Validator {
     pub(crate) fn judge(&self, records: &[Record]) -> Vec<Row> {
         let answers: Vec<HousnerAnswer> =
             records.par_iter().with_max_len(1).map(|record| self.answer(record)).collect();
-        let cases: Vec<fem::Analysis<f64>> = answers.iter().map(|answer| self.case(&answer.record)).collect();
+        let cases: Vec<fem::Analysis<f64>> =
+            answers.iter().map(|answer| self.case(&answer.record)).collect();
         let watch = |i: usize| {
-            ComparisonObserver::new(&self.body, answers[i].standing(), cases[i].accel).with_forces(&answers[i].forces)
+            ComparisonObserver::new(&self.body, answers[i].standing(), cases[i].accel)
+                .with_forces(&answers[i].forces)
         };
         let followed = fem::histories(&cases, watch);
         let both = answers.par_iter().with_max_len(1).zip(followed);
@@ -182,10 +185,12 @@ impl Validator {
         // the whole record as it is, without a copy
         let short = self.duration_s.map(|duration| record.truncated(duration));
         let record = short.map_or(Cow::Borrowed(record), Cow::Owned);
-        let options = housner::RockingOptions { restitution: Some(self.restitution), ..Default::default() };
+        let options =
+            housner::RockingOptions { restitution: Some(self.restitution), ..Default::default() };
         let rocking = housner::solve(&self.body, record.dt, &record.accel, &options);
         let lifted = rocking.outcome != housner::RockingOutcome::NeverMoved;
-        let conditioning = lifted.then(|| Conditioning::new(&self.body, record.dt, &record.accel, &options));
+        let conditioning =
+            lifted.then(|| Conditioning::new(&self.body, record.dt, &record.accel, &options));
         let forces = HousnerForces::new(&self.body, record.dt, (&record.accel, &[]), &rocking);
         HousnerAnswer { record, options, rocking, forces, conditioning }
     }
@@ -203,12 +208,21 @@ impl Validator {
         }
     }
 
-    fn row(&self, answer: &HousnerAnswer, stream: &ComparisonObserver, finish: &fem::Finish<f64>) -> Row {
+    fn row(
+        &self,
+        answer: &HousnerAnswer,
+        stream: &ComparisonObserver,
+        finish: &fem::Finish<f64>,
+    ) -> Row {
         let HousnerAnswer { record, options, rocking, conditioning, .. } = answer;
         let (body, dt, accel) = (&self.body, record.dt, &record.accel[..]);
         let overturned_fem = match finish.outcome {
-            fem::HistoryOutcome::Overturned { .. } | fem::HistoryOutcome::Stopped { .. } => Some(true),
-            fem::HistoryOutcome::Completed => Some(housner::topples(body, stream.last.0, stream.last.1)),
+            fem::HistoryOutcome::Overturned { .. } | fem::HistoryOutcome::Stopped { .. } => {
+                Some(true)
+            }
+            fem::HistoryOutcome::Completed => {
+                Some(housner::topples(body, stream.last.0, stream.last.1))
+            }
             fem::HistoryOutcome::WorkBound { .. } | fem::HistoryOutcome::Unstable { .. } => None,
         };
         let errors = if overturned_fem == Some(true) { stream.upright } else { stream.errors };
@@ -224,13 +238,16 @@ impl Validator {
         };
         let overturned_housner = rocking.overturned().is_some();
         let overturned_fem = overturned_fem.filter(|_| outcome != RecordOutcome::FemFailed);
-        let ratio = |peak: f64, overturned| if overturned { FRAC_PI_2 } else { peak } / body.alpha();
+        let ratio =
+            |peak: f64, overturned| if overturned { FRAC_PI_2 } else { peak } / body.alpha();
         let peak_of = |rocking: &housner::Rocking<f64>| {
             let peak = rocking.theta.iter().fold(0.0, |peak: f64, x| peak.max(x.abs()));
             ratio(peak, rocking.overturned().is_some())
         };
-        let changed =
-            housner::RockingOptions { restitution: Some(self.restitution * (1.0 - CHANGE)), ..options.clone() };
+        let changed = housner::RockingOptions {
+            restitution: Some(self.restitution * (1.0 - CHANGE)),
+            ..options.clone()
+        };
         let changes = conditioning.map(|c| c.changes).unwrap_or_default();
         let moved = |k: usize| changes.width[k].max(changes.scale[k]);
         let changed = housner::solve(body, dt, accel, &changed);

@@ -53,7 +53,8 @@ impl Quantiles {
     /// Of all comparable rows; a missing error counts as infinite.
     fn new(rows: &[&Row], nrmse: fn(&Row) -> Option<f64>) -> Self {
         let comparable = rows.iter().filter(|row| row.comparable());
-        let mut errors: Vec<f64> = comparable.map(|row| row.error(nrmse(row)).unwrap_or(f64::INFINITY)).collect();
+        let mut errors: Vec<f64> =
+            comparable.map(|row| row.error(nrmse(row)).unwrap_or(f64::INFINITY)).collect();
         errors.sort_by(f64::total_cmp);
         Self { count: errors.len(), median: quantile(&errors, 0.5), p90: quantile(&errors, 0.9) }
     }
@@ -88,8 +89,10 @@ impl GeometricMean {
             .filter(|row| row.rocked() && row.sensitivity < PREDICTABLE)
             .map(|row| row.error(error(row)))
             .collect();
-        let found: Vec<f64> = errors.iter().flatten().map(|error| error.max(f64::MIN_POSITIVE).ln()).collect();
-        let mean = (!found.is_empty()).then(|| (found.iter().sum::<f64>() / found.len() as f64).exp());
+        let found: Vec<f64> =
+            errors.iter().flatten().map(|error| error.max(f64::MIN_POSITIVE).ln()).collect();
+        let mean =
+            (!found.is_empty()).then(|| (found.iter().sum::<f64>() / found.len() as f64).exp());
         Self { count: found.len(), mean, failed: errors.len() - found.len() }
     }
 }
@@ -165,10 +168,12 @@ impl Summary {
     pub(crate) fn new(records: &[&Row]) -> Self {
         let (housner, fem): (Vec<f64>, Vec<f64>) = records.iter().map(|row| peaks(row)).unzip();
         let changed: Vec<f64> = records.iter().map(|row| row.peak_ratio_housner_changed).collect();
-        let never_lifted = records.iter().filter(|row| row.outcome == super::RecordOutcome::NeverLifted).count();
+        let never_lifted =
+            records.iter().filter(|row| row.outcome == super::RecordOutcome::NeverLifted).count();
         let comparable = records.iter().filter(|row| row.comparable()).count();
-        let share =
-            |of: fn(&Row) -> bool| records.iter().filter(|row| of(row)).count() as f64 / records.len().max(1) as f64;
+        let share = |of: fn(&Row) -> bool| {
+            records.iter().filter(|row| of(row)).count() as f64 / records.len().max(1) as f64
+        };
         Self {
             count: records.len(),
             ks_distance: ks_distance(&housner, &fem),
@@ -185,7 +190,10 @@ impl Summary {
             peaks_geometric_mean: GeometricMean::by(records.iter().copied(), Row::peak_error),
             never_lifted,
             not_comparable: records.len() - comparable - never_lifted,
-            pivot_pulls: records.iter().filter(|row| row.pivot_pulls_s.is_some() && !row.overturned_housner).count(),
+            pivot_pulls: records
+                .iter()
+                .filter(|row| row.pivot_pulls_s.is_some() && !row.overturned_housner)
+                .count(),
             failed: records.iter().filter(|row| row.failed()).map(|row| row.name.clone()).collect(),
             energy_residual_max: records.iter().map(|row| row.energy_residual).fold(0.0, f64::max),
         }

@@ -121,7 +121,8 @@ impl<'a> ComparisonObserver<'a> {
             Some((at, size)) if at >= index => size,
             _ => {
                 let rest = self.accel.iter().map(|a| a.abs()).enumerate().skip(index);
-                let found = rest.fold((index, 0.0), |best, (i, a)| if a >= best.1 { (i, a) } else { best });
+                let found =
+                    rest.fold((index, 0.0), |best, (i, a)| if a >= best.1 { (i, a) } else { best });
                 self.strongest = Some(found);
                 found.1
             }

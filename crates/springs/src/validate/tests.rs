@@ -35,7 +35,8 @@ fn a_row_says_what_the_whole_histories_say() {
     let row = judge.judge(std::slice::from_ref(&record)).remove(0);
 
     let short = record.truncated(10.0);
-    let rocking = housner::solve(&judge.body, short.dt, &short.accel, &housner::RockingOptions::default());
+    let rocking =
+        housner::solve(&judge.body, short.dt, &short.accel, &housner::RockingOptions::default());
     let motion = rocking.motion(&judge.body);
     let history = fem::Analysis {
         body: judge.body,
@@ -48,13 +49,16 @@ fn a_row_says_what_the_whole_histories_say() {
         control: judge.control,
     }
     .simulate();
-    let found = Match::new(&judge.body, short.dt, (&motion, &rocking.impacts), &history, judge.restitution);
+    let found =
+        Match::new(&judge.body, short.dt, (&motion, &rocking.impacts), &history, judge.restitution);
     let close = |a: f64, b: f64| (a - b).abs() <= 1e-12 * b.abs();
     assert!(close(row.nrmse_horizontal.unwrap(), found.nrmse_horizontal), "{row:?} {found:?}");
     assert!(close(row.nrmse_vertical.unwrap(), found.nrmse_vertical), "{row:?} {found:?}");
     assert!(close(row.energy_residual, found.energy_residual), "{row:?} {found:?}");
     assert_eq!((row.duration_s, row.impacts), (found.duration_s, found.impacts_housner));
-    let peak = |theta: &[f64]| theta.iter().fold(0.0, |peak: f64, x| peak.max(x.abs())) / judge.body.alpha();
+    let peak = |theta: &[f64]| {
+        theta.iter().fold(0.0, |peak: f64, x| peak.max(x.abs())) / judge.body.alpha()
+    };
     assert!(close(row.peak_ratio_housner, peak(&motion.theta)));
     assert!(close(row.peak_ratio_fem.unwrap(), peak(&history.motion.theta)));
     assert!(row.comparable() && row.agrees());
@@ -69,7 +73,8 @@ fn a_body_that_topples_has_the_peak_of_one_that_lies_flat() {
     // it passes alpha at acosh(3)/p = 4.4 s, cannot come back from 6.2 s on and would lie on the
     // ground after some 11 s
     for duration in [5.0, 20.0] {
-        let record = Record::new("push", 0.01, vec![0.15 * 9.81; (100.0 * duration) as usize]).unwrap();
+        let record =
+            Record::new("push", 0.01, vec![0.15 * 9.81; (100.0 * duration) as usize]).unwrap();
         let row = judge.judge(std::slice::from_ref(&record)).remove(0);
         assert!(row.overturned_housner, "{row:?}");
         assert_eq!(
@@ -86,8 +91,14 @@ fn a_record_that_never_lifts_the_body_has_no_peak_and_no_error() {
     let judge = judge(&frame());
     let record = Record::new("weak", 0.01, vec![0.02 * 9.81; 300]).unwrap();
     let row = judge.judge(std::slice::from_ref(&record)).remove(0);
-    assert_eq!((row.outcome, row.nrmse_horizontal, row.nrmse_vertical), (RecordOutcome::NeverLifted, None, None));
-    assert_eq!((row.peak_ratio_housner, row.peak_ratio_fem, row.sensitivity), (0.0, Some(0.0), 0.0));
+    assert_eq!(
+        (row.outcome, row.nrmse_horizontal, row.nrmse_vertical),
+        (RecordOutcome::NeverLifted, None, None)
+    );
+    assert_eq!(
+        (row.peak_ratio_housner, row.peak_ratio_fem, row.sensitivity),
+        (0.0, Some(0.0), 0.0)
+    );
     assert!(row.agrees() && !row.comparable());
 }
 
@@ -114,9 +125,15 @@ fn a_history_that_meets_its_bound_on_work_is_listed_as_failed() {
     judge.duration_s = Some(5.0);
     let found = judge.judge_all(1, |_| Ok::<_, ()>(Record::el_centro()), |_| {}).unwrap();
     let row = &found.records[0];
-    assert_eq!((row.outcome, row.overturned_fem, row.peak_ratio_fem), (RecordOutcome::FemFailed, None, None));
+    assert_eq!(
+        (row.outcome, row.overturned_fem, row.peak_ratio_fem),
+        (RecordOutcome::FemFailed, None, None)
+    );
     let all = found.all;
-    assert_eq!((all.failed, all.overturning_agreement, all.ks_distance), (vec!["IELC180".to_string()], 0.0, 1.0));
+    assert_eq!(
+        (all.failed, all.overturning_agreement, all.ks_distance),
+        (vec!["IELC180".to_string()], 0.0, 1.0)
+    );
 }
 
 #[test]
@@ -140,7 +157,9 @@ fn every_record_is_asked_for_once_and_rows_keep_their_order() {
 #[test]
 fn the_first_of_several_errors_is_reported() {
     let judge = judge(&frame());
-    let record = |i: usize| if i == 0 { Record::new("one", 0.01, vec![0.0; 10]).map_err(|_| 0) } else { Err(i) };
+    let record = |i: usize| {
+        if i == 0 { Record::new("one", 0.01, vec![0.0; 10]).map_err(|_| 0) } else { Err(i) }
+    };
     assert_eq!(judge.judge_all(8, record, |_| {}).unwrap_err(), 1);
 }
 
@@ -150,14 +169,17 @@ fn the_first_of_several_errors_is_reported() {
 /// u_g.
 #[test]
 fn errors_of_peaks_are_those_of_an_independent_calculation() {
-    for (control, width) in [(Control::default(), 0.6), (Control { long_steps: true, ..Control::search() }, 0.6)] {
+    for (control, width) in
+        [(Control::default(), 0.6), (Control { long_steps: true, ..Control::search() }, 0.6)]
+    {
         let structure = Structure::block(2.0, width, 1e3).unwrap();
         let judge = Validator { control, ..judge(&structure) };
         let body = &judge.body;
         let p = body.p_squared().sqrt();
         let record = synthetic::record(1, 4, p, body.alpha());
         let row = judge.judge(std::slice::from_ref(&record)).remove(0);
-        let rocking = housner::solve(body, record.dt, &record.accel, &housner::RockingOptions::default());
+        let rocking =
+            housner::solve(body, record.dt, &record.accel, &housner::RockingOptions::default());
         let (mut history, mut demands) = fem::Analysis {
             body: *body,
             springs: judge.springs,
@@ -172,7 +194,8 @@ fn errors_of_peaks_are_those_of_an_independent_calculation() {
         let largest = |x: &[f64]| x.iter().fold(0.0, |peak: f64, x| peak.max(x.abs()));
         let motion = rocking.motion(body);
         let displacement = (largest(&history.motion.u) / largest(&motion.u) - 1.0).abs();
-        let uplift = (largest(&history.motion.theta).sin() / largest(&motion.theta).sin() - 1.0).abs();
+        let uplift =
+            (largest(&history.motion.theta).sin() / largest(&motion.theta).sin() - 1.0).abs();
         let n = history.motion.len();
         demands.separate(body, record.dt, &std::mem::take(&mut history.landings), n);
         let landed = |t: f64| {
@@ -206,22 +229,30 @@ fn errors_of_peaks_are_those_of_an_independent_calculation() {
 #[test]
 fn long_steps_know_forces_as_well_as_short_ones() {
     let block = |height: f64, width: f64| Structure::block(height, width, 1e3).unwrap();
-    for structure in [frame(), Structure::a_frame(12.0, 2.2, 1e5).unwrap(), block(2.6, 0.7), block(0.3, 0.1)] {
+    for structure in
+        [frame(), Structure::a_frame(12.0, 2.2, 1e5).unwrap(), block(2.6, 0.7), block(0.3, 0.1)]
+    {
         let body = structure.body::<f64>();
         let p = body.p_squared().sqrt();
         let hz = 4e4 * p / std::f64::consts::TAU;
         let design = |m2: f64, k: f64, c: f64| Design::from_kc(m2, k, c, hz);
-        let springs = Springs { vertical: design(0.3, 0.1, 0.75), horizontal: design(0.3, 0.57, 1.86) };
+        let springs =
+            Springs { vertical: design(0.3, 0.1, 0.75), horizontal: design(0.3, 0.57, 1.86) };
         let springs = springs.chains(structure.mass_kg);
-        let records: Vec<Record> = (0..40).map(|i| synthetic::record(7, i, p, body.alpha())).collect();
+        let records: Vec<Record> =
+            (0..40).map(|i| synthetic::record(7, i, p, body.alpha())).collect();
         let forces = |long_steps: bool| {
             let control = Control { long_steps, ..Control::search() };
             let rows = Validator { springs, control, ..judge(&structure) }.judge(&records);
-            rows.into_iter().map(|row| row.base_shear_error.zip(row.axial_error)).collect::<Vec<_>>()
+            rows.into_iter()
+                .map(|row| row.base_shear_error.zip(row.axial_error))
+                .collect::<Vec<_>>()
         };
         let pairs = forces(true).into_iter().zip(forces(false));
-        let mut differences: Vec<f64> =
-            pairs.filter_map(|(a, b)| a.zip(b)).map(|(a, b)| (a.0 - b.0).abs().max((a.1 - b.1).abs())).collect();
+        let mut differences: Vec<f64> = pairs
+            .filter_map(|(a, b)| a.zip(b))
+            .map(|(a, b)| (a.0 - b.0).abs().max((a.1 - b.1).abs()))
+            .collect();
         differences.sort_by(f64::total_cmp);
         let count = differences.len();
         assert!(count > 20, "{count}");

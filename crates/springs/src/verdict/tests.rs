@@ -19,7 +19,8 @@ fn verdict(record: &Record) -> Verdict {
     let rocking = housner::solve(&body, dt, accel, &options);
     let springs = springs.chains(structure.mass_kg);
     let (start, control) = (Start::Settled, Control::default());
-    let history = Analysis { body, springs, start, dt, accel, vertical: &[], scale: 1.0, control }.simulate();
+    let history =
+        Analysis { body, springs, start, dt, accel, vertical: &[], scale: 1.0, control }.simulate();
     let motion = rocking.motion(&body);
     let matched = Match::new(&body, dt, (&motion, &rocking.impacts), &history, body.restitution());
     let conditioning = Conditioning::new(&body, dt, accel, &options);
@@ -32,7 +33,10 @@ fn el_centro_rocks_the_papers_frame_in_both_models() {
     assert_eq!((found.housner.fate, found.finite_elements.fate), (Fate::Rocked, Fate::Rocked));
     // 401.18 mm at the apex (theory: the Taylor reference), u = h sin(theta) + b (1 - cos(theta))
     assert!((found.housner.peak_ratio * 0.0996687 * 61.0 - 0.40118).abs() < 2e-3, "{found:?}");
-    assert!((found.finite_elements.peak_ratio / found.housner.peak_ratio - 1.0).abs() < 0.01, "{found:?}");
+    assert!(
+        (found.finite_elements.peak_ratio / found.housner.peak_ratio - 1.0).abs() < 0.01,
+        "{found:?}"
+    );
     assert!(found.well_conditioned && found.agrees());
 }
 
@@ -54,7 +58,10 @@ fn a_steady_push_overturns_both_and_numbers_end_there() {
 fn a_weak_record_lifts_neither_and_leaves_nothing_to_compare() {
     let found = verdict(&Record::new("weak", 0.01, vec![0.02 * 9.81; 300]).unwrap());
     assert_eq!((found.housner.fate, found.housner.peak_ratio), (Fate::NeverLifted, 0.0));
-    assert_eq!((found.finite_elements.fate, found.finite_elements.peak_ratio), (Fate::NeverLifted, 0.0));
+    assert_eq!(
+        (found.finite_elements.fate, found.finite_elements.peak_ratio),
+        (Fate::NeverLifted, 0.0)
+    );
     assert_eq!((found.nrmse_horizontal, found.agrees()), (None, true));
 }
 
@@ -74,6 +81,9 @@ fn models_that_differ_disagree() {
     verdict.finite_elements = answer(Fate::Failed);
     assert!(!verdict.agrees());
     let json = serde_json::to_string(&verdict).unwrap();
-    assert!(json.contains("\"finite_elements\":{\"fate\":\"failed\",\"peak_ratio\":0.9}"), "{json}");
+    assert!(
+        json.contains("\"finite_elements\":{\"fate\":\"failed\",\"peak_ratio\":0.9}"),
+        "{json}"
+    );
     assert_eq!(serde_json::from_str::<Verdict>(&json).unwrap(), verdict);
 }

@@ -5,7 +5,10 @@ use frames::{
     Mechanics,
     beam::BeamSection,
     fem::{ElasticAnalysis, ElasticHistory, ElasticStart},
-    frame::{Base, Footing, Frame, FrameLayout, FrameTendon, LeggedFrame, NodePoint, Portal, StraightMember},
+    frame::{
+        Base, Footing, Frame, FrameLayout, FrameTendon, LeggedFrame, NodePoint, Portal,
+        StraightMember,
+    },
 };
 use rocking::scalar::GRAVITY;
 
@@ -15,7 +18,8 @@ fn portal() -> FrameLayout {
     let section = BeamSection { line_mass: 4e3, ..pier(&MODERATE).column.section };
     let footing = Footing::block(3.0, 1e5, 0.6, 1.2);
     let column = StraightMember { section, elements: 2 };
-    Portal { span: 8.0, height: 9.0, mass: 3e5, inertia: 1e5, footing, column, girder: column }.layout()
+    Portal { span: 8.0, height: 9.0, mass: 3e5, inertia: 1e5, footing, column, girder: column }
+        .layout()
 }
 
 fn legged() -> FrameLayout {
@@ -39,10 +43,12 @@ fn tied() -> FrameLayout {
 
 fn history(frame: &Frame, accel: &[f64], vertical: &[f64]) -> ElasticHistory {
     let springs = springs(frame, 2e3, 4.0);
-    let history =
-        ElasticAnalysis { vertical, ..ElasticAnalysis::new(frame, &springs, ElasticStart::Standing, 0.01, accel) }
-            .simulate()
-            .unwrap();
+    let history = ElasticAnalysis {
+        vertical,
+        ..ElasticAnalysis::new(frame, &springs, ElasticStart::Standing, 0.01, accel)
+    }
+    .simulate()
+    .unwrap();
     assert_eq!(history.outcome, HistoryOutcome::Completed);
     history
 }
@@ -83,7 +89,11 @@ fn the_mean_forces_of_the_corners_balance_the_momentum() {
                 let pull = 0.5 * (ground[i - 1] + ground[i]) + if k == 1 { GRAVITY } else { 0.0 };
                 let given: f64 = history.forces.iter().map(|corner| corner.mean[i][k]).sum();
                 let gained = (momentum(i, k) - momentum(i - 1, k)) / 0.01;
-                assert!((given - total * pull - gained).abs() < 1e-6 * total * GRAVITY, "{i} {k} {}", frame.size());
+                assert!(
+                    (given - total * pull - gained).abs() < 1e-6 * total * GRAVITY,
+                    "{i} {k} {}",
+                    frame.size()
+                );
             }
         }
     }
@@ -109,11 +119,16 @@ fn a_standing_frame_stands_still() {
     for layout in [tied(), portal(), legged()] {
         let frame = layout.frame().unwrap();
         let history = history(&frame, &[0.0; 101], &[]);
-        let moved = history.q.iter().flat_map(|q| q.iter().zip(&history.q[0]).map(|(a, b)| (a - b).abs()));
+        let moved =
+            history.q.iter().flat_map(|q| q.iter().zip(&history.q[0]).map(|(a, b)| (a - b).abs()));
         assert!(moved.fold(0.0, f64::max) < 1e-9);
         let tension: f64 = frame.tensions(&history.q[0]).iter().sum();
         let borne: f64 = history.forces.iter().map(|corner| corner.at[100][1]).sum();
-        assert!((borne / (frame.total_mass() * GRAVITY + tension) - 1.0).abs() < 1e-6, "{}", frame.size());
+        assert!(
+            (borne / (frame.total_mass() * GRAVITY + tension) - 1.0).abs() < 1e-6,
+            "{}",
+            frame.size()
+        );
     }
 }
 
@@ -124,10 +139,13 @@ fn a_small_lean_stands_on_both_corners_and_a_spring_too_few_is_refused() {
     let frame = pier(&MODERATE).layout().frame().unwrap();
     let springs = springs(&frame, 50.0, 4.0);
     let accel = [0.0; 201];
-    let history = ElasticAnalysis::new(&frame, &springs, ElasticStart::Leaning(1e-6), 0.01, &accel).simulate().unwrap();
+    let history = ElasticAnalysis::new(&frame, &springs, ElasticStart::Leaning(1e-6), 0.01, &accel)
+        .simulate()
+        .unwrap();
     assert!(history.energy_residual < 1e-6, "{:e}", history.energy_residual);
     assert!(history.forces.iter().all(|corner| corner.at[0][1] > 0.0));
-    let refused =
-        ElasticAnalysis::new(&frame, &springs[..1], ElasticStart::Standing, 0.01, &accel).simulate().unwrap_err();
+    let refused = ElasticAnalysis::new(&frame, &springs[..1], ElasticStart::Standing, 0.01, &accel)
+        .simulate()
+        .unwrap_err();
     assert_eq!(refused.to_string(), "frame: 1 springs given, but it has 2");
 }

@@ -45,7 +45,8 @@ pub fn pier(numbers: &Numbers) -> Cantilever {
     }
 }
 
-pub const MODERATE: Numbers = Numbers { mass: 6e5, footing: 1.2e5, centre: 0.75, hz: 2.0, axial: 8e9 };
+pub const MODERATE: Numbers =
+    Numbers { mass: 6e5, footing: 1.2e5, centre: 0.75, hz: 2.0, axial: 8e9 };
 
 /// Springs scaled by what lands at each corner: K 0.05, C_u 0.60, mu_u 0.66; horizontally K 1, C 2,
 /// mu 0.3 and `ratio` times the frequency (Hz).
@@ -58,7 +59,10 @@ pub fn springs(frame: &Frame, hz: f64, ratio: f64) -> Vec<Springs<Chain<f64>>> {
     (0..frame.places().len())
         .map(|i| {
             let [x, z] = frame.effective_mass(i);
-            Springs { vertical: chain(z, hz, 0.05, 0.60, 0.66), horizontal: chain(x, ratio * hz, 1.0, 2.0, 0.3) }
+            Springs {
+                vertical: chain(z, hz, 0.05, 0.60, 0.66),
+                horizontal: chain(x, ratio * hz, 1.0, 2.0, 0.3),
+            }
         })
         .collect()
 }

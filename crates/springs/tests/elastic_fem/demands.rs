@@ -21,12 +21,19 @@ fn rocking_caps_the_moment_at_the_base() {
     let (fixed, free) = (layout.fixed().frame().unwrap(), layout.frame().unwrap());
     let accel: Vec<f64> = el_centro(1001).iter().map(|a| 1.5 * a).collect();
     let springs = springs(&free, 5e3, 4.0);
-    let held = ElasticAnalysis::new(&fixed, &[], ElasticStart::Standing, 0.01, &accel).simulate().unwrap();
-    let rocked = ElasticAnalysis::new(&free, &springs, ElasticStart::Standing, 0.01, &accel).simulate().unwrap();
-    let [moment, rocking] =
-        [&held, &rocked].map(|h| peak(&h.demands.iter().map(|d| d.bearings[0].moments[0]).collect::<Vec<_>>()).abs());
+    let held =
+        ElasticAnalysis::new(&fixed, &[], ElasticStart::Standing, 0.01, &accel).simulate().unwrap();
+    let rocked = ElasticAnalysis::new(&free, &springs, ElasticStart::Standing, 0.01, &accel)
+        .simulate()
+        .unwrap();
+    let [moment, rocking] = [&held, &rocked].map(|h| {
+        peak(&h.demands.iter().map(|d| d.bearings[0].moments[0]).collect::<Vec<_>>()).abs()
+    });
     let capacity = free.total_mass() * GRAVITY * 2.0;
-    assert!(rocking < 2.0 * capacity && moment > 2.0 * rocking, "{moment:e} {rocking:e} {capacity:e}");
+    assert!(
+        rocking < 2.0 * capacity && moment > 2.0 * rocking,
+        "{moment:e} {rocking:e} {capacity:e}"
+    );
     // moments of two elements are one at their joint, but for its own rotational inertia
     let last = &held.demands[400];
     for pair in last.bearings.windows(2) {
@@ -36,7 +43,14 @@ fn rocking_caps_the_moment_at_the_base() {
     for (worst, at) in rocked.worst.iter().zip(&rocked.demands) {
         assert!(worst.values().zip(at.values()).all(|(w, a)| w.abs() >= a.abs()));
     }
-    assert!(rocked.uplift(&free, 0).iter().chain(&rocked.uplift(&free, 1)).fold(0.0_f64, |m, z| m.max(*z)) > 0.01);
+    assert!(
+        rocked
+            .uplift(&free, 0)
+            .iter()
+            .chain(&rocked.uplift(&free, 1))
+            .fold(0.0_f64, |m, z| m.max(*z))
+            > 0.01
+    );
     let rotation = rocked.rotation(&free, Base::Footing(0));
     assert!(rotation.iter().any(|th| th.abs() > 2e-3));
 }
@@ -50,7 +64,9 @@ fn filtered_foot_forces_have_no_spikes_and_the_same_mean() {
     let springs = springs(&frame, 5e3, 4.0);
     let still = vec![0.0; 2001];
     let history =
-        ElasticAnalysis::new(&frame, &springs, ElasticStart::Leaning(0.06), 0.0025, &still).simulate().unwrap();
+        ElasticAnalysis::new(&frame, &springs, ElasticStart::Leaning(0.06), 0.0025, &still)
+            .simulate()
+            .unwrap();
     let weight = frame.total_mass() * GRAVITY;
     let corner = &history.forces[0];
     let spike = corner.peak.iter().fold(0.0_f64, |m, f| m.max(f[1]));

@@ -19,7 +19,9 @@ use rocking::synthetic;
 use springs::{
     case::Asked,
     results::MOST_CHANGE,
-    tuning::elastic::{ElasticAsked, design::springs, landing_speed, stand, trial::ElasticTrial, tune_within},
+    tuning::elastic::{
+        ElasticAsked, design::springs, landing_speed, stand, trial::ElasticTrial, tune_within,
+    },
 };
 use strong_motion::Record;
 
@@ -44,7 +46,8 @@ const PIER: PierSpec = PierSpec {
 
 /// Over 5 s of El Centro, on springs that settle by this share of the structure's own deformation.
 fn forces(elements: usize, give: f64) -> StructureForces {
-    let structure = ElasticStructure::Pier(PierSpec { elements: Some(elements), ..PIER }).checked().unwrap();
+    let structure =
+        ElasticStructure::Pier(PierSpec { elements: Some(elements), ..PIER }).checked().unwrap();
     let model = Assembled::new(structure).unwrap();
     let record = Record::new("El Centro", 0.01, el_centro(501)).unwrap();
     let springs = springs(&stand(&model).unwrap(), give, landing_speed(&structure), 1.0);
@@ -57,7 +60,9 @@ fn a_pier_s_design_forces_hold_and_stay_with_the_elements_doubled_and_on_softer_
     let give = 3e-5;
     let four = forces(4, give);
     let cutoff = four.cutoff.as_ref().unwrap();
-    assert!(cutoff.modes_hz.len() == 3 && cutoff.modes_hz.iter().all(|mode| *mode < cutoff.cutoff_hz));
+    assert!(
+        cutoff.modes_hz.len() == 3 && cutoff.modes_hz.iter().all(|mode| *mode < cutoff.cutoff_hz)
+    );
     // Omega_n^2 goes as 1/give
     for other in [forces(8, give), forces(4, 16.0 * give)] {
         for kind in [ForceKind::ColumnShear, ForceKind::ColumnBaseMoment, ForceKind::Axial] {
@@ -76,23 +81,39 @@ fn a_pier_s_design_forces_hold_and_stay_with_the_elements_doubled_and_on_softer_
 fn shear_is_sampled_along_the_column_and_is_what_is_above_times_the_acceleration() {
     let model = assembled(PierSpec { column_mass_kg: 300e3, ..PIER });
     let a = 0.5 * 3.2 / 28.0 * GRAVITY;
-    let record =
-        Record::new("made up", 0.01, (0..4000).map(|i| a * (f64::from(i) / 1500.0).min(1.0)).collect()).unwrap();
+    let record = Record::new(
+        "made up",
+        0.01,
+        (0..4000).map(|i| a * (f64::from(i) / 1500.0).min(1.0)).collect(),
+    )
+    .unwrap();
     let springs = springs(&stand(&model).unwrap(), 1e-5, landing_speed(&model.structure), 1.0);
     let analysis = ElasticAnalysis {
         parts: 1,
-        ..ElasticAnalysis::new(&model.frame, &springs.corners, ElasticStart::Standing, record.dt, &record.accel)
+        ..ElasticAnalysis::new(
+            &model.frame,
+            &springs.corners,
+            ElasticStart::Standing,
+            record.dt,
+            &record.accel,
+        )
     };
     let history = analysis.simulate().unwrap();
     let (q, fine) = (history.q.last().unwrap(), history.fine.unwrap());
     let [column] = fine.columns.as_slice() else { panic!("one column") };
     let length = PIER.height_m - PIER.footing_height_m;
     let eighths = [1.0, 3.0, 5.0, 7.0, 8.0].map(|x| x * length / 8.0);
-    assert!(column.heights.iter().zip(eighths).all(|(x, y)| (x - y).abs() < 1e-9), "{:?}", column.heights);
+    assert!(
+        column.heights.iter().zip(eighths).all(|(x, y)| (x - y).abs() < 1e-9),
+        "{:?}",
+        column.heights
+    );
     let beams = &model.frame.columns()[0].beams;
     let beams = [beams[0]].into_iter().chain(beams.iter().copied()).chain([beams[3]]);
     let heights = [0.0].into_iter().chain(eighths);
-    for ((series, height), beam) in std::iter::once(&column.base[0]).chain(&column.above).zip(heights).zip(beams) {
+    for ((series, height), beam) in
+        std::iter::once(&column.base[0]).chain(&column.above).zip(heights).zip(beams)
+    {
         let above = PIER.mass_kg + 300e3 * (1.0 - height / length);
         let [x, z] = model.frame.direction(beam, q);
         let expected = above * (a * z + GRAVITY * x.abs());
@@ -106,7 +127,8 @@ fn shear_is_sampled_along_the_column_and_is_what_is_above_times_the_acceleration
     let peaks = ColumnForces::of(&model.structure);
     assert!(peaks.parts(record.dt) > 1);
     let push = |i: i32| a * (f64::from(i) / 1500.0).min(1.0);
-    let shear = *through(&model, (0..2000).map(push).collect()).design.get(ForceKind::ColumnShear).unwrap();
+    let shear =
+        *through(&model, (0..2000).map(push).collect()).design.get(ForceKind::ColumnShear).unwrap();
     assert_eq!(shear.above_base_m, Some(0.0), "{shear:?}");
 }
 
@@ -151,13 +173,17 @@ fn a_slow_push_gives_the_forces_of_statics_and_lifts_where_moments_about_the_cor
     let (m, footing) = (STIFF.mass_kg, STIFF.footing_mass_kg);
     let weight = (m + footing) * GRAVITY;
     let lever = m * STIFF.height_m + footing * 0.5 * STIFF.footing_height_m;
-    let push = |level: f64| -> Vec<f64> { (0..1500).map(|i| level * (f64::from(i) / 1200.0).min(1.0)).collect() };
+    let push = |level: f64| -> Vec<f64> {
+        (0..1500).map(|i| level * (f64::from(i) / 1200.0).min(1.0)).collect()
+    };
     let omega = TAU * 6.0;
     // the weight moves over by u
     let lifts = weight * 2.0 / (lever + m * GRAVITY / (omega * omega));
     let below = through(&model, push(0.98 * lifts));
     let above = through(&model, push(1.01 * lifts));
-    assert!(!below.histories.reference.history.lifts() && above.histories.reference.history.lifts());
+    assert!(
+        !below.histories.reference.history.lifts() && above.histories.reference.history.lifts()
+    );
     let a = 0.98 * lifts;
     let forces = [
         (ForceKind::ColumnShear, m * a),
@@ -169,7 +195,10 @@ fn a_slow_push_gives_the_forces_of_statics_and_lifts_where_moments_about_the_cor
     for (kind, expected) in forces {
         let force = below.design.get(kind).unwrap();
         let value = force.value.unwrap_or_else(|| panic!("{kind:?} withheld: {force:?}"));
-        assert!((value.abs() / expected.abs() - 1.0).abs() < 5e-3, "{kind:?}: {value:e}, by hand {expected:e}");
+        assert!(
+            (value.abs() / expected.abs() - 1.0).abs() < 5e-3,
+            "{kind:?}: {value:e}, by hand {expected:e}"
+        );
     }
     // what acts with the largest shear; and nothing pulls the column
     let with = below.design.get(ForceKind::ColumnShear).unwrap().together.unwrap();
@@ -193,14 +222,19 @@ fn a_landing_gives_the_column_the_axial_force_of_a_mass_that_is_stopped_by_its_s
     let record = Record::new("made up", 0.01, pushed(400)).unwrap();
     let reference = Reference::new(&model, &record).unwrap();
     let first = reference.history.landings().next().unwrap();
-    let [before, after] = [0, 1].map(|k| Base::Footing(0).rotation(&model.frame, first.velocity[k].as_slice()).abs());
+    let [before, after] =
+        [0, 1].map(|k| Base::Footing(0).rotation(&model.frame, first.velocity[k].as_slice()).abs());
     assert!(after < 1e-9 * before, "it does not land flat: {before} {after}");
     let expected = m * GRAVITY + 2.0 * before * (AXIAL_STIFFNESS * m).sqrt();
     // a quarter of the axial period, 14 ms, is over by then
     let design = through(&model, pushed((1e2 * first.time) as usize + 6)).design;
     let axial = design.get(ForceKind::Axial).unwrap();
     let value = axial.value.unwrap_or_else(|| panic!("withheld: {axial:?}"));
-    assert!((-value / expected - 1.0).abs() < 0.03, "{value:e}, by hand {expected:e} at {} s", axial.time_s);
+    assert!(
+        (-value / expected - 1.0).abs() < 0.03,
+        "{value:e}, by hand {expected:e} at {} s",
+        axial.time_s
+    );
 }
 
 /// Springs chosen by peaks on the suite's own motions hold what was asked for on others, beside
@@ -211,21 +245,29 @@ fn hold_forces_on_other_motions(column_mass_kg: f64, elements: Option<usize>) {
     let structure = ElasticStructure::Pier(pier).checked().unwrap();
     let model = Assembled::new(structure).unwrap();
     let error = 0.02;
-    let tuned =
-        tune_within(&model, ElasticAsked::of(Asked::new(0.002, Some(error))), None, &Effort::unbounded(), &|_, _| ())
-            .unwrap();
+    let tuned = tune_within(
+        &model,
+        ElasticAsked::of(Asked::new(0.002, Some(error))),
+        None,
+        &Effort::unbounded(),
+        &|_, _| (),
+    )
+    .unwrap();
     assert!(tuned.reached, "{tuned:?}");
     let forces = ColumnForces::of(&structure);
     let stiff = stiffer(&stiffer(&tuned.springs.corners));
     let body = structure.body();
     let (p, alpha) = (body.p_squared().sqrt(), body.alpha());
-    let trials = (0..8).filter_map(|i| ElasticTrial::shaken(&model, &synthetic::record(77, i, p, alpha)).trial());
+    let trials = (0..8)
+        .filter_map(|i| ElasticTrial::shaken(&model, &synthetic::record(77, i, p, alpha)).trial());
     let peaks = |trial: &ElasticTrial, springs: &[Springs<Chain<f64>>]| {
         let parts = forces.parts(trial.dt);
         forces.peaks(&trial.follow(&model, springs, default_control(), parts).unwrap())
     };
     let found = trials.map(|trial| {
-        peaks(&trial, &tuned.springs.corners).error(&peaks(&trial, &stiff)).expect("forces of a pier's column")
+        peaks(&trial, &tuned.springs.corners)
+            .error(&peaks(&trial, &stiff))
+            .expect("forces of a pier's column")
     });
     let mut errors: Vec<f64> = found.collect();
     errors.sort_by(f64::total_cmp);
@@ -267,7 +309,10 @@ fn the_moment_at_a_fixed_base_is_the_shear_times_the_length() {
     println!("{shear} {moment} {axial}");
     // a stiff column: P-Delta is g/(omega^2 L) of it
     let second_order = 9.81 / ((TAU * structure.frequency_hz()).powi(2) * length);
-    assert!((moment / (shear * length) - 1.0).abs() < 2.0 * second_order + 1e-6, "{moment} {shear} {second_order}");
+    assert!(
+        (moment / (shear * length) - 1.0).abs() < 2.0 * second_order + 1e-6,
+        "{moment} {shear} {second_order}"
+    );
     // it shakes with the ground: m a_max, amplified a little; and it carries its weight
     let pushed = 450e3 * accel.iter().fold(0.0, |most: f64, a| most.max(a.abs()));
     assert!((0.98..1.2).contains(&(shear / pushed)), "{}", shear / pushed);
@@ -280,13 +325,23 @@ fn the_moment_at_a_fixed_base_is_the_shear_times_the_length() {
 /// k u + c u' 1.7032 MN, moment at the base 17.972 MN m, axial force 20.677 MN.
 #[test]
 fn a_pier_s_design_forces_are_those_of_an_independent_program() {
-    let pier = PierSpec { frequency_hz: Some(2.0), ea_n: Some(115.1e9), axial_damping_ratio: Some(0.02), ..STIFF };
+    let pier = PierSpec {
+        frequency_hz: Some(2.0),
+        ea_n: Some(115.1e9),
+        axial_damping_ratio: Some(0.02),
+        ..STIFF
+    };
     let answer = through(&assembled(pier), el_centro(2001));
-    for (kind, expected) in
-        [(ForceKind::ColumnShear, 1.7032e6), (ForceKind::ColumnBaseMoment, 17.972e6), (ForceKind::Axial, 20.677e6)]
-    {
+    for (kind, expected) in [
+        (ForceKind::ColumnShear, 1.7032e6),
+        (ForceKind::ColumnBaseMoment, 17.972e6),
+        (ForceKind::Axial, 20.677e6),
+    ] {
         let force = answer.design.get(kind).unwrap();
         let value = force.value.unwrap_or_else(|| panic!("{kind:?} withheld: {force:?}"));
-        assert!((value.abs() / expected - 1.0).abs() < 0.01, "{kind:?}: {value:e}, there {expected:e}");
+        assert!(
+            (value.abs() / expected - 1.0).abs() < 0.01,
+            "{kind:?}: {value:e}, there {expected:e}"
+        );
     }
 }

@@ -25,7 +25,9 @@ fn a_pier_let_go_vibrates_as_one_degree_of_freedom_does() {
     let history = ElasticAnalysis::new(&frame, &[], start, 0.01, &[0.0; 301]).simulate().unwrap();
     let (w, zeta) = (TAU * hz, 0.02 * 2.0 / hz);
     let damped = w * (1.0 - zeta * zeta).sqrt();
-    let exact = |t: f64| u0 * (-zeta * w * t).exp() * ((damped * t).cos() + zeta * w / damped * (damped * t).sin());
+    let exact = |t: f64| {
+        u0 * (-zeta * w * t).exp() * ((damped * t).cos() + zeta * w / damped * (damped * t).sin())
+    };
     let expected: Vec<f64> = (0..301).map(|i| exact(f64::from(i) * 0.01)).collect();
     let u: Vec<f64> = history.q.iter().map(|q| q[frame.coordinates(1)[0].unwrap()]).collect();
     assert!(nrmse(&u, &expected) < 1e-3, "{}", nrmse(&u, &expected));
@@ -38,13 +40,15 @@ fn a_pier_let_go_vibrates_as_one_degree_of_freedom_does() {
 fn what_the_base_bears_is_what_the_mass_needs() {
     let accel = el_centro(801);
     let frame = pier(&MODERATE).layout().fixed().frame().unwrap();
-    let history = ElasticAnalysis::new(&frame, &[], ElasticStart::Standing, 0.01, &accel).simulate().unwrap();
+    let history =
+        ElasticAnalysis::new(&frame, &[], ElasticStart::Standing, 0.01, &accel).simulate().unwrap();
     let x = frame.coordinates(1)[0].unwrap();
     let shear: Vec<f64> = history.demands.iter().map(|demand| demand.base_shear).collect();
     let mut needed = vec![shear[0]];
     let mut borne = vec![shear[0]];
     for i in 1..accel.len() {
-        let whole = (history.v[i][x] - history.v[i - 1][x]) / 0.01 + 0.5 * (accel[i] + accel[i - 1]);
+        let whole =
+            (history.v[i][x] - history.v[i - 1][x]) / 0.01 + 0.5 * (accel[i] + accel[i - 1]);
         needed.push(MODERATE.mass * whole);
         borne.push(0.5 * (shear[i] + shear[i - 1]));
     }
@@ -54,7 +58,10 @@ fn what_the_base_bears_is_what_the_mass_needs() {
         // the clamped end's moment carries the force on the hinged one about it
         let direction = frame.direction(0, q);
         let bearing = demand.bearings[0];
-        assert!(bearing.moments[1] == 0.0 && (bearing.moments[0] - bearing.shear * length).abs() < 1e-3 * 6e7);
+        assert!(
+            bearing.moments[1] == 0.0
+                && (bearing.moments[0] - bearing.shear * length).abs() < 1e-3 * 6e7
+        );
         assert!((direction[0].hypot(direction[1]) - 1.0).abs() < 1e-12);
     }
     // a mass of 600 t at 2 Hz, 2 %, El Centro: some 0.7 g to 1 g

@@ -55,7 +55,10 @@ fn a_standing_structure_s_tendons_have_their_pretension() {
             let model = Assembled::with_members(given, tied(stiffness, tension)).unwrap();
             let standing = model.upright().unwrap();
             let tensions = model.frame.tensions(standing.as_slice());
-            assert!(tensions.iter().all(|t| (t - tension).abs() < 1e-6 * (tension + 1.0)), "{stiffness} {tensions:?}");
+            assert!(
+                tensions.iter().all(|t| (t - tension).abs() < 1e-6 * (tension + 1.0)),
+                "{stiffness} {tensions:?}"
+            );
             if let ElasticStructure::Pier(pier) = given {
                 let shortening = -model.frame.displacement(1, standing.as_slice())[1];
                 let expected = (600e3 * GRAVITY + tension) * pier.length() / pier.ea();
@@ -84,12 +87,17 @@ fn a_tendon_s_stiffness_on_a_standing_pier_is_that_of_the_closed_form() {
         let model = Assembled::with_members(given, tied(1e8, tension)).unwrap();
         let fixed = model.layout.fixed().frame().unwrap();
         let standing = fixed.standing(&[]).unwrap();
-        assert_relative_eq!(fixed.tensions(standing.as_slice()).iter().sum::<f64>(), tension, epsilon = 1e-3);
+        assert_relative_eq!(
+            fixed.tensions(standing.as_slice()).iter().sum::<f64>(),
+            tension,
+            epsilon = 1e-3
+        );
         // lengths as they are, settled: some 2e-4 shorter
         let settled = fixed.displacement(1, standing.as_slice())[1];
         let (length, height) = (spec.length() + settled, 12.0 + settled);
         let load = 600e3 * GRAVITY + tension;
-        let expected = 3.0 * spec.ei() / spec.length() / length.powi(2) - load / length + tension / height;
+        let expected =
+            3.0 * spec.ei() / spec.length() / length.powi(2) - load / length + tension / height;
         assert_relative_eq!(stiffness_across(&fixed, &standing), expected, max_relative = 1e-9);
     }
 }
@@ -99,15 +107,22 @@ fn a_tendon_s_stiffness_on_a_standing_pier_is_that_of_the_closed_form() {
 #[test]
 fn a_pier_with_members_follows_the_reference() {
     let members = Members { damper: Some(Damper { c: 2e6 }), ..tied(2e7, 1e6) };
-    let (model, bare) = (Assembled::with_members(pier(), members).unwrap(), Assembled::new(pier()).unwrap());
+    let (model, bare) =
+        (Assembled::with_members(pier(), members).unwrap(), Assembled::new(pier()).unwrap());
     let accel = el_centro(601);
     let springs = springs(&model.frame, 4e4, 20.0);
     let history =
-        ElasticAnalysis::new(&model.frame, &springs, ElasticStart::Standing, 0.01, &accel).simulate().unwrap();
+        ElasticAnalysis::new(&model.frame, &springs, ElasticStart::Standing, 0.01, &accel)
+            .simulate()
+            .unwrap();
     assert_eq!(history.outcome, HistoryOutcome::Completed);
     assert!(history.energy_residual < 1e-6, "{:e}", history.energy_residual);
     let sways = |model: &Assembled| {
-        let rocking = model.rock(GroundAcceleration::horizontal(0.01, &accel), &model.upright().unwrap(), u64::MAX);
+        let rocking = model.rock(
+            GroundAcceleration::horizontal(0.01, &accel),
+            &model.upright().unwrap(),
+            u64::MAX,
+        );
         assert!(rocking.landings().count() > 2);
         model.sways(rocking.q.iter().map(|q| q.as_slice()))
     };
@@ -136,7 +151,8 @@ fn dampers_take_the_rotation_rate_of_the_closed_form() {
     let q = model.leaning(lean).unwrap();
     let turned = model.leaning(lean + 1e-6).unwrap();
     let v = (&turned - &q) * (rate / 1e-6);
-    let force = model.frame.force(&q, &v, [0.0; 2]) - model.frame.force(&q, &DVector::zeros(q.len()), [0.0; 2]);
+    let force = model.frame.force(&q, &v, [0.0; 2])
+        - model.frame.force(&q, &DVector::zeros(q.len()), [0.0; 2]);
     // virtual work of the dampers' forces over a turn about the pivot
     let moment = force.dot(&v) / rate;
     let lever: f64 = 4.0;
@@ -148,8 +164,12 @@ fn dampers_take_the_rotation_rate_of_the_closed_form() {
     let still = [0.0; 21];
     let after = |model: &Assembled| {
         let ground = GroundAcceleration::horizontal(dt, &still);
-        let rocking =
-            frames::reference::rock(&model.frame, ground, (&q, &v), &frames::reference::ReferenceOptions::default());
+        let rocking = frames::reference::rock(
+            &model.frame,
+            ground,
+            (&q, &v),
+            &frames::reference::ReferenceOptions::default(),
+        );
         let turn = model.frame.coordinates(0)[2].unwrap();
         rocking.v.last().unwrap()[turn]
     };
@@ -159,5 +179,7 @@ fn dampers_take_the_rotation_rate_of_the_closed_form() {
     let expected = rate * (-decay * t).exp() + pull / decay * (1.0 - (-decay * t).exp());
     let damped = after(&model);
     assert!((damped - expected).abs() < 5e-3 * rate, "{damped} {expected}");
-    assert!((after(&Assembled::new(structure(text)).unwrap()) - rate - pull * t).abs() < 5e-3 * rate);
+    assert!(
+        (after(&Assembled::new(structure(text)).unwrap()) - rate - pull * t).abs() < 5e-3 * rate
+    );
 }

@@ -8,7 +8,9 @@ use frames::{
     beam::BeamSection,
     fem::{ElasticAnalysis, ElasticHistory, ElasticStart},
     frame::{Base, Frame, LeggedFrame, StraightMember},
-    reference::{CornerSet, ElasticRocking, GroundAcceleration, ReferenceOptions, What, at_rest, rock},
+    reference::{
+        CornerSet, ElasticRocking, GroundAcceleration, ReferenceOptions, What, at_rest, rock,
+    },
     structure::{ElasticStructure, PierSpec},
 };
 use nalgebra::DVector;
@@ -43,9 +45,14 @@ fn errors(
     history: &ElasticHistory,
     reference: &ElasticRocking,
 ) -> [f64; 2] {
-    let rotation: Vec<f64> = reference.q.iter().map(|q| base.rotation(frame, q.as_slice())).collect();
-    let drift: Vec<f64> = reference.q.iter().map(|q| base.drift(frame, mass, q.as_slice())[0]).collect();
-    [nrmse(&history.rotation(frame, base), &rotation), nrmse(&history.drift(frame, mass, base), &drift)]
+    let rotation: Vec<f64> =
+        reference.q.iter().map(|q| base.rotation(frame, q.as_slice())).collect();
+    let drift: Vec<f64> =
+        reference.q.iter().map(|q| base.drift(frame, mass, q.as_slice())[0]).collect();
+    [
+        nrmse(&history.rotation(frame, base), &rotation),
+        nrmse(&history.drift(frame, mass, base), &drift),
+    ]
 }
 
 /// Let go at half of alpha, on springs of 10 kHz of what lands: a light, a moderate, a heavy
@@ -59,9 +66,15 @@ fn free_rocking_follows_the_reference() {
         let Numbers { mass, footing, centre, .. } = numbers;
         let alpha = (2.0 * (mass + footing) / (mass * 12.0 + footing * centre)).atan();
         let (still, springs) = (vec![0.0; 1001], springs(&frame, 1e4, 20.0));
-        let history = ElasticAnalysis::new(&frame, &springs, ElasticStart::Leaning(0.5 * alpha), 0.005, &still)
-            .simulate()
-            .unwrap();
+        let history = ElasticAnalysis::new(
+            &frame,
+            &springs,
+            ElasticStart::Leaning(0.5 * alpha),
+            0.005,
+            &still,
+        )
+        .simulate()
+        .unwrap();
         // the same lean, its pivot where it would be on rigid ground
         let mut q = DVector::from_column_slice(&history.q[0]);
         let [x, z] = frame.places()[1].reach(q.as_slice()).place;
@@ -70,8 +83,12 @@ fn free_rocking_follows_the_reference() {
             (q[i], q[j]) = (q[i] - x, q[j] - z);
         }
         let start = (&q, &DVector::zeros(frame.size()));
-        let reference =
-            rock(&frame, GroundAcceleration::horizontal(0.005, &still), start, &ReferenceOptions::default());
+        let reference = rock(
+            &frame,
+            GroundAcceleration::horizontal(0.005, &still),
+            start,
+            &ReferenceOptions::default(),
+        );
         let [rotation, drift] = errors(&frame, (Base::Footing(0), 1), &history, &reference);
         assert!(rotation < 1e-3 && drift < 5e-3, "{footing}: {rotation:e} {drift:e}");
         assert!(history.energy_residual < 1e-6);
@@ -83,12 +100,20 @@ fn free_rocking_follows_the_reference() {
 fn el_centro_follows_the_reference() {
     let frame = pier(&Numbers { footing: 6e4, ..MODERATE }).layout().frame().unwrap();
     let accel = el_centro(2001);
-    let rest = at_rest(&frame, &DVector::zeros(frame.size()), CornerSet::NONE.with(0).with(1), &[]).unwrap();
+    let rest = at_rest(&frame, &DVector::zeros(frame.size()), CornerSet::NONE.with(0).with(1), &[])
+        .unwrap();
     let start = (&rest, &DVector::zeros(frame.size()));
-    let reference = rock(&frame, GroundAcceleration::horizontal(0.01, &accel), start, &ReferenceOptions::default());
+    let reference = rock(
+        &frame,
+        GroundAcceleration::horizontal(0.01, &accel),
+        start,
+        &ReferenceOptions::default(),
+    );
     let [soft, stiff] = [2.5e3, 4e4].map(|hz| {
         let springs = springs(&frame, hz, 20.0);
-        let history = ElasticAnalysis::new(&frame, &springs, ElasticStart::Standing, 0.01, &accel).simulate().unwrap();
+        let history = ElasticAnalysis::new(&frame, &springs, ElasticStart::Standing, 0.01, &accel)
+            .simulate()
+            .unwrap();
         errors(&frame, (Base::Footing(0), 1), &history, &reference)
     });
     assert!(stiff[0] < 3e-3 && stiff[1] < 1e-2, "{stiff:?}");
@@ -105,18 +130,30 @@ fn legs_that_give_way_follow_the_reference() {
     let axial = 0.5 * mass * GRAVITY / 1e-4;
     // radius of gyration 1 m; 2 % of damping at some 3 Hz
     let damping = 2e-3 * axial;
-    let section =
-        BeamSection { axial_damping: damping, bending_damping: damping, ..BeamSection::elastic(axial, axial) };
+    let section = BeamSection {
+        axial_damping: damping,
+        bending_damping: damping,
+        ..BeamSection::elastic(axial, axial)
+    };
     let inertia = 0.01 * mass * length * length;
     let leg = StraightMember { section, elements: 1 };
-    let frame = LeggedFrame { mass, inertia, height, width, foot_mass: 1e4, leg }.layout().frame().unwrap();
+    let frame =
+        LeggedFrame { mass, inertia, height, width, foot_mass: 1e4, leg }.layout().frame().unwrap();
     let accel = el_centro(2001);
-    let rest = at_rest(&frame, &DVector::zeros(frame.size()), CornerSet::NONE.with(0).with(1), &[]).unwrap();
+    let rest = at_rest(&frame, &DVector::zeros(frame.size()), CornerSet::NONE.with(0).with(1), &[])
+        .unwrap();
     let start = (&rest, &DVector::zeros(frame.size()));
-    let reference = rock(&frame, GroundAcceleration::horizontal(0.01, &accel), start, &ReferenceOptions::default());
+    let reference = rock(
+        &frame,
+        GroundAcceleration::horizontal(0.01, &accel),
+        start,
+        &ReferenceOptions::default(),
+    );
     let [soft, stiff] = [4.0, 20.0].map(|ratio| {
         let springs = springs(&frame, 1e4, ratio);
-        let history = ElasticAnalysis::new(&frame, &springs, ElasticStart::Standing, 0.01, &accel).simulate().unwrap();
+        let history = ElasticAnalysis::new(&frame, &springs, ElasticStart::Standing, 0.01, &accel)
+            .simulate()
+            .unwrap();
         errors(&frame, (Base::Feet, 2), &history, &reference)
     });
     assert!(stiff[0] < 1e-2 && stiff[1] < 1e-2, "{stiff:?}");
@@ -128,9 +165,14 @@ fn legs_that_give_way_follow_the_reference() {
 /// the air springs straight, and its foot comes down at 7.7 m/s across and 0.8 m/s down.
 #[test]
 fn legs_of_any_stiffness_follow_the_reference() {
-    for (shortening, radius, lean) in
-        [(1e-7, 1.0, 0.5), (1e-6, 1.0, 0.5), (1e-5, 1.0, 0.5), (1e-4, 1.0, 0.5), (1e-4, 1.0, 0.2), (1e-3, 10.0, 0.5)]
-    {
+    for (shortening, radius, lean) in [
+        (1e-7, 1.0, 0.5),
+        (1e-6, 1.0, 0.5),
+        (1e-5, 1.0, 0.5),
+        (1e-4, 1.0, 0.5),
+        (1e-4, 1.0, 0.2),
+        (1e-3, 10.0, 0.5),
+    ] {
         let mass = 680.1e3;
         let axial = 0.5 * mass * GRAVITY / shortening;
         let bending = axial * radius * radius;
@@ -150,7 +192,11 @@ fn legs_of_any_stiffness_follow_the_reference() {
             trial.landings
         );
         assert!(rotation < 1e-3 && drift < 5e-3, "{shortening:e}: {rotation:e} {drift:e}");
-        assert!(trial.landings >= 1 && touches <= 4.0, "{shortening:e}: {touches} {}", trial.landings);
+        assert!(
+            trial.landings >= 1 && touches <= 4.0,
+            "{shortening:e}: {touches} {}",
+            trial.landings
+        );
     }
 }
 
@@ -190,7 +236,10 @@ fn springs_are_stiffened_until_they_follow_the_record_to_its_end() {
     assert_eq!((reference.foretold, reference.followed), (foretold, record.len()));
     let answer = ElasticAnswer::new(&model, &tuned.springs.corners, &record, reference).unwrap();
     let [rotation, drift] = answer.errors;
-    assert!(answer.compared.whole() && rotation <= accuracy && drift <= 5.0 * accuracy, "{rotation:e} {drift:e}");
+    assert!(
+        answer.compared.whole() && rotation <= accuracy && drift <= 5.0 * accuracy,
+        "{rotation:e} {drift:e}"
+    );
     // statistics stand beside it all the same
     assert!(answer.ensemble.is_some());
     let touches = answer.histories.fem.contacts.iter().filter(|contact| contact.touches).count();
@@ -231,11 +280,14 @@ fn a_corner_that_carries_nothing_slides_as_on_rigid_ground() {
     assert!(slips >= 1, "{slips}");
     let springs = springs_of_design(&stand(&model).unwrap(), 3e-6, landing_speed(&structure), 1.0);
     let start = ElasticStart::Leaning(lean);
-    let history = ElasticAnalysis::new(&model.frame, &springs.corners, start, dt, &still).simulate().unwrap();
+    let history =
+        ElasticAnalysis::new(&model.frame, &springs.corners, start, dt, &still).simulate().unwrap();
     let touches = history.contacts.iter().filter(|contact| contact.touches).count();
     assert!(touches <= 2 * reference.landings().count(), "{touches}");
-    let [of_reference, of_fem] =
-        [model.sways(reference.q.iter().map(|q| q.as_slice())), model.sways(history.q.iter().map(Vec::as_slice))];
+    let [of_reference, of_fem] = [
+        model.sways(reference.q.iter().map(|q| q.as_slice())),
+        model.sways(history.q.iter().map(Vec::as_slice)),
+    ];
     let [rotation, drift] = sway_errors(&of_reference, &of_fem, still.len());
     assert!(rotation < 1e-4 && drift < 1e-3, "{rotation:e} {drift:e}");
     // sliding takes energy, and the account has it
@@ -253,7 +305,11 @@ fn a_corner_that_lands_flat_slides_on_springs_as_on_rigid_ground() {
     .unwrap();
     let model = Assembled::new(structure).unwrap();
     let accel: Vec<f64> = el_centro(401).iter().map(|a| 1.43 * a).collect();
-    let reference = model.rock(GroundAcceleration::horizontal(0.01, &accel), &model.upright().unwrap(), u64::MAX);
+    let reference = model.rock(
+        GroundAcceleration::horizontal(0.01, &accel),
+        &model.upright().unwrap(),
+        u64::MAX,
+    );
     let first_sliding_landing_s = reference.first_sliding_landing_s.unwrap();
     assert!(first_sliding_landing_s < 3.0, "{first_sliding_landing_s}");
     let of_reference = model.sways(reference.q.iter().map(|q| q.as_slice()));
@@ -261,7 +317,9 @@ fn a_corner_that_lands_flat_slides_on_springs_as_on_rigid_ground() {
     let error = |give: f64| {
         let springs = springs_of_design(&standing, give, landing_speed(&structure), 1.0);
         let start = ElasticStart::Standing;
-        let history = ElasticAnalysis::new(&model.frame, &springs.corners, start, 0.01, &accel).simulate().unwrap();
+        let history = ElasticAnalysis::new(&model.frame, &springs.corners, start, 0.01, &accel)
+            .simulate()
+            .unwrap();
         sway_errors(&of_reference, &model.sways(history.q.iter().map(Vec::as_slice)), accel.len())
     };
     let [soft, stiff] = [1e-5, 1e-7].map(error);
@@ -282,7 +340,8 @@ fn histories_on_stiff_springs_get_to_their_end() {
     let standing = stand(&model).unwrap();
     let suite = ElasticSuite::new(model, None);
     for k in [0.0061, 0.0083] {
-        let motions = suite.measure(&with_k(&standing, 1e-6, k), Control::search()).motions.unwrap();
+        let motions =
+            suite.measure(&with_k(&standing, 1e-6, k), Control::search()).motions.unwrap();
         assert!(motions.p90[0] < 0.01 && motions.p90[1] < 0.05, "{k}: {motions:?}");
     }
 }

@@ -24,9 +24,12 @@ fn stiff_legs_with_light_feet_rock_as_the_rigid_body_does() {
     let springs = Springs { vertical: design, horizontal: design }.chains(mass);
     let length = height.hypot(0.5 * width);
     let stiff = 1e4 * springs.vertical.k1;
-    let leg =
-        StraightMember { section: BeamSection::elastic(stiff * length, stiff * length.powi(3) / 3.0), elements: 1 };
-    let frame = LeggedFrame { mass, inertia, height, width, foot_mass: 1.0, leg }.layout().frame().unwrap();
+    let leg = StraightMember {
+        section: BeamSection::elastic(stiff * length, stiff * length.powi(3) / 3.0),
+        elements: 1,
+    };
+    let frame =
+        LeggedFrame { mass, inertia, height, width, foot_mass: 1.0, leg }.layout().frame().unwrap();
     let body = Body { mass, half_width: 0.5 * width, height, inertia };
     let accel = el_centro(1001);
     for (elastic, rigid, accel) in [
@@ -34,7 +37,8 @@ fn stiff_legs_with_light_feet_rock_as_the_rigid_body_does() {
         (ElasticStart::Standing, fem::Start::Settled, accel),
     ] {
         let both = [springs; 2];
-        let history = ElasticAnalysis::new(&frame, &both, elastic, 0.01, &accel).simulate().unwrap();
+        let history =
+            ElasticAnalysis::new(&frame, &both, elastic, 0.01, &accel).simulate().unwrap();
         let case = fem::Analysis {
             body,
             springs,

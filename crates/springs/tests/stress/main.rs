@@ -73,28 +73,52 @@ fn finite_element_histories_are_finite_close_their_account_and_say_how_they_ende
         let springs = draw.springs().chains(structure.mass_kg);
         let (dt, accel) = draw.record();
         let body = structure.body::<f64>();
-        let start =
-            if draw.one_in(3) { Start::Leaning(body.alpha() * draw.between(-1.2, 1.2)) } else { Start::Settled };
+        let start = if draw.one_in(3) {
+            Start::Leaning(body.alpha() * draw.between(-1.2, 1.2))
+        } else {
+            Start::Settled
+        };
         let control = Control { most_steps: MOST_STEPS, ..Control::default() };
-        let history =
-            Analysis { body, springs, start, dt, accel: &accel, vertical: &[], scale: 1.0, control }.simulate();
+        let history = Analysis {
+            body,
+            springs,
+            start,
+            dt,
+            accel: &accel,
+            vertical: &[],
+            scale: 1.0,
+            control,
+        }
+        .simulate();
 
         let (outcome, motion, account) = (history.outcome, &history.motion, &history.account);
         require(finite(motion), || format!("not finite, {outcome:?}"))?;
         let residual = history.energy_residual;
         require(residual < 1e-6, || format!("residual {residual:e}, {outcome:?}"))?;
-        let largest = account.stored.iter().chain(&account.input).fold(0.0_f64, |m, e| m.max(e.abs()));
+        let largest =
+            account.stored.iter().chain(&account.input).fold(0.0_f64, |m, e| m.max(e.abs()));
         let fell = account.dissipated.windows(2).map(|w| w[0] - w[1]).fold(0.0, f64::max);
-        require(fell <= 1e-6 * largest, || format!("energy created: {:e}, {outcome:?}", fell / largest))?;
+        require(fell <= 1e-6 * largest, || {
+            format!("energy created: {:e}, {outcome:?}", fell / largest)
+        })?;
         let steps = history.work.steps + history.work.rejected;
         require(steps <= MOST_STEPS, || format!("{steps} steps"))?;
         let rocking = housner::solve(&body, dt, &accel, &RockingOptions::default());
-        let matched =
-            Match::new(&body, dt, (&rocking.motion(&body), &rocking.impacts[..]), &history, body.restitution());
-        require(!matched.nrmse_horizontal.is_nan() && !matched.nrmse_vertical.is_nan(), || format!("{matched:?}"))?;
+        let matched = Match::new(
+            &body,
+            dt,
+            (&rocking.motion(&body), &rocking.impacts[..]),
+            &history,
+            body.restitution(),
+        );
+        require(!matched.nrmse_horizontal.is_nan() && !matched.nrmse_vertical.is_nan(), || {
+            format!("{matched:?}")
+        })?;
         require(matched.restitution_error_max.is_finite(), || format!("{matched:?}"))?;
         Ok(match outcome {
-            fem::HistoryOutcome::Completed if motion.len() != accel.len() => return Err("samples missing".into()),
+            fem::HistoryOutcome::Completed if motion.len() != accel.len() => {
+                return Err("samples missing".into());
+            }
             fem::HistoryOutcome::Completed => "completed",
             fem::HistoryOutcome::Overturned { .. } => "overturned",
             fem::HistoryOutcome::Stopped { .. } => return Err("nobody asked to stop".into()),
@@ -102,7 +126,8 @@ fn finite_element_histories_are_finite_close_their_account_and_say_how_they_ende
             fem::HistoryOutcome::Unstable { .. } => "unstable",
         })
     });
-    let (bound, count) = (words.get("work bound").copied().unwrap_or(0), words.values().sum::<usize>());
+    let (bound, count) =
+        (words.get("work bound").copied().unwrap_or(0), words.values().sum::<usize>());
     assert!(count < 100 || bound * 10 < count, "{bound} of {count} reached the bound on steps");
 }
 
@@ -121,12 +146,12 @@ fn rigid_histories_are_finite_and_say_how_they_ended_alone_and_in_lock_step() {
                     _ => None,
                 };
                 let barrier = (body.p_squared() * 2.0 * (1.0 - body.alpha().cos())).sqrt();
-                let initial =
-                    draw.one_in(3).then(|| (body.alpha() * draw.between(-1.2, 1.2), barrier * draw.between(-1.2, 1.2)));
-                let vertical = draw
-                    .one_in(2)
-                    .then(|| draw.log(1e-3, 3.0))
-                    .map(|factor| accel.iter().rev().map(|a| factor * a).collect::<Vec<f64>>().into());
+                let initial = draw.one_in(3).then(|| {
+                    (body.alpha() * draw.between(-1.2, 1.2), barrier * draw.between(-1.2, 1.2))
+                });
+                let vertical = draw.one_in(2).then(|| draw.log(1e-3, 3.0)).map(|factor| {
+                    accel.iter().rev().map(|a| factor * a).collect::<Vec<f64>>().into()
+                });
                 (
                     body,
                     RockingOptions {
@@ -146,22 +171,35 @@ fn rigid_histories_are_finite_and_say_how_they_ended_alone_and_in_lock_step() {
             let alone = housner::solve(body, dt, &accel, options);
             require(alone == *lane, || "lock-step differs".into())?;
             let motion = alone.motion(body);
-            require(finite(&motion) && alone.rate.iter().all(|x| x.is_finite()), || "not finite".into())?;
-            require(motion.len() <= accel.len() && alone.rate.len() == motion.len(), || "samples".into())?;
+            require(finite(&motion) && alone.rate.iter().all(|x| x.is_finite()), || {
+                "not finite".into()
+            })?;
+            require(motion.len() <= accel.len() && alone.rate.len() == motion.len(), || {
+                "samples".into()
+            })?;
             let whole = motion.len() == accel.len();
             word = match alone.outcome {
                 housner::RockingOutcome::NeverMoved | housner::RockingOutcome::Rocked if !whole => {
-                    return Err(format!("{} of {} samples, {:?}", motion.len(), accel.len(), alone.outcome));
+                    return Err(format!(
+                        "{} of {} samples, {:?}",
+                        motion.len(),
+                        accel.len(),
+                        alone.outcome
+                    ));
                 }
                 housner::RockingOutcome::NeverMoved => word,
                 housner::RockingOutcome::Rocked => "rocked",
                 housner::RockingOutcome::Overturned { .. } => "overturned",
-                housner::RockingOutcome::LeavesGround { time } if !(0.0..accel.len() as f64 * dt).contains(&time) => {
+                housner::RockingOutcome::LeavesGround { time }
+                    if !(0.0..accel.len() as f64 * dt).contains(&time) =>
+                {
                     return Err(format!("leaves the ground at {time} s"));
                 }
                 housner::RockingOutcome::LeavesGround { .. } => "leaves the ground",
                 housner::RockingOutcome::WorkBound { .. } => "work bound",
-                other @ housner::RockingOutcome::NotFinite { .. } => return Err(format!("{other:?}")),
+                other @ housner::RockingOutcome::NotFinite { .. } => {
+                    return Err(format!("{other:?}"));
+                }
             };
             // a rate that grows over an impact, or impacts out of order
             let mut last = 0.0;

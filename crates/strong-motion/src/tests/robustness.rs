@@ -7,7 +7,10 @@ use proptest::prelude::*;
 /// line.
 fn answers(file: &str, bytes: &[u8], options: &ReadOptions) {
     match Record::parse(file, bytes, options) {
-        Ok(record) => assert_eq!(Record::new(record.name.clone(), record.dt, record.accel.clone()), Ok(record)),
+        Ok(record) => assert_eq!(
+            Record::new(record.name.clone(), record.dt, record.accel.clone()),
+            Ok(record)
+        ),
         Err(error) => {
             let message = error.to_string();
             assert!(!message.chars().any(char::is_control) && message.len() < 400, "{message}");
@@ -16,7 +19,11 @@ fn answers(file: &str, bytes: &[u8], options: &ReadOptions) {
 }
 
 fn options() -> impl Strategy<Value = ReadOptions> {
-    let units = prop_oneof![Just(Units::G), Just(Units::MetrePerSecond2), Just(Units::CentimetrePerSecond2)];
+    let units = prop_oneof![
+        Just(Units::G),
+        Just(Units::MetrePerSecond2),
+        Just(Units::CentimetrePerSecond2)
+    ];
     (proptest::option::of(prop_oneof![Just(0.01), any::<f64>()]), proptest::option::of(units))
         .prop_map(|(dt, units)| ReadOptions { dt, units, ..ReadOptions::default() })
 }

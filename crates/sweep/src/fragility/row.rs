@@ -41,7 +41,10 @@ impl FragilityRow {
             let factor = (half_width * relative).exp();
             (x / factor, x * factor)
         };
-        Some(ConfidenceBounds { median: around(fit.median(), ln_median), beta: around(fit.beta(), beta / fit.beta()) })
+        Some(ConfidenceBounds {
+            median: around(fit.median(), ln_median),
+            beta: around(fit.beta(), beta / fit.beta()),
+        })
     }
 
     pub(crate) fn said(&self) -> &'static str {

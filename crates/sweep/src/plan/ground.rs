@@ -35,14 +35,18 @@ pub(crate) fn motions(
     let mut motions: Vec<SweepMotion> =
         records.files.iter().map(|file| SweepMotion::File(source.folder().join(file))).collect();
     if let Some(folder) = &records.folder {
-        motions.extend(Record::list_dir(&source.folder().join(folder))?.into_iter().map(SweepMotion::File));
+        motions.extend(
+            Record::list_dir(&source.folder().join(folder))?.into_iter().map(SweepMotion::File),
+        );
     }
     if records.el_centro {
         motions.push(SweepMotion::ElCentro);
     }
     let count = |name: &str, n: &Option<Spanned<usize>>| match n {
         Some(n) if (1..=10_000_000).contains(n.get_ref()) => Ok(*n.get_ref()),
-        Some(n) => Err(source.at(n, format!("{name} is {}; give 1 to 10000000 motions", n.get_ref()))),
+        Some(n) => {
+            Err(source.at(n, format!("{name} is {}; give 1 to 10000000 motions", n.get_ref())))
+        }
         None => Ok(0),
     };
     motions.extend((0..count("synthetic", &records.synthetic)?).map(SweepMotion::Synthetic));
@@ -54,7 +58,9 @@ pub(crate) fn motions(
             motions.extend((0..n).map(|i| SweepMotion::Like(i, given.clone())));
         }
         (None, Some(n)) => {
-            return Err(source.at(n, "like_count without like; give the record, as like = \"floor.csv\""));
+            return Err(
+                source.at(n, "like_count without like; give the record, as like = \"floor.csv\"")
+            );
         }
         (None, None) => {}
     }
@@ -73,17 +79,29 @@ pub(crate) fn motions(
 }
 
 /// The horizontal motion that others are made like.
-fn given(path: &Path, read: &ReadOptions, duration_s: Option<f64>) -> Result<GivenMotion, SweepError> {
+fn given(
+    path: &Path,
+    read: &ReadOptions,
+    duration_s: Option<f64>,
+) -> Result<GivenMotion, SweepError> {
     let recording = Recording::read(path, &ReadOptions { vertical: None, ..read.clone() })?;
     let notices = recording.notices();
     let record = recording.into_record();
-    let target = MotionTarget::new(&duration_s.map_or(record.clone(), |duration| record.truncated(duration)))?;
+    let target = MotionTarget::new(
+        &duration_s.map_or(record.clone(), |duration| record.truncated(duration)),
+    )?;
     Ok(GivenMotion { target, notices })
 }
 
-fn of_pulse(source: &SweepSource, pulse: &PulseSection, motions: &mut Vec<SweepMotion>) -> Result<(), SweepError> {
+fn of_pulse(
+    source: &SweepSource,
+    pulse: &PulseSection,
+    motions: &mut Vec<SweepMotion>,
+) -> Result<(), SweepError> {
     let name = *pulse.shape.get_ref();
-    let given = [&pulse.gamma.as_ref().map(|gamma| *gamma.get_ref()), &pulse.nu].into_iter().any(Option::is_some);
+    let given = [&pulse.gamma.as_ref().map(|gamma| *gamma.get_ref()), &pulse.nu]
+        .into_iter()
+        .any(Option::is_some);
     let shape = match name {
         Name::MavroeidisPapageorgiou => {
             let gamma = match &pulse.gamma {
@@ -93,9 +111,15 @@ fn of_pulse(source: &SweepSource, pulse: &PulseSection, motions: &mut Vec<SweepM
                     "a Mavroeidis-Papageorgiou pulse needs gamma, its oscillations, 1 to 10, and nu, their phase [rad]",
                 )),
             };
-            PulseShape::MavroeidisPapageorgiou { gamma, nu: pulse.nu.filter(|nu| nu.is_finite()).unwrap_or(0.0) }
+            PulseShape::MavroeidisPapageorgiou {
+                gamma,
+                nu: pulse.nu.filter(|nu| nu.is_finite()).unwrap_or(0.0),
+            }
         }
-        _ if given => return Err(source.at(&pulse.shape, "gamma and nu are of mavroeidis-papageorgiou; take them out")),
+        _ if given => {
+            return Err(source
+                .at(&pulse.shape, "gamma and nu are of mavroeidis-papageorgiou; take them out"));
+        }
         Name::HalfSine => PulseShape::HalfSine,
         Name::Sine => PulseShape::Sine,
         Name::Ricker => PulseShape::Ricker,
@@ -104,14 +128,26 @@ fn of_pulse(source: &SweepSource, pulse: &PulseSection, motions: &mut Vec<SweepM
     let frequencies: Vec<Frequency> = match (&pulse.omega_over_p, &pulse.frequency_hz) {
         (Some(q), None) => {
             let (low, high) = OMEGA_OVER_P;
-            source.all_within("omega_over_p", q, low, high)?.into_iter().map(Frequency::OverP).collect()
+            source
+                .all_within("omega_over_p", q, low, high)?
+                .into_iter()
+                .map(Frequency::OverP)
+                .collect()
         }
         (None, Some(hz)) => {
             let (low, high) = FREQUENCY_HZ;
-            source.all_within("frequency_hz", hz, low, high)?.into_iter().map(Frequency::Hz).collect()
+            source
+                .all_within("frequency_hz", hz, low, high)?
+                .into_iter()
+                .map(Frequency::Hz)
+                .collect()
         }
-        _ => return Err(source.at(&pulse.shape, "a pulse needs omega_over_p or frequency_hz, one of the two")),
+        _ => {
+            return Err(source
+                .at(&pulse.shape, "a pulse needs omega_over_p or frequency_hz, one of the two"));
+        }
     };
-    motions.extend(frequencies.into_iter().map(|frequency| SweepMotion::Pulse { shape, frequency }));
+    motions
+        .extend(frequencies.into_iter().map(|frequency| SweepMotion::Pulse { shape, frequency }));
     Ok(())
 }

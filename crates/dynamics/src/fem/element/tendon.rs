@@ -37,7 +37,12 @@ struct TendonState<S> {
 impl<S: Scalar> TendonElement<S> {
     pub(crate) fn real(&self) -> TendonElement<f64> {
         let Self { stiffness, slack, height, pretension } = self;
-        TendonElement { stiffness: stiffness.re(), slack: slack.re(), height: height.re(), pretension: pretension.re() }
+        TendonElement {
+            stiffness: stiffness.re(),
+            slack: slack.re(),
+            height: height.re(),
+            pretension: pretension.re(),
+        }
     }
 
     /// Its pull; none while it is slack.
@@ -46,7 +51,12 @@ impl<S: Scalar> TendonElement<S> {
         let length = (x * x + z * z).sqrt();
         let stretch = length - self.slack;
         let tension = self.stiffness * stretch;
-        (stretch.re() > 0.0).then(|| TendonState { tension, stretch, length, direction: [x / length, z / length] })
+        (stretch.re() > 0.0).then(|| TendonState {
+            tension,
+            stretch,
+            length,
+            direction: [x / length, z / length],
+        })
     }
 
     /// T (N).
@@ -57,7 +67,9 @@ impl<S: Scalar> TendonElement<S> {
     /// Force on the mass, horizontal and vertical (N).
     pub(crate) fn force_on_mass(&self, q: &Vector<S>) -> [S; 2] {
         self.pull(q)
-            .map_or([S::zero(); 2], |TendonState { tension, direction: [ux, uz], .. }| [-tension * ux, -tension * uz])
+            .map_or([S::zero(); 2], |TendonState { tension, direction: [ux, uz], .. }| {
+                [-tension * ux, -tension * uz]
+            })
     }
 }
 
@@ -80,7 +92,11 @@ impl<S: Scalar> Element<S> for TendonElement<S> {
         let across = tension / length;
         let along = self.stiffness - across;
         let mixed = along * ux * uz;
-        let stiffness = [[across + along * ux * ux, mixed, zero], [mixed, across + along * uz * uz, zero], [zero; 3]];
+        let stiffness = [
+            [across + along * ux * ux, mixed, zero],
+            [mixed, across + along * uz * uz, zero],
+            [zero; 3],
+        ];
         ElementTangent { stiffness, damping: none }
     }
 

@@ -10,7 +10,12 @@ const Q: Vector<f64> = [0.4, 0.03, 0.07, 0.0, 0.0, 0.0, 0.0];
 const V: Vector<f64> = [0.5, -0.2, 0.3, 0.0, 0.0, 0.0, 0.0];
 
 fn body<S: Scalar>() -> Body<S> {
-    Body { mass: S::from(1e5), half_width: S::from(1.05), height: S::from(9.0), inertia: S::from(2e5) }
+    Body {
+        mass: S::from(1e5),
+        half_width: S::from(1.05),
+        height: S::from(9.0),
+        inertia: S::from(2e5),
+    }
 }
 
 /// Every element, by name.
@@ -55,8 +60,16 @@ fn tangents_are_minus_the_slopes_of_the_force() {
             let by_rate = dual.force(&Q.map(Dual64::from_re), &seeded(&V, j));
             for i in 0..3 {
                 let (k, c) = (tangent.stiffness[i][j], tangent.damping[i][j]);
-                assert!((k + by_place[i].eps).abs() < 1e-12 * SCALE, "{name}, K {i} {j}: {k}, {}", by_place[i].eps);
-                assert!((c + by_rate[i].eps).abs() < 1e-12 * SCALE, "{name}, C {i} {j}: {c}, {}", by_rate[i].eps);
+                assert!(
+                    (k + by_place[i].eps).abs() < 1e-12 * SCALE,
+                    "{name}, K {i} {j}: {k}, {}",
+                    by_place[i].eps
+                );
+                assert!(
+                    (c + by_rate[i].eps).abs() < 1e-12 * SCALE,
+                    "{name}, C {i} {j}: {c}, {}",
+                    by_rate[i].eps
+                );
             }
         }
     }
@@ -67,7 +80,10 @@ fn the_power_taken_is_that_of_the_force_beyond_its_potential() {
     for (name, element) in all::<f64>() {
         let (moving, resting) = (element.force(&Q, &V), element.force(&Q, &[0.0; N]));
         let power: f64 = (0..3).map(|k| (resting[k] - moving[k]) * V[k]).sum();
-        assert!((element.dissipation(&Q, &V) - power).abs() < 1e-12 * SCALE && power >= 0.0, "{name}: {power}");
+        assert!(
+            (element.dissipation(&Q, &V) - power).abs() < 1e-12 * SCALE && power >= 0.0,
+            "{name}: {power}"
+        );
     }
 }
 
@@ -76,7 +92,9 @@ fn a_slack_tendon_does_nothing_and_an_upright_one_pulls_by_its_stretch() {
     let tendon = TendonElement { stiffness: 4e6, slack: 8.9, height: 9.0, pretension: 0.0 };
     let still = [0.0; N];
     // 0.1 m of stretch, upright
-    assert!((tendon.tension(&still) - 4e5).abs() < 1e-6 && (tendon.energy(&still) - 2e4).abs() < 1e-6);
+    assert!(
+        (tendon.tension(&still) - 4e5).abs() < 1e-6 && (tendon.energy(&still) - 2e4).abs() < 1e-6
+    );
     assert_eq!(tendon.force(&still, &still)[0], 0.0);
     let slack = TendonElement { slack: 9.9, ..tendon };
     assert_eq!((slack.tension(&Q), slack.energy(&Q), slack.force(&Q, &V)), (0.0, 0.0, [0.0; 3]));

@@ -160,7 +160,22 @@ impl Kernel {
         let Body { mass, half_width, height, inertia } = model.body;
         let chain = |c: &Chain<f64>| [c.k1, c.k2, c.m2, c.c];
         let ([a, b, c, d], [e, f, g, i]) = (chain(v), chain(h));
-        let fixed = [mass, half_width, height, inertia, a, b, c, d, e, f, g, i, model.translation, model.rotation];
+        let fixed = [
+            mass,
+            half_width,
+            height,
+            inertia,
+            a,
+            b,
+            c,
+            d,
+            e,
+            f,
+            g,
+            i,
+            model.translation,
+            model.rotation,
+        ];
         for (to, from) in self.fixed.iter_mut().zip(fixed) {
             to[l] = from;
         }
@@ -205,7 +220,8 @@ impl Kernel {
         }
         self.turning[l] = f64::from(u8::from(request.turning.is_some()));
         self.weight[l] = request.turning.map_or(1.0, |turning| turning.weight);
-        self.convergence[l] = Some(Convergence::new(request.tolerance, rounding, request.extra, request.rate));
+        self.convergence[l] =
+            Some(Convergence::new(request.tolerance, rounding, request.extra, request.rate));
         self.fresh = true;
     }
 
@@ -261,7 +277,9 @@ impl Kernel {
             self.stages();
             let mut goes_on = false;
             for l in 0..WIDTH {
-                let verdict = self.convergence[l].as_ref().map_or(IterationVerdict::Failed, Convergence::verdict);
+                let verdict = self.convergence[l]
+                    .as_ref()
+                    .map_or(IterationVerdict::Failed, Convergence::verdict);
                 self.verdict[l] = verdict;
                 let runs = verdict == IterationVerdict::GoesOn && self.steep[l] == 0.0;
                 self.active[l] = f64::from(u8::from(runs));

@@ -16,7 +16,9 @@ struct Bits(Vec<u64>);
 
 impl Observer<f64> for Bits {
     fn sample(&mut self, _: usize, view: &View<f64>) -> ControlFlow<()> {
-        self.0.extend([view.x(), view.theta(), view.theta_rate(), view.energy.residual()].map(f64::to_bits));
+        self.0.extend(
+            [view.x(), view.theta(), view.theta_rate(), view.energy.residual()].map(f64::to_bits),
+        );
         ControlFlow::Continue(())
     }
 }
@@ -41,15 +43,24 @@ fn avx_512_avx_2_and_no_vectors_at_all_agree_to_the_last_bit() {
                 accel: &record.accel,
                 vertical: &[],
                 scale: 0.7 + 0.1 * i as f64,
-                control: Control { tolerance: [1e-4, 1e-8][i % 2], long_steps, ..Control::default() },
+                control: Control {
+                    tolerance: [1e-4, 1e-8][i % 2],
+                    long_steps,
+                    ..Control::default()
+                },
             }
         })
         .collect();
     let models: Vec<Model<f64>> = cases.iter().map(Analysis::model).collect();
     let followed = |step: Step| {
         let next = AtomicUsize::new(0);
-        let mut batch =
-            Batch { cases: &cases, models: &models, next: &next, observer: &|_| Bits::default(), done: vec![] };
+        let mut batch = Batch {
+            cases: &cases,
+            models: &models,
+            next: &next,
+            observer: &|_| Bits::default(),
+            done: vec![],
+        };
         batch.lanes(step);
         batch.done.sort_by_key(|(index, ..)| *index);
         batch.done

@@ -68,7 +68,13 @@ impl<S: Scalar> TimeLoop<'_, S> {
         let stored = self.model.energy(&stages.end(), &self.feet);
         let (input, dissipated) = stages.work(self.model, &self.feet, &self.here);
         let local = self.stepper.local_error(&self.state, &self.feet, &self.here, stages);
-        StepMeasures { stored, input, dissipated, missed: self.scales.missed(&local), contacts: Contacts::Unknown }
+        StepMeasures {
+            stored,
+            input,
+            dissipated,
+            missed: self.scales.missed(&local),
+            contacts: Contacts::Unknown,
+        }
     }
 
     /// Book the step if the account closes well enough and little is missed; choose the next step's
@@ -78,7 +84,9 @@ impl<S: Scalar> TimeLoop<'_, S> {
         let defect = (stored - self.energy.stored - input + dissipated).re().abs();
         let h = stages.h.re();
         let process_step = TriedStep { h, planned: self.h, settling: self.settling };
-        match process_step.verdict([defect, missed], [self.allowed(stored, stages), self.allowed_error(h)]) {
+        match process_step
+            .verdict([defect, missed], [self.allowed(stored, stages), self.allowed_error(h)])
+        {
             StepVerdict::Refused(h) => {
                 self.h = h;
                 return false;
@@ -99,14 +107,15 @@ impl<S: Scalar> TimeLoop<'_, S> {
 
     /// What that error may be; never less than rounding makes of it.
     fn allowed_error(&self, h: f64) -> f64 {
-        let rounding =
-            self.rounding * (1.0 + self.scales.moment / h) / (self.scales.alpha * self.model.body.half_width.re());
+        let rounding = self.rounding * (1.0 + self.scales.moment / h)
+            / (self.scales.alpha * self.model.body.half_width.re());
         self.error.max(rounding)
     }
 
     /// Energy that this step may lose or gain (J).
     fn allowed(&self, stored: S, stages: &Stages<S>) -> f64 {
-        allowed_energy(self.control.tolerance * self.scale, &self.energy, stored).max(self.places(stages))
+        allowed_energy(self.control.tolerance * self.scale, &self.energy, stored)
+            .max(self.places(stages))
     }
 
     /// Energy that comes and goes as places are rounded (J): a few units in their last digit times
@@ -114,7 +123,8 @@ impl<S: Scalar> TimeLoop<'_, S> {
     /// lose less.
     fn places(&self, stages: &Stages<S>) -> f64 {
         let (q, a) = (&stages.q[2], &stages.a[2]);
-        let place = q[X].re().abs() + q[Z].re().abs() + q[TH].re().abs() * self.model.body.radius().re();
+        let place =
+            q[X].re().abs() + q[Z].re().abs() + q[TH].re().abs() * self.model.body.radius().re();
         let force = self.model.translation.re() * (a[X].re().abs() + a[Z].re().abs() + GRAVITY);
         4.0 * f64::EPSILON * place * force
     }

@@ -77,7 +77,17 @@ pub(super) struct Locating<S> {
 impl<S: Scalar> Locating<S> {
     pub(crate) fn new(foot: usize, level: f64, (whole, tau): (S, f64)) -> Self {
         let (low, high) = (0.0, f64::INFINITY);
-        Self { foot, level, whole: whole.re(), tau, h: whole * tau, low, high, process_step: 0, last: false }
+        Self {
+            foot,
+            level,
+            whole: whole.re(),
+            tau,
+            h: whole * tau,
+            low,
+            high,
+            process_step: 0,
+            last: false,
+        }
     }
 
     pub(crate) fn met(&self) -> StepEvent {
@@ -116,7 +126,12 @@ impl<S: Scalar> TimeLoop<'_, S> {
     }
 
     /// Take note of the repeated step of an event that is sought, and say how to go on.
-    pub(super) fn locate(&mut self, event: &mut Locating<S>, converged: bool, stages: &Stages<S>) -> Located<S> {
+    pub(super) fn locate(
+        &mut self,
+        event: &mut Locating<S>,
+        converged: bool,
+        stages: &Stages<S>,
+    ) -> Located<S> {
         if event.last {
             // derivatives of the event's time, by the implicit function theorem
             return if converged { Located::Here { changes: true } } else { Located::Nowhere };
@@ -164,7 +179,13 @@ impl<S: Scalar> TimeLoop<'_, S> {
     }
 
     /// Change a foot's contact.
-    pub(super) fn switch(&mut self, foot: usize, level: f64, time: S, observer: &mut impl Observer<S>) {
+    pub(super) fn switch(
+        &mut self,
+        foot: usize,
+        level: f64,
+        time: S,
+        observer: &mut impl Observer<S>,
+    ) {
         let before = self.energy.stored;
         let was = self.feet[foot].contact;
         self.model.rotate_in_balance(&mut self.state, &self.feet);
@@ -259,7 +280,10 @@ impl<S: Scalar> TimeLoop<'_, S> {
             let edge = 0.1 * self.gap_tolerance();
             let first = within(0.0);
             if first > edge {
-                return Some((falls_through_zero((0.0, first), (1.0, within(1.0)), edge, within), foot));
+                return Some((
+                    falls_through_zero((0.0, first), (1.0, within(1.0)), edge, within),
+                    foot,
+                ));
             }
             // at the edge, and off it at once: half a turn away it does not come back
             let mut q = self.state.q;
@@ -290,7 +314,8 @@ impl<S: Scalar> TimeLoop<'_, S> {
             }
             (a, b) => a.or(b)?,
         };
-        self.state.q[TH] = self.model.where_it_touches(foot, &self.state.q, start + (end - start) * share);
+        self.state.q[TH] =
+            self.model.where_it_touches(foot, &self.state.q, start + (end - start) * share);
         Some(foot)
     }
 }

@@ -50,7 +50,9 @@ impl<S: Scalar> TimeLoop<'_, S> {
     pub(super) fn loses_grip(&self, stages: &Stages<S>) -> Option<(usize, f64)> {
         let changes = (0..2).filter_map(|foot| {
             let mut last = (0.0, self.grip(foot, &self.state)?);
-            for (tau, (q, v)) in crate::fem::radau::C.into_iter().zip(stages.q.iter().zip(&stages.v)) {
+            for (tau, (q, v)) in
+                crate::fem::radau::C.into_iter().zip(stages.q.iter().zip(&stages.v))
+            {
                 let value = self.grip(foot, &State { q: *q, v: *v })?;
                 if value < -1.0 {
                     let share = (last.1 + 1.0).max(0.0) / (last.1 - value).max(1.0);
@@ -103,7 +105,8 @@ impl<S: Scalar> TimeLoop<'_, S> {
         let force = self.model.contact(&self.state.q, &self.feet)[foot].horizontal;
         self.feet[foot] = match self.feet[foot].contact {
             Contact::Slip(_) => {
-                let anchor = self.model.anchor_here(foot, &self.state.q) + force / self.model.springs.horizontal.k1;
+                let anchor = self.model.anchor_here(foot, &self.state.q)
+                    + force / self.model.springs.horizontal.k1;
                 Foot { contact: Contact::Stick, anchor }
             }
             _ => Foot { contact: Contact::Slip(-force.re().signum()), ..self.feet[foot] },

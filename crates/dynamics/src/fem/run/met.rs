@@ -77,7 +77,9 @@ impl<S: Scalar> TimeLoop<'_, S> {
                 let k = NODES.iter().rposition(|&node| node < high.0).unwrap_or(0);
                 let low = (NODES[k], inside[k].max(0.0));
                 let moves_in = || self.moves_in(foot, sign) * stages.h.re() > self.gap_tolerance();
-                let Some(tau) = self.first_zero(&cubic, low, high, moves_in) else { return StepEvent::Unresolved };
+                let Some(tau) = self.first_zero(&cubic, low, high, moves_in) else {
+                    return StepEvent::Unresolved;
+                };
                 if tau < earliest {
                     earliest = tau;
                     first = StepEvent::Crossing { foot, level, tau };
@@ -106,7 +108,13 @@ impl<S: Scalar> TimeLoop<'_, S> {
     /// Where the compression passes its limit between two bracketing points. `None` if the cubic
     /// leaves at once where the foot itself moves in: it need not begin with the state's velocity,
     /// and does not in a step too long for the springs.
-    fn first_zero(&self, cubic: &Cubic, low: (f64, f64), high: (f64, f64), moves_in: impl Fn() -> bool) -> Option<f64> {
+    fn first_zero(
+        &self,
+        cubic: &Cubic,
+        low: (f64, f64),
+        high: (f64, f64),
+        moves_in: impl Fn() -> bool,
+    ) -> Option<f64> {
         let edge = 0.1 * self.gap_tolerance();
         let tau = match cubic.falls(low, high, edge) {
             Some(tau) => tau,
@@ -157,7 +165,9 @@ mod tests {
             stages.v[i][az(0)] = slope(tau) / stages.h;
         }
         match run.met(&stages, &Contacts::Unknown) {
-            StepEvent::Crossing { foot: 0, level, tau } => assert!(level == 0.0 && (tau - 0.2).abs() < 1e-6, "{tau}"),
+            StepEvent::Crossing { foot: 0, level, tau } => {
+                assert!(level == 0.0 && (tau - 0.2).abs() < 1e-6, "{tau}")
+            }
             _ => unreachable!("the touch is missed"),
         }
         // a hair lower it does not touch

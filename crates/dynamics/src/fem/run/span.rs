@@ -69,7 +69,8 @@ impl<S: Scalar> TimeLoop<'_, S> {
         let dt = self.motion.dt;
         let model = self.model;
         let contacts = self.feet.map(|foot| foot.contact);
-        let leans = matches!(contacts, [Contact::Stick, Contact::Open] | [Contact::Open, Contact::Stick]);
+        let leans =
+            matches!(contacts, [Contact::Stick, Contact::Open] | [Contact::Open, Contact::Stick]);
         let simple = model.is_plain() && self.motion.vertical.is_empty();
         if !(leans && simple && self.control.long_steps && self.h >= 2.0 * dt) {
             return None;
@@ -77,7 +78,8 @@ impl<S: Scalar> TimeLoop<'_, S> {
         if self.interval > self.event_by + 1 {
             self.event_by = usize::MAX;
         }
-        let left = (self.motion.accel.len() - 1 - self.interval).min(self.event_by.saturating_sub(self.interval));
+        let left = (self.motion.accel.len() - 1 - self.interval)
+            .min(self.event_by.saturating_sub(self.interval));
         let intervals = ((self.h / dt) as usize).min(left).min(MOST);
         if intervals < 2 {
             return None;
@@ -124,7 +126,8 @@ impl<S: Scalar> TimeLoop<'_, S> {
         }
         let kinks = (h / self.scales.moment).powi(2) * latest + self.compliance * most;
         let missed = kinks / (self.scales.radius * self.scales.alpha);
-        let ground = Ground { start: [c0, zero], slope: [c1 / h, zero], curve: [c2 / (h * h), zero] };
+        let ground =
+            Ground { start: [c0, zero], slope: [c1 / h, zero], curve: [c2 / (h * h), zero] };
         (ground, Span { intervals: n, missed })
     }
 
@@ -208,8 +211,13 @@ impl<S: Scalar> TimeLoop<'_, S> {
             observer.step(&self.view(real(time)));
             let late = [self.late[i], self.late_rate[i]];
             let state = self.within(&start, stages, i as f64 / span.intervals as f64, late);
-            let view =
-                View { time: real(time), model: self.model, state: &state, feet: &self.feet, energy: &self.energy };
+            let view = View {
+                time: real(time),
+                model: self.model,
+                state: &state,
+                feet: &self.feet,
+                energy: &self.energy,
+            };
             if let ControlFlow::Break(()) = observer.sample(self.interval + i, &view) {
                 return Err(HistoryOutcome::Stopped { time });
             }

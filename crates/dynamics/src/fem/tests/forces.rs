@@ -40,7 +40,8 @@ fn constant(x: &Vector<f64>) -> Vector<Dual64> {
 #[test]
 fn forces_at_rest_are_the_slope_of_the_energy_in_every_contact() {
     for share in [0.0, 0.1] {
-        let (model, dual) = (Model::new(&body(share), &springs()), dual_model(&body(share), &springs()));
+        let (model, dual) =
+            (Model::new(&body(share), &springs()), dual_model(&body(share), &springs()));
         let at_rest = State { q: state().q, v: [0.0; N] };
         let weight = model.body.mass * 9.81;
         for feet in contacts() {
@@ -67,7 +68,10 @@ fn forces_at_rest_are_the_slope_of_the_energy_by_finite_differences() {
     };
     for (j, force) in force.iter().enumerate() {
         let slope = (energy(j, 1e-5) - energy(j, -1e-5)) / 2e-5;
-        assert!((force + slope).abs() < 1e-6 * force.abs().max(model.body.mass), "{j}: {force} {slope}");
+        assert!(
+            (force + slope).abs() < 1e-6 * force.abs().max(model.body.mass),
+            "{j}: {force} {slope}"
+        );
     }
 }
 
@@ -77,7 +81,8 @@ fn power_of_ground_and_dashpots_is_the_power_of_the_forces() {
     let State { q, v } = state();
     let ground = [3.3, -1.7];
     for feet in contacts() {
-        let (all, without) = (model.forces(&q, &v, &feet, ground), model.forces(&q, &[0.0; N], &feet, [0.0; 2]));
+        let (all, without) =
+            (model.forces(&q, &v, &feet, ground), model.forces(&q, &[0.0; N], &feet, [0.0; 2]));
         let power: f64 = (0..N).map(|k| (all[k] - without[k]) * v[k]).sum();
         let booked = model.input_power(&v, ground) - model.dissipation(&q, &v, &feet);
         assert!((power - booked).abs() < 1e-9 * booked.abs(), "{power} {booked}");
@@ -91,7 +96,8 @@ fn dense<T: num_traits::Num + Copy + nalgebra::Scalar>(
     s: T,
     lift: impl Fn(f64) -> T,
 ) -> SMatrix<T, N, N> {
-    let (model, dual) = (Model::new(&body(share), &springs()), dual_model(&body(share), &springs()));
+    let (model, dual) =
+        (Model::new(&body(share), &springs()), dual_model(&body(share), &springs()));
     let State { q, v } = state();
     let mut matrix = SMatrix::<T, N, N>::from_element(T::zero());
     let masses = model.masses(feet);
@@ -121,7 +127,10 @@ fn newton_solves_with_the_dense_matrix_for_a_real_eigenvalue() {
                 let backward = matrix * SVector::from(solution) - SVector::from(RIGHT_SIDE);
                 let scale = matrix.abs() * SVector::from(solution).abs();
                 for k in 0..N {
-                    assert!(backward[k].abs() < 1e-11 * scale[k], "{feet:?} {s} {k}: {solution:?} {exact}");
+                    assert!(
+                        backward[k].abs() < 1e-11 * scale[k],
+                        "{feet:?} {s} {k}: {solution:?} {exact}"
+                    );
                 }
             }
         }

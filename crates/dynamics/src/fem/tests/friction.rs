@@ -59,15 +59,29 @@ fn model<S: Scalar>(body: &Body<f64>) -> Model<S> {
 
 fn run(body: Body<f64>, coefficient: f64, dt: f64, accel: &[f64]) -> History {
     let springs = springs().chains(body.mass);
-    Analysis { body, springs, start: Start::Settled, dt, accel, vertical: &[], scale: 1.0, control: Control::default() }
-        .simulate_with(&members(coefficient))
-        .0
+    Analysis {
+        body,
+        springs,
+        start: Start::Settled,
+        dt,
+        accel,
+        vertical: &[],
+        scale: 1.0,
+        control: Control::default(),
+    }
+    .simulate_with(&members(coefficient))
+    .0
 }
 
 /// A solid block, its centre of mass at `height`.
 fn block(height: f64, width: f64) -> Body<f64> {
     let (mass, half_width) = (1000.0, 0.5 * width);
-    Body { mass, half_width, height, inertia: mass * (height * height + half_width * half_width) / 3.0 }
+    Body {
+        mass,
+        half_width,
+        height,
+        inertia: mass * (height * height + half_width * half_width) / 3.0,
+    }
 }
 
 /// Four times as wide as it is high: it does not rock but slips.
@@ -81,24 +95,31 @@ fn newton_solves_with_the_dense_matrix_while_feet_slip() {
     let (model, dual) = (model::<f64>(&body), model::<Dual64>(&body));
     let State { q, v } = state();
     let right = [1e6, -2e6, 3e7, 4e5, -5e5, 6e5, 7e5].map(|x| Complex::new(x, -0.3 * x + 1e5));
-    let seeded = |x: &Vector<f64>, j: usize| std::array::from_fn(|k| Dual64::new(x[k], f64::from(u8::from(k == j))));
+    let seeded = |x: &Vector<f64>, j: usize| {
+        std::array::from_fn(|k| Dual64::new(x[k], f64::from(u8::from(k == j))))
+    };
     let all = [Contact::Open, Contact::Stick, Contact::Slip(1.0), Contact::Slip(-1.0)];
     for (left, right_foot) in all.into_iter().flat_map(|l| all.map(|r| (l, r))) {
-        let feet = [(left, 0.013), (right_foot, -0.007)].map(|(contact, anchor)| Foot { contact, anchor });
-        let dual_feet = feet.map(|f| Foot { contact: f.contact, anchor: Dual64::from_re(f.anchor) });
+        let feet =
+            [(left, 0.013), (right_foot, -0.007)].map(|(contact, anchor)| Foot { contact, anchor });
+        let dual_feet =
+            feet.map(|f| Foot { contact: f.contact, anchor: Dual64::from_re(f.anchor) });
         for h in [1e-4, 3e-3, 0.05] {
             let s = Complex::new(0.16 * h, 0.18 * h);
             let mut matrix = SMatrix::<Complex<f64>, N, N>::zeros();
             for j in 0..N {
                 let zero = Dual64::from_re(0.0);
-                let by_q = dual.forces(&seeded(&q, j), &v.map(Dual64::from_re), &dual_feet, [zero; 2]);
-                let by_v = dual.forces(&q.map(Dual64::from_re), &seeded(&v, j), &dual_feet, [zero; 2]);
+                let by_q =
+                    dual.forces(&seeded(&q, j), &v.map(Dual64::from_re), &dual_feet, [zero; 2]);
+                let by_v =
+                    dual.forces(&q.map(Dual64::from_re), &seeded(&v, j), &dual_feet, [zero; 2]);
                 for i in 0..N {
                     matrix[(i, j)] = -s * (by_v[i].eps + s * by_q[i].eps);
                 }
                 matrix[(j, j)] += model.masses(&feet)[j];
             }
-            let solution = Newton::new(&model, &state(), &feet, s, |x: f64| Complex::new(x, 0.0)).solve(&right);
+            let solution = Newton::new(&model, &state(), &feet, s, |x: f64| Complex::new(x, 0.0))
+                .solve(&right);
             for i in 0..N {
                 let terms = (0..N).map(|j| matrix[(i, j)] * solution[j]);
                 let scale: f64 = terms.clone().map(|t| t.norm()).sum();
@@ -135,7 +156,10 @@ fn a_flat_block_slips_as_far_as_newton_says() {
     let (pull, hold) = (a - MU * GRAVITY, MU * GRAVITY);
     let t = n as f64 * dt;
     let speed = pull * t + (a / 2.0 - hold) * dt;
-    let slid = 0.5 * pull * t * t + pull * t * dt + (a / 3.0 - hold / 2.0) * dt * dt + speed * speed / (2.0 * hold);
+    let slid = 0.5 * pull * t * t
+        + pull * t * dt
+        + (a / 3.0 - hold / 2.0) * dt * dt
+        + speed * speed / (2.0 * hold);
     let u = history.motion.u.last().copied().unwrap();
     assert!((u + slid).abs() < 2e-3 * slid, "{u} {slid}");
     assert!(history.energy_residual < 1e-6, "{}", history.energy_residual);
@@ -205,7 +229,8 @@ fn feet_that_never_slip_give_the_history_without_friction() {
         control: Control::default(),
     };
     let (free, bound) = (case.simulate(), case.simulate_with(&members(50.0)).0);
-    let worst = free.motion.u.iter().zip(&bound.motion.u).map(|(a, b)| (a - b).abs()).fold(0.0, f64::max);
+    let worst =
+        free.motion.u.iter().zip(&bound.motion.u).map(|(a, b)| (a - b).abs()).fold(0.0, f64::max);
     let largest = free.motion.u.iter().fold(0.0_f64, |m, u| m.max(u.abs()));
     assert!(worst < 1e-3 * largest, "{worst} {largest}");
 }
@@ -217,5 +242,7 @@ fn friction_goes_with_a_rigid_body_that_has_rotational_inertia() {
     assert!(both.checked(&body).unwrap_err().to_string().contains("leave one out"));
     let spinning = members::<f64>(MU).checked(&Body { inertia: 0.0, ..body });
     assert!(spinning.unwrap_err().to_string().contains("rotational_inertia_kgm2"));
-    assert!(members::<f64>(-0.1).checked(&body).is_err() && members::<f64>(MU).checked(&body).is_ok());
+    assert!(
+        members::<f64>(-0.1).checked(&body).is_err() && members::<f64>(MU).checked(&body).is_ok()
+    );
 }

@@ -8,12 +8,27 @@ use crate::fem::{
 use rocking::scalar::GRAVITY;
 
 /// n steps of size h with frozen contact, without any control.
-fn march(model: &Model<f64>, start: State<f64>, feet: &[Foot<f64>; 2], h: f64, n: usize, slope: f64) -> State<f64> {
+fn march(
+    model: &Model<f64>,
+    start: State<f64>,
+    feet: &[Foot<f64>; 2],
+    h: f64,
+    n: usize,
+    slope: f64,
+) -> State<f64> {
     let (mut state, mut stepper, mut stages) = (start, Stepper::new(model), Stages::none());
     for i in 0..n {
-        let ground = Ground { start: [slope * h * i as f64, 0.0], slope: [slope, 0.0], curve: [0.0; 2] };
-        let request =
-            Request { h, ground, guess: [no_guess(); 3], tolerance: 1e-15, extra: 1, rate: 1.0, turning: None };
+        let ground =
+            Ground { start: [slope * h * i as f64, 0.0], slope: [slope, 0.0], curve: [0.0; 2] };
+        let request = Request {
+            h,
+            ground,
+            guess: [no_guess(); 3],
+            tolerance: 1e-15,
+            extra: 1,
+            rate: 1.0,
+            turning: None,
+        };
         assert!(stepper.step(&state, feet, &request, &mut stages), "a linear step converges");
         state = stages.end();
     }
@@ -52,12 +67,21 @@ fn the_estimate_of_the_local_error_is_of_order_four_and_above_the_error() {
     let estimate = |h: f64| {
         let (mut stepper, mut stages) = (Stepper::new(&model), Stages::none());
         let ground = Ground { start: [0.0; 2], slope: [slope, 0.0], curve: [0.0; 2] };
-        let request =
-            Request { h, ground, guess: [no_guess(); 3], tolerance: 1e-15, extra: 1, rate: 1.0, turning: None };
+        let request = Request {
+            h,
+            ground,
+            guess: [no_guess(); 3],
+            tolerance: 1e-15,
+            extra: 1,
+            rate: 1.0,
+            turning: None,
+        };
         assert!(stepper.step(&start, &feet, &request, &mut stages));
         let missed = stepper.local_error(&start, &feet, &ground, &stages);
         let fine = march(&model, start, &feet, h / 16.0, 16, slope);
-        let off = |k: usize| (stages.end().q[k] - fine.q[k]).abs().max(h * (stages.end().v[k] - fine.v[k]).abs());
+        let off = |k: usize| {
+            (stages.end().q[k] - fine.q[k]).abs().max(h * (stages.end().v[k] - fine.v[k]).abs())
+        };
         for k in [X, Z] {
             assert!(missed.q[k].abs().max(h * missed.v[k].abs()) > off(k), "{h} {k}");
         }
@@ -119,8 +143,15 @@ fn the_velocity_within_a_step_is_a_cubic_through_its_start() {
     };
     for h in [0.32, 0.16] {
         let ground = Ground { start: [c0, 0.0], slope: [c1, 0.0], curve: [c2, 0.0] };
-        let request =
-            Request { h, ground, guess: [no_guess(); 3], tolerance: 1e-15, extra: 1, rate: 1.0, turning: None };
+        let request = Request {
+            h,
+            ground,
+            guess: [no_guess(); 3],
+            tolerance: 1e-15,
+            extra: 1,
+            rate: 1.0,
+            turning: None,
+        };
         let mut stages = Stages::none();
         assert!(Stepper::new(&model).step(&start, &feet, &request, &mut stages));
         for i in 0..=32 {
@@ -147,7 +178,12 @@ fn an_open_absorber_is_the_damped_oscillator() {
     let wd = (w2 - decay * decay).sqrt();
     assert!(wd.is_finite());
     let t: f64 = 0.02;
-    let exact = (-decay * t).exp() * (a0 * (wd * t).cos() + (v0 + decay * a0) / wd * (wd * t).sin());
+    let exact =
+        (-decay * t).exp() * (a0 * (wd * t).cos() + (v0 + decay * a0) / wd * (wd * t).sin());
     let end = march(&model, start, &feet, t / 200.0, 200, 0.0);
-    assert!((end.q[ax(1)] - exact).abs() < 1e-12 * a0.max(exact.abs()) + 1e-14, "{} {exact}", end.q[ax(1)]);
+    assert!(
+        (end.q[ax(1)] - exact).abs() < 1e-12 * a0.max(exact.abs()) + 1e-14,
+        "{} {exact}",
+        end.q[ax(1)]
+    );
 }

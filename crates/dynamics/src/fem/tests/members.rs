@@ -31,10 +31,16 @@ fn all_members() -> Vec<Members<f64>> {
 
 fn model<S: Scalar>(share: f64, members: &Members<f64>) -> Model<S> {
     let Body { mass, half_width, height, inertia } = body(share);
-    let chain = |c: &Chain<f64>| Chain { k1: real(c.k1), k2: real(c.k2), m2: real(c.m2), c: real(c.c) };
+    let chain =
+        |c: &Chain<f64>| Chain { k1: real(c.k1), k2: real(c.k2), m2: real(c.m2), c: real(c.c) };
     let Springs { vertical, horizontal } = springs();
     Model::with_members(
-        &Body { mass: real(mass), half_width: real(half_width), height: real(height), inertia: real(inertia) },
+        &Body {
+            mass: real(mass),
+            half_width: real(half_width),
+            height: real(height),
+            inertia: real(inertia),
+        },
         &Springs { vertical: chain(&vertical), horizontal: chain(&horizontal) },
         &members.lift::<S>(),
     )
@@ -63,7 +69,10 @@ fn forces_at_rest_are_the_slope_of_the_energy() {
                 let seeded = State { q: seeded(&q, j), v: constant(&[0.0; N]) };
                 let slope = dual.energy(&seeded, &lift_feet(&feet)).eps;
                 let scale = 1e2 * model.body.mass * GRAVITY;
-                assert!((force + slope).abs() < 1e-11 * scale, "{members:?} {feet:?} {j}: {force} {slope}");
+                assert!(
+                    (force + slope).abs() < 1e-11 * scale,
+                    "{members:?} {feet:?} {j}: {force} {slope}"
+                );
             }
         }
     }
@@ -76,7 +85,8 @@ fn power_of_ground_and_dashpots_is_the_power_of_the_forces() {
     for members in all_members() {
         let model = model::<f64>(0.1, &members);
         for feet in contacts() {
-            let (all, without) = (model.forces(&q, &v, &feet, ground), model.forces(&q, &[0.0; N], &feet, [0.0; 2]));
+            let (all, without) =
+                (model.forces(&q, &v, &feet, ground), model.forces(&q, &[0.0; N], &feet, [0.0; 2]));
             let power: f64 = (0..N).map(|k| (all[k] - without[k]) * v[k]).sum();
             let booked = model.input_power(&v, ground) - model.dissipation(&q, &v, &feet);
             assert!((power - booked).abs() < 1e-9 * booked.abs(), "{power} {booked}");
@@ -85,7 +95,12 @@ fn power_of_ground_and_dashpots_is_the_power_of_the_forces() {
 }
 
 /// M + s C + s^2 K by dual numbers.
-fn dense(share: f64, members: &Members<f64>, feet: &[Foot<f64>; 2], s: Complex<f64>) -> SMatrix<Complex<f64>, N, N> {
+fn dense(
+    share: f64,
+    members: &Members<f64>,
+    feet: &[Foot<f64>; 2],
+    s: Complex<f64>,
+) -> SMatrix<Complex<f64>, N, N> {
     let (model, dual) = (model::<f64>(share, members), model::<Dual64>(share, members));
     let State { q, v } = state();
     let mut matrix = SMatrix::<Complex<f64>, N, N>::zeros();
@@ -119,7 +134,11 @@ fn newton_solves_with_the_dense_matrix() {
                         let scale: f64 = terms.clone().map(|t| t.norm()).sum();
                         let left: Complex<f64> = terms.sum();
                         let error = (left - right[i]).norm();
-                        assert!(error < 1e-9 * scale, "{members:?} {share} {feet:?} {h} {i}: {}", error / scale);
+                        assert!(
+                            error < 1e-9 * scale,
+                            "{members:?} {share} {feet:?} {h} {i}: {}",
+                            error / scale
+                        );
                     }
                 }
             }
@@ -137,7 +156,10 @@ fn rates_of_compression_are_its_slope_in_time() {
             for i in 0..2 {
                 let slope = dual.compression(i, &moving).eps;
                 let rate = model.compression_rate(i, &State { q, v });
-                assert!((rate - slope).abs() < 1e-9 * slope.abs().max(0.1), "{feet:?} {i}: {rate} {slope}");
+                assert!(
+                    (rate - slope).abs() < 1e-9 * slope.abs().max(0.1),
+                    "{feet:?} {i}: {rate} {slope}"
+                );
             }
         }
     }

@@ -13,10 +13,17 @@ use crate::{
 };
 use rocking::{scalar::GRAVITY, structure::Body};
 
-fn run(body: Body<f64>, springs: Springs<Chain<f64>>, start: Start<f64>, dt: f64, n: usize) -> crate::fem::History {
+fn run(
+    body: Body<f64>,
+    springs: Springs<Chain<f64>>,
+    start: Start<f64>,
+    dt: f64,
+    n: usize,
+) -> crate::fem::History {
     let accel = vec![0.0; n];
     let control = Control { tolerance: 1e-11, ..Control::default() };
-    Analysis { body, springs, start, dt, accel: &accel, vertical: &[], scale: 1.0, control }.simulate()
+    Analysis { body, springs, start, dt, accel: &accel, vertical: &[], scale: 1.0, control }
+        .simulate()
 }
 
 #[test]
@@ -24,7 +31,8 @@ fn the_standing_body_stays_where_its_weight_is_carried() {
     let body = body(0.0);
     let springs = springs();
     let history = run(body, springs, Start::Settled, 0.01, 500);
-    let settlement = 0.5 * body.mass * GRAVITY * (1.0 / springs.vertical.k1 + 1.0 / springs.vertical.k2);
+    let settlement =
+        0.5 * body.mass * GRAVITY * (1.0 / springs.vertical.k1 + 1.0 / springs.vertical.k2);
     assert!((history.initial_z + settlement).abs() < 1e-15);
     assert!(history.motion.v.iter().chain(&history.motion.u).all(|x| x.abs() < 1e-12 * settlement));
     for force in &history.forces.vertical {
@@ -51,7 +59,10 @@ fn a_leaning_body_begins_to_fall_back_as_a_rigid_body_does() {
             assert!((f[X] / m[X] + side * thrust * lean.cos()).abs() < 1e-11, "{share} {theta}");
             assert!((f[Z] / m[Z] + thrust * lean.sin()).abs() < 1e-11, "{share} {theta}");
             let turning = -side * model.body.p_squared() * lean.sin() * m[TH];
-            assert!((f[TH] - turning).abs() < 1e-9 * weight * model.body.half_width, "{share} {theta}");
+            assert!(
+                (f[TH] - turning).abs() < 1e-9 * weight * model.body.half_width,
+                "{share} {theta}"
+            );
             assert!((3..N).all(|k| f[k].abs() < 1e-9 * weight), "{f:?}");
         }
     }
@@ -100,13 +111,17 @@ fn heave_of_the_standing_body_is_the_two_mass_chain() {
 
     // and followed in time: one period later it is where it began
     let period = std::f64::consts::TAU / slow.sqrt();
-    let mut run = TimeLoop::new(&model, (start, feet), Control { tolerance: 1e-13, ..Control::default() });
+    let mut run =
+        TimeLoop::new(&model, (start, feet), Control { tolerance: 1e-13, ..Control::default() });
     let mut last = 0.0;
     let mut observer = |_: usize, view: &View<f64>| {
         last = view.z();
         std::ops::ControlFlow::Continue(())
     };
-    run.follow(GroundMotion { dt: period / 8.0, accel: &[0.0; 9], vertical: &[], scale: 1.0 }, &mut observer);
+    run.follow(
+        GroundMotion { dt: period / 8.0, accel: &[0.0; 9], vertical: &[], scale: 1.0 },
+        &mut observer,
+    );
     assert!((last - start.q[Z]).abs() < 1e-6 * amplitude, "{} {}", last - rest.q[Z], amplitude);
 }
 
@@ -121,7 +136,9 @@ fn damped_heave_decays_by_the_chain_s_complex_eigenvalue() {
     let m = model.body.mass / 2.0;
     type C = num_complex::Complex<f64>;
     let f = |s: C| (s * s * m + k1) * (s * s * m2 + s * c + k1 + k2) - k1 * k1;
-    let df = |s: C| s * (2.0 * m) * (s * s * m2 + s * c + k1 + k2) + (s * s * m + k1) * (s * (2.0 * m2) + c);
+    let df = |s: C| {
+        s * (2.0 * m) * (s * s * m2 + s * c + k1 + k2) + (s * s * m + k1) * (s * (2.0 * m2) + c)
+    };
     let mut s = C::new(0.0, heave(&springs, model.body.mass)[0].sqrt());
     for _ in 0..30 {
         s -= f(s) / df(s);
@@ -137,7 +154,8 @@ fn damped_heave_decays_by_the_chain_s_complex_eigenvalue() {
         start.q[az(i)] += (ratio * amplitude).re;
         start.v[az(i)] = (s * ratio * amplitude).re;
     }
-    let mut run = TimeLoop::new(&model, (start, feet), Control { tolerance: 1e-13, ..Control::default() });
+    let mut run =
+        TimeLoop::new(&model, (start, feet), Control { tolerance: 1e-13, ..Control::default() });
     let dt = 0.003;
     let mut worst: f64 = 0.0;
     let mut observer = |i: usize, view: &View<f64>| {
@@ -177,6 +195,9 @@ fn elastic_rocking_is_omega_n_root_2k_over_1_plus_k_times_b_over_r() {
     let measured = (stiffness / body.mass).sqrt();
     // the weight on the leaning body takes m g h off the rotational stiffness 2 k b^2
     let p_delta = GRAVITY * body.height / (2.0 * 0.7 / 1.7 * (omega(hz) * body.half_width).powi(2));
-    assert!((measured / formula - 1.0 + p_delta / 2.0).abs() < 0.02 * p_delta, "{measured} {formula} {p_delta}");
+    assert!(
+        (measured / formula - 1.0 + p_delta / 2.0).abs() < 0.02 * p_delta,
+        "{measured} {formula} {p_delta}"
+    );
     assert!(state.q[ax(0)] > start.q[ax(0)]);
 }

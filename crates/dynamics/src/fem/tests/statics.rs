@@ -36,7 +36,10 @@ fn a_tendon_adds_its_moment_to_the_leaning_body_s() {
         let m = model.masses(&feet);
         let acceleration = (f[X] / m[X]).hypot(f[Z] / m[Z]);
         let radius = body.radius();
-        assert!((acceleration * body.mass * radius / moment - 1.0).abs() < 1e-6, "{theta}: {acceleration}");
+        assert!(
+            (acceleration * body.mass * radius / moment - 1.0).abs() < 1e-6,
+            "{theta}: {acceleration}"
+        );
         assert!(f[X] * theta < 0.0);
     }
 }
@@ -44,7 +47,11 @@ fn a_tendon_adds_its_moment_to_the_leaning_body_s() {
 #[test]
 fn the_settled_tendon_has_its_pretension() {
     let tendon = Some(Tendon { stiffness: 4e6, pretension: 1.5e6 });
-    let model = Model::with_members(&super::body(0.0), &super::springs(), &Members { tendon, ..Members::default() });
+    let model = Model::with_members(
+        &super::body(0.0),
+        &super::springs(),
+        &Members { tendon, ..Members::default() },
+    );
     let (state, feet) = model.settled();
     let tension = model.elements.tendon.unwrap().tension(&state.q);
     assert!((tension / 1.5e6 - 1.0).abs() < 1e-9, "{tension}");
@@ -65,7 +72,8 @@ fn a_body_falling_on_dampers_alone_is_the_exponential() {
     start.q = [0.0; N];
     start.q[Z] = 1.0;
     let feet = [Foot { contact: Contact::Open, anchor: 0.0 }; 2];
-    let mut run = TimeLoop::new(&model, (start, feet), Control { tolerance: 1e-13, ..Control::default() });
+    let mut run =
+        TimeLoop::new(&model, (start, feet), Control { tolerance: 1e-13, ..Control::default() });
     let rate = 2.0 * c / body.mass;
     let terminal = GRAVITY / rate;
     let mut worst: f64 = 0.0;
@@ -74,11 +82,21 @@ fn a_body_falling_on_dampers_alone_is_the_exponential() {
         let decay = (-rate * t).exp();
         let z = 1.0 - terminal * (t - (1.0 - decay) / rate);
         // integral of 2 c (terminal (1 - decay))^2
-        let lost = 2.0 * c * terminal.powi(2) * (t - 2.0 * (1.0 - decay) / rate + (1.0 - decay * decay) / (2.0 * rate));
+        let lost = 2.0
+            * c
+            * terminal.powi(2)
+            * (t - 2.0 * (1.0 - decay) / rate + (1.0 - decay * decay) / (2.0 * rate));
         worst = worst.max((view.z() - z).abs());
-        assert!((view.energy.dissipated - lost).abs() < 1e-9 * body.mass * GRAVITY, "{}", view.energy.dissipated);
+        assert!(
+            (view.energy.dissipated - lost).abs() < 1e-9 * body.mass * GRAVITY,
+            "{}",
+            view.energy.dissipated
+        );
         std::ops::ControlFlow::Continue(())
     };
-    run.follow(GroundMotion { dt: 0.02, accel: &[0.0; 20], vertical: &[], scale: 1.0 }, &mut observer);
+    run.follow(
+        GroundMotion { dt: 0.02, accel: &[0.0; 20], vertical: &[], scale: 1.0 },
+        &mut observer,
+    );
     assert!(worst < 1e-10, "{worst:e}");
 }

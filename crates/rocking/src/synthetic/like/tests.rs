@@ -31,7 +31,8 @@ fn spectra_are_those_of_the_given_motion() {
         let (from, to) = target.periods();
         let longest = record.duration() / 15.0;
         assert!((from - 0.04).abs() < 1e-12 && (to - longest).abs() < 1e-12, "{from} {to}");
-        let periods: Vec<f64> = (0..=100).map(|i| from * (to / from).powf(f64::from(i) / 100.0)).collect();
+        let periods: Vec<f64> =
+            (0..=100).map(|i| from * (to / from).powf(f64::from(i) / 100.0)).collect();
         let spectrum = ResponseSpectrum::new(periods.clone(), record.dt);
         let wanted = spectrum.of(&record.accel);
         let (seeds, n) = ([1, 2, 77], 6);
@@ -41,7 +42,11 @@ fn spectra_are_those_of_the_given_motion() {
             for index in 0..n {
                 let motion = target.motion(seed, index, 2.0);
                 let there = spectrum.of(&motion.accel[..record.len()]);
-                let ln: Vec<f64> = there.iter().zip(&wanted).map(|(there, wanted)| (there / wanted).ln()).collect();
+                let ln: Vec<f64> = there
+                    .iter()
+                    .zip(&wanted)
+                    .map(|(there, wanted)| (there / wanted).ln())
+                    .collect();
                 let most = ln.iter().fold(0.0_f64, |most, ln| most.max(ln.abs()));
                 let rms = (ln.iter().map(|ln| ln * ln).sum::<f64>() / ln.len() as f64).sqrt();
                 (worst, worst_rms) = (worst.max(most), worst_rms.max(rms));
@@ -50,7 +55,8 @@ fn spectra_are_those_of_the_given_motion() {
                 }
             }
         }
-        let (least, most) = ratios.iter().fold((f64::INFINITY, 0.0_f64), |(a, b), x| (a.min(*x), b.max(*x)));
+        let (least, most) =
+            ratios.iter().fold((f64::INFINITY, 0.0_f64), |(a, b), x| (a.min(*x), b.max(*x)));
         println!(
             "{}: {from:.2} to {to:.2} s, worst {worst:.3}, rms {worst_rms:.3}, means {least:.3} to {most:.3}",
             record.name
@@ -97,7 +103,12 @@ fn the_ground_does_not_drift() {
         for index in 0..8 {
             let motion = target.motion(9, index, 2.0);
             let (v, d, most) = path(&motion.accel);
-            println!("{} {index}: {:.0} mm, the given {:.0} mm", record.name, 1e3 * most, 1e3 * given);
+            println!(
+                "{} {index}: {:.0} mm, the given {:.0} mm",
+                record.name,
+                1e3 * most,
+                1e3 * given
+            );
             assert!(v.abs() < 1e-9 && d.abs() < 1e-8, "{v} {d}");
             assert!(most < 2.5 * given, "{most} {given}");
         }
@@ -134,7 +145,11 @@ fn motions_scale_with_the_given_one() {
     let [ground, _] = given();
     let twice = MotionTarget::new(&ground.scaled(2.0).unwrap()).unwrap().motion(1, 0, 2.0);
     let once = MotionTarget::new(&ground).unwrap().motion(1, 0, 2.0);
-    let worst = once.accel.iter().zip(&twice.accel).fold(0.0_f64, |most, (a, b)| most.max((2.0 * a - b).abs()));
+    let worst = once
+        .accel
+        .iter()
+        .zip(&twice.accel)
+        .fold(0.0_f64, |most, (a, b)| most.max((2.0 * a - b).abs()));
     assert!(worst < 1e-9 * GRAVITY, "{worst}");
 }
 
@@ -144,7 +159,10 @@ fn what_no_motion_can_be_like_is_refused() {
     assert_eq!(MotionTarget::new(&still).unwrap_err(), LikeError::Still { record: "still".into() });
     let short = Record::new("short", 0.01, vec![1.0; 199]).unwrap();
     let said = MotionTarget::new(&short).unwrap_err().to_string();
-    assert_eq!(said, "short: 199 samples; motions like it need 200 to 400000: give a longer record, or duration_s");
+    assert_eq!(
+        said,
+        "short: 199 samples; motions like it need 200 to 400000: give a longer record, or duration_s"
+    );
     // steps as coarse as they come, a single sample that moves: no panic, no NaN
     for (dt, at) in [(1.0, 100), (1e-6, 0), (0.01, 199)] {
         let mut accel = vec![0.0; 200];

@@ -9,7 +9,10 @@ fn block(sizes: &str) -> Vec<Doubt> {
 fn a_cabinet_that_would_not_stand_in_a_room_is_doubted() {
     let doubts = block("height_m = 1.9\nwidth_m = 0.8\nmass_kg = 400.0\n");
     assert_eq!(doubts, [Doubt::TotalHeight { key: "height_m", height: 1.9, unit: "m" }]);
-    assert_eq!(doubts[0].message(), "height_m = 1.9, of the centre of mass, makes a block 3.8 m tall");
+    assert_eq!(
+        doubts[0].message(),
+        "height_m = 1.9, of the centre of mass, makes a block 3.8 m tall"
+    );
     assert_eq!(doubts[0].remedy(), "if 1.9 m is its total height, write total_height_m = 1.9");
     let feet = block("height_in = 74.0\nwidth_in = 30.0\nweight_lb = 900\n");
     assert_eq!(feet[0].remedy(), "if 74 in is its total height, write total_height_in = 74");
@@ -25,7 +28,10 @@ fn a_mass_in_tonnes_is_doubted() {
     let transformer = block("height_m = 1.6\nwidth_m = 1.3\nmass_kg = 32.0\n");
     let [Doubt::Tonnes { mass, kg_per_m3 }] = transformer[..] else { panic!("{transformer:?}") };
     assert!(mass == 32.0 && (kg_per_m3 - 32.0 / (3.2 * 1.69)).abs() < 1e-9);
-    assert_eq!(transformer[0].message(), "mass_kg = 32 makes a block of 5.917 kg/m3, as deep as wide");
+    assert_eq!(
+        transformer[0].message(),
+        "mass_kg = 32 makes a block of 5.917 kg/m3, as deep as wide"
+    );
     assert_eq!(transformer[0].remedy(), "if it is 32 t, write mass_kg = 32e3");
     assert_eq!(block("height_m = 1.6\nwidth_m = 1.3\nmass_kg = 32e3\n"), []);
 }
@@ -52,7 +58,10 @@ fn densities_of_no_material_are_doubted() {
         "9 kg in a box of 2 x 1 x 1 m (as deep as wide) is a mean density of 4.5 kg/m3, not within 5 to 25000"
     );
     // 5.05 kg/m3 may be a mass in tonnes, but is within
-    assert!(matches!(block("height_m = 1.0\nwidth_m = 1.0\nmass_kg = 10.1\n")[..], [Doubt::Tonnes { .. }]));
+    assert!(matches!(
+        block("height_m = 1.0\nwidth_m = 1.0\nmass_kg = 10.1\n")[..],
+        [Doubt::Tonnes { .. }]
+    ));
     assert_eq!(block("height_m = 1.0\nwidth_m = 1.0\nmass_kg = 60.1\n"), []);
     assert_eq!(block("height_m = 1.0\nwidth_m = 1.0\nmass_kg = 49.9e3\n"), []);
     assert_eq!(block("height_m = 1.0\nwidth_m = 1.0\nmass_kg = 50.1e3\n").len(), 1);
@@ -69,7 +78,9 @@ fn densities_of_no_material_are_doubted() {
 #[test]
 fn motions_that_nobody_feels_or_that_end_early_are_doubted() {
     let record = || Record::new("a", 0.01, vec![0.0, 0.04, -0.02, 0.3]).unwrap();
-    let with = |scale, duration_s| of_excitation(&Excitation { scale, duration_s, ..Excitation::whole(record()) });
+    let with = |scale, duration_s| {
+        of_excitation(&Excitation { scale, duration_s, ..Excitation::whole(record()) })
+    };
     assert_eq!(with(1.0, None), []);
     // what counts is the part used: 0.04 m/s2
     assert!(
@@ -77,7 +88,9 @@ fn motions_that_nobody_feels_or_that_end_early_are_doubted() {
     );
     assert_eq!(with(1.0, Some(0.034)), []);
     assert_eq!(with(1.0, Some(90.0)), [Doubt::LongDuration { asked_s: 90.0, record_s: 0.03 }]);
-    assert!(with(1.0, Some(90.0))[0].message().starts_with("90 s are asked for, the record has 0.03 s"));
+    assert!(
+        with(1.0, Some(90.0))[0].message().starts_with("90 s are asked for, the record has 0.03 s")
+    );
 }
 
 #[test]
@@ -94,6 +107,10 @@ fn the_cases_of_the_folder_are_beyond_doubt() {
         // the record's own 1.84 g upwards, which this case leaves out
         let vertical = |doubt: &Doubt| matches!(doubt, Doubt::VerticalLeftOut { .. });
         let known = usize::from(name.ends_with("pier_kaikoura.toml"));
-        assert_eq!((doubts.len(), doubts.iter().filter(|d| vertical(d)).count()), (known, known), "{name}: {doubts:?}");
+        assert_eq!(
+            (doubts.len(), doubts.iter().filter(|d| vertical(d)).count()),
+            (known, known),
+            "{name}: {doubts:?}"
+        );
     }
 }

@@ -19,7 +19,9 @@ impl Finding {
             Self::NoAnswer { .. } | Self::HistoryEndsEarly { ending: Ending::WorkBound, .. } => {
                 "take softer or more strongly damped springs: --max-hz; or a shorter record: --duration"
             }
-            Self::ModelsDisagree { .. } => "vary the scale by 1 %, and judge by many records: tune validate",
+            Self::ModelsDisagree { .. } => {
+                "vary the scale by 1 %, and judge by many records: tune validate"
+            }
             Self::PivotLeavesGround { .. } => "compare up to that time only",
             Self::IllConditioned { .. } => "design with the statistics of many records: tune sweep",
             Self::ForetoldUpTo { later_forces, .. } | Self::SlidesOn { later_forces, .. }
@@ -29,7 +31,10 @@ impl Finding {
             }
             Self::ForetoldUpTo { softer_hz, .. } | Self::SlidesOn { softer_hz, .. } => {
                 let hz = (*softer_hz)?;
-                return Some(format!("up to then --max-hz {:.0} is stiff enough, with fewer steps", hz.ceil()));
+                return Some(format!(
+                    "up to then --max-hz {:.0} is stiff enough, with fewer steps",
+                    hz.ceil()
+                ));
             }
             Self::AccuracyMissed { capped: true, .. } | Self::PeaksMissed { capped: true, .. } => {
                 "raise or drop --max-hz"
@@ -38,22 +43,34 @@ impl Finding {
                 "ask for less, or judge the springs by many records: tune validate"
             }
             Self::AccuracyNotMeasured => "judge the springs on records of your own: tune validate",
-            Self::RestitutionMissed { of_equation_2: true, .. } => "allow stiffer springs: --max-hz",
+            Self::RestitutionMissed { of_equation_2: true, .. } => {
+                "allow stiffer springs: --max-hz"
+            }
             Self::RestitutionMissed { .. } | Self::RestitutionOutOfReach { .. } => {
                 "ask for a restitution nearer to equation 2's"
             }
             Self::ProgramStepTooLong { longest_s, .. } => {
                 return Some(format!("give --step {longest_s:.1e} or less"));
             }
-            Self::ProgramLoses { csi: true, .. } => "check that its history ends; else give a shorter --step",
+            Self::ProgramLoses { csi: true, .. } => {
+                "check that its history ends; else give a shorter --step"
+            }
             Self::ProgramLoses { .. } => {
                 "check that its history ends; else a shorter --step, or --integrator backward-euler"
             }
-            Self::ProgramStepForAccuracy { .. } => "take such steps, or substeps at touches: tune export --stepping",
-            Self::ProgramRestitution { .. } => "leave the restitution out, or follow touches: OpenSees' deck",
+            Self::ProgramStepForAccuracy { .. } => {
+                "take such steps, or substeps at touches: tune export --stepping"
+            }
+            Self::ProgramRestitution { .. } => {
+                "leave the restitution out, or follow touches: OpenSees' deck"
+            }
             Self::LandingsUnfinished { .. } => "allow other springs: --max-hz, --accuracy",
-            Self::ForceWithheld { .. } => "take it from a model of your own, or refine: elements, --accuracy",
-            Self::SearchCut { by: CutBy::Work, .. } => "allow more: --work 10; or ask for less: --accuracy, --max-hz",
+            Self::ForceWithheld { .. } => {
+                "take it from a model of your own, or refine: elements, --accuracy"
+            }
+            Self::SearchCut { by: CutBy::Work, .. } => {
+                "allow more: --work 10; or ask for less: --accuracy, --max-hz"
+            }
             Self::SearchCut { by: CutBy::TimeLimit, .. } => "raise or leave out --time-limit",
             Self::SearchCut { by: CutBy::Interrupt, .. } => "run it again to its end",
             Self::HistoriesUnfinished { left_out: true, .. } | Self::NearMotionsLeftOut { .. } => {
@@ -61,13 +78,21 @@ impl Finding {
             }
             Self::HistoriesUnfinished { .. } => "judge the springs by many records: tune validate",
             Self::ForcesHeldInPart { .. } => "design for the larger, and by several records",
-            Self::Sliding { .. } => "give it a shear key, or say what the ground offers: --friction",
+            Self::Sliding { .. } => {
+                "give it a shear key, or say what the ground offers: --friction"
+            }
             Self::FreeFlight { .. } => "compare up to that time only",
             Self::TooStocky { .. } => "check height and width; rely on tests for such a body",
-            Self::HistoryEndsEarly { .. } => "take stiffer springs, or rotational_inertia_kgm2 above 0.002 m R^2",
-            Self::FeetApart { .. } => "tie the feet, or design for what stays: members.csv at its end",
+            Self::HistoryEndsEarly { .. } => {
+                "take stiffer springs, or rotational_inertia_kgm2 above 0.002 m R^2"
+            }
+            Self::FeetApart { .. } => {
+                "tie the feet, or design for what stays: members.csv at its end"
+            }
             Self::SmallestSteps { .. } => "compare with OpenSees: tune verify",
-            Self::VerticalLeftOut { changes, .. } if changes.is_empty() => "--vertical auto includes it",
+            Self::VerticalLeftOut { changes, .. } if changes.is_empty() => {
+                "--vertical auto includes it"
+            }
             Self::VerticalLeftOut { .. } => "it is left out here; --vertical auto includes it",
             Self::Doubt { remedy, .. } => return Some(remedy.clone()),
         };
@@ -119,7 +144,9 @@ impl Finding {
             Self::FreeFlight { .. } => {
                 "Housner's equation would have to pull the foot down there; the finite elements let it go."
             }
-            Self::HistoryEndsEarly { .. } | Self::NoAnswer { .. } => "Both models are compared up to there.",
+            Self::HistoryEndsEarly { .. } | Self::NoAnswer { .. } => {
+                "Both models are compared up to there."
+            }
             Self::ForceWithheld { .. } => {
                 "A force that grows with the springs or the mesh is the model's, not the structure's."
             }

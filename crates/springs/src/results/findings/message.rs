@@ -58,16 +58,18 @@ impl Finding {
             | Self::ProgramLoses { .. }
             | Self::ProgramStepForAccuracy { .. }
             | Self::ProgramRestitution { .. } => self.program(),
-            Self::SearchCut { .. } | Self::HistoriesUnfinished { .. } | Self::NearMotionsLeftOut { .. } => {
-                self.effort()
-            }
+            Self::SearchCut { .. }
+            | Self::HistoriesUnfinished { .. }
+            | Self::NearMotionsLeftOut { .. } => self.effort(),
             Self::Sliding { .. }
             | Self::FreeFlight { .. }
             | Self::TooStocky { .. }
             | Self::HistoryEndsEarly { .. }
             | Self::FeetApart { .. }
             | Self::SmallestSteps { .. } => self.regime(),
-            Self::VerticalLeftOut { .. } | Self::Doubt { .. } | Self::DeckJudged { .. } => self.taken(),
+            Self::VerticalLeftOut { .. } | Self::Doubt { .. } | Self::DeckJudged { .. } => {
+                self.taken()
+            }
         }
     }
 
@@ -93,16 +95,28 @@ impl Finding {
                     s(*time_s),
                     s(*reference)
                 ),
-                None => format!("the structure overturns at t = {}; numbers count up to then", s(*time_s)),
+                None => format!(
+                    "the structure overturns at t = {}; numbers count up to then",
+                    s(*time_s)
+                ),
             },
             Self::NoAnswer { model, time_s } => {
-                format!("the history {} could not be followed beyond t = {}", on(*model), s(*time_s))
+                format!(
+                    "the history {} could not be followed beyond t = {}",
+                    on(*model),
+                    s(*time_s)
+                )
             }
             Self::ModelsDisagree { reference, springs } => {
-                format!("the models disagree: the reference {reference}, the structure on its springs {springs}")
+                format!(
+                    "the models disagree: the reference {reference}, the structure on its springs {springs}"
+                )
             }
             Self::PivotLeavesGround { time_s } => {
-                format!("the pivot of Housner's body leaves the ground at t = {}, where his solution ends", s(*time_s))
+                format!(
+                    "the pivot of Housner's body leaves the ground at t = {}, where his solution ends",
+                    s(*time_s)
+                )
             }
             Self::WithoutVertical { does, share_of_overturning } => format!(
                 "without the vertical component it {does}; its largest rotation is {} of overturning",
@@ -116,7 +130,11 @@ impl Finding {
     fn comparison(&self) -> String {
         match self {
             Self::IllConditioned { moved_by_width, springs_judged, .. } => {
-                let judged = if *springs_judged { "; the springs were judged on synthetic motions" } else { "" };
+                let judged = if *springs_judged {
+                    "; the springs were judged on synthetic motions"
+                } else {
+                    ""
+                };
                 format!(
                     "this motion is ill-conditioned: 0.1 % of the width moves it by {}, so no model foretells it to its end{judged}",
                     percent(*moved_by_width)
@@ -248,11 +266,14 @@ impl Finding {
             }
             Self::HistoriesUnfinished { histories, left_out } => {
                 let of = if *histories == 1 { "history" } else { "histories" };
-                let then = if *left_out { "their motions are left out" } else { "they count as lost" };
+                let then =
+                    if *left_out { "their motions are left out" } else { "they count as lost" };
                 format!("{histories} {of} of the search met the bound on a history's steps: {then}")
             }
             Self::NearMotionsLeftOut { motions } => {
-                format!("{motions} motions near the record met the bound on a history's steps, and are left out")
+                format!(
+                    "{motions} motions near the record met the bound on a history's steps, and are left out"
+                )
             }
             _ => String::new(),
         }
@@ -262,7 +283,8 @@ impl Finding {
     fn regime(&self) -> String {
         match self {
             Self::Sliding { needed, time_s, available } => {
-                let when = time_s.map_or("in a landing".into(), |time| format!("at t = {}", s(time)));
+                let when =
+                    time_s.map_or("in a landing".into(), |time| format!("at t = {}", s(time)));
                 format!(
                     "the feet would slide: friction of {} is needed {when}, {} is available",
                     significant(*needed, 3),
@@ -270,7 +292,10 @@ impl Finding {
                 )
             }
             Self::FreeFlight { time_s, .. } => {
-                format!("free flight: the ground would have to pull the pivot down at t = {}", s(*time_s))
+                format!(
+                    "free flight: the ground would have to pull the pivot down at t = {}",
+                    s(*time_s)
+                )
             }
             Self::TooStocky { restitution, friction_needed, .. } => format!(
                 "the body is too stocky to land without bouncing: friction of {} is needed, equation 2 gives e = {}",
@@ -317,7 +342,10 @@ impl Finding {
                 if changed.is_empty() {
                     format!("vertical motion of {vertical} g beside {across} g is left out")
                 } else {
-                    format!("with vertical motion ({vertical} g beside {across} g) {}", changed.join("; "))
+                    format!(
+                        "with vertical motion ({vertical} g beside {across} g) {}",
+                        changed.join("; ")
+                    )
                 }
             }
             Self::Doubt { message, .. } => message.clone(),
@@ -325,7 +353,9 @@ impl Finding {
                 let why = match end {
                     DeckEnd::Record => "",
                     DeckEnd::History => ": then it falls over, or the history ends",
-                    DeckEnd::Foretold => ": from then on changes of 1e-5 decide, and no two programs agree",
+                    DeckEnd::Foretold => {
+                        ": from then on changes of 1e-5 decide, and no two programs agree"
+                    }
                     DeckEnd::Flight => ": then the ground falls faster than the body",
                     DeckEnd::Slides => ": then a corner slides on, and friction decides",
                 };

@@ -8,7 +8,10 @@ fn a_finding_is_filed_with_its_quantities_and_read_back() {
     assert_eq!(json["finding"], "sliding");
     assert_eq!(json["needed"], 0.61);
     assert_eq!(json["weight"], "warning");
-    assert_eq!(json["message"], "the feet would slide: friction of 0.61 is needed at t = 3.25 s, 0.5 is available");
+    assert_eq!(
+        json["message"],
+        "the feet would slide: friction of 0.61 is needed at t = 3.25 s, 0.5 is available"
+    );
     assert_eq!(serde_json::from_value::<FiledFinding>(json).unwrap(), filed);
     assert_eq!(filed.finding, finding);
 }
@@ -24,7 +27,12 @@ fn a_doubt_is_filed_so_that_it_can_be_read_back() {
 
 #[test]
 fn a_force_that_holds_for_a_part_of_the_record_is_told_with_what_the_whole_has() {
-    let changes = vec![PeakChange { quantity: "axial force".into(), unit: "N".into(), without: 4.9e6, with: 13.6e6 }];
+    let changes = vec![PeakChange {
+        quantity: "axial force".into(),
+        unit: "N".into(),
+        without: 4.9e6,
+        with: 13.6e6,
+    }];
     let finding = Finding::ForcesHeldInPart { over_s: 49.42, changes };
     assert_eq!(finding.weight(), Weight::Warning);
     assert_eq!(
@@ -38,17 +46,28 @@ fn a_force_that_holds_for_a_part_of_the_record_is_told_with_what_the_whole_has()
 fn answers_come_first_and_faults_weigh_most() {
     assert!(Weight::Answer < Weight::Note && Weight::Warning < Weight::Fault);
     let fault = Finding::AccuracyMissed { asked: 0.002, capped: true };
-    assert_eq!((fault.weight(), fault.remedy().unwrap().as_str()), (Weight::Fault, "raise or drop --max-hz"));
+    assert_eq!(
+        (fault.weight(), fault.remedy().unwrap().as_str()),
+        (Weight::Fault, "raise or drop --max-hz")
+    );
     assert!(fault.message().contains("NRMSE 0.002"));
 }
 
 #[test]
 fn a_force_that_comes_after_what_can_be_foretold_makes_a_warning_of_it() {
-    let of = |later_forces: Vec<ForceName>| Finding::ForetoldUpTo { time_s: 9.0, softer_hz: None, later_forces };
+    let of = |later_forces: Vec<ForceName>| Finding::ForetoldUpTo {
+        time_s: 9.0,
+        softer_hz: None,
+        later_forces,
+    };
     assert_eq!((of(Vec::new()).weight(), of(Vec::new()).remedy()), (Weight::Note, None));
     let two = of(vec![ForceName::ColumnShear, ForceName::Axial]);
     assert_eq!(two.weight(), Weight::Warning);
-    assert!(two.message().ends_with("; column shear and axial force are largest after that"), "{}", two.message());
+    assert!(
+        two.message().ends_with("; column shear and axial force are largest after that"),
+        "{}",
+        two.message()
+    );
     assert!(two.remedy().unwrap().starts_with("design with several records"));
 }
 

@@ -14,7 +14,10 @@ use frames::assembled::Assembled;
 ///
 /// # Errors
 /// A structure that does not stand.
-pub fn springs_of_structure(model: &Assembled, asked: Asked) -> Result<CornerSprings, ElasticTuneError> {
+pub fn springs_of_structure(
+    model: &Assembled,
+    asked: Asked,
+) -> Result<CornerSprings, ElasticTuneError> {
     let standing = stand(model).ok_or(ElasticTuneError::Falls)?;
     let rungs = Rungs::new(asked.error, None, |i| omega_n_hz(&standing, give(i)))?;
     Ok(springs(&standing, give(rungs.guess), landing_speed(&model.structure), 1.0))

@@ -127,7 +127,11 @@ pub fn springs(standing: &Standing, give: f64, landing: f64, share: f64) -> Corn
 impl KBalance {
     /// K of a structure at a give of its vertical k1 alone. `landing`: v (m/s).
     pub fn k(&self, standing: &Standing, give: f64, landing: f64) -> f64 {
-        let lightest = standing.footings.iter().map(|f| Lands::new(f).effective_mass()).fold(f64::INFINITY, f64::min);
+        let lightest = standing
+            .footings
+            .iter()
+            .map(|f| Lands::new(f).effective_mass())
+            .fold(f64::INFINITY, f64::min);
         let share = standing.responses[0].omega * landing * lightest / (standing.mass * GRAVITY);
         self.solve(self.scale * give / share).clamp(K.0, K.1)
     }
@@ -167,7 +171,9 @@ pub(super) fn with_vertical(standing: &Standing, k1: f64, k: f64) -> CornerSprin
         of_footing.push(same.map_or_else(|| Lands::new(footing).springs(k, k1), |j| of_footing[j]));
     }
     let count = standing.responses[0].reactions.len();
-    let footing = |corner: usize| standing.footings.iter().position(|f| f.corners.contains(&corner)).unwrap_or(0);
+    let footing = |corner: usize| {
+        standing.footings.iter().position(|f| f.corners.contains(&corner)).unwrap_or(0)
+    };
     let corners: Vec<_> = (0..count).map(|corner| of_footing[footing(corner)]).collect();
     let give = standing.responses.iter().map(|sway| total_give(sway, &corners)).sum();
     let omega_n_hz = (k1 / standing.mass).sqrt() / TAU;
@@ -182,7 +188,9 @@ fn alike(a: &FootingInertia, b: &FootingInertia) -> bool {
 /// Energy of the springs over that of the structure.
 fn total_give(sway: &FixedResponse, corners: &[Springs<Chain<f64>>]) -> f64 {
     let each = sway.reactions.iter().zip(corners);
-    let energy: f64 = each.map(|([h, n], s)| h * h / s.horizontal.in_series() + n * n / s.vertical.in_series()).sum();
+    let energy: f64 = each
+        .map(|([h, n], s)| h * h / s.horizontal.in_series() + n * n / s.vertical.in_series())
+        .sum();
     energy / sway.work
 }
 

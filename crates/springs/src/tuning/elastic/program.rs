@@ -105,7 +105,8 @@ impl ElasticProgramSprings {
 
     fn errors(&self, suite: &ElasticSuite, effort: &Effort) -> Option<ErrorsOverMotions> {
         let shaken = |trial: &&ElasticTrial| trial.lean.is_none();
-        let trials: Vec<&ElasticTrial> = suite.motions.iter().chain(&suite.record).filter(shaken).collect();
+        let trials: Vec<&ElasticTrial> =
+            suite.motions.iter().chain(&suite.record).filter(shaken).collect();
         let one = |trial: &&ElasticTrial| {
             if effort.stopped() {
                 return None;
@@ -142,6 +143,7 @@ fn stepped(
     }
     let sways = model.sways(all.iter().map(Vec::as_slice));
     let [rotations, _] = errors(&trial.reference, &sways, trial.accel.len());
-    let peak = StructurePeaks::of(model, all.iter().map(Vec::as_slice)).beside(&trial.peaks).largest();
+    let peak =
+        StructurePeaks::of(model, all.iter().map(Vec::as_slice)).beside(&trial.peaks).largest();
     Some(StepErrors { history: rotations, peak, ..lost })
 }

@@ -38,9 +38,15 @@ pub enum ReferredError {
 /// # Errors
 /// A record of one sample, or of more than a history may take steps; a structure that does not
 /// stand.
-pub fn referred(assembled: &Assembled, record: &Record, effort: &Effort) -> Result<Reference, ReferredError> {
+pub fn referred(
+    assembled: &Assembled,
+    record: &Record,
+    effort: &Effort,
+) -> Result<Reference, ReferredError> {
     if record.len() < 2 {
-        return Err(JobError::TooShort { samples: record.len(), record: record.name.clone() }.into());
+        return Err(
+            JobError::TooShort { samples: record.len(), record: record.name.clone() }.into()
+        );
     }
     let most_work = effort.part(RECORD);
     let coordinates = assembled.frame.size();

@@ -107,7 +107,8 @@ impl ElasticErrors {
             return self.peaks.map_or(f64::INFINITY, |peaks| peaks.over(accuracy));
         }
         let allowed = [accuracy, LOOSER * accuracy];
-        let each = (0..2).map(|i| (self.median[i] / allowed[i]).max(self.p90[i] / (LOOSER * allowed[i])));
+        let each =
+            (0..2).map(|i| (self.median[i] / allowed[i]).max(self.p90[i] / (LOOSER * allowed[i])));
         each.fold(0.0, f64::max)
     }
 }
@@ -163,22 +164,32 @@ impl ElasticSuite {
     }
 
     /// The same, its work counted; less of it once it is stopped from outside.
-    pub(crate) fn within(model: Assembled, record: Option<(&Record, &Reference)>, effort: &Effort) -> Self {
+    pub(crate) fn within(
+        model: Assembled,
+        record: Option<(&Record, &Reference)>,
+        effort: &Effort,
+    ) -> Self {
         let body = model.structure.body();
         let (p, alpha) = (body.p_squared().sqrt(), body.alpha());
         let times = (RELEASE / p / SAMPLES, RELEASE / p);
-        let released = |lean: f64| ElasticTrial::released_within(&model, lean * alpha, times, effort);
-        let releases: Vec<ElasticTrialOutcome> = LEANS.par_iter().with_max_len(1).map(|lean| released(*lean)).collect();
+        let released =
+            |lean: f64| ElasticTrial::released_within(&model, lean * alpha, times, effort);
+        let releases: Vec<ElasticTrialOutcome> =
+            LEANS.par_iter().with_max_len(1).map(|lean| released(*lean)).collect();
         let motion = |i: usize| match i % 2 {
             0 => synthetic::record(SEED, i / 2, p, alpha),
             _ => synthetic::earthquake(SEED, i / 2, p),
         };
         let shaken = |i: usize| ElasticTrial::shaken_within(&model, &motion(i), effort);
-        let motions: Vec<ElasticTrialOutcome> = (0..LOOKED_AT).into_par_iter().with_max_len(1).map(shaken).collect();
-        let record = record.map(|(record, reference)| ElasticTrial::beside(&model, record, reference));
+        let motions: Vec<ElasticTrialOutcome> =
+            (0..LOOKED_AT).into_par_iter().with_max_len(1).map(shaken).collect();
+        let record =
+            record.map(|(record, reference)| ElasticTrial::beside(&model, record, reference));
         let all = || releases.iter().chain(&motions).chain(&record);
-        let ill_conditioned = all().filter(|found| matches!(found, ElasticTrialOutcome::IllConditioned)).count();
-        let out_of_work = all().filter(|found| matches!(found, ElasticTrialOutcome::OutOfWork)).count();
+        let ill_conditioned =
+            all().filter(|found| matches!(found, ElasticTrialOutcome::IllConditioned)).count();
+        let out_of_work =
+            all().filter(|found| matches!(found, ElasticTrialOutcome::OutOfWork)).count();
         let trials = |found: Vec<ElasticTrialOutcome>, most| {
             found.into_iter().filter_map(ElasticTrialOutcome::trial).take(most).collect()
         };
@@ -195,7 +206,8 @@ impl ElasticSuite {
 
     /// The same for a yardstick: by peaks, forces count.
     pub(crate) fn by(self, yardstick: Yardstick) -> Self {
-        let forces = (yardstick == Yardstick::Peaks).then(|| ColumnForces::of(&self.model.structure));
+        let forces =
+            (yardstick == Yardstick::Peaks).then(|| ColumnForces::of(&self.model.structure));
         Self { forces, ..self }
     }
 
@@ -206,7 +218,11 @@ impl ElasticSuite {
     }
 
     /// The same, its work counted; of no worth if it is stopped from outside meanwhile.
-    pub(crate) fn measure_within(&self, springs: &CornerSprings, (control, effort): (Control, &Effort)) -> Measured {
+    pub(crate) fn measure_within(
+        &self,
+        springs: &CornerSprings,
+        (control, effort): (Control, &Effort),
+    ) -> Measured {
         Measured {
             releases: self.errors(&self.releases, springs, (control, effort)),
             motions: self.errors(&self.motions, springs, (control, effort)),
@@ -229,7 +245,9 @@ impl ElasticSuite {
     ) -> Option<ElasticErrors> {
         let judge = |trial: &ElasticTrial| match effort.stopped() {
             true => Judged::LOST,
-            false => trial.judge_within(&self.model, springs, self.forces.as_ref(), (control, effort)),
+            false => {
+                trial.judge_within(&self.model, springs, self.forces.as_ref(), (control, effort))
+            }
         };
         let judged: Vec<_> = trials.par_iter().with_max_len(1).map(judge).collect();
         let sorted = |i: usize| {

@@ -55,7 +55,8 @@ pub struct Judged {
 
 impl Judged {
     /// Of a history that was not followed.
-    pub(crate) const LOST: Self = Self { errors: [f64::INFINITY; 2], peaks: StructurePeakErrors::LOST, touches: 0 };
+    pub(crate) const LOST: Self =
+        Self { errors: [f64::INFINITY; 2], peaks: StructurePeakErrors::LOST, touches: 0 };
 }
 
 /// What a motion comes to.
@@ -120,7 +121,11 @@ impl ElasticTrial {
     }
 
     /// The same, its work counted; unfit once it is stopped from outside.
-    pub(crate) fn shaken_within(model: &Assembled, record: &Record, effort: &Effort) -> ElasticTrialOutcome {
+    pub(crate) fn shaken_within(
+        model: &Assembled,
+        record: &Record,
+        effort: &Effort,
+    ) -> ElasticTrialOutcome {
         let Ok(q) = model.upright() else { return ElasticTrialOutcome::Unfit };
         let (accel, up) = (&record.accel, record.up());
         let mut samples = accel.len().div_ceil(PARTS);
@@ -143,12 +148,15 @@ impl ElasticTrial {
                     };
                     Self::found(model, ground, None, &history, || foretold)
                 });
-                let before = before.filter(|found| matches!(found, ElasticTrialOutcome::ReferenceMotion(_)));
+                let before =
+                    before.filter(|found| matches!(found, ElasticTrialOutcome::ReferenceMotion(_)));
                 return before.unwrap_or(ElasticTrialOutcome::OutOfWork);
             }
             let foretold = model.foretold(ground, &q, &history, TRIED);
             // what comes after it need not be known
-            if foretold < samples && history.landings().next().is_some() || samples == record.accel.len() {
+            if foretold < samples && history.landings().next().is_some()
+                || samples == record.accel.len()
+            {
                 return Self::found(model, ground, None, &history, || foretold);
             }
             shorter = Some((samples, history, foretold));
@@ -157,8 +165,13 @@ impl ElasticTrial {
     }
 
     /// The same beside a reference that is known.
-    pub(crate) fn beside(model: &Assembled, record: &Record, reference: &Reference) -> ElasticTrialOutcome {
-        let ground = GroundAcceleration { dt: record.dt, accel: &record.accel, vertical: record.up() };
+    pub(crate) fn beside(
+        model: &Assembled,
+        record: &Record,
+        reference: &Reference,
+    ) -> ElasticTrialOutcome {
+        let ground =
+            GroundAcceleration { dt: record.dt, accel: &record.accel, vertical: record.up() };
         Self::found(model, ground, None, &reference.history, || reference.followed)
     }
 
@@ -257,7 +270,8 @@ impl ElasticTrial {
             }
         };
         let peaks = if errors.iter().all(|error| error.is_finite()) {
-            let peaks = StructurePeaks::of(model, history.q.iter().map(Vec::as_slice)).beside(&self.peaks);
+            let peaks =
+                StructurePeaks::of(model, history.q.iter().map(Vec::as_slice)).beside(&self.peaks);
             StructurePeakErrors { design_forces: design_forces(), ..peaks }
         } else {
             StructurePeakErrors { design_forces: lost, ..StructurePeakErrors::LOST }

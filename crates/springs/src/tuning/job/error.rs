@@ -14,7 +14,9 @@ pub enum JobError {
         "{record}: PGA {pga_g:.4} g never lifts the structure (it takes {limit_g:.4} g), and the paper's procedure tunes on a record; raise --scale, give another record, or leave objective = \"arr\" out"
     )]
     NeverLifts { record: String, pga_g: f64, limit_g: f64 },
-    #[error("{record} holds {samples} sample; a history needs at least two: give another record, or raise --duration")]
+    #[error(
+        "{record} holds {samples} sample; a history needs at least two: give another record, or raise --duration"
+    )]
     TooShort { record: String, samples: usize },
     #[error(
         "tuning.max_settlement_m is {asked_m:?}, but on springs of {max_hz} Hz the body settles by {least_m:.3e} m at least; allow that, or raise --max-hz"

@@ -28,7 +28,8 @@ pub(super) struct Procedure<'a> {
 impl<'a> Procedure<'a> {
     pub(crate) fn new(case: &'a Case, benchmark: &'a Benchmark<'a>) -> Result<Self, JobError> {
         let fits = |mus: &[f64]| -> Result<Vec<Fit>, FitError> {
-            let found: Vec<_> = mus.par_iter().map(|&mu| fit(mu, &case.target, &case.bounds)).collect();
+            let found: Vec<_> =
+                mus.par_iter().map(|&mu| fit(mu, &case.target, &case.bounds)).collect();
             found.into_iter().collect()
         };
         let vertical = fits(&case.tuning.mass_ratios_vertical)?;
@@ -37,7 +38,11 @@ impl<'a> Procedure<'a> {
     }
 
     /// Springs up to this Omega_n (Hz), whatever they settle.
-    pub(crate) fn at(&self, max_hz: f64, progress: &(dyn Fn(usize, usize, f64) + Sync)) -> Option<outer::OmegaSearch> {
+    pub(crate) fn at(
+        &self,
+        max_hz: f64,
+        progress: &(dyn Fn(usize, usize, f64) + Sync),
+    ) -> Option<outer::OmegaSearch> {
         self.sampled(max_hz, self.case.tuning.candidates, progress)
     }
 
@@ -65,7 +70,10 @@ impl<'a> Procedure<'a> {
     }
 
     fn least_settlement(&self, bracket: &Bracket) -> f64 {
-        self.vertical.iter().map(|fit| bracket.least_settlement(fit.k)).fold(f64::INFINITY, f64::min)
+        self.vertical
+            .iter()
+            .map(|fit| bracket.least_settlement(fit.k))
+            .fold(f64::INFINITY, f64::min)
     }
 
     /// Within the case's cap as the paper has it; without one, Omega_n by the accuracy asked for.
@@ -74,26 +82,44 @@ impl<'a> Procedure<'a> {
         suites: &Suites,
         progress: &(dyn Fn(usize, usize, f64) + Sync),
     ) -> Result<(Tuned, bool, Option<outer::OmegaSearch>), JobError> {
-        let (tuning, body, effort) = (&self.case.tuning, &self.benchmark.body, self.benchmark.effort);
+        let (tuning, body, effort) =
+            (&self.case.tuning, &self.benchmark.body, self.benchmark.effort);
         let asked = tuning.asked();
         if let Some(max_hz) = tuning.max_omega_hz {
             let bracket = Bracket { max_hz, max_settlement: tuning.max_settlement_m };
             let least_m = self.least_settlement(&bracket);
             if least_m > bracket.max_settlement {
-                return Err(JobError::Settlement { asked_m: bracket.max_settlement, max_hz, least_m });
+                return Err(JobError::Settlement {
+                    asked_m: bracket.max_settlement,
+                    max_hz,
+                    least_m,
+                });
             }
             let found = self.at(max_hz, progress).ok_or(JobError::NoCandidate)?;
-            return Ok((evaluate(suites, body, asked, found.best.springs, effort), true, Some(found)));
+            return Ok((
+                evaluate(suites, body, asked, found.best.springs, effort),
+                true,
+                Some(found),
+            ));
         }
         let p = body.p_squared().sqrt();
         let begin = stiffness_search::begin(asked) * p / TAU;
         let found = self.at(begin, progress).ok_or(JobError::NoCandidate)?;
         let springs = |stiffness: f64| {
             let bracket = Bracket { max_hz: stiffness * p / TAU, max_settlement: f64::INFINITY };
-            let near = outer::follow(self.benchmark, &self.vertical, &self.horizontal, bracket, &found, begin);
+            let near = outer::follow(
+                self.benchmark,
+                &self.vertical,
+                &self.horizontal,
+                bracket,
+                &found,
+                begin,
+            );
             near.map(|candidate| candidate.springs)
         };
-        let said = |rungs: usize, over: f64| progress(rungs, 0, over * stiffness_search::MARGIN * asked.error);
+        let said = |rungs: usize, over: f64| {
+            progress(rungs, 0, over * stiffness_search::MARGIN * asked.error)
+        };
         let tuned = stiffness_search::tune(
             suites,
             body.mass,

@@ -116,10 +116,12 @@ mod tests {
         for zeta in [0.1_f64, 0.3, 0.6] {
             let root = (1.0 - zeta * zeta).sqrt();
             let landing = land(1e-9, 0.5 / zeta, 1e-7).unwrap();
-            let (lift, rebound) = (std::f64::consts::PI / root, (-zeta * std::f64::consts::PI / root).exp());
+            let (lift, rebound) =
+                (std::f64::consts::PI / root, (-zeta * std::f64::consts::PI / root).exp());
             // both are missed by the order of the absorber's mass, over C
             assert!(
-                (landing.lift / lift - 1.0).abs() < 1e-5 && (landing.rebound / rebound - 1.0).abs() < 1e-5,
+                (landing.lift / lift - 1.0).abs() < 1e-5
+                    && (landing.rebound / rebound - 1.0).abs() < 1e-5,
                 "{zeta}"
             );
         }
@@ -129,25 +131,35 @@ mod tests {
     #[test]
     fn a_fixed_absorber_gives_all_back() {
         let landing = land(1e9, 1.0, 1.0).unwrap();
-        assert!((landing.rebound - 1.0).abs() < 1e-6 && (landing.lift - std::f64::consts::PI).abs() < 1e-6);
+        assert!(
+            (landing.rebound - 1.0).abs() < 1e-6
+                && (landing.lift - std::f64::consts::PI).abs() < 1e-6
+        );
     }
 
     /// Measured by an independent program (matrix exponentials in Python): first lift and its
     /// speed.
     #[test]
     fn rebounds_are_those_of_an_independent_program() {
-        for (k, c, mu, lift, rebound) in
-            [(0.02, 0.55, 0.665, 2.44, 0.0183), (0.05, 0.6, 0.66, 2.50, 0.0437), (0.1, 0.643, 0.675, 2.57, 0.0800)]
-        {
+        for (k, c, mu, lift, rebound) in [
+            (0.02, 0.55, 0.665, 2.44, 0.0183),
+            (0.05, 0.6, 0.66, 2.50, 0.0437),
+            (0.1, 0.643, 0.675, 2.57, 0.0800),
+        ] {
             let landing = land(k, c, mu).unwrap();
-            assert!((landing.lift - lift).abs() < 0.01 && (landing.rebound - rebound).abs() < 1e-4, "{landing:?}");
+            assert!(
+                (landing.lift - lift).abs() < 0.01 && (landing.rebound - rebound).abs() < 1e-4,
+                "{landing:?}"
+            );
         }
     }
 
     #[test]
     fn derivatives_through_the_lift_agree_with_finite_differences() {
         let at = |k: f64, c: f64, mu: f64| land(k, c, mu).unwrap();
-        let dual = |x: f64, on: bool| if on { Dual64::from_re(x).derivative() } else { Dual64::from_re(x) };
+        let dual = |x: f64, on: bool| {
+            if on { Dual64::from_re(x).derivative() } else { Dual64::from_re(x) }
+        };
         let z = [0.05, 0.62, 0.66];
         for i in 0..3 {
             let d = land(dual(z[0], i == 0), dual(z[1], i == 1), dual(z[2], i == 2)).unwrap();
@@ -162,7 +174,10 @@ mod tests {
                 (d.clearance.eps, (up.clearance - down.clearance) / 2e-5),
                 (d.lift.eps, (up.lift - down.lift) / 2e-5),
             ] {
-                assert!((exact - slope).abs() < 1e-6 * exact.abs().max(1.0), "{i}: {exact} {slope}");
+                assert!(
+                    (exact - slope).abs() < 1e-6 * exact.abs().max(1.0),
+                    "{i}: {exact} {slope}"
+                );
             }
             assert!((d.rebound.re - at(z[0], z[1], z[2]).rebound).abs() < 1e-12);
         }

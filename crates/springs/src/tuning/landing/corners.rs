@@ -48,7 +48,9 @@ impl<S: Scalar> CornerDynamics<S> {
         // (b, -h)
         let g = [[one, zero, -cos], [zero, one, sin], [one, zero, -cos], [zero, one, -sin]];
         let w = std::array::from_fn(|i| {
-            std::array::from_fn(|j| g[i][0] * g[j][0] + g[i][1] * g[j][1] + g[i][2] * g[j][2] / inertia)
+            std::array::from_fn(|j| {
+                g[i][0] * g[j][0] + g[i][1] * g[j][1] + g[i][2] * g[j][2] / inertia
+            })
         });
         let width = sin * 2.0;
         let i0 = inertia + 1.0;
@@ -84,7 +86,10 @@ impl<S: Scalar> CornerDynamics<S> {
 }
 
 /// Impulses that bring the corners' `directions` to rest from a landing at speed 1.
-fn stopped<S: Scalar, const C: usize>(w: &[[S; DIRECTIONS]; DIRECTIONS], directions: &[usize; C]) -> [S; DIRECTIONS] {
+fn stopped<S: Scalar, const C: usize>(
+    w: &[[S; DIRECTIONS]; DIRECTIONS],
+    directions: &[usize; C],
+) -> [S; DIRECTIONS] {
     let matrix = std::array::from_fn(|i| std::array::from_fn(|j| w[directions[i]][directions[j]]));
     let approach = directions.map(|i| if i == 3 { S::one() } else { S::zero() });
     let mut impulses = [S::zero(); DIRECTIONS];
@@ -95,7 +100,11 @@ fn stopped<S: Scalar, const C: usize>(w: &[[S; DIRECTIONS]; DIRECTIONS], directi
 }
 
 /// Velocity of a corner's direction after impulses.
-fn velocity<S: Scalar>(w: &[[S; DIRECTIONS]; DIRECTIONS], impulses: &[S; DIRECTIONS], direction: usize) -> S {
+fn velocity<S: Scalar>(
+    w: &[[S; DIRECTIONS]; DIRECTIONS],
+    impulses: &[S; DIRECTIONS],
+    direction: usize,
+) -> S {
     let before = if direction == 3 { -S::one() } else { S::zero() };
     before + dot(&w[direction], impulses)
 }

@@ -87,7 +87,11 @@ impl Geometry {
         if !(1.0..=1e9).contains(&stiffness) {
             return Err(GeometryError::Stiffness(stiffness));
         }
-        Ok(Self { alpha: nine_digits(alpha), mass_share: nine_digits(mass_share), stiffness: nine_digits(stiffness) })
+        Ok(Self {
+            alpha: nine_digits(alpha),
+            mass_share: nine_digits(mass_share),
+            stiffness: nine_digits(stiffness),
+        })
     }
 
     /// Of a body, at this Omega_n/p.
@@ -146,7 +150,11 @@ impl Geometry {
 
     /// The springs, their frequencies relative to the vertical Omega_n.
     pub fn springs(&self) -> Springs<Design<f64>> {
-        for_landing(&CornerDynamics::rigid(self.alpha, self.mass_share), self.effective_mass(), self.k())
+        for_landing(
+            &CornerDynamics::rigid(self.alpha, self.mass_share),
+            self.effective_mass(),
+            self.k(),
+        )
     }
 }
 
@@ -204,6 +212,8 @@ mod tests {
         assert_eq!(at(0.2), at(0.2 + 1e-11));
         assert_ne!(at(0.2), at(0.2 + 1e-8));
         assert_eq!(Geometry::new(1.0, 0.75, 2e4), Err(GeometryError::Alpha(1.0)));
-        assert!(Geometry::new(0.2, 0.0, 2e4).is_err() && Geometry::new(0.2, 0.75, f64::NAN).is_err());
+        assert!(
+            Geometry::new(0.2, 0.0, 2e4).is_err() && Geometry::new(0.2, 0.75, f64::NAN).is_err()
+        );
     }
 }

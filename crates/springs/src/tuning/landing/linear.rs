@@ -15,8 +15,13 @@ const TERMS: usize = 12;
 const NORM: f64 = 0.25;
 
 /// exp(A t).
-pub(super) fn exponential<S: Scalar, const N: usize>(a: &SquareMatrix<S, N>, t: S) -> SquareMatrix<S, N> {
-    let norm = a.iter().map(|row| row.iter().map(|x| x.re().abs()).sum::<f64>()).fold(0.0, f64::max) * t.re().abs();
+pub(super) fn exponential<S: Scalar, const N: usize>(
+    a: &SquareMatrix<S, N>,
+    t: S,
+) -> SquareMatrix<S, N> {
+    let norm =
+        a.iter().map(|row| row.iter().map(|x| x.re().abs()).sum::<f64>()).fold(0.0, f64::max)
+            * t.re().abs();
     let squarings = if norm > NORM { (norm / NORM).log2().ceil() as i32 } else { 0 };
     let small = t * real::<S>(0.5_f64.powi(squarings));
     let scaled: SquareMatrix<S, N> = a.map(|row| row.map(|x| x * small));
@@ -48,7 +53,10 @@ fn identity<S: Scalar, const N: usize>() -> SquareMatrix<S, N> {
     std::array::from_fn(|i| std::array::from_fn(|j| if i == j { S::one() } else { S::zero() }))
 }
 
-fn product<S: Scalar, const N: usize>(a: &SquareMatrix<S, N>, b: &SquareMatrix<S, N>) -> SquareMatrix<S, N> {
+fn product<S: Scalar, const N: usize>(
+    a: &SquareMatrix<S, N>,
+    b: &SquareMatrix<S, N>,
+) -> SquareMatrix<S, N> {
     let mut out = [[S::zero(); N]; N];
     for (row, out) in a.iter().zip(&mut out) {
         for (&x, b) in row.iter().zip(b) {
@@ -72,7 +80,11 @@ mod tests {
             let rotation = exponential(&[[0.0, 1.0], [-1.0, 0.0]], t);
             // squaring s times doubles the rounding each time: |A t| units of it
             let rounding = 8.0 * f64::EPSILON * t.max(1.0);
-            assert!((rotation[0][0] - t.cos()).abs() < rounding && (rotation[0][1] - t.sin()).abs() < rounding, "{t}");
+            assert!(
+                (rotation[0][0] - t.cos()).abs() < rounding
+                    && (rotation[0][1] - t.sin()).abs() < rounding,
+                "{t}"
+            );
             let jordan = exponential(&[[-1.0, 1.0], [0.0, -1.0]], t);
             assert!((jordan[0][1] - t * (-t).exp()).abs() < rounding, "{t}");
         }

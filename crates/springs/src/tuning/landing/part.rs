@@ -70,7 +70,12 @@ pub(crate) fn for_part(corners: &CornerDynamics<f64>, k: f64) -> Springs<Design<
     let Universal { k, c, mu, .. } = universal(k);
     let springs = Springs {
         vertical: Design::from_kc(mu * m, k, c * m.sqrt(), 1.0),
-        horizontal: Design::from_kc(DEAD_K * across, DEAD_K, DEAD_C * across.sqrt(), FASTER * (across / m).sqrt()),
+        horizontal: Design::from_kc(
+            DEAD_K * across,
+            DEAD_K,
+            DEAD_C * across.sqrt(),
+            FASTER * (across / m).sqrt(),
+        ),
     };
     sought(corners, &springs)
 }
@@ -79,17 +84,19 @@ pub(crate) fn for_part(corners: &CornerDynamics<f64>, k: f64) -> Springs<Design<
 fn sought(corners: &CornerDynamics<f64>, springs: &Springs<Design<f64>>) -> Springs<Design<f64>> {
     let Design { mu, omega_n_hz, .. } = springs.vertical;
     let (k, c) = (springs.vertical.k(), springs.vertical.c());
-    let at =
-        |x: &[f64]| Springs { vertical: Design::from_kc(mu * x[0].exp(), k, c * x[1].exp(), omega_n_hz), ..*springs };
+    let at = |x: &[f64]| Springs {
+        vertical: Design::from_kc(mu * x[0].exp(), k, c * x[1].exp(), omega_n_hz),
+        ..*springs
+    };
     let left = |x: &[f64]| {
         let PlaneLanding { deviation, changes, .. } = land(corners, &at(x));
         deviation * (1.0 + CHANGE * changes.iter().sum::<usize>().saturating_sub(FEWEST) as f64)
     };
     let cost = |x: &[f64]| f64::max(left(x), left(&[x[0] + HEAVIER.ln(), x[1] + HEAVIER.ln()]));
     let simplex = STARTS.map(|x| x.to_vec()).to_vec();
-    let found = NelderMead::new(simplex)
-        .with_sd_tolerance(SPREAD)
-        .and_then(|solver| Executor::new(Search(cost), solver).configure(|state| state.max_iters(STEPS)).run());
+    let found = NelderMead::new(simplex).with_sd_tolerance(SPREAD).and_then(|solver| {
+        Executor::new(Search(cost), solver).configure(|state| state.max_iters(STEPS)).run()
+    });
     found.ok().and_then(|result| result.state.best_param).map_or(*springs, |x| at(&x))
 }
 
@@ -102,7 +109,9 @@ mod tests {
     fn block(b: f64, h: f64) -> CornerDynamics<f64> {
         let inertia = (b * b + h * h) / 3.0;
         let g = [[1.0, 0.0, -h], [0.0, 1.0, b], [1.0, 0.0, -h], [0.0, 1.0, -b]];
-        let w = |i: usize, j: usize| (0..2).map(|k| g[i][k] * g[j][k]).sum::<f64>() + g[i][2] * g[j][2] / inertia;
+        let w = |i: usize, j: usize| {
+            (0..2).map(|k| g[i][k] * g[j][k]).sum::<f64>() + g[i][2] * g[j][2] / inertia
+        };
         CornerDynamics::of(std::array::from_fn(|i| std::array::from_fn(|j| w(i, j))), 2.0 * b)
     }
 
@@ -121,12 +130,16 @@ mod tests {
         ] {
             for k in [0.01, 0.05, 0.2] {
                 let corners = block(b, h);
-                let universal = land(&corners, &for_landing(&corners, corners.effective_mass()[1], k));
+                let universal =
+                    land(&corners, &for_landing(&corners, corners.effective_mass()[1], k));
                 let sought = land(&corners, &for_part(&corners, k));
                 assert!(corners.stops() == stops && sought.complete);
                 assert!(sought.changes.iter().sum::<usize>() <= FEWEST, "{b} {h} {k}: {sought:?}");
                 if stops {
-                    assert!(sought.deviation < universal.deviation, "{b} {h} {k}: {sought:?} {universal:?}");
+                    assert!(
+                        sought.deviation < universal.deviation,
+                        "{b} {h} {k}: {sought:?} {universal:?}"
+                    );
                 }
             }
         }

@@ -69,7 +69,10 @@ pub struct PlaneLanding<S> {
 
 /// Land the structure on units of these designs, whose frequencies count relative to the vertical
 /// one's; followed to [`FOLLOWED`].
-pub fn land<S: Scalar>(corners: &CornerDynamics<S>, springs: &Springs<Design<S>>) -> PlaneLanding<S> {
+pub fn land<S: Scalar>(
+    corners: &CornerDynamics<S>,
+    springs: &Springs<Design<S>>,
+) -> PlaneLanding<S> {
     let mut run = LandingRun::new(corners, springs);
     while run.time.re() < FOLLOWED && run.changes[0] + run.changes[1] < MOST_CHANGES {
         run.advance();
@@ -163,8 +166,11 @@ impl<S: Scalar> LandingRun<S> {
     fn advance(&mut self) {
         let left = real::<S>(FOLLOWED) - self.time;
         let whole = left.re() > self.step;
-        let next =
-            if whole { times(&self.motion.1, &self.y) } else { times(&exponential(&self.motion.0, left), &self.y) };
+        let next = if whole {
+            times(&self.motion.1, &self.y)
+        } else {
+            times(&exponential(&self.motion.0, left), &self.y)
+        };
         let mut first: Option<(S, [S; N], usize)> = None;
         for foot in 0..2 {
             if self.lasts(foot, &next).0.re() >= -EDGE {
@@ -206,7 +212,11 @@ impl<S: Scalar> LandingRun<S> {
                 high = tau.re();
             }
             let newton = tau - value / rate;
-            tau = if newton.re() >= low && newton.re() <= high { newton } else { real(0.5 * (low + high)) };
+            tau = if newton.re() >= low && newton.re() <= high {
+                newton
+            } else {
+                real(0.5 * (low + high))
+            };
         }
         (tau, at(tau))
     }
@@ -226,7 +236,8 @@ impl<S: Scalar> LandingRun<S> {
 
     fn finish(&self, corners: &CornerDynamics<S>) -> PlaneLanding<S> {
         let old_impulse = self.y[IMPULSE + 1];
-        let beyond: [S; DIRECTIONS] = std::array::from_fn(|i| self.y[IMPULSE + i] - corners.plastic[i]);
+        let beyond: [S; DIRECTIONS] =
+            std::array::from_fn(|i| self.y[IMPULSE + i] - corners.plastic[i]);
         let energy = |j: &[S; DIRECTIONS]| dot(j, &times(&corners.w, j));
         PlaneLanding {
             momentum: old_impulse * corners.width / corners.momentum + 1.0,

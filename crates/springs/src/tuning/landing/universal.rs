@@ -38,9 +38,10 @@ pub fn universal(k: f64) -> Universal {
             Ok(grazing(self.0, *mu).rebound)
         }
     }
-    let run = Executor::new(Rebound(k.max(K_FLAT)), BrentOpt::new(MU.0, MU.1).set_tolerance(1e-5, 1e-7))
-        .configure(|state| state.max_iters(60))
-        .run();
+    let run =
+        Executor::new(Rebound(k.max(K_FLAT)), BrentOpt::new(MU.0, MU.1).set_tolerance(1e-5, 1e-7))
+            .configure(|state| state.max_iters(60))
+            .run();
     let mu = run.ok().and_then(|result| result.state.best_param).unwrap_or(0.5 * (MU.0 + MU.1));
     grazing(k, mu)
 }
@@ -52,7 +53,8 @@ fn grazing(k: f64, mu: f64) -> Universal {
     let mut c = 0.6;
     let mut rebound = 1.0;
     for _ in 0..60 {
-        let landing = chain::land(Dual64::from_re(k), Dual64::from_re(c).derivative(), Dual64::from_re(mu));
+        let landing =
+            chain::land(Dual64::from_re(k), Dual64::from_re(c).derivative(), Dual64::from_re(mu));
         let Some(landing) = landing else {
             // it stays on the ground: too much of a dashpot it is not
             low = c;
@@ -94,7 +96,10 @@ mod tests {
             println!("{found:?}");
             // the optimum is flat along a valley of mu and C: C mu^(2/3) hardly changes there
             assert!(found.rebound <= rebound + 0.001, "{found:?}");
-            assert!((found.mu / mu - 1.0).abs() < 0.15 && (found.c / c - 1.0).abs() < 0.2, "{found:?}");
+            assert!(
+                (found.mu / mu - 1.0).abs() < 0.15 && (found.c / c - 1.0).abs() < 0.2,
+                "{found:?}"
+            );
         }
     }
 
@@ -104,7 +109,9 @@ mod tests {
             let Universal { c, mu, .. } = universal(k);
             let clearance = |c: f64| chain::land(k, c, mu).unwrap().clearance;
             println!("{k} {c} {mu} {}", clearance(c));
-            assert!(clearance(c).abs() < 1e-9 && clearance(1.02 * c) > 0.0 && clearance(0.98 * c) < 0.0);
+            assert!(
+                clearance(c).abs() < 1e-9 && clearance(1.02 * c) > 0.0 && clearance(0.98 * c) < 0.0
+            );
         }
     }
 }

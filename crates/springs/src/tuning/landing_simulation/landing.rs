@@ -86,8 +86,10 @@ impl Release {
         let at = |share: f64| ((landed + share * rise) / dt).round() as usize;
         let rise = at(RISE.0)..at(RISE.1).min(samples - 1).max(at(RISE.0) + 1);
         let motion = |i: usize| {
-            let (theta, rate) =
-                (rocking.theta.get(i).copied().unwrap_or(0.0), rocking.rate.get(i).copied().unwrap_or(0.0));
+            let (theta, rate) = (
+                rocking.theta.get(i).copied().unwrap_or(0.0),
+                rocking.rate.get(i).copied().unwrap_or(0.0),
+            );
             let slope = body.half_width * theta.signum() * theta.sin() + body.height * theta.cos();
             (body.u(theta), slope * rate)
         };
@@ -102,7 +104,8 @@ impl Release {
         (control, effort): (Control, &Effort),
     ) -> Option<Left<S>> {
         let quiet = vec![0.0; self.samples];
-        let mut flight = LandingWatch { release: self, since: None, air: S::zero(), growing: S::zero() };
+        let mut flight =
+            LandingWatch { release: self, since: None, air: S::zero(), growing: S::zero() };
         let case = Analysis {
             body: *body,
             springs: *chains,

@@ -47,14 +47,28 @@ pub struct LandingRow {
 
 /// Landings of a body on these springs, which shall have the velocity restitution `restitution`;
 /// one whose run did not finish is left out.
-pub fn landings(body: &Body<f64>, chains: &Springs<Chain<f64>>, restitution: f64) -> Vec<LandingRow> {
-    LEANS.par_iter().with_max_len(1).filter_map(|&lean| landing(body, chains, restitution, lean)).collect()
+pub fn landings(
+    body: &Body<f64>,
+    chains: &Springs<Chain<f64>>,
+    restitution: f64,
+) -> Vec<LandingRow> {
+    LEANS
+        .par_iter()
+        .with_max_len(1)
+        .filter_map(|&lean| landing(body, chains, restitution, lean))
+        .collect()
 }
 
-fn landing(body: &Body<f64>, chains: &Springs<Chain<f64>>, restitution: f64, lean: f64) -> Option<LandingRow> {
+fn landing(
+    body: &Body<f64>,
+    chains: &Springs<Chain<f64>>,
+    restitution: f64,
+    lean: f64,
+) -> Option<LandingRow> {
     let control = Control::default();
     let uncounted = (control, &Effort::unbounded());
-    let Left { kept, air: air_s, .. } = Release::new(body, restitution, lean).run(body, chains, uncounted)?;
+    let Left { kept, air: air_s, .. } =
+        Release::new(body, restitution, lean).run(body, chains, uncounted)?;
     let effective = kept.max(0.0).sqrt();
     let mut speeds = Speeds::default();
     with_next(body, chains, restitution, lean, control, |case| case.observe(&mut speeds));
@@ -133,8 +147,12 @@ impl Observer<f64> for Speeds {
     fn event(&mut self, foot: usize, change: Change, view: &View<f64>) {
         let speed = view.foot_speed(foot);
         match (change, self.landed) {
-            (Change::TouchDown, None) => (self.landed, self.touch_downs) = (Some((foot, -speed)), 1),
-            (Change::TouchDown, Some((landed, _))) => self.touch_downs += usize::from(landed == foot),
+            (Change::TouchDown, None) => {
+                (self.landed, self.touch_downs) = (Some((foot, -speed)), 1)
+            }
+            (Change::TouchDown, Some((landed, _))) => {
+                self.touch_downs += usize::from(landed == foot)
+            }
             (Change::LiftOff, Some((landed, first))) if landed == foot => {
                 self.rebound = self.rebound.max(speed / first);
             }

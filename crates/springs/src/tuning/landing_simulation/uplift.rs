@@ -43,7 +43,12 @@ pub(super) struct UpliftRamp {
 /// The uplifts of a structure.
 pub(super) fn all(body: &Body<f64>) -> Vec<UpliftRamp> {
     let p = body.p_squared().sqrt();
-    RAMPS_S.iter().copied().chain(RAMPS_P.iter().map(|t| t / p)).map(|tr| UpliftRamp::new(body, tr)).collect()
+    RAMPS_S
+        .iter()
+        .copied()
+        .chain(RAMPS_P.iter().map(|t| t / p))
+        .map(|tr| UpliftRamp::new(body, tr))
+        .collect()
 }
 
 impl UpliftRamp {
@@ -53,7 +58,8 @@ impl UpliftRamp {
         let dt = tr / steps as f64;
         let before = (0.1 / dt).ceil() as usize;
         let after = ((0.08 / dt).ceil() as usize).max(4);
-        let mut accel: Vec<f64> = (0..=before).map(|i| SWING.0 * lift * i as f64 / before as f64).collect();
+        let mut accel: Vec<f64> =
+            (0..=before).map(|i| SWING.0 * lift * i as f64 / before as f64).collect();
         accel.extend((1..=steps).map(|i| {
             let share = 0.5 * (1.0 - (PI * i as f64 / steps as f64).cos());
             lift * (SWING.0 + (SWING.1 - SWING.0) * share)

@@ -15,7 +15,9 @@
 use nalgebra::{DMatrix, DVector, Matrix2, Vector2};
 use serde::Serialize;
 
-use super::excess::{BoundSide, ExcessPoint, QuadraticModel, SearchParameters, largest, points, response};
+use super::excess::{
+    BoundSide, ExcessPoint, QuadraticModel, SearchParameters, largest, points, response,
+};
 use crate::response::bounds::Region;
 
 /// A frequency at which the fit is held: the largest excess is reached there.
@@ -82,7 +84,12 @@ impl Problem<'_> {
     }
 
     /// The certificate of z with these active points and multipliers.
-    pub(crate) fn certificate(&self, z: &SearchParameters, active: &[ExcessPoint], multipliers: &[f64]) -> Certificate {
+    pub(crate) fn certificate(
+        &self,
+        z: &SearchParameters,
+        active: &[ExcessPoint],
+        multipliers: &[f64],
+    ) -> Certificate {
         let t = largest(&self.points(z));
         let response = response(self.mu, z);
         let (mut sum, mut size) = (Vector2::zeros(), 0.0);
@@ -103,7 +110,9 @@ impl Problem<'_> {
         }
         let mut bounds = Vec::new();
         for j in 0..2 {
-            if let Some(bound) = self.bound(z, j).filter(|&(_, sign)| sum[j] * sign > 0.0).map(|(name, _)| name) {
+            if let Some(bound) =
+                self.bound(z, j).filter(|&(_, sign)| sum[j] * sign > 0.0).map(|(name, _)| name)
+            {
                 bounds.push(ActiveBound { bound, multiplier: sum[j].abs() });
                 sum[j] = 0.0;
             }
@@ -144,7 +153,8 @@ impl Problem<'_> {
         // Along a flat valley rounding throws the last steps about: the best of them is kept.
         let (mut best, mut best_residual) = (None, f64::INFINITY);
         for _ in 0..12 {
-            let models: Vec<QuadraticModel> = active.iter().map(|point| self.model(point, &z)).collect();
+            let models: Vec<QuadraticModel> =
+                active.iter().map(|point| self.model(point, &z)).collect();
             let (d, next) = self.newton(&z, &models, &lambda)?;
             if d.norm() > 0.5 {
                 break;
@@ -203,7 +213,11 @@ impl Problem<'_> {
         // are of order one
         let steepest = models.iter().map(|model| model.slope.norm()).fold(0.0, f64::max);
         let unit = if steepest > 0.0 { steepest } else { 1.0 };
-        let w = models.iter().zip(lambda).map(|(model, &l)| model.curvature * (l / unit)).sum::<Matrix2<f64>>();
+        let w = models
+            .iter()
+            .zip(lambda)
+            .map(|(model, &l)| model.curvature * (l / unit))
+            .sum::<Matrix2<f64>>();
         let free = [0, 1].map(|j| self.bound(z, j).is_none());
         // unknowns d_0, d_1, the rise of t in that unit, lambda_1..n
         let mut matrix = DMatrix::zeros(n + 3, n + 3);
@@ -211,7 +225,10 @@ impl Problem<'_> {
         for j in 0..2 {
             if free[j] {
                 (matrix[(j, 0)], matrix[(j, 1)]) = (w[(j, 0)], w[(j, 1)]);
-                models.iter().enumerate().for_each(|(i, model)| matrix[(j, 3 + i)] = model.slope[j] / unit);
+                models
+                    .iter()
+                    .enumerate()
+                    .for_each(|(i, model)| matrix[(j, 3 + i)] = model.slope[j] / unit);
             } else {
                 matrix[(j, j)] = 1.0;
             }
@@ -239,7 +256,8 @@ impl Problem<'_> {
 
 /// Which of `now` is `point` after a small move: of the same curve and sort, the nearest in ln g.
 pub(crate) fn follow(point: &ExcessPoint, now: &[ExcessPoint]) -> Option<usize> {
-    let distance = |other: &ExcessPoint| if other.g == point.g { 0.0 } else { (other.g / point.g).ln().abs() };
+    let distance =
+        |other: &ExcessPoint| if other.g == point.g { 0.0 } else { (other.g / point.g).ln().abs() };
     now.iter()
         .enumerate()
         .filter(|(_, other)| other.curve == point.curve && other.inside == point.inside)

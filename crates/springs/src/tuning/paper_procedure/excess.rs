@@ -124,7 +124,12 @@ impl BoundSide {
     /// Newton's method.
     fn points(&self, index: usize, mu: f64, z: &SearchParameters, out: &mut Vec<ExcessPoint>) {
         let response = response(mu, z);
-        let end = |g: f64| ExcessPoint { curve: index, g, inside: false, value: self.at_end(g, &response) };
+        let end = |g: f64| ExcessPoint {
+            curve: index,
+            g,
+            inside: false,
+            value: self.at_end(g, &response),
+        };
         out.push(end(self.g_low));
         let mut left: Option<f64> = None;
         for g in self.grid(&response) {
@@ -133,7 +138,12 @@ impl BoundSide {
                 left = Some(u);
             } else if let Some(from) = left.take() {
                 let g = self.peak(from, u, mu, z).exp();
-                out.push(ExcessPoint { curve: index, g, inside: true, value: self.excess(g, &response) });
+                out.push(ExcessPoint {
+                    curve: index,
+                    g,
+                    inside: true,
+                    value: self.excess(g, &response),
+                });
             }
         }
         if self.g_high.is_finite() || self.kind == BandKind::RollOff {
@@ -155,10 +165,13 @@ impl BoundSide {
         let low = self.g_low.max(1e-3 * first);
         let high = self.g_high.min(1e3 * last).max(low);
         let steps = ((high / low).log10() * PER_DECADE).ceil().max(8.0);
-        let mut grid: Vec<f64> = (0..=steps as usize).map(|i| low * (high / low).powf(i as f64 / steps)).collect();
+        let mut grid: Vec<f64> =
+            (0..=steps as usize).map(|i| low * (high / low).powf(i as f64 / steps)).collect();
         // at large mu the corners, and the peaks among them, crowd around g = 1
         for pair in corners.windows(2) {
-            grid.extend((0..=BETWEEN).map(|i| pair[0] + (pair[1] - pair[0]) * i as f64 / BETWEEN as f64));
+            grid.extend(
+                (0..=BETWEEN).map(|i| pair[0] + (pair[1] - pair[0]) * i as f64 / BETWEEN as f64),
+            );
         }
         // both ends exactly, not a rounding short of them: a peak just inside an end is bracketed
         // by it
@@ -176,7 +189,8 @@ impl BoundSide {
     fn peak(&self, mut a: f64, mut b: f64, mu: f64, z: &SearchParameters) -> f64 {
         let mut u = 0.5 * (a + b);
         for _ in 0..100 {
-            let (_, first, second) = second_derivative(|u| self.excess(u.exp(), &response(mu, &z.map(real))), u);
+            let (_, first, second) =
+                second_derivative(|u| self.excess(u.exp(), &response(mu, &z.map(real))), u);
             if first > 0.0 {
                 a = u;
             } else {
@@ -195,18 +209,30 @@ impl BoundSide {
     }
 
     /// The second-order model of a point of this curve.
-    pub(crate) fn model(&self, point: &ExcessPoint, mu: f64, z: &SearchParameters) -> QuadraticModel {
+    pub(crate) fn model(
+        &self,
+        point: &ExcessPoint,
+        mu: f64,
+        z: &SearchParameters,
+    ) -> QuadraticModel {
         if point.g.is_infinite() {
-            return QuadraticModel { value: point.value, slope: Vector2::zeros(), curvature: Matrix2::zeros() };
+            return QuadraticModel {
+                value: point.value,
+                slope: Vector2::zeros(),
+                curvature: Matrix2::zeros(),
+            };
         }
         if !point.inside {
             let at = |z: SVector<Dual2SVec64<2>, 2>| self.excess(real(point.g), &response(mu, &z));
             let (_, slope, curvature) = hessian(at, z);
             return QuadraticModel { value: point.value, slope, curvature };
         }
-        let at = |v: SVector<Dual2SVec64<3>, 3>| self.excess(v[2].exp(), &response(mu, &vector![v[0], v[1]]));
+        let at = |v: SVector<Dual2SVec64<3>, 3>| {
+            self.excess(v[2].exp(), &response(mu, &vector![v[0], v[1]]))
+        };
         let (_, slope, second) = hessian(at, &vector![z[0], z[1], point.g.ln()]);
-        let (slope, cross) = (slope.fixed_rows::<2>(0).into_owned(), second.fixed_view::<2, 1>(0, 2).into_owned());
+        let (slope, cross) =
+            (slope.fixed_rows::<2>(0).into_owned(), second.fixed_view::<2, 1>(0, 2).into_owned());
         // psi_uu < 0 at a peak; one that is about to vanish (psi_uu -> 0) keeps a finite, convex
         // model
         let bend = second[(2, 2)].min(-1e-9);
@@ -250,7 +276,9 @@ mod tests {
     fn designs() -> impl Iterator<Item = (f64, SearchParameters)> {
         [1e-3, 0.2, 3.0, 100.0].into_iter().flat_map(|mu| {
             [-4.0, -0.7, 1.0, 4.6].into_iter().flat_map(move |ln_k| {
-                [-5.0, -1.0, 0.6, 3.0, 7.0].into_iter().map(move |ln_c| (mu, Vector2::new(ln_k, ln_c)))
+                [-5.0, -1.0, 0.6, 3.0, 7.0]
+                    .into_iter()
+                    .map(move |ln_c| (mu, Vector2::new(ln_k, ln_c)))
             })
         })
     }
@@ -263,13 +291,18 @@ mod tests {
             let response = response(mu, &z);
             let found = points(&bands(), mu, &z);
             for (index, curve) in bands().iter().enumerate() {
-                let top =
-                    found.iter().filter(|point| point.curve == index).fold(f64::MIN, |top, point| top.max(point.value));
+                let top = found
+                    .iter()
+                    .filter(|point| point.curve == index)
+                    .fold(f64::MIN, |top, point| top.max(point.value));
                 for i in 0..=20_000 {
                     let g = 10f64.powf(-4.0 + 4e-4 * f64::from(i));
                     if (curve.g_low..=curve.g_high).contains(&g) {
                         let value = curve.excess(g, &response);
-                        assert!(value <= top + 1e-12 * (1.0 + top.abs()), "mu {mu} {z} {curve:?} g {g}: {value} {top}");
+                        assert!(
+                            value <= top + 1e-12 * (1.0 + top.abs()),
+                            "mu {mu} {z} {curve:?} g {g}: {value} {top}"
+                        );
                     }
                 }
             }
@@ -281,10 +314,21 @@ mod tests {
         let z = Vector2::new(0.3, 0.2);
         let peak = points(&bands()[..1], 1.0, &z).into_iter().find(|point| point.inside).unwrap();
         for gap in [1e-3, 1e-6, 1e-9] {
-            let band = |g_low, g_high| Band { g_low, g_high, kind: BandKind::Cap, limit: 0.5, weight: 2.0 };
+            let band = |g_low, g_high| Band {
+                g_low,
+                g_high,
+                kind: BandKind::Cap,
+                limit: 0.5,
+                weight: 2.0,
+            };
             for band in [band(0.0, Some(peak.g * (1.0 + gap))), band(peak.g * (1.0 - gap), None)] {
                 let found = points(&curves(&Target { bands: vec![band] }), 1.0, &z);
-                assert!(found.iter().any(|point| point.inside && (point.g / peak.g - 1.0).abs() < 1e-14), "{found:?}");
+                assert!(
+                    found
+                        .iter()
+                        .any(|point| point.inside && (point.g / peak.g - 1.0).abs() < 1e-14),
+                    "{found:?}"
+                );
             }
         }
     }
@@ -294,17 +338,28 @@ mod tests {
         for (mu, z) in designs() {
             for point in points(&bands(), mu, &z).iter().filter(|point| point.inside) {
                 let curve = bands()[point.curve];
-                let bend = second_derivative(|u| curve.excess(u.exp(), &response(mu, &z.map(real))), point.g.ln()).2;
+                let bend = second_derivative(
+                    |u| curve.excess(u.exp(), &response(mu, &z.map(real))),
+                    point.g.ln(),
+                )
+                .2;
                 let slope = curve.slope(point.g.ln(), mu, &z);
                 // one rounding of u = ln g moves the slope by the curvature times it
-                assert!(slope.abs() <= 1e-14 * (10.0 + bend.abs()), "mu {mu} {z} {point:?}: {slope} {bend}");
+                assert!(
+                    slope.abs() <= 1e-14 * (10.0 + bend.abs()),
+                    "mu {mu} {z} {point:?}: {slope} {bend}"
+                );
             }
         }
     }
 
     #[test]
     fn models_agree_with_differences_of_the_points_themselves() {
-        for (mu, z) in [(0.3, Vector2::new(-0.5, 0.8)), (5.0, Vector2::new(1.4, 1.0)), (1.0, Vector2::new(0.1, -0.5))] {
+        for (mu, z) in [
+            (0.3, Vector2::new(-0.5, 0.8)),
+            (5.0, Vector2::new(1.4, 1.0)),
+            (1.0, Vector2::new(0.1, -0.5)),
+        ] {
             let curves = bands();
             for point in points(&curves, mu, &z).iter().filter(|point| point.value.is_finite()) {
                 let at = |z: SearchParameters| {
@@ -328,7 +383,8 @@ mod tests {
                     // hundred
                     let scale = 1.0 + model.slope.norm() + model.curvature.norm();
                     let first = (after - before) / (2.0 * h) - model.slope[j];
-                    let second = (slope_after - slope_before) / (2.0 * h) - model.curvature.column(j);
+                    let second =
+                        (slope_after - slope_before) / (2.0 * h) - model.curvature.column(j);
                     assert!(first.abs() < 1e-6 * scale, "{point:?} {j}: {first}");
                     assert!(second.norm() < 1e-5 * scale, "{point:?} {j}: {second}");
                 }

@@ -156,7 +156,11 @@ impl Fit {
             peak_g,
             arr_at_zero: response.at_zero(),
             excess: *excess,
-            outcome: if certificate.holds() { FitOutcome::Converged } else { FitOutcome::NotConverged },
+            outcome: if certificate.holds() {
+                FitOutcome::Converged
+            } else {
+                FitOutcome::NotConverged
+            },
             iterations: *iterations,
             certificate,
         }

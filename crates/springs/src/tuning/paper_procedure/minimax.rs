@@ -12,7 +12,9 @@
 //! steps without it (W = 0) would only creep.
 
 use clarabel::algebra::CscMatrix;
-use clarabel::solver::{DefaultSettingsBuilder, DefaultSolver, IPSolver, NonnegativeConeT, SolverStatus};
+use clarabel::solver::{
+    DefaultSettingsBuilder, DefaultSolver, IPSolver, NonnegativeConeT, SolverStatus,
+};
 use nalgebra::{Matrix2, Vector2};
 
 use super::certificate::{Problem, follow};
@@ -48,7 +50,8 @@ pub(crate) fn minimise(problem: &Problem, start: &SearchParameters) -> Minimum {
     let mut iterations = 0;
     while iterations < ITERATIONS {
         iterations += 1;
-        let models: Vec<QuadraticModel> = points.iter().map(|point| problem.model(point, &z)).collect();
+        let models: Vec<QuadraticModel> =
+            points.iter().map(|point| problem.model(point, &z)).collect();
         let w = models.iter().zip(&lambda).map(|(model, &l)| model.curvature * l).sum();
         let Some(step) = convex_step(problem, &z, t, &models, &convex(w), radius) else {
             radius *= 0.25;
@@ -163,7 +166,8 @@ fn convex_step(
         rows.push(row.map(|x| -x));
         right.push(down[j].min(radius));
     }
-    let quadratic = CscMatrix::from(&[[w[(0, 0)], w[(0, 1)], 0.0], [0.0, w[(1, 1)], 0.0], [0.0, 0.0, 0.0]]);
+    let quadratic =
+        CscMatrix::from(&[[w[(0, 0)], w[(0, 1)], 0.0], [0.0, w[(1, 1)], 0.0], [0.0, 0.0, 0.0]]);
     let cones = [NonnegativeConeT(rows.len())];
     let settings = DefaultSettingsBuilder::default()
         .verbose(false)
@@ -173,8 +177,15 @@ fn convex_step(
         .tol_feas(1e-12)
         .build()
         .ok()?;
-    let mut solver =
-        DefaultSolver::new(&quadratic, &[0.0, 0.0, 1.0], &CscMatrix::from(&rows), &right, &cones, settings).ok()?;
+    let mut solver = DefaultSolver::new(
+        &quadratic,
+        &[0.0, 0.0, 1.0],
+        &CscMatrix::from(&rows),
+        &right,
+        &cones,
+        settings,
+    )
+    .ok()?;
     solver.solve();
     // AlmostSolved: short of 1e-12 but within 1e-4; good enough for a step, the polish does the
     // rest
@@ -215,8 +226,13 @@ fn carried(before: &[ExcessPoint], lambda: &[f64], now: &[ExcessPoint]) -> Vec<f
 }
 
 /// The points that hold the fit, and their multipliers, which sum to 1.
-fn held(points: &[ExcessPoint], models: &[QuadraticModel], lambda: &[f64]) -> (Vec<ExcessPoint>, Vec<f64>) {
-    let pulls: Vec<f64> = models.iter().zip(lambda).map(|(model, &l)| l * model.slope.norm()).collect();
+fn held(
+    points: &[ExcessPoint],
+    models: &[QuadraticModel],
+    lambda: &[f64],
+) -> (Vec<ExcessPoint>, Vec<f64>) {
+    let pulls: Vec<f64> =
+        models.iter().zip(lambda).map(|(model, &l)| l * model.slope.norm()).collect();
     let pull: f64 = pulls.iter().sum();
     let (active, mut held): (Vec<ExcessPoint>, Vec<f64>) = points
         .iter()

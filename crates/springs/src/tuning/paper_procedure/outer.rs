@@ -84,7 +84,11 @@ pub struct OmegaSearch {
 
 impl Benchmark<'_> {
     /// The finite element case of these springs.
-    pub(crate) fn case(&self, springs: &Springs<Design<f64>>, control: Control) -> Analysis<'_, f64> {
+    pub(crate) fn case(
+        &self,
+        springs: &Springs<Design<f64>>,
+        control: Control,
+    ) -> Analysis<'_, f64> {
         Analysis {
             body: self.body,
             springs: springs.chains(self.body.mass),
@@ -98,7 +102,12 @@ impl Benchmark<'_> {
     }
 
     /// Mean NRMSE of u and v, sqrt(J/2), abandoned as soon as it exceeds `limit`.
-    pub fn error(&self, springs: &Springs<Design<f64>>, limit: f64, control: Control) -> (f64, bool) {
+    pub fn error(
+        &self,
+        springs: &Springs<Design<f64>>,
+        limit: f64,
+        control: Control,
+    ) -> (f64, bool) {
         let square = |x: &[f64]| x.iter().map(|x| x * x).sum::<f64>().max(f64::MIN_POSITIVE);
         let (su, sv) = (square(&self.housner.u), square(&self.housner.v));
         let case = self.case(springs, control);
@@ -112,16 +121,20 @@ impl Benchmark<'_> {
             };
             let (du, dv) = (view.x() - u, view.z() - settled - v);
             sum += du * du / su + dv * dv / sv;
-            if sum > 2.0 * limit * limit { ControlFlow::Break(()) } else { ControlFlow::Continue(()) }
+            if sum > 2.0 * limit * limit {
+                ControlFlow::Break(())
+            } else {
+                ControlFlow::Continue(())
+            }
         });
         finish.spend(self.effort);
         let error = (0.5 * sum).sqrt();
         match finish.outcome {
             HistoryOutcome::Completed => (error, false),
             // toppled, out of work or out of balance: it has not followed to the end
-            HistoryOutcome::Overturned { .. } | HistoryOutcome::WorkBound { .. } | HistoryOutcome::Unstable { .. } => {
-                (f64::INFINITY, false)
-            }
+            HistoryOutcome::Overturned { .. }
+            | HistoryOutcome::WorkBound { .. }
+            | HistoryOutcome::Unstable { .. } => (f64::INFINITY, false),
             HistoryOutcome::Stopped { .. } => (error, error > limit),
         }
     }
@@ -142,7 +155,8 @@ impl Bracket {
     /// Lowest and highest Omega_n (Hz) of a vertical chain of stiffness ratio K = k2/k1.
     fn vertical(&self, k: f64) -> (f64, f64) {
         // settlement = g/2 (1 + 1/K) / Omega_n^2
-        let low = (0.5 * GRAVITY * (1.0 + 1.0 / k) / self.max_settlement).sqrt() / std::f64::consts::TAU;
+        let low =
+            (0.5 * GRAVITY * (1.0 + 1.0 / k) / self.max_settlement).sqrt() / std::f64::consts::TAU;
         (low.max(0.05 * self.max_hz).min(self.max_hz), self.max_hz)
     }
 
@@ -162,8 +176,10 @@ struct Pair {
 impl Pair {
     fn springs(&self, x: [f64; 2]) -> Springs<Design<f64>> {
         let at = |(low, high): (f64, f64), x: f64| low * (high / low).powf(x.clamp(0.0, 1.0));
-        let (vertical, horizontal) =
-            (at(self.bracket.vertical(self.vertical.k()), x[0]), at(self.bracket.horizontal(), x[1]));
+        let (vertical, horizontal) = (
+            at(self.bracket.vertical(self.vertical.k()), x[0]),
+            at(self.bracket.horizontal(), x[1]),
+        );
         Springs {
             vertical: Design { omega_n_hz: vertical, ..self.vertical },
             horizontal: Design { omega_n_hz: horizontal, ..self.horizontal },
@@ -183,7 +199,8 @@ impl Pair {
 
 /// All pairs of families that can be stiff enough.
 fn pairs(vertical: &[Fit], horizontal: &[Fit], bracket: Bracket) -> Vec<Pair> {
-    let design = |fit: &Fit| Design { mu: fit.mu, f: fit.f, xi: fit.xi, omega_n_hz: bracket.max_hz };
+    let design =
+        |fit: &Fit| Design { mu: fit.mu, f: fit.f, xi: fit.xi, omega_n_hz: bracket.max_hz };
     let pair = |v: &Fit, h: &Fit| Pair { vertical: design(v), horizontal: design(h), bracket };
     let stiff = vertical.iter().filter(|v| bracket.allows(v.k));
     stiff.flat_map(|v| horizontal.iter().map(move |h| pair(v, h))).collect()
@@ -243,7 +260,8 @@ pub fn follow(
     found: &OmegaSearch,
     from_hz: f64,
 ) -> Option<Candidate> {
-    let mut near: Vec<&Candidate> = found.candidates.iter().filter(|c| !c.abandoned && c.error.is_finite()).collect();
+    let mut near: Vec<&Candidate> =
+        found.candidates.iter().filter(|c| !c.abandoned && c.error.is_finite()).collect();
     near.sort_by(|a, b| a.error.total_cmp(&b.error));
     let scale = |c: &&Candidate| {
         let mut springs = c.springs;
@@ -252,7 +270,8 @@ pub fn follow(
         Pair::of(&springs, bracket)
     };
     let stiff = |c: &&&Candidate| bracket.allows(c.springs.vertical.k());
-    let mut plan: Vec<(Pair, [f64; 2])> = near.iter().filter(stiff).take(FOLLOWED).map(scale).collect();
+    let mut plan: Vec<(Pair, [f64; 2])> =
+        near.iter().filter(stiff).take(FOLLOWED).map(scale).collect();
     plan.extend(pairs(vertical, horizontal, bracket).into_iter().map(|pair| (pair, [1.0; 2])));
     let candidates = sample(benchmark, &plan, plan.len(), &|_, _, _| {});
     best_of(benchmark, &plan, candidates, 1, FOLLOWING).map(|tuned| tuned.best)
@@ -282,7 +301,11 @@ fn sample(
             })
             .collect();
         candidates.extend(found);
-        best = candidates.iter().filter(|c| !c.abandoned).map(|c| c.error).fold(f64::INFINITY, f64::min);
+        best = candidates
+            .iter()
+            .filter(|c| !c.abandoned)
+            .map(|c| c.error)
+            .fold(f64::INFINITY, f64::min);
         progress(candidates.len(), total, best);
     }
     candidates
@@ -296,7 +319,8 @@ fn best_of(
     refined: usize,
     refinements: u64,
 ) -> Option<OmegaSearch> {
-    let mut order: Vec<usize> = (0..candidates.len()).filter(|&i| !candidates[i].abandoned).collect();
+    let mut order: Vec<usize> =
+        (0..candidates.len()).filter(|&i| !candidates[i].abandoned).collect();
     order.sort_by(|&a, &b| candidates[a].error.total_cmp(&candidates[b].error).then(a.cmp(&b)));
     let effort = benchmark.effort;
     let shares: Vec<(usize, Effort)> = match effort.stopped() {
@@ -307,7 +331,13 @@ fn best_of(
         .par_iter()
         .map(|(i, share)| {
             let (pair, x) = &plan[*i];
-            refine(&Benchmark { effort: share, ..*benchmark }, pair, *x, candidates[*i].error, refinements)
+            refine(
+                &Benchmark { effort: share, ..*benchmark },
+                pair,
+                *x,
+                candidates[*i].error,
+                refinements,
+            )
         })
         .collect();
     shares.iter().for_each(|(_, share)| effort.join(share));
@@ -319,7 +349,13 @@ fn best_of(
 }
 
 /// Nelder-Mead from one sample; every evaluation is kept.
-fn refine(benchmark: &Benchmark, pair: &Pair, x: [f64; 2], start: f64, refinements: u64) -> Vec<Candidate> {
+fn refine(
+    benchmark: &Benchmark,
+    pair: &Pair,
+    x: [f64; 2],
+    start: f64,
+    refinements: u64,
+) -> Vec<Candidate> {
     struct OuterProblem<'a> {
         benchmark: &'a Benchmark<'a>,
         pair: &'a Pair,
@@ -344,14 +380,17 @@ fn refine(benchmark: &Benchmark, pair: &Pair, x: [f64; 2], start: f64, refinemen
         }
     }
     let step = |x: f64, d: f64| if x + d > 1.0 { x - d } else { x + d };
-    let simplex = vec![vec![x[0], x[1]], vec![step(x[0], 0.06), x[1]], vec![x[0], step(x[1], 0.06)]];
+    let simplex =
+        vec![vec![x[0], x[1]], vec![step(x[0], 0.06), x[1]], vec![x[0], step(x[1], 0.06)]];
     // an error well above the start's cannot help, but its size still steers the simplex
     let problem = OuterProblem { benchmark, pair, limit: 2.0 * start, seen: Default::default() };
-    let run = NelderMead::new(simplex)
-        .with_sd_tolerance(1e-7)
-        .map(|solver| Executor::new(problem, solver).configure(|state| state.max_iters(refinements)).run());
+    let run = NelderMead::new(simplex).with_sd_tolerance(1e-7).map(|solver| {
+        Executor::new(problem, solver).configure(|state| state.max_iters(refinements)).run()
+    });
     match run {
-        Ok(Ok(mut result)) => result.problem.take_problem().and_then(|p| p.seen.into_inner().ok()).unwrap_or_default(),
+        Ok(Ok(mut result)) => {
+            result.problem.take_problem().and_then(|p| p.seen.into_inner().ok()).unwrap_or_default()
+        }
         _ => Vec::new(),
     }
 }

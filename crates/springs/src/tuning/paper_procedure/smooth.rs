@@ -50,7 +50,9 @@ impl Smooth<'_> {
             .flat_map(|curve| frequencies.iter().map(|&g| curve.excess(curve.clamp(g), &response)))
             .collect();
         let top = excess.iter().fold(f64::NEG_INFINITY, |top, psi| top.max(psi.re()));
-        let sum = excess.iter().fold(S::zero(), |sum, &psi| sum + ((psi - real::<S>(top)) * real::<S>(BETA)).exp());
+        let sum = excess
+            .iter()
+            .fold(S::zero(), |sum, &psi| sum + ((psi - real::<S>(top)) * real::<S>(BETA)).exp());
         sum.ln() * real::<S>(1.0 / BETA) + real::<S>(top)
     }
 
@@ -129,7 +131,10 @@ mod tests {
             for z in [Vector2::new(-1.0, 0.5), Vector2::new(0.7, 1.2), Vector2::new(3.0, 0.0)] {
                 let (value, top) = (smooth.value(&z), largest(&points(&curves, mu, &z)));
                 // below only by what a peak rises between grid points, above by ln(41)/30
-                assert!(value > top - 0.1 && value < top + 41.0_f64.ln() / BETA, "{mu} {z}: {value} {top}");
+                assert!(
+                    value > top - 0.1 && value < top + 41.0_f64.ln() / BETA,
+                    "{mu} {z}: {value} {top}"
+                );
             }
         }
     }
@@ -147,7 +152,11 @@ mod tests {
             // rounding 1e-13
             let at = |steps: f64| value(q + Vector2::ith(j, 1e-3 * steps));
             let difference = (8.0 * (at(1.0) - at(-1.0)) - (at(2.0) - at(-2.0))) / 12e-3;
-            assert!((slope[j] - difference).abs() < 1e-8 * slope.norm(), "{} {difference}", slope[j]);
+            assert!(
+                (slope[j] - difference).abs() < 1e-8 * slope.norm(),
+                "{} {difference}",
+                slope[j]
+            );
         }
     }
 }

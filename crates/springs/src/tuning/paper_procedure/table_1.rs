@@ -7,7 +7,8 @@ use rocking::structure::{Kind, Structure};
 pub fn of(structure: &Structure) -> Option<Springs<Design<f64>>> {
     let paper = Structure::paper();
     let same = structure.kind == Kind::AFrame
-        && (structure.height_m, structure.width_m, structure.mass_kg) == (paper.height_m, paper.width_m, paper.mass_kg);
+        && (structure.height_m, structure.width_m, structure.mass_kg)
+            == (paper.height_m, paper.width_m, paper.mass_kg);
     same.then(Springs::table_1)
 }
 

@@ -55,17 +55,23 @@ impl Accuracy {
     /// Whether an accuracy is reached: by the record, the synthetic motions and the mean of the
     /// earthquake-like ones itself.
     pub fn reaches(&self, accuracy: f64) -> bool {
-        let earthquakes =
-            self.earthquakes_mean.is_none_or(|mean| mean.value <= self.looser_on_earthquakes() * accuracy);
+        let earthquakes = self
+            .earthquakes_mean
+            .is_none_or(|mean| mean.value <= self.looser_on_earthquakes() * accuracy);
         let others = [JudgedOn::Record, JudgedOn::Synthetic];
-        earthquakes && others.iter().filter_map(|suite| self.over_on(*suite, accuracy)).all(|over| over <= 1.0)
+        earthquakes
+            && others
+                .iter()
+                .filter_map(|suite| self.over_on(*suite, accuracy))
+                .all(|over| over <= 1.0)
     }
 
     /// How much more than the accuracy the earthquake-like motions may have: [`LOOSER`] as they
     /// are, nothing more those scaled down, which are no stronger than the synthetic ones; between
     /// these in the mean of both.
     pub fn looser_on_earthquakes(&self) -> f64 {
-        let share = |mean: Statistic| 1.0 - self.earthquakes_scaled_down as f64 / mean.count.max(1) as f64;
+        let share =
+            |mean: Statistic| 1.0 - self.earthquakes_scaled_down as f64 / mean.count.max(1) as f64;
         LOOSER.powf(self.earthquakes_mean.map_or(1.0, share))
     }
 
@@ -81,11 +87,14 @@ impl Accuracy {
             JudgedOn::Record => self.record.map(|x| x / accuracy),
             JudgedOn::Synthetic => {
                 let shares = [(self.synthetic_median, 1.0), (self.synthetic_p90, LOOSER)];
-                shares.into_iter().filter_map(|(s, looser)| s.map(|s| s.value / (looser * accuracy))).reduce(f64::max)
+                shares
+                    .into_iter()
+                    .filter_map(|(s, looser)| s.map(|s| s.value / (looser * accuracy)))
+                    .reduce(f64::max)
             }
-            JudgedOn::Earthquakes => {
-                self.earthquakes_upper.map(|upper| upper / (self.looser_on_earthquakes() * accuracy))
-            }
+            JudgedOn::Earthquakes => self
+                .earthquakes_upper
+                .map(|upper| upper / (self.looser_on_earthquakes() * accuracy)),
         }
     }
 }
@@ -162,13 +171,19 @@ impl JudgedOn {
 pub(crate) fn quantile(sorted: &[f64], q: f64) -> Option<f64> {
     let rank = q * sorted.len().checked_sub(1)? as f64;
     let (low, share) = (rank.floor() as usize, rank.fract());
-    Some(if share == 0.0 { sorted[low] } else { sorted[low] * (1.0 - share) + sorted[low + 1] * share })
+    Some(if share == 0.0 {
+        sorted[low]
+    } else {
+        sorted[low] * (1.0 - share) + sorted[low + 1] * share
+    })
 }
 
 /// Geometric mean, and the factor of its standard error; a history that lost the motion altogether
 /// counts as one that stands still, so that no single motion dominates. A factor of e is the spread
 /// that few motions are taken to have: it counts as one of them.
-pub(crate) fn geometric_mean(errors: impl ExactSizeIterator<Item = f64> + Clone) -> Option<(f64, f64)> {
+pub(crate) fn geometric_mean(
+    errors: impl ExactSizeIterator<Item = f64> + Clone,
+) -> Option<(f64, f64)> {
     let n = errors.len() as f64;
     let logarithms = errors.map(|e| e.clamp(1e-12, 1.0).ln());
     let mean = logarithms.clone().sum::<f64>() / n;
@@ -198,7 +213,9 @@ mod tests {
         assert_eq!(Accuracy::default().over(2e-3), 0.0);
         // half of them scaled down: sqrt(5) times as much
         let scaled = Accuracy { earthquakes_scaled_down: 15, ..accuracy };
-        assert!((scaled.looser_on_earthquakes() - 5f64.sqrt()).abs() < 1e-12 && !scaled.reaches(2e-3));
+        assert!(
+            (scaled.looser_on_earthquakes() - 5f64.sqrt()).abs() < 1e-12 && !scaled.reaches(2e-3)
+        );
     }
 
     #[test]

@@ -1,7 +1,12 @@
 use super::*;
 use crate::validate::RecordOutcome;
 
-fn row(peaks: (f64, Option<f64>), overturned: (bool, Option<bool>), sensitivity: f64, error: Option<f64>) -> Row {
+fn row(
+    peaks: (f64, Option<f64>),
+    overturned: (bool, Option<bool>),
+    sensitivity: f64,
+    error: Option<f64>,
+) -> Row {
     Row {
         name: "made-up".into(),
         outcome: if peaks.1.is_none() { RecordOutcome::FemFailed } else { RecordOutcome::Rocked },
@@ -73,7 +78,10 @@ fn overturning_is_counted_in_two_by_two_and_failures_apart() {
         row((0.5, None), (false, None), 2.0, None),
     ];
     let all = Validation::new(rows);
-    assert_eq!(all.all.overturning, Confusion { both: 1, housner_only: 1, fem_only: 1, neither: 1, failed: 1 });
+    assert_eq!(
+        all.all.overturning,
+        Confusion { both: 1, housner_only: 1, fem_only: 1, neither: 1, failed: 1 }
+    );
     assert_eq!(all.all.overturning_agreement, 2.0 / 5.0);
     assert_eq!(all.all.failed, ["made-up"]);
     // Housner 0.5 0.5 0.9 8 8 against 0.5 0.9 8 8 and the failure beyond: at 0.5 and at 0.9 one in
@@ -98,7 +106,9 @@ fn only_well_conditioned_records_that_do_not_topple_enter_the_quantiles() {
     let found = all.all.nrmse_well_conditioned;
     // numpy.quantile([0.01, 0.02, 0.03, 0.04], [0.5, 0.9]) = 0.025, 0.037
     assert_eq!((found.count, all.all.never_lifted, all.all.not_comparable), (4, 1, 2));
-    assert!((found.median.unwrap() - 0.025).abs() < 1e-16 && (found.p90.unwrap() - 0.037).abs() < 1e-16);
+    assert!(
+        (found.median.unwrap() - 0.025).abs() < 1e-16 && (found.p90.unwrap() - 0.037).abs() < 1e-16
+    );
 }
 
 #[test]
@@ -140,7 +150,13 @@ fn suites_are_judged_apart_and_together() {
     assert_eq!((found.all.count, earthquakes.nrmse_well_conditioned.count), (3, 2));
     assert_eq!(found.suites[&Suite::Files].ks_distance_of_housner_changed, 0.0);
     assert_eq!(earthquakes.ks_distance_of_housner_changed, 0.5);
-    assert_eq!((earthquakes.overturning_agreement, earthquakes.overturning_agreement_of_housner_changed), (1.0, 0.5));
+    assert_eq!(
+        (earthquakes.overturning_agreement, earthquakes.overturning_agreement_of_housner_changed),
+        (1.0, 0.5)
+    );
     let json = serde_json::to_value(&found).unwrap();
-    assert!(json["ks_distance"].is_f64() && json["suites"]["earthquakes"]["nrmse_geometric_mean"]["mean"].is_f64());
+    assert!(
+        json["ks_distance"].is_f64()
+            && json["suites"]["earthquakes"]["nrmse_geometric_mean"]["mean"].is_f64()
+    );
 }

@@ -46,8 +46,24 @@ pub(super) fn pack<T: Copy>(chains: &Chains<T>, rigid: &Rigid<T>) -> [T; ENTRIES
 
 #[inline(always)]
 pub(super) fn unpack<T: Copy>(e: &[T; ENTRIES], closed: [bool; 2]) -> (Chains<T>, Rigid<T>) {
-    let condensed = |k: usize| Condensed { pivot: e[k], coupling: e[k + 1], share: e[k + 2], stiffness: e[k + 3] };
+    let condensed = |k: usize| Condensed {
+        pivot: e[k],
+        coupling: e[k + 1],
+        share: e[k + 2],
+        stiffness: e[k + 3],
+    };
     let chains = Chains([[condensed(0), condensed(4)], [condensed(8), condensed(12)]]);
     let lever = [[e[16], e[17]], [e[18], e[19]]];
-    (chains, Rigid { closed, lever, x_inv: e[20], z_inv: e[21], th_inv: e[22], x_th: e[23], z_th: e[24] })
+    (
+        chains,
+        Rigid {
+            closed,
+            lever,
+            x_inv: e[20],
+            z_inv: e[21],
+            th_inv: e[22],
+            x_th: e[23],
+            z_th: e[24],
+        },
+    )
 }

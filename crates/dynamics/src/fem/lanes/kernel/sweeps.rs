@@ -14,7 +14,10 @@ use crate::{
         newton::{Chains, Rigid},
         radau::{A, C, GAMMA},
         run::{Scales, stays_inside},
-        step::{EIGENVALUE, Ground, LARGEST, complex, embedded, error_right, from_modes, modes, stage, times},
+        step::{
+            EIGENVALUE, Ground, LARGEST, complex, embedded, error_right, from_modes, modes, stage,
+            times,
+        },
         turning,
     },
     spring::{Chain, Springs},
@@ -56,7 +59,11 @@ impl Kernel {
 
     #[inline(always)]
     fn ground(&self, l: usize) -> Ground<f64> {
-        Ground { start: column(&self.start, l), slope: column(&self.slope, l), curve: column(&self.curve, l) }
+        Ground {
+            start: column(&self.start, l),
+            slope: column(&self.slope, l),
+            curve: column(&self.curve, l),
+        }
     }
 
     /// Where lane l is half way, at the velocity that it has.
@@ -79,8 +86,10 @@ impl Kernel {
         middle: &Vector<f64>,
     ) -> [FootForce<f64>; 2] {
         let start = column(&self.q0, l);
-        let [at_start, half_way] =
-            [model.contact_at(&pose(&start), &start, feet), model.contact_at(&pose(middle), middle, feet)];
+        let [at_start, half_way] = [
+            model.contact_at(&pose(&start), &start, feet),
+            model.contact_at(&pose(middle), middle, feet),
+        ];
         let turns = turning::contact([at_start, half_way]);
         let turning = self.turning[l] != 0.0;
         let force = |i: usize| FootForce {
@@ -167,9 +176,12 @@ impl Kernel {
                 (model.foot(0, &q, sin, cos), model.foot(1, &q, sin, cos));
             let on_left = self.closed[0][l] != 0.0;
             let (lever_x, lever_z) = (self.lever[0][l], self.lever[1][l]);
-            let turned =
-                [if on_left { left_x } else { right_x } - lever_x, if on_left { left_z } else { right_z } - lever_z];
-            let [x, z, th] = [self.residual[i][X][l], self.residual[i][Z][l], self.residual[i][TH][l]];
+            let turned = [
+                if on_left { left_x } else { right_x } - lever_x,
+                if on_left { left_z } else { right_z } - lever_z,
+            ];
+            let [x, z, th] =
+                [self.residual[i][X][l], self.residual[i][Z][l], self.residual[i][TH][l]];
             let moment = turning::moment([x, z, th], turned);
             self.residual[i][TH][l] = if self.turning[l] != 0.0 { moment } else { th };
             self.turned[i][0][l] = turned[0];
@@ -285,7 +297,8 @@ impl Kernel {
             let (model, feet) = (self.model(l), self.feet(l));
             let end = State { q: column(&self.q[2], l), v: column(&self.v[2], l) };
             self.stored[l] = model.energy_at(&pose(&end.q), &end, &feet);
-            let (first, second, third) = (self.work(&model, l, 0), self.work(&model, l, 1), self.work(&model, l, 2));
+            let (first, second, third) =
+                (self.work(&model, l, 0), self.work(&model, l, 1), self.work(&model, l, 2));
             let (input, dissipated) = (first.0 + second.0 + third.0, first.1 + second.1 + third.1);
             (self.input[l], self.dissipated[l]) = (input, dissipated);
         }
@@ -306,7 +319,12 @@ impl Kernel {
     pub(super) fn contacts(&mut self) {
         for l in 0..WIDTH {
             let (model, feet) = (self.model(l), self.feet(l));
-            let nodes = [column(&self.q0, l), column(&self.q[0], l), column(&self.q[1], l), column(&self.q[2], l)];
+            let nodes = [
+                column(&self.q0, l),
+                column(&self.q[0], l),
+                column(&self.q[1], l),
+                column(&self.q[2], l),
+            ];
             let mut unchanged = true;
             let poses = [pose(&nodes[0]), pose(&nodes[1]), pose(&nodes[2]), pose(&nodes[3])];
             coordinates!(I in 0 1 => {

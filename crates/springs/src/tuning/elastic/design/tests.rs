@@ -18,7 +18,8 @@ fn units_are_those_of_the_footing_alone() {
     let (b, h) = (4.0, 1.8 * 1.8);
     let inertia = (b + h) / 3.0;
     let g = [[1.0, 0.0, -1.8], [0.0, 1.0, 2.0], [1.0, 0.0, -1.8], [0.0, 1.0, -2.0]];
-    let w = |i: usize, j: usize| g[i][0] * g[j][0] + g[i][1] * g[j][1] + g[i][2] * g[j][2] / inertia;
+    let w =
+        |i: usize, j: usize| g[i][0] * g[j][0] + g[i][1] * g[j][1] + g[i][2] * g[j][2] / inertia;
     let block = CornerDynamics::of(std::array::from_fn(|i| std::array::from_fn(|j| w(i, j))), 4.0);
     let vertical = for_part(&block, 0.1).vertical;
     let across = 6e4 / (1.0 + h / ((b + h) / 3.0));
@@ -34,8 +35,13 @@ fn units_are_those_of_the_footing_alone() {
         assert_relative_eq!(unit.c, (unit.k1 * across).sqrt(), max_relative = 1e-9);
         // (s + w)^4 with w^2 = k1/m: the polynomial of the mass on its unit, term by term
         let (m, w) = (across, (unit.k1 / across).sqrt());
-        let all =
-            [m * unit.m2, m * unit.c, m * (unit.k1 + unit.k2) + unit.k1 * unit.m2, unit.k1 * unit.c, unit.k1 * unit.k2];
+        let all = [
+            m * unit.m2,
+            m * unit.c,
+            m * (unit.k1 + unit.k2) + unit.k1 * unit.m2,
+            unit.k1 * unit.c,
+            unit.k1 * unit.k2,
+        ];
         for (i, (term, binomial)) in all.into_iter().zip([1.0, 4.0, 6.0, 4.0, 1.0]).enumerate() {
             assert_relative_eq!(term / all[0], binomial * w.powi(i as i32), max_relative = 1e-9);
         }
@@ -48,7 +54,11 @@ fn the_give_asked_for_is_that_of_k1() {
     let standing = standing();
     let [soft, stiff] = [1e-3, 1e-4].map(|give| with_k(&standing, give, 0.1));
     assert_relative_eq!(soft.give / stiff.give, 10.0, max_relative = 1e-9);
-    assert_relative_eq!(stiff.corners[0].vertical.k1 / soft.corners[0].vertical.k1, 10.0, max_relative = 1e-9);
+    assert_relative_eq!(
+        stiff.corners[0].vertical.k1 / soft.corners[0].vertical.k1,
+        10.0,
+        max_relative = 1e-9
+    );
     // k1 and K k1 in series: 1 + 1/K, and the horizontals
     assert!(stiff.give > 11e-4 && stiff.give < 12e-4, "{}", stiff.give);
 }
@@ -71,7 +81,11 @@ fn units_under_a_point_foot_are_those_of_its_mass() {
         assert_relative_eq!(unit.m2, vertical.mu * 5e3, max_relative = 1e-6);
         assert_relative_eq!(unit.c, vertical.c() * (unit.k1 * 5e3).sqrt(), max_relative = 1e-6);
         let Chain { k1, k2, m2, c } = corner.horizontal;
-        assert!([k1, k2, m2, c].iter().all(|x| x.is_finite() && *x > 0.0), "{:?}", corner.horizontal);
+        assert!(
+            [k1, k2, m2, c].iter().all(|x| x.is_finite() && *x > 0.0),
+            "{:?}",
+            corner.horizontal
+        );
     }
 }
 

@@ -22,7 +22,11 @@ fn a_rigid_body_is_what_its_w_says() {
         let by_w = CornerDynamics::of(body.w, body.width);
         assert_relative_eq!(by_w.rate, body.rate, max_relative = 1e-10);
         assert_relative_eq!(by_w.momentum, body.momentum, max_relative = 1e-10);
-        assert_relative_eq!(body.effective_mass()[1], 1.0 - share * alpha.sin().powi(2), max_relative = 1e-12);
+        assert_relative_eq!(
+            body.effective_mass()[1],
+            1.0 - share * alpha.sin().powi(2),
+            max_relative = 1e-12
+        );
         // equation 2: where it is positive the old foot lifts, else both corners stop the body
         let restitution = 1.0 - 2.0 * share * alpha.sin().powi(2);
         assert_eq!(body.stops(), restitution < 0.0, "{alpha}");
@@ -70,11 +74,15 @@ fn a_footing_under_a_column_lands_as_the_block_that_it_is() {
         let w = &standing.footings[0].w;
         let radius = height.hypot(2.0);
         let block = CornerDynamics::<f64>::rigid((2.0 / height).atan(), 0.75);
-        let own = CornerDynamics::of(std::array::from_fn(|i| std::array::from_fn(|j| w[(i, j)] * 1.2e5)), 4.0 / radius);
+        let own = CornerDynamics::of(
+            std::array::from_fn(|i| std::array::from_fn(|j| w[(i, j)] * 1.2e5)),
+            4.0 / radius,
+        );
         for (own, block) in own.w.iter().flatten().zip(block.w.iter().flatten()) {
             assert!((own - block).abs() < 1e-12, "{own} {block}");
         }
-        let (own, block) = (land(&own, &designed(&own, 0.1, 4.0)), land(&block, &designed(&block, 0.1, 4.0)));
+        let (own, block) =
+            (land(&own, &designed(&own, 0.1, 4.0)), land(&block, &designed(&block, 0.1, 4.0)));
         assert!((own.deviation - block.deviation).abs() < 1e-9);
     }
 }
