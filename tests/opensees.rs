@@ -146,9 +146,10 @@ fn springs_on_which_a_lifting_foot_chatters_are_refused() {
         let record = Record::el_centro().truncated(20.0);
         match verify(&parameters, &record, ACCURACY, &program, &|_, _| ()) {
             Ok(result) => {
-                println!("{:?}, itself {:?}", result.verdict, result.opensees_against_itself);
+                println!("{:?}, itself {:?}", result.verdict, result.finer);
                 assert!(
-                    !result.verdict.within && result.opensees_against_itself > Some(LIMIT),
+                    !result.verdict.within
+                        && result.finer.is_some_and(|finer| finer.against_itself > LIMIT),
                     "{:?}",
                     result.verdict
                 );

@@ -183,9 +183,16 @@ fn judged(result: &Verification) -> String {
 
 /// Why OpenSees is off: its steps, or the springs.
 fn refusal(result: &Verification) -> String {
-    let own = result.opensees_against_itself.unwrap_or(0.0);
     let error = result.verdict.error;
-    if own > LIMIT {
+    let own = result.finer.map_or(0.0, |finer| finer.against_itself);
+    if let Some(finer) = result.finer.filter(|finer| finer.error <= LIMIT) {
+        format!(
+            "verify: OpenSees is off by {error:.1e}, and by {:.1e} in steps a quarter as long: this motion asks for finer steps; give \
+             --accuracy {}",
+            finer.error,
+            files::message::significant(finer.accuracy, 3)
+        )
+    } else if own > LIMIT {
         format!(
             "verify: OpenSees is off by {error:.1e}, and by {own:.1e} from itself in steps a quarter as long: on these springs a lifting \
              foot chatters, which no program with steps follows; take springs as tune run finds them, or ask for more with --accuracy"

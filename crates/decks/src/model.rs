@@ -6,7 +6,7 @@ use rocking::{
     members::Members,
     structure::{Body, Structure},
 };
-use springs::{parameters::Parameters, predictability::HOPELESS};
+use springs::parameters::Parameters;
 use strong_motion::Record;
 
 /// Rotational inertia, as a share of m R^2, that a deck gives to a body that has none: OpenSees and
@@ -135,11 +135,8 @@ impl<'a> DeckModel<'a> {
         }
         let leg = LEG_STIFFNESS * v.k1.max(h.k1);
         let body = structure.body::<f64>();
-        let tighter = if expected.width_sensitivity > HOPELESS {
-            1.0
-        } else {
-            (TIGHTER * expected.width_sensitivity).clamp(1.0, TIGHTEST)
-        };
+        // of one whose end no steps help, too: they help what comes before
+        let tighter = (TIGHTER * expected.width_sensitivity).clamp(1.0, TIGHTEST);
         let accuracy = expected.accuracy / tighter;
         Ok(Self {
             structure,

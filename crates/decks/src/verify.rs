@@ -21,7 +21,7 @@ use rocking::{
 };
 use springs::{
     parameters::Parameters,
-    predictability::{simulate, slightly_wider, step_sensitivity},
+    predictability::{simulate, slightly_wider, standing_error},
 };
 use strong_motion::Record;
 pub use verdict::{LIMIT, OpenSeesVerdict};
@@ -57,6 +57,17 @@ impl Agreement {
     }
 }
 
+/// OpenSees in finer steps, asked where it is not within its limit.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct FinerSteps {
+    /// Accuracy that those steps are to have.
+    pub accuracy: f64,
+    /// NRMSE of u between OpenSees in the steps judged and in these.
+    pub against_itself: f64,
+    /// NRMSE of u of these, as the verdict has it.
+    pub error: f64,
+}
+
 /// Three histories of one case at the record's samples, up to where they can be foretold, and how
 /// they agree.
 #[derive(Clone, Debug)]
@@ -83,9 +94,8 @@ pub struct Verification {
     pub within_one_percent: bool,
     /// Whether OpenSees is within its limit, and how it was judged.
     pub verdict: OpenSeesVerdict,
-    /// NRMSE of u between OpenSees in these steps and in finer ones, asked where it is not within
-    /// its limit.
-    pub opensees_against_itself: Option<f64>,
+    /// The same in finer steps, where it is not within its limit.
+    pub finer: Option<FinerSteps>,
     /// What the deck printed.
     pub report: String,
     /// NRMSE of u that a relative change of the width by 1e-5 makes in our own history.
@@ -160,18 +170,23 @@ pub fn verify(
     let deck = Deck { parameters, record, program, progress };
     // what cannot be foretold is not followed: nothing could be judged by it
     let judged = foretold.map_or(history.motion.len(), |foretold| foretold.samples).max(2);
-    let expected = Expected::within(
-        &history,
-        step_sensitivity(&history.motion, &changed, body.half_width),
-        judged,
-    );
+    let expected = Expected::within(&history, width_sensitivity, judged);
     let run = deck.run(&expected.with_accuracy(accuracy))?;
     let ours = history.motion.first(expected.samples);
     let housner = housner.first(expected.samples);
     let verdict = OpenSeesVerdict::new(&run.motion, &ours, &body, record.dt, foretold);
     let finer = match verdict.within {
         true => None,
-        false => Some(deck.run(&expected.with_accuracy(accuracy * FINER))?.motion),
+        false => {
+            let accuracy = accuracy * FINER;
+            let u = deck.run(&expected.with_accuracy(accuracy))?.motion.u;
+            let judged = ..verdict.samples;
+            Some(FinerSteps {
+                accuracy,
+                against_itself: nrmse(&run.motion.u[judged], &u),
+                error: standing_error(&u[judged], &ours.u[judged], body.half_width),
+            })
+        }
     };
     Ok(Verification {
         dt: record.dt,
@@ -181,8 +196,7 @@ pub fn verify(
         opensees_against_ours: Agreement::new(&run.motion, &ours),
         opensees_against_housner: Agreement::new(&run.motion, &housner),
         ours_against_housner: Agreement::new(&ours, &housner),
-        opensees_against_itself: finer
-            .map(|finer| nrmse(&run.motion.u[..verdict.samples], &finer.u)),
+        finer,
         opensees: run.motion,
         ours,
         housner,

@@ -8,7 +8,7 @@ use springs::results::Peaks;
 type PeakRow = (&'static str, fn(&Peaks) -> Option<f64>, fn(f64) -> String);
 
 /// The row of what feet move.
-const MOVED: &str = "  by landing elsewhere";
+const MOVED: &str = "  feet moved";
 /// Share of the top's displacement below which it is not said.
 const NOT_SAID: f64 = 0.02;
 

@@ -39,8 +39,8 @@ use springs::{
     },
     parameters::{Parameters, elastic::ElasticParameters},
     results::{
-        DeckEnd, DesignForce, DesignForces, FiledFinding, Finding, ForceName, PeakChange, PeakPair,
-        Weight,
+        DeckEnd, DesignForce, DesignForces, FiledFinding, Finding, FindingModel, ForceName,
+        PeakChange, PeakPair, Weight,
     },
 };
 pub use table::Table;
@@ -238,7 +238,24 @@ impl Run {
             .iter()
             .any(|filed| matches!(filed.finding, Finding::IllConditioned { .. }));
         let doubt = if ill { "; no model foretells this motion" } else { "" };
-        sentence(&format!("{}{doubt}", told.message))
+        sentence(&format!("{}{}{doubt}", told.message, self.not_computed()))
+    }
+
+    /// What of the answer is missing, because a history ended before its record.
+    fn not_computed(&self) -> String {
+        let ended = self.findings.iter().filter_map(|filed| match filed.finding {
+            Finding::HistoryEndsEarly { model, time_s, .. } => Some((model, time_s)),
+            _ => None,
+        });
+        let words = |(model, time_s): (FindingModel, f64)| {
+            let of = match model {
+                FindingModel::Reference => self.reference,
+                FindingModel::Springs => "on springs",
+                FindingModel::Members => "with members",
+            };
+            format!("; NOT computed {of} after {} s", files::message::significant(time_s, 4))
+        };
+        ended.map(words).collect()
     }
 
     /// Whether the motion can be foretold up to a force's largest value.

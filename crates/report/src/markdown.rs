@@ -44,7 +44,7 @@ pub(crate) fn sections(run: &Run) -> Vec<Section> {
             title: "Largest displacements".into(),
             text: vec![
                 "Of the highest point, against the ground. By rocking: what the rotation of its base alone moves it; by bending: how far \
-                 it is across the axis of its base; by landing elsewhere: how far the feet of its base are from where they stood. Each is \
+                 it is across the axis of its base; feet moved: how far the feet of its base are from where they stood. Each is \
                  the largest of all bases, at its own time."
                     .into(),
             ],

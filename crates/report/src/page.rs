@@ -155,6 +155,10 @@ fn programs(run: &Run) -> (&'static str, &'static str, String) {
             (None, _) => format!("<p>SAP2000: {}.</p>\n", escape(crate::screen::NO_PROGRAM)),
             (Some(program), deck) => {
                 let deck = match deck {
+                    _ if program.deck_of_even_steps => {
+                        " <code>decks/model_even.py</code> and <code>decks/model_even.tcl</code> hold the model, these springs and \
+                             these settings."
+                    }
                     true => {
                         " <code>decks/model_sap2000.s2k</code> holds the model, these springs and these settings; it could not be \
                              tried with the program."

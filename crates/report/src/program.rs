@@ -33,6 +33,12 @@ pub struct ProgramReport {
     /// The same errors in parts and suites.
     #[serde(skip)]
     table: Table,
+    /// Whether the program gets through at least half of the motions tried.
+    #[serde(skip)]
+    pub(crate) usable: bool,
+    /// Whether it is OpenSees with steps of one size, which has a deck of its own.
+    #[serde(skip)]
+    pub(crate) deck_of_even_steps: bool,
     /// Why they are stiffer than the closed form has them, if they are.
     #[serde(skip)]
     stiffer: Option<&'static str>,
@@ -130,6 +136,8 @@ impl ProgramReport {
             errors: errors(row, peaks),
             units,
             table: table(row),
+            usable: measured_on(row).is_none_or(|errors| errors.peak[0].is_some()),
+            deck_of_even_steps: row.is_opensees_even(),
             stiffer: row.stiffer_for_earthquakes.then_some(
                 "Omega_n is twice that of the closed form: on earthquake-like motions, which sway the \
                  structure before it lifts, such springs are better by more than they lose on pulses, \
@@ -138,9 +146,9 @@ impl ProgramReport {
         }
     }
 
-    /// The program's name, or that there is none, in nine letters.
+    /// The program's name, or that its steps are even, in nine letters.
     pub(crate) fn short(&self) -> &str {
-        if self.program.chars().count() <= NAME { &self.program } else { "its steps" }
+        if self.program.chars().count() <= NAME { &self.program } else { "even step" }
     }
 
     /// For a screen.
@@ -202,9 +210,14 @@ pub(crate) fn lost<U>(row: &ProgramRow<U>, asked: bool) -> Option<Finding> {
     many.then_some(Finding::ProgramLoses { program, step_s, lost, histories, csi, asked })
 }
 
+/// What is said of the springs: on synthetic motions, else on those like earthquakes.
+fn measured_on<U>(row: &ProgramRow<U>) -> Option<ProgramErrors> {
+    row.expected.synthetic.or(row.expected.earthquakes)
+}
+
 /// Largest displacement first: median and what 90 % are below.
 fn errors<U>(row: &ProgramRow<U>, peaks: &str) -> String {
-    let Some(errors) = row.expected.synthetic.or(row.expected.earthquakes) else {
+    let Some(errors) = measured_on(row) else {
         return "errors not measured".into();
     };
     let cell = |x: Option<f64>| x.map_or("lost".into(), percent);

@@ -7,14 +7,35 @@ use springs::results::{DesignForce, DesignForces, FiledFinding, Finding, ForceNa
 /// Lines of a screen, and letters of a line.
 pub(crate) const LINES: usize = 30;
 pub(crate) const WIDTH: usize = 98;
-/// Lines that one warning may take, and on a crowded screen.
+/// What a warning begins with.
+const WARNING: &str = "warning   ";
+/// Lines that one warning may take.
 const LONGEST_WARNING: usize = 3;
-const LONGEST_OF_MANY: usize = 2;
-/// Lines of the design forces.
-const MOST_FORCE_LINES: usize = 3;
+/// Further lines of the design forces begin here.
+const FORCES_INDENT: usize = 15;
+
+/// What the answer may take where warnings need room.
+#[derive(Clone, Copy)]
+struct Crowding {
+    /// Whether an empty line stands before the verdict.
+    empty_line: bool,
+    /// Lines of what was assumed.
+    assumed: usize,
+    /// Lines of the design forces.
+    forces: usize,
+}
+
+/// The first in which every warning has its room is taken, else the last.
+const CROWDING: [Crowding; 3] = [
+    Crowding { empty_line: true, assumed: 2, forces: 3 },
+    Crowding { empty_line: false, assumed: 2, forces: 3 },
+    Crowding { empty_line: false, assumed: 1, forces: 2 },
+];
 
 /// What is said where no springs suit steps of one size.
 pub(crate) const NO_PROGRAM: &str = "not these springs: programs with steps of one size need others; there are none for this structure";
+/// The deck of OpenSees with steps of one size.
+pub const EVEN_DECK: &str = "model_even.py";
 /// Letters of a file's name in the line of the record.
 const LONGEST_NAME: usize = 48;
 
@@ -30,24 +51,39 @@ pub struct Written<'a> {
 
 /// The screen: at most `LINES` lines of at most `WIDTH` letters.
 pub fn screen(run: &Run, written: &Written) -> String {
+    let warnings = warnings(run);
+    let answers = CROWDING.map(|crowding| answer(run, written, crowding));
+    let room = |lines: &Vec<String>| LINES.saturating_sub(lines.len());
+    let wanted: usize = warnings.iter().map(|warning| warning_lines(warning)).sum();
+    let [spacious, close, closest] = answers;
+    let mut lines = if room(&spacious) >= wanted {
+        spacious
+    } else if room(&close) >= warnings.len() {
+        close
+    } else {
+        closest
+    };
+    let place = if written.report { "report.html" } else { "parameters.json" };
+    tell(&warnings, place, &mut lines);
+    lines.join("\n") + "\n"
+}
+
+/// All but the warnings.
+fn answer(run: &Run, written: &Written, crowding: Crowding) -> Vec<String> {
     let mut lines = Vec::new();
-    taken(run, written, &mut lines);
-    lines.push(String::new());
+    taken(run, written, crowding.assumed, &mut lines);
+    if crowding.empty_line {
+        lines.push(String::new());
+    }
     wrap(&mut lines, "", &run.verdict());
     lines.extend(peak_table(run).iter().flat_map(Table::lines));
-    forces(run, &mut lines);
+    forces(run, crowding.forces, &mut lines);
     springs(run, &mut lines);
     if let Some(accuracy) = &run.accuracy {
         at_most(2, &mut lines, "accuracy  ", &accuracy.short());
     }
     next(run, written, &mut lines);
-    // a crowded screen needs the room of the empty line
-    let warns = run.remarks().any(|finding| finding.weight >= Weight::Warning);
-    if lines.len() + usize::from(warns) > LINES {
-        lines.retain(|line| !line.is_empty());
-    }
-    warnings(run, written, &mut lines);
-    lines.join("\n") + "\n"
+    lines
 }
 
 /// The same as [`wrap`], in so many lines: what does not fit is left out.
@@ -67,7 +103,11 @@ fn at_most(most: usize, lines: &mut Vec<String>, name: &str, text: &str) {
 /// Text behind a name, its further lines below the text; words that do not fit a line are shortened
 /// in the middle.
 fn wrap(lines: &mut Vec<String>, name: &str, text: &str) {
-    let indent = name.chars().count();
+    wrap_at(lines, name, name.chars().count(), text);
+}
+
+/// The same; further lines begin after so many letters.
+fn wrap_at(lines: &mut Vec<String>, name: &str, indent: usize, text: &str) {
     let mut line = name.to_string();
     let mut empty = true;
     for word in text.split(' ') {
@@ -86,7 +126,7 @@ fn wrap(lines: &mut Vec<String>, name: &str, text: &str) {
     lines.push(line);
 }
 
-fn taken(run: &Run, written: &Written, lines: &mut Vec<String>) {
+fn taken(run: &Run, written: &Written, most: usize, lines: &mut Vec<String>) {
     let fact = |name: &str| {
         run.taken.facts.iter().find(|(fact, _)| fact.starts_with(name)).map(|(_, value)| value)
     };
@@ -101,7 +141,7 @@ fn taken(run: &Run, written: &Written, lines: &mut Vec<String>) {
     let all: Vec<String> =
         run.taken.assumed.iter().map(|a| format!("{} ({})", a.what, a.key)).collect();
     let place = if written.report { "report.html" } else { "--verbose" };
-    // as many as two lines hold
+    // as many as the lines hold
     for shown in (1..=all.len()).rev() {
         let rest = match all.len() - shown {
             0 => String::new(),
@@ -109,14 +149,14 @@ fn taken(run: &Run, written: &Written, lines: &mut Vec<String>) {
         };
         let mut some = Vec::new();
         wrap(&mut some, "assumed: ", &(all[..shown].join("; ") + &rest));
-        if some.len() <= 2 || shown == 1 {
+        if some.len() <= most || shown == 1 {
             lines.extend(some);
             break;
         }
     }
 }
 
-fn forces(run: &Run, lines: &mut Vec<String>) {
+fn forces(run: &Run, most: usize, lines: &mut Vec<String>) {
     let Some(forces) = &run.design_forces else { return };
     // an asterisk where some are, a word where all are
     let doubted = |one: (ForceName, DesignForce)| one.1.holds && !run.foretells(one);
@@ -133,12 +173,12 @@ fn forces(run: &Run, lines: &mut Vec<String>) {
     let of = if of.is_empty() { String::new() } else { format!(" ({})", of.join("; ")) };
     let name = format!("design forces{of}  ");
     let all = force_words(forces, |force| if doubted(force) { mark } else { "" });
-    // as many as three lines hold
+    // as many as the lines hold
     for shown in (1..=all.len()).rev() {
         let rest = if shown < all.len() { "; more in the report" } else { "" };
         let mut some = Vec::new();
-        wrap(&mut some, &name, &(all[..shown].join("; ") + rest));
-        if some.len() <= MOST_FORCE_LINES || shown == 1 {
+        wrap_at(&mut some, &name, FORCES_INDENT, &(all[..shown].join("; ") + rest));
+        if some.len() <= most || shown == 1 {
             lines.extend(some);
             break;
         }
@@ -157,7 +197,21 @@ fn force_words<'a>(
         format!("{} {}{mark}{}", name.words(), force_value(name, &magnitude(force)), height(&force))
     };
     // the report has the vertical force, too
-    forces.all().filter(|(name, _)| *name != ForceName::SoleVertical).map(cell).collect()
+    let mut all: Vec<_> =
+        forces.all().filter(|(name, _)| *name != ForceName::SoleVertical).collect();
+    all.sort_by_key(|(name, _)| order(*name));
+    all.into_iter().map(cell).collect()
+}
+
+/// What a section is designed for comes first: a screen may have no room for the others.
+fn order(name: ForceName) -> usize {
+    match name {
+        ForceName::ColumnShear => 0,
+        ForceName::ColumnBaseMoment => 1,
+        ForceName::Axial => 2,
+        ForceName::AxialTension => 3,
+        _ => 4,
+    }
 }
 
 fn springs(run: &Run, lines: &mut Vec<String>) {
@@ -165,7 +219,10 @@ fn springs(run: &Run, lines: &mut Vec<String>) {
     const SAID: &str = "  numerical contact stiffness, not soil";
     let of = format!("springs {}", run.springs_at.replace("each", "per"));
     let mut table = Table::new([of.as_str(), "k1 [N/m]", "k2 [N/m]", "m2 [kg]", "c [N s/m]"]);
-    let steps = run.program.as_ref().map(|program| format!("{} steps", program.steps));
+    let steps = run.program.as_ref().map(|program| match program.usable {
+        true => format!("{} steps", program.steps),
+        false => format!("{}, NOT to be used", program.steps),
+    });
     let mut add = |of: Option<&str>, units: &[Unit]| {
         for unit in units.iter().take(SHOWN) {
             let cells = [unit.k1_n_per_m, unit.k2_n_per_m, unit.m2_kg, unit.c_ns_per_m]
@@ -212,7 +269,13 @@ fn next(run: &Run, written: &Written, lines: &mut Vec<String>) {
         }
     }
     match &run.program {
-        Some(program) => at_most(3, lines, &format!("{:10}", program.short()), &program.line()),
+        Some(program) => {
+            at_most(3, lines, &format!("{:10}", program.short()), &program.line());
+            if written.decks && program.deck_of_even_steps {
+                let deck = format!("python3 {}", file(&format!("decks/{EVEN_DECK}")));
+                wrap(lines, "its deck  ", &deck);
+            }
+        }
         None => wrap(lines, "SAP2000   ", NO_PROGRAM),
     }
     if written.report {
@@ -232,7 +295,8 @@ fn urgency(finding: &Finding) -> usize {
     }
 }
 
-fn warnings(run: &Run, written: &Written, lines: &mut Vec<String>) {
+/// Warnings in words, the gravest first.
+fn warnings(run: &Run) -> Vec<String> {
     let mut all: Vec<_> =
         run.remarks().filter(|finding| finding.weight >= Weight::Warning).collect();
     all.sort_by_key(|filed| (std::cmp::Reverse(filed.weight), urgency(&filed.finding)));
@@ -241,28 +305,60 @@ fn warnings(run: &Run, written: &Written, lines: &mut Vec<String>) {
             filed.remedy.as_ref().map_or(String::new(), |remedy| format!(" {}", sentence(remedy)));
         format!("{}{remedy}", sentence(&filed.message))
     };
-    let taken = |filed: &&FiledFinding| {
-        let mut some = Vec::new();
-        at_most(LONGEST_WARNING, &mut some, "warning   ", &words(filed));
-        some.len()
-    };
+    all.into_iter().map(words).collect()
+}
+
+/// Lines that a warning wants.
+fn warning_lines(warning: &str) -> usize {
+    let mut some = Vec::new();
+    at_most(LONGEST_WARNING, &mut some, WARNING, warning);
+    some.len()
+}
+
+/// Warnings in the room that is left: each has one line before any has a second.
+fn tell(warnings: &[String], place: &str, lines: &mut Vec<String>) {
     let room = LINES.saturating_sub(lines.len());
-    let longest =
-        if all.iter().map(taken).sum::<usize>() > room { LONGEST_OF_MANY } else { LONGEST_WARNING };
-    let place = if written.report { "report.html" } else { "parameters.json" };
-    let mut told = 0;
-    for finding in &all {
-        // a line is kept for those that do not fit, if there is more than one
-        let room = LINES.saturating_sub(lines.len());
-        let rest = usize::from(told + 1 < all.len());
-        if room <= rest {
-            break;
+    let told = if warnings.len() <= room { warnings.len() } else { room.saturating_sub(1) };
+    let mut given = vec![1; told];
+    let mut left = room.saturating_sub(told + usize::from(told < warnings.len()));
+    for most in 2..=LONGEST_WARNING {
+        for (given, warning) in given.iter_mut().zip(warnings) {
+            if left > 0 && warning_lines(warning) >= most {
+                *given += 1;
+                left -= 1;
+            }
         }
-        at_most((room - rest).min(longest), lines, "warning   ", &words(finding));
-        told += 1;
     }
-    let more = all.len() - told;
-    if more > 0 && lines.len() < LINES {
-        lines.push(format!("warning   and {more} more: {place}"));
+    for (most, warning) in given.into_iter().zip(warnings) {
+        at_most(most, lines, WARNING, warning);
+    }
+    if told < warnings.len() && lines.len() < LINES {
+        lines.push(format!("{WARNING}and {} more: {place}", warnings.len() - told));
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn told(warnings: &[usize], taken: usize) -> Vec<String> {
+        let all: Vec<String> = warnings.iter().map(|n| "a word ".repeat(13 * n - 3)).collect();
+        let mut lines = vec![String::from("x"); taken];
+        tell(&all, "report.html", &mut lines);
+        lines.split_off(taken)
+    }
+
+    #[test]
+    fn each_warning_has_one_line_before_any_has_a_second() {
+        let starts = |lines: &[String]| lines.iter().filter(|l| l.starts_with(WARNING)).count();
+        let all = told(&[3, 2, 1], 20);
+        assert_eq!((all.len(), starts(&all)), (6, 3));
+        let some = told(&[3, 2, 1], LINES - 4);
+        assert_eq!((some.len(), starts(&some)), (4, 3));
+        assert!(some[1].starts_with(' ') && some[1].ends_with("...") && some[2].ends_with("..."));
+        let few = told(&[3, 2, 1], LINES - 2);
+        assert_eq!(few.len(), 2);
+        assert_eq!(few[1], format!("{WARNING}and 2 more: report.html"));
+        assert!(told(&[1], LINES).is_empty());
     }
 }

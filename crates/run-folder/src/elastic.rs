@@ -264,6 +264,16 @@ impl ElasticRun {
             ("members_envelopes.csv", demands::csv(self, Instants::Envelopes)),
         ];
         let decks = models::decks(|format| self.deck(format))?;
+        let program = self.parameters.program.as_ref();
+        let even = program.map_or_else(
+            || Ok(RunTexts::default()),
+            |row| {
+                models::even_decks(Some(row), |format| {
+                    stepped_deck(&self.assembled, row, &self.record, format)
+                })
+            },
+        )?;
+        let decks = decks.and(even);
         let mut files: Vec<_> =
             files.into_iter().map(|(name, text)| (name.to_string(), text)).collect();
         files.extend(decks.files);

@@ -1,6 +1,8 @@
 //! The decks of a run.
 
-use decks::{DeckFormat, ExportError};
+use decks::{DeckFormat, ExportError, SteppedDeck};
+use report::screen::EVEN_DECK;
+use springs::parameters::program::ProgramRow;
 
 use crate::{FolderError, texts::RunTexts};
 
@@ -16,13 +18,35 @@ pub const DECKS: [(&str, DeckFormat); 5] = [
     ("springs.md", DeckFormat::Markdown),
 ];
 
+/// Those for OpenSees with steps of one size, where the run was asked for its springs.
+const EVEN_DECKS: [(&str, DeckFormat); 2] =
+    [(EVEN_DECK, DeckFormat::OpenSeesPy), ("model_even.tcl", DeckFormat::OpenSeesTcl)];
+
 /// Every deck; what is to be said of them: left out, with the reason, or ended early.
 pub(crate) fn decks(
     text: impl Fn(DeckFormat) -> Result<(String, Option<String>), ExportError>,
 ) -> Result<RunTexts, FolderError> {
+    gathered(&DECKS, |_, format| text(format))
+}
+
+/// The decks for OpenSees with steps of one size; none for another program.
+pub(crate) fn even_decks<U>(
+    program: Option<&ProgramRow<U>>,
+    deck: impl Fn(DeckFormat) -> Result<SteppedDeck, ExportError>,
+) -> Result<RunTexts, FolderError> {
+    match program.is_some_and(ProgramRow::is_opensees_even) {
+        true => gathered(&EVEN_DECKS, |name, format| Ok(deck(format)?.told(name))),
+        false => Ok(RunTexts::default()),
+    }
+}
+
+fn gathered(
+    decks: &[(&str, DeckFormat)],
+    text: impl Fn(&str, DeckFormat) -> Result<(String, Option<String>), ExportError>,
+) -> Result<RunTexts, FolderError> {
     let mut texts = RunTexts::default();
-    for (name, format) in DECKS {
-        match text(format) {
+    for &(name, format) in decks {
+        match text(name, format) {
             // said, not fatal: the other decks are of use
             Err(
                 e @ (ExportError::Member { .. }

@@ -39,6 +39,8 @@ const FILES: &[&str] = &[
     "report.html",
     "decks/model_openseespy.py",
     "decks/model_opensees.tcl",
+    "decks/model_even.py",
+    "decks/model_even.tcl",
     "decks/model_sap2000.s2k",
     "decks/springs.csv",
     "decks/springs.md",
@@ -179,10 +181,14 @@ fn run_decks(
             Ok(decks::stepped_deck(&parameters, record, format, Stepping::Even)?.told(SAP2000))
         })
     };
-    models::decks(|format| {
+    let all = models::decks(|format| {
         let plain = || Ok((decks::export(&parameters, record, &expected, format)?, None));
         for_its_steps(format).unwrap_or_else(plain)
-    })
+    })?;
+    let even = models::even_decks(parameters.program.as_ref(), |format| {
+        decks::stepped_deck(&parameters, record, format, Stepping::Even)
+    })?;
+    Ok(all.and(even))
 }
 
 #[cfg(test)]

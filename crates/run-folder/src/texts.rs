@@ -14,6 +14,13 @@ pub struct RunTexts {
 }
 
 impl RunTexts {
+    /// Both.
+    pub(crate) fn and(mut self, other: Self) -> Self {
+        self.files.extend(other.files);
+        self.left_out.extend(other.left_out);
+        self
+    }
+
     /// Write them into a folder, which is made.
     pub(crate) fn write(&self, folder: &Path) -> Result<(), FolderError> {
         self.files

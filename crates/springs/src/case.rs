@@ -36,6 +36,7 @@ mod missing;
 pub mod program;
 mod record;
 mod structure;
+mod unknown_key;
 mod yardstick;
 
 use std::path::Path;

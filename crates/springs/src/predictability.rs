@@ -29,22 +29,14 @@ const FORETOLD: f64 = 5e-4;
 /// much more as that is less than one.
 const INERTIA_OF_ITS_OWN: f64 = 1e-3;
 
-/// From this NRMSE on no steps help a history's end; those of its first part are chosen as for one
-/// that just can be foretold.
-pub const HOPELESS: f64 = 0.5;
-
 /// Share of the half width below which a motion counts as standing: an error is told against at
 /// least that.
 pub const STANDING: f64 = 1e-3;
 
-/// [`step_sensitivity`] of `motion`, the history of the model on `record`, to a relative change of
-/// the width by 1e-5.
+/// NRMSE of u by which `motion`, the history of the model on `record`, is moved by a relative change
+/// of the width by 1e-5.
 pub fn width_sensitivity(motion: &Motion, parameters: &Parameters, record: &Record) -> f64 {
-    step_sensitivity(
-        motion,
-        &slightly_wider(parameters, record),
-        0.5 * parameters.structure.width_m,
-    )
+    nrmse(&slightly_wider(parameters, record).u, &motion.u)
 }
 
 /// The history of the model with that change of the width.
@@ -104,16 +96,6 @@ pub fn standing_share<'a>(motion: impl Iterator<Item = &'a f64>, size: f64) -> f
     let rms = (sum / count.max(1) as f64).sqrt();
     let least = STANDING * size;
     if rms < least { rms / least } else { 1.0 }
-}
-
-/// Sensitivity that a deck's steps are chosen by: that to the width. A history that cannot be
-/// foretold to its end has steps as asked; but where its foretold part is sensitive already, it
-/// counts as one that can just be foretold: steps help that part.
-pub fn step_sensitivity(motion: &Motion, changed: &Motion, half_width: f64) -> f64 {
-    let whole = nrmse(&changed.u, &motion.u);
-    let part = foretold_samples(motion, changed).unwrap_or(motion.len()).min(changed.len());
-    let sensitive = || standing_error(&changed.u[..part], &motion.u[..part], half_width) > HANGS;
-    if whole > HOPELESS && sensitive() { HOPELESS } else { whole }
 }
 
 /// Up to where a body without rotational inertia of its own stays on the ground for sure: the first

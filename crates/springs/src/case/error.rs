@@ -4,7 +4,7 @@ use std::path::Path;
 
 use thiserror::Error;
 
-use super::missing;
+use super::{missing, unknown_key::UnknownKey};
 use files::message::one_line;
 use rocking::{
     members::{MembersError, NO_LEGS, names_legs},
@@ -82,7 +82,7 @@ pub(super) fn case_error(path: &str, text: &str, error: &toml::de::Error) -> Cas
         return CaseError::IsJson { path: path() };
     }
     let whole = error.message().lines().next().unwrap_or_default();
-    let unknown = unknown_key(whole).is_some();
+    let unknown = UnknownKey::of(whole).is_some();
     if let Some((line, key)) = misspelt_kind(text).filter(|_| unknown) {
         let message = format!("unknown key \"{}\"; did you mean \"kind\"?", one_line(key));
         return CaseError::Parse { path: path(), line, message };
@@ -108,8 +108,12 @@ pub fn parse_error(path: &str, text: &str, error: &toml::de::Error) -> CaseError
     let named = |key: &str| {
         text.lines().position(|line| line.split_once('=').is_some_and(|(k, _)| k.trim() == key))
     };
-    let line = unknown_key(whole).and_then(|(key, _)| named(&key)).map_or(line, |i| i + 1);
-    let message = one_line(whole);
+    let unknown = UnknownKey::of(whole);
+    let line = unknown.as_ref().and_then(|unknown| named(&unknown.key)).map_or(line, |i| i + 1);
+    // serde's names of numbers are not a user's
+    let message = ["expected f64", "expected usize", "expected u64", "expected u32"]
+        .iter()
+        .fold(one_line(whole), |message, rust| message.replace(rust, "expected a number"));
     if let Some(message) = text.lines().nth(line - 1).and_then(decimal_comma) {
         return CaseError::Parse { path: path.into(), line, message };
     }
@@ -132,35 +136,14 @@ pub fn parse_error(path: &str, text: &str, error: &toml::de::Error) -> CaseError
         .iter()
         .fold(message, |message, short| message.replace(short, kinds));
     // of the whole message: all known keys, the nearest one among them
-    let message = match unknown_key(whole) {
-        Some((key, Some(near))) => {
-            format!("unknown key \"{}\"; did you mean \"{near}\"?", one_line(&key))
+    let message = match unknown {
+        Some(unknown) => {
+            format!("unknown key \"{}\"; {}", one_line(&unknown.key), unknown.advice())
         }
-        Some((key, None)) => format!("unknown key \"{}\"; remove it", one_line(&key)),
         None if message.contains(';') => message,
         None => format!("{message}; mend this line"),
     };
     CaseError::Parse { path: path.into(), line, message }
-}
-
-/// The key of a mass.
-const MASS: &str = "mass_kg";
-
-/// From serde's "unknown field `x`, expected one of `a`, `b`": x and the known key nearest to it.
-fn unknown_key(message: &str) -> Option<(String, Option<String>)> {
-    let rest = message.strip_prefix("unknown field ")?;
-    let mut quoted = rest.split('`').skip(1).step_by(2).map(str::to_string);
-    let key = quoted.next()?;
-    let known: Vec<String> = quoted.collect();
-    // a mass by its weight, where only masses are taken
-    if key.starts_with("weight") && known.iter().any(|known| known == MASS) {
-        return Some((key, Some(MASS.to_string())));
-    }
-    let near = known.into_iter().min_by(|a, b| {
-        let distance = |known: &str| strsim::damerau_levenshtein(&key, known);
-        distance(a).cmp(&distance(b))
-    });
-    Some((key, near))
 }
 
 /// The line and the name of a key that stands for `kind`, where there is none: all other keys hang

@@ -192,6 +192,11 @@ impl<U> ProgramRow<U> {
         matches!(self.known(), Some(ProgramName::Sap2000 | ProgramName::Etabs))
     }
 
+    /// Whether it is OpenSees with steps of one size.
+    pub fn is_opensees_even(&self) -> bool {
+        matches!(self.known(), Some(ProgramName::OpenSees))
+    }
+
     fn known(&self) -> Option<ProgramName> {
         self.name.as_deref()?.parse().ok()
     }

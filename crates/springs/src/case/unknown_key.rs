@@ -1,0 +1,72 @@
+//! A key that is not known, and the known one that was meant.
+
+/// The key of a mass.
+const MASS: &str = "mass_kg";
+
+/// What serde says of a key that is not known.
+pub(super) struct UnknownKey {
+    pub key: String,
+    /// The known key that it is like.
+    pub near: Option<String>,
+    /// All known keys.
+    known: Vec<String>,
+}
+
+impl UnknownKey {
+    /// From "unknown field `x`, expected one of `a`, `b`".
+    pub(super) fn of(message: &str) -> Option<Self> {
+        let rest = message.strip_prefix("unknown field ")?;
+        let mut quoted = rest.split('`').skip(1).step_by(2).map(str::to_string);
+        let key = quoted.next()?;
+        let known: Vec<String> = quoted.collect();
+        // a mass by its weight, where only masses are taken
+        let mass = known.iter().find(|known| key.starts_with("weight") && known.ends_with(MASS));
+        let distance = |known: &&String| strsim::damerau_levenshtein(&key, known);
+        let like = known.iter().filter(|known| is_like(&key, known)).min_by_key(distance);
+        let near = mass.or(like).cloned();
+        Some(Self { key, near, known })
+    }
+
+    /// What to do, after the key.
+    pub(super) fn advice(&self) -> String {
+        match &self.near {
+            Some(near) => format!("did you mean \"{near}\"?"),
+            None if self.known.is_empty() => "remove it".into(),
+            None => format!("known are {}", self.known.join(", ")),
+        }
+    }
+}
+
+/// Whether one could be meant by the other: an end of it, or at most half of its letters differ.
+fn is_like(key: &str, known: &str) -> bool {
+    let end = |long: &str, short: &str| long.starts_with(short) || long.ends_with(short);
+    end(known, key)
+        || end(key, known)
+        || 2 * strsim::damerau_levenshtein(key, known) <= key.len().min(known.len())
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn advice(key: &str) -> String {
+        let known = "expected one of `height_m`, `width_m`, `column_mass_kg`, `ei_nm2`, `material`";
+        UnknownKey::of(&format!("unknown field `{key}`, {known}")).unwrap().advice()
+    }
+
+    #[test]
+    fn the_key_that_is_like_it_is_named_and_else_all() {
+        for (key, near) in [
+            ("widht_m", "width_m"),
+            ("height", "height_m"),
+            ("mass_kg", "column_mass_kg"),
+            ("weight_kn", "column_mass_kg"),
+            ("ei", "ei_nm2"),
+        ] {
+            assert_eq!(advice(key), format!("did you mean \"{near}\"?"), "{key}");
+        }
+        let known = "known are height_m, width_m, column_mass_kg, ei_nm2, material";
+        assert_eq!(advice("colour"), known);
+        assert!(UnknownKey::of("invalid type: string").is_none());
+    }
+}
