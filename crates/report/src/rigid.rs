@@ -1,6 +1,7 @@
 //! What is said of a rigid body's run: Housner's body beside the finite elements on their springs.
 
 pub mod at_once;
+mod limits;
 pub mod program;
 pub mod tables;
 
@@ -18,6 +19,7 @@ use dynamics::{
     spring::{Design, Springs},
 };
 use files::message::{percent, quantity, significant};
+use limits::springs_findings;
 use rocking::{
     members::Members,
     overturning::samples_until,
@@ -25,15 +27,11 @@ use rocking::{
 };
 use springs::{
     answers::{MemberHistory, ModelComparison, both, with_members},
-    case::{Case, Objective, Yardstick, doubts::Doubt},
+    case::{Case, Objective, doubts::Doubt},
     parameters::{ConditioningRow, PaperProcedure, Parameters},
     results::{Finding, PeakPair, Peaks},
     rigid_forces::design_forces,
-    tuning::{
-        job::Job,
-        landing_simulation::{ATTAINABLE, LEANS, differs_from_housner},
-        paper_procedure::table_1,
-    },
+    tuning::{job::Job, paper_procedure::table_1},
 };
 
 /// A job done: springs, both models' histories, and what parameters.json holds.
@@ -325,53 +323,6 @@ fn softer(case: &Case, job: &Job, both: &ModelComparison) -> Option<MemberHistor
         (&both.rocking, &both.housner),
     ))
 }
-
-/// What these springs cannot do.
-fn springs_findings(parameters: &Parameters) -> Vec<Finding> {
-    let mut all = Vec::new();
-    if let Some(a) = &parameters.assessment {
-        if !a.reached {
-            all.push(match a.judged_by {
-                Yardstick::Histories => {
-                    Finding::AccuracyMissed { asked: a.accuracy, capped: a.capped }
-                }
-                Yardstick::Peaks => Finding::PeaksMissed { asked: a.accuracy, capped: a.capped },
-            });
-        } else if a.measured.record.is_none()
-            && a.measured.synthetic_median.is_none()
-            && a.measured.earthquakes_mean.is_none()
-        {
-            all.push(Finding::AccuracyNotMeasured);
-        }
-    }
-    let e = parameters.restitution();
-    let body = parameters.structure.body::<f64>();
-    let share = e / body.restitution();
-    let (least, most) = ATTAINABLE;
-    if !(least..=most).contains(&share) {
-        all.push(Finding::RestitutionOutOfReach { asked: e, share, least, most });
-    }
-    let finished = parameters.landings.len();
-    if finished < LEANS.len() {
-        all.push(Finding::LandingsUnfinished { finished, all: LEANS.len() });
-    }
-    let errors = || parameters.landings.iter().map(|l| l.restitution_error);
-    if errors().any(|error| error.abs() > RESTITUTION_MISSED) {
-        let (low, high) = errors()
-            .fold((f64::INFINITY, f64::NEG_INFINITY), |(low, high), x| (low.min(x), high.max(x)));
-        let [lowest, highest] = [low, high].map(|error| e * (1.0 + error));
-        all.push(Finding::RestitutionMissed {
-            asked: e,
-            lowest,
-            highest,
-            of_equation_2: !differs_from_housner(&body, e),
-        });
-    }
-    all
-}
-
-/// Error of restitution that is worth a warning.
-const RESTITUTION_MISSED: f64 = 0.005;
 
 /// How far changes of the structure and the record move Housner's history.
 fn conditioning(row: &ConditioningRow) -> Option<String> {

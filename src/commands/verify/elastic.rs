@@ -4,10 +4,10 @@ use std::{fmt::Write as _, path::Path};
 
 use super::{VerifyOptions, peaks_table};
 use crate::commands::{CommandError, export::check_accuracy, progress::Progress, terminal};
-use decks::verify::{ComparedPeak, Program, VerifyError, number_before, run_deck};
+use decks::verify::{ComparedPeak, DeckRun, Program, VerifyError, number_before, run_deck};
 use figures::stack::{self, StackFigure, StackQuantity};
 use frames::{
-    answer::{ComparedEnd, ElasticHistories, Reference},
+    answer::{Compared, ComparedEnd, ElasticHistories, Reference},
     assembled::{Assembled, Sway, errors},
     fem::ElasticHistory,
     reference::{MOST_WORK, TRIED},
@@ -78,17 +78,41 @@ pub fn run(
     let peaks = peaks(&assembled, &ours.q, &ran.motion);
     let pairs: Vec<[Sway; 2]> =
         of_ours.into_iter().zip(of_opensees).map(|(ours, opensees)| [ours, opensees]).collect();
-    let within = rotation <= LIMIT && drift <= LOOSER * LIMIT;
     let folder =
         Folder::begin(&o.out, "verify", super::FILES, super::of(parameters, &record, o.accuracy))?;
     write_file(&folder.path().join("verify.csv"), csv(&pairs, record.dt).as_bytes())?;
     draw(folder.path(), &assembled, &pairs, record.dt)?;
     folder.finish()?;
 
-    let title = format!("{}, {:.2} s", record.name, part.seconds);
+    let said = said(&record.name, &part, &peaks, &ran, [rotation, drift]);
+    terminal::stdout(format_args!("{said}"))?;
+    terminal::stderr(format_args!("{}\nwritten to {}", excitation.line(), terminal::shown(&o.out)));
+    if within([rotation, drift]) {
+        return Ok(());
+    }
+    let refusal = format!(
+        "verify: OpenSees is off by {rotation:.1e} in rotation and {drift:.1e} in drift; ask for finer steps with --accuracy, or stiffer springs"
+    );
+    Err(CommandError::Failed(refusal))
+}
+
+/// Whether OpenSees is as near as is asked, in rotation and drift.
+fn within([rotation, drift]: [f64; 2]) -> bool {
+    rotation <= LIMIT && drift <= LOOSER * LIMIT
+}
+
+/// Peaks first, then errors, for a terminal.
+fn said<T>(
+    record: &str,
+    part: &Compared,
+    peaks: &[ComparedPeak],
+    ran: &DeckRun<T>,
+    [rotation, drift]: [f64; 2],
+) -> String {
+    let title = format!("{}, {:.2} s", record, part.seconds);
     let mut said = format!(
         "{}\n\nOpenSees took {:.1} s and {} steps\n",
-        peaks_table(&title, &peaks),
+        peaks_table(&title, peaks),
         ran.seconds,
         number_before(&ran.report, " steps")
     );
@@ -105,7 +129,7 @@ pub fn run(
     let _ = writeln!(
         said,
         "OpenSees is {} {LIMIT} of our own rotation ({rotation:.1e}) and {} of our drift ({drift:.1e}), NRMSE {over}",
-        if within { "within" } else { "NOT within" },
+        if within([rotation, drift]) { "within" } else { "NOT within" },
         LOOSER * LIMIT
     );
     let late = number_before(&ran.report, " touches or lifts");
@@ -115,15 +139,7 @@ pub fn run(
             "WARNING: {late} touches or lifts of a corner within too long a step of OpenSees"
         );
     }
-    terminal::stdout(format_args!("{said}"))?;
-    terminal::stderr(format_args!("{}\nwritten to {}", excitation.line(), terminal::shown(&o.out)));
-    if within {
-        return Ok(());
-    }
-    let refusal = format!(
-        "verify: OpenSees is off by {rotation:.1e} in rotation and {drift:.1e} in drift; ask for finer steps with --accuracy, or stiffer springs"
-    );
-    Err(CommandError::Failed(refusal))
+    said
 }
 
 /// Displacement of the top, uplift of a corner, rotation and drift; of several bases the largest.

@@ -49,34 +49,17 @@ impl Finding {
             Self::RestitutionMissed { .. } | Self::RestitutionOutOfReach { .. } => {
                 "ask for a restitution nearer to equation 2's"
             }
-            Self::ProgramStepTooLong { longest_s, .. } => {
-                return Some(format!("give --step {longest_s:.1e} or less"));
-            }
-            Self::ProgramLoses { csi: true, .. } => {
-                "check that its history ends; else give a shorter --step"
-            }
-            Self::ProgramLoses { .. } => {
-                "check that its history ends; else a shorter --step, or --integrator backward-euler"
-            }
-            Self::ProgramStepForAccuracy { .. } => {
-                "take such steps, or substeps at touches: tune export --stepping"
-            }
-            Self::ProgramRestitution { .. } => {
-                "leave the restitution out, or follow touches: OpenSees' deck"
-            }
+            Self::ProgramStepTooLong { .. }
+            | Self::ProgramLoses { .. }
+            | Self::ProgramStepForAccuracy { .. }
+            | Self::ProgramRestitution { .. } => return self.remedy_of_steps(),
             Self::LandingsUnfinished { .. } => "allow other springs: --max-hz, --accuracy",
             Self::ForceWithheld { .. } => {
                 "take it from a model of your own, or refine: elements, --accuracy"
             }
-            Self::SearchCut { by: CutBy::Work, .. } => {
-                "allow more: --work 10; or ask for less: --accuracy, --max-hz"
-            }
-            Self::SearchCut { by: CutBy::TimeLimit, .. } => "raise or leave out --time-limit",
-            Self::SearchCut { by: CutBy::Interrupt, .. } => "run it again to its end",
-            Self::HistoriesUnfinished { left_out: true, .. } | Self::NearMotionsLeftOut { .. } => {
-                "allow more: --work 10"
-            }
-            Self::HistoriesUnfinished { .. } => "judge the springs by many records: tune validate",
+            Self::SearchCut { .. }
+            | Self::HistoriesUnfinished { .. }
+            | Self::NearMotionsLeftOut { .. } => return self.remedy_of_search(),
             Self::ForcesHeldInPart { .. } => "design for the larger, and by several records",
             Self::Sliding { .. } => {
                 "give it a shear key, or say what the ground offers: --friction"
@@ -95,6 +78,46 @@ impl Finding {
             }
             Self::VerticalLeftOut { .. } => "it is left out here; --vertical auto includes it",
             Self::Doubt { remedy, .. } => return Some(remedy.clone()),
+        };
+        Some(text.into())
+    }
+
+    /// Of springs for steps of one size.
+    fn remedy_of_steps(&self) -> Option<String> {
+        let text = match self {
+            Self::ProgramStepTooLong { longest_s, .. } => {
+                return Some(format!("give --step {longest_s:.1e} or less"));
+            }
+            Self::ProgramLoses { csi: true, .. } => {
+                "check that its history ends; else give a shorter --step"
+            }
+            Self::ProgramLoses { .. } => {
+                "check that its history ends; else a shorter --step, or --integrator backward-euler"
+            }
+            Self::ProgramStepForAccuracy { .. } => {
+                "take such steps, or substeps at touches: tune export --stepping"
+            }
+            Self::ProgramRestitution { .. } => {
+                "leave the restitution out, or follow touches: OpenSees' deck"
+            }
+            _ => return None,
+        };
+        Some(text.into())
+    }
+
+    /// Of a search that did not end.
+    fn remedy_of_search(&self) -> Option<String> {
+        let text = match self {
+            Self::SearchCut { by: CutBy::Work, .. } => {
+                "allow more: --work 10; or ask for less: --accuracy, --max-hz"
+            }
+            Self::SearchCut { by: CutBy::TimeLimit, .. } => "raise or leave out --time-limit",
+            Self::SearchCut { by: CutBy::Interrupt, .. } => "run it again to its end",
+            Self::HistoriesUnfinished { left_out: true, .. } | Self::NearMotionsLeftOut { .. } => {
+                "allow more: --work 10"
+            }
+            Self::HistoriesUnfinished { .. } => "judge the springs by many records: tune validate",
+            _ => return None,
         };
         Some(text.into())
     }

@@ -1,0 +1,62 @@
+//! Design forces of an elastic structure, as parameters.json has them.
+
+use ::springs::results::{DesignForce, DesignForces};
+use frames::{
+    design_forces::{ForceKind, StructureForces},
+    structure::ElasticStructure,
+};
+
+/// Share of the largest moment at the base below which that at the top is not said: a mass on a
+/// hinge.
+const LEAST_TOP_MOMENT: f64 = 0.01;
+
+/// Share of the largest axial force below which a tension is not said.
+const LEAST_TENSION: f64 = 0.01;
+
+/// A run's forces, as parameters.json has them.
+pub fn design_forces(structure: &ElasticStructure, of: &StructureForces) -> DesignForces {
+    let force = |kind: ForceKind| {
+        let force = of.get(kind)?;
+        Some(DesignForce {
+            value: force.value,
+            time_s: force.time_s,
+            holds: force.holds,
+            change: Some(force.others.change()).filter(|change| change.is_finite()),
+            raw: Some(force.raw),
+            fixed: force.fixed.map(|peak| peak.value).filter(|value| *value != 0.0),
+            rigid: force.rigid.map(|peak| peak.value),
+            together: force.together,
+            above_base_m: force.above_base_m,
+            over_s: force.whole_record.map(|_| force.over_s),
+            whole_record: force.whole_record,
+            others: Some(force.others),
+        })
+    };
+    let column_shear_n = force(ForceKind::ColumnShear);
+    let axial_n = force(ForceKind::Axial);
+    let found = |force: DesignForce| force.others.map_or(0.0, |others| others.found.abs());
+    let most = axial_n.map_or(0.0, found);
+    let axial_tension_n =
+        force(ForceKind::AxialTension).filter(|tension| found(*tension) > LEAST_TENSION * most);
+    let base_moment = force(ForceKind::ColumnBaseMoment).map_or(0.0, found);
+    let column_top_moment_nm = force(ForceKind::ColumnTopMoment)
+        .filter(|top| found(*top) > LEAST_TOP_MOMENT * base_moment);
+    // a leg has no mass and a hinge at its foot
+    let apex_moment_nm = match structure {
+        ElasticStructure::AFrame(frame) => {
+            column_shear_n.map(|shear| shear.times(frame.leg_length()))
+        }
+        ElasticStructure::Pier(_) | ElasticStructure::Frame(_) => None,
+    };
+    DesignForces {
+        below_hz: of.cutoff.as_ref().map(|cutoff| cutoff.cutoff_hz),
+        column_shear_n,
+        column_base_moment_nm: force(ForceKind::ColumnBaseMoment),
+        column_top_moment_nm,
+        axial_n,
+        axial_tension_n,
+        apex_moment_nm,
+        sole_shear_n: force(ForceKind::SoleShear),
+        sole_vertical_n: force(ForceKind::SoleVertical),
+    }
+}

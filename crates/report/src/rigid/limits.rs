@@ -1,0 +1,55 @@
+//! What the springs of a rigid body cannot do.
+
+use springs::{
+    case::Yardstick,
+    parameters::Parameters,
+    results::Finding,
+    tuning::landing_simulation::{ATTAINABLE, LEANS, differs_from_housner},
+};
+
+/// Error of restitution that is worth a warning.
+const RESTITUTION_MISSED: f64 = 0.005;
+
+/// What these springs cannot do.
+pub(super) fn springs_findings(parameters: &Parameters) -> Vec<Finding> {
+    let mut all = Vec::new();
+    if let Some(a) = &parameters.assessment {
+        if !a.reached {
+            all.push(match a.judged_by {
+                Yardstick::Histories => {
+                    Finding::AccuracyMissed { asked: a.accuracy, capped: a.capped }
+                }
+                Yardstick::Peaks => Finding::PeaksMissed { asked: a.accuracy, capped: a.capped },
+            });
+        } else if a.measured.record.is_none()
+            && a.measured.synthetic_median.is_none()
+            && a.measured.earthquakes_mean.is_none()
+        {
+            all.push(Finding::AccuracyNotMeasured);
+        }
+    }
+    let e = parameters.restitution();
+    let body = parameters.structure.body::<f64>();
+    let share = e / body.restitution();
+    let (least, most) = ATTAINABLE;
+    if !(least..=most).contains(&share) {
+        all.push(Finding::RestitutionOutOfReach { asked: e, share, least, most });
+    }
+    let finished = parameters.landings.len();
+    if finished < LEANS.len() {
+        all.push(Finding::LandingsUnfinished { finished, all: LEANS.len() });
+    }
+    let errors = || parameters.landings.iter().map(|l| l.restitution_error);
+    if errors().any(|error| error.abs() > RESTITUTION_MISSED) {
+        let (low, high) = errors()
+            .fold((f64::INFINITY, f64::NEG_INFINITY), |(low, high), x| (low.min(x), high.max(x)));
+        let [lowest, highest] = [low, high].map(|error| e * (1.0 + error));
+        all.push(Finding::RestitutionMissed {
+            asked: e,
+            lowest,
+            highest,
+            of_equation_2: !differs_from_housner(&body, e),
+        });
+    }
+    all
+}
