@@ -235,23 +235,7 @@ impl<'a, S: Scalar> Stepper<'a, S> {
                 verdict => return verdict == IterationVerdict::Converged,
             }
 
-            let mut residual = [[S::zero(); N]; 3];
-            let mut turned = [[0.0; 2]; 3];
-            for i in 0..3 {
-                let pose = Pose::of(&s.q[i]);
-                residual[i] = model.forces_at(&pose, &s.q[i], &s.v[i], feet, grounds[i]);
-                for k in 0..N {
-                    residual[i][k] -= masses[k] * s.a[i][k];
-                }
-                if let Some((Turning { foot, .. }, lever)) = turning {
-                    let (_, _, px_th, pz_th) = model.foot(foot, &s.q[i], pose.sin, pose.cos);
-                    turned[i] = [px_th.re() - lever[0], pz_th.re() - lever[1]];
-                    residual[i][TH] = turning::moment(
-                        [residual[i][X], residual[i][Z], residual[i][TH]],
-                        turned[i],
-                    );
-                }
-            }
+            let (residual, turned) = s.residuals(model, feet, &masses, &grounds, turning);
             let mut r0 = [S::zero(); N];
             let mut r1 = [Complex::new(S::zero(), S::zero()); N];
             for k in 0..N {
@@ -287,6 +271,35 @@ impl<S: Scalar> Stages<S> {
                 (self.q[i][k], self.v[i][k]) = stage(i, (start.q[k], start.v[k]), a, self.h);
             }
         }
+    }
+
+    /// The force that each stage's accelerations leave unbalanced; of a body that turns about its
+    /// foot, its moment about the foot, and by how much the foot's lever has turned.
+    #[inline(always)]
+    fn residuals(
+        &self,
+        model: &Model<S>,
+        feet: &[Foot<S>; 2],
+        masses: &Vector<S>,
+        grounds: &[[S; 2]; 3],
+        turning: Option<(Turning, [f64; 2])>,
+    ) -> ([Vector<S>; 3], [[f64; 2]; 3]) {
+        let mut residual = [[S::zero(); N]; 3];
+        let mut turned = [[0.0; 2]; 3];
+        for i in 0..3 {
+            let pose = Pose::of(&self.q[i]);
+            residual[i] = model.forces_at(&pose, &self.q[i], &self.v[i], feet, grounds[i]);
+            for k in 0..N {
+                residual[i][k] -= masses[k] * self.a[i][k];
+            }
+            if let Some((Turning { foot, .. }, lever)) = turning {
+                let (_, _, px_th, pz_th) = model.foot(foot, &self.q[i], pose.sin, pose.cos);
+                turned[i] = [px_th.re() - lever[0], pz_th.re() - lever[1]];
+                let forces = [residual[i][X], residual[i][Z], residual[i][TH]];
+                residual[i][TH] = turning::moment(forces, turned[i]);
+            }
+        }
+        (residual, turned)
     }
 }
 

@@ -1,7 +1,7 @@
 //! Cases that the stories share.
 
 use dynamics::{
-    fem::{Analysis, Control, History, Start},
+    fem::{Analysis, Control, History, HistoryOutcome, Start},
     spring::{Chain, Design, Springs},
 };
 use rocking::structure::Structure;
@@ -93,4 +93,15 @@ pub fn free(
         control: Control::default(),
     }
     .simulate()
+}
+
+/// What every history promises: numbers, all samples, a closed energy account, no energy from
+/// nowhere.
+pub fn assert_sound(history: &History, samples: usize) {
+    let (motion, account) = (&history.motion, &history.account);
+    assert_eq!((history.outcome, motion.len()), (HistoryOutcome::Completed, samples));
+    assert!([&motion.u, &motion.v, &motion.theta].into_iter().flatten().all(|x| x.is_finite()));
+    assert!(history.energy_residual < 1e-6, "{:e}", history.energy_residual);
+    let largest = account.stored.iter().chain(&account.input).fold(0.0_f64, |m, e| m.max(e.abs()));
+    assert!(account.dissipated.windows(2).all(|w| w[1] - w[0] > -1e-8 * largest));
 }

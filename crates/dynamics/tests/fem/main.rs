@@ -5,6 +5,7 @@ mod common;
 mod derivatives;
 mod edges;
 mod energy;
+mod extremes;
 mod landings;
 mod lanes;
 mod members;
