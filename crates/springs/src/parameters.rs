@@ -1,7 +1,9 @@
 //! `parameters.json`: the tuned springs as the engineer keeps them, and how well they follow
 //! Housner.
 
+mod checks;
 pub mod elastic;
+mod error;
 pub mod program;
 mod record;
 
@@ -9,7 +11,6 @@ use dynamics::compare::Match;
 use std::path::Path;
 
 use serde::{Deserialize, Serialize};
-use thiserror::Error;
 
 use crate::{
     case::Case,
@@ -22,14 +23,14 @@ use crate::{
     verdict::Verdict,
 };
 use dynamics::spring::{Chain, ChainRow, Design, Springs};
+pub use error::ParametersError;
 use files::message::one_line;
 use program::{FootUnits, ProgramRow};
 pub use record::{RecordRow, RememberedError};
 use rocking::{
     conditioning::Conditioning,
-    members::{Damper, Friction, Members, MembersError, NO_LEGS, Tendon, names_legs},
-    scalar::GRAVITY,
-    structure::{Structure, StructureError},
+    members::{Damper, Friction, Members, Tendon, names_legs},
+    structure::Structure,
 };
 
 /// Version of the keys of parameters.json that this program writes. Version 1 had no number, and
@@ -81,15 +82,6 @@ pub struct PaperProcedure {
     #[serde(rename = "match")]
     pub matched: Match,
 }
-
-/// Stiffness that a spring may have, in units of the weight over the height: softer ones let the
-/// body sink in by a thousand times its height, stiffer ones are compressed by less than the
-/// rounding of it.
-const STIFFNESS: (f64, f64) = (1e-3, 1e15);
-/// Absorber's mass, in units of the structure's.
-const MASS: (f64, f64) = (1e-9, 1e9);
-/// Damping, in units of the mass times sqrt(g/height).
-const DAMPING: (f64, f64) = (0.0, 1e15);
 
 /// Everything in `parameters.json`.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
@@ -167,47 +159,6 @@ struct Version {
 /// The schema of files that do not say.
 fn first() -> u32 {
     1
-}
-
-/// What is wrong with a parameter file, and what to do.
-#[derive(Debug, Error)]
-#[allow(missing_docs)] // messages say what variants and their fields are
-pub enum ParametersError {
-    #[error("{path}: cannot be read ({source}); give the parameters.json that `tune run` wrote")]
-    Read { path: String, source: std::io::Error },
-    #[error(
-        "{path}: these are springs of an elastic structure, which `tune export` and `tune verify` take and this command does not; give those of a rigid body"
-    )]
-    Elastic { path: String },
-    #[error("{path}: {}, and let `tune run` find its springs", NO_LEGS)]
-    Legs { path: String },
-    #[error("{path}, line {line}: {message}; give a parameters.json as `tune run` writes it")]
-    Parse { path: String, line: usize, message: String },
-    #[error("{path}: {chain}.{name} is {value:?}; give a finite number{bound}")]
-    Value { path: String, chain: &'static str, name: &'static str, value: f64, bound: &'static str },
-    #[error(
-        "{path}: {chain}.{name} is {value:?}, {times:.1e} times {scale}; nothing computed from that means anything, give k1, k2 in N/m, m2 in kg, c in N s/m"
-    )]
-    Absurd {
-        path: String,
-        chain: &'static str,
-        name: &'static str,
-        value: f64,
-        times: f64,
-        scale: &'static str,
-    },
-    #[error(
-        "{path}: its schema is {schema}, this program reads up to {SCHEMA}; take a newer tune, or tune again"
-    )]
-    Schema { path: String, schema: u32 },
-    #[error("{path}: record.{name} is {value:?}; give a finite number greater than zero")]
-    Record { path: String, name: &'static str, value: f64 },
-    #[error("{path}: restitution is {value}; a velocity ratio lies between 0 and 1")]
-    Restitution { path: String, value: f64 },
-    #[error("{path}: {source}")]
-    Structure { path: String, source: StructureError },
-    #[error("{path}: {source}")]
-    Members { path: String, source: MembersError },
 }
 
 impl Parameters {
@@ -316,88 +267,6 @@ impl Parameters {
             ParametersError::Parse { path, line: e.line(), message }
         })?;
         parameters.checked(path)
-    }
-
-    fn checked(self, path: &str) -> Result<Self, ParametersError> {
-        if let Some(row) = &self.record
-            && let Some(value) = row.duration_s.filter(|d| *d <= 0.0)
-        {
-            return Err(ParametersError::Record {
-                path: path.to_string(),
-                name: "duration_s",
-                value,
-            });
-        }
-        self.structure
-            .checked()
-            .map_err(|source| ParametersError::Structure { path: path.to_string(), source })?;
-        if let Some(value) = self.restitution.filter(|e| !(0.0..=1.0).contains(e)) {
-            return Err(ParametersError::Restitution { path: path.to_string(), value });
-        }
-        let program = self.program.iter();
-        let program = program.flat_map(|p| {
-            [("program.vertical", &p.units.vertical), ("program.horizontal", &p.units.horizontal)]
-        });
-        for (chain, row) in [("vertical", &self.vertical), ("horizontal", &self.horizontal)]
-            .into_iter()
-            .chain(program)
-        {
-            for (name, value, least) in [
-                ("k1_n_per_m", row.k1_n_per_m, f64::MIN_POSITIVE),
-                ("k2_n_per_m", row.k2_n_per_m, f64::MIN_POSITIVE),
-                ("m2_kg", row.m2_kg, f64::MIN_POSITIVE),
-                ("c_ns_per_m", row.c_ns_per_m, 0.0),
-            ] {
-                if !(value.is_finite() && value >= least) {
-                    let bound =
-                        if least > 0.0 { " greater than zero" } else { ", zero or greater" };
-                    return Err(ParametersError::Value {
-                        path: path.to_string(),
-                        chain,
-                        name,
-                        value,
-                        bound,
-                    });
-                }
-            }
-            self.meaningful(path, chain, row)?;
-        }
-        let members = self.members().checked(&self.structure.body());
-        members.map_err(|source| ParametersError::Members { path: path.to_string(), source })?;
-        Ok(self)
-    }
-
-    /// Springs whose numbers, in units of the structure's own, are within what 16 digits can
-    /// follow.
-    fn meaningful(
-        &self,
-        path: &str,
-        chain: &'static str,
-        row: &ChainRow,
-    ) -> Result<(), ParametersError> {
-        let Structure { mass_kg, height_m, .. } = self.structure;
-        // a spring that the weight compresses by the height
-        let k = mass_kg * GRAVITY / height_m;
-        let c = (k * mass_kg).sqrt();
-        for (name, value, unit, scale, (least, most)) in [
-            ("k1_n_per_m", row.k1_n_per_m, k, "the weight over the height", STIFFNESS),
-            ("k2_n_per_m", row.k2_n_per_m, k, "the weight over the height", STIFFNESS),
-            ("m2_kg", row.m2_kg, mass_kg, "the structure's mass", MASS),
-            ("c_ns_per_m", row.c_ns_per_m, c, "the mass times sqrt(g/height)", DAMPING),
-        ] {
-            let times = value / unit;
-            if !(least..=most).contains(&times) {
-                return Err(ParametersError::Absurd {
-                    path: path.to_string(),
-                    chain,
-                    name,
-                    value,
-                    times,
-                    scale,
-                });
-            }
-        }
-        Ok(())
     }
 
     /// The file's text.

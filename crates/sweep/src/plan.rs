@@ -2,75 +2,25 @@
 //! written out.
 
 mod ground;
+mod levels;
+mod subjects;
 
 use std::path::Path;
 
-use serde::Serialize;
 use toml::Spanned;
 
 use super::{
     SweepError,
     motion::{MotionSource, SweepMotion},
-    spec::{Grid, Kinds, SweepKind, SweepModel, SweepSource},
+    spec::{SweepKind, SweepModel, SweepSource},
 };
-use rocking::{
-    scalar::GRAVITY,
-    structure::{self, Body, Structure},
-};
+pub use levels::Measure;
+use levels::levels;
+use rocking::scalar::GRAVITY;
 use springs::case::{ACCURACY, LONGEST_S, MAX_HZ};
 use strong_motion::{Notice, ReadOptions, fnv1a};
-
-/// One structure of a sweep.
-#[derive(Clone, Debug)]
-pub struct Subject {
-    /// Its name.
-    pub name: String,
-    /// As given.
-    pub structure: Structure,
-    /// As the models have it.
-    pub body: Body<f64>,
-    /// Its own velocity restitution.
-    pub restitution: f64,
-    /// (rad)
-    pub alpha: f64,
-    /// (1/s)
-    pub p: f64,
-}
-
-impl Subject {
-    fn new(structure: Structure, restitution: f64) -> Self {
-        let body = structure.body::<f64>();
-        let kind = match structure.kind {
-            structure::Kind::AFrame => "A-frame",
-            structure::Kind::Block => "block",
-        };
-        let name = format!("{kind} R {} m, alpha {}", digits(body.radius()), digits(body.alpha()));
-        Self { name, structure, body, restitution, alpha: body.alpha(), p: body.p_squared().sqrt() }
-    }
-
-    /// g tan(alpha): what lifts it at rest (m/s2).
-    pub(crate) fn uplift(&self) -> f64 {
-        GRAVITY * self.alpha.tan()
-    }
-}
-
-/// Four significant digits at most, as short as they come.
-fn digits(x: f64) -> String {
-    let rounded: f64 = format!("{x:.3e}").parse().unwrap_or(x);
-    rounded.to_string()
-}
-
-/// What the levels are levels of.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize)]
-#[serde(rename_all = "snake_case")]
-pub enum Measure {
-    /// The factor on the acceleration.
-    Scale,
-    /// The peak ground acceleration (g).
-    PgaG,
-    /// PGA over that which lifts the body, g tan alpha.
-    PgaOverUplift,
-}
+pub use subjects::Subject;
+use subjects::subjects;
 
 /// How springs are tuned.
 #[derive(Clone, Copy, Debug)]
@@ -146,18 +96,7 @@ impl Plan {
     pub(crate) fn new(source: &SweepSource) -> Result<Self, SweepError> {
         let sweep = &source.spec.sweep;
         let kind = *sweep.kind.get_ref();
-        let default =
-            if kind == SweepKind::Compare { SweepModel::Both } else { SweepModel::Housner };
-        let model = sweep.model.as_ref().map_or(default, |model| *model.get_ref());
-        if let Some(written) = &sweep.model
-            && kind == SweepKind::Compare
-            && model != SweepModel::Both
-        {
-            return Err(source.at(
-                written,
-                "kind = \"compare\" compares both models; write model = \"both\", or leave it out",
-            ));
-        }
+        let model = model(source, kind)?;
         let subjects = subjects(source)?;
         let restitutions = match &sweep.restitution {
             Some(values) => Some(source.all_within("restitution", values, 0.0, 1.0)?),
@@ -326,95 +265,18 @@ impl Plan {
     }
 }
 
-fn subjects(source: &SweepSource) -> Result<Vec<Subject>, SweepError> {
-    let mut subjects = Vec::new();
-    for section in &source.spec.structure {
-        let (structure, e) = section
-            .get_ref()
-            .checked(&source.path)
-            .map_err(|e| source.at(section, reason(&source.path, &e.to_string())))?;
-        subjects.push(Subject::new(structure, e));
-    }
-    if let Some(grid) = &source.spec.grid {
-        of_grid(source, grid, &mut subjects)?;
-    }
-    if subjects.is_empty() {
+/// The model asked for: Housner's unless given, both where they are compared.
+fn model(source: &SweepSource, kind: SweepKind) -> Result<SweepModel, SweepError> {
+    let compares = kind == SweepKind::Compare;
+    let Some(written) = &source.spec.sweep.model else {
+        return Ok(if compares { SweepModel::Both } else { SweepModel::Housner });
+    };
+    let model = *written.get_ref();
+    if compares && model != SweepModel::Both {
         return Err(source.at(
-            &source.spec.sweep.kind,
-            "no structure; give [[structure]] as in a case file, or [grid]",
+            written,
+            "kind = \"compare\" compares both models; write model = \"both\", or leave it out",
         ));
     }
-    Ok(subjects)
-}
-
-/// The message of an error without the file's name, which stands before it anyway.
-fn reason(path: &str, message: &str) -> String {
-    message.strip_prefix(&format!("{path}: ")).unwrap_or(message).to_string()
-}
-
-fn of_grid(
-    source: &SweepSource,
-    grid: &Spanned<Grid>,
-    subjects: &mut Vec<Subject>,
-) -> Result<(), SweepError> {
-    let Grid { kind, size_m, slenderness } = grid.get_ref();
-    let kinds = match kind {
-        Kinds::One(kind) => std::slice::from_ref(kind),
-        Kinds::Some(kinds) => kinds,
-    };
-    let sizes = source.all_within("size_m", size_m, 1e-3, 1e4)?;
-    let alphas = source.all_within("slenderness", slenderness, 0.005, 0.9)?;
-    for &kind in kinds {
-        for &alpha in &alphas {
-            for &radius in &sizes {
-                let mass_kg = 1000.0;
-                let m_r2 = mass_kg * radius * radius;
-                let structure = Structure {
-                    kind,
-                    height_m: radius * alpha.cos(),
-                    width_m: 2.0 * radius * alpha.sin(),
-                    mass_kg,
-                    rotational_inertia_kgm2: match kind {
-                        structure::Kind::AFrame => structure::LEAST_INERTIA * m_r2,
-                        structure::Kind::Block => m_r2 / 3.0,
-                    },
-                };
-                let structure =
-                    structure.checked().map_err(|e| source.at(slenderness, e.to_string()))?;
-                subjects.push(Subject::new(structure, structure.body::<f64>().restitution()));
-            }
-        }
-    }
-    Ok(())
-}
-
-fn levels(source: &SweepSource, kind: SweepKind) -> Result<(Measure, Vec<f64>), SweepError> {
-    let Some(section) = &source.spec.levels else {
-        if matches!(kind, SweepKind::Rocking | SweepKind::Compare) {
-            return Ok((Measure::Scale, vec![1.0]));
-        }
-        let remedy = "no [levels]; give scale, pga_g or pga_over_uplift";
-        return Err(source.at(&source.spec.sweep.kind, remedy));
-    };
-    let all = section.get_ref();
-    let given = [
-        (Measure::Scale, "scale", &all.scale, 100.0),
-        (Measure::PgaG, "pga_g", &all.pga_g, 50.0),
-        (Measure::PgaOverUplift, "pga_over_uplift", &all.pga_over_uplift, 1e4),
-    ];
-    let mut given = given
-        .into_iter()
-        .filter_map(|(m, name, values, most)| values.as_ref().map(|v| (m, name, v, most)));
-    let (Some((measure, name, values, most)), None) = (given.next(), given.next()) else {
-        return Err(source.at(section, "levels: give one of scale, pga_g and pga_over_uplift"));
-    };
-    let mut levels = source.all_within(name, values, 1e-6, most)?;
-    if kind == SweepKind::Overturning {
-        if measure != Measure::PgaOverUplift || levels.len() < 2 {
-            let remedy = "an overturning spectrum scans pga_over_uplift; give a range, as { from = 1.0, to = 12.0, count = 400, spacing = \"log\" }";
-            return Err(source.at(values, remedy));
-        }
-        levels.sort_by(f64::total_cmp);
-    }
-    Ok((measure, levels))
+    Ok(model)
 }

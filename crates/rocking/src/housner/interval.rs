@@ -31,15 +31,17 @@ impl<S: Scalar> Setting<'_, S> {
         let mut lifting = false;
         while x.re() < 1.0 {
             if !state.rocking {
-                let lift = rest::uplift(x, (a0, da), (g0, dg), self.lift);
-                let release = if V { rest::release(x.re(), g0.re(), dg.re()) } else { None };
-                if let Some(at) = release.filter(|&at| lift.is_none_or(|(lift, _)| at <= lift.re()))
-                {
-                    out.outcome = RockingOutcome::LeavesGround { time: start + at * self.dt };
-                    return false;
-                }
-                let Some((at, side)) = lift else { return true };
-                x = at;
+                let side = match rest::outcome::<V, S>(x, (a0, da), (g0, dg), self.lift) {
+                    rest::RestOutcome::Lasts => return true,
+                    rest::RestOutcome::LetsGo { at } => {
+                        out.outcome = RockingOutcome::LeavesGround { time: start + at * self.dt };
+                        return false;
+                    }
+                    rest::RestOutcome::Lifts { at, side } => {
+                        x = at;
+                        side
+                    }
+                };
                 self.ground(state, side, S::zero());
                 (state.rocking, lifting) = (true, true);
                 out.uplifts.push(Uplift { time: x * self.dt + start, side });
@@ -56,11 +58,7 @@ impl<S: Scalar> Setting<'_, S> {
             let h = left * self.dt;
             let (b, db) = ((a0 + da * x) * state.side, da * left * state.side);
             let ground = StepGround { b, db, gamma: g0 + dg * x, dgamma: dg * left };
-            let mut series = PowerSeries::<S, N>::new::<V>(&state.at, h, &ground, self.p2 * h * h);
-            let reach = series.reach();
-            if reach < 1.0 {
-                series.shorten(reach);
-            }
+            let (series, reach) = self.piece::<V, N>(&state.at, h, &ground);
             let mut c = series.re();
             if lifting {
                 // at the limit w'' = 0, and its rounding error must not press the body into the
@@ -72,14 +70,8 @@ impl<S: Scalar> Setting<'_, S> {
             if V && let Some(z) = self.loss(&state.at, &c, &ground.re(), h.re(), reach)
                 && impact.is_none_or(|impact| z < impact)
             {
-                self.leave(
-                    state,
-                    &c,
-                    z,
-                    start + (x.re() + left.re() * reach * z) * self.dt,
-                    h.re() * reach,
-                    out,
-                );
+                let time = start + (x.re() + left.re() * reach * z) * self.dt;
+                self.leave(state, &c, z, time, h.re() * reach, out);
                 return false;
             }
             match impact {
@@ -102,6 +94,22 @@ impl<S: Scalar> Setting<'_, S> {
         }
         self.at_sample(state, x, then);
         true
+    }
+
+    /// The motion from `at` on over at most a time h (s), and the share of h over which it holds.
+    #[inline(always)]
+    fn piece<const V: bool, const N: usize>(
+        &self,
+        at: &StepStart<S>,
+        h: S,
+        ground: &StepGround<S>,
+    ) -> (PowerSeries<S, N>, f64) {
+        let mut series = PowerSeries::new::<V>(at, h, ground, self.p2 * h * h);
+        let reach = series.reach();
+        if reach < 1.0 {
+            series.shorten(reach);
+        }
+        (series, reach)
     }
 
     /// Carry the state over a piece of length h without an event, `time` (s) the time at a fraction

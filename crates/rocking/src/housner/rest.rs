@@ -69,6 +69,36 @@ pub(crate) fn release(x: f64, g: f64, dg: f64) -> Option<f64> {
     (g + dg <= 0.0).then(|| (-g / dg).clamp(x, 1.0))
 }
 
+/// How a rest goes on in what is left of an interval.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(crate) enum RestOutcome<S> {
+    /// The body rests to the interval's end.
+    Lasts,
+    /// It lifts at a fraction of the interval, to a side.
+    Lifts { at: S, side: f64 },
+    /// Before it lifts the ground falls away from under both feet, at a fraction of the interval.
+    LetsGo { at: f64 },
+}
+
+/// How a rest goes on from fraction x of an interval; `V` is whether the ground moves vertically.
+#[inline(always)]
+pub(crate) fn outcome<const V: bool, S: Scalar>(
+    x: S,
+    (a, da): (S, S),
+    (g, dg): (S, S),
+    lift: S,
+) -> RestOutcome<S> {
+    let lifts = uplift(x, (a, da), (g, dg), lift);
+    let lets_go = if V { release(x.re(), g.re(), dg.re()) } else { None };
+    match (lifts, lets_go) {
+        (lifts, Some(at)) if lifts.is_none_or(|(lift, _)| at <= lift.re()) => {
+            RestOutcome::LetsGo { at }
+        }
+        (Some((at, side)), _) => RestOutcome::Lifts { at, side },
+        (None, _) => RestOutcome::Lasts,
+    }
+}
+
 /// What becomes of a body just after an impact.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(crate) enum AfterImpact {

@@ -142,15 +142,7 @@ pub fn tune_within(
     effort: &Effort,
     progress: &dyn Fn(usize, f64),
 ) -> Result<ElasticTuned, ElasticTuneError> {
-    let (key, limits) = match asked.by {
-        Yardstick::Histories => ("tuning.accuracy", ACCURACY),
-        Yardstick::Peaks => ("tuning.peaks", PEAKS),
-    };
-    limits.check(asked.error).map_err(|(value, remedy)| ElasticTuneError::Accuracy {
-        key,
-        value,
-        remedy,
-    })?;
+    checked(asked)?;
     let standing = stand(model).ok_or(ElasticTuneError::Falls)?;
     let landing = landing_speed(&model.structure);
     let rungs = Rungs::new(asked.error, most_hz, |i| omega_n_hz(&standing, give(i)))?;
@@ -216,6 +208,20 @@ pub fn tune_within(
         out_of_work,
         program,
     })
+}
+
+/// Whether this can be asked of springs.
+fn checked(asked: Asked) -> Result<(), ElasticTuneError> {
+    let (key, limits) = match asked.by {
+        Yardstick::Histories => ("tuning.accuracy", ACCURACY),
+        Yardstick::Peaks => ("tuning.peaks", PEAKS),
+    };
+    limits.check(asked.error).map_err(|(value, remedy)| ElasticTuneError::Accuracy {
+        key,
+        value,
+        remedy,
+    })?;
+    Ok(())
 }
 
 /// What a search of the ladder comes to.

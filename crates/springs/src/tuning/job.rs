@@ -2,27 +2,26 @@
 //! the paper's procedure at the same Omega_n beside it.
 
 mod error;
+mod landing_design;
 mod procedure;
 
-use std::{cmp::Ordering, f64::consts::TAU};
+use std::f64::consts::TAU;
 
 use super::{
-    at_once, capped_springs,
     fixed_steps::ProgramSprings,
-    landing::design::{Geometry, springs_at_stiffness},
-    landing_simulation,
     paper_procedure::{
         inner::Fit,
-        outer::{self, Benchmark, Bracket},
+        outer::{self, Benchmark},
     },
-    stiffness_search::{self, Rung, Tuned},
+    stiffness_search::{Rung, Tuned},
     suite::Suites,
 };
 pub use error::JobError;
+use landing_design::LandingDesign;
 use procedure::Procedure;
 
 use crate::{
-    case::{Asked, Case, Objective, Yardstick},
+    case::{Asked, Case, Objective},
     results::{Finding, NotDone},
 };
 use dynamics::{
@@ -41,12 +40,6 @@ use strong_motion::Record;
 pub const MOST_WORK: u64 = 100_000_000;
 /// Stiffest springs that are tried where no cap is given (Hz).
 pub const CEILING_HZ: f64 = 2e5;
-/// Omega_n of springs that are to have another restitution than equation 2's, where no cap is given
-/// (Hz): they must bounce, and gravity bring them back.
-const BOUNCING_HZ: f64 = 160.0;
-/// Ratio of typical errors up to which springs within a cap are alike on some twenty motions: more
-/// motions decide.
-const ALIKE: f64 = 1.25;
 
 /// What the paper's procedure gives: families of the inner fit, and the outer loop over Omega_n on
 /// the record.
@@ -133,26 +126,11 @@ impl Job {
         };
         let procedure = Procedure::new(case, &benchmark)?;
 
-        let mut not_done = Vec::new();
-        let mut left_out = |what: NotDone| {
-            if effort.cut().is_some() {
-                not_done.push(what);
-            }
-        };
-        let (tuned, capped, paper) = match case.tuning.objective {
+        let SearchedSprings { tuned, capped, paper, not_done } = match case.tuning.objective {
             Objective::Landing => {
                 let design =
                     LandingDesign { case, body, suites: &suites, procedure: &procedure, effort };
-                let (tuned, capped) = design.tune(progress)?;
-                left_out(NotDone::Stiffnesses);
-                let hz = tuned.best.springs.vertical.omega_n_hz;
-                // on an ill-conditioned record it would tune to noise
-                let beside = suites.has_whole_record() && !effort.stops();
-                let paper = if beside { procedure.beside(hz, progress) } else { None };
-                if suites.has_whole_record() {
-                    left_out(NotDone::PaperProcedure);
-                }
-                (tuned, capped, paper)
+                SearchedSprings::by_landing(&design, progress)?
             }
             Objective::Arr if !lifted => {
                 return Err(JobError::NeverLifts {
@@ -162,9 +140,7 @@ impl Job {
                 });
             }
             Objective::Arr => {
-                let found = procedure.tune(&suites, progress)?;
-                left_out(NotDone::Stiffnesses);
-                found
+                SearchedSprings::by_paper_procedure(&procedure, &suites, effort, progress)?
             }
         };
         let paper = paper.map(|tuned| Paper {
@@ -192,6 +168,51 @@ impl Job {
         };
         Ok(found)
     }
+}
+
+/// What the search for springs comes to.
+struct SearchedSprings {
+    tuned: Tuned,
+    /// Whether a cap on Omega_n decided.
+    capped: bool,
+    paper: Option<outer::OmegaSearch>,
+    not_done: Vec<NotDone>,
+}
+
+impl SearchedSprings {
+    /// By the design from the geometry, with the paper's procedure at the same Omega_n beside it.
+    fn by_landing(
+        design: &LandingDesign,
+        progress: &(dyn Fn(usize, usize, f64) + Sync),
+    ) -> Result<Self, JobError> {
+        let &LandingDesign { suites, procedure, effort, .. } = design;
+        let (tuned, capped) = design.tune(progress)?;
+        let mut not_done = left_out(NotDone::Stiffnesses, effort);
+        let hz = tuned.best.springs.vertical.omega_n_hz;
+        // on an ill-conditioned record it would tune to noise
+        let beside = suites.has_whole_record() && !effort.stops();
+        let paper = if beside { procedure.beside(hz, progress) } else { None };
+        if suites.has_whole_record() {
+            not_done.extend(left_out(NotDone::PaperProcedure, effort));
+        }
+        Ok(Self { tuned, capped, paper, not_done })
+    }
+
+    /// By the paper's procedure alone.
+    fn by_paper_procedure(
+        procedure: &Procedure,
+        suites: &Suites,
+        effort: &Effort,
+        progress: &(dyn Fn(usize, usize, f64) + Sync),
+    ) -> Result<Self, JobError> {
+        let (tuned, capped, paper) = procedure.tune(suites, progress)?;
+        Ok(Self { tuned, capped, paper, not_done: left_out(NotDone::Stiffnesses, effort) })
+    }
+}
+
+/// This, if the effort was cut by now.
+fn left_out(what: NotDone, effort: &Effort) -> Vec<NotDone> {
+    if effort.cut().is_some() { vec![what] } else { Vec::new() }
 }
 
 /// A record whose moving ground has more samples than a history may take steps is refused.
@@ -230,228 +251,6 @@ impl Job {
         let unfinished =
             unfinished.map(|histories| Finding::HistoriesUnfinished { histories, left_out: false });
         cut.into_iter().chain(unfinished).collect()
-    }
-}
-
-/// The design from the geometry, and Omega_n.
-struct LandingDesign<'a> {
-    case: &'a Case,
-    body: Body<f64>,
-    suites: &'a Suites,
-    procedure: &'a Procedure<'a>,
-    effort: &'a Effort,
-}
-
-impl LandingDesign<'_> {
-    /// The outer loop, and whether a cap decided.
-    fn tune(
-        &self,
-        progress: &(dyn Fn(usize, usize, f64) + Sync),
-    ) -> Result<(Tuned, bool), JobError> {
-        let tuning = &self.case.tuning;
-        let asked = tuning.asked();
-        if landing_simulation::differs_from_housner(&self.body, self.case.restitution) {
-            let hz = tuning.max_omega_hz.unwrap_or(BOUNCING_HZ);
-            let bracket = self.bracket(hz)?;
-            let springs = capped_springs::with_restitution(
-                &self.body,
-                self.case.restitution,
-                bracket,
-                self.effort,
-                progress,
-            );
-            let springs = springs.ok_or(JobError::NoCandidate)?;
-            return Ok((
-                evaluate(self.suites, &self.body, asked, springs, self.effort),
-                tuning.max_omega_hz.is_some(),
-            ));
-        }
-        let p = self.body.p_squared().sqrt();
-        let springs = |stiffness: f64| springs_at_stiffness(&self.body, stiffness);
-        let said = |rungs: usize, over: f64| {
-            progress(rungs, 0, over * stiffness_search::MARGIN * asked.error)
-        };
-        // the ladder up to an Omega_n/p, from where landings hold; if none of those rungs does, the
-        // better of that and of the whole ladder
-        let ladder = |stiffest: f64, springs: &dyn Fn(f64) -> Option<Springs<Design<f64>>>| {
-            let from = |softest: f64| {
-                let range = (softest, stiffest);
-                stiffness_search::tune(
-                    self.suites,
-                    self.body.mass,
-                    asked,
-                    (range, self.effort),
-                    springs,
-                    &said,
-                )
-            };
-            let soft = self.settling(stiffness_search::SOFTEST, stiffest);
-            let landings_hold =
-                at_once::softest(&self.body, asked, stiffness_search::last_rung(stiffest))
-                    .max(soft);
-            let tuned = from(landings_hold);
-            let done = landings_hold == soft || tuned.as_ref().is_some_and(|tuned| tuned.reached);
-            if done || tuned.is_some() && self.effort.stops() {
-                return tuned;
-            }
-            let over = |tuned: &Tuned| (!tuned.reached, tuned.best.errors.over(asked));
-            tuned
-                .into_iter()
-                .chain(from(soft))
-                .min_by(|a, b| over(a).partial_cmp(&over(b)).unwrap_or(Ordering::Equal))
-        };
-        let Some(cap) = tuning.max_omega_hz else {
-            let stiffest = stiffness_search::last_rung(TAU * CEILING_HZ / p);
-            self.settles_at(stiffest)?;
-            return ladder(stiffest, &springs)
-                .map(|tuned| (tuned, false))
-                .ok_or(JobError::NoCandidate);
-        };
-        // a cap holds for the stiffest of the springs: those beyond it are clipped, or all are as
-        // much softer
-        let highest = TAU * cap / p;
-        let clipped = |stiffness: f64| {
-            springs(stiffness).map(|mut springs| {
-                springs.horizontal.omega_n_hz = springs.horizontal.omega_n_hz.min(cap);
-                springs
-            })
-        };
-        let in_limit = |stiffness| {
-            Geometry::of(&self.body, stiffness).is_ok_and(|geometry| geometry.in_stiff_limit())
-        };
-        let mut found: Vec<Tuned> = ladder(highest, &clipped).into_iter().collect();
-        if found.iter().all(|tuned| !tuned.reached) && (found.is_empty() || !self.effort.stops()) {
-            let softer = self.within(cap, highest).filter(|stiffness| in_limit(*stiffness));
-            found.extend(softer.and_then(|stiffness| ladder(stiffness, &springs)));
-        }
-        found.retain(|tuned| self.settles(tuned));
-        if let Some(tuned) = found.iter().find(|tuned| tuned.reached) {
-            return Ok((tuned.clone(), false));
-        }
-        if found.is_empty() || !in_limit(highest) && !self.effort.stops() {
-            found.push(self.followed(cap, progress)?);
-        }
-        let typical = |tuned: &Tuned| typical(tuned, asked.by);
-        let best = found.into_iter().min_by(|a, b| typical(a).total_cmp(&typical(b)));
-        Ok((best.ok_or(JobError::NoCandidate)?, true))
-    }
-
-    /// The stiffest rung up to `highest` whose horizontal springs are below the cap (Hz), too;
-    /// `None` if clipping does nothing, or none is.
-    fn within(&self, cap: f64, highest: f64) -> Option<f64> {
-        let hz = |stiffness| {
-            springs_at_stiffness(&self.body, stiffness).map(|springs| springs.horizontal.omega_n_hz)
-        };
-        let last = stiffness_search::last_rung(highest);
-        let mut stiffness = last;
-        while hz(stiffness)? > cap {
-            stiffness = stiffness_search::last_rung(0.99 * stiffness);
-            if stiffness < stiffness_search::SOFTEST {
-                return None;
-            }
-        }
-        (stiffness < last).then_some(stiffness)
-    }
-
-    /// The least Omega_n/p from `softest` on at which the body settles by no more than is allowed;
-    /// `stiffest` if there is none.
-    fn settling(&self, softest: f64, stiffest: f64) -> f64 {
-        let mut stiffness = softest;
-        while stiffness < stiffest && self.settlement(stiffness) > self.case.tuning.max_settlement_m
-        {
-            stiffness = (1.1 * stiffness).min(stiffest);
-        }
-        stiffness
-    }
-
-    /// How far the body settles at an Omega_n/p (m).
-    fn settlement(&self, stiffness: f64) -> f64 {
-        springs_at_stiffness(&self.body, stiffness)
-            .map_or(f64::INFINITY, |springs| springs.settlement(self.body.mass))
-    }
-
-    /// Whether the stiffest springs settle by no more than is allowed.
-    fn settles_at(&self, stiffest: f64) -> Result<(), JobError> {
-        let (asked_m, least_m) = (self.case.tuning.max_settlement_m, self.settlement(stiffest));
-        if least_m > asked_m {
-            Err(JobError::Settlement { asked_m, max_hz: CEILING_HZ, least_m })
-        } else {
-            Ok(())
-        }
-    }
-
-    /// The springs within a cap (Hz) that follow best what is judged on, of those followed down
-    /// from the stiff limit and those of the paper's procedure: so soft, neither is the better one
-    /// for every body.
-    fn followed(
-        &self,
-        cap: f64,
-        progress: &(dyn Fn(usize, usize, f64) + Sync),
-    ) -> Result<Tuned, JobError> {
-        let mut found = capped_springs::follow(
-            &self.body,
-            self.case.restitution,
-            self.bracket(cap)?,
-            self.effort,
-        );
-        if self.suites.has_whole_record() && (found.is_empty() || !self.effort.stops()) {
-            found.extend(self.procedure.at(cap, progress).map(|tuned| tuned.best.springs));
-        }
-        let asked = self.case.tuning.asked();
-        let judged = found
-            .into_iter()
-            .map(|springs| evaluate(self.suites, &self.body, asked, springs, self.effort));
-        let typical = |tuned: &Tuned| typical(tuned, asked.by);
-        let mut judged: Vec<Tuned> = judged.filter(|tuned| self.settles(tuned)).collect();
-        judged.sort_by(|a, b| typical(a).total_cmp(&typical(b)));
-        let best = judged.first().map_or(f64::INFINITY, &typical);
-        judged.retain(|tuned| typical(tuned) <= ALIKE * best);
-        if judged.len() > 1 && !self.effort.stops() {
-            let more = self.suites.more(self.case.restitution, self.effort);
-            // no record: what it has to say was counted, and it is one motion
-            let median = |tuned: &Tuned| {
-                more.error_by(
-                    asked.by,
-                    &tuned.best.springs.chains(self.body.mass),
-                    Control::search(),
-                )
-            };
-            let medians: Vec<f64> =
-                judged.iter().map(|tuned| median(tuned).unwrap_or(f64::INFINITY)).collect();
-            let least = (0..medians.len()).min_by(|a, b| medians[*a].total_cmp(&medians[*b]));
-            judged.swap(0, least.unwrap_or(0));
-        }
-        judged.into_iter().next().ok_or(JobError::NoCandidate)
-    }
-
-    fn settles(&self, tuned: &Tuned) -> bool {
-        tuned.best.springs.settlement(self.body.mass)
-            <= self.case.tuning.max_settlement_m * (1.0 + 1e-3)
-    }
-
-    /// A cap (Hz) and the settlement allowed.
-    fn bracket(&self, cap: f64) -> Result<Bracket, JobError> {
-        let bracket = Bracket { max_hz: cap, max_settlement: self.case.tuning.max_settlement_m };
-        let least_m = bracket.least_settlement(capped_springs::LARGEST_K);
-        if least_m > bracket.max_settlement {
-            return Err(JobError::Settlement {
-                asked_m: bracket.max_settlement,
-                max_hz: cap,
-                least_m,
-            });
-        }
-        Ok(bracket)
-    }
-}
-
-/// The typical error of springs: the geometric mean of that on the record and of the median of
-/// synthetic motions.
-fn typical(tuned: &Tuned, yardstick: Yardstick) -> f64 {
-    let measured = tuned.best.errors.by(yardstick);
-    let median = measured.synthetic_median.map(|median| median.value);
-    match (measured.record, median) {
-        (Some(record), Some(median)) => (record * median).sqrt(),
-        (one, other) => one.or(other).unwrap_or(f64::INFINITY),
     }
 }
 

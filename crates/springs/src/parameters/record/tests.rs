@@ -84,7 +84,7 @@ fn the_embedded_record_is_remembered_as_such_and_numbers_are_said_to_be_nowhere(
 
 #[test]
 fn files_of_schema_1_stand_for_20_s_of_el_centro() {
-    let text = include_str!("../../../../fuzz/corpus/parameters/paper");
+    let text = include_str!("../../../../../fuzz/corpus/parameters/paper");
     let old = Parameters::parse("p.json", text).unwrap();
     assert_eq!((old.schema, old.assessment), (1, None));
     let found = old.excitation(Path::new("p.json")).unwrap();

@@ -1,0 +1,115 @@
+//! The structures of a sweep: those given one by one, and those of a grid.
+
+use toml::Spanned;
+
+use crate::{
+    SweepError,
+    spec::{Grid, Kinds, SweepSource},
+};
+use rocking::{
+    scalar::GRAVITY,
+    structure::{self, Body, Structure},
+};
+
+/// One structure of a sweep.
+#[derive(Clone, Debug)]
+pub struct Subject {
+    /// Its name.
+    pub name: String,
+    /// As given.
+    pub structure: Structure,
+    /// As the models have it.
+    pub body: Body<f64>,
+    /// Its own velocity restitution.
+    pub restitution: f64,
+    /// (rad)
+    pub alpha: f64,
+    /// (1/s)
+    pub p: f64,
+}
+
+impl Subject {
+    fn new(structure: Structure, restitution: f64) -> Self {
+        let body = structure.body::<f64>();
+        let kind = match structure.kind {
+            structure::Kind::AFrame => "A-frame",
+            structure::Kind::Block => "block",
+        };
+        let name = format!("{kind} R {} m, alpha {}", digits(body.radius()), digits(body.alpha()));
+        Self { name, structure, body, restitution, alpha: body.alpha(), p: body.p_squared().sqrt() }
+    }
+
+    /// g tan(alpha): what lifts it at rest (m/s2).
+    pub(crate) fn uplift(&self) -> f64 {
+        GRAVITY * self.alpha.tan()
+    }
+}
+
+/// Four significant digits at most, as short as they come.
+fn digits(x: f64) -> String {
+    let rounded: f64 = format!("{x:.3e}").parse().unwrap_or(x);
+    rounded.to_string()
+}
+
+/// All structures that the file asks for.
+pub(super) fn subjects(source: &SweepSource) -> Result<Vec<Subject>, SweepError> {
+    let mut subjects = Vec::new();
+    for section in &source.spec.structure {
+        let (structure, e) = section
+            .get_ref()
+            .checked(&source.path)
+            .map_err(|e| source.at(section, reason(&source.path, &e.to_string())))?;
+        subjects.push(Subject::new(structure, e));
+    }
+    if let Some(grid) = &source.spec.grid {
+        of_grid(source, grid, &mut subjects)?;
+    }
+    if subjects.is_empty() {
+        return Err(source.at(
+            &source.spec.sweep.kind,
+            "no structure; give [[structure]] as in a case file, or [grid]",
+        ));
+    }
+    Ok(subjects)
+}
+
+/// The message of an error without the file's name, which stands before it anyway.
+fn reason(path: &str, message: &str) -> String {
+    message.strip_prefix(&format!("{path}: ")).unwrap_or(message).to_string()
+}
+
+fn of_grid(
+    source: &SweepSource,
+    grid: &Spanned<Grid>,
+    subjects: &mut Vec<Subject>,
+) -> Result<(), SweepError> {
+    let Grid { kind, size_m, slenderness } = grid.get_ref();
+    let kinds = match kind {
+        Kinds::One(kind) => std::slice::from_ref(kind),
+        Kinds::Some(kinds) => kinds,
+    };
+    let sizes = source.all_within("size_m", size_m, 1e-3, 1e4)?;
+    let alphas = source.all_within("slenderness", slenderness, 0.005, 0.9)?;
+    for &kind in kinds {
+        for &alpha in &alphas {
+            for &radius in &sizes {
+                let mass_kg = 1000.0;
+                let m_r2 = mass_kg * radius * radius;
+                let structure = Structure {
+                    kind,
+                    height_m: radius * alpha.cos(),
+                    width_m: 2.0 * radius * alpha.sin(),
+                    mass_kg,
+                    rotational_inertia_kgm2: match kind {
+                        structure::Kind::AFrame => structure::LEAST_INERTIA * m_r2,
+                        structure::Kind::Block => m_r2 / 3.0,
+                    },
+                };
+                let structure =
+                    structure.checked().map_err(|e| source.at(slenderness, e.to_string()))?;
+                subjects.push(Subject::new(structure, structure.body::<f64>().restitution()));
+            }
+        }
+    }
+    Ok(())
+}
