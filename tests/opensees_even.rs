@@ -1,5 +1,6 @@
 //! Decks of steps of one size in OpenSees itself, beside the emulation that their springs were
-//! judged by. Run as `tests/opensees.rs`.
+//! judged by. Run as `tests/opensees`:
+//! `cargo test --release --test opensees_even -- --ignored --nocapture`.
 
 use std::process::Command;
 
@@ -16,7 +17,7 @@ fn interpreter(format: &str) -> Option<Vec<String>> {
 /// Decks of even steps and of substeps at touches end within 1 % of what our emulation found, which
 /// they check by themselves, in Python and in Tcl; a block, a frame, three integrators.
 #[test]
-#[ignore = "needs OpenSees (pip install openseespy): cargo test --release --test opensees -- --ignored"]
+#[ignore = "needs OpenSees; .ci/run runs it: cargo test -r --test opensees_even -- --ignored"]
 fn decks_of_even_steps_find_what_the_emulation_found() {
     let folder = tempfile::tempdir().unwrap();
     let run = |args: &[&str]| {

@@ -21,32 +21,7 @@ impl Measured {
         let mut add = |what: &str, wanted: &str, measured: String, met: bool| {
             targets.push(Target { what: what.into(), wanted: wanted.into(), measured, met });
         };
-        let find = |tool: &str| {
-            self.rigid.iter().find(|s| s.tool.starts_with(tool)).and_then(|s| s.cheapest(1e-10))
-        };
-        if let Some(ours) = find("groundspring") {
-            let what = "Housner, error below 1e-10 m";
-            match find("diffsol") {
-                Some(peer) => {
-                    let ratio = peer.seconds / ours.seconds;
-                    let measured = format!(
-                        "{ratio:.1} times ({}, {})",
-                        time(ours.seconds),
-                        time(peer.seconds)
-                    );
-                    add(what, "4 times faster than diffsol", measured, ratio >= 4.0);
-                }
-                None => add(what, "0.1 ms", time(ours.seconds), ours.seconds <= 1e-4),
-            }
-        }
-        if let Some(lanes) = &self.lanes {
-            add(
-                "Housner, many structures at once",
-                "15 us each",
-                time(lanes.lanes),
-                lanes.lanes <= 15e-6,
-            );
-        }
+        self.rigid_targets(&mut add);
         for own in &self.elements[..self.own.min(self.elements.len())] {
             let Some(ours) = own.cheapest(5e-4) else { continue };
             let springs = own.tool.trim_start_matches("groundspring, ");
@@ -102,6 +77,37 @@ impl Measured {
         targets
     }
 
+    /// Housner's equation: one structure, and many at once.
+    fn rigid_targets(&self, add: &mut impl FnMut(&str, &str, String, bool)) {
+        let find = |tool: &str| {
+            self.rigid.iter().find(|s| s.tool.starts_with(tool)).and_then(|s| s.cheapest(1e-10))
+        };
+        if let Some(ours) = find("groundspring") {
+            let what = "Housner, error below 1e-10 m";
+            match find("diffsol") {
+                Some(peer) => {
+                    let ratio = peer.seconds / ours.seconds;
+                    let measured = format!(
+                        "{ratio:.1} times ({}, {})",
+                        time(ours.seconds),
+                        time(peer.seconds)
+                    );
+                    add(what, "4 times faster than diffsol", measured, ratio >= 4.0);
+                }
+                None => add(what, "0.1 ms", time(ours.seconds), ours.seconds <= 1e-4),
+            }
+        }
+        if let Some(lanes) = &self.lanes {
+            add(
+                "Housner, many structures at once",
+                "15 us each",
+                time(lanes.lanes),
+                lanes.lanes <= 15e-6,
+            );
+        }
+    }
+
+    /// Runs of the program.
     fn program_targets(&self, add: &mut impl FnMut(&str, &str, String, bool)) {
         let run = |what: &str| self.runs.iter().find(|run| run.what == what);
         for (what, told) in [

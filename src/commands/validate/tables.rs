@@ -17,12 +17,7 @@ type Line<'a> = (String, &'a dyn Fn(&Summary) -> String);
 /// What the records say together, and each suite of several: head, then name and a value for each
 /// set.
 fn summary(v: &Validation) -> (Vec<String>, Vec<Vec<String>>) {
-    let mut sets = vec![("all together", &v.all)];
-    if v.suites.len() > 1 {
-        sets.extend(v.suites.iter().map(|(suite, summary)| (name(*suite), summary)));
-    } else {
-        sets[0].0 = v.suites.keys().next().map_or("no records", |suite| name(*suite));
-    }
+    let sets = sets(v);
     let number = |x: Option<f64>| x.map_or("-".to_string(), shown);
     // of one record there are no statistics
     let several = |n: usize, text: String| if n == 1 { "-".to_string() } else { text };
@@ -97,6 +92,16 @@ fn summary(v: &Validation) -> (Vec<String>, Vec<Vec<String>>) {
         [name.clone()].into_iter().chain(values).collect()
     });
     (head, rows.collect())
+}
+
+/// The records together, and each suite of several, with their names.
+fn sets(v: &Validation) -> Vec<(&'static str, &Summary)> {
+    if v.suites.len() > 1 {
+        let suites = v.suites.iter().map(|(suite, summary)| (name(*suite), summary));
+        [("all together", &v.all)].into_iter().chain(suites).collect()
+    } else {
+        vec![(v.suites.keys().next().map_or("no records", |suite| name(*suite)), &v.all)]
+    }
 }
 
 fn name(suite: Suite) -> &'static str {
