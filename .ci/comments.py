@@ -1,6 +1,6 @@
 #!/usr/bin/env python3
-"""No line of a comment is longer than 100 letters, tables and drawings apart (lines that begin with a bar or two spaces, or stand
-between fences).
+"""No line of Rust is longer than 100 letters: rustfmt wraps code, but neither comments nor literals. Tables and drawings are left
+as they are (lines of a comment that begin with a bar or two spaces, or stand between fences), and so are addresses.
 
     comments.py
 """
@@ -8,15 +8,32 @@ import pathlib, re, subprocess, sys
 
 LONGEST = 100
 ROOT = pathlib.Path(__file__).resolve().parent.parent
+# literals still to be wrapped: the start of a path, and why
+LATER = {
+    "crates/report/": "later",
+    "crates/decks/": "later",
+    "crates/web/": "later",
+    "crates/springs/src/case": "later",
+    "crates/springs/src/results/": "later",
+    "crates/strong-motion/src/tests": "later",
+    "python/": "later",
+    "src/commands/": "later",
+    "tests/": "later",
+}
+
 too_long = []
 for name in subprocess.run(["git", "ls-files", "*.rs"], cwd=ROOT, check=True, capture_output=True, text=True).stdout.split():
     fence = False
     for number, line in enumerate((ROOT / name).read_text().splitlines(), 1):
-        if not (m := re.match(r"\s*//[/!]? ?(.*)", line)):
+        comment = re.match(r"\s*//[/!]? ?(.*)", line)
+        fence = fence ^ comment[1].startswith("```") if comment else False
+        if len(line) <= LONGEST or "://" in line:
             continue
-        fence ^= m[1].startswith("```")
-        if len(line) > LONGEST and not fence and not re.match(r"\||  |#|```", m[1]):
-            too_long.append(f"{name}:{number}: {len(line)} letters")
+        if comment and (fence or re.match(r"\||  |#|```", comment[1])):
+            continue
+        if not comment and name.startswith(tuple(LATER)):
+            continue
+        too_long.append(f"{name}:{number}: {len(line)} letters")
 if too_long:
     sys.exit("\n".join(too_long))
-print(f"no comment is wider than {LONGEST} letters")
+print(f"no line of Rust is wider than {LONGEST} letters")

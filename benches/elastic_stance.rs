@@ -29,8 +29,10 @@ const PIERS: [(f64, f64, f64, f64); 5] = [
     (300e3, 300e3, 3.0, 0.02),
     (200e3, 600e3, 2.0, 0.02),
 ];
-const FRAME: &str = "kind = 'frame'\nheight_m = 8.0\nspan_m = 10.0\nfooting_width_m = 2.5\nfooting_height_m = 1.0\nfooting_mass_kg = 30e3\n\
-    beam_mass_kg = 200e3\ncolumn_ea_n = 3e10\ncolumn_ei_nm2 = 4e9\nbeam_ea_n = 4e10\nbeam_ei_nm2 = 8e9\ndamping_ratio = 0.02\n";
+const FRAME: &str = "kind = 'frame'\nheight_m = 8.0\nspan_m = 10.0\nfooting_width_m = 2.5\n\
+                     footing_height_m = 1.0\nfooting_mass_kg = 30e3\n\
+    beam_mass_kg = 200e3\ncolumn_ea_n = 3e10\ncolumn_ei_nm2 = 4e9\nbeam_ea_n = 4e10\n\
+                     beam_ei_nm2 = 8e9\ndamping_ratio = 0.02\n";
 
 /// The error over what an accuracy of 1 allows at one K, and touches a landing.
 fn measure(suite: &ElasticSuite, standing: &Standing, give: f64, k: f64) -> (f64, f64) {
@@ -45,7 +47,8 @@ fn measure(suite: &ElasticSuite, standing: &Standing, give: f64, k: f64) -> (f64
 fn main() -> Result<(), Box<dyn std::error::Error>> {
     let pier = |(mass, footing, hz, damping): (f64, f64, f64, f64)| {
         format!(
-            "kind = 'pier'\nheight_m = 12.0\nwidth_m = 4.0\nmass_kg = {mass:?}\nfooting_mass_kg = {footing:?}\nfooting_height_m = 2.0\n\
+            "kind = 'pier'\nheight_m = 12.0\nwidth_m = 4.0\nmass_kg = {mass:?}\n\
+             footing_mass_kg = {footing:?}\nfooting_height_m = 2.0\n\
              frequency_hz = {hz:?}\ndamping_ratio = {damping:?}\n"
         )
     };

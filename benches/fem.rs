@@ -99,7 +99,8 @@ fn ratio(bench: &BenchCase, cases: &[Analysis<f64>], threads: &rayon::ThreadPool
         all[ROUNDS / 2]
     };
     println!(
-        "{}, {} Hz: one by one {:.3} ms, with long steps {:.3} ms; side by side {:.3} ms a history, {:.2} and {:.2} times cheaper",
+        "{}, {} Hz: one by one {:.3} ms, with long steps {:.3} ms; side by side {:.3} ms a \
+         history, {:.2} and {:.2} times cheaper",
         bench.name,
         bench.springs.vertical.omega_n_hz,
         1e3 * median(&|s| s[0]),

@@ -28,7 +28,8 @@ fn decks_of_even_steps_find_what_the_emulation_found() {
             .unwrap();
         assert!(out.status.success(), "{args:?}: {}", String::from_utf8_lossy(&out.stderr));
     };
-    let block = "[structure]\nkind = 'block'\ntotal_height_m = 4.0\nwidth_m = 0.9\nmass_kg = 4e3\n[record]\nscale = 1.5\n";
+    let block = "[structure]\nkind = 'block'\ntotal_height_m = 4.0\nwidth_m = 0.9\nmass_kg = 4e3\n\
+                 [record]\nscale = 1.5\n";
     std::fs::write(folder.path().join("block.toml"), block).unwrap();
     std::fs::write(
         folder.path().join("frame.toml"),

@@ -1,8 +1,10 @@
 //! docs/benchmarks.md: the tables as a page, and whether the page still has the form of what this
 //! program prints.
 
-const INTRO: &str = "# Benchmarks\n\nWritten by `cargo bench --bench compare -- --page docs/benchmarks.md` (`--python` names a Python with SciPy and \
-openseespy; with `--quick` other programs are left out). Times depend on the machine and count as ratios; errors do not.\n\n";
+const INTRO: &str = "# Benchmarks\n\nWritten by `cargo bench --bench compare -- --page \
+                     docs/benchmarks.md` (`--python` names a Python with SciPy and \
+openseespy; with `--quick` other programs are left out). Times depend on the machine and count as \
+                     ratios; errors do not.\n\n";
 
 /// The page.
 pub fn page(text: &str) -> String {

@@ -44,7 +44,8 @@ impl Measured {
     /// All tables.
     pub fn text(&self) -> String {
         let mut out = format!(
-            "Run time against error, the paper's A-frame on {} s of El Centro. Times are the least of several rounds.\n",
+            "Run time against error, the paper's A-frame on {} s of El Centro. Times are the least \
+             of several rounds.\n",
             rigid::SECONDS
         );
         let mut section = |title: &str, table: String| {

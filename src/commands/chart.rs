@@ -67,7 +67,8 @@ pub fn run(o: &ChartOptions) -> Result<(), CommandError> {
     draw(folder.path(), &rows)?;
     folder.finish()?;
     terminal::stdout(format_args!(
-        "{} designs: alpha {:?}, Omega_n/p 1e3 to 1e6; horizontal units: mu 0.3, f 1.8257, xi 3.3333\n",
+        "{} designs: alpha {:?}, Omega_n/p 1e3 to 1e6; horizontal units: mu 0.3, f 1.8257, xi \
+         3.3333\n",
         rows.len(),
         o.alpha
     ))?;

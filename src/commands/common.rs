@@ -124,7 +124,8 @@ impl RecordOptions {
         CommandError::Option {
             option: "record",
             value: "not given".into(),
-            remedy: "--dt, --units, --component, --column, --baseline and --vertical tell of a file: name it with --record, or in \
+            remedy: "--dt, --units, --component, --column, --baseline and --vertical tell of a \
+                     file: name it with --record, or in \
                      [record] of a case",
         }
     }

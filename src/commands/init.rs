@@ -51,7 +51,8 @@ mass_kg = 350e3          # or mass_t, mass_lb, weight_kn, weight_kip
 const BLOCK: &str = "\
 [structure]
 kind = \"block\"           # solid, its centre of mass half way up
-total_height_m = 2.0     # of the whole block, not of its centre of mass; or total_height_ft, total_height_in
+total_height_m = 2.0     # of the whole block, not of its centre of mass; or total_height_ft, \
+                     total_height_in
 width_m = 0.5            # between the edges that it rocks on; or width_ft, width_in
 mass_kg = 400.0          # or mass_t, mass_lb, weight_kn, weight_lb
 # rotational_inertia_kgm2 = 140.0  # about the centre of mass, where it is not that of a solid block
@@ -103,12 +104,14 @@ damping_ratio = 0.02     # to critical, across
 ";
 
 const RESTITUTION: &str = "\
-# restitution = 0.9      # velocity after an impact over that before; left out: Housner's, equation 2
+# restitution = 0.9      # velocity after an impact over that before; left out: Housner's, \
+                           equation 2
 ";
 
 const REST: &str = "
 [record]                 # left out: 1940 El Centro, north-south
-# file = \"motion.at2\"    # PEER AT2, GeoNet, COSMOS, CSMIP, K-NET, ESM or columns, beside this file
+# file = \"motion.at2\"    # PEER AT2, GeoNet, COSMOS, CSMIP, K-NET, ESM or columns, beside this \
+                    file
 # component = \"N\"        # of a file with several; left out: the stronger horizontal one
 # column = 2             # of a table of several columns, counted from 1, or its name in the header
 # vertical = \"auto\"      # the file's vertical component, or another file's; left out: none
@@ -118,7 +121,8 @@ scale = 1.0              # factor on the acceleration, with a decimal point
 # duration_s = 20.0      # left out: the whole record
 
 [tuning]
-accuracy = 0.002         # of the history against the reference's, normalised: sqrt(sum (u - u_r)^2 / sum u_r^2)
+accuracy = 0.002         # of the history against the reference's, normalised: sqrt(sum (u - \
+                    u_r)^2 / sum u_r^2)
 # max_omega_hz = 160.0   # stiffest springs allowed, Omega_n / 2 pi; left out: no limit
 ";
 
@@ -132,7 +136,8 @@ fn text(shape: StructureShape) -> String {
         StructureShape::Frame => (FRAME, ""),
     };
     format!(
-        "# A case for `tune run`: what rocks, on which ground motion, how accurately.\n\n{structure}{restitution}{REST}"
+        "# A case for `tune run`: what rocks, on which ground motion, how accurately.\n\n\
+         {structure}{restitution}{REST}"
     )
 }
 

@@ -148,7 +148,9 @@ fn named(
             Ok(vec![(path, options)])
         }
         _ => Err(CommandError::Result(
-            "the case names no record file, and so stands for El Centro, which is part of the program; name a file to look at".into(),
+            "the case names no record file, and so stands for El Centro, which is part of the \
+             program; name a file to look at"
+                .into(),
         )),
     }
 }
@@ -190,7 +192,8 @@ impl FileReport {
         table.add_rows(self.components.iter().map(ComponentRow::cells));
         let run = &self.run;
         let mut text = format!(
-            "{}: {}{station}\n\n{table}\n\ntune run takes {}, {} unless --duration says otherwise: ",
+            "{}: {}{station}\n\n{table}\n\n\
+             tune run takes {}, {} unless --duration says otherwise: ",
             printable(&self.file),
             self.format,
             run.record,
@@ -203,7 +206,8 @@ impl FileReport {
         let whole = self.components.iter().find(|row| row.taken).map_or(0.0, |row| row.pga_g.abs());
         if run.pga_g < whole {
             text.push_str(&format!(
-                "the peak comes later, {:.2} s after the first sample ({:.4} g before): give a longer one\n",
+                "the peak comes later, {:.2} s after the first sample ({:.4} g before): give a \
+                 longer one\n",
                 run.pga_time_s, run.pga_g
             ));
         } else {

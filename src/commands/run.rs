@@ -174,7 +174,8 @@ impl RunOptions {
         let accuracy = within("accuracy", self.accuracy, &ACCURACY)?;
         let peaks = within("peaks", self.peaks, &PEAKS)?;
         if let (Some(_), Some(peaks)) = (accuracy, peaks) {
-            let remedy = "springs are chosen by --peaks or by --accuracy, and the other is measured: leave one out";
+            let remedy = "springs are chosen by --peaks or by --accuracy, and the other is \
+                          measured: leave one out";
             return Err(CommandError::Option {
                 option: "peaks",
                 value: format!("{peaks:?}"),

@@ -90,7 +90,8 @@ fn begin(
     let springs = springs?;
     for structure in &springs.missed {
         terminal::stderr(format_args!(
-            "springs: WARNING: the accuracy asked for was not reached on {structure}; ask for less, or allow stiffer springs"
+            "springs: WARNING: the accuracy asked for was not reached on {structure}; ask for \
+             less, or allow stiffer springs"
         ));
     }
     Ok(Some(springs))
@@ -138,7 +139,8 @@ impl SweepRunOptions {
         }
         if self.shard.is_some() {
             terminal::stdout(format_args!(
-                "share {}/{}: {} of {} parts computed now; gather them with: tune sweep gather {} --out {}\n",
+                "share {}/{}: {} of {} parts computed now; gather them with: tune sweep gather {} \
+                 --out {}\n",
                 share.index,
                 share.of,
                 wanted.len(),

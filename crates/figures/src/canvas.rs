@@ -216,7 +216,8 @@ impl Canvas {
         // spike
         let body = svg.split_once('>').map_or("", |(_, body)| body);
         let head = format!(
-            "<svg xmlns=\"http://www.w3.org/2000/svg\" width=\"{width}\" height=\"{height}\" viewBox=\"0 0 {} {}\" \
+            "<svg xmlns=\"http://www.w3.org/2000/svg\" width=\"{width}\" height=\"{height}\" \
+             viewBox=\"0 0 {} {}\" \
              stroke-linejoin=\"round\" stroke-linecap=\"round\">",
             width * FINE as u32,
             height * FINE as u32

@@ -87,14 +87,17 @@ pub enum FigureError {
     )]
     Empty { figure: &'static str, what: String, least: usize },
     #[error(
-        "figure {figure}: {what}[{index}] is {value}, which cannot be drawn; remove it or mend what computed it"
+        "figure {figure}: {what}[{index}] is {value}, which cannot be drawn; remove it or mend \
+         what computed it"
     )]
     NotFinite { figure: &'static str, what: String, index: usize, value: f64 },
     #[error(
-        "figure {figure}: {what} has {found} values where {wanted} are wanted; give slices of one length"
+        "figure {figure}: {what} has {found} values where {wanted} are wanted; give slices of one \
+         length"
     )]
     Length { figure: &'static str, what: String, found: usize, wanted: usize },
-    #[error("figure: cannot write {path}: {source}; check that the folder exists and may be written to", path = path.display())]
+    #[error("figure: cannot write {path}: {source}; check that the folder exists and may be \
+             written to", path = path.display())]
     Write { path: PathBuf, source: std::io::Error },
     #[error("figure: cannot draw: {reason}; please report this")]
     Draw { reason: String },

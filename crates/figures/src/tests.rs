@@ -108,7 +108,8 @@ fn empty_or_unequal_or_not_finite_numbers_are_errors() {
     let told = |data: &history::HistoryFigure<'_>| history::draw(data).unwrap_err().to_string();
     assert_eq!(
         told(&with(&t, history::Trace { u: &[0.0, f64::NAN, 0.5], ..good })),
-        "figure history: u of Housner[1] is NaN, which cannot be drawn; remove it or mend what computed it"
+        "figure history: u of Housner[1] is NaN, which cannot be drawn; remove it or mend what \
+         computed it"
     );
     assert_eq!(
         told(&with(&t, history::Trace { v: &[0.0], ..good })),

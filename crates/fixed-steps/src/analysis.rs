@@ -19,7 +19,8 @@ use rocking::motion::Motion;
 /// A program's iteration did not arrive, in its shortest step.
 #[derive(Clone, Copy, Debug, PartialEq, Error)]
 #[error(
-    "no convergence at {time:.6} s in a step of {step:.3e} s: softer springs, a shorter step, or an integrator that ends stiff modes (TRBDF2, backward Euler)"
+    "no convergence at {time:.6} s in a step of {step:.3e} s: softer springs, a shorter step, or \
+     an integrator that ends stiff modes (TRBDF2, backward Euler)"
 )]
 pub struct GaveUp {
     /// End of the last step that held (s).

@@ -55,7 +55,8 @@ pub enum Integrator {
 pub enum IntegratorError {
     /// HHT outside the range in which it is stable.
     #[error(
-        "HHT's alpha is {alpha}; give one from 0 to -0.5: -1/3 damps most (OpenSees' own number is 1 + alpha)"
+        "HHT's alpha is {alpha}; give one from 0 to -0.5: -1/3 damps most (OpenSees' own number is \
+         1 + alpha)"
     )]
     Alpha {
         /// As given.
@@ -63,7 +64,8 @@ pub enum IntegratorError {
     },
     /// Newmark's method would be unstable.
     #[error(
-        "Newmark's gamma is {gamma}, beta {beta}; it is stable at any step for gamma >= 1/2, beta >= gamma/2"
+        "Newmark's gamma is {gamma}, beta {beta}; it is stable at any step for gamma >= 1/2, beta \
+         >= gamma/2"
     )]
     Newmark {
         /// As given.

@@ -119,7 +119,8 @@ pub struct FixedStepSprings {
 pub enum FixedStepSpringsError {
     /// A step that is none.
     #[error(
-        "step: {step:?} s is no time step; give a finite number greater than zero, for instance 0.001"
+        "step: {step:?} s is no time step; give a finite number greater than zero, for instance \
+         0.001"
     )]
     Step {
         /// As given (s).

@@ -102,7 +102,8 @@ mod tests {
 
     fn pier() -> ElasticStructure {
         toml::from_str(
-            "kind = 'pier'\nheight_m = 12.0\nwidth_m = 4.0\nmass_kg = 600e3\nfooting_mass_kg = 120e3\nfooting_height_m = 1.5\n\
+            "kind = 'pier'\nheight_m = 12.0\nwidth_m = 4.0\nmass_kg = 600e3\n\
+             footing_mass_kg = 120e3\nfooting_height_m = 1.5\n\
              frequency_hz = 2.0\ndamping_ratio = 0.02\n",
         )
         .unwrap()

@@ -49,7 +49,8 @@ pub enum ElasticError {
     #[error("structure: {name} is {value:?}; give a finite number, zero or greater")]
     Negative { name: &'static str, value: f64 },
     #[error(
-        "structure: {name} is {value:?}; give one between {least:e} and {most:e} (in m, kg, N, N m2, Hz)"
+        "structure: {name} is {value:?}; give one between {least:e} and {most:e} (in m, kg, N, N \
+         m2, Hz)"
     )]
     Absurd { name: &'static str, value: f64, least: f64, most: f64 },
     #[error("structure: {name} is {value:?}; a ratio to critical damping lies between 0 and 0.5")]
@@ -57,31 +58,38 @@ pub enum ElasticError {
     #[error("structure: give one of ei_nm2 and frequency_hz")]
     Bending { both: bool },
     #[error(
-        "structure: footing_height_m is {footing:?} and height_m {height:?}; the column between them must have a length"
+        "structure: footing_height_m is {footing:?} and height_m {height:?}; the column between \
+         them must have a length"
     )]
     NoColumn { footing: f64, height: f64 },
     #[error(
-        "structure: footing_width_m is {width:?} and span_m {span:?}; footings this wide would overlap"
+        "structure: footing_width_m is {width:?} and span_m {span:?}; footings this wide would \
+         overlap"
     )]
     Overlap { width: f64, span: f64 },
     #[error(
-        "structure: slenderness atan(half the width/height of the centre of mass) is {alpha:.4} rad; rocking needs 0.005 to 0.9 rad: check height_m, width_m and masses"
+        "structure: slenderness atan(half the width/height of the centre of mass) is {alpha:.4} \
+         rad; rocking needs 0.005 to 0.9 rad: check height_m, width_m and masses"
     )]
     Slenderness { alpha: f64 },
     #[error(
-        "structure: the weight, and the tendon if there is one, shorten {member} by {share:.3} of its length; give an ea_n in N of at least {least:.2e}"
+        "structure: the weight, and the tendon if there is one, shorten {member} by {share:.3} of \
+         its length; give an ea_n in N of at least {least:.2e}"
     )]
     Shortens { member: &'static str, share: f64, least: f64 },
     #[error(
-        "structure: {member} buckles under the weight, and the tendon if there is one, {load:.3e} N over {critical:.3e} N; give a larger ei_nm2 (N m2) or frequency_hz"
+        "structure: {member} buckles under the weight, and the tendon if there is one, {load:.3e} \
+         N over {critical:.3e} N; give a larger ei_nm2 (N m2) or frequency_hz"
     )]
     Buckles { member: &'static str, load: f64, critical: f64 },
     #[error(
-        "structure: its column's shear stiffness, {ga:.3e} N, is too soft for the frequency asked for; give a larger ga_n or ea_n (N), or a lower frequency_hz"
+        "structure: its column's shear stiffness, {ga:.3e} N, is too soft for the frequency asked \
+         for; give a larger ga_n or ea_n (N), or a lower frequency_hz"
     )]
     Shear { ga: f64 },
     #[error(
-        "structure: elements is {elements}; give 1 to 32 to a column, more than one only with column_mass_kg"
+        "structure: elements is {elements}; give 1 to 32 to a column, more than one only with \
+         column_mass_kg"
     )]
     Elements { elements: usize },
     #[error(transparent)]

@@ -18,7 +18,8 @@ use thiserror::Error;
 use crate::{scalar::GRAVITY, structure::Body};
 
 /// What to say of a file with `legs`, which springs of a rigid body cannot carry.
-pub const NO_LEGS: &str = "legs on springs of a rigid body are no more; give [structure] kind = \"aframe\" elastic legs of its own: \
+pub const NO_LEGS: &str = "legs on springs of a rigid body are no more; give [structure] kind \
+                           = \"aframe\" elastic legs of its own: \
                                   ea_n, ei_nm2, foot_mass_kg, damping_ratio (docs/elastic.md)";
 
 /// Whether serde's message is about that key.
@@ -93,19 +94,23 @@ pub enum MembersError {
     #[error("{name} is {value}; give a finite number{bound}")]
     Value { name: &'static str, value: f64, bound: &'static str },
     #[error(
-        "{name} is {value:?}, {times:.1e} times {unit}; nothing computed from that means anything, check the unit"
+        "{name} is {value:?}, {times:.1e} times {unit}; nothing computed from that means anything, \
+         check the unit"
     )]
     Absurd { name: &'static str, value: f64, times: f64, unit: &'static str },
     #[error(
-        "friction.coefficient is given together with damper or tendon; slipping is followed for a rigid body only, leave one out"
+        "friction.coefficient is given together with damper or tendon; slipping is followed for a \
+         rigid body only, leave one out"
     )]
     Slipping,
     #[error(
-        "friction.coefficient is given for a body without rotational inertia, whose slipping feet could spin it; give structure.rotational_inertia_kgm2"
+        "friction.coefficient is given for a body without rotational inertia, whose slipping feet \
+         could spin it; give structure.rotational_inertia_kgm2"
     )]
     Spinning,
     #[error(
-        "tendon.pretension_n is {pretension}, more than stiffness_n_per_m can hold in {height} m; give less than {most:.4e} N"
+        "tendon.pretension_n is {pretension}, more than stiffness_n_per_m can hold in {height} m; \
+         give less than {most:.4e} N"
     )]
     Elongation { pretension: f64, height: f64, most: f64 },
 }

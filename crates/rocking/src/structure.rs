@@ -53,11 +53,13 @@ pub enum StructureError {
     )]
     Inertia { value: f64 },
     #[error(
-        "structure: slenderness alpha = atan(width/(2 height)) is {alpha:.4} rad; rocking needs a body between 0.005 and 0.9 rad: check height_m (of the centre of mass) and width_m"
+        "structure: slenderness alpha = atan(width/(2 height)) is {alpha:.4} rad; rocking needs a \
+         body between 0.005 and 0.9 rad: check height_m (of the centre of mass) and width_m"
     )]
     Slenderness { alpha: f64 },
     #[error(
-        "structure: restitution by equation 2 is {restitution:.3}, not between 0 and 1: the body is too stocky to rock; check height_m, width_m and rotational_inertia_kgm2"
+        "structure: restitution by equation 2 is {restitution:.3}, not between 0 and 1: the body \
+         is too stocky to rock; check height_m, width_m and rotational_inertia_kgm2"
     )]
     TooStocky { restitution: f64 },
 }

@@ -49,7 +49,8 @@ pub enum FolderError {
     },
     /// Files of two runs may stand in a folder.
     #[error(
-        "{folder}: tune {command} was stopped while it put its files there, and some are of another run; run it again (or, if you know \
+        "{folder}: tune {command} was stopped while it put its files there, and some are of \
+         another run; run it again (or, if you know \
          that {folder} is of one run, remove UNFINISHED-{command}.txt)"
     )]
     Mixed {
@@ -60,7 +61,8 @@ pub enum FolderError {
     },
     /// A file is not the one that a run wrote there.
     #[error(
-        "{path}: is not the file that tune run wrote there with the other files of {folder}; run it again, or put yours into a folder of its own"
+        "{path}: is not the file that tune run wrote there with the other files of {folder}; run \
+         it again, or put yours into a folder of its own"
     )]
     OfAnotherRun {
         /// The file.

@@ -129,7 +129,8 @@ impl<'a> Folder<'a> {
 
         let mark = self.path.join(mark(self.command));
         let text = format!(
-            "tune {} was stopped while it put its files into this folder: some are of another run. Run it again.\n",
+            "tune {} was stopped while it put its files into this folder: some are of another run. \
+             Run it again.\n",
             self.command
         );
         let save = |path: &Path, text: &str| {

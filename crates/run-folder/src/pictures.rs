@@ -33,7 +33,8 @@ figures!(
 );
 
 /// What forces of the feet are.
-const FORCES: &str = "Foot forces are those of the springs in a landing, not of the structure: they grow with Omega_n.";
+const FORCES: &str = "Foot forces are those of the springs in a landing, not of the structure: \
+                      they grow with Omega_n.";
 
 /// What figures are drawn from.
 pub(crate) struct Pictures<'a> {
@@ -53,7 +54,8 @@ impl Pictures<'_> {
         let all: [(&str, &str, Draw); 6] = [
             (
                 HISTORY,
-                "Displacement of the mass, finite elements over Housner's solution; impacts as triangles.",
+                "Displacement of the mass, finite elements over Housner's solution; impacts as \
+                 triangles.",
                 Self::history,
             ),
             (
@@ -64,7 +66,8 @@ impl Pictures<'_> {
             (CONTACT, FORCES, Self::contact),
             (
                 ENERGY,
-                "Where the energy that the ground brings in goes; the residual is what the account misses.",
+                "Where the energy that the ground brings in goes; the residual is what the account \
+                 misses.",
                 Self::energy,
             ),
             (FRONT, "What stiffer springs gain in accuracy, and what they cost.", Self::front),
@@ -234,7 +237,10 @@ impl Pictures<'_> {
             let without = front.iter().map(|p| p.omega_n_hz).filter(|hz| !s.0.contains(hz));
             let without: Vec<String> = without.map(|hz| format!("{hz:.0}")).collect();
             notes.push(match (s.0.is_empty(), self.job.paper.is_some()) {
-                (true, false) => format!("No point of {label}: it tunes on the record, which must rock the structure and be well conditioned."),
+                (true, false) => format!(
+                    "No point of {label}: it tunes on the record, which must \
+                    rock the structure and be well conditioned."
+                ),
                 _ => format!("No finite error of {label} at {} Hz.", without.join(", ")),
             });
         }

@@ -35,7 +35,8 @@ fn main() -> Result<(), Box<dyn std::error::Error>> {
         ("HHT -1/3", Integrator::HHT_MOST),
     ];
     println!(
-        "| body | dt (s) | p dt | integrator | springs | median | 90 % | stopped | with substeps | expected |"
+        "| body | dt (s) | p dt | integrator | springs | median | 90 % | stopped | with substeps | \
+         expected |"
     );
     println!("|---|---|---|---|---|---|---|---|---|---|");
     for (name, structure) in bodies()? {

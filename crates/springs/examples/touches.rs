@@ -39,7 +39,8 @@ fn main() -> Result<(), Box<dyn std::error::Error>> {
                     let settings = springs.settings().with_substeps(1.0 / (8.0 * substeps as f64));
                     let errors = motions.errors(&springs.chains(), settings);
                     println!(
-                        "| {name} | {integrator} | {which} | {substeps} | {:.5} | {:.4} | {} of {} | {:.2} | {:.5} |",
+                        "| {name} | {integrator} | {which} | {substeps} | {:.5} | {:.4} | {} of {} \
+                         | {:.2} | {:.5} |",
                         errors.quantile(0.5),
                         errors.quantile(0.9),
                         errors.stopped + errors.toppled,

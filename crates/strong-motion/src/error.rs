@@ -13,15 +13,18 @@ pub enum RecordError {
     #[error("{folder}: no record files in this folder; supported are {extensions}")]
     NoRecords { folder: String, extensions: String },
     #[error(
-        "{file}: larger than {limit_mb} MB; a record is text of a few MB at most: check that this is the right file"
+        "{file}: larger than {limit_mb} MB; a record is text of a few MB at most: check that this \
+         is the right file"
     )]
     TooLarge { file: String, limit_mb: u64 },
     #[error(
-        "{file}: not a text file (byte {byte} is 0x{value:02x}); export the record as plain UTF-8 text"
+        "{file}: not a text file (byte {byte} is 0x{value:02x}); export the record as plain UTF-8 \
+         text"
     )]
     Binary { file: String, byte: usize, value: u8 },
     #[error(
-        "{file}: holds no samples; give an accelerogram: PEER AT2, GeoNet, COSMOS, CSMIP, K-NET, ESM, or columns"
+        "{file}: holds no samples; give an accelerogram: PEER AT2, GeoNet, COSMOS, CSMIP, K-NET, \
+         ESM, or columns"
     )]
     Empty { file: String },
     #[error(
@@ -33,39 +36,50 @@ pub enum RecordError {
     #[error("{file}, line {line}: '{text}' has decimal commas; write decimal points instead")]
     DecimalComma { file: String, line: usize, text: String },
     #[error(
-        "{file}, line {line}: {found} columns; choose the acceleration with --column, a number or a name ({columns}; in a case file column in [record]); bare values are read row by row with --dt and --units"
+        "{file}, line {line}: {found} columns; choose the acceleration with --column, a number or \
+         a name ({columns}; in a case file column in [record]); bare values are read row by row \
+         with --dt and --units"
     )]
     TooManyColumns { file: String, line: usize, found: usize, columns: String },
     #[error(
-        "{file}: this is a case file, not a ground motion; run it as `tune run {file}`, or name a record here"
+        "{file}: this is a case file, not a ground motion; run it as `tune run {file}`, or name a \
+         record here"
     )]
     IsCase { file: String },
     #[error(
-        "{file}, line {line}: {found} columns where the lines before have {expected}; the line is cut or merged: repair it"
+        "{file}, line {line}: {found} columns where the lines before have {expected}; the line is \
+         cut or merged: repair it"
     )]
     Ragged { file: String, line: usize, found: usize, expected: usize },
     #[error(
-        "{file}, line {line}: the time step is {step:?} s where {expected:?} s is expected; resample evenly, or if the times are only printed coarsely pass --dt"
+        "{file}, line {line}: the time step is {step:?} s where {expected:?} s is expected; \
+         resample evenly, or if the times are only printed coarsely pass --dt"
     )]
     Uneven { file: String, line: usize, step: f64, expected: f64 },
     #[error(
-        "{file}: no line with NPTS and DT near the top; an AT2 file says 'NPTS= 4000, DT= .01000 SEC' on its fourth line"
+        "{file}: no line with NPTS and DT near the top; an AT2 file says 'NPTS= 4000, DT= .01000 \
+         SEC' on its fourth line"
     )]
     NoHeader { file: String },
     #[error(
-        "{file}, line {line}: cannot read NPTS and DT from '{text}'; write 'NPTS= 4000, DT= .01000 SEC'"
+        "{file}, line {line}: cannot read NPTS and DT from '{text}'; write 'NPTS= 4000, DT= .01000 \
+         SEC'"
     )]
     BadHeader { file: String, line: usize, text: String },
     #[error(
-        "{file}, line {line}: the file ends after {found} samples but its header (line {header_line}) says NPTS {npts}; the file is cut or damaged: fetch it again or correct NPTS"
+        "{file}, line {line}: the file ends after {found} samples but its header (line \
+         {header_line}) says NPTS {npts}; the file is cut or damaged: fetch it again or correct \
+         NPTS"
     )]
     Count { file: String, line: usize, found: usize, header_line: usize, npts: u64 },
     #[error(
-        "{file}: the file's time step is {file_dt:?} s but --dt is {given:?} s; drop --dt or correct one of them"
+        "{file}: the file's time step is {file_dt:?} s but --dt is {given:?} s; drop --dt or \
+         correct one of them"
     )]
     StepDiffers { file: String, file_dt: f64, given: f64 },
     #[error(
-        "{file}: the file says its unit is {file_units} but --units is {given}; drop --units or correct one of them"
+        "{file}: the file says its unit is {file_units} but --units is {given}; drop --units or \
+         correct one of them"
     )]
     UnitsDiffer { file: String, file_units: Units, given: Units },
     #[error("{file}: the time step is not in the file; pass --dt SECONDS")]
@@ -77,7 +91,8 @@ pub enum RecordError {
     #[error("{file}: has {found}; name the file of one, or leave the vertical motion out")]
     NoVertical { file: String, found: &'static str },
     #[error(
-        "{vertical}: the vertical component has {samples} samples of {dt:?} s, the record {record_samples} of {record_dt:?} s; resample or cut it to the record's times"
+        "{vertical}: the vertical component has {samples} samples of {dt:?} s, the record \
+         {record_samples} of {record_dt:?} s; resample or cut it to the record's times"
     )]
     VerticalDiffers {
         vertical: String,
@@ -89,20 +104,24 @@ pub enum RecordError {
     #[error("{record}: the time step is {dt:?} s; it must be between 1e-6 and 1 s")]
     BadStep { record: String, dt: f64 },
     #[error(
-        "{record}: sample {index} (counted from 0) is {value:?}; every sample must be a finite number"
+        "{record}: sample {index} (counted from 0) is {value:?}; every sample must be a finite \
+         number"
     )]
     BadSample { record: String, index: usize, value: f64 },
     #[error(
-        "{record}: the peak is {shown:.4} g, above 50 g; the unit or the scale is probably wrong: numbers in cm/s2 need --units cm/s2, in m/s2 --units m/s2",
+        "{record}: the peak is {shown:.4} g, above 50 g; the unit or the scale is probably wrong: \
+         numbers in cm/s2 need --units cm/s2, in m/s2 --units m/s2",
         shown = .pga_g.min(1e9)
     )]
     HugePeak { record: String, pga_g: f64 },
     #[error(
-        "{file}, line {line}: {wanted} should stand here, not {found}; the {format} file is cut or damaged: fetch it again"
+        "{file}, line {line}: {wanted} should stand here, not {found}; the {format} file is cut or \
+         damaged: fetch it again"
     )]
     Layout { file: String, line: usize, format: RecordFormat, wanted: &'static str, found: String },
     #[error(
-        "{file}, line {line}: the {what} end after {found} values where line {header_line} announces {said}; the file is cut or damaged: fetch it again"
+        "{file}, line {line}: the {what} end after {found} values where line {header_line} \
+         announces {said}; the file is cut or damaged: fetch it again"
     )]
     Short {
         file: String,
@@ -113,36 +132,45 @@ pub enum RecordError {
         header_line: usize,
     },
     #[error(
-        "{file}, line {line}: an uncorrected CSMIP file (.V1); fetch the corrected one (.V2) of the same record"
+        "{file}, line {line}: an uncorrected CSMIP file (.V1); fetch the corrected one (.V2) of \
+         the same record"
     )]
     Uncorrected { file: String, line: usize },
     #[error(
-        "{file}, line {line}: {found} numbers where {expected} are expected; the line is cut or merged: fetch the file again"
+        "{file}, line {line}: {found} numbers where {expected} are expected; the line is cut or \
+         merged: fetch the file again"
     )]
     Fields { file: String, line: usize, found: usize, expected: usize },
     #[error(
-        "{file}, line {line}: the header gives the peak {of} as {said}, the samples have {found}; the file is damaged or was edited: fetch it again"
+        "{file}, line {line}: the header gives the peak {of} as {said}, the samples have {found}; \
+         the file is damaged or was edited: fetch it again"
     )]
     Peak { file: String, line: usize, of: &'static str, said: String, found: String },
     #[error(
-        "{file}, line {line}: the unit '{unit}' is no acceleration that is known; give g, m/s2, cm/s2 (gal) or mm/s2"
+        "{file}, line {line}: the unit '{unit}' is no acceleration that is known; give g, m/s2, \
+         cm/s2 (gal) or mm/s2"
     )]
     ForeignUnit { file: String, line: usize, unit: String },
     #[error(
-        "{file}: {} component {wanted}; it has {available}: pass another --component (name, azimuth), of a table --column",
+        "{file}: {} component {wanted}; it has {available}: pass another --component (name, \
+         azimuth), of a table --column",
         if *.several { "there is more than one" } else { "there is no" }
     )]
     NoComponent { file: String, wanted: String, several: bool, available: String },
     #[error(
-        "{file}, line {line}: the first column counts rows (step 1) and is no time; remove it and pass --dt, or write the times"
+        "{file}, line {line}: the first column counts rows (step 1) and is no time; remove it and \
+         pass --dt, or write the times"
     )]
     RowIndex { file: String, line: usize },
     #[error(
-        "{file}: the second column never changes its sign, as a spectrum over its periods and unlike an accelerogram; if it is one, name the columns 'time, acceleration' or pass --baseline"
+        "{file}: the second column never changes its sign, as a spectrum over its periods and \
+         unlike an accelerogram; if it is one, name the columns 'time, acceleration' or pass \
+         --baseline"
     )]
     OneSign { file: String },
     #[error(
-        "{file}: the numbers are counts of a digitiser without a scale; convert them to acceleration, or fetch the corrected file"
+        "{file}: the numbers are counts of a digitiser without a scale; convert them to \
+         acceleration, or fetch the corrected file"
     )]
     Counts { file: String },
 }

@@ -107,7 +107,8 @@ impl Excitation {
             format!("; vertical {}, peak {:.4} g", up.name, up.peak_g() * self.scale.abs())
         });
         format!(
-            "record {} ({from}), scale {}, {part}: {} samples of {} s, PGA {:.4} g at {} s{vertical}",
+            "record {} ({from}), scale {}, {part}: {} samples of {} s, PGA {:.4} g at {} \
+             s{vertical}",
             whole.name,
             self.scale,
             used.len(),

@@ -39,18 +39,21 @@ impl fmt::Display for Notice {
         match self {
             Self::Taken { file, taken, pga_g, others } => write!(
                 f,
-                "{file}: component {taken} is taken, the stronger horizontal one ({pga_g:.4} g); also there: {others}; \
+                "{file}: component {taken} is taken, the stronger horizontal one ({pga_g:.4} g); \
+                 also there: {others}; \
                  choose with --component"
             ),
             Self::RowByRow { file, columns, samples } => write!(
                 f,
-                "{file}: {columns} columns without times are read row by row, as one series of {samples} samples; if each \
+                "{file}: {columns} columns without times are read row by row, as one series of \
+                 {samples} samples; if each \
                  column is a component, choose one with --column"
             ),
             Self::OnlyVertical { file, component } => {
                 write!(
                     f,
-                    "{file}: component {component} is taken as the horizontal motion; the file has no horizontal one"
+                    "{file}: component {component} is taken as the horizontal motion; the file has \
+                     no horizontal one"
                 )
             }
             Self::Offset { file, component, share } => write!(

@@ -49,7 +49,8 @@ fn tables_give_the_same_record_whatever_separates_their_columns() {
         "t;a [cm/s2]\r\n0.02;0\r\n0.04;50\r\n0.06;-125\r\n",
         "% units: Gal\n0\t0\n\n  2e-2\t50\n// the end is near\n4e-2\t-125\n",
         "Caf\u{e9}\n\"t\",\"a (m/s^2)\"\n\"0\",\"0.0\",\n\"0.02\",\"0.5\",\n\"0.04\",\"-1.25\",\n",
-        "EVENT_NAME: Umbria\nSAMPLING_INTERVAL_S: 0.020\nUNITS: cm/s^2\nDATA_TYPE: ACCELERATION\n0\n50\n-125\n",
+        "EVENT_NAME: Umbria\nSAMPLING_INTERVAL_S: 0.020\nUNITS: cm/s^2\nDATA_TYPE: ACCELERATION\n\
+         0\n50\n-125\n",
         "# dt = 0.02 s, acceleration in units of m/s2\n0\n0.5\n-1.25\n",
     ] {
         assert_eq!(parse("x.csv", text).as_ref(), Ok(&expected), "{text:?}");

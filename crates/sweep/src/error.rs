@@ -25,7 +25,8 @@ pub enum SweepError {
     #[error("springs of {structure}: {source}")]
     Springs { structure: String, source: JobError },
     #[error(
-        "{folder}: holds another sweep ({there}, this one is {here}); name another folder with --out, or remove it"
+        "{folder}: holds another sweep ({there}, this one is {here}); name another folder with \
+         --out, or remove it"
     )]
     OtherSweep { folder: String, there: String, here: String },
     #[error("{path}: {source}; check the folder, its rights and the room on the disk")]
@@ -35,11 +36,13 @@ pub enum SweepError {
     )]
     Damaged { path: String, reason: String },
     #[error(
-        "{folder}: {missing} of {parts} parts are missing ({first}){unfit}; run the same tune sweep again, which computes these alone"
+        "{folder}: {missing} of {parts} parts are missing ({first}){unfit}; run the same tune \
+         sweep again, which computes these alone"
     )]
     Missing { folder: String, missing: usize, parts: usize, first: String, unfit: String },
     #[error(
-        "{folder}: no sweep there (no manifest.json); give the folder that tune sweep --out was given"
+        "{folder}: no sweep there (no manifest.json); give the folder that tune sweep --out was \
+         given"
     )]
     NoSweep { folder: String },
 }

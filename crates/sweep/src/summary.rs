@@ -63,7 +63,8 @@ pub fn fragility(plan: &Plan, fragility: &Fragility, ida: &Ida) -> Vec<String> {
         let unit = if unit == "-" { String::new() } else { format!(" {unit}") };
         let fit = match (&pga.fit, pga.bounds(fragility.half_width())) {
             (LognormalFit::Fitted(fit), Some(bounds)) => format!(
-                "half of the motions overturn it at {measure} = {:.3}{unit}{} ({percent:.0} % bounds {:.3} to {:.3}), beta {:.2} ({:.2} to {:.2})",
+                "half of the motions overturn it at {measure} = {:.3}{unit}{} ({percent:.0} % \
+                 bounds {:.3} to {:.3}), beta {:.2} ({:.2} to {:.2})",
                 fit.median(),
                 if pga.is_extrapolated() { ", extrapolated beyond the levels" } else { "" },
                 bounds.median.0,
@@ -76,12 +77,14 @@ pub fn fragility(plan: &Plan, fragility: &Fragility, ida: &Ida) -> Vec<String> {
             (LognormalFit::AllExceeded, _) => "every motion overturns it; lower the levels".into(),
             (LognormalFit::Separated { below, above }, _) => {
                 format!(
-                    "{measure} alone decides: up to {below:.3}{unit} it stands, from {above:.3}{unit} it overturns"
+                    "{measure} alone decides: up to {below:.3}{unit} it stands, from \
+                     {above:.3}{unit} it overturns"
                 )
             }
             (LognormalFit::Undetermined, _) => {
                 format!(
-                    "no fit on {measure}: outcomes are mixed at one level alone; add levels about it"
+                    "no fit on {measure}: outcomes are mixed at one level alone; add levels \
+                     about it"
                 )
             }
             _ => format!("no fit on {measure}: higher levels overturn it less often"),
@@ -109,7 +112,9 @@ pub fn fragility(plan: &Plan, fragility: &Fragility, ida: &Ida) -> Vec<String> {
     said.push(if records < 10 {
         format!("Bounds rest on {records} records only: take more.")
     } else {
-        "Bounds take the histories of one record for one observation, however many levels it was scaled to.".into()
+        "Bounds take the histories of one record for one observation, however many levels it was \
+         scaled to."
+            .into()
     });
     said
 }
@@ -153,7 +158,9 @@ fn at_levels(
         Kind::AFrame => "apex",
     };
     let mut text = format!(
-        "  It lifts at PGA = g tan(alpha) = {:.3} g.\n\n  | {measure} | P(overturn) | {:.0} % bounds | lifts | {top} moves, median / 84 % [mm] | foot lifts [mm] |\n  \
+        "  It lifts at PGA = g tan(alpha) = {:.3} g.\n\
+         \n  | {measure} | P(overturn) | {:.0} % bounds | lifts | {top} moves, median / 84 % [mm] \
+         | foot lifts [mm] |\n  \
          |---|---|---|---|---|---|",
         subject.uplift() / GRAVITY,
         100.0 * fragility.confidence
@@ -205,7 +212,8 @@ pub fn rocking(plan: &Plan, ida: &Ida) -> Vec<String> {
     let [n, lifted, over, out] = counts;
     let share = |k: u64| 100.0 * k as f64 / n.max(1) as f64;
     said.push(format!(
-        "{:.1} % of the bodies are never lifted, {:.1} % rock and come to rest upright, {:.1} % overturn; {out} histories are left out.",
+        "{:.1} % of the bodies are never lifted, {:.1} % rock and come to rest upright, {:.1} % \
+         overturn; {out} histories are left out.",
         share(n - lifted),
         share(lifted - over),
         share(over)
@@ -229,8 +237,10 @@ pub fn compare(comparison: &Comparison) -> Vec<String> {
     let Some(all) = comparison.all() else { return Vec::new() };
     let number = |x: Option<f64>| x.map_or("-".into(), |x| format!("{x:.4}"));
     vec![format!(
-        "Rigid against springs, {} histories ({} left out): both say the same of overturning in {:.2} % (Housner alone overturns {}, springs alone {}); \
-         peaks of theta/alpha differ by {} (median) and {} (90 %), their distributions by {:.4} (KS); NRMSE of u {} (median), {} (90 %).",
+        "Rigid against springs, {} histories ({} left out): both say the same of overturning in \
+         {:.2} % (Housner alone overturns {}, springs alone {}); \
+         peaks of theta/alpha differ by {} (median) and {} (90 %), their distributions by {:.4} \
+         (KS); NRMSE of u {} (median), {} (90 %).",
         all.n,
         all.left_out,
         100.0 * all.agreement().unwrap_or(0.0),
@@ -250,7 +260,8 @@ pub fn overturning(plan: &Plan, table: &SweepTable) -> Vec<String> {
     let (structure, pulse, q) =
         (table.texts("structure"), table.texts("pulse"), table.reals("omega_over_p"));
     let mut said = vec![format!(
-        "{} pulse frequencies times structures, scanned from {} to {} times g tan(alpha): {} intervals overturn.",
+        "{} pulse frequencies times structures, scanned from {} to {} times g tan(alpha): {} \
+         intervals overturn.",
         plan.cells(),
         plan.levels[0],
         plan.levels[plan.levels.len() - 1],
@@ -259,7 +270,8 @@ pub fn overturning(plan: &Plan, table: &SweepTable) -> Vec<String> {
     let finite = (0..table.rows()).filter(|row| to[*row].is_some()).count();
     if finite > 0 {
         said.push(format!(
-            "{finite} of them have an upper end, above which a stronger pulse leaves the body standing or overturns it otherwise."
+            "{finite} of them have an upper end, above which a stronger pulse leaves the body \
+             standing or overturns it otherwise."
         ));
     }
     let least = (0..table.rows())
@@ -267,7 +279,8 @@ pub fn overturning(plan: &Plan, table: &SweepTable) -> Vec<String> {
         .min_by(|a, b| a.1.total_cmp(&b.1));
     if let Some((row, from)) = least {
         said.push(format!(
-            "The weakest pulse that overturns: {} on {} at omega/p = {:.3}, {from:.4} g tan(alpha).",
+            "The weakest pulse that overturns: {} on {} at omega/p = {:.3}, {from:.4} g \
+             tan(alpha).",
             pulse[row],
             structure[row],
             q[row].unwrap_or(0.0)

@@ -34,7 +34,8 @@ struct Range {
 #[derive(Deserialize)]
 #[serde(
     untagged,
-    expecting = "give a number, a list of numbers, or { from = 1.0, to = 9.0, count = 5, spacing = \"log\" }"
+    expecting = "give a number, a list of numbers, or { from = 1.0, to = 9.0, count = 5, spacing \
+                 = \"log\" }"
 )]
 enum WrittenValues {
     One(f64),

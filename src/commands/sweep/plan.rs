@@ -58,7 +58,8 @@ pub fn run(o: &PlanOptions) -> Result<(), CommandError> {
     begin(&plan, &hash, &o.out, o.quiet)?;
     let missing = SweepParts::new(&plan, &o.out, &hash).missing(0..plan.parts()).parts.len();
     terminal::stdout(format_args!(
-        "{} cells: {} motions, {} structures, {} restitutions, {} levels; {} parts of {} cells, {missing} missing; sweep {hash}\n",
+        "{} cells: {} motions, {} structures, {} restitutions, {} levels; {} parts of {} cells, \
+         {missing} missing; sweep {hash}\n",
         plan.cells(),
         plan.motions.len(),
         plan.subjects.len(),
@@ -70,7 +71,8 @@ pub fn run(o: &PlanOptions) -> Result<(), CommandError> {
     let shares = o.shards.unwrap_or(SHARES).min(plan.parts());
     if let Some(asked) = o.shards.filter(|asked| *asked > shares) {
         terminal::stderr(format_args!(
-            "--shards {asked}: a share has one part of {} cells at least, so there are {shares}; for more, write a smaller part under [sweep]",
+            "--shards {asked}: a share has one part of {} cells at least, so there are {shares}; \
+             for more, write a smaller part under [sweep]",
             plan.part
         ));
     }
@@ -145,10 +147,13 @@ impl Script<'_> {
     fn array(&self) -> String {
         let tasks = self.shares.min(1000);
         format!(
-            "#!/bin/sh\n#SBATCH --job-name=tune-sweep\n#SBATCH --array=1-{tasks}\n#SBATCH --cpus-per-task={}\n#SBATCH --time={}\n\
+            "#!/bin/sh\n#SBATCH --job-name=tune-sweep\n#SBATCH --array=1-{tasks}\n\
+             #SBATCH --cpus-per-task={}\n#SBATCH --time={}\n\
              #SBATCH --requeue\n#SBATCH --output=slurm-%A_%a.log\n\
-             # parts are idempotent: a task that is killed or run twice leaves whole files, the same ones\n\
-             i=$SLURM_ARRAY_TASK_ID\nwhile [ \"$i\" -le {} ]; do\n    {} || exit 1\n    i=$((i + {tasks}))\ndone\n",
+             # parts are idempotent: a task that is killed or run twice leaves whole files, the \
+             same ones\n\
+             i=$SLURM_ARRAY_TASK_ID\n\
+             while [ \"$i\" -le {} ]; do\n    {} || exit 1\n    i=$((i + {tasks}))\ndone\n",
             self.jobs,
             self.time,
             self.shares,
@@ -159,7 +164,8 @@ impl Script<'_> {
     fn gather(&self) -> String {
         let Self { program, sweep, out, .. } = self;
         format!(
-            "#!/bin/sh\n#SBATCH --job-name=tune-gather\n#SBATCH --time={}\n#SBATCH --output=slurm-gather.log\n{program} sweep gather {sweep} --out {out}\n",
+            "#!/bin/sh\n#SBATCH --job-name=tune-gather\n#SBATCH --time={}\n\
+             #SBATCH --output=slurm-gather.log\n{program} sweep gather {sweep} --out {out}\n",
             self.time,
         )
     }
@@ -168,7 +174,8 @@ impl Script<'_> {
     /// missing.
     fn submit(&self) -> String {
         format!(
-            "#!/bin/sh\nset -e\ncd {}\njob=$(sbatch --parsable sweep.sbatch)\nsbatch --dependency=afterany:\"$job\" gather.sbatch\necho \"array $job\"\n",
+            "#!/bin/sh\nset -e\ncd {}\njob=$(sbatch --parsable sweep.sbatch)\n\
+             sbatch --dependency=afterany:\"$job\" gather.sbatch\necho \"array $job\"\n",
             self.out
         )
     }

@@ -52,7 +52,8 @@ mod tests {
     /// Frequency and Mode Shape*, table 8-8).
     #[test]
     fn three_bending_modes_are_those_of_the_closed_form_and_are_kept() {
-        let text = "kind = 'pier'\nheight_m = 14.0\nwidth_m = 3.2\nmass_kg = 450e3\nfooting_mass_kg = 90e3\nfooting_height_m = 1.5\n\
+        let text = "kind = 'pier'\nheight_m = 14.0\nwidth_m = 3.2\nmass_kg = 450e3\n\
+                    footing_mass_kg = 90e3\nfooting_height_m = 1.5\n\
                     ei_nm2 = 7.65e9\nga_n = 1e19\ndamping_ratio = 0.05\ncolumn_mass_kg = 79e3\n";
         let structure: ElasticStructure = toml::from_str(text).unwrap();
         let cutoff = Cutoff::of(&structure).unwrap();

@@ -106,11 +106,13 @@ pub enum FrameError {
         least: &'static str,
     },
     #[error(
-        "frame: {what} {number} meets node {node} off its place, and that does not turn: give it rotational inertia"
+        "frame: {what} {number} meets node {node} off its place, and that does not turn: give it \
+         rotational inertia"
     )]
     Arm { what: &'static str, number: usize, node: usize },
     #[error(
-        "frame: beam {number} is clamped to node {node}, which does not turn: hinge it there, or give the node rotational inertia"
+        "frame: beam {number} is clamped to node {node}, which does not turn: hinge it there, or \
+         give the node rotational inertia"
     )]
     Clamped { number: usize, node: usize },
     #[error("frame: beam {number} has no length: move its ends apart")]

@@ -16,12 +16,14 @@ const ROUNDING: f64 = 1e-13;
 pub enum RestError {
     /// A coordinate that nothing holds.
     #[error(
-        "the structure cannot stand: a coordinate has no stiffness; hold more corners, or give its members stiffness"
+        "the structure cannot stand: a coordinate has no stiffness; hold more corners, or give its \
+         members stiffness"
     )]
     Loose,
     /// Too soft under its weight.
     #[error(
-        "the structure does not come to rest under its weight in {STEPS} steps of Newton's method; make its members stiffer"
+        "the structure does not come to rest under its weight in {STEPS} steps of Newton's method; \
+         make its members stiffer"
     )]
     NotFound,
 }

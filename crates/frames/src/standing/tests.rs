@@ -74,8 +74,10 @@ fn a_pier_lifts_where_statics_say() {
 fn a_portal_lifts_where_statics_say() {
     let (l, t, w, s, mass) = (8.0, 1.0, 2.5, 9.0, 4e5);
     let text = format!(
-        "kind = 'frame'\nheight_m = {}\nspan_m = {s}\nfooting_width_m = {w}\nfooting_height_m = {t}\n\
-         footing_mass_kg = 100.0\nbeam_mass_kg = {mass}\ncolumn_ea_n = 1e13\ncolumn_ei_nm2 = 1e12\nbeam_ea_n = 1e15\n\
+        "kind = 'frame'\nheight_m = {}\nspan_m = {s}\nfooting_width_m = {w}\n\
+         footing_height_m = {t}\n\
+         footing_mass_kg = 100.0\nbeam_mass_kg = {mass}\ncolumn_ea_n = 1e13\ncolumn_ei_nm2 = 1e12\n\
+         beam_ea_n = 1e15\n\
          beam_ei_nm2 = 1e15\ndamping_ratio = 0.02\n",
         l + t
     );

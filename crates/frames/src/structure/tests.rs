@@ -60,8 +60,10 @@ fn the_rigid_body_of_a_pier_has_its_parts_inertia_about_a_corner() {
 fn a_portal_lies_between_its_limits() {
     let with = |beam_ei: f64| {
         let text = format!(
-            "kind = 'frame'\nheight_m = 9.0\nspan_m = 8.0\nfooting_width_m = 2.5\nfooting_height_m = 1.0\nfooting_mass_kg = 30e3\n\
-             beam_mass_kg = 400e3\ncolumn_ea_n = 3e10\ncolumn_ei_nm2 = 2e9\nbeam_ea_n = 3e10\nbeam_ei_nm2 = {beam_ei:e}\ndamping_ratio = 0.03"
+            "kind = 'frame'\nheight_m = 9.0\nspan_m = 8.0\nfooting_width_m = 2.5\n\
+             footing_height_m = 1.0\nfooting_mass_kg = 30e3\n\
+             beam_mass_kg = 400e3\ncolumn_ea_n = 3e10\ncolumn_ei_nm2 = 2e9\nbeam_ea_n = 3e10\n\
+             beam_ei_nm2 = {beam_ei:e}\ndamping_ratio = 0.03"
         );
         read(&text).unwrap().frequency_hz()
     };
@@ -105,7 +107,8 @@ fn what_no_structure_can_be_is_refused_in_one_line() {
 
 #[test]
 fn legs_shorten_by_their_load_over_ea() {
-    let text = "kind = 'aframe'\nheight_m = 61.0\nwidth_m = 12.2\nmass_kg = 680.1e3\nea_n = 6.7e9\nei_nm2 = 1e10\nfoot_mass_kg = 5e3\n\
+    let text = "kind = 'aframe'\nheight_m = 61.0\nwidth_m = 12.2\nmass_kg = 680.1e3\nea_n = 6.7e9\n\
+                ei_nm2 = 1e10\nfoot_mass_kg = 5e3\n\
                 damping_ratio = 0.02";
     let structure = read(text).unwrap();
     let load = 0.5 * 680.1e3 * 9.81 / 0.1_f64.atan().cos();
@@ -135,13 +138,16 @@ fn finite_elements_have_the_frequency_of_the_closed_form() {
     ] {
         assert_relative_eq!(lowest(&structure), structure.frequency_hz(), max_relative = within);
     }
-    let text = "kind = 'aframe'\nheight_m = 61.0\nwidth_m = 12.2\nmass_kg = 680.1e3\nea_n = 6.7e9\nei_nm2 = 1e10\nfoot_mass_kg = 5e3\n\
+    let text = "kind = 'aframe'\nheight_m = 61.0\nwidth_m = 12.2\nmass_kg = 680.1e3\nea_n = 6.7e9\n\
+                ei_nm2 = 1e10\nfoot_mass_kg = 5e3\n\
                 damping_ratio = 0.02";
     let frame = read(text).unwrap();
     // the legs' bending is left out
     assert_relative_eq!(lowest(&frame), frame.frequency_hz(), max_relative = 1e-2);
-    let text = "kind = 'frame'\nheight_m = 9.0\nspan_m = 8.0\nfooting_width_m = 2.5\nfooting_height_m = 1.0\nfooting_mass_kg = 30e3\n\
-                beam_mass_kg = 400e3\ncolumn_ea_n = 3e10\ncolumn_ei_nm2 = 2e9\nbeam_ea_n = 3e10\nbeam_ei_nm2 = 4e9\ndamping_ratio = 0.03";
+    let text = "kind = 'frame'\nheight_m = 9.0\nspan_m = 8.0\nfooting_width_m = 2.5\n\
+                footing_height_m = 1.0\nfooting_mass_kg = 30e3\n\
+                beam_mass_kg = 400e3\ncolumn_ea_n = 3e10\ncolumn_ei_nm2 = 2e9\nbeam_ea_n = 3e10\n\
+                beam_ei_nm2 = 4e9\ndamping_ratio = 0.03";
     let portal = read(text).unwrap();
     // columns' shortening and the rotational inertia of the tops are left out
     assert_relative_eq!(lowest(&portal), portal.frequency_hz(), max_relative = 3e-2);

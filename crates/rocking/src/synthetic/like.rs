@@ -53,7 +53,8 @@ pub enum LikeError {
     #[error("{record}: has no motion; give a record that has")]
     Still { record: String },
     #[error(
-        "{record}: {samples} samples; motions like it need {least} to {most}: give a longer record, or duration_s"
+        "{record}: {samples} samples; motions like it need {least} to {most}: give a longer \
+         record, or duration_s"
     )]
     Samples { record: String, samples: usize, least: usize, most: usize },
 }

@@ -69,7 +69,8 @@ fn history(run: &ElasticRun) -> Result<Figure, FigureError> {
     let names = ["rigid ground, plastic landings", "finite elements on ground springs"];
     let sheet =
         stack::draw(&StackFigure { title: &title, t: &t, names: &names, panels: &panels, event })?;
-    let caption = "Rotation of the footing (of the line between the feet), and drift of the mass without the rigid rotation.";
+    let caption = "Rotation of the footing (of the line between the feet), and drift of the mass \
+                   without the rigid rotation.";
     Ok(Figure { name: draw::HISTORY, caption, sheet })
 }
 

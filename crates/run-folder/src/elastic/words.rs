@@ -9,10 +9,12 @@ pub fn over(compared: &Compared) -> String {
         ComparedEnd::Record => "over all of it".into(),
         ComparedEnd::History => format!("over its first {seconds:.2} s, where it ends"),
         ComparedEnd::Foretold => format!(
-            "over its first {seconds:.2} s; from then on no model foretells this motion one to one: it is to be judged over many"
+            "over its first {seconds:.2} s; from then on no model foretells this motion one to \
+             one: it is to be judged over many"
         ),
         ComparedEnd::Slides => format!(
-            "over its first {seconds:.2} s; then a corner slides as it lands: how far depends on friction, and these springs follow no further"
+            "over its first {seconds:.2} s; then a corner slides as it lands: how far depends on \
+             friction, and these springs follow no further"
         ),
     }
 }

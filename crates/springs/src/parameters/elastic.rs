@@ -272,7 +272,8 @@ impl ElasticParameters {
             parameters.springs.iter().position(|row| !row.vertical.good() || !row.horizontal.good())
         {
             return Err(value(format!(
-                "springs, row {}: k1, k2 and m2 must be finite and above zero, c zero or more; run tune run again",
+                "springs, row {}: k1, k2 and m2 must be finite and above zero, c zero or more; run \
+                 tune run again",
                 i + 1
             )));
         }
@@ -309,7 +310,8 @@ mod tests {
 
     fn parameters() -> ElasticParameters {
         let structure = toml::from_str(
-            "kind = 'pier'\nheight_m = 12.0\nwidth_m = 4.0\nmass_kg = 600e3\nfooting_mass_kg = 120e3\nfooting_height_m = 1.5\n\
+            "kind = 'pier'\nheight_m = 12.0\nwidth_m = 4.0\nmass_kg = 600e3\n\
+             footing_mass_kg = 120e3\nfooting_height_m = 1.5\n\
              frequency_hz = 2.0\ndamping_ratio = 0.02\n",
         )
         .unwrap();

@@ -15,7 +15,8 @@ pub enum ParametersError {
     #[error("{path}: cannot be read ({source}); give the parameters.json that `tune run` wrote")]
     Read { path: String, source: std::io::Error },
     #[error(
-        "{path}: these are springs of an elastic structure, which `tune export` and `tune verify` take and this command does not; give those of a rigid body"
+        "{path}: these are springs of an elastic structure, which `tune export` and `tune verify` \
+         take and this command does not; give those of a rigid body"
     )]
     Elastic { path: String },
     #[error("{path}: {}, and let `tune run` find its springs", NO_LEGS)]
@@ -25,7 +26,8 @@ pub enum ParametersError {
     #[error("{path}: {chain}.{name} is {value:?}; give a finite number{bound}")]
     Value { path: String, chain: &'static str, name: &'static str, value: f64, bound: &'static str },
     #[error(
-        "{path}: {chain}.{name} is {value:?}, {times:.1e} times {scale}; nothing computed from that means anything, give k1, k2 in N/m, m2 in kg, c in N s/m"
+        "{path}: {chain}.{name} is {value:?}, {times:.1e} times {scale}; nothing computed from \
+         that means anything, give k1, k2 in N/m, m2 in kg, c in N s/m"
     )]
     Absurd {
         path: String,
@@ -36,7 +38,8 @@ pub enum ParametersError {
         scale: &'static str,
     },
     #[error(
-        "{path}: its schema is {schema}, this program reads up to {SCHEMA}; take a newer tune, or tune again"
+        "{path}: its schema is {schema}, this program reads up to {SCHEMA}; take a newer tune, or \
+         tune again"
     )]
     Schema { path: String, schema: u32 },
     #[error("{path}: record.{name} is {value:?}; give a finite number greater than zero")]

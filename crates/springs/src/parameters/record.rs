@@ -85,16 +85,20 @@ pub enum SourceRow {
 #[allow(missing_docs)] // messages say what variants and their fields are
 pub enum RememberedError {
     #[error(
-        "{parameters}: its record {file} is not there (nor at {path}); put it back, or name a record with --record"
+        "{parameters}: its record {file} is not there (nor at {path}); put it back, or name a \
+         record with --record"
     )]
     Missing { parameters: String, file: String, path: String },
     #[error(
-        "{parameters}: its record {file} has changed since the springs were tuned ({change}); put the old one back, or name this one with --record"
+        "{parameters}: its record {file} has changed since the springs were tuned ({change}); put \
+         the old one back, or name this one with --record"
     )]
     Changed { parameters: String, file: String, change: String },
     #[error(
-        "{parameters}: its record {name} was given as numbers and is in no file; save it as a column of accelerations, in Python \
-         numpy.savetxt(\"motion.txt\", record.accel), and name it with --record motion.txt --dt {dt_s} --units m/s2"
+        "{parameters}: its record {name} was given as numbers and is in no file; save it as a \
+         column of accelerations, in Python \
+         numpy.savetxt(\"motion.txt\", record.accel), and name it with --record motion.txt --dt \
+         {dt_s} --units m/s2"
     )]
     NoFile { parameters: String, name: String, dt_s: f64 },
     #[error(transparent)]

@@ -35,7 +35,8 @@ pub enum BoundsError {
     #[error("bounds: {name} is {value:?}; give a finite number greater than zero, or leave it out")]
     NotPositive { name: &'static str, value: f64 },
     #[error(
-        "bounds: nothing lies between {low_name} ({quantity} >= {low:.6}) and {high_name} ({quantity} <= {high:.6}) for mu = {mu}; loosen one of them"
+        "bounds: nothing lies between {low_name} ({quantity} >= {low:.6}) and {high_name} \
+         ({quantity} <= {high:.6}) for mu = {mu}; loosen one of them"
     )]
     Empty {
         quantity: &'static str,
@@ -46,7 +47,8 @@ pub enum BoundsError {
         mu: f64,
     },
     #[error(
-        "bounds: a settlement of {settlement_m} m is less than the gap springs alone give at {omega_n_hz} Hz, {least_m:.3e} m; allow more or raise Omega_n"
+        "bounds: a settlement of {settlement_m} m is less than the gap springs alone give at \
+         {omega_n_hz} Hz, {least_m:.3e} m; allow more or raise Omega_n"
     )]
     Settlement { settlement_m: f64, omega_n_hz: f64, least_m: f64 },
 }

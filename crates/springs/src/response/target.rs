@@ -66,21 +66,25 @@ fn one() -> f64 {
 #[derive(Clone, Debug, PartialEq, Error)]
 pub enum TargetError {
     #[error(
-        "target: it has no band; give at least one [[target.bands]], or leave the target out for the default cap"
+        "target: it has no band; give at least one [[target.bands]], or leave the target out for \
+         the default cap"
     )]
     Empty,
     #[error(
-        "target: band {band} runs from g_low = {g_low} to g_high = {g_high}; give 0 <= g_low < g_high (leave g_high out for no end)"
+        "target: band {band} runs from g_low = {g_low} to g_high = {g_high}; give 0 <= g_low < \
+         g_high (leave g_high out for no end)"
     )]
     Range { band: usize, g_low: f64, g_high: f64 },
     #[error("target: band {band} has {name} = {value}; give a finite number greater than zero")]
     NotPositive { band: usize, name: &'static str, value: f64 },
     #[error(
-        "target: band {band} is a roll_off from g_low = 0, where limit / g^2 has no meaning; give g_low > 0"
+        "target: band {band} is a roll_off from g_low = 0, where limit / g^2 has no meaning; give \
+         g_low > 0"
     )]
     RollOffFromZero { band: usize },
     #[error(
-        "target: band {band} is {kind} without an end, but ARR falls to zero as g grows; give g_high"
+        "target: band {band} is {kind} without an end, but ARR falls to zero as g grows; give \
+         g_high"
     )]
     FlatWithoutEnd { band: usize, kind: &'static str },
 }

@@ -99,8 +99,10 @@ impl Assessment {
     pub fn design(&self) -> Option<[String; 2]> {
         let l = self.landing.as_ref()?;
         let landing = format!(
-            "The springs follow from the landing of a body of alpha {:.5} and m R^2/I0 {:.5} at Omega_n/p {:.0}: error of the \
-             momentum {:.0e}, rebound {:.3} of the landing speed, {} touches and lifts of the landing foot.",
+            "The springs follow from the landing of a body of alpha {:.5} and m R^2/I0 {:.5} at \
+             Omega_n/p {:.0}: error of the \
+             momentum {:.0e}, rebound {:.3} of the landing speed, {} touches and lifts of the \
+             landing foot.",
             l.alpha,
             l.mass_share,
             l.omega_n_over_p,
@@ -116,7 +118,8 @@ impl Assessment {
         let aimed = stiffness_search::MARGIN * self.accuracy;
         let error = weight::restitution_error(l.alpha, l.mass_share, l.omega_n_over_p, LEAST_LEAN);
         let landings = format!(
-            "on which the weight leaves landings, from {LEAST_LEAN} alpha on, an error of {error:.0e} at most (theory): it moves a history of \
+            "on which the weight leaves landings, from {LEAST_LEAN} alpha on, an error of \
+             {error:.0e} at most (theory): it moves a history of \
              sensitivity {PREDICTABLE} by no more than {} of the accuracy",
             stiffness_search::MARGIN
         );
@@ -141,7 +144,8 @@ impl Assessment {
                 format!("the softest of the ladder {decides}")
             }
             _ => format!(
-                "the best of those tried: none keeps every error, of gentle landings too, within {} of what is allowed",
+                "the best of those tried: none keeps every error, of gentle landings too, within \
+                 {} of what is allowed",
                 stiffness_search::MARGIN
             ),
         }

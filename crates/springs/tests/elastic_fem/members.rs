@@ -22,21 +22,25 @@ fn structure(text: &str) -> ElasticStructure {
 
 fn pier() -> ElasticStructure {
     structure(
-        "kind = 'pier'\nheight_m = 12.0\nwidth_m = 4.0\nmass_kg = 600e3\nfooting_mass_kg = 60e3\nfooting_height_m = 1.5\n\
+        "kind = 'pier'\nheight_m = 12.0\nwidth_m = 4.0\nmass_kg = 600e3\nfooting_mass_kg = 60e3\n\
+         footing_height_m = 1.5\n\
          frequency_hz = 2.0\ndamping_ratio = 0.02\n",
     )
 }
 
 fn portal() -> ElasticStructure {
     structure(
-        "kind = 'frame'\nheight_m = 8.0\nspan_m = 10.0\nfooting_width_m = 2.5\nfooting_height_m = 1.0\nfooting_mass_kg = 30e3\n\
-         beam_mass_kg = 200e3\ncolumn_ea_n = 3e10\ncolumn_ei_nm2 = 4e9\nbeam_ea_n = 4e10\nbeam_ei_nm2 = 8e9\ndamping_ratio = 0.02\n",
+        "kind = 'frame'\nheight_m = 8.0\nspan_m = 10.0\nfooting_width_m = 2.5\n\
+         footing_height_m = 1.0\nfooting_mass_kg = 30e3\n\
+         beam_mass_kg = 200e3\ncolumn_ea_n = 3e10\ncolumn_ei_nm2 = 4e9\nbeam_ea_n = 4e10\n\
+         beam_ei_nm2 = 8e9\ndamping_ratio = 0.02\n",
     )
 }
 
 fn legs() -> ElasticStructure {
     structure(
-        "kind = 'aframe'\nheight_m = 12.0\nwidth_m = 2.4\nmass_kg = 350e3\nfoot_mass_kg = 5e3\nea_n = 2e10\nei_nm2 = 5e8\ndamping_ratio = 0.02\n",
+        "kind = 'aframe'\nheight_m = 12.0\nwidth_m = 2.4\nmass_kg = 350e3\nfoot_mass_kg = 5e3\n\
+         ea_n = 2e10\nei_nm2 = 5e8\ndamping_ratio = 0.02\n",
     )
 }
 
@@ -139,7 +143,8 @@ fn a_pier_with_members_follows_the_reference() {
 /// (2b)^2/I_o, over a time so short that M stays.
 #[test]
 fn dampers_take_the_rotation_rate_of_the_closed_form() {
-    let text = "kind = 'pier'\nheight_m = 12.0\nwidth_m = 4.0\nmass_kg = 600e3\nfooting_mass_kg = 60e3\nfooting_height_m = 1.5\n\
+    let text = "kind = 'pier'\nheight_m = 12.0\nwidth_m = 4.0\nmass_kg = 600e3\n\
+                footing_mass_kg = 60e3\nfooting_height_m = 1.5\n\
                 ei_nm2 = 1e16\nea_n = 1e16\ndamping_ratio = 0.0\n";
     let c = 5e8;
     let members = Members { damper: Some(Damper { c }), ..Members::default() };

@@ -177,7 +177,8 @@ fn legs_of_any_stiffness_follow_the_reference() {
         let axial = 0.5 * mass * GRAVITY / shortening;
         let bending = axial * radius * radius;
         let spec = format!(
-            "kind = 'aframe'\nheight_m = 61.0\nwidth_m = 12.2\nmass_kg = {mass:?}\nfoot_mass_kg = 1e4\nea_n = {axial:?}\nei_nm2 = {bending:?}\ndamping_ratio = 0.02\n"
+            "kind = 'aframe'\nheight_m = 61.0\nwidth_m = 12.2\nmass_kg = {mass:?}\n\
+             foot_mass_kg = 1e4\nea_n = {axial:?}\nei_nm2 = {bending:?}\ndamping_ratio = 0.02\n"
         );
         let structure: ElasticStructure = toml::from_str(&spec).unwrap();
         let (alpha, landing) = (structure.body().alpha(), landing_speed(&structure));
@@ -188,7 +189,8 @@ fn legs_of_any_stiffness_follow_the_reference() {
         let [rotation, drift] = judged.errors;
         let touches = judged.touches as f64 / trial.landings as f64;
         println!(
-            "{shortening:e} from {lean} alpha: {rotation:.1e} {drift:.1e}, {touches:.1} touches to each of {} landings",
+            "{shortening:e} from {lean} alpha: {rotation:.1e} {drift:.1e}, {touches:.1} touches to \
+             each of {} landings",
             trial.landings
         );
         assert!(rotation < 1e-3 && drift < 5e-3, "{shortening:e}: {rotation:e} {drift:e}");
@@ -299,8 +301,10 @@ fn a_corner_that_carries_nothing_slides_as_on_rigid_ground() {
 #[test]
 fn a_corner_that_lands_flat_slides_on_springs_as_on_rigid_ground() {
     let structure: ElasticStructure = toml::from_str(
-        "kind = 'frame'\nheight_m = 7.14\nspan_m = 5.78\nfooting_width_m = 1.46\nfooting_height_m = 0.767\nfooting_mass_kg = 38e3\n\
-         beam_mass_kg = 653e3\ncolumn_ea_n = 4.18e10\ncolumn_ei_nm2 = 1.69e9\nbeam_ea_n = 9.05e9\nbeam_ei_nm2 = 8e9\ndamping_ratio = 0.03\n",
+        "kind = 'frame'\nheight_m = 7.14\nspan_m = 5.78\nfooting_width_m = 1.46\n\
+         footing_height_m = 0.767\nfooting_mass_kg = 38e3\n\
+         beam_mass_kg = 653e3\ncolumn_ea_n = 4.18e10\ncolumn_ei_nm2 = 1.69e9\nbeam_ea_n = 9.05e9\n\
+         beam_ei_nm2 = 8e9\ndamping_ratio = 0.03\n",
     )
     .unwrap();
     let model = Assembled::new(structure).unwrap();
@@ -332,8 +336,10 @@ fn a_corner_that_lands_flat_slides_on_springs_as_on_rigid_ground() {
 #[test]
 fn histories_on_stiff_springs_get_to_their_end() {
     let structure: ElasticStructure = toml::from_str(
-        "kind = 'frame'\nheight_m = 8.0\nspan_m = 10.0\nfooting_width_m = 2.5\nfooting_height_m = 1.0\nfooting_mass_kg = 30e3\n\
-         beam_mass_kg = 200e3\ncolumn_ea_n = 3e10\ncolumn_ei_nm2 = 4e9\nbeam_ea_n = 4e10\nbeam_ei_nm2 = 8e9\ndamping_ratio = 0.02\n",
+        "kind = 'frame'\nheight_m = 8.0\nspan_m = 10.0\nfooting_width_m = 2.5\n\
+         footing_height_m = 1.0\nfooting_mass_kg = 30e3\n\
+         beam_mass_kg = 200e3\ncolumn_ea_n = 3e10\ncolumn_ei_nm2 = 4e9\nbeam_ea_n = 4e10\n\
+         beam_ei_nm2 = 8e9\ndamping_ratio = 0.02\n",
     )
     .unwrap();
     let model = Assembled::new(structure).unwrap();

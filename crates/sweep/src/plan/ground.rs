@@ -108,7 +108,8 @@ fn of_pulse(
                 Some(gamma) => source.within("gamma", gamma, 1.0, 10.0)?,
                 None => return Err(source.at(
                     &pulse.shape,
-                    "a Mavroeidis-Papageorgiou pulse needs gamma, its oscillations, 1 to 10, and nu, their phase [rad]",
+                    "a Mavroeidis-Papageorgiou pulse needs gamma, its oscillations, 1 to 10, and \
+                     nu, their phase [rad]",
                 )),
             };
             PulseShape::MavroeidisPapageorgiou {

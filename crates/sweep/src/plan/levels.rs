@@ -46,7 +46,8 @@ pub(super) fn levels(
     let mut levels = source.all_within(name, values, 1e-6, most)?;
     if kind == SweepKind::Overturning {
         if measure != Measure::PgaOverUplift || levels.len() < 2 {
-            let remedy = "an overturning spectrum scans pga_over_uplift; give a range, as { from = 1.0, to = 12.0, count = 400, spacing = \"log\" }";
+            let remedy = "an overturning spectrum scans pga_over_uplift; give a range, as { from = \
+                          1.0, to = 12.0, count = 400, spacing = \"log\" }";
             return Err(source.at(values, remedy));
         }
         levels.sort_by(f64::total_cmp);

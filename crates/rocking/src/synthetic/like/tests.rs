@@ -58,7 +58,8 @@ fn spectra_are_those_of_the_given_motion() {
         let (least, most) =
             ratios.iter().fold((f64::INFINITY, 0.0_f64), |(a, b), x| (a.min(*x), b.max(*x)));
         println!(
-            "{}: {from:.2} to {to:.2} s, worst {worst:.3}, rms {worst_rms:.3}, means {least:.3} to {most:.3}",
+            "{}: {from:.2} to {to:.2} s, worst {worst:.3}, rms {worst_rms:.3}, means {least:.3} to \
+             {most:.3}",
             record.name
         );
         assert!(worst < 1.3_f64.ln() && worst_rms < 0.10, "{worst} {worst_rms}");
@@ -161,7 +162,8 @@ fn what_no_motion_can_be_like_is_refused() {
     let said = MotionTarget::new(&short).unwrap_err().to_string();
     assert_eq!(
         said,
-        "short: 199 samples; motions like it need 200 to 400000: give a longer record, or duration_s"
+        "short: 199 samples; motions like it need 200 to 400000: give a longer record, or \
+         duration_s"
     );
     // steps as coarse as they come, a single sample that moves: no panic, no NaN
     for (dt, at) in [(1.0, 100), (1e-6, 0), (0.01, 199)] {

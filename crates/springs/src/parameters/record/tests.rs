@@ -77,8 +77,10 @@ fn the_embedded_record_is_remembered_as_such_and_numbers_are_said_to_be_nowhere(
         .to_string();
     assert_eq!(
         error,
-        "p.json: its record made was given as numbers and is in no file; save it as a column of accelerations, in Python \
-         numpy.savetxt(\"motion.txt\", record.accel), and name it with --record motion.txt --dt 0.01 --units m/s2"
+        "p.json: its record made was given as numbers and is in no file; save it as a column of \
+         accelerations, in Python \
+         numpy.savetxt(\"motion.txt\", record.accel), and name it with --record motion.txt --dt \
+         0.01 --units m/s2"
     );
 }
 

@@ -25,7 +25,8 @@ pub enum ReferredError {
     #[error(transparent)]
     TooShort(#[from] JobError),
     #[error(
-        "{record}: {steps} steps at least, one to a sample, are out of reach: a history of this structure may take {most}; \
+        "{record}: {steps} steps at least, one to a sample, are out of reach: a history of this \
+         structure may take {most}; \
          shorten it (--duration), give the structure fewer elements, or allow more (--work)"
     )]
     OutOfReach { record: String, steps: usize, most: usize },

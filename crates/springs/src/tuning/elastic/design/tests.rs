@@ -67,7 +67,8 @@ fn the_give_asked_for_is_that_of_k1() {
 #[test]
 fn units_under_a_point_foot_are_those_of_its_mass() {
     let frame = toml::from_str(
-        "kind = 'aframe'\nheight_m = 61.0\nwidth_m = 12.2\nmass_kg = 680.1e3\nfoot_mass_kg = 5e3\nea_n = 6.7e9\nei_nm2 = 1e10\ndamping_ratio = 0.02\n",
+        "kind = 'aframe'\nheight_m = 61.0\nwidth_m = 12.2\nmass_kg = 680.1e3\nfoot_mass_kg = 5e3\n\
+         ea_n = 6.7e9\nei_nm2 = 1e10\ndamping_ratio = 0.02\n",
     )
     .unwrap();
     let standing = stand(&Assembled::new(frame).unwrap()).unwrap();
