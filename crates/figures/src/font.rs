@@ -31,7 +31,8 @@ mod tests {
 
     #[test]
     fn both_faces_have_every_letter_that_the_figures_use() {
-        let letters = "0123456789abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ.,:;()[]|/+−–±×·≤≥∝Δ%²³⁰¹⁴⁵⁶⁷⁸⁹⁻Ωₙαθξμωπ₁₂āōé";
+        let letters = "0123456789abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ\
+                       .,:;()[]|/+−–±×·≤≥∝Δ%²³⁰¹⁴⁵⁶⁷⁸⁹⁻Ωₙαθξμωπ₁₂āōé";
         for bold in [false, true] {
             let face = face(bold).unwrap();
             let missing: String =

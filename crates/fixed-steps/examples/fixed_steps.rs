@@ -103,7 +103,8 @@ fn answer(asked: &Asked) -> Result<Value, Box<dyn Error>> {
                 return Err("no test".into());
             };
             Ok(json!({
-                "vertical": unit(vertical), "horizontal": unit(horizontal), "inertia": springs.rotational_inertia(),
+                "vertical": unit(vertical), "horizontal": unit(horizontal),
+                "inertia": springs.rotational_inertia(),
                 "tolerance": tolerance, "median": springs.expected().median,
             }))
         }

@@ -33,8 +33,8 @@ const INERTIA_OF_ITS_OWN: f64 = 1e-3;
 /// least that.
 pub const STANDING: f64 = 1e-3;
 
-/// NRMSE of u by which `motion`, the history of the model on `record`, is moved by a relative change
-/// of the width by 1e-5.
+/// NRMSE of u by which `motion`, the history of the model on `record`, is moved by a relative
+/// change of the width by 1e-5.
 pub fn width_sensitivity(motion: &Motion, parameters: &Parameters, record: &Record) -> f64 {
     nrmse(&slightly_wider(parameters, record).u, &motion.u)
 }

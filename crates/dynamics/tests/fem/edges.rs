@@ -228,10 +228,10 @@ fn near_alpha_the_body_stays_long_and_then_decides() {
             let landed = back.landings[0].time * p / 2e6_f64.ln();
             assert!((landed - 1.0).abs() < 0.02, "{landed}");
             let over = free(&structure, springs, side * alpha * (1.0 + 1e-6), dt, n);
+            let falls = over.outcome;
             assert!(
-                matches!(over.outcome, HistoryOutcome::Overturned { time } if time * p > 2e6_f64.ln()),
-                "{:?}",
-                over.outcome
+                matches!(falls, HistoryOutcome::Overturned { time } if time * p > 2e6_f64.ln()),
+                "{falls:?}"
             );
             // falling flat the body lets its foot go, and that may touch again; the other does not
             assert!(over.energy_residual < 1e-6 && over.impacts() == 0);

@@ -21,7 +21,8 @@
 //! Without vertical motion gamma0 = 1 and dgamma = 0, which `V`, whether there is any, tells the
 //! compiler.
 
-#![allow(clippy::needless_range_loop)] // indices with constant bounds let the compiler unroll early, and run lanes side by side
+// indices with constant bounds let the compiler unroll early, and run lanes side by side
+#![allow(clippy::needless_range_loop)]
 
 use std::f64::consts::FRAC_PI_2;
 use std::ops::{Add, Div, Mul, Neg, Sub};

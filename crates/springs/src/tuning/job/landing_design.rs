@@ -93,7 +93,7 @@ impl LandingDesign<'_> {
         Ok((best.ok_or(JobError::NoCandidate)?, true))
     }
 
-    /// Springs of a restitution that is not equation 2's, within the cap; and whether one was given.
+    /// Springs of a restitution that is not equation 2's, within the cap; whether it was given.
     fn bouncing(
         &self,
         progress: &(dyn Fn(usize, usize, f64) + Sync),

@@ -225,10 +225,19 @@ impl Kernel {
                 let delta = self.delta(K, l);
                 let (delta, counts) = if K == X || K == Z {
                     // their rows; the remainder only bounds the index where K is neither
-                    let turned = [self.turned[0][K % 2][l], self.turned[1][K % 2][l], self.turned[2][K % 2][l]];
+                    let [t0, t1, t2] = &self.turned;
+                    let turned = [t0[K % 2][l], t1[K % 2][l], t2[K % 2][l]];
                     let (carried, lever) = (turning::carried(turn, turned), self.lever[K % 2][l]);
-                    let free = [delta[0] - carried[0], delta[1] - carried[1], delta[2] - carried[2]];
-                    let foot = [delta[0] + turn[0] * lever, delta[1] + turn[1] * lever, delta[2] + turn[2] * lever];
+                    let free = [
+                        delta[0] - carried[0],
+                        delta[1] - carried[1],
+                        delta[2] - carried[2],
+                    ];
+                    let foot = [
+                        delta[0] + turn[0] * lever,
+                        delta[1] + turn[1] * lever,
+                        delta[2] + turn[2] * lever,
+                    ];
                     (pick(turning, free, delta), pick(turning, foot, delta))
                 } else if K == TH {
                     (delta, [delta[0] * length, delta[1] * length, delta[2] * length])
@@ -336,7 +345,8 @@ impl Kernel {
                     inside[M] = sign * gap;
                 });
                 // a sliding foot has a level of its own
-                unchanged &= stays_inside(&inside, self.gap_tolerance[l]) & (feet[I].closed() == feet[I].holds());
+                unchanged &= stays_inside(&inside, self.gap_tolerance[l])
+                    & (feet[I].closed() == feet[I].holds());
             });
             self.unchanged[l] = if unchanged { 1.0 } else { 0.0 };
         }
