@@ -108,15 +108,20 @@ pub fn fragility(plan: &Plan, fragility: &Fragility, ida: &Ida) -> Vec<String> {
     if plan.subjects.len() > SPOKEN_OF {
         said.push("- All structures are in fragility.csv.".into());
     }
+    said.push(on_bounds(fragility));
+    said
+}
+
+/// What the bounds rest on.
+fn on_bounds(fragility: &Fragility) -> String {
     let records = fragility.members.first().map_or(0, |member| member.records);
-    said.push(if records < 10 {
+    if records < 10 {
         format!("Bounds rest on {records} records only: take more.")
     } else {
         "Bounds take the histories of one record for one observation, however many levels it was \
          scaled to."
             .into()
-    });
-    said
+    }
 }
 
 /// Three significant digits, as short as they come.
