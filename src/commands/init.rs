@@ -101,6 +101,8 @@ column_ei_nm2 = 3e9      # and EI
 beam_ea_n = 4e10
 beam_ei_nm2 = 1e10
 damping_ratio = 0.02     # to critical, across
+# column_mass_kg = 40e3  # along each column
+# elements = 4           # to a column, where it has a mass
 ";
 
 const RESTITUTION: &str = "\

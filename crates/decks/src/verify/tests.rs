@@ -1,5 +1,5 @@
 //! What happens around OpenSees, with stand-ins for Python: the runs with OpenSees itself are in
-//! tests/opensees.rs.
+//! tests/opensees.
 
 use std::path::PathBuf;
 

@@ -109,7 +109,8 @@ pub fn parse_error(path: &str, text: &str, error: &toml::de::Error) -> CaseError
         text.lines().position(|line| line.split_once('=').is_some_and(|(k, _)| k.trim() == key))
     };
     let unknown = UnknownKey::of(whole);
-    let line = unknown.as_ref().and_then(|unknown| named(&unknown.key)).map_or(line, |i| i + 1);
+    let mistaken = unknown.as_ref().and_then(|unknown| named(&unknown.key));
+    let line = mistaken.or_else(|| text_for_number(whole, text)).map_or(line, |i| i + 1);
     // serde's names of numbers are not a user's
     let message = ["expected f64", "expected usize", "expected u64", "expected u32"]
         .iter()
@@ -144,6 +145,14 @@ pub fn parse_error(path: &str, text: &str, error: &toml::de::Error) -> CaseError
         None => format!("{message}; mend this line"),
     };
     CaseError::Parse { path: path.into(), line, message }
+}
+
+/// Where a text stands for a number, by serde's message: TOML may name the section's first line.
+fn text_for_number(message: &str, text: &str) -> Option<usize> {
+    let value = message.strip_prefix("invalid type: string ")?.split_once(", expected")?.0;
+    text.lines().position(|line| {
+        line.split_once('=').is_some_and(|(_, given)| given.trim().starts_with(value))
+    })
 }
 
 /// The line and the name of a key that stands for `kind`, where there is none: all other keys hang

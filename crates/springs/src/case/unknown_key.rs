@@ -20,8 +20,9 @@ impl UnknownKey {
         let key = quoted.next()?;
         let known: Vec<String> = quoted.collect();
         // a mass by its weight, where only masses are taken
-        let mass = known.iter().find(|known| key.starts_with("weight") && known.ends_with(MASS));
         let distance = |known: &&String| strsim::damerau_levenshtein(&key, known);
+        let masses = known.iter().filter(|known| key.contains("weight") && known.ends_with(MASS));
+        let mass = masses.min_by_key(distance);
         let like = known.iter().filter(|known| is_like(&key, known)).min_by_key(distance);
         let near = mass.or(like).cloned();
         Some(Self { key, near, known })
@@ -62,6 +63,7 @@ mod tests {
             ("mass_kg", "column_mass_kg"),
             ("weight_kn", "column_mass_kg"),
             ("ei", "ei_nm2"),
+            ("column_weight_kn", "column_mass_kg"),
         ] {
             assert_eq!(advice(key), format!("did you mean \"{near}\"?"), "{key}");
         }
