@@ -172,29 +172,38 @@ fn forces(run: &Run, most: usize, lines: &mut Vec<String>) {
     let of: Vec<String> = below.into_iter().chain(doubt).collect();
     let of = if of.is_empty() { String::new() } else { format!(" ({})", of.join("; ")) };
     let name = format!("design forces{of}  ");
-    let all = force_words(forces, |force| if doubted(force) { mark } else { "" });
-    // as many as the lines hold
-    for shown in (1..=all.len()).rev() {
-        let rest = if shown < all.len() { "; more in the report" } else { "" };
-        let mut some = Vec::new();
-        wrap_at(&mut some, &name, FORCES_INDENT, &(all[..shown].join("; ") + rest));
-        if some.len() <= most || shown == 1 {
-            lines.extend(some);
+    let words = |brief| force_words(forces, brief, |one| if doubted(one) { mark } else { "" });
+    let (full, brief) = (words(false), words(true));
+    // all of them, in brief if need be; else as many as the lines hold
+    let shorter = (1..brief.len()).rev().map(|shown| (&brief[..shown], "; more in the report"));
+    for (some, rest) in [(&full[..], ""), (&brief[..], "")].into_iter().chain(shorter) {
+        let mut told = Vec::new();
+        wrap_at(&mut told, &name, FORCES_INDENT, &(some.join("; ") + rest));
+        if told.len() <= most || some.len() == 1 {
+            lines.extend(told);
             break;
         }
     }
 }
 
-/// The forces in words, each with its mark; those withheld are named.
+/// The forces in words, each with its mark; those withheld are named. In brief without what the
+/// whole record has and without heights, which the report tells.
 fn force_words<'a>(
     forces: &DesignForces,
+    brief: bool,
     mark: impl Fn((ForceName, DesignForce)) -> &'a str,
 ) -> Vec<String> {
     // magnitudes: signs are in the report
-    let magnitude = |force: DesignForce| DesignForce { value: force.value.map(f64::abs), ..force };
+    let magnitude = |force: DesignForce| DesignForce {
+        value: force.value.map(f64::abs),
+        whole_record: force.whole_record.filter(|_| !brief),
+        above_base_m: force.above_base_m.filter(|_| !brief),
+        ..force
+    };
     let cell = |(name, force): (ForceName, DesignForce)| {
         let mark = mark((name, force));
-        format!("{} {}{mark}{}", name.words(), force_value(name, &magnitude(force)), height(&force))
+        let force = magnitude(force);
+        format!("{} {}{mark}{}", name.words(), force_value(name, &force), height(&force))
     };
     // the report has the vertical force, too
     let mut all: Vec<_> =
