@@ -123,7 +123,7 @@ fn said<T>(
                 part.seconds
             )
         }
-        _ => words::over(&part),
+        _ => words::over(part),
     };
     // writing to a String does not fail
     let _ = writeln!(
