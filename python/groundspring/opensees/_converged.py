@@ -143,17 +143,16 @@ def converged(
 def _again(stepper: Stepper, build: Callable[[], object], finer: float, longest: float, stiffer: float) -> Stepper:
     """The model built anew, on feet refined so, settled."""
     build()
-    groups = []
-    for feet in stepper.groups:
-        with warnings.catch_warnings():
-            # what there is to tell of the feet has been told
-            warnings.simplefilter("ignore")
+    given = stepper.given | {"accuracy": finer * stepper.accuracy, "longest": longest}
+    if given["landing"] is not None:
+        given["landing"] /= math.sqrt(stiffer)
+    with warnings.catch_warnings():
+        # what there is to tell of the feet has been told
+        warnings.simplefilter("ignore")
+        groups = []
+        for feet in stepper.groups:
             springs = feet.springs if stiffer == 1.0 else feet.springs.stiffer(stiffer)
             groups.append(add_feet(stepper.ops, feet.nodes, springs, measure=False, **feet.options))
-    given = dict(stepper.given)
-    landing = given.pop("landing")
-    if landing is not None:
-        given["landing"] = landing / math.sqrt(stiffer)
-    once = type(stepper)(stepper.ops, groups, **(given | {"accuracy": finer * stepper.accuracy, "longest": longest}))
+        once = type(stepper)(stepper.ops, groups, **given)
     once.gravity(*stepper.staged)
     return once

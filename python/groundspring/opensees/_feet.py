@@ -54,6 +54,7 @@ class Feet:
         self.bearings: tuple[int, ...] = ()
         self.materials: tuple[int, ...] = ()
         self.options: dict[str, Any] = {}
+        self.measured = isinstance(springs, FeetSprings)  # whether it was looked at what ties these feet
         # what the structure gives above the foot is taken off the gap's: both in series are k1
         self.gap_vertical, self.gap_horizontal = (
             np.array([unit.k1 / (1.0 - unit.k1 * compliance) for unit in units])
@@ -147,13 +148,13 @@ def add_feet(
 
     ValueError: a model that is not plane, nodes that are not there or fixed, that have feet already, or that have no mass under
     columns softer than the springs; numbers that mean nothing. GroundspringWarning: springs for three times the mass that lands,
-    or more; three or more feet that nothing holds together.
+    or more. UntiedFeetWarning: three or more feet that nothing holds together, if `springs_for` has not told it.
     """
     nodes = [int(node) for node in nodes]
     _check(ops, nodes, springs, compliance, friction)
-    if measure and compliance == 0.0:
-        _check_lands(ops, nodes, springs)
+    measured = measure and compliance == 0.0 and _check_lands(ops, nodes, springs)
     feet = Feet(ops, nodes, springs, compliance)
+    feet.measured |= measured
     feet.options = {"compliance": compliance, "friction": friction, "first_tag": first_tag}
     there = [*ops.getNodeTags(), *ops.getEleTags()]
     free = itertools.count(max([FIRST_TAG, *(tag + 1 for tag in there)]) if first_tag is None else first_tag)
@@ -260,8 +261,8 @@ def _check_bare(ops: Any, nodes: list[int]) -> None:
             )
 
 
-def _check_lands(ops: Any, nodes: list[int], springs: Springs | FeetSprings) -> None:
-    """Refuse feet without mass under soft columns; warn of springs for more than what lands."""
+def _check_lands(ops: Any, nodes: list[int], springs: Springs | FeetSprings) -> bool:
+    """Refuse feet without mass under soft columns; warn of springs for more than what lands. False: could not be measured."""
     units = [springs] * len(nodes) if isinstance(springs, Springs) else list(springs)
     omega = min(math.sqrt(unit.vertical.k1 / unit.mass) for unit in units)
     try:
@@ -270,7 +271,7 @@ def _check_lands(ops: Any, nodes: list[int], springs: Springs | FeetSprings) -> 
         if isinstance(springs, Springs):  # springs_for has told it
             tell_untied(model, 3)
     except NotMeasured:
-        return
+        return False
     for node, mass, unit in zip(nodes, lands, units, strict=True):
         stiffness = mass * omega**2
         if node in massless and stiffness < 0.5 * unit.vertical.k1:
@@ -288,6 +289,7 @@ def _check_lands(ops: Any, nodes: list[int], springs: Springs | FeetSprings) -> 
             "take springs_for(ops, nodes)"
         )
         warnings.warn(text, GroundspringWarning, stacklevel=3)
+    return True
 
 
 def _check_mass(ops: Any, mass: float) -> None:

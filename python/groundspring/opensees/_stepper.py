@@ -14,7 +14,7 @@ from ._account import Books
 from ._converged import Convergence, converged
 from ._feet import FIRST_TAG, Feet, _radius, take
 from ._history import FeetHistory, Watch
-from ._springs_for import FeetSprings
+from ._springs_for import FeetSprings, tell_untied_groups
 from ._staging import Staging, StepError
 from ._steps import Watched, routine
 
@@ -48,6 +48,9 @@ class Stepper(Staging):
 
     Nothing of the model is wiped. The analysis objects, of which OpenSees has one set, are the stepper's from here on;
     recorders go on recording, at every step.
+
+    UntiedFeetWarning: three or more feet of one structure that nothing holds together, if neither `springs_for` nor `add_feet` saw
+    them all.
     """
 
     def __init__(
@@ -88,6 +91,8 @@ class Stepper(Staging):
         self._weight = False
         self._told = self._began = 0
         self._known = None
+        if analysis:  # which is wiped for it
+            tell_untied_groups(ops, self.groups, constraints, 2)
 
     def advance_to(self, t: float) -> None:
         """To time t, s, in steps that end there.
