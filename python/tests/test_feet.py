@@ -284,3 +284,43 @@ def test_structures_apart_are_not_tied_to_each_other(ops: Any) -> None:
         ops.element("elasticBeamColumn", 301 + i, a, b, 149e-4, 210e9, 2.517e-4, 1)
     groups = [add_feet(ops, pair, springs_for(ops, pair)) for pair in (nodes, [11, 12])]
     assert len(Stepper(ops, groups).groups) == 2
+
+
+def test_masses_of_elements_that_nothing_gives_weight_to_are_told(ops: Any) -> None:
+    nodes = soft_frame(ops)
+    ops.element("elasticBeamColumn", 301, 101, 102, 62.6e-4, 210e9, 1.177e-4, 1, "-mass", 500.0)
+    stepper = Stepper(ops, add_feet(ops, nodes, springs_for(ops, nodes)))
+    words = "elements have 1500 kg of mass .* beside the 4.2e.04 kg of the nodes; .* gravity\\(\"own\"\\)"
+    with pytest.warns(gs.GroundspringWarning, match=words) as caught:
+        stepper.gravity()
+    assert [one.filename for one in caught] == [__file__]
+
+
+def test_what_a_newcomer_gets_wrong_is_said_in_his_own_words(ops: Any) -> None:
+    nodes = soft_frame(ops)
+    with pytest.raises(ValueError, match="springs_for: nodes are 1; give a list of the tags"):
+        springs_for(ops, 1)  # type: ignore[arg-type]
+    ops.fix(2, 0, 1, 0)
+    with pytest.raises(ValueError, match="springs_for: node 2 is fixed in direction 2; a foot must be free"):
+        springs_for(ops, nodes)
+
+    def with_feet() -> None:
+        ops.wipe()
+        add_feet(ops, soft_frame(ops), springs)
+
+    ops.wipe()
+    springs = springs_for(ops, soft_frame(ops))
+    stepper = Stepper(ops, add_feet(ops, nodes, springs))
+    with pytest.raises(ValueError, match="springs_for: node 1 stands on a bearing already"):
+        springs_for(ops, nodes)
+    stepper.gravity()
+    with pytest.raises(ValueError, match="converged: build leaves feet in the model; it makes the model anew"):
+        stepper.converged(RECORD, with_feet)
+
+
+def test_uplift_is_drawn_with_a_line_a_foot(ops: Any) -> None:
+    nodes = soft_frame(ops)
+    stepper = Stepper(ops, add_feet(ops, nodes, springs_for(ops, nodes)))
+    stepper.gravity()
+    axes = stepper.run(RECORD.truncated(0.05)).plot()
+    assert [line.get_label() for line in axes.lines] == ["node 1", "node 2"] and axes.get_ylabel() == "uplift [mm]"

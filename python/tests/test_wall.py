@@ -109,8 +109,8 @@ def test_halved_steps_and_springs_come_as_a_table(ops: Any) -> None:
     assert found.names == ("uplift", "roof") and len(found.rows) == 6
     assert found.largest < 0.02 and found.sensitivity < 1e-4
     # the tendon's force is the structure's; those of the ground in a landing grow with the springs
-    assert found.forces == ("tendon", "foot, vertical", "foot, horizontal") and found.force_changes["tendon"] < 0.02
-    assert "forces: the structure's: tendon (" in str(found).splitlines()[-1] and "foot, vertical" in found._repr_html_()
+    assert found.forces == ("tendon", "vertical at a foot", "horizontal at a foot") and found.force_changes["tendon"] < 0.02
+    assert "forces: the structure's: tendon (" in str(found).splitlines()[-1] and "vertical at a foot" in found._repr_html_()
     assert history.force_changes == found.force_changes == found.history.force_changes
     assert "; forces: the structure's: tendon (" in repr(history)
     assert found.to_pandas().shape == (6, 11) and "\n" not in repr(found) and found._repr_html_().startswith("<table>")
@@ -130,6 +130,6 @@ def test_a_force_that_moves_with_the_springs_is_not_the_structures() -> None:
     found = Convergence(["uplift"], rows, ["moment", "shear"], history)
     # the ground that shakes by a millionth more is no refinement
     assert found.force_changes == pytest.approx({"moment": 0.049, "shear": 0.05})
-    assert str(found).splitlines()[-1] == "forces: the structure's: moment (4.9%); they move with springs and steps: shear (5.0%)"
-    assert repr(history).endswith("forces: the structure's: moment (4.9%); they move with springs and steps: shear (5.0%))")
+    words = "forces: the structure's: moment (4.9 %); not the structure's, but of springs and steps: shear (5.0 %)"
+    assert str(found).splitlines()[-1] == words and repr(history).endswith(f"{words})")
     assert found.largest == 0.0

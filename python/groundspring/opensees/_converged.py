@@ -12,6 +12,7 @@ import numpy as np
 
 from ._feet import add_feet
 from ._history import said_of_forces
+from ._measure import OnFeet, check_free
 
 if TYPE_CHECKING:
     import pandas
@@ -22,7 +23,7 @@ if TYPE_CHECKING:
 
 TWIN = 1e-6
 """By how much more the ground shakes under the twin."""
-FEET = ("foot, vertical", "foot, horizontal")
+FEET = ("vertical at a foot", "horizontal at a foot")
 """The largest forces of the ground on a foot: they are looked at unasked."""
 
 
@@ -168,6 +169,13 @@ def converged(
 def _again(stepper: Stepper, build: Callable[[], object], finer: float, longest: float, stiffer: float) -> Stepper:
     """The model built anew, on feet refined so, settled."""
     build()
+    try:
+        check_free(stepper.ops, [node for feet in stepper.groups for node in feet.nodes], "converged")
+    except OnFeet as error:
+        raise ValueError(
+            "converged: build leaves feet in the model; it makes the model anew, from ops.wipe() on, without feet: these are "
+            "put on as the stepper's were"
+        ) from error
     given = stepper.given | {"accuracy": finer * stepper.accuracy, "longest": longest}
     if given["landing"] is not None:
         given["landing"] /= math.sqrt(stiffer)

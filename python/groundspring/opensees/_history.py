@@ -10,6 +10,7 @@ import numpy as np
 
 if TYPE_CHECKING:
     import pandas
+    from matplotlib.axes import Axes
 
     from ._account import Account
     from ._feet import Array
@@ -22,10 +23,10 @@ def said_of_forces(changes: Mapping[str, float] | None) -> str:
     """Which forces are the structure's own, by their largest changes with steps and springs."""
     if changes is None:
         return "not checked"
-    own = [f"{name} ({change:.1%})" for name, change in changes.items() if change < MOST_CHANGE]
-    other = [f"{name} ({change:.1%})" for name, change in changes.items() if not change < MOST_CHANGE]
+    own = [f"{name} ({100.0 * change:.1f} %)" for name, change in changes.items() if change < MOST_CHANGE]
+    other = [f"{name} ({100.0 * change:.1f} %)" for name, change in changes.items() if not change < MOST_CHANGE]
     said = [f"the structure's: {', '.join(own)}"] if own else []
-    return "; ".join([*said, *([f"they move with springs and steps: {', '.join(other)}"] if other else [])])
+    return "; ".join([*said, *([f"not the structure's, but of springs and steps: {', '.join(other)}"] if other else [])])
 
 
 @dataclass(repr=False)
@@ -86,6 +87,18 @@ class FeetHistory:
         is neither stored nor taken by dashpots."""
         gained: Array = self.stored - self.stored[0]
         return self.work - gained - self.dissipated
+
+    def plot(self, axes: Axes | None = None) -> Axes:
+        """Uplift of every foot, mm, over time, s; a line a foot."""
+        from .._plots import _axes
+
+        axes = _axes(axes)
+        for node, uplift in zip(self.nodes, self.uplift.T, strict=True):
+            axes.plot(self.t, 1e3 * uplift, linewidth=0.8, label=f"node {node}")
+        axes.set_xlabel("time [s]")
+        axes.set_ylabel("uplift [mm]")
+        axes.legend()
+        return axes
 
     def to_pandas(self) -> pandas.DataFrame:
         """A row a sample; columns of a foot end in its node's tag."""

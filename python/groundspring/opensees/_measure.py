@@ -30,6 +30,35 @@ COUPLED = 0.1
 """Feet whose motions W couples by more than this share belong to one part, as the two ends of a footing."""
 
 
+def node_tags(nodes: Sequence[int], call: str) -> list[int]:
+    """The nodes as a list of whole numbers."""
+    try:
+        return [int(node) for node in nodes]
+    except TypeError:
+        raise ValueError(f"{call}: nodes are {nodes!r}; give a list of the tags of the nodes that stand on the ground") from None
+
+
+def check_free(ops: Any, nodes: Sequence[int], call: str) -> None:
+    """Refuse nodes that are fixed, or that stand on springs already."""
+    fixed = set(ops.getFixedNodes() or [])
+    for node in nodes:
+        held = sorted({1, 2} & set(ops.getFixedDOFs(node))) if node in fixed else []
+        if held:
+            raise ValueError(f"{call}: node {node} is fixed in direction {held[0]}; a foot must be free: take the fix off")
+    wanted = set(nodes)
+    for element in ops.getEleTags():
+        ends = set(ops.eleNodes(element)) & wanted
+        if ends and ops.eleType(element).startswith("FlatSlider"):
+            raise OnFeet(
+                f"{call}: node {min(ends)} stands on a bearing already (element {element}); a node gets one foot: keep the feet "
+                "that the first call returned, or begin the model anew"
+            )
+
+
+class OnFeet(ValueError):
+    """A node has a foot already."""
+
+
 class NotMeasured(ValueError):
     """The model is too large for full matrices, or OpenSees does not assemble them."""
 
@@ -55,6 +84,7 @@ class Model:
     constraints  handler of the model's constraints between nodes
     absorbers    of the nodes that have springs already, by node: these springs are taken off
     there        nodes that hang together with the feet
+    nodal        vertical masses of these nodes, kg: what is more in the matrix is that of elements
     """
 
     def __init__(
@@ -75,6 +105,7 @@ class Model:
         self.stiffness = 0.5 * (self.stiffness + self.stiffness.T)
         self.feet = [index[dof] for dof in feet]
         self.places = np.array([ops.nodeCoord(node) for node in nodes])
+        self.nodal = sum(float(ops.nodeMass(node, 2)) for node in self.there)
         # rigid motions: to the right, up, and a turn about the origin
         self.rigid = np.zeros((3, len(rows)))
         for node, of in dofs.items():

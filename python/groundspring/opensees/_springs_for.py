@@ -10,7 +10,7 @@ from typing import TYPE_CHECKING, Any, overload
 import numpy as np
 
 from .._native import GroundspringWarning, Springs, _units_for
-from ._measure import Model, NotMeasured
+from ._measure import Model, NotMeasured, check_free, node_tags
 
 if TYPE_CHECKING:
     from ._feet import Feet
@@ -92,15 +92,16 @@ def springs_for(ops: Any, nodes: Sequence[int], accuracy: float = 0.01, *, const
     The model's mass and stiffness are assembled as they stand, before or after loads; nothing of it is changed, but OpenSees'
     analysis objects are wiped.
 
-    ValueError: nodes without mass, feet that carry none of the structure, more than 3,000 equations; accuracy not between 1e-4
-    and 0.1. UntiedFeetWarning: three or more feet that nothing holds together.
+    ValueError: nodes that are fixed, without mass, or on feet already; feet that carry none of the structure; more than 3,000
+    equations; accuracy not between 1e-4 and 0.1. UntiedFeetWarning: three or more feet that nothing holds together.
     """
-    nodes = [int(node) for node in nodes]
+    nodes = node_tags(nodes, "springs_for")
     if not 1e-4 <= accuracy <= 0.1:
         raise ValueError(f"springs_for: accuracy is {accuracy!r}; give a share of the largest displacement from 1e-4 to 0.1")
     there = set(ops.getNodeTags())
     if not nodes or len(set(nodes)) < len(nodes) or not there.issuperset(nodes):
         raise ValueError(f"springs_for: nodes are {nodes}; give the tags of nodes that are in the model, each once")
+    check_free(ops, nodes, "springs_for")
     try:
         model = Model(ops, nodes, constraints)
         found = _found(model, GIVE * accuracy)
