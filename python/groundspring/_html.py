@@ -20,6 +20,10 @@ def table(head: Sequence[str], rows: Iterable[Sequence[str]]) -> str:
     return f"<table><thead>{line(head, 'th')}</thead><tbody>{body}</tbody></table>" if any(head) else f"<table>{body}</table>"
 
 
+def paragraph(text: str) -> str:
+    return f"<p>{html.escape(text)}</p>"
+
+
 def record(of: Record) -> str:
     up = "none" if of.vertical is None else f"{of.vertical.pga_g:.4g} g"
     rows = [

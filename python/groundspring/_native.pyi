@@ -375,7 +375,8 @@ def _unit_design(mu: float, f: float, xi: float, omega_n_hz: float) -> UnitDesig
 class Simulation:
     """The finite element history on springs, beside Housner's on the same record.
 
-    Forces are, at every sample, those of largest magnitude since the sample before.
+    Forces are, at every sample, those of largest magnitude since the sample before. They are not checked: those of a landing are
+    the springs', as large as these are stiff.
     """
 
     @property

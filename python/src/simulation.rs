@@ -34,7 +34,8 @@ use crate::{
 
 /// The finite element history on springs, beside Housner's on the same record.
 ///
-/// Forces are, at every sample, those of largest magnitude since the sample before.
+/// Forces are, at every sample, those of largest magnitude since the sample before. They are not
+/// checked: those of a landing are the springs', as large as these are stiff.
 #[pyclass(frozen, module = "groundspring")]
 pub struct Simulation {
     structure: Structure,
@@ -268,7 +269,7 @@ impl Simulation {
     fn __repr__(&self) -> String {
         let m = &self.both().matched;
         format!(
-            "Simulation({}, NRMSE of u {:.2e}, of v {:.2e})",
+            "Simulation({}, NRMSE of u {:.2e}, of v {:.2e}, forces not checked)",
             self.outcome(),
             m.nrmse_horizontal,
             m.nrmse_vertical

@@ -1,5 +1,7 @@
 """add_feet and Stepper on models of a user's own: tags, checks, recorders, several structures, failures."""
 
+import re
+import warnings
 from pathlib import Path
 from typing import Any
 
@@ -8,7 +10,7 @@ import pytest
 from conftest import rigid_body
 
 import groundspring as gs
-from groundspring.opensees import StepError, Stepper, add_feet, springs_for
+from groundspring.opensees import StepError, Stepper, UntiedFeetWarning, add_feet, springs_for
 
 FRAME = gs.Structure.aframe(12.0, 2.4, 350e3)
 SPRINGS = gs.design(FRAME, stiffness=2e4).springs(FRAME.mass, np.hypot(12.0, 1.2))
@@ -221,9 +223,104 @@ def test_springs_for_more_than_lands_are_told_with_their_cause(ops: Any) -> None
         add_feet(ops, feet, springs)
 
 
+def told(caught: list[warnings.WarningMessage]) -> int:
+    return sum(issubclass(one.category, UntiedFeetWarning) for one in caught)
+
+
 def test_three_feet_that_nothing_ties_are_told_before_the_run(ops: Any) -> None:
-    feet = soft_frame(ops, 3)
-    with pytest.warns(gs.GroundspringWarning, match="3 feet, and what ties them gives .* tie the feet"):
-        springs_for(ops, feet)
+    with warnings.catch_warnings(record=True) as caught:
+        warnings.simplefilter("always")
+        feet = add_feet(ops, nodes := soft_frame(ops, 3), springs_for(ops, nodes))
+        Stepper(ops, feet)
+    assert told(caught) == 1 and caught[0].filename == __file__
+    words = "3 feet, and what ties nodes [12] and [23] gives [0-9.]+ mm under .* tie the feet \\(a grade beam\\)"
+    assert re.match(words, str(caught[0].message))
+    assert ops.getTime() == 0.0 and np.abs([ops.nodeDisp(node, k) for node in ops.getNodeTags() for k in (1, 2)]).max() == 0.0
+
+
+@pytest.mark.parametrize(("count", "tied"), [(3, True), (2, False)])
+def test_tied_feet_and_two_feet_are_not_told(ops: Any, count: int, tied: bool) -> None:
+    nodes = soft_frame(ops, count, tied=tied)
+    springs = springs_for(ops, nodes)
+    groups = [add_feet(ops, [node], springs[i], measure=False) for i, node in enumerate(nodes)]
+    # warnings are errors here
+    assert len(Stepper(ops, groups).groups) == count
     ops.wipe()
-    add_feet(ops, feet := soft_frame(ops, 3, tied=True), springs_for(ops, feet))
+    assert add_feet(ops, soft_frame(ops, count, tied=tied), springs[0]).measured
+
+
+def test_untied_feet_are_told_whoever_sees_them_all_first(ops: Any) -> None:
+    """springs for all in `add_feet`; one call of it a foot, and then the stepper."""
+    nodes = soft_frame(ops, 3, tied=True)
+    unit = springs_for(ops, nodes)[0]
+    ops.wipe()
+    with warnings.catch_warnings(record=True) as caught:
+        warnings.simplefilter("always")
+        feet = add_feet(ops, soft_frame(ops, 3), unit)
+        assert told(caught) == 1 and caught[0].filename == __file__
+        Stepper(ops, feet)
+        assert told(caught) == 1
+        ops.wipe()
+        soft_frame(ops, 3)
+        groups = [add_feet(ops, [node], unit, measure=False) for node in nodes]
+        assert told(caught) == 1
+        stepper = Stepper(ops, groups)
+    assert told(caught) == 2 and caught[-1].filename == __file__
+    # the springs were taken off: what ties the feet gives what it did
+    first, last = (str(one.message) for one in (caught[0], caught[-1]))
+    assert first == last
+    stepper.gravity()
+    assert stepper.weight == pytest.approx(3 * 21e3 * gs.GRAVITY, rel=1e-6)
+
+
+def test_structures_apart_are_not_tied_to_each_other(ops: Any) -> None:
+    """Two frames of two feet each in one model are two structures."""
+    nodes = soft_frame(ops)
+    for node in (1, 2, 101, 102):
+        x, y = ops.nodeCoord(node)
+        ops.node(10 + node, x + 20.0, y)
+        ops.mass(10 + node, *[ops.nodeMass(node, 1)] * 2, 0.0)
+    for i, (a, b) in enumerate(((11, 111), (12, 112), (111, 112))):
+        ops.element("elasticBeamColumn", 301 + i, a, b, 149e-4, 210e9, 2.517e-4, 1)
+    groups = [add_feet(ops, pair, springs_for(ops, pair)) for pair in (nodes, [11, 12])]
+    assert len(Stepper(ops, groups).groups) == 2
+
+
+def test_masses_of_elements_that_nothing_gives_weight_to_are_told(ops: Any) -> None:
+    nodes = soft_frame(ops)
+    ops.element("elasticBeamColumn", 301, 101, 102, 62.6e-4, 210e9, 1.177e-4, 1, "-mass", 500.0)
+    stepper = Stepper(ops, add_feet(ops, nodes, springs_for(ops, nodes)))
+    words = "elements have 1500 kg of mass .* beside the 4.2e.04 kg of the nodes; .* gravity\\(\"own\"\\)"
+    with pytest.warns(gs.GroundspringWarning, match=words) as caught:
+        stepper.gravity()
+    assert [one.filename for one in caught] == [__file__]
+
+
+def test_what_a_newcomer_gets_wrong_is_said_in_his_own_words(ops: Any) -> None:
+    nodes = soft_frame(ops)
+    with pytest.raises(ValueError, match="springs_for: nodes are 1; give a list of the tags"):
+        springs_for(ops, 1)  # type: ignore[arg-type]
+    ops.fix(2, 0, 1, 0)
+    with pytest.raises(ValueError, match="springs_for: node 2 is fixed in direction 2; a foot must be free"):
+        springs_for(ops, nodes)
+
+    def with_feet() -> None:
+        ops.wipe()
+        add_feet(ops, soft_frame(ops), springs)
+
+    ops.wipe()
+    springs = springs_for(ops, soft_frame(ops))
+    stepper = Stepper(ops, add_feet(ops, nodes, springs))
+    with pytest.raises(ValueError, match="springs_for: node 1 stands on a bearing already"):
+        springs_for(ops, nodes)
+    stepper.gravity()
+    with pytest.raises(ValueError, match="converged: build leaves feet in the model; it makes the model anew"):
+        stepper.converged(RECORD, with_feet)
+
+
+def test_uplift_is_drawn_with_a_line_a_foot(ops: Any) -> None:
+    nodes = soft_frame(ops)
+    stepper = Stepper(ops, add_feet(ops, nodes, springs_for(ops, nodes)))
+    stepper.gravity()
+    axes = stepper.run(RECORD.truncated(0.05)).plot()
+    assert [line.get_label() for line in axes.lines] == ["node 1", "node 2"] and axes.get_ylabel() == "uplift [mm]"

@@ -10,7 +10,8 @@ from conftest import load
 from test_feet import soft_frame
 
 import groundspring as gs
-from groundspring.opensees import Stepper, add_feet, springs_for
+from groundspring.opensees import Convergence, FeetHistory, Stepper, add_feet, springs_for
+from groundspring.opensees._converged import TWIN_NAME, Refined
 
 ROOT = Path(__file__).parent.parent.parent
 wall: Any = load(ROOT / "python" / "examples" / "rocking_wall.py")
@@ -99,13 +100,36 @@ def test_halved_steps_and_springs_come_as_a_table(ops: Any) -> None:
     nodes = [wall.LEFT, wall.RIGHT]
     stepper = Stepper(ops, add_feet(ops, nodes, springs_for(ops, nodes)), longest=record.dt / 4)
     stepper.gravity()
-    quantities = {"roof": lambda: ops.nodeDisp(wall.TOP, 1), "tendon": wall.tendon}
-    found = stepper.converged(record, wall.build, quantities, after=wall.dissipaters)
+    wall.dissipaters()
+    history = stepper.run(record)
+    assert "forces: not checked" in repr(history) and history.force_changes is None
+    quantities, forces = {"roof": lambda: ops.nodeDisp(wall.TOP, 1)}, {"tendon": wall.tendon}
+    found = stepper.converged(record, wall.build, quantities, forces=forces, after=wall.dissipaters)
     print(found)
-    assert found.names == ("uplift", "roof", "tendon") and len(found.rows) == 5
+    assert found.names == ("uplift", "roof") and len(found.rows) == 6
     assert found.largest < 0.02 and found.sensitivity < 1e-4
-    assert str(found).splitlines()[0].split() == ["steps", "uplift", "roof", "tendon"]
-    assert found.to_pandas().shape == (5, 7) and "\n" not in repr(found) and found._repr_html_().startswith("<table>")
+    # the tendon's force is the structure's; those of the ground in a landing grow with the springs
+    assert found.forces == ("tendon", "vertical at a foot", "horizontal at a foot") and found.force_changes["tendon"] < 0.02
+    assert "forces: the structure's: tendon (" in str(found).splitlines()[-1] and "vertical at a foot" in found._repr_html_()
+    assert history.force_changes == found.force_changes == found.history.force_changes
+    assert "; forces: the structure's: tendon (" in repr(history)
+    assert found.to_pandas().shape == (6, 11) and "\n" not in repr(found) and found._repr_html_().startswith("<table>")
     assert math.isclose(found.rows[0].values[0], found.to_pandas()["uplift"].iloc[0])
     with pytest.raises(ValueError, match="a quantity is not a function"):
         stepper.converged(record, wall.build, {"roof": 1.0})  # type: ignore[dict-item]
+    with pytest.raises(ValueError, match="the name 'roof' is there already"):
+        stepper.converged(record, wall.build, quantities, forces=quantities)
+
+
+def test_a_force_that_moves_with_the_springs_is_not_the_structures() -> None:
+    names = ("as asked", "accuracy halved", "longest step halved", "springs twice", "springs four times", TWIN_NAME)
+    moments, shears = (10.0, 10.1, 10.2, 9.9, 10.49, 10.6), (5.0, 5.0, 5.0, 5.1, 5.25, 5.0)
+    rows = [Refined(name, 1, values) for name, values in zip(names, zip((1.0,) * 6, moments, shears, strict=True), strict=True)]
+    history = FeetHistory((1,), np.zeros(1), *np.zeros((10, 1, 1)))
+    assert "forces: not checked" in repr(history)
+    found = Convergence(["uplift"], rows, ["moment", "shear"], history)
+    # the ground that shakes by a millionth more is no refinement
+    assert found.force_changes == pytest.approx({"moment": 0.049, "shear": 0.05})
+    words = "forces: the structure's: moment (4.9 %); not the structure's, but of springs and steps: shear (5.0 %)"
+    assert str(found).splitlines()[-1] == words and repr(history).endswith(f"{words})")
+    assert found.largest == 0.0

@@ -21,7 +21,7 @@ from ._account import Account
 from ._converged import Convergence
 from ._feet import Feet, add_feet
 from ._history import FeetHistory
-from ._springs_for import FeetSprings, springs_for
+from ._springs_for import FeetSprings, UntiedFeetWarning, springs_for
 from ._staging import StepError
 from ._stepper import Stepper
 
@@ -33,6 +33,7 @@ __all__ = [
     "FeetSprings",
     "StepError",
     "Stepper",
+    "UntiedFeetWarning",
     "add_feet",
     "springs_for",
 ]

@@ -17,7 +17,7 @@ import numpy as np
 import numpy.typing as npt
 
 from .._native import GRAVITY, GroundspringWarning, Springs
-from ._measure import Model, NotMeasured
+from ._measure import Model, NotMeasured, check_free, node_tags
 from ._springs_for import FeetSprings, tell_untied
 
 Array = npt.NDArray[np.float64]
@@ -54,6 +54,8 @@ class Feet:
         self.bearings: tuple[int, ...] = ()
         self.materials: tuple[int, ...] = ()
         self.options: dict[str, Any] = {}
+        self.measured = isinstance(springs, FeetSprings)  # whether it was looked at what ties these feet
+        self.element_mass = 0.0  # of the structure, where it was measured, kg
         # what the structure gives above the foot is taken off the gap's: both in series are k1
         self.gap_vertical, self.gap_horizontal = (
             np.array([unit.k1 / (1.0 - unit.k1 * compliance) for unit in units])
@@ -147,13 +149,14 @@ def add_feet(
 
     ValueError: a model that is not plane, nodes that are not there or fixed, that have feet already, or that have no mass under
     columns softer than the springs; numbers that mean nothing. GroundspringWarning: springs for three times the mass that lands,
-    or more; three or more feet that nothing holds together.
+    or more. UntiedFeetWarning: three or more feet that nothing holds together, if `springs_for` has not told it.
     """
-    nodes = [int(node) for node in nodes]
+    nodes = node_tags(nodes, "add_feet")
     _check(ops, nodes, springs, compliance, friction)
-    if measure and compliance == 0.0:
-        _check_lands(ops, nodes, springs)
+    model = _check_lands(ops, nodes, springs) if measure and compliance == 0.0 else None
     feet = Feet(ops, nodes, springs, compliance)
+    if model is not None:
+        feet.measured, feet.element_mass = True, model.total - model.nodal
     feet.options = {"compliance": compliance, "friction": friction, "first_tag": first_tag}
     there = [*ops.getNodeTags(), *ops.getEleTags()]
     free = itertools.count(max([FIRST_TAG, *(tag + 1 for tag in there)]) if first_tag is None else first_tag)
@@ -227,12 +230,7 @@ def _check(ops: Any, nodes: list[int], springs: Springs | FeetSprings, complianc
             )
         if (ndm, ndf) != (2, 3):
             raise ValueError(f"add_feet: node {node} has ndm {ndm}, ndf {ndf}; a plane frame has ndm 2, ndf 3")
-    fixed = set(ops.getFixedNodes() or [])
-    for node in nodes:
-        held = sorted({1, 2} & set(ops.getFixedDOFs(node))) if node in fixed else []
-        if held:
-            raise ValueError(f"add_feet: node {node} is fixed in direction {held[0]}; a foot must be free: take the fix off")
-    _check_bare(ops, nodes)
+    check_free(ops, nodes, "add_feet")
     for name, value in (("compliance", compliance), ("friction", friction)):
         if not (math.isfinite(value) and value >= 0.0):
             raise ValueError(f"add_feet: {name} is {value!r}; give a finite number, zero or greater")
@@ -248,20 +246,8 @@ def _check(ops: Any, nodes: list[int], springs: Springs | FeetSprings, complianc
     _check_mass(ops, max(unit.mass for unit in units))
 
 
-def _check_bare(ops: Any, nodes: list[int]) -> None:
-    """Refuse nodes that stand on springs already."""
-    wanted = set(nodes)
-    for element in ops.getEleTags():
-        ends = set(ops.eleNodes(element)) & wanted
-        if ends and ops.eleType(element).startswith("FlatSlider"):
-            raise ValueError(
-                f"add_feet: node {min(ends)} stands on a bearing already (element {element}); a node gets one foot: keep the feet "
-                "that the first call returned, or begin the model anew"
-            )
-
-
-def _check_lands(ops: Any, nodes: list[int], springs: Springs | FeetSprings) -> None:
-    """Refuse feet without mass under soft columns; warn of springs for more than what lands."""
+def _check_lands(ops: Any, nodes: list[int], springs: Springs | FeetSprings) -> Model | None:
+    """Refuse feet without mass under soft columns; warn of springs for more than what lands. None: could not be measured."""
     units = [springs] * len(nodes) if isinstance(springs, Springs) else list(springs)
     omega = min(math.sqrt(unit.vertical.k1 / unit.mass) for unit in units)
     try:
@@ -270,7 +256,7 @@ def _check_lands(ops: Any, nodes: list[int], springs: Springs | FeetSprings) -> 
         if isinstance(springs, Springs):  # springs_for has told it
             tell_untied(model, 3)
     except NotMeasured:
-        return
+        return None
     for node, mass, unit in zip(nodes, lands, units, strict=True):
         stiffness = mass * omega**2
         if node in massless and stiffness < 0.5 * unit.vertical.k1:
@@ -288,6 +274,7 @@ def _check_lands(ops: Any, nodes: list[int], springs: Springs | FeetSprings) -> 
             "take springs_for(ops, nodes)"
         )
         warnings.warn(text, GroundspringWarning, stacklevel=3)
+    return model
 
 
 def _check_mass(ops: Any, mass: float) -> None:

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Mapping
 from dataclasses import dataclass, field
 from typing import TYPE_CHECKING
 
@@ -9,9 +10,23 @@ import numpy as np
 
 if TYPE_CHECKING:
     import pandas
+    from matplotlib.axes import Axes
 
     from ._account import Account
     from ._feet import Array
+
+MOST_CHANGE = 0.05
+"""A force that changes by this share or more with steps and springs is not the structure's, as the program has it."""
+
+
+def said_of_forces(changes: Mapping[str, float] | None) -> str:
+    """Which forces are the structure's own, by their largest changes with steps and springs."""
+    if changes is None:
+        return "not checked"
+    own = [f"{name} ({100.0 * change:.1f} %)" for name, change in changes.items() if change < MOST_CHANGE]
+    other = [f"{name} ({100.0 * change:.1f} %)" for name, change in changes.items() if not change < MOST_CHANGE]
+    said = [f"the structure's: {', '.join(own)}"] if own else []
+    return "; ".join([*said, *([f"not the structure's, but of springs and steps: {', '.join(other)}"] if other else [])])
 
 
 @dataclass(repr=False)
@@ -31,6 +46,10 @@ class FeetHistory:
     stored              energy in the feet's springs and absorbers, J
     dissipated          energy taken by their dashpots, J
     account             energies of the whole structure, if the run kept them
+    force_changes       largest change of every force that `Stepper.converged` found, as a share; None: not checked
+
+    A force is the structure's own only where `Stepper.converged` has shown that it changes by less than 5 % with steps and springs.
+    Elsewhere it may be that of the springs: in a landing they make it as large as they are stiff.
     """
 
     nodes: tuple[int, ...]
@@ -46,13 +65,14 @@ class FeetHistory:
     stored: Array = field(default_factory=lambda: np.empty(0))
     dissipated: Array = field(default_factory=lambda: np.empty(0))
     account: Account | None = None
+    force_changes: Mapping[str, float] | None = None
 
     def __repr__(self) -> str:
         if not len(self.t):
             return "FeetHistory(no samples)"
         return (
             f"FeetHistory(nodes {', '.join(map(str, self.nodes))}; {len(self.t)} samples to {self.t[-1]:.2f} s; "
-            f"largest uplift {self.uplift.max():.4g} m)"
+            f"largest uplift {self.uplift.max():.4g} m; forces: {said_of_forces(self.force_changes)})"
         )
 
     @property
@@ -67,6 +87,18 @@ class FeetHistory:
         is neither stored nor taken by dashpots."""
         gained: Array = self.stored - self.stored[0]
         return self.work - gained - self.dissipated
+
+    def plot(self, axes: Axes | None = None) -> Axes:
+        """Uplift of every foot, mm, over time, s; a line a foot."""
+        from .._plots import _axes
+
+        axes = _axes(axes)
+        for node, uplift in zip(self.nodes, self.uplift.T, strict=True):
+            axes.plot(self.t, 1e3 * uplift, linewidth=0.8, label=f"node {node}")
+        axes.set_xlabel("time [s]")
+        axes.set_ylabel("uplift [mm]")
+        axes.legend()
+        return axes
 
     def to_pandas(self) -> pandas.DataFrame:
         """A row a sample; columns of a foot end in its node's tag."""

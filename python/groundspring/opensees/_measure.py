@@ -13,7 +13,7 @@ from __future__ import annotations
 
 import itertools
 import math
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 from typing import TYPE_CHECKING, Any
 
@@ -28,6 +28,35 @@ MOST_EQUATIONS = 3000
 """Equations of a model that is measured: two full matrices of 72 MB."""
 COUPLED = 0.1
 """Feet whose motions W couples by more than this share belong to one part, as the two ends of a footing."""
+
+
+def node_tags(nodes: Sequence[int], call: str) -> list[int]:
+    """The nodes as a list of whole numbers."""
+    try:
+        return [int(node) for node in nodes]
+    except TypeError:
+        raise ValueError(f"{call}: nodes are {nodes!r}; give a list of the tags of the nodes that stand on the ground") from None
+
+
+def check_free(ops: Any, nodes: Sequence[int], call: str) -> None:
+    """Refuse nodes that are fixed, or that stand on springs already."""
+    fixed = set(ops.getFixedNodes() or [])
+    for node in nodes:
+        held = sorted({1, 2} & set(ops.getFixedDOFs(node))) if node in fixed else []
+        if held:
+            raise ValueError(f"{call}: node {node} is fixed in direction {held[0]}; a foot must be free: take the fix off")
+    wanted = set(nodes)
+    for element in ops.getEleTags():
+        ends = set(ops.eleNodes(element)) & wanted
+        if ends and ops.eleType(element).startswith("FlatSlider"):
+            raise OnFeet(
+                f"{call}: node {min(ends)} stands on a bearing already (element {element}); a node gets one foot: keep the feet "
+                "that the first call returned, or begin the model anew"
+            )
+
+
+class OnFeet(ValueError):
+    """A node has a foot already."""
 
 
 class NotMeasured(ValueError):
@@ -50,26 +79,35 @@ class Model:
     """Mass and stiffness of the structure on these feet, kg and N/m; parts of the model that do not hang together with it are
     left out.
 
-    ops          openseespy.opensees, its model without springs under these nodes
+    ops          openseespy.opensees
     nodes        the feet
     constraints  handler of the model's constraints between nodes
+    absorbers    of the nodes that have springs already, by node: these springs are taken off
+    there        nodes that hang together with the feet
+    nodal        vertical masses of these nodes, kg: what is more in the matrix is that of elements
     """
 
-    def __init__(self, ops: Any, nodes: Sequence[int], constraints: str = "Plain") -> None:
+    def __init__(
+        self, ops: Any, nodes: Sequence[int], constraints: str = "Plain", absorbers: Mapping[int, int] | None = None
+    ) -> None:
         self.nodes = list(nodes)
         stiffness, dofs = _assembled(ops, (0.0, 0.0, 1.0), constraints)
         mass, _ = _assembled(ops, (1.0, 0.0, 0.0), constraints)
+        for node, absorber in (absorbers or {}).items():
+            _take_off(stiffness, dofs[node], dofs[absorber])
         feet = [dofs[node][k] for node in nodes for k in (0, 1)]
         if min(feet) < 0:
             raise NotMeasured("a foot is held by a constraint between nodes")
-        there = _connected((stiffness != 0.0) | (mass != 0.0), feet)
-        index = {old: new for new, old in enumerate(there)}
-        self.stiffness, self.mass = (a[np.ix_(there, there)] for a in (stiffness, mass))
+        rows = _connected((stiffness != 0.0) | (mass != 0.0), feet)
+        index = {old: new for new, old in enumerate(rows)}
+        self.there = {node for node, of in dofs.items() if any(dof in index for dof in of)}
+        self.stiffness, self.mass = (a[np.ix_(rows, rows)] for a in (stiffness, mass))
         self.stiffness = 0.5 * (self.stiffness + self.stiffness.T)
         self.feet = [index[dof] for dof in feet]
         self.places = np.array([ops.nodeCoord(node) for node in nodes])
+        self.nodal = sum(float(ops.nodeMass(node, 2)) for node in self.there)
         # rigid motions: to the right, up, and a turn about the origin
-        self.rigid = np.zeros((3, len(there)))
+        self.rigid = np.zeros((3, len(rows)))
         for node, of in dofs.items():
             x, y = ops.nodeCoord(node)
             for k, motion in enumerate(((1.0, 0.0, -y), (0.0, 1.0, x), (0.0, 0.0, 1.0))):
@@ -186,6 +224,17 @@ def _assembled(ops: Any, factors: tuple[float, float, float], constraints: str) 
         raise NotMeasured("OpenSees does not give its matrices")
     matrix: Array = values.reshape(count, count)
     return matrix, dofs
+
+
+def _take_off(stiffness: Array, foot: list[int], absorber: list[int]) -> None:
+    """Take the springs between a foot and its absorber out of the matrix."""
+    for k, a in itertools.product((0, 1), (0, 1)):
+        if foot[k] >= 0 and absorber[a] >= 0:
+            # what joins two displacements of one place stands off the diagonal with its sign turned
+            stiffness[foot[k], foot[a]] += stiffness[foot[k], absorber[a]]
+    for dof in absorber:
+        if dof >= 0:
+            stiffness[dof, :] = stiffness[:, dof] = 0.0
 
 
 def _connected(links: Any, first: list[int]) -> list[int]:

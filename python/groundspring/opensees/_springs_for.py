@@ -5,12 +5,15 @@ from __future__ import annotations
 import math
 import warnings
 from collections.abc import Iterator, Sequence
-from typing import Any, overload
+from typing import TYPE_CHECKING, Any, overload
 
 import numpy as np
 
 from .._native import GroundspringWarning, Springs, _units_for
-from ._measure import Model, NotMeasured
+from ._measure import Model, NotMeasured, check_free, node_tags
+
+if TYPE_CHECKING:
+    from ._feet import Feet
 
 UNTIED = 1e-3
 """Feet are tied if they move apart by no more than this share of their distance under a foot's share of the weight."""
@@ -89,15 +92,16 @@ def springs_for(ops: Any, nodes: Sequence[int], accuracy: float = 0.01, *, const
     The model's mass and stiffness are assembled as they stand, before or after loads; nothing of it is changed, but OpenSees'
     analysis objects are wiped.
 
-    ValueError: nodes without mass, feet that carry none of the structure, more than 3,000 equations; accuracy not between 1e-4
-    and 0.1. GroundspringWarning: three or more feet that nothing holds together.
+    ValueError: nodes that are fixed, without mass, or on feet already; feet that carry none of the structure; more than 3,000
+    equations; accuracy not between 1e-4 and 0.1. UntiedFeetWarning: three or more feet that nothing holds together.
     """
-    nodes = [int(node) for node in nodes]
+    nodes = node_tags(nodes, "springs_for")
     if not 1e-4 <= accuracy <= 0.1:
         raise ValueError(f"springs_for: accuracy is {accuracy!r}; give a share of the largest displacement from 1e-4 to 0.1")
     there = set(ops.getNodeTags())
     if not nodes or len(set(nodes)) < len(nodes) or not there.issuperset(nodes):
         raise ValueError(f"springs_for: nodes are {nodes}; give the tags of nodes that are in the model, each once")
+    check_free(ops, nodes, "springs_for")
     try:
         model = Model(ops, nodes, constraints)
         found = _found(model, GIVE * accuracy)
@@ -139,6 +143,10 @@ def _found(model: Model, give: float) -> FeetSprings:
     return FeetSprings(model.nodes, units, lands.tolist(), tags, total, k, speed)
 
 
+class UntiedFeetWarning(GroundspringWarning):
+    """Three or more feet of one structure that nothing holds together: its histories hardly converge."""
+
+
 def tell_untied(model: Model, level: int) -> None:
     """Warn of three or more feet that nothing holds together: the reason why such histories hardly converge."""
     count = len(model.nodes)
@@ -146,10 +154,30 @@ def tell_untied(model: Model, level: int) -> None:
         return
     spread, apart = model.spread(), float(np.ptp(model.places[:, 0])) / (count - 1)
     if spread.max() > UNTIED * apart:
+        # the first of those that are equal but for rounding
+        order, at = np.argsort(model.places[:, 0]), int(np.argmax(spread > (1.0 - 1e-6) * spread.max()))
+        left, right = (model.nodes[int(i)] for i in order[at : at + 2])
         text = (
-            f"{count} feet, and what ties them gives {1e3 * spread.max():.2g} mm under a foot's share of the weight: a foot in the "
-            "air hangs where its column lets it and lands there, and where it stands decides what the others carry. Under strong "
-            "shaking small changes grow from landing to landing, whatever the springs and steps: tie the feet (a grade beam), or "
-            "see by Stepper.converged what can be foretold"
+            f"{count} feet, and what ties nodes {left} and {right} gives {1e3 * spread.max():.3g} mm under a foot's share of the "
+            "weight: a foot in the air hangs where its column lets it and lands there, and where it stands decides what the others "
+            "carry. Under strong shaking small changes grow from landing to landing, whatever the springs and steps: tie the feet "
+            "(a grade beam), or see by Stepper.converged what can be foretold"
         )
-        warnings.warn(text, GroundspringWarning, stacklevel=level + 1)
+        warnings.warn(text, UntiedFeetWarning, stacklevel=level + 1)
+
+
+def tell_untied_groups(ops: Any, groups: Sequence[Feet], constraints: str, level: int) -> None:
+    """The same where no call of `springs_for` or `add_feet` has seen all feet of a structure."""
+    if sum(len(group.nodes) for group in groups) < 3:
+        return
+    absorbers = dict(pair for group in groups for pair in group.pairs)
+    left = list(absorbers)
+    try:
+        while left:
+            model = Model(ops, left[:1], constraints, absorbers)
+            together = [node for node in left if node in model.there]
+            left = [node for node in left if node not in together]
+            if not any(group.measured and set(together) <= set(group.nodes) for group in groups):
+                tell_untied(Model(ops, together, constraints, absorbers), level + 1)
+    except NotMeasured:
+        return

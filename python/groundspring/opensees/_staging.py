@@ -47,7 +47,7 @@ class Staging:
         now is as long as it stands.
 
         ValueError: the feet carry something already. GroundspringWarning: the loads are more than the nodal masses weigh, or, of
-        the model's own, less.
+        the model's own, less; elements have mass, whose weight is not put on.
         """
         if loads not in ("weight", "own"):
             raise ValueError(f'gravity: loads is {loads!r}; give "weight" or "own"')
@@ -122,6 +122,14 @@ class Staging:
 
     def _check_loads(self, loads: str, weighs: float) -> None:
         self._measure_loads()
+        unweighed = GRAVITY * max(group.element_mass for group in self.groups)
+        if loads == "weight" and unweighed > PART * weighs:
+            text = (
+                f"gravity: elements have {unweighed / GRAVITY:.4g} kg of mass (-mass, -rho) beside the {weighs / GRAVITY:.4g} kg "
+                "of the nodes; the ground shakes it, but gravity() gives weight to nodal masses alone: put it on the nodes, or the "
+                'weight into a pattern, and call gravity("own")'
+            )
+            warnings.warn(text, GroundspringWarning, stacklevel=3)
         over = self.weight - weighs
         if loads == "weight" and over > PART * weighs:
             text = (
@@ -135,7 +143,7 @@ class Staging:
             )
         else:
             return
-        warnings.warn(text, GroundspringWarning, stacklevel=4)
+        warnings.warn(text, GroundspringWarning, stacklevel=3)
 
     def _check_added(self) -> None:
         """Tell of elements put in since the last static stage that carry something as they stand."""

@@ -9,12 +9,14 @@ import warnings
 from collections.abc import Callable, Mapping, Sequence
 from typing import Any
 
+import numpy as np
+
 from .._native import GroundspringWarning, Record
 from ._account import Books
-from ._converged import Convergence, converged
+from ._converged import FEET, Convergence, converged
 from ._feet import FIRST_TAG, Feet, _radius, take
 from ._history import FeetHistory, Watch
-from ._springs_for import FeetSprings
+from ._springs_for import FeetSprings, tell_untied_groups
 from ._staging import Staging, StepError
 from ._steps import Watched, routine
 
@@ -48,6 +50,9 @@ class Stepper(Staging):
 
     Nothing of the model is wiped. The analysis objects, of which OpenSees has one set, are the stepper's from here on;
     recorders go on recording, at every step.
+
+    UntiedFeetWarning: three or more feet of one structure that nothing holds together, if neither `springs_for` nor `add_feet` saw
+    them all.
     """
 
     def __init__(
@@ -88,6 +93,9 @@ class Stepper(Staging):
         self._weight = False
         self._told = self._began = 0
         self._known = None
+        self._ran: tuple[Any, ...] = ()
+        if analysis:  # which is wiped for it
+            tell_untied_groups(ops, self.groups, constraints, 2)
 
     def advance_to(self, t: float) -> None:
         """To time t, s, in steps that end there.
@@ -150,6 +158,7 @@ class Stepper(Staging):
         finally:
             self._watch = self._books = None
             self.history = watch.history()
+            self._ran = record, scale, duration, vertical
             if books is not None:
                 self.history.account = books.account(self.history.work.sum(axis=1))
         self._check_standing()
@@ -163,28 +172,45 @@ class Stepper(Staging):
         build: Callable[[], object],
         quantities: Mapping[str, Callable[[], float]] | None = None,
         *,
+        forces: Mapping[str, Callable[[], float]] | None = None,
         after: Callable[[], object] | None = None,
         scale: float = 1.0,
         duration: float | None = None,
         vertical: Record | None = None,
     ) -> Convergence:
-        """Run the record again with accuracy, longest step and the springs' softness halved in turn; what that changes.
+        """Run the record again with accuracy and longest step halved, and the springs two and four times as stiff, in turn; what
+        that changes.
 
         build       makes the model anew, without feet, from `ops.wipe()` on: OpenSees cannot be taken back to where it began
         quantities  what is compared beside the uplift, by name: functions of the live model, such as
                     `lambda: ops.nodeDisp(5, 1)`; the largest magnitude over all steps counts
+        forces      the same of forces and moments, such as `lambda: ops.eleForce(3)[2]`: one that changes by less than 5 % is
+                    the structure's own, any other that of springs and steps. The feet's are looked at unasked
         after       called after gravity: what comes into the model unstressed
         scale, duration, vertical   as for `run`
 
         Feet, gravity and options are those of this stepper. A last run, whose ground shakes by a millionth more, says how much of
-        a change is the motion's own sensitivity. Five runs in all; the model is left as the last one left it.
+        a change is the motion's own sensitivity. Six runs in all; the model is left as the last one left it. The history that `run`
+        gave of the same record learns which of its forces are the structure's.
 
-            print(stepper.converged(record, build, {"roof": lambda: ops.nodeDisp(5, 1)}))
+            roof, base = lambda: ops.nodeDisp(5, 1), lambda: ops.eleForce(3)[2]
+            print(stepper.converged(record, build, {"roof": roof}, forces={"base moment": base}))
         """
-        if quantities is not None and not all(map(callable, quantities.values())):
+        wanted, loads = dict(quantities or {}), dict(forces or {})
+        if not all(map(callable, (*wanted.values(), *loads.values()))):
             raise ValueError("converged: a quantity is not a function; give name: lambda: ops.nodeDisp(5, 1), and its like")
+        names = ["uplift", *FEET, *wanted, *loads]
+        for name in (*wanted, *loads):
+            if names.count(name) > 1:
+                raise ValueError(f"converged: the name {name!r} is there already; give another one")
         options = {"scale": scale, "duration": duration, "vertical": vertical}
-        return converged(self, record, build, quantities, after, **options)
+        found = converged(self, record, build, wanted, loads, after, **options)
+        if self._ran == (record, scale, duration, vertical):
+            ours, theirs = self.history.uplift, found.history.uplift
+            # another `build` or `after` would be another history
+            if ours.shape == theirs.shape and np.allclose(ours, theirs, rtol=1e-6, atol=1e-9):
+                self.history.force_changes = found.force_changes
+        return found
 
     def _check_count(self) -> None:
         """Tell of a number of steps out of all proportion, and of its cause, once."""
