@@ -13,8 +13,8 @@ CRATES = "elementary files strong-motion rocking dynamics frames fixed-steps spr
 SCRIPTS = ["core.js", "plot.js", "drawing.js", "working.js", "inputs.js", "app.js", "begin.js"]
 FOLDER = Path("crates/web/page")
 LIMIT = 1_500_000
-# without what ends or begins something in HTML
-ALPHABET = "0123456789ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz!#%()*+,-./:;=?@[]^_{|}"
+# 91 letters, without the one that begins a tag
+ALPHABET = "0123456789ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz!\"#$%&'()*+,-./:;=>?@[]^_{|}~"
 
 
 def sources():
@@ -38,17 +38,23 @@ def fingerprint():
     return digest.hexdigest()[:16]
 
 
-def base85(data):
-    """Five letters to four bytes, lines of 100 letters, after the number of bytes."""
-    padded = data + bytes(-len(data) % 4)
-    letters = []
-    for i in range(0, len(padded), 4):
-        x = int.from_bytes(padded[i : i + 4], "big")
-        five = []
-        for _ in range(5):
-            x, digit = divmod(x, 85)
-            five.append(ALPHABET[digit])
-        letters.extend(reversed(five))
+def base91(data):
+    """Two letters to 13 or 14 bits (basE91), lines of 1000 letters, after the number of bytes."""
+    letters, bits, count = [], 0, 0
+    for byte in data:
+        bits |= byte << count
+        count += 8
+        if count > 13:
+            # 14 bits where two letters hold them
+            wide = (bits & 8191) <= 88
+            taken = 14 if wide else 13
+            high, low = divmod(bits & ((1 << taken) - 1), 91)
+            letters += [ALPHABET[low], ALPHABET[high]]
+            bits >>= taken
+            count -= taken
+    if count:
+        high, low = divmod(bits, 91)
+        letters += [ALPHABET[low], ALPHABET[high]]
     text = "".join(letters)
     lines = [text[i : i + 1000] for i in range(0, len(text), 1000)]
     return "\n".join([str(len(data)), *lines])
@@ -67,7 +73,7 @@ def build(page, glue, wasm):
         "/*HASH*/": fingerprint(),
         "/*GLUE*/": dense(Path(glue).read_text()),
         "/*WORKER*/": dense((FOLDER / "worker.js").read_text()),
-        "/*WASM*/": base85(Path(wasm).read_bytes()),
+        "/*WASM*/": base91(Path(wasm).read_bytes()),
         "/*SCRIPT*/": f'"use strict";\n{script}',
     }
     text = (FOLDER / "index.html").read_text()

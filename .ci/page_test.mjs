@@ -8,8 +8,8 @@ import os from "node:os";
 import path from "node:path";
 
 const [, , root, tune, executablePath] = process.argv;
-const page85 = path.join(root, "docs/groundspring.html");
-const url = `file://${page85}`;
+const pageFile = path.join(root, "docs/groundspring.html");
+const url = `file://${pageFile}`;
 const axe = fs.readFileSync(new URL("node_modules/axe-core/axe.min.js", import.meta.url), "utf8");
 const problems = [];
 const check = (good, what) => { console.log(`${good ? "good" : "BAD "} ${what}`); if (!good) problems.push(what); };
@@ -31,7 +31,7 @@ const drawn = (page) => page.waitForFunction(() => window.measures?.moves.some((
 const tuned = (page, timeout = 240000) => page.waitForFunction(() => window.runFiles, null, { timeout });
 
 // ---- size, first history, moves of a slider, the whole run, memory: medians of five
-check(fs.statSync(page85).size <= 1_500_000, `size: ${fs.statSync(page85).size} bytes of 1 500 000 at most`);
+check(fs.statSync(pageFile).size <= 1_500_000, `size: ${fs.statSync(pageFile).size} bytes of 1 500 000 at most`);
 const firsts = [], paints = [], tunes = [], memories = [];
 for (let i = 0; i < 5; i++) {
   const page = await open("#kind=aframe");

@@ -118,21 +118,28 @@ function caseText() {
 const pulseStep = (period) => [0.1, 0.05, 0.02, 0.01, 0.005, 0.002, 0.001, 0.0005].find((s) => s <= period / 100) ?? 0.0005;
 
 // ---- the workers
-const ALPHABET = "0123456789ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz!#%()*+,-./:;=?@[]^_{|}";
-function bytesOf85(text) {
+const ALPHABET = "0123456789ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz!\"#$%&'()*+,-./:;=>?@[]^_{|}~";
+function bytesOf91(text, length) {
   const place = new Uint8Array(128);
-  for (let i = 0; i < 85; i++) place[ALPHABET.charCodeAt(i)] = i;
-  const bytes = new Uint8Array((text.length / 5) * 4);
-  for (let i = 0, j = 0; i < text.length; i += 5) {
-    let x = 0;
-    for (let k = 0; k < 5; k++) x = x * 85 + place[text.charCodeAt(i + k)];
-    bytes[j++] = x >>> 24; bytes[j++] = x >>> 16; bytes[j++] = x >>> 8; bytes[j++] = x;
+  for (let i = 0; i < 91; i++) place[ALPHABET.charCodeAt(i)] = i;
+  const bytes = new Uint8Array(length + 2);
+  let bits = 0, count = 0, at = 0;
+  for (let i = 0; i < text.length; i += 2) {
+    const pair = place[text.charCodeAt(i)] + 91 * place[text.charCodeAt(i + 1)];
+    bits |= pair << count;
+    // 14 bits where two letters hold them
+    count += (pair & 8191) > 88 ? 13 : 14;
+    while (count > 7) {
+      bytes[at++] = bits & 255;
+      bits >>>= 8;
+      count -= 8;
+    }
   }
-  return bytes;
+  return bytes.subarray(0, length);
 }
 async function compiled() {
   const [length, ...lines] = $("wasm").textContent.trim().split("\n");
-  const packed = bytesOf85(lines.join("")).subarray(0, Number(length));
+  const packed = bytesOf91(lines.join(""), Number(length));
   const stream = new Blob([packed]).stream().pipeThrough(new DecompressionStream("gzip"));
   return WebAssembly.compile(await new Response(stream).arrayBuffer());
 }
