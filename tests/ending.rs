@@ -16,7 +16,7 @@ use strong_motion::Record;
 /// Light, with the inertia of a heavy one, and another restitution than equation 2's: a search over
 /// all parameters.
 const SLOW: &str = "[structure]\nkind = 'aframe'\nheight_m = 61.0\nwidth_m = 12.2\nmass_kg = 2.0\n\
-                    rotational_inertia_kgm2 = 413464.8\nrestitution_ratio = 0.95\n\n[record]\nduration_s = 3.0\n";
+    rotational_inertia_kgm2 = 413464.8\nrestitution_ratio = 0.95\n\n[record]\nduration_s = 3.0\n";
 const PIER: &str = include_str!("../tuning/pier.toml");
 
 fn command(folder: &Path, arguments: &[&str]) -> Command {

@@ -28,9 +28,9 @@ fn folder() -> TempDir {
     let column: String = accel.iter().map(|a| format!("{:e}\n", a * 100.0)).collect();
     fs::create_dir(dir.path().join("motions")).unwrap();
     fs::write(dir.path().join("motions/centro.txt"), format!("# units: cm/s2\n{column}")).unwrap();
-    let case = "[structure]\nkind = \"aframe\"\nheight_m = 61.0\nwidth_m = 12.2\nmass_kg = 680.1e3\n\
-                [record]\nfile = \"motions/centro.txt\"\ndt_s = 0.01\nscale = 1.5\nduration_s = 8.0\n\
-                [tuning]\nobjective = \"arr\"\nmax_omega_hz = 40.0\ncandidates = 2\n";
+    let case = "[structure]\nkind = \"aframe\"\nheight_m = 61.0\nwidth_m = 12.2\n\
+        mass_kg = 680.1e3\n[record]\nfile = \"motions/centro.txt\"\ndt_s = 0.01\nscale = 1.5\n\
+        duration_s = 8.0\n[tuning]\nobjective = \"arr\"\nmax_omega_hz = 40.0\ncandidates = 2\n";
     fs::write(dir.path().join("case.toml"), case).unwrap();
     dir
 }
@@ -112,7 +112,8 @@ fn a_scale_on_the_command_line_replaces_the_cases() {
 fn the_paper_case_keeps_its_20_s_and_any_other_record_is_used_whole() {
     let dir = folder();
     let paper = stderr(&tune(dir.path(), &["housner", "--out", "h.csv"]));
-    let used = "record IELC180 (embedded), scale 1, first 20 s of 39.94 s: 2001 samples of 0.01 s, PGA 0.3129 g at ";
+    let used = "record IELC180 (embedded), scale 1, first 20 s of 39.94 s: 2001 samples of 0.01 s, \
+        PGA 0.3129 g at ";
     assert!(paper.contains(used), "{paper}");
     let other = ["housner", "--record", "motions/centro.txt", "--dt", "0.01", "--out", "h.csv"];
     let other = stderr(&tune(dir.path(), &other));

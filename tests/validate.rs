@@ -315,7 +315,8 @@ fn simulate_tells_conditioning_and_regime_on_stderr() {
     };
     let stderr = said("0.9");
     assert!(!stderr.contains("slide"), "{stderr}");
-    let used = "record IELC180 (embedded), scale 1, first 6 s of 39.94 s: 601 samples of 0.01 s, PGA 0.3129 g at 2.";
+    let used = "record IELC180 (embedded), scale 1, first 6 s of 39.94 s: 601 samples of 0.01 s, \
+        PGA 0.3129 g at 2.";
     assert!(stderr.contains(used), "{stderr}");
     assert!(
         stderr.contains("the structure rocks and stands: its largest rotation is "),

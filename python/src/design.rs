@@ -266,7 +266,8 @@ pub fn frequency_response<'py>(
     if let Some((name, value)) = positive.or((!(xi.is_finite() && xi >= 0.0)).then_some(("xi", xi)))
     {
         return Err(value_error(format!(
-            "frequency_response: {name} is {value:?}; give finite mu and f above zero, xi zero or greater"
+            "frequency_response: {name} is {value:?}; give finite mu and f above zero, xi zero or \
+                greater"
         )));
     }
     let g = numbers::one_or_more(g, "g", "frequencies over Omega_n, without unit")?;

@@ -244,7 +244,8 @@ impl RockingTable {
 
 /// What `groundspring.rocking` calls; progress is told how many histories more are done.
 #[pyfunction]
-#[pyo3(signature = (structures, records, scales = None, *, vertical = None, restitution = None, progress = None), name = "rocking")]
+#[pyo3(signature = (structures, records, scales = None, *, vertical = None, restitution = None,
+    progress = None), name = "rocking")]
 pub fn rock_all(
     py: Python<'_>,
     structures: Several<Structure>,

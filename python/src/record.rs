@@ -189,7 +189,8 @@ impl Record {
 /// ValueError: the file cannot be read, is no record, is damaged, or does not agree with what
 /// is said of it.
 #[pyfunction]
-#[pyo3(signature = (path, component = None, dt = None, units = None, baseline = false, vertical = None))]
+#[pyo3(signature = (path, component = None, dt = None, units = None, baseline = false,
+    vertical = None))]
 pub fn read_record(
     py: Python<'_>,
     path: PathBuf,

@@ -290,7 +290,8 @@ fn column<'py>(
 /// friction  coefficient of the ground, without unit, for the warning of sliding
 /// vertical  ground acceleration at the same times, positive upwards, if not that of the record
 #[pyfunction]
-#[pyo3(signature = (structure, springs, record, scale = 1.0, restitution = None, friction = 0.5, vertical = None))]
+#[pyo3(signature = (structure, springs, record, scale = 1.0, restitution = None, friction = 0.5,
+    vertical = None))]
 #[allow(clippy::too_many_arguments)]
 pub fn simulate(
     py: Python<'_>,

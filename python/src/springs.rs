@@ -31,7 +31,8 @@ impl Chain {
         let wrong = positive.or((!(c.is_finite() && c >= 0.0)).then_some(("c", c)));
         if let Some((name, value)) = wrong {
             return Err(value_error(format!(
-                "Chain: {name} is {value:?}; give a finite number above zero (c may be zero): k1, k2 in N/m, m2 in kg, c in N s/m"
+                "Chain: {name} is {value:?}; give a finite number above zero (c may be zero): k1, \
+                    k2 in N/m, m2 in kg, c in N s/m"
             )));
         }
         Ok(Self(spring::Chain { k1, k2, m2, c }))

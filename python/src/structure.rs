@@ -148,7 +148,8 @@ impl Structure {
 
     fn __repr__(&self) -> String {
         format!(
-            "Structure({}, centre of mass at {} m, {} m wide, {} kg: alpha {:.5} rad, p {:.5} rad/s, e {:.5})",
+            "Structure({}, centre of mass at {} m, {} m wide, {} kg: alpha {:.5} rad, p {:.5} \
+                rad/s, e {:.5})",
             self.kind(),
             self.height(),
             self.width(),

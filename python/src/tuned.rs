@@ -161,8 +161,9 @@ impl Tuned {
 ///
 /// ValueError: no springs settle as little as asked for; a number out of its range.
 #[pyfunction]
-#[pyo3(signature = (structure, record = None, accuracy = 0.002, method = "landing", *, scale = 1.0, duration = None,
-    max_hz = None, max_settlement = 0.01, friction = 0.5, front = false, vertical = None))]
+#[pyo3(signature = (structure, record = None, accuracy = 0.002, method = "landing", *,
+    scale = 1.0, duration = None, max_hz = None, max_settlement = 0.01, friction = 0.5,
+    front = false, vertical = None))]
 #[allow(clippy::too_many_arguments)]
 pub fn tune(
     py: Python<'_>,

@@ -85,8 +85,8 @@ pub enum Records<'py> {
 ///
 /// Horizontal motion alone: a record with a vertical component is refused.
 #[pyfunction]
-#[pyo3(signature = (structure, springs, records = None, *, synthetic = 0, earthquakes = 0, seed = 1, duration = None,
-    restitution = None))]
+#[pyo3(signature = (structure, springs, records = None, *, synthetic = 0, earthquakes = 0,
+    seed = 1, duration = None, restitution = None))]
 #[allow(clippy::too_many_arguments)]
 pub fn validate(
     py: Python<'_>,

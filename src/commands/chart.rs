@@ -17,7 +17,8 @@ use springs::tuning::landing::design::Geometry;
 #[derive(Debug, Args)]
 pub struct ChartOptions {
     /// Slenderness alpha = atan(width / (2 height)) (rad), several with commas
-    #[arg(long, value_name = "RAD", value_delimiter = ',', default_values_t = [0.05, 0.1, 0.15, 0.2, 0.3, 0.4, 0.5])]
+    #[arg(long, value_name = "RAD", value_delimiter = ',',
+        default_values_t = [0.05, 0.1, 0.15, 0.2, 0.3, 0.4, 0.5])]
     alpha: Vec<f64>,
     /// Folder for chart.csv, chart.png and chart.svg
     #[arg(long, value_name = "DIR", default_value = "out")]
@@ -79,7 +80,8 @@ pub fn run(o: &ChartOptions) -> Result<(), CommandError> {
 /// One row a design.
 fn csv(rows: &[ChartRow]) -> String {
     let mut out = String::from(
-        "kind,alpha,mass_share,omega_n_over_p,k,mu_vertical,f_vertical,xi_vertical,mu_horizontal,f_horizontal,xi_horizontal,omega_h_over_omega_v\n",
+        "kind,alpha,mass_share,omega_n_over_p,k,mu_vertical,f_vertical,xi_vertical,\
+            mu_horizontal,f_horizontal,xi_horizontal,omega_h_over_omega_v\n",
     );
     for ChartRow { kind, geometry: g, springs: Springs { vertical: v, horizontal: h } } in rows {
         // writing to a String cannot fail

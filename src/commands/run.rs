@@ -45,7 +45,8 @@ pub struct RunOptions {
     #[command(flatten)]
     record: RecordOptions,
     /// Springs from the geometry and the synthetic motions alone: no history, no decks
-    #[arg(long, conflicts_with_all = ["record", "dt", "units", "component", "column", "baseline", "vertical", "scale", "duration"])]
+    #[arg(long, conflicts_with_all = ["record", "dt", "units", "component", "column", "baseline",
+        "vertical", "scale", "duration"])]
     no_record: bool,
     #[command(flatten)]
     ground: GroundOptions,

@@ -28,7 +28,8 @@ use strong_motion::{Notice, ReadOptions, Record, RecordError, Recording, Units};
 
 /// Options of `tune validate`.
 #[derive(Debug, Args)]
-#[command(group = clap::ArgGroup::new("source").required(true).multiple(true).args(["paths", "records", "synthetic", "earthquakes"]))]
+#[command(group = clap::ArgGroup::new("source").required(true).multiple(true)
+    .args(["paths", "records", "synthetic", "earthquakes"]))]
 #[command(group = clap::ArgGroup::new("given").multiple(true).args(["paths", "records"]))]
 #[command(group = clap::ArgGroup::new("made").multiple(true).args(["synthetic", "earthquakes"]))]
 pub struct ValidateOptions {

@@ -156,14 +156,15 @@ fn judged(result: &Verification) -> String {
         None => Ok(()),
         Some(ForetoldEnd::Width) => writeln!(
             out,
-            "judged up to {until:.2} s: from then on the history hangs on the fifth digit of the width,\n\
-             a change by 1e-5 moves the whole of it by {:.1e}, and no two programs agree",
+            "judged up to {until:.2} s: from then on the history hangs on the fifth digit of the \
+                width,\na change by 1e-5 moves the whole of it by {:.1e}, and no two programs \
+                agree",
             result.width_sensitivity
         ),
         Some(ForetoldEnd::Flight) => writeln!(
             out,
-            "judged up to {until:.2} s: then the ground falls faster than the body, which has no rotational inertia\n\
-             of its own: how it turns in the air is not defined"
+            "judged up to {until:.2} s: then the ground falls faster than the body, which has no \
+                rotational inertia\nof its own: how it turns in the air is not defined"
         ),
     };
     let _ =
@@ -187,20 +188,22 @@ fn refusal(result: &Verification) -> String {
     let own = result.finer.map_or(0.0, |finer| finer.against_itself);
     if let Some(finer) = result.finer.filter(|finer| finer.error <= LIMIT) {
         format!(
-            "verify: OpenSees is off by {error:.1e}, and by {:.1e} in steps a quarter as long: this motion asks for finer steps; give \
-             --accuracy {}",
+            "verify: OpenSees is off by {error:.1e}, and by {:.1e} in steps a quarter as long: \
+                this motion asks for finer steps; give --accuracy {}",
             finer.error,
             files::message::significant(finer.accuracy, 3)
         )
     } else if own > LIMIT {
         format!(
-            "verify: OpenSees is off by {error:.1e}, and by {own:.1e} from itself in steps a quarter as long: on these springs a lifting \
-             foot chatters, which no program with steps follows; take springs as tune run finds them, or ask for more with --accuracy"
+            "verify: OpenSees is off by {error:.1e}, and by {own:.1e} from itself in steps a \
+                quarter as long: on these springs a lifting foot chatters, which no program with \
+                steps follows; take springs as tune run finds them, or ask for more with --accuracy"
         )
     } else {
         format!(
-            "verify: OpenSees is off by {error:.1e}, though it agrees with itself in finer steps ({own:.1e}): the two models differ on \
-             these springs; take others, and please report the case"
+            "verify: OpenSees is off by {error:.1e}, though it agrees with itself in finer steps \
+                ({own:.1e}): the two models differ on these springs; take others, and please \
+                report the case"
         )
     }
 }

@@ -61,10 +61,8 @@ fn doubts_are_warnings() {
     let short = ["--duration", "2"];
     assert_eq!(
         doubts(CABINET, &short),
-        [
-            "height_m = 1.9, of the centre of mass, makes a block 3.8 m tall; if 1.9 m is its total height, write \
-          total_height_m = 1.9"
-        ]
+        ["height_m = 1.9, of the centre of mass, makes a block 3.8 m tall; if 1.9 m is its total \
+            height, write total_height_m = 1.9"]
     );
     let light = CABINET.replace("1.9", "1.0").replace("400.0", "0.4");
     let found = doubts(&light, &short);
@@ -84,9 +82,9 @@ fn doubts_are_warnings() {
     let found = doubts(&plain, &["--record", "a.csv", "--column", "a", "--duration", "90"]);
     assert_eq!(
         found,
-        [
-            "90 s are asked for, the record has 0.03 s; all of it is used; leave the duration out, or give a longer record"
-        ]
+        ["90 s are asked for, the record has 0.03 s; all of it is used; leave the duration out, \
+                or \
+            give a longer record"]
     );
 }
 

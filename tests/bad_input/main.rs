@@ -72,10 +72,12 @@ fn run_record(name: &str, text: &str, more: &[&str], words: &[&str]) {
 fn parameters(k1: f64) -> String {
     let row = |k1: f64| {
         format!(
-            "{{\"mu\":1,\"f\":1,\"xi\":1,\"omega_n_hz\":1,\"k1_n_per_m\":{k1},\"k2_n_per_m\":1e6,\"m2_kg\":10,\"c_ns_per_m\":1e3}}"
+            "{{\"mu\":1,\"f\":1,\"xi\":1,\"omega_n_hz\":1,\"k1_n_per_m\":{k1},\"k2_n_per_m\":1e6,\
+                \"m2_kg\":10,\"c_ns_per_m\":1e3}}"
         )
     };
-    let structure = "{\"kind\":\"block\",\"height_m\":1,\"width_m\":0.5,\"mass_kg\":100,\"rotational_inertia_kgm2\":35}";
+    let structure = "{\"kind\":\"block\",\"height_m\":1,\"width_m\":0.5,\"mass_kg\":100,\
+        \"rotational_inertia_kgm2\":35}";
     format!("{{\"structure\":{structure},\"vertical\":{},\"horizontal\":{}}}", row(k1), row(1e6))
 }
 

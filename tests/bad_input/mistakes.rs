@@ -3,8 +3,8 @@
 
 use super::*;
 
-const PIER: &str = "[structure]\nkind = \"pier\"\nheight_m = 12.0\nwidth_m = 4.0\nmass_kg = 600e3\nfooting_mass_kg = 60e3\n\
-                    footing_height_m = 1.5\nfrequency_hz = 2.0\ndamping_ratio = 0.02\n";
+const PIER: &str = "[structure]\nkind = \"pier\"\nheight_m = 12.0\nwidth_m = 4.0\nmass_kg = 600e3\n\
+    footing_mass_kg = 60e3\nfooting_height_m = 1.5\nfrequency_hz = 2.0\ndamping_ratio = 0.02\n";
 
 /// Time and three accelerations, with names and without.
 const NAMED: &str =
@@ -37,7 +37,8 @@ fn all_that_a_case_lacks_at_once() {
     let add = "add what is missing; `tune init";
     let lacks = |text: &str, words: &str| run_case(text, &[words, add]);
     lacks(
-        "[structure]\nkind = \"block\"\ntotal_height_m = 2.0\n[record]\ndt_s = 0.01\nunits = \"g\"\n",
+        "[structure]\nkind = \"block\"\ntotal_height_m = 2.0\n[record]\ndt_s = 0.01\n\
+            units = \"g\"\n",
         "case.toml: [structure] lacks width_m, mass_kg; [record] lacks file, for dt_s, units: add",
     );
     lacks(
@@ -47,7 +48,8 @@ fn all_that_a_case_lacks_at_once() {
     lacks("[structure]\nkind = \"aframe\"\n", "[structure] lacks height_m, width_m, mass_kg: add");
     lacks(
         "[structure]\nkind = \"pier\"\nheight_m = 12.0\nmass_kg = 6e5\n[damper]\n",
-        "[structure] lacks width_m, footing_mass_kg, footing_height_m, damping_ratio, frequency_hz (or ei_nm2); [damper] lacks c_ns_per_m",
+        "[structure] lacks width_m, footing_mass_kg, footing_height_m, damping_ratio, frequency_hz \
+            (or ei_nm2); [damper] lacks c_ns_per_m",
     );
     lacks(
         &PIER.replace("frequency_hz = 2.0\n", ""),
@@ -115,9 +117,8 @@ fn a_record_given_as_a_case_and_the_other_way_round() {
         refuses(
             &case[..1],
             args,
-            &[
-                "case.toml: this is a case file, not a ground motion; run it as `tune run case.toml`",
-            ],
+            &["case.toml: this is a case file, not a ground motion; run it as `tune run \
+                    case.toml`"],
         );
     }
     let of_case = format!("{STRUCTURE}[record]\nfile = \"pier.toml\"\n");
@@ -145,7 +146,8 @@ fn numbers_with_commas() {
     comma(
         "100.0",
         "680,100",
-        "case.toml, line 5: mass_kg is 680,100, a number with a comma; write it with a point: 680.100, or 680100",
+        "case.toml, line 5: mass_kg is 680,100, a number with a comma; write it with a point: \
+            680.100, or 680100",
     );
     run_case(
         &PIER.replace("600e3", "6,0e5"),

@@ -178,7 +178,8 @@ fn a_settlement_that_no_springs_can_keep() {
     let least = format!("{STRUCTURE}[tuning]\nmax_settlement_m = 1e-12\n");
     run_case(&least, &["max_settlement_m is 1e-12", "springs of 200000 Hz"]);
     let small = format!(
-        "{STRUCTURE}[record]\nscale = 2.0\n[tuning]\nmax_settlement_m = 1e-12\nmax_omega_hz = 160.0\n"
+        "{STRUCTURE}[record]\nscale = 2.0\n[tuning]\nmax_settlement_m = 1e-12\n\
+            max_omega_hz = 160.0\n"
     );
     run_case(&small, &["max_settlement_m is 1e-12", "5.015e-6 m at least", "--max-hz"]);
     let paper = format!("{small}objective = \"arr\"\n");

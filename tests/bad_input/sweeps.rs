@@ -81,7 +81,8 @@ fn pulses_that_are_none_are_refused_with_their_line() {
     );
     sweep(&spectrum, &["line 2", "of pulses"]);
     let scanned = format!(
-        "[sweep]\nkind = \"overturning\"\n{BLOCK}[[pulse]]\nshape = \"sine\"\nomega_over_p = 2.0\n{LEVELS}"
+        "[sweep]\nkind = \"overturning\"\n{BLOCK}[[pulse]]\nshape = \"sine\"\nomega_over_p = 2.0\n\
+            {LEVELS}"
     );
     sweep(&scanned, &["line 12", "pga_over_uplift"]);
 }

@@ -156,12 +156,18 @@ fn csmip() {
     let peak = line_of(&text, "Peak acceleration");
     refused(&[
         (cut(&text, 12), "line 13: '... points of accel data equally spaced"),
-        (cut(&text, data), "line 46: the acceleration samples end after 0 values where line 46 announces 203"),
+        (
+            cut(&text, data),
+            "line 46: the acceleration samples end after 0 values where line 46 announces 203",
+        ),
         (cut(&text, data + 10), "line 56: the acceleration samples end after 80 values"),
         (without(&text, data + 5), "line 71: 3 numbers where 8 are expected"),
         (edit(&text, data + 5, |line| line.replacen('.', "o", 1)), "line 51: "),
         (edit(&text, data + 5, |line| line[..72].into()), "line 51: "),
-        (edit(&text, data + 5, |_| "       NaN".repeat(8)), "line 51: 'NaN' is not a finite number"),
+        (
+            edit(&text, data + 5, |_| "       NaN".repeat(8)),
+            "line 51: 'NaN' is not a finite number",
+        ),
         (edit(&text, data + 5, |_| "**********".repeat(8)), "line 51: '**********"),
         (at_data("203", "203x"), "line 46: '... points of accel"),
         (at_data("203", "195"), "line 71: 8 numbers where 3 are expected"),
@@ -169,11 +175,18 @@ fn csmip() {
         (at_data("(8f10.4)", ""), "line 46: '... points of accel"),
         (at_data(".020 sec", "xx sec"), "line 46: '... points of accel"),
         (at_data(".020 sec", ".010 sec"), "line 18: the header gives the peak acceleration"),
-        (edit(&text, peak, |line| line.replace("= ", "= 1")), "line 18: the header gives the peak acceleration"),
-        (edit(&text, peak + 1, |line| line.replace("at  ", "at 1")), "line 19: the header gives the peak velocity"),
+        (
+            edit(&text, peak, |line| line.replace("= ", "= 1")),
+            "line 18: the header gives the peak acceleration",
+        ),
+        (
+            edit(&text, peak + 1, |line| line.replace("at  ", "at 1")),
+            "line 19: the header gives the peak velocity",
+        ),
         (text.replace("/&", "??"), "'/&', the end of the channel"),
         (
-            "Uncorrected Accelerogram Data\n 203 Accelerogram points at 200 pts/sec in units of g . Format: (8f9.6)\n"
+            "Uncorrected Accelerogram Data\n 203 Accelerogram points at 200 pts/sec in units of g \
+                . Format: (8f9.6)\n"
                 .into(),
             "line 2: an uncorrected CSMIP file (.V1); fetch the corrected one",
         ),

@@ -48,7 +48,8 @@ fn geonet_files_have_three_components() {
         // the stronger horizontal one, said aloud
         assert_eq!(recording.taken, 1);
         assert!(
-            matches!(&recording.notices()[..], [Notice::Taken { taken, .. }] if taken == "S62W (azimuth 242)")
+            matches!(&recording.notices()[..], [Notice::Taken { taken, .. }] if taken == "S62W \
+                (azimuth 242)")
         );
         assert_eq!(recording.into_record().name, "x S62W");
     }

@@ -32,6 +32,7 @@ fn folder() -> TempDir {
     put("along.txt", column(&wave(4.0)));
     put("up.txt", column(&wave(3.0)));
     put("short.txt", column(&wave(3.0)[1..]));
+    put("long.txt", column(&[wave(3.0), vec![9.0; 21]].concat()));
     put("strong.txt", column(&wave(14.0)));
     let structure =
         "[structure]\nkind = \"block\"\nheight_m = 1.0\nwidth_m = 0.5\nmass_kg = 2400.0\n";
@@ -44,7 +45,8 @@ fn folder() -> TempDir {
     put(
         "sub/case.toml",
         format!(
-            "{structure}[record]\nfile = \"../along.txt\"\ndt_s = 0.02\nvertical = \"../up.txt\"\n{tuning}"
+            "{structure}[record]\nfile = \"../along.txt\"\ndt_s = 0.02\nvertical = \"../up.txt\"\n\
+                {tuning}"
         ),
     );
     dir
@@ -168,6 +170,23 @@ fn where_the_body_leaves_the_ground_housner_ends_and_the_finite_elements_go_on()
     assert_eq!(rows.len(), write::SAMPLES);
     let blank = rows.iter().position(|row| row.contains(",,,,")).unwrap();
     assert!(((blank - 1) as f64 * 0.02 - compared).abs() < 1e-9);
+}
+
+#[test]
+fn a_vertical_component_that_goes_on_after_the_record_is_cut_and_told() {
+    let dir = folder();
+    let of = |vertical: &str| {
+        let record = ["housner", "--record", "along.txt", "--dt", "0.02", "--vertical", vertical];
+        tune(dir.path(), &[&record[..], &["--out", "history.csv"]].concat())
+    };
+    let (code, same, _) = of("up.txt");
+    assert_eq!(code, 0);
+    let (code, out, err) = of("long.txt");
+    assert_eq!(code, 0, "{err}");
+    let told = "along.txt: the vertical component, long, has 21 more samples than the record";
+    assert!(err.contains(told), "{err}");
+    // all but the component's name
+    assert_eq!(out.replace("long (", "up ("), same);
 }
 
 #[test]

@@ -48,11 +48,16 @@ pub fn geonet(components: &[(&str, f64)], raw: bool) -> String {
         let series = [rounded(&series[0], 1), rounded(&series[1], 1), rounded(&series[2], 1)];
         let (kind, n) = (if raw { "Uncorrected" } else { "Corrected" }, SAMPLES);
         let counts = if raw { [n, 0, 0] } else { [n; 3] };
-        writeln!(out, "{kind} accelerogram 20990101_000000_TEST_20 GNS Science\nSite TEST      42 37 10S  173 03 13E")
-            .unwrap();
         writeln!(
             out,
-            "Made up Farm\nInstrument None_1\nResolution: 18-bit\nAccelerogram TEST\nnowhere\n2099 January 01"
+            "{kind} accelerogram 20990101_000000_TEST_20 GNS Science\nSite TEST      42 37 10S  \
+                173 03 13E"
+        )
+        .unwrap();
+        writeln!(
+            out,
+            "Made up Farm\nInstrument None_1\nResolution: 18-bit\nAccelerogram TEST\nnowhere\n\
+                2099 January 01"
         )
         .unwrap();
         writeln!(
@@ -122,12 +127,17 @@ pub fn cosmos(channels: &[(i64, f64)], (unit, code): (&str, u32)) -> String {
         .unwrap();
         writeln!(
             out,
-            "Coords:\nRecorder:\nRcrd start time:\nSta Chan  {}: 45 deg (Rcrdr Chan  1) Location: roof\nRaw\nProcessed",
+            "Coords:\nRecorder:\nRcrd start time:\n\
+                Sta Chan  {}: 45 deg (Rcrdr Chan  1) Location: roof\nRaw\nProcessed",
             i + 1
         )
         .unwrap();
-        writeln!(out, "Filtered\nValues used when parameter or data value is unknown/unspecified:   -999, -999.00")
-            .unwrap();
+        writeln!(
+            out,
+            "Filtered\nValues used when parameter or data value is unknown/unspecified:   -999, \
+                -999.00"
+        )
+        .unwrap();
         writeln!(out, " 100 Integer-header values follow on  10 lines, Format= (10I8)").unwrap();
         for line in 0..10 {
             for j in 0..10 {
@@ -143,8 +153,12 @@ pub fn cosmos(channels: &[(i64, f64)], (unit, code): (&str, u32)) -> String {
         rows(&mut out, &numbers, 5, 15, 6);
         writeln!(out, "   2 Comment line(s) follow, each starting with a \"|\":\n| one\n| two")
             .unwrap();
-        writeln!(out, "     {SAMPLES} acceleration pts, approx    4 secs, units={unit}({code:02}),Format=(8F10.5)")
-            .unwrap();
+        writeln!(
+            out,
+            "     {SAMPLES} acceleration pts, approx    4 secs, \
+                units={unit}({code:02}),Format=(8F10.5)"
+        )
+        .unwrap();
         rows(&mut out, &values, 8, 10, 5);
         writeln!(out, "End-of-data for Chan {} acceleration", i + 1).unwrap();
     }
@@ -158,11 +172,16 @@ pub fn csmip(channels: &[(&str, f64)]) -> String {
         let chan = i + 1;
         let series = [wave(*scale, 0.3), wave(scale / 10.0, 0.9), wave(scale / 100.0, 1.4)];
         let series = series.map(|values| rounded(&values, 4));
-        writeln!(out, "Corrected accelerogram   12345                      Chan  {chan}: {direction}     from   ")
-            .unwrap();
         writeln!(
             out,
-            "Uncorrected Accelerogram Data             Processed: 01/01/99\nRecord of nothing\n(Origin)\n12345"
+            "Corrected accelerogram   12345                      Chan  {chan}: {direction}     \
+                from   "
+        )
+        .unwrap();
+        writeln!(
+            out,
+            "Uncorrected Accelerogram Data             Processed: 01/01/99\nRecord of nothing\n\
+                (Origin)\n12345"
         )
         .unwrap();
         writeln!(
@@ -191,8 +210,12 @@ pub fn csmip(channels: &[(&str, f64)]) -> String {
         for ((what, unit), values) in
             [("accel", "cm/sec2."), ("veloc", "cm/sec."), ("displ", "cm.")].into_iter().zip(&series)
         {
-            writeln!(out, "   {SAMPLES} points of {what} data equally spaced at  .020 sec, in {unit} (8f10.4)    ")
-                .unwrap();
+            writeln!(
+                out,
+                "   {SAMPLES} points of {what} data equally spaced at  .020 sec, in {unit} \
+                    (8f10.4)    "
+            )
+            .unwrap();
             rows(&mut out, values, 8, 10, 4);
         }
         writeln!(out, "/&  ----------  End of data for channel  {chan}  ----------").unwrap();
@@ -216,9 +239,13 @@ pub fn knet(direction: &str) -> String {
     let (counts, gal) = knet_counts();
     let (value, _) = peak(&gal);
     let mut out = String::from(
-        "Origin Time       2099/01/01 00:00:00\nLat.              38.103\nLong.             142.860\n",
+        "Origin Time       2099/01/01 00:00:00\nLat.              38.103\n\
+            Long.             142.860\n",
     );
-    out.push_str("Depth. (km)       24\nMag.              7.0\nStation Code      TST001\nStation Lat.      38.7\n");
+    out.push_str(
+        "Depth. (km)       24\nMag.              7.0\nStation Code      TST001\n\
+            Station Lat.      38.7\n",
+    );
     out.push_str(
         "Station Long.     141.0\nStation Height(m) 40\nRecord Time       2099/01/01 00:00:30\n",
     );
@@ -238,7 +265,8 @@ pub fn dyna(stream: &str, scale: f64) -> String {
     let values = rounded(&wave(scale, 0.3), 6);
     let (value, time) = peak(&values);
     let mut out = String::from(
-        "EVENT_NAME: nothing\nEVENT_ID: 1\nEVENT_TIME_HHMMSS: 23:08:25\nNETWORK: XX\nSTATION_CODE: TST\n",
+        "EVENT_NAME: nothing\nEVENT_ID: 1\nEVENT_TIME_HHMMSS: 23:08:25\nNETWORK: XX\n\
+            STATION_CODE: TST\n",
     );
     writeln!(
         out,

@@ -37,7 +37,8 @@ const SHARE: f64 = 1.0 / 256.0;
 
 /// What stands above the list of springs of beams that give in shear.
 const SHEAR_NOTE: &str = "\
-# Beams that give in shear, too (Timoshenko), by index: EI above is EI/(1 + Phi), Phi = 12 EI/(GA_s L^2), and a spring resists the turn of
+# Beams that give in shear, too (Timoshenko), by index: EI above is EI/(1 + Phi), Phi = 12 \
+EI/(GA_s L^2), and a spring resists the turn of
 # one end against the other: Phi EI/((1 + Phi) L) (N m/rad), with its dashpot (N m s/rad).
 ";
 

@@ -173,29 +173,35 @@ pub enum ExportError {
     #[error("export: format '{name}' is not known; give one of {known}")]
     DeckFormat { name: String, known: String },
     #[error(
-        "export: {name} is {value}; give a finite number above zero (dampers and inertia may be zero), as `tune run` writes them"
+        "export: {name} is {value}; give a finite number above zero (dampers and inertia may be \
+            zero), as `tune run` writes them"
     )]
     Number { name: &'static str, value: f64 },
     #[error(
-        "export: {name} is not written for {format}; leave it out, or take another --format (SAP2000 tables have no damper, tendon, friction and vertical ground motion)"
+        "export: {name} is not written for {format}; leave it out, or take another --format \
+            (SAP2000 tables have no damper, tendon, friction and vertical ground motion)"
     )]
     Member { name: &'static str, format: &'static str },
     #[error("export: --stepping {name} is not known; give events, even or touches")]
     Stepping { name: String },
     #[error(
-        "export: these parameters have no springs for steps of one size; give tune run a program: --for sap2000, etabs or opensees-even, and --step"
+        "export: these parameters have no springs for steps of one size; give tune run a program: \
+            --for sap2000, etabs or opensees-even, and --step"
     )]
     NoProgram,
     #[error(
-        "export: the springs for steps of one size are not made for a {name}; leave it out, or --stepping events"
+        "export: the springs for steps of one size are not made for a {name}; leave it out, or \
+            --stepping events"
     )]
     MemberOfSteps { name: &'static str },
     #[error(
-        "export: tables have no loop for substeps at touches; give --stepping even, or --format openseespy"
+        "export: tables have no loop for substeps at touches; give --stepping even, or --format \
+            openseespy"
     )]
     TouchesInTables,
     #[error(
-        "export: integrator {name} is not written for {program}; give tune run another --integrator: hht:-0.333 or newmark, in OpenSees also trbdf2 or backward-euler"
+        "export: integrator {name} is not written for {program}; give tune run another \
+            --integrator: hht:-0.333 or newmark, in OpenSees also trbdf2 or backward-euler"
     )]
     Integrator { name: String, program: &'static str },
     #[error("export: substeps at touches are for rigid bodies; give --stepping even, or events")]
@@ -203,7 +209,8 @@ pub enum ExportError {
     #[error("export: {message}")]
     Steps { message: String },
     #[error(
-        "export: the history to check against has {expected} samples but the record has {record}; use the record that was simulated"
+        "export: the history to check against has {expected} samples but the record has {record}; \
+            use the record that was simulated"
     )]
     Samples { expected: usize, record: usize },
 }

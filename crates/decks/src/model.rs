@@ -174,7 +174,8 @@ impl<'a> DeckModel<'a> {
         if self.structure.rotational_inertia_kgm2 > 0.0 {
             "as given"
         } else {
-            "1e-5 m R^2, small but not zero, else the rotation is undefined while both feet are in the air"
+            "1e-5 m R^2, small but not zero, else the rotation is undefined while both feet are in \
+                the air"
         }
     }
 

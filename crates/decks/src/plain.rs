@@ -33,12 +33,16 @@ pub(super) fn csv(places: &[NamedSprings]) -> String {
 pub(super) fn markdown(title: &str, places: &[NamedSprings]) -> String {
     let mut text = format!("# Ground springs\n\n{title}\n\n");
     text.push_str(
-        "Under each foot, vertically and horizontally: foot - gap, k1 - m2 - (k2 parallel with c) - ground.\n",
+        "Under each foot, vertically and horizontally: foot - gap, k1 - m2 - (k2 parallel with c) \
+            - ground.\n",
     );
     text.push_str(
         "The gaps press and never pull; the horizontal k1 acts only while its foot presses.\n\n",
     );
-    text.push_str("| foot | direction | k1 [N/m] | k2 [N/m] | m2 [kg] | c [N s/m] |\n|---|---|---|---|---|---|\n");
+    text.push_str(
+        "| foot | direction | k1 [N/m] | k2 [N/m] | m2 [kg] | c [N s/m] |\n\
+            |---|---|---|---|---|---|\n",
+    );
     for row in rows(places) {
         // writing to a String cannot fail
         let _ = writeln!(text, "| {} |", row.join(" | "));

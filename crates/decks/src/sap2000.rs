@@ -40,27 +40,31 @@ const FRICTION: f64 = 1000.0;
 const NOTES: &str = "\
 $ Import: File > Import > SAP2000 .s2k Text File; then run load cases GRAVITY and QUAKE.
 $ Not verified with the program (tables and fields follow SAP2000's own exports):
-$  1. FOOT is a friction isolator (LINK PROPERTY DEFINITIONS 08 - SLIDING ISOLATOR): U1 compression only with k1, U2 with k1
-$     while U1 presses, friction coefficient 1000 so that a foot never slides. In SAP2000 its shear force follows the axial
-$     force (force = P mu z); the tuned model has a plain spring that lets go when P = 0. If the import does not know the
-$     table, assign FOOT_GAP to the FOOT links: its horizontal spring then also acts on a lifted foot, which is wrong by
-$     the foot's travel times k1; use it for small rocking only.
-$  2. GeoNonLin of both cases must read 'P-Delta plus Large Displacements': check under Define > Load Cases.
+$  1. FOOT is a friction isolator (LINK PROPERTY DEFINITIONS 08 - SLIDING ISOLATOR): U1 compression
+$     only with k1, U2 with k1 while U1 presses, friction coefficient 1000 so that a foot never
+$     slides. In SAP2000 its shear force follows the axial force (force = P mu z); the tuned model
+$     has a plain spring that lets go when P = 0. If the import does not know the table, assign
+$     FOOT_GAP to the FOOT links: its horizontal spring then also acts on a lifted foot, which is
+$     wrong by the foot's travel times k1; use it for small rocking only.
+$  2. GeoNonLin of both cases must read 'P-Delta plus Large Displacements': check under Define >
+$     Load Cases.
 @STEPS@
 $  4. The mass source must count added masses only.
-$  5. The words for the isolator (LinkType), large displacements (GeoNonLin) and ground acceleration (LoadType) differ between
-$     versions: if the import log names one, set it in the dialog of the FOOT links or of the load cases.
+$  5. The words for the isolator (LinkType), large displacements (GeoNonLin) and ground acceleration
+$     (LoadType) differ between versions: if the import log names one, set it in the dialog of the
+$     FOOT links or of the load cases.
 ";
 
 /// Of springs for the program's steps.
 const FOR_ITS_STEPS: &str = "\
-$  3. The springs are for the load case's step and integrator. Set under Nonlinear Parameters: substeps between DTMax and
-$     DTMin, no iterations with constant stiffness, Newton-Raphson iterations and relative tolerance as in the table:
-$     an emulation of such steps loses histories with a tighter tolerance or with constant stiffness.";
+$  3. The springs are for the load case's step and integrator. Set under Nonlinear Parameters:
+$     substeps between DTMax and DTMin, no iterations with constant stiffness, Newton-Raphson
+$     iterations and relative tolerance as in the table: an emulation of such steps loses histories
+$     with a tighter tolerance or with constant stiffness.";
 /// Of springs for steps that follow touches.
 const NOT_FOR_ITS_STEPS: &str = "\
-$  3. The integrator is Hilber-Hughes-Taylor with alpha = -1/3, the most damped SAP2000 offers; springs that
-$     were tuned for steps that follow touches are not for its steps.";
+$  3. The integrator is Hilber-Hughes-Taylor with alpha = -1/3, the most damped SAP2000 offers;
+$     springs that were tuned for steps that follow touches are not for its steps.";
 
 /// The whole file.
 pub(super) fn tables(parts: &SapModel) -> String {

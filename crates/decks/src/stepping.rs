@@ -208,8 +208,8 @@ impl SteppedDeck {
     pub fn told(self, name: &str) -> (String, Option<String>) {
         let line = self.gives_up_s.map(|time| {
             format!(
-                "{name} ends at {time:.2} s, where the emulation of its steps gives up: take another \
-                 integrator or a shorter step"
+                "{name} ends at {time:.2} s, where the emulation of its steps gives up: take \
+                    another integrator or a shorter step"
             )
         });
         (self.text, line)

@@ -114,15 +114,19 @@ pub struct Verification {
 #[allow(missing_docs)] // messages say what variants and their fields are
 pub enum VerifyError {
     #[error(
-        "verify: {python} cannot load openseespy; install it with `pip install openseespy` (on Debian also `apt install libblas3 liblapack3`), or name another interpreter with --python"
+        "verify: {python} cannot load openseespy; install it with `pip install openseespy` (on \
+            Debian also `apt install libblas3 liblapack3`), or name another interpreter with \
+            --python"
     )]
     NoOpenSees { python: String },
     #[error(
-        "verify: {command} finds no OpenSees; install it with `pip install opensees`, or name another command with --tcl"
+        "verify: {command} finds no OpenSees; install it with `pip install opensees`, or name \
+            another command with --tcl"
     )]
     NoTcl { command: String },
     #[error(
-        "verify: {program} cannot be started ({source}); install Python 3 or name it with --python (a Tcl interpreter with --tcl)"
+        "verify: {program} cannot be started ({source}); install Python 3 or name it with --python \
+            (a Tcl interpreter with --tcl)"
     )]
     NoProgram { program: String, source: io::Error },
     #[error(
@@ -132,7 +136,8 @@ pub enum VerifyError {
     #[error("verify: OpenSees stopped ({reason}); try another --duration or stiffer springs")]
     Stopped { reason: String },
     #[error(
-        "verify: {path} is not the history the deck writes ({reason}); run the deck by hand to see why"
+        "verify: {path} is not the history the deck writes ({reason}); run the deck by hand to see \
+            why"
     )]
     History { path: String, reason: String },
     #[error("verify: {path}: {source}; check the folder and its permissions")]

@@ -108,8 +108,8 @@ impl AccuracyReport {
         }
     }
 
-    /// The same for a screen: on the record and the set of motions beside it.
-    pub fn short(&self) -> String {
+    /// The same for a screen: on the first so many of the record and the sets of motions.
+    pub fn short(&self, sets: usize) -> String {
         let on = |(i, row): (usize, &AccuracyOn)| {
             let [peaks, nrmse] = if i == 0 { ["peaks within ", "NRMSE "] } else { [""; 2] };
             let peaks = row.peaks.map(|error| format!("{peaks}{}", within(error, row.worst)));
@@ -117,7 +117,7 @@ impl AccuracyReport {
             let both: Vec<String> = peaks.into_iter().chain(history).collect();
             format!("{}: {}", row.on, both.join(", "))
         };
-        let measured: Vec<String> = self.measured().take(2).enumerate().map(on).collect();
+        let measured: Vec<String> = self.measured().take(sets).enumerate().map(on).collect();
         match (measured.is_empty(), self.reached) {
             (true, _) => self.sentence(),
             (false, true) => format!("{}; as asked", measured.join("; ")),
@@ -193,10 +193,11 @@ mod tests {
         };
         assert_eq!(
             report.sentence(),
-            "on this record: peaks within 0.013 % (uplift), history 2.2e-5 (NRMSE); asked: history 0.002, reached"
+            "on this record: peaks within 0.013 % (uplift), history 2.2e-5 (NRMSE); asked: history \
+                0.002, reached"
         );
         assert_eq!(
-            report.short(),
+            report.short(2),
             "this record: peaks within 0.013 % (uplift), NRMSE 2.2e-5; as asked"
         );
         assert_eq!(report.table().rows[0][2], "0.013 %");

@@ -22,8 +22,11 @@ const ROWS: [PeakRow; 7] = [
     ("impacts", |p| Some(p.impacts as f64), |x| format!("{x:.0}")),
 ];
 
+/// Below this a displacement is rounding (m).
+const ROUNDING_M: f64 = 1e-12;
+
 fn meters(x: f64) -> String {
-    quantity(x, "m")
+    quantity(if x.abs() < ROUNDING_M { 0.0 } else { x }, "m")
 }
 
 /// The table; none of springs without a record.

@@ -365,8 +365,8 @@ mod tests {
     /// A structure that is moved as a whole: its feet move with it, and no corner lifts.
     #[test]
     fn feet_of_a_structure_that_has_moved_are_where_they_landed() {
-        let text = "kind = 'aframe'\nheight_m = 24.0\nwidth_m = 6.0\nmass_kg = 3e5\nfoot_mass_kg = 1e4\nea_n = 1e10\n\
-                    ei_nm2 = 1e10\ndamping_ratio = 0.03\n";
+        let text = "kind = 'aframe'\nheight_m = 24.0\nwidth_m = 6.0\nmass_kg = 3e5\n\
+            foot_mass_kg = 1e4\nea_n = 1e10\nei_nm2 = 1e10\ndamping_ratio = 0.03\n";
         let structure: ElasticStructure = toml::from_str(text).unwrap();
         let Assembled { frame, watched, .. } =
             Assembled::new(structure.checked().unwrap()).unwrap();

@@ -233,12 +233,34 @@ impl Run {
         let Some(told) = graver.or(answer) else {
             return "Springs without a record: nothing rocked.".into();
         };
-        let ill = self
-            .findings
-            .iter()
-            .any(|filed| matches!(filed.finding, Finding::IllConditioned { .. }));
-        let doubt = if ill { "; no model foretells this motion" } else { "" };
-        sentence(&format!("{}{}{doubt}", told.message, self.not_computed()))
+        let foretold = match self.foretold() {
+            Some(true) => "; it can be foretold",
+            Some(false) => "; no model foretells it",
+            None => "",
+        };
+        sentence(&format!("{}{}{foretold}", told.message, self.not_computed()))
+    }
+
+    /// Whether all of a motion can be foretold; none where a finding tells up to when, or where
+    /// nothing rocks or stands.
+    fn foretold(&self) -> Option<bool> {
+        let any = |of: fn(&Finding) -> bool| self.findings.iter().any(|filed| of(&filed.finding));
+        if any(|f| matches!(f, Finding::IllConditioned { .. })) {
+            return Some(false);
+        }
+        let in_part = any(|f| match f {
+            Finding::DeckJudged { end, .. } => *end != DeckEnd::Record,
+            _ => matches!(
+                f,
+                Finding::ForetoldUpTo { .. }
+                    | Finding::SlidesOn { .. }
+                    | Finding::ModelsDisagree { .. }
+                    | Finding::PivotLeavesGround { .. }
+                    | Finding::HistoryEndsEarly { .. }
+                    | Finding::NoAnswer { .. }
+            ),
+        });
+        (any(|f| matches!(f, Finding::Stands { .. })) && !in_part).then_some(true)
     }
 
     /// What of the answer is missing, because a history ended before its record.

@@ -43,9 +43,10 @@ pub(crate) fn sections(run: &Run) -> Vec<Section> {
             id: "peaks",
             title: "Largest displacements".into(),
             text: vec![
-                "Of the highest point, against the ground. By rocking: what the rotation of its base alone moves it; by bending: how far \
-                 it is across the axis of its base; feet moved: how far the feet of its base are from where they stood. Each is \
-                 the largest of all bases, at its own time."
+                "Of the highest point, against the ground. By rocking: what the rotation of its \
+                    base alone moves it; by bending: how far it is across the axis of its base; \
+                    feet moved: how far the feet of its base are from where they stood. Each is \
+                    the largest of all bases, at its own time."
                     .into(),
             ],
             table: Some(table),
@@ -58,8 +59,9 @@ pub(crate) fn sections(run: &Run) -> Vec<Section> {
         id: "springs",
         title: format!("The springs at {}", run.springs_at),
         text: vec![
-            "A numerical contact stiffness, not that of soil. Gap spring k1 between structure and absorber m2, which presses only; k2 \
-             beside the dashpot c between absorber and ground. m2 is a numerical mass, not one to be built."
+            "A numerical contact stiffness, not that of soil. Gap spring k1 between structure and \
+                absorber m2, which presses only; k2 beside the dashpot c between absorber and \
+                ground. m2 is a numerical mass, not one to be built."
                 .into(),
         ],
         table: Some(springs(run)),
@@ -71,8 +73,9 @@ pub(crate) fn sections(run: &Run) -> Vec<Section> {
             title: "Accuracy, and on what".into(),
             text: vec![
                 format!("{} Measured in this run.", sentence(&accuracy.sentence())),
-                "NRMSE is the root mean square of the difference from the reference over the root mean square of the reference; only \
-                 motions count that can be followed one to one."
+                "NRMSE is the root mean square of the difference from the reference over the root \
+                    mean square of the reference; only motions count that can be followed one to \
+                    one."
                     .into(),
             ],
             table: Some(accuracy.table()),
@@ -127,7 +130,9 @@ fn forces(run: &Run) -> Option<Section> {
     let below = match forces.below_hz {
         Some(hz) => format!("Largest of what is slower than {} Hz.", significant(hz, 3)),
         None if matches!(run.parameters, FiledParameters::Elastic(_)) => {
-            "A column without mass has no waves: its forces are as they are, those of the ground below 20 Hz.".into()
+            "A column without mass has no waves: its forces are as they are, those of the ground \
+                below 20 Hz."
+                .into()
         }
         None => "Largest between impacts: an impact's impulse is not among them.".into(),
     };
@@ -135,11 +140,12 @@ fn forces(run: &Run) -> Option<Section> {
         id: "forces",
         title: "Forces to design with".into(),
         text: vec![format!(
-            "{below} A force is given if it changes by less than 5 % with the springs' stiffness and the mesh, as measured in this run. \
-             Column shear is that of the height where it is largest, axial force that at the base; \
-             members.csv has all members. Axial force is positive in tension. \
-             Each is the largest by itself, at its own time: they do not act together. \
-             Not foretold: the motion up to that time is one of many alike, and no model tells which."
+            "{below} A force is given if it changes by less than 5 % with the springs' stiffness \
+                and the mesh, as measured in this run. Column shear is that of the height where it \
+                is largest, axial force that at the base; members.csv has all members. Axial force \
+                is positive in tension. Each is the largest by itself, at its own time: they do \
+                not act together. Not foretold: the motion up to that time is one of many alike, \
+                and no model tells which."
         )],
         table: Some(Table::new(head).with(forces.all().map(row))),
         ..Section::default()
@@ -195,8 +201,8 @@ fn together(run: &Run) -> Option<Section> {
         title: "What acts together at the column's base".into(),
         text: vec![
             "At the time of each largest force, below the same frequency; means over parts of the \
-             record's time step, so somewhat less than the largest. The largest shear may be higher up \
-             the column. Axial force is positive in tension."
+                record's time step, so somewhat less than the largest. The largest shear may be \
+                higher up the column. Axial force is positive in tension."
                 .into(),
         ],
         table: Some(Table::new(head).with(rows)),
@@ -223,7 +229,8 @@ fn other_forces(run: &Run) -> Option<Section> {
         id: "other-forces",
         title: "The same forces with another mesh and on other springs".into(),
         text: vec![
-            "The largest magnitude over the same time. A force whose magnitude changes by 5 % or more is withheld."
+            "The largest magnitude over the same time. A force whose magnitude changes by 5 % or \
+                more is withheld."
                 .into(),
         ],
         table: Some(Table::new(head).with(rows)),

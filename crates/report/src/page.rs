@@ -69,7 +69,8 @@ fn head(run: &Run) -> String {
     );
     let items: String = items.iter().map(|text| format!("<li>{}</li>", pretty(text))).collect();
     format!(
-        "<div class=\"{class}\" id=\"verdict\"><strong>{}</strong><ul>{items}</ul></div>\n<div class=\"tiles\">\n{}</div>\n",
+        "<div class=\"{class}\" id=\"verdict\"><strong>{}</strong><ul>{items}</ul></div>\n\
+            <div class=\"tiles\">\n{}</div>\n",
         pretty(&run.verdict()),
         tiles(run)
     )
@@ -147,8 +148,8 @@ fn escape_lines(lines: &[String]) -> String {
 /// How to use the springs.
 fn programs(run: &Run) -> (&'static str, &'static str, String) {
     let body = if run.taken.record.is_none() {
-        "<p>Tuned without a record, so without a deck: <code>tune export --format openseespy --parameters parameters.json --record \
-         FILE --out model.py</code> writes one.</p>\n"
+        "<p>Tuned without a record, so without a deck: <code>tune export --format openseespy \
+            --parameters parameters.json --record FILE --out model.py</code> writes one.</p>\n"
             .to_string()
     } else {
         let sap2000 = match (&run.program, run.sap2000) {
@@ -156,28 +157,32 @@ fn programs(run: &Run) -> (&'static str, &'static str, String) {
             (Some(program), deck) => {
                 let deck = match deck {
                     _ if program.deck_of_even_steps => {
-                        " <code>decks/model_even.py</code> and <code>decks/model_even.tcl</code> hold the model, these springs and \
-                             these settings."
+                        " <code>decks/model_even.py</code> and <code>decks/model_even.tcl</code> \
+                            hold the model, these springs and these settings."
                     }
                     true => {
-                        " <code>decks/model_sap2000.s2k</code> holds the model, these springs and these settings; it could not be \
-                             tried with the program."
+                        " <code>decks/model_sap2000.s2k</code> holds the model, these springs and \
+                            these settings; it could not be tried with the program."
                     }
                     false => {
-                        " No SAP2000 deck was written: its tables leave vertical motion, dampers, tendons and friction out."
+                        " No SAP2000 deck was written: its tables leave vertical motion, dampers, \
+                            tendons and friction out."
                     }
                 };
                 format!("<p>{}: {}.{deck}</p>\n", escape(&program.program), escape(&program.line()))
             }
         };
         format!(
-            "<p>The deck builds the model, applies gravity, runs the record in steps that follow every touch and lift, and prints its \
-             peaks beside those of this report.</p>\n<pre>pip install openseespy\npython3 decks/model_openseespy.py\ntune verify \
-             --parameters parameters.json     # OpenSees, this history and the reference in one table</pre>\n<p>In a model of your own: a \
-             node for the foot, one for the absorber and a fixed one under it; between foot and absorber a vertical gap spring k₁ that \
-             only presses and a horizontal k₁ that acts while the foot presses; between absorber and ground k₂ beside the dashpot c, in \
-             both directions; m₂ on the absorber. Steps must be shortened towards touches and lifts (<code>class Steps</code> in the \
-             deck can be pasted).</p>\n{sap2000}"
+            "<p>The deck builds the model, applies gravity, runs the record in steps that follow \
+                every touch and lift, and prints its peaks beside those of this report.</p>\n\
+                <pre>pip install openseespy\npython3 decks/model_openseespy.py\ntune verify \
+                --parameters parameters.json     # OpenSees, this history and the reference in one \
+                table</pre>\n<p>In a model of your own: a node for the foot, one for the absorber \
+                and a fixed one under it; between foot and absorber a vertical gap spring k₁ that \
+                only presses and a horizontal k₁ that acts while the foot presses; between \
+                absorber and ground k₂ beside the dashpot c, in both directions; m₂ on the \
+                absorber. Steps must be shortened towards touches and lifts (<code>class \
+                Steps</code> in the deck can be pasted).</p>\n{sap2000}"
         )
     };
     ("opensees", "In OpenSees and SAP2000", body)
@@ -185,10 +190,12 @@ fn programs(run: &Run) -> (&'static str, &'static str, String) {
 
 fn cite() -> (&'static str, &'static str, String) {
     let body = format!(
-        "<p>The method: Q. T. Ma, J. W. Butterworth, B. D. Davidson, <i>Modelling rocking structures using standard finite \
-         elements</i>, New Zealand Society for Earthquake Engineering Conference, 2005. The theory: G. W. Housner, <i>The behavior of \
-         inverted pendulum structures during earthquakes</i>, Bulletin of the Seismological Society of America 53 (2), \
-         1963.</p>\n<p>The program: the groundspring authors, <i>tune: ground springs for rocking structures</i>, version {}.</p>\n",
+        "<p>The method: Q. T. Ma, J. W. Butterworth, B. D. Davidson, <i>Modelling rocking \
+            structures using standard finite elements</i>, New Zealand Society for Earthquake \
+            Engineering Conference, 2005. The theory: G. W. Housner, <i>The behavior of inverted \
+            pendulum structures during earthquakes</i>, Bulletin of the Seismological Society of \
+            America 53 (2), 1963.</p>\n<p>The program: the groundspring authors, <i>tune: ground \
+            springs for rocking structures</i>, version {}.</p>\n",
         env!("CARGO_PKG_VERSION")
     );
     ("cite", "How to cite", body)
@@ -202,9 +209,10 @@ fn document(
     parts: &[(String, String, String)],
 ) -> String {
     let mut out = format!(
-        "<!DOCTYPE html>\n<html lang=\"en\">\n<head>\n<meta charset=\"utf-8\">\n<meta name=\"viewport\" \
-         content=\"width=device-width, initial-scale=1\">\n<link rel=\"icon\" href=\"data:,\">\n<title>{title}</title>\n\
-         <style>\n{STYLE}</style>\n</head>\n<body>\n<main>\n<h1>{title}</h1>\n<p class=\"sub\">{subtitle}</p>\n<nav>"
+        "<!DOCTYPE html>\n<html lang=\"en\">\n<head>\n<meta charset=\"utf-8\">\n\
+            <meta name=\"viewport\" content=\"width=device-width, initial-scale=1\">\n\
+            <link rel=\"icon\" href=\"data:,\">\n<title>{title}</title>\n<style>\n{STYLE}</style>\n\
+            </head>\n<body>\n<main>\n<h1>{title}</h1>\n<p class=\"sub\">{subtitle}</p>\n<nav>"
     );
     for (id, heading, _) in parts {
         // writing to a String cannot fail
@@ -219,8 +227,9 @@ fn document(
     let version = env!("CARGO_PKG_VERSION");
     let _ = write!(
         out,
-        "<footer>Written by tune {version} (crate groundspring). The same numbers: parameters.json, parameters.md, history.csv, \
-         members.csv.</footer>\n</main>\n<script>\n{SCRIPT}</script>\n</body>\n</html>\n"
+        "<footer>Written by tune {version} (crate groundspring). The same numbers: \
+            parameters.json, parameters.md, history.csv, members.csv.</footer>\n</main>\n<script>\n\
+            {SCRIPT}</script>\n</body>\n</html>\n"
     );
     out
 }

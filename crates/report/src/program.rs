@@ -139,9 +139,9 @@ impl ProgramReport {
             usable: measured_on(row).is_none_or(|errors| errors.peak[0].is_some()),
             deck_of_even_steps: row.is_opensees_even(),
             stiffer: row.stiffer_for_earthquakes.then_some(
-                "Omega_n is twice that of the closed form: on earthquake-like motions, which sway the \
-                 structure before it lifts, such springs are better by more than they lose on pulses, \
-                 and this integrator ends the motions that they ring in.",
+                "Omega_n is twice that of the closed form: on earthquake-like motions, which sway \
+                    the structure before it lifts, such springs are better by more than they lose \
+                    on pulses, and this integrator ends the motions that they ring in.",
             ),
         }
     }
@@ -151,8 +151,11 @@ impl ProgramReport {
         if self.program.chars().count() <= NAME { &self.program } else { "even step" }
     }
 
-    /// For a screen.
+    /// For a screen: no settings of springs that are not to be used.
     pub(crate) fn line(&self) -> String {
+        if !self.usable {
+            return format!("{} steps: {}; give a shorter --step", self.steps, self.errors);
+        }
         let set_to: Vec<String> =
             self.set_to.iter().map(|s| s.short.clone()).filter(|short| !short.is_empty()).collect();
         format!("{} steps: {}; {}", self.steps, set_to.join(", "), self.errors)
@@ -167,13 +170,14 @@ impl ProgramReport {
             title: format!("Springs for {} with steps of {}", self.program, self.steps),
             text: vec![
                 format!(
-                    "A program with steps of one size lands somewhere within a step, and errs by 13 p dt in \
-                     the median whatever its springs. These are as stiff, and give back as little of a \
-                     landing, as the step has use for. Set: {}.",
+                    "A program with steps of one size lands somewhere within a step, and errs by \
+                        13 p dt in the median whatever its springs. These are as stiff, and give \
+                        back as little of a landing, as the step has use for. Set: {}.",
                     set_to.join("; ")
                 ),
                 format!(
-                    "Measured by stepping the model as such a program does, beside Housner's history: {}.",
+                    "Measured by stepping the model as such a program does, beside the history of \
+                        the reference: {}.",
                     self.errors
                 ),
             ],

@@ -182,8 +182,9 @@ impl RigidRun {
             id: "elements",
             title: "Forces of the finite elements".into(),
             text: vec![
-                "Between landings: later than 0.1/p after the last touch-down. In landings they are forces of the springs and grow \
-                 with Omega_n: not to design with. Axial force is positive in tension; moments are those at the mass."
+                "Between landings: later than 0.1/p after the last touch-down. In landings they \
+                    are forces of the springs and grow with Omega_n: not to design with. Axial \
+                    force is positive in tension; moments are those at the mass."
                     .into(),
             ],
             table: Some(tables::finite_element_forces(&columns)),
@@ -194,7 +195,8 @@ impl RigidRun {
                 id: "stiffness",
                 title: "Error over the stiffness".into(),
                 text: vec![
-                    "Error of u against Omega_n, and what stiffness costs. Foot forces are those of the springs."
+                    "Error of u against Omega_n, and what stiffness costs. Foot forces are those \
+                        of the springs."
                         .into(),
                 ],
                 table: Some(tables::stiffness(&self.front)),
@@ -328,7 +330,8 @@ fn softer(case: &Case, job: &Job, both: &ModelComparison) -> Option<MemberHistor
 fn conditioning(row: &ConditioningRow) -> Option<String> {
     let pair = |moved: Option<[f64; 2]>| moved.map(|moved| moved.map(percent).join(" and "));
     Some(format!(
-        "Changes of 0.1 % and 1 % move Housner's history by {} (width), {} (scale of the record), {} (restitution), as NRMSE.",
+        "Changes of 0.1 % and 1 % move Housner's history by {} (width), {} (scale of the record), \
+            {} (restitution), as NRMSE.",
         pair(row.moved_by_width)?,
         pair(row.moved_by_scale)?,
         pair(row.moved_by_restitution)?
@@ -341,9 +344,10 @@ fn sections(p: &Parameters) -> Vec<Section> {
         id: "table1",
         title: "The springs as in the paper's Table 1".into(),
         text: vec![
-            "For one foot; every foot has a vertical and a horizontal unit. In a unit the gap spring k1 stands between the foot and \
-             an absorber of mass m2, and the spring k2 and the dashpot c, side by side, between the absorber and the ground. mu = m2/m1 \
-             with the structure's mass m1."
+            "For one foot; every foot has a vertical and a horizontal unit. In a unit the gap \
+                spring k1 stands between the foot and an absorber of mass m2, and the spring k2 \
+                and the dashpot c, side by side, between the absorber and the ground. mu = m2/m1 \
+                with the structure's mass m1."
                 .into(),
             tables::ABSORBER.into(),
         ],
@@ -371,8 +375,8 @@ fn sections(p: &Parameters) -> Vec<Section> {
             id: "landings",
             title: "Landings without a record".into(),
             text: vec![format!(
-                "Released at rest from a share of alpha, landed once, up to the next impact. Restitution asked for: {asked}. Ringing is \
-                 a share of the weight."
+                "Released at rest from a share of alpha, landed once, up to the next impact. \
+                    Restitution asked for: {asked}. Ringing is a share of the weight."
             )],
             table: Some(tables::landings(p)),
             ..Section::default()

@@ -1,7 +1,7 @@
 //! What `tune run` prints: one screen, the answer first.
 
 use super::{FiledParameters, Run, Table, Unit, force_value, height, peak_table, sentence};
-use files::message::{shortened, significant};
+use files::message::{percent, shortened, significant};
 use springs::results::{DesignForce, DesignForces, FiledFinding, Finding, ForceName, Weight};
 
 /// Lines of a screen, and letters of a line.
@@ -11,6 +11,8 @@ pub(crate) const WIDTH: usize = 98;
 const WARNING: &str = "warning   ";
 /// Lines that one warning may take.
 const LONGEST_WARNING: usize = 3;
+/// Letters of a message that a remedy leaves of it at least.
+const LEAST_MESSAGE: usize = 40;
 /// Further lines of the design forces begin here.
 const FORCES_INDENT: usize = 15;
 
@@ -23,17 +25,20 @@ struct Crowding {
     assumed: usize,
     /// Lines of the design forces.
     forces: usize,
+    /// Sets of motions that the accuracy is told on.
+    measured: usize,
 }
 
 /// The first in which every warning has its room is taken, else the last.
 const CROWDING: [Crowding; 3] = [
-    Crowding { empty_line: true, assumed: 2, forces: 3 },
-    Crowding { empty_line: false, assumed: 2, forces: 3 },
-    Crowding { empty_line: false, assumed: 1, forces: 2 },
+    Crowding { empty_line: true, assumed: 2, forces: 3, measured: 2 },
+    Crowding { empty_line: false, assumed: 2, forces: 3, measured: 2 },
+    Crowding { empty_line: false, assumed: 1, forces: 2, measured: 1 },
 ];
 
 /// What is said where no springs suit steps of one size.
-pub(crate) const NO_PROGRAM: &str = "not these springs: programs with steps of one size need others; there are none for this structure";
+pub(crate) const NO_PROGRAM: &str = "not these springs: programs with steps of one size need \
+    others; there are none for this structure";
 /// The deck of OpenSees with steps of one size.
 pub const EVEN_DECK: &str = "model_even.py";
 /// Letters of a file's name in the line of the record.
@@ -80,7 +85,7 @@ fn answer(run: &Run, written: &Written, crowding: Crowding) -> Vec<String> {
     forces(run, crowding.forces, &mut lines);
     springs(run, &mut lines);
     if let Some(accuracy) = &run.accuracy {
-        at_most(2, &mut lines, "accuracy  ", &accuracy.short());
+        at_most(2, &mut lines, "accuracy  ", &accuracy.short(crowding.measured));
     }
     next(run, written, &mut lines);
     lines
@@ -93,8 +98,12 @@ fn at_most(most: usize, lines: &mut Vec<String>, name: &str, text: &str) {
     if all.len() > most {
         all.truncate(most);
         if let Some(last) = all.last_mut() {
-            let kept: String = last.chars().take(WIDTH - 4).collect();
-            *last = format!("{} ...", kept.trim_end());
+            // whole words
+            while last.chars().count() > WIDTH - 4 {
+                let Some(space) = last.trim_end().rfind(' ') else { break };
+                last.truncate(space);
+            }
+            *last = format!("{} ...", last.trim_end_matches([' ', ',', ';', ':']));
         }
     }
     lines.extend(all);
@@ -130,7 +139,7 @@ fn taken(run: &Run, written: &Written, most: usize, lines: &mut Vec<String>) {
     let fact = |name: &str| {
         run.taken.facts.iter().find(|(fact, _)| fact.starts_with(name)).map(|(_, value)| value)
     };
-    let first = fact("first lifts").map_or(String::new(), |time| format!(", first at {time}"));
+    let first = fact("first lifts").map_or(String::new(), |time| format!(", t = {time}"));
     let lifts = fact("lifts").map_or(String::new(), |value| format!("; lifts at {value}{first}"));
     at_most(2, lines, "", &format!("{}{lifts}", run.taken.structure));
     if let Some(record) = &run.taken.record {
@@ -169,7 +178,7 @@ fn forces(run: &Run, most: usize, lines: &mut Vec<String>) {
         }
     };
     let doubt = some.then(|| format!("{mark} not foretold").trim_start().to_string());
-    let of: Vec<String> = below.into_iter().chain(doubt).collect();
+    let of: Vec<String> = below.into_iter().chain(changes(run, forces)).chain(doubt).collect();
     let of = if of.is_empty() { String::new() } else { format!(" ({})", of.join("; ")) };
     let name = format!("design forces{of}  ");
     let words = |brief| force_words(forces, brief, |one| if doubted(one) { mark } else { "" });
@@ -184,6 +193,16 @@ fn forces(run: &Run, most: usize, lines: &mut Vec<String>) {
             break;
         }
     }
+}
+
+/// By how much those that are given change, the largest of them.
+fn changes(run: &Run, forces: &DesignForces) -> Option<String> {
+    let given = forces.all().filter(|(_, force)| force.holds).filter_map(|(_, force)| force.change);
+    let with = match run.parameters {
+        FiledParameters::Rigid(_) => "springs",
+        FiledParameters::Elastic(_) => "springs and mesh",
+    };
+    Some(format!("{} with {with}", percent(given.reduce(f64::max)?)))
 }
 
 /// The forces in words, each with its mark; those withheld are named. In brief without what the
@@ -228,10 +247,7 @@ fn springs(run: &Run, lines: &mut Vec<String>) {
     const SAID: &str = "  numerical contact stiffness, not soil";
     let of = format!("springs {}", run.springs_at.replace("each", "per"));
     let mut table = Table::new([of.as_str(), "k1 [N/m]", "k2 [N/m]", "m2 [kg]", "c [N s/m]"]);
-    let steps = run.program.as_ref().map(|program| match program.usable {
-        true => format!("{} steps", program.steps),
-        false => format!("{}, NOT to be used", program.steps),
-    });
+    let steps = run.program.as_ref().map(|program| format!("{} steps", program.steps));
     let mut add = |of: Option<&str>, units: &[Unit]| {
         for unit in units.iter().take(SHOWN) {
             let cells = [unit.k1_n_per_m, unit.k2_n_per_m, unit.m2_kg, unit.c_ns_per_m]
@@ -241,7 +257,8 @@ fn springs(run: &Run, lines: &mut Vec<String>) {
         }
     };
     add(steps.as_ref().map(|_| "OpenSees deck"), &run.springs);
-    run.program.iter().for_each(|program| add(steps.as_deref(), &program.units));
+    let usable = run.program.iter().filter(|program| program.usable);
+    usable.for_each(|program| add(steps.as_deref(), &program.units));
     let mut all = table.lines();
     let note = match run.springs.len() {
         n if n > SHOWN => format!("{SAID}; {} more units: parameters.json", n - SHOWN),
@@ -304,28 +321,57 @@ fn urgency(finding: &Finding) -> usize {
     }
 }
 
+/// A warning, and what to do.
+struct Warned {
+    message: String,
+    remedy: String,
+}
+
+impl Warned {
+    /// In so many lines: what does not fit is left out of the message, so that the remedy stays,
+    /// unless that takes most of them.
+    fn in_lines(&self, most: usize) -> Vec<String> {
+        let mut all = Vec::new();
+        wrap(&mut all, WARNING, &format!("{}{}", self.message, self.remedy));
+        if all.len() <= most {
+            return all;
+        }
+        // words are wrapped at spaces, so that a line may stay shorter than it could be
+        let short = (1..self.message.split(' ').count()).rev().find_map(|words| {
+            let kept: Vec<&str> = self.message.split(' ').take(words).collect();
+            let kept = kept.join(" ");
+            let enough = kept.chars().count() >= self.remedy.chars().count().min(LEAST_MESSAGE);
+            let mut some = Vec::new();
+            wrap(&mut some, WARNING, &format!("{kept} ...{}", self.remedy));
+            (enough && some.len() <= most).then_some(some)
+        });
+        short.unwrap_or_else(|| {
+            let mut some = Vec::new();
+            at_most(most, &mut some, WARNING, &format!("{}{}", self.message, self.remedy));
+            some
+        })
+    }
+}
+
 /// Warnings in words, the gravest first.
-fn warnings(run: &Run) -> Vec<String> {
+fn warnings(run: &Run) -> Vec<Warned> {
     let mut all: Vec<_> =
         run.remarks().filter(|finding| finding.weight >= Weight::Warning).collect();
     all.sort_by_key(|filed| (std::cmp::Reverse(filed.weight), urgency(&filed.finding)));
-    let words = |filed: &FiledFinding| {
-        let remedy =
-            filed.remedy.as_ref().map_or(String::new(), |remedy| format!(" {}", sentence(remedy)));
-        format!("{}{remedy}", sentence(&filed.message))
+    let words = |filed: &FiledFinding| Warned {
+        message: sentence(&filed.message),
+        remedy: filed.remedy.as_ref().map_or(String::new(), |r| format!(" {}", sentence(r))),
     };
     all.into_iter().map(words).collect()
 }
 
 /// Lines that a warning wants.
-fn warning_lines(warning: &str) -> usize {
-    let mut some = Vec::new();
-    at_most(LONGEST_WARNING, &mut some, WARNING, warning);
-    some.len()
+fn warning_lines(warning: &Warned) -> usize {
+    warning.in_lines(LONGEST_WARNING).len()
 }
 
 /// Warnings in the room that is left: each has one line before any has a second.
-fn tell(warnings: &[String], place: &str, lines: &mut Vec<String>) {
+fn tell(warnings: &[Warned], place: &str, lines: &mut Vec<String>) {
     let room = LINES.saturating_sub(lines.len());
     let told = if warnings.len() <= room { warnings.len() } else { room.saturating_sub(1) };
     let mut given = vec![1; told];
@@ -339,7 +385,7 @@ fn tell(warnings: &[String], place: &str, lines: &mut Vec<String>) {
         }
     }
     for (most, warning) in given.into_iter().zip(warnings) {
-        at_most(most, lines, WARNING, warning);
+        lines.extend(warning.in_lines(most));
     }
     if told < warnings.len() && lines.len() < LINES {
         lines.push(format!("{WARNING}and {} more: {place}", warnings.len() - told));
@@ -351,10 +397,27 @@ mod tests {
     use super::*;
 
     fn told(warnings: &[usize], taken: usize) -> Vec<String> {
-        let all: Vec<String> = warnings.iter().map(|n| "a word ".repeat(13 * n - 3)).collect();
+        let warned =
+            |n: &usize| Warned { message: "a word ".repeat(13 * n - 3), remedy: String::new() };
+        let all: Vec<Warned> = warnings.iter().map(warned).collect();
         let mut lines = vec![String::from("x"); taken];
         tell(&all, "report.html", &mut lines);
         lines.split_off(taken)
+    }
+
+    #[test]
+    fn a_message_gives_way_to_its_remedy() {
+        let warned = Warned { message: "a word ".repeat(30), remedy: " Do this: --that.".into() };
+        assert_eq!(warned.in_lines(3).len(), 3);
+        for lines in [1, 2] {
+            let some = warned.in_lines(lines);
+            assert!(some.len() == lines && some[lines - 1].ends_with("... Do this: --that."));
+            assert!(some.iter().all(|line| line.chars().count() <= WIDTH));
+        }
+        // a remedy that leaves no room for what it is for is cut like the message
+        let long = Warned { message: "a word ".repeat(30), remedy: " many words".repeat(8) };
+        assert!(long.in_lines(1)[0].starts_with("warning   a word a word"));
+        assert!(long.in_lines(1)[0].ends_with(" ..."));
     }
 
     #[test]

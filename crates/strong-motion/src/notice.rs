@@ -2,6 +2,8 @@
 
 use std::fmt;
 
+use super::text::quote;
+
 /// A remark on a record: one line.
 #[derive(Clone, Debug, PartialEq)]
 #[allow(missing_docs)] // messages say what variants and their fields are
@@ -12,6 +14,8 @@ pub enum Notice {
     RowByRow { file: String, columns: usize, samples: usize },
     /// The file has vertical components alone.
     OnlyVertical { file: String, component: String },
+    /// The vertical component goes on after the record's end.
+    VerticalCut { file: String, vertical: String, samples: usize },
     /// The mean is a large share of the peak.
     Offset { file: String, component: String, share: f64 },
     /// A peak that few earthquakes reach.
@@ -56,6 +60,13 @@ impl fmt::Display for Notice {
                      no horizontal one"
                 )
             }
+            Self::VerticalCut { file, vertical, samples } => write!(
+                f,
+                "{file}: the vertical component, {}, has {samples} more {} than the record; both \
+                    begin together, and what comes after the record is left out",
+                quote(vertical),
+                if *samples == 1 { "sample" } else { "samples" }
+            ),
             Self::Offset { file, component, share } => write!(
                 f,
                 "{file}: {} has an offset of {:.0} % of its peak; --baseline removes it",

@@ -49,8 +49,8 @@ pub struct Recording {
     chosen: bool,
     /// Columns of bare values that were read row by row.
     row_by_row: Option<usize>,
-    /// The vertical component asked for.
-    vertical: Option<Record>,
+    /// The vertical component asked for, and how many samples after the record's end it has.
+    vertical: Option<(Record, usize)>,
     pub(super) file: String,
 }
 
@@ -152,7 +152,7 @@ impl Recording {
         let record = self.components.swap_remove(self.taken).record;
         match self.vertical {
             // checked as it was read
-            Some(Record { name, accel, source, .. }) => {
+            Some((Record { name, accel, source, .. }, _)) => {
                 Record { vertical: Some(Vertical { name, accel: accel.into(), source }), ..record }
             }
             None => record,
@@ -190,6 +190,10 @@ impl Recording {
         }
         if !self.asked && taken.direction == Direction::Vertical {
             notices.push(Notice::OnlyVertical { file: file(), component: taken.label() });
+        }
+        if let Some((vertical, samples @ 1..)) = &self.vertical {
+            let (vertical, samples) = (vertical.name.clone(), *samples);
+            notices.push(Notice::VerticalCut { file: file(), vertical, samples });
         }
         notices.extend(taken.notices(&self.file));
         notices

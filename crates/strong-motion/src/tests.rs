@@ -267,9 +267,8 @@ fn an_offset_is_said_and_removed_when_asked() {
         Recording::parse("x.txt", text.as_bytes(), &options).unwrap()
     };
     let plain = read(false);
-    assert!(
-        matches!(plain.notices()[..], [Notice::Offset { share, .. }] if (share - 1.0 / 1.5).abs() < 1e-12)
-    );
+    assert!(matches!(plain.notices()[..],
+            [Notice::Offset { share, .. }] if (share - 1.0 / 1.5).abs() < 1e-12));
     let removed = read(true);
     assert_eq!((removed.notices(), removed.component().offset), (vec![], 1.0));
     assert_eq!(removed.into_record().accel, [0.5, -0.5, 0.25, -0.25]);

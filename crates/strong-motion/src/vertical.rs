@@ -136,11 +136,12 @@ impl Recording {
         }
     }
 
-    /// The vertical component asked for, checked against the one that a run takes.
+    /// The vertical component asked for, checked against the one that a run takes, and how many
+    /// samples after the end of that one are left out.
     pub(super) fn check_vertical(
         &self,
         options: &ReadOptions,
-    ) -> Result<Option<Record>, RecordError> {
+    ) -> Result<Option<(Record, usize)>, RecordError> {
         let vertical = match &options.vertical {
             None => return Ok(None),
             Some(VerticalFrom::Auto) => {
@@ -157,8 +158,12 @@ impl Recording {
                 Vertical::read(path, &ReadOptions { component: None, ..options.clone() })?
             }
         };
-        self.component().record.agrees(&vertical)?;
-        Ok(Some(vertical))
+        let record = &self.component().record;
+        let all = vertical.len();
+        let vertical = vertical.cut_to(record);
+        record.agrees(&vertical)?;
+        let left_out = all - vertical.len();
+        Ok(Some((vertical, left_out)))
     }
 
     /// The component of the record's own file, its source one that finds it again.
@@ -177,9 +182,22 @@ pub fn as_record(vertical: &Vertical, dt: f64) -> Record {
 }
 
 impl Record {
+    /// A component of the same time step without the samples after the end of `record`: the
+    /// components of one instrument often differ by a few.
+    fn cut_to(mut self, record: &Self) -> Self {
+        if self.has_step_of(record) {
+            self.accel.truncate(record.len());
+        }
+        self
+    }
+
+    fn has_step_of(&self, other: &Self) -> bool {
+        (self.dt - other.dt).abs() <= 1e-9 * other.dt
+    }
+
     /// Whether another record has its times.
     fn agrees(&self, other: &Self) -> Result<(), RecordError> {
-        if (self.dt - other.dt).abs() <= 1e-9 * self.dt && self.len() == other.len() {
+        if other.has_step_of(self) && self.len() == other.len() {
             return Ok(());
         }
         Err(RecordError::VerticalDiffers {

@@ -48,11 +48,13 @@ pub enum WebError {
     #[error("pulse: {name} is {value:?}; give {least} to {most} {unit}")]
     Pulse { name: &'static str, value: f64, least: f64, most: f64, unit: &'static str },
     #[error(
-        "springs for fixed steps are given for rigid bodies; take a block or an A-frame of the same size"
+        "springs for fixed steps are given for rigid bodies; take a block or an A-frame of the \
+            same size"
     )]
     FixedStepElastic,
     #[error(
-        "there are no springs for this geometry; slenderness alpha is to be between 0.005 and 0.9 rad"
+        "there are no springs for this geometry; slenderness alpha is to be between 0.005 and 0.9 \
+            rad"
     )]
     NoSprings,
 }

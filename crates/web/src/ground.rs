@@ -109,7 +109,8 @@ pub(crate) fn pulse(amplitude_g: f64, period_s: f64) -> Result<String, WebError>
     let before = (shape.half_length() / (omega * dt)).ceil();
     let samples = (2.0 * before + AFTER * period_s / dt) as usize;
     let mut text = format!(
-        "# antisymmetric Ricker wavelet, amplitude {amplitude_g} g, period {period_s} s; in g, time step {dt} s\n"
+        "# antisymmetric Ricker wavelet, amplitude {amplitude_g} g, period {period_s} s; in g, \
+            time step {dt} s\n"
     );
     for i in 0..=samples {
         let accel = amplitude_g * shape.acceleration(omega * dt * (i as f64 - before));

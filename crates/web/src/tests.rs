@@ -3,10 +3,11 @@
 use super::*;
 use serde_json::Value;
 
-const FRAME: &str = "[structure]\nkind = \"aframe\"\nheight_m = 61.0\nwidth_m = 12.2\nmass_kg = 680.1e3\n\
-                     [record]\nduration_s = 20.0\n";
-const PIER: &str = "[structure]\nkind = \"pier\"\nheight_m = 12.0\nwidth_m = 4.0\nmass_kg = 600e3\nfooting_mass_kg = 60e3\n\
-                    footing_height_m = 1.5\nfrequency_hz = 2.0\ndamping_ratio = 0.02\n[record]\nduration_s = 20.0\n";
+const FRAME: &str = "[structure]\nkind = \"aframe\"\nheight_m = 61.0\nwidth_m = 12.2\n\
+    mass_kg = 680.1e3\n[record]\nduration_s = 20.0\n";
+const PIER: &str = "[structure]\nkind = \"pier\"\nheight_m = 12.0\nwidth_m = 4.0\nmass_kg = 600e3\n\
+    footing_mass_kg = 60e3\nfooting_height_m = 1.5\nfrequency_hz = 2.0\ndamping_ratio = 0.02\n\
+    [record]\nduration_s = 20.0\n";
 
 fn parsed(answer: JsonOrLine) -> Value {
     serde_json::from_str(&answer.unwrap()).unwrap()
@@ -53,7 +54,8 @@ fn a_pulse_is_a_record_with_its_amplitude() {
     give_file("pulse test.txt", text.as_bytes());
     let record = format!("file = \"pulse test.txt\"\ndt_s = {}\nunits = \"g\"\n", pulse_step(1.2));
     let case = format!(
-        "[structure]\nkind = \"block\"\ntotal_height_m = 1.9\nwidth_m = 0.6\nmass_kg = 200.0\n[record]\n{record}"
+        "[structure]\nkind = \"block\"\ntotal_height_m = 1.9\nwidth_m = 0.6\nmass_kg = 200.0\n\
+            [record]\n{record}"
     );
     let answer = parsed(read_record(&case));
     assert!((answer["pga_g"].as_f64().unwrap() - 0.7).abs() < 1e-3, "{answer}");

@@ -22,7 +22,8 @@ pub(super) fn pairs(
     let (n, m) = (structures.len(), scales.len());
     if n != m && n != 1 && m != 1 {
         return Err(value_error(format!(
-            "rigid_rocking_many: {n} structures and {m} scales; give one of either, or as many of both"
+            "rigid_rocking_many: {n} structures and {m} scales; give one of either, or as many of \
+                both"
         )));
     }
     checked_scales(&record.0, scales)?;

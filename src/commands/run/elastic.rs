@@ -25,7 +25,6 @@ use springs::{
 
 /// The whole job.
 pub fn run(o: &RunOptions, mut case: ElasticCase) -> Result<(), CommandError> {
-    applies(o)?;
     if !o.no_record {
         case.excitation = o.record.excitation_of_case(&case.excitation, &case.notices)?;
     }
@@ -74,18 +73,4 @@ pub fn run(o: &RunOptions, mut case: ElasticCase) -> Result<(), CommandError> {
     saved(run.save(&o.out, &files(), Output { figures: !o.no_figures, report: !o.no_report })?);
     o.print(&run.said(run.filed(&o.out)))?;
     ended(&effort, &o.out)
-}
-
-/// Options that mean nothing for an elastic structure are refused.
-fn applies(o: &RunOptions) -> Result<(), CommandError> {
-    if o.no_front {
-        let remedy =
-            "that is for rigid bodies and does nothing for an elastic structure; leave it out";
-        return Err(CommandError::Option {
-            option: "no-front",
-            value: "given".to_string(),
-            remedy,
-        });
-    }
-    Ok(())
 }

@@ -34,7 +34,8 @@ pub struct PlanOptions {
     #[arg(long)]
     slurm: bool,
     /// Threads of a share
-    #[arg(long, value_name = "N", default_value_t = 1, value_parser = clap::value_parser!(u16).range(1..=1024))]
+    #[arg(long, value_name = "N", default_value_t = 1,
+        value_parser = clap::value_parser!(u16).range(1..=1024))]
     jobs: u16,
     /// Time limit of a share, as Slurm has it
     #[arg(long, value_name = "TIME", default_value = "02:00:00", requires = "slurm")]

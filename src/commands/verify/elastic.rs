@@ -46,7 +46,8 @@ pub fn run(
         .map_err(|e| CommandError::Result(e.to_string()))?;
     let part = histories.compared(&record, &[]);
     if part.samples < 2 {
-        let refusal = "verify: nothing can be compared, the history ends with its first sample; give another record";
+        let refusal = "verify: nothing can be compared, the history ends with its first sample; \
+            give another record";
         return Err(CommandError::Failed(refusal.into()));
     }
     // what cannot be foretold is not followed: nothing could be judged by it
@@ -91,7 +92,8 @@ pub fn run(
         return Ok(());
     }
     let refusal = format!(
-        "verify: OpenSees is off by {rotation:.1e} in rotation and {drift:.1e} in drift; ask for finer steps with --accuracy, or stiffer springs"
+        "verify: OpenSees is off by {rotation:.1e} in rotation and {drift:.1e} in drift; ask for \
+            finer steps with --accuracy, or stiffer springs"
     );
     Err(CommandError::Failed(refusal))
 }
@@ -119,7 +121,8 @@ fn said<T>(
     let over = match part.end {
         ComparedEnd::Foretold => {
             format!(
-                "over its first {:.2} s, in which a change of the motion grows less than {TRIED}-fold",
+                "over its first {:.2} s, in which a change of the motion grows less than \
+                    {TRIED}-fold",
                 part.seconds
             )
         }
@@ -128,7 +131,8 @@ fn said<T>(
     // writing to a String does not fail
     let _ = writeln!(
         said,
-        "OpenSees is {} {LIMIT} of our own rotation ({rotation:.1e}) and {} of our drift ({drift:.1e}), NRMSE {over}",
+        "OpenSees is {} {LIMIT} of our own rotation ({rotation:.1e}) and {} of our drift \
+            ({drift:.1e}), NRMSE {over}",
         if within([rotation, drift]) { "within" } else { "NOT within" },
         LOOSER * LIMIT
     );

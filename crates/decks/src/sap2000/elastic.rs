@@ -9,14 +9,17 @@ use frames::{beam, frame::NodePoint};
 const TRACE: f64 = 1e-6;
 
 const NOTES: &str = "\
-$  6. Beams whose axial and bending damping differ are two frames side by side: _A bears the axial force, _B the moments.
-$  7. Damping of beams is VisStiff of their materials, stiffness-proportional; it must not resist a rotation of the whole structure:
-$     compare a free rocking with and without it. Joints between beam and footing are stiff frames ARM.
+$  6. Beams whose axial and bending damping differ are two frames side by side: _A bears the axial
+$     force, _B the moments.
+$  7. Damping of beams is VisStiff of their materials, stiffness-proportional; it must not resist a
+$     rotation of the whole structure: compare a free rocking with and without it. Joints between
+$     beam and footing are stiff frames ARM.
 ";
 
 /// Of springs for steps that follow touches.
 const SHORT_STEPS: &str = "\
-$  8. All steps are alike, and short beside a landing: these springs are not for programs with fixed time steps.
+$  8. All steps are alike, and short beside a landing: these springs are not for programs with
+$     fixed time steps.
 ";
 
 /// Tables' parts in the making.

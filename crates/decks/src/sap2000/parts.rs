@@ -147,7 +147,8 @@ impl<'a> SapModel<'a> {
     pub(crate) fn expected(&self) -> String {
         let [u, v] = self.peaks;
         format!(
-            "$ Expected at joint {}, m, within 1 % of our own history: settled U3 {}; U1 {} to {}; U3 above settled {} to {}\n",
+            "$ Expected at joint {}, m, within 1 % of our own history: settled U3 {}; U1 {} to {}; \
+                U3 above settled {} to {}\n",
             self.watched,
             digits(self.settled),
             digits(u.1),

@@ -80,7 +80,8 @@ fn without_the_package_opensees_one_line_says_how_to_install_it() {
 #[test]
 fn an_analysis_that_stops_gives_its_last_words() {
     let error = with_stand_in(
-        "echo first >&2; echo 'no convergence at 1.5 s' >&2; echo Process 0 Terminating >&2; exit 2",
+        "echo first >&2; echo 'no convergence at 1.5 s' >&2; echo Process 0 Terminating >&2; exit \
+            2",
     );
     let said = error.unwrap_err().to_string();
     assert!(

@@ -84,8 +84,8 @@ fn five_digits(hz: f64) -> String {
 }
 
 /// What m2 is: there is no such mass in the structure.
-pub(crate) const ABSORBER: &str = "m2 is no part of the structure: a fictitious mass between foot and ground, without weight, that takes in \
-                                   a landing the momentum which Housner's rule takes.";
+pub(crate) const ABSORBER: &str = "m2 is no part of the structure: a fictitious mass between foot \
+    and ground, without weight, that takes in a landing the momentum which Housner's rule takes.";
 
 /// The match: name, Housner, and each springs.
 pub(crate) fn comparison(p: &Parameters) -> Table {

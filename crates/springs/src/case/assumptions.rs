@@ -233,8 +233,8 @@ mod tests {
 
     #[test]
     fn what_a_pier_leaves_out_is_told_with_its_value() {
-        let pier = "[structure]\nkind = 'pier'\nheight_m = 12.0\nwidth_m = 4.0\nmass_kg = 600e3\nfooting_mass_kg = 120e3\n\
-                    footing_height_m = 1.5\nei_nm2 = 9e9\ndamping_ratio = 0.02\n";
+        let pier = "[structure]\nkind = 'pier'\nheight_m = 12.0\nwidth_m = 4.0\nmass_kg = 600e3\n\
+            footing_mass_kg = 120e3\nfooting_height_m = 1.5\nei_nm2 = 9e9\ndamping_ratio = 0.02\n";
         let of = |more: &str| {
             ElasticCase::parse("pier.toml", &format!("{pier}{more}")).unwrap().assumptions()
         };
@@ -254,9 +254,8 @@ mod tests {
         // a square of side a: I = a^4/12, so a^2 = sqrt(12 x 9e9/30e9) m2, EA = 30e9 a^2
         assert!((assumed[0].value / (30e9 * (12.0_f64 * 0.3).sqrt()) - 1.0).abs() < 1e-12);
         assert!((assumed[2].value - 120e3 * (16.0 + 2.25) / 12.0).abs() < 1e-6);
-        let rest = of(
-            "ea_n = 1e11\naxial_damping_ratio = 0.01\nfooting_inertia_kgm2 = 1e5\ncolumn_mass_kg = 9e3\n",
-        );
+        let rest = of("ea_n = 1e11\naxial_damping_ratio = 0.01\nfooting_inertia_kgm2 = 1e5\n\
+                column_mass_kg = 9e3\n");
         assert_eq!((keys(&rest), rest[1].value), (vec!["ga_n", "elements", "record.file"], 4.0));
     }
 

@@ -181,8 +181,8 @@ impl Doubt {
             Self::Density { kg_per_m3, mass_kg, box_m, least, most } => {
                 let [height, width, depth] = box_m.map(figures);
                 format!(
-                    "{} kg in a box of {height} x {width} x {depth} m (as deep as wide) is a mean density of {} kg/m3, not within \
-                     {least} to {most}",
+                    "{} kg in a box of {height} x {width} x {depth} m (as deep as wide) is a mean \
+                        density of {} kg/m3, not within {least} to {most}",
                     figures(*mass_kg),
                     figures(*kg_per_m3)
                 )

@@ -156,8 +156,9 @@ pub(super) fn is_elastic(structure: &toml::Table) -> bool {
 mod tests {
     use super::*;
 
-    const PIER: &str = "[structure]\nkind = 'pier'\nheight_m = 12.0\nwidth_m = 4.0\nmass_kg = 600e3\nfooting_mass_kg = 120e3\n\
-                        footing_height_m = 1.5\nfrequency_hz = 2.0\ndamping_ratio = 0.02\n";
+    const PIER: &str = "[structure]\nkind = 'pier'\nheight_m = 12.0\nwidth_m = 4.0\n\
+        mass_kg = 600e3\nfooting_mass_kg = 120e3\nfooting_height_m = 1.5\nfrequency_hz = 2.0\n\
+        damping_ratio = 0.02\n";
 
     #[test]
     fn a_pier_and_an_a_frame_with_legs_are_elastic() {

@@ -25,7 +25,8 @@ pub enum CaseError {
     #[error("{path}: {source}")]
     Elastic { path: String, source: frames::structure::ElasticError },
     #[error(
-        "{path}: this is an elastic structure, which `tune run` alone takes; give a rigid body here: kind = \"aframe\" or \"block\""
+        "{path}: this is an elastic structure, which `tune run` alone takes; give a rigid body \
+            here: kind = \"aframe\" or \"block\""
     )]
     OfElastic { path: String },
     #[error("{path}: {source}")]
@@ -35,19 +36,23 @@ pub enum CaseError {
     #[error("{path}: program.{key} is {value}; {remedy}")]
     Program { path: String, key: &'static str, value: String, remedy: String },
     #[error(
-        "{path}: {sections}: add what is missing; `tune init{shape}` writes a case with every key explained"
+        "{path}: {sections}: add what is missing; `tune init{shape}` writes a case with every key \
+            explained"
     )]
     Missing { path: String, sections: String, shape: &'static str },
     #[error(
-        "{path}: this is a ground motion ({format}), not a case file; give it with --record, or name it in [record] of a case: file = \"{path}\""
+        "{path}: this is a ground motion ({format}), not a case file; give it with --record, or \
+            name it in [record] of a case: file = \"{path}\""
     )]
     IsRecord { path: String, format: RecordFormat },
     #[error(
-        "{path}: this is JSON, not a case file (TOML); give springs that were tuned with --parameters {path}"
+        "{path}: this is JSON, not a case file (TOML); give springs that were tuned with \
+            --parameters {path}"
     )]
     IsJson { path: String },
     #[error(
-        "{path}: tuning.peaks is {peaks} and tuning.accuracy is {accuracy}; springs are chosen by one of them, leave the other out"
+        "{path}: tuning.peaks is {peaks} and tuning.accuracy is {accuracy}; springs are chosen by \
+            one of them, leave the other out"
     )]
     TwoYardsticks { path: String, peaks: String, accuracy: String },
     #[error(transparent)]
@@ -126,7 +131,8 @@ pub fn parse_error(path: &str, text: &str, error: &toml::de::Error) -> CaseError
     if message.starts_with("unknown variant `pier`")
         || message.starts_with("unknown variant `frame`")
     {
-        let message = "this kind is an elastic structure, whose case files tune run takes; give \"aframe\" or \"block\" here";
+        let message = "this kind is an elastic structure, whose case files tune run takes; give \
+            \"aframe\" or \"block\" here";
         return CaseError::Parse { path: path.into(), line, message: message.into() };
     }
     if names_legs(&message) {

@@ -120,10 +120,11 @@ mod tests {
     fn all_sections_are_told_at_once() {
         assert_eq!(
             said(
-                "[structure]\nkind = 'aframe'\nheight_m = 1\n[damper]\n[tendon]\npretension_n = 1\n[record]\ndt_s = 0.01\n"
+                "[structure]\nkind = 'aframe'\nheight_m = 1\n[damper]\n[tendon]\npretension_n = 1\n\
+                    [record]\ndt_s = 0.01\n"
             ),
-            "[structure] lacks width_m, mass_kg; [damper] lacks c_ns_per_m; [tendon] lacks stiffness_n_per_m; \
-             [record] lacks file, for dt_s"
+            "[structure] lacks width_m, mass_kg; [damper] lacks c_ns_per_m; [tendon] lacks \
+                stiffness_n_per_m; [record] lacks file, for dt_s"
         );
         assert_eq!(
             said(""),
@@ -147,7 +148,8 @@ mod tests {
             ),
             (
                 "kind = 'pier'\n",
-                "height_m, width_m, mass_kg, footing_mass_kg, footing_height_m, damping_ratio, frequency_hz (or ei_nm2)",
+                "height_m, width_m, mass_kg, footing_mass_kg, footing_height_m, damping_ratio, \
+                    frequency_hz (or ei_nm2)",
             ),
             (
                 "kind = 'aframe'\nea_n = 1\n",
@@ -155,8 +157,9 @@ mod tests {
             ),
             (
                 "kind = 'frame'\n",
-                "height_m, span_m, footing_width_m, footing_height_m, footing_mass_kg, beam_mass_kg, column_ea_n, \
-                 column_ei_nm2, beam_ea_n, beam_ei_nm2, damping_ratio",
+                "height_m, span_m, footing_width_m, footing_height_m, footing_mass_kg, \
+                    beam_mass_kg, column_ea_n, column_ei_nm2, beam_ea_n, beam_ei_nm2, \
+                    damping_ratio",
             ),
         ] {
             assert_eq!(said(&format!("[structure]\n{kind}")), format!("[structure] lacks {keys}"));

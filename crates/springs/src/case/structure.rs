@@ -190,7 +190,8 @@ impl<'de> Visitor<'de> for Keys {
             (None, Some((_, total)), Kind::Block) => 0.5 * total,
             (None, Some((key, _)), Kind::AFrame) => {
                 return Err(A::Error::custom(format!(
-                    "{key} is for a block, whose centre of mass is half way up; give the height of the A-frame's centre of mass, height_m"
+                    "{key} is for a block, whose centre of mass is half way up; give the height of \
+                        the A-frame's centre of mass, height_m"
                 )));
             }
             (None, None, _) => return Err(A::Error::missing_field("height_m")),
@@ -319,7 +320,8 @@ mod tests {
     fn what_is_given_twice_or_not_at_all_is_named() {
         let said = |section: &str| structure(section).unwrap_err();
         let twice = said(
-            "kind = \"block\"\nheight_m = 1.0\ntotal_height_m = 2.0\nwidth_m = 0.5\nmass_kg = 1.0\n",
+            "kind = \"block\"\nheight_m = 1.0\ntotal_height_m = 2.0\nwidth_m = 0.5\nmass_kg = \
+                1.0\n",
         );
         assert_eq!(
             twice,

@@ -93,8 +93,9 @@ fn members_are_read_and_checked() {
     );
     assert_eq!(
         message("[legs]\nea_n = 1e9\nei_nm2 = 2e9\n"),
-        "case.toml, line 6: legs on springs of a rigid body are no more; give [structure] kind = \"aframe\" elastic legs of its own: ea_n, ei_nm2, \
-         foot_mass_kg, damping_ratio (docs/elastic.md)"
+        "case.toml, line 6: legs on springs of a rigid body are no more; give [structure] kind = \
+            \"aframe\" elastic legs of its own: ea_n, ei_nm2, foot_mass_kg, damping_ratio \
+            (docs/elastic.md)"
     );
     assert!(message("[damper]\nc = 1.0\n").contains("did you mean \"c_ns_per_m\"?"));
 }

@@ -77,7 +77,8 @@ mod tests {
         let said = read("peaks = 0.02\naccuracy = 0.01").unwrap_err().to_string();
         assert_eq!(
             said,
-            "c.toml: tuning.peaks is 0.02 and tuning.accuracy is 0.01; springs are chosen by one of them, leave the other out"
+            "c.toml: tuning.peaks is 0.02 and tuning.accuracy is 0.01; springs are chosen by one \
+                of them, leave the other out"
         );
         let said = read("peaks = 0.0").unwrap_err().to_string();
         assert!(

@@ -194,6 +194,9 @@ pub enum Finding {
     ForceWithheld {
         force: ForceName,
         change: Option<f64>,
+        /// Of a rigid body: what Housner's equation gives (N or N m).
+        #[serde(default, skip_serializing_if = "Option::is_none")]
+        housner: Option<f64>,
     },
     ForcesHeldInPart {
         over_s: f64,

@@ -158,7 +158,12 @@ impl DesignForces {
     /// A finding for every force that does not hold.
     pub fn withheld(&self) -> impl Iterator<Item = Finding> {
         let those = self.all().filter(|(_, force)| !force.holds);
-        those.map(|(name, force)| Finding::ForceWithheld { force: name, change: force.change })
+        those.map(|(name, force)| Finding::ForceWithheld {
+            force: name,
+            change: force.change,
+            // an elastic structure has forces with another mesh, too
+            housner: force.rigid.filter(|_| force.others.is_none()),
+        })
     }
 }
 
@@ -208,7 +213,11 @@ mod tests {
         let withheld: Vec<_> = all.withheld().collect();
         assert_eq!(
             withheld,
-            [Finding::ForceWithheld { force: ForceName::Axial, change: Some(0.051) }]
+            [Finding::ForceWithheld {
+                force: ForceName::Axial,
+                change: Some(0.051),
+                housner: None
+            }]
         );
         let json = serde_json::to_value(all).unwrap();
         assert_eq!(json["column_shear_n"]["value"], 1e6);

@@ -45,10 +45,16 @@ fn valid_file() -> impl Strategy<Value = &'static str> {
 }
 
 proptest! {
-    #![proptest_config(ProptestConfig { failure_persistence: None, ..ProptestConfig::with_cases(2000) })]
+    #![proptest_config(ProptestConfig {
+        failure_persistence: None,
+        ..ProptestConfig::with_cases(2000)
+    })]
 
     #[test]
-    fn arbitrary_bytes_never_panic(bytes in proptest::collection::vec(any::<u8>(), 0..200), options in options()) {
+    fn arbitrary_bytes_never_panic(
+        bytes in proptest::collection::vec(any::<u8>(), 0..200),
+        options in options(),
+    ) {
         for file in ["x.at2", "x.csv", ""] {
             answers(file, &bytes, &options);
         }
@@ -56,7 +62,8 @@ proptest! {
 
     #[test]
     fn arbitrary_text_of_the_readers_alphabet_never_panics(
-        text in "([-+.,;:=\t\n\r 0-9eEdDgm/s\u{b2}#%\"]|NPTS|DT|UNITS|nan|\u{e9}){0,80}", options in options()
+        text in "([-+.,;:=\t\n\r \
+            0-9eEdDgm/s\u{b2}#%\"]|NPTS|DT|UNITS|nan|\u{e9}){0,80}", options in options()
     ) {
         for file in ["x.at2", "x.csv"] {
             answers(file, text.as_bytes(), &options);
@@ -66,7 +73,10 @@ proptest! {
     #[test]
     fn mutated_files_never_panic(
         file in valid_file(),
-        edits in proptest::collection::vec((any::<prop::sample::Index>(), any::<u8>(), 0..4_u8), 1..6),
+        edits in proptest::collection::vec(
+            (any::<prop::sample::Index>(), any::<u8>(), 0..4_u8),
+            1..6,
+        ),
         options in options()
     ) {
         let mut bytes = file.as_bytes().to_vec();

@@ -55,7 +55,8 @@ fn densities_of_no_material_are_doubted() {
     assert_eq!(tonnes, [doubt]);
     assert_eq!(
         tonnes[0].message(),
-        "9 kg in a box of 2 x 1 x 1 m (as deep as wide) is a mean density of 4.5 kg/m3, not within 5 to 25000"
+        "9 kg in a box of 2 x 1 x 1 m (as deep as wide) is a mean density of 4.5 kg/m3, not within \
+            5 to 25000"
     );
     // 5.05 kg/m3 may be a mass in tonnes, but is within
     assert!(matches!(
@@ -65,12 +66,13 @@ fn densities_of_no_material_are_doubted() {
     assert_eq!(block("height_m = 1.0\nwidth_m = 1.0\nmass_kg = 60.1\n"), []);
     assert_eq!(block("height_m = 1.0\nwidth_m = 1.0\nmass_kg = 49.9e3\n"), []);
     assert_eq!(block("height_m = 1.0\nwidth_m = 1.0\nmass_kg = 50.1e3\n").len(), 1);
-    let pier = "[structure]\nkind = 'pier'\nheight_m = 12.0\nwidth_m = 4.0\nmass_kg = 600.0\nfooting_mass_kg = 60.0\n\
-                footing_height_m = 1.5\nfrequency_hz = 2.0\ndamping_ratio = 0.02\n";
+    let pier = "[structure]\nkind = 'pier'\nheight_m = 12.0\nwidth_m = 4.0\nmass_kg = 600.0\n\
+        footing_mass_kg = 60.0\nfooting_height_m = 1.5\nfrequency_hz = 2.0\ndamping_ratio = 0.02\n";
     let doubts = ElasticCase::parse("pier.toml", pier).unwrap().doubts();
     // 660 kg in 12 x 4 x 4 m
     assert!(
-        matches!(doubts[..], [Doubt::Density { kg_per_m3, .. }] if (kg_per_m3 - 3.4375).abs() < 1e-12),
+        matches!(doubts[..],
+            [Doubt::Density { kg_per_m3, .. }] if (kg_per_m3 - 3.4375).abs() < 1e-12),
         "{doubts:?}"
     );
 }
@@ -83,9 +85,8 @@ fn motions_that_nobody_feels_or_that_end_early_are_doubted() {
     };
     assert_eq!(with(1.0, None), []);
     // what counts is the part used: 0.04 m/s2
-    assert!(
-        matches!(with(-1.0, Some(0.02))[..], [Doubt::WeakMotion { pga_g, .. }] if (pga_g - 0.04 / 9.81).abs() < 1e-15)
-    );
+    assert!(matches!(with(-1.0, Some(0.02))[..],
+            [Doubt::WeakMotion { pga_g, .. }] if (pga_g - 0.04 / 9.81).abs() < 1e-15));
     assert_eq!(with(1.0, Some(0.034)), []);
     assert_eq!(with(1.0, Some(90.0)), [Doubt::LongDuration { asked_s: 90.0, record_s: 0.03 }]);
     assert!(

@@ -17,7 +17,8 @@ impl Finding {
             Self::NeverLifts { .. } => "give a stronger record, or scale it: --scale",
             Self::Overturns { .. } => "scale the record down for the margin: --scale",
             Self::NoAnswer { .. } | Self::HistoryEndsEarly { ending: Ending::WorkBound, .. } => {
-                "take softer or more strongly damped springs: --max-hz; or a shorter record: --duration"
+                "take softer or more strongly damped springs: --max-hz; or a shorter record: \
+                    --duration"
             }
             Self::ModelsDisagree { .. } => {
                 "vary the scale by 1 %, and judge by many records: tune validate"
@@ -27,7 +28,7 @@ impl Finding {
             Self::ForetoldUpTo { later_forces, .. } | Self::SlidesOn { later_forces, .. }
                 if !later_forces.is_empty() =>
             {
-                "design with several records: those forces are of one motion among many alike"
+                "design with several records"
             }
             Self::ForetoldUpTo { softer_hz, .. } | Self::SlidesOn { softer_hz, .. } => {
                 let hz = (*softer_hz)?;
@@ -54,6 +55,9 @@ impl Finding {
             | Self::ProgramStepForAccuracy { .. }
             | Self::ProgramRestitution { .. } => return self.remedy_of_steps(),
             Self::LandingsUnfinished { .. } => "allow other springs: --max-hz, --accuracy",
+            Self::ForceWithheld { housner: Some(_), .. } => {
+                "design for the larger, or take stiffer springs: --accuracy"
+            }
             Self::ForceWithheld { .. } => {
                 "take it from a model of your own, or refine: elements, --accuracy"
             }
@@ -61,17 +65,13 @@ impl Finding {
             | Self::HistoriesUnfinished { .. }
             | Self::NearMotionsLeftOut { .. } => return self.remedy_of_search(),
             Self::ForcesHeldInPart { .. } => "design for the larger, and by several records",
-            Self::Sliding { .. } => {
-                "give it a shear key, or say what the ground offers: --friction"
-            }
+            Self::Sliding { .. } => "give a shear key, or the ground's --friction",
             Self::FreeFlight { .. } => "compare up to that time only",
             Self::TooStocky { .. } => "check height and width; rely on tests for such a body",
             Self::HistoryEndsEarly { .. } => {
                 "take stiffer springs, or rotational_inertia_kgm2 above 0.002 m R^2"
             }
-            Self::FeetApart { .. } => {
-                "tie the feet, or design for what stays: members.csv at its end"
-            }
+            Self::FeetApart { .. } => "tie the feet, or design for what stays",
             Self::SmallestSteps { .. } => "compare with OpenSees: tune verify",
             Self::VerticalLeftOut { changes, .. } if changes.is_empty() => {
                 "--vertical auto includes it"
@@ -126,52 +126,59 @@ impl Finding {
     pub fn meaning(&self) -> Option<&'static str> {
         Some(match self {
             Self::NeverLifts { .. } => {
-                "Nothing rocks, so there is no history to compare. The springs follow from the geometry, and their \
-                 accuracy was measured on synthetic motions."
+                "Nothing rocks, so there is no history to compare. The springs follow from the \
+                    geometry, and their accuracy was measured on synthetic motions."
             }
             Self::Overturns { .. } => {
-                "Peaks, errors and forces count up to the time of overturning only; what follows is a fall."
+                "Peaks, errors and forces count up to the time of overturning only; what follows \
+                    is a fall."
             }
             Self::ModelsDisagree { .. } => {
-                "Near the edge of overturning the smallest change decides; elsewhere the springs are too soft."
+                "Near the edge of overturning the smallest change decides; elsewhere the springs \
+                    are too soft."
             }
             Self::PivotLeavesGround { .. } => {
-                "His equation holds while the foot presses on the ground. The finite elements go on, without anything to \
-                 compare them with."
+                "His equation holds while the foot presses on the ground. The finite elements go \
+                    on, without anything to compare them with."
             }
             Self::IllConditioned { .. } => {
-                "A change far smaller than what is unknown of a real structure makes another history of it. No two models, \
-                 and no two tests, agree on it one to one, whatever the springs."
+                "A change far smaller than what is unknown of a real structure makes another \
+                    history of it. No two models, and no two tests, agree on it one to one, \
+                    whatever the springs."
             }
             Self::AccuracyMissed { .. } | Self::PeaksMissed { .. } => {
-                "These are the best springs found within what was allowed; the table of accuracy says by how much they miss."
+                "These are the best springs found within what was allowed; the table of accuracy \
+                    says by how much they miss."
             }
             Self::SearchCut { .. } => {
-                "The springs are the best of those judged until then. Nothing that was measured of them depends on where the \
-                 search ended."
+                "The springs are the best of those judged until then. Nothing that was measured of \
+                    them depends on where the search ended."
             }
             Self::HistoriesUnfinished { .. } => {
-                "A history has a bound of its own on its steps, so that every search ends; the springs that it was on, or the \
-                 motion, had to be judged without its end."
+                "A history has a bound of its own on its steps, so that every search ends; the \
+                    springs that it was on, or the motion, had to be judged without its end."
             }
             Self::AccuracyNotMeasured => {
                 "No motion that was tried rocks this structure and can be followed one to one."
             }
             Self::RestitutionMissed { .. } | Self::RestitutionOutOfReach { .. } => {
-                "A body on soft springs sways before it lifts and loses less; a restitution other than equation 2's is met \
-                 by a search, not exactly."
+                "A body on soft springs sways before it lifts and loses less; a restitution other \
+                    than equation 2's is met by a search, not exactly."
             }
             Self::Sliding { .. } => {
-                "Housner's body and the springs hold the feet at any force. A real structure would slide, and rock less."
+                "Housner's body and the springs hold the feet at any force. A real structure would \
+                    slide, and rock less."
             }
             Self::FreeFlight { .. } => {
-                "Housner's equation would have to pull the foot down there; the finite elements let it go."
+                "Housner's equation would have to pull the foot down there; the finite elements \
+                    let it go."
             }
             Self::HistoryEndsEarly { .. } | Self::NoAnswer { .. } => {
                 "Both models are compared up to there."
             }
             Self::ForceWithheld { .. } => {
-                "A force that grows with the springs or the mesh is the model's, not the structure's."
+                "A force that grows with the springs or the mesh is the model's, not the \
+                    structure's."
             }
             _ => return None,
         })

@@ -79,7 +79,8 @@ impl Finding {
             Self::NeverLifts { pga_g, uplift_g } => {
                 let short = if pga_g > uplift_g { " for longer than its peaks last" } else { "" };
                 format!(
-                    "the record does not lift the structure: its peak is {} g, uplift takes {} g{short}",
+                    "the record does not lift the structure: its peak is {} g, uplift takes {} \
+                        g{short}",
                     significant(*pga_g, 4),
                     significant(*uplift_g, 4)
                 )
@@ -91,7 +92,8 @@ impl Finding {
             ),
             Self::Overturns { time_s, reference_s } => match reference_s {
                 Some(reference) => format!(
-                    "the structure overturns at t = {} (in the reference at {}); numbers count up to then",
+                    "the structure overturns at t = {} (in the reference at {}); numbers count up \
+                        to then",
                     s(*time_s),
                     s(*reference)
                 ),
@@ -109,17 +111,20 @@ impl Finding {
             }
             Self::ModelsDisagree { reference, springs } => {
                 format!(
-                    "the models disagree: the reference {reference}, the structure on its springs {springs}"
+                    "the models disagree: the reference {reference}, the structure on its springs \
+                        {springs}"
                 )
             }
             Self::PivotLeavesGround { time_s } => {
                 format!(
-                    "the pivot of Housner's body leaves the ground at t = {}, where his solution ends",
+                    "the pivot of Housner's body leaves the ground at t = {}, where his solution \
+                        ends",
                     s(*time_s)
                 )
             }
             Self::WithoutVertical { does, share_of_overturning } => format!(
-                "without the vertical component it {does}; its largest rotation is {} of overturning",
+                "without the vertical component it {does}; its largest rotation is {} of \
+                    overturning",
                 percent(*share_of_overturning)
             ),
             _ => String::new(),
@@ -136,17 +141,20 @@ impl Finding {
                     ""
                 };
                 format!(
-                    "this motion is ill-conditioned: 0.1 % of the width moves it by {}, so no model foretells it to its end{judged}",
+                    "this motion is ill-conditioned: 0.1 % of the width moves it by {}, so no \
+                        model foretells it to its end{judged}",
                     percent(*moved_by_width)
                 )
             }
             Self::ForetoldUpTo { time_s, later_forces, .. } => format!(
-                "from t = {} on a change of a millionth grows above a thousandth of the peak: no model foretells it{}",
+                "from t = {} on a change of a millionth grows above a thousandth of the peak: no \
+                    model foretells it{}",
                 s(*time_s),
                 later(later_forces)
             ),
             Self::SlidesOn { time_s, later_forces, .. } => format!(
-                "at t = {} a corner slides as it lands: how far depends on friction, so no model foretells what follows{}",
+                "at t = {} a corner slides as it lands: how far depends on friction, so no model \
+                    foretells what follows{}",
                 s(*time_s),
                 later(later_forces)
             ),
@@ -157,8 +165,9 @@ impl Finding {
                     [reference, springs] => format!("; {reference} and {springs} overturn"),
                 };
                 format!(
-                    "over {motions} motions within {} of the record the largest rotation is {} and {} of overturning in \
-                     the median, {} and {} for 90 % (rigid ground, springs){fallen}",
+                    "over {motions} motions within {} of the record the largest rotation is {} and \
+                        {} of overturning in the median, {} and {} for 90 % (rigid ground, \
+                        springs){fallen}",
                     percent(*change),
                     cell(median_ratio[0]),
                     cell(median_ratio[1]),
@@ -174,13 +183,18 @@ impl Finding {
     fn springs(&self) -> String {
         match self {
             Self::AccuracyMissed { asked, .. } => {
-                format!("the accuracy asked for (history, NRMSE {}) was not reached", significant(*asked, 3))
+                format!(
+                    "the accuracy asked for (history, NRMSE {}) was not reached",
+                    significant(*asked, 3)
+                )
             }
             Self::PeaksMissed { asked, .. } => {
                 format!("the accuracy asked for (peaks within {}) was not reached", percent(*asked))
             }
             Self::AccuracyNotMeasured => {
-                "the accuracy could not be measured: no motion tried rocks this structure and can be foretold".into()
+                "the accuracy could not be measured: no motion tried rocks this structure and can \
+                    be foretold"
+                    .into()
             }
             Self::RestitutionMissed { asked, lowest, highest, .. } => format!(
                 "landings have a restitution of {} to {} where {} is due",
@@ -198,22 +212,34 @@ impl Finding {
             Self::LandingsUnfinished { finished, all } => {
                 format!("{} of {all} test landings came to no end on these springs", all - finished)
             }
-            Self::ForceWithheld { force, change } => {
-                let by =
-                    change.map_or("could not be checked".into(), |change| format!("changes by {}", percent(change)));
+            Self::ForceWithheld { force, change: Some(change), housner: Some(housner) } => {
+                format!(
+                    "{} is withheld: between impacts it differs by {} on the springs from \
+                        Housner's {}",
+                    force.words(),
+                    percent(*change),
+                    quantity(housner.abs(), force.unit())
+                )
+            }
+            Self::ForceWithheld { force, change, .. } => {
+                let by = change.map_or("could not be checked".into(), |change| {
+                    format!("changes by {}", percent(change))
+                });
                 format!("{} is withheld: it {by} with the springs or the mesh", force.words())
             }
             Self::ForcesHeldInPart { over_s, changes } => {
-                let later = changes.iter().map(|c| format!("{} {}", c.quantity, quantity(c.with, &c.unit)));
+                let later =
+                    changes.iter().map(|c| format!("{} {}", c.quantity, quantity(c.with, &c.unit)));
                 format!(
-                    "design forces are those of the first {} s: over the whole record they change by 5 % or more with \
-                     springs or mesh, and are here {}",
+                    "design forces are those of the first {} s: over the whole record they change \
+                        by 5 % or more with springs or mesh, and are here {}",
                     significant(*over_s, 3),
                     later.collect::<Vec<_>>().join(", ")
                 )
             }
             Self::MembersBeside => {
-                "springs are tuned for the structure without its dampers, tendon and friction".into()
+                "springs are tuned for the structure without its dampers, tendon and friction"
+                    .into()
             }
             _ => String::new(),
         }
@@ -223,7 +249,8 @@ impl Finding {
     fn program(&self) -> String {
         match self {
             Self::ProgramStepTooLong { step_s, .. } => format!(
-                "steps of {} are too long for this structure: nothing is promised of its springs for them",
+                "steps of {} are too long for this structure: nothing is promised of its springs \
+                    for them",
                 quantity(*step_s, "s")
             ),
             Self::ProgramLoses { program, step_s, lost, histories, .. } => format!(
@@ -237,7 +264,9 @@ impl Finding {
                 quantity(*step_s, "s")
             ),
             Self::ProgramRestitution { .. } => {
-                "no springs for fixed time steps: those have equation 2's restitution, not another one".into()
+                "no springs for fixed time steps: those have equation 2's restitution, not another \
+                    one"
+                .into()
             }
             _ => String::new(),
         }
@@ -272,7 +301,8 @@ impl Finding {
             }
             Self::NearMotionsLeftOut { motions } => {
                 format!(
-                    "{motions} motions near the record met the bound on a history's steps, and are left out"
+                    "{motions} motions near the record met the bound on a history's steps, and are \
+                        left out"
                 )
             }
             _ => String::new(),
@@ -298,7 +328,8 @@ impl Finding {
                 )
             }
             Self::TooStocky { restitution, friction_needed, .. } => format!(
-                "the body is too stocky to land without bouncing: friction of {} is needed, equation 2 gives e = {}",
+                "the body is too stocky to land without bouncing: friction of {} is needed, \
+                    equation 2 gives e = {}",
                 significant(*friction_needed, 3),
                 significant(*restitution, 3)
             ),
@@ -317,7 +348,8 @@ impl Finding {
             ),
             Self::SmallestSteps { model, steps } => {
                 format!(
-                    "{steps} steps of the history {} were taken at the smallest size, whatever their error",
+                    "{steps} steps of the history {} were taken at the smallest size, whatever \
+                        their error",
                     on(*model)
                 )
             }
@@ -330,10 +362,13 @@ impl Finding {
         match self {
             Self::VerticalLeftOut { vertical_g, horizontal_g, changes } => {
                 let mut changes = changes.clone();
-                // what grows the most first
+                // what grows the most first, and the axial force, which a section is designed by
                 let ratio = |c: &PeakChange| c.with / c.without;
                 changes.sort_by(|a, b| ratio(b).total_cmp(&ratio(a)));
-                let changed = changes.iter().take(CHANGES_SAID).map(|c| {
+                let axial = |c: &PeakChange| c.quantity == ForceName::Axial.words();
+                let said = changes.iter().enumerate();
+                let said = said.filter(|(i, c)| *i < CHANGES_SAID || axial(c)).map(|(_, c)| c);
+                let changed = said.map(|c| {
                     let [with, without] = [c.with, c.without].map(|x| quantity(x, &c.unit));
                     format!("{} is {with}, not {without}", c.quantity)
                 });

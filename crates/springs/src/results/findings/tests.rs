@@ -37,8 +37,8 @@ fn a_force_that_holds_for_a_part_of_the_record_is_told_with_what_the_whole_has()
     assert_eq!(finding.weight(), Weight::Warning);
     assert_eq!(
         finding.message(),
-        "design forces are those of the first 49.4 s: over the whole record they change by 5 % or more with springs or \
-         mesh, and are here axial force 13.6 MN"
+        "design forces are those of the first 49.4 s: over the whole record they change by 5 % or \
+            more with springs or mesh, and are here axial force 13.6 MN"
     );
 }
 
@@ -88,7 +88,7 @@ fn what_was_left_out_is_told_with_what_it_would_change() {
     let finding = Finding::VerticalLeftOut { vertical_g: 1.84, horizontal_g: 0.99, changes };
     assert_eq!(
         finding.message(),
-        "with vertical motion (1.84 g beside 0.99 g) moment at column base is 20.9 MN m, not 10.8 MN m; moment at the \
-         apex is 10.1 MN m, not 10 MN m"
+        "with vertical motion (1.84 g beside 0.99 g) moment at column base is 20.9 MN m, not 10.8 \
+            MN m; moment at the apex is 10.1 MN m, not 10 MN m"
     );
 }
