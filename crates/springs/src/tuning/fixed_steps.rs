@@ -38,8 +38,9 @@ use dynamics::{
 };
 use fixed_steps::{
     ExpectedError, FixedStepBody, FixedStepDesign, FixedStepProgram, FixedStepSprings,
+    analysis::FixedStepOutcome,
     expected::{FLOOR, REBOUND},
-    measured::{ErrorsOverMotions, ReferenceHistory},
+    measured::{ErrorsOverMotions, ReferenceHistory, StepErrors},
     recipe::{FixedStepSpringsError, UnitNumbers},
 };
 use rocking::structure::Body;
@@ -111,19 +112,6 @@ impl ProgramSuites {
         let earthquakes = if earthquakes { of(JudgedOn::Earthquakes) } else { Vec::new() };
         Self { synthetic: of(JudgedOn::Synthetic), earthquakes }
     }
-
-    /// Errors over motions of springs in the program.
-    fn errors(
-        motions: &[ReferenceHistory],
-        program: &FixedStepProgram,
-        springs: &FixedStepSprings,
-    ) -> ErrorsOverMotions {
-        let model = FixedStepBody::new(&springs.body, &springs.chains());
-        let settings = program.settings(springs.chains().vertical.k1, springs.body.mass);
-        let all: Vec<_> =
-            motions.par_iter().map(|motion| motion.errors(&model, settings)).collect();
-        ErrorsOverMotions::of(all)
-    }
 }
 
 impl ProgramSprings {
@@ -161,11 +149,16 @@ impl ProgramSprings {
             return Ok(found);
         }
         let motions = ProgramSuites::of(&found.springs.body, suites, asked);
-        found.measure(&motions);
+        let lost = found.measure(&motions);
         if found.share_lost() > 1.0 - THROUGH && !effort.stopped() {
             let mut recipe = Self::closed_form(body, program, FixedStepDesign::RECIPE)?;
-            recipe.measure(&motions);
-            found = if recipe.share_lost() < found.share_lost() { recipe } else { found };
+            // one that loses all of these loses no fewer
+            let lost: Vec<&ReferenceHistory> =
+                lost.iter().map(|&i| &motions.synthetic[i]).collect();
+            if recipe.errors(&lost).iter().any(is_through) {
+                recipe.measure(&motions);
+                found = if recipe.share_lost() < found.share_lost() { recipe } else { found };
+            }
         }
         if asked && program.integrator.ends_stiff_modes() && !effort.stopped() {
             let design = FixedStepDesign { stance: STIFFER * own.stance, ..own };
@@ -194,12 +187,22 @@ impl ProgramSprings {
             .map_or(0.0, |errors| errors.lost() as f64 / errors.count().max(1) as f64)
     }
 
-    fn measure(&mut self, motions: &ProgramSuites) {
-        let some = |motions: &[ReferenceHistory]| {
-            let errors = || ProgramSuites::errors(motions, &self.program, &self.springs);
-            (!motions.is_empty()).then(errors)
-        };
-        (self.synthetic, self.earthquakes) = (some(&motions.synthetic), some(&motions.earthquakes));
+    /// Errors of the springs in the program, motion by motion.
+    fn errors(&self, motions: &[&ReferenceHistory]) -> Vec<StepErrors> {
+        let springs = &self.springs;
+        let model = FixedStepBody::new(&springs.body, &springs.chains());
+        let settings = self.program.settings(springs.chains().vertical.k1, springs.body.mass);
+        motions.par_iter().map(|motion| motion.errors(&model, settings)).collect()
+    }
+
+    /// Over both suites; which of the synthetic motions are lost.
+    fn measure(&mut self, motions: &ProgramSuites) -> Vec<usize> {
+        let all = |motions: &[ReferenceHistory]| self.errors(&motions.iter().collect::<Vec<_>>());
+        let [synthetic, earthquakes] = [&motions.synthetic, &motions.earthquakes].map(|m| all(m));
+        let lost = (0..synthetic.len()).filter(|&i| !is_through(&synthetic[i])).collect();
+        let some = |all: Vec<StepErrors>| (!all.is_empty()).then(|| ErrorsOverMotions::of(all));
+        (self.synthetic, self.earthquakes) = (some(synthetic), some(earthquakes));
+        lost
     }
 
     /// Median errors on both suites, multiplied.
@@ -209,6 +212,11 @@ impl ProgramSprings {
         };
         median(&self.synthetic) * median(&self.earthquakes)
     }
+}
+
+/// Whether the program gets through a history.
+fn is_through(errors: &StepErrors) -> bool {
+    errors.outcome == FixedStepOutcome::Finished
 }
 
 #[cfg(test)]

@@ -7,6 +7,8 @@ mod procedure;
 
 use std::f64::consts::TAU;
 
+use rayon::join;
+
 use super::{
     fixed_steps::ProgramSprings,
     paper_procedure::{
@@ -126,7 +128,7 @@ impl Job {
         };
         let procedure = Procedure::new(case, &benchmark)?;
 
-        let SearchedSprings { tuned, capped, paper, not_done } = match case.tuning.objective {
+        let found = match case.tuning.objective {
             Objective::Landing => {
                 let design =
                     LandingDesign { case, body, suites: &suites, procedure: &procedure, effort };
@@ -143,13 +145,13 @@ impl Job {
                 SearchedSprings::by_paper_procedure(&procedure, &suites, effort, progress)?
             }
         };
+        let SearchedSprings { tuned, capped, paper, program, not_done } = found;
         let paper = paper.map(|tuned| Paper {
             vertical: procedure.vertical,
             horizontal: procedure.horizontal,
             tuned,
         });
         let springs = tuned.best.springs;
-        let program = ProgramSprings::of_case(case, &body, &suites, effort);
         let (cut, unfinished) = (effort.cut(), effort.unfinished());
         let found = Self {
             body,
@@ -176,6 +178,7 @@ struct SearchedSprings {
     /// Whether a cap on Omega_n decided.
     capped: bool,
     paper: Option<outer::OmegaSearch>,
+    program: Option<ProgramSprings>,
     not_done: Vec<NotDone>,
 }
 
@@ -185,17 +188,24 @@ impl SearchedSprings {
         design: &LandingDesign,
         progress: &(dyn Fn(usize, usize, f64) + Sync),
     ) -> Result<Self, JobError> {
-        let &LandingDesign { suites, procedure, effort, .. } = design;
+        let &LandingDesign { case, body, suites, procedure, effort } = design;
         let (tuned, capped) = design.tune(progress)?;
         let mut not_done = left_out(NotDone::Stiffnesses, effort);
         let hz = tuned.best.springs.vertical.omega_n_hz;
         // on an ill-conditioned record it would tune to noise
         let beside = suites.has_whole_record() && !effort.stops();
-        let paper = if beside { procedure.beside(hz, progress) } else { None };
+        // what the one spends does not stop the other: which is first hangs on the threads
+        let rest = effort.share(1);
+        let for_program = if effort.stopped() { effort } else { &rest };
+        let (paper, program) = join(
+            || if beside { procedure.beside(hz, progress) } else { None },
+            || ProgramSprings::of_case(case, &body, suites, for_program),
+        );
+        effort.join(&rest);
         if suites.has_whole_record() {
             not_done.extend(left_out(NotDone::PaperProcedure, effort));
         }
-        Ok(Self { tuned, capped, paper, not_done })
+        Ok(Self { tuned, capped, paper, program, not_done })
     }
 
     /// By the paper's procedure alone.
@@ -206,7 +216,10 @@ impl SearchedSprings {
         progress: &(dyn Fn(usize, usize, f64) + Sync),
     ) -> Result<Self, JobError> {
         let (tuned, capped, paper) = procedure.tune(suites, progress)?;
-        Ok(Self { tuned, capped, paper, not_done: left_out(NotDone::Stiffnesses, effort) })
+        let program =
+            ProgramSprings::of_case(procedure.case, &procedure.benchmark.body, suites, effort);
+        let not_done = left_out(NotDone::Stiffnesses, effort);
+        Ok(Self { tuned, capped, paper, program, not_done })
     }
 }
 

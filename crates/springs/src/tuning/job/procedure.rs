@@ -10,7 +10,7 @@ use crate::{
     tuning::{
         paper_procedure::{
             inner::{Fit, FitError, fit},
-            outer::{self, Benchmark, Bracket},
+            outer::{self, Benchmark, Bracket, Refinement},
         },
         stiffness_search::{self, Tuned},
         suite::Suites,
@@ -19,8 +19,8 @@ use crate::{
 
 /// The paper's procedure on one record.
 pub(super) struct Procedure<'a> {
-    case: &'a Case,
-    benchmark: &'a Benchmark<'a>,
+    pub case: &'a Case,
+    pub benchmark: &'a Benchmark<'a>,
     pub vertical: Vec<Fit>,
     pub horizontal: Vec<Fit>,
 }
@@ -43,30 +43,30 @@ impl<'a> Procedure<'a> {
         max_hz: f64,
         progress: &(dyn Fn(usize, usize, f64) + Sync),
     ) -> Option<outer::OmegaSearch> {
-        self.sampled(max_hz, self.case.tuning.candidates, progress)
+        let samples = self.case.tuning.candidates;
+        self.sampled(max_hz, (samples, &Refinement::SOUGHT), progress)
     }
 
     /// The same to compare with, at the Omega_n (Hz) of stiff springs: sampled at each pair's
-    /// stiffest only, which is where the best
-    /// ones are refined from there.
+    /// stiffest only, and the best of them refined.
     pub(crate) fn beside(
         &self,
         max_hz: f64,
         progress: &(dyn Fn(usize, usize, f64) + Sync),
     ) -> Option<outer::OmegaSearch> {
-        self.sampled(max_hz, 0, progress)
+        self.sampled(max_hz, (0, &Refinement::COMPARED), progress)
     }
 
     fn sampled(
         &self,
         max_hz: f64,
-        candidates: usize,
+        search: (usize, &Refinement),
         progress: &(dyn Fn(usize, usize, f64) + Sync),
     ) -> Option<outer::OmegaSearch> {
         let bracket = Bracket { max_hz, max_settlement: self.case.tuning.max_settlement_m };
         let least = self.least_settlement(&bracket);
         let bracket = Bracket { max_settlement: bracket.max_settlement.max(least), ..bracket };
-        outer::tune(self.benchmark, &self.vertical, &self.horizontal, bracket, candidates, progress)
+        outer::tune(self.benchmark, &self.vertical, &self.horizontal, bracket, search, progress)
     }
 
     fn least_settlement(&self, bracket: &Bracket) -> f64 {

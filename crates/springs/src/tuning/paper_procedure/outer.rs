@@ -12,11 +12,11 @@
 
 use std::ops::ControlFlow;
 
-use argmin::{
-    core::{CostFunction, Error, Executor},
-    solver::neldermead::NelderMead,
-};
+mod refinement;
+
 use rayon::prelude::*;
+
+pub(crate) use refinement::Refinement;
 
 use super::inner::Fit;
 use dynamics::{
@@ -30,14 +30,8 @@ use rocking::{motion::Motion, scalar::GRAVITY, structure::Body};
 /// first batches, which know no good threshold yet, are smaller.
 const BATCH: usize = 16;
 const FIRST_BATCH: usize = 2;
-/// Samples that are refined.
-const REFINED: usize = 2;
-/// Evaluations of one refinement.
-const REFINEMENTS: u64 = 24;
-
-/// Candidates of another stiffness that `follow` starts from, and evaluations of its refinement.
+/// Candidates of another stiffness that `follow` starts from.
 const FOLLOWED: usize = 4;
-const FOLLOWING: u64 = 10;
 
 /// What the histories are compared with.
 #[derive(Clone, Copy, Debug)]
@@ -226,7 +220,7 @@ pub(crate) fn tune(
     vertical: &[Fit],
     horizontal: &[Fit],
     bracket: Bracket,
-    samples: usize,
+    (samples, refinement): (usize, &Refinement),
     progress: &(dyn Fn(usize, usize, f64) + Sync),
 ) -> Option<OmegaSearch> {
     let pairs = pairs(vertical, horizontal, bracket);
@@ -242,10 +236,10 @@ pub(crate) fn tune(
             (pair, [at(2), at(3)])
         })
         .collect();
-    let total = plan.len() + REFINED * REFINEMENTS as usize;
+    let total = plan.len() + refinement.evaluations();
     let plan: Vec<(Pair, [f64; 2])> = plan.into_iter().map(|(pair, x)| (pairs[pair], x)).collect();
     let candidates = sample(benchmark, &plan, total, progress);
-    let tuned = best_of(benchmark, &plan, candidates, REFINED, REFINEMENTS)?;
+    let tuned = refinement.best_of(benchmark, &plan, candidates)?;
     progress(tuned.candidates.len(), tuned.candidates.len(), tuned.best.error);
     Some(tuned)
 }
@@ -274,7 +268,7 @@ pub fn follow(
         near.iter().filter(stiff).take(FOLLOWED).map(scale).collect();
     plan.extend(pairs(vertical, horizontal, bracket).into_iter().map(|pair| (pair, [1.0; 2])));
     let candidates = sample(benchmark, &plan, plan.len(), &|_, _, _| {});
-    best_of(benchmark, &plan, candidates, 1, FOLLOWING).map(|tuned| tuned.best)
+    Refinement::FOLLOWING.best_of(benchmark, &plan, candidates).map(|tuned| tuned.best)
 }
 
 /// Evaluate a plan, batch by batch.
@@ -309,88 +303,4 @@ fn sample(
         progress(candidates.len(), total, best);
     }
     candidates
-}
-
-/// Refine the best few candidates of a plan; the best of all.
-fn best_of(
-    benchmark: &Benchmark,
-    plan: &[(Pair, [f64; 2])],
-    mut candidates: Vec<Candidate>,
-    refined: usize,
-    refinements: u64,
-) -> Option<OmegaSearch> {
-    let mut order: Vec<usize> =
-        (0..candidates.len()).filter(|&i| !candidates[i].abandoned).collect();
-    order.sort_by(|&a, &b| candidates[a].error.total_cmp(&candidates[b].error).then(a.cmp(&b)));
-    let effort = benchmark.effort;
-    let shares: Vec<(usize, Effort)> = match effort.stopped() {
-        true => Vec::new(),
-        false => order.iter().take(refined).map(|&i| (i, effort.share(refined as u64))).collect(),
-    };
-    let refined: Vec<Vec<Candidate>> = shares
-        .par_iter()
-        .map(|(i, share)| {
-            let (pair, x) = &plan[*i];
-            refine(
-                &Benchmark { effort: share, ..*benchmark },
-                pair,
-                *x,
-                candidates[*i].error,
-                refinements,
-            )
-        })
-        .collect();
-    shares.iter().for_each(|(_, share)| effort.join(share));
-    candidates.extend(refined.into_iter().flatten());
-    let chosen = (0..candidates.len())
-        .filter(|&i| !candidates[i].abandoned)
-        .min_by(|&a, &b| candidates[a].error.total_cmp(&candidates[b].error).then(a.cmp(&b)))?;
-    Some(OmegaSearch { best: candidates[chosen], chosen, candidates })
-}
-
-/// Nelder-Mead from one sample; every evaluation is kept.
-fn refine(
-    benchmark: &Benchmark,
-    pair: &Pair,
-    x: [f64; 2],
-    start: f64,
-    refinements: u64,
-) -> Vec<Candidate> {
-    struct OuterProblem<'a> {
-        benchmark: &'a Benchmark<'a>,
-        pair: &'a Pair,
-        limit: f64,
-        seen: std::sync::Mutex<Vec<Candidate>>,
-    }
-    impl CostFunction for OuterProblem<'_> {
-        type Param = Vec<f64>;
-        type Output = f64;
-        fn cost(&self, x: &Vec<f64>) -> Result<f64, Error> {
-            let outside: f64 = x.iter().map(|x| (x - x.clamp(0.0, 1.0)).abs()).sum();
-            let springs = self.pair.springs([x[0], x[1]]);
-            if self.benchmark.effort.stops() {
-                // what was not followed leads nowhere
-                return Ok(f64::MAX);
-            }
-            let (error, abandoned) = self.benchmark.error(&springs, self.limit, Control::search());
-            if let Ok(mut seen) = self.seen.lock() {
-                seen.push(Candidate { springs, error, abandoned });
-            }
-            Ok(error + outside)
-        }
-    }
-    let step = |x: f64, d: f64| if x + d > 1.0 { x - d } else { x + d };
-    let simplex =
-        vec![vec![x[0], x[1]], vec![step(x[0], 0.06), x[1]], vec![x[0], step(x[1], 0.06)]];
-    // an error well above the start's cannot help, but its size still steers the simplex
-    let problem = OuterProblem { benchmark, pair, limit: 2.0 * start, seen: Default::default() };
-    let run = NelderMead::new(simplex).with_sd_tolerance(1e-7).map(|solver| {
-        Executor::new(problem, solver).configure(|state| state.max_iters(refinements)).run()
-    });
-    match run {
-        Ok(Ok(mut result)) => {
-            result.problem.take_problem().and_then(|p| p.seen.into_inner().ok()).unwrap_or_default()
-        }
-        _ => Vec::new(),
-    }
 }

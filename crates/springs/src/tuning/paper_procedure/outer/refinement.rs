@@ -1,0 +1,122 @@
+//! The best few samples of a plan, refined by Nelder-Mead.
+
+use argmin::{
+    core::{CostFunction, Error, Executor},
+    solver::neldermead::NelderMead,
+};
+use rayon::prelude::*;
+
+use super::{Benchmark, Candidate, OmegaSearch, Pair};
+use dynamics::{effort::Effort, fem::Control};
+
+/// How far samples are refined.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Refinement {
+    /// How many of them.
+    samples: usize,
+    /// Iterations of each.
+    iterations: u64,
+    /// Spread of the errors of a simplex, over the sample's, at which it ends.
+    spread: f64,
+}
+
+impl Refinement {
+    /// Of the springs that a user asks for.
+    pub(crate) const SOUGHT: Self = Self { samples: 2, iterations: 24, spread: 1e-5 };
+    /// Of the springs beside those from the geometry: to three digits of the error, which is all
+    /// that is compared.
+    pub(crate) const COMPARED: Self = Self { samples: 1, iterations: 24, spread: 1e-3 };
+    /// Of springs that follow those of another stiffness.
+    pub(super) const FOLLOWING: Self = Self { samples: 1, iterations: 10, spread: 1e-5 };
+
+    /// Evaluations that are planned.
+    pub(super) fn evaluations(&self) -> usize {
+        self.samples * self.iterations as usize
+    }
+
+    /// Refine the best few candidates of a plan; the best of all.
+    pub(super) fn best_of(
+        &self,
+        benchmark: &Benchmark,
+        plan: &[(Pair, [f64; 2])],
+        mut candidates: Vec<Candidate>,
+    ) -> Option<OmegaSearch> {
+        let mut order: Vec<usize> =
+            (0..candidates.len()).filter(|&i| !candidates[i].abandoned).collect();
+        order.sort_by(|&a, &b| candidates[a].error.total_cmp(&candidates[b].error).then(a.cmp(&b)));
+        let effort = benchmark.effort;
+        let shares: Vec<(usize, Effort)> = match effort.stopped() {
+            true => Vec::new(),
+            false => order
+                .iter()
+                .take(self.samples)
+                .map(|&i| (i, effort.share(self.samples as u64)))
+                .collect(),
+        };
+        let refined: Vec<Vec<Candidate>> = shares
+            .par_iter()
+            .map(|(i, share)| {
+                let (pair, x) = &plan[*i];
+                let benchmark = Benchmark { effort: share, ..*benchmark };
+                self.refine(&benchmark, pair, *x, candidates[*i].error)
+            })
+            .collect();
+        shares.iter().for_each(|(_, share)| effort.join(share));
+        candidates.extend(refined.into_iter().flatten());
+        let chosen = (0..candidates.len())
+            .filter(|&i| !candidates[i].abandoned)
+            .min_by(|&a, &b| candidates[a].error.total_cmp(&candidates[b].error).then(a.cmp(&b)))?;
+        Some(OmegaSearch { best: candidates[chosen], chosen, candidates })
+    }
+
+    /// Nelder-Mead from one sample; every evaluation is kept.
+    fn refine(
+        &self,
+        benchmark: &Benchmark,
+        pair: &Pair,
+        x: [f64; 2],
+        start: f64,
+    ) -> Vec<Candidate> {
+        struct OuterProblem<'a> {
+            benchmark: &'a Benchmark<'a>,
+            pair: &'a Pair,
+            limit: f64,
+            seen: std::sync::Mutex<Vec<Candidate>>,
+        }
+        impl CostFunction for OuterProblem<'_> {
+            type Param = Vec<f64>;
+            type Output = f64;
+            fn cost(&self, x: &Vec<f64>) -> Result<f64, Error> {
+                let outside: f64 = x.iter().map(|x| (x - x.clamp(0.0, 1.0)).abs()).sum();
+                let springs = self.pair.springs([x[0], x[1]]);
+                if self.benchmark.effort.stops() {
+                    // what was not followed leads nowhere
+                    return Ok(f64::MAX);
+                }
+                let (error, abandoned) =
+                    self.benchmark.error(&springs, self.limit, Control::search());
+                if let Ok(mut seen) = self.seen.lock() {
+                    seen.push(Candidate { springs, error, abandoned });
+                }
+                Ok(error + outside)
+            }
+        }
+        let step = |x: f64, d: f64| if x + d > 1.0 { x - d } else { x + d };
+        let simplex =
+            vec![vec![x[0], x[1]], vec![step(x[0], 0.06), x[1]], vec![x[0], step(x[1], 0.06)]];
+        // an error well above the start's cannot help, but its size still steers the simplex
+        let problem =
+            OuterProblem { benchmark, pair, limit: 2.0 * start, seen: Default::default() };
+        let run = NelderMead::new(simplex).with_sd_tolerance(self.spread * start).map(|solver| {
+            Executor::new(problem, solver).configure(|state| state.max_iters(self.iterations)).run()
+        });
+        match run {
+            Ok(Ok(mut result)) => result
+                .problem
+                .take_problem()
+                .and_then(|p| p.seen.into_inner().ok())
+                .unwrap_or_default(),
+            _ => Vec::new(),
+        }
+    }
+}
