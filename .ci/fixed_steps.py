@@ -2,7 +2,7 @@
 """Histories of `crates/fixed-steps` beside those of OpenSees with the same model, springs, integrator and constant step.
 
 The models are our decks' (crates/decks/src/deck.py, elastic_deck.py, solver.py: their text is run here), stepped by `analyze(1, step)`. Needs
-openseespy, and `cargo build --release -p fixed-steps --example fixed_steps`.
+openseespy, and `cargo build --release --example fixed_steps`.
 
     fixed_steps.py [--short]       exit code 1 if they do not agree
     fixed_steps.py --medians N     the error of the recipe against Housner on N well-conditioned motions, here and in OpenSees

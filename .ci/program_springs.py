@@ -6,7 +6,7 @@
 Exit code 1 if a promise is missed. For ten structures that no number in the program was chosen with, three
 steps and three integrators: springs and promise of `tune run --no-record`, then the error of the model beside
 Housner's history on well-conditioned synthetic motions of another seed, emulated and in OpenSees at a constant
-step. Errors are medians of the normalised root mean square of u, in units of p dt. Needs openseespy, and `cargo build --release -p fixed-steps --example fixed_steps`.
+step. Errors are medians of the normalised root mean square of u, in units of p dt. Needs openseespy, and `cargo build --release --example fixed_steps`.
 """
 import argparse, json, math, os, pathlib, subprocess, sys, tempfile
 
