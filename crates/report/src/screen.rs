@@ -59,7 +59,7 @@ pub fn screen(run: &Run, written: &Written) -> String {
     let warnings = warnings(run);
     let answers = CROWDING.map(|crowding| answer(run, written, crowding));
     let room = |lines: &Vec<String>| LINES.saturating_sub(lines.len());
-    let wanted: usize = warnings.iter().map(|warning| warning_lines(warning)).sum();
+    let wanted: usize = warnings.iter().map(warning_lines).sum();
     let [spacious, close, closest] = answers;
     let mut lines = if room(&spacious) >= wanted {
         spacious
