@@ -51,7 +51,7 @@ mass_kg = 350e3          # or mass_t, mass_lb, weight_kn, weight_kip
 const BLOCK: &str = "\
 [structure]
 kind = \"block\"           # solid, its centre of mass half way up
-total_height_m = 2.0     # of the whole block; or total_height_ft; or height_m, of its centre of mass
+total_height_m = 2.0     # of the whole block, or total_height_ft; or height_m, of the centre
 width_m = 0.5            # between the edges that it rocks on; or width_ft, width_in
 mass_kg = 400.0          # or mass_t, mass_lb, weight_kn, weight_lb
 # rotational_inertia_kgm2 = 140.0  # about the centre of mass, where it is not that of a solid block
@@ -68,7 +68,7 @@ footing_height_m = 1.5
 frequency_hz = 2.0       # fixed to the ground, across; or the column's EI, ei_nm2
 damping_ratio = 0.02     # to critical, across
 # ea_n = 5e10            # of the column, EA; left out: that of a square concrete section
-# ga_n = 1.7e10          # and GA_s, in shear, of a column with mass; left out: EA of a solid section
+# ga_n = 1.7e10          # GA_s, in shear, of a column with mass; left out: a solid section's
 # axial_damping_ratio = 0.02
 # column_mass_kg = 40e3  # along the column
 # elements = 4           # to the column, where it has a mass
@@ -101,7 +101,7 @@ column_ei_nm2 = 3e9      # and EI
 beam_ea_n = 4e10
 beam_ei_nm2 = 1e10
 damping_ratio = 0.02     # to critical, across
-# column_ga_n = 1.2e10   # in shear, of columns with mass; left out: from EA of a solid section
+# column_ga_n = 1.2e10   # GA_s, in shear, of columns with mass; left out: a solid section's
 # column_mass_kg = 40e3  # along each column
 # elements = 4           # to a column, where it has a mass
 ";

@@ -1,0 +1,138 @@
+//! Warnings at the end of the screen, in the room that is left.
+
+use super::{LINES, at_most, wrap};
+use crate::{Run, sentence};
+use springs::results::{FiledFinding, Finding, Weight};
+
+/// What a warning begins with.
+const WARNING: &str = "warning   ";
+/// Lines that one warning may take.
+const LONGEST_WARNING: usize = 3;
+/// Letters of a message that a remedy leaves of it at least.
+const LEAST_MESSAGE: usize = 40;
+
+/// What changes a design the most is told first.
+fn urgency(finding: &Finding) -> usize {
+    match finding {
+        Finding::IllConditioned { .. } => 0,
+        Finding::Doubt { .. } => 1,
+        Finding::VerticalLeftOut { .. } => 2,
+        Finding::ForcesHeldInPart { .. } => 3,
+        Finding::FeetApart { .. } => 5,
+        _ => 4,
+    }
+}
+
+/// A warning, and what to do.
+pub(super) struct Warned {
+    message: String,
+    remedy: String,
+}
+
+impl Warned {
+    /// In so many lines: what does not fit is left out of the message, so that the remedy stays,
+    /// unless that takes most of them.
+    fn in_lines(&self, most: usize) -> Vec<String> {
+        let mut all = Vec::new();
+        wrap(&mut all, WARNING, &format!("{}{}", self.message, self.remedy));
+        if all.len() <= most {
+            return all;
+        }
+        // words are wrapped at spaces, so that a line may stay shorter than it could be
+        let short = (1..self.message.split(' ').count()).rev().find_map(|words| {
+            let kept: Vec<&str> = self.message.split(' ').take(words).collect();
+            let kept = kept.join(" ");
+            let enough = kept.chars().count() >= self.remedy.chars().count().min(LEAST_MESSAGE);
+            let mut some = Vec::new();
+            wrap(&mut some, WARNING, &format!("{kept} ...{}", self.remedy));
+            (enough && some.len() <= most).then_some(some)
+        });
+        short.unwrap_or_else(|| {
+            let mut some = Vec::new();
+            at_most(most, &mut some, WARNING, &format!("{}{}", self.message, self.remedy));
+            some
+        })
+    }
+}
+
+/// Warnings in words, the gravest first.
+pub(super) fn warnings(run: &Run) -> Vec<Warned> {
+    let mut all: Vec<_> =
+        run.remarks().filter(|finding| finding.weight >= Weight::Warning).collect();
+    all.sort_by_key(|filed| (std::cmp::Reverse(filed.weight), urgency(&filed.finding)));
+    let words = |filed: &FiledFinding| Warned {
+        message: sentence(&filed.message),
+        remedy: filed.remedy.as_ref().map_or(String::new(), |r| format!(" {}", sentence(r))),
+    };
+    all.into_iter().map(words).collect()
+}
+
+/// Lines that a warning wants.
+pub(super) fn warning_lines(warning: &Warned) -> usize {
+    warning.in_lines(LONGEST_WARNING).len()
+}
+
+/// Warnings in the room that is left: each has one line before any has a second.
+pub(super) fn tell(warnings: &[Warned], place: &str, lines: &mut Vec<String>) {
+    let room = LINES.saturating_sub(lines.len());
+    let told = if warnings.len() <= room { warnings.len() } else { room.saturating_sub(1) };
+    let mut given = vec![1; told];
+    let mut left = room.saturating_sub(told + usize::from(told < warnings.len()));
+    for most in 2..=LONGEST_WARNING {
+        for (given, warning) in given.iter_mut().zip(warnings) {
+            if left > 0 && warning_lines(warning) >= most {
+                *given += 1;
+                left -= 1;
+            }
+        }
+    }
+    for (most, warning) in given.into_iter().zip(warnings) {
+        lines.extend(warning.in_lines(most));
+    }
+    if told < warnings.len() && lines.len() < LINES {
+        lines.push(format!("{WARNING}and {} more: {place}", warnings.len() - told));
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::{super::WIDTH, *};
+
+    fn told(warnings: &[usize], taken: usize) -> Vec<String> {
+        let warned =
+            |n: &usize| Warned { message: "a word ".repeat(13 * n - 3), remedy: String::new() };
+        let all: Vec<Warned> = warnings.iter().map(warned).collect();
+        let mut lines = vec![String::from("x"); taken];
+        tell(&all, "report.html", &mut lines);
+        lines.split_off(taken)
+    }
+
+    #[test]
+    fn a_message_gives_way_to_its_remedy() {
+        let warned = Warned { message: "a word ".repeat(30), remedy: " Do this: --that.".into() };
+        assert_eq!(warned.in_lines(3).len(), 3);
+        for lines in [1, 2] {
+            let some = warned.in_lines(lines);
+            assert!(some.len() == lines && some[lines - 1].ends_with("... Do this: --that."));
+            assert!(some.iter().all(|line| line.chars().count() <= WIDTH));
+        }
+        // a remedy that leaves no room for what it is for is cut like the message
+        let long = Warned { message: "a word ".repeat(30), remedy: " many words".repeat(8) };
+        assert!(long.in_lines(1)[0].starts_with("warning   a word a word"));
+        assert!(long.in_lines(1)[0].ends_with(" ..."));
+    }
+
+    #[test]
+    fn each_warning_has_one_line_before_any_has_a_second() {
+        let starts = |lines: &[String]| lines.iter().filter(|l| l.starts_with(WARNING)).count();
+        let all = told(&[3, 2, 1], 20);
+        assert_eq!((all.len(), starts(&all)), (6, 3));
+        let some = told(&[3, 2, 1], LINES - 4);
+        assert_eq!((some.len(), starts(&some)), (4, 3));
+        assert!(some[1].starts_with(' ') && some[1].ends_with("...") && some[2].ends_with("..."));
+        let few = told(&[3, 2, 1], LINES - 2);
+        assert_eq!(few.len(), 2);
+        assert_eq!(few[1], format!("{WARNING}and 2 more: report.html"));
+        assert!(told(&[1], LINES).is_empty());
+    }
+}
